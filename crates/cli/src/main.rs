@@ -1,0 +1,2 @@
+//! The `frfit` command.
+fn main() {}
