@@ -1,0 +1,179 @@
+//! No solution leaves unchecked: finite, true residual, one refinement step, a typed outcome.
+
+use super::{Factor, Symbolic};
+use crate::Scalar;
+use crate::scalar::max_modulus;
+use crate::sparse::{Pattern, multiply_add};
+use std::fmt;
+use std::sync::Arc;
+
+/// A solution is refined once where its backward error is above this: a few hundred units of roundoff,
+/// the growth that threshold pivoting leaves on well-scaled matrices.
+const REFINE_ABOVE: f64 = 1e-14;
+
+/// A solution that refinement has not brought below this backward error is refused: half of the digits.
+const REFUSE_ABOVE: f64 = 1e-8;
+
+/// A matrix whose condition number is certainly above this (‖A‖·‖x‖/‖b‖ bounds it from below) is singular
+/// to working precision: no digit of the solution is left.
+const SINGULAR_ABOVE: f64 = 1e16;
+
+/// A factorised symmetric matrix whose solutions are checked against the matrix itself.
+pub struct CheckedFactor<T> {
+    pattern: Arc<Pattern>,
+    values: Vec<T>,
+    norm: f64,
+    factor: Box<dyn Factor<T>>,
+}
+
+/// How good a solution is, as measured on it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SolveReport {
+    /// max over right-hand sides of ‖b − A x‖∞ / (‖A‖∞ ‖x‖∞ + ‖b‖∞), after refinement if there was any.
+    pub backward_error: f64,
+    /// ‖A‖∞ ‖x‖∞ / ‖b‖∞, which bounds the condition number from below.
+    pub condition_at_least: f64,
+    /// Whether a refinement step was taken.
+    pub refined: bool,
+}
+
+/// Why a matrix could not be factorised or a system not be solved.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Breakdown {
+    /// A value of the matrix or of a right-hand side is infinite or not a number.
+    NotFinite,
+    /// Singular to working precision; the evidence is a lower bound of the condition number
+    /// (infinite where the factorisation itself met a zero pivot).
+    Singular {
+        /// The bound.
+        condition_at_least: f64,
+    },
+    /// The solution does not satisfy the equations, even after refinement.
+    Inaccurate {
+        /// ‖b − A x‖∞ / (‖A‖∞ ‖x‖∞ + ‖b‖∞).
+        backward_error: f64,
+    },
+    /// The factor does not fit into memory.
+    OutOfMemory,
+}
+
+impl fmt::Display for Breakdown {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NotFinite => write!(f, "a value is infinite or not a number"),
+            Self::Singular { condition_at_least } => {
+                write!(f, "the matrix is singular to working precision (condition ≥ {condition_at_least:.1e})")
+            }
+            Self::Inaccurate { backward_error } => {
+                write!(f, "the solution leaves a residual (backward error {backward_error:.1e})")
+            }
+            Self::OutOfMemory => write!(f, "the factor does not fit into memory"),
+        }
+    }
+}
+
+impl std::error::Error for Breakdown {}
+
+impl<T: Scalar> CheckedFactor<T> {
+    pub(super) fn new(
+        pattern: &Arc<Pattern>,
+        values: Vec<T>,
+        symbolic: &dyn Symbolic<T>,
+    ) -> Result<Self, Breakdown> {
+        assert_eq!(values.len(), pattern.stored(), "one value for each position");
+        let norm = infinity_norm(pattern, &values);
+        if !norm.is_finite() {
+            return Err(Breakdown::NotFinite);
+        }
+        let factor = symbolic.factor(&values)?;
+        Ok(Self { pattern: Arc::clone(pattern), values, norm, factor })
+    }
+
+    /// Number of unknowns n.
+    pub fn dim(&self) -> usize {
+        self.pattern.dim()
+    }
+
+    /// Overwrites k right-hand sides (n × k, column after column) with the solutions of A X = B.
+    ///
+    /// # Errors
+    /// [`Breakdown`] where the right-hand side or the solution is not finite, where the matrix shows itself
+    /// singular, or where the residual stays large. The contents of `rhs` are then meaningless.
+    ///
+    /// # Panics
+    /// Where the length of `rhs` is not a multiple of n.
+    ///
+    /// # Limits
+    /// A small residual is not a small error: the error is up to the condition number times it.
+    pub fn solve(&self, rhs: &mut [T]) -> Result<SolveReport, Breakdown> {
+        let n = self.dim();
+        let mut worst = SolveReport { backward_error: 0.0, condition_at_least: 0.0, refined: false };
+        if n == 0 {
+            return Ok(worst);
+        }
+        assert_eq!(rhs.len() % n, 0, "whole right-hand sides");
+        if !rhs.iter().all(|value| value.finite()) {
+            return Err(Breakdown::NotFinite);
+        }
+        let given = rhs.to_vec();
+        self.factor.solve_in_place(rhs);
+        for (b, x) in given.chunks_exact(n).zip(rhs.chunks_exact_mut(n)) {
+            let report = self.check(b, x)?;
+            worst.backward_error = worst.backward_error.max(report.backward_error);
+            worst.condition_at_least = worst.condition_at_least.max(report.condition_at_least);
+            worst.refined |= report.refined;
+        }
+        Ok(worst)
+    }
+
+    fn check(&self, b: &[T], x: &mut [T]) -> Result<SolveReport, Breakdown> {
+        let singular = Breakdown::Singular { condition_at_least: f64::INFINITY };
+        let (mut residual, mut backward_error) = self.residual(b, x).ok_or(singular.clone())?;
+        let refined = backward_error > REFINE_ABOVE;
+        if refined {
+            self.factor.solve_in_place(&mut residual);
+            x.iter_mut().zip(&residual).for_each(|(x, dx)| *x += *dx);
+            backward_error = self.residual(b, x).ok_or(singular)?.1;
+        }
+        let size = max_modulus(b);
+        let condition_at_least = if size > 0.0 { self.norm * max_modulus(x) / size } else { 0.0 };
+        if condition_at_least > SINGULAR_ABOVE {
+            return Err(Breakdown::Singular { condition_at_least });
+        }
+        if backward_error > REFUSE_ABOVE {
+            return Err(Breakdown::Inaccurate { backward_error });
+        }
+        Ok(SolveReport { backward_error, condition_at_least, refined })
+    }
+
+    /// b − A x and its size relative to ‖A‖∞‖x‖∞ + ‖b‖∞; `None` where x is not finite.
+    fn residual(&self, b: &[T], x: &[T]) -> Option<(Vec<T>, f64)> {
+        let size = max_modulus(x);
+        if !size.is_finite() {
+            return None;
+        }
+        let mut residual = b.to_vec();
+        multiply_add(&self.pattern, &self.values, -faer::traits::math_utils::one::<T>(), x, &mut residual);
+        let scale = self.norm * size + max_modulus(b);
+        let relative = if scale > 0.0 { max_modulus(&residual) / scale } else { 0.0 };
+        relative.is_finite().then_some((residual, relative))
+    }
+}
+
+impl<T> fmt::Debug for CheckedFactor<T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("CheckedFactor").field("dim", &self.pattern.dim()).finish_non_exhaustive()
+    }
+}
+
+/// ‖A‖∞ = max over rows of Σ|a|; NaN where a value is NaN.
+fn infinity_norm<T: Scalar>(pattern: &Pattern, values: &[T]) -> f64 {
+    let mut row_sums = vec![0.0; pattern.dim()];
+    for ((row, col), value) in pattern.positions().zip(values) {
+        row_sums[row] += value.modulus();
+        if row != col {
+            row_sums[col] += value.modulus();
+        }
+    }
+    max_modulus(&row_sums)
+}
