@@ -1,1 +1,26 @@
-//! (to come)
+//! Small dense problems. Sizes here are tens, not thousands: the order of a series, a Krylov space.
+
+mod eigen;
+mod least_squares;
+mod matrix;
+mod polynomial;
+
+pub use eigen::{Eigen, GeneralizedEigenvalue, eigen, generalized_eigenvalues, symmetric_eigen};
+pub use least_squares::{LeastSquares, least_squares};
+pub use matrix::Matrix;
+pub use polynomial::{Root, evaluate, roots};
+
+use std::fmt;
+
+/// A dense iteration that found no answer: the matrix has values that are not finite, or the QR iteration
+/// did not converge.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct NoConvergence;
+
+impl fmt::Display for NoConvergence {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "a small dense eigenvalue or least-squares problem has no finite answer")
+    }
+}
+
+impl std::error::Error for NoConvergence {}

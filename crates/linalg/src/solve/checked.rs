@@ -62,7 +62,10 @@ impl fmt::Display for Breakdown {
         match self {
             Self::NotFinite => write!(f, "a value is infinite or not a number"),
             Self::Singular { condition_at_least } => {
-                write!(f, "the matrix is singular to working precision (condition ≥ {condition_at_least:.1e})")
+                write!(
+                    f,
+                    "the matrix is singular to working precision (condition ≥ {condition_at_least:.1e})"
+                )
             }
             Self::Inaccurate { backward_error } => {
                 write!(f, "the solution leaves a residual (backward error {backward_error:.1e})")

@@ -10,7 +10,8 @@ use crate::sparse::Pattern;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::perm::PermRef;
 use faer::sparse::linalg::cholesky::{
-    CholeskySymbolicParams, IntranodeLbltRef, SymbolicCholesky, SymmetricOrdering, factorize_symbolic_cholesky,
+    CholeskySymbolicParams, IntranodeLbltRef, SymbolicCholesky, SymmetricOrdering,
+    factorize_symbolic_cholesky,
 };
 use faer::sparse::linalg::lu::{LuRef, NumericLu, SymbolicLu, factorize_symbolic_lu};
 use faer::sparse::linalg::{LuError, SupernodalThreshold};
@@ -152,7 +153,9 @@ impl BunchKaufman {
             supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
             ..Default::default()
         };
-        factorize_symbolic_cholesky(self.lower(), Side::Lower, SymmetricOrdering::Amd, params).ok().map(Arc::new)
+        factorize_symbolic_cholesky(self.lower(), Side::Lower, SymmetricOrdering::Amd, params)
+            .ok()
+            .map(Arc::new)
     }
 }
 
@@ -198,11 +201,12 @@ impl Factor<f64> for BunchKaufmanFactor {
         let columns = rhs.len() / n;
         let mut buffer = MemBuffer::new(self.symbolic.solve_in_place_scratch::<f64>(columns, PAR));
         let pivots = PermRef::new_checked(&self.forward, &self.inverse, n);
-        IntranodeLbltRef::new(&self.symbolic, &self.values, &self.subdiagonal, pivots).solve_in_place_with_conj(
-            Conj::No,
-            MatMut::from_column_major_slice_mut(rhs, n, columns),
-            PAR,
-            MemStack::new(&mut buffer),
-        );
+        IntranodeLbltRef::new(&self.symbolic, &self.values, &self.subdiagonal, pivots)
+            .solve_in_place_with_conj(
+                Conj::No,
+                MatMut::from_column_major_slice_mut(rhs, n, columns),
+                PAR,
+                MemStack::new(&mut buffer),
+            );
     }
 }

@@ -53,7 +53,12 @@ impl Triplets {
 }
 
 /// The matrix of distinct or repeated complex triplets of a lower triangle.
-pub(super) fn assemble_complex(dim: usize, rows: &[usize], cols: &[usize], entries: &[c64]) -> SymmetricMatrix {
+pub(super) fn assemble_complex(
+    dim: usize,
+    rows: &[usize],
+    cols: &[usize],
+    entries: &[c64],
+) -> SymmetricMatrix {
     let pattern = Pattern::new(dim, rows.iter().copied().zip(cols.iter().copied()));
     let mut values = vec![c64::default(); pattern.stored()];
     accumulate(&pattern, rows, cols, entries, |k, value| values[k] += value);

@@ -1,0 +1,94 @@
+//! Eigenvalues of small matrices, by faer's QR, QZ and symmetric QR iterations.
+
+use super::{Matrix, NoConvergence};
+use crate::c64;
+use faer::linalg::solvers::GeneralizedEigen;
+use faer::{MatRef, Side};
+
+/// Eigenvalues λᵢ and right eigenvectors vᵢ (columns, of norm one) of A v = λ v.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Eigen {
+    /// λᵢ, in the order of the iteration.
+    pub values: Vec<c64>,
+    /// vᵢ in column i.
+    pub vectors: Matrix,
+}
+
+/// An eigenvalue λ = α/β of A v = λ B v; β = 0 is an infinite one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GeneralizedEigenvalue {
+    /// Numerator.
+    pub alpha: c64,
+    /// Denominator.
+    pub beta: c64,
+}
+
+impl GeneralizedEigenvalue {
+    /// α/β where it is finite in double precision, `None` at infinity.
+    pub fn finite(self) -> Option<c64> {
+        let value = self.alpha / self.beta;
+        (value.re.is_finite() && value.im.is_finite()).then_some(value)
+    }
+}
+
+/// All eigenvalues and eigenvectors of a square matrix.
+///
+/// # Errors
+/// [`NoConvergence`] for a matrix with values that are not finite, or where the QR iteration fails.
+///
+/// # Panics
+/// Where A is not square.
+///
+/// # Limits
+/// Backward stable: of a non-normal matrix (a long Jordan-like block) single eigenvalues may be far off.
+pub fn eigen(a: &Matrix) -> Result<Eigen, NoConvergence> {
+    assert_eq!(a.nrows(), a.ncols());
+    if !a.is_finite() {
+        return Err(NoConvergence);
+    }
+    let decomposition = a.as_faer().eigen().map_err(|_| NoConvergence)?;
+    let (values, vectors) = (decomposition.S(), decomposition.U());
+    let n = a.nrows();
+    let mut unit = Matrix::from_fn(n, n, |i, j| vectors[(i, j)]);
+    for j in 0..n {
+        let norm = unit.column(j).iter().map(|v| v.norm_sqr()).sum::<f64>().sqrt();
+        (0..n).for_each(|i| unit[(i, j)] /= norm);
+    }
+    Ok(Eigen { values: (0..n).map(|i| values[i]).collect(), vectors: unit })
+}
+
+/// All eigenvalues of A v = λ B v, by QZ.
+///
+/// # Errors
+/// [`NoConvergence`] for values that are not finite, or where the QZ iteration fails.
+///
+/// # Panics
+/// Where A and B are not square of one size.
+pub fn generalized_eigenvalues(a: &Matrix, b: &Matrix) -> Result<Vec<GeneralizedEigenvalue>, NoConvergence> {
+    if !a.is_finite() || !b.is_finite() {
+        return Err(NoConvergence);
+    }
+    let pencil = GeneralizedEigen::new(a.as_faer(), b.as_faer()).map_err(|_| NoConvergence)?;
+    let (alpha, beta) = (pencil.S_a(), pencil.S_b());
+    Ok((0..a.nrows()).map(|i| GeneralizedEigenvalue { alpha: alpha[i], beta: beta[i] }).collect())
+}
+
+/// Eigenvalues, ascending, and orthonormal eigenvectors (n × n, column after column) of a real symmetric
+/// matrix, of which the lower triangle is read (n × n, column after column).
+///
+/// # Errors
+/// [`NoConvergence`] for values that are not finite, or where the iteration fails.
+///
+/// # Panics
+/// Where the length is not n².
+pub fn symmetric_eigen(n: usize, a: &[f64]) -> Result<(Vec<f64>, Vec<f64>), NoConvergence> {
+    assert_eq!(a.len(), n * n);
+    if !a.iter().all(|value| value.is_finite()) {
+        return Err(NoConvergence);
+    }
+    let matrix = MatRef::from_column_major_slice(a, n, n);
+    let decomposition = matrix.self_adjoint_eigen(Side::Lower).map_err(|_| NoConvergence)?;
+    let (values, vectors) = (decomposition.S(), decomposition.U());
+    let values = (0..n).map(|i| values[i]).collect();
+    Ok((values, (0..n).flat_map(|j| (0..n).map(move |i| vectors[(i, j)])).collect()))
+}

@@ -1,0 +1,85 @@
+//! A small complex matrix.
+
+use crate::c64;
+use faer::MatRef;
+use std::ops::{Index, IndexMut};
+
+/// A dense complex matrix, column after column.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Matrix {
+    nrows: usize,
+    ncols: usize,
+    values: Vec<c64>,
+}
+
+impl Matrix {
+    /// nrows × ncols zeros.
+    pub fn zeros(nrows: usize, ncols: usize) -> Self {
+        Self { nrows, ncols, values: vec![c64::default(); nrows * ncols] }
+    }
+
+    /// Entry (i, j) is `entry(i, j)`.
+    pub fn from_fn(nrows: usize, ncols: usize, mut entry: impl FnMut(usize, usize) -> c64) -> Self {
+        let mut matrix = Self::zeros(nrows, ncols);
+        for j in 0..ncols {
+            for i in 0..nrows {
+                matrix[(i, j)] = entry(i, j);
+            }
+        }
+        matrix
+    }
+
+    /// Number of rows.
+    pub fn nrows(&self) -> usize {
+        self.nrows
+    }
+
+    /// Number of columns.
+    pub fn ncols(&self) -> usize {
+        self.ncols
+    }
+
+    /// One column.
+    pub fn column(&self, j: usize) -> &[c64] {
+        &self.values[j * self.nrows..(j + 1) * self.nrows]
+    }
+
+    /// A x.
+    ///
+    /// # Panics
+    /// Where x has not one entry for each column.
+    pub fn multiply(&self, x: &[c64]) -> Vec<c64> {
+        assert_eq!(x.len(), self.ncols);
+        let mut product = vec![c64::default(); self.nrows];
+        for (j, &xj) in x.iter().enumerate() {
+            product.iter_mut().zip(self.column(j)).for_each(|(sum, &a)| *sum += a * xj);
+        }
+        product
+    }
+
+    /// max |aᵢⱼ|, NaN where there is one.
+    pub fn max_modulus(&self) -> f64 {
+        crate::scalar::max_modulus(&self.values)
+    }
+
+    pub(super) fn as_faer(&self) -> MatRef<'_, c64> {
+        MatRef::from_column_major_slice(&self.values, self.nrows, self.ncols)
+    }
+
+    pub(super) fn is_finite(&self) -> bool {
+        self.max_modulus().is_finite()
+    }
+}
+
+impl Index<(usize, usize)> for Matrix {
+    type Output = c64;
+    fn index(&self, (i, j): (usize, usize)) -> &c64 {
+        &self.values[i + j * self.nrows]
+    }
+}
+
+impl IndexMut<(usize, usize)> for Matrix {
+    fn index_mut(&mut self, (i, j): (usize, usize)) -> &mut c64 {
+        &mut self.values[i + j * self.nrows]
+    }
+}
