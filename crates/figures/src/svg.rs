@@ -1,0 +1,167 @@
+//! The few SVG elements a plot needs.
+
+use std::fmt::{Display, Formatter};
+
+use crate::text::{FAMILY, Rise, SMALL, runs};
+
+/// A number as SVG reads it: two decimals, no exponent, no "NaN" or "inf".
+#[derive(Clone, Copy)]
+pub(crate) struct N(pub(crate) f64);
+
+impl Display for N {
+    fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
+        let hundredths = (self.0 * 100.0).round();
+        // zero for what has no place, and never "-0"
+        let value = if hundredths.is_finite() && hundredths != 0.0 { hundredths / 100.0 } else { 0.0 };
+        write!(f, "{value}")
+    }
+}
+
+/// Text or attribute value with the signs of XML escaped and characters outside XML replaced.
+pub(crate) fn escaped(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => out += "&amp;",
+            '<' => out += "&lt;",
+            '>' => out += "&gt;",
+            '"' => out += "&quot;",
+            '\t' | '\n' | '\r' => out.push(' '),
+            '\0'..' ' | '\u{fffe}' | '\u{ffff}' => out.push('\u{fffd}'),
+            c => out.push(c),
+        }
+    }
+    out
+}
+
+/// A rectangle on the page; y grows downwards.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Rect {
+    pub(crate) x: f64,
+    pub(crate) y: f64,
+    pub(crate) width: f64,
+    pub(crate) height: f64,
+}
+
+impl Rect {
+    pub(crate) fn right(&self) -> f64 {
+        self.x + self.width
+    }
+
+    pub(crate) fn bottom(&self) -> f64 {
+        self.y + self.height
+    }
+}
+
+/// Which point of a text stands at its place.
+#[derive(Clone, Copy)]
+pub(crate) enum Anchor {
+    Start,
+    Middle,
+    End,
+}
+
+/// A document being written.
+pub(crate) struct Svg(String);
+
+impl Svg {
+    /// An empty white page.
+    pub(crate) fn new(width: f64, height: f64, title: &str) -> Self {
+        let (w, h) = (N(width), N(height));
+        let mut svg = Self(format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}\" height=\"{h}\" viewBox=\"0 0 {w} {h}\" \
+             font-family=\"{FAMILY}, Verdana, Arial, sans-serif\" fill=\"#1a1a1a\">\n\
+             <title>{}</title>\n",
+            escaped(title)
+        ));
+        svg.rect(Rect { x: 0.0, y: 0.0, width, height }, "fill=\"#fff\"");
+        svg
+    }
+
+    /// Elements that share attributes.
+    pub(crate) fn group(&mut self, attributes: &str, content: impl FnOnce(&mut Self)) {
+        self.0 += &format!("<g {attributes}>\n");
+        content(self);
+        self.0 += "</g>\n";
+    }
+
+    /// Elements of which only what lies within `view` shows.
+    pub(crate) fn clipped(&mut self, view: Rect, content: impl FnOnce(&mut Self)) {
+        // a nested picture clips without an id, which another figure on the same HTML page could share
+        let (x, y, w, h) = (N(view.x), N(view.y), N(view.width), N(view.height));
+        self.0 += &format!(
+            "<svg x=\"{x}\" y=\"{y}\" width=\"{w}\" height=\"{h}\" viewBox=\"{x} {y} {w} {h}\" overflow=\"hidden\">\n"
+        );
+        content(self);
+        self.0 += "</svg>\n";
+    }
+
+    /// A path given by its commands; nothing if there are none.
+    pub(crate) fn path(&mut self, commands: &str, attributes: &str) {
+        if !commands.is_empty() {
+            self.0 += &format!("<path d=\"{commands}\" {attributes}/>\n");
+        }
+    }
+
+    pub(crate) fn rect(&mut self, r: Rect, attributes: &str) {
+        let (x, y, w, h) = (N(r.x), N(r.y), N(r.width), N(r.height));
+        self.0 += &format!("<rect x=\"{x}\" y=\"{y}\" width=\"{w}\" height=\"{h}\" {attributes}/>\n");
+    }
+
+    /// A line of text whose baseline passes through (x, y).
+    pub(crate) fn text(&mut self, (x, y): (f64, f64), size: f64, anchor: Anchor, text: &str) {
+        self.set_text((x, y), size, anchor, text, "");
+    }
+
+    /// The same, read from bottom to top.
+    pub(crate) fn upward_text(&mut self, (x, y): (f64, f64), size: f64, anchor: Anchor, text: &str) {
+        self.set_text((x, y), size, anchor, text, &format!(" transform=\"rotate(-90 {} {})\"", N(x), N(y)));
+    }
+
+    fn set_text(&mut self, (x, y): (f64, f64), size: f64, anchor: Anchor, text: &str, turn: &str) {
+        let anchor = match anchor {
+            Anchor::Start => "start",
+            Anchor::Middle => "middle",
+            Anchor::End => "end",
+        };
+        let (x, y, size_n) = (N(x), N(y), N(size));
+        self.0 +=
+            &format!("<text x=\"{x}\" y=\"{y}\" font-size=\"{size_n}\" text-anchor=\"{anchor}\"{turn}>");
+        let mut height = 0.0;
+        for (rise, run) in runs(text) {
+            let (target, size) = match rise {
+                Rise::Base => (0.0, size),
+                Rise::Super => (0.38 * size, SMALL * size),
+                Rise::Sub => (-0.18 * size, SMALL * size),
+            };
+            let (dy, run) = (N(height - target), escaped(&run));
+            match rise {
+                Rise::Base if height == 0.0 => self.0 += &run,
+                _ => self.0 += &format!("<tspan dy=\"{dy}\" font-size=\"{}\">{run}</tspan>", N(size)),
+            }
+            height = target;
+        }
+        self.0 += "</text>\n";
+    }
+
+    /// The document.
+    pub(crate) fn finish(self) -> String {
+        self.0 + "</svg>\n"
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_short_and_finite() {
+        let got = [1.0, 2.504, -0.001, 1e-9, f64::NAN, f64::INFINITY].map(|v| N(v).to_string());
+        assert_eq!(got, ["1", "2.5", "0", "0", "0", "0"].map(String::from));
+    }
+
+    #[test]
+    fn text_is_escaped() {
+        assert_eq!(escaped("a<b & \"c\">\u{1}\n"), "a&lt;b &amp; &quot;c&quot;&gt;\u{fffd} ");
+    }
+}
