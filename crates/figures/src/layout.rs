@@ -1,13 +1,12 @@
 //! Where everything goes: text is measured first, plots take the rest.
 
-use crate::axis::{Axis, Scale};
 use crate::legend::{Entry, Placed, entries, place};
-use crate::range;
+use crate::range::{PanelRanges, Ranges};
 use crate::scale::Map;
 use crate::svg::Rect;
 use crate::text::width;
 use crate::ticks::{Ticks, shared_exponent, ticks};
-use crate::{Figure, HeatMap, Panel};
+use crate::{Figure, Panel, Scale};
 
 /// Size of axis labels, tick labels and legend; of the title.
 pub(crate) const TEXT: f64 = 13.0;
@@ -187,31 +186,5 @@ impl Figure {
             place(new, SMALL_TEXT, room)
         };
         self.panels.iter().map(&mut legend).collect()
-    }
-}
-
-/// All ranges of a figure, which no layout changes.
-struct Ranges {
-    x: (f64, f64),
-    panels: Vec<PanelRanges>,
-}
-
-/// The range of y, and of the values of a heat map.
-struct PanelRanges {
-    y: (f64, f64),
-    values: Option<(f64, f64)>,
-}
-
-impl Ranges {
-    fn of(figure: &Figure) -> Self {
-        let values = |heat: &HeatMap| {
-            let axis = Axis { range: heat.range, ..Axis::default() };
-            range::fitted(&axis, heat.values.iter().copied(), 0.0)
-        };
-        let panel = |p: &Panel| PanelRanges {
-            y: range::of_y(p, figure.x.scale),
-            values: p.heat.as_ref().map(values),
-        };
-        Self { x: range::of_x(figure), panels: figure.panels.iter().map(panel).collect() }
     }
 }

@@ -1,9 +1,9 @@
-//! The range an axis shows.
+//! The ranges that axes show.
 
 use crate::axis::{Axis, Scale};
 use crate::heat::cells;
 use crate::scale::{LIMIT, drawable, to_linear, to_scale};
-use crate::{Figure, Panel};
+use crate::{Figure, HeatMap, Panel};
 
 /// Spans below this part of the magnitude are taken as constant: tick labels would need more digits
 /// than anyone reads.
@@ -12,8 +12,29 @@ const FLAT: f64 = 1e-9;
 /// Part of the span left free at both ends of an axis with curves.
 const MARGIN: f64 = 0.04;
 
+/// All ranges of a figure, which no layout changes.
+pub(crate) struct Ranges {
+    pub(crate) x: (f64, f64),
+    pub(crate) panels: Vec<PanelRanges>,
+}
+
+/// The range of y, and of the values of a heat map.
+pub(crate) struct PanelRanges {
+    pub(crate) y: (f64, f64),
+    pub(crate) values: Option<(f64, f64)>,
+}
+
+impl Ranges {
+    /// The ranges of a figure.
+    pub(crate) fn of(figure: &Figure) -> Self {
+        let panel =
+            |p: &Panel| PanelRanges { y: of_y(p, figure.x.scale), values: p.heat.as_ref().map(of_values) };
+        Self { x: of_x(figure), panels: figure.panels.iter().map(panel).collect() }
+    }
+}
+
 /// The shared x range: of series, heat maps and strips; of bands if there is nothing else.
-pub(crate) fn of_x(figure: &Figure) -> (f64, f64) {
+fn of_x(figure: &Figure) -> (f64, f64) {
     let axis = &figure.x;
     let mut values = Vec::new();
     let mut margin = 0.015;
@@ -38,7 +59,7 @@ pub(crate) fn of_x(figure: &Figure) -> (f64, f64) {
 }
 
 /// The y range of a panel, over the points whose x can be drawn.
-pub(crate) fn of_y(panel: &Panel, x: Scale) -> (f64, f64) {
+fn of_y(panel: &Panel, x: Scale) -> (f64, f64) {
     let mut values = Vec::new();
     for series in &panel.series {
         for (i, (at, y)) in series.points().enumerate() {
@@ -54,6 +75,12 @@ pub(crate) fn of_y(panel: &Panel, x: Scale) -> (f64, f64) {
     fitted(&panel.y, values, if panel.heat.is_some() { 0.0 } else { MARGIN })
 }
 
+/// The range of a colour bar, without margin: its ends are colours.
+fn of_values(heat: &HeatMap) -> (f64, f64) {
+    let axis = Axis { range: heat.range, ..Axis::default() };
+    fitted(&axis, heat.values.iter().copied(), 0.0)
+}
+
 /// A value and the ends of its error bar.
 fn around(value: f64, error: Option<f64>, values: &mut Vec<f64>) {
     let error = error.unwrap_or(0.0);
@@ -61,7 +88,7 @@ fn around(value: f64, error: Option<f64>, values: &mut Vec<f64>) {
 }
 
 /// The axis' own range if it can be drawn, else that of the values with `margin` on both sides.
-pub(crate) fn fitted(axis: &Axis, values: impl IntoIterator<Item = f64>, margin: f64) -> (f64, f64) {
+fn fitted(axis: &Axis, values: impl IntoIterator<Item = f64>, margin: f64) -> (f64, f64) {
     let scale = axis.scale;
     let own = axis.range.map(|(a, b)| (a.min(b), a.max(b)));
     if let Some((lo, hi)) = own

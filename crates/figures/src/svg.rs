@@ -70,7 +70,8 @@ impl Svg {
         let (w, h) = (N(width), N(height));
         let mut svg = Self(format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}\" height=\"{h}\" viewBox=\"0 0 {w} {h}\" \
-             font-family=\"{FAMILY}, Verdana, Arial, sans-serif\" fill=\"#1a1a1a\">\n\
+             font-family=\"{FAMILY}, Verdana, Arial, sans-serif\" fill=\"#1a1a1a\" \
+             xml:space=\"preserve\">\n\
              <title>{}</title>\n",
             escaped(title)
         ));
