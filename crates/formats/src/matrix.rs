@@ -2,6 +2,10 @@
 
 use num_complex::Complex64 as c64;
 
+use crate::FormatError;
+use crate::assemble::{HERMITIAN_DIAGONAL, SKEW_DIAGONAL};
+use crate::text::FINITE;
+
 /// What the file declares about A and its transpose.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Symmetry {
@@ -45,4 +49,74 @@ pub struct CoordinateMatrix {
     pub entries: Entries,
     /// What the file says about itself: title, key, comment lines.
     pub title: String,
+}
+
+impl CoordinateMatrix {
+    /// Checks what the fields promise: equal lengths, positions inside the matrix, sorted and once each,
+    /// in the kept triangle, values finite. The readers give only such matrices; the writers ask for it.
+    ///
+    /// # Errors
+    /// The first promise that is broken, and at which entry.
+    pub fn validate(&self) -> Result<(), FormatError> {
+        let broken = |expected: &str, found: String| Err(FormatError::whole(expected, found));
+        let (count, values) = (self.rows.len(), self.entries.len().unwrap_or(self.rows.len()));
+        if self.cols.len() != count || values != count {
+            let found = format!("{count} rows, {} columns, {values} values", self.cols.len());
+            return broken("as many rows as columns as values", found);
+        }
+        let one_triangle = self.symmetry != Symmetry::General;
+        if one_triangle && self.nrows != self.ncols {
+            return broken(SQUARE, format!("{} rows and {} columns", self.nrows, self.ncols));
+        }
+        let mut last = None;
+        for (k, (&row, &col)) in self.rows.iter().zip(&self.cols).enumerate() {
+            let here = || format!("row {}, column {}", row + 1, col + 1);
+            if row >= self.nrows || col >= self.ncols {
+                return broken(&format!("a position in {} by {}", self.nrows, self.ncols), here());
+            }
+            if one_triangle && row < col {
+                return broken("entries of the lower triangle", here());
+            }
+            if last.replace((col, row)) >= Some((col, row)) {
+                return broken("entries sorted by column, then row, each once", here());
+            }
+            let value = self.entries.get(k);
+            if !value.is_finite() {
+                return broken(FINITE, format!("{value} at {}", here()));
+            }
+            if row == col && self.symmetry == Symmetry::SkewSymmetric {
+                return broken(SKEW_DIAGONAL, format!("{value} at {}", here()));
+            }
+            if row == col && self.symmetry == Symmetry::Hermitian && value.im != 0.0 {
+                return broken(HERMITIAN_DIAGONAL, format!("{value} at {}", here()));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// What every symmetry asks of the shape, in the words of an error.
+pub(crate) const SQUARE: &str = "as many rows as columns in a matrix given by one triangle";
+
+impl Entries {
+    /// Number of values; `None` of a pattern.
+    fn len(&self) -> Option<usize> {
+        match self {
+            Self::Pattern => None,
+            Self::Real(values) => Some(values.len()),
+            Self::Complex(values) => Some(values.len()),
+        }
+    }
+
+    /// The k-th value as a complex number; 1 for a position of a pattern.
+    ///
+    /// # Panics
+    /// Where there is no k-th value.
+    fn get(&self, k: usize) -> c64 {
+        match self {
+            Self::Pattern => c64::new(1.0, 0.0),
+            Self::Real(values) => c64::new(values[k], 0.0),
+            Self::Complex(values) => values[k],
+        }
+    }
 }

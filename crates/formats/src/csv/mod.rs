@@ -1,1 +1,26 @@
-//! (to come)
+//! Tables with named columns, as spreadsheets and scripts write them.
+//!
+//! The first line that is neither blank nor a comment (`#`) names the columns; they may stand in any order.
+//! Cells are separated by commas, semicolons or tabs, whichever the names are separated by, and may be
+//! quoted. Numbers have a decimal point; a decimal comma is refused.
+//!
+//! [`Table`] is any such table; [`read_frf`], [`read_vector`], [`read_dof_names`] and [`read_modulus`] are
+//! the ones that `frfit` works with; [`write()`] writes one.
+//!
+//! # Source
+//! Y. Shafranovich: Common Format and MIME Type for Comma-Separated Values (CSV) Files, RFC 4180, 2005.
+
+mod columns;
+mod dof_names;
+mod frf;
+mod modulus;
+mod table;
+mod vector;
+mod write;
+
+pub use dof_names::{Direction, DofName, read_dof_names};
+pub use frf::{FrfTable, read_frf};
+pub use modulus::{ModulusTable, read_modulus};
+pub use table::Table;
+pub use vector::read_vector;
+pub use write::{Cell, write};

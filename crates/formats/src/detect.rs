@@ -1,0 +1,70 @@
+//! What kind of file this is, by its content.
+
+use std::fmt;
+
+use crate::text::Lines;
+use crate::{CoordinateMatrix, FormatError, harwell_boeing, matrix_market};
+
+/// The kinds of files this crate reads.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FileKind {
+    /// Matrix Market: read it with [`matrix_market::read`].
+    MatrixMarket,
+    /// Harwell–Boeing: read it with [`harwell_boeing::read`].
+    HarwellBoeing,
+    /// Universal File Format: read it with [`uff`](crate::uff).
+    Uff,
+    /// A table with named columns: read it with [`csv::Table::read`](crate::csv::Table::read).
+    Csv,
+}
+
+impl fmt::Display for FileKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::MatrixMarket => "a Matrix Market file",
+            Self::HarwellBoeing => "a Harwell-Boeing file",
+            Self::Uff => "a Universal File Format (UFF) file",
+            Self::Csv => "a table (CSV)",
+        })
+    }
+}
+
+/// The kind of a file by its content, not by its ending; `None` where it looks like none of them.
+///
+/// Only the first lines are looked at: a file of a known kind may still be broken.
+#[must_use]
+pub fn detect(bytes: &[u8]) -> Option<FileKind> {
+    let mut lines = Lines::new(bytes);
+    if matrix_market::is_banner(lines.clone().next()?.bytes) {
+        return Some(FileKind::MatrixMarket);
+    }
+    if harwell_boeing::looks_like(bytes) {
+        return Some(FileKind::HarwellBoeing);
+    }
+    if lines.clone().find(|line| !line.is_blank())?.bytes.trim_ascii() == b"-1" {
+        return Some(FileKind::Uff);
+    }
+    let names = lines.find(|line| !line.is_blank() && !line.bytes.trim_ascii().starts_with(b"#"))?;
+    let is_text = std::str::from_utf8(names.bytes).is_ok() && !names.bytes.contains(&0);
+    let has_delimiter = names.bytes.iter().any(|b| b",;\t".contains(b));
+    (is_text && has_delimiter).then_some(FileKind::Csv)
+}
+
+/// Reads a matrix file of either kind.
+///
+/// # Errors
+/// What the reader of the kind says, or what the file is where it holds no matrix.
+pub fn read_matrix(bytes: &[u8]) -> Result<CoordinateMatrix, FormatError> {
+    match detect(bytes) {
+        Some(FileKind::MatrixMarket) => matrix_market::read(bytes),
+        Some(FileKind::HarwellBoeing) => harwell_boeing::read(bytes),
+        other => Err(FormatError::whole(
+            "a matrix: a Matrix Market or a Harwell-Boeing file",
+            match other {
+                Some(kind) => kind.to_string(),
+                None if bytes.is_empty() => "an empty file".into(),
+                None => "neither (no %%MatrixMarket in line 1, no matrix type such as RSA in line 3)".into(),
+            },
+        )),
+    }
+}

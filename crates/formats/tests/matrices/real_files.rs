@@ -1,0 +1,73 @@
+//! Matrices of the Harwell–Boeing collection, in both formats.
+
+use std::path::PathBuf;
+
+use frfit_formats::{CoordinateMatrix, Entries, FileKind, Symmetry, detect, harwell_boeing, matrix_market};
+
+/// A folder of the data for tests, or `None` and a word where there is none.
+fn folder(name: &str) -> Option<PathBuf> {
+    let beside = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data");
+    let folder = PathBuf::from(std::env::var("FRFIT_DATA").unwrap_or_else(|_| beside.into())).join(name);
+    if !folder.is_dir() {
+        println!("skipped: no folder {} (set FRFIT_DATA)", folder.display());
+        return None;
+    }
+    Some(folder)
+}
+
+fn values(matrix: &CoordinateMatrix) -> &[f64] {
+    match &matrix.entries {
+        Entries::Real(values) => values,
+        other => panic!("expected real values, found {other:?}"),
+    }
+}
+
+#[test]
+fn all_files_are_read_and_written_and_read_back_equal() {
+    for folder in ["hb", "plate"].into_iter().filter_map(folder) {
+        let mut read = 0;
+        for file in std::fs::read_dir(folder).unwrap() {
+            let path = file.unwrap().path();
+            let bytes = std::fs::read(&path).unwrap();
+            let kind = if path.extension().unwrap() == "mtx" {
+                FileKind::MatrixMarket
+            } else {
+                FileKind::HarwellBoeing
+            };
+            assert_eq!(detect(&bytes), Some(kind), "{}", path.display());
+            let matrix =
+                frfit_formats::read_matrix(&bytes).unwrap_or_else(|e| panic!("{}", e.in_file(&path)));
+            assert_eq!(matrix.symmetry, Symmetry::Symmetric);
+            assert!(!matrix.rows.is_empty() && !matrix.title.is_empty());
+            assert_eq!(matrix_market::read(&matrix_market::write(&matrix).unwrap()).unwrap(), matrix);
+            let mut again = harwell_boeing::read(&harwell_boeing::write(&matrix).unwrap()).unwrap();
+            again.title.clone_from(&matrix.title); // longer than 72 characters
+            assert_eq!(again, matrix);
+            read += 1;
+        }
+        assert!(read >= 3);
+    }
+}
+
+#[test]
+fn both_formats_hold_the_same_matrix() {
+    for (place, name) in [("plate", "bcsstk09"), ("hb", "bcsstk01")] {
+        let Some(folder) = folder(place) else { return };
+        let read = |ending: &str| std::fs::read(folder.join(format!("{name}.{ending}"))).unwrap();
+        let rsa = harwell_boeing::read(&read("rsa")).unwrap();
+        let mtx = matrix_market::read(&read("mtx")).unwrap();
+        assert_eq!((rsa.nrows, &rsa.rows, &rsa.cols), (mtx.nrows, &mtx.rows, &mtx.cols));
+        for (a, b) in values(&rsa).iter().zip(values(&mtx)) {
+            // Both files hold twelve decimal digits of the same number.
+            assert!(a.to_bits() == b.to_bits(), "{name}: {a:e} and {b:e}");
+        }
+    }
+}
+
+#[test]
+fn header_lines_become_the_title() {
+    let Some(folder) = folder("plate") else { return };
+    let matrix = harwell_boeing::read(&std::fs::read(folder.join("bcsstk09.rsa")).unwrap()).unwrap();
+    assert_eq!(matrix.title, "1SYMMETRIC STIFFNESS MATRIX, SQUARE PLATE CLAMPED\nBCSSTK09");
+    assert_eq!((matrix.nrows, matrix.ncols, matrix.rows.len()), (1083, 1083, 9760));
+}
