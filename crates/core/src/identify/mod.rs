@@ -1,0 +1,9 @@
+//! From a measured response to the factor that reproduces it, and how far to trust it.
+
+mod one;
+mod options;
+mod outcome;
+
+pub use one::{error_by_order, identify_at, relative_error};
+pub use options::{MAX_ORDER, Method, Options, OptionsError, Selection};
+pub use outcome::{Identified, Status};

@@ -1,0 +1,131 @@
+//! One frequency.
+
+use super::{Identified, Method, Options, Status};
+use crate::c64;
+use crate::nelder_mead;
+use crate::response::Response;
+use crate::roots::{Candidate, Refusal, candidates, least_admissible};
+use crate::series::{NeumannSeries, convergence_radius};
+use frfit_linalg::solve::Breakdown;
+
+/// The sensor whose polynomial gives the roots; the others enter the error.
+const SENSOR: usize = 0;
+
+/// Finds the correction of the model's first parameter that reproduces the measured receptances, one for each sensor.
+///
+/// The paper's Section 4: series of order n from one factorisation, roots of P-30 at the first sensor, those that converge
+/// over the orders and respect the bounds, of these the one of least |c|, and the error P-40 from a fresh direct solve.
+/// A numerical outcome is a [`Status`] with its evidence, never an error.
+///
+/// # Panics
+/// Where there is not one measured value for each sensor.
+///
+/// # Limits
+/// `ok` says that one root is admissible *inside the circle of convergence* and reproduces the first sensor's response. Roots outside it are not seen:
+/// where the true one is outside, a wrong one inside can be `ok`. Another sensor's error tells.
+pub fn identify_at(system: &impl Response, measured: &[c64], options: &Options) -> Identified {
+    let mut outcome = Identified::unknown(system.frequency_hz(), system.nominal(0), options.order);
+    let result = match options.method {
+        Method::Series => by_series(system, measured, options, &mut outcome),
+        Method::NelderMead => by_search(system, measured, options, &mut outcome),
+    };
+    if let Err(breakdown) = result {
+        outcome.status = Status::IllConditioned;
+        outcome.breakdown = Some(breakdown);
+    }
+    outcome.work = system.work();
+    outcome
+}
+
+fn by_series(
+    system: &impl Response,
+    measured: &[c64],
+    options: &Options,
+    outcome: &mut Identified,
+) -> Result<(), Breakdown> {
+    let series = NeumannSeries::new(system, 0, options.order)?;
+    outcome.nominal_response = series.respond(c64::default(), 0);
+    outcome.roots =
+        candidates(&series, SENSOR, measured[SENSOR], outcome.nominal, options.order, &options.roots());
+    let radius = convergence_radius(system, 0)?;
+    outcome.radius = Some(radius);
+    // A root that stays but lies outside the circle is an accident of few orders, not a limit.
+    for root in outcome.roots.iter_mut().filter(|root| root.refusal.is_none()) {
+        if radius.at(root.correction) >= 1.0 {
+            root.refusal = Some(Refusal::Moves);
+        }
+    }
+    let Some(chosen) = choose(&outcome.roots) else {
+        outcome.status = Status::NoRoot;
+        return Ok(());
+    };
+    let updated = system.solve_at(&[chosen.correction])?;
+    let here = relative_error(&measured[SENSOR..=SENSOR], &updated[SENSOR..=SENSOR]);
+    outcome.correction = Some(chosen.correction);
+    outcome.spectral_radius = Some(radius.at(chosen.correction));
+    outcome.error = Some(relative_error(measured, &updated));
+    outcome.updated_response = updated;
+    outcome.status = match (chosen.refusal, outcome.admissible()) {
+        (Some(_), _) => Status::Diverged,
+        // Written so that NaN is no success.
+        (None, _) if !(here <= options.error) => Status::Diverged,
+        (None, 1) => Status::Ok,
+        (None, _) => Status::Ambiguous,
+    };
+    Ok(())
+}
+
+/// The admissible root of least |c|, or failing that the one of least |c| within the bounds, as evidence.
+fn choose(roots: &[Candidate]) -> Option<Candidate> {
+    roots.iter().find(|root| root.refusal.is_none()).or_else(|| least_admissible(roots)).copied()
+}
+
+fn by_search(
+    system: &impl Response,
+    measured: &[c64],
+    options: &Options,
+    outcome: &mut Identified,
+) -> Result<(), Breakdown> {
+    outcome.nominal_response = system.solve_at(&[c64::default()])?;
+    let found = nelder_mead::search(system, &measured[SENSOR..=SENSOR], options.order);
+    let updated = system.solve_at(&[found.correction])?;
+    outcome.correction = Some(found.correction);
+    outcome.error = Some(relative_error(measured, &updated));
+    outcome.updated_response = updated;
+    let within = options.bounds.broken_by(outcome.nominal + found.correction).is_none();
+    outcome.status = if !within {
+        Status::NoRoot
+    } else if found.error <= options.error {
+        Status::Ok
+    } else {
+        Status::Diverged
+    };
+    Ok(())
+}
+
+/// ε = ‖u − x‖ / ‖u‖ over the sensors, P-40.
+pub fn relative_error(measured: &[c64], response: &[c64]) -> f64 {
+    let misfit: f64 = measured.iter().zip(response).map(|(u, x)| (u - x).norm_sqr()).sum();
+    let size: f64 = measured.iter().map(|u| u.norm_sqr()).sum();
+    (misfit / size).sqrt()
+}
+
+/// ε at the first sensor (P-40, fresh direct solve) when the series is cut after each order from 1 to `order`: a column of
+/// the paper's Figs 3, 8 and 12. `None` where an order has no root within the bounds, or its system cannot be solved.
+///
+/// # Errors
+/// [`Breakdown`] where the nominal system cannot be solved.
+pub fn error_by_order(
+    system: &impl Response,
+    measured: &[c64],
+    options: &Options,
+) -> Result<Vec<Option<f64>>, Breakdown> {
+    let series = NeumannSeries::new(system, 0, options.order)?;
+    let at_order = |order| {
+        let roots = candidates(&series, SENSOR, measured[SENSOR], system.nominal(0), order, &options.roots());
+        let root = least_admissible(&roots)?;
+        let updated = system.solve_at(&[root.correction]).ok()?;
+        Some(relative_error(&measured[SENSOR..=SENSOR], &updated[SENSOR..=SENSOR]))
+    };
+    Ok((1..=options.order).map(at_order).collect())
+}

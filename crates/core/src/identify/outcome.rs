@@ -1,0 +1,115 @@
+//! What came out at one frequency, with its evidence.
+
+use crate::c64;
+use crate::material::loss_factor;
+use crate::response::Work;
+use crate::roots::Candidate;
+use crate::series::ConvergenceRadius;
+use frfit_linalg::solve::Breakdown;
+
+/// How far an answer can be trusted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Status {
+    /// One admissible root, inside the circle of convergence, confirmed by a direct solve.
+    Ok,
+    /// Several admissible roots explain the measurement; the one of least |c| is given.
+    Ambiguous,
+    /// The series does not converge at the root: its spectral radius is above one, or the root moves as terms are added.
+    Diverged,
+    /// No root within the bounds.
+    NoRoot,
+    /// A system could not be solved.
+    IllConditioned,
+    /// The frequency is outside the band or without data.
+    OutOfBand,
+}
+
+impl Status {
+    /// All of them.
+    pub const ALL: [Self; 6] =
+        [Self::Ok, Self::Ambiguous, Self::Diverged, Self::NoRoot, Self::IllConditioned, Self::OutOfBand];
+
+    /// The word that tables use.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Ok => "ok",
+            Self::Ambiguous => "ambiguous",
+            Self::Diverged => "diverged",
+            Self::NoRoot => "no_root",
+            Self::IllConditioned => "ill_conditioned",
+            Self::OutOfBand => "out_of_band",
+        }
+    }
+}
+
+/// The outcome at one frequency. What does not exist is `None`, never zero.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Identified {
+    /// The frequency.
+    pub frequency_hz: f64,
+    /// Nominal value p̄ of the parameter.
+    pub nominal: c64,
+    /// The correction c. With status `diverged` it is the root of least |c| within the bounds: evidence, not an answer.
+    pub correction: Option<c64>,
+    /// ε over all sensors, P-40, from a fresh direct solve with the corrected parameter.
+    pub error: Option<f64>,
+    /// ρ(−c A₀⁻¹A₁) at the correction, P-14.
+    pub spectral_radius: Option<f64>,
+    /// The radius of convergence behind it.
+    pub radius: Option<ConvergenceRadius>,
+    /// Order of the series, or iterations.
+    pub order: usize,
+    /// Roots of the highest order, least |c| first, each admissible or with the reason why not.
+    pub roots: Vec<Candidate>,
+    /// The verdict.
+    pub status: Status,
+    /// Why a system could not be solved, where one could not.
+    pub breakdown: Option<Breakdown>,
+    /// Receptance at the sensors with the nominal parameter; empty where it could not be solved.
+    pub nominal_response: Vec<c64>,
+    /// Receptance at the sensors with the corrected parameter, from the direct solve; empty where there is none.
+    pub updated_response: Vec<c64>,
+    /// Work done.
+    pub work: Work,
+}
+
+impl Identified {
+    /// An outcome with nothing known yet.
+    pub(super) fn unknown(frequency_hz: f64, nominal: c64, order: usize) -> Self {
+        Self {
+            frequency_hz,
+            nominal,
+            correction: None,
+            error: None,
+            spectral_radius: None,
+            radius: None,
+            order,
+            roots: Vec::new(),
+            status: Status::NoRoot,
+            breakdown: None,
+            nominal_response: Vec::new(),
+            updated_response: Vec::new(),
+            work: Work::default(),
+        }
+    }
+
+    /// Updated factor p̄ + c, P-35.
+    pub fn factor(&self) -> Option<c64> {
+        self.correction.map(|c| self.nominal + c)
+    }
+
+    /// Storage modulus E′, the updated factor's real part.
+    pub fn storage(&self) -> Option<f64> {
+        self.factor().map(|factor| factor.re)
+    }
+
+    /// Loss factor η of the updated factor, P-31.
+    pub fn loss_factor(&self) -> Option<f64> {
+        self.factor().map(loss_factor)
+    }
+
+    /// Number of admissible roots.
+    pub fn admissible(&self) -> usize {
+        self.roots.iter().filter(|root| root.refusal.is_none()).count()
+    }
+}

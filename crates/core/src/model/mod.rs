@@ -1,0 +1,11 @@
+//! The dynamic stiffness as a sum of named terms, and what is unknown in it.
+
+mod at;
+mod experiment;
+mod parameter;
+mod stiffness;
+
+pub use at::{Combination, ModelAt, ParameterAt};
+pub use experiment::{Experiment, Sensor};
+pub use parameter::{Member, Parameter};
+pub use stiffness::{DynamicStiffness, ModelError, Role, Term};

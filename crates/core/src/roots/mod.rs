@@ -1,0 +1,7 @@
+//! Roots of P-30: which corrections make the truncated response equal the measured one, and which to believe.
+
+mod bounds;
+mod candidates;
+
+pub use bounds::Bounds;
+pub use candidates::{Candidate, Refusal, RootOptions, candidates, least_admissible};
