@@ -1,0 +1,49 @@
+//! Names of the degrees of freedom.
+
+use std::fmt;
+
+/// What moves at a node: a translation along an axis, or a right-handed rotation about it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Direction {
+    /// Translation along x, in m.
+    X,
+    /// Translation along y, in m.
+    Y,
+    /// Translation along z, in m.
+    Z,
+    /// Rotation about x, in rad.
+    RX,
+    /// Rotation about y, in rad.
+    RY,
+    /// Rotation about z, in rad.
+    RZ,
+}
+
+impl Direction {
+    /// The name as it stands in a table of dofs.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::X => "X",
+            Self::Y => "Y",
+            Self::Z => "Z",
+            Self::RX => "RX",
+            Self::RY => "RY",
+            Self::RZ => "RZ",
+        }
+    }
+}
+
+impl fmt::Display for Direction {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.as_str())
+    }
+}
+
+/// The degree of freedom of one row of the matrices.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Dof {
+    /// Label of the node, counted from 1.
+    pub node: usize,
+    /// What moves there.
+    pub direction: Direction,
+}

@@ -1,0 +1,9 @@
+//! Each element against a solution in closed form, with its rate of convergence.
+
+mod bar;
+mod beam;
+mod brick;
+mod hexahedron;
+mod modes;
+mod plate;
+mod support;
