@@ -70,7 +70,12 @@ impl Field<'_> {
 
     /// The integer in a field that must not be blank.
     pub(super) fn required<T: FromStr + Default>(&self, what: &str) -> Result<T, FormatError> {
-        if self.is_blank() { Err(self.error(what)) } else { self.integer(what) }
+        self.filled(what)?.integer(what)
+    }
+
+    /// The field, which must not be blank.
+    pub(super) fn filled(&self, what: &str) -> Result<&Self, FormatError> {
+        if self.is_blank() { Err(self.error(what)) } else { Ok(self) }
     }
 
     /// The finite real number; 0 for a blank field.

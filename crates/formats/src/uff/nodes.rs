@@ -58,16 +58,16 @@ fn node(
 ) -> Result<Node, FormatError> {
     Ok(Node {
         label: label.required("a node label")?,
-        definition_system: definition.integer("a coordinate system")?,
-        displacement_system: displacement.integer("a coordinate system")?,
-        color: color.integer("a colour number")?,
+        definition_system: definition.required("a coordinate system")?,
+        displacement_system: displacement.required("a coordinate system")?,
+        color: color.required("a colour number")?,
         position,
     })
 }
 
 fn position([x, y, z]: [Field<'_>; 3]) -> Result<[f64; 3], FormatError> {
     const WHAT: &str = "a finite coordinate";
-    Ok([x.real(WHAT)?, y.real(WHAT)?, z.real(WHAT)?])
+    Ok([x.filled(WHAT)?.real(WHAT)?, y.filled(WHAT)?.real(WHAT)?, z.filled(WHAT)?.real(WHAT)?])
 }
 
 #[cfg(test)]

@@ -51,9 +51,11 @@ pub(super) fn exact_real(value: f64) -> String {
     let spellings = [real(value, 0, 5), scientific, format!("{value:?}")];
     let is_exact = |text: &&String| text.contains('.') && text.parse() == Ok(value);
     let exact = |width: usize| spellings.iter().filter(is_exact).find(|text| text.len() <= width).cloned();
-    let rounded =
-        || (0..WIDTH).rev().map(|decimals| real(value, 0, decimals)).find(|text| text.len() < WIDTH);
-    let text = exact(WIDTH - 1).or_else(|| exact(WIDTH)).or_else(rounded).unwrap_or_default();
+    // Rounded up, the largest numbers are infinite.
+    let is_finite = |text: &String| text.len() < WIDTH && text.parse().is_ok_and(f64::is_finite);
+    let rounded = || (4..WIDTH).rev().map(|decimals| real(value, 0, decimals)).find(is_finite);
+    let text =
+        exact(WIDTH - 1).or_else(|| exact(WIDTH)).or_else(rounded).unwrap_or_else(|| real(value, 0, 5));
     format!("{text:>WIDTH$}")
 }
 
@@ -84,6 +86,8 @@ mod tests {
         assert_eq!(exact_real(1.0 / 3.0), " 3.333333E-01");
         assert_eq!(exact_real(-1.0 / 3.0), " -3.33333E-01");
         assert_eq!(exact_real(1e-300), " 1.00000E-300");
+        assert_eq!(exact_real(-f64::MAX / 3.0), " -5.9923E+307");
+        assert_eq!(exact_real(-f64::MAX), "-1.79769E+308");
     }
 
     #[test]
