@@ -59,9 +59,6 @@ impl<R: Response> CostFunction for Misfit<'_, R> {
 
     fn cost(&self, p: &Vec<f64>) -> Result<f64, Error> {
         let correction = c64::new(p[0], p[1]) * self.scale;
-        Ok(self
-            .system
-            .solve_at(&[z * self.scale])
-            .map_or(f64::INFINITY, |x| relative_error(self.measured, &x)))
+        Ok(self.system.solve_at(&[correction]).map_or(f64::INFINITY, |x| relative_error(self.measured, &x)))
     }
 }
