@@ -1,4 +1,4 @@
-//! Inputs that once broke an invariant of the reader or the writer.
+//! Inputs at the edge of what the reader accepts and the writer can write, kept where one of them once failed.
 
 use std::fs;
 use std::path::Path;

@@ -97,7 +97,7 @@ fn meshes_are_nodes_trace_lines_and_units() {
     let Some(bytes) = read("TestLab 161 164 18 15 82.uff") else { return };
     let records = uff::read_all(&bytes).expect("a readable file");
     let Record::Units(units) = &records[1] else { panic!("units") };
-    assert_eq!((units.temperature_mode, units.temperature_offset), (0, -273.149_999_999_999_96));
+    assert_eq!((units.temperature_mode, units.temperature_offset), (0, -273.15));
     let Record::Other { dataset: 18, .. } = &records[2] else { panic!("dataset 18") };
     let Record::Nodes(nodes) = &records[3] else { panic!("nodes") };
     assert_eq!(

@@ -67,6 +67,7 @@ mod read_header;
 mod record;
 mod scan;
 mod summary;
+mod title;
 mod trace_line;
 mod units;
 pub mod write;

@@ -24,8 +24,7 @@ pub(super) fn text(value: &str, width: usize, what: &str) -> Result<String, Form
 /// FORMAT(1X,wA1); a text that is one character too long takes the blank before it, where readers find it too.
 pub(super) fn spaced_text(value: &str, width: usize, what: &str) -> Result<String, FormatError> {
     let text = text(value, width + 1, what)?;
-    let is_full = text.chars().next_back() != Some(' ');
-    Ok(if is_full { text } else { format!(" {}", &text[..text.len() - 1]) })
+    Ok(text.strip_suffix(' ').map_or_else(|| text.clone(), |shorter| format!(" {shorter}")))
 }
 
 /// FORMAT(1PEw.d): `-1.23456E+01`, and where the exponent has three digits `-1.23456E+101`. Not-a-number and
