@@ -19,7 +19,7 @@ pub(crate) trait Value: Copy {
     fn parts(self) -> [f64; 2];
     /// Sum of two entries at the same position.
     fn plus(self, other: Self) -> Self;
-    fn entries(values: impl Iterator<Item = Self>, count: usize) -> Entries;
+    fn entries(values: Vec<Self>) -> Entries;
 }
 
 impl Value for () {
@@ -29,7 +29,7 @@ impl Value for () {
         [1.0, 0.0]
     }
     fn plus(self, (): Self) {}
-    fn entries(_: impl Iterator<Item = Self>, _: usize) -> Entries {
+    fn entries(_: Vec<Self>) -> Entries {
         Entries::Pattern
     }
 }
@@ -45,8 +45,8 @@ impl Value for f64 {
     fn plus(self, other: Self) -> Self {
         self + other
     }
-    fn entries(values: impl Iterator<Item = Self>, count: usize) -> Entries {
-        Entries::Real(collect(values, count))
+    fn entries(values: Vec<Self>) -> Entries {
+        Entries::Real(values)
     }
 }
 
@@ -61,16 +61,9 @@ impl Value for c64 {
     fn plus(self, other: Self) -> Self {
         self + other
     }
-    fn entries(values: impl Iterator<Item = Self>, count: usize) -> Entries {
-        Entries::Complex(collect(values, count))
+    fn entries(values: Vec<Self>) -> Entries {
+        Entries::Complex(values)
     }
-}
-
-/// Collects into exactly the room that is needed: growing by doubling could take three times that.
-fn collect<T>(items: impl Iterator<Item = T>, count: usize) -> Vec<T> {
-    let mut all = Vec::with_capacity(count);
-    all.extend(items);
-    all
 }
 
 /// Why the entries of a file do not make a matrix; row and column from 0, in the kept triangle.
@@ -100,16 +93,17 @@ pub(crate) enum Duplicates {
 
 /// Entries as they come; `finish` makes the matrix.
 ///
-/// An entry is 8 bytes and its value: column, row and, in the last bit, whether it was mirrored from
-/// the upper triangle. This packing keeps the readers within their bound on memory.
+/// A key is column, row and, in its last bit, whether the entry was mirrored from the upper triangle. Keys
+/// of 8 bytes keep the readers within their bound on memory: 16 bytes a byte of input.
 pub(crate) struct Assembly<V> {
     symmetry: Symmetry,
-    entries: Vec<(u64, V)>,
+    keys: Vec<u64>,
+    values: Vec<V>,
 }
 
 impl<V: Value> Assembly<V> {
     pub(crate) fn new(symmetry: Symmetry, capacity: usize) -> Self {
-        Self { symmetry, entries: Vec::with_capacity(capacity) }
+        Self { symmetry, keys: Vec::with_capacity(capacity), values: Vec::with_capacity(capacity) }
     }
 
     /// Adds an entry (row and column from 0, below [`MOST_ROWS`]), mirrored into the lower triangle.
@@ -128,11 +122,9 @@ impl<V: Value> Assembly<V> {
             }
             _ => {}
         }
-        self.entries.push(if self.symmetry != Symmetry::General && row < col {
-            (row << 32 | col << 1 | 1, mirrored(self.symmetry, value))
-        } else {
-            (col << 32 | row << 1, value)
-        });
+        let is_mirrored = self.symmetry != Symmetry::General && row < col;
+        self.keys.push(if is_mirrored { row << 32 | col << 1 | 1 } else { col << 32 | row << 1 });
+        self.values.push(if is_mirrored { mirrored(self.symmetry, value) } else { value });
         Ok(())
     }
 
@@ -144,45 +136,53 @@ impl<V: Value> Assembly<V> {
         ncols: usize,
         title: String,
     ) -> Result<CoordinateMatrix, Clash> {
-        let Self { symmetry, mut entries } = self;
-        let place = |key: u64| ((key as u32 >> 1) as usize, (key >> 32) as usize);
-        // Stable, so that duplicates are summed in the order of the file.
-        if !entries.is_sorted_by_key(|e| e.0) {
-            entries.sort_by_key(|e| e.0);
+        let Self { symmetry, mut keys, mut values } = self;
+        if !keys.is_sorted_by(|a, b| a >> 1 < b >> 1) {
+            let mut pairs: Vec<(u64, V)> = keys.into_iter().zip(values).collect();
+            // Stable, so that duplicates are summed in the order of the file.
+            pairs.sort_by_key(|pair| pair.0);
+            merge(&mut pairs, duplicates)?;
+            (keys, values) = pairs.into_iter().unzip();
         }
-        let mut clash = None;
-        entries.dedup_by(|next, kept| {
-            let same = next.0 >> 1 == kept.0 >> 1;
-            if same {
-                kept.1 = kept.1.plus(next.1);
-                let kind = if next.0 != kept.0 {
-                    Some(ClashKind::Mirrored)
-                } else if duplicates == Duplicates::Refuse {
-                    Some(ClashKind::Twice)
-                } else if !kept.1.parts().iter().all(|x| x.is_finite()) {
-                    Some(ClashKind::Overflow)
-                } else {
-                    None
-                };
-                let (row, col) = place(kept.0);
-                clash = clash.or(kind.map(|kind| Clash { row, col, kind }));
-            }
-            same
-        });
-        if let Some(clash) = clash {
-            return Err(clash);
-        }
-        let count = entries.len();
         Ok(CoordinateMatrix {
             nrows,
             ncols,
             symmetry,
-            rows: collect(entries.iter().map(|e| place(e.0).0), count),
-            cols: collect(entries.iter().map(|e| place(e.0).1), count),
-            entries: V::entries(entries.iter().map(|e| e.1), count),
+            cols: keys.iter().map(|&key| place(key).1).collect(),
+            rows: keys.into_iter().map(|key| place(key).0).collect(),
+            entries: V::entries(values),
             title,
         })
     }
+}
+
+/// Row and column of a key.
+fn place(key: u64) -> (usize, usize) {
+    ((key as u32 >> 1) as usize, (key >> 32) as usize)
+}
+
+/// Makes one entry of neighbours at the same position; the first that must not be is the error.
+fn merge<V: Value>(pairs: &mut Vec<(u64, V)>, duplicates: Duplicates) -> Result<(), Clash> {
+    let mut clash = None;
+    pairs.dedup_by(|next, kept| {
+        let is_same = next.0 >> 1 == kept.0 >> 1;
+        if is_same {
+            kept.1 = kept.1.plus(next.1);
+            let kind = if next.0 != kept.0 {
+                Some(ClashKind::Mirrored)
+            } else if duplicates == Duplicates::Refuse {
+                Some(ClashKind::Twice)
+            } else if !kept.1.parts().iter().all(|x| x.is_finite()) {
+                Some(ClashKind::Overflow)
+            } else {
+                None
+            };
+            let (row, col) = place(kept.0);
+            clash = clash.or(kind.map(|kind| Clash { row, col, kind }));
+        }
+        is_same
+    });
+    clash.map_or(Ok(()), Err)
 }
 
 pub(crate) const SKEW_DIAGONAL: &str = "nothing but zeros on the diagonal of a skew-symmetric matrix";

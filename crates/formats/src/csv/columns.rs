@@ -27,7 +27,7 @@ impl Table {
         self.find(name)?.ok_or_else(|| {
             let found = match nearest(name, self.names()) {
                 Some(other) => format!("no such name; the nearest is {}", quoted(other.as_bytes())),
-                None => "no such name".into(),
+                None => format!("only {}", self.listed()),
             };
             FormatError::line(self.names_line(), format!("a column {name:?}"), found)
         })
@@ -53,6 +53,17 @@ impl Table {
         Ok(())
     }
 
+    /// The first few names, for an error.
+    fn listed(&self) -> String {
+        const MOST: usize = 8;
+        let names = || self.names().filter(|name| !name.is_empty());
+        let shown: Vec<_> = names().take(MOST).map(|name| quoted(name.as_bytes())).collect();
+        match shown.as_slice() {
+            [] => "columns without names".into(),
+            _ => format!("{}{}", shown.join(", "), if names().nth(MOST).is_some() { ", ..." } else { "" }),
+        }
+    }
+
     /// Refuses a table without rows.
     pub(super) fn at_least_one_row(&self) -> Result<(), FormatError> {
         match self.rows() {
@@ -71,7 +82,8 @@ fn nearest<'a>(name: &str, names: impl Iterator<Item = &'a str>) -> Option<&'a s
     names
         .filter(|other| !other.is_empty() && other.len() <= LONGEST && name.len() <= LONGEST)
         .map(|other| (distance(other), other))
-        .filter(|(distance, other)| *distance < other.chars().count().max(name.chars().count()))
+        // At least a third of the letters have to agree.
+        .filter(|(distance, other)| 3 * distance <= 2 * other.chars().count().max(name.chars().count()))
         .min_by_key(|(distance, _)| *distance)
         .map(|(_, other)| other)
 }

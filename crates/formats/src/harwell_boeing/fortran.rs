@@ -36,16 +36,19 @@ impl Field {
 /// More fields than this in one line are no file of this world.
 const MOST_FIELDS: usize = 1000;
 
+/// The header has 20 columns for a format; groups are read as often as they repeat, so there is an end.
+const LONGEST: usize = 200;
+
 impl Format {
     /// Reads a format; the error says what the format would have to have.
-    pub(super) fn parse(text: &str) -> Result<Self, &'static str> {
-        let packed: String = text.chars().filter(|c| !c.is_whitespace()).collect();
-        let mut parser = Parser {
-            rest: packed.to_ascii_uppercase().strip_prefix('(').ok_or("a format in parentheses")?.to_owned(),
-            column: 0,
-            scale: 0,
-            format: Self { fields: Vec::new(), scale: 0 },
-        };
+    pub(super) fn parse(text: &[u8]) -> Result<Self, &'static str> {
+        if text.len() > LONGEST {
+            return Err("a format of at most 200 characters");
+        }
+        let packed: Vec<u8> =
+            text.iter().filter(|b| !b.is_ascii_whitespace()).map(u8::to_ascii_uppercase).collect();
+        let rest = packed.strip_prefix(b"(").ok_or("a format in parentheses")?;
+        let mut parser = Parser { rest, column: 0, scale: 0, format: Self { fields: Vec::new(), scale: 0 } };
         parser.group(0)?;
         if !parser.rest.is_empty() {
             return Err("nothing behind the closing parenthesis of a format");
@@ -65,43 +68,43 @@ impl Format {
     }
 }
 
-struct Parser {
-    rest: String,
+struct Parser<'a> {
+    rest: &'a [u8],
     column: usize,
     scale: i64,
     format: Format,
 }
 
-impl Parser {
+impl Parser<'_> {
     /// The items of a group up to its closing parenthesis.
     fn group(&mut self, depth: usize) -> Result<(), &'static str> {
         if depth > 4 {
             return Err("a format with at most four nested groups");
         }
         loop {
-            let sign = if self.take('-') { -1 } else { 1 };
+            let sign = if self.take(b'-') { -1 } else { 1 };
             let number = self.number()?;
             let repeat = number.unwrap_or(1);
-            match self.rest.chars().next() {
-                Some(')') if number.is_none() => {
-                    self.take(')');
+            match self.rest.first() {
+                Some(b')') if number.is_none() => {
+                    self.take(b')');
                     return Ok(());
                 }
-                Some(',') if number.is_none() => _ = self.take(','),
-                Some('P') if number.is_some() => {
-                    self.take('P');
+                Some(b',') if number.is_none() => _ = self.take(b','),
+                Some(b'P') if number.is_some() => {
+                    self.take(b'P');
                     self.scale = sign * repeat as i64;
                 }
                 _ if sign < 0 => return Err("a minus sign only in a scale factor (-1P)"),
-                Some('X') => {
-                    self.take('X');
+                Some(b'X') => {
+                    self.take(b'X');
                     self.column += repeat;
                 }
-                Some('(') => {
-                    self.take('(');
+                Some(b'(') => {
+                    self.take(b'(');
                     self.repeated_group(repeat, depth)?;
                 }
-                Some('I' | 'F' | 'E' | 'D' | 'G') => self.descriptor(repeat)?,
+                Some(b'I' | b'F' | b'E' | b'D' | b'G') => self.descriptor(repeat)?,
                 _ => return Err("a Fortran format of I, F, E, D, G, X and P"),
             }
         }
@@ -112,9 +115,9 @@ impl Parser {
         if depth == 0 && self.column > 0 {
             return Err("a format without fields before a group");
         }
-        let (inside, before) = (self.rest.clone(), self.format.fields.len());
+        let (inside, before) = (self.rest, self.format.fields.len());
         for _ in 0..repeat {
-            self.rest.clone_from(&inside);
+            self.rest = inside;
             self.group(depth + 1)?;
             if self.format.fields.len() == before {
                 return Err("a group with at least one field");
@@ -125,14 +128,17 @@ impl Parser {
 
     /// `rIw`, `rIw.m`, `rFw.d`, `rEw.d`, `rEw.dEe`, also D, G, EN and ES.
     fn descriptor(&mut self, repeat: usize) -> Result<(), &'static str> {
-        let is_integer = self.rest.starts_with('I');
-        let letters = if self.rest.starts_with("EN") || self.rest.starts_with("ES") { 2 } else { 1 };
-        self.rest.drain(..letters);
+        let (is_integer, letters) = match self.rest {
+            [b'I', ..] => (true, 1),
+            [b'E', b'N' | b'S', ..] => (false, 2),
+            _ => (false, 1),
+        };
+        self.rest = &self.rest[letters..];
         let width = self.number()?.filter(|&w| w > 0).ok_or("a field width of at least 1")?;
         let mut decimals = 0;
-        if self.take('.') {
+        if self.take(b'.') {
             decimals = self.number()?.ok_or("digits behind the point of a field width")?;
-            if self.take('E') {
+            if self.take(b'E') {
                 self.number()?.ok_or("a width of the exponent")?;
             }
         }
@@ -154,21 +160,20 @@ impl Parser {
         Ok(())
     }
 
-    fn take(&mut self, character: char) -> bool {
-        let is_next = self.rest.starts_with(character);
-        if is_next {
-            self.rest.remove(0);
-        }
-        is_next
+    fn take(&mut self, byte: u8) -> bool {
+        let taken = self.rest.strip_prefix(&[byte]);
+        self.rest = taken.unwrap_or(self.rest);
+        taken.is_some()
     }
 
     /// The digits that come next, if any; at most five.
     fn number(&mut self) -> Result<Option<usize>, &'static str> {
-        let length = self.rest.bytes().take_while(u8::is_ascii_digit).count();
-        let digits: String = self.rest.drain(..length).collect();
+        let length = self.rest.iter().take_while(|b| b.is_ascii_digit()).count();
+        let (digits, rest) = self.rest.split_at(length);
+        self.rest = rest;
         match length {
             0 => Ok(None),
-            1..=5 => Ok(digits.parse().ok()),
+            1..=5 => Ok(Some(digits.iter().fold(0, |n, digit| 10 * n + usize::from(digit - b'0')))),
             _ => Err("numbers of at most five digits in a format"),
         }
     }
@@ -181,7 +186,7 @@ mod tests {
     use super::*;
 
     fn layout(text: &str) -> (usize, usize, i64, i64) {
-        let format = Format::parse(text).unwrap();
+        let format = Format::parse(text.as_bytes()).unwrap();
         let last = format.fields[format.fields.len() - 1];
         assert_eq!(last.start, last.width * (format.fields.len() - 1), "{text}");
         (format.fields.len(), last.width, last.decimals, format.scale)
@@ -210,10 +215,10 @@ mod tests {
 
     #[test]
     fn blanks_between_fields_are_skipped() {
-        let format = Format::parse("(1X,2(I4,1X))");
+        let format = Format::parse(b"(1X,2(I4,1X))");
         assert_eq!(format, Err("a format without fields before a group"));
         let starts: Vec<_> =
-            Format::parse("(2(1X,I4))").unwrap().fields.iter().map(|f| (f.start, f.width)).collect();
+            Format::parse(b"(2(1X,I4))").unwrap().fields.iter().map(|f| (f.start, f.width)).collect();
         assert_eq!(starts, [(1, 4), (6, 4)]);
     }
 
@@ -240,14 +245,14 @@ mod tests {
             "(F8.)",
             "(3é)",
         ] {
-            assert!(Format::parse(text).is_err(), "{text}");
+            assert!(Format::parse(text.as_bytes()).is_err(), "{text}");
         }
     }
 
     #[test]
     fn numbers_are_read_as_fortran_reads_them() {
         let read = |format: &str, text: &str| {
-            let format = Format::parse(format).unwrap();
+            let format = Format::parse(format.as_bytes()).unwrap();
             format.number(format.fields[0], text.as_bytes())
         };
         // No point: the last d digits stand behind it.

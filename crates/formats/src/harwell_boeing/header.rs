@@ -220,7 +220,7 @@ impl Formats<'_> {
         }
         let length = rest.iter().position(is_end).map_or(rest.len(), |end| end + 1);
         self.at = start + length;
-        match Format::parse(&String::from_utf8_lossy(&rest[..length])) {
+        match Format::parse(&rest[..length]) {
             Ok(format) => Ok(Some(format)),
             Err(expected) => Err(self.line.error(start, format!("{name}: {expected}"), quoted(rest))),
         }

@@ -40,7 +40,7 @@ impl Header {
             return Err(FormatError::whole("a line that begins with %%MatrixMarket", "an empty file"));
         };
         let (is_coordinate, field, symmetry) = banner(first)?;
-        let (comments, size) = comments_and_size_line(lines)?;
+        let (title, size) = comments_and_size_line(lines)?;
         let mut tokens = Tokens::new(size);
         let nrows = tokens.whole("a number of rows", 0, MOST_ROWS)?;
         let ncols = tokens.whole("a number of columns", 0, MOST_ROWS)?;
@@ -52,15 +52,7 @@ impl Header {
         if symmetry != Symmetry::General && nrows != ncols {
             return Err(FormatError::line(size.number, SQUARE, format!("{nrows} rows and {ncols} columns")));
         }
-        Ok(Self {
-            field,
-            symmetry,
-            nrows,
-            ncols,
-            entries,
-            size_line: size.number,
-            title: comments.join("\n"),
-        })
+        Ok(Self { field, symmetry, nrows, ncols, entries, size_line: size.number, title })
     }
 }
 
@@ -106,13 +98,19 @@ fn banner(line: Line<'_>) -> Result<(bool, Field, Symmetry), FormatError> {
 }
 
 /// The comment lines without their percent signs, and the first line that is none.
-fn comments_and_size_line<'a>(lines: &mut Lines<'a>) -> Result<(Vec<String>, Line<'a>), FormatError> {
-    let mut comments = Vec::new();
+fn comments_and_size_line<'a>(lines: &mut Lines<'a>) -> Result<(String, Line<'a>), FormatError> {
+    let mut comments: Option<String> = None;
     for line in lines.by_ref() {
         match line.bytes.trim_ascii() {
             [] => {}
-            [b'%', comment @ ..] => comments.push(String::from_utf8_lossy(comment).trim().to_owned()),
-            _ => return Ok((comments, line)),
+            [b'%', comment @ ..] => {
+                let comment = String::from_utf8_lossy(comment);
+                match &mut comments {
+                    Some(above) => above.extend(["\n", comment.trim()]),
+                    None => comments = Some(comment.trim().to_owned()),
+                }
+            }
+            _ => return Ok((comments.unwrap_or_default(), line)),
         }
     }
     Err(FormatError::line(lines.taken, "a size line", "the end of the file"))

@@ -1,0 +1,75 @@
+//! Tables as spreadsheets and scripts write them.
+
+use frfit_formats::csv::{
+    Cell, Direction, Table, read_dof_names, read_frf, read_modulus, read_vector, write,
+};
+use num_complex::Complex64 as c64;
+
+#[test]
+fn delimiters_quotes_comments_and_line_ends_do_not_matter() {
+    for text in [
+        "a,b\n1,x y\n2,\n",
+        "\u{feff}a;b\r\n1;x y\r\n2;\r\n",
+        "# made by hand\n\n a\t b \n 1 \t\"x y\"\n# between\n\n2\t",
+        "\"a\",\"b\"\n\"1\",x y\n2,\"\"\n",
+    ] {
+        let table = Table::read(text.as_bytes()).unwrap();
+        assert_eq!(table.names().collect::<Vec<_>>(), ["a", "b"], "{text:?}");
+        assert_eq!(table.rows(), 2);
+        assert_eq!([table.text(0, 0), table.text(0, 1)], ["1", "x y"]);
+        assert_eq!((table.number(1, 0), table.is_empty(1, 1)), (Ok(2.0), true));
+        assert_eq!(table.text(5, 0), "");
+        assert_eq!(table.text(0, 5), "");
+    }
+}
+
+#[test]
+fn quoted_cells_keep_delimiters_quotes_and_blanks() {
+    let table = Table::read(b"\"a;b\",\" c \"\n\"say \"\"x\"\"\",#1\n").unwrap();
+    assert_eq!(table.names().collect::<Vec<_>>(), ["a;b", " c "]);
+    assert_eq!([table.text(0, 0), table.text(0, 1)], ["say \"x\"", "#1"]);
+}
+
+#[test]
+fn an_frf_is_sorted_and_carries_its_quality() {
+    let frf = read_frf(b"IM;re;frequency_hz;coherence\n-2;1;20;0.5\n0;1e-3;10;1\n").unwrap();
+    assert_eq!(frf.frequency_hz, [10.0, 20.0]);
+    assert_eq!(frf.response, [c64::new(1e-3, 0.0), c64::new(1.0, -2.0)]);
+    assert_eq!((frf.coherence, frf.std), (Some(vec![1.0, 0.5]), None));
+}
+
+#[test]
+fn a_vector_may_be_real() {
+    let expected = vec![(7, c64::new(1.0, 0.0)), (2, c64::new(-1.5, 0.0))];
+    assert_eq!(read_vector(b"row,re\n7,1\n2,-1.5\n"), Ok(expected));
+    assert_eq!(read_vector(b"im,row,re\n2,1,3\n"), Ok(vec![(1, c64::new(3.0, 2.0))]));
+}
+
+#[test]
+fn dof_names_have_a_direction() {
+    let names = read_dof_names(b"row,node,direction\n2,12,z\n1,12,RX\n").unwrap();
+    assert_eq!(names.iter().map(|n| (n.row, n.node)).collect::<Vec<_>>(), [(2, 12), (1, 12)]);
+    assert_eq!([names[0].direction, names[1].direction], [Direction::Z, Direction::Rx]);
+    assert_eq!(names[1].direction.number(), 4);
+}
+
+#[test]
+fn a_modulus_has_a_loss_factor_or_a_loss_and_may_have_gaps() {
+    let by_factor =
+        read_modulus(b"frequency_hz,storage,loss_factor,status\n20,,,diverged\n10,4e6,0.5,ok\n").unwrap();
+    let by_loss = read_modulus(b"frequency_hz,loss,storage\n10,2e6,4e6\n").unwrap();
+    assert_eq!(by_factor, by_loss);
+    assert_eq!((by_loss.frequency_hz, by_loss.modulus), (vec![10.0], vec![c64::new(4e6, 2e6)]));
+}
+
+#[test]
+fn missing_numbers_are_written_as_empty_cells() {
+    let rows: [[Cell<'_>; 3]; 2] =
+        [[1.5.into(), None.into(), "a,b".into()], [f64::NAN.into(), Some(1e-300).into(), "ok".into()]];
+    assert_eq!(write(&["f", "x", "status"], rows).unwrap(), "f,x,status\n1.5,,\"a,b\"\n,1e-300,ok\n");
+    let rows: [[Cell<'_>; 1]; 1] = [[1.0.into()]];
+    let error = write(&["f", "x"], rows).unwrap_err();
+    assert_eq!(error.to_string(), "input:2: expected 2 cells in each row, found 1");
+    assert!(write(&["two\nlines"], [[Cell::Empty]]).is_err());
+    assert!(write(&[], [[Cell::Empty]]).is_err());
+}
