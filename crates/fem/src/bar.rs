@@ -1,7 +1,8 @@
 //! Longitudinal vibration of a uniform bar: two nodes, linear displacement.
 
 use crate::assembly::{Assembled, Group, assemble};
-use crate::error::{nodes_of_grid, positive};
+use crate::error::positive;
+use crate::grid::Grid;
 use crate::{Direction, Element, Error, Mass, Support};
 
 /// A uniform bar along x from 0 to its length, in equal elements; one dof a node, X.
@@ -34,18 +35,15 @@ impl Bar {
     /// # Errors
     /// Where a dimension is not positive, there is no element, or nothing moves.
     pub fn assemble(&self) -> Result<Assembled, Error> {
-        let nodes = nodes_of_grid(&[self.elements])?;
+        let grid = Grid::new([self.elements])?;
         let step = positive("length", self.length)? / self.elements as f64;
-        let group = Group {
-            element: element(positive("area", self.area)?, step),
-            nodes: (0..self.elements).map(|i| [i, i + 1]).collect(),
-            material: 0,
+        let element = element(positive("area", self.area)?, step);
+        let held = |node, _: Direction| {
+            let ends = grid.ends(node);
+            (0..2).any(|end| ends[end] && self.ends[end] != Support::Free)
         };
-        let held = |node: usize, _| {
-            (node == 0 && self.ends[0] != Support::Free)
-                || (node + 1 == nodes && self.ends[1] != Support::Free)
-        };
-        let positions = (0..nodes).map(|i| [i as f64 * step, 0.0, 0.0]).collect();
+        let positions = (0..grid.nodes()).map(|i| [i as f64 * step, 0.0, 0.0]).collect();
+        let group = Group { element, nodes: grid.corners::<2>(0..1), material: 0 };
         assemble(positions, &[Direction::X], held, &[group], self.mass)
     }
 }

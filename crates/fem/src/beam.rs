@@ -1,7 +1,8 @@
 //! Bending of a uniform Euler–Bernoulli beam: two nodes, cubic deflection.
 
 use crate::assembly::{Assembled, Group, assemble};
-use crate::error::{nodes_of_grid, positive};
+use crate::error::positive;
+use crate::grid::Grid;
 use crate::{Direction, Element, Error, Mass, Support};
 
 /// A uniform beam along x from 0 to its length, bending in the xz plane, in equal elements.
@@ -39,20 +40,17 @@ impl Beam {
     /// # Errors
     /// Where a dimension is not positive, there is no element, or nothing moves.
     pub fn assemble(&self) -> Result<Assembled, Error> {
-        let nodes = nodes_of_grid(&[self.elements])?;
+        let grid = Grid::new([self.elements])?;
         let step = positive("length", self.length)? / self.elements as f64;
         let (area, inertia) =
             (positive("area", self.area)?, positive("second moment of area", self.inertia)?);
-        let group = Group {
-            element: element(area, inertia, step),
-            nodes: (0..self.elements).map(|i| [i, i + 1]).collect(),
-            material: 0,
+        let held = |node, direction| {
+            let ends = grid.ends(node);
+            (0..2).any(|end| ends[end] && holds(self.ends[end], direction))
         };
-        let held = |node: usize, direction| {
-            (node == 0 && holds(self.ends[0], direction))
-                || (node + 1 == nodes && holds(self.ends[1], direction))
-        };
-        let positions = (0..nodes).map(|i| [i as f64 * step, 0.0, 0.0]).collect();
+        let positions = (0..grid.nodes()).map(|i| [i as f64 * step, 0.0, 0.0]).collect();
+        let group =
+            Group { element: element(area, inertia, step), nodes: grid.corners::<2>(0..1), material: 0 };
         assemble(positions, &[Direction::Z, Direction::RY], held, &[group], self.mass)
     }
 }

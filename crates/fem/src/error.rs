@@ -60,14 +60,3 @@ pub(crate) fn poisson(found: f64) -> Result<f64, Error> {
     }
     Err(Error::OutOfRange { name: "Poisson's ratio", expected: "more than -1 and less than 1/2", found })
 }
-
-/// Number of nodes of a grid with these numbers of elements along its axes, each at least 1.
-pub(crate) fn nodes_of_grid(elements: &[usize]) -> Result<usize, Error> {
-    elements.iter().try_fold(1_usize, |nodes, &along| {
-        if along == 0 {
-            return Err(Error::OutOfRange { name: "number of elements", expected: "at least 1", found: 0.0 });
-        }
-        let nodes = along.checked_add(1).and_then(|more| nodes.checked_mul(more));
-        nodes.filter(|&nodes| nodes <= Error::MAX_NODES).ok_or(Error::TooManyNodes)
-    })
-}

@@ -33,6 +33,7 @@ mod dof;
 mod element;
 mod error;
 pub mod exact;
+mod grid;
 pub mod plate;
 mod quadrature;
 mod support;

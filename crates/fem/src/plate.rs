@@ -1,7 +1,8 @@
 //! Bending of a thin rectangular plate: the twelve-dof rectangle of Adini, Clough and Melosh.
 
 use crate::assembly::{Assembled, Group, assemble};
-use crate::error::{nodes_of_grid, poisson, positive};
+use crate::error::{poisson, positive};
+use crate::grid::Grid;
 use crate::quadrature::GAUSS_4;
 use crate::{Direction, Element, Error, Mass, Support};
 
@@ -48,24 +49,17 @@ impl Plate {
     /// Where a dimension is not positive, Poisson's ratio outside (−1, 1/2), there is no element, or
     /// nothing moves.
     pub fn assemble(&self) -> Result<Assembled, Error> {
-        let [nx, ny] = self.elements;
-        let nodes = nodes_of_grid(&[nx, ny])?;
-        let [dx, dy] =
-            [positive("side", self.sides[0])? / nx as f64, positive("side", self.sides[1])? / ny as f64];
-        let at = |node: usize| (node % (nx + 1), node / (nx + 1));
-        let label = |i: usize, j: usize| i + (nx + 1) * j;
-        let corners = |i, j| [label(i, j), label(i + 1, j), label(i + 1, j + 1), label(i, j + 1)];
-        let group = Group {
-            element: element([dx, dy], positive("thickness", self.thickness)?, poisson(self.poisson)?),
-            nodes: (0..ny).flat_map(|j| (0..nx).map(move |i| corners(i, j))).collect(),
-            material: 0,
-        };
+        let grid = Grid::new(self.elements)?;
+        let [a, b] = [positive("side", self.sides[0])?, positive("side", self.sides[1])?];
+        let [dx, dy] = [a / self.elements[0] as f64, b / self.elements[1] as f64];
+        let element = element([dx, dy], positive("thickness", self.thickness)?, poisson(self.poisson)?);
         let held = |node, direction| {
-            let (i, j) = at(node);
-            let edges = [i == 0, i == nx, j == 0, j == ny];
-            (0..4).any(|edge| edges[edge] && holds(self.edges[edge], edge, direction))
+            let ends = grid.ends(node);
+            (0..4).any(|edge| ends[edge] && holds(self.edges[edge], edge, direction))
         };
-        let positions = (0..nodes).map(at).map(|(i, j)| [i as f64 * dx, j as f64 * dy, 0.0]).collect();
+        let position = |[i, j, _]: [usize; 3]| [i as f64 * dx, j as f64 * dy, 0.0];
+        let positions = (0..grid.nodes()).map(|node| position(grid.place(node))).collect();
+        let group = Group { element, nodes: grid.corners::<4>(0..1), material: 0 };
         assemble(positions, &[Direction::Z, Direction::RX, Direction::RY], held, &[group], self.mass)
     }
 }

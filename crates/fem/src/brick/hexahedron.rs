@@ -1,7 +1,7 @@
 //! The hexahedron of eight nodes, with or without incompatible modes.
 
-use super::CORNERS;
 use crate::error::poisson as checked_poisson;
+use crate::grid::CORNERS;
 use crate::quadrature::GAUSS_2;
 use crate::{Element, Error};
 
@@ -111,14 +111,19 @@ fn gradients(point: Vector, here: &Geometry, centre: &Geometry) -> [Vector; SHAP
     })
 }
 
+/// ξ, η, ζ = ±1 of the corners.
+fn signs() -> [Vector; 8] {
+    CORNERS.map(|corner| corner.map(|step| 2.0 * step as f64 - 1.0))
+}
+
 fn corner_shapes(point: Vector) -> [f64; 8] {
-    CORNERS.map(|corner| (0..3).map(|k| (1.0 + corner[k] * point[k]) / 2.0).product())
+    signs().map(|sign| (0..3).map(|k| (1.0 + sign[k] * point[k]) / 2.0).product())
 }
 
 fn corner_gradients(point: Vector) -> [Vector; 8] {
-    CORNERS.map(|corner| {
-        let factor = |k: usize| (1.0 + corner[k] * point[k]) / 2.0;
-        std::array::from_fn(|k| corner[k] / 2.0 * factor((k + 1) % 3) * factor((k + 2) % 3))
+    signs().map(|sign| {
+        let factor = |k: usize| (1.0 + sign[k] * point[k]) / 2.0;
+        std::array::from_fn(|k| sign[k] / 2.0 * factor((k + 1) % 3) * factor((k + 2) % 3))
     })
 }
 

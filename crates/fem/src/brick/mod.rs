@@ -5,7 +5,8 @@ mod hexahedron;
 pub use hexahedron::{Formulation, hexahedron};
 
 use crate::assembly::{Assembled, Group, assemble};
-use crate::error::{nodes_of_grid, poisson, positive};
+use crate::error::positive;
+use crate::grid::{CORNERS, Grid};
 use crate::{Direction, Error, Mass};
 
 /// A box over 0 ≤ x ≤ length, 0 ≤ y ≤ width, layer upon layer from z = 0, in equal elements within a layer.
@@ -43,7 +44,7 @@ pub struct Layer {
     pub material: usize,
 }
 
-/// A face of a [`Brick`].
+/// A face of a [`Brick`], in the order of the ends of a grid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Face {
     /// x = 0.
@@ -92,85 +93,37 @@ impl Brick {
     pub fn assemble(&self) -> Result<Assembled, Error> {
         let [nx, ny] = self.elements;
         let nz = self.layers.iter().fold(0_usize, |sum, layer| sum.saturating_add(layer.elements));
-        let nodes = nodes_of_grid(&[nx, ny, nz])?;
-        let heights = self.heights()?;
-        let at = |node: usize| {
-            let plane = (nx + 1) * (ny + 1);
-            [node % (nx + 1), node % plane / (nx + 1), node / plane]
-        };
-        let (dx, dy) =
-            (positive("length", self.length)? / nx as f64, positive("width", self.width)? / ny as f64);
-        let positions =
-            (0..nodes).map(at).map(|[i, j, k]| [i as f64 * dx, j as f64 * dy, heights[k]]).collect();
-        let held = |node, _: Direction| {
-            let [i, j, k] = at(node);
-            self.clamped.iter().any(|face| match face {
-                Face::XMin => i == 0,
-                Face::XMax => i == nx,
-                Face::YMin => j == 0,
-                Face::YMax => j == ny,
-                Face::ZMin => k == 0,
-                Face::ZMax => k == nz,
-            })
-        };
-        let directions = [Direction::X, Direction::Y, Direction::Z];
-        assemble(positions, &directions, held, &self.groups([dx, dy])?, self.mass)
-    }
-
-    /// z of each plane of nodes.
-    fn heights(&self) -> Result<Vec<f64>, Error> {
-        let (mut heights, mut bottom) = (vec![0.0], 0.0);
+        let grid = Grid::new([nx, ny, nz])?;
+        let (length, width) = (positive("length", self.length)?, positive("width", self.width)?);
+        let [dx, dy] = [length / nx as f64, width / ny as f64];
+        let (mut groups, mut heights) = (Vec::with_capacity(self.layers.len()), vec![0.0]);
         for layer in &self.layers {
-            let step = positive("thickness", layer.thickness)? / layer.elements as f64;
-            heights.extend((1..=layer.elements).map(|k| bottom + k as f64 * step));
-            bottom += layer.thickness;
-        }
-        Ok(heights)
-    }
-
-    /// One group a layer: its elements are equal.
-    fn groups(&self, [dx, dy]: [f64; 2]) -> Result<Vec<Group<8, 24>>, Error> {
-        let [nx, ny] = self.elements;
-        let (line, plane) = (nx + 1, (nx + 1) * (ny + 1));
-        let mut first = 0;
-        let mut groups = Vec::with_capacity(self.layers.len());
-        for layer in &self.layers {
-            nodes_of_grid(&[layer.elements])?;
-            if layer.material >= self.layers.len() {
-                let expected = "a number below that of the layers";
-                return Err(Error::OutOfRange { name: "material", expected, found: layer.material as f64 });
-            }
-            let corners = CORNERS.map(|[x, y, z]| {
-                let step = layer.thickness / layer.elements as f64;
-                [(x + 1.0) / 2.0 * dx, (y + 1.0) / 2.0 * dy, (z + 1.0) / 2.0 * step]
-            });
-            let planes = first..first + layer.elements;
-            let lowest = planes
-                .flat_map(|k| (0..ny).flat_map(move |j| (0..nx).map(move |i| i + line * j + plane * k)));
+            let dz = self.step(layer)?;
+            let corners = CORNERS.map(|[i, j, k]| [i as f64 * dx, j as f64 * dy, k as f64 * dz]);
+            let (below, bottom) = (heights.len() - 1, heights[heights.len() - 1]);
+            heights.extend((1..=layer.elements).map(|k| bottom + k as f64 * dz));
             groups.push(Group {
-                element: hexahedron(&corners, poisson(layer.poisson)?, self.formulation)?,
-                nodes: lowest
-                    .map(|n| {
-                        let bottom = [n, n + 1, n + 1 + line, n + line];
-                        std::array::from_fn(|corner| bottom[corner % 4] + corner / 4 * plane)
-                    })
-                    .collect(),
+                element: hexahedron(&corners, layer.poisson, self.formulation)?,
+                nodes: grid.corners::<8>(below..below + layer.elements),
                 material: layer.material,
             });
-            first += layer.elements;
         }
-        Ok(groups)
+        let held = |node, _: Direction| {
+            let ends = grid.ends(node);
+            self.clamped.iter().any(|&face| ends[face as usize])
+        };
+        let position = |[i, j, k]: [usize; 3]| [i as f64 * dx, j as f64 * dy, heights[k]];
+        let positions = (0..grid.nodes()).map(|node| position(grid.place(node))).collect();
+        assemble(positions, &[Direction::X, Direction::Y, Direction::Z], held, &groups, self.mass)
+    }
+
+    /// Height of the elements of a layer, once the layer is found to be one of this box.
+    fn step(&self, layer: &Layer) -> Result<f64, Error> {
+        Grid::new([layer.elements])?;
+        if layer.material >= self.layers.len() {
+            let expected = "a number below that of the layers";
+            return Err(Error::OutOfRange { name: "material", expected, found: layer.material as f64 });
+        }
+        Ok(positive("thickness", layer.thickness)? / layer.elements as f64)
     }
 }
-
-/// Natural coordinates of the corners: the bottom face counterclockwise seen from above, then the top face.
-const CORNERS: [[f64; 3]; 8] = [
-    [-1.0, -1.0, -1.0],
-    [1.0, -1.0, -1.0],
-    [1.0, 1.0, -1.0],
-    [-1.0, 1.0, -1.0],
-    [-1.0, -1.0, 1.0],
-    [1.0, -1.0, 1.0],
-    [1.0, 1.0, 1.0],
-    [-1.0, 1.0, 1.0],
-];

@@ -94,7 +94,7 @@ mod tests {
         for ends in ENDS {
             for n in 1..=20 {
                 let root = wavenumber(ends, n);
-                // Values of the function carry roundoff of a cosine near its zero, 1e-16 of the argument.
+                // Near its zero a cosine is as uncertain as its argument.
                 let width = 4.0 * f64::EPSILON * root;
                 let signs = characteristic(ends, root - width) * characteristic(ends, root + width);
                 assert!(signs < 0.0, "{ends:?} {n} {root}");
@@ -105,7 +105,7 @@ mod tests {
     #[test]
     fn no_root_is_skipped() {
         for ends in ENDS {
-            // From above the double root at zero, 1e-2, in steps of a hundredth of the distance of roots.
+            // From above the multiple root at zero, in steps of a hundredth of the distance of roots.
             let samples: Vec<f64> =
                 (0..2000).map(|i| characteristic(ends, 0.2 + 0.03 * f64::from(i))).collect();
             let crossings = samples.windows(2).filter(|pair| pair[0] * pair[1] < 0.0).count();

@@ -6,4 +6,5 @@ mod brick;
 mod hexahedron;
 mod modes;
 mod plate;
+mod polynomial;
 mod support;
