@@ -1,1 +1,18 @@
-//! (to come)
+//! From a case file to identified parameters, tables and figures.
+//!
+//! | module | what is in it |
+//! |---|---|
+//! | [`case`] | the case file as it is written, every key and type checked |
+//! | [`load`](mod@load) | its files read: model, load, sensors, measured receptance |
+//! | [`run`] | the computations, frequency by frequency, on all cores |
+//! | [`figures`] | what a run looks like, as the paper draws it |
+//! | [`output`] | tables, summary, and writing them whole or not at all |
+//! | [`error`] | what the user has to put right, and where |
+
+pub mod case;
+pub mod error;
+pub mod figures;
+pub mod load;
+mod nearest;
+pub mod output;
+pub mod run;

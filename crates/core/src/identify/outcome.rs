@@ -93,6 +93,12 @@ impl Identified {
         }
     }
 
+    /// The outcome where the nominal system could not even be factorised.
+    pub fn broken(frequency_hz: f64, nominal: c64, order: usize, breakdown: Breakdown) -> Self {
+        let status = Status::IllConditioned;
+        Self { status, breakdown: Some(breakdown), ..Self::unknown(frequency_hz, nominal, order) }
+    }
+
     /// Updated factor p̄ + c, P-35.
     pub fn factor(&self) -> Option<c64> {
         self.correction.map(|c| self.nominal + c)

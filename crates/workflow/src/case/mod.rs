@@ -1,0 +1,136 @@
+//! A case file as it is written: read, every key and type checked, no other file opened.
+
+mod document;
+mod field;
+mod parse;
+mod sections;
+
+pub use parse::parse;
+pub(crate) use sections::checked_band;
+
+use crate::error::Place;
+use frfit::dof::DofName;
+use frfit::identify::{Method, Selection};
+use frfit::material::Law;
+use frfit::model::Role;
+use frfit::quantity::Quantity;
+use std::path::PathBuf;
+
+/// A value and where it is written.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Located<T> {
+    /// The value.
+    pub value: T,
+    /// Its place.
+    pub place: Place,
+}
+
+/// A case file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CaseFile {
+    /// The file it was read from.
+    pub file: PathBuf,
+    /// `title`.
+    pub title: Option<String>,
+    /// `[[matrix]]`, at least one, names distinct.
+    pub matrices: Vec<MatrixEntry>,
+    /// `dofs.file`.
+    pub dofs: Option<Located<String>>,
+    /// `[load]`.
+    pub load: LoadEntry,
+    /// `[[measurement]]`, at least one.
+    pub measurements: Vec<MeasurementEntry>,
+    /// `[identify]`.
+    pub identify: Option<IdentifyEntry>,
+    /// `[respond]`.
+    pub respond: Option<RespondEntry>,
+}
+
+/// `[[matrix]]`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MatrixEntry {
+    /// Name.
+    pub name: Located<String>,
+    /// Role.
+    pub role: Role,
+    /// File of the matrix.
+    pub file: Located<String>,
+    /// Factor, 1 where none is given.
+    pub factor: Located<FactorEntry>,
+}
+
+/// A factor: a law, or the file of a table.
+#[derive(Debug, Clone, PartialEq)]
+pub enum FactorEntry {
+    /// Number, complex modulus or fractional law.
+    Law(Law),
+    /// File of a table of modulus over frequency.
+    Table(Located<String>),
+}
+
+/// A degree of freedom by its name or by its row.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Spot {
+    /// `dof = "12+Z"`.
+    Dof(Located<DofName>),
+    /// `row = 41`, from 1; not yet checked against the model.
+    Row(Located<i64>),
+}
+
+/// `[load]`.
+#[derive(Debug, Clone, PartialEq)]
+pub enum LoadEntry {
+    /// Unit force at one degree of freedom.
+    At(Spot),
+    /// File of a load vector.
+    File(Located<String>),
+}
+
+/// `[[measurement]]`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeasurementEntry {
+    /// Where the table begins.
+    pub place: Place,
+    /// File of the frequency response function.
+    pub file: Option<Located<String>>,
+    /// Where it was measured; `None`: as the file says.
+    pub spot: Option<Spot>,
+    /// Which FRF of a UFF file, from 1.
+    pub record: Option<Located<i64>>,
+    /// What was measured; `None`: as the file says.
+    pub quantity: Option<Quantity>,
+}
+
+/// `[identify]`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct IdentifyEntry {
+    /// Where the table begins.
+    pub place: Place,
+    /// Matrices that share the unknown factor, at least one.
+    pub matrices: Vec<Located<String>>,
+    /// [first, last] frequency.
+    pub band_hz: Option<Located<[f64; 2]>>,
+    /// Method.
+    pub method: Option<Method>,
+    /// Order.
+    pub order: Option<Located<i64>>,
+    /// Selection.
+    pub selection: Option<Selection>,
+    /// `bounds.storage`.
+    pub storage: Option<Located<[f64; 2]>>,
+    /// `bounds.loss_factor`.
+    pub loss_factor: Option<Located<[f64; 2]>>,
+    /// Whether the factor is real.
+    pub real: bool,
+    /// The factor that a simulated measurement was made with.
+    pub truth: Option<Located<FactorEntry>>,
+}
+
+/// `[respond]`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RespondEntry {
+    /// [first, last] frequency.
+    pub band_hz: Located<[f64; 2]>,
+    /// How many frequencies, equally spaced, both ends included.
+    pub points: usize,
+}

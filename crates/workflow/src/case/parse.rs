@@ -1,0 +1,48 @@
+//! The whole file.
+
+use super::document::Document;
+use super::field::{Table, shown};
+use super::sections::{identify, load, matrix, measurement, respond};
+use super::{CaseFile, MatrixEntry};
+use crate::error::{InputError, Place};
+use std::path::Path;
+
+/// Reads a case file from its bytes. `file` is its name in errors.
+///
+/// # Errors
+/// Text that is not TOML; a key that is unknown, missing or of the wrong type, and the place where it is.
+pub fn parse(file: &Path, bytes: &[u8]) -> Result<CaseFile, InputError> {
+    let document = Document::new(file, bytes)?;
+    let tables = document.tables()?;
+    let known = ["title", "matrix", "dofs", "load", "measurement", "identify", "respond"];
+    let case = Table::new(document, Place::file(file), tables.get_ref(), &known)?;
+    let many = |name: &str, known: &[&str]| case.need(name)?.tables(name, known);
+
+    let matrices = many("matrix", &["name", "role", "file", "factor"])?;
+    let measurements = many("measurement", &["file", "dof", "row", "record", "quantity"])?;
+    let dofs = match case.find("dofs") {
+        Some(dofs) => Some(dofs.table(&["file"])?.need("file")?.text()?),
+        None => None,
+    };
+    Ok(CaseFile {
+        file: file.to_path_buf(),
+        title: case.find("title").map(|title| title.text()).transpose()?.map(|title| title.value),
+        matrices: named_once(matrices.iter().map(matrix).collect::<Result<_, _>>()?)?,
+        dofs,
+        load: load(&case.need("load")?.table(&["dof", "row", "file"])?)?,
+        measurements: measurements.iter().map(measurement).collect::<Result<_, _>>()?,
+        identify: case.find("identify").map(|field| identify(&field)).transpose()?,
+        respond: case.find("respond").map(|field| respond(&field)).transpose()?,
+    })
+}
+
+/// Refuses a name that two matrices have.
+fn named_once(matrices: Vec<MatrixEntry>) -> Result<Vec<MatrixEntry>, InputError> {
+    for (k, entry) in matrices.iter().enumerate() {
+        if matrices[..k].iter().any(|earlier| earlier.name.value == entry.name.value) {
+            let found = format!("{} a second time", shown(&entry.name.value));
+            return Err(InputError::at(&entry.name.place, "a name of its own for each matrix", found));
+        }
+    }
+    Ok(matrices)
+}

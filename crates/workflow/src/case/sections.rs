@@ -1,0 +1,168 @@
+//! The tables of a case file, one function each.
+
+use super::field::{Field, Table};
+use super::{
+    FactorEntry, IdentifyEntry, LoadEntry, Located, MatrixEntry, MeasurementEntry, RespondEntry, Spot,
+};
+use crate::error::{InputError, Place};
+use frfit::c64;
+use frfit::dof::DofName;
+use frfit::identify::{Method, Selection};
+use frfit::material::Law;
+use frfit::model::Role;
+use frfit::quantity::Quantity;
+
+/// `[[matrix]]`.
+pub(super) fn matrix(table: &Table<'_>) -> Result<MatrixEntry, InputError> {
+    let name = table.need("name")?.text()?;
+    let role = table.need("role")?.word(|word| match word {
+        "stiffness" => Ok(Role::Stiffness),
+        "mass" => Ok(Role::Mass),
+        "viscous" => Ok(Role::Viscous),
+        _ => Err("\"stiffness\", \"mass\" or \"viscous\"".into()),
+    })?;
+    let factor = match table.find("factor") {
+        Some(field) => factor(&field)?,
+        None => Located { value: FactorEntry::Law(Law::Constant(c64::new(1.0, 0.0))), place: name.place.clone() },
+    };
+    Ok(MatrixEntry { name, role: role.value, file: table.need("file")?.text()?, factor })
+}
+
+/// A number, a complex modulus, a law, or a table.
+fn factor(field: &Field<'_>) -> Result<Located<FactorEntry>, InputError> {
+    let located = |value| Located { value, place: field.place.clone() };
+    if let Some(number) = field.as_number() {
+        return Ok(located(FactorEntry::Law(Law::Constant(c64::new(number, 0.0)))));
+    }
+    if !field.is_table() {
+        let expected = "a finite number, { storage = ..., loss_factor = ... }, \
+                        { law = \"fractional\", e0 = ..., e1 = ..., alpha = ... } or { table = \"file\" }";
+        return Err(field.refuse(expected));
+    }
+    let any = field.table(&["storage", "loss_factor", "law", "e0", "e1", "alpha", "table"])?;
+    if any.find("table").is_some() {
+        let file = field.table(&["table"])?.need("table")?.text()?;
+        return Ok(located(FactorEntry::Table(file)));
+    }
+    let law = if any.find("law").is_some() { fractional(field)? } else { complex_modulus(field)? };
+    Ok(located(FactorEntry::Law(law)))
+}
+
+fn complex_modulus(field: &Field<'_>) -> Result<Law, InputError> {
+    let table = field.table(&["storage", "loss_factor"])?;
+    let (storage, loss_factor) = (table.need("storage")?.number()?, table.need("loss_factor")?.number()?);
+    if !(storage * loss_factor).is_finite() {
+        let found = format!("{storage:?} * {loss_factor:?}");
+        return Err(InputError::at(&field.place, "a finite storage * loss_factor", found));
+    }
+    Ok(Law::complex_modulus(storage, loss_factor))
+}
+
+fn fractional(field: &Field<'_>) -> Result<Law, InputError> {
+    let table = field.table(&["law", "e0", "e1", "alpha"])?;
+    table.need("law")?.word(|word| match word {
+        "fractional" => Ok(()),
+        _ => Err("\"fractional\"".into()),
+    })?;
+    let (e0, e1) = (table.need("e0")?.number()?, table.need("e1")?.number()?);
+    let exponent = table.need("alpha")?;
+    let alpha = exponent.number()?;
+    match (0.0..=1.0).contains(&alpha) {
+        true => Ok(Law::Fractional { e0, e1, alpha }),
+        false => Err(exponent.refuse("a number from 0 (elastic) to 1 (viscous)")),
+    }
+}
+
+/// `dof` or `row`, if one is there.
+fn spot(table: &Table<'_>) -> Result<Option<Spot>, InputError> {
+    match (table.find("dof"), table.find("row")) {
+        (Some(_), Some(row)) => Err(row.refuse("either dof or row")),
+        (Some(dof), None) => {
+            let expected = "a node, a sign and a direction such as 12+Z or 7-RX";
+            let name = dof.word(|word| word.parse::<DofName>().map_err(|_| expected.into()))?;
+            Ok(Some(Spot::Dof(name)))
+        }
+        (None, Some(row)) => Ok(Some(Spot::Row(row.whole()?))),
+        (None, None) => Ok(None),
+    }
+}
+
+/// `[load]`.
+pub(super) fn load(table: &Table<'_>) -> Result<LoadEntry, InputError> {
+    match (spot(table)?, table.find("file")) {
+        (Some(_), Some(file)) => Err(file.refuse("one of dof, row and file")),
+        (Some(spot), None) => Ok(LoadEntry::At(spot)),
+        (None, Some(file)) => Ok(LoadEntry::File(file.text()?)),
+        (None, None) => Err(InputError::at(&table.place, "one of the keys dof, row and file", "none")),
+    }
+}
+
+/// `[[measurement]]`.
+pub(super) fn measurement(table: &Table<'_>) -> Result<MeasurementEntry, InputError> {
+    let quantity = |field: Field<'_>| {
+        let expected = "\"receptance\", \"mobility\" or \"accelerance\"";
+        field.word(|word| word.parse::<Quantity>().map_err(|_| expected.into()))
+    };
+    Ok(MeasurementEntry {
+        place: table.place.clone(),
+        file: table.find("file").map(|file| file.text()).transpose()?,
+        spot: spot(table)?,
+        record: table.find("record").map(|record| record.whole()).transpose()?,
+        quantity: table.find("quantity").map(quantity).transpose()?.map(|quantity| quantity.value),
+    })
+}
+
+/// `[identify]`.
+pub(super) fn identify(field: &Field<'_>) -> Result<IdentifyEntry, InputError> {
+    let known = ["matrix", "band_hz", "method", "order", "selection", "bounds", "real", "truth"];
+    let table = field.table(&known)?;
+    let bounds = table.find("bounds").map(|field| field.table(&["storage", "loss_factor"])).transpose()?;
+    let method = |word: &str| word.parse::<Method>().map_err(|unknown| unknown.expected.to_owned());
+    let selection = |word: &str| word.parse::<Selection>().map_err(|unknown| unknown.expected.to_owned());
+    let bound = |name| bounds.as_ref().and_then(|table| table.find(name)).map(|f| f.pair()).transpose();
+    Ok(IdentifyEntry {
+        place: table.place.clone(),
+        matrices: table.need("matrix")?.texts()?,
+        band_hz: table.find("band_hz").map(|band| self::band(&band)).transpose()?,
+        method: table.find("method").map(|field| field.word(method)).transpose()?.map(|m| m.value),
+        order: table.find("order").map(|order| order.whole()).transpose()?,
+        selection: table.find("selection").map(|field| field.word(selection)).transpose()?.map(|s| s.value),
+        storage: bound("storage")?,
+        loss_factor: bound("loss_factor")?,
+        real: table.find("real").map(|real| real.flag()).transpose()?.unwrap_or(false),
+        truth: table.find("truth").map(|truth| factor(&truth)).transpose()?,
+    })
+}
+
+/// `[respond]`.
+pub(super) fn respond(field: &Field<'_>) -> Result<RespondEntry, InputError> {
+    const MOST: i64 = 1_000_000;
+    let table = field.table(&["band_hz", "points"])?;
+    let points = table.need("points")?;
+    let count = points.whole()?.value;
+    if !(1..=MOST).contains(&count) {
+        return Err(points.refuse(&format!("1 to {MOST}")));
+    }
+    Ok(RespondEntry { band_hz: band(&table.need("band_hz")?)?, points: count as usize })
+}
+
+fn band(field: &Field<'_>) -> Result<Located<[f64; 2]>, InputError> {
+    let band = field.pair()?;
+    checked_band(band.value, &band.place)?;
+    Ok(band)
+}
+
+/// Refuses a band that is none, wherever it comes from.
+///
+/// # Errors
+/// Frequencies that are negative, not finite, or descending.
+pub(crate) fn checked_band([low, high]: [f64; 2], place: &Place) -> Result<(), InputError> {
+    match 0.0 <= low && low <= high && high.is_finite() {
+        true => Ok(()),
+        false => Err(InputError::at(
+            place,
+            "two frequencies [low, high] in Hz with 0 <= low <= high",
+            format!("[{low}, {high}]"),
+        )),
+    }
+}

@@ -1,0 +1,71 @@
+//! |a| over frequency for the nominal, measured and updated response: Figs 2, 7 and 11.
+
+use super::{status_strip, title};
+use crate::load::{Case, IdentifyCase};
+use crate::run::{IdentifyRun, RespondRun};
+use frfit::c64;
+use frfit::quantity::Quantity;
+use frfit_figures::{Axis, Color, Dash, Figure, Marker, Panel, Series};
+
+pub(super) fn identified(case: &Case, identify: &IdentifyCase, run: &IdentifyRun, sensor: usize) -> Figure {
+    let frequency_hz = &identify.frequency_hz;
+    let of = |responses: Vec<Option<c64>>| modulus(frequency_hz, responses);
+    let nominal = of(run.outcomes.iter().map(|o| o.nominal_response.get(sensor).copied()).collect());
+    let updated = of(run.outcomes.iter().map(|o| o.updated_response.get(sensor).copied()).collect());
+    let measured = of(identify.measured.iter().map(|u| u.get(sensor).copied()).collect());
+    let series = |label: &str, y, color, line, marker| Series {
+        label: label.into(),
+        x: frequency_hz.clone(),
+        y,
+        color,
+        line,
+        marker,
+        ..Series::default()
+    };
+    Figure {
+        title: title(case, &format!("accelerance at {}", case.sensors[sensor].label)),
+        x: Axis::linear("Frequency (Hz)"),
+        panels: vec![Panel {
+            y: Axis::log("|Accelerance| (m/(s²·N))"),
+            series: vec![
+                series("nominal", nominal, Color::Blue, Some(Dash::Dashed), None),
+                series("measured", measured, Color::Black, None, Some(Marker::Circle)),
+                series("updated", updated, Color::Vermilion, Some(Dash::Solid), None),
+            ],
+            strip: Some(status_strip(run)),
+            ..Panel::default()
+        }],
+        ..Figure::default()
+    }
+}
+
+pub(super) fn forward(case: &Case, run: &RespondRun) -> Figure {
+    let colors = [Color::Blue, Color::Vermilion, Color::Green, Color::Orange, Color::Purple, Color::SkyBlue];
+    let dashes = [Dash::Solid, Dash::Dashed, Dash::DashDot, Dash::Dotted];
+    let series = case.sensors.iter().enumerate().map(|(m, sensor)| Series {
+        label: sensor.label.clone(),
+        x: run.frequency_hz.clone(),
+        y: modulus(&run.frequency_hz, run.receptance.iter().map(|x| x.get(m).copied()).collect()),
+        color: colors[m % colors.len()],
+        line: Some(dashes[m / colors.len() % dashes.len()]),
+        ..Series::default()
+    });
+    Figure {
+        title: title(case, "accelerance"),
+        x: Axis::linear("Frequency (Hz)"),
+        panels: vec![Panel {
+            y: Axis::log("|Accelerance| (m/(s²·N))"),
+            series: series.collect(),
+            ..Panel::default()
+        }],
+        ..Figure::default()
+    }
+}
+
+/// |−ω² x|, P-39; a gap where there is no response.
+fn modulus(frequency_hz: &[f64], receptance: Vec<Option<c64>>) -> Vec<f64> {
+    let of = |(&f, x): (&f64, Option<c64>)| {
+        x.map_or(f64::NAN, |x| Quantity::Accelerance.from_receptance(f, x).norm())
+    };
+    frequency_hz.iter().zip(receptance).map(of).collect()
+}

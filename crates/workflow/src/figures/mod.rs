@@ -1,0 +1,88 @@
+//! The figures of a run, as the paper draws them.
+
+mod accelerance;
+mod error_map;
+mod modulus;
+mod spectral_radius;
+
+use crate::load::{Case, IdentifyCase};
+use crate::output::File;
+use crate::run::{IdentifyRun, RespondRun};
+use frfit::identify::Status;
+use frfit_figures::{Class, Color, Figure, PngError, Strip};
+
+/// Pixels per SVG unit: 720 units wide become 1080 pixels.
+const PIXELS_PER_UNIT: f64 = 1.5;
+
+/// All figures of an identification as `figures/*.svg` and `figures/*.png`.
+///
+/// # Errors
+/// [`PngError`] where a figure cannot be rasterised.
+pub fn identify_figures(
+    case: &Case,
+    identify: &IdentifyCase,
+    run: &IdentifyRun,
+) -> Result<Vec<File>, PngError> {
+    let mut figures = Vec::new();
+    for sensor in 0..case.sensors.len() {
+        let name = match case.sensors.len() {
+            1 => "accelerance".to_owned(),
+            _ => format!("accelerance-{}", sensor + 1),
+        };
+        figures.push((name, accelerance::identified(case, identify, run, sensor)));
+    }
+    figures.push(("modulus".to_owned(), modulus::figure(case, identify, run)));
+    if run.outcomes.iter().any(|outcome| outcome.spectral_radius.is_some()) {
+        figures.push(("spectral_radius".to_owned(), spectral_radius::figure(case, run)));
+    }
+    if let Some(map) = &run.error_map {
+        figures.push(("error".to_owned(), error_map::figure(case, map)));
+    }
+    draw(figures)
+}
+
+/// The figures of a forward response: accelerance at every sensor.
+///
+/// # Errors
+/// [`PngError`] where a figure cannot be rasterised.
+pub fn respond_figures(case: &Case, run: &RespondRun) -> Result<Vec<File>, PngError> {
+    draw(vec![("accelerance".to_owned(), accelerance::forward(case, run))])
+}
+
+fn draw(figures: Vec<(String, Figure)>) -> Result<Vec<File>, PngError> {
+    let mut files = Vec::with_capacity(2 * figures.len());
+    for (name, figure) in figures {
+        files.push(File::new(format!("figures/{name}.png"), figure.png(PIXELS_PER_UNIT)?));
+        files.push(File::new(format!("figures/{name}.svg"), figure.svg()));
+    }
+    Ok(files)
+}
+
+/// The status of every frequency, as a strip of colours.
+fn status_strip(run: &IdentifyRun) -> Strip {
+    let color = |status| match status {
+        Status::Ok => Color::Green,
+        Status::Ambiguous => Color::Yellow,
+        Status::Diverged => Color::Vermilion,
+        Status::NoRoot => Color::Purple,
+        Status::IllConditioned => Color::Grey,
+        Status::OutOfBand => Color::Black,
+    };
+    Strip {
+        x: run.outcomes.iter().map(|outcome| outcome.frequency_hz).collect(),
+        class: run
+            .outcomes
+            .iter()
+            .filter_map(|outcome| Status::ALL.iter().position(|&status| status == outcome.status))
+            .collect(),
+        classes: Status::ALL
+            .iter()
+            .map(|&status| Class { label: status.name().replace('_', " "), color: color(status) })
+            .collect(),
+    }
+}
+
+/// Title of the case and what this figure shows.
+fn title(case: &Case, what: &str) -> String {
+    if case.title.is_empty() { what.to_owned() } else { format!("{}: {what}", case.title) }
+}

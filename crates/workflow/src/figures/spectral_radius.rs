@@ -1,0 +1,34 @@
+//! ρ(−c A₀⁻¹A₁) over frequency: Figs 9 and 13.
+
+use super::{status_strip, title};
+use crate::load::Case;
+use crate::run::IdentifyRun;
+use frfit::frequency::bands_hz;
+use frfit_figures::{Axis, Bands, Color, Figure, Level, Panel, Series};
+
+pub(super) fn figure(case: &Case, run: &IdentifyRun) -> Figure {
+    let at = |outcome: &frfit::identify::Identified| outcome.spectral_radius.unwrap_or(f64::NAN);
+    let above = bands_hz(run.outcomes.iter().map(|outcome| (outcome.frequency_hz, at(outcome) >= 1.0)));
+    Figure {
+        title: title(case, "spectral radius at the correction"),
+        x: Axis::linear("Frequency (Hz)"),
+        panels: vec![Panel {
+            y: Axis::linear("Spectral radius ρ(−c A₀⁻¹A₁)"),
+            series: vec![Series {
+                x: run.outcomes.iter().map(|outcome| outcome.frequency_hz).collect(),
+                y: run.outcomes.iter().map(at).collect(),
+                color: Color::Blue,
+                ..Series::default()
+            }],
+            bands: vec![Bands {
+                label: "series diverges (ρ ≥ 1)".into(),
+                color: Color::Vermilion,
+                ranges: above.into_iter().map(|[first, last]| (first, last)).collect(),
+            }],
+            levels: vec![Level { label: String::new(), y: 1.0 }],
+            strip: Some(status_strip(run)),
+            ..Panel::default()
+        }],
+        ..Figure::default()
+    }
+}

@@ -1,0 +1,96 @@
+//! Names of rows.
+
+use super::files::Files;
+use crate::case::{Located, Spot};
+use crate::error::{InputError, Place};
+use frfit::dof::{Axis, DofName};
+use frfit::model::Sensor;
+use frfit_formats::FormatError;
+use frfit_formats::csv::{self, Direction};
+use std::collections::BTreeMap;
+
+/// Rows of the model by node and axis.
+#[derive(Debug)]
+pub(super) struct Dofs {
+    dim: usize,
+    /// The axes of each node with their rows (from 0); `None` without `[dofs]`.
+    nodes: Option<BTreeMap<u64, Vec<(Axis, usize)>>>,
+}
+
+impl Dofs {
+    /// Reads the names of a model's rows, if the case gives any.
+    pub(super) fn read(file: Option<&Located<String>>, dim: usize, files: &mut Files) -> Result<Self, InputError> {
+        let Some(name) = file else { return Ok(Self { dim, nodes: None }) };
+        let file = files.read(name)?;
+        let names = csv::read_dof_names(&file.bytes).map_err(|error| file.refuse(error))?;
+        let mut nodes = BTreeMap::<u64, Vec<_>>::new();
+        for (k, name) in names.into_iter().enumerate() {
+            if name.row > dim {
+                return Err(file.refuse(beyond(&file.bytes, k, dim, name.row)));
+            }
+            nodes.entry(name.node.unsigned_abs()).or_default().push((axis(name.direction), name.row - 1));
+        }
+        Ok(Self { dim, nodes: Some(nodes) })
+    }
+
+    /// Row, sign and label of a degree of freedom.
+    pub(super) fn find(&self, spot: &Spot) -> Result<(Sensor, String), InputError> {
+        match spot {
+            Spot::Row(row) => match usize::try_from(row.value) {
+                Ok(n) if (1..=self.dim).contains(&n) => {
+                    Ok((Sensor { row: n - 1, sign: 1.0 }, format!("row {n}")))
+                }
+                _ => Err(InputError::at(&row.place, format!("1 to {}", self.dim), row.value.to_string())),
+            },
+            Spot::Dof(name) => Ok((self.named(name.value, &name.place)?, name.value.to_string())),
+        }
+    }
+
+    /// Row and sign of a name; `place` is who asks for it.
+    fn named(&self, name: DofName, place: &Place) -> Result<Sensor, InputError> {
+        let Some(nodes) = &self.nodes else {
+            let expected = "a table [dofs] that names the rows, or a row number instead of a name";
+            return Err(InputError::at(place, expected, format!("the name {name} without [dofs]")));
+        };
+        let refuse = |found| Err(InputError::at(place, "a degree of freedom that [dofs] names", found));
+        match nodes.get(&name.node) {
+            Some(axes) => match axes.iter().find(|(axis, _)| *axis == name.axis) {
+                Some(&(_, row)) => Ok(Sensor { row, sign: name.sign() }),
+                None => refuse(format!("{name} (node {} has {})", name.node, listed(axes))),
+            },
+            None => {
+                let below = nodes.range(..name.node).next_back();
+                let above = nodes.range(name.node..).next();
+                let nearest = below.into_iter().chain(above).min_by_key(|(node, _)| node.abs_diff(name.node));
+                let hint = nearest.map(|(node, axes)| format!("; the nearest is {node} with {}", listed(axes)));
+                refuse(format!("{name} (no node {}{})", name.node, hint.unwrap_or_default()))
+            }
+        }
+    }
+}
+
+fn listed(axes: &[(Axis, usize)]) -> String {
+    axes.iter().map(|(axis, _)| axis.name()).collect::<Vec<_>>().join(", ")
+}
+
+fn axis(direction: Direction) -> Axis {
+    match direction {
+        Direction::X => Axis::X,
+        Direction::Y => Axis::Y,
+        Direction::Z => Axis::Z,
+        Direction::Rx => Axis::Rx,
+        Direction::Ry => Axis::Ry,
+        Direction::Rz => Axis::Rz,
+    }
+}
+
+/// The k-th row number of a table is beyond the model: with its line and column.
+pub(super) fn beyond(bytes: &[u8], k: usize, dim: usize, row: usize) -> FormatError {
+    let expected = format!("a row from 1 to {dim}");
+    let table = csv::Table::read(bytes).ok();
+    let at = table.and_then(|table| Some((table.column("row").ok()?, table)));
+    match at {
+        Some((column, table)) => table.error(k, column, expected, row.to_string()),
+        None => FormatError::whole(expected, row.to_string()),
+    }
+}

@@ -1,0 +1,62 @@
+//! A frequency response function from a file of either kind.
+
+use super::uff;
+use frfit::c64;
+use frfit::dof::DofName;
+use frfit::quantity::Quantity;
+use frfit_formats::{FileKind, FormatError, csv, detect};
+
+/// A measured frequency response function, and what its file says about it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Frf {
+    /// Frequencies in hertz, not negative, strictly ascending; at least one.
+    pub frequency_hz: Vec<f64>,
+    /// The complex values, in the quantity of the file.
+    pub response: Vec<c64>,
+    /// Coherence γ² of each value.
+    pub coherence: Option<Vec<f64>>,
+    /// Standard deviation √E|δH|² of each complex value.
+    pub std: Option<Vec<f64>>,
+    /// What was measured, where the file says.
+    pub quantity: Option<Quantity>,
+    /// Where and in which direction it was measured, where the file says.
+    pub measured_at: Option<DofName>,
+    /// Where and in which direction it was driven, where the file says.
+    pub driven_at: Option<DofName>,
+}
+
+/// Which of several FRFs of a file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Choice {
+    /// Its number among the FRFs of the file, from 1.
+    pub record: Option<i64>,
+    /// The degree of freedom that was measured.
+    pub measured_at: Option<DofName>,
+    /// The degree of freedom that was driven.
+    pub driven_at: Option<DofName>,
+}
+
+/// Reads an FRF from a UFF file or a table.
+///
+/// # Errors
+/// What the readers refuse; in a UFF file: no FRF, none or several that the choice fits, one that was cut short,
+/// real values, frequencies that are not ascending, units other than SI.
+pub fn read_frf(bytes: &[u8], choice: &Choice) -> Result<Frf, FormatError> {
+    let found = match detect(bytes) {
+        Some(FileKind::Uff) => return uff::read(bytes, choice),
+        Some(FileKind::Csv) => return table(bytes, choice),
+        Some(other) => other.to_string(),
+        None if bytes.is_empty() => "an empty file".into(),
+        None => "neither (no -1 in line 1, no names of columns)".into(),
+    };
+    Err(FormatError::whole("an FRF: a UFF file or a table (CSV)", found))
+}
+
+/// A table has one FRF, and says neither what nor where it is.
+fn table(bytes: &[u8], choice: &Choice) -> Result<Frf, FormatError> {
+    if let Some(record) = choice.record.filter(|&record| record != 1) {
+        return Err(FormatError::whole("no record number, or 1: a table has one FRF", record.to_string()));
+    }
+    let csv::FrfTable { frequency_hz, response, coherence, std } = csv::read_frf(bytes)?;
+    Ok(Frf { frequency_hz, response, coherence, std, quantity: None, measured_at: None, driven_at: None })
+}

@@ -1,0 +1,171 @@
+//! What is unknown, how to find it, and the measurement to find it from.
+
+use super::Overrides;
+use super::band::band;
+use super::factor::law;
+use super::files::Files;
+use super::measurement::Measurement;
+use crate::case::{CaseFile, IdentifyEntry, Located, checked_band};
+use crate::error::{InputError, Place};
+use crate::nearest::nearest;
+use frfit::c64;
+use frfit::identify::{Method, Options, OptionsError, Selection};
+use frfit::material::Law;
+use frfit::model::{DynamicStiffness, Parameter};
+
+/// An identification, everything checked.
+#[derive(Debug)]
+pub struct IdentifyCase {
+    /// Names of the matrices that share the unknown factor.
+    pub names: Vec<String>,
+    /// The unknown factor.
+    pub parameter: Parameter,
+    /// How to find it.
+    pub options: Options,
+    /// First and last frequency of the band as it was asked for.
+    pub band_hz: [f64; 2],
+    /// The measured frequencies in it, ascending; at least one.
+    pub frequency_hz: Vec<f64>,
+    /// Measured receptance in m/N, \[frequency\]\[sensor\].
+    pub measured: Vec<Vec<c64>>,
+    /// Standard deviation √E|δx|² of the measured receptance, \[sensor\]\[frequency\], where the file gives it.
+    pub std: Vec<Option<Vec<f64>>>,
+    /// Coherence γ², \[sensor\]\[frequency\], where the file gives it.
+    pub coherence: Vec<Option<Vec<f64>>>,
+    /// The factor that a simulated measurement was made with.
+    pub truth: Option<Law>,
+}
+
+/// Puts the identification of a case together.
+pub(super) fn identify(
+    case: &CaseFile,
+    overrides: &Overrides,
+    model: &DynamicStiffness,
+    measurements: &[Measurement],
+    files: &mut Files,
+) -> Result<IdentifyCase, InputError> {
+    let Some(entry) = &case.identify else {
+        return Err(InputError::at(&Place::file(&case.file), "a table [identify]", "none"));
+    };
+    let names = known_names(case, entry)?;
+    let parameter = shared_factor(entry, &names, model)?;
+    let options = options(entry, overrides)?;
+    let (band_hz, place) = band_of(entry, overrides)?;
+    let truth = entry.truth.as_ref().map(|truth| law(truth, files)).transpose()?;
+    let data = band(measurements, band_hz, &place)?;
+    Ok(IdentifyCase {
+        names,
+        parameter,
+        options,
+        band_hz,
+        frequency_hz: data.frequency_hz,
+        measured: data.measured,
+        std: data.std,
+        coherence: data.coherence,
+        truth,
+    })
+}
+
+/// The names, each of them a matrix's, each once.
+fn known_names(case: &CaseFile, entry: &IdentifyEntry) -> Result<Vec<String>, InputError> {
+    let known = || case.matrices.iter().map(|matrix| matrix.name.value.as_str());
+    let mut names: Vec<String> = Vec::with_capacity(entry.matrices.len());
+    for Located { value, place } in &entry.matrices {
+        if !known().any(|name| name == value) {
+            let all = known().map(|name| format!("{name:?}")).collect::<Vec<_>>().join(", ");
+            let hint = nearest(value, known()).map_or(String::new(), |name| format!("; did you mean {name:?}?"));
+            return Err(InputError::at(place, format!("a matrix of the case ({all})"), format!("{value:?}{hint}")));
+        }
+        if names.contains(value) {
+            return Err(InputError::at(place, "each matrix once", format!("{value:?} a second time")));
+        }
+        names.push(value.clone());
+    }
+    Ok(names)
+}
+
+fn shared_factor(
+    entry: &IdentifyEntry,
+    names: &[String],
+    model: &DynamicStiffness,
+) -> Result<Parameter, InputError> {
+    let words: Vec<&str> = names.iter().map(String::as_str).collect();
+    let parameter = Parameter::factor_of(model, &words)
+        .map_err(|error| InputError::at(&entry.place, "names of matrices", error.to_string()))?;
+    for (name, member) in entry.matrices.iter().zip(&parameter.members) {
+        if model.terms()[member.term].factor != parameter.nominal {
+            let expected = format!("matrices with one factor, that of {:?}", names[0]);
+            return Err(InputError::at(&name.place, expected, format!("{:?} with another", name.value)));
+        }
+    }
+    Ok(parameter)
+}
+
+/// The case's options, those of the command line in their place.
+fn options(entry: &IdentifyEntry, overrides: &Overrides) -> Result<Options, InputError> {
+    let mut options = Options { real: entry.real, ..Options::default() };
+    options.method = entry.method.unwrap_or(options.method);
+    options.selection = entry.selection.unwrap_or(options.selection);
+    options.bounds.storage = entry.storage.as_ref().map(|bound| bound.value);
+    options.bounds.loss_factor = entry.loss_factor.as_ref().map(|bound| bound.value);
+    if let Some(order) = &entry.order {
+        let negative = |_| InputError::at(&order.place, ORDERS, order.value.to_string());
+        options.order = usize::try_from(order.value).map_err(negative)?;
+    }
+    options.order = overrides.order.unwrap_or(options.order);
+    let refuse = |option: &str, found: &str, expected: &str| {
+        InputError::at(&Place::option(option), expected, format!("{found:?}"))
+    };
+    if let Some(word) = &overrides.method {
+        options.method = word.parse::<Method>().map_err(|error| refuse("--method", word, error.expected))?;
+    }
+    if let Some(word) = &overrides.selection {
+        let selection = word.parse::<Selection>();
+        options.selection = selection.map_err(|error| refuse("--selection", word, error.expected))?;
+    }
+    options.validate().map_err(|error| invalid(&error, entry, overrides))?;
+    Ok(options)
+}
+
+const ORDERS: &str = "1 to 200";
+
+/// The key or the option that an invalid option comes from.
+fn invalid(error: &OptionsError, entry: &IdentifyEntry, overrides: &Overrides) -> InputError {
+    let of_key = |name: &str| entry.place.below(name);
+    match error {
+        OptionsError::Order(order) => {
+            let written = entry.order.as_ref().map_or(of_key("order"), |order| order.place.clone());
+            let place = overrides.order.map_or(written, |_| Place::option("--order"));
+            InputError::at(&place, ORDERS, order.to_string())
+        }
+        OptionsError::Bounds(name, [low, high]) => {
+            let bound = if *name == "storage" { &entry.storage } else { &entry.loss_factor };
+            let place = bound.as_ref().map_or(of_key("bounds"), |bound| bound.place.clone());
+            InputError::at(&place, "[low, high] with low <= high", format!("[{low}, {high}]"))
+        }
+        OptionsError::Error(limit) => InputError::at(&of_key("error"), "a positive number", limit.to_string()),
+    }
+}
+
+/// The band, and the key or the option that it comes from.
+fn band_of(entry: &IdentifyEntry, overrides: &Overrides) -> Result<([f64; 2], Place), InputError> {
+    if let Some(band_hz) = overrides.band_hz {
+        let place = Place::option("--band");
+        checked_band(band_hz, &place)?;
+        return Ok((band_hz, place));
+    }
+    match &entry.band_hz {
+        Some(band) => Ok((band.value, band.place.clone())),
+        None => Err(InputError::at(&entry.place, "the key \"band_hz\"", "none")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_orders_named_are_those_allowed() {
+        assert_eq!(ORDERS, format!("1 to {}", frfit::identify::MAX_ORDER));
+    }
+}

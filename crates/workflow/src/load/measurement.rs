@@ -1,0 +1,103 @@
+//! A measurement: where it was taken, what it is, and its values.
+
+use super::dofs::Dofs;
+use super::files::{Files, NamedFile};
+use super::frf::{Choice, Frf, read_frf};
+use crate::case::{Located, MeasurementEntry, Spot};
+use crate::error::InputError;
+use frfit::dof::DofName;
+use frfit::model::Sensor;
+use frfit::quantity::Quantity;
+use frfit_formats::FormatError;
+use std::path::PathBuf;
+
+/// A sensor, for tables and figures.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SensorInfo {
+    /// `34+Z` or `row 97`.
+    pub label: String,
+    /// What was measured, or what is asked for.
+    pub quantity: Quantity,
+    /// The file with the measurement as the case names it.
+    pub file: Option<PathBuf>,
+}
+
+/// A measurement, read as far as it was needed.
+#[derive(Debug)]
+pub(super) struct Measurement {
+    pub(super) sensor: Sensor,
+    pub(super) info: SensorInfo,
+    pub(super) curve: Option<Curve>,
+}
+
+/// Measured values and where they are from.
+#[derive(Debug)]
+pub(super) struct Curve {
+    pub(super) frf: Frf,
+    pub(super) file: NamedFile,
+}
+
+/// Reads a measurement. With `values` its file is needed; without, it is opened only for what the case leaves open.
+pub(super) fn measurement(
+    entry: &MeasurementEntry,
+    driven_at: Option<&Located<DofName>>,
+    values: bool,
+    dofs: &Dofs,
+    files: &mut Files,
+) -> Result<Measurement, InputError> {
+    let curve = match &entry.file {
+        Some(name) if values || entry.spot.is_none() || entry.quantity.is_none() => {
+            Some(curve(entry, name, driven_at, files)?)
+        }
+        None if values => return Err(InputError::at(&entry.place, "the key \"file\"", "none")),
+        _ => None,
+    };
+    let (sensor, label) = match (&entry.spot, &curve) {
+        (Some(spot), _) => dofs.find(spot)?,
+        (None, Some(Curve { frf: Frf { measured_at: Some(name), .. }, file })) => {
+            // The name is in the file; the key that leads there is the place to put it right.
+            dofs.find(&Spot::Dof(Located { value: *name, place: file.named_by.clone() }))?
+        }
+        (None, _) => {
+            let expected = "the key \"dof\" or \"row\", because no file says where it was measured";
+            return Err(InputError::at(&entry.place, expected, "none"));
+        }
+    };
+    let quantity = match (entry.quantity, &curve) {
+        (Some(quantity), _) => quantity,
+        (None, Some(Curve { frf: Frf { quantity: Some(quantity), .. }, .. })) => *quantity,
+        (None, Some(_)) => {
+            let expected = "the key \"quantity\" (receptance, mobility or accelerance), because the file does not say";
+            return Err(InputError::at(&entry.place, expected, "none"));
+        }
+        // Nothing was measured here: the default of a computed response.
+        (None, None) => Quantity::default(),
+    };
+    let file = entry.file.as_ref().map(|name| PathBuf::from(&name.value));
+    Ok(Measurement { sensor, info: SensorInfo { label, quantity, file }, curve })
+}
+
+fn curve(
+    entry: &MeasurementEntry,
+    name: &Located<String>,
+    driven_at: Option<&Located<DofName>>,
+    files: &mut Files,
+) -> Result<Curve, InputError> {
+    let file = files.read(name)?;
+    let measured_at = match &entry.spot {
+        Some(Spot::Dof(name)) => Some(name.value),
+        _ => None,
+    };
+    let driven = driven_at.map(|name| name.value);
+    let choice =
+        Choice { record: entry.record.as_ref().map(|record| record.value), measured_at, driven_at: driven };
+    let frf = read_frf(&file.bytes, &choice).map_err(|error| file.refuse(error))?;
+    // The same node and axis in the opposite sense: every value would have the wrong sign.
+    if let (Some(load), Some(there)) = (driven, frf.driven_at)
+        && there == (DofName { reversed: !load.reversed, ..load })
+    {
+        let expected = format!("an FRF driven at {load}, as [load] says");
+        return Err(file.refuse(FormatError::whole(expected, there.to_string())));
+    }
+    Ok(Curve { frf, file: NamedFile { bytes: Default::default(), ..file } })
+}

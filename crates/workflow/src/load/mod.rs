@@ -1,0 +1,179 @@
+//! From a case file to everything that a computation needs: all files read, everything checked, nothing computed.
+
+mod band;
+mod dofs;
+mod factor;
+mod files;
+mod force;
+mod frf;
+mod identify;
+mod matrix;
+mod measurement;
+mod model;
+mod uff;
+
+pub use files::InputFile;
+pub use frf::{Choice, Frf, read_frf};
+pub use identify::IdentifyCase;
+pub use matrix::{check_symmetric, symmetric_matrix};
+pub use measurement::SensorInfo;
+
+use crate::case::{self, CaseFile, LoadEntry, Spot, checked_band};
+use crate::error::{InputError, Place};
+use dofs::Dofs;
+use files::Files;
+use frfit::frequency::linear_hz;
+use frfit::model::{DynamicStiffness, Experiment};
+use frfit_formats::CoordinateMatrix;
+use measurement::{Measurement, measurement};
+use std::path::Path;
+
+/// A case read from its file, everything checked, nothing computed.
+#[derive(Debug)]
+pub struct Case {
+    /// Its title, or the name of its file.
+    pub title: String,
+    /// D(ω).
+    pub model: DynamicStiffness,
+    /// Load and sensors.
+    pub experiment: Experiment,
+    /// The sensors' labels, quantities and files, in the order of the measurements.
+    pub sensors: Vec<SensorInfo>,
+    /// Every file that was read, the case file first.
+    pub inputs: Vec<InputFile>,
+    /// What to identify; `None` where the purpose is a response.
+    pub identify: Option<IdentifyCase>,
+    /// The frequencies of a response: those of `[respond]`, or else those that were measured.
+    pub respond_hz: Vec<f64>,
+}
+
+/// What the command line says in place of the case file.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Overrides {
+    /// In place of `identify.method`.
+    pub method: Option<String>,
+    /// In place of `identify.order`.
+    pub order: Option<usize>,
+    /// In place of `identify.band_hz` or `respond.band_hz`.
+    pub band_hz: Option<[f64; 2]>,
+    /// In place of `identify.selection`.
+    pub selection: Option<String>,
+}
+
+/// What a case is loaded for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Purpose {
+    /// `[identify]` and the files of all measurements are needed.
+    Identify,
+    /// Neither is: a measurement's file is opened only for what the case leaves open (where it was measured, what was
+    /// measured, and without `[respond]` the frequencies of the first).
+    Respond,
+}
+
+/// Reads a case and every file it names.
+///
+/// # Errors
+/// The first thing that the user has to put right.
+pub fn load(case_file: &Path, overrides: &Overrides, purpose: Purpose) -> Result<Case, InputError> {
+    let (mut files, bytes) = Files::of_case(case_file)?;
+    let case = case::parse(case_file, &bytes)?;
+    let model = model::model(&case, &mut files)?;
+    let dofs = Dofs::read(case.dofs.as_ref(), model.dim(), &mut files)?;
+    let load = force::load(&case.load, model.dim(), &dofs, &mut files)?;
+    let measurements = measurements(&case, purpose, &dofs, &mut files)?;
+    let (identify, respond_hz) = match purpose {
+        Purpose::Identify => {
+            let identify = identify::identify(&case, overrides, &model, &measurements, &mut files)?;
+            let frequency_hz = identify.frequency_hz.clone();
+            (Some(identify), frequency_hz)
+        }
+        Purpose::Respond => (None, respond_hz(&case, overrides, &measurements)?),
+    };
+    for (term, entry) in model.terms().iter().zip(&case.matrices) {
+        factor::covers(&term.factor, &entry.factor.place, &respond_hz)?;
+    }
+    let truth = case.identify.as_ref().and_then(|entry| entry.truth.as_ref());
+    if let (Some(law), Some(entry)) = (identify.as_ref().and_then(|identify| identify.truth.as_ref()), truth) {
+        factor::covers(law, &entry.place, &respond_hz)?;
+    }
+    let sensors = measurements.iter().map(|measurement| measurement.sensor).collect();
+    Ok(Case {
+        title: case.title.unwrap_or_else(|| stem(case_file)),
+        experiment: Experiment { load, sensors },
+        sensors: measurements.into_iter().map(|measurement| measurement.info).collect(),
+        inputs: files.inputs,
+        model,
+        identify,
+        respond_hz,
+    })
+}
+
+/// Reads a matrix file of either kind. For a term of a model it still has to pass [`symmetric_matrix`].
+///
+/// # Errors
+/// A file that cannot be read, or what the reader refuses.
+pub fn load_matrix(path: &Path) -> Result<CoordinateMatrix, InputError> {
+    let bytes = load_bytes(path)?;
+    frfit_formats::read_matrix(&bytes).map_err(|error| InputError::in_file(path, error))
+}
+
+/// Reads an FRF from a UFF file or a table.
+///
+/// # Errors
+/// A file that cannot be read, or as [`read_frf`].
+pub fn load_frf(path: &Path, choice: &Choice) -> Result<Frf, InputError> {
+    let bytes = load_bytes(path)?;
+    read_frf(&bytes, choice).map_err(|error| InputError::in_file(path, error))
+}
+
+/// The bytes of a plain file.
+///
+/// # Errors
+/// What is there instead: nothing, a folder, something that may not be read.
+pub fn load_bytes(path: &Path) -> Result<Vec<u8>, InputError> {
+    files::read(path).map_err(|found| InputError::at(&Place::file(path), "a file", found))
+}
+
+/// All measurements, read as far as the purpose asks for.
+fn measurements(
+    case: &CaseFile,
+    purpose: Purpose,
+    dofs: &Dofs,
+    files: &mut Files,
+) -> Result<Vec<Measurement>, InputError> {
+    let driven_at = match &case.load {
+        LoadEntry::At(Spot::Dof(name)) => Some(name),
+        _ => None,
+    };
+    let asks_for_values = |k| match purpose {
+        Purpose::Identify => true,
+        Purpose::Respond => k == 0 && case.respond.is_none(),
+    };
+    (case.measurements.iter().enumerate())
+        .map(|(k, entry)| measurement(entry, driven_at, asks_for_values(k), dofs, files))
+        .collect()
+}
+
+/// The frequencies of a response.
+fn respond_hz(
+    case: &CaseFile,
+    overrides: &Overrides,
+    measurements: &[Measurement],
+) -> Result<Vec<f64>, InputError> {
+    let option = Place::option("--band");
+    if let Some(band_hz) = overrides.band_hz {
+        checked_band(band_hz, &option)?;
+    }
+    if let Some(respond) = &case.respond {
+        let [low, high] = overrides.band_hz.unwrap_or(respond.band_hz.value);
+        return Ok(linear_hz(low, high, respond.points));
+    }
+    match measurements.first().and_then(|first| first.curve.as_ref()) {
+        Some(curve) => band::frequencies(curve, overrides.band_hz.unwrap_or([0.0, f64::MAX]), &option),
+        None => Ok(Vec::new()),
+    }
+}
+
+fn stem(path: &Path) -> String {
+    path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default()
+}

@@ -1,0 +1,11 @@
+//! What a run leaves behind: tables, summary and figures, written whole or not at all.
+
+mod files;
+mod identified;
+mod response;
+mod summary;
+
+pub use files::{File, WriteError, write_all};
+pub use identified::identified_csv;
+pub use response::{respond_csv, response_csv};
+pub use summary::{RIGHT_WITHIN, summary_json};

@@ -1,0 +1,67 @@
+//! `response.csv`: nominal, measured and updated response, per sensor, in the quantity that was measured.
+
+use crate::load::{Case, IdentifyCase, SensorInfo};
+use crate::run::RespondRun;
+use frfit::c64;
+use frfit::identify::Identified;
+use frfit_formats::csv::{Cell, write};
+
+/// One row a frequency and sensor: nominal, measured, updated; where there is no response, the cells are empty.
+pub fn response_csv(case: &Case, identify: &IdentifyCase, outcomes: &[Identified]) -> String {
+    let columns = [
+        "frequency_hz",
+        "sensor",
+        "quantity",
+        "nominal_re",
+        "nominal_im",
+        "measured_re",
+        "measured_im",
+        "updated_re",
+        "updated_im",
+    ];
+    let rows = outcomes.iter().zip(&identify.measured).flat_map(|(outcome, measured)| {
+        case.sensors.iter().enumerate().map(move |(m, sensor)| {
+            let there = |receptance: Option<&c64>| cells(sensor, outcome.frequency_hz, receptance);
+            let [nominal_re, nominal_im] = there(outcome.nominal_response.get(m));
+            let [measured_re, measured_im] = there(measured.get(m));
+            let [updated_re, updated_im] = there(outcome.updated_response.get(m));
+            [
+                Cell::Number(outcome.frequency_hz),
+                Cell::Text(&sensor.label),
+                Cell::Text(sensor.quantity.name()),
+                nominal_re,
+                nominal_im,
+                measured_re,
+                measured_im,
+                updated_re,
+                updated_im,
+            ]
+        })
+    });
+    write(&columns, rows).expect("every row has the columns, and no label a line break")
+}
+
+/// One row a frequency and sensor of a forward response.
+pub fn respond_csv(case: &Case, run: &RespondRun) -> String {
+    let columns = ["frequency_hz", "sensor", "quantity", "re", "im"];
+    let rows = run.frequency_hz.iter().zip(&run.receptance).flat_map(|(&frequency_hz, receptance)| {
+        case.sensors.iter().zip(receptance).map(move |(sensor, x)| {
+            let [re, im] = cells(sensor, frequency_hz, Some(x));
+            [
+                Cell::Number(frequency_hz),
+                Cell::Text(&sensor.label),
+                Cell::Text(sensor.quantity.name()),
+                re,
+                im,
+            ]
+        })
+    });
+    write(&columns, rows).expect("every row has the columns, and no label a line break")
+}
+
+fn cells<'a>(sensor: &SensorInfo, frequency_hz: f64, receptance: Option<&c64>) -> [Cell<'a>; 2] {
+    match receptance.map(|&x| sensor.quantity.from_receptance(frequency_hz, x)) {
+        Some(value) => [Cell::Number(value.re), Cell::Number(value.im)],
+        None => [Cell::Empty; 2],
+    }
+}
