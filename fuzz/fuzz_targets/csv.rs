@@ -13,8 +13,9 @@ fuzz_target!(|bytes: &[u8]| {
     }
     let Ok(table) = Table::read(bytes) else { return };
     let names: Vec<&str> = table.names().collect();
-    let cells: Vec<Vec<&str>> =
-        (0..table.rows()).map(|row| (0..names.len()).map(|column| table.text(row, column)).collect()).collect();
+    let cells: Vec<Vec<&str>> = (0..table.rows())
+        .map(|row| (0..names.len()).map(|column| table.text(row, column)).collect())
+        .collect();
     let rows = cells.iter().map(|row| row.iter().map(|cell| Cell::Text(cell)).collect::<Vec<_>>());
     let written = write(&names, rows).unwrap();
     let again = Table::read(written.as_bytes()).unwrap();

@@ -44,12 +44,7 @@ impl FormatError {
     }
 
     /// An error at a column (from 1) of a line (from 1).
-    pub fn column(
-        line: usize,
-        column: usize,
-        expected: impl Into<String>,
-        found: impl Into<String>,
-    ) -> Self {
+    pub fn column(line: usize, column: usize, expected: impl Into<String>, found: impl Into<String>) -> Self {
         Self { position: Position::Line { line, column: Some(column) }, ..Self::whole(expected, found) }
     }
 

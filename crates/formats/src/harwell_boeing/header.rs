@@ -1,6 +1,8 @@
 //! The four or five header lines.
 
+use super::formats::Formats;
 use super::fortran::Format;
+use super::matrix_type::{ValueType, matrix_type};
 use crate::assemble::{MOST_ENTRIES, MOST_ROWS};
 use crate::matrix::SQUARE;
 use crate::text::{Line, Lines, quoted, whole};
@@ -19,14 +21,6 @@ pub(super) struct Header {
     /// `None` of a pattern.
     pub(super) values: Option<Format>,
     pub(super) rhs: Option<RhsHeader>,
-}
-
-/// The first letter of the matrix type.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum ValueType {
-    Real,
-    Complex,
-    Pattern,
 }
 
 /// What the header says about right-hand sides.
@@ -71,15 +65,11 @@ impl Header {
             return Err(FormatError::line(3, SQUARE, format!("{nrows} rows and {ncols} columns")));
         }
 
-        let line = header_line(lines)?;
-        let mut formats = Formats { line, at: 0 };
+        let mut formats = Formats::new(header_line(lines)?);
         let pointers = formats.integers("PTRFMT")?;
         let indices = formats.integers("INDFMT")?;
-        let is_pattern = field == ValueType::Pattern;
-        let values =
-            if is_pattern && rhs_lines == 0 { None } else { formats.values("VALFMT", is_pattern)? };
-        let rhs =
-            if rhs_lines > 0 { Some(RhsHeader::read(lines, rhs_lines, formats, &values)?) } else { None };
+        let values = if field == ValueType::Pattern { None } else { Some(formats.required("VALFMT")?) };
+        let rhs = if rhs_lines > 0 { Some(RhsHeader::read(lines, rhs_lines, formats)?) } else { None };
 
         let numbers = match field {
             ValueType::Pattern => 0,
@@ -89,23 +79,18 @@ impl Header {
         check_lines("PTRCRD", pointer_lines, ncols + 1, Some(&pointers))?;
         check_lines("INDCRD", index_lines, entries, Some(&indices))?;
         check_lines("VALCRD", value_lines, numbers, values.as_ref())?;
-        let values = values.filter(|_| !is_pattern);
         Ok(Self { title, field, symmetry, nrows, ncols, entries, pointers, indices, values, rhs })
     }
 }
 
 impl RhsHeader {
     /// Line 5: RHSTYP, NRHS, NRHSIX.
-    fn read(
-        lines: &mut Lines<'_>,
-        count: u64,
-        mut formats: Formats<'_>,
-        values: &Option<Format>,
-    ) -> Result<Self, FormatError> {
-        let format = formats.values("RHSFMT", true)?.or_else(|| values.clone());
-        let Some(format) = format else {
-            return Err(formats.line.error(formats.at, "RHSFMT, a Fortran format", "nothing"));
-        };
+    fn read(lines: &mut Lines<'_>, count: u64, mut formats: Formats<'_>) -> Result<Self, FormatError> {
+        // A pattern has no use for VALFMT, but it may stand there: the last format is that of the vectors.
+        let mut format = formats.required("RHSFMT")?;
+        while let Some(next) = formats.next("RHSFMT")? {
+            format = next;
+        }
         let line = header_line(lines)?;
         let mut kind = [b' '; 3];
         for (letter, &byte) in kind.iter_mut().zip(line.bytes) {
@@ -164,83 +149,6 @@ fn bounded(line: Line<'_>, n: usize, name: &str, most: u64) -> Result<u64, Forma
     match card(line, n, name)? {
         count if count <= most => Ok(count),
         count => Err(line.error(14 * n, format!("{name}, up to {most}"), count.to_string())),
-    }
-}
-
-/// MXTYPE, the three letters at the beginning of line 3.
-fn matrix_type(line: Line<'_>) -> Result<(ValueType, Symmetry), FormatError> {
-    let letters = line.bytes[..line.bytes.len().min(3)].to_ascii_uppercase();
-    let error = |at: usize, expected: &str| Err(line.error(at, expected, quoted(&letters)));
-    let &[value, symmetry, assembled] = letters.as_slice() else {
-        return error(0, "a matrix type of three letters, such as RSA");
-    };
-    let value = match value {
-        b'R' | b'I' => ValueType::Real,
-        b'C' => ValueType::Complex,
-        b'P' => ValueType::Pattern,
-        _ => return error(0, "a matrix type that begins with R, C, P or I, such as RSA"),
-    };
-    let symmetry = match symmetry {
-        b'U' | b'R' => Symmetry::General,
-        b'S' => Symmetry::Symmetric,
-        b'H' => Symmetry::Hermitian,
-        b'Z' => Symmetry::SkewSymmetric,
-        _ => return error(1, "a matrix type with S, U, H, Z or R in the middle, such as RSA"),
-    };
-    match assembled {
-        b'A' => Ok((value, symmetry)),
-        b'E' => error(2, "an assembled matrix, such as RSA (elemental ones are not read: assemble it first)"),
-        _ => error(2, "a matrix type that ends with A, such as RSA"),
-    }
-}
-
-/// The Fortran formats of line 4, one parenthesis after the other.
-struct Formats<'a> {
-    line: Line<'a>,
-    at: usize,
-}
-
-impl Formats<'_> {
-    /// The next format; `None` where the line has no more.
-    fn next(&mut self, name: &str) -> Result<Option<Format>, FormatError> {
-        let rest = &self.line.bytes[self.at..];
-        let start = self.at + rest.len() - rest.trim_ascii_start().len();
-        let mut depth = 0_usize;
-        let is_end = |&byte: &u8| {
-            depth = match byte {
-                b'(' => depth + 1,
-                b')' => depth.saturating_sub(1),
-                _ => depth,
-            };
-            depth == 0
-        };
-        let rest = &self.line.bytes[start..];
-        if rest.is_empty() {
-            return Ok(None);
-        }
-        let length = rest.iter().position(is_end).map_or(rest.len(), |end| end + 1);
-        self.at = start + length;
-        match Format::parse(&rest[..length]) {
-            Ok(format) => Ok(Some(format)),
-            Err(expected) => Err(self.line.error(start, format!("{name}: {expected}"), quoted(rest))),
-        }
-    }
-
-    fn integers(&mut self, name: &str) -> Result<Format, FormatError> {
-        match self.next(name)? {
-            Some(format) if format.fields.iter().all(|field| field.is_integer) => Ok(format),
-            Some(_) => Err(self.line.error(0, format!("{name}, a format of whole numbers (I)"), "another")),
-            None => Err(self.line.error(self.at, format!("{name}, a Fortran format"), "the end of the line")),
-        }
-    }
-
-    fn values(&mut self, name: &str, may_lack: bool) -> Result<Option<Format>, FormatError> {
-        match self.next(name)? {
-            None if !may_lack => {
-                Err(self.line.error(self.at, format!("{name}, a Fortran format"), "the end of the line"))
-            }
-            other => Ok(other),
-        }
     }
 }
 

@@ -15,8 +15,10 @@
 //! (Release I), report TR/PA/92/86, CERFACS, 1992.
 
 mod block;
+mod formats;
 mod fortran;
 mod header;
+mod matrix_type;
 mod read;
 mod rhs;
 mod write;

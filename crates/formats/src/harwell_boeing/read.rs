@@ -3,7 +3,8 @@
 use num_complex::Complex64 as c64;
 
 use super::block::Block;
-use super::header::{Header, ValueType};
+use super::header::Header;
+use super::matrix_type::ValueType;
 use super::rhs::RightHandSides;
 use crate::assemble::{Assembly, ClashKind, Duplicates, Value};
 use crate::text::Lines;

@@ -3,7 +3,8 @@
 use num_complex::Complex64 as c64;
 
 use super::block::Block;
-use super::header::{Header, RhsHeader, ValueType};
+use super::header::{Header, RhsHeader};
+use super::matrix_type::ValueType;
 use crate::text::Lines;
 use crate::{Entries, FormatError};
 
