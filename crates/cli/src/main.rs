@@ -1,2 +1,38 @@
-//! The `frfit` command.
-fn main() {}
+//! The `frfit` command: arguments, progress, exit codes; nothing else.
+
+mod args;
+mod command;
+mod outcome;
+mod progress;
+mod report;
+
+use args::{Args, Command};
+use clap::Parser;
+use outcome::{Failure, Outcome};
+use std::io::Write;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    let args = Args::parse();
+    // A panic is a fault of this program: exit code 3, after the message that the default hook prints.
+    match std::panic::catch_unwind(|| run(&args)) {
+        Ok(Ok(outcome)) => outcome.code(),
+        Ok(Err(failure)) => {
+            // Nothing can be done where standard error is closed.
+            let _ = writeln!(std::io::stderr(), "frfit: {failure}");
+            failure.code()
+        }
+        Err(_) => ExitCode::from(3),
+    }
+}
+
+fn run(args: &Args) -> Result<Outcome, Failure> {
+    match &args.command {
+        Command::Demo(demo) => command::demo::run(args, demo),
+        Command::Example(example) => command::example::run(args, example),
+        Command::Identify(identify) => command::identify::run(args, identify),
+        Command::Respond(respond) => command::respond::run(args, respond),
+        Command::Inspect(inspect) => command::inspect::run(args, inspect),
+        Command::Convert(convert) => command::convert::run(args, convert),
+    }
+}

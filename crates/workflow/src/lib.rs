@@ -7,11 +7,13 @@
 //! | [`run`] | the computations, frequency by frequency, on all cores |
 //! | [`figures`] | what a run looks like, as the paper draws it |
 //! | [`output`] | tables, summary, and writing them whole or not at all |
+//! | [`job`] | whole jobs: from the path of a case to files in a folder |
 //! | [`error`] | what the user has to put right, and where |
 
 pub mod case;
 pub mod error;
 pub mod figures;
+pub mod job;
 pub mod load;
 mod nearest;
 pub mod output;

@@ -23,7 +23,9 @@ pub(super) fn matrix(table: &Table<'_>) -> Result<MatrixEntry, InputError> {
     })?;
     let factor = match table.find("factor") {
         Some(field) => factor(&field)?,
-        None => Located { value: FactorEntry::Law(Law::Constant(c64::new(1.0, 0.0))), place: name.place.clone() },
+        None => {
+            Located { value: FactorEntry::Law(Law::Constant(c64::new(1.0, 0.0))), place: name.place.clone() }
+        }
     };
     Ok(MatrixEntry { name, role: role.value, file: table.need("file")?.text()?, factor })
 }

@@ -45,7 +45,10 @@ pub(super) fn forward(case: &Case, run: &RespondRun) -> Figure {
     let series = case.sensors.iter().enumerate().map(|(m, sensor)| Series {
         label: sensor.label.clone(),
         x: run.frequency_hz.clone(),
-        y: modulus(&run.frequency_hz, run.receptance.iter().map(|x| x.get(m).copied()).collect()),
+        y: modulus(
+            &run.frequency_hz,
+            run.receptance.iter().map(|x| x.as_ref().ok()?.get(m).copied()).collect(),
+        ),
         color: colors[m % colors.len()],
         line: Some(dashes[m / colors.len() % dashes.len()]),
         ..Series::default()

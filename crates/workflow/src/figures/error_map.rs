@@ -11,7 +11,8 @@ const FLOOR: f64 = 1e-16;
 pub(super) fn figure(case: &Case, map: &ErrorMap) -> Figure {
     let orders = map.error.iter().map(Vec::len).max().unwrap_or(0);
     let log = |error: Option<f64>| error.map_or(f64::NAN, |e| e.max(FLOOR).log10());
-    let values = (0..orders).flat_map(|k| map.error.iter().map(move |column| log(column.get(k).copied().flatten())));
+    let values =
+        (0..orders).flat_map(|k| map.error.iter().map(move |column| log(column.get(k).copied().flatten())));
     Figure {
         title: title(case, "error of the updated response"),
         x: Axis::linear("Frequency (Hz)"),

@@ -11,8 +11,10 @@ use frfit_figures::{Axis, Color, Dash, Figure, Marker, Panel, Series};
 pub(super) fn figure(case: &Case, identify: &IdentifyCase, run: &IdentifyRun) -> Figure {
     let names = identify.names.join(", ");
     let real = identify.options.real;
-    let mut panels =
-        vec![Panel { strip: Some(status_strip(run)), ..panel(identify, run, "Real part of the factor", |e| e.re) }];
+    let mut panels = vec![Panel {
+        strip: Some(status_strip(run)),
+        ..panel(identify, run, "Real part of the factor", |e| e.re)
+    }];
     if !real {
         panels[0].y.label = "Storage modulus E′ (Pa)".into();
         panels.push(panel(identify, run, "Loss factor η", loss_factor));

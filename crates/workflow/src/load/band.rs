@@ -39,7 +39,11 @@ pub(super) fn frequencies(curve: &Curve, band_hz: [f64; 2], place: &Place) -> Re
 }
 
 /// All measurements at the frequencies that the first has in the band.
-pub(super) fn band(measurements: &[Measurement], band_hz: [f64; 2], place: &Place) -> Result<Band, InputError> {
+pub(super) fn band(
+    measurements: &[Measurement],
+    band_hz: [f64; 2],
+    place: &Place,
+) -> Result<Band, InputError> {
     let Some(first) = measurements.first().and_then(|first| first.curve.as_ref()) else {
         return Ok(Band::default());
     };

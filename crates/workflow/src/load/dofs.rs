@@ -19,7 +19,11 @@ pub(super) struct Dofs {
 
 impl Dofs {
     /// Reads the names of a model's rows, if the case gives any.
-    pub(super) fn read(file: Option<&Located<String>>, dim: usize, files: &mut Files) -> Result<Self, InputError> {
+    pub(super) fn read(
+        file: Option<&Located<String>>,
+        dim: usize,
+        files: &mut Files,
+    ) -> Result<Self, InputError> {
         let Some(name) = file else { return Ok(Self { dim, nodes: None }) };
         let file = files.read(name)?;
         let names = csv::read_dof_names(&file.bytes).map_err(|error| file.refuse(error))?;
@@ -62,7 +66,8 @@ impl Dofs {
                 let below = nodes.range(..name.node).next_back();
                 let above = nodes.range(name.node..).next();
                 let nearest = below.into_iter().chain(above).min_by_key(|(node, _)| node.abs_diff(name.node));
-                let hint = nearest.map(|(node, axes)| format!("; the nearest is {node} with {}", listed(axes)));
+                let hint =
+                    nearest.map(|(node, axes)| format!("; the nearest is {node} with {}", listed(axes)));
                 refuse(format!("{name} (no node {}{})", name.node, hint.unwrap_or_default()))
             }
         }

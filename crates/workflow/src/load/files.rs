@@ -50,7 +50,8 @@ pub(super) struct Files {
 impl Files {
     /// Reads a case file; paths in it are relative to it.
     pub(super) fn of_case(case_file: &Path) -> Result<(Self, Vec<u8>), InputError> {
-        let bytes = read(case_file).map_err(|found| unreadable(&Place::file(case_file), "a case file", found))?;
+        let bytes =
+            read(case_file).map_err(|found| unreadable(&Place::file(case_file), "a case file", found))?;
         let folder = case_file.parent().unwrap_or(Path::new("")).to_path_buf();
         let mut files = Self { folder, inputs: Vec::new(), last: None };
         files.record(case_file, &bytes);

@@ -8,7 +8,12 @@ use frfit::c64;
 use frfit_formats::{FormatError, csv};
 
 /// A unit force at one degree of freedom, in the sense of its sign, or the vector of a file.
-pub(super) fn load(entry: &LoadEntry, dim: usize, dofs: &Dofs, files: &mut Files) -> Result<Vec<c64>, InputError> {
+pub(super) fn load(
+    entry: &LoadEntry,
+    dim: usize,
+    dofs: &Dofs,
+    files: &mut Files,
+) -> Result<Vec<c64>, InputError> {
     match entry {
         LoadEntry::File(name) => vector(name, dim, files),
         LoadEntry::At(spot) => {

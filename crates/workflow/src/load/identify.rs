@@ -73,8 +73,13 @@ fn known_names(case: &CaseFile, entry: &IdentifyEntry) -> Result<Vec<String>, In
     for Located { value, place } in &entry.matrices {
         if !known().any(|name| name == value) {
             let all = known().map(|name| format!("{name:?}")).collect::<Vec<_>>().join(", ");
-            let hint = nearest(value, known()).map_or(String::new(), |name| format!("; did you mean {name:?}?"));
-            return Err(InputError::at(place, format!("a matrix of the case ({all})"), format!("{value:?}{hint}")));
+            let hint =
+                nearest(value, known()).map_or(String::new(), |name| format!("; did you mean {name:?}?"));
+            return Err(InputError::at(
+                place,
+                format!("a matrix of the case ({all})"),
+                format!("{value:?}{hint}"),
+            ));
         }
         if names.contains(value) {
             return Err(InputError::at(place, "each matrix once", format!("{value:?} a second time")));
@@ -143,7 +148,9 @@ fn invalid(error: &OptionsError, entry: &IdentifyEntry, overrides: &Overrides) -
             let place = bound.as_ref().map_or(of_key("bounds"), |bound| bound.place.clone());
             InputError::at(&place, "[low, high] with low <= high", format!("[{low}, {high}]"))
         }
-        OptionsError::Error(limit) => InputError::at(&of_key("error"), "a positive number", limit.to_string()),
+        OptionsError::Error(limit) => {
+            InputError::at(&of_key("error"), "a positive number", limit.to_string())
+        }
     }
 }
 

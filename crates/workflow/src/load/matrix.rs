@@ -76,7 +76,9 @@ pub fn symmetric_matrix(matrix: &CoordinateMatrix) -> Result<SymmetricMatrix, Fo
     let positions = matrix.rows.iter().copied().zip(matrix.cols.iter().copied());
     if let Entries::Real(values) = &matrix.entries {
         let mut triplets = Triplets::new(matrix.nrows);
-        positions.zip(values).for_each(|((row, col), &value)| triplets.add(row, col, weight(row, col) * value));
+        positions
+            .zip(values)
+            .for_each(|((row, col), &value)| triplets.add(row, col, weight(row, col) * value));
         return Ok(triplets.assemble());
     }
     let values: Vec<c64> =

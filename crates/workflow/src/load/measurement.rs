@@ -67,7 +67,8 @@ pub(super) fn measurement(
         (Some(quantity), _) => quantity,
         (None, Some(Curve { frf: Frf { quantity: Some(quantity), .. }, .. })) => *quantity,
         (None, Some(_)) => {
-            let expected = "the key \"quantity\" (receptance, mobility or accelerance), because the file does not say";
+            let expected =
+                "the key \"quantity\" (receptance, mobility or accelerance), because the file does not say";
             return Err(InputError::at(&entry.place, expected, "none"));
         }
         // Nothing was measured here: the default of a computed response.

@@ -93,7 +93,8 @@ pub fn load(case_file: &Path, overrides: &Overrides, purpose: Purpose) -> Result
         factor::covers(&term.factor, &entry.factor.place, &respond_hz)?;
     }
     let truth = case.identify.as_ref().and_then(|entry| entry.truth.as_ref());
-    if let (Some(law), Some(entry)) = (identify.as_ref().and_then(|identify| identify.truth.as_ref()), truth) {
+    if let (Some(law), Some(entry)) = (identify.as_ref().and_then(|identify| identify.truth.as_ref()), truth)
+    {
         factor::covers(law, &entry.place, &respond_hz)?;
     }
     let sensors = measurements.iter().map(|measurement| measurement.sensor).collect();

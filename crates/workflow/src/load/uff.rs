@@ -61,7 +61,10 @@ fn chosen(frfs: &[(usize, FunctionHeader)], choice: &Choice) -> Result<usize, Fo
     if let Some(record) = choice.record {
         let at = usize::try_from(record).ok().filter(|number| (1..=frfs.len()).contains(number));
         let refuse = || {
-            FormatError::whole(format!("a record from 1 to {} ({})", frfs.len(), listed(frfs)), record.to_string())
+            FormatError::whole(
+                format!("a record from 1 to {} ({})", frfs.len(), listed(frfs)),
+                record.to_string(),
+            )
         };
         return Ok(at.ok_or_else(refuse)? - 1);
     }
@@ -94,8 +97,10 @@ fn listed(frfs: &[(usize, FunctionHeader)]) -> String {
 
 /// What the numerator of the ordinate says, where the denominator is a force or says nothing.
 fn quantity(header: &FunctionHeader) -> Option<Quantity> {
-    let over_force =
-        matches!(header.denominator.quantity, Axis::ExcitationForce | Axis::ReactionForce | Axis::Unknown | Axis::General);
+    let over_force = matches!(
+        header.denominator.quantity,
+        Axis::ExcitationForce | Axis::ReactionForce | Axis::Unknown | Axis::General
+    );
     match header.ordinate.quantity {
         Axis::Displacement if over_force => Some(Quantity::Receptance),
         Axis::Velocity if over_force => Some(Quantity::Mobility),

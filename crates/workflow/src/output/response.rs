@@ -45,8 +45,8 @@ pub fn response_csv(case: &Case, identify: &IdentifyCase, outcomes: &[Identified
 pub fn respond_csv(case: &Case, run: &RespondRun) -> String {
     let columns = ["frequency_hz", "sensor", "quantity", "re", "im"];
     let rows = run.frequency_hz.iter().zip(&run.receptance).flat_map(|(&frequency_hz, receptance)| {
-        case.sensors.iter().zip(receptance).map(move |(sensor, x)| {
-            let [re, im] = cells(sensor, frequency_hz, Some(x));
+        case.sensors.iter().enumerate().map(move |(m, sensor)| {
+            let [re, im] = cells(sensor, frequency_hz, receptance.as_ref().ok().and_then(|x| x.get(m)));
             [
                 Cell::Number(frequency_hz),
                 Cell::Text(&sensor.label),

@@ -1,6 +1,6 @@
 //! From a case to the outcome at every frequency of its band.
 
-use super::{Progress, RunError};
+use super::Progress;
 use crate::load::{Case, IdentifyCase};
 use frfit::frequency::bands_hz;
 use frfit::identify::{Identified, Status, error_by_order, identify_at};
@@ -12,7 +12,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
 /// What a run does beside identifying.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct RunOptions {
     /// At how many frequencies of the band the error is mapped over the orders, each order a direct solve.
     /// `None`: 60, and none above 5000 degrees of freedom, where it would cost more than the identification.
@@ -61,13 +61,13 @@ const MAP_COLUMNS: usize = 60;
 /// The result does not depend on the number of cores.
 ///
 /// # Errors
-/// [`RunError::OutsideTable`]. Numerical trouble is a status of its frequency, never an error.
+/// [`OutsideTable`] where a table of a factor does not reach a frequency. Numerical trouble is a status of its frequency, never an error.
 pub fn identify(
     case: &Case,
     identify: &IdentifyCase,
     options: RunOptions,
     progress: Progress<'_>,
-) -> Result<IdentifyRun, RunError> {
+) -> Result<IdentifyRun, OutsideTable> {
     let start = Instant::now();
     let done = AtomicUsize::new(0);
     let outcomes = (0..identify.frequency_hz.len())
@@ -102,7 +102,7 @@ fn error_map(
     case: &Case,
     identify: &IdentifyCase,
     options: RunOptions,
-) -> Result<Option<ErrorMap>, RunError> {
+) -> Result<Option<ErrorMap>, OutsideTable> {
     let affordable = if case.model.dim() <= MAP_UP_TO_DOFS { MAP_COLUMNS } else { 0 };
     let columns = options.error_map.unwrap_or(affordable).min(identify.frequency_hz.len());
     if columns == 0 || identify.options.method != identify::Method::Series {

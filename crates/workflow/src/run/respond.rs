@@ -1,9 +1,11 @@
 //! The forward response of a case at its nominal factors.
 
-use super::{Progress, RunError};
+use super::Progress;
 use crate::load::Case;
 use frfit::c64;
+use frfit::material::OutsideTable;
 use frfit::response::{FullModel, Response};
+use frfit_linalg::solve::Breakdown;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -12,28 +14,27 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 pub struct RespondRun {
     /// Frequencies, as the case lists them.
     pub frequency_hz: Vec<f64>,
-    /// Receptance in m/N, \[frequency\]\[sensor\].
-    pub receptance: Vec<Vec<c64>>,
+    /// Receptance in m/N, \[frequency\]\[sensor\], or why the system could not be solved there.
+    pub receptance: Vec<Result<Vec<c64>, Breakdown>>,
 }
 
 /// One direct solve a frequency, P-7, on all cores.
 ///
 /// # Errors
-/// [`RunError`], naming the frequency at which the system could not be solved.
-pub fn respond(case: &Case, progress: Progress<'_>) -> Result<RespondRun, RunError> {
+/// [`OutsideTable`] where a table of a factor does not reach a frequency.
+pub fn respond(case: &Case, progress: Progress<'_>) -> Result<RespondRun, OutsideTable> {
     let done = AtomicUsize::new(0);
-    let receptance = case
-        .respond_hz
-        .par_iter()
-        .map(|&frequency_hz| {
-            let at = case.model.at(frequency_hz, &[])?;
-            let broken = |breakdown| RunError::Breakdown { frequency_hz, breakdown };
-            let system = FullModel::new(at, &case.experiment).map_err(broken)?;
+    let at_frequency = |&frequency_hz: &f64| {
+        let at = case.model.at(frequency_hz, &[])?;
+        let receptance = FullModel::new(at, &case.experiment).and_then(|system| {
             let mut x = system.load().to_vec();
-            system.solve_nominal(&mut x).map_err(broken)?;
-            progress(done.fetch_add(1, Ordering::Relaxed) + 1, case.respond_hz.len());
+            system.solve_nominal(&mut x)?;
             Ok(system.observe(&x))
-        })
-        .collect::<Result<Vec<_>, RunError>>()?;
+        });
+        progress(done.fetch_add(1, Ordering::Relaxed) + 1, case.respond_hz.len());
+        Ok(receptance)
+    };
+    let receptance =
+        case.respond_hz.par_iter().map(at_frequency).collect::<Result<Vec<_>, OutsideTable>>()?;
     Ok(RespondRun { frequency_hz: case.respond_hz.clone(), receptance })
 }

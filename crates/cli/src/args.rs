@@ -1,0 +1,152 @@
+//! What can be said on the command line.
+
+use clap::{Parser, Subcommand};
+use std::path::PathBuf;
+
+/// Correct a finite element model until its frequency response is the measured one.
+#[derive(Debug, Parser)]
+#[command(name = "frfit", version, arg_required_else_help = true)]
+pub(crate) struct Args {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+
+    /// No progress bar and no words on success
+    #[arg(long, global = true)]
+    pub(crate) quiet: bool,
+
+    /// Results as JSON on standard output
+    #[arg(long, global = true)]
+    pub(crate) json: bool,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Run the main job on a built-in case: a rubber bar with a wrong modulus, corrected
+    #[command(
+        after_help = "Example: frfit demo\n\nWrites the case to frfit-demo/ and the results to frfit-demo/out/."
+    )]
+    Demo(Demo),
+    /// Write a complete runnable case with a known answer; without a name, list them
+    #[command(
+        after_help = "Example: frfit example rubber-bar bar && frfit identify bar/case.toml --out bar/out"
+    )]
+    Example(Example),
+    /// Find the parameter that makes the model's response the measured one
+    #[command(after_help = "Example: frfit identify case.toml --out results --order 30 --band 200:1550\n\n\
+                      Exit code: 0 done; 1 with --strict where some frequency has no trusted answer; 2 the input is at fault; \
+                      3 a fault of frfit.")]
+    Identify(Identify),
+    /// Compute the model's response at its nominal factors
+    #[command(after_help = "Example: frfit respond case.toml --out response --band 20:2000")]
+    Respond(Respond),
+    /// Say what is in a matrix, FRF or table file
+    #[command(
+        after_help = "Examples: frfit inspect frf.uff\n          frfit inspect K.mtx M.mtx --modes 6\n          frfit inspect --json frf.uff"
+    )]
+    Inspect(Inspect),
+    /// Convert a matrix or an FRF to another format, by the endings of the names
+    #[command(
+        after_help = "Examples: frfit convert bcsstk09.rsa bcsstk09.mtx\n          frfit convert frf.uff frf.csv --record 2"
+    )]
+    Convert(Convert),
+}
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct Demo {
+    /// Folder to write to
+    #[arg(long, default_value = "frfit-demo", value_name = "DIR")]
+    pub(crate) out: PathBuf,
+}
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct Example {
+    /// Name of the example
+    pub(crate) name: Option<String>,
+    /// Folder to write it to (by default its name)
+    pub(crate) dir: Option<PathBuf>,
+}
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct Identify {
+    /// Case file
+    pub(crate) case: PathBuf,
+    /// Folder for the results
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: PathBuf,
+    #[command(flatten)]
+    pub(crate) overrides: Overrides,
+    /// Order of the series, in place of the case's
+    #[arg(long, value_name = "N")]
+    pub(crate) order: Option<usize>,
+    /// Method, in place of the case's
+    #[arg(long)]
+    pub(crate) method: Option<String>,
+    /// Selection of one of several roots, in place of the case's
+    #[arg(long)]
+    pub(crate) selection: Option<String>,
+    /// Frequencies at which the error is mapped over the orders; 0 for no map (default: 60, none above 5000 dofs)
+    #[arg(long, value_name = "N")]
+    pub(crate) error_map: Option<usize>,
+    /// Exit with 1 where some frequency has no trusted answer
+    #[arg(long)]
+    pub(crate) strict: bool,
+}
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct Overrides {
+    /// First and last frequency in Hz, in place of the case's
+    #[arg(long, value_name = "FROM:TO", value_parser = band)]
+    pub(crate) band: Option<[f64; 2]>,
+}
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct Respond {
+    /// Case file
+    pub(crate) case: PathBuf,
+    /// Folder for the results
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: PathBuf,
+    #[command(flatten)]
+    pub(crate) overrides: Overrides,
+}
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct Inspect {
+    /// Files
+    #[arg(required = true)]
+    pub(crate) files: Vec<PathBuf>,
+    /// Take the two files as K and M and give their first natural frequencies
+    #[arg(long, value_name = "COUNT")]
+    pub(crate) modes: Option<usize>,
+}
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct Convert {
+    /// File to read
+    pub(crate) input: PathBuf,
+    /// File to write; its ending says the format
+    pub(crate) output: PathBuf,
+    /// Which FRF of a UFF file, from 1
+    #[arg(long, value_name = "N")]
+    pub(crate) record: Option<i64>,
+    /// What a table's FRF is: receptance, mobility or accelerance
+    #[arg(long)]
+    pub(crate) quantity: Option<frfit::quantity::Quantity>,
+    /// Measured degree of freedom, such as 34+Z
+    #[arg(long, value_name = "DOF")]
+    pub(crate) response: Option<frfit::dof::DofName>,
+    /// Driven degree of freedom, such as 12+Z
+    #[arg(long, value_name = "DOF")]
+    pub(crate) reference: Option<frfit::dof::DofName>,
+    /// Binary dataset 58b in place of text
+    #[arg(long)]
+    pub(crate) binary: bool,
+}
+
+/// `200:1550` as a band in Hz.
+fn band(text: &str) -> Result<[f64; 2], String> {
+    let refuse = || format!("expected two frequencies such as 200:1550, found {text:?}");
+    let (first, last) = text.split_once(':').ok_or_else(refuse)?;
+    let number = |text: &str| text.trim().parse::<f64>().map_err(|_| refuse());
+    Ok([number(first)?, number(last)?])
+}

@@ -1,0 +1,45 @@
+//! `frfit identify`
+
+use super::say;
+use crate::args::{Args, Identify};
+use crate::outcome::{Failure, Outcome};
+use crate::progress::Progress;
+use crate::report;
+use frfit::identify::Status;
+use frfit_workflow::job::{IdentifyJob, identify_case};
+use frfit_workflow::load::Overrides;
+use frfit_workflow::run::RunOptions;
+use std::path::Path;
+
+pub(crate) fn run(args: &Args, identify: &Identify) -> Result<Outcome, Failure> {
+    let overrides = Overrides {
+        method: identify.method.clone(),
+        order: identify.order,
+        band_hz: identify.overrides.band,
+        selection: identify.selection.clone(),
+    };
+    let options = RunOptions { error_map: identify.error_map };
+    let job = carry_out(args, &identify.case, &overrides, options, &identify.out)?;
+    let trusted = job.run.count(Status::Ok) == job.run.outcomes.len();
+    Ok(if identify.strict && !trusted { Outcome::NotTrusted } else { Outcome::Done })
+}
+
+/// Identifies and says what came out; `frfit demo` ends with this too.
+pub(crate) fn carry_out(
+    args: &Args,
+    case: &Path,
+    overrides: &Overrides,
+    options: RunOptions,
+    out: &Path,
+) -> Result<IdentifyJob, Failure> {
+    let progress = Progress::new(args.quiet || args.json);
+    let job = identify_case(case, overrides, options, out, &|done, total| progress.show(done, total));
+    progress.end();
+    let job = job?;
+    if args.json {
+        say(&format!("{:#}\n", job.summary))?;
+    } else if !args.quiet {
+        say(&report::identified(&job, out))?;
+    }
+    Ok(job)
+}

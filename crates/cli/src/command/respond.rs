@@ -1,0 +1,40 @@
+//! `frfit respond`
+
+use super::say;
+use crate::args::{Args, Respond};
+use crate::outcome::{Failure, Outcome};
+use crate::progress::Progress;
+use frfit_workflow::job::respond_case;
+use frfit_workflow::load::Overrides;
+use serde_json::json;
+
+pub(crate) fn run(args: &Args, respond: &Respond) -> Result<Outcome, Failure> {
+    let overrides = Overrides { band_hz: respond.overrides.band, ..Overrides::default() };
+    let progress = Progress::new(args.quiet || args.json);
+    let done =
+        respond_case(&respond.case, &overrides, &respond.out, &|done, total| progress.show(done, total));
+    progress.end();
+    let (case, run) = done?;
+    let broken: Vec<String> = run
+        .frequency_hz
+        .iter()
+        .zip(&run.receptance)
+        .filter_map(|(frequency_hz, x)| Some(format!("at {frequency_hz} Hz {}", x.as_ref().err()?)))
+        .collect();
+    if args.json {
+        say(&format!("{:#}\n", json!({"frequencies": run.frequency_hz.len(), "unsolved": broken})))?;
+    } else if !args.quiet {
+        let (first, last) = (run.frequency_hz.first(), run.frequency_hz.last());
+        let band = first.zip(last).map_or(String::new(), |(a, b)| format!(", {a} to {b} Hz"));
+        let mut text = format!(
+            "{}: response at {} sensor(s), {} frequencies{band}\nwrote {}\n",
+            case.title,
+            case.sensors.len(),
+            run.frequency_hz.len(),
+            respond.out.display()
+        );
+        broken.iter().for_each(|line| text += &format!("no answer {line}\n"));
+        say(&text)?;
+    }
+    Ok(Outcome::Done)
+}

@@ -1,0 +1,101 @@
+//! What came out, in the few lines that a person reads first.
+
+use frfit::identify::{Identified, Status};
+use frfit_workflow::job::IdentifyJob;
+use std::fmt::Write;
+use std::path::Path;
+
+/// The verdict of an identification and where its files are.
+pub(crate) fn identified(job: &IdentifyJob, out: &Path) -> String {
+    let Some(identify) = job.identify() else { return String::new() };
+    let run = &job.run;
+    let mut text = String::new();
+    // Writing into a String cannot fail.
+    let mut line = |label: &str, value: String| drop(writeln!(text, "  {label:<18}{value}"));
+    let statuses = Status::ALL.into_iter().filter(|&status| run.count(status) > 0);
+    line(
+        "status",
+        statuses
+            .map(|status| format!("{} {}", run.count(status), status.name()))
+            .collect::<Vec<_>>()
+            .join(", "),
+    );
+    let ok = |outcome: &&Identified| outcome.status == Status::Ok;
+    let range = |number: &dyn Fn(&Identified) -> Option<f64>| {
+        let values = run.outcomes.iter().filter(ok).filter_map(number);
+        values.fold(None, |range: Option<(f64, f64)>, v| {
+            Some(range.map_or((v, v), |(low, high)| (low.min(v), high.max(v))))
+        })
+    };
+    let real = identify.options.real;
+    if let Some((low, high)) = range(&|outcome| outcome.storage()) {
+        let (label, unit) = if real { ("factor", "") } else { ("storage modulus", " Pa") };
+        line(label, format!("{low:.6e} to {high:.6e}{unit} (where ok)"));
+    }
+    if let (Some((low, high)), false) = (range(&|outcome| outcome.loss_factor()), real) {
+        line("loss factor", format!("{low:.6} to {high:.6} (where ok)"));
+    }
+    if let Some((_, high)) = range(&|outcome| outcome.error) {
+        line("error", format!("at most {high:.1e} (where ok)"));
+    }
+    let largest = run.outcomes.iter().filter_map(|outcome| outcome.spectral_radius).reduce(f64::max);
+    if let Some(radius) = largest {
+        line("spectral radius", format!("up to {radius:.4}"));
+    }
+    for status in Status::ALL.into_iter().filter(|&status| status != Status::Ok) {
+        let bands = run.bands_hz(status);
+        if !bands.is_empty() {
+            line(status.name(), bands_hz(&bands));
+        }
+    }
+    let truth = &job.summary["truth"];
+    if let Some(all) = truth["fraction_right"].as_f64() {
+        let of_ok = truth["fraction_right_of_ok"]
+            .as_f64()
+            .map_or(String::new(), |f| format!(", {} of ok", percent(f)));
+        line(
+            "right",
+            format!("{} of all{of_ok} (the truth is known; within {})", percent(all), truth["within"]),
+        );
+    }
+    line(
+        "work",
+        format!(
+            "{} factorisations, {} solves, {:.2} s",
+            run.work.factorisations, run.work.solves, run.seconds.identify
+        ),
+    );
+    line("wrote", format!("{}: identified.csv, response.csv, summary.json, figures/", out.display()));
+    let band = (run.outcomes.first(), run.outcomes.last());
+    let band = match band {
+        (Some(first), Some(last)) => format!("{} to {} Hz", first.frequency_hz, last.frequency_hz),
+        _ => String::new(),
+    };
+    format!(
+        "{}: factor of {} at {} frequencies, {band}\n{text}",
+        job.case.title,
+        identify.names.join(", "),
+        run.outcomes.len()
+    )
+}
+
+fn percent(fraction: f64) -> String {
+    format!("{:.1} %", 100.0 * fraction)
+}
+
+/// The widest bands, and how many more.
+fn bands_hz(bands: &[[f64; 2]]) -> String {
+    const SHOWN: usize = 6;
+    let shown: Vec<String> = bands
+        .iter()
+        .take(SHOWN)
+        .map(
+            |[first, last]| {
+                if first == last { format!("{first:.1}") } else { format!("{first:.1}–{last:.1}") }
+            },
+        )
+        .collect();
+    let more = bands.len().saturating_sub(SHOWN);
+    let rest = if more > 0 { format!(" and {more} more bands (see summary.json)") } else { String::new() };
+    format!("{} Hz{rest}", shown.join(", "))
+}
