@@ -1,2 +1,32 @@
-//! Chores of the project.
-fn main() {}
+//! Chores of the project: `cargo xtask test`, `cargo xtask docs`, `cargo xtask bench`.
+#![allow(clippy::print_stdout, clippy::print_stderr)] // its outcome is what it prints
+
+mod bench;
+mod docs;
+mod step;
+mod test;
+
+use std::process::ExitCode;
+
+const USAGE: &str = "\
+cargo xtask test [--quick]       formatting, lints, all tests and doc tests, documentation;
+                                 --quick: tests and doc tests only
+cargo xtask docs                 documentation in target/doc, formulas typeset where there is npm
+cargo xtask bench [NAME [ARG…]]  one benchmark, or all; tables to the terminal, figures to target/bench";
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    let passed = match words.as_slice() {
+        ["test"] => test::all(),
+        ["test", "--quick"] => test::quick(),
+        ["docs"] => docs::build(),
+        ["bench"] => bench::all(),
+        ["bench", name, rest @ ..] => bench::one(name, rest),
+        _ => {
+            eprintln!("{USAGE}");
+            return ExitCode::from(2);
+        }
+    };
+    if passed { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+}
