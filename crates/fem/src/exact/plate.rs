@@ -27,7 +27,7 @@ impl UniformPlate {
     /// ω = π² (m²/a² + n²/b²) √(D/ρh).
     ///
     /// # Source
-    /// Navier 1823, in A. W. Leissa, *Vibration of Plates*, NASA SP-160, 1969, eq. (4.20).
+    /// Navier 1823, in A. W. Leissa, *Vibration of Plates*, NASA SP-160, 1969, chapter 4.
     pub fn simply_supported_rad_s(&self, m: usize, n: usize) -> f64 {
         let half_waves = (m as f64 / self.sides[0]).powi(2) + (n as f64 / self.sides[1]).powi(2);
         PI.powi(2) * half_waves * self.wave_factor()

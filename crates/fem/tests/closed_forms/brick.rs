@@ -187,7 +187,7 @@ fn only_held_faces_are_held() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(32))]
+    #![proptest_config(ProptestConfig::with_cases(48))]
     #[test]
     fn mass_and_rigid_motion(
         size in prop::array::uniform3(0.1..10.0_f64), share in 0.1..0.9_f64, poisson in -0.5..0.49_f64,

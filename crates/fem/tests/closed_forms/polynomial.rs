@@ -1,5 +1,6 @@
 //! Beam and plate elements hold the polynomials that they are made of, exactly.
 
+use crate::support::misfit;
 use frfit_fem::{beam, plate};
 use proptest::prelude::*;
 
@@ -32,18 +33,6 @@ fn inner(f: &Polynomial, g: &Polynomial, [a, b]: [f64; 2]) -> f64 {
         }
     }
     sum
-}
-
-/// |vᵀ A u − exact| in units of Σ |v||A||u|, the size of what is added.
-fn misfit<const N: usize>(matrix: &[[f64; N]; N], u: &[f64; N], v: &[f64; N], exact: f64) -> f64 {
-    let (mut sum, mut size) = (-exact, 0.0);
-    for (row, v) in matrix.iter().zip(v) {
-        for (entry, u) in row.iter().zip(u) {
-            sum += v * entry * u;
-            size += (v * entry * u).abs();
-        }
-    }
-    sum.abs() / size
 }
 
 const CUBIC: [(i32, i32); 4] = [(0, 0), (1, 0), (2, 0), (3, 0)];

@@ -47,3 +47,15 @@ pub(crate) fn translation(of: &Assembled, along: Direction) -> Vec<f64> {
 pub(crate) fn rate(coarse: f64, fine: f64) -> f64 {
     (coarse / fine).abs().log2()
 }
+
+/// |vᵀ A u − exact| in units of Σ |v||A||u|, the size of what is added.
+pub(crate) fn misfit<const N: usize>(matrix: &[[f64; N]; N], u: &[f64; N], v: &[f64; N], exact: f64) -> f64 {
+    let (mut sum, mut size) = (-exact, 0.0);
+    for (row, v) in matrix.iter().zip(v) {
+        for (entry, u) in row.iter().zip(u) {
+            sum += v * entry * u;
+            size += (v * entry * u).abs();
+        }
+    }
+    sum.abs() / size
+}
