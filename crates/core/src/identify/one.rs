@@ -4,7 +4,7 @@ use super::{Identified, Method, Options, Status};
 use crate::c64;
 use crate::nelder_mead;
 use crate::response::Response;
-use crate::roots::{Candidate, Refusal, candidates, least_admissible};
+use crate::roots::{Candidate, candidates, least_admissible, refuse_diverged};
 use crate::series::{NeumannSeries, convergence_radius};
 use frfit_linalg::solve::Breakdown;
 
@@ -49,12 +49,7 @@ fn by_series(
         candidates(&series, SENSOR, measured[SENSOR], outcome.nominal, options.order, &options.roots());
     let radius = convergence_radius(system, 0)?;
     outcome.radius = Some(radius);
-    // A root that stays but lies outside the circle is an accident of few orders, not a limit.
-    for root in outcome.roots.iter_mut().filter(|root| root.refusal.is_none()) {
-        if radius.at(root.correction) >= 1.0 {
-            root.refusal = Some(Refusal::Moves);
-        }
-    }
+    refuse_diverged(&mut outcome.roots, &series, SENSOR, outcome.nominal, &radius, &options.roots());
     let Some(chosen) = choose(&outcome.roots) else {
         outcome.status = Status::NoRoot;
         return Ok(());

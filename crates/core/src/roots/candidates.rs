@@ -2,8 +2,8 @@
 
 use super::Bounds;
 use crate::c64;
-use crate::series::NeumannSeries;
-use frfit_linalg::dense::{Root, roots};
+use crate::series::{ConvergenceRadius, NeumannSeries};
+use frfit_linalg::dense::{Root, evaluate, roots};
 
 /// How roots are accepted.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,7 +33,7 @@ pub enum Refusal {
     OutOfBounds(&'static str),
     /// It has an imaginary part, and the parameter is real.
     NotReal,
-    /// It moves as terms are added.
+    /// It moves as terms are added, or the series does not converge there.
     Moves,
 }
 
@@ -42,7 +42,8 @@ pub enum Refusal {
 pub struct Candidate {
     /// c, of the unit of the parameter.
     pub correction: c64,
-    /// Its largest distance from the nearest roots of the last few lower orders, relative to |p̄ + c|.
+    /// How far it may still move, relative to |p̄ + c|: its largest distance from the nearest roots of the last few lower
+    /// orders, or what the terms that were cut off can do to it, whichever is larger.
     pub drift: f64,
     /// Why it is not admissible; `None` where it is.
     pub refusal: Option<Refusal>,
@@ -91,6 +92,36 @@ pub fn candidates(
         .collect();
     candidates.sort_by(|a, b| a.correction.norm().total_cmp(&b.correction.norm()));
     candidates
+}
+
+/// Refuses candidates at which the series does not converge (ρ ≥ 1, P-14), and those that the terms cut off can move by more
+/// than the tolerance.
+///
+/// The tail is at most the largest of the last terms times ρ/(1 − ρ), and moves a root by tail/|p′|. Ghosts on the circle of
+/// convergence (Jentzsch) have ρ just below one and terms that do not fall: this is what tells them from solutions.
+pub fn refuse_diverged(
+    candidates: &mut [Candidate],
+    series: &NeumannSeries,
+    sensor: usize,
+    nominal: c64,
+    radius: &ConvergenceRadius,
+    options: &RootOptions,
+) {
+    let t = series.coefficients(sensor);
+    let slope: Vec<c64> = t.iter().enumerate().skip(1).map(|(k, &t)| t * k as f64).collect();
+    let last = t.len().saturating_sub(LOOK_BACK)..t.len();
+    for candidate in candidates.iter_mut().filter(|candidate| candidate.refusal.is_none()) {
+        let rho = radius.at(candidate.correction);
+        let z = candidate.correction / series.scale();
+        let term = last.clone().map(|k| (t[k] * z.powu(k as u32)).norm()).fold(0.0, f64::max);
+        let moved = term * rho / (1.0 - rho) / evaluate(&slope, z).norm();
+        let relative = moved * series.scale() / (nominal + candidate.correction).norm();
+        candidate.drift = candidate.drift.max(relative);
+        // Written so that NaN is refused.
+        if !(rho < 1.0 && relative <= options.drift) {
+            candidate.refusal = Some(Refusal::Moves);
+        }
+    }
 }
 
 /// The root of least |c| that no bound excludes, whether it stays or not: the paper's choice at a given order.

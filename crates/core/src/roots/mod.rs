@@ -4,4 +4,4 @@ mod bounds;
 mod candidates;
 
 pub use bounds::Bounds;
-pub use candidates::{Candidate, Refusal, RootOptions, candidates, least_admissible};
+pub use candidates::{Candidate, Refusal, RootOptions, candidates, least_admissible, refuse_diverged};
