@@ -185,6 +185,7 @@ fn a_resonance_without_damping_is_a_status() {
 }
 
 /// A real symmetric Matrix Market file of the plate, or `None` with a word where the data is absent.
+#[expect(clippy::print_stderr, reason = "a skipped test says so")]
 fn plate_matrix(name: &str) -> Option<SymmetricMatrix> {
     let data = std::env::var_os("FRFIT_DATA").map_or_else(
         || PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data"),

@@ -42,9 +42,9 @@ fn solve_exactly(matrix: &[Vec<Exact>], rhs: &[Exact]) -> Vec<Exact> {
         for row in 0..n {
             if row != col && a[row][col] != zero {
                 let factor = a[row][col].clone() / a[col][col].clone();
-                for j in col..n {
-                    let change = factor.clone() * a[col][j].clone();
-                    a[row][j] = a[row][j].clone() - change;
+                let pivot_row = a[col].clone();
+                for (entry, above) in a[row].iter_mut().zip(pivot_row).skip(col) {
+                    *entry = entry.clone() - factor.clone() * above;
                 }
                 let change = factor * b[col].clone();
                 b[row] = b[row].clone() - change;

@@ -73,7 +73,7 @@ pub fn spectral_radius(
             let invariant = krylov.extend(&mut apply)?;
             best.applications += 1;
             // A small dense eigenproblem for each fourth vector: cheap beside the applications.
-            if invariant || krylov.len() % 4 == 0 || krylov.len() >= options.subspace.min(n) {
+            if invariant || krylov.len().is_multiple_of(4) || krylov.len() >= options.subspace.min(n) {
                 let ritz = krylov.leading(best.applications, options.tolerance)?;
                 best = ritz;
                 if best.converged || invariant {

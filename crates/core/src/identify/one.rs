@@ -60,12 +60,12 @@ fn by_series(
     outcome.spectral_radius = Some(radius.at(chosen.correction));
     outcome.error = Some(relative_error(measured, &updated));
     outcome.updated_response = updated;
-    outcome.status = match (chosen.refusal, outcome.admissible()) {
-        (Some(_), _) => Status::Diverged,
-        // Written so that NaN is no success.
-        (None, _) if !(here <= options.error) => Status::Diverged,
-        (None, 1) => Status::Ok,
-        (None, _) => Status::Ambiguous,
+    // False for NaN too.
+    let confirmed = chosen.refusal.is_none() && here <= options.error;
+    outcome.status = match (confirmed, outcome.admissible()) {
+        (false, _) => Status::Diverged,
+        (true, 1) => Status::Ok,
+        (true, _) => Status::Ambiguous,
     };
     Ok(())
 }

@@ -156,7 +156,7 @@ impl Options {
                 return Err(OptionsError::Bounds(name, [low, high]));
             }
         }
-        if !(self.error > 0.0) {
+        if self.error <= 0.0 || self.error.is_nan() {
             return Err(OptionsError::Error(self.error));
         }
         Ok(())

@@ -117,8 +117,9 @@ pub fn refuse_diverged(
         let moved = term * rho / (1.0 - rho) / evaluate(&slope, z).norm();
         let relative = moved * series.scale() / (nominal + candidate.correction).norm();
         candidate.drift = candidate.drift.max(relative);
-        // Written so that NaN is refused.
-        if !(rho < 1.0 && relative <= options.drift) {
+        // False for NaN too.
+        let stays = rho < 1.0 && relative <= options.drift;
+        if !stays {
             candidate.refusal = Some(Refusal::Moves);
         }
     }
@@ -146,8 +147,9 @@ fn drift(root: Root, earlier: &[Vec<Root>]) -> f64 {
 }
 
 fn refuse(root: Root, candidate: &Candidate, factor: c64, options: &RootOptions) -> Option<Refusal> {
-    // Written so that NaN is refused.
-    if !(root.backward_error <= BACKWARD_ERROR) {
+    // Comparisons that are false for NaN, so that NaN is refused.
+    let is_root = root.backward_error <= BACKWARD_ERROR;
+    if !is_root {
         return Some(Refusal::NotARoot);
     }
     if options.real && candidate.correction.im.abs() > REAL_TOLERANCE * factor.norm() {
@@ -157,5 +159,6 @@ fn refuse(root: Root, candidate: &Candidate, factor: c64, options: &RootOptions)
     if let Some(bound) = options.bounds.broken_by(tested) {
         return Some(Refusal::OutOfBounds(bound));
     }
-    (!(candidate.drift <= options.drift)).then_some(Refusal::Moves)
+    let stays = candidate.drift <= options.drift;
+    (!stays).then_some(Refusal::Moves)
 }
