@@ -2,7 +2,6 @@
 
 use frfit::identify::{Identified, Status};
 use frfit_workflow::job::IdentifyJob;
-use std::fmt::Write;
 use std::path::Path;
 
 /// The verdict of an identification and where its files are.
@@ -10,8 +9,7 @@ pub(crate) fn identified(job: &IdentifyJob, out: &Path) -> String {
     let Some(identify) = job.identify() else { return String::new() };
     let run = &job.run;
     let mut text = String::new();
-    // Writing into a String cannot fail.
-    let mut line = |label: &str, value: String| drop(writeln!(text, "  {label:<18}{value}"));
+    let mut line = |label: &str, value: String| text += &format!("  {label:<18}{value}\n");
     let statuses = Status::ALL.into_iter().filter(|&status| run.count(status) > 0);
     line(
         "status",

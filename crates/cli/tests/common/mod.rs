@@ -1,0 +1,49 @@
+//! Running the program as a user does.
+#![allow(dead_code, reason = "each test file uses its own part")]
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+/// Runs `frfit` in a folder.
+pub(crate) fn frfit(folder: &Path, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_frfit")).args(arguments).current_dir(folder).output().unwrap()
+}
+
+/// Runs `frfit`, asserts exit code 0, and returns what it says.
+pub(crate) fn done(folder: &Path, arguments: &[&str]) -> String {
+    let output = frfit(folder, arguments);
+    let errors = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(0), "{arguments:?}: {errors}");
+    String::from_utf8(output.stdout).unwrap()
+}
+
+/// Runs `frfit`, asserts that it blames the input (exit code 2) and says nothing else, and returns the message.
+pub(crate) fn refused(folder: &Path, arguments: &[&str]) -> String {
+    let output = frfit(folder, arguments);
+    let errors = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(2), "{arguments:?}: {errors}");
+    assert!(output.stdout.is_empty());
+    errors
+}
+
+/// The shared test data, or `None` with a word.
+#[expect(clippy::print_stderr, reason = "a skipped test says so")]
+pub(crate) fn data(name: &str) -> Option<PathBuf> {
+    let root = std::env::var_os("FRFIT_DATA").map_or_else(
+        || PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data"),
+        PathBuf::from,
+    );
+    let path = root.join(name);
+    if path.exists() {
+        return Some(path.canonicalize().unwrap());
+    }
+    eprintln!("skipped: {name} is not at FRFIT_DATA or ../shared/data");
+    None
+}
+
+/// The cells of one column of a table.
+pub(crate) fn column(table: &str, name: &str) -> Vec<String> {
+    let mut lines = table.lines();
+    let at = lines.next().unwrap().split(',').position(|column| column == name).unwrap();
+    lines.map(|line| line.split(',').nth(at).unwrap().to_owned()).collect()
+}

@@ -1,0 +1,127 @@
+//! The main job, as the README shows it.
+
+mod common;
+
+use common::{column, done, frfit, refused};
+use serde_json::Value;
+
+#[test]
+fn demo_runs_the_papers_rubber_bar() {
+    let folder = tempfile::tempdir().unwrap();
+    let said = done(folder.path(), &["demo"]);
+    for word in ["ok", "storage modulus", "loss factor", "spectral radius", "figures/"] {
+        assert!(said.contains(word), "{word:?} is not in\n{said}");
+    }
+    let out = folder.path().join("frfit-demo/out");
+    let table = std::fs::read_to_string(out.join("identified.csv")).unwrap();
+    assert_eq!(
+        table.lines().next().unwrap(),
+        "frequency_hz,storage,loss_factor,factor_re,factor_im,correction_re,correction_im,error,spectral_radius,\
+         order,candidates,status"
+    );
+    let errors = column(&table, "error");
+    // The paper: at least a hundred frequencies, all with ε < 2e-8.
+    assert!(errors.len() >= 100);
+    assert!(errors.iter().all(|error| error.parse::<f64>().unwrap() < 2e-8));
+    let summary: Value = serde_json::from_slice(&std::fs::read(out.join("summary.json")).unwrap()).unwrap();
+    // Where one root is admissible it is the right one.
+    assert_eq!(summary["truth"]["fraction_right_of_ok"], 1.0);
+    assert!(summary["inputs"].as_array().unwrap().iter().all(|input| input["sha256"].as_str().unwrap().len() == 64));
+    for figure in ["accelerance", "modulus", "error", "spectral_radius"] {
+        let svg = std::fs::read_to_string(out.join(format!("figures/{figure}.svg"))).unwrap();
+        assert!(svg.starts_with("<svg") && !svg.contains("NaN"));
+        let png = std::fs::read(out.join(format!("figures/{figure}.png"))).unwrap();
+        assert!(png.starts_with(b"\x89PNG"));
+    }
+}
+
+#[test]
+fn results_do_not_depend_on_the_number_of_threads() {
+    let folder = tempfile::tempdir().unwrap();
+    done(folder.path(), &["--quiet", "example", "rubber-bar", "bar"]);
+    let run = |threads: &str, out: &str| {
+        let status = std::process::Command::new(env!("CARGO_BIN_EXE_frfit"))
+            .args(["identify", "bar/case.toml", "--out", out, "--quiet"])
+            .env("RAYON_NUM_THREADS", threads)
+            .current_dir(folder.path())
+            .status()
+            .unwrap();
+        assert!(status.success());
+        std::fs::read(folder.path().join(out).join("identified.csv")).unwrap()
+    };
+    assert_eq!(run("1", "one"), run("3", "three"));
+}
+
+#[test]
+fn every_example_runs_and_strict_tells_of_frequencies_without_a_trusted_answer() {
+    let folder = tempfile::tempdir().unwrap();
+    let list: Value = serde_json::from_str(&done(folder.path(), &["example", "--json"])).unwrap();
+    let names: Vec<&str> = list.as_array().unwrap().iter().map(|example| example["name"].as_str().unwrap()).collect();
+    for wanted in ["rubber-bar", "clamped-plate", "density", "sandwich"] {
+        assert!(names.contains(&wanted), "{names:?}");
+    }
+    for name in names {
+        let case = format!("{name}/case.toml");
+        done(folder.path(), &["--quiet", "example", name]);
+        assert!(folder.path().join(name).join("README.md").exists());
+        // A quarter of the frequencies would do, but the README of each example speaks of its own band.
+        let out = format!("{name}/out");
+        let arguments = ["identify", &case, "--out", &out, "--error-map", "0", "--json", "--strict"];
+        let output = frfit(folder.path(), &arguments);
+        let summary: Value = serde_json::from_slice(&output.stdout).unwrap();
+        let all_ok = summary["status"]["ok"] == summary["frequencies"];
+        assert_eq!(output.status.code(), Some(if all_ok { 0 } else { 1 }), "{name}: {}", summary["status"]);
+        assert!(summary["truth"]["fraction_right_of_ok"].as_f64().unwrap() > 0.9, "{name}: {}", summary["truth"]);
+    }
+}
+
+#[test]
+fn unknown_examples_are_refused_with_a_list() {
+    let folder = tempfile::tempdir().unwrap();
+    let message = refused(folder.path(), &["example", "ruber-bar"]);
+    assert!(message.contains("rubber-bar"), "{message}");
+    assert!(std::fs::read_dir(folder.path()).unwrap().next().is_none());
+}
+
+#[test]
+fn options_override_the_case() {
+    let folder = tempfile::tempdir().unwrap();
+    done(folder.path(), &["--quiet", "example", "rubber-bar"]);
+    let said = done(
+        folder.path(),
+        &["identify", "rubber-bar/case.toml", "--out", "out", "--order", "12", "--band", "500:600", "--json"],
+    );
+    let summary: Value = serde_json::from_str(&said).unwrap();
+    assert_eq!(summary["identify"]["order"], 12);
+    assert_eq!(summary["identify"]["band_hz"], serde_json::json!([500.0, 600.0]));
+    let table = std::fs::read_to_string(folder.path().join("out/identified.csv")).unwrap();
+    let frequencies: Vec<f64> = column(&table, "frequency_hz").iter().map(|f| f.parse().unwrap()).collect();
+    assert!(frequencies.iter().all(|f| (500.0..=600.0).contains(f)) && frequencies.len() > 5);
+    let search = done(
+        folder.path(),
+        &["identify", "rubber-bar/case.toml", "--out", "nm", "--method", "nelder-mead", "--order", "150", "--band",
+          "500:520", "--json"],
+    );
+    let summary: Value = serde_json::from_str(&search).unwrap();
+    assert_eq!(summary["identify"]["method"], "nelder-mead");
+}
+
+#[test]
+fn respond_writes_what_identify_reads() {
+    let folder = tempfile::tempdir().unwrap();
+    done(folder.path(), &["--quiet", "example", "sandwich", "s"]);
+    done(folder.path(), &["--quiet", "respond", "s/case.toml", "--out", "r"]);
+    done(folder.path(), &["--quiet", "identify", "s/case.toml", "--out", "i", "--error-map", "0"]);
+    let read = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap();
+    let (forward, nominal) = (read("r/response.csv"), read("i/response.csv"));
+    let number = |text: &String| text.parse::<f64>().unwrap();
+    let pairs = column(&forward, "re").into_iter().zip(column(&nominal, "nominal_re"));
+    let mut compared = 0;
+    for (a, b) in pairs.filter(|(_, b)| !b.is_empty()) {
+        let (a, b) = (number(&a), number(&b));
+        // Two ways through the same factor: roundoff of the solve.
+        assert!((a - b).abs() <= 1e-9 * a.abs().max(b.abs()), "{a} {b}");
+        compared += 1;
+    }
+    assert!(compared > 10);
+}

@@ -1,0 +1,75 @@
+//! Inputs at fault: exit code 2, what, where, expected and found, and nothing written.
+
+mod common;
+
+use common::{done, frfit, refused};
+use std::path::Path;
+
+/// Writes an example, changes one of its files, and returns the message of `identify`.
+fn message(change: impl FnOnce(&Path)) -> String {
+    let folder = tempfile::tempdir().unwrap();
+    done(folder.path(), &["--quiet", "example", "density", "d"]);
+    change(&folder.path().join("d"));
+    let message = refused(folder.path(), &["identify", "d/case.toml", "--out", "out"]);
+    assert!(!folder.path().join("out").exists(), "nothing is written");
+    message
+}
+
+/// Replaces text in a file; the text must be there.
+fn edit(file: &Path, from: &str, to: &str) {
+    let text = std::fs::read_to_string(file).unwrap();
+    assert!(text.contains(from), "{from:?} is not in\n{text}");
+    std::fs::write(file, text.replacen(from, to, 1)).unwrap();
+}
+
+#[test]
+fn unknown_key() {
+    let said = message(|d| edit(&d.join("case.toml"), "order =", "oder ="));
+    assert!(said.contains("case.toml:") && said.contains("oder") && said.contains("order"), "{said}");
+}
+
+#[test]
+fn unknown_matrix() {
+    let said = message(|d| edit(&d.join("case.toml"), "matrix = \"mass\"", "matrix = \"mas\""));
+    assert!(said.contains("case.toml:") && said.contains("mas") && said.contains("mass"), "{said}");
+}
+
+#[test]
+fn band_without_data() {
+    let folder = tempfile::tempdir().unwrap();
+    done(folder.path(), &["--quiet", "example", "density", "d"]);
+    let said = refused(folder.path(), &["identify", "d/case.toml", "--out", "out", "--band", "90000:90001"]);
+    assert!(said.contains("--band") && said.contains("90000"), "{said}");
+}
+
+#[test]
+fn missing_case_and_missing_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let said = refused(folder.path(), &["identify", "nowhere.toml", "--out", "out"]);
+    assert!(said.contains("nowhere.toml"), "{said}");
+    let said = message(|d| {
+        let frf = std::fs::read_dir(d).unwrap().map(|e| e.unwrap().path()).find(|p| p.ends_with("frf.csv")).unwrap();
+        std::fs::remove_file(frf).unwrap();
+    });
+    assert!(said.contains("frf.csv") && said.contains("named in"), "{said}");
+}
+
+#[test]
+fn output_that_cannot_be_written() {
+    let folder = tempfile::tempdir().unwrap();
+    done(folder.path(), &["--quiet", "example", "density", "d"]);
+    std::fs::write(folder.path().join("out"), "a file is in the way").unwrap();
+    let said = refused(folder.path(), &["identify", "d/case.toml", "--out", "out", "--error-map", "0"]);
+    assert!(said.contains("out"), "{said}");
+}
+
+#[test]
+fn wrong_use_of_the_command_line() {
+    let folder = tempfile::tempdir().unwrap();
+    for arguments in
+        [&["identify"][..], &["frobnicate"], &["identify", "c.toml", "--out", "o", "--band", "12"], &["convert", "a.mtx"]]
+    {
+        let output = frfit(folder.path(), arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+    }
+}
