@@ -8,11 +8,15 @@
 //! | [`figures`] | what a run looks like, as the paper draws it |
 //! | [`output`] | tables, summary, and writing them whole or not at all |
 //! | [`job`] | whole jobs: from the path of a case to files in a folder |
+//! | [`inspect`](mod@inspect) | what is in a file |
+//! | [`convert`](mod@convert) | from one format of a matrix or an FRF to another |
 //! | [`error`] | what the user has to put right, and where |
 
 pub mod case;
+pub mod convert;
 pub mod error;
 pub mod figures;
+pub mod inspect;
 pub mod job;
 pub mod load;
 mod nearest;

@@ -22,16 +22,20 @@ pub fn check_symmetric(matrix: &CoordinateMatrix) -> Result<(), FormatError> {
     if matrix.entries == Entries::Pattern {
         return Err(FormatError::whole("a matrix with values", "a pattern: positions without values"));
     }
-    let found = match matrix.symmetry {
-        Symmetry::Symmetric => return Ok(()),
-        Symmetry::General => match worst_pair(matrix) {
-            Some(pair) => pair,
-            None => return Ok(()),
-        },
-        Symmetry::SkewSymmetric => "a skew-symmetric one (its transpose is -A)".into(),
-        Symmetry::Hermitian => "a Hermitian one (its transpose is the conjugate of A)".into(),
-    };
-    Err(FormatError::whole("a symmetric matrix (its transpose is A)", found))
+    match asymmetry(matrix) {
+        Some(found) => Err(FormatError::whole("a symmetric matrix (its transpose is A)", found)),
+        None => Ok(()),
+    }
+}
+
+/// Why Aᵀ is not A, in words; `None` where it is.
+pub(crate) fn asymmetry(matrix: &CoordinateMatrix) -> Option<String> {
+    match matrix.symmetry {
+        Symmetry::Symmetric => None,
+        Symmetry::General => worst_pair(matrix),
+        Symmetry::SkewSymmetric => Some("a skew-symmetric one (its transpose is -A)".into()),
+        Symmetry::Hermitian => Some("a Hermitian one (its transpose is the conjugate of A)".into()),
+    }
 }
 
 /// The two entries of a general matrix that differ most, in words; `None` where none do.
@@ -58,7 +62,8 @@ fn entry(matrix: &CoordinateMatrix, values: &[c64], row: usize, col: usize) -> c
     matrix.rows[start..end].binary_search(&row).map_or(c64::default(), |k| values[start + k])
 }
 
-fn complex(matrix: &CoordinateMatrix) -> Vec<c64> {
+/// The stored values as complex numbers, those of a pattern as 1.
+pub(crate) fn complex(matrix: &CoordinateMatrix) -> Vec<c64> {
     match &matrix.entries {
         Entries::Pattern => vec![c64::new(1.0, 0.0); matrix.rows.len()],
         Entries::Real(values) => values.iter().map(|&value| c64::new(value, 0.0)).collect(),

@@ -15,6 +15,7 @@ mod uff;
 pub use files::InputFile;
 pub use frf::{Choice, Frf, read_frf};
 pub use identify::IdentifyCase;
+pub(crate) use matrix::{asymmetry, complex};
 pub use matrix::{check_symmetric, symmetric_matrix};
 pub use measurement::SensorInfo;
 

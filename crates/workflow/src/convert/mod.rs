@@ -1,0 +1,73 @@
+//! From one format to another: matrices to matrices, FRFs to FRFs.
+
+mod options;
+mod precision;
+mod table;
+mod target;
+mod uff;
+
+pub use options::ConvertOptions;
+
+use crate::error::{InputError, Place};
+use crate::inspect::unknown_kind;
+use crate::load::load_bytes;
+use frfit_formats::{FileKind, FormatError, detect, harwell_boeing, matrix_market, read_matrix};
+use std::path::Path;
+use target::Target;
+
+/// The bytes of the output: what the input is, its content says, what the output is to be, its ending.
+///
+/// | from | to | what is kept |
+/// |---|---|---|
+/// | Matrix Market, Harwell–Boeing | either | every value bit for bit; of a title what the format has room for |
+/// | UFF | UFF | all datasets: the functions (58) anew as text or binary, the others byte for byte |
+/// | UFF | table | one FRF, bit for bit, and its coherence if the file has it |
+/// | table | UFF | the FRF and its coherence: bit for bit in binary, 13 digits of a value in text |
+/// | table | table | the FRF, sorted by frequency |
+///
+/// # Errors
+/// An ending that names no format, or not one of matrices for a matrix, nor one of FRFs for an FRF; an option that
+/// is missing or has no meaning here; whatever the reader or the writer refuses; frequencies that the text of a UFF
+/// file would blur.
+pub fn convert(input: &Path, output: &Path, options: &ConvertOptions) -> Result<Vec<u8>, InputError> {
+    let target = Target::of(output)?;
+    let bytes = load_bytes(input)?;
+    let in_input = |error: FormatError| InputError::in_file(input, error);
+    let kind = detect(&bytes).ok_or_else(|| unknown_kind(input, &bytes))?;
+    match (kind, target) {
+        (
+            FileKind::MatrixMarket | FileKind::HarwellBoeing,
+            Target::MatrixMarket | Target::HarwellBoeing(_),
+        ) => {
+            options.only(&[], "a matrix")?;
+            let matrix = read_matrix(&bytes).map_err(in_input)?;
+            let write = match target {
+                Target::MatrixMarket => matrix_market::write,
+                _ => harwell_boeing::write,
+            };
+            let written = write(&matrix).map_err(in_input)?;
+            target.fits(&written, output)?;
+            Ok(written)
+        }
+        (FileKind::Uff, Target::Uff) => {
+            options.only(&["--binary"], "a whole UFF file")?;
+            uff::rewritten(&bytes, options.form()).map_err(in_input)
+        }
+        (FileKind::Uff, Target::Table) => {
+            options.only(&["--record", "--quantity", "--response", "--reference"], "a table")?;
+            table::of_uff(&bytes, options, in_input)
+        }
+        (FileKind::Csv, Target::Table) => {
+            options.only(&[], "a table made of a table")?;
+            table::of_table(&bytes).map_err(in_input)
+        }
+        (FileKind::Csv, Target::Uff) => {
+            options.only(&["--quantity", "--response", "--reference", "--binary"], "a table of one FRF")?;
+            uff::of_table(&bytes, input, options)
+        }
+        (kind, target) => {
+            let place = Place::file(output);
+            Err(InputError::at(&place, target::endings_for(kind), format!("the ending of {target}")))
+        }
+    }
+}

@@ -1,0 +1,72 @@
+//! What an output is to be, by the ending of its name.
+
+use crate::error::{InputError, Place};
+use frfit_formats::FileKind;
+use std::fmt;
+use std::path::Path;
+
+/// What an output is to be.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Target {
+    MatrixMarket,
+    /// With the matrix type that the ending names, such as `rsa`.
+    HarwellBoeing(Option<[u8; 3]>),
+    Uff,
+    Table,
+}
+
+const OF_MATRICES: &str = ".mtx or .mm (Matrix Market), .hb, .rb, .rsa, .rua, .csa, .cua, .psa or another matrix type (Harwell-Boeing)";
+const OF_FRFS: &str = ".uff, .unv or .uf (UFF), .csv (table)";
+
+impl Target {
+    pub(super) fn of(output: &Path) -> Result<Self, InputError> {
+        let ending = output.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase());
+        let refuse = |found| {
+            let expected = format!("an ending that names a format: {OF_MATRICES}, {OF_FRFS}");
+            Err(InputError::at(&Place::file(output), expected, found))
+        };
+        let Some(ending) = ending else { return refuse("none".to_owned()) };
+        match ending.as_bytes() {
+            b"mtx" | b"mm" => Ok(Self::MatrixMarket),
+            b"hb" | b"rb" => Ok(Self::HarwellBoeing(None)),
+            &[values @ (b'r' | b'c' | b'p'), symmetry @ (b's' | b'u' | b'h' | b'z' | b'r'), b'a'] => {
+                Ok(Self::HarwellBoeing(Some([values, symmetry, b'a'])))
+            }
+            b"uff" | b"unv" | b"uf" => Ok(Self::Uff),
+            b"csv" => Ok(Self::Table),
+            _ => refuse(format!(".{ending}")),
+        }
+    }
+
+    /// Refuses a Harwell–Boeing ending that names another matrix type than line 3 of the file does: programs that
+    /// trust either would misread the other.
+    pub(super) fn fits(self, written: &[u8], output: &Path) -> Result<(), InputError> {
+        let Self::HarwellBoeing(Some(named)) = self else { return Ok(()) };
+        let type_line = written.split(|&byte| byte == b'\n').nth(2).unwrap_or_default();
+        let Some(kind) = type_line.first_chunk::<3>().filter(|kind| !kind.eq_ignore_ascii_case(&named))
+        else {
+            return Ok(());
+        };
+        let shown = |letters: &[u8]| String::from_utf8_lossy(letters).to_ascii_lowercase();
+        let expected = format!("the ending .{} of what the matrix is, or .hb", shown(kind));
+        Err(InputError::at(&Place::file(output), expected, format!(".{}", shown(&named))))
+    }
+}
+
+/// The endings to which a file of this kind can be converted.
+pub(super) fn endings_for(kind: FileKind) -> String {
+    let endings = match kind {
+        FileKind::MatrixMarket | FileKind::HarwellBoeing => OF_MATRICES,
+        FileKind::Uff | FileKind::Csv => OF_FRFS,
+    };
+    format!("an ending to which {kind} can be converted: {endings}")
+}
+
+impl fmt::Display for Target {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::MatrixMarket | Self::HarwellBoeing(_) => "a matrix",
+            Self::Uff | Self::Table => "an FRF",
+        })
+    }
+}

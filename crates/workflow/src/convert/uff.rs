@@ -1,0 +1,122 @@
+//! A UFF file.
+
+use super::options::ConvertOptions;
+use super::precision::{written, written_evenly_or_not};
+use crate::error::{InputError, Place};
+use crate::load::{Choice, Frf, read_frf};
+use frfit::dof::DofName;
+use frfit::quantity::Quantity;
+use frfit_formats::uff::{
+    Axis, DataType, Dof, File, Form, Function, FunctionHeader, FunctionType, Quantity as Kind, Units, Values,
+    write,
+};
+use frfit_formats::{FormatError, Position};
+use std::path::Path;
+
+/// All datasets: functions written anew, the others byte for byte.
+pub(super) fn rewritten(bytes: &[u8], form: Form) -> Result<Vec<u8>, FormatError> {
+    let file = File::new(bytes)?;
+    let mut out = Vec::new();
+    for (index, entry) in file.entries().iter().enumerate() {
+        if entry.dataset != 58 {
+            out.extend_from_slice(bytes.get(entry.bytes.clone()).unwrap_or_default());
+            // The last line of a file may have no end.
+            if !out.ends_with(b"\n") {
+                out.push(b'\n');
+            }
+            continue;
+        }
+        let line = entry.line;
+        let function = file.function(index)?;
+        let (points, missing) = (function.header.points, function.missing_points());
+        if missing > 0 {
+            let (expected, found) = (format!("{points} points, as the header says"), points - missing);
+            return Err(FormatError::line(line, expected, found.to_string()));
+        }
+        let at_line = |error| FormatError { position: Position::Line { line, column: None }, ..error };
+        out.extend(written(&function, form).map_err(at_line)?);
+    }
+    Ok(out)
+}
+
+/// The FRF of a table, and its coherence as a function of its own, in SI units.
+pub(super) fn of_table(bytes: &[u8], input: &Path, options: &ConvertOptions) -> Result<Vec<u8>, InputError> {
+    let needs = |name, expected: &str| InputError::at(&Place::option(name), expected, "none");
+    let quantity = options
+        .quantity
+        .ok_or_else(|| needs("--quantity", "receptance, mobility or accelerance: the table does not say"))?;
+    let response = options
+        .response
+        .ok_or_else(|| needs("--response", "where it was measured, such as 34+Z: the table does not say"))?;
+    let reference = options
+        .reference
+        .ok_or_else(|| needs("--reference", "where it was driven, such as 12+Z: the table does not say"))?;
+    let in_input = |error| InputError::in_file(input, error);
+    let frf = read_frf(bytes, &Choice::default()).map_err(in_input)?;
+    if frf.std.is_some() {
+        let expected = "a table without the column std, for which UFF has no place";
+        return Err(InputError::at(&Place::file(input), expected, "one with it"));
+    }
+    let header = FunctionHeader {
+        id: [name(input), String::new(), String::new(), String::new(), String::new()],
+        response: dof(response, "--response")?,
+        reference: dof(reference, "--reference")?,
+        abscissa: axis(Kind::Frequency, "Frequency", "Hz"),
+        ..FunctionHeader::default()
+    };
+    datasets(frf, header, quantity, options.form()).map_err(in_input)
+}
+
+/// Units, FRF, coherence.
+fn datasets(
+    frf: Frf,
+    header: FunctionHeader,
+    quantity: Quantity,
+    form: Form,
+) -> Result<Vec<u8>, FormatError> {
+    let Frf { frequency_hz, response, coherence, .. } = frf;
+    let (ordinate, unit) = match quantity {
+        Quantity::Receptance => (Kind::Displacement, "m"),
+        Quantity::Mobility => (Kind::Velocity, "m/s"),
+        Quantity::Accelerance => (Kind::Acceleration, "m/s^2"),
+    };
+    let frf = FunctionHeader {
+        ordinate: axis(ordinate, quantity.name(), unit),
+        denominator: axis(Kind::ExcitationForce, "Force", "N"),
+        ..header.clone()
+    };
+    let frf = Function::new(frf, frequency_hz.clone(), Values::Complex(response));
+    let mut out = write::units(&Units::default())?;
+    out.extend(written_evenly_or_not(&frf, form)?);
+    if let Some(coherence) = coherence {
+        let header = FunctionHeader {
+            function_type: FunctionType::Coherence,
+            data_type: DataType::RealDouble,
+            ordinate: axis(Kind::Unknown, "Coherence", ""),
+            ..header
+        };
+        let coherence = Function::new(header, frequency_hz, Values::Real(coherence));
+        out.extend(written_evenly_or_not(&coherence, form)?);
+    }
+    Ok(out)
+}
+
+/// The name of the input, as far as an ID line has room for it.
+fn name(input: &Path) -> String {
+    let name = input.file_name().unwrap_or_default().to_string_lossy();
+    name.chars().filter(|c| !c.is_control()).take(80).collect()
+}
+
+fn axis(quantity: Kind, label: &str, unit: &str) -> Axis {
+    Axis { quantity, label: label.into(), unit: unit.into(), ..Axis::default() }
+}
+
+/// A node label has ten columns.
+fn dof(name: DofName, option: &str) -> Result<Dof, InputError> {
+    match i64::try_from(name.node) {
+        Ok(node) if node < 10_000_000_000 => {
+            Ok(Dof { node, direction: name.uff_direction(), ..Dof::default() })
+        }
+        _ => Err(InputError::at(&Place::option(option), "a node of at most ten digits", name.to_string())),
+    }
+}

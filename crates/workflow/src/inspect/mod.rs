@@ -1,0 +1,99 @@
+//! What is in a file: enough to see that it is the right one, and in which units.
+
+mod function;
+mod matrix;
+mod modes;
+mod table;
+mod text;
+mod uff;
+
+pub use matrix::MatrixFacts;
+pub use modes::natural_frequencies;
+pub use table::{TableFacts, TableUse};
+pub use uff::{UffContent, UffRecord};
+
+use crate::error::{InputError, Place};
+use crate::load::load_bytes;
+use frfit_formats::{FileKind, detect, read_matrix};
+use serde_json::{Value, json};
+use std::path::{Path, PathBuf};
+
+/// What is in a file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Inspection {
+    /// The path as it was given.
+    pub file: PathBuf,
+    /// What the file holds.
+    pub content: Content,
+}
+
+/// What a file holds, by its kind.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Content {
+    /// The datasets of a UFF file.
+    Uff(Vec<UffRecord>),
+    /// A matrix.
+    Matrix(Box<MatrixFacts>),
+    /// A table.
+    Table(TableFacts),
+}
+
+/// Looks into a file; of what kind it is, its content says.
+///
+/// The data of the functions of a UFF file are not read, and a dataset that cannot be read is listed with its error.
+///
+/// # Errors
+/// A file that cannot be read, is of no known kind, or is a broken matrix or table.
+pub fn inspect(path: &Path) -> Result<Inspection, InputError> {
+    let bytes = load_bytes(path)?;
+    let refuse = |error| InputError::in_file(path, error);
+    let content = match detect(&bytes) {
+        Some(FileKind::Uff) => Content::Uff(uff::records(&bytes).map_err(refuse)?),
+        Some(FileKind::Csv) => Content::Table(TableFacts::read(&bytes).map_err(refuse)?),
+        Some(kind @ (FileKind::MatrixMarket | FileKind::HarwellBoeing)) => {
+            let matrix = read_matrix(&bytes).map_err(refuse)?;
+            Content::Matrix(Box::new(MatrixFacts::of(kind, &matrix)))
+        }
+        None => return Err(unknown_kind(path, &bytes)),
+    };
+    Ok(Inspection { file: path.to_path_buf(), content })
+}
+
+impl Inspection {
+    /// Everything as JSON; `file` and `kind` are always there.
+    pub fn json(&self) -> Value {
+        let (kind, mut object) = match &self.content {
+            Content::Uff(records) => {
+                let records: Vec<_> = records.iter().map(|record| record.json(&self.file)).collect();
+                ("uff", json!({"records": records}))
+            }
+            Content::Matrix(facts) => (facts.kind_word(), facts.json()),
+            Content::Table(facts) => ("csv", facts.json(&self.file)),
+        };
+        object["file"] = json!(self.file.to_string_lossy());
+        object["kind"] = json!(kind);
+        object
+    }
+
+    /// A few lines for a person, each ended by a line feed.
+    pub fn text(&self) -> String {
+        let (heading, lines) = match &self.content {
+            Content::Uff(records) => (uff::heading(records), uff::lines(records, &self.file)),
+            Content::Matrix(facts) => (facts.kind.to_string(), facts.lines()),
+            Content::Table(facts) => (FileKind::Csv.to_string(), facts.lines(&self.file)),
+        };
+        format!("{}: {heading}\n{lines}", self.file.display())
+    }
+}
+
+/// The error about a file of no known kind.
+pub(crate) fn unknown_kind(path: &Path, bytes: &[u8]) -> InputError {
+    let found = match bytes {
+        [] => "an empty file",
+        _ => {
+            "none of them (no %%MatrixMarket or -1 at the top, no matrix type in line 3, no names of columns)"
+        }
+    };
+    let expected = "a UFF file, a matrix (Matrix Market, Harwell-Boeing) or a table (CSV)";
+    InputError::at(&Place::file(path), expected, found)
+}

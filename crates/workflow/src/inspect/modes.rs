@@ -1,0 +1,33 @@
+//! The first natural frequencies of K and M: a wrong unit of either shows at once.
+
+use crate::error::{InputError, Place};
+use crate::load::{load_matrix, symmetric_matrix};
+use frfit_linalg::modes::{ModesError, lowest};
+use std::path::Path;
+
+/// The lowest natural frequencies of K φ = ω² M φ in Hz, in ascending order; 0 for a rigid-body mode up to roundoff.
+/// Fewer than `count` where M has a smaller rank.
+///
+/// # Errors
+/// A file that holds no real symmetric matrix, sizes that differ, a K and M without natural frequencies.
+pub fn natural_frequencies(k: &Path, m: &Path, count: usize) -> Result<Vec<f64>, InputError> {
+    let (stiffness, mass) = (load_matrix(k)?, load_matrix(m)?);
+    if stiffness.nrows != mass.nrows {
+        let expected = format!("as many rows as K ({}: {})", k.display(), stiffness.nrows);
+        return Err(InputError::at(&Place::file(m), expected, mass.nrows.to_string()));
+    }
+    // One entry is in at most two rows. Checked before anything is allocated by the number of rows.
+    let entries = stiffness.rows.len().saturating_add(mass.rows.len());
+    if stiffness.nrows > entries.saturating_mul(2) {
+        let found = format!("{entries} entries in both for {} rows", stiffness.nrows);
+        return Err(InputError::at(&Place::file(k), "a nonzero in every row of K or M", found));
+    }
+    let symmetric = |path, matrix| symmetric_matrix(matrix).map_err(|error| InputError::in_file(path, error));
+    let (stiffness, mass) = (symmetric(k, &stiffness)?, symmetric(m, &mass)?);
+    let modes = lowest(&stiffness, &mass, count).map_err(|error| {
+        let complex_mass = error == ModesError::Complex && stiffness.real_values().is_some();
+        let place = Place::file(if complex_mass { m } else { k });
+        InputError::at(&place, "K and M with natural frequencies", error.to_string())
+    })?;
+    Ok(modes.frequencies_hz())
+}

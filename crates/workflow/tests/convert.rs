@@ -1,0 +1,304 @@
+//! Conversions there and back.
+
+mod shared_data;
+
+use frfit::dof::DofName;
+use frfit::quantity::Quantity;
+use frfit_formats::{csv, read_matrix, uff};
+use frfit_workflow::convert::{ConvertOptions, convert};
+use frfit_workflow::load::{Choice, load_frf};
+use insta::assert_snapshot;
+use proptest::prelude::*;
+use shared_data::shared;
+use std::fs;
+use std::path::{Path, PathBuf};
+use tempfile::TempDir;
+
+/// A folder in which files are converted.
+struct Folder(TempDir);
+
+impl Folder {
+    fn with(name: &str, content: impl AsRef<[u8]>) -> Self {
+        let folder = Self(tempfile::tempdir().unwrap());
+        fs::write(folder.path(name), content).unwrap();
+        folder
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    /// Converts, writes and gives the bytes.
+    fn convert(&self, from: &str, to: &str, options: &ConvertOptions) -> Vec<u8> {
+        let bytes = convert(&self.path(from), &self.path(to), options).unwrap();
+        fs::write(self.path(to), &bytes).unwrap();
+        bytes
+    }
+
+    fn refused(&self, from: &str, to: &str, options: &ConvertOptions) -> String {
+        let error = convert(&self.path(from), &self.path(to), options).unwrap_err().to_string();
+        error.replace(&format!("{}/", self.0.path().display()), "")
+    }
+}
+
+const PLAIN: ConvertOptions =
+    ConvertOptions { record: None, quantity: None, response: None, reference: None, binary: false };
+
+fn of_table(binary: bool) -> ConvertOptions {
+    ConvertOptions {
+        quantity: Some(Quantity::Accelerance),
+        response: Some("34-Z".parse().unwrap()),
+        reference: Some("1+RX".parse().unwrap()),
+        binary,
+        ..PLAIN
+    }
+}
+
+const MATRIX: &str = "%%MatrixMarket matrix coordinate real symmetric\n% springs\n2 2 3\n1 1 0.1\n2 1 -3e-7\n2 2 12345678.901234567\n";
+const TABLE: &str = "frequency_hz,re,im,coherence\n10.0,0.1,-3e-7,0.9\n10.5,1e-12,2.5,1.0\n11.0,-7.0,0.3333333333333333,0.0\n";
+
+#[test]
+fn matrices_keep_every_bit() {
+    let folder = Folder::with("K.mtx", MATRIX);
+    folder.convert("K.mtx", "K.rsa", &PLAIN);
+    let back = folder.convert("K.rsa", "back.mm", &PLAIN);
+    assert_eq!(read_matrix(&back), read_matrix(MATRIX.as_bytes()));
+    assert_eq!(folder.convert("K.mtx", "K.HB", &PLAIN), folder.convert("K.mtx", "K.RSA", &PLAIN));
+}
+
+#[test]
+fn a_table_becomes_a_uff_file_that_says_everything() {
+    let folder = Folder::with("frf.csv", TABLE);
+    let text = String::from_utf8(folder.convert("frf.csv", "frf.uff", &of_table(false))).unwrap();
+    // Fields are filled with blanks up to column 80: the snapshot is without them.
+    let shown: Vec<&str> = text.lines().map(str::trim_end).collect();
+    assert_snapshot!(shown.join("\n"), @r"
+        -1
+       164
+             1SI: m, N                     1
+       1.0000000000000000D+00   1.0000000000000000D+00   1.0000000000000000D+00
+       0.0000000000000000D+00
+        -1
+        -1
+        58
+    frf.csv
+    NONE
+    NONE
+    NONE
+    NONE
+        4         0    0         0 NONE              34  -3 NONE               1   4
+             6         3         1  1.00000E+01  5.00000E-01  0.00000E+00
+            18    0    0    0 Frequency            Hz
+            12    0    0    0 accelerance          m/s^2
+            13    0    0    0 Force                N
+             0    0    0    0 NONE                 NONE
+      1.000000000000E-01 -3.000000000000E-07  1.000000000000E-12  2.500000000000E+00
+     -7.000000000000E+00  3.333333333333E-01
+        -1
+        -1
+        58
+    frf.csv
+    NONE
+    NONE
+    NONE
+    NONE
+        6         0    0         0 NONE              34  -3 NONE               1   4
+             4         3         1  1.00000E+01  5.00000E-01  0.00000E+00
+            18    0    0    0 Frequency            Hz
+             0    0    0    0 Coherence            NONE
+             0    0    0    0 NONE                 NONE
+             0    0    0    0 NONE                 NONE
+      9.000000000000E-01  1.000000000000E+00  0.000000000000E+00
+        -1
+    ");
+    let frf = load_frf(&folder.path("frf.uff"), &Choice::default()).unwrap();
+    assert_eq!(frf.quantity, Some(Quantity::Accelerance));
+    assert_eq!(frf.measured_at.map(|dof| dof.to_string()).as_deref(), Some("34-Z"));
+    assert_eq!(frf.driven_at.map(|dof| dof.to_string()).as_deref(), Some("1+RX"));
+}
+
+#[test]
+fn binary_and_back_keeps_every_bit_of_frf_and_coherence() {
+    let folder = Folder::with("frf.csv", TABLE);
+    folder.convert("frf.csv", "frf.unv", &of_table(true));
+    let back = folder.convert("frf.unv", "back.csv", &PLAIN);
+    assert_eq!(String::from_utf8(back).unwrap(), TABLE);
+    let agreeing = ConvertOptions { quantity: Some(Quantity::Accelerance), ..PLAIN };
+    assert_eq!(folder.convert("frf.unv", "back.csv", &agreeing), TABLE.as_bytes());
+}
+
+#[test]
+fn a_table_is_sorted_and_separated_by_commas() {
+    let folder = Folder::with("frf.csv", "im;re;frequency_hz;std\n1;2;20;0.5\n3;4;10;0.25\n");
+    let table = String::from_utf8(folder.convert("frf.csv", "sorted.csv", &PLAIN)).unwrap();
+    assert_eq!(table, "frequency_hz,re,im,std\n10.0,4.0,3.0,0.25\n20.0,2.0,1.0,0.5\n");
+}
+
+#[test]
+fn what_is_no_function_is_copied_byte_for_byte() {
+    // A dataset of unknown number with a line end of its own, and no line end after the last -1.
+    let other = "    -1\r\n  2420\r\n anything\r\n    -1";
+    let folder = Folder::with("frf.csv", TABLE);
+    let mut file = folder.convert("frf.csv", "frf.uff", &of_table(false));
+    file.extend(other.as_bytes());
+    fs::write(folder.path("both.uff"), &file).unwrap();
+    let binary = folder.convert("both.uff", "binary.uff", &ConvertOptions { binary: true, ..PLAIN });
+    assert!(binary.ends_with(format!("{other}\n").as_bytes()));
+    assert!(binary.starts_with(&file[..100]), "dataset 164");
+    let text = folder.convert("binary.uff", "text.uff", &PLAIN);
+    assert_eq!(String::from_utf8(text).unwrap(), format!("{}\n", String::from_utf8(file).unwrap()));
+}
+
+#[test]
+fn endings_say_what_the_output_is() {
+    let folder = Folder::with("K.mtx", MATRIX);
+    fs::write(folder.path("frf.csv"), TABLE).unwrap();
+    fs::write(folder.path("note.txt"), "Dear reader").unwrap();
+    assert_snapshot!(folder.refused("K.mtx", "K.dat", &PLAIN), @"K.dat: expected an ending that names a format: .mtx or .mm (Matrix Market), .hb, .rb, .rsa, .rua, .csa, .cua, .psa or another matrix type (Harwell-Boeing), .uff, .unv or .uf (UFF), .csv (table), found .dat");
+    assert_snapshot!(folder.refused("K.mtx", "K", &PLAIN), @"K: expected an ending that names a format: .mtx or .mm (Matrix Market), .hb, .rb, .rsa, .rua, .csa, .cua, .psa or another matrix type (Harwell-Boeing), .uff, .unv or .uf (UFF), .csv (table), found none");
+    assert_snapshot!(folder.refused("K.mtx", "K.csv", &PLAIN), @"K.csv: expected an ending to which a Matrix Market file can be converted: .mtx or .mm (Matrix Market), .hb, .rb, .rsa, .rua, .csa, .cua, .psa or another matrix type (Harwell-Boeing), found the ending of an FRF");
+    assert_snapshot!(folder.refused("frf.csv", "frf.mtx", &of_table(false)), @"frf.mtx: expected an ending to which a table (CSV) can be converted: .uff, .unv or .uf (UFF), .csv (table), found the ending of a matrix");
+    assert_snapshot!(folder.refused("K.mtx", "K.rua", &PLAIN), @"K.rua: expected the ending .rsa of what the matrix is, or .hb, found .rua");
+    assert_snapshot!(folder.refused("note.txt", "K.rua", &PLAIN), @"note.txt: expected a UFF file, a matrix (Matrix Market, Harwell-Boeing) or a table (CSV), found none of them (no %%MatrixMarket or -1 at the top, no matrix type in line 3, no names of columns)");
+}
+
+#[test]
+fn an_option_that_is_missing_or_has_no_meaning_is_named() {
+    let folder = Folder::with("K.mtx", MATRIX);
+    fs::write(folder.path("frf.csv"), TABLE).unwrap();
+    folder.convert("frf.csv", "frf.uff", &of_table(false));
+    let mut options = PLAIN;
+    assert_snapshot!(folder.refused("frf.csv", "a.uff", &options), @"--quantity: expected receptance, mobility or accelerance: the table does not say, found none");
+    options.quantity = Some(Quantity::Receptance);
+    assert_snapshot!(folder.refused("frf.csv", "a.uff", &options), @"--response: expected where it was measured, such as 34+Z: the table does not say, found none");
+    options.response = Some("1+X".parse().unwrap());
+    assert_snapshot!(folder.refused("frf.csv", "a.uff", &options), @"--reference: expected where it was driven, such as 12+Z: the table does not say, found none");
+    options.reference = Some(DofName { node: u64::MAX, ..options.response.unwrap() });
+    assert_snapshot!(folder.refused("frf.csv", "a.uff", &options), @"--reference: expected a node of at most ten digits, found 18446744073709551615+X");
+    assert_snapshot!(folder.refused("K.mtx", "K.rsa", &ConvertOptions { binary: true, ..PLAIN }), @"--binary: expected no such option for a matrix, found it");
+    assert_snapshot!(folder.refused("frf.uff", "a.uff", &ConvertOptions { record: Some(1), ..PLAIN }), @"--record: expected no such option for a whole UFF file, found 1");
+    let other = ConvertOptions { quantity: Some(Quantity::Mobility), ..PLAIN };
+    assert_snapshot!(folder.refused("frf.uff", "a.csv", &other), @"--quantity: expected accelerance, as the file says (values are not converted), found mobility");
+    let beyond = ConvertOptions { record: Some(2), ..PLAIN };
+    assert_snapshot!(folder.refused("frf.uff", "a.csv", &beyond), @"frf.uff: expected a record from 1 to 1 (1: 34-Z/1+RX), found 2");
+}
+
+#[test]
+fn nothing_is_lost_silently() {
+    let close = "frequency_hz,re,im\n1000.001,1,0\n1000.002,2,0\n1000.004,3,0\n";
+    let folder = Folder::with("close.csv", close);
+    assert_snapshot!(folder.refused("close.csv", "close.uff", &of_table(false)), @"close.csv: expected an abscissa that the text of a UFF file can show, or binary data (--binary), found one that would move by 0.50 of its step");
+    folder.convert("close.csv", "close.uff", &of_table(true));
+    assert_snapshot!(folder.refused("close.uff", "text.uff", &PLAIN), @"close.uff:7: expected an abscissa that the text of a UFF file can show, or binary data (--binary), found one that would move by 2.00 of its step");
+    fs::write(folder.path("std.csv"), "frequency_hz,re,im,std\n1,1,0,0.1\n").unwrap();
+    assert_snapshot!(folder.refused("std.csv", "std.uff", &of_table(true)), @"std.csv: expected a table without the column std, for which UFF has no place, found one with it");
+    // The last point is missing.
+    fs::write(folder.path("frf.csv"), TABLE).unwrap();
+    let text = String::from_utf8(folder.convert("frf.csv", "frf.uff", &of_table(false))).unwrap();
+    let cut = text.replacen("         6         3", "         6         4", 1);
+    fs::write(folder.path("cut.uff"), cut).unwrap();
+    assert_snapshot!(folder.refused("cut.uff", "whole.uff", &ConvertOptions { binary: true, ..PLAIN }), @"cut.uff:7: expected 4 points, as the header says, found 3");
+}
+
+/// Frequencies in ascending order: even, or not.
+fn frequencies() -> impl Strategy<Value = Vec<f64>> {
+    let even = (0.0..1e4, 1e-3..10.0, 1usize..40)
+        .prop_map(|(first, step, count)| (0..count).map(|k| first + step * k as f64).collect());
+    let uneven = proptest::collection::vec(1e-3f64..10.0, 1..40).prop_map(|steps| {
+        steps.iter().scan(0.0, |sum, step| Some(std::mem::replace(sum, *sum + step))).collect()
+    });
+    prop_oneof![even, uneven]
+}
+
+/// The table of an FRF at these frequencies.
+fn table(frequency_hz: &[f64], seed: f64) -> String {
+    let value = |k: usize| (seed * (k + 1) as f64).sin() * 10f64.powi(k as i32 % 30 - 15);
+    let row = |(k, f): (usize, &f64)| format!("{f:?},{:?},{:?}\n", value(2 * k), value(2 * k + 1));
+    format!("frequency_hz,re,im\n{}", frequency_hz.iter().enumerate().map(row).collect::<String>())
+}
+
+proptest! {
+    #[test]
+    fn any_frf_survives_binary_bit_for_bit(frequency_hz in frequencies(), seed in 0.1..3.0f64) {
+        let table = table(&frequency_hz, seed);
+        let folder = Folder::with("frf.csv", &table);
+        folder.convert("frf.csv", "frf.uff", &of_table(true));
+        prop_assert_eq!(String::from_utf8(folder.convert("frf.uff", "back.csv", &PLAIN)).unwrap(), table);
+    }
+
+    #[test]
+    fn any_frf_survives_text_to_twelve_digits_or_is_refused(frequency_hz in frequencies(), seed in 0.1..3.0f64) {
+        let folder = Folder::with("frf.csv", table(&frequency_hz, seed));
+        let Ok(text) = convert(&folder.path("frf.csv"), Path::new("frf.uff"), &of_table(false)) else {
+            return Ok(());
+        };
+        fs::write(folder.path("frf.uff"), text).unwrap();
+        let frf = |name| load_frf(&folder.path(name), &Choice::default()).unwrap();
+        let (before, after) = (frf("frf.csv"), frf("frf.uff"));
+        prop_assert_eq!(after.frequency_hz.len(), before.frequency_hz.len());
+        for (a, b) in before.response.iter().zip(&after.response) {
+            // E20.12 has 13 digits: each part is off by at most 5 in the fourteenth.
+            prop_assert!((a.re - b.re).abs() <= 5e-13 * a.re.abs());
+            prop_assert!((a.im - b.im).abs() <= 5e-13 * a.im.abs());
+        }
+        for (k, f) in before.frequency_hz.iter().enumerate().skip(1) {
+            let step = f - before.frequency_hz[k - 1];
+            prop_assert!((f - after.frequency_hz[k]).abs() <= 0.05 * step);
+        }
+    }
+}
+
+#[test]
+fn real_matrices_there_and_back() {
+    let Some(data) = shared("") else { return };
+    for name in ["plate/bcsstk09.mtx", "plate/bcsstm09.mtx", "hb/bcsstm01.mtx", "hb/bcsstk12.mtx"] {
+        let folder = Folder::with("A.mtx", fs::read(data.join(name)).unwrap());
+        folder.convert("A.mtx", "A.rsa", &PLAIN);
+        let mut back = read_matrix(&folder.convert("A.rsa", "back.mtx", &PLAIN)).unwrap();
+        let there = read_matrix(&fs::read(folder.path("A.mtx")).unwrap()).unwrap();
+        back.title.clone_from(&there.title); // longer than Harwell-Boeing has room for
+        assert_eq!(back, there, "{name}");
+    }
+}
+
+#[test]
+fn real_measurements_there_and_back() {
+    let Some(beam) = shared("uff/beam.uff") else { return };
+    let folder = Folder::with("x", "");
+    let binary = convert(&beam, Path::new("beam.uff"), &ConvertOptions { binary: true, ..PLAIN }).unwrap();
+    fs::write(folder.path("binary.uff"), &binary).unwrap();
+    for record in 1..=3 {
+        let options = ConvertOptions { record: Some(record), ..PLAIN };
+        let from_text = convert(&beam, Path::new("frf.csv"), &options).unwrap();
+        assert_eq!(folder.convert("binary.uff", "frf.csv", &options), from_text);
+        let frf = csv::read_frf(&from_text).unwrap();
+        assert_eq!((frf.frequency_hz.len(), frf.frequency_hz[63_999]), (64_000, 6399.9));
+    }
+    let text = folder.convert("binary.uff", "text.uff", &PLAIN);
+    let (there, back) = (fs::read(&beam).unwrap(), uff::File::new(&text).unwrap());
+    let there = uff::File::new(&there).unwrap();
+    for index in there.functions() {
+        assert_eq!(there.function(index), back.function(index));
+    }
+}
+
+#[test]
+fn real_uff_files_become_binary_and_are_the_same() {
+    let Some(folder) = shared("uff") else { return };
+    for file in fs::read_dir(folder).unwrap() {
+        let path = file.unwrap().path();
+        let options = ConvertOptions { binary: true, ..PLAIN };
+        if path.ends_with("dataset_milestone_in_header.uff") {
+            let error = convert(&path, Path::new("a.uff"), &options).unwrap_err().to_string();
+            assert!(error.contains("expected 2508876 points, as the header says, found 42"), "{error}");
+            continue;
+        }
+        let binary = convert(&path, Path::new("a.uff"), &options).unwrap_or_else(|error| panic!("{error}"));
+        let there = fs::read(&path).unwrap();
+        let (there, back) = (uff::File::new(&there).unwrap(), uff::File::new(&binary).unwrap());
+        assert_eq!(there.entries().len(), back.entries().len(), "{}", path.display());
+        for index in 0..there.entries().len() {
+            assert_eq!(there.entries()[index].dataset, back.entries()[index].dataset);
+        }
+    }
+}
