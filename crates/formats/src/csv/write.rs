@@ -9,6 +9,8 @@ pub enum Cell<'a> {
     Empty,
     /// A number; one that is not finite is no answer, and written as nothing.
     Number(f64),
+    /// A whole number.
+    Count(usize),
     /// A word, quoted where it needs quotes.
     Text(&'a str),
 }
@@ -67,6 +69,7 @@ fn push_line(out: &mut String, cells: &[Cell<'_>]) -> Result<(), FormatError> {
         match cell {
             Cell::Number(value) if value.is_finite() => out.push_str(&format!("{value:?}")),
             Cell::Number(_) | Cell::Empty => {}
+            Cell::Count(count) => out.push_str(&count.to_string()),
             Cell::Text(text) if text.contains(['\n', '\r']) => {
                 return Err(FormatError::whole("text on one line", format!("{text:?}")));
             }

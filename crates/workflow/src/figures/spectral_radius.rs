@@ -20,11 +20,14 @@ pub(super) fn figure(case: &Case, run: &IdentifyRun) -> Figure {
                 color: Color::Blue,
                 ..Series::default()
             }],
-            bands: vec![Bands {
-                label: "series diverges (ρ ≥ 1)".into(),
-                color: Color::Vermilion,
-                ranges: above.into_iter().map(|[first, last]| (first, last)).collect(),
-            }],
+            bands: match above[..] {
+                [] => Vec::new(),
+                _ => vec![Bands {
+                    label: "series diverges (ρ ≥ 1)".into(),
+                    color: Color::Vermilion,
+                    ranges: above.into_iter().map(|[first, last]| (first, last)).collect(),
+                }],
+            },
             levels: vec![Level { label: String::new(), y: 1.0 }],
             strip: Some(status_strip(run)),
             ..Panel::default()

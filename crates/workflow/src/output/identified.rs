@@ -32,8 +32,8 @@ pub fn identified_csv(outcomes: &[Identified]) -> String {
             outcome.correction.map(|c| c.im).into(),
             outcome.error.into(),
             outcome.spectral_radius.into(),
-            Cell::Number(outcome.order as f64),
-            Cell::Number(outcome.admissible() as f64),
+            Cell::Count(outcome.order),
+            Cell::Count(outcome.admissible()),
             Cell::Text(outcome.status.name()),
         ]
     });
