@@ -1,0 +1,24 @@
+//! The files of an example, as bytes.
+
+mod frf;
+mod matrix;
+mod table;
+
+pub(crate) use frf::{Frf, csv_frf, uff_frfs};
+pub(crate) use matrix::matrix;
+pub(crate) use table::{dofs, force, truth};
+
+/// A file of an example.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct File {
+    /// Path relative to the example's folder.
+    pub path: String,
+    /// What is in it.
+    pub bytes: Vec<u8>,
+}
+
+impl File {
+    pub(crate) fn new(path: &str, bytes: impl Into<Vec<u8>>) -> Self {
+        Self { path: path.to_owned(), bytes: bytes.into() }
+    }
+}

@@ -1,0 +1,39 @@
+//! Tables: the load, the names of rows, the truth.
+
+use crate::{Error, Model};
+use frfit::c64;
+use frfit::dof::DofName;
+use frfit::material::loss_factor;
+use frfit::model::Role;
+use frfit_formats::csv::{self, Cell};
+
+/// Columns row (from 1), re, im: the rows that are loaded.
+pub(crate) fn force(load: &[c64]) -> Result<String, Error> {
+    let numbers: Vec<String> = (1..=load.len()).map(|row| row.to_string()).collect();
+    let loaded = numbers.iter().zip(load).filter(|(_, force)| force.norm() > 0.0);
+    let rows = loaded.map(|(row, force)| [Cell::Text(row), force.re.into(), force.im.into()]);
+    Ok(csv::write(&["row", "re", "im"], rows)?)
+}
+
+/// Columns row (from 1), node, direction.
+pub(crate) fn dofs(names: &[DofName]) -> Result<String, Error> {
+    let numbers: Vec<_> =
+        (1..).zip(names).map(|(row, name)| [row, name.node].map(|n| n.to_string())).collect();
+    let rows =
+        numbers.iter().zip(names).map(|([row, node], name)| [row, node, name.axis.name()].map(Cell::Text));
+    Ok(csv::write(&["row", "node", "direction"], rows)?)
+}
+
+/// The true factor over frequency: storage and loss_factor of a stiffness, factor_re and factor_im of anything else.
+pub(crate) fn truth(model: &Model, frequency_hz: &[f64]) -> Result<String, Error> {
+    let mut terms = model.parameter.members.iter().map(|member| &model.stiffness.terms()[member.term]);
+    let is_modulus = terms.all(|term| term.role == Role::Stiffness);
+    let mut rows = Vec::with_capacity(frequency_hz.len());
+    for &f in frequency_hz {
+        let factor = model.truth.at(f)?;
+        let second = if is_modulus { loss_factor(factor) } else { factor.im };
+        rows.push([f, factor.re, second].map(Cell::from));
+    }
+    let columns = if is_modulus { ["storage", "loss_factor"] } else { ["factor_re", "factor_im"] };
+    Ok(csv::write(&["frequency_hz", columns[0], columns[1]], rows)?)
+}
