@@ -26,7 +26,13 @@ fn demo_runs_the_papers_rubber_bar() {
     let summary: Value = serde_json::from_slice(&std::fs::read(out.join("summary.json")).unwrap()).unwrap();
     // Where one root is admissible it is the right one.
     assert_eq!(summary["truth"]["fraction_right_of_ok"], 1.0);
-    assert!(summary["inputs"].as_array().unwrap().iter().all(|input| input["sha256"].as_str().unwrap().len() == 64));
+    assert!(
+        summary["inputs"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .all(|input| input["sha256"].as_str().unwrap().len() == 64)
+    );
     for figure in ["accelerance", "modulus", "error", "spectral_radius"] {
         let svg = std::fs::read_to_string(out.join(format!("figures/{figure}.svg"))).unwrap();
         assert!(svg.starts_with("<svg") && !svg.contains("NaN"));
@@ -56,7 +62,8 @@ fn results_do_not_depend_on_the_number_of_threads() {
 fn every_example_runs_and_strict_tells_of_frequencies_without_a_trusted_answer() {
     let folder = tempfile::tempdir().unwrap();
     let list: Value = serde_json::from_str(&done(folder.path(), &["example", "--json"])).unwrap();
-    let names: Vec<&str> = list.as_array().unwrap().iter().map(|example| example["name"].as_str().unwrap()).collect();
+    let names: Vec<&str> =
+        list.as_array().unwrap().iter().map(|example| example["name"].as_str().unwrap()).collect();
     for wanted in ["rubber-bar", "clamped-plate", "density", "sandwich"] {
         assert!(names.contains(&wanted), "{names:?}");
     }
@@ -71,7 +78,11 @@ fn every_example_runs_and_strict_tells_of_frequencies_without_a_trusted_answer()
         let summary: Value = serde_json::from_slice(&output.stdout).unwrap();
         let all_ok = summary["status"]["ok"] == summary["frequencies"];
         assert_eq!(output.status.code(), Some(if all_ok { 0 } else { 1 }), "{name}: {}", summary["status"]);
-        assert!(summary["truth"]["fraction_right_of_ok"].as_f64().unwrap() > 0.9, "{name}: {}", summary["truth"]);
+        assert!(
+            summary["truth"]["fraction_right_of_ok"].as_f64().unwrap() > 0.9,
+            "{name}: {}",
+            summary["truth"]
+        );
     }
 }
 
@@ -99,8 +110,19 @@ fn options_override_the_case() {
     assert!(frequencies.iter().all(|f| (500.0..=600.0).contains(f)) && frequencies.len() > 5);
     let search = done(
         folder.path(),
-        &["identify", "rubber-bar/case.toml", "--out", "nm", "--method", "nelder-mead", "--order", "150", "--band",
-          "500:520", "--json"],
+        &[
+            "identify",
+            "rubber-bar/case.toml",
+            "--out",
+            "nm",
+            "--method",
+            "nelder-mead",
+            "--order",
+            "150",
+            "--band",
+            "500:520",
+            "--json",
+        ],
     );
     let summary: Value = serde_json::from_str(&search).unwrap();
     assert_eq!(summary["identify"]["method"], "nelder-mead");

@@ -55,7 +55,8 @@ bounds = { storage = [0.2, 5.0], loss_factor = [0.0, 1.0] }
 truth = { storage = 1.0, loss_factor = 0.001 }
 "#;
         write("case.toml", case(&plate, 1.0 + delta, "file = \"measured/frf.uff\"") + identify);
-        let said = done(folder.path(), &["identify", "case.toml", "--out", "out", "--error-map", "0", "--json"]);
+        let said =
+            done(folder.path(), &["identify", "case.toml", "--out", "out", "--error-map", "0", "--json"]);
         let summary: Value = serde_json::from_str(&said).unwrap();
 
         assert_eq!(summary["frequencies"], 300);

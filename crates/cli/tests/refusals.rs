@@ -48,7 +48,11 @@ fn missing_case_and_missing_file() {
     let said = refused(folder.path(), &["identify", "nowhere.toml", "--out", "out"]);
     assert!(said.contains("nowhere.toml"), "{said}");
     let said = message(|d| {
-        let frf = std::fs::read_dir(d).unwrap().map(|e| e.unwrap().path()).find(|p| p.ends_with("frf.csv")).unwrap();
+        let frf = std::fs::read_dir(d)
+            .unwrap()
+            .map(|e| e.unwrap().path())
+            .find(|p| p.ends_with("frf.csv"))
+            .unwrap();
         std::fs::remove_file(frf).unwrap();
     });
     assert!(said.contains("frf.csv") && said.contains("named in"), "{said}");
@@ -66,9 +70,12 @@ fn output_that_cannot_be_written() {
 #[test]
 fn wrong_use_of_the_command_line() {
     let folder = tempfile::tempdir().unwrap();
-    for arguments in
-        [&["identify"][..], &["frobnicate"], &["identify", "c.toml", "--out", "o", "--band", "12"], &["convert", "a.mtx"]]
-    {
+    for arguments in [
+        &["identify"][..],
+        &["frobnicate"],
+        &["identify", "c.toml", "--out", "o", "--band", "12"],
+        &["convert", "a.mtx"],
+    ] {
         let output = frfit(folder.path(), arguments);
         assert_eq!(output.status.code(), Some(2), "{arguments:?}");
     }

@@ -3,7 +3,9 @@
 use crate::error::InputError;
 use crate::figures::{identify_figures, respond_figures};
 use crate::load::{Case, IdentifyCase, Overrides, Purpose, load};
-use crate::output::{File, WriteError, identified_csv, respond_csv, response_csv, summary_json, write_all};
+use crate::output::{
+    File, WriteError, identified_csv, respond_csv, respond_uff, response_csv, summary_json, write_all,
+};
 use crate::run::{IdentifyRun, Progress, RespondRun, RunOptions, identify, respond};
 use frfit::material::OutsideTable;
 use frfit_figures::PngError;
@@ -93,7 +95,7 @@ pub fn identify_case(
     Ok(IdentifyJob { case, run, summary })
 }
 
-/// Loads a case, computes its forward response, and writes table and figure into `out`.
+/// Loads a case, computes its forward response, and writes table, UFF file and figure into `out`.
 ///
 /// # Errors
 /// [`JobError`]. A frequency at which the system cannot be solved has empty cells, not an error.
@@ -107,6 +109,8 @@ pub fn respond_case(
     let run = respond(&case, progress)?;
     let mut files = respond_figures(&case, &run)?;
     files.push(File::new("response.csv", respond_csv(&case, &run)));
+    let uff = respond_uff(&case, &run).map_err(|error| InputError::in_file(&out.join("frf.uff"), error))?;
+    files.push(File::new("frf.uff", uff));
     write_all(out, &files)?;
     Ok((case, run))
 }

@@ -27,7 +27,7 @@ pub(crate) fn run(args: &Args, respond: &Respond) -> Result<Outcome, Failure> {
         let (first, last) = (run.frequency_hz.first(), run.frequency_hz.last());
         let band = first.zip(last).map_or(String::new(), |(a, b)| format!(", {a} to {b} Hz"));
         let mut text = format!(
-            "{}: response at {} sensor(s), {} frequencies{band}\nwrote {}\n",
+            "{}: response at {} sensor(s), {} frequencies{band}\nwrote {}: response.csv, frf.uff, figures/\n",
             case.title,
             case.sensors.len(),
             run.frequency_hz.len(),

@@ -7,6 +7,7 @@ mod target;
 mod uff;
 
 pub use options::ConvertOptions;
+pub(crate) use uff::frf_dataset;
 
 use crate::error::{InputError, Place};
 use crate::inspect::unknown_kind;

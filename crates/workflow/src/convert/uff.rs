@@ -4,6 +4,7 @@ use super::options::ConvertOptions;
 use super::precision::{written, written_evenly_or_not};
 use crate::error::{InputError, Place};
 use crate::load::{Choice, Frf, read_frf};
+use frfit::c64;
 use frfit::dof::DofName;
 use frfit::quantity::Quantity;
 use frfit_formats::uff::{
@@ -61,7 +62,6 @@ pub(super) fn of_table(bytes: &[u8], input: &Path, options: &ConvertOptions) -> 
         id: [name(input), String::new(), String::new(), String::new(), String::new()],
         response: dof(response, "--response")?,
         reference: dof(reference, "--reference")?,
-        abscissa: axis(Kind::Frequency, "Frequency", "Hz"),
         ..FunctionHeader::default()
     };
     datasets(frf, header, quantity, options.form()).map_err(in_input)
@@ -75,19 +75,8 @@ fn datasets(
     form: Form,
 ) -> Result<Vec<u8>, FormatError> {
     let Frf { frequency_hz, response, coherence, .. } = frf;
-    let (ordinate, unit) = match quantity {
-        Quantity::Receptance => (Kind::Displacement, "m"),
-        Quantity::Mobility => (Kind::Velocity, "m/s"),
-        Quantity::Accelerance => (Kind::Acceleration, "m/s^2"),
-    };
-    let frf = FunctionHeader {
-        ordinate: axis(ordinate, quantity.name(), unit),
-        denominator: axis(Kind::ExcitationForce, "Force", "N"),
-        ..header.clone()
-    };
-    let frf = Function::new(frf, frequency_hz.clone(), Values::Complex(response));
     let mut out = write::units(&Units::default())?;
-    out.extend(written_evenly_or_not(&frf, form)?);
+    out.extend(frf_dataset(&frequency_hz, response, header.clone(), quantity, form)?);
     if let Some(coherence) = coherence {
         let header = FunctionHeader {
             function_type: FunctionType::Coherence,
@@ -99,6 +88,29 @@ fn datasets(
         out.extend(written_evenly_or_not(&coherence, form)?);
     }
     Ok(out)
+}
+
+/// One FRF in SI units; the header says where it was measured and driven.
+pub(crate) fn frf_dataset(
+    frequency_hz: &[f64],
+    response: Vec<c64>,
+    header: FunctionHeader,
+    quantity: Quantity,
+    form: Form,
+) -> Result<Vec<u8>, FormatError> {
+    let (ordinate, unit) = match quantity {
+        Quantity::Receptance => (Kind::Displacement, "m"),
+        Quantity::Mobility => (Kind::Velocity, "m/s"),
+        Quantity::Accelerance => (Kind::Acceleration, "m/s^2"),
+    };
+    let header = FunctionHeader {
+        abscissa: axis(Kind::Frequency, "Frequency", "Hz"),
+        ordinate: axis(ordinate, quantity.name(), unit),
+        denominator: axis(Kind::ExcitationForce, "Force", "N"),
+        ..header
+    };
+    let frf = Function::new(header, frequency_hz.to_vec(), Values::Complex(response));
+    written_evenly_or_not(&frf, form)
 }
 
 /// The name of the input, as far as an ID line has room for it.

@@ -1,11 +1,13 @@
 //! What a run leaves behind: tables, summary and figures, written whole or not at all.
 
 mod files;
+mod frf;
 mod identified;
 mod response;
 mod summary;
 
 pub use files::{File, WriteError, write_all};
+pub use frf::respond_uff;
 pub use identified::identified_csv;
 pub use response::{respond_csv, response_csv};
 pub use summary::{RIGHT_WITHIN, summary_json};
