@@ -84,7 +84,7 @@ pub(crate) struct Identify {
     /// Selection of one of several roots, in place of the case's
     #[arg(long)]
     pub(crate) selection: Option<String>,
-    /// Frequencies at which the error is mapped over the orders; 0 for no map (default: 60, none above 5000 dofs)
+    /// Frequencies at which the error is mapped over the orders; 0 for no map (default: 60, above 300 dofs 30, above 5000 none)
     #[arg(long, value_name = "N")]
     pub(crate) error_map: Option<usize>,
     /// Exit with 1 where some frequency has no trusted answer

@@ -7,6 +7,10 @@ use frfit_linalg::solve::Breakdown;
 use frfit_linalg::spectral::{SpectralOptions, spectral_radius};
 use std::collections::VecDeque;
 
+/// Relative residual of the eigenpair. The operator is symmetric in the bilinear form of A₁, so the eigenvalue's error is of
+/// the order of its square: more digits than a spectral radius is read to.
+const RESIDUAL: f64 = 1e-4;
+
 /// The largest |c| for which the series converges, with its evidence.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ConvergenceRadius {
@@ -52,7 +56,8 @@ pub fn convergence_radius(system: &impl Response, parameter: usize) -> Result<Co
         out[n..].copy_from_slice(&stacked[..n * (degree - 1)]);
         Ok(())
     };
-    let found = spectral_radius(n * degree, companion, &SpectralOptions::default())?;
+    let options = SpectralOptions { tolerance: RESIDUAL, ..SpectralOptions::default() };
+    let found = spectral_radius(n * degree, companion, &options)?;
     Ok(ConvergenceRadius {
         per_unit: found.radius / scale,
         residual: found.residual,

@@ -10,7 +10,7 @@ use toml::de::{DeTable, DeValue};
 /// A table with no key but the known ones.
 #[derive(Debug)]
 pub(super) struct Table<'a> {
-    document: Document<'a>,
+    document: &'a Document<'a>,
     pub(super) place: Place,
     fields: &'a DeTable<'a>,
 }
@@ -18,7 +18,7 @@ pub(super) struct Table<'a> {
 /// The value of a key.
 #[derive(Debug)]
 pub(super) struct Field<'a> {
-    document: Document<'a>,
+    document: &'a Document<'a>,
     pub(super) place: Place,
     value: &'a DeValue<'a>,
 }
@@ -29,7 +29,7 @@ impl<'a> Table<'a> {
     /// # Errors
     /// The first unknown key, with the known one that is nearest.
     pub(super) fn new(
-        document: Document<'a>,
+        document: &'a Document<'a>,
         place: Place,
         fields: &'a DeTable<'a>,
         known: &[&str],
@@ -107,7 +107,7 @@ impl<'a> Field<'a> {
         number(self.value).ok_or_else(|| self.refuse("a finite number"))
     }
 
-    /// [low, high] with 0 or more, and low ≤ high only where the caller asks for it.
+    /// Two finite numbers, in any order.
     pub(super) fn pair(&self) -> Result<Located<[f64; 2]>, InputError> {
         let items = self.value.as_array().map(|items| items.iter().map(|item| number(item.get_ref())));
         match items.map(Iterator::collect::<Option<Vec<_>>>) {
@@ -146,8 +146,12 @@ impl<'a> Field<'a> {
 
     /// Tables, each under its own `[[name]]`; at least one.
     pub(super) fn tables(&self, name: &str, known: &[&str]) -> Result<Vec<Table<'a>>, InputError> {
-        let expected = format!("at least one table under [[{name}]]");
-        let items = self.value.as_array().ok_or_else(|| self.refuse(&expected))?;
+        let expected = format!("at least one table [[{name}]]");
+        let items = match self.value {
+            DeValue::Array(items) => items,
+            DeValue::Table(_) => return Err(InputError::at(&self.place, expected, format!("[{name}]"))),
+            _ => return Err(self.refuse(&expected)),
+        };
         let tables = items.iter().map(|item| {
             let place = self.document.place(item.span(), self.place.key.clone());
             Self { place, value: item.get_ref(), ..*self }.table(known)

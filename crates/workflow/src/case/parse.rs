@@ -15,11 +15,16 @@ pub fn parse(file: &Path, bytes: &[u8]) -> Result<CaseFile, InputError> {
     let document = Document::new(file, bytes)?;
     let tables = document.tables()?;
     let known = ["title", "matrix", "dofs", "load", "measurement", "identify", "respond"];
-    let case = Table::new(document, Place::file(file), tables.get_ref(), &known)?;
-    let many = |name: &str, known: &[&str]| case.need(name)?.tables(name, known);
+    let case = Table::new(&document, Place::file(file), tables.get_ref(), &known)?;
+    let missing = |table: String| InputError::at(&case.place, table, "none");
+    let many = |name: &str, known: &[&str]| match case.find(name) {
+        Some(field) => field.tables(name, known),
+        None => Err(missing(format!("at least one table [[{name}]]"))),
+    };
 
     let matrices = many("matrix", &["name", "role", "file", "factor"])?;
     let measurements = many("measurement", &["file", "dof", "row", "record", "quantity"])?;
+    let force = case.find("load").ok_or_else(|| missing("a table [load]".into()))?;
     let dofs = match case.find("dofs") {
         Some(dofs) => Some(dofs.table(&["file"])?.need("file")?.text()?),
         None => None,
@@ -29,7 +34,7 @@ pub fn parse(file: &Path, bytes: &[u8]) -> Result<CaseFile, InputError> {
         title: case.find("title").map(|title| title.text()).transpose()?.map(|title| title.value),
         matrices: named_once(matrices.iter().map(matrix).collect::<Result<_, _>>()?)?,
         dofs,
-        load: load(&case.need("load")?.table(&["dof", "row", "file"])?)?,
+        load: load(&force.table(&["dof", "row", "file"])?)?,
         measurements: measurements.iter().map(measurement).collect::<Result<_, _>>()?,
         identify: case.find("identify").map(|field| identify(&field)).transpose()?,
         respond: case.find("respond").map(|field| respond(&field)).transpose()?,

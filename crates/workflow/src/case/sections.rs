@@ -78,7 +78,7 @@ fn fractional(field: &Field<'_>) -> Result<Law, InputError> {
 /// `dof` or `row`, if one is there.
 fn spot(table: &Table<'_>) -> Result<Option<Spot>, InputError> {
     match (table.find("dof"), table.find("row")) {
-        (Some(_), Some(row)) => Err(row.refuse("either dof or row")),
+        (Some(_), Some(row)) => Err(InputError::at(&row.place, "either dof or row", "both")),
         (Some(dof), None) => {
             let expected = "a node, a sign and a direction such as 12+Z or 7-RX";
             let name = dof.word(|word| word.parse::<DofName>().map_err(|_| expected.into()))?;
@@ -92,7 +92,7 @@ fn spot(table: &Table<'_>) -> Result<Option<Spot>, InputError> {
 /// `[load]`.
 pub(super) fn load(table: &Table<'_>) -> Result<LoadEntry, InputError> {
     match (spot(table)?, table.find("file")) {
-        (Some(_), Some(file)) => Err(file.refuse("one of dof, row and file")),
+        (Some(_), Some(file)) => Err(InputError::at(&file.place, "one of dof, row and file", "two of them")),
         (Some(spot), None) => Ok(LoadEntry::At(spot)),
         (None, Some(file)) => Ok(LoadEntry::File(file.text()?)),
         (None, None) => Err(InputError::at(&table.place, "one of the keys dof, row and file", "none")),

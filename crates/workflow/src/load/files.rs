@@ -51,7 +51,7 @@ impl Files {
     /// Reads a case file; paths in it are relative to it.
     pub(super) fn of_case(case_file: &Path) -> Result<(Self, Vec<u8>), InputError> {
         let bytes =
-            read(case_file).map_err(|found| unreadable(&Place::file(case_file), "a case file", found))?;
+            read(case_file).map_err(|found| InputError::at(&Place::file(case_file), "a case file", found))?;
         let folder = case_file.parent().unwrap_or(Path::new("")).to_path_buf();
         let mut files = Self { folder, inputs: Vec::new(), last: None };
         files.record(case_file, &bytes);
@@ -60,12 +60,15 @@ impl Files {
 
     /// Reads a file that a key of the case names.
     pub(super) fn read(&mut self, name: &Located<String>) -> Result<NamedFile, InputError> {
+        if name.value.is_empty() {
+            return Err(InputError::at(&name.place, "the path of a file", "an empty text"));
+        }
         let path = self.folder.join(&name.value);
         let bytes = match &self.last {
             Some((last, bytes)) if *last == path => Rc::clone(bytes),
             _ => {
                 let expected = format!("a file at {}", path.display());
-                Rc::new(read(&path).map_err(|found| unreadable(&name.place, expected, found))?)
+                Rc::new(read(&path).map_err(|found| InputError::at(&name.place, expected, found))?)
             }
         };
         self.last = Some((path.clone(), Rc::clone(&bytes)));
@@ -96,8 +99,4 @@ pub(super) fn read(path: &Path) -> Result<Vec<u8>, String> {
         return Err("something that is no plain file".into());
     }
     fs::read(path).map_err(failure)
-}
-
-fn unreadable(place: &Place, expected: impl Into<String>, found: String) -> InputError {
-    InputError::at(place, expected, found)
 }

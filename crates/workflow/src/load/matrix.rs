@@ -116,7 +116,7 @@ mod tests {
         let i = c64::new(0.0, 1.0);
         let matrix = general(Entries::Complex(vec![2.0 + i, i, i, 3.0 + i]), &FULL);
         assert_eq!(symmetric_matrix(&matrix).unwrap().get(0, 1), i);
-        let conjugate = general(Entries::Complex(vec![2.0 + i, -i, i, 3.0 + i]), &FULL);
+        let conjugate = general(Entries::Complex(vec![2.0 + i, c64::new(0.0, -1.0), i, 3.0 + i]), &FULL);
         let found = symmetric_matrix(&conjugate).unwrap_err().found;
         assert_eq!(found, "0+1i at (1, 2) but 0-1i at (2, 1)");
     }

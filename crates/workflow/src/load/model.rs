@@ -50,12 +50,12 @@ fn every_row_has_an_entry(
     let rows = read.first().map_or(0, |(_, matrix, _)| matrix.nrows);
     let entries: usize = read.iter().map(|(_, matrix, _)| matrix.rows.len()).sum();
     let refuse = |found: String| {
-        let place = &case.matrices[0].name.place;
+        let place = &case.matrices[0].file.place;
         Err(InputError::at(place, format!("an entry in each of the {rows} rows, in some matrix"), found))
     };
     // An entry is in two rows at most: its own and that of its mirror image.
     if rows / 2 > entries {
-        return refuse(format!("{entries} entries in all"));
+        return refuse(format!("{entries} in all"));
     }
     let mut empty = vec![true; rows];
     for (_, matrix, _) in read {

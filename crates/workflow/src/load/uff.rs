@@ -50,7 +50,7 @@ fn frfs(file: &File<'_>) -> Result<Vec<(usize, FunctionHeader)>, FormatError> {
     match frfs.is_empty() {
         true => Err(FormatError::whole(
             "a frequency response function (dataset 58 of function type 4)",
-            format!("none in {} datasets, of which {others} are other functions", file.entries().len()),
+            format!("none, and {others} functions of other types"),
         )),
         false => Ok(frfs),
     }
@@ -61,10 +61,7 @@ fn chosen(frfs: &[(usize, FunctionHeader)], choice: &Choice) -> Result<usize, Fo
     if let Some(record) = choice.record {
         let at = usize::try_from(record).ok().filter(|number| (1..=frfs.len()).contains(number));
         let refuse = || {
-            FormatError::whole(
-                format!("a record from 1 to {} ({})", frfs.len(), listed(frfs)),
-                record.to_string(),
-            )
+            FormatError::whole(format!("record = 1 to {} ({})", frfs.len(), listed(frfs)), record.to_string())
         };
         return Ok(at.ok_or_else(refuse)? - 1);
     }
@@ -77,10 +74,16 @@ fn chosen(frfs: &[(usize, FunctionHeader)], choice: &Choice) -> Result<usize, Fo
     match (frfs.len(), fitting.next(), fitting.next()) {
         (1, ..) => Ok(0),
         (_, Some((k, _)), None) => Ok(k),
-        (count, first, _) => {
-            let which = if first.is_some() { "several" } else { "none" };
-            let expected = "one FRF that fits dof and load, or record = a number";
-            Err(FormatError::whole(expected, format!("{which} of {count} ({})", listed(frfs))))
+        (_, first, _) => {
+            let which = match (choice.measured_at, first) {
+                (None, _) => "several, and no dof or record that tells which",
+                (Some(_), None) => "none with the dof and load of the case",
+                (Some(_), Some(_)) => {
+                    "several with the dof and load of the case, and no record that tells which"
+                }
+            };
+            let found = format!("{which} ({})", listed(frfs));
+            Err(FormatError::whole("one frequency response function", found))
         }
     }
 }

@@ -15,7 +15,7 @@ use std::time::Instant;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct RunOptions {
     /// At how many frequencies of the band the error is mapped over the orders, each order a direct solve.
-    /// `None`: 60, and none above 5000 degrees of freedom, where it would cost more than the identification.
+    /// `None`: 60 up to 300 degrees of freedom, 30 up to 5000, and none above, where it would cost more than the identification.
     pub error_map: Option<usize>,
 }
 
@@ -50,11 +50,14 @@ pub struct IdentifyRun {
     pub seconds: Seconds,
 }
 
-/// Above this size the error map is made only on demand.
-const MAP_UP_TO_DOFS: usize = 5000;
-
 /// Columns of the error map where none are asked for.
-const MAP_COLUMNS: usize = 60;
+fn map_columns(dofs: usize) -> usize {
+    match dofs {
+        0..=300 => 60,
+        301..=5000 => 30,
+        _ => 0,
+    }
+}
 
 /// Identifies at every frequency of the case's band; frequencies are independent and run on all cores.
 ///
@@ -103,7 +106,7 @@ fn error_map(
     identify: &IdentifyCase,
     options: RunOptions,
 ) -> Result<Option<ErrorMap>, OutsideTable> {
-    let affordable = if case.model.dim() <= MAP_UP_TO_DOFS { MAP_COLUMNS } else { 0 };
+    let affordable = map_columns(case.model.dim());
     let columns = options.error_map.unwrap_or(affordable).min(identify.frequency_hz.len());
     if columns == 0 || identify.options.method != identify::Method::Series {
         return Ok(None);

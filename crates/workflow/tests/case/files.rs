@@ -5,7 +5,7 @@ use frfit_workflow::load::{Case, Overrides, Purpose, load};
 use std::fs;
 use tempfile::TempDir;
 
-pub const CASE: &str = r#"title = "Three masses"
+pub(crate) const CASE: &str = r#"title = "Three masses"
 [[matrix]]
 name = "springs"
 role = "stiffness"
@@ -44,7 +44,7 @@ points = 4
 "#;
 
 /// All files of the case.
-pub const FILES: [(&str, &str); 8] = [
+pub(crate) const FILES: [(&str, &str); 8] = [
     ("case.toml", CASE),
     (
         "K.mtx",
@@ -59,7 +59,7 @@ pub const FILES: [(&str, &str); 8] = [
 ];
 
 /// Writes the case with one file's text replaced, or the file left out where there is none.
-pub fn folder(name: &str, bytes: Option<&[u8]>) -> TempDir {
+pub(crate) fn folder(name: &str, bytes: Option<&[u8]>) -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     for (file, text) in FILES {
         match bytes {
@@ -72,19 +72,31 @@ pub fn folder(name: &str, bytes: Option<&[u8]>) -> TempDir {
 }
 
 /// Loads the case with one file's text replaced.
-pub fn with(name: &str, bytes: &[u8], overrides: &Overrides, purpose: Purpose) -> Result<Case, InputError> {
+pub(crate) fn with(
+    name: &str,
+    bytes: &[u8],
+    overrides: &Overrides,
+    purpose: Purpose,
+) -> Result<Case, InputError> {
     let folder = folder(name, Some(bytes));
     load(&folder.path().join("case.toml"), overrides, purpose)
 }
 
 /// A file of the case with the first occurrence of one text replaced by another.
-pub fn edited(name: &str, from: &str, to: &str) -> String {
+pub(crate) fn edited(name: &str, from: &str, to: &str) -> String {
     let text = FILES.iter().find(|(file, _)| *file == name).unwrap().1;
     assert!(text.contains(from), "{name} does not contain {from:?}");
     text.replacen(from, to, 1)
 }
 
 /// The message of an error, with the folder's path left out.
-pub fn message(folder: &TempDir, error: &InputError) -> String {
+pub(crate) fn message(folder: &TempDir, error: &InputError) -> String {
     error.to_string().replace(&format!("{}/", folder.path().display()), "")
+}
+
+/// Asserts what is said about the case with one file's text replaced.
+pub(crate) fn refused(name: &str, text: &str, expected: &str) {
+    let folder = folder(name, Some(text.as_bytes()));
+    let case = load(&folder.path().join("case.toml"), &Overrides::default(), Purpose::Identify);
+    assert_eq!(message(&folder, &case.expect_err(expected)), expected, "{name}:\n{text}");
 }
