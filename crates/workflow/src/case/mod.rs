@@ -108,7 +108,7 @@ pub struct IdentifyEntry {
     pub place: Place,
     /// Matrices that share the unknown factor, at least one.
     pub matrices: Vec<Located<String>>,
-    /// [first, last] frequency.
+    /// First and last frequency.
     pub band_hz: Option<Located<[f64; 2]>>,
     /// Method.
     pub method: Option<Method>,
@@ -129,7 +129,7 @@ pub struct IdentifyEntry {
 /// `[respond]`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RespondEntry {
-    /// [first, last] frequency.
+    /// First and last frequency.
     pub band_hz: Located<[f64; 2]>,
     /// How many frequencies, equally spaced, both ends included.
     pub points: usize,

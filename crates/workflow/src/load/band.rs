@@ -13,11 +13,11 @@ const SAME_FREQUENCY: f64 = 1e-9;
 #[derive(Debug, Default)]
 pub(super) struct Band {
     pub(super) frequency_hz: Vec<f64>,
-    /// [frequency][sensor], receptance.
+    /// `[frequency][sensor]`, receptance.
     pub(super) measured: Vec<Vec<c64>>,
-    /// [sensor][frequency], of the receptance.
+    /// `[sensor][frequency]`, of the receptance.
     pub(super) std: Vec<Option<Vec<f64>>>,
-    /// [sensor][frequency].
+    /// `[sensor][frequency]`.
     pub(super) coherence: Vec<Option<Vec<f64>>>,
 }
 

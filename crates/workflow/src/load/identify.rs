@@ -26,11 +26,11 @@ pub struct IdentifyCase {
     pub band_hz: [f64; 2],
     /// The measured frequencies in it, ascending; at least one.
     pub frequency_hz: Vec<f64>,
-    /// Measured receptance in m/N, \[frequency\]\[sensor\].
+    /// Measured receptance in m/N, `[frequency][sensor]`.
     pub measured: Vec<Vec<c64>>,
-    /// Standard deviation √E|δx|² of the measured receptance, \[sensor\]\[frequency\], where the file gives it.
+    /// Standard deviation √E|δx|² of the measured receptance, `[sensor][frequency]`, where the file gives it.
     pub std: Vec<Option<Vec<f64>>>,
-    /// Coherence γ², \[sensor\]\[frequency\], where the file gives it.
+    /// Coherence γ², `[sensor][frequency]`, where the file gives it.
     pub coherence: Vec<Option<Vec<f64>>>,
     /// The factor that a simulated measurement was made with.
     pub truth: Option<Law>,

@@ -1,0 +1,147 @@
+//! A complete case with every feature, and the freedoms that a case has.
+
+use crate::files::{CASE, edited, folder, with};
+use frfit::c64;
+use frfit::identify::{Method, Options};
+use frfit::material::Law;
+use frfit::model::Sensor;
+use frfit::quantity::Quantity;
+use frfit::roots::Bounds;
+use frfit_workflow::load::{Overrides, Purpose, load};
+use std::path::Path;
+
+#[test]
+fn everything_that_a_case_says_is_there() {
+    let folder = folder("", None);
+    let case_file = folder.path().join("case.toml");
+    let case = load(&case_file, &Overrides::default(), Purpose::Identify).unwrap();
+
+    assert_eq!(case.title, "Three masses");
+    let names: Vec<_> = case.model.terms().iter().map(|term| term.name.as_str()).collect();
+    assert_eq!((case.model.dim(), names), (3, vec!["springs", "core", "mass"]));
+    assert_eq!(case.model.terms()[0].factor, Law::Constant(c64::new(2e5, 2e4)));
+    assert!(matches!(case.model.terms()[1].factor, Law::Table(_)));
+    assert_eq!(case.model.terms()[2].factor, Law::Constant(c64::new(1.0, 0.0)));
+    assert_eq!(case.model.terms()[1].matrix.get(2, 0), c64::new(-1.0, 0.0));
+
+    assert_eq!(case.experiment.load, [c64::new(1.0, 0.0), c64::default(), c64::default()]);
+    assert_eq!(case.experiment.sensors, [Sensor { row: 1, sign: -1.0 }, Sensor { row: 2, sign: 1.0 }]);
+    let sensors: Vec<_> = case.sensors.iter().map(|s| (s.label.as_str(), s.quantity)).collect();
+    assert_eq!(sensors, [("2-Z", Quantity::Accelerance), ("row 3", Quantity::Receptance)]);
+    assert_eq!(case.sensors[1].file.as_deref(), Some(Path::new("b.csv")));
+
+    let identify = case.identify.unwrap();
+    assert_eq!(identify.names, ["springs"]);
+    assert_eq!(identify.parameter.nominal, Law::Constant(c64::new(2e5, 2e4)));
+    let bounds = Bounds { storage: Some([1e5, 1e6]), loss_factor: Some([0.0, 1.0]) };
+    assert_eq!(identify.options, Options { order: 20, bounds, ..Options::default() });
+    assert_eq!((identify.band_hz, &identify.frequency_hz[..]), ([10.0, 30.0], &[10.0, 20.0, 30.0][..]));
+    assert_eq!(identify.truth, Some(Law::Fractional { e0: 1e5, e1: 2e4, alpha: 0.5 }));
+    assert_eq!(case.respond_hz, [10.0, 20.0, 30.0]);
+}
+
+#[test]
+fn measured_values_and_their_deviations_become_receptance() {
+    let case = with("", b"", &Overrides::default(), Purpose::Identify).unwrap();
+    let identify = case.identify.unwrap();
+    for (k, &f) in identify.frequency_hz.iter().enumerate() {
+        let omega = std::f64::consts::TAU * f;
+        let accelerance = c64::new(k as f64 + 1.0, -1.0);
+        let expected = -accelerance / (omega * omega);
+        // Two roundings of a division.
+        assert!((identify.measured[k][0] - expected).norm() < 1e-15 * expected.norm());
+        assert_eq!(identify.measured[k][1], c64::new(k as f64 + 1.0, 0.0));
+        let std = identify.std[0].as_ref().unwrap()[k];
+        assert!((std - 0.5 / (omega * omega)).abs() < 1e-15 * std);
+    }
+    assert_eq!(identify.std[1], None);
+    assert_eq!(identify.coherence, [None, Some(vec![0.9, 0.8, 1.0])]);
+}
+
+#[test]
+fn every_file_is_recorded_once_with_its_checksum() {
+    let folder = folder("", None);
+    let case_file = folder.path().join("case.toml");
+    let case = load(&case_file, &Overrides::default(), Purpose::Identify).unwrap();
+    let names: Vec<_> = case.inputs[1..].iter().map(|input| input.path.to_str().unwrap()).collect();
+    assert_eq!(case.inputs[0].path, case_file);
+    assert_eq!(case.inputs[0].bytes, CASE.len());
+    assert_eq!(names, ["K.mtx", "core.mtx", "M.mtx", "modulus.csv", "dofs.csv", "a.csv", "b.csv"]);
+    // By `sha256sum` on the text of dofs.csv.
+    assert_eq!(case.inputs[5].sha256, "1e183dcce1f1de253bdabc123ca248f2c5897a1bb0e3b1c99922863f0b261cb1");
+}
+
+#[test]
+fn the_command_line_overrides_the_case() {
+    let overrides = Overrides {
+        method: Some("nelder-mead".into()),
+        order: Some(7),
+        band_hz: Some([15.0, 25.0]),
+        selection: Some("smallest".into()),
+    };
+    let identify = with("", b"", &overrides, Purpose::Identify).unwrap().identify.unwrap();
+    assert_eq!((identify.options.method, identify.options.order), (Method::NelderMead, 7));
+    assert_eq!((identify.band_hz, &identify.frequency_hz[..]), ([15.0, 25.0], &[20.0][..]));
+    let response = with("", b"", &overrides, Purpose::Respond).unwrap();
+    assert_eq!((response.respond_hz[0], response.respond_hz[3]), (15.0, 25.0));
+}
+
+#[test]
+fn a_response_needs_no_measurement() {
+    let text = CASE.replace("file = \"a.csv\"\n", "").replace("b.csv", "not there yet.csv");
+    let text = format!(
+        "{}[respond]{}",
+        text.split("[identify]").next().unwrap(),
+        CASE.split("[respond]").nth(1).unwrap()
+    );
+    let case = with("case.toml", text.as_bytes(), &Overrides::default(), Purpose::Respond).unwrap();
+    assert!(case.identify.is_none());
+    assert_eq!(case.respond_hz, [10.0, 20.0, 30.0, 40.0]);
+    assert_eq!(case.sensors.iter().map(|sensor| sensor.file.is_some()).collect::<Vec<_>>(), [false, true]);
+}
+
+#[test]
+fn a_response_without_a_band_is_at_the_measured_frequencies() {
+    let text = CASE.split("[respond]").next().unwrap();
+    let case = with("case.toml", text.as_bytes(), &Overrides::default(), Purpose::Respond);
+    // The factor's table begins at 1 Hz, the measurement at 0 Hz: no law extrapolates.
+    let error = case.unwrap_err().to_string();
+    assert!(error.ends_with("found the table covers 1 Hz to 100 Hz, and 0 Hz was asked for"), "{error}");
+    let overrides = Overrides { band_hz: Some([5.0, 50.0]), ..Overrides::default() };
+    let case = with("case.toml", text.as_bytes(), &overrides, Purpose::Respond).unwrap();
+    assert_eq!(case.respond_hz, [10.0, 20.0, 30.0, 40.0]);
+}
+
+#[test]
+fn matrices_with_equal_factors_share_one() {
+    let text = edited("case.toml", "{ table = \"modulus.csv\" }", "{ storage = 2e5, loss_factor = 0.1 }")
+        .replace("matrix = \"springs\"", "matrix = [\"springs\", \"core\"]");
+    let case = with("case.toml", text.as_bytes(), &Overrides::default(), Purpose::Identify).unwrap();
+    let identify = case.identify.unwrap();
+    assert_eq!(identify.names, ["springs", "core"]);
+    assert_eq!(identify.parameter.members.iter().map(|member| member.term).collect::<Vec<_>>(), [0, 1]);
+}
+
+#[test]
+fn the_load_has_a_sign_or_is_a_vector() {
+    let loaded = |load: &str| {
+        let text = edited("case.toml", "dof = \"1+Z\"", load);
+        let case = with("case.toml", text.as_bytes(), &Overrides::default(), Purpose::Identify);
+        case.unwrap().experiment.load
+    };
+    assert_eq!(loaded("dof = \"2-rx\"")[2], c64::new(-1.0, 0.0));
+    assert_eq!(loaded("row = 3")[2], c64::new(1.0, 0.0));
+
+    let folder =
+        folder("case.toml", Some(edited("case.toml", "dof = \"1+Z\"", "file = \"f.csv\"").as_bytes()));
+    std::fs::write(folder.path().join("f.csv"), "row;im;re\n3;2.5;1\n1;0;-4\n").unwrap();
+    let case = load(&folder.path().join("case.toml"), &Overrides::default(), Purpose::Identify).unwrap();
+    assert_eq!(case.experiment.load, [c64::new(-4.0, 0.0), c64::default(), c64::new(1.0, 2.5)]);
+}
+
+#[test]
+fn a_title_is_optional_and_a_byte_order_mark_is_passed_over() {
+    let text = format!("\u{feff}{}", CASE.split_once('\n').unwrap().1);
+    let case = with("case.toml", text.as_bytes(), &Overrides::default(), Purpose::Identify).unwrap();
+    assert_eq!(case.title, "case");
+}
