@@ -1,0 +1,14 @@
+//! What the benchmarks share: a clock, a table, the machine's name, a place for figures.
+//!
+//! Every benchmark is a program in `src/bin`. Times are CPU times of one thread, so that other work on the machine
+//! disturbs them little; what is claimed are ratios of times from one run, never the times themselves.
+#![allow(clippy::print_stdout)] // tables are what a benchmark is for
+
+pub mod clock;
+mod machine;
+mod output;
+mod table;
+
+pub use machine::machine;
+pub use output::save;
+pub use table::Table;
