@@ -13,7 +13,7 @@ pub fn seconds<T>(work: impl FnOnce() -> T) -> f64 {
 /// Median CPU seconds of each of several works, run in turn so that what disturbs one disturbs all: from [`RUNS`] to 1000
 /// rounds, as many as fit into a second, after one that warms up.
 pub fn median_seconds(works: &[&dyn Fn()]) -> Vec<f64> {
-    let round = || works.iter().map(|work| seconds(work)).collect::<Vec<f64>>();
+    let round = || works.iter().map(seconds).collect::<Vec<f64>>();
     let rounds = ((1.0 / round().iter().sum::<f64>().max(1e-9)) as usize).clamp(RUNS, 1000);
     let rounds: Vec<Vec<f64>> = (0..rounds).map(|_| round()).collect();
     (0..works.len()).map(|work| median(rounds.iter().map(|round| round[work]).collect())).collect()
