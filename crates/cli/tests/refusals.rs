@@ -55,7 +55,10 @@ fn missing_case_and_missing_file() {
             .unwrap();
         std::fs::remove_file(frf).unwrap();
     });
-    assert!(said.contains("frf.csv") && said.contains("named in"), "{said}");
+    assert!(
+        said.contains("case.toml:") && said.contains("expected a file at d/frf.csv, found none"),
+        "{said}"
+    );
 }
 
 #[test]

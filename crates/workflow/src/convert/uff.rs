@@ -81,6 +81,7 @@ fn datasets(
         let header = FunctionHeader {
             function_type: FunctionType::Coherence,
             data_type: DataType::RealDouble,
+            abscissa: axis(Kind::Frequency, "Frequency", "Hz"),
             ordinate: axis(Kind::Unknown, "Coherence", ""),
             ..header
         };
