@@ -65,14 +65,18 @@ pub(crate) fn run(name: &'static str, command: &mut Command) -> Step {
     step
 }
 
-/// Copies line by line, and returns the lines with which cargo test and cargo nextest sum up.
+/// Copies line by line, and returns the lines with which the runner sums up: of cargo test one for each program, of
+/// cargo-nextest its summary and all that follows, which names the tests that failed.
 fn pass_on(pipe: impl Read, mut to: impl Write) -> Vec<String> {
     let (mut pipe, mut line, mut closing) = (BufReader::new(pipe), Vec::new(), Vec::new());
+    let mut summary = false;
     while pipe.read_until(b'\n', &mut line).is_ok_and(|bytes| bytes > 0) {
         // Whoever reads our output may have left; the step still runs to its end.
         let _ = to.write_all(&line).and_then(|()| to.flush());
         let text = String::from_utf8_lossy(&line);
-        if text.contains("test result:") || text.contains("Summary") {
+        // "tests run", or "test run" of one; a failed test's own output may hold the other words.
+        summary |= text.contains(" Summary") && text.contains(" run: ");
+        if summary || text.starts_with("test result:") {
             closing.push(text.trim().to_owned());
         }
         line.clear();
