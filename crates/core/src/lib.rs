@@ -9,7 +9,7 @@
 //! Data flows one way:
 //!
 //! ```text
-//! frequency → material → model → full → series → roots → identify → outcome
+//! frequency → material → model → full → { series, rational } → roots → identify → outcome
 //! ```
 //!
 //! | module | what is in it |
@@ -18,6 +18,7 @@
 //! | [`model`] | [`model::DynamicStiffness`]: named terms, each matrix × law; what is unknown in it; load and sensors |
 //! | [`response`] | [`response::Response`]: what the methods ask of a model at one frequency, and the full model's answer |
 //! | [`series`] | the Neumann series, the sensitivities, the spectral radius |
+//! | [`rational`] | the response as a rational function of the parameter, and all solutions of it (B-1, B-2) |
 //! | [`roots`] | the polynomial's roots, which of them are admissible, and why the others are not |
 //! | [`identify`] | one frequency from measurement to updated factor, and a band of them |
 //! | [`nelder_mead`] | the search on direct solves that the series is compared with |
@@ -34,6 +35,7 @@ pub mod material;
 pub mod model;
 pub mod nelder_mead;
 pub mod quantity;
+pub mod rational;
 pub mod response;
 pub mod roots;
 pub mod series;

@@ -40,7 +40,7 @@ pub trait Response {
     /// # Errors
     /// [`Breakdown`] where the nominal system cannot be solved.
     fn solve_nominal(&self, x: &mut [c64]) -> Result<(), Breakdown>;
-    /// out += factor · A_{j,q} x, for q = 1 … d.
+    /// out += factor · A_{j,q} x, for q = 1 … d; q = 0 stands for A₀.
     fn multiply_add(&self, parameter: usize, power: usize, factor: c64, x: &[c64], out: &mut [c64]);
     /// x at the sensors.
     fn observe(&self, x: &[c64]) -> Vec<c64>;
@@ -102,7 +102,11 @@ impl Response for FullModel<'_> {
     }
 
     fn multiply_add(&self, parameter: usize, power: usize, factor: c64, x: &[c64], out: &mut [c64]) {
-        self.at.parameters[parameter].coefficients[power - 1].multiply_add(self.at.model, factor, x, out);
+        let matrix = match power.checked_sub(1) {
+            None => &self.at.nominal,
+            Some(q) => &self.at.parameters[parameter].coefficients[q],
+        };
+        matrix.multiply_add(self.at.model, factor, x, out);
     }
 
     fn observe(&self, x: &[c64]) -> Vec<c64> {

@@ -3,6 +3,7 @@
 mod one;
 mod options;
 mod outcome;
+mod rational;
 
 pub use one::{error_by_order, identify_at, relative_error};
 pub use options::{MAX_ORDER, Method, Options, OptionsError, Selection};

@@ -1,5 +1,6 @@
 //! One frequency.
 
+use super::rational::by_rational;
 use super::{Identified, Method, Options, Status};
 use crate::c64;
 use crate::nelder_mead;
@@ -9,7 +10,7 @@ use crate::series::{NeumannSeries, convergence_radius};
 use frfit_linalg::solve::Breakdown;
 
 /// The sensor whose polynomial gives the roots; the others enter the error.
-const SENSOR: usize = 0;
+pub(super) const SENSOR: usize = 0;
 
 /// Finds the correction of the model's first parameter that reproduces the measured receptances, one for each sensor.
 ///
@@ -27,6 +28,7 @@ pub fn identify_at(system: &impl Response, measured: &[c64], options: &Options) 
     let mut outcome = Identified::unknown(system.frequency_hz(), system.nominal(0), options.order);
     let result = match options.method {
         Method::Series => by_series(system, measured, options, &mut outcome),
+        Method::Rational => by_rational(system, measured, options, &mut outcome),
         Method::NelderMead => by_search(system, measured, options, &mut outcome),
     };
     if let Err(breakdown) = result {
@@ -54,14 +56,9 @@ fn by_series(
         outcome.status = Status::NoRoot;
         return Ok(());
     };
-    let updated = system.solve_at(&[chosen.correction])?;
-    let here = relative_error(&measured[SENSOR..=SENSOR], &updated[SENSOR..=SENSOR]);
-    outcome.correction = Some(chosen.correction);
     outcome.spectral_radius = Some(radius.at(chosen.correction));
-    outcome.error = Some(relative_error(measured, &updated));
-    outcome.updated_response = updated;
-    // False for NaN too.
-    let confirmed = chosen.refusal.is_none() && here <= options.error;
+    let confirmed =
+        confirm(system, measured, options, chosen.correction, outcome)? && chosen.refusal.is_none();
     outcome.status = match (confirmed, outcome.admissible()) {
         (false, _) => Status::Diverged,
         (true, 1) => Status::Ok,
@@ -70,8 +67,25 @@ fn by_series(
     Ok(())
 }
 
+/// Solves anew with the correction, records error and response, and says whether the sensor that gave the root is matched.
+pub(super) fn confirm(
+    system: &impl Response,
+    measured: &[c64],
+    options: &Options,
+    correction: c64,
+    outcome: &mut Identified,
+) -> Result<bool, Breakdown> {
+    let updated = system.solve_at(&[correction])?;
+    let here = relative_error(&measured[SENSOR..=SENSOR], &updated[SENSOR..=SENSOR]);
+    outcome.correction = Some(correction);
+    outcome.error = Some(relative_error(measured, &updated));
+    outcome.updated_response = updated;
+    // False for NaN too.
+    Ok(here <= options.error)
+}
+
 /// The admissible root of least |c|, or failing that the one of least |c| within the bounds, as evidence.
-fn choose(roots: &[Candidate]) -> Option<Candidate> {
+pub(super) fn choose(roots: &[Candidate]) -> Option<Candidate> {
     roots.iter().find(|root| root.refusal.is_none()).or_else(|| least_admissible(roots)).copied()
 }
 
@@ -83,14 +97,11 @@ fn by_search(
 ) -> Result<(), Breakdown> {
     outcome.nominal_response = system.solve_at(&[c64::default()])?;
     let found = nelder_mead::search(system, &measured[SENSOR..=SENSOR], options.order);
-    let updated = system.solve_at(&[found.correction])?;
-    outcome.correction = Some(found.correction);
-    outcome.error = Some(relative_error(measured, &updated));
-    outcome.updated_response = updated;
+    let matched = confirm(system, measured, options, found.correction, outcome)?;
     let within = options.bounds.broken_by(outcome.nominal + found.correction).is_none();
     outcome.status = if !within {
         Status::NoRoot
-    } else if found.error <= options.error {
+    } else if matched {
         Status::Ok
     } else {
         Status::Diverged

@@ -10,6 +10,9 @@ pub enum Method {
     /// The paper's: truncated Neumann series, roots of a polynomial.
     #[default]
     Series,
+    /// B-1 and B-2: rational response on the Neumann vectors, all roots of one small eigenproblem; converges through resonances and
+    /// sees every solution within the bounds.
+    Rational,
     /// A simplex search on direct solves, for comparison ([`crate::nelder_mead`]).
     NelderMead,
 }
@@ -44,6 +47,7 @@ impl Method {
     pub fn name(self) -> &'static str {
         match self {
             Self::Series => "series",
+            Self::Rational => "rational",
             Self::NelderMead => "nelder-mead",
         }
     }
@@ -55,8 +59,12 @@ impl FromStr for Method {
     fn from_str(name: &str) -> Result<Self, UnknownChoice> {
         match name {
             "series" => Ok(Self::Series),
+            "rational" => Ok(Self::Rational),
             "nelder-mead" => Ok(Self::NelderMead),
-            _ => Err(UnknownChoice { found: name.to_owned(), expected: "\"series\" or \"nelder-mead\"" }),
+            _ => Err(UnknownChoice {
+                found: name.to_owned(),
+                expected: "\"series\", \"rational\" or \"nelder-mead\"",
+            }),
         }
     }
 }
@@ -84,9 +92,9 @@ impl FromStr for Selection {
 /// Options of an identification; all have defaults.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Options {
-    /// Series (default) or Nelder–Mead.
+    /// Series (default), rational or Nelder–Mead.
     pub method: Method,
-    /// Order n of the series, or iterations of Nelder–Mead. Default 30, the paper's.
+    /// Order n of the series, upper bound of it for the rational response, or iterations of Nelder–Mead. Default 30, the paper's.
     pub order: usize,
     /// Smallest |c| (default).
     pub selection: Selection,

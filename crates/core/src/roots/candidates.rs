@@ -24,6 +24,18 @@ impl Default for RootOptions {
     }
 }
 
+impl RootOptions {
+    /// What the user knows that speaks against a correction: it is not real, or breaks a bound.
+    pub fn refuse(&self, nominal: c64, correction: c64) -> Option<Refusal> {
+        let factor = nominal + correction;
+        if self.real && correction.im.abs() > REAL_TOLERANCE * factor.norm() {
+            return Some(Refusal::NotReal);
+        }
+        let tested = if self.real { c64::new(factor.re, 0.0) } else { factor };
+        self.bounds.broken_by(tested).map(Refusal::OutOfBounds)
+    }
+}
+
 /// Why a root is not believed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Refusal {
@@ -33,7 +45,8 @@ pub enum Refusal {
     OutOfBounds(&'static str),
     /// It has an imaginary part, and the parameter is real.
     NotReal,
-    /// It moves as terms are added, or the series does not converge there.
+    /// It moves as terms are added, or the series does not converge there; of a rational response: it does not solve the full
+    /// system.
     Moves,
 }
 
@@ -43,7 +56,7 @@ pub struct Candidate {
     /// c, of the unit of the parameter.
     pub correction: c64,
     /// How far it may still move, relative to |p̄ + c|: its largest distance from the nearest roots of the last few lower
-    /// orders, or what the terms that were cut off can do to it, whichever is larger.
+    /// orders, or what the terms that were cut off can do to it, whichever is larger. Of a rational response: the true residual.
     pub drift: f64,
     /// Why it is not admissible; `None` where it is.
     pub refusal: Option<Refusal>,
@@ -83,7 +96,7 @@ pub fn candidates(
             let factor = nominal + correction;
             let drift = drift(root, &earlier) * series.scale() / factor.norm();
             let mut candidate = Candidate { correction, drift, refusal: None };
-            candidate.refusal = refuse(root, &candidate, factor, options);
+            candidate.refusal = refuse(root, &candidate, nominal, options);
             if options.real && candidate.refusal.is_none() {
                 candidate.correction.im = 0.0;
             }
@@ -146,18 +159,14 @@ fn drift(root: Root, earlier: &[Vec<Root>]) -> f64 {
         .unwrap_or(f64::INFINITY)
 }
 
-fn refuse(root: Root, candidate: &Candidate, factor: c64, options: &RootOptions) -> Option<Refusal> {
+fn refuse(root: Root, candidate: &Candidate, nominal: c64, options: &RootOptions) -> Option<Refusal> {
     // Comparisons that are false for NaN, so that NaN is refused.
     let is_root = root.backward_error <= BACKWARD_ERROR;
     if !is_root {
         return Some(Refusal::NotARoot);
     }
-    if options.real && candidate.correction.im.abs() > REAL_TOLERANCE * factor.norm() {
-        return Some(Refusal::NotReal);
-    }
-    let tested = if options.real { c64::new(factor.re, 0.0) } else { factor };
-    if let Some(bound) = options.bounds.broken_by(tested) {
-        return Some(Refusal::OutOfBounds(bound));
+    if let Some(refusal) = options.refuse(nominal, candidate.correction) {
+        return Some(refusal);
     }
     let stays = candidate.drift <= options.drift;
     (!stays).then_some(Refusal::Moves)

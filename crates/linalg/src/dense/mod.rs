@@ -2,11 +2,13 @@
 
 mod eigen;
 mod least_squares;
+mod lu;
 mod matrix;
 mod polynomial;
 
 pub use eigen::{Eigen, GeneralizedEigenvalue, eigen, generalized_eigenvalues, symmetric_eigen};
 pub use least_squares::{LeastSquares, least_squares};
+pub use lu::solve;
 pub use matrix::Matrix;
 pub use polynomial::{Root, evaluate, roots};
 

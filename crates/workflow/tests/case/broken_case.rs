@@ -335,8 +335,8 @@ fn options_and_bands() {
         ),
         (
             "order = 20",
-            "method = \"rational\"",
-            "case.toml:31:1: identify.method: expected \"series\" or \"nelder-mead\", found \"rational\"",
+            "method = \"newton\"",
+            "case.toml:31:1: identify.method: expected \"series\", \"rational\" or \"nelder-mead\", found \"newton\"",
         ),
         (
             "order = 20",
@@ -438,7 +438,7 @@ fn what_the_command_line_says_is_checked_like_the_case() {
     for (overrides, expected) in [
         (
             Overrides { method: Some("joint".into()), ..none() },
-            "--method: expected \"series\" or \"nelder-mead\", found \"joint\"",
+            "--method: expected \"series\", \"rational\" or \"nelder-mead\", found \"joint\"",
         ),
         (
             Overrides { selection: Some("joint".into()), ..none() },

@@ -1,0 +1,84 @@
+//! One frequency by the rational response: all solutions within the bounds, not only those of a convergent series.
+
+use super::one::{SENSOR, choose, confirm};
+use super::{Identified, Options, Status};
+use crate::c64;
+use crate::rational::{RationalResponse, RationalRoot};
+use crate::response::Response;
+use crate::roots::{Candidate, Refusal, RootOptions};
+use crate::series::convergence_radius;
+use frfit_linalg::dense::NoConvergence;
+use frfit_linalg::solve::Breakdown;
+
+/// Vectors of the first attempt, and how many each further one adds.
+const STEP: usize = 8;
+
+/// A root whose true residual is below this solves the full system: what is left of a double precision solve with a
+/// condition of 1e6, as a structure near resonance has.
+const RESIDUAL: f64 = 1e-9;
+
+/// Grows the basis until every root within the bounds solves the full system, or the order is reached.
+///
+/// Where a root within the bounds is still unsure at the highest order, it could be the answer: the status is then `ambiguous`, not
+/// `ok`, however good another one is.
+pub(super) fn by_rational(
+    system: &impl Response,
+    measured: &[c64],
+    options: &Options,
+    outcome: &mut Identified,
+) -> Result<(), Breakdown> {
+    let mut order = STEP.min(options.order);
+    let mut response = RationalResponse::new(system, 0, order)?;
+    loop {
+        let judged = judge(&response, measured[SENSOR], outcome.nominal, &options.roots());
+        outcome.roots = judged.map_err(|NoConvergence| Breakdown::NotFinite)?;
+        if !unsure(&outcome.roots) || order == options.order || response.is_complete() {
+            break;
+        }
+        order = (order + STEP).min(options.order);
+        response = response.extended(system, 0, order)?;
+    }
+    outcome.order = response.size().saturating_sub(1);
+    outcome.nominal_response =
+        response.respond(c64::default()).map_err(|NoConvergence| Breakdown::NotFinite)?;
+    let radius = convergence_radius(system, 0)?;
+    outcome.radius = Some(radius);
+    let Some(chosen) = choose(&outcome.roots) else {
+        outcome.status = Status::NoRoot;
+        return Ok(());
+    };
+    outcome.spectral_radius = Some(radius.at(chosen.correction));
+    let confirmed = confirm(system, measured, options, chosen.correction, outcome)?;
+    outcome.status = match (confirmed && chosen.refusal.is_none(), outcome.admissible()) {
+        (false, _) => Status::IllConditioned,
+        (true, 1) if !unsure(&outcome.roots) => Status::Ok,
+        (true, _) => Status::Ambiguous,
+    };
+    Ok(())
+}
+
+/// Whether a root within the bounds does not yet solve the full system.
+fn unsure(roots: &[Candidate]) -> bool {
+    roots.iter().any(|root| root.refusal == Some(Refusal::Moves))
+}
+
+fn judge(
+    response: &RationalResponse,
+    measured: c64,
+    nominal: c64,
+    options: &RootOptions,
+) -> Result<Vec<Candidate>, NoConvergence> {
+    let judged = |root: RationalRoot| {
+        let refusal = options.refuse(nominal, root.correction).or({
+            // False for NaN too.
+            let solves = root.residual <= RESIDUAL;
+            (!solves).then_some(Refusal::Moves)
+        });
+        let correction = match refusal {
+            None if options.real => c64::new(root.correction.re, 0.0),
+            _ => root.correction,
+        };
+        Candidate { correction, drift: root.residual, refusal }
+    };
+    Ok(response.roots(SENSOR, measured)?.into_iter().map(judged).collect())
+}
