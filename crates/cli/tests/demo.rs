@@ -148,3 +148,23 @@ fn respond_writes_what_identify_reads() {
     }
     assert!(compared > 10);
 }
+
+#[test]
+fn the_rational_method_is_never_wrong_and_ok() {
+    let folder = tempfile::tempdir().unwrap();
+    // One sensor cannot tell everything: what it cannot is `ambiguous`. Where the bounds leave one solution, all is right.
+    for (name, band, all_right) in [
+        ("rubber-bar-end", "20:2000", false),
+        ("clamped-plate", "800:2000", false),
+        ("density", "10:1000", true),
+        ("sandwich", "20:1000", true),
+    ] {
+        done(folder.path(), &["--quiet", "example", name]);
+        let case = format!("{name}/case.toml");
+        let arguments = ["identify", &case, "--out", "out", "--method", "rational", "--band", band, "--json"];
+        let summary: Value = serde_json::from_str(&done(folder.path(), &arguments)).unwrap();
+        assert_eq!(summary["identify"]["method"], "rational");
+        assert_eq!(summary["truth"]["fraction_right_of_ok"], 1.0, "{name}: {summary:#}");
+        assert!(!all_right || summary["truth"]["fraction_right"] == 1.0, "{name}: {summary:#}");
+    }
+}

@@ -1,6 +1,6 @@
 //! One frequency by the rational response: all solutions within the bounds, not only those of a convergent series.
 
-use super::one::{SENSOR, choose, confirm};
+use super::one::{SENSOR, choose, confirm, relative_error};
 use super::{Identified, Options, Status};
 use crate::c64;
 use crate::rational::{RationalResponse, RationalRoot};
@@ -16,6 +16,10 @@ const STEP: usize = 8;
 /// A root whose true residual is below this solves the full system: what is left of a double precision solve with a
 /// condition of 1e6, as a structure near resonance has.
 const RESIDUAL: f64 = 1e-9;
+
+/// Stiffer contrasts leave larger residuals to roundoff alone. There a direct solve decides: a root whose response is the measured one to
+/// this is a solution, with a few digits to spare for what such a solve loses.
+const MATCH: f64 = 1e-6;
 
 /// Grows the basis until every root within the bounds solves the full system, or the order is reached.
 ///
@@ -38,6 +42,7 @@ pub(super) fn by_rational(
         order = (order + STEP).min(options.order);
         response = response.extended(system, 0, order)?;
     }
+    decide(system, measured, &mut outcome.roots);
     outcome.order = response.size().saturating_sub(1);
     outcome.nominal_response =
         response.respond(c64::default()).map_err(|NoConvergence| Breakdown::NotFinite)?;
@@ -57,6 +62,16 @@ pub(super) fn by_rational(
     Ok(())
 }
 
+/// Solves the full system at the roots that are unsure, and admits those that reproduce the measured response.
+fn decide(system: &impl Response, measured: &[c64], roots: &mut [Candidate]) {
+    for root in roots.iter_mut().filter(|root| root.refusal == Some(Refusal::Moves)) {
+        let Ok(x) = system.solve_at(&[root.correction]) else { continue };
+        if relative_error(&measured[SENSOR..=SENSOR], &x[SENSOR..=SENSOR]) <= MATCH {
+            root.refusal = None;
+        }
+    }
+}
+
 /// Whether a root within the bounds does not yet solve the full system.
 fn unsure(roots: &[Candidate]) -> bool {
     roots.iter().any(|root| root.refusal == Some(Refusal::Moves))
@@ -74,10 +89,8 @@ fn judge(
             let solves = root.residual <= RESIDUAL;
             (!solves).then_some(Refusal::Moves)
         });
-        let correction = match refusal {
-            None if options.real => c64::new(root.correction.re, 0.0),
-            _ => root.correction,
-        };
+        let is_real = options.real && refusal != Some(Refusal::NotReal);
+        let correction = if is_real { c64::new(root.correction.re, 0.0) } else { root.correction };
         Candidate { correction, drift: root.residual, refusal }
     };
     Ok(response.roots(SENSOR, measured)?.into_iter().map(judged).collect())
