@@ -40,6 +40,15 @@ pub trait Response {
     /// # Errors
     /// [`Breakdown`] where the nominal system cannot be solved.
     fn solve_nominal(&self, x: &mut [c64]) -> Result<(), Breakdown>;
+    /// Receptance at the sensors with the nominal parameters, P-16, with the factor that is there.
+    ///
+    /// # Errors
+    /// [`Breakdown`] where the nominal system cannot be solved.
+    fn respond_nominal(&self) -> Result<Vec<c64>, Breakdown> {
+        let mut x = self.load().to_vec();
+        self.solve_nominal(&mut x)?;
+        Ok(self.observe(&x))
+    }
     /// out += factor · A_{j,q} x, for q = 1 … d; q = 0 stands for A₀.
     fn multiply_add(&self, parameter: usize, power: usize, factor: c64, x: &[c64], out: &mut [c64]);
     /// x at the sensors.

@@ -6,6 +6,7 @@
 //! | [`solve`] | analyse → factor → solve, every solution checked by its true residual |
 //! | [`spectral`] | the spectral radius of an operator given by its action |
 //! | [`modes`] | the lowest natural modes of K φ = ω² M φ |
+//! | [`vector`] | products and projections of complex vectors |
 //! | [`dense`] | small dense problems: eigenvalues, least squares, roots of polynomials |
 //!
 //! A complex symmetric matrix here satisfies Aᵀ = A, not Aᴴ = A: that is what a dynamic stiffness with
@@ -18,6 +19,7 @@ mod scalar;
 pub mod solve;
 pub mod sparse;
 pub mod spectral;
+pub mod vector;
 
 pub use num_complex::Complex64 as c64;
 pub use scalar::Scalar;

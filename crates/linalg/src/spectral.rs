@@ -8,6 +8,7 @@
 use crate::c64;
 use crate::dense::{Matrix, eigen};
 use crate::solve::Breakdown;
+use crate::vector::{norm, orthogonalise};
 
 /// How hard to look.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -116,15 +117,7 @@ impl Krylov {
         if !before.is_finite() {
             return Err(Breakdown::NotFinite);
         }
-        let mut column = vec![c64::default(); self.basis.len()];
-        // Twice is enough (Kahan, Parlett).
-        for _ in 0..2 {
-            for (v, h) in self.basis.iter().zip(&mut column) {
-                let overlap = dot(v, &next);
-                next.iter_mut().zip(v).for_each(|(x, v)| *x -= overlap * v);
-                *h += overlap;
-            }
-        }
+        let mut column = orthogonalise(&self.basis, &mut next);
         let rest = norm(&next);
         column.push(c64::new(rest, 0.0));
         self.hessenberg.push(column);
@@ -177,14 +170,6 @@ fn largest(values: &[c64]) -> usize {
         }
     }
     leader
-}
-
-fn dot(a: &[c64], b: &[c64]) -> c64 {
-    a.iter().zip(b).map(|(a, b)| a.conj() * b).sum()
-}
-
-fn norm(a: &[c64]) -> f64 {
-    a.iter().map(|a| a.norm_sqr()).sum::<f64>().sqrt()
 }
 
 fn normalise(a: &mut [c64]) {

@@ -95,7 +95,7 @@ fn by_search(
     options: &Options,
     outcome: &mut Identified,
 ) -> Result<(), Breakdown> {
-    outcome.nominal_response = system.solve_at(&[c64::default()])?;
+    outcome.nominal_response = system.respond_nominal()?;
     let found = nelder_mead::search(system, &measured[SENSOR..=SENSOR], options.order);
     let matched = confirm(system, measured, options, found.correction, outcome)?;
     let within = options.bounds.broken_by(outcome.nominal + found.correction).is_none();

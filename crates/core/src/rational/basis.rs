@@ -1,9 +1,9 @@
 //! An orthonormal basis of the Neumann vectors, and what the matrices make of it.
 
-use super::norm;
 use crate::c64;
 use crate::response::Response;
 use frfit_linalg::solve::Breakdown;
+use frfit_linalg::vector::{norm, orthogonalise};
 use std::collections::VecDeque;
 
 /// V, A_qV for q = 0 … d, and F.
@@ -65,13 +65,7 @@ impl Basis {
     /// Adds what of a vector is new; false where nothing is.
     fn append(&mut self, mut x: Vec<c64>) -> bool {
         let before = norm(&x);
-        // Twice is enough (Kahan, Parlett).
-        for _ in 0..2 {
-            for v in &self.vectors {
-                let overlap: c64 = v.iter().zip(&x).map(|(v, x)| v.conj() * x).sum();
-                x.iter_mut().zip(v).for_each(|(x, v)| *x -= overlap * v);
-            }
-        }
+        orthogonalise(&self.vectors, &mut x);
         let rest = norm(&x);
         // Below this the direction is made of roundoff.
         let is_new = rest > 1e-13 * before;

@@ -15,9 +15,11 @@ pub use roots::RationalRoot;
 
 use crate::c64;
 use crate::response::Response;
+use crate::series::scale;
 use basis::Basis;
 use frfit_linalg::dense::{Matrix, NoConvergence, solve};
 use frfit_linalg::solve::Breakdown;
+use frfit_linalg::vector::norm;
 
 /// A reduced model of one parameter at one frequency, with the residual that tells how good it is.
 #[derive(Debug, Clone)]
@@ -43,10 +45,7 @@ impl RationalResponse {
     /// # Limits
     /// Exact at the nominal value; elsewhere as good as [`Self::residual`] says.
     pub fn new(system: &impl Response, parameter: usize, order: usize) -> Result<Self, Breakdown> {
-        let scale = match system.nominal(parameter).norm() {
-            0.0 => 1.0,
-            nominal => nominal,
-        };
+        let scale = scale(system, parameter)?;
         let basis = Basis::start(system, parameter);
         let empty = Self { scale, matrices: Vec::new(), load: Vec::new(), sensors: Vec::new(), basis };
         empty.extended(system, parameter, order)
@@ -131,8 +130,4 @@ impl RationalResponse {
 /// Σ aᵢ bᵢ, without conjugation.
 fn transpose_dot(a: &[c64], b: &[c64]) -> c64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-fn norm(a: &[c64]) -> f64 {
-    a.iter().map(|a| a.norm_sqr()).sum::<f64>().sqrt()
 }

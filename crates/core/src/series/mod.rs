@@ -13,6 +13,7 @@ use crate::c64;
 use crate::response::Response;
 use frfit_linalg::dense::evaluate;
 use frfit_linalg::solve::Breakdown;
+use frfit_linalg::vector::norm;
 use std::collections::VecDeque;
 
 /// Scaled Taylor coefficients of the response at every sensor, about the nominal value of one parameter.
@@ -37,7 +38,7 @@ impl NeumannSeries {
         system.solve_nominal(&mut x)?;
         let mut terms: Vec<Vec<c64>> = system.observe(&x).into_iter().map(|t| vec![t]).collect();
         let degree = system.degree(parameter);
-        let scale = scale(system, parameter, &x)?;
+        let scale = scale(system, parameter)?;
         // v_{k−1}, v_{k−2}, … v_{k−d}
         let mut recent = VecDeque::from([x]);
         for _ in 1..=order {
@@ -113,14 +114,15 @@ fn next_term(
     Ok(next)
 }
 
-/// |p̄|; for a parameter that is nominally absent, the change at which the first term equals the response.
-fn scale(system: &impl Response, parameter: usize, x: &[c64]) -> Result<f64, Breakdown> {
+/// s in z = c/s: |p̄|, or for a parameter that is nominally absent the change at which the first term equals the response.
+pub(crate) fn scale(system: &impl Response, parameter: usize) -> Result<f64, Breakdown> {
     let nominal = system.nominal(parameter).norm();
     if nominal > 0.0 {
         return Ok(nominal);
     }
-    let first = next_term(system, parameter, 1.0, &VecDeque::from([x.to_vec()]))?;
-    let size = |v: &[c64]| v.iter().map(|v| v.norm_sqr()).sum::<f64>().sqrt();
-    let ratio = size(x) / size(&first);
+    let mut x = system.load().to_vec();
+    system.solve_nominal(&mut x)?;
+    let size = norm(&x);
+    let ratio = size / norm(&next_term(system, parameter, 1.0, &VecDeque::from([x]))?);
     Ok(if ratio.is_finite() && ratio > 0.0 { ratio } else { 1.0 })
 }

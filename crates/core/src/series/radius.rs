@@ -43,13 +43,7 @@ impl ConvergenceRadius {
 /// Those of [`spectral_radius`]; a pole that the load does not excite, or no sensor sees, counts all the same.
 pub fn convergence_radius(system: &impl Response, parameter: usize) -> Result<ConvergenceRadius, Breakdown> {
     let (n, degree) = (system.dim(), system.degree(parameter));
-    let mut x = system.load().to_vec();
-    let scale = if system.nominal(parameter).norm() > 0.0 {
-        system.nominal(parameter).norm()
-    } else {
-        system.solve_nominal(&mut x)?;
-        scale(system, parameter, &x)?
-    };
+    let scale = scale(system, parameter)?;
     let companion = |stacked: &[c64], out: &mut [c64]| {
         let recent: VecDeque<Vec<c64>> = stacked.chunks_exact(n).map(<[c64]>::to_vec).collect();
         out[..n].copy_from_slice(&next_term(system, parameter, scale, &recent)?);

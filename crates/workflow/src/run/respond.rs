@@ -26,11 +26,7 @@ pub fn respond(case: &Case, progress: Progress<'_>) -> Result<RespondRun, Outsid
     let done = AtomicUsize::new(0);
     let at_frequency = |&frequency_hz: &f64| {
         let at = case.model.at(frequency_hz, &[])?;
-        let receptance = FullModel::new(at, &case.experiment).and_then(|system| {
-            let mut x = system.load().to_vec();
-            system.solve_nominal(&mut x)?;
-            Ok(system.observe(&x))
-        });
+        let receptance = FullModel::new(at, &case.experiment).and_then(|system| system.respond_nominal());
         progress(done.fetch_add(1, Ordering::Relaxed) + 1, case.respond_hz.len());
         Ok(receptance)
     };
