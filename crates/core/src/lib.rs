@@ -29,6 +29,7 @@
 
 pub mod dof;
 pub mod efficiency;
+pub mod for_each;
 pub mod frequency;
 pub mod identify;
 pub mod material;
@@ -39,5 +40,6 @@ pub mod rational;
 pub mod response;
 pub mod roots;
 pub mod series;
+pub mod subspace;
 
 pub use frfit_linalg::c64;

@@ -8,7 +8,7 @@ mod polynomial;
 
 pub use eigen::{Eigen, GeneralizedEigenvalue, eigen, generalized_eigenvalues, symmetric_eigen};
 pub use least_squares::{LeastSquares, least_squares};
-pub use lu::solve;
+pub use lu::{Lu, solve};
 pub use matrix::Matrix;
 pub use polynomial::{Root, evaluate, roots};
 
