@@ -39,6 +39,7 @@ pub mod quantity;
 pub mod rational;
 pub mod response;
 pub mod roots;
+pub mod select;
 pub mod series;
 pub mod subspace;
 

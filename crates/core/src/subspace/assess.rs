@@ -74,7 +74,8 @@ fn weights(small: &Projection, at: &ModelAt<'_>, correction: c64) -> (Vec<c64>, 
     let mut slope = vec![c64::default(); theta.len()];
     let mut power = c64::new(1.0, 0.0);
     for (q, coefficient) in at.parameters.first().map_or(&[][..], |p| &p.coefficients).iter().enumerate() {
-        for ((theta, slope), weight) in theta.iter_mut().zip(&mut slope).zip(small.parts.weights(coefficient)) {
+        for ((theta, slope), weight) in theta.iter_mut().zip(&mut slope).zip(small.parts.weights(coefficient))
+        {
             *slope += (q + 1) as f64 * power * weight;
             *theta += power * correction * weight;
         }

@@ -24,7 +24,8 @@ impl Basis {
     pub(super) fn new(weight: Vec<f64>, parts: Parts, experiment: &Experiment) -> Self {
         let sketch = Sketch::new(weight.iter().map(|d| 1.0 / d));
         let sensors = experiment.sensors.len();
-        let forces = std::iter::once(experiment.load.clone()).chain((0..sensors).map(|m| experiment.unit_force(m)));
+        let forces =
+            std::iter::once(experiment.load.clone()).chain((0..sensors).map(|m| experiment.unit_force(m)));
         let projection = Projection {
             size: 0,
             matrices: vec![Vec::new(); parts.len()],

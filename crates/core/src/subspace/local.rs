@@ -1,7 +1,7 @@
 //! A smaller model for a few neighbouring frequencies, from the band's.
 
 use super::assess::Solved;
-use super::{Point, Projection};
+use super::{Assessment, Point, Projection};
 use crate::c64;
 
 /// Below this part of itself a direction is roundoff of those there are.
@@ -10,21 +10,31 @@ const NEW: f64 = 1e-12;
 /// A compressed model of more than this fraction of the size saves nothing.
 const WORTHWHILE: f64 = 0.6;
 
+/// A local error of this many times the band's own is the band's.
+const AS_GOOD: f64 = 3.0;
+
 impl Projection {
-    /// This model on the span of its own solutions at some of the points, as many as bring the estimated error at all of them under the tolerance:
-    /// a neighbourhood needs fewer vectors than a band. The same model where that is not so.
+    /// This model on the span of its own solutions at some of the points, as many as bring the estimated error at all of them under the tolerance, or
+    /// near this model's own: a neighbourhood needs fewer vectors than a band. The same model where that is not so.
     ///
     /// # Limits
     /// Its [`Projection::assess`] tells errors of the full model, not of this one.
     pub fn localised(&self, points: &[Point<'_>], tolerance: f64) -> Self {
+        let relative = |solved: &Assessment, point: &Point<'_>| {
+            let nominal = point.at.parameters.first().map_or(c64::default(), |p| p.nominal);
+            solved.relative_truncation(nominal + point.correction)
+        };
         let mut directions = Vec::new();
-        let mut sampled = vec![false; points.len()];
+        let mut done = vec![false; points.len()];
         // Ends and middle first; then where it is worst.
-        let mut next: Vec<usize> = vec![0, points.len() / 2, points.len().saturating_sub(1)];
+        let mut next: Vec<(usize, f64)> =
+            [0, points.len() / 2, points.len().saturating_sub(1)].map(|i| (i, f64::INFINITY)).into();
         loop {
-            for i in next.drain(..).filter(|&i| i < points.len()) {
-                if !std::mem::replace(&mut sampled[i], true)
-                    && let Ok(solved) = Solved::new(self, &points[i].at, points[i].correction)
+            for (i, error) in next.drain(..).filter(|&(i, _)| i < points.len()) {
+                let point = &points[i];
+                if !std::mem::replace(&mut done[i], true)
+                    && let Ok(solved) = Solved::new(self, &point.at, point.correction)
+                    && error > AS_GOOD * relative(&solved.assessment, point)
                 {
                     solved.solutions.iter().for_each(|y| append(&mut directions, y));
                 }
@@ -34,13 +44,12 @@ impl Projection {
             }
             let local = self.compressed(&directions.concat());
             let error = |i: usize| {
-                let nominal = points[i].at.parameters.first().map_or(c64::default(), |p| p.nominal);
                 let assessed = local.assess(&points[i].at, points[i].correction);
-                assessed.map_or(f64::INFINITY, |a| a.relative_truncation(nominal + points[i].correction))
+                assessed.map_or(f64::INFINITY, |assessed| relative(&assessed, &points[i]))
             };
-            let rest = (0..points.len()).filter(|&i| !sampled[i]).map(|i| (error(i), i));
-            match rest.max_by(|a, b| a.0.total_cmp(&b.0)) {
-                Some((worst, i)) if worst > tolerance => next.push(i),
+            let rest = (0..points.len()).filter(|&i| !done[i]).map(|i| (i, error(i)));
+            match rest.max_by(|a, b| a.1.total_cmp(&b.1)) {
+                Some((i, worst)) if worst > tolerance => next.push((i, worst)),
                 _ => return local,
             }
         }

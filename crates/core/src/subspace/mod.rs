@@ -24,7 +24,7 @@ mod train;
 pub use assess::Assessment;
 pub use projection::Projection;
 pub use reduced::ReducedModel;
-pub use train::{Point, Trained, TrainOptions};
+pub use train::{Point, TrainOptions, Trained};
 
 use crate::frequency::omega_rad_s;
 use crate::model::{DynamicStiffness, Experiment, ModelAt};

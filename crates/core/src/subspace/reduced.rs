@@ -30,7 +30,11 @@ impl<'a> ReducedModel<'a> {
         Ok(Self {
             frequency_hz: at.frequency_hz,
             nominal,
-            coefficients: at.parameters.iter().map(|p| p.coefficients.iter().map(reduced).collect()).collect(),
+            coefficients: at
+                .parameters
+                .iter()
+                .map(|p| p.coefficients.iter().map(reduced).collect())
+                .collect(),
             values: at.parameters.iter().map(|p| p.nominal).collect(),
             load: &small.load,
             sensors: &small.sensors,

@@ -1,9 +1,9 @@
 //! Where the basis grows: where the estimated error at the sensors is largest.
 
 use super::Assessment;
+use super::Subspace;
 use super::assess::Solved;
 use super::shift::Shift;
-use super::Subspace;
 use crate::c64;
 use crate::for_each::{ForEach, map};
 use crate::frequency::omega_rad_s;
@@ -97,7 +97,9 @@ impl<'m> Subspace<'m> {
             if errors.first().is_none_or(|&(worst, _)| worst <= options.tolerance) {
                 errors = assess(self, &all);
             }
-            let Some(&(worst, at)) = errors.first() else { return Ok(Trained { error: 0.0, converged: true }) };
+            let Some(&(worst, at)) = errors.first() else {
+                return Ok(Trained { error: 0.0, converged: true });
+            };
             let converged = worst <= options.tolerance;
             stalled = if worst < 0.5 * best { 0 } else { stalled + 1 };
             best = best.min(worst);
@@ -123,7 +125,10 @@ impl<'m> Subspace<'m> {
 
     fn error_at(&self, point: &Point<'m>) -> f64 {
         let nominal = point.at.parameters.first().map_or(c64::default(), |p| p.nominal);
-        let error = self.projection().assess(&point.at, point.correction).map(|a| a.relative_truncation(nominal + point.correction));
+        let error = self
+            .projection()
+            .assess(&point.at, point.correction)
+            .map(|a| a.relative_truncation(nominal + point.correction));
         // A point where the reduced system is singular is an undamped resonance: nothing can be read there.
         error.unwrap_or(0.0)
     }
