@@ -6,7 +6,7 @@ mod options;
 mod outcome;
 mod rational;
 
-pub use band::{Band, BandOutcome, Hooks, Stage, identify_band};
+pub use band::{Band, BandOutcome, Hooks, Noise, Stage, identify_band};
 pub use one::{error_by_order, identify_at, relative_error};
 pub use options::{MAX_ORDER, Method, Options, OptionsError, Selection, Space};
 pub use outcome::{Identified, Status};

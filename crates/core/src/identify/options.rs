@@ -168,6 +168,9 @@ pub struct Options {
     /// Largest relative error of the factor that the subspace may cause, by its own estimate, for status `ok`. Default 1e-5: the estimate is ten to a
     /// hundred times what direct solves show.
     pub certain: f64,
+    /// Whether the factor is looked for in all of the bounds, as for a nominal that is no more than their middle. Default false: in a factor of four to either side
+    /// of the nominal first.
+    pub whole_box: bool,
 }
 
 impl Default for Options {
@@ -181,6 +184,7 @@ impl Default for Options {
             real: false,
             error: 1e-2,
             certain: 1e-5,
+            whole_box: false,
         }
     }
 }

@@ -3,7 +3,7 @@
 use super::explore::{Explored, explore};
 use super::space::Space;
 use super::verdict::{Evidence, verdict};
-use super::{Band, BandOutcome, Hooks, Stage};
+use super::{Band, BandOutcome, Hooks, Noise, Stage};
 use crate::c64;
 use crate::for_each::map;
 use crate::identify::{Identified, Options, relative_error};
@@ -37,7 +37,8 @@ pub(super) fn identify<'a>(
     let nominal = |i: usize| at[i].parameters[0].nominal;
     let nodes: Vec<Vec<Node>> =
         explored.iter().enumerate().map(|(i, found)| nodes(found, nominal(i))).collect();
-    let known = SelectOptions { sigma_known: band.std.is_some(), ..SelectOptions::default() };
+    let known =
+        SelectOptions { sigma_known: matches!(band.noise, Noise::Known(_)), ..SelectOptions::default() };
     let choices = choose(band.frequency_hz, &nodes, &known);
     let noise = noise_level(&nodes, band);
     let outcomes: Vec<Identified> = (0..at.len())
@@ -105,9 +106,11 @@ fn deviations(band: &Band<'_>) -> Vec<Vec<f64>> {
     };
     let sizes: Vec<Vec<f64>> = sensors.map(sorted).collect();
     let row = |(i, u): (usize, &Vec<c64>)| {
-        let of = |(m, u): (usize, &c64)| match band.std {
-            Some(std) => (std[i][m] / 2f64.sqrt()).max(LEAST_STD * sizes[m][sizes[m].len() - 1]),
-            None => u.norm().max(RELATIVE_FLOOR * sizes[m][sizes[m].len() / 2]),
+        let of = |(m, u): (usize, &c64)| match band.noise {
+            Noise::Known(std) | Noise::Relative(std) => {
+                (std[i][m] / 2f64.sqrt()).max(LEAST_STD * sizes[m][sizes[m].len() - 1])
+            }
+            Noise::Unknown => u.norm().max(RELATIVE_FLOOR * sizes[m][sizes[m].len() / 2]),
         };
         u.iter().enumerate().map(of).collect()
     };
@@ -133,7 +136,7 @@ fn nodes(found: &Explored, nominal: c64) -> Vec<Node> {
 /// Noise over σ: 1 where σ was given; otherwise from how well the best solutions explain the sensors, and `None` for a single sensor, which
 /// everything explains.
 fn noise_level(nodes: &[Vec<Node>], band: &Band<'_>) -> Option<f64> {
-    if band.std.is_some() {
+    if matches!(band.noise, Noise::Known(_)) {
         return Some(1.0);
     }
     let freedom = 2.0 * (band.experiment.sensors.len() as f64 - 1.0);

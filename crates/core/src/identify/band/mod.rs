@@ -27,8 +27,19 @@ pub struct Band<'a> {
     pub frequency_hz: &'a [f64],
     /// Receptance, `[frequency][sensor]`.
     pub measured: &'a [Vec<c64>],
-    /// Standard deviation √E|δx|² of each, where it is known.
-    pub std: Option<&'a [Vec<f64>]>,
+    /// How well each was measured.
+    pub noise: Noise<'a>,
+}
+
+/// Standard deviations √E|δx|² of measured receptances, `[frequency][sensor]`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Noise<'a> {
+    /// Not known: in proportion to the responses, by a factor that several sensors tell.
+    Unknown,
+    /// Known up to a common factor, as from a coherence without the number of averages.
+    Relative(&'a [Vec<f64>]),
+    /// Known.
+    Known(&'a [Vec<f64>]),
 }
 
 /// What is going on.

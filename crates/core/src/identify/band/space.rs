@@ -175,7 +175,8 @@ impl<'a, 'o> Space<'a, 'o> {
         if nominal.re > 0.0 {
             let [low, high] = bounds.storage.unwrap_or([0.0, f64::INFINITY]);
             // Bounds that the nominal is outside of: the box is theirs.
-            let reach = [nominal.re.clamp(low, high) / BOX_RATIO, nominal.re.clamp(low, high) * BOX_RATIO];
+            let ratio = if self.options.whole_box { f64::MAX } else { BOX_RATIO };
+            let reach = [nominal.re.clamp(low, high) / ratio, nominal.re.clamp(low, high) * ratio];
             let [low, high] = [low.max(reach[0]), high.min(reach[1])];
             let steps = ((PER_OCTAVE * (high / low).log2()).ceil() as usize).max(2);
             let eta = bounds
