@@ -18,9 +18,13 @@
 
 mod checked;
 mod dense;
-mod sparse;
+mod lu;
+mod memory;
+mod ordering;
+mod symmetric;
 
 pub use checked::{Breakdown, CheckedFactor, SolveReport};
+pub use memory::FactorMemory;
 
 use crate::Scalar;
 use crate::sparse::Pattern;
@@ -36,6 +40,8 @@ pub const DENSE_LIMIT: usize = 48;
 trait Symbolic<T>: Send + Sync {
     /// Factor of the matrix with these values (in the order of the pattern).
     fn factor(&self, values: &[T]) -> Result<Box<dyn Factor<T>>, Breakdown>;
+    /// What `factor` will allocate.
+    fn memory(&self) -> Result<FactorMemory, Breakdown>;
 }
 
 /// A factorised matrix.
@@ -74,8 +80,8 @@ impl Analysis {
     pub fn sparse(pattern: &Arc<Pattern>) -> Result<Self, Breakdown> {
         Ok(Self {
             pattern: Arc::clone(pattern),
-            real: Box::new(sparse::BunchKaufman::new(pattern)),
-            complex: Box::new(sparse::Lu::new(pattern)),
+            real: Box::new(symmetric::Symmetric::new(pattern)),
+            complex: Box::new(lu::Lu::new(pattern)),
         })
     }
 
@@ -98,6 +104,21 @@ impl Analysis {
     /// Where there is not one value for each position.
     pub fn factor<T: HasSymbolic>(&self, values: &[T]) -> Result<CheckedFactor<T>, Breakdown> {
         CheckedFactor::new(&self.pattern, values.to_vec(), T::symbolic(self))
+    }
+
+    /// What [`Analysis::factor`] will allocate, known before any number is: a model that cannot fit into memory
+    /// can be refused before the attempt.
+    ///
+    /// For `f64` an upper bound from the symbolic factor, which is the numeric one's structure exactly. For
+    /// [`c64`](crate::c64) an estimate, not a bound: the row interchanges of the LU, and with them its fill, are
+    /// decided by the numbers.
+    ///
+    /// # Errors
+    /// [`Breakdown::OutOfMemory`] where the symbolic factor does not fit.
+    pub fn factor_memory<T: HasSymbolic>(&self) -> Result<FactorMemory, Breakdown> {
+        let mut memory = T::symbolic(self).memory()?;
+        memory.kept = memory.kept.saturating_add(memory::bytes_of::<T>(self.pattern.stored()));
+        Ok(memory)
     }
 }
 
