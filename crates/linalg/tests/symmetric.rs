@@ -82,9 +82,9 @@ proptest! {
         }
     }
 
-    /// Constraint rows (zero diagonals): the solution, or a refusal, never a wrong number.
+    /// Constraint rows (zero diagonals) of Lagrange multipliers.
     #[test]
-    fn saddle_points_are_solved_or_refused(
+    fn constraints_are_solved(
         n in 20usize..100,
         constraints in 1usize..10,
         couplings in couplings(),
@@ -101,14 +101,10 @@ proptest! {
         let matrix = triplets.assemble();
         let rhs = rhs(n + constraints, 1);
         let dense = solve(&Analysis::dense(matrix.pattern()), &matrix, &rhs).unwrap();
-        match solve(&Analysis::sparse(matrix.pattern()).unwrap(), &matrix, &rhs) {
-            Ok(sparse) => for (a, b) in sparse.iter().zip(&dense) {
-                // A pivot of the constraint itself may be small: half of the digits, as the check demands.
-                prop_assert!((a - b).abs() < 1e-6 * (1.0 + b.abs()), "{a} against {b}");
-            },
-            Err(breakdown) => {
-                prop_assert!(!matches!(breakdown, Breakdown::NotFinite | Breakdown::OutOfMemory));
-            }
+        let sparse = solve(&Analysis::sparse(matrix.pattern()).unwrap(), &matrix, &rhs).unwrap();
+        for (a, b) in sparse.iter().zip(&dense) {
+            // Multipliers are as large as the stiffness is: up to 600 couplings at one row.
+            prop_assert!((a - b).abs() < 1e-9 * (1.0 + b.abs()), "{a} against {b}");
         }
     }
 }

@@ -34,6 +34,9 @@ use std::sync::Arc;
 /// (measured on full and on banded matrices: they break even between 40 and 80).
 pub const DENSE_LIMIT: usize = 48;
 
+/// Parallelism is over frequencies, above this crate: one factorisation runs on one thread.
+const PAR: faer::Par = faer::Par::Seq;
+
 /// What a back-end does with the numbers of a matrix whose pattern it has analysed.
 ///
 /// Narrow on purpose: a new back-end is one file with these two traits.
@@ -54,8 +57,8 @@ trait Factor<T>: Send + Sync {
 /// for all frequencies and shared between threads.
 pub struct Analysis {
     pattern: Arc<Pattern>,
-    real: Box<dyn Symbolic<f64>>,
-    complex: Box<dyn Symbolic<crate::c64>>,
+    real: Arc<dyn Symbolic<f64>>,
+    complex: Arc<dyn Symbolic<crate::c64>>,
 }
 
 impl Analysis {
@@ -70,7 +73,7 @@ impl Analysis {
     /// The dense back-end, whatever the size.
     pub fn dense(pattern: &Arc<Pattern>) -> Self {
         let dense = || dense::DenseSymbolic::new(Arc::clone(pattern));
-        Self { pattern: Arc::clone(pattern), real: Box::new(dense()), complex: Box::new(dense()) }
+        Self { pattern: Arc::clone(pattern), real: Arc::new(dense()), complex: Arc::new(dense()) }
     }
 
     /// The sparse back-end, whatever the size.
@@ -78,11 +81,9 @@ impl Analysis {
     /// # Errors
     /// [`Breakdown::OutOfMemory`] where the symbolic factor does not fit.
     pub fn sparse(pattern: &Arc<Pattern>) -> Result<Self, Breakdown> {
-        Ok(Self {
-            pattern: Arc::clone(pattern),
-            real: Box::new(symmetric::Symmetric::new(pattern)),
-            complex: Box::new(lu::Lu::new(pattern)),
-        })
+        let complex = Arc::new(lu::Lu::new(pattern));
+        let real = Arc::new(symmetric::Symmetric::new(pattern, Arc::clone(&complex)));
+        Ok(Self { pattern: Arc::clone(pattern), real, complex })
     }
 
     /// Number of unknowns n.
@@ -109,7 +110,8 @@ impl Analysis {
     /// What [`Analysis::factor`] will allocate, known before any number is: a model that cannot fit into memory
     /// can be refused before the attempt.
     ///
-    /// For `f64` an upper bound from the symbolic factor, which is the numeric one's structure exactly. For
+    /// For `f64` an upper bound from the symbolic factor, which is the numeric one's structure exactly, unless there
+    /// are zeros on the diagonal (constraints), which take LU. For
     /// [`c64`](crate::c64) an estimate, not a bound: the row interchanges of the LU, and with them its fill, are
     /// decided by the numbers.
     ///

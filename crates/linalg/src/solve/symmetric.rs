@@ -1,10 +1,12 @@
-//! Real symmetric: faer's supernodal L Lᵀ where that succeeds, L B Lᵀ with Bunch–Kaufman pivots elsewhere.
+//! Real symmetric: faer's supernodal L Lᵀ where that succeeds, L B Lᵀ with Bunch–Kaufman pivots elsewhere,
+//! and LU where constraints leave zeros on the diagonal.
 //!
 //! J. R. Bunch, L. Kaufman, Math. Comp. 31 (1977) 163–179.
 
+use super::lu::Lu;
 use super::memory::{FactorMemory, bytes_of, scratch, zeros};
 use super::ordering::fill_reducing;
-use super::{Breakdown, Factor, Symbolic};
+use super::{Breakdown, Factor, PAR, Symbolic};
 use crate::sparse::Pattern;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::LltError;
@@ -15,21 +17,19 @@ use faer::sparse::linalg::cholesky::{
     factorize_symbolic_cholesky,
 };
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
-use faer::{Conj, MatMut, Par, Side};
+use faer::{Conj, MatMut, Side};
 use std::sync::{Arc, OnceLock};
 
-/// Parallelism is over frequencies, above this crate: one factorisation runs on one thread.
-const PAR: Par = Par::Seq;
-
-/// Real symmetric, definite or not; the symbolic analysis serves both factorisations.
+/// Real symmetric, definite or not; the symbolic analysis serves both symmetric factorisations.
 pub(super) struct Symmetric {
     pattern: Arc<Pattern>,
+    lu: Arc<Lu>,
     symbolic: OnceLock<Option<Arc<SymbolicCholesky<usize>>>>,
 }
 
 impl Symmetric {
-    pub(super) fn new(pattern: &Arc<Pattern>) -> Self {
-        Self { pattern: Arc::clone(pattern), symbolic: OnceLock::new() }
+    pub(super) fn new(pattern: &Arc<Pattern>, lu: Arc<Lu>) -> Self {
+        Self { pattern: Arc::clone(pattern), lu, symbolic: OnceLock::new() }
     }
 
     fn lower(&self) -> SymbolicSparseColMatRef<'_, usize> {
@@ -104,12 +104,16 @@ impl Symmetric {
 
 impl Symbolic<f64> for Symmetric {
     fn factor(&self, matrix: &[f64]) -> Result<Box<dyn Factor<f64>>, Breakdown> {
+        let diagonal = || (0..self.pattern.dim()).map(|col| matrix[self.pattern.col_ptr()[col]]);
+        // A constraint has few neighbours: it is eliminated early, alone, and its supernode has no other pivot.
+        if diagonal().any(|a| a == 0.0) {
+            return Symbolic::<f64>::factor(self.lu.as_ref(), matrix);
+        }
         let symbolic = self.symbolic()?;
         let mut values = zeros(symbolic.len_val())?;
         // A definite matrix has a positive diagonal; an indefinite one with a positive diagonal shows itself
         // in L Lᵀ by a pivot that is not positive, at the price of what was done up to there.
-        let diagonal = (0..self.pattern.dim()).map(|col| matrix[self.pattern.col_ptr()[col]]);
-        if diagonal.into_iter().all(|a| a > 0.0) && self.cholesky(matrix, &mut values)? {
+        if diagonal().all(|a| a > 0.0) && self.cholesky(matrix, &mut values)? {
             return Ok(Box::new(Cholesky { symbolic, values }));
         }
         Ok(Box::new(self.bunch_kaufman(matrix, values)?))
