@@ -112,7 +112,7 @@ impl<T: Scalar> Symbolic<T> for Lu {
         let (order, _) = analysed.symbolic.col_perm().arrays();
         let without_interchanges = Elimination::new(order.to_vec(), |row| analysed.full.column(row), |_| 1);
         let factors = bytes_of::<T>(2 * without_interchanges.entries());
-        // Measured on plates, sandwiches and blocks of 1k to 50k dofs: 1.4 to 3 times that is kept (interchanges,
+        // Measured on plates, sandwiches and blocks of 1k to 50k dofs: 1.4 to 3.1 times that is kept (interchanges,
         // zeros in supernodes, vectors that grow by doubling), and 3.5 to 6.6 times is the peak (contributions
         // wait in memory that is not given back).
         Ok(FactorMemory { kept: 3 * factors, scratch: 4 * factors })
