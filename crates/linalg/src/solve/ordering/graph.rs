@@ -68,6 +68,11 @@ impl Graph {
         Self { start, neighbours, rows }
     }
 
+    /// How many, each counted from both of its ends.
+    pub(super) fn edges(&self) -> f64 {
+        self.neighbours.len() as f64
+    }
+
     pub(super) fn neighbours(&self, vertex: usize) -> &[usize] {
         &self.neighbours[self.start[vertex]..self.start[vertex + 1]]
     }
