@@ -340,8 +340,23 @@ fn options_and_bands() {
         ),
         (
             "order = 20",
-            "selection = \"joint\"",
-            "case.toml:31:1: identify.selection: expected \"smallest\", found \"joint\"",
+            "method = \"series\"\nselection = \"joint\"",
+            "case.toml:32:1: identify.selection: expected \"smallest\" with method \"series\", found \"joint\"",
+        ),
+        (
+            "order = 20",
+            "nominal = 2e5",
+            "case.toml:31:1: identify.nominal: expected a text in quotes, found 2e5",
+        ),
+        (
+            "order = 20",
+            "nominal = \"guess\"",
+            "case.toml:31:1: identify.nominal: expected \"estimate\" (a nominal value is the factor of the matrix), found \"guess\"",
+        ),
+        (
+            "order = 20",
+            "selection = \"best\"",
+            "case.toml:31:1: identify.selection: expected \"joint\" or \"smallest\", found \"best\"",
         ),
         (
             "storage = [1e5, 1e6]",
@@ -441,8 +456,16 @@ fn what_the_command_line_says_is_checked_like_the_case() {
             "--method: expected \"series\", \"rational\" or \"nelder-mead\", found \"joint\"",
         ),
         (
-            Overrides { selection: Some("joint".into()), ..none() },
-            "--selection: expected \"smallest\", found \"joint\"",
+            Overrides { selection: Some("best".into()), ..none() },
+            "--selection: expected \"joint\" or \"smallest\", found \"best\"",
+        ),
+        (
+            Overrides { selection: Some("joint".into()), method: Some("series".into()), ..none() },
+            "--selection: expected \"smallest\" with method \"series\", found \"joint\"",
+        ),
+        (
+            Overrides { space: Some("half".into()), ..none() },
+            "--space: expected \"auto\", \"full\" or \"subspace\", found \"half\"",
         ),
         (Overrides { order: Some(0), ..none() }, "--order: expected 1 to 200, found 0"),
         (

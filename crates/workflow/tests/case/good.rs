@@ -2,12 +2,12 @@
 
 use crate::files::{CASE, edited, folder, with};
 use frfit::c64;
-use frfit::identify::{Method, Options};
+use frfit::identify::{Method, Options, Selection, Space};
 use frfit::material::Law;
 use frfit::model::Sensor;
 use frfit::quantity::Quantity;
 use frfit::roots::Bounds;
-use frfit_workflow::load::{Overrides, Purpose, load};
+use frfit_workflow::load::{MeasuredNoise, Overrides, Purpose, load};
 use std::path::Path;
 
 #[test]
@@ -51,11 +51,55 @@ fn measured_values_and_their_deviations_become_receptance() {
         // Two roundings of a division.
         assert!((identify.measured[k][0] - expected).norm() < 1e-15 * expected.norm());
         assert_eq!(identify.measured[k][1], c64::new(k as f64 + 1.0, 0.0));
-        let std = identify.std[0].as_ref().unwrap()[k];
-        assert!((std - 0.5 / (omega * omega)).abs() < 1e-15 * std);
     }
-    assert_eq!(identify.std[1], None);
-    assert_eq!(identify.coherence, [None, Some(vec![0.9, 0.8, 1.0])]);
+    // One has a deviation, the other a coherence: nothing weighs the one against the other.
+    assert_eq!(identify.noise, MeasuredNoise::Unknown);
+}
+
+#[test]
+fn deviations_are_those_of_the_receptance_and_coherence_gives_them_up_to_a_factor() {
+    let with_b = |table: &str| {
+        let case = with("b.csv", table.as_bytes(), &Overrides::default(), Purpose::Identify).unwrap();
+        case.identify.unwrap()
+    };
+    let identify = with_b("frequency_hz,re,im,std\n10,1,0,0.25\n20,2,0,0.25\n30,3,0,0.5\n");
+    let MeasuredNoise::Known(std) = &identify.noise else { panic!("{:?}", identify.noise) };
+    for (k, &f) in identify.frequency_hz.iter().enumerate() {
+        let omega = std::f64::consts::TAU * f;
+        // Accelerance becomes receptance, and its deviation with it; two roundings.
+        assert!((std[k][0] - 0.5 / (omega * omega)).abs() < 1e-15 * std[k][0]);
+    }
+    assert_eq!([std[0][1], std[1][1], std[2][1]], [0.25, 0.25, 0.5]);
+
+    let folder =
+        folder("a.csv", Some(b"frequency_hz,re,im,coherence\n10,1,-1,1\n20,2,-1,0.5\n30,3,-1,0.9\n"));
+    let case = load(&folder.path().join("case.toml"), &Overrides::default(), Purpose::Identify).unwrap();
+    let identify = case.identify.unwrap();
+    let MeasuredNoise::Relative(std) = &identify.noise else { panic!("{:?}", identify.noise) };
+    // B-6 with one average: |H| √((1 − γ²)/(2γ²)), here for γ² = 1/2 and 0.8.
+    let half = identify.measured[1][0].norm() * 0.5f64.sqrt();
+    assert!((std[1][0] - half).abs() < 1e-15 * half);
+    assert!((std[1][1] - 2.0 * (0.2f64 / 1.6).sqrt()).abs() < 1e-15);
+    // No coherence is exactly one: a deviation of zero would outweigh everything.
+    assert!(std[0][0] > 0.0);
+}
+
+#[test]
+fn an_estimated_nominal_is_the_middle_of_the_bounds() {
+    let estimate = |bounds: &str| {
+        let text = edited("case.toml", "order = 20", "order = 20\nnominal = \"estimate\"");
+        let text = text.replace("storage = [1e5, 1e6]", bounds);
+        with("case.toml", text.as_bytes(), &Overrides::default(), Purpose::Identify)
+    };
+    let identify = estimate("storage = [1e5, 1e7]").unwrap().identify.unwrap();
+    let Law::Constant(nominal) = identify.parameter.nominal else { panic!("{:?}", identify.parameter) };
+    assert!((nominal - c64::new(1e6, 1e4)).norm() < 1e-9 * 1e6, "{nominal}");
+    assert!(identify.options.whole_box);
+    let error = estimate("storage = [0, 1]").unwrap_err().to_string();
+    assert!(
+        error.ends_with("expected bounds.storage above zero, to estimate the nominal from, found [0, 1]"),
+        "{error}"
+    );
 }
 
 #[test]
@@ -77,10 +121,13 @@ fn the_command_line_overrides_the_case() {
         method: Some("nelder-mead".into()),
         order: Some(7),
         band_hz: Some([15.0, 25.0]),
-        selection: Some("smallest".into()),
+        selection: None,
+        space: Some("full".into()),
     };
     let identify = with("", b"", &overrides, Purpose::Identify).unwrap().identify.unwrap();
     assert_eq!((identify.options.method, identify.options.order), (Method::NelderMead, 7));
+    // A method without several roots brings the selection that it can have.
+    assert_eq!((identify.options.selection, identify.options.space), (Selection::Smallest, Space::Full));
     assert_eq!((identify.band_hz, &identify.frequency_hz[..]), ([15.0, 25.0], &[20.0][..]));
     let response = with("", b"", &overrides, Purpose::Respond).unwrap();
     assert_eq!((response.respond_hz[0], response.respond_hz[3]), (15.0, 25.0));

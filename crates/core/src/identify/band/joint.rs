@@ -37,8 +37,7 @@ pub(super) fn identify<'a>(
     let nominal = |i: usize| at[i].parameters[0].nominal;
     let nodes: Vec<Vec<Node>> =
         explored.iter().enumerate().map(|(i, found)| nodes(found, nominal(i))).collect();
-    let known =
-        SelectOptions { sigma_known: matches!(band.noise, Noise::Known(_)), ..SelectOptions::default() };
+    let known = SelectOptions { sigma_known: matches!(band.noise, Noise::Known(_)) };
     let choices = choose(band.frequency_hz, &nodes, &known);
     let noise = noise_level(&nodes, band);
     let outcomes: Vec<Identified> = (0..at.len())
