@@ -1,0 +1,174 @@
+//! The joint choice among exact solutions over a band, B-4: which of them are one material, and where the data cannot tell.
+//!
+//! A solution at one frequency can match the measured response to the last digit and be the wrong modulus; wrong ones form smooth
+//! branches too. The choice minimises over all paths through the band, and over leaving out what fits none,
+//! $$ \sum_k \Big( \tfrac 1 2 \chi_k^2 + \frac{|\ln E_k - \hat L_k|^2}{2 \sigma_k^2} + \text{material}_k \Big) + \text{gaps}, $$
+//! where L̂_k is what the path so far predicts: a curve of ln E over ln ω with a curvature of the size κ, which is fitted to the band. A
+//! material's slope is tied to its loss by causality; wrong branches, on which about ω²/E is constant, break that tie.
+//!
+//! | file | what is in it |
+//! |---|---|
+//! | `trend` | what a path knows of its curve, and what it expects next |
+//! | `path` | the search in one direction (dynamic programming over the last point, with gaps) |
+//! | `band` | both directions together: the best path through each candidate |
+//! | `track` | whole paths that compete: not the longest wins, but the one that is a material |
+
+mod band;
+mod path;
+mod track;
+mod trend;
+
+use crate::c64;
+use crate::frequency::omega_rad_s;
+use band::Band;
+use path::Point;
+use track::tracks;
+
+/// A solution at one frequency.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Node {
+    /// The factor p̄ + c.
+    pub factor: c64,
+    /// χ² = Σ_m |u_m − x_m|²/σ_m² over the sensors, σ_m the standard deviation of real and imaginary part each; 0 where one sensor
+    /// is matched exactly.
+    pub misfit: f64,
+    /// Standard deviation of the factor's real and imaginary part each; 0 without noise.
+    pub std: f64,
+}
+
+/// What is chosen at one frequency.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Choice {
+    /// The node that belongs to the path; `None` where none does.
+    pub chosen: Option<usize>,
+    /// Other nodes that the data cannot exclude: where there are any, the frequency is ambiguous.
+    pub alternatives: Vec<usize>,
+    /// By how much the best path through another node costs more, in nats; infinite where there is none.
+    pub margin: f64,
+}
+
+/// What σ_m in the misfit is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Sigma {
+    /// Known from the measurement; what is above it in the best misfits is taken for error of the model.
+    #[default]
+    Known,
+    /// Assumed, up to one factor for the band: that is taken from the best misfits.
+    Assumed,
+}
+
+/// How to choose.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SelectOptions {
+    /// Sensors in the misfit. Default 1.
+    pub sensors: usize,
+    /// What is known of their noise. Default: its level.
+    pub sigma: Sigma,
+    /// Nats within which another node is an alternative. Default 7: odds of a thousand to one.
+    pub margin: f64,
+}
+
+impl Default for SelectOptions {
+    fn default() -> Self {
+        Self { sensors: 1, sigma: Sigma::default(), margin: 7.0 }
+    }
+}
+
+/// Chooses a path through the candidates of a band; frequencies ascend, and each has any number of nodes, also none.
+///
+/// Nodes that differ by less than twice their standard deviation, or 2e-7 of their value, are one. A path with the slope of no material is
+/// never chosen.
+///
+/// # Limits
+/// The factor is that of a stiffness, E′ > 0 and η ≥ 0, or a constant; bounds are applied before. With one sensor continuity and
+/// causality alone decide: a band of less than a tenth of a unit in ln ω leaves most of it ambiguous. Where the right solution is missing
+/// at most frequencies and a wrong branch looks like a material, the wrong one is chosen.
+///
+/// # Panics
+/// Where there is not one list of nodes for each frequency.
+pub fn choose(frequency_hz: &[f64], nodes: &[Vec<Node>], options: &SelectOptions) -> Vec<Choice> {
+    assert_eq!(frequency_hz.len(), nodes.len());
+    let noise = Noise::of(nodes, options);
+    let log_frequency: Vec<f64> = frequency_hz.iter().map(|&f| omega_rad_s(f).ln()).collect();
+    // At 0 Hz there is no ln ω; nothing is chosen there.
+    let points = nodes.iter().zip(&log_frequency);
+    let points = points.map(|(nodes, log)| if log.is_finite() { noise.points(nodes) } else { Vec::new() });
+    let band = Band { points: points.collect(), log_frequency };
+    let nothing = Choice { chosen: None, alternatives: Vec::new(), margin: f64::INFINITY };
+    let tracks = tracks(band, options.margin);
+    let Some((best, rivals)) = tracks.split_first() else { return vec![nothing; nodes.len()] };
+    let rivals: Vec<_> = rivals.iter().filter(|rival| rival.score < best.score + options.margin).collect();
+    let curvature = best.alone().curvature();
+    let Some((_, path)) = best.band.cheapest(curvature) else { return vec![nothing; nodes.len()] };
+    let costs = best.band.costs(curvature);
+    let choose_at = |k: usize| {
+        let mut choice = nothing.clone();
+        let points = &best.band.points[k];
+        let Some(index) = path[k] else { return choice };
+        // Where one of the paths that cannot be excluded has nothing, the right solution may be missing.
+        if rivals.iter().any(|rival| rival.chosen[k].is_none()) {
+            return choice;
+        }
+        choice.chosen = Some(points[index].node);
+        let others = points.iter().zip(&costs[k]).map(|(point, cost)| (point, cost - costs[k][index]));
+        let rivals = rivals.iter().filter_map(|rival| Some((rival.at(k)?, rival.score - best.score)));
+        for (other, margin) in others.chain(rivals).filter(|(other, _)| !other.is(&points[index])) {
+            choice.margin = choice.margin.min(margin);
+            if margin < options.margin && !choice.alternatives.contains(&other.node) {
+                choice.alternatives.push(other.node);
+            }
+        }
+        choice
+    };
+    (0..nodes.len()).map(choose_at).collect()
+}
+
+/// Standard deviation of ln E that is left to a root without noise: half the digits, as a nearly double root has.
+const ROUNDOFF: f64 = 1e-7;
+
+/// Least factor on an assumed variance: three digits better than assumed is as good as without noise.
+const LEAST: f64 = 1e-6;
+
+/// What a misfit means.
+struct Noise {
+    /// True variance over the given one.
+    factor: f64,
+    /// Nats of a right node's misfit, on average.
+    usual: f64,
+}
+
+impl Noise {
+    /// From the lower quartile of the best misfits, which stands even where most frequencies have lost the right node.
+    fn of(nodes: &[Vec<Node>], options: &SelectOptions) -> Self {
+        let least = |nodes: &Vec<Node>| nodes.iter().map(|node| node.misfit).min_by(f64::total_cmp);
+        let mut best: Vec<f64> = nodes.iter().filter_map(least).filter(|misfit| misfit.is_finite()).collect();
+        best.sort_by(f64::total_cmp);
+        // E. B. Wilson, M. M. Hilferty, Proc. Natl. Acad. Sci. 17 (1931) 684–688: quantiles of χ² for the normal deviate −0.6745.
+        let freedom = 2.0 * options.sensors.saturating_sub(1).max(1) as f64;
+        let quartile =
+            freedom * (1.0 - 2.0 / (9.0 * freedom) - 0.6745 * (2.0 / (9.0 * freedom)).sqrt()).powi(3);
+        let found = best.get(best.len() / 4).map_or(0.0, |misfit| misfit / quartile);
+        let least = match options.sigma {
+            Sigma::Known => 1.0,
+            Sigma::Assumed => LEAST,
+        };
+        // Without other sensors, or noise, there is no misfit to expect.
+        let usual = if found > least / 4.0 { freedom / 2.0 } else { 0.0 };
+        Self { factor: found.max(least), usual }
+    }
+
+    fn points(&self, nodes: &[Node]) -> Vec<Point> {
+        let point = |(node, Node { factor, misfit, std }): (usize, &Node)| {
+            let relative = std / factor.norm();
+            Point {
+                node,
+                log: factor.ln(),
+                variance: self.factor * relative * relative + ROUNDOFF * ROUNDOFF,
+                misfit: misfit / (2.0 * self.factor) - self.usual,
+            }
+        };
+        let is_number =
+            |point: &Point| point.log.is_finite() && point.variance.is_finite() && point.misfit.is_finite();
+        nodes.iter().enumerate().map(point).filter(is_number).collect()
+    }
+}
