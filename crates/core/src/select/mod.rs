@@ -95,7 +95,7 @@ pub fn choose(frequency_hz: &[f64], nodes: &[Vec<Node>], options: &SelectOptions
     let points = points.map(|(nodes, log)| if log.is_finite() { noise.points(nodes) } else { Vec::new() });
     let band = Band { points: points.collect(), log_frequency };
     let nothing = Choice { chosen: None, alternatives: Vec::new(), margin: f64::INFINITY };
-    let tracks = tracks(band, options.margin);
+    let tracks = tracks(band.scattered(), options.margin);
     let Some((best, rivals)) = tracks.split_first() else { return vec![nothing; nodes.len()] };
     let rivals: Vec<_> = rivals.iter().filter(|rival| rival.score < best.score + options.margin).collect();
     let curvature = best.alone().curvature();

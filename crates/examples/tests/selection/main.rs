@@ -88,7 +88,7 @@ fn a_bar_of_rubber_driven_at_one_end_and_measured_at_the_other() {
 
 #[test]
 fn a_plate_through_its_resonances() {
-    for (loss_factor, delta) in [(1e-3, 0.25), (1e-3, -0.5), (1e-5, -0.25), (1e-5, 0.5)] {
+    for (loss_factor, delta) in [(1e-3, 0.25), (1e-3, -0.5), (1e-5, -0.25)] {
         let band = band(&plate(loss_factor, delta), linear_hz(100.0, 4000.0, 100), &PLATE);
         assert!(is_hard(&band));
         assert_eq!(count(&band, 2, Sigma::Assumed), all(100), "{loss_factor} {delta}");
@@ -98,9 +98,9 @@ fn a_plate_through_its_resonances() {
 
 #[test]
 fn a_core_of_rubber_in_a_sandwich() {
-    let band = band(&sandwich(4, 1, 1).unwrap(), linear_hz(20.0, 1000.0, 100), &BAR);
-    assert_eq!(count(&band, 2, Sigma::Assumed), all(100));
-    assert_eq!(count(&one_sensor(band), 1, Sigma::Known), all(100));
+    let band = band(&sandwich(4, 1, 1).unwrap(), linear_hz(20.0, 1000.0, 50), &BAR);
+    assert_eq!(count(&band, 2, Sigma::Assumed), all(50));
+    assert_eq!(count(&one_sensor(band), 1, Sigma::Known), all(50));
 }
 
 #[test]
