@@ -93,3 +93,39 @@ impl Band {
         all
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::c64;
+
+    /// A straight line through the first half of a band, strays everywhere: both passes together must see what one sees from its end,
+    /// although nothing lies in the second half that the line could start from.
+    #[test]
+    fn passes_from_both_ends_agree_with_one() {
+        let point =
+            |node: usize, log: f64| Point { node, log: c64::new(log, 0.1), variance: 1e-8, misfit: 0.0 };
+        // Never where the line could go on.
+        let stray =
+            |k: usize, i: usize| (0.5 + ((7 * k + 13 * i) as f64 * 0.618).fract()) * [-1.0, 1.0][i % 2];
+        let at = |k: usize| {
+            let mut points: Vec<Point> = (1..20).map(|i| point(i, stray(k, i))).collect();
+            if k < 30 {
+                points.push(point(0, 0.0));
+            }
+            points
+        };
+        let band = Band {
+            log_frequency: (0..60).map(|k| 0.02 * k as f64).collect(),
+            points: (0..60).map(at).collect(),
+        };
+        let (path, chosen) = band.cheapest(CURVATURE).unwrap();
+        let costs = band.costs(CURVATURE);
+        for k in 0..30 {
+            assert_eq!(chosen[k], Some(19), "{k}");
+            // What is known of a slope beforehand counts on both sides of the seam.
+            assert!((costs[k][19] - path.cost).abs() < 0.5, "{k}: {} against {}", costs[k][19], path.cost);
+            assert!(costs[k][..19].iter().all(|cost| cost - path.cost > -0.5), "{k}");
+        }
+    }
+}

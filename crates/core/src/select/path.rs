@@ -74,12 +74,9 @@ impl Path {
         Self { trend: self.trend.map(|trend| trend.advanced(step, curvature)), ..self }
     }
 
-    /// What this path and one from the other end of the band cost together.
+    /// What this path, which has chosen a point here, and one from the other end of the band cost together.
     pub(super) fn with(&self, other: &Self) -> f64 {
-        let apart = self.trend.zip(other.trend).map_or(0.0, |(a, b)| a.apart(&b));
-        // A gap that reaches across the seam was opened on both sides.
-        let twice = if self.gap && other.gap { GAP - SKIP } else { 0.0 };
-        self.cost + other.cost + apart - twice
+        self.cost + other.cost + self.trend.zip(other.trend).map_or(0.0, |(a, b)| a.apart(&b))
     }
 
     fn through(&self, index: usize, point: &Point, step: f64, at: usize, rule: Rule) -> Self {
