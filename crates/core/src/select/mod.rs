@@ -32,7 +32,8 @@ pub struct Node {
     /// χ² = Σ_m |u_m − x_m|²/σ_m² over the sensors, σ_m the standard deviation of real and imaginary part each; 0 where one sensor
     /// is matched exactly.
     pub misfit: f64,
-    /// Standard deviation of the factor's real and imaginary part each; 0 without noise.
+    /// Standard deviation of the factor's real and imaginary part each; 0 without noise, or where it is not known: up to 1 % is
+    /// then taken from the scatter along the path.
     pub std: f64,
 }
 
@@ -76,13 +77,15 @@ impl Default for SelectOptions {
 
 /// Chooses a path through the candidates of a band; frequencies ascend, and each has any number of nodes, also none.
 ///
-/// Nodes that differ by less than twice their standard deviation, or 2e-7 of their value, are one. A path with the slope of no material is
-/// never chosen.
+/// Nodes that differ by less than twice their standard deviation, or 2e-7 of their value, are one. Nothing is chosen where no node fits the
+/// path, where a rival path that cannot be excluded has no node, or anywhere if no path is a material's or covers a sixth of the band.
 ///
 /// # Limits
-/// The factor is that of a stiffness, E′ > 0 and η ≥ 0, or a constant; bounds are applied before. With one sensor continuity and
-/// causality alone decide: a band of less than a tenth of a unit in ln ω leaves most of it ambiguous. Where the right solution is missing
-/// at most frequencies and a wrong branch looks like a material, the wrong one is chosen.
+/// - The factor is that of a stiffness, E′ > 0 and η ≥ 0, or a constant; bounds are applied before.
+/// - With one sensor continuity and causality alone decide: a band of less than a tenth of a unit in ln ω is likely ambiguous.
+/// - Where the right node is missing, a wrong one that lies where the path is expected is taken for it; where most are missing and a wrong
+///   branch has the slope of a material, that branch is.
+/// - The search keeps the best few paths of each history, so margins are upper bounds in crowded bands.
 ///
 /// # Panics
 /// Where there is not one list of nodes for each frequency.

@@ -74,7 +74,7 @@ impl Trend {
     /// from a constant loss factor (left) to a power law (right). `step` is the part of the band that this is evidence for.
     ///
     /// # Source
-    /// Local Kramers–Kronig relation: M. O'Donnell, E. T. Jaynes, J. G. Miller, J. Acoust. Soc. Am. 69 (1981) 696–701.
+    /// Local form of the Kramers–Kronig relation: H. C. Booij, G. P. J. M. Thoone, Rheologica Acta 21 (1982) 15–24.
     pub(super) fn as_material(self, step: f64) -> (f64, Self) {
         if step == 0.0 {
             return (0.0, self);
