@@ -8,9 +8,6 @@ const CURVATURES: [f64; 7] = [1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01];
 /// Before anything is known of a path's curvature. Not taken from the straightest path there is: that may well be a wrong one.
 pub(super) const CURVATURE: f64 = 0.5;
 
-/// Scatters of ln E that are tried where the given standard deviations, or none, are too small.
-const SCATTERS: [f64; 10] = [0.0, 1e-6, 3e-6, 1e-5, 3e-5, 1e-4, 3e-4, 1e-3, 3e-3, 1e-2];
-
 /// −ln likelihood of the cheapest path.
 fn likelihood(paths: &[Vec<Path>]) -> f64 {
     cheapest(paths).map_or(0.0, |(path, _)| path.cost)
@@ -26,15 +23,11 @@ pub(super) struct Band {
 }
 
 impl Band {
-    /// With so much more scatter (standard deviation of ln E) as makes the cheapest path likeliest: none where what is given explains it.
-    pub(super) fn scattered(self) -> Self {
-        let more = |scatter: f64| {
-            let mut band = self.clone();
-            band.points.iter_mut().flatten().for_each(|point| point.variance += scatter * scatter);
-            band
-        };
+    /// That of several which makes its cheapest path likeliest: the same candidates, with more or less scatter allowed.
+    pub(super) fn likeliest(bands: impl Iterator<Item = Self>) -> Option<Self> {
         let cost = |band: &Self| likelihood(&band.forward(Rule { curvature: CURVATURE, spread: true }));
-        SCATTERS.map(more).into_iter().min_by(|a, b| cost(a).total_cmp(&cost(b))).unwrap_or(self)
+        let costs = bands.map(|band| (cost(&band), band));
+        costs.min_by(|(a, _), (b, _)| a.total_cmp(b)).map(|(_, band)| band)
     }
 
     /// κ of largest likelihood, and one size more: what is too stiff for the right path skips it. For a band of one path.

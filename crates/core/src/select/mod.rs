@@ -48,30 +48,21 @@ pub struct Choice {
     pub margin: f64,
 }
 
-/// What σ_m in the misfit is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Sigma {
-    /// Known from the measurement; what is above it in the best misfits is taken for error of the model.
-    #[default]
-    Known,
-    /// Assumed, up to one factor for the band: that is taken from the best misfits.
-    Assumed,
-}
-
 /// How to choose.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SelectOptions {
     /// Sensors in the misfit. Default 1.
     pub sensors: usize,
-    /// What is known of their noise. Default: its level.
-    pub sigma: Sigma,
+    /// Whether σ_m is known. Default true; what the best misfits have above it is then taken for error of the model. Otherwise σ_m is known
+    /// up to a factor for the band and not below 1e-6 of what is given, such as the size of the response.
+    pub sigma_known: bool,
     /// Nats within which another node is an alternative. Default 7: odds of a thousand to one.
     pub margin: f64,
 }
 
 impl Default for SelectOptions {
     fn default() -> Self {
-        Self { sensors: 1, sigma: Sigma::default(), margin: 7.0 }
+        Self { sensors: 1, sigma_known: true, margin: 7.0 }
     }
 }
 
@@ -94,11 +85,14 @@ pub fn choose(frequency_hz: &[f64], nodes: &[Vec<Node>], options: &SelectOptions
     let noise = Noise::of(nodes, options);
     let log_frequency: Vec<f64> = frequency_hz.iter().map(|&f| omega_rad_s(f).ln()).collect();
     // At 0 Hz there is no ln ω; nothing is chosen there.
-    let points = nodes.iter().zip(&log_frequency);
-    let points = points.map(|(nodes, log)| if log.is_finite() { noise.points(nodes) } else { Vec::new() });
-    let band = Band { points: points.collect(), log_frequency };
+    let bands = noise.scatters(nodes).map(|scatter| {
+        let points = nodes.iter().zip(&log_frequency);
+        let points = points
+            .map(|(nodes, log)| if log.is_finite() { noise.points(nodes, scatter) } else { Vec::new() });
+        Band { points: points.collect(), log_frequency: log_frequency.clone() }
+    });
     let nothing = Choice { chosen: None, alternatives: Vec::new(), margin: f64::INFINITY };
-    let tracks = tracks(band.scattered(), options.margin);
+    let tracks = Band::likeliest(bands).map_or_else(Vec::new, |band| tracks(band, options.margin));
     let Some((best, rivals)) = tracks.split_first() else { return vec![nothing; nodes.len()] };
     let rivals: Vec<_> = rivals.iter().filter(|rival| rival.score < best.score + options.margin).collect();
     let curvature = best.alone().curvature();
@@ -129,8 +123,23 @@ pub fn choose(frequency_hz: &[f64], nodes: &[Vec<Node>], options: &SelectOptions
 /// Standard deviation of ln E that is left to a root without noise: half the digits, as a nearly double root has.
 const ROUNDOFF: f64 = 1e-7;
 
-/// Least factor on an assumed variance: three digits better than assumed is as good as without noise.
-const LEAST: f64 = 1e-6;
+/// Least factor on a variance that is not known: a millionth of the response is roundoff near a resonance.
+const LEAST: f64 = 1e-12;
+
+/// Scatters that are tried: of ln E, beside what is given, or in units of the given standard deviation if that is of unknown size.
+const SCATTERS: [f64; 14] = [0.0, 1e-6, 3e-6, 1e-5, 3e-5, 1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 0.1, 0.3, 1.0];
+
+/// The largest scatter of ln E that is not given: with more, any node would fit any path.
+const MOST: f64 = 1e-2;
+
+/// How far points may lie off their curve.
+#[derive(Debug, Clone, Copy)]
+struct Scatter {
+    /// In units of the given standard deviation.
+    given: f64,
+    /// Beside it.
+    more: f64,
+}
 
 /// What a misfit means.
 struct Noise {
@@ -138,6 +147,8 @@ struct Noise {
     factor: f64,
     /// Nats of a right node's misfit, on average.
     usual: f64,
+    /// Whether the variance is.
+    known: bool,
 }
 
 impl Noise {
@@ -151,22 +162,28 @@ impl Noise {
         let quartile =
             freedom * (1.0 - 2.0 / (9.0 * freedom) - 0.6745 * (2.0 / (9.0 * freedom)).sqrt()).powi(3);
         let found = best.get(best.len() / 4).map_or(0.0, |misfit| misfit / quartile);
-        let least = match options.sigma {
-            Sigma::Known => 1.0,
-            Sigma::Assumed => LEAST,
-        };
+        let least = if options.sigma_known { 1.0 } else { LEAST };
         // Without other sensors, or noise, there is no misfit to expect.
         let usual = if found > least / 4.0 { freedom / 2.0 } else { 0.0 };
-        Self { factor: found.max(least), usual }
+        Self { factor: found.max(least), usual, known: options.sigma_known }
     }
 
-    fn points(&self, nodes: &[Node]) -> Vec<Point> {
+    /// What is to be tried, least first.
+    fn scatters(&self, nodes: &[Vec<Node>]) -> impl Iterator<Item = Scatter> {
+        let known = self.known || nodes.iter().flatten().all(|node| node.std == 0.0);
+        let given = self.factor.sqrt();
+        SCATTERS.into_iter().filter(move |&size| !known || size <= MOST).map(move |size| {
+            if known { Scatter { given, more: size } } else { Scatter { given: size, more: 0.0 } }
+        })
+    }
+
+    fn points(&self, nodes: &[Node], scatter: Scatter) -> Vec<Point> {
         let point = |(node, Node { factor, misfit, std }): (usize, &Node)| {
-            let relative = std / factor.norm();
+            let given = scatter.given * std / factor.norm();
             Point {
                 node,
                 log: factor.ln(),
-                variance: self.factor * relative * relative + ROUNDOFF * ROUNDOFF,
+                variance: given * given + scatter.more * scatter.more + ROUNDOFF * ROUNDOFF,
                 misfit: misfit / (2.0 * self.factor) - self.usual,
             }
         };

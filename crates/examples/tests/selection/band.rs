@@ -27,8 +27,8 @@ pub(crate) struct Band {
     pub(crate) nodes: Vec<Vec<Node>>,
 }
 
-/// Misfits without noise are relative to this part of the response, as where σ is not known.
-const ASSUMED: f64 = 1e-2;
+/// Where σ is not known, misfits and deviations are relative to the response.
+const ASSUMED: f64 = 1.0;
 
 pub(crate) fn band(model: &Model, frequency_hz: Vec<f64>, setup: &Setup) -> Band {
     let mut noise = Noise(1);
@@ -72,7 +72,7 @@ fn at(model: &Model, frequency_hz: f64, truth: c64, setup: &Setup, noise: &mut N
         let misfit = x.iter().zip(&measured).zip(&sigma).map(|((x, u), s)| ((x - u) / s).norm_sqr()).sum();
         let curvature: f64 =
             slopes(&response, correction).iter().zip(&sigma).map(|(d, s)| (d / s).norm_sqr()).sum();
-        let std = if setup.noise > 0.0 { 1.0 / curvature.sqrt() } else { 0.0 };
+        let std = 1.0 / curvature.sqrt();
         let factor = nominal + correction;
         if nodes.iter().any(|n: &Node| (n.factor - factor).norm() < 1e-9 * factor.norm()) {
             continue;
