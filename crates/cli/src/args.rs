@@ -84,6 +84,9 @@ pub(crate) struct Identify {
     /// Selection of one of several roots, in place of the case's
     #[arg(long)]
     pub(crate) selection: Option<String>,
+    /// What answers at a frequency (auto, full, subspace), in place of the case's
+    #[arg(long)]
+    pub(crate) space: Option<String>,
     /// Frequencies at which the error is mapped over the orders; 0 for no map (default: 60, above 300 dofs 30, above 5000 none)
     #[arg(long, value_name = "N")]
     pub(crate) error_map: Option<usize>,

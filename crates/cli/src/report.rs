@@ -60,10 +60,18 @@ pub(crate) fn identified(job: &IdentifyJob, out: &Path) -> String {
         "work",
         format!(
             "{} factorisations, {} solves, {:.2} s",
-            run.work.factorisations, run.work.solves, run.seconds.identify
+            run.work.factorisations,
+            run.work.solves,
+            run.seconds.identify()
         ),
     );
-    line("wrote", format!("{}: identified.csv, response.csv, summary.json, figures/", out.display()));
+    if let (Some(size), Some(error)) = (run.subspace_size, run.certificate()) {
+        line("subspace", format!("{size} vectors, error of the response at most {error:.1e} (estimated)"));
+    }
+    line(
+        "wrote",
+        format!("{}: identified.csv, candidates.csv, response.csv, summary.json, figures/", out.display()),
+    );
     let band = (run.outcomes.first(), run.outcomes.last());
     let band = match band {
         (Some(first), Some(last)) => format!("{} to {} Hz", first.frequency_hz, last.frequency_hz),

@@ -30,6 +30,7 @@
 
 pub mod dof;
 pub mod efficiency;
+pub mod for_each;
 pub mod frequency;
 pub mod identify;
 pub mod material;
@@ -41,5 +42,6 @@ pub mod response;
 pub mod roots;
 pub mod select;
 pub mod series;
+pub mod subspace;
 
 pub use frfit_linalg::c64;

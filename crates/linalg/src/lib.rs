@@ -6,6 +6,7 @@
 //! | [`solve`] | analyse → factor → solve, every solution checked by its true residual |
 //! | [`spectral`] | the spectral radius of an operator given by its action |
 //! | [`modes`] | the lowest natural modes of K φ = ω² M φ |
+//! | [`tall`] | a few long real vectors as one matrix |
 //! | [`vector`] | products and projections of complex vectors |
 //! | [`dense`] | small dense problems: eigenvalues, least squares, roots of polynomials |
 //!
@@ -19,6 +20,7 @@ mod scalar;
 pub mod solve;
 pub mod sparse;
 pub mod spectral;
+pub mod tall;
 pub mod vector;
 
 pub use num_complex::Complex64 as c64;

@@ -101,6 +101,12 @@ pub fn lowest(k: &SymmetricMatrix, m: &SymmetricMatrix, count: usize) -> Result<
         multiply_add(&pattern, values, 1.0, x, &mut out);
         out
     };
+    // A whole block at once: the factor is read once for all of its vectors.
+    let solve = |columns: Vec<Vec<f64>>| -> Result<Vec<Vec<f64>>, Breakdown> {
+        let mut block = columns.concat();
+        factor.solve(&mut block)?;
+        Ok(block.chunks(pattern.dim()).map(<[f64]>::to_vec).collect())
+    };
     let mut space = Lanczos::default();
     let n = pattern.dim();
     let count = count.min(n);
@@ -113,22 +119,17 @@ pub fn lowest(k: &SymmetricMatrix, m: &SymmetricMatrix, count: usize) -> Result<
     let mut modes = Modes { omega_squared: Vec::new(), shapes: Vec::new(), residuals: Vec::new() };
     while space.basis.len() < limit {
         let first = space.basis.len();
-        for mut candidate in candidates {
-            // Through the operator once more, so that nothing is left in the null space of M.
-            candidate = times(m, &candidate);
-            factor.solve(&mut candidate)?;
+        // Through the operator once more, so that nothing is left in the null space of M.
+        for candidate in solve(candidates.iter().map(|x| times(m, x)).collect())? {
             space.append(candidate, |x| times(m, x));
         }
         if space.basis.len() == first {
             break;
         }
-        candidates = Vec::new();
-        for j in first..space.basis.len() {
-            let mut image = space.mass_times[j].clone();
-            factor.solve(&mut image)?;
-            space.projected.push(space.mass_times.iter().map(|mv| dot(mv, &image)).collect());
+        candidates = solve(space.mass_times[first..].to_vec())?;
+        for image in &candidates {
+            space.projected.push(space.mass_times.iter().map(|mv| dot(mv, image)).collect());
             space.images.push(image.clone());
-            candidates.push(image);
         }
         modes = space.rayleigh_ritz(count, sigma, |x| times(m, x));
         if modes.residuals.len() == count && modes.residuals.iter().all(|&r| r < RESIDUAL) {

@@ -4,7 +4,8 @@ use crate::error::InputError;
 use crate::figures::{identify_figures, respond_figures};
 use crate::load::{Case, IdentifyCase, Overrides, Purpose, load};
 use crate::output::{
-    File, WriteError, identified_csv, respond_csv, respond_uff, response_csv, summary_json, write_all,
+    File, WriteError, candidates_csv, identified_csv, respond_csv, respond_uff, response_csv, summary_json,
+    write_all,
 };
 use crate::run::{IdentifyRun, Progress, RespondRun, RunOptions, identify, respond};
 use frfit::material::OutsideTable;
@@ -89,6 +90,7 @@ pub fn identify_case(
     let mut files = identify_figures(&case, wanted, &run)?;
     let summary = summary_json(&case, wanted, &run, seconds_load, start.elapsed().as_secs_f64());
     files.push(File::new("identified.csv", identified_csv(&run.outcomes)));
+    files.push(File::new("candidates.csv", candidates_csv(&run.outcomes)));
     files.push(File::new("response.csv", response_csv(&case, wanted, &run.outcomes)));
     files.push(File::new("summary.json", format!("{summary:#}\n")));
     write_all(out, &files)?;

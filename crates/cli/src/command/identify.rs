@@ -17,6 +17,7 @@ pub(crate) fn run(args: &Args, identify: &Identify) -> Result<Outcome, Failure> 
         order: identify.order,
         band_hz: identify.overrides.band,
         selection: identify.selection.clone(),
+        space: identify.space.clone(),
     };
     let options = RunOptions { error_map: identify.error_map };
     let job = carry_out(args, &identify.case, &overrides, options, &identify.out)?;

@@ -1,10 +1,12 @@
 //! From a measured response to the factor that reproduces it, and how far to trust it.
 
+mod band;
 mod one;
 mod options;
 mod outcome;
 mod rational;
 
+pub use band::{Band, BandOutcome, Hooks, Noise, Stage, identify_band};
 pub use one::{error_by_order, identify_at, relative_error};
-pub use options::{MAX_ORDER, Method, Options, OptionsError, Selection};
+pub use options::{MAX_ORDER, Method, Options, OptionsError, Selection, Space};
 pub use outcome::{Identified, Status};

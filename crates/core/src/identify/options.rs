@@ -8,10 +8,10 @@ use std::str::FromStr;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Method {
     /// The paper's: truncated Neumann series, roots of a polynomial.
-    #[default]
     Series,
     /// B-1 and B-2: rational response on the Neumann vectors, all roots of one small eigenproblem; converges through resonances and
     /// sees every solution within the bounds.
+    #[default]
     Rational,
     /// A simplex search on direct solves, for comparison ([`crate::nelder_mead`]).
     NelderMead,
@@ -20,9 +20,24 @@ pub enum Method {
 /// How one of several admissible roots is chosen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Selection {
-    /// The paper's: that of least |c|.
+    /// All sensors and all frequencies together (B-4, B-5).
     #[default]
+    Joint,
+    /// The paper's: that of least |c|, each frequency by itself.
     Smallest,
+}
+
+/// What answers at a frequency.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Space {
+    /// The band's subspace where that is cheaper than the full model: for the rational method, a handful of frequencies or more, and more than a
+    /// handful of degrees of freedom. The paper's series and Nelder–Mead run on the full model, as the paper has them.
+    #[default]
+    Auto,
+    /// The full model: a complex factorisation at every frequency.
+    Full,
+    /// One subspace for the band (B-3).
+    Subspace,
 }
 
 /// A word that is none of the choices there are.
@@ -73,6 +88,7 @@ impl Selection {
     /// The name that case files use.
     pub fn name(self) -> &'static str {
         match self {
+            Self::Joint => "joint",
             Self::Smallest => "smallest",
         }
     }
@@ -83,21 +99,65 @@ impl FromStr for Selection {
 
     fn from_str(name: &str) -> Result<Self, UnknownChoice> {
         match name {
+            "joint" => Ok(Self::Joint),
             "smallest" => Ok(Self::Smallest),
-            _ => Err(UnknownChoice { found: name.to_owned(), expected: "\"smallest\"" }),
+            _ => Err(UnknownChoice { found: name.to_owned(), expected: "\"joint\" or \"smallest\"" }),
         }
     }
 }
 
+impl Space {
+    /// The name that case files use.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Auto => "auto",
+            Self::Full => "full",
+            Self::Subspace => "subspace",
+        }
+    }
+
+    /// Whether the subspace answers, for a model of so many degrees of freedom at so many frequencies.
+    pub fn is_subspace(self, method: Method, dofs: usize, frequencies: usize) -> bool {
+        match self {
+            Self::Full => false,
+            Self::Subspace => true,
+            Self::Auto => method == Method::Rational && dofs > TINY && frequencies >= HANDFUL,
+        }
+    }
+}
+
+impl FromStr for Space {
+    type Err = UnknownChoice;
+
+    fn from_str(name: &str) -> Result<Self, UnknownChoice> {
+        match name {
+            "auto" => Ok(Self::Auto),
+            "full" => Ok(Self::Full),
+            "subspace" => Ok(Self::Subspace),
+            _ => {
+                Err(UnknownChoice { found: name.to_owned(), expected: "\"auto\", \"full\" or \"subspace\"" })
+            }
+        }
+    }
+}
+
+/// Degrees of freedom up to which a subspace is no smaller than the model.
+const TINY: usize = 64;
+
+/// Frequencies from which on the subspace's solves (tens) cost less than theirs (two complex factorisations each).
+const HANDFUL: usize = 4;
+
 /// Options of an identification; all have defaults.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Options {
-    /// Series (default), rational or Nelder–Mead.
+    /// Rational (default), series or Nelder–Mead.
     pub method: Method,
     /// Order n of the series, upper bound of it for the rational response, or iterations of Nelder–Mead. Default 30, the paper's.
     pub order: usize,
-    /// Smallest |c| (default).
+    /// Joint (default) or smallest |c|. The series and Nelder–Mead know only the latter.
     pub selection: Selection,
+    /// What answers at a frequency. Default automatic.
+    pub space: Space,
     /// Bounds on the updated factor. Default none.
     pub bounds: Bounds,
     /// Whether the parameter is real. Default false.
@@ -105,6 +165,12 @@ pub struct Options {
     /// Largest ε (P-40) at the sensor that gave the root, from a fresh direct solve, for status `ok`. Default 1e-2, the error
     /// that the paper reports for a measurement at n = 30.
     pub error: f64,
+    /// Largest relative error of the factor that the subspace may cause, by its own estimate, for status `ok`. Default 1e-5: the estimate is ten to a
+    /// hundred times what direct solves show.
+    pub certain: f64,
+    /// Whether the factor is looked for in all of the bounds, as for a nominal that is no more than their middle. Default false: in a factor of four to either side
+    /// of the nominal first.
+    pub whole_box: bool,
 }
 
 impl Default for Options {
@@ -113,9 +179,12 @@ impl Default for Options {
             method: Method::default(),
             order: 30,
             selection: Selection::default(),
+            space: Space::default(),
             bounds: Bounds::default(),
             real: false,
             error: 1e-2,
+            certain: 1e-5,
+            whole_box: false,
         }
     }
 }
@@ -132,6 +201,8 @@ pub enum OptionsError {
     Bounds(&'static str, [f64; 2]),
     /// An error limit that is not positive.
     Error(f64),
+    /// A joint selection with a method that offers nothing to select from.
+    Selection(Method),
 }
 
 impl fmt::Display for OptionsError {
@@ -142,6 +213,10 @@ impl fmt::Display for OptionsError {
                 write!(f, "bounds.{name}: expected [low, high] with low <= high, found [{low}, {high}]")
             }
             Self::Error(error) => write!(f, "error: expected a positive number, found {error}"),
+            Self::Selection(method) => {
+                let method = method.name();
+                write!(f, "selection: expected \"smallest\" with method {method:?}, found \"joint\"")
+            }
         }
     }
 }
@@ -149,6 +224,11 @@ impl fmt::Display for OptionsError {
 impl std::error::Error for OptionsError {}
 
 impl Options {
+    /// The paper's way: series, smallest |c|.
+    pub fn paper() -> Self {
+        Self { method: Method::Series, selection: Selection::Smallest, ..Self::default() }
+    }
+
     /// Checks what types cannot.
     ///
     /// # Errors
@@ -167,6 +247,9 @@ impl Options {
         if self.error <= 0.0 || self.error.is_nan() {
             return Err(OptionsError::Error(self.error));
         }
+        if self.selection == Selection::Joint && self.method != Method::Rational {
+            return Err(OptionsError::Selection(self.method));
+        }
         Ok(())
     }
 
@@ -181,10 +264,16 @@ mod tests {
     use super::*;
 
     #[test]
-    fn defaults_are_the_papers_and_valid() {
+    fn defaults_are_valid_and_the_paper_is_two_words_away() {
         let options = Options::default();
-        assert_eq!((options.order, options.selection), (30, Selection::Smallest));
+        assert_eq!((options.method, options.selection), (Method::Rational, Selection::Joint));
         assert_eq!(options.validate(), Ok(()));
+        assert_eq!(Options::paper().validate(), Ok(()));
+        let mixed = Options { method: Method::Series, ..options };
+        assert_eq!(
+            mixed.validate().unwrap_err().to_string(),
+            "selection: expected \"smallest\" with method \"series\", found \"joint\""
+        );
     }
 
     #[test]

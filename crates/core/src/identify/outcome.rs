@@ -10,15 +10,15 @@ use frfit_linalg::solve::Breakdown;
 /// How far an answer can be trusted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Status {
-    /// One admissible root, inside the circle of convergence, confirmed by a direct solve.
+    /// One answer, and nothing known speaks against it.
     Ok,
-    /// Several admissible roots explain the measurement; the one of least |c| is given.
+    /// Several admissible roots explain the measurement; the likeliest is given (joint), or that of least |c| (smallest).
     Ambiguous,
     /// The series does not converge at the root: its spectral radius is above one, or the root moves as terms are added.
     Diverged,
     /// No root within the bounds.
     NoRoot,
-    /// A system could not be solved.
+    /// A system could not be solved, or the response hardly depends on the parameter.
     IllConditioned,
     /// The frequency is outside the band or without data.
     OutOfBand,
@@ -69,6 +69,13 @@ pub struct Identified {
     pub nominal_response: Vec<c64>,
     /// Receptance at the sensors with the corrected parameter, from the direct solve; empty where there is none.
     pub updated_response: Vec<c64>,
+    /// Corrections that the data cannot exclude beside the one that is given: of a joint selection with status `ambiguous`.
+    pub alternatives: Vec<c64>,
+    /// Estimated error of the reduced model's response at the sensors, relative to the measured one, at the correction; `None` where the
+    /// full model answered.
+    pub certificate: Option<f64>,
+    /// Order that the paper's series would need for a truncation error of 1e-6 at the correction; `None` where it diverges, or was not asked.
+    pub series_order: Option<usize>,
     /// Work done.
     pub work: Work,
 }
@@ -89,6 +96,9 @@ impl Identified {
             breakdown: None,
             nominal_response: Vec::new(),
             updated_response: Vec::new(),
+            alternatives: Vec::new(),
+            certificate: None,
+            series_order: None,
             work: Work::default(),
         }
     }
@@ -102,6 +112,12 @@ impl Identified {
     /// Updated factor p̄ + c, P-35.
     pub fn factor(&self) -> Option<c64> {
         self.correction.map(|c| self.nominal + c)
+    }
+
+    /// Distance of the nearest pole of the response from the nominal value, over |p̄|: how far the parameter may change before the series
+    /// diverges.
+    pub fn pole_distance(&self) -> Option<f64> {
+        self.radius.map(|radius| 1.0 / (radius.per_unit * self.nominal.norm()))
     }
 
     /// Storage modulus E′, the updated factor's real part.

@@ -31,6 +31,17 @@ impl Experiment {
         Self { load, sensors }
     }
 
+    /// ℓ_m: the unit force at a sensor, along it; ℓ_mᵀ x is what it measures.
+    ///
+    /// # Panics
+    /// Where there is no such sensor.
+    pub fn unit_force(&self, sensor: usize) -> Vec<c64> {
+        let mut force = vec![c64::default(); self.load.len()];
+        let Sensor { row, sign } = self.sensors[sensor];
+        force[row] = c64::new(sign, 0.0);
+        force
+    }
+
     /// x at the sensors, with their signs.
     pub fn observe(&self, x: &[c64]) -> Vec<c64> {
         self.sensors.iter().map(|sensor| sensor.sign * x[sensor.row]).collect()

@@ -9,8 +9,10 @@
 //! U. Kirsch, Computers & Structures 78 (2000) 481–492 (combined approximations) is the precedent in structural reanalysis.
 
 mod basis;
+mod poles;
 mod roots;
 
+pub use poles::Poles;
 pub use roots::RationalRoot;
 
 use crate::c64;

@@ -2,7 +2,7 @@
 
 use super::{RationalResponse, transpose_dot};
 use crate::c64;
-use frfit_linalg::dense::{Matrix, NoConvergence, generalized_eigenvalues, solve};
+use frfit_linalg::dense::{Lu, Matrix, NoConvergence, eigenvalues, generalized_eigenvalues};
 
 /// A correction at which the reduced response equals the measured one.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -22,8 +22,8 @@ const POLISH: usize = 8;
 const SAME: f64 = 1e-9;
 
 impl RationalResponse {
-    /// All finite solutions at a sensor, least |c| first: eigenvalues of a companion pencil of size d·(n + 1) + 1, polished by Newton's
-    /// method, duplicates merged. Those that Newton's method does not confirm are left out.
+    /// All finite solutions at a sensor, least |c| first: [`Self::starts`] polished by Newton's method, duplicates merged. Those that Newton's
+    /// method does not confirm are left out.
     ///
     /// # Errors
     /// [`NoConvergence`] where the eigenvalue iteration fails.
@@ -31,11 +31,10 @@ impl RationalResponse {
     /// # Limits
     /// Solutions of the *reduced* model: where the residual is large, of nothing else.
     pub fn roots(&self, sensor: usize, measured: c64) -> Result<Vec<RationalRoot>, NoConvergence> {
-        let (constant, linear) = self.pencil(sensor, measured);
-        let eigenvalues = generalized_eigenvalues(&constant, &linear)?;
-        let mut roots: Vec<RationalRoot> = eigenvalues
+        let starts = self.starts(sensor, measured)?;
+        let mut roots: Vec<RationalRoot> = starts
             .into_iter()
-            .filter_map(|eigenvalue| self.polish(sensor, measured, eigenvalue.finite()?))
+            .filter_map(|start| self.polish(sensor, measured, start / self.scale))
             .collect();
         roots.sort_by(|a, b| a.correction.norm().total_cmp(&b.correction.norm()));
         let mut distinct: Vec<RationalRoot> = Vec::new();
@@ -49,6 +48,40 @@ impl RationalResponse {
             }
         }
         Ok(distinct)
+    }
+
+    /// Corrections near all solutions of x_m(c) = u, in no order: eigenvalues, to be polished.
+    ///
+    /// With M(z) y = b and ℓᵀy = u, (M(z) − b ℓᵀ/u) y = 0. For a parameter that enters linearly that is, with G = M₀⁻¹M₁ and x₀ = M₀⁻¹b, by
+    /// Sherman and Morrison: −1/z is an eigenvalue of (1 + x₀ℓᵀ/(u − ℓᵀx₀)) G, an ordinary problem of size n. With powers it is a
+    /// companion pencil of size d·n + 1.
+    ///
+    /// # Errors
+    /// [`NoConvergence`] where the eigenvalue iteration fails.
+    pub fn starts(&self, sensor: usize, measured: c64) -> Result<Vec<c64>, NoConvergence> {
+        let z = if self.matrices.len() == 2 {
+            self.linear_starts(sensor, measured)?
+        } else {
+            let (constant, linear) = self.pencil(sensor, measured);
+            generalized_eigenvalues(&constant, &linear)?.into_iter().filter_map(|e| e.finite()).collect()
+        };
+        Ok(z.into_iter().map(|z| z * self.scale).filter(|c| c.is_finite()).collect())
+    }
+
+    fn linear_starts(&self, sensor: usize, measured: c64) -> Result<Vec<c64>, NoConvergence> {
+        let n = self.size();
+        let mut block: Vec<c64> =
+            (0..n).flat_map(|j| self.matrices[1].column(j)).chain(&self.load).copied().collect();
+        Lu::new(&self.matrices[0])?.solve(&mut block)?;
+        let (g, x0) = block.split_at(n * n);
+        let l = &self.sensors[sensor];
+        // Where the nominal response is the measured one, z = 0 is a solution and the formula divides by zero: a millionth beside it is near
+        // enough for a start.
+        let gap = measured - transpose_dot(l, x0);
+        let gap = if gap.norm() < 1e-6 * measured.norm() { measured * 1e-6 } else { gap };
+        let row: Vec<c64> = g.chunks_exact(n).map(|column| transpose_dot(l, column) / gap).collect();
+        let matrix = Matrix::from_fn(n, n, |i, j| g[i + j * n] + x0[i] * row[j]);
+        Ok(eigenvalues(&matrix)?.into_iter().map(|mu| -mu.inv()).collect())
     }
 
     /// (C, L) with C w = z L w for w = (y, zy, …, z^{d−1}y, 1): the bordered matrix of B-2, its powers of z in companion form.
@@ -85,14 +118,14 @@ impl RationalResponse {
         let mut z = start;
         let mut best: Option<(f64, c64)> = None;
         for _ in 0..POLISH {
-            let (value, slope) = self.value_and_slope(sensor, z).ok()?;
-            let mismatch = (value - measured).norm() / measured.norm();
+            let (values, slopes) = self.respond_with_slope(z * self.scale).ok()?;
+            let mismatch = (values[sensor] - measured).norm() / measured.norm();
             if best.is_none_or(|(least, _)| mismatch < least) {
                 best = Some((mismatch, z));
             } else {
                 break;
             }
-            z -= (value - measured) / slope;
+            z -= (values[sensor] - measured) / (slopes[sensor] * self.scale);
         }
         let (mismatch, z) = best?;
         let correction = z * self.scale;
@@ -102,17 +135,22 @@ impl RationalResponse {
         settled.then_some(RationalRoot { correction, mismatch, residual })
     }
 
-    /// x_m(z) = ℓᵀy and x_m′(z) = −(M⁻¹ℓ)ᵀ M′(z) y with M y = b; M is symmetric.
-    fn value_and_slope(&self, sensor: usize, z: c64) -> Result<(c64, c64), NoConvergence> {
-        let matrix = self.matrix(z);
-        let y = solve(&matrix, &self.load)?;
-        let adjoint = solve(&matrix, &self.sensors[sensor])?;
-        let n = self.size();
+    /// x_m(c) = ℓ_mᵀy and ∂x_m/∂c = −(M⁻¹ℓ_m)ᵀ M′ y at all sensors, with M y = b; M is symmetric.
+    ///
+    /// # Errors
+    /// [`NoConvergence`] where c is a pole to working precision.
+    pub fn respond_with_slope(&self, correction: c64) -> Result<(Vec<c64>, Vec<c64>), NoConvergence> {
+        let (n, z) = (self.size(), correction / self.scale);
+        let mut block: Vec<c64> = self.load.iter().chain(self.sensors.iter().flatten()).copied().collect();
+        Lu::new(&self.matrix(z))?.solve(&mut block)?;
+        let (y, adjoints) = block.split_at(n);
         let derivative = Matrix::from_fn(n, n, |i, j| {
             let terms = self.matrices.iter().enumerate().skip(1).rev();
             terms.fold(c64::default(), |sum, (q, a)| sum * z + a[(i, j)] * q as f64)
         });
-        let value = transpose_dot(&self.sensors[sensor], &y);
-        Ok((value, -transpose_dot(&adjoint, &derivative.multiply(&y))))
+        let change = derivative.multiply(y);
+        let values = self.sensors.iter().map(|l| transpose_dot(l, y)).collect();
+        let slope = |adjoint: &[c64]| -transpose_dot(adjoint, &change) / self.scale;
+        Ok((values, adjoints.chunks_exact(n).map(slope).collect()))
     }
 }

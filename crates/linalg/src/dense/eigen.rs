@@ -57,6 +57,24 @@ pub fn eigen(a: &Matrix) -> Result<Eigen, NoConvergence> {
     Ok(Eigen { values: (0..n).map(|i| values[i]).collect(), vectors: unit })
 }
 
+/// All eigenvalues of a square matrix, without vectors.
+///
+/// # Errors
+/// [`NoConvergence`] for a matrix with values that are not finite, or where the QR iteration fails.
+///
+/// # Panics
+/// Where A is not square.
+///
+/// # Limits
+/// Those of [`eigen`].
+pub fn eigenvalues(a: &Matrix) -> Result<Vec<c64>, NoConvergence> {
+    assert_eq!(a.nrows(), a.ncols());
+    if !a.is_finite() {
+        return Err(NoConvergence);
+    }
+    a.as_faer().eigenvalues().map_err(|_| NoConvergence)
+}
+
 /// All eigenvalues of A v = λ B v, by QZ.
 ///
 /// # Errors

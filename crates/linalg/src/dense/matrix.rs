@@ -49,12 +49,39 @@ impl Matrix {
     /// # Panics
     /// Where x has not one entry for each column.
     pub fn multiply(&self, x: &[c64]) -> Vec<c64> {
-        assert_eq!(x.len(), self.ncols);
         let mut product = vec![c64::default(); self.nrows];
-        for (j, &xj) in x.iter().enumerate() {
-            product.iter_mut().zip(self.column(j)).for_each(|(sum, &a)| *sum += a * xj);
-        }
+        self.multiply_add(c64::new(1.0, 0.0), x, &mut product);
         product
+    }
+
+    /// out += factor · A x.
+    ///
+    /// # Panics
+    /// Where a length does not fit.
+    pub fn multiply_add(&self, factor: c64, x: &[c64], out: &mut [c64]) {
+        assert!(x.len() == self.ncols && out.len() == self.nrows);
+        for (j, &xj) in x.iter().enumerate() {
+            let scaled = factor * xj;
+            out.iter_mut().zip(self.column(j)).for_each(|(sum, &a)| *sum += a * scaled);
+        }
+    }
+
+    /// A ← A + factor · B.
+    ///
+    /// # Panics
+    /// Where the sizes differ.
+    pub fn add_scaled(&mut self, factor: c64, other: &Self) {
+        assert!(self.nrows == other.nrows && self.ncols == other.ncols);
+        self.values.iter_mut().zip(&other.values).for_each(|(a, b)| *a += factor * b);
+    }
+
+    /// A ← A + factor · B for a real B of the same size, column after column.
+    ///
+    /// # Panics
+    /// Where the sizes differ.
+    pub fn add_scaled_real(&mut self, factor: c64, other: &[f64]) {
+        assert_eq!(self.values.len(), other.len());
+        self.values.iter_mut().zip(other).for_each(|(a, b)| *a += factor * b);
     }
 
     /// max |aᵢⱼ|, NaN where there is one.

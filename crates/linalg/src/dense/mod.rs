@@ -6,9 +6,9 @@ mod lu;
 mod matrix;
 mod polynomial;
 
-pub use eigen::{Eigen, GeneralizedEigenvalue, eigen, generalized_eigenvalues, symmetric_eigen};
+pub use eigen::{Eigen, GeneralizedEigenvalue, eigen, eigenvalues, generalized_eigenvalues, symmetric_eigen};
 pub use least_squares::{LeastSquares, least_squares};
-pub use lu::solve;
+pub use lu::{Lu, solve};
 pub use matrix::Matrix;
 pub use polynomial::{Root, evaluate, roots};
 

@@ -120,8 +120,27 @@ impl<T: Scalar> CheckedFactor<T> {
         }
         let given = rhs.to_vec();
         self.factor.solve_in_place(rhs);
-        for (b, x) in given.chunks_exact(n).zip(rhs.chunks_exact_mut(n)) {
-            let report = self.check(b, x)?;
+        let mut reports = Vec::with_capacity(rhs.len() / n);
+        let (mut inaccurate, mut corrections) = (Vec::new(), Vec::new());
+        for (k, (b, x)) in given.chunks_exact(n).zip(rhs.chunks_exact(n)).enumerate() {
+            let (residual, backward_error) = self.residual(b, x)?;
+            if backward_error > REFINE_ABOVE {
+                inaccurate.push(k);
+                corrections.extend(residual);
+            }
+            reports.push(SolveReport { backward_error, condition_at_least: 0.0, refined: false });
+        }
+        if !inaccurate.is_empty() {
+            self.factor.solve_in_place(&mut corrections);
+        }
+        for (&k, dx) in inaccurate.iter().zip(corrections.chunks_exact(n)) {
+            let x = &mut rhs[k * n..][..n];
+            x.iter_mut().zip(dx).for_each(|(x, dx)| *x += *dx);
+            reports[k].backward_error = self.residual(&given[k * n..][..n], x)?.1;
+            reports[k].refined = true;
+        }
+        for ((b, x), report) in given.chunks_exact(n).zip(rhs.chunks_exact(n)).zip(reports) {
+            let report = self.judge(b, x, report)?;
             worst.backward_error = worst.backward_error.max(report.backward_error);
             worst.condition_at_least = worst.condition_at_least.max(report.condition_at_least);
             worst.refined |= report.refined;
@@ -129,37 +148,30 @@ impl<T: Scalar> CheckedFactor<T> {
         Ok(worst)
     }
 
-    fn check(&self, b: &[T], x: &mut [T]) -> Result<SolveReport, Breakdown> {
-        let singular = Breakdown::Singular { condition_at_least: f64::INFINITY };
-        let (mut residual, mut backward_error) = self.residual(b, x).ok_or(singular.clone())?;
-        let refined = backward_error > REFINE_ABOVE;
-        if refined {
-            self.factor.solve_in_place(&mut residual);
-            x.iter_mut().zip(&residual).for_each(|(x, dx)| *x += *dx);
-            backward_error = self.residual(b, x).ok_or(singular)?.1;
-        }
+    fn judge(&self, b: &[T], x: &[T], report: SolveReport) -> Result<SolveReport, Breakdown> {
         let size = max_modulus(b);
         let condition_at_least = if size > 0.0 { self.norm * max_modulus(x) / size } else { 0.0 };
         if condition_at_least > SINGULAR_ABOVE {
             return Err(Breakdown::Singular { condition_at_least });
         }
-        if backward_error > REFUSE_ABOVE {
-            return Err(Breakdown::Inaccurate { backward_error });
+        if report.backward_error > REFUSE_ABOVE {
+            return Err(Breakdown::Inaccurate { backward_error: report.backward_error });
         }
-        Ok(SolveReport { backward_error, condition_at_least, refined })
+        Ok(SolveReport { condition_at_least, ..report })
     }
 
-    /// b − A x and its size relative to ‖A‖∞‖x‖∞ + ‖b‖∞; `None` where x is not finite.
-    fn residual(&self, b: &[T], x: &[T]) -> Option<(Vec<T>, f64)> {
+    /// b − A x and its size relative to ‖A‖∞‖x‖∞ + ‖b‖∞; an x that is not finite is a singular matrix's.
+    fn residual(&self, b: &[T], x: &[T]) -> Result<(Vec<T>, f64), Breakdown> {
+        let singular = Breakdown::Singular { condition_at_least: f64::INFINITY };
         let size = max_modulus(x);
         if !size.is_finite() {
-            return None;
+            return Err(singular);
         }
         let mut residual = b.to_vec();
         multiply_add(&self.pattern, &self.values, -faer::traits::math_utils::one::<T>(), x, &mut residual);
         let scale = self.norm * size + max_modulus(b);
         let relative = if scale > 0.0 { max_modulus(&residual) / scale } else { 0.0 };
-        relative.is_finite().then_some((residual, relative))
+        if relative.is_finite() { Ok((residual, relative)) } else { Err(singular) }
     }
 }
 

@@ -1,5 +1,6 @@
 //! Dense LU with partial pivoting, for tiny models and as an oracle for the sparse back-end.
 
+use super::memory::{FactorMemory, bytes_of};
 use super::{Breakdown, Factor, Symbolic};
 use crate::Scalar;
 use crate::sparse::Pattern;
@@ -26,6 +27,12 @@ impl<T: Scalar> Symbolic<T> for DenseSymbolic {
             matrix[(col, row)] = value;
         }
         Ok(Box::new(DenseFactor(matrix.partial_piv_lu())))
+    }
+
+    fn memory(&self) -> Result<FactorMemory, Breakdown> {
+        // L and U of the factor; the matrix, and the work array that becomes them.
+        let square = bytes_of::<T>(self.pattern.dim().pow(2));
+        Ok(FactorMemory { kept: 2 * square, scratch: 2 * square })
     }
 }
 

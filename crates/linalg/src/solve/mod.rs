@@ -18,9 +18,13 @@
 
 mod checked;
 mod dense;
-mod sparse;
+mod lu;
+mod memory;
+mod ordering;
+mod symmetric;
 
 pub use checked::{Breakdown, CheckedFactor, SolveReport};
+pub use memory::FactorMemory;
 
 use crate::Scalar;
 use crate::sparse::Pattern;
@@ -30,12 +34,17 @@ use std::sync::Arc;
 /// (measured on full and on banded matrices: they break even between 40 and 80).
 pub const DENSE_LIMIT: usize = 48;
 
+/// Parallelism is over frequencies, above this crate: one factorisation runs on one thread.
+const PAR: faer::Par = faer::Par::Seq;
+
 /// What a back-end does with the numbers of a matrix whose pattern it has analysed.
 ///
 /// Narrow on purpose: a new back-end is one file with these two traits.
 trait Symbolic<T>: Send + Sync {
     /// Factor of the matrix with these values (in the order of the pattern).
     fn factor(&self, values: &[T]) -> Result<Box<dyn Factor<T>>, Breakdown>;
+    /// What `factor` will allocate.
+    fn memory(&self) -> Result<FactorMemory, Breakdown>;
 }
 
 /// A factorised matrix.
@@ -48,8 +57,8 @@ trait Factor<T>: Send + Sync {
 /// for all frequencies and shared between threads.
 pub struct Analysis {
     pattern: Arc<Pattern>,
-    real: Box<dyn Symbolic<f64>>,
-    complex: Box<dyn Symbolic<crate::c64>>,
+    real: Arc<dyn Symbolic<f64>>,
+    complex: Arc<dyn Symbolic<crate::c64>>,
 }
 
 impl Analysis {
@@ -64,7 +73,7 @@ impl Analysis {
     /// The dense back-end, whatever the size.
     pub fn dense(pattern: &Arc<Pattern>) -> Self {
         let dense = || dense::DenseSymbolic::new(Arc::clone(pattern));
-        Self { pattern: Arc::clone(pattern), real: Box::new(dense()), complex: Box::new(dense()) }
+        Self { pattern: Arc::clone(pattern), real: Arc::new(dense()), complex: Arc::new(dense()) }
     }
 
     /// The sparse back-end, whatever the size.
@@ -72,11 +81,9 @@ impl Analysis {
     /// # Errors
     /// [`Breakdown::OutOfMemory`] where the symbolic factor does not fit.
     pub fn sparse(pattern: &Arc<Pattern>) -> Result<Self, Breakdown> {
-        Ok(Self {
-            pattern: Arc::clone(pattern),
-            real: Box::new(sparse::BunchKaufman::new(pattern)),
-            complex: Box::new(sparse::Lu::new(pattern)),
-        })
+        let complex = Arc::new(lu::Lu::new(pattern));
+        let real = Arc::new(symmetric::Symmetric::new(pattern, Arc::clone(&complex)));
+        Ok(Self { pattern: Arc::clone(pattern), real, complex })
     }
 
     /// Number of unknowns n.
@@ -98,6 +105,22 @@ impl Analysis {
     /// Where there is not one value for each position.
     pub fn factor<T: HasSymbolic>(&self, values: &[T]) -> Result<CheckedFactor<T>, Breakdown> {
         CheckedFactor::new(&self.pattern, values.to_vec(), T::symbolic(self))
+    }
+
+    /// What [`Analysis::factor`] will allocate, known before any number is: a model that cannot fit into memory
+    /// can be refused before the attempt.
+    ///
+    /// For `f64` an upper bound from the symbolic factor, which is the numeric one's structure exactly, unless there
+    /// are zeros on the diagonal (constraints), which take LU. For
+    /// [`c64`](crate::c64) an estimate, not a bound: the row interchanges of the LU, and with them its fill, are
+    /// decided by the numbers.
+    ///
+    /// # Errors
+    /// [`Breakdown::OutOfMemory`] where the symbolic factor does not fit.
+    pub fn factor_memory<T: HasSymbolic>(&self) -> Result<FactorMemory, Breakdown> {
+        let mut memory = T::symbolic(self).memory()?;
+        memory.kept = memory.kept.saturating_add(memory::bytes_of::<T>(self.pattern.stored()));
+        Ok(memory)
     }
 }
 

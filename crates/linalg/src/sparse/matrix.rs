@@ -14,6 +14,15 @@ pub enum Values {
     Complex(Vec<c64>),
 }
 
+/// One of the two real matrices of a complex one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Part {
+    /// Real part.
+    Re,
+    /// Imaginary part; zero for a real matrix.
+    Im,
+}
+
 /// A symmetric matrix Aᵀ = A: a pattern, shared with others, and its values.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SymmetricMatrix {
@@ -98,6 +107,36 @@ impl SymmetricMatrix {
         match &self.values {
             Values::Real(values) => accumulate(&self.pattern, values, x, out, |a, b| factor * b * a),
             Values::Complex(values) => accumulate(&self.pattern, values, x, out, |a, b| factor * a * b),
+        }
+    }
+
+    /// Whether there is an imaginary part in the values' type.
+    pub fn is_complex(&self) -> bool {
+        matches!(self.values, Values::Complex(_))
+    }
+
+    /// out += Re A x or Im A x, for a real vector.
+    ///
+    /// # Panics
+    /// Where a length is not n.
+    pub fn multiply_add_real(&self, part: Part, x: &[f64], out: &mut [f64]) {
+        match (&self.values, part) {
+            (Values::Real(values), Part::Re) => accumulate(&self.pattern, values, x, out, |a, b| a * b),
+            (Values::Real(_), Part::Im) => {}
+            (Values::Complex(values), Part::Re) => accumulate(&self.pattern, values, x, out, |a, b| a.re * b),
+            (Values::Complex(values), Part::Im) => accumulate(&self.pattern, values, x, out, |a, b| a.im * b),
+        }
+    }
+
+    /// into += factor · Re (entries of A), in the order of the pattern.
+    ///
+    /// # Panics
+    /// Where `into` has another length than the pattern.
+    pub fn accumulate_real_into(&self, factor: f64, into: &mut [f64]) {
+        assert_eq!(into.len(), self.pattern.stored());
+        match &self.values {
+            Values::Real(values) => into.iter_mut().zip(values).for_each(|(sum, a)| *sum += factor * a),
+            Values::Complex(values) => into.iter_mut().zip(values).for_each(|(sum, a)| *sum += factor * a.re),
         }
     }
 

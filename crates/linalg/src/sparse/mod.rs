@@ -4,7 +4,7 @@ mod matrix;
 mod pattern;
 mod triplets;
 
-pub use matrix::{SymmetricMatrix, Values};
+pub use matrix::{Part, SymmetricMatrix, Values};
 pub use pattern::Pattern;
 pub use triplets::Triplets;
 

@@ -22,18 +22,33 @@ impl Pattern {
         let mut lower: Vec<(usize, usize)> = (0..dim).map(|i| (i, i)).collect();
         lower.extend(positions.into_iter().map(|(row, col)| {
             assert!(row < dim && col < dim, "position ({row}, {col}) outside {dim} x {dim}");
-            (row.min(col), row.max(col))
+            (row.max(col), row.min(col))
         }));
-        lower.sort_unstable();
-        lower.dedup();
-        let mut col_ptr = vec![0; dim + 1];
-        for &(col, _) in &lower {
-            col_ptr[col + 1] += 1;
+        let mut next = vec![0; dim + 1];
+        lower.iter().for_each(|&(_, col)| next[col + 1] += 1);
+        (0..dim).for_each(|col| next[col + 1] += next[col]);
+        let mut rows = vec![0; lower.len()];
+        for (row, col) in lower {
+            rows[next[col]] = row;
+            next[col] += 1;
         }
-        for col in 0..dim {
-            col_ptr[col + 1] += col_ptr[col];
+        // `next` has moved from the first to the end of each column.
+        let mut start = 0;
+        let columns = (0..dim).map(|col| rows[std::mem::replace(&mut start, next[col])..next[col]].to_vec());
+        Self::from_columns(dim, columns)
+    }
+
+    /// From the rows of each column in any order, repeated or not.
+    fn from_columns(dim: usize, columns: impl Iterator<Item = Vec<usize>>) -> Self {
+        let (mut col_ptr, mut row_idx) = (vec![0], Vec::new());
+        for mut column in columns {
+            column.sort_unstable();
+            column.dedup();
+            row_idx.extend(column);
+            col_ptr.push(row_idx.len());
         }
-        Self { dim, col_ptr, row_idx: lower.into_iter().map(|(_, row)| row).collect() }
+        row_idx.shrink_to_fit();
+        Self { dim, col_ptr, row_idx }
     }
 
     /// The union of patterns of one dimension; the same `Arc` where they are all equal.
@@ -45,7 +60,10 @@ impl Pattern {
         if patterns.iter().all(|pattern| Arc::ptr_eq(pattern, first) || pattern == &first) {
             return Arc::clone(first);
         }
-        Arc::new(Pattern::new(first.dim, patterns.iter().flat_map(|pattern| pattern.positions())))
+        assert!(patterns.iter().all(|pattern| pattern.dim == first.dim), "patterns of one dimension");
+        let columns = (0..first.dim)
+            .map(|col| patterns.iter().flat_map(|pattern| pattern.column(col)).copied().collect());
+        Arc::new(Pattern::from_columns(first.dim, columns))
     }
 
     /// Number of rows and columns n.

@@ -10,7 +10,7 @@ pub(crate) use sections::checked_band;
 
 use crate::error::Place;
 use frfit::dof::DofName;
-use frfit::identify::{Method, Selection};
+use frfit::identify::{Method, Selection, Space};
 use frfit::material::Law;
 use frfit::model::Role;
 use frfit::quantity::Quantity;
@@ -115,7 +115,11 @@ pub struct IdentifyEntry {
     /// Order.
     pub order: Option<Located<i64>>,
     /// Selection.
-    pub selection: Option<Selection>,
+    pub selection: Option<Located<Selection>>,
+    /// What answers at a frequency.
+    pub space: Option<Space>,
+    /// Where it says `nominal = "estimate"`.
+    pub estimate: Option<Place>,
     /// `bounds.storage`.
     pub storage: Option<Located<[f64; 2]>>,
     /// `bounds.loss_factor`.

@@ -7,7 +7,7 @@ use super::{
 use crate::error::{InputError, Place};
 use frfit::c64;
 use frfit::dof::DofName;
-use frfit::identify::{Method, Selection};
+use frfit::identify::{Method, Selection, Space};
 use frfit::material::Law;
 use frfit::model::Role;
 use frfit::quantity::Quantity;
@@ -114,13 +114,19 @@ pub(super) fn measurement(table: &Table<'_>) -> Result<MeasurementEntry, InputEr
     })
 }
 
+/// The one thing that `nominal` can say: numbers belong to the matrix.
+const ESTIMATE: &str = "\"estimate\" (a nominal value is the factor of the matrix)";
+
 /// `[identify]`.
 pub(super) fn identify(field: &Field<'_>) -> Result<IdentifyEntry, InputError> {
-    let known = ["matrix", "band_hz", "method", "order", "selection", "bounds", "real", "truth"];
+    let known =
+        ["matrix", "band_hz", "method", "order", "selection", "space", "nominal", "bounds", "real", "truth"];
     let table = field.table(&known)?;
     let bounds = table.find("bounds").map(|field| field.table(&["storage", "loss_factor"])).transpose()?;
     let method = |word: &str| word.parse::<Method>().map_err(|unknown| unknown.expected.to_owned());
     let selection = |word: &str| word.parse::<Selection>().map_err(|unknown| unknown.expected.to_owned());
+    let space = |word: &str| word.parse::<Space>().map_err(|unknown| unknown.expected.to_owned());
+    let estimate = |word: &str| (word == "estimate").then_some(()).ok_or_else(|| ESTIMATE.to_owned());
     let bound = |name| bounds.as_ref().and_then(|table| table.find(name)).map(|f| f.pair()).transpose();
     Ok(IdentifyEntry {
         place: table.place.clone(),
@@ -128,7 +134,9 @@ pub(super) fn identify(field: &Field<'_>) -> Result<IdentifyEntry, InputError> {
         band_hz: table.find("band_hz").map(|band| self::band(&band)).transpose()?,
         method: table.find("method").map(|field| field.word(method)).transpose()?.map(|m| m.value),
         order: table.find("order").map(|order| order.whole()).transpose()?,
-        selection: table.find("selection").map(|field| field.word(selection)).transpose()?.map(|s| s.value),
+        selection: table.find("selection").map(|field| field.word(selection)).transpose()?,
+        space: table.find("space").map(|field| field.word(space)).transpose()?.map(|s| s.value),
+        estimate: table.find("nominal").map(|field| field.word(estimate)).transpose()?.map(|e| e.place),
         storage: bound("storage")?,
         loss_factor: bound("loss_factor")?,
         real: table.find("real").map(|real| real.flag()).transpose()?.unwrap_or(false),

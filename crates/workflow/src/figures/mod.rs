@@ -1,6 +1,8 @@
 //! The figures of a run, as the paper draws them.
 
 mod accelerance;
+mod candidates;
+mod certificate;
 mod error_map;
 mod modulus;
 mod spectral_radius;
@@ -8,7 +10,7 @@ mod spectral_radius;
 use crate::load::{Case, IdentifyCase};
 use crate::output::File;
 use crate::run::{IdentifyRun, RespondRun};
-use frfit::identify::Status;
+use frfit::identify::{Selection, Status};
 use frfit_figures::{Class, Color, Figure, PngError, Strip};
 
 /// Pixels per SVG unit: 720 units wide become 1080 pixels.
@@ -34,6 +36,12 @@ pub fn identify_figures(
     figures.push(("modulus".to_owned(), modulus::figure(case, identify, run)));
     if run.outcomes.iter().any(|outcome| outcome.spectral_radius.is_some()) {
         figures.push(("spectral_radius".to_owned(), spectral_radius::figure(case, run)));
+    }
+    if identify.options.selection == Selection::Joint {
+        figures.push(("candidates".to_owned(), candidates::figure(case, run)));
+    }
+    if run.certificate().is_some() {
+        figures.push(("certificate".to_owned(), certificate::figure(case, run)));
     }
     if let Some(map) = &run.error_map {
         figures.push(("error".to_owned(), error_map::figure(case, map)));

@@ -1,5 +1,6 @@
 //! The frequencies of a band, and what was measured there, as receptance.
 
+use super::identify::MeasuredNoise;
 use super::measurement::{Curve, Measurement};
 use crate::error::{InputError, Place};
 use frfit::c64;
@@ -10,15 +11,12 @@ use frfit_formats::FormatError;
 const SAME_FREQUENCY: f64 = 1e-9;
 
 /// Measured values over a band.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct Band {
     pub(super) frequency_hz: Vec<f64>,
     /// `[frequency][sensor]`, receptance.
     pub(super) measured: Vec<Vec<c64>>,
-    /// `[sensor][frequency]`, of the receptance.
-    pub(super) std: Vec<Option<Vec<f64>>>,
-    /// `[sensor][frequency]`.
-    pub(super) coherence: Vec<Option<Vec<f64>>>,
+    pub(super) noise: MeasuredNoise,
 }
 
 /// The frequencies of a curve inside a band, both ends included.
@@ -45,17 +43,19 @@ pub(super) fn band(
     place: &Place,
 ) -> Result<Band, InputError> {
     let Some(first) = measurements.first().and_then(|first| first.curve.as_ref()) else {
-        return Ok(Band::default());
+        return Ok(Band { frequency_hz: Vec::new(), measured: Vec::new(), noise: MeasuredNoise::Unknown });
     };
     let frequency_hz = frequencies(first, band_hz, place)?;
-    let mut band = Band { measured: vec![Vec::new(); frequency_hz.len()], ..Band::default() };
+    let mut measured: Vec<Vec<c64>> = vec![Vec::new(); frequency_hz.len()];
+    // `[sensor][frequency]`, of the receptance.
+    let (mut known, mut relative) = (Vec::new(), Vec::new());
     for measurement in measurements {
         let Some(curve) = &measurement.curve else { continue };
         let frf = &curve.frf;
         let rows = frequency_hz.iter().map(|&f| row_of(curve, f, first)).collect::<Result<Vec<_>, _>>()?;
         let picked = |column: &Vec<f64>| rows.iter().map(|&row| column[row]).collect::<Vec<_>>();
         let quantity = measurement.info.quantity;
-        for ((&row, &f), values) in rows.iter().zip(&frequency_hz).zip(&mut band.measured) {
+        for ((&row, &f), values) in rows.iter().zip(&frequency_hz).zip(&mut measured) {
             let receptance = quantity.to_receptance(f, frf.response[row]);
             if !receptance.is_finite() {
                 let expected = format!("a band in which {quantity} can be converted to receptance");
@@ -67,10 +67,30 @@ pub(super) fn band(
             let per_receptance = frequency_hz.iter().map(|&f| quantity.over_receptance(f).norm());
             std.into_iter().zip(per_receptance).map(|(std, factor)| std / factor).collect()
         });
-        band.std.push(std);
-        band.coherence.push(frf.coherence.as_ref().map(picked));
+        known.push(std);
+        let coherence: Option<Vec<f64>> = frf.coherence.as_ref().map(picked);
+        let column = known.len() - 1;
+        relative.push(coherence.map(|gamma| {
+            gamma.iter().zip(&measured).map(|(&gamma, u)| deviation(gamma, u[column])).collect::<Vec<f64>>()
+        }));
     }
-    Ok(Band { frequency_hz, ..band })
+    let by_frequency = |columns: Vec<Option<Vec<f64>>>| -> Option<Vec<Vec<f64>>> {
+        let columns: Vec<Vec<f64>> = columns.into_iter().collect::<Option<_>>()?;
+        Some((0..frequency_hz.len()).map(|i| columns.iter().map(|column| column[i]).collect()).collect())
+    };
+    let noise = match (by_frequency(known), by_frequency(relative)) {
+        (Some(std), _) => MeasuredNoise::Known(std),
+        (None, Some(std)) => MeasuredNoise::Relative(std),
+        (None, None) => MeasuredNoise::Unknown,
+    };
+    Ok(Band { frequency_hz, measured, noise })
+}
+
+/// √E|δH|² of one average, from the coherence γ²: |H|√((1 − γ²)/(2γ²)), B-6.
+fn deviation(coherence: f64, response: c64) -> f64 {
+    // No coherence is exactly one, nor does zero say more than that nothing was measured.
+    let coherence = coherence.clamp(1e-9, 1.0 - 1e-9);
+    response.norm() * ((1.0 - coherence) / (2.0 * coherence)).sqrt()
 }
 
 /// Where a curve has a frequency.

@@ -9,9 +9,10 @@ use crate::case::{CaseFile, IdentifyEntry, Located, checked_band};
 use crate::error::{InputError, Place};
 use crate::nearest::nearest;
 use frfit::c64;
-use frfit::identify::{Method, Options, OptionsError, Selection};
+use frfit::identify::{Method, Options, OptionsError, Selection, Space};
 use frfit::material::Law;
 use frfit::model::{DynamicStiffness, Parameter};
+use frfit::roots::Bounds;
 
 /// An identification, everything checked.
 #[derive(Debug)]
@@ -28,12 +29,21 @@ pub struct IdentifyCase {
     pub frequency_hz: Vec<f64>,
     /// Measured receptance in m/N, `[frequency][sensor]`.
     pub measured: Vec<Vec<c64>>,
-    /// Standard deviation √E|δx|² of the measured receptance, `[sensor][frequency]`, where the file gives it.
-    pub std: Vec<Option<Vec<f64>>>,
-    /// Coherence γ², `[sensor][frequency]`, where the file gives it.
-    pub coherence: Vec<Option<Vec<f64>>>,
+    /// How well the receptances were measured.
+    pub noise: MeasuredNoise,
     /// The factor that a simulated measurement was made with.
     pub truth: Option<Law>,
+}
+
+/// Standard deviations √E|δx|² of the measured receptances, `[frequency][sensor]`, as far as the files tell.
+#[derive(Debug, Clone, PartialEq)]
+pub enum MeasuredNoise {
+    /// Not for all sensors.
+    Unknown,
+    /// From the coherence of all of them, up to the number of averages.
+    Relative(Vec<Vec<f64>>),
+    /// Given for all of them.
+    Known(Vec<Vec<f64>>),
 }
 
 /// Puts the identification of a case together.
@@ -48,8 +58,11 @@ pub(super) fn identify(
         return Err(InputError::at(&Place::file(&case.file), "a table [identify]", "none"));
     };
     let names = known_names(case, entry)?;
-    let parameter = shared_factor(entry, &names, model)?;
     let options = options(entry, overrides)?;
+    let mut parameter = shared_factor(entry, &names, model)?;
+    if let Some(place) = &entry.estimate {
+        parameter.nominal = middle_of(&options.bounds, place)?;
+    }
     let (band_hz, place) = band_of(entry, overrides)?;
     let truth = entry.truth.as_ref().map(|truth| law(truth, files)).transpose()?;
     let data = band(measurements, band_hz, &place)?;
@@ -60,8 +73,7 @@ pub(super) fn identify(
         band_hz,
         frequency_hz: data.frequency_hz,
         measured: data.measured,
-        std: data.std,
-        coherence: data.coherence,
+        noise: data.noise,
         truth,
     })
 }
@@ -106,11 +118,35 @@ fn shared_factor(
     Ok(parameter)
 }
 
+/// `nominal = "estimate"`: where the bounds are, without any other word of the user. The factor is looked for in all of them.
+fn middle_of(bounds: &Bounds, place: &Place) -> Result<Law, InputError> {
+    let [low, high] = match bounds.storage {
+        Some([low, high]) if low > 0.0 => [low, high],
+        Some([low, high]) => {
+            let expected = "bounds.storage above zero, to estimate the nominal from";
+            return Err(InputError::at(place, expected, format!("[{low}, {high}]")));
+        }
+        None => {
+            return Err(InputError::at(
+                place,
+                "the key bounds.storage, to estimate the nominal from",
+                "none",
+            ));
+        }
+    };
+    let loss_factor = bounds.loss_factor.map_or(0.0, |[low, high]| SMALL_LOSS.clamp(low, high));
+    Ok(Law::complex_modulus((low * high).sqrt(), loss_factor))
+}
+
+/// The loss factor that an estimate begins with, where the bounds allow it: between metals and rubber.
+const SMALL_LOSS: f64 = 0.01;
+
 /// The case's options, those of the command line in their place.
 fn options(entry: &IdentifyEntry, overrides: &Overrides) -> Result<Options, InputError> {
     let mut options = Options { real: entry.real, ..Options::default() };
     options.method = entry.method.unwrap_or(options.method);
-    options.selection = entry.selection.unwrap_or(options.selection);
+    options.space = entry.space.unwrap_or(options.space);
+    options.whole_box = entry.estimate.is_some();
     options.bounds.storage = entry.storage.as_ref().map(|bound| bound.value);
     options.bounds.loss_factor = entry.loss_factor.as_ref().map(|bound| bound.value);
     if let Some(order) = &entry.order {
@@ -124,9 +160,18 @@ fn options(entry: &IdentifyEntry, overrides: &Overrides) -> Result<Options, Inpu
     if let Some(word) = &overrides.method {
         options.method = word.parse::<Method>().map_err(|error| refuse("--method", word, error.expected))?;
     }
+    if let Some(word) = &overrides.space {
+        options.space = word.parse::<Space>().map_err(|error| refuse("--space", word, error.expected))?;
+    }
+    // Only the rational method has several roots to select from jointly.
+    let usual = if options.method == Method::Rational { Selection::Joint } else { Selection::Smallest };
+    options.selection = entry.selection.as_ref().map_or(usual, |selection| selection.value);
     if let Some(word) = &overrides.selection {
         let selection = word.parse::<Selection>();
         options.selection = selection.map_err(|error| refuse("--selection", word, error.expected))?;
+    } else if overrides.method.is_some() && options.method != Method::Rational {
+        // A method from the command line brings its own selection.
+        options.selection = usual;
     }
     options.validate().map_err(|error| invalid(&error, entry, overrides))?;
     Ok(options)
@@ -147,6 +192,11 @@ fn invalid(error: &OptionsError, entry: &IdentifyEntry, overrides: &Overrides) -
             let bound = if *name == "storage" { &entry.storage } else { &entry.loss_factor };
             let place = bound.as_ref().map_or(of_key("bounds"), |bound| bound.place.clone());
             InputError::at(&place, "[low, high] with low <= high", format!("[{low}, {high}]"))
+        }
+        OptionsError::Selection(method) => {
+            let written = entry.selection.as_ref().map_or(of_key("selection"), |s| s.place.clone());
+            let place = overrides.selection.as_ref().map_or(written, |_| Place::option("--selection"));
+            InputError::at(&place, format!("\"smallest\" with method {:?}", method.name()), "\"joint\"")
         }
         OptionsError::Error(limit) => {
             InputError::at(&of_key("error"), "a positive number", limit.to_string())

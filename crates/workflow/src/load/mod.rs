@@ -14,7 +14,7 @@ mod uff;
 
 pub use files::InputFile;
 pub use frf::{Choice, Frf, read_frf};
-pub use identify::IdentifyCase;
+pub use identify::{IdentifyCase, MeasuredNoise};
 pub(crate) use matrix::{asymmetry, complex};
 pub use matrix::{check_symmetric, symmetric_matrix};
 pub use measurement::SensorInfo;
@@ -59,6 +59,8 @@ pub struct Overrides {
     pub band_hz: Option<[f64; 2]>,
     /// In place of `identify.selection`.
     pub selection: Option<String>,
+    /// In place of `identify.space`.
+    pub space: Option<String>,
 }
 
 /// What a case is loaded for.

@@ -3,7 +3,7 @@
 use frfit::identify::Identified;
 use frfit_formats::csv::{Cell, write};
 
-const COLUMNS: [&str; 12] = [
+const COLUMNS: [&str; 15] = [
     "frequency_hz",
     "storage",
     "loss_factor",
@@ -16,6 +16,9 @@ const COLUMNS: [&str; 12] = [
     "order",
     "candidates",
     "status",
+    "pole_distance",
+    "series_order",
+    "certificate",
 ];
 
 /// The table; what does not exist is an empty cell.
@@ -35,6 +38,9 @@ pub fn identified_csv(outcomes: &[Identified]) -> String {
             Cell::Count(outcome.order),
             Cell::Count(outcome.admissible()),
             Cell::Text(outcome.status.name()),
+            outcome.pole_distance().into(),
+            outcome.series_order.map_or(Cell::Empty, Cell::Count),
+            outcome.certificate.into(),
         ]
     });
     write(&COLUMNS, rows).expect("every row has the columns, and no text a line break")

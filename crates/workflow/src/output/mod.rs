@@ -1,11 +1,13 @@
 //! What a run leaves behind: tables, summary and figures, written whole or not at all.
 
+mod candidates;
 mod files;
 mod frf;
 mod identified;
 mod response;
 mod summary;
 
+pub use candidates::candidates_csv;
 pub use files::{File, WriteError, write_all};
 pub use frf::respond_uff;
 pub use identified::identified_csv;

@@ -52,6 +52,7 @@ pub fn summary_json(
             "method": options.method.name(),
             "order": options.order,
             "selection": options.selection.name(),
+            "space": options.space.name(),
             "bounds": {"storage": options.bounds.storage, "loss_factor": options.bounds.loss_factor},
             "real": options.real,
         },
@@ -59,11 +60,20 @@ pub fn summary_json(
         "status": statuses,
         "bands_hz": bands,
         "error": spread(run, |outcome| outcome.error),
+        "series_order": series_order(run),
         "spectral_radius": spread(run, |outcome| outcome.spectral_radius),
-        "counts": {"factorisations": run.work.factorisations, "solves": run.work.solves},
+        "counts": {
+            "factorisations": run.work.factorisations,
+            "solves": run.work.solves,
+            "subspace_size": run.subspace_size,
+            "certificate": run.certificate(),
+        },
         "seconds": {
             "load": seconds_load,
-            "identify": run.seconds.identify,
+            "subspace": run.seconds.subspace,
+            "solutions": run.seconds.solutions,
+            "selection": run.seconds.selection,
+            "identify": run.seconds.identify(),
             "error_map": run.seconds.error_map,
             "figures": seconds_figures,
         },
@@ -72,6 +82,19 @@ pub fn summary_json(
         summary["truth"] = truth;
     }
     summary
+}
+
+/// The order that the paper's series would need for a truncation error of 1e-6, and at how many answers no order is enough; null where that was not
+/// asked of any.
+fn series_order(run: &IdentifyRun) -> Value {
+    let asked =
+        run.outcomes.iter().filter(|outcome| outcome.certificate.is_some() && outcome.correction.is_some());
+    let orders: Vec<Option<usize>> = asked.map(|outcome| outcome.series_order).collect();
+    if orders.is_empty() {
+        return Value::Null;
+    }
+    let most = orders.iter().flatten().max();
+    json!({"most": most, "never": orders.iter().filter(|order| order.is_none()).count()})
 }
 
 /// Median and largest of a number over the frequencies with status `ok`; null where there is none.

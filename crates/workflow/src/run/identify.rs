@@ -1,14 +1,16 @@
 //! From a case to the outcome at every frequency of its band.
 
 use super::Progress;
-use crate::load::{Case, IdentifyCase};
+use crate::load::{Case, IdentifyCase, MeasuredNoise};
+use frfit::c64;
 use frfit::frequency::bands_hz;
-use frfit::identify::{Identified, Status, error_by_order, identify_at};
+use frfit::identify::{
+    Band, BandOutcome, Hooks, Identified, Method, Noise, Stage, Status, error_by_order, identify_band,
+};
 use frfit::material::OutsideTable;
 use frfit::response::{FullModel, Work};
-use frfit::{c64, identify};
 use rayon::prelude::*;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
 /// What a run does beside identifying.
@@ -31,8 +33,12 @@ pub struct ErrorMap {
 /// Wall-clock seconds of each stage.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Seconds {
-    /// Identification over the band.
-    pub identify: f64,
+    /// Training of the subspace.
+    pub subspace: f64,
+    /// Solutions at every frequency.
+    pub solutions: f64,
+    /// The choice among them.
+    pub selection: f64,
     /// The error map.
     pub error_map: f64,
 }
@@ -46,6 +52,8 @@ pub struct IdentifyRun {
     pub error_map: Option<ErrorMap>,
     /// All work of the identification; that of the error map is not in it.
     pub work: Work,
+    /// Vectors of the subspace; `None` where the full model answered.
+    pub subspace_size: Option<usize>,
     /// How long it took.
     pub seconds: Seconds,
 }
@@ -59,9 +67,7 @@ fn map_columns(dofs: usize) -> usize {
     }
 }
 
-/// Identifies at every frequency of the case's band; frequencies are independent and run on all cores.
-///
-/// The result does not depend on the number of cores.
+/// Identifies over the case's band, on all cores; the result does not depend on their number.
 ///
 /// # Errors
 /// [`OutsideTable`] where a table of a factor does not reach a frequency. Numerical trouble is a status of its frequency, never an error.
@@ -71,34 +77,75 @@ pub fn identify(
     options: RunOptions,
     progress: Progress<'_>,
 ) -> Result<IdentifyRun, OutsideTable> {
-    let start = Instant::now();
-    let done = AtomicUsize::new(0);
-    let outcomes = (0..identify.frequency_hz.len())
-        .into_par_iter()
-        .map(|i| {
-            let outcome = at_frequency(case, identify, i)?;
-            progress(done.fetch_add(1, Ordering::Relaxed) + 1, identify.frequency_hz.len());
-            Ok(outcome)
-        })
-        .collect::<Result<Vec<Identified>, OutsideTable>>()?;
-    let mut work = Work::default();
-    outcomes.iter().for_each(|outcome| work += outcome.work);
-    let mut seconds = Seconds { identify: start.elapsed().as_secs_f64(), ..Seconds::default() };
+    let clock = StageClock::default();
+    let noise = match &identify.noise {
+        MeasuredNoise::Unknown => Noise::Unknown,
+        MeasuredNoise::Relative(std) => Noise::Relative(std),
+        MeasuredNoise::Known(std) => Noise::Known(std),
+    };
+    let band = Band {
+        model: &case.model,
+        experiment: &case.experiment,
+        parameter: &identify.parameter,
+        frequency_hz: &identify.frequency_hz,
+        measured: &identify.measured,
+        noise,
+    };
+    let hooks = Hooks {
+        for_each: &|n, each| (0..n).into_par_iter().for_each(each),
+        progress: &|stage, done, total| {
+            clock.enter(Some(stage));
+            progress(done, total);
+        },
+    };
+    let found = identify_band(&band, &identify.options, hooks)?;
+    let mut seconds = clock.seconds();
     let start = Instant::now();
     let error_map = error_map(case, identify, options)?;
     seconds.error_map = start.elapsed().as_secs_f64();
-    Ok(IdentifyRun { outcomes, error_map, work, seconds })
+    let BandOutcome { outcomes, work, subspace_size } = found;
+    Ok(IdentifyRun { outcomes, error_map, work, subspace_size, seconds })
 }
 
-fn at_frequency(case: &Case, identify: &IdentifyCase, i: usize) -> Result<Identified, OutsideTable> {
-    let at = case.model.at(identify.frequency_hz[i], std::slice::from_ref(&identify.parameter))?;
-    let nominal = at.parameters[0].nominal;
-    Ok(match FullModel::new(at, &case.experiment) {
-        Ok(system) => identify_at(&system, &identify.measured[i], &identify.options),
-        Err(breakdown) => {
-            Identified::broken(identify.frequency_hz[i], nominal, identify.options.order, breakdown)
+/// Wall-clock time by stage: each lasts until another is heard of.
+struct StageClock(Mutex<(Seconds, Option<Stage>, Instant)>);
+
+impl Default for StageClock {
+    fn default() -> Self {
+        Self(Mutex::new((Seconds::default(), None, Instant::now())))
+    }
+}
+
+impl StageClock {
+    fn enter(&self, next: Option<Stage>) {
+        // A thread that panicked with the lock takes the run down with it: the clock is beside the point.
+        let mut guard = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let (seconds, current, since) = &mut *guard;
+        if *current == next {
+            return;
         }
-    })
+        let now = Instant::now();
+        let elapsed = now.duration_since(*since).as_secs_f64();
+        match current {
+            Some(Stage::Subspace) => seconds.subspace += elapsed,
+            Some(Stage::Solutions) => seconds.solutions += elapsed,
+            Some(Stage::Selection) => seconds.selection += elapsed,
+            None => {}
+        }
+        (*current, *since) = (next, now);
+    }
+
+    fn seconds(&self) -> Seconds {
+        self.enter(None);
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).0
+    }
+}
+
+impl Seconds {
+    /// Of the identification: everything but the error map.
+    pub fn identify(&self) -> f64 {
+        self.subspace + self.solutions + self.selection
+    }
 }
 
 fn error_map(
@@ -108,7 +155,7 @@ fn error_map(
 ) -> Result<Option<ErrorMap>, OutsideTable> {
     let affordable = map_columns(case.model.dim());
     let columns = options.error_map.unwrap_or(affordable).min(identify.frequency_hz.len());
-    if columns == 0 || identify.options.method != identify::Method::Series {
+    if columns == 0 || identify.options.method != Method::Series {
         return Ok(None);
     }
     let last = identify.frequency_hz.len() - 1;
@@ -131,6 +178,11 @@ impl IdentifyRun {
     /// How many frequencies have this status.
     pub fn count(&self, status: Status) -> usize {
         self.outcomes.iter().filter(|outcome| outcome.status == status).count()
+    }
+
+    /// The largest estimated error of the subspace's response, relative to the measured one, over all answers; `None` where the full model answered.
+    pub fn certificate(&self) -> Option<f64> {
+        self.outcomes.iter().filter_map(|outcome| outcome.certificate).reduce(f64::max)
     }
 
     /// The bands [first, last] in Hz of neighbouring frequencies with this status.

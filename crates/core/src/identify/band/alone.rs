@@ -1,0 +1,64 @@
+//! Each frequency by itself, on the full model or on the subspace.
+
+use super::space::{Space, certificate};
+use super::{Band, BandOutcome, Hooks, Stage};
+use crate::for_each::map;
+use crate::identify::{Identified, Options, Status, identify_at};
+use crate::model::ModelAt;
+use crate::response::{FullModel, Work};
+use crate::subspace::ReducedModel;
+use frfit_linalg::solve::Breakdown;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+pub(super) fn identify<'a>(
+    band: &Band<'a>,
+    at: &[ModelAt<'a>],
+    space: Option<Space<'a, '_>>,
+    options: &Options,
+    hooks: Hooks<'_>,
+) -> BandOutcome {
+    let broken = |i: usize, breakdown: Breakdown| {
+        Identified::broken(band.frequency_hz[i], at[i].parameters[0].nominal, options.order, breakdown)
+    };
+    match space {
+        Some(mut space) => {
+            let find = |i: usize, system: Result<ReducedModel<'_>, Breakdown>| match system {
+                Ok(system) => identify_at(&system, &band.measured[i], options),
+                Err(breakdown) => broken(i, breakdown),
+            };
+            let answers = |_: usize, found: &Identified| found.correction.into_iter().collect::<Vec<_>>();
+            let found = space.solve(hooks, find, answers);
+            let outcomes = found.into_iter().enumerate().map(|(i, mut outcome)| {
+                if let Some(correction) = outcome.correction {
+                    let assessed = space.model(i).assess(&at[i], correction).ok();
+                    let certified =
+                        assessed.map(|a| certificate(&a, outcome.nominal + correction, &band.measured[i]));
+                    outcome.certificate = certified.map(|certified| certified.response);
+                    if outcome.status == Status::Ok && certified.is_none_or(|c| c.factor > options.certain) {
+                        outcome.status = Status::IllConditioned;
+                    }
+                }
+                outcome
+            });
+            BandOutcome {
+                outcomes: outcomes.collect(),
+                work: space.work(),
+                subspace_size: Some(space.size()),
+            }
+        }
+        None => {
+            let done = AtomicUsize::new(0);
+            let outcomes = map(hooks.for_each, at.len(), |i| {
+                let outcome = match FullModel::new(at[i].clone(), band.experiment) {
+                    Ok(system) => identify_at(&system, &band.measured[i], options),
+                    Err(breakdown) => broken(i, breakdown),
+                };
+                (hooks.progress)(Stage::Solutions, done.fetch_add(1, Ordering::Relaxed) + 1, at.len());
+                outcome
+            });
+            let mut work = Work::default();
+            outcomes.iter().for_each(|outcome| work += outcome.work);
+            BandOutcome { outcomes, work, subspace_size: None }
+        }
+    }
+}

@@ -1,0 +1,266 @@
+//! All solutions at one frequency, from every sensor, fitted to all sensors (B-2, B-5).
+
+use crate::c64;
+use crate::identify::Options;
+use crate::rational::{Poles, RationalResponse};
+use crate::response::Response;
+use crate::roots::{Candidate, Refusal};
+use frfit_linalg::dense::NoConvergence;
+use frfit_linalg::solve::Breakdown;
+
+/// A correction that the measurement does not exclude at this frequency.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Solution {
+    pub(super) correction: c64,
+    /// Σ |u_m − x_m|²/σ_m².
+    pub(super) misfit: f64,
+    /// (Σ |∂x_m/∂c|²/σ_m²)^{−1/2}: standard deviation of the correction.
+    pub(super) std: f64,
+    /// x_m.
+    pub(super) response: Vec<c64>,
+    /// ‖F − D(c)x‖/‖F‖ of the rational response.
+    pub(super) residual: f64,
+}
+
+/// What was found at one frequency.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct Explored {
+    pub(super) solutions: Vec<Solution>,
+    /// What solves the equations but not the user's conditions.
+    pub(super) refused: Vec<Candidate>,
+    /// x_m with the nominal factor.
+    pub(super) nominal_response: Vec<c64>,
+    /// `None` for a parameter with powers.
+    pub(super) poles: Option<Poles>,
+    /// Order of the rational response.
+    pub(super) order: usize,
+    /// Whether a solution is left that may be none.
+    pub(super) unsure: bool,
+    pub(super) breakdown: Option<Breakdown>,
+}
+
+impl Explored {
+    pub(super) fn broken(breakdown: Breakdown) -> Self {
+        Self { breakdown: Some(breakdown), ..Self::default() }
+    }
+
+    /// Solves the full system anew at each solution: its response is then beyond doubt, and so is whether it is a solution.
+    pub(super) fn confirm(&mut self, system: &impl Response, measured: &[c64], sigma: &[f64]) {
+        self.unsure = false;
+        for solution in &mut self.solutions {
+            let Ok(response) = system.solve_at(&[solution.correction]) else {
+                self.unsure = true;
+                continue;
+            };
+            let moved: f64 = solution.response.iter().zip(&response).map(|(a, b)| (a - b).norm()).sum();
+            self.unsure |= moved > MATCH * response.iter().map(|x| x.norm()).sum::<f64>();
+            let rest = measured.iter().zip(&response).zip(sigma);
+            solution.misfit = rest.map(|((u, x), sigma)| (u - x).norm_sqr() / (sigma * sigma)).sum();
+            solution.response = response;
+        }
+    }
+}
+
+/// Two responses this near are one, with a few digits to spare for what a solve near a resonance loses.
+const MATCH: f64 = 1e-6;
+
+/// Vectors of the first attempt, and how many each further one adds.
+const FIRST: usize = 16;
+const STEP: usize = 8;
+
+/// As in the rational method of one frequency: what is left of a double precision solve with a condition of 1e6.
+const RESIDUAL: f64 = 1e-9;
+
+/// Sensors whose own solutions are starts: each is an eigenproblem, and the truth is a solution of every one.
+const SENSORS: usize = 2;
+
+/// Steps of Gauss and Newton. From an eigenvalue a handful is enough; more show that it leads nowhere.
+const STEPS: usize = 30;
+
+/// Solutions nearer than this, relative to the factor, are one.
+const SAME: f64 = 1e-7;
+
+/// A start this far outside the bounds (relative to the factor) may still be pulled inside by the other sensors.
+const MARGIN: f64 = 0.2;
+
+/// Finds all solutions within the bounds, `order` bounding the Krylov space.
+pub(super) fn explore(
+    system: &impl Response,
+    measured: &[c64],
+    sigma: &[f64],
+    options: &Options,
+    order: usize,
+) -> Explored {
+    match try_explore(system, measured, sigma, options, order) {
+        Ok(explored) => explored,
+        Err(breakdown) => Explored::broken(breakdown),
+    }
+}
+
+fn try_explore(
+    system: &impl Response,
+    measured: &[c64],
+    sigma: &[f64],
+    options: &Options,
+    order: usize,
+) -> Result<Explored, Breakdown> {
+    let broken = |NoConvergence| Breakdown::NotFinite;
+    let mut reached = FIRST.min(order);
+    let mut response = RationalResponse::new(system, 0, reached)?;
+    let fit = Fit { measured, sigma, nominal: system.nominal(0), options };
+    loop {
+        let mut explored = fit.solutions(&response).map_err(broken)?;
+        for solution in &mut explored.solutions {
+            solution.residual = response.residual(solution.correction).unwrap_or(f64::INFINITY);
+        }
+        explored.unsure = explored.solutions.iter().any(|solution| solution.residual > RESIDUAL);
+        // The whole space leaves nothing but roundoff.
+        explored.unsure &= !(response.is_complete() || response.size() == system.dim());
+        if !explored.unsure || reached >= order {
+            explored.order = response.size().saturating_sub(1);
+            explored.nominal_response = response.respond(c64::default()).map_err(broken)?;
+            return Ok(explored);
+        }
+        reached = (reached + STEP).min(order);
+        response = response.extended(system, 0, reached)?;
+    }
+}
+
+/// x_m and ∂x_m/∂c.
+type Evaluated = Result<(Vec<c64>, Vec<c64>), NoConvergence>;
+
+struct Fit<'a> {
+    measured: &'a [c64],
+    sigma: &'a [f64],
+    nominal: c64,
+    options: &'a Options,
+}
+
+impl Fit<'_> {
+    fn solutions(&self, response: &RationalResponse) -> Result<Explored, NoConvergence> {
+        let poles = response.poles()?;
+        let mut explored = Explored::default();
+        let roots = self.options.roots();
+        // The sum over the poles leads there, the matrices have the last digits.
+        let last = |c: c64| response.respond_with_slope(c);
+        let way = |c: c64| match &poles {
+            Some(poles) => Ok(poles.respond_with_slope(c)),
+            None => response.respond_with_slope(c),
+        };
+        let mut found: Vec<Solution> = Vec::new();
+        for sensor in self.starting_sensors() {
+            for start in response.starts(sensor, self.measured[sensor])? {
+                if !self.near_bounds(start) {
+                    let refusal = roots.refuse(self.nominal, start);
+                    explored.refused.push(Candidate { correction: start, drift: f64::NAN, refusal });
+                    continue;
+                }
+                if let Some(solution) = self.descend(way, start) {
+                    merge(&mut found, solution, self.nominal);
+                }
+            }
+        }
+        for rough in found {
+            let Some(solution) = self.descend(last, rough.correction) else { continue };
+            match roots.refuse(self.nominal, solution.correction) {
+                None | Some(Refusal::NotReal) => merge(&mut explored.solutions, solution, self.nominal),
+                Some(refusal) => {
+                    let correction = solution.correction;
+                    explored.refused.push(Candidate { correction, drift: f64::NAN, refusal: Some(refusal) });
+                }
+            }
+        }
+        explored.poles = poles;
+        explored.solutions.sort_by(|a, b| a.correction.norm().total_cmp(&b.correction.norm()));
+        Ok(explored)
+    }
+
+    /// The sensors with the largest response over their deviation.
+    fn starting_sensors(&self) -> Vec<usize> {
+        let mut sensors: Vec<usize> = (0..self.measured.len()).collect();
+        let size = |&m: &usize| self.measured[m].norm() / self.sigma[m];
+        sensors.sort_by(|a, b| size(b).total_cmp(&size(a)));
+        sensors.truncate(SENSORS);
+        sensors
+    }
+
+    fn near_bounds(&self, correction: c64) -> bool {
+        let factor = self.nominal + correction;
+        let bounds = &self.options.bounds;
+        let wide = |bound: Option<[f64; 2]>, value: f64, margin: f64| {
+            bound.is_none_or(|[low, high]| low - margin <= value && value <= high + margin)
+        };
+        factor.is_finite()
+            && wide(bounds.storage, factor.re, MARGIN * factor.norm())
+            && wide(bounds.loss_factor, crate::material::loss_factor(factor), MARGIN)
+    }
+
+    /// Gauss–Newton on Σ |u_m − x_m(c)|²/σ_m², B-5: for one sensor Newton's method on x(c) = u. `None` where it does not settle.
+    fn descend(&self, respond: impl Fn(c64) -> Evaluated, start: c64) -> Option<Solution> {
+        let mut best = self.solution_at(&respond, self.admissible(start)).ok()?;
+        let mut step = best.1;
+        for _ in 0..STEPS {
+            let correction = self.admissible(best.0.correction + step);
+            let next = self.solution_at(&respond, correction).ok()?;
+            if next.0.misfit < best.0.misfit {
+                step = next.1;
+                best = next;
+            } else if step.norm() <= 1e-6 * (self.nominal + best.0.correction).norm() {
+                // No better point, nor far from one: roundoff is what is left.
+                let own = self.measured.len() > 1 || self.matched(&best.0);
+                return own.then_some(best.0);
+            } else {
+                step *= 0.5;
+            }
+        }
+        None
+    }
+
+    /// Whether a single sensor's response is the measured one: a solution is known to roundoff of a response, and where it sits on a flat
+    /// stretch, to the square root of that.
+    fn matched(&self, solution: &Solution) -> bool {
+        self.options.real || solution.misfit.sqrt() * self.sigma[0] <= 1e-7 * self.measured[0].norm()
+    }
+
+    fn admissible(&self, correction: c64) -> c64 {
+        if self.options.real {
+            c64::new((self.nominal + correction).re, 0.0) - self.nominal
+        } else {
+            correction
+        }
+    }
+
+    /// The solution's record at c, and the step from there.
+    fn solution_at(
+        &self,
+        respond: impl Fn(c64) -> Evaluated,
+        correction: c64,
+    ) -> Result<(Solution, c64), NoConvergence> {
+        let (values, slopes) = respond(correction)?;
+        let (mut misfit, mut curvature, mut gradient) = (0.0, 0.0, c64::default());
+        for (m, (x, slope)) in values.iter().zip(&slopes).enumerate() {
+            let weight = self.sigma[m].powi(-2);
+            let rest = self.measured[m] - x;
+            misfit += weight * rest.norm_sqr();
+            curvature += weight * slope.norm_sqr();
+            gradient += weight * slope.conj() * rest;
+        }
+        let step = gradient / curvature;
+        let finite = misfit.is_finite() && step.is_finite();
+        let solution =
+            Solution { correction, misfit, std: curvature.powf(-0.5), response: values, residual: f64::NAN };
+        if finite { Ok((solution, step)) } else { Err(NoConvergence) }
+    }
+}
+
+/// Adds a solution, or takes the better of two that are one.
+fn merge(solutions: &mut Vec<Solution>, new: Solution, nominal: c64) {
+    let near = |other: &Solution| {
+        (other.correction - new.correction).norm() <= SAME * (nominal + new.correction).norm()
+    };
+    match solutions.iter_mut().find(|other| near(other)) {
+        Some(other) if new.misfit < other.misfit => *other = new,
+        Some(_) => {}
+        None => solutions.push(new),
+    }
+}

@@ -1,0 +1,103 @@
+//! A whole band: all frequencies, and all sensors, together or one by one.
+
+mod alone;
+mod explore;
+mod joint;
+mod space;
+mod verdict;
+
+use super::{Identified, Options, Selection};
+use crate::c64;
+use crate::for_each::ForEach;
+use crate::material::OutsideTable;
+use crate::model::{DynamicStiffness, Experiment, ModelAt, Parameter};
+use crate::response::Work;
+use space::Space;
+
+/// What was measured on what.
+#[derive(Debug, Clone, Copy)]
+pub struct Band<'a> {
+    /// The model.
+    pub model: &'a DynamicStiffness,
+    /// Load and sensors.
+    pub experiment: &'a Experiment,
+    /// What is unknown.
+    pub parameter: &'a Parameter,
+    /// Frequencies, ascending.
+    pub frequency_hz: &'a [f64],
+    /// Receptance, `[frequency][sensor]`.
+    pub measured: &'a [Vec<c64>],
+    /// How well each was measured.
+    pub noise: Noise<'a>,
+}
+
+/// Standard deviations √E|δx|² of measured receptances, `[frequency][sensor]`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Noise<'a> {
+    /// Not known: in proportion to the responses, by a factor that several sensors tell.
+    Unknown,
+    /// Known up to a common factor, as from a coherence without the number of averages.
+    Relative(&'a [Vec<f64>]),
+    /// Known.
+    Known(&'a [Vec<f64>]),
+}
+
+/// What is going on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stage {
+    /// The subspace is trained.
+    Subspace,
+    /// Solutions are looked for.
+    Solutions,
+    /// One of them is chosen at each frequency.
+    Selection,
+}
+
+/// What the caller lends: threads, and an ear for (stage, how many frequencies are done, of how many).
+#[derive(Clone, Copy)]
+pub struct Hooks<'a> {
+    /// Does independent pieces of work.
+    pub for_each: ForEach<'a>,
+    /// Called from any thread.
+    pub progress: &'a (dyn Fn(Stage, usize, usize) + Sync),
+}
+
+/// What came out.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BandOutcome {
+    /// One for each frequency.
+    pub outcomes: Vec<Identified>,
+    /// Work of size N.
+    pub work: Work,
+    /// Vectors of the subspace; `None` where the full model answered.
+    pub subspace_size: Option<usize>,
+}
+
+/// Identifies the first parameter at every frequency of a band.
+///
+/// With the subspace (B-3) every answer carries a certificate; where it cannot be built, the full model answers. The joint selection (B-4, B-5) finds
+/// every solution within the bounds at every sensor, fits it to all sensors, and chooses one path through all; the other one is
+/// [`super::identify_at`] at each frequency.
+///
+/// # Errors
+/// [`OutsideTable`] where a table does not reach a frequency.
+///
+/// # Panics
+/// Where there is no frequency, or not one measured value for each frequency and sensor.
+pub fn identify_band(
+    band: &Band<'_>,
+    options: &Options,
+    hooks: Hooks<'_>,
+) -> Result<BandOutcome, OutsideTable> {
+    assert!(!band.frequency_hz.is_empty() && band.measured.len() == band.frequency_hz.len());
+    let parameters = std::slice::from_ref(band.parameter);
+    let at = band.frequency_hz.iter().map(|&f| band.model.at(f, parameters));
+    let at: Vec<ModelAt<'_>> = at.collect::<Result<_, _>>()?;
+    let wanted = options.space.is_subspace(options.method, band.model.dim(), at.len());
+    // A singular stand-in for D is no reason to give up: the full model says at which frequency what breaks down.
+    let space = wanted.then(|| Space::new(band, &at, options, hooks).ok()).flatten();
+    Ok(match options.selection {
+        Selection::Joint => joint::identify(band, &at, space, options, hooks),
+        Selection::Smallest => alone::identify(band, &at, space, options, hooks),
+    })
+}

@@ -1,0 +1,207 @@
+//! The subspace of a band: trained over the box in which the answer may be, then where answers were found.
+
+use super::{Band, Hooks, Stage};
+use crate::c64;
+use crate::for_each::{ForEach, map};
+use crate::identify::Options;
+use crate::material::loss_factor;
+use crate::model::ModelAt;
+use crate::response::Work;
+use crate::subspace::{Assessment, Point, Projection, ReducedModel, Subspace, TrainOptions};
+use frfit_linalg::solve::Breakdown;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Error over the box of frequencies and factors: enough to find every root, which is then looked at more closely.
+const BOX: f64 = 1e-6;
+
+/// Error at the answers. The factor is read from the response with a loss of some digits near its stationary points, and is to be right to 1e-6.
+const ANSWER: f64 = 1e-9;
+
+/// Frequencies of the training at most; neighbours share what they need.
+const FREQUENCIES: usize = 60;
+
+/// Neighbourhoods at most, and the least frequencies that are worth one.
+const BLOCKS: usize = 24;
+const BLOCK_LEAST: usize = 8;
+
+/// Without bounds, or with wider ones, the box is this factor to either side of the nominal.
+const BOX_RATIO: f64 = 4.0;
+
+/// Storage values of the box per octave, and the least.
+const PER_OCTAVE: f64 = 1.0;
+
+/// Rounds of refinement at the answers before what is left is called uncertain.
+const ROUNDS: usize = 6;
+
+pub(super) struct Space<'a, 'o> {
+    subspace: Subspace<'a>,
+    at: &'o [ModelAt<'a>],
+    options: &'o Options,
+    blocks: Vec<Block>,
+    /// Answers that the training looked at: (frequency, correction).
+    answers: Vec<(usize, c64)>,
+}
+
+/// A neighbourhood: its first and last frequency (index), and its model.
+struct Block {
+    range: [usize; 2],
+    model: Option<Projection>,
+}
+
+impl<'a, 'o> Space<'a, 'o> {
+    /// Trains over the box.
+    ///
+    /// # Errors
+    /// [`Breakdown`] where no real stand-in for D can be factorised.
+    pub(super) fn new(
+        band: &Band<'a>,
+        at: &'o [ModelAt<'a>],
+        options: &'o Options,
+        hooks: Hooks<'_>,
+    ) -> Result<Self, Breakdown> {
+        let n = at.len();
+        (hooks.progress)(Stage::Subspace, 0, n);
+        let subspace = Subspace::new(band.experiment, &at[n - 1])?;
+        let count = (n / BLOCK_LEAST).clamp(1, BLOCKS);
+        let block = |b: usize| Block { range: [b * n / count, (b + 1) * n / count - 1], model: None };
+        let blocks = (0..count).map(block).collect();
+        let mut space = Self { subspace, at, options, blocks, answers: Vec::new() };
+        let steps = FREQUENCIES.min(n);
+        let picked = (0..steps).map(|k| k * (n - 1) / (steps - 1).max(1));
+        let points: Vec<Point<'a>> = picked.flat_map(|i| space.box_points(i)).collect();
+        let training = TrainOptions { tolerance: BOX, ..TrainOptions::default() };
+        space.subspace.train(&points, &training, hooks.for_each)?;
+        Ok(space)
+    }
+
+    /// Finds what there is at every frequency, looks how good the subspace is at the answers, and where it is not good enough, trains it there and
+    /// finds again.
+    pub(super) fn solve<T: Clone + Send + Sync>(
+        &mut self,
+        hooks: Hooks<'_>,
+        find: impl Fn(usize, Result<ReducedModel<'_>, Breakdown>) -> T + Sync,
+        answers: impl Fn(usize, &T) -> Vec<c64> + Sync,
+    ) -> Vec<T> {
+        let n = self.at.len();
+        let mut all: Vec<Option<T>> = vec![None; n];
+        let mut pending: Vec<usize> = (0..n).collect();
+        for round in 0..=ROUNDS {
+            self.localise(&pending, hooks.for_each);
+            let done = AtomicUsize::new(n - pending.len());
+            let space = &*self;
+            let found = map(hooks.for_each, pending.len(), |k| {
+                let i = pending[k];
+                let found = find(i, space.model(i).at(&space.at[i]));
+                let uncertain: Vec<c64> =
+                    answers(i, &found).into_iter().filter(|&c| space.is_uncertain(i, c)).collect();
+                (hooks.progress)(Stage::Solutions, done.fetch_add(1, Ordering::Relaxed) + 1, n);
+                (found, uncertain)
+            });
+            let mut uncertain: Vec<(usize, c64)> = Vec::new();
+            for (&i, (found, corrections)) in pending.iter().zip(found) {
+                all[i] = Some(found);
+                uncertain.extend(corrections.into_iter().map(|correction| (i, correction)));
+            }
+            if uncertain.is_empty() || round == ROUNDS || !self.refine(&uncertain, hooks).unwrap_or(false) {
+                break;
+            }
+            pending = uncertain.into_iter().map(|(i, _)| i).collect();
+            pending.dedup();
+        }
+        all.into_iter().flatten().collect()
+    }
+
+    fn is_uncertain(&self, i: usize, correction: c64) -> bool {
+        let factor = self.at[i].parameters[0].nominal + correction;
+        let assessed = self.model(i).assess(&self.at[i], correction);
+        assessed.is_ok_and(|assessed| assessed.relative_truncation(factor) > ANSWER)
+    }
+
+    /// Trains at answers (frequency, correction); false where nothing was gained.
+    fn refine(&mut self, answers: &[(usize, c64)], hooks: Hooks<'_>) -> Result<bool, Breakdown> {
+        (hooks.progress)(Stage::Subspace, 0, self.at.len());
+        let points: Vec<Point<'a>> =
+            answers.iter().map(|&(i, correction)| Point { at: self.at[i].clone(), correction }).collect();
+        let before = self.subspace.size();
+        let training = TrainOptions { tolerance: ANSWER, ..TrainOptions::default() };
+        self.subspace.train(&points, &training, hooks.for_each)?;
+        self.answers.extend_from_slice(answers);
+        self.blocks.iter_mut().for_each(|block| block.model = None);
+        Ok(self.subspace.size() > before)
+    }
+
+    /// Makes the models of the neighbourhoods in which these frequencies are.
+    fn localise(&mut self, frequencies: &[usize], for_each: ForEach<'_>) {
+        let wanted = |block: &Block| {
+            let [first, last] = block.range;
+            block.model.is_none() && frequencies.iter().any(|i| (first..=last).contains(i))
+        };
+        let missing: Vec<usize> = (0..self.blocks.len()).filter(|&b| wanted(&self.blocks[b])).collect();
+        let space = &*self;
+        let models = map(for_each, missing.len(), |k| {
+            let [first, last] = space.blocks[missing[k]].range;
+            let box_points = [first, (first + last) / 2, last].into_iter().flat_map(|i| space.box_points(i));
+            let answers = space.answers.iter().filter(|(i, _)| (first..=last).contains(i));
+            let answers = answers.map(|&(i, correction)| Point { at: space.at[i].clone(), correction });
+            let points: Vec<Point<'_>> = box_points.chain(answers).collect();
+            space.subspace.projection().localised(&points, ANSWER)
+        });
+        for (b, model) in missing.into_iter().zip(models) {
+            self.blocks[b].model = Some(model);
+        }
+    }
+
+    /// The model of a frequency's neighbourhood.
+    pub(super) fn model(&self, i: usize) -> &Projection {
+        let block = self.blocks.iter().find(|block| i <= block.range[1]);
+        block.and_then(|block| block.model.as_ref()).unwrap_or(self.subspace.projection())
+    }
+
+    pub(super) fn size(&self) -> usize {
+        self.subspace.size()
+    }
+
+    pub(super) fn work(&self) -> Work {
+        self.subspace.work()
+    }
+
+    /// The nominal factor and a grid over the box at a frequency.
+    fn box_points(&self, i: usize) -> Vec<Point<'a>> {
+        let at = &self.at[i];
+        let nominal = at.parameters[0].nominal;
+        let point = |factor: c64| Point { at: at.clone(), correction: factor - nominal };
+        let mut points = vec![point(nominal)];
+        let bounds = &self.options.bounds;
+        if nominal.re > 0.0 {
+            let [low, high] = bounds.storage.unwrap_or([0.0, f64::INFINITY]);
+            // Bounds that the nominal is outside of: the box is theirs.
+            let ratio = if self.options.whole_box { f64::MAX } else { BOX_RATIO };
+            let reach = [nominal.re.clamp(low, high) / ratio, nominal.re.clamp(low, high) * ratio];
+            let [low, high] = [low.max(reach[0]), high.min(reach[1])];
+            let steps = ((PER_OCTAVE * (high / low).log2()).ceil() as usize).max(2);
+            let eta = bounds
+                .loss_factor
+                .map_or(loss_factor(nominal), |[low, high]| loss_factor(nominal).clamp(low, high));
+            let storage = |k: usize| low * (high / low).powf(k as f64 / steps as f64);
+            points.extend((0..=steps).map(|k| point(c64::new(1.0, eta) * storage(k))));
+        }
+        points
+    }
+}
+
+/// What the subspace may have done to an answer.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Certificate {
+    /// Estimated error of the response over all sensors, relative to the measured one.
+    pub(super) response: f64,
+    /// What that does to the factor, relative.
+    pub(super) factor: f64,
+}
+
+pub(super) fn certificate(assessed: &Assessment, factor: c64, measured: &[c64]) -> Certificate {
+    let norm = |values: &mut dyn Iterator<Item = f64>| values.map(|v| v * v).sum::<f64>().sqrt();
+    let error = norm(&mut (0..measured.len()).map(|m| assessed.error(m)));
+    let size = norm(&mut measured.iter().map(|u| u.norm()));
+    let slope = norm(&mut assessed.slope.iter().map(|slope| slope.norm()));
+    Certificate { response: error / size, factor: error / (slope * factor.norm()) }
+}

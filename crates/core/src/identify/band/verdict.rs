@@ -1,0 +1,96 @@
+//! From the choice at a frequency to its outcome.
+
+use super::explore::Explored;
+use super::space::certificate;
+use crate::c64;
+use crate::identify::{Identified, Options, Status, relative_error};
+use crate::model::ModelAt;
+use crate::roots::Candidate;
+use crate::select::Choice;
+use crate::series::ConvergenceRadius;
+use crate::subspace::Assessment;
+
+/// What there is to judge by at one frequency.
+pub(super) struct Evidence<'a> {
+    pub(super) at: &'a ModelAt<'a>,
+    pub(super) measured: &'a [c64],
+    /// Noise over the assumed deviations.
+    pub(super) noise: Option<f64>,
+    /// How good the subspace is at the chosen correction; `None` on the full model.
+    pub(super) assessment: Option<Assessment>,
+}
+
+/// A misfit of this many deviations (root mean square) is not noise.
+const UNEXPLAINED: f64 = 5.0;
+
+/// A factor with a standard deviation of half of itself is not known.
+const UNKNOWN: f64 = 0.5;
+
+pub(super) fn verdict(
+    evidence: &Evidence<'_>,
+    found: &Explored,
+    choice: &Choice,
+    options: &Options,
+) -> Identified {
+    let nominal = evidence.at.parameters[0].nominal;
+    let mut outcome = Identified::unknown(evidence.at.frequency_hz, nominal, found.order);
+    outcome.nominal_response = found.nominal_response.clone();
+    outcome.roots = found.candidates();
+    outcome.radius = found.poles.as_ref().map(|poles| ConvergenceRadius {
+        per_unit: poles.radius_per_unit(),
+        residual: 0.0,
+        converged: true,
+    });
+    outcome.breakdown = found.breakdown.clone();
+    let Some(chosen) = choice.chosen.map(|k| &found.solutions[k]) else {
+        // Solutions, but none that belongs to the others: more than one answer is possible, or none is right.
+        outcome.alternatives = choice.alternatives.iter().map(|&k| found.solutions[k].correction).collect();
+        outcome.status = match (&found.breakdown, found.solutions.is_empty()) {
+            (Some(_), _) => Status::IllConditioned,
+            (None, true) => Status::NoRoot,
+            (None, false) => Status::Ambiguous,
+        };
+        return outcome;
+    };
+    let factor = nominal + chosen.correction;
+    let error = relative_error(evidence.measured, &chosen.response);
+    outcome.correction = Some(chosen.correction);
+    outcome.error = Some(error);
+    outcome.spectral_radius = outcome.radius.map(|radius| radius.at(chosen.correction));
+    outcome.updated_response = chosen.response.clone();
+    outcome.alternatives = choice.alternatives.iter().map(|&k| found.solutions[k].correction).collect();
+    outcome.series_order =
+        found.poles.as_ref().and_then(|poles| poles.series_order(0, chosen.correction, SERIES_ERROR));
+    let certified = evidence.assessment.as_ref().map(|a| certificate(a, factor, evidence.measured));
+    outcome.certificate = certified.map(|certified| certified.response);
+    let freedom = (2 * evidence.measured.len()).saturating_sub(2).max(1) as f64;
+    let noise = evidence.noise.unwrap_or(0.0);
+    let unexplained = error > options.error && (chosen.misfit / freedom).sqrt() > UNEXPLAINED * noise;
+    let unknown = chosen.std * noise > UNKNOWN * factor.norm();
+    let uncertain = certified.is_some_and(|certified| certified.factor > options.certain);
+    outcome.status = if unexplained {
+        Status::NoRoot
+    } else if !outcome.alternatives.is_empty() {
+        Status::Ambiguous
+    } else if unknown || uncertain || found.unsure {
+        Status::IllConditioned
+    } else {
+        Status::Ok
+    };
+    outcome
+}
+
+/// Error for which the order of the series is predicted: that to which the modulus is to be right.
+const SERIES_ERROR: f64 = 1e-6;
+
+impl Explored {
+    /// Everything that was found, as candidates: solutions first.
+    fn candidates(&self) -> Vec<Candidate> {
+        let admitted = self.solutions.iter().map(|s| Candidate {
+            correction: s.correction,
+            drift: s.residual,
+            refusal: None,
+        });
+        admitted.chain(self.refused.iter().copied()).collect()
+    }
+}

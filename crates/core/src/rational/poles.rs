@@ -1,0 +1,86 @@
+//! The reduced response as a sum over its poles, for a parameter that enters linearly: x_m(z) = Σ_k ρ_mk / (1 + z λ_k).
+
+use super::{RationalResponse, transpose_dot};
+use crate::c64;
+use frfit_linalg::dense::{Eigen, Lu, Matrix, NoConvergence, eigen};
+
+/// Poles and residues: the response and its slope at all sensors for n multiplications each.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Poles {
+    scale: f64,
+    /// λ_k, eigenvalues of M₀⁻¹M₁; the poles are at c = −s/λ_k.
+    lambda: Vec<c64>,
+    /// `residues[m][k]` is ρ_mk.
+    residues: Vec<Vec<c64>>,
+}
+
+impl RationalResponse {
+    /// The poles of the reduced response; `None` for a parameter that enters with powers.
+    ///
+    /// # Errors
+    /// [`NoConvergence`] where the eigenvalue iteration fails, or the eigenvectors are dependent to working precision.
+    ///
+    /// # Limits
+    /// Loses digits where poles nearly coincide: good for the way to a solution, not for its last digits.
+    pub fn poles(&self) -> Result<Option<Poles>, NoConvergence> {
+        let [nominal, change] = self.matrices.as_slice() else { return Ok(None) };
+        let n = self.size();
+        let factor = Lu::new(nominal)?;
+        let mut block: Vec<c64> = (0..n).flat_map(|j| change.column(j)).chain(&self.load).copied().collect();
+        factor.solve(&mut block)?;
+        let g = Matrix::from_fn(n, n, |i, j| block[i + j * n]);
+        let Eigen { values: lambda, vectors } = eigen(&g)?;
+        let mut weights = block[n * n..].to_vec();
+        Lu::new(&vectors)?.solve(&mut weights)?;
+        let residue =
+            |l: &Vec<c64>| (0..n).map(|k| transpose_dot(l, vectors.column(k)) * weights[k]).collect();
+        Ok(Some(Poles { scale: self.scale, lambda, residues: self.sensors.iter().map(residue).collect() }))
+    }
+}
+
+impl Poles {
+    /// x_m(c) and ∂x_m/∂c at all sensors.
+    pub fn respond_with_slope(&self, correction: c64) -> (Vec<c64>, Vec<c64>) {
+        let z = correction / self.scale;
+        let inverse: Vec<c64> = self.lambda.iter().map(|lambda| (1.0 + z * lambda).inv()).collect();
+        let value = |residues: &Vec<c64>| residues.iter().zip(&inverse).map(|(rho, d)| rho * d).sum::<c64>();
+        let slope = |residues: &Vec<c64>| {
+            let terms = residues.iter().zip(&inverse).zip(&self.lambda);
+            -terms.map(|((rho, d), lambda)| rho * lambda * d * d).sum::<c64>() / self.scale
+        };
+        (self.residues.iter().map(value).collect(), self.residues.iter().map(slope).collect())
+    }
+
+    /// The order that the Neumann series at a sensor needs for a relative truncation error at the correction c; `None` where it
+    /// diverges (P-14).
+    ///
+    /// A pole's share of what is cut off after order n is ρ_k (−zλ_k)^{n+1} / (1 + zλ_k): each share is brought below the error.
+    ///
+    /// # Limits
+    /// Roundoff of the series is not in it.
+    pub fn series_order(&self, sensor: usize, correction: c64, error: f64) -> Option<usize> {
+        let z = correction / self.scale;
+        let allowed = error * self.respond_with_slope(correction).0[sensor].norm();
+        let order = |(rho, lambda): (&c64, &c64)| {
+            let (size, share) = ((z * lambda).norm(), (rho / (1.0 + z * lambda)).norm());
+            if share * size <= allowed {
+                Some(0)
+            } else if size < 1.0 {
+                // Smallest n with share · size^{n+1} <= allowed.
+                Some(((allowed / share).ln() / size.ln()).ceil() as usize - 1)
+            } else {
+                // A pole that takes no part, to roundoff, does not bound the series either.
+                (share <= f64::EPSILON * allowed / error).then_some(0)
+            }
+        };
+        self.residues[sensor].iter().zip(&self.lambda).map(order).try_fold(0, |most, n| Some(most.max(n?)))
+    }
+
+    /// ρ/|c|: one over the distance to the nearest pole (P-14).
+    ///
+    /// # Limits
+    /// A pole that the load does not excite is not seen; it does not bound the series of this response either.
+    pub fn radius_per_unit(&self) -> f64 {
+        self.lambda.iter().map(|lambda| lambda.norm()).fold(0.0, f64::max) / self.scale
+    }
+}

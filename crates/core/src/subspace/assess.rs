@@ -1,0 +1,85 @@
+//! How good a reduced model is at one frequency and one value of the parameter, at the sensors.
+
+use super::Projection;
+use super::reduced::SINGULAR;
+use crate::c64;
+use crate::model::ModelAt;
+use frfit_linalg::dense::{Lu, NoConvergence};
+use frfit_linalg::solve::Breakdown;
+use frfit_linalg::vector::norm;
+
+/// Response, sensitivity and estimated error at the sensors.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Assessment {
+    /// x_m, receptance.
+    pub response: Vec<c64>,
+    /// ∂x_m/∂c of the first parameter, −z_mᵀ (∂D/∂c) x: exact for the reduced model.
+    pub slope: Vec<c64>,
+    /// Estimated |x_m − exact| for what the basis lacks, receptance: γ ‖r_z‖ ‖r_x‖. More vectors bring it down.
+    pub truncation: Vec<f64>,
+    /// What roundoff leaves of x_m, receptance: nothing brings it down.
+    pub roundoff: Vec<f64>,
+}
+
+/// An assessment with the solutions behind it.
+pub(super) struct Solved {
+    pub(super) assessment: Assessment,
+    /// y with VᵀDV y = VᵀF, then z_m with VᵀDV z_m = Vᵀℓ_m.
+    pub(super) solutions: Vec<Vec<c64>>,
+}
+
+/// Units of roundoff that reduced matrices carry relative to the diagonal of the shifted stiffness.
+const ROUNDOFF: f64 = 4.0 * f64::EPSILON;
+
+impl Assessment {
+    /// The largest truncation error of any sensor relative to its response or to p ∂x_m/∂c, whichever is larger: relative error of the
+    /// response, and on an antiresonance of the factor p that is read from it.
+    pub fn relative_truncation(&self, factor: c64) -> f64 {
+        let sensors = self.truncation.iter().zip(self.response.iter().zip(&self.slope));
+        sensors.map(|(e, (x, slope))| e / x.norm().max((factor * slope).norm())).fold(0.0, f64::max)
+    }
+
+    /// Truncation and roundoff at a sensor.
+    pub fn error(&self, sensor: usize) -> f64 {
+        self.truncation[sensor] + self.roundoff[sensor]
+    }
+}
+
+impl Solved {
+    pub(super) fn new(small: &Projection, at: &ModelAt<'_>, correction: c64) -> Result<Self, Breakdown> {
+        let (theta, slope_theta) = weights(small, at, correction);
+        let mut block = small.load.clone();
+        block.extend(small.sensors.iter().flatten().map(|&l| c64::new(l, 0.0)));
+        let factor = Lu::new(&small.combine(&theta)).map_err(|NoConvergence| Breakdown::NotFinite)?;
+        factor.solve(&mut block).map_err(|NoConvergence| SINGULAR)?;
+        let solutions: Vec<Vec<c64>> = block.chunks_exact(small.size).map(<[c64]>::to_vec).collect();
+        let views: Vec<&[c64]> = solutions.iter().map(Vec::as_slice).collect();
+        let norms = small.residual_norms(&theta, &views);
+        let (y, duals) = (&solutions[0], &solutions[1..]);
+        let change = small.combine(&slope_theta).multiply(y);
+        let product = |a: &[c64], b: &[c64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<c64>();
+        let assessment = Assessment {
+            response: small.sensors.iter().map(|l| l.iter().zip(y).map(|(l, y)| y * l).sum()).collect(),
+            slope: duals.iter().map(|z| -product(z, &change)).collect(),
+            truncation: norms[1..].iter().map(|dual| small.gain * dual * norms[0]).collect(),
+            roundoff: duals.iter().map(|z| ROUNDOFF * norm(z) * norm(y)).collect(),
+        };
+        Ok(Self { assessment, solutions })
+    }
+}
+
+/// θ_g of D and of ∂D/∂c at the correction c of the first parameter.
+fn weights(small: &Projection, at: &ModelAt<'_>, correction: c64) -> (Vec<c64>, Vec<c64>) {
+    let mut theta = small.parts.weights(&at.nominal);
+    let mut slope = vec![c64::default(); theta.len()];
+    let mut power = c64::new(1.0, 0.0);
+    for (q, coefficient) in at.parameters.first().map_or(&[][..], |p| &p.coefficients).iter().enumerate() {
+        for ((theta, slope), weight) in theta.iter_mut().zip(&mut slope).zip(small.parts.weights(coefficient))
+        {
+            *slope += (q + 1) as f64 * power * weight;
+            *theta += power * correction * weight;
+        }
+        power *= correction;
+    }
+    (theta, slope)
+}

@@ -1,0 +1,130 @@
+//! A real basis V, orthonormal in a norm in which all degrees of freedom count alike.
+
+use super::parts::Parts;
+use super::projection::Projection;
+use super::sketch::Sketch;
+use crate::c64;
+use crate::model::{DynamicStiffness, Experiment};
+use frfit_linalg::tall::Tall;
+
+/// V with Vᵀ diag(d) V = 1, and everything small that belongs to it.
+#[derive(Debug, Clone)]
+pub(super) struct Basis {
+    /// d, the diagonal of the first shifted stiffness: it makes translations and rotations, steel and rubber comparable.
+    weight: Vec<f64>,
+    vectors: Tall,
+    sketch: Sketch,
+    pub(super) projection: Projection,
+}
+
+/// A vector of which less than this is new (in the d-norm) adds roundoff, not a direction.
+const NEW: f64 = 1e-8;
+
+impl Basis {
+    pub(super) fn new(weight: Vec<f64>, parts: Parts, experiment: &Experiment) -> Self {
+        let sketch = Sketch::new(weight.iter().map(|d| 1.0 / d));
+        let sensors = experiment.sensors.len();
+        let forces =
+            std::iter::once(experiment.load.clone()).chain((0..sensors).map(|m| experiment.unit_force(m)));
+        let projection = Projection {
+            size: 0,
+            matrices: vec![Vec::new(); parts.len()],
+            images: vec![Vec::new(); parts.len()],
+            load: Vec::new(),
+            sensors: vec![Vec::new(); sensors],
+            sketched: forces.map(|force| sketch.of(&force)).collect(),
+            gain: 0.0,
+            parts,
+        };
+        Self { vectors: Tall::new(weight.len()), sketch, weight, projection }
+    }
+
+    /// V.
+    pub(super) fn vectors(&self) -> &Tall {
+        &self.vectors
+    }
+
+    /// √Σ d x².
+    pub(super) fn norm(&self, x: &[f64]) -> f64 {
+        self.weight.iter().zip(x).map(|(d, x)| d * x * x).sum::<f64>().sqrt()
+    }
+
+    /// Σ a b / d, the product that belongs to forces.
+    pub(super) fn force_dot(&self, a: &[f64], b: &[f64]) -> f64 {
+        self.weight.iter().zip(a.iter().zip(b)).map(|(d, (a, b))| a * b / d).sum()
+    }
+
+    /// Adds what is new of some vectors (N × k, column after column); returns how many were.
+    pub(super) fn append(
+        &mut self,
+        model: &DynamicStiffness,
+        experiment: &Experiment,
+        mut block: Vec<f64>,
+    ) -> usize {
+        let n = self.weight.len();
+        let before: Vec<f64> = block.chunks_exact(n).map(|x| self.norm(x)).collect();
+        let first = self.vectors.ncols();
+        // Twice is enough (Kahan, Parlett).
+        for _ in 0..2 {
+            let weighted: Vec<f64> =
+                block.chunks_exact(n).flat_map(|x| x.iter().zip(&self.weight).map(|(x, d)| x * d)).collect();
+            let overlap = self.vectors.transpose_times(&weighted);
+            self.vectors.subtract_times(&overlap, &mut block);
+        }
+        for (x, before) in block.chunks_exact_mut(n).zip(before) {
+            for _ in 0..2 {
+                for j in first..self.vectors.ncols() {
+                    let v = self.vectors.column(j);
+                    let overlap: f64 =
+                        self.weight.iter().zip(v.iter().zip(&*x)).map(|(d, (v, x))| d * v * x).sum();
+                    x.iter_mut().zip(v).for_each(|(x, v)| *x -= overlap * v);
+                }
+            }
+            let rest = self.norm(x);
+            if rest > NEW * before {
+                x.iter_mut().for_each(|x| *x /= rest);
+                self.vectors.push(x);
+            }
+        }
+        self.project(model, experiment, first);
+        self.vectors.ncols() - first
+    }
+
+    /// Everything small that belongs to the vectors from `first` on.
+    fn project(&mut self, model: &DynamicStiffness, experiment: &Experiment, first: usize) {
+        let (n, r) = (self.weight.len(), self.vectors.ncols());
+        let small = &mut self.projection;
+        for g in 0..small.parts.len() {
+            let mut block = vec![0.0; n * (r - first)];
+            for (j, image) in (first..r).zip(block.chunks_exact_mut(n)) {
+                small.parts.multiply_add(model, g, self.vectors.column(j), image);
+                small.images[g].extend(self.sketch.of(image));
+            }
+            small.matrices[g] = bordered(&small.matrices[g], first, &self.vectors.transpose_times(&block), r);
+        }
+        for j in first..r {
+            let v = self.vectors.column(j);
+            small.load.push(experiment.load.iter().zip(v).map(|(f, v)| f * v).sum::<c64>());
+            for (sensor, at) in small.sensors.iter_mut().zip(&experiment.sensors) {
+                sensor.push(at.sign * v[at.row]);
+            }
+        }
+        small.size = r;
+    }
+}
+
+/// A symmetric `first` × `first` matrix grown to r × r by its last columns (r rows each).
+fn bordered(old: &[f64], first: usize, columns: &[f64], r: usize) -> Vec<f64> {
+    let mut grown = vec![0.0; r * r];
+    for j in 0..first {
+        grown[j * r..j * r + first].copy_from_slice(&old[j * first..(j + 1) * first]);
+    }
+    for (j, column) in (first..r).zip(columns.chunks_exact(r)) {
+        // The upper triangle of the new columns, and its mirror image.
+        for (i, &value) in column[..=j].iter().enumerate() {
+            grown[i + j * r] = value;
+            grown[j + i * r] = value;
+        }
+    }
+    grown
+}

@@ -1,0 +1,77 @@
+//! A smaller model for a few neighbouring frequencies, from the band's.
+
+use super::assess::Solved;
+use super::{Assessment, Point, Projection};
+use crate::c64;
+
+/// Below this part of itself a direction is roundoff of those there are.
+const NEW: f64 = 1e-12;
+
+/// A compressed model of more than this fraction of the size saves nothing.
+const WORTHWHILE: f64 = 0.6;
+
+/// A local error of this many times the band's own is the band's.
+const AS_GOOD: f64 = 3.0;
+
+impl Projection {
+    /// This model on the span of its own solutions at some of the points, as many as bring the estimated error at all of them under the tolerance, or
+    /// near this model's own: a neighbourhood needs fewer vectors than a band. The same model where that is not so.
+    ///
+    /// # Limits
+    /// Its [`Projection::assess`] tells errors of the full model, not of this one.
+    pub fn localised(&self, points: &[Point<'_>], tolerance: f64) -> Self {
+        let relative = |solved: &Assessment, point: &Point<'_>| {
+            let nominal = point.at.parameters.first().map_or(c64::default(), |p| p.nominal);
+            solved.relative_truncation(nominal + point.correction)
+        };
+        let mut directions = Vec::new();
+        let mut done = vec![false; points.len()];
+        // Ends and middle first; then where it is worst.
+        let mut next: Vec<(usize, f64)> =
+            [0, points.len() / 2, points.len().saturating_sub(1)].map(|i| (i, f64::INFINITY)).into();
+        loop {
+            for (i, error) in next.drain(..).filter(|&(i, _)| i < points.len()) {
+                let point = &points[i];
+                if !std::mem::replace(&mut done[i], true)
+                    && let Ok(solved) = Solved::new(self, &point.at, point.correction)
+                    && error > AS_GOOD * relative(&solved.assessment, point)
+                {
+                    solved.solutions.iter().for_each(|y| append(&mut directions, y));
+                }
+            }
+            if directions.is_empty() || directions.len() as f64 > WORTHWHILE * self.size as f64 {
+                return self.clone();
+            }
+            let local = self.compressed(&directions.concat());
+            let error = |i: usize| {
+                let assessed = local.assess(&points[i].at, points[i].correction);
+                assessed.map_or(f64::INFINITY, |assessed| relative(&assessed, &points[i]))
+            };
+            let rest = (0..points.len()).filter(|&i| !done[i]).map(|i| (i, error(i)));
+            match rest.max_by(|a, b| a.1.total_cmp(&b.1)) {
+                Some((i, worst)) if worst > tolerance => next.push((i, worst)),
+                _ => return local,
+            }
+        }
+    }
+}
+
+/// The real and the imaginary part of y, orthonormalised.
+fn append(directions: &mut Vec<Vec<f64>>, y: &[c64]) {
+    for part in [|y: &c64| y.re, |y: &c64| y.im] {
+        let mut x: Vec<f64> = y.iter().map(part).collect();
+        let length = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let before = length(&x);
+        for _ in 0..2 {
+            for v in directions.iter() {
+                let overlap: f64 = v.iter().zip(&x).map(|(v, x)| v * x).sum();
+                x.iter_mut().zip(v).for_each(|(x, v)| *x -= overlap * v);
+            }
+        }
+        let rest = length(&x);
+        if rest > NEW * before {
+            x.iter_mut().for_each(|x| *x /= rest);
+            directions.push(x);
+        }
+    }
+}

@@ -1,0 +1,114 @@
+//! Everything small that belongs to a basis: the reduced matrices, loads, sensors, and the sketches that tell residuals.
+
+use super::assess::Solved;
+use super::parts::Parts;
+use super::{Assessment, ReducedModel};
+use crate::c64;
+use crate::model::ModelAt;
+use frfit_linalg::dense::Matrix;
+use frfit_linalg::solve::Breakdown;
+
+/// VᵀS_gV, VᵀF, ℓ_mᵀV and Θ S_gV for a basis V of r vectors: a model for a band, without anything of size N.
+#[derive(Debug, Clone)]
+pub struct Projection {
+    pub(super) parts: Parts,
+    pub(super) size: usize,
+    /// `matrices[g]` is VᵀS_gV, r × r.
+    pub(super) matrices: Vec<Vec<f64>>,
+    /// `images[g]` is Θ S_g V, SKETCH × r, column after column.
+    pub(super) images: Vec<Vec<f64>>,
+    /// VᵀF.
+    pub(super) load: Vec<c64>,
+    /// ℓ_mᵀV for each sensor.
+    pub(super) sensors: Vec<Vec<f64>>,
+    /// Θ F, then Θ ℓ_m for each sensor.
+    pub(super) sketched: Vec<Vec<c64>>,
+    /// γ: largest ‖S⁻¹r‖/‖r‖ of the last solves.
+    pub(super) gain: f64,
+}
+
+impl Projection {
+    /// Number of basis vectors r.
+    pub fn size(&self) -> usize {
+        self.size
+    }
+
+    /// The model at one frequency.
+    ///
+    /// # Errors
+    /// [`Breakdown`] where a value is not finite.
+    pub fn at(&self, at: &ModelAt<'_>) -> Result<ReducedModel<'_>, Breakdown> {
+        ReducedModel::new(self, at)
+    }
+
+    /// Response, sensitivity and estimated error with the correction c of the first parameter.
+    ///
+    /// # Errors
+    /// [`Breakdown`] where the reduced system is singular.
+    ///
+    /// # Limits
+    /// An estimate, not a bound: γ is the largest gain met in the last solves, and the residuals are those of a sketch.
+    pub fn assess(&self, at: &ModelAt<'_>, correction: c64) -> Result<Assessment, Breakdown> {
+        Ok(Solved::new(self, at, correction)?.assessment)
+    }
+
+    /// Σ θ_g VᵀS_gV.
+    pub(super) fn combine(&self, theta: &[c64]) -> Matrix {
+        let mut sum = Matrix::zeros(self.size, self.size);
+        for (matrix, &theta) in self.matrices.iter().zip(theta) {
+            if theta != c64::default() {
+                sum.add_scaled_real(theta, matrix);
+            }
+        }
+        sum
+    }
+
+    /// ‖F − Σ θ_g S_g V y‖ and ‖ℓ_m − Σ θ_g S_g V z_m‖ in the norm of forces, by their sketches: `solutions` are y, z_1, z_2 …
+    pub(super) fn residual_norms(&self, theta: &[c64], solutions: &[&[c64]]) -> Vec<f64> {
+        let norm = |(given, y): (&Vec<c64>, &&[c64])| {
+            let mut rest = given.clone();
+            for (image, &theta) in self.images.iter().zip(theta) {
+                if theta == c64::default() {
+                    continue;
+                }
+                for (column, y) in image.chunks_exact(given.len()).zip(*y) {
+                    let factor = theta * y;
+                    rest.iter_mut().zip(column).for_each(|(r, a)| *r -= factor * a);
+                }
+            }
+            rest.iter().map(|r| r.norm_sqr()).sum::<f64>().sqrt()
+        };
+        self.sketched.iter().zip(solutions).map(norm).collect()
+    }
+
+    /// The same model on r × q coordinates W (column after column): basis VW.
+    pub(super) fn compressed(&self, w: &[f64]) -> Self {
+        let (r, q) = (self.size, w.len() / self.size.max(1));
+        let columns = |w: &[f64], matrix: &[f64], rows: usize| -> Vec<f64> {
+            // matrix (rows × r) times W (r × q)
+            let mut product = vec![0.0; rows * q];
+            for (out, w) in product.chunks_exact_mut(rows).zip(w.chunks_exact(r)) {
+                for (column, w) in matrix.chunks_exact(rows).zip(w) {
+                    out.iter_mut().zip(column).for_each(|(sum, a)| *sum += a * w);
+                }
+            }
+            product
+        };
+        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        let congruent = |matrix: &Vec<f64>| -> Vec<f64> {
+            let right = columns(w, matrix, r);
+            right.chunks_exact(r).flat_map(|column| w.chunks_exact(r).map(move |w| dot(w, column))).collect()
+        };
+        let rows = self.sketched[0].len();
+        Self {
+            parts: self.parts.clone(),
+            size: q,
+            matrices: self.matrices.iter().map(congruent).collect(),
+            images: self.images.iter().map(|image| columns(w, image, rows)).collect(),
+            load: w.chunks_exact(r).map(|w| self.load.iter().zip(w).map(|(f, w)| f * w).sum()).collect(),
+            sensors: self.sensors.iter().map(|l| w.chunks_exact(r).map(|w| dot(w, l)).collect()).collect(),
+            sketched: self.sketched.clone(),
+            gain: self.gain,
+        }
+    }
+}

@@ -1,0 +1,243 @@
+//! Where the basis grows: where the estimated error at the sensors is largest.
+
+use super::Assessment;
+use super::Subspace;
+use super::assess::Solved;
+use super::shift::Shift;
+use crate::c64;
+use crate::for_each::{ForEach, map};
+use crate::frequency::omega_rad_s;
+use crate::model::ModelAt;
+use frfit_linalg::solve::Breakdown;
+
+/// A frequency and a value of the first parameter.
+#[derive(Debug, Clone)]
+pub struct Point<'m> {
+    /// The model at that frequency.
+    pub at: ModelAt<'m>,
+    /// c.
+    pub correction: c64,
+}
+
+/// When to stop.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TrainOptions {
+    /// Largest estimated error ([`super::Assessment::relative_truncation`]) to accept. Default 1e-9.
+    pub tolerance: f64,
+    /// Solves after which to give up. Default 400.
+    pub solves: usize,
+    /// Real factorisations at most. Default 4.
+    pub factorisations: usize,
+}
+
+impl Default for TrainOptions {
+    fn default() -> Self {
+        Self { tolerance: 1e-9, solves: 400, factorisations: 4 }
+    }
+}
+
+/// How a training ended.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Trained {
+    /// Largest estimated error over the points that were given.
+    pub error: f64,
+    /// Whether that is within the tolerance.
+    pub converged: bool,
+}
+
+/// Real right-hand sides of one round: enough to block the solves, few enough that each round learns from the one before.
+const BLOCK: usize = 8;
+
+/// A residual of which less than this is new among those of its round is left for the next.
+const INDEPENDENT: f64 = 0.1;
+
+/// Solves with the factors there are before another one is worth its price.
+const PATIENCE: usize = 64;
+
+/// Points whose errors are followed from round to round; all are looked at when these are good.
+const WATCHED: usize = 48;
+
+/// Rounds without progress (by a factor of two of the error) after which roundoff is what is left.
+const STALLED: usize = 6;
+
+impl<'m> Subspace<'m> {
+    /// S⁻¹F and S⁻¹ℓ_m.
+    pub(super) fn start(&mut self) -> Result<(), Breakdown> {
+        let mut forces = self.real_directions(self.experiment.load.clone());
+        for m in 0..self.experiment.sensors.len() {
+            forces.extend(self.real_directions(self.experiment.unit_force(m)));
+        }
+        let mut kept = Vec::new();
+        for force in forces {
+            kept.extend(self.new_among(&kept, force).map(|new| (0, new)));
+        }
+        self.solve_and_append(kept).map(drop)
+    }
+
+    /// Grows the basis until the error is within the tolerance at all points.
+    ///
+    /// # Errors
+    /// [`Breakdown`] where a solve fails.
+    pub fn train(
+        &mut self,
+        points: &[Point<'m>],
+        options: &TrainOptions,
+        for_each: ForEach<'_>,
+    ) -> Result<Trained, Breakdown> {
+        let all: Vec<usize> = (0..points.len()).collect();
+        let assess = |subspace: &Self, of: &[usize]| -> Vec<(f64, usize)> {
+            let mut errors: Vec<(f64, usize)> =
+                map(for_each, of.len(), |i| (subspace.error_at(&points[of[i]]), of[i]));
+            errors.sort_by(|a, b| b.0.total_cmp(&a.0));
+            errors
+        };
+        let (mut best, mut stalled, mut patience) = (f64::INFINITY, 0, self.work.solves + PATIENCE);
+        let mut errors = assess(self, &all);
+        loop {
+            if errors.first().is_none_or(|&(worst, _)| worst <= options.tolerance) {
+                errors = assess(self, &all);
+            }
+            let Some(&(worst, at)) = errors.first() else {
+                return Ok(Trained { error: 0.0, converged: true });
+            };
+            let converged = worst <= options.tolerance;
+            stalled = if worst < 0.5 * best { 0 } else { stalled + 1 };
+            best = best.min(worst);
+            if converged || stalled > STALLED || self.work.solves >= options.solves {
+                return Ok(Trained { error: worst, converged });
+            }
+            if self.work.solves >= patience && self.work.factorisations < options.factorisations {
+                patience = self.work.solves + PATIENCE;
+                self.add_shift(&points[at].at);
+            }
+            errors.retain(|&(error, _)| error > options.tolerance);
+            errors.truncate(WATCHED);
+            let floor = 1e-3 * worst;
+            let picked: Vec<&Point<'m>> =
+                errors.iter().filter(|(error, _)| *error > floor).map(|&(_, i)| &points[i]).collect();
+            if self.enrich(&picked)? == 0 {
+                return Ok(Trained { error: worst, converged });
+            }
+            let watched: Vec<usize> = errors.iter().map(|&(_, i)| i).collect();
+            errors = assess(self, &watched);
+        }
+    }
+
+    fn error_at(&self, point: &Point<'m>) -> f64 {
+        let nominal = point.at.parameters.first().map_or(c64::default(), |p| p.nominal);
+        let error = self
+            .projection()
+            .assess(&point.at, point.correction)
+            .map(|a| a.relative_truncation(nominal + point.correction));
+        // A point where the reduced system is singular is an undamped resonance: nothing can be read there.
+        error.unwrap_or(0.0)
+    }
+
+    /// A real factorisation near the worst frequency; none where that breaks down.
+    fn add_shift(&mut self, at: &ModelAt<'m>) {
+        let sigma = -omega_rad_s(at.frequency_hz).powi(2);
+        self.work.factorisations += 1;
+        if let Ok(shift) = Shift::new(at, sigma) {
+            self.shifts.push(shift);
+        }
+    }
+
+    /// Adds S⁻¹ times the residuals at the worst points, as far as they are independent; returns how many vectors were new.
+    fn enrich(&mut self, points: &[&Point<'m>]) -> Result<usize, Breakdown> {
+        let mut kept: Vec<(usize, Vec<f64>)> = Vec::new();
+        for point in points.iter().take(2 * BLOCK) {
+            let Ok(solved) = Solved::new(self.projection(), &point.at, point.correction) else { continue };
+            let shift = self.nearest_shift(point.at.frequency_hz);
+            for residual in self.residuals(point, &solved) {
+                for direction in self.real_directions(residual) {
+                    if kept.len() < BLOCK
+                        && let Some(new) = self.new_among(&kept, direction)
+                    {
+                        kept.push((shift, new));
+                    }
+                }
+            }
+            if kept.len() == BLOCK {
+                break;
+            }
+        }
+        self.solve_and_append(kept)
+    }
+
+    /// F − D x, and ℓ_m − D z_m for the sensor with the largest error, in full.
+    fn residuals(&self, point: &Point<'m>, solved: &Solved) -> Vec<Vec<c64>> {
+        let Assessment { truncation: error, .. } = &solved.assessment;
+        let worst = (0..error.len()).max_by(|&a, &b| error[a].total_cmp(&error[b]));
+        let residual = |mut given: Vec<c64>, y: &[c64]| {
+            let x = self.basis.vectors().combine(y);
+            let minus = c64::new(-1.0, 0.0);
+            point.at.nominal.multiply_add(self.model, minus, &x, &mut given);
+            let mut power = minus;
+            for coefficient in point.at.parameters.first().map_or(&[][..], |p| &p.coefficients) {
+                power *= point.correction;
+                coefficient.multiply_add(self.model, power, &x, &mut given);
+            }
+            given
+        };
+        let mut residuals = vec![residual(self.experiment.load.clone(), &solved.solutions[0])];
+        if let Some(m) = worst {
+            residuals.push(residual(self.experiment.unit_force(m), &solved.solutions[m + 1]));
+        }
+        residuals
+    }
+
+    /// One or two real vectors of norm one for a complex one: its real part after the rotation of phase that makes that largest, and its
+    /// imaginary part where that is not small beside it.
+    fn real_directions(&self, complex: Vec<c64>) -> Vec<Vec<f64>> {
+        let re: Vec<f64> = complex.iter().map(|r| r.re).collect();
+        let im: Vec<f64> = complex.iter().map(|r| r.im).collect();
+        let (aa, bb, ab) =
+            (self.basis.force_dot(&re, &re), self.basis.force_dot(&im, &im), self.basis.force_dot(&re, &im));
+        let turn = c64::from_polar(1.0, -0.5 * c64::new(aa - bb, 2.0 * ab).arg());
+        let turned = |part: fn(c64) -> f64| complex.iter().map(|&r| part(r * turn)).collect::<Vec<f64>>();
+        let mut directions = vec![turned(|r| r.re), turned(|r| r.im)];
+        let norms: Vec<f64> = directions.iter().map(|d| self.basis.force_dot(d, d).sqrt()).collect();
+        directions.truncate(if norms[1] > INDEPENDENT * norms[0] { 2 } else { 1 });
+        directions.retain_mut(|direction| {
+            let norm = self.basis.force_dot(direction, direction).sqrt();
+            direction.iter_mut().for_each(|d| *d /= norm);
+            norm > 0.0 && norm.is_finite()
+        });
+        directions
+    }
+
+    /// What a force of norm one has beyond those that are kept already, of norm one; `None` where that is little.
+    fn new_among(&self, kept: &[(usize, Vec<f64>)], mut force: Vec<f64>) -> Option<Vec<f64>> {
+        for (_, other) in kept {
+            let overlap = self.basis.force_dot(other, &force);
+            force.iter_mut().zip(other).for_each(|(f, o)| *f -= overlap * o);
+        }
+        let rest = self.basis.force_dot(&force, &force).sqrt();
+        force.iter_mut().for_each(|f| *f /= rest);
+        (rest > INDEPENDENT).then_some(force)
+    }
+
+    fn nearest_shift(&self, frequency_hz: f64) -> usize {
+        let distance = |shift: &Shift| (shift.frequency_hz - frequency_hz).abs();
+        let all = 0..self.shifts.len();
+        all.min_by(|&a, &b| distance(&self.shifts[a]).total_cmp(&distance(&self.shifts[b]))).unwrap_or(0)
+    }
+
+    /// Solves each force (of norm one) with its shift, remembers the gain, and adds what is new.
+    fn solve_and_append(&mut self, forces: Vec<(usize, Vec<f64>)>) -> Result<usize, Breakdown> {
+        let (mut added, mut gain) = (0, 0.0f64);
+        for (index, shift) in self.shifts.iter().enumerate() {
+            let mine = forces.iter().filter(|(other, _)| *other == index);
+            let mut block: Vec<f64> = mine.flat_map(|(_, force)| force).copied().collect();
+            if block.is_empty() {
+                continue;
+            }
+            shift.factor.solve(&mut block)?;
+            self.work.solves += block.len() / self.model.dim();
+            gain = block.chunks_exact(self.model.dim()).map(|x| self.basis.norm(x)).fold(gain, f64::max);
+            added += self.basis.append(self.model, self.experiment, block);
+        }
+        self.basis.projection.gain = gain;
+        Ok(added)
+    }
+}

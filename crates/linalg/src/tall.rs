@@ -1,0 +1,96 @@
+//! A few long real vectors as one matrix: products in blocks, at the speed of dense kernels.
+
+use crate::c64;
+use faer::linalg::matmul::matmul;
+use faer::{Accum, MatMut, MatRef, Par};
+
+/// N × r, N ≫ r, column after column; grows by columns.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tall {
+    nrows: usize,
+    values: Vec<f64>,
+}
+
+impl Tall {
+    /// N × 0.
+    pub fn new(nrows: usize) -> Self {
+        Self { nrows, values: Vec::new() }
+    }
+
+    /// N.
+    pub fn nrows(&self) -> usize {
+        self.nrows
+    }
+
+    /// r.
+    pub fn ncols(&self) -> usize {
+        self.values.len() / self.nrows.max(1)
+    }
+
+    /// Column j.
+    pub fn column(&self, j: usize) -> &[f64] {
+        &self.values[j * self.nrows..(j + 1) * self.nrows]
+    }
+
+    /// One more column.
+    ///
+    /// # Panics
+    /// Where it has not N entries.
+    pub fn push(&mut self, column: &[f64]) {
+        assert_eq!(column.len(), self.nrows);
+        self.values.extend_from_slice(column);
+    }
+
+    /// Vᵀ X, r × k column after column, for X N × k.
+    pub fn transpose_times(&self, x: &[f64]) -> Vec<f64> {
+        let (r, k) = (self.ncols(), x.len() / self.nrows.max(1));
+        let mut product = vec![0.0; r * k];
+        let (v, x) = (self.as_faer(), MatRef::from_column_major_slice(x, self.nrows, k));
+        let out = MatMut::from_column_major_slice_mut(&mut product, r, k);
+        matmul(out, Accum::Replace, v.transpose(), x, 1.0, Par::Seq);
+        product
+    }
+
+    /// X ← X − V C for C r × k and X N × k.
+    pub fn subtract_times(&self, c: &[f64], x: &mut [f64]) {
+        let (r, k) = (self.ncols(), x.len() / self.nrows.max(1));
+        let c = MatRef::from_column_major_slice(c, r, k);
+        let x = MatMut::from_column_major_slice_mut(x, self.nrows, k);
+        matmul(x, Accum::Add, self.as_faer(), c, -1.0, Par::Seq);
+    }
+
+    /// V y.
+    pub fn combine(&self, y: &[c64]) -> Vec<c64> {
+        assert_eq!(y.len(), self.ncols());
+        let parts: Vec<f64> = y.iter().map(|y| y.re).chain(y.iter().map(|y| y.im)).collect();
+        let mut product = vec![0.0; 2 * self.nrows];
+        let y = MatRef::from_column_major_slice(&parts, self.ncols(), 2);
+        let out = MatMut::from_column_major_slice_mut(&mut product, self.nrows, 2);
+        matmul(out, Accum::Replace, self.as_faer(), y, 1.0, Par::Seq);
+        let (re, im) = product.split_at(self.nrows);
+        re.iter().zip(im).map(|(&re, &im)| c64::new(re, im)).collect()
+    }
+
+    fn as_faer(&self) -> MatRef<'_, f64> {
+        MatRef::from_column_major_slice(&self.values, self.nrows, self.ncols())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn products_are_the_sums_they_stand_for() {
+        let mut v = Tall::new(3);
+        v.push(&[1.0, 2.0, 3.0]);
+        v.push(&[-1.0, 0.0, 1.0]);
+        assert_eq!((v.ncols(), v.column(1)), (2, &[-1.0, 0.0, 1.0][..]));
+        assert_eq!(v.transpose_times(&[1.0, 0.0, 0.0, 0.0, 1.0, 1.0]), [1.0, -1.0, 5.0, 1.0]);
+        let mut x = [1.0, 1.0, 1.0];
+        v.subtract_times(&[1.0, 2.0], &mut x);
+        assert_eq!(x, [2.0, -1.0, -4.0]);
+        let y = [c64::new(1.0, 1.0), c64::new(0.0, 2.0)];
+        assert_eq!(v.combine(&y), [c64::new(1.0, -1.0), c64::new(2.0, 2.0), c64::new(3.0, 5.0)]);
+    }
+}
