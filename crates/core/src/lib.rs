@@ -20,6 +20,7 @@
 //! | [`series`] | the Neumann series, the sensitivities, the spectral radius |
 //! | [`rational`] | the response as a rational function of the parameter, and all solutions of it (B-1, B-2) |
 //! | [`roots`] | the polynomial's roots, which of them are admissible, and why the others are not |
+//! | [`select`] | which of the solutions of a whole band are one material, and where the data cannot tell (B-4) |
 //! | [`identify`] | one frequency from measurement to updated factor, and a band of them |
 //! | [`nelder_mead`] | the search on direct solves that the series is compared with |
 //! | [`efficiency`] | operation counts, P-49 to P-51 |

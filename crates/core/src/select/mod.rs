@@ -1,44 +1,194 @@
-//! stub
+//! The joint choice among exact solutions over a band, B-4: which of them are one material, and where the data cannot tell.
+//!
+//! A solution at one frequency can match the measured response to the last digit and be the wrong modulus; wrong ones form smooth
+//! branches too. The choice minimises over all paths through the band, and over leaving out what fits none,
+//! $$ \sum_k \Big( \tfrac 1 2 \chi_k^2 + \frac{|\ln E_k - \hat L_k|^2}{2 \sigma_k^2} + \text{material}_k \Big) + \text{gaps}, $$
+//! where L̂_k is what the path so far predicts: a curve of ln E over ln ω with a curvature of the size κ, which is fitted to the band. A
+//! material's slope is tied to its loss by causality; wrong branches, on which about ω²/E is constant, break that tie.
+//!
+//! | file | what is in it |
+//! |---|---|
+//! | `trend` | what a path knows of its curve, and what it expects next |
+//! | `path` | the search in one direction (dynamic programming over the last point, with gaps) |
+//! | `band` | both directions together: the best path through each candidate |
+//! | `track` | whole paths that compete: not the longest wins, but the one that is a material |
+
+mod band;
+mod path;
+mod track;
+mod trend;
+
 use crate::c64;
+use crate::frequency::omega_rad_s;
+use band::Band;
+use path::Point;
+use track::tracks;
+
 /// A solution at one frequency.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Node {
     /// The factor p̄ + c.
     pub factor: c64,
-    /// misfit
+    /// χ² = Σ_m |u_m − x_m|²/σ_m² over the sensors, σ_m the standard deviation of real and imaginary part each; 0 where one sensor
+    /// is matched exactly.
     pub misfit: f64,
-    /// std
+    /// Standard deviation of the factor's real and imaginary part each; 0 without noise, or where it is not known: up to 1 % is
+    /// then taken from the scatter along the path.
     pub std: f64,
 }
+
 /// What is chosen at one frequency.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Choice {
-    /// Index of the node; `None` where none belongs to the path.
+    /// The node that belongs to the path; `None` where none does.
     pub chosen: Option<usize>,
-    /// Other nodes that the data cannot exclude.
+    /// Other nodes that the data cannot exclude: where there are any, the frequency is ambiguous.
     pub alternatives: Vec<usize>,
-    /// By how much the best path through anything else costs more, in nats.
+    /// By how much the best path through another node costs more, in nats; infinite where there is none.
     pub margin: f64,
 }
-/// Options.
+
+/// How to choose.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SelectOptions {
-    /// Whether σ is known.
+    /// Sensors in the misfit. Default 1.
+    pub sensors: usize,
+    /// Whether σ_m is known. Default true; what the best misfits have above it is then taken for error of the model. Otherwise σ_m is known
+    /// up to a factor for the band and not below 1e-6 of what is given, such as the size of the response.
     pub sigma_known: bool,
+    /// Nats within which another node is an alternative. Default 7: odds of a thousand to one.
+    pub margin: f64,
 }
+
 impl Default for SelectOptions {
     fn default() -> Self {
-        Self { sigma_known: true }
+        Self { sensors: 1, sigma_known: true, margin: 7.0 }
     }
 }
-/// Choose.
-pub fn choose(_: &[f64], nodes: &[Vec<Node>], _: &SelectOptions) -> Vec<Choice> {
-    nodes
-        .iter()
-        .map(|n| Choice {
-            chosen: (0..n.len()).min_by(|&a, &b| n[a].misfit.total_cmp(&n[b].misfit)),
-            alternatives: vec![],
-            margin: 0.0,
+
+/// Chooses a path through the candidates of a band; frequencies ascend, and each has any number of nodes, also none.
+///
+/// Nodes that differ by less than twice their standard deviation, or 2e-7 of their value, are one. Nothing is chosen where no node fits the
+/// path, where a rival path that cannot be excluded has no node, or anywhere if no path is a material's or covers a sixth of the band.
+///
+/// # Limits
+/// - The factor is that of a stiffness, E′ > 0 and η ≥ 0, or a constant; bounds are applied before.
+/// - With one sensor continuity and causality alone decide: a band of less than a tenth of a unit in ln ω is likely ambiguous.
+/// - Where the right node is missing, a wrong one that lies where the path is expected is taken for it; where most are missing and a wrong
+///   branch has the slope of a material, that branch is.
+/// - The search keeps the best few paths of each history, so margins are upper bounds in crowded bands.
+///
+/// # Panics
+/// Where there is not one list of nodes for each frequency.
+pub fn choose(frequency_hz: &[f64], nodes: &[Vec<Node>], options: &SelectOptions) -> Vec<Choice> {
+    assert_eq!(frequency_hz.len(), nodes.len());
+    let noise = Noise::of(nodes, options);
+    let log_frequency: Vec<f64> = frequency_hz.iter().map(|&f| omega_rad_s(f).ln()).collect();
+    // At 0 Hz there is no ln ω; nothing is chosen there.
+    let bands = noise.scatters(nodes).map(|scatter| {
+        let points = nodes.iter().zip(&log_frequency);
+        let points = points
+            .map(|(nodes, log)| if log.is_finite() { noise.points(nodes, scatter) } else { Vec::new() });
+        Band { points: points.collect(), log_frequency: log_frequency.clone() }
+    });
+    let nothing = Choice { chosen: None, alternatives: Vec::new(), margin: f64::INFINITY };
+    let tracks = Band::likeliest(bands).map_or_else(Vec::new, |band| tracks(band, options.margin));
+    let Some((best, rivals)) = tracks.split_first() else { return vec![nothing; nodes.len()] };
+    let rivals: Vec<_> = rivals.iter().filter(|rival| rival.score < best.score + options.margin).collect();
+    let curvature = best.alone().curvature();
+    let Some((_, path)) = best.band.cheapest(curvature) else { return vec![nothing; nodes.len()] };
+    let costs = best.band.costs(curvature);
+    let choose_at = |k: usize| {
+        let mut choice = nothing.clone();
+        let points = &best.band.points[k];
+        let Some(index) = path[k] else { return choice };
+        // Where one of the paths that cannot be excluded has nothing, the right solution may be missing.
+        if rivals.iter().any(|rival| rival.chosen[k].is_none()) {
+            return choice;
+        }
+        choice.chosen = Some(points[index].node);
+        let others = points.iter().zip(&costs[k]).map(|(point, cost)| (point, cost - costs[k][index]));
+        let rivals = rivals.iter().filter_map(|rival| Some((rival.at(k)?, rival.score - best.score)));
+        for (other, margin) in others.chain(rivals).filter(|(other, _)| !other.is(&points[index])) {
+            choice.margin = choice.margin.min(margin);
+            if margin < options.margin && !choice.alternatives.contains(&other.node) {
+                choice.alternatives.push(other.node);
+            }
+        }
+        choice
+    };
+    (0..nodes.len()).map(choose_at).collect()
+}
+
+/// Standard deviation of ln E that is left to a root without noise: half the digits, as a nearly double root has.
+const ROUNDOFF: f64 = 1e-7;
+
+/// Least factor on a variance that is not known: a millionth of the response is roundoff near a resonance.
+const LEAST: f64 = 1e-12;
+
+/// Scatters that are tried: of ln E, beside what is given, or in units of the given standard deviation if that is of unknown size.
+const SCATTERS: [f64; 14] = [0.0, 1e-6, 3e-6, 1e-5, 3e-5, 1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 0.1, 0.3, 1.0];
+
+/// The largest scatter of ln E that is not given: with more, any node would fit any path.
+const MOST: f64 = 1e-2;
+
+/// How far points may lie off their curve.
+#[derive(Debug, Clone, Copy)]
+struct Scatter {
+    /// In units of the given standard deviation.
+    given: f64,
+    /// Beside it.
+    more: f64,
+}
+
+/// What a misfit means.
+struct Noise {
+    /// True variance over the given one.
+    factor: f64,
+    /// Nats of a right node's misfit, on average.
+    usual: f64,
+    /// Whether the variance is.
+    known: bool,
+}
+
+impl Noise {
+    /// From the lower quartile of the best misfits, which stands even where most frequencies have lost the right node.
+    fn of(nodes: &[Vec<Node>], options: &SelectOptions) -> Self {
+        let least = |nodes: &Vec<Node>| nodes.iter().map(|node| node.misfit).min_by(f64::total_cmp);
+        let mut best: Vec<f64> = nodes.iter().filter_map(least).filter(|misfit| misfit.is_finite()).collect();
+        best.sort_by(f64::total_cmp);
+        // E. B. Wilson, M. M. Hilferty, Proc. Natl. Acad. Sci. 17 (1931) 684–688: quantiles of χ² for the normal deviate −0.6745.
+        let freedom = 2.0 * options.sensors.saturating_sub(1).max(1) as f64;
+        let quartile =
+            freedom * (1.0 - 2.0 / (9.0 * freedom) - 0.6745 * (2.0 / (9.0 * freedom)).sqrt()).powi(3);
+        let found = best.get(best.len() / 4).map_or(0.0, |misfit| misfit / quartile);
+        let least = if options.sigma_known { 1.0 } else { LEAST };
+        // Without other sensors, or noise, there is no misfit to expect.
+        let usual = if found > least / 4.0 { freedom / 2.0 } else { 0.0 };
+        Self { factor: found.max(least), usual, known: options.sigma_known }
+    }
+
+    /// What is to be tried, least first.
+    fn scatters(&self, nodes: &[Vec<Node>]) -> impl Iterator<Item = Scatter> {
+        let known = self.known || nodes.iter().flatten().all(|node| node.std == 0.0);
+        let given = self.factor.sqrt();
+        SCATTERS.into_iter().filter(move |&size| !known || size <= MOST).map(move |size| {
+            if known { Scatter { given, more: size } } else { Scatter { given: size, more: 0.0 } }
         })
-        .collect()
+    }
+
+    fn points(&self, nodes: &[Node], scatter: Scatter) -> Vec<Point> {
+        let point = |(node, Node { factor, misfit, std }): (usize, &Node)| {
+            let given = scatter.given * std / factor.norm();
+            Point {
+                node,
+                log: factor.ln(),
+                variance: given * given + scatter.more * scatter.more + ROUNDOFF * ROUNDOFF,
+                misfit: misfit / (2.0 * self.factor) - self.usual,
+            }
+        };
+        let is_number =
+            |point: &Point| point.log.is_finite() && point.variance.is_finite() && point.misfit.is_finite();
+        nodes.iter().enumerate().map(point).filter(is_number).collect()
+    }
 }

@@ -1,0 +1,179 @@
+//! Paths through the candidates in one direction; of those that end alike the best few are kept.
+
+use super::trend::Trend;
+use crate::c64;
+
+/// A candidate as the search sees it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Point {
+    /// Its index among the nodes.
+    pub(super) node: usize,
+    /// ln E.
+    pub(super) log: c64,
+    /// Variance of real and imaginary part of ln E.
+    pub(super) variance: f64,
+    /// Nats that the other sensors hold against it, beyond what a solution has on average.
+    pub(super) misfit: f64,
+}
+
+impl Point {
+    /// Whether two are one solution, as far as each is known.
+    pub(super) fn is(&self, other: &Self) -> bool {
+        (self.log - other.log).norm_sqr() <= 4.0 * self.variance.max(other.variance)
+    }
+}
+
+/// What paths are judged by.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Rule {
+    /// κ: size of the curvature d² ln E/d(ln ω)².
+    pub(super) curvature: f64,
+    /// Whether a point is compared with one that could be anywhere, not only with the curve: the likelihood that tells κ.
+    pub(super) spread: bool,
+}
+
+/// A path as far as one frequency.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Path {
+    /// What it costs so far, in nats.
+    pub(super) cost: f64,
+    /// The part of it that says that this is no material.
+    pub(super) material: f64,
+    /// The part of it that the other sensors have.
+    pub(super) misfit: f64,
+    /// What is known of the curve here; `None` where nothing has been chosen yet.
+    pub(super) trend: Option<Trend>,
+    /// The point chosen at this frequency.
+    pub(super) chosen: Option<usize>,
+    /// Step and point that were chosen last.
+    last: Option<(usize, usize)>,
+    /// Number of points chosen.
+    pub(super) count: usize,
+    /// Whether none was chosen at the last frequency that has any.
+    gap: bool,
+    /// Index of the path that it continues, among those of the frequency before.
+    parent: usize,
+}
+
+impl Path {
+    /// Before the first frequency.
+    pub(super) const START: Self = Self {
+        cost: 0.0,
+        material: 0.0,
+        misfit: 0.0,
+        trend: None,
+        chosen: None,
+        last: None,
+        count: 0,
+        gap: false,
+        parent: 0,
+    };
+
+    /// Carried a step further.
+    pub(super) fn advanced(self, step: f64, curvature: f64) -> Self {
+        Self { trend: self.trend.map(|trend| trend.advanced(step, curvature)), ..self }
+    }
+
+    /// What this path, which has chosen a point here, and one from the other end of the band cost together.
+    pub(super) fn with(&self, other: &Self) -> f64 {
+        self.cost + other.cost + self.trend.zip(other.trend).map_or(0.0, |(a, b)| a.apart(&b))
+    }
+
+    fn through(&self, index: usize, point: &Point, step: f64, at: usize, rule: Rule) -> Self {
+        let (mut cost, mut material) = (point.misfit, 0.0);
+        let trend = match self.trend {
+            None => Trend::start(point.log, point.variance),
+            Some(trend) => {
+                cost += trend.surprise(point.log, point.variance);
+                if rule.spread {
+                    cost += trend.spread(point.variance);
+                }
+                let (nats, trend) = trend.joined(point.log, point.variance).as_material(step);
+                material = nats;
+                trend
+            }
+        };
+        Self {
+            cost: self.cost + cost + material,
+            material: self.material + material,
+            misfit: self.misfit + point.misfit,
+            trend: Some(trend),
+            chosen: Some(index),
+            last: Some((at, index)),
+            count: self.count + 1,
+            gap: false,
+            ..*self
+        }
+    }
+
+    fn past(&self, empty: bool) -> Self {
+        let cost = match (empty, self.gap) {
+            (true, _) => 0.0,
+            (false, false) => GAP,
+            (false, true) => SKIP,
+        };
+        Self { cost: self.cost + cost, chosen: None, gap: self.gap || !empty, ..*self }
+    }
+}
+
+/// Cost of choosing nothing where there are candidates: one solution in 400 is not found …
+const GAP: f64 = 6.0;
+
+/// … and if one is not, the next is likely not to be either. A right point costs one nat on average and must be cheaper than none.
+const SKIP: f64 = 4.0;
+
+/// Paths kept that end in one point, each by way of another.
+const KEPT: usize = 4;
+
+/// Paths kept that choose nothing at a frequency, each with another last point; through a gap all histories are such.
+const KEPT_IN_GAP: usize = 16;
+
+/// The best paths up to and including each frequency; `points` yields the step in ln ω that leads there, and what is there.
+pub(super) fn paths<'a>(points: impl Iterator<Item = (f64, &'a [Point])>, rule: Rule) -> Vec<Vec<Path>> {
+    let mut all: Vec<Vec<Path>> = Vec::new();
+    for (at, (step, points)) in points.enumerate() {
+        let start = [Path::START];
+        let before: Vec<Path> = all
+            .last()
+            .map_or(&start[..], Vec::as_slice)
+            .iter()
+            .enumerate()
+            .map(|(parent, path)| Path { parent, ..path.advanced(step, rule.curvature) })
+            .collect();
+        let mut now = Vec::with_capacity(KEPT * points.len() + KEPT_IN_GAP);
+        for (index, point) in points.iter().enumerate() {
+            let through = before.iter().map(|path| (path.last, path.through(index, point, step, at, rule)));
+            now.extend(best(through.collect(), KEPT));
+        }
+        let past = before.iter().map(|path| (path.last, path.past(points.is_empty())));
+        now.extend(best(past.collect(), KEPT_IN_GAP));
+        all.push(now);
+    }
+    all
+}
+
+/// The cheapest of each history, and of those the cheapest; the one that has chosen nothing so far stays, for it alone can start anew.
+fn best(mut paths: Vec<(Option<(usize, usize)>, Path)>, count: usize) -> impl Iterator<Item = Path> {
+    paths.sort_by(|(_, a), (_, b)| a.cost.total_cmp(&b.cost));
+    let mut kept: Vec<(Option<(usize, usize)>, Path)> = Vec::with_capacity(count + 1);
+    for (history, path) in paths {
+        let is_new = kept.iter().all(|&(other, _)| other != history);
+        if is_new && (kept.len() < count || history.is_none()) {
+            kept.push((history, path));
+        }
+    }
+    kept.into_iter().map(|(_, path)| path)
+}
+
+/// The cheapest path, and what it chooses at each frequency.
+pub(super) fn cheapest(all: &[Vec<Path>]) -> Option<(Path, Vec<Option<usize>>)> {
+    let last = all.last()?;
+    let mut at = (0..last.len()).min_by(|&a, &b| last[a].cost.total_cmp(&last[b].cost))?;
+    let whole = last[at];
+    let mut chosen = vec![None; all.len()];
+    for (chosen, paths) in chosen.iter_mut().zip(all).rev() {
+        *chosen = paths[at].chosen;
+        at = paths[at].parent;
+    }
+    Some((whole, chosen))
+}

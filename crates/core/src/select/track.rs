@@ -1,0 +1,63 @@
+//! Whole paths that compete with one another.
+
+use super::band::{Band, CURVATURE};
+use super::path::{Path, Point};
+
+/// Paths that are compared: a band has no more smooth branches that reach through most of it.
+const RIVALS: usize = 6;
+
+/// Nats by which a path that is nowhere is worse than one that is everywhere, all else being equal: one that misses a fifth of what
+/// another has is just about excluded. Not the cost of skipping point by point: a wrong branch may well reach further than the
+/// part of the right one that was found.
+const COVERAGE: f64 = 40.0;
+
+/// A path through a band.
+#[derive(Debug, Clone)]
+pub(super) struct Track {
+    /// What was there to be chosen: the band without what better covered but less material paths had taken.
+    pub(super) band: Band,
+    /// The point chosen at each frequency.
+    pub(super) chosen: Vec<Option<usize>>,
+    /// How badly it does, in nats, comparable with other tracks.
+    pub(super) score: f64,
+}
+
+impl Track {
+    /// The point chosen at a frequency.
+    pub(super) fn at(&self, k: usize) -> Option<&Point> {
+        self.chosen[k].map(|index| &self.band.points[k][index])
+    }
+
+    /// The band with nothing but this path.
+    pub(super) fn alone(&self) -> Band {
+        let points = (0..self.chosen.len()).map(|k| self.at(k).copied().into_iter().collect());
+        Band { points: points.collect(), log_frequency: self.band.log_frequency.clone() }
+    }
+}
+
+/// The cheapest path, the cheapest without its points, and so on, best score first; those among them that are better than no path at all by
+/// some nats.
+pub(super) fn tracks(mut band: Band, margin: f64) -> Vec<Track> {
+    let mut tracks = Vec::new();
+    let occupied = band.points.iter().filter(|points| !points.is_empty()).count() as f64;
+    for _ in 0..RIVALS {
+        let Some((path, chosen)) = band.cheapest(CURVATURE) else { break };
+        let Path { material, misfit, count, .. } = path;
+        if count == 0 {
+            break;
+        }
+        let missing = COVERAGE * (1.0 - count as f64 / occupied);
+        let track = Track { score: material + misfit + missing, band: band.clone(), chosen };
+        for (k, points) in band.points.iter_mut().enumerate() {
+            if let Some(taken) = track.at(k) {
+                points.retain(|point| !point.is(taken));
+            }
+        }
+        // Not the misfit, which where the model has errors of its own is larger than usual for the right path too.
+        if material + missing < COVERAGE - margin {
+            tracks.push(track);
+        }
+    }
+    tracks.sort_by(|a, b| a.score.total_cmp(&b.score));
+    tracks
+}
