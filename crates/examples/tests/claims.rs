@@ -5,7 +5,8 @@
 mod common;
 
 use common::{Answer, Folder, answers};
-use frfit::identify::{Status, identify_at};
+use frfit::for_each::sequential;
+use frfit::identify::{Band, Hooks, Method, Noise, Options, Selection, Status, identify_at, identify_band};
 use frfit::model::{Experiment, Sensor};
 use frfit_examples::{Model, clamped_plate, density, rubber_bar, rubber_bar_end, sandwich};
 use frfit_linalg::modes;
@@ -46,7 +47,7 @@ fn rubber_bar_measured_at_its_end_is_ambiguous_over_half_of_the_band() {
     for &f in &frequency_hz {
         let truth = model.truth.at(f).unwrap();
         let measured = model.measured_at(f).unwrap();
-        let found = identify_at(&model.nominal_at(f).unwrap(), &measured, &folder.options());
+        let found = identify_at(&model.nominal_at(f).unwrap(), &measured, &folder.paper());
         let is_right = (found.factor().unwrap() - truth).norm() < RIGHT * truth.norm();
         assert!(found.error.unwrap() < 1e-10);
         assert!(is_right || found.status == Status::Ambiguous, "{f} Hz: wrong and {}", found.status.name());
@@ -88,7 +89,7 @@ fn the_middle_of_the_struck_bar_alone_is_enough() {
     model.experiment.sensors.reverse();
     for f in model.frequency_hz() {
         let (truth, measured) = (model.truth.at(f).unwrap(), model.measured_at(f).unwrap());
-        let found = identify_at(&model.nominal_at(f).unwrap(), &measured, &folder.options());
+        let found = identify_at(&model.nominal_at(f).unwrap(), &measured, &folder.paper());
         assert_eq!(found.status, Status::Ok, "{f} Hz");
         assert!((found.factor().unwrap() - truth).norm() < RIGHT * truth.norm(), "{f} Hz");
     }
@@ -201,6 +202,37 @@ fn the_core_is_right_at_every_frequency() {
     }
     let ok = answers.iter().filter(|answer| answer.found.status == Status::Ok).count();
     assert!(ok + 2 >= answers.len(), "{ok} of {}", answers.len());
+}
+
+#[test]
+fn by_default_every_example_is_right_everywhere() {
+    let models = [
+        ("rubber-bar", rubber_bar(100)),
+        ("rubber-bar-end", rubber_bar_end(100)),
+        ("clamped-plate", clamped_plate(20)),
+        ("density", density(40)),
+        ("sandwich", sandwich(30, 1, 1)),
+    ];
+    for (name, model) in models {
+        let (folder, model) = (Folder::new(name), model.unwrap());
+        let (frequency_hz, measured) = folder.measured();
+        let options = Options { method: Method::Rational, selection: Selection::Joint, ..folder.options() };
+        let band = Band {
+            model: &model.stiffness,
+            experiment: &model.experiment,
+            parameter: &model.parameter,
+            frequency_hz: &frequency_hz,
+            measured: &measured,
+            noise: Noise::Unknown,
+        };
+        let hooks = Hooks { for_each: &sequential, progress: &|_, _, _| {} };
+        for found in identify_band(&band, &options, hooks).unwrap().outcomes {
+            let truth = model.truth.at(found.frequency_hz).unwrap();
+            assert_eq!(found.status, Status::Ok, "{name}, {} Hz", found.frequency_hz);
+            let deviation = (found.factor().unwrap() - truth).norm() / truth.norm();
+            assert!(deviation < RIGHT, "{name}, {} Hz: off by {deviation:e}", found.frequency_hz);
+        }
+    }
 }
 
 #[test]

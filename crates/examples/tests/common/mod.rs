@@ -2,7 +2,7 @@
 #![allow(dead_code, reason = "each test file uses its own part")]
 
 use frfit::c64;
-use frfit::identify::{Identified, Options, identify_at};
+use frfit::identify::{Identified, Method, Options, Selection, identify_at};
 use frfit::quantity::Quantity;
 use frfit::roots::Bounds;
 use frfit_examples::{File, Model, generate};
@@ -25,7 +25,13 @@ impl Folder {
         std::str::from_utf8(self.bytes("case.toml")).unwrap().parse().unwrap()
     }
 
-    /// The case's options, with nothing left to a default that the case does not say.
+    /// The case's bounds, with everything else as the paper has it.
+    pub(crate) fn paper(&self) -> Options {
+        let Options { bounds, real, .. } = self.options();
+        Options { bounds, real, ..Options::paper() }
+    }
+
+    /// The case's options.
     pub(crate) fn options(&self) -> Options {
         let case = self.case();
         let identify = case["identify"].as_table().unwrap();
@@ -34,9 +40,13 @@ impl Folder {
             Some([0, 1].map(|k| pair[k].as_float().unwrap()))
         };
         Options {
-            method: identify["method"].as_str().unwrap().parse().unwrap(),
-            order: identify["order"].as_integer().unwrap() as usize,
-            selection: identify["selection"].as_str().unwrap().parse().unwrap(),
+            method: identify
+                .get("method")
+                .map_or(Method::default(), |word| word.as_str().unwrap().parse().unwrap()),
+            order: identify.get("order").map_or(30, |order| order.as_integer().unwrap() as usize),
+            selection: identify
+                .get("selection")
+                .map_or(Selection::default(), |word| word.as_str().unwrap().parse().unwrap()),
             bounds: Bounds { storage: bound("storage"), loss_factor: bound("loss_factor") },
             real: identify.get("real").is_some_and(|real| real.as_bool().unwrap()),
             ..Options::default()
@@ -90,10 +100,10 @@ pub(crate) struct Answer {
     pub(crate) radius_at_truth: f64,
 }
 
-/// Identifies every `step`-th frequency with the options of the case.
+/// Identifies every `step`-th frequency in the paper's way, with the bounds of the case.
 pub(crate) fn answers(folder: &Folder, model: &Model, step: usize) -> Vec<Answer> {
     let (frequency_hz, measured) = folder.measured();
-    let options = folder.options();
+    let options = folder.paper();
     let at = |(&f, measured): (&f64, &Vec<c64>)| {
         let truth = model.truth.at(f).unwrap();
         let found = identify_at(&model.nominal_at(f).unwrap(), measured, &options);

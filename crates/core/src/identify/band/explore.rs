@@ -64,9 +64,8 @@ impl Explored {
 /// Two responses this near are one, with a few digits to spare for what a solve near a resonance loses.
 const MATCH: f64 = 1e-6;
 
-/// Vectors of the first attempt, and how many each further one adds.
+/// Order of the first attempt; each further one doubles it, so that the last costs more than all before.
 const FIRST: usize = 16;
-const STEP: usize = 8;
 
 /// As in the rational method of one frequency: what is left of a double precision solve with a condition of 1e6.
 const RESIDUAL: f64 = 1e-9;
@@ -121,7 +120,7 @@ fn try_explore(
             explored.nominal_response = response.respond(c64::default()).map_err(broken)?;
             return Ok(explored);
         }
-        reached = (reached + STEP).min(order);
+        reached = (2 * reached).min(order);
         response = response.extended(system, 0, reached)?;
     }
 }

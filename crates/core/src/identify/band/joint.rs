@@ -37,7 +37,11 @@ pub(super) fn identify<'a>(
     let nominal = |i: usize| at[i].parameters[0].nominal;
     let nodes: Vec<Vec<Node>> =
         explored.iter().enumerate().map(|(i, found)| nodes(found, nominal(i))).collect();
-    let known = SelectOptions { sigma_known: matches!(band.noise, Noise::Known(_)) };
+    let known = SelectOptions {
+        sensors: band.experiment.sensors.len(),
+        sigma_known: matches!(band.noise, Noise::Known(_)),
+        ..SelectOptions::default()
+    };
     let choices = choose(band.frequency_hz, &nodes, &known);
     let noise = noise_level(&nodes, band);
     let outcomes: Vec<Identified> = (0..at.len())
