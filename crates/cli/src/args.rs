@@ -87,6 +87,9 @@ pub(crate) struct Identify {
     /// What answers at a frequency (auto, full, subspace), in place of the case's
     #[arg(long)]
     pub(crate) space: Option<String>,
+    /// Memory that may be used, in MB (by default what is available): a model that needs more is refused
+    #[arg(long, value_name = "MB")]
+    pub(crate) memory: Option<u64>,
     /// Frequencies at which the error is mapped over the orders; 0 for no map (default: 60, above 300 dofs 30, above 5000 none)
     #[arg(long, value_name = "N")]
     pub(crate) error_map: Option<usize>,
@@ -109,6 +112,9 @@ pub(crate) struct Respond {
     /// Folder for the results
     #[arg(long, value_name = "DIR")]
     pub(crate) out: PathBuf,
+    /// Memory that may be used, in MB (by default what is available): a model that needs more is refused
+    #[arg(long, value_name = "MB")]
+    pub(crate) memory: Option<u64>,
     #[command(flatten)]
     pub(crate) overrides: Overrides,
 }

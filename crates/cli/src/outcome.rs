@@ -67,7 +67,7 @@ impl From<JobError> for Failure {
     fn from(error: JobError) -> Self {
         match error {
             JobError::Figure(_) => Self::Internal(error.to_string()),
-            JobError::Input(_) | JobError::OutsideTable(_) | JobError::Write(_) => {
+            JobError::Input(_) | JobError::OutsideTable(_) | JobError::Memory(_) | JobError::Write(_) => {
                 Self::Input(error.to_string())
             }
         }

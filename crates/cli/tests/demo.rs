@@ -142,8 +142,8 @@ fn respond_writes_what_identify_reads() {
     let mut compared = 0;
     for (a, b) in pairs.filter(|(_, b)| !b.is_empty()) {
         let (a, b) = (number(&a), number(&b));
-        // Two ways through the same factor: roundoff of the solve.
-        assert!((a - b).abs() <= 1e-9 * a.abs().max(b.abs()), "{a} {b}");
+        // The band's subspace is trained to 1e-6 away from the answers; the forward response is a direct solve.
+        assert!((a - b).abs() <= 1e-5 * a.abs().max(b.abs()), "{a} {b}");
         compared += 1;
     }
     assert!(compared > 10);

@@ -24,7 +24,7 @@ fn edit(file: &Path, from: &str, to: &str) {
 
 #[test]
 fn unknown_key() {
-    let said = message(|d| edit(&d.join("case.toml"), "order =", "oder ="));
+    let said = message(|d| edit(&d.join("case.toml"), "[identify]", "[identify]\noder = 30"));
     assert!(said.contains("case.toml:") && said.contains("oder") && said.contains("order"), "{said}");
 }
 
@@ -59,6 +59,20 @@ fn missing_case_and_missing_file() {
         said.contains("case.toml:") && said.contains("expected a file at d/frf.csv, found none"),
         "{said}"
     );
+}
+
+#[test]
+fn a_model_that_does_not_fit_into_memory() {
+    let folder = tempfile::tempdir().unwrap();
+    done(folder.path(), &["--quiet", "example", "clamped-plate", "plate"]);
+    for method in ["series", "rational"] {
+        let case = ["identify", "plate/case.toml", "--out", "out", "--method", method, "--memory", "1"];
+        let said = refused(folder.path(), &case);
+        assert!(said.contains("a model of 1083 degrees of freedom: expected "), "{said}");
+        assert!(said.contains(" MB of memory for ") && said.contains("found 1.000 MB"), "{said}");
+    }
+    refused(folder.path(), &["respond", "plate/case.toml", "--out", "out", "--memory", "1"]);
+    assert!(!folder.path().join("out").exists(), "nothing is written");
 }
 
 #[test]

@@ -3,6 +3,7 @@
 use crate::error::InputError;
 use crate::figures::{identify_figures, respond_figures};
 use crate::load::{Case, IdentifyCase, Overrides, Purpose, load};
+use crate::memory::{MemoryError, check_full, check_identify};
 use crate::output::{
     File, WriteError, candidates_csv, identified_csv, respond_csv, respond_uff, response_csv, summary_json,
     write_all,
@@ -21,6 +22,8 @@ pub enum JobError {
     Input(InputError),
     /// A table of a factor does not reach a frequency of the band.
     OutsideTable(OutsideTable),
+    /// The model does not fit into memory.
+    Memory(MemoryError),
     /// The output folder cannot be written.
     Write(WriteError),
     /// A figure could not be drawn: a fault of this program.
@@ -32,6 +35,7 @@ impl fmt::Display for JobError {
         match self {
             Self::Input(error) => write!(f, "{error}"),
             Self::OutsideTable(error) => write!(f, "{error}"),
+            Self::Memory(error) => write!(f, "{error}"),
             Self::Write(error) => write!(f, "{error}"),
             Self::Figure(error) => write!(f, "a figure could not be drawn: {error}"),
         }
@@ -50,7 +54,13 @@ macro_rules! from {
     };
 }
 
-from!(Input(InputError), OutsideTable(OutsideTable), Write(WriteError), Figure(PngError));
+from!(
+    Input(InputError),
+    OutsideTable(OutsideTable),
+    Memory(MemoryError),
+    Write(WriteError),
+    Figure(PngError)
+);
 
 /// An identification that was done and written.
 #[derive(Debug)]
@@ -85,6 +95,7 @@ pub fn identify_case(
     let case = load(case_file, overrides, Purpose::Identify)?;
     let seconds_load = start.elapsed().as_secs_f64();
     let wanted = case.identify.as_ref().expect("a case loaded to identify has something to identify");
+    check_identify(&case, wanted, options.memory_bytes)?;
     let run = identify(&case, wanted, options, progress)?;
     let start = Instant::now();
     let mut files = identify_figures(&case, wanted, &run)?;
@@ -100,14 +111,16 @@ pub fn identify_case(
 /// Loads a case, computes its forward response, and writes table, UFF file and figure into `out`.
 ///
 /// # Errors
-/// [`JobError`]. A frequency at which the system cannot be solved has empty cells, not an error.
+/// [`JobError`], also where the model does not fit into `memory_bytes`, or without them into what there is. A frequency at which the system cannot be solved has empty cells, not an error.
 pub fn respond_case(
     case_file: &Path,
     overrides: &Overrides,
+    memory_bytes: Option<u64>,
     out: &Path,
     progress: Progress<'_>,
 ) -> Result<(Case, RespondRun), JobError> {
     let case = load(case_file, overrides, Purpose::Respond)?;
+    check_full(&case, memory_bytes)?;
     let run = respond(&case, progress)?;
     let mut files = respond_figures(&case, &run)?;
     files.push(File::new("response.csv", respond_csv(&case, &run)));

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | [`case`] | the case file as it is written, every key and type checked |
 //! | [`load`](mod@load) | its files read: model, load, sensors, measured receptance |
+//! | [`memory`] | whether a model fits, before it is factorised |
 //! | [`run`] | the computations, frequency by frequency, on all cores |
 //! | [`figures`] | what a run looks like, as the paper draws it |
 //! | [`output`] | tables, summary, and writing them whole or not at all |
@@ -19,6 +20,7 @@ pub mod figures;
 pub mod inspect;
 pub mod job;
 pub mod load;
+pub mod memory;
 mod nearest;
 pub mod output;
 pub mod run;

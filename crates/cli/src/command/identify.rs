@@ -1,6 +1,6 @@
 //! `frfit identify`
 
-use super::say;
+use super::{megabytes, say};
 use crate::args::{Args, Identify};
 use crate::outcome::{Failure, Outcome};
 use crate::progress::Progress;
@@ -19,7 +19,7 @@ pub(crate) fn run(args: &Args, identify: &Identify) -> Result<Outcome, Failure> 
         selection: identify.selection.clone(),
         space: identify.space.clone(),
     };
-    let options = RunOptions { error_map: identify.error_map };
+    let options = RunOptions { error_map: identify.error_map, memory_bytes: identify.memory.map(megabytes) };
     let job = carry_out(args, &identify.case, &overrides, options, &identify.out)?;
     let trusted = job.run.count(Status::Ok) == job.run.outcomes.len();
     Ok(if identify.strict && !trusted { Outcome::NotTrusted } else { Outcome::Done })

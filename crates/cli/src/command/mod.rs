@@ -19,3 +19,8 @@ pub(crate) fn say(text: &str) -> Result<(), Failure> {
         _ => Ok(()),
     }
 }
+
+/// As many bytes.
+fn megabytes(count: u64) -> u64 {
+    count.saturating_mul(1_000_000)
+}

@@ -1,6 +1,6 @@
 //! `frfit respond`
 
-use super::say;
+use super::{megabytes, say};
 use crate::args::{Args, Respond};
 use crate::outcome::{Failure, Outcome};
 use crate::progress::Progress;
@@ -11,8 +11,9 @@ use serde_json::json;
 pub(crate) fn run(args: &Args, respond: &Respond) -> Result<Outcome, Failure> {
     let overrides = Overrides { band_hz: respond.overrides.band, ..Overrides::default() };
     let progress = Progress::new(args.quiet || args.json);
-    let done =
-        respond_case(&respond.case, &overrides, &respond.out, &|done, total| progress.show(done, total));
+    let memory = respond.memory.map(megabytes);
+    let show = |done, total| progress.show(done, total);
+    let done = respond_case(&respond.case, &overrides, memory, &respond.out, &show);
     progress.end();
     let (case, run) = done?;
     let broken: Vec<String> = run

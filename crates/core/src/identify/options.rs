@@ -1,5 +1,6 @@
 //! How to identify.
 
+use crate::c64;
 use crate::roots::{Bounds, RootOptions};
 use std::fmt;
 use std::str::FromStr;
@@ -141,6 +142,9 @@ impl FromStr for Space {
     }
 }
 
+/// Nominal values further off are estimates of another kind: `whole_box`.
+const BOX_RATIO: f64 = 4.0;
+
 /// Degrees of freedom up to which a subspace is no smaller than the model.
 const TINY: usize = 64;
 
@@ -251,6 +255,19 @@ impl Options {
             return Err(OptionsError::Selection(self.method));
         }
         Ok(())
+    }
+
+    /// [low, high] of the real part in which answers are looked for about a nominal factor: the bounds, as far as they are within a factor of four of it.
+    /// `None` where nothing bounds it.
+    pub fn box_about(&self, nominal: c64) -> Option<[f64; 2]> {
+        if nominal.re <= 0.0 {
+            return self.bounds.storage;
+        }
+        let [low, high] = self.bounds.storage.unwrap_or([0.0, f64::INFINITY]);
+        let ratio = if self.whole_box && self.bounds.storage.is_some() { f64::INFINITY } else { BOX_RATIO };
+        // A nominal outside the bounds: the box is where they begin.
+        let middle = nominal.re.clamp(low, high);
+        Some([low.max(middle / ratio), high.min(middle * ratio)])
     }
 
     /// The part that concerns roots.

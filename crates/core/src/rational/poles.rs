@@ -61,7 +61,9 @@ impl Poles {
     pub fn series_order(&self, sensor: usize, correction: c64, error: f64) -> Option<usize> {
         let z = correction / self.scale;
         let allowed = error * self.respond_with_slope(correction).0[sensor].norm();
-        let order = |(rho, lambda): (&c64, &c64)| {
+        let residues = &self.residues[sensor];
+        let order = |(k, lambda): (usize, &c64)| {
+            let rho = residues[k];
             let (size, share) = ((z * lambda).norm(), (rho / (1.0 + z * lambda)).norm());
             if share * size <= allowed {
                 Some(0)
@@ -69,18 +71,28 @@ impl Poles {
                 // Smallest n with share · size^{n+1} <= allowed.
                 Some(((allowed / share).ln() / size.ln()).ceil() as usize - 1)
             } else {
-                // A pole that takes no part, to roundoff, does not bound the series either.
-                (share <= f64::EPSILON * allowed / error).then_some(0)
+                (!takes_part(residues, k)).then_some(0)
             }
         };
-        self.residues[sensor].iter().zip(&self.lambda).map(order).try_fold(0, |most, n| Some(most.max(n?)))
+        self.lambda.iter().enumerate().map(order).try_fold(0, |most, n| Some(most.max(n?)))
     }
 
     /// ρ/|c|: one over the distance to the nearest pole (P-14).
     ///
     /// # Limits
-    /// A pole that the load does not excite is not seen; it does not bound the series of this response either.
+    /// A pole that the load does not excite, or no sensor sees, is left out; it does not bound the series of this response either.
     pub fn radius_per_unit(&self) -> f64 {
-        self.lambda.iter().map(|lambda| lambda.norm()).fold(0.0, f64::max) / self.scale
+        let seen = |k: usize| self.residues.iter().any(|residues| takes_part(residues, k));
+        let moduli =
+            self.lambda.iter().enumerate().filter(|&(k, _)| seen(k)).map(|(_, lambda)| lambda.norm());
+        moduli.fold(0.0, f64::max) / self.scale
     }
+}
+
+/// A residue of less than this part of the largest is one that a reduced model cannot tell from none.
+const TAKES_PART: f64 = 1e-6;
+
+fn takes_part(residues: &[c64], k: usize) -> bool {
+    let largest = residues.iter().map(|rho| rho.norm()).fold(0.0, f64::max);
+    residues[k].norm() > TAKES_PART * largest
 }

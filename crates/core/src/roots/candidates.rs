@@ -45,6 +45,8 @@ pub enum Refusal {
     OutOfBounds(&'static str),
     /// It has an imaginary part, and the parameter is real.
     NotReal,
+    /// It is further from the nominal than anything was looked at closely.
+    Far,
     /// It moves as terms are added, or the series does not converge there; of a rational response: it does not solve the full
     /// system.
     Moves,

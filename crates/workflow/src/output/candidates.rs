@@ -11,7 +11,7 @@ const COLUMNS: [&str; 6] =
 /// One row a frequency and candidate, in the order in which they were found.
 ///
 /// The verdict is `chosen`, `alternative` (the data cannot exclude it), `admissible` (the other frequencies or sensors exclude it), or the
-/// reason of a refusal: `storage` or `loss_factor` (that bound is broken), `not_real`, `moves`, `not_a_root`.
+/// reason of a refusal: `storage` or `loss_factor` (that bound is broken), `not_real`, `far` (from the nominal), `moves`, `not_a_root`.
 pub fn candidates_csv(outcomes: &[Identified]) -> String {
     let rows = outcomes.iter().flat_map(|outcome| {
         outcome.roots.iter().map(|root| {
@@ -36,6 +36,7 @@ fn verdict(outcome: &Identified, root: &Candidate) -> &'static str {
         None => "admissible",
         Some(Refusal::OutOfBounds(bound)) => bound,
         Some(Refusal::NotReal) => "not_real",
+        Some(Refusal::Far) => "far",
         Some(Refusal::Moves) => "moves",
         Some(Refusal::NotARoot) => "not_a_root",
     }

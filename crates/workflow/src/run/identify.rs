@@ -19,6 +19,8 @@ pub struct RunOptions {
     /// At how many frequencies of the band the error is mapped over the orders, each order a direct solve.
     /// `None`: 60 up to 300 degrees of freedom, 30 up to 5000, and none above, where it would cost more than the identification.
     pub error_map: Option<usize>,
+    /// Bytes of memory that may be used. `None`: what the system says is available.
+    pub memory_bytes: Option<u64>,
 }
 
 /// ε over frequency and order: the paper's Figs 3, 8 and 12.

@@ -26,7 +26,11 @@ pub(super) fn identify<'a>(
                 Ok(system) => identify_at(&system, &band.measured[i], options),
                 Err(breakdown) => broken(i, breakdown),
             };
-            let answers = |_: usize, found: &Identified| found.correction.into_iter().collect::<Vec<_>>();
+            let answers = |found: &[Identified]| {
+                let corrections =
+                    found.iter().enumerate().filter_map(|(i, outcome)| Some((i, outcome.correction?)));
+                corrections.collect()
+            };
             let found = space.solve(hooks, find, answers);
             let outcomes = found.into_iter().enumerate().map(|(i, mut outcome)| {
                 if let Some(correction) = outcome.correction {

@@ -79,7 +79,7 @@ const STEPS: usize = 30;
 /// Solutions nearer than this, relative to the factor, are one.
 const SAME: f64 = 1e-7;
 
-/// A start this far outside the bounds (relative to the factor) may still be pulled inside by the other sensors.
+/// A start this far outside the box (relative to the factor) may still be pulled inside by the other sensors.
 const MARGIN: f64 = 0.2;
 
 /// Finds all solutions within the bounds, `order` bounding the Krylov space.
@@ -149,8 +149,8 @@ impl Fit<'_> {
         let mut found: Vec<Solution> = Vec::new();
         for sensor in self.starting_sensors() {
             for start in response.starts(sensor, self.measured[sensor])? {
-                if !self.near_bounds(start) {
-                    let refusal = roots.refuse(self.nominal, start);
+                if !self.near_box(start) {
+                    let refusal = roots.refuse(self.nominal, start).or(Some(Refusal::Far));
                     explored.refused.push(Candidate { correction: start, drift: f64::NAN, refusal });
                     continue;
                 }
@@ -183,15 +183,14 @@ impl Fit<'_> {
         sensors
     }
 
-    fn near_bounds(&self, correction: c64) -> bool {
+    fn near_box(&self, correction: c64) -> bool {
         let factor = self.nominal + correction;
-        let bounds = &self.options.bounds;
         let wide = |bound: Option<[f64; 2]>, value: f64, margin: f64| {
             bound.is_none_or(|[low, high]| low - margin <= value && value <= high + margin)
         };
         factor.is_finite()
-            && wide(bounds.storage, factor.re, MARGIN * factor.norm())
-            && wide(bounds.loss_factor, crate::material::loss_factor(factor), MARGIN)
+            && wide(self.options.box_about(self.nominal), factor.re, MARGIN * factor.norm())
+            && wide(self.options.bounds.loss_factor, crate::material::loss_factor(factor), MARGIN)
     }
 
     /// Gauss–Newton on Σ |u_m − x_m(c)|²/σ_m², B-5: for one sensor Newton's method on x(c) = u. `None` where it does not settle.

@@ -6,10 +6,10 @@ use super::verdict::{Evidence, verdict};
 use super::{Band, BandOutcome, Hooks, Noise, Stage};
 use crate::c64;
 use crate::for_each::map;
-use crate::identify::{Identified, Options, relative_error};
+use crate::identify::{Identified, Options};
 use crate::model::ModelAt;
 use crate::response::{FullModel, Response, Work};
-use crate::select::{Node, SelectOptions, choose};
+use crate::select::{Choice, Node, SelectOptions, choose};
 use crate::subspace::ReducedModel;
 use frfit_linalg::solve::Breakdown;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -29,21 +29,38 @@ pub(super) fn identify<'a>(
     hooks: Hooks<'_>,
 ) -> BandOutcome {
     let sigma = deviations(band);
-    let (explored, mut work) = match &mut space {
-        Some(space) => (on_subspace(band, space, &sigma, options, hooks), Work::default()),
-        None => on_full_model(band, at, &sigma, options, hooks),
-    };
-    (hooks.progress)(Stage::Selection, 0, at.len());
     let nominal = |i: usize| at[i].parameters[0].nominal;
-    let nodes: Vec<Vec<Node>> =
-        explored.iter().enumerate().map(|(i, found)| nodes(found, nominal(i))).collect();
-    let known = SelectOptions {
+    let select = SelectOptions {
         sensors: band.experiment.sensors.len(),
         sigma_known: matches!(band.noise, Noise::Known(_)),
         ..SelectOptions::default()
     };
-    let choices = choose(band.frequency_hz, &nodes, &known);
-    let noise = noise_level(&nodes, band);
+    let select = |found: &[Explored]| {
+        (hooks.progress)(Stage::Selection, 0, at.len());
+        let nodes: Vec<Vec<Node>> =
+            found.iter().enumerate().map(|(i, found)| nodes(found, nominal(i))).collect();
+        (choose(band.frequency_hz, &nodes, &select), noise_level(&nodes, band))
+    };
+    let (explored, mut work) = match &mut space {
+        Some(space) => {
+            let find = |i: usize, system: Result<ReducedModel<'_>, Breakdown>| match system {
+                // Vectors of this length cost nothing: the order bounds those of the full model.
+                Ok(system) => explore(&system, &band.measured[i], &sigma[i], options, system.dim()),
+                Err(breakdown) => Explored::broken(breakdown),
+            };
+            let answers = |found: &[Explored]| {
+                let choices = select(found).0;
+                let of = |(i, choice): (usize, &Choice)| {
+                    let taken = choice.chosen.into_iter().chain(choice.alternatives.iter().copied());
+                    taken.map(|k| (i, found[i].solutions[k].correction)).collect::<Vec<_>>()
+                };
+                choices.iter().enumerate().flat_map(of).collect()
+            };
+            (space.solve(hooks, find, answers), Work::default())
+        }
+        None => on_full_model(band, at, &sigma, options, hooks),
+    };
+    let (choices, noise) = select(&explored);
     let outcomes: Vec<Identified> = (0..at.len())
         .map(|i| {
             let chosen = choices[i].chosen.map(|k| explored[i].solutions[k].correction);
@@ -57,21 +74,6 @@ pub(super) fn identify<'a>(
         work += space.work();
     }
     BandOutcome { outcomes, work, subspace_size: space.map(|space| space.size()) }
-}
-
-fn on_subspace(
-    band: &Band<'_>,
-    space: &mut Space<'_, '_>,
-    sigma: &[Vec<f64>],
-    options: &Options,
-    hooks: Hooks<'_>,
-) -> Vec<Explored> {
-    let find = |i: usize, system: Result<ReducedModel<'_>, Breakdown>| match system {
-        // Vectors of this length cost nothing: the order bounds those of the full model.
-        Ok(system) => explore(&system, &band.measured[i], &sigma[i], options, system.dim()),
-        Err(breakdown) => Explored::broken(breakdown),
-    };
-    space.solve(hooks, find, |i, found| relevant(found, &band.measured[i]))
 }
 
 fn on_full_model(
@@ -118,16 +120,6 @@ fn deviations(band: &Band<'_>) -> Vec<Vec<f64>> {
         u.iter().enumerate().map(of).collect()
     };
     band.measured.iter().enumerate().map(row).collect()
-}
-
-/// The corrections that may be the answer: those that explain all sensors about as well as the best one does. Beside the right one the others are
-/// off by many times that; where it is not found, the best is wrong too, and nothing is lost.
-fn relevant(found: &Explored, measured: &[c64]) -> Vec<c64> {
-    let errors: Vec<f64> = found.solutions.iter().map(|s| relative_error(measured, &s.response)).collect();
-    let best = errors.iter().copied().fold(f64::INFINITY, f64::min);
-    // The subspace's first errors are 1e-6 of the response, more on antiresonances.
-    let near = |error: &f64| *error <= 100.0 * best + 1e-3;
-    found.solutions.iter().zip(&errors).filter(|(_, error)| near(error)).map(|(s, _)| s.correction).collect()
 }
 
 fn nodes(found: &Explored, nominal: c64) -> Vec<Node> {

@@ -24,9 +24,6 @@ const FREQUENCIES: usize = 60;
 const BLOCKS: usize = 24;
 const BLOCK_LEAST: usize = 8;
 
-/// Without bounds, or with wider ones, the box is this factor to either side of the nominal.
-const BOX_RATIO: f64 = 4.0;
-
 /// Storage values of the box per octave, and the least.
 const PER_OCTAVE: f64 = 1.0;
 
@@ -74,16 +71,16 @@ impl<'a, 'o> Space<'a, 'o> {
         Ok(space)
     }
 
-    /// Finds what there is at every frequency, looks how good the subspace is at the answers, and where it is not good enough, trains it there and
-    /// finds again.
+    /// Finds what there is at every frequency and lets the caller say which corrections (frequency, c) are the answers; where the subspace is not good enough
+    /// at one, trains it there and finds again.
     pub(super) fn solve<T: Clone + Send + Sync>(
         &mut self,
         hooks: Hooks<'_>,
         find: impl Fn(usize, Result<ReducedModel<'_>, Breakdown>) -> T + Sync,
-        answers: impl Fn(usize, &T) -> Vec<c64> + Sync,
+        mut answers: impl FnMut(&[T]) -> Vec<(usize, c64)>,
     ) -> Vec<T> {
         let n = self.at.len();
-        let mut all: Vec<Option<T>> = vec![None; n];
+        let mut all: Vec<T> = Vec::new();
         let mut pending: Vec<usize> = (0..n).collect();
         for round in 0..=ROUNDS {
             self.localise(&pending, hooks.for_each);
@@ -92,23 +89,30 @@ impl<'a, 'o> Space<'a, 'o> {
             let found = map(hooks.for_each, pending.len(), |k| {
                 let i = pending[k];
                 let found = find(i, space.model(i).at(&space.at[i]));
-                let uncertain: Vec<c64> =
-                    answers(i, &found).into_iter().filter(|&c| space.is_uncertain(i, c)).collect();
                 (hooks.progress)(Stage::Solutions, done.fetch_add(1, Ordering::Relaxed) + 1, n);
-                (found, uncertain)
+                found
             });
-            let mut uncertain: Vec<(usize, c64)> = Vec::new();
-            for (&i, (found, corrections)) in pending.iter().zip(found) {
-                all[i] = Some(found);
-                uncertain.extend(corrections.into_iter().map(|correction| (i, correction)));
+            if all.is_empty() {
+                all = found;
+            } else {
+                pending.iter().zip(found).for_each(|(&i, found)| all[i] = found);
             }
+            let answers = answers(&all);
+            let uncertain =
+                map(hooks.for_each, answers.len(), |k| space.is_uncertain(answers[k].0, answers[k].1));
+            let uncertain: Vec<(usize, c64)> = answers
+                .into_iter()
+                .zip(uncertain)
+                .filter(|(_, uncertain)| *uncertain)
+                .map(|(a, _)| a)
+                .collect();
             if uncertain.is_empty() || round == ROUNDS || !self.refine(&uncertain, hooks).unwrap_or(false) {
                 break;
             }
             pending = uncertain.into_iter().map(|(i, _)| i).collect();
             pending.dedup();
         }
-        all.into_iter().flatten().collect()
+        all
     }
 
     fn is_uncertain(&self, i: usize, correction: c64) -> bool {
@@ -126,7 +130,12 @@ impl<'a, 'o> Space<'a, 'o> {
         let training = TrainOptions { tolerance: ANSWER, ..TrainOptions::default() };
         self.subspace.train(&points, &training, hooks.for_each)?;
         self.answers.extend_from_slice(answers);
-        self.blocks.iter_mut().for_each(|block| block.model = None);
+        for block in &mut self.blocks {
+            let [first, last] = block.range;
+            if answers.iter().any(|(i, _)| (first..=last).contains(i)) {
+                block.model = None;
+            }
+        }
         Ok(self.subspace.size() > before)
     }
 
@@ -171,15 +180,13 @@ impl<'a, 'o> Space<'a, 'o> {
         let nominal = at.parameters[0].nominal;
         let point = |factor: c64| Point { at: at.clone(), correction: factor - nominal };
         let mut points = vec![point(nominal)];
-        let bounds = &self.options.bounds;
-        if nominal.re > 0.0 {
-            let [low, high] = bounds.storage.unwrap_or([0.0, f64::INFINITY]);
-            // Bounds that the nominal is outside of: the box is theirs.
-            let ratio = if self.options.whole_box { f64::MAX } else { BOX_RATIO };
-            let reach = [nominal.re.clamp(low, high) / ratio, nominal.re.clamp(low, high) * ratio];
-            let [low, high] = [low.max(reach[0]), high.min(reach[1])];
+        if let Some([low, high]) =
+            self.options.box_about(nominal).filter(|[low, high]| 0.0 < *low && high.is_finite())
+        {
             let steps = ((PER_OCTAVE * (high / low).log2()).ceil() as usize).max(2);
-            let eta = bounds
+            let eta = self
+                .options
+                .bounds
                 .loss_factor
                 .map_or(loss_factor(nominal), |[low, high]| loss_factor(nominal).clamp(low, high));
             let storage = |k: usize| low * (high / low).powf(k as f64 / steps as f64);

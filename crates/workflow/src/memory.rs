@@ -1,0 +1,123 @@
+//! Whether a model fits into memory, told before any of it is factorised.
+
+use crate::load::{Case, IdentifyCase};
+use frfit_linalg::c64;
+use frfit_linalg::solve::{Breakdown, FactorMemory};
+use std::fmt;
+
+/// Vectors of a subspace to reckon with, and factors held beside them.
+const VECTORS: usize = 256;
+const FACTORS: usize = 4;
+
+/// A model that would not fit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MemoryError {
+    /// Degrees of freedom.
+    pub dofs: usize,
+    /// Bytes that the computation would take; `None` where even the structure of the factor does not fit.
+    pub needed: Option<u64>,
+    /// Bytes that there are, or that the user allows.
+    pub available: u64,
+    /// What takes them.
+    pub what: String,
+}
+
+impl fmt::Display for MemoryError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let needed = self.needed.map_or("more than can be counted".into(), bytes);
+        write!(
+            f,
+            "a model of {} degrees of freedom: expected {} of memory for {}, found {} (--memory sets how much may be used)",
+            self.dofs,
+            needed,
+            self.what,
+            bytes(self.available)
+        )
+    }
+}
+
+impl std::error::Error for MemoryError {}
+
+fn bytes(count: u64) -> String {
+    const UNITS: [&str; 5] = ["B", "kB", "MB", "GB", "TB"];
+    let mut value = count as f64;
+    let mut unit = 0;
+    while value >= 1000.0 && unit + 1 < UNITS.len() {
+        value /= 1000.0;
+        unit += 1;
+    }
+    format!("{value:.3} {}", UNITS[unit])
+}
+
+/// Refuses an identification that does not fit into `limit` bytes, or without one into what the system says is available.
+///
+/// # Errors
+/// [`MemoryError`] with the numbers.
+///
+/// # Limits
+/// An estimate: exact for the real factors, an experience for the complex ones. Where the system does not say what is available, nothing is refused.
+pub fn check_identify(case: &Case, identify: &IdentifyCase, limit: Option<u64>) -> Result<(), MemoryError> {
+    let dofs = case.model.dim();
+    let options = &identify.options;
+    if options.space.is_subspace(options.method, dofs, identify.frequency_hz.len()) {
+        let basis = 8 * dofs * VECTORS;
+        let what = format!("{FACTORS} real factors and {VECTORS} vectors");
+        check(case, case.model.analysis().factor_memory::<f64>(), FACTORS, basis, what, limit)
+    } else {
+        check_full(case, limit)
+    }
+}
+
+/// The same for a computation on the full model: a complex factor a thread.
+///
+/// # Errors
+/// [`MemoryError`] with the numbers.
+pub fn check_full(case: &Case, limit: Option<u64>) -> Result<(), MemoryError> {
+    // The nominal factor and that of the check, in each thread.
+    let factors = 2 * rayon::current_num_threads();
+    let what = format!("{factors} complex factors");
+    check(case, case.model.analysis().factor_memory::<c64>(), factors, 0, what, limit)
+}
+
+fn check(
+    case: &Case,
+    factor: Result<FactorMemory, Breakdown>,
+    count: usize,
+    beside: usize,
+    what: String,
+    limit: Option<u64>,
+) -> Result<(), MemoryError> {
+    let Some(available) = limit.or_else(available) else { return Ok(()) };
+    let needed = factor.ok().map(|FactorMemory { kept, scratch }| {
+        let all = kept.saturating_mul(count).saturating_add(scratch).saturating_add(beside);
+        u64::try_from(all).unwrap_or(u64::MAX)
+    });
+    match needed {
+        Some(needed) if needed <= available => Ok(()),
+        _ => Err(MemoryError { dofs: case.model.dim(), needed, available, what }),
+    }
+}
+
+/// What the system can give without swapping: `MemAvailable` of Linux; `None` elsewhere.
+fn available() -> Option<u64> {
+    let text = std::fs::read_to_string("/proc/meminfo").ok()?;
+    let line = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
+    let kilobytes: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
+    Some(kilobytes * 1024)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_units_that_are_read() {
+        assert_eq!([bytes(999), bytes(1000), bytes(12_345_678)], ["999.000 B", "1.000 kB", "12.346 MB"]);
+    }
+
+    #[test]
+    #[cfg(target_os = "linux")]
+    fn the_system_says_how_much_there_is() {
+        assert!(available().unwrap() > 1_000_000);
+    }
+}
