@@ -27,8 +27,10 @@ pub fn direct(structure: &Structure) -> Result<Vec<Vec<c64>>, Box<dyn Error>> {
 pub struct BySubspace {
     /// Receptance, `[frequency][sensor]`.
     pub measured: Vec<Vec<c64>>,
-    /// Largest estimated error of any sensor relative to its response, or on an antiresonance to p ∂x/∂p.
-    pub estimate: f64,
+    /// Largest estimated error of any sensor for what the vectors lack, relative to its response, or on an antiresonance to p ∂x/∂p.
+    pub truncation: f64,
+    /// The same for roundoff.
+    pub roundoff: f64,
     /// Largest error at those frequencies where direct solves checked it, relative over the sensors; `None` where none did.
     pub checked: Option<f64>,
     /// Vectors.
@@ -65,20 +67,21 @@ pub fn by_subspace(structure: &Structure, checks: usize) -> Result<BySubspace, B
         Ok::<_, Breakdown>((assessed.into_iter().collect::<Result<Vec<Assessment>, _>>()?, subspace.size()))
     };
     let (assessed, size) = in_pool(THREADS, train)??;
-    let error = |(assessed, at): (&Assessment, &ModelAt<'_>)| {
-        let sensors = (0..assessed.response.len()).map(|m| {
-            let slope = at.parameters[0].nominal * assessed.slope[m];
-            assessed.error(m) / assessed.response[m].norm().max(slope.norm())
-        });
-        sensors.fold(0.0, f64::max)
+    let largest = |error: fn(&Assessment, usize) -> f64| {
+        let relative = |(assessed, at): (&Assessment, &ModelAt<'_>)| {
+            let slope = |m: usize| (at.parameters[0].nominal * assessed.slope[m]).norm();
+            let size = |m: usize| assessed.response[m].norm().max(slope(m));
+            (0..assessed.response.len()).map(|m| error(assessed, m) / size(m)).fold(0.0, f64::max)
+        };
+        assessed.iter().zip(&at).map(relative).fold(0.0, f64::max)
     };
-    let estimate = assessed.iter().zip(&at).map(error).fold(0.0, f64::max);
+    let (truncation, roundoff) = (largest(|a, m| a.truncation[m]), largest(|a, m| a.roundoff[m]));
     let check = |i: usize| Ok(relative_error(&solve(&at[i], experiment)?, &assessed[i].response));
     let errors = (0..checks).map(|k| check((2 * k + 1) * n / (2 * checks)));
     let errors: Vec<f64> = errors.collect::<Result<_, Breakdown>>()?;
     let checked = errors.into_iter().reduce(f64::max);
     let measured = assessed.into_iter().map(|assessed| assessed.response).collect();
-    Ok(BySubspace { measured, estimate, checked, size })
+    Ok(BySubspace { measured, truncation, roundoff, checked, size })
 }
 
 /// The true model at every frequency.

@@ -36,11 +36,11 @@ fn main() -> Result<(), Box<dyn Error>> {
         let model = sandwich(nx, nx / 8, 2)?;
         let [first, last] = model.band_hz;
         let mut structure = Structure::of(model, linear_hz(first, last, frequencies), 1e-5, 3.0);
-        let BySubspace { measured, estimate, checked, size } = by_subspace(&structure, CHECKS)?;
+        let BySubspace { measured, truncation, roundoff, checked, size } = by_subspace(&structure, CHECKS)?;
         structure.measured = measured;
         let checked = checked.unwrap_or(f64::NAN);
         println!(
-            "measurement: {size} vectors, estimated error {estimate:.1e}, {checked:.1e} at {CHECKS} direct solves"
+            "measurement: {size} vectors; estimated truncation {truncation:.1e}, roundoff {roundoff:.1e}; {checked:.1e} at {CHECKS} direct solves"
         );
         Ok(structure)
     };
@@ -90,6 +90,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         // What was sampled counts for the whole band.
         let share = frequencies as f64 / run.found.outcomes.len() as f64;
         let times = |seconds: f64| format!("{:.1}", share * seconds);
+        // The full model's stages are not told apart: there is one.
+        let stage = |seconds: f64| run.found.subspace_size.map_or("–".to_owned(), |_| times(seconds));
         let stages = run.stages;
         let cost = share * run.cpu / one.cpu;
         let work = |count: usize| ((share * count as f64) as usize).to_string();
@@ -99,9 +101,9 @@ fn main() -> Result<(), Box<dyn Error>> {
             threads.to_string(),
             times(run.wall),
             times(run.cpu),
-            times(stages.subspace),
-            times(stages.solutions),
-            times(stages.selection),
+            stage(stages.subspace),
+            stage(stages.solutions),
+            stage(stages.selection),
             format!("{cost:.2}"),
             work(run.found.work.factorisations),
             work(run.found.work.solves),

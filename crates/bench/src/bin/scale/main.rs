@@ -101,7 +101,7 @@ fn table(costs: &[Cost]) -> Table {
             run.found.subspace_size.map_or("–".to_owned(), |size| size.to_string()),
             run.score.to_string(),
             or_none(run.certificate()),
-            or_none(Some(measurement.estimate)),
+            or_none(Some(measurement.truncation)),
             or_none(measurement.checked),
         ]);
     }
