@@ -43,8 +43,8 @@ const THREADS: usize = 2;
 /// Frequencies of the training at most.
 const TRAINING: usize = 1000;
 
-/// Training goes on until roundoff stops it.
-const TOLERANCE: f64 = 1e-12;
+/// Errors to train to, one after the other, the last as far as roundoff lets it: each training looks at all frequencies anew.
+const TOLERANCES: [f64; 3] = [1e-6, 1e-9, 1e-11];
 
 /// By a subspace of its own, with the truth as nominal value and trained at up to a thousand of the very frequencies as far as roundoff lets it; checked
 /// by so many direct solves.
@@ -59,9 +59,10 @@ pub fn by_subspace(structure: &Structure, checks: usize) -> Result<BySubspace, B
     let points: Vec<Point<'_>> = (0..count).map(|k| point(k * (n - 1) / (count - 1).max(1))).collect();
     let train = || {
         let mut subspace = Subspace::new(experiment, &at[n - 1])?;
-        let options = TrainOptions { tolerance: TOLERANCE, ..TrainOptions::default() };
         let for_each = |n: usize, each: &(dyn Fn(usize) + Sync)| (0..n).into_par_iter().for_each(each);
-        subspace.train(&points, &options, &for_each)?;
+        for tolerance in TOLERANCES {
+            subspace.train(&points, &TrainOptions { tolerance, ..TrainOptions::default() }, &for_each)?;
+        }
         let small = subspace.projection();
         let assessed = map(&for_each, n, |i| small.assess(&at[i], c64::default()));
         Ok::<_, Breakdown>((assessed.into_iter().collect::<Result<Vec<Assessment>, _>>()?, subspace.size()))
