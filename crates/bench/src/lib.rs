@@ -1,14 +1,22 @@
 //! What the benchmarks share: a clock, a table, the machine's name, a place for figures.
 //!
-//! Every benchmark is a program in `src/bin`. Times are CPU times of one thread, so that other work on the machine
-//! disturbs them little; what is claimed are ratios of times from one run, never the times themselves.
+//! Every benchmark is a program in `src/bin`. Times are CPU times, of one thread where nothing else is said, so that other work on the
+//! machine disturbs them little; what is claimed are ratios of times from one run, never the times themselves.
 #![allow(clippy::print_stdout)] // tables are what a benchmark is for
 
 pub mod clock;
 mod machine;
+pub mod measurement;
+pub mod memory;
 mod output;
+mod score;
+mod stages;
 mod table;
+mod task;
 
 pub use machine::machine;
 pub use output::save;
+pub use score::Score;
+pub use stages::{StageClock, Stages};
 pub use table::Table;
+pub use task::{Run, Structure, Task, in_pool};

@@ -1,0 +1,163 @@
+//! A structure whose factor is known, measured without noise, and identified from a nominal one that is off.
+
+use crate::{Score, Stages};
+use cpu_time::ProcessTime;
+use frfit::c64;
+use frfit::for_each::{ForEach, sequential};
+use frfit::identify::{Band, BandOutcome, Hooks, Noise, Options, identify_band};
+use frfit::material::{Law, OutsideTable, Table};
+use frfit::model::{DynamicStiffness, Experiment, Parameter};
+use frfit::roots::Bounds;
+use frfit_examples::Model;
+use rayon::prelude::*;
+use std::error::Error;
+use std::time::Instant;
+
+/// What is known of a structure.
+#[derive(Debug)]
+pub struct Structure {
+    /// D(ω).
+    pub stiffness: DynamicStiffness,
+    /// Load and sensors.
+    pub experiment: Experiment,
+    /// The unknown factor, with its true law.
+    pub truth: Parameter,
+    /// Frequencies, ascending.
+    pub frequency_hz: Vec<f64>,
+    /// Receptance with the true law, `[frequency][sensor]`.
+    pub measured: Vec<Vec<c64>>,
+    /// Largest relative error of a factor that counts as right.
+    pub tolerance: f64,
+    /// Upper bound of the loss factor.
+    pub loss_factor: f64,
+}
+
+/// An identification to be done.
+#[derive(Debug)]
+pub struct Task<'a> {
+    structure: &'a Structure,
+    experiment: Experiment,
+    /// (1 + δ) times the truth.
+    nominal: Parameter,
+    /// Indices of the structure's frequencies.
+    picked: Vec<usize>,
+}
+
+/// What a run cost, and what it found.
+#[derive(Debug)]
+pub struct Run {
+    /// The outcome.
+    pub found: BandOutcome,
+    /// Wall-clock seconds.
+    pub wall: f64,
+    /// CPU seconds of all threads.
+    pub cpu: f64,
+    /// CPU seconds by stage.
+    pub stages: Stages,
+    /// How much of it is right.
+    pub score: Score,
+}
+
+impl Structure {
+    /// An example with its own truth at other frequencies, not measured yet.
+    pub fn of(model: Model, frequency_hz: Vec<f64>, tolerance: f64, loss_factor: f64) -> Self {
+        Self {
+            truth: Parameter { nominal: model.truth, ..model.parameter },
+            stiffness: model.stiffness,
+            experiment: model.experiment,
+            frequency_hz,
+            measured: Vec::new(),
+            tolerance,
+            loss_factor,
+        }
+    }
+
+    /// The task with the first so many sensors and the nominal factor (1 + δ) times the true one.
+    ///
+    /// # Errors
+    /// [`OutsideTable`] where the true law does not reach a frequency.
+    pub fn task(&self, sensors: usize, delta: f64) -> Result<Task<'_>, Box<dyn Error>> {
+        let mut experiment = self.experiment.clone();
+        experiment.sensors.truncate(sensors);
+        let at = |&f: &f64| Ok((1.0 + delta) * self.truth.nominal.at(f)?);
+        let values: Vec<c64> = self.frequency_hz.iter().map(at).collect::<Result<_, OutsideTable>>()?;
+        let nominal = Law::Table(Table::new(self.frequency_hz.clone(), values)?);
+        let nominal = Parameter { nominal, ..self.truth.clone() };
+        Ok(Task { structure: self, experiment, nominal, picked: (0..self.frequency_hz.len()).collect() })
+    }
+
+    /// Storage from a fifth to five times the truth in the middle of the band: wide enough for a nominal that is three times off.
+    fn bounds(&self) -> Result<Bounds, OutsideTable> {
+        let (first, last) = (self.frequency_hz[0], self.frequency_hz[self.frequency_hz.len() - 1]);
+        let storage = self.truth.nominal.at(0.5 * (first + last))?.re;
+        let loss_factor = Some([0.0, self.loss_factor]);
+        Ok(Bounds { storage: Some([0.2 * storage, 5.0 * storage]), loss_factor })
+    }
+}
+
+impl Task<'_> {
+    /// The same at so many of its frequencies, the middles of equal stretches; at all where there are no more.
+    pub fn sample(self, count: usize) -> Self {
+        let (n, count) = (self.picked.len(), count.min(self.picked.len()));
+        let picked = (0..count).map(|k| self.picked[(2 * k + 1) * n / (2 * count)]).collect();
+        Self { picked, ..self }
+    }
+
+    /// Number of frequencies.
+    pub fn frequencies(&self) -> usize {
+        self.picked.len()
+    }
+
+    /// Identifies with the structure's bounds, on so many threads.
+    ///
+    /// # Errors
+    /// Where the true law does not reach a frequency, or there are no threads to be had.
+    pub fn run(&self, options: &Options, threads: usize) -> Result<Run, Box<dyn Error>> {
+        let options = Options { bounds: self.structure.bounds()?, ..*options };
+        let frequency_hz: Vec<f64> = self.picked.iter().map(|&i| self.structure.frequency_hz[i]).collect();
+        let sensors = self.experiment.sensors.len();
+        let measured: Vec<Vec<c64>> =
+            self.picked.iter().map(|&i| self.structure.measured[i][..sensors].to_vec()).collect();
+        let band = Band {
+            model: &self.structure.stiffness,
+            experiment: &self.experiment,
+            parameter: &self.nominal,
+            frequency_hz: &frequency_hz,
+            measured: &measured,
+            noise: Noise::Unknown,
+        };
+        let clock = Stages::clock();
+        let identify = |for_each: ForEach<'_>| {
+            let (start, wall) = (ProcessTime::now(), Instant::now());
+            let progress = |stage, _, _| clock.enter(stage);
+            let found = identify_band(&band, &options, Hooks { for_each, progress: &progress })?;
+            Ok::<_, OutsideTable>((found, wall.elapsed().as_secs_f64(), start.elapsed().as_secs_f64()))
+        };
+        let (found, wall, cpu) = match threads {
+            1 => identify(&sequential)?,
+            // As the workflow does it.
+            _ => in_pool(threads, || identify(&|n, each| (0..n).into_par_iter().for_each(each)))??,
+        };
+        let truth = |f| self.structure.truth.nominal.at(f);
+        let score = Score::of(&found.outcomes, truth, self.structure.tolerance)?;
+        Ok(Run { found, wall, cpu, stages: clock.stop(), score })
+    }
+}
+
+impl Run {
+    /// The largest estimated error of the subspace's response over all answers; `None` where the full model answered.
+    pub fn certificate(&self) -> Option<f64> {
+        self.found.outcomes.iter().filter_map(|outcome| outcome.certificate).reduce(f64::max)
+    }
+}
+
+/// Does something in a pool of so many threads.
+///
+/// # Errors
+/// Where the system does not give them.
+pub fn in_pool<T: Send>(
+    threads: usize,
+    work: impl FnOnce() -> T + Send,
+) -> Result<T, rayon::ThreadPoolBuildError> {
+    Ok(rayon::ThreadPoolBuilder::new().num_threads(threads).build()?.install(work))
+}
