@@ -49,7 +49,7 @@ fn rubber_bar() -> (DynamicStiffness, Experiment) {
 /// Wide bounds: a tenth to ten times the modulus, passive.
 fn bar_options(order: usize) -> Options {
     let bounds = Bounds { storage: Some([1e5, 1e8]), loss_factor: Some([0.0, 3.0]) };
-    Options { order, bounds, ..Options::default() }
+    Options { order, bounds, ..Options::paper() }
 }
 
 /// The outcome when the measurement is the model's own response with the true factor.
@@ -135,7 +135,7 @@ fn density_is_found_as_a_real_parameter() {
     let options = Options {
         real: true,
         bounds: Bounds { storage: Some([500.0, 2000.0]), loss_factor: None },
-        ..Options::default()
+        ..Options::paper()
     };
     for frequency_hz in [60.0, 150.0, 300.0] {
         let outcome = identified(
@@ -165,7 +165,7 @@ fn bounds_exclude_and_say_so() {
     let bar = rubber_bar();
     let truth = polybutadiene(1.0).at(100.0).unwrap();
     let bounds = Bounds { storage: Some([1e10, 1e11]), loss_factor: None };
-    let outcome = identified(&bar, "rubber", truth, 100.0, &Options { bounds, ..Options::default() });
+    let outcome = identified(&bar, "rubber", truth, 100.0, &Options { bounds, ..Options::paper() });
     assert_eq!((outcome.status, outcome.correction, outcome.error), (Status::NoRoot, None, None));
     assert!(outcome.roots.iter().any(|root| root.refusal == Some(Refusal::OutOfBounds("storage"))));
 }
@@ -179,7 +179,7 @@ fn a_resonance_without_damping_is_a_status() {
     let frequency_hz = 1.0 / std::f64::consts::TAU;
     let at = model.at(frequency_hz, &[parameter]).unwrap();
     if let Ok(system) = FullModel::new(at, &experiment) {
-        let outcome = identify_at(&system, &[c(2.0, 0.0)], &Options::default());
+        let outcome = identify_at(&system, &[c(2.0, 0.0)], &Options::paper());
         assert_eq!(outcome.status, Status::IllConditioned, "{outcome:?}");
         assert!(outcome.breakdown.is_some() && outcome.correction.is_none());
     }
@@ -243,7 +243,7 @@ fn the_plate_diverges_near_its_resonances_and_nowhere_else() {
     let Some((model, experiment, truth)) = plate(0.25) else { return };
     let plate = (model, experiment);
     let bounds = Bounds { storage: Some([0.2, 5.0]), loss_factor: Some([0.0, 1.0]) };
-    let options = Options { bounds, ..Options::default() };
+    let options = Options { bounds, ..Options::paper() };
     let at = |frequency_hz| identified(&plate, "plate", truth, frequency_hz, &options);
     // Away from resonance (of the nominal plate too, √1.25 higher) the modulus is found.
     for frequency_hz in [100.0, 300.0, 500.0, 700.0, 1200.0, 1300.0, 1400.0, 2250.0, 2350.0] {
