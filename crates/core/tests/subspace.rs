@@ -152,13 +152,15 @@ fn the_slope_is_that_of_direct_solves() {
         for (frequency_hz, ratio) in case.scattered(6) {
             let correction = case.correction(frequency_hz, ratio);
             let assessed = subspace.projection().assess(&case.at(frequency_hz), correction).unwrap();
-            let step = case.parameter.nominal.at(frequency_hz).unwrap() * 1e-5;
+            // The sandwich's direct solves are worth 1e-8: over a step of 1e-5 too little.
+            let relative = if case.name == "sandwich" { 1e-4 } else { 1e-5 };
+            let step = case.parameter.nominal.at(frequency_hz).unwrap() * relative;
             let [after, before] =
                 [correction + step, correction - step].map(|c| case.direct(frequency_hz, c).unwrap());
             for m in 0..after.len() {
                 let slope = (after[m] - before[m]) / (2.0 * step);
                 // Central differences: h² of the third derivative, which near a resonance is (1/η)² times more, and roundoff over h.
-                let scale = slope.norm().max((assessed.response[m] / step).norm() * 1e-5);
+                let scale = slope.norm().max((assessed.response[m] / step).norm() * relative);
                 let off = (assessed.slope[m] - slope).norm() / scale;
                 assert!(off < 1e-3, "{} at {frequency_hz} Hz: {off:e}", case.name);
             }

@@ -67,7 +67,8 @@ impl Poles {
                 Some(0)
             } else if size < 1.0 {
                 // Smallest n with share · size^{n+1} <= allowed.
-                Some(((allowed / share).ln() / size.ln()).ceil() as usize - 1)
+                let orders = ((allowed / share).ln() / size.ln()).ceil();
+                orders.is_finite().then(|| (orders as usize).saturating_sub(1))
             } else {
                 // A pole that takes no part, to roundoff, does not bound the series either.
                 (share <= f64::EPSILON * allowed / error).then_some(0)

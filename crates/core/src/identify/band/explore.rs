@@ -152,7 +152,7 @@ impl Fit<'_> {
             for start in response.starts(sensor, self.measured[sensor])? {
                 if !self.near_bounds(start) {
                     let refusal = roots.refuse(self.nominal, start);
-                    explored.refused.push(Candidate { correction: start, drift: f64::NAN, refusal });
+                    explored.refused.push(Candidate { correction: start, drift: f64::INFINITY, refusal });
                     continue;
                 }
                 if let Some(solution) = self.descend(way, start) {
@@ -162,11 +162,12 @@ impl Fit<'_> {
         }
         for rough in found {
             let Some(solution) = self.descend(last, rough.correction) else { continue };
-            match roots.refuse(self.nominal, solution.correction) {
-                None | Some(Refusal::NotReal) => merge(&mut explored.solutions, solution, self.nominal),
-                Some(refusal) => {
-                    let correction = solution.correction;
-                    explored.refused.push(Candidate { correction, drift: f64::NAN, refusal: Some(refusal) });
+            // Real where it has to be: the descent saw to that.
+            match self.options.bounds.broken_by(self.nominal + solution.correction) {
+                None => merge(&mut explored.solutions, solution, self.nominal),
+                Some(bound) => {
+                    let (correction, refusal) = (solution.correction, Some(Refusal::OutOfBounds(bound)));
+                    explored.refused.push(Candidate { correction, drift: f64::INFINITY, refusal });
                 }
             }
         }
