@@ -63,15 +63,15 @@ impl Poles {
         let allowed = error * self.respond_with_slope(correction).0[sensor].norm();
         let order = |(rho, lambda): (&c64, &c64)| {
             let (size, share) = ((z * lambda).norm(), (rho / (1.0 + z * lambda)).norm());
-            if share * size <= allowed {
+            if size >= 1.0 {
+                // A pole that takes no part, to roundoff, does not bound the series either.
+                (share <= f64::EPSILON * allowed / error).then_some(0)
+            } else if share * size <= allowed {
                 Some(0)
-            } else if size < 1.0 {
+            } else {
                 // Smallest n with share · size^{n+1} <= allowed.
                 let orders = ((allowed / share).ln() / size.ln()).ceil();
                 orders.is_finite().then(|| (orders as usize).saturating_sub(1))
-            } else {
-                // A pole that takes no part, to roundoff, does not bound the series either.
-                (share <= f64::EPSILON * allowed / error).then_some(0)
             }
         };
         self.residues[sensor].iter().zip(&self.lambda).map(order).try_fold(0, |most, n| Some(most.max(n?)))

@@ -44,7 +44,7 @@ impl Explored {
         Self { breakdown: Some(breakdown), ..Self::default() }
     }
 
-    /// Solves the full system anew at each solution: its response is then beyond doubt, and so is whether it is a solution.
+    /// Solves the system anew at each solution: its response is then beyond doubt, and so is whether it is a solution.
     pub(super) fn confirm(&mut self, system: &impl Response, measured: &[c64], sigma: &[f64]) {
         self.unsure = false;
         for solution in &mut self.solutions {

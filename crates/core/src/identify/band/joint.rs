@@ -65,7 +65,12 @@ fn on_subspace(
 ) -> Vec<Explored> {
     let find = |i: usize, system: Result<ReducedModel<'_>, Breakdown>| match system {
         // Vectors of this length cost nothing: the order bounds those of the full model.
-        Ok(system) => explore(&system, &band.measured[i], &sigma[i], options, system.dim()),
+        Ok(system) => {
+            let mut explored = explore(&system, &band.measured[i], &sigma[i], options, system.dim());
+            // What is certified is the subspace's own response, not that of the Krylov space within.
+            explored.confirm(&system, &band.measured[i], &sigma[i]);
+            explored
+        }
         Err(breakdown) => Explored::broken(breakdown),
     };
     space.solve(hooks, find, |i, found| relevant(found, &band.measured[i]))

@@ -9,6 +9,7 @@ use crate::model::ModelAt;
 use crate::response::Work;
 use crate::subspace::{Assessment, Point, Projection, ReducedModel, Subspace, TrainOptions};
 use frfit_linalg::solve::Breakdown;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Error over the box of frequencies and factors: enough to find every root, which is then looked at more closely.
@@ -27,6 +28,9 @@ const BLOCK_LEAST: usize = 8;
 /// Without bounds, or with wider ones, the box is this factor to either side of the nominal.
 const BOX_RATIO: f64 = 4.0;
 
+/// The whole of the bounds, but no farther than this factor to either side: a box without end has no grid.
+const WHOLE_RATIO: f64 = 1e6;
+
 /// Storage values of the box per octave, and the least.
 const PER_OCTAVE: f64 = 1.0;
 
@@ -37,15 +41,12 @@ pub(super) struct Space<'a, 'o> {
     subspace: Subspace<'a>,
     at: &'o [ModelAt<'a>],
     options: &'o Options,
-    blocks: Vec<Block>,
+    /// Neighbourhoods: their first and last frequency (index).
+    blocks: Vec<[usize; 2]>,
+    /// The model that answered at each frequency: that of its neighbourhood, when it was last asked.
+    models: Vec<Option<Arc<Projection>>>,
     /// Answers that the training looked at: (frequency, correction).
     answers: Vec<(usize, c64)>,
-}
-
-/// A neighbourhood: its first and last frequency (index), and its model.
-struct Block {
-    range: [usize; 2],
-    model: Option<Projection>,
 }
 
 impl<'a, 'o> Space<'a, 'o> {
@@ -63,9 +64,8 @@ impl<'a, 'o> Space<'a, 'o> {
         (hooks.progress)(Stage::Subspace, 0, n);
         let subspace = Subspace::new(band.experiment, &at[n - 1])?;
         let count = (n / BLOCK_LEAST).clamp(1, BLOCKS);
-        let block = |b: usize| Block { range: [b * n / count, (b + 1) * n / count - 1], model: None };
-        let blocks = (0..count).map(block).collect();
-        let mut space = Self { subspace, at, options, blocks, answers: Vec::new() };
+        let blocks = (0..count).map(|b| [b * n / count, (b + 1) * n / count - 1]).collect();
+        let mut space = Self { subspace, at, options, blocks, models: vec![None; n], answers: Vec::new() };
         let steps = FREQUENCIES.min(n);
         let picked = (0..steps).map(|k| k * (n - 1) / (steps - 1).max(1));
         let points: Vec<Point<'a>> = picked.flat_map(|i| space.box_points(i)).collect();
@@ -126,35 +126,34 @@ impl<'a, 'o> Space<'a, 'o> {
         let training = TrainOptions { tolerance: ANSWER, ..TrainOptions::default() };
         self.subspace.train(&points, &training, hooks.for_each)?;
         self.answers.extend_from_slice(answers);
-        self.blocks.iter_mut().for_each(|block| block.model = None);
         Ok(self.subspace.size() > before)
     }
 
-    /// Makes the models of the neighbourhoods in which these frequencies are.
+    /// Makes the models of the neighbourhoods in which these frequencies (ascending) are, for them.
     fn localise(&mut self, frequencies: &[usize], for_each: ForEach<'_>) {
-        let wanted = |block: &Block| {
-            let [first, last] = block.range;
-            block.model.is_none() && frequencies.iter().any(|i| (first..=last).contains(i))
+        let members = |&[first, last]: &[usize; 2]| {
+            let own = frequencies.iter().copied().filter(|i| (first..=last).contains(i));
+            own.collect::<Vec<usize>>()
         };
-        let missing: Vec<usize> = (0..self.blocks.len()).filter(|&b| wanted(&self.blocks[b])).collect();
+        let wanted: Vec<([usize; 2], Vec<usize>)> =
+            self.blocks.iter().map(|block| (*block, members(block))).filter(|(_, own)| !own.is_empty()).collect();
         let space = &*self;
-        let models = map(for_each, missing.len(), |k| {
-            let [first, last] = space.blocks[missing[k]].range;
+        let models = map(for_each, wanted.len(), |k| {
+            let [first, last] = wanted[k].0;
             let box_points = [first, (first + last) / 2, last].into_iter().flat_map(|i| space.box_points(i));
             let answers = space.answers.iter().filter(|(i, _)| (first..=last).contains(i));
             let answers = answers.map(|&(i, correction)| Point { at: space.at[i].clone(), correction });
             let points: Vec<Point<'_>> = box_points.chain(answers).collect();
-            space.subspace.projection().localised(&points, ANSWER)
+            Arc::new(space.subspace.projection().localised(&points, ANSWER))
         });
-        for (b, model) in missing.into_iter().zip(models) {
-            self.blocks[b].model = Some(model);
+        for ((_, own), model) in wanted.into_iter().zip(models) {
+            own.into_iter().for_each(|i| self.models[i] = Some(Arc::clone(&model)));
         }
     }
 
-    /// The model of a frequency's neighbourhood.
+    /// The model that answered at a frequency.
     pub(super) fn model(&self, i: usize) -> &Projection {
-        let block = self.blocks.iter().find(|block| i <= block.range[1]);
-        block.and_then(|block| block.model.as_ref()).unwrap_or(self.subspace.projection())
+        self.models[i].as_deref().unwrap_or(self.subspace.projection())
     }
 
     pub(super) fn size(&self) -> usize {
@@ -175,7 +174,7 @@ impl<'a, 'o> Space<'a, 'o> {
         if nominal.re > 0.0 {
             let [low, high] = bounds.storage.unwrap_or([0.0, f64::INFINITY]);
             // Bounds that the nominal is outside of: the box is theirs.
-            let ratio = if self.options.whole_box { f64::MAX } else { BOX_RATIO };
+            let ratio = if self.options.whole_box { WHOLE_RATIO } else { BOX_RATIO };
             let reach = [nominal.re.clamp(low, high) / ratio, nominal.re.clamp(low, high) * ratio];
             let [low, high] = [low.max(reach[0]), high.min(reach[1])];
             let steps = ((PER_OCTAVE * (high / low).log2()).ceil() as usize).max(2);
