@@ -105,7 +105,7 @@ fn the_truth_is_admitted_on_plates_with_double_modes_and_almost_no_damping() {
 
 #[test]
 fn the_truth_is_admitted_on_bar_and_sandwich() {
-    assert_truth(bar(60), &OFF, 40, 1e-6);
+    assert_truth(bar(80), &OFF, 40, 1e-6);
     assert_truth(sandwich(12, 1), &[1.25, 0.5, 3.0], 40, 1e-6);
 }
 
@@ -457,7 +457,9 @@ fn odd_bounds_are_no_reason_to_panic() {
             let options = Options { bounds, whole_box, space: Space::Subspace, ..Options::default() };
             let band = identify(&case, &frequency_hz, &u, &options);
             band.outcomes.iter().for_each(assert_no_nan);
-            if bounds.broken_by(case.parameter.nominal.at(100.0).unwrap()).is_none() {
+            // To bounds without width roundoff is outside.
+            let wide = storage.is_none_or(|[low, high]| low < high);
+            if wide && bounds.broken_by(case.parameter.nominal.at(100.0).unwrap()).is_none() {
                 assert!(nearest(&band.outcomes[1], c(2e11, 2e8)) < 1e-6, "{storage:?}");
             }
         }
@@ -467,7 +469,7 @@ fn odd_bounds_are_no_reason_to_panic() {
 #[test]
 fn a_real_factor_is_real() {
     let mut case = absent();
-    // A mass of unknown size, nominal with an imaginary part that it must lose.
+    // A nominal with an imaginary part has to lose it.
     for nominal in [c(4e3, 0.0), c(5e3, 2e3)] {
         case.parameter.nominal = Law::Constant(nominal);
         let truth = c(3.5e3, 0.0);

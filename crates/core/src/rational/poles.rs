@@ -15,7 +15,7 @@ pub struct Poles {
 }
 
 impl RationalResponse {
-    /// The poles of the reduced response; `None` for a parameter that enters with powers.
+    /// The poles of the reduced response; `None` for a parameter that enters with powers, or where nothing is driven.
     ///
     /// # Errors
     /// [`NoConvergence`] where the eigenvalue iteration fails, or the eigenvectors are dependent to working precision.
@@ -25,6 +25,9 @@ impl RationalResponse {
     pub fn poles(&self) -> Result<Option<Poles>, NoConvergence> {
         let [nominal, change] = self.matrices.as_slice() else { return Ok(None) };
         let n = self.size();
+        if n == 0 {
+            return Ok(None);
+        }
         let factor = Lu::new(nominal)?;
         let mut block: Vec<c64> = (0..n).flat_map(|j| change.column(j)).chain(&self.load).copied().collect();
         factor.solve(&mut block)?;

@@ -60,6 +60,9 @@ impl RationalResponse {
     /// [`NoConvergence`] where the eigenvalue iteration fails.
     pub fn starts(&self, sensor: usize, measured: c64) -> Result<Vec<c64>, NoConvergence> {
         let (n, degree) = (self.size(), self.matrices.len() - 1);
+        if n == 0 {
+            return Ok(Vec::new()); // nothing is driven
+        }
         let columns = self.matrices[1..].iter().flat_map(|a| (0..n).flat_map(|j| a.column(j)));
         let mut block: Vec<c64> = columns.chain(&self.load).copied().collect();
         Lu::new(&self.matrices[0])?.solve(&mut block)?;

@@ -33,7 +33,8 @@ pub(super) fn identify<'a>(
                     let assessed = space.model(i).assess(&at[i], correction).ok();
                     let certified =
                         assessed.map(|a| certificate(&a, outcome.nominal + correction, &band.measured[i]));
-                    outcome.certificate = certified.map(|certified| certified.response);
+                    outcome.certificate =
+                        certified.map(|certified| certified.response).filter(|c| c.is_finite());
                     if outcome.status == Status::Ok && certified.is_none_or(|c| c.factor > options.certain) {
                         outcome.status = Status::IllConditioned;
                     }

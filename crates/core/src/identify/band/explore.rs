@@ -116,7 +116,9 @@ fn try_explore(
         explored.unsure = explored.solutions.iter().any(|solution| solution.residual > RESIDUAL);
         // The whole space leaves nothing but roundoff.
         explored.unsure &= !(response.is_complete() || response.size() == system.dim());
-        if !explored.unsure || reached >= order {
+        // No solution at a low order is no proof that there is none.
+        let settled = !explored.unsure && (!explored.solutions.is_empty() || response.is_complete());
+        if settled || reached >= order {
             explored.order = response.size().saturating_sub(1);
             explored.nominal_response = response.respond(c64::default()).map_err(broken)?;
             return Ok(explored);
@@ -247,6 +249,7 @@ impl Fit<'_> {
             gradient += weight * slope.conj() * rest;
         }
         let step = gradient / curvature;
+        let step = if self.options.real { c64::new(step.re, 0.0) } else { step };
         let finite = misfit.is_finite() && step.is_finite();
         let solution =
             Solution { correction, misfit, std: curvature.powf(-0.5), response: values, residual: f64::NAN };
