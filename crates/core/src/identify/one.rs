@@ -78,7 +78,7 @@ pub(super) fn confirm(
     let updated = system.solve_at(&[correction])?;
     let here = relative_error(&measured[SENSOR..=SENSOR], &updated[SENSOR..=SENSOR]);
     outcome.correction = Some(correction);
-    outcome.error = Some(relative_error(measured, &updated));
+    outcome.error = Some(relative_error(measured, &updated)).filter(|error| error.is_finite());
     outcome.updated_response = updated;
     // False for NaN too.
     Ok(here <= options.error)

@@ -145,6 +145,9 @@ impl FromStr for Space {
 /// Nominal values further off are estimates of another kind: `whole_box`.
 const BOX_RATIO: f64 = 4.0;
 
+/// The whole of the bounds, but no farther than this factor to either side: a box without end has no grid.
+const WHOLE_RATIO: f64 = 1e6;
+
 /// Degrees of freedom up to which a subspace is no smaller than the model.
 const TINY: usize = 64;
 
@@ -264,7 +267,7 @@ impl Options {
             return self.bounds.storage;
         }
         let [low, high] = self.bounds.storage.unwrap_or([0.0, f64::INFINITY]);
-        let ratio = if self.whole_box && self.bounds.storage.is_some() { f64::INFINITY } else { BOX_RATIO };
+        let ratio = if self.whole_box { WHOLE_RATIO } else { BOX_RATIO };
         // A nominal outside the bounds: the box is where they begin.
         let middle = nominal.re.clamp(low, high);
         Some([low.max(middle / ratio), high.min(middle * ratio)])

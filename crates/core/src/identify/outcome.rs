@@ -51,7 +51,7 @@ pub struct Identified {
     pub nominal: c64,
     /// The correction c. With status `diverged` it is the root of least |c| within the bounds: evidence, not an answer.
     pub correction: Option<c64>,
-    /// ε over all sensors, P-40, from a fresh direct solve with the corrected parameter.
+    /// ε over all sensors, P-40, from a fresh direct solve with the corrected parameter; `None` where nothing but zeros was measured.
     pub error: Option<f64>,
     /// ρ(−c A₀⁻¹A₁) at the correction, P-14.
     pub spectral_radius: Option<f64>,
@@ -72,7 +72,7 @@ pub struct Identified {
     /// Corrections that the data cannot exclude beside the one that is given: of a joint selection with status `ambiguous`.
     pub alternatives: Vec<c64>,
     /// Estimated error of the reduced model's response at the sensors, relative to the measured one, at the correction; `None` where the
-    /// full model answered.
+    /// full model answered, or nothing but zeros was measured.
     pub certificate: Option<f64>,
     /// Order that the paper's series would need for a truncation error of 1e-6 at the correction; `None` where it diverges, or was not asked.
     pub series_order: Option<usize>,

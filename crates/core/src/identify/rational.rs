@@ -21,7 +21,7 @@ const RESIDUAL: f64 = 1e-9;
 /// this is a solution, with a few digits to spare for what such a solve loses.
 const MATCH: f64 = 1e-6;
 
-/// Grows the basis until every root within the bounds solves the full system, or the order is reached.
+/// Grows the basis until there is a root within the bounds and every one solves the full system, or the order is reached.
 ///
 /// Where a root within the bounds is still unsure at the highest order, it could be the answer: the status is then `ambiguous`, not
 /// `ok`, however good another one is.
@@ -36,7 +36,9 @@ pub(super) fn by_rational(
     loop {
         let judged = judge(&response, measured[SENSOR], outcome.nominal, &options.roots());
         outcome.roots = judged.map_err(|NoConvergence| Breakdown::NotFinite)?;
-        if !unsure(&outcome.roots) || order == options.order || response.is_complete() {
+        // No solution at a low order is no proof that there is none.
+        let settled = !unsure(&outcome.roots) && outcome.admissible() > 0;
+        if settled || order == options.order || response.is_complete() {
             break;
         }
         order = (order + STEP).min(options.order);

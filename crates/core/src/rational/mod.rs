@@ -74,7 +74,7 @@ impl RationalResponse {
         self.matrices = images.iter().map(&mut project).collect();
         self.load = vectors.iter().map(|v| transpose_dot(v, load)).collect();
         let columns: Vec<Vec<c64>> = vectors.iter().map(|v| system.observe(v)).collect();
-        let count = columns.first().map_or(0, Vec::len);
+        let count = system.observe(&vec![c64::default(); system.dim()]).len();
         self.sensors = (0..count).map(|m| columns.iter().map(|column| column[m]).collect()).collect();
         Ok(self)
     }

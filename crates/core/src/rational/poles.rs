@@ -15,7 +15,7 @@ pub struct Poles {
 }
 
 impl RationalResponse {
-    /// The poles of the reduced response; `None` for a parameter that enters with powers.
+    /// The poles of the reduced response; `None` for a parameter that enters with powers, or where nothing is driven.
     ///
     /// # Errors
     /// [`NoConvergence`] where the eigenvalue iteration fails, or the eigenvectors are dependent to working precision.
@@ -25,6 +25,9 @@ impl RationalResponse {
     pub fn poles(&self) -> Result<Option<Poles>, NoConvergence> {
         let [nominal, change] = self.matrices.as_slice() else { return Ok(None) };
         let n = self.size();
+        if n == 0 {
+            return Ok(None);
+        }
         let factor = Lu::new(nominal)?;
         let mut block: Vec<c64> = (0..n).flat_map(|j| change.column(j)).chain(&self.load).copied().collect();
         factor.solve(&mut block)?;
@@ -65,13 +68,14 @@ impl Poles {
         let order = |(k, lambda): (usize, &c64)| {
             let rho = residues[k];
             let (size, share) = ((z * lambda).norm(), (rho / (1.0 + z * lambda)).norm());
-            if share * size <= allowed {
-                Some(0)
-            } else if size < 1.0 {
-                // Smallest n with share · size^{n+1} <= allowed.
-                Some(((allowed / share).ln() / size.ln()).ceil() as usize - 1)
-            } else {
+            if size >= 1.0 {
                 (!takes_part(residues, k)).then_some(0)
+            } else if share * size <= allowed {
+                Some(0)
+            } else {
+                // Smallest n with share · size^{n+1} <= allowed.
+                let orders = ((allowed / share).ln() / size.ln()).ceil();
+                orders.is_finite().then(|| (orders as usize).saturating_sub(1))
             }
         };
         self.lambda.iter().enumerate().map(order).try_fold(0, |most, n| Some(most.max(n?)))

@@ -2,7 +2,7 @@
 
 use super::{RationalResponse, transpose_dot};
 use crate::c64;
-use frfit_linalg::dense::{Lu, Matrix, NoConvergence, eigenvalues, generalized_eigenvalues};
+use frfit_linalg::dense::{Lu, Matrix, NoConvergence, eigenvalues};
 
 /// A correction at which the reduced response equals the measured one.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -52,65 +52,38 @@ impl RationalResponse {
 
     /// Corrections near all solutions of x_m(c) = u, in no order: eigenvalues, to be polished.
     ///
-    /// With M(z) y = b and ℓᵀy = u, (M(z) − b ℓᵀ/u) y = 0. For a parameter that enters linearly that is, with G = M₀⁻¹M₁ and x₀ = M₀⁻¹b, by
-    /// Sherman and Morrison: −1/z is an eigenvalue of (1 + x₀ℓᵀ/(u − ℓᵀx₀)) G, an ordinary problem of size n. With powers it is a
-    /// companion pencil of size d·n + 1.
+    /// With M(z) y = b and ℓᵀy = u, (M(z) − b ℓᵀ/u) y = 0. With G_q = M₀⁻¹M_q and x₀ = M₀⁻¹b, by Sherman and Morrison, for w = 1/z
+    /// $$ w^d y = -\sum_{q=1}^d w^{d-q} \Big(1 + \frac{x_0 \ell^T}{u - \ell^T x_0}\Big) G_q y, $$
+    /// an ordinary eigenproblem in companion form, of size d·n.
     ///
     /// # Errors
     /// [`NoConvergence`] where the eigenvalue iteration fails.
     pub fn starts(&self, sensor: usize, measured: c64) -> Result<Vec<c64>, NoConvergence> {
-        let z = if self.matrices.len() == 2 {
-            self.linear_starts(sensor, measured)?
-        } else {
-            let (constant, linear) = self.pencil(sensor, measured);
-            generalized_eigenvalues(&constant, &linear)?.into_iter().filter_map(|e| e.finite()).collect()
-        };
-        Ok(z.into_iter().map(|z| z * self.scale).filter(|c| c.is_finite()).collect())
-    }
-
-    fn linear_starts(&self, sensor: usize, measured: c64) -> Result<Vec<c64>, NoConvergence> {
-        let n = self.size();
-        let mut block: Vec<c64> =
-            (0..n).flat_map(|j| self.matrices[1].column(j)).chain(&self.load).copied().collect();
+        let (n, degree) = (self.size(), self.matrices.len() - 1);
+        if n == 0 {
+            return Ok(Vec::new()); // nothing is driven
+        }
+        let columns = self.matrices[1..].iter().flat_map(|a| (0..n).flat_map(|j| a.column(j)));
+        let mut block: Vec<c64> = columns.chain(&self.load).copied().collect();
         Lu::new(&self.matrices[0])?.solve(&mut block)?;
-        let (g, x0) = block.split_at(n * n);
+        let (g, x0) = block.split_at(n * n * degree);
         let l = &self.sensors[sensor];
         // Where the nominal response is the measured one, z = 0 is a solution and the formula divides by zero: a millionth beside it is near
         // enough for a start.
         let gap = measured - transpose_dot(l, x0);
         let gap = if gap.norm() < 1e-6 * measured.norm() { measured * 1e-6 } else { gap };
         let row: Vec<c64> = g.chunks_exact(n).map(|column| transpose_dot(l, column) / gap).collect();
-        let matrix = Matrix::from_fn(n, n, |i, j| g[i + j * n] + x0[i] * row[j]);
-        Ok(eigenvalues(&matrix)?.into_iter().map(|mu| -mu.inv()).collect())
-    }
-
-    /// (C, L) with C w = z L w for w = (y, zy, …, z^{d−1}y, 1): the bordered matrix of B-2, its powers of z in companion form.
-    ///
-    /// Stiffness, load and response differ by many orders of magnitude; with M/α, b/β and uα/β all are of the order of one.
-    fn pencil(&self, sensor: usize, measured: c64) -> (Matrix, Matrix) {
-        let (n, degree) = (self.size(), self.matrices.len() - 1);
-        let size = n * degree.max(1) + 1;
-        let last = size - 1;
-        let (mut constant, mut linear) = (Matrix::zeros(size, size), Matrix::zeros(size, size));
-        let one = c64::new(1.0, 0.0);
-        let alpha = self.matrices.iter().map(Matrix::max_modulus).fold(0.0, f64::max);
-        let beta = self.load.iter().map(|b| b.norm()).fold(0.0, f64::max);
-        for i in 0..n {
-            for j in 0..n {
-                constant[(i, j)] = self.matrices[0][(i, j)] / alpha;
-                for q in 1..=degree {
-                    linear[(i, (q - 1) * n + j)] = -self.matrices[q][(i, j)] / alpha;
-                }
-            }
-            constant[(i, last)] = -self.load[i] / beta;
-            constant[(last, i)] = self.sensors[sensor][i];
-            for q in 1..degree {
-                constant[(q * n + i, q * n + i)] = one;
-                linear[(q * n + i, (q - 1) * n + i)] = one;
+        let mut companion = Matrix::zeros(n * degree, n * degree);
+        for (j, (column, along)) in g.chunks_exact(n).zip(&row).enumerate() {
+            for i in 0..n {
+                companion[(i, j)] = -(column[i] + x0[i] * along);
             }
         }
-        constant[(last, last)] = -measured * (alpha / beta);
-        (constant, linear)
+        for i in n..n * degree {
+            companion[(i, i - n)] = c64::new(1.0, 0.0);
+        }
+        let corrections = eigenvalues(&companion)?.into_iter().map(|w| w.inv() * self.scale);
+        Ok(corrections.filter(|c| c.is_finite()).collect())
     }
 
     /// Newton's method on x_m(z) − u; `None` where it leaves or does not settle.

@@ -24,6 +24,9 @@ impl Shift {
         let mut values = vec![0.0; pattern.stored()];
         for &(term, coefficient) in &at.nominal.parts {
             let term = &model.terms()[term];
+            if sigma == 0.0 && term.role != Role::Stiffness {
+                continue; // at 0 Hz, where the weight does not tell the factor
+            }
             let factor: c64 = coefficient / term.role.weight(at.frequency_hz);
             let weight = match term.role {
                 Role::Stiffness => factor.re,

@@ -225,6 +225,9 @@ impl<'m> Subspace<'m> {
 
     /// Solves each force (of norm one) with its shift, remembers the gain, and adds what is new.
     fn solve_and_append(&mut self, forces: Vec<(usize, Vec<f64>)>) -> Result<usize, Breakdown> {
+        if forces.is_empty() {
+            return Ok(0); // nothing was learnt about the gain either
+        }
         let (mut added, mut gain) = (0, 0.0f64);
         for (index, shift) in self.shifts.iter().enumerate() {
             let mine = forces.iter().filter(|(other, _)| *other == index);

@@ -2,9 +2,15 @@
 #![allow(dead_code, reason = "each test file uses its own part")]
 
 use frfit::c64;
+use frfit::for_each::sequential;
+use frfit::frequency::linear_hz;
 use frfit::material::Law;
-use frfit::model::{DynamicStiffness, Experiment, Member, Parameter, Role, Sensor, Term};
+use frfit::model::{DynamicStiffness, Experiment, Member, ModelAt, Parameter, Role, Sensor, Term};
 use frfit::response::{FullModel, Response};
+use frfit::subspace::{Point, Subspace, TrainOptions, Trained};
+use frfit_fem::brick::{Face, Layer};
+use frfit_fem::{Assembled, Bar, Beam, Brick, Direction, Mass, Plate, Support};
+use frfit_linalg::solve::Breakdown;
 use frfit_linalg::sparse::{Pattern, SymmetricMatrix, Triplets, Values};
 use std::sync::Arc;
 
@@ -66,4 +72,150 @@ pub(crate) fn taylor_on_circle(system: &FullModel<'_>, r: f64, count: usize, m: 
             sum / points as f64
         })
         .collect()
+}
+
+/// A model, what drives it, what is unknown in it, and the box in which it is looked for.
+pub(crate) struct Case {
+    pub(crate) name: &'static str,
+    pub(crate) model: DynamicStiffness,
+    pub(crate) experiment: Experiment,
+    pub(crate) parameter: Parameter,
+    /// First and last frequency.
+    pub(crate) band_hz: [f64; 2],
+    /// The factor over its nominal value, least and largest.
+    pub(crate) box_ratio: [f64; 2],
+}
+
+impl Case {
+    /// The model at a frequency, about the nominal value.
+    pub(crate) fn at(&self, frequency_hz: f64) -> ModelAt<'_> {
+        self.model.at(frequency_hz, std::slice::from_ref(&self.parameter)).unwrap()
+    }
+
+    /// The correction at which the factor is so many times its nominal value.
+    pub(crate) fn correction(&self, frequency_hz: f64, ratio: f64) -> c64 {
+        self.parameter.nominal.at(frequency_hz).unwrap() * (ratio - 1.0)
+    }
+
+    /// x at the sensors by one direct solve of the full model: the oracle.
+    pub(crate) fn direct(&self, frequency_hz: f64, correction: c64) -> Result<Vec<c64>, Breakdown> {
+        let factor = self.model.analysis().factor(&self.at(frequency_hz).assemble(&[correction]))?;
+        let mut x = self.experiment.load.clone();
+        factor.solve(&mut x)?;
+        Ok(self.experiment.observe(&x))
+    }
+
+    /// Points on a grid over the box: `frequencies` × `ratios`.
+    pub(crate) fn grid(&self, frequencies: usize, ratios: usize) -> Vec<Point<'_>> {
+        let [low, high] = self.box_ratio;
+        let ratio = move |k: usize| low * (high / low).powf(k as f64 / (ratios - 1) as f64);
+        let at = linear_hz(self.band_hz[0], self.band_hz[1], frequencies).into_iter();
+        at.flat_map(|f| {
+            (0..ratios).map(move |k| Point { at: self.at(f), correction: self.correction(f, ratio(k)) })
+        })
+        .collect()
+    }
+
+    /// A subspace for the whole box, trained to this error.
+    pub(crate) fn trained(&self, tolerance: f64) -> (Subspace<'_>, Trained) {
+        let mut subspace = Subspace::new(&self.experiment, &self.at(self.band_hz[1])).unwrap();
+        let options = TrainOptions { tolerance, ..TrainOptions::default() };
+        let trained = subspace.train(&self.grid(40, 5), &options, &sequential).unwrap();
+        (subspace, trained)
+    }
+
+    /// Frequencies and ratios of the factor, anywhere in the box, in no order: a Kronecker sequence.
+    pub(crate) fn scattered(&self, count: usize) -> Vec<(f64, f64)> {
+        let ([f0, f1], [low, high]) = (self.band_hz, self.box_ratio);
+        // Multiples of powers of the inverse of the plastic number fill the square evenly (M. Roberts, 2018).
+        let (a, b) = (0.754_877_666_246_692_7, 0.569_840_290_998_053_3);
+        let point = |k: usize| {
+            let [u, v] = [(k as f64 * a).fract(), (k as f64 * b).fract()];
+            (f0 + (f1 - f0) * u, low * (high / low).powf(v))
+        };
+        (1..=count).map(point).collect()
+    }
+}
+
+/// An assembled structure of one material, its stiffness unknown.
+pub(crate) fn structure(
+    name: &'static str,
+    assembled: &Assembled,
+    [modulus, density]: [c64; 2],
+    experiment: Experiment,
+    band_hz: [f64; 2],
+) -> Case {
+    let model = DynamicStiffness::new(vec![
+        term("stiffness", Role::Stiffness, assembled.stiffness[0].clone(), modulus),
+        term("mass", Role::Mass, assembled.mass[0].clone(), density),
+    ])
+    .unwrap();
+    let parameter = Parameter::factor_of(&model, &["stiffness"]).unwrap();
+    Case { name, model, experiment, parameter, band_hz, box_ratio: [0.5, 2.0] }
+}
+
+fn nearest(assembled: &Assembled, position: [f64; 3], direction: Direction) -> Sensor {
+    let node = assembled.nearest(position).unwrap();
+    Sensor { row: assembled.row(node, direction).unwrap(), sign: 1.0 }
+}
+
+/// A steel plate of 0.32 m × `side` × 10 mm, n × n elements, clamped all around, driven and measured off its lines of symmetry.
+pub(crate) fn plate(n: usize, side: f64, loss_factor: f64) -> Case {
+    let plate =
+        Plate { sides: [0.32, side], elements: [n; 2], edges: [Support::Clamped; 4], ..Plate::default() };
+    let plate = plate.assemble().unwrap();
+    let at = |x: f64, y: f64| nearest(&plate, [x * 0.32, y * side, 0.0], Direction::Z);
+    let experiment =
+        Experiment::driven_at(plate.dofs.len(), at(0.35, 0.3), vec![at(0.6, 0.45), at(0.2, 0.7)]);
+    structure("plate", &plate, [c(2e11, 2e11 * loss_factor), c(7800.0, 0.0)], experiment, [20.0, 4000.0])
+}
+
+/// A cantilever beam of steel, bending; its lumped mass has nothing in the rotations.
+pub(crate) fn beam(elements: usize, loss_factor: f64, mass: Mass) -> Case {
+    let beam = Beam {
+        length: 1.0,
+        area: 1e-4,
+        inertia: 1e-4 * 1e-4 / 12.0,
+        elements,
+        ends: [Support::Clamped, Support::Free],
+        mass,
+    };
+    let beam = beam.assemble().unwrap();
+    let at = |x: f64| nearest(&beam, [x, 0.0, 0.0], Direction::Z);
+    let experiment = Experiment::driven_at(beam.dofs.len(), at(1.0), vec![at(0.6), at(0.3)]);
+    structure("beam", &beam, [c(2e11, 2e11 * loss_factor), c(7800.0, 0.0)], experiment, [10.0, 1000.0])
+}
+
+/// A free–free bar of rubber, driven at one end and measured at the other and in the middle.
+pub(crate) fn bar(elements: usize) -> Case {
+    let bar = Bar { length: 0.3048, area: 5e-4, elements, ..Bar::default() }.assemble().unwrap();
+    let at = |x: f64| nearest(&bar, [x, 0.0, 0.0], Direction::X);
+    let experiment = Experiment::driven_at(bar.dofs.len(), at(0.0), vec![at(0.3048), at(0.15)]);
+    let mut case = structure("bar", &bar, [c(1.0, 0.0), c(910.0, 0.0)], experiment, [20.0, 2000.0]);
+    case.parameter.nominal = Law::Fractional { e0: 8.14e5, e1: 7.31e4, alpha: 0.528 };
+    case
+}
+
+/// A cantilever of two aluminium skins on a core of rubber, its core unknown: 3 nx (ny + 1) 4 rows.
+pub(crate) fn sandwich(nx: usize, ny: usize) -> Case {
+    let skin = Layer { thickness: 0.0015, material: 0, ..Layer::default() };
+    let core = Layer { thickness: 0.002, elements: 1, poisson: 0.45, material: 1 };
+    let (length, width) = (0.24, 0.03);
+    let layers = vec![skin, core, skin];
+    let beam =
+        Brick { length, width, elements: [nx, ny], layers, clamped: vec![Face::XMin], ..Brick::default() };
+    let beam = beam.assemble().unwrap();
+    let at = |x: f64, y: f64| nearest(&beam, [x * length, y * width, 0.005], Direction::Z);
+    let experiment = Experiment::driven_at(beam.dofs.len(), at(0.3, 0.0), vec![at(1.0, 1.0), at(0.5, 0.0)]);
+    let core = Law::Fractional { e0: 1.5 * 8.14e5, e1: 1.5 * 7.31e4, alpha: 0.528 };
+    let model = DynamicStiffness::new(vec![
+        term("skins", Role::Stiffness, beam.stiffness[0].clone(), c(7e10, 7e7)),
+        Term { name: "core".into(), role: Role::Stiffness, matrix: beam.stiffness[1].clone(), factor: core },
+        term("skins-mass", Role::Mass, beam.mass[0].clone(), c(2700.0, 0.0)),
+        term("core-mass", Role::Mass, beam.mass[1].clone(), c(910.0, 0.0)),
+    ])
+    .unwrap();
+    let parameter = Parameter::factor_of(&model, &["core"]).unwrap();
+    let name = "sandwich";
+    Case { name, model, experiment, parameter, band_hz: [20.0, 1000.0], box_ratio: [0.5, 2.0] }
 }

@@ -6,7 +6,7 @@ use crate::for_each::map;
 use crate::identify::{Identified, Options, Status, identify_at};
 use crate::model::ModelAt;
 use crate::response::{FullModel, Work};
-use crate::subspace::ReducedModel;
+use crate::subspace::Projection;
 use frfit_linalg::solve::Breakdown;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -22,7 +22,7 @@ pub(super) fn identify<'a>(
     };
     match space {
         Some(mut space) => {
-            let find = |i: usize, system: Result<ReducedModel<'_>, Breakdown>| match system {
+            let find = |i: usize, model: &Projection, _: Option<&Identified>| match model.at(&at[i]) {
                 Ok(system) => identify_at(&system, &band.measured[i], options),
                 Err(breakdown) => broken(i, breakdown),
             };
@@ -37,7 +37,8 @@ pub(super) fn identify<'a>(
                     let assessed = space.model(i).assess(&at[i], correction).ok();
                     let certified =
                         assessed.map(|a| certificate(&a, outcome.nominal + correction, &band.measured[i]));
-                    outcome.certificate = certified.map(|certified| certified.response);
+                    outcome.certificate =
+                        certified.map(|certified| certified.response).filter(|c| c.is_finite());
                     if outcome.status == Status::Ok && certified.is_none_or(|c| c.factor > options.certain) {
                         outcome.status = Status::IllConditioned;
                     }

@@ -44,7 +44,7 @@ impl Explored {
         Self { breakdown: Some(breakdown), ..Self::default() }
     }
 
-    /// Solves the full system anew at each solution: its response is then beyond doubt, and so is whether it is a solution.
+    /// Solves the system anew at each solution: its response is then beyond doubt, and so is whether it is a solution.
     pub(super) fn confirm(&mut self, system: &impl Response, measured: &[c64], sigma: &[f64]) {
         self.unsure = false;
         for solution in &mut self.solutions {
@@ -82,60 +82,63 @@ const SAME: f64 = 1e-7;
 /// A start this far outside the box (relative to the factor) may still be pulled inside by the other sensors.
 const MARGIN: f64 = 0.2;
 
-/// Finds all solutions within the bounds, `order` bounding the Krylov space.
-pub(super) fn explore(
-    system: &impl Response,
-    measured: &[c64],
-    sigma: &[f64],
-    options: &Options,
-    order: usize,
-) -> Explored {
-    match try_explore(system, measured, sigma, options, order) {
-        Ok(explored) => explored,
-        Err(breakdown) => Explored::broken(breakdown),
-    }
-}
-
-fn try_explore(
-    system: &impl Response,
-    measured: &[c64],
-    sigma: &[f64],
-    options: &Options,
-    order: usize,
-) -> Result<Explored, Breakdown> {
-    let broken = |NoConvergence| Breakdown::NotFinite;
-    let mut reached = FIRST.min(order);
-    let mut response = RationalResponse::new(system, 0, reached)?;
-    let fit = Fit { measured, sigma, nominal: system.nominal(0), options };
-    loop {
-        let mut explored = fit.solutions(&response).map_err(broken)?;
-        for solution in &mut explored.solutions {
-            solution.residual = response.residual(solution.correction).unwrap_or(f64::INFINITY);
-        }
-        explored.unsure = explored.solutions.iter().any(|solution| solution.residual > RESIDUAL);
-        // The whole space leaves nothing but roundoff.
-        explored.unsure &= !(response.is_complete() || response.size() == system.dim());
-        if !explored.unsure || reached >= order {
-            explored.order = response.size().saturating_sub(1);
-            explored.nominal_response = response.respond(c64::default()).map_err(broken)?;
-            return Ok(explored);
-        }
-        reached = (2 * reached).min(order);
-        response = response.extended(system, 0, reached)?;
-    }
-}
-
 /// x_m and ∂x_m/∂c.
-type Evaluated = Result<(Vec<c64>, Vec<c64>), NoConvergence>;
+pub(super) type Evaluated = Result<(Vec<c64>, Vec<c64>), NoConvergence>;
 
-struct Fit<'a> {
-    measured: &'a [c64],
-    sigma: &'a [f64],
-    nominal: c64,
-    options: &'a Options,
+/// What is to be explained at one frequency, and how.
+pub(super) struct Fit<'a> {
+    pub(super) measured: &'a [c64],
+    pub(super) sigma: &'a [f64],
+    pub(super) nominal: c64,
+    pub(super) options: &'a Options,
 }
 
 impl Fit<'_> {
+    /// Finds all solutions within the bounds, `order` bounding the Krylov space.
+    pub(super) fn explore(&self, system: &impl Response, order: usize) -> Explored {
+        self.try_explore(system, order).unwrap_or_else(Explored::broken)
+    }
+
+    fn try_explore(&self, system: &impl Response, order: usize) -> Result<Explored, Breakdown> {
+        let broken = |NoConvergence| Breakdown::NotFinite;
+        let mut reached = FIRST.min(order);
+        let mut response = RationalResponse::new(system, 0, reached)?;
+        loop {
+            let mut explored = self.solutions(&response).map_err(broken)?;
+            for solution in &mut explored.solutions {
+                solution.residual = response.residual(solution.correction).unwrap_or(f64::INFINITY);
+            }
+            explored.unsure = explored.solutions.iter().any(|solution| solution.residual > RESIDUAL);
+            // The whole space leaves nothing but roundoff.
+            let whole = response.is_complete() || response.size() == system.dim();
+            explored.unsure &= !whole;
+            // No solution at a low order is no proof that there is none.
+            let settled = !explored.unsure && (!explored.solutions.is_empty() || whole);
+            if settled || reached >= order {
+                explored.order = response.size().saturating_sub(1);
+                explored.nominal_response = response.respond(c64::default()).map_err(broken)?;
+                return Ok(explored);
+            }
+            reached = (2 * reached).min(order);
+            response = response.extended(system, 0, reached)?;
+        }
+    }
+
+    /// Moves each solution to where another, better model of the same system has it.
+    pub(super) fn settle(&self, mut found: Explored, respond: impl Fn(c64) -> Evaluated) -> Explored {
+        let before = std::mem::take(&mut found.solutions);
+        for old in before {
+            // One that a better model does not have was none.
+            if let Some(new) = self.descend(&respond, old.correction) {
+                merge(&mut found.solutions, Solution { residual: old.residual, ..new }, self.nominal);
+            }
+        }
+        if let Ok((response, _)) = respond(c64::default()) {
+            found.nominal_response = response;
+        }
+        found
+    }
+
     fn solutions(&self, response: &RationalResponse) -> Result<Explored, NoConvergence> {
         let poles = response.poles()?;
         let mut explored = Explored::default();
@@ -151,7 +154,7 @@ impl Fit<'_> {
             for start in response.starts(sensor, self.measured[sensor])? {
                 if !self.near_box(start) {
                     let refusal = roots.refuse(self.nominal, start).or(Some(Refusal::Far));
-                    explored.refused.push(Candidate { correction: start, drift: f64::NAN, refusal });
+                    explored.refused.push(Candidate { correction: start, drift: f64::INFINITY, refusal });
                     continue;
                 }
                 if let Some(solution) = self.descend(way, start) {
@@ -161,11 +164,12 @@ impl Fit<'_> {
         }
         for rough in found {
             let Some(solution) = self.descend(last, rough.correction) else { continue };
-            match roots.refuse(self.nominal, solution.correction) {
-                None | Some(Refusal::NotReal) => merge(&mut explored.solutions, solution, self.nominal),
-                Some(refusal) => {
-                    let correction = solution.correction;
-                    explored.refused.push(Candidate { correction, drift: f64::NAN, refusal: Some(refusal) });
+            // Real where it has to be: the descent saw to that.
+            match self.options.bounds.broken_by(self.nominal + solution.correction) {
+                None => merge(&mut explored.solutions, solution, self.nominal),
+                Some(bound) => {
+                    let (correction, refusal) = (solution.correction, Some(Refusal::OutOfBounds(bound)));
+                    explored.refused.push(Candidate { correction, drift: f64::INFINITY, refusal });
                 }
             }
         }
@@ -244,6 +248,7 @@ impl Fit<'_> {
             gradient += weight * slope.conj() * rest;
         }
         let step = gradient / curvature;
+        let step = if self.options.real { c64::new(step.re, 0.0) } else { step };
         let finite = misfit.is_finite() && step.is_finite();
         let solution =
             Solution { correction, misfit, std: curvature.powf(-0.5), response: values, residual: f64::NAN };

@@ -1,6 +1,6 @@
 //! All frequencies and all sensors together.
 
-use super::explore::{Explored, explore};
+use super::explore::{Explored, Fit};
 use super::space::Space;
 use super::verdict::{Evidence, verdict};
 use super::{Band, BandOutcome, Hooks, Noise, Stage};
@@ -10,8 +10,8 @@ use crate::identify::{Identified, Options};
 use crate::model::ModelAt;
 use crate::response::{FullModel, Response, Work};
 use crate::select::{Choice, Node, SelectOptions, choose};
-use crate::subspace::ReducedModel;
-use frfit_linalg::solve::Breakdown;
+use crate::subspace::Projection;
+use frfit_linalg::dense::NoConvergence;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Where no deviation is given, sensors count by their own size, but not below this fraction of their median over the band: an antiresonance is
@@ -43,10 +43,20 @@ pub(super) fn identify<'a>(
     };
     let (explored, mut work) = match &mut space {
         Some(space) => {
-            let find = |i: usize, system: Result<ReducedModel<'_>, Breakdown>| match system {
-                // Vectors of this length cost nothing: the order bounds those of the full model.
-                Ok(system) => explore(&system, &band.measured[i], &sigma[i], options, system.dim()),
-                Err(breakdown) => Explored::broken(breakdown),
+            let find = |i: usize, model: &Projection, before: Option<&Explored>| {
+                let fit = Fit { measured: &band.measured[i], sigma: &sigma[i], nominal: nominal(i), options };
+                // What is certified is this model's response, not that of a Krylov space within.
+                let respond = |c: c64| {
+                    let assessed = model.assess(&at[i], c).map_err(|_| NoConvergence)?;
+                    Ok((assessed.response, assessed.slope))
+                };
+                let found = match (before, model.at(&at[i])) {
+                    (Some(before), _) => before.clone(),
+                    // Vectors of this length cost nothing: the order bounds those of the full model.
+                    (None, Ok(system)) => fit.explore(&system, system.dim()),
+                    (None, Err(breakdown)) => Explored::broken(breakdown),
+                };
+                fit.settle(found, respond)
             };
             let answers = |found: &[Explored]| {
                 let choices = select(found).0;
@@ -87,7 +97,13 @@ fn on_full_model(
     let found = map(hooks.for_each, at.len(), |i| {
         let explored = match FullModel::new(at[i].clone(), band.experiment) {
             Ok(system) => {
-                let mut explored = explore(&system, &band.measured[i], &sigma[i], options, options.order);
+                let fit = Fit {
+                    measured: &band.measured[i],
+                    sigma: &sigma[i],
+                    nominal: system.nominal(0),
+                    options,
+                };
+                let mut explored = fit.explore(&system, options.order);
                 explored.confirm(&system, &band.measured[i], &sigma[i]);
                 (explored, system.work())
             }

@@ -7,8 +7,9 @@ use crate::identify::Options;
 use crate::material::loss_factor;
 use crate::model::ModelAt;
 use crate::response::Work;
-use crate::subspace::{Assessment, Point, Projection, ReducedModel, Subspace, TrainOptions};
+use crate::subspace::{Assessment, Point, Projection, Subspace, TrainOptions};
 use frfit_linalg::solve::Breakdown;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Error over the box of frequencies and factors: enough to find every root, which is then looked at more closely.
@@ -34,15 +35,12 @@ pub(super) struct Space<'a, 'o> {
     subspace: Subspace<'a>,
     at: &'o [ModelAt<'a>],
     options: &'o Options,
-    blocks: Vec<Block>,
+    /// Neighbourhoods: their first and last frequency (index).
+    blocks: Vec<[usize; 2]>,
+    /// The model that answered at each frequency: that of its neighbourhood, when it was last asked.
+    models: Vec<Option<Arc<Projection>>>,
     /// Answers that the training looked at: (frequency, correction).
     answers: Vec<(usize, c64)>,
-}
-
-/// A neighbourhood: its first and last frequency (index), and its model.
-struct Block {
-    range: [usize; 2],
-    model: Option<Projection>,
 }
 
 impl<'a, 'o> Space<'a, 'o> {
@@ -60,23 +58,21 @@ impl<'a, 'o> Space<'a, 'o> {
         (hooks.progress)(Stage::Subspace, 0, n);
         let subspace = Subspace::new(band.experiment, &at[n - 1])?;
         let count = (n / BLOCK_LEAST).clamp(1, BLOCKS);
-        let block = |b: usize| Block { range: [b * n / count, (b + 1) * n / count - 1], model: None };
-        let blocks = (0..count).map(block).collect();
-        let mut space = Self { subspace, at, options, blocks, answers: Vec::new() };
-        let steps = FREQUENCIES.min(n);
-        let picked = (0..steps).map(|k| k * (n - 1) / (steps - 1).max(1));
-        let points: Vec<Point<'a>> = picked.flat_map(|i| space.box_points(i)).collect();
+        let blocks = (0..count).map(|b| [b * n / count, (b + 1) * n / count - 1]).collect();
+        let mut space = Self { subspace, at, options, blocks, models: vec![None; n], answers: Vec::new() };
+        let all: Vec<usize> = (0..n).collect();
+        let points: Vec<Point<'a>> = thinned(&all, FREQUENCIES).flat_map(|&i| space.box_points(i)).collect();
         let training = TrainOptions { tolerance: BOX, ..TrainOptions::default() };
         space.subspace.train(&points, &training, hooks.for_each)?;
         Ok(space)
     }
 
     /// Finds what there is at every frequency and lets the caller say which corrections (frequency, c) are the answers; where the subspace is not good enough
-    /// at one, trains it there and finds again.
+    /// at one, trains it there and finds again, with what was found before.
     pub(super) fn solve<T: Clone + Send + Sync>(
         &mut self,
         hooks: Hooks<'_>,
-        find: impl Fn(usize, Result<ReducedModel<'_>, Breakdown>) -> T + Sync,
+        find: impl Fn(usize, &Projection, Option<&T>) -> T + Sync,
         mut answers: impl FnMut(&[T]) -> Vec<(usize, c64)>,
     ) -> Vec<T> {
         let n = self.at.len();
@@ -88,7 +84,7 @@ impl<'a, 'o> Space<'a, 'o> {
             let space = &*self;
             let found = map(hooks.for_each, pending.len(), |k| {
                 let i = pending[k];
-                let found = find(i, space.model(i).at(&space.at[i]));
+                let found = find(i, space.model(i), all.get(i));
                 (hooks.progress)(Stage::Solutions, done.fetch_add(1, Ordering::Relaxed) + 1, n);
                 found
             });
@@ -124,46 +120,48 @@ impl<'a, 'o> Space<'a, 'o> {
     /// Trains at answers (frequency, correction); false where nothing was gained.
     fn refine(&mut self, answers: &[(usize, c64)], hooks: Hooks<'_>) -> Result<bool, Breakdown> {
         (hooks.progress)(Stage::Subspace, 0, self.at.len());
+        // Neighbours lack the same: those that this leaves uncertain are looked at in the next round.
+        let answers: Vec<(usize, c64)> = thinned(answers, FREQUENCIES).copied().collect();
         let points: Vec<Point<'a>> =
             answers.iter().map(|&(i, correction)| Point { at: self.at[i].clone(), correction }).collect();
         let before = self.subspace.size();
         let training = TrainOptions { tolerance: ANSWER, ..TrainOptions::default() };
         self.subspace.train(&points, &training, hooks.for_each)?;
-        self.answers.extend_from_slice(answers);
-        for block in &mut self.blocks {
-            let [first, last] = block.range;
-            if answers.iter().any(|(i, _)| (first..=last).contains(i)) {
-                block.model = None;
-            }
-        }
+        self.answers.extend(answers);
         Ok(self.subspace.size() > before)
     }
 
-    /// Makes the models of the neighbourhoods in which these frequencies are.
+    /// Makes the models of the neighbourhoods in which these frequencies (ascending) are, for them.
     fn localise(&mut self, frequencies: &[usize], for_each: ForEach<'_>) {
-        let wanted = |block: &Block| {
-            let [first, last] = block.range;
-            block.model.is_none() && frequencies.iter().any(|i| (first..=last).contains(i))
+        let members = |&[first, last]: &[usize; 2]| {
+            let own = frequencies.iter().copied().filter(|i| (first..=last).contains(i));
+            own.collect::<Vec<usize>>()
         };
-        let missing: Vec<usize> = (0..self.blocks.len()).filter(|&b| wanted(&self.blocks[b])).collect();
+        let wanted: Vec<([usize; 2], Vec<usize>)> = self
+            .blocks
+            .iter()
+            .map(|block| (*block, members(block)))
+            .filter(|(_, own)| !own.is_empty())
+            .collect();
         let space = &*self;
-        let models = map(for_each, missing.len(), |k| {
-            let [first, last] = space.blocks[missing[k]].range;
+        let models = map(for_each, wanted.len(), |k| {
+            let [first, last] = wanted[k].0;
             let box_points = [first, (first + last) / 2, last].into_iter().flat_map(|i| space.box_points(i));
             let answers = space.answers.iter().filter(|(i, _)| (first..=last).contains(i));
+            let answers: Vec<(usize, c64)> = answers.copied().collect();
+            let answers = thinned(&answers, BLOCK_LEAST);
             let answers = answers.map(|&(i, correction)| Point { at: space.at[i].clone(), correction });
             let points: Vec<Point<'_>> = box_points.chain(answers).collect();
-            space.subspace.projection().localised(&points, ANSWER)
+            Arc::new(space.subspace.projection().localised(&points, ANSWER))
         });
-        for (b, model) in missing.into_iter().zip(models) {
-            self.blocks[b].model = Some(model);
+        for ((_, own), model) in wanted.into_iter().zip(models) {
+            own.into_iter().for_each(|i| self.models[i] = Some(Arc::clone(&model)));
         }
     }
 
-    /// The model of a frequency's neighbourhood.
+    /// The model that answered at a frequency.
     pub(super) fn model(&self, i: usize) -> &Projection {
-        let block = self.blocks.iter().find(|block| i <= block.range[1]);
-        block.and_then(|block| block.model.as_ref()).unwrap_or(self.subspace.projection())
+        self.models[i].as_deref().unwrap_or(self.subspace.projection())
     }
 
     pub(super) fn size(&self) -> usize {
@@ -194,6 +192,12 @@ impl<'a, 'o> Space<'a, 'o> {
         }
         points
     }
+}
+
+/// At most so many of some things, evenly spaced, the ends among them.
+fn thinned<T>(all: &[T], most: usize) -> impl Iterator<Item = &T> {
+    let count = all.len().min(most);
+    (0..count).map(move |k| &all[k * (all.len() - 1) / (count - 1).max(1)])
 }
 
 /// What the subspace may have done to an answer.

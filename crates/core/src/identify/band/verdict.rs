@@ -55,14 +55,14 @@ pub(super) fn verdict(
     let factor = nominal + chosen.correction;
     let error = relative_error(evidence.measured, &chosen.response);
     outcome.correction = Some(chosen.correction);
-    outcome.error = Some(error);
+    outcome.error = Some(error).filter(|error| error.is_finite());
     outcome.spectral_radius = outcome.radius.map(|radius| radius.at(chosen.correction));
     outcome.updated_response = chosen.response.clone();
     outcome.alternatives = choice.alternatives.iter().map(|&k| found.solutions[k].correction).collect();
     outcome.series_order =
         found.poles.as_ref().and_then(|poles| poles.series_order(0, chosen.correction, SERIES_ERROR));
     let certified = evidence.assessment.as_ref().map(|a| certificate(a, factor, evidence.measured));
-    outcome.certificate = certified.map(|certified| certified.response);
+    outcome.certificate = certified.map(|certified| certified.response).filter(|c| c.is_finite());
     let freedom = (2 * evidence.measured.len()).saturating_sub(2).max(1) as f64;
     let noise = evidence.noise.unwrap_or(0.0);
     let unexplained = error > options.error && (chosen.misfit / freedom).sqrt() > UNEXPLAINED * noise;
