@@ -77,7 +77,8 @@ pub struct BandOutcome {
 ///
 /// With the subspace (B-3) every answer carries a certificate; where it cannot be built, the full model answers. The joint selection (B-4, B-5) finds
 /// every solution within the bounds at every sensor, fits it to all sensors, and chooses one path through all; the other one is
-/// [`super::identify_at`] at each frequency.
+/// [`super::identify_at`] at each frequency. Answers are looked for within a factor of four of the nominal, and in the whole of the bounds where that
+/// leaves most of the band without any.
 ///
 /// # Errors
 /// [`OutsideTable`] where a table does not reach a frequency.
@@ -93,11 +94,31 @@ pub fn identify_band(
     let parameters = std::slice::from_ref(band.parameter);
     let at = band.frequency_hz.iter().map(|&f| band.model.at(f, parameters));
     let at: Vec<ModelAt<'_>> = at.collect::<Result<_, _>>()?;
+    let near = identify_at_all(band, &at, options, hooks);
+    // Where a path through the solutions near the nominal leaves out most of the band, the nominal is too far: the bounds are all that is left.
+    let answered = |outcome: &BandOutcome| outcome.outcomes.iter().filter(|o| o.correction.is_some()).count();
+    let wider =
+        options.selection == Selection::Joint && options.bounds.storage.is_some() && !options.whole_box;
+    if !wider || 2 * answered(&near) >= at.len() {
+        return Ok(near);
+    }
+    let mut far = identify_at_all(band, &at, &Options { whole_box: true, ..*options }, hooks);
+    far.work += near.work;
+    let work = far.work;
+    Ok(BandOutcome { work, ..if answered(&far) > answered(&near) { far } else { near } })
+}
+
+fn identify_at_all<'a>(
+    band: &Band<'a>,
+    at: &[ModelAt<'a>],
+    options: &Options,
+    hooks: Hooks<'_>,
+) -> BandOutcome {
     let wanted = options.space.is_subspace(options.method, band.model.dim(), at.len());
     // A singular stand-in for D is no reason to give up: the full model says at which frequency what breaks down.
-    let space = wanted.then(|| Space::new(band, &at, options, hooks).ok()).flatten();
-    Ok(match options.selection {
-        Selection::Joint => joint::identify(band, &at, space, options, hooks),
-        Selection::Smallest => alone::identify(band, &at, space, options, hooks),
-    })
+    let space = wanted.then(|| Space::new(band, at, options, hooks).ok()).flatten();
+    match options.selection {
+        Selection::Joint => joint::identify(band, at, space, options, hooks),
+        Selection::Smallest => alone::identify(band, at, space, options, hooks),
+    }
 }
