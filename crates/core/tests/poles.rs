@@ -78,7 +78,11 @@ fn the_sum_over_the_poles_is_the_rational_response() {
             for m in 0..values.len() {
                 // Good for the way to a solution, not for its last digits.
                 assert!((values[m] - exact[m]).norm() < 1e-7 * exact[m].norm(), "{}", case.name);
-                assert!((slopes[m] - exact_slopes[m]).norm() < 1e-6 * exact_slopes[m].norm(), "{}", case.name);
+                assert!(
+                    (slopes[m] - exact_slopes[m]).norm() < 1e-6 * exact_slopes[m].norm(),
+                    "{}",
+                    case.name
+                );
             }
         }
     }

@@ -107,7 +107,6 @@ fn cases() -> Vec<Case> {
     ]
 }
 
-
 /// What the estimate may fall short of the error: γ is the gain of the shifted stiffness, and the modes above the band, which the basis
 /// has not met, answer more strongly at its upper end, by 1/(1 − ω²/ω_next²).
 const SHORT: f64 = 5.0;
@@ -245,8 +244,11 @@ impl Random {
         let name = terms[self.unknown].name.clone();
         let model = DynamicStiffness::new(terms).unwrap();
         let parameter = Parameter::factor_of(&model, &[&name]).unwrap();
-        let sensors =
-            vec![Sensor { row: n / 2, sign: 1.0 }, Sensor { row: 1, sign: -1.0 }, Sensor { row: n - 2, sign: 1.0 }];
+        let sensors = vec![
+            Sensor { row: n / 2, sign: 1.0 },
+            Sensor { row: 1, sign: -1.0 },
+            Sensor { row: n - 2, sign: 1.0 },
+        ];
         let experiment = Experiment { load, sensors };
         // Modes from the first to about the tenth.
         Case { name: "random", model, experiment, parameter, band_hz: [0.02, 0.3], box_ratio: [0.5, 2.0] }
@@ -361,7 +363,9 @@ fn series_are_those_of_the_full_model() {
 fn spectral_radii_are_those_of_the_full_model_where_the_nearest_pole_is_in_the_box() {
     let mut compared = 0;
     // Structures of which the load excites every mode.
-    for case in [springs(60, 1e-3, &[59, 10]), bar(120), beam(40, 1e-3, Mass::Consistent), plate(12, 0.4, 1e-3)] {
+    for case in
+        [springs(60, 1e-3, &[59, 10]), bar(120), beam(40, 1e-3, Mass::Consistent), plate(12, 0.4, 1e-3)]
+    {
         let (subspace, _) = case.trained(1e-9);
         for (frequency_hz, _) in case.scattered(12) {
             let at = case.at(frequency_hz);

@@ -161,15 +161,12 @@ fn nearest(assembled: &Assembled, position: [f64; 3], direction: Direction) -> S
 
 /// A steel plate of 0.32 m × `side` × 10 mm, n × n elements, clamped all around, driven and measured off its lines of symmetry.
 pub(crate) fn plate(n: usize, side: f64, loss_factor: f64) -> Case {
-    let plate = Plate {
-        sides: [0.32, side],
-        elements: [n; 2],
-        edges: [Support::Clamped; 4],
-        ..Plate::default()
-    };
+    let plate =
+        Plate { sides: [0.32, side], elements: [n; 2], edges: [Support::Clamped; 4], ..Plate::default() };
     let plate = plate.assemble().unwrap();
     let at = |x: f64, y: f64| nearest(&plate, [x * 0.32, y * side, 0.0], Direction::Z);
-    let experiment = Experiment::driven_at(plate.dofs.len(), at(0.35, 0.3), vec![at(0.6, 0.45), at(0.2, 0.7)]);
+    let experiment =
+        Experiment::driven_at(plate.dofs.len(), at(0.35, 0.3), vec![at(0.6, 0.45), at(0.2, 0.7)]);
     structure("plate", &plate, [c(2e11, 2e11 * loss_factor), c(7800.0, 0.0)], experiment, [20.0, 4000.0])
 }
 

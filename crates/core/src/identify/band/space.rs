@@ -25,6 +25,10 @@ const FREQUENCIES: usize = 60;
 const BLOCKS: usize = 24;
 const BLOCK_LEAST: usize = 8;
 
+/// Frequencies of a neighbourhood at which its model is made good, at least; more where the neighbourhoods are few, to the resolution of the
+/// training: in a sparse band neighbours have little in common, and where a model is bad nothing is found and nothing says so.
+const BLOCK_POINTS: usize = 3;
+
 /// Without bounds, or with wider ones, the box is this factor to either side of the nominal.
 const BOX_RATIO: f64 = 4.0;
 
@@ -135,12 +139,18 @@ impl<'a, 'o> Space<'a, 'o> {
             let own = frequencies.iter().copied().filter(|i| (first..=last).contains(i));
             own.collect::<Vec<usize>>()
         };
-        let wanted: Vec<([usize; 2], Vec<usize>)> =
-            self.blocks.iter().map(|block| (*block, members(block))).filter(|(_, own)| !own.is_empty()).collect();
+        let wanted: Vec<([usize; 2], Vec<usize>)> = self
+            .blocks
+            .iter()
+            .map(|block| (*block, members(block)))
+            .filter(|(_, own)| !own.is_empty())
+            .collect();
         let space = &*self;
         let models = map(for_each, wanted.len(), |k| {
             let [first, last] = wanted[k].0;
-            let box_points = [first, (first + last) / 2, last].into_iter().flat_map(|i| space.box_points(i));
+            let steps = (last - first).min(BLOCK_POINTS.max(FREQUENCIES / space.blocks.len()) - 1);
+            let picked = (0..=steps).map(|k| first + k * (last - first) / steps.max(1));
+            let box_points = picked.flat_map(|i| space.box_points(i));
             let answers = space.answers.iter().filter(|(i, _)| (first..=last).contains(i));
             let answers = answers.map(|&(i, correction)| Point { at: space.at[i].clone(), correction });
             let points: Vec<Point<'_>> = box_points.chain(answers).collect();
