@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{Case, bar, beam, c, chain, plate, sandwich, term, tip_load};
+use common::{Case, bar, beam, c, chain, plate, sandwich, term, thickness, tip_load};
 use frfit::c64;
 use frfit::for_each::{ForEach, sequential};
 use frfit::frequency::linear_hz;
@@ -517,6 +517,25 @@ fn a_nominal_that_is_right_stays() {
             for outcome in &band.outcomes {
                 assert_no_nan(outcome);
                 assert!(nearest(outcome, outcome.nominal) < 1e-9, "{options:?}: {outcome:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_thickness_is_found_too() {
+    let mut case = thickness();
+    let truth = case.parameter.nominal.clone();
+    let frequency_hz = linear_hz(100.0, 3000.0, 12);
+    let u = measured(&case, &frequency_hz);
+    for off in [0.8, 1.3] {
+        case.parameter.nominal = scaled(&truth, off);
+        for space in [Space::Full, Space::Subspace] {
+            let band = identify(&case, &frequency_hz, &u, &Options { space, ..within(1.0, 2.0) });
+            for outcome in &band.outcomes {
+                assert_no_nan(outcome);
+                let missed = nearest(outcome, truth.at(0.0).unwrap());
+                assert!(missed < 1e-6, "× {off} at {} Hz, {space:?}: {missed:e}", outcome.frequency_hz);
             }
         }
     }
