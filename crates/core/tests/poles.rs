@@ -34,13 +34,13 @@ fn the_predicted_order_is_the_one_that_the_series_needs() {
                 for angle in [0.0, 1.0, 3.0] {
                     let correction = c64::from_polar(rho / radius.per_unit, angle);
                     let exact = case.direct(frequency_hz, correction).unwrap();
-                    for m in 0..exact.len() {
+                    for (m, exact) in exact.iter().enumerate() {
                         let order = poles.series_order(m, correction, 1e-6).unwrap();
                         if order > series.order() {
                             continue;
                         }
                         let error = |order: usize| {
-                            (series.respond(correction, order)[m] - exact[m]).norm() / exact[m].norm()
+                            (series.respond(correction, order)[m] - exact).norm() / exact.norm()
                         };
                         let at = || format!("{} at {frequency_hz} Hz, ρ {rho}, order {order}", case.name);
                         // Each pole's share is below 1e-6, a few of them add up to more.

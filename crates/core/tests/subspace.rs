@@ -2,11 +2,10 @@
 
 mod common;
 
-use common::{Case, bar, beam, c, chain, plate, sandwich, term, tip_load};
+use common::{Case, bar, beam, c, chain, plate, sandwich, term, thickness, tip_load};
 use frfit::c64;
 use frfit::for_each::sequential;
-use frfit::material::Law;
-use frfit::model::{DynamicStiffness, Experiment, Member, Parameter, Role, Sensor, Term};
+use frfit::model::{DynamicStiffness, Experiment, Parameter, Role, Sensor, Term};
 use frfit::rational::RationalResponse;
 use frfit::response::{FullModel, Response};
 use frfit::series::{NeumannSeries, convergence_radius};
@@ -50,23 +49,6 @@ fn complex_plate() -> Case {
     let values = terms[0].matrix.real_values().unwrap().iter().enumerate().map(lossy).collect();
     terms[0].matrix = SymmetricMatrix::new(pattern, Values::Complex(values));
     Case { name: "complex plate", model: DynamicStiffness::new(terms).unwrap(), ..case }
-}
-
-/// The plate's thickness, relative: cubed in bending, once in the mass (B-8).
-fn thickness() -> Case {
-    let case = plate(8, 0.32, 1e-2);
-    let mut terms: Vec<Term> = case.model.terms().to_vec();
-    let scaled = |values: &[f64], by: f64| Values::Real(values.iter().map(|v| v * by).collect());
-    for (term, by) in terms.iter_mut().zip([2e11, 7800.0]) {
-        let values = scaled(term.matrix.real_values().unwrap(), by);
-        term.matrix = SymmetricMatrix::new(term.matrix.pattern().clone(), values);
-    }
-    let parameter = Parameter {
-        members: vec![Member { term: 0, power: 3 }, Member { term: 1, power: 1 }],
-        nominal: Law::Constant(c(1.0, 0.003)),
-    };
-    let model = DynamicStiffness::new(terms).unwrap();
-    Case { name: "thickness", model, parameter, box_ratio: [0.7, 1.4], ..case }
 }
 
 fn density() -> Case {
@@ -130,7 +112,7 @@ fn the_estimate_is_no_less_than_the_error_and_not_much_more() {
     for case in cases() {
         let (subspace, trained) = case.trained(1e-6);
         assert!(trained.converged, "{}: {trained:?}", case.name);
-        let pairs = estimates(&case, &subspace, 120);
+        let pairs = estimates(&case, &subspace, 60);
         for &(estimate, error) in &pairs {
             assert!(error <= SHORT * estimate, "{}: error {error:e}, estimate {estimate:e}", case.name);
         }
@@ -148,7 +130,7 @@ fn the_estimate_is_no_less_than_the_error_and_not_much_more() {
 fn the_slope_is_that_of_direct_solves() {
     for case in cases() {
         let (subspace, _) = case.trained(1e-9);
-        for (frequency_hz, ratio) in case.scattered(6) {
+        for (frequency_hz, ratio) in case.scattered(3) {
             let correction = case.correction(frequency_hz, ratio);
             let assessed = subspace.projection().assess(&case.at(frequency_hz), correction).unwrap();
             // The sandwich's direct solves are worth 1e-8: over a step of 1e-5 too little.
@@ -256,7 +238,7 @@ impl Random {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(48))]
+    #![proptest_config(ProptestConfig::with_cases(32))]
 
     #[test]
     fn the_estimate_holds_for_any_small_structure(random in random()) {
@@ -312,7 +294,7 @@ fn a_model_of_a_neighbourhood_tells_errors_of_the_full_one() {
 fn solves_are_answered_as_by_the_full_model() {
     for case in cases() {
         let (subspace, _) = case.trained(1e-9);
-        for (frequency_hz, ratio) in case.scattered(5) {
+        for (frequency_hz, ratio) in case.scattered(3) {
             let at = case.at(frequency_hz);
             let reduced = subspace.projection().at(&at).unwrap();
             let full = FullModel::new(at.clone(), &case.experiment).unwrap();
@@ -338,7 +320,7 @@ fn solves_are_answered_as_by_the_full_model() {
 fn series_are_those_of_the_full_model() {
     for case in cases() {
         let (subspace, _) = case.trained(1e-9);
-        for (frequency_hz, _) in case.scattered(4) {
+        for (frequency_hz, _) in case.scattered(2) {
             let at = case.at(frequency_hz);
             let reduced = NeumannSeries::new(&subspace.projection().at(&at).unwrap(), 0, 12).unwrap();
             let system = FullModel::new(at.clone(), &case.experiment).unwrap();
@@ -393,7 +375,7 @@ fn rational_roots_in_the_box_are_those_of_the_full_model() {
     let mut compared = 0;
     for case in cases() {
         let (subspace, _) = case.trained(1e-9);
-        for (frequency_hz, ratio) in case.scattered(4) {
+        for (frequency_hz, ratio) in case.scattered(2) {
             let at = case.at(frequency_hz);
             let system = FullModel::new(at.clone(), &case.experiment).unwrap();
             let small = subspace.projection().at(&at).unwrap();
@@ -421,5 +403,5 @@ fn rational_roots_in_the_box_are_those_of_the_full_model() {
             }
         }
     }
-    assert!(compared >= 40, "{compared}");
+    assert!(compared >= 20, "{compared}");
 }

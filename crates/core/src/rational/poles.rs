@@ -94,7 +94,7 @@ impl Poles {
 }
 
 /// A residue of less than this part of the largest is one that a reduced model cannot tell from none.
-const TAKES_PART: f64 = 1e-6;
+const TAKES_PART: f64 = 1e-8;
 
 fn takes_part(residues: &[c64], k: usize) -> bool {
     let largest = residues.iter().map(|rho| rho.norm()).fold(0.0, f64::max);

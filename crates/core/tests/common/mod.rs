@@ -219,3 +219,20 @@ pub(crate) fn sandwich(nx: usize, ny: usize) -> Case {
     let name = "sandwich";
     Case { name, model, experiment, parameter, band_hz: [20.0, 1000.0], box_ratio: [0.5, 2.0] }
 }
+
+/// The plate's thickness, relative: cubed in bending, once in the mass (B-8).
+pub(crate) fn thickness() -> Case {
+    let case = plate(8, 0.32, 1e-2);
+    let mut terms: Vec<Term> = case.model.terms().to_vec();
+    let scaled = |values: &[f64], by: f64| Values::Real(values.iter().map(|v| v * by).collect());
+    for (term, by) in terms.iter_mut().zip([2e11, 7800.0]) {
+        let values = scaled(term.matrix.real_values().unwrap(), by);
+        term.matrix = SymmetricMatrix::new(term.matrix.pattern().clone(), values);
+    }
+    let parameter = Parameter {
+        members: vec![Member { term: 0, power: 3 }, Member { term: 1, power: 1 }],
+        nominal: Law::Constant(c(1.0, 0.003)),
+    };
+    let model = DynamicStiffness::new(terms).unwrap();
+    Case { name: "thickness", model, parameter, box_ratio: [0.7, 1.4], ..case }
+}

@@ -25,6 +25,10 @@ const FREQUENCIES: usize = 60;
 const BLOCKS: usize = 24;
 const BLOCK_LEAST: usize = 8;
 
+/// Frequencies of a neighbourhood at which its model is made good, at least; more where the neighbourhoods are few, to the resolution of the
+/// training: in a sparse band neighbours have little in common, and where a model is bad nothing is found and nothing says so.
+const BLOCK_POINTS: usize = 3;
+
 /// Storage values of the box per octave, and the least.
 const PER_OCTAVE: f64 = 1.0;
 
@@ -146,7 +150,9 @@ impl<'a, 'o> Space<'a, 'o> {
         let space = &*self;
         let models = map(for_each, wanted.len(), |k| {
             let [first, last] = wanted[k].0;
-            let box_points = [first, (first + last) / 2, last].into_iter().flat_map(|i| space.box_points(i));
+            let steps = (last - first).min(BLOCK_POINTS.max(FREQUENCIES / space.blocks.len()) - 1);
+            let picked = (0..=steps).map(|k| first + k * (last - first) / steps.max(1));
+            let box_points = picked.flat_map(|i| space.box_points(i));
             let answers = space.answers.iter().filter(|(i, _)| (first..=last).contains(i));
             let answers: Vec<(usize, c64)> = answers.copied().collect();
             let answers = thinned(&answers, BLOCK_LEAST);
