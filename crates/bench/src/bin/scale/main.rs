@@ -38,7 +38,9 @@ struct Cost {
 fn main() -> Result<(), Box<dyn Error>> {
     let limit = std::env::args().nth(1).map_or(Ok(310_000), |dofs| dofs.parse())?;
     println!("Cost of a band over the size of the model\n{}", machine());
-    println!("{FREQUENCIES} frequencies, one thread; memory beside what was there before\n");
+    println!(
+        "{FREQUENCIES} frequencies, one thread; stages in CPU seconds; before: resident memory before the identification\n"
+    );
     let mut costs = Vec::new();
     for nx in LENGTHS.into_iter().filter(|nx| 15 * nx * (nx / 8 + 1) <= limit) {
         eprintln!("{} degrees of freedom …", 15 * nx * (nx / 8 + 1));
@@ -70,7 +72,7 @@ fn table(costs: &[Cost]) -> Table {
         "subspace",
         "solutions",
         "selection",
-        "memory (MB)",
+        "peak (MB)",
         "before",
         "factorisations",
         "solves",
@@ -82,9 +84,8 @@ fn table(costs: &[Cost]) -> Table {
     ];
     let mut table = Table::new(heading);
     let megabytes = |bytes: usize| bytes as f64 / 1e6;
-    let added = |cost: &Cost| megabytes(cost.peak.saturating_sub(cost.before));
     for cost in costs {
-        let Cost { dofs, before, measurement, run, .. } = cost;
+        let Cost { dofs, before, peak, measurement, run } = cost;
         let stages = run.stages;
         let or_none = |value: Option<f64>| value.map_or("–".to_owned(), |value| format!("{value:.1e}"));
         table.push([
@@ -94,7 +95,7 @@ fn table(costs: &[Cost]) -> Table {
             format!("{:.1}", stages.subspace),
             format!("{:.1}", stages.solutions),
             format!("{:.2}", stages.selection),
-            format!("{:.0}", added(cost)),
+            format!("{:.0}", megabytes(*peak)),
             format!("{:.0}", megabytes(*before)),
             run.found.work.factorisations.to_string(),
             run.found.work.solves.to_string(),
@@ -117,7 +118,7 @@ fn table(costs: &[Cost]) -> Table {
         power(&|cost| cost.run.stages.subspace),
         power(&|cost| cost.run.stages.solutions),
         power(&|cost| cost.run.stages.selection),
-        power(&added),
+        power(&|cost| megabytes(cost.peak)),
         power(&|cost| megabytes(cost.before)),
         power(&|cost| cost.run.found.work.factorisations as f64),
         power(&|cost| cost.run.found.work.solves as f64),
