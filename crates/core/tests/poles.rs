@@ -54,9 +54,11 @@ fn the_predicted_order_is_the_one_that_the_series_needs() {
                 }
             }
             for rho in [1.01, 1.5, 10.0] {
-                // Every mode of these structures is driven and measured.
+                // Every mode of these structures is driven, and seen by one of the sensors.
                 let correction = c64::from_polar(rho / radius.per_unit, 0.5);
-                assert_eq!(poles.series_order(0, correction, 1e-6), None, "{} ρ {rho}", case.name);
+                let mut sensors = 0..case.experiment.sensors.len();
+                let diverges = sensors.any(|m| poles.series_order(m, correction, 1e-6).is_none());
+                assert!(diverges, "{} ρ {rho}", case.name);
             }
             assert!((poles.radius_per_unit() / radius.per_unit - 1.0).abs() < 1e-3);
             assert_eq!(poles.series_order(0, c64::default(), 1e-6), Some(0));

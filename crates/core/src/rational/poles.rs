@@ -93,8 +93,8 @@ impl Poles {
     }
 }
 
-/// A residue of less than this part of the largest is one that a reduced model cannot tell from none.
-const TAKES_PART: f64 = 1e-8;
+/// A residue of less than this part of the largest is roundoff: the mode is not driven, or not seen.
+const TAKES_PART: f64 = 1e-12;
 
 fn takes_part(residues: &[c64], k: usize) -> bool {
     let largest = residues.iter().map(|rho| rho.norm()).fold(0.0, f64::max);

@@ -59,8 +59,10 @@ pub(super) fn verdict(
     outcome.spectral_radius = outcome.radius.map(|radius| radius.at(chosen.correction));
     outcome.updated_response = chosen.response.clone();
     outcome.alternatives = choice.alternatives.iter().map(|&k| found.solutions[k].correction).collect();
-    outcome.series_order =
-        found.poles.as_ref().and_then(|poles| poles.series_order(0, chosen.correction, SERIES_ERROR));
+    outcome.series_order = found.poles.as_ref().and_then(|poles| {
+        let order = |m| poles.series_order(m, chosen.correction, SERIES_ERROR);
+        (0..evidence.measured.len()).map(order).try_fold(0, |most, n| Some(most.max(n?)))
+    });
     let certified = evidence.assessment.as_ref().map(|a| certificate(a, factor, evidence.measured));
     outcome.certificate = certified.map(|certified| certified.response).filter(|c| c.is_finite());
     let freedom = (2 * evidence.measured.len()).saturating_sub(2).max(1) as f64;
