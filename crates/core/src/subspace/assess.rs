@@ -26,6 +26,8 @@ pub(super) struct Solved {
     pub(super) assessment: Assessment,
     /// y with VᵀDV y = VᵀF, then z_m with VᵀDV z_m = Vᵀℓ_m.
     pub(super) solutions: Vec<Vec<c64>>,
+    /// Sketches of F − D V y, then of ℓ_m − D V z_m.
+    pub(super) residuals: Vec<Vec<c64>>,
 }
 
 /// Units of roundoff that reduced matrices carry relative to the diagonal of the shifted stiffness.
@@ -53,8 +55,8 @@ impl Solved {
         let factor = Lu::new(&small.combine(&theta)).map_err(|NoConvergence| Breakdown::NotFinite)?;
         factor.solve(&mut block).map_err(|NoConvergence| SINGULAR)?;
         let solutions: Vec<Vec<c64>> = block.chunks_exact(small.size).map(<[c64]>::to_vec).collect();
-        let views: Vec<&[c64]> = solutions.iter().map(Vec::as_slice).collect();
-        let norms = small.residual_norms(&theta, &views);
+        let residuals = small.residuals(&theta, &solutions);
+        let norms: Vec<f64> = residuals.iter().map(|residual| norm(residual)).collect();
         let (y, duals) = (&solutions[0], &solutions[1..]);
         let change = small.combine(&slope_theta).multiply(y);
         let product = |a: &[c64], b: &[c64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<c64>();
@@ -64,7 +66,7 @@ impl Solved {
             truncation: norms[1..].iter().map(|dual| small.gain * dual * norms[0]).collect(),
             roundoff: duals.iter().map(|z| ROUNDOFF * norm(z) * norm(y)).collect(),
         };
-        Ok(Self { assessment, solutions })
+        Ok(Self { assessment, solutions, residuals })
     }
 }
 

@@ -63,22 +63,22 @@ impl Projection {
         sum
     }
 
-    /// ‖F − Σ θ_g S_g V y‖ and ‖ℓ_m − Σ θ_g S_g V z_m‖ in the norm of forces, by their sketches: `solutions` are y, z_1, z_2 …
-    pub(super) fn residual_norms(&self, theta: &[c64], solutions: &[&[c64]]) -> Vec<f64> {
-        let norm = |(given, y): (&Vec<c64>, &&[c64])| {
+    /// Sketches of F − Σ θ_g S_g V y and ℓ_m − Σ θ_g S_g V z_m in the norm of forces: `solutions` are y, z_1, z_2 …
+    pub(super) fn residuals(&self, theta: &[c64], solutions: &[Vec<c64>]) -> Vec<Vec<c64>> {
+        let residual = |(given, y): (&Vec<c64>, &Vec<c64>)| {
             let mut rest = given.clone();
             for (image, &theta) in self.images.iter().zip(theta) {
                 if theta == c64::default() {
                     continue;
                 }
-                for (column, y) in image.chunks_exact(given.len()).zip(*y) {
+                for (column, y) in image.chunks_exact(given.len()).zip(y) {
                     let factor = theta * y;
                     rest.iter_mut().zip(column).for_each(|(r, a)| *r -= factor * a);
                 }
             }
-            rest.iter().map(|r| r.norm_sqr()).sum::<f64>().sqrt()
+            rest
         };
-        self.sketched.iter().zip(solutions).map(norm).collect()
+        self.sketched.iter().zip(solutions).map(residual).collect()
     }
 
     /// The same model on r × q coordinates W (column after column): basis VW.

@@ -9,6 +9,8 @@ use crate::for_each::{ForEach, map};
 use crate::frequency::omega_rad_s;
 use crate::model::ModelAt;
 use frfit_linalg::solve::Breakdown;
+use frfit_linalg::sparse::{SymmetricMatrix, Values};
+use std::sync::Arc;
 
 /// A frequency and a value of the first parameter.
 #[derive(Debug, Clone)]
@@ -63,15 +65,12 @@ const STALLED: usize = 6;
 impl<'m> Subspace<'m> {
     /// S⁻¹F and S⁻¹ℓ_m.
     pub(super) fn start(&mut self) -> Result<(), Breakdown> {
-        let mut forces = self.real_directions(self.experiment.load.clone());
-        for m in 0..self.experiment.sensors.len() {
-            forces.extend(self.real_directions(self.experiment.unit_force(m)));
-        }
-        let mut kept = Vec::new();
-        for force in forces {
-            kept.extend(self.new_among(&kept, force).map(|new| (0, new)));
-        }
-        self.solve_and_append(kept).map(drop)
+        let sensors = (0..self.experiment.sensors.len()).map(|m| self.experiment.unit_force(m));
+        let given: Vec<Vec<c64>> = std::iter::once(self.experiment.load.clone()).chain(sensors).collect();
+        let dot = |a: &[f64], b: &[f64]| self.basis.force_dot(a, b);
+        let forces: Vec<(usize, Vec<f64>)> =
+            given.iter().flat_map(|force| real_directions(force, dot)).map(|force| (0, force)).collect();
+        self.solve_and_append(forces).map(drop)
     }
 
     /// Grows the basis until the error is within the tolerance at all points.
@@ -95,7 +94,9 @@ impl<'m> Subspace<'m> {
         let mut errors = assess(self, &all);
         loop {
             if errors.first().is_none_or(|&(worst, _)| worst <= options.tolerance) {
+                // Points that were not followed may be far worse: what counts as progress starts anew.
                 errors = assess(self, &all);
+                (best, stalled) = (f64::INFINITY, 0);
             }
             let Some(&(worst, at)) = errors.first() else {
                 return Ok(Trained { error: 0.0, converged: true });
@@ -143,78 +144,46 @@ impl<'m> Subspace<'m> {
     }
 
     /// Adds S⁻¹ times the residuals at the worst points, as far as they are independent; returns how many vectors were new.
+    ///
+    /// Which are is told by their sketches; only those that are kept are formed in full.
     fn enrich(&mut self, points: &[&Point<'m>]) -> Result<usize, Breakdown> {
-        let mut kept: Vec<(usize, Vec<f64>)> = Vec::new();
+        let mut kept: Vec<Vec<f64>> = Vec::new();
+        let mut forces: Vec<(usize, Vec<f64>)> = Vec::new();
         for point in points.iter().take(2 * BLOCK) {
             let Ok(solved) = Solved::new(self.projection(), &point.at, point.correction) else { continue };
             let shift = self.nearest_shift(point.at.frequency_hz);
-            for residual in self.residuals(point, &solved) {
-                for direction in self.real_directions(residual) {
-                    if kept.len() < BLOCK
-                        && let Some(new) = self.new_among(&kept, direction)
-                    {
-                        kept.push((shift, new));
-                    }
+            let Assessment { truncation, .. } = &solved.assessment;
+            let worst = (0..truncation.len()).max_by(|&a, &b| truncation[a].total_cmp(&truncation[b]));
+            for which in std::iter::once(0).chain(worst.map(|m| m + 1)) {
+                let directions = real_directions(&solved.residuals[which], plain_dot);
+                let new: Vec<bool> = directions.iter().map(|direction| keep(&mut kept, direction)).collect();
+                if new.iter().any(|&new| new) {
+                    let full = self.residual(point, which, &solved.solutions[which]);
+                    let directions = real_directions(&full, |a, b| self.basis.force_dot(a, b));
+                    let wanted = directions.into_iter().zip(new).filter(|(_, new)| *new);
+                    forces.extend(wanted.map(|(force, _)| (shift, force)));
                 }
             }
-            if kept.len() == BLOCK {
+            if forces.len() >= BLOCK {
                 break;
             }
         }
-        self.solve_and_append(kept)
+        self.solve_and_append(forces)
     }
 
-    /// F − D x, and ℓ_m − D z_m for the sensor with the largest error, in full.
-    fn residuals(&self, point: &Point<'m>, solved: &Solved) -> Vec<Vec<c64>> {
-        let Assessment { truncation: error, .. } = &solved.assessment;
-        let worst = (0..error.len()).max_by(|&a, &b| error[a].total_cmp(&error[b]));
-        let residual = |mut given: Vec<c64>, y: &[c64]| {
-            let x = self.basis.vectors().combine(y);
-            let minus = c64::new(-1.0, 0.0);
-            point.at.nominal.multiply_add(self.model, minus, &x, &mut given);
-            let mut power = minus;
-            for coefficient in point.at.parameters.first().map_or(&[][..], |p| &p.coefficients) {
-                power *= point.correction;
-                coefficient.multiply_add(self.model, power, &x, &mut given);
-            }
-            given
+    /// F − D V y, or ℓ_m − D V z_m for `which` = m + 1, in full.
+    fn residual(&self, point: &Point<'m>, which: usize, y: &[c64]) -> Vec<c64> {
+        let x = self.basis.vectors().combine(y);
+        let mut corrections = vec![c64::default(); point.at.parameters.len()];
+        corrections.iter_mut().take(1).for_each(|c| *c = point.correction);
+        let pattern = self.model.analysis().pattern();
+        let d = SymmetricMatrix::new(Arc::clone(pattern), Values::Complex(point.at.assemble(&corrections)));
+        let mut rest = match which.checked_sub(1) {
+            None => self.experiment.load.clone(),
+            Some(m) => self.experiment.unit_force(m),
         };
-        let mut residuals = vec![residual(self.experiment.load.clone(), &solved.solutions[0])];
-        if let Some(m) = worst {
-            residuals.push(residual(self.experiment.unit_force(m), &solved.solutions[m + 1]));
-        }
-        residuals
-    }
-
-    /// One or two real vectors of norm one for a complex one: its real part after the rotation of phase that makes that largest, and its
-    /// imaginary part where that is not small beside it.
-    fn real_directions(&self, complex: Vec<c64>) -> Vec<Vec<f64>> {
-        let re: Vec<f64> = complex.iter().map(|r| r.re).collect();
-        let im: Vec<f64> = complex.iter().map(|r| r.im).collect();
-        let (aa, bb, ab) =
-            (self.basis.force_dot(&re, &re), self.basis.force_dot(&im, &im), self.basis.force_dot(&re, &im));
-        let turn = c64::from_polar(1.0, -0.5 * c64::new(aa - bb, 2.0 * ab).arg());
-        let turned = |part: fn(c64) -> f64| complex.iter().map(|&r| part(r * turn)).collect::<Vec<f64>>();
-        let mut directions = vec![turned(|r| r.re), turned(|r| r.im)];
-        let norms: Vec<f64> = directions.iter().map(|d| self.basis.force_dot(d, d).sqrt()).collect();
-        directions.truncate(if norms[1] > INDEPENDENT * norms[0] { 2 } else { 1 });
-        directions.retain_mut(|direction| {
-            let norm = self.basis.force_dot(direction, direction).sqrt();
-            direction.iter_mut().for_each(|d| *d /= norm);
-            norm > 0.0 && norm.is_finite()
-        });
-        directions
-    }
-
-    /// What a force of norm one has beyond those that are kept already, of norm one; `None` where that is little.
-    fn new_among(&self, kept: &[(usize, Vec<f64>)], mut force: Vec<f64>) -> Option<Vec<f64>> {
-        for (_, other) in kept {
-            let overlap = self.basis.force_dot(other, &force);
-            force.iter_mut().zip(other).for_each(|(f, o)| *f -= overlap * o);
-        }
-        let rest = self.basis.force_dot(&force, &force).sqrt();
-        force.iter_mut().for_each(|f| *f /= rest);
-        (rest > INDEPENDENT).then_some(force)
+        d.multiply_add(c64::new(-1.0, 0.0), &x, &mut rest);
+        rest
     }
 
     fn nearest_shift(&self, frequency_hz: f64) -> usize {
@@ -243,4 +212,43 @@ impl<'m> Subspace<'m> {
         self.basis.projection.gain = gain;
         Ok(added)
     }
+}
+
+fn plain_dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// One or two real vectors of norm one for a complex one: its real part after the rotation of phase that makes that largest, and its imaginary part where
+/// that is not small beside it.
+fn real_directions(complex: &[c64], dot: impl Fn(&[f64], &[f64]) -> f64) -> Vec<Vec<f64>> {
+    let re: Vec<f64> = complex.iter().map(|r| r.re).collect();
+    let im: Vec<f64> = complex.iter().map(|r| r.im).collect();
+    let (aa, bb, ab) = (dot(&re, &re), dot(&im, &im), dot(&re, &im));
+    let turn = c64::from_polar(1.0, -0.5 * c64::new(aa - bb, 2.0 * ab).arg());
+    let turned = |part: fn(c64) -> f64| complex.iter().map(|&r| part(r * turn)).collect::<Vec<f64>>();
+    let mut directions = vec![turned(|r| r.re), turned(|r| r.im)];
+    let norms: Vec<f64> = directions.iter().map(|d| dot(d, d).sqrt()).collect();
+    directions.truncate(if norms[1] > INDEPENDENT * norms[0] { 2 } else { 1 });
+    directions.retain_mut(|direction| {
+        let norm = dot(direction, direction).sqrt();
+        direction.iter_mut().for_each(|d| *d /= norm);
+        norm > 0.0 && norm.is_finite()
+    });
+    directions
+}
+
+/// Keeps what a vector of norm one has beyond those that are kept already, of norm one; false where that is little.
+fn keep(kept: &mut Vec<Vec<f64>>, vector: &[f64]) -> bool {
+    let mut new = vector.to_vec();
+    for other in kept.iter() {
+        let overlap = plain_dot(other, &new);
+        new.iter_mut().zip(other).for_each(|(n, o)| *n -= overlap * o);
+    }
+    let rest = plain_dot(&new, &new).sqrt();
+    new.iter_mut().for_each(|n| *n /= rest);
+    let is_new = rest > INDEPENDENT;
+    if is_new {
+        kept.push(new);
+    }
+    is_new
 }

@@ -31,7 +31,8 @@ pub(super) fn identify<'a>(
                     found.iter().enumerate().filter_map(|(i, outcome)| Some((i, outcome.correction?)));
                 corrections.collect()
             };
-            let found = space.solve(hooks, find, answers);
+            let all: Vec<usize> = (0..at.len()).collect();
+            let found = space.solve(&all, hooks, find, answers);
             let outcomes = found.into_iter().enumerate().map(|(i, mut outcome)| {
                 if let Some(correction) = outcome.correction {
                     let assessed = space.model(i).assess(&at[i], correction).ok();

@@ -199,20 +199,21 @@ impl Fit<'_> {
 
     /// Gauss–Newton on Σ |u_m − x_m(c)|²/σ_m², B-5: for one sensor Newton's method on x(c) = u. `None` where it does not settle.
     fn descend(&self, respond: impl Fn(c64) -> Evaluated, start: c64) -> Option<Solution> {
-        let mut best = self.solution_at(&respond, self.admissible(start)).ok()?;
-        let mut step = best.1;
+        let (mut best, mut step) = self.solution_at(&respond, self.admissible(start)).ok()?;
         for _ in 0..STEPS {
-            let correction = self.admissible(best.0.correction + step);
-            let next = self.solution_at(&respond, correction).ok()?;
-            if next.0.misfit < best.0.misfit {
-                step = next.1;
-                best = next;
-            } else if step.norm() <= 1e-6 * (self.nominal + best.0.correction).norm() {
-                // No better point, nor far from one: roundoff is what is left.
-                let own = self.measured.len() > 1 || self.matched(&best.0);
-                return own.then_some(best.0);
+            let size = (self.nominal + best.correction).norm();
+            let (next, further) = self.solution_at(&respond, self.admissible(best.correction + step)).ok()?;
+            let better = next.misfit < best.misfit;
+            // A step of roundoff, or no better point though not far from one: this is it.
+            let done = step.norm() <= f64::EPSILON * size || (!better && step.norm() <= 1e-6 * size);
+            if better {
+                (best, step) = (next, further);
             } else {
                 step *= 0.5;
+            }
+            if done || (better && step.norm() <= f64::EPSILON * size) {
+                let own = self.measured.len() > 1 || self.matched(&best);
+                return own.then_some(best);
             }
         }
         None

@@ -35,12 +35,13 @@ pub(super) fn identify<'a>(
         sigma_known: matches!(band.noise, Noise::Known(_)),
         ..SelectOptions::default()
     };
-    let select = |found: &[Explored]| {
+    let select = |which: &[usize], found: &[Explored]| {
         (hooks.progress)(Stage::Selection, 0, at.len());
-        let nodes: Vec<Vec<Node>> =
-            found.iter().enumerate().map(|(i, found)| nodes(found, nominal(i))).collect();
-        (choose(band.frequency_hz, &nodes, &select), noise_level(&nodes, band))
+        let frequency_hz: Vec<f64> = which.iter().map(|&i| band.frequency_hz[i]).collect();
+        let nodes: Vec<Vec<Node>> = which.iter().zip(found).map(|(&i, f)| nodes(f, nominal(i))).collect();
+        (choose(&frequency_hz, &nodes, &select), noise_level(&nodes, band))
     };
+    let all: Vec<usize> = (0..at.len()).collect();
     let (explored, mut work) = match &mut space {
         Some(space) => {
             let find = |i: usize, model: &Projection, before: Option<&Explored>| {
@@ -58,28 +59,28 @@ pub(super) fn identify<'a>(
                 };
                 fit.settle(found, respond)
             };
-            let answers = |found: &[Explored]| {
-                let choices = select(found).0;
-                let of = |(i, choice): (usize, &Choice)| {
+            let answers = |which: &[usize], found: &[Explored]| {
+                let choices = select(which, found).0;
+                let of = |(k, choice): (usize, &Choice)| {
                     let taken = choice.chosen.into_iter().chain(choice.alternatives.iter().copied());
-                    taken.map(|k| (i, found[i].solutions[k].correction)).collect::<Vec<_>>()
+                    taken.map(|s| (k, found[k].solutions[s].correction)).collect::<Vec<_>>()
                 };
                 choices.iter().enumerate().flat_map(of).collect()
             };
-            (space.solve(hooks, find, answers), Work::default())
+            let pilots = space.pilots();
+            space.solve(&pilots, hooks, find, |found| answers(&pilots, found));
+            (space.solve(&all, hooks, find, |found| answers(&all, found)), Work::default())
         }
         None => on_full_model(band, at, &sigma, options, hooks),
     };
-    let (choices, noise) = select(&explored);
-    let outcomes: Vec<Identified> = (0..at.len())
-        .map(|i| {
-            let chosen = choices[i].chosen.map(|k| explored[i].solutions[k].correction);
-            let assessment =
-                space.as_ref().zip(chosen).and_then(|(space, c)| space.model(i).assess(&at[i], c).ok());
-            let evidence = Evidence { at: &at[i], measured: &band.measured[i], noise, assessment };
-            verdict(&evidence, &explored[i], &choices[i], options)
-        })
-        .collect();
+    let (choices, noise) = select(&all, &explored);
+    let outcomes: Vec<Identified> = map(hooks.for_each, at.len(), |i| {
+        let chosen = choices[i].chosen.map(|k| explored[i].solutions[k].correction);
+        let assessment =
+            space.as_ref().zip(chosen).and_then(|(space, c)| space.model(i).assess(&at[i], c).ok());
+        let evidence = Evidence { at: &at[i], measured: &band.measured[i], noise, assessment };
+        verdict(&evidence, &explored[i], &choices[i], options)
+    });
     if let Some(space) = &space {
         work += space.work();
     }

@@ -71,45 +71,55 @@ impl<'a, 'o> Space<'a, 'o> {
         Ok(space)
     }
 
-    /// Finds what there is at every frequency and lets the caller say which corrections (frequency, c) are the answers; where the subspace is not good enough
-    /// at one, trains it there and finds again, with what was found before.
+    /// Some of the frequencies, over the whole band: once the subspace is good at their answers, it is at most of the others.
+    pub(super) fn pilots(&self) -> Vec<usize> {
+        let all: Vec<usize> = (0..self.at.len()).collect();
+        thinned(&all, FREQUENCIES).copied().collect()
+    }
+
+    /// Finds what there is at some frequencies (ascending) and lets the caller say which corrections (k, c) at the k-th of them are the answers; where the subspace
+    /// is not good enough at one, trains it there and finds again, with what was found before.
     pub(super) fn solve<T: Clone + Send + Sync>(
         &mut self,
+        which: &[usize],
         hooks: Hooks<'_>,
         find: impl Fn(usize, &Projection, Option<&T>) -> T + Sync,
         mut answers: impl FnMut(&[T]) -> Vec<(usize, c64)>,
     ) -> Vec<T> {
-        let n = self.at.len();
+        let n = which.len();
         let mut all: Vec<T> = Vec::new();
         let mut pending: Vec<usize> = (0..n).collect();
         for round in 0..=ROUNDS {
-            self.localise(&pending, hooks.for_each);
+            (hooks.progress)(Stage::Solutions, n - pending.len(), n);
+            let frequencies: Vec<usize> = pending.iter().map(|&k| which[k]).collect();
+            self.localise(&frequencies, hooks.for_each);
             let done = AtomicUsize::new(n - pending.len());
             let space = &*self;
-            let found = map(hooks.for_each, pending.len(), |k| {
-                let i = pending[k];
-                let found = find(i, space.model(i), all.get(i));
+            let found = map(hooks.for_each, pending.len(), |p| {
+                let (k, i) = (pending[p], frequencies[p]);
+                let found = find(i, space.model(i), all.get(k));
                 (hooks.progress)(Stage::Solutions, done.fetch_add(1, Ordering::Relaxed) + 1, n);
                 found
             });
             if all.is_empty() {
                 all = found;
             } else {
-                pending.iter().zip(found).for_each(|(&i, found)| all[i] = found);
+                pending.iter().zip(found).for_each(|(&k, found)| all[k] = found);
             }
             let answers = answers(&all);
             let uncertain =
-                map(hooks.for_each, answers.len(), |k| space.is_uncertain(answers[k].0, answers[k].1));
+                map(hooks.for_each, answers.len(), |a| space.is_uncertain(which[answers[a].0], answers[a].1));
             let uncertain: Vec<(usize, c64)> = answers
                 .into_iter()
                 .zip(uncertain)
                 .filter(|(_, uncertain)| *uncertain)
                 .map(|(a, _)| a)
                 .collect();
-            if uncertain.is_empty() || round == ROUNDS || !self.refine(&uncertain, hooks).unwrap_or(false) {
+            let lacking: Vec<(usize, c64)> = uncertain.iter().map(|&(k, c)| (which[k], c)).collect();
+            if lacking.is_empty() || round == ROUNDS || !self.refine(&lacking, hooks).unwrap_or(false) {
                 break;
             }
-            pending = uncertain.into_iter().map(|(i, _)| i).collect();
+            pending = uncertain.into_iter().map(|(k, _)| k).collect();
             pending.dedup();
         }
         all
