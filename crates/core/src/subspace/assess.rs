@@ -47,24 +47,58 @@ impl Assessment {
     }
 }
 
-impl Solved {
-    pub(super) fn new(small: &Projection, at: &ModelAt<'_>, correction: c64) -> Result<Self, Breakdown> {
+/// The reduced system solved for the load and for every sensor.
+struct Solutions {
+    theta: Vec<c64>,
+    /// y, z_1, z_2 …
+    all: Vec<Vec<c64>>,
+    response: Vec<c64>,
+    slope: Vec<c64>,
+}
+
+impl Solutions {
+    fn new(small: &Projection, at: &ModelAt<'_>, correction: c64) -> Result<Self, Breakdown> {
         let (theta, slope_theta) = weights(small, at, correction);
         let mut block = small.load.clone();
         block.extend(small.sensors.iter().flatten().map(|&l| c64::new(l, 0.0)));
         let factor = Lu::new(&small.combine(&theta)).map_err(|NoConvergence| Breakdown::NotFinite)?;
         factor.solve(&mut block).map_err(|NoConvergence| SINGULAR)?;
-        let solutions: Vec<Vec<c64>> = block.chunks_exact(small.size).map(<[c64]>::to_vec).collect();
-        let residuals = small.residuals(&theta, &solutions);
-        let norms: Vec<f64> = residuals.iter().map(|residual| norm(residual)).collect();
-        let (y, duals) = (&solutions[0], &solutions[1..]);
+        let all: Vec<Vec<c64>> = block.chunks_exact(small.size).map(<[c64]>::to_vec).collect();
+        let (y, duals) = (&all[0], &all[1..]);
         let change = small.combine(&slope_theta).multiply(y);
         let product = |a: &[c64], b: &[c64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<c64>();
+        let response = small.sensors.iter().map(|l| l.iter().zip(y).map(|(l, y)| y * l).sum()).collect();
+        let slope = duals.iter().map(|z| -product(z, &change)).collect();
+        Ok(Self { theta, all, response, slope })
+    }
+}
+
+impl Projection {
+    /// x_m and ∂x_m/∂c with the correction c of the first parameter, without an estimate of their error.
+    ///
+    /// # Errors
+    /// [`Breakdown`] where the reduced system is singular.
+    pub fn respond_with_slope(
+        &self,
+        at: &ModelAt<'_>,
+        correction: c64,
+    ) -> Result<(Vec<c64>, Vec<c64>), Breakdown> {
+        let Solutions { response, slope, .. } = Solutions::new(self, at, correction)?;
+        Ok((response, slope))
+    }
+}
+
+impl Solved {
+    pub(super) fn new(small: &Projection, at: &ModelAt<'_>, correction: c64) -> Result<Self, Breakdown> {
+        let Solutions { theta, all: solutions, response, slope } = Solutions::new(small, at, correction)?;
+        let residuals = small.residuals(&theta, &solutions);
+        let norms: Vec<f64> = residuals.iter().map(|residual| norm(residual)).collect();
+        let size = norm(&solutions[0]);
         let assessment = Assessment {
-            response: small.sensors.iter().map(|l| l.iter().zip(y).map(|(l, y)| y * l).sum()).collect(),
-            slope: duals.iter().map(|z| -product(z, &change)).collect(),
+            response,
+            slope,
             truncation: norms[1..].iter().map(|dual| small.gain * dual * norms[0]).collect(),
-            roundoff: duals.iter().map(|z| ROUNDOFF * norm(z) * norm(y)).collect(),
+            roundoff: solutions[1..].iter().map(|z| ROUNDOFF * norm(z) * size).collect(),
         };
         Ok(Self { assessment, solutions, residuals })
     }

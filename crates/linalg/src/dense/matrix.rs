@@ -94,7 +94,7 @@ impl Matrix {
     }
 
     pub(super) fn is_finite(&self) -> bool {
-        self.max_modulus().is_finite()
+        self.values.iter().all(|value| value.is_finite())
     }
 }
 

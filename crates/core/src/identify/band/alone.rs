@@ -35,7 +35,7 @@ pub(super) fn identify<'a>(
             let found = space.solve(&all, hooks, find, answers);
             let outcomes = found.into_iter().enumerate().map(|(i, mut outcome)| {
                 if let Some(correction) = outcome.correction {
-                    let assessed = space.model(i).assess(&at[i], correction).ok();
+                    let assessed = space.assess(i, correction);
                     let certified =
                         assessed.map(|a| certificate(&a, outcome.nominal + correction, &band.measured[i]));
                     outcome.certificate =

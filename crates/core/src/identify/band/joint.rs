@@ -47,10 +47,7 @@ pub(super) fn identify<'a>(
             let find = |i: usize, model: &Projection, before: Option<&Explored>| {
                 let fit = Fit { measured: &band.measured[i], sigma: &sigma[i], nominal: nominal(i), options };
                 // What is certified is this model's response, not that of a Krylov space within.
-                let respond = |c: c64| {
-                    let assessed = model.assess(&at[i], c).map_err(|_| NoConvergence)?;
-                    Ok((assessed.response, assessed.slope))
-                };
+                let respond = |c: c64| model.respond_with_slope(&at[i], c).map_err(|_| NoConvergence);
                 let found = match (before, model.at(&at[i])) {
                     (Some(before), _) => before.clone(),
                     // Vectors of this length cost nothing: the order bounds those of the full model.
@@ -76,8 +73,7 @@ pub(super) fn identify<'a>(
     let (choices, noise) = select(&all, &explored);
     let outcomes: Vec<Identified> = map(hooks.for_each, at.len(), |i| {
         let chosen = choices[i].chosen.map(|k| explored[i].solutions[k].correction);
-        let assessment =
-            space.as_ref().zip(chosen).and_then(|(space, c)| space.model(i).assess(&at[i], c).ok());
+        let assessment = space.as_ref().zip(chosen).and_then(|(space, c)| space.assess(i, c));
         let evidence = Evidence { at: &at[i], measured: &band.measured[i], noise, assessment };
         verdict(&evidence, &explored[i], &choices[i], options)
     });

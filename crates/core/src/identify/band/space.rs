@@ -43,6 +43,8 @@ pub(super) struct Space<'a, 'o> {
     blocks: Vec<[usize; 2]>,
     /// The model that answered at each frequency: that of its neighbourhood, when it was last asked.
     models: Vec<Option<Arc<Projection>>>,
+    /// The last answer at each frequency, and how good its model is there.
+    assessed: Vec<Option<(c64, Assessment)>>,
     /// Answers that the training looked at: (frequency, correction).
     answers: Vec<(usize, c64)>,
 }
@@ -63,7 +65,15 @@ impl<'a, 'o> Space<'a, 'o> {
         let subspace = Subspace::new(band.experiment, &at[n - 1])?;
         let count = (n / BLOCK_LEAST).clamp(1, BLOCKS);
         let blocks = (0..count).map(|b| [b * n / count, (b + 1) * n / count - 1]).collect();
-        let mut space = Self { subspace, at, options, blocks, models: vec![None; n], answers: Vec::new() };
+        let mut space = Self {
+            subspace,
+            at,
+            options,
+            blocks,
+            models: vec![None; n],
+            assessed: vec![None; n],
+            answers: Vec::new(),
+        };
         let all: Vec<usize> = (0..n).collect();
         let points: Vec<Point<'a>> = thinned(&all, FREQUENCIES).flat_map(|&i| space.box_points(i)).collect();
         let training = TrainOptions { tolerance: BOX, ..TrainOptions::default() };
@@ -107,14 +117,18 @@ impl<'a, 'o> Space<'a, 'o> {
                 pending.iter().zip(found).for_each(|(&k, found)| all[k] = found);
             }
             let answers = answers(&all);
-            let uncertain =
-                map(hooks.for_each, answers.len(), |a| space.is_uncertain(which[answers[a].0], answers[a].1));
-            let uncertain: Vec<(usize, c64)> = answers
-                .into_iter()
-                .zip(uncertain)
-                .filter(|(_, uncertain)| *uncertain)
-                .map(|(a, _)| a)
-                .collect();
+            let assessed = map(hooks.for_each, answers.len(), |a| {
+                let (k, correction) = answers[a];
+                space.assess(which[k], correction)
+            });
+            let mut uncertain: Vec<(usize, c64)> = Vec::new();
+            for ((k, correction), assessed) in answers.into_iter().zip(assessed) {
+                let Some(assessed) = assessed else { continue };
+                if self.is_uncertain(which[k], correction, &assessed) {
+                    uncertain.push((k, correction));
+                }
+                self.assessed[which[k]] = Some((correction, assessed));
+            }
             let lacking: Vec<(usize, c64)> = uncertain.iter().map(|&(k, c)| (which[k], c)).collect();
             if lacking.is_empty() || round == ROUNDS || !self.refine(&lacking, hooks).unwrap_or(false) {
                 break;
@@ -125,10 +139,16 @@ impl<'a, 'o> Space<'a, 'o> {
         all
     }
 
-    fn is_uncertain(&self, i: usize, correction: c64) -> bool {
-        let factor = self.at[i].parameters[0].nominal + correction;
-        let assessed = self.model(i).assess(&self.at[i], correction);
-        assessed.is_ok_and(|assessed| assessed.relative_truncation(factor) > ANSWER)
+    /// How good the model that answered at a frequency is at a correction there.
+    pub(super) fn assess(&self, i: usize, correction: c64) -> Option<Assessment> {
+        match &self.assessed[i] {
+            Some((same, assessed)) if *same == correction => Some(assessed.clone()),
+            _ => self.model(i).assess(&self.at[i], correction).ok(),
+        }
+    }
+
+    fn is_uncertain(&self, i: usize, correction: c64, assessed: &Assessment) -> bool {
+        assessed.relative_truncation(self.at[i].parameters[0].nominal + correction) > ANSWER
     }
 
     /// Trains at answers (frequency, correction); false where nothing was gained.
@@ -171,7 +191,10 @@ impl<'a, 'o> Space<'a, 'o> {
             Arc::new(space.subspace.projection().localised(&points, ANSWER))
         });
         for ((_, own), model) in wanted.into_iter().zip(models) {
-            own.into_iter().for_each(|i| self.models[i] = Some(Arc::clone(&model)));
+            for i in own {
+                self.models[i] = Some(Arc::clone(&model));
+                self.assessed[i] = None;
+            }
         }
     }
 
