@@ -1,8 +1,7 @@
-//! Eigenvalues of small matrices, by faer's QR, QZ and symmetric QR iterations.
+//! Eigenvalues of small matrices, by faer's QR and symmetric QR iterations.
 
 use super::{Matrix, NoConvergence};
 use crate::c64;
-use faer::linalg::solvers::GeneralizedEigen;
 use faer::{MatRef, Side};
 
 /// Eigenvalues λᵢ and right eigenvectors vᵢ (columns, of norm one) of A v = λ v.
@@ -12,23 +11,6 @@ pub struct Eigen {
     pub values: Vec<c64>,
     /// vᵢ in column i.
     pub vectors: Matrix,
-}
-
-/// An eigenvalue λ = α/β of A v = λ B v; β = 0 is an infinite one.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct GeneralizedEigenvalue {
-    /// Numerator.
-    pub alpha: c64,
-    /// Denominator.
-    pub beta: c64,
-}
-
-impl GeneralizedEigenvalue {
-    /// α/β where it is finite in double precision, `None` at infinity.
-    pub fn finite(self) -> Option<c64> {
-        let value = self.alpha / self.beta;
-        (value.re.is_finite() && value.im.is_finite()).then_some(value)
-    }
 }
 
 /// All eigenvalues and eigenvectors of a square matrix.
@@ -73,22 +55,6 @@ pub fn eigenvalues(a: &Matrix) -> Result<Vec<c64>, NoConvergence> {
         return Err(NoConvergence);
     }
     a.as_faer().eigenvalues().map_err(|_| NoConvergence)
-}
-
-/// All eigenvalues of A v = λ B v, by QZ.
-///
-/// # Errors
-/// [`NoConvergence`] for values that are not finite, or where the QZ iteration fails.
-///
-/// # Panics
-/// Where A and B are not square of one size.
-pub fn generalized_eigenvalues(a: &Matrix, b: &Matrix) -> Result<Vec<GeneralizedEigenvalue>, NoConvergence> {
-    if !a.is_finite() || !b.is_finite() {
-        return Err(NoConvergence);
-    }
-    let pencil = GeneralizedEigen::new(a.as_faer(), b.as_faer()).map_err(|_| NoConvergence)?;
-    let (alpha, beta) = (pencil.S_a(), pencil.S_b());
-    Ok((0..a.nrows()).map(|i| GeneralizedEigenvalue { alpha: alpha[i], beta: beta[i] }).collect())
 }
 
 /// Eigenvalues, ascending, and orthonormal eigenvectors (n × n, column after column) of a real symmetric

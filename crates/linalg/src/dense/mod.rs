@@ -6,7 +6,7 @@ mod lu;
 mod matrix;
 mod polynomial;
 
-pub use eigen::{Eigen, GeneralizedEigenvalue, eigen, eigenvalues, generalized_eigenvalues, symmetric_eigen};
+pub use eigen::{Eigen, eigen, eigenvalues, symmetric_eigen};
 pub use least_squares::{LeastSquares, least_squares};
 pub use lu::{Lu, solve};
 pub use matrix::Matrix;
