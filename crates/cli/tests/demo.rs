@@ -150,6 +150,23 @@ fn respond_writes_what_identify_reads() {
 }
 
 #[test]
+fn an_estimated_nominal_needs_nothing_but_bounds() {
+    let folder = tempfile::tempdir().unwrap();
+    done(folder.path(), &["--quiet", "example", "sandwich", "s"]);
+    let case = folder.path().join("s/case.toml");
+    let text = std::fs::read_to_string(&case).unwrap();
+    // The bounds span three decades.
+    std::fs::write(&case, text.replace("[identify]", "[identify]\nnominal = \"estimate\"")).unwrap();
+    let said = done(folder.path(), &["identify", "s/case.toml", "--out", "out", "--json"]);
+    let summary: Value = serde_json::from_str(&said).unwrap();
+    assert_eq!(summary["truth"]["fraction_right"], 1.0, "{summary:#}");
+    assert!(summary["counts"]["factorisations"].as_u64().unwrap() <= 4, "{}", summary["counts"]);
+    for figure in ["candidates", "certificate"] {
+        assert!(folder.path().join(format!("out/figures/{figure}.png")).exists());
+    }
+}
+
+#[test]
 fn the_rational_method_is_never_wrong_and_ok() {
     let folder = tempfile::tempdir().unwrap();
     // One sensor cannot tell everything: what it cannot is `ambiguous`. Where the bounds leave one solution, all is right.

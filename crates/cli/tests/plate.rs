@@ -77,6 +77,39 @@ truth = { storage = 1.0, loss_factor = 0.001 }
 }
 
 #[test]
+fn by_default_every_modulus_of_the_plate_is_right() {
+    let Some(plate) = data("plate") else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: String| std::fs::write(folder.path().join(name), text).unwrap();
+    write("truth.toml", case(&plate, 1.0, "quantity = \"accelerance\""));
+    done(folder.path(), &["--quiet", "respond", "truth.toml", "--out", "measured"]);
+    // The paper's errors, twice those, and a nominal three times off either way; one sensor.
+    for factor in [1.25, 0.75, 1.5, 0.5, 3.0, 1.0 / 3.0] {
+        let identify = r#"
+[identify]
+matrix = "plate"
+band_hz = [20.0, 3608.0]
+bounds = { storage = [0.2, 5.0], loss_factor = [0.0, 1.0] }
+truth = { storage = 1.0, loss_factor = 0.001 }
+"#;
+        write("case.toml", case(&plate, factor, "file = \"measured/frf.uff\"") + identify);
+        let said = done(folder.path(), &["identify", "case.toml", "--out", "out", "--json"]);
+        let summary: Value = serde_json::from_str(&said).unwrap();
+        assert_eq!(summary["truth"]["fraction_right_of_ok"], 1.0, "{factor}: {}", summary["truth"]);
+        // One sensor is allowed to be ambiguous here and there, not wrong; at the time of writing it is neither.
+        assert!(
+            summary["truth"]["fraction_right"].as_f64().unwrap() >= 0.98,
+            "{factor}: {}",
+            summary["truth"]
+        );
+        let counts = &summary["counts"];
+        assert_eq!(counts["factorisations"], 1, "one modulus scales the whole stiffness: {counts}");
+        assert!(counts["solves"].as_u64().unwrap() <= 61, "{counts}");
+        assert!(counts["certificate"].as_f64().unwrap() < 1e-6, "{counts}");
+    }
+}
+
+#[test]
 fn natural_frequencies_show_at_once() {
     let Some(plate) = data("plate") else { return };
     let (k, m) = (plate.join("bcsstk09.rsa"), plate.join("bcsstm09.mtx"));
