@@ -47,7 +47,8 @@ impl Projection {
     /// [`Breakdown`] where the reduced system is singular.
     ///
     /// # Limits
-    /// An estimate, not a bound: γ is the largest gain met in the last solves, and the residuals are those of a sketch.
+    /// An estimate, not a bound: γ is the largest gain of S⁻¹ met in the last solves, and the residuals are those of a sketch. At a resonance of a mode that the basis has not
+    /// met the error can be some ten times the estimate.
     pub fn assess(&self, at: &ModelAt<'_>, correction: c64) -> Result<Assessment, Breakdown> {
         Ok(Solved::new(self, at, correction)?.assessment)
     }
