@@ -1,12 +1,14 @@
 //! From a measured response to the factor that reproduces it, and how far to trust it.
 
 mod band;
+mod choice;
 mod one;
 mod options;
 mod outcome;
 mod rational;
 
 pub use band::{Band, BandOutcome, Hooks, Noise, Stage, identify_band};
+pub use choice::{Method, Selection, Space, UnknownChoice};
 pub use one::{error_by_order, identify_at, relative_error};
-pub use options::{MAX_ORDER, Method, Options, OptionsError, Selection, Space};
+pub use options::{MAX_ORDER, Options, OptionsError};
 pub use outcome::{Identified, Status};
