@@ -23,10 +23,11 @@ pub(super) fn read(bytes: &[u8], choice: &Choice) -> Result<Frf, FormatError> {
     let Values::Complex(response) = function.values else {
         return Err(FormatError::line(line, "complex values of an FRF", "real ones"));
     };
+    let coherence = coherence(&file, header, &function.abscissa)?;
     let frf = Frf {
         frequency_hz: function.abscissa,
         response,
-        coherence: None,
+        coherence,
         std: None,
         quantity: quantity(header),
         measured_at: dof(&header.response),
@@ -34,6 +35,39 @@ pub(super) fn read(bytes: &[u8], choice: &Choice) -> Result<Frf, FormatError> {
     };
     sound(&frf, line)?;
     Ok(frf)
+}
+
+/// The coherence of an FRF: the one dataset of function type 6 between the same degrees of freedom and at the same frequencies. None where there is none, or several.
+fn coherence(
+    file: &File<'_>,
+    frf: &FunctionHeader,
+    frequency_hz: &[f64],
+) -> Result<Option<Vec<f64>>, FormatError> {
+    let mut found = None;
+    for index in file.functions() {
+        let header = file.function_header(index)?;
+        let belongs = header.function_type == FunctionType::Coherence
+            && dof(&header.response) == dof(&frf.response)
+            && dof(&header.reference) == dof(&frf.reference);
+        if !belongs {
+            continue;
+        }
+        let line = file.entries().get(index).map_or(1, |entry| entry.line);
+        let function = file.function(index)?;
+        let Values::Real(values) = function.values else {
+            return Err(FormatError::line(line, "real values of a coherence", "complex ones"));
+        };
+        if function.abscissa != frequency_hz {
+            continue;
+        }
+        if let Some(value) = values.iter().find(|value| !(0.0..=1.0).contains(*value)) {
+            return Err(FormatError::line(line, "coherences from 0 to 1", value.to_string()));
+        }
+        if found.replace(values).is_some() {
+            return Ok(None);
+        }
+    }
+    Ok(found)
 }
 
 /// The FRFs of a file: index of the dataset and header.

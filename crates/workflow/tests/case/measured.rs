@@ -7,7 +7,7 @@ use frfit_formats::uff::{
     Axis, Dof, Form, Function, FunctionHeader, FunctionType, Quantity as Measured, Spacing, Units, Values,
     write,
 };
-use frfit_workflow::load::{Case, Overrides, Purpose, load};
+use frfit_workflow::load::{Case, MeasuredNoise, Overrides, Purpose, load};
 
 /// An FRF at three frequencies whose real part tells which it is.
 fn function(response: (i64, i32), reference: (i64, i32), value: f64, measured: Measured) -> Function {
@@ -52,6 +52,39 @@ fn taken(case: &Case) -> (&str, Quantity, f64) {
     let (f, x) = (identify.frequency_hz[0], identify.measured[0][0]);
     let sensor = &case.sensors[0];
     (&sensor.label, sensor.quantity, sensor.quantity.from_receptance(f, x).re.round())
+}
+
+/// The coherence between two degrees of freedom.
+fn coherence(response: (i64, i32), reference: (i64, i32), values: [f64; 3]) -> Function {
+    let Function { header, abscissa, .. } = function(response, reference, 0.0, Measured::Unknown);
+    let header = FunctionHeader { function_type: FunctionType::Coherence, ..header };
+    Function::new(header, abscissa, Values::Real(values.to_vec()))
+}
+
+#[test]
+fn a_coherence_record_belongs_to_the_frf_between_its_degrees_of_freedom() {
+    let keys = "file = \"a.uff\"\ndof = \"2+Z\"\n";
+    let both =
+        [file(&[coherence((2, 4), (1, 3), [0.1; 3]), coherence((2, 3), (1, 3), [0.5, 0.8, 1.0])]), several()];
+    let case = measured(&both.concat(), keys).unwrap();
+    let identify = case.identify.unwrap();
+    let MeasuredNoise::Relative(std) = &identify.noise else { panic!("{:?}", identify.noise) };
+    // B-6 with one average: |H| √((1 − γ²)/(2γ²)).
+    for (k, factor) in [0.5f64.sqrt(), (0.2f64 / 1.6).sqrt()].into_iter().enumerate() {
+        let expected = identify.measured[k][0].norm() * factor;
+        assert!((std[k][0] - expected).abs() < 1e-14 * expected);
+    }
+    // Without one of its own there is none; two of them contradict each other.
+    let without = [file(&[coherence((2, 4), (1, 3), [0.1; 3])]), several()];
+    let twice =
+        [file(&[coherence((2, 3), (1, 3), [0.5; 3]), coherence((2, 3), (1, 3), [0.6; 3])]), several()];
+    for bytes in [without, twice] {
+        let case = measured(&bytes.concat(), keys).unwrap();
+        assert_eq!(case.identify.unwrap().noise, MeasuredNoise::Unknown);
+    }
+    let wrong = [file(&[coherence((2, 3), (1, 3), [0.5, 1.5, 1.0])]), several()];
+    let error = measured(&wrong.concat(), keys).unwrap_err();
+    assert!(error.contains("expected coherences from 0 to 1, found 1.5"), "{error}");
 }
 
 #[test]
