@@ -1,6 +1,11 @@
-//! Products and projections of complex vectors.
+//! Products and projections of vectors.
 
-use crate::c64;
+use crate::{Scalar, c64};
+
+/// Σ aᵢ bᵢ, without conjugation: what complex symmetric matrices want.
+pub fn transpose_dot<T: Scalar>(a: &[T], b: &[T]) -> T {
+    a.iter().zip(b).fold(T::default(), |sum, (&a, &b)| sum + a * b)
+}
 
 /// Σ āᵢ bᵢ.
 pub fn dot(a: &[c64], b: &[c64]) -> c64 {

@@ -21,7 +21,7 @@ use crate::series::scale;
 use basis::Basis;
 use frfit_linalg::dense::{Matrix, NoConvergence, solve};
 use frfit_linalg::solve::Breakdown;
-use frfit_linalg::vector::norm;
+use frfit_linalg::vector::{norm, transpose_dot};
 
 /// A reduced model of one parameter at one frequency, with the residual that tells how good it is.
 #[derive(Debug, Clone)]
@@ -127,9 +127,4 @@ impl RationalResponse {
             self.matrices.iter().rev().fold(c64::default(), |sum, a| sum * z + a[(i, j)])
         })
     }
-}
-
-/// Σ aᵢ bᵢ, without conjugation.
-fn transpose_dot(a: &[c64], b: &[c64]) -> c64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }

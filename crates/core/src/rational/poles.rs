@@ -1,8 +1,9 @@
 //! The reduced response as a sum over its poles, for a parameter that enters linearly: x_m(z) = Σ_k ρ_mk / (1 + z λ_k).
 
-use super::{RationalResponse, transpose_dot};
+use super::RationalResponse;
 use crate::c64;
 use frfit_linalg::dense::{Eigen, Lu, Matrix, NoConvergence, eigen};
+use frfit_linalg::vector::transpose_dot;
 
 /// Poles and residues: the response and its slope at all sensors for n multiplications each.
 #[derive(Debug, Clone, PartialEq)]

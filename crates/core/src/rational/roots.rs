@@ -1,8 +1,9 @@
 //! All solutions of x_m(c) = u on the reduced model, B-2.
 
-use super::{RationalResponse, transpose_dot};
+use super::RationalResponse;
 use crate::c64;
 use frfit_linalg::dense::{Lu, Matrix, NoConvergence, eigenvalues};
+use frfit_linalg::vector::transpose_dot;
 
 /// A correction at which the reduced response equals the measured one.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -6,7 +6,7 @@ use crate::c64;
 use crate::model::ModelAt;
 use frfit_linalg::dense::{Lu, NoConvergence};
 use frfit_linalg::solve::Breakdown;
-use frfit_linalg::vector::norm;
+use frfit_linalg::vector::{norm, transpose_dot};
 
 /// Response, sensitivity and estimated error at the sensors.
 #[derive(Debug, Clone, PartialEq)]
@@ -66,9 +66,8 @@ impl Solutions {
         let all: Vec<Vec<c64>> = block.chunks_exact(small.size).map(<[c64]>::to_vec).collect();
         let (y, duals) = (&all[0], &all[1..]);
         let change = small.combine(&slope_theta).multiply(y);
-        let product = |a: &[c64], b: &[c64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<c64>();
         let response = small.sensors.iter().map(|l| l.iter().zip(y).map(|(l, y)| y * l).sum()).collect();
-        let slope = duals.iter().map(|z| -product(z, &change)).collect();
+        let slope = duals.iter().map(|z| -transpose_dot(z, &change)).collect();
         Ok(Self { theta, all, response, slope })
     }
 }

@@ -3,6 +3,7 @@
 use super::assess::Solved;
 use super::{Assessment, Point, Projection};
 use crate::c64;
+use frfit_linalg::vector::transpose_dot;
 
 /// Below this part of itself a direction is roundoff of those there are.
 const NEW: f64 = 1e-12;
@@ -60,11 +61,11 @@ impl Projection {
 fn append(directions: &mut Vec<Vec<f64>>, y: &[c64]) {
     for part in [|y: &c64| y.re, |y: &c64| y.im] {
         let mut x: Vec<f64> = y.iter().map(part).collect();
-        let length = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let length = |x: &[f64]| transpose_dot(x, x).sqrt();
         let before = length(&x);
         for _ in 0..2 {
             for v in directions.iter() {
-                let overlap: f64 = v.iter().zip(&x).map(|(v, x)| v * x).sum();
+                let overlap = transpose_dot(v, &x);
                 x.iter_mut().zip(v).for_each(|(x, v)| *x -= overlap * v);
             }
         }

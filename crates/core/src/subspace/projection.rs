@@ -7,6 +7,7 @@ use crate::c64;
 use crate::model::ModelAt;
 use frfit_linalg::dense::Matrix;
 use frfit_linalg::solve::Breakdown;
+use frfit_linalg::vector::transpose_dot;
 
 /// VᵀS_gV, VᵀF, ℓ_mᵀV and Θ S_gV for a basis V of r vectors: a model for a band, without anything of size N.
 #[derive(Debug, Clone)]
@@ -95,10 +96,12 @@ impl Projection {
             }
             product
         };
-        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
         let congruent = |matrix: &Vec<f64>| -> Vec<f64> {
             let right = columns(w, matrix, r);
-            right.chunks_exact(r).flat_map(|column| w.chunks_exact(r).map(move |w| dot(w, column))).collect()
+            right
+                .chunks_exact(r)
+                .flat_map(|column| w.chunks_exact(r).map(move |w| transpose_dot(w, column)))
+                .collect()
         };
         let rows = self.sketched[0].len();
         Self {
@@ -107,7 +110,11 @@ impl Projection {
             matrices: self.matrices.iter().map(congruent).collect(),
             images: self.images.iter().map(|image| columns(w, image, rows)).collect(),
             load: w.chunks_exact(r).map(|w| self.load.iter().zip(w).map(|(f, w)| f * w).sum()).collect(),
-            sensors: self.sensors.iter().map(|l| w.chunks_exact(r).map(|w| dot(w, l)).collect()).collect(),
+            sensors: self
+                .sensors
+                .iter()
+                .map(|l| w.chunks_exact(r).map(|w| transpose_dot(w, l)).collect())
+                .collect(),
             sketched: self.sketched.clone(),
             gain: self.gain,
         }

@@ -10,6 +10,7 @@ use crate::frequency::omega_rad_s;
 use crate::model::ModelAt;
 use frfit_linalg::solve::Breakdown;
 use frfit_linalg::sparse::{SymmetricMatrix, Values};
+use frfit_linalg::vector::transpose_dot;
 use std::sync::Arc;
 
 /// A frequency and a value of the first parameter.
@@ -155,7 +156,7 @@ impl<'m> Subspace<'m> {
             let Assessment { truncation, .. } = &solved.assessment;
             let worst = (0..truncation.len()).max_by(|&a, &b| truncation[a].total_cmp(&truncation[b]));
             for which in std::iter::once(0).chain(worst.map(|m| m + 1)) {
-                let directions = real_directions(&solved.residuals[which], plain_dot);
+                let directions = real_directions(&solved.residuals[which], transpose_dot);
                 let new: Vec<bool> = directions.iter().map(|direction| keep(&mut kept, direction)).collect();
                 if new.iter().any(|&new| new) {
                     let full = self.residual(point, which, &solved.solutions[which]);
@@ -214,10 +215,6 @@ impl<'m> Subspace<'m> {
     }
 }
 
-fn plain_dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
 /// One or two real vectors of norm one for a complex one: its real part after the rotation of phase that makes that largest, and its imaginary part where
 /// that is not small beside it.
 fn real_directions(complex: &[c64], dot: impl Fn(&[f64], &[f64]) -> f64) -> Vec<Vec<f64>> {
@@ -241,10 +238,10 @@ fn real_directions(complex: &[c64], dot: impl Fn(&[f64], &[f64]) -> f64) -> Vec<
 fn keep(kept: &mut Vec<Vec<f64>>, vector: &[f64]) -> bool {
     let mut new = vector.to_vec();
     for other in kept.iter() {
-        let overlap = plain_dot(other, &new);
+        let overlap = transpose_dot(other, &new);
         new.iter_mut().zip(other).for_each(|(n, o)| *n -= overlap * o);
     }
-    let rest = plain_dot(&new, &new).sqrt();
+    let rest = transpose_dot(&new, &new).sqrt();
     new.iter_mut().for_each(|n| *n /= rest);
     let is_new = rest > INDEPENDENT;
     if is_new {
