@@ -15,11 +15,11 @@ const STEP: usize = 8;
 
 /// A root whose true residual is below this solves the full system: what is left of a double precision solve with a
 /// condition of 1e6, as a structure near resonance has.
-const RESIDUAL: f64 = 1e-9;
+pub(super) const RESIDUAL: f64 = 1e-9;
 
 /// Stiffer contrasts leave larger residuals to roundoff alone. There a direct solve decides: a root whose response is the measured one to
 /// this is a solution, with a few digits to spare for what such a solve loses.
-const MATCH: f64 = 1e-6;
+pub(super) const MATCH: f64 = 1e-6;
 
 /// Grows the basis until there is a root within the bounds and every one solves the full system, or the order is reached.
 ///

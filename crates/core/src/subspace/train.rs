@@ -1,9 +1,8 @@
 //! Where the basis grows: where the estimated error at the sensors is largest.
 
-use super::Assessment;
-use super::Subspace;
 use super::assess::Solved;
 use super::shift::Shift;
+use super::{Assessment, Subspace};
 use crate::c64;
 use crate::for_each::{ForEach, map};
 use crate::frequency::omega_rad_s;

@@ -2,6 +2,7 @@
 
 use crate::c64;
 use crate::identify::Options;
+use crate::identify::rational::{MATCH, RESIDUAL};
 use crate::rational::{Poles, RationalResponse};
 use crate::response::Response;
 use crate::roots::{Candidate, Refusal};
@@ -61,14 +62,8 @@ impl Explored {
     }
 }
 
-/// Two responses this near are one, with a few digits to spare for what a solve near a resonance loses.
-const MATCH: f64 = 1e-6;
-
 /// Order of the first attempt; each further one doubles it, so that the last costs more than all before.
 const FIRST: usize = 16;
-
-/// As in the rational method of one frequency: what is left of a double precision solve with a condition of 1e6.
-const RESIDUAL: f64 = 1e-9;
 
 /// Sensors whose own solutions are starts: each is an eigenproblem, and the truth is a solution of every one.
 const SENSORS: usize = 2;

@@ -42,22 +42,22 @@ pub(super) fn identify<'a>(
         (choose(&frequency_hz, &nodes, &select), noise_level(&nodes, band))
     };
     let all: Vec<usize> = (0..at.len()).collect();
+    // The choice that the last answers were taken by.
+    let mut selected = None;
     let (explored, mut work) = match &mut space {
         Some(space) => {
             let find = |i: usize, model: &Projection, before: Option<&Explored>| {
                 let fit = Fit { measured: &band.measured[i], sigma: &sigma[i], nominal: nominal(i), options };
                 // What is certified is this model's response, not that of a Krylov space within.
                 let respond = |c: c64| model.respond_with_slope(&at[i], c).map_err(|_| NoConvergence);
-                let found = match (before, model.at(&at[i])) {
-                    (Some(before), _) => before.clone(),
+                let found = before.cloned().unwrap_or_else(|| match model.at(&at[i]) {
                     // Vectors of this length cost nothing: the order bounds those of the full model.
-                    (None, Ok(system)) => fit.explore(&system, system.dim()),
-                    (None, Err(breakdown)) => Explored::broken(breakdown),
-                };
+                    Ok(system) => fit.explore(&system, system.dim()),
+                    Err(breakdown) => Explored::broken(breakdown),
+                });
                 fit.settle(found, respond)
             };
-            let answers = |which: &[usize], found: &[Explored]| {
-                let choices = select(which, found).0;
+            let taken = |choices: &[Choice], found: &[Explored]| {
                 let of = |(k, choice): (usize, &Choice)| {
                     let taken = choice.chosen.into_iter().chain(choice.alternatives.iter().copied());
                     taken.map(|s| (k, found[k].solutions[s].correction)).collect::<Vec<_>>()
@@ -65,12 +65,16 @@ pub(super) fn identify<'a>(
                 choices.iter().enumerate().flat_map(of).collect()
             };
             let pilots = space.pilots();
-            space.solve(&pilots, hooks, find, |found| answers(&pilots, found));
-            (space.solve(&all, hooks, find, |found| answers(&all, found)), Work::default())
+            space.solve(&pilots, hooks, find, |found| taken(&select(&pilots, found).0, found));
+            let found = space.solve(&all, hooks, find, |found| {
+                let (choices, _) = selected.insert(select(&all, found));
+                taken(choices, found)
+            });
+            (found, Work::default())
         }
         None => on_full_model(band, at, &sigma, options, hooks),
     };
-    let (choices, noise) = select(&all, &explored);
+    let (choices, noise) = selected.unwrap_or_else(|| select(&all, &explored));
     let outcomes: Vec<Identified> = map(hooks.for_each, at.len(), |i| {
         let chosen = choices[i].chosen.map(|k| explored[i].solutions[k].correction);
         let assessment = space.as_ref().zip(chosen).and_then(|(space, c)| space.assess(i, c));
