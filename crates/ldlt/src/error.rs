@@ -1,8 +1,8 @@
-//! Why a matrix could not be factorised.
+//! Why a matrix could not be factorised, or a system not be solved.
 
 use std::fmt;
 
-/// Why a matrix could not be factorised; rows are those of the matrix as given.
+/// Why a matrix could not be factorised, or a system not be solved; rows are those of the matrix as given.
 #[derive(Debug, Clone, PartialEq)]
 pub enum FactorError {
     /// Not one value for each entry of the pattern.
@@ -26,6 +26,12 @@ pub enum FactorError {
         /// How many there are.
         deficiency: usize,
     },
+    /// A right-hand side has no solution of finite numbers: it has none itself, or the matrix is singular but
+    /// for roundoff.
+    NoSolution {
+        /// Which of the right-hand sides.
+        column: usize,
+    },
     /// The factor does not fit into memory.
     OutOfMemory,
 }
@@ -38,6 +44,7 @@ impl fmt::Display for FactorError {
             Self::Singular { row, deficiency } => {
                 write!(f, "the matrix is singular: {deficiency} of its rows vanish, row {row} among them")
             }
+            Self::NoSolution { column } => write!(f, "right-hand side {column} has no finite solution"),
             Self::OutOfMemory => write!(f, "the factor does not fit into memory"),
         }
     }

@@ -91,8 +91,8 @@ impl Symbolic {
     /// Factorises the matrix with these values, in the order of the pattern's entries.
     ///
     /// # Errors
-    /// [`FactorError`] where there are more or fewer values than entries, where one is not finite, or where the
-    /// matrix is exactly singular.
+    /// [`FactorError`] where there are more or fewer values than entries, where one is not finite, where the
+    /// matrix is exactly singular, or where the factor does not fit into memory.
     ///
     /// # Limits
     /// A matrix that is singular but for roundoff is factorised: its solutions show it.
@@ -101,6 +101,9 @@ impl Symbolic {
         if values.len() != expected {
             return Err(FactorError::Values { expected, found: values.len() });
         }
+        let bytes = self.factor_bytes::<T>().saturating_add(self.working_bytes::<T>());
+        // Asked for and given back: whether there is as much, before anything is done.
+        Vec::<u8>::new().try_reserve_exact(bytes).map_err(|_| FactorError::OutOfMemory)?;
         let scale = scaling::scaling(&self.pattern, values)?;
         let scale: Vec<T::Real> = self.order.iter().map(|&row| scale[row as usize]).collect();
         let run = Run { symbolic: self, values, scale: &scale, options };

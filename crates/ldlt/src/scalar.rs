@@ -13,7 +13,7 @@ pub type c64 = Complex<f64>;
 pub type c32 = Complex<f32>;
 
 /// `f32` or `f64`, with the vector registers of an instruction set.
-pub trait Real: Scalar<Real = Self> + bytemuck::Pod + PartialOrd + Into<f64> {
+pub trait Real: Scalar<Real = Self> + PartialOrd + Into<f64> {
     /// A register full of them.
     type Vector<S: Simd>: Copy;
     /// Unit roundoff.
@@ -95,10 +95,6 @@ pub trait Scalar:
     fn modulus(self) -> f64;
     /// Product with a real number.
     fn scale(self, by: Self::Real) -> Self;
-    /// The numbers as their parts, one after the other.
-    fn as_parts(values: &[Self]) -> &[Self::Real];
-    /// The numbers as their parts, one after the other.
-    fn as_parts_mut(values: &mut [Self]) -> &mut [Self::Real];
     /// Rounded to single precision.
     fn to_single(self) -> Self::Single;
     /// From single precision.
@@ -198,14 +194,6 @@ macro_rules! real {
                 self * by
             }
             #[inline(always)]
-            fn as_parts(values: &[Self]) -> &[Self] {
-                values
-            }
-            #[inline(always)]
-            fn as_parts_mut(values: &mut [Self]) -> &mut [Self] {
-                values
-            }
-            #[inline(always)]
             fn to_single(self) -> f32 {
                 self as f32
             }
@@ -265,14 +253,6 @@ macro_rules! real {
             #[inline(always)]
             fn scale(self, by: $real) -> Self {
                 self * by
-            }
-            #[inline(always)]
-            fn as_parts(values: &[Self]) -> &[$real] {
-                bytemuck::cast_slice(values)
-            }
-            #[inline(always)]
-            fn as_parts_mut(values: &mut [Self]) -> &mut [$real] {
-                bytemuck::cast_slice_mut(values)
             }
             #[inline(always)]
             fn to_single(self) -> c32 {

@@ -87,7 +87,8 @@ impl<'a, T: Scalar> Solver<'a, T> {
     /// are roundoff or do not become smaller.
     ///
     /// # Errors
-    /// As [`Symbolic::factor`], where single precision was not enough.
+    /// [`FactorError::NoSolution`] where a solution is not of finite numbers; as [`Symbolic::factor`], where single
+    /// precision was not enough.
     ///
     /// # Panics
     /// Where there are not whole right-hand sides.
@@ -106,7 +107,11 @@ impl<'a, T: Scalar> Solver<'a, T> {
         }
         let factor = self.factor()?;
         let solve = |x: &mut [T]| factor.solve_in_place(x, self.options.threads);
-        Ok(self.refined(&given, rhs, solve, Precision::Full))
+        let solution = self.refined(&given, rhs, solve, Precision::Full);
+        match rhs.iter().position(|x| !x.is_finite()) {
+            Some(at) => Err(FactorError::NoSolution { column: at / self.symbolic.dim() }),
+            None => Ok(solution),
+        }
     }
 
     fn refined(&self, given: &[T], x: &mut [T], solve: impl Fn(&mut [T]), precision: Precision) -> Solution {

@@ -3,7 +3,7 @@
 use crate::c64;
 use crate::frequency::omega_rad_s;
 use crate::material::Law;
-use frfit_linalg::solve::{Analysis, Breakdown};
+use frfit_linalg::solve::Analysis;
 use frfit_linalg::sparse::{Pattern, SymmetricMatrix};
 use std::fmt;
 

@@ -41,9 +41,9 @@ pub(crate) fn downdate<T: Scalar>(
 ) {
     let work: usize = strips.iter().map(|strip| strip.width * strip.stride * pivots.count()).sum();
     let run = |strips: &mut dyn Iterator<Item = Strip<'_, T>>| {
-        let mut right = Vec::new();
+        let mut buffers = Buffers::default();
         for strip in strips {
-            crate::arch().dispatch(StripDowndate { strip, pivots, left, right: &mut right });
+            crate::arch().dispatch(StripDowndate { strip, pivots, left, buffers: &mut buffers });
         }
     };
     if threads < 2 || strips.len() < 2 || work < SHARE_FROM {
@@ -59,11 +59,20 @@ pub(crate) fn downdate<T: Scalar>(
     });
 }
 
+/// Buffers of one thread.
+#[derive(Default)]
+struct Buffers<R> {
+    /// L D of a strip's columns, packed.
+    right: Vec<R>,
+    /// Sums of the real products, column after column, a plane for each.
+    products: Vec<R>,
+}
+
 struct StripDowndate<'a, 'b, T: Scalar> {
     strip: Strip<'b, T>,
     pivots: &'a Pivots<'a, T>,
     left: &'a Left<T::Real>,
-    right: &'a mut Vec<T::Real>,
+    buffers: &'a mut Buffers<T::Real>,
 }
 
 impl<T: Scalar> WithSimd for StripDowndate<'_, '_, T> {
@@ -71,53 +80,55 @@ impl<T: Scalar> WithSimd for StripDowndate<'_, '_, T> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let Self { mut strip, pivots, left, right } = self;
+        let Self { mut strip, pivots, left, buffers: Buffers { right, products } } = self;
         let (count, height) = (pivots.count(), tile_rows::<T::Real, S>());
-        let plane = COLS * count;
+        let (plane, tile_size) = (COLS * count, COLS * height);
         pivots.pack_right(strip.first, strip.width, right);
+        let sums = strip.width.div_ceil(COLS) * tile_size;
+        products.resize(sums * T::PRODUCTS, T::Real::default());
         for panel in strip.first / height..left.panels(height) {
-            let row = panel * height;
+            let (from, to) = (panel * height, left.rows().min((panel + 1) * height));
             let rows = left.panel::<T>(panel, height, count);
-            for (j, cols) in right.chunks_exact(T::PRODUCTS * plane).enumerate() {
-                let col = strip.first + j * COLS;
-                if row + height <= col {
-                    break;
+            // Columns that reach down to these rows.
+            let width = strip.width.min(to - strip.first);
+            // A plane of rows stays in the first cache while all columns pass.
+            for (p, products) in products.chunks_exact_mut(sums).enumerate() {
+                let a = T::Real::vectors::<S>(&rows[p * height * count..][..height * count]).0;
+                let columns = right.chunks_exact(T::PRODUCTS * plane).take(width.div_ceil(COLS));
+                for (b, product) in columns.zip(products.chunks_exact_mut(tile_size)) {
+                    store(tile::<T::Real, S, COLS>(simd, a, &b[p * plane..][..plane]), product);
                 }
-                let mut products = [[T::Real::default(); COLS * WIDE]; 3];
-                for (p, product) in products.iter_mut().enumerate().take(T::PRODUCTS) {
-                    let a = T::Real::vectors::<S>(&rows[p * height * count..][..height * count]).0;
-                    store(tile::<T::Real, S, COLS>(simd, a, &cols[p * plane..][..plane]), product);
-                }
-                for k in 0..COLS.min(strip.first + strip.width - col) {
-                    // Only the lower triangle, and only rows that there are.
-                    let (from, to) = (row.max(col + k), (row + height).min(left.rows()));
-                    if from < to {
-                        strip.subtract(col + k, from..to, &products, k * height + from - row);
-                    }
-                }
+            }
+            for j in 0..width {
+                let col = strip.first + j;
+                let first = from.max(col);
+                strip.subtract(col, first..to, products, sums, j * height + first - from);
             }
         }
     }
 }
 
 impl<T: Scalar> Strip<'_, T> {
-    /// Subtracts products from some rows of a column.
+    /// Subtracts products, `step` from one plane to the next, from some rows of a column.
     #[inline(always)]
     fn subtract(
         &mut self,
         col: usize,
         rows: std::ops::Range<usize>,
-        products: &[[T::Real; COLS * WIDE]; 3],
+        products: &[T::Real],
+        step: usize,
         at: usize,
     ) {
         let len = rows.len();
         let start = (col - self.first) * T::PARTS * self.stride + rows.start - self.first;
-        let [p, q, r] = products.each_ref().map(|product| &product[at..at + len]);
+        let product = |p: usize| &products[p * step + at..][..len];
         let (re, im) = self.values[start..].split_at_mut(if T::PARTS == 2 { self.stride } else { len });
         let (re, fresh) = (&mut re[..len], self.fresh);
         if T::PARTS == 1 {
+            let p = product(0);
             put(re, fresh, |i| p[i]);
         } else {
+            let (p, q, r) = (product(0), product(1), product(2));
             put(re, fresh, |i| p[i] - q[i]);
             put(&mut im[..len], fresh, |i| r[i] - p[i] - q[i]);
         }
