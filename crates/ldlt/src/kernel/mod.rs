@@ -17,6 +17,9 @@ use tile::{COLS, store, tile};
 /// Columns of a strip: whole tiles for every instruction set, and its packed copy stays in the second cache.
 pub(crate) const STRIP: usize = 96;
 
+/// Tiles above each other whose sums are collected: a column of C is then met in runs that are worth fetching.
+const TOGETHER: usize = 4;
+
 /// Products below which another thread costs more than it brings: some tens of microseconds.
 const SHARE_FROM: usize = 2_000_000;
 
@@ -82,27 +85,32 @@ impl<T: Scalar> WithSimd for StripDowndate<'_, '_, T> {
     fn with_simd<S: Simd>(self, simd: S) {
         let Self { mut strip, pivots, left, buffers: Buffers { right, products } } = self;
         let (count, height) = (pivots.count(), tile_rows::<T::Real, S>());
-        let (plane, tile_size) = (COLS * count, COLS * height);
+        let plane = COLS * count;
         pivots.pack_right(strip.first, strip.width, right);
-        let sums = strip.width.div_ceil(COLS) * tile_size;
-        products.resize(sums * T::PRODUCTS, T::Real::default());
-        for panel in strip.first / height..left.panels(height) {
-            let (from, to) = (panel * height, left.rows().min((panel + 1) * height));
-            let rows = left.panel::<T>(panel, height, count);
-            // Columns that reach down to these rows.
-            let width = strip.width.min(to - strip.first);
-            // A plane of rows stays in the first cache while all columns pass.
-            for (p, products) in products.chunks_exact_mut(sums).enumerate() {
-                let a = T::Real::vectors::<S>(&rows[p * height * count..][..height * count]).0;
-                let columns = right.chunks_exact(T::PRODUCTS * plane).take(width.div_ceil(COLS));
-                for (b, product) in columns.zip(products.chunks_exact_mut(tile_size)) {
-                    store(tile::<T::Real, S, COLS>(simd, a, &b[p * plane..][..plane]), product);
+        // From one column of the products to the next, and from one plane to the next.
+        let (step, size) = (TOGETHER * height, strip.width.next_multiple_of(COLS) * TOGETHER * height);
+        products.resize(size * T::PRODUCTS, T::Real::default());
+        let panels = left.panels(height);
+        for first in (strip.first / height..panels).step_by(TOGETHER) {
+            for panel in first..panels.min(first + TOGETHER) {
+                let rows = left.panel::<T>(panel, height, count);
+                // Columns that reach down to these rows.
+                let width = strip.width.min((panel + 1) * height - strip.first);
+                let at = (panel - first) * height;
+                // A plane of rows stays in the first cache while all columns pass.
+                for (p, products) in products.chunks_exact_mut(size).enumerate() {
+                    let a = T::Real::vectors::<S>(&rows[p * height * count..][..height * count]).0;
+                    let columns = right.chunks_exact(T::PRODUCTS * plane).take(width.div_ceil(COLS));
+                    for (b, product) in columns.zip(products.chunks_exact_mut(COLS * step)) {
+                        let sums = tile::<T::Real, S, COLS>(simd, a, &b[p * plane..][..plane]);
+                        store::<T::Real, S, COLS>(sums, &mut product[at..], step);
+                    }
                 }
             }
-            for j in 0..width {
-                let col = strip.first + j;
-                let first = from.max(col);
-                strip.subtract(col, first..to, products, sums, j * height + first - from);
+            let (from, to) = (first * height, left.rows().min((first + TOGETHER) * height));
+            for j in 0..strip.width.min(to - strip.first) {
+                let top = from.max(strip.first + j);
+                strip.subtract(strip.first + j, top..to, products, size, j * step + top - from);
             }
         }
     }

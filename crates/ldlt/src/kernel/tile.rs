@@ -35,11 +35,14 @@ pub(crate) fn tile<R: Real, S: Simd, const N: usize>(
     sums
 }
 
-/// The sums of a tile as numbers, column after column.
+/// The sums of a tile as numbers, the columns `step` apart.
 #[inline(always)]
-pub(super) fn store<R: Real, S: Simd, const N: usize>(sums: [[R::Vector<S>; REGISTERS]; N], into: &mut [R]) {
-    let into = R::vectors_mut::<S>(into).0;
-    for (into, sums) in into.as_chunks_mut::<REGISTERS>().0.iter_mut().zip(sums) {
-        *into = sums;
+pub(super) fn store<R: Real, S: Simd, const N: usize>(
+    sums: [[R::Vector<S>; REGISTERS]; N],
+    into: &mut [R],
+    step: usize,
+) {
+    for (into, sums) in into.chunks_mut(step).zip(sums) {
+        R::vectors_mut::<S>(into).0[..REGISTERS].copy_from_slice(&sums);
     }
 }
