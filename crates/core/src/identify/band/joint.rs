@@ -1,6 +1,8 @@
 //! All frequencies and all sensors together.
 
+use super::anchors::anchors;
 use super::explore::{Explored, Fit};
+use super::follow::{Follower, follow};
 use super::space::Space;
 use super::verdict::{Evidence, verdict};
 use super::{Band, BandOutcome, Hooks, Noise, Stage};
@@ -11,7 +13,6 @@ use crate::model::ModelAt;
 use crate::response::{FullModel, Response, Work};
 use crate::select::{Choice, Node, SelectOptions, choose};
 use crate::subspace::Projection;
-use frfit_linalg::dense::NoConvergence;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Where no deviation is given, sensors count by their own size, but not below this fraction of their median over the band: an antiresonance is
@@ -41,40 +42,48 @@ pub(super) fn identify<'a>(
         let nodes: Vec<Vec<Node>> = which.iter().zip(found).map(|(&i, f)| nodes(f, nominal(i))).collect();
         (choose(&frequency_hz, &nodes, &select), noise_level(&nodes, band))
     };
-    let all: Vec<usize> = (0..at.len()).collect();
     // The choice that the last answers were taken by.
     let mut selected = None;
-    let (explored, mut work) = match &mut space {
+    let fit = |i: usize| Fit { measured: &band.measured[i], sigma: &sigma[i], nominal: nominal(i), options };
+    let (explored, whole, mut work) = match &mut space {
         Some(space) => {
-            let find = |i: usize, model: &Projection, before: Option<&Explored>| {
-                let fit = Fit { measured: &band.measured[i], sigma: &sigma[i], nominal: nominal(i), options };
-                // What is certified is this model's response, not that of a Krylov space within.
-                let respond = |c: c64| model.respond_with_slope(&at[i], c).map_err(|_| NoConvergence);
-                let found = before.cloned().unwrap_or_else(|| match model.at(&at[i]) {
-                    // Vectors of this length cost nothing: the order bounds those of the full model.
-                    Ok(system) => fit.explore(&system, system.dim()),
-                    Err(breakdown) => Explored::broken(breakdown),
-                });
-                fit.settle(found, respond)
-            };
-            let taken = |choices: &[Choice], found: &[Explored]| {
-                let of = |(k, choice): (usize, &Choice)| {
-                    let taken = choice.chosen.into_iter().chain(choice.alternatives.iter().copied());
-                    taken.map(|s| (k, found[k].solutions[s].correction)).collect::<Vec<_>>()
-                };
-                choices.iter().enumerate().flat_map(of).collect()
+            let find = |i: usize, model: &Projection| fit(i).explore_reduced(model, &at[i]);
+            let settle = |i: usize, model: &Projection, before: &Explored| {
+                let fit = fit(i);
+                fit.settle(before.clone(), fit.on(model, &at[i]))
             };
             let pilots = space.pilots();
-            space.solve(&pilots, hooks, find, |found| taken(&select(&pilots, found).0, found));
-            let found = space.solve(&all, hooks, find, |found| {
-                let (choices, _) = selected.insert(select(&all, found));
+            let found = space.find(&pilots, hooks, find);
+            space.certify(&pilots, found, hooks, settle, |found| taken(&select(&pilots, found).0, found));
+            let anchors = anchors(band.frequency_hz, space.neighbourhoods());
+            let found = space.find(&anchors, hooks, find);
+            let mut level = None;
+            let found = space.certify(&anchors, found, hooks, settle, |found| {
+                let (choices, noise) = selected.insert(select(&anchors, found));
+                level = *noise;
                 taken(choices, found)
             });
-            (found, Work::default())
+            if anchors.len() == at.len() {
+                (found, at.len(), Work::default())
+            } else {
+                let follower = Follower { at, fit, usual: usual(level, band.experiment.sensors.len()) };
+                let found = follow(space, &follower, &anchors, found, hooks);
+                let whole = found.iter().filter(|found| found.whole).count();
+                let all: Vec<usize> = (0..at.len()).collect();
+                let explored = found.into_iter().map(|found| found.explored).collect();
+                let explored = space.certify(&all, explored, hooks, settle, |found| {
+                    let (choices, _) = selected.insert(select(&all, found));
+                    taken(choices, found)
+                });
+                (explored, whole, Work::default())
+            }
         }
-        None => on_full_model(band, at, &sigma, options, hooks),
+        None => {
+            let (found, work) = on_full_model(band, at, &sigma, options, hooks);
+            (found, at.len(), work)
+        }
     };
-    let (choices, noise) = selected.unwrap_or_else(|| select(&all, &explored));
+    let (choices, noise) = selected.unwrap_or_else(|| select(&(0..at.len()).collect::<Vec<_>>(), &explored));
     let outcomes: Vec<Identified> = map(hooks.for_each, at.len(), |i| {
         let chosen = choices[i].chosen.map(|k| explored[i].solutions[k].correction);
         let assessment = space.as_ref().zip(chosen).and_then(|(space, c)| space.assess(i, c));
@@ -84,7 +93,26 @@ pub(super) fn identify<'a>(
     if let Some(space) = &space {
         work += space.work();
     }
-    BandOutcome { outcomes, work, subspace_size: space.map(|space| space.size()) }
+    BandOutcome { outcomes, work, subspace_size: space.map(|space| space.size()), explored: whole }
+}
+
+/// A misfit with this many nats more than noise has on average is not noise: one in a hundred thousand.
+const NATS: f64 = 12.0;
+
+/// The misfit up to which all is noise of that level; a single sensor has none.
+fn usual(level: Option<f64>, sensors: usize) -> f64 {
+    let freedom = 2.0 * (sensors as f64 - 1.0);
+    // As the selection does, a millionth of the response is taken for roundoff near a resonance.
+    level.map_or(f64::INFINITY, |level| (freedom + 2.0 * NATS) * level.max(1e-6).powi(2))
+}
+
+/// The corrections (k, c) that are chosen at the k-th frequency, or may have to be.
+fn taken(choices: &[Choice], found: &[Explored]) -> Vec<(usize, c64)> {
+    let of = |(k, choice): (usize, &Choice)| {
+        let taken = choice.chosen.into_iter().chain(choice.alternatives.iter().copied());
+        taken.map(|s| (k, found[k].solutions[s].correction)).collect::<Vec<_>>()
+    };
+    choices.iter().enumerate().flat_map(of).collect()
 }
 
 fn on_full_model(

@@ -1,0 +1,260 @@
+//! Solutions between frequencies at which all of them are known: followed as long as nothing speaks against it.
+
+use super::explore::{Explored, Fit, Solution};
+use super::space::{Space, is_certain};
+use super::tube::{Tube, fraction};
+use super::{Hooks, Stage};
+use crate::c64;
+use crate::for_each::map;
+use crate::model::ModelAt;
+use crate::rational::PolesBetween;
+use crate::roots::{Candidate, Refusal};
+use crate::subspace::{Assessment, Projection};
+use std::ops::RangeInclusive;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// What was found at a frequency, and how.
+#[derive(Debug, Clone)]
+pub(super) struct Found {
+    /// The frequency (index).
+    pub(super) index: usize,
+    pub(super) explored: Explored,
+    /// Corrections at which the model that found them is good enough for an answer.
+    pub(super) certain: Vec<(c64, Assessment)>,
+    /// Whether all solutions were looked for.
+    pub(super) whole: bool,
+}
+
+/// What it takes to follow.
+pub(super) struct Follower<'a, F> {
+    pub(super) at: &'a [ModelAt<'a>],
+    /// What is to be explained at a frequency.
+    pub(super) fit: F,
+    /// A misfit up to this one is noise.
+    pub(super) usual: f64,
+}
+
+/// One and the same solution at two frequencies is nearer to itself than this part of the distance to any other …
+const NEARER: f64 = 1.0 / 3.0;
+
+/// … and differs by no more than this part of itself: solutions move by a few times the step in frequency, and scatter by what noise does to them.
+const CHANGE: f64 = 0.2;
+
+/// A solution that explains the sensors so many times worse than at both of its neighbours may not be the one that there is.
+const WORSE: f64 = 4.0;
+
+/// Frequencies that are worth a model of their own.
+const WORTHWHILE: usize = 12;
+
+/// The same solution at several frequencies (index).
+type Curve<'e> = Vec<(usize, &'e Solution)>;
+
+/// Frequencies between two stops, with what is known there.
+struct Stretch<'e, 'a> {
+    model: &'e Projection,
+    left: &'e Found,
+    right: &'e Found,
+    /// Each solution's misfit at the worse of the stops.
+    misfits: Vec<f64>,
+    tubes: &'e [Tube<'a>],
+    nominal: &'e Tube<'a>,
+    poles: Option<PolesBetween>,
+}
+
+impl<'a, F: Fn(usize) -> Fit<'a>> Follower<'a, F> {
+    /// Everything between frequencies (ascending, of one neighbourhood) that were explored on its model.
+    pub(super) fn between(&self, model: &Projection, known: &[(usize, &Explored)]) -> Vec<Found> {
+        let mut stops: Vec<Found> = Vec::new();
+        for &(index, explored) in known {
+            let stop = Found { index, explored: explored.clone(), certain: Vec::new(), whole: true };
+            if let Some(before) = stops.last().cloned() {
+                self.close(model, &before, &stop, &mut stops);
+            }
+            stops.push(stop);
+        }
+        let mut found = Vec::new();
+        let mut rest = &stops[..];
+        while let [first, _, ..] = rest {
+            // As far as the same solutions go on.
+            let mut curves: Vec<Curve<'_>> =
+                first.explored.solutions.iter().map(|solution| vec![(first.index, solution)]).collect();
+            let mut own: Vec<usize> = (0..curves.len()).collect();
+            let mut end = 0;
+            while let Some(pairs) = rest.get(end + 1).and_then(|next| self.pairs(&rest[end], next)) {
+                end += 1;
+                for (curve, own) in curves.iter_mut().zip(&mut own) {
+                    *own = pairs[*own];
+                    curve.push((rest[end].index, &rest[end].explored.solutions[*own]));
+                }
+            }
+            found.extend(self.run(model, &rest[..=end], &curves));
+            rest = &rest[end.max(1)..];
+        }
+        stops.retain(|stop| known.iter().all(|&(index, _)| index != stop.index));
+        found.extend(stops);
+        found
+    }
+
+    /// Explores half-way between two frequencies until neighbours have the same solutions, or nothing between them.
+    fn close(&self, model: &Projection, left: &Found, right: &Found, stops: &mut Vec<Found>) {
+        if right.index - left.index < 2 || self.pairs(left, right).is_some() {
+            return;
+        }
+        let middle = self.explore(model, left.index.midpoint(right.index));
+        self.close(model, left, &middle, stops);
+        stops.push(middle.clone());
+        self.close(model, &middle, right, stops);
+    }
+
+    fn explore(&self, model: &Projection, index: usize) -> Found {
+        let explored = (self.fit)(index).explore_reduced(model, &self.at[index]);
+        Found { index, explored, certain: Vec::new(), whole: true }
+    }
+
+    /// For each solution on the left the same one on the right; `None` where that is not beyond doubt for all on both sides.
+    fn pairs(&self, left: &Found, right: &Found) -> Option<Vec<usize>> {
+        let factors = |found: &Found| {
+            let nominal = self.at[found.index].parameters[0].nominal;
+            found.explored.solutions.iter().map(|s| nominal + s.correction).collect::<Vec<c64>>()
+        };
+        let doubtful = |found: &Found| {
+            found.explored.unsure || found.explored.breakdown.is_some() || found.explored.solutions.is_empty()
+        };
+        let (a, b) = (factors(left), factors(right));
+        if doubtful(left) || doubtful(right) || a.len() != b.len() {
+            return None;
+        }
+        let pair = |k: usize| {
+            let other = nearest(&b, a[k], None)?;
+            let near = (b[other] - a[k]).norm();
+            let apart = apart(&a, k).min(apart(&b, other));
+            let same = near <= NEARER * apart && near <= CHANGE * a[k].norm();
+            (same && nearest(&a, b[other], None) == Some(k)).then_some(other)
+        };
+        (0..a.len()).map(pair).collect()
+    }
+
+    /// What is between stops that have the same solutions.
+    fn run(&self, model: &Projection, stops: &[Found], curves: &[Curve<'_>]) -> Vec<Found> {
+        let (first, last) = (stops[0].index, stops[stops.len() - 1].index);
+        if last - first < stops.len() {
+            return Vec::new();
+        }
+        let own = last - first >= WORTHWHILE + stops.len();
+        let nominal_at = |i: usize| self.at[i].parameters[0].nominal;
+        let tube = |curve: &Curve<'_>| {
+            let points = curve.iter().map(|&(i, solution)| (i, nominal_at(i) + solution.correction));
+            Tube::new(self.at, points.collect(), model, own)
+        };
+        let tubes: Vec<Tube<'a>> = curves.iter().map(tube).collect();
+        let nominal = Tube::new(self.at, (first..=last).map(|i| (i, nominal_at(i))).collect(), model, own);
+        let mut found = Vec::with_capacity(last - first);
+        for (k, pair) in stops.windows(2).enumerate() {
+            let [left, right] = pair else { continue };
+            let ends = left.explored.poles.as_ref().zip(right.explored.poles.as_ref());
+            let poles = ends.map(|(a, b)| PolesBetween::new([a, b], [left, right].map(|end| nominal_at(end.index))));
+            let misfits = curves.iter().map(|curve| curve[k].1.misfit.max(curve[k + 1].1.misfit)).collect();
+            let stretch = Stretch { model, left, right, misfits, tubes: &tubes, nominal: &nominal, poles };
+            let each = left.index + 1..right.index;
+            found.extend(each.map(|i| self.follow(&stretch, i).unwrap_or_else(|| self.explore(model, i))));
+        }
+        found
+    }
+
+    /// The same solutions at a frequency between; `None` where one is not found beyond doubt.
+    fn follow(&self, stretch: &Stretch<'_, 'a>, index: usize) -> Option<Found> {
+        let (fit, at) = ((self.fit)(index), &self.at[index]);
+        let nominal = at.parameters[0].nominal;
+        let starts: Vec<c64> = stretch.tubes.iter().map(|tube| tube.factor(index)).collect();
+        let (left, right) = (&stretch.left.explored, &stretch.right.explored);
+        let mut explored = Explored { order: left.order.max(right.order), ..Explored::default() };
+        let mut certain = Vec::new();
+        let residuals = [left, right].into_iter().flat_map(|end| &end.solutions).map(|s| s.residual);
+        let residual = residuals.fold(0.0, f64::max);
+        for (k, tube) in stretch.tubes.iter().enumerate() {
+            let mut solution = fit.descend(|c| tube.respond_with_slope(index, c), starts[k] - nominal)?;
+            let assessed = tube.assess(index, solution.correction);
+            match assessed.filter(|assessed| is_certain(at, solution.correction, assessed)) {
+                Some(assessed) => certain.push((solution.correction, assessed)),
+                // The curve's model leads there; the neighbourhood's has the last digits.
+                None => solution = fit.descend(fit.on(stretch.model, at), solution.correction)?,
+            }
+            let factor = nominal + solution.correction;
+            let moved = (factor - starts[k]).norm();
+            let astray = moved > NEARER * apart(&starts, k) || moved > CHANGE * starts[k].norm();
+            if astray || solution.misfit > self.usual.max(WORSE * stretch.misfits[k]) {
+                return None;
+            }
+            match fit.options.bounds.broken_by(factor) {
+                None => explored.solutions.push(Solution { residual, ..solution }),
+                Some(bound) => {
+                    let (correction, refusal) = (solution.correction, Some(Refusal::OutOfBounds(bound)));
+                    explored.refused.push(Candidate { correction, drift: f64::INFINITY, refusal });
+                }
+            }
+        }
+        explored.solutions.sort_by(|a, b| a.correction.norm().total_cmp(&b.correction.norm()));
+        explored.nominal_response = stretch.nominal.respond_with_slope(index, c64::default()).ok()?.0;
+        let t = fraction(self.at, stretch.left.index, index, stretch.right.index);
+        explored.poles = stretch.poles.as_ref().map(|poles| poles.at(t, nominal));
+        Some(Found { index, explored, certain, whole: false })
+    }
+}
+
+/// Frequencies that are followed together, about: a model for a curve takes as long as some dozens of them.
+const TOGETHER: usize = 200;
+
+/// The whole band (ascending) from anchors on the models of the space.
+pub(super) fn follow<'a, F: Fn(usize) -> Fit<'a> + Sync>(
+    space: &mut Space<'_, '_>,
+    follower: &Follower<'a, F>,
+    anchors: &[usize],
+    explored: Vec<Explored>,
+    hooks: Hooks<'_>,
+) -> Vec<Found> {
+    let n = follower.at.len();
+    space.localise(&(0..n).collect::<Vec<_>>(), hooks.for_each);
+    let groups = groups(anchors, space.neighbourhoods());
+    let done = AtomicUsize::new(anchors.len());
+    let lent = &*space;
+    let between = map(hooks.for_each, groups.len(), |g| {
+        let known: Vec<(usize, &Explored)> = groups[g].clone().map(|k| (anchors[k], &explored[k])).collect();
+        let found = follower.between(lent.model(known[0].0), &known);
+        (hooks.progress)(Stage::Solutions, done.fetch_add(found.len(), Ordering::Relaxed) + found.len(), n);
+        found
+    });
+    let known = anchors.iter().zip(explored);
+    let known = known.map(|(&index, explored)| Found { index, explored, certain: Vec::new(), whole: true });
+    let mut all: Vec<Found> = between.into_iter().flatten().chain(known).collect();
+    all.sort_by_key(|found| found.index);
+    for found in &mut all {
+        found.certain.drain(..).for_each(|(correction, assessed)| space.remember(found.index, correction, assessed));
+    }
+    all
+}
+
+/// Anchors (by their place among all) that are followed together: neighbours, of one neighbourhood.
+fn groups(anchors: &[usize], neighbourhoods: impl Iterator<Item = [usize; 2]>) -> Vec<RangeInclusive<usize>> {
+    let mut groups = Vec::new();
+    for [first, last] in neighbourhoods {
+        let mut from = anchors.partition_point(|&i| i < first);
+        for k in from..anchors.partition_point(|&i| i <= last) {
+            if anchors[k] - anchors[from] >= TOGETHER || anchors[k] == last {
+                groups.push(from..=k);
+                from = k;
+            }
+        }
+    }
+    groups
+}
+
+/// The nearest of several to a value, one of them left out.
+fn nearest(all: &[c64], to: c64, but: Option<usize>) -> Option<usize> {
+    let others = (0..all.len()).filter(|&k| Some(k) != but);
+    others.min_by(|&a, &b| (all[a] - to).norm().total_cmp(&(all[b] - to).norm()))
+}
+
+/// How far one of several is from all others.
+fn apart(all: &[c64], k: usize) -> f64 {
+    nearest(all, all[k], Some(k)).map_or(f64::INFINITY, |other| (all[other] - all[k]).norm())
+}
