@@ -1,7 +1,7 @@
 //! Solutions between frequencies at which all of them are known: followed as long as nothing speaks against it.
 
 use super::explore::{Explored, Fit, Solution};
-use super::space::{Space, is_certain};
+use super::space::{Space, is_certain, thinned};
 use super::tube::{Tube, fraction};
 use super::{Hooks, Stage};
 use crate::c64;
@@ -46,6 +46,9 @@ const WORSE: f64 = 4.0;
 /// Frequencies that are worth a model of their own.
 const WORTHWHILE: usize = 12;
 
+/// Frequencies at which it is seen how far noise scatters solutions about their curve.
+const SAMPLE: usize = 16;
+
 /// The same solution at several frequencies (index).
 type Curve<'e> = Vec<(usize, &'e Solution)>;
 
@@ -56,8 +59,8 @@ struct Stretch<'e, 'a> {
     right: &'e Found,
     /// Each solution's misfit at the worse of the stops.
     misfits: Vec<f64>,
-    tubes: &'e [Tube<'a>],
-    nominal: &'e Tube<'a>,
+    tubes: &'e [Tube<'e, 'a>],
+    nominal: &'e Tube<'e, 'a>,
     poles: Option<PolesBetween>,
 }
 
@@ -144,10 +147,18 @@ impl<'a, F: Fn(usize) -> Fit<'a>> Follower<'a, F> {
         let nominal_at = |i: usize| self.at[i].parameters[0].nominal;
         let tube = |curve: &Curve<'_>| {
             let points = curve.iter().map(|&(i, solution)| (i, nominal_at(i) + solution.correction));
-            Tube::new(self.at, points.collect(), model, own)
+            let tube = Tube::along(self.at, points.collect(), model, own);
+            let answer = |&i: &usize| {
+                let start = tube.factor(i) - nominal_at(i);
+                let answer = (self.fit)(i).descend(|c| tube.respond_with_slope(i, c), start)?;
+                Some((i, answer.correction))
+            };
+            let all: Vec<usize> = (first..=last).collect();
+            let answers: Vec<(usize, c64)> = thinned(&all, SAMPLE).filter_map(answer).collect();
+            tube.widened(model, &answers)
         };
-        let tubes: Vec<Tube<'a>> = curves.iter().map(tube).collect();
-        let nominal = Tube::new(self.at, (first..=last).map(|i| (i, nominal_at(i))).collect(), model, own);
+        let tubes: Vec<Tube<'_, 'a>> = curves.iter().map(tube).collect();
+        let nominal = Tube::along(self.at, (first..=last).map(|i| (i, nominal_at(i))).collect(), model, own);
         let mut found = Vec::with_capacity(last - first);
         for (k, pair) in stops.windows(2).enumerate() {
             let [left, right] = pair else { continue };

@@ -1,41 +1,59 @@
 //! A model for what is near one curve of factors over frequency: far fewer vectors than for a box.
 
-use super::space::{ANSWER, thinned};
 use super::explore::Evaluated;
+use super::space::{ANSWER, is_certain, thinned};
 use crate::c64;
 use crate::model::ModelAt;
 use crate::subspace::{Assessment, Point, Projection};
 use frfit_linalg::dense::NoConvergence;
+use std::borrow::Cow;
 
 /// Points of a curve at which its model is made good.
 const POINTS: usize = 9;
 
 /// A curve, and the model for it.
-pub(super) struct Tube<'a> {
+pub(super) struct Tube<'e, 'a> {
     at: &'a [ModelAt<'a>],
-    /// Frequencies (index) and factors there.
+    /// Frequencies (index) and factors there, straight between them.
     curve: Vec<(usize, c64)>,
-    model: Projection,
+    model: Cow<'e, Projection>,
 }
 
-impl<'a> Tube<'a> {
-    /// From the model of the neighbourhood, or with that where the curve is not worth one of its `own`.
-    pub(super) fn new(at: &'a [ModelAt<'a>], curve: Vec<(usize, c64)>, model: &Projection, own: bool) -> Self {
-        if !own {
-            return Self { at, curve, model: model.clone() };
+impl<'e, 'a> Tube<'e, 'a> {
+    /// With a model of its own made from that of the neighbourhood, or with that.
+    pub(super) fn along(at: &'a [ModelAt<'a>], curve: Vec<(usize, c64)>, model: &'e Projection, own: bool) -> Self {
+        let tube = Self { at, curve, model: Cow::Borrowed(model) };
+        if own { Self { model: Cow::Owned(model.localised(&tube.points(), ANSWER)), ..tube } } else { tube }
+    }
+
+    /// With a model that is good at these answers (frequency, correction) too, where this one is not.
+    pub(super) fn widened(self, model: &Projection, answers: &[(usize, c64)]) -> Self {
+        let certain = |&(i, correction): &(usize, c64)| {
+            self.assess(i, correction).is_some_and(|assessed| is_certain(&self.at[i], correction, &assessed))
+        };
+        if matches!(self.model, Cow::Borrowed(_)) || answers.iter().all(certain) {
+            return self;
         }
-        let (first, last) = (curve[0].0, curve[curve.len() - 1].0);
-        let all: Vec<usize> = (first..=last).collect();
-        let points: Vec<Point<'_>> = thinned(&all, POINTS)
-            .map(|&i| Point { at: at[i].clone(), correction: factor(at, &curve, i) - at[i].parameters[0].nominal })
-            .collect();
-        let model = model.localised(&points, ANSWER);
-        Self { at, curve, model }
+        let mut points = self.points();
+        points.extend(answers.iter().map(|&(i, correction)| Point { at: self.at[i].clone(), correction }));
+        Self { model: Cow::Owned(model.localised(&points, ANSWER)), ..self }
+    }
+
+    fn points(&self) -> Vec<Point<'a>> {
+        let all: Vec<usize> = (self.curve[0].0..=self.curve[self.curve.len() - 1].0).collect();
+        let point = |&i: &usize| {
+            let at = self.at[i].clone();
+            let correction = self.factor(i) - at.parameters[0].nominal;
+            Point { at, correction }
+        };
+        thinned(&all, POINTS).map(point).collect()
     }
 
     /// The factor on the curve.
     pub(super) fn factor(&self, i: usize) -> c64 {
-        factor(self.at, &self.curve, i)
+        let k = self.curve.partition_point(|&(own, _)| own < i);
+        let ((right, b), (left, a)) = (self.curve[k], self.curve[k.saturating_sub(1)]);
+        a + fraction(self.at, left, i, right) * (b - a)
     }
 
     pub(super) fn respond_with_slope(&self, i: usize, correction: c64) -> Evaluated {
@@ -45,13 +63,6 @@ impl<'a> Tube<'a> {
     pub(super) fn assess(&self, i: usize, correction: c64) -> Option<Assessment> {
         self.model.assess(&self.at[i], correction).ok()
     }
-}
-
-/// A curve is straight between two of its points.
-fn factor(at: &[ModelAt<'_>], curve: &[(usize, c64)], i: usize) -> c64 {
-    let k = curve.partition_point(|&(own, _)| own < i);
-    let ((right, b), (left, a)) = (curve[k], curve[k.saturating_sub(1)]);
-    a + fraction(at, left, i, right) * (b - a)
 }
 
 /// How far the i-th frequency is on the way from one to another.
