@@ -16,7 +16,10 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 const BOX: f64 = 1e-6;
 
 /// Error at the answers. The factor is read from the response with a loss of some digits near its stationary points, and is to be right to 1e-6.
-pub(super) const ANSWER: f64 = 1e-9;
+const ANSWER: f64 = 1e-9;
+
+/// Error at the answers that were looked at, so that those between them are within what an answer's may be.
+pub(super) const TRAINED: f64 = 0.25 * ANSWER;
 
 /// Frequencies of the training at most; neighbours share what they need.
 const FREQUENCIES: usize = 60;
@@ -179,7 +182,7 @@ impl<'a, 'o> Space<'a, 'o> {
         let points: Vec<Point<'a>> =
             answers.iter().map(|&(i, correction)| Point { at: self.at[i].clone(), correction }).collect();
         let before = self.subspace.size();
-        let training = TrainOptions { tolerance: ANSWER, ..TrainOptions::default() };
+        let training = TrainOptions { tolerance: TRAINED, ..TrainOptions::default() };
         self.subspace.train(&points, &training, hooks.for_each)?;
         self.answers.extend(answers);
         Ok(self.subspace.size() > before)
@@ -221,7 +224,7 @@ impl<'a, 'o> Space<'a, 'o> {
         let answers = thinned(&answers, BLOCK_LEAST);
         let answers = answers.map(|&(i, correction)| Point { at: self.at[i].clone(), correction });
         let points: Vec<Point<'_>> = box_points.chain(answers).collect();
-        self.subspace.projection().localised(&points, ANSWER)
+        self.subspace.projection().localised(&points, TRAINED)
     }
 
     /// First and last frequency of each neighbourhood.

@@ -1,7 +1,7 @@
 //! A model for what is near one curve of factors over frequency: far fewer vectors than for a box.
 
 use super::explore::Evaluated;
-use super::space::{ANSWER, is_certain, thinned};
+use super::space::{TRAINED, is_certain, thinned};
 use crate::c64;
 use crate::model::ModelAt;
 use crate::subspace::{Assessment, Point, Projection};
@@ -23,7 +23,7 @@ impl<'e, 'a> Tube<'e, 'a> {
     /// With a model of its own made from that of the neighbourhood, or with that.
     pub(super) fn along(at: &'a [ModelAt<'a>], curve: Vec<(usize, c64)>, model: &'e Projection, own: bool) -> Self {
         let tube = Self { at, curve, model: Cow::Borrowed(model) };
-        if own { Self { model: Cow::Owned(model.localised(&tube.points(), ANSWER)), ..tube } } else { tube }
+        if own { Self { model: Cow::Owned(model.localised(&tube.points(), TRAINED)), ..tube } } else { tube }
     }
 
     /// With a model that is good at these answers (frequency, correction) too, where this one is not.
@@ -36,7 +36,7 @@ impl<'e, 'a> Tube<'e, 'a> {
         }
         let mut points = self.points();
         points.extend(answers.iter().map(|&(i, correction)| Point { at: self.at[i].clone(), correction }));
-        Self { model: Cow::Owned(model.localised(&points, ANSWER)), ..self }
+        Self { model: Cow::Owned(model.localised(&points, TRAINED)), ..self }
     }
 
     fn points(&self) -> Vec<Point<'a>> {
