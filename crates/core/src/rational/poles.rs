@@ -88,11 +88,18 @@ impl Poles {
     /// # Limits
     /// A pole that the load does not excite, or no sensor sees, is left out; it does not bound the series of this response either.
     pub fn radius_per_unit(&self) -> f64 {
-        let least: Vec<f64> = self.residues.iter().map(|residues| least(residues)).collect();
-        let seen = |k: usize| self.residues.iter().zip(&least).any(|(residues, least)| residues[k].norm() > *least);
+        let seen = self.seen();
         let moduli =
-            self.lambda.iter().enumerate().filter(|&(k, _)| seen(k)).map(|(_, lambda)| lambda.norm());
+            self.lambda.iter().enumerate().filter(|&(k, _)| seen[k]).map(|(_, lambda)| lambda.norm());
         moduli.fold(0.0, f64::max) / self.scale
+    }
+
+    /// Whether the load excites each pole and a sensor sees it.
+    pub(super) fn seen(&self) -> Vec<bool> {
+        let least: Vec<f64> = self.residues.iter().map(|residues| least(residues)).collect();
+        let by =
+            |k: usize| self.residues.iter().zip(&least).any(|(residues, least)| residues[k].norm() > *least);
+        (0..self.lambda.len()).map(by).collect()
     }
 }
 

@@ -53,7 +53,8 @@ impl Band {
         let rule = Rule { curvature, spread: false };
         let mut forward: Vec<Vec<Path>> = Vec::with_capacity(self.points.len());
         self.forward(rule, |paths| forward.push(paths.to_vec()));
-        let mut costs: Vec<Vec<f64>> = self.points.iter().map(|points| vec![f64::INFINITY; points.len()]).collect();
+        let mut costs: Vec<Vec<f64>> =
+            self.points.iter().map(|points| vec![f64::INFINITY; points.len()]).collect();
         let mut backward = Search::new(rule);
         // What is beyond the last frequency starts there.
         let mut step = 0.0;

@@ -150,7 +150,8 @@ impl Search {
 
     /// One frequency on: the step in ln ω that leads there, and what is there.
     pub(super) fn advance(&mut self, step: f64, points: &[Point]) {
-        let mut before = std::mem::replace(&mut self.now, Vec::with_capacity(KEPT * points.len() + KEPT_IN_GAP + 1));
+        let mut before =
+            std::mem::replace(&mut self.now, Vec::with_capacity(KEPT * points.len() + KEPT_IN_GAP + 1));
         for (parent, path) in before.iter_mut().enumerate() {
             *path = Path { parent, ..path.advanced(step, self.rule.curvature) };
         }

@@ -29,6 +29,8 @@ pub(super) struct Solution {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Explored {
     pub(super) solutions: Vec<Solution>,
+    /// Solutions a little outside the bounds: at the next frequency they may be within.
+    pub(super) beyond: Vec<Solution>,
     /// What solves the equations but not the user's conditions.
     pub(super) refused: Vec<Candidate>,
     /// x_m with the nominal factor.
@@ -45,6 +47,16 @@ pub(super) struct Explored {
 impl Explored {
     pub(super) fn broken(breakdown: Breakdown) -> Self {
         Self { breakdown: Some(breakdown), ..Self::default() }
+    }
+
+    /// All solutions, those within the bounds first.
+    pub(super) fn all_near(&self) -> impl Iterator<Item = &Solution> {
+        self.solutions.iter().chain(&self.beyond)
+    }
+
+    /// Some of them, by their place.
+    pub(super) fn near(&self, which: &[usize]) -> impl Iterator<Item = &Solution> {
+        which.iter().filter_map(|&k| self.all_near().nth(k))
     }
 
     /// Solves the system anew at each solution: its response is then beyond doubt, and so is whether it is a solution.
@@ -167,6 +179,7 @@ impl Fit<'_> {
                 Some(bound) => {
                     let (correction, refusal) = (solution.correction, Some(Refusal::OutOfBounds(bound)));
                     explored.refused.push(Candidate { correction, drift: f64::INFINITY, refusal });
+                    merge(&mut explored.beyond, solution, self.nominal);
                 }
             }
         }
@@ -205,7 +218,11 @@ impl Fit<'_> {
     }
 
     /// The response of a reduced model.
-    pub(super) fn on<'m>(&self, model: &'m Projection, at: &'m ModelAt<'_>) -> impl Fn(c64) -> Evaluated + 'm {
+    pub(super) fn on<'m>(
+        &self,
+        model: &'m Projection,
+        at: &'m ModelAt<'_>,
+    ) -> impl Fn(c64) -> Evaluated + 'm {
         |c| model.respond_with_slope(at, c).map_err(|_| NoConvergence)
     }
 

@@ -79,16 +79,28 @@ impl<'a, F: Fn(usize) -> Fit<'a>> Follower<'a, F> {
         let mut rest = &stops[..];
         while let [first, _, ..] = rest {
             // As far as the same solutions go on.
-            let mut curves: Vec<Curve<'_>> =
-                first.explored.solutions.iter().map(|solution| vec![(first.index, solution)]).collect();
-            let mut own: Vec<usize> = (0..curves.len()).collect();
+            let (mut curves, mut own): (Vec<Curve<'_>>, Vec<usize>) = (Vec::new(), Vec::new());
             let mut end = 0;
             while let Some(pairs) = rest.get(end + 1).and_then(|next| self.pairs(&rest[end], next)) {
-                end += 1;
-                for (curve, own) in curves.iter_mut().zip(&mut own) {
-                    *own = pairs[*own];
-                    curve.push((rest[end].index, &rest[end].explored.solutions[*own]));
+                if end == 0 {
+                    own = pairs.iter().map(|&(left, _)| left).collect();
+                    curves =
+                        first.explored.near(&own).map(|solution| vec![(first.index, solution)]).collect();
                 }
+                let mut carried = own.clone();
+                carried.sort_unstable();
+                if !carried.iter().eq(pairs.iter().map(|(left, _)| left)) {
+                    break;
+                }
+                end += 1;
+                for own in &mut own {
+                    *own = pairs[carried.binary_search(own).unwrap_or_default()].1;
+                }
+                let next = rest[end].explored.near(&own);
+                curves
+                    .iter_mut()
+                    .zip(next)
+                    .for_each(|(curve, solution)| curve.push((rest[end].index, solution)));
             }
             found.extend(self.run(model, &rest[..=end], &curves));
             rest = &rest[end.max(1)..];
@@ -114,27 +126,33 @@ impl<'a, F: Fn(usize) -> Fit<'a>> Follower<'a, F> {
         Found { index, explored, certain: Vec::new(), whole: true }
     }
 
-    /// For each solution on the left the same one on the right; `None` where that is not beyond doubt for all on both sides.
-    fn pairs(&self, left: &Found, right: &Found) -> Option<Vec<usize>> {
+    /// Pairs (left, right) of what is the same solution, in the order of the left ones; `None` where that is not beyond doubt for all within the bounds on both
+    /// sides.
+    fn pairs(&self, left: &Found, right: &Found) -> Option<Vec<(usize, usize)>> {
         let factors = |found: &Found| {
             let nominal = self.at[found.index].parameters[0].nominal;
-            found.explored.solutions.iter().map(|s| nominal + s.correction).collect::<Vec<c64>>()
+            found.explored.all_near().map(|s| nominal + s.correction).collect::<Vec<c64>>()
         };
         let doubtful = |found: &Found| {
             found.explored.unsure || found.explored.breakdown.is_some() || found.explored.solutions.is_empty()
         };
-        let (a, b) = (factors(left), factors(right));
-        if doubtful(left) || doubtful(right) || a.len() != b.len() {
+        if doubtful(left) || doubtful(right) {
             return None;
         }
-        let pair = |k: usize| {
+        let (a, b) = (factors(left), factors(right));
+        let same = |k: usize| {
             let other = nearest(&b, a[k], None)?;
             let near = (b[other] - a[k]).norm();
             let apart = apart(&a, k).min(apart(&b, other));
             let same = near <= NEARER * apart && near <= CHANGE * a[k].norm();
-            (same && nearest(&a, b[other], None) == Some(k)).then_some(other)
+            (same && nearest(&a, b[other], None) == Some(k)).then_some((k, other))
         };
-        (0..a.len()).map(pair).collect()
+        let pairs: Vec<(usize, usize)> = (0..a.len()).filter_map(same).collect();
+        // Those within the bounds come first.
+        let within = |found: &Found| 0..found.explored.solutions.len();
+        let all = within(left).all(|k| pairs.iter().any(|&(own, _)| own == k))
+            && within(right).all(|k| pairs.iter().any(|&(_, own)| own == k));
+        all.then_some(pairs)
     }
 
     /// What is between stops that have the same solutions.
@@ -163,7 +181,8 @@ impl<'a, F: Fn(usize) -> Fit<'a>> Follower<'a, F> {
         for (k, pair) in stops.windows(2).enumerate() {
             let [left, right] = pair else { continue };
             let ends = left.explored.poles.as_ref().zip(right.explored.poles.as_ref());
-            let poles = ends.map(|(a, b)| PolesBetween::new([a, b], [left, right].map(|end| nominal_at(end.index))));
+            let poles =
+                ends.map(|(a, b)| PolesBetween::new([a, b], [left, right].map(|end| nominal_at(end.index))));
             let misfits = curves.iter().map(|curve| curve[k].1.misfit.max(curve[k + 1].1.misfit)).collect();
             let stretch = Stretch { model, left, right, misfits, tubes: &tubes, nominal: &nominal, poles };
             let each = left.index + 1..right.index;
@@ -239,7 +258,10 @@ pub(super) fn follow<'a, F: Fn(usize) -> Fit<'a> + Sync>(
     let mut all: Vec<Found> = between.into_iter().flatten().chain(known).collect();
     all.sort_by_key(|found| found.index);
     for found in &mut all {
-        found.certain.drain(..).for_each(|(correction, assessed)| space.remember(found.index, correction, assessed));
+        found
+            .certain
+            .drain(..)
+            .for_each(|(correction, assessed)| space.remember(found.index, correction, assessed));
     }
     all
 }
@@ -249,11 +271,12 @@ fn groups(anchors: &[usize], neighbourhoods: impl Iterator<Item = [usize; 2]>) -
     let mut groups = Vec::new();
     for [first, last] in neighbourhoods {
         let mut from = anchors.partition_point(|&i| i < first);
-        for k in from..anchors.partition_point(|&i| i <= last) {
-            if anchors[k] - anchors[from] >= TOGETHER || anchors[k] == last {
-                groups.push(from..=k);
-                from = k;
-            }
+        let end = anchors.partition_point(|&i| i <= last);
+        while from + 1 < end {
+            let reach = anchors.partition_point(|&i| i < anchors[from] + TOGETHER);
+            let to = reach.clamp(from + 1, end - 1);
+            groups.push(from..=to);
+            from = to;
         }
     }
     groups

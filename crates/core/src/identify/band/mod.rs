@@ -5,6 +5,7 @@ mod anchors;
 mod explore;
 mod follow;
 mod joint;
+mod on_space;
 mod space;
 mod tube;
 mod verdict;

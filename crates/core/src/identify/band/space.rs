@@ -164,7 +164,9 @@ impl<'a, 'o> Space<'a, 'o> {
     /// How good the model that answered at a frequency is at a correction there.
     pub(super) fn assess(&self, i: usize, correction: c64) -> Option<Assessment> {
         let known = self.assessed[i].iter().find(|(same, _)| *same == correction);
-        known.map(|(_, assessed)| assessed.clone()).or_else(|| self.model(i).assess(&self.at[i], correction).ok())
+        known
+            .map(|(_, assessed)| assessed.clone())
+            .or_else(|| self.model(i).assess(&self.at[i], correction).ok())
     }
 
     /// Keeps how good the model that found a correction is there.
@@ -205,7 +207,8 @@ impl<'a, 'o> Space<'a, 'o> {
         for block in &self.blocks {
             for &i in members(block.ends) {
                 let model = block.model.as_ref().map(|(_, model)| Arc::clone(model));
-                let same = self.models[i].as_ref().zip(model.as_ref()).is_some_and(|(a, b)| Arc::ptr_eq(a, b));
+                let same =
+                    self.models[i].as_ref().zip(model.as_ref()).is_some_and(|(a, b)| Arc::ptr_eq(a, b));
                 if !same {
                     self.assessed[i].clear();
                 }

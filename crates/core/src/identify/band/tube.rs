@@ -21,7 +21,12 @@ pub(super) struct Tube<'e, 'a> {
 
 impl<'e, 'a> Tube<'e, 'a> {
     /// With a model of its own made from that of the neighbourhood, or with that.
-    pub(super) fn along(at: &'a [ModelAt<'a>], curve: Vec<(usize, c64)>, model: &'e Projection, own: bool) -> Self {
+    pub(super) fn along(
+        at: &'a [ModelAt<'a>],
+        curve: Vec<(usize, c64)>,
+        model: &'e Projection,
+        own: bool,
+    ) -> Self {
         let tube = Self { at, curve, model: Cow::Borrowed(model) };
         if own { Self { model: Cow::Owned(model.localised(&tube.points(), TRAINED)), ..tube } } else { tube }
     }
@@ -65,11 +70,12 @@ impl<'e, 'a> Tube<'e, 'a> {
     }
 }
 
-/// How far the i-th frequency is on the way from one to another.
+/// How far the i-th frequency is on the way from one to another, by ω²: factors that are poles of a structure of one material, or solutions of another
+/// stiffness for its mass, go with that.
 pub(super) fn fraction(at: &[ModelAt<'_>], left: usize, i: usize, right: usize) -> f64 {
     if right == i {
         return 1.0;
     }
-    let [f, from, to] = [i, left, right].map(|i| at[i].frequency_hz);
+    let [f, from, to] = [i, left, right].map(|i| at[i].frequency_hz.powi(2));
     (f - from) / (to - from)
 }
