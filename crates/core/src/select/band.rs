@@ -160,4 +160,34 @@ mod tests {
             assert!(costs[k][..19].iter().all(|cost| cost - path.cost > -0.5), "{k}");
         }
     }
+
+    /// A power law with some scatter and strays beside it, 3000 frequencies: the sizes of scatter and curvature found from a part of the band first are those of
+    /// largest likelihood on all of it.
+    #[test]
+    fn a_part_of_a_long_band_leads_to_what_is_likeliest_on_the_whole() {
+        let n = 3000;
+        let sizes = [1e-5, 3e-5, 1e-4, 3e-4, 1e-3, 3e-3, 1e-2];
+        for (scatter, bend) in [(2e-5, 0.0), (5e-4, 0.1), (4e-3, 0.4)] {
+            let log_frequency: Vec<f64> = (0..n).map(|k| (1.0 + 9.0 * k as f64 / n as f64).ln()).collect();
+            let random = |k: usize| ((k * k) as f64 * 0.618_034).fract() - 0.5;
+            let at = |k: usize, size: f64| {
+                let x = log_frequency[k];
+                let level = c64::new(0.1 * x + 0.5 * bend * x * x, 0.2);
+                let point = |node: usize, log: c64| Point { node, log, variance: size * size, misfit: 0.0 };
+                let off = 3.5 * scatter * c64::new(random(k), random(k + n));
+                vec![point(0, level + off), point(1, c64::new(2.0 * x - 1.0 + random(7 * k), 0.1))]
+            };
+            let band = |s: usize| Band {
+                log_frequency: log_frequency.clone(),
+                points: (0..n).map(|k| at(k, sizes[s])).collect(),
+            };
+            let lowest =
+                |costs: Vec<f64>| (0..costs.len()).min_by(|&a, &b| costs[a].total_cmp(&costs[b])).unwrap();
+            let best = lowest((0..sizes.len()).map(|s| band(s).likelihood(CURVATURE, 1)).collect());
+            let found = Band::likeliest(sizes.len(), n, band);
+            assert_eq!(found.points[0][0].variance, sizes[best].powi(2), "{scatter}");
+            let costs = CURVATURES.iter().map(|&curvature| found.likelihood(curvature, 1));
+            assert_eq!(found.curvature(), CURVATURES[lowest(costs.collect()).saturating_sub(1)], "{scatter}");
+        }
+    }
 }

@@ -1,6 +1,7 @@
 //! Solutions between frequencies at which all of them are known: followed as long as nothing speaks against it.
 
 use super::explore::{Explored, Fit, Solution};
+use super::same::{is_same, pairs};
 use super::space::{Space, is_certain, thinned};
 use super::tube::{Tube, fraction};
 use super::{Hooks, Stage};
@@ -33,12 +34,6 @@ pub(super) struct Follower<'a, F> {
     /// A misfit up to this one is noise.
     pub(super) usual: f64,
 }
-
-/// One and the same solution at two frequencies is nearer to itself than this part of the distance to any other …
-const NEARER: f64 = 1.0 / 3.0;
-
-/// … and differs by no more than this part of itself: solutions move by a few times the step in frequency, and scatter by what noise does to them.
-const CHANGE: f64 = 0.2;
 
 /// A solution that explains the sensors so many times worse than at both of its neighbours may not be the one that there is.
 const WORSE: f64 = 4.0;
@@ -81,7 +76,7 @@ impl<'a, F: Fn(usize) -> Fit<'a>> Follower<'a, F> {
             // As far as the same solutions go on.
             let (mut curves, mut own): (Vec<Curve<'_>>, Vec<usize>) = (Vec::new(), Vec::new());
             let mut end = 0;
-            while let Some(pairs) = rest.get(end + 1).and_then(|next| self.pairs(&rest[end], next)) {
+            while let Some(pairs) = rest.get(end + 1).and_then(|next| pairs(self.at, &rest[end], next)) {
                 if end == 0 {
                     own = pairs.iter().map(|&(left, _)| left).collect();
                     curves =
@@ -112,7 +107,7 @@ impl<'a, F: Fn(usize) -> Fit<'a>> Follower<'a, F> {
 
     /// Explores half-way between two frequencies until neighbours have the same solutions, or nothing between them.
     fn close(&self, model: &Projection, left: &Found, right: &Found, stops: &mut Vec<Found>) {
-        if right.index - left.index < 2 || self.pairs(left, right).is_some() {
+        if right.index - left.index < 2 || pairs(self.at, left, right).is_some() {
             return;
         }
         let middle = self.explore(model, left.index.midpoint(right.index));
@@ -124,35 +119,6 @@ impl<'a, F: Fn(usize) -> Fit<'a>> Follower<'a, F> {
     fn explore(&self, model: &Projection, index: usize) -> Found {
         let explored = (self.fit)(index).explore_reduced(model, &self.at[index]);
         Found { index, explored, certain: Vec::new(), whole: true }
-    }
-
-    /// Pairs (left, right) of what is the same solution, in the order of the left ones; `None` where that is not beyond doubt for all within the bounds on both
-    /// sides.
-    fn pairs(&self, left: &Found, right: &Found) -> Option<Vec<(usize, usize)>> {
-        let factors = |found: &Found| {
-            let nominal = self.at[found.index].parameters[0].nominal;
-            found.explored.all_near().map(|s| nominal + s.correction).collect::<Vec<c64>>()
-        };
-        let doubtful = |found: &Found| {
-            found.explored.unsure || found.explored.breakdown.is_some() || found.explored.solutions.is_empty()
-        };
-        if doubtful(left) || doubtful(right) {
-            return None;
-        }
-        let (a, b) = (factors(left), factors(right));
-        let same = |k: usize| {
-            let other = nearest(&b, a[k], None)?;
-            let near = (b[other] - a[k]).norm();
-            let apart = apart(&a, k).min(apart(&b, other));
-            let same = near <= NEARER * apart && near <= CHANGE * a[k].norm();
-            (same && nearest(&a, b[other], None) == Some(k)).then_some((k, other))
-        };
-        let pairs: Vec<(usize, usize)> = (0..a.len()).filter_map(same).collect();
-        // Those within the bounds come first.
-        let within = |found: &Found| 0..found.explored.solutions.len();
-        let all = within(left).all(|k| pairs.iter().any(|&(own, _)| own == k))
-            && within(right).all(|k| pairs.iter().any(|&(_, own)| own == k));
-        all.then_some(pairs)
     }
 
     /// What is between stops that have the same solutions.
@@ -210,9 +176,7 @@ impl<'a, F: Fn(usize) -> Fit<'a>> Follower<'a, F> {
                 None => solution = fit.descend(fit.on(stretch.model, at), solution.correction)?,
             }
             let factor = nominal + solution.correction;
-            let moved = (factor - starts[k]).norm();
-            let astray = moved > NEARER * apart(&starts, k) || moved > CHANGE * starts[k].norm();
-            if astray || solution.misfit > self.usual.max(WORSE * stretch.misfits[k]) {
+            if !is_same(&starts, k, factor) || solution.misfit > self.usual.max(WORSE * stretch.misfits[k]) {
                 return None;
             }
             match fit.options.bounds.broken_by(factor) {
@@ -280,15 +244,4 @@ fn groups(anchors: &[usize], neighbourhoods: impl Iterator<Item = [usize; 2]>) -
         }
     }
     groups
-}
-
-/// The nearest of several to a value, one of them left out.
-fn nearest(all: &[c64], to: c64, but: Option<usize>) -> Option<usize> {
-    let others = (0..all.len()).filter(|&k| Some(k) != but);
-    others.min_by(|&a, &b| (all[a] - to).norm().total_cmp(&(all[b] - to).norm()))
-}
-
-/// How far one of several is from all others.
-fn apart(all: &[c64], k: usize) -> f64 {
-    nearest(all, all[k], Some(k)).map_or(f64::INFINITY, |other| (all[other] - all[k]).norm())
 }

@@ -6,6 +6,7 @@ mod explore;
 mod follow;
 mod joint;
 mod on_space;
+mod same;
 mod space;
 mod tube;
 mod verdict;
