@@ -5,13 +5,16 @@ use crate::c64;
 
 /// Poles of two neighbouring frequencies, those that are one and the same paired.
 ///
-/// In the plane of the factor p̄ + c poles and residues move smoothly with the frequency, whatever the nominal value does: they are interpolated there.
+/// In the plane of the factor p̄ + c poles and residues move smoothly with the frequency, whatever the nominal value does: they are interpolated there, over ω². Where one
+/// material is all stiffness that there is, p_k/ω² does not change at all: by it poles are paired.
 ///
 /// # Limits
-/// Off by the square of the step in frequency. A pole without a partner, weak or far from the nominal value as a rule, stays where the nearer frequency has it.
+/// Off by the square of the step in frequency. A pole without a partner, weak or far from the nominal value as a rule, goes with ω² from where the nearer frequency has it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PolesBetween {
     ends: [Vec<Pole>; 2],
+    /// ω² at both ends.
+    omega_squared: [f64; 2],
     sensors: usize,
 }
 
@@ -27,35 +30,41 @@ struct Pole {
 }
 
 impl PolesBetween {
-    /// From the poles at both ends, and the nominal values p̄ there.
-    pub fn new(ends: [&Poles; 2], nominal: [c64; 2]) -> Self {
+    /// From the poles at both ends, with the nominal values p̄ and ω² > 0 there.
+    pub fn new(ends: [&Poles; 2], nominal: [c64; 2], omega_squared: [f64; 2]) -> Self {
         let [mut left, mut right] = [0, 1].map(|end| poles(ends[end], nominal[end]));
-        let nearest = |pole: &Pole, others: &[Pole]| {
-            let apart = |other: &Pole| Some((pole.factor? - other.factor?).norm_sqr());
+        let [low, high] = omega_squared;
+        let nearest = |pole: &Pole, ratio: f64, others: &[Pole]| {
+            let apart = |other: &Pole| Some((pole.factor? * ratio - other.factor?).norm_sqr());
             let apart = others.iter().enumerate().filter_map(|(k, other)| Some((k, apart(other)?)));
             apart.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(k, _)| k)
         };
         for k in 0..left.len() {
-            let partner = nearest(&left[k], &right).filter(|&other| nearest(&right[other], &left) == Some(k));
+            let back = |&other: &usize| nearest(&right[other], low / high, &left) == Some(k);
+            let partner = nearest(&left[k], high / low, &right).filter(back);
             left[k].partner = partner;
             if let Some(other) = partner {
                 right[other].partner = Some(k);
             }
         }
-        Self { ends: [left, right], sensors: ends[0].residues.len() }
+        Self { ends: [left, right], omega_squared, sensors: ends[0].residues.len() }
     }
 
-    /// At a fraction t of the way, with the nominal value there.
+    /// At a fraction t of the way from one ω² to the other, with the nominal value there.
     pub fn at(&self, t: f64, nominal: c64) -> Poles {
         let nearer = usize::from(t > 0.5);
         let (own, others) = (&self.ends[nearer], &self.ends[1 - nearer]);
         let weight = if nearer == 0 { t } else { 1.0 - t };
+        let [low, high] = self.omega_squared;
+        let gone = (low + t * (high - low)) / self.omega_squared[nearer];
         let mut lambda = Vec::with_capacity(own.len());
         let mut residues = vec![Vec::with_capacity(own.len()); self.sensors];
         for pole in own {
             let other = pole.partner.map(|k| &others[k]);
             let mixed = |a: c64, b: Option<c64>| b.map_or(a, |b| a + weight * (b - a));
-            let factor = pole.factor.map(|factor| mixed(factor, other.and_then(|other| other.factor)));
+            let there = other.and_then(|other| other.factor);
+            let factor =
+                pole.factor.map(|factor| there.map_or(factor * gone, |there| mixed(factor, Some(there))));
             // ρ/(1 + cλ) = R/(p − p_k) with λ = −1/(p_k − p̄) and ρ = Rλ.
             let inverse = factor.map(|factor| -(factor - nominal).inv());
             lambda.push(inverse.unwrap_or_default());
@@ -108,7 +117,7 @@ mod tests {
             Poles { scale, lambda, residues: vec![rho] }
         };
         let ends = [of(0.0, c(1.0, 0.0), 2.0, false), of(1.0, c(1.5, 0.1), 5.0, true)];
-        let between = PolesBetween::new([&ends[0], &ends[1]], [c(1.0, 0.0), c(1.5, 0.1)]);
+        let between = PolesBetween::new([&ends[0], &ends[1]], [c(1.0, 0.0), c(1.5, 0.1)], [1.0, 1.04]);
         for t in [0.0, 0.3, 0.6, 1.0] {
             let nominal = c(1.2, -0.1);
             let (exact, found) = (of(t, nominal, 1.0, false), between.at(t, nominal));

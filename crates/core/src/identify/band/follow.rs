@@ -7,6 +7,7 @@ use super::tube::{Tube, fraction};
 use super::{Hooks, Stage};
 use crate::c64;
 use crate::for_each::map;
+use crate::frequency::omega_rad_s;
 use crate::model::ModelAt;
 use crate::rational::PolesBetween;
 use crate::roots::{Candidate, Refusal};
@@ -146,9 +147,15 @@ impl<'a, F: Fn(usize) -> Fit<'a>> Follower<'a, F> {
         let mut found = Vec::with_capacity(last - first);
         for (k, pair) in stops.windows(2).enumerate() {
             let [left, right] = pair else { continue };
+            if right.index - left.index < 2 {
+                continue;
+            }
             let ends = left.explored.poles.as_ref().zip(right.explored.poles.as_ref());
-            let poles =
-                ends.map(|(a, b)| PolesBetween::new([a, b], [left, right].map(|end| nominal_at(end.index))));
+            let poles = ends.map(|(a, b)| {
+                let omega_squared = |i: usize| omega_rad_s(self.at[i].frequency_hz).powi(2);
+                let both = [left.index, right.index];
+                PolesBetween::new([a, b], both.map(nominal_at), both.map(omega_squared))
+            });
             let misfits = curves.iter().map(|curve| curve[k].1.misfit.max(curve[k + 1].1.misfit)).collect();
             let stretch = Stretch { model, left, right, misfits, tubes: &tubes, nominal: &nominal, poles };
             let each = left.index + 1..right.index;
