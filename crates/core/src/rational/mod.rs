@@ -9,9 +9,11 @@
 //! U. Kirsch, Computers & Structures 78 (2000) 481–492 (combined approximations) is the precedent in structural reanalysis.
 
 mod basis;
+mod between;
 mod poles;
 mod roots;
 
+pub use between::PolesBetween;
 pub use poles::Poles;
 pub use roots::RationalRoot;
 

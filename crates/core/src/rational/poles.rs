@@ -8,11 +8,11 @@ use frfit_linalg::vector::transpose_dot;
 /// Poles and residues: the response and its slope at all sensors for n multiplications each.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Poles {
-    scale: f64,
+    pub(super) scale: f64,
     /// λ_k, eigenvalues of M₀⁻¹M₁; the poles are at c = −s/λ_k.
-    lambda: Vec<c64>,
+    pub(super) lambda: Vec<c64>,
     /// `residues[m][k]` is ρ_mk.
-    residues: Vec<Vec<c64>>,
+    pub(super) residues: Vec<Vec<c64>>,
 }
 
 impl RationalResponse {
@@ -66,11 +66,12 @@ impl Poles {
         let z = correction / self.scale;
         let allowed = error * self.respond_with_slope(correction).0[sensor].norm();
         let residues = &self.residues[sensor];
+        let least = least(residues);
         let order = |(k, lambda): (usize, &c64)| {
             let rho = residues[k];
             let (size, share) = ((z * lambda).norm(), (rho / (1.0 + z * lambda)).norm());
             if size >= 1.0 {
-                (!takes_part(residues, k)).then_some(0)
+                (rho.norm() <= least).then_some(0)
             } else if share * size <= allowed {
                 Some(0)
             } else {
@@ -87,17 +88,24 @@ impl Poles {
     /// # Limits
     /// A pole that the load does not excite, or no sensor sees, is left out; it does not bound the series of this response either.
     pub fn radius_per_unit(&self) -> f64 {
-        let seen = |k: usize| self.residues.iter().any(|residues| takes_part(residues, k));
+        let seen = self.seen();
         let moduli =
-            self.lambda.iter().enumerate().filter(|&(k, _)| seen(k)).map(|(_, lambda)| lambda.norm());
+            self.lambda.iter().enumerate().filter(|&(k, _)| seen[k]).map(|(_, lambda)| lambda.norm());
         moduli.fold(0.0, f64::max) / self.scale
+    }
+
+    /// Whether the load excites each pole and a sensor sees it.
+    pub(super) fn seen(&self) -> Vec<bool> {
+        let least: Vec<f64> = self.residues.iter().map(|residues| least(residues)).collect();
+        let by =
+            |k: usize| self.residues.iter().zip(&least).any(|(residues, least)| residues[k].norm() > *least);
+        (0..self.lambda.len()).map(by).collect()
     }
 }
 
 /// A residue of less than this part of the largest is roundoff: the mode is not driven, or not seen.
 const TAKES_PART: f64 = 1e-12;
 
-fn takes_part(residues: &[c64], k: usize) -> bool {
-    let largest = residues.iter().map(|rho| rho.norm()).fold(0.0, f64::max);
-    residues[k].norm() > TAKES_PART * largest
+fn least(residues: &[c64]) -> f64 {
+    TAKES_PART * residues.iter().map(|rho| rho.norm()).fold(0.0, f64::max)
 }

@@ -1,17 +1,12 @@
 //! The candidates of a whole band, paths through it in both directions, and what they say about each candidate.
 
-use super::path::{Path, Point, Rule, cheapest, paths};
+use super::path::{Path, Point, Rule, Search};
 
 /// Sizes of curvature that are tried. Fractional laws stay below 0.2, a sharp relaxation reaches 1; below the last all is straight.
 const CURVATURES: [f64; 7] = [1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01];
 
 /// Before anything is known of a path's curvature. Not taken from the straightest path there is: that may well be a wrong one.
 pub(super) const CURVATURE: f64 = 0.5;
-
-/// −ln likelihood of the cheapest path.
-fn likelihood(paths: &[Vec<Path>]) -> f64 {
-    cheapest(paths).map_or(0.0, |(path, _)| path.cost)
-}
 
 /// Points over a band.
 #[derive(Debug, Clone)]
@@ -23,24 +18,31 @@ pub(super) struct Band {
 }
 
 impl Band {
-    /// That of several which makes its cheapest path likeliest: the same candidates, with more or less scatter allowed.
-    pub(super) fn likeliest(bands: impl Iterator<Item = Self>) -> Option<Self> {
-        let cost = |band: &Self| likelihood(&band.forward(Rule { curvature: CURVATURE, spread: true }));
-        let costs = bands.map(|band| (cost(&band), band));
-        costs.min_by(|(a, _), (b, _)| a.total_cmp(b)).map(|(_, band)| band)
+    /// That of several which makes its cheapest path likeliest: the same candidates, with more or less scatter allowed, least first.
+    pub(super) fn likeliest(count: usize, frequencies: usize, band: impl Fn(usize) -> Self) -> Self {
+        band(lowest(count, frequencies, |b, every| band(b).likelihood(CURVATURE, every)))
     }
 
     /// κ of largest likelihood, and one size more: what is too stiff for the right path skips it. For a band of one path.
     pub(super) fn curvature(&self) -> f64 {
-        let cost = |&curvature: &f64| likelihood(&self.forward(Rule { curvature, spread: true }));
-        let costs: Vec<f64> = CURVATURES.iter().map(cost).collect();
-        let best = (0..costs.len()).min_by(|&a, &b| costs[a].total_cmp(&costs[b])).unwrap_or(0);
-        CURVATURES[best.saturating_sub(1)]
+        let cost = |k: usize, every: usize| self.likelihood(CURVATURES[k], every);
+        CURVATURES[lowest(CURVATURES.len(), self.points.len(), cost).saturating_sub(1)]
     }
 
     /// The cheapest path, and the point that it chooses at each frequency.
     pub(super) fn cheapest(&self, curvature: f64) -> Option<(Path, Vec<Option<usize>>)> {
-        cheapest(&self.forward(Rule { curvature, spread: false }))
+        // Of the ways that lead to each path no more than this is kept: a band has thousands of frequencies.
+        let mut ways: Vec<Vec<(Option<usize>, usize)>> = Vec::with_capacity(self.points.len());
+        let search = self.forward(Rule { curvature, spread: false }, |paths| {
+            ways.push(paths.iter().map(|path| (path.chosen, path.parent)).collect());
+        });
+        let mut at = search.cheapest()?;
+        let whole = search.paths()[at];
+        let mut chosen = vec![None; ways.len()];
+        for (own, ways) in chosen.iter_mut().zip(&ways).rev() {
+            (*own, at) = ways[at];
+        }
+        Some((whole, chosen))
     }
 
     /// For each candidate the cost of the best path through it (min-marginals, by a pass from either end).
@@ -49,21 +51,23 @@ impl Band {
     /// Of the paths that were kept; a candidate that none of them meets has its cost from the nearest.
     pub(super) fn costs(&self, curvature: f64) -> Vec<Vec<f64>> {
         let rule = Rule { curvature, spread: false };
-        let forward = self.forward(rule);
-        let backward = self.backward(rule);
-        let mut costs = Vec::with_capacity(forward.len());
-        for (k, before) in forward.iter().enumerate() {
-            let after: Vec<Path> = match backward.get(k + 1) {
-                None => vec![Path::START],
-                Some(paths) => paths.iter().map(|path| path.advanced(-self.step(k + 1), curvature)).collect(),
-            };
-            let mut best = vec![f64::INFINITY; self.points[k].len()];
+        let mut forward: Vec<Vec<Path>> = Vec::with_capacity(self.points.len());
+        self.forward(rule, |paths| forward.push(paths.to_vec()));
+        let mut costs: Vec<Vec<f64>> =
+            self.points.iter().map(|points| vec![f64::INFINITY; points.len()]).collect();
+        let mut backward = Search::new(rule);
+        // What is beyond the last frequency starts there.
+        let mut step = 0.0;
+        for (k, before) in forward.iter().enumerate().rev() {
+            let after: Vec<Path> =
+                backward.paths().iter().map(|path| path.advanced(step, curvature)).collect();
             for (path, chosen) in before.iter().filter_map(|path| Some((path, path.chosen?))) {
                 for other in &after {
-                    best[chosen] = best[chosen].min(path.with(other));
+                    costs[k][chosen] = costs[k][chosen].min(path.with(other));
                 }
             }
-            costs.push(best);
+            backward.advance(step, &self.points[k]);
+            step = -self.step(k);
         }
         costs
     }
@@ -73,17 +77,52 @@ impl Band {
         if k == 0 { 0.0 } else { self.log_frequency[k] - self.log_frequency[k - 1] }
     }
 
-    fn forward(&self, rule: Rule) -> Vec<Vec<Path>> {
-        paths((0..self.points.len()).map(|k| (self.step(k), &self.points[k][..])), rule)
+    /// −ln likelihood of the cheapest path through every so-many-th frequency.
+    fn likelihood(&self, curvature: f64, every: usize) -> f64 {
+        let mut search = Search::new(Rule { curvature, spread: true });
+        for k in (0..self.points.len()).step_by(every) {
+            let step = if k == 0 { 0.0 } else { self.log_frequency[k] - self.log_frequency[k - every] };
+            search.advance(step, &self.points[k]);
+        }
+        search.cheapest().map_or(0.0, |cheapest| search.paths()[cheapest].cost)
     }
 
-    /// From the other end, in the order of frequencies.
-    fn backward(&self, rule: Rule) -> Vec<Vec<Path>> {
-        let count = self.points.len();
-        let step = |k: usize| if k + 1 == count { 0.0 } else { -self.step(k + 1) };
-        let mut all = paths((0..count).rev().map(|k| (step(k), &self.points[k][..])), rule);
-        all.reverse();
-        all
+    /// From the first frequency to the last, with a look at the paths after each.
+    fn forward(&self, rule: Rule, mut after_each: impl FnMut(&[Path])) -> Search {
+        let mut search = Search::new(rule);
+        for (k, points) in self.points.iter().enumerate() {
+            search.advance(self.step(k), points);
+            after_each(search.paths());
+        }
+        search
+    }
+}
+
+/// Bands of more frequencies than this are looked at in part first.
+const MANY: usize = 2000;
+
+/// … at so many of them: what holds for a size of scatter or curvature on a band of this length holds on the whole, or on a neighbouring size.
+const PART: usize = 500;
+
+/// The place of the lowest of some costs(k, every) over every so-many-th frequency, k = 0 … count − 1, that fall towards one and rise from there on: of a
+/// long band first that on a part, from which the whole goes downhill.
+fn lowest(count: usize, frequencies: usize, cost: impl Fn(usize, usize) -> f64) -> usize {
+    let least = |every: usize| {
+        let costs: Vec<f64> = (0..count).map(|k| cost(k, every)).collect();
+        (0..count).min_by(|&a, &b| costs[a].total_cmp(&costs[b])).unwrap_or(0)
+    };
+    if frequencies <= MANY {
+        return least(1);
+    }
+    let mut best = least(frequencies / PART);
+    let mut costs = vec![None; count];
+    let mut whole = |k: usize| *costs[k].get_or_insert_with(|| cost(k, 1));
+    loop {
+        let beside = [best.checked_sub(1), Some(best + 1).filter(|&k| k < count)];
+        match beside.into_iter().flatten().find(|&k| whole(k) < whole(best)) {
+            Some(lower) => best = lower,
+            None => return best,
+        }
     }
 }
 
@@ -119,6 +158,36 @@ mod tests {
             // What is known of a slope beforehand counts on both sides of the seam.
             assert!((costs[k][19] - path.cost).abs() < 0.5, "{k}: {} against {}", costs[k][19], path.cost);
             assert!(costs[k][..19].iter().all(|cost| cost - path.cost > -0.5), "{k}");
+        }
+    }
+
+    /// A power law with some scatter and strays beside it, 3000 frequencies: the sizes of scatter and curvature found from a part of the band first are those of
+    /// largest likelihood on all of it.
+    #[test]
+    fn a_part_of_a_long_band_leads_to_what_is_likeliest_on_the_whole() {
+        let n = 3000;
+        let sizes = [1e-5, 3e-5, 1e-4, 3e-4, 1e-3, 3e-3, 1e-2];
+        for (scatter, bend) in [(2e-5, 0.0), (5e-4, 0.1), (4e-3, 0.4)] {
+            let log_frequency: Vec<f64> = (0..n).map(|k| (1.0 + 9.0 * k as f64 / n as f64).ln()).collect();
+            let random = |k: usize| ((k * k) as f64 * 0.618_034).fract() - 0.5;
+            let at = |k: usize, size: f64| {
+                let x = log_frequency[k];
+                let level = c64::new(0.1 * x + 0.5 * bend * x * x, 0.2);
+                let point = |node: usize, log: c64| Point { node, log, variance: size * size, misfit: 0.0 };
+                let off = 3.5 * scatter * c64::new(random(k), random(k + n));
+                vec![point(0, level + off), point(1, c64::new(2.0 * x - 1.0 + random(7 * k), 0.1))]
+            };
+            let band = |s: usize| Band {
+                log_frequency: log_frequency.clone(),
+                points: (0..n).map(|k| at(k, sizes[s])).collect(),
+            };
+            let lowest =
+                |costs: Vec<f64>| (0..costs.len()).min_by(|&a, &b| costs[a].total_cmp(&costs[b])).unwrap();
+            let best = lowest((0..sizes.len()).map(|s| band(s).likelihood(CURVATURE, 1)).collect());
+            let found = Band::likeliest(sizes.len(), n, band);
+            assert_eq!(found.points[0][0].variance, sizes[best].powi(2), "{scatter}");
+            let costs = CURVATURES.iter().map(|&curvature| found.likelihood(curvature, 1));
+            assert_eq!(found.curvature(), CURVATURES[lowest(costs.collect()).saturating_sub(1)], "{scatter}");
         }
     }
 }

@@ -85,14 +85,15 @@ pub fn choose(frequency_hz: &[f64], nodes: &[Vec<Node>], options: &SelectOptions
     let noise = Noise::of(nodes, options);
     let log_frequency: Vec<f64> = frequency_hz.iter().map(|&f| omega_rad_s(f).ln()).collect();
     // At 0 Hz there is no ln ω; nothing is chosen there.
-    let bands = noise.scatters(nodes).map(|scatter| {
+    let scatters: Vec<Scatter> = noise.scatters(nodes).collect();
+    let band = |k: usize| {
         let points = nodes.iter().zip(&log_frequency);
         let points = points
-            .map(|(nodes, log)| if log.is_finite() { noise.points(nodes, scatter) } else { Vec::new() });
+            .map(|(nodes, log)| if log.is_finite() { noise.points(nodes, scatters[k]) } else { Vec::new() });
         Band { points: points.collect(), log_frequency: log_frequency.clone() }
-    });
+    };
     let nothing = Choice { chosen: None, alternatives: Vec::new(), margin: f64::INFINITY };
-    let tracks = Band::likeliest(bands).map_or_else(Vec::new, |band| tracks(band, options.margin));
+    let tracks = tracks(Band::likeliest(scatters.len(), nodes.len(), band), options.margin);
     let Some((best, rivals)) = tracks.split_first() else { return vec![nothing; nodes.len()] };
     let rivals: Vec<_> = rivals.iter().filter(|rival| rival.score < best.score + options.margin).collect();
     let curvature = best.alone().curvature();

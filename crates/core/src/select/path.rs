@@ -52,7 +52,7 @@ pub(super) struct Path {
     /// Whether none was chosen at the last frequency that has any.
     gap: bool,
     /// Index of the path that it continues, among those of the frequency before.
-    parent: usize,
+    pub(super) parent: usize,
 }
 
 impl Path {
@@ -128,52 +128,62 @@ const KEPT: usize = 4;
 /// Paths kept that choose nothing at a frequency, each with another last point; through a gap all histories are such.
 const KEPT_IN_GAP: usize = 16;
 
-/// The best paths up to and including each frequency; `points` yields the step in ln ω that leads there, and what is there.
-pub(super) fn paths<'a>(points: impl Iterator<Item = (f64, &'a [Point])>, rule: Rule) -> Vec<Vec<Path>> {
-    let mut all: Vec<Vec<Path>> = Vec::new();
-    for (at, (step, points)) in points.enumerate() {
-        let start = [Path::START];
-        let before: Vec<Path> = all
-            .last()
-            .map_or(&start[..], Vec::as_slice)
-            .iter()
-            .enumerate()
-            .map(|(parent, path)| Path { parent, ..path.advanced(step, rule.curvature) })
-            .collect();
-        let mut now = Vec::with_capacity(KEPT * points.len() + KEPT_IN_GAP);
+/// The best paths up to and including a frequency, one frequency after the other.
+#[derive(Debug, Clone)]
+pub(super) struct Search {
+    rule: Rule,
+    /// Frequencies so far.
+    at: usize,
+    now: Vec<Path>,
+}
+
+impl Search {
+    /// Before the first frequency.
+    pub(super) fn new(rule: Rule) -> Self {
+        Self { rule, at: 0, now: vec![Path::START] }
+    }
+
+    /// The best paths so far.
+    pub(super) fn paths(&self) -> &[Path] {
+        &self.now
+    }
+
+    /// One frequency on: the step in ln ω that leads there, and what is there.
+    pub(super) fn advance(&mut self, step: f64, points: &[Point]) {
+        let mut before =
+            std::mem::replace(&mut self.now, Vec::with_capacity(KEPT * points.len() + KEPT_IN_GAP + 1));
+        for (parent, path) in before.iter_mut().enumerate() {
+            *path = Path { parent, ..path.advanced(step, self.rule.curvature) };
+        }
+        let mut further = Vec::with_capacity(before.len());
         for (index, point) in points.iter().enumerate() {
-            let through = before.iter().map(|path| (path.last, path.through(index, point, step, at, rule)));
-            now.extend(best(through.collect(), KEPT));
+            further.clear();
+            further.extend(before.iter().map(|path| path.through(index, point, step, self.at, self.rule)));
+            keep_best(&before, &further, KEPT, &mut self.now);
         }
-        let past = before.iter().map(|path| (path.last, path.past(points.is_empty())));
-        now.extend(best(past.collect(), KEPT_IN_GAP));
-        all.push(now);
+        further.clear();
+        further.extend(before.iter().map(|path| path.past(points.is_empty())));
+        keep_best(&before, &further, KEPT_IN_GAP, &mut self.now);
+        self.at += 1;
     }
-    all
+
+    /// The cheapest path so far, by its place.
+    pub(super) fn cheapest(&self) -> Option<usize> {
+        (0..self.now.len()).min_by(|&a, &b| self.now[a].cost.total_cmp(&self.now[b].cost))
+    }
 }
 
-/// The cheapest of each history, and of those the cheapest; the one that has chosen nothing so far stays, for it alone can start anew.
-fn best(mut paths: Vec<(Option<(usize, usize)>, Path)>, count: usize) -> impl Iterator<Item = Path> {
-    paths.sort_by(|(_, a), (_, b)| a.cost.total_cmp(&b.cost));
-    let mut kept: Vec<(Option<(usize, usize)>, Path)> = Vec::with_capacity(count + 1);
-    for (history, path) in paths {
-        let is_new = kept.iter().all(|&(other, _)| other != history);
-        if is_new && (kept.len() < count || history.is_none()) {
-            kept.push((history, path));
+/// The cheapest of each history (what `before` chose last), and of those the cheapest; the one that has chosen nothing so far stays, for it alone can
+/// start anew.
+fn keep_best(before: &[Path], further: &[Path], count: usize, kept: &mut Vec<Path>) {
+    let mut order: Vec<usize> = (0..further.len()).collect();
+    order.sort_by(|&a, &b| further[a].cost.total_cmp(&further[b].cost));
+    let first = kept.len();
+    for k in order {
+        let history = before[k].last;
+        let is_new = kept[first..].iter().all(|other| before[other.parent].last != history);
+        if is_new && (kept.len() - first < count || history.is_none()) {
+            kept.push(further[k]);
         }
     }
-    kept.into_iter().map(|(_, path)| path)
-}
-
-/// The cheapest path, and what it chooses at each frequency.
-pub(super) fn cheapest(all: &[Vec<Path>]) -> Option<(Path, Vec<Option<usize>>)> {
-    let last = all.last()?;
-    let mut at = (0..last.len()).min_by(|&a, &b| last[a].cost.total_cmp(&last[b].cost))?;
-    let whole = last[at];
-    let mut chosen = vec![None; all.len()];
-    for (chosen, paths) in chosen.iter_mut().zip(all).rev() {
-        *chosen = paths[at].chosen;
-        at = paths[at].parent;
-    }
-    Some((whole, chosen))
 }

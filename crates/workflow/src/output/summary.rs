@@ -66,6 +66,7 @@ pub fn summary_json(
             "factorisations": run.work.factorisations,
             "solves": run.work.solves,
             "subspace_size": run.subspace_size,
+            "explored": run.explored,
             "certificate": run.certificate(),
         },
         "seconds": {

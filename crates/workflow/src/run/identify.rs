@@ -56,6 +56,8 @@ pub struct IdentifyRun {
     pub work: Work,
     /// Vectors of the subspace; `None` where the full model answered.
     pub subspace_size: Option<usize>,
+    /// Frequencies at which all solutions were looked for, not only those of their neighbours.
+    pub explored: usize,
     /// How long it took.
     pub seconds: Seconds,
 }
@@ -105,8 +107,8 @@ pub fn identify(
     let start = Instant::now();
     let error_map = error_map(case, identify, options)?;
     seconds.error_map = start.elapsed().as_secs_f64();
-    let BandOutcome { outcomes, work, subspace_size } = found;
-    Ok(IdentifyRun { outcomes, error_map, work, subspace_size, seconds })
+    let BandOutcome { outcomes, work, subspace_size, explored } = found;
+    Ok(IdentifyRun { outcomes, error_map, work, subspace_size, explored, seconds })
 }
 
 /// Wall-clock time by stage: each lasts until another is heard of.

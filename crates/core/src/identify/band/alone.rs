@@ -22,7 +22,7 @@ pub(super) fn identify<'a>(
     };
     match space {
         Some(mut space) => {
-            let find = |i: usize, model: &Projection, _: Option<&Identified>| match model.at(&at[i]) {
+            let find = |i: usize, model: &Projection| match model.at(&at[i]) {
                 Ok(system) => identify_at(&system, &band.measured[i], options),
                 Err(breakdown) => broken(i, breakdown),
             };
@@ -32,7 +32,8 @@ pub(super) fn identify<'a>(
                 corrections.collect()
             };
             let all: Vec<usize> = (0..at.len()).collect();
-            let found = space.solve(&all, hooks, find, answers);
+            let found = space.find(&all, hooks, find);
+            let found = space.certify(&all, found, hooks, |i, model, _| find(i, model), answers);
             let outcomes = found.into_iter().enumerate().map(|(i, mut outcome)| {
                 if let Some(correction) = outcome.correction {
                     let assessed = space.assess(i, correction);
@@ -47,6 +48,7 @@ pub(super) fn identify<'a>(
                 outcome
             });
             BandOutcome {
+                explored: at.len(),
                 outcomes: outcomes.collect(),
                 work: space.work(),
                 subspace_size: Some(space.size()),
@@ -64,7 +66,7 @@ pub(super) fn identify<'a>(
             });
             let mut work = Work::default();
             outcomes.iter().for_each(|outcome| work += outcome.work);
-            BandOutcome { outcomes, work, subspace_size: None }
+            BandOutcome { outcomes, work, subspace_size: None, explored: at.len() }
         }
     }
 }

@@ -3,9 +3,11 @@
 use crate::c64;
 use crate::identify::Options;
 use crate::identify::rational::{MATCH, RESIDUAL};
+use crate::model::ModelAt;
 use crate::rational::{Poles, RationalResponse};
 use crate::response::Response;
 use crate::roots::{Candidate, Refusal};
+use crate::subspace::Projection;
 use frfit_linalg::dense::NoConvergence;
 use frfit_linalg::solve::Breakdown;
 
@@ -27,6 +29,8 @@ pub(super) struct Solution {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Explored {
     pub(super) solutions: Vec<Solution>,
+    /// Solutions a little outside the bounds: at the next frequency they may be within.
+    pub(super) beyond: Vec<Solution>,
     /// What solves the equations but not the user's conditions.
     pub(super) refused: Vec<Candidate>,
     /// x_m with the nominal factor.
@@ -43,6 +47,16 @@ pub(super) struct Explored {
 impl Explored {
     pub(super) fn broken(breakdown: Breakdown) -> Self {
         Self { breakdown: Some(breakdown), ..Self::default() }
+    }
+
+    /// All solutions, those within the bounds first.
+    pub(super) fn all_near(&self) -> impl Iterator<Item = &Solution> {
+        self.solutions.iter().chain(&self.beyond)
+    }
+
+    /// Some of them, by their place.
+    pub(super) fn near(&self, which: &[usize]) -> impl Iterator<Item = &Solution> {
+        which.iter().filter_map(|&k| self.all_near().nth(k))
     }
 
     /// Solves the system anew at each solution: its response is then beyond doubt, and so is whether it is a solution.
@@ -165,6 +179,7 @@ impl Fit<'_> {
                 Some(bound) => {
                     let (correction, refusal) = (solution.correction, Some(Refusal::OutOfBounds(bound)));
                     explored.refused.push(Candidate { correction, drift: f64::INFINITY, refusal });
+                    merge(&mut explored.beyond, solution, self.nominal);
                 }
             }
         }
@@ -192,8 +207,27 @@ impl Fit<'_> {
             && wide(self.options.bounds.loss_factor, crate::material::loss_factor(factor), MARGIN)
     }
 
+    /// Explores a reduced model. What is certified is this model's response, not that of a Krylov space within: that is where the solutions settle.
+    pub(super) fn explore_reduced(&self, model: &Projection, at: &ModelAt<'_>) -> Explored {
+        let found = match model.at(at) {
+            // Vectors of this length cost nothing: the order bounds those of the full model.
+            Ok(system) => self.explore(&system, system.dim()),
+            Err(breakdown) => Explored::broken(breakdown),
+        };
+        self.settle(found, self.on(model, at))
+    }
+
+    /// The response of a reduced model.
+    pub(super) fn on<'m>(
+        &self,
+        model: &'m Projection,
+        at: &'m ModelAt<'_>,
+    ) -> impl Fn(c64) -> Evaluated + 'm {
+        |c| model.respond_with_slope(at, c).map_err(|_| NoConvergence)
+    }
+
     /// Gauss–Newton on Σ |u_m − x_m(c)|²/σ_m², B-5: for one sensor Newton's method on x(c) = u. `None` where it does not settle.
-    fn descend(&self, respond: impl Fn(c64) -> Evaluated, start: c64) -> Option<Solution> {
+    pub(super) fn descend(&self, respond: impl Fn(c64) -> Evaluated, start: c64) -> Option<Solution> {
         let (mut best, mut step) = self.solution_at(&respond, self.admissible(start)).ok()?;
         for _ in 0..STEPS {
             let size = (self.nominal + best.correction).norm();

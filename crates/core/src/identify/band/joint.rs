@@ -1,6 +1,7 @@
 //! All frequencies and all sensors together.
 
 use super::explore::{Explored, Fit};
+use super::on_space::on_space;
 use super::space::Space;
 use super::verdict::{Evidence, verdict};
 use super::{Band, BandOutcome, Hooks, Noise, Stage};
@@ -10,8 +11,6 @@ use crate::identify::{Identified, Options};
 use crate::model::ModelAt;
 use crate::response::{FullModel, Response, Work};
 use crate::select::{Choice, Node, SelectOptions, choose};
-use crate::subspace::Projection;
-use frfit_linalg::dense::NoConvergence;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Where no deviation is given, sensors count by their own size, but not below this fraction of their median over the band: an antiresonance is
@@ -21,6 +20,50 @@ const RELATIVE_FLOOR: f64 = 0.1;
 /// No instrument is better than this fraction of the largest response: a smaller deviation, or none at all, is not believed.
 const LEAST_STD: f64 = 1e-9;
 
+/// What is to be done, and with what.
+pub(super) struct Task<'t, 'a> {
+    pub(super) band: &'t Band<'a>,
+    pub(super) at: &'t [ModelAt<'a>],
+    pub(super) sigma: &'t [Vec<f64>],
+    pub(super) options: &'t Options,
+    pub(super) hooks: Hooks<'t>,
+}
+
+/// The choice at each of some frequencies, and noise over σ.
+pub(super) type Selected = (Vec<Choice>, Option<f64>);
+
+/// What was found at every frequency, at how many of them all solutions were looked for, and what was chosen.
+pub(super) struct Solved {
+    pub(super) found: Vec<Explored>,
+    pub(super) explored: usize,
+    pub(super) selected: Selected,
+}
+
+impl Task<'_, '_> {
+    /// What is to be explained at a frequency.
+    pub(super) fn fit(&self, i: usize) -> Fit<'_> {
+        let nominal = self.at[i].parameters[0].nominal;
+        Fit { measured: &self.band.measured[i], sigma: &self.sigma[i], nominal, options: self.options }
+    }
+
+    /// The choice among what was found at some frequencies.
+    pub(super) fn select<'e>(&self, which: &[usize], found: impl Iterator<Item = &'e Explored>) -> Selected {
+        (self.hooks.progress)(Stage::Selection, 0, self.at.len());
+        let frequency_hz: Vec<f64> = which.iter().map(|&i| self.band.frequency_hz[i]).collect();
+        let nodes: Vec<Vec<Node>> = which
+            .iter()
+            .zip(found)
+            .map(|(&i, found)| nodes(found, self.at[i].parameters[0].nominal))
+            .collect();
+        let options = SelectOptions {
+            sensors: self.band.experiment.sensors.len(),
+            sigma_known: matches!(self.band.noise, Noise::Known(_)),
+            ..SelectOptions::default()
+        };
+        (choose(&frequency_hz, &nodes, &options), noise_level(&nodes, self.band))
+    }
+}
+
 pub(super) fn identify<'a>(
     band: &Band<'a>,
     at: &[ModelAt<'a>],
@@ -29,82 +72,35 @@ pub(super) fn identify<'a>(
     hooks: Hooks<'_>,
 ) -> BandOutcome {
     let sigma = deviations(band);
-    let nominal = |i: usize| at[i].parameters[0].nominal;
-    let select = SelectOptions {
-        sensors: band.experiment.sensors.len(),
-        sigma_known: matches!(band.noise, Noise::Known(_)),
-        ..SelectOptions::default()
-    };
-    let select = |which: &[usize], found: &[Explored]| {
-        (hooks.progress)(Stage::Selection, 0, at.len());
-        let frequency_hz: Vec<f64> = which.iter().map(|&i| band.frequency_hz[i]).collect();
-        let nodes: Vec<Vec<Node>> = which.iter().zip(found).map(|(&i, f)| nodes(f, nominal(i))).collect();
-        (choose(&frequency_hz, &nodes, &select), noise_level(&nodes, band))
-    };
-    let all: Vec<usize> = (0..at.len()).collect();
-    // The choice that the last answers were taken by.
-    let mut selected = None;
-    let (explored, mut work) = match &mut space {
-        Some(space) => {
-            let find = |i: usize, model: &Projection, before: Option<&Explored>| {
-                let fit = Fit { measured: &band.measured[i], sigma: &sigma[i], nominal: nominal(i), options };
-                // What is certified is this model's response, not that of a Krylov space within.
-                let respond = |c: c64| model.respond_with_slope(&at[i], c).map_err(|_| NoConvergence);
-                let found = before.cloned().unwrap_or_else(|| match model.at(&at[i]) {
-                    // Vectors of this length cost nothing: the order bounds those of the full model.
-                    Ok(system) => fit.explore(&system, system.dim()),
-                    Err(breakdown) => Explored::broken(breakdown),
-                });
-                fit.settle(found, respond)
-            };
-            let taken = |choices: &[Choice], found: &[Explored]| {
-                let of = |(k, choice): (usize, &Choice)| {
-                    let taken = choice.chosen.into_iter().chain(choice.alternatives.iter().copied());
-                    taken.map(|s| (k, found[k].solutions[s].correction)).collect::<Vec<_>>()
-                };
-                choices.iter().enumerate().flat_map(of).collect()
-            };
-            let pilots = space.pilots();
-            space.solve(&pilots, hooks, find, |found| taken(&select(&pilots, found).0, found));
-            let found = space.solve(&all, hooks, find, |found| {
-                let (choices, _) = selected.insert(select(&all, found));
-                taken(choices, found)
-            });
-            (found, Work::default())
+    let task = Task { band, at, sigma: &sigma, options, hooks };
+    let (solved, mut work) = match &mut space {
+        Some(space) => (on_space(&task, space), Work::default()),
+        None => {
+            let (found, work) = on_full_model(&task);
+            let all: Vec<usize> = (0..at.len()).collect();
+            (Solved { explored: all.len(), selected: task.select(&all, found.iter()), found }, work)
         }
-        None => on_full_model(band, at, &sigma, options, hooks),
     };
-    let (choices, noise) = selected.unwrap_or_else(|| select(&all, &explored));
+    let Solved { found, explored, selected: (choices, noise) } = solved;
     let outcomes: Vec<Identified> = map(hooks.for_each, at.len(), |i| {
-        let chosen = choices[i].chosen.map(|k| explored[i].solutions[k].correction);
+        let chosen = choices[i].chosen.map(|k| found[i].solutions[k].correction);
         let assessment = space.as_ref().zip(chosen).and_then(|(space, c)| space.assess(i, c));
         let evidence = Evidence { at: &at[i], measured: &band.measured[i], noise, assessment };
-        verdict(&evidence, &explored[i], &choices[i], options)
+        verdict(&evidence, &found[i], &choices[i], options)
     });
     if let Some(space) = &space {
         work += space.work();
     }
-    BandOutcome { outcomes, work, subspace_size: space.map(|space| space.size()) }
+    BandOutcome { outcomes, work, subspace_size: space.map(|space| space.size()), explored }
 }
 
-fn on_full_model(
-    band: &Band<'_>,
-    at: &[ModelAt<'_>],
-    sigma: &[Vec<f64>],
-    options: &Options,
-    hooks: Hooks<'_>,
-) -> (Vec<Explored>, Work) {
+fn on_full_model(task: &Task<'_, '_>) -> (Vec<Explored>, Work) {
+    let Task { band, at, sigma, options, hooks } = *task;
     let done = AtomicUsize::new(0);
     let found = map(hooks.for_each, at.len(), |i| {
         let explored = match FullModel::new(at[i].clone(), band.experiment) {
             Ok(system) => {
-                let fit = Fit {
-                    measured: &band.measured[i],
-                    sigma: &sigma[i],
-                    nominal: system.nominal(0),
-                    options,
-                };
-                let mut explored = fit.explore(&system, options.order);
+                let mut explored = task.fit(i).explore(&system, options.order);
                 explored.confirm(&system, &band.measured[i], &sigma[i]);
                 (explored, system.work())
             }

@@ -1,9 +1,14 @@
 //! A whole band: all frequencies, and all sensors, together or one by one.
 
 mod alone;
+mod anchors;
 mod explore;
+mod follow;
 mod joint;
+mod on_space;
+mod same;
 mod space;
+mod tube;
 mod verdict;
 
 use super::{Identified, Options, Selection};
@@ -71,6 +76,8 @@ pub struct BandOutcome {
     pub work: Work,
     /// Vectors of the subspace; `None` where the full model answered.
     pub subspace_size: Option<usize>,
+    /// Frequencies at which all solutions were looked for; at the others those of their neighbours were followed.
+    pub explored: usize,
 }
 
 /// Identifies the first parameter at every frequency of a band.

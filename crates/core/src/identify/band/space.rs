@@ -18,6 +18,9 @@ const BOX: f64 = 1e-6;
 /// Error at the answers. The factor is read from the response with a loss of some digits near its stationary points, and is to be right to 1e-6.
 const ANSWER: f64 = 1e-9;
 
+/// Error at the answers that were looked at, so that those between them are within what an answer's may be.
+pub(super) const TRAINED: f64 = 0.25 * ANSWER;
+
 /// Frequencies of the training at most; neighbours share what they need.
 const FREQUENCIES: usize = 60;
 
@@ -39,14 +42,24 @@ pub(super) struct Space<'a, 'o> {
     subspace: Subspace<'a>,
     at: &'o [ModelAt<'a>],
     options: &'o Options,
-    /// Neighbourhoods: their first and last frequency (index).
-    blocks: Vec<[usize; 2]>,
+    blocks: Vec<Block>,
     /// The model that answered at each frequency: that of its neighbourhood, when it was last asked.
     models: Vec<Option<Arc<Projection>>>,
-    /// The last answer at each frequency, and how good its model is there.
-    assessed: Vec<Option<(c64, Assessment)>>,
+    /// Answers at each frequency, and how good their model is there.
+    assessed: Vec<Vec<(c64, Assessment)>>,
     /// Answers that the training looked at: (frequency, correction).
     answers: Vec<(usize, c64)>,
+}
+
+/// How far the training had come: vectors, and answers that it looked at.
+type Training = (usize, usize);
+
+/// A neighbourhood.
+struct Block {
+    /// First and last frequency (index).
+    ends: [usize; 2],
+    /// Its model, and what it was made from.
+    model: Option<(Training, Arc<Projection>)>,
 }
 
 impl<'a, 'o> Space<'a, 'o> {
@@ -64,14 +77,15 @@ impl<'a, 'o> Space<'a, 'o> {
         (hooks.progress)(Stage::Subspace, 0, n);
         let subspace = Subspace::new(band.experiment, &at[n - 1])?;
         let count = (n / BLOCK_LEAST).clamp(1, BLOCKS);
-        let blocks = (0..count).map(|b| [b * n / count, (b + 1) * n / count - 1]).collect();
+        let block = |b| Block { ends: [b * n / count, (b + 1) * n / count - 1], model: None };
+        let blocks = (0..count).map(block).collect();
         let mut space = Self {
             subspace,
             at,
             options,
             blocks,
             models: vec![None; n],
-            assessed: vec![None; n],
+            assessed: vec![Vec::new(); n],
             answers: Vec::new(),
         };
         let all: Vec<usize> = (0..n).collect();
@@ -87,36 +101,37 @@ impl<'a, 'o> Space<'a, 'o> {
         thinned(&all, FREQUENCIES).copied().collect()
     }
 
-    /// Finds what there is at some frequencies (ascending) and lets the caller say which corrections (k, c) at the k-th of them are the answers; where the subspace
-    /// is not good enough at one, trains it there and finds again, with what was found before.
-    pub(super) fn solve<T: Clone + Send + Sync>(
+    /// Finds what there is at some frequencies (ascending), each on the model of its neighbourhood.
+    pub(super) fn find<T: Send + Sync>(
         &mut self,
         which: &[usize],
         hooks: Hooks<'_>,
-        find: impl Fn(usize, &Projection, Option<&T>) -> T + Sync,
+        find: impl Fn(usize, &Projection) -> T + Sync,
+    ) -> Vec<T> {
+        self.localise(which, hooks.for_each);
+        let done = AtomicUsize::new(0);
+        let space = &*self;
+        (hooks.progress)(Stage::Solutions, 0, which.len());
+        map(hooks.for_each, which.len(), |k| {
+            let found = find(which[k], space.model(which[k]));
+            (hooks.progress)(Stage::Solutions, done.fetch_add(1, Ordering::Relaxed) + 1, which.len());
+            found
+        })
+    }
+
+    /// Lets the caller say which corrections (k, c) at the k-th of some frequencies (ascending) are the answers among what was found there; where the subspace
+    /// is not good enough at one, trains it there and finds again, with what was found before.
+    pub(super) fn certify<T: Send + Sync>(
+        &mut self,
+        which: &[usize],
+        mut found: Vec<T>,
+        hooks: Hooks<'_>,
+        again: impl Fn(usize, &Projection, &T) -> T + Sync,
         mut answers: impl FnMut(&[T]) -> Vec<(usize, c64)>,
     ) -> Vec<T> {
-        let n = which.len();
-        let mut all: Vec<T> = Vec::new();
-        let mut pending: Vec<usize> = (0..n).collect();
         for round in 0..=ROUNDS {
-            (hooks.progress)(Stage::Solutions, n - pending.len(), n);
-            let frequencies: Vec<usize> = pending.iter().map(|&k| which[k]).collect();
-            self.localise(&frequencies, hooks.for_each);
-            let done = AtomicUsize::new(n - pending.len());
+            let answers = answers(&found);
             let space = &*self;
-            let found = map(hooks.for_each, pending.len(), |p| {
-                let (k, i) = (pending[p], frequencies[p]);
-                let found = find(i, space.model(i), all.get(k));
-                (hooks.progress)(Stage::Solutions, done.fetch_add(1, Ordering::Relaxed) + 1, n);
-                found
-            });
-            if all.is_empty() {
-                all = found;
-            } else {
-                pending.iter().zip(found).for_each(|(&k, found)| all[k] = found);
-            }
-            let answers = answers(&all);
             let assessed = map(hooks.for_each, answers.len(), |a| {
                 let (k, correction) = answers[a];
                 space.assess(which[k], correction)
@@ -124,31 +139,41 @@ impl<'a, 'o> Space<'a, 'o> {
             let mut uncertain: Vec<(usize, c64)> = Vec::new();
             for ((k, correction), assessed) in answers.into_iter().zip(assessed) {
                 let Some(assessed) = assessed else { continue };
-                if self.is_uncertain(which[k], correction, &assessed) {
+                if !is_certain(&self.at[which[k]], correction, &assessed) {
                     uncertain.push((k, correction));
                 }
-                self.assessed[which[k]] = Some((correction, assessed));
+                self.remember(which[k], correction, assessed);
             }
             let lacking: Vec<(usize, c64)> = uncertain.iter().map(|&(k, c)| (which[k], c)).collect();
             if lacking.is_empty() || round == ROUNDS || !self.refine(&lacking, hooks).unwrap_or(false) {
                 break;
             }
-            pending = uncertain.into_iter().map(|(k, _)| k).collect();
+            let mut pending: Vec<usize> = uncertain.into_iter().map(|(k, _)| k).collect();
             pending.dedup();
+            let frequencies: Vec<usize> = pending.iter().map(|&k| which[k]).collect();
+            let before = &found;
+            let better = self.find(&frequencies, hooks, |i, model| {
+                let k = which.binary_search(&i).unwrap_or_default();
+                again(i, model, &before[k])
+            });
+            pending.into_iter().zip(better).for_each(|(k, better)| found[k] = better);
         }
-        all
+        found
     }
 
     /// How good the model that answered at a frequency is at a correction there.
     pub(super) fn assess(&self, i: usize, correction: c64) -> Option<Assessment> {
-        match &self.assessed[i] {
-            Some((same, assessed)) if *same == correction => Some(assessed.clone()),
-            _ => self.model(i).assess(&self.at[i], correction).ok(),
-        }
+        let known = self.assessed[i].iter().find(|(same, _)| *same == correction);
+        known
+            .map(|(_, assessed)| assessed.clone())
+            .or_else(|| self.model(i).assess(&self.at[i], correction).ok())
     }
 
-    fn is_uncertain(&self, i: usize, correction: c64, assessed: &Assessment) -> bool {
-        assessed.relative_truncation(self.at[i].parameters[0].nominal + correction) > ANSWER
+    /// Keeps how good the model that found a correction is there.
+    pub(super) fn remember(&mut self, i: usize, correction: c64, assessed: Assessment) {
+        if self.assessed[i].iter().all(|(same, _)| *same != correction) {
+            self.assessed[i].push((correction, assessed));
+        }
     }
 
     /// Trains at answers (frequency, correction); false where nothing was gained.
@@ -159,43 +184,55 @@ impl<'a, 'o> Space<'a, 'o> {
         let points: Vec<Point<'a>> =
             answers.iter().map(|&(i, correction)| Point { at: self.at[i].clone(), correction }).collect();
         let before = self.subspace.size();
-        let training = TrainOptions { tolerance: ANSWER, ..TrainOptions::default() };
+        let training = TrainOptions { tolerance: TRAINED, ..TrainOptions::default() };
         self.subspace.train(&points, &training, hooks.for_each)?;
         self.answers.extend(answers);
         Ok(self.subspace.size() > before)
     }
 
-    /// Makes the models of the neighbourhoods in which these frequencies (ascending) are, for them.
-    fn localise(&mut self, frequencies: &[usize], for_each: ForEach<'_>) {
-        let members = |&[first, last]: &[usize; 2]| {
-            let own = frequencies.iter().copied().filter(|i| (first..=last).contains(i));
-            own.collect::<Vec<usize>>()
+    /// Makes the models of the neighbourhoods in which these frequencies (ascending) are, for them; one that no training has outgrown stays.
+    pub(super) fn localise(&mut self, frequencies: &[usize], for_each: ForEach<'_>) {
+        let training = (self.size(), self.answers.len());
+        let members = |[first, last]: [usize; 2]| {
+            let from = frequencies.partition_point(|&i| i < first);
+            &frequencies[from..frequencies.partition_point(|&i| i <= last)]
         };
-        let wanted: Vec<([usize; 2], Vec<usize>)> = self
-            .blocks
-            .iter()
-            .map(|block| (*block, members(block)))
-            .filter(|(_, own)| !own.is_empty())
+        let outgrown = |block: &Block| block.model.as_ref().is_none_or(|&(before, _)| before != training);
+        let wanted: Vec<usize> = (0..self.blocks.len())
+            .filter(|&b| !members(self.blocks[b].ends).is_empty() && outgrown(&self.blocks[b]))
             .collect();
         let space = &*self;
-        let models = map(for_each, wanted.len(), |k| {
-            let [first, last] = wanted[k].0;
-            let steps = (last - first).min(BLOCK_POINTS.max(FREQUENCIES / space.blocks.len()) - 1);
-            let picked = (0..=steps).map(|k| first + k * (last - first) / steps.max(1));
-            let box_points = picked.flat_map(|i| space.box_points(i));
-            let answers = space.answers.iter().filter(|(i, _)| (first..=last).contains(i));
-            let answers: Vec<(usize, c64)> = answers.copied().collect();
-            let answers = thinned(&answers, BLOCK_LEAST);
-            let answers = answers.map(|&(i, correction)| Point { at: space.at[i].clone(), correction });
-            let points: Vec<Point<'_>> = box_points.chain(answers).collect();
-            Arc::new(space.subspace.projection().localised(&points, ANSWER))
-        });
-        for ((_, own), model) in wanted.into_iter().zip(models) {
-            for i in own {
-                self.models[i] = Some(Arc::clone(&model));
-                self.assessed[i] = None;
+        let models = map(for_each, wanted.len(), |k| Arc::new(space.local(space.blocks[wanted[k]].ends)));
+        wanted.into_iter().zip(models).for_each(|(b, model)| self.blocks[b].model = Some((training, model)));
+        for block in &self.blocks {
+            for &i in members(block.ends) {
+                let model = block.model.as_ref().map(|(_, model)| Arc::clone(model));
+                let same =
+                    self.models[i].as_ref().zip(model.as_ref()).is_some_and(|(a, b)| Arc::ptr_eq(a, b));
+                if !same {
+                    self.assessed[i].clear();
+                }
+                self.models[i] = model;
             }
         }
+    }
+
+    /// The model of a neighbourhood.
+    fn local(&self, [first, last]: [usize; 2]) -> Projection {
+        let steps = (last - first).min(BLOCK_POINTS.max(FREQUENCIES / self.blocks.len()) - 1);
+        let picked = (0..=steps).map(|k| first + k * (last - first) / steps.max(1));
+        let box_points = picked.flat_map(|i| self.box_points(i));
+        let answers = self.answers.iter().filter(|(i, _)| (first..=last).contains(i));
+        let answers: Vec<(usize, c64)> = answers.copied().collect();
+        let answers = thinned(&answers, BLOCK_LEAST);
+        let answers = answers.map(|&(i, correction)| Point { at: self.at[i].clone(), correction });
+        let points: Vec<Point<'_>> = box_points.chain(answers).collect();
+        self.subspace.projection().localised(&points, TRAINED)
+    }
+
+    /// First and last frequency of each neighbourhood.
+    pub(super) fn neighbourhoods(&self) -> impl Iterator<Item = [usize; 2]> {
+        self.blocks.iter().map(|block| block.ends)
     }
 
     /// The model that answered at a frequency.
@@ -233,8 +270,13 @@ impl<'a, 'o> Space<'a, 'o> {
     }
 }
 
+/// Whether an answer's error is what it may be.
+pub(super) fn is_certain(at: &ModelAt<'_>, correction: c64, assessed: &Assessment) -> bool {
+    assessed.relative_truncation(at.parameters[0].nominal + correction) <= ANSWER
+}
+
 /// At most so many of some things, evenly spaced, the ends among them.
-fn thinned<T>(all: &[T], most: usize) -> impl Iterator<Item = &T> {
+pub(super) fn thinned<T>(all: &[T], most: usize) -> impl Iterator<Item = &T> {
     let count = all.len().min(most);
     (0..count).map(move |k| &all[k * (all.len() - 1) / (count - 1).max(1)])
 }

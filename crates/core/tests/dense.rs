@@ -1,0 +1,117 @@
+//! A dense band, of which solutions are followed between some of its frequencies, against all solutions at every frequency.
+
+mod common;
+
+use common::{Case, plate, sandwich};
+use frfit::c64;
+use frfit::for_each::sequential;
+use frfit::frequency::linear_hz;
+use frfit::identify::{Band, BandOutcome, Hooks, Noise, Options, Status, identify_band, relative_error};
+use frfit::material::Law;
+use frfit::roots::Bounds;
+
+/// Dense for a structure of a dozen modes.
+const FREQUENCIES: usize = 2000;
+
+/// Complex Gaussian numbers of variance one, always the same.
+struct Gauss(u64);
+
+impl Gauss {
+    fn uniform(&mut self) -> f64 {
+        // L. E. Moses' constants, as in Knuth's MMIX.
+        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        ((self.0 >> 11) as f64 + 0.5) / (1u64 << 53) as f64
+    }
+
+    fn next(&mut self) -> c64 {
+        let (size, angle) = ((-self.uniform().ln()).sqrt(), std::f64::consts::TAU * self.uniform());
+        c64::from_polar(size, angle)
+    }
+}
+
+fn scaled(law: &Law, by: f64) -> Law {
+    match law {
+        Law::Constant(value) => Law::Constant(value * by),
+        Law::Fractional { e0, e1, alpha } => Law::Fractional { e0: e0 * by, e1: e1 * by, alpha: *alpha },
+        Law::Table(_) => unreachable!("no test has one"),
+    }
+}
+
+/// A measurement with this much relative noise, identified from a nominal off by this factor, both ways: followed, and everywhere.
+fn both(mut case: Case, frequencies: usize, off: f64, noise: f64, sensors: usize) -> [BandOutcome; 2] {
+    let truth = case.parameter.nominal.clone();
+    let frequency_hz = linear_hz(case.band_hz[0], case.band_hz[1], frequencies);
+    case.experiment.sensors.truncate(sensors);
+    let mut gauss = Gauss(7);
+    let measured: Vec<Vec<c64>> = {
+        let (model, trained) = case.trained(1e-10);
+        assert!(trained.converged);
+        let exact = |f: f64| model.projection().assess(&case.at(f), c64::default()).unwrap().response;
+        let noisy = |x: c64, gauss: &mut Gauss| x * (1.0 + noise * gauss.next());
+        frequency_hz.iter().map(|&f| exact(f).iter().map(|&x| noisy(x, &mut gauss)).collect()).collect()
+    };
+    case.parameter.nominal = scaled(&truth, off);
+    let size = truth.at(case.band_hz[1]).unwrap().re;
+    let bounds = Bounds { storage: Some([size / 10.0, size * 10.0]), loss_factor: Some([0.0, 2.0]) };
+    let std: Vec<Vec<f64>> = measured.iter().map(|u| u.iter().map(|u| noise * u.norm()).collect()).collect();
+    let band = Band {
+        model: &case.model,
+        experiment: &case.experiment,
+        parameter: &case.parameter,
+        frequency_hz: &frequency_hz,
+        measured: &measured,
+        noise: if noise > 0.0 { Noise::Known(&std) } else { Noise::Unknown },
+    };
+    [false, true].map(|everywhere| {
+        let hooks = Hooks { for_each: &sequential, progress: &|_, _, _| {} };
+        identify_band(&band, &Options { bounds, everywhere, ..Options::default() }, hooks).unwrap()
+    })
+}
+
+/// The same statuses and answers, and no more than this part of the band explored.
+fn assert_same(name: &str, [followed, everywhere]: &[BandOutcome; 2], most: f64) {
+    let n = everywhere.outcomes.len();
+    assert_eq!((everywhere.explored, followed.outcomes.len()), (n, n));
+    let explored = followed.explored as f64 / n as f64;
+    assert!(explored < most, "{name}: {explored}");
+    let (mut ok, mut radii) = (0, 0);
+    for (a, b) in followed.outcomes.iter().zip(&everywhere.outcomes) {
+        let at = format!("{name} at {} Hz: {a:?}\n{b:?}", a.frequency_hz);
+        assert_eq!(a.status, b.status, "{at}");
+        assert_eq!(a.alternatives.len(), b.alternatives.len(), "{at}");
+        // What either subspace may have done to a factor is of this size.
+        let same = |x: c64, y: c64| (x - y).norm() <= 1e-6 * (b.nominal + y).norm();
+        assert!(a.correction.zip(b.correction).is_none_or(|(x, y)| same(x, y)), "{at}");
+        assert_eq!(a.correction.is_some(), b.correction.is_some(), "{at}");
+        assert!(a.nominal_response.len() == b.nominal_response.len(), "{at}");
+        let off = relative_error(&b.nominal_response, &a.nominal_response);
+        assert!(off < 1e-6, "{at}");
+        ok += usize::from(b.status == Status::Ok);
+        let ratio = a.spectral_radius.zip(b.spectral_radius).map(|(r, s)| (r / s - 1.0).abs());
+        radii += usize::from(ratio.is_none_or(|ratio| ratio < 0.05));
+    }
+    assert!(ok > n / 2, "{name}: {ok}");
+    // A weak pole is seen at one frequency and not at the next, also where all are explored.
+    assert!(radii > n * 99 / 100, "{name}: {radii} spectral radii of {n}");
+}
+
+#[test]
+fn a_dense_sandwich_is_followed() {
+    assert_same("one sensor", &both(sandwich(12, 1), FREQUENCIES, 1.5, 0.0, 1), 0.25);
+    assert_same("noise", &both(sandwich(12, 1), FREQUENCIES, 1.5, 0.01, 2), 0.25);
+}
+
+/// Many solutions at each frequency, which come and go, and jump with the noise.
+#[test]
+fn a_dense_plate_is_followed_where_that_is_beyond_doubt() {
+    assert_same("one sensor", &both(plate(8, 0.32, 1e-2), FREQUENCIES, 1.5, 0.0, 1), 0.5);
+    assert_same("noise", &both(plate(8, 0.32, 1e-2), FREQUENCIES, 1.5, 0.01, 1), 0.5);
+    assert_same("two sensors, little damping", &both(plate(8, 0.32, 1e-3), FREQUENCIES, 0.75, 0.0, 2), 0.6);
+}
+
+#[test]
+fn a_short_band_is_explored_everywhere() {
+    let [short, everywhere] = both(sandwich(12, 1), 250, 1.5, 0.0, 1);
+    assert_eq!(short.explored, 250);
+    assert!(short == everywhere);
+}
