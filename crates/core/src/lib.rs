@@ -42,6 +42,7 @@ pub mod response;
 pub mod roots;
 pub mod select;
 pub mod series;
+pub mod signal;
 pub mod subspace;
 
 pub use frfit_linalg::c64;

@@ -45,7 +45,11 @@ pub(super) fn rows(
         // One more is a comment.
         if let (Some(_), Some(extra)) = (columns.next(), columns.next()) {
             let found = quoted(extra.bytes);
-            return Err(line.error(extra.start, "the end of the row after all channels and a comment", found));
+            return Err(line.error(
+                extra.start,
+                "the end of the row after all channels and a comment",
+                found,
+            ));
         }
     }
     for (channel, promised) in segment.channels.iter().zip(samples) {

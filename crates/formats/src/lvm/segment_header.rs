@@ -36,7 +36,8 @@ pub(super) fn segment_header(
         if !special && !key.is_empty() {
             entries.push((key, values.collect()));
         }
-        let end = || FormatError::line(first.number, "***End_of_Header*** of a segment", "the end of the file");
+        let end =
+            || FormatError::line(first.number, "***End_of_Header*** of a segment", "the end of the file");
         line = lines.next().ok_or_else(end)?;
     }
     let find = |key: &str| entries.iter().find(|(k, _)| k == key).map_or(&[][..], |(_, values)| values);
@@ -81,11 +82,7 @@ pub(super) fn segment_header(
 }
 
 /// The fields of the line with the names.
-fn names<'a>(
-    lines: &mut Lines<'a>,
-    header: Line<'_>,
-    separator: u8,
-) -> Result<Vec<Field<'a>>, FormatError> {
+fn names<'a>(lines: &mut Lines<'a>, header: Line<'_>, separator: u8) -> Result<Vec<Field<'a>>, FormatError> {
     let missing = |line: usize, found: String| {
         FormatError::line(line, "a line X_Value with the names of the columns", found)
     };

@@ -176,7 +176,10 @@ impl Writer {
         let is_plain = !text.contains([self.separator, '\n', '\r']) && text.trim_ascii() == text;
         match is_plain && !text.starts_with('\u{feff}') {
             true => Ok(text.to_owned()),
-            false => Err(FormatError::whole("text without separators, line breaks and outer blanks", format!("{text:?}"))),
+            false => Err(FormatError::whole(
+                "text without separators, line breaks and outer blanks",
+                format!("{text:?}"),
+            )),
         }
     }
 

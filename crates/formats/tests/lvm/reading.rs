@@ -41,7 +41,10 @@ fn signs_and_line_ends_do_not_matter() {
             assert_eq!([&force.values[..], &acceleration.values[..]], [[-0.5, 1.25], [1.0, -2.0]]);
             assert_eq!(force.abscissa, Abscissa::Even { start: 0.0, step: 0.025 });
             assert_eq!(second.channels[0].abscissa, Abscissa::Even { start: 3.5, step: 0.025 });
-            assert_eq!([&second.channels[0].values[..], &second.channels[1].values[..]], [&[7.0, 9.0][..], &[8.0]]);
+            assert_eq!(
+                [&second.channels[0].values[..], &second.channels[1].values[..]],
+                [&[7.0, 9.0][..], &[8.0]]
+            );
         }
     }
 }
@@ -49,7 +52,8 @@ fn signs_and_line_ends_do_not_matter() {
 #[test]
 fn one_column_of_x_serves_all_channels_and_several_one_each() {
     let header = |columns| format!("LabVIEW Measurement\nX_Columns\t{columns}\n***End_of_Header***\n\n");
-    let one = header("One") + "Channels\t2\n***End_of_Header***\nX_Value\ta\tb\tComment\n0\t1\t2\n0.5\t3\t4\n";
+    let one =
+        header("One") + "Channels\t2\n***End_of_Header***\nX_Value\ta\tb\tComment\n0\t1\t2\n0.5\t3\t4\n";
     let multi = header("Multi")
         + "Channels\t2\n***End_of_Header***\nX_Value\ta\tX_Value\tb\tComment\n0\t1\t0\t2\n0.5\t3\t0.25\t4\n";
     for (text, second) in [(one, 0.5), (multi, 0.25)] {

@@ -26,8 +26,12 @@ fn channel(listed: bool) -> impl Strategy<Value = Channel> {
 
 fn file() -> impl Strategy<Value = Lvm> {
     let segment = |listed| {
-        (text(), text(), vec(channel(listed), 1..4))
-            .prop_map(|(date, time, channels)| Segment { line: 0, date, time, channels })
+        (text(), text(), vec(channel(listed), 1..4)).prop_map(|(date, time, channels)| Segment {
+            line: 0,
+            date,
+            time,
+            channels,
+        })
     };
     let signs = prop_oneof![
         Just((Separator::Tab, DecimalSign::Point)),
