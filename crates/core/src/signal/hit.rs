@@ -40,6 +40,11 @@ impl Hit {
         self.faults.is_empty() || self.kept_anyway
     }
 
+    /// How long the force was at or above the trigger, in s.
+    pub fn contact_s(&self, step_s: f64) -> f64 {
+        if self.peak_n > 0.0 { (self.last + 1 - self.onset) as f64 * step_s } else { 0.0 }
+    }
+
     /// What is left of a response at the end of the record, where that is neither little nor noise.
     ///
     /// The rest wraps around: the transform takes the record for one period of a periodic response.

@@ -7,7 +7,7 @@ mod target;
 mod uff;
 
 pub use options::ConvertOptions;
-pub(crate) use uff::frf_dataset;
+pub(crate) use uff::{companion, frf_dataset};
 
 use crate::error::{InputError, Place};
 use crate::inspect::unknown_kind;
@@ -22,8 +22,8 @@ use target::Target;
 /// |---|---|---|
 /// | Matrix Market, Harwell–Boeing | either | every value bit for bit; of a title what the format has room for |
 /// | UFF | UFF | all datasets: the functions (58) anew as text or binary, the others byte for byte |
-/// | UFF | table | one FRF, bit for bit, and its coherence if the file has it |
-/// | table | UFF | the FRF and its coherence: bit for bit in binary, 13 digits of a value in text |
+/// | UFF | table | one FRF, bit for bit, and its coherence and standard deviation if the file has them |
+/// | table | UFF | the FRF, its coherence and standard deviation: bit for bit in binary, 13 digits of a value in text |
 /// | table | table | the FRF, sorted by frequency |
 ///
 /// # Errors
