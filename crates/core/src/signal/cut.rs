@@ -47,11 +47,15 @@ fn count(seconds: f64, step_s: f64) -> usize {
     (seconds / step_s).round() as usize
 }
 
-/// The length that at least half of the hits have room for.
+/// Share of the usual room for a record that a hit needs to have its say in the length of all.
+const ENOUGH: f64 = 0.8;
+
+/// The longest length for which no hit has to be left out that has nearly as much room as at least half of them.
 fn usual(hits: &[Hit]) -> usize {
     let mut room: Vec<usize> = hits.iter().map(|hit| hit.range.len()).collect();
     room.sort_unstable_by(|a, b| b.cmp(a));
-    room.get(room.len().saturating_sub(1) / 2).copied().unwrap_or(0)
+    let of_half = room.get(room.len().saturating_sub(1) / 2).copied().unwrap_or(0);
+    room.into_iter().filter(|&room| room as f64 >= ENOUGH * of_half as f64).min().unwrap_or(0)
 }
 
 /// The first contact of each hit: what follows too soon is a rebound, in a triggered capture all that follows.

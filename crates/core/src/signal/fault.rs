@@ -1,6 +1,6 @@
 //! What can be wrong with a hit, and how it is recognised.
 
-use super::baseline::{last_tenth, mean, peak};
+use super::baseline::{last_tenth, mean, offset, peak, rms};
 use super::pulse::{Contact, Pulse};
 use super::{Channel, Hit, Options, Recording};
 use std::fmt;
@@ -139,7 +139,7 @@ pub(super) fn faults(
         {
             faults.push(Fault::Spike { channel, samples, height });
         }
-        if let Some((samples, level)) = clipped(record) {
+        if let Some((samples, level)) = clipped(record, offset(record, hit.before())) {
             faults.push(Fault::Clipped { channel, samples, level });
         }
         let share = drift(record, hit.before());
@@ -212,10 +212,14 @@ const CUT_OFF: f64 = 0.005;
 
 /// Samples that stand at the record's largest or smallest value between flanks so steep that a top is missing, and that value.
 ///
-/// A parabola through a flat top of w samples with slope s at its ends is s·w/4 higher.
-fn clipped(record: &[f64]) -> Option<(usize, f64)> {
+/// A parabola through a flat top of w samples with slope s at its ends is s·w/4 higher. What is flat near the offset is silence.
+fn clipped(record: &[f64], offset: f64) -> Option<(usize, f64)> {
     let [low, high] = [f64::min, f64::max].map(|pick| record.iter().copied().reduce(pick).unwrap_or(0.0));
+    let far = 0.5 * peak(record, offset);
     let at = |limit: f64| {
+        if (limit - offset).abs() < far {
+            return (0, limit);
+        }
         let mut samples = 0;
         let mut start = 0;
         for run in record.chunk_by(|a, b| a == b) {
@@ -234,15 +238,16 @@ fn clipped(record: &[f64]) -> Option<(usize, f64)> {
     [at(low), at(high)].into_iter().max_by_key(|(samples, _)| *samples).filter(|(samples, _)| *samples > 0)
 }
 
-/// How far the mean moves from before the hit, or from the middle of the record, to its last tenth, over the largest value.
+/// How far the mean moves from before the hit, or from the middle of the record, to its last tenth, over the largest value, beyond what noise or
+/// a response that has not decayed may move it.
 fn drift(record: &[f64], before: usize) -> f64 {
-    let end = mean(last_tenth(record));
+    let end = last_tenth(record);
     let middle =
         &record[record.len() / 2..record.len() / 2 + record.len().div_ceil(10).min(record.len() / 2)];
-    let moved = |from: &[f64]| (end - mean(from)).abs();
+    let moved = |from: &[f64]| (mean(end) - mean(from)).abs() - rms(end) - rms(from);
     // As many samples before as a mean needs that is not noise.
     let far = if before >= 8 { moved(&record[..before]) } else { 0.0 };
-    far.max(moved(middle)) / peak(record, end).max(f64::MIN_POSITIVE)
+    far.max(moved(middle)).max(0.0) / peak(record, mean(end)).max(f64::MIN_POSITIVE)
 }
 
 #[cfg(test)]
@@ -257,14 +262,14 @@ mod tests {
     #[test]
     fn a_flat_top_is_clipped_only_between_steep_flanks() {
         let clean: Vec<f64> = (0..1000).map(ringing).collect();
-        assert_eq!(clipped(&clean), None);
+        assert_eq!(clipped(&clean, 0.0), None);
         let limited: Vec<f64> = clean.iter().map(|x| x.clamp(-0.7, 0.7)).collect();
-        let (samples, level) = clipped(&limited).unwrap();
+        let (samples, level) = clipped(&limited, 0.0).unwrap();
         assert!(samples >= 3 && level.abs() == 0.7);
         // Slow tops that a converter makes flat.
         let coarse: Vec<f64> = (0..4000).map(|k| (2048.0 * (f64::from(k) / 300.0).sin()).round()).collect();
-        assert_eq!(clipped(&coarse), None);
-        assert_eq!(clipped(&[1.0, 1.0, 1.0, 1.0]), None);
+        assert_eq!(clipped(&coarse, 0.0), None);
+        assert_eq!(clipped(&[1.0, 1.0, 1.0, 1.0], 0.0), None);
     }
 
     #[test]

@@ -117,7 +117,8 @@ pub fn estimate_frf(recordings: &[Recording], options: &Options) -> Result<Measu
     }
     for &number in &options.keep {
         let hit = &mut hits[number - 1];
-        hit.kept_anyway = hit.range.len() == samples;
+        let is_there = |fault: &Fault| !matches!(fault, Fault::Missing { .. } | Fault::Silent);
+        hit.kept_anyway = hit.range.len() == samples && hit.faults.iter().all(is_there);
     }
     let kept: Vec<&Hit> = hits.iter().filter(|hit| hit.is_kept()).collect();
     if kept.is_empty() {

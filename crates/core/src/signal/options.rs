@@ -23,7 +23,8 @@ pub struct Options {
     pub drift: f64,
     /// Windows.
     pub windows: Windows,
-    /// Hits, by their number from 1, that are averaged whatever is wrong with them, as long as their record is complete.
+    /// Hits, by their number from 1, that are averaged whatever is wrong with them, as long as their record is complete
+    /// and no channel is missing.
     pub keep: Vec<usize>,
 }
 

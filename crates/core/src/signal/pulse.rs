@@ -34,6 +34,9 @@ const MOST_SPIKES: usize = 8;
 /// their upper half.
 const SPIKE_HEIGHT: f64 = 3.0;
 
+/// So many times as high, whatever it sits on: the samples beside a contact of a single sample have a fifth of it behind a filter.
+const SPIKE_FAR_ABOVE: f64 = 10.0;
+
 impl Contact {
     pub(super) fn new(samples: &[f64]) -> Self {
         let (offset, noise) = quiet(samples);
@@ -109,11 +112,11 @@ fn spike(force: &[f64]) -> Option<(Range<usize>, f64)> {
     let shoulder = |x: &&f64| x.abs() >= below / 2.0;
     let shoulders =
         [left.iter().rev().take_while(shoulder).count(), right.iter().take_while(shoulder).count()];
-    // A short pulse has one sample on either shoulder; what a spike sits on has more.
-    let on_a_pulse = height >= SPIKE_HEIGHT * below
-        && below > 0.0
-        && shoulders.iter().sum::<usize>() >= 3
-        && shoulders.iter().any(|&n| n >= 2);
+    // A short pulse has one sample on either shoulder, and they are not that low; what a spike sits on has more, or is far lower.
+    let [left, right] = shoulders;
+    let on_a_pulse = height >= SPIKE_HEIGHT * below && left + right >= 3 && left.max(right) >= 2
+        || height >= SPIKE_FAR_ABOVE * below && left.min(right) >= 1;
+    let on_a_pulse = on_a_pulse && below > 0.0;
     let elsewhere = |range: Range<usize>| range.max_by(|&a, &b| force[a].abs().total_cmp(&force[b].abs()));
     let others = [
         elsewhere(0..run.start.saturating_sub(margin)),

@@ -16,6 +16,9 @@ use frfit_formats::{FileKind, FormatError, detect, harwell_boeing, matrix_market
 use std::path::Path;
 use target::Target;
 
+/// What can be converted.
+const CONVERTED: &str = "a UFF file, a matrix (Matrix Market, Harwell-Boeing) or a table (CSV)";
+
 /// The bytes of the output: what the input is, its content says, what the output is to be, its ending.
 ///
 /// | from | to | what is kept |
@@ -34,7 +37,7 @@ pub fn convert(input: &Path, output: &Path, options: &ConvertOptions) -> Result<
     let target = Target::of(output)?;
     let bytes = load_bytes(input)?;
     let in_input = |error: FormatError| InputError::in_file(input, error);
-    let kind = detect(&bytes).ok_or_else(|| unknown_kind(input, &bytes))?;
+    let kind = detect(&bytes).ok_or_else(|| unknown_kind(input, &bytes, CONVERTED))?;
     match (kind, target) {
         (
             FileKind::MatrixMarket | FileKind::HarwellBoeing,

@@ -46,8 +46,11 @@ fn panel(
     name[..1].make_ascii_uppercase();
     let series =
         (1..).zip(&measured.hits).map(|(number, hit)| one(records, measured, channel, range_ms, number, hit));
+    // A spike is told of in the legend: on its own scale the hits would not be seen.
+    let peaks = measured.hits.iter().map(|hit| hit.peak_n).fold(0.0, f64::max);
+    let range = (channel == Channel::Force && peaks > 0.0).then_some((-0.1 * peaks, 1.2 * peaks));
     Panel {
-        y: Axis::linear(format!("{name} ({})", kind.unit())),
+        y: Axis { range, ..Axis::linear(format!("{name} ({})", kind.unit())) },
         series: series.filter(|series| !series.x.is_empty()).collect(),
         ..Panel::default()
     }

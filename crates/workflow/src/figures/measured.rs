@@ -2,7 +2,7 @@
 
 use crate::records::Records;
 use frfit::signal::Measured;
-use frfit_figures::{Axis, Color, Dash, Figure, Marker, Panel, Series};
+use frfit_figures::{Axis, Color, Dash, Figure, Panel, Series};
 
 /// Bins of a curve of many points: twice as many as a figure has pixels across, so that nothing is seen to be missing.
 const BINS: usize = 1500;
@@ -44,7 +44,7 @@ pub(super) fn spectra(records: &Records, measured: &Measured) -> Figure {
         });
     }
     Figure {
-        title: format!("Spectra, root mean square of {} hits", measured.averages()),
+        title: format!("Spectra, root mean square of {}", measured.averages()),
         x: Axis::linear("Frequency (Hz)"),
         size: (720.0, 140.0 + 220.0 * panels.len() as f64),
         panels,
@@ -65,7 +65,14 @@ pub(super) fn frf(records: &Records, measured: &Measured, sensor: usize) -> Figu
         let std = curve("standard deviation of either part", measured, std, Color::Orange);
         modulus_series.push(Series { line: Some(Dash::Dotted), ..std });
     }
-    let phase = Series { line: None, marker: Some(Marker::Disc), ..curve("", measured, phase, Color::Blue) };
+    let mut phase = curve("", measured, phase, Color::Blue);
+    for k in (1..phase.y.len()).rev() {
+        // Once around: a gap in place of a line across the panel.
+        if (phase.y[k] - phase.y[k - 1]).abs() > 180.0 {
+            phase.x.insert(k, phase.x[k]);
+            phase.y.insert(k, f64::NAN);
+        }
+    }
     let mut panels = vec![
         Panel {
             y: Axis::log(format!("|{name}| ({})", quantity.unit())),
@@ -87,7 +94,7 @@ pub(super) fn frf(records: &Records, measured: &Measured, sensor: usize) -> Figu
         });
     }
     Figure {
-        title: format!("{} over {}, {} hits", channel.name, records.force.name, measured.averages()),
+        title: format!("{} over {}, average of {}", channel.name, records.force.name, measured.averages()),
         x: Axis::linear("Frequency (Hz)"),
         size: (720.0, 140.0 + 170.0 * panels.len() as f64),
         panels,

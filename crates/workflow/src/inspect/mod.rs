@@ -59,7 +59,7 @@ pub fn inspect(path: &Path) -> Result<Inspection, InputError> {
             let matrix = read_matrix(&bytes).map_err(refuse)?;
             Content::Matrix(Box::new(MatrixFacts::of(kind, &matrix)))
         }
-        None => return Err(unknown_kind(path, &bytes)),
+        None => return Err(unknown_kind(path, &bytes, READ)),
     };
     Ok(Inspection { file: path.to_path_buf(), content })
 }
@@ -93,8 +93,12 @@ impl Inspection {
     }
 }
 
+/// What is looked into.
+const READ: &str =
+    "a UFF file, a matrix (Matrix Market, Harwell-Boeing), a table (CSV) or time records (.lvm)";
+
 /// The error about a file of no known kind.
-pub(crate) fn unknown_kind(path: &Path, bytes: &[u8]) -> InputError {
+pub(crate) fn unknown_kind(path: &Path, bytes: &[u8], expected: &str) -> InputError {
     let found = match bytes {
         [] => "an empty file",
         _ => {
