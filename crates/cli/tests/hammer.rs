@@ -115,8 +115,8 @@ fn records_at_fault_and_options_that_fit_nothing_are_refused() {
         (&["uneven.csv", "-o", "x.uff"], "uneven.csv: expected equally spaced instants"),
         (&["bar/records.lvm", "-o", "x.uff", "--keep", "2"], "--keep: expected hits from 1 to 1, found 2"),
         (
-            &["bar/records.lvm", "-o", "x.uff", "--length", "-1"],
-            "--length: expected a positive number, found -1",
+            &["bar/records.lvm", "-o", "x.uff", "--length", "0"],
+            "--length: expected a positive number, found 0",
         ),
         (
             &["bar/records.lvm", "-o", "x.uff", "--length", "9"],

@@ -1,5 +1,7 @@
 //! Real hammer tests, from file to FRF.
 
+#![allow(clippy::print_stdout, reason = "a skipped test says why")]
+
 mod shared_data;
 
 use frfit::c64;

@@ -105,7 +105,5 @@ pub(crate) fn unknown_kind(path: &Path, bytes: &[u8], expected: &str) -> InputEr
             "none of them (no %%MatrixMarket or -1 at the top, no matrix type in line 3, no names of columns)"
         }
     };
-    let expected =
-        "a UFF file, a matrix (Matrix Market, Harwell-Boeing), a table (CSV) or time records (.lvm)";
     InputError::at(&Place::file(path), expected, found)
 }

@@ -15,7 +15,7 @@ pub(super) fn raw(path: &Path, bytes: &[u8]) -> Result<Vec<Raw>, InputError> {
     let in_file = |error| InputError::in_file(path, error);
     let file = File::new(bytes).map_err(in_file)?;
     let mut units = Units::default();
-    let mut recordings: Vec<(Vec<Result<f64, FormatError>>, Vec<RawChannel>)> = Vec::new();
+    let mut recordings: Vec<(Vec<f64>, Vec<RawChannel>)> = Vec::new();
     for (index, entry) in file.entries().iter().enumerate() {
         if entry.dataset == 164
             && let Record::Units(there) = file.record(index).map_err(in_file)?
@@ -50,7 +50,11 @@ pub(super) fn raw(path: &Path, bytes: &[u8]) -> Result<Vec<Raw>, InputError> {
     recordings
         .into_iter()
         .map(|(steps, channels)| {
-            Ok(Raw { file: path.to_path_buf(), step_s: common_step_s(path, steps)?, channels })
+            Ok(Raw {
+                file: path.to_path_buf(),
+                step_s: common_step_s(path, steps.into_iter().map(Ok))?,
+                channels,
+            })
         })
         .collect()
 }
@@ -62,12 +66,8 @@ fn is_time(header: &FunctionHeader) -> bool {
         || header.function_type == FunctionType::General && over_time
 }
 
-/// A channel and its step, which may be none.
-fn channel(
-    function: Function,
-    units: &Units,
-    line: usize,
-) -> Result<(RawChannel, Result<f64, FormatError>), FormatError> {
+/// A channel and its step.
+fn channel(function: Function, units: &Units, line: usize) -> Result<(RawChannel, f64), FormatError> {
     let missing = function.missing_points();
     let Function { header, abscissa, values } = function;
     if missing > 0 {
@@ -81,13 +81,13 @@ fn channel(
         return Err(FormatError::line(line, "finite values", "others"));
     }
     let step = match header.spacing {
-        Spacing::Even { increment, .. } if increment > 0.0 => Ok(increment),
+        Spacing::Even { increment, .. } if increment > 0.0 => increment,
         Spacing::Even { increment, .. } => {
-            Err(FormatError::line(line, "an increment above 0", increment.to_string()))
+            return Err(FormatError::line(line, "an increment above 0", increment.to_string()));
         }
         Spacing::Uneven => {
             let at_line = |error: FormatError| FormatError::line(line, error.expected, error.found);
-            step_s(&abscissa).map_err(at_line)
+            step_s(&abscissa).map_err(at_line)?
         }
     };
     let axis = header.ordinate;
