@@ -145,3 +145,95 @@ fn hexadecimal(text: &str) -> f64 {
     let all = u64::from_str_radix(&format!("{whole}{fraction}"), 16).unwrap();
     sign * all as f64 * 2f64.powi(exponent.parse::<i32>().unwrap() - 4 * fraction.len() as i32)
 }
+
+/// A UFF file in mm and N: two hits of force and acceleration, a spectrum that is not meant.
+#[test]
+fn time_functions_of_a_uff_file_are_paired_in_their_order_and_scaled() {
+    use frfit_formats::uff::{
+        Axis, Dof, Form, Function, FunctionHeader, FunctionType, Quantity as Kind, Spacing, Units, Values,
+        write,
+    };
+    let spacing = Spacing::Even { minimum: 0.0, increment: 1e-3 };
+    let time = |quantity, unit: &str, node, values: Vec<f64>| {
+        let header = FunctionHeader {
+            function_type: FunctionType::TimeResponse,
+            spacing,
+            response: Dof { node, direction: 1, ..Dof::default() },
+            abscissa: Axis { quantity: Kind::Time, unit: "s".into(), ..Axis::default() },
+            ordinate: Axis { quantity, unit: unit.into(), ..Axis::default() },
+            ..FunctionHeader::default()
+        };
+        let abscissa = (0..values.len()).map(|k| k as f64 * 1e-3).collect();
+        write::function(&Function::new(header, abscissa, Values::Real(values)), Form::Ascii).unwrap()
+    };
+    // Half-sines of six samples on a mass of 2 kg: 0.5 m/s² a newton.
+    let pulse = |peak: f64| -> Vec<f64> {
+        let sine = |k: i32| (std::f64::consts::PI * (f64::from(k) + 0.4) / 5.77).sin();
+        (0..200).map(|k| if (50..56).contains(&k) { peak * sine(k - 50) } else { 0.0 }).collect()
+    };
+    let scaled = |by: f64| move |x: f64| by * x;
+    let units = Units { code: 9, length: 1000.0, force: 1.0, ..Units::default() };
+    let mut bytes = write::units(&units).unwrap();
+    for peak in [100.0, 70.0] {
+        bytes.extend(time(Kind::ExcitationForce, "", 1, pulse(peak)));
+        // Without a unit that is known by name, in the units of the file: mm/s². With one, in that.
+        bytes.extend(time(Kind::Acceleration, "", 2, pulse(peak).into_iter().map(scaled(500.0)).collect()));
+        bytes.extend(time(
+            Kind::Acceleration,
+            "g",
+            3,
+            pulse(peak).into_iter().map(scaled(0.5 / 9.80665)).collect(),
+        ));
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let (file, out) = (folder.path().join("hits.uff"), folder.path().join("frf.uff"));
+    std::fs::write(&file, bytes).unwrap();
+    let FrfJob { records, measured, .. } = job(&file, &Options::default(), &out);
+    assert_eq!((measured.hits.len(), measured.averages(), records.responses.len()), (2, 2, 2));
+    for frf in &measured.frfs {
+        // The text of a function has 13 digits.
+        assert!(frf.response.iter().all(|h| (h - c64::new(0.5, 0.0)).norm() < 1e-9));
+    }
+    for (record, node) in [(1, 2), (2, 3)] {
+        let frf = load_frf(&out, &Choice { record: Some(record), ..Choice::default() }).unwrap();
+        assert_eq!(frf.measured_at.unwrap().to_string(), format!("{node}+X"));
+        assert_eq!(frf.driven_at.unwrap().to_string(), "1+X");
+    }
+    let table =
+        frf_of_records(&[file], &ChannelOptions::default(), &Options::default(), &out.with_extension("csv"));
+    assert!(table.unwrap_err().to_string().contains("expected one response for a table"));
+}
+
+#[test]
+fn a_channel_that_one_recording_lacks_is_named() {
+    let hit = |channels: &str, rows: &str| {
+        format!(
+            "\nChannels\t{}\n***End_of_Header***\nX_Value\t{channels}\n{rows}",
+            channels.split('\t').count()
+        )
+    };
+    let rows = |width: usize| -> String {
+        let value = |k: i32| if (50..56).contains(&k) { 100.0 - f64::from((k - 52).pow(2)) } else { 0.0 };
+        (0..200)
+            .map(|k| format!("{}{}\n", f64::from(k) * 1e-3, format!("\t{}", value(k)).repeat(width)))
+            .collect()
+    };
+    let units = |text: String| {
+        text.replace(
+            "***End_of_Header***\nX_Value\tF\ta",
+            "Y_Unit_Label\tN\tm/s^2\n***End_of_Header***\nX_Value\tF\ta",
+        )
+    };
+    let text = format!(
+        "LabVIEW Measurement\nX_Columns\tOne\n***End_of_Header***\n{}{}{}",
+        units(hit("F\ta", &rows(2))),
+        hit("F", &rows(1)),
+        units(hit("F\ta", &rows(2))),
+    );
+    let folder = tempfile::tempdir().unwrap();
+    let (file, out) = (folder.path().join("hits.lvm"), folder.path().join("frf.uff"));
+    std::fs::write(&file, text).unwrap();
+    let FrfJob { measured, text, .. } = job(&file, &Options::default(), &out);
+    assert_eq!(measured.averages(), 2);
+    assert!(text.contains("hit 2   left out") && text.contains("a is missing or does not move"), "{text}");
+}
