@@ -2,11 +2,11 @@
 
 #![no_main]
 
-use frfit_formats::csv::{Cell, Table, read_dof_names, read_frf, read_modulus, read_vector, write};
+use frfit_formats::csv::{Cell, Table, read_dof_names, read_frf, read_modulus, read_time_records, read_vector, write};
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|bytes: &[u8]| {
-    let _ = (read_dof_names(bytes), read_modulus(bytes), read_vector(bytes));
+    let _ = (read_dof_names(bytes), read_modulus(bytes), read_vector(bytes), read_time_records(bytes));
     if let Ok(frf) = read_frf(bytes) {
         assert!(frf.frequency_hz.is_sorted_by(|a, b| a < b));
         assert_eq!(frf.frequency_hz.len(), frf.response.len());

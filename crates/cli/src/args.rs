@@ -31,6 +31,12 @@ pub(crate) enum Command {
         after_help = "Example: frfit example rubber-bar bar && frfit identify bar/case.toml --out bar/out"
     )]
     Example(Example),
+    /// Make a frequency response function of the records of a hammer test
+    #[command(after_help = "Examples: frfit frf records.lvm -o frf.uff\n          \
+                      frfit frf hits.csv -o frf.csv --force-sensitivity 22.4mV/N --response-sensitivity 100mV/g\n\n\
+                      Records: UFF time functions, LabVIEW measurement files (.lvm), tables with a column time_s and units in the \
+                      names of the others, such as \"Force (N)\". Hits with a fault are left out, with the reason.")]
+    Frf(Frf),
     /// Find the parameter that makes the model's response the measured one
     #[command(after_help = "Example: frfit identify case.toml --out results --order 30 --band 200:1550\n\n\
                       Exit code: 0 done; 1 with --strict where some frequency has no trusted answer; 2 the input is at fault; \
@@ -64,6 +70,67 @@ pub(crate) struct Example {
     pub(crate) name: Option<String>,
     /// Folder to write it to (by default its name)
     pub(crate) dir: Option<PathBuf>,
+}
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct Frf {
+    /// Files with the records; several recordings are taken as one hit each
+    #[arg(required = true)]
+    pub(crate) records: Vec<PathBuf>,
+    /// File to write; .uff or .csv says the format. A summary and figures are written beside it
+    #[arg(short, long, value_name = "FRF")]
+    pub(crate) out: PathBuf,
+    /// Channel of the force, by name or number (default: the one in a unit of force)
+    #[arg(long, value_name = "CHANNEL")]
+    pub(crate) force: Option<String>,
+    /// Channel of a response, by name or number; may be repeated (default: all in a unit of motion)
+    #[arg(long = "response", value_name = "CHANNEL")]
+    pub(crate) responses: Vec<String>,
+    /// Unit of the force's samples, in place of the file's: N, kN, lbf, V, mV
+    #[arg(long, value_name = "UNIT")]
+    pub(crate) force_unit: Option<frfit::signal::Unit>,
+    /// Unit of the responses' samples, in place of the file's: g, m/s^2, m/s, mm, V, mV
+    #[arg(long, value_name = "UNIT")]
+    pub(crate) response_unit: Option<frfit::signal::Unit>,
+    /// Sensitivity of the hammer, where its samples are a voltage, such as 22.4mV/N
+    #[arg(long, value_name = "VALUE")]
+    pub(crate) force_sensitivity: Option<frfit::signal::Sensitivity>,
+    /// Sensitivity of the sensors, where their samples are a voltage, such as 100mV/g
+    #[arg(long, value_name = "VALUE")]
+    pub(crate) response_sensitivity: Option<frfit::signal::Sensitivity>,
+    /// Driven degree of freedom, such as 12+Z
+    #[arg(long, value_name = "DOF")]
+    pub(crate) force_dof: Option<frfit::dof::DofName>,
+    /// Measured degree of freedom, such as 34+Z; one for each response
+    #[arg(long = "response-dof", value_name = "DOF")]
+    pub(crate) response_dofs: Vec<frfit::dof::DofName>,
+    /// h1 (noise in the response), h2 (in the force) or hv (in both)
+    #[arg(long)]
+    pub(crate) estimator: Option<frfit::signal::Estimator>,
+    /// Force from which on there is a hit (default: a tenth of the largest)
+    #[arg(long, value_name = "NEWTON")]
+    pub(crate) trigger: Option<f64>,
+    /// Time before the trigger that belongs to a record
+    #[arg(long, value_name = "SECONDS")]
+    pub(crate) pre_trigger: Option<f64>,
+    /// Length of a record (default: that of a recording with one hit, else up to the next hit)
+    #[arg(long, value_name = "SECONDS")]
+    pub(crate) length: Option<f64>,
+    /// Share of a hit that a second contact must reach to be called a double hit
+    #[arg(long, value_name = "SHARE")]
+    pub(crate) double_hit: Option<f64>,
+    /// Share of a channel's largest value by which its mean may move
+    #[arg(long, value_name = "SHARE")]
+    pub(crate) drift: Option<f64>,
+    /// Force window: zero from so long after the trigger
+    #[arg(long, value_name = "SECONDS")]
+    pub(crate) force_window: Option<f64>,
+    /// Exponential window: time constant of the decay that is put on both channels
+    #[arg(long, value_name = "SECONDS")]
+    pub(crate) exponential_window: Option<f64>,
+    /// Hits to average whatever is wrong with them, such as 1,3
+    #[arg(long, value_name = "HITS", value_delimiter = ',')]
+    pub(crate) keep: Vec<usize>,
 }
 
 #[derive(Debug, clap::Args)]

@@ -30,6 +30,7 @@ fn run(args: &Args) -> Result<Outcome, Failure> {
     match &args.command {
         Command::Demo(demo) => command::demo::run(args, demo),
         Command::Example(example) => command::example::run(args, example),
+        Command::Frf(frf) => command::frf::run(args, frf),
         Command::Identify(identify) => command::identify::run(args, identify),
         Command::Respond(respond) => command::respond::run(args, respond),
         Command::Inspect(inspect) => command::inspect::run(args, inspect),

@@ -51,9 +51,13 @@ pub(crate) fn identified(job: &IdentifyJob, out: &Path) -> String {
         let of_ok = truth["fraction_right_of_ok"]
             .as_f64()
             .map_or(String::new(), |f| format!(", {} of ok", percent(f)));
+        let off = match truth["deviation"]["max_ok"].as_f64() {
+            Some(off) if all < 1.0 => format!("; off by at most {off:.1e} where ok"),
+            _ => String::new(),
+        };
         line(
             "right",
-            format!("{} of all{of_ok} (the truth is known; within {})", percent(all), truth["within"]),
+            format!("{} of all{of_ok} (the truth is known; within {}{off})", percent(all), truth["within"]),
         );
     }
     line(

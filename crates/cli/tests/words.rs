@@ -22,7 +22,7 @@ fn portable(text: &str) -> String {
 fn help_of_every_command() {
     let folder = tempfile::tempdir().unwrap();
     insta::assert_snapshot!("help", done(folder.path(), &["--help"]));
-    for command in ["demo", "example", "identify", "respond", "inspect", "convert"] {
+    for command in ["demo", "example", "frf", "identify", "respond", "inspect", "convert"] {
         insta::assert_snapshot!(format!("help_{command}"), done(folder.path(), &[command, "--help"]));
     }
 }
@@ -35,5 +35,17 @@ fn examples_and_the_demo() {
     insta::assert_snapshot!(
         "inspect",
         done(&folder.path().join("frfit-demo"), &["inspect", "K.mtx", "frf.uff", "force.csv", "truth.csv"])
+    );
+}
+
+#[test]
+fn a_hammer_test() {
+    let folder = tempfile::tempdir().unwrap();
+    insta::assert_snapshot!("hammer_example", done(folder.path(), &["example", "hammer-bar", "bar"]));
+    let made = done(folder.path(), &["frf", "bar/records.lvm", "-o", "bar/frf.uff"]);
+    insta::assert_snapshot!("hammer_frf", made);
+    insta::assert_snapshot!(
+        "hammer_inspect",
+        done(folder.path(), &["inspect", "bar/records.lvm", "bar/frf.uff"])
     );
 }

@@ -22,6 +22,7 @@
 //! | [`roots`] | the polynomial's roots, which of them are admissible, and why the others are not |
 //! | [`select`] | which of the solutions of a whole band are one material, and where the data cannot tell (B-4) |
 //! | [`identify`] | one frequency from measurement to updated factor, and a band of them |
+//! | [`signal`] | records of a hammer test to an FRF with coherence and variance (B-6) |
 //! | [`nelder_mead`] | the search on direct solves that the series is compared with |
 //! | [`efficiency`] | operation counts, P-49 to P-51 |
 //!
@@ -42,6 +43,7 @@ pub mod response;
 pub mod roots;
 pub mod select;
 pub mod series;
+pub mod signal;
 pub mod subspace;
 
 pub use frfit_linalg::c64;

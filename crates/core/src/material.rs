@@ -125,6 +125,11 @@ impl Table {
         Ok(Self { frequency_hz, values })
     }
 
+    /// The frequencies of its rows, ascending.
+    pub fn frequency_hz(&self) -> &[f64] {
+        &self.frequency_hz
+    }
+
     fn at(&self, frequency_hz: f64) -> Result<c64, OutsideTable> {
         let (first, last) = (self.frequency_hz[0], self.frequency_hz[self.frequency_hz.len() - 1]);
         if !(first..=last).contains(&frequency_hz) {

@@ -1,8 +1,12 @@
 //! The examples there are, and their files.
 
 use crate::file::{Frf, csv_frf, dofs, force, matrix, truth, uff_frfs};
-use crate::{Error, File, Model, clamped_plate, density, rubber_bar, rubber_bar_end, sandwich};
+use crate::{
+    Error, File, Model, clamped_plate, density, hammer_bar, hammer_records, rubber_bar, rubber_bar_end,
+    sandwich,
+};
 use frfit::c64;
+use frfit::material::Law;
 use frfit::quantity::Quantity;
 
 /// An example, as a list shows it.
@@ -17,13 +21,21 @@ pub struct Example {
     model: fn() -> Result<Model, Error>,
     /// File of each term's matrix.
     matrices: &'static [&'static str],
-    /// File of the measurement and the quantity in it.
-    frf: (&'static str, Quantity),
+    measurement: Measurement,
     /// Whether its case names degrees of freedom instead of rows.
     names_dofs: bool,
 }
 
-static EXAMPLES: [Example; 5] = [
+/// What was measured, as a file.
+#[derive(Debug)]
+enum Measurement {
+    /// FRFs of the model itself, and their quantity.
+    Frf(&'static str, Quantity),
+    /// Records of a hammer test, of which `frfit frf` makes the FRF.
+    Records(&'static str, fn() -> Result<Vec<u8>, Error>),
+}
+
+static EXAMPLES: [Example; 6] = [
     Example {
         name: "rubber-bar",
         summary: "free-free rubber bar, the same force on every node: its modulus over frequency",
@@ -31,7 +43,7 @@ static EXAMPLES: [Example; 5] = [
         readme: include_str!("../cases/rubber-bar/README.md"),
         model: || rubber_bar(100),
         matrices: &["K.mtx", "M.mtx"],
-        frf: ("frf.uff", Quantity::Receptance),
+        measurement: Measurement::Frf("frf.uff", Quantity::Receptance),
         names_dofs: false,
     },
     Example {
@@ -41,7 +53,7 @@ static EXAMPLES: [Example; 5] = [
         readme: include_str!("../cases/rubber-bar-end/README.md"),
         model: || rubber_bar_end(100),
         matrices: &["K.mtx", "M.mtx"],
-        frf: ("frf.uff", Quantity::Accelerance),
+        measurement: Measurement::Frf("frf.uff", Quantity::Accelerance),
         names_dofs: false,
     },
     Example {
@@ -51,7 +63,7 @@ static EXAMPLES: [Example; 5] = [
         readme: include_str!("../cases/clamped-plate/README.md"),
         model: || clamped_plate(20),
         matrices: &["K.rsa", "M.mtx"],
-        frf: ("frf.uff", Quantity::Accelerance),
+        measurement: Measurement::Frf("frf.uff", Quantity::Accelerance),
         names_dofs: true,
     },
     Example {
@@ -61,7 +73,17 @@ static EXAMPLES: [Example; 5] = [
         readme: include_str!("../cases/density/README.md"),
         model: || density(40),
         matrices: &["K.mtx", "M.mtx"],
-        frf: ("frf.csv", Quantity::Mobility),
+        measurement: Measurement::Frf("frf.csv", Quantity::Mobility),
+        names_dofs: false,
+    },
+    Example {
+        name: "hammer-bar",
+        summary: "free-free polyurethane bar, records of a hammer test: from the hit to the modulus",
+        case: include_str!("../cases/hammer-bar/case.toml"),
+        readme: include_str!("../cases/hammer-bar/README.md"),
+        model: || hammer_bar(400),
+        matrices: &["K.mtx", "M.mtx"],
+        measurement: Measurement::Records("records.lvm", || hammer_records(1, 0.0)),
         names_dofs: false,
     },
     Example {
@@ -71,7 +93,7 @@ static EXAMPLES: [Example; 5] = [
         readme: include_str!("../cases/sandwich/README.md"),
         model: || sandwich(30, 1, 1),
         matrices: &["K_skins.mtx", "K_core.mtx", "M_skins.mtx", "M_core.mtx"],
-        frf: ("frf.uff", Quantity::Accelerance),
+        measurement: Measurement::Frf("frf.uff", Quantity::Accelerance),
         names_dofs: true,
     },
 ];
@@ -83,7 +105,8 @@ pub fn list() -> &'static [Example] {
 
 /// The files of an example, the same bytes each time: `README.md`, `case.toml`, and all that the case names.
 ///
-/// The measurement is computed by direct solves of the same model with the true parameter, without noise.
+/// The measurement is computed by direct solves of the same model with the true parameter, without noise; that of
+/// `hammer-bar` are records from an exact solution ([`Example::records`]).
 ///
 /// # Errors
 /// [`Error::UnknownExample`] for a name that is not in [`list`].
@@ -96,6 +119,14 @@ pub fn generate(name: &str) -> Result<Vec<File>, Error> {
 }
 
 impl Example {
+    /// The file with records of which `frfit frf` has to make the measurement first, `frf.uff`; `None` where that is there.
+    pub fn records(&self) -> Option<&'static str> {
+        match self.measurement {
+            Measurement::Frf(..) => None,
+            Measurement::Records(path, _) => Some(path),
+        }
+    }
+
     fn files(&self) -> Result<Vec<File>, Error> {
         let model = (self.model)()?;
         let mut files = vec![File::new("README.md", self.readme), File::new("case.toml", self.case)];
@@ -108,15 +139,31 @@ impl Example {
         if model.driven_at().is_none() {
             files.push(File::new("force.csv", force(&model.experiment.load)?));
         }
-        let frequency_hz = model.frequency_hz();
-        files.push(self.measurement(&model, &frequency_hz)?);
+        let mut frequency_hz = model.frequency_hz();
+        match self.measurement {
+            Measurement::Frf(path, quantity) => {
+                files.push(self.frfs(path, quantity, &model, &frequency_hz)?);
+            }
+            Measurement::Records(path, records) => {
+                files.push(File::new(path, records()?));
+                // A table of a factor has to reach every line that the case may ask for.
+                if let Law::Table(table) = &model.truth {
+                    frequency_hz = table.frequency_hz().to_vec();
+                }
+            }
+        }
         files.push(File::new("truth.csv", truth(&model, &frequency_hz)?));
         Ok(files)
     }
 
     /// All sensors in one UFF file; in CSV, which holds one, the first.
-    fn measurement(&self, model: &Model, frequency_hz: &[f64]) -> Result<File, Error> {
-        let (path, quantity) = self.frf;
+    fn frfs(
+        &self,
+        path: &str,
+        quantity: Quantity,
+        model: &Model,
+        frequency_hz: &[f64],
+    ) -> Result<File, Error> {
         let at = |&f: &f64| Ok((f, model.measured_at(f)?));
         let measured = frequency_hz.iter().map(at).collect::<Result<Vec<(f64, Vec<c64>)>, Error>>()?;
         let frf = |sensor: usize| Frf {

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use crate::text::Lines;
-use crate::{CoordinateMatrix, FormatError, harwell_boeing, matrix_market};
+use crate::{CoordinateMatrix, FormatError, harwell_boeing, lvm, matrix_market};
 
 /// The kinds of files this crate reads.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -16,6 +16,8 @@ pub enum FileKind {
     Uff,
     /// A table with named columns: read it with [`csv::Table::read`](crate::csv::Table::read).
     Csv,
+    /// A LabVIEW measurement file: read it with [`lvm::read`].
+    Lvm,
 }
 
 impl fmt::Display for FileKind {
@@ -25,6 +27,7 @@ impl fmt::Display for FileKind {
             Self::HarwellBoeing => "a Harwell-Boeing file",
             Self::Uff => "a Universal File Format (UFF) file",
             Self::Csv => "a table (CSV)",
+            Self::Lvm => "a LabVIEW measurement file",
         })
     }
 }
@@ -37,6 +40,9 @@ pub fn detect(bytes: &[u8]) -> Option<FileKind> {
     let mut lines = Lines::new(bytes);
     if matrix_market::is_banner(lines.clone().next()?.bytes) {
         return Some(FileKind::MatrixMarket);
+    }
+    if lvm::is_first_line(lines.clone().next()?.bytes) {
+        return Some(FileKind::Lvm);
     }
     if harwell_boeing::looks_like(bytes) {
         return Some(FileKind::HarwellBoeing);

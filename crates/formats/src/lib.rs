@@ -6,6 +6,7 @@
 //! | Harwell–Boeing | [`harwell_boeing`] |
 //! | Universal File Format (UFF) | [`uff`] |
 //! | tables with named columns (CSV) | [`csv`] |
+//! | LabVIEW measurement files (.lvm) | [`lvm`] |
 //!
 //! [`detect`] tells which of them a file is, [`read_matrix`] reads either kind of matrix file.
 //!
@@ -22,6 +23,7 @@ mod text;
 
 pub mod csv;
 pub mod harwell_boeing;
+pub mod lvm;
 pub mod matrix_market;
 pub mod uff;
 

@@ -1,18 +1,20 @@
 //! Whole jobs: from the path of a case to files in a folder. What the command line and other front ends share.
 
-use crate::error::InputError;
-use crate::figures::{identify_figures, respond_figures};
+use crate::error::{InputError, Place};
+use crate::figures::{identify_figures, measured_figures, respond_figures};
 use crate::load::{Case, IdentifyCase, Overrides, Purpose, load};
 use crate::memory::{MemoryError, check_full, check_identify};
 use crate::output::{
-    File, WriteError, candidates_csv, identified_csv, respond_csv, respond_uff, response_csv, summary_json,
-    write_all,
+    File, WriteError, candidates_csv, hit_reasons, identified_csv, measured_csv, measured_summary,
+    measured_text, measured_uff, respond_csv, respond_uff, response_csv, summary_json, write_all,
 };
+use crate::records::{ChannelOptions, Records, read_records};
 use crate::run::{IdentifyRun, Progress, RespondRun, RunOptions, identify, respond};
 use frfit::material::OutsideTable;
+use frfit::signal::{self, Measured, SignalError, estimate_frf};
 use frfit_figures::PngError;
 use std::fmt;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 /// Why a job was not done.
@@ -128,4 +130,88 @@ pub fn respond_case(
     files.push(File::new("frf.uff", uff));
     write_all(out, &files)?;
     Ok((case, run))
+}
+
+/// A hammer test that was evaluated and written.
+#[derive(Debug)]
+pub struct FrfJob {
+    /// What was read.
+    pub records: Records,
+    /// What came out.
+    pub measured: Measured,
+    /// `<name>-summary.json`.
+    pub summary: serde_json::Value,
+    /// The same for a person.
+    pub text: String,
+}
+
+/// Reads the records of a hammer test and writes its FRF as UFF or table, by the ending of `out`, with
+/// `<name>-summary.json` and `<name>-figures/` beside it: all of them, or nothing.
+///
+/// # Errors
+/// [`JobError`]: what [`read_records`] refuses, no hit without fault, an ending that is neither, several responses for a table.
+pub fn frf_of_records(
+    files: &[PathBuf],
+    channels: &ChannelOptions,
+    options: &signal::Options,
+    out: &Path,
+) -> Result<FrfJob, JobError> {
+    let ending = out.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase());
+    let is_table = match ending.as_deref() {
+        Some("csv") => true,
+        Some("uff" | "unv" | "uf") => false,
+        found => {
+            let found = found.map_or("none".into(), |ending| format!(".{ending}"));
+            let expected = "an ending that names a format: .uff, .unv or .uf (UFF), .csv (table)";
+            return Err(InputError::at(&Place::file(out), expected, found).into());
+        }
+    };
+    let records = read_records(files, channels)?;
+    if is_table && records.responses.len() > 1 {
+        let expected = "one response for a table (--response), or the ending .uff";
+        return Err(InputError::at(&Place::file(out), expected, records.responses.len().to_string()).into());
+    }
+    let measured =
+        estimate_frf(&records.recordings, options).map_err(|error| refusal(error, &records, files))?;
+    let summary = measured_summary(&records, &measured, options);
+    let name = out.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+    let mut written = measured_figures(&records, &measured, &format!("{name}-figures"))?;
+    written.push(File::new(format!("{name}-summary.json"), format!("{summary:#}\n")));
+    let bytes = match is_table {
+        true => measured_csv(&measured).into_bytes(),
+        false => measured_uff(&records, &measured, &title(files))
+            .map_err(|error| InputError::in_file(out, error))?,
+    };
+    written.push(File::new(out.file_name().unwrap_or_default(), bytes));
+    write_all(out.parent().unwrap_or(Path::new("")), &written)?;
+    let text = measured_text(&records, &measured, options);
+    Ok(FrfJob { records, measured, summary, text })
+}
+
+/// The names of the files.
+fn title(files: &[PathBuf]) -> String {
+    let names = files.iter().filter_map(|file| file.file_name());
+    names.map(|name| name.to_string_lossy().into_owned()).collect::<Vec<_>>().join(" ")
+}
+
+/// Where to put right what is wrong with the records or the options.
+fn refusal(error: SignalError, records: &Records, files: &[PathBuf]) -> InputError {
+    let file = |k: usize| records.origins.get(k).or(files.first()).map_or(Path::new(""), PathBuf::as_path);
+    match error {
+        SignalError::Options(error) => {
+            let place = Place::option(&format!("--{}", error.name.replace('_', "-")));
+            InputError::at(&place, error.expected, error.found.to_string())
+        }
+        SignalError::Recording(k, error) => {
+            let found = format!("in its recordings: {error}");
+            InputError::at(&Place::file(file(k)), "recordings that fit together", found)
+        }
+        SignalError::NoSuchHit(number, count) => {
+            InputError::at(&Place::option("--keep"), format!("hits from 1 to {count}"), number.to_string())
+        }
+        SignalError::NoHit(hits) => {
+            let told = hit_reasons(records, &hits);
+            InputError::at(&Place::file(file(0)), "a hit without fault", format!("none: {told}"))
+        }
+    }
 }

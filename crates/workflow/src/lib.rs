@@ -4,6 +4,7 @@
 //! |---|---|
 //! | [`case`] | the case file as it is written, every key and type checked |
 //! | [`load`](mod@load) | its files read: model, load, sensors, measured receptance |
+//! | [`records`] | the records of a hammer test read from files |
 //! | [`memory`] | whether a model fits, before it is factorised |
 //! | [`run`] | the computations, frequency by frequency, on all cores |
 //! | [`figures`] | what a run looks like, as the paper draws it |
@@ -23,4 +24,5 @@ pub mod load;
 pub mod memory;
 mod nearest;
 pub mod output;
+pub mod records;
 pub mod run;

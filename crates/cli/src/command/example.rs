@@ -14,10 +14,13 @@ pub(crate) fn run(args: &Args, example: &Example) -> Result<Outcome, Failure> {
     if args.json {
         say(&format!("{:#}\n", json!({"name": name, "dir": dir.display().to_string(), "files": files})))?;
     } else if !args.quiet {
-        let case = dir.join("case.toml");
+        let (case, shown) = (dir.join("case.toml"), dir.display());
+        let records = frfit_examples::list().iter().find(|example| example.name == name);
+        let first = records.and_then(|example| example.records()).map_or(String::new(), |records| {
+            format!("frfit frf {} -o {} && ", dir.join(records).display(), dir.join("frf.uff").display())
+        });
         say(&format!(
-            "wrote {}: {}\nnow run: frfit identify {} --out {}\n",
-            dir.display(),
+            "wrote {shown}: {}\nnow run: {first}frfit identify {} --out {}\n",
             files.join(", "),
             case.display(),
             dir.join("out").display()

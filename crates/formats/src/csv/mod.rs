@@ -4,8 +4,8 @@
 //! Cells are separated by commas, semicolons or tabs, whichever the names are separated by, and may be
 //! quoted. Numbers have a decimal point; a decimal comma is refused.
 //!
-//! [`Table`] is any such table; [`read_frf`], [`read_vector`], [`read_dof_names`] and [`read_modulus`] are
-//! the ones that `frfit` works with; [`write()`] writes one.
+//! [`Table`] is any such table; [`read_frf`], [`read_vector`], [`read_dof_names`], [`read_modulus`] and
+//! [`read_time_records`] are the ones that `frfit` works with; [`write()`] writes one.
 //!
 //! # Source
 //! Y. Shafranovich: Common Format and MIME Type for Comma-Separated Values (CSV) Files, RFC 4180, 2005.
@@ -15,6 +15,7 @@ mod dof_names;
 mod frf;
 mod modulus;
 mod table;
+mod time_records;
 mod vector;
 mod write;
 
@@ -22,5 +23,6 @@ pub use dof_names::{Direction, DofName, read_dof_names};
 pub use frf::{FrfTable, read_frf};
 pub use modulus::{ModulusTable, read_modulus};
 pub use table::Table;
+pub use time_records::{TimeChannel, TimeTable, read_time_records};
 pub use vector::read_vector;
 pub use write::{Cell, write};

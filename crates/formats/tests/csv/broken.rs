@@ -1,7 +1,7 @@
 //! Broken tables: each is refused with a word about where and what.
 
 use frfit_formats::FormatError;
-use frfit_formats::csv::{Table, read_dof_names, read_frf, read_modulus, read_vector};
+use frfit_formats::csv::{Table, read_dof_names, read_frf, read_modulus, read_time_records, read_vector};
 
 /// Checks the exact words for each text.
 fn refused<T: std::fmt::Debug>(read: impl Fn(&[u8]) -> Result<T, FormatError>, cases: &[(&[u8], &str)]) {
@@ -196,6 +196,24 @@ fn moduli_are_refused_with_a_word() {
                 b"f, E_stor, E_loss\nHz,MPa,MPa\n",
                 "input:1: expected a column \"frequency_hz\", found only \"f\", \"E_stor\", \"E_loss\"",
             ),
+        ],
+    );
+}
+
+#[test]
+fn time_records_are_refused_with_a_word() {
+    refused(
+        read_time_records,
+        &[
+            (b"x,force\n0,1\n", "input:1: expected a column \"time_s\", found \"x\", \"force\""),
+            (b"time (ms),force\n0,1\n", "input:1:1: expected a time in s, found \"ms\""),
+            (b"t\n0\n", "input:1: expected at least one column beside the time, found none"),
+            (b"t,f\n", "input:1: expected at least one line of data below the names, found none"),
+            (
+                b"t,f\n0,1\n1,1\n1,1\n",
+                "input:4:1: expected ascending instants in column \"t\", found 1 after 1",
+            ),
+            (b"t,f\n0,\n", "input:2:3: expected a finite number in column \"f\", found an empty cell"),
         ],
     );
 }

@@ -1,7 +1,7 @@
 //! Tables as spreadsheets and scripts write them.
 
 use frfit_formats::csv::{
-    Cell, Direction, Table, read_dof_names, read_frf, read_modulus, read_vector, write,
+    Cell, Direction, Table, read_dof_names, read_frf, read_modulus, read_time_records, read_vector, write,
 };
 use num_complex::Complex64 as c64;
 
@@ -60,6 +60,17 @@ fn a_modulus_has_a_loss_factor_or_a_loss_and_may_have_gaps() {
     let by_loss = read_modulus(b"frequency_hz,loss,storage\n10,2e6,4e6\n").unwrap();
     assert_eq!(by_factor, by_loss);
     assert_eq!((by_loss.frequency_hz, by_loss.modulus), (vec![10.0], vec![c64::new(4e6, 2e6)]));
+}
+
+#[test]
+fn time_records_have_units_in_their_names() {
+    let of = |text: &str| read_time_records(text.as_bytes()).unwrap();
+    let table = of("Force (N);time [s];a\n1;0;2\n3;0.5;4\n");
+    assert_eq!(table.time_s, [0.0, 0.5]);
+    let channels: Vec<_> =
+        table.channels.iter().map(|c| (c.name.as_str(), c.unit.as_str(), &c.values[..])).collect();
+    assert_eq!(channels, [("Force", "N", &[1.0, 3.0][..]), ("a", "", &[2.0, 4.0])]);
+    assert_eq!(of("time_s,Signal (1) [m/s^2]\n0,1\n").channels[0].name, "Signal (1)");
 }
 
 #[test]

@@ -7,7 +7,7 @@ mod target;
 mod uff;
 
 pub use options::ConvertOptions;
-pub(crate) use uff::frf_dataset;
+pub(crate) use uff::{companion, frf_dataset};
 
 use crate::error::{InputError, Place};
 use crate::inspect::unknown_kind;
@@ -16,14 +16,17 @@ use frfit_formats::{FileKind, FormatError, detect, harwell_boeing, matrix_market
 use std::path::Path;
 use target::Target;
 
+/// What can be converted.
+const CONVERTED: &str = "a UFF file, a matrix (Matrix Market, Harwell-Boeing) or a table (CSV)";
+
 /// The bytes of the output: what the input is, its content says, what the output is to be, its ending.
 ///
 /// | from | to | what is kept |
 /// |---|---|---|
 /// | Matrix Market, Harwell–Boeing | either | every value bit for bit; of a title what the format has room for |
 /// | UFF | UFF | all datasets: the functions (58) anew as text or binary, the others byte for byte |
-/// | UFF | table | one FRF, bit for bit, and its coherence if the file has it |
-/// | table | UFF | the FRF and its coherence: bit for bit in binary, 13 digits of a value in text |
+/// | UFF | table | one FRF, bit for bit, and its coherence and standard deviation if the file has them |
+/// | table | UFF | the FRF, its coherence and standard deviation: bit for bit in binary, 13 digits of a value in text |
 /// | table | table | the FRF, sorted by frequency |
 ///
 /// # Errors
@@ -34,7 +37,7 @@ pub fn convert(input: &Path, output: &Path, options: &ConvertOptions) -> Result<
     let target = Target::of(output)?;
     let bytes = load_bytes(input)?;
     let in_input = |error: FormatError| InputError::in_file(input, error);
-    let kind = detect(&bytes).ok_or_else(|| unknown_kind(input, &bytes))?;
+    let kind = detect(&bytes).ok_or_else(|| unknown_kind(input, &bytes, CONVERTED))?;
     match (kind, target) {
         (
             FileKind::MatrixMarket | FileKind::HarwellBoeing,

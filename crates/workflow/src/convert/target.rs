@@ -58,6 +58,7 @@ pub(super) fn endings_for(kind: FileKind) -> String {
     let endings = match kind {
         FileKind::MatrixMarket | FileKind::HarwellBoeing => OF_MATRICES,
         FileKind::Uff | FileKind::Csv => OF_FRFS,
+        FileKind::Lvm => "none: frfit frf makes an FRF of time records",
     };
     format!("an ending to which {kind} can be converted: {endings}")
 }

@@ -3,7 +3,7 @@
 use super::options::ConvertOptions;
 use super::precision::{written, written_evenly_or_not};
 use crate::error::{InputError, Place};
-use crate::load::{Choice, Frf, read_frf};
+use crate::load::{Choice, Frf, STD_LABEL, read_frf};
 use frfit::c64;
 use frfit::dof::DofName;
 use frfit::quantity::Quantity;
@@ -40,7 +40,7 @@ pub(super) fn rewritten(bytes: &[u8], form: Form) -> Result<Vec<u8>, FormatError
     Ok(out)
 }
 
-/// The FRF of a table, and its coherence as a function of its own, in SI units.
+/// The FRF of a table, its coherence and its standard deviation as functions of their own, in SI units.
 pub(super) fn of_table(bytes: &[u8], input: &Path, options: &ConvertOptions) -> Result<Vec<u8>, InputError> {
     let needs = |name, expected: &str| InputError::at(&Place::option(name), expected, "none");
     let quantity = options
@@ -54,10 +54,6 @@ pub(super) fn of_table(bytes: &[u8], input: &Path, options: &ConvertOptions) -> 
         .ok_or_else(|| needs("--reference", "where it was driven, such as 12+Z: the table does not say"))?;
     let in_input = |error| InputError::in_file(input, error);
     let frf = read_frf(bytes, &Choice::default()).map_err(in_input)?;
-    if frf.std.is_some() {
-        let expected = "a table without the column std, for which UFF has no place";
-        return Err(InputError::at(&Place::file(input), expected, "one with it"));
-    }
     let header = FunctionHeader {
         id: [name(input), String::new(), String::new(), String::new(), String::new()],
         response: dof(response, "--response")?,
@@ -67,26 +63,21 @@ pub(super) fn of_table(bytes: &[u8], input: &Path, options: &ConvertOptions) -> 
     datasets(frf, header, quantity, options.form()).map_err(in_input)
 }
 
-/// Units, FRF, coherence.
+/// Units, FRF, coherence, standard deviation.
 fn datasets(
     frf: Frf,
     header: FunctionHeader,
     quantity: Quantity,
     form: Form,
 ) -> Result<Vec<u8>, FormatError> {
-    let Frf { frequency_hz, response, coherence, .. } = frf;
+    let Frf { frequency_hz, response, coherence, std, .. } = frf;
     let mut out = write::units(&Units::default())?;
     out.extend(frf_dataset(&frequency_hz, response, header.clone(), quantity, form)?);
     if let Some(coherence) = coherence {
-        let header = FunctionHeader {
-            function_type: FunctionType::Coherence,
-            data_type: DataType::RealDouble,
-            abscissa: axis(Kind::Frequency, "Frequency", "Hz"),
-            ordinate: axis(Kind::Unknown, "Coherence", ""),
-            ..header
-        };
-        let coherence = Function::new(header, frequency_hz, Values::Real(coherence));
-        out.extend(written_evenly_or_not(&coherence, form)?);
+        out.extend(companion(&frequency_hz, coherence, header.clone(), FunctionType::Coherence, form)?);
+    }
+    if let Some(std) = std {
+        out.extend(companion(&frequency_hz, std, header, FunctionType::General, form)?);
     }
     Ok(out)
 }
@@ -112,6 +103,27 @@ pub(crate) fn frf_dataset(
     };
     let frf = Function::new(header, frequency_hz.to_vec(), Values::Complex(response));
     written_evenly_or_not(&frf, form)
+}
+
+/// What is known of an FRF beside its values, between the same degrees of freedom: its coherence, or as a general function its
+/// standard deviation.
+pub(crate) fn companion(
+    frequency_hz: &[f64],
+    values: Vec<f64>,
+    header: FunctionHeader,
+    function_type: FunctionType,
+    form: Form,
+) -> Result<Vec<u8>, FormatError> {
+    let label = if function_type == FunctionType::Coherence { "Coherence" } else { STD_LABEL };
+    let header = FunctionHeader {
+        function_type,
+        data_type: DataType::RealDouble,
+        abscissa: axis(Kind::Frequency, "Frequency", "Hz"),
+        ordinate: axis(Kind::Unknown, label, ""),
+        ..header
+    };
+    let function = Function::new(header, frequency_hz.to_vec(), Values::Real(values));
+    written_evenly_or_not(&function, form)
 }
 
 /// The name of the input, as far as an ID line has room for it.

@@ -4,13 +4,17 @@ mod accelerance;
 mod candidates;
 mod certificate;
 mod error_map;
+mod hits;
+mod measured;
 mod modulus;
 mod spectral_radius;
 
 use crate::load::{Case, IdentifyCase};
 use crate::output::File;
+use crate::records::Records;
 use crate::run::{IdentifyRun, RespondRun};
 use frfit::identify::{Selection, Status};
+use frfit::signal::Measured;
 use frfit_figures::{Class, Color, Figure, PngError, Strip};
 
 /// Pixels per SVG unit: 720 units wide become 1080 pixels.
@@ -57,11 +61,35 @@ pub fn respond_figures(case: &Case, run: &RespondRun) -> Result<Vec<File>, PngEr
     draw(vec![("accelerance".to_owned(), accelerance::forward(case, run))])
 }
 
+/// The figures of a hammer test, below a folder: contacts, responses, spectra, FRFs.
+///
+/// # Errors
+/// [`PngError`] where a figure cannot be rasterised.
+pub fn measured_figures(records: &Records, measured: &Measured, folder: &str) -> Result<Vec<File>, PngError> {
+    let mut figures = vec![
+        ("force".to_owned(), hits::force(records, measured)),
+        ("spectra".to_owned(), measured::spectra(records, measured)),
+    ];
+    for sensor in 0..records.responses.len() {
+        let numbered = |name: &str| match records.responses.len() {
+            1 => name.to_owned(),
+            _ => format!("{name}-{}", sensor + 1),
+        };
+        figures.push((numbered("response"), hits::response(records, measured, sensor)));
+        figures.push((numbered("frf"), measured::frf(records, measured, sensor)));
+    }
+    draw_into(folder, figures)
+}
+
 fn draw(figures: Vec<(String, Figure)>) -> Result<Vec<File>, PngError> {
+    draw_into("figures", figures)
+}
+
+fn draw_into(folder: &str, figures: Vec<(String, Figure)>) -> Result<Vec<File>, PngError> {
     let mut files = Vec::with_capacity(2 * figures.len());
     for (name, figure) in figures {
-        files.push(File::new(format!("figures/{name}.png"), figure.png(PIXELS_PER_UNIT)?));
-        files.push(File::new(format!("figures/{name}.svg"), figure.svg()));
+        files.push(File::new(format!("{folder}/{name}.png"), figure.png(PIXELS_PER_UNIT)?));
+        files.push(File::new(format!("{folder}/{name}.svg"), figure.svg()));
     }
     Ok(files)
 }

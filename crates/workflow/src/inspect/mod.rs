@@ -1,12 +1,14 @@
 //! What is in a file: enough to see that it is the right one, and in which units.
 
 mod function;
+mod lvm;
 mod matrix;
 mod modes;
 mod table;
 mod text;
 mod uff;
 
+pub use lvm::LvmFacts;
 pub use matrix::MatrixFacts;
 pub use modes::natural_frequencies;
 pub use table::{TableFacts, TableUse};
@@ -36,6 +38,8 @@ pub enum Content {
     Matrix(Box<MatrixFacts>),
     /// A table.
     Table(TableFacts),
+    /// A LabVIEW measurement file.
+    Lvm(LvmFacts),
 }
 
 /// Looks into a file; of what kind it is, its content says.
@@ -49,12 +53,13 @@ pub fn inspect(path: &Path) -> Result<Inspection, InputError> {
     let refuse = |error| InputError::in_file(path, error);
     let content = match detect(&bytes) {
         Some(FileKind::Uff) => Content::Uff(uff::records(&bytes).map_err(refuse)?),
+        Some(FileKind::Lvm) => Content::Lvm(LvmFacts::read(&bytes).map_err(refuse)?),
         Some(FileKind::Csv) => Content::Table(TableFacts::read(&bytes).map_err(refuse)?),
         Some(kind @ (FileKind::MatrixMarket | FileKind::HarwellBoeing)) => {
             let matrix = read_matrix(&bytes).map_err(refuse)?;
             Content::Matrix(Box::new(MatrixFacts::of(kind, &matrix)))
         }
-        None => return Err(unknown_kind(path, &bytes)),
+        None => return Err(unknown_kind(path, &bytes, READ)),
     };
     Ok(Inspection { file: path.to_path_buf(), content })
 }
@@ -69,6 +74,7 @@ impl Inspection {
             }
             Content::Matrix(facts) => (facts.kind_word(), facts.json()),
             Content::Table(facts) => ("csv", facts.json(&self.file)),
+            Content::Lvm(facts) => ("lvm", facts.json()),
         };
         object["file"] = json!(self.file.to_string_lossy());
         object["kind"] = json!(kind);
@@ -80,20 +86,24 @@ impl Inspection {
         let (heading, lines) = match &self.content {
             Content::Uff(records) => (uff::heading(records), uff::lines(records, &self.file)),
             Content::Matrix(facts) => (facts.kind.to_string(), facts.lines()),
+            Content::Lvm(facts) => (FileKind::Lvm.to_string(), facts.lines()),
             Content::Table(facts) => (FileKind::Csv.to_string(), facts.lines(&self.file)),
         };
         format!("{}: {heading}\n{lines}", self.file.display())
     }
 }
 
+/// What is looked into.
+const READ: &str =
+    "a UFF file, a matrix (Matrix Market, Harwell-Boeing), a table (CSV) or time records (.lvm)";
+
 /// The error about a file of no known kind.
-pub(crate) fn unknown_kind(path: &Path, bytes: &[u8]) -> InputError {
+pub(crate) fn unknown_kind(path: &Path, bytes: &[u8], expected: &str) -> InputError {
     let found = match bytes {
         [] => "an empty file",
         _ => {
             "none of them (no %%MatrixMarket or -1 at the top, no matrix type in line 3, no names of columns)"
         }
     };
-    let expected = "a UFF file, a matrix (Matrix Market, Harwell-Boeing) or a table (CSV)";
     InputError::at(&Place::file(path), expected, found)
 }

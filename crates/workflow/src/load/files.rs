@@ -20,6 +20,14 @@ pub struct InputFile {
     pub bytes: usize,
 }
 
+impl InputFile {
+    /// The path and the checksum of the bytes.
+    pub(crate) fn of(path: &Path, bytes: &[u8]) -> Self {
+        let sha256 = Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect();
+        Self { path: path.to_path_buf(), sha256, bytes: bytes.len() }
+    }
+}
+
 /// A file that was read, and the key that names it.
 #[derive(Debug, Clone)]
 pub(super) struct NamedFile {
@@ -78,8 +86,7 @@ impl Files {
 
     fn record(&mut self, path: &Path, bytes: &[u8]) {
         if self.inputs.iter().all(|input| input.path != path) {
-            let sha256 = Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect();
-            self.inputs.push(InputFile { path: path.to_path_buf(), sha256, bytes: bytes.len() });
+            self.inputs.push(InputFile::of(path, bytes));
         }
     }
 }

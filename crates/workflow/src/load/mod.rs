@@ -18,6 +18,7 @@ pub use identify::{IdentifyCase, MeasuredNoise};
 pub(crate) use matrix::{asymmetry, complex};
 pub use matrix::{check_symmetric, symmetric_matrix};
 pub use measurement::SensorInfo;
+pub(crate) use uff::STD_LABEL;
 
 use crate::case::{self, CaseFile, LoadEntry, Spot, checked_band};
 use crate::error::{InputError, Place};

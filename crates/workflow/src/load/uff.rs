@@ -23,12 +23,20 @@ pub(super) fn read(bytes: &[u8], choice: &Choice) -> Result<Frf, FormatError> {
     let Values::Complex(response) = function.values else {
         return Err(FormatError::line(line, "complex values of an FRF", "real ones"));
     };
-    let coherence = coherence(&file, header, &function.abscissa)?;
+    let is_coherence = |other: &FunctionHeader| other.function_type == FunctionType::Coherence;
+    let is_std = |other: &FunctionHeader| {
+        other.function_type == FunctionType::General && other.ordinate.label == STD_LABEL
+    };
+    let of = |is_wanted: &dyn Fn(&FunctionHeader) -> bool, limits| {
+        companion(&file, header, &function.abscissa, is_wanted, limits)
+    };
+    let coherence = of(&is_coherence, ("coherences from 0 to 1", 1.0))?;
+    let std = of(&is_std, ("standard deviations from 0 on", f64::MAX))?;
     let frf = Frf {
         frequency_hz: function.abscissa,
         response,
         coherence,
-        std: None,
+        std,
         quantity: quantity(header),
         measured_at: dof(&header.response),
         driven_at: dof(&header.reference),
@@ -37,16 +45,22 @@ pub(super) fn read(bytes: &[u8], choice: &Choice) -> Result<Frf, FormatError> {
     Ok(frf)
 }
 
-/// The coherence of an FRF: the one dataset of function type 6 between the same degrees of freedom and at the same frequencies. None where there is none, or several.
-fn coherence(
+/// The label of a function that is the standard deviation √E|δH|² of an FRF: the format has no type for it.
+pub(crate) const STD_LABEL: &str = "Standard deviation";
+
+/// What the file says of an FRF beside its values: the one real function between the same degrees of freedom, at the same frequencies,
+/// that is wanted. None where there is none, or several.
+fn companion(
     file: &File<'_>,
     frf: &FunctionHeader,
     frequency_hz: &[f64],
+    is_wanted: impl Fn(&FunctionHeader) -> bool,
+    (expected, most): (&str, f64),
 ) -> Result<Option<Vec<f64>>, FormatError> {
     let mut found = None;
     for index in file.functions() {
         let header = file.function_header(index)?;
-        let belongs = header.function_type == FunctionType::Coherence
+        let belongs = is_wanted(&header)
             && dof(&header.response) == dof(&frf.response)
             && dof(&header.reference) == dof(&frf.reference);
         if !belongs {
@@ -55,13 +69,13 @@ fn coherence(
         let line = file.entries().get(index).map_or(1, |entry| entry.line);
         let function = file.function(index)?;
         let Values::Real(values) = function.values else {
-            return Err(FormatError::line(line, "real values of a coherence", "complex ones"));
+            return Err(FormatError::line(line, format!("{expected}, real"), "complex ones"));
         };
         if function.abscissa != frequency_hz {
             continue;
         }
-        if let Some(value) = values.iter().find(|value| !(0.0..=1.0).contains(*value)) {
-            return Err(FormatError::line(line, "coherences from 0 to 1", value.to_string()));
+        if let Some(value) = values.iter().find(|value| !(0.0..=most).contains(*value)) {
+            return Err(FormatError::line(line, expected, value.to_string()));
         }
         if found.replace(values).is_some() {
             return Ok(None);

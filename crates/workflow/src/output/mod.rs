@@ -4,6 +4,7 @@ mod candidates;
 mod files;
 mod frf;
 mod identified;
+mod measured;
 mod response;
 mod summary;
 
@@ -11,5 +12,6 @@ pub use candidates::candidates_csv;
 pub use files::{File, WriteError, write_all};
 pub use frf::respond_uff;
 pub use identified::identified_csv;
+pub use measured::{hit_reasons, measured_csv, measured_summary, measured_text, measured_uff};
 pub use response::{respond_csv, response_csv};
 pub use summary::{RIGHT_WITHIN, summary_json};

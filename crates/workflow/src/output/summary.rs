@@ -121,7 +121,13 @@ fn truth(identify: &IdentifyCase, run: &IdentifyRun) -> Option<Value> {
         let count = flags.iter().filter(|&&flag| flag).count();
         (!flags.is_empty()).then(|| count as f64 / flags.len() as f64)
     };
+    // Where the measurement is not one of the model itself, the mesh decides how near the truth an answer can be.
+    let deviation = |outcome: &frfit::identify::Identified| {
+        let truth = law.at(outcome.frequency_hz).ok()?;
+        Some((outcome.factor()? - truth).norm() / truth.norm())
+    };
     Some(json!({
+        "deviation": spread(run, deviation),
         "within": RIGHT_WITHIN,
         "fraction_right": fraction(&right),
         "fraction_right_of_ok": fraction(&ok),

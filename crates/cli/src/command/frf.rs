@@ -1,0 +1,46 @@
+//! `frfit frf`
+
+use super::say;
+use crate::args::{Args, Frf};
+use crate::outcome::{Failure, Outcome};
+use frfit::signal::{Options, Windows};
+use frfit_workflow::job::frf_of_records;
+use frfit_workflow::records::ChannelOptions;
+
+pub(crate) fn run(args: &Args, wanted: &Frf) -> Result<Outcome, Failure> {
+    let channels = ChannelOptions {
+        force: wanted.force.clone(),
+        responses: wanted.responses.clone(),
+        force_unit: wanted.force_unit,
+        response_unit: wanted.response_unit,
+        force_sensitivity: wanted.force_sensitivity,
+        response_sensitivity: wanted.response_sensitivity,
+        force_dof: wanted.force_dof,
+        response_dofs: wanted.response_dofs.clone(),
+    };
+    let usual = Options::default();
+    let options = Options {
+        estimator: wanted.estimator.unwrap_or(usual.estimator),
+        trigger_n: wanted.trigger,
+        pre_trigger_s: wanted.pre_trigger,
+        length_s: wanted.length,
+        double_hit: wanted.double_hit.unwrap_or(usual.double_hit),
+        drift: wanted.drift.unwrap_or(usual.drift),
+        windows: Windows { force_s: wanted.force_window, exponential_s: wanted.exponential_window },
+        keep: wanted.keep.clone(),
+    };
+    let job = frf_of_records(&wanted.records, &channels, &options, &wanted.out)?;
+    if args.json {
+        say(&format!("{:#}\n", job.summary))?;
+    } else if !args.quiet {
+        let name = wanted.out.with_extension("");
+        let name = name.display();
+        say(&format!(
+            "{}  {:<8}{}, {name}-summary.json, {name}-figures/\n",
+            job.text,
+            "wrote",
+            wanted.out.display()
+        ))?;
+    }
+    Ok(Outcome::Done)
+}

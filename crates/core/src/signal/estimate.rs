@@ -1,0 +1,120 @@
+//! Estimators of the frequency response function, and how sure they are.
+
+use super::spectra::Spectra;
+use crate::c64;
+use std::fmt;
+use std::str::FromStr;
+
+/// Which noise an estimator of H assumes. S is the mean over the hits of products of transforms, S_fx that of F̄X.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Estimator {
+    /// $H_1 = S_{fx} / S_{ff}$: noise in the response alone; too small where there is noise in the force.
+    #[default]
+    H1,
+    /// $H_2 = S_{xx} / S_{xf}$: noise in the force alone; too large where there is noise in the response.
+    H2,
+    /// $H_v = \sqrt{H_1 H_2}$, of the phase that both have: noise in both, alike relative to the signals.
+    Hv,
+}
+
+impl Estimator {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::H1, Self::H2, Self::Hv];
+
+    /// `h1`, `h2` or `hv`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::H1 => "h1",
+            Self::H2 => "h2",
+            Self::Hv => "hv",
+        }
+    }
+}
+
+impl fmt::Display for Estimator {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// A word that names no [`Estimator`].
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct UnknownEstimator(pub String);
+
+impl fmt::Display for UnknownEstimator {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "expected h1, h2 or hv, found {:?}", self.0)
+    }
+}
+
+impl std::error::Error for UnknownEstimator {}
+
+impl FromStr for Estimator {
+    type Err = UnknownEstimator;
+
+    fn from_str(name: &str) -> Result<Self, UnknownEstimator> {
+        let wanted = name.to_ascii_lowercase();
+        Self::ALL.into_iter().find(|e| e.name() == wanted).ok_or_else(|| UnknownEstimator(name.to_owned()))
+    }
+}
+
+/// The FRF of one response channel over [`super::Measured::frequency_hz`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct Frf {
+    /// Response over force in SI units.
+    pub response: Vec<c64>,
+    /// Coherence γ² = |S_fx|²/(S_ff S_xx). `None` of a single hit, of which it is 1 whatever was measured.
+    pub coherence: Option<Vec<f64>>,
+    /// Variance of the real and of the imaginary part, B-6 ([`variance`]); `None` without a coherence.
+    pub variance: Option<Vec<f64>>,
+    /// √(Σ|X|²/n) of the response's transform over that of the force: the gain that the spectra show by themselves.
+    pub gain: Vec<f64>,
+}
+
+/// B-6, the variance of the real part of an FRF, and as much of its imaginary part:
+/// $$ \sigma_H^2 = |H|^2 \frac{1 - \gamma^2}{2 n \gamma^2}, $$
+/// n the number of averages. The complex value has √E|δH|² = √2 σ_H. Infinite where γ² = 0.
+///
+/// # Limits
+/// Noise in the response that does not depend on the force, circular. γ² itself is estimated: with n averages the mean of (1 − γ²)/γ² is
+/// (n − 1)/n times what it should be, so that σ² of three hits is a third too small.
+///
+/// # Source
+/// J. S. Bendat, A. G. Piersol, *Random Data*, 4th ed., Wiley 2010, section 9.2.
+pub fn variance(response: c64, coherence: f64, averages: usize) -> f64 {
+    response.norm_sqr() * (1.0 - coherence) / (2.0 * averages as f64 * coherence)
+}
+
+pub(super) fn frf(
+    spectra: &Spectra,
+    response: usize,
+    lines: &[usize],
+    averages: usize,
+    estimator: Estimator,
+) -> Frf {
+    let (sum, cross) = (&spectra.responses[response], &spectra.cross[response]);
+    let of = |&k: &usize| {
+        let (ff, xx, fx) = (spectra.force[k], sum[k], cross[k]);
+        match estimator {
+            Estimator::H1 => fx / ff,
+            // Where both spectra have nothing in common there is no phase: H₁ = 0 is all that is left.
+            _ if fx.norm() == 0.0 => fx,
+            Estimator::H2 => xx / fx.conj(),
+            Estimator::Hv => fx / fx.norm() * (xx / ff).sqrt(),
+        }
+    };
+    let values: Vec<c64> = lines.iter().map(of).collect();
+    // Roundoff may carry it beyond 1.
+    let coherence: Option<Vec<f64>> = (averages > 1).then(|| {
+        lines.iter().map(|&k| (cross[k].norm_sqr() / (spectra.force[k] * sum[k])).min(1.0)).collect()
+    });
+    let variances = |coherence: &Vec<f64>| {
+        values.iter().zip(coherence).map(|(&value, &c)| variance(value, c, averages)).collect()
+    };
+    Frf {
+        variance: coherence.as_ref().map(variances),
+        coherence,
+        gain: lines.iter().map(|&k| (sum[k] / spectra.force[k]).sqrt()).collect(),
+        response: values,
+    }
+}

@@ -1,0 +1,108 @@
+//! A hit and its verdict.
+
+use super::baseline::{last_tenth, offset, peak, rms};
+use super::pulse::Contact;
+use super::{Channel, Fault, Options, Recording, fault};
+use std::ops::Range;
+
+/// A hit that was found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Hit {
+    /// Which recording it is in, from 0.
+    pub recording: usize,
+    /// The first sample of the recording at or above the trigger.
+    pub onset: usize,
+    /// The last one of the contact.
+    pub last: usize,
+    /// The samples of the recording that are its record.
+    pub range: Range<usize>,
+    /// The largest force in N, spikes aside, above what it is where nothing happens.
+    pub peak_n: f64,
+    /// What is wrong with it.
+    pub faults: Vec<Fault>,
+    /// Whether it is averaged all the same.
+    pub kept_anyway: bool,
+    /// What is left of each response over the last tenth of the record: rms about the mean, over its largest value.
+    pub residual: Vec<f64>,
+    /// The same before the hit, where the record has enough of that: noise.
+    pub noise: Option<Vec<f64>>,
+}
+
+/// A response has decayed where less than this is left: with a residual q, the FRF at a resonance is wrong by about q.
+const DECAYED: f64 = 0.01;
+
+/// Samples before the trigger that already belong to the contact.
+const FOOT: usize = 4;
+
+impl Hit {
+    /// Whether it is averaged.
+    pub fn is_kept(&self) -> bool {
+        self.faults.is_empty() || self.kept_anyway
+    }
+
+    /// How long the force was at or above the trigger, in s.
+    pub fn contact_s(&self, step_s: f64) -> f64 {
+        if self.peak_n > 0.0 { (self.last + 1 - self.onset) as f64 * step_s } else { 0.0 }
+    }
+
+    /// What is left of a response at the end of the record, where that is neither little nor noise.
+    ///
+    /// The rest wraps around: the transform takes the record for one period of a periodic response.
+    pub fn undecayed(&self, response: usize) -> Option<f64> {
+        let noise = self.noise.as_ref().and_then(|noise| noise.get(response)).copied().unwrap_or(0.0);
+        self.residual.get(response).copied().filter(|&rest| rest > DECAYED && rest > 3.0 * noise)
+    }
+
+    /// Samples of the record before the contact.
+    pub(super) fn before(&self) -> usize {
+        self.onset.saturating_sub(self.range.start + FOOT)
+    }
+
+    /// The contact in samples of the record.
+    pub(super) fn pulse_in_record(&self) -> Range<usize> {
+        self.onset.saturating_sub(self.range.start)..(self.last + 1).saturating_sub(self.range.start)
+    }
+}
+
+/// Judges a hit: its faults, and how far the responses have decayed.
+pub(super) fn examine(hit: &mut Hit, recording: &Recording, samples: usize, options: &Options) {
+    if hit.faults.is_empty() {
+        hit.faults = fault::faults(hit, recording, samples, &Contact::new(&recording.force), options);
+    }
+    let before = hit.before();
+    let records = recording.responses.iter().map(|response| response.get(hit.range.clone()).unwrap_or(&[]));
+    let share = |part: &[f64], record: &[f64]| {
+        let largest = peak(record, offset(record, before));
+        if largest > 0.0 { rms(part) / largest } else { 0.0 }
+    };
+    hit.residual =
+        records.clone().map(|r| if r.is_empty() { 0.0 } else { share(last_tenth(r), r) }).collect();
+    // Fewer samples are no noise level.
+    let is_told = before >= 2 * FOOT && records.clone().all(|record| record.len() > before);
+    hit.noise = is_told.then(|| records.map(|r| share(&r[..before], r)).collect());
+}
+
+impl Hit {
+    /// A recording without a hit.
+    pub(super) fn none(recording: usize, len: usize, force: &[f64]) -> Self {
+        let fault = match force.iter().any(|x| *x != force[0]) {
+            true => Fault::Silent,
+            false => Fault::Missing { channel: Channel::Force },
+        };
+        Self { faults: vec![fault], ..Self::at(recording, 0, 0, 0.0, 0..len) }
+    }
+
+    pub(super) fn at(recording: usize, onset: usize, last: usize, peak_n: f64, range: Range<usize>) -> Self {
+        Self {
+            recording,
+            onset,
+            last,
+            range,
+            peak_n,
+            faults: Vec::new(),
+            kept_anyway: false,
+            residual: Vec::new(),
+            noise: None,
+        }
+    }
+}

@@ -1,0 +1,90 @@
+//! How hits are found, judged and averaged.
+
+use super::{Estimator, Windows};
+use std::fmt;
+
+/// How hits are found, judged and averaged.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Options {
+    /// Which estimator of the FRF.
+    pub estimator: Estimator,
+    /// Force in N from which on there is a hit; `None`: a tenth of each recording's largest, spikes aside.
+    pub trigger_n: Option<f64>,
+    /// Time before the trigger that belongs to a record; `None`: all of a triggered capture, a hundredth of the
+    /// time between hits in a recording of several.
+    pub pre_trigger_s: Option<f64>,
+    /// Length of a record; `None`: that of a triggered capture, up to the next hit in a recording of several.
+    pub length_s: Option<f64>,
+    /// Share of a hit's largest force that a second contact has to reach to be called a double hit.
+    ///
+    /// A second contact of a share q ripples the force's spectrum by ±q; below a tenth it is hardly told from the ringing of filters.
+    pub double_hit: f64,
+    /// Share of a channel's largest value by which its mean may move within a record.
+    pub drift: f64,
+    /// Windows.
+    pub windows: Windows,
+    /// Hits, by their number from 1, that are averaged whatever is wrong with them, as long as their record is complete
+    /// and no channel is missing.
+    pub keep: Vec<usize>,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            estimator: Estimator::H1,
+            trigger_n: None,
+            pre_trigger_s: None,
+            length_s: None,
+            double_hit: 0.1,
+            drift: 0.05,
+            windows: Windows::default(),
+            keep: Vec::new(),
+        }
+    }
+}
+
+/// An option that is not as it can be.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OptionsError {
+    /// The field's name.
+    pub name: &'static str,
+    /// What it has to be.
+    pub expected: &'static str,
+    /// What it is.
+    pub found: f64,
+}
+
+impl fmt::Display for OptionsError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: expected {}, found {}", self.name, self.expected, self.found)
+    }
+}
+
+impl std::error::Error for OptionsError {}
+
+impl Options {
+    /// Checks every number.
+    ///
+    /// # Errors
+    /// [`OptionsError`], the first of them.
+    pub fn validate(&self) -> Result<(), OptionsError> {
+        let positive =
+            |name, value: Option<f64>| (name, "a positive number", value, f64::MIN_POSITIVE, f64::MAX);
+        let share = |name, value| (name, "a number from 0 to 1", Some(value), 0.0, 1.0);
+        let all = [
+            positive("trigger", self.trigger_n),
+            ("pre_trigger", "a number from 0 on", self.pre_trigger_s, 0.0, f64::MAX),
+            positive("length", self.length_s),
+            share("double_hit", self.double_hit),
+            share("drift", self.drift),
+            positive("force_window", self.windows.force_s),
+            positive("exponential_window", self.windows.exponential_s),
+        ];
+        for (name, expected, value, least, most) in all {
+            if let Some(found) = value.filter(|value| !(least..=most).contains(value)) {
+                return Err(OptionsError { name, expected, found });
+            }
+        }
+        Ok(())
+    }
+}

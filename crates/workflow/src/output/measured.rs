@@ -1,0 +1,286 @@
+//! The FRF of a hammer test as UFF or table, and its summary.
+
+use crate::convert::{companion, frf_dataset};
+use crate::records::{Records, Sensor};
+use frfit::dof::DofName;
+use frfit::signal::{Channel, Fault, Frf, Hit, Measured, Options, added_loss_factor};
+use frfit_formats::FormatError;
+use frfit_formats::csv::{Cell, write};
+use frfit_formats::uff::{Dof, Form, FunctionHeader, FunctionType, Units, write as uff};
+use serde_json::{Value, json};
+use std::fmt::Write;
+
+/// Share of the force's largest spectral value down to which a frequency counts as excited: 20 dB.
+const EXCITED: f64 = 0.1;
+
+/// Units; of each sensor the FRF, its coherence and its standard deviation.
+///
+/// # Errors
+/// A degree of freedom that does not fit its columns.
+pub fn measured_uff(records: &Records, measured: &Measured, title: &str) -> Result<Vec<u8>, FormatError> {
+    let mut bytes = uff::units(&Units::default())?;
+    let averages = measured.averages();
+    for ((number, sensor), frf) in (1..).zip(&records.responses).zip(&measured.frfs) {
+        let header = FunctionHeader {
+            id: [
+                title.chars().filter(|c| !c.is_control()).take(80).collect(),
+                format!("Hammer test, {averages} hits averaged, {:.6} s each", length_s(measured)),
+                String::new(),
+                String::new(),
+                String::new(),
+            ],
+            function_id: number,
+            response: dof(sensor.dof)?,
+            reference: dof(records.force.dof)?,
+            ..FunctionHeader::default()
+        };
+        let (frequency_hz, form) = (&measured.frequency_hz, Form::Ascii);
+        let values = frf.response.clone();
+        bytes.extend(frf_dataset(frequency_hz, values, header.clone(), sensor.quantity(), form)?);
+        let companions =
+            [(FunctionType::Coherence, frf.coherence.clone()), (FunctionType::General, std(frf))];
+        for (function_type, values) in companions {
+            if let Some(values) = values {
+                bytes.extend(companion(frequency_hz, values, header.clone(), function_type, form)?);
+            }
+        }
+    }
+    Ok(bytes)
+}
+
+/// Columns frequency_hz, re, im, and of more than one hit coherence and std, of the first sensor: a table has one FRF.
+///
+/// `std` is √E|δH|² of the complex value, √2 times that of its real and imaginary parts (B-6).
+pub fn measured_csv(measured: &Measured) -> String {
+    let Some(frf) = measured.frfs.first() else { return String::new() };
+    let std = std(frf);
+    let optional: Vec<(&str, &Vec<f64>)> = [("coherence", &frf.coherence), ("std", &std)]
+        .into_iter()
+        .filter_map(|(n, v)| Some((n, v.as_ref()?)))
+        .collect();
+    let columns: Vec<&str> =
+        ["frequency_hz", "re", "im"].into_iter().chain(optional.iter().map(|(name, _)| *name)).collect();
+    let rows = measured.frequency_hz.iter().zip(&frf.response).enumerate().map(|(k, (&f, value))| {
+        let more = optional.iter().map(|(_, values)| values[k]);
+        [f, value.re, value.im].into_iter().chain(more).map(Cell::from).collect::<Vec<_>>()
+    });
+    write(&columns, rows).expect("every row has the columns")
+}
+
+/// √E|δH|²: √2 times the standard deviation of either part.
+fn std(frf: &Frf) -> Option<Vec<f64>> {
+    let std = |variance: &f64| (2.0 * variance).sqrt();
+    // A line without any coherence has no finite variance: as uncertain as a number can be.
+    frf.variance.as_ref().map(|values| values.iter().map(std).map(|std| std.min(f64::MAX.sqrt())).collect())
+}
+
+fn dof(name: Option<DofName>) -> Result<Dof, FormatError> {
+    let Some(name) = name else { return Ok(Dof::default()) };
+    let node = i64::try_from(name.node)
+        .map_err(|_| FormatError::whole("a node of at most ten digits", name.to_string()))?;
+    Ok(Dof { node, direction: name.uff_direction(), ..Dof::default() })
+}
+
+fn length_s(measured: &Measured) -> f64 {
+    measured.samples as f64 * measured.step_s
+}
+
+/// The name of a channel as its file has it.
+fn channel_name(records: &Records, channel: Channel) -> &str {
+    match channel {
+        Channel::Force => &records.force.name,
+        Channel::Response(k) => records.responses.get(k).map_or("", |sensor| &sensor.name),
+    }
+}
+
+/// A fault in words, with the name of its channel.
+fn reason(records: &Records, fault: &Fault) -> String {
+    fault.describe(fault.channel().map_or("", |channel| channel_name(records, channel)))
+}
+
+/// Every hit with what speaks against it, in one line.
+pub fn hit_reasons(records: &Records, hits: &[Hit]) -> String {
+    let of = |(k, hit): (usize, &Hit)| {
+        let reasons: Vec<String> = hit.faults.iter().map(|fault| reason(records, fault)).collect();
+        format!("hit {}: {}", k + 1, reasons.join(", "))
+    };
+    hits.iter().enumerate().map(of).collect::<Vec<_>>().join("; ")
+}
+
+/// What the user ought to know that is no fault of a single hit.
+fn warnings(records: &Records, measured: &Measured) -> Vec<String> {
+    let mut warnings = Vec::new();
+    for (k, sensor) in records.responses.iter().enumerate() {
+        let kept = measured.hits.iter().filter(|hit| hit.is_kept());
+        let rest = kept.filter_map(|hit| hit.undecayed(k)).reduce(f64::max);
+        if let Some(rest) = rest.filter(|_| measured.added_decay_per_s.is_none()) {
+            warnings.push(format!(
+                "{} has not decayed: {:.1} % of its largest value is left at the end of the record and wraps around \
+                 (record longer, or use an exponential window)",
+                sensor.name,
+                100.0 * rest
+            ));
+        }
+    }
+    if measured.averages() == 1 {
+        warnings.push("a single hit: no coherence, and no word about the noise".to_owned());
+    }
+    let excited = excited_to_hz(measured);
+    if let (Some(excited), Some(last)) = (excited, measured.frequency_hz.last())
+        && excited < *last
+    {
+        warnings.push(format!(
+            "the hammer excites up to {excited:.0} Hz (a tenth of its largest spectral value); beyond, noise counts more"
+        ));
+    }
+    if let (Some(decay), Some(first)) = (measured.added_decay_per_s, measured.frequency_hz.first()) {
+        warnings.push(format!(
+            "the exponential window adds the decay rate {decay:.4} 1/s to every mode: a loss factor of {:.4} at {first:.1} Hz, \
+             less in proportion above; it is not removed",
+            added_loss_factor(decay, *first)
+        ));
+    }
+    warnings
+}
+
+/// The first frequency from which on the force stays below a tenth of its largest spectral value, or else the last one.
+fn excited_to_hz(measured: &Measured) -> Option<f64> {
+    let most = measured.force.iter().copied().fold(0.0, f64::max);
+    let past = measured.force.iter().position(|&force| force < EXCITED * most);
+    past.map_or(measured.frequency_hz.last(), |k| measured.frequency_hz.get(k)).copied()
+}
+
+/// Everything about the hits and the FRF but its values.
+pub fn measured_summary(records: &Records, measured: &Measured, options: &Options) -> Value {
+    let inputs: Vec<Value> = records
+        .inputs
+        .iter()
+        .map(|input| json!({"file": input.path.display().to_string(), "bytes": input.bytes, "sha256": input.sha256}))
+        .collect();
+    let hit = |(k, hit): (usize, &Hit)| hit_json(k + 1, hit, records, measured);
+    let coherence = |frf: &Frf| {
+        let excited = excited_to_hz(measured).unwrap_or(0.0);
+        let mut values: Vec<f64> = (measured.frequency_hz.iter())
+            .zip(frf.coherence.iter().flatten())
+            .filter(|(f, _)| **f <= excited)
+            .map(|(_, coherence)| *coherence)
+            .collect();
+        values.sort_by(f64::total_cmp);
+        values.get(values.len() / 2).copied()
+    };
+    let responses = records.responses.iter().zip(&measured.frfs).map(|(sensor, frf)| {
+        let mut object = sensor_json(sensor);
+        object["quantity"] = json!(sensor.quantity().name());
+        object["coherence_median_excited"] = json!(coherence(frf));
+        object
+    });
+    json!({
+        "frfit": env!("CARGO_PKG_VERSION"),
+        "inputs": inputs,
+        "force": sensor_json(&records.force),
+        "responses": responses.collect::<Vec<_>>(),
+        "step_s": measured.step_s,
+        "samples": measured.samples,
+        "length_s": length_s(measured),
+        "estimator": options.estimator.name(),
+        "windows": {
+            "force_s": options.windows.force_s,
+            "exponential_s": options.windows.exponential_s,
+            "added_decay_per_s": measured.added_decay_per_s,
+        },
+        "hits": measured.hits.iter().enumerate().map(hit).collect::<Vec<_>>(),
+        "found": measured.hits.len(),
+        "averages": measured.averages(),
+        "frequencies": measured.frequency_hz.len(),
+        "range_hz": [measured.frequency_hz.first(), measured.frequency_hz.last()],
+        "excited_to_hz": excited_to_hz(measured),
+        "warnings": warnings(records, measured),
+    })
+}
+
+fn hit_json(number: usize, hit: &Hit, records: &Records, measured: &Measured) -> Value {
+    let fault = |fault: &Fault| {
+        json!({
+            "fault": fault.name(),
+            "channel": fault.channel().map(|channel| channel_name(records, channel)),
+            "reason": reason(records, fault),
+        })
+    };
+    json!({
+        "hit": number,
+        "file": records.origins.get(hit.recording).map(|path| path.display().to_string()),
+        "recording": hit.recording + 1,
+        "first_sample": hit.range.start,
+        "samples": hit.range.len(),
+        "time_s": hit.onset as f64 * measured.step_s,
+        "peak_n": hit.peak_n,
+        "contact_s": hit.contact_s(measured.step_s),
+        "kept": hit.is_kept(),
+        "faults": hit.faults.iter().map(fault).collect::<Vec<_>>(),
+        "residual": hit.residual,
+        "noise": hit.noise,
+    })
+}
+
+fn sensor_json(sensor: &Sensor) -> Value {
+    json!({
+        "channel": sensor.name,
+        "dof": sensor.dof.map(|dof| dof.to_string()),
+        "unit": sensor.kind.unit(),
+        "si_units_per_unit_of_file": sensor.scale,
+    })
+}
+
+/// The hits, the FRF and the warnings in a few lines.
+pub fn measured_text(records: &Records, measured: &Measured, options: &Options) -> String {
+    let mut text = format!(
+        "{} found, {} averaged, {} samples each ({} s at {} Hz)\n",
+        plural(measured.hits.len(), "hit"),
+        measured.averages(),
+        measured.samples,
+        short(length_s(measured)),
+        short(1.0 / measured.step_s),
+    );
+    for (number, hit) in (1..).zip(&measured.hits) {
+        let reasons: Vec<String> = hit.faults.iter().map(|fault| reason(records, fault)).collect();
+        let (verdict, reasons) = match (hit.is_kept(), reasons.is_empty()) {
+            (true, true) => ("averaged", String::new()),
+            (true, false) => ("averaged", format!("  as asked, although: {}", reasons.join("; "))),
+            (false, _) => ("left out", format!("  {}", reasons.join("; "))),
+        };
+        let contact_ms = 1e3 * hit.contact_s(measured.step_s);
+        // Writing to a string does not fail.
+        let _ = writeln!(
+            text,
+            "  hit {number:<3} {verdict}  {:>8.1} N  {contact_ms:>6.2} ms{reasons}",
+            hit.peak_n
+        );
+    }
+    let (first, last) = (measured.frequency_hz.first(), measured.frequency_hz.last());
+    for sensor in &records.responses {
+        let _ = writeln!(
+            text,
+            "  {:<8}{} of {} over {}, {} to {} Hz, {}",
+            "frf",
+            sensor.quantity(),
+            sensor.name,
+            records.force.name,
+            short(first.copied().unwrap_or(0.0)),
+            short(last.copied().unwrap_or(0.0)),
+            options.estimator,
+        );
+    }
+    for warning in warnings(records, measured) {
+        let _ = writeln!(text, "  {:<8}{warning}", "note");
+    }
+    text
+}
+
+fn plural(count: usize, noun: &str) -> String {
+    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
+}
+
+/// Six significant digits.
+fn short(value: f64) -> String {
+    format!("{value:.5e}").parse::<f64>().unwrap_or(value).to_string()
+}
