@@ -14,7 +14,7 @@ const LOSS_FACTOR: f64 = 0.05;
 pub const RIGHT_HAND_SIDES: usize = 8;
 
 /// A real or complex number as a solver needs to know it.
-pub trait Number: Scalar {
+pub trait Number: Scalar + sparse_ldlt::Scalar {
     /// Its name on the command line and in tables.
     const NAME: &'static str;
     /// Operations of one complex one count as four real ones.
@@ -22,7 +22,7 @@ pub trait Number: Scalar {
     /// The entries of K(1 + iη) − ω²M, or without η.
     fn entry(stiffness: f64, mass_term: f64) -> Self;
     /// From two numbers, or the first of them.
-    fn from_parts(re: f64, im: f64) -> Self;
+    fn of_parts(re: f64, im: f64) -> Self;
     /// As a complex number.
     fn complex(self) -> c64;
     /// The values, if they are real.
@@ -38,7 +38,7 @@ impl Number for f64 {
     fn entry(stiffness: f64, mass_term: f64) -> Self {
         stiffness - mass_term
     }
-    fn from_parts(re: f64, _: f64) -> Self {
+    fn of_parts(re: f64, _: f64) -> Self {
         re
     }
     fn complex(self) -> c64 {
@@ -59,7 +59,7 @@ impl Number for c64 {
     fn entry(stiffness: f64, mass_term: f64) -> Self {
         c64::new(stiffness - mass_term, LOSS_FACTOR * stiffness)
     }
-    fn from_parts(re: f64, im: f64) -> Self {
+    fn of_parts(re: f64, im: f64) -> Self {
         c64::new(re, im)
     }
     fn complex(self) -> c64 {
@@ -137,7 +137,7 @@ impl Structure {
             stiffness.iter().zip(&mass).map(|(&k, &m)| T::entry(k, self.omega_squared * m)).collect();
         let mut state = 1;
         let rhs = (0..RIGHT_HAND_SIDES * pattern.dim())
-            .map(|_| T::from_parts(uniform(&mut state), uniform(&mut state)))
+            .map(|_| T::of_parts(uniform(&mut state), uniform(&mut state)))
             .collect();
         Case { pattern, values, rhs }
     }

@@ -15,7 +15,7 @@ const PRODUCTS: usize = 5;
 
 /// 10⁹ operations a second of a product of large matrices, by MKL (`None` without it) and by faer, all threads together.
 pub fn gflops<T: Number>(mkl: Option<&Mkl>, threads: usize) -> [Option<f64>; 2] {
-    let a: Vec<T> = (0..ROWS * ROWS).map(|k| T::from_parts((k % 7) as f64, (k % 5) as f64)).collect();
+    let a: Vec<T> = (0..ROWS * ROWS).map(|k| T::of_parts((k % 7) as f64, (k % 5) as f64)).collect();
     let b: Vec<T> = a.iter().rev().copied().collect();
     let mut c = vec![T::default(); ROWS * ROWS];
     let flops = 2.0 * T::FLOPS * (ROWS as f64).powi(3);
@@ -33,7 +33,7 @@ pub fn gflops<T: Number>(mkl: Option<&Mkl>, threads: usize) -> [Option<f64>; 2] 
         let a = MatRef::from_column_major_slice(&a, ROWS, ROWS);
         let b = MatRef::from_column_major_slice(&b, ROWS, ROWS);
         let c = MatMut::from_column_major_slice_mut(&mut c, ROWS, ROWS);
-        matmul(c, Accum::Replace, a, b, T::from_parts(1.0, 0.0), parallelism(threads));
+        matmul(c, Accum::Replace, a, b, T::of_parts(1.0, 0.0), parallelism(threads));
     };
     by_faer();
     let by_faer = speed((0..PRODUCTS).map(|_| timed(&mut by_faer).1).collect());

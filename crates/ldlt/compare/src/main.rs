@@ -1,10 +1,15 @@
 //! Sparse direct solvers beside each other on dynamic stiffness matrices: time, memory, backward error, in one run.
 //!
 //! Solvers run in turn on each matrix, so that what disturbs one disturbs all; figures are medians over the rounds.
+//!
+//! PARDISO is that of Intel's MKL, loaded from the folder that FRFIT_MKL names (`python3 -m venv V && V/bin/pip install mkl`,
+//! then FRFIT_MKL=V/lib). MUMPS is compiled with `cc` against Debian's libmumps-seq-dev, and takes MKL's BLAS where there
+//! is one. What is missing is left out and said. All solvers but MUMPS run in this process.
 
 mod case;
 mod ceiling;
 mod faer_solvers;
+mod ldlt;
 mod mkl;
 mod mumps;
 mod options;
@@ -70,11 +75,12 @@ fn compare(options: &Options) -> Result<(), Box<dyn Error>> {
         Err(why) => println!("without MUMPS: {why}"),
     }
     println!(
-        "\nSeconds of one thread are CPU seconds, of several those on the clock; medians over the rounds (where a round takes \
-         more than {PATIENCE} s: {FEW} rounds).\nGF/s: operations of L D Lᵀ under nested dissection, Σ c² (complex: four times), \
-         over the factor's seconds; of dense: over the speed of a large product.\nsolve 8: eight right-hand sides at once. L: \
-         entries; GF own: operations; memory: of the factor; all three by its own report. peak: growth of resident memory.\n\
-         error: ‖b − Ax‖∞ / (‖A‖∞ ‖x‖∞ + ‖b‖∞), unrefined unless remarked. negative: pivots, that is modes below ω.\n"
+        "\nSeconds of one thread are CPU seconds, of several those on the clock; medians over the rounds (where a factor takes \
+         more than\n{PATIENCE} s: {FEW} rounds); least: of all rounds, on the clock. GF/s: operations of L D Lᵀ under nested \
+         dissection, Σ c² (complex: four\ntimes), over the factor's seconds; of dense: over the speed of a large product. \
+         solve 8: eight right-hand sides at once. L: entries;\nGF own: operations; memory: of the factor; all three by its own \
+         report. peak: growth of resident memory. error: ‖b − Ax‖∞ / (‖A‖∞ ‖x‖∞ + ‖b‖∞),\nunrefined unless remarked. \
+         negative: pivots, that is modes below ω.\n"
     );
     let mut csv = options.csv.as_ref().map(std::fs::File::create).transpose()?;
     if let Some(csv) = &mut csv {
@@ -127,7 +133,9 @@ fn contest<T: Number>(
     drop(full);
     let rating = Rating { gflop: T::FLOPS * flops / 1e9, ceilings: ceilings.to_vec() };
     let mut contenders: Vec<Contender<T>> = Vec::new();
-    for &(name, solver) in options.solvers.iter().filter(|(_, solver)| solver.takes(&case)) {
+    for &(name, solver) in
+        options.solvers.iter().filter(|(_, solver)| solver.takes(&case) && solver.installed(installed))
+    {
         for &threads in &options.threads {
             contenders.push(Contender { name, solver, threads, rounds: Vec::new(), failure: None });
         }

@@ -9,11 +9,20 @@ use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::{SparseColMat, SymbolicSparseColMat};
 use rivrs_sparse::symmetric::{AnalyzeOptions, FactorOptions, OrderingStrategy, SparseLDLT};
 
-/// One round with METIS, which it recommends for structures; its solves take one right-hand side at a time.
+/// How it orders and scales.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Order {
+    /// Its default: METIS after a matching, whose scaling it takes too.
+    MatchMetis,
+    /// METIS without scaling, which its manual recommends for structures.
+    Metis,
+}
+
+/// One round; its solves take one right-hand side at a time.
 ///
 /// # Errors
 /// What it says; complex numbers.
-pub fn round<T: Number>(case: &Case<T>, threads: usize) -> Result<Round<T>, String> {
+pub fn round<T: Number>(order: Order, case: &Case<T>, threads: usize) -> Result<Round<T>, String> {
     let Some(values) = T::real(&case.values) else { return Err("real only".to_owned()) };
     let Some(rhs) = T::real(&case.rhs) else { return Err("real only".to_owned()) };
     let (par, n) = (parallelism(threads), case.dim());
@@ -21,7 +30,11 @@ pub fn round<T: Number>(case: &Case<T>, threads: usize) -> Result<Round<T>, Stri
     let values = full.source.iter().map(|&k| values[k]).collect();
     let pattern = SymbolicSparseColMat::new_checked(n, n, full.col_ptr, None, full.row_idx);
     let matrix = SparseColMat::new(pattern, values);
-    let options = AnalyzeOptions { ordering: OrderingStrategy::Metis };
+    let ordering = match order {
+        Order::MatchMetis => OrderingStrategy::MatchOrderMetis,
+        Order::Metis => OrderingStrategy::Metis,
+    };
+    let options = AnalyzeOptions { ordering };
     let (solver, analysis) = timed(|| SparseLDLT::analyze_with_matrix(&matrix, &options));
     let mut solver = solver.map_err(|error| error.to_string())?;
     let options = FactorOptions { par, ..FactorOptions::default() };

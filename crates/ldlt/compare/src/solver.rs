@@ -2,9 +2,10 @@
 
 use crate::case::{Case, Number};
 use crate::faer_solvers::{self, Symmetric};
+use crate::ldlt;
 use crate::mkl::{self, Mkl, trim_memory};
 use crate::mumps::Mumps;
-use crate::rivrs;
+use crate::rivrs::{self, Order};
 use crate::round::Round;
 use frfit_bench::memory;
 use std::path::{Path, PathBuf};
@@ -18,8 +19,10 @@ pub enum Solver {
     Pardiso,
     /// MUMPS.
     Mumps,
+    /// sparse-ldlt.
+    Ldlt,
     /// rivrs-sparse.
-    Rivrs,
+    Rivrs(Order),
     /// One of faer's symmetric ones.
     Faer(Symmetric),
     /// faer's LU.
@@ -27,10 +30,12 @@ pub enum Solver {
 }
 
 /// In the order in which they run.
-pub const SOLVERS: [(&str, Solver); 7] = [
+pub const SOLVERS: [(&str, Solver); 9] = [
+    ("sparse-ldlt", Solver::Ldlt),
     ("pardiso", Solver::Pardiso),
     ("mumps", Solver::Mumps),
-    ("rivrs", Solver::Rivrs),
+    ("rivrs", Solver::Rivrs(Order::MatchMetis)),
+    ("rivrs-metis", Solver::Rivrs(Order::Metis)),
     ("faer-ldlt", Solver::Faer(Symmetric::Ldlt)),
     ("faer-lblt", Solver::Faer(Symmetric::Lblt)),
     ("faer-ldlt-amd", Solver::Faer(Symmetric::LdltMinimumDegree)),
@@ -68,10 +73,19 @@ impl Solver {
     pub fn takes<T: Number>(self, case: &Case<T>) -> bool {
         let real = T::real(&case.values).is_some();
         match self {
-            Self::Pardiso | Self::Mumps => true,
+            Self::Ldlt | Self::Pardiso | Self::Mumps => true,
             Self::Faer(Symmetric::LdltMinimumDegree) => real && case.dim() < MINIMUM_DEGREE_LIMIT,
-            Self::Rivrs | Self::Faer(_) => real,
+            Self::Rivrs(_) | Self::Faer(_) => real,
             Self::FaerLu => !real && case.dim() < LU_LIMIT,
+        }
+    }
+
+    /// Whether what it needs is there.
+    pub fn installed(self, installed: &Installed) -> bool {
+        match self {
+            Self::Pardiso => installed.mkl.is_ok(),
+            Self::Mumps => installed.mumps.is_ok(),
+            _ => true,
         }
     }
 
@@ -91,7 +105,8 @@ impl Solver {
         let mut round = match self {
             Self::Pardiso => mkl::pardiso(installed.mkl.as_ref().map_err(String::clone)?, case, threads),
             Self::Mumps => installed.mumps.as_ref().map_err(String::clone)?.round(case, threads),
-            Self::Rivrs => rivrs::round(case, threads),
+            Self::Ldlt => ldlt::round(case, threads),
+            Self::Rivrs(order) => rivrs::round(order, case, threads),
             Self::Faer(kind) => faer_solvers::symmetric(kind, case, threads),
             Self::FaerLu => faer_solvers::lu(case, threads),
         }?;

@@ -65,11 +65,9 @@ impl Mumps {
             program.env(name, threads.to_string());
         }
         if let Some(blas) = &self.blas {
-            // GNU: complex functions return as gfortran, which compiled MUMPS, expects it.
-            program
-                .env("LD_PRELOAD", blas)
-                .env("MKL_INTERFACE_LAYER", "GNU,LP64")
-                .env("MKL_DYNAMIC", "FALSE");
+            // PyPI's MKL has Intel's convention only, which differs from gfortran's where a complex number is returned: MUMPS
+            // calls no such function.
+            program.env("LD_PRELOAD", blas).env("MKL_INTERFACE_LAYER", "LP64").env("MKL_DYNAMIC", "FALSE");
             if threads == 1 {
                 program.env("MKL_THREADING_LAYER", "SEQUENTIAL");
             } else {
@@ -80,7 +78,7 @@ impl Mumps {
         let outcome = program.output().map_err(|error| error.to_string())?;
         let _ = std::fs::remove_file(&matrix);
         if !outcome.status.success() {
-            return Err(String::from_utf8_lossy(&outcome.stderr).trim().to_owned());
+            return Err(format!("{}: {}", outcome.status, String::from_utf8_lossy(&outcome.stderr).trim()));
         }
         let figures = Figures(String::from_utf8_lossy(&outcome.stdout).into_owned());
         let mut bytes = Vec::new();
@@ -91,7 +89,7 @@ impl Mumps {
             .map(|eight| f64::from_ne_bytes(std::array::from_fn(|i| eight[i])))
             .collect();
         let parts = size_of::<T>() / size_of::<f64>();
-        Ok(figures.round(numbers.chunks_exact(parts).map(|z| T::from_parts(z[0], z[parts - 1])).collect()))
+        Ok(figures.round(numbers.chunks_exact(parts).map(|z| T::of_parts(z[0], z[parts - 1])).collect()))
     }
 }
 
@@ -136,7 +134,7 @@ impl Figures {
         let report = Report {
             memory: self.number("memory"),
             entries: self.number("entries").map(|entries| entries / 1e6),
-            gflop: self.number("flops").map(|flops| flops / 1e9),
+            gflop: self.number("flops").map(|flops| T::FLOPS * flops / 1e9),
             negative: (T::NAME == "real").then(|| count("negative") as usize),
             remark,
         };
