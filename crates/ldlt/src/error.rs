@@ -1,0 +1,46 @@
+//! Why a matrix could not be factorised.
+
+use std::fmt;
+
+/// Why a matrix could not be factorised; rows are those of the matrix as given.
+#[derive(Debug, Clone, PartialEq)]
+pub enum FactorError {
+    /// Not one value for each entry of the pattern.
+    Values {
+        /// Entries of the pattern.
+        expected: usize,
+        /// Values given.
+        found: usize,
+    },
+    /// An entry is infinite or not a number.
+    NotFinite {
+        /// Its row.
+        row: usize,
+        /// Its column.
+        col: usize,
+    },
+    /// Nothing was left of some rows when everything else had been eliminated.
+    Singular {
+        /// One of them.
+        row: usize,
+        /// How many there are.
+        deficiency: usize,
+    },
+    /// The factor does not fit into memory.
+    OutOfMemory,
+}
+
+impl fmt::Display for FactorError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Values { expected, found } => write!(f, "expected {expected} values, found {found}"),
+            Self::NotFinite { row, col } => write!(f, "entry ({row}, {col}) is infinite or not a number"),
+            Self::Singular { row, deficiency } => {
+                write!(f, "the matrix is singular: {deficiency} of its rows vanish, row {row} among them")
+            }
+            Self::OutOfMemory => write!(f, "the factor does not fit into memory"),
+        }
+    }
+}
+
+impl std::error::Error for FactorError {}

@@ -1,0 +1,62 @@
+//! Where Schur complements live between a front and its parent.
+//!
+//! In the order of the fronts the children of a front are the last that were kept of their depth, so two stacks
+//! are enough: one for even depths and one for odd, and a front's complement never overlaps its children's.
+
+/// A stack of numbers; what it hands out is overwritten before it is read.
+#[derive(Debug, Default)]
+pub(crate) struct Stack<R> {
+    values: Vec<R>,
+    top: usize,
+}
+
+/// Where a Schur complement is.
+#[derive(Debug)]
+pub(crate) enum Kept<R> {
+    /// So many numbers of the stack from a place on.
+    Stacked(usize, usize),
+    /// Taken out of it, to be handed to another thread.
+    Taken(Vec<R>),
+}
+
+impl<R: Copy + Default> Stack<R> {
+    /// Room for so many numbers; more is found when it is needed.
+    pub(crate) fn new(len: usize) -> Self {
+        Self { values: vec![R::default(); len], top: 0 }
+    }
+
+    pub(crate) fn push(&mut self, len: usize) -> Kept<R> {
+        let from = self.top;
+        self.top += len;
+        if self.top > self.values.len() {
+            self.values.resize(self.top, R::default());
+        }
+        Kept::Stacked(from, len)
+    }
+
+    /// Forgets this and all that was pushed after it.
+    pub(crate) fn pop(&mut self, kept: &Kept<R>) {
+        if let &Kept::Stacked(from, _) = kept {
+            self.top = self.top.min(from);
+        }
+    }
+
+    pub(crate) fn take(&mut self, kept: Kept<R>) -> Kept<R> {
+        self.pop(&kept);
+        Kept::Taken(self.values_of(&kept).to_vec())
+    }
+
+    pub(crate) fn values_of<'a>(&'a self, kept: &'a Kept<R>) -> &'a [R] {
+        match kept {
+            &Kept::Stacked(from, len) => &self.values[from..from + len],
+            Kept::Taken(values) => values,
+        }
+    }
+
+    pub(crate) fn values_of_mut<'a>(&'a mut self, kept: &'a mut Kept<R>) -> &'a mut [R] {
+        match kept {
+            &mut Kept::Stacked(from, len) => &mut self.values[from..from + len],
+            Kept::Taken(values) => values,
+        }
+    }
+}

@@ -1,0 +1,45 @@
+//! The innermost product: a few registers of rows times a few columns.
+
+use crate::scalar::Real;
+use pulp::Simd;
+
+/// Registers of rows in a tile.
+const REGISTERS: usize = 2;
+/// Columns of a tile: with [`REGISTERS`] of rows its sums fit the sixteen registers of AVX2.
+pub(crate) const COLS: usize = 6;
+/// The most rows of a tile: two registers of sixteen single-precision numbers.
+pub(crate) const WIDE: usize = 32;
+
+/// Rows of a tile.
+#[inline(always)]
+pub(crate) fn tile_rows<R: Real, S: Simd>() -> usize {
+    REGISTERS * R::lanes::<S>()
+}
+
+/// Σₖ aₖ bₖᵀ with the rows a packed register after register and the columns b number after number.
+#[inline(always)]
+pub(crate) fn tile<R: Real, S: Simd, const N: usize>(
+    simd: S,
+    a: &[R::Vector<S>],
+    b: &[R],
+) -> [[R::Vector<S>; REGISTERS]; N] {
+    let mut sums = [[R::splat(simd, R::default()); REGISTERS]; N];
+    for (a, b) in a.as_chunks::<REGISTERS>().0.iter().zip(b.as_chunks::<N>().0) {
+        for (sums, &b) in sums.iter_mut().zip(b) {
+            let b = R::splat(simd, b);
+            for (sum, &a) in sums.iter_mut().zip(a) {
+                *sum = R::mul_add(simd, a, b, *sum);
+            }
+        }
+    }
+    sums
+}
+
+/// The sums of a tile as numbers, column after column.
+#[inline(always)]
+pub(super) fn store<R: Real, S: Simd, const N: usize>(sums: [[R::Vector<S>; REGISTERS]; N], into: &mut [R]) {
+    let into = R::vectors_mut::<S>(into).0;
+    for (into, sums) in into.as_chunks_mut::<REGISTERS>().0.iter_mut().zip(sums) {
+        *into = sums;
+    }
+}

@@ -1,0 +1,45 @@
+//! Sparse L D Lᵀ of symmetric matrices: real indefinite, and complex symmetric (A = Aᵀ, not Hermitian).
+//!
+//! ```
+//! use sparse_ldlt::{Options, Ordering, Symbolic};
+//!
+//! // [4 1 0; 1 0 2; 0 2 5], the lower triangle by columns.
+//! let symbolic = Symbolic::new(3, &[0, 2, 4, 5], &[0, 1, 1, 2, 2], &Ordering::default())?;
+//! let values = [4.0, 1.0, 0.0, 2.0, 5.0];
+//! let factor = symbolic.factor(&values, &Options::default())?;
+//! let mut x = [6.0, 7.0, 19.0];
+//! factor.solve_in_place(&mut x, 1);
+//! assert!(x.iter().zip([1.25, 1.0, 3.4]).all(|(x, exact)| (x - exact).abs() < 1e-14));
+//! assert_eq!(factor.inertia().negative, 1);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! Everything that no number changes is done once ([`Symbolic`]); then each matrix of that pattern is
+//! factorised ([`Symbolic::factor`]) and solved with ([`Factor::solve_in_place`]). The factorisation is multifrontal:
+//! dense fronts along the elimination tree, each with pivots of one and two under a threshold, and what cannot be
+//! eliminated safely is left to the parent front.
+//!
+//! # Source
+//! I. S. Duff, J. K. Reid, ACM Trans. Math. Softw. 9 (1983) 302–325; J. W. H. Liu, SIAM Rev. 34 (1992) 82–109.
+
+mod error;
+mod factor;
+mod front;
+mod kernel;
+mod ordering;
+mod part;
+mod scalar;
+mod scaling;
+mod solve;
+mod symbolic;
+
+pub use error::FactorError;
+pub use factor::{Factor, Inertia, Options};
+pub use scalar::{Real, Scalar, c32, c64};
+pub use symbolic::{Ordering, PatternError, Symbolic};
+
+/// The instruction set of this machine, found out once.
+fn arch() -> pulp::Arch {
+    static ARCH: std::sync::OnceLock<pulp::Arch> = std::sync::OnceLock::new();
+    *ARCH.get_or_init(pulp::Arch::new)
+}

@@ -1,0 +1,42 @@
+//! Symmetric scaling S A S that brings the largest entry of every row near 1.
+
+use crate::FactorError;
+use crate::scalar::{Real, Scalar};
+use crate::symbolic::Lower;
+
+/// Passes: each halves the logarithm of what is left; three leave an eighth.
+const PASSES: usize = 3;
+
+/// The diagonal of S, in powers of two so that no digit is lost.
+///
+/// # Source
+/// D. Ruiz, RAL-TR-2001-034.
+pub(crate) fn scaling<T: Scalar>(pattern: &Lower, values: &[T]) -> Result<Vec<T::Real>, FactorError> {
+    let mut scale = vec![1.0f64; pattern.dim];
+    let mut largest = vec![0.0f64; pattern.dim];
+    for pass in 0..PASSES {
+        largest.fill(0.0);
+        for col in 0..pattern.dim {
+            let range = pattern.col_ptr[col]..pattern.col_ptr[col + 1];
+            let mut own = largest[col];
+            for (&row, value) in pattern.column(col).iter().zip(&values[range]) {
+                let row = row as usize;
+                let size = value.size() * scale[row] * scale[col];
+                if pass == 0 && !value.is_finite() {
+                    return Err(FactorError::NotFinite { row, col });
+                }
+                largest[row] = largest[row].max(size);
+                own = own.max(size);
+            }
+            largest[col] = own.max(largest[col]);
+        }
+        for (scale, &largest) in scale.iter_mut().zip(&largest) {
+            // A row of zeros stays one; a size that overflows or underflows has no root to divide by.
+            if largest > 0.0 && largest.is_finite() {
+                *scale /= largest.sqrt();
+            }
+        }
+    }
+    let power = |scale: f64| T::Real::from_f64(scale.log2().round().clamp(-500.0, 500.0).exp2());
+    Ok(scale.into_iter().map(power).collect())
+}

@@ -1,0 +1,134 @@
+//! Solutions: forward through the subtrees, through what is above them and back, and back through the subtrees.
+//!
+//! Every part works on numbers of its own, so that parts can be shared out to threads; the sums are the same
+//! whoever makes them.
+
+mod kernel;
+
+use crate::factor::{Factor, Node};
+use crate::part::Part;
+use crate::scalar::Scalar;
+use kernel::{Backward, Forward, Buffers};
+use std::sync::Mutex;
+
+/// Numbers of a factor below which another thread costs more than it brings.
+const SHARE_FROM: usize = 200_000;
+
+impl<T: Scalar> Factor<T> {
+    /// Overwrites k right-hand sides (n × k, column after column) with the solutions of A X = B.
+    ///
+    /// Parts of the factor that a right-hand side does not touch are skipped on the way forward.
+    ///
+    /// # Panics
+    /// Where there are not whole right-hand sides.
+    ///
+    /// # Limits
+    /// Nothing is checked or refined here.
+    pub fn solve_in_place(&self, rhs: &mut [T], threads: usize) {
+        let dim = self.dim();
+        if dim == 0 || rhs.is_empty() {
+            return;
+        }
+        assert_eq!(rhs.len() % dim, 0, "whole right-hand sides");
+        let columns = rhs.len() / dim;
+        let numbers: usize = self.nodes.iter().map(|node| node.values.len()).sum();
+        let threads = if numbers * columns < SHARE_FROM { 1 } else { threads.max(1) };
+        let Some((top, subtrees)) = self.parts.split_last() else { return };
+        let given: &[T] = rhs;
+        let below = share(threads, subtrees, |part| {
+            let mut local = self.gather(part, given, columns);
+            self.forward(part, &mut local, columns);
+            local
+        });
+        let mut above = self.gather(top, given, columns);
+        for (part, local) in subtrees.iter().zip(&below) {
+            let (own, size, top_size) = (part.len(), part.len() + part.outside.len(), top.len());
+            for column in 0..columns {
+                let changes = &local[column * size + own..][..part.outside.len()];
+                for (&place, &change) in part.outside.iter().zip(changes) {
+                    above[column * top_size + place as usize] += change;
+                }
+            }
+        }
+        self.forward(top, &mut above, columns);
+        self.backward(top, &mut above, columns);
+        let all: Vec<_> = subtrees.iter().zip(below).map(|(part, local)| (part, Mutex::new(local))).collect();
+        let below = share(threads, &all, |(part, local)| {
+            let mut local = std::mem::take(&mut *local.lock().unwrap_or_else(std::sync::PoisonError::into_inner));
+            let (own, size, top_size) = (part.len(), part.len() + part.outside.len(), top.len());
+            for column in 0..columns {
+                for (k, &place) in part.outside.iter().enumerate() {
+                    local[column * size + own + k] = above[column * top_size + place as usize];
+                }
+            }
+            self.backward(part, &mut local, columns);
+            local
+        });
+        self.scatter(top, &above, rhs);
+        subtrees.iter().zip(&below).for_each(|(part, local)| self.scatter(part, local, rhs));
+    }
+
+    /// S b in the order of a part's positions, zeros for those outside of it.
+    fn gather(&self, part: &Part, rhs: &[T], columns: usize) -> Vec<T> {
+        let size = part.len() + part.outside.len();
+        let mut local = Vec::with_capacity(size * columns);
+        for b in rhs.chunks_exact(self.dim()) {
+            for run in &part.own {
+                let rows = self.order[run.clone()].iter().zip(&self.scale[run.clone()]);
+                local.extend(rows.map(|(&row, &scale)| b[row as usize].scale(scale)));
+            }
+            local.resize(local.len() + part.outside.len(), T::default());
+        }
+        local
+    }
+
+    /// x = S y.
+    fn scatter(&self, part: &Part, local: &[T], rhs: &mut [T]) {
+        let size = part.len() + part.outside.len();
+        for (x, local) in rhs.chunks_exact_mut(self.dim()).zip(local.chunks_exact(size)) {
+            let rows = part.own.iter().flat_map(|run| self.order[run.clone()].iter().zip(&self.scale[run.clone()]));
+            rows.zip(local).for_each(|((&row, &scale), y)| x[row as usize] = y.scale(scale));
+        }
+    }
+
+    fn nodes_of<'a>(&'a self, part: &'a Part) -> impl DoubleEndedIterator<Item = &'a Node<T>> {
+        part.nodes.iter().flat_map(|run| &self.nodes[run.clone()])
+    }
+
+    /// y = L⁻¹ b over the nodes of a part; places outside receive what they have to add.
+    fn forward(&self, part: &Part, local: &mut [T], columns: usize) {
+        let mut buffers = Buffers::default();
+        for node in self.nodes_of(part) {
+            crate::arch().dispatch(Forward { node, local, columns, buffers: &mut buffers });
+        }
+    }
+
+    /// x = L⁻ᵀ D⁻¹ y over the nodes of a part.
+    fn backward(&self, part: &Part, local: &mut [T], columns: usize) {
+        let mut buffers = Buffers::default();
+        for node in self.nodes_of(part).rev() {
+            crate::arch().dispatch(Backward { node, local, columns, buffers: &mut buffers });
+        }
+    }
+}
+
+/// Applies a function to all items, each by whichever thread is free; results in the order of the items.
+fn share<I: Sync, O: Send>(threads: usize, items: &[I], work: impl Fn(&I) -> O + Sync) -> Vec<O> {
+    if threads < 2 || items.len() < 2 {
+        return items.iter().map(work).collect();
+    }
+    let queue = Mutex::new(items.iter().enumerate());
+    let take = || queue.lock().unwrap_or_else(std::sync::PoisonError::into_inner).next();
+    let run = || std::iter::from_fn(take).map(|(k, item)| (k, work(item))).collect::<Vec<_>>();
+    let mut all = std::thread::scope(|scope| {
+        let others: Vec<_> = (1..threads).map(|_| scope.spawn(run)).collect();
+        let mut all = run();
+        for other in others {
+            // A panic of a thread is a panic of the caller.
+            all.extend(other.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
+        }
+        all
+    });
+    all.sort_by_key(|&(k, _)| k);
+    all.into_iter().map(|(_, output)| output).collect()
+}

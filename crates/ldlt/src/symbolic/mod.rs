@@ -1,0 +1,148 @@
+//! Everything about a pattern that no number changes: ordering, fronts, and what a factorisation will cost.
+
+mod fronts;
+mod pattern;
+mod share;
+
+pub use pattern::PatternError;
+pub(crate) use pattern::Lower;
+
+use crate::ordering;
+use crate::scalar::Scalar;
+use std::ops::Range;
+
+/// Marks a front without parent.
+pub(crate) const ROOT: usize = usize::MAX;
+
+/// How rows are ordered for elimination.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub enum Ordering {
+    /// Minimum degree or nested dissection of the compressed graph, whichever costs fewer operations.
+    #[default]
+    Automatic,
+    /// Approximate minimum degree.
+    MinimumDegree,
+    /// Nested dissection.
+    NestedDissection,
+    /// The rows in the order in which they shall be eliminated (subtrees are still put in one piece).
+    Given(Vec<usize>),
+}
+
+/// One front: columns that are eliminated together, and the rows that this changes.
+#[derive(Debug, Clone)]
+pub(crate) struct Shape {
+    /// Position of its first own column.
+    pub(crate) first: usize,
+    /// How many columns of its own.
+    pub(crate) pivots: usize,
+    /// Its other rows, in [`Symbolic::rows`].
+    pub(crate) rows: Range<usize>,
+    pub(crate) parent: usize,
+}
+
+impl Shape {
+    pub(crate) fn own(&self) -> Range<usize> {
+        self.first..self.first + self.pivots
+    }
+
+    pub(crate) fn order(&self) -> usize {
+        self.pivots + self.rows.len()
+    }
+}
+
+/// An entry of the matrix: where its value is, and its row in the front.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Entry {
+    pub(crate) value: u32,
+    pub(crate) row: u32,
+}
+
+/// Symbolic factorisation of a symmetric pattern.
+#[derive(Debug, Clone)]
+pub struct Symbolic {
+    pub(crate) pattern: Lower,
+    /// Row of the matrix at each position of the elimination.
+    pub(crate) order: Vec<u32>,
+    /// Children before parents, subtrees in one piece.
+    pub(crate) fronts: Vec<Shape>,
+    /// Positions of the rows of all fronts, ascending in each.
+    pub(crate) rows: Vec<u32>,
+    /// Where these rows are in the parent's front.
+    pub(crate) relative: Vec<u32>,
+    /// Entries of each position's column.
+    pub(crate) entry_start: Vec<usize>,
+    pub(crate) entries: Vec<Entry>,
+    /// Children of each front, ascending: those of the k-th from `child_start[k]` on.
+    child_start: Vec<usize>,
+    children: Vec<u32>,
+    /// Number of ancestors of each front.
+    depth: Vec<u32>,
+    /// Subtrees that can be worked on at the same time; fronts in none of them come after all of them.
+    pub(crate) subtrees: Vec<Range<usize>>,
+}
+
+impl Symbolic {
+    /// Analyses the lower triangle of a symmetric n × n matrix, stored by columns.
+    ///
+    /// # Errors
+    /// [`PatternError`] where the columns do not make a lower triangle, or are too many.
+    pub fn new(dim: usize, col_ptr: &[usize], row_idx: &[usize], ordering: &Ordering) -> Result<Self, PatternError> {
+        let pattern = Lower::new(dim, col_ptr, row_idx)?;
+        if let Ordering::Given(order) = ordering {
+            pattern::check_permutation(dim, order)?;
+        }
+        let (graph, elimination) = ordering::order(&pattern, ordering);
+        Ok(fronts::build(&pattern, &graph, &elimination).unwrap_or_else(|| {
+            // Two rows were taken for alike that are not: every row for itself then.
+            let order = graph.rows_in(elimination.steps());
+            let (graph, elimination) = ordering::order(&pattern, &Ordering::Given(order));
+            fronts::build(&pattern, &graph, &elimination).expect("a graph of all entries has them all")
+        }))
+    }
+
+    /// Number of rows n.
+    pub fn dim(&self) -> usize {
+        self.pattern.dim
+    }
+
+    /// Entries of L on and below its diagonal, zeros that fronts add included.
+    pub fn factor_entries(&self) -> usize {
+        self.fronts.iter().map(|front| front.pivots * (2 * front.order() - front.pivots + 1) / 2).sum()
+    }
+
+    /// Multiplications and additions of the factorisation, complex or real ones as the matrix is: Σ over columns
+    /// of (entries below)².
+    pub fn flops(&self) -> f64 {
+        self.fronts.iter().map(share::flops).sum()
+    }
+
+    /// Bytes that the factor keeps, if no pivot is delayed.
+    pub fn factor_bytes<T: Scalar>(&self) -> usize {
+        let scalars: usize = self.fronts.iter().map(|front| crate::factor::packed_len(front.pivots, front.order())).sum();
+        scalars * size_of::<T>() + self.rows.len() * size_of::<u32>() + self.dim() * (2 * size_of::<T>() + 3 * size_of::<u32>())
+    }
+
+    /// Bytes that a factorisation by one worker needs beyond the factor, at most, if no pivot is delayed.
+    pub fn working_bytes<T: Scalar>(&self) -> usize {
+        share::working_scalars(self) * size_of::<T>()
+    }
+
+    pub(crate) fn children_of(&self, front: usize) -> &[u32] {
+        &self.children[self.child_start[front]..self.child_start[front + 1]]
+    }
+
+    /// Whether a front is at an even or an odd depth.
+    pub(crate) fn parity(&self, front: usize) -> usize {
+        self.depth[front] as usize % 2
+    }
+
+    /// The most numbers of Schur complements that are kept at even and at odd depths while one worker goes
+    /// through these fronts.
+    pub(crate) fn stacks(&self, fronts: Range<usize>) -> [usize; 2] {
+        share::stacks(self, fronts)
+    }
+
+    pub(crate) fn rows_of(&self, front: usize) -> &[u32] {
+        &self.rows[self.fronts[front].rows.clone()]
+    }
+}

@@ -1,0 +1,77 @@
+//! Costs of fronts, and which subtrees are worth a thread.
+
+use super::{ROOT, Shape, Symbolic};
+use crate::front::schur_len;
+use std::ops::Range;
+
+/// Subtrees that are looked for: enough to keep some threads busy, few enough to leave work to each.
+const SUBTREES: usize = 32;
+
+/// Multiplications below which nothing is shared: a factorisation of less takes a millisecond.
+const SHARE_FROM: f64 = 1e7;
+
+/// Σ over the pivots of (entries of their columns)².
+pub(super) fn multiplications(pivots: usize, below: usize) -> f64 {
+    // Σ_{j = below+1}^{below+pivots} j²
+    let squares = |k: f64| k * (k + 1.0) * (2.0 * k + 1.0) / 6.0;
+    squares((pivots + below) as f64) - squares(below as f64)
+}
+
+pub(super) fn flops(front: &Shape) -> f64 {
+    multiplications(front.pivots, front.rows.len())
+}
+
+/// Disjoint subtrees, each a run of fronts, ascending; the same whatever the number of threads.
+pub(super) fn subtrees(fronts: &[Shape]) -> Vec<Range<usize>> {
+    let mut work: Vec<f64> = fronts.iter().map(flops).collect();
+    let mut first: Vec<usize> = (0..fronts.len()).collect();
+    let mut children: Vec<Vec<usize>> = vec![Vec::new(); fronts.len()];
+    let mut open: Vec<usize> = Vec::new();
+    for (k, front) in fronts.iter().enumerate() {
+        if front.parent == ROOT {
+            open.push(k);
+        } else {
+            work[front.parent] += work[k];
+            first[front.parent] = first[front.parent].min(first[k]);
+            children[front.parent].push(k);
+        }
+    }
+    let total: f64 = open.iter().map(|&k| work[k]).sum();
+    if total < SHARE_FROM {
+        return Vec::new();
+    }
+    // Split the heaviest until none is more than its share.
+    while open.len() < SUBTREES {
+        let Some(heaviest) = (0..open.len()).max_by(|&a, &b| work[open[a]].total_cmp(&work[open[b]])) else {
+            break;
+        };
+        if work[open[heaviest]] * (SUBTREES as f64) < 2.0 * total {
+            break;
+        }
+        let front = open.swap_remove(heaviest);
+        open.extend(&children[front]);
+    }
+    let mut subtrees: Vec<_> = open.into_iter().map(|k| first[k]..k + 1).collect();
+    subtrees.sort_by_key(|subtree| subtree.start);
+    subtrees
+}
+
+/// The most numbers of Schur complements at even and at odd depths while one worker goes through these fronts.
+pub(super) fn stacks(symbolic: &Symbolic, fronts: Range<usize>) -> [usize; 2] {
+    let (mut live, mut most) = ([0; 2], [0; 2]);
+    let schur = |front: usize| schur_len::<f64>(symbolic.fronts[front].rows.len());
+    for front in fronts.clone() {
+        let parity = symbolic.parity(front);
+        live[parity] += schur(front);
+        most[parity] = most[parity].max(live[parity]);
+        let children = symbolic.children_of(front).iter().map(|&child| child as usize);
+        live[1 - parity] -= children.filter(|child| fronts.contains(child)).map(schur).sum::<usize>();
+    }
+    most
+}
+
+/// The most numbers that live beside the factor while one worker goes through all fronts.
+pub(super) fn working_scalars(symbolic: &Symbolic) -> usize {
+    let panel = symbolic.fronts.iter().map(|front| front.order() * front.pivots).max().unwrap_or(0);
+    stacks(symbolic, 0..symbolic.fronts.len()).iter().sum::<usize>() + panel
+}
