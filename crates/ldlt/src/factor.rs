@@ -1,9 +1,9 @@
 //! The numeric factorisation: front after front, subtrees at the same time.
 
 use crate::front::{Contribution, Elimination, Front, Places, Stack, eliminate, schur_len};
+use crate::part::Part;
 use crate::scalar::Scalar;
 use crate::symbolic::Symbolic;
-use crate::part::Part;
 use crate::{FactorError, scaling};
 use std::ops::Range;
 use std::sync::Mutex;

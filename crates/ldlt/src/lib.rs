@@ -31,11 +31,13 @@ mod part;
 mod scalar;
 mod scaling;
 mod solve;
+mod solver;
 mod symbolic;
 
 pub use error::FactorError;
 pub use factor::{Factor, Inertia, Options};
 pub use scalar::{Real, Scalar, c32, c64};
+pub use solver::{Precision, Solution, Solver};
 pub use symbolic::{Ordering, PatternError, Symbolic};
 
 /// The instruction set of this machine, found out once.

@@ -16,7 +16,12 @@ pub(crate) struct Part {
 
 impl Part {
     /// The subtrees, and last what is above all of them; gives the nodes' positions their places in their parts.
-    pub(crate) fn of<T: Scalar>(subtrees: &[Range<usize>], firsts: &[usize], nodes: &mut [Node<T>], dim: usize) -> Vec<Self> {
+    pub(crate) fn of<T: Scalar>(
+        subtrees: &[Range<usize>],
+        firsts: &[usize],
+        nodes: &mut [Node<T>],
+        dim: usize,
+    ) -> Vec<Self> {
         let position = |node: usize| firsts.get(node).copied().unwrap_or(dim);
         let mut parts: Vec<Self> = subtrees
             .iter()
@@ -43,7 +48,8 @@ impl Part {
     fn between(subtrees: &[Range<usize>], nodes: usize, position: impl Fn(usize) -> usize) -> Self {
         let starts = std::iter::once(0).chain(subtrees.iter().map(|subtree| subtree.end));
         let ends = subtrees.iter().map(|subtree| subtree.start).chain(std::iter::once(nodes));
-        let nodes: Vec<_> = starts.zip(ends).map(|(start, end)| start..end).filter(|run| !run.is_empty()).collect();
+        let nodes: Vec<_> =
+            starts.zip(ends).map(|(start, end)| start..end).filter(|run| !run.is_empty()).collect();
         let own = nodes.iter().map(|run| position(run.start)..position(run.end)).collect();
         Self { nodes, own, outside: Vec::new() }
     }

@@ -103,6 +103,8 @@ pub trait Scalar:
     fn to_single(self) -> Self::Single;
     /// From single precision.
     fn from_single(single: Self::Single) -> Self;
+    /// re − i im.
+    fn conjugate(self) -> Self;
     /// Whether it is negative: a complex number never is.
     fn is_negative(self) -> bool;
     /// Neither infinite nor not a number.
@@ -212,6 +214,10 @@ macro_rules! real {
                 Self::from(single)
             }
             #[inline(always)]
+            fn conjugate(self) -> Self {
+                self
+            }
+            #[inline(always)]
             fn is_negative(self) -> bool {
                 self < 0.0
             }
@@ -277,6 +283,10 @@ macro_rules! real {
                 Complex::new(single.re.into(), single.im.into())
             }
             #[inline(always)]
+            fn conjugate(self) -> Self {
+                self.conj()
+            }
+            #[inline(always)]
             fn is_negative(self) -> bool {
                 false
             }
@@ -289,10 +299,26 @@ macro_rules! real {
 }
 
 real!(
-    f64, f64s, F64_LANES, splat_f64s, mul_add_f64s, reduce_sum_f64s, as_simd_f64s, as_mut_simd_f64s,
-    partial_load_f64s, partial_store_f64s
+    f64,
+    f64s,
+    F64_LANES,
+    splat_f64s,
+    mul_add_f64s,
+    reduce_sum_f64s,
+    as_simd_f64s,
+    as_mut_simd_f64s,
+    partial_load_f64s,
+    partial_store_f64s
 );
 real!(
-    f32, f32s, F32_LANES, splat_f32s, mul_add_f32s, reduce_sum_f32s, as_simd_f32s, as_mut_simd_f32s,
-    partial_load_f32s, partial_store_f32s
+    f32,
+    f32s,
+    F32_LANES,
+    splat_f32s,
+    mul_add_f32s,
+    reduce_sum_f32s,
+    as_simd_f32s,
+    as_mut_simd_f32s,
+    partial_load_f32s,
+    partial_store_f32s
 );

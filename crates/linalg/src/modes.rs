@@ -95,7 +95,7 @@ pub fn lowest(k: &SymmetricMatrix, m: &SymmetricMatrix, count: usize) -> Result<
     };
     let sigma = if trace(m) > 0.0 { -1e-9 * (trace(k) / trace(m)).abs() } else { 0.0 };
     let shifted: Vec<f64> = k.iter().zip(m).map(|(k, m)| k - sigma * m).collect();
-    let factor = Analysis::new(&pattern)?.factor(&shifted)?;
+    let factor = Analysis::new(&pattern).factor(&shifted)?;
     let times = |values: &[f64], x: &[f64]| {
         let mut out = vec![0.0; x.len()];
         multiply_add(&pattern, values, 1.0, x, &mut out);

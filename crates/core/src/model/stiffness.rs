@@ -64,8 +64,6 @@ pub enum ModelError {
         /// The names of all terms.
         known: Vec<String>,
     },
-    /// The pattern could not be analysed.
-    Breakdown(Breakdown),
 }
 
 impl fmt::Display for ModelError {
@@ -79,7 +77,6 @@ impl fmt::Display for ModelError {
             Self::UnknownName { asked, known } => {
                 write!(f, "no matrix is named {asked:?}; there are {}", known.join(", "))
             }
-            Self::Breakdown(breakdown) => write!(f, "{breakdown}"),
         }
     }
 }
@@ -97,7 +94,7 @@ impl DynamicStiffness {
     /// Brings all terms onto the union of their patterns and analyses it, once for all frequencies.
     ///
     /// # Errors
-    /// [`ModelError`] for no terms, differing sizes, a name given twice, or a pattern too large for memory.
+    /// [`ModelError`] for no terms, differing sizes or a name given twice.
     pub fn new(mut terms: Vec<Term>) -> Result<Self, ModelError> {
         let Some(first) = terms.first() else { return Err(ModelError::Empty) };
         let sized = |term: &Term| (term.name.clone(), term.matrix.dim());
@@ -111,7 +108,7 @@ impl DynamicStiffness {
         }
         let patterns: Vec<_> = terms.iter().map(|term| term.matrix.pattern()).collect();
         let union = Pattern::union(&patterns);
-        let analysis = Analysis::new(&union).map_err(ModelError::Breakdown)?;
+        let analysis = Analysis::new(&union);
         for term in &mut terms {
             term.matrix = term.matrix.on_pattern(&union);
         }

@@ -18,7 +18,7 @@ fn response(bar: &Bar, force: impl Fn(usize) -> f64) -> Vec<c64> {
     k.accumulate_into(RUBBER.modulus, &mut values);
     m.accumulate_into(c64::new(-OMEGA.powi(2) * RUBBER.density, 0.0), &mut values);
     let mut x: Vec<c64> = (0..k.dim()).map(|row| c64::new(force(assembled.dofs[row].node), 0.0)).collect();
-    Analysis::new(k.pattern()).unwrap().factor(&values).unwrap().solve(&mut x).unwrap();
+    Analysis::new(k.pattern()).factor(&values).unwrap().solve(&mut x).unwrap();
     x
 }
 

@@ -15,7 +15,7 @@ pub(crate) fn lowest(k: &SymmetricMatrix, m: &SymmetricMatrix, count: usize, shi
         let m = m.on_pattern(k.pattern());
         k.real_values().unwrap().iter().zip(m.real_values().unwrap()).map(|(k, m)| k + shift * m).collect()
     };
-    let factor = Analysis::new(k.pattern()).unwrap().factor(&shifted).unwrap();
+    let factor = Analysis::new(k.pattern()).factor(&shifted).unwrap();
     let shifted = SymmetricMatrix::new(k.pattern().clone(), frfit_linalg::sparse::Values::Real(shifted));
     // Any start that no symmetry of the structure leaves out of a mode.
     let mut basis: Vec<Vec<f64>> =

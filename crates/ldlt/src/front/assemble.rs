@@ -39,7 +39,12 @@ impl<R: Real> Contribution<R> {
     }
 
     /// Adds what is the parent's candidates' to its panel.
-    pub(crate) fn add_to_panel<T: Scalar<Real = R>>(&self, front: &mut Front<'_, T>, schur: &[R], places: &Places<'_>) {
+    pub(crate) fn add_to_panel<T: Scalar<Real = R>>(
+        &self,
+        front: &mut Front<'_, T>,
+        schur: &[R],
+        places: &Places<'_>,
+    ) {
         let (own, others, step) = (self.delayed.len(), places.relative.len(), front.step());
         let runs = runs(places);
         let mut columns = self.columns.as_slice();

@@ -177,9 +177,10 @@ fn eliminate_anywhere<T: Scalar>(
     let entry = |i: usize, j: usize| front.at(i.max(j), i.min(j));
     // The largest entry of each column off the diagonal, over all rows that are left.
     let largest = |col: usize| {
-        (at..front.rows()).filter(|&row| row != col).map(|row| {
-            if row < col { front.at(col, row) } else { front.at(row, col) }.size()
-        }).fold(0.0, f64::max)
+        (at..front.rows())
+            .filter(|&row| row != col)
+            .map(|row| if row < col { front.at(col, row) } else { front.at(row, col) }.size())
+            .fold(0.0, f64::max)
     };
     let largest: Vec<f64> = (at..candidates).map(largest).collect();
     let nothing = T::Real::ROUNDOFF * T::Real::ROUNDOFF;
@@ -206,7 +207,11 @@ fn eliminate_anywhere<T: Scalar>(
             None => return false,
         },
     };
-    let mut move_to = |to: usize, from: usize| if from != to { front.exchange(to, from) };
+    let mut move_to = |to: usize, from: usize| {
+        if from != to {
+            front.exchange(to, from)
+        }
+    };
     move_to(at, first);
     if let Some(second) = second {
         move_to(at + 1, second);

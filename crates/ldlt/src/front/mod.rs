@@ -68,7 +68,8 @@ impl<T: Scalar> Front<'_, T> {
                 self.panel.swap(i * step + part + k, k * step + part + j);
             }
             let (head, tail) = self.panel.split_at_mut(j * step);
-            head[i * step + part + j + 1..][..rows - j - 1].swap_with_slice(&mut tail[part + j + 1..part + rows]);
+            head[i * step + part + j + 1..][..rows - j - 1]
+                .swap_with_slice(&mut tail[part + j + 1..part + rows]);
         }
     }
 }

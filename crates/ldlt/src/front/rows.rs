@@ -105,7 +105,13 @@ fn inverse_column<T: Scalar>(d: &[[T; 2]], j: usize) -> [(usize, T); 2] {
 
 /// w_j −= Σ_{i<j} w_i l_ji.
 #[inline(always)]
-fn substitute<T: Scalar, S: Simd>(simd: S, w: &mut Tile<T::Real>, j: usize, height: usize, corner: &Corner<T>) {
+fn substitute<T: Scalar, S: Simd>(
+    simd: S,
+    w: &mut Tile<T::Real>,
+    j: usize,
+    height: usize,
+    corner: &Corner<T>,
+) {
     let [w_re, w_im] = w;
     let (before_re, own_re) = w_re.split_at_mut(j);
     let (before_im, own_im) = w_im.split_at_mut(j);

@@ -104,7 +104,9 @@ impl<T: Scalar> WithSimd for Forward<'_, T> {
             }
             for start in (block.width..block.stride).step_by(CHUNK) {
                 let range = start..block.stride.min(start + CHUNK);
-                for (parts, factors) in parts.chunks_mut(TOGETHER * step).zip(factors.chunks(TOGETHER * 2 * BLOCK)) {
+                for (parts, factors) in
+                    parts.chunks_mut(TOGETHER * step).zip(factors.chunks(TOGETHER * 2 * BLOCK))
+                {
                     let target = (parts, rows, first);
                     match factors.len() / (2 * BLOCK) {
                         1 => multiply::<T, S, 1>(simd, block, factors, target, range.clone()),
@@ -137,6 +139,42 @@ fn put<T: Scalar>(parts: &mut [T::Real], rows: usize, row: usize, value: T) {
     }
 }
 
+/// Whole registers, and the numbers that do not fill one.
+#[derive(Clone, Copy)]
+struct Whole;
+#[derive(Clone, Copy)]
+struct Part(usize);
+
+/// How numbers come into registers.
+trait Load: Copy {
+    fn load<R: Real, S: Simd>(self, simd: S, values: &[R]) -> R::Vector<S>;
+    fn store<R: Real, S: Simd>(self, simd: S, values: &mut [R], vector: R::Vector<S>);
+}
+
+impl Load for Whole {
+    #[inline(always)]
+    fn load<R: Real, S: Simd>(self, _: S, values: &[R]) -> R::Vector<S> {
+        R::vectors::<S>(&values[..R::lanes::<S>()]).0[0]
+    }
+
+    #[inline(always)]
+    fn store<R: Real, S: Simd>(self, _: S, values: &mut [R], vector: R::Vector<S>) {
+        R::vectors_mut::<S>(&mut values[..R::lanes::<S>()]).0[0] = vector;
+    }
+}
+
+impl Load for Part {
+    #[inline(always)]
+    fn load<R: Real, S: Simd>(self, simd: S, values: &[R]) -> R::Vector<S> {
+        R::load_part(simd, &values[..self.0])
+    }
+
+    #[inline(always)]
+    fn store<R: Real, S: Simd>(self, simd: S, values: &mut [R], vector: R::Vector<S>) {
+        R::store_part(simd, &mut values[..self.0], vector);
+    }
+}
+
 /// Adds L · factors to N right-hand sides, in some rows of a block whose first is row `first` of the front.
 #[inline(always)]
 fn multiply<T: Scalar, S: Simd, const N: usize>(
@@ -148,45 +186,50 @@ fn multiply<T: Scalar, S: Simd, const N: usize>(
 ) {
     let lanes = <T::Real as Real>::lanes::<S>();
     let mut at = range.start;
-    while at < range.end {
-        let len = lanes.min(range.end - at);
-        let whole = len == lanes;
-        let load = |values: &[T::Real], at: usize| {
-            if whole {
-                T::Real::vectors::<S>(&values[at..at + lanes]).0[0]
-            } else {
-                T::Real::load_part(simd, &values[at..at + len])
-            }
-        };
-        let place = |n: usize, part: usize| (n * T::PARTS + part) * rows + first + at;
-        let mut re: [_; N] = std::array::from_fn(|n| load(parts, place(n, 0)));
-        let mut im: [_; N] = std::array::from_fn(|n| load(parts, place(n, T::PARTS - 1)));
-        for k in 0..block.width {
-            let l = load(block.part(k, 0), at);
-            let m = load(block.part(k, T::PARTS - 1), at);
+    while at + lanes <= range.end {
+        multiply_rows::<T, S, N>(simd, block, factors, (parts, rows, first), at, Whole);
+        at += lanes;
+    }
+    if at < range.end {
+        multiply_rows::<T, S, N>(simd, block, factors, (parts, rows, first), at, Part(range.end - at));
+    }
+}
+
+#[inline(always)]
+fn multiply_rows<T: Scalar, S: Simd, const N: usize>(
+    simd: S,
+    block: Block<'_, T::Real>,
+    factors: &[T::Real],
+    (parts, rows, first): (&mut [T::Real], usize, usize),
+    at: usize,
+    with: impl Load,
+) {
+    let place = |n: usize, part: usize| (n * T::PARTS + part) * rows + first + at;
+    let mut sums: [[_; N]; 2] =
+        [0, T::PARTS - 1].map(|part| std::array::from_fn(|n| with.load(simd, &parts[place(n, part)..])));
+    let [re, im] = &mut sums;
+    for k in 0..block.width {
+        let l = with.load(simd, &block.part(k, 0)[at..]);
+        if T::PARTS == 1 {
             for n in 0..N {
-                let factor = &factors[2 * (n * BLOCK + k)..][..2];
-                let (x, y) = (T::Real::splat(simd, factor[0]), T::Real::splat(simd, factor[1]));
-                re[n] = T::Real::mul_add(simd, l, x, re[n]);
-                if T::PARTS == 2 {
-                    let minus = T::Real::splat(simd, -factor[1]);
-                    re[n] = T::Real::mul_add(simd, m, minus, re[n]);
-                    im[n] = T::Real::mul_add(simd, l, y, im[n]);
-                    im[n] = T::Real::mul_add(simd, m, x, im[n]);
-                }
+                re[n] = T::Real::mul_add(simd, l, T::Real::splat(simd, factors[2 * (n * BLOCK + k)]), re[n]);
             }
+            continue;
         }
-        for (part, sums) in [re, im].into_iter().enumerate().take(T::PARTS) {
-            for (n, sum) in sums.into_iter().enumerate() {
-                let place = place(n, part);
-                if whole {
-                    T::Real::vectors_mut::<S>(&mut parts[place..place + lanes]).0[0] = sum;
-                } else {
-                    T::Real::store_part(simd, &mut parts[place..place + len], sum);
-                }
-            }
+        let m = with.load(simd, &block.part(k, 1)[at..]);
+        for n in 0..N {
+            let factor = &factors[2 * (n * BLOCK + k)..][..2];
+            let [x, y, minus] = [factor[0], factor[1], -factor[1]].map(|factor| T::Real::splat(simd, factor));
+            re[n] = T::Real::mul_add(simd, l, x, re[n]);
+            im[n] = T::Real::mul_add(simd, l, y, im[n]);
+            re[n] = T::Real::mul_add(simd, m, minus, re[n]);
+            im[n] = T::Real::mul_add(simd, m, x, im[n]);
         }
-        at += len;
+    }
+    for (part, sums) in sums.into_iter().enumerate().take(T::PARTS) {
+        for (n, sum) in sums.into_iter().enumerate() {
+            with.store(simd, &mut parts[place(n, part)..], sum);
+        }
     }
 }
 
@@ -274,48 +317,68 @@ fn dot<T: Scalar, S: Simd, const N: usize, const C: usize>(
     let lanes = <T::Real as Real>::lanes::<S>();
     let zero = T::Real::splat(simd, T::Real::default());
     for col in (0..block.width).step_by(C) {
-        // The last column again where there are fewer: those sums are not looked at.
-        let column = |part: usize| {
-            let of = move |c: usize| block.part((col + c).min(block.width - 1), part);
-            std::array::from_fn::<_, C, _>(of)
-        };
-        let (l, m) = (column(0), column(T::PARTS - 1));
-        // Σ l re − m im in two sums, so that no sign is turned in the loop, and Σ l im + m re.
-        let (mut plus, mut minus, mut im) = ([[zero; N]; C], [[zero; N]; C], [[zero; N]; C]);
+        let mut totals = Totals { plus: [[zero; N]; C], minus: [[zero; N]; C], im: [[zero; N]; C] };
         let mut at = range.start;
-        while at < range.end {
-            let len = lanes.min(range.end - at);
-            let load = |values: &[T::Real], at: usize| {
-                if len == lanes {
-                    T::Real::vectors::<S>(&values[at..at + lanes]).0[0]
-                } else {
-                    T::Real::load_part(simd, &values[at..at + len])
-                }
-            };
-            let place = |n: usize, part: usize| (n * T::PARTS + part) * rows + first + at;
-            let x: [_; N] = std::array::from_fn(|n| load(parts, place(n, 0)));
-            let y: [_; N] = std::array::from_fn(|n| load(parts, place(n, T::PARTS - 1)));
-            for c in 0..C {
-                let (l, m) = (load(l[c], at), load(m[c], at));
-                for n in 0..N {
-                    plus[c][n] = T::Real::mul_add(simd, l, x[n], plus[c][n]);
-                    if T::PARTS == 2 {
-                        minus[c][n] = T::Real::mul_add(simd, m, y[n], minus[c][n]);
-                        im[c][n] = T::Real::mul_add(simd, l, y[n], im[c][n]);
-                        im[c][n] = T::Real::mul_add(simd, m, x[n], im[c][n]);
-                    }
-                }
-            }
-            at += len;
+        while at + lanes <= range.end {
+            totals.add::<T, S>(simd, block, col, (parts, rows, first), at, Whole);
+            at += lanes;
+        }
+        if at < range.end {
+            totals.add::<T, S>(simd, block, col, (parts, rows, first), at, Part(range.end - at));
         }
         for c in 0..C.min(block.width - col) {
             for n in 0..N {
                 let sum = &mut sums[2 * (n * BLOCK + col + c)..][..2];
-                sum[0] += T::Real::sum(simd, plus[c][n]);
+                sum[0] += T::Real::sum(simd, totals.plus[c][n]);
                 if T::PARTS == 2 {
-                    sum[0] -= T::Real::sum(simd, minus[c][n]);
-                    sum[1] += T::Real::sum(simd, im[c][n]);
+                    sum[0] -= T::Real::sum(simd, totals.minus[c][n]);
+                    sum[1] += T::Real::sum(simd, totals.im[c][n]);
                 }
+            }
+        }
+    }
+}
+
+/// Σ l re, Σ m im, which is to be taken from it, and Σ l im + m re, lane by lane.
+struct Totals<V, const N: usize, const C: usize> {
+    plus: [[V; N]; C],
+    minus: [[V; N]; C],
+    im: [[V; N]; C],
+}
+
+impl<V: Copy, const N: usize, const C: usize> Totals<V, N, C> {
+    #[inline(always)]
+    fn add<T: Scalar, S: Simd>(
+        &mut self,
+        simd: S,
+        block: Block<'_, T::Real>,
+        col: usize,
+        (parts, rows, first): (&[T::Real], usize, usize),
+        at: usize,
+        with: impl Load,
+    ) where
+        T::Real: Real<Vector<S> = V>,
+    {
+        let place = |n: usize, part: usize| (n * T::PARTS + part) * rows + first + at;
+        let x: [V; N] = std::array::from_fn(|n| with.load::<T::Real, S>(simd, &parts[place(n, 0)..]));
+        let y: [V; N] =
+            std::array::from_fn(|n| with.load::<T::Real, S>(simd, &parts[place(n, T::PARTS - 1)..]));
+        for c in 0..C {
+            // The last column again where there are fewer: those sums are not looked at.
+            let column = (col + c).min(block.width - 1);
+            let l = with.load::<T::Real, S>(simd, &block.part(column, 0)[at..]);
+            if T::PARTS == 1 {
+                for n in 0..N {
+                    self.plus[c][n] = T::Real::mul_add(simd, l, x[n], self.plus[c][n]);
+                }
+                continue;
+            }
+            let m = with.load::<T::Real, S>(simd, &block.part(column, 1)[at..]);
+            for n in 0..N {
+                self.plus[c][n] = T::Real::mul_add(simd, l, x[n], self.plus[c][n]);
+                self.minus[c][n] = T::Real::mul_add(simd, m, y[n], self.minus[c][n]);
+                self.im[c][n] = T::Real::mul_add(simd, l, y[n], self.im[c][n]);
+                self.im[c][n] = T::Real::mul_add(simd, m, x[n], self.im[c][n]);
             }
         }
     }

@@ -8,7 +8,7 @@ mod kernel;
 use crate::factor::{Factor, Node};
 use crate::part::Part;
 use crate::scalar::Scalar;
-use kernel::{Backward, Forward, Buffers};
+use kernel::{Backward, Buffers, Forward};
 use std::sync::Mutex;
 
 /// Numbers of a factor below which another thread costs more than it brings.
@@ -54,7 +54,8 @@ impl<T: Scalar> Factor<T> {
         self.backward(top, &mut above, columns);
         let all: Vec<_> = subtrees.iter().zip(below).map(|(part, local)| (part, Mutex::new(local))).collect();
         let below = share(threads, &all, |(part, local)| {
-            let mut local = std::mem::take(&mut *local.lock().unwrap_or_else(std::sync::PoisonError::into_inner));
+            let mut local =
+                std::mem::take(&mut *local.lock().unwrap_or_else(std::sync::PoisonError::into_inner));
             let (own, size, top_size) = (part.len(), part.len() + part.outside.len(), top.len());
             for column in 0..columns {
                 for (k, &place) in part.outside.iter().enumerate() {
@@ -86,7 +87,8 @@ impl<T: Scalar> Factor<T> {
     fn scatter(&self, part: &Part, local: &[T], rhs: &mut [T]) {
         let size = part.len() + part.outside.len();
         for (x, local) in rhs.chunks_exact_mut(self.dim()).zip(local.chunks_exact(size)) {
-            let rows = part.own.iter().flat_map(|run| self.order[run.clone()].iter().zip(&self.scale[run.clone()]));
+            let rows =
+                part.own.iter().flat_map(|run| self.order[run.clone()].iter().zip(&self.scale[run.clone()]));
             rows.zip(local).for_each(|((&row, &scale), y)| x[row as usize] = y.scale(scale));
         }
     }

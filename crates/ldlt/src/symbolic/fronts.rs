@@ -60,9 +60,8 @@ fn supernodes(elimination: &Elimination) -> Vec<Group> {
     let mut groups: Vec<Group> = Vec::new();
     let mut group_of = vec![0; steps.len()];
     for (k, step) in steps.iter().enumerate() {
-        let joins = k > 0
-            && elimination.parent(k - 1) == Some(k)
-            && steps[k - 1].below == step.rows + step.below;
+        let joins =
+            k > 0 && elimination.parent(k - 1) == Some(k) && steps[k - 1].below == step.rows + step.below;
         if !joins {
             groups.push(Group { vertices: Vec::new(), pivots: 0, below: 0, parent: ROOT });
         }
@@ -225,7 +224,12 @@ fn relative(fronts: &[Shape], rows: &[u32]) -> Vec<u32> {
 }
 
 /// The entries of each position's column, and their rows in its front.
-fn entries(pattern: &Lower, fronts: &[Shape], rows: &[u32], position: &[u32]) -> Option<(Vec<usize>, Vec<Entry>)> {
+fn entries(
+    pattern: &Lower,
+    fronts: &[Shape],
+    rows: &[u32],
+    position: &[u32],
+) -> Option<(Vec<usize>, Vec<Entry>)> {
     let places = || {
         pattern.positions().map(|(row, col)| {
             let (p, q) = (position[row], position[col]);
@@ -243,7 +247,9 @@ fn entries(pattern: &Lower, fronts: &[Shape], rows: &[u32], position: &[u32]) ->
     }
     let mut local = vec![(ROOT, 0u32); pattern.dim];
     for (k, front) in fronts.iter().enumerate() {
-        for (place, row) in front.own().chain(rows[front.rows.clone()].iter().map(|&row| row as usize)).enumerate() {
+        for (place, row) in
+            front.own().chain(rows[front.rows.clone()].iter().map(|&row| row as usize)).enumerate()
+        {
             local[row] = (k, place as u32);
         }
         for entry in &mut entries[start[front.first]..start[front.own().end]] {

@@ -4,10 +4,12 @@ mod fronts;
 mod pattern;
 mod share;
 
-pub use pattern::PatternError;
 pub(crate) use pattern::Lower;
+pub use pattern::PatternError;
 
+use crate::factor::{Node, packed_len};
 use crate::ordering;
+use crate::part::Part;
 use crate::scalar::Scalar;
 use std::ops::Range;
 
@@ -86,7 +88,12 @@ impl Symbolic {
     ///
     /// # Errors
     /// [`PatternError`] where the columns do not make a lower triangle, or are too many.
-    pub fn new(dim: usize, col_ptr: &[usize], row_idx: &[usize], ordering: &Ordering) -> Result<Self, PatternError> {
+    pub fn new(
+        dim: usize,
+        col_ptr: &[usize],
+        row_idx: &[usize],
+        ordering: &Ordering,
+    ) -> Result<Self, PatternError> {
         let pattern = Lower::new(dim, col_ptr, row_idx)?;
         if let Ordering::Given(order) = ordering {
             pattern::check_permutation(dim, order)?;
@@ -118,13 +125,27 @@ impl Symbolic {
 
     /// Bytes that the factor keeps, if no pivot is delayed.
     pub fn factor_bytes<T: Scalar>(&self) -> usize {
-        let scalars: usize = self.fronts.iter().map(|front| crate::factor::packed_len(front.pivots, front.order())).sum();
-        scalars * size_of::<T>() + self.rows.len() * size_of::<u32>() + self.dim() * (2 * size_of::<T>() + 3 * size_of::<u32>())
+        let scalars: usize = self.fronts.iter().map(|front| packed_len(front.pivots, front.order())).sum();
+        let row = size_of::<[T; 2]>() + size_of::<T::Real>() + size_of::<u32>();
+        // Its runs of nodes and of positions, and what its root changes above.
+        let part = |subtree: &Range<usize>| {
+            size_of::<Part>() + 4 * size_of::<Range<usize>>() + size_of_val(self.rows_of(subtree.end - 1))
+        };
+        scalars * size_of::<T>()
+            + self.rows.len() * size_of::<u32>()
+            + self.fronts.len() * size_of::<Node<T>>()
+            + self.dim() * row
+            + self.subtrees.iter().map(part).sum::<usize>()
     }
 
     /// Bytes that a factorisation by one worker needs beyond the factor, at most, if no pivot is delayed.
     pub fn working_bytes<T: Scalar>(&self) -> usize {
+        // The pivots, their blocks and rows a second time, and the scaling by rows.
+        let row = size_of::<[T; 2]>() + 2 * size_of::<f64>() + 4 * size_of::<u32>();
         share::working_scalars(self) * size_of::<T>()
+            + self.rows.len() * size_of::<u32>()
+            + self.fronts.len() * 2 * size_of::<Node<T>>()
+            + self.dim() * row
     }
 
     pub(crate) fn children_of(&self, front: usize) -> &[u32] {

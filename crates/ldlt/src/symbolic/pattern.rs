@@ -32,12 +32,17 @@ impl fmt::Display for PatternError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Columns => {
-                write!(f, "column pointers: expected n + 1 of them, from 0, ascending, to the number of entries")
+                write!(
+                    f,
+                    "column pointers: expected n + 1 of them, from 0, ascending, to the number of entries"
+                )
             }
             Self::Row { col, row } => {
                 write!(f, "column {col}: expected rows of the lower triangle, found row {row}")
             }
-            Self::Permutation(row) => write!(f, "order: expected every row once, found otherwise for row {row}"),
+            Self::Permutation(row) => {
+                write!(f, "order: expected every row once, found otherwise for row {row}")
+            }
             Self::TooLarge => write!(f, "expected less than 2^32 - 1 rows and entries"),
         }
     }
@@ -55,7 +60,9 @@ impl Lower {
             return Err(PatternError::Columns);
         }
         for col in 0..dim {
-            if let Some(&row) = row_idx[col_ptr[col]..col_ptr[col + 1]].iter().find(|&&row| row < col || row >= dim) {
+            if let Some(&row) =
+                row_idx[col_ptr[col]..col_ptr[col + 1]].iter().find(|&&row| row < col || row >= dim)
+            {
                 return Err(PatternError::Row { col, row });
             }
         }

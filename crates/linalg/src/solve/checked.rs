@@ -115,7 +115,7 @@ impl<T: Scalar> CheckedFactor<T> {
             return Ok(worst);
         }
         assert_eq!(rhs.len() % n, 0, "whole right-hand sides");
-        if !rhs.iter().all(|value| value.finite()) {
+        if !rhs.iter().all(|value| value.is_finite()) {
             return Err(Breakdown::NotFinite);
         }
         let given = rhs.to_vec();

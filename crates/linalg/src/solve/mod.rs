@@ -8,7 +8,7 @@
 //! triplets.add(1, 0, 1.0);
 //! triplets.add(1, 1, 3.0);
 //! let matrix = triplets.assemble();
-//! let analysis = Analysis::new(matrix.pattern())?; // once for all matrices of this pattern
+//! let analysis = Analysis::new(matrix.pattern()); // once for all matrices of this pattern
 //! let factor = analysis.factor(matrix.real_values().unwrap())?;
 //! let mut x = [3.0, 4.0];
 //! let report = factor.solve(&mut x)?;
@@ -18,24 +18,20 @@
 
 mod checked;
 mod dense;
-mod lu;
 mod memory;
-mod ordering;
-mod symmetric;
+mod multifrontal;
 
 pub use checked::{Breakdown, CheckedFactor, SolveReport};
 pub use memory::FactorMemory;
 
 use crate::Scalar;
 use crate::sparse::Pattern;
+use multifrontal::Multifrontal;
 use std::sync::Arc;
 
 /// Up to this many unknowns a dense factorisation costs less than the bookkeeping of a sparse one
 /// (measured on full and on banded matrices: they break even between 40 and 80).
 pub const DENSE_LIMIT: usize = 48;
-
-/// Parallelism is over frequencies, above this crate: one factorisation runs on one thread.
-const PAR: faer::Par = faer::Par::Seq;
 
 /// What a back-end does with the numbers of a matrix whose pattern it has analysed.
 ///
@@ -63,11 +59,8 @@ pub struct Analysis {
 
 impl Analysis {
     /// Analyses a pattern, choosing the dense back-end up to [`DENSE_LIMIT`] unknowns.
-    ///
-    /// # Errors
-    /// [`Breakdown::OutOfMemory`] where the symbolic factor does not fit.
-    pub fn new(pattern: &Arc<Pattern>) -> Result<Self, Breakdown> {
-        if pattern.dim() <= DENSE_LIMIT { Ok(Self::dense(pattern)) } else { Self::sparse(pattern) }
+    pub fn new(pattern: &Arc<Pattern>) -> Self {
+        if pattern.dim() <= DENSE_LIMIT { Self::dense(pattern) } else { Self::sparse(pattern) }
     }
 
     /// The dense back-end, whatever the size.
@@ -77,13 +70,9 @@ impl Analysis {
     }
 
     /// The sparse back-end, whatever the size.
-    ///
-    /// # Errors
-    /// [`Breakdown::OutOfMemory`] where the symbolic factor does not fit.
-    pub fn sparse(pattern: &Arc<Pattern>) -> Result<Self, Breakdown> {
-        let complex = Arc::new(lu::Lu::new(pattern));
-        let real = Arc::new(symmetric::Symmetric::new(pattern, Arc::clone(&complex)));
-        Ok(Self { pattern: Arc::clone(pattern), real, complex })
+    pub fn sparse(pattern: &Arc<Pattern>) -> Self {
+        let sparse = Arc::new(Multifrontal::new(pattern));
+        Self { pattern: Arc::clone(pattern), real: Arc::clone(&sparse) as _, complex: sparse }
     }
 
     /// Number of unknowns n.
@@ -110,10 +99,8 @@ impl Analysis {
     /// What [`Analysis::factor`] will allocate, known before any number is: a model that cannot fit into memory
     /// can be refused before the attempt.
     ///
-    /// For `f64` an upper bound from the symbolic factor, which is the numeric one's structure exactly, unless there
-    /// are zeros on the diagonal (constraints), which take LU. For
-    /// [`c64`](crate::c64) an estimate, not a bound: the row interchanges of the LU, and with them its fill, are
-    /// decided by the numbers.
+    /// From the symbolic factor, which is the numeric one's structure exactly but for pivots that have to wait
+    /// (see [`FactorMemory`]).
     ///
     /// # Errors
     /// [`Breakdown::OutOfMemory`] where the symbolic factor does not fit.

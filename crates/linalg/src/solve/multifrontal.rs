@@ -1,0 +1,51 @@
+//! Sparse symmetric matrices, definite or not, real or complex: L D Lᵀ by [`sparse_ldlt`].
+
+use super::memory::FactorMemory;
+use super::{Breakdown, Factor, Symbolic};
+use crate::Scalar;
+use crate::sparse::Pattern;
+use sparse_ldlt::{FactorError, Options, Ordering, PatternError};
+use std::sync::{Arc, OnceLock};
+
+/// Ordering and fronts of a pattern, found when first needed and shared by real and complex matrices.
+pub(super) struct Multifrontal {
+    pattern: Arc<Pattern>,
+    symbolic: OnceLock<Result<sparse_ldlt::Symbolic, PatternError>>,
+}
+
+impl Multifrontal {
+    pub(super) fn new(pattern: &Arc<Pattern>) -> Self {
+        Self { pattern: Arc::clone(pattern), symbolic: OnceLock::new() }
+    }
+
+    fn symbolic(&self) -> Result<&sparse_ldlt::Symbolic, Breakdown> {
+        let (n, columns, rows) = (self.pattern.dim(), self.pattern.col_ptr(), self.pattern.row_idx());
+        let symbolic =
+            self.symbolic.get_or_init(|| sparse_ldlt::Symbolic::new(n, columns, rows, &Ordering::default()));
+        // A pattern is a lower triangle by construction: all that can be wrong with it is its size.
+        symbolic.as_ref().map_err(|_| Breakdown::OutOfMemory)
+    }
+}
+
+impl<T: Scalar> Symbolic<T> for Multifrontal {
+    fn factor(&self, values: &[T]) -> Result<Box<dyn Factor<T>>, Breakdown> {
+        let factor = self.symbolic()?.factor(values, &Options::default()).map_err(|error| match error {
+            FactorError::NotFinite { .. } => Breakdown::NotFinite,
+            FactorError::Singular { .. } => Breakdown::Singular { condition_at_least: f64::INFINITY },
+            // One value an entry is asserted before.
+            FactorError::OutOfMemory | FactorError::Values { .. } => Breakdown::OutOfMemory,
+        })?;
+        Ok(Box::new(factor))
+    }
+
+    fn memory(&self) -> Result<FactorMemory, Breakdown> {
+        let symbolic = self.symbolic()?;
+        Ok(FactorMemory { kept: symbolic.factor_bytes::<T>(), scratch: symbolic.working_bytes::<T>() })
+    }
+}
+
+impl<T: Scalar> Factor<T> for sparse_ldlt::Factor<T> {
+    fn solve_in_place(&self, rhs: &mut [T]) {
+        sparse_ldlt::Factor::solve_in_place(self, rhs, 1);
+    }
+}
