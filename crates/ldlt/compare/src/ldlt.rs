@@ -1,0 +1,39 @@
+//! sparse-ldlt, which all others are here for.
+
+use crate::case::{Case, Number};
+use crate::round::{Report, Round, solves, timed};
+use sparse_ldlt::{Options, Ordering, Symbolic};
+
+/// One round with all its defaults.
+///
+/// # Errors
+/// What it says.
+pub fn round<T: Number>(case: &Case<T>, threads: usize) -> Result<Round<T>, String> {
+    let (n, pattern) = (case.dim(), &case.pattern);
+    let (symbolic, analysis) =
+        timed(|| Symbolic::new(n, pattern.col_ptr(), pattern.row_idx(), &Ordering::default()));
+    let symbolic = symbolic.map_err(|error| error.to_string())?;
+    let options = Options { threads, ..Options::default() };
+    let (outcome, factor) = timed(|| symbolic.factor(&case.values, &options));
+    let factorised = outcome.map_err(|error| error.to_string())?;
+    let solve = |x: &mut [T]| {
+        factorised.solve_in_place(x, threads);
+        Ok::<_, String>(())
+    };
+    let (_, solve_8) = solves(&case.rhs, solve)?;
+    let (solution, solve_1) = solves(&case.rhs[..n], solve)?;
+    let mut remark = Vec::new();
+    for (count, of) in [(factorised.delayed(), "pivots delayed"), (factorised.pairs(), "pairs")] {
+        if count > 0 {
+            remark.push(format!("{count} {of}"));
+        }
+    }
+    let report = Report {
+        memory: Some(factorised.bytes() as f64 / 1e6),
+        entries: Some(symbolic.factor_entries() as f64 / 1e6),
+        gflop: Some(T::FLOPS * symbolic.flops() / 1e9),
+        negative: T::real(&case.values).map(|_| factorised.inertia().negative),
+        remark: remark.join(", "),
+    };
+    Ok(Round { analysis, factor, solve_1, solve_8, report, peak: None, solution })
+}
