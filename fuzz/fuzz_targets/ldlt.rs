@@ -4,7 +4,7 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use sparse_ldlt::{FactorError, Options, Ordering, Precision, Solver, Symbolic};
+use multifrontal::{FactorError, Options, Ordering, Precision, Solver, Symbolic};
 
 /// How much larger an entry of L may be than what it comes from, a few times over; refinement mends the rest.
 const GROWN: f64 = 1e-8;

@@ -27,7 +27,7 @@ pub(crate) fn one(name: &str, arguments: &[&str]) -> bool {
 /// The comparison of sparse solvers: not a member of the workspace, but built in its folder.
 fn solvers(arguments: &[&str]) -> bool {
     let mut command =
-        cargo(["run", "--quiet", "--release", "--manifest-path", "crates/ldlt/compare/Cargo.toml"]);
+        cargo(["run", "--quiet", "--release", "--manifest-path", "crates/multifrontal/compare/Cargo.toml"]);
     command.arg("--target-dir").arg(target()).arg("--").args(arguments);
     command.status().is_ok_and(|status| status.success())
 }

@@ -13,7 +13,7 @@ cargo xtask test [--quick]       formatting, lints, all tests and doc tests, doc
                                  --quick: tests and doc tests only
 cargo xtask docs                 documentation in target/doc, formulas typeset where there is npm
 cargo xtask bench [NAME [ARG…]]  one benchmark, or all; tables to the terminal, figures to target/bench
-cargo xtask bench solvers [ARG…] sparse-ldlt beside other sparse solvers; crates/ldlt/compare says what it needs";
+cargo xtask bench solvers [ARG…] multifrontal beside other sparse solvers; crates/multifrontal/compare says what it needs";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();

@@ -10,7 +10,7 @@ mod sealed {
 
 /// `f64` or [`c64`], and nothing else: what the symmetric solvers are written over.
 pub trait Scalar:
-    sealed::Sealed + faer::traits::ComplexField<Real = f64> + sparse_ldlt::Scalar<Real = f64>
+    sealed::Sealed + faer::traits::ComplexField<Real = f64> + multifrontal::Scalar<Real = f64>
 {
 }
 

@@ -19,14 +19,14 @@
 mod checked;
 mod dense;
 mod memory;
-mod multifrontal;
+mod sparse;
 
 pub use checked::{Breakdown, CheckedFactor, SolveReport};
 pub use memory::FactorMemory;
 
 use crate::Scalar;
 use crate::sparse::Pattern;
-use multifrontal::Multifrontal;
+use sparse::Sparse;
 use std::sync::Arc;
 
 /// Up to this many unknowns a dense factorisation costs less than the bookkeeping of a sparse one
@@ -71,7 +71,7 @@ impl Analysis {
 
     /// The sparse back-end, whatever the size.
     pub fn sparse(pattern: &Arc<Pattern>) -> Self {
-        let sparse = Arc::new(Multifrontal::new(pattern));
+        let sparse = Arc::new(Sparse::new(pattern));
         Self { pattern: Arc::clone(pattern), real: Arc::clone(&sparse) as _, complex: sparse }
     }
 

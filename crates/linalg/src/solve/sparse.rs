@@ -1,39 +1,41 @@
-//! Sparse symmetric matrices, definite or not, real or complex: L D Lᵀ by [`sparse_ldlt`].
+//! Sparse symmetric matrices, definite or not, real or complex: L D Lᵀ by [`multifrontal`].
 
 use super::memory::FactorMemory;
 use super::{Breakdown, Factor, Symbolic};
 use crate::Scalar;
 use crate::sparse::Pattern;
-use sparse_ldlt::{FactorError, Options, Ordering, PatternError};
+use multifrontal::{FactorError, Options, Ordering, PatternError};
 use std::sync::{Arc, OnceLock};
 
 /// Ordering and fronts of a pattern, found when first needed and shared by real and complex matrices.
-pub(super) struct Multifrontal {
+pub(super) struct Sparse {
     pattern: Arc<Pattern>,
-    symbolic: OnceLock<Result<sparse_ldlt::Symbolic, PatternError>>,
+    symbolic: OnceLock<Result<multifrontal::Symbolic, PatternError>>,
 }
 
-impl Multifrontal {
+impl Sparse {
     pub(super) fn new(pattern: &Arc<Pattern>) -> Self {
         Self { pattern: Arc::clone(pattern), symbolic: OnceLock::new() }
     }
 
-    fn symbolic(&self) -> Result<&sparse_ldlt::Symbolic, Breakdown> {
+    fn symbolic(&self) -> Result<&multifrontal::Symbolic, Breakdown> {
         let (n, columns, rows) = (self.pattern.dim(), self.pattern.col_ptr(), self.pattern.row_idx());
         let symbolic =
-            self.symbolic.get_or_init(|| sparse_ldlt::Symbolic::new(n, columns, rows, &Ordering::default()));
+            self.symbolic.get_or_init(|| multifrontal::Symbolic::new(n, columns, rows, &Ordering::default()));
         // A pattern is a lower triangle by construction: all that can be wrong with it is its size.
         symbolic.as_ref().map_err(|_| Breakdown::OutOfMemory)
     }
 }
 
-impl<T: Scalar> Symbolic<T> for Multifrontal {
+impl<T: Scalar> Symbolic<T> for Sparse {
     fn factor(&self, values: &[T]) -> Result<Box<dyn Factor<T>>, Breakdown> {
         let factor = self.symbolic()?.factor(values, &Options::default()).map_err(|error| match error {
             FactorError::NotFinite { .. } => Breakdown::NotFinite,
             FactorError::Singular { .. } => Breakdown::Singular { condition_at_least: f64::INFINITY },
-            // One value an entry is asserted before.
-            FactorError::OutOfMemory | FactorError::Values { .. } => Breakdown::OutOfMemory,
+            // One value an entry is asserted before, and nothing is solved yet.
+            FactorError::OutOfMemory | FactorError::Values { .. } | FactorError::NoSolution { .. } => {
+                Breakdown::OutOfMemory
+            }
         })?;
         Ok(Box::new(factor))
     }
@@ -44,8 +46,8 @@ impl<T: Scalar> Symbolic<T> for Multifrontal {
     }
 }
 
-impl<T: Scalar> Factor<T> for sparse_ldlt::Factor<T> {
+impl<T: Scalar> Factor<T> for multifrontal::Factor<T> {
     fn solve_in_place(&self, rhs: &mut [T]) {
-        sparse_ldlt::Factor::solve_in_place(self, rhs, 1);
+        multifrontal::Factor::solve_in_place(self, rhs, 1);
     }
 }

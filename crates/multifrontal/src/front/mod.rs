@@ -11,7 +11,7 @@ mod stack;
 
 pub(crate) use assemble::{Contribution, Places, schur_len};
 pub(crate) use corner::invert_pair;
-pub(crate) use eliminate::{Elimination, eliminate};
+pub(crate) use eliminate::{BLOCK, Elimination, eliminate};
 pub(crate) use stack::{Kept, Stack};
 
 use crate::kernel::{STRIP, Strip};

@@ -1,8 +1,8 @@
-//! sparse-ldlt, which all others are here for.
+//! multifrontal, which all others are here for.
 
 use crate::case::{Case, Number};
 use crate::round::{Report, Round, solves, timed};
-use sparse_ldlt::{Options, Ordering, Symbolic};
+use multifrontal::{Options, Ordering, Symbolic};
 
 /// One round with all its defaults.
 ///

@@ -3,8 +3,8 @@
 mod common;
 
 use common::{Lower, noise, solid};
+use multifrontal::{Options, Ordering, Scalar, c64};
 use proptest::prelude::*;
-use sparse_ldlt::{Options, Ordering, Scalar, c64};
 
 /// Roundoff, and the growth that pivots a hundred times smaller than their neighbours allow; 1e-14 was seen.
 const GROWN: f64 = 1e-12;

@@ -14,7 +14,7 @@ use crate::kernel::{Left, Pivots, downdate};
 use crate::scalar::{Real, Scalar};
 
 /// Columns whose elimination is carried to the rest of the front in one product.
-const BLOCK: usize = 256;
+pub(crate) const BLOCK: usize = 256;
 
 /// Buffers of one worker, and how it works.
 pub(crate) struct Elimination<T: Scalar> {

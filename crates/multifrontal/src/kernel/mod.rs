@@ -18,7 +18,7 @@ use tile::{COLS, store, tile};
 pub(crate) const STRIP: usize = 96;
 
 /// Tiles above each other whose sums are collected: a column of C is then met in runs that are worth fetching.
-const TOGETHER: usize = 4;
+pub(crate) const TOGETHER: usize = 4;
 
 /// Products below which another thread costs more than it brings: some tens of microseconds.
 const SHARE_FROM: usize = 2_000_000;

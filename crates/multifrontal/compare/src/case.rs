@@ -14,7 +14,7 @@ const LOSS_FACTOR: f64 = 0.05;
 pub const RIGHT_HAND_SIDES: usize = 8;
 
 /// A real or complex number as a solver needs to know it.
-pub trait Number: Scalar + sparse_ldlt::Scalar {
+pub trait Number: Scalar + multifrontal::Scalar {
     /// Its name on the command line and in tables.
     const NAME: &'static str;
     /// Operations of one complex one count as four real ones.

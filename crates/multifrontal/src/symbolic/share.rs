@@ -1,7 +1,8 @@
 //! Costs of fronts, and which subtrees are worth a thread.
 
 use super::{ROOT, Shape, Symbolic};
-use crate::front::schur_len;
+use crate::front::{BLOCK, schur_len};
+use crate::kernel::{STRIP, TOGETHER, WIDE};
 use std::ops::Range;
 
 /// Subtrees that are looked for: enough to keep some threads busy, few enough to leave work to each.
@@ -74,4 +75,10 @@ pub(super) fn stacks(symbolic: &Symbolic, fronts: Range<usize>) -> [usize; 2] {
 pub(super) fn working_scalars(symbolic: &Symbolic) -> usize {
     let panel = symbolic.fronts.iter().map(|front| front.order() * front.pivots).max().unwrap_or(0);
     stacks(symbolic, 0..symbolic.fronts.len()).iter().sum::<usize>() + panel
+}
+
+/// The most numbers, for one real product, of the packed copies that one worker makes of a front's columns.
+pub(super) fn packed(symbolic: &Symbolic) -> usize {
+    let left = |front: &Shape| (front.order() + WIDE) * front.pivots.min(BLOCK);
+    symbolic.fronts.iter().map(left).max().unwrap_or(0) + STRIP * (BLOCK + TOGETHER * WIDE)
 }

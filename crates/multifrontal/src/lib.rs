@@ -1,7 +1,7 @@
 //! Sparse L D Lᵀ of symmetric matrices: real indefinite, and complex symmetric (A = Aᵀ, not Hermitian).
 //!
 //! ```
-//! use sparse_ldlt::{Options, Ordering, Symbolic};
+//! use multifrontal::{Options, Ordering, Symbolic};
 //!
 //! // [4 1 0; 1 0 2; 0 2 5], the lower triangle by columns.
 //! let symbolic = Symbolic::new(3, &[0, 2, 4, 5], &[0, 1, 1, 2, 2], &Ordering::default())?;

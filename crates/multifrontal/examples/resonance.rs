@@ -1,6 +1,6 @@
 //! A cube of springs and masses: how many of its modes are below a frequency, and how it answers there.
 
-use sparse_ldlt::{Options, Ordering, Precision, Solver, Symbolic, c64};
+use multifrontal::{Options, Ordering, Precision, Solver, Symbolic, c64};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     // n³ unit masses with unit springs to their neighbours and to the walls: K and its diagonal M = 1.

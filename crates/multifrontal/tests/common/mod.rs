@@ -1,7 +1,7 @@
 //! Matrices for tests.
 #![allow(dead_code, reason = "each test file uses a part of it")]
 
-use sparse_ldlt::{Ordering, Scalar, Symbolic};
+use multifrontal::{Ordering, Scalar, Symbolic};
 
 /// Lower triangle of a matrix by columns.
 pub(crate) struct Lower<T> {

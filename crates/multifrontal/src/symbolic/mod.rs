@@ -127,15 +127,16 @@ impl Symbolic {
     pub fn factor_bytes<T: Scalar>(&self) -> usize {
         let scalars: usize = self.fronts.iter().map(|front| packed_len(front.pivots, front.order())).sum();
         let row = size_of::<[T; 2]>() + size_of::<T::Real>() + size_of::<u32>();
-        // Its runs of nodes and of positions, and what its root changes above.
+        // Its runs of nodes and of positions, as many between it and the next, and what its root changes above.
         let part = |subtree: &Range<usize>| {
-            size_of::<Part>() + 4 * size_of::<Range<usize>>() + size_of_val(self.rows_of(subtree.end - 1))
+            size_of::<Part>() + 8 * size_of::<Range<usize>>() + size_of_val(self.rows_of(subtree.end - 1))
         };
         scalars * size_of::<T>()
             + self.rows.len() * size_of::<u32>()
             + self.fronts.len() * size_of::<Node<T>>()
             + self.dim() * row
             + self.subtrees.iter().map(part).sum::<usize>()
+            + size_of::<Part>()
     }
 
     /// Bytes that a factorisation by one worker needs beyond the factor, at most, if no pivot is delayed.
@@ -143,6 +144,7 @@ impl Symbolic {
         // The pivots, their blocks and rows a second time, and the scaling by rows.
         let row = size_of::<[T; 2]>() + 2 * size_of::<f64>() + 4 * size_of::<u32>();
         share::working_scalars(self) * size_of::<T>()
+            + share::packed(self) * T::PRODUCTS * size_of::<T::Real>()
             + self.rows.len() * size_of::<u32>()
             + self.fronts.len() * 2 * size_of::<Node<T>>()
             + self.dim() * row

@@ -3,10 +3,10 @@
 mod common;
 
 use common::{Lower, noise, solid};
+use multifrontal::{FactorError, Inertia, Options, Ordering, PatternError, Precision, Solver, Symbolic, c64};
 use proptest::prelude::*;
-use sparse_ldlt::{FactorError, Inertia, Options, Ordering, PatternError, Precision, Solver, Symbolic, c64};
 
-fn factor(matrix: &Lower<f64>) -> Result<sparse_ldlt::Factor<f64>, FactorError> {
+fn factor(matrix: &Lower<f64>) -> Result<multifrontal::Factor<f64>, FactorError> {
     matrix.symbolic(&Ordering::default()).factor(&matrix.values, &Options::default())
 }
 

@@ -19,7 +19,7 @@ pub enum Solver {
     Pardiso,
     /// MUMPS.
     Mumps,
-    /// sparse-ldlt.
+    /// multifrontal.
     Ldlt,
     /// rivrs-sparse.
     Rivrs(Order),
@@ -31,7 +31,7 @@ pub enum Solver {
 
 /// In the order in which they run.
 pub const SOLVERS: [(&str, Solver); 9] = [
-    ("sparse-ldlt", Solver::Ldlt),
+    ("multifrontal", Solver::Ldlt),
     ("pardiso", Solver::Pardiso),
     ("mumps", Solver::Mumps),
     ("rivrs", Solver::Rivrs(Order::MatchMetis)),
