@@ -2,7 +2,7 @@
 
 use super::Front;
 use super::corner::{CORNER, Corner, invert_pair};
-use crate::kernel::{WIDE, tile_rows};
+use crate::kernel::{WIDE, copy, tile_rows};
 use crate::scalar::{Real, Scalar};
 use pulp::{Simd, WithSimd};
 
@@ -49,7 +49,7 @@ impl<T: Scalar> WithSimd for SolveRows<'_, '_, T> {
             let len = height.min(rows - from);
             for j in 0..count {
                 for part in 0..T::PARTS {
-                    w[part][j][..len].copy_from_slice(&front.part(at + j, part, from)[..len]);
+                    copy::<T::Real, S>(&front.part(at + j, part, from)[..len], &mut w[part][j]);
                 }
                 substitute::<T, S>(simd, &mut w, j, height, corner);
             }
@@ -74,7 +74,12 @@ impl<T: Scalar> WithSimd for SolveRows<'_, '_, T> {
                 }
                 largest[j] = most;
                 for part in 0..T::PARTS {
-                    front.part_mut(at + j, part, from)[..len].copy_from_slice(&l[part][..len]);
+                    let column = &mut front.part_mut(at + j, part, from)[..len];
+                    if len == height {
+                        copy::<T::Real, S>(&l[part][..len], column);
+                    } else {
+                        column.copy_from_slice(&l[part][..len]);
+                    }
                 }
             }
         }

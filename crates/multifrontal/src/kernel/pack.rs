@@ -1,6 +1,6 @@
 //! Packed copies of L and of L D, tile after tile, a plane for each real product.
 
-use super::tile::{COLS, tile_rows};
+use super::tile::{COLS, copy, tile_rows};
 use crate::scalar::{Real, Scalar};
 use pulp::{Simd, WithSimd};
 
@@ -122,15 +122,11 @@ impl<T: Scalar> WithSimd for PackLeft<'_, T> {
             let (second, third) = rest.split_at_mut((height * count).min(rest.len()));
             for k in 0..count {
                 let plane = k * height..(k + 1) * height;
-                let re = self.pivots.part(k, 0, from..to);
                 let first = &mut first[plane.clone()];
-                first[..re.len()].copy_from_slice(re);
-                first[re.len()..].fill(T::Real::default());
+                copy::<T::Real, S>(self.pivots.part(k, 0, from..to), first);
                 if T::PARTS == 2 {
-                    let im = self.pivots.part(k, 1, from..to);
                     let second = &mut second[plane.clone()];
-                    second[..im.len()].copy_from_slice(im);
-                    second[im.len()..].fill(T::Real::default());
+                    copy::<T::Real, S>(self.pivots.part(k, 1, from..to), second);
                     let sums = first.iter().zip(second.iter()).map(|(&re, &im)| re + im);
                     third[plane].iter_mut().zip(sums).for_each(|(third, sum)| *third = sum);
                 }

@@ -46,3 +46,20 @@ pub(super) fn store<R: Real, S: Simd, const N: usize>(
         R::vectors_mut::<S>(into).0[..REGISTERS].copy_from_slice(&sums);
     }
 }
+
+/// Copies the rows of a tile, and clears what is behind them.
+#[inline(always)]
+pub(crate) fn copy<R: Real, S: Simd>(from: &[R], into: &mut [R]) {
+    let height = tile_rows::<R, S>();
+    let into = &mut into[..height];
+    if from.len() == height {
+        // In registers: a call for so few numbers costs more than they do.
+        let (from, into) = (R::vectors::<S>(from).0, R::vectors_mut::<S>(into).0);
+        for k in 0..REGISTERS {
+            into[k] = from[k];
+        }
+    } else {
+        into[..from.len()].copy_from_slice(from);
+        into[from.len()..].fill(R::default());
+    }
+}

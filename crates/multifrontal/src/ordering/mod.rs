@@ -16,7 +16,7 @@ const DISSECT_FROM: f64 = 2e4;
 
 /// From this many operations an edge on a second dissection is worth its time: on blocks two of them differ by
 /// up to 15 %.
-const AGAIN_FROM: f64 = 1e5;
+const AGAIN_FROM: f64 = 3e5;
 
 /// A graph of this many vertices and neighbours of each is a solid, whose minimum degree order need not be
 /// looked at: it costs two to four times the operations.
