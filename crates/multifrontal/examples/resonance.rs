@@ -1,5 +1,7 @@
 //! A cube of springs and masses: how many of its modes are below a frequency, and how it answers there.
 
+#![allow(clippy::print_stdout, reason = "an example shows what it finds")]
+
 use multifrontal::{Options, Ordering, Precision, Solver, Symbolic, c64};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {

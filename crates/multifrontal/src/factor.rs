@@ -332,7 +332,7 @@ impl<T: Scalar> Factor<T> {
 
 /// A stride at which the columns of a tile do not fall onto the same lines of a cache.
 fn padded(rows: usize) -> usize {
-    if rows > 64 && rows % 32 == 0 { rows + 4 } else { rows }
+    if rows > 64 && rows.is_multiple_of(32) { rows + 4 } else { rows }
 }
 
 /// The eliminated columns, [`BLOCK`] side by side.

@@ -55,8 +55,8 @@ pub(crate) fn copy<R: Real, S: Simd>(from: &[R], into: &mut [R]) {
     if from.len() == height {
         // In registers: a call for so few numbers costs more than they do.
         let (from, into) = (R::vectors::<S>(from).0, R::vectors_mut::<S>(into).0);
-        for k in 0..REGISTERS {
-            into[k] = from[k];
+        if let (&[a, b], [x, y]) = (from, into) {
+            (*x, *y) = (a, b);
         }
     } else {
         into[..from.len()].copy_from_slice(from);

@@ -62,6 +62,30 @@ fn blocks<T: Scalar>(node: &Node<T>) -> impl DoubleEndedIterator<Item = (usize, 
     })
 }
 
+/// A call with the number of right-hand sides as a constant.
+macro_rules! with_count {
+    ($count:expr, $n:ident => $call:expr) => {
+        match $count {
+            1 => {
+                const $n: usize = 1;
+                $call
+            }
+            2 => {
+                const $n: usize = 2;
+                $call
+            }
+            3 => {
+                const $n: usize = 3;
+                $call
+            }
+            _ => {
+                const $n: usize = TOGETHER;
+                $call
+            }
+        }
+    };
+}
+
 pub(super) struct Forward<'a, T: Scalar> {
     pub(super) node: &'a Node<T>,
     pub(super) local: &'a mut [T],
@@ -89,18 +113,13 @@ impl<T: Scalar> WithSimd for Forward<'_, T> {
             x[node.first..][..pivots].iter().enumerate().for_each(|(k, &x)| put(parts, rows, k, x));
         }
         for (first, block) in blocks(node) {
-            factors.clear();
-            for (x, parts) in local.chunks_exact_mut(size).zip(parts.chunks_exact(step)) {
-                let mut y: [T; BLOCK] = [T::default(); BLOCK];
-                for j in 0..block.width {
-                    y[j] += get(parts, rows, first + j);
-                    for i in j + 1..block.width {
-                        let change = block.at::<T>(i, j) * y[j];
-                        y[i] -= change;
-                    }
-                }
-                x[node.first + first..][..block.width].copy_from_slice(&y[..block.width]);
-                factors.extend(y.iter().flat_map(|&y| (-y).parts()));
+            factors.resize(2 * BLOCK * columns, T::Real::default());
+            let groups = parts.chunks(TOGETHER * step).zip(factors.chunks_mut(TOGETHER * 2 * BLOCK));
+            for (local, (parts, factors)) in local.chunks_mut(TOGETHER * size).zip(groups) {
+                let places = (node.first + first, size);
+                with_count!(local.len() / size, N => forward_triangle::<T, N>(
+                    block, (parts, rows, first), (local, places), factors,
+                ));
             }
             for start in (block.width..block.stride).step_by(CHUNK) {
                 let range = start..block.stride.min(start + CHUNK);
@@ -108,12 +127,9 @@ impl<T: Scalar> WithSimd for Forward<'_, T> {
                     parts.chunks_mut(TOGETHER * step).zip(factors.chunks(TOGETHER * 2 * BLOCK))
                 {
                     let target = (parts, rows, first);
-                    match factors.len() / (2 * BLOCK) {
-                        1 => multiply::<T, S, 1>(simd, block, factors, target, range.clone()),
-                        2 => multiply::<T, S, 2>(simd, block, factors, target, range.clone()),
-                        3 => multiply::<T, S, 3>(simd, block, factors, target, range.clone()),
-                        _ => multiply::<T, S, 4>(simd, block, factors, target, range.clone()),
-                    }
+                    with_count!(factors.len() / (2 * BLOCK), N => multiply::<T, S, N>(
+                        simd, block, factors, target, range.clone(),
+                    ));
                 }
             }
         }
@@ -136,6 +152,52 @@ fn put<T: Scalar>(parts: &mut [T::Real], rows: usize, row: usize, value: T) {
     parts[row] = re;
     if T::PARTS == 2 {
         parts[rows + row] = im;
+    }
+}
+
+/// Numbers of a block's rows, part after part, those of all right-hand sides side by side.
+type Rows<R, const N: usize> = [[[R; N]; BLOCK]; 2];
+
+/// y[to] −= l · y[from], for all right-hand sides.
+#[inline(always)]
+fn subtract<T: Scalar, const N: usize>(y: &mut Rows<T::Real, N>, to: usize, l: T, from: usize) {
+    let [re, im] = l.parts();
+    let (x, z) = (y[0][from], y[1][from]);
+    for n in 0..N {
+        if T::PARTS == 1 {
+            y[0][to][n] -= re * x[n];
+        } else {
+            y[0][to][n] -= re * x[n] - im * z[n];
+            y[1][to][n] -= re * z[n] + im * x[n];
+        }
+    }
+}
+
+/// Solves with the triangle of a block; the solutions, and what the rows below it are to be multiplied with.
+#[inline(always)]
+fn forward_triangle<T: Scalar, const N: usize>(
+    block: Block<'_, T::Real>,
+    (parts, rows, first): (&[T::Real], usize, usize),
+    (local, (place, size)): (&mut [T], (usize, usize)),
+    factors: &mut [T::Real],
+) {
+    let mut y: Rows<T::Real, N> = [[[T::Real::default(); N]; BLOCK]; 2];
+    for (part, y) in y.iter_mut().enumerate().take(T::PARTS) {
+        for (k, y) in y.iter_mut().enumerate().take(block.width) {
+            *y = std::array::from_fn(|n| parts[(n * T::PARTS + part) * rows + first + k]);
+        }
+    }
+    for j in 0..block.width {
+        for i in j + 1..block.width {
+            subtract::<T, N>(&mut y, i, block.at(i, j), j);
+        }
+    }
+    for n in 0..N {
+        for k in 0..block.width {
+            local[n * size + place + k] = T::from_parts([y[0][k][n], y[1][k][n]]);
+            let factor = &mut factors[2 * (n * BLOCK + k)..][..2];
+            (factor[0], factor[1]) = (-y[0][k][n], -y[1][k][n]);
+        }
     }
 }
 
@@ -263,26 +325,52 @@ impl<T: Scalar> WithSimd for Backward<'_, T> {
                 let sums = factors.chunks_mut(TOGETHER * 2 * BLOCK);
                 for (parts, sums) in parts.chunks(TOGETHER * step).zip(sums) {
                     let source = (parts, rows, first);
-                    match sums.len() / (2 * BLOCK) {
-                        1 => dot::<T, S, 1, 4>(simd, block, source, range.clone(), sums),
-                        2 => dot::<T, S, 2, 2>(simd, block, source, range.clone(), sums),
-                        3 => dot::<T, S, 3, 2>(simd, block, source, range.clone(), sums),
-                        _ => dot::<T, S, 4, 2>(simd, block, source, range.clone(), sums),
+                    if sums.len() == 2 * BLOCK {
+                        dot::<T, S, 1, 4>(simd, block, source, range.clone(), sums);
+                    } else {
+                        with_count!(sums.len() / (2 * BLOCK), N => dot::<T, S, N, 2>(
+                            simd, block, source, range.clone(), sums,
+                        ));
                     }
                 }
             }
-            for (c, x) in local.chunks_exact_mut(size).enumerate() {
-                let x = &mut x[node.first + first..][..block.width];
-                for j in (0..block.width).rev() {
-                    let sum = &factors[2 * (c * BLOCK + j)..][..2];
-                    let mut value = x[j] - T::from_parts([sum[0], sum[1]]);
-                    for i in j + 1..block.width {
-                        value -= block.at::<T>(i, j) * x[i];
-                    }
-                    x[j] = value;
-                    put(&mut parts[c * step..], rows, first + j, value);
-                }
+            let groups = parts.chunks_mut(TOGETHER * step).zip(factors.chunks(TOGETHER * 2 * BLOCK));
+            for (local, (parts, sums)) in local.chunks_mut(TOGETHER * size).zip(groups) {
+                let places = (node.first + first, size);
+                with_count!(local.len() / size, N => backward_triangle::<T, N>(
+                    block, (parts, rows, first), (local, places), sums,
+                ));
             }
+        }
+    }
+}
+
+/// Takes the sums from the right-hand sides and solves with the transpose of a block's triangle.
+#[inline(always)]
+fn backward_triangle<T: Scalar, const N: usize>(
+    block: Block<'_, T::Real>,
+    (parts, rows, first): (&mut [T::Real], usize, usize),
+    (local, (place, size)): (&mut [T], (usize, usize)),
+    sums: &[T::Real],
+) {
+    let mut y: Rows<T::Real, N> = [[[T::Real::default(); N]; BLOCK]; 2];
+    for n in 0..N {
+        for k in 0..block.width {
+            let sum = &sums[2 * (n * BLOCK + k)..][..2];
+            let [re, im] = (local[n * size + place + k] - T::from_parts([sum[0], sum[1]])).parts();
+            (y[0][k][n], y[1][k][n]) = (re, im);
+        }
+    }
+    for j in (0..block.width).rev() {
+        for i in j + 1..block.width {
+            subtract::<T, N>(&mut y, j, block.at(i, j), i);
+        }
+    }
+    for n in 0..N {
+        for k in 0..block.width {
+            let value = T::from_parts([y[0][k][n], y[1][k][n]]);
+            local[n * size + place + k] = value;
+            put(&mut parts[n * T::PARTS * rows..], rows, first + k, value);
         }
     }
 }

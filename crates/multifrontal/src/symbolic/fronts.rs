@@ -131,11 +131,33 @@ fn amalgamate(mut groups: Vec<Group>) -> Vec<Group> {
     groups
 }
 
-/// Every subtree in one piece again, the subtree that needs most room first.
+/// Every subtree in one piece again, siblings so that the least waits in memory: first those that need much more
+/// while they are worked on than they leave.
+///
+/// J. W. H. Liu, ACM Trans. Math. Softw. 12 (1986) 249–264.
 fn in_postorder(groups: Vec<Group>) -> Vec<Group> {
     let parent = |k: usize| Some(groups[k].parent).filter(|&parent| parent != ROOT);
+    let mut children: Vec<Vec<usize>> = vec![Vec::new(); groups.len()];
+    let leaves = |k: usize| groups[k].below * groups[k].below / 2;
+    // What a group needs beyond what it leaves.
+    let mut excess = vec![0; groups.len()];
+    for (k, group) in groups.iter().enumerate() {
+        children[k].sort_by_key(|&child| std::cmp::Reverse(excess[child]));
+        let (mut waiting, mut need) = (0, 0);
+        for child in std::mem::take(&mut children[k]) {
+            need = need.max(waiting + leaves(child) + excess[child]);
+            waiting += leaves(child);
+        }
+        need = need.max(waiting + leaves(k) + group.pivots * (group.pivots + group.below));
+        excess[k] = need - leaves(k);
+        if let Some(parent) = parent(k) {
+            children[parent].push(k);
+        }
+    }
+    let mut listed: Vec<usize> = (0..groups.len()).collect();
+    listed.sort_by_key(|&k| std::cmp::Reverse(excess[k]));
     let mut order = Vec::with_capacity(groups.len());
-    postorder(groups.len(), parent, 0..groups.len(), |k| order.push(k));
+    postorder(groups.len(), parent, listed.into_iter(), |k| order.push(k));
     let mut new = vec![ROOT; groups.len()];
     order.iter().enumerate().for_each(|(to, &from)| new[from] = to);
     let mut groups: Vec<Option<Group>> = groups.into_iter().map(Some).collect();
