@@ -4,9 +4,9 @@ use crate::front::{Contribution, Elimination, Front, Places, Stack, eliminate, s
 use crate::part::Part;
 use crate::scalar::Scalar;
 use crate::symbolic::Symbolic;
+use crate::threads::share;
 use crate::{FactorError, scaling};
 use std::ops::Range;
-use std::sync::Mutex;
 
 /// Columns of the factor that lie side by side: as many streams as a processor follows.
 pub(crate) const BLOCK: usize = 8;
@@ -146,7 +146,8 @@ impl<T: Scalar> Run<'_, T> {
         let mut pending: Pending<T> = (0..fronts).map(|_| None).collect();
         let threads = self.options.threads.max(1);
         if threads > 1 {
-            for (range, done, contribution) in self.subtrees(threads) {
+            let subtree = |range: &Range<usize>| self.subtree(range.clone());
+            for (range, done, contribution) in share(threads, &self.symbolic.subtrees, subtree) {
                 pending[range.end - 1] = contribution;
                 eliminated[range].iter_mut().zip(done).for_each(|(slot, done)| *slot = Some(done));
             }
@@ -161,22 +162,6 @@ impl<T: Scalar> Run<'_, T> {
             }
         }
         eliminated.into_iter().flatten().collect()
-    }
-
-    /// The subtrees, each by whichever thread is free, and what each leaves.
-    fn subtrees(&self, threads: usize) -> Vec<Subtree<T>> {
-        let queue = Mutex::new(self.symbolic.subtrees.iter());
-        let take = || queue.lock().unwrap_or_else(std::sync::PoisonError::into_inner).next();
-        let work = || std::iter::from_fn(take).map(|range| self.subtree(range.clone())).collect::<Vec<_>>();
-        std::thread::scope(|scope| {
-            let others: Vec<_> = (1..threads).map(|_| scope.spawn(work)).collect();
-            let mut all = work();
-            for other in others {
-                // A panic of a thread is a panic of the factorisation.
-                all.extend(other.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
-            }
-            all
-        })
     }
 
     fn subtree(&self, range: Range<usize>) -> Subtree<T> {

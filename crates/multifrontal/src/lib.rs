@@ -36,6 +36,7 @@ mod scaling;
 mod solve;
 mod solver;
 mod symbolic;
+mod threads;
 
 pub use error::FactorError;
 pub use factor::{Factor, Inertia, Options};
