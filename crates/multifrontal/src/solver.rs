@@ -155,7 +155,8 @@ impl<'a, T: Scalar> Solver<'a, T> {
             }
         }
         let scale = self.norm * size(x) + size(b);
-        let error = if scale > 0.0 { size(&residual) / scale } else { 0.0 };
+        // Of a scale that is no number comes an error that is none.
+        let error = if scale == 0.0 { 0.0 } else { size(&residual) / scale };
         (residual, error)
     }
 

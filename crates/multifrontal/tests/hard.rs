@@ -245,3 +245,17 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn a_solution_that_is_no_number_is_none() {
+    let matrix = chain(20, true, 0.0);
+    let symbolic = matrix.symbolic(&Ordering::default());
+    for precision in [Precision::Full, Precision::Single] {
+        let solver = Solver::new(&symbolic, &matrix.values, precision, &Options::default()).unwrap();
+        for bad in [f64::NAN, f64::INFINITY, 1e308] {
+            let mut x = vec![1.0; 40];
+            x[33] = bad;
+            assert_eq!(solver.solve(&mut x), Err(FactorError::NoSolution { column: 1 }));
+        }
+    }
+}
