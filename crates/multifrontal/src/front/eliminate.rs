@@ -180,14 +180,14 @@ fn eliminate_anywhere<T: Scalar>(
         (at..front.rows())
             .filter(|&row| row != col)
             .map(|row| if row < col { front.at(col, row) } else { front.at(row, col) }.size())
-            .fold(0.0, f64::max)
+            .fold(0.0, |most: f64, size| if size > most || size.is_nan() { size } else { most })
     };
     let largest: Vec<f64> = (at..candidates).map(largest).collect();
     let nothing = T::Real::ROUNDOFF * T::Real::ROUNDOFF;
     let limit = 1.0 / with.threshold;
     let one = (at..candidates).find(|&col| {
         let size = entry(col, col).size();
-        size > nothing && largest[col - at] <= limit * size
+        size > nothing && size.is_finite() && largest[col - at] <= limit * size
     });
     let two = || {
         let pairs = (at..candidates).flat_map(|j| (at..j).map(move |i| (i, j)));
@@ -196,6 +196,7 @@ fn eliminate_anywhere<T: Scalar>(
             let inverse = invert_pair([[entry(i, i), below], [entry(j, j), T::default()]]).map(T::size);
             let (p, q) = (largest[i - at], largest[j - at]);
             below.size() > nothing
+                && below.is_finite()
                 && inverse[0] * p + inverse[1] * q <= limit
                 && inverse[1] * p + inverse[2] * q <= limit
         })
