@@ -1,13 +1,14 @@
 //! The factorisation that everything rests on, on real structures: Sylvester's law against dense eigenvalues, and
 //! solutions of what the Harwell–Boeing collection has of structures.
 
+mod shared_data;
+
 use frfit_fem::brick::Face;
 use frfit_fem::{Assembled, Bar, Beam, Brick, Mass, Plate, Support};
-use frfit_formats::{CoordinateMatrix, Entries, harwell_boeing, matrix_market};
 use frfit_linalg::dense::symmetric_eigen;
 use frfit_linalg::sparse::{Pattern, SymmetricMatrix, Values};
 use multifrontal::{Options, Ordering, Precision, Solver, Symbolic, c64};
-use std::path::PathBuf;
+use shared_data::{read_matrix, shared};
 use std::sync::Arc;
 
 /// K and M on one pattern.
@@ -112,17 +113,9 @@ fn negative_pivots_are_the_modes_below_a_shift() {
 }
 
 #[test]
-#[expect(clippy::print_stderr, reason = "a skipped test says so")]
 fn structures_of_the_harwell_boeing_collection() {
-    let data = std::env::var_os("FRFIT_DATA").map_or_else(
-        || PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data"),
-        PathBuf::from,
-    );
-    let folder = data.join("hb");
-    let Ok(files) = std::fs::read_dir(&folder) else {
-        eprintln!("skipped: the Harwell–Boeing matrices are not at FRFIT_DATA or ../shared/data");
-        return;
-    };
+    let Some(folder) = shared("hb") else { return };
+    let files = std::fs::read_dir(&folder).unwrap();
     let mut names: Vec<String> = files
         .map(|file| file.unwrap().file_name().into_string().unwrap())
         .filter(|name| name.starts_with("bcsstk"))
@@ -130,9 +123,9 @@ fn structures_of_the_harwell_boeing_collection() {
     names.sort();
     assert!(names.len() >= 8, "{names:?}");
     for name in names {
-        let k = read(&folder.join(&name));
+        let k = read_matrix(&folder.join(&name));
         let mass = folder.join(name.replace("bcsstk", "bcsstm").replace(".rsa", ".mtx"));
-        let m = if mass.exists() { read(&mass) } else { identity(k.dim()) };
+        let m = if mass.exists() { read_matrix(&mass) } else { identity(k.dim()) };
         let structure = Structure::new(&name, &[(1.0, &k)], &[(1.0, &m)]);
         let symbolic = structure.symbolic();
         for part in [0.0, 1e-8, 1e-3] {
@@ -162,19 +155,4 @@ fn structures_of_the_harwell_boeing_collection() {
 fn identity(dim: usize) -> SymmetricMatrix {
     let pattern = Pattern::new(dim, []);
     SymmetricMatrix::new(Arc::new(pattern), Values::Real(vec![1.0; dim]))
-}
-
-fn read(path: &std::path::Path) -> SymmetricMatrix {
-    let bytes = std::fs::read(path).unwrap();
-    let matrix: CoordinateMatrix = match path.extension().and_then(|ending| ending.to_str()) {
-        Some("mtx") => matrix_market::read(&bytes).unwrap(),
-        _ => harwell_boeing::read(&bytes).unwrap(),
-    };
-    let Entries::Real(entries) = matrix.entries else { panic!("{} is real", path.display()) };
-    let pattern = Pattern::new(matrix.nrows, matrix.rows.iter().copied().zip(matrix.cols.iter().copied()));
-    let mut values = vec![0.0; pattern.stored()];
-    for ((&row, &col), entry) in matrix.rows.iter().zip(&matrix.cols).zip(entries) {
-        values[pattern.find(row, col).unwrap()] = entry;
-    }
-    SymmetricMatrix::new(Arc::new(pattern), Values::Real(values))
 }

@@ -1,6 +1,7 @@
 //! The paper's demonstrations of Sections 6 and 8, with the choices it leaves open stated here.
 
 mod common;
+mod shared_data;
 
 use common::{c, term};
 use frfit::c64;
@@ -12,11 +13,9 @@ use frfit::rational::RationalResponse;
 use frfit::response::{FullModel, Response, Work};
 use frfit::roots::{Bounds, Refusal};
 use frfit_fem::{Bar, Mass, Support};
-use frfit_formats::{Entries, matrix_market};
 use frfit_linalg::modes;
-use frfit_linalg::sparse::{Pattern, SymmetricMatrix, Values};
-use std::path::PathBuf;
-use std::sync::Arc;
+use frfit_linalg::sparse::SymmetricMatrix;
+use shared_data::{read_matrix, shared};
 
 /// P-36, times a factor.
 fn polybutadiene(factor: f64) -> Law {
@@ -185,26 +184,9 @@ fn a_resonance_without_damping_is_a_status() {
     }
 }
 
-/// A real symmetric Matrix Market file of the plate, or `None` with a word where the data is absent.
-#[expect(clippy::print_stderr, reason = "a skipped test says so")]
+/// A matrix of the plate, or `None` with a word where the data is absent.
 fn plate_matrix(name: &str) -> Option<SymmetricMatrix> {
-    let data = std::env::var_os("FRFIT_DATA").map_or_else(
-        || PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data"),
-        PathBuf::from,
-    );
-    let path = data.join("plate").join(name);
-    let Ok(bytes) = std::fs::read(&path) else {
-        eprintln!("skipped: {name} of the clamped plate is not at FRFIT_DATA or ../shared/data");
-        return None;
-    };
-    let matrix = matrix_market::read(&bytes).unwrap();
-    let Entries::Real(entries) = matrix.entries else { panic!("{name} is real") };
-    let pattern = Pattern::new(matrix.nrows, matrix.rows.iter().copied().zip(matrix.cols.iter().copied()));
-    let mut values = vec![0.0; pattern.stored()];
-    for ((&row, &col), entry) in matrix.rows.iter().zip(&matrix.cols).zip(entries) {
-        values[pattern.find(row, col).unwrap()] = entry;
-    }
-    Some(SymmetricMatrix::new(Arc::new(pattern), Values::Real(values)))
+    Some(read_matrix(&shared("plate")?.join(name)))
 }
 
 #[test]

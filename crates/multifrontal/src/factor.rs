@@ -97,14 +97,10 @@ impl Symbolic {
     /// # Limits
     /// A matrix that is singular but for roundoff is factorised: its solutions show it.
     pub fn factor<T: Scalar>(&self, values: &[T], options: &Options) -> Result<Factor<T>, FactorError> {
-        let expected = self.pattern.row_idx.len();
-        if values.len() != expected {
-            return Err(FactorError::Values { expected, found: values.len() });
-        }
+        let scale = scaling::scaling(&self.pattern, values)?;
         let bytes = self.factor_bytes::<T>().saturating_add(self.working_bytes::<T>());
         // Asked for and given back: whether there is as much, before anything is done.
         Vec::<u8>::new().try_reserve_exact(bytes).map_err(|_| FactorError::OutOfMemory)?;
-        let scale = scaling::scaling(&self.pattern, values)?;
         let scale: Vec<T::Real> = self.order.iter().map(|&row| scale[row as usize]).collect();
         let run = Run { symbolic: self, values, scale: &scale, options };
         let eliminated = run.all();

@@ -64,6 +64,11 @@ impl Part {
         }
     }
 
+    /// Positions that are seen here.
+    pub(crate) fn size(&self) -> usize {
+        self.len() + self.outside.len()
+    }
+
     /// Positions that are eliminated here.
     pub(crate) fn len(&self) -> usize {
         self.own.iter().map(ExactSizeIterator::len).sum()

@@ -9,9 +9,16 @@ const PASSES: usize = 3;
 
 /// The diagonal of S, in powers of two so that no digit is lost.
 ///
+/// # Errors
+/// [`FactorError::Values`], [`FactorError::NotFinite`].
+///
 /// # Source
 /// D. Ruiz, RAL-TR-2001-034.
 pub(crate) fn scaling<T: Scalar>(pattern: &Lower, values: &[T]) -> Result<Vec<T::Real>, FactorError> {
+    let expected = pattern.row_idx.len();
+    if values.len() != expected {
+        return Err(FactorError::Values { expected, found: values.len() });
+    }
     let mut scale = vec![1.0f64; pattern.dim];
     let mut largest = vec![0.0f64; pattern.dim];
     for pass in 0..PASSES {

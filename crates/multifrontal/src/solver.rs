@@ -228,10 +228,6 @@ struct Rounded<T: Scalar> {
 
 impl<T: Scalar> Rounded<T> {
     fn new(symbolic: &Symbolic, values: &[T], options: &Options) -> Result<Self, FactorError> {
-        let expected = symbolic.pattern.row_idx.len();
-        if values.len() != expected {
-            return Err(FactorError::Values { expected, found: values.len() });
-        }
         let scale = scaling::scaling(&symbolic.pattern, values)?;
         let scaled = symbolic.pattern.positions().zip(values);
         let scaled = scaled.map(|((row, col), value)| value.scale(scale[row]).scale(scale[col]).to_single());

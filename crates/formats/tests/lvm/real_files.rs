@@ -1,19 +1,8 @@
 //! Hammer tests as LabVIEW recorded them.
 
+use crate::outside::{python_with, shared};
 use frfit_formats::lvm::{Abscissa, DecimalSign, Lvm, read};
-use std::path::PathBuf;
 use std::process::Command;
-
-/// A file of the data for tests; `None` and a word where there is none.
-fn shared(name: &str) -> Option<PathBuf> {
-    let beside = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data");
-    let path = PathBuf::from(std::env::var("FRFIT_DATA").unwrap_or_else(|_| beside.into())).join(name);
-    if !path.exists() {
-        println!("skipped: no {} (set FRFIT_DATA)", path.display());
-        return None;
-    }
-    Some(path)
-}
 
 fn samples(file: &Lvm) -> Vec<usize> {
     file.segments.iter().flat_map(|segment| &segment.channels).map(|channel| channel.values.len()).collect()
@@ -53,12 +42,7 @@ for k in range(data['Segments']):
 /// Sums over all samples of a channel tell a sample that is lost, doubled or misread.
 #[test]
 fn lvm_read_reads_the_same() {
-    let python = std::env::var("FRFIT_PYTHON").unwrap_or_else(|_| "python3".into());
-    let has_reader = Command::new(&python).args(["-c", "import lvm_read"]).output();
-    if !has_reader.is_ok_and(|output| output.status.success()) {
-        println!("skipped: {python} has no lvm_read (set FRFIT_PYTHON to one that has)");
-        return;
-    }
+    let Some(python) = python_with("lvm_read") else { return };
     for name in ["hammer/impact2_response0.lvm", "hammer/acceleration.lvm"] {
         let Some(path) = shared(name) else { return };
         let output = Command::new(&python).args(["-c", SCRIPT]).arg(&path).output().unwrap();

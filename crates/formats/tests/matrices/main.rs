@@ -1,9 +1,9 @@
 //! Matrix files: real ones, broken ones, written and read back, and against SciPy.
 
-#![allow(clippy::print_stdout, reason = "a skipped test says why")]
-
 mod broken;
 mod dialects;
+#[path = "../outside/mod.rs"]
+mod outside;
 mod real_files;
 mod regressions;
 mod round_trip;

@@ -1,19 +1,7 @@
 //! Matrices of the Harwell–Boeing collection, in both formats.
 
-use std::path::PathBuf;
-
+use crate::outside::shared;
 use frfit_formats::{CoordinateMatrix, Entries, FileKind, Symmetry, detect, harwell_boeing, matrix_market};
-
-/// A folder of the data for tests, or `None` and a word where there is none.
-fn folder(name: &str) -> Option<PathBuf> {
-    let beside = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data");
-    let folder = PathBuf::from(std::env::var("FRFIT_DATA").unwrap_or_else(|_| beside.into())).join(name);
-    if !folder.is_dir() {
-        println!("skipped: no folder {} (set FRFIT_DATA)", folder.display());
-        return None;
-    }
-    Some(folder)
-}
 
 fn values(matrix: &CoordinateMatrix) -> &[f64] {
     match &matrix.entries {
@@ -24,7 +12,7 @@ fn values(matrix: &CoordinateMatrix) -> &[f64] {
 
 #[test]
 fn all_files_are_read_and_written_and_read_back_equal() {
-    for folder in ["hb", "plate"].into_iter().filter_map(folder) {
+    for folder in ["hb", "plate"].into_iter().filter_map(shared) {
         let mut read = 0;
         for file in std::fs::read_dir(folder).unwrap() {
             let path = file.unwrap().path();
@@ -52,7 +40,7 @@ fn all_files_are_read_and_written_and_read_back_equal() {
 #[test]
 fn both_formats_hold_the_same_matrix() {
     for (place, name) in [("plate", "bcsstk09"), ("hb", "bcsstk01")] {
-        let Some(folder) = folder(place) else { return };
+        let Some(folder) = shared(place) else { return };
         let read = |ending: &str| std::fs::read(folder.join(format!("{name}.{ending}"))).unwrap();
         let rsa = harwell_boeing::read(&read("rsa")).unwrap();
         let mtx = matrix_market::read(&read("mtx")).unwrap();
@@ -66,7 +54,7 @@ fn both_formats_hold_the_same_matrix() {
 
 #[test]
 fn header_lines_become_the_title() {
-    let Some(folder) = folder("plate") else { return };
+    let Some(folder) = shared("plate") else { return };
     let matrix = harwell_boeing::read(&std::fs::read(folder.join("bcsstk09.rsa")).unwrap()).unwrap();
     assert_eq!(matrix.title, "1SYMMETRIC STIFFNESS MATRIX, SQUARE PLATE CLAMPED\nBCSSTK09");
     assert_eq!((matrix.nrows, matrix.ncols, matrix.rows.len()), (1083, 1083, 9760));

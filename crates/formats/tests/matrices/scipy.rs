@@ -3,6 +3,7 @@
 use std::path::Path;
 use std::process::Command;
 
+use crate::outside::python_with;
 use frfit_formats::{CoordinateMatrix, Entries, Symmetry, harwell_boeing, matrix_market};
 use num_complex::Complex64 as c64;
 
@@ -40,12 +41,7 @@ print("checked", len(matrices))
 
 #[test]
 fn scipy_and_we_read_each_other() {
-    let python = std::env::var("FRFIT_PYTHON").unwrap_or_else(|_| "python3".into());
-    let has_scipy = Command::new(&python).args(["-c", "import scipy"]).output();
-    if !has_scipy.is_ok_and(|output| output.status.success()) {
-        println!("skipped: {python} has no SciPy (set FRFIT_PYTHON to one that has)");
-        return;
-    }
+    let Some(python) = python_with("scipy") else { return };
     let folder = tempfile::tempdir().unwrap();
     let matrices = matrices();
     for (name, matrix) in &matrices {

@@ -3,6 +3,9 @@
 // Every test that includes this module uses a part of it.
 #![allow(dead_code)]
 
+#[path = "../outside/mod.rs"]
+mod outside;
+
 use std::path::PathBuf;
 
 use frfit_formats::uff::{
@@ -11,16 +14,8 @@ use frfit_formats::uff::{
 use num_complex::Complex64 as c64;
 
 /// The folder of UFF samples, or `None` with a word where it is not there.
-#[allow(clippy::print_stderr)]
 pub(crate) fn samples() -> Option<PathBuf> {
-    let beside = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data");
-    let data = std::env::var_os("FRFIT_DATA").map_or_else(|| PathBuf::from(beside), PathBuf::from);
-    let samples = data.join("uff");
-    if !samples.is_dir() {
-        eprintln!("skipped: no sample data (set FRFIT_DATA)");
-        return None;
-    }
-    Some(samples)
+    outside::shared("uff")
 }
 
 /// The eight combinations of data type and spacing.

@@ -2,7 +2,7 @@
 
 use super::Front;
 use super::corner::{CORNER, Corner, invert_pair};
-use crate::kernel::{WIDE, copy, tile_rows};
+use crate::kernel::{REGISTERS, WIDE, copy, tile_rows};
 use crate::scalar::{Real, Scalar};
 use pulp::{Simd, WithSimd};
 
@@ -122,15 +122,15 @@ fn substitute<T: Scalar, S: Simd>(
     let (before_im, own_im) = w_im.split_at_mut(j);
     let own_re = T::Real::vectors_mut::<S>(&mut own_re[0][..height]).0;
     let own_im = T::Real::vectors_mut::<S>(&mut own_im[0][..height]).0;
-    let [re, im] = [&mut own_re[..2], &mut own_im[..2]];
-    let (mut r, mut m) = ([re[0], re[1]], [im[0], im[1]]);
+    let mut r: [_; REGISTERS] = std::array::from_fn(|k| own_re[k]);
+    let mut m: [_; REGISTERS] = std::array::from_fn(|k| own_im[k]);
     for i in 0..j {
         let l = corner.get(j, i);
         let minus = (-l).parts().map(|part| T::Real::splat(simd, part));
         let x = T::Real::vectors::<S>(&before_re[i][..height]).0;
         let y = T::Real::vectors::<S>(&before_im[i][..height]).0;
         let im = T::Real::splat(simd, l.parts()[1]);
-        for k in 0..2 {
+        for k in 0..REGISTERS {
             r[k] = T::Real::mul_add(simd, x[k], minus[0], r[k]);
             if T::PARTS == 2 {
                 r[k] = T::Real::mul_add(simd, y[k], im, r[k]);
@@ -139,6 +139,6 @@ fn substitute<T: Scalar, S: Simd>(
             }
         }
     }
-    re.copy_from_slice(&r);
-    im.copy_from_slice(&m);
+    own_re.copy_from_slice(&r);
+    own_im.copy_from_slice(&m);
 }

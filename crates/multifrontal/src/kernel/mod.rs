@@ -7,7 +7,7 @@ mod pack;
 mod tile;
 
 pub(crate) use pack::{Left, Pivots};
-pub(crate) use tile::{WIDE, copy, tile_rows};
+pub(crate) use tile::{REGISTERS, WIDE, copy, tile_rows};
 
 use crate::scalar::{Real, Scalar};
 use pulp::{Simd, WithSimd};

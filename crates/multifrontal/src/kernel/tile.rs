@@ -4,7 +4,7 @@ use crate::scalar::Real;
 use pulp::Simd;
 
 /// Registers of rows in a tile.
-const REGISTERS: usize = 2;
+pub(crate) const REGISTERS: usize = 2;
 /// Columns of a tile: with [`REGISTERS`] of rows its sums fit the sixteen registers of AVX2.
 pub(crate) const COLS: usize = 6;
 /// The most rows of a tile: two registers of sixteen single-precision numbers.

@@ -86,19 +86,23 @@ macro_rules! with_count {
     };
 }
 
-pub(super) struct Forward<'a, T: Scalar> {
+/// One node, and the numbers of its part, right-hand side after right-hand side.
+pub(super) struct Step<'a, T: Scalar> {
     pub(super) node: &'a Node<T>,
     pub(super) local: &'a mut [T],
     pub(super) columns: usize,
     pub(super) buffers: &'a mut Buffers<T::Real>,
 }
 
+/// y = L⁻¹ b.
+pub(super) struct Forward<'a, T: Scalar>(pub(super) Step<'a, T>);
+
 impl<T: Scalar> WithSimd for Forward<'_, T> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let Self { node, local, columns, buffers: Buffers { parts, factors } } = self;
+        let Step { node, local, columns, buffers: Buffers { parts, factors } } = self.0;
         let (pivots, rows) = (node.pivots(), node.order());
         let size = local.len() / columns;
         let touched =
@@ -295,19 +299,15 @@ fn multiply_rows<T: Scalar, S: Simd, const N: usize>(
     }
 }
 
-pub(super) struct Backward<'a, T: Scalar> {
-    pub(super) node: &'a Node<T>,
-    pub(super) local: &'a mut [T],
-    pub(super) columns: usize,
-    pub(super) buffers: &'a mut Buffers<T::Real>,
-}
+/// x = L⁻ᵀ D⁻¹ y.
+pub(super) struct Backward<'a, T: Scalar>(pub(super) Step<'a, T>);
 
 impl<T: Scalar> WithSimd for Backward<'_, T> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let Self { node, local, columns, buffers: Buffers { parts, factors } } = self;
+        let Step { node, local, columns, buffers: Buffers { parts, factors } } = self.0;
         let (pivots, rows) = (node.pivots(), node.order());
         let size = local.len() / columns;
         let step = rows * T::PARTS;

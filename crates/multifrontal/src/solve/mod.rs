@@ -9,7 +9,7 @@ use crate::factor::{Factor, Node};
 use crate::part::Part;
 use crate::scalar::Scalar;
 use crate::threads::share;
-use kernel::{Backward, Buffers, Forward};
+use kernel::{Backward, Buffers, Forward, Step};
 use std::sync::Mutex;
 
 /// Numbers of a factor below which another thread costs more than it brings.
@@ -43,7 +43,7 @@ impl<T: Scalar> Factor<T> {
         });
         let mut above = self.gather(top, given, columns);
         for (part, local) in subtrees.iter().zip(&below) {
-            let (own, size, top_size) = (part.len(), part.len() + part.outside.len(), top.len());
+            let (own, size, top_size) = (part.len(), part.size(), top.len());
             for column in 0..columns {
                 let changes = &local[column * size + own..][..part.outside.len()];
                 for (&place, &change) in part.outside.iter().zip(changes) {
@@ -57,7 +57,7 @@ impl<T: Scalar> Factor<T> {
         let below = share(threads, &all, |(part, local)| {
             let mut local =
                 std::mem::take(&mut *local.lock().unwrap_or_else(std::sync::PoisonError::into_inner));
-            let (own, size, top_size) = (part.len(), part.len() + part.outside.len(), top.len());
+            let (own, size, top_size) = (part.len(), part.size(), top.len());
             for column in 0..columns {
                 for (k, &place) in part.outside.iter().enumerate() {
                     local[column * size + own + k] = above[column * top_size + place as usize];
@@ -72,8 +72,7 @@ impl<T: Scalar> Factor<T> {
 
     /// S b in the order of a part's positions, zeros for those outside of it.
     fn gather(&self, part: &Part, rhs: &[T], columns: usize) -> Vec<T> {
-        let size = part.len() + part.outside.len();
-        let mut local = Vec::with_capacity(size * columns);
+        let mut local = Vec::with_capacity(part.size() * columns);
         for b in rhs.chunks_exact(self.dim()) {
             for run in &part.own {
                 let rows = self.order[run.clone()].iter().zip(&self.scale[run.clone()]);
@@ -86,8 +85,7 @@ impl<T: Scalar> Factor<T> {
 
     /// x = S y.
     fn scatter(&self, part: &Part, local: &[T], rhs: &mut [T]) {
-        let size = part.len() + part.outside.len();
-        for (x, local) in rhs.chunks_exact_mut(self.dim()).zip(local.chunks_exact(size)) {
+        for (x, local) in rhs.chunks_exact_mut(self.dim()).zip(local.chunks_exact(part.size())) {
             let rows =
                 part.own.iter().flat_map(|run| self.order[run.clone()].iter().zip(&self.scale[run.clone()]));
             rows.zip(local).for_each(|((&row, &scale), y)| x[row as usize] = y.scale(scale));
@@ -102,7 +100,7 @@ impl<T: Scalar> Factor<T> {
     fn forward(&self, part: &Part, local: &mut [T], columns: usize) {
         let mut buffers = Buffers::default();
         for node in self.nodes_of(part) {
-            crate::arch().dispatch(Forward { node, local, columns, buffers: &mut buffers });
+            crate::arch().dispatch(Forward(Step { node, local, columns, buffers: &mut buffers }));
         }
     }
 
@@ -110,7 +108,7 @@ impl<T: Scalar> Factor<T> {
     fn backward(&self, part: &Part, local: &mut [T], columns: usize) {
         let mut buffers = Buffers::default();
         for node in self.nodes_of(part).rev() {
-            crate::arch().dispatch(Backward { node, local, columns, buffers: &mut buffers });
+            crate::arch().dispatch(Backward(Step { node, local, columns, buffers: &mut buffers }));
         }
     }
 }

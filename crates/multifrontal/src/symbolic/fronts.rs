@@ -75,7 +75,7 @@ fn supernodes(elimination: &Elimination) -> Vec<Group> {
         }
     }
     for group in &mut groups {
-        group.parent = if group.parent == ROOT { ROOT } else { group_of[group.parent] };
+        group.parent = renumbered(group.parent, &group_of);
     }
     groups
 }
@@ -126,7 +126,7 @@ fn amalgamate(mut groups: Vec<Group>) -> Vec<Group> {
     let mut groups: Vec<Group> =
         groups.into_iter().zip(merged).filter(|(_, merged)| !merged).map(|(group, _)| group).collect();
     for group in &mut groups {
-        group.parent = if group.parent == ROOT { ROOT } else { new[group.parent] };
+        group.parent = renumbered(group.parent, &new);
     }
     groups
 }
@@ -162,9 +162,12 @@ fn in_postorder(groups: Vec<Group>) -> Vec<Group> {
     order.iter().enumerate().for_each(|(to, &from)| new[from] = to);
     let mut groups: Vec<Option<Group>> = groups.into_iter().map(Some).collect();
     let ordered = order.iter().filter_map(|&k| groups[k].take());
-    ordered
-        .map(|group| Group { parent: if group.parent == ROOT { ROOT } else { new[group.parent] }, ..group })
-        .collect()
+    ordered.map(|group| Group { parent: renumbered(group.parent, &new), ..group }).collect()
+}
+
+/// The new number of a parent, if there is one.
+fn renumbered(parent: usize, new: &[usize]) -> usize {
+    if parent == ROOT { ROOT } else { new[parent] }
 }
 
 /// Where vertices and rows come in the elimination.
