@@ -4,12 +4,9 @@ use crate::front::{Contribution, Elimination, Front, Places, Stack, eliminate, s
 use crate::part::Part;
 use crate::scalar::Scalar;
 use crate::symbolic::Symbolic;
-use crate::threads::share;
+use crate::threads::{map, with};
 use crate::{FactorError, scaling};
 use std::ops::Range;
-
-/// Columns of the factor that lie side by side: as many streams as a processor follows.
-pub(crate) const BLOCK: usize = 8;
 
 /// How a matrix is factorised.
 #[derive(Debug, Clone, PartialEq)]
@@ -59,9 +56,11 @@ pub(crate) struct Node<T: Scalar> {
     pub(crate) inverse: Vec<[T; 2]>,
     /// Places of its other rows in its part.
     pub(crate) rows: Vec<u32>,
-    /// L, [`BLOCK`] columns at a time from the first one's diagonal downwards, each column of real parts with
-    /// that of its imaginary parts behind it.
+    /// L as its front left it: columns of real parts with those of the imaginary parts behind; what is on the
+    /// diagonal and above it means nothing.
     pub(crate) values: Vec<T::Real>,
+    /// From one part of a column to the next.
+    pub(crate) stride: usize,
 }
 
 impl<T: Scalar> Node<T> {
@@ -74,17 +73,13 @@ impl<T: Scalar> Node<T> {
     }
 }
 
-/// Numbers that a node keeps.
-pub(crate) fn packed_len(pivots: usize, order: usize) -> usize {
-    (0..pivots).step_by(BLOCK).map(|first| BLOCK.min(pivots - first) * (order - first)).sum()
-}
-
 /// What an elimination gives: positions are those of the analysis.
 struct Eliminated<T: Scalar> {
     pivots: Vec<u32>,
     d: Vec<[T; 2]>,
     below: Vec<u32>,
     values: Vec<T::Real>,
+    stride: usize,
 }
 
 impl Symbolic {
@@ -103,7 +98,7 @@ impl Symbolic {
         Vec::<u8>::new().try_reserve_exact(bytes).map_err(|_| FactorError::OutOfMemory)?;
         let scale: Vec<T::Real> = self.order.iter().map(|&row| scale[row as usize]).collect();
         let run = Run { symbolic: self, values, scale: &scale, options };
-        let eliminated = run.all();
+        let eliminated = with(options.threads, || run.all());
         run.finish(eliminated)
     }
 }
@@ -121,7 +116,6 @@ struct Run<'a, T: Scalar> {
 
 /// Buffers of one thread.
 struct Worker<T: Scalar> {
-    panel: Vec<T::Real>,
     /// Schur complements of fronts at even and at odd depths.
     stacks: [Stack<T::Real>; 2],
     elimination: Elimination<T>,
@@ -132,7 +126,7 @@ type Pending<T> = Vec<Option<Contribution<<T as Scalar>::Real>>>;
 impl<T: Scalar> Run<'_, T> {
     fn worker(&self, threads: usize, fronts: Range<usize>) -> Worker<T> {
         let stacks = self.symbolic.stacks(fronts).map(|len| Stack::new(T::PARTS * len));
-        Worker { panel: Vec::new(), stacks, elimination: Elimination::new(self.options.threshold, threads) }
+        Worker { stacks, elimination: Elimination::new(self.options.threshold, threads) }
     }
 
     /// All fronts in their order.
@@ -142,8 +136,8 @@ impl<T: Scalar> Run<'_, T> {
         let mut pending: Pending<T> = (0..fronts).map(|_| None).collect();
         let threads = self.options.threads.max(1);
         if threads > 1 {
-            let subtree = |range: &Range<usize>| self.subtree(range.clone());
-            for (range, done, contribution) in share(threads, &self.symbolic.subtrees, subtree) {
+            let subtrees = self.symbolic.subtrees.clone();
+            for (range, done, contribution) in map(threads, subtrees, |range| self.subtree(range)) {
                 pending[range.end - 1] = contribution;
                 eliminated[range].iter_mut().zip(done).for_each(|(slot, done)| *slot = Some(done));
             }
@@ -194,15 +188,14 @@ impl<T: Scalar> Run<'_, T> {
         ids.extend(symbolic.rows_of(k));
         let (candidates, others) = (delayed + shape.pivots, shape.rows.len());
         let stride = padded(ids.len());
-        worker.panel.clear();
-        worker.panel.resize(T::PARTS * stride * candidates, T::Real::default());
+        let mut values = vec![T::Real::default(); T::PARTS * stride * candidates];
         let parity = symbolic.parity(k);
         let [even, odd] = &mut worker.stacks;
         let (own, below) = if parity == 0 { (even, odd) } else { (odd, even) };
         let mut schur = own.push(schur_len::<T>(others));
         let target = own.values_of_mut(&mut schur);
 
-        let mut front = Front { ids, candidates, panel: &mut worker.panel, stride };
+        let mut front = Front { ids, candidates, panel: &mut values, stride };
         self.add_entries(&mut front, k, delayed);
         let mut base = 0;
         let places: Vec<_> = children
@@ -223,10 +216,14 @@ impl<T: Scalar> Run<'_, T> {
         }
         children.iter().for_each(|(_, child)| below.pop(&child.schur));
 
-        let values = pack(&front, d.len());
         let (pivots, rest) = front.ids.split_at(d.len());
         let contribution = (!rest.is_empty()).then(|| Contribution::new(&front, d.len(), schur));
-        (Eliminated { pivots: pivots.to_vec(), below: rest.to_vec(), d, values }, contribution)
+        let (pivots, below) = (pivots.to_vec(), rest.to_vec());
+        if d.len() < candidates {
+            values.truncate(T::PARTS * stride * d.len());
+            values.shrink_to_fit();
+        }
+        (Eliminated { pivots, below, d, values, stride }, contribution)
     }
 
     /// The entries of the matrix in the front's own columns, scaled.
@@ -270,7 +267,7 @@ impl<T: Scalar> Run<'_, T> {
             let rows = front.below.iter().map(|&position| new[position as usize]).collect();
             firsts.push(first);
             first += front.pivots.len();
-            nodes.push(Node { first: 0, inverse, rows, values: front.values });
+            nodes.push(Node { first: 0, inverse, rows, values: front.values, stride: front.stride });
         }
         inertia.positive = dim - inertia.negative;
         let parts = Part::of(&symbolic.subtrees, &firsts, &mut nodes, dim);
@@ -312,20 +309,8 @@ impl<T: Scalar> Factor<T> {
 }
 
 /// A stride at which the columns of a tile do not fall onto the same lines of a cache.
-fn padded(rows: usize) -> usize {
+pub(crate) fn padded(rows: usize) -> usize {
     if rows > 64 && rows.is_multiple_of(32) { rows + 4 } else { rows }
-}
-
-/// The eliminated columns, [`BLOCK`] side by side.
-fn pack<T: Scalar>(front: &Front<'_, T>, pivots: usize) -> Vec<T::Real> {
-    let mut values = Vec::with_capacity(T::PARTS * packed_len(pivots, front.rows()));
-    for col in 0..pivots {
-        for part in 0..T::PARTS {
-            // What is above the diagonal and on it is never looked at.
-            values.extend_from_slice(front.part(col, part, col / BLOCK * BLOCK));
-        }
-    }
-    values
 }
 
 /// D⁻¹, counting on the way.

@@ -1,24 +1,40 @@
 //! Work shared out to threads.
 
-use std::sync::{Mutex, PoisonError};
+use rayon::prelude::*;
 
-/// Applies a function to all items, each by whichever thread is free; results in the order of the items.
-pub(crate) fn share<I: Sync, O: Send>(threads: usize, items: &[I], work: impl Fn(&I) -> O + Sync) -> Vec<O> {
-    if threads < 2 || items.len() < 2 {
-        return items.iter().map(work).collect();
+/// Runs with so many threads at hand: those of the caller's pool where it has as many, else new ones.
+pub(crate) fn with<O: Send>(threads: usize, run: impl FnOnce() -> O + Send) -> O {
+    if threads < 2 {
+        return run();
     }
-    let queue = Mutex::new(items.iter().enumerate());
-    let take = || queue.lock().unwrap_or_else(PoisonError::into_inner).next();
-    let run = || std::iter::from_fn(take).map(|(k, item)| (k, work(item))).collect::<Vec<_>>();
-    let mut all = std::thread::scope(|scope| {
-        let others: Vec<_> = (1..threads).map(|_| scope.spawn(run)).collect();
-        let mut all = run();
-        for other in others {
-            // A panic of a thread is a panic of the caller.
-            all.extend(other.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
-        }
-        all
-    });
-    all.sort_by_key(|&(k, _)| k);
-    all.into_iter().map(|(_, output)| output).collect()
+    if rayon::current_num_threads() == threads {
+        return rayon::scope(|_| run());
+    }
+    match rayon::ThreadPoolBuilder::new().num_threads(threads).build() {
+        Ok(pool) => pool.install(run),
+        // The system has no more threads: this one is enough.
+        Err(_) => run(),
+    }
+}
+
+/// Applies a function to all items, each by whichever thread is free.
+pub(crate) fn each<I: Send>(threads: usize, items: Vec<I>, work: impl Fn(I) + Sync + Send) {
+    if threads < 2 || items.len() < 2 {
+        items.into_iter().for_each(work);
+    } else {
+        items.into_par_iter().with_max_len(1).for_each(work);
+    }
+}
+
+/// The same with results, in the order of the items.
+pub(crate) fn map<I: Send, O: Send>(
+    threads: usize,
+    items: Vec<I>,
+    work: impl Fn(I) -> O + Sync + Send,
+) -> Vec<O> {
+    if threads < 2 || items.len() < 2 {
+        items.into_iter().map(work).collect()
+    } else {
+        items.into_par_iter().with_max_len(1).map(work).collect()
+    }
 }

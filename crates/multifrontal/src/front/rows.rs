@@ -2,7 +2,7 @@
 
 use super::Front;
 use super::corner::{CORNER, Corner, invert_pair};
-use crate::kernel::{REGISTERS, WIDE, copy, tile_rows};
+use crate::kernel::{WIDE, copy, tile_rows};
 use crate::scalar::{Real, Scalar};
 use pulp::{Simd, WithSimd};
 
@@ -122,23 +122,22 @@ fn substitute<T: Scalar, S: Simd>(
     let (before_im, own_im) = w_im.split_at_mut(j);
     let own_re = T::Real::vectors_mut::<S>(&mut own_re[0][..height]).0;
     let own_im = T::Real::vectors_mut::<S>(&mut own_im[0][..height]).0;
-    let mut r: [_; REGISTERS] = std::array::from_fn(|k| own_re[k]);
-    let mut m: [_; REGISTERS] = std::array::from_fn(|k| own_im[k]);
-    for i in 0..j {
+    let factors = |i: usize| {
         let l = corner.get(j, i);
         let minus = (-l).parts().map(|part| T::Real::splat(simd, part));
-        let x = T::Real::vectors::<S>(&before_re[i][..height]).0;
-        let y = T::Real::vectors::<S>(&before_im[i][..height]).0;
-        let im = T::Real::splat(simd, l.parts()[1]);
-        for k in 0..REGISTERS {
-            r[k] = T::Real::mul_add(simd, x[k], minus[0], r[k]);
+        (minus, T::Real::splat(simd, l.parts()[1]))
+    };
+    for (k, (r, m)) in own_re.iter_mut().zip(own_im).enumerate() {
+        for i in 0..j {
+            let (minus, im) = factors(i);
+            let x = T::Real::vectors::<S>(&before_re[i][..height]).0[k];
+            *r = T::Real::mul_add(simd, x, minus[0], *r);
             if T::PARTS == 2 {
-                r[k] = T::Real::mul_add(simd, y[k], im, r[k]);
-                m[k] = T::Real::mul_add(simd, x[k], minus[1], m[k]);
-                m[k] = T::Real::mul_add(simd, y[k], minus[0], m[k]);
+                let y = T::Real::vectors::<S>(&before_im[i][..height]).0[k];
+                *r = T::Real::mul_add(simd, y, im, *r);
+                *m = T::Real::mul_add(simd, x, minus[1], *m);
+                *m = T::Real::mul_add(simd, y, minus[0], *m);
             }
         }
     }
-    own_re.copy_from_slice(&r);
-    own_im.copy_from_slice(&m);
 }

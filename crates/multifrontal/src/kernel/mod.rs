@@ -7,12 +7,13 @@ mod pack;
 mod tile;
 
 pub(crate) use pack::{Left, Pivots};
-pub(crate) use tile::{REGISTERS, WIDE, copy, tile_rows};
+pub(crate) use tile::{WIDE, copy, tile_rows};
 
 use crate::scalar::{Real, Scalar};
+use crate::threads::each;
 use pulp::{Simd, WithSimd};
 use std::sync::Mutex;
-use tile::{COLS, store, tile};
+use tile::{FEW, MANY, many, store, tile};
 
 /// Columns of a strip: whole tiles for every instruction set, and its packed copy stays in the second cache.
 pub(crate) const STRIP: usize = 96;
@@ -52,13 +53,12 @@ pub(crate) fn downdate<T: Scalar>(
     if threads < 2 || strips.len() < 2 || work < SHARE_FROM {
         return run(&mut strips.into_iter());
     }
-    let queue = Mutex::new(strips.into_iter());
-    let take = || queue.lock().unwrap_or_else(std::sync::PoisonError::into_inner).next();
-    std::thread::scope(|scope| {
-        for _ in 1..threads {
-            scope.spawn(|| run(&mut std::iter::from_fn(take)));
-        }
-        run(&mut std::iter::from_fn(take));
+    let buffers = Mutex::new(Vec::new());
+    each(threads, strips, |strip| {
+        let free = || buffers.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        let mut own: Buffers<T::Real> = free().pop().unwrap_or_default();
+        crate::arch().dispatch(StripDowndate { strip, pivots, left, buffers: &mut own });
+        free().push(own);
     });
 }
 
@@ -83,12 +83,25 @@ impl<T: Scalar> WithSimd for StripDowndate<'_, '_, T> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
+        // Constant, so that only one of them is compiled.
+        if const { many::<S>() } {
+            self.by_tiles::<S, { MANY.0 }, { MANY.1 }>(simd);
+        } else {
+            self.by_tiles::<S, { FEW.0 }, { FEW.1 }>(simd);
+        }
+    }
+}
+
+impl<T: Scalar> StripDowndate<'_, '_, T> {
+    /// Tiles of M registers of rows and N columns.
+    #[inline(always)]
+    fn by_tiles<S: Simd, const M: usize, const N: usize>(self, simd: S) {
         let Self { mut strip, pivots, left, buffers: Buffers { right, products } } = self;
         let (count, height) = (pivots.count(), tile_rows::<T::Real, S>());
-        let plane = COLS * count;
-        pivots.pack_right(strip.first, strip.width, right);
+        let plane = N * count;
+        pivots.pack_right::<N>(strip.first, strip.width, right);
         // From one column of the products to the next, and from one plane to the next.
-        let (step, size) = (TOGETHER * height, strip.width.next_multiple_of(COLS) * TOGETHER * height);
+        let (step, size) = (TOGETHER * height, strip.width.next_multiple_of(N) * TOGETHER * height);
         products.resize(size * T::PRODUCTS, T::Real::default());
         let panels = left.panels(height);
         for first in (strip.first / height..panels).step_by(TOGETHER) {
@@ -100,10 +113,10 @@ impl<T: Scalar> WithSimd for StripDowndate<'_, '_, T> {
                 // A plane of rows stays in the first cache while all columns pass.
                 for (p, products) in products.chunks_exact_mut(size).enumerate() {
                     let a = T::Real::vectors::<S>(&rows[p * height * count..][..height * count]).0;
-                    let columns = right.chunks_exact(T::PRODUCTS * plane).take(width.div_ceil(COLS));
-                    for (b, product) in columns.zip(products.chunks_exact_mut(COLS * step)) {
-                        let sums = tile::<T::Real, S, COLS>(simd, a, &b[p * plane..][..plane]);
-                        store::<T::Real, S, COLS>(sums, &mut product[at..], step);
+                    let columns = right.chunks_exact(T::PRODUCTS * plane).take(width.div_ceil(N));
+                    for (b, product) in columns.zip(products.chunks_exact_mut(N * step)) {
+                        let sums = tile::<T::Real, S, M, N>(simd, a, &b[p * plane..][..plane]);
+                        store::<T::Real, S, M, N>(sums, &mut product[at..], step);
                     }
                 }
             }

@@ -1,6 +1,6 @@
 //! Packed copies of L and of L D, tile after tile, a plane for each real product.
 
-use super::tile::{COLS, copy, tile_rows};
+use super::tile::{copy, tile_rows};
 use crate::scalar::{Real, Scalar};
 use pulp::{Simd, WithSimd};
 
@@ -27,42 +27,54 @@ impl<T: Scalar> Pivots<'_, T> {
         &self.columns[(k * T::PARTS + part) * self.stride..][rows]
     }
 
+    /// The rows `first..first + width` of L D, N at a time, zeros behind the last.
     #[inline(always)]
-    fn at(&self, k: usize, row: usize) -> T {
-        let at = k * T::PARTS * self.stride + row;
-        T::from_parts([self.columns[at], self.columns[at + (T::PARTS - 1) * self.stride]])
+    pub(super) fn pack_right<const N: usize>(&self, first: usize, width: usize, into: &mut Vec<T::Real>) {
+        let (count, size) = (self.count(), width.next_multiple_of(N) * T::PRODUCTS);
+        // Nothing is cleared that is written anyway.
+        into.resize(size * count, T::Real::default());
+        let mut k = 0;
+        while k < count {
+            let [d, below] = self.d[k];
+            if below == T::default() {
+                self.pack_row::<N>(first, width, k, [(k, d), (k, T::default())], into);
+                k += 1;
+            } else {
+                let next = self.d[k + 1][0];
+                self.pack_row::<N>(first, width, k, [(k, d), (k + 1, below)], into);
+                self.pack_row::<N>(first, width, k + 1, [(k, below), (k + 1, next)], into);
+                k += 2;
+            }
+        }
     }
 
-    /// The rows `first..first + width` of L D, [`COLS`] at a time, zeros behind the last.
+    /// The k-th row of the packed copy: a sum of one column of L, or two, by their factors.
     #[inline(always)]
-    pub(super) fn pack_right(&self, first: usize, width: usize, into: &mut Vec<T::Real>) {
-        let count = self.count();
-        let plane = COLS * count;
-        // Nothing is cleared that is written anyway.
-        into.resize(width.div_ceil(COLS) * plane * T::PRODUCTS, T::Real::default());
-        for (panel, into) in into.chunks_exact_mut((plane * T::PRODUCTS).max(1)).enumerate() {
-            let row = first + panel * COLS;
-            let rows = COLS.min(first + width - row);
-            let mut put = |k: usize, value: &dyn Fn(usize) -> T| {
-                for i in 0..COLS {
-                    let factors = if i < rows { value(row + i) } else { T::default() }.factors();
-                    for p in 0..T::PRODUCTS {
-                        into[p * plane + k * COLS + i] = factors[p];
-                    }
+    fn pack_row<const N: usize>(
+        &self,
+        first: usize,
+        width: usize,
+        k: usize,
+        sum: [(usize, T); 2],
+        into: &mut [T::Real],
+    ) {
+        let plane = N * self.count();
+        let rows = first..first + width;
+        let parts = |(col, _): (usize, T), part: usize| self.part(col, part, rows.clone());
+        let (re, im) = (sum.map(|it| parts(it, 0)), sum.map(|it| parts(it, T::PARTS - 1)));
+        let used = 1 + usize::from(sum[1].1 != T::default());
+        for (panel, into) in into.chunks_exact_mut(plane * T::PRODUCTS).enumerate() {
+            let (from, to) = (panel * N, width.min(panel * N + N));
+            let mut values = [T::default(); N];
+            for term in 0..used {
+                let numbers = re[term][from..to].iter().zip(&im[term][from..to]);
+                for (value, (&re, &im)) in values.iter_mut().zip(numbers) {
+                    *value += T::from_parts([re, im]) * sum[term].1;
                 }
-            };
-            let mut k = 0;
-            while k < count {
-                let [d, below] = self.d[k];
-                if below == T::default() {
-                    put(k, &|i| self.at(k, i) * d);
-                    k += 1;
-                } else {
-                    let next = self.d[k + 1][0];
-                    put(k, &|i| self.at(k, i) * d + self.at(k + 1, i) * below);
-                    put(k + 1, &|i| self.at(k, i) * below + self.at(k + 1, i) * next);
-                    k += 2;
-                }
+            }
+            for p in 0..T::PRODUCTS {
+                let into = &mut into[p * plane + k * N..][..N];
+                into.iter_mut().zip(&values).for_each(|(into, value)| *into = value.factors()[p]);
             }
         }
     }

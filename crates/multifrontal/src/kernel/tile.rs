@@ -3,28 +3,39 @@
 use crate::scalar::Real;
 use pulp::Simd;
 
-/// Registers of rows in a tile.
-pub(crate) const REGISTERS: usize = 2;
-/// Columns of a tile: with [`REGISTERS`] of rows its sums fit the sixteen registers of AVX2.
-pub(crate) const COLS: usize = 6;
-/// The most rows of a tile: two registers of sixteen single-precision numbers.
-pub(crate) const WIDE: usize = 32;
+/// Registers of rows and columns of a tile on a processor with so many registers: its sums stay in them, beside the
+/// rows and one number of the other factor.
+pub(super) const MANY: (usize, usize) = (3, 8);
+/// The same for the sixteen registers of AVX2.
+pub(super) const FEW: (usize, usize) = (2, 6);
+/// The most rows of a tile: three registers of sixteen single-precision numbers.
+pub(crate) const WIDE: usize = 48;
+
+/// Whether a tile has the shape [`MANY`], not [`FEW`].
+pub(super) const fn many<S: Simd>() -> bool {
+    S::REGISTER_COUNT >= 32
+}
+
+/// Registers of rows and columns of a tile.
+pub(super) const fn shape<S: Simd>() -> (usize, usize) {
+    if many::<S>() { MANY } else { FEW }
+}
 
 /// Rows of a tile.
 #[inline(always)]
 pub(crate) fn tile_rows<R: Real, S: Simd>() -> usize {
-    REGISTERS * R::lanes::<S>()
+    shape::<S>().0 * R::lanes::<S>()
 }
 
 /// Σₖ aₖ bₖᵀ with the rows a packed register after register and the columns b number after number.
 #[inline(always)]
-pub(crate) fn tile<R: Real, S: Simd, const N: usize>(
+pub(super) fn tile<R: Real, S: Simd, const M: usize, const N: usize>(
     simd: S,
     a: &[R::Vector<S>],
     b: &[R],
-) -> [[R::Vector<S>; REGISTERS]; N] {
-    let mut sums = [[R::splat(simd, R::default()); REGISTERS]; N];
-    for (a, b) in a.as_chunks::<REGISTERS>().0.iter().zip(b.as_chunks::<N>().0) {
+) -> [[R::Vector<S>; M]; N] {
+    let mut sums = [[R::splat(simd, R::default()); M]; N];
+    for (a, b) in a.as_chunks::<M>().0.iter().zip(b.as_chunks::<N>().0) {
         for (sums, &b) in sums.iter_mut().zip(b) {
             let b = R::splat(simd, b);
             for (sum, &a) in sums.iter_mut().zip(a) {
@@ -37,13 +48,13 @@ pub(crate) fn tile<R: Real, S: Simd, const N: usize>(
 
 /// The sums of a tile as numbers, the columns `step` apart.
 #[inline(always)]
-pub(super) fn store<R: Real, S: Simd, const N: usize>(
-    sums: [[R::Vector<S>; REGISTERS]; N],
+pub(super) fn store<R: Real, S: Simd, const M: usize, const N: usize>(
+    sums: [[R::Vector<S>; M]; N],
     into: &mut [R],
     step: usize,
 ) {
     for (into, sums) in into.chunks_mut(step).zip(sums) {
-        R::vectors_mut::<S>(into).0[..REGISTERS].copy_from_slice(&sums);
+        R::vectors_mut::<S>(into).0[..M].copy_from_slice(&sums);
     }
 }
 
@@ -55,9 +66,7 @@ pub(crate) fn copy<R: Real, S: Simd>(from: &[R], into: &mut [R]) {
     if from.len() == height {
         // In registers: a call for so few numbers costs more than they do.
         let (from, into) = (R::vectors::<S>(from).0, R::vectors_mut::<S>(into).0);
-        if let (&[a, b], [x, y]) = (from, into) {
-            (*x, *y) = (a, b);
-        }
+        from.iter().zip(into).for_each(|(&from, into)| *into = from);
     } else {
         into[..from.len()].copy_from_slice(from);
         into[from.len()..].fill(R::default());

@@ -1,19 +1,66 @@
 //! Solutions: forward through the subtrees, through what is above them and back, and back through the subtrees.
 //!
 //! Every part works on numbers of its own, so that parts can be shared out to threads; the sums are the same
-//! whoever makes them.
+//! whoever makes them. A few right-hand sides are worked on at the same time, side by side.
 
-mod kernel;
+mod many;
+mod one;
 
 use crate::factor::{Factor, Node};
 use crate::part::Part;
 use crate::scalar::Scalar;
-use crate::threads::share;
-use kernel::{Backward, Buffers, Forward, Step};
-use std::sync::Mutex;
+use crate::threads::{map, with};
+use std::ops::Range;
 
 /// Numbers of a factor below which another thread costs more than it brings.
 const SHARE_FROM: usize = 200_000;
+
+/// Columns of L that are met together: as many streams as a processor follows, complex ones having two.
+const BLOCK: usize = 8;
+
+/// Pivots of a node after which the threads meet.
+const SPAN: usize = 256;
+
+/// Rows that one thread takes at a time: what belongs to them stays in the second cache.
+const CHUNK: usize = 512;
+
+/// One node, and the numbers of its part: of each row the parts, of each part the right-hand sides.
+struct Step<'a, T: Scalar> {
+    node: &'a Node<T>,
+    local: &'a mut [T::Real],
+    /// Numbers of the front's rows.
+    buffer: &'a mut Vec<T::Real>,
+    threads: usize,
+}
+
+impl<T: Scalar> Node<T> {
+    /// Some rows of one part of a column of L.
+    #[inline(always)]
+    fn part(&self, col: usize, part: usize, rows: Range<usize>) -> &[T::Real] {
+        &self.values[(col * T::PARTS + part) * self.stride..][rows]
+    }
+
+    /// Entry of L below its diagonal.
+    #[inline(always)]
+    fn at(&self, row: usize, col: usize) -> T {
+        let at = |part: usize| self.values[(col * T::PARTS + part) * self.stride + row];
+        T::from_parts([at(0), at(T::PARTS - 1)])
+    }
+
+    /// The pivots in spans, and where in them the blocks of columns begin.
+    fn spans(&self) -> impl DoubleEndedIterator<Item = Range<usize>> {
+        pieces(0..self.pivots(), SPAN)
+    }
+}
+
+/// A range in pieces of some length, the last perhaps shorter.
+fn pieces(
+    range: Range<usize>,
+    len: usize,
+) -> impl DoubleEndedIterator<Item = Range<usize>> + ExactSizeIterator {
+    let count = range.len().div_ceil(len);
+    (0..count).map(move |k| range.start + k * len..range.end.min(range.start + (k + 1) * len))
+}
 
 impl<T: Scalar> Factor<T> {
     /// Overwrites k right-hand sides (n × k, column after column) with the solutions of A X = B.
@@ -31,65 +78,76 @@ impl<T: Scalar> Factor<T> {
             return;
         }
         assert_eq!(rhs.len() % dim, 0, "whole right-hand sides");
-        let columns = rhs.len() / dim;
         let numbers: usize = self.nodes.iter().map(|node| node.values.len()).sum();
-        let threads = if numbers * columns < SHARE_FROM { 1 } else { threads.max(1) };
+        let threads = if numbers < SHARE_FROM { 1 } else { threads.max(1) };
+        let together = many::lanes::<T::Real>();
+        with(threads, || {
+            for some in rhs.chunks_mut(dim * together) {
+                let lanes = if some.len() == dim { 1 } else { together };
+                self.solve_together(some, lanes, threads);
+            }
+        });
+    }
+
+    /// Right-hand sides side by side, `lanes` or fewer.
+    fn solve_together(&self, rhs: &mut [T], lanes: usize, threads: usize) {
         let Some((top, subtrees)) = self.parts.split_last() else { return };
+        let row = T::PARTS * lanes;
         let given: &[T] = rhs;
-        let below = share(threads, subtrees, |part| {
-            let mut local = self.gather(part, given, columns);
-            self.forward(part, &mut local, columns);
+        let below = map(threads, subtrees.iter().collect(), |part| {
+            let mut local = self.gather(part, given, lanes);
+            self.forward(part, &mut local, lanes, 1);
             local
         });
-        let mut above = self.gather(top, given, columns);
+        let mut above = self.gather(top, given, lanes);
         for (part, local) in subtrees.iter().zip(&below) {
-            let (own, size, top_size) = (part.len(), part.size(), top.len());
-            for column in 0..columns {
-                let changes = &local[column * size + own..][..part.outside.len()];
-                for (&place, &change) in part.outside.iter().zip(changes) {
-                    above[column * top_size + place as usize] += change;
-                }
+            let changes = local[part.len() * row..].chunks_exact(row);
+            for (&place, changes) in part.outside.iter().zip(changes) {
+                let above = &mut above[place as usize * row..][..row];
+                above.iter_mut().zip(changes).for_each(|(above, &change)| *above += change);
             }
         }
-        self.forward(top, &mut above, columns);
-        self.backward(top, &mut above, columns);
-        let all: Vec<_> = subtrees.iter().zip(below).map(|(part, local)| (part, Mutex::new(local))).collect();
-        let below = share(threads, &all, |(part, local)| {
-            let mut local =
-                std::mem::take(&mut *local.lock().unwrap_or_else(std::sync::PoisonError::into_inner));
-            let (own, size, top_size) = (part.len(), part.size(), top.len());
-            for column in 0..columns {
-                for (k, &place) in part.outside.iter().enumerate() {
-                    local[column * size + own + k] = above[column * top_size + place as usize];
-                }
+        self.forward(top, &mut above, lanes, threads);
+        self.backward(top, &mut above, lanes, threads);
+        let below = map(threads, subtrees.iter().zip(below).collect(), |(part, mut local)| {
+            for (&place, local) in part.outside.iter().zip(local[part.len() * row..].chunks_exact_mut(row)) {
+                local.copy_from_slice(&above[place as usize * row..][..row]);
             }
-            self.backward(part, &mut local, columns);
+            self.backward(part, &mut local, lanes, 1);
             local
         });
-        self.scatter(top, &above, rhs);
-        subtrees.iter().zip(&below).for_each(|(part, local)| self.scatter(part, local, rhs));
+        self.scatter(top, &above, rhs, lanes);
+        subtrees.iter().zip(&below).for_each(|(part, local)| self.scatter(part, local, rhs, lanes));
     }
 
     /// S b in the order of a part's positions, zeros for those outside of it.
-    fn gather(&self, part: &Part, rhs: &[T], columns: usize) -> Vec<T> {
-        let mut local = Vec::with_capacity(part.size() * columns);
-        for b in rhs.chunks_exact(self.dim()) {
-            for run in &part.own {
-                let rows = self.order[run.clone()].iter().zip(&self.scale[run.clone()]);
-                local.extend(rows.map(|(&row, &scale)| b[row as usize].scale(scale)));
+    fn gather(&self, part: &Part, rhs: &[T], lanes: usize) -> Vec<T::Real> {
+        let row = T::PARTS * lanes;
+        let mut local = vec![T::Real::default(); part.size() * row];
+        for (lane, b) in rhs.chunks_exact(self.dim()).enumerate() {
+            for (local, (from, scale)) in local.chunks_exact_mut(row).zip(self.rows_of(part)) {
+                let parts = b[from].scale(scale).parts();
+                for p in 0..T::PARTS {
+                    local[p * lanes + lane] = parts[p];
+                }
             }
-            local.resize(local.len() + part.outside.len(), T::default());
         }
         local
     }
 
     /// x = S y.
-    fn scatter(&self, part: &Part, local: &[T], rhs: &mut [T]) {
-        for (x, local) in rhs.chunks_exact_mut(self.dim()).zip(local.chunks_exact(part.size())) {
-            let rows =
-                part.own.iter().flat_map(|run| self.order[run.clone()].iter().zip(&self.scale[run.clone()]));
-            rows.zip(local).for_each(|((&row, &scale), y)| x[row as usize] = y.scale(scale));
+    fn scatter(&self, part: &Part, local: &[T::Real], rhs: &mut [T], lanes: usize) {
+        for (lane, x) in rhs.chunks_exact_mut(self.dim()).enumerate() {
+            for (local, (to, scale)) in local.chunks_exact(T::PARTS * lanes).zip(self.rows_of(part)) {
+                x[to] = T::from_parts([local[lane], local[(T::PARTS - 1) * lanes + lane]]).scale(scale);
+            }
         }
+    }
+
+    /// Rows of the matrix, and their scales, of what is eliminated in a part.
+    fn rows_of<'a>(&'a self, part: &'a Part) -> impl Iterator<Item = (usize, T::Real)> {
+        let of = |run: &Range<usize>| self.order[run.clone()].iter().zip(&self.scale[run.clone()]);
+        part.own.iter().flat_map(of).map(|(&row, &scale)| (row as usize, scale))
     }
 
     fn nodes_of<'a>(&'a self, part: &'a Part) -> impl DoubleEndedIterator<Item = &'a Node<T>> {
@@ -97,18 +155,33 @@ impl<T: Scalar> Factor<T> {
     }
 
     /// y = L⁻¹ b over the nodes of a part; places outside receive what they have to add.
-    fn forward(&self, part: &Part, local: &mut [T], columns: usize) {
-        let mut buffers = Buffers::default();
+    fn forward(&self, part: &Part, local: &mut [T::Real], lanes: usize, threads: usize) {
+        let buffer = &mut Vec::new();
+        let row = T::PARTS * lanes;
         for node in self.nodes_of(part) {
-            crate::arch().dispatch(Forward(Step { node, local, columns, buffers: &mut buffers }));
+            let own = &local[node.first * row..][..node.pivots() * row];
+            if own.iter().all(|&x| x == T::Real::default()) {
+                continue;
+            }
+            let step = Step { node, local, buffer, threads };
+            if lanes == 1 {
+                crate::arch().dispatch(one::Forward(step));
+            } else {
+                crate::arch().dispatch(many::Forward(step));
+            }
         }
     }
 
     /// x = L⁻ᵀ D⁻¹ y over the nodes of a part.
-    fn backward(&self, part: &Part, local: &mut [T], columns: usize) {
-        let mut buffers = Buffers::default();
+    fn backward(&self, part: &Part, local: &mut [T::Real], lanes: usize, threads: usize) {
+        let buffer = &mut Vec::new();
         for node in self.nodes_of(part).rev() {
-            crate::arch().dispatch(Backward(Step { node, local, columns, buffers: &mut buffers }));
+            let step = Step { node, local, buffer, threads };
+            if lanes == 1 {
+                crate::arch().dispatch(one::Backward(step));
+            } else {
+                crate::arch().dispatch(many::Backward(step));
+            }
         }
     }
 }

@@ -7,7 +7,7 @@ mod share;
 pub(crate) use pattern::Lower;
 pub use pattern::PatternError;
 
-use crate::factor::{Node, packed_len};
+use crate::factor::{Node, padded};
 use crate::ordering;
 use crate::part::Part;
 use crate::scalar::Scalar;
@@ -125,7 +125,7 @@ impl Symbolic {
 
     /// Bytes that the factor keeps, if no pivot is delayed.
     pub fn factor_bytes<T: Scalar>(&self) -> usize {
-        let scalars: usize = self.fronts.iter().map(|front| packed_len(front.pivots, front.order())).sum();
+        let scalars: usize = self.fronts.iter().map(|front| front.pivots * padded(front.order())).sum();
         let row = size_of::<[T; 2]>() + size_of::<T::Real>() + size_of::<u32>();
         // Its runs of nodes and of positions, as many between it and the next, and what its root changes above.
         let part = |subtree: &Range<usize>| {

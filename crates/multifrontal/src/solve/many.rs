@@ -1,0 +1,369 @@
+//! Right-hand sides side by side: a register holds those of one row, so that every number of L is met once.
+
+use super::{BLOCK, CHUNK, SHARE_FROM, Step, pieces};
+use crate::factor::Node;
+use crate::scalar::{Real, Scalar};
+use crate::threads::each;
+use pulp::{Simd, WithSimd};
+use std::marker::PhantomData;
+use std::ops::Range;
+
+/// Right-hand sides that are side by side.
+pub(super) fn lanes<R: Real>() -> usize {
+    crate::arch().dispatch(Lanes(PhantomData::<R>))
+}
+
+struct Lanes<R>(PhantomData<R>);
+
+impl<R: Real> WithSimd for Lanes<R> {
+    type Output = usize;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> usize {
+        registers::<R, S>() * R::lanes::<S>()
+    }
+}
+
+/// Registers for one part of a row: short ones come in pairs.
+const fn registers<R: Real, S: Simd>() -> usize {
+    if size_of::<R::Vector<S>>() < 8 * size_of::<R>() { 2 } else { 1 }
+}
+
+/// A call with the registers of a part, and how many rows or columns have their sums in registers.
+macro_rules! with_shape {
+    ($s:ident, $t:ident, $this:ident . $name:ident ( $simd:ident )) => {
+        // Constant, so that only one of them is compiled.
+        if const { registers::<$t::Real, $s>() == 1 } {
+            $this.$name::<$s, 1, 8>($simd)
+        } else {
+            $this.$name::<$s, 2, 2>($simd)
+        }
+    };
+}
+
+/// y = L⁻¹ b.
+pub(super) struct Forward<'a, T: Scalar>(pub(super) Step<'a, T>);
+
+impl<T: Scalar> WithSimd for Forward<'_, T> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        with_shape!(S, T, self.run(simd));
+    }
+}
+
+/// x = L⁻ᵀ D⁻¹ y.
+pub(super) struct Backward<'a, T: Scalar>(pub(super) Step<'a, T>);
+
+impl<T: Scalar> WithSimd for Backward<'_, T> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        with_shape!(S, T, self.run(simd));
+    }
+}
+
+impl<T: Scalar> Forward<'_, T> {
+    #[inline(always)]
+    fn run<S: Simd, const V: usize, const G: usize>(self, simd: S) {
+        let Step { node, local, buffer: y, threads } = self.0;
+        let (pivots, rows) = (node.pivots(), node.order());
+        let row = T::PARTS * V * T::Real::lanes::<S>();
+        y.clear();
+        y.resize(row * rows, T::Real::default());
+        y[..row * pivots].copy_from_slice(&local[node.first * row..][..row * pivots]);
+        for span in node.spans() {
+            let (own, below) = y.split_at_mut(span.end * row);
+            for cols in pieces(span.clone(), BLOCK) {
+                let (block, rest) = own[cols.start * row..].split_at_mut(cols.len() * row);
+                triangle::<T, S, V>(simd, node, &cols, block);
+                multiply::<T, S, V, G>(simd, node, &cols, block, cols.end..span.end, rest);
+            }
+            let own = &own[span.start * row..];
+            let tasks = pieces(span.end..rows, CHUNK).zip(below.chunks_mut(CHUNK * row));
+            let tasks = tasks.map(|(rows, y)| Multiply { node, span: span.clone(), own, rows, y });
+            each(threads, tasks.collect(), |task| crate::arch().dispatch(task));
+        }
+        let (own, below) = y.split_at(row * pivots);
+        local[node.first * row..][..row * pivots].copy_from_slice(own);
+        for (&place, y) in node.rows.iter().zip(below.chunks_exact(row)) {
+            let x = &mut local[place as usize * row..][..row];
+            x.iter_mut().zip(y).for_each(|(x, &y)| *x += y);
+        }
+    }
+}
+
+impl<T: Scalar> Backward<'_, T> {
+    #[inline(always)]
+    fn run<S: Simd, const V: usize, const G: usize>(self, simd: S) {
+        let Step { node, local, buffer: y, threads } = self.0;
+        let (pivots, rows) = (node.pivots(), node.order());
+        let row = T::PARTS * V * T::Real::lanes::<S>();
+        y.clear();
+        y.extend_from_slice(&local[node.first * row..][..row * pivots]);
+        for &place in &node.rows {
+            y.extend_from_slice(&local[place as usize * row..][..row]);
+        }
+        times_inverse::<T, S, V>(simd, &node.inverse, y);
+        for span in node.spans().rev() {
+            let (own, below) = y.split_at_mut(span.end * row);
+            let (own, below) = (&mut own[span.start * row..], &*below);
+            let threads = if span.len() * (rows - span.end) < SHARE_FROM { 1 } else { threads };
+            let tasks = pieces(span.clone(), BLOCK).zip(own.chunks_mut(BLOCK * row));
+            let tasks = tasks.map(|(cols, block)| Dot { node, cols, block, rows: span.end..rows, y: below });
+            each(threads, tasks.collect(), |task| crate::arch().dispatch(task));
+            for cols in pieces(span.clone(), BLOCK).rev() {
+                let (block, rest) = own[(cols.start - span.start) * row..].split_at_mut(cols.len() * row);
+                subtract_dot::<T, S, V, G>(simd, node, cols.clone(), block, cols.end..span.end, rest);
+                transposed_triangle::<T, S, V>(simd, node, &cols, block);
+            }
+        }
+        local[node.first * row..][..row * pivots].copy_from_slice(&y[..row * pivots]);
+    }
+}
+
+/// Subtracts L · own of a span from some rows.
+struct Multiply<'a, T: Scalar> {
+    node: &'a Node<T>,
+    span: Range<usize>,
+    own: &'a [T::Real],
+    rows: Range<usize>,
+    y: &'a mut [T::Real],
+}
+
+impl<T: Scalar> WithSimd for Multiply<'_, T> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        with_shape!(S, T, self.run(simd));
+    }
+}
+
+impl<T: Scalar> Multiply<'_, T> {
+    #[inline(always)]
+    fn run<S: Simd, const V: usize, const G: usize>(self, simd: S) {
+        let Self { node, span, own, rows, y } = self;
+        let row = T::PARTS * V * T::Real::lanes::<S>();
+        for (cols, block) in pieces(span, BLOCK).zip(own.chunks(BLOCK * row)) {
+            multiply::<T, S, V, G>(simd, node, &cols, block, rows.clone(), &mut *y);
+        }
+    }
+}
+
+/// Subtracts Lᵀ y over some rows from a block.
+struct Dot<'a, T: Scalar> {
+    node: &'a Node<T>,
+    cols: Range<usize>,
+    block: &'a mut [T::Real],
+    rows: Range<usize>,
+    y: &'a [T::Real],
+}
+
+impl<T: Scalar> WithSimd for Dot<'_, T> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        with_shape!(S, T, self.run(simd));
+    }
+}
+
+impl<T: Scalar> Dot<'_, T> {
+    #[inline(always)]
+    fn run<S: Simd, const V: usize, const G: usize>(self, simd: S) {
+        subtract_dot::<T, S, V, G>(simd, self.node, self.cols, self.block, self.rows, self.y);
+    }
+}
+
+/// One row of all right-hand sides: its parts.
+type Row<R, S, const V: usize> = [[<R as Real>::Vector<S>; V]; 2];
+
+#[inline(always)]
+fn load<T: Scalar, S: Simd, const V: usize>(y: &[T::Real], row: usize) -> Row<T::Real, S, V> {
+    let y = T::Real::vectors::<S>(y).0;
+    [0, T::PARTS - 1].map(|part| std::array::from_fn(|v| y[(row * T::PARTS + part) * V + v]))
+}
+
+#[inline(always)]
+fn store<T: Scalar, S: Simd, const V: usize>(y: &mut [T::Real], row: usize, values: Row<T::Real, S, V>) {
+    let y = T::Real::vectors_mut::<S>(y).0;
+    for part in 0..T::PARTS {
+        y[(row * T::PARTS + part) * V..][..V].copy_from_slice(&values[part]);
+    }
+}
+
+/// −x.
+#[inline(always)]
+fn minus<R: Real, S: Simd, const V: usize>(simd: S, mut x: [R::Vector<S>; V]) -> [R::Vector<S>; V] {
+    let (one, zero) = (R::splat(simd, -R::ONE), R::splat(simd, R::default()));
+    for v in 0..V {
+        x[v] = R::mul_add(simd, one, x[v], zero);
+    }
+    x
+}
+
+/// sum + l x, the row x with minus its imaginary part.
+#[inline(always)]
+fn term<T: Scalar, S: Simd, const V: usize>(
+    simd: S,
+    l: [T::Real; 2],
+    [x, y]: Row<T::Real, S, V>,
+    minus_y: [<T::Real as Real>::Vector<S>; V],
+    [mut re, mut im]: Row<T::Real, S, V>,
+) -> Row<T::Real, S, V> {
+    let (l, m) = (T::Real::splat(simd, l[0]), T::Real::splat(simd, l[1]));
+    for v in 0..V {
+        re[v] = T::Real::mul_add(simd, l, x[v], re[v]);
+        if T::PARTS == 2 {
+            im[v] = T::Real::mul_add(simd, l, y[v], im[v]);
+            re[v] = T::Real::mul_add(simd, m, minus_y[v], re[v]);
+            im[v] = T::Real::mul_add(simd, m, x[v], im[v]);
+        }
+    }
+    [re, im]
+}
+
+/// y[to] += factor · y[from].
+#[inline(always)]
+fn add<T: Scalar, S: Simd, const V: usize>(simd: S, y: &mut [T::Real], to: usize, factor: T, from: usize) {
+    let x = load::<T, S, V>(y, from);
+    let sum = load::<T, S, V>(y, to);
+    let sum = term::<T, S, V>(simd, factor.parts(), x, minus::<T::Real, S, V>(simd, x[1]), sum);
+    store::<T, S, V>(y, to, sum);
+}
+
+/// Solves with the triangle of a block of columns.
+#[inline(always)]
+fn triangle<T: Scalar, S: Simd, const V: usize>(
+    simd: S,
+    node: &Node<T>,
+    cols: &Range<usize>,
+    y: &mut [T::Real],
+) {
+    for j in cols.clone() {
+        for i in j + 1..cols.end {
+            add::<T, S, V>(simd, y, i - cols.start, -node.at(i, j), j - cols.start);
+        }
+    }
+}
+
+#[inline(always)]
+fn transposed_triangle<T: Scalar, S: Simd, const V: usize>(
+    simd: S,
+    node: &Node<T>,
+    cols: &Range<usize>,
+    y: &mut [T::Real],
+) {
+    for j in cols.clone().rev() {
+        for i in j + 1..cols.end {
+            add::<T, S, V>(simd, y, j - cols.start, -node.at(i, j), i - cols.start);
+        }
+    }
+}
+
+/// Subtracts L · block from some rows y, G of them at a time.
+#[inline(always)]
+fn multiply<T: Scalar, S: Simd, const V: usize, const G: usize>(
+    simd: S,
+    node: &Node<T>,
+    cols: &Range<usize>,
+    block: &[T::Real],
+    rows: Range<usize>,
+    y: &mut [T::Real],
+) {
+    let count = rows.len();
+    let mut at = 0;
+    while at + G <= count {
+        multiply_rows::<T, S, V, G>(simd, node, cols, block, rows.start + at, (&mut *y, at));
+        at += G;
+    }
+    while at < count {
+        multiply_rows::<T, S, V, 1>(simd, node, cols, block, rows.start + at, (&mut *y, at));
+        at += 1;
+    }
+}
+
+#[inline(always)]
+fn multiply_rows<T: Scalar, S: Simd, const V: usize, const G: usize>(
+    simd: S,
+    node: &Node<T>,
+    cols: &Range<usize>,
+    block: &[T::Real],
+    row: usize,
+    (y, at): (&mut [T::Real], usize),
+) {
+    let mut sums: [Row<T::Real, S, V>; G] = std::array::from_fn(|g| load::<T, S, V>(y, at + g));
+    for (k, col) in cols.clone().enumerate() {
+        let [x, z] = load::<T, S, V>(block, k);
+        let x = [minus::<T::Real, S, V>(simd, x), minus::<T::Real, S, V>(simd, z)];
+        let l = node.part(col, 0, row..row + G);
+        let m = node.part(col, T::PARTS - 1, row..row + G);
+        for g in 0..G {
+            sums[g] = term::<T, S, V>(simd, [l[g], m[g]], x, z, sums[g]);
+        }
+    }
+    for g in 0..G {
+        store::<T, S, V>(y, at + g, sums[g]);
+    }
+}
+
+/// Subtracts Lᵀ y over some rows from a block, G of its columns at a time.
+#[inline(always)]
+fn subtract_dot<T: Scalar, S: Simd, const V: usize, const G: usize>(
+    simd: S,
+    node: &Node<T>,
+    cols: Range<usize>,
+    block: &mut [T::Real],
+    rows: Range<usize>,
+    y: &[T::Real],
+) {
+    let zero = T::Real::splat(simd, T::Real::default());
+    for some in pieces(cols.clone(), G) {
+        // The last column again where there are fewer: those sums are not looked at.
+        let column =
+            |g: usize, part: usize| node.part((some.start + g).min(some.end - 1), part, rows.clone());
+        let columns: [[&[T::Real]; 2]; G] = std::array::from_fn(|g| [column(g, 0), column(g, T::PARTS - 1)]);
+        let mut sums = [[[zero; V]; 2]; G];
+        for at in 0..rows.len() {
+            let x = load::<T, S, V>(y, at);
+            let minus_im = minus::<T::Real, S, V>(simd, x[1]);
+            for g in 0..G {
+                let l = [columns[g][0][at], columns[g][1][at]];
+                sums[g] = term::<T, S, V>(simd, l, x, minus_im, sums[g]);
+            }
+        }
+        for (col, sum) in some.zip(sums) {
+            let x = load::<T, S, V>(block, col - cols.start);
+            let minus_im = minus::<T::Real, S, V>(simd, sum[1]);
+            let less = [-T::Real::ONE, T::Real::default()];
+            store::<T, S, V>(block, col - cols.start, term::<T, S, V>(simd, less, sum, minus_im, x));
+        }
+    }
+}
+
+/// x = D⁻¹ x.
+#[inline(always)]
+fn times_inverse<T: Scalar, S: Simd, const V: usize>(simd: S, inverse: &[[T; 2]], y: &mut [T::Real]) {
+    let zero = T::Real::splat(simd, T::Real::default());
+    let times = |factor: T, x: Row<T::Real, S, V>, sum: Row<T::Real, S, V>| {
+        term::<T, S, V>(simd, factor.parts(), x, minus::<T::Real, S, V>(simd, x[1]), sum)
+    };
+    let mut k = 0;
+    while k < inverse.len() {
+        let [pivot, below] = inverse[k];
+        let a = load::<T, S, V>(y, k);
+        if below == T::default() {
+            store::<T, S, V>(y, k, times(pivot, a, [[zero; V]; 2]));
+            k += 1;
+        } else {
+            let b = load::<T, S, V>(y, k + 1);
+            store::<T, S, V>(y, k, times(pivot, a, times(below, b, [[zero; V]; 2])));
+            let second = times(inverse[k + 1][0], b, [[zero; V]; 2]);
+            store::<T, S, V>(y, k + 1, times(below, a, second));
+            k += 2;
+        }
+    }
+}
