@@ -1,12 +1,15 @@
 //! The numeric factorisation: front after front, subtrees at the same time.
 
-use crate::front::{Contribution, Elimination, Front, Places, Stack, eliminate, schur_len};
+use crate::front::{
+    Child, Contribution, Elimination, Front, Places, Stack, add_to_schur, eliminate, schur_len,
+};
 use crate::part::Part;
 use crate::scalar::Scalar;
-use crate::symbolic::Symbolic;
+use crate::symbolic::{ROOT, Symbolic};
 use crate::threads::{map, with};
 use crate::{FactorError, scaling};
 use std::ops::Range;
+use std::sync::{Mutex, OnceLock, PoisonError};
 
 /// How a matrix is factorised.
 #[derive(Debug, Clone, PartialEq)]
@@ -92,19 +95,24 @@ impl Symbolic {
     /// # Limits
     /// A matrix that is singular but for roundoff is factorised: its solutions show it.
     pub fn factor<T: Scalar>(&self, values: &[T], options: &Options) -> Result<Factor<T>, FactorError> {
-        let scale = scaling::scaling(&self.pattern, values)?;
-        let bytes = self.factor_bytes::<T>().saturating_add(self.working_bytes::<T>());
-        // Asked for and given back: whether there is as much, before anything is done.
-        Vec::<u8>::new().try_reserve_exact(bytes).map_err(|_| FactorError::OutOfMemory)?;
-        let scale: Vec<T::Real> = self.order.iter().map(|&row| scale[row as usize]).collect();
-        let run = Run { symbolic: self, values, scale: &scale, options };
-        let eliminated = with(options.threads, || run.all());
-        run.finish(eliminated)
+        T::factor(self, values, options)
     }
 }
 
-/// Fronts of a subtree, what they gave, and what its root leaves.
-type Subtree<T> = (Range<usize>, Vec<Eliminated<T>>, Option<Contribution<<T as Scalar>::Real>>);
+pub(crate) fn factor<T: Scalar>(
+    symbolic: &Symbolic,
+    values: &[T],
+    options: &Options,
+) -> Result<Factor<T>, FactorError> {
+    let scale = scaling::scaling(&symbolic.pattern, values)?;
+    let bytes = symbolic.factor_bytes::<T>().saturating_add(symbolic.working_bytes::<T>());
+    // Asked for and given back: whether there is as much, before anything is done.
+    Vec::<u8>::new().try_reserve_exact(bytes).map_err(|_| FactorError::OutOfMemory)?;
+    let scale: Vec<T::Real> = symbolic.order.iter().map(|&row| scale[row as usize]).collect();
+    let run = Run { symbolic, values, scale: &scale, options, free: Mutex::default() };
+    let eliminated = with(options.threads, || run.all());
+    run.finish(eliminated)
+}
 
 /// One factorisation.
 struct Run<'a, T: Scalar> {
@@ -112,76 +120,91 @@ struct Run<'a, T: Scalar> {
     values: &'a [T],
     scale: &'a [T::Real],
     options: &'a Options,
+    /// Buffers that no thread uses at the moment.
+    free: Mutex<Vec<Elimination<T>>>,
 }
 
-/// Buffers of one thread.
-struct Worker<T: Scalar> {
-    /// Schur complements of fronts at even and at odd depths.
-    stacks: [Stack<T::Real>; 2],
-    elimination: Elimination<T>,
-}
+/// What each front gave, as it is done.
+type Done<T> = [OnceLock<Eliminated<T>>];
 
-type Pending<T> = Vec<Option<Contribution<<T as Scalar>::Real>>>;
+/// A front with what it left to its parent.
+type Left<T> = (usize, Contribution<<T as Scalar>::Real>);
 
 impl<T: Scalar> Run<'_, T> {
-    fn worker(&self, threads: usize, fronts: Range<usize>) -> Worker<T> {
-        let stacks = self.symbolic.stacks(fronts).map(|len| Stack::new(T::PARTS * len));
-        Worker { stacks, elimination: Elimination::new(self.options.threshold, threads) }
-    }
-
-    /// All fronts in their order.
+    /// All fronts.
     fn all(&self) -> Vec<Eliminated<T>> {
-        let fronts = self.symbolic.fronts.len();
-        let mut eliminated: Vec<Option<Eliminated<T>>> = (0..fronts).map(|_| None).collect();
-        let mut pending: Pending<T> = (0..fronts).map(|_| None).collect();
+        let fronts = &self.symbolic.fronts;
+        let done: Vec<_> = fronts.iter().map(|_| OnceLock::new()).collect();
         let threads = self.options.threads.max(1);
-        if threads > 1 {
-            let subtrees = self.symbolic.subtrees.clone();
-            for (range, done, contribution) in map(threads, subtrees, |range| self.subtree(range)) {
-                pending[range.end - 1] = contribution;
-                eliminated[range].iter_mut().zip(done).for_each(|(slot, done)| *slot = Some(done));
-            }
+        if threads == 1 || self.symbolic.subtrees.is_empty() {
+            self.run(0..fronts.len(), &done);
+        } else {
+            let roots = (0..fronts.len()).filter(|&k| fronts[k].parent == ROOT).collect();
+            map(threads, roots, |root| self.tree(root, threads, &done));
         }
-        let left = eliminated.iter().position(Option::is_none).unwrap_or(fronts);
-        let mut worker = self.worker(threads, left..fronts);
-        for front in left..fronts {
-            if eliminated[front].is_none() {
-                let (done, contribution) = self.front(front, &mut pending, 0, &mut worker);
-                eliminated[front] = Some(done);
-                pending[front] = contribution;
-            }
-        }
-        eliminated.into_iter().flatten().collect()
+        done.into_iter().filter_map(OnceLock::into_inner).collect()
     }
 
-    fn subtree(&self, range: Range<usize>) -> Subtree<T> {
-        let mut worker = self.worker(1, range.clone());
-        let mut pending: Pending<T> = range.clone().map(|_| None).collect();
-        let done = range.clone().map(|front| {
-            let (eliminated, contribution) = self.front(front, &mut pending, range.start, &mut worker);
-            pending[front - range.start] = contribution;
-            eliminated
-        });
-        let done = done.collect();
+    /// The fronts under one and itself, branches at the same time; what it leaves.
+    fn tree(&self, root: usize, threads: usize, done: &Done<T>) -> Option<Contribution<T::Real>> {
+        let symbolic = self.symbolic;
+        // Where there is one child only, it goes on in a loop: a chain may be as long as the matrix.
+        let mut chain = vec![root];
+        let mut below = loop {
+            let k = *chain.last().unwrap_or(&root);
+            if let Some(range) = symbolic.subtree_of(k) {
+                chain.pop();
+                break self.run(range, done).map(|left| (k, left)).into_iter().collect();
+            }
+            match symbolic.children_of(k) {
+                [only] => chain.push(*only as usize),
+                several => {
+                    let left = |&child: &u32| self.tree(child as usize, threads, done);
+                    let left = map(threads, several.iter().collect(), left);
+                    let several = several.iter().map(|&child| child as usize).zip(left);
+                    break several.filter_map(|(child, left)| Some((child, left?))).collect();
+                }
+            }
+        };
+        for &k in chain.iter().rev() {
+            let free = || self.free.lock().unwrap_or_else(PoisonError::into_inner);
+            let mut with = free().pop().unwrap_or_else(|| Elimination::new(self.options.threshold, threads));
+            let mut stacks = [Stack::default(), Stack::default()];
+            let left = self.front(k, below, &mut stacks, &mut with, done);
+            free().push(with);
+            let stack = &mut stacks[symbolic.parity(k)];
+            below = left.map(|left| (k, left.taken_from(stack))).into_iter().collect();
+        }
+        below.pop().map(|(_, left)| left)
+    }
+
+    /// The fronts of a subtree one after the other; what its root leaves.
+    fn run(&self, range: Range<usize>, done: &Done<T>) -> Option<Contribution<T::Real>> {
+        let symbolic = self.symbolic;
+        let mut stacks = symbolic.stacks(range.clone()).map(|len| Stack::new(T::PARTS * len));
+        let mut with = Elimination::new(self.options.threshold, 1);
+        let mut pending: Vec<Option<Contribution<T::Real>>> = range.clone().map(|_| None).collect();
+        for k in range.clone() {
+            let children = symbolic.children_of(k).iter().map(|&child| child as usize);
+            let children = children.filter_map(|child| Some((child, pending[child - range.start].take()?)));
+            pending[k - range.start] = self.front(k, children.collect(), &mut stacks, &mut with, done);
+        }
+        let root = range.end.checked_sub(1)?;
         // The others have been taken by their parents.
-        let stack = &mut worker.stacks[self.symbolic.parity(range.end - 1)];
-        let left = pending.pop().flatten().map(|root| root.taken_from(stack));
-        (range, done, left)
+        pending.pop().flatten().map(|left| left.taken_from(&mut stacks[symbolic.parity(root)]))
     }
 
-    /// Assembles one front from the matrix and its children, and eliminates its columns.
+    /// Assembles one front from the matrix and its children, and eliminates its columns; what it leaves.
     fn front(
         &self,
         k: usize,
-        pending: &mut Pending<T>,
-        offset: usize,
-        worker: &mut Worker<T>,
-    ) -> (Eliminated<T>, Option<Contribution<T::Real>>) {
+        children: Vec<Left<T>>,
+        stacks: &mut [Stack<T::Real>; 2],
+        with: &mut Elimination<T>,
+        done: &Done<T>,
+    ) -> Option<Contribution<T::Real>> {
         let symbolic = self.symbolic;
         let shape = &symbolic.fronts[k];
-        let children = symbolic.children_of(k).iter().map(|&child| child as usize);
-        let children: Vec<_> =
-            children.filter_map(|child| Some((child, pending[child - offset].take()?))).collect();
         let mut ids: Vec<u32> = children.iter().flat_map(|(_, child)| &child.delayed).copied().collect();
         let delayed = ids.len();
         ids.extend(shape.own().map(|position| position as u32));
@@ -189,41 +212,38 @@ impl<T: Scalar> Run<'_, T> {
         let (candidates, others) = (delayed + shape.pivots, shape.rows.len());
         let stride = padded(ids.len());
         let mut values = vec![T::Real::default(); T::PARTS * stride * candidates];
-        let parity = symbolic.parity(k);
-        let [even, odd] = &mut worker.stacks;
-        let (own, below) = if parity == 0 { (even, odd) } else { (odd, even) };
+        let [even, odd] = stacks;
+        let (own, below) = if symbolic.parity(k) == 0 { (even, odd) } else { (odd, even) };
         let mut schur = own.push(schur_len::<T>(others));
         let target = own.values_of_mut(&mut schur);
 
         let mut front = Front { ids, candidates, panel: &mut values, stride };
         self.add_entries(&mut front, k, delayed);
         let mut base = 0;
-        let places: Vec<_> = children
-            .iter()
-            .map(|(child, contribution)| {
-                let relative = &symbolic.relative[symbolic.fronts[*child].rows.clone()];
-                let places = Places { base, delayed, relative };
-                base += contribution.delayed.len();
-                places
-            })
-            .collect();
-        for ((_, child), places) in children.iter().zip(&places) {
-            child.add_to_panel(&mut front, below.values_of(&child.schur), places);
+        let given = children.iter().map(|(child, left)| {
+            let relative = &symbolic.relative[symbolic.fronts[*child].rows.clone()];
+            let places = Places { base, delayed, relative };
+            base += left.delayed.len();
+            Child { left, schur: below.values_of(&left.schur), places }
+        });
+        let given: Vec<_> = given.collect();
+        for child in &given {
+            child.left.add_to_panel(&mut front, child.schur, &child.places);
         }
-        let d = eliminate(&mut front, target, &mut worker.elimination);
-        for ((_, child), places) in children.iter().zip(&places) {
-            child.add_to_schur::<T>(target, others, candidates, below.values_of(&child.schur), places);
-        }
-        children.iter().for_each(|(_, child)| below.pop(&child.schur));
+        let d = eliminate(&mut front, target, with);
+        add_to_schur::<T>(target, others, candidates, &given, with.threads);
+        children.iter().for_each(|(_, left)| below.pop(&left.schur));
 
         let (pivots, rest) = front.ids.split_at(d.len());
-        let contribution = (!rest.is_empty()).then(|| Contribution::new(&front, d.len(), schur));
+        let left = (!rest.is_empty()).then(|| Contribution::new(&front, d.len(), schur));
         let (pivots, below) = (pivots.to_vec(), rest.to_vec());
         if d.len() < candidates {
             values.truncate(T::PARTS * stride * d.len());
             values.shrink_to_fit();
         }
-        (Eliminated { pivots, below, d, values, stride }, contribution)
+        // Every front comes once.
+        let _ = done[k].set(Eliminated { pivots, below, d, values, stride });
+        left
     }
 
     /// The entries of the matrix in the front's own columns, scaled.

@@ -1,5 +1,6 @@
 //! The numbers of a matrix: real or complex, double or single.
 
+use crate::{Factor, FactorError, Options, Symbolic};
 use num_complex::Complex;
 use pulp::Simd;
 use std::fmt::Debug;
@@ -105,6 +106,27 @@ pub trait Scalar:
     fn is_negative(self) -> bool;
     /// Neither infinite nor not a number.
     fn is_finite(self) -> bool;
+    /// [`Symbolic::factor`], compiled here once and not again wherever it is used: it is nearly all of the code.
+    #[doc(hidden)]
+    fn factor(symbolic: &Symbolic, values: &[Self], options: &Options) -> Result<Factor<Self>, FactorError>;
+    /// [`Factor::solve_in_place`], compiled here once.
+    #[doc(hidden)]
+    fn solve(factor: &Factor<Self>, rhs: &mut [Self], threads: usize);
+}
+
+macro_rules! compiled_here {
+    () => {
+        fn factor(
+            symbolic: &Symbolic,
+            values: &[Self],
+            options: &Options,
+        ) -> Result<Factor<Self>, FactorError> {
+            crate::factor::factor(symbolic, values, options)
+        }
+        fn solve(factor: &Factor<Self>, rhs: &mut [Self], threads: usize) {
+            crate::solve::solve(factor, rhs, threads);
+        }
+    };
 }
 
 macro_rules! real {
@@ -156,6 +178,7 @@ macro_rules! real {
         }
 
         impl Scalar for $real {
+            compiled_here!();
             type Real = Self;
             type Single = f32;
             const PARTS: usize = 1;
@@ -216,6 +239,7 @@ macro_rules! real {
         }
 
         impl Scalar for Complex<$real> {
+            compiled_here!();
             type Real = $real;
             type Single = c32;
             const PARTS: usize = 2;

@@ -3,6 +3,10 @@
 use super::{Front, Kept, Stack};
 use crate::kernel::{STRIP, Strip};
 use crate::scalar::{Real, Scalar};
+use crate::threads::each;
+
+/// Numbers of a Schur complement below which another thread costs more than it brings.
+const SHARE_FROM: usize = 100_000;
 
 /// What the elimination of a front leaves to its parent.
 #[derive(Debug)]
@@ -23,6 +27,13 @@ pub(crate) struct Places<'a> {
     pub(crate) delayed: usize,
     /// Places of its other rows behind these.
     pub(crate) relative: &'a [u32],
+}
+
+/// What a child left, and where it goes.
+pub(crate) struct Child<'a, R> {
+    pub(crate) left: &'a Contribution<R>,
+    pub(crate) schur: &'a [R],
+    pub(crate) places: Places<'a>,
 }
 
 impl<R: Real> Contribution<R> {
@@ -67,29 +78,34 @@ impl<R: Real> Contribution<R> {
             }
         }
     }
+}
 
-    /// Adds the rest to the parent's Schur complement of the rows behind so many candidates.
-    pub(crate) fn add_to_schur<T: Scalar<Real = R>>(
-        &self,
-        target: &mut [R],
-        order: usize,
-        candidates: usize,
-        schur: &[R],
-        places: &Places<'_>,
-    ) {
-        let others = places.relative.len();
-        let runs = runs(places);
-        for (j, place) in places.columns().filter(|&(_, place)| place >= candidates) {
-            let runs = &runs[runs.partition_point(|run| run.from + run.len <= j)..];
-            let col = place - candidates;
-            let first = col / STRIP * STRIP;
-            for part in 0..T::PARTS {
-                let start = column_start::<T>(order, col) + part * (order - first);
-                let column = &mut target[start..start + order - first];
-                add_runs(column, candidates + first, column_part::<T>(schur, others, j, part), j, runs);
+/// Adds what is not the parent's candidates' to its Schur complement, strip after strip.
+pub(crate) fn add_to_schur<T: Scalar>(
+    target: &mut [T::Real],
+    order: usize,
+    candidates: usize,
+    children: &[Child<'_, T::Real>],
+    threads: usize,
+) {
+    let runs: Vec<_> = children.iter().map(|child| runs(&child.places)).collect();
+    let threads = if target.len() < SHARE_FROM { 1 } else { threads };
+    each(threads, schur_strips::<T>(target, order, false).collect(), |strip| {
+        let from = candidates + strip.first;
+        for (Child { schur, places, .. }, runs) in children.iter().zip(&runs) {
+            let others = places.relative.len();
+            let first = places.relative.partition_point(|&place| places.delayed + (place as usize) < from);
+            let columns = places.columns().skip(first);
+            for (j, place) in columns.take_while(|&(_, place)| place < from + strip.width) {
+                let runs = &runs[runs.partition_point(|run| run.from + run.len <= j)..];
+                for part in 0..T::PARTS {
+                    let start = ((place - from) * T::PARTS + part) * strip.stride;
+                    let column = &mut strip.values[start..start + strip.stride];
+                    add_runs(column, from, column_part::<T>(schur, others, j, part), j, runs);
+                }
             }
         }
-    }
+    });
 }
 
 impl Places<'_> {

@@ -87,7 +87,7 @@ fn eliminate_block<T: Scalar>(
         for (col, part) in columns::<T>(at..at + tried) {
             with.saved.extend_from_slice(front.part(col, part, col));
         }
-        let accepted = solve_rows(front, at, &with.corner, 1.0 / with.threshold);
+        let accepted = solve_rows(front, at, &with.corner, 1.0 / with.threshold, with.threads);
         // Put back what was not accepted.
         let mut saved = with.saved.as_slice();
         for (col, part) in columns::<T>(at..at + tried) {
@@ -133,8 +133,8 @@ fn update<T: Scalar>(
     let (rows, stride, step) = (front.rows() - done, front.stride, front.step());
     let (eliminated, rest) = front.panel.split_at_mut(done * step);
     let pivots = Pivots { columns: &eliminated[at * step + done..], stride, rows, d };
-    with.left.pack(&pivots);
-    downdate(strips(rest, stride, done, to).collect(), &pivots, &with.left, with.threads);
+    with.left.pack(&pivots, with.threads);
+    downdate(strips(rest, stride, done, to, with.threads).collect(), &pivots, &with.left, with.threads);
 }
 
 /// Carries the pivots from `from` on to all that is right of candidate `to`.
@@ -153,8 +153,8 @@ fn carry<T: Scalar>(
     let candidates = front.candidates;
     let (eliminated, rest) = front.panel.split_at_mut(to * step);
     let pivots = Pivots { columns: &eliminated[from * step + to..], stride, rows, d: &d[from..] };
-    with.left.pack(&pivots);
-    let mut all: Vec<_> = strips(rest, stride, to, candidates).collect();
+    with.left.pack(&pivots, with.threads);
+    let mut all: Vec<_> = strips(rest, stride, to, candidates, with.threads).collect();
     // The first pivots of all find nothing there.
     all.extend(schur_strips(schur, front.ids.len() - candidates, from == 0).map(|mut strip| {
         strip.first += candidates - to;
@@ -220,7 +220,7 @@ fn eliminate_anywhere<T: Scalar>(
     let width = 1 + usize::from(second.is_some());
     with.corner.force(front, at, width);
     // Already judged; roundoff may take an entry a little over the limit.
-    let accepted = solve_rows(front, at, &with.corner, 2.0 * limit);
+    let accepted = solve_rows(front, at, &with.corner, 2.0 * limit, with.threads);
     debug_assert_eq!(accepted, width);
     d.extend_from_slice(&with.corner.d);
     update(front, at, at + width, candidates, &d[at..], with);

@@ -9,7 +9,7 @@ mod eliminate;
 mod rows;
 mod stack;
 
-pub(crate) use assemble::{Contribution, Places, schur_len};
+pub(crate) use assemble::{Child, Contribution, Places, add_to_schur, schur_len};
 pub(crate) use corner::invert_pair;
 pub(crate) use eliminate::{BLOCK, Elimination, eliminate};
 pub(crate) use stack::{Kept, Stack};
@@ -74,17 +74,19 @@ impl<T: Scalar> Front<'_, T> {
     }
 }
 
-/// Columns `from..to` of a panel as strips; rows and columns are counted from `from`.
+/// Columns `from..to` of a panel as strips for so many threads; rows and columns are counted from `from`.
 fn strips<T: Scalar>(
     values: &mut [T::Real],
     stride: usize,
     from: usize,
     to: usize,
+    threads: usize,
 ) -> impl Iterator<Item = Strip<'_, T>> {
     let step = T::PARTS * stride;
-    values.chunks_mut(STRIP * step).take((to - from).div_ceil(STRIP)).enumerate().map(move |(k, values)| {
-        let first = k * STRIP;
-        let width = STRIP.min(to - from - first);
+    let most = if threads > 1 { STRIP / 2 } else { STRIP };
+    values.chunks_mut(most * step).take((to - from).div_ceil(most)).enumerate().map(move |(k, values)| {
+        let first = k * most;
+        let width = most.min(to - from - first);
         Strip { first, width, stride, fresh: false, values: &mut values[from + first..] }
     })
 }

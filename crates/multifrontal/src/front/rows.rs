@@ -4,7 +4,14 @@ use super::Front;
 use super::corner::{CORNER, Corner, invert_pair};
 use crate::kernel::{WIDE, copy, tile_rows};
 use crate::scalar::{Real, Scalar};
+use crate::threads::map;
 use pulp::{Simd, WithSimd};
+
+/// Rows that one thread takes at a time.
+const CHUNK: usize = 384;
+
+/// Numbers below which another thread costs more than it brings.
+const SHARE_FROM: usize = 30_000;
 
 /// Overwrites the corner and the rows below it by L; how many of its pivots keep every entry of L under
 /// the limit, counted up to the first that does not (a block of two counts as a whole).
@@ -13,43 +20,67 @@ pub(super) fn solve_rows<T: Scalar>(
     at: usize,
     corner: &Corner<T>,
     limit: f64,
+    threads: usize,
 ) -> usize {
-    let count = corner.d.len();
+    let (count, rows) = (corner.d.len(), front.rows());
     for (j, i) in (0..count).flat_map(|j| (j + 1..count).map(move |i| (j, i))) {
         let parts = corner.get(i, j).parts();
         for part in 0..T::PARTS {
             front.part_mut(at + j, part, at)[i] = parts[part];
         }
     }
-    crate::arch().dispatch(SolveRows { front, at, corner, limit })
+    // D⁻¹ by columns: what takes part, and with which factors.
+    let inverse: Vec<[(usize, T); 2]> = (0..count).map(|j| inverse_column(&corner.d, j)).collect();
+    let below = rows - at - count;
+    let threads = if below * count < SHARE_FROM { 1 } else { threads };
+    let chunk = if threads == 1 { below.max(1) } else { CHUNK };
+    let mut tasks: Vec<SolveRows<'_, T>> = Vec::new();
+    tasks.resize_with(below.div_ceil(chunk), || SolveRows { columns: Vec::new(), corner, inverse: &inverse });
+    let (step, stride) = (front.step(), front.stride);
+    for column in front.panel[at * step..].chunks_mut(stride).take(count * T::PARTS) {
+        let chunks = column[at + count..rows].chunks_mut(chunk);
+        tasks.iter_mut().zip(chunks).for_each(|(task, chunk)| task.columns.push(chunk));
+    }
+    let largest = map(threads, tasks, |task| crate::arch().dispatch(task));
+    // A number that is none must not pass for a small one.
+    let small = |j: usize| largest.iter().all(|largest| largest[j].into() <= limit);
+    let mut accepted = 0;
+    while accepted < count {
+        let width = 1 + usize::from(corner.d[accepted][1] != T::default());
+        if !(accepted..accepted + width).all(small) {
+            break;
+        }
+        accepted += width;
+    }
+    accepted
 }
 
-struct SolveRows<'a, 'f, T: Scalar> {
-    front: &'a mut Front<'f, T>,
-    at: usize,
+/// Some rows: the parts of their columns.
+struct SolveRows<'a, T: Scalar> {
+    columns: Vec<&'a mut [T::Real]>,
     corner: &'a Corner<T>,
-    limit: f64,
+    inverse: &'a [[(usize, T); 2]],
 }
 
 /// L D of the rows of a tile: `w[part][column][row]`.
 type Tile<R> = [[[R; WIDE]; CORNER]; 2];
 
-impl<T: Scalar> WithSimd for SolveRows<'_, '_, T> {
-    type Output = usize;
+impl<T: Scalar> WithSimd for SolveRows<'_, T> {
+    /// The largest entry of each column, the sum of its parts.
+    type Output = [T::Real; CORNER];
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> usize {
-        let Self { front, at, corner, limit } = self;
-        let (height, count, rows) = (tile_rows::<T::Real, S>(), corner.d.len(), front.rows());
-        // D⁻¹ by columns: what takes part, and with which factors.
-        let inverse: Vec<[(usize, T); 2]> = (0..count).map(|j| inverse_column(&corner.d, j)).collect();
+    fn with_simd<S: Simd>(self, simd: S) -> [T::Real; CORNER] {
+        let Self { mut columns, corner, inverse } = self;
+        let (height, count) = (tile_rows::<T::Real, S>(), corner.d.len());
+        let rows = columns.first().map_or(0, |column| column.len());
         let mut largest = [T::Real::default(); CORNER];
         let mut w: Tile<T::Real> = [[[T::Real::default(); WIDE]; CORNER]; 2];
-        for from in (at + count..rows).step_by(height) {
+        for from in (0..rows).step_by(height) {
             let len = height.min(rows - from);
             for j in 0..count {
                 for part in 0..T::PARTS {
-                    copy::<T::Real, S>(&front.part(at + j, part, from)[..len], &mut w[part][j]);
+                    copy::<T::Real, S>(&columns[j * T::PARTS + part][from..from + len], &mut w[part][j]);
                 }
                 substitute::<T, S>(simd, &mut w, j, height, corner);
             }
@@ -69,12 +100,15 @@ impl<T: Scalar> WithSimd for SolveRows<'_, '_, T> {
                 let mut most = largest[j];
                 for i in 0..len {
                     let size = l[0][i].absolute() + l[1][i].absolute();
-                    // A number that is none must not pass for a small one.
-                    most = if size <= most { most } else { size };
+                    // A number that is none must not pass for a small one, nor be forgotten for the next.
+                    #[expect(clippy::eq_op, reason = "only what is no number differs from itself")]
+                    if size > most || size != size {
+                        most = size;
+                    }
                 }
                 largest[j] = most;
                 for part in 0..T::PARTS {
-                    let column = &mut front.part_mut(at + j, part, from)[..len];
+                    let column = &mut columns[j * T::PARTS + part][from..from + len];
                     if len == height {
                         copy::<T::Real, S>(&l[part][..len], column);
                     } else {
@@ -83,15 +117,7 @@ impl<T: Scalar> WithSimd for SolveRows<'_, '_, T> {
                 }
             }
         }
-        let mut accepted = 0;
-        while accepted < count {
-            let width = 1 + usize::from(corner.d[accepted][1] != T::default());
-            if !largest[accepted..accepted + width].iter().all(|&size| size.into() <= limit) {
-                break;
-            }
-            accepted += width;
-        }
-        accepted
+        largest
     }
 }
 

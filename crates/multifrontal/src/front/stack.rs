@@ -28,7 +28,10 @@ impl<R: Copy + Default> Stack<R> {
     pub(crate) fn push(&mut self, len: usize) -> Kept<R> {
         let from = self.top;
         self.top += len;
-        if self.top > self.values.len() {
+        if self.values.is_empty() {
+            // Zeros of the system are free until they are touched.
+            self.values = vec![R::default(); len];
+        } else if self.top > self.values.len() {
             self.values.resize(self.top, R::default());
         }
         Kept::Stacked(from, len)
@@ -43,6 +46,9 @@ impl<R: Copy + Default> Stack<R> {
 
     pub(crate) fn take(&mut self, kept: Kept<R>) -> Kept<R> {
         self.pop(&kept);
+        if matches!(kept, Kept::Stacked(0, len) if len == self.values.len()) {
+            return Kept::Taken(std::mem::take(&mut self.values));
+        }
         Kept::Taken(self.values_of(&kept).to_vec())
     }
 

@@ -1,8 +1,11 @@
 //! Packed copies of L and of L D, tile after tile, a plane for each real product.
 
 use super::tile::{copy, tile_rows};
+use super::{SHARE_FROM, TOGETHER};
 use crate::scalar::{Real, Scalar};
+use crate::threads::each;
 use pulp::{Simd, WithSimd};
+use std::marker::PhantomData;
 
 /// Eliminated columns of a front, and their pivots.
 pub(crate) struct Pivots<'a, T: Scalar> {
@@ -89,8 +92,20 @@ pub(crate) struct Left<R> {
 
 impl<R: Real> Left<R> {
     /// Packs all rows of L.
-    pub(crate) fn pack<T: Scalar<Real = R>>(&mut self, pivots: &Pivots<'_, T>) {
-        crate::arch().dispatch(PackLeft { pivots, into: self });
+    pub(crate) fn pack<T: Scalar<Real = R>>(&mut self, pivots: &Pivots<'_, T>, threads: usize) {
+        let (height, count) = (crate::arch().dispatch(Height(PhantomData::<R>)), pivots.count());
+        self.rows = pivots.rows;
+        let panel = height * count * T::PRODUCTS;
+        let size = self.rows.div_ceil(height) * panel;
+        // Nothing is cleared that is written anyway; what is behind the last row is.
+        if self.packed.len() < size {
+            self.packed.resize(size, R::default());
+        }
+        let threads = if size < SHARE_FROM { 1 } else { threads };
+        let panels = if threads > 1 { TOGETHER } else { size.div_ceil(panel.max(1)) };
+        let tasks = self.packed[..size].chunks_mut((panels * panel).max(1)).enumerate();
+        let tasks = tasks.map(|(k, packed)| PackLeft { pivots, first: k * panels * height, packed });
+        each(threads, tasks.collect(), |task| crate::arch().dispatch(task));
     }
 
     pub(super) fn rows(&self) -> usize {
@@ -108,9 +123,23 @@ impl<R: Real> Left<R> {
     }
 }
 
+/// Rows of a tile on this machine.
+struct Height<R>(PhantomData<R>);
+
+impl<R: Real> WithSimd for Height<R> {
+    type Output = usize;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> usize {
+        tile_rows::<R, S>()
+    }
+}
+
+/// Packs the rows from one on.
 struct PackLeft<'a, T: Scalar> {
     pivots: &'a Pivots<'a, T>,
-    into: &'a mut Left<T::Real>,
+    first: usize,
+    packed: &'a mut [T::Real],
 }
 
 impl<T: Scalar> WithSimd for PackLeft<'_, T> {
@@ -118,27 +147,21 @@ impl<T: Scalar> WithSimd for PackLeft<'_, T> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let (height, count) = (tile_rows::<T::Real, S>(), self.pivots.count());
-        let Left { packed, rows } = self.into;
-        *rows = self.pivots.rows;
+        let Self { pivots, first, packed } = self;
+        let (height, count) = (tile_rows::<T::Real, S>(), pivots.count());
         let size = height * count * T::PRODUCTS;
-        let panels = rows.div_ceil(height);
-        // Nothing is cleared that is written anyway; what is behind the last row is.
-        if packed.len() < panels * size {
-            packed.resize(panels * size, T::Real::default());
-        }
-        for (panel, packed) in packed.chunks_exact_mut(size.max(1)).enumerate().take(panels) {
-            let from = panel * height;
-            let to = (from + height).min(*rows);
+        for (panel, packed) in packed.chunks_exact_mut(size.max(1)).enumerate() {
+            let from = first + panel * height;
+            let to = (from + height).min(pivots.rows);
             let (first, rest) = packed.split_at_mut(height * count);
             let (second, third) = rest.split_at_mut((height * count).min(rest.len()));
             for k in 0..count {
                 let plane = k * height..(k + 1) * height;
                 let first = &mut first[plane.clone()];
-                copy::<T::Real, S>(self.pivots.part(k, 0, from..to), first);
+                copy::<T::Real, S>(pivots.part(k, 0, from..to), first);
                 if T::PARTS == 2 {
                     let second = &mut second[plane.clone()];
-                    copy::<T::Real, S>(self.pivots.part(k, 1, from..to), second);
+                    copy::<T::Real, S>(pivots.part(k, 1, from..to), second);
                     let sums = first.iter().zip(second.iter()).map(|(&re, &im)| re + im);
                     third[plane].iter_mut().zip(sums).for_each(|(third, sum)| *third = sum);
                 }

@@ -73,20 +73,7 @@ impl<T: Scalar> Factor<T> {
     /// # Limits
     /// Nothing is checked or refined here.
     pub fn solve_in_place(&self, rhs: &mut [T], threads: usize) {
-        let dim = self.dim();
-        if dim == 0 || rhs.is_empty() {
-            return;
-        }
-        assert_eq!(rhs.len() % dim, 0, "whole right-hand sides");
-        let numbers: usize = self.nodes.iter().map(|node| node.values.len()).sum();
-        let threads = if numbers < SHARE_FROM { 1 } else { threads.max(1) };
-        let together = many::lanes::<T::Real>();
-        with(threads, || {
-            for some in rhs.chunks_mut(dim * together) {
-                let lanes = if some.len() == dim { 1 } else { together };
-                self.solve_together(some, lanes, threads);
-            }
-        });
+        T::solve(self, rhs, threads);
     }
 
     /// Right-hand sides side by side, `lanes` or fewer.
@@ -184,4 +171,21 @@ impl<T: Scalar> Factor<T> {
             }
         }
     }
+}
+
+pub(crate) fn solve<T: Scalar>(factor: &Factor<T>, rhs: &mut [T], threads: usize) {
+    let dim = factor.dim();
+    if dim == 0 || rhs.is_empty() {
+        return;
+    }
+    assert_eq!(rhs.len() % dim, 0, "whole right-hand sides");
+    let numbers: usize = factor.nodes.iter().map(|node| node.values.len()).sum();
+    let threads = if numbers < SHARE_FROM { 1 } else { threads.max(1) };
+    let together = many::lanes::<T::Real>();
+    with(threads, || {
+        for some in rhs.chunks_mut(dim * together) {
+            let lanes = if some.len() == dim { 1 } else { together };
+            factor.solve_together(some, lanes, threads);
+        }
+    });
 }

@@ -154,6 +154,12 @@ impl Symbolic {
         &self.children[self.child_start[front]..self.child_start[front + 1]]
     }
 
+    /// The subtree that is worked on in one piece and has this front as its root.
+    pub(crate) fn subtree_of(&self, root: usize) -> Option<Range<usize>> {
+        let at = self.subtrees.binary_search_by_key(&(root + 1), |subtree| subtree.end).ok()?;
+        Some(self.subtrees[at].clone())
+    }
+
     /// Whether a front is at an even or an odd depth.
     pub(crate) fn parity(&self, front: usize) -> usize {
         self.depth[front] as usize % 2
