@@ -99,6 +99,8 @@ pub struct MeasurementEntry {
     pub record: Option<Located<i64>>,
     /// What was measured; `None`: as the file says.
     pub quantity: Option<Quantity>,
+    /// Over how many records the coherence was averaged; `None`: not told.
+    pub averages: Option<Located<i64>>,
 }
 
 /// `[identify]`.

@@ -111,7 +111,17 @@ pub(super) fn measurement(table: &Table<'_>) -> Result<MeasurementEntry, InputEr
         spot: spot(table)?,
         record: table.find("record").map(|record| record.whole()).transpose()?,
         quantity: table.find("quantity").map(quantity).transpose()?.map(|quantity| quantity.value),
+        averages: table.find("averages").map(|field| averages(&field)).transpose()?,
     })
+}
+
+/// A number of averages: a coherence of one record is 1 whatever was measured.
+fn averages(field: &Field<'_>) -> Result<Located<i64>, InputError> {
+    let averages = field.whole()?;
+    if averages.value < 2 {
+        return Err(field.refuse("a whole number from 2 on: the coherence of one record tells nothing"));
+    }
+    Ok(averages)
 }
 
 /// The one thing that `nominal` can say: numbers belong to the matrix.

@@ -35,14 +35,14 @@ pub struct IdentifyCase {
     pub truth: Option<Law>,
 }
 
-/// Standard deviations √E|δx|² of the measured receptances, `[frequency][sensor]`, as far as the files tell.
+/// Standard deviations √E|δx|² of the measured receptances, `[frequency][sensor]`, as far as files and case tell.
 #[derive(Debug, Clone, PartialEq)]
 pub enum MeasuredNoise {
     /// Not for all sensors.
     Unknown,
-    /// From the coherence of all of them, up to the number of averages.
+    /// From the coherence of all of them as if it were of one average: the number of averages is not told of all.
     Relative(Vec<Vec<f64>>),
-    /// Given for all of them.
+    /// Of all of them: given, or from the coherence and the number of averages.
     Known(Vec<Vec<f64>>),
 }
 
