@@ -17,7 +17,8 @@ fn demo_runs_the_papers_rubber_bar() {
     assert_eq!(
         table.lines().next().unwrap(),
         "frequency_hz,storage,loss_factor,factor_re,factor_im,correction_re,correction_im,error,spectral_radius,\
-         order,candidates,status,pole_distance,series_order,certificate"
+         order,candidates,status,pole_distance,series_order,certificate,\
+         storage_std,loss_factor_std,storage_loss_correlation,chi2"
     );
     let errors = column(&table, "error");
     // The paper: at least a hundred frequencies, all with ε < 2e-8.

@@ -129,8 +129,19 @@ const ESTIMATE: &str = "\"estimate\" (a nominal value is the factor of the matri
 
 /// `[identify]`.
 pub(super) fn identify(field: &Field<'_>) -> Result<IdentifyEntry, InputError> {
-    let known =
-        ["matrix", "band_hz", "method", "order", "selection", "space", "nominal", "bounds", "real", "truth"];
+    let known = [
+        "matrix",
+        "band_hz",
+        "method",
+        "order",
+        "selection",
+        "space",
+        "nominal",
+        "bounds",
+        "real",
+        "robust",
+        "truth",
+    ];
     let table = field.table(&known)?;
     let bounds = table.find("bounds").map(|field| field.table(&["storage", "loss_factor"])).transpose()?;
     let method = |word: &str| word.parse::<Method>().map_err(|unknown| unknown.expected.to_owned());
@@ -150,6 +161,7 @@ pub(super) fn identify(field: &Field<'_>) -> Result<IdentifyEntry, InputError> {
         storage: bound("storage")?,
         loss_factor: bound("loss_factor")?,
         real: table.find("real").map(|real| real.flag()).transpose()?.unwrap_or(false),
+        robust: table.find("robust").map(|robust| robust.flag()).transpose()?,
         truth: table.find("truth").map(|truth| factor(&truth)).transpose()?,
     })
 }

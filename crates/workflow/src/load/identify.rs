@@ -146,6 +146,7 @@ fn options(entry: &IdentifyEntry, overrides: &Overrides) -> Result<Options, Inpu
     let mut options = Options { real: entry.real, ..Options::default() };
     options.method = entry.method.unwrap_or(options.method);
     options.space = entry.space.unwrap_or(options.space);
+    options.robust = entry.robust.unwrap_or(options.robust);
     options.whole_box = entry.estimate.is_some();
     options.bounds.storage = entry.storage.as_ref().map(|bound| bound.value);
     options.bounds.loss_factor = entry.loss_factor.as_ref().map(|bound| bound.value);
