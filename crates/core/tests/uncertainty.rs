@@ -221,7 +221,9 @@ fn assert_coverage(case: &Case, band_hz: [f64; 2], least_ok: [f64; 3]) {
     for (noise, least_ok) in [1e-3, 1e-2, 5e-2].into_iter().zip(least_ok) {
         let made = Measured::clean(case, linear_hz(band_hz[0], band_hz[1], 16), RATIO, noise);
         let mut coverage = Coverage::default();
-        for seed in 0..20 {
+        // Other draws for each size of noise.
+        let first = (1e5 * noise) as u64;
+        for seed in first..first + 20 {
             let u = made.drawn(seed);
             let band = identify(case, &made, &u, Noise::Known(&made.std), &bounded(case));
             coverage.count(&band, truth);
@@ -248,7 +250,7 @@ fn error_bars_of_a_bar_cover_the_truth() {
 
 #[test]
 fn error_bars_of_a_plate_cover_the_truth() {
-    assert_coverage(&plate(6, 0.4, 1e-2), [100.0, 2500.0], [0.95, 0.6, 0.2]);
+    assert_coverage(&plate(6, 0.4, 1e-2), [100.0, 2500.0], [0.95, 0.5, 0.15]);
 }
 
 #[test]
@@ -261,7 +263,7 @@ fn error_bars_of_a_sandwich_cover_the_truth() {
 fn loss_factors_that_noise_has_made_up_are_marked() {
     let case = plate(6, 0.4, 1e-3);
     let made = Measured::clean(&case, linear_hz(100.0, 2500.0, 40), 0.8, 1e-2);
-    let (mut marked, mut useless) = (0, 0);
+    let (mut known, mut marked, mut useless) = (0, 0, 0);
     for seed in 0..4 {
         let u = made.drawn(seed);
         let band = identify(&case, &made, &u, Noise::Known(&made.std), &bounded(&case));
@@ -269,15 +271,18 @@ fn loss_factors_that_noise_has_made_up_are_marked() {
             let eta = outcome.loss_factor().unwrap();
             let std = outcome.uncertainty.unwrap().loss_factor_std.unwrap();
             if outcome.status == Status::Ok {
-                assert!((eta - 1e-3).abs() < 1e-3, "{} Hz: {eta}", outcome.frequency_hz);
-                assert!(std <= 0.3 * eta, "{} Hz: {eta} {std}", outcome.frequency_hz);
+                // Three deviations: of two dozen answers one in fifteen such tests is that far off by chance.
+                assert!((eta - 1e-3).abs() < 3.0 * std, "{} Hz: {eta} {std}", outcome.frequency_hz);
+                assert!(std <= 0.2 * eta, "{} Hz: {eta} {std}", outcome.frequency_hz);
+                known += 1;
             } else if outcome.status == Status::IllConditioned {
                 marked += 1;
             }
             useless += usize::from((eta - 1e-3).abs() > 1e-3);
         }
     }
-    assert!(useless > 20 && marked >= useless, "{useless} {marked}");
+    println!("{known} known, {marked} marked, {useless} off by more than themselves");
+    assert!(known > 0 && useless > 20 && marked >= useless, "{known} {marked} {useless}");
 }
 
 /// One sensor of three is rubbish: it is named and left out, and the answer stays within its error bars.

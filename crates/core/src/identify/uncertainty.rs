@@ -37,8 +37,11 @@ pub struct Uncertainty {
 const NONLINEAR: f64 = 0.25;
 
 /// A number is known when its standard deviation is below this part of it: it is then three deviations away from nothing, and better
-/// known than by a glance at a table of materials.
+/// known than by a glance at a table of materials …
 const KNOWN: f64 = 0.3;
+
+/// … also if it is as many deviations smaller as the error bar allows: of many numbers that are not known, those that noise has made large would else pass.
+const SMALLER: f64 = 2.0;
 
 /// A loss factor below this is none that a vibration test tells from zero: supports, air and cables take more.
 const LEAST_LOSS: f64 = 1e-4;
@@ -70,7 +73,8 @@ impl Uncertainty {
 
     /// Whether the measurement tells the factor: its modulus, and its loss factor where it may have one.
     pub fn is_known(&self, factor: c64) -> bool {
-        let loss = |std: f64| std <= KNOWN * loss_factor(factor).abs().max(LEAST_LOSS);
-        self.correction_std <= KNOWN * factor.norm() && self.loss_factor_std.is_none_or(loss)
+        let is_known = |value: f64, std: f64, least: f64| std <= KNOWN * (value - SMALLER * std).max(least);
+        let loss = |std: f64| is_known(loss_factor(factor).abs(), std, LEAST_LOSS);
+        is_known(factor.norm(), self.correction_std, 0.0) && self.loss_factor_std.is_none_or(loss)
     }
 }
