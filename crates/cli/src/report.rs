@@ -149,7 +149,8 @@ fn doubts(job: &IdentifyJob) -> Vec<(&'static str, String)> {
 
 /// With as many digits as an error bar deserves.
 fn percent_of(fraction: f64) -> String {
-    format!("{:.1e} %", 100.0 * fraction)
+    let percent = 100.0 * fraction;
+    if percent < 0.01 { format!("{percent:.0e} %") } else { format!("{percent:.2} %") }
 }
 
 fn percent(fraction: f64) -> String {

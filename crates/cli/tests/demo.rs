@@ -224,4 +224,10 @@ fn a_sensor_that_contradicts_the_others_is_named_and_left_out() {
     assert!(said.contains("the model cannot explain the measurements"), "{said}");
     assert_eq!(summary("kept")["sensors"][2]["left_out"], false);
     assert_eq!(summary("kept")["fit"]["verdict"], "not explained");
+
+    // Of two sensors neither can be told to be wrong.
+    let two = case.replace(wrong, "[identify]").replace("\"202+Z\"", "\"222+Z\"\nrecord = 2");
+    std::fs::write(at.join("beam/case.toml"), two).unwrap();
+    let said = done(at, &["identify", "beam/case.toml", "--out", "two"]);
+    assert!(said.contains("the two sensors contradict one another") && !said.contains(" ok"), "{said}");
 }

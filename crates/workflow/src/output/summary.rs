@@ -2,7 +2,9 @@
 
 use crate::load::{Case, IdentifyCase, MeasuredNoise};
 use crate::run::IdentifyRun;
+use frfit::c64;
 use frfit::identify::{NoiseLevel, Status};
+use frfit::material::loss_factor;
 use serde_json::{Map, Value, json};
 
 /// A modulus within this of the truth counts as right.
@@ -164,7 +166,20 @@ fn truth(identify: &IdentifyCase, run: &IdentifyRun) -> Option<Value> {
         let truth = law.at(outcome.frequency_hz).ok()?;
         Some((outcome.factor()? - truth).norm() / truth.norm())
     };
+    // Of the answers with error bars that are called ok, those that have the truth within two standard deviations: 0.95 is right.
+    let covered = |off: &dyn Fn(&frfit::identify::Identified, c64) -> Option<f64>| {
+        let ok = run.outcomes.iter().filter(|outcome| outcome.status == Status::Ok);
+        let within: Vec<bool> =
+            ok.filter_map(|o| Some(off(o, law.at(o.frequency_hz).ok()?)? <= 2.0)).collect();
+        fraction(&within)
+    };
     Some(json!({
+        "covered": {
+            "storage": covered(&|o, truth| Some((o.storage()? - truth.re).abs() / o.uncertainty?.storage_std)),
+            "loss_factor": covered(&|o, truth| {
+                Some((o.loss_factor()? - loss_factor(truth)).abs() / o.uncertainty?.loss_factor_std?)
+            }),
+        },
         "deviation": spread(run, deviation),
         "within": RIGHT_WITHIN,
         "fraction_right": fraction(&right),

@@ -23,7 +23,7 @@ pub(super) struct Solution {
     pub(super) response: Vec<c64>,
     /// ‖F − D(c)x‖/‖F‖ of the rational response.
     pub(super) residual: f64,
-    /// (Σ |∂²x_m/∂c²|²/σ_m²)^{1/2} of the rational response; NaN where that did not find the solution.
+    /// (Σ |∂²x_m/∂c²|²/σ_m²)^{1/2} of a rational response without poles; infinite where none did find the solution.
     pub(super) second: f64,
 }
 
@@ -126,7 +126,8 @@ impl Fit<'_> {
             // No solution at a low order is no proof that there is none.
             let settled = !explored.unsure && (!explored.solutions.is_empty() || whole);
             if settled || reached >= order {
-                for solution in &mut explored.solutions {
+                let powers = explored.poles.is_none();
+                for solution in explored.solutions.iter_mut().filter(|_| powers) {
                     let second = response.second_derivative(solution.correction);
                     solution.second = second.map_or(f64::INFINITY, |second| self.weighed(&second));
                 }
@@ -296,7 +297,8 @@ impl Fit<'_> {
         let step = if self.options.real { c64::new(step.re, 0.0) } else { step };
         let finite = misfit.is_finite() && step.is_finite();
         let (std, response) = (curvature.powf(-0.5), values);
-        let solution = Solution { correction, misfit, std, response, residual: f64::NAN, second: f64::NAN };
+        let solution =
+            Solution { correction, misfit, std, response, residual: f64::NAN, second: f64::INFINITY };
         if finite { Ok((solution, step)) } else { Err(NoConvergence) }
     }
 }

@@ -112,9 +112,12 @@ pub(super) fn identify<'a>(
     let outcomes: Vec<Identified> = map(hooks.for_each, at.len(), |i| {
         let chosen = choices[i].chosen.map(|k| &found[i].solutions[k]);
         let on_space = space.as_ref().zip(chosen.map(|solution| solution.correction));
-        let second = match on_space {
-            Some((space, c)) => space.second_derivative(i, c).map(|second| task.fit(i).weighed(&second)),
-            None => chosen.map(|solution| solution.second),
+        let weighed = |second: Vec<c64>| task.fit(i).weighed(&second);
+        // The poles have it without another factorisation; how nearly linear something is takes few digits.
+        let second = match (found[i].poles.as_ref().zip(chosen), on_space) {
+            (Some((poles, solution)), _) => Some(weighed(poles.second_derivative(solution.correction))),
+            (None, Some((space, c))) => space.second_derivative(i, c).map(weighed),
+            (None, None) => chosen.map(|solution| solution.second),
         };
         let evidence = Evidence {
             at: &at[i],
