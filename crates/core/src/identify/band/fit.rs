@@ -49,8 +49,8 @@ const CHANCE: f64 = 4.0;
 /// χ² up to this many times its degrees of freedom is the noise told too small by less than half.
 const NEARLY: f64 = 2.0;
 
-/// Noise that the sensors show beyond that which the answers scatter by: twice is what few frequencies may have, and ten times the
-/// misfit in χ² is no noise.
+/// Sensors that disagree by so many times what the answers scatter by do not disagree by noise, which shows in both alike: ten times in χ², where
+/// the two levels of some dozens of frequencies differ by a third.
 const CONTRADICTION: f64 = 3.0;
 
 /// No average leaves noise of this part of the response: then sensors contradict one another.

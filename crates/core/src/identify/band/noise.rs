@@ -135,11 +135,11 @@ pub(super) fn of_scatter(frequency_hz: &[f64], answers: &[Option<Node>], real: b
         let off = if real { c64::new(off.re, 0.0) } else { off };
         Some(off.norm_sqr() / variance).filter(|square| square.is_finite())
     };
-    let mut squares: Vec<f64> = (2..answers.len().saturating_sub(2)).filter_map(square).collect();
+    let squares: Vec<f64> = (2..answers.len().saturating_sub(2)).filter_map(square).collect();
     if squares.len() < LEAST_SCATTER {
         return None;
     }
-    level_of(std::mem::take(&mut squares), if real { 1 } else { 2 })
+    level_of(squares, if real { 1 } else { 2 })
 }
 
 /// Median of χ².
