@@ -1,6 +1,6 @@
 //! What came out, in the few lines that a person reads first.
 
-use frfit::identify::{Identified, Status};
+use frfit::identify::{Explained, Identified, NoiseSource, Status};
 use frfit_workflow::job::IdentifyJob;
 use std::path::Path;
 
@@ -35,6 +35,9 @@ pub(crate) fn identified(job: &IdentifyJob, out: &Path) -> String {
     }
     if let Some((_, high)) = range(&|outcome| outcome.error) {
         line("error", format!("at most {high:.1e} (where ok)"));
+    }
+    for (label, sentence) in doubts(job) {
+        line(label, sentence);
     }
     let largest = run.outcomes.iter().filter_map(|outcome| outcome.spectral_radius).reduce(f64::max);
     if let Some(radius) = largest {
@@ -87,6 +90,67 @@ pub(crate) fn identified(job: &IdentifyJob, out: &Path) -> String {
         identify.names.join(", "),
         run.outcomes.len()
     )
+}
+
+/// What is known of the noise, and what speaks against sensors or model.
+fn doubts(job: &IdentifyJob) -> Vec<(&'static str, String)> {
+    let run = &job.run;
+    let mut lines = Vec::new();
+    if let Some(level) = run.noise.level {
+        let known = run.outcomes.iter().filter(|outcome| outcome.status == Status::Ok);
+        let relative = known.filter_map(|o| Some(o.uncertainty?.correction_std / o.factor()?.norm()));
+        let mut relative: Vec<f64> = relative.collect();
+        relative.sort_by(f64::total_cmp);
+        let bar = relative.get(relative.len() / 2).map_or(String::new(), |median| {
+            format!("; standard deviation of the factor {} (median where ok)", percent_of(*median))
+        });
+        let source = match run.noise.source {
+            NoiseSource::Given => "as given".to_owned(),
+            NoiseSource::Sensors => format!("{level:.1e} of what is assumed, from the misfit of the sensors"),
+            NoiseSource::Scatter => {
+                format!("{level:.1e} of what is assumed, from the scatter of the answers")
+            }
+            NoiseSource::Nothing => "unknown".to_owned(),
+        };
+        lines.push(("noise", format!("{source}{bar}")));
+    }
+    for (sensor, fit) in job.case.sensors.iter().zip(&run.sensors).filter(|(_, fit)| fit.contradicts) {
+        let done = if fit.left_out { "left out" } else { "kept, as robust = false says" };
+        lines.push(("sensor", format!("{} contradicts all others: {done}", sensor.label)));
+    }
+    match run.fit {
+        Some(fit) if fit.verdict == Explained::No => {
+            let left = run.sensors.iter().filter(|sensor| !sensor.left_out).count();
+            let who = match left {
+                2 => {
+                    "the two sensors contradict one another, or the model cannot explain them; two cannot tell which"
+                }
+                _ => "the model cannot explain the measurements",
+            };
+            let told = match run.noise.source {
+                NoiseSource::Given => {
+                    format!(" (χ² is {:.1} times what noise gives)", fit.chi_squared / fit.freedom as f64)
+                }
+                _ => " (what is left over is no noise)".to_owned(),
+            };
+            lines.push(("not explained", format!("{who}{told}")));
+        }
+        Some(fit) if fit.verdict == Explained::Nearly => {
+            let times = (fit.chi_squared / fit.freedom as f64).sqrt();
+            lines.push((
+                "fit",
+                format!("misfit {times:.2} times the given noise: error bars may be too short by that"),
+            ));
+        }
+        _ => {}
+    }
+    lines
+}
+
+/// With as many digits as an error bar deserves.
+fn percent_of(fraction: f64) -> String {
+    let percent = 100.0 * fraction;
+    if percent < 0.01 { format!("{percent:.0e} %") } else { format!("{percent:.2} %") }
 }
 
 fn percent(fraction: f64) -> String {

@@ -17,7 +17,8 @@ fn demo_runs_the_papers_rubber_bar() {
     assert_eq!(
         table.lines().next().unwrap(),
         "frequency_hz,storage,loss_factor,factor_re,factor_im,correction_re,correction_im,error,spectral_radius,\
-         order,candidates,status,pole_distance,series_order,certificate"
+         order,candidates,status,pole_distance,series_order,certificate,\
+         storage_std,loss_factor_std,storage_loss_correlation,chi2"
     );
     let errors = column(&table, "error");
     // The paper: at least a hundred frequencies, all with ε < 2e-8.
@@ -187,4 +188,46 @@ fn the_rational_method_is_never_wrong_and_ok() {
         assert_eq!(summary["truth"]["fraction_right_of_ok"], 1.0, "{name}: {summary:#}");
         assert!(!all_right || summary["truth"]["fraction_right"] == 1.0, "{name}: {summary:#}");
     }
+}
+
+/// The sandwich with a third sensor, whose FRF was measured elsewhere.
+#[test]
+fn a_sensor_that_contradicts_the_others_is_named_and_left_out() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    done(at, &["--quiet", "example", "sandwich", "beam"]);
+    let case = std::fs::read_to_string(at.join("beam/case.toml")).unwrap();
+    let wrong = "[[measurement]]\nfile = \"frf.uff\"\nrecord = 1\ndof = \"220+Z\"\n\n[identify]";
+    let case = case.replace("[identify]", wrong);
+    std::fs::write(at.join("beam/case.toml"), &case).unwrap();
+    let summary = |out: &str| -> Value {
+        serde_json::from_slice(&std::fs::read(at.join(out).join("summary.json")).unwrap()).unwrap()
+    };
+    let said = done(at, &["identify", "beam/case.toml", "--out", "out"]);
+    assert!(said.contains("220+Z contradicts all others: left out"), "{said}");
+    let left_out = summary("out");
+    let flags = |name: &str| -> Vec<bool> {
+        let sensors = left_out["sensors"].as_array().unwrap();
+        sensors.iter().map(|sensor| sensor[name].as_bool().unwrap()).collect()
+    };
+    assert_eq!(
+        (flags("contradicts"), flags("left_out")),
+        (vec![false, false, true], vec![false, false, true])
+    );
+    assert_eq!(left_out["truth"]["fraction_right_of_ok"], 1.0, "{said}");
+    assert_eq!(left_out["fit"]["verdict"], "explained");
+
+    std::fs::write(at.join("beam/case.toml"), case.replace("[identify]", "[identify]\nrobust = false"))
+        .unwrap();
+    let said = done(at, &["identify", "beam/case.toml", "--out", "kept"]);
+    assert!(said.contains("220+Z contradicts all others: kept, as robust = false says"), "{said}");
+    assert!(said.contains("the model cannot explain the measurements"), "{said}");
+    assert_eq!(summary("kept")["sensors"][2]["left_out"], false);
+    assert_eq!(summary("kept")["fit"]["verdict"], "not explained");
+
+    // Of two sensors neither can be told to be wrong.
+    let two = case.replace(wrong, "[identify]").replace("\"202+Z\"", "\"222+Z\"\nrecord = 2");
+    std::fs::write(at.join("beam/case.toml"), two).unwrap();
+    let said = done(at, &["identify", "beam/case.toml", "--out", "two"]);
+    assert!(said.contains("the two sensors contradict one another") && !said.contains(" ok"), "{said}");
 }

@@ -77,9 +77,12 @@ fn by_default_the_modulus_is_the_truth_up_to_the_mesh() {
     chain(folder.path());
     let (summary, table) = identify(folder.path(), &[]);
     let found = deviations(folder.path(), &table);
-    // One sensor: around 1400 Hz it leaves a choice.
-    assert!(summary["status"]["ok"].as_u64().unwrap() > 640, "{}", summary["status"]);
-    assert!(found.len() > 640);
+    assert_eq!(summary["status"]["ok"], 676, "{}", summary["status"]);
+    assert_eq!(found.len(), 676);
+    // One sensor, one hit: nothing but the scatter of the answers tells the noise.
+    assert_eq!(summary["noise"]["source"], "scatter");
+    assert!(numbers(&table, "storage_std").iter().all(|std| *std > 0.0));
+    assert!(numbers(&table, "chi2").iter().all(|chi2| chi2.is_nan()));
     for (f, off, modulus) in found {
         assert!(off < mesh(f, modulus), "{f} Hz: {off:e} of {:e}", mesh(f, modulus));
     }

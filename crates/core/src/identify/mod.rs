@@ -6,9 +6,14 @@ mod one;
 mod options;
 mod outcome;
 mod rational;
+mod uncertainty;
 
-pub use band::{Band, BandOutcome, Hooks, Noise, Stage, identify_band};
+pub use band::{
+    Band, BandOutcome, Explained, GoodnessOfFit, Hooks, Noise, NoiseLevel, NoiseSource, SensorFit, Stage,
+    identify_band,
+};
 pub use choice::{Method, Selection, Space, UnknownChoice};
 pub use one::{error_by_order, identify_at, relative_error};
 pub use options::{MAX_ORDER, Options, OptionsError};
 pub use outcome::{Identified, Status};
+pub use uncertainty::Uncertainty;

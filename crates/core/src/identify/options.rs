@@ -35,6 +35,8 @@ pub struct Options {
     /// Whether the factor is looked for in all of the bounds, as for a nominal that is no more than their middle. Default false: in a factor of four to either side
     /// of the nominal first.
     pub whole_box: bool,
+    /// Whether a joint selection leaves out a sensor of three or more that contradicts all others. Default true: it is named in any case.
+    pub robust: bool,
     /// Whether a joint selection on the subspace looks for all solutions at every frequency, however many there are. Default false: at some hundred of a dense
     /// band, and follows them in between.
     pub everywhere: bool,
@@ -52,6 +54,7 @@ impl Default for Options {
             error: 1e-2,
             certain: 1e-5,
             whole_box: false,
+            robust: true,
             everywhere: false,
         }
     }

@@ -1,5 +1,6 @@
 //! What came out at one frequency, with its evidence.
 
+use super::Uncertainty;
 use crate::c64;
 use crate::material::loss_factor;
 use crate::response::Work;
@@ -18,7 +19,8 @@ pub enum Status {
     Diverged,
     /// No root within the bounds.
     NoRoot,
-    /// A system could not be solved, or the response hardly depends on the parameter.
+    /// A system could not be solved, or the response hardly depends on the parameter: noise leaves the factor, or its loss factor, no better known
+    /// than before, or the error bar is not valid ([`super::Uncertainty`]). What is given then is evidence, not an answer.
     IllConditioned,
     /// The frequency is outside the band or without data.
     OutOfBand,
@@ -51,7 +53,8 @@ pub struct Identified {
     pub nominal: c64,
     /// The correction c. With status `diverged` it is the root of least |c| within the bounds: evidence, not an answer.
     pub correction: Option<c64>,
-    /// ε over all sensors, P-40, from a fresh direct solve with the corrected parameter; `None` where nothing but zeros was measured.
+    /// ε over all sensors but those that were left out, P-40, from a fresh direct solve with the corrected parameter; `None` where nothing but
+    /// zeros was measured.
     pub error: Option<f64>,
     /// ρ(−c A₀⁻¹A₁) at the correction, P-14.
     pub spectral_radius: Option<f64>,
@@ -76,6 +79,10 @@ pub struct Identified {
     pub certificate: Option<f64>,
     /// Order that the paper's series would need for a truncation error of 1e-6 at the correction; `None` where it diverges, or was not asked.
     pub series_order: Option<usize>,
+    /// Error bars of the factor: of a joint selection, where the noise is known or the band tells it.
+    pub uncertainty: Option<Uncertainty>,
+    /// χ² of the sensors per degree of freedom; `None` where there is no degree of freedom, as for the complex factor of one sensor.
+    pub chi_squared: Option<f64>,
     /// Work done.
     pub work: Work,
 }
@@ -99,6 +106,8 @@ impl Identified {
             alternatives: Vec::new(),
             certificate: None,
             series_order: None,
+            uncertainty: None,
+            chi_squared: None,
             work: Work::default(),
         }
     }

@@ -55,6 +55,18 @@ impl Poles {
         (self.residues.iter().map(value).collect(), self.residues.iter().map(slope).collect())
     }
 
+    /// ∂²x_m/∂c² at all sensors: Σ_k 2 ρ_mk λ_k² / (1 + zλ_k)³ s⁻².
+    pub fn second_derivative(&self, correction: c64) -> Vec<c64> {
+        let z = correction / self.scale;
+        let weights: Vec<c64> = self
+            .lambda
+            .iter()
+            .map(|lambda| 2.0 * (lambda / self.scale).powi(2) * (1.0 + z * lambda).powi(-3))
+            .collect();
+        let second = |residues: &Vec<c64>| residues.iter().zip(&weights).map(|(rho, w)| rho * w).sum();
+        self.residues.iter().map(second).collect()
+    }
+
     /// The order that the Neumann series at a sensor needs for a relative truncation error at the correction c; `None` where it
     /// diverges (P-14).
     ///

@@ -127,4 +127,29 @@ impl RationalResponse {
         let slope = |adjoint: &[c64]| -transpose_dot(adjoint, &change) / self.scale;
         Ok((values, adjoints.chunks_exact(n).map(slope).collect()))
     }
+
+    /// ∂²x_m/∂c² = (M⁻¹ℓ_m)ᵀ (2 M′M⁻¹M′ − M″) y at all sensors, with M y = b.
+    ///
+    /// # Errors
+    /// [`NoConvergence`] where c is a pole to working precision.
+    pub fn second_derivative(&self, correction: c64) -> Result<Vec<c64>, NoConvergence> {
+        let (n, z) = (self.size(), correction / self.scale);
+        let mut block: Vec<c64> = self.load.iter().chain(self.sensors.iter().flatten()).copied().collect();
+        let factor = Lu::new(&self.matrix(z))?;
+        factor.solve(&mut block)?;
+        let (y, adjoints) = block.split_at(n);
+        let derivative = |weight: fn(usize) -> f64, skipped: usize| {
+            Matrix::from_fn(n, n, |i, j| {
+                let terms = self.matrices.iter().enumerate().skip(skipped).rev();
+                terms.fold(c64::default(), |sum, (q, a)| sum * z + a[(i, j)] * weight(q))
+            })
+        };
+        let first = derivative(|q| q as f64, 1);
+        let mut change = first.multiply(y);
+        factor.solve(&mut change)?;
+        let (twice, second) = (first.multiply(&change), derivative(|q| (q * (q - 1)) as f64, 2).multiply(y));
+        let bend: Vec<c64> = twice.iter().zip(&second).map(|(a, b)| 2.0 * a - b).collect();
+        let scale = self.scale * self.scale;
+        Ok(adjoints.chunks_exact(n).map(|adjoint| transpose_dot(adjoint, &bend) / scale).collect())
+    }
 }

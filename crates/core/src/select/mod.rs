@@ -97,7 +97,8 @@ pub fn choose(frequency_hz: &[f64], nodes: &[Vec<Node>], options: &SelectOptions
     let Some((best, rivals)) = tracks.split_first() else { return vec![nothing; nodes.len()] };
     let rivals: Vec<_> = rivals.iter().filter(|rival| rival.score < best.score + options.margin).collect();
     let curvature = best.alone().curvature();
-    let Some((_, path)) = best.band.cheapest(curvature) else { return vec![nothing; nodes.len()] };
+    let Some((_, mut path)) = best.band.cheapest(curvature) else { return vec![nothing; nodes.len()] };
+    bridge(&mut path, &best.chosen);
     let costs = best.band.costs(curvature);
     let choose_at = |k: usize| {
         let mut choice = nothing.clone();
@@ -119,6 +120,25 @@ pub fn choose(frequency_hz: &[f64], nodes: &[Vec<Node>], options: &SelectOptions
         choice
     };
     (0..nodes.len()).map(choose_at).collect()
+}
+
+/// Nodes side by side that are no accident: what noise or a stray makes of one frequency does not join on to both sides through several.
+const STRETCH: usize = 3;
+
+/// Goes through a stretch that a path of the band's own curvature leaves out where the track of a larger curvature goes through it without a gap and meets the path at
+/// both ends: the curve bends there more than elsewhere, as by an error of the measurement that is smooth over frequency. A shorter one stays left out.
+fn bridge(path: &mut [Option<usize>], track: &[Option<usize>]) {
+    let mut first = 0;
+    while first < path.len() {
+        let length = path[first..].iter().take_while(|point| point.is_none()).count();
+        let end = first + length;
+        let joined = |k: usize| path[k].is_some() && path[k] == track[k];
+        let whole = track[first..end].iter().all(Option::is_some);
+        if length >= STRETCH && whole && first > 0 && end < path.len() && joined(first - 1) && joined(end) {
+            path[first..end].copy_from_slice(&track[first..end]);
+        }
+        first = end + 1;
+    }
 }
 
 /// Standard deviation of ln E that is left to a root without noise: half the digits, as a nearly double root has.
@@ -191,5 +211,30 @@ impl Noise {
         let is_number =
             |point: &Point| point.log.is_finite() && point.variance.is_finite() && point.misfit.is_finite();
         nodes.iter().enumerate().map(point).filter(is_number).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_stretch_is_bridged_and_a_stray_is_not() {
+        let path =
+            [Some(0), None, None, None, Some(2), None, Some(1), None, None, None, Some(0), None, None, None];
+        let track = path.map(|_| Some(0));
+        let bridged = |mut track: [Option<usize>; 14], change: &dyn Fn(&mut [Option<usize>])| {
+            // The track meets the path wherever that is.
+            (0..14).for_each(|k| track[k] = path[k].or(track[k]));
+            change(&mut track);
+            let mut path = path;
+            bridge(&mut path, &track);
+            path.iter().map(|point| usize::from(point.is_some())).collect::<Vec<_>>()
+        };
+        assert_eq!(bridged(track, &|_| {}), [1, 1, 1, 1, 1, 0, 1, 1, 1, 1, 1, 0, 0, 0]);
+        // With a gap of its own, or another point at an end, it says nothing.
+        assert_eq!(bridged(track, &|track| track[2] = None), [1, 0, 0, 0, 1, 0, 1, 1, 1, 1, 1, 0, 0, 0]);
+        assert_eq!(bridged(track, &|track| track[4] = Some(1)), [1, 0, 0, 0, 1, 0, 1, 1, 1, 1, 1, 0, 0, 0]);
+        bridge(&mut [], &[]);
     }
 }

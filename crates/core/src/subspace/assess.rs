@@ -85,6 +85,25 @@ impl Projection {
         let Solutions { response, slope, .. } = Solutions::new(self, at, correction)?;
         Ok((response, slope))
     }
+
+    /// ∂²x_m/∂c² = z_mᵀ (2 D′D⁻¹D′ − D″) x with the correction c of the first parameter, without an estimate of its error.
+    ///
+    /// # Errors
+    /// [`Breakdown`] where the reduced system is singular.
+    pub fn second_derivative(&self, at: &ModelAt<'_>, correction: c64) -> Result<Vec<c64>, Breakdown> {
+        let [theta, slope, second] = weights_to_second(self, at, correction);
+        let mut block = self.load.clone();
+        block.extend(self.sensors.iter().flatten().map(|&l| c64::new(l, 0.0)));
+        let factor = Lu::new(&self.combine(&theta)).map_err(|NoConvergence| Breakdown::NotFinite)?;
+        factor.solve(&mut block).map_err(|NoConvergence| SINGULAR)?;
+        let (y, duals) = block.split_at(self.size);
+        let first = self.combine(&slope);
+        let mut change = first.multiply(y);
+        factor.solve(&mut change).map_err(|NoConvergence| SINGULAR)?;
+        let (twice, bend) = (first.multiply(&change), self.combine(&second).multiply(y));
+        let total: Vec<c64> = twice.iter().zip(&bend).map(|(a, b)| 2.0 * a - b).collect();
+        Ok(duals.chunks_exact(self.size.max(1)).map(|z| transpose_dot(z, &total)).collect())
+    }
 }
 
 impl Solved {
@@ -105,16 +124,25 @@ impl Solved {
 
 /// θ_g of D and of ∂D/∂c at the correction c of the first parameter.
 fn weights(small: &Projection, at: &ModelAt<'_>, correction: c64) -> (Vec<c64>, Vec<c64>) {
+    let [theta, slope, _] = weights_to_second(small, at, correction);
+    (theta, slope)
+}
+
+/// θ_g of D, ∂D/∂c and ∂²D/∂c² at the correction c of the first parameter.
+fn weights_to_second(small: &Projection, at: &ModelAt<'_>, correction: c64) -> [Vec<c64>; 3] {
     let mut theta = small.parts.weights(&at.nominal);
     let mut slope = vec![c64::default(); theta.len()];
+    let mut second = slope.clone();
+    // c^{q−1} for the q-th coefficient, and c^{q−2}: the first has none.
+    let mut before = c64::default();
     let mut power = c64::new(1.0, 0.0);
     for (q, coefficient) in at.parameters.first().map_or(&[][..], |p| &p.coefficients).iter().enumerate() {
-        for ((theta, slope), weight) in theta.iter_mut().zip(&mut slope).zip(small.parts.weights(coefficient))
-        {
-            *slope += (q + 1) as f64 * power * weight;
-            *theta += power * correction * weight;
+        for (g, weight) in small.parts.weights(coefficient).into_iter().enumerate() {
+            second[g] += ((q + 1) * q) as f64 * before * weight;
+            slope[g] += (q + 1) as f64 * power * weight;
+            theta[g] += power * correction * weight;
         }
-        power *= correction;
+        (before, power) = (power, power * correction);
     }
-    (theta, slope)
+    [theta, slope, second]
 }

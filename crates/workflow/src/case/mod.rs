@@ -99,6 +99,8 @@ pub struct MeasurementEntry {
     pub record: Option<Located<i64>>,
     /// What was measured; `None`: as the file says.
     pub quantity: Option<Quantity>,
+    /// Over how many records the coherence was averaged; `None`: not told.
+    pub averages: Option<Located<i64>>,
 }
 
 /// `[identify]`.
@@ -126,6 +128,8 @@ pub struct IdentifyEntry {
     pub loss_factor: Option<Located<[f64; 2]>>,
     /// Whether the factor is real.
     pub real: bool,
+    /// Whether a sensor that contradicts all others is left out.
+    pub robust: Option<bool>,
     /// The factor that a simulated measurement was made with.
     pub truth: Option<Located<FactorEntry>>,
 }

@@ -23,7 +23,7 @@ pub fn parse(file: &Path, bytes: &[u8]) -> Result<CaseFile, InputError> {
     };
 
     let matrices = many("matrix", &["name", "role", "file", "factor"])?;
-    let measurements = many("measurement", &["file", "dof", "row", "record", "quantity"])?;
+    let measurements = many("measurement", &["file", "dof", "row", "record", "quantity", "averages"])?;
     let force = case.find("load").ok_or_else(|| missing("a table [load]".into()))?;
     let dofs = match case.find("dofs") {
         Some(dofs) => Some(dofs.table(&["file"])?.need("file")?.text()?),

@@ -111,7 +111,17 @@ pub(super) fn measurement(table: &Table<'_>) -> Result<MeasurementEntry, InputEr
         spot: spot(table)?,
         record: table.find("record").map(|record| record.whole()).transpose()?,
         quantity: table.find("quantity").map(quantity).transpose()?.map(|quantity| quantity.value),
+        averages: table.find("averages").map(|field| averages(&field)).transpose()?,
     })
+}
+
+/// A number of averages: a coherence of one record is 1 whatever was measured.
+fn averages(field: &Field<'_>) -> Result<Located<i64>, InputError> {
+    let averages = field.whole()?;
+    if averages.value < 2 {
+        return Err(field.refuse("a whole number from 2 on: the coherence of one record tells nothing"));
+    }
+    Ok(averages)
 }
 
 /// The one thing that `nominal` can say: numbers belong to the matrix.
@@ -119,8 +129,19 @@ const ESTIMATE: &str = "\"estimate\" (a nominal value is the factor of the matri
 
 /// `[identify]`.
 pub(super) fn identify(field: &Field<'_>) -> Result<IdentifyEntry, InputError> {
-    let known =
-        ["matrix", "band_hz", "method", "order", "selection", "space", "nominal", "bounds", "real", "truth"];
+    let known = [
+        "matrix",
+        "band_hz",
+        "method",
+        "order",
+        "selection",
+        "space",
+        "nominal",
+        "bounds",
+        "real",
+        "robust",
+        "truth",
+    ];
     let table = field.table(&known)?;
     let bounds = table.find("bounds").map(|field| field.table(&["storage", "loss_factor"])).transpose()?;
     let method = |word: &str| word.parse::<Method>().map_err(|unknown| unknown.expected.to_owned());
@@ -140,6 +161,7 @@ pub(super) fn identify(field: &Field<'_>) -> Result<IdentifyEntry, InputError> {
         storage: bound("storage")?,
         loss_factor: bound("loss_factor")?,
         real: table.find("real").map(|real| real.flag()).transpose()?.unwrap_or(false),
+        robust: table.find("robust").map(|robust| robust.flag()).transpose()?,
         truth: table.find("truth").map(|truth| factor(&truth)).transpose()?,
     })
 }

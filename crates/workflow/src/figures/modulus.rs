@@ -4,20 +4,23 @@ use super::{status_strip, title};
 use crate::load::{Case, IdentifyCase};
 use crate::run::IdentifyRun;
 use frfit::c64;
-use frfit::identify::Status;
+use frfit::identify::{Status, Uncertainty};
 use frfit::material::loss_factor;
 use frfit_figures::{Axis, Color, Dash, Figure, Marker, Panel, Series};
+
+/// Half-length of an error bar in standard deviations: 95 of 100 truths are within.
+const DEVIATIONS: f64 = 2.0;
 
 pub(super) fn figure(case: &Case, identify: &IdentifyCase, run: &IdentifyRun) -> Figure {
     let names = identify.names.join(", ");
     let real = identify.options.real;
     let mut panels = vec![Panel {
         strip: Some(status_strip(run)),
-        ..panel(identify, run, "Real part of the factor", |e| e.re)
+        ..panel(identify, run, "Real part of the factor", |e| e.re, |bars| Some(bars.storage_std))
     }];
     if !real {
-        panels[0].y.label = "Storage modulus E′ (Pa)".into();
-        panels.push(panel(identify, run, "Loss factor η", loss_factor));
+        panels[0].y.label = panels[0].y.label.replace("Real part of the factor", "Storage modulus E′ (Pa)");
+        panels.push(panel(identify, run, "Loss factor η", loss_factor, |bars| bars.loss_factor_std));
     }
     Figure {
         title: title(case, &format!("identified factor of {names}")),
@@ -27,7 +30,13 @@ pub(super) fn figure(case: &Case, identify: &IdentifyCase, run: &IdentifyRun) ->
     }
 }
 
-fn panel(identify: &IdentifyCase, run: &IdentifyRun, label: &str, part: fn(c64) -> f64) -> Panel {
+fn panel(
+    identify: &IdentifyCase,
+    run: &IdentifyRun,
+    label: &str,
+    part: fn(c64) -> f64,
+    std: fn(Uncertainty) -> Option<f64>,
+) -> Panel {
     let x: Vec<f64> = run.outcomes.iter().map(|outcome| outcome.frequency_hz).collect();
     let of = |values: Vec<Option<c64>>| values.into_iter().map(|e| e.map_or(f64::NAN, part)).collect();
     let with = |status: &[Status]| {
@@ -48,19 +57,49 @@ fn panel(identify: &IdentifyCase, run: &IdentifyRun, label: &str, part: fn(c64) 
             ..Series::default()
         });
     }
+    let bars: Vec<f64> = run
+        .outcomes
+        .iter()
+        .map(|o| o.uncertainty.and_then(std).map_or(f64::NAN, |s| DEVIATIONS * s))
+        .collect();
     // A diverged frequency has no answer: what its series ended on belongs into the table, not into a curve.
     for (label, status, color, marker) in [
+        ("evidence only (ill conditioned)", Status::IllConditioned, Color::Grey, Marker::Cross),
         ("updated, ambiguous", Status::Ambiguous, Color::Orange, Marker::Triangle),
         ("updated", Status::Ok, Color::Vermilion, Marker::Circle),
     ] {
         let y: Vec<f64> = with(&[status]);
         if y.iter().any(|y| y.is_finite()) {
+            // The bars of what is not known would hide what is, and stretch the axis with it.
+            let y_error = if status == Status::IllConditioned { Vec::new() } else { bars.clone() };
             let (label, marker) = (label.into(), Some(marker));
-            series.push(Series { label, y, color, line: None, marker, ..Series::default() });
+            series.push(Series { label, y, y_error, color, line: None, marker, ..Series::default() });
         }
     }
     for one in &mut series {
         one.x = x.clone();
     }
-    Panel { y: Axis::linear(label), series, ..Panel::default() }
+    let shown = run.outcomes.iter().any(|o| o.status == Status::Ok && o.uncertainty.is_some());
+    let label = if shown { format!("{label}, ±2 std") } else { label.to_owned() };
+    Panel { y: Axis { range: range_of_answers(&series), ..Axis::linear(label) }, series, ..Panel::default() }
+}
+
+/// Least and greatest of what is drawn, error bars included, if some of it is evidence only, which may be anywhere; `None`, for all of it, where there is no
+/// such evidence, or nothing else.
+fn range_of_answers(series: &[Series]) -> Option<(f64, f64)> {
+    let is_evidence = |one: &Series| one.color == Color::Grey;
+    if !series.iter().any(is_evidence) {
+        return None;
+    }
+    let ends = series.iter().filter(|one| !is_evidence(one)).flat_map(|one| {
+        one.y.iter().enumerate().flat_map(|(i, y)| {
+            let bar = one.y_error.get(i).copied().filter(|bar| bar.is_finite()).unwrap_or(0.0);
+            [y - bar, y + bar]
+        })
+    });
+    let (low, high) = ends
+        .filter(|y| y.is_finite())
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), y| (low.min(y), high.max(y)));
+    let margin = 0.05 * (high - low);
+    (low < high).then_some((low - margin, high + margin))
 }

@@ -4,6 +4,7 @@ use super::identify::MeasuredNoise;
 use super::measurement::{Curve, Measurement};
 use crate::error::{InputError, Place};
 use frfit::c64;
+use frfit::signal::variance;
 use frfit_formats::FormatError;
 
 /// How far two measurements' frequencies may differ and be the same: well above the rounding of 12 digits, well below
@@ -67,12 +68,14 @@ pub(super) fn band(
             let per_receptance = frequency_hz.iter().map(|&f| quantity.over_receptance(f).norm());
             std.into_iter().zip(per_receptance).map(|(std, factor)| std / factor).collect()
         });
-        known.push(std);
         let coherence: Option<Vec<f64>> = frf.coherence.as_ref().map(picked);
-        let column = known.len() - 1;
-        relative.push(coherence.map(|gamma| {
-            gamma.iter().zip(&measured).map(|(&gamma, u)| deviation(gamma, u[column])).collect::<Vec<f64>>()
-        }));
+        let column = known.len();
+        let by_averages = |averages: usize| -> Option<Vec<f64>> {
+            let values = coherence.as_ref()?.iter().zip(&measured);
+            Some(values.map(|(&gamma, u)| deviation(gamma, averages, u[column])).collect())
+        };
+        known.push(std.or_else(|| by_averages(curve.averages?)));
+        relative.push(by_averages(1));
     }
     let by_frequency = |columns: Vec<Option<Vec<f64>>>| -> Option<Vec<Vec<f64>>> {
         let columns: Vec<Vec<f64>> = columns.into_iter().collect::<Option<_>>()?;
@@ -86,11 +89,11 @@ pub(super) fn band(
     Ok(Band { frequency_hz, measured, noise })
 }
 
-/// √E|δH|² of one average, from the coherence γ²: |H|√((1 − γ²)/(2γ²)), B-6.
-fn deviation(coherence: f64, response: c64) -> f64 {
+/// √E|δH|² of the complex value from the coherence γ² of n averages: |H|√((1 − γ²)/(nγ²)), B-6 for both parts together.
+fn deviation(coherence: f64, averages: usize, response: c64) -> f64 {
     // No coherence is exactly one, nor does zero say more than that nothing was measured.
     let coherence = coherence.clamp(1e-9, 1.0 - 1e-9);
-    response.norm() * ((1.0 - coherence) / (2.0 * coherence)).sqrt()
+    (2.0 * variance(response, coherence, averages)).sqrt()
 }
 
 /// Where a curve has a frequency.

@@ -35,14 +35,14 @@ pub struct IdentifyCase {
     pub truth: Option<Law>,
 }
 
-/// Standard deviations √E|δx|² of the measured receptances, `[frequency][sensor]`, as far as the files tell.
+/// Standard deviations √E|δx|² of the measured receptances, `[frequency][sensor]`, as far as files and case tell.
 #[derive(Debug, Clone, PartialEq)]
 pub enum MeasuredNoise {
     /// Not for all sensors.
     Unknown,
-    /// From the coherence of all of them, up to the number of averages.
+    /// From the coherence of all of them as if it were of one average: the number of averages is not told of all.
     Relative(Vec<Vec<f64>>),
-    /// Given for all of them.
+    /// Of all of them: given, or from the coherence and the number of averages.
     Known(Vec<Vec<f64>>),
 }
 
@@ -146,6 +146,7 @@ fn options(entry: &IdentifyEntry, overrides: &Overrides) -> Result<Options, Inpu
     let mut options = Options { real: entry.real, ..Options::default() };
     options.method = entry.method.unwrap_or(options.method);
     options.space = entry.space.unwrap_or(options.space);
+    options.robust = entry.robust.unwrap_or(options.robust);
     options.whole_box = entry.estimate.is_some();
     options.bounds.storage = entry.storage.as_ref().map(|bound| bound.value);
     options.bounds.loss_factor = entry.loss_factor.as_ref().map(|bound| bound.value);

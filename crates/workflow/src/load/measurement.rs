@@ -34,6 +34,8 @@ pub(super) struct Measurement {
 #[derive(Debug)]
 pub(super) struct Curve {
     pub(super) frf: Frf,
+    /// Over how many records its coherence was averaged, where the case says.
+    pub(super) averages: Option<usize>,
     pub(super) file: NamedFile,
 }
 
@@ -54,7 +56,7 @@ pub(super) fn measurement(
     };
     let (sensor, label) = match (&entry.spot, &curve) {
         (Some(spot), _) => dofs.find(spot)?,
-        (None, Some(Curve { frf: Frf { measured_at: Some(name), .. }, file })) => {
+        (None, Some(Curve { frf: Frf { measured_at: Some(name), .. }, file, .. })) => {
             // The name is in the file; the key that leads there is the place to put it right.
             dofs.find(&Spot::Dof(Located { value: *name, place: file.named_by.clone() }))?
         }
@@ -100,5 +102,6 @@ fn curve(
         let expected = format!("an FRF driven at {load}, as [load] says");
         return Err(file.refuse(FormatError::whole(expected, there.to_string())));
     }
-    Ok(Curve { frf, file: NamedFile { bytes: Default::default(), ..file } })
+    let averages = entry.averages.as_ref().and_then(|averages| usize::try_from(averages.value).ok());
+    Ok(Curve { frf, averages, file: NamedFile { bytes: Default::default(), ..file } })
 }

@@ -3,7 +3,7 @@
 use frfit::identify::Identified;
 use frfit_formats::csv::{Cell, write};
 
-const COLUMNS: [&str; 15] = [
+const COLUMNS: [&str; 19] = [
     "frequency_hz",
     "storage",
     "loss_factor",
@@ -19,12 +19,16 @@ const COLUMNS: [&str; 15] = [
     "pole_distance",
     "series_order",
     "certificate",
+    "storage_std",
+    "loss_factor_std",
+    "storage_loss_correlation",
+    "chi2",
 ];
 
 /// The table; what does not exist is an empty cell.
 pub fn identified_csv(outcomes: &[Identified]) -> String {
     let rows = outcomes.iter().map(|outcome| {
-        let factor = outcome.factor();
+        let (factor, bars) = (outcome.factor(), outcome.uncertainty);
         [
             Cell::Number(outcome.frequency_hz),
             outcome.storage().into(),
@@ -41,6 +45,10 @@ pub fn identified_csv(outcomes: &[Identified]) -> String {
             outcome.pole_distance().into(),
             outcome.series_order.map_or(Cell::Empty, Cell::Count),
             outcome.certificate.into(),
+            bars.map(|bars| bars.storage_std).into(),
+            bars.and_then(|bars| bars.loss_factor_std).into(),
+            bars.and_then(|bars| bars.correlation).into(),
+            outcome.chi_squared.into(),
         ]
     });
     write(&COLUMNS, rows).expect("every row has the columns, and no text a line break")

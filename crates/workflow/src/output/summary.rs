@@ -1,8 +1,10 @@
 //! `summary.json`: what went in, what was done, what came out, in a form that programs read.
 
-use crate::load::{Case, IdentifyCase};
+use crate::load::{Case, IdentifyCase, MeasuredNoise};
 use crate::run::IdentifyRun;
-use frfit::identify::Status;
+use frfit::c64;
+use frfit::identify::{NoiseLevel, Status};
+use frfit::material::loss_factor;
 use serde_json::{Map, Value, json};
 
 /// A modulus within this of the truth counts as right.
@@ -43,9 +45,7 @@ pub fn summary_json(
             "nonzeros": case.model.analysis().pattern().nonzeros(),
             "matrices": matrices,
         },
-        "sensors": case.sensors.iter().map(|sensor| json!({
-            "label": sensor.label, "quantity": sensor.quantity.name(),
-        })).collect::<Vec<_>>(),
+        "sensors": (0..case.sensors.len()).map(|m| sensor(case, run, m)).collect::<Vec<_>>(),
         "identify": {
             "matrix": identify.names,
             "band_hz": identify.band_hz,
@@ -55,11 +55,16 @@ pub fn summary_json(
             "space": options.space.name(),
             "bounds": {"storage": options.bounds.storage, "loss_factor": options.bounds.loss_factor},
             "real": options.real,
+            "robust": options.robust,
         },
         "frequencies": run.outcomes.len(),
         "status": statuses,
         "bands_hz": bands,
+        "noise": noise(identify, run),
+        "fit": fit(run),
         "error": spread(run, |outcome| outcome.error),
+        "storage_std": spread(run, |outcome| Some(outcome.uncertainty?.storage_std)),
+        "loss_factor_std": spread(run, |outcome| outcome.uncertainty?.loss_factor_std),
         "series_order": series_order(run),
         "spectral_radius": spread(run, |outcome| outcome.spectral_radius),
         "counts": {
@@ -83,6 +88,41 @@ pub fn summary_json(
         summary["truth"] = truth;
     }
     summary
+}
+
+/// A sensor, and what it says of the answers: its misfit over its deviation (root mean square).
+fn sensor(case: &Case, run: &IdentifyRun, m: usize) -> Value {
+    let sensor = &case.sensors[m];
+    let mut told = json!({"label": sensor.label, "quantity": sensor.quantity.name()});
+    if let Some(fit) = run.sensors.get(m) {
+        told["misfit"] = json!(fit.misfit);
+        told["contradicts"] = json!(fit.contradicts);
+        told["left_out"] = json!(fit.left_out);
+    }
+    told
+}
+
+/// How large the noise is, and what tells it: `level` is in units of what `deviation` names.
+fn noise(identify: &IdentifyCase, run: &IdentifyRun) -> Value {
+    let NoiseLevel { level, source, of_sensors, of_scatter } = run.noise;
+    let deviation = match &identify.noise {
+        MeasuredNoise::Known(_) => "std, or coherence and averages, of the measurements",
+        MeasuredNoise::Relative(_) => "coherence of the measurements, as of one average",
+        MeasuredNoise::Unknown => "size of the response, a tenth of its median at least",
+    };
+    json!({
+        "level": level, "source": source.name(), "deviation": deviation,
+        "level_of_sensors": of_sensors, "level_of_scatter": of_scatter,
+    })
+}
+
+/// χ² over the band and what it says; null where nothing can tell.
+fn fit(run: &IdentifyRun) -> Value {
+    let Some(fit) = &run.fit else { return Value::Null };
+    json!({
+        "chi2": fit.chi_squared, "freedom": fit.freedom, "chi2_per_freedom": fit.chi_squared / fit.freedom as f64,
+        "deviate": fit.deviate, "verdict": fit.verdict.name(),
+    })
 }
 
 /// The order that the paper's series would need for a truncation error of 1e-6, and at how many answers no order is enough; null where that was not
@@ -126,7 +166,20 @@ fn truth(identify: &IdentifyCase, run: &IdentifyRun) -> Option<Value> {
         let truth = law.at(outcome.frequency_hz).ok()?;
         Some((outcome.factor()? - truth).norm() / truth.norm())
     };
+    // Of the answers with error bars that are called ok, those that have the truth within two standard deviations: 0.95 is right.
+    let covered = |off: &dyn Fn(&frfit::identify::Identified, c64) -> Option<f64>| {
+        let ok = run.outcomes.iter().filter(|outcome| outcome.status == Status::Ok);
+        let within: Vec<bool> =
+            ok.filter_map(|o| Some(off(o, law.at(o.frequency_hz).ok()?)? <= 2.0)).collect();
+        fraction(&within)
+    };
     Some(json!({
+        "covered": {
+            "storage": covered(&|o, truth| Some((o.storage()? - truth.re).abs() / o.uncertainty?.storage_std)),
+            "loss_factor": covered(&|o, truth| {
+                Some((o.loss_factor()? - loss_factor(truth)).abs() / o.uncertainty?.loss_factor_std?)
+            }),
+        },
         "deviation": spread(run, deviation),
         "within": RIGHT_WITHIN,
         "fraction_right": fraction(&right),

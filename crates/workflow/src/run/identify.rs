@@ -5,7 +5,8 @@ use crate::load::{Case, IdentifyCase, MeasuredNoise};
 use frfit::c64;
 use frfit::frequency::bands_hz;
 use frfit::identify::{
-    Band, BandOutcome, Hooks, Identified, Method, Noise, Stage, Status, error_by_order, identify_band,
+    Band, BandOutcome, GoodnessOfFit, Hooks, Identified, Method, Noise, NoiseLevel, SensorFit, Stage, Status,
+    error_by_order, identify_band,
 };
 use frfit::material::OutsideTable;
 use frfit::response::{FullModel, Work};
@@ -58,6 +59,12 @@ pub struct IdentifyRun {
     pub subspace_size: Option<usize>,
     /// Frequencies at which all solutions were looked for, not only those of their neighbours.
     pub explored: usize,
+    /// How large the noise is, and what tells it.
+    pub noise: NoiseLevel,
+    /// Whether noise is all that the answers leave unexplained; `None` where nothing can tell.
+    pub fit: Option<GoodnessOfFit>,
+    /// One for each sensor of a joint selection.
+    pub sensors: Vec<SensorFit>,
     /// How long it took.
     pub seconds: Seconds,
 }
@@ -107,8 +114,8 @@ pub fn identify(
     let start = Instant::now();
     let error_map = error_map(case, identify, options)?;
     seconds.error_map = start.elapsed().as_secs_f64();
-    let BandOutcome { outcomes, work, subspace_size, explored } = found;
-    Ok(IdentifyRun { outcomes, error_map, work, subspace_size, explored, seconds })
+    let BandOutcome { outcomes, work, subspace_size, explored, noise, fit, sensors } = found;
+    Ok(IdentifyRun { outcomes, error_map, work, subspace_size, explored, noise, fit, sensors, seconds })
 }
 
 /// Wall-clock time by stage: each lasts until another is heard of.

@@ -238,6 +238,11 @@ fn loads_and_measurements() {
         ),
         (
             "quantity = \"accelerance\"",
+            "quantity = \"accelerance\"\naverages = 1",
+            "case.toml:24:1: measurement.averages: expected a whole number from 2 on: the coherence of one record tells nothing, found 1",
+        ),
+        (
+            "quantity = \"accelerance\"",
             "quantity = \"accelerance\"\nrecord = 2",
             "a.csv: expected no record number, or 1: a table has one FRF, found 2\nnamed in case.toml:21:1: measurement.file",
         ),

@@ -69,11 +69,16 @@ fn a_coherence_record_belongs_to_the_frf_between_its_degrees_of_freedom() {
     let case = measured(&both.concat(), keys).unwrap();
     let identify = case.identify.unwrap();
     let MeasuredNoise::Relative(std) = &identify.noise else { panic!("{:?}", identify.noise) };
-    // B-6 with one average: |H| √((1 − γ²)/(2γ²)).
-    for (k, factor) in [0.5f64.sqrt(), (0.2f64 / 1.6).sqrt()].into_iter().enumerate() {
-        let expected = identify.measured[k][0].norm() * factor;
-        assert!((std[k][0] - expected).abs() < 1e-14 * expected);
-    }
+    // √E|δH|² of the complex value as of one average: |H| √((1 − γ²)/γ²).
+    let expected = |k: usize, averages: f64| {
+        let factor = [1.0f64, 0.2 / 0.8][k];
+        identify.measured[k][0].norm() * (factor / averages).sqrt()
+    };
+    (0..2).for_each(|k| assert!((std[k][0] / expected(k, 1.0) - 1.0).abs() < 1e-14));
+    // With the number of averages it is known.
+    let case = measured(&both.concat(), &format!("{keys}averages = 7\n")).unwrap();
+    let MeasuredNoise::Known(std) = case.identify.unwrap().noise else { panic!() };
+    (0..2).for_each(|k| assert!((std[k][0] / expected(k, 7.0) - 1.0).abs() < 1e-14));
     // Without one of its own there is none; two of them contradict each other.
     let without = [file(&[coherence((2, 4), (1, 3), [0.1; 3])]), several()];
     let twice =

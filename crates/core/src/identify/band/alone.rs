@@ -1,5 +1,6 @@
 //! Each frequency by itself, on the full model or on the subspace.
 
+use super::noise::NoiseLevel;
 use super::space::{Space, certificate};
 use super::{Band, BandOutcome, Hooks, Stage};
 use crate::for_each::map;
@@ -52,6 +53,9 @@ pub(super) fn identify<'a>(
                 outcomes: outcomes.collect(),
                 work: space.work(),
                 subspace_size: Some(space.size()),
+                noise: NoiseLevel::NONE,
+                fit: None,
+                sensors: Vec::new(),
             }
         }
         None => {
@@ -66,7 +70,15 @@ pub(super) fn identify<'a>(
             });
             let mut work = Work::default();
             outcomes.iter().for_each(|outcome| work += outcome.work);
-            BandOutcome { outcomes, work, subspace_size: None, explored: at.len() }
+            BandOutcome {
+                outcomes,
+                work,
+                subspace_size: None,
+                explored: at.len(),
+                noise: NoiseLevel::NONE,
+                fit: None,
+                sensors: Vec::new(),
+            }
         }
     }
 }

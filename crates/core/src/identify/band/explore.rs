@@ -23,6 +23,8 @@ pub(super) struct Solution {
     pub(super) response: Vec<c64>,
     /// ‖F − D(c)x‖/‖F‖ of the rational response.
     pub(super) residual: f64,
+    /// (Σ |∂²x_m/∂c²|²/σ_m²)^{1/2} of a rational response without poles; infinite where none did find the solution.
+    pub(super) second: f64,
 }
 
 /// What was found at one frequency.
@@ -124,6 +126,11 @@ impl Fit<'_> {
             // No solution at a low order is no proof that there is none.
             let settled = !explored.unsure && (!explored.solutions.is_empty() || whole);
             if settled || reached >= order {
+                let powers = explored.poles.is_none();
+                for solution in explored.solutions.iter_mut().filter(|_| powers) {
+                    let second = response.second_derivative(solution.correction);
+                    solution.second = second.map_or(f64::INFINITY, |second| self.weighed(&second));
+                }
                 explored.order = response.size().saturating_sub(1);
                 explored.nominal_response = response.respond(c64::default()).map_err(broken)?;
                 return Ok(explored);
@@ -139,7 +146,11 @@ impl Fit<'_> {
         for old in before {
             // One that a better model does not have was none.
             if let Some(new) = self.descend(&respond, old.correction) {
-                merge(&mut found.solutions, Solution { residual: old.residual, ..new }, self.nominal);
+                merge(
+                    &mut found.solutions,
+                    Solution { residual: old.residual, second: old.second, ..new },
+                    self.nominal,
+                );
             }
         }
         if let Ok((response, _)) = respond(c64::default()) {
@@ -186,6 +197,11 @@ impl Fit<'_> {
         explored.poles = poles;
         explored.solutions.sort_by(|a, b| a.correction.norm().total_cmp(&b.correction.norm()));
         Ok(explored)
+    }
+
+    /// (Σ |v_m|²/σ_m²)^{1/2}.
+    pub(super) fn weighed(&self, values: &[c64]) -> f64 {
+        values.iter().zip(self.sigma).map(|(v, sigma)| (v / sigma).norm_sqr()).sum::<f64>().sqrt()
     }
 
     /// The sensors with the largest response over their deviation.
@@ -280,8 +296,9 @@ impl Fit<'_> {
         let step = gradient / curvature;
         let step = if self.options.real { c64::new(step.re, 0.0) } else { step };
         let finite = misfit.is_finite() && step.is_finite();
+        let (std, response) = (curvature.powf(-0.5), values);
         let solution =
-            Solution { correction, misfit, std: curvature.powf(-0.5), response: values, residual: f64::NAN };
+            Solution { correction, misfit, std, response, residual: f64::NAN, second: f64::INFINITY };
         if finite { Ok((solution, step)) } else { Err(NoConvergence) }
     }
 }

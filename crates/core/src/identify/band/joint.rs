@@ -1,6 +1,9 @@
 //! All frequencies and all sensors together.
 
+use super::contradiction::{contradicting, without};
 use super::explore::{Explored, Fit};
+use super::fit::{SensorFit, goodness, sensor_misfit};
+use super::noise::{NoiseLevel, deviations, freedom, of_scatter, of_sensors};
 use super::on_space::on_space;
 use super::space::Space;
 use super::verdict::{Evidence, verdict};
@@ -13,18 +16,14 @@ use crate::response::{FullModel, Response, Work};
 use crate::select::{Choice, Node, SelectOptions, choose};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Where no deviation is given, sensors count by their own size, but not below this fraction of their median over the band: an antiresonance is
-/// not measured any better than the rest.
-const RELATIVE_FLOOR: f64 = 0.1;
-
-/// No instrument is better than this fraction of the largest response: a smaller deviation, or none at all, is not believed.
-const LEAST_STD: f64 = 1e-9;
-
 /// What is to be done, and with what.
 pub(super) struct Task<'t, 'a> {
     pub(super) band: &'t Band<'a>,
     pub(super) at: &'t [ModelAt<'a>],
+    /// σ of real and imaginary part each, `[frequency][sensor]`; infinite for a sensor that is left out.
     pub(super) sigma: &'t [Vec<f64>],
+    /// Sensors that are not left out.
+    pub(super) sensors: usize,
     pub(super) options: &'t Options,
     pub(super) hooks: Hooks<'t>,
 }
@@ -40,10 +39,28 @@ pub(super) struct Solved {
 }
 
 impl Task<'_, '_> {
+    /// Degrees of freedom of χ² at a frequency.
+    pub(super) fn freedom(&self) -> usize {
+        freedom(self.sensors, self.options.real)
+    }
+
     /// What is to be explained at a frequency.
     pub(super) fn fit(&self, i: usize) -> Fit<'_> {
         let nominal = self.at[i].parameters[0].nominal;
         Fit { measured: &self.band.measured[i], sigma: &self.sigma[i], nominal, options: self.options }
+    }
+
+    /// How large the noise is, by all answers.
+    fn noise_level(&self, found: &[Explored], choices: &[Choice]) -> NoiseLevel {
+        let nominal = |i: usize| self.at[i].parameters[0].nominal;
+        let nodes: Vec<Vec<Node>> = (0..found.len()).map(|i| nodes(&found[i], nominal(i))).collect();
+        let chosen: Vec<Option<Node>> =
+            nodes.iter().zip(choices).map(|(nodes, choice)| choice.chosen.map(|k| nodes[k])).collect();
+        NoiseLevel::new(
+            self.band.noise,
+            of_sensors(&nodes, choices, self.freedom()),
+            of_scatter(self.band.frequency_hz, &chosen, self.options.real),
+        )
     }
 
     /// The choice among what was found at some frequencies.
@@ -56,11 +73,14 @@ impl Task<'_, '_> {
             .map(|(&i, found)| nodes(found, self.at[i].parameters[0].nominal))
             .collect();
         let options = SelectOptions {
-            sensors: self.band.experiment.sensors.len(),
+            sensors: self.sensors,
             sigma_known: matches!(self.band.noise, Noise::Known(_)),
             ..SelectOptions::default()
         };
-        (choose(&frequency_hz, &nodes, &options), noise_level(&nodes, self.band))
+        let choices = choose(&frequency_hz, &nodes, &options);
+        let level = of_sensors(&nodes, &choices, self.freedom());
+        let level = level.map(|level| if options.sigma_known { 1.0 } else { level });
+        (choices, level)
     }
 }
 
@@ -71,8 +91,13 @@ pub(super) fn identify<'a>(
     options: &Options,
     hooks: Hooks<'_>,
 ) -> BandOutcome {
-    let sigma = deviations(band);
-    let task = Task { band, at, sigma: &sigma, options, hooks };
+    let assumed = deviations(band);
+    let sensors = band.experiment.sensors.len();
+    let task = Task { band, at, sigma: &assumed, sensors, options, hooks };
+    let (suspects, spent) = contradicting(&task, space.as_mut());
+    let out: &[usize] = if options.robust { &suspects } else { &[] };
+    let sigma = without(&assumed, out);
+    let task = Task { sigma: &sigma, sensors: sensors - out.len(), ..task };
     let (solved, mut work) = match &mut space {
         Some(space) => (on_space(&task, space), Work::default()),
         None => {
@@ -81,21 +106,54 @@ pub(super) fn identify<'a>(
             (Solved { explored: all.len(), selected: task.select(&all, found.iter()), found }, work)
         }
     };
-    let Solved { found, explored, selected: (choices, noise) } = solved;
+    work += spent;
+    let Solved { found, explored, selected: (choices, _) } = solved;
+    let noise = task.noise_level(&found, &choices);
     let outcomes: Vec<Identified> = map(hooks.for_each, at.len(), |i| {
-        let chosen = choices[i].chosen.map(|k| found[i].solutions[k].correction);
-        let assessment = space.as_ref().zip(chosen).and_then(|(space, c)| space.assess(i, c));
-        let evidence = Evidence { at: &at[i], measured: &band.measured[i], noise, assessment };
+        let chosen = choices[i].chosen.map(|k| &found[i].solutions[k]);
+        let on_space = space.as_ref().zip(chosen.map(|solution| solution.correction));
+        let weighed = |second: Vec<c64>| task.fit(i).weighed(&second);
+        // The poles have it without another factorisation; how nearly linear something is takes few digits.
+        let second = match (found[i].poles.as_ref().zip(chosen), on_space) {
+            (Some((poles, solution)), _) => Some(weighed(poles.second_derivative(solution.correction))),
+            (None, Some((space, c))) => space.second_derivative(i, c).map(weighed),
+            (None, None) => chosen.map(|solution| solution.second),
+        };
+        let evidence = Evidence {
+            at: &at[i],
+            measured: &band.measured[i],
+            left_out: out,
+            noise: noise.level,
+            freedom: task.freedom(),
+            assessment: on_space.and_then(|(space, c)| space.assess(i, c)),
+            // What cannot be told is not linear.
+            second: second.unwrap_or(f64::INFINITY),
+        };
         verdict(&evidence, &found[i], &choices[i], options)
     });
     if let Some(space) = &space {
         work += space.work();
     }
-    BandOutcome { outcomes, work, subspace_size: space.map(|space| space.size()), explored }
+    let fit = goodness(&outcomes, task.freedom(), &noise, band);
+    let sensor = |m: usize| SensorFit {
+        misfit: sensor_misfit(&outcomes, band.measured, &assumed, m, noise.level),
+        contradicts: suspects.contains(&m),
+        left_out: out.contains(&m),
+    };
+    let sensors = (0..sensors).map(sensor).collect();
+    BandOutcome {
+        outcomes,
+        work,
+        subspace_size: space.map(|space| space.size()),
+        explored,
+        noise,
+        fit,
+        sensors,
+    }
 }
 
 fn on_full_model(task: &Task<'_, '_>) -> (Vec<Explored>, Work) {
-    let Task { band, at, sigma, options, hooks } = *task;
+    let Task { band, at, sigma, options, hooks, .. } = *task;
     let done = AtomicUsize::new(0);
     let found = map(hooks.for_each, at.len(), |i| {
         let explored = match FullModel::new(at[i].clone(), band.experiment) {
@@ -114,43 +172,8 @@ fn on_full_model(task: &Task<'_, '_>) -> (Vec<Explored>, Work) {
     (found.into_iter().map(|(explored, _)| explored).collect(), work)
 }
 
-/// σ of real and imaginary part each, `[frequency][sensor]`: as given, or in proportion to the response.
-fn deviations(band: &Band<'_>) -> Vec<Vec<f64>> {
-    let sensors = 0..band.experiment.sensors.len();
-    let sorted = |m: usize| {
-        let mut sizes: Vec<f64> = band.measured.iter().map(|u| u[m].norm()).collect();
-        sizes.sort_by(f64::total_cmp);
-        sizes
-    };
-    let sizes: Vec<Vec<f64>> = sensors.map(sorted).collect();
-    let row = |(i, u): (usize, &Vec<c64>)| {
-        let of = |(m, u): (usize, &c64)| match band.noise {
-            Noise::Known(std) | Noise::Relative(std) => {
-                (std[i][m] / 2f64.sqrt()).max(LEAST_STD * sizes[m][sizes[m].len() - 1])
-            }
-            Noise::Unknown => u.norm().max(RELATIVE_FLOOR * sizes[m][sizes[m].len() / 2]),
-        };
-        u.iter().enumerate().map(of).collect()
-    };
-    band.measured.iter().enumerate().map(row).collect()
-}
-
 fn nodes(found: &Explored, nominal: c64) -> Vec<Node> {
     let node =
         |s: &super::explore::Solution| Node { factor: nominal + s.correction, misfit: s.misfit, std: s.std };
     found.solutions.iter().map(node).collect()
-}
-
-/// Noise over σ: 1 where σ was given; otherwise from how well the best solutions explain the sensors, and `None` for a single sensor, which
-/// everything explains.
-fn noise_level(nodes: &[Vec<Node>], band: &Band<'_>) -> Option<f64> {
-    if matches!(band.noise, Noise::Known(_)) {
-        return Some(1.0);
-    }
-    let freedom = 2.0 * (band.experiment.sensors.len() as f64 - 1.0);
-    let best = |nodes: &Vec<Node>| nodes.iter().map(|node| node.misfit).min_by(f64::total_cmp);
-    let mut least: Vec<f64> = nodes.iter().filter_map(best).collect();
-    least.sort_by(f64::total_cmp);
-    let median = least.get(least.len() / 2).filter(|_| freedom > 0.0)?;
-    Some((median / freedom).sqrt())
 }

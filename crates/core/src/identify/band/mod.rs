@@ -2,9 +2,12 @@
 
 mod alone;
 mod anchors;
+mod contradiction;
 mod explore;
+mod fit;
 mod follow;
 mod joint;
+mod noise;
 mod on_space;
 mod same;
 mod space;
@@ -18,6 +21,9 @@ use crate::material::OutsideTable;
 use crate::model::{DynamicStiffness, Experiment, ModelAt, Parameter};
 use crate::response::Work;
 use space::Space;
+
+pub use fit::{Explained, GoodnessOfFit, SensorFit};
+pub use noise::{NoiseLevel, NoiseSource};
 
 /// What was measured on what.
 #[derive(Debug, Clone, Copy)]
@@ -78,6 +84,12 @@ pub struct BandOutcome {
     pub subspace_size: Option<usize>,
     /// Frequencies at which all solutions were looked for; at the others those of their neighbours were followed.
     pub explored: usize,
+    /// How large the noise is, and what tells it. Nothing is known where each frequency is answered by itself.
+    pub noise: NoiseLevel,
+    /// Whether noise is all that the answers leave unexplained; `None` where nothing can tell.
+    pub fit: Option<GoodnessOfFit>,
+    /// One for each sensor; empty where each frequency is answered by itself.
+    pub sensors: Vec<SensorFit>,
 }
 
 /// Identifies the first parameter at every frequency of a band.

@@ -39,7 +39,7 @@ pub(super) fn on_space(task: &Task<'_, '_>, space: &mut Space<'_, '_>) -> Solved
     }
 
     let level = selected.and_then(|(_, level)| level);
-    let usual = usual(level, task.band.experiment.sensors.len());
+    let usual = usual(level, task.freedom());
     let follower = Follower { at, fit: |i| task.fit(i), usual };
     let mut found = follow(space, &follower, &anchors, found, hooks);
     let mut ready = Some(task.select(&all, found.iter().map(|found| &found.explored)));
@@ -68,8 +68,8 @@ pub(super) fn on_space(task: &Task<'_, '_>, space: &mut Space<'_, '_>) -> Solved
 const NATS: f64 = 12.0;
 
 /// The misfit up to which all is noise of that level; a single sensor has none.
-fn usual(level: Option<f64>, sensors: usize) -> f64 {
-    let freedom = 2.0 * (sensors as f64 - 1.0);
+fn usual(level: Option<f64>, freedom: usize) -> f64 {
+    let freedom = freedom as f64;
     // As the selection does, a millionth of the response is taken for roundoff near a resonance.
     level.map_or(f64::INFINITY, |level| (freedom + 2.0 * NATS) * level.max(1e-6).powi(2))
 }

@@ -169,6 +169,11 @@ impl<'a, 'o> Space<'a, 'o> {
             .or_else(|| self.model(i).assess(&self.at[i], correction).ok())
     }
 
+    /// ∂²x_m/∂c² at an answer.
+    pub(super) fn second_derivative(&self, i: usize, correction: c64) -> Option<Vec<c64>> {
+        self.model(i).second_derivative(&self.at[i], correction).ok()
+    }
+
     /// Keeps how good the model that found a correction is there.
     pub(super) fn remember(&mut self, i: usize, correction: c64, assessed: Assessment) {
         if self.assessed[i].iter().all(|(same, _)| *same != correction) {

@@ -3,7 +3,7 @@
 use super::explore::Explored;
 use super::space::certificate;
 use crate::c64;
-use crate::identify::{Identified, Options, Status, relative_error};
+use crate::identify::{Identified, Options, Status, Uncertainty, relative_error};
 use crate::model::ModelAt;
 use crate::roots::Candidate;
 use crate::select::Choice;
@@ -14,17 +14,20 @@ use crate::subspace::Assessment;
 pub(super) struct Evidence<'a> {
     pub(super) at: &'a ModelAt<'a>,
     pub(super) measured: &'a [c64],
+    /// Sensors that count for nothing.
+    pub(super) left_out: &'a [usize],
     /// Noise over the assumed deviations.
     pub(super) noise: Option<f64>,
+    /// Degrees of freedom of χ².
+    pub(super) freedom: usize,
+    /// ‖∂²x/∂c²‖ at the chosen correction, weighed by the deviations.
+    pub(super) second: f64,
     /// How good the subspace is at the chosen correction; `None` on the full model.
     pub(super) assessment: Option<Assessment>,
 }
 
 /// A misfit of this many deviations (root mean square) is not noise.
 const UNEXPLAINED: f64 = 5.0;
-
-/// A factor with a standard deviation of half of itself is not known.
-const UNKNOWN: f64 = 0.5;
 
 pub(super) fn verdict(
     evidence: &Evidence<'_>,
@@ -53,7 +56,11 @@ pub(super) fn verdict(
         return outcome;
     };
     let factor = nominal + chosen.correction;
-    let error = relative_error(evidence.measured, &chosen.response);
+    let kept = |values: &[c64]| -> Vec<c64> {
+        let kept = values.iter().enumerate().filter(|(m, _)| !evidence.left_out.contains(m));
+        kept.map(|(_, value)| *value).collect()
+    };
+    let error = relative_error(&kept(evidence.measured), &kept(&chosen.response));
     outcome.correction = Some(chosen.correction);
     outcome.error = Some(error).filter(|error| error.is_finite());
     outcome.spectral_radius = outcome.radius.map(|radius| radius.at(chosen.correction));
@@ -65,10 +72,15 @@ pub(super) fn verdict(
     });
     let certified = evidence.assessment.as_ref().map(|a| certificate(a, factor, evidence.measured));
     outcome.certificate = certified.map(|certified| certified.response).filter(|c| c.is_finite());
-    let freedom = (2 * evidence.measured.len()).saturating_sub(2).max(1) as f64;
     let noise = evidence.noise.unwrap_or(0.0);
-    let unexplained = error > options.error && (chosen.misfit / freedom).sqrt() > UNEXPLAINED * noise;
-    let unknown = chosen.std * noise > UNKNOWN * factor.norm();
+    let square = chosen.misfit / evidence.freedom.max(1) as f64;
+    let unexplained = error > options.error && square.sqrt() > UNEXPLAINED * noise;
+    let per_freedom = evidence.noise.filter(|_| evidence.freedom > 0).map(|noise| square / (noise * noise));
+    outcome.chi_squared = per_freedom.filter(|chi_squared| chi_squared.is_finite());
+    let bars = |level| Uncertainty::new(factor, options.real, chosen.std, evidence.second, level);
+    let uncertainty = evidence.noise.map(bars);
+    let unknown = uncertainty.is_some_and(|bars| !bars.is_known(factor) || !bars.is_linear());
+    outcome.uncertainty = uncertainty.filter(|bars| bars.correction_std.is_finite());
     let uncertain = certified.is_some_and(|certified| certified.factor > options.certain);
     outcome.status = if unexplained {
         Status::NoRoot

@@ -1,0 +1,152 @@
+//! How large the noise is: as told, or as the band tells it.
+
+use super::{Band, Noise};
+use crate::c64;
+use crate::frequency::omega_rad_s;
+use crate::select::{Choice, Node};
+
+/// Where no deviation is given, sensors count by their own size, but not below this fraction of their median over the band: an antiresonance is
+/// not measured any better than the rest.
+const RELATIVE_FLOOR: f64 = 0.1;
+
+/// No instrument is better than this fraction of the largest response: a smaller deviation, or none at all, is not believed.
+const LEAST_STD: f64 = 1e-9;
+
+/// The least level that is believed of one that is not given: a millionth of the response is roundoff near a resonance.
+const LEAST_LEVEL: f64 = 1e-6;
+
+/// Answers with two neighbours on either side that a scatter is told from: with fewer, a median is an accident.
+const LEAST_SCATTER: usize = 12;
+
+/// What tells the level of the noise.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum NoiseSource {
+    /// Standard deviations that were given.
+    Given,
+    /// How well one factor explains several sensors.
+    Sensors,
+    /// How far the answers lie off a smooth curve over frequency.
+    Scatter,
+    /// Nothing: too few sensors, and too few answers side by side.
+    Nothing,
+}
+
+impl NoiseSource {
+    /// The word that summaries use.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Given => "given",
+            Self::Sensors => "sensors",
+            Self::Scatter => "scatter",
+            Self::Nothing => "unknown",
+        }
+    }
+}
+
+/// The noise over the assumed deviations: those that were given, or where none were, the responses themselves (a tenth of their median at
+/// least), for real and imaginary part each.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NoiseLevel {
+    /// What the error bars are made with; `None` where nothing tells it.
+    pub level: Option<f64>,
+    /// What tells it.
+    pub source: NoiseSource,
+    /// What the misfit of several sensors says; `None` for one, which everything explains.
+    pub of_sensors: Option<f64>,
+    /// What the scatter of the answers over frequency says.
+    pub of_scatter: Option<f64>,
+}
+
+impl NoiseLevel {
+    pub(super) fn new(noise: Noise<'_>, of_sensors: Option<f64>, of_scatter: Option<f64>) -> Self {
+        let (level, source) = match (noise, of_sensors, of_scatter) {
+            (Noise::Known(_), ..) => (Some(1.0), NoiseSource::Given),
+            (_, Some(level), _) => (Some(level.max(LEAST_LEVEL)), NoiseSource::Sensors),
+            (_, None, Some(level)) => (Some(level.max(LEAST_LEVEL)), NoiseSource::Scatter),
+            (_, None, None) => (None, NoiseSource::Nothing),
+        };
+        Self { level, source, of_sensors, of_scatter }
+    }
+
+    /// Nothing known, as where each frequency is answered by itself.
+    pub(super) const NONE: Self =
+        Self { level: None, source: NoiseSource::Nothing, of_sensors: None, of_scatter: None };
+}
+
+/// σ of real and imaginary part each, `[frequency][sensor]`: as given, or in proportion to the response.
+pub(super) fn deviations(band: &Band<'_>) -> Vec<Vec<f64>> {
+    let sensors = 0..band.experiment.sensors.len();
+    let sorted = |m: usize| {
+        let mut sizes: Vec<f64> = band.measured.iter().map(|u| u[m].norm()).collect();
+        sizes.sort_by(f64::total_cmp);
+        sizes
+    };
+    let sizes: Vec<Vec<f64>> = sensors.map(sorted).collect();
+    let row = |(i, u): (usize, &Vec<c64>)| {
+        let of = |(m, u): (usize, &c64)| match band.noise {
+            Noise::Known(std) | Noise::Relative(std) => {
+                (std[i][m] / 2f64.sqrt()).max(LEAST_STD * sizes[m][sizes[m].len() - 1])
+            }
+            Noise::Unknown => u.norm().max(RELATIVE_FLOOR * sizes[m][sizes[m].len() / 2]),
+        };
+        u.iter().enumerate().map(of).collect()
+    };
+    band.measured.iter().enumerate().map(row).collect()
+}
+
+/// Degrees of freedom that χ² of so many sensors has once the factor is fitted to them.
+pub(super) fn freedom(sensors: usize, real: bool) -> usize {
+    (2 * sensors).saturating_sub(if real { 1 } else { 2 })
+}
+
+/// Noise over σ by the median of the χ² that some frequencies have; `None` without a degree of freedom, or a frequency.
+pub(super) fn level_of(mut misfits: Vec<f64>, freedom: usize) -> Option<f64> {
+    misfits.sort_by(f64::total_cmp);
+    let median = misfits.get(misfits.len() / 2).filter(|_| freedom > 0)?;
+    Some((median / median_chi_squared(freedom)).sqrt())
+}
+
+/// Noise over σ from how well the chosen solutions explain the sensors, and where none is chosen the best ones.
+pub(super) fn of_sensors(nodes: &[Vec<Node>], choices: &[Choice], freedom: usize) -> Option<f64> {
+    let misfit = |(nodes, choice): (&Vec<Node>, &Choice)| match choice.chosen {
+        Some(k) => Some(nodes[k].misfit),
+        None => nodes.iter().map(|node| node.misfit).min_by(f64::total_cmp),
+    };
+    level_of(nodes.iter().zip(choices).filter_map(misfit).collect(), freedom)
+}
+
+/// Noise over σ from how far each answer lies off the cubic through its four neighbours in ln E over ln ω; `std` is that of real and
+/// imaginary part each under σ. A law of materials is smooth on the scale of neighbouring frequencies; where it is not, this is too large.
+pub(super) fn of_scatter(frequency_hz: &[f64], answers: &[Option<Node>], real: bool) -> Option<f64> {
+    let square = |k: usize| {
+        let mut nodes = [None; 5];
+        for (node, answer) in nodes.iter_mut().zip(&answers[k - 2..=k + 2]) {
+            *node = Some((*answer)?);
+        }
+        let x: Vec<f64> = frequency_hz[k - 2..=k + 2].iter().map(|&f| omega_rad_s(f).ln()).collect();
+        let (mut off, mut variance) = (c64::default(), 0.0);
+        for (j, Node { factor, std, .. }) in nodes.into_iter().flatten().enumerate() {
+            let others = (0..5).filter(|&i| i != 2 && i != j);
+            let weight =
+                if j == 2 { 1.0 } else { -others.map(|i| (x[2] - x[i]) / (x[j] - x[i])).product::<f64>() };
+            off += weight * factor.ln();
+            variance += (weight * std / factor.norm()).powi(2);
+        }
+        let off = if real { c64::new(off.re, 0.0) } else { off };
+        Some(off.norm_sqr() / variance).filter(|square| square.is_finite())
+    };
+    let squares: Vec<f64> = (2..answers.len().saturating_sub(2)).filter_map(square).collect();
+    if squares.len() < LEAST_SCATTER {
+        return None;
+    }
+    level_of(squares, if real { 1 } else { 2 })
+}
+
+/// Median of χ².
+///
+/// # Source
+/// E. B. Wilson, M. M. Hilferty, Proc. Natl. Acad. Sci. 17 (1931) 684–688.
+fn median_chi_squared(freedom: usize) -> f64 {
+    let freedom = freedom as f64;
+    freedom * (1.0 - 2.0 / (9.0 * freedom)).powi(3)
+}

@@ -1,0 +1,80 @@
+//! How sure an identified factor is: B-6 carried through the least squares of B-5.
+
+use crate::c64;
+use crate::material::loss_factor;
+
+/// Error bars of an identified factor, linear in the noise of the measurement.
+///
+/// x(c) is holomorphic and the noise circular, so the correction's error is circular too and one number is its covariance:
+/// $$ \sigma_c^2 = \mathrm E |\delta c|^2 = \Big( \sum_m \frac{|\partial x_m/\partial c|^2}{\sigma_m^2} \Big)^{-1}, \qquad \sigma_m^2 = \mathrm E|\delta u_m|^2, $$
+/// real and imaginary part each having σ_c²/2, uncorrelated. E′ = Re p and η = Im p/Re p then have
+/// $$ \sigma_{E'}^2 = \frac{\sigma_c^2}{2}, \quad \sigma_\eta^2 = \frac{1 + \eta^2}{E'^2} \frac{\sigma_c^2}{2}, \quad
+///    \rho = -\frac{\eta}{\sqrt{1 + \eta^2}}. $$
+///
+/// # Limits
+/// What noise does, nothing else: not an error of the model, nor of the measurement that is the same in every record. Where
+/// [`Self::nonlinearity`] is not small the bars are too short or too long.
+///
+/// # Source
+/// P. J. Schreier, L. L. Scharf, *Statistical Signal Processing of Complex-Valued Data*, Cambridge 2010, section 2.2, for circularity;
+/// D. M. Bates, D. G. Watts, J. R. Stat. Soc. B 42 (1980) 1–25, for the curvature.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Uncertainty {
+    /// √E|δc|² of the complex correction; of a real one √E δc².
+    pub correction_std: f64,
+    /// Standard deviation of E′.
+    pub storage_std: f64,
+    /// Standard deviation of η; `None` for a real factor, or where E′ is zero.
+    pub loss_factor_std: Option<f64>,
+    /// Correlation of E′ and η; `None` where there is no deviation of η.
+    pub correlation: Option<f64>,
+    /// ½ ‖∂²x/∂c²‖ σ_c / ‖∂x/∂c‖, weighed by the sensors' deviations: what is quadratic in the error bar over what is linear.
+    pub nonlinearity: f64,
+}
+
+/// Beyond this share of the quadratic term the linear error bar is not valid. For one sensor the mean of an error is off by √2 times
+/// this share in deviations of a part: at a quarter by a third of a deviation, which leaves 93 of 100 truths within two deviations, not 95.
+const NONLINEAR: f64 = 0.25;
+
+/// A number is known when its standard deviation is below this part of it: it is then three deviations away from nothing, and better
+/// known than by a glance at a table of materials …
+const KNOWN: f64 = 0.3;
+
+/// … also if it is as many deviations smaller as the error bar allows: of many numbers that are not known, those that noise has made large would else pass.
+const SMALLER: f64 = 2.0;
+
+/// A loss factor below this is none that a vibration test tells from zero: supports, air and cables take more.
+const LEAST_LOSS: f64 = 1e-4;
+
+impl Uncertainty {
+    /// From the standard deviation `part_std` of the correction's real part, as much of its imaginary part, and ‖∂²x/∂c²‖ weighed by
+    /// the standard deviations of the parts of the measured values, where noise is `level` times what `part_std` and the weights say.
+    pub(crate) fn new(factor: c64, real: bool, part_std: f64, second: f64, level: f64) -> Self {
+        let part = level * part_std;
+        let correction_std = if real { part } else { 2f64.sqrt() * part };
+        let eta = loss_factor(factor);
+        let loss_factor_std =
+            Some((1.0 + eta * eta).sqrt() * part / factor.re.abs()).filter(|std| !real && std.is_finite());
+        Self {
+            correction_std,
+            storage_std: part,
+            loss_factor_std,
+            correlation: loss_factor_std.map(|_| -eta / (1.0 + eta * eta).sqrt()),
+            // ‖∂x/∂c‖ = 1/part_std, in the same weights.
+            nonlinearity: 0.5 * second * part_std * correction_std,
+        }
+    }
+
+    /// Whether the linear error bar is valid.
+    pub fn is_linear(&self) -> bool {
+        // False for NaN too.
+        self.nonlinearity <= NONLINEAR
+    }
+
+    /// Whether the measurement tells the factor: its modulus, and its loss factor where it may have one.
+    pub fn is_known(&self, factor: c64) -> bool {
+        let is_known = |value: f64, std: f64, least: f64| std <= KNOWN * (value - SMALLER * std).max(least);
+        let loss = |std: f64| is_known(loss_factor(factor).abs(), std, LEAST_LOSS);
+        is_known(factor.norm(), self.correction_std, 0.0) && self.loss_factor_std.is_none_or(loss)
+    }
+}

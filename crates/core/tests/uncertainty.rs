@@ -1,0 +1,353 @@
+//! Error bars against what noise does when it is drawn, and χ² against what it should be.
+
+mod common;
+
+use common::{Case, bar, c, chain, plate, sandwich, thickness, tip_load};
+use frfit::c64;
+use frfit::for_each::sequential;
+use frfit::frequency::linear_hz;
+use frfit::identify::{
+    Band, BandOutcome, Explained, Hooks, Identified, Noise, NoiseSource, Options, Space, Stage, Status,
+    Uncertainty, identify_band,
+};
+use frfit::material::Law;
+use frfit::model::{Parameter, Sensor};
+use frfit::rational::RationalResponse;
+use frfit::response::FullModel;
+use frfit::roots::Bounds;
+use std::f64::consts::TAU;
+
+/// The same numbers each time.
+struct Dice(u64);
+
+impl Dice {
+    /// SplitMix64: G. L. Steele, D. Lea, C. H. Flood, OOPSLA 2014, 453–472.
+    fn uniform(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut x = self.0;
+        x = (x ^ (x >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        x = (x ^ (x >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        ((x ^ (x >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    /// A circular complex number with √E|z|² = 1.
+    fn circular(&mut self) -> c64 {
+        c64::from_polar((-(1.0 - self.uniform()).ln()).sqrt(), TAU * self.uniform())
+    }
+}
+
+/// What is measured over a band with noise in proportion to the response.
+struct Measured {
+    frequency_hz: Vec<f64>,
+    u: Vec<Vec<c64>>,
+    std: Vec<Vec<f64>>,
+}
+
+impl Measured {
+    /// By direct solves with the case's nominal factor times `ratio`.
+    fn clean(case: &Case, frequency_hz: Vec<f64>, ratio: f64, noise: f64) -> Self {
+        let u: Vec<Vec<c64>> =
+            frequency_hz.iter().map(|&f| case.direct(f, case.correction(f, ratio)).unwrap()).collect();
+        let std = u.iter().map(|u| u.iter().map(|u| noise * u.norm()).collect()).collect();
+        Self { frequency_hz, u, std }
+    }
+
+    fn drawn(&self, seed: u64) -> Vec<Vec<c64>> {
+        let mut dice = Dice(seed);
+        let mut one = |(u, std): (&c64, &f64)| u + std * dice.circular();
+        self.u.iter().zip(&self.std).map(|(u, std)| u.iter().zip(std).map(&mut one).collect()).collect()
+    }
+}
+
+fn identify(
+    case: &Case,
+    made: &Measured,
+    u: &[Vec<c64>],
+    noise: Noise<'_>,
+    options: &Options,
+) -> BandOutcome {
+    let band = Band {
+        model: &case.model,
+        experiment: &case.experiment,
+        parameter: &case.parameter,
+        frequency_hz: &made.frequency_hz,
+        measured: u,
+        noise,
+    };
+    let hooks = Hooks { for_each: &sequential, progress: &|_: Stage, _, _| {} };
+    identify_band(&band, options, hooks).unwrap()
+}
+
+fn within(size: f64, by: f64) -> Options {
+    let bounds = Bounds { storage: Some([size / by, size * by]), loss_factor: None };
+    Options { bounds, ..Options::default() }
+}
+
+/// Eight masses on springs with a good deal of damping, measured at two of them.
+fn springs() -> Case {
+    let model = chain(8, c(1e4, 1.5e3), 1.0);
+    let parameter = Parameter::factor_of(&model, &["springs"]).unwrap();
+    let experiment = tip_load(&model, &[7, 2]);
+    Case { name: "springs", model, experiment, parameter, band_hz: [2.0, 12.0], box_ratio: [0.8, 1.25] }
+}
+
+fn mean(values: impl Iterator<Item = f64>) -> f64 {
+    let (sum, count) = values.fold((0.0, 0), |(sum, count), v| (sum + v, count + 1));
+    sum / f64::from(count)
+}
+
+/// Formula against Monte Carlo: 1500 draws, on the full model, a frequency at a time.
+#[test]
+fn deviations_and_correlation_are_those_of_many_draws() {
+    const DRAWS: u64 = 1500;
+    let case = springs();
+    for (real, f) in [(false, 3.0), (false, 7.3), (false, 11.0), (true, 5.0), (true, 9.1)] {
+        // The truth is the nominal factor; a real one is fitted to data of a real one.
+        let mut case = Case { parameter: case.parameter.clone(), ..springs() };
+        if real {
+            case.parameter.nominal = Law::Constant(c(1e4, 0.0));
+        }
+        let truth = case.parameter.nominal.at(f).unwrap();
+        let made = Measured::clean(&case, vec![f], 1.0, 0.01);
+        let options = Options { real, space: Space::Full, ..within(truth.re, 1.25) };
+        let draws: Vec<Identified> = (0..DRAWS)
+            .map(|seed| {
+                let band = identify(&case, &made, &made.drawn(seed), Noise::Known(&made.std), &options);
+                assert_eq!((band.noise.level, band.noise.source), (Some(1.0), NoiseSource::Given));
+                band.outcomes.into_iter().next().unwrap()
+            })
+            .collect();
+        let bars: Vec<Uncertainty> = draws.iter().map(|outcome| outcome.uncertainty.unwrap()).collect();
+        // A standard deviation of n draws is known to 1/√(2n): 1.8 %; four of those, and a little for what is not linear.
+        let near =
+            |drawn: f64, told: f64| assert!((drawn / told - 1.0).abs() < 0.08, "{f} Hz: {drawn} {told}");
+        let storage: Vec<f64> = draws.iter().map(|outcome| outcome.storage().unwrap() - truth.re).collect();
+        let std = |values: &[f64]| mean(values.iter().map(|v| v * v)).sqrt();
+        near(std(&storage), mean(bars.iter().map(|b| b.storage_std)));
+        let chi: Vec<f64> = draws.iter().map(|outcome| outcome.chi_squared.unwrap()).collect();
+        let freedom = if real { 3.0 } else { 2.0 };
+        // Variance of a mean of χ²/ν.
+        assert!((mean(chi.into_iter()) - 1.0).abs() < 4.0 * (2.0 / freedom / DRAWS as f64).sqrt(), "{f} Hz");
+        if real {
+            assert!(bars.iter().all(|b| b.loss_factor_std.is_none() && b.correlation.is_none()));
+            near(std(&storage), mean(bars.iter().map(|b| b.correction_std)));
+            continue;
+        }
+        let loss: Vec<f64> =
+            draws.iter().map(|outcome| outcome.loss_factor().unwrap() - truth.im / truth.re).collect();
+        near(std(&loss), mean(bars.iter().map(|b| b.loss_factor_std.unwrap())));
+        near(std(&storage) * 2f64.sqrt(), mean(bars.iter().map(|b| b.correction_std)));
+        let product = mean(storage.iter().zip(&loss).map(|(a, b)| a * b));
+        let told = mean(bars.iter().map(|b| b.correlation.unwrap()));
+        // A correlation of n draws is known to 1/√n.
+        assert!((product / std(&storage) / std(&loss) - told).abs() < 0.1, "{f} Hz: {product} {told}");
+        assert!(bars.iter().all(|b| b.is_linear() && b.nonlinearity > 0.0));
+    }
+}
+
+/// The analytic second derivative is the difference of the analytic first ones, on both reduced models, also with powers.
+#[test]
+fn the_second_derivative_is_that_of_the_first() {
+    for case in [plate(6, 0.4, 1e-2), bar(80), sandwich(8, 1), thickness()] {
+        let (subspace, _) = case.trained(1e-6);
+        for (f, ratio) in case.scattered(6) {
+            let at = case.at(f);
+            let correction = case.correction(f, ratio);
+            let step = 1e-5 * at.parameters[0].nominal.norm();
+            let system = FullModel::new(at.clone(), &case.experiment).unwrap();
+            let rational = RationalResponse::new(&system, 0, 24).unwrap();
+            let small = subspace.projection();
+            type Slopes<'a> = Box<dyn Fn(c64) -> Vec<c64> + 'a>;
+            let slopes: [Slopes<'_>; 2] = [
+                Box::new(|c| small.respond_with_slope(&at, c).unwrap().1),
+                Box::new(|c| rational.respond_with_slope(c).unwrap().1),
+            ];
+            let seconds = [
+                small.second_derivative(&at, correction).unwrap(),
+                rational.second_derivative(correction).unwrap(),
+            ];
+            if let Some(poles) = rational.poles().unwrap() {
+                for (own, second) in poles.second_derivative(correction).iter().zip(&seconds[1]) {
+                    // The sum over the poles loses digits where they nearly coincide.
+                    assert!(
+                        (own - second).norm() < 1e-5 * second.norm(),
+                        "{} {f} Hz: {own} {second}",
+                        case.name
+                    );
+                }
+            }
+            for (slope, second) in slopes.iter().zip(&seconds) {
+                let (after, before) = (slope(correction + step), slope(correction - step));
+                for m in 0..second.len() {
+                    let difference = (after[m] - before[m]) / (2.0 * step);
+                    // Digits that the difference of slopes loses, and its error of second order near a pole.
+                    let roundoff = 1e-9 * after[m].norm() / step;
+                    let off = (difference - second[m]).norm();
+                    assert!(off < 2e-3 * second[m].norm() + roundoff, "{} {f} Hz {m}: {off}", case.name);
+                }
+            }
+        }
+    }
+}
+
+/// How many of the answers that are called ok have the truth within two standard deviations of E′ and of η, of how many; how many are ok of all.
+#[derive(Debug, Default, Clone, Copy)]
+struct Coverage {
+    storage: usize,
+    loss: usize,
+    ok: usize,
+    all: usize,
+}
+
+impl Coverage {
+    fn count(&mut self, band: &BandOutcome, truth: impl Fn(f64) -> c64) {
+        for outcome in &band.outcomes {
+            self.all += 1;
+            if outcome.status != Status::Ok {
+                continue;
+            }
+            let (truth, bars) = (truth(outcome.frequency_hz), outcome.uncertainty.unwrap());
+            self.ok += 1;
+            let within = |value: f64, truth: f64, std: f64| usize::from((value - truth).abs() <= 2.0 * std);
+            self.storage += within(outcome.storage().unwrap(), truth.re, bars.storage_std);
+            self.loss +=
+                within(outcome.loss_factor().unwrap(), truth.im / truth.re, bars.loss_factor_std.unwrap());
+        }
+    }
+}
+
+/// Bounds of a factor of three, and the options for them.
+fn bounded(case: &Case) -> Options {
+    let nominal = &case.parameter.nominal;
+    let [low, high] = case.band_hz.map(|f| nominal.at(f).unwrap().re);
+    let bounds = Bounds { storage: Some([low / 3.0, high * 3.0]), loss_factor: Some([0.0, 2.0]) };
+    Options { bounds, ..Options::default() }
+}
+
+/// 20 seeds of a band at 0.1 %, 1 % and 5 % noise: what is called ok has the truth within two deviations 95 times of 100.
+fn assert_coverage(case: &Case, band_hz: [f64; 2], least_ok: [f64; 3]) {
+    const RATIO: f64 = 0.8;
+    let truth = |f: f64| RATIO * case.parameter.nominal.at(f).unwrap();
+    for (noise, least_ok) in [1e-3, 1e-2, 5e-2].into_iter().zip(least_ok) {
+        let made = Measured::clean(case, linear_hz(band_hz[0], band_hz[1], 16), RATIO, noise);
+        let mut coverage = Coverage::default();
+        // Other draws for each size of noise.
+        let first = (1e5 * noise) as u64;
+        for seed in first..first + 20 {
+            let u = made.drawn(seed);
+            let band = identify(case, &made, &u, Noise::Known(&made.std), &bounded(case));
+            coverage.count(&band, truth);
+            let fit = band.fit.unwrap();
+            // Once in thirty thousand by chance.
+            assert_eq!(fit.verdict, Explained::Yes, "{} {noise} {seed}: {fit:?}", case.name);
+            assert!(band.sensors.iter().all(|sensor| !sensor.contradicts), "{} {noise} {seed}", case.name);
+        }
+        let Coverage { storage, loss, ok, all } = coverage;
+        let share = |count: usize| count as f64 / ok as f64;
+        // Of 320 answers a share of 0.95 is known to 0.012.
+        for share in [share(storage), share(loss)] {
+            assert!((0.91..=0.99).contains(&share), "{} {noise}: {coverage:?} {share}", case.name);
+        }
+        assert!(ok as f64 >= least_ok * all as f64, "{} {noise}: {coverage:?}", case.name);
+    }
+}
+
+#[test]
+fn error_bars_of_a_bar_cover_the_truth() {
+    assert_coverage(&bar(66), [60.0, 900.0], [0.95, 0.95, 0.9]);
+}
+
+#[test]
+fn error_bars_of_a_plate_cover_the_truth() {
+    assert_coverage(&plate(6, 0.4, 1e-2), [100.0, 2500.0], [0.95, 0.5, 0.15]);
+}
+
+#[test]
+fn error_bars_of_a_sandwich_cover_the_truth() {
+    assert_coverage(&sandwich(6, 1), [40.0, 1000.0], [0.95, 0.95, 0.8]);
+}
+
+/// η = 0.001 and 1 % noise: away from the resonances a single frequency says nothing of the loss factor, and no such one is ok.
+#[test]
+fn loss_factors_that_noise_has_made_up_are_marked() {
+    let case = plate(6, 0.4, 1e-3);
+    let made = Measured::clean(&case, linear_hz(100.0, 2500.0, 40), 0.8, 1e-2);
+    let (mut known, mut marked, mut useless) = (0, 0, 0);
+    for seed in 0..4 {
+        let u = made.drawn(seed);
+        let band = identify(&case, &made, &u, Noise::Known(&made.std), &bounded(&case));
+        for outcome in band.outcomes.iter().filter(|outcome| outcome.correction.is_some()) {
+            let eta = outcome.loss_factor().unwrap();
+            let std = outcome.uncertainty.unwrap().loss_factor_std.unwrap();
+            if outcome.status == Status::Ok {
+                // Three deviations: of two dozen answers one in fifteen such tests is that far off by chance.
+                assert!((eta - 1e-3).abs() < 3.0 * std, "{} Hz: {eta} {std}", outcome.frequency_hz);
+                assert!(std <= 0.2 * eta, "{} Hz: {eta} {std}", outcome.frequency_hz);
+                known += 1;
+            } else if outcome.status == Status::IllConditioned {
+                marked += 1;
+            }
+            useless += usize::from((eta - 1e-3).abs() > 1e-3);
+        }
+    }
+    assert!(known > 0 && useless > 20 && marked >= useless, "{known} {marked} {useless}");
+}
+
+/// One sensor of three is rubbish: it is named and left out, and the answer stays within its error bars.
+#[test]
+fn one_bad_sensor_of_three_is_named_and_left_out() {
+    let mut case = plate(6, 0.4, 1e-2);
+    // A third sensor, and where a fourth would be.
+    let (third, elsewhere) = (3, 30);
+    case.experiment.sensors.push(Sensor { row: third, sign: 1.0 });
+    let frequency_hz = linear_hz(300.0, 2500.0, 30);
+    let made = Measured::clean(&case, frequency_hz.clone(), 0.8, 3e-3);
+    let mut other = Case { experiment: case.experiment.clone(), ..plate(6, 0.4, 1e-2) };
+    other.experiment.sensors.iter_mut().for_each(|sensor| sensor.row = elsewhere);
+    let wrong = Measured::clean(&other, frequency_hz, 0.8, 3e-3);
+    let truth = |f: f64| 0.8 * case.parameter.nominal.at(f).unwrap();
+    for bad in 0..3 {
+        for random in [true, false] {
+            let at = format!("sensor {bad}, random {random}");
+            let (mut u, swapped) = (made.drawn(7), wrong.drawn(8));
+            let mut dice = Dice(9);
+            for (k, u) in u.iter_mut().enumerate() {
+                u[bad] = if random { made.u[k][bad].norm() * dice.circular() } else { swapped[k][0] };
+            }
+            for noise in [Noise::Known(&made.std), Noise::Unknown] {
+                let band = identify(&case, &made, &u, noise, &bounded(&case));
+                let named: Vec<bool> = band.sensors.iter().map(|sensor| sensor.contradicts).collect();
+                assert_eq!(named, [0, 1, 2].map(|m| m == bad), "{at}: {:?}", band.sensors);
+                assert!(band.sensors[bad].left_out && band.sensors[bad].misfit.unwrap() > 5.0, "{at}");
+                assert_ne!(band.fit.unwrap().verdict, Explained::No, "{at}: {:?} {:?}", band.fit, band.noise);
+                let mut coverage = Coverage::default();
+                coverage.count(&band, truth);
+                // Two deviations hold 95 of 100, not less than 24 of 30 but once in a thousand.
+                assert!(coverage.ok >= 20, "{at}: {coverage:?}");
+                assert!(5 * coverage.storage >= 4 * coverage.ok, "{at}: {coverage:?}");
+                assert!(5 * coverage.loss >= 4 * coverage.ok, "{at}: {coverage:?}");
+                // Kept, the answer cannot be explained.
+                let options = Options { robust: false, ..bounded(&case) };
+                let kept = identify(&case, &made, &u, noise, &options);
+                assert!(kept.sensors[bad].contradicts && !kept.sensors[bad].left_out, "{at}");
+                assert_eq!(kept.fit.map(|fit| fit.verdict), Some(Explained::No), "{at}: {:?}", kept.noise);
+            }
+        }
+    }
+}
+
+/// Two sensors can only contradict one another.
+#[test]
+fn of_two_sensors_neither_is_named() {
+    let case = plate(6, 0.4, 1e-2);
+    let made = Measured::clean(&case, linear_hz(300.0, 2500.0, 30), 0.8, 3e-3);
+    let mut u = made.drawn(7);
+    let mut dice = Dice(9);
+    u.iter_mut().zip(&made.u).for_each(|(u, clean)| u[0] = clean[0].norm() * dice.circular());
+    for noise in [Noise::Known(&made.std), Noise::Unknown] {
+        let band = identify(&case, &made, &u, noise, &bounded(&case));
+        assert!(band.sensors.iter().all(|sensor| !sensor.contradicts && !sensor.left_out));
+        assert!(band.outcomes.iter().all(|outcome| outcome.status != Status::Ok));
+        assert!(band.fit.is_none_or(|fit| fit.verdict == Explained::No), "{:?}", band.fit);
+    }
+}
