@@ -5,11 +5,13 @@ use crate::figures::{identify_figures, measured_figures, respond_figures};
 use crate::load::{Case, IdentifyCase, Overrides, Purpose, load};
 use crate::memory::{MemoryError, check_full, check_identify};
 use crate::output::{
-    File, WriteError, candidates_csv, hit_reasons, identified_csv, measured_csv, measured_summary,
-    measured_text, measured_uff, respond_csv, respond_uff, response_csv, summary_json, write_all,
+    File, WriteError, candidates_csv, hit_reasons, identified_csv, law_identified_csv, laws_json,
+    measured_csv, measured_summary, measured_text, measured_uff, respond_csv, respond_uff, response_csv,
+    summary_json, write_all,
 };
 use crate::records::{ChannelOptions, Records, read_records};
 use crate::run::{IdentifyRun, Progress, RespondRun, RunOptions, identify, respond};
+use frfit::laws::best;
 use frfit::material::OutsideTable;
 use frfit::signal::{self, Measured, SignalError, estimate_frf};
 use frfit_figures::PngError;
@@ -102,7 +104,14 @@ pub fn identify_case(
     let start = Instant::now();
     let mut files = identify_figures(&case, wanted, &run)?;
     let summary = summary_json(&case, wanted, &run, seconds_load, start.elapsed().as_secs_f64());
-    files.push(File::new("identified.csv", identified_csv(&run.outcomes)));
+    match &run.laws {
+        None => files.push(File::new("identified.csv", identified_csv(&run.outcomes))),
+        Some(laws) => {
+            files.push(File::new("identified.csv", law_identified_csv(&run.outcomes, best(&laws.fits))));
+            files.push(File::new("free.csv", identified_csv(&laws.free)));
+            files.push(File::new("law.json", format!("{:#}\n", laws_json(laws))));
+        }
+    }
     files.push(File::new("candidates.csv", candidates_csv(&run.outcomes)));
     files.push(File::new("response.csv", response_csv(&case, wanted, &run.outcomes)));
     files.push(File::new("summary.json", format!("{summary:#}\n")));

@@ -7,7 +7,7 @@ mod options;
 mod outcome;
 mod rational;
 
-pub use band::{Band, BandOutcome, Hooks, Noise, Stage, identify_band};
+pub use band::{Band, BandOutcome, Hooks, LawsOutcome, Noise, Stage, identify_band, identify_laws};
 pub use choice::{Method, Selection, Space, UnknownChoice};
 pub use one::{error_by_order, identify_at, relative_error};
 pub use options::{MAX_ORDER, Options, OptionsError};

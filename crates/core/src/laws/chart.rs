@@ -1,6 +1,7 @@
 //! Coordinates θ of a law's parameters p in which every constraint holds by itself.
 
-use super::Family;
+use super::least_squares::Residuals;
+use super::{Datum, Family};
 use crate::c64;
 
 /// θ ↔ p about a reference frequency.
@@ -98,6 +99,30 @@ impl Chart {
         finite.then_some((modulus, of_theta))
     }
 
+    /// The law with all its moduli multiplied by e^`by`.
+    pub(crate) fn scaled(&self, theta: &[f64], by: f64) -> Vec<f64> {
+        let is_modulus = |i: usize| match self.family {
+            Family::Constant => i == 0,
+            Family::Fractional | Family::FractionalZener => i < 2,
+            Family::Maxwell { .. } => i == 0 || i % 2 == 1,
+        };
+        theta.iter().enumerate().map(|(i, t)| if is_modulus(i) { t + by } else { *t }).collect()
+    }
+
+    /// Whitened E(θ) − E over some data, and its slopes; `None` where a number is not finite.
+    pub(crate) fn residuals(&self, data: &[Datum], theta: &[f64]) -> Option<Residuals> {
+        let mut residuals = Vec::with_capacity(2 * data.len());
+        let mut columns: Vec<Vec<f64>> = vec![Vec::with_capacity(2 * data.len()); theta.len()];
+        for datum in data {
+            let (modulus, slopes) = self.modulus(theta, datum.omega_rad_s)?;
+            residuals.extend(datum.whitened(modulus - datum.modulus));
+            for (column, slope) in columns.iter_mut().zip(slopes) {
+                column.extend(datum.whitened(slope));
+            }
+        }
+        Some((residuals, columns.concat()))
+    }
+
     /// The same law with its branches in the order of their times.
     pub(crate) fn sorted(&self, theta: &[f64]) -> Vec<f64> {
         let mut sorted = theta.to_vec();
@@ -186,6 +211,14 @@ mod tests {
                 let difference = (moved(h) - moved(-h)) / (2.0 * h);
                 prop_assert!((difference - slope).norm() * h <= 1e-8 * e.norm(), "{j}: {difference} {slope}");
             }
+        }
+
+        #[test]
+        fn scaling_multiplies_the_modulus((chart, theta) in any_chart(), by in -1.0f64..1.0) {
+            let at = |theta: &[f64]| chart.modulus(theta, chart.reference_rad_s).unwrap().0;
+            let (before, after) = (at(&theta), at(&chart.scaled(&theta, by)));
+            // exp(θ + by) and exp(θ)·exp(by) differ by some ε.
+            prop_assert!((after - by.exp() * before).norm() <= 1e-13 * after.norm());
         }
 
         #[test]

@@ -1,6 +1,6 @@
 //! A fitted law: its parameters, how well they are known, and how well it explains the data.
 
-use super::least_squares::{Minima, Residuals, Search, inverse_information, minimise};
+use super::least_squares::{Minima, Search, inverse_information, minimise};
 use super::{Chart, Datum, Family, starts};
 use crate::c64;
 use crate::frequency::omega_rad_s;
@@ -64,6 +64,8 @@ pub struct LawFit {
     pub agreeing: usize,
     chart: Chart,
     theta: Vec<f64>,
+    /// Other minima that the data cannot exclude.
+    rivals: Vec<Vec<f64>>,
     /// Of θ; NaN for coordinates that are not told.
     covariance: Option<Vec<Vec<f64>>>,
 }
@@ -88,24 +90,10 @@ pub fn fit_modulus(data: &[Datum], family: Family, sigma_known: bool) -> Option<
     if evidence.residuals < family.count() {
         return None;
     }
-    let evaluate = |theta: &[f64]| on_data(&chart, data, theta);
+    let evaluate = |theta: &[f64]| chart.residuals(data, theta);
     let search = Search { starts: FOLLOWED, patience: PATIENCE, same: 0.0 };
     let minima = minimise(&starts(&chart, data), &evaluate, &search)?;
     Some(LawFit::new(chart, minima, evidence))
-}
-
-/// Whitened E(θ) − E, and its slopes.
-fn on_data(chart: &Chart, data: &[Datum], theta: &[f64]) -> Option<Residuals> {
-    let mut residuals = Vec::with_capacity(2 * data.len());
-    let mut columns: Vec<Vec<f64>> = vec![Vec::with_capacity(2 * data.len()); theta.len()];
-    for datum in data {
-        let (modulus, slopes) = chart.modulus(theta, datum.omega_rad_s)?;
-        residuals.extend(datum.whitened(modulus - datum.modulus));
-        for (column, slope) in columns.iter_mut().zip(slopes) {
-            column.extend(datum.whitened(slope));
-        }
-    }
-    Some((residuals, columns.concat()))
 }
 
 impl Chart {
@@ -116,6 +104,9 @@ impl Chart {
     }
 }
 
+/// Nats by which another minimum may be behind and still be the answer, as in the selection of solutions.
+const NATS: f64 = 7.0;
+
 impl LawFit {
     pub(crate) fn new(chart: Chart, minima: Minima, evidence: Evidence) -> Self {
         let Minima { best, others, followed, agreeing } = minima;
@@ -125,6 +116,9 @@ impl LawFit {
         // Ends that differ by less than a thousandth of what noise makes of χ² are one.
         let same = SAME * unit + EXACT * residuals as f64;
         let near = others.iter().filter(|other| other.sum - best.sum <= same).count();
+        let behind = |sum: f64| 0.5 * (sum - best.sum) / unit.max(f64::MIN_POSITIVE);
+        let rivals = others.iter().filter(|other| other.converged && behind(other.sum) <= NATS);
+        let rivals = rivals.map(|other| other.theta.clone()).collect();
         let theta = chart.sorted(&best.theta);
         // The branches' order is that of θ, and so is the Jacobian's.
         let jacobian = reordered(&chart, &best.theta, &theta, &best.jacobian);
@@ -156,13 +150,15 @@ impl LawFit {
             agreeing: agreeing + near,
             chart,
             theta,
+            rivals,
             covariance,
         }
     }
 
-    /// θ, for a fit that begins here.
-    pub(crate) fn theta(&self) -> &[f64] {
-        &self.theta
+    /// The moduli that other minima, which the data cannot exclude, have at a frequency.
+    pub(crate) fn rivals_at(&self, frequency_hz: f64) -> Vec<c64> {
+        let at = |theta: &Vec<f64>| self.chart.modulus(theta, omega_rad_s(frequency_hz));
+        self.rivals.iter().filter_map(at).map(|(modulus, _)| modulus).collect()
     }
 
     /// Residuals less parameters.

@@ -3,7 +3,7 @@
 //! A law says at all frequencies together what the data say at each: the fewer its parameters, the narrower its error bars, if it is the right law.
 //! That is told by χ² per degree of freedom, and between laws by BIC.
 //!
-//! [`fit_modulus`] fits to a table of moduli, the identification to what was measured on a structure.
+//! [`fit_modulus`] fits to a table of moduli, [`crate::identify::identify_laws`] to what was measured on a structure.
 
 mod chart;
 mod datum;
@@ -18,5 +18,5 @@ pub use fit::{Estimate, LawFit, ModulusEstimate, best, fit_modulus};
 
 pub(crate) use chart::Chart;
 pub(crate) use fit::Evidence;
-pub(crate) use least_squares::{Search, minimise};
+pub(crate) use least_squares::{Minima, Residuals, Search, minimise};
 pub(crate) use starts::starts;

@@ -67,13 +67,13 @@ impl Task<'_, '_> {
 pub(super) fn identify<'a>(
     band: &Band<'a>,
     at: &[ModelAt<'a>],
-    mut space: Option<Space<'a, '_>>,
+    space: &mut Option<Space<'a, '_>>,
     options: &Options,
     hooks: Hooks<'_>,
 ) -> BandOutcome {
     let sigma = deviations(band);
     let task = Task { band, at, sigma: &sigma, options, hooks };
-    let (solved, mut work) = match &mut space {
+    let (solved, mut work) = match space {
         Some(space) => (on_space(&task, space), Work::default()),
         None => {
             let (found, work) = on_full_model(&task);
@@ -88,10 +88,10 @@ pub(super) fn identify<'a>(
         let evidence = Evidence { at: &at[i], measured: &band.measured[i], noise, assessment };
         verdict(&evidence, &found[i], &choices[i], options)
     });
-    if let Some(space) = &space {
+    if let Some(space) = space {
         work += space.work();
     }
-    BandOutcome { outcomes, work, subspace_size: space.map(|space| space.size()), explored }
+    BandOutcome { outcomes, work, subspace_size: space.as_ref().map(|space| space.size()), explored }
 }
 
 fn on_full_model(task: &Task<'_, '_>) -> (Vec<Explored>, Work) {
@@ -115,7 +115,7 @@ fn on_full_model(task: &Task<'_, '_>) -> (Vec<Explored>, Work) {
 }
 
 /// σ of real and imaginary part each, `[frequency][sensor]`: as given, or in proportion to the response.
-fn deviations(band: &Band<'_>) -> Vec<Vec<f64>> {
+pub(super) fn deviations(band: &Band<'_>) -> Vec<Vec<f64>> {
     let sensors = 0..band.experiment.sensors.len();
     let sorted = |m: usize| {
         let mut sizes: Vec<f64> = band.measured.iter().map(|u| u[m].norm()).collect();
