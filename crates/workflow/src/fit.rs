@@ -104,5 +104,12 @@ fn heading(name: &str, data: &ModulusData) -> String {
         Some(_) => "weighted by their deviations",
         None => "weighted by their size",
     };
+    let (first, last) = (hertz(first), hertz(last));
     format!("{name}: {} moduli, {first} to {last} Hz{left_out}, {weights}", data.storage.len())
+}
+
+/// A frequency without a row of zeros: master curves span dozens of decades.
+fn hertz(frequency_hz: f64) -> String {
+    let usual = (1e-3..1e6).contains(&frequency_hz);
+    if usual { frequency_hz.to_string() } else { format!("{frequency_hz:e}") }
 }

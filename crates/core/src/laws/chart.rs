@@ -115,9 +115,9 @@ impl Chart {
         let mut columns: Vec<Vec<f64>> = vec![Vec::with_capacity(2 * data.len()); theta.len()];
         for datum in data {
             let (modulus, slopes) = self.modulus(theta, datum.omega_rad_s)?;
-            residuals.extend(datum.whitened(modulus - datum.modulus));
+            residuals.extend(datum.residual(modulus));
             for (column, slope) in columns.iter_mut().zip(slopes) {
-                column.extend(datum.whitened(slope));
+                column.extend(datum.slope(modulus, slope));
             }
         }
         Some((residuals, columns.concat()))

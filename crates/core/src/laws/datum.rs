@@ -2,16 +2,27 @@
 
 use crate::c64;
 use crate::frequency::omega_rad_s;
+use crate::material::loss_factor;
 
-/// E at one frequency with the covariance of its parts.
+/// E at one frequency with the covariance of what was measured of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Datum {
     /// ω.
     pub omega_rad_s: f64,
     /// E′ + iE″.
     pub modulus: c64,
-    /// W with Wᵀ W the inverse covariance of (E′, E″): lower triangular, (w₁₁, w₂₁, w₂₂).
+    measured: Measured,
+    /// W with WᵀW the inverse covariance of the two numbers that were measured: lower triangular, (w₁₁, w₂₁, w₂₂).
     whitening: [f64; 3],
+}
+
+/// Which two numbers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Measured {
+    /// E′ and E″.
+    Parts,
+    /// E′ and η.
+    StorageAndLossFactor,
 }
 
 impl Datum {
@@ -22,31 +33,53 @@ impl Datum {
 
     /// Known to a standard deviation of the real and of the imaginary part each, independent of each other.
     pub fn circular(omega_rad_s: f64, modulus: c64, part_std: f64) -> Self {
-        Self { omega_rad_s, modulus, whitening: [1.0 / part_std, 0.0, 1.0 / part_std] }
+        let whitening = [1.0 / part_std, 0.0, 1.0 / part_std];
+        Self { omega_rad_s, modulus, measured: Measured::Parts, whitening }
     }
 
-    /// Storage modulus and loss factor with a standard deviation each and their correlation, carried to E″ = ηE′ by the delta rule.
+    /// Storage modulus and loss factor with a standard deviation each and their correlation.
     ///
     /// # Panics
-    /// Where a deviation is not positive, or the correlation not between −1 and 1.
-    ///
-    /// # Limits
-    /// E″ = ηE′ is a product: where both are uncertain by tens of percent, its deviation is more than this.
+    /// Where a storage modulus or a deviation is not positive, or the correlation not between −1 and 1.
     pub fn storage_and_loss(frequency_hz: f64, value: [f64; 2], std: [f64; 2], correlation: f64) -> Self {
         let ([storage, eta], [s, t]) = (value, std);
-        assert!(s > 0.0 && t > 0.0 && correlation.abs() < 1.0);
-        // In the coordinates E′ and q = E″ − ηE′ (η as given), Cov = [[s², ρ s E′t], [·, (E′t)²]]: whitened row after row.
-        let t = storage.abs() * t;
+        assert!(storage > 0.0 && s > 0.0 && t > 0.0 && correlation.abs() < 1.0);
         let rest = (1.0 - correlation * correlation).sqrt();
-        let (w11, on_s, on_q) = (1.0 / s, -correlation / (s * rest), 1.0 / (t * rest));
-        let whitening = [w11, on_s - on_q * eta, on_q];
-        Self { omega_rad_s: omega_rad_s(frequency_hz), modulus: c64::new(storage, storage * eta), whitening }
+        Self {
+            omega_rad_s: omega_rad_s(frequency_hz),
+            modulus: c64::new(storage, storage * eta),
+            measured: Measured::StorageAndLossFactor,
+            whitening: [1.0 / s, -correlation / (s * rest), 1.0 / (t * rest)],
+        }
     }
 
-    /// W times the parts of a complex number.
-    pub(crate) fn whitened(&self, value: c64) -> [f64; 2] {
+    /// W times what is measured of a modulus less what was.
+    pub(crate) fn residual(&self, modulus: c64) -> [f64; 2] {
+        let second = match self.measured {
+            Measured::Parts => modulus.im - self.modulus.im,
+            // E″ is not fitted in its place: a product of two noisy numbers is biased.
+            Measured::StorageAndLossFactor => loss_factor(modulus) - loss_factor(self.modulus),
+        };
+        self.times([modulus.re - self.modulus.re, second])
+    }
+
+    /// The change of [`Datum::residual`] with a change of the modulus.
+    pub(crate) fn slope(&self, modulus: c64, change: c64) -> [f64; 2] {
+        let second = match self.measured {
+            Measured::Parts => change.im,
+            Measured::StorageAndLossFactor => (change.im - loss_factor(modulus) * change.re) / modulus.re,
+        };
+        self.times([change.re, second])
+    }
+
+    /// A part of a modulus as [`Datum::slope`] weighs it at the measured one: linear, with which a start is found.
+    pub(crate) fn whitened(&self, part: c64) -> [f64; 2] {
+        self.slope(self.modulus, part)
+    }
+
+    fn times(&self, [a, b]: [f64; 2]) -> [f64; 2] {
         let [w11, w21, w22] = self.whitening;
-        [w11 * value.re, w21 * value.re + w22 * value.im]
+        [w11 * a, w21 * a + w22 * b]
     }
 }
 
@@ -56,21 +89,33 @@ mod tests {
 
     #[test]
     fn storage_and_loss_factor_are_whitened_with_their_correlation() {
-        let (storage, eta, s, t, rho) = (2e6, 0.3, 4e4, 0.02, -0.4);
-        let datum = Datum::storage_and_loss(1.0, [storage, eta], [s, t], rho);
-        // (WᵀW)⁻¹ by the delta rule: Cov(E′) = s², Cov(E′, E″) = ηs² + E′ρst, Cov(E″) = η²s² + 2ηE′ρst + E′²t².
+        let (s, t, rho) = (4e4, 0.02, -0.4);
+        let datum = Datum::storage_and_loss(1.0, [2e6, 0.3], [s, t], rho);
         let [a, b, c] = datum.whitening;
-        // W⁻¹ of a lower triangle, and W⁻¹W⁻ᵀ.
+        // (WᵀW)⁻¹ = W⁻¹W⁻ᵀ of a lower triangle.
         let (p, q, r) = (1.0 / a, -b / (a * c), 1.0 / c);
-        let found = [p * p, p * q, q * q + r * r];
-        let cross = rho * s * t;
-        let expected = [
-            s * s,
-            eta * s * s + storage * cross,
-            eta * eta * s * s + 2.0 * eta * storage * cross + (storage * t).powi(2),
-        ];
-        for (found, expected) in found.iter().zip(expected) {
+        for (found, expected) in [p * p, p * q, q * q + r * r].iter().zip([s * s, rho * s * t, t * t]) {
             assert!((found - expected).abs() < 1e-12 * expected.abs(), "{found} {expected}");
+        }
+        // Two deviations of η, and none of E′.
+        let [first, second] = datum.residual(2e6 * c64::new(1.0, 0.3 + 2.0 * t));
+        assert!(first.abs() < 1e-9 && (second - 2.0 / (1.0 - rho * rho).sqrt()).abs() < 1e-9);
+    }
+
+    #[test]
+    fn slopes_are_those_of_the_residual() {
+        for datum in [
+            Datum::storage_and_loss(1.0, [2.0, 0.3], [0.1, 0.2], 0.5),
+            Datum::circular(1.0, c64::new(2.0, 0.6), 0.1),
+        ] {
+            let (at, change) = (c64::new(2.5, 0.9), c64::new(0.3, -0.7));
+            // Central differences: h² times a third derivative of order ten, and ε/h.
+            let h = 1e-4;
+            let (up, down) = (datum.residual(at + h * change), datum.residual(at - h * change));
+            for k in 0..2 {
+                let difference = (up[k] - down[k]) / (2.0 * h);
+                assert!((difference - datum.slope(at, change)[k]).abs() < 1e-6, "{datum:?}");
+            }
         }
     }
 

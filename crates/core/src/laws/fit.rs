@@ -83,6 +83,9 @@ const FOLLOWED: usize = 5;
 const PATIENCE: usize = 50;
 
 /// Weighted least squares of one law on data; `None` where there are fewer numbers than parameters, or no start has a finite misfit.
+///
+/// # Limits
+/// What the law leaves counts as noise that is independent from frequency to frequency. Where the law itself is at fault it is not, and the error bars are too narrow.
 pub fn fit_modulus(data: &[Datum], family: Family, sigma_known: bool) -> Option<LawFit> {
     let omegas: Vec<f64> = data.iter().map(|datum| datum.omega_rad_s).collect();
     let chart = Chart::about(family, &omegas);

@@ -111,8 +111,8 @@ pub struct IdentifyEntry {
     pub matrices: Vec<Located<String>>,
     /// First and last frequency.
     pub band_hz: Option<Located<[f64; 2]>>,
-    /// Laws to compare; none where every frequency has its own factor.
-    pub laws: Vec<Family>,
+    /// Laws to compare, where it says `varies = "law"`; the place is that of `varies`.
+    pub laws: Option<Located<Vec<Family>>>,
     /// Method.
     pub method: Option<Method>,
     /// Order.

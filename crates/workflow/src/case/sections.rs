@@ -201,7 +201,7 @@ pub(super) fn identify(field: &Field<'_>) -> Result<IdentifyEntry, InputError> {
 }
 
 /// What `varies`, `law` and `branches` say together.
-fn laws(table: &Table<'_>) -> Result<Vec<Family>, InputError> {
+fn laws(table: &Table<'_>) -> Result<Option<Located<Vec<Family>>>, InputError> {
     let varies = |word: &str| match word {
         "frequency" => Ok(false),
         "law" => Ok(true),
@@ -209,26 +209,26 @@ fn laws(table: &Table<'_>) -> Result<Vec<Family>, InputError> {
     };
     let by_law = table.find("varies").map(|field| field.word(varies)).transpose()?;
     let (law, branches) = (table.find("law"), table.find("branches"));
-    if !by_law.is_some_and(|by_law| by_law.value) {
+    let Some(Located { place, .. }) = by_law.filter(|by_law| by_law.value) else {
         return match law.or(branches) {
             Some(key) => Err(InputError::at(&key.place, "varies = \"law\" beside it", "none")),
-            None => Ok(Vec::new()),
+            None => Ok(None),
         };
-    }
+    };
     let Some(law) = law else {
         return match branches {
             Some(key) => Err(InputError::at(&key.place, "law = \"maxwell\" beside it", "none")),
-            None => Ok(Family::ALL.to_vec()),
+            None => Ok(Some(Located { value: Family::ALL.to_vec(), place })),
         };
     };
     let named = law.texts()?;
     let mut families: Vec<Family> = Vec::with_capacity(named.len());
-    for Located { value, place } in &named {
+    for Located { value, place: here } in &named {
         let family = value.parse::<Family>();
         let family =
-            family.map_err(|_| InputError::at(place, UnknownFamily::EXPECTED, format!("{value:?}")))?;
+            family.map_err(|_| InputError::at(here, UnknownFamily::EXPECTED, format!("{value:?}")))?;
         if families.contains(&family) {
-            return Err(InputError::at(place, "each law once", format!("{value:?} a second time")));
+            return Err(InputError::at(here, "each law once", format!("{value:?} a second time")));
         }
         families.push(family);
     }
@@ -241,7 +241,7 @@ fn laws(table: &Table<'_>) -> Result<Vec<Family>, InputError> {
         };
         families[at] = Family::Maxwell { branches };
     }
-    Ok(families)
+    Ok(Some(Located { value: families, place }))
 }
 
 /// `[respond]`.

@@ -62,8 +62,8 @@ pub(super) fn identify(
     };
     let names = known_names(case, entry)?;
     let mut options = options(entry, overrides)?;
-    if !entry.laws.is_empty() {
-        options.space = space_of_laws(&options, &entry.place.below("varies"))?;
+    if let Some(laws) = &entry.laws {
+        options.space = space_of_laws(&options, &laws.place)?;
     }
     let mut parameter = shared_factor(entry, &names, model)?;
     if let Some(place) = &entry.estimate {
@@ -76,7 +76,7 @@ pub(super) fn identify(
         names,
         parameter,
         options,
-        laws: entry.laws.clone(),
+        laws: entry.laws.as_ref().map_or(Vec::new(), |laws| laws.value.clone()),
         band_hz,
         frequency_hz: data.frequency_hz,
         measured: data.measured,

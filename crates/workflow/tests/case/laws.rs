@@ -56,15 +56,15 @@ fn laws_that_cannot_be_found_are_refused() {
         ),
         (
             "varies = \"law\"\nreal = true",
-            "case.toml:29:1: identify.varies: expected \"frequency\" for a real factor, found \"law\" with real = true".into(),
+            "case.toml:32:1: identify.varies: expected \"frequency\" for a real factor, found \"law\" with real = true".into(),
         ),
         (
             "varies = \"law\"\nspace = \"full\"",
-            "case.toml:29:1: identify.varies: expected \"frequency\", or the space \"subspace\", found \"law\" with space \"full\"".into(),
+            "case.toml:32:1: identify.varies: expected \"frequency\", or the space \"subspace\", found \"law\" with space \"full\"".into(),
         ),
         (
             "varies = \"law\"\nmethod = \"series\"",
-            "case.toml:29:1: identify.varies: expected \"frequency\", or selection = \"joint\", found \"law\" with selection \"smallest\"".into(),
+            "case.toml:32:1: identify.varies: expected \"frequency\", or selection = \"joint\", found \"law\" with selection \"smallest\"".into(),
         ),
     ] {
         refused("case.toml", &edited("case.toml", "order = 20", &format!("order = 20\n{keys}")), &message);
@@ -94,27 +94,27 @@ fn laws_as_factors() {
     for (text, message) in [
         (
             "{ law = \"zener\", e0 = 1e6, e_infinity = 2e9, tau = 0, alpha = 0.6 }",
-            "case.toml:11:54: matrix.factor.tau: expected a time above 0 s, found 0",
+            "case.toml:11:55: matrix.factor.tau: expected a time above 0 s, found 0",
         ),
         (
             "{ law = \"zener\", e0 = 1e6, e_infinity = 2e9, tau = 1, alpha = 1.6 }",
-            "case.toml:11:63: matrix.factor.alpha: expected a number from 0 (elastic) to 1 (viscous), found 1.6",
+            "case.toml:11:64: matrix.factor.alpha: expected a number from 0 (elastic) to 1 (viscous), found 1.6",
         ),
         (
             "{ law = \"zener\", e0 = 1e6, e1 = 2e9, tau = 1, alpha = 0.6 }",
-            "case.toml:11:36: matrix.factor: expected a known key, of which \"e0\" is nearest, found \"e1\"",
+            "case.toml:11:37: matrix.factor: expected a known key, of which \"e0\" is nearest, found \"e1\"",
         ),
         (
             "{ law = \"maxwell\", e0 = 1e6, branches = [] }",
-            "case.toml:11:38: matrix.factor.branches: expected at least one branch [modulus, time], found the list []",
+            "case.toml:11:39: matrix.factor.branches: expected at least one branch [modulus, time], found the list []",
         ),
         (
             "{ law = \"maxwell\", e0 = 1e6, branches = [[1, 0]] }",
-            "case.toml:11:38: matrix.factor.branches: expected branches [modulus, time] with times above 0 s, found the list [the list [1, 0]]",
+            "case.toml:11:39: matrix.factor.branches: expected branches [modulus, time] with times above 0 s, found the list [the list [1, 0]]",
         ),
         (
             "{ law = \"maxwell\", e0 = 1e6, branches = [1] }",
-            "case.toml:11:50: matrix.factor.branches: expected two finite numbers [low, high], found 1",
+            "case.toml:11:51: matrix.factor.branches: expected two finite numbers [low, high], found 1",
         ),
     ] {
         refused("case.toml", &edited("case.toml", "{ table = \"modulus.csv\" }", text), message);
