@@ -50,7 +50,7 @@ impl StageClock {
             Some(Stage::Subspace) => stages.subspace += elapsed,
             Some(Stage::Solutions) => stages.solutions += elapsed,
             Some(Stage::Selection) => stages.selection += elapsed,
-            None => {}
+            Some(Stage::Law) | None => {}
         }
         (*current, *since) = (next, ProcessTime::now());
     }

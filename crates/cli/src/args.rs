@@ -1,6 +1,7 @@
 //! What can be said on the command line.
 
 use clap::{Parser, Subcommand};
+use frfit::laws::{Family, UnknownFamily};
 use std::path::PathBuf;
 
 /// Correct a finite element model until its frequency response is the measured one.
@@ -42,6 +43,13 @@ pub(crate) enum Command {
                       Exit code: 0 done; 1 with --strict where some frequency has no trusted answer; 2 the input is at fault; \
                       3 a fault of frfit.")]
     Identify(Identify),
+    /// Fit laws of a few parameters to a table of a modulus over frequency
+    #[command(after_help = "Examples: frfit fit results/identified.csv\n          \
+                      frfit fit dma.csv --law fractional,zener,maxwell:5 --out laws\n\n\
+                      Columns: frequency_hz (or frequency, freq, f), storage (storage_modulus, E_stor), loss_factor (tan_delta) or \
+                      loss (loss_modulus, E_loss); storage_std and loss_factor_std, if they are known; status, of which only ok is used. \
+                      A line of units below the names is understood.")]
+    Fit(Fit),
     /// Compute the model's response at its nominal factors
     #[command(after_help = "Example: frfit respond case.toml --out response --band 20:2000")]
     Respond(Respond),
@@ -166,6 +174,18 @@ pub(crate) struct Identify {
 }
 
 #[derive(Debug, clap::Args)]
+pub(crate) struct Fit {
+    /// Table of the modulus: an identified.csv, or one of dynamic mechanical analysis
+    pub(crate) table: PathBuf,
+    /// Laws to compare: constant, fractional, zener, maxwell or maxwell:N (N branches), or all (by default; maxwell with 1 to 4)
+    #[arg(long = "law", value_name = "LAWS", value_delimiter = ',', value_parser = laws)]
+    pub(crate) laws: Vec<Laws>,
+    /// Folder for law.json and a figure
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+}
+
+#[derive(Debug, clap::Args)]
 pub(crate) struct Overrides {
     /// First and last frequency in Hz, in place of the case's
     #[arg(long, value_name = "FROM:TO", value_parser = band)]
@@ -217,6 +237,14 @@ pub(crate) struct Convert {
     /// Binary dataset 58b in place of text
     #[arg(long)]
     pub(crate) binary: bool,
+}
+
+/// A law, or `all` of them.
+#[derive(Debug, Clone)]
+pub(crate) struct Laws(pub(crate) Vec<Family>);
+
+fn laws(text: &str) -> Result<Laws, UnknownFamily> {
+    if text == "all" { Ok(Laws(Family::ALL.to_vec())) } else { Ok(Laws(vec![text.parse()?])) }
 }
 
 /// `200:1550` as a band in Hz.

@@ -32,6 +32,7 @@ fn run(args: &Args) -> Result<Outcome, Failure> {
         Command::Example(example) => command::example::run(args, example),
         Command::Frf(frf) => command::frf::run(args, frf),
         Command::Identify(identify) => command::identify::run(args, identify),
+        Command::Fit(fit) => command::fit::run(args, fit),
         Command::Respond(respond) => command::respond::run(args, respond),
         Command::Inspect(inspect) => command::inspect::run(args, inspect),
         Command::Convert(convert) => command::convert::run(args, convert),

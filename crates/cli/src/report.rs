@@ -2,6 +2,7 @@
 
 use frfit::identify::{Explained, Identified, NoiseSource, Status};
 use frfit_workflow::job::IdentifyJob;
+use frfit_workflow::output::laws_text;
 use std::path::Path;
 
 /// The verdict of an identification and where its files are.
@@ -75,10 +76,17 @@ pub(crate) fn identified(job: &IdentifyJob, out: &Path) -> String {
     if let (Some(size), Some(error)) = (run.subspace_size, run.certificate()) {
         line("subspace", format!("{size} vectors, error of the response at most {error:.1e} (estimated)"));
     }
+    let more = if run.laws.is_some() { "free.csv, law.json, " } else { "" };
     line(
         "wrote",
-        format!("{}: identified.csv, candidates.csv, response.csv, summary.json, figures/", out.display()),
+        format!(
+            "{}: identified.csv, {more}candidates.csv, response.csv, summary.json, figures/",
+            out.display()
+        ),
     );
+    if let Some(laws) = &run.laws {
+        text += &laws_text(&laws.fits, &vec![None; laws.fits.len()]);
+    }
     let band = (run.outcomes.first(), run.outcomes.last());
     let band = match band {
         (Some(first), Some(last)) => format!("{} to {} Hz", first.frequency_hz, last.frequency_hz),

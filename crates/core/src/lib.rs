@@ -22,6 +22,7 @@
 //! | [`roots`] | the polynomial's roots, which of them are admissible, and why the others are not |
 //! | [`select`] | which of the solutions of a whole band are one material, and where the data cannot tell (B-4) |
 //! | [`identify`] | one frequency from measurement to updated factor, and a band of them |
+//! | [`laws`] | laws of the modulus with few parameters, fitted to moduli or straight to the FRFs (B-7) |
 //! | [`signal`] | records of a hammer test to an FRF with coherence and variance (B-6) |
 //! | [`nelder_mead`] | the search on direct solves that the series is compared with |
 //! | [`efficiency`] | operation counts, P-49 to P-51 |
@@ -34,6 +35,7 @@ pub mod efficiency;
 pub mod for_each;
 pub mod frequency;
 pub mod identify;
+pub mod laws;
 pub mod material;
 pub mod model;
 pub mod nelder_mead;

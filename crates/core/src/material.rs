@@ -21,14 +21,79 @@ pub enum Law {
         /// α, between 0 (elastic) and 1 (viscous).
         alpha: f64,
     },
+    /// Zener's with a fractional derivative: E(ω) = (E₀ + E∞ (iωτ)^α)/(1 + (iωτ)^α).
+    ///
+    /// # Source
+    /// T. Pritz, J. Sound Vib. 195 (1996) 103–115.
+    FractionalZener {
+        /// E₀, the relaxed modulus, Pa.
+        e0: f64,
+        /// E∞ > E₀, the unrelaxed modulus, Pa.
+        e_infinity: f64,
+        /// τ, s.
+        tau_s: f64,
+        /// α, above 0 and at most 1.
+        alpha: f64,
+    },
+    /// Maxwell's, generalised (a Prony series): E(ω) = E₀ + Σ_k E_k iωτ_k/(1 + iωτ_k).
+    Maxwell {
+        /// E₀, the relaxed modulus, Pa.
+        e0: f64,
+        /// Spring and dashpot in series, side by side.
+        branches: Vec<Branch>,
+    },
     /// Values at given frequencies, interpolated linearly over log ω.
     Table(Table),
+}
+
+/// A branch of the generalised Maxwell law.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Branch {
+    /// E_k, Pa.
+    pub modulus: f64,
+    /// τ_k, s.
+    pub tau_s: f64,
+}
+
+/// (iωτ)^α, in polar form: no logarithm of a complex number is taken.
+pub(crate) fn fractional_power(omega_tau: f64, alpha: f64) -> c64 {
+    c64::from_polar(omega_tau.powf(alpha), alpha * std::f64::consts::FRAC_PI_2)
+}
+
+/// z/(1 + z), written so that a large z does not overflow.
+pub(crate) fn saturation(z: c64) -> c64 {
+    if z.norm_sqr() > 1.0 { 1.0 / (1.0 + 1.0 / z) } else { z / (1.0 + z) }
 }
 
 impl Law {
     /// E′(1 + iη) at every frequency, P-31.
     pub fn complex_modulus(storage: f64, loss_factor: f64) -> Self {
         Self::Constant(c64::new(storage, storage * loss_factor))
+    }
+
+    /// The law times a number.
+    #[must_use]
+    pub fn scaled(&self, by: f64) -> Self {
+        match self {
+            Self::Constant(value) => Self::Constant(by * value),
+            Self::Fractional { e0, e1, alpha } => {
+                Self::Fractional { e0: by * e0, e1: by * e1, alpha: *alpha }
+            }
+            Self::FractionalZener { e0, e_infinity, tau_s, alpha } => Self::FractionalZener {
+                e0: by * e0,
+                e_infinity: by * e_infinity,
+                tau_s: *tau_s,
+                alpha: *alpha,
+            },
+            Self::Maxwell { e0, branches } => {
+                let branch = |b: &Branch| Branch { modulus: by * b.modulus, ..*b };
+                Self::Maxwell { e0: by * e0, branches: branches.iter().map(branch).collect() }
+            }
+            Self::Table(Table { frequency_hz, values }) => {
+                let values = values.iter().map(|value| by * value).collect();
+                Self::Table(Table { frequency_hz: frequency_hz.clone(), values })
+            }
+        }
     }
 
     /// The factor at a frequency.
@@ -39,8 +104,16 @@ impl Law {
         match self {
             Self::Constant(value) => Ok(*value),
             Self::Fractional { e0, e1, alpha } => {
+                Ok(e0 + e1 * fractional_power(omega_rad_s(frequency_hz), *alpha))
+            }
+            Self::FractionalZener { e0, e_infinity, tau_s, alpha } => {
+                let z = fractional_power(omega_rad_s(frequency_hz) * tau_s, *alpha);
+                Ok(e0 + (e_infinity - e0) * saturation(z))
+            }
+            Self::Maxwell { e0, branches } => {
                 let omega = omega_rad_s(frequency_hz);
-                Ok(e0 + e1 * c64::from_polar(omega.powf(*alpha), alpha * std::f64::consts::FRAC_PI_2))
+                let branch = |b: &Branch| b.modulus * saturation(c64::new(0.0, omega * b.tau_s));
+                Ok(e0 + branches.iter().map(branch).sum::<c64>())
             }
             Self::Table(table) => table.at(frequency_hz),
         }

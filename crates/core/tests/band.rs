@@ -18,14 +18,6 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 fn quiet(_: Stage, _: usize, _: usize) {}
 
-fn scaled(law: &Law, by: f64) -> Law {
-    match law {
-        Law::Constant(value) => Law::Constant(value * by),
-        Law::Fractional { e0, e1, alpha } => Law::Fractional { e0: e0 * by, e1: e1 * by, alpha: *alpha },
-        Law::Table(_) => unreachable!("no test has one"),
-    }
-}
-
 /// What would be measured if the factor were the case's nominal one: direct solves.
 fn measured(case: &Case, frequency_hz: &[f64]) -> Vec<Vec<c64>> {
     frequency_hz.iter().map(|&f| case.direct(f, c64::default()).unwrap()).collect()
@@ -75,7 +67,7 @@ fn assert_truth(mut case: Case, offs: &[f64], frequencies: usize, digits: f64) {
     let frequency_hz = linear_hz(case.band_hz[0], case.band_hz[1], frequencies);
     let u = measured(&case, &frequency_hz);
     for &off in offs {
-        case.parameter.nominal = scaled(&truth, off);
+        case.parameter.nominal = truth.scaled(off);
         let options = within(truth.at(case.band_hz[1]).unwrap().re, 10.0);
         let band = identify(&case, &frequency_hz, &u, &options);
         assert!(band.subspace_size.is_some_and(|size| size < 130), "{:?}", band.subspace_size);
@@ -129,7 +121,7 @@ fn the_truth_is_admitted_on_antiresonances_and_resonances() {
         drop(model);
         let mut case = case;
         for off in [0.75, 1.5] {
-            case.parameter.nominal = scaled(&truth, off);
+            case.parameter.nominal = truth.scaled(off);
             let band = identify(&case, &found, &u, &within(truth.at(last).unwrap().re, 10.0));
             for outcome in &band.outcomes {
                 let missed = nearest(outcome, truth.at(outcome.frequency_hz).unwrap());
@@ -194,7 +186,7 @@ fn the_papers_way_is_the_same_on_the_subspace() {
         let truth = case.parameter.nominal.clone();
         let frequency_hz = linear_hz(case.band_hz[0], case.band_hz[1], 24);
         let u = measured(&case, &frequency_hz);
-        case.parameter.nominal = scaled(&truth, off);
+        case.parameter.nominal = truth.scaled(off);
         let wide = within(truth.at(case.band_hz[1]).unwrap().re, 10.0);
         let paper = Options { bounds: wide.bounds, ..Options::paper() };
         let on = |space| identify(&case, &frequency_hz, &u, &Options { space, ..paper });
@@ -227,7 +219,7 @@ fn order_and_threads_of_the_work_do_not_change_a_bit() {
     let truth = case.parameter.nominal.clone();
     let frequency_hz = linear_hz(20.0, 1000.0, 40);
     let u = measured(&case, &frequency_hz);
-    case.parameter.nominal = scaled(&truth, 1.4);
+    case.parameter.nominal = truth.scaled(1.4);
     let options = within(truth.at(1000.0).unwrap().re, 10.0);
     let backwards = |n: usize, each: &(dyn Fn(usize) + Sync)| (0..n).rev().for_each(each);
     let threads = |n: usize, each: &(dyn Fn(usize) + Sync)| {
@@ -257,7 +249,7 @@ fn one_and_two_frequencies_are_bands() {
     let mut case = plate(8, 0.4, 1e-3);
     let truth = case.parameter.nominal.clone();
     let u = measured(&case, &[700.0, 1900.0]);
-    case.parameter.nominal = scaled(&truth, 1.3);
+    case.parameter.nominal = truth.scaled(1.3);
     for space in [Space::Auto, Space::Full, Space::Subspace] {
         for (frequency_hz, u) in [(&[700.0][..], &u[..1]), (&[700.0, 1900.0], &u)] {
             let band = identify(&case, frequency_hz, u, &Options { space, ..within(2e11, 10.0) });
@@ -277,7 +269,7 @@ fn a_band_may_begin_at_rest() {
     let truth = case.parameter.nominal.clone();
     for frequency_hz in [&[0.0][..], &[0.0, 100.0, 200.0, 900.0]] {
         let u = measured(&case, frequency_hz);
-        case.parameter.nominal = scaled(&truth, 1.3);
+        case.parameter.nominal = truth.scaled(1.3);
         for space in [Space::Full, Space::Subspace] {
             let band = identify(&case, frequency_hz, &u, &Options { space, ..within(2e11, 10.0) });
             assert_eq!(band.subspace_size.is_some(), space == Space::Subspace);
@@ -297,7 +289,7 @@ fn a_free_structure_at_rest_has_no_answer_there() {
     let mut u = vec![vec![c64::new(1.0, 0.0); 2]];
     u.extend(measured(&case, &frequency_hz[1..]));
     let truth = case.parameter.nominal.clone();
-    case.parameter.nominal = scaled(&truth, 1.3);
+    case.parameter.nominal = truth.scaled(1.3);
     for space in [Space::Full, Space::Subspace] {
         let band = identify(&case, &frequency_hz, &u, &Options { space, ..within(5e6, 20.0) });
         band.outcomes.iter().for_each(assert_no_nan);
@@ -345,7 +337,7 @@ fn a_sensor_that_measures_nothing_does_no_harm() {
     let truth = case.parameter.nominal.clone();
     let frequency_hz = [300.0, 700.0, 1100.0, 1500.0];
     let mut u = measured(&case, &frequency_hz);
-    case.parameter.nominal = scaled(&truth, 1.2);
+    case.parameter.nominal = truth.scaled(1.2);
     for m in [0, 1] {
         let kept = std::mem::take(&mut u[2][m]);
         for space in [Space::Full, Space::Subspace] {
@@ -436,7 +428,7 @@ fn bounds_may_exclude_the_nominal() {
     let frequency_hz = linear_hz(100.0, 2000.0, 10);
     let u = measured(&case, &frequency_hz);
     for off in [0.2, 6.0] {
-        case.parameter.nominal = scaled(&truth, off);
+        case.parameter.nominal = truth.scaled(off);
         for space in [Space::Full, Space::Subspace] {
             let options = Options { space, order: 60, ..within(2e11, 1.5) };
             let band = identify(&case, &frequency_hz, &u, &options);
@@ -529,7 +521,7 @@ fn a_thickness_is_found_too() {
     let frequency_hz = linear_hz(100.0, 3000.0, 12);
     let u = measured(&case, &frequency_hz);
     for off in [0.8, 1.3] {
-        case.parameter.nominal = scaled(&truth, off);
+        case.parameter.nominal = truth.scaled(off);
         for space in [Space::Full, Space::Subspace] {
             let band = identify(&case, &frequency_hz, &u, &Options { space, ..within(1.0, 2.0) });
             for outcome in &band.outcomes {

@@ -7,7 +7,6 @@ use frfit::c64;
 use frfit::for_each::sequential;
 use frfit::frequency::linear_hz;
 use frfit::identify::{Band, BandOutcome, Hooks, Noise, Options, Status, identify_band, relative_error};
-use frfit::material::Law;
 use frfit::roots::Bounds;
 
 /// Dense for a structure of a dozen modes.
@@ -29,14 +28,6 @@ impl Gauss {
     }
 }
 
-fn scaled(law: &Law, by: f64) -> Law {
-    match law {
-        Law::Constant(value) => Law::Constant(value * by),
-        Law::Fractional { e0, e1, alpha } => Law::Fractional { e0: e0 * by, e1: e1 * by, alpha: *alpha },
-        Law::Table(_) => unreachable!("no test has one"),
-    }
-}
-
 /// A measurement with this much relative noise, identified from a nominal off by this factor, both ways: followed, and everywhere.
 fn both(mut case: Case, frequencies: usize, off: f64, noise: f64, sensors: usize) -> [BandOutcome; 2] {
     let truth = case.parameter.nominal.clone();
@@ -50,7 +41,7 @@ fn both(mut case: Case, frequencies: usize, off: f64, noise: f64, sensors: usize
         let noisy = |x: c64, gauss: &mut Gauss| x * (1.0 + noise * gauss.next());
         frequency_hz.iter().map(|&f| exact(f).iter().map(|&x| noisy(x, &mut gauss)).collect()).collect()
     };
-    case.parameter.nominal = scaled(&truth, off);
+    case.parameter.nominal = truth.scaled(off);
     let size = truth.at(case.band_hz[1]).unwrap().re;
     let bounds = Bounds { storage: Some([size / 10.0, size * 10.0]), loss_factor: Some([0.0, 2.0]) };
     let std: Vec<Vec<f64>> = measured.iter().map(|u| u.iter().map(|u| noise * u.norm()).collect()).collect();

@@ -1,7 +1,7 @@
 //! The paper's Section 8: a square steel plate, clamped all around.
 
 use crate::Error;
-use crate::model::{Model, names, nearest, real, scaled, term};
+use crate::model::{Model, names, nearest, real, term};
 use frfit::material::Law;
 use frfit::model::{DynamicStiffness, Experiment, Parameter, Role};
 use frfit_fem::{Direction, Plate, Support};
@@ -39,7 +39,7 @@ pub fn clamped_plate(n: usize) -> Result<Model, Error> {
         [[0.35, 0.30], [0.60, 0.45]].map(|[x, y]| nearest(&plate, [x * SIDE, y * SIDE, 0.0], Direction::Z));
     let truth = Law::complex_modulus(STORAGE, LOSS_FACTOR);
     let stiffness = DynamicStiffness::new(vec![
-        term("plate", Role::Stiffness, &plate.stiffness[0], scaled(&truth, 1.0 + DELTA)),
+        term("plate", Role::Stiffness, &plate.stiffness[0], truth.scaled(1.0 + DELTA)),
         term("mass", Role::Mass, &plate.mass[0], real(DENSITY)),
     ])?;
     Ok(Model {

@@ -1,7 +1,7 @@
 //! A cantilever whose density is unknown: a real parameter of the mass.
 
 use crate::Error;
-use crate::model::{Model, names, nearest, real, scaled, term};
+use crate::model::{Model, names, nearest, real, term};
 use frfit::material::Law;
 use frfit::model::{DynamicStiffness, Experiment, Parameter, Role};
 use frfit_fem::{Beam, Direction, Support};
@@ -38,7 +38,7 @@ pub fn density(elements: usize) -> Result<Model, Error> {
     let truth = real(DENSITY);
     let stiffness = DynamicStiffness::new(vec![
         term("beam", Role::Stiffness, &beam.stiffness[0], Law::complex_modulus(STORAGE, LOSS_FACTOR)),
-        term("mass", Role::Mass, &beam.mass[0], scaled(&truth, 1.0 + DELTA)),
+        term("mass", Role::Mass, &beam.mass[0], truth.scaled(1.0 + DELTA)),
     ])?;
     Ok(Model {
         parameter: Parameter::factor_of(&stiffness, &["mass"])?,

@@ -91,15 +91,6 @@ pub(crate) fn real(value: f64) -> Law {
     Law::Constant(c64::new(value, 0.0))
 }
 
-/// The law times a number.
-pub(crate) fn scaled(law: &Law, by: f64) -> Law {
-    match law {
-        Law::Constant(value) => Law::Constant(by * value),
-        Law::Fractional { e0, e1, alpha } => Law::Fractional { e0: by * e0, e1: by * e1, alpha: *alpha },
-        Law::Table(_) => law.clone(),
-    }
-}
-
 /// The moving dof nearest to a position (m), counted positive along its direction.
 pub(crate) fn nearest(structure: &Assembled, position: [f64; 3], direction: Direction) -> Sensor {
     let node = structure.nearest(position);

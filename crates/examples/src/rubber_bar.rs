@@ -1,7 +1,7 @@
 //! The paper's Section 6: a free–free bar of rubber in longitudinal vibration.
 
 use crate::Error;
-use crate::model::{Model, names, nearest, real, scaled, term};
+use crate::model::{Model, names, nearest, real, term};
 use frfit::c64;
 use frfit::material::Law;
 use frfit::model::{DynamicStiffness, Experiment, Parameter, Role};
@@ -54,7 +54,7 @@ fn mesh(elements: usize) -> Result<Assembled, Error> {
 
 /// D(ω) = E(ω) K − ω² ρ M.
 fn model(bar: &Assembled, experiment: Experiment) -> Result<Model, Error> {
-    let nominal = scaled(&POLYBUTADIENE, 1.0 + DELTA);
+    let nominal = POLYBUTADIENE.scaled(1.0 + DELTA);
     let stiffness = DynamicStiffness::new(vec![
         term("rubber", Role::Stiffness, &bar.stiffness[0], nominal),
         term("mass", Role::Mass, &bar.mass[0], real(DENSITY)),

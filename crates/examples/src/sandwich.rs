@@ -1,7 +1,7 @@
 //! A cantilever sandwich: aluminium skins on a core of rubber, in bricks.
 
 use crate::Error;
-use crate::model::{Model, names, nearest, real, scaled, term};
+use crate::model::{Model, names, nearest, real, term};
 use crate::rubber_bar;
 use frfit::material::Law;
 use frfit::model::{DynamicStiffness, Experiment, Parameter, Role};
@@ -50,7 +50,7 @@ pub fn sandwich(nx: usize, ny: usize, core: usize) -> Result<Model, Error> {
     let truth = rubber_bar::POLYBUTADIENE;
     let stiffness = DynamicStiffness::new(vec![
         term("skins", Role::Stiffness, &beam.stiffness[0], Law::complex_modulus(STORAGE, LOSS_FACTOR)),
-        term("core", Role::Stiffness, &beam.stiffness[1], scaled(&truth, 1.0 + DELTA)),
+        term("core", Role::Stiffness, &beam.stiffness[1], truth.scaled(1.0 + DELTA)),
         term("skins-mass", Role::Mass, &beam.mass[0], real(DENSITY)),
         term("core-mass", Role::Mass, &beam.mass[1], real(rubber_bar::DENSITY)),
     ])?;

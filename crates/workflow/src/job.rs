@@ -5,7 +5,7 @@ use crate::figures::{identify_figures, measured_figures, respond_figures};
 use crate::load::{Case, IdentifyCase, Overrides, Purpose, load};
 use crate::memory::{MemoryError, check_full, check_identify};
 use crate::output::{
-    File, WriteError, candidates_csv, hit_reasons, identified_csv, measured_csv, measured_summary,
+    File, WriteError, candidates_csv, hit_reasons, identified_csv, laws_json, measured_csv, measured_summary,
     measured_text, measured_uff, respond_csv, respond_uff, response_csv, summary_json, write_all,
 };
 use crate::records::{ChannelOptions, Records, read_records};
@@ -103,6 +103,10 @@ pub fn identify_case(
     let mut files = identify_figures(&case, wanted, &run)?;
     let summary = summary_json(&case, wanted, &run, seconds_load, start.elapsed().as_secs_f64());
     files.push(File::new("identified.csv", identified_csv(&run.outcomes)));
+    if let Some(laws) = &run.laws {
+        files.push(File::new("free.csv", identified_csv(&laws.free)));
+        files.push(File::new("law.json", format!("{:#}\n", laws_json(laws))));
+    }
     files.push(File::new("candidates.csv", candidates_csv(&run.outcomes)));
     files.push(File::new("response.csv", response_csv(&case, wanted, &run.outcomes)));
     files.push(File::new("summary.json", format!("{summary:#}\n")));

@@ -9,6 +9,7 @@
 //! | [`run`] | the computations, frequency by frequency, on all cores |
 //! | [`figures`] | what a run looks like, as the paper draws it |
 //! | [`output`] | tables, summary, and writing them whole or not at all |
+//! | [`fit`] | laws fitted to a table of moduli |
 //! | [`job`] | whole jobs: from the path of a case to files in a folder |
 //! | [`inspect`](mod@inspect) | what is in a file |
 //! | [`convert`](mod@convert) | from one format of a matrix or an FRF to another |
@@ -18,6 +19,7 @@ pub mod case;
 pub mod convert;
 pub mod error;
 pub mod figures;
+pub mod fit;
 pub mod inspect;
 pub mod job;
 pub mod load;

@@ -3,6 +3,7 @@
 pub(crate) mod convert;
 pub(crate) mod demo;
 pub(crate) mod example;
+pub(crate) mod fit;
 pub(crate) mod frf;
 pub(crate) mod identify;
 pub(crate) mod inspect;

@@ -54,7 +54,7 @@ impl Table {
     }
 
     /// The first few names, for an error.
-    fn listed(&self) -> String {
+    pub(super) fn listed(&self) -> String {
         const MOST: usize = 8;
         let names = || self.names().filter(|name| !name.is_empty());
         let shown: Vec<_> = names().take(MOST).map(|name| quoted(name.as_bytes())).collect();

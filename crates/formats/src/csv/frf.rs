@@ -69,7 +69,7 @@ pub(super) fn ascending_frequencies(
 }
 
 /// A number with a property.
-fn checked(
+pub(super) fn checked(
     table: &Table,
     row: usize,
     column: usize,

@@ -116,6 +116,17 @@ impl<'a> Field<'a> {
         }
     }
 
+    /// Pairs of finite numbers, at least one.
+    pub(super) fn pairs(&self, expected: &str) -> Result<Vec<[f64; 2]>, InputError> {
+        let items = self.value.as_array().filter(|items| !items.is_empty());
+        let items = items.ok_or_else(|| self.refuse(expected))?;
+        let pair = |item: &Spanned<DeValue<'_>>| {
+            let place = self.document.place(item.span(), self.place.key.clone());
+            Field { place, value: item.get_ref(), ..*self }.pair()
+        };
+        items.iter().map(|item| Ok(pair(item)?.value)).collect()
+    }
+
     /// A whole number.
     pub(super) fn whole(&self) -> Result<Located<i64>, InputError> {
         let digits = self.value.as_integer();

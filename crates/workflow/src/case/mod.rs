@@ -11,6 +11,7 @@ pub(crate) use sections::checked_band;
 use crate::error::Place;
 use frfit::dof::DofName;
 use frfit::identify::{Method, Selection, Space};
+use frfit::laws::Family;
 use frfit::material::Law;
 use frfit::model::Role;
 use frfit::quantity::Quantity;
@@ -62,7 +63,7 @@ pub struct MatrixEntry {
 /// A factor: a law, or the file of a table.
 #[derive(Debug, Clone, PartialEq)]
 pub enum FactorEntry {
-    /// Number, complex modulus or fractional law.
+    /// Number, complex modulus or another law.
     Law(Law),
     /// File of a table of modulus over frequency.
     Table(Located<String>),
@@ -112,6 +113,8 @@ pub struct IdentifyEntry {
     pub matrices: Vec<Located<String>>,
     /// First and last frequency.
     pub band_hz: Option<Located<[f64; 2]>>,
+    /// Laws to compare, where it says `varies = "law"`; the place is that of `varies`.
+    pub laws: Option<Located<Vec<Family>>>,
     /// Method.
     pub method: Option<Method>,
     /// Order.

@@ -8,7 +8,8 @@ use crate::error::{InputError, Place};
 use frfit::c64;
 use frfit::dof::DofName;
 use frfit::identify::{Method, Selection, Space};
-use frfit::material::Law;
+use frfit::laws::{Family, MAX_BRANCHES, UnknownFamily};
+use frfit::material::{Branch, Law};
 use frfit::model::Role;
 use frfit::quantity::Quantity;
 
@@ -38,15 +39,18 @@ fn factor(field: &Field<'_>) -> Result<Located<FactorEntry>, InputError> {
     }
     if !field.is_table() {
         let expected = "a finite number, { storage = ..., loss_factor = ... }, \
-                        { law = \"fractional\", e0 = ..., e1 = ..., alpha = ... } or { table = \"file\" }";
+                        { law = \"fractional\", e0 = ..., e1 = ..., alpha = ... }, { law = \"zener\", ... }, \
+                        { law = \"maxwell\", ... } or { table = \"file\" }";
         return Err(field.refuse(expected));
     }
-    let any = field.table(&["storage", "loss_factor", "law", "e0", "e1", "alpha", "table"])?;
+    let known =
+        ["storage", "loss_factor", "law", "e0", "e1", "alpha", "e_infinity", "tau", "branches", "table"];
+    let any = field.table(&known)?;
     if any.find("table").is_some() {
         let file = field.table(&["table"])?.need("table")?.text()?;
         return Ok(located(FactorEntry::Table(file)));
     }
-    let law = if any.find("law").is_some() { fractional(field)? } else { complex_modulus(field)? };
+    let law = if any.find("law").is_some() { law(field, &any)? } else { complex_modulus(field)? };
     Ok(located(FactorEntry::Law(law)))
 }
 
@@ -60,17 +64,55 @@ fn complex_modulus(field: &Field<'_>) -> Result<Law, InputError> {
     Ok(Law::complex_modulus(storage, loss_factor))
 }
 
+const LAWS: &str = "\"fractional\", \"zener\" or \"maxwell\"";
+
+/// A law by its name; `any` is its table with all keys that some law has.
+fn law(field: &Field<'_>, any: &Table<'_>) -> Result<Law, InputError> {
+    type Read = fn(&Field<'_>) -> Result<Law, InputError>;
+    let read = any.need("law")?.word(|word| match word {
+        "fractional" => Ok(fractional as Read),
+        "zener" => Ok(zener as Read),
+        "maxwell" => Ok(maxwell as Read),
+        _ => Err(LAWS.into()),
+    })?;
+    (read.value)(field)
+}
+
 fn fractional(field: &Field<'_>) -> Result<Law, InputError> {
     let table = field.table(&["law", "e0", "e1", "alpha"])?;
-    table.need("law")?.word(|word| match word {
-        "fractional" => Ok(()),
-        _ => Err("\"fractional\"".into()),
-    })?;
     let (e0, e1) = (table.need("e0")?.number()?, table.need("e1")?.number()?);
+    Ok(Law::Fractional { e0, e1, alpha: exponent(&table)? })
+}
+
+fn zener(field: &Field<'_>) -> Result<Law, InputError> {
+    let table = field.table(&["law", "e0", "e_infinity", "tau", "alpha"])?;
+    let (e0, e_infinity) = (table.need("e0")?.number()?, table.need("e_infinity")?.number()?);
+    let time = table.need("tau")?;
+    let tau_s = time.number()?;
+    match tau_s > 0.0 {
+        true => Ok(Law::FractionalZener { e0, e_infinity, tau_s, alpha: exponent(&table)? }),
+        false => Err(time.refuse("a time above 0 s")),
+    }
+}
+
+fn maxwell(field: &Field<'_>) -> Result<Law, InputError> {
+    let table = field.table(&["law", "e0", "branches"])?;
+    let e0 = table.need("e0")?.number()?;
+    let list = table.need("branches")?;
+    let branches: Vec<Branch> = (list.pairs("at least one branch [modulus, time]")?.into_iter())
+        .map(|[modulus, tau_s]| Branch { modulus, tau_s })
+        .collect();
+    match branches.iter().all(|branch| branch.tau_s > 0.0) {
+        true => Ok(Law::Maxwell { e0, branches }),
+        false => Err(list.refuse("branches [modulus, time] with times above 0 s")),
+    }
+}
+
+fn exponent(table: &Table<'_>) -> Result<f64, InputError> {
     let exponent = table.need("alpha")?;
     let alpha = exponent.number()?;
     match (0.0..=1.0).contains(&alpha) {
-        true => Ok(Law::Fractional { e0, e1, alpha }),
+        true => Ok(alpha),
         false => Err(exponent.refuse("a number from 0 (elastic) to 1 (viscous)")),
     }
 }
@@ -132,6 +174,9 @@ pub(super) fn identify(field: &Field<'_>) -> Result<IdentifyEntry, InputError> {
     let known = [
         "matrix",
         "band_hz",
+        "varies",
+        "law",
+        "branches",
         "method",
         "order",
         "selection",
@@ -153,6 +198,7 @@ pub(super) fn identify(field: &Field<'_>) -> Result<IdentifyEntry, InputError> {
         place: table.place.clone(),
         matrices: table.need("matrix")?.texts()?,
         band_hz: table.find("band_hz").map(|band| self::band(&band)).transpose()?,
+        laws: laws(&table)?,
         method: table.find("method").map(|field| field.word(method)).transpose()?.map(|m| m.value),
         order: table.find("order").map(|order| order.whole()).transpose()?,
         selection: table.find("selection").map(|field| field.word(selection)).transpose()?,
@@ -164,6 +210,50 @@ pub(super) fn identify(field: &Field<'_>) -> Result<IdentifyEntry, InputError> {
         robust: table.find("robust").map(|robust| robust.flag()).transpose()?,
         truth: table.find("truth").map(|truth| factor(&truth)).transpose()?,
     })
+}
+
+/// What `varies`, `law` and `branches` say together.
+fn laws(table: &Table<'_>) -> Result<Option<Located<Vec<Family>>>, InputError> {
+    let varies = |word: &str| match word {
+        "frequency" => Ok(false),
+        "law" => Ok(true),
+        _ => Err("\"frequency\" (a factor of its own at each) or \"law\"".into()),
+    };
+    let by_law = table.find("varies").map(|field| field.word(varies)).transpose()?;
+    let (law, branches) = (table.find("law"), table.find("branches"));
+    let Some(Located { place, .. }) = by_law.filter(|by_law| by_law.value) else {
+        return match law.or(branches) {
+            Some(key) => Err(InputError::at(&key.place, "varies = \"law\" beside it", "none")),
+            None => Ok(None),
+        };
+    };
+    let Some(law) = law else {
+        return match branches {
+            Some(key) => Err(InputError::at(&key.place, "law = \"maxwell\" beside it", "none")),
+            None => Ok(Some(Located { value: Family::ALL.to_vec(), place })),
+        };
+    };
+    let named = law.texts()?;
+    let mut families: Vec<Family> = Vec::with_capacity(named.len());
+    for Located { value, place: here } in &named {
+        let family = value.parse::<Family>();
+        let family =
+            family.map_err(|_| InputError::at(here, UnknownFamily::EXPECTED, format!("{value:?}")))?;
+        if families.contains(&family) {
+            return Err(InputError::at(here, "each law once", format!("{value:?} a second time")));
+        }
+        families.push(family);
+    }
+    if let Some(key) = branches {
+        let count = key.whole()?.value;
+        let count = usize::try_from(count).ok().filter(|n| (1..=MAX_BRANCHES).contains(n));
+        let branches = count.ok_or_else(|| key.refuse(&format!("1 to {MAX_BRANCHES}")))?;
+        let Some(at) = named.iter().position(|named| named.value == "maxwell") else {
+            return Err(InputError::at(&key.place, "law = \"maxwell\" beside it", "none"));
+        };
+        families[at] = Family::Maxwell { branches };
+    }
+    Ok(Some(Located { value: families, place }))
 }
 
 /// `[respond]`.

@@ -5,15 +5,19 @@ mod candidates;
 mod certificate;
 mod error_map;
 mod hits;
+mod laws;
 mod measured;
 mod modulus;
 mod spectral_radius;
+
+pub use laws::law_figures;
 
 use crate::load::{Case, IdentifyCase};
 use crate::output::File;
 use crate::records::Records;
 use crate::run::{IdentifyRun, RespondRun};
 use frfit::identify::{Selection, Status};
+use frfit::laws::best;
 use frfit::signal::Measured;
 use frfit_figures::{Class, Color, Figure, PngError, Strip};
 
@@ -37,7 +41,12 @@ pub fn identify_figures(
         };
         figures.push((name, accelerance::identified(case, identify, run, sensor)));
     }
-    figures.push(("modulus".to_owned(), modulus::figure(case, identify, run)));
+    let law = run.laws.as_ref().and_then(|laws| Some((laws, best(&laws.fits)?)));
+    let modulus = match law {
+        Some((laws, best)) => laws::of_band(case, identify, run, &laws.free, best),
+        None => modulus::figure(case, identify, run),
+    };
+    figures.push(("modulus".to_owned(), modulus));
     if run.outcomes.iter().any(|outcome| outcome.spectral_radius.is_some()) {
         figures.push(("spectral_radius".to_owned(), spectral_radius::figure(case, run)));
     }

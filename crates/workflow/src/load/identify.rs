@@ -10,6 +10,7 @@ use crate::error::{InputError, Place};
 use crate::nearest::nearest;
 use frfit::c64;
 use frfit::identify::{Method, Options, OptionsError, Selection, Space};
+use frfit::laws::Family;
 use frfit::material::Law;
 use frfit::model::{DynamicStiffness, Parameter};
 use frfit::roots::Bounds;
@@ -23,6 +24,8 @@ pub struct IdentifyCase {
     pub parameter: Parameter,
     /// How to find it.
     pub options: Options,
+    /// Laws to fit to the whole band, and to compare; none where every frequency has its own factor.
+    pub laws: Vec<Family>,
     /// First and last frequency of the band as it was asked for.
     pub band_hz: [f64; 2],
     /// The measured frequencies in it, ascending; at least one.
@@ -58,7 +61,10 @@ pub(super) fn identify(
         return Err(InputError::at(&Place::file(&case.file), "a table [identify]", "none"));
     };
     let names = known_names(case, entry)?;
-    let options = options(entry, overrides)?;
+    let mut options = options(entry, overrides)?;
+    if let Some(laws) = &entry.laws {
+        options.space = space_of_laws(&options, &laws.place)?;
+    }
     let mut parameter = shared_factor(entry, &names, model)?;
     if let Some(place) = &entry.estimate {
         parameter.nominal = middle_of(&options.bounds, place)?;
@@ -70,6 +76,7 @@ pub(super) fn identify(
         names,
         parameter,
         options,
+        laws: entry.laws.as_ref().map_or(Vec::new(), |laws| laws.value.clone()),
         band_hz,
         frequency_hz: data.frequency_hz,
         measured: data.measured,
@@ -179,6 +186,22 @@ fn options(entry: &IdentifyEntry, overrides: &Overrides) -> Result<Options, Inpu
 }
 
 const ORDERS: &str = "1 to 200";
+
+/// Laws are fitted on the subspace of a joint selection, and are laws of a complex modulus.
+fn space_of_laws(options: &Options, varies: &Place) -> Result<Space, InputError> {
+    let refuse = |expected: &str, found: String| Err(InputError::at(varies, expected, found));
+    if options.selection != Selection::Joint {
+        let found = format!("\"law\" with selection {:?}", options.selection.name());
+        return refuse("\"frequency\", or selection = \"joint\"", found);
+    }
+    if options.space == Space::Full {
+        return refuse("\"frequency\", or the space \"subspace\"", "\"law\" with space \"full\"".into());
+    }
+    if options.real {
+        return refuse("\"frequency\" for a real factor", "\"law\" with real = true".into());
+    }
+    Ok(Space::Subspace)
+}
 
 /// The key or the option that an invalid option comes from.
 fn invalid(error: &OptionsError, entry: &IdentifyEntry, overrides: &Overrides) -> InputError {

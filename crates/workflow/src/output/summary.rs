@@ -1,5 +1,6 @@
 //! `summary.json`: what went in, what was done, what came out, in a form that programs read.
 
+use super::laws_json;
 use crate::load::{Case, IdentifyCase, MeasuredNoise};
 use crate::run::IdentifyRun;
 use frfit::c64;
@@ -48,6 +49,8 @@ pub fn summary_json(
         "sensors": (0..case.sensors.len()).map(|m| sensor(case, run, m)).collect::<Vec<_>>(),
         "identify": {
             "matrix": identify.names,
+            "varies": if identify.laws.is_empty() { "frequency" } else { "law" },
+            "law": identify.laws.iter().map(|family| family.to_string()).collect::<Vec<_>>(),
             "band_hz": identify.band_hz,
             "method": options.method.name(),
             "order": options.order,
@@ -79,11 +82,15 @@ pub fn summary_json(
             "subspace": run.seconds.subspace,
             "solutions": run.seconds.solutions,
             "selection": run.seconds.selection,
+            "laws": run.seconds.laws,
             "identify": run.seconds.identify(),
             "error_map": run.seconds.error_map,
             "figures": seconds_figures,
         },
     });
+    if let Some(laws) = &run.laws {
+        summary["laws"] = laws_json(laws);
+    }
     if let Some(truth) = truth(identify, run) {
         summary["truth"] = truth;
     }

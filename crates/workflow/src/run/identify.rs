@@ -5,9 +5,10 @@ use crate::load::{Case, IdentifyCase, MeasuredNoise};
 use frfit::c64;
 use frfit::frequency::bands_hz;
 use frfit::identify::{
-    Band, BandOutcome, GoodnessOfFit, Hooks, Identified, Method, Noise, NoiseLevel, SensorFit, Stage, Status,
-    error_by_order, identify_band,
+    Band, BandOutcome, GoodnessOfFit, Hooks, Identified, LawsOutcome, Method, Noise, NoiseLevel, SensorFit,
+    Stage, Status, error_by_order, identify_band, identify_laws,
 };
+use frfit::laws::LawFit;
 use frfit::material::OutsideTable;
 use frfit::response::{FullModel, Work};
 use rayon::prelude::*;
@@ -42,6 +43,8 @@ pub struct Seconds {
     pub solutions: f64,
     /// The choice among them.
     pub selection: f64,
+    /// Laws.
+    pub laws: f64,
     /// The error map.
     pub error_map: f64,
 }
@@ -65,8 +68,19 @@ pub struct IdentifyRun {
     pub fit: Option<GoodnessOfFit>,
     /// One for each sensor of a joint selection.
     pub sensors: Vec<SensorFit>,
+    /// The laws that were fitted; `None` where every frequency has its own factor. The outcomes are those of the best law.
+    pub laws: Option<LawsRun>,
     /// How long it took.
     pub seconds: Seconds,
+}
+
+/// Laws fitted to a band.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LawsRun {
+    /// One for each law that could be fitted.
+    pub fits: Vec<LawFit>,
+    /// What each frequency says by itself.
+    pub free: Vec<Identified>,
 }
 
 /// Columns of the error map where none are asked for.
@@ -109,13 +123,23 @@ pub fn identify(
             progress(done, total);
         },
     };
-    let found = identify_band(&band, &identify.options, hooks)?;
+    let (found, laws) = match identify.laws.as_slice() {
+        [] => (identify_band(&band, &identify.options, hooks)?, None),
+        families => {
+            let LawsOutcome { free, fits, outcomes, work, subspace_size } =
+                identify_laws(&band, families, &identify.options, hooks)?;
+            // What each frequency by itself told of noise and sensors holds for the laws too.
+            let alone = free.outcomes.clone();
+            let found = BandOutcome { outcomes, work, subspace_size, fit: None, ..free };
+            (found, Some(LawsRun { fits, free: alone }))
+        }
+    };
     let mut seconds = clock.seconds();
     let start = Instant::now();
     let error_map = error_map(case, identify, options)?;
     seconds.error_map = start.elapsed().as_secs_f64();
     let BandOutcome { outcomes, work, subspace_size, explored, noise, fit, sensors } = found;
-    Ok(IdentifyRun { outcomes, error_map, work, subspace_size, explored, noise, fit, sensors, seconds })
+    Ok(IdentifyRun { outcomes, error_map, work, subspace_size, explored, noise, fit, sensors, laws, seconds })
 }
 
 /// Wall-clock time by stage: each lasts until another is heard of.
@@ -141,6 +165,7 @@ impl StageClock {
             Some(Stage::Subspace) => seconds.subspace += elapsed,
             Some(Stage::Solutions) => seconds.solutions += elapsed,
             Some(Stage::Selection) => seconds.selection += elapsed,
+            Some(Stage::Law) => seconds.laws += elapsed,
             None => {}
         }
         (*current, *since) = (next, now);
@@ -155,7 +180,7 @@ impl StageClock {
 impl Seconds {
     /// Of the identification: everything but the error map.
     pub fn identify(&self) -> f64 {
-        self.subspace + self.solutions + self.selection
+        self.subspace + self.solutions + self.selection + self.laws
     }
 }
 

@@ -3,7 +3,7 @@
 mod identify;
 mod respond;
 
-pub use identify::{ErrorMap, IdentifyRun, RunOptions, Seconds, identify};
+pub use identify::{ErrorMap, IdentifyRun, LawsRun, RunOptions, Seconds, identify};
 pub use respond::{RespondRun, respond};
 
 /// Called after each frequency with how many are done, of how many; from any thread.

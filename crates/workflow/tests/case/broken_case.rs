@@ -146,7 +146,7 @@ fn matrices_and_factors() {
         (
             "factor = { storage = 2.0e5, loss_factor = 0.1 }",
             "factor = true",
-            "case.toml:6:1: matrix.factor: expected a finite number, { storage = ..., loss_factor = ... }, { law = \"fractional\", e0 = ..., e1 = ..., alpha = ... } or { table = \"file\" }, found true",
+            "case.toml:6:1: matrix.factor: expected a finite number, { storage = ..., loss_factor = ... }, { law = \"fractional\", e0 = ..., e1 = ..., alpha = ... }, { law = \"zener\", ... }, { law = \"maxwell\", ... } or { table = \"file\" }, found true",
         ),
         (
             "factor = { storage = 2.0e5, loss_factor = 0.1 }",
@@ -381,12 +381,12 @@ fn options_and_bands() {
         (
             "law = \"fractional\"",
             "law = \"fractal\"",
-            "case.toml:33:11: identify.truth.law: expected \"fractional\", found \"fractal\"",
+            "case.toml:33:11: identify.truth.law: expected \"fractional\", \"zener\" or \"maxwell\", found \"fractal\"",
         ),
         (
             "truth = { law = \"fractional\", e0 = 1.0e5, e1 = 2.0e4, alpha = 0.5 }",
             "truth = \"x.csv\"",
-            "case.toml:33:1: identify.truth: expected a finite number, { storage = ..., loss_factor = ... }, { law = \"fractional\", e0 = ..., e1 = ..., alpha = ... } or { table = \"file\" }, found the text \"x.csv\"",
+            "case.toml:33:1: identify.truth: expected a finite number, { storage = ..., loss_factor = ... }, { law = \"fractional\", e0 = ..., e1 = ..., alpha = ... }, { law = \"zener\", ... }, { law = \"maxwell\", ... } or { table = \"file\" }, found the text \"x.csv\"",
         ),
         ("points = 4", "points = 0", "case.toml:36:1: respond.points: expected 1 to 1000000, found 0"),
         (

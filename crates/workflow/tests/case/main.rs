@@ -5,4 +5,5 @@ mod broken_case;
 mod broken_files;
 mod files;
 mod good;
+mod laws;
 mod measured;

@@ -87,7 +87,7 @@ impl Task<'_, '_> {
 pub(super) fn identify<'a>(
     band: &Band<'a>,
     at: &[ModelAt<'a>],
-    mut space: Option<Space<'a, '_>>,
+    space: &mut Option<Space<'a, '_>>,
     options: &Options,
     hooks: Hooks<'_>,
 ) -> BandOutcome {
@@ -98,7 +98,7 @@ pub(super) fn identify<'a>(
     let out: &[usize] = if options.robust { &suspects } else { &[] };
     let sigma = without(&assumed, out);
     let task = Task { sigma: &sigma, sensors: sensors - out.len(), ..task };
-    let (solved, mut work) = match &mut space {
+    let (solved, mut work) = match space {
         Some(space) => (on_space(&task, space), Work::default()),
         None => {
             let (found, work) = on_full_model(&task);
@@ -131,7 +131,7 @@ pub(super) fn identify<'a>(
         };
         verdict(&evidence, &found[i], &choices[i], options)
     });
-    if let Some(space) = &space {
+    if let Some(space) = space {
         work += space.work();
     }
     let fit = goodness(&outcomes, task.freedom(), &noise, band);
@@ -144,7 +144,7 @@ pub(super) fn identify<'a>(
     BandOutcome {
         outcomes,
         work,
-        subspace_size: space.map(|space| space.size()),
+        subspace_size: space.as_ref().map(|space| space.size()),
         explored,
         noise,
         fit,

@@ -7,12 +7,15 @@ mod explore;
 mod fit;
 mod follow;
 mod joint;
+mod laws;
 mod noise;
 mod on_space;
 mod same;
 mod space;
 mod tube;
 mod verdict;
+
+pub use laws::{LawsOutcome, identify_laws};
 
 use super::{Identified, Options, Selection};
 use crate::c64;
@@ -62,6 +65,8 @@ pub enum Stage {
     Solutions,
     /// One of them is chosen at each frequency.
     Selection,
+    /// Laws are fitted.
+    Law,
 }
 
 /// What the caller lends: threads, and an ear for (stage, how many frequencies are done, of how many).
@@ -115,16 +120,22 @@ pub fn identify_band(
     let at: Vec<ModelAt<'_>> = at.collect::<Result<_, _>>()?;
     let near = identify_at_all(band, &at, options, hooks);
     // Where a path through the solutions near the nominal leaves out most of the band, the nominal is too far: the bounds are all that is left.
-    let answered = |outcome: &BandOutcome| outcome.outcomes.iter().filter(|o| o.correction.is_some()).count();
     let wider =
         options.selection == Selection::Joint && options.bounds.storage.is_some() && !options.whole_box;
-    if !wider || 2 * answered(&near) >= at.len() {
+    if !wider || 2 * near.answered() >= at.len() {
         return Ok(near);
     }
     let mut far = identify_at_all(band, &at, &Options { whole_box: true, ..*options }, hooks);
     far.work += near.work;
     let work = far.work;
-    Ok(BandOutcome { work, ..if answered(&far) > answered(&near) { far } else { near } })
+    Ok(BandOutcome { work, ..if far.answered() > near.answered() { far } else { near } })
+}
+
+impl BandOutcome {
+    /// How many frequencies have an answer.
+    fn answered(&self) -> usize {
+        self.outcomes.iter().filter(|outcome| outcome.correction.is_some()).count()
+    }
 }
 
 fn identify_at_all<'a>(
@@ -133,11 +144,30 @@ fn identify_at_all<'a>(
     options: &Options,
     hooks: Hooks<'_>,
 ) -> BandOutcome {
+    match options.selection {
+        Selection::Joint => keeping_space(band, at, options, hooks).0,
+        Selection::Smallest => alone::identify(band, at, space(band, at, options, hooks), options, hooks),
+    }
+}
+
+/// A joint selection, and the subspace that it was made on.
+fn keeping_space<'a, 'o>(
+    band: &Band<'a>,
+    at: &'o [ModelAt<'a>],
+    options: &'o Options,
+    hooks: Hooks<'_>,
+) -> (BandOutcome, Option<Space<'a, 'o>>) {
+    let mut space = space(band, at, options, hooks);
+    (joint::identify(band, at, &mut space, options, hooks), space)
+}
+
+fn space<'a, 'o>(
+    band: &Band<'a>,
+    at: &'o [ModelAt<'a>],
+    options: &'o Options,
+    hooks: Hooks<'_>,
+) -> Option<Space<'a, 'o>> {
     let wanted = options.space.is_subspace(options.method, band.model.dim(), at.len());
     // A singular stand-in for D is no reason to give up: the full model says at which frequency what breaks down.
-    let space = wanted.then(|| Space::new(band, at, options, hooks).ok()).flatten();
-    match options.selection {
-        Selection::Joint => joint::identify(band, at, space, options, hooks),
-        Selection::Smallest => alone::identify(band, at, space, options, hooks),
-    }
+    wanted.then(|| Space::new(band, at, options, hooks).ok()).flatten()
 }

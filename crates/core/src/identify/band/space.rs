@@ -182,7 +182,7 @@ impl<'a, 'o> Space<'a, 'o> {
     }
 
     /// Trains at answers (frequency, correction); false where nothing was gained.
-    fn refine(&mut self, answers: &[(usize, c64)], hooks: Hooks<'_>) -> Result<bool, Breakdown> {
+    pub(super) fn refine(&mut self, answers: &[(usize, c64)], hooks: Hooks<'_>) -> Result<bool, Breakdown> {
         (hooks.progress)(Stage::Subspace, 0, self.at.len());
         // Neighbours lack the same: those that this leaves uncertain are looked at in the next round.
         let answers: Vec<(usize, c64)> = thinned(answers, FREQUENCIES).copied().collect();

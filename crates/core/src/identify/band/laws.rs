@@ -1,0 +1,329 @@
+//! Laws fitted straight to the FRFs: all frequencies and all sensors in one least squares (B-7).
+//!
+//! Every frequency by itself comes first: it trains the subspace, and tells where to begin. Then Σ |u_m − x_m(E(ω; θ))|²/σ_m² over the band is made least in θ on the
+//! models of the neighbourhoods, ∂x_m/∂θ = (∂x_m/∂c)(∂E/∂θ). The subspace is trained further where it is not good enough at the law that came out.
+
+use super::contradiction::without;
+use super::noise::deviations;
+use super::space::{Space, certificate, is_certain};
+use super::{Band, BandOutcome, Hooks, Noise, Stage, keeping_space};
+use crate::c64;
+use crate::for_each::map;
+use crate::frequency::omega_rad_s;
+use crate::identify::{Identified, Options, Selection, Space as Where, Status, Uncertainty, relative_error};
+use crate::laws::{
+    Chart, Datum, Evidence, Family, LawFit, Minima, Residuals, Search, best, minimise, starts,
+};
+use crate::material::OutsideTable;
+use crate::model::ModelAt;
+use crate::response::Work;
+
+/// What came out.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LawsOutcome {
+    /// Each frequency by itself.
+    pub free: BandOutcome,
+    /// One for each law with a finite misfit, in the order in which they were asked for; none where there is no subspace to fit on.
+    pub fits: Vec<LawFit>,
+    /// The law of least BIC at each frequency.
+    pub outcomes: Vec<Identified>,
+    /// All work of size N.
+    pub work: Work,
+    /// Vectors of the subspace.
+    pub subspace_size: Option<usize>,
+}
+
+/// Starts that are followed for each law: each costs some dozen responses of the whole band.
+const FOLLOWED: usize = 4;
+
+/// Evaluations for each start and unknown.
+const PATIENCE: usize = 15;
+
+/// By how much all moduli of a start are moved: on a lightly damped structure the misfit has a valley for each coincidence of measured and computed resonances.
+const MOVED: [f64; 8] = [-0.03, -0.01, -0.003, -0.001, 0.001, 0.003, 0.01, 0.03];
+
+/// Rounds of training at the law before what is left is called uncertain.
+const ROUNDS: usize = 4;
+
+/// No modulus from one frequency is better than this, relative: where the noise is none, no frequency shall rule alone.
+const LEAST_STD: f64 = 1e-6;
+
+/// A misfit of this many deviations (root mean square) at a frequency is not noise.
+const UNEXPLAINED: f64 = 5.0;
+
+/// A modulus with a standard deviation of half of itself is not known.
+const UNKNOWN: f64 = 0.5;
+
+/// Another minimum this many deviations away is another answer.
+const APART: f64 = 3.0;
+
+/// Fits laws to a band, and takes the one of least BIC.
+///
+/// The selection is joint, and what answers is the subspace, whatever the options say: on the full model every step would take a factorisation at each frequency. Statuses
+/// are those of the law at each frequency: `ok`; `no_root` where it breaks the bounds or leaves more than noise and `options.error`; `ambiguous` where another minimum
+/// that cannot be excluded has another modulus; `ill_conditioned` where the search did not settle, the deviation is half the modulus, or the subspace is not good enough.
+///
+/// # Errors
+/// [`OutsideTable`] where a table does not reach a frequency.
+///
+/// # Panics
+/// Where there is no frequency, or not one measured value for each frequency and sensor.
+pub fn identify_laws(
+    band: &Band<'_>,
+    families: &[Family],
+    options: &Options,
+    hooks: Hooks<'_>,
+) -> Result<LawsOutcome, OutsideTable> {
+    assert!(!band.frequency_hz.is_empty() && band.measured.len() == band.frequency_hz.len());
+    let parameters = std::slice::from_ref(band.parameter);
+    let at = band.frequency_hz.iter().map(|&f| band.model.at(f, parameters));
+    let at: Vec<ModelAt<'_>> = at.collect::<Result<_, _>>()?;
+    let near = Options { space: Where::Subspace, selection: Selection::Joint, ..*options };
+    let far = Options { whole_box: true, ..near };
+    let (mut free, mut space) = keeping_space(band, &at, &near, hooks);
+    // As without laws: where most of the band is left out, the bounds are all that is left.
+    if near.bounds.storage.is_some() && !near.whole_box && 2 * free.answered() < at.len() {
+        let (wider, wider_space) = keeping_space(band, &at, &far, hooks);
+        let work = free.work;
+        if wider.answered() > free.answered() {
+            (free, space) = (wider, wider_space);
+        }
+        free.work += work;
+    }
+    let sensors = free.sensors.iter().enumerate();
+    let out: Vec<usize> = sensors.filter(|(_, sensor)| sensor.left_out).map(|(m, _)| m).collect();
+    let sigma = without(&deviations(band), &out);
+    let fitting = Fitting { band, at: &at, sigma: &sigma, options, hooks };
+    let Some(mut space) = space else {
+        let outcomes = free.outcomes.iter().map(|own| fitting.without_law(own)).collect();
+        return Ok(LawsOutcome { work: free.work, subspace_size: None, fits: Vec::new(), outcomes, free });
+    };
+    let before = space.work();
+    let all: Vec<usize> = (0..at.len()).collect();
+    space.localise(&all, hooks.for_each);
+    let mut fits: Vec<LawFit> = Vec::new();
+    for &family in families {
+        (hooks.progress)(Stage::Law, fits.len(), families.len());
+        fits.extend(fitting.fit(family, &mut space, &free, best(&fits)));
+    }
+    (hooks.progress)(Stage::Law, families.len(), families.len());
+    let outcomes = match best(&fits) {
+        Some(law) => map(hooks.for_each, at.len(), |i| fitting.outcome(law, &space, i, &free.outcomes[i])),
+        None => free.outcomes.iter().map(|own| fitting.without_law(own)).collect(),
+    };
+    let mut work = free.work;
+    work.factorisations += space.work().factorisations - before.factorisations;
+    work.solves += space.work().solves - before.solves;
+    Ok(LawsOutcome { outcomes, fits, work, subspace_size: Some(space.size()), free })
+}
+
+/// What is to be explained, and with what.
+struct Fitting<'t, 'a> {
+    band: &'t Band<'a>,
+    at: &'t [ModelAt<'a>],
+    /// Of real and imaginary part each.
+    sigma: &'t [Vec<f64>],
+    options: &'t Options,
+    hooks: Hooks<'t>,
+}
+
+impl Fitting<'_, '_> {
+    fn omega(&self, i: usize) -> f64 {
+        omega_rad_s(self.band.frequency_hz[i])
+    }
+
+    fn evidence(&self) -> Evidence {
+        Evidence {
+            // A sensor that is left out has an infinite deviation.
+            residuals: 2 * self.sigma.iter().flatten().filter(|sigma| sigma.is_finite()).count(),
+            sigma_known: matches!(self.band.noise, Noise::Known(_)),
+        }
+    }
+
+    /// Fits one law, and trains the subspace at it; `None` where there are fewer numbers than parameters, or nowhere a finite misfit.
+    fn fit(
+        &self,
+        family: Family,
+        space: &mut Space<'_, '_>,
+        free: &BandOutcome,
+        so_far: Option<&LawFit>,
+    ) -> Option<LawFit> {
+        if self.evidence().residuals < family.count() {
+            return None;
+        }
+        let omegas: Vec<f64> = (0..self.at.len()).map(|i| self.omega(i)).collect();
+        let chart = Chart::about(family, &omegas);
+        let mut begin = self.starts(&chart, space, free, so_far);
+        let all: Vec<usize> = (0..self.at.len()).collect();
+        let mut first: Option<Minima> = None;
+        for round in 0..=ROUNDS {
+            let search = Search { starts: FOLLOWED, patience: PATIENCE, same: 0.0 };
+            let found = minimise(&begin, &|theta| self.residuals(&chart, space, theta), &search)?;
+            // What the starts said is said once; later rounds move the one that was best.
+            let minima = match first.take() {
+                Some(before) => Minima { best: found.best, ..before },
+                None => found,
+            };
+            let theta = minima.best.theta.clone();
+            begin = vec![theta.clone()];
+            first = Some(minima);
+            let lacking = self.lacking(&chart, space, &theta);
+            if lacking.is_empty() || round == ROUNDS || !space.refine(&lacking, self.hooks).unwrap_or(false) {
+                break;
+            }
+            space.localise(&all, self.hooks.for_each);
+        }
+        Some(LawFit::new(chart, first?, self.evidence()))
+    }
+
+    /// The law's corrections at which the subspace is not good enough.
+    fn lacking(&self, chart: &Chart, space: &Space<'_, '_>, theta: &[f64]) -> Vec<(usize, c64)> {
+        let one = |i: usize| {
+            let (modulus, _) = chart.modulus(theta, self.omega(i))?;
+            let correction = modulus - self.at[i].parameters[0].nominal;
+            let assessed = space.assess(i, correction)?;
+            (!is_certain(&self.at[i], correction, &assessed)).then_some((i, correction))
+        };
+        map(self.hooks.for_each, self.at.len(), one).into_iter().flatten().collect()
+    }
+
+    /// (x_m − u_m)/σ_m over the band and its slopes.
+    fn residuals(&self, chart: &Chart, space: &Space<'_, '_>, theta: &[f64]) -> Option<Residuals> {
+        let n = theta.len();
+        let one = |i: usize| -> Option<(Vec<f64>, Vec<f64>)> {
+            let (modulus, of_theta) = chart.modulus(theta, self.omega(i))?;
+            let correction = modulus - self.at[i].parameters[0].nominal;
+            let (x, slope) = space.model(i).respond_with_slope(&self.at[i], correction).ok()?;
+            let sensors = 0..x.len();
+            let scaled = |value: c64, m: usize| [value.re / self.sigma[i][m], value.im / self.sigma[i][m]];
+            let rest = sensors.clone().flat_map(|m| scaled(x[m] - self.band.measured[i][m], m)).collect();
+            let columns = (0..n).flat_map(|j| {
+                let (slope, of_theta, sensors) = (&slope, of_theta[j], sensors.clone());
+                sensors.flat_map(move |m| scaled(slope[m] * of_theta, m))
+            });
+            Some((rest, columns.collect()))
+        };
+        let parts: Vec<_> =
+            map(self.hooks.for_each, self.at.len(), one).into_iter().collect::<Option<_>>()?;
+        let residuals: Vec<f64> = parts.iter().flat_map(|(rest, _)| rest.iter().copied()).collect();
+        let mut jacobian = Vec::with_capacity(n * residuals.len());
+        for j in 0..n {
+            for (rest, columns) in &parts {
+                jacobian.extend_from_slice(&columns[j * rest.len()..(j + 1) * rest.len()]);
+            }
+        }
+        let finite = residuals.iter().chain(&jacobian).all(|value| value.is_finite());
+        finite.then_some((residuals, jacobian))
+    }
+
+    /// Where to begin: the law of what each frequency says, the law nearest to another law that fits, that of the nominal, and the neighbourhood of the first.
+    fn starts(
+        &self,
+        chart: &Chart,
+        space: &Space<'_, '_>,
+        free: &BandOutcome,
+        so_far: Option<&LawFit>,
+    ) -> Vec<Vec<f64>> {
+        let all = 0..self.at.len();
+        let answered: Vec<Datum> =
+            all.clone().filter_map(|i| self.datum(space, i, &free.outcomes[i])).collect();
+        let relative =
+            |i: usize, modulus: c64| (modulus.re > 0.0).then(|| Datum::relative(self.omega(i), modulus));
+        let nominal = all.clone().filter_map(|i| relative(i, self.at[i].parameters[0].nominal)).collect();
+        let other = all.filter_map(|i| relative(i, so_far?.at(self.band.frequency_hz[i])?.modulus)).collect();
+        let mut begin: Vec<Vec<f64>> = Vec::new();
+        for data in [answered, other, nominal] {
+            let Some(near) = nearest(chart, &data) else { continue };
+            if begin.is_empty() {
+                begin.extend(MOVED.map(|by| chart.scaled(&near.best.theta, by)));
+            }
+            begin.push(near.best.theta);
+            begin.extend(near.others.into_iter().map(|other| other.theta));
+        }
+        begin
+    }
+
+    /// What a frequency says by itself, with its deviation: σ carried by the slope of the response.
+    fn datum(&self, space: &Space<'_, '_>, i: usize, own: &Identified) -> Option<Datum> {
+        let correction = own.correction.filter(|_| own.status == Status::Ok)?;
+        let modulus = own.nominal + correction;
+        let (_, slope) = space.model(i).respond_with_slope(&self.at[i], correction).ok()?;
+        let information: f64 =
+            slope.iter().zip(&self.sigma[i]).map(|(slope, sigma)| slope.norm_sqr() / (sigma * sigma)).sum();
+        let std = information.powf(-0.5).max(LEAST_STD * modulus.norm());
+        (std.is_finite() && modulus.re > 0.0).then(|| Datum::circular(self.omega(i), modulus, std))
+    }
+
+    /// The law at one frequency, judged there.
+    fn outcome(&self, law: &LawFit, space: &Space<'_, '_>, i: usize, own: &Identified) -> Identified {
+        let (at, measured) = (&self.at[i], &self.band.measured[i]);
+        let found = law.at(self.band.frequency_hz[i]).and_then(|estimate| {
+            let correction = estimate.modulus - own.nominal;
+            Some((estimate, correction, space.model(i).assess(at, correction).ok()?))
+        });
+        let Some((estimate, correction, assessed)) = found else { return self.without_law(own) };
+        let mut outcome = self.without_law(own);
+        let certified = certificate(&assessed, estimate.modulus, measured);
+        let error = relative_error(measured, &assessed.response);
+        let rest = measured.iter().zip(&assessed.response).zip(&self.sigma[i]);
+        let misfit: f64 = rest.map(|((u, x), sigma)| ((u - x) / sigma).norm_sqr()).sum();
+        let level = if law.sigma_known { 1.0 } else { law.reduced_chi_squared().unwrap_or(0.0).sqrt() };
+        let counted = self.sigma[i].iter().filter(|sigma| sigma.is_finite()).count();
+        let rms = (misfit / (2 * counted) as f64).sqrt();
+        let size = estimate.modulus.norm();
+        // |δE| of E′ and η together.
+        let std = estimate
+            .storage_std
+            .zip(estimate.loss_factor_std)
+            .map(|(storage, eta)| storage.hypot(eta * size));
+        outcome.correction = Some(correction);
+        outcome.uncertainty =
+            std.zip(estimate.storage_std).map(|(correction_std, storage_std)| Uncertainty {
+                correction_std,
+                storage_std,
+                loss_factor_std: estimate.loss_factor_std,
+                correlation: estimate.correlation,
+                // That the law is not linear in its parameters is for its fit to tell.
+                nonlinearity: 0.0,
+            });
+        outcome.error = Some(error).filter(|error| error.is_finite());
+        outcome.spectral_radius = outcome.radius.map(|radius| radius.at(correction));
+        outcome.certificate = Some(certified.response).filter(|c| c.is_finite());
+        outcome.updated_response = assessed.response;
+        let apart = |rival: &c64| (rival - estimate.modulus).norm() > APART * std.unwrap_or(f64::INFINITY);
+        let rivals = law.rivals_at(self.band.frequency_hz[i]).into_iter().filter(apart);
+        outcome.alternatives = rivals.map(|rival| rival - own.nominal).collect();
+        let unexplained = error > self.options.error && rms > UNEXPLAINED * level;
+        let known = std.is_some_and(|std| std <= UNKNOWN * size);
+        outcome.status = if unexplained || self.options.bounds.broken_by(estimate.modulus).is_some() {
+            Status::NoRoot
+        } else if !outcome.alternatives.is_empty() {
+            Status::Ambiguous
+        } else if !law.converged || !known || certified.factor > self.options.certain {
+            Status::IllConditioned
+        } else {
+            Status::Ok
+        };
+        outcome
+    }
+
+    /// What is known of a frequency before any law: the nominal response and the solutions there.
+    fn without_law(&self, own: &Identified) -> Identified {
+        Identified {
+            radius: own.radius,
+            roots: own.roots.clone(),
+            breakdown: own.breakdown.clone(),
+            nominal_response: own.nominal_response.clone(),
+            status: Status::IllConditioned,
+            ..Identified::unknown(own.frequency_hz, own.nominal, own.order)
+        }
+    }
+}
+
+/// The law nearest to some moduli; `None` where there are too few.
+fn nearest(chart: &Chart, data: &[Datum]) -> Option<Minima> {
+    let enough = 2 * data.len() >= chart.family.count();
+    let search = Search { starts: 3, patience: 30, same: 0.0 };
+    let evaluate = |theta: &[f64]| chart.residuals(data, theta);
+    if enough { minimise(&starts(chart, data), &evaluate, &search) } else { None }
+}

@@ -1,0 +1,22 @@
+//! Laws of the complex modulus with few parameters, fitted to moduli or straight to the FRFs (B-7).
+//!
+//! A law says at all frequencies together what the data say at each: the fewer its parameters, the narrower its error bars, if it is the right law.
+//! That is told by χ² per degree of freedom, and between laws by BIC.
+//!
+//! [`fit_modulus`] fits to a table of moduli, [`crate::identify::identify_laws`] to what was measured on a structure.
+
+mod chart;
+mod datum;
+mod family;
+mod fit;
+mod least_squares;
+mod starts;
+
+pub use datum::Datum;
+pub use family::{Family, MAX_BRANCHES, ParameterName, USUAL_BRANCHES, UnknownFamily};
+pub use fit::{Estimate, LawFit, ModulusEstimate, best, fit_modulus};
+
+pub(crate) use chart::Chart;
+pub(crate) use fit::Evidence;
+pub(crate) use least_squares::{Minima, Residuals, Search, minimise};
+pub(crate) use starts::starts;

@@ -1,0 +1,115 @@
+//! Laws fitted to a table of moduli.
+
+use crate::error::{InputError, Place};
+use crate::figures::law_figures;
+use crate::job::JobError;
+use crate::load::load_bytes;
+use crate::output::{File, Misfit, law_json, laws_text, write_all};
+use frfit::c64;
+use frfit::frequency::omega_rad_s;
+use frfit::laws::{Datum, Family, LawFit, best, fit_modulus};
+use frfit_formats::csv::{ModulusData, read_modulus_data};
+use serde_json::{Value, json};
+use std::path::Path;
+
+/// Laws that were fitted to a table.
+#[derive(Debug)]
+pub struct FitJob {
+    /// What was read.
+    pub data: ModulusData,
+    /// One for each law with fewer parameters than there are numbers.
+    pub fits: Vec<LawFit>,
+    /// `law.json`.
+    pub summary: Value,
+    /// The same for a person.
+    pub text: String,
+}
+
+/// Fits laws to a table of moduli, and writes `law.json` and a figure into `out`, if there is one: all of them, or nothing.
+///
+/// With columns `storage_std` and `loss_factor_std` χ² is in their units; without them every modulus counts relative to its size, and the scatter about the law tells
+/// the deviations.
+///
+/// # Errors
+/// [`JobError`]: what [`read_modulus_data`] refuses, no law with fewer parameters than numbers, an output folder that cannot be written.
+pub fn fit_table(table: &Path, families: &[Family], out: Option<&Path>) -> Result<FitJob, JobError> {
+    let bytes = load_bytes(table)?;
+    let data = read_modulus_data(&bytes).map_err(|error| InputError::in_file(table, error))?;
+    let points = points(&data);
+    let fits: Vec<LawFit> =
+        families.iter().filter_map(|&family| fit_modulus(&points, family, data.std.is_some())).collect();
+    if fits.is_empty() {
+        let least = families.iter().map(|family| family.count()).min().unwrap_or(0);
+        let expected = format!("at least {} moduli, for {least} parameters", least.div_ceil(2));
+        return Err(InputError::at(&Place::file(table), expected, data.storage.len().to_string()).into());
+    }
+    let misfits: Vec<Option<Misfit>> = fits.iter().map(|fit| misfit(fit, &data)).collect();
+    let summary = summary(table, &data, &fits, &misfits);
+    let name = table.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    if let Some(out) = out {
+        let mut files = law_figures(&format!("{name}: laws of the modulus"), &data, &fits)?;
+        files.push(File::new("law.json", format!("{summary:#}\n")));
+        write_all(out, &files)?;
+    }
+    let text = format!("{}\n{}", heading(&name, &data), laws_text(&fits, &misfits));
+    Ok(FitJob { data, fits, summary, text })
+}
+
+fn points(data: &ModulusData) -> Vec<Datum> {
+    let values = data.frequency_hz.iter().zip(data.storage.iter().zip(&data.loss_factor)).enumerate();
+    values
+        .map(|(i, (&f, (&storage, &eta)))| match &data.std {
+            // What identifies a modulus gives no correlation of its parts in a table.
+            Some(std) => Datum::storage_and_loss(f, [storage, eta], std[i], 0.0),
+            None => Datum::relative(omega_rad_s(f), c64::new(storage, storage * eta)),
+        })
+        .collect()
+}
+
+/// |E_law − E|/|E| over the table.
+fn misfit(fit: &LawFit, data: &ModulusData) -> Option<Misfit> {
+    let rows = data.frequency_hz.iter().zip(data.storage.iter().zip(&data.loss_factor));
+    let relative = |(&f, (&storage, &eta)): (&f64, (&f64, &f64))| {
+        let modulus = c64::new(storage, storage * eta);
+        Some((fit.at(f)?.modulus - modulus).norm() / modulus.norm())
+    };
+    Misfit::of(rows.map(relative).collect::<Option<_>>()?)
+}
+
+fn summary(table: &Path, data: &ModulusData, fits: &[LawFit], misfits: &[Option<Misfit>]) -> Value {
+    let laws = fits.iter().zip(misfits).map(|(fit, misfit)| {
+        let mut law = law_json(fit);
+        law["misfit"] = json!({"worst": misfit.map(|m| m.worst), "median": misfit.map(|m| m.median)});
+        law
+    });
+    json!({
+        "frfit": env!("CARGO_PKG_VERSION"),
+        "table": table.display().to_string(),
+        "moduli": data.storage.len(),
+        "left_out": data.left_out,
+        "range_hz": [data.frequency_hz.first(), data.frequency_hz.last()],
+        "criterion": "bic",
+        "best": best(fits).map(|fit| fit.family.to_string()),
+        "laws": laws.collect::<Vec<_>>(),
+    })
+}
+
+fn heading(name: &str, data: &ModulusData) -> String {
+    let (first, last) = (data.frequency_hz[0], data.frequency_hz[data.frequency_hz.len() - 1]);
+    let left_out = match data.left_out {
+        0 => String::new(),
+        count => format!(", {count} rows left out"),
+    };
+    let weights = match &data.std {
+        Some(_) => "weighted by their deviations",
+        None => "weighted by their size",
+    };
+    let (first, last) = (hertz(first), hertz(last));
+    format!("{name}: {} moduli, {first} to {last} Hz{left_out}, {weights}", data.storage.len())
+}
+
+/// A frequency without a row of zeros: master curves span dozens of decades.
+fn hertz(frequency_hz: f64) -> String {
+    let usual = (1e-3..1e6).contains(&frequency_hz);
+    if usual { frequency_hz.to_string() } else { format!("{frequency_hz:e}") }
+}

@@ -1,0 +1,163 @@
+//! Fitted laws: for programs, for people, and for the next case file.
+
+use crate::run::LawsRun;
+use frfit::laws::{Estimate, LawFit, best};
+use frfit::material::Law;
+use serde_json::{Map, Value, json};
+use std::fmt::Write;
+
+/// What a law leaves unexplained of the moduli it was fitted to, relative to them.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Misfit {
+    /// The largest.
+    pub worst: f64,
+    /// The median.
+    pub median: f64,
+}
+
+impl Misfit {
+    /// Of some relative misfits, at least one.
+    pub fn of(mut relative: Vec<f64>) -> Option<Self> {
+        relative.sort_by(f64::total_cmp);
+        Some(Self { worst: *relative.last()?, median: relative[relative.len() / 2] })
+    }
+}
+
+/// One fitted law.
+pub fn law_json(fit: &LawFit) -> Value {
+    let number = |value: f64| if value.is_finite() { json!(value) } else { Value::Null };
+    let parameters: Map<String, Value> = (fit.parameters.iter())
+        .map(|Estimate { name, unit, value, std }| {
+            (name.clone(), json!({"value": number(*value), "std": std, "unit": unit}))
+        })
+        .collect();
+    json!({
+        "law": fit.family.to_string(),
+        "parameters": parameters,
+        "correlation": fit.correlation,
+        "chi_squared": fit.chi_squared,
+        "residuals": fit.residuals,
+        "degrees_of_freedom": fit.degrees_of_freedom(),
+        "chi_squared_per_degree_of_freedom": fit.reduced_chi_squared(),
+        "sigma_known": fit.sigma_known,
+        "bic": number(fit.bic()),
+        "aic": number(fit.aic()),
+        "converged": fit.converged,
+        "starts": fit.starts,
+        "starts_agreeing": fit.agreeing,
+        "factor": snippet(&fit.law),
+    })
+}
+
+/// The laws of a band: `law.json`, and `laws` in `summary.json`.
+pub fn laws_json(laws: &LawsRun) -> Value {
+    json!({
+        "criterion": "bic",
+        "best": best(&laws.fits).map(|fit| fit.family.to_string()),
+        "laws": laws.fits.iter().map(law_json).collect::<Vec<_>>(),
+    })
+}
+
+/// The law as a case file has it: `factor = { … }`.
+pub fn snippet(law: &Law) -> String {
+    match law {
+        Law::Constant(e) => {
+            format!(
+                "factor = {{ storage = {:e}, loss_factor = {:e} }}",
+                e.re,
+                frfit::material::loss_factor(*e)
+            )
+        }
+        Law::Fractional { e0, e1, alpha } => {
+            format!("factor = {{ law = \"fractional\", e0 = {e0:e}, e1 = {e1:e}, alpha = {alpha} }}")
+        }
+        Law::FractionalZener { e0, e_infinity, tau_s, alpha } => format!(
+            "factor = {{ law = \"zener\", e0 = {e0:e}, e_infinity = {e_infinity:e}, tau = {tau_s:e}, alpha = {alpha} }}"
+        ),
+        Law::Maxwell { e0, branches } => {
+            let branch = |b: &frfit::material::Branch| format!("[{:e}, {:e}]", b.modulus, b.tau_s);
+            let branches: Vec<String> = branches.iter().map(branch).collect();
+            format!("factor = {{ law = \"maxwell\", e0 = {e0:e}, branches = [{}] }}", branches.join(", "))
+        }
+        // No fit ends in a table.
+        Law::Table(_) => String::new(),
+    }
+}
+
+/// The laws, best first: what they leave, by how much each is behind the best, and their parameters. `misfits` are those of the fits.
+pub fn laws_text(fits: &[LawFit], misfits: &[Option<Misfit>]) -> String {
+    let mut text = String::new();
+    let Some(chosen) = best(fits) else { return text };
+    let mut order: Vec<usize> = (0..fits.len()).collect();
+    order.sort_by(|&a, &b| {
+        fits[b].converged.cmp(&fits[a].converged).then(fits[a].bic().total_cmp(&fits[b].bic()))
+    });
+    let quality = if chosen.sigma_known { "chi2/dof" } else { "scatter" };
+    // Writing to a string does not fail.
+    let _ = writeln!(
+        text,
+        "  {:<12}{:>10}  {quality:>9}  {:>8}  {:>8}  starts",
+        "law", "BIC - best", "worst", "median"
+    );
+    for k in order {
+        let fit = &fits[k];
+        let left = match (fit.reduced_chi_squared(), fit.sigma_known) {
+            (Some(chi), true) => format!("{chi:.3}"),
+            (Some(chi), false) => format!("{:.2e}", chi.sqrt()),
+            (None, _) => String::new(),
+        };
+        let [worst, median] = match misfits[k] {
+            Some(Misfit { worst, median }) => [worst, median].map(|m| format!("{m:.1e}")),
+            None => [String::new(), String::new()],
+        };
+        let note = if fit.converged { "" } else { ", not settled" };
+        let (behind, law) = (fit.bic() - chosen.bic(), fit.family.to_string());
+        let _ = writeln!(
+            text,
+            "  {law:<12}{behind:>10.1}  {left:>9}  {worst:>8}  {median:>8}  {} of {} agree{note}",
+            fit.agreeing, fit.starts
+        );
+    }
+    let _ = writeln!(text, "  {}", chosen.family);
+    for parameter in &chosen.parameters {
+        let _ = writeln!(text, "    {:<12}{}", parameter.name, with_std(parameter));
+    }
+    let _ = writeln!(text, "  {}", snippet(&chosen.law));
+    text
+}
+
+/// Value ± deviation and unit.
+fn with_std(Estimate { value, std, unit, .. }: &Estimate) -> String {
+    let std = std.map_or("not told by the data".into(), |std| format!("{std:.1e}"));
+    let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
+    format!("{value:.6e} ± {std}{unit}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use frfit::material::Branch;
+
+    #[test]
+    fn snippets_read_back_to_the_last_bit() {
+        let laws = [
+            Law::Fractional { e0: 814_000.1, e1: 7.31e4 / 3.0, alpha: 0.528 },
+            Law::FractionalZener { e0: 1.0 / 3.0, e_infinity: 2e9, tau_s: 8.23e-9, alpha: 1.0 / 7.0 },
+            Law::Maxwell {
+                e0: 1e6,
+                branches: vec![
+                    Branch { modulus: 2e6 / 3.0, tau_s: 1e-4 },
+                    Branch { modulus: 5.0, tau_s: 0.1 },
+                ],
+            },
+        ];
+        for law in laws {
+            let case = format!(
+                "[[matrix]]\nname = \"K\"\nrole = \"stiffness\"\nfile = \"K.mtx\"\n{}\n[load]\nrow = 1\n[[measurement]]\nrow = 1\n",
+                snippet(&law)
+            );
+            let case = crate::case::parse(std::path::Path::new("case.toml"), case.as_bytes()).unwrap();
+            assert_eq!(case.matrices[0].factor.value, crate::case::FactorEntry::Law(law));
+        }
+    }
+}
