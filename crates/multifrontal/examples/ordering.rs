@@ -21,7 +21,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         "{:14} {:>9} {:>10} {:>10} {:>10} {:>10} {:>8} {:>8}",
         "Gflop", "nodes", "degree", "dissection", "automatic", "planes", "diss. s", "auto. s"
     );
-    for mesh in meshes().into_iter().filter(|mesh| mesh.name.contains(&only)) {
+    for mut mesh in meshes().into_iter().filter(|mesh| mesh.name.contains(&only)) {
+        if std::env::args().nth(2).is_some() {
+            mesh.shuffle();
+        }
         let (col_ptr, row_idx) = mesh.lower();
         let dim = mesh.nodes * mesh.dofs;
         let analyse = |ordering: &Ordering| Symbolic::new(dim, &col_ptr, &row_idx, ordering);
@@ -71,6 +74,20 @@ fn meshes() -> Vec<Mesh> {
 }
 
 impl Mesh {
+    /// Numbers the nodes without order.
+    fn shuffle(&mut self) {
+        let mut state = 7u64;
+        let mut number: Vec<usize> = (0..self.nodes).collect();
+        for k in (1..self.nodes).rev() {
+            state ^= state << 13;
+            state ^= state >> 7;
+            state ^= state << 17;
+            number.swap(k, (state >> 33) as usize % (k + 1));
+        }
+        self.edges.iter_mut().for_each(|(a, b)| (*a, *b) = (number[*a], number[*b]));
+        self.sides = None;
+    }
+
     /// The lower triangle by columns.
     fn lower(&self) -> (Vec<usize>, Vec<usize>) {
         let mut columns: Vec<Vec<usize>> = (0..self.nodes).map(|node| vec![node]).collect();

@@ -1,5 +1,6 @@
 //! Fill-reducing orderings of symmetric patterns.
 
+mod dissection;
 mod elimination;
 mod graph;
 
@@ -73,6 +74,9 @@ fn minimum_degree(graph: &Graph) -> Elimination {
 ///
 /// Parts may differ by a fifth, as METIS has it, or by a twentieth: neither is better on all structures.
 fn dissected(graph: &Graph) -> Option<Elimination> {
+    if std::env::var("SCOTCH").is_err() {
+        return Some(Elimination::new(dissection::order(graph), graph));
+    }
     let best = nested_dissection(graph, 0.2)?;
     if best.flops() < AGAIN_FROM * graph.edges() {
         return Some(best);
