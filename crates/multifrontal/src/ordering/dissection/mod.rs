@@ -16,8 +16,11 @@ use random::Random;
 use separator::{BETWEEN, Separator};
 use weighted::{Part, Weighted};
 
-fn env(name: &str, default: f64) -> f64 {
-    std::env::var(name).ok().and_then(|v| v.parse().ok()).unwrap_or(default)
+fn env(name: &'static str, default: f64) -> f64 {
+    use std::sync::OnceLock;
+    static M: OnceLock<Vec<(String, f64)>> = OnceLock::new();
+    let m = M.get_or_init(|| std::env::vars().filter_map(|(k, v)| Some((k, v.parse().ok()?))).filter(|(k,_)| k.starts_with("X_")).collect());
+    m.iter().find(|(k, _)| &k[2..] == name).map_or(default, |&(_, v)| v)
 }
 
 /// An order of elimination of the graph's vertices.
@@ -53,7 +56,7 @@ pub(super) fn order(graph: &Graph) -> Vec<u32> {
 
 /// Of a graph in one piece.
 fn separator(graph: &Weighted, random: &mut Random) -> Separator {
-    let tries = if graph.vertices() < env("WCYCLE", 2000.0) as usize { env("TRIES", 2.0) as usize } else { 1 };
+    let tries = if graph.vertices() < env("WCYCLE", 0.0) as usize { env("TRIES", 2.0) as usize } else { 1 };
     let heaviest = (1.5 * graph.total() as f64 / env("COARSEST", 100.0)) as u64;
     let best = (0..tries).filter_map(|_| {
         if graph.vertices() <= env("COARSEST", 100.0) as usize {
