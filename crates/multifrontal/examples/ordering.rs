@@ -99,7 +99,8 @@ impl Mesh {
             column.sort_unstable();
             column.dedup();
             for col in (0..self.dofs).map(|dof| self.dofs * node + dof) {
-                let rows = column.iter().flat_map(|other| (0..self.dofs).map(move |dof| self.dofs * other + dof));
+                let rows =
+                    column.iter().flat_map(|other| (0..self.dofs).map(move |dof| self.dofs * other + dof));
                 row_idx.extend(rows.filter(|&row| row >= col));
                 col_ptr.push(row_idx.len());
             }
@@ -112,7 +113,12 @@ impl Mesh {
         let sides = self.sides?;
         let mut nodes = Vec::new();
         dissect([0; 3], sides, &mut |node| nodes.push((node[0] * sides[1] + node[1]) * sides[2] + node[2]));
-        Some(nodes.into_iter().flat_map(|node| (0..self.dofs).map(move |dof| self.dofs * node + dof)).collect())
+        Some(
+            nodes
+                .into_iter()
+                .flat_map(|node| (0..self.dofs).map(move |dof| self.dofs * node + dof))
+                .collect(),
+        )
     }
 }
 

@@ -39,7 +39,8 @@ fn matching(graph: &Weighted, heaviest: u64, random: &mut Random) -> Vec<u32> {
         }
         let light = |other: u32| weight(vertex) + weight(other) <= heaviest;
         let free = graph.edges(vertex).filter(|&(other, _)| mate[other as usize] == NONE && light(other));
-        let mut other = free.max_by_key(|&(other, edge)| (edge, std::cmp::Reverse(weight(other)))).map(|it| it.0);
+        let mut other =
+            free.max_by_key(|&(other, edge)| (edge, std::cmp::Reverse(weight(other)))).map(|it| it.0);
         if other.is_none()
             && let Some(&hub) = graph.neighbours(vertex).first()
         {
@@ -70,7 +71,7 @@ fn contracted(graph: &Weighted, of: &[u32], pairs: &[(u32, u32)]) -> Weighted {
                 let other = of[other as usize];
                 let at = place[other as usize];
                 if at >= first && at < neighbours.len() && neighbours[at] == other {
-                    edges[at] += edge;
+                    edges[at] = edges[at].saturating_add(edge);
                 } else if other != k as u32 {
                     place[other as usize] = neighbours.len();
                     neighbours.push(other);

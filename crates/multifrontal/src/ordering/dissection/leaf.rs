@@ -1,6 +1,5 @@
 //! What is not dissected any more: minimum degree with the neighbours outside, which come later.
 
-use super::weighted::Part;
 use crate::ordering::Graph;
 
 const NONE: u32 = u32::MAX;
@@ -18,12 +17,12 @@ impl<'a> Leaves<'a> {
     }
 
     /// The vertices of a part in the order of least degree, counted in rows of the factor with those outside.
-    pub(super) fn order(&mut self, part: &Part) -> Vec<u32> {
-        let own = part.vertices.len();
+    pub(super) fn order(&mut self, vertices: &[u32]) -> Vec<u32> {
+        let own = vertices.len();
         // The part's own vertices and then those around it.
-        let mut members = part.vertices.clone();
+        let mut members = vertices.to_vec();
         members.iter().enumerate().for_each(|(k, &vertex)| self.column[vertex as usize] = k as u32);
-        for &vertex in &part.vertices {
+        for &vertex in vertices {
             for &other in self.graph.neighbours(vertex as usize) {
                 if self.column[other as usize] == NONE {
                     self.column[other as usize] = members.len() as u32;
@@ -35,7 +34,7 @@ impl<'a> Leaves<'a> {
         let words = members.len().div_ceil(64);
         let mut rows = vec![0u64; own * words];
         let mut degree = vec![0u32; own];
-        for (k, &vertex) in part.vertices.iter().enumerate() {
+        for (k, &vertex) in vertices.iter().enumerate() {
             for &other in self.graph.neighbours(vertex as usize) {
                 let column = self.column[other as usize] as usize;
                 rows[k * words + column / 64] |= 1 << (column % 64);
@@ -48,10 +47,11 @@ impl<'a> Leaves<'a> {
         let mut order = Vec::with_capacity(own);
         while let Some(at) = (0..left.len()).min_by_key(|&at| degree[left[at]]) {
             let pivot = left.remove(at);
-            order.push(part.vertices[pivot]);
+            order.push(vertices[pivot]);
             let row = rows[pivot * words..(pivot + 1) * words].to_vec();
             for &k in left.iter().filter(|&&k| row[k / 64] >> (k % 64) & 1 == 1) {
-                for (word, (mine, &its)) in rows[k * words..(k + 1) * words].iter_mut().zip(&row).enumerate() {
+                for (word, (mine, &its)) in rows[k * words..(k + 1) * words].iter_mut().zip(&row).enumerate()
+                {
                     let mut new = its & !*mine;
                     *mine |= its;
                     while new != 0 {
