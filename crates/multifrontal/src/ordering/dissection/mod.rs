@@ -8,6 +8,8 @@ mod leaf;
 mod moves;
 mod random;
 mod separator;
+#[cfg(test)]
+mod tests;
 mod weighted;
 
 use super::Graph;
