@@ -1,4 +1,7 @@
-//! What orderings cost: operations of L D Lᵀ and seconds of the analysis, for structures and for graphs that are none.
+//! What orderings cost: operations of L D Lᵀ and seconds of the analysis, for structures and for graphs that
+//! are none.
+//!
+//! An argument is a part of the names that are shown, a second one scatters the numbers of the nodes.
 
 #![allow(clippy::print_stdout, reason = "an example shows what it finds")]
 
@@ -16,13 +19,15 @@ struct Mesh {
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let only = std::env::args().nth(1).unwrap_or_default();
+    let mut arguments = std::env::args().skip(1);
+    let only = arguments.next().unwrap_or_default();
+    let scattered = arguments.next().is_some();
     println!(
         "{:14} {:>9} {:>10} {:>10} {:>10} {:>10} {:>8} {:>8}",
         "Gflop", "nodes", "degree", "dissection", "automatic", "planes", "diss. s", "auto. s"
     );
     for mut mesh in meshes().into_iter().filter(|mesh| mesh.name.contains(&only)) {
-        if std::env::args().nth(2).is_some() {
+        if scattered {
             mesh.shuffle();
         }
         let (col_ptr, row_idx) = mesh.lower();
@@ -160,9 +165,9 @@ fn grid(name: &'static str, sides: [usize; 3], dofs: usize) -> Mesh {
 fn frame() -> Mesh {
     let (bays, storeys, parts) = (6, 40, 8);
     let joint = |x: usize, y: usize, z: usize| (z * bays + y) * bays + x;
-    let mut nodes = bays * bays * storeys;
-    let mut edges = Vec::new();
-    for p in 0..nodes {
+    let joints = bays * bays * storeys;
+    let (mut nodes, mut edges) = (joints, Vec::new());
+    for p in 0..joints {
         let [x, y, z] = [p % bays, p / bays % bays, p / bays / bays];
         let ends = [(x + 1 < bays).then(|| joint(x + 1, y, z)), (y + 1 < bays).then(|| joint(x, y + 1, z))];
         for end in ends.into_iter().chain([(z + 1 < storeys).then(|| joint(x, y, z + 1))]).flatten() {

@@ -50,8 +50,8 @@ fn ratio(matrix: &Lower<f64>, sides: [usize; 3], dofs: usize) -> f64 {
     matrix.symbolic(&Ordering::NestedDissection).flops() / matrix.symbolic(&Ordering::Given(order)).flops()
 }
 
-/// What a separator with a step in it, or one layer off the middle, costs on grids of this size: 1.04 was seen. With
-/// separators that keep their steps it was 1.2 to 1.6.
+/// What a separator with a step in it, or one layer off the middle, costs on grids of this size: 1.04 was
+/// seen. With separators that keep their steps it was 1.2 to 1.6.
 const STEPS: f64 = 1.1;
 
 #[test]

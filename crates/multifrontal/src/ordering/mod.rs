@@ -10,12 +10,13 @@ pub(crate) use graph::Graph;
 use crate::symbolic::{Lower, Ordering};
 use feral_amd::{CscPattern, amd_order};
 
-/// From this many operations an edge on an order is compared with the other one. Both take about as long as so many
-/// operations: where a factorisation takes less, as in small and thin structures, little can be gained.
+/// From this many operations an edge on an order is compared with the other one. Both take about as long as
+/// so many operations: where a factorisation takes less, as in small and thin structures, little can be
+/// gained.
 const COMPARE: f64 = 1e4;
 
-/// A graph of this many vertices and neighbours of each may be a solid, whose dissection comes first: of a solid,
-/// minimum degree costs two to four times the operations.
+/// A graph of this many vertices and neighbours of each may be a solid, whose dissection comes first: of a
+/// solid, minimum degree costs two to four times the operations.
 const SOLID: (usize, f64) = (8000, 16.0);
 
 /// The graph that is ordered, and its elimination with every subtree in one piece.
@@ -62,9 +63,7 @@ fn dissected(graph: &Graph) -> Elimination {
 }
 
 fn minimum_degree(graph: &Graph) -> Elimination {
-    // Too many edges for 32-bit indices: any order is an order.
-    let order = approximate_minimum_degree(graph).unwrap_or_else(|| (0..graph.vertices() as u32).collect());
-    Elimination::new(order, graph)
+    approximate_minimum_degree(graph).map_or_else(|| dissected(graph), |order| Elimination::new(order, graph))
 }
 
 /// `None` where there are too many edges for 32-bit indices.

@@ -28,7 +28,8 @@ pub(super) fn coarsen(graph: &Weighted, heaviest: u64, random: &mut Random) -> C
 
 /// The mate of each vertex: the free neighbour along the heaviest edge, or itself.
 ///
-/// What finds no free neighbour is joined with another such vertex next to the same one: stars have no other pairs.
+/// What finds no free neighbour is joined with another such vertex next to the same one: stars have no other
+/// pairs.
 fn matching(graph: &Weighted, heaviest: u64, random: &mut Random) -> Vec<u32> {
     let weight = |vertex: u32| u64::from(graph.weight[vertex as usize]);
     let mut mate = vec![NONE; graph.vertices()];

@@ -1,7 +1,7 @@
 //! Nested dissection: few vertices cut a graph in two and come last, and so on with both parts.
 //!
-//! A. George, SIAM J. Numer. Anal. 10 (1973) 345–363. The few are found on a coarse graph and refined on the way back:
-//! G. Karypis, V. Kumar, SIAM J. Sci. Comput. 20 (1998) 359–392.
+//! A. George, SIAM J. Numer. Anal. 10 (1973) 345–363. The few are found on a coarse graph and refined on the
+//! way back: G. Karypis, V. Kumar, SIAM J. Sci. Comput. 20 (1998) 359–392.
 
 mod coarse;
 mod leaf;
@@ -19,8 +19,8 @@ use random::Random;
 use separator::Separator;
 use weighted::{Part, Weighted};
 
-/// Parts of at most so many vertices are not dissected: with 120 as in other programs plates and sandwiches cost
-/// some per cent more, with 20 the analysis takes longer for nothing.
+/// Parts of at most so many vertices are not dissected: with 120, as others have it, sandwiches and small
+/// blocks cost some per cent more, with 20 hardly less.
 const LEAF: usize = 40;
 
 /// Graphs of at most so many vertices are not made coarser.
@@ -32,7 +32,8 @@ const GROWN: usize = 4;
 /// Coarser graphs with more than this part of the vertices are no help.
 const COARSER: f64 = 0.9;
 
-/// Vertices with more neighbours than this multiple of √n would be in most separators: they come last at once.
+/// Vertices with more neighbours than this multiple of √n would be in most separators: they come last at
+/// once.
 const DENSE: f64 = 10.0;
 
 /// An order of elimination of the graph's vertices.

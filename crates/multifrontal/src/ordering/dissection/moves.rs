@@ -1,34 +1,35 @@
 //! A separator moves through a graph, vertex by vertex to one side, and stays where it was best.
 //!
-//! C. M. Fiduccia, R. M. Mattheyses, DAC 1982, 175–181; C. Ashcraft, J. W. H. Liu, SIAM J. Matrix Anal. Appl. 19 (1998)
-//! 325–354 for separators of vertices. To one side at a time a separator of a mesh gets rid of its steps: it is swept
-//! over many layers, and each costs as much as it has vertices. With moves to both sides steps stay, and a cube costs
-//! 1.6 times as much.
+//! C. M. Fiduccia, R. M. Mattheyses, DAC 1982, 175–181; C. Ashcraft, J. W. H. Liu, SIAM J. Matrix Anal. Appl.
+//! 19 (1998) 325–354 for separators of vertices. To one side at a time a separator of a mesh gets rid of its
+//! steps: it is swept over many layers, and each costs as much as it has vertices. With moves to both sides
+//! steps stay, and a cube costs 1.5 to 1.8 times as much.
 
 use super::separator::{BETWEEN, Separator};
 use super::weighted::Weighted;
 use std::collections::BinaryHeap;
 
-/// A pass ends where the separator costs this many times what it did at best: with 1.15 structures cost some per mille
-/// more, with any the analysis takes a fifth longer.
+/// A pass ends where the separator costs this many times what it did at best: with 1.15 structures cost some
+/// per mille more, with any the analysis takes a fifth longer.
 const WORSE: f64 = 1.2;
 
-/// A pass ends where so many times the separator's vertices were moved in vain: with one layer structures cost some per
-/// cent more, with five no less.
+/// A pass ends where so many times the separator's vertices were moved in vain: with one layer structures
+/// cost a per cent more, with five no less.
 const LAYERS: usize = 2;
 
 /// The side that grows is let grow up to this part of the whole, so that parts of parts soon are small.
 const LARGEST: f64 = 0.8;
 
-/// A separator on its way to one side: its vertices join that side, and what these touch on the far side comes between.
+/// A separator on its way to one side: its vertices join that side, and what these touch on the far side
+/// comes between.
 pub(super) struct Moves<'a> {
     graph: &'a Weighted,
     pub(super) separator: Separator,
     to: u8,
     /// For vertices between: the weight of their neighbours on the far side.
     far: Vec<u32>,
-    /// Vertices between by the weight that the separator loses with them. This only grows, so that old entries of a
-    /// vertex come after its newest, when it is between no more.
+    /// Vertices between by the weight that the separator loses with them. This only grows, so that old
+    /// entries of a vertex come after its newest, when it is between no more.
     queue: BinaryHeap<(i64, u32)>,
     /// What was moved, and how many vertices came between by it: these are in `pulled`.
     log: Vec<(u32, usize)>,
