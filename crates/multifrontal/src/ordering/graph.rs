@@ -8,6 +8,7 @@ use std::collections::HashMap;
 ///
 /// Orderings work on a third or a sixth of the vertices and a ninth or less of the edges, and see the
 /// structure and not its dofs.
+#[derive(Debug)]
 pub(crate) struct Graph {
     /// First neighbour of each vertex, and the end.
     pub(super) start: Vec<usize>,

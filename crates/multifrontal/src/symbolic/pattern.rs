@@ -51,7 +51,7 @@ impl fmt::Display for PatternError {
 impl std::error::Error for PatternError {}
 
 impl Lower {
-    pub(super) fn new(dim: usize, col_ptr: &[usize], row_idx: &[usize]) -> Result<Self, PatternError> {
+    pub(crate) fn new(dim: usize, col_ptr: &[usize], row_idx: &[usize]) -> Result<Self, PatternError> {
         if dim >= u32::MAX as usize || row_idx.len() >= u32::MAX as usize {
             return Err(PatternError::TooLarge);
         }
