@@ -27,8 +27,9 @@ pub(crate) fn lowest(k: &SymmetricMatrix, m: &SymmetricMatrix, count: usize, shi
             factor.solve(vector).unwrap();
         }
         let values = ritz(&shifted, m, &mut basis);
-        // Below every error that the tests look at, above the roundoff of a slender structure.
-        let settled = values.iter().zip(&previous).all(|(new, old)| (new - old).abs() < 1e-11 * new.abs());
+        // Below every error that the tests look at, above the roundoff of a slender structure: its stiffnesses
+        // differ by 1e8, and what a solution has of the stiffest directions from roundoff alone moves a Ritz value by up to 7e-10.
+        let settled = values.iter().zip(&previous).all(|(new, old)| (new - old).abs() < 2e-9 * new.abs());
         if settled {
             return values[..count].iter().map(|value| value - shift).collect();
         }

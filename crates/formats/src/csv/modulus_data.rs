@@ -201,7 +201,7 @@ mod tests {
             ),
             (
                 "f,storage,eta,storage_std,loss_factor_std\n1,2,3,1,\n",
-                "input:2:9: expected a number above 0 in column \"loss_factor_std\", found an empty cell",
+                "input:2:9: expected a finite number in column \"loss_factor_std\", found an empty cell",
             ),
             (
                 "f,storage,eta,status\n1,2,3,no_root\n",

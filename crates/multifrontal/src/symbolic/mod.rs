@@ -146,7 +146,8 @@ impl Symbolic {
         share::working_scalars(self) * size_of::<T>()
             + share::packed(self) * T::PRODUCTS * size_of::<T::Real>()
             + self.rows.len() * size_of::<u32>()
-            + self.fronts.len() * 2 * size_of::<Node<T>>()
+            // What a front gave, what it left, and the node that comes of it.
+            + self.fronts.len() * 4 * size_of::<Node<T>>()
             + self.dim() * row
     }
 

@@ -49,14 +49,6 @@ fn panel(
         line: Some(Dash::Dashed),
         ..Series::default()
     }];
-    if let Some(truth) = &identify.truth {
-        series.push(Series {
-            label: "true".into(),
-            y: of(x.iter().map(|&f| truth.at(f).ok()).collect()),
-            color: Color::Black,
-            ..Series::default()
-        });
-    }
     let bars: Vec<f64> = run
         .outcomes
         .iter()
@@ -75,6 +67,15 @@ fn panel(
             let (label, marker) = (label.into(), Some(marker));
             series.push(Series { label, y, y_error, color, line: None, marker, ..Series::default() });
         }
+    }
+    // Above the others: a line shows among many markers, and would not below them.
+    if let Some(truth) = &identify.truth {
+        series.push(Series {
+            label: "true".into(),
+            y: of(x.iter().map(|&f| truth.at(f).ok()).collect()),
+            color: Color::Black,
+            ..Series::default()
+        });
     }
     for one in &mut series {
         one.x = x.clone();

@@ -102,7 +102,7 @@ pub fn laws_text(fits: &[LawFit], misfits: &[Option<Misfit>]) -> String {
     for k in order {
         let fit = &fits[k];
         let left = match (fit.reduced_chi_squared(), fit.sigma_known) {
-            (Some(chi), true) => format!("{chi:.3}"),
+            (Some(chi), true) => short(chi, 3),
             (Some(chi), false) => format!("{:.2e}", chi.sqrt()),
             (None, _) => String::new(),
         };
@@ -114,9 +114,14 @@ pub fn laws_text(fits: &[LawFit], misfits: &[Option<Misfit>]) -> String {
         let (behind, law) = (fit.bic() - chosen.bic(), fit.family.to_string());
         let _ = writeln!(
             text,
-            "  {law:<12}{behind:>10.1}  {left:>9}  {worst:>8}  {median:>8}  {} of {} agree{note}",
-            fit.agreeing, fit.starts
+            "  {law:<12}{:>10}  {left:>9}  {worst:>8}  {median:>8}  {} of {} agree{note}",
+            short(behind, 1),
+            fit.agreeing,
+            fit.starts
         );
+    }
+    if chosen.sigma_known && chosen.reduced_chi_squared().is_some_and(|chi| chi > UNEXPLAINED) {
+        text += "  no law explains the data within their deviations: those hold noise only, and so do the parameters'\n";
     }
     let _ = writeln!(text, "  {}", chosen.family);
     for parameter in &chosen.parameters {
@@ -124,6 +129,14 @@ pub fn laws_text(fits: &[LawFit], misfits: &[Option<Misfit>]) -> String {
     }
     let _ = writeln!(text, "  {}", snippet(&chosen.law));
     text
+}
+
+/// χ² per degree of freedom above this is no noise, however few data there are: five deviations a number.
+const UNEXPLAINED: f64 = 25.0;
+
+/// So many digits behind the point, or a power of ten where there are many before it.
+fn short(value: f64, digits: usize) -> String {
+    if value < 1e6 { format!("{value:.digits$}") } else { format!("{value:.1e}") }
 }
 
 /// Value ± deviation and unit.
