@@ -111,7 +111,7 @@ fn words(
         Fault::Factor { factor, known, .. } => (
             "factor",
             match known {
-                Some(known) => format!("the FRF is {} times too large: {}", number(*factor), unit(*known)),
+                Some(known) => format!("the FRF is {} times what it should be: {}", number(*factor), unit(*known)),
                 None => format!("the FRF is {} times what it should be, by a factor without a name", number(*factor)),
             },
             match sensors {
@@ -162,12 +162,10 @@ fn listed(case: &Case, rows: &[OtherRow]) -> String {
 
 fn unit(known: KnownFactor) -> &'static str {
     match known {
-        KnownFactor::StandardGravity => {
-            "9.80665, m/s² divided by g twice or a sensitivity in m/s² taken for one in g"
-        }
+        KnownFactor::StandardGravity => "9.80665, g made m/s² twice, or kilogram-force taken for newtons",
         KnownFactor::PerStandardGravity => "1/9.80665, values in g taken for m/s²",
-        KnownFactor::Thousand => "1e3, millimetres taken for metres, or newtons for kilonewtons",
-        KnownFactor::Thousandth => "1e-3, metres taken for millimetres, or kilonewtons for newtons",
+        KnownFactor::Thousand => "1e3, millimetres taken for metres, or kilonewtons taken for newtons",
+        KnownFactor::Thousandth => "1e-3, metres taken for millimetres, or newtons taken for kilonewtons",
         KnownFactor::Million => "1e6, micrometres taken for metres",
         KnownFactor::Millionth => "1e-6, metres taken for micrometres",
         KnownFactor::GravityInMillimetres => "9806.65, g and millimetres",

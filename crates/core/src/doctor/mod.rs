@@ -223,6 +223,10 @@ fn best_change(
     reading: &Reading,
     current: &Fitted,
 ) -> Option<(Edit, Fitted)> {
+    // No misfit is taken to be smaller than that floor: from here nothing can fall far enough.
+    if FALL * current.misfit.sigma < misfit::FLOOR {
+        return None;
+    }
     let edits = reading.edits();
     let fitted =
         map(search.for_each, edits.len(), |k| search.fit(&reading.with(&edits[k]), grid, Some(current)));
