@@ -38,7 +38,7 @@ pub(crate) enum Command {
                       Records: UFF time functions, LabVIEW measurement files (.lvm), tables with a column time_s and units in the \
                       names of the others, such as \"Force (N)\". Hits with a fault are left out, with the reason.")]
     Frf(Frf),
-    /// Say what is wrong with a case's measurements against its model, before anything is identified
+    /// Say what is wrong with measurements against the model
     #[command(after_help = "Example: frfit check case.toml\n\n\
                       Looks for conjugated, reversed, delayed and wrongly scaled FRFs, for receptance, mobility and accelerance taken for one another, \
                       for sensors and loads elsewhere than the case says, and for a band beyond the mesh.\n\n\

@@ -80,18 +80,19 @@ fn alone(name: &str, diagnosis: &Diagnosis) -> Finding {
     finding.clone()
 }
 
+/// Makes a structure.
+type Make = fn() -> Case;
+
 /// Small structures with their names: a bar of rubber, a plate of little damping, a sandwich.
-fn structures() -> Vec<(&'static str, fn() -> Case)> {
-    vec![("bar", || bar(60)), ("plate", || plate(8, 0.4, 5e-3)), ("sandwich", || sandwich(12, 1))]
+fn structures() -> [(&'static str, Make); 3] {
+    [("bar", || bar(60)), ("plate", || plate(8, 0.4, 5e-3)), ("sandwich", || sandwich(12, 1))]
 }
 
 /// Every fault of values on one structure, of both sensors and of the second alone; the nominal is off, the noise 2 %.
-fn assert_faults_of_values(name: &str, make: fn() -> Case) {
+fn assert_faults_of_values(name: &str, make: Make) {
     type Change = fn(f64, c64) -> c64;
     type Is = fn(&Fault) -> bool;
-    // Tolerances: five per cent is what noise of 2 % at forty frequencies leaves many times over.
-    let near = |value: f64, wanted: f64| (value / wanted - 1.0).abs() < 0.05;
-    assert!(near(1.04, 1.0) && !near(1.06, 1.0));
+    // Five per cent is many times what noise of 2 % at forty frequencies leaves of a factor, a delay or a slope.
     let faults: [(&str, Change, Is); 8] = [
         ("conjugated", |_, v| v.conj(), |fault| *fault == Fault::Conjugated),
         ("sign", |_, v| -v, |fault| *fault == Fault::Sign),

@@ -47,9 +47,8 @@ pub(super) fn elsewhere<'a>(
         (0..experiment.load.len()).filter(|&row| experiment.load[row] != c64::default()).collect();
     // What is at which of the candidates' rows: (sensor or none for the load, row, modulus).
     let mut wanted: Vec<(Option<usize>, usize, Law)> = Vec::new();
-    for m in 0..sensors {
-        let own = experiment.sensors[m].row;
-        let best = best_rows(search, experiment, reading, &[m], false, &laws[m], own);
+    for (m, (sensor, laws)) in experiment.sensors.iter().zip(laws).enumerate() {
+        let best = best_rows(search, experiment, reading, &[m], false, laws, sensor.row);
         wanted.extend(best.into_iter().map(|(row, _, law)| (Some(m), row, law)));
     }
     if let [row] = driven[..] {
