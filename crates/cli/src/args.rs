@@ -38,6 +38,12 @@ pub(crate) enum Command {
                       Records: UFF time functions, LabVIEW measurement files (.lvm), tables with a column time_s and units in the \
                       names of the others, such as \"Force (N)\". Hits with a fault are left out, with the reason.")]
     Frf(Frf),
+    /// Say what is wrong with measurements against the model
+    #[command(after_help = "Example: frfit check case.toml\n\n\
+                      Looks for conjugated, reversed, delayed and wrongly scaled FRFs, for receptance, mobility and accelerance taken for one another, \
+                      for sensors and loads elsewhere than the case says, and for a band beyond the mesh.\n\n\
+                      Exit code: 0 done; 1 with --strict where something is found; 2 the input is at fault; 3 a fault of frfit.")]
+    Check(Check),
     /// Find the parameter that makes the model's response the measured one
     #[command(after_help = "Example: frfit identify case.toml --out results --order 30 --band 200:1550\n\n\
                       Exit code: 0 done; 1 with --strict where some frequency has no trusted answer; 2 the input is at fault; \
@@ -139,6 +145,20 @@ pub(crate) struct Frf {
     /// Hits to average whatever is wrong with them, such as 1,3
     #[arg(long, value_name = "HITS", value_delimiter = ',')]
     pub(crate) keep: Vec<usize>,
+}
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct Check {
+    /// Case file
+    pub(crate) case: PathBuf,
+    #[command(flatten)]
+    pub(crate) overrides: Overrides,
+    /// Memory that may be used, in MB (by default what is available): a model that needs more is refused
+    #[arg(long, value_name = "MB")]
+    pub(crate) memory: Option<u64>,
+    /// Exit with 1 where something is found
+    #[arg(long)]
+    pub(crate) strict: bool,
 }
 
 #[derive(Debug, clap::Args)]

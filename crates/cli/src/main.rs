@@ -31,6 +31,7 @@ fn run(args: &Args) -> Result<Outcome, Failure> {
         Command::Demo(demo) => command::demo::run(args, demo),
         Command::Example(example) => command::example::run(args, example),
         Command::Frf(frf) => command::frf::run(args, frf),
+        Command::Check(check) => command::check::run(args, check),
         Command::Identify(identify) => command::identify::run(args, identify),
         Command::Fit(fit) => command::fit::run(args, fit),
         Command::Respond(respond) => command::respond::run(args, respond),

@@ -1,6 +1,7 @@
 //! What came out, in the few lines that a person reads first.
 
 use frfit::identify::{Explained, Identified, NoiseSource, Status};
+use frfit_workflow::check::findings_text;
 use frfit_workflow::job::IdentifyJob;
 use frfit_workflow::output::laws_text;
 use std::path::Path;
@@ -9,7 +10,8 @@ use std::path::Path;
 pub(crate) fn identified(job: &IdentifyJob, out: &Path) -> String {
     let Some(identify) = job.identify() else { return String::new() };
     let run = &job.run;
-    let mut text = String::new();
+    // What is wrong with the data comes before what was made of them.
+    let mut text = job.diagnosis.as_ref().map_or(String::new(), |found| findings_text(&job.case, found));
     let mut line = |label: &str, value: String| text += &format!("  {label:<18}{value}\n");
     let statuses = Status::ALL.into_iter().filter(|&status| run.count(status) > 0);
     line(

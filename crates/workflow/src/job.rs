@@ -1,5 +1,6 @@
 //! Whole jobs: from the path of a case to files in a folder. What the command line and other front ends share.
 
+use crate::check::{check, findings_json};
 use crate::error::{InputError, Place};
 use crate::figures::{identify_figures, measured_figures, respond_figures};
 use crate::load::{Case, IdentifyCase, Overrides, Purpose, load};
@@ -10,6 +11,7 @@ use crate::output::{
 };
 use crate::records::{ChannelOptions, Records, read_records};
 use crate::run::{IdentifyRun, Progress, RespondRun, RunOptions, identify, respond};
+use frfit::doctor::Diagnosis;
 use frfit::material::OutsideTable;
 use frfit::signal::{self, Measured, SignalError, estimate_frf};
 use frfit_figures::PngError;
@@ -69,6 +71,8 @@ from!(
 pub struct IdentifyJob {
     /// The case.
     pub case: Case,
+    /// What is wrong with the data; `None` where the case says `check = false`.
+    pub diagnosis: Option<Diagnosis>,
     /// What came out.
     pub run: IdentifyRun,
     /// `summary.json`.
@@ -82,7 +86,7 @@ impl IdentifyJob {
     }
 }
 
-/// Loads a case, identifies, and writes tables, figures and summary into `out`: all of them, or nothing.
+/// Loads a case, looks for what is wrong with its data, identifies, and writes tables, figures and summary into `out`: all of them, or nothing.
 ///
 /// # Errors
 /// [`JobError`]. Numerical trouble at a frequency is its status, not an error.
@@ -98,10 +102,15 @@ pub fn identify_case(
     let seconds_load = start.elapsed().as_secs_f64();
     let wanted = case.identify.as_ref().expect("a case loaded to identify has something to identify");
     check_identify(&case, wanted, options.memory_bytes)?;
+    let start = Instant::now();
+    let diagnosis = wanted.check.then(|| check(&case, wanted)).transpose()?;
+    let seconds_check = start.elapsed().as_secs_f64();
     let run = identify(&case, wanted, options, progress)?;
     let start = Instant::now();
     let mut files = identify_figures(&case, wanted, &run)?;
-    let summary = summary_json(&case, wanted, &run, seconds_load, start.elapsed().as_secs_f64());
+    let mut summary = summary_json(&case, wanted, &run, seconds_load, start.elapsed().as_secs_f64());
+    summary["findings"] = diagnosis.as_ref().map_or(serde_json::Value::Null, |d| findings_json(&case, d));
+    summary["seconds"]["check"] = seconds_check.into();
     files.push(File::new("identified.csv", identified_csv(&run.outcomes)));
     if let Some(laws) = &run.laws {
         files.push(File::new("free.csv", identified_csv(&laws.free)));
@@ -111,7 +120,7 @@ pub fn identify_case(
     files.push(File::new("response.csv", response_csv(&case, wanted, &run.outcomes)));
     files.push(File::new("summary.json", format!("{summary:#}\n")));
     write_all(out, &files)?;
-    Ok(IdentifyJob { case, run, summary })
+    Ok(IdentifyJob { case, diagnosis, run, summary })
 }
 
 /// Loads a case, computes its forward response, and writes table, UFF file and figure into `out`.

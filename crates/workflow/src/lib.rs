@@ -7,6 +7,7 @@
 //! | [`records`] | the records of a hammer test read from files |
 //! | [`memory`] | whether a model fits, before it is factorised |
 //! | [`run`] | the computations, frequency by frequency, on all cores |
+//! | [`check`](mod@check) | what is wrong with a case's data, in words |
 //! | [`figures`] | what a run looks like, as the paper draws it |
 //! | [`output`] | tables, summary, and writing them whole or not at all |
 //! | [`fit`] | laws fitted to a table of moduli |
@@ -16,6 +17,7 @@
 //! | [`error`] | what the user has to put right, and where |
 
 pub mod case;
+pub mod check;
 pub mod convert;
 pub mod error;
 pub mod figures;

@@ -13,6 +13,7 @@
 
 mod assess;
 mod basis;
+mod fractions;
 mod local;
 mod parts;
 mod projection;
@@ -22,6 +23,7 @@ mod sketch;
 mod train;
 
 pub use assess::Assessment;
+pub use fractions::{Drive, Fractions};
 pub use projection::Projection;
 pub use reduced::ReducedModel;
 pub use train::{Point, TrainOptions, Trained};

@@ -133,6 +133,8 @@ pub struct IdentifyEntry {
     pub real: bool,
     /// Whether a sensor that contradicts all others is left out.
     pub robust: Option<bool>,
+    /// Whether to look for what is wrong with the data first.
+    pub check: bool,
     /// The factor that a simulated measurement was made with.
     pub truth: Option<Located<FactorEntry>>,
 }

@@ -185,6 +185,7 @@ pub(super) fn identify(field: &Field<'_>) -> Result<IdentifyEntry, InputError> {
         "bounds",
         "real",
         "robust",
+        "check",
         "truth",
     ];
     let table = field.table(&known)?;
@@ -208,6 +209,7 @@ pub(super) fn identify(field: &Field<'_>) -> Result<IdentifyEntry, InputError> {
         loss_factor: bound("loss_factor")?,
         real: table.find("real").map(|real| real.flag()).transpose()?.unwrap_or(false),
         robust: table.find("robust").map(|robust| robust.flag()).transpose()?,
+        check: table.find("check").map(|check| check.flag()).transpose()?.unwrap_or(true),
         truth: table.find("truth").map(|truth| factor(&truth)).transpose()?,
     })
 }

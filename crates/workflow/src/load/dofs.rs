@@ -37,6 +37,13 @@ impl Dofs {
         Ok(Self { dim, nodes: Some(nodes) })
     }
 
+    /// The names of rows (from 0), each counted positive along its axis.
+    pub(super) fn names(&self) -> BTreeMap<usize, String> {
+        let nodes = self.nodes.iter().flatten();
+        let named = nodes.flat_map(|(&node, axes)| axes.iter().map(move |&(axis, row)| (node, axis, row)));
+        named.map(|(node, axis, row)| (row, DofName { node, axis, reversed: false }.to_string())).collect()
+    }
+
     /// Row, sign and label of a degree of freedom.
     pub(super) fn find(&self, spot: &Spot) -> Result<(Sensor, String), InputError> {
         match spot {

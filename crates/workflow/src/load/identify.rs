@@ -34,6 +34,8 @@ pub struct IdentifyCase {
     pub measured: Vec<Vec<c64>>,
     /// How well the receptances were measured.
     pub noise: MeasuredNoise,
+    /// Whether to look for what is wrong with the data first.
+    pub check: bool,
     /// The factor that a simulated measurement was made with.
     pub truth: Option<Law>,
 }
@@ -81,6 +83,7 @@ pub(super) fn identify(
         frequency_hz: data.frequency_hz,
         measured: data.measured,
         noise: data.noise,
+        check: entry.check,
         truth,
     })
 }

@@ -28,6 +28,7 @@ use frfit::frequency::linear_hz;
 use frfit::model::{DynamicStiffness, Experiment};
 use frfit_formats::CoordinateMatrix;
 use measurement::{Measurement, measurement};
+use std::collections::BTreeMap;
 use std::path::Path;
 
 /// A case read from its file, everything checked, nothing computed.
@@ -41,12 +42,21 @@ pub struct Case {
     pub experiment: Experiment,
     /// The sensors' labels, quantities and files, in the order of the measurements.
     pub sensors: Vec<SensorInfo>,
+    /// The names of rows (from 0), as `34+Z`; empty without `[dofs]`.
+    pub row_names: BTreeMap<usize, String>,
     /// Every file that was read, the case file first.
     pub inputs: Vec<InputFile>,
     /// What to identify; `None` where the purpose is a response.
     pub identify: Option<IdentifyCase>,
     /// The frequencies of a response: those of `[respond]`, or else those that were measured.
     pub respond_hz: Vec<f64>,
+}
+
+impl Case {
+    /// `34+Z` where `[dofs]` names the row (from 0), `row 97` (from 1) elsewhere.
+    pub fn row_name(&self, row: usize) -> String {
+        self.row_names.get(&row).cloned().unwrap_or_else(|| format!("row {}", row + 1))
+    }
 }
 
 /// What the command line says in place of the case file.
@@ -106,6 +116,7 @@ pub fn load(case_file: &Path, overrides: &Overrides, purpose: Purpose) -> Result
         title: case.title.unwrap_or_else(|| stem(case_file)),
         experiment: Experiment { load, sensors },
         sensors: measurements.into_iter().map(|measurement| measurement.info).collect(),
+        row_names: dofs.names(),
         inputs: files.inputs,
         model,
         identify,

@@ -103,19 +103,7 @@ pub fn identify(
     progress: Progress<'_>,
 ) -> Result<IdentifyRun, OutsideTable> {
     let clock = StageClock::default();
-    let noise = match &identify.noise {
-        MeasuredNoise::Unknown => Noise::Unknown,
-        MeasuredNoise::Relative(std) => Noise::Relative(std),
-        MeasuredNoise::Known(std) => Noise::Known(std),
-    };
-    let band = Band {
-        model: &case.model,
-        experiment: &case.experiment,
-        parameter: &identify.parameter,
-        frequency_hz: &identify.frequency_hz,
-        measured: &identify.measured,
-        noise,
-    };
+    let band = band_of(case, identify);
     let hooks = Hooks {
         for_each: &|n, each| (0..n).into_par_iter().for_each(each),
         progress: &|stage, done, total| {
@@ -140,6 +128,23 @@ pub fn identify(
     seconds.error_map = start.elapsed().as_secs_f64();
     let BandOutcome { outcomes, work, subspace_size, explored, noise, fit, sensors } = found;
     Ok(IdentifyRun { outcomes, error_map, work, subspace_size, explored, noise, fit, sensors, laws, seconds })
+}
+
+/// A case's band as core takes it.
+pub(crate) fn band_of<'a>(case: &'a Case, identify: &'a IdentifyCase) -> Band<'a> {
+    let noise = match &identify.noise {
+        MeasuredNoise::Unknown => Noise::Unknown,
+        MeasuredNoise::Relative(std) => Noise::Relative(std),
+        MeasuredNoise::Known(std) => Noise::Known(std),
+    };
+    Band {
+        model: &case.model,
+        experiment: &case.experiment,
+        parameter: &identify.parameter,
+        frequency_hz: &identify.frequency_hz,
+        measured: &identify.measured,
+        noise,
+    }
 }
 
 /// Wall-clock time by stage: each lasts until another is heard of.

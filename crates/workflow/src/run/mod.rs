@@ -3,6 +3,7 @@
 mod identify;
 mod respond;
 
+pub(crate) use identify::band_of;
 pub use identify::{ErrorMap, IdentifyRun, LawsRun, RunOptions, Seconds, identify};
 pub use respond::{RespondRun, respond};
 

@@ -1,0 +1,281 @@
+//! What is wrong with a case's data, in words, with the key of the case file to change.
+
+use crate::job::JobError;
+use crate::load::{Case, IdentifyCase, Overrides, Purpose, load};
+use crate::memory::check_identify;
+use crate::run::band_of;
+use frfit::doctor::{Diagnosis, Evidence, Fault, KnownFactor, NotJudged, OtherRow, diagnose};
+use frfit::material::OutsideTable;
+use frfit::quantity::Quantity;
+use rayon::prelude::*;
+use serde_json::{Value, json};
+use std::path::Path;
+
+/// A finding as a person reads it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Told {
+    /// A word for programs: `conjugated`, `sign`, `quantity`, `factor`, `delay`, `response_dof`, `load_dof`, `mesh`.
+    pub kind: &'static str,
+    /// The sensors' labels; empty where it is no matter of sensors.
+    pub sensors: Vec<String>,
+    /// What is wrong.
+    pub what: String,
+    /// The numbers that say so.
+    pub evidence: String,
+    /// The key of the case file, and what to do with it.
+    pub change: String,
+}
+
+/// A case whose data were looked at.
+#[derive(Debug)]
+pub struct CheckJob {
+    /// The case.
+    pub case: Case,
+    /// What came of it.
+    pub diagnosis: Diagnosis,
+}
+
+/// Loads a case and looks for what is wrong with its data; nothing is written.
+///
+/// # Errors
+/// [`JobError`]: as an identification of this case would be refused.
+pub fn check_case(
+    case_file: &Path,
+    overrides: &Overrides,
+    memory_bytes: Option<u64>,
+) -> Result<CheckJob, JobError> {
+    let case = load(case_file, overrides, Purpose::Identify)?;
+    let wanted = case.identify.as_ref().expect("a case loaded to identify has something to identify");
+    check_identify(&case, wanted, memory_bytes)?;
+    let diagnosis = check(&case, wanted)?;
+    Ok(CheckJob { case, diagnosis })
+}
+
+/// Looks for what is wrong with a case's data, on all cores; the result does not depend on their number.
+///
+/// # Errors
+/// [`OutsideTable`] where a table of a factor does not reach a frequency.
+pub fn check(case: &Case, identify: &IdentifyCase) -> Result<Diagnosis, OutsideTable> {
+    let quantities: Vec<Quantity> = case.sensors.iter().map(|sensor| sensor.quantity).collect();
+    let for_each = |n: usize, each: &(dyn Fn(usize) + Sync)| (0..n).into_par_iter().for_each(each);
+    diagnose(&band_of(case, identify), &quantities, &identify.options, &for_each)
+}
+
+/// The findings in words.
+pub fn told(case: &Case, diagnosis: &Diagnosis) -> Vec<Told> {
+    let tell = |finding: &frfit::doctor::Finding| {
+        let sensors = &finding.sensors;
+        let measurements = match sensors.as_slice() {
+            [m] => format!("[[measurement]] {}", m + 1),
+            _ => "every [[measurement]]".to_owned(),
+        };
+        let (kind, what, change) = words(case, &finding.fault, sensors, &measurements);
+        let own = finding.evidence.as_ref().map_or(String::new(), numbers);
+        let evidence = [more_numbers(&finding.fault), own].into_iter().filter(|text| !text.is_empty());
+        let labels = match finding.fault {
+            Fault::Mesh { .. } | Fault::LoadDof { .. } => Vec::new(),
+            _ => sensors.iter().map(|&m| case.sensors[m].label.clone()).collect(),
+        };
+        Told { kind, sensors: labels, what, evidence: evidence.collect::<Vec<_>>().join("; "), change }
+    };
+    diagnosis.findings.iter().map(tell).collect()
+}
+
+/// Kind, what is wrong, and what to change.
+fn words(
+    case: &Case,
+    fault: &Fault,
+    sensors: &[usize],
+    measurements: &str,
+) -> (&'static str, String, String) {
+    match fault {
+        Fault::Conjugated => (
+            "conjugated",
+            "the FRF is the complex conjugate (time convention e^(-iωt)): loss factors would be negative"
+                .to_owned(),
+            format!("file of {measurements}: change the sign of its imaginary part"),
+        ),
+        Fault::Sign => (
+            "sign",
+            "the FRF has the opposite sign".to_owned(),
+            match sensors {
+                [_] => format!("dof of {measurements} (or of [load]): the opposite sense, as in 34-Z for 34+Z"),
+                _ => "dof of [load]: the opposite sense, as in 34-Z for 34+Z".to_owned(),
+            },
+        ),
+        Fault::Quantity { taken_for, is, .. } => (
+            "quantity",
+            format!("{is} is taken for {taken_for}"),
+            format!("quantity of {measurements}: \"{is}\""),
+        ),
+        Fault::Factor { factor, known, .. } => (
+            "factor",
+            match known {
+                Some(known) => format!("the FRF is {} times what it should be: {}", number(*factor), unit(*known)),
+                None => format!("the FRF is {} times what it should be, by a factor without a name", number(*factor)),
+            },
+            match sensors {
+                [_] => format!("file of {measurements}: units or sensitivity; SI is expected"),
+                _ => "files of all [[measurement]]: units or the hammer's sensitivity; SI is expected. Or the units of [[matrix]]"
+                    .to_owned(),
+            },
+        ),
+        Fault::Delay { seconds, .. } => (
+            "delay",
+            match *seconds > 0.0 {
+                true => format!("the response is late by {} s: its phase falls in proportion to frequency", number(*seconds)),
+                false => format!("the response is early by {} s: its phase rises in proportion to frequency", number(-seconds)),
+            },
+            format!("file of {measurements}: remove the delay between force and response (filters, triggers)"),
+        ),
+        Fault::ResponseDof { rows } => {
+            let sensor = sensors.first().map_or("", |&m| case.sensors[m].label.as_str());
+            let what = format!("the response was not measured at {sensor}: {} would explain it", listed(case, rows));
+            ("response_dof", what, format!("dof (or row) of {measurements}"))
+        }
+        Fault::LoadDof { rows } => {
+            let what = format!("the structure was not driven where [load] says: {} would explain it", listed(case, rows));
+            ("load_dof", what, "dof (or row) of [load]".to_owned())
+        }
+        Fault::Mesh { row_hz, top_hz } => (
+            "mesh",
+            format!(
+                "the band goes up to {} Hz, where the mesh is too coarse: rows that move alone vibrate at {} Hz",
+                number(*top_hz),
+                number(*row_hz)
+            ),
+            format!("upper end of identify.band_hz: below {} Hz; or matrices of a finer mesh", number(0.5 * row_hz)),
+        ),
+    }
+}
+
+/// The best row first, then those that cannot be told from it.
+fn listed(case: &Case, rows: &[OtherRow]) -> String {
+    let names: Vec<String> = rows.iter().map(|other| case.row_name(other.row)).collect();
+    match names.as_slice() {
+        [best, others @ ..] if !others.is_empty() => {
+            format!("{best} (or, not to be told from it, {})", others.join(", "))
+        }
+        names => names.join(", "),
+    }
+}
+
+fn unit(known: KnownFactor) -> &'static str {
+    match known {
+        KnownFactor::StandardGravity => "9.80665, g made m/s² twice, or kilogram-force taken for newtons",
+        KnownFactor::PerStandardGravity => "1/9.80665, values in g taken for m/s²",
+        KnownFactor::Thousand => "1e3, millimetres taken for metres, or kilonewtons taken for newtons",
+        KnownFactor::Thousandth => "1e-3, metres taken for millimetres, or newtons taken for kilonewtons",
+        KnownFactor::Million => "1e6, micrometres taken for metres",
+        KnownFactor::Millionth => "1e-6, metres taken for micrometres",
+        KnownFactor::GravityInMillimetres => "9806.65, g and millimetres",
+        KnownFactor::PerGravityInMillimetres => "1/9806.65, g and millimetres",
+    }
+}
+
+/// What a fault's own numbers say.
+fn more_numbers(fault: &Fault) -> String {
+    match fault {
+        Fault::Quantity { slope, slope_std, .. } if slope.is_finite() => {
+            format!("|measured/model| goes like ω^{slope:.2} ± {slope_std:.2}")
+        }
+        Fault::Factor { factor, relative_std, .. } => {
+            format!("factor {} ± {:.1} %", number(*factor), 100.0 * relative_std)
+        }
+        Fault::Delay { seconds, std } => format!("delay {} ± {:.0e} s", number(*seconds), std),
+        _ => String::new(),
+    }
+}
+
+fn numbers(evidence: &Evidence) -> String {
+    let Evidence { before, after, nats } = evidence;
+    format!("misfit of ln(measured/model) {before:.2} before, {after:.2} after; {nats:.0} nats likelier")
+}
+
+/// Four digits.
+fn number(value: f64) -> String {
+    let shown = format!("{value:.3e}").parse::<f64>().unwrap_or(value);
+    if (1e-3..1e5).contains(&shown.abs()) { format!("{shown}") } else { format!("{shown:e}") }
+}
+
+/// Why data were not judged, in words.
+pub fn not_judged(reason: NotJudged) -> &'static str {
+    match reason {
+        NotJudged::Parameter => "the unknown factor has no positive real part to begin with",
+        NotJudged::FewValues => "too few values",
+        NotJudged::Breakdown => "no reduced model of the band could be made",
+    }
+}
+
+/// `findings` of `summary.json`.
+pub fn findings_json(case: &Case, diagnosis: &Diagnosis) -> Value {
+    let evidence = |k: usize| {
+        diagnosis.findings[k]
+            .evidence
+            .as_ref()
+            .map(|e| json!({"misfit_before": e.before, "misfit_after": e.after, "nats": e.nats}))
+    };
+    let own = |k: usize| match &diagnosis.findings[k].fault {
+        Fault::Quantity { taken_for, is, slope, slope_std } => json!({
+            "taken_for": taken_for.name(), "is": is.name(),
+            "slope": Some(slope).filter(|s| s.is_finite()), "slope_std": Some(slope_std).filter(|s| s.is_finite()),
+        }),
+        Fault::Factor { factor, relative_std, known } => json!({
+            "factor": factor, "relative_std": relative_std, "known": known.map(|known| known.value()),
+        }),
+        Fault::Delay { seconds, std } => json!({"seconds": seconds, "std": std}),
+        Fault::ResponseDof { rows } | Fault::LoadDof { rows } => {
+            let one = |other: &OtherRow| json!({"row": other.row + 1, "dof": case.row_name(other.row), "misfit": other.misfit});
+            json!({"candidates": rows.iter().map(one).collect::<Vec<_>>()})
+        }
+        Fault::Mesh { row_hz, top_hz } => json!({"row_hz": row_hz, "top_hz": top_hz}),
+        Fault::Conjugated | Fault::Sign => json!({}),
+    };
+    let findings = told(case, diagnosis).into_iter().enumerate().map(|(k, told)| {
+        json!({
+            "kind": told.kind, "sensors": told.sensors, "what": told.what, "change": told.change,
+            "numbers": own(k), "evidence": evidence(k),
+        })
+    });
+    Value::from(findings.collect::<Vec<_>>())
+}
+
+/// The findings for a person, a few lines each; without any, one line that says how well the data agree with the model.
+pub fn findings_text(case: &Case, diagnosis: &Diagnosis) -> String {
+    let mut text = String::new();
+    for told in told(case, diagnosis) {
+        let who =
+            if told.sensors.is_empty() { String::new() } else { format!("{}: ", told.sensors.join(", ")) };
+        text += &format!("  {:<18}{who}{}\n", told.kind, told.what);
+        if !told.evidence.is_empty() {
+            text += &format!("  {:<18}{}\n", "", told.evidence);
+        }
+        text += &format!("  {:<18}change: {}\n", "", told.change);
+    }
+    text
+}
+
+/// What `frfit check` says.
+pub fn check_text(job: &CheckJob) -> String {
+    let CheckJob { case, diagnosis } = job;
+    let mut text = format!("{}: {} frequencies of the band looked at\n", case.title, diagnosis.frequencies);
+    text += &findings_text(case, diagnosis);
+    match (diagnosis.not_judged, diagnosis.misfit) {
+        (Some(reason), _) => text += &format!("  not judged        {}\n", not_judged(reason)),
+        (None, Some(misfit)) => {
+            let left = format!("ln(measured/model) is left with {misfit:.2} by the likeliest modulus");
+            let (label, end) = match (diagnosis.findings.is_empty(), misfit > UNEXPLAINED) {
+                (true, false) => ("no finding", ""),
+                (true, true) => ("no finding", ": that is much, and nothing that is looked for explains it"),
+                (false, false) => ("left", ""),
+                (false, true) => ("left", ": that is much, and nothing else that is looked for explains it"),
+            };
+            text += &format!("  {label:<18}{left}{end}\n");
+        }
+        (None, None) => {}
+    }
+    text
+}
+
+/// A misfit beyond this is no noise that anybody would identify a modulus from: a factor of 1.3, or 17 degrees.
+const UNEXPLAINED: f64 = 0.3;
