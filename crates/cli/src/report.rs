@@ -1,6 +1,6 @@
 //! What came out, in the few lines that a person reads first.
 
-use frfit::identify::{Explained, Identified, NoiseSource, Status};
+use frfit::identify::{Explained, Identified, NoiseSource, Scale, Status};
 use frfit_workflow::check::findings_text;
 use frfit_workflow::job::IdentifyJob;
 use frfit_workflow::output::laws_text;
@@ -127,6 +127,17 @@ fn doubts(job: &IdentifyJob) -> Vec<(&'static str, String)> {
     for (sensor, fit) in job.case.sensors.iter().zip(&run.sensors).filter(|(_, fit)| fit.contradicts) {
         let done = if fit.left_out { "left out" } else { "kept, as robust = false says" };
         lines.push(("sensor", format!("{} contradicts all others: {done}", sensor.label)));
+    }
+    let unknown = job.identify().map_or(&[][..], |identify| &identify.unknown_scale);
+    for (m, sensor) in job.case.sensors.iter().enumerate().filter(|&(m, _)| unknown[m]) {
+        let told = match run.scales.get(m).copied().flatten() {
+            Some(Scale { value, std }) => {
+                let std = std.map_or(String::new(), |std| format!(" ± {std:.1e}"));
+                format!("{value:.6e}{std} times what the file says, at {}", sensor.label)
+            }
+            None => format!("not told by the data, at {}: left out", sensor.label),
+        };
+        lines.push(("scale", told));
     }
     match run.fit {
         Some(fit) if fit.verdict == Explained::No => {

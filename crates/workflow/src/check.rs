@@ -3,7 +3,7 @@
 use crate::job::JobError;
 use crate::load::{Case, IdentifyCase, Overrides, Purpose, load};
 use crate::memory::check_identify;
-use crate::run::band_of;
+use crate::run::{Used, band_of};
 use frfit::doctor::{Diagnosis, Evidence, Fault, KnownFactor, NotJudged, OtherRow, diagnose};
 use frfit::material::OutsideTable;
 use frfit::quantity::Quantity;
@@ -58,7 +58,14 @@ pub fn check_case(
 pub fn check(case: &Case, identify: &IdentifyCase) -> Result<Diagnosis, OutsideTable> {
     let quantities: Vec<Quantity> = case.sensors.iter().map(|sensor| sensor.quantity).collect();
     let for_each = |n: usize, each: &(dyn Fn(usize) + Sync)| (0..n).into_par_iter().for_each(each);
-    diagnose(&band_of(case, identify), &quantities, &identify.options, &for_each)
+    let used = Used::of(identify);
+    let mut diagnosis = diagnose(&band_of(case, identify, &used), &quantities, &identify.options, &for_each)?;
+    // A real factor is no finding where it is looked for.
+    diagnosis.findings.retain(|finding| {
+        let real = matches!(finding.fault, Fault::Factor { .. } | Fault::Sign);
+        !(real && finding.sensors.iter().all(|&m| identify.unknown_scale[m]))
+    });
+    Ok(diagnosis)
 }
 
 /// The findings in words.

@@ -117,7 +117,7 @@ pub fn identify_case(
         files.push(File::new("law.json", format!("{:#}\n", laws_json(laws))));
     }
     files.push(File::new("candidates.csv", candidates_csv(&run.outcomes)));
-    files.push(File::new("response.csv", response_csv(&case, wanted, &run.outcomes)));
+    files.push(File::new("response.csv", response_csv(&case, wanted, &run)));
     files.push(File::new("summary.json", format!("{summary:#}\n")));
     write_all(out, &files)?;
     Ok(IdentifyJob { case, diagnosis, run, summary })

@@ -9,8 +9,8 @@ mod rational;
 mod uncertainty;
 
 pub use band::{
-    Band, BandOutcome, Explained, GoodnessOfFit, Hooks, LawsOutcome, Noise, NoiseLevel, NoiseSource,
-    SensorFit, Stage, identify_band, identify_laws,
+    Band, BandOutcome, Explained, GoodnessOfFit, Hooks, LawsOutcome, Noise, NoiseLevel, NoiseSource, Scale,
+    SensorFit, Stage, identify_band, identify_band_scaled, identify_laws, identify_laws_scaled,
 };
 pub use choice::{Method, Selection, Space, UnknownChoice};
 pub use one::{error_by_order, identify_at, relative_error};

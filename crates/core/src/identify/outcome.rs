@@ -112,6 +112,11 @@ impl Identified {
         }
     }
 
+    /// The outcome at a frequency that is left out.
+    pub fn out_of_band(frequency_hz: f64, nominal: c64) -> Self {
+        Self { status: Status::OutOfBand, ..Self::unknown(frequency_hz, nominal, 0) }
+    }
+
     /// The outcome where the nominal system could not even be factorised.
     pub fn broken(frequency_hz: f64, nominal: c64, order: usize, breakdown: Breakdown) -> Self {
         let status = Status::IllConditioned;

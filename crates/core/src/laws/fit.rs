@@ -217,8 +217,13 @@ impl LawFit {
         Some(ModulusEstimate { modulus, storage_std, loss_factor_std, correlation })
     }
 
+    /// θ.
+    pub(crate) fn coordinates(&self) -> (&Chart, &[f64]) {
+        (&self.chart, &self.theta)
+    }
+
     /// gᵀ Cov h over the coordinates that are told.
-    fn covariance_of(&self, g: &[f64], h: &[f64]) -> Option<f64> {
+    pub(crate) fn covariance_of(&self, g: &[f64], h: &[f64]) -> Option<f64> {
         let covariance = self.covariance.as_ref()?;
         let told: Vec<usize> = (0..g.len()).filter(|&i| covariance[i][i].is_finite()).collect();
         let row = |&i: &usize| told.iter().map(|&j| g[i] * covariance[i][j] * h[j]).sum::<f64>();

@@ -127,6 +127,20 @@ impl<'a> Field<'a> {
         items.iter().map(|item| Ok(pair(item)?.value)).collect()
     }
 
+    /// What a list has, one item at a time.
+    pub(super) fn each<T>(
+        &self,
+        expected: &str,
+        read: impl Fn(&Field<'_>) -> Result<T, InputError>,
+    ) -> Result<Vec<T>, InputError> {
+        let items = self.value.as_array().ok_or_else(|| self.refuse(expected))?;
+        let item = |item: &Spanned<DeValue<'_>>| {
+            let place = self.document.place(item.span(), self.place.key.clone());
+            read(&Field { place, value: item.get_ref(), ..*self })
+        };
+        items.iter().map(item).collect()
+    }
+
     /// A whole number.
     pub(super) fn whole(&self) -> Result<Located<i64>, InputError> {
         let digits = self.value.as_integer();
@@ -142,6 +156,11 @@ impl<'a> Field<'a> {
     /// A number, if it is one.
     pub(super) fn as_number(&self) -> Option<f64> {
         number(self.value)
+    }
+
+    /// Whether it is a list.
+    pub(super) fn is_list(&self) -> bool {
+        self.value.is_array()
     }
 
     /// Whether it is a table.

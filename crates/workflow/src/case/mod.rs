@@ -9,7 +9,7 @@ pub use parse::parse;
 pub(crate) use sections::checked_band;
 
 use crate::error::Place;
-use frfit::dof::DofName;
+use frfit::dof::{Axis, DofName};
 use frfit::identify::{Method, Selection, Space};
 use frfit::laws::Family;
 use frfit::material::Law;
@@ -37,6 +37,8 @@ pub struct CaseFile {
     pub matrices: Vec<MatrixEntry>,
     /// `dofs.file`.
     pub dofs: Option<Located<String>>,
+    /// `[[attached]]`.
+    pub attached: Vec<AttachedEntry>,
     /// `[load]`.
     pub load: LoadEntry,
     /// `[[measurement]]`, at least one.
@@ -78,6 +80,23 @@ pub enum Spot {
     Row(Located<i64>),
 }
 
+/// `[[attached]]`: what is on the structure besides the model, at one place.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AttachedEntry {
+    /// Where the table begins.
+    pub place: Place,
+    /// Where it is.
+    pub spot: Spot,
+    /// A point mass, as of an accelerometer or a hammer's tip.
+    pub mass_kg: Option<f64>,
+    /// In which directions of the node it moves; `None`: in all translations that the node has.
+    pub directions: Option<Vec<Located<Axis>>>,
+    /// A spring to ground, N/m (N·m/rad for a rotation).
+    pub stiffness: Option<f64>,
+    /// A viscous damper to ground, N·s/m.
+    pub damping: Option<f64>,
+}
+
 /// `[load]`.
 #[derive(Debug, Clone, PartialEq)]
 pub enum LoadEntry {
@@ -100,8 +119,21 @@ pub struct MeasurementEntry {
     pub record: Option<Located<i64>>,
     /// What was measured; `None`: as the file says.
     pub quantity: Option<Quantity>,
+    /// What its values are to be multiplied by; `None`: one.
+    pub scale: Option<Located<ScaleEntry>>,
+    /// By how much the channel is late, s.
+    pub delay_s: Option<f64>,
     /// Over how many records the coherence was averaged; `None`: not told.
     pub averages: Option<Located<i64>>,
+}
+
+/// `scale` of a measurement.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum ScaleEntry {
+    /// The value in SI units over that of the file.
+    Known(f64),
+    /// To be found.
+    Unknown,
 }
 
 /// `[identify]`.
@@ -113,6 +145,8 @@ pub struct IdentifyEntry {
     pub matrices: Vec<Located<String>>,
     /// First and last frequency.
     pub band_hz: Option<Located<[f64; 2]>>,
+    /// Frequencies and bands that are left out: no number of them is used.
+    pub leave_out: Vec<LeaveOut>,
     /// Laws to compare, where it says `varies = "law"`; the place is that of `varies`.
     pub laws: Option<Located<Vec<Family>>>,
     /// Method.
@@ -137,6 +171,15 @@ pub struct IdentifyEntry {
     pub check: bool,
     /// The factor that a simulated measurement was made with.
     pub truth: Option<Located<FactorEntry>>,
+}
+
+/// What `leave_out_hz` lists.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum LeaveOut {
+    /// A frequency: the line there, or where it is between two lines, both.
+    Line(f64),
+    /// All lines from low to high, both included.
+    Band([f64; 2]),
 }
 
 /// `[respond]`.

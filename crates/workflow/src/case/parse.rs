@@ -2,7 +2,7 @@
 
 use super::document::Document;
 use super::field::{Table, shown};
-use super::sections::{identify, load, matrix, measurement, respond};
+use super::sections::{attached, identify, load, matrix, measurement, respond};
 use super::{CaseFile, MatrixEntry};
 use crate::error::{InputError, Place};
 use std::path::Path;
@@ -14,7 +14,7 @@ use std::path::Path;
 pub fn parse(file: &Path, bytes: &[u8]) -> Result<CaseFile, InputError> {
     let document = Document::new(file, bytes)?;
     let tables = document.tables()?;
-    let known = ["title", "matrix", "dofs", "load", "measurement", "identify", "respond"];
+    let known = ["title", "matrix", "dofs", "attached", "load", "measurement", "identify", "respond"];
     let case = Table::new(&document, Place::file(file), tables.get_ref(), &known)?;
     let missing = |table: String| InputError::at(&case.place, table, "none");
     let many = |name: &str, known: &[&str]| match case.find(name) {
@@ -23,7 +23,12 @@ pub fn parse(file: &Path, bytes: &[u8]) -> Result<CaseFile, InputError> {
     };
 
     let matrices = many("matrix", &["name", "role", "file", "factor"])?;
-    let measurements = many("measurement", &["file", "dof", "row", "record", "quantity", "averages"])?;
+    let measurements =
+        many("measurement", &["file", "dof", "row", "record", "quantity", "averages", "scale", "delay_s"])?;
+    let attached = match case.find("attached") {
+        Some(field) => field.tables("attached", &ATTACHED)?.iter().map(attached).collect::<Result<_, _>>()?,
+        None => Vec::new(),
+    };
     let force = case.find("load").ok_or_else(|| missing("a table [load]".into()))?;
     let dofs = match case.find("dofs") {
         Some(dofs) => Some(dofs.table(&["file"])?.need("file")?.text()?),
@@ -34,12 +39,15 @@ pub fn parse(file: &Path, bytes: &[u8]) -> Result<CaseFile, InputError> {
         title: case.find("title").map(|title| title.text()).transpose()?.map(|title| title.value),
         matrices: named_once(matrices.iter().map(matrix).collect::<Result<_, _>>()?)?,
         dofs,
+        attached,
         load: load(&force.table(&["dof", "row", "file"])?)?,
         measurements: measurements.iter().map(measurement).collect::<Result<_, _>>()?,
         identify: case.find("identify").map(|field| identify(&field)).transpose()?,
         respond: case.find("respond").map(|field| respond(&field)).transpose()?,
     })
 }
+
+const ATTACHED: [&str; 6] = ["dof", "row", "mass_kg", "directions", "stiffness", "damping"];
 
 /// Refuses a name that two matrices have.
 fn named_once(matrices: Vec<MatrixEntry>) -> Result<Vec<MatrixEntry>, InputError> {

@@ -2,11 +2,12 @@
 
 use super::field::{Field, Table};
 use super::{
-    FactorEntry, IdentifyEntry, LoadEntry, Located, MatrixEntry, MeasurementEntry, RespondEntry, Spot,
+    AttachedEntry, FactorEntry, IdentifyEntry, LeaveOut, LoadEntry, Located, MatrixEntry, MeasurementEntry,
+    RespondEntry, ScaleEntry, Spot,
 };
 use crate::error::{InputError, Place};
 use frfit::c64;
-use frfit::dof::DofName;
+use frfit::dof::{Axis, DofName};
 use frfit::identify::{Method, Selection, Space};
 use frfit::laws::{Family, MAX_BRANCHES, UnknownFamily};
 use frfit::material::{Branch, Law};
@@ -131,6 +132,55 @@ fn spot(table: &Table<'_>) -> Result<Option<Spot>, InputError> {
     }
 }
 
+/// `[[attached]]`.
+pub(super) fn attached(table: &Table<'_>) -> Result<AttachedEntry, InputError> {
+    let positive = |key: &str, expected: &str| {
+        let number = |field: Field<'_>| match field.number()? {
+            value if value > 0.0 => Ok(value),
+            _ => Err(field.refuse(expected)),
+        };
+        table.find(key).map(number).transpose()
+    };
+    let mass_kg = positive("mass_kg", "a mass above 0 kg")?;
+    let stiffness = positive("stiffness", "a stiffness above 0 N/m")?;
+    let damping = positive("damping", "a damping above 0 N s/m")?;
+    let spot = spot(table)?
+        .ok_or_else(|| InputError::at(&table.place, "the key \"dof\" or \"row\", where it is", "none"))?;
+    if mass_kg.or(stiffness).or(damping).is_none() {
+        let expected = "one of the keys mass_kg, stiffness and damping";
+        return Err(InputError::at(&table.place, expected, "none"));
+    }
+    let directions = match table.find("directions") {
+        Some(field) => Some(directions(&field, &spot, mass_kg)?),
+        None => None,
+    };
+    Ok(AttachedEntry { place: table.place.clone(), spot, mass_kg, directions, stiffness, damping })
+}
+
+/// The directions in which a mass moves with its node.
+fn directions(
+    field: &Field<'_>,
+    spot: &Spot,
+    mass_kg: Option<f64>,
+) -> Result<Vec<Located<Axis>>, InputError> {
+    const EXPECTED: &str = "a list of \"X\", \"Y\" and \"Z\", each at most once";
+    if mass_kg.is_none() {
+        return Err(InputError::at(&field.place, "the key mass_kg beside it", "none"));
+    }
+    if let Spot::Row(_) = spot {
+        let found = "row, which has no node";
+        return Err(InputError::at(&field.place, "dof beside it", found));
+    }
+    let axis = |word: &str| {
+        let translations = Axis::ALL.into_iter().take(3);
+        let found = translations.into_iter().find(|axis| axis.name().eq_ignore_ascii_case(word));
+        found.ok_or_else(|| EXPECTED.to_owned())
+    };
+    let axes = field.each(EXPECTED, |item| item.word(axis))?;
+    let twice = (1..axes.len()).any(|k| axes[..k].iter().any(|axis| axis.value == axes[k].value));
+    if axes.is_empty() || twice { Err(field.refuse(EXPECTED)) } else { Ok(axes) }
+}
+
 /// `[load]`.
 pub(super) fn load(table: &Table<'_>) -> Result<LoadEntry, InputError> {
     match (spot(table)?, table.find("file")) {
@@ -154,7 +204,23 @@ pub(super) fn measurement(table: &Table<'_>) -> Result<MeasurementEntry, InputEr
         record: table.find("record").map(|record| record.whole()).transpose()?,
         quantity: table.find("quantity").map(quantity).transpose()?.map(|quantity| quantity.value),
         averages: table.find("averages").map(|field| averages(&field)).transpose()?,
+        scale: table.find("scale").map(|field| scale(&field)).transpose()?,
+        delay_s: table.find("delay_s").map(|field| field.number()).transpose()?,
     })
+}
+
+/// A number, or that it is to be found.
+fn scale(field: &Field<'_>) -> Result<Located<ScaleEntry>, InputError> {
+    const EXPECTED: &str = "a finite number other than 0, or \"unknown\"";
+    match field.as_number() {
+        Some(scale) if scale != 0.0 => {
+            Ok(Located { value: ScaleEntry::Known(scale), place: field.place.clone() })
+        }
+        _ => match field.word(|word| (word == "unknown").then_some(()).ok_or_else(|| EXPECTED.to_owned())) {
+            Ok(word) => Ok(Located { value: ScaleEntry::Unknown, place: word.place }),
+            Err(_) => Err(field.refuse(EXPECTED)),
+        },
+    }
 }
 
 /// A number of averages: a coherence of one record is 1 whatever was measured.
@@ -174,6 +240,7 @@ pub(super) fn identify(field: &Field<'_>) -> Result<IdentifyEntry, InputError> {
     let known = [
         "matrix",
         "band_hz",
+        "leave_out_hz",
         "varies",
         "law",
         "branches",
@@ -199,6 +266,7 @@ pub(super) fn identify(field: &Field<'_>) -> Result<IdentifyEntry, InputError> {
         place: table.place.clone(),
         matrices: table.need("matrix")?.texts()?,
         band_hz: table.find("band_hz").map(|band| self::band(&band)).transpose()?,
+        leave_out: table.find("leave_out_hz").map_or(Ok(Vec::new()), |field| leave_out(&field))?,
         laws: laws(&table)?,
         method: table.find("method").map(|field| field.word(method)).transpose()?.map(|m| m.value),
         order: table.find("order").map(|order| order.whole()).transpose()?,
@@ -211,6 +279,17 @@ pub(super) fn identify(field: &Field<'_>) -> Result<IdentifyEntry, InputError> {
         robust: table.find("robust").map(|robust| robust.flag()).transpose()?,
         check: table.find("check").map(|check| check.flag()).transpose()?.unwrap_or(true),
         truth: table.find("truth").map(|truth| factor(&truth)).transpose()?,
+    })
+}
+
+/// Frequencies, and bands [low, high].
+fn leave_out(field: &Field<'_>) -> Result<Vec<LeaveOut>, InputError> {
+    const EXPECTED: &str = "a list of frequencies and bands [low, high] in Hz, as [100.0, [49.0, 51.0]]";
+    field.each(EXPECTED, |item| match item.as_number() {
+        Some(frequency_hz) if frequency_hz >= 0.0 => Ok(LeaveOut::Line(frequency_hz)),
+        Some(_) => Err(item.refuse("a frequency in Hz that is not negative")),
+        None if item.is_list() => Ok(LeaveOut::Band(band(item)?.value)),
+        None => Err(item.refuse("a frequency or a band [low, high] in Hz")),
     })
 }
 

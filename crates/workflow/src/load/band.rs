@@ -4,6 +4,7 @@ use super::identify::MeasuredNoise;
 use super::measurement::{Curve, Measurement};
 use crate::error::{InputError, Place};
 use frfit::c64;
+use frfit::frequency::omega_rad_s;
 use frfit::signal::variance;
 use frfit_formats::FormatError;
 
@@ -57,7 +58,10 @@ pub(super) fn band(
         let picked = |column: &Vec<f64>| rows.iter().map(|&row| column[row]).collect::<Vec<_>>();
         let quantity = measurement.info.quantity;
         for ((&row, &f), values) in rows.iter().zip(&frequency_hz).zip(&mut measured) {
-            let receptance = quantity.to_receptance(f, frf.response[row]);
+            // A late channel has the phase e^{-iωτ}.
+            let channel = c64::from_polar(curve.scale.abs(), omega_rad_s(f) * curve.delay_s);
+            let response = curve.scale.signum() * channel * frf.response[row];
+            let receptance = quantity.to_receptance(f, response);
             if !receptance.is_finite() {
                 let expected = format!("a band in which {quantity} can be converted to receptance");
                 return Err(InputError::at(place, expected, format!("{f} Hz in it")));
@@ -66,7 +70,10 @@ pub(super) fn band(
         }
         let std = frf.std.as_ref().map(picked).map(|std| {
             let per_receptance = frequency_hz.iter().map(|&f| quantity.over_receptance(f).norm());
-            std.into_iter().zip(per_receptance).map(|(std, factor)| std / factor).collect()
+            std.into_iter()
+                .zip(per_receptance)
+                .map(|(std, factor)| std * curve.scale.abs() / factor)
+                .collect()
         });
         let coherence: Option<Vec<f64>> = frf.coherence.as_ref().map(picked);
         let column = known.len();

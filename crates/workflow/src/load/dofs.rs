@@ -57,6 +57,13 @@ impl Dofs {
         }
     }
 
+    /// The axes of a name's node with their rows (from 0); the name itself has to be there too.
+    pub(super) fn axes(&self, name: &Located<DofName>) -> Result<&[(Axis, usize)], InputError> {
+        self.named(name.value, &name.place)?;
+        let axes = self.nodes.as_ref().and_then(|nodes| nodes.get(&name.value.node));
+        Ok(axes.map_or(&[], Vec::as_slice))
+    }
+
     /// Row and sign of a name; `place` is who asks for it.
     fn named(&self, name: DofName, place: &Place) -> Result<Sensor, InputError> {
         let Some(nodes) = &self.nodes else {

@@ -5,7 +5,7 @@ use super::band::band;
 use super::factor::law;
 use super::files::Files;
 use super::measurement::Measurement;
-use crate::case::{CaseFile, IdentifyEntry, Located, checked_band};
+use crate::case::{CaseFile, IdentifyEntry, LeaveOut, Located, ScaleEntry, checked_band};
 use crate::error::{InputError, Place};
 use crate::nearest::nearest;
 use frfit::c64;
@@ -32,6 +32,10 @@ pub struct IdentifyCase {
     pub frequency_hz: Vec<f64>,
     /// Measured receptance in m/N, `[frequency][sensor]`.
     pub measured: Vec<Vec<c64>>,
+    /// Which of the frequencies are left out: their rows have the status `out_of_band`.
+    pub left_out: Vec<bool>,
+    /// Which sensors have a scale that is to be found: their receptances are those of scale one.
+    pub unknown_scale: Vec<bool>,
     /// How well the receptances were measured.
     pub noise: MeasuredNoise,
     /// Whether to look for what is wrong with the data first.
@@ -73,7 +77,13 @@ pub(super) fn identify(
     }
     let (band_hz, place) = band_of(entry, overrides)?;
     let truth = entry.truth.as_ref().map(|truth| law(truth, files)).transpose()?;
+    let unknown_scale = unknown_scale(case, entry, &options)?;
     let data = band(measurements, band_hz, &place)?;
+    let left_out = left_out(&entry.leave_out, &data.frequency_hz);
+    if !data.frequency_hz.is_empty() && left_out.iter().all(|&out| out) {
+        let expected = "a frequency of the band that is not left out";
+        return Err(InputError::at(&entry.place.below("leave_out_hz"), expected, "none"));
+    }
     Ok(IdentifyCase {
         names,
         parameter,
@@ -82,6 +92,8 @@ pub(super) fn identify(
         band_hz,
         frequency_hz: data.frequency_hz,
         measured: data.measured,
+        left_out,
+        unknown_scale,
         noise: data.noise,
         check: entry.check,
         truth,
@@ -231,6 +243,66 @@ fn invalid(error: &OptionsError, entry: &IdentifyEntry, overrides: &Overrides) -
     }
 }
 
+/// Which sensors have an unknown scale, where that can be found.
+fn unknown_scale(case: &CaseFile, entry: &IdentifyEntry, options: &Options) -> Result<Vec<bool>, InputError> {
+    let is_unknown = |scale: &&Located<ScaleEntry>| scale.value == ScaleEntry::Unknown;
+    let scales = case.measurements.iter().map(|measurement| measurement.scale.as_ref().filter(is_unknown));
+    let scales: Vec<Option<&Located<ScaleEntry>>> = scales.collect();
+    let unknown: Vec<bool> = scales.iter().map(Option::is_some).collect();
+    let Some(first) = scales.into_iter().flatten().next() else { return Ok(unknown) };
+    let refuse = |expected: &str, found: &str| Err(InputError::at(&first.place, expected, found));
+    if options.selection != Selection::Joint {
+        let found = format!("\"unknown\" with selection {:?}", options.selection.name());
+        return refuse("a number, or selection = \"joint\"", &found);
+    }
+    if options.space == Space::Full {
+        return refuse("a number, or the space \"subspace\"", "\"unknown\" with space \"full\"");
+    }
+    if entry.laws.is_none() && !unknown.contains(&false) {
+        let expected = "a number here, another [[measurement]] whose scale is known, or varies = \"law\" \
+                        (a factor of its own at each frequency explains one sensor whatever its scale)";
+        return refuse(expected, "\"unknown\" for all sensors");
+    }
+    Ok(unknown)
+}
+
+/// A frequency this near to a line, as a part of their distance, is that line: between two lines a disturbance is in both.
+const ON_LINE: f64 = 0.01;
+
+/// Which frequencies (ascending) are left out.
+fn left_out(leave_out: &[LeaveOut], frequency_hz: &[f64]) -> Vec<bool> {
+    let mut out = vec![false; frequency_hz.len()];
+    for entry in leave_out {
+        let (first, end) = match *entry {
+            LeaveOut::Band([low, high]) => {
+                (frequency_hz.partition_point(|&f| f < low), frequency_hz.partition_point(|&f| f <= high))
+            }
+            LeaveOut::Line(line) => lines_of(line, frequency_hz),
+        };
+        out[first..end.max(first)].fill(true);
+    }
+    out
+}
+
+/// The lines [first, end) that a frequency is on, or between.
+fn lines_of(frequency: f64, frequency_hz: &[f64]) -> (usize, usize) {
+    let above = frequency_hz.partition_point(|&f| f < frequency);
+    match (above.checked_sub(1).map(|below| frequency_hz[below]), frequency_hz.get(above)) {
+        (Some(low), Some(&high)) => {
+            let near = ON_LINE * (high - low);
+            match (frequency - low <= near, high - frequency <= near) {
+                (true, _) => (above - 1, above),
+                (_, true) => (above, above + 1),
+                _ => (above - 1, above + 1),
+            }
+        }
+        // At the ends of the band, or outside: the line itself only, to the rounding of twelve digits.
+        (None, Some(&high)) if high - frequency <= 1e-9 * high => (above, above + 1),
+        (Some(low), None) if frequency - low <= 1e-9 * low => (above - 1, above),
+        _ => (above, above),
+    }
+}
+
 /// The band, and the key or the option that it comes from.
 fn band_of(entry: &IdentifyEntry, overrides: &Overrides) -> Result<([f64; 2], Place), InputError> {
     if let Some(band_hz) = overrides.band_hz {
@@ -247,6 +319,22 @@ fn band_of(entry: &IdentifyEntry, overrides: &Overrides) -> Result<([f64; 2], Pl
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn lines_and_bands_are_left_out() {
+        let lines: Vec<f64> = (0..10).map(|k| 10.0 + 2.0 * k as f64).collect();
+        let out = |entries: &[LeaveOut]| {
+            let out = left_out(entries, &lines);
+            lines.iter().zip(out).filter(|(_, out)| *out).map(|(f, _)| *f).collect::<Vec<_>>()
+        };
+        assert_eq!(out(&[LeaveOut::Band([12.0, 15.9]), LeaveOut::Line(20.0)]), [12.0, 14.0, 20.0]);
+        // Between two lines a hum is in both; next to one, in that one.
+        assert_eq!(out(&[LeaveOut::Line(13.0), LeaveOut::Line(20.019)]), [12.0, 14.0, 20.0]);
+        assert_eq!(out(&[LeaveOut::Line(10.0), LeaveOut::Line(28.0)]), [10.0, 28.0]);
+        // Nothing of the band is there.
+        assert_eq!(out(&[LeaveOut::Line(9.0), LeaveOut::Line(50.0), LeaveOut::Band([30.0, 40.0])]), [0.0; 0]);
+        assert_eq!(out(&[LeaveOut::Band([12.5, 13.5])]), [0.0; 0]);
+    }
 
     #[test]
     fn the_orders_named_are_those_allowed() {

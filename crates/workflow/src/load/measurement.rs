@@ -3,7 +3,7 @@
 use super::dofs::Dofs;
 use super::files::{Files, NamedFile};
 use super::frf::{Choice, Frf, read_frf};
-use crate::case::{Located, MeasurementEntry, Spot};
+use crate::case::{Located, MeasurementEntry, ScaleEntry, Spot};
 use crate::error::InputError;
 use frfit::dof::DofName;
 use frfit::model::Sensor;
@@ -34,6 +34,10 @@ pub(super) struct Measurement {
 #[derive(Debug)]
 pub(super) struct Curve {
     pub(super) frf: Frf,
+    /// What its values are to be multiplied by, as far as that is known.
+    pub(super) scale: f64,
+    /// By how much it is late, s.
+    pub(super) delay_s: f64,
     /// Over how many records its coherence was averaged, where the case says.
     pub(super) averages: Option<usize>,
     pub(super) file: NamedFile,
@@ -103,5 +107,10 @@ fn curve(
         return Err(file.refuse(FormatError::whole(expected, there.to_string())));
     }
     let averages = entry.averages.as_ref().and_then(|averages| usize::try_from(averages.value).ok());
-    Ok(Curve { frf, averages, file: NamedFile { bytes: Default::default(), ..file } })
+    let scale = match entry.scale.as_ref().map(|scale| scale.value) {
+        Some(ScaleEntry::Known(scale)) => scale,
+        Some(ScaleEntry::Unknown) | None => 1.0,
+    };
+    let delay_s = entry.delay_s.unwrap_or(0.0);
+    Ok(Curve { frf, scale, delay_s, averages, file: NamedFile { bytes: Default::default(), ..file } })
 }

@@ -1,5 +1,6 @@
 //! From a case file to everything that a computation needs: all files read, everything checked, nothing computed.
 
+mod attached;
 mod band;
 mod dofs;
 mod factor;
@@ -91,8 +92,11 @@ pub enum Purpose {
 pub fn load(case_file: &Path, overrides: &Overrides, purpose: Purpose) -> Result<Case, InputError> {
     let (mut files, bytes) = Files::of_case(case_file)?;
     let case = case::parse(case_file, &bytes)?;
-    let model = model::model(&case, &mut files)?;
-    let dofs = Dofs::read(case.dofs.as_ref(), model.dim(), &mut files)?;
+    let mut terms = model::terms(&case, &mut files)?;
+    let dim = terms.first().map_or(0, |term| term.matrix.dim());
+    let dofs = Dofs::read(case.dofs.as_ref(), dim, &mut files)?;
+    terms.extend(attached::terms(&case.attached, dim, &dofs)?);
+    let model = model::model(&case, terms)?;
     let load = force::load(&case.load, model.dim(), &dofs, &mut files)?;
     let measurements = measurements(&case, purpose, &dofs, &mut files)?;
     let (identify, respond_hz) = match purpose {

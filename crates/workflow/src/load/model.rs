@@ -8,8 +8,8 @@ use crate::error::InputError;
 use frfit::model::{DynamicStiffness, ModelError, Term};
 use frfit_formats::{CoordinateMatrix, Entries, FormatError, read_matrix};
 
-/// Reads all matrices and factors.
-pub(super) fn model(case: &CaseFile, files: &mut Files) -> Result<DynamicStiffness, InputError> {
+/// Reads all matrices and factors: one term for each, in their order.
+pub(super) fn terms(case: &CaseFile, files: &mut Files) -> Result<Vec<Term>, InputError> {
     let mut read = Vec::with_capacity(case.matrices.len());
     for entry in &case.matrices {
         let file = files.read(&entry.file)?;
@@ -26,6 +26,11 @@ pub(super) fn model(case: &CaseFile, files: &mut Files) -> Result<DynamicStiffne
         let factor = law(&entry.factor, files)?;
         terms.push(Term { name: entry.name.value.clone(), role: entry.role, matrix, factor });
     }
+    Ok(terms)
+}
+
+/// The model of all terms.
+pub(super) fn model(case: &CaseFile, terms: Vec<Term>) -> Result<DynamicStiffness, InputError> {
     DynamicStiffness::new(terms).map_err(|error| unusable(case, &error))
 }
 

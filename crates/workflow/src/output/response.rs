@@ -1,13 +1,12 @@
 //! `response.csv`: nominal, measured and updated response, per sensor, in the quantity that was measured.
 
 use crate::load::{Case, IdentifyCase, SensorInfo};
-use crate::run::RespondRun;
+use crate::run::{IdentifyRun, RespondRun};
 use frfit::c64;
-use frfit::identify::Identified;
 use frfit_formats::csv::{Cell, write};
 
 /// One row a frequency and sensor: nominal, measured, updated; where there is no response, the cells are empty.
-pub fn response_csv(case: &Case, identify: &IdentifyCase, outcomes: &[Identified]) -> String {
+pub fn response_csv(case: &Case, identify: &IdentifyCase, run: &IdentifyRun) -> String {
     let columns = [
         "frequency_hz",
         "sensor",
@@ -19,7 +18,8 @@ pub fn response_csv(case: &Case, identify: &IdentifyCase, outcomes: &[Identified
         "updated_re",
         "updated_im",
     ];
-    let rows = outcomes.iter().zip(&identify.measured).flat_map(|(outcome, measured)| {
+    let rows = run.outcomes.iter().zip(&identify.measured).flat_map(|(outcome, measured)| {
+        let measured = run.measured(measured);
         case.sensors.iter().enumerate().map(move |(m, sensor)| {
             let there = |receptance: Option<&c64>| cells(sensor, outcome.frequency_hz, receptance);
             let [nominal_re, nominal_im] = there(outcome.nominal_response.get(m));

@@ -52,6 +52,7 @@ pub fn summary_json(
             "varies": if identify.laws.is_empty() { "frequency" } else { "law" },
             "law": identify.laws.iter().map(|family| family.to_string()).collect::<Vec<_>>(),
             "band_hz": identify.band_hz,
+            "left_out": identify.left_out.iter().filter(|&&out| out).count(),
             "method": options.method.name(),
             "order": options.order,
             "selection": options.selection.name(),
@@ -101,6 +102,11 @@ pub fn summary_json(
 fn sensor(case: &Case, run: &IdentifyRun, m: usize) -> Value {
     let sensor = &case.sensors[m];
     let mut told = json!({"label": sensor.label, "quantity": sensor.quantity.name()});
+    if case.identify.as_ref().is_some_and(|identify| identify.unknown_scale[m]) {
+        let scale = run.scales.get(m).copied().flatten();
+        told["scale"] = json!(scale.map(|scale| scale.value));
+        told["scale_std"] = json!(scale.and_then(|scale| scale.std));
+    }
     if let Some(fit) = run.sensors.get(m) {
         told["misfit"] = json!(fit.misfit);
         told["contradicts"] = json!(fit.contradicts);

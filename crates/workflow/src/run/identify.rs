@@ -5,8 +5,8 @@ use crate::load::{Case, IdentifyCase, MeasuredNoise};
 use frfit::c64;
 use frfit::frequency::bands_hz;
 use frfit::identify::{
-    Band, BandOutcome, GoodnessOfFit, Hooks, Identified, LawsOutcome, Method, Noise, NoiseLevel, SensorFit,
-    Stage, Status, error_by_order, identify_band, identify_laws,
+    Band, BandOutcome, GoodnessOfFit, Hooks, Identified, LawsOutcome, Method, Noise, NoiseLevel, Scale,
+    SensorFit, Stage, Status, error_by_order, identify_band, identify_band_scaled, identify_laws_scaled,
 };
 use frfit::laws::LawFit;
 use frfit::material::OutsideTable;
@@ -68,6 +68,8 @@ pub struct IdentifyRun {
     pub fit: Option<GoodnessOfFit>,
     /// One for each sensor of a joint selection.
     pub sensors: Vec<SensorFit>,
+    /// The scale of each sensor that was unknown; `None` where it was known, or is not told.
+    pub scales: Vec<Option<Scale>>,
     /// The laws that were fitted; `None` where every frequency has its own factor. The outcomes are those of the best law.
     pub laws: Option<LawsRun>,
     /// How long it took.
@@ -103,7 +105,8 @@ pub fn identify(
     progress: Progress<'_>,
 ) -> Result<IdentifyRun, OutsideTable> {
     let clock = StageClock::default();
-    let band = band_of(case, identify);
+    let used = Used::of(identify);
+    let band = band_of(case, identify, &used);
     let hooks = Hooks {
         for_each: &|n, each| (0..n).into_par_iter().for_each(each),
         progress: &|stage, done, total| {
@@ -111,39 +114,108 @@ pub fn identify(
             progress(done, total);
         },
     };
-    let (found, laws) = match identify.laws.as_slice() {
-        [] => (identify_band(&band, &identify.options, hooks)?, None),
+    let unknown = &identify.unknown_scale;
+    let (found, scales, laws) = match identify.laws.as_slice() {
+        [] if unknown.contains(&true) => {
+            let (found, scales) = identify_band_scaled(&band, unknown, &identify.options, hooks)?;
+            (found, scales, None)
+        }
+        [] => (identify_band(&band, &identify.options, hooks)?, vec![None; unknown.len()], None),
         families => {
-            let LawsOutcome { free, fits, outcomes, work, subspace_size } =
-                identify_laws(&band, families, &identify.options, hooks)?;
+            let LawsOutcome { free, fits, outcomes, scales, work, subspace_size } =
+                identify_laws_scaled(&band, unknown, families, &identify.options, hooks)?;
             // What each frequency by itself told of noise and sensors holds for the laws too.
             let alone = free.outcomes.clone();
             let found = BandOutcome { outcomes, work, subspace_size, fit: None, ..free };
-            (found, Some(LawsRun { fits, free: alone }))
+            (found, scales, Some(LawsRun { fits, free: alone }))
         }
+    };
+    let mut found = found;
+    found.outcomes = Used::among_all(identify, found.outcomes)?;
+    let laws = match laws {
+        Some(laws) => Some(LawsRun { free: Used::among_all(identify, laws.free)?, ..laws }),
+        None => None,
     };
     let mut seconds = clock.seconds();
     let start = Instant::now();
     let error_map = error_map(case, identify, options)?;
     seconds.error_map = start.elapsed().as_secs_f64();
     let BandOutcome { outcomes, work, subspace_size, explored, noise, fit, sensors } = found;
-    Ok(IdentifyRun { outcomes, error_map, work, subspace_size, explored, noise, fit, sensors, laws, seconds })
+    Ok(IdentifyRun {
+        outcomes,
+        error_map,
+        work,
+        subspace_size,
+        explored,
+        noise,
+        fit,
+        sensors,
+        scales,
+        laws,
+        seconds,
+    })
+}
+
+/// What is not left out of a band.
+pub(crate) struct Used {
+    frequency_hz: Vec<f64>,
+    measured: Vec<Vec<c64>>,
+    noise: MeasuredNoise,
+}
+
+impl Used {
+    pub(crate) fn of(identify: &IdentifyCase) -> Self {
+        let rows = |all: &[Vec<f64>]| kept(all, identify).cloned().collect();
+        Self {
+            frequency_hz: kept(&identify.frequency_hz, identify).copied().collect(),
+            measured: kept(&identify.measured, identify).cloned().collect(),
+            noise: match &identify.noise {
+                MeasuredNoise::Unknown => MeasuredNoise::Unknown,
+                MeasuredNoise::Relative(std) => MeasuredNoise::Relative(rows(std)),
+                MeasuredNoise::Known(std) => MeasuredNoise::Known(rows(std)),
+            },
+        }
+    }
+
+    /// One outcome for each measured frequency of the band, `out_of_band` where it is left out.
+    fn among_all(
+        identify: &IdentifyCase,
+        outcomes: Vec<Identified>,
+    ) -> Result<Vec<Identified>, OutsideTable> {
+        let mut outcomes = outcomes.into_iter();
+        let all = identify.frequency_hz.iter().zip(&identify.left_out);
+        let mut whole = Vec::with_capacity(identify.frequency_hz.len());
+        for (&frequency_hz, &out) in all {
+            match out {
+                true => whole.push(Identified::out_of_band(
+                    frequency_hz,
+                    identify.parameter.nominal.at(frequency_hz)?,
+                )),
+                false => whole.extend(outcomes.next()),
+            }
+        }
+        Ok(whole)
+    }
+}
+
+/// Those rows of a table over the band that are not left out.
+fn kept<'i, T>(rows: &'i [T], identify: &'i IdentifyCase) -> impl Iterator<Item = &'i T> {
+    rows.iter().zip(&identify.left_out).filter(|(_, out)| !**out).map(|(row, _)| row)
 }
 
 /// A case's band as core takes it.
-pub(crate) fn band_of<'a>(case: &'a Case, identify: &'a IdentifyCase) -> Band<'a> {
-    let noise = match &identify.noise {
-        MeasuredNoise::Unknown => Noise::Unknown,
-        MeasuredNoise::Relative(std) => Noise::Relative(std),
-        MeasuredNoise::Known(std) => Noise::Known(std),
-    };
+pub(crate) fn band_of<'a>(case: &'a Case, identify: &'a IdentifyCase, used: &'a Used) -> Band<'a> {
     Band {
         model: &case.model,
         experiment: &case.experiment,
         parameter: &identify.parameter,
-        frequency_hz: &identify.frequency_hz,
-        measured: &identify.measured,
-        noise,
+        frequency_hz: &used.frequency_hz,
+        measured: &used.measured,
+        noise: match &used.noise {
+            MeasuredNoise::Unknown => Noise::Unknown,
+            MeasuredNoise::Relative(std) => Noise::Relative(std),
+            MeasuredNoise::Known(std) => Noise::Known(std),
+        },
     }
 }
 
@@ -195,12 +267,13 @@ fn error_map(
     options: RunOptions,
 ) -> Result<Option<ErrorMap>, OutsideTable> {
     let affordable = map_columns(case.model.dim());
-    let columns = options.error_map.unwrap_or(affordable).min(identify.frequency_hz.len());
+    let used: Vec<usize> = (0..identify.frequency_hz.len()).filter(|&i| !identify.left_out[i]).collect();
+    let columns = options.error_map.unwrap_or(affordable).min(used.len());
     if columns == 0 || identify.options.method != Method::Series {
         return Ok(None);
     }
-    let last = identify.frequency_hz.len() - 1;
-    let picked: Vec<usize> = (0..columns).map(|k| k * last / (columns - 1).max(1)).collect();
+    let last = used.len() - 1;
+    let picked: Vec<usize> = (0..columns).map(|k| used[k * last / (columns - 1).max(1)]).collect();
     let error = picked
         .par_iter()
         .map(|&i| {
@@ -219,6 +292,12 @@ impl IdentifyRun {
     /// How many frequencies have this status.
     pub fn count(&self, status: Status) -> usize {
         self.outcomes.iter().filter(|outcome| outcome.status == status).count()
+    }
+
+    /// What was measured at a frequency, as receptance, scales that were found included.
+    pub fn measured(&self, receptance: &[c64]) -> Vec<c64> {
+        let scale = |m: usize| self.scales.get(m).copied().flatten().map_or(1.0, |scale| scale.value);
+        receptance.iter().enumerate().map(|(m, u)| scale(m) * u).collect()
     }
 
     /// The largest estimated error of the subspace's response, relative to the measured one, over all answers; `None` where the full model answered.

@@ -3,8 +3,8 @@
 mod identify;
 mod respond;
 
-pub(crate) use identify::band_of;
 pub use identify::{ErrorMap, IdentifyRun, LawsRun, RunOptions, Seconds, identify};
+pub(crate) use identify::{Used, band_of};
 pub use respond::{RespondRun, respond};
 
 /// Called after each frequency with how many are done, of how many; from any thread.

@@ -18,11 +18,15 @@ const FREQUENCIES: usize = 24;
 const TIMES: f64 = 10.0;
 
 /// The sensors that contradict the others, worst first, and the work of size N that it took to find them. Of two sensors
-/// neither can be told to be the wrong one.
-pub(super) fn contradicting(task: &Task<'_, '_>, space: Option<&mut Space<'_, '_>>) -> (Vec<usize>, Work) {
+/// neither can be told to be the wrong one. Those that are `hidden` are left out throughout.
+pub(super) fn contradicting(
+    task: &Task<'_, '_>,
+    space: Option<&mut Space<'_, '_>>,
+    hidden: &[usize],
+) -> (Vec<usize>, Work) {
     let sensors = task.band.experiment.sensors.len();
     let mut trial = Trial { task, space, work: Work::default() };
-    let mut out: Vec<usize> = Vec::new();
+    let mut out: Vec<usize> = hidden.to_vec();
     // A single sensor beside those that are left out explains everything.
     while sensors - out.len() > 2 {
         let with_all = trial.misfit(&out);
@@ -45,7 +49,7 @@ pub(super) fn contradicting(task: &Task<'_, '_>, space: Option<&mut Space<'_, '_
             break;
         }
     }
-    (out, trial.work)
+    (out.split_off(hidden.len()), trial.work)
 }
 
 struct Trial<'t, 'a, 's, 'b, 'o> {

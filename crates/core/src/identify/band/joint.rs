@@ -84,19 +84,21 @@ impl Task<'_, '_> {
     }
 }
 
+/// Chooses at every frequency; of the `hidden` sensors nothing is asked.
 pub(super) fn identify<'a>(
     band: &Band<'a>,
     at: &[ModelAt<'a>],
-    space: &mut Option<Space<'a, '_>>,
+    space: &mut Option<Space<'_, '_>>,
+    hidden: &[usize],
     options: &Options,
     hooks: Hooks<'_>,
 ) -> BandOutcome {
     let assumed = deviations(band);
     let sensors = band.experiment.sensors.len();
     let task = Task { band, at, sigma: &assumed, sensors, options, hooks };
-    let (suspects, spent) = contradicting(&task, space.as_mut());
-    let out: &[usize] = if options.robust { &suspects } else { &[] };
-    let sigma = without(&assumed, out);
+    let (suspects, spent) = contradicting(&task, space.as_mut(), hidden);
+    let out = [hidden, if options.robust { &suspects[..] } else { &[] }].concat();
+    let sigma = without(&assumed, &out);
     let task = Task { sigma: &sigma, sensors: sensors - out.len(), ..task };
     let (solved, mut work) = match space {
         Some(space) => (on_space(&task, space), Work::default()),
@@ -122,7 +124,7 @@ pub(super) fn identify<'a>(
         let evidence = Evidence {
             at: &at[i],
             measured: &band.measured[i],
-            left_out: out,
+            left_out: &out,
             noise: noise.level,
             freedom: task.freedom(),
             assessment: on_space.and_then(|(space, c)| space.assess(i, c)),

@@ -3,10 +3,13 @@
 //! Every frequency by itself comes first: it trains the subspace, and tells where to begin. Then Σ |u_m − x_m(E(ω; θ))|²/σ_m² over the band is made least in θ on the
 //! models of the neighbourhoods, ∂x_m/∂θ = (∂x_m/∂c)(∂E/∂θ). The subspace is trained further where it is not good enough at the law that came out.
 
+use super::channels::at_scales;
 use super::contradiction::without;
+use super::joint;
 use super::noise::deviations;
+use super::scale::{Scale, Scaled};
 use super::space::{Space, certificate, is_certain};
-use super::{Band, BandOutcome, Hooks, Noise, Stage, keeping_space};
+use super::{Band, BandOutcome, Hooks, Noise, Stage};
 use crate::c64;
 use crate::for_each::map;
 use crate::frequency::omega_rad_s;
@@ -27,6 +30,8 @@ pub struct LawsOutcome {
     pub fits: Vec<LawFit>,
     /// The law of least BIC at each frequency.
     pub outcomes: Vec<Identified>,
+    /// The scale of each sensor that was unknown, by the law of least BIC.
+    pub scales: Vec<Option<Scale>>,
     /// All work of size N.
     pub work: Work,
     /// Vectors of the subspace.
@@ -74,29 +79,61 @@ pub fn identify_laws(
     options: &Options,
     hooks: Hooks<'_>,
 ) -> Result<LawsOutcome, OutsideTable> {
+    identify_laws_scaled(band, &vec![false; band.experiment.sensors.len()], families, options, hooks)
+}
+
+/// As [`identify_laws`], with channels whose scale is unknown ([`super::identify_band_scaled`]); here it may be that of all of them.
+///
+/// The scales are eliminated: for given θ the best real gain of a channel is linear least squares over the band, and the slopes are those of what it leaves, so that the
+/// error bars of the law have those of the scales in them. Where no channel has a known scale, the first scales are those with which the nominal law, times some
+/// factor of the box, has the shape that was measured: Σ |ln|u_m| − ln|x_m|| about its median.
+///
+/// # Errors
+/// As [`identify_laws`].
+///
+/// # Panics
+/// As [`identify_laws`], and where there is not one entry of `unknown` for each sensor.
+pub fn identify_laws_scaled(
+    band: &Band<'_>,
+    unknown: &[bool],
+    families: &[Family],
+    options: &Options,
+    hooks: Hooks<'_>,
+) -> Result<LawsOutcome, OutsideTable> {
+    assert!(unknown.len() == band.experiment.sensors.len());
     assert!(!band.frequency_hz.is_empty() && band.measured.len() == band.frequency_hz.len());
     let parameters = std::slice::from_ref(band.parameter);
     let at = band.frequency_hz.iter().map(|&f| band.model.at(f, parameters));
     let at: Vec<ModelAt<'_>> = at.collect::<Result<_, _>>()?;
     let near = Options { space: Where::Subspace, selection: Selection::Joint, ..*options };
     let far = Options { whole_box: true, ..near };
-    let (mut free, mut space) = keeping_space(band, &at, &near, hooks);
+    let (mut free, mut space, mut scales) = at_scales(band, &at, unknown, &near, hooks);
     // As without laws: where most of the band is left out, the bounds are all that is left.
     if near.bounds.storage.is_some() && !near.whole_box && 2 * free.answered() < at.len() {
-        let (wider, wider_space) = keeping_space(band, &at, &far, hooks);
+        let (wider, wider_space, wider_scales) = at_scales(band, &at, unknown, &far, hooks);
         let work = free.work;
         if wider.answered() > free.answered() {
-            (free, space) = (wider, wider_space);
+            (free, space, scales) = (wider, wider_space, wider_scales);
         }
         free.work += work;
     }
+    let scaled = Scaled::new(band, &scales);
+    let view = scaled.band(band);
     let sensors = free.sensors.iter().enumerate();
     let out: Vec<usize> = sensors.filter(|(_, sensor)| sensor.left_out).map(|(m, _)| m).collect();
-    let sigma = without(&deviations(band), &out);
-    let fitting = Fitting { band, at: &at, sigma: &sigma, options, hooks };
+    let sigma = without(&deviations(&view), &out);
+    let fitting = Fitting { band: &view, at: &at, sigma: &sigma, unknown, options, hooks };
     let Some(mut space) = space else {
         let outcomes = free.outcomes.iter().map(|own| fitting.without_law(own)).collect();
-        return Ok(LawsOutcome { work: free.work, subspace_size: None, fits: Vec::new(), outcomes, free });
+        let scales = vec![None; unknown.len()];
+        return Ok(LawsOutcome {
+            work: free.work,
+            subspace_size: None,
+            fits: Vec::new(),
+            outcomes,
+            scales,
+            free,
+        });
     };
     let before = space.work();
     let all: Vec<usize> = (0..at.len()).collect();
@@ -107,35 +144,62 @@ pub fn identify_laws(
         fits.extend(fitting.fit(family, &mut space, &free, best(&fits)));
     }
     (hooks.progress)(Stage::Law, families.len(), families.len());
+    let gains = best(&fits).and_then(|law| fitting.gains_of(law, &space));
+    let gain = |m: usize| gains.as_ref().map_or(1.0, |gains| gains[m].value);
+    let better: Vec<f64> = scales.iter().enumerate().map(|(m, scale)| scale / gain(m)).collect();
+    let told = |m: usize| {
+        let gain = gains.as_ref()?[m];
+        let std = gain.std.map(|std| (std * better[m] / gain.value).abs());
+        unknown[m].then_some(Scale { value: better[m], std })
+    };
+    let told_scales = (0..unknown.len()).map(told).collect();
+    let scaled = Scaled::new(band, &better);
+    let view = scaled.band(band);
+    let sigma = without(&deviations(&view), &out);
+    let judging = Fitting { band: &view, sigma: &sigma, ..fitting };
+    if better != scales {
+        // What each frequency says by itself, at the scales that came out.
+        let mut whole = Some(space);
+        let spent = free.work;
+        free = joint::identify(&view, &at, &mut whole, &[], &near, hooks);
+        free.work += spent;
+        let Some(again) = whole else { unreachable!("a space that was there stays") };
+        space = again;
+        space.localise(&all, hooks.for_each);
+    }
     let outcomes = match best(&fits) {
-        Some(law) => map(hooks.for_each, at.len(), |i| fitting.outcome(law, &space, i, &free.outcomes[i])),
+        Some(law) => map(hooks.for_each, at.len(), |i| judging.outcome(law, &space, i, &free.outcomes[i])),
         None => free.outcomes.iter().map(|own| fitting.without_law(own)).collect(),
     };
     let mut work = free.work;
     work.factorisations += space.work().factorisations - before.factorisations;
     work.solves += space.work().solves - before.solves;
-    Ok(LawsOutcome { outcomes, fits, work, subspace_size: Some(space.size()), free })
+    Ok(LawsOutcome { outcomes, fits, scales: told_scales, work, subspace_size: Some(space.size()), free })
 }
 
 /// What is to be explained, and with what.
-struct Fitting<'t, 'a> {
-    band: &'t Band<'a>,
-    at: &'t [ModelAt<'a>],
+#[derive(Clone, Copy)]
+pub(super) struct Fitting<'t, 'a> {
+    pub(super) band: &'t Band<'a>,
+    pub(super) at: &'t [ModelAt<'a>],
     /// Of real and imaginary part each.
-    sigma: &'t [Vec<f64>],
+    pub(super) sigma: &'t [Vec<f64>],
+    /// Sensors whose scale is to be found.
+    pub(super) unknown: &'t [bool],
     options: &'t Options,
-    hooks: Hooks<'t>,
+    pub(super) hooks: Hooks<'t>,
 }
 
 impl Fitting<'_, '_> {
-    fn omega(&self, i: usize) -> f64 {
+    pub(super) fn omega(&self, i: usize) -> f64 {
         omega_rad_s(self.band.frequency_hz[i])
     }
 
     fn evidence(&self) -> Evidence {
         Evidence {
             // A sensor that is left out has an infinite deviation.
-            residuals: 2 * self.sigma.iter().flatten().filter(|sigma| sigma.is_finite()).count(),
+            residuals: (2 * self.sigma.iter().flatten().filter(|sigma| sigma.is_finite()).count())
+                .saturating_sub(self.unknown.iter().filter(|&&unknown| unknown).count()),
             sigma_known: matches!(self.band.noise, Noise::Known(_)),
         }
     }
@@ -189,29 +253,22 @@ impl Fitting<'_, '_> {
 
     /// (x_m − u_m)/σ_m over the band and its slopes.
     fn residuals(&self, chart: &Chart, space: &Space<'_, '_>, theta: &[f64]) -> Option<Residuals> {
-        let n = theta.len();
-        let one = |i: usize| -> Option<(Vec<f64>, Vec<f64>)> {
-            let (modulus, of_theta) = chart.modulus(theta, self.omega(i))?;
-            let correction = modulus - self.at[i].parameters[0].nominal;
-            let (x, slope) = space.model(i).respond_with_slope(&self.at[i], correction).ok()?;
-            let sensors = 0..x.len();
-            let scaled = |value: c64, m: usize| [value.re / self.sigma[i][m], value.im / self.sigma[i][m]];
-            let rest = sensors.clone().flat_map(|m| scaled(x[m] - self.band.measured[i][m], m)).collect();
-            let columns = (0..n).flat_map(|j| {
-                let (slope, of_theta, sensors) = (&slope, of_theta[j], sensors.clone());
-                sensors.flat_map(move |m| scaled(slope[m] * of_theta, m))
-            });
-            Some((rest, columns.collect()))
+        let (responses, fits) = self.channels(chart, space, theta)?;
+        let (sensors, n) = (self.unknown.len(), theta.len());
+        let each = || (0..responses.len()).flat_map(|i| (0..sensors).map(move |m| (i, m)));
+        let parts = |value: c64| [value.re, value.im];
+        let rest = |(i, m): (usize, usize)| {
+            let sigma = self.sigma[i][m];
+            parts((fits[m].gain * responses[i].x[m] - self.band.measured[i][m]) / sigma)
         };
-        let parts: Vec<_> =
-            map(self.hooks.for_each, self.at.len(), one).into_iter().collect::<Option<_>>()?;
-        let residuals: Vec<f64> = parts.iter().flat_map(|(rest, _)| rest.iter().copied()).collect();
-        let mut jacobian = Vec::with_capacity(n * residuals.len());
-        for j in 0..n {
-            for (rest, columns) in &parts {
-                jacobian.extend_from_slice(&columns[j * rest.len()..(j + 1) * rest.len()]);
-            }
-        }
+        let residuals: Vec<f64> = each().flat_map(rest).collect();
+        let column = |j: usize, (i, m): (usize, usize)| {
+            let one = &responses[i];
+            let own = fits[m].gain * one.slope[m] * one.of_theta[j];
+            parts((own - fits[m].moved.get(j).copied().unwrap_or(0.0) * one.x[m]) / self.sigma[i][m])
+        };
+        let jacobian: Vec<f64> =
+            (0..n).flat_map(|j| each().map(move |at| (j, at))).flat_map(|(j, at)| column(j, at)).collect();
         let finite = residuals.iter().chain(&jacobian).all(|value| value.is_finite());
         finite.then_some((residuals, jacobian))
     }

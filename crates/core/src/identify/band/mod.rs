@@ -2,6 +2,7 @@
 
 mod alone;
 mod anchors;
+mod channels;
 mod contradiction;
 mod explore;
 mod fit;
@@ -11,11 +12,13 @@ mod laws;
 mod noise;
 mod on_space;
 mod same;
+mod scale;
 mod space;
 mod tube;
 mod verdict;
 
-pub use laws::{LawsOutcome, identify_laws};
+pub use laws::{LawsOutcome, identify_laws, identify_laws_scaled};
+pub use scale::{Scale, identify_band_scaled};
 
 use super::{Identified, Options, Selection};
 use crate::c64;
@@ -158,7 +161,7 @@ fn keeping_space<'a, 'o>(
     hooks: Hooks<'_>,
 ) -> (BandOutcome, Option<Space<'a, 'o>>) {
     let mut space = space(band, at, options, hooks);
-    (joint::identify(band, at, &mut space, options, hooks), space)
+    (joint::identify(band, at, &mut space, &[], options, hooks), space)
 }
 
 fn space<'a, 'o>(
