@@ -106,7 +106,9 @@ fn words(
             "sign",
             "the FRF has the opposite sign".to_owned(),
             match sensors {
-                [_] => format!("dof of {measurements} (or of [load]): the opposite sense, as in 34-Z for 34+Z"),
+                [_] => {
+                    format!("dof of {measurements} (or of [load]): the opposite sense, as in 34-Z for 34+Z")
+                }
                 _ => "dof of [load]: the opposite sense, as in 34-Z for 34+Z".to_owned(),
             },
         ),
@@ -118,30 +120,50 @@ fn words(
         Fault::Factor { factor, known, .. } => (
             "factor",
             match known {
-                Some(known) => format!("the FRF is {} times what it should be: {}", number(*factor), unit(*known)),
-                None => format!("the FRF is {} times what it should be, by a factor without a name", number(*factor)),
+                Some(known) => {
+                    format!("the FRF is {} times what it should be: {}", number(*factor), unit(*known))
+                }
+                None => format!(
+                    "the FRF is {} times what it should be, by a factor without a name",
+                    number(*factor)
+                ),
             },
             match sensors {
-                [_] => format!("file of {measurements}: units or sensitivity; SI is expected"),
-                _ => "files of all [[measurement]]: units or the hammer's sensitivity; SI is expected. Or the units of [[matrix]]"
-                    .to_owned(),
+                [_] => format!(
+                    "scale of {measurements}: {}, or units and sensitivity of its file; SI is expected",
+                    number(1.0 / factor)
+                ),
+                _ => format!(
+                    "scale of {measurements}: {}, or units and the hammer's sensitivity in their files; SI is expected. Or the units of [[matrix]]",
+                    number(1.0 / factor)
+                ),
             },
         ),
         Fault::Delay { seconds, .. } => (
             "delay",
             match *seconds > 0.0 {
-                true => format!("the response is late by {} s: its phase falls in proportion to frequency", number(*seconds)),
-                false => format!("the response is early by {} s: its phase rises in proportion to frequency", number(-seconds)),
+                true => format!(
+                    "the response is late by {} s: its phase falls in proportion to frequency",
+                    number(*seconds)
+                ),
+                false => format!(
+                    "the response is early by {} s: its phase rises in proportion to frequency",
+                    number(-seconds)
+                ),
             },
-            format!("file of {measurements}: remove the delay between force and response (filters, triggers)"),
+            format!("delay_s of {measurements}: {} (filters, triggers)", number(*seconds)),
         ),
         Fault::ResponseDof { rows } => {
             let sensor = sensors.first().map_or("", |&m| case.sensors[m].label.as_str());
-            let what = format!("the response was not measured at {sensor}: {} would explain it", listed(case, rows));
+            let what =
+                format!("the response was not measured at {sensor}: {} would explain it", listed(case, rows));
             ("response_dof", what, format!("dof (or row) of {measurements}"))
         }
         Fault::LoadDof { rows } => {
-            let what = format!("the structure was not driven where [load] says: {} would explain it", listed(case, rows));
+            let what = format!(
+                "the structure was not driven where [load] says: {} would explain it",
+                listed(case, rows)
+            );
             ("load_dof", what, "dof (or row) of [load]".to_owned())
         }
         Fault::Mesh { row_hz, top_hz } => (
@@ -151,7 +173,10 @@ fn words(
                 number(*top_hz),
                 number(*row_hz)
             ),
-            format!("upper end of identify.band_hz: below {} Hz; or matrices of a finer mesh", number(0.5 * row_hz)),
+            format!(
+                "upper end of identify.band_hz: below {} Hz; or matrices of a finer mesh",
+                number(0.5 * row_hz)
+            ),
         ),
     }
 }
