@@ -104,10 +104,10 @@ pub(crate) fn factor<T: Scalar>(
     values: &[T],
     options: &Options,
 ) -> Result<Factor<T>, FactorError> {
-    let scale = scaling::scaling(&symbolic.pattern, values)?;
     let bytes = symbolic.factor_bytes::<T>().saturating_add(symbolic.working_bytes::<T>());
     // Asked for and given back: whether there is as much, before anything is done.
     Vec::<u8>::new().try_reserve_exact(bytes).map_err(|_| FactorError::OutOfMemory)?;
+    let scale = scaling::scaling(&symbolic.pattern, values)?;
     let scale: Vec<T::Real> = symbolic.order.iter().map(|&row| scale[row as usize]).collect();
     let run = Run { symbolic, values, scale: &scale, options, free: Mutex::default() };
     let eliminated = with(options.threads, || run.all());
