@@ -39,6 +39,7 @@ pub mod frequency;
 pub mod identify;
 pub mod laws;
 pub mod material;
+mod median;
 pub mod model;
 pub mod nelder_mead;
 pub mod quantity;

@@ -6,10 +6,10 @@ use crate::front::{
 use crate::part::Part;
 use crate::scalar::Scalar;
 use crate::symbolic::{ROOT, Symbolic};
-use crate::threads::{map, with};
+use crate::threads::{Idle, map, with};
 use crate::{FactorError, scaling};
 use std::ops::Range;
-use std::sync::{Mutex, OnceLock, PoisonError};
+use std::sync::OnceLock;
 
 /// How a matrix is factorised.
 #[derive(Debug, Clone, PartialEq)]
@@ -109,7 +109,7 @@ pub(crate) fn factor<T: Scalar>(
     Vec::<u8>::new().try_reserve_exact(bytes).map_err(|_| FactorError::OutOfMemory)?;
     let scale = scaling::scaling(&symbolic.pattern, values)?;
     let scale: Vec<T::Real> = symbolic.order.iter().map(|&row| scale[row as usize]).collect();
-    let run = Run { symbolic, values, scale: &scale, options, free: Mutex::default() };
+    let run = Run { symbolic, values, scale: &scale, options, idle: Idle::default() };
     let eliminated = with(options.threads, || run.all());
     run.finish(eliminated)
 }
@@ -120,8 +120,7 @@ struct Run<'a, T: Scalar> {
     values: &'a [T],
     scale: &'a [T::Real],
     options: &'a Options,
-    /// Buffers that no thread uses at the moment.
-    free: Mutex<Vec<Elimination<T>>>,
+    idle: Idle<Elimination<T>>,
 }
 
 /// What each front gave, as it is done.
@@ -167,28 +166,39 @@ impl<T: Scalar> Run<'_, T> {
             }
         };
         for &k in chain.iter().rev() {
-            let free = || self.free.lock().unwrap_or_else(PoisonError::into_inner);
-            let mut with = free().pop().unwrap_or_else(|| Elimination::new(self.options.threshold, threads));
             let mut stacks = [Stack::default(), Stack::default()];
-            let left = self.front(k, below, &mut stacks, &mut with, done);
-            free().push(with);
+            let front = |with: &mut _| self.front(k, below, &mut stacks, with, done);
+            let left = self.with_idle(threads, front);
             let stack = &mut stacks[symbolic.parity(k)];
             below = left.map(|left| (k, left.taken_from(stack))).into_iter().collect();
         }
         below.pop().map(|(_, left)| left)
     }
 
+    /// Works with the buffers of an elimination that no thread has at the moment.
+    fn with_idle<O>(&self, threads: usize, work: impl FnOnce(&mut Elimination<T>) -> O) -> O {
+        self.idle.lend(
+            || Elimination::new(self.options.threshold),
+            |with| {
+                with.threads = threads;
+                work(with)
+            },
+        )
+    }
+
     /// The fronts of a subtree one after the other; what its root leaves.
     fn run(&self, range: Range<usize>, done: &Done<T>) -> Option<Contribution<T::Real>> {
         let symbolic = self.symbolic;
         let mut stacks = symbolic.stacks(range.clone()).map(|len| Stack::new(T::PARTS * len));
-        let mut with = Elimination::new(self.options.threshold, 1);
         let mut pending: Vec<Option<Contribution<T::Real>>> = range.clone().map(|_| None).collect();
-        for k in range.clone() {
-            let children = symbolic.children_of(k).iter().map(|&child| child as usize);
-            let children = children.filter_map(|child| Some((child, pending[child - range.start].take()?)));
-            pending[k - range.start] = self.front(k, children.collect(), &mut stacks, &mut with, done);
-        }
+        self.with_idle(1, |with| {
+            for k in range.clone() {
+                let children = symbolic.children_of(k).iter().map(|&child| child as usize);
+                let children =
+                    children.filter_map(|child| Some((child, pending[child - range.start].take()?)));
+                pending[k - range.start] = self.front(k, children.collect(), &mut stacks, with, done);
+            }
+        });
         let root = range.end.checked_sub(1)?;
         // The others have been taken by their parents.
         pending.pop().flatten().map(|left| left.taken_from(&mut stacks[symbolic.parity(root)]))

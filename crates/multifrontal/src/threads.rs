@@ -1,6 +1,29 @@
 //! Work shared out to threads.
 
 use rayon::prelude::*;
+use std::sync::{Mutex, PoisonError};
+
+/// Room to work in that no thread uses at the moment.
+pub(crate) struct Idle<B>(Mutex<Vec<B>>);
+
+impl<B> Default for Idle<B> {
+    fn default() -> Self {
+        Self(Mutex::default())
+    }
+}
+
+impl<B> Idle<B> {
+    /// Works in what is idle, or in something new.
+    pub(crate) fn lend<O>(&self, new: impl FnOnce() -> B, work: impl FnOnce(&mut B) -> O) -> O {
+        let idle = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        // Not in a match: the lock would last as long.
+        let found = idle().pop();
+        let mut lent = found.unwrap_or_else(new);
+        let out = work(&mut lent);
+        idle().push(lent);
+        out
+    }
+}
 
 /// Runs with so many threads at hand: those of the caller's pool where it has as many, else new ones.
 pub(crate) fn with<O: Send>(threads: usize, run: impl FnOnce() -> O + Send) -> O {

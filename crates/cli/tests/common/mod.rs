@@ -1,6 +1,9 @@
 //! Running the program as a user does.
 #![allow(dead_code, reason = "each test file uses its own part")]
 
+#[path = "../../../formats/tests/outside/mod.rs"]
+mod outside;
+
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
@@ -26,19 +29,9 @@ pub(crate) fn refused(folder: &Path, arguments: &[&str]) -> String {
     errors
 }
 
-/// The shared test data, or `None` with a word.
-#[expect(clippy::print_stderr, reason = "a skipped test says so")]
+/// A file or folder of the data for tests, wherever the program runs.
 pub(crate) fn data(name: &str) -> Option<PathBuf> {
-    let root = std::env::var_os("FRFIT_DATA").map_or_else(
-        || PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data"),
-        PathBuf::from,
-    );
-    let path = root.join(name);
-    if path.exists() {
-        return Some(path.canonicalize().unwrap());
-    }
-    eprintln!("skipped: {name} is not at FRFIT_DATA or ../shared/data");
-    None
+    outside::shared(name).map(|path| path.canonicalize().unwrap())
 }
 
 /// The cells of one column of a table.

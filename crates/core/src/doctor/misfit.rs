@@ -7,6 +7,7 @@
 //! K. L. Lange, R. J. A. Little, J. M. G. Taylor, J. Am. Stat. Assoc. 84 (1989) 881–896.
 
 use crate::c64;
+use crate::median::median;
 use std::f64::consts::{PI, TAU};
 
 /// Degrees of freedom of Student's distribution, as Lange, Little and Taylor recommend: three to four.
@@ -35,13 +36,7 @@ pub(super) struct Misfit {
 pub(super) fn misfit(residuals: &[c64]) -> Misfit {
     let squares: Vec<f64> = residuals.iter().map(|r| r.norm_sqr()).collect();
     let n = squares.len().max(1) as f64;
-    let mut sorted = squares.clone();
-    let middle = sorted.len() / 2;
-    let median = match sorted.is_empty() {
-        true => 0.0,
-        false => *sorted.select_nth_unstable_by(middle, f64::total_cmp).1,
-    };
-    let mut variance = (0.5 * median).max(FLOOR * FLOOR);
+    let mut variance = (0.5 * median(squares.clone()).unwrap_or(0.0)).max(FLOOR * FLOOR);
     for _ in 0..ROUNDS {
         let weighed: f64 = squares.iter().map(|r| (NU + 2.0) / (NU + r / variance) * r).sum();
         variance = (0.5 * weighed / n).max(FLOOR * FLOOR);

@@ -32,7 +32,7 @@ use crate::response::Work;
 use crate::subspace::Drive;
 use elsewhere::{Tried, elsewhere, sweep};
 use reading::{Change, Edit, Elsewhere, Reading, ln_over_receptance};
-use responses::{NoModel, Responses, expanded};
+use responses::{NoModel, Responses};
 use search::{Fitted, Grid, Search, Written};
 
 /// What came of looking at the data.
@@ -112,7 +112,7 @@ pub fn diagnose(
         diagnosis.not_judged = Some(NotJudged::FewValues);
         return Ok(diagnosis);
     }
-    let at = expanded(band.model, band.parameter, &frequency_hz)?;
+    let at = band.model.at_all(&frequency_hz, std::slice::from_ref(band.parameter))?;
     let mut responses = match Responses::new(band.experiment, &at, options, for_each) {
         Ok(responses) => responses,
         Err(reason) => {

@@ -3,8 +3,7 @@
 use crate::c64;
 use crate::for_each::{ForEach, map};
 use crate::identify::Options;
-use crate::material::OutsideTable;
-use crate::model::{DynamicStiffness, Experiment, ModelAt, Parameter};
+use crate::model::{Experiment, ModelAt};
 use crate::response::Work;
 use crate::subspace::{Fractions, Point, Subspace, TrainOptions};
 
@@ -98,15 +97,6 @@ pub(super) struct Responses<'a> {
 pub(super) enum NoModel {
     Parameter,
     Breakdown,
-}
-
-/// The model about its nominal values at some frequencies.
-pub(super) fn expanded<'a>(
-    model: &'a DynamicStiffness,
-    parameter: &Parameter,
-    frequency_hz: &[f64],
-) -> Result<Vec<ModelAt<'a>>, OutsideTable> {
-    frequency_hz.iter().map(|&f| model.at(f, std::slice::from_ref(parameter))).collect()
 }
 
 impl<'a> Responses<'a> {

@@ -6,6 +6,7 @@ use super::responses::{Law, Responses};
 use crate::c64;
 use crate::for_each::{ForEach, map};
 use crate::frequency::omega_rad_s;
+use crate::median::median;
 use argmin::core::{CostFunction, Error, Executor, State};
 use argmin::solver::neldermead::NelderMead;
 use frfit_linalg::dense::{Matrix, solve};
@@ -143,7 +144,7 @@ impl Search<'_, '_> {
         let mut ln_factor = 0.0;
         if factor {
             let of = self.residuals(reading, ln, 0.0, 0.0).filter(|&(m, _)| reading.concerned(m)[0]);
-            ln_factor = median(of.map(|(_, r)| r.re).collect());
+            ln_factor = median(of.map(|(_, r)| r.re).collect()).unwrap_or(0.0);
         }
         // A phase that a delay may have turned tells nothing yet.
         let told =
@@ -298,11 +299,6 @@ fn line_slope(points: &[(f64, f64)]) -> Option<(f64, f64)> {
     let rest: f64 = points.iter().map(|p| (p.1 - y0 - slope * (p.0 - x0)).powi(2)).sum();
     let std = (rest / (n - 2.0) / sxx).sqrt();
     (points.len() > 2 && sxx > 0.0).then_some((slope, std))
-}
-
-fn median(mut values: Vec<f64>) -> f64 {
-    let middle = values.len() / 2;
-    if values.is_empty() { 0.0 } else { *values.select_nth_unstable_by(middle, f64::total_cmp).1 }
 }
 
 struct Cost<'c, 's, 'a> {

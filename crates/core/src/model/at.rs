@@ -84,6 +84,18 @@ impl DynamicStiffness {
         }
         Ok(ModelAt { model: self, frequency_hz, nominal, parameters: expanded })
     }
+
+    /// As [`Self::at`], at every frequency of a band.
+    ///
+    /// # Errors
+    /// [`OutsideTable`] where a table does not reach a frequency.
+    pub fn at_all<'m>(
+        &'m self,
+        frequency_hz: &[f64],
+        parameters: &[Parameter],
+    ) -> Result<Vec<ModelAt<'m>>, OutsideTable> {
+        frequency_hz.iter().map(|&f| self.at(f, parameters)).collect()
+    }
 }
 
 impl ModelAt<'_> {

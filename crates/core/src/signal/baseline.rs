@@ -1,5 +1,7 @@
 //! What a channel shows where nothing happens, and how much it trembles there.
 
+use crate::median::median;
+
 /// Fewest samples of which a mean is a baseline.
 const FEWEST: usize = 8;
 
@@ -9,18 +11,9 @@ const SIGMA_PER_MAD: f64 = 1.4826;
 /// The median of all samples and their standard deviation by the median of deviations: what a hit, which is short,
 /// cannot move.
 pub(super) fn quiet(samples: &[f64]) -> (f64, f64) {
-    let middle = median(samples.to_vec());
+    let middle = median(samples.to_vec()).unwrap_or(0.0);
     let deviations = samples.iter().map(|x| (x - middle).abs()).collect();
-    (middle, SIGMA_PER_MAD * median(deviations))
-}
-
-/// The median; 0 of nothing.
-pub(super) fn median(mut samples: Vec<f64>) -> f64 {
-    if samples.is_empty() {
-        return 0.0;
-    }
-    let middle = samples.len() / 2;
-    *samples.select_nth_unstable_by(middle, f64::total_cmp).1
+    (middle, SIGMA_PER_MAD * median(deviations).unwrap_or(0.0))
 }
 
 /// The mean before the hit, or, where a record has too little of that, over its last tenth, where the response has decayed.

@@ -1,21 +1,14 @@
 //! Real matrices, where there are any.
 
+#[path = "../../../formats/tests/outside/mod.rs"]
+mod outside;
+
+pub(crate) use outside::shared;
+
 use frfit_formats::Entries;
 use frfit_linalg::sparse::{Pattern, SymmetricMatrix, Values};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
-
-/// A folder of the data for tests; `None` and a word where there is none.
-#[expect(clippy::print_stderr, reason = "a skipped test says so")]
-pub(crate) fn shared(name: &str) -> Option<PathBuf> {
-    let beside = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data");
-    let folder = std::env::var_os("FRFIT_DATA").map_or_else(|| beside.into(), PathBuf::from).join(name);
-    if !folder.is_dir() {
-        eprintln!("skipped: {name} is not at FRFIT_DATA or ../shared/data");
-        return None;
-    }
-    Some(folder)
-}
 
 /// A real symmetric matrix, whatever the format of its file.
 pub(crate) fn read_matrix(path: &Path) -> SymmetricMatrix {

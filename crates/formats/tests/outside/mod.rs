@@ -1,4 +1,4 @@
-//! What tests find outside of the project, or say that they do not.
+//! What tests find outside of the project, or say that they do not: for all crates, by path.
 #![allow(dead_code, clippy::print_stdout, reason = "each test uses a part; one that is skipped says so")]
 
 use std::path::PathBuf;

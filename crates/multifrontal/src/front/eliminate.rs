@@ -10,8 +10,9 @@ use super::assemble::schur_strips;
 use super::corner::{CORNER, Corner, invert_pair};
 use super::rows::solve_rows;
 use super::{Front, strips};
-use crate::kernel::{Left, Pivots, downdate};
+use crate::kernel::{Buffers, Left, Pivots, downdate};
 use crate::scalar::{Real, Scalar};
+use crate::threads::Idle;
 
 /// Columns whose elimination is carried to the rest of the front in one product.
 pub(crate) const BLOCK: usize = 256;
@@ -20,6 +21,7 @@ pub(crate) const BLOCK: usize = 256;
 pub(crate) struct Elimination<T: Scalar> {
     corner: Box<Corner<T>>,
     left: Left<T::Real>,
+    idle: Idle<Buffers<T::Real>>,
     saved: Vec<T::Real>,
     /// No entry of L is larger than 1/threshold.
     pub(crate) threshold: f64,
@@ -27,8 +29,15 @@ pub(crate) struct Elimination<T: Scalar> {
 }
 
 impl<T: Scalar> Elimination<T> {
-    pub(crate) fn new(threshold: f64, threads: usize) -> Self {
-        Self { corner: Corner::new(), left: Left::default(), saved: Vec::new(), threshold, threads }
+    pub(crate) fn new(threshold: f64) -> Self {
+        Self {
+            corner: Corner::new(),
+            left: Left::default(),
+            idle: Idle::default(),
+            saved: Vec::new(),
+            threshold,
+            threads: 1,
+        }
     }
 }
 
@@ -134,7 +143,8 @@ fn update<T: Scalar>(
     let (eliminated, rest) = front.panel.split_at_mut(done * step);
     let pivots = Pivots { columns: &eliminated[at * step + done..], stride, rows, d };
     with.left.pack(&pivots, with.threads);
-    downdate(strips(rest, stride, done, to, with.threads).collect(), &pivots, &with.left, with.threads);
+    let strips = strips(rest, stride, done, to, with.threads).collect();
+    downdate(strips, &pivots, &with.left, &with.idle, with.threads);
 }
 
 /// Carries the pivots from `from` on to all that is right of candidate `to`.
@@ -160,7 +170,7 @@ fn carry<T: Scalar>(
         strip.first += candidates - to;
         strip
     }));
-    downdate(all, &pivots, &with.left, with.threads);
+    downdate(all, &pivots, &with.left, &with.idle, with.threads);
 }
 
 /// Looks through all candidates that are left for one pivot, or a block of two, that the threshold allows,

@@ -10,9 +10,8 @@ pub(crate) use pack::{Left, Pivots};
 pub(crate) use tile::{WIDE, copy, tile_rows};
 
 use crate::scalar::{Real, Scalar};
-use crate::threads::each;
+use crate::threads::{Idle, each};
 use pulp::{Simd, WithSimd};
-use std::sync::Mutex;
 use tile::{FEW, MANY, many, store, tile};
 
 /// Columns of a strip: whole tiles for every instruction set, and its packed copy stays in the second cache.
@@ -41,30 +40,20 @@ pub(crate) fn downdate<T: Scalar>(
     strips: Vec<Strip<'_, T>>,
     pivots: &Pivots<'_, T>,
     left: &Left<T::Real>,
+    idle: &Idle<Buffers<T::Real>>,
     threads: usize,
 ) {
     let work: usize = strips.iter().map(|strip| strip.width * strip.stride * pivots.count()).sum();
-    let run = |strips: &mut dyn Iterator<Item = Strip<'_, T>>| {
-        let mut buffers = Buffers::default();
-        for strip in strips {
-            crate::arch().dispatch(StripDowndate { strip, pivots, left, buffers: &mut buffers });
-        }
-    };
-    if threads < 2 || strips.len() < 2 || work < SHARE_FROM {
-        return run(&mut strips.into_iter());
-    }
-    let buffers = Mutex::new(Vec::new());
+    let threads = if work < SHARE_FROM { 1 } else { threads };
     each(threads, strips, |strip| {
-        let free = || buffers.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-        let mut own: Buffers<T::Real> = free().pop().unwrap_or_default();
-        crate::arch().dispatch(StripDowndate { strip, pivots, left, buffers: &mut own });
-        free().push(own);
+        let run = |buffers: &mut _| crate::arch().dispatch(StripDowndate { strip, pivots, left, buffers });
+        idle.lend(Buffers::default, run);
     });
 }
 
-/// Buffers of one thread.
+/// What one thread needs for a strip.
 #[derive(Default)]
-struct Buffers<R> {
+pub(crate) struct Buffers<R> {
     /// L D of a strip's columns, packed.
     right: Vec<R>,
     /// Sums of the real products, column after column, a plane for each.

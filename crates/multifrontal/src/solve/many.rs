@@ -29,48 +29,52 @@ const fn registers<R: Real, S: Simd>() -> usize {
     if size_of::<R::Vector<S>>() < 8 * size_of::<R>() { 2 } else { 1 }
 }
 
-/// A call with the registers of a part, and how many rows or columns have their sums in registers.
-macro_rules! with_shape {
-    ($s:ident, $t:ident, $this:ident . $name:ident ( $simd:ident )) => {
+/// Work on rows whose parts take V registers each; the sums of G rows or columns are in registers at a time.
+pub(super) trait Shaped: Sized {
+    type Scalar: Scalar;
+
+    fn run<S: Simd, const V: usize, const G: usize>(self, simd: S);
+
+    fn dispatch(self) {
+        crate::arch().dispatch(InShape(self));
+    }
+}
+
+struct InShape<W>(W);
+
+impl<W: Shaped> WithSimd for InShape<W> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
         // Constant, so that only one of them is compiled.
-        if const { registers::<$t::Real, $s>() == 1 } {
-            $this.$name::<$s, 1, 8>($simd)
+        if const { registers::<<W::Scalar as Scalar>::Real, S>() == 1 } {
+            self.0.run::<S, 1, 8>(simd)
         } else {
-            $this.$name::<$s, 2, 2>($simd)
+            self.0.run::<S, 2, 2>(simd)
         }
-    };
+    }
+}
+
+/// Numbers of one row.
+fn row_len<T: Scalar, S: Simd, const V: usize>() -> usize {
+    T::PARTS * V * T::Real::lanes::<S>()
 }
 
 /// y = L⁻¹ b.
 pub(super) struct Forward<'a, T: Scalar>(pub(super) Step<'a, T>);
 
-impl<T: Scalar> WithSimd for Forward<'_, T> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) {
-        with_shape!(S, T, self.run(simd));
-    }
-}
-
 /// x = L⁻ᵀ D⁻¹ y.
 pub(super) struct Backward<'a, T: Scalar>(pub(super) Step<'a, T>);
 
-impl<T: Scalar> WithSimd for Backward<'_, T> {
-    type Output = ();
+impl<T: Scalar> Shaped for Forward<'_, T> {
+    type Scalar = T;
 
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) {
-        with_shape!(S, T, self.run(simd));
-    }
-}
-
-impl<T: Scalar> Forward<'_, T> {
     #[inline(always)]
     fn run<S: Simd, const V: usize, const G: usize>(self, simd: S) {
         let Step { node, local, buffer: y, threads } = self.0;
         let (pivots, rows) = (node.pivots(), node.order());
-        let row = T::PARTS * V * T::Real::lanes::<S>();
+        let row = row_len::<T, S, V>();
         y.clear();
         y.resize(row * rows, T::Real::default());
         y[..row * pivots].copy_from_slice(&local[node.first * row..][..row * pivots]);
@@ -84,7 +88,7 @@ impl<T: Scalar> Forward<'_, T> {
             let own = &own[span.start * row..];
             let tasks = pieces(span.end..rows, CHUNK).zip(below.chunks_mut(CHUNK * row));
             let tasks = tasks.map(|(rows, y)| Multiply { node, span: span.clone(), own, rows, y });
-            each(threads, tasks.collect(), |task| crate::arch().dispatch(task));
+            each(threads, tasks.collect(), Shaped::dispatch);
         }
         let (own, below) = y.split_at(row * pivots);
         local[node.first * row..][..row * pivots].copy_from_slice(own);
@@ -95,12 +99,14 @@ impl<T: Scalar> Forward<'_, T> {
     }
 }
 
-impl<T: Scalar> Backward<'_, T> {
+impl<T: Scalar> Shaped for Backward<'_, T> {
+    type Scalar = T;
+
     #[inline(always)]
     fn run<S: Simd, const V: usize, const G: usize>(self, simd: S) {
         let Step { node, local, buffer: y, threads } = self.0;
         let (pivots, rows) = (node.pivots(), node.order());
-        let row = T::PARTS * V * T::Real::lanes::<S>();
+        let row = row_len::<T, S, V>();
         y.clear();
         y.extend_from_slice(&local[node.first * row..][..row * pivots]);
         for &place in &node.rows {
@@ -113,7 +119,7 @@ impl<T: Scalar> Backward<'_, T> {
             let threads = if span.len() * (rows - span.end) < SHARE_FROM { 1 } else { threads };
             let tasks = pieces(span.clone(), BLOCK).zip(own.chunks_mut(BLOCK * row));
             let tasks = tasks.map(|(cols, block)| Dot { node, cols, block, rows: span.end..rows, y: below });
-            each(threads, tasks.collect(), |task| crate::arch().dispatch(task));
+            each(threads, tasks.collect(), Shaped::dispatch);
             for cols in pieces(span.clone(), BLOCK).rev() {
                 let (block, rest) = own[(cols.start - span.start) * row..].split_at_mut(cols.len() * row);
                 subtract_dot::<T, S, V, G>(simd, node, cols.clone(), block, cols.end..span.end, rest);
@@ -133,20 +139,13 @@ struct Multiply<'a, T: Scalar> {
     y: &'a mut [T::Real],
 }
 
-impl<T: Scalar> WithSimd for Multiply<'_, T> {
-    type Output = ();
+impl<T: Scalar> Shaped for Multiply<'_, T> {
+    type Scalar = T;
 
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) {
-        with_shape!(S, T, self.run(simd));
-    }
-}
-
-impl<T: Scalar> Multiply<'_, T> {
     #[inline(always)]
     fn run<S: Simd, const V: usize, const G: usize>(self, simd: S) {
         let Self { node, span, own, rows, y } = self;
-        let row = T::PARTS * V * T::Real::lanes::<S>();
+        let row = row_len::<T, S, V>();
         for (cols, block) in pieces(span, BLOCK).zip(own.chunks(BLOCK * row)) {
             multiply::<T, S, V, G>(simd, node, &cols, block, rows.clone(), &mut *y);
         }
@@ -162,16 +161,9 @@ struct Dot<'a, T: Scalar> {
     y: &'a [T::Real],
 }
 
-impl<T: Scalar> WithSimd for Dot<'_, T> {
-    type Output = ();
+impl<T: Scalar> Shaped for Dot<'_, T> {
+    type Scalar = T;
 
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) {
-        with_shape!(S, T, self.run(simd));
-    }
-}
-
-impl<T: Scalar> Dot<'_, T> {
     #[inline(always)]
     fn run<S: Simd, const V: usize, const G: usize>(self, simd: S) {
         subtract_dot::<T, S, V, G>(simd, self.node, self.cols, self.block, self.rows, self.y);

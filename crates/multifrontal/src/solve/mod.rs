@@ -10,6 +10,7 @@ use crate::factor::{Factor, Node};
 use crate::part::Part;
 use crate::scalar::Scalar;
 use crate::threads::{map, with};
+use many::Shaped;
 use std::ops::Range;
 
 /// Numbers of a factor below which another thread costs more than it brings.
@@ -154,7 +155,7 @@ impl<T: Scalar> Factor<T> {
             if lanes == 1 {
                 crate::arch().dispatch(one::Forward(step));
             } else {
-                crate::arch().dispatch(many::Forward(step));
+                many::Forward(step).dispatch();
             }
         }
     }
@@ -167,7 +168,7 @@ impl<T: Scalar> Factor<T> {
             if lanes == 1 {
                 crate::arch().dispatch(one::Backward(step));
             } else {
-                crate::arch().dispatch(many::Backward(step));
+                many::Backward(step).dispatch();
             }
         }
     }

@@ -20,9 +20,7 @@ impl<T: Scalar> WithSimd for Forward<'_, T> {
     fn with_simd<S: Simd>(self, simd: S) {
         let Step { node, local, buffer, threads } = self.0;
         let (pivots, rows) = (node.pivots(), node.order());
-        buffer.clear();
-        buffer.resize(2 * rows, T::Real::default());
-        let (re, im) = buffer.split_at_mut(rows);
+        let (re, im) = planes(buffer, rows);
         for k in 0..pivots {
             let [x, y] = get::<T>(local, node.first + k).parts();
             (re[k], im[k]) = (x, y);
@@ -61,9 +59,7 @@ impl<T: Scalar> WithSimd for Backward<'_, T> {
     fn with_simd<S: Simd>(self, simd: S) {
         let Step { node, local, buffer, threads } = self.0;
         let (pivots, rows) = (node.pivots(), node.order());
-        buffer.clear();
-        buffer.resize(2 * rows, T::Real::default());
-        let (re, im) = buffer.split_at_mut(rows);
+        let (re, im) = planes(buffer, rows);
         let places = (node.first..node.first + pivots).chain(node.rows.iter().map(|&row| row as usize));
         for (k, place) in places.enumerate() {
             let [x, y] = get::<T>(local, place).parts();
@@ -130,6 +126,13 @@ impl<T: Scalar> WithSimd for Dot<'_, T> {
         *sums = [T::default(); BLOCK];
         dot(simd, node, cols, rows, x, sums);
     }
+}
+
+/// Zeros for the real and the imaginary parts of some rows.
+fn planes<R: Real>(buffer: &mut Vec<R>, rows: usize) -> (&mut [R], &mut [R]) {
+    buffer.clear();
+    buffer.resize(2 * rows, R::default());
+    buffer.split_at_mut(rows)
 }
 
 #[inline(always)]

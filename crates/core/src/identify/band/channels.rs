@@ -9,6 +9,7 @@ use crate::c64;
 use crate::for_each::map;
 use crate::identify::Options;
 use crate::laws::{Chart, LawFit};
+use crate::median::median;
 use crate::model::ModelAt;
 
 /// The response of a law at one frequency.
@@ -88,22 +89,22 @@ pub(super) fn at_scales<'a, 'o>(
     unknown: &[bool],
     options: &'o Options,
     hooks: Hooks<'_>,
-) -> (BandOutcome, Option<Space<'a, 'o>>, Vec<f64>) {
+) -> (BandOutcome, (Option<Space<'a, 'o>>, Vec<f64>)) {
     let mut space = super::space(band, at, options, hooks);
     let ones = vec![1.0; unknown.len()];
     if !unknown.contains(&true) {
-        return (joint::identify(band, at, &mut space, &[], options, hooks), space, ones);
+        return (joint::identify(band, at, &mut space, &[], options, hooks), (space, ones));
     }
     if unknown.contains(&false) {
         let (outcome, scales) = with_scales(band, at, &mut space, unknown, options, hooks);
         let found = scales.iter().all(|scale| scale.is_none_or(|scale| scale.value.is_finite()));
         let scales = scales.iter().map(|scale| scale.filter(|_| found).map_or(1.0, |scale| scale.value));
-        return (outcome, space, scales.collect());
+        return (outcome, (space, scales.collect()));
     }
     let scales = space.as_ref().and_then(|space| shaped(band, at, space, options, hooks)).unwrap_or(ones);
     let scaled = Scaled::new(band, &scales);
     let outcome = joint::identify(&scaled.band(band), at, &mut space, &[], options, hooks);
-    (outcome, space, scales)
+    (outcome, (space, scales))
 }
 
 /// Factors of the box that are tried: 2 % apart, as shapes are told by logarithms, which resonances that miss one another by their width do not spoil.
@@ -144,9 +145,8 @@ fn shaped(
 fn shape(band: &Band<'_>, which: &[usize], responses: &[Vec<c64>], m: usize) -> Option<(f64, f64)> {
     let pairs = || which.iter().zip(responses).map(|(&i, x)| (band.measured[i][m], x[m]));
     let logs = pairs().map(|(u, x)| x.norm().ln() - u.norm().ln());
-    let mut logs: Vec<f64> = logs.filter(|log| log.is_finite()).collect();
-    logs.sort_by(f64::total_cmp);
-    let median = *logs.get(logs.len() / 2)?;
+    let logs: Vec<f64> = logs.filter(|log| log.is_finite()).collect();
+    let median = median(logs.clone())?;
     let misfit = logs.iter().map(|log| (log - median).abs()).sum::<f64>() / logs.len() as f64;
     // The sense in which most of them move.
     let same = pairs().filter(|(u, x)| (u.conj() * x).re > 0.0).count();

@@ -9,7 +9,7 @@ use super::joint;
 use super::noise::deviations;
 use super::scale::{Scale, Scaled};
 use super::space::{Space, certificate, is_certain};
-use super::{Band, BandOutcome, Hooks, Noise, Stage};
+use super::{Band, BandOutcome, Hooks, Noise, Stage, near_and_far, near_or_far};
 use crate::c64;
 use crate::for_each::map;
 use crate::frequency::omega_rad_s;
@@ -102,21 +102,11 @@ pub fn identify_laws_scaled(
 ) -> Result<LawsOutcome, OutsideTable> {
     assert!(unknown.len() == band.experiment.sensors.len());
     assert!(!band.frequency_hz.is_empty() && band.measured.len() == band.frequency_hz.len());
-    let parameters = std::slice::from_ref(band.parameter);
-    let at = band.frequency_hz.iter().map(|&f| band.model.at(f, parameters));
-    let at: Vec<ModelAt<'_>> = at.collect::<Result<_, _>>()?;
+    let at = band.model.at_all(band.frequency_hz, std::slice::from_ref(band.parameter))?;
     let near = Options { space: Where::Subspace, selection: Selection::Joint, ..*options };
-    let far = Options { whole_box: true, ..near };
-    let (mut free, mut space, mut scales) = at_scales(band, &at, unknown, &near, hooks);
-    // As without laws: where most of the band is left out, the bounds are all that is left.
-    if near.bounds.storage.is_some() && !near.whole_box && 2 * free.answered() < at.len() {
-        let (wider, wider_space, wider_scales) = at_scales(band, &at, unknown, &far, hooks);
-        let work = free.work;
-        if wider.answered() > free.answered() {
-            (free, space, scales) = (wider, wider_space, wider_scales);
-        }
-        free.work += work;
-    }
+    let boxes = near_and_far(&near);
+    let (mut free, (space, scales)) =
+        near_or_far(&boxes, |options| at_scales(band, &at, unknown, options, hooks));
     let scaled = Scaled::new(band, &scales);
     let view = scaled.band(band);
     let sensors = free.sensors.iter().enumerate();

@@ -118,20 +118,32 @@ pub fn identify_band(
     hooks: Hooks<'_>,
 ) -> Result<BandOutcome, OutsideTable> {
     assert!(!band.frequency_hz.is_empty() && band.measured.len() == band.frequency_hz.len());
-    let parameters = std::slice::from_ref(band.parameter);
-    let at = band.frequency_hz.iter().map(|&f| band.model.at(f, parameters));
-    let at: Vec<ModelAt<'_>> = at.collect::<Result<_, _>>()?;
-    let near = identify_at_all(band, &at, options, hooks);
-    // Where a path through the solutions near the nominal leaves out most of the band, the nominal is too far: the bounds are all that is left.
-    let wider =
-        options.selection == Selection::Joint && options.bounds.storage.is_some() && !options.whole_box;
-    if !wider || 2 * near.answered() >= at.len() {
-        return Ok(near);
+    let at = band.model.at_all(band.frequency_hz, std::slice::from_ref(band.parameter))?;
+    let run = |options: &Options| (identify_at_all(band, &at, options, hooks), ());
+    Ok(near_or_far(&near_and_far(options), run).0)
+}
+
+/// Options to look near the nominal, and in the whole of the bounds.
+fn near_and_far(options: &Options) -> [Options; 2] {
+    [*options, Options { whole_box: true, ..*options }]
+}
+
+/// What is found near the nominal; where a path through that leaves out most of the band, the nominal is too far, and the bounds are all that is left:
+/// the one with more answers then, with the work of both.
+fn near_or_far<'o, T>(
+    [near, far]: &'o [Options; 2],
+    run: impl Fn(&'o Options) -> (BandOutcome, T),
+) -> (BandOutcome, T) {
+    let mut found = run(near);
+    let wider = near.selection == Selection::Joint && near.bounds.storage.is_some() && !near.whole_box;
+    if wider && 2 * found.0.answered() < found.0.outcomes.len() {
+        let mut other = run(far);
+        if other.0.answered() > found.0.answered() {
+            std::mem::swap(&mut found, &mut other);
+        }
+        found.0.work += other.0.work;
     }
-    let mut far = identify_at_all(band, &at, &Options { whole_box: true, ..*options }, hooks);
-    far.work += near.work;
-    let work = far.work;
-    Ok(BandOutcome { work, ..if far.answered() > near.answered() { far } else { near } })
+    found
 }
 
 impl BandOutcome {

@@ -3,6 +3,7 @@
 use super::{Band, Noise};
 use crate::c64;
 use crate::frequency::omega_rad_s;
+use crate::median::median;
 use crate::select::{Choice, Node};
 
 /// Where no deviation is given, sensors count by their own size, but not below this fraction of their median over the band: an antiresonance is
@@ -100,9 +101,8 @@ pub(super) fn freedom(sensors: usize, real: bool) -> usize {
 }
 
 /// Noise over σ by the median of the χ² that some frequencies have; `None` without a degree of freedom, or a frequency.
-pub(super) fn level_of(mut misfits: Vec<f64>, freedom: usize) -> Option<f64> {
-    misfits.sort_by(f64::total_cmp);
-    let median = misfits.get(misfits.len() / 2).filter(|_| freedom > 0)?;
+pub(super) fn level_of(misfits: Vec<f64>, freedom: usize) -> Option<f64> {
+    let median = median(misfits).filter(|_| freedom > 0)?;
     Some((median / median_chi_squared(freedom)).sqrt())
 }
 

@@ -4,11 +4,12 @@ use super::contradiction::without;
 use super::joint;
 use super::noise::deviations;
 use super::space::Space;
-use super::{Band, BandOutcome, Hooks, Noise};
+use super::{Band, BandOutcome, Hooks, Noise, near_and_far, near_or_far};
 use crate::c64;
 use crate::for_each::map;
 use crate::identify::{Options, Selection, Space as Where, Status};
 use crate::material::{OutsideTable, loss_factor};
+use crate::median::median;
 use crate::model::ModelAt;
 use frfit_linalg::dense::symmetric_eigen;
 
@@ -56,23 +57,13 @@ pub fn identify_band_scaled(
 ) -> Result<(BandOutcome, Vec<Option<Scale>>), OutsideTable> {
     assert!(!band.frequency_hz.is_empty() && band.measured.len() == band.frequency_hz.len());
     assert!(unknown.len() == band.experiment.sensors.len() && unknown.contains(&false));
-    let parameters = std::slice::from_ref(band.parameter);
-    let at = band.frequency_hz.iter().map(|&f| band.model.at(f, parameters));
-    let at: Vec<ModelAt<'_>> = at.collect::<Result<_, _>>()?;
+    let at = band.model.at_all(band.frequency_hz, std::slice::from_ref(band.parameter))?;
     let near = Options { space: Where::Subspace, selection: Selection::Joint, ..*options };
-    let mut space = super::space(band, &at, &near, hooks);
-    let found = with_scales(band, &at, &mut space, unknown, &near, hooks);
-    if near.bounds.storage.is_none() || near.whole_box || 2 * found.0.answered() >= at.len() {
-        return Ok(found);
-    }
-    // As without scales: where most of the band is left out, the bounds are all that is left.
-    let wide = Options { whole_box: true, ..near };
-    let mut space = super::space(band, &at, &wide, hooks);
-    let mut far = with_scales(band, &at, &mut space, unknown, &wide, hooks);
-    far.0.work += found.0.work;
-    let work = far.0.work;
-    let (outcome, scales) = if far.0.answered() > found.0.answered() { far } else { found };
-    Ok((BandOutcome { work, ..outcome }, scales))
+    let run = |options: &Options| {
+        let mut space = super::space(band, &at, options, hooks);
+        with_scales(band, &at, &mut space, unknown, options, hooks)
+    };
+    Ok(near_or_far(&near_and_far(&near), run))
 }
 
 /// Moduli and scales on a subspace.
@@ -167,14 +158,11 @@ fn starting(
             ratios.extend(Some(ratio).filter(|ratio| ratio.is_finite()));
         }
     }
-    let median = |(m, ratios): (usize, &mut Vec<f64>)| {
-        if !unknown[m] {
-            return Some(1.0);
-        }
-        ratios.sort_by(f64::total_cmp);
-        ratios.get(ratios.len() / 2).copied().filter(|&median| median != 0.0)
+    let scale = |(ratios, &unknown): (Vec<f64>, &bool)| match unknown {
+        true => median(ratios).filter(|&median| median != 0.0),
+        false => Some(1.0),
     };
-    ratios.iter_mut().enumerate().map(median).collect()
+    ratios.into_iter().zip(unknown).map(scale).collect()
 }
 
 /// Scales at the least misfit about given answers.
