@@ -5,6 +5,7 @@
 #![allow(clippy::print_stdout)] // tables are what a benchmark is for
 
 pub mod clock;
+mod exponent;
 mod machine;
 pub mod measurement;
 pub mod memory;
@@ -14,6 +15,7 @@ mod stages;
 mod table;
 mod task;
 
+pub use exponent::exponent;
 pub use machine::machine;
 pub use output::save;
 pub use score::Score;

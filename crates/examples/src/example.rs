@@ -127,9 +127,42 @@ impl Example {
         }
     }
 
-    fn files(&self) -> Result<Vec<File>, Error> {
-        let model = (self.model)()?;
-        let mut files = vec![File::new("README.md", self.readme), File::new("case.toml", self.case)];
+    /// The files with another mesh, measured at other frequencies: the case, without the truth and the README.
+    ///
+    /// `measured` are receptances, `[frequency][sensor]`. Where the case names degrees of freedom, they are those of the mesh.
+    ///
+    /// # Errors
+    /// [`Error`] where a file cannot be written as its format wants it.
+    ///
+    /// # Panics
+    /// Where the measurement is not an FRF.
+    pub fn files_of(
+        &self,
+        model: &Model,
+        frequency_hz: &[f64],
+        measured: &[Vec<c64>],
+    ) -> Result<Vec<File>, Error> {
+        let Measurement::Frf(path, quantity) = self.measurement else {
+            panic!("the measurement of {} is made of records", self.name)
+        };
+        let own = (self.model)()?;
+        let mut case = self.case.to_owned();
+        let named = |model: &Model| {
+            let sensors = (0..model.experiment.sensors.len()).map(|m| model.measured_dof(m));
+            model.driven_at().into_iter().chain(sensors).map(|dof| format!("\"{dof}\"")).collect::<Vec<_>>()
+        };
+        for (there, here) in named(&own).into_iter().zip(named(model)).filter(|_| self.names_dofs) {
+            case = case.replace(&there, &here);
+        }
+        let mut files = vec![File::new("case.toml", case)];
+        files.extend(self.model_files(model)?);
+        files.push(self.frfs(path, quantity, model, frequency_hz, measured)?);
+        Ok(files)
+    }
+
+    /// Matrices, names of the rows and loads.
+    fn model_files(&self, model: &Model) -> Result<Vec<File>, Error> {
+        let mut files = Vec::new();
         for (term, path) in model.stiffness.terms().iter().zip(self.matrices) {
             files.push(File::new(path, matrix(term, path)?));
         }
@@ -139,10 +172,19 @@ impl Example {
         if model.driven_at().is_none() {
             files.push(File::new("force.csv", force(&model.experiment.load)?));
         }
+        Ok(files)
+    }
+
+    fn files(&self) -> Result<Vec<File>, Error> {
+        let model = (self.model)()?;
+        let mut files = vec![File::new("README.md", self.readme), File::new("case.toml", self.case)];
+        files.extend(self.model_files(&model)?);
         let mut frequency_hz = model.frequency_hz();
         match self.measurement {
             Measurement::Frf(path, quantity) => {
-                files.push(self.frfs(path, quantity, &model, &frequency_hz)?);
+                let measured = frequency_hz.iter().map(|&f| model.measured_at(f));
+                let measured = measured.collect::<Result<Vec<_>, Error>>()?;
+                files.push(self.frfs(path, quantity, &model, &frequency_hz, &measured)?);
             }
             Measurement::Records(path, records) => {
                 files.push(File::new(path, records()?));
@@ -163,16 +205,19 @@ impl Example {
         quantity: Quantity,
         model: &Model,
         frequency_hz: &[f64],
+        measured: &[Vec<c64>],
     ) -> Result<File, Error> {
-        let at = |&f: &f64| Ok((f, model.measured_at(f)?));
-        let measured = frequency_hz.iter().map(at).collect::<Result<Vec<(f64, Vec<c64>)>, Error>>()?;
         let frf = |sensor: usize| Frf {
             title: self.summary,
             quantity,
             response: model.measured_dof(sensor),
             reference: model.driven_at(),
             frequency_hz,
-            values: measured.iter().map(|(f, x)| quantity.from_receptance(*f, x[sensor])).collect(),
+            values: frequency_hz
+                .iter()
+                .zip(measured)
+                .map(|(f, x)| quantity.from_receptance(*f, x[sensor]))
+                .collect(),
         };
         if path.ends_with(".csv") {
             return Ok(File::new(path, csv_frf(&frf(0))?));

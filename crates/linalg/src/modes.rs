@@ -10,7 +10,7 @@
 use crate::c64;
 use crate::dense::symmetric_eigen;
 use crate::solve::{Analysis, Breakdown};
-use crate::sparse::{Pattern, SymmetricMatrix, multiply_add};
+use crate::sparse::{Pattern, SymmetricMatrix, side_by_side};
 use crate::spectral::pseudo_random;
 
 /// Natural modes, lowest first.
@@ -98,7 +98,7 @@ pub fn lowest(k: &SymmetricMatrix, m: &SymmetricMatrix, count: usize) -> Result<
     let factor = Analysis::new(&pattern).factor(&shifted)?;
     let times = |values: &[f64], x: &[f64]| {
         let mut out = vec![0.0; x.len()];
-        multiply_add(&pattern, values, 1.0, x, &mut out);
+        side_by_side::multiply_add(&pattern, values, |a| a, x, &mut out);
         out
     };
     // A whole block at once: the factor is read once for all of its vectors.

@@ -88,6 +88,7 @@ impl std::error::Error for ModelError {}
 pub struct DynamicStiffness {
     terms: Vec<Term>,
     analysis: Analysis,
+    threads: usize,
 }
 
 impl DynamicStiffness {
@@ -112,7 +113,19 @@ impl DynamicStiffness {
         for term in &mut terms {
             term.matrix = term.matrix.on_pattern(&union);
         }
-        Ok(Self { terms, analysis })
+        Ok(Self { terms, analysis, threads: 1 })
+    }
+
+    /// The same with so many threads for one factorisation where nothing else is going on, those of the caller's pool where it has as many: a subspace's.
+    /// Default 1; no number depends on it.
+    #[must_use]
+    pub fn with_threads(self, threads: usize) -> Self {
+        Self { threads, ..self }
+    }
+
+    /// Threads for one factorisation where nothing else is going on.
+    pub fn threads(&self) -> usize {
+        self.threads
     }
 
     /// Number of degrees of freedom N.

@@ -123,7 +123,7 @@ impl Solved {
 }
 
 /// θ_g of D and of ∂D/∂c at the correction c of the first parameter.
-fn weights(small: &Projection, at: &ModelAt<'_>, correction: c64) -> (Vec<c64>, Vec<c64>) {
+pub(super) fn weights(small: &Projection, at: &ModelAt<'_>, correction: c64) -> (Vec<c64>, Vec<c64>) {
     let [theta, slope, _] = weights_to_second(small, at, correction);
     (theta, slope)
 }

@@ -96,10 +96,8 @@ impl Basis {
         let small = &mut self.projection;
         for g in 0..small.parts.len() {
             let mut block = vec![0.0; n * (r - first)];
-            for (j, image) in (first..r).zip(block.chunks_exact_mut(n)) {
-                small.parts.multiply_add(model, g, self.vectors.column(j), image);
-                small.images[g].extend(self.sketch.of(image));
-            }
+            small.parts.multiply_add(model, g, self.vectors.columns(first..r), &mut block);
+            block.chunks_exact(n).for_each(|image| small.images[g].extend(self.sketch.of(image)));
             small.matrices[g] = bordered(&small.matrices[g], first, &self.vectors.transpose_times(&block), r);
         }
         for j in first..r {

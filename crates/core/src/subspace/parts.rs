@@ -21,7 +21,7 @@ impl Parts {
         self.0.len()
     }
 
-    /// out += S_g x.
+    /// out += S_g X for real vectors, N × k column after column.
     pub(super) fn multiply_add(&self, model: &DynamicStiffness, g: usize, x: &[f64], out: &mut [f64]) {
         let (term, part) = self.0[g];
         model.terms()[term].matrix.multiply_add_real(part, x, out);

@@ -7,6 +7,7 @@ use crate::c64;
 use crate::model::ModelAt;
 use frfit_linalg::dense::Matrix;
 use frfit_linalg::solve::Breakdown;
+use frfit_linalg::tall::{product, transpose_product};
 use frfit_linalg::vector::transpose_dot;
 
 /// VᵀS_gV, VᵀF, ℓ_mᵀV and Θ S_gV for a basis V of r vectors: a model for a band, without anything of size N.
@@ -86,29 +87,13 @@ impl Projection {
     /// The same model on r × q coordinates W (column after column): basis VW.
     pub(super) fn compressed(&self, w: &[f64]) -> Self {
         let (r, q) = (self.size, w.len() / self.size.max(1));
-        let columns = |w: &[f64], matrix: &[f64], rows: usize| -> Vec<f64> {
-            // matrix (rows × r) times W (r × q)
-            let mut product = vec![0.0; rows * q];
-            for (out, w) in product.chunks_exact_mut(rows).zip(w.chunks_exact(r)) {
-                for (column, w) in matrix.chunks_exact(rows).zip(w) {
-                    out.iter_mut().zip(column).for_each(|(sum, a)| *sum += a * w);
-                }
-            }
-            product
-        };
-        let congruent = |matrix: &Vec<f64>| -> Vec<f64> {
-            let right = columns(w, matrix, r);
-            right
-                .chunks_exact(r)
-                .flat_map(|column| w.chunks_exact(r).map(move |w| transpose_dot(w, column)))
-                .collect()
-        };
+        let congruent = |matrix: &Vec<f64>| transpose_product(w, r, &product(matrix, r, w));
         let rows = self.sketched[0].len();
         Self {
             parts: self.parts.clone(),
             size: q,
             matrices: self.matrices.iter().map(congruent).collect(),
-            images: self.images.iter().map(|image| columns(w, image, rows)).collect(),
+            images: self.images.iter().map(|image| product(image, rows, w)).collect(),
             load: w.chunks_exact(r).map(|w| self.load.iter().zip(w).map(|(f, w)| f * w).sum()).collect(),
             sensors: self
                 .sensors

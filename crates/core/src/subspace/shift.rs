@@ -37,7 +37,7 @@ impl Shift {
         }
         let on_diagonal = |i: usize| pattern.find(i, i).map_or(0.0, |k| values[k].abs());
         let diagonal = (0..pattern.dim()).map(on_diagonal).collect();
-        let factor = model.analysis().factor(&values)?;
+        let factor = model.analysis().factor_on(&values, model.threads())?;
         let frequency_hz = -sigma.signum() * sigma.abs().sqrt() / omega_rad_s(1.0);
         Ok(Self { frequency_hz, factor, diagonal })
     }

@@ -1,6 +1,6 @@
 //! Where the basis grows: where the estimated error at the sensors is largest.
 
-use super::assess::Solved;
+use super::assess::{Solved, weights};
 use super::shift::Shift;
 use super::{Assessment, Subspace};
 use crate::c64;
@@ -8,9 +8,7 @@ use crate::for_each::{ForEach, map};
 use crate::frequency::omega_rad_s;
 use crate::model::ModelAt;
 use frfit_linalg::solve::Breakdown;
-use frfit_linalg::sparse::{SymmetricMatrix, Values};
 use frfit_linalg::vector::transpose_dot;
-use std::sync::Arc;
 
 /// A frequency and a value of the first parameter.
 #[derive(Debug, Clone)]
@@ -61,6 +59,17 @@ const WATCHED: usize = 48;
 
 /// Rounds without progress (by a factor of two of the error) after which roundoff is what is left.
 const STALLED: usize = 6;
+
+/// A residual that is wanted in full.
+struct Wanted<'p, 'm> {
+    point: &'p Point<'m>,
+    /// 0: of the response; m + 1: of the m-th sensor's.
+    which: usize,
+    /// The reduced solution.
+    y: Vec<c64>,
+    /// Which of its directions are.
+    new: Vec<bool>,
+}
 
 impl<'m> Subspace<'m> {
     /// S⁻¹F and S⁻¹ℓ_m.
@@ -148,42 +157,57 @@ impl<'m> Subspace<'m> {
     /// Which are is told by their sketches; only those that are kept are formed in full.
     fn enrich(&mut self, points: &[&Point<'m>]) -> Result<usize, Breakdown> {
         let mut kept: Vec<Vec<f64>> = Vec::new();
-        let mut forces: Vec<(usize, Vec<f64>)> = Vec::new();
+        let (mut wanted, mut count) = (Vec::new(), 0);
         for point in points.iter().take(2 * BLOCK) {
             let Ok(solved) = Solved::new(self.projection(), &point.at, point.correction) else { continue };
-            let shift = self.nearest_shift(point.at.frequency_hz);
             let Assessment { truncation, .. } = &solved.assessment;
             let worst = (0..truncation.len()).max_by(|&a, &b| truncation[a].total_cmp(&truncation[b]));
             for which in std::iter::once(0).chain(worst.map(|m| m + 1)) {
                 let directions = real_directions(&solved.residuals[which], transpose_dot);
                 let new: Vec<bool> = directions.iter().map(|direction| keep(&mut kept, direction)).collect();
-                if new.iter().any(|&new| new) {
-                    let full = self.residual(point, which, &solved.solutions[which]);
-                    let directions = real_directions(&full, |a, b| self.basis.force_dot(a, b));
-                    let wanted = directions.into_iter().zip(new).filter(|(_, new)| *new);
-                    forces.extend(wanted.map(|(force, _)| (shift, force)));
+                if new.contains(&true) {
+                    count += new.iter().filter(|&&new| new).count();
+                    wanted.push(Wanted { point, which, y: solved.solutions[which].clone(), new });
                 }
             }
-            if forces.len() >= BLOCK {
+            if count >= BLOCK {
                 break;
             }
+        }
+        let mut forces = Vec::new();
+        for (Wanted { point, new, .. }, full) in wanted.iter().zip(self.residuals(&wanted)) {
+            let shift = self.nearest_shift(point.at.frequency_hz);
+            let directions = real_directions(&full, |a, b| self.basis.force_dot(a, b));
+            let new = directions.into_iter().zip(new).filter(|(_, new)| **new);
+            forces.extend(new.map(|(force, _)| (shift, force)));
         }
         self.solve_and_append(forces)
     }
 
-    /// F − D V y, or ℓ_m − D V z_m for `which` = m + 1, in full.
-    fn residual(&self, point: &Point<'m>, which: usize, y: &[c64]) -> Vec<c64> {
-        let x = self.basis.vectors().combine(y);
-        let mut corrections = vec![c64::default(); point.at.parameters.len()];
-        corrections.iter_mut().take(1).for_each(|c| *c = point.correction);
-        let pattern = self.model.analysis().pattern();
-        let d = SymmetricMatrix::new(Arc::clone(pattern), Values::Complex(point.at.assemble(&corrections)));
-        let mut rest = match which.checked_sub(1) {
+    /// F − D V y, or ℓ_m − D V z_m for `which` = m + 1, in full; each matrix is met once for all of them.
+    fn residuals(&self, wanted: &[Wanted<'_, 'm>]) -> Vec<Vec<c64>> {
+        let (n, parts) = (self.model.dim(), &self.projection().parts);
+        let of = |w: &Wanted<'_, 'm>, part: fn(&c64) -> f64| w.y.iter().map(part).collect::<Vec<f64>>();
+        let y: Vec<f64> = wanted.iter().flat_map(|w| [of(w, |y| y.re), of(w, |y| y.im)]).flatten().collect();
+        let x = self.basis.vectors().times(&y);
+        let given = |w: &Wanted<'_, 'm>| match w.which.checked_sub(1) {
             None => self.experiment.load.clone(),
             Some(m) => self.experiment.unit_force(m),
         };
-        d.multiply_add(c64::new(-1.0, 0.0), &x, &mut rest);
-        rest
+        let mut residuals: Vec<Vec<c64>> = wanted.iter().map(given).collect();
+        let theta: Vec<Vec<c64>> =
+            wanted.iter().map(|w| weights(self.projection(), &w.point.at, w.point.correction).0).collect();
+        let mut images = vec![0.0; x.len()];
+        for g in 0..parts.len() {
+            images.fill(0.0);
+            parts.multiply_add(self.model, g, &x, &mut images);
+            for ((rest, theta), image) in residuals.iter_mut().zip(&theta).zip(images.chunks_exact(2 * n)) {
+                let (re, im) = image.split_at(n);
+                let image = re.iter().zip(im).map(|(&re, &im)| c64::new(re, im));
+                rest.iter_mut().zip(image).for_each(|(rest, image)| *rest -= theta[g] * image);
+            }
+        }
+        residuals
     }
 
     fn nearest_shift(&self, frequency_hz: f64) -> usize {

@@ -3,7 +3,7 @@
 use super::{Factor, Symbolic};
 use crate::Scalar;
 use crate::scalar::max_modulus;
-use crate::sparse::{Pattern, multiply_add};
+use crate::sparse::Pattern;
 use std::fmt;
 use std::sync::Arc;
 
@@ -24,6 +24,7 @@ pub struct CheckedFactor<T> {
     values: Vec<T>,
     norm: f64,
     factor: Box<dyn Factor<T>>,
+    threads: usize,
 }
 
 /// How good a solution is, as measured on it.
@@ -82,14 +83,15 @@ impl<T: Scalar> CheckedFactor<T> {
         pattern: &Arc<Pattern>,
         values: Vec<T>,
         symbolic: &dyn Symbolic<T>,
+        threads: usize,
     ) -> Result<Self, Breakdown> {
         assert_eq!(values.len(), pattern.stored(), "one value for each position");
         let norm = infinity_norm(pattern, &values);
         if !norm.is_finite() {
             return Err(Breakdown::NotFinite);
         }
-        let factor = symbolic.factor(&values)?;
-        Ok(Self { pattern: Arc::clone(pattern), values, norm, factor })
+        let factor = symbolic.factor(&values, threads)?;
+        Ok(Self { pattern: Arc::clone(pattern), values, norm, factor, threads })
     }
 
     /// Number of unknowns n.
@@ -119,25 +121,22 @@ impl<T: Scalar> CheckedFactor<T> {
             return Err(Breakdown::NotFinite);
         }
         let given = rhs.to_vec();
-        self.factor.solve_in_place(rhs);
-        let mut reports = Vec::with_capacity(rhs.len() / n);
-        let (mut inaccurate, mut corrections) = (Vec::new(), Vec::new());
-        for (k, (b, x)) in given.chunks_exact(n).zip(rhs.chunks_exact(n)).enumerate() {
-            let (residual, backward_error) = self.residual(b, x)?;
-            if backward_error > REFINE_ABOVE {
-                inaccurate.push(k);
-                corrections.extend(residual);
-            }
-            reports.push(SolveReport { backward_error, condition_at_least: 0.0, refined: false });
-        }
+        self.factor.solve_in_place(rhs, self.threads);
+        let (residuals, errors) = self.residuals(&given, rhs)?;
+        let inaccurate: Vec<usize> = (0..errors.len()).filter(|&k| errors[k] > REFINE_ABOVE).collect();
+        let report = |backward_error| SolveReport { backward_error, condition_at_least: 0.0, refined: false };
+        let mut reports: Vec<SolveReport> = errors.into_iter().map(report).collect();
         if !inaccurate.is_empty() {
-            self.factor.solve_in_place(&mut corrections);
-        }
-        for (&k, dx) in inaccurate.iter().zip(corrections.chunks_exact(n)) {
-            let x = &mut rhs[k * n..][..n];
-            x.iter_mut().zip(dx).for_each(|(x, dx)| *x += *dx);
-            reports[k].backward_error = self.residual(&given[k * n..][..n], x)?.1;
-            reports[k].refined = true;
+            let of = |all: &[T]| inaccurate.iter().flat_map(|&k| &all[k * n..][..n]).copied().collect();
+            let mut refined: Vec<T> = of(rhs);
+            let mut corrections: Vec<T> = of(&residuals);
+            self.factor.solve_in_place(&mut corrections, self.threads);
+            refined.iter_mut().zip(&corrections).for_each(|(x, dx)| *x += *dx);
+            let (_, errors) = self.residuals(&of(&given), &refined)?;
+            for ((&k, x), backward_error) in inaccurate.iter().zip(refined.chunks_exact(n)).zip(errors) {
+                rhs[k * n..][..n].copy_from_slice(x);
+                reports[k] = SolveReport { refined: true, ..report(backward_error) };
+            }
         }
         for ((b, x), report) in given.chunks_exact(n).zip(rhs.chunks_exact(n)).zip(reports) {
             let report = self.judge(b, x, report)?;
@@ -160,18 +159,20 @@ impl<T: Scalar> CheckedFactor<T> {
         Ok(SolveReport { condition_at_least, ..report })
     }
 
-    /// b − A x and its size relative to ‖A‖∞‖x‖∞ + ‖b‖∞; an x that is not finite is a singular matrix's.
-    fn residual(&self, b: &[T], x: &[T]) -> Result<(Vec<T>, f64), Breakdown> {
-        let singular = Breakdown::Singular { condition_at_least: f64::INFINITY };
-        let size = max_modulus(x);
-        if !size.is_finite() {
-            return Err(singular);
-        }
-        let mut residual = b.to_vec();
-        multiply_add(&self.pattern, &self.values, -faer::traits::math_utils::one::<T>(), x, &mut residual);
-        let scale = self.norm * size + max_modulus(b);
-        let relative = if scale > 0.0 { max_modulus(&residual) / scale } else { 0.0 };
-        if relative.is_finite() { Ok((residual, relative)) } else { Err(singular) }
+    /// B − A X, and of each column the size relative to ‖A‖∞‖x‖∞ + ‖b‖∞; an x that is not finite is a singular matrix's.
+    fn residuals(&self, b: &[T], x: &[T]) -> Result<(Vec<T>, Vec<f64>), Breakdown> {
+        let n = self.dim();
+        let mut residuals = b.to_vec();
+        T::multiply_subtract(&self.pattern, &self.values, x, &mut residuals);
+        let columns = residuals.chunks_exact(n).zip(b.chunks_exact(n).zip(x.chunks_exact(n)));
+        let relative = |(residual, (b, x)): (&[T], (&[T], &[T]))| {
+            let scale = self.norm * max_modulus(x) + max_modulus(b);
+            let relative = if scale > 0.0 { max_modulus(residual) / scale } else { 0.0 };
+            let finite = relative.is_finite() && scale.is_finite();
+            finite.then_some(relative).ok_or(Breakdown::Singular { condition_at_least: f64::INFINITY })
+        };
+        let errors = columns.map(relative).collect::<Result<_, _>>()?;
+        Ok((residuals, errors))
     }
 }
 

@@ -19,7 +19,7 @@ impl DenseSymbolic {
 }
 
 impl<T: Scalar> Symbolic<T> for DenseSymbolic {
-    fn factor(&self, values: &[T]) -> Result<Box<dyn Factor<T>>, Breakdown> {
+    fn factor(&self, values: &[T], _threads: usize) -> Result<Box<dyn Factor<T>>, Breakdown> {
         let n = self.pattern.dim();
         let mut matrix = Mat::<T>::zeros(n, n);
         for ((row, col), &value) in self.pattern.positions().zip(values) {
@@ -39,7 +39,7 @@ impl<T: Scalar> Symbolic<T> for DenseSymbolic {
 struct DenseFactor<T>(PartialPivLu<T>);
 
 impl<T: Scalar> Factor<T> for DenseFactor<T> {
-    fn solve_in_place(&self, rhs: &mut [T]) {
+    fn solve_in_place(&self, rhs: &mut [T], _threads: usize) {
         let n = self.0.L().nrows();
         let columns = rhs.len() / n;
         self.0.solve_in_place_with_conj(Conj::No, MatMut::from_column_major_slice_mut(rhs, n, columns));

@@ -38,7 +38,7 @@ pub const DENSE_LIMIT: usize = 48;
 /// Narrow on purpose: a new back-end is one file with these two traits.
 trait Symbolic<T>: Send + Sync {
     /// Factor of the matrix with these values (in the order of the pattern).
-    fn factor(&self, values: &[T]) -> Result<Box<dyn Factor<T>>, Breakdown>;
+    fn factor(&self, values: &[T], threads: usize) -> Result<Box<dyn Factor<T>>, Breakdown>;
     /// What `factor` will allocate.
     fn memory(&self) -> Result<FactorMemory, Breakdown>;
 }
@@ -46,7 +46,7 @@ trait Symbolic<T>: Send + Sync {
 /// A factorised matrix.
 trait Factor<T>: Send + Sync {
     /// Overwrites k right-hand sides (n × k, column after column) with the solutions, unchecked.
-    fn solve_in_place(&self, rhs: &mut [T]);
+    fn solve_in_place(&self, rhs: &mut [T], threads: usize);
 }
 
 /// Everything about a pattern that no number changes: ordering and symbolic factorisations, done once
@@ -85,7 +85,7 @@ impl Analysis {
         &self.pattern
     }
 
-    /// Factorises the matrix with these values, in the order of the pattern.
+    /// Factorises the matrix with these values, in the order of the pattern, on one thread.
     ///
     /// # Errors
     /// [`Breakdown`] where a value is not finite, the factorisation breaks down, or memory is short.
@@ -93,7 +93,19 @@ impl Analysis {
     /// # Panics
     /// Where there is not one value for each position.
     pub fn factor<T: HasSymbolic>(&self, values: &[T]) -> Result<CheckedFactor<T>, Breakdown> {
-        CheckedFactor::new(&self.pattern, values.to_vec(), T::symbolic(self))
+        self.factor_on(values, 1)
+    }
+
+    /// As [`Analysis::factor`], on so many threads, those of the caller's pool where it has as many; solutions too. The numbers do not depend on it.
+    ///
+    /// # Errors
+    /// As [`Analysis::factor`].
+    pub fn factor_on<T: HasSymbolic>(
+        &self,
+        values: &[T],
+        threads: usize,
+    ) -> Result<CheckedFactor<T>, Breakdown> {
+        CheckedFactor::new(&self.pattern, values.to_vec(), T::symbolic(self), threads)
     }
 
     /// What [`Analysis::factor`] will allocate, known before any number is: a model that cannot fit into memory

@@ -28,8 +28,9 @@ impl Sparse {
 }
 
 impl<T: Scalar> Symbolic<T> for Sparse {
-    fn factor(&self, values: &[T]) -> Result<Box<dyn Factor<T>>, Breakdown> {
-        let factor = self.symbolic()?.factor(values, &Options::default()).map_err(|error| match error {
+    fn factor(&self, values: &[T], threads: usize) -> Result<Box<dyn Factor<T>>, Breakdown> {
+        let options = Options { threads, ..Options::default() };
+        let factor = self.symbolic()?.factor(values, &options).map_err(|error| match error {
             FactorError::NotFinite { .. } => Breakdown::NotFinite,
             FactorError::Singular { .. } => Breakdown::Singular { condition_at_least: f64::INFINITY },
             // One value an entry is asserted before, and nothing is solved yet.
@@ -47,7 +48,7 @@ impl<T: Scalar> Symbolic<T> for Sparse {
 }
 
 impl<T: Scalar> Factor<T> for multifrontal::Factor<T> {
-    fn solve_in_place(&self, rhs: &mut [T]) {
-        multifrontal::Factor::solve_in_place(self, rhs, 1);
+    fn solve_in_place(&self, rhs: &mut [T], threads: usize) {
+        multifrontal::Factor::solve_in_place(self, rhs, threads);
     }
 }

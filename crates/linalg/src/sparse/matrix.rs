@@ -1,7 +1,7 @@
 //! Values on a pattern, and their products with vectors.
 
-use super::Pattern;
 use super::triplets::assemble_complex;
+use super::{Pattern, side_by_side};
 use crate::{Scalar, c64};
 use std::sync::Arc;
 
@@ -115,16 +115,21 @@ impl SymmetricMatrix {
         matches!(self.values, Values::Complex(_))
     }
 
-    /// out += Re A x or Im A x, for a real vector.
+    /// out += Re A X or Im A X, for real vectors, n × k column after column.
     ///
     /// # Panics
-    /// Where a length is not n.
+    /// Where lengths differ, or are not whole vectors.
     pub fn multiply_add_real(&self, part: Part, x: &[f64], out: &mut [f64]) {
+        let pattern = &self.pattern;
         match (&self.values, part) {
-            (Values::Real(values), Part::Re) => accumulate(&self.pattern, values, x, out, |a, b| a * b),
+            (Values::Real(values), Part::Re) => side_by_side::multiply_add(pattern, values, |a| a, x, out),
             (Values::Real(_), Part::Im) => {}
-            (Values::Complex(values), Part::Re) => accumulate(&self.pattern, values, x, out, |a, b| a.re * b),
-            (Values::Complex(values), Part::Im) => accumulate(&self.pattern, values, x, out, |a, b| a.im * b),
+            (Values::Complex(values), Part::Re) => {
+                side_by_side::multiply_add(pattern, values, |a| a.re, x, out);
+            }
+            (Values::Complex(values), Part::Im) => {
+                side_by_side::multiply_add(pattern, values, |a| a.im, x, out);
+            }
         }
     }
 
@@ -162,7 +167,8 @@ fn spread<T: Scalar>(from: &Pattern, values: &[T], onto: &Pattern) -> Vec<T> {
     spread
 }
 
-fn accumulate<A: Copy, X: Scalar>(
+/// out += A x, the product of an entry and a number as given.
+pub(crate) fn accumulate<A: Copy, X: Scalar>(
     pattern: &Pattern,
     values: &[A],
     x: &[X],
@@ -184,9 +190,4 @@ fn accumulate<A: Copy, X: Scalar>(
         }
         out[col] += here;
     }
-}
-
-/// out += factor · A x for values of the same scalar as the vector.
-pub(crate) fn multiply_add<T: Scalar>(pattern: &Pattern, values: &[T], factor: T, x: &[T], out: &mut [T]) {
-    accumulate(pattern, values, x, out, |a, b| factor * a * b);
 }

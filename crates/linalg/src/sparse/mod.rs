@@ -2,10 +2,11 @@
 
 mod matrix;
 mod pattern;
+pub(crate) mod side_by_side;
 mod triplets;
 
 pub use matrix::{Part, SymmetricMatrix, Values};
 pub use pattern::Pattern;
 pub use triplets::Triplets;
 
-pub(crate) use matrix::multiply_add;
+pub(crate) use matrix::accumulate;

@@ -31,7 +31,8 @@ pub(super) fn terms(case: &CaseFile, files: &mut Files) -> Result<Vec<Term>, Inp
 
 /// The model of all terms.
 pub(super) fn model(case: &CaseFile, terms: Vec<Term>) -> Result<DynamicStiffness, InputError> {
-    DynamicStiffness::new(terms).map_err(|error| unusable(case, &error))
+    let model = DynamicStiffness::new(terms).map_err(|error| unusable(case, &error))?;
+    Ok(model.with_threads(rayon::current_num_threads()))
 }
 
 fn same_sizes(read: &[(&MatrixEntry, CoordinateMatrix, NamedFile)]) -> Result<(), InputError> {

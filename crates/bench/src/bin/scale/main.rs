@@ -9,7 +9,7 @@
 use frfit::frequency::linear_hz;
 use frfit::identify::Options;
 use frfit_bench::measurement::{BySubspace, by_subspace};
-use frfit_bench::{Run, Structure, Table, machine, memory};
+use frfit_bench::{Run, Structure, Table, exponent, machine, memory};
 use frfit_examples::sandwich;
 use std::error::Error;
 
@@ -125,24 +125,4 @@ fn table(costs: &[Cost]) -> Table {
         power(&|cost| cost.run.found.subspace_size.unwrap_or(0) as f64),
     ]);
     table
-}
-
-/// b of the power a xᵇ that fits positive values best on logarithmic scales; NaN of fewer than two.
-fn exponent(x: &[f64], y: &[f64]) -> f64 {
-    let mean = |values: &[f64]| values.iter().map(|v| v.ln()).sum::<f64>() / values.len() as f64;
-    let (mean_x, mean_y) = (mean(x), mean(y));
-    let covariance: f64 = x.iter().zip(y).map(|(x, y)| (x.ln() - mean_x) * (y.ln() - mean_y)).sum();
-    covariance / x.iter().map(|x| (x.ln() - mean_x).powi(2)).sum::<f64>()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::exponent;
-
-    #[test]
-    fn the_exponent_of_a_power_is_its_own() {
-        let x = [1e4, 3e4, 1e5];
-        let y = x.map(|x: f64| 7.0 * x.powf(1.25));
-        assert!((exponent(&x, &y) - 1.25).abs() < 1e-12);
-    }
 }

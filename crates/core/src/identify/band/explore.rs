@@ -7,7 +7,7 @@ use crate::model::ModelAt;
 use crate::rational::{Poles, RationalResponse};
 use crate::response::Response;
 use crate::roots::{Candidate, Refusal};
-use crate::subspace::Projection;
+use crate::subspace::{Assessment, Projection};
 use frfit_linalg::dense::NoConvergence;
 use frfit_linalg::solve::Breakdown;
 
@@ -86,6 +86,15 @@ const SENSORS: usize = 2;
 
 /// Steps of Gauss and Newton. From an eigenvalue a handful is enough; more show that it leads nowhere.
 const STEPS: usize = 30;
+
+/// Steps of a short way.
+const SHORT: usize = 6;
+
+/// A step of this part of the factor is likely the last: Newton's next is the square of it.
+const NEAR: f64 = 1e-6;
+
+/// What is left after the last: beyond the digits that an answer has, whatever the noise.
+const SETTLED: f64 = 1e-11;
 
 /// Solutions nearer than this, relative to the factor, are one.
 const SAME: f64 = 1e-7;
@@ -244,10 +253,11 @@ impl Fit<'_> {
 
     /// Gauss–Newton on Σ |u_m − x_m(c)|²/σ_m², B-5: for one sensor Newton's method on x(c) = u. `None` where it does not settle.
     pub(super) fn descend(&self, respond: impl Fn(c64) -> Evaluated, start: c64) -> Option<Solution> {
-        let (mut best, mut step) = self.solution_at(&respond, self.admissible(start)).ok()?;
+        let evaluated = |c: c64| self.solution_at(respond(c), c);
+        let (mut best, mut step) = evaluated(self.admissible(start)).ok()?;
         for _ in 0..STEPS {
             let size = (self.nominal + best.correction).norm();
-            let (next, further) = self.solution_at(&respond, self.admissible(best.correction + step)).ok()?;
+            let (next, further) = evaluated(self.admissible(best.correction + step)).ok()?;
             let better = next.misfit < best.misfit;
             // A step of roundoff, or no better point though not far from one: this is it.
             let done = step.norm() <= f64::EPSILON * size || (!better && step.norm() <= 1e-6 * size);
@@ -260,6 +270,37 @@ impl Fit<'_> {
                 let own = self.measured.len() > 1 || self.matched(&best);
                 return own.then_some(best);
             }
+        }
+        None
+    }
+
+    /// As [`Self::descend`] where the way is short: the point that is likely the last is assessed where it is evaluated. `None` where it is not short.
+    pub(super) fn arrive(
+        &self,
+        respond: impl Fn(c64) -> Evaluated,
+        assess: impl Fn(c64) -> Option<Assessment>,
+        start: c64,
+    ) -> Option<(Solution, Assessment)> {
+        let size = (self.nominal + start).norm();
+        let start = self.admissible(start);
+        let (mut best, mut step) = self.solution_at(respond(start), start).ok()?;
+        for _ in 0..SHORT {
+            let correction = self.admissible(best.correction + step);
+            if step.norm() > NEAR * size {
+                let (next, further) = self.solution_at(respond(correction), correction).ok()?;
+                (best, step) = if next.misfit < best.misfit { (next, further) } else { return None };
+                continue;
+            }
+            let assessed = assess(correction)?;
+            let evaluated = (assessed.response.clone(), assessed.slope.clone());
+            let (last, further) = self.solution_at(Ok(evaluated), correction).ok()?;
+            // What the step after the next would be, at the rate of these two.
+            let settled = further.norm_sqr() <= SETTLED * size * step.norm();
+            let own = self.measured.len() > 1 || self.matched(&last);
+            if settled && own {
+                return Some((last, assessed));
+            }
+            (best, step) = if last.misfit < best.misfit { (last, further) } else { return None };
         }
         None
     }
@@ -278,13 +319,9 @@ impl Fit<'_> {
         }
     }
 
-    /// The solution's record at c, and the step from there.
-    fn solution_at(
-        &self,
-        respond: impl Fn(c64) -> Evaluated,
-        correction: c64,
-    ) -> Result<(Solution, c64), NoConvergence> {
-        let (values, slopes) = respond(correction)?;
+    /// The solution's record at c, where the model was evaluated, and the step from there.
+    fn solution_at(&self, evaluated: Evaluated, correction: c64) -> Result<(Solution, c64), NoConvergence> {
+        let (values, slopes) = evaluated?;
         let (mut misfit, mut curvature, mut gradient) = (0.0, 0.0, c64::default());
         for (m, (x, slope)) in values.iter().zip(&slopes).enumerate() {
             let weight = self.sigma[m].powi(-2);

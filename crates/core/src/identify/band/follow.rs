@@ -175,8 +175,16 @@ impl<'a, F: Fn(usize) -> Fit<'a>> Follower<'a, F> {
         let residuals = [left, right].into_iter().flat_map(|end| &end.solutions).map(|s| s.residual);
         let residual = residuals.fold(0.0, f64::max);
         for (k, tube) in stretch.tubes.iter().enumerate() {
-            let mut solution = fit.descend(|c| tube.respond_with_slope(index, c), starts[k] - nominal)?;
-            let assessed = tube.assess(index, solution.correction);
+            let start = starts[k] - nominal;
+            let (respond, assess) = (|c| tube.respond_with_slope(index, c), |c| tube.assess(index, c));
+            let (mut solution, assessed) = match fit.arrive(respond, assess, start) {
+                Some((solution, assessed)) => (solution, Some(assessed)),
+                None => {
+                    let solution = fit.descend(respond, start)?;
+                    let assessed = assess(solution.correction);
+                    (solution, assessed)
+                }
+            };
             match assessed.filter(|assessed| is_certain(at, solution.correction, assessed)) {
                 Some(assessed) => certain.push((solution.correction, assessed)),
                 // The curve's model leads there; the neighbourhood's has the last digits.
