@@ -94,11 +94,16 @@ impl Basis {
     fn project(&mut self, model: &DynamicStiffness, experiment: &Experiment, first: usize) {
         let (n, r) = (self.weight.len(), self.vectors.ncols());
         let small = &mut self.projection;
-        for g in 0..small.parts.len() {
-            let mut block = vec![0.0; n * (r - first)];
-            small.parts.multiply_add(model, g, self.vectors.columns(first..r), &mut block);
-            block.chunks_exact(n).for_each(|image| small.images[g].extend(self.sketch.of(image)));
-            small.matrices[g] = bordered(&small.matrices[g], first, &self.vectors.transpose_times(&block), r);
+        let (new, count) = (self.vectors.columns(first..r), small.parts.len());
+        // S_g V_new for all g side by side: V, which is long, is met once for all of them.
+        let mut images = vec![0.0; count * new.len()];
+        for (g, images) in images.chunks_exact_mut(new.len().max(1)).enumerate() {
+            small.parts.multiply_add(model, g, new, images);
+            images.chunks_exact(n).for_each(|image| small.images[g].extend(self.sketch.of(image)));
+        }
+        let columns = self.vectors.transpose_times(&images);
+        for (matrix, columns) in small.matrices.iter_mut().zip(columns.chunks(r * (r - first).max(1))) {
+            *matrix = bordered(matrix, first, columns, r);
         }
         for j in first..r {
             let v = self.vectors.column(j);
