@@ -97,15 +97,9 @@ pub fn identify_case(
     out: &Path,
     progress: Progress<'_>,
 ) -> Result<IdentifyJob, JobError> {
-    let start = Instant::now();
-    let case = load(case_file, overrides, Purpose::Identify)?;
-    let seconds_load = start.elapsed().as_secs_f64();
+    let Computed { case, diagnosis, run, seconds_load, seconds_check } =
+        compute_case(case_file, overrides, options, progress)?;
     let wanted = case.identify.as_ref().expect("a case loaded to identify has something to identify");
-    check_identify(&case, wanted, options.memory_bytes)?;
-    let start = Instant::now();
-    let diagnosis = wanted.check.then(|| check(&case, wanted)).transpose()?;
-    let seconds_check = start.elapsed().as_secs_f64();
-    let run = identify(&case, wanted, options, progress)?;
     let start = Instant::now();
     let mut files = identify_figures(&case, wanted, &run)?;
     let mut summary = summary_json(&case, wanted, &run, seconds_load, start.elapsed().as_secs_f64());
@@ -121,6 +115,58 @@ pub fn identify_case(
     files.push(File::new("summary.json", format!("{summary:#}\n")));
     write_all(out, &files)?;
     Ok(IdentifyJob { case, diagnosis, run, summary })
+}
+
+/// An identification that was done, and not written.
+#[derive(Debug)]
+pub struct Computed {
+    /// The case.
+    pub case: Case,
+    /// What is wrong with the data; `None` where the case says `check = false`.
+    pub diagnosis: Option<Diagnosis>,
+    /// What came out.
+    pub run: IdentifyRun,
+    /// How long the files took to read.
+    pub seconds_load: f64,
+    /// How long the data took to check.
+    pub seconds_check: f64,
+}
+
+/// [`identify_case`] without its files: the numbers are the same.
+///
+/// # Errors
+/// As [`identify_case`], but for what is written.
+pub fn compute_case(
+    case_file: &Path,
+    overrides: &Overrides,
+    options: RunOptions,
+    progress: Progress<'_>,
+) -> Result<Computed, JobError> {
+    let start = Instant::now();
+    let case = load(case_file, overrides, Purpose::Identify)?;
+    let seconds_load = start.elapsed().as_secs_f64();
+    compute(case, options, seconds_load, progress)
+}
+
+/// The same for a case that was loaded, or made of arrays.
+///
+/// # Errors
+/// As [`compute_case`], and where the case has nothing to identify.
+pub fn compute(
+    case: Case,
+    options: RunOptions,
+    seconds_load: f64,
+    progress: Progress<'_>,
+) -> Result<Computed, JobError> {
+    let Some(wanted) = &case.identify else {
+        return Err(InputError::at(&Place::option("case"), "something to identify", "none").into());
+    };
+    check_identify(&case, wanted, options.memory_bytes)?;
+    let start = Instant::now();
+    let diagnosis = wanted.check.then(|| check(&case, wanted)).transpose()?;
+    let seconds_check = start.elapsed().as_secs_f64();
+    let run = identify(&case, wanted, options, progress)?;
+    Ok(Computed { case, diagnosis, run, seconds_load, seconds_check })
 }
 
 /// Loads a case, computes its forward response, and writes table, UFF file and figure into `out`.

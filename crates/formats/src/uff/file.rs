@@ -34,6 +34,12 @@ impl<'a> File<'a> {
         Ok(Self { bytes, entries: scan(bytes)? })
     }
 
+    /// The same file with datasets that [`scan`] found in these bytes before.
+    #[must_use]
+    pub fn with_entries(bytes: &'a [u8], entries: Vec<Entry>) -> Self {
+        Self { bytes, entries }
+    }
+
     /// The datasets in the order of the file; their positions here are the indices of all methods.
     #[must_use]
     pub fn entries(&self) -> &[Entry] {

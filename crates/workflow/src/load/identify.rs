@@ -131,17 +131,29 @@ fn shared_factor(
     let words: Vec<&str> = names.iter().map(String::as_str).collect();
     let parameter = Parameter::factor_of(model, &words)
         .map_err(|error| InputError::at(&entry.place, "names of matrices", error.to_string()))?;
-    for (name, member) in entry.matrices.iter().zip(&parameter.members) {
-        if model.terms()[member.term].factor != parameter.nominal {
-            let expected = format!("matrices with one factor, that of {:?}", names[0]);
-            return Err(InputError::at(&name.place, expected, format!("{:?} with another", name.value)));
-        }
+    for (k, name) in entry.matrices.iter().enumerate() {
+        shared(model, &parameter, k, names, &name.place)?;
     }
     Ok(parameter)
 }
 
+/// Refuses a name (the k-th) whose matrix has another factor than the parameter.
+pub(super) fn shared(
+    model: &DynamicStiffness,
+    parameter: &Parameter,
+    k: usize,
+    names: &[String],
+    place: &Place,
+) -> Result<(), InputError> {
+    if model.terms()[parameter.members[k].term].factor == parameter.nominal {
+        return Ok(());
+    }
+    let expected = format!("matrices with one factor, that of {:?}", names[0]);
+    Err(InputError::at(place, expected, format!("{:?} with another", names[k])))
+}
+
 /// `nominal = "estimate"`: where the bounds are, without any other word of the user. The factor is looked for in all of them.
-fn middle_of(bounds: &Bounds, place: &Place) -> Result<Law, InputError> {
+pub(super) fn middle_of(bounds: &Bounds, place: &Place) -> Result<Law, InputError> {
     let [low, high] = match bounds.storage {
         Some([low, high]) if low > 0.0 => [low, high],
         Some([low, high]) => {
@@ -203,7 +215,7 @@ fn options(entry: &IdentifyEntry, overrides: &Overrides) -> Result<Options, Inpu
 const ORDERS: &str = "1 to 200";
 
 /// Laws are fitted on the subspace of a joint selection, and are laws of a complex modulus.
-fn space_of_laws(options: &Options, varies: &Place) -> Result<Space, InputError> {
+pub(super) fn space_of_laws(options: &Options, varies: &Place) -> Result<Space, InputError> {
     let refuse = |expected: &str, found: String| Err(InputError::at(varies, expected, found));
     if options.selection != Selection::Joint {
         let found = format!("\"law\" with selection {:?}", options.selection.name());
@@ -250,7 +262,18 @@ fn unknown_scale(case: &CaseFile, entry: &IdentifyEntry, options: &Options) -> R
     let scales: Vec<Option<&Located<ScaleEntry>>> = scales.collect();
     let unknown: Vec<bool> = scales.iter().map(Option::is_some).collect();
     let Some(first) = scales.into_iter().flatten().next() else { return Ok(unknown) };
-    let refuse = |expected: &str, found: &str| Err(InputError::at(&first.place, expected, found));
+    check_scales(&unknown, &first.place, entry.laws.is_some(), options)?;
+    Ok(unknown)
+}
+
+/// Refuses unknown scales (the first of them at `first`) where they cannot be found.
+pub(super) fn check_scales(
+    unknown: &[bool],
+    first: &Place,
+    laws: bool,
+    options: &Options,
+) -> Result<(), InputError> {
+    let refuse = |expected: &str, found: &str| Err(InputError::at(first, expected, found));
     if options.selection != Selection::Joint {
         let found = format!("\"unknown\" with selection {:?}", options.selection.name());
         return refuse("a number, or selection = \"joint\"", &found);
@@ -258,19 +281,19 @@ fn unknown_scale(case: &CaseFile, entry: &IdentifyEntry, options: &Options) -> R
     if options.space == Space::Full {
         return refuse("a number, or the space \"subspace\"", "\"unknown\" with space \"full\"");
     }
-    if entry.laws.is_none() && !unknown.contains(&false) {
+    if !laws && !unknown.contains(&false) {
         let expected = "a number here, another [[measurement]] whose scale is known, or varies = \"law\" \
                         (a factor of its own at each frequency explains one sensor whatever its scale)";
         return refuse(expected, "\"unknown\" for all sensors");
     }
-    Ok(unknown)
+    Ok(())
 }
 
 /// A frequency this near to a line, as a part of their distance, is that line: between two lines a disturbance is in both.
 const ON_LINE: f64 = 0.01;
 
 /// Which frequencies (ascending) are left out.
-fn left_out(leave_out: &[LeaveOut], frequency_hz: &[f64]) -> Vec<bool> {
+pub(super) fn left_out(leave_out: &[LeaveOut], frequency_hz: &[f64]) -> Vec<bool> {
     let mut out = vec![false; frequency_hz.len()];
     for entry in leave_out {
         let (first, end) = match *entry {

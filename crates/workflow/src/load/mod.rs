@@ -1,5 +1,6 @@
 //! From a case file to everything that a computation needs: all files read, everything checked, nothing computed.
 
+mod arrays;
 mod attached;
 mod band;
 mod dofs;
@@ -13,6 +14,7 @@ mod measurement;
 mod model;
 mod uff;
 
+pub use arrays::{ArraysError, MeasuredFrf, Wanted, case_of_arrays, response_of_arrays};
 pub use files::InputFile;
 pub use frf::{Choice, Frf, read_frf};
 pub use identify::{IdentifyCase, MeasuredNoise};
@@ -31,14 +33,15 @@ use frfit_formats::CoordinateMatrix;
 use measurement::{Measurement, measurement};
 use std::collections::BTreeMap;
 use std::path::Path;
+use std::sync::Arc;
 
 /// A case read from its file, everything checked, nothing computed.
 #[derive(Debug)]
 pub struct Case {
     /// Its title, or the name of its file.
     pub title: String,
-    /// D(ω).
-    pub model: DynamicStiffness,
+    /// D(ω); shared, because a program may ask one model more than once.
+    pub model: Arc<DynamicStiffness>,
     /// Load and sensors.
     pub experiment: Experiment,
     /// The sensors' labels, quantities and files, in the order of the measurements.
@@ -122,7 +125,7 @@ pub fn load(case_file: &Path, overrides: &Overrides, purpose: Purpose) -> Result
         sensors: measurements.into_iter().map(|measurement| measurement.info).collect(),
         row_names: dofs.names(),
         inputs: files.inputs,
-        model,
+        model: Arc::new(model),
         identify,
         respond_hz,
     })

@@ -1,0 +1,75 @@
+"""frfit corrects a finite element model until its frequency response is the measured one.
+
+Matrices are SciPy's, everything else is NumPy's. Units are SI unless a name says otherwise, the time convention is
+exp(+i omega t), rows are counted from 0. What does not exist is NaN, and ``status`` says why.
+
+>>> import numpy as np, scipy.sparse as sp, frfit
+>>> K = sp.csc_array(np.array([[2.0, -1.0], [-1.0, 2.0]]))      # per N/m of the unknown factor
+>>> M = sp.eye_array(2, format="csc") * 0.01                    # kg
+>>> model = frfit.Model([frfit.Term("springs", K, factor=1000 * (1 + 0.02j)),
+...                      frfit.Term("mass", M, role="mass")])
+>>> f = np.linspace(5.0, 120.0, 24)                             # Hz
+>>> frfit.respond(model, f, load=0, sensors=[0, 1]).shape       # m/N, (frequencies, sensors)
+(24, 2)
+"""
+
+from ._errors import (
+    FrfitError,
+    InputError,
+    InternalError,
+    MatrixError,
+    ModelError,
+    ModelMemoryError,
+    OptionsError,
+    OutsideTableError,
+    SignalError,
+    SolveError,
+    TableError,
+    WriteError,
+)
+from ._frfit import Law, Series, __version__
+from ._identify import Measurement, identify, run_case
+from ._matrix import read_matrix
+from ._model import Model, Term, respond, series
+from ._result import Finding, Identification
+from ._signal import Hit, MeasuredFrf, Recording, frf
+from ._uff import Uff, UffAxis, UffDof, UffFunction, UffSummary, read_uff, write_uff
+
+__all__ = [
+    "Finding",
+    "FrfitError",
+    "Hit",
+    "Identification",
+    "InputError",
+    "InternalError",
+    "Law",
+    "MatrixError",
+    "MeasuredFrf",
+    "Measurement",
+    "Model",
+    "ModelError",
+    "ModelMemoryError",
+    "OptionsError",
+    "OutsideTableError",
+    "Recording",
+    "Series",
+    "SignalError",
+    "SolveError",
+    "TableError",
+    "Term",
+    "Uff",
+    "UffAxis",
+    "UffDof",
+    "UffFunction",
+    "UffSummary",
+    "WriteError",
+    "__version__",
+    "frf",
+    "identify",
+    "read_matrix",
+    "read_uff",
+    "respond",
+    "run_case",
+    "series",
+    "write_uff",
+]

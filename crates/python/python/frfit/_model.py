@@ -1,0 +1,156 @@
+"""Models, and what they answer as they are."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any, Literal, TypeAlias
+
+from numpy.typing import ArrayLike
+
+from . import _frfit
+from ._arrays import Complex, load_vector, real
+from ._frfit import Law, Series
+from ._matrix import compressed
+
+Role: TypeAlias = Literal["stiffness", "viscous", "mass"]
+Progress: TypeAlias = Callable[[int, int], object]
+
+
+@dataclass(frozen=True, eq=False)
+class Term:
+    """One term of D(omega) = sum factor stiffness + i omega sum factor viscous - omega^2 sum factor mass.
+
+    Parameters
+    ----------
+    name
+        By which ``identify`` asks for it.
+    matrix
+        (n, n), symmetric, real or complex: sparse of any format, or dense. With ``factor`` in Pa it is in m, with
+        factor 1 in N/m, N s/m or kg.
+    role
+        ``"stiffness"``, ``"viscous"`` or ``"mass"``.
+    factor
+        A number, a complex number E (1 + i eta), or a :class:`Law` of frequency; nominal where it is unknown.
+    """
+
+    name: str
+    matrix: Any
+    role: Role = "stiffness"
+    factor: complex | Law = 1.0
+
+
+class Model:
+    """A finite element model: terms on one pattern, analysed once, for any number of calls.
+
+    Raises
+    ------
+    MatrixError
+        A matrix that is not square, symmetric to 1e-10 of its largest entry, and finite.
+    ModelError
+        No term, different sizes, a name twice.
+    """
+
+    def __init__(self, terms: Sequence[Term]) -> None:
+        def law(factor: complex | Law) -> Law:
+            return factor if isinstance(factor, Law) else Law.constant(complex(factor))
+
+        self._model = _frfit.Model(
+            [(term.name, term.role, law(term.factor), *compressed(term.matrix)) for term in terms]
+        )
+
+    @property
+    def dim(self) -> int:
+        """Degrees of freedom n."""
+        return self._model.dim
+
+    @property
+    def names(self) -> list[str]:
+        """The names of the terms."""
+        return self._model.names
+
+    def __repr__(self) -> str:
+        return f"<frfit.Model of {self.dim} degrees of freedom: {', '.join(self.names)}>"
+
+
+def _sensors(sensors: Sequence[int], signs: Sequence[float] | None) -> tuple[list[int], list[float]]:
+    rows = [int(row) for row in sensors]
+    if any(row < 0 for row in rows):
+        raise IndexError(f"sensors: expected rows from 0, found {min(rows)}")
+    senses = [1.0] * len(rows) if signs is None else [float(sign) for sign in signs]
+    if len(senses) != len(rows):
+        raise ValueError(f"signs: expected {len(rows)}, one for each sensor, found {len(senses)}")
+    return rows, senses
+
+
+def respond(
+    model: Model,
+    frequency_hz: ArrayLike,
+    *,
+    load: ArrayLike,
+    sensors: Sequence[int],
+    signs: Sequence[float] | None = None,
+    progress: Progress | None = None,
+) -> Complex:
+    """Receptance of the model as it is, by one direct solve a frequency, on all cores.
+
+    Parameters
+    ----------
+    frequency_hz
+        (f,), Hz.
+    load
+        A row (unit force), or the force vector (n,), N.
+    sensors, signs
+        Rows, and +1 or -1 for the sense that counts as positive.
+    progress
+        Called with (done, total).
+
+    Returns
+    -------
+    (f, sensors), complex, m/N (m where ``load`` is a vector in N); NaN where the system cannot be solved.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> spring = Model([Term("k", [[100.0]]), Term("m", [[2.0]], role="mass")])
+    >>> x = respond(spring, [0.0, 1.0], load=0, sensors=[0])
+    >>> bool(np.allclose(x[:, 0], [1 / 100, 1 / (100 - 2 * (2 * np.pi) ** 2)]))
+    True
+    """
+    rows, senses = _sensors(sensors, signs)
+    force = load_vector(load, model.dim)
+    return _frfit.respond(model._model, force, rows, senses, real(frequency_hz), progress)
+
+
+def series(
+    model: Model,
+    frequency_hz: float,
+    *,
+    load: ArrayLike,
+    sensors: Sequence[int],
+    matrix: str | Sequence[str],
+    order: int = 30,
+    signs: Sequence[float] | None = None,
+) -> Series:
+    """The Neumann series of the response in the factor of ``matrix``, about its nominal value, at one frequency.
+
+    x(c) = sum_k coefficients[:, k] (c / scale)^k, from one factorisation and ``order + 1`` solves.
+
+    Raises
+    ------
+    SolveError
+        The nominal system cannot be solved there.
+
+    Examples
+    --------
+    >>> spring = Model([Term("k", [[1.0]], factor=100.0), Term("m", [[2.0]], role="mass")])
+    >>> s = series(spring, 0.0, load=0, sensors=[0], matrix="k", order=3)
+    >>> s.coefficients.real.round(4).tolist()            # 1/(100 + c) with z = c/100
+    [[0.01, -0.01, 0.01, -0.01]]
+    >>> round(s.spectral_radius(50.0), 6)                # converges for |c| < 100
+    0.5
+    """
+    rows, senses = _sensors(sensors, signs)
+    names = [matrix] if isinstance(matrix, str) else list(matrix)
+    force = load_vector(load, model.dim)
+    return _frfit.series(model._model, force, rows, senses, frequency_hz, names, order)

@@ -1,0 +1,118 @@
+//! What came out, as arrays: the columns of `identified.csv`, NaN where a cell is empty.
+
+use frfit::c64;
+use frfit::identify::Identified;
+use frfit_workflow::job::Computed;
+use frfit_workflow::output::laws_json;
+use numpy::{Complex64, Element, IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyList};
+
+const NOTHING: c64 = c64::new(f64::NAN, f64::NAN);
+
+/// Rows of equal length as an array of two dimensions.
+pub(crate) fn table<T: Element + Clone>(
+    py: Python<'_>,
+    rows: impl Iterator<Item = Vec<T>>,
+    columns: usize,
+) -> PyResult<Bound<'_, PyArray2<T>>> {
+    let flat: Vec<T> = rows.flatten().collect();
+    let count = flat.len().checked_div(columns).unwrap_or(0);
+    flat.into_pyarray(py).reshape([count, columns])
+}
+
+/// Everything that `frfit.Identification` is made of.
+pub(crate) fn identification<'py>(py: Python<'py>, computed: &Computed) -> PyResult<Bound<'py, PyDict>> {
+    let (case, run) = (&computed.case, &computed.run);
+    let found = outcomes(py, &run.outcomes)?;
+    let sensors = case.sensors.len();
+    let response = |of: fn(&Identified) -> &Vec<c64>| {
+        let rows = run.outcomes.iter().map(|outcome| match of(outcome) {
+            values if values.len() == sensors => values.clone(),
+            _ => vec![NOTHING; sensors],
+        });
+        table(py, rows, sensors)
+    };
+    found.set_item("nominal_response", response(|outcome| &outcome.nominal_response)?)?;
+    found.set_item("updated_response", response(|outcome| &outcome.updated_response)?)?;
+    if let Some(identify) = &case.identify {
+        let measured = identify.measured.iter().map(|row| run.measured(row));
+        found.set_item("measured_response", table(py, measured, sensors)?)?;
+        found.set_item("matrices", &identify.names)?;
+    }
+    let labels: Vec<&str> = case.sensors.iter().map(|sensor| sensor.label.as_str()).collect();
+    found.set_item("sensors", labels)?;
+    found.set_item("title", &case.title)?;
+    found.set_item("noise", run.noise.level)?;
+    found.set_item("noise_source", run.noise.source.name())?;
+    found.set_item("explored", run.explored)?;
+    found.set_item("subspace_size", run.subspace_size)?;
+    found.set_item("factorisations", run.work.factorisations)?;
+    found.set_item("solves", run.work.solves)?;
+    found.set_item("seconds", run.seconds.identify())?;
+    found.set_item("explained", run.fit.map(|fit| fit.verdict.name()))?;
+    let misfit: Vec<f64> = run.sensors.iter().map(|fit| fit.misfit.unwrap_or(f64::NAN)).collect();
+    found.set_item("sensor_misfit", misfit.into_pyarray(py))?;
+    let left_out: Vec<bool> = run.sensors.iter().map(|fit| fit.left_out).collect();
+    found.set_item("sensor_left_out", left_out.into_pyarray(py))?;
+    let scales: Vec<f64> =
+        run.scales.iter().map(|scale| scale.map_or(f64::NAN, |scale| scale.value)).collect();
+    found.set_item("sensor_scale", scales.into_pyarray(py))?;
+    let told = PyList::empty(py);
+    let diagnosis = computed.diagnosis.as_ref();
+    for finding in diagnosis.map(|d| frfit_workflow::check::told(case, d)).unwrap_or_default() {
+        let one = PyDict::new(py);
+        one.set_item("kind", finding.kind)?;
+        one.set_item("sensors", finding.sensors)?;
+        one.set_item("what", finding.what)?;
+        one.set_item("evidence", finding.evidence)?;
+        one.set_item("change", finding.change)?;
+        told.append(one)?;
+    }
+    found.set_item("findings", told)?;
+    let laws = run.laws.as_ref().map(|laws| laws_json(laws).to_string());
+    let parsed = laws.map(|text| py.import("json")?.call_method1("loads", (text,))).transpose()?;
+    found.set_item("laws", parsed)?;
+    Ok(found)
+}
+
+fn outcomes<'py>(py: Python<'py>, outcomes: &[Identified]) -> PyResult<Bound<'py, PyDict>> {
+    let found = PyDict::new(py);
+    let real = |name: &str, of: &dyn Fn(&Identified) -> Option<f64>| {
+        let column: Vec<f64> = outcomes.iter().map(|outcome| of(outcome).unwrap_or(f64::NAN)).collect();
+        found.set_item(name, column.into_pyarray(py))
+    };
+    let complex = |of: &dyn Fn(&Identified) -> Option<c64>| -> Bound<'py, PyArray1<Complex64>> {
+        let column: Vec<c64> = outcomes.iter().map(|outcome| of(outcome).unwrap_or(NOTHING)).collect();
+        column.into_pyarray(py)
+    };
+    real("frequency_hz", &|o| Some(o.frequency_hz))?;
+    real("storage", &|o| o.storage())?;
+    real("loss_factor", &|o| o.loss_factor())?;
+    found.set_item("factor", complex(&|o| o.factor()))?;
+    found.set_item("nominal", complex(&|o| Some(o.nominal)))?;
+    found.set_item("correction", complex(&|o| o.correction))?;
+    real("error", &|o| o.error)?;
+    real("spectral_radius", &|o| o.spectral_radius)?;
+    real("pole_distance", &|o| o.pole_distance())?;
+    real("series_order", &|o| o.series_order.map(|order| order as f64))?;
+    real("certificate", &|o| o.certificate)?;
+    real("storage_std", &|o| o.uncertainty.map(|bars| bars.storage_std))?;
+    real("loss_factor_std", &|o| o.uncertainty.and_then(|bars| bars.loss_factor_std))?;
+    real("storage_loss_correlation", &|o| o.uncertainty.and_then(|bars| bars.correlation))?;
+    real("chi2", &|o| o.chi_squared)?;
+    let count = |of: &dyn Fn(&Identified) -> usize| {
+        let column: Result<Vec<i64>, _> = outcomes.iter().map(|o| i64::try_from(of(o))).collect();
+        column.map(|column| column.into_pyarray(py))
+    };
+    found.set_item("order", count(&|o| o.order)?)?;
+    found.set_item("candidates", count(&|o| o.admissible())?)?;
+    let status: Vec<&str> = outcomes.iter().map(|outcome| outcome.status.name()).collect();
+    found.set_item("status", status)?;
+    let alternatives: Vec<_> = outcomes
+        .iter()
+        .map(|o| o.alternatives.iter().map(|c| o.nominal + c).collect::<Vec<c64>>().into_pyarray(py))
+        .collect();
+    found.set_item("alternatives", alternatives)?;
+    Ok(found)
+}

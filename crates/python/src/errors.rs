@@ -1,0 +1,89 @@
+//! One exception for each kind of error, with the text that the command line prints.
+//!
+//! The classes are in `frfit/_errors.py`, where a class may have two bases.
+
+use frfit::material::OutsideTable;
+use frfit_formats::Position;
+use frfit_workflow::error::InputError;
+use frfit_workflow::job::JobError;
+use frfit_workflow::load::ArraysError;
+use pyo3::exceptions::PyRuntimeError;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use std::fmt::Display;
+
+/// An exception of `frfit._errors`, by the name of its class.
+pub(crate) fn raise(py: Python<'_>, class: &str, error: &impl Display) -> PyErr {
+    with(py, class, error, |_| Ok(()))
+}
+
+/// The same with attributes.
+fn with(
+    py: Python<'_>,
+    class: &str,
+    error: &impl Display,
+    attributes: impl FnOnce(&Bound<'_, PyDict>) -> PyResult<()>,
+) -> PyErr {
+    let made = || -> PyResult<PyErr> {
+        let known = PyDict::new(py);
+        attributes(&known)?;
+        let exception = py.import("frfit._errors")?.getattr(class)?.call1((error.to_string(),))?;
+        for (name, value) in known.iter() {
+            exception.setattr(name.extract::<String>()?, value)?;
+        }
+        Ok(PyErr::from_value(exception))
+    };
+    made().unwrap_or_else(|failed| failed)
+}
+
+/// What the user has to put right, and where.
+pub(crate) fn input(py: Python<'_>, error: &InputError) -> PyErr {
+    with(py, "InputError", error, |known| {
+        let (line, column) = match error.place.position {
+            Position::Line { line, column } => (Some(line), column),
+            Position::File | Position::Byte(_) => (None, None),
+        };
+        let file = error.place.file.as_ref().map(|file| file.display().to_string());
+        known.set_item("file", file)?;
+        known.set_item("line", line)?;
+        known.set_item("column", column)?;
+        known.set_item("key", &error.place.key)?;
+        known.set_item("expected", &error.expected)?;
+        known.set_item("found", &error.found)
+    })
+}
+
+/// A frequency that no table reaches.
+pub(crate) fn outside_table(py: Python<'_>, error: &OutsideTable) -> PyErr {
+    raise(py, "OutsideTableError", error)
+}
+
+/// Why a job was not done.
+pub(crate) fn job(py: Python<'_>, error: &JobError) -> PyErr {
+    match error {
+        JobError::Input(error) => input(py, error),
+        JobError::OutsideTable(error) => outside_table(py, error),
+        JobError::Memory(error) => raise(py, "ModelMemoryError", error),
+        JobError::Write(error) => raise(py, "WriteError", error),
+        JobError::Figure(_) => raise(py, "InternalError", error),
+    }
+}
+
+/// Why arrays make no case.
+pub(crate) fn arrays(py: Python<'_>, error: &ArraysError) -> PyErr {
+    match error {
+        ArraysError::Input(error) => input(py, error),
+        ArraysError::Model(error) => raise(py, "ModelError", error),
+        ArraysError::Options(error) => raise(py, "OptionsError", error),
+    }
+}
+
+/// A fault of this program, such as a panic.
+pub(crate) fn internal(py: Python<'_>, what: &str) -> PyErr {
+    raise(py, "InternalError", &format!("internal error: {what}"))
+}
+
+/// The system gave no thread.
+pub(crate) fn no_thread(error: &std::io::Error) -> PyErr {
+    PyRuntimeError::new_err(format!("no thread could be started: {error}"))
+}

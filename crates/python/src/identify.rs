@@ -1,0 +1,114 @@
+//! Identification from arrays.
+
+use crate::background::in_background;
+use crate::columns::identification;
+use crate::errors::{arrays, job, raise};
+use crate::model::Model;
+use frfit::laws::Family;
+use frfit::model::Sensor;
+use frfit::quantity::Quantity;
+use frfit::roots::Bounds;
+use frfit_workflow::job::compute;
+use frfit_workflow::load::{Frf, MeasuredFrf, Wanted, case_of_arrays};
+use frfit_workflow::run::RunOptions;
+use numpy::{Complex64, PyReadonlyArray1};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use std::sync::Arc;
+
+/// The fields of `frfit.Measurement`, arrays made contiguous.
+#[derive(FromPyObject)]
+pub(crate) struct Measured<'py> {
+    row: usize,
+    sign: f64,
+    quantity: String,
+    frequency_hz: PyReadonlyArray1<'py, f64>,
+    response: PyReadonlyArray1<'py, Complex64>,
+    std: Option<PyReadonlyArray1<'py, f64>>,
+    coherence: Option<PyReadonlyArray1<'py, f64>>,
+    averages: Option<usize>,
+    scale: Option<f64>,
+    delay_s: f64,
+}
+
+/// The options of `frfit.identify`, by their names.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub(crate) struct Options {
+    matrices: Vec<String>,
+    band_hz: Option<[f64; 2]>,
+    leave_out_hz: Vec<[f64; 2]>,
+    method: Option<String>,
+    selection: Option<String>,
+    space: Option<String>,
+    order: Option<usize>,
+    storage: Option<[f64; 2]>,
+    loss_factor: Option<[f64; 2]>,
+    real: bool,
+    estimate: bool,
+    robust: Option<bool>,
+    laws: Vec<String>,
+    check: bool,
+    memory_bytes: Option<u64>,
+}
+
+impl Measured<'_> {
+    fn frf(self, py: Python<'_>) -> PyResult<MeasuredFrf> {
+        let numbers = |array: PyReadonlyArray1<'_, f64>| array.as_array().to_vec();
+        let quantity = self.quantity.parse::<Quantity>();
+        let frf = Frf {
+            frequency_hz: numbers(self.frequency_hz),
+            response: self.response.as_array().to_vec(),
+            coherence: self.coherence.map(numbers),
+            std: self.std.map(numbers),
+            quantity: None,
+            measured_at: None,
+            driven_at: None,
+        };
+        Ok(MeasuredFrf {
+            sensor: Sensor { row: self.row, sign: self.sign },
+            quantity: quantity.map_err(|error| raise(py, "OptionsError", &format!("quantity: {error}")))?,
+            frf,
+            scale: self.scale,
+            delay_s: self.delay_s,
+            averages: self.averages,
+        })
+    }
+}
+
+/// What `frfit.Identification` is made of.
+#[pyfunction]
+pub(crate) fn identify<'py>(
+    py: Python<'py>,
+    model: &Model,
+    load: PyReadonlyArray1<'py, Complex64>,
+    measurements: Vec<Measured<'py>>,
+    options: Options,
+    progress: Option<Bound<'py, PyAny>>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let measured = measurements.into_iter().map(|one| one.frf(py)).collect::<PyResult<Vec<_>>>()?;
+    let laws = options.laws.iter().map(|word| word.parse::<Family>()).collect::<Result<Vec<_>, _>>();
+    let wanted = Wanted {
+        matrices: options.matrices,
+        band_hz: options.band_hz,
+        leave_out_hz: options.leave_out_hz,
+        method: options.method,
+        selection: options.selection,
+        space: options.space,
+        order: options.order,
+        bounds: Bounds { storage: options.storage, loss_factor: options.loss_factor },
+        real: options.real,
+        estimate: options.estimate,
+        robust: options.robust,
+        laws: laws.map_err(|error| raise(py, "OptionsError", &format!("law: {error}")))?,
+        check: options.check,
+    };
+    let case = case_of_arrays(Arc::clone(&model.0), load.as_array().to_vec(), measured, &wanted);
+    let case = case.map_err(|error| arrays(py, &error))?;
+    // A map of the error over the orders is for figures of files.
+    let run = RunOptions { error_map: Some(0), memory_bytes: options.memory_bytes };
+    let computed = in_background(py, progress, move |watch| {
+        compute(case, run, 0.0, &|done, total| watch.progress(done, total))
+    })?;
+    identification(py, &computed.map_err(|error| job(py, &error))?)
+}

@@ -1,0 +1,34 @@
+//! frfit from Python: thin wrappers that hold Rust structs. What they mean is documented in `python/frfit`.
+
+mod background;
+mod case;
+mod columns;
+mod errors;
+mod identify;
+mod law;
+mod matrix;
+mod model;
+mod respond;
+mod series;
+mod signal;
+mod uff;
+
+use pyo3::prelude::*;
+
+/// The compiled part of the package `frfit`.
+#[pymodule]
+fn _frfit(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    module.add_class::<law::Law>()?;
+    module.add_class::<model::Model>()?;
+    module.add_class::<series::Series>()?;
+    module.add_class::<uff::UffFile>()?;
+    module.add_function(wrap_pyfunction!(matrix::readable, module)?)?;
+    module.add_function(wrap_pyfunction!(matrix::read_matrix, module)?)?;
+    module.add_function(wrap_pyfunction!(identify::identify, module)?)?;
+    module.add_function(wrap_pyfunction!(case::run_case, module)?)?;
+    module.add_function(wrap_pyfunction!(respond::respond, module)?)?;
+    module.add_function(wrap_pyfunction!(series::series, module)?)?;
+    module.add_function(wrap_pyfunction!(signal::frf, module)?)?;
+    module.add_function(wrap_pyfunction!(uff::write_uff, module)?)
+}

@@ -1,0 +1,99 @@
+//! Sparse matrices: compressed columns of SciPy in, positions and values of files out.
+
+use crate::errors::{input, raise};
+use frfit_formats::{CoordinateMatrix, Entries, Symmetry};
+use frfit_linalg::sparse::SymmetricMatrix;
+use frfit_workflow::load::{load_bytes, load_matrix, symmetric_matrix};
+use numpy::{Complex64, IntoPyArray, PyReadonlyArray1};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use std::path::PathBuf;
+
+/// Row indices and column pointers: SciPy has them in 32 bits where that is enough.
+#[derive(FromPyObject)]
+pub(crate) enum Indices<'py> {
+    #[pyo3(transparent)]
+    Short(PyReadonlyArray1<'py, i32>),
+    #[pyo3(transparent)]
+    Long(PyReadonlyArray1<'py, i64>),
+}
+
+impl Indices<'_> {
+    fn to_vec(&self) -> Option<Vec<usize>> {
+        match self {
+            Self::Short(indices) => indices.as_array().iter().map(|&i| usize::try_from(i).ok()).collect(),
+            Self::Long(indices) => indices.as_array().iter().map(|&i| usize::try_from(i).ok()).collect(),
+        }
+    }
+}
+
+/// Values, real or complex.
+#[derive(FromPyObject)]
+pub(crate) enum Data<'py> {
+    #[pyo3(transparent)]
+    Real(PyReadonlyArray1<'py, f64>),
+    #[pyo3(transparent)]
+    Complex(PyReadonlyArray1<'py, Complex64>),
+}
+
+/// The symmetric matrix of compressed columns; refused as a file with these entries would be.
+pub(crate) fn symmetric(
+    py: Python<'_>,
+    name: &str,
+    [nrows, ncols]: [usize; 2],
+    data: &Data<'_>,
+    indices: &Indices<'_>,
+    indptr: &Indices<'_>,
+) -> PyResult<SymmetricMatrix> {
+    let refuse = |text: String| raise(py, "MatrixError", &format!("matrix {name:?}: {text}"));
+    let negative = || refuse("expected indices that are not negative".into());
+    let rows = indices.to_vec().ok_or_else(negative)?;
+    let ends = indptr.to_vec().ok_or_else(negative)?;
+    if ends.len() != ncols + 1 || ends.last() != Some(&rows.len()) || ends.windows(2).any(|w| w[0] > w[1]) {
+        return Err(refuse("expected column pointers that ascend from 0 to the number of entries".into()));
+    }
+    let cols =
+        ends.windows(2).enumerate().flat_map(|(col, w)| std::iter::repeat_n(col, w[1] - w[0])).collect();
+    let entries = match data {
+        Data::Real(values) => Entries::Real(values.as_array().to_vec()),
+        Data::Complex(values) => Entries::Complex(values.as_array().to_vec()),
+    };
+    let symmetry = Symmetry::General;
+    let matrix = CoordinateMatrix { nrows, ncols, symmetry, rows, cols, entries, title: String::new() };
+    let made = py.detach(|| matrix.validate().and_then(|()| symmetric_matrix(&matrix)));
+    made.map_err(|error| refuse(format!("expected {}, found {}", error.expected, error.found)))
+}
+
+/// Refuses a path at which there is no file that can be read, in the words of the command line.
+#[pyfunction]
+pub(crate) fn readable(py: Python<'_>, path: PathBuf) -> PyResult<()> {
+    py.detach(|| load_bytes(&path)).map(drop).map_err(|error| input(py, &error))
+}
+
+/// A matrix file as positions and values.
+#[pyfunction]
+pub(crate) fn read_matrix(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, PyDict>> {
+    let matrix = py.detach(|| load_matrix(&path)).map_err(|error| input(py, &error))?;
+    let signed = |indices: Vec<usize>| -> PyResult<_> {
+        let indices: Result<Vec<i64>, _> = indices.into_iter().map(i64::try_from).collect();
+        Ok(indices?.into_pyarray(py))
+    };
+    let found = PyDict::new(py);
+    found.set_item("shape", (matrix.nrows, matrix.ncols))?;
+    found.set_item("title", &matrix.title)?;
+    let symmetry = match matrix.symmetry {
+        Symmetry::General => "general",
+        Symmetry::Symmetric => "symmetric",
+        Symmetry::SkewSymmetric => "skew-symmetric",
+        Symmetry::Hermitian => "hermitian",
+    };
+    found.set_item("symmetry", symmetry)?;
+    match matrix.entries {
+        Entries::Pattern => found.set_item("values", vec![1.0; matrix.rows.len()].into_pyarray(py))?,
+        Entries::Real(values) => found.set_item("values", values.into_pyarray(py))?,
+        Entries::Complex(values) => found.set_item("values", values.into_pyarray(py))?,
+    }
+    found.set_item("rows", signed(matrix.rows)?)?;
+    found.set_item("cols", signed(matrix.cols)?)?;
+    Ok(found)
+}

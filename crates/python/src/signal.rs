@@ -1,0 +1,88 @@
+//! From the records of a hammer test to an FRF.
+
+use crate::background::in_background;
+use crate::columns::table;
+use crate::errors::raise;
+use frfit::signal::{Options, Recording, Windows, estimate_frf};
+use numpy::{IntoPyArray, PyReadonlyArray1, PyReadonlyArray2};
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyList};
+
+/// The fields of `frfit.Recording`, arrays made contiguous.
+#[derive(FromPyObject)]
+pub(crate) struct Recorded<'py> {
+    step_s: f64,
+    force: PyReadonlyArray1<'py, f64>,
+    responses: PyReadonlyArray2<'py, f64>,
+}
+
+/// The options of `frfit.frf`, by their names.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub(crate) struct How {
+    estimator: String,
+    trigger_n: Option<f64>,
+    pre_trigger_s: Option<f64>,
+    length_s: Option<f64>,
+    double_hit: f64,
+    drift: f64,
+    force_window_s: Option<f64>,
+    exponential_window_s: Option<f64>,
+    keep: Vec<usize>,
+}
+
+/// What `frfit.MeasuredFrf` is made of.
+#[pyfunction]
+pub(crate) fn frf<'py>(
+    py: Python<'py>,
+    recordings: Vec<Recorded<'py>>,
+    how: How,
+) -> PyResult<Bound<'py, PyDict>> {
+    let recording = |one: Recorded<'_>| Recording {
+        step_s: one.step_s,
+        force: one.force.as_array().to_vec(),
+        responses: one.responses.as_array().rows().into_iter().map(|row| row.to_vec()).collect(),
+    };
+    let recordings: Vec<Recording> = recordings.into_iter().map(recording).collect();
+    let estimator = how.estimator.parse();
+    let options = Options {
+        estimator: estimator.map_err(|error| raise(py, "OptionsError", &format!("estimator: {error}")))?,
+        trigger_n: how.trigger_n,
+        pre_trigger_s: how.pre_trigger_s,
+        length_s: how.length_s,
+        double_hit: how.double_hit,
+        drift: how.drift,
+        windows: Windows { force_s: how.force_window_s, exponential_s: how.exponential_window_s },
+        keep: how.keep,
+    };
+    let measured = in_background(py, None, move |_| estimate_frf(&recordings, &options))?;
+    let measured = measured.map_err(|error| raise(py, "SignalError", &error))?;
+    let found = PyDict::new(py);
+    found.set_item("averages", measured.averages())?;
+    let points = measured.frequency_hz.len();
+    let column = |of: &dyn Fn(&frfit::signal::Frf) -> Option<Vec<f64>>| {
+        let rows: Option<Vec<Vec<f64>>> = measured.frfs.iter().map(of).collect();
+        rows.map(|rows| table(py, rows.into_iter(), points)).transpose()
+    };
+    found.set_item("coherence", column(&|frf| frf.coherence.clone())?)?;
+    // Of real and imaginary part each; a measurement's deviation is that of the complex value.
+    let std = |variance: &Vec<f64>| variance.iter().map(|v| (2.0 * v).sqrt()).collect();
+    found.set_item("std", column(&|frf| frf.variance.as_ref().map(std))?)?;
+    let hits = PyList::empty(py);
+    for hit in &measured.hits {
+        let one = PyDict::new(py);
+        one.set_item("recording", hit.recording)?;
+        one.set_item("first", hit.range.start)?;
+        one.set_item("end", hit.range.end)?;
+        one.set_item("peak_n", hit.peak_n)?;
+        one.set_item("contact_s", hit.contact_s(measured.step_s))?;
+        one.set_item("kept", hit.is_kept())?;
+        one.set_item("faults", hit.faults.iter().map(ToString::to_string).collect::<Vec<_>>())?;
+        hits.append(one)?;
+    }
+    found.set_item("hits", hits)?;
+    found.set_item("response", table(py, measured.frfs.into_iter().map(|frf| frf.response), points)?)?;
+    found.set_item("frequency_hz", measured.frequency_hz.into_pyarray(py))?;
+    found.set_item("force", measured.force.into_pyarray(py))?;
+    Ok(found)
+}

@@ -1,0 +1,364 @@
+//! From what a program holds in memory to a case: the same checks and conversions as for one read from files.
+
+use super::band::band;
+use super::files::NamedFile;
+use super::identify::{check_scales, left_out, middle_of, shared, space_of_laws};
+use super::measurement::{Curve, Measurement};
+use super::{Case, Frf, IdentifyCase, SensorInfo};
+use crate::case::{LeaveOut, checked_band};
+use crate::error::{InputError, Place};
+use frfit::c64;
+use frfit::identify::{Method, Options, OptionsError, Selection, Space};
+use frfit::laws::Family;
+use frfit::model::{DynamicStiffness, Experiment, ModelError, Parameter, Sensor};
+use frfit::quantity::Quantity;
+use frfit::roots::Bounds;
+use frfit_formats::FormatError;
+use std::collections::BTreeMap;
+use std::fmt;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// A measured FRF in memory, and where it was measured.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeasuredFrf {
+    /// Row of the model, from 0, and the sense that counts as positive.
+    pub sensor: Sensor,
+    /// What was measured.
+    pub quantity: Quantity,
+    /// Its values.
+    pub frf: Frf,
+    /// What its values are to be multiplied by; `None` where that is to be found.
+    pub scale: Option<f64>,
+    /// By how much it is late, s.
+    pub delay_s: f64,
+    /// Over how many records its coherence was averaged, where that is known.
+    pub averages: Option<usize>,
+}
+
+/// What to identify, and how: the keys of `[identify]`.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Wanted {
+    /// Names of the matrices that share the unknown factor.
+    pub matrices: Vec<String>,
+    /// First and last frequency; `None`: all that were measured.
+    pub band_hz: Option<[f64; 2]>,
+    /// Bands that are left out; one of no width is the line next to it.
+    pub leave_out_hz: Vec<[f64; 2]>,
+    /// `rational`, `series` or `nelder-mead`; `None`: the default.
+    pub method: Option<String>,
+    /// `joint` or `smallest`; `None`: what the method usually has.
+    pub selection: Option<String>,
+    /// `auto`, `full` or `subspace`; `None`: the default.
+    pub space: Option<String>,
+    /// Order of the series, or upper bound of it; `None`: the default.
+    pub order: Option<usize>,
+    /// Bounds on the updated factor.
+    pub bounds: Bounds,
+    /// Whether the factor is real.
+    pub real: bool,
+    /// Whether the nominal is no more than the middle of the bounds.
+    pub estimate: bool,
+    /// Whether a sensor that contradicts all others is left out; `None`: the default.
+    pub robust: Option<bool>,
+    /// Laws to fit to the whole band.
+    pub laws: Vec<Family>,
+    /// Whether to look for what is wrong with the data first.
+    pub check: bool,
+}
+
+/// Why what is in memory makes no case.
+#[derive(Debug, Clone, PartialEq)]
+pub enum ArraysError {
+    /// Something that is not as it has to be.
+    Input(InputError),
+    /// No matrix of this name.
+    Model(ModelError),
+    /// No option can be like this.
+    Options(OptionsError),
+}
+
+impl fmt::Display for ArraysError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Input(error) => write!(f, "{error}"),
+            Self::Model(error) => write!(f, "{error}"),
+            Self::Options(error) => write!(f, "{error}"),
+        }
+    }
+}
+
+impl std::error::Error for ArraysError {}
+
+impl From<InputError> for ArraysError {
+    fn from(error: InputError) -> Self {
+        Self::Input(error)
+    }
+}
+
+/// A case to identify from.
+///
+/// # Errors
+/// [`ArraysError`]: what a case file with the same content would be refused for.
+pub fn case_of_arrays(
+    model: Arc<DynamicStiffness>,
+    load: Vec<c64>,
+    measured: Vec<MeasuredFrf>,
+    wanted: &Wanted,
+) -> Result<Case, ArraysError> {
+    if measured.is_empty() {
+        return Err(InputError::at(&argument("measurements"), "at least one measurement", "none").into());
+    }
+    let unknown_scale: Vec<bool> = measured.iter().map(|frf| frf.scale.is_none()).collect();
+    let numbered = measured.into_iter().enumerate();
+    let measurements = numbered
+        .map(|(k, frf)| measurement(frf, k, model.dim()))
+        .collect::<Result<Vec<Measurement>, InputError>>()?;
+    let sensors = measurements.iter().map(|measurement| measurement.sensor).collect();
+    let experiment = experiment(&model, load, sensors)?;
+    let mut options = options(wanted)?;
+    if !wanted.laws.is_empty() {
+        options.space = space_of_laws(&options, &argument("law"))?;
+    }
+    let parameter = parameter(&model, &wanted.matrices, wanted, &options)?;
+    if let Some(first) = unknown_scale.iter().position(|&unknown| unknown) {
+        let place = argument(&format!("measurement {}", first + 1)).below("scale");
+        check_scales(&unknown_scale, &place, !wanted.laws.is_empty(), &options)?;
+    }
+    let place = argument("band_hz");
+    let band_hz = wanted.band_hz.unwrap_or([0.0, f64::MAX]);
+    checked_band(band_hz, &place)?;
+    let data = band(&measurements, band_hz, &place)?;
+    let out: Vec<LeaveOut> = wanted.leave_out_hz.iter().map(|&band| leave_out(band)).collect();
+    let left_out = left_out(&out, &data.frequency_hz);
+    if left_out.iter().all(|&out| out) {
+        let expected = "a frequency of the band that is not left out";
+        return Err(InputError::at(&argument("leave_out_hz"), expected, "none").into());
+    }
+    covers(&model, &data.frequency_hz)?;
+    let first_and_last = [data.frequency_hz.first(), data.frequency_hz.last()].map(|f| f.copied());
+    let identify = IdentifyCase {
+        names: wanted.matrices.clone(),
+        parameter,
+        options,
+        laws: wanted.laws.clone(),
+        band_hz: wanted.band_hz.unwrap_or(first_and_last.map(|f| f.unwrap_or(0.0))),
+        frequency_hz: data.frequency_hz,
+        measured: data.measured,
+        left_out,
+        unknown_scale,
+        noise: data.noise,
+        check: wanted.check,
+        truth: None,
+    };
+    let respond_hz = identify.frequency_hz.clone();
+    let sensors = measurements.into_iter().map(|measurement| measurement.info).collect();
+    Ok(case(model, experiment, sensors, Some(identify), respond_hz))
+}
+
+/// A case whose response at its nominal factors is asked for.
+///
+/// # Errors
+/// A load or a sensor outside the model, a frequency that is none or that a factor's table does not reach.
+pub fn response_of_arrays(
+    model: Arc<DynamicStiffness>,
+    load: Vec<c64>,
+    sensors: Vec<Sensor>,
+    quantity: Quantity,
+    frequency_hz: Vec<f64>,
+) -> Result<Case, InputError> {
+    for (k, sensor) in sensors.iter().enumerate() {
+        inside(&argument(&format!("sensor {}", k + 1)), sensor.row, model.dim())?;
+    }
+    let experiment = experiment(&model, load, sensors)?;
+    if let Some(f) = frequency_hz.iter().find(|f| !(f.is_finite() && **f >= 0.0)) {
+        let expected = "finite frequencies in Hz that are not negative";
+        return Err(InputError::at(&argument("frequency_hz"), expected, f.to_string()));
+    }
+    covers(&model, &frequency_hz)?;
+    let label = |sensor: &Sensor| SensorInfo { label: row(sensor.row), quantity, file: None };
+    let labels = experiment.sensors.iter().map(label).collect();
+    Ok(case(model, experiment, labels, None, frequency_hz))
+}
+
+fn case(
+    model: Arc<DynamicStiffness>,
+    experiment: Experiment,
+    sensors: Vec<SensorInfo>,
+    identify: Option<IdentifyCase>,
+    respond_hz: Vec<f64>,
+) -> Case {
+    let (title, row_names, inputs) = (String::new(), BTreeMap::new(), Vec::new());
+    Case { title, model, experiment, sensors, row_names, inputs, identify, respond_hz }
+}
+
+/// An argument, in the words of an error.
+fn argument(name: &str) -> Place {
+    Place::option(name)
+}
+
+fn row(row: usize) -> String {
+    format!("row {}", row + 1)
+}
+
+fn inside(place: &Place, row: usize, dim: usize) -> Result<(), InputError> {
+    match row < dim {
+        true => Ok(()),
+        false => Err(InputError::at(&place.below("row"), format!("0 to {}", dim - 1), row.to_string())),
+    }
+}
+
+fn experiment(
+    model: &DynamicStiffness,
+    load: Vec<c64>,
+    sensors: Vec<Sensor>,
+) -> Result<Experiment, InputError> {
+    let place = argument("load");
+    if load.len() != model.dim() {
+        let expected = format!("{} values, one for each row", model.dim());
+        return Err(InputError::at(&place, expected, load.len().to_string()));
+    }
+    if let Some(value) = load.iter().find(|value| !value.is_finite()) {
+        return Err(InputError::at(&place, "finite values", value.to_string()));
+    }
+    if load.iter().all(|value| value.norm() == 0.0) {
+        return Err(InputError::at(&place, "a load that is not zero in every row", "zeros only"));
+    }
+    Ok(Experiment { load, sensors })
+}
+
+fn leave_out([low, high]: [f64; 2]) -> LeaveOut {
+    if low == high { LeaveOut::Line(low) } else { LeaveOut::Band([low, high]) }
+}
+
+fn measurement(measured: MeasuredFrf, k: usize, dim: usize) -> Result<Measurement, InputError> {
+    let name = format!("measurement {}", k + 1);
+    let place = argument(&name);
+    inside(&place, measured.sensor.row, dim)?;
+    check_frf(&measured.frf).map_err(|error| InputError::at(&place, error.expected, error.found))?;
+    let scale = measured.scale.unwrap_or(1.0);
+    if !(scale.is_finite() && scale != 0.0) {
+        let expected = "a finite number that is not zero";
+        return Err(InputError::at(&place.below("scale"), expected, scale.to_string()));
+    }
+    if !measured.delay_s.is_finite() {
+        return Err(InputError::at(&place.below("delay_s"), "a finite number", measured.delay_s.to_string()));
+    }
+    if measured.averages == Some(0) {
+        return Err(InputError::at(&place.below("averages"), "1 or more", "0"));
+    }
+    let info =
+        SensorInfo { label: row(measured.sensor.row), quantity: measured.quantity, file: None::<PathBuf> };
+    let file = NamedFile {
+        path: Path::new(&name).to_path_buf(),
+        bytes: Default::default(),
+        named_by: argument("measurements"),
+    };
+    let MeasuredFrf { sensor, frf, delay_s, averages, .. } = measured;
+    Ok(Measurement { sensor, info, curve: Some(Curve { frf, scale, delay_s, averages, file }) })
+}
+
+/// What the readers of files make sure of.
+fn check_frf(frf: &Frf) -> Result<(), FormatError> {
+    let refuse = |expected: &str, found: String| Err(FormatError::whole(expected, found));
+    let points = frf.frequency_hz.len();
+    if points == 0 {
+        return refuse("at least one frequency", "none".into());
+    }
+    let lengths = [
+        ("response", Some(frf.response.len())),
+        ("coherence", frf.coherence.as_ref().map(Vec::len)),
+        ("std", frf.std.as_ref().map(Vec::len)),
+    ];
+    for (name, length) in lengths {
+        if let Some(length) = length.filter(|&length| length != points) {
+            return refuse(
+                &format!("one value of {name} for each of {points} frequencies"),
+                length.to_string(),
+            );
+        }
+    }
+    let mut last = -1.0;
+    for &f in &frf.frequency_hz {
+        // Written so that NaN fails too.
+        if !(f.is_finite() && f >= 0.0 && f > last) {
+            return refuse("frequencies in Hz, finite, not negative, strictly ascending", f.to_string());
+        }
+        last = f;
+    }
+    if let Some(value) = frf.response.iter().find(|value| !value.is_finite()) {
+        return refuse("finite responses", value.to_string());
+    }
+    let coherence = frf.coherence.iter().flatten();
+    if let Some(value) = coherence.clone().find(|value| !(0.0..=1.0).contains(*value)) {
+        return refuse("coherences from 0 to 1", value.to_string());
+    }
+    let deviation = |value: &&f64| !(value.is_finite() && **value >= 0.0);
+    match frf.std.iter().flatten().find(deviation) {
+        Some(value) => refuse("standard deviations that are finite and not negative", value.to_string()),
+        None => Ok(()),
+    }
+}
+
+/// Refuses a factor without a finite value at one of the frequencies.
+fn covers(model: &DynamicStiffness, frequency_hz: &[f64]) -> Result<(), InputError> {
+    for term in model.terms() {
+        let place = argument(&format!("matrix {:?}", term.name)).below("factor");
+        super::factor::covers(&term.factor, &place, frequency_hz)?;
+    }
+    Ok(())
+}
+
+fn parameter(
+    model: &DynamicStiffness,
+    names: &[String],
+    wanted: &Wanted,
+    options: &Options,
+) -> Result<Parameter, ArraysError> {
+    let words: Vec<&str> = names.iter().map(String::as_str).collect();
+    let mut parameter = Parameter::factor_of(model, &words).map_err(ArraysError::Model)?;
+    let place = argument("matrix");
+    for (k, name) in names.iter().enumerate() {
+        if names[..k].contains(name) {
+            return Err(InputError::at(&place, "each matrix once", format!("{name:?} a second time")).into());
+        }
+        shared(model, &parameter, k, names, &place)?;
+    }
+    if wanted.estimate {
+        parameter.nominal = middle_of(&options.bounds, &argument("nominal"))?;
+    }
+    Ok(parameter)
+}
+
+fn options(wanted: &Wanted) -> Result<Options, ArraysError> {
+    let defaults = Options::default();
+    let refuse = |name: &str, word: &str, expected: &str| {
+        InputError::at(&argument(name), expected, format!("{word:?}"))
+    };
+    let method = match &wanted.method {
+        Some(word) => word.parse::<Method>().map_err(|error| refuse("method", word, error.expected))?,
+        None => defaults.method,
+    };
+    let usual = if method == Method::Rational { Selection::Joint } else { Selection::Smallest };
+    let selection = match &wanted.selection {
+        Some(word) => word.parse::<Selection>().map_err(|error| refuse("selection", word, error.expected))?,
+        None => usual,
+    };
+    let space = match &wanted.space {
+        Some(word) => word.parse::<Space>().map_err(|error| refuse("space", word, error.expected))?,
+        None => defaults.space,
+    };
+    let options = Options {
+        method,
+        selection,
+        space,
+        order: wanted.order.unwrap_or(defaults.order),
+        bounds: wanted.bounds,
+        real: wanted.real,
+        robust: wanted.robust.unwrap_or(defaults.robust),
+        whole_box: wanted.estimate,
+        ..defaults
+    };
+    options.validate().map_err(ArraysError::Options)?;
+    Ok(options)
+}
