@@ -3,13 +3,14 @@
 
 mod bench;
 mod docs;
+mod python;
 mod step;
 mod test;
 
 use std::process::ExitCode;
 
 const USAGE: &str = "\
-cargo xtask test [--quick]       formatting, lints, all tests and doc tests, documentation;
+cargo xtask test [--quick]       formatting, lints, all tests and doc tests, documentation, the Python package;
                                  --quick: tests and doc tests only
 cargo xtask docs                 documentation in target/doc, formulas typeset where there is npm
 cargo xtask bench [NAME [ARG…]]  one benchmark, or all; tables to the terminal, figures to target/bench

@@ -1,8 +1,9 @@
 //! Everything that must hold before a change is kept.
 
+use crate::python;
 use crate::step::{Step, cargo, run, sum_up, works};
 
-/// Formatting, lints, tests, doc tests, documentation; every step runs, whatever the others say.
+/// Formatting, lints, tests, doc tests, documentation, the Python package; every step runs, whatever the others say.
 pub(crate) fn all() -> bool {
     for (command, component) in [("fmt", "rustfmt"), ("clippy", "clippy")] {
         if !works(&mut cargo([command, "--version"])) {
@@ -16,6 +17,7 @@ pub(crate) fn all() -> bool {
     ];
     steps.extend(tests());
     steps.push(documentation());
+    steps.extend(python::steps());
     sum_up(&steps)
 }
 
