@@ -100,7 +100,11 @@ class Uff:
     def datasets(self) -> tuple[UffSummary, ...]:
         """Every dataset of the file in a few words; of a function only the header is read."""
         if self._summaries is None:
-            self._summaries = tuple(UffSummary(**found) for found in self._file.summaries())
+
+            def fixed(found: dict[str, Any]) -> dict[str, Any]:
+                return {key: tuple(value) if isinstance(value, list) else value for key, value in found.items()}
+
+            self._summaries = tuple(UffSummary(**fixed(found)) for found in self._file.summaries())
         return self._summaries
 
     def function(self, index: int) -> UffFunction:
