@@ -56,7 +56,10 @@ pub(crate) fn steps() -> Vec<Step> {
         run(name, command.arg("-m").args(arguments).current_dir(&crate_folder))
     };
     steps.push(types("mypy", &["mypy", "python/frfit"]));
-    steps.push(types("mypy stubtest", &["mypy.stubtest", "frfit._frfit"]));
+    steps.push(types(
+        "mypy stubtest",
+        &["mypy.stubtest", "frfit._frfit", "--mypy-config-file", "pyproject.toml"],
+    ));
     steps
 }
 

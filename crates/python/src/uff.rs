@@ -30,7 +30,7 @@ impl UffFile {
     ) -> PyResult<T> {
         let bytes = self.bytes.bind(py).readonly();
         let bytes = bytes.as_slice()?;
-        let file = File::with_entries(bytes, self.entries.clone());
+        let file = File::with_entries(bytes, &self.entries);
         py.detach(|| call(&file)).map_err(|error| self.refuse(py, error))
     }
 

@@ -1,5 +1,7 @@
 //! A file of which only what is asked for is read.
 
+use std::borrow::Cow;
+
 use crate::FormatError;
 
 use super::data;
@@ -21,7 +23,7 @@ const FUNCTION: u32 = 58;
 #[derive(Debug, Clone)]
 pub struct File<'a> {
     bytes: &'a [u8],
-    entries: Vec<Entry>,
+    entries: Cow<'a, [Entry]>,
 }
 
 impl<'a> File<'a> {
@@ -31,13 +33,13 @@ impl<'a> File<'a> {
     ///
     /// As [`scan`].
     pub fn new(bytes: &'a [u8]) -> Result<Self, FormatError> {
-        Ok(Self { bytes, entries: scan(bytes)? })
+        Ok(Self { bytes, entries: Cow::Owned(scan(bytes)?) })
     }
 
     /// The same file with datasets that [`scan`] found in these bytes before.
     #[must_use]
-    pub fn with_entries(bytes: &'a [u8], entries: Vec<Entry>) -> Self {
-        Self { bytes, entries }
+    pub fn with_entries(bytes: &'a [u8], entries: &'a [Entry]) -> Self {
+        Self { bytes, entries: Cow::Borrowed(entries) }
     }
 
     /// The datasets in the order of the file; their positions here are the indices of all methods.

@@ -7,6 +7,22 @@ from typing import Any, final
 import numpy as np
 from numpy.typing import NDArray
 
+__all__ = [
+    "Law",
+    "Model",
+    "Series",
+    "UffFile",
+    "__version__",
+    "frf",
+    "identify",
+    "read_matrix",
+    "readable",
+    "respond",
+    "run_case",
+    "series",
+    "write_uff",
+]
+
 __version__: str
 
 _Path = str | os.PathLike[str]
@@ -29,8 +45,8 @@ class Law:
     @staticmethod
     def table(frequency_hz: _Real, values: _Complex) -> Law: ...
     def at(self, frequency_hz: _Real) -> _Complex: ...
-    def __eq__(self, other: object) -> bool: ...
-    def __ne__(self, other: object) -> bool: ...
+    def __eq__(self, value: object, /) -> bool: ...
+    def __ne__(self, value: object, /) -> bool: ...
 
 @final
 class Model:

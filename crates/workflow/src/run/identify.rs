@@ -12,6 +12,7 @@ use frfit::laws::LawFit;
 use frfit::material::OutsideTable;
 use frfit::response::{FullModel, Work};
 use rayon::prelude::*;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
@@ -107,10 +108,19 @@ pub fn identify(
     let clock = StageClock::default();
     let used = Used::of(identify);
     let band = band_of(case, identify, &used);
+    let last = (AtomicUsize::new(0), AtomicUsize::new(band.frequency_hz.len()));
     let hooks = Hooks {
-        for_each: &|n, each| (0..n).into_par_iter().for_each(each),
+        for_each: &|n, each| {
+            (0..n).into_par_iter().for_each(|i| {
+                // Who cancels by unwinding from here is not to wait for what has not begun.
+                progress(last.0.load(Ordering::Relaxed), last.1.load(Ordering::Relaxed));
+                each(i);
+            });
+        },
         progress: &|stage, done, total| {
             clock.enter(Some(stage));
+            last.0.store(done, Ordering::Relaxed);
+            last.1.store(total, Ordering::Relaxed);
             progress(done, total);
         },
     };

@@ -25,6 +25,8 @@ pub struct RespondRun {
 pub fn respond(case: &Case, progress: Progress<'_>) -> Result<RespondRun, OutsideTable> {
     let done = AtomicUsize::new(0);
     let at_frequency = |&frequency_hz: &f64| {
+        // Before the work too: who cancels by unwinding from here is not to wait for what has not begun.
+        progress(done.load(Ordering::Relaxed), case.respond_hz.len());
         let at = case.model.at(frequency_hz, &[])?;
         let receptance = FullModel::new(at, &case.experiment).and_then(|system| system.respond_nominal());
         progress(done.fetch_add(1, Ordering::Relaxed) + 1, case.respond_hz.len());
