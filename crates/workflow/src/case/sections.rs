@@ -2,9 +2,8 @@
 
 use super::field::{Field, Table};
 use super::{
-    Calibration, 
-    AttachedEntry, FactorEntry, IdentifyEntry, LeaveOut, LoadEntry, Located, MatrixEntry, MeasurementEntry,
-    RespondEntry, Spot,
+    AttachedEntry, Calibration, FactorEntry, IdentifyEntry, LeaveOut, LoadEntry, Located, MatrixEntry,
+    MeasurementEntry, RespondEntry, Spot,
 };
 use crate::error::{InputError, Place};
 use frfit::c64;

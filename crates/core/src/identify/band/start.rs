@@ -48,7 +48,8 @@ pub(super) fn aligned(ratios: &[(f64, c64)], unknown: Unknown, top: f64) -> Opti
 /// The delay of most agreement, nearest to none of those that agree alike.
 fn best_delay(agreement: impl Fn(f64) -> f64, top: f64) -> f64 {
     let mut step = PHASE_STEP / top;
-    let mut best = (f64::NEG_INFINITY, 0.0);
+    // Not −∞: a part of that is no number.
+    let mut best = (f64::MIN, 0.0);
     let steps = (MOST_PHASE / PHASE_STEP) as i32;
     let outwards = (0..=steps).flat_map(|k| [k, -k]).map(|k| f64::from(k) * step);
     // More by roundoff is not more.
