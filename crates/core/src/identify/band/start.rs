@@ -10,8 +10,14 @@ pub(crate) const MOST_PHASE: f64 = 100.0;
 /// And are so many radians apart.
 pub(crate) const PHASE_STEP: f64 = 0.5;
 
-/// How often the distance is divided by ten about the best delay.
+/// On the grid a delay in the middle of two agrees to 1 − cos ¼ less; others may agree to less than this less and be better between.
+const GRID: f64 = 0.1;
+
+/// How often the distance is divided by ten about a delay.
 const CLOSER: usize = 2;
+
+/// Agreements that differ by this part are alike: more than the finest distance leaves, 1 − cos 0.0025.
+const ALIKE: f64 = 1e-4;
 
 /// The calibration with which most of some ratios (ω, x/y) of a channel are one; `None` where there is none.
 ///
@@ -47,27 +53,26 @@ pub(super) fn aligned(ratios: &[(f64, c64)], unknown: Unknown, top: f64) -> Opti
 
 /// The delay of most agreement, nearest to none of those that agree alike.
 fn best_delay(agreement: impl Fn(f64) -> f64, top: f64) -> f64 {
-    let mut step = PHASE_STEP / top;
-    // Not −∞: a part of that is no number.
-    let mut best = (f64::MIN, 0.0);
     let steps = (MOST_PHASE / PHASE_STEP) as i32;
-    let outwards = (0..=steps).flat_map(|k| [k, -k]).map(|k| f64::from(k) * step);
-    // More by roundoff is not more.
-    let better = |(most, at): (f64, f64), delay_s: f64| {
-        let own = agreement(delay_s);
-        if own > most + 1e-9 * most.abs() { (own, delay_s) } else { (most, at) }
-    };
-    for delay_s in outwards {
-        best = better(best, delay_s);
-    }
-    for _ in 0..CLOSER {
-        let middle = best.1;
-        step /= 10.0;
-        for k in -10..=10 {
-            best = better(best, middle + f64::from(k) * step);
+    let step = PHASE_STEP / top;
+    let told = |delay_s: f64| (agreement(delay_s), delay_s);
+    let grid: Vec<(f64, f64)> = (-steps..=steps).map(|k| told(f64::from(k) * step)).collect();
+    let most = |all: &[(f64, f64)]| all.iter().map(|one| one.0).fold(f64::MIN, f64::max);
+    let enough = most(&grid) - GRID * most(&grid).abs();
+    let closer = |&(_, delay_s): &(f64, f64)| {
+        let (mut best, mut step) = (told(delay_s), step);
+        for _ in 0..CLOSER {
+            step /= 10.0;
+            let middle = best.1;
+            let near = (-10..=10).map(|k| told(middle + f64::from(k) * step));
+            best = near.fold(best, |best, one| if one.0 > best.0 { one } else { best });
         }
-    }
-    best.1
+        best
+    };
+    let found: Vec<(f64, f64)> = grid.iter().filter(|one| one.0 >= enough).map(closer).collect();
+    let alike = most(&found) - ALIKE * most(&found).abs();
+    let nearest = found.iter().filter(|one| one.0 >= alike).map(|one| one.1);
+    nearest.min_by(|a, b| a.abs().total_cmp(&b.abs())).unwrap_or(0.0)
 }
 
 #[cfg(test)]
