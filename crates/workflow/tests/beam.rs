@@ -46,7 +46,7 @@ const WINDOW: f64 = 1.15;
 
 const SLENDERNESS: f64 = 0.009;
 
-/// Twenty to half a wave of the eighth mode: its frequency is right to 1e-5.
+/// Twenty to half a wave of the eighth mode: its frequency is right to 1e-4.
 const ELEMENTS: usize = 200;
 
 /// Sensors and load to the nearest node: within 0.00025 of the places.
