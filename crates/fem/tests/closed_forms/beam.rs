@@ -79,7 +79,7 @@ fn with_shear_natural_frequencies_converge_to_timoshenko_s() {
         };
         let (coarse, fine) = (error(16), error(32));
         // (kh)²/12 of the share that shear has: a third of 2 % for five half-waves on 32 elements.
-            assert!(fine > 0.0 && fine < 6e-3 && rate(coarse, fine) > 1.9, "{n} {coarse} {fine}");
+        assert!(fine > 0.0 && fine < 6e-3 && rate(coarse, fine) > 1.9, "{n} {coarse} {fine}");
     }
     let euler = UniformBeam { inertia, ..UNIT }.natural_frequency_rad_s(ends, 5);
     let exact = timoshenko_squared(1.0, inertia, shear, 5.0 * std::f64::consts::PI).sqrt();
