@@ -174,10 +174,10 @@ fn each_mode_has_the_damping_of_a_modal_fit() {
         assert!(k >= DAMPED || (ours / zeta - 1.0).abs() < 0.2, "{pole} Hz: {ours} and {zeta}");
         moduli.push(storage);
     }
-    // What one modulus for all modes is good for: 0.35 % at the first, whose suspension the model has not, 0.2 % at the others.
+    // What one modulus for all modes is good for: 0.34 % at the first, whose suspension the model has not, 0.3 % at the last, 0.2 % at the others.
     let mean = moduli.iter().sum::<f64>() / moduli.len() as f64;
     let worst = moduli.iter().map(|modulus| (modulus / mean - 1.0).abs()).fold(0.0, f64::max);
-    assert!(worst < 0.006, "{moduli:?}");
+    assert!(worst < 0.004, "{moduli:?}");
 }
 
 const SCRIPT: &str = "
