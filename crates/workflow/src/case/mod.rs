@@ -120,17 +120,17 @@ pub struct MeasurementEntry {
     /// What was measured; `None`: as the file says.
     pub quantity: Option<Quantity>,
     /// What its values are to be multiplied by; `None`: one.
-    pub scale: Option<Located<ScaleEntry>>,
-    /// By how much the channel is late, s.
-    pub delay_s: Option<f64>,
+    pub scale: Option<Located<Calibration>>,
+    /// By how much the channel is late, s; `None`: by nothing.
+    pub delay_s: Option<Located<Calibration>>,
     /// Over how many records the coherence was averaged; `None`: not told.
     pub averages: Option<Located<i64>>,
 }
 
-/// `scale` of a measurement.
+/// `scale` or `delay_s` of a measurement.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum ScaleEntry {
-    /// The value in SI units over that of the file.
+pub enum Calibration {
+    /// A scale is the value in SI units over that of the file, a delay in s.
     Known(f64),
     /// To be found.
     Unknown,

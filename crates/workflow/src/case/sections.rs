@@ -2,8 +2,8 @@
 
 use super::field::{Field, Table};
 use super::{
-    AttachedEntry, FactorEntry, IdentifyEntry, LeaveOut, LoadEntry, Located, MatrixEntry, MeasurementEntry,
-    RespondEntry, ScaleEntry, Spot,
+    AttachedEntry, Calibration, FactorEntry, IdentifyEntry, LeaveOut, LoadEntry, Located, MatrixEntry,
+    MeasurementEntry, RespondEntry, Spot,
 };
 use crate::error::{InputError, Place};
 use frfit::c64;
@@ -204,21 +204,30 @@ pub(super) fn measurement(table: &Table<'_>) -> Result<MeasurementEntry, InputEr
         record: table.find("record").map(|record| record.whole()).transpose()?,
         quantity: table.find("quantity").map(quantity).transpose()?.map(|quantity| quantity.value),
         averages: table.find("averages").map(|field| averages(&field)).transpose()?,
-        scale: table.find("scale").map(|field| scale(&field)).transpose()?,
-        delay_s: table.find("delay_s").map(|field| field.number()).transpose()?,
+        scale: table
+            .find("scale")
+            .map(|field| calibration(&field, SCALE, |scale| scale != 0.0))
+            .transpose()?,
+        delay_s: table.find("delay_s").map(|field| calibration(&field, DELAY, |_| true)).transpose()?,
     })
 }
 
+const SCALE: &str = "a finite number other than 0, or \"unknown\"";
+const DELAY: &str = "a finite number of seconds, or \"unknown\"";
+
 /// A number, or that it is to be found.
-fn scale(field: &Field<'_>) -> Result<Located<ScaleEntry>, InputError> {
-    const EXPECTED: &str = "a finite number other than 0, or \"unknown\"";
+fn calibration(
+    field: &Field<'_>,
+    expected: &str,
+    possible: impl Fn(f64) -> bool,
+) -> Result<Located<Calibration>, InputError> {
     match field.as_number() {
-        Some(scale) if scale != 0.0 => {
-            Ok(Located { value: ScaleEntry::Known(scale), place: field.place.clone() })
+        Some(number) if possible(number) => {
+            Ok(Located { value: Calibration::Known(number), place: field.place.clone() })
         }
-        _ => match field.word(|word| (word == "unknown").then_some(()).ok_or_else(|| EXPECTED.to_owned())) {
-            Ok(word) => Ok(Located { value: ScaleEntry::Unknown, place: word.place }),
-            Err(_) => Err(field.refuse(EXPECTED)),
+        _ => match field.word(|word| (word == "unknown").then_some(()).ok_or_else(|| expected.to_owned())) {
+            Ok(word) => Ok(Located { value: Calibration::Unknown, place: word.place }),
+            Err(_) => Err(field.refuse(expected)),
         },
     }
 }

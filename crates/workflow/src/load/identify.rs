@@ -5,11 +5,11 @@ use super::band::band;
 use super::factor::law;
 use super::files::Files;
 use super::measurement::Measurement;
-use crate::case::{CaseFile, IdentifyEntry, LeaveOut, Located, ScaleEntry, checked_band};
+use crate::case::{Calibration, CaseFile, IdentifyEntry, LeaveOut, Located, checked_band};
 use crate::error::{InputError, Place};
 use crate::nearest::nearest;
 use frfit::c64;
-use frfit::identify::{Method, Options, OptionsError, Selection, Space};
+use frfit::identify::{Method, Options, OptionsError, Selection, Space, Unknown};
 use frfit::laws::Family;
 use frfit::material::Law;
 use frfit::model::{DynamicStiffness, Parameter};
@@ -34,8 +34,8 @@ pub struct IdentifyCase {
     pub measured: Vec<Vec<c64>>,
     /// Which of the frequencies are left out: their rows have the status `out_of_band`.
     pub left_out: Vec<bool>,
-    /// Which sensors have a scale that is to be found: their receptances are those of scale one.
-    pub unknown_scale: Vec<bool>,
+    /// What of each sensor's channel is to be found: its receptances are those of scale one and no delay.
+    pub unknown: Vec<Unknown>,
     /// How well the receptances were measured.
     pub noise: MeasuredNoise,
     /// Whether to look for what is wrong with the data first.
@@ -77,7 +77,7 @@ pub(super) fn identify(
     }
     let (band_hz, place) = band_of(entry, overrides)?;
     let truth = entry.truth.as_ref().map(|truth| law(truth, files)).transpose()?;
-    let unknown_scale = unknown_scale(case, entry, &options)?;
+    let unknown = unknown(case, entry, &options)?;
     let data = band(measurements, band_hz, &place)?;
     let left_out = left_out(&entry.leave_out, &data.frequency_hz);
     if !data.frequency_hz.is_empty() && left_out.iter().all(|&out| out) {
@@ -93,7 +93,7 @@ pub(super) fn identify(
         frequency_hz: data.frequency_hz,
         measured: data.measured,
         left_out,
-        unknown_scale,
+        unknown,
         noise: data.noise,
         check: entry.check,
         truth,
@@ -243,14 +243,20 @@ fn invalid(error: &OptionsError, entry: &IdentifyEntry, overrides: &Overrides) -
     }
 }
 
-/// Which sensors have an unknown scale, where that can be found.
-fn unknown_scale(case: &CaseFile, entry: &IdentifyEntry, options: &Options) -> Result<Vec<bool>, InputError> {
-    let is_unknown = |scale: &&Located<ScaleEntry>| scale.value == ScaleEntry::Unknown;
-    let scales = case.measurements.iter().map(|measurement| measurement.scale.as_ref().filter(is_unknown));
-    let scales: Vec<Option<&Located<ScaleEntry>>> = scales.collect();
-    let unknown: Vec<bool> = scales.iter().map(Option::is_some).collect();
-    let Some(first) = scales.into_iter().flatten().next() else { return Ok(unknown) };
-    let refuse = |expected: &str, found: &str| Err(InputError::at(&first.place, expected, found));
+/// What of each sensor's channel is unknown, where that can be found.
+fn unknown(case: &CaseFile, entry: &IdentifyEntry, options: &Options) -> Result<Vec<Unknown>, InputError> {
+    let looked_for = |entry: &Option<Located<Calibration>>| {
+        entry.as_ref().filter(|entry| entry.value == Calibration::Unknown).map(|entry| entry.place.clone())
+    };
+    let mut unknown = Vec::with_capacity(case.measurements.len());
+    let mut places = Vec::new();
+    for measurement in &case.measurements {
+        let [scale, delay] = [&measurement.scale, &measurement.delay_s].map(looked_for);
+        unknown.push(Unknown { scale: scale.is_some(), delay: delay.is_some() });
+        places.extend(scale.into_iter().chain(delay));
+    }
+    let Some(first) = places.first() else { return Ok(unknown) };
+    let refuse = |expected: &str, found: &str| Err(InputError::at(first, expected, found));
     if options.selection != Selection::Joint {
         let found = format!("\"unknown\" with selection {:?}", options.selection.name());
         return refuse("a number, or selection = \"joint\"", &found);
@@ -258,9 +264,9 @@ fn unknown_scale(case: &CaseFile, entry: &IdentifyEntry, options: &Options) -> R
     if options.space == Space::Full {
         return refuse("a number, or the space \"subspace\"", "\"unknown\" with space \"full\"");
     }
-    if entry.laws.is_none() && !unknown.contains(&false) {
-        let expected = "a number here, another [[measurement]] whose scale is known, or varies = \"law\" \
-                        (a factor of its own at each frequency explains one sensor whatever its scale)";
+    if entry.laws.is_none() && unknown.iter().all(|unknown| unknown.any()) {
+        let expected = "a number here, another [[measurement]] whose scale and delay are known, or varies = \"law\" \
+                        (a factor of its own at each frequency explains one sensor whatever its scale and delay)";
         return refuse(expected, "\"unknown\" for all sensors");
     }
     Ok(unknown)

@@ -4,7 +4,7 @@ use super::laws_json;
 use crate::load::{Case, IdentifyCase, MeasuredNoise};
 use crate::run::IdentifyRun;
 use frfit::c64;
-use frfit::identify::{NoiseLevel, Status};
+use frfit::identify::{NoiseLevel, Status, Unknown};
 use frfit::material::loss_factor;
 use serde_json::{Map, Value, json};
 
@@ -102,10 +102,12 @@ pub fn summary_json(
 fn sensor(case: &Case, run: &IdentifyRun, m: usize) -> Value {
     let sensor = &case.sensors[m];
     let mut told = json!({"label": sensor.label, "quantity": sensor.quantity.name()});
-    if case.identify.as_ref().is_some_and(|identify| identify.unknown_scale[m]) {
-        let scale = run.scales.get(m).copied().flatten();
-        told["scale"] = json!(scale.map(|scale| scale.value));
-        told["scale_std"] = json!(scale.and_then(|scale| scale.std));
+    let unknown = case.identify.as_ref().map_or(Unknown::default(), |identify| identify.unknown[m]);
+    let found = run.channels.get(m).copied().unwrap_or_default();
+    let asked = [("scale", unknown.scale, found.scale), ("delay_s", unknown.delay, found.delay_s)];
+    for (key, _, found) in asked.into_iter().filter(|(_, asked, _)| *asked) {
+        told[key] = json!(found.map(|found| found.value));
+        told[format!("{key}_std")] = json!(found.and_then(|found| found.std));
     }
     if let Some(fit) = run.sensors.get(m) {
         told["misfit"] = json!(fit.misfit);

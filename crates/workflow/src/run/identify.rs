@@ -5,7 +5,7 @@ use crate::load::{Case, IdentifyCase, MeasuredNoise};
 use frfit::c64;
 use frfit::frequency::bands_hz;
 use frfit::identify::{
-    Band, BandOutcome, GoodnessOfFit, Hooks, Identified, LawsOutcome, Method, Noise, NoiseLevel, Scale,
+    Band, BandOutcome, Calibration, GoodnessOfFit, Hooks, Identified, LawsOutcome, Method, Noise, NoiseLevel,
     SensorFit, Stage, Status, error_by_order, identify_band, identify_band_scaled, identify_laws_scaled,
 };
 use frfit::laws::LawFit;
@@ -68,8 +68,8 @@ pub struct IdentifyRun {
     pub fit: Option<GoodnessOfFit>,
     /// One for each sensor of a joint selection.
     pub sensors: Vec<SensorFit>,
-    /// The scale of each sensor that was unknown; `None` where it was known, or is not told.
-    pub scales: Vec<Option<Scale>>,
+    /// What was unknown of each sensor's channel, and is told by the data.
+    pub channels: Vec<Calibration>,
     /// The laws that were fitted; `None` where every frequency has its own factor. The outcomes are those of the best law.
     pub laws: Option<LawsRun>,
     /// How long it took.
@@ -114,20 +114,23 @@ pub fn identify(
             progress(done, total);
         },
     };
-    let unknown = &identify.unknown_scale;
-    let (found, scales, laws) = match identify.laws.as_slice() {
-        [] if unknown.contains(&true) => {
-            let (found, scales) = identify_band_scaled(&band, unknown, &identify.options, hooks)?;
-            (found, scales, None)
+    let unknown = &identify.unknown;
+    let (found, channels, laws) = match identify.laws.as_slice() {
+        [] if unknown.iter().any(|unknown| unknown.any()) => {
+            let (found, channels) = identify_band_scaled(&band, unknown, &identify.options, hooks)?;
+            (found, channels, None)
         }
-        [] => (identify_band(&band, &identify.options, hooks)?, vec![None; unknown.len()], None),
+        [] => {
+            let known = vec![Calibration::default(); unknown.len()];
+            (identify_band(&band, &identify.options, hooks)?, known, None)
+        }
         families => {
-            let LawsOutcome { free, fits, outcomes, scales, work, subspace_size } =
+            let LawsOutcome { free, fits, outcomes, channels, work, subspace_size } =
                 identify_laws_scaled(&band, unknown, families, &identify.options, hooks)?;
             // What each frequency by itself told of noise and sensors holds for the laws too.
             let alone = free.outcomes.clone();
             let found = BandOutcome { outcomes, work, subspace_size, fit: None, ..free };
-            (found, scales, Some(LawsRun { fits, free: alone }))
+            (found, channels, Some(LawsRun { fits, free: alone }))
         }
     };
     let mut found = found;
@@ -150,7 +153,7 @@ pub fn identify(
         noise,
         fit,
         sensors,
-        scales,
+        channels,
         laws,
         seconds,
     })
@@ -294,10 +297,11 @@ impl IdentifyRun {
         self.outcomes.iter().filter(|outcome| outcome.status == status).count()
     }
 
-    /// What was measured at a frequency, as receptance, scales that were found included.
-    pub fn measured(&self, receptance: &[c64]) -> Vec<c64> {
-        let scale = |m: usize| self.scales.get(m).copied().flatten().map_or(1.0, |scale| scale.value);
-        receptance.iter().enumerate().map(|(m, u)| scale(m) * u).collect()
+    /// What was measured at a frequency, as receptance, with the scales and delays that were found.
+    pub fn measured(&self, frequency_hz: f64, receptance: &[c64]) -> Vec<c64> {
+        let one = c64::new(1.0, 0.0);
+        let factor = |m: usize| self.channels.get(m).map_or(one, |channel| channel.factor(frequency_hz));
+        receptance.iter().enumerate().map(|(m, u)| factor(m) * u).collect()
     }
 
     /// The largest estimated error of the subspace's response, relative to the measured one, over all answers; `None` where the full model answered.

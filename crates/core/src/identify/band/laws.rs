@@ -7,7 +7,7 @@ use super::channels::at_scales;
 use super::contradiction::without;
 use super::joint;
 use super::noise::deviations;
-use super::scale::{Scale, Scaled};
+use super::scale::{Calibrated, Calibration, Scaled, Unknown};
 use super::space::{Space, certificate, is_certain};
 use super::{Band, BandOutcome, Hooks, Noise, Stage, near_and_far, near_or_far};
 use crate::c64;
@@ -30,8 +30,8 @@ pub struct LawsOutcome {
     pub fits: Vec<LawFit>,
     /// The law of least BIC at each frequency.
     pub outcomes: Vec<Identified>,
-    /// The scale of each sensor that was unknown, by the law of least BIC.
-    pub scales: Vec<Option<Scale>>,
+    /// What was unknown of each sensor's channel, by the law of least BIC.
+    pub channels: Vec<Calibration>,
     /// All work of size N.
     pub work: Work,
     /// Vectors of the subspace.
@@ -79,14 +79,20 @@ pub fn identify_laws(
     options: &Options,
     hooks: Hooks<'_>,
 ) -> Result<LawsOutcome, OutsideTable> {
-    identify_laws_scaled(band, &vec![false; band.experiment.sensors.len()], families, options, hooks)
+    identify_laws_scaled(
+        band,
+        &vec![Unknown::default(); band.experiment.sensors.len()],
+        families,
+        options,
+        hooks,
+    )
 }
 
-/// As [`identify_laws`], with channels whose scale is unknown ([`super::identify_band_scaled`]); here it may be that of all of them.
+/// As [`identify_laws`], with channels whose scale or delay is unknown ([`super::identify_band_scaled`]); here it may be those of all of them.
 ///
-/// The scales are eliminated: for given θ the best real gain of a channel is linear least squares over the band, and the slopes are those of what it leaves, so that the
-/// error bars of the law have those of the scales in them. Where no channel has a known scale, the first scales are those with which the nominal law, times some
-/// factor of the box, has the shape that was measured: Σ |ln|u_m| − ln|x_m|| about its median.
+/// Both are eliminated: for given θ the best real gain of a channel is linear least squares over the band, the best delay near the first one Newton's, and the slopes
+/// are those of what they leave, so that the error bars of the law have theirs in them. Where no channel is known, the first ones are those with which the nominal law,
+/// times some factor of the box, has the shape that was measured: Σ |ln|u_m| − ln|x_m|| about its median, phases as far as a line over ω takes them.
 ///
 /// # Errors
 /// As [`identify_laws`].
@@ -95,7 +101,7 @@ pub fn identify_laws(
 /// As [`identify_laws`], and where there is not one entry of `unknown` for each sensor.
 pub fn identify_laws_scaled(
     band: &Band<'_>,
-    unknown: &[bool],
+    unknown: &[Unknown],
     families: &[Family],
     options: &Options,
     hooks: Hooks<'_>,
@@ -105,9 +111,9 @@ pub fn identify_laws_scaled(
     let at = band.model.at_all(band.frequency_hz, std::slice::from_ref(band.parameter))?;
     let near = Options { space: Where::Subspace, selection: Selection::Joint, ..*options };
     let boxes = near_and_far(&near);
-    let (mut free, (space, scales)) =
+    let (mut free, (space, channels)) =
         near_or_far(&boxes, |options| at_scales(band, &at, unknown, options, hooks));
-    let scaled = Scaled::new(band, &scales);
+    let scaled = Scaled::new(band, &channels);
     let view = scaled.band(band);
     let sensors = free.sensors.iter().enumerate();
     let out: Vec<usize> = sensors.filter(|(_, sensor)| sensor.left_out).map(|(m, _)| m).collect();
@@ -115,13 +121,13 @@ pub fn identify_laws_scaled(
     let fitting = Fitting { band: &view, at: &at, sigma: &sigma, unknown, options, hooks };
     let Some(mut space) = space else {
         let outcomes = free.outcomes.iter().map(|own| fitting.without_law(own)).collect();
-        let scales = vec![None; unknown.len()];
+        let channels = vec![Calibration::default(); unknown.len()];
         return Ok(LawsOutcome {
             work: free.work,
             subspace_size: None,
             fits: Vec::new(),
             outcomes,
-            scales,
+            channels,
             free,
         });
     };
@@ -134,21 +140,27 @@ pub fn identify_laws_scaled(
         fits.extend(fitting.fit(family, &mut space, &free, best(&fits)));
     }
     (hooks.progress)(Stage::Law, families.len(), families.len());
-    let gains = best(&fits).and_then(|law| fitting.gains_of(law, &space));
-    let gain = |m: usize| gains.as_ref().map_or(1.0, |gains| gains[m].value);
-    let better: Vec<f64> = scales.iter().enumerate().map(|(m, scale)| scale / gain(m)).collect();
-    let told = |m: usize| {
-        let gain = gains.as_ref()?[m];
-        let std = gain.std.map(|std| (std * better[m] / gain.value).abs());
-        unknown[m].then_some(Scale { value: better[m], std })
+    let left = best(&fits).and_then(|law| fitting.calibrations_of(law, &space));
+    let better: Vec<_> = match &left {
+        Some(left) => {
+            channels.iter().zip(left).map(|(own, [gain, late])| own.better(gain.value, late.value)).collect()
+        }
+        None => channels.clone(),
     };
-    let told_scales = (0..unknown.len()).map(told).collect();
+    let told = |m: usize| {
+        let Some([gain, late]) = left.as_ref().map(|left| left[m]) else { return Calibration::default() };
+        let relative = |std: f64| (std * better[m].scale / gain.value).abs();
+        let scale = Calibrated { value: better[m].scale, std: gain.std.map(relative) };
+        let delay = Calibrated { value: better[m].delay_s, std: late.std };
+        Calibration { scale: unknown[m].scale.then_some(scale), delay_s: unknown[m].delay.then_some(delay) }
+    };
+    let told_channels = (0..unknown.len()).map(told).collect();
     let scaled = Scaled::new(band, &better);
     let view = scaled.band(band);
     let sigma = without(&deviations(&view), &out);
     let judging = Fitting { band: &view, sigma: &sigma, ..fitting };
-    if better != scales {
-        // What each frequency says by itself, at the scales that came out.
+    if better != channels {
+        // What each frequency says by itself, at the calibrations that came out.
         let mut whole = Some(space);
         let spent = free.work;
         free = joint::identify(&view, &at, &mut whole, &[], &near, hooks);
@@ -164,7 +176,7 @@ pub fn identify_laws_scaled(
     let mut work = free.work;
     work.factorisations += space.work().factorisations - before.factorisations;
     work.solves += space.work().solves - before.solves;
-    Ok(LawsOutcome { outcomes, fits, scales: told_scales, work, subspace_size: Some(space.size()), free })
+    Ok(LawsOutcome { outcomes, fits, channels: told_channels, work, subspace_size: Some(space.size()), free })
 }
 
 /// What is to be explained, and with what.
@@ -174,8 +186,8 @@ pub(super) struct Fitting<'t, 'a> {
     pub(super) at: &'t [ModelAt<'a>],
     /// Of real and imaginary part each.
     pub(super) sigma: &'t [Vec<f64>],
-    /// Sensors whose scale is to be found.
-    pub(super) unknown: &'t [bool],
+    /// What of each sensor's channel is to be found.
+    pub(super) unknown: &'t [Unknown],
     options: &'t Options,
     pub(super) hooks: Hooks<'t>,
 }
@@ -189,7 +201,7 @@ impl Fitting<'_, '_> {
         Evidence {
             // A sensor that is left out has an infinite deviation.
             residuals: (2 * self.sigma.iter().flatten().filter(|sigma| sigma.is_finite()).count())
-                .saturating_sub(self.unknown.iter().filter(|&&unknown| unknown).count()),
+                .saturating_sub(self.unknown.iter().map(|unknown| unknown.count()).sum()),
             sigma_known: matches!(self.band.noise, Noise::Known(_)),
         }
     }
@@ -249,13 +261,13 @@ impl Fitting<'_, '_> {
         let parts = |value: c64| [value.re, value.im];
         let rest = |(i, m): (usize, usize)| {
             let sigma = self.sigma[i][m];
-            parts((fits[m].gain * responses[i].x[m] - self.band.measured[i][m]) / sigma)
+            parts((fits[m].factor(self.omega(i)) * responses[i].x[m] - self.band.measured[i][m]) / sigma)
         };
         let residuals: Vec<f64> = each().flat_map(rest).collect();
         let column = |j: usize, (i, m): (usize, usize)| {
-            let one = &responses[i];
-            let own = fits[m].gain * one.slope[m] * one.of_theta[j];
-            parts((own - fits[m].moved.get(j).copied().unwrap_or(0.0) * one.x[m]) / self.sigma[i][m])
+            let (one, omega) = (&responses[i], self.omega(i));
+            let own = fits[m].factor(omega) * one.slope[m] * one.of_theta[j];
+            parts((own - fits[m].followed(omega, j) * one.x[m]) / self.sigma[i][m])
         };
         let jacobian: Vec<f64> =
             (0..n).flat_map(|j| each().map(move |at| (j, at))).flat_map(|(j, at)| column(j, at)).collect();

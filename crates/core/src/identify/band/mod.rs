@@ -14,11 +14,13 @@ mod on_space;
 mod same;
 mod scale;
 mod space;
+mod start;
 mod tube;
 mod verdict;
 
 pub use laws::{LawsOutcome, identify_laws, identify_laws_scaled};
-pub use scale::{Scale, identify_band_scaled};
+pub use scale::{Calibrated, Calibration, Unknown, identify_band_scaled};
+pub(crate) use start::{MOST_PHASE, PHASE_STEP};
 
 use super::{Identified, Options, Selection};
 use crate::c64;
