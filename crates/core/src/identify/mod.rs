@@ -10,7 +10,8 @@ mod uncertainty;
 
 pub use band::{
     Band, BandOutcome, Explained, GoodnessOfFit, Hooks, LawsOutcome, Noise, NoiseLevel, NoiseSource, Scale,
-    SensorFit, Stage, identify_band, identify_band_scaled, identify_laws, identify_laws_scaled,
+    SensorFit, SmoothCurve, SmoothOutcome, Stage, identify_band, identify_band_scaled, identify_laws,
+    identify_laws_scaled, identify_smooth,
 };
 pub use choice::{Method, Selection, Space, UnknownChoice};
 pub use one::{error_by_order, identify_at, relative_error};

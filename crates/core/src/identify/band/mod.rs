@@ -13,12 +13,14 @@ mod noise;
 mod on_space;
 mod same;
 mod scale;
+mod smooth;
 mod space;
 mod tube;
 mod verdict;
 
 pub use laws::{LawsOutcome, identify_laws, identify_laws_scaled};
 pub use scale::{Scale, identify_band_scaled};
+pub use smooth::{SmoothCurve, SmoothOutcome, identify_smooth};
 
 use super::{Identified, Options, Selection};
 use crate::c64;
@@ -68,7 +70,7 @@ pub enum Stage {
     Solutions,
     /// One of them is chosen at each frequency.
     Selection,
-    /// Laws are fitted.
+    /// Laws, or a smooth curve, are fitted.
     Law,
 }
 
