@@ -101,13 +101,14 @@ impl<'o> Process<'o> {
             if o.weight > 0.0 {
                 let [s11, s21, s22] = root;
                 let grown = 1.0 + o.weight * s11 * s11;
-                for c in 0..2 {
-                    let innovation = o.value[c] - state[0][c];
-                    likelihood.squares += innovation * innovation * o.weight / grown;
-                    let gain = innovation * o.weight * s11 / grown;
-                    state[0][c] += s11 * gain;
-                    state[1][c] += s21 * gain;
-                }
+                let innovation = [0, 1].map(|c| o.value[c] - state[0][c]);
+                let square: f64 = innovation.iter().map(|e| e * e).sum();
+                likelihood.squares += square * o.weight / grown;
+                let gain = innovation.map(|e| e * o.weight * s11 / grown);
+                state = [
+                    [0, 1].map(|c| state[0][c] + s11 * gain[c]),
+                    [0, 1].map(|c| state[1][c] + s21 * gain[c]),
+                ];
                 likelihood.log_determinant += grown.ln();
                 let shrunk = grown.sqrt();
                 root = [s11 / shrunk, s21 / shrunk, s22];
@@ -134,7 +135,8 @@ impl<'o> Process<'o> {
             let (own, p) = steps[k].updated;
             let (ahead, q) = steps[k + 1].predicted;
             let gain = gain(p, q, h);
-            let times = |v: [f64; 2]| [gain[0][0] * v[0] + gain[0][1] * v[1], gain[1][0] * v[0] + gain[1][1] * v[1]];
+            let times =
+                |v: [f64; 2]| [gain[0][0] * v[0] + gain[0][1] * v[1], gain[1][0] * v[0] + gain[1][1] * v[1]];
             for c in 0..2 {
                 let by = times([state[0][c] - ahead[0][c], state[1][c] - ahead[1][c]]);
                 (state[0][c], state[1][c]) = (own[0][c] + by[0], own[1][c] + by[1]);

@@ -109,7 +109,11 @@ pub fn identify_smooth(
     (hooks.progress)(Stage::Law, 1, 1);
     let Some((fitted, space)) = found else {
         let outcomes = free.outcomes.iter().map(without_curve).collect();
-        return Ok(SmoothOutcome { band: BandOutcome { outcomes, fit: None, ..free.clone() }, free, curve: None });
+        return Ok(SmoothOutcome {
+            band: BandOutcome { outcomes, fit: None, ..free.clone() },
+            free,
+            curve: None,
+        });
     };
     let noise = smoothing.noise(&free.noise, fitted.smoothed.level);
     let judged: Vec<Judged> =
@@ -128,7 +132,8 @@ pub fn identify_smooth(
     work.factorisations += space.work().factorisations - fitted.before.factorisations;
     work.solves += space.work().solves - fitted.before.solves;
     let subspace_size = Some(space.size());
-    let smoothed = BandOutcome { outcomes, work, subspace_size, explored: free.explored, noise, fit, sensors };
+    let smoothed =
+        BandOutcome { outcomes, work, subspace_size, explored: free.explored, noise, fit, sensors };
     Ok(SmoothOutcome { free, band: smoothed, curve: Some(smoothing.curve(fitted)) })
 }
 
@@ -198,8 +203,11 @@ impl Smoothing<'_, '_> {
                 round += 1;
                 continue;
             }
-            let odd: Vec<usize> =
-                all.iter().copied().filter(|&i| used[i] && self.unexplained(space, &states, smoothed.level, i)).collect();
+            let odd: Vec<usize> = all
+                .iter()
+                .copied()
+                .filter(|&i| used[i] && self.unexplained(space, &states, smoothed.level, i))
+                .collect();
             let unexplained = used.iter().filter(|used| !**used).count();
             let few = ((unexplained + odd.len()) as f64) < OUTLIERS * all.len() as f64;
             if odd.is_empty() || !few {
@@ -215,10 +223,13 @@ impl Smoothing<'_, '_> {
         let own = |i: usize| {
             let none = Observation { x: self.log_omega(i), value: [0.0; 2], weight: 0.0 };
             let outcome = &free.outcomes[i];
-            let answer = outcome.factor().filter(|factor| factor.re > 0.0 && outcome.status != Status::NoRoot);
+            let answer =
+                outcome.factor().filter(|factor| factor.re > 0.0 && outcome.status != Status::NoRoot);
             let told = answer.and_then(|factor| {
-                let (_, slope) = space.model(i).respond_with_slope(&self.at[i], factor - outcome.nominal).ok()?;
-                let weight = slope.iter().zip(&self.sigma[i]).map(|(s, sigma)| (factor * s / *sigma).norm_sqr()).sum();
+                let (_, slope) =
+                    space.model(i).respond_with_slope(&self.at[i], factor - outcome.nominal).ok()?;
+                let weight =
+                    slope.iter().zip(&self.sigma[i]).map(|(s, sigma)| (factor * s / *sigma).norm_sqr()).sum();
                 let log = factor.ln();
                 Some(Observation { value: [log.re, log.im], weight, ..none })
             });
@@ -262,7 +273,9 @@ impl Smoothing<'_, '_> {
                 return (none, 0.0);
             };
             let (mut weight, mut along, mut misfit) = (0.0, c64::default(), 0.0);
-            for ((x, slope), (u, sigma)) in x.iter().zip(&slope).zip(self.band.measured[i].iter().zip(&self.sigma[i])) {
+            for ((x, slope), (u, sigma)) in
+                x.iter().zip(&slope).zip(self.band.measured[i].iter().zip(&self.sigma[i]))
+            {
                 let (a, rest) = (modulus * slope / *sigma, (u - x) / *sigma);
                 weight += a.norm_sqr();
                 along += a.conj() * rest;
@@ -289,7 +302,11 @@ impl Smoothing<'_, '_> {
         }
         let observations = self.placed(each.into_iter().map(|(o, _)| o).collect());
         let known = matches!(self.band.noise, Noise::Known(_));
-        Linearised { observations, evidence: Evidence { numbers: self.numbers(), known, beside }, misfit: total }
+        Linearised {
+            observations,
+            evidence: Evidence { numbers: self.numbers(), known, beside },
+            misfit: total,
+        }
     }
 
     /// Gauss and Newton's steps to the smooth curve.
@@ -314,7 +331,9 @@ impl Smoothing<'_, '_> {
             if largest <= SETTLED || step == STEPS {
                 return Some((linear, smoothed, largest <= SETTLED));
             }
-            let cost = |linear: &Linearised, states: &[State]| linear.misfit + roughness(&x, states, smoothed.curvature);
+            let cost = |linear: &Linearised, states: &[State]| {
+                linear.misfit + roughness(&x, states, smoothed.curvature)
+            };
             let before = cost(&linear, &states);
             let mut part = 1.0;
             for halving in 0..=HALVINGS {
@@ -351,10 +370,16 @@ impl Smoothing<'_, '_> {
 
     fn is_unexplained(&self, i: usize, x: &[c64], level: f64) -> bool {
         let kept = |values: &[c64]| -> Vec<c64> {
-            values.iter().enumerate().filter(|(m, _)| !self.out.contains(m)).map(|(_, value)| *value).collect()
+            values
+                .iter()
+                .enumerate()
+                .filter(|(m, _)| !self.out.contains(m))
+                .map(|(_, value)| *value)
+                .collect()
         };
         let rms = (self.misfit(i, x) / (2 * self.sensors(i)).max(1) as f64).sqrt();
-        relative_error(&kept(&self.band.measured[i]), &kept(x)) > self.options.error && rms > UNEXPLAINED * level
+        relative_error(&kept(&self.band.measured[i]), &kept(x)) > self.options.error
+            && rms > UNEXPLAINED * level
     }
 
     fn misfit(&self, i: usize, x: &[c64]) -> f64 {
@@ -369,8 +394,15 @@ impl Smoothing<'_, '_> {
         }
     }
 
-    fn judged(&self, fitted: &Fitted, noise: &NoiseLevel, space: &Space<'_, '_>, i: usize, free: &[Identified]) -> Judged {
-        let (at, measured, own) = (&self.at[i], &self.band.measured[i], &free[i]);
+    fn judged(
+        &self,
+        fitted: &Fitted,
+        noise: &NoiseLevel,
+        space: &Space<'_, '_>,
+        i: usize,
+        free: &[Identified],
+    ) -> Judged {
+        let (measured, own) = (&self.band.measured[i], &free[i]);
         let mut outcome = without_curve(own);
         let factor = modulus(&fitted.smoothed.curve.states[i]);
         let correction = factor - own.nominal;
@@ -419,7 +451,8 @@ impl Smoothing<'_, '_> {
 
     fn curve(&self, fitted: Fitted) -> SmoothCurve {
         let Fitted { observations, evidence, smoothed, converged, unexplained, .. } = fitted;
-        let taken = observations.iter().zip(&smoothed.curve.variance).map(|(o, variance)| o.weight * variance);
+        let taken =
+            observations.iter().zip(&smoothed.curve.variance).map(|(o, variance)| o.weight * variance);
         let parameters: f64 = taken.sum();
         let range = observations[observations.len() - 1].x - observations[0].x;
         let width_octaves = range / parameters / std::f64::consts::LN_2;
@@ -433,7 +466,11 @@ impl SmoothCurve {
     /// as wide as it may go astray there.
     pub fn bridged(&self, frequency_hz: &[f64]) -> Vec<(c64, Uncertainty)> {
         let mut all = self.observations.clone();
-        all.extend(frequency_hz.iter().map(|&f| Observation { x: omega_rad_s(f).ln(), value: [0.0; 2], weight: 0.0 }));
+        all.extend(frequency_hz.iter().map(|&f| Observation {
+            x: omega_rad_s(f).ln(),
+            value: [0.0; 2],
+            weight: 0.0,
+        }));
         all.sort_by(|a, b| a.x.total_cmp(&b.x));
         let Some(smoothed) = smooth(&all, self.evidence) else { return Vec::new() };
         let at = |f: &f64| {
@@ -442,7 +479,16 @@ impl SmoothCurve {
             let factor = modulus(&smoothed.curve.states[k]);
             let part_std = factor.norm() * smoothed.curve.variance[k].sqrt();
             // Nothing was measured there that could be far from linear.
-            (factor, Uncertainty::new(factor, self.real, part_std, 0.0, self.level.max(if self.evidence.known { 0.0 } else { LEAST_LEVEL })))
+            (
+                factor,
+                Uncertainty::new(
+                    factor,
+                    self.real,
+                    part_std,
+                    0.0,
+                    self.level.max(if self.evidence.known { 0.0 } else { LEAST_LEVEL }),
+                ),
+            )
         };
         frequency_hz.iter().map(at).collect()
     }
