@@ -1,8 +1,8 @@
 //! The smoother at a given curvature: an integrated Wiener process behind scattered observations, exactly and in one sweep up and one down.
 
-/// So many standard deviations of the best straight line is what the first state may be anywhere within: the process is then the smoothing
-/// spline, which asks nothing of level and slope, to the square of the inverse.
-const DIFFUSE: f64 = 1e7;
+/// So many standard deviations of the best straight line is what the first state may be anywhere within: the process is then the smoothing spline, which asks nothing of level and slope,
+/// but for the inverse of its square, 1e-10. Its square is also what roundoff is multiplied by while nothing has been observed yet: 1e-6 in the bars.
+const DIFFUSE: f64 = 1e5;
 
 /// A place on the curve, and what was observed there.
 #[derive(Debug, Clone, Copy, PartialEq)]

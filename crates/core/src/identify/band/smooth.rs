@@ -208,7 +208,7 @@ impl Smoothing<'_, '_> {
                 .copied()
                 .filter(|&i| used[i] && self.unexplained(space, &states, smoothed.level, i))
                 .collect();
-            let unexplained = used.iter().filter(|used| !**used).count();
+            let unexplained = all.iter().filter(|&&i| !used[i] && self.log_omega(i).is_finite()).count();
             let few = ((unexplained + odd.len()) as f64) < OUTLIERS * all.len() as f64;
             if odd.is_empty() || !few {
                 let Linearised { observations, evidence, .. } = linear;
@@ -369,17 +369,14 @@ impl Smoothing<'_, '_> {
     }
 
     fn is_unexplained(&self, i: usize, x: &[c64], level: f64) -> bool {
-        let kept = |values: &[c64]| -> Vec<c64> {
-            values
-                .iter()
-                .enumerate()
-                .filter(|(m, _)| !self.out.contains(m))
-                .map(|(_, value)| *value)
-                .collect()
-        };
         let rms = (self.misfit(i, x) / (2 * self.sensors(i)).max(1) as f64).sqrt();
-        relative_error(&kept(&self.band.measured[i]), &kept(x)) > self.options.error
+        relative_error(&self.kept(&self.band.measured[i]), &self.kept(x)) > self.options.error
             && rms > UNEXPLAINED * level
+    }
+
+    /// Of the sensors that are not left out.
+    fn kept(&self, values: &[c64]) -> Vec<c64> {
+        values.iter().enumerate().filter(|(m, _)| !self.out.contains(m)).map(|(_, value)| *value).collect()
     }
 
     fn misfit(&self, i: usize, x: &[c64]) -> f64 {
@@ -417,7 +414,7 @@ impl Smoothing<'_, '_> {
         });
         let part_std = factor.norm() * variance.sqrt();
         let bars = Uncertainty::new(factor, self.options.real, part_std, second, level);
-        let error = relative_error(measured, &assessed.response);
+        let error = relative_error(&self.kept(measured), &self.kept(&assessed.response));
         // Of 2M numbers, what the curve took from this frequency.
         let taken = (fitted.observations[i].weight * variance).min(1.0);
         let freedom = (2 * self.sensors(i)) as f64 - self.numbers() as f64 * taken;
