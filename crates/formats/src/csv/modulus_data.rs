@@ -228,7 +228,7 @@ mod tests {
             refused("T"),
             "input:1: expected a row with \"30\" in column \"T\", found only 20, 20.0, -10"
         );
-        assert!(refused("t").starts_with("input:1: expected a column \"t\""), "{}", refused("t"));
+        assert!(refused("X").starts_with("input:1: expected a column \"X\""), "{}", refused("X"));
     }
 
     #[test]
