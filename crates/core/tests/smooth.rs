@@ -176,7 +176,7 @@ fn light_damping_is_found_where_single_frequencies_are_marked() {
             middle(&|o| Some((o.storage()? / 2e11 - 1.0).abs())),
             middle(&|o| Some((o.loss_factor()? / 1e-3 - 1.0).abs())),
         ];
-        assert!(smooth[0] < 0.4 * own[0] && smooth[1] < 0.1 * own[1], "seed {seed}: {smooth:?} {own:?}");
+        assert!(smooth[0] < 0.4 * own[0] && smooth[1] < 0.2 * own[1], "seed {seed}: {smooth:?} {own:?}");
         // A constant is a power law: hardly more than its level and slope are asked of the data.
         let curve = found.curve.unwrap();
         assert!(curve.converged && (1.9..4.0).contains(&curve.parameters), "seed {seed}: {curve:?}");

@@ -201,21 +201,21 @@ mod tests {
             let curvature = log_curvature.exp();
             let curve = process.smooth(curvature);
             let (value, variance, log, squares) = reinsch(&all, curvature);
-            // The finite first variance is 1e-10 of what there is, times the ratio of an observation's variance to the line's: a few hundred here.
+            // The finite first variance is 1e-10 of what there is, times the ratio of the first state's variance (up to κ²h of its slope) to the line's: 1e5 or so here.
             for i in 0..all.len() {
                 for c in 0..2 {
-                    prop_assert!((curve.states[i][0][c] - value[i][c]).abs() < 1e-6);
+                    prop_assert!((curve.states[i][0][c] - value[i][c]).abs() < 1e-4);
                 }
-                prop_assert!((curve.variance[i] - variance[i]).abs() < 1e-6 * (1.0 + variance[i]));
+                prop_assert!((curve.variance[i] - variance[i]).abs() < 1e-4 * (1.0 + variance[i]));
             }
             // The likelihood is known up to what does not depend on the curvature.
             let other = process.likelihood(4.0 * curvature);
             let own = process.likelihood(curvature);
             let (.., other_log, other_squares) = reinsch(&all, 4.0 * curvature);
             let change = other.log_determinant - own.log_determinant - (other_log - log);
-            prop_assert!(change.abs() < 1e-6, "{change}");
-            prop_assert!((own.squares - squares).abs() < 1e-6 * (1.0 + squares));
-            prop_assert!((other.squares - other_squares).abs() < 1e-6 * (1.0 + other_squares));
+            prop_assert!(change.abs() < 1e-4, "{change}");
+            prop_assert!((own.squares - squares).abs() < 1e-4 * (1.0 + squares));
+            prop_assert!((other.squares - other_squares).abs() < 1e-4 * (1.0 + other_squares));
         }
 
         #[test]
