@@ -197,6 +197,9 @@ pub(crate) struct Identify {
 pub(crate) struct Fit {
     /// Table of the modulus: an identified.csv, or one of dynamic mechanical analysis
     pub(crate) table: PathBuf,
+    /// Only rows with this value in a column, as of one temperature: T=20
+    #[arg(long = "where", value_name = "COLUMN=VALUE", value_parser = cell)]
+    pub(crate) only: Option<(String, String)>,
     /// Laws to compare: constant, fractional, zener, maxwell or maxwell:N (N branches), or all (by default; maxwell with 1 to 4)
     #[arg(long = "law", value_name = "LAWS", value_delimiter = ',', value_parser = laws)]
     pub(crate) laws: Vec<Laws>,
@@ -265,6 +268,14 @@ pub(crate) struct Laws(pub(crate) Vec<Family>);
 
 fn laws(text: &str) -> Result<Laws, UnknownFamily> {
     if text == "all" { Ok(Laws(Family::ALL.to_vec())) } else { Ok(Laws(vec![text.parse()?])) }
+}
+
+/// `T=20` as a column and a value.
+fn cell(text: &str) -> Result<(String, String), String> {
+    let (column, value) = text
+        .split_once('=')
+        .ok_or_else(|| format!("expected a column and a value such as T=20, found {text:?}"))?;
+    Ok((column.trim().to_owned(), value.trim().to_owned()))
 }
 
 /// `200:1550` as a band in Hz.

@@ -1,6 +1,6 @@
 //! What came out, in the few lines that a person reads first.
 
-use frfit::identify::{Calibrated, Explained, Identified, NoiseSource, Status};
+use frfit::identify::{Calibrated, Explained, Identified, NoiseSource, SmoothCurve, Status};
 use frfit_workflow::check::findings_text;
 use frfit_workflow::job::IdentifyJob;
 use frfit_workflow::output::laws_text;
@@ -78,7 +78,23 @@ pub(crate) fn identified(job: &IdentifyJob, out: &Path) -> String {
     if let (Some(size), Some(error)) = (run.subspace_size, run.certificate()) {
         line("subspace", format!("{size} vectors, error of the response at most {error:.1e} (estimated)"));
     }
-    let more = if run.laws.is_some() { "free.csv, law.json, " } else { "" };
+    if let Some(curve) = run.smooth.as_ref().and_then(|smooth| smooth.curve.as_ref()) {
+        let settled = if curve.converged { "" } else { ", not settled" };
+        let odd = match curve.unexplained {
+            0 => String::new(),
+            count => format!("; {count} frequencies that it does not explain have no say in it"),
+        };
+        let SmoothCurve { parameters, width_octaves, .. } = curve;
+        line(
+            "smooth",
+            format!("{parameters:.1} parameters, one for {width_octaves:.2} octaves{settled}{odd}"),
+        );
+    }
+    let more = match (&run.laws, &run.smooth) {
+        (Some(_), _) => "free.csv, law.json, ",
+        (None, Some(_)) => "free.csv, ",
+        (None, None) => "",
+    };
     line(
         "wrote",
         format!(
@@ -119,6 +135,9 @@ fn doubts(job: &IdentifyJob) -> Vec<(&'static str, String)> {
             NoiseSource::Sensors => format!("{level:.1e} of what is assumed, from the misfit of the sensors"),
             NoiseSource::Scatter => {
                 format!("{level:.1e} of what is assumed, from the scatter of the answers")
+            }
+            NoiseSource::Curve => {
+                format!("{level:.1e} of what is assumed, from what the smooth curve leaves")
             }
             NoiseSource::Nothing => "unknown".to_owned(),
         };

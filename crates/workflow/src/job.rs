@@ -116,6 +116,9 @@ pub fn identify_case(
         files.push(File::new("free.csv", identified_csv(&laws.free)));
         files.push(File::new("law.json", format!("{:#}\n", laws_json(laws))));
     }
+    if let Some(smooth) = &run.smooth {
+        files.push(File::new("free.csv", identified_csv(&smooth.free)));
+    }
     files.push(File::new("candidates.csv", candidates_csv(&run.outcomes)));
     files.push(File::new("response.csv", response_csv(&case, wanted, &run)));
     files.push(File::new("summary.json", format!("{summary:#}\n")));

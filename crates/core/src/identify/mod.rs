@@ -10,8 +10,8 @@ mod uncertainty;
 
 pub use band::{
     Band, BandOutcome, Calibrated, Calibration, Explained, GoodnessOfFit, Hooks, LawsOutcome, Noise,
-    NoiseLevel, NoiseSource, SensorFit, Stage, Unknown, identify_band, identify_band_scaled, identify_laws,
-    identify_laws_scaled,
+    NoiseLevel, NoiseSource, SensorFit, SmoothCurve, SmoothOutcome, Stage, Unknown, identify_band,
+    identify_band_scaled, identify_laws, identify_laws_scaled, identify_smooth,
 };
 pub(crate) use band::{MOST_PHASE, PHASE_STEP};
 pub use choice::{Method, Selection, Space, UnknownChoice};

@@ -23,7 +23,7 @@ mod write;
 pub use dof_names::{Direction, DofName, read_dof_names};
 pub use frf::{FrfTable, read_frf};
 pub use modulus::{ModulusTable, read_modulus};
-pub use modulus_data::{ModulusData, read_modulus_data};
+pub use modulus_data::{ModulusData, read_modulus_data, read_modulus_data_where};
 pub use table::Table;
 pub use time_records::{TimeChannel, TimeTable, read_time_records};
 pub use vector::read_vector;

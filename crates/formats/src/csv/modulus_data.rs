@@ -42,6 +42,47 @@ const LOSS: [&str; 4] = ["loss", "loss_modulus", "e_loss", "e''"];
 /// What [`Table::read`] refuses; a column that is missing, or given twice under two names; an unknown unit; a frequency that is not positive or repeated, as where one table
 /// holds several temperatures; a cell that is no finite number; a deviation that is not positive, or only one of the two; no row to use.
 pub fn read_modulus_data(bytes: &[u8]) -> Result<ModulusData, FormatError> {
+    read(bytes, None)
+}
+
+/// As [`read_modulus_data`], of the rows alone whose cell in a column has this value: the same text, or the same number. One table of several temperatures is read so.
+///
+/// # Errors
+/// As [`read_modulus_data`]; a column that is not there, or in which no row has the value: the error lists those that it has.
+pub fn read_modulus_data_where(bytes: &[u8], column: &str, value: &str) -> Result<ModulusData, FormatError> {
+    read(bytes, Some((column, value)))
+}
+
+/// Values of a column that an error lists at most.
+const LISTED: usize = 12;
+
+/// The rows from `first` on whose cell has this value.
+fn rows_where(table: &Table, first: usize, column: &str, value: &str) -> Result<Vec<usize>, FormatError> {
+    let at = table.column(column)?;
+    let number = |text: &str| text.parse::<f64>().ok();
+    let same = |text: &str| text == value || number(value).is_some_and(|value| number(text) == Some(value));
+    let rows: Vec<usize> = (first..table.rows()).filter(|&row| same(table.text(row, at))).collect();
+    if rows.is_empty() {
+        let mut there: Vec<&str> = Vec::new();
+        for text in (first..table.rows()).map(|row| table.text(row, at)) {
+            if !there.contains(&text) {
+                there.push(text);
+            }
+        }
+        let more =
+            if there.len() > LISTED { format!(" and {} more", there.len() - LISTED) } else { String::new() };
+        there.truncate(LISTED);
+        let expected = format!("a row with {value:?} in column {column:?}");
+        return Err(FormatError::line(
+            table.names_line(),
+            expected,
+            format!("only {}{more}", there.join(", ")),
+        ));
+    }
+    Ok(rows)
+}
+
+fn read(bytes: &[u8], only: Option<(&str, &str)>) -> Result<ModulusData, FormatError> {
     let table = Table::read(bytes)?;
     let frequency = needed(&table, &FREQUENCY)?;
     let storage = needed(&table, &STORAGE)?;
@@ -80,8 +121,12 @@ pub fn read_modulus_data(bytes: &[u8]) -> Result<ModulusData, FormatError> {
         let answered = !(table.is_empty(row, storage) && table.is_empty(row, loss));
         answered && status.is_none_or(|status| table.text(row, status) == "ok")
     };
-    let rows: Vec<usize> = (first..table.rows()).filter(used).collect();
-    let left_out = table.rows() - first - rows.len();
+    let all = match only {
+        Some((column, value)) => rows_where(&table, first, column, value)?,
+        None => (first..table.rows()).collect(),
+    };
+    let rows: Vec<usize> = all.iter().copied().filter(used).collect();
+    let left_out = all.len() - rows.len();
     if rows.is_empty() {
         let expected = "at least one line with a modulus (and the status ok) below the names";
         return Err(FormatError::line(table.names_line(), expected, "none"));
@@ -169,6 +214,21 @@ mod tests {
         let data = read_modulus_data(text.as_bytes()).unwrap();
         assert_eq!((data.frequency_hz, data.storage), (vec![1e3], vec![2e6]));
         assert_eq!((data.loss_factor, data.std), (vec![0.25], None));
+    }
+
+    #[test]
+    fn one_of_several_temperatures_is_picked() {
+        let text = "f,storage,eta,T\nHz,Pa,-,C\n1,2,0.1,20\n2,3,0.2,20.0\n1,5,0.3,-10\n";
+        let data = read_modulus_data_where(text.as_bytes(), "T", "20").unwrap();
+        assert_eq!((data.storage, data.left_out), (vec![2.0, 3.0], 0));
+        assert_eq!(read_modulus_data_where(text.as_bytes(), "T", "-10").unwrap().storage, [5.0]);
+        let refused =
+            |column: &str| read_modulus_data_where(text.as_bytes(), column, "30").unwrap_err().to_string();
+        assert_eq!(
+            refused("T"),
+            "input:1: expected a row with \"30\" in column \"T\", found only 20, 20.0, -10"
+        );
+        assert!(refused("X").starts_with("input:1: expected a column \"X\""), "{}", refused("X"));
     }
 
     #[test]

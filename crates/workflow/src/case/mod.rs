@@ -147,8 +147,8 @@ pub struct IdentifyEntry {
     pub band_hz: Option<Located<[f64; 2]>>,
     /// Frequencies and bands that are left out: no number of them is used.
     pub leave_out: Vec<LeaveOut>,
-    /// Laws to compare, where it says `varies = "law"`; the place is that of `varies`.
-    pub laws: Option<Located<Vec<Family>>>,
+    /// How the factor varies, where that is said; the place is that of `varies`.
+    pub varies: Option<Located<VariesEntry>>,
     /// Method.
     pub method: Option<Method>,
     /// Order.
@@ -171,6 +171,17 @@ pub struct IdentifyEntry {
     pub check: bool,
     /// The factor that a simulated measurement was made with.
     pub truth: Option<Located<FactorEntry>>,
+}
+
+/// How the factor varies over frequency: `varies`, with `law` and `branches`.
+#[derive(Debug, Clone, PartialEq)]
+pub enum VariesEntry {
+    /// Anyhow: one of its own at each frequency.
+    Freely,
+    /// Smoothly.
+    Smoothly,
+    /// By one of these laws, which are to be compared.
+    ByLaw(Vec<Family>),
 }
 
 /// What `leave_out_hz` lists.

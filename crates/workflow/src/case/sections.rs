@@ -3,7 +3,7 @@
 use super::field::{Field, Table};
 use super::{
     AttachedEntry, Calibration, FactorEntry, IdentifyEntry, LeaveOut, LoadEntry, Located, MatrixEntry,
-    MeasurementEntry, RespondEntry, Spot,
+    MeasurementEntry, RespondEntry, Spot, VariesEntry,
 };
 use crate::error::{InputError, Place};
 use frfit::c64;
@@ -276,7 +276,7 @@ pub(super) fn identify(field: &Field<'_>) -> Result<IdentifyEntry, InputError> {
         matrices: table.need("matrix")?.texts()?,
         band_hz: table.find("band_hz").map(|band| self::band(&band)).transpose()?,
         leave_out: table.find("leave_out_hz").map_or(Ok(Vec::new()), |field| leave_out(&field))?,
-        laws: laws(&table)?,
+        varies: varies(&table)?,
         method: table.find("method").map(|field| field.word(method)).transpose()?.map(|m| m.value),
         order: table.find("order").map(|order| order.whole()).transpose()?,
         selection: table.find("selection").map(|field| field.word(selection)).transpose()?,
@@ -303,24 +303,29 @@ fn leave_out(field: &Field<'_>) -> Result<Vec<LeaveOut>, InputError> {
 }
 
 /// What `varies`, `law` and `branches` say together.
-fn laws(table: &Table<'_>) -> Result<Option<Located<Vec<Family>>>, InputError> {
-    let varies = |word: &str| match word {
-        "frequency" => Ok(false),
-        "law" => Ok(true),
-        _ => Err("\"frequency\" (a factor of its own at each) or \"law\"".into()),
+fn varies(table: &Table<'_>) -> Result<Option<Located<VariesEntry>>, InputError> {
+    const EXPECTED: &str = "\"frequency\" (a factor of its own at each), \"smooth\" or \"law\"";
+    let word = |word: &str| match word {
+        "frequency" => Ok(VariesEntry::Freely),
+        "smooth" => Ok(VariesEntry::Smoothly),
+        "law" => Ok(VariesEntry::ByLaw(Family::ALL.to_vec())),
+        _ => Err(EXPECTED.into()),
     };
-    let by_law = table.find("varies").map(|field| field.word(varies)).transpose()?;
+    let varies = table.find("varies").map(|field| field.word(word)).transpose()?;
     let (law, branches) = (table.find("law"), table.find("branches"));
-    let Some(Located { place, .. }) = by_law.filter(|by_law| by_law.value) else {
+    let Some(Located { place, .. }) =
+        varies.as_ref().filter(|varies| matches!(varies.value, VariesEntry::ByLaw(_)))
+    else {
         return match law.or(branches) {
             Some(key) => Err(InputError::at(&key.place, "varies = \"law\" beside it", "none")),
-            None => Ok(None),
+            None => Ok(varies),
         };
     };
+    let place = place.clone();
     let Some(law) = law else {
         return match branches {
             Some(key) => Err(InputError::at(&key.place, "law = \"maxwell\" beside it", "none")),
-            None => Ok(Some(Located { value: Family::ALL.to_vec(), place })),
+            None => Ok(varies),
         };
     };
     let named = law.texts()?;
@@ -343,7 +348,7 @@ fn laws(table: &Table<'_>) -> Result<Option<Located<Vec<Family>>>, InputError> {
         };
         families[at] = Family::Maxwell { branches };
     }
-    Ok(Some(Located { value: families, place }))
+    Ok(Some(Located { value: VariesEntry::ByLaw(families), place }))
 }
 
 /// `[respond]`.

@@ -5,12 +5,13 @@ use super::band::band;
 use super::factor::law;
 use super::files::Files;
 use super::measurement::Measurement;
-use crate::case::{Calibration, CaseFile, IdentifyEntry, LeaveOut, Located, checked_band};
+use crate::case::{
+    Calibration, CaseFile, IdentifyEntry, LeaveOut, Located, VariesEntry as Varies, checked_band,
+};
 use crate::error::{InputError, Place};
 use crate::nearest::nearest;
 use frfit::c64;
 use frfit::identify::{Method, Options, OptionsError, Selection, Space, Unknown};
-use frfit::laws::Family;
 use frfit::material::Law;
 use frfit::model::{DynamicStiffness, Parameter};
 use frfit::roots::Bounds;
@@ -24,8 +25,8 @@ pub struct IdentifyCase {
     pub parameter: Parameter,
     /// How to find it.
     pub options: Options,
-    /// Laws to fit to the whole band, and to compare; none where every frequency has its own factor.
-    pub laws: Vec<Family>,
+    /// How it varies over the band.
+    pub varies: Varies,
     /// First and last frequency of the band as it was asked for.
     pub band_hz: [f64; 2],
     /// The measured frequencies in it, ascending; at least one.
@@ -68,8 +69,19 @@ pub(super) fn identify(
     };
     let names = known_names(case, entry)?;
     let mut options = options(entry, overrides)?;
-    if let Some(laws) = &entry.laws {
-        options.space = space_of_laws(&options, &laws.place)?;
+    let varies = entry.varies.as_ref().map_or(Varies::Freely, |varies| varies.value.clone());
+    match (&varies, &entry.varies) {
+        (Varies::Smoothly, Some(Located { place, .. })) => {
+            options.space = space_of_band(&options, "smooth", place)?;
+        }
+        (Varies::ByLaw(_), Some(Located { place, .. })) => {
+            options.space = space_of_band(&options, "law", place)?;
+            if options.real {
+                let found = "\"law\" with real = true";
+                return Err(InputError::at(place, "\"frequency\" or \"smooth\" for a real factor", found));
+            }
+        }
+        _ => {}
     }
     let mut parameter = shared_factor(entry, &names, model)?;
     if let Some(place) = &entry.estimate {
@@ -88,7 +100,7 @@ pub(super) fn identify(
         names,
         parameter,
         options,
-        laws: entry.laws.as_ref().map_or(Vec::new(), |laws| laws.value.clone()),
+        varies,
         band_hz,
         frequency_hz: data.frequency_hz,
         measured: data.measured,
@@ -202,18 +214,15 @@ fn options(entry: &IdentifyEntry, overrides: &Overrides) -> Result<Options, Inpu
 
 const ORDERS: &str = "1 to 200";
 
-/// Laws are fitted on the subspace of a joint selection, and are laws of a complex modulus.
-fn space_of_laws(options: &Options, varies: &Place) -> Result<Space, InputError> {
+/// Laws and smooth moduli are fitted on the subspace of a joint selection.
+fn space_of_band(options: &Options, word: &str, varies: &Place) -> Result<Space, InputError> {
     let refuse = |expected: &str, found: String| Err(InputError::at(varies, expected, found));
     if options.selection != Selection::Joint {
-        let found = format!("\"law\" with selection {:?}", options.selection.name());
+        let found = format!("{word:?} with selection {:?}", options.selection.name());
         return refuse("\"frequency\", or selection = \"joint\"", found);
     }
     if options.space == Space::Full {
-        return refuse("\"frequency\", or the space \"subspace\"", "\"law\" with space \"full\"".into());
-    }
-    if options.real {
-        return refuse("\"frequency\" for a real factor", "\"law\" with real = true".into());
+        return refuse("\"frequency\", or the space \"subspace\"", format!("{word:?} with space \"full\""));
     }
     Ok(Space::Subspace)
 }
@@ -264,7 +273,14 @@ fn unknown(case: &CaseFile, entry: &IdentifyEntry, options: &Options) -> Result<
     if options.space == Space::Full {
         return refuse("a number, or the space \"subspace\"", "\"unknown\" with space \"full\"");
     }
-    if entry.laws.is_none() && unknown.iter().all(|unknown| unknown.any()) {
+    if matches!(entry.varies, Some(Located { value: Varies::Smoothly, .. })) {
+        return refuse(
+            "a number, or varies = \"frequency\" or \"law\"",
+            "\"unknown\" with varies \"smooth\"",
+        );
+    }
+    let by_law = matches!(entry.varies, Some(Located { value: Varies::ByLaw(_), .. }));
+    if !by_law && unknown.iter().all(|unknown| unknown.any()) {
         let expected = "a number here, another [[measurement]] whose scale and delay are known, or varies = \"law\" \
                         (a factor of its own at each frequency explains one sensor whatever its scale and delay)";
         return refuse(expected, "\"unknown\" for all sensors");

@@ -1,6 +1,7 @@
 //! `summary.json`: what went in, what was done, what came out, in a form that programs read.
 
 use super::laws_json;
+use crate::case::VariesEntry as Varies;
 use crate::load::{Case, IdentifyCase, MeasuredNoise};
 use crate::run::IdentifyRun;
 use frfit::c64;
@@ -37,6 +38,11 @@ pub fn summary_json(
         .map(|term| json!({"name": term.name, "role": format!("{:?}", term.role).to_lowercase()}))
         .collect();
     let options = &identify.options;
+    let (varies, laws) = match &identify.varies {
+        Varies::Freely => ("frequency", &[][..]),
+        Varies::Smoothly => ("smooth", &[][..]),
+        Varies::ByLaw(laws) => ("law", laws.as_slice()),
+    };
     let mut summary = json!({
         "frfit": env!("CARGO_PKG_VERSION"),
         "title": case.title,
@@ -49,8 +55,8 @@ pub fn summary_json(
         "sensors": (0..case.sensors.len()).map(|m| sensor(case, run, m)).collect::<Vec<_>>(),
         "identify": {
             "matrix": identify.names,
-            "varies": if identify.laws.is_empty() { "frequency" } else { "law" },
-            "law": identify.laws.iter().map(|family| family.to_string()).collect::<Vec<_>>(),
+            "varies": varies,
+            "law": laws.iter().map(|family| family.to_string()).collect::<Vec<_>>(),
             "band_hz": identify.band_hz,
             "left_out": identify.left_out.iter().filter(|&&out| out).count(),
             "method": options.method.name(),
@@ -91,6 +97,14 @@ pub fn summary_json(
     });
     if let Some(laws) = &run.laws {
         summary["laws"] = laws_json(laws);
+    }
+    if let Some(smooth) = &run.smooth {
+        summary["smooth"] = smooth.curve.as_ref().map_or(Value::Null, |curve| {
+            json!({
+                "parameters": curve.parameters, "width_octaves": curve.width_octaves,
+                "converged": curve.converged, "unexplained": curve.unexplained,
+            })
+        });
     }
     if let Some(truth) = truth(identify, run) {
         summary["truth"] = truth;

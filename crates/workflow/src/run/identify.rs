@@ -1,12 +1,14 @@
 //! From a case to the outcome at every frequency of its band.
 
 use super::Progress;
+use crate::case::VariesEntry as Varies;
 use crate::load::{Case, IdentifyCase, MeasuredNoise};
 use frfit::c64;
 use frfit::frequency::bands_hz;
 use frfit::identify::{
     Band, BandOutcome, Calibration, GoodnessOfFit, Hooks, Identified, LawsOutcome, Method, Noise, NoiseLevel,
-    SensorFit, Stage, Status, error_by_order, identify_band, identify_band_scaled, identify_laws_scaled,
+    SensorFit, SmoothCurve, SmoothOutcome, Stage, Status, error_by_order, identify_band,
+    identify_band_scaled, identify_laws_scaled, identify_smooth,
 };
 use frfit::laws::LawFit;
 use frfit::material::OutsideTable;
@@ -72,6 +74,8 @@ pub struct IdentifyRun {
     pub channels: Vec<Calibration>,
     /// The laws that were fitted; `None` where every frequency has its own factor. The outcomes are those of the best law.
     pub laws: Option<LawsRun>,
+    /// The smooth modulus; `None` where it was not asked to be smooth.
+    pub smooth: Option<SmoothRun>,
     /// How long it took.
     pub seconds: Seconds,
 }
@@ -81,6 +85,15 @@ pub struct IdentifyRun {
 pub struct LawsRun {
     /// One for each law that could be fitted.
     pub fits: Vec<LawFit>,
+    /// What each frequency says by itself.
+    pub free: Vec<Identified>,
+}
+
+/// A modulus that is smooth over a band.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SmoothRun {
+    /// The curve; `None` where there is nothing to lay one through.
+    pub curve: Option<SmoothCurve>,
     /// What each frequency says by itself.
     pub free: Vec<Identified>,
 }
@@ -115,16 +128,20 @@ pub fn identify(
         },
     };
     let unknown = &identify.unknown;
-    let (found, channels, laws) = match identify.laws.as_slice() {
-        [] if unknown.iter().any(|unknown| unknown.any()) => {
+    let known = || vec![Calibration::default(); unknown.len()];
+    let mut smooth = None;
+    let (found, channels, laws) = match &identify.varies {
+        Varies::Freely if unknown.iter().any(|unknown| unknown.any()) => {
             let (found, channels) = identify_band_scaled(&band, unknown, &identify.options, hooks)?;
             (found, channels, None)
         }
-        [] => {
-            let known = vec![Calibration::default(); unknown.len()];
-            (identify_band(&band, &identify.options, hooks)?, known, None)
+        Varies::Freely => (identify_band(&band, &identify.options, hooks)?, known(), None),
+        Varies::Smoothly => {
+            let SmoothOutcome { free, band, curve } = identify_smooth(&band, &identify.options, hooks)?;
+            smooth = Some(SmoothRun { curve, free: Used::among_all(identify, free.outcomes)? });
+            (band, known(), None)
         }
-        families => {
+        Varies::ByLaw(families) => {
             let LawsOutcome { free, fits, outcomes, channels, work, subspace_size } =
                 identify_laws_scaled(&band, unknown, families, &identify.options, hooks)?;
             // What each frequency by itself told of noise and sensors holds for the laws too.
@@ -135,6 +152,9 @@ pub fn identify(
     };
     let mut found = found;
     found.outcomes = Used::among_all(identify, found.outcomes)?;
+    if let Some(curve) = smooth.as_ref().and_then(|smooth| smooth.curve.as_ref()) {
+        bridge(&mut found.outcomes, curve, identify);
+    }
     let laws = match laws {
         Some(laws) => Some(LawsRun { free: Used::among_all(identify, laws.free)?, ..laws }),
         None => None,
@@ -155,8 +175,20 @@ pub fn identify(
         sensors,
         channels,
         laws,
+        smooth,
         seconds,
     })
+}
+
+/// The smooth modulus at the frequencies that were left out: their status stays, as nothing was measured there that counts.
+fn bridge(outcomes: &mut [Identified], curve: &SmoothCurve, identify: &IdentifyCase) {
+    let out = |i: &usize| identify.left_out[*i] && identify.frequency_hz[*i] > 0.0;
+    let out: Vec<usize> = (0..outcomes.len()).filter(out).collect();
+    let frequency_hz: Vec<f64> = out.iter().map(|&i| identify.frequency_hz[i]).collect();
+    for (&i, (factor, bars)) in out.iter().zip(curve.bridged(&frequency_hz)) {
+        outcomes[i].correction = Some(factor - outcomes[i].nominal);
+        outcomes[i].uncertainty = Some(bars);
+    }
 }
 
 /// What is not left out of a band.

@@ -4,15 +4,20 @@ use crate::files::{edited, folder, refused, with};
 use frfit::identify::Space;
 use frfit::laws::Family;
 use frfit::material::{Branch, Law};
+use frfit_workflow::case::VariesEntry as Varies;
 use frfit_workflow::load::{Overrides, Purpose, load};
 
 fn families(keys: &str) -> Vec<Family> {
     let text = edited("case.toml", "order = 20", &format!("order = 20\n{keys}"));
     let case = with("case.toml", text.as_bytes(), &Overrides::default(), Purpose::Identify).unwrap();
     let identify = case.identify.unwrap();
-    let space = if identify.laws.is_empty() { Space::Auto } else { Space::Subspace };
+    let (space, families) = match identify.varies {
+        Varies::ByLaw(families) => (Space::Subspace, families),
+        Varies::Freely => (Space::Auto, Vec::new()),
+        Varies::Smoothly => panic!("asked for laws"),
+    };
     assert_eq!(identify.options.space, space);
-    identify.laws
+    families
 }
 
 #[test]

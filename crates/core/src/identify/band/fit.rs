@@ -66,7 +66,16 @@ pub(super) fn goodness(
 ) -> Option<GoodnessOfFit> {
     let each: Vec<f64> = outcomes.iter().filter_map(|outcome| outcome.chi_squared).collect();
     let chi_squared = freedom as f64 * each.iter().sum::<f64>();
-    let freedom = (freedom * each.len()).saturating_sub(fitted);
+    judge(chi_squared, (freedom * each.len()).saturating_sub(fitted), noise, band)
+}
+
+/// What a χ² over the band says; `None` without a degree of freedom.
+pub(super) fn judge(
+    chi_squared: f64,
+    freedom: usize,
+    noise: &NoiseLevel,
+    band: &Band<'_>,
+) -> Option<GoodnessOfFit> {
     if freedom == 0 {
         return None;
     }

@@ -3,7 +3,7 @@
 //! Every frequency by itself comes first: it trains the subspace, and tells where to begin. Then Σ |u_m − x_m(E(ω; θ))|²/σ_m² over the band is made least in θ on the
 //! models of the neighbourhoods, ∂x_m/∂θ = (∂x_m/∂c)(∂E/∂θ). The subspace is trained further where it is not good enough at the law that came out.
 
-use super::channels::at_scales;
+use super::channels::{Responded, at_scales};
 use super::contradiction::without;
 use super::joint;
 use super::noise::deviations;
@@ -15,7 +15,7 @@ use crate::for_each::map;
 use crate::frequency::omega_rad_s;
 use crate::identify::{Identified, Options, Selection, Space as Where, Status, Uncertainty, relative_error};
 use crate::laws::{
-    Chart, Datum, Evidence, Family, LawFit, Minima, Residuals, Search, best, minimise, starts,
+    Chart, Datum, Evidence, Family, LawFit, Line, Minima, Residuals, Search, best, minimise, starts,
 };
 use crate::material::OutsideTable;
 use crate::model::ModelAt;
@@ -239,7 +239,39 @@ impl Fitting<'_, '_> {
             }
             space.localise(&all, self.hooks.for_each);
         }
-        Some(LawFit::new(chart, first?, self.evidence()))
+        let fit = LawFit::new(chart, first?, self.evidence());
+        let lines = self.lines(&fit, space);
+        Some(fit.widened(&lines))
+    }
+
+    /// What a law leaves of ln E at each frequency, by all sensors, and what that pulls.
+    fn lines(&self, law: &LawFit, space: &Space<'_, '_>) -> Vec<Line> {
+        let (chart, theta) = law.coordinates();
+        let Some((responses, fits)) = self.channels(chart, space, theta) else { return Vec::new() };
+        let line = |(i, one): (usize, &Responded)| {
+            let modulus = chart.modulus(theta, self.omega(i)).map_or(c64::default(), |(modulus, _)| modulus);
+            let (mut weight, mut along, mut pull) = (0.0, c64::default(), vec![c64::default(); theta.len()]);
+            for (m, fit) in fits.iter().enumerate() {
+                let sigma = self.sigma[i][m];
+                let (omega, factor) = (self.omega(i), fit.factor(self.omega(i)));
+                let slope = factor * one.slope[m] / sigma;
+                let of_log = slope * modulus;
+                weight += of_log.norm_sqr();
+                along += of_log.conj() * (self.band.measured[i][m] - factor * one.x[m]) / sigma;
+                for (j, pull) in pull.iter_mut().enumerate() {
+                    let column = slope * one.of_theta[j] - fit.followed(omega, j) * one.x[m] / sigma;
+                    *pull += column.conj() * of_log;
+                }
+            }
+            let rest = along / weight;
+            Line {
+                weight: [weight; 2],
+                rest: [rest.re, rest.im],
+                // Re(J* a) for a deviation along the real axis, Re(J* a i) for one along the imaginary one.
+                pull: [pull.iter().map(|p| p.re).collect(), pull.iter().map(|p| -p.im).collect()],
+            }
+        };
+        responses.iter().enumerate().map(line).collect()
     }
 
     /// The law's corrections at which the subspace is not good enough.

@@ -13,6 +13,7 @@ mod noise;
 mod on_space;
 mod same;
 mod scale;
+mod smooth;
 mod space;
 mod start;
 mod tube;
@@ -20,6 +21,7 @@ mod verdict;
 
 pub use laws::{LawsOutcome, identify_laws, identify_laws_scaled};
 pub use scale::{Calibrated, Calibration, Unknown, identify_band_scaled};
+pub use smooth::{SmoothCurve, SmoothOutcome, identify_smooth};
 pub(crate) use start::{MOST_PHASE, PHASE_STEP};
 
 use super::{Identified, Options, Selection};
@@ -70,7 +72,7 @@ pub enum Stage {
     Solutions,
     /// One of them is chosen at each frequency.
     Selection,
-    /// Laws are fitted.
+    /// Laws, or a smooth curve, are fitted.
     Law,
 }
 

@@ -86,7 +86,8 @@ mod tests {
         for (scale, late) in [(-0.3, 4.7e-3), (2.0, -2e-2), (1.0, 1e-5)] {
             let ratio = |k: usize| {
                 let omega = TAU * (20.0 + 3.8 * k as f64);
-                let wrong = if k.is_multiple_of(3) { c64::from_polar(3.0, k as f64) } else { c64::new(1.0, 0.0) };
+                let wrong =
+                    if k.is_multiple_of(3) { c64::from_polar(3.0, k as f64) } else { c64::new(1.0, 0.0) };
                 (omega, scale * wrong * c64::from_polar(1.0, omega * late))
             };
             let ratios: Vec<(f64, c64)> = (0..100).map(ratio).collect();
