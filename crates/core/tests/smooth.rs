@@ -99,32 +99,30 @@ fn covered(band: &BandOutcome, truth: &Law) -> [usize; 2] {
 fn assert_coverage(test: &Test, seeds: u64, least_ok: [f64; 3], most: f64) {
     for ((share, known), least_ok) in [(1e-3, true), (1e-2, false), (5e-2, true)].into_iter().zip(least_ok) {
         let std = test.std(share);
-        {
-            let mut noise = Noise::new((1e5 * share) as u64);
-            let (mut within, mut ok, mut level) = ([0; 2], 0, 0.0);
-            for seed in 0..seeds {
-                let u = test.drawn(&std, &mut noise);
-                let given = if known { Known::Known(&std) } else { Known::Relative(&std) };
-                let found = test.identify(&u, given, &test.options());
-                let at = format!("{} {share} {known} {seed}", test.case.name);
-                assert_eq!(found.band.work.factorisations, found.free.work.factorisations, "{at}");
-                let source = if known { NoiseSource::Given } else { NoiseSource::Curve };
-                assert_eq!(found.band.noise.source, source, "{at}");
-                let fit = found.band.fit.unwrap();
-                // Once in thirty thousand by chance; what the curve does not follow would show here.
-                assert_ne!(fit.verdict, Explained::No, "{at}: {fit:?}");
-                let own = covered(&found.band, &test.truth);
-                within = [0, 1].map(|k| within[k] + own[k]);
-                ok += errors(&found.band.outcomes, &test.truth).1;
-                level += found.band.noise.level.unwrap() / seeds as f64;
-            }
-            let at = format!("{} {share} {known}: {within:?} of {ok}", test.case.name);
-            // Neighbours share their error: of a seed only some four numbers are independent, of 30 seeds a share of 0.95 is known to 0.02.
-            assert!(within.iter().all(|&n| (0.91..=most).contains(&(n as f64 / ok as f64))), "{at}");
-            assert!(ok as f64 >= least_ok * (seeds as usize * test.frequency_hz.len()) as f64, "{at}");
-            // A mean over the seeds of what some sixty numbers tell to a tenth each.
-            assert!((level - 1.0).abs() < 0.08, "{at}: level {level}");
+        let mut noise = Noise::new((1e5 * share) as u64);
+        let (mut within, mut ok, mut level) = ([0; 2], 0, 0.0);
+        for seed in 0..seeds {
+            let u = test.drawn(&std, &mut noise);
+            let given = if known { Known::Known(&std) } else { Known::Relative(&std) };
+            let found = test.identify(&u, given, &test.options());
+            let at = format!("{} {share} {known} {seed}", test.case.name);
+            assert_eq!(found.band.work.factorisations, found.free.work.factorisations, "{at}");
+            let source = if known { NoiseSource::Given } else { NoiseSource::Curve };
+            assert_eq!(found.band.noise.source, source, "{at}");
+            let fit = found.band.fit.unwrap();
+            // Once in thirty thousand by chance; what the curve does not follow would show here.
+            assert_ne!(fit.verdict, Explained::No, "{at}: {fit:?}");
+            let own = covered(&found.band, &test.truth);
+            within = [0, 1].map(|k| within[k] + own[k]);
+            ok += errors(&found.band.outcomes, &test.truth).1;
+            level += found.band.noise.level.unwrap() / seeds as f64;
         }
+        let at = format!("{} {share} {known}: {within:?} of {ok}", test.case.name);
+        // Neighbours share their error: of a seed only some four numbers are independent, of 30 seeds a share of 0.95 is known to 0.02.
+        assert!(within.iter().all(|&n| (0.91..=most).contains(&(n as f64 / ok as f64))), "{at}");
+        assert!(ok as f64 >= least_ok * (seeds as usize * test.frequency_hz.len()) as f64, "{at}");
+        // A mean over the seeds of what some sixty numbers tell to a tenth each.
+        assert!((level - 1.0).abs() < 0.08, "{at}: level {level}");
     }
 }
 

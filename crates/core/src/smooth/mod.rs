@@ -130,11 +130,9 @@ mod tests {
             log += a[k][k].ln();
             for i in k + 1..n {
                 let by = a[i][k] / a[k][k];
-                for j in k..n {
-                    a[i][j] -= by * a[k][j];
-                }
-                for j in 0..b[0].len() {
-                    b[i][j] -= by * b[k][j];
+                for rows in [&mut a, &mut b] {
+                    let (above, below) = rows.split_at_mut(i);
+                    below[0].iter_mut().zip(&above[k]).for_each(|(x, pivot)| *x -= by * pivot);
                 }
             }
         }
@@ -203,8 +201,8 @@ mod tests {
             let (value, variance, log, squares) = reinsch(&all, curvature);
             // The finite first variance is 1e-10 of what there is, times the ratio of the first state's variance (up to κ²h of its slope) to the line's: 1e5 or so here.
             for i in 0..all.len() {
-                for c in 0..2 {
-                    prop_assert!((curve.states[i][0][c] - value[i][c]).abs() < 1e-4);
+                for (own, expected) in curve.states[i][0].iter().zip(value[i]) {
+                    prop_assert!((own - expected).abs() < 1e-4);
                 }
                 prop_assert!((curve.variance[i] - variance[i]).abs() < 1e-4 * (1.0 + variance[i]));
             }
