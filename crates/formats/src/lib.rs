@@ -4,6 +4,9 @@
 //! |---|---|
 //! | Matrix Market | [`matrix_market`] |
 //! | Harwell–Boeing | [`harwell_boeing`] |
+//! | Nastran OUTPUT4 (.op4) | [`op4`] |
+//! | NumPy and SciPy (.npy, .npz) | [`numpy`] |
+//! | MATLAB (.mat, version 5 and 7) | [`mat`] |
 //! | Universal File Format (UFF) | [`uff`] |
 //! | tables with named columns (CSV) | [`csv`] |
 //! | LabVIEW measurement files (.lvm) | [`lvm`] |
@@ -16,8 +19,10 @@
 //! against the bytes that are there.
 
 mod assemble;
+mod bytes;
 mod detect;
 mod error;
+mod gather;
 mod matrix;
 mod named;
 mod text;
@@ -25,7 +30,10 @@ mod text;
 pub mod csv;
 pub mod harwell_boeing;
 pub mod lvm;
+pub mod mat;
 pub mod matrix_market;
+pub mod numpy;
+pub mod op4;
 pub mod uff;
 
 pub use detect::{FileKind, detect, read_matrices, read_matrix};

@@ -186,7 +186,7 @@ fn matrices_and_factors() {
         (
             "file = \"K.mtx\"",
             "file = { name = \"KAA\" }",
-            "case.toml:5:1: matrix.file: expected the key \"file\", found none",
+            "case.toml:5:8: matrix.file: expected the key \"file\", found none",
         ),
         (
             "name = \"core\"",
