@@ -115,11 +115,13 @@ pub fn read_matrices(bytes: &[u8]) -> Result<Vec<NamedMatrix>, FormatError> {
         Some(FileKind::Numpy) => numpy::read(bytes),
         Some(FileKind::Mat) => mat::read(bytes),
         other => Err(FormatError::whole(
-            "a matrix: a Matrix Market or a Harwell-Boeing file",
+            "a matrix: a Matrix Market, Harwell-Boeing, Nastran OUTPUT4, NumPy or MATLAB file",
             match other {
                 Some(kind) => kind.to_string(),
                 None if bytes.is_empty() => "an empty file".into(),
-                None => "neither (no %%MatrixMarket in line 1, no matrix type such as RSA in line 3)".into(),
+                None => {
+                    "none of them (no %%MatrixMarket in line 1, no matrix type such as RSA in line 3)".into()
+                }
             },
         )),
     }

@@ -39,4 +39,4 @@ pub mod uff;
 pub use detect::{FileKind, detect, read_matrices, read_matrix};
 pub use error::{FormatError, Position};
 pub use matrix::{CoordinateMatrix, Entries, Symmetry};
-pub use named::{NamedMatrix, choose_matrix};
+pub use named::{NamedMatrix, choose, choose_matrix};

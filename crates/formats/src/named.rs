@@ -29,6 +29,14 @@ pub fn choose_matrix<'a>(
     matrices: &'a [NamedMatrix],
     name: Option<&str>,
 ) -> Result<&'a CoordinateMatrix, FormatError> {
+    choose(matrices, name)?.matrix.as_ref().map_err(FormatError::clone)
+}
+
+/// The entry of a name, or without one the only entry; its matrix may be none.
+///
+/// # Errors
+/// No entry of the name, or several that it could be: what there is, with sizes.
+pub fn choose<'a>(matrices: &'a [NamedMatrix], name: Option<&str>) -> Result<&'a NamedMatrix, FormatError> {
     let all = || matrices.iter();
     let unnamed = all().any(|entry| entry.name.is_empty());
     let (chosen, expected): (Vec<_>, _) = match name {
@@ -44,7 +52,7 @@ pub fn choose_matrix<'a>(
         None => (all().collect(), "one matrix, or a name: { file = \"...\", name = \"...\" }".into()),
     };
     match chosen.as_slice() {
-        [one] => one.matrix.as_ref().map_err(FormatError::clone),
+        [one] => Ok(one),
         _ => Err(FormatError::whole(expected, listed(matrices))),
     }
 }
