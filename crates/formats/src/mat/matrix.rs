@@ -80,8 +80,9 @@ pub(super) fn sparse(
     ) -> Result<CoordinateMatrix, FormatError> {
         let mut gather = Gather::<V>::new(nrows, ncols);
         for (col, range) in ends.windows(2).enumerate() {
-            for k in range[0] as usize..range[1] as usize {
-                gather.push(rows[k], col as u64, V::from_numbers(parts.get(k)), Position::File);
+            let (start, end) = (range[0] as usize, range[1] as usize);
+            for (k, &row) in (start..end).zip(&rows[start..end]) {
+                gather.push(row, col as u64, V::from_numbers(parts.get(k)), Position::File);
             }
         }
         gather.finish(Duplicates::Refuse, name)

@@ -10,10 +10,10 @@ use crate::{CoordinateMatrix, FormatError, Position};
 /// An array of two dimensions; its zeros are not stored.
 pub(super) fn matrix(array: &Array<'_>, name: &str) -> Result<CoordinateMatrix, FormatError> {
     let refuse = |found: String| Err(FormatError::whole("an array of numbers with rows and columns", found));
-    match array.shape() {
+    match *array.shape() {
         _ if array.is_text() => refuse("an array of texts".into()),
-        &[nrows, ncols] if array.is_complex() => of::<c64>(array, nrows, ncols, name),
-        &[nrows, ncols] => of::<f64>(array, nrows, ncols, name),
+        [nrows, ncols] if array.is_complex() => of::<c64>(array, nrows, ncols, name),
+        [nrows, ncols] => of::<f64>(array, nrows, ncols, name),
         _ => refuse(array.header.described()),
     }
 }

@@ -58,8 +58,9 @@ fn read<V: Value>(
                 return Err(contradiction(format, "indptr", &pointers));
             }
             for (k, range) in ends.windows(2).enumerate() {
-                for entry in range[0] as usize..range[1] as usize {
-                    let (major, minor) = (k as u64, minors[entry]);
+                let (start, end) = (range[0] as usize, range[1] as usize);
+                for (entry, &minor) in (start..end).zip(&minors[start..end]) {
+                    let major = k as u64;
                     match format {
                         "csc" => push(minor, major, entry),
                         "csr" => push(major, minor, entry),

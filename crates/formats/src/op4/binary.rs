@@ -146,7 +146,7 @@ impl<V: Value> Values<'_, '_, V> {
         let number = Storage::Float(if self.header.is_double() || is_wide { 8 } else { 4 });
         let size = number.size() * V::NUMBERS;
         let words_a_value = size as u64 / self.layout.word();
-        if words % words_a_value != 0 {
+        if !words.is_multiple_of(words_a_value) {
             let expected = format!("{words_a_value} words for each value");
             return Err(FormatError::byte(at, expected, format!("{words} words")));
         }

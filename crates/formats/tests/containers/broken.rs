@@ -187,13 +187,13 @@ fn sparse_arrays_that_contradict_each_other_are_refused() {
         let vector = |kind: &str, data: &[u8]| {
             npy(&format!("{{'descr': '{kind}', 'fortran_order': False, 'shape': ({},), }}", data.len()), data)
         };
-        let scalar = format!("{{'descr': '|S3', 'fortran_order': False, 'shape': (), }}");
+        let scalar = "{'descr': '|S3', 'fortran_order': False, 'shape': (), }";
         for (name, bytes) in [
             ("indices", vector("|u1", indices)),
             ("indptr", vector("|u1", indptr)),
             ("data", vector("|i1", &[1, 2, 3])),
             ("shape", vector("|u1", &[2, 3])),
-            ("format", npy(&scalar, format.as_bytes())),
+            ("format", npy(scalar, format.as_bytes())),
         ] {
             zip.start_file(format!("{name}.npy"), zip::write::SimpleFileOptions::default()).unwrap();
             zip.write_all(&bytes).unwrap();
