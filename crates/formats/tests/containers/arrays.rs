@@ -3,6 +3,8 @@
 use crate::outside::{python_with, shared};
 use crate::{compare, entries, run, samples};
 use frfit_formats::{FileKind, NamedMatrix, choose_matrix, detect, read_matrices, read_matrix};
+use num_complex::Complex64 as c64;
+use std::collections::BTreeMap;
 use std::fs;
 
 #[test]
@@ -44,6 +46,29 @@ fn a_file_of_several_needs_a_name() {
     assert!(error.ends_with("found K (6 x 6), M (6 x 6), W (4 x 6), Z (4 x 6)"), "{error}");
     let all = read_matrices(&bytes).unwrap();
     assert_eq!(entries(choose_matrix(&all, Some("M")).unwrap()).len(), 6);
+}
+
+/// SciPy writes no file of the other byte order: one by hand, with a name in a tag and values of 16 bits.
+#[test]
+fn a_matlab_file_with_the_highest_byte_first_is_read() {
+    let words = |numbers: &[u32]| numbers.iter().flat_map(|n| n.to_be_bytes()).collect::<Vec<u8>>();
+    let short = |text: &[u8]| {
+        [words(&[(text.len() as u32) << 16 | 1]), text.to_vec(), vec![0; 4 - text.len()]].concat()
+    };
+    let values = |numbers: [i16; 4]| [words(&[3, 8]), numbers.map(i16::to_be_bytes).concat()].concat();
+    let matrix = |body: Vec<u8>| [words(&[14, body.len() as u32]), body].concat();
+    let head = |flags: u32, name: &[u8]| [words(&[6, 8, flags, 0, 5, 8, 2, 2]), short(name)].concat();
+    let full = [head(6 | 0x800, b"Z"), values([1, 0, -2, 300]), values([0, 0, 5, -1])].concat();
+    let pointers = words(&[5, 12, 0, 1, 2, 0]);
+    let sparse = [head(5, b"KAA"), words(&[5, 8, 1, 0]), pointers, values([7, -8, 0, 0])].concat();
+    let mut header = vec![b' '; 124];
+    header.extend(b"\x01\x00MI");
+    let all = read_matrices(&[header, matrix(full), matrix(sparse)].concat()).unwrap();
+    let found: Vec<_> =
+        all.iter().map(|one| (one.name.as_str(), entries(one.matrix.as_ref().unwrap()))).collect();
+    let z = [((0, 0), c64::new(1.0, 0.0)), ((0, 1), c64::new(-2.0, 5.0)), ((1, 1), c64::new(300.0, -1.0))];
+    let k = [((1, 0), c64::new(7.0, 0.0)), ((0, 1), c64::new(-8.0, 0.0))];
+    assert_eq!(found, [("Z", BTreeMap::from(z)), ("KAA", BTreeMap::from(k))]);
 }
 
 /// A beam of 168 degrees of freedom, as saved by MATLAB: the same numbers as SciPy reads.
