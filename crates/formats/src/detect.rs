@@ -3,7 +3,10 @@
 use std::fmt;
 
 use crate::text::Lines;
-use crate::{CoordinateMatrix, FormatError, harwell_boeing, lvm, matrix_market};
+use crate::{
+    CoordinateMatrix, FormatError, NamedMatrix, choose_matrix, harwell_boeing, lvm, mat, matrix_market,
+    numpy, op4,
+};
 
 /// The kinds of files this crate reads.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -12,6 +15,12 @@ pub enum FileKind {
     MatrixMarket,
     /// Harwell–Boeing: read it with [`harwell_boeing::read`].
     HarwellBoeing,
+    /// Nastran OUTPUT4: read it with [`op4::read`].
+    Op4,
+    /// NumPy's arrays, and SciPy's sparse matrices: read it with [`numpy::read`].
+    Numpy,
+    /// MATLAB's variables: read it with [`mat::read`].
+    Mat,
     /// Universal File Format: read it with [`uff`](crate::uff).
     Uff,
     /// A table with named columns: read it with [`csv::Table::read`](crate::csv::Table::read).
@@ -20,11 +29,25 @@ pub enum FileKind {
     Lvm,
 }
 
+impl FileKind {
+    /// Whether [`read_matrices`] reads it.
+    #[must_use]
+    pub fn holds_matrices(self) -> bool {
+        match self {
+            Self::MatrixMarket | Self::HarwellBoeing | Self::Op4 | Self::Numpy | Self::Mat => true,
+            Self::Uff | Self::Csv | Self::Lvm => false,
+        }
+    }
+}
+
 impl fmt::Display for FileKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::MatrixMarket => "a Matrix Market file",
             Self::HarwellBoeing => "a Harwell-Boeing file",
+            Self::Op4 => "a Nastran OUTPUT4 file",
+            Self::Numpy => "a NumPy file (.npy, .npz)",
+            Self::Mat => "a MATLAB file (.mat)",
             Self::Uff => "a Universal File Format (UFF) file",
             Self::Csv => "a table (CSV)",
             Self::Lvm => "a LabVIEW measurement file",
@@ -37,6 +60,12 @@ impl fmt::Display for FileKind {
 /// Only the first lines are looked at: a file of a known kind may still be broken.
 #[must_use]
 pub fn detect(bytes: &[u8]) -> Option<FileKind> {
+    if numpy::looks_like(bytes) {
+        return Some(FileKind::Numpy);
+    }
+    if mat::looks_like(bytes) {
+        return Some(FileKind::Mat);
+    }
     let mut lines = Lines::new(bytes);
     if matrix_market::is_banner(lines.clone().next()?.bytes) {
         return Some(FileKind::MatrixMarket);
@@ -47,6 +76,10 @@ pub fn detect(bytes: &[u8]) -> Option<FileKind> {
     if harwell_boeing::looks_like(bytes) {
         return Some(FileKind::HarwellBoeing);
     }
+    // Behind Harwell-Boeing, whose first line may be anything.
+    if op4::looks_like(bytes) {
+        return Some(FileKind::Op4);
+    }
     if lines.clone().find(|line| !line.is_blank())?.bytes.trim_ascii() == b"-1" {
         return Some(FileKind::Uff);
     }
@@ -56,20 +89,39 @@ pub fn detect(bytes: &[u8]) -> Option<FileKind> {
     (is_text && has_delimiter).then_some(FileKind::Csv)
 }
 
-/// Reads a matrix file of either kind.
+/// Reads a file of one matrix, of any kind.
 ///
 /// # Errors
-/// What the reader of the kind says, or what the file is where it holds no matrix.
+/// As [`read_matrices`]; a file of several.
 pub fn read_matrix(bytes: &[u8]) -> Result<CoordinateMatrix, FormatError> {
+    let mut matrices = read_matrices(bytes)?;
+    match matrices.len() {
+        // Moved, not cloned: matrices are large.
+        1 => matrices.remove(0).matrix,
+        _ => choose_matrix(&matrices, None).cloned(),
+    }
+}
+
+/// Reads all matrices of a file, in its order. [`choose_matrix`] finds one by its name.
+///
+/// # Errors
+/// What the reader of the kind says, or what the file is where it holds no matrices.
+pub fn read_matrices(bytes: &[u8]) -> Result<Vec<NamedMatrix>, FormatError> {
+    let one = |matrix| vec![NamedMatrix { name: String::new(), matrix: Ok(matrix) }];
     match detect(bytes) {
-        Some(FileKind::MatrixMarket) => matrix_market::read(bytes),
-        Some(FileKind::HarwellBoeing) => harwell_boeing::read(bytes),
+        Some(FileKind::MatrixMarket) => matrix_market::read(bytes).map(one),
+        Some(FileKind::HarwellBoeing) => harwell_boeing::read(bytes).map(one),
+        Some(FileKind::Op4) => op4::read(bytes),
+        Some(FileKind::Numpy) => numpy::read(bytes),
+        Some(FileKind::Mat) => mat::read(bytes),
         other => Err(FormatError::whole(
-            "a matrix: a Matrix Market or a Harwell-Boeing file",
+            "a matrix: a Matrix Market, Harwell-Boeing, Nastran OUTPUT4, NumPy or MATLAB file",
             match other {
                 Some(kind) => kind.to_string(),
                 None if bytes.is_empty() => "an empty file".into(),
-                None => "neither (no %%MatrixMarket in line 1, no matrix type such as RSA in line 3)".into(),
+                None => {
+                    "none of them (no %%MatrixMarket in line 1, no matrix type such as RSA in line 3)".into()
+                }
             },
         )),
     }

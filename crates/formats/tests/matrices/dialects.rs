@@ -151,11 +151,11 @@ fn kinds_are_told_by_content() {
     let message = |bytes: &[u8]| frfit_formats::read_matrix(bytes).unwrap_err().to_string();
     assert_eq!(
         message(b"    -1\n    58\n"),
-        "input: expected a matrix: a Matrix Market or a Harwell-Boeing file, found a Universal File Format (UFF) file"
+        "input: expected a matrix: a Matrix Market, Harwell-Boeing, Nastran OUTPUT4, NumPy or MATLAB file, found a Universal File Format (UFF) file"
     );
     assert_eq!(
         message(b"{}"),
-        "input: expected a matrix: a Matrix Market or a Harwell-Boeing file, found neither \
+        "input: expected a matrix: a Matrix Market, Harwell-Boeing, Nastran OUTPUT4, NumPy or MATLAB file, found none of them \
          (no %%MatrixMarket in line 1, no matrix type such as RSA in line 3)"
     );
 }

@@ -1,5 +1,6 @@
 //! From one format to another: matrices to matrices, FRFs to FRFs.
 
+mod matrices;
 mod options;
 mod precision;
 mod table;
@@ -12,18 +13,21 @@ pub(crate) use uff::{companion, frf_dataset};
 use crate::error::{InputError, Place};
 use crate::inspect::unknown_kind;
 use crate::load::load_bytes;
-use frfit_formats::{FileKind, FormatError, detect, harwell_boeing, matrix_market, read_matrix};
+use frfit_formats::{FileKind, FormatError, detect, harwell_boeing, matrix_market};
 use std::path::Path;
 use target::Target;
 
 /// What can be converted.
-const CONVERTED: &str = "a UFF file, a matrix (Matrix Market, Harwell-Boeing) or a table (CSV)";
+const CONVERTED: &str =
+    "a UFF file, matrices (Matrix Market, Harwell-Boeing, Nastran OUTPUT4, NumPy, MATLAB) or a table (CSV)";
 
 /// The bytes of the output: what the input is, its content says, what the output is to be, its ending.
 ///
 /// | from | to | what is kept |
 /// |---|---|---|
 /// | Matrix Market, Harwell–Boeing | either | every value bit for bit; of a title what the format has room for |
+/// | Nastran OUTPUT4, NumPy, MATLAB | Matrix Market, Harwell–Boeing | one matrix, every value bit for bit |
+/// | any of these | Nastran OUTPUT4 | all matrices, or one, every value bit for bit but for the sign of zeros; of names eight letters and digits |
 /// | UFF | UFF | all datasets: the functions (58) anew as text or binary, the others byte for byte |
 /// | UFF | table | one FRF, bit for bit, and its coherence and standard deviation if the file has them |
 /// | table | UFF | the FRF, its coherence and standard deviation: bit for bit in binary, 13 digits of a value in text |
@@ -39,12 +43,13 @@ pub fn convert(input: &Path, output: &Path, options: &ConvertOptions) -> Result<
     let in_input = |error: FormatError| InputError::in_file(input, error);
     let kind = detect(&bytes).ok_or_else(|| unknown_kind(input, &bytes, CONVERTED))?;
     match (kind, target) {
-        (
-            FileKind::MatrixMarket | FileKind::HarwellBoeing,
-            Target::MatrixMarket | Target::HarwellBoeing(_),
-        ) => {
-            options.only(&[], "a matrix")?;
-            let matrix = read_matrix(&bytes).map_err(in_input)?;
+        (kind, Target::Op4) if kind.holds_matrices() => {
+            options.only(&["--name"], "a matrix")?;
+            matrices::op4(input, &bytes, options)
+        }
+        (kind, Target::MatrixMarket | Target::HarwellBoeing(_)) if kind.holds_matrices() => {
+            options.only(&["--name"], "a matrix")?;
+            let matrix = matrices::one(input, &bytes, options)?;
             let write = match target {
                 Target::MatrixMarket => matrix_market::write,
                 _ => harwell_boeing::write,

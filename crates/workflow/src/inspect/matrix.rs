@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 /// A matrix in figures.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MatrixFacts {
-    /// Matrix Market or Harwell–Boeing.
+    /// What kind of file it is in.
     pub kind: FileKind,
     /// Number of rows.
     pub rows: usize,
@@ -23,6 +23,8 @@ pub struct MatrixFacts {
     pub field: &'static str,
     /// What the file declares.
     pub symmetry: Symmetry,
+    /// Where entries off the diagonal are stored: `both`, `lower`, `upper` or `none`; `one` where the symmetry gives the other.
+    pub triangle: &'static str,
     /// Why Aᵀ is not A, in words; `None` where it is, up to rounding.
     pub asymmetry: Option<String>,
     /// Rows in which nothing is but zeros.
@@ -37,6 +39,32 @@ pub struct MatrixFacts {
     pub title: String,
     /// Whether it can be a term of a model, and if not, why.
     pub term: Result<(), FormatError>,
+}
+
+/// The kind of a matrix file, as JSON has it.
+pub(super) fn kind_word(kind: FileKind) -> &'static str {
+    match kind {
+        FileKind::HarwellBoeing => "harwell-boeing",
+        FileKind::Op4 => "op4",
+        FileKind::Numpy => "numpy",
+        FileKind::Mat => "matlab",
+        FileKind::MatrixMarket | FileKind::Uff | FileKind::Csv | FileKind::Lvm => "matrix market",
+    }
+}
+
+/// Where a general matrix has entries off its diagonal; that of a rectangular one is of no interest.
+fn triangle(matrix: &CoordinateMatrix) -> &'static str {
+    let has = |side: fn(&usize, &usize) -> bool| {
+        matrix.rows.iter().zip(&matrix.cols).any(|(row, col)| side(row, col))
+    };
+    match (matrix.symmetry, has(|row, col| row > col), has(|row, col| row < col)) {
+        (Symmetry::General, _, _) if matrix.nrows != matrix.ncols => "both",
+        (Symmetry::General, true, false) => "lower",
+        (Symmetry::General, false, true) => "upper",
+        (Symmetry::General, false, false) => "none",
+        (Symmetry::General, true, true) => "both",
+        _ => "one",
+    }
 }
 
 impl MatrixFacts {
@@ -69,6 +97,7 @@ impl MatrixFacts {
                 Entries::Complex(_) => "complex",
             },
             symmetry: matrix.symmetry,
+            triangle: triangle(matrix),
             asymmetry: match matrix.nrows == matrix.ncols {
                 true => asymmetry(matrix),
                 false => Some(format!("{} rows and {} columns", matrix.nrows, matrix.ncols)),
@@ -82,8 +111,17 @@ impl MatrixFacts {
         }
     }
 
-    pub(super) fn kind_word(&self) -> &'static str {
-        if self.kind == FileKind::HarwellBoeing { "harwell-boeing" } else { "matrix market" }
+    /// What is known of the other triangle, and from what.
+    fn triangle_words(&self) -> String {
+        let declares_nothing = matches!(self.kind, FileKind::Numpy | FileKind::Mat);
+        let declared = format!("declared {}", self.symmetry_word());
+        match self.triangle {
+            "lower" | "upper" if declares_nothing => format!("only the {} triangle stored", self.triangle),
+            "lower" | "upper" => format!("{declared}, only the {} triangle stored", self.triangle),
+            "none" if declares_nothing => "a diagonal".into(),
+            _ if declares_nothing => "both triangles stored".into(),
+            _ => declared,
+        }
     }
 
     fn symmetry_word(&self) -> &'static str {
@@ -103,6 +141,7 @@ impl MatrixFacts {
             "nonzeros": self.nonzeros,
             "field": self.field,
             "declared_symmetry": self.symmetry_word(),
+            "triangle": self.triangle,
             "numerically_symmetric": self.asymmetry.is_none(),
             "asymmetry": self.asymmetry,
             "zero_rows": self.zero_rows,
@@ -121,7 +160,7 @@ impl MatrixFacts {
             lines.push(("title", title.trim().chars().take(72).collect()));
         }
         lines.push(("size", format!("{} x {}", self.rows, self.columns)));
-        lines.push(("values", format!("{}, declared {}", self.field, self.symmetry_word())));
+        lines.push(("values", format!("{}, {}", self.field, self.triangle_words())));
         lines.push(("entries", format!("{} stored, {} not zero in all", self.stored, self.nonzeros)));
         if let Some([min, max]) = self.diagonal {
             let zeros = match self.zero_diagonals {
