@@ -3,7 +3,7 @@
 use std::fmt;
 
 use crate::text::Lines;
-use crate::{CoordinateMatrix, FormatError, harwell_boeing, lvm, matrix_market};
+use crate::{CoordinateMatrix, FormatError, NamedMatrix, choose_matrix, harwell_boeing, lvm, matrix_market};
 
 /// The kinds of files this crate reads.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -18,6 +18,17 @@ pub enum FileKind {
     Csv,
     /// A LabVIEW measurement file: read it with [`lvm::read`].
     Lvm,
+}
+
+impl FileKind {
+    /// Whether [`read_matrices`] reads it.
+    #[must_use]
+    pub fn holds_matrices(self) -> bool {
+        match self {
+            Self::MatrixMarket | Self::HarwellBoeing => true,
+            Self::Uff | Self::Csv | Self::Lvm => false,
+        }
+    }
 }
 
 impl fmt::Display for FileKind {
@@ -56,14 +67,28 @@ pub fn detect(bytes: &[u8]) -> Option<FileKind> {
     (is_text && has_delimiter).then_some(FileKind::Csv)
 }
 
-/// Reads a matrix file of either kind.
+/// Reads a file of one matrix, of any kind.
 ///
 /// # Errors
-/// What the reader of the kind says, or what the file is where it holds no matrix.
+/// As [`read_matrices`]; a file of several.
 pub fn read_matrix(bytes: &[u8]) -> Result<CoordinateMatrix, FormatError> {
+    let mut matrices = read_matrices(bytes)?;
+    match matrices.len() {
+        // Moved, not cloned: matrices are large.
+        1 => matrices.remove(0).matrix,
+        _ => choose_matrix(&matrices, None).cloned(),
+    }
+}
+
+/// Reads all matrices of a file, in its order. [`choose_matrix`] finds one by its name.
+///
+/// # Errors
+/// What the reader of the kind says, or what the file is where it holds no matrices.
+pub fn read_matrices(bytes: &[u8]) -> Result<Vec<NamedMatrix>, FormatError> {
+    let one = |matrix| vec![NamedMatrix { name: String::new(), matrix: Ok(matrix) }];
     match detect(bytes) {
-        Some(FileKind::MatrixMarket) => matrix_market::read(bytes),
-        Some(FileKind::HarwellBoeing) => harwell_boeing::read(bytes),
+        Some(FileKind::MatrixMarket) => matrix_market::read(bytes).map(one),
+        Some(FileKind::HarwellBoeing) => harwell_boeing::read(bytes).map(one),
         other => Err(FormatError::whole(
             "a matrix: a Matrix Market or a Harwell-Boeing file",
             match other {

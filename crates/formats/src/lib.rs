@@ -8,7 +8,7 @@
 //! | tables with named columns (CSV) | [`csv`] |
 //! | LabVIEW measurement files (.lvm) | [`lvm`] |
 //!
-//! [`detect`] tells which of them a file is, [`read_matrix`] reads either kind of matrix file.
+//! [`detect`] tells which of them a file is, [`read_matrices`] reads every kind of matrix file.
 //!
 //! The crate knows neither physics nor a linear algebra library. Every reader takes the whole file as
 //! bytes and says, when it refuses one, where ([`Position`]), what it expected and what it found
@@ -19,6 +19,7 @@ mod assemble;
 mod detect;
 mod error;
 mod matrix;
+mod named;
 mod text;
 
 pub mod csv;
@@ -27,6 +28,7 @@ pub mod lvm;
 pub mod matrix_market;
 pub mod uff;
 
-pub use detect::{FileKind, detect, read_matrix};
+pub use detect::{FileKind, detect, read_matrices, read_matrix};
 pub use error::{FormatError, Position};
 pub use matrix::{CoordinateMatrix, Entries, Symmetry};
+pub use named::{NamedMatrix, choose_matrix};

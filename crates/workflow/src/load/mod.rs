@@ -128,7 +128,7 @@ pub fn load(case_file: &Path, overrides: &Overrides, purpose: Purpose) -> Result
     })
 }
 
-/// Reads a matrix file of either kind. For a term of a model it still has to pass [`symmetric_matrix`].
+/// Reads a file of one matrix. For a term of a model it still has to pass [`symmetric_matrix`].
 ///
 /// # Errors
 /// A file that cannot be read, or what the reader refuses.
