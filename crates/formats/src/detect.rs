@@ -3,7 +3,10 @@
 use std::fmt;
 
 use crate::text::Lines;
-use crate::{CoordinateMatrix, FormatError, NamedMatrix, choose_matrix, harwell_boeing, lvm, matrix_market};
+use crate::{
+    CoordinateMatrix, FormatError, Labels, NamedMatrix, abaqus, choose_matrix, dmig, harwell_boeing, lvm,
+    matrix_market, triplets,
+};
 
 /// The kinds of files this crate reads.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -12,6 +15,12 @@ pub enum FileKind {
     MatrixMarket,
     /// Harwell–Boeing: read it with [`harwell_boeing::read`].
     HarwellBoeing,
+    /// A list of row, column and value, of CalculiX or Abaqus: read it with [`triplets::read`].
+    Triplets,
+    /// A matrix of Abaqus with labels: read it with [`abaqus::read`].
+    Abaqus,
+    /// Nastran DMIG cards: read them with [`dmig::read`].
+    Dmig,
     /// Universal File Format: read it with [`uff`](crate::uff).
     Uff,
     /// A table with named columns: read it with [`csv::Table::read`](crate::csv::Table::read).
@@ -25,7 +34,7 @@ impl FileKind {
     #[must_use]
     pub fn holds_matrices(self) -> bool {
         match self {
-            Self::MatrixMarket | Self::HarwellBoeing => true,
+            Self::MatrixMarket | Self::HarwellBoeing | Self::Triplets | Self::Abaqus | Self::Dmig => true,
             Self::Uff | Self::Csv | Self::Lvm => false,
         }
     }
@@ -36,6 +45,9 @@ impl fmt::Display for FileKind {
         f.write_str(match self {
             Self::MatrixMarket => "a Matrix Market file",
             Self::HarwellBoeing => "a Harwell-Boeing file",
+            Self::Triplets => "a list of row, column and value (CalculiX, Abaqus)",
+            Self::Abaqus => "a matrix of Abaqus",
+            Self::Dmig => "Nastran DMIG cards",
             Self::Uff => "a Universal File Format (UFF) file",
             Self::Csv => "a table (CSV)",
             Self::Lvm => "a LabVIEW measurement file",
@@ -45,7 +57,7 @@ impl fmt::Display for FileKind {
 
 /// The kind of a file by its content, not by its ending; `None` where it looks like none of them.
 ///
-/// Only the first lines are looked at: a file of a known kind may still be broken.
+/// Only the first lines are looked at (and for DMIG cards, which may stand anywhere, the begin of each): a file of a known kind may still be broken.
 #[must_use]
 pub fn detect(bytes: &[u8]) -> Option<FileKind> {
     let mut lines = Lines::new(bytes);
@@ -60,6 +72,16 @@ pub fn detect(bytes: &[u8]) -> Option<FileKind> {
     }
     if lines.clone().find(|line| !line.is_blank())?.bytes.trim_ascii() == b"-1" {
         return Some(FileKind::Uff);
+    }
+    let first = lines.clone().find(|line| !line.is_blank() && triplets::comment(*line).is_none());
+    if first.is_some_and(triplets::is_entry) {
+        return Some(FileKind::Triplets);
+    }
+    if first.is_some_and(abaqus::is_first_line) {
+        return Some(FileKind::Abaqus);
+    }
+    if dmig::looks_like(bytes) {
+        return Some(FileKind::Dmig);
     }
     let names = lines.find(|line| !line.is_blank() && !line.bytes.trim_ascii().starts_with(b"#"))?;
     let is_text = std::str::from_utf8(names.bytes).is_ok() && !names.bytes.contains(&0);
@@ -85,16 +107,23 @@ pub fn read_matrix(bytes: &[u8]) -> Result<CoordinateMatrix, FormatError> {
 /// # Errors
 /// What the reader of the kind says, or what the file is where it holds no matrices.
 pub fn read_matrices(bytes: &[u8]) -> Result<Vec<NamedMatrix>, FormatError> {
-    let one = |matrix| vec![NamedMatrix { name: String::new(), matrix: Ok(matrix) }];
+    let one =
+        |matrix| vec![NamedMatrix { name: String::new(), matrix: Ok(matrix), labels: Labels::default() }];
+    let labelled = |(matrix, labels)| vec![NamedMatrix { name: String::new(), matrix: Ok(matrix), labels }];
     match detect(bytes) {
         Some(FileKind::MatrixMarket) => matrix_market::read(bytes).map(one),
         Some(FileKind::HarwellBoeing) => harwell_boeing::read(bytes).map(one),
+        Some(FileKind::Triplets) => triplets::read(bytes).map(one),
+        Some(FileKind::Abaqus) => abaqus::read(bytes).map(labelled),
+        Some(FileKind::Dmig) => dmig::read(bytes),
         other => Err(FormatError::whole(
-            "a matrix: a Matrix Market or a Harwell-Boeing file",
+            "a matrix: a Matrix Market, Harwell-Boeing, CalculiX, Abaqus or Nastran DMIG file",
             match other {
                 Some(kind) => kind.to_string(),
                 None if bytes.is_empty() => "an empty file".into(),
-                None => "neither (no %%MatrixMarket in line 1, no matrix type such as RSA in line 3)".into(),
+                None => "none of them (no %%MatrixMarket in line 1, no matrix type such as RSA in line 3, no entry \
+                         in the first line, no DMIG card)"
+                    .into(),
             },
         )),
     }

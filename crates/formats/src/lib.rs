@@ -5,6 +5,10 @@
 //! | Matrix Market | [`matrix_market`] |
 //! | Harwell–Boeing | [`harwell_boeing`] |
 //! | Universal File Format (UFF) | [`uff`] |
+//! | CalculiX (`.sti`, `.mas`, `.dof`) | [`triplets`] |
+//! | Abaqus matrices (`.mtx`) | [`abaqus`], [`triplets`] |
+//! | Nastran DMIG (`.pch`, bulk data) | [`dmig`] |
+//! | Ansys mapping of HBMAT (`.mapping`) | [`ansys`] |
 //! | tables with named columns (CSV) | [`csv`] |
 //! | LabVIEW measurement files (.lvm) | [`lvm`] |
 //!
@@ -18,17 +22,24 @@
 mod assemble;
 mod detect;
 mod error;
+mod gathered;
+mod label;
 mod matrix;
 mod named;
 mod text;
 
+pub mod abaqus;
+pub mod ansys;
 pub mod csv;
+pub mod dmig;
 pub mod harwell_boeing;
 pub mod lvm;
 pub mod matrix_market;
+pub mod triplets;
 pub mod uff;
 
 pub use detect::{FileKind, detect, read_matrices, read_matrix};
 pub use error::{FormatError, Position};
+pub use label::{DofLabel, Labels, listed_labels};
 pub use matrix::{CoordinateMatrix, Entries, Symmetry};
-pub use named::{NamedMatrix, choose_matrix};
+pub use named::{NamedMatrix, choose, choose_matrix};

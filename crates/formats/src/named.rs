@@ -1,6 +1,6 @@
 //! Files of several matrices, each with a name.
 
-use crate::{CoordinateMatrix, FormatError};
+use crate::{CoordinateMatrix, FormatError, Labels};
 
 /// A matrix of a file that may hold several.
 #[derive(Debug, Clone, PartialEq)]
@@ -9,6 +9,8 @@ pub struct NamedMatrix {
     pub name: String,
     /// The matrix, or why what has this name is none. The rest of the file is sound either way.
     pub matrix: Result<CoordinateMatrix, FormatError>,
+    /// What its rows and columns stand for, as far as the file says.
+    pub labels: Labels,
 }
 
 impl NamedMatrix {
@@ -29,6 +31,14 @@ pub fn choose_matrix<'a>(
     matrices: &'a [NamedMatrix],
     name: Option<&str>,
 ) -> Result<&'a CoordinateMatrix, FormatError> {
+    choose(matrices, name)?.matrix.as_ref().map_err(FormatError::clone)
+}
+
+/// The entry of a name, or without one the only entry; its matrix may be none.
+///
+/// # Errors
+/// No entry of the name, or several that it could be: what there is, with sizes.
+pub fn choose<'a>(matrices: &'a [NamedMatrix], name: Option<&str>) -> Result<&'a NamedMatrix, FormatError> {
     let all = || matrices.iter();
     let unnamed = all().any(|entry| entry.name.is_empty());
     let (chosen, expected): (Vec<_>, _) = match name {
@@ -44,7 +54,7 @@ pub fn choose_matrix<'a>(
         None => (all().collect(), "one matrix, or a name: { file = \"...\", name = \"...\" }".into()),
     };
     match chosen.as_slice() {
-        [one] => one.matrix.as_ref().map_err(FormatError::clone),
+        [one] => Ok(one),
         _ => Err(FormatError::whole(expected, listed(matrices))),
     }
 }
@@ -76,12 +86,12 @@ mod tests {
             entries: Entries::Real(Vec::new()),
             title: String::new(),
         };
-        NamedMatrix { name: name.into(), matrix: Ok(matrix) }
+        NamedMatrix { name: name.into(), matrix: Ok(matrix), labels: Labels::default() }
     }
 
     #[test]
     fn a_name_chooses_and_a_missing_one_lists_what_there_is() {
-        let text = NamedMatrix { name: "note".into(), matrix: Err(FormatError::whole("a matrix", "a text")) };
+        let text = NamedMatrix { matrix: Err(FormatError::whole("a matrix", "a text")), ..named("note", 0) };
         let all = [named("K", 3), named("M", 2), text];
         assert_eq!(choose_matrix(&all, Some("M")).unwrap().nrows, 2);
         let message = |name| choose_matrix(&all, name).unwrap_err().to_string();
