@@ -242,6 +242,9 @@ pub(crate) struct Convert {
     pub(crate) input: PathBuf,
     /// File to write; its ending says the format
     pub(crate) output: PathBuf,
+    /// Which matrix of a file of several
+    #[arg(long)]
+    pub(crate) name: Option<String>,
     /// Which FRF of a UFF file, from 1
     #[arg(long, value_name = "N")]
     pub(crate) record: Option<i64>,

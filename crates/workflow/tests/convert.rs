@@ -41,8 +41,14 @@ impl Folder {
     }
 }
 
-const PLAIN: ConvertOptions =
-    ConvertOptions { record: None, quantity: None, response: None, reference: None, binary: false };
+const PLAIN: ConvertOptions = ConvertOptions {
+    name: None,
+    record: None,
+    quantity: None,
+    response: None,
+    reference: None,
+    binary: false,
+};
 
 fn of_table(binary: bool) -> ConvertOptions {
     ConvertOptions {

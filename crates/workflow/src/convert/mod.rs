@@ -11,19 +11,24 @@ pub(crate) use uff::{companion, frf_dataset};
 
 use crate::error::{InputError, Place};
 use crate::inspect::unknown_kind;
-use crate::load::load_bytes;
-use frfit_formats::{FileKind, FormatError, detect, harwell_boeing, matrix_market, read_matrix};
+use crate::load::{load_bytes, matrices_of};
+use frfit_formats::{
+    CoordinateMatrix, FileKind, FormatError, Labels, choose, csv, detect, harwell_boeing, matrix_market,
+};
 use std::path::Path;
 use target::Target;
 
 /// What can be converted.
-const CONVERTED: &str = "a UFF file, a matrix (Matrix Market, Harwell-Boeing) or a table (CSV)";
+const CONVERTED: &str =
+    "a UFF file, a matrix (Matrix Market, Harwell-Boeing, CalculiX, Abaqus, Nastran DMIG) or a table (CSV)";
 
 /// The bytes of the output: what the input is, its content says, what the output is to be, its ending.
 ///
 /// | from | to | what is kept |
 /// |---|---|---|
 /// | Matrix Market, Harwell–Boeing | either | every value bit for bit; of a title what the format has room for |
+/// | CalculiX, Abaqus, Nastran DMIG | Matrix Market, Harwell–Boeing | every value bit for bit |
+/// | the same, Harwell–Boeing with a mapping | table | what each row stands for: the file of `[dofs]` |
 /// | UFF | UFF | all datasets: the functions (58) anew as text or binary, the others byte for byte |
 /// | UFF | table | one FRF, bit for bit, and its coherence and standard deviation if the file has them |
 /// | table | UFF | the FRF, its coherence and standard deviation: bit for bit in binary, 13 digits of a value in text |
@@ -39,12 +44,9 @@ pub fn convert(input: &Path, output: &Path, options: &ConvertOptions) -> Result<
     let in_input = |error: FormatError| InputError::in_file(input, error);
     let kind = detect(&bytes).ok_or_else(|| unknown_kind(input, &bytes, CONVERTED))?;
     match (kind, target) {
-        (
-            FileKind::MatrixMarket | FileKind::HarwellBoeing,
-            Target::MatrixMarket | Target::HarwellBoeing(_),
-        ) => {
-            options.only(&[], "a matrix")?;
-            let matrix = read_matrix(&bytes).map_err(in_input)?;
+        (kind, Target::MatrixMarket | Target::HarwellBoeing(_)) if kind.holds_matrices() => {
+            options.only(&["--name"], "a matrix")?;
+            let (matrix, _) = matrix_of(input, &bytes, options)?;
             let write = match target {
                 Target::MatrixMarket => matrix_market::write,
                 _ => harwell_boeing::write,
@@ -52,6 +54,11 @@ pub fn convert(input: &Path, output: &Path, options: &ConvertOptions) -> Result<
             let written = write(&matrix).map_err(in_input)?;
             target.fits(&written, output)?;
             Ok(written)
+        }
+        (kind, Target::Table) if kind.holds_matrices() && kind != FileKind::MatrixMarket => {
+            options.only(&["--name"], "the names of rows")?;
+            let (_, labels) = matrix_of(input, &bytes, options)?;
+            names_of_rows(&labels).map_err(in_input)
         }
         (FileKind::Uff, Target::Uff) => {
             options.only(&["--binary"], "a whole UFF file")?;
@@ -74,4 +81,36 @@ pub fn convert(input: &Path, output: &Path, options: &ConvertOptions) -> Result<
             Err(InputError::at(&place, target::endings_for(kind), format!("the ending of {target}")))
         }
     }
+}
+
+/// The matrix that is meant, and what its rows stand for.
+fn matrix_of(
+    input: &Path,
+    bytes: &[u8],
+    options: &ConvertOptions,
+) -> Result<(CoordinateMatrix, Labels), InputError> {
+    let all = matrices_of(input, bytes)?;
+    let in_input = |error: FormatError| InputError::in_file(input, error);
+    let chosen = choose(&all, options.name.as_deref()).map_err(|error| match options.name {
+        Some(_) => InputError::at(&Place::option("--name"), error.expected, error.found),
+        None => InputError::at(&Place::file(input), "one matrix, or --name", error.found),
+    })?;
+    Ok((chosen.matrix.clone().map_err(in_input)?, chosen.labels.clone()))
+}
+
+/// A table of row, node and direction, which `[dofs]` reads; rows without a direction, or at a node of the solver's own,
+/// are not in it.
+fn names_of_rows(labels: &Labels) -> Result<Vec<u8>, FormatError> {
+    let named = labels.rows.iter().enumerate().filter(|(_, label)| label.node > 0);
+    let rows: Vec<_> = named
+        .filter_map(|(row, label)| Some((row, usize::try_from(label.node).ok()?, label.direction()?)))
+        .map(|(row, node, direction)| {
+            [csv::Cell::Count(row + 1), csv::Cell::Count(node), csv::Cell::Text(direction.name())]
+        })
+        .collect();
+    if rows.is_empty() {
+        let expected = "a file that names its rows (or has a .dof or .mapping file beside it)";
+        return Err(FormatError::whole(expected, "no names"));
+    }
+    csv::write(&["row", "node", "direction"], rows).map(String::into_bytes)
 }

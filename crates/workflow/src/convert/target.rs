@@ -16,6 +16,8 @@ pub(super) enum Target {
 }
 
 const OF_MATRICES: &str = ".mtx or .mm (Matrix Market), .hb, .rb, .rsa, .rua, .csa, .cua, .psa or another matrix type (Harwell-Boeing)";
+const OF_NAMED_MATRICES: &str = ".mtx or .mm (Matrix Market), .hb, .rb, .rsa, .rua, .csa, .cua, .psa or another matrix type \
+     (Harwell-Boeing), .csv (the names of the rows)";
 const OF_FRFS: &str = ".uff, .unv or .uf (UFF), .csv (table)";
 
 impl Target {
@@ -56,6 +58,7 @@ impl Target {
 /// The endings to which a file of this kind can be converted.
 pub(super) fn endings_for(kind: FileKind) -> String {
     let endings = match kind {
+        FileKind::Triplets | FileKind::Abaqus | FileKind::Dmig => OF_NAMED_MATRICES,
         FileKind::MatrixMarket | FileKind::HarwellBoeing => OF_MATRICES,
         FileKind::Uff | FileKind::Csv => OF_FRFS,
         FileKind::Lvm => "none: frfit frf makes an FRF of time records",

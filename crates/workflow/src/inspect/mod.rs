@@ -9,14 +9,14 @@ mod text;
 mod uff;
 
 pub use lvm::LvmFacts;
-pub use matrix::MatrixFacts;
+pub use matrix::{LabelFacts, MatrixFacts};
 pub use modes::natural_frequencies;
 pub use table::{TableFacts, TableUse};
 pub use uff::{UffContent, UffRecord};
 
 use crate::error::{InputError, Place};
-use crate::load::load_bytes;
-use frfit_formats::{FileKind, detect, read_matrix};
+use crate::load::{load_bytes, matrices_of};
+use frfit_formats::{FileKind, FormatError, NamedMatrix, detect};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
@@ -34,12 +34,23 @@ pub struct Inspection {
 pub enum Content {
     /// The datasets of a UFF file.
     Uff(Vec<UffRecord>),
-    /// A matrix.
+    /// A matrix that has no name.
     Matrix(Box<MatrixFacts>),
+    /// Matrices with names.
+    Matrices(FileKind, Vec<NamedFacts>),
     /// A table.
     Table(TableFacts),
     /// A LabVIEW measurement file.
     Lvm(LvmFacts),
+}
+
+/// A matrix of a file of several.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NamedFacts {
+    /// Its name in the file.
+    pub name: String,
+    /// What it is, or why it cannot be read.
+    pub facts: Result<MatrixFacts, FormatError>,
 }
 
 /// Looks into a file; of what kind it is, its content says.
@@ -55,13 +66,45 @@ pub fn inspect(path: &Path) -> Result<Inspection, InputError> {
         Some(FileKind::Uff) => Content::Uff(uff::records(&bytes).map_err(refuse)?),
         Some(FileKind::Lvm) => Content::Lvm(LvmFacts::read(&bytes).map_err(refuse)?),
         Some(FileKind::Csv) => Content::Table(TableFacts::read(&bytes).map_err(refuse)?),
-        Some(kind @ (FileKind::MatrixMarket | FileKind::HarwellBoeing)) => {
-            let matrix = read_matrix(&bytes).map_err(refuse)?;
-            Content::Matrix(Box::new(MatrixFacts::of(kind, &matrix)))
-        }
+        Some(kind) => matrices(kind, matrices_of(path, &bytes)?).map_err(refuse)?,
         None => return Err(unknown_kind(path, &bytes, READ)),
     };
     Ok(Inspection { file: path.to_path_buf(), content })
+}
+
+/// What a matrix file holds.
+fn matrices(kind: FileKind, all: Vec<NamedMatrix>) -> Result<Content, FormatError> {
+    if let [NamedMatrix { name, matrix, labels }] = &all[..]
+        && name.is_empty()
+    {
+        let matrix = matrix.as_ref().map_err(FormatError::clone)?;
+        return Ok(Content::Matrix(Box::new(MatrixFacts::of(kind, matrix, labels))));
+    }
+    let facts = all.into_iter().map(|NamedMatrix { name, matrix, labels }| {
+        let facts = matrix.map(|matrix| MatrixFacts::of(kind, &matrix, &labels));
+        NamedFacts { name, facts }
+    });
+    Ok(Content::Matrices(kind, facts.collect()))
+}
+
+impl NamedFacts {
+    fn json(&self) -> Value {
+        let mut object = match &self.facts {
+            Ok(facts) => facts.json(),
+            Err(error) => json!({"error": error.to_string()}),
+        };
+        object["name"] = json!(self.name);
+        object
+    }
+
+    fn lines(&self) -> String {
+        let lines = match &self.facts {
+            Ok(facts) => facts.lines(),
+            Err(error) => format!("  {error}\n"),
+        };
+        let indented = lines.lines().map(|line| format!("  {line}\n"));
+        format!("  {}\n{}", self.name, indented.collect::<String>())
+    }
 }
 
 impl Inspection {
@@ -72,7 +115,11 @@ impl Inspection {
                 let records: Vec<_> = records.iter().map(|record| record.json(&self.file)).collect();
                 ("uff", json!({"records": records}))
             }
-            Content::Matrix(facts) => (facts.kind_word(), facts.json()),
+            Content::Matrix(facts) => (matrix::kind_word(facts.kind), facts.json()),
+            Content::Matrices(kind, all) => {
+                let all: Vec<_> = all.iter().map(NamedFacts::json).collect();
+                (matrix::kind_word(*kind), json!({"matrices": all}))
+            }
             Content::Table(facts) => ("csv", facts.json(&self.file)),
             Content::Lvm(facts) => ("lvm", facts.json()),
         };
@@ -86,6 +133,9 @@ impl Inspection {
         let (heading, lines) = match &self.content {
             Content::Uff(records) => (uff::heading(records), uff::lines(records, &self.file)),
             Content::Matrix(facts) => (facts.kind.to_string(), facts.lines()),
+            Content::Matrices(kind, all) => {
+                (kind.to_string(), all.iter().map(NamedFacts::lines).collect::<String>())
+            }
             Content::Lvm(facts) => (FileKind::Lvm.to_string(), facts.lines()),
             Content::Table(facts) => (FileKind::Csv.to_string(), facts.lines(&self.file)),
         };
@@ -94,8 +144,7 @@ impl Inspection {
 }
 
 /// What is looked into.
-const READ: &str =
-    "a UFF file, a matrix (Matrix Market, Harwell-Boeing), a table (CSV) or time records (.lvm)";
+const READ: &str = "a UFF file, matrices (Matrix Market, Harwell-Boeing, CalculiX, Abaqus, Nastran DMIG), a table (CSV) or time records (.lvm)";
 
 /// The error about a file of no known kind.
 pub(crate) fn unknown_kind(path: &Path, bytes: &[u8], expected: &str) -> InputError {

@@ -171,7 +171,7 @@ fn matrices_and_factors() {
         (
             "file = \"K.mtx\"",
             "file = \"a.csv\"",
-            "a.csv: expected a matrix: a Matrix Market or a Harwell-Boeing file, found a table (CSV)\nnamed in case.toml:5:1: matrix.file",
+            "a.csv: expected a matrix: a Matrix Market, Harwell-Boeing, CalculiX, Abaqus or Nastran DMIG file, found a table (CSV)\nnamed in case.toml:5:1: matrix.file",
         ),
         (
             "file = \"K.mtx\"",
@@ -186,7 +186,7 @@ fn matrices_and_factors() {
         (
             "file = \"K.mtx\"",
             "file = { name = \"KAA\" }",
-            "case.toml:5:1: matrix.file: expected the key \"file\", found none",
+            "case.toml:5:8: matrix.file: expected the key \"file\", found none",
         ),
         (
             "name = \"core\"",

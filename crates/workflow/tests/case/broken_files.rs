@@ -85,7 +85,7 @@ fn matrices() {
         (
             "K.mtx",
             "",
-            "K.mtx: expected a matrix: a Matrix Market or a Harwell-Boeing file, found an empty file\nnamed in case.toml:5:1: matrix.file",
+            "K.mtx: expected a matrix: a Matrix Market, Harwell-Boeing, CalculiX, Abaqus or Nastran DMIG file, found an empty file\nnamed in case.toml:5:1: matrix.file",
         ),
         (
             "K.mtx",
