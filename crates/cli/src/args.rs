@@ -66,7 +66,7 @@ pub(crate) enum Command {
     Inspect(Inspect),
     /// Convert a matrix or an FRF to another format, by the endings of the names
     #[command(
-        after_help = "Examples: frfit convert bcsstk09.rsa bcsstk09.mtx\n          frfit convert frf.uff frf.csv --record 2"
+        after_help = "Examples: frfit convert bcsstk09.rsa bcsstk09.mtx\n          frfit convert model.pch K.mtx --name KAAX\n          frfit convert frf.uff frf.csv --record 2"
     )]
     Convert(Convert),
 }
