@@ -34,3 +34,26 @@ fn samples_cut_short_anywhere_are_refused_or_read() {
         }
     }
 }
+
+#[test]
+fn samples_with_bytes_exchanged_are_refused_or_read() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/labels/samples");
+    let alphabet = b"0123456789.,-+*$ \n\tDMIGE\xFF";
+    let mut state = 1_u64;
+    let mut below = |most: usize| {
+        // Knuth's linear congruential generator: the same files in every run.
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 33) as usize % most
+    };
+    for file in std::fs::read_dir(folder).unwrap() {
+        let bytes = std::fs::read(file.unwrap().path()).unwrap();
+        for _ in 0..2000 {
+            let mut bytes = bytes.clone();
+            for _ in 0..=below(4) {
+                let at = below(bytes.len());
+                bytes[at] = alphabet[below(alphabet.len())];
+            }
+            read_all(&bytes);
+        }
+    }
+}
