@@ -4,9 +4,13 @@
 //! |---|---|
 //! | Matrix Market | [`matrix_market`] |
 //! | Harwell–Boeing | [`harwell_boeing`] |
-//! | Nastran OUTPUT4 (.op4) | [`op4`] |
-//! | NumPy and SciPy (.npy, .npz) | [`numpy`] |
-//! | MATLAB (.mat, version 5 and 7) | [`mat`] |
+//! | CalculiX (`.sti`, `.mas`, `.dof`) | [`triplets`] |
+//! | Abaqus matrices (`.mtx`) | [`abaqus`], [`triplets`] |
+//! | Ansys mapping of HBMAT (`.mapping`) | [`ansys`] |
+//! | Nastran DMIG (`.pch`, bulk data) | [`dmig`] |
+//! | Nastran OUTPUT4 (`.op4`) | [`op4`] |
+//! | NumPy and SciPy (`.npy`, `.npz`) | [`numpy`] |
+//! | MATLAB (`.mat`, versions 5 to 7) | [`mat`] |
 //! | Universal File Format (UFF) | [`uff`] |
 //! | tables with named columns (CSV) | [`csv`] |
 //! | LabVIEW measurement files (.lvm) | [`lvm`] |
@@ -23,20 +27,27 @@ mod bytes;
 mod detect;
 mod error;
 mod gather;
+mod label;
+mod labelled;
 mod matrix;
 mod named;
 mod text;
 
+pub mod abaqus;
+pub mod ansys;
 pub mod csv;
+pub mod dmig;
 pub mod harwell_boeing;
 pub mod lvm;
 pub mod mat;
 pub mod matrix_market;
 pub mod numpy;
 pub mod op4;
+pub mod triplets;
 pub mod uff;
 
-pub use detect::{FileKind, detect, read_matrices, read_matrix};
+pub use detect::{FileKind, MATRIX_FORMATS, detect, read_matrices, read_matrix};
 pub use error::{FormatError, Position};
+pub use label::{DofLabel, Labels, listed_labels};
 pub use matrix::{CoordinateMatrix, Entries, Symmetry};
-pub use named::{NamedMatrix, choose, choose_matrix};
+pub use named::{NamedMatrix, choose_matrix, take_matrix};

@@ -1,6 +1,6 @@
 //! Files of several matrices, each with a name.
 
-use crate::{CoordinateMatrix, FormatError};
+use crate::{CoordinateMatrix, FormatError, Labels};
 
 /// A matrix of a file that may hold several.
 #[derive(Debug, Clone, PartialEq)]
@@ -9,9 +9,16 @@ pub struct NamedMatrix {
     pub name: String,
     /// The matrix, or why what has this name is none. The rest of the file is sound either way.
     pub matrix: Result<CoordinateMatrix, FormatError>,
+    /// What its rows and columns stand for, as far as the file says.
+    pub labels: Labels,
 }
 
 impl NamedMatrix {
+    /// Without labels.
+    pub(crate) fn plain(name: impl Into<String>, matrix: Result<CoordinateMatrix, FormatError>) -> Self {
+        Self { name: name.into(), matrix, labels: Labels::default() }
+    }
+
     /// Name and size, or what else it is, as an error lists it: `K (3 x 3)`.
     fn described(&self) -> String {
         match &self.matrix {
@@ -21,24 +28,29 @@ impl NamedMatrix {
     }
 }
 
-/// The matrix of a name, or without one the only matrix.
+/// The matrix of a name, or without one the only matrix. What has the name may still be none ([`NamedMatrix::matrix`]).
 ///
 /// # Errors
-/// No matrix of the name, or several that it could be: what there is, with sizes. What the reader refused of the one.
+/// No matrix of the name, or several that it could be: what there is, with sizes.
 pub fn choose_matrix<'a>(
     matrices: &'a [NamedMatrix],
     name: Option<&str>,
-) -> Result<&'a CoordinateMatrix, FormatError> {
-    choose(matrices, name)?.matrix.as_ref().map_err(FormatError::clone)
+) -> Result<&'a NamedMatrix, FormatError> {
+    chosen(matrices, name).map(|k| &matrices[k])
 }
 
-/// The entry of a name, or without one the only entry; its matrix may be none.
+/// As [`choose_matrix`], for who needs nothing else of the file: matrices are large, so it is moved, not cloned.
 ///
 /// # Errors
-/// No entry of the name, or several that it could be: what there is, with sizes.
-pub fn choose<'a>(matrices: &'a [NamedMatrix], name: Option<&str>) -> Result<&'a NamedMatrix, FormatError> {
-    let all = || matrices.iter();
-    let unnamed = all().any(|entry| entry.name.is_empty());
+/// As [`choose_matrix`].
+pub fn take_matrix(mut matrices: Vec<NamedMatrix>, name: Option<&str>) -> Result<NamedMatrix, FormatError> {
+    chosen(&matrices, name).map(|k| matrices.swap_remove(k))
+}
+
+/// Which of them it is.
+fn chosen(matrices: &[NamedMatrix], name: Option<&str>) -> Result<usize, FormatError> {
+    let all = || 0..matrices.len();
+    let unnamed = matrices.iter().any(|entry| entry.name.is_empty());
     let (chosen, expected): (Vec<_>, _) = match name {
         Some(_) if unnamed => {
             return Err(FormatError::whole(
@@ -47,12 +59,12 @@ pub fn choose<'a>(matrices: &'a [NamedMatrix], name: Option<&str>) -> Result<&'a
             ));
         }
         Some(name) => {
-            (all().filter(|entry| entry.name == name).collect(), format!("one matrix named {name:?}"))
+            (all().filter(|&k| matrices[k].name == name).collect(), format!("one matrix named {name:?}"))
         }
         None => (all().collect(), "one matrix, or a name: { file = \"...\", name = \"...\" }".into()),
     };
     match chosen.as_slice() {
-        [one] => Ok(one),
+        [one] => Ok(*one),
         _ => Err(FormatError::whole(expected, listed(matrices))),
     }
 }
@@ -84,14 +96,15 @@ mod tests {
             entries: Entries::Real(Vec::new()),
             title: String::new(),
         };
-        NamedMatrix { name: name.into(), matrix: Ok(matrix) }
+        NamedMatrix::plain(name, Ok(matrix))
     }
 
     #[test]
     fn a_name_chooses_and_a_missing_one_lists_what_there_is() {
-        let text = NamedMatrix { name: "note".into(), matrix: Err(FormatError::whole("a matrix", "a text")) };
+        let text = NamedMatrix::plain("note", Err(FormatError::whole("a matrix", "a text")));
         let all = [named("K", 3), named("M", 2), text];
-        assert_eq!(choose_matrix(&all, Some("M")).unwrap().nrows, 2);
+        assert_eq!(choose_matrix(&all, Some("M")).unwrap(), &all[1]);
+        assert_eq!(take_matrix(all.to_vec(), Some("M")).unwrap(), all[1]);
         let message = |name| choose_matrix(&all, name).unwrap_err().to_string();
         assert_eq!(
             message(None),
@@ -102,13 +115,13 @@ mod tests {
             message(Some("C")),
             "input: expected one matrix named \"C\", found K (3 x 3), M (2 x 2), note (a text)"
         );
-        assert_eq!(message(Some("note")), "input: expected a matrix, found a text");
+        assert_eq!(choose_matrix(&all, Some("note")).unwrap(), &all[2]);
     }
 
     #[test]
     fn the_only_matrix_needs_no_name_and_one_without_a_name_has_none() {
-        assert_eq!(choose_matrix(&[named("K", 3)], None).unwrap().nrows, 3);
-        assert_eq!(choose_matrix(&[named("", 3)], None).unwrap().nrows, 3);
+        assert_eq!(choose_matrix(&[named("K", 3)], None), Ok(&named("K", 3)));
+        assert_eq!(choose_matrix(&[named("", 3)], None), Ok(&named("", 3)));
         let message = choose_matrix(&[named("", 3)], Some("K")).unwrap_err().to_string();
         assert_eq!(message, "input: expected no name beside a file that names no matrix, found K");
         let twice = [named("K", 3), named("K", 2)];

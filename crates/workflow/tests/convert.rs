@@ -190,7 +190,7 @@ fn endings_say_what_the_output_is() {
     assert_snapshot!(folder.refused("K.mtx", "K.csv", &PLAIN), @"K.csv: expected an ending to which a Matrix Market file can be converted: .mtx or .mm (Matrix Market), .hb, .rb, .rsa, .rua, .csa, .cua, .psa or another matrix type (Harwell-Boeing), .op4 (Nastran OUTPUT4), found the ending of an FRF");
     assert_snapshot!(folder.refused("frf.csv", "frf.mtx", &of_table(false)), @"frf.mtx: expected an ending to which a table (CSV) can be converted: .uff, .unv or .uf (UFF), .csv (table), found the ending of a matrix");
     assert_snapshot!(folder.refused("K.mtx", "K.rua", &PLAIN), @"K.rua: expected the ending .rsa of what the matrix is, or .hb, found .rua");
-    assert_snapshot!(folder.refused("note.txt", "K.rua", &PLAIN), @"note.txt: expected a UFF file, matrices (Matrix Market, Harwell-Boeing, Nastran OUTPUT4, NumPy, MATLAB) or a table (CSV), found none of them (no %%MatrixMarket or -1 at the top, no matrix type in line 3, no names of columns)");
+    assert_snapshot!(folder.refused("note.txt", "K.rua", &PLAIN), @"note.txt: expected a UFF file, matrices (Matrix Market, Harwell-Boeing, CalculiX, Abaqus, Nastran DMIG, Nastran OUTPUT4, NumPy, MATLAB), a table (CSV), found none of them (no %%MatrixMarket or -1 at the top, no matrix type in line 3, no names of columns)");
 }
 
 #[test]

@@ -65,7 +65,6 @@ fn matrices_with_names_are_listed_one_by_one() {
     assert_snapshot!(text("model.op4", OP4), @r#"
     model.op4: a Nastran OUTPUT4 file
       KAA
-        title     KAA
         size      2 x 2
         values    real, declared symmetric
         entries   3 stored, 4 not zero in all
@@ -127,7 +126,7 @@ fn a_term_of_a_model() {
         json_of("M.mtx", LUMPED),
         json!({
             "file": "M.mtx", "kind": "matrix market", "rows": 3, "columns": 3, "stored": 3, "nonzeros": 3,
-            "field": "real", "declared_symmetry": "symmetric", "triangle": "one", "numerically_symmetric": true, "asymmetry": null,
+            "field": "real", "declared_symmetry": "symmetric", "triangle": "one", "numerically_symmetric": true, "asymmetry": null, "labels": null,
             "zero_rows": 1, "zero_diagonals": 2, "diagonal": {"min": 0.0, "max": 2.5}, "largest": 2.5,
             "title": "----\nLumped masses", "term": true,
         })
@@ -232,8 +231,8 @@ fn a_table_that_serves_as_nothing_says_why() {
 
 #[test]
 fn what_is_no_file_of_any_kind() {
-    assert_snapshot!(refused("note.txt", "Dear reader\n"), @"note.txt: expected a UFF file, matrices (Matrix Market, Harwell-Boeing, Nastran OUTPUT4, NumPy, MATLAB), a table (CSV) or time records (.lvm), found none of them (no %%MatrixMarket or -1 at the top, no matrix type in line 3, no names of columns)");
-    assert_snapshot!(refused("empty", ""), @"empty: expected a UFF file, matrices (Matrix Market, Harwell-Boeing, Nastran OUTPUT4, NumPy, MATLAB), a table (CSV) or time records (.lvm), found an empty file");
+    assert_snapshot!(refused("note.txt", "Dear reader\n"), @"note.txt: expected a UFF file, matrices (Matrix Market, Harwell-Boeing, CalculiX, Abaqus, Nastran DMIG, Nastran OUTPUT4, NumPy, MATLAB), a table (CSV) or time records (.lvm), found none of them (no %%MatrixMarket or -1 at the top, no matrix type in line 3, no names of columns)");
+    assert_snapshot!(refused("empty", ""), @"empty: expected a UFF file, matrices (Matrix Market, Harwell-Boeing, CalculiX, Abaqus, Nastran DMIG, Nastran OUTPUT4, NumPy, MATLAB), a table (CSV) or time records (.lvm), found an empty file");
     assert_snapshot!(refused("torn.mtx", "%%MatrixMarket matrix coordinate real symmetric\n3 3 2\n1 1 1\n"), @"torn.mtx:3: expected 2 entries, as line 2 says, found 1");
     let folder = tempfile::tempdir().unwrap();
     assert!(inspect(folder.path()).unwrap_err().to_string().ends_with("expected a file, found a folder"));

@@ -34,6 +34,27 @@ impl Parts {
     }
 }
 
+/// The matrix of entries: row, column (both from 0), real and imaginary part.
+fn gathered(
+    head: &Head,
+    entries: impl Iterator<Item = (u64, u64, [f64; 2])>,
+    size: [u64; 2],
+    name: &str,
+) -> Result<CoordinateMatrix, FormatError> {
+    fn of<V: Value>(
+        entries: impl Iterator<Item = (u64, u64, [f64; 2])>,
+        [nrows, ncols]: [u64; 2],
+        name: &str,
+    ) -> Result<CoordinateMatrix, FormatError> {
+        let mut gather = Gather::<V>::new(nrows, ncols);
+        for (row, col, parts) in entries {
+            gather.push(row, col, V::from_numbers(parts), Position::File);
+        }
+        gather.finish(Duplicates::Refuse, name)
+    }
+    if head.is_complex { of::<c64>(entries, size, name) } else { of::<f64>(entries, size, name) }
+}
+
 /// A full matrix, column by column; its zeros are not stored.
 pub(super) fn full(
     head: &Head,
@@ -41,27 +62,15 @@ pub(super) fn full(
     size: [u64; 2],
     name: &str,
 ) -> Result<CoordinateMatrix, FormatError> {
-    fn gathered<V: Value>(
-        parts: &Parts,
-        [nrows, ncols]: [u64; 2],
-        name: &str,
-    ) -> Result<CoordinateMatrix, FormatError> {
-        let mut gather = Gather::<V>::new(nrows, ncols);
-        for k in 0..parts.re.len() {
-            if parts.get(k) != [0.0; 2] {
-                let (row, col) = (k as u64 % nrows, k as u64 / nrows);
-                gather.push(row, col, V::from_numbers(parts.get(k)), Position::File);
-            }
-        }
-        gather.finish(Duplicates::Refuse, name)
-    }
     let place = cursor.place();
     let parts = Parts::read(head, &mut cursor)?;
     if size[0].checked_mul(size[1]) != Some(parts.re.len() as u64) {
         let expected = format!("{} x {} values", size[0], size[1]);
         return Err(FormatError::byte(place, expected, parts.re.len().to_string()));
     }
-    if head.is_complex { gathered::<c64>(&parts, size, name) } else { gathered::<f64>(&parts, size, name) }
+    let all = (0..parts.re.len()).filter(|&k| parts.get(k) != [0.0; 2]);
+    let entries = all.map(|k| (k as u64 % size[0], k as u64 / size[0], parts.get(k)));
+    gathered(head, entries, size, name)
 }
 
 /// A sparse matrix: rows, column pointers, values. Rows and values may be longer than the last pointer says.
@@ -71,22 +80,6 @@ pub(super) fn sparse(
     size: [u64; 2],
     name: &str,
 ) -> Result<CoordinateMatrix, FormatError> {
-    fn gathered<V: Value>(
-        parts: &Parts,
-        rows: &[u64],
-        ends: &[u64],
-        [nrows, ncols]: [u64; 2],
-        name: &str,
-    ) -> Result<CoordinateMatrix, FormatError> {
-        let mut gather = Gather::<V>::new(nrows, ncols);
-        for (col, range) in ends.windows(2).enumerate() {
-            let (start, end) = (range[0] as usize, range[1] as usize);
-            for (k, &row) in (start..end).zip(&rows[start..end]) {
-                gather.push(row, col as u64, V::from_numbers(parts.get(k)), Position::File);
-            }
-        }
-        gather.finish(Duplicates::Refuse, name)
-    }
     let place = cursor.place();
     let rows = Element::read(&mut cursor, "the rows of a sparse matrix")?.wholes().unwrap_or_default();
     let ends =
@@ -107,8 +100,7 @@ pub(super) fn sparse(
             format!("{} up to {last}, with {} rows and {} values", ends.len(), rows.len(), parts.re.len());
         return Err(FormatError::byte(place, expected, found));
     }
-    match head.is_complex {
-        true => gathered::<c64>(&parts, &rows, &ends, size, name),
-        false => gathered::<f64>(&parts, &rows, &ends, size, name),
-    }
+    let columns = ends.windows(2).map(|range| range[0] as usize..range[1] as usize).enumerate();
+    let entries = columns.flat_map(|(col, range)| range.map(move |k| (k, col as u64)));
+    gathered(head, entries.map(|(k, col)| (rows[k], col, parts.get(k))), size, name)
 }

@@ -71,7 +71,7 @@ pub(super) fn read(mut cursor: Cursor<'_>, matrices: &mut Vec<NamedMatrix>) -> R
     if head.class == STRUCTURE && head.dimensions.iter().all(|&size| size == 1) {
         return fields(&head.name, cursor, matrices);
     }
-    matrices.push(NamedMatrix { matrix: one(&head, cursor, &head.name), name: head.name });
+    matrices.push(NamedMatrix::plain(head.name.as_str(), one(&head, cursor, &head.name)));
     Ok(())
 }
 
@@ -110,7 +110,7 @@ fn fields(
             }
             _ => Err(FormatError::whole("a matrix of numbers", "nothing")),
         };
-        matrices.push(NamedMatrix { name, matrix });
+        matrices.push(NamedMatrix::plain(name, matrix));
     }
     Ok(())
 }

@@ -47,19 +47,19 @@ pub(crate) fn looks_like(bytes: &[u8]) -> bool {
 pub fn read(bytes: &[u8]) -> Result<Vec<NamedMatrix>, FormatError> {
     if bytes.starts_with(NPY) {
         let matrix = Array::read(Cow::Borrowed(bytes), "").and_then(|array| dense::matrix(&array, ""));
-        return matrix.map(|matrix| vec![NamedMatrix { name: String::new(), matrix: Ok(matrix) }]);
+        return matrix.map(|matrix| vec![NamedMatrix::plain("", Ok(matrix))]);
     }
     let mut files = Files::open(bytes)?;
     if sparse::is_one(&files.names) {
         let matrix = sparse::matrix(&mut files)?;
-        return Ok(vec![NamedMatrix { name: String::new(), matrix: Ok(matrix) }]);
+        return Ok(vec![NamedMatrix::plain("", Ok(matrix))]);
     }
     let names: Vec<String> = files.names.keys().cloned().collect();
     Ok(names
         .into_iter()
         .map(|name| {
             let matrix = files.array(&name).and_then(|array| dense::matrix(&array, &name));
-            NamedMatrix { name, matrix }
+            NamedMatrix::plain(name, matrix)
         })
         .collect())
 }

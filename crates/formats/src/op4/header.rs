@@ -54,7 +54,7 @@ impl Header {
             8 => Err(refused),
             _ => gather.finish(Duplicates::Refuse, &self.name).map(symmetric),
         };
-        NamedMatrix { name: self.name.clone(), matrix }
+        NamedMatrix::plain(self.name.as_str(), matrix)
     }
 }
 

@@ -45,7 +45,7 @@ fn a_file_of_several_needs_a_name() {
     let error = read_matrix(&bytes).unwrap_err().to_string();
     assert!(error.ends_with("found K (6 x 6), M (6 x 6), W (4 x 6), Z (4 x 6)"), "{error}");
     let all = read_matrices(&bytes).unwrap();
-    assert_eq!(entries(choose_matrix(&all, Some("M")).unwrap()).len(), 6);
+    assert_eq!(entries(choose_matrix(&all, Some("M")).unwrap().matrix.as_ref().unwrap()).len(), 6);
 }
 
 /// SciPy writes no file of the other byte order: one by hand, with a name in a tag and values of 16 bits.

@@ -61,7 +61,7 @@ fn compare(folder: &Path, ending: &str) -> (usize, usize) {
             read_matrices(&fs::read(folder.join(&name)).unwrap()).unwrap_or_else(|e| panic!("{name}: {e}"));
         let found: BTreeSet<_> = read.iter().map(|one| one.name.clone()).collect();
         assert_eq!(found, expected, "{name}");
-        for NamedMatrix { name: matrix_name, matrix } in &read {
+        for NamedMatrix { name: matrix_name, matrix, .. } in &read {
             let matrix = matrix.as_ref().unwrap_or_else(|e| panic!("{name} {matrix_name}: {e}"));
             matrix.validate().unwrap();
             let path = folder.join(format!("{stem}.{matrix_name}.mtx"));

@@ -2,41 +2,56 @@
 
 use super::ConvertOptions;
 use crate::error::{InputError, Place};
-use frfit_formats::{CoordinateMatrix, FormatError, choose, op4, read_matrices};
+use frfit_formats::{FormatError, Labels, NamedMatrix, csv, op4, take_matrix};
 use std::path::Path;
 
 /// The matrix that is meant.
 pub(super) fn one(
     input: &Path,
-    bytes: &[u8],
+    all: Vec<NamedMatrix>,
     options: &ConvertOptions,
-) -> Result<CoordinateMatrix, InputError> {
-    let in_input = |error: FormatError| InputError::in_file(input, error);
-    let mut all = read_matrices(bytes).map_err(in_input)?;
-    if let Some(name) = &options.name {
-        choose(&all, Some(name))
-            .map_err(|error| InputError::at(&Place::option("--name"), error.expected, error.found))?;
-        all.retain(|entry| entry.name == *name);
+) -> Result<NamedMatrix, InputError> {
+    take_matrix(all, options.name.as_deref()).map_err(|error| match options.name {
+        Some(_) => InputError::at(&Place::option("--name"), error.expected, error.found),
+        None => InputError::at(&Place::file(input), "one matrix, or --name", error.found),
+    })
+}
+
+/// A table of row, node and direction, which `[dofs]` reads; rows without a direction, or at a node of the solver's own,
+/// are not in it.
+pub(super) fn names_of_rows(labels: &Labels) -> Result<Vec<u8>, FormatError> {
+    let named = labels.rows.iter().enumerate().filter(|(_, label)| label.node > 0);
+    let rows: Vec<_> = named
+        .filter_map(|(row, label)| Some((row, usize::try_from(label.node).ok()?, label.direction()?)))
+        .map(|(row, node, direction)| {
+            [csv::Cell::Count(row + 1), csv::Cell::Count(node), csv::Cell::Text(direction.name())]
+        })
+        .collect();
+    if rows.is_empty() {
+        let expected = "a file that names its rows (or has a .dof or .mapping file beside it)";
+        return Err(FormatError::whole(expected, "no names"));
     }
-    choose(&all, None)
-        .map_err(|error| InputError::at(&Place::file(input), "one matrix, or --name", error.found))?;
-    all.remove(0).matrix.map_err(in_input)
+    csv::write(&["row", "node", "direction"], rows).map(String::into_bytes)
 }
 
 /// All matrices of a file, or the one that is meant, for Nastran.
-pub(super) fn op4(input: &Path, bytes: &[u8], options: &ConvertOptions) -> Result<Vec<u8>, InputError> {
+pub(super) fn op4(
+    input: &Path,
+    all: Vec<NamedMatrix>,
+    options: &ConvertOptions,
+) -> Result<Vec<u8>, InputError> {
     let in_input = |error: FormatError| InputError::in_file(input, error);
+    let meant = if options.name.is_some() { vec![one(input, all, options)?] } else { all };
     let mut matrices = Vec::new();
-    if let Some(name) = &options.name {
-        matrices.push((name.clone(), one(input, bytes, options)?));
-    } else {
-        for entry in read_matrices(bytes).map_err(in_input)? {
-            let matrix = entry.matrix.map_err(|error| {
-                let found = format!("{} in {:?}", error.found, entry.name);
+    for NamedMatrix { name, matrix, .. } in meant {
+        let matrix = matrix.map_err(|error| match options.name {
+            Some(_) => in_input(error),
+            None => {
+                let found = format!("{} in {name:?}", error.found);
                 in_input(FormatError { expected: format!("{}, or --name", error.expected), found, ..error })
-            })?;
-            matrices.push((entry.name, matrix));
-        }
+            }
+        })?;
+        matrices.push((name, matrix));
     }
     let stem = input.file_stem().map(|stem| stem.to_string_lossy()).unwrap_or_default();
     let names: Vec<_> =

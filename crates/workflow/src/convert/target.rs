@@ -60,9 +60,10 @@ impl Target {
 /// The endings to which a file of this kind can be converted.
 pub(super) fn endings_for(kind: FileKind) -> String {
     let endings = match kind {
-        kind if kind.holds_matrices() => OF_MATRICES,
-        FileKind::Lvm => "none: frfit frf makes an FRF of time records",
-        _ => OF_FRFS,
+        kind if kind.may_name_rows() => format!("{OF_MATRICES}, .csv (the names of the rows)"),
+        kind if kind.holds_matrices() => OF_MATRICES.into(),
+        FileKind::Lvm => "none: frfit frf makes an FRF of time records".into(),
+        _ => OF_FRFS.into(),
     };
     format!("an ending to which {kind} can be converted: {endings}")
 }

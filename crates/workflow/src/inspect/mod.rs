@@ -9,14 +9,14 @@ mod text;
 mod uff;
 
 pub use lvm::LvmFacts;
-pub use matrix::MatrixFacts;
+pub use matrix::{LabelFacts, MatrixFacts};
 pub use modes::natural_frequencies;
 pub use table::{TableFacts, TableUse};
 pub use uff::{UffContent, UffRecord};
 
 use crate::error::{InputError, Place};
-use crate::load::load_bytes;
-use frfit_formats::{FileKind, FormatError, NamedMatrix, detect, read_matrices};
+use crate::load::{load_bytes, matrices_of};
+use frfit_formats::{FileKind, FormatError, MATRIX_FORMATS, NamedMatrix, detect};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
@@ -66,22 +66,23 @@ pub fn inspect(path: &Path) -> Result<Inspection, InputError> {
         Some(FileKind::Uff) => Content::Uff(uff::records(&bytes).map_err(refuse)?),
         Some(FileKind::Lvm) => Content::Lvm(LvmFacts::read(&bytes).map_err(refuse)?),
         Some(FileKind::Csv) => Content::Table(TableFacts::read(&bytes).map_err(refuse)?),
-        Some(kind) => matrices(path, kind, read_matrices(&bytes).map_err(refuse)?)?,
-        None => return Err(unknown_kind(path, &bytes, READ)),
+        Some(kind) => matrices(path, kind, matrices_of(path, &bytes)?)?,
+        None => return Err(unknown_kind(path, &bytes, "a table (CSV) or time records (.lvm)")),
     };
     Ok(Inspection { file: path.to_path_buf(), content })
 }
 
 /// What a matrix file holds.
 fn matrices(path: &Path, kind: FileKind, all: Vec<NamedMatrix>) -> Result<Content, InputError> {
-    if let [NamedMatrix { name, matrix }] = &all[..]
+    if let [NamedMatrix { name, matrix, labels }] = &all[..]
         && name.is_empty()
     {
         let matrix = matrix.as_ref().map_err(|error| InputError::in_file(path, error.clone()))?;
-        return Ok(Content::Matrix(Box::new(MatrixFacts::of(kind, matrix))));
+        return Ok(Content::Matrix(Box::new(MatrixFacts::of(kind, matrix, labels))));
     }
-    let facts = all.into_iter().map(|NamedMatrix { name, matrix }| {
-        let facts = matrix.map(|matrix| MatrixFacts::of(kind, &matrix)).map_err(|error| error.in_file(path));
+    let facts = all.into_iter().map(|NamedMatrix { name, matrix, labels }| {
+        let facts = matrix.map(|matrix| MatrixFacts::of(kind, &matrix, &labels));
+        let facts = facts.map_err(|error| error.in_file(path));
         NamedFacts { name, facts }
     });
     Ok(Content::Matrices(kind, facts.collect()))
@@ -99,7 +100,7 @@ impl NamedFacts {
 
     fn lines(&self) -> String {
         let lines = match &self.facts {
-            Ok(facts) => facts.lines(),
+            Ok(facts) => facts.lines(&self.name),
             Err(error) => format!("  {error}\n"),
         };
         let indented = lines.lines().map(|line| format!("  {line}\n"));
@@ -132,7 +133,7 @@ impl Inspection {
     pub fn text(&self) -> String {
         let (heading, lines) = match &self.content {
             Content::Uff(records) => (uff::heading(records), uff::lines(records, &self.file)),
-            Content::Matrix(facts) => (facts.kind.to_string(), facts.lines()),
+            Content::Matrix(facts) => (facts.kind.to_string(), facts.lines("")),
             Content::Matrices(kind, all) => {
                 (kind.to_string(), all.iter().map(NamedFacts::lines).collect::<String>())
             }
@@ -143,11 +144,9 @@ impl Inspection {
     }
 }
 
-/// What is looked into.
-const READ: &str = "a UFF file, matrices (Matrix Market, Harwell-Boeing, Nastran OUTPUT4, NumPy, MATLAB), a table (CSV) or time records (.lvm)";
-
-/// The error about a file of no known kind.
-pub(crate) fn unknown_kind(path: &Path, bytes: &[u8], expected: &str) -> InputError {
+/// The error about a file of no known kind: UFF and matrices were expected, and others.
+pub(crate) fn unknown_kind(path: &Path, bytes: &[u8], others: &str) -> InputError {
+    let expected = format!("a UFF file, matrices ({MATRIX_FORMATS}), {others}");
     let found = match bytes {
         [] => "an empty file",
         _ => {

@@ -171,7 +171,7 @@ fn matrices_and_factors() {
         (
             "file = \"K.mtx\"",
             "file = \"a.csv\"",
-            "a.csv: expected a matrix: a Matrix Market, Harwell-Boeing, Nastran OUTPUT4, NumPy or MATLAB file, found a table (CSV)\nnamed in case.toml:5:1: matrix.file",
+            "a.csv: expected a matrix (Matrix Market, Harwell-Boeing, CalculiX, Abaqus, Nastran DMIG, Nastran OUTPUT4, NumPy, MATLAB), found a table (CSV)\nnamed in case.toml:5:1: matrix.file",
         ),
         (
             "file = \"K.mtx\"",
