@@ -66,7 +66,7 @@ pub(crate) enum Command {
     Inspect(Inspect),
     /// Convert a matrix or an FRF to another format, by the endings of the names
     #[command(
-        after_help = "Examples: frfit convert bcsstk09.rsa bcsstk09.mtx\n          frfit convert frf.uff frf.csv --record 2"
+        after_help = "Examples: frfit convert bcsstk09.rsa bcsstk09.mtx\n          frfit convert model.mat K.mtx --name K\n          frfit convert frf.uff frf.csv --record 2"
     )]
     Convert(Convert),
 }
@@ -245,6 +245,9 @@ pub(crate) struct Convert {
     pub(crate) input: PathBuf,
     /// File to write; its ending says the format
     pub(crate) output: PathBuf,
+    /// Which matrix of a file of several
+    #[arg(long)]
+    pub(crate) name: Option<String>,
     /// Which FRF of a UFF file, from 1
     #[arg(long, value_name = "N")]
     pub(crate) record: Option<i64>,

@@ -58,6 +58,8 @@ pub struct MatrixEntry {
     pub role: Role,
     /// File of the matrix.
     pub file: Located<String>,
+    /// Which matrix of the file, `file = { file = "model.op4", name = "K" }`; `None`: its only one.
+    pub in_file: Option<Located<String>>,
     /// Factor, 1 where none is given.
     pub factor: Located<FactorEntry>,
 }

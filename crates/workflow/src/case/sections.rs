@@ -29,7 +29,20 @@ pub(super) fn matrix(table: &Table<'_>) -> Result<MatrixEntry, InputError> {
             Located { value: FactorEntry::Law(Law::Constant(c64::new(1.0, 0.0))), place: name.place.clone() }
         }
     };
-    Ok(MatrixEntry { name, role: role.value, file: table.need("file")?.text()?, factor })
+    let (file, in_file) = matrix_file(&table.need("file")?)?;
+    Ok(MatrixEntry { name, role: role.value, file, in_file, factor })
+}
+
+/// A file of one matrix, or a file and the name of one of its matrices.
+fn matrix_file(field: &Field<'_>) -> Result<(Located<String>, Option<Located<String>>), InputError> {
+    if field.is_text() {
+        return Ok((field.text()?, None));
+    }
+    if !field.is_table() {
+        return Err(field.refuse("a text in quotes or { file = \"...\", name = \"...\" }"));
+    }
+    let table = field.table(&["file", "name"])?;
+    Ok((table.need("file")?.text()?, table.find("name").map(|name| name.text()).transpose()?))
 }
 
 /// A number, a complex modulus, a law, or a table.
