@@ -7,6 +7,7 @@
 //! | Universal File Format (UFF) | [`uff`] |
 //! | tables with named columns (CSV) | [`csv`] |
 //! | LabVIEW measurement files (.lvm) | [`lvm`] |
+//! | input decks of Nastran, Abaqus, Ansys (written only) | [`cards`] |
 //!
 //! [`detect`] tells which of them a file is, [`read_matrix`] reads either kind of matrix file.
 //!
@@ -21,6 +22,7 @@ mod error;
 mod matrix;
 mod text;
 
+pub mod cards;
 pub mod csv;
 pub mod harwell_boeing;
 pub mod lvm;
