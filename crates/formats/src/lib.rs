@@ -14,6 +14,7 @@
 //! | Universal File Format (UFF) | [`uff`] |
 //! | tables with named columns (CSV) | [`csv`] |
 //! | LabVIEW measurement files (.lvm) | [`lvm`] |
+//! | input decks of Nastran, Abaqus, Ansys (written only) | [`cards`] |
 //!
 //! [`detect`] tells which of them a file is, [`read_matrices`] reads every kind of matrix file.
 //!
@@ -35,6 +36,7 @@ mod text;
 
 pub mod abaqus;
 pub mod ansys;
+pub mod cards;
 pub mod csv;
 pub mod dmig;
 pub mod harwell_boeing;

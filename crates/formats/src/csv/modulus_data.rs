@@ -84,39 +84,8 @@ fn rows_where(table: &Table, first: usize, column: &str, value: &str) -> Result<
 
 fn read(bytes: &[u8], only: Option<(&str, &str)>) -> Result<ModulusData, FormatError> {
     let table = Table::read(bytes)?;
-    let frequency = needed(&table, &FREQUENCY)?;
-    let storage = needed(&table, &STORAGE)?;
-    let (loss, is_factor) = match (one_of(&table, &LOSS_FACTOR)?, one_of(&table, &LOSS)?) {
-        (Some(_), Some(second)) => {
-            let expected = "one of the columns loss_factor and loss";
-            return Err(table.name_error(second, expected.into(), "a second one".into()));
-        }
-        (None, Some(loss)) => (loss, false),
-        (Some(loss), None) => (loss, true),
-        (None, None) => {
-            let expected = "a column \"loss_factor\" or \"loss\"";
-            return Err(FormatError::line(table.names_line(), expected, format!("only {}", table.listed())));
-        }
-    };
-    let deviations = match (table.find("storage_std")?, table.find("loss_factor_std")?) {
-        (Some(storage), Some(eta)) => Some([storage, eta]),
-        (None, None) => None,
-        (Some(one), None) | (None, Some(one)) => {
-            let expected = "both columns storage_std and loss_factor_std, or none".into();
-            return Err(table.name_error(one, expected, "one of them".into()));
-        }
-    };
-    let status = table.find("status")?;
-    let units = has_units(&table, [frequency, storage]);
-    let [hz, pascal, loss_unit] = match units {
-        true => [
-            unit(&table, frequency, &HERTZ)?,
-            unit(&table, storage, &PASCAL)?,
-            if is_factor { 1.0 } else { unit(&table, loss, &PASCAL)? },
-        ],
-        false => [1.0; 3],
-    };
-    let first = usize::from(units);
+    let Columns { frequency, storage, loss, is_factor, deviations, status, first, hz, pascal, loss_unit } =
+        Columns::of(&table)?;
     let used = |&row: &usize| {
         let answered = !(table.is_empty(row, storage) && table.is_empty(row, loss));
         answered && status.is_none_or(|status| table.text(row, status) == "ok")
@@ -152,6 +121,71 @@ fn read(bytes: &[u8], only: Option<(&str, &str)>) -> Result<ModulusData, FormatE
         loss_factor,
         left_out,
     })
+}
+
+/// Where a table has what a modulus is made of, and in which units.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Columns {
+    pub(super) frequency: usize,
+    pub(super) storage: usize,
+    /// η, or E″ where `is_factor` is false.
+    pub(super) loss: usize,
+    pub(super) is_factor: bool,
+    pub(super) deviations: Option<[usize; 2]>,
+    pub(super) status: Option<usize>,
+    /// The first row of numbers: 1 where units are below the names.
+    pub(super) first: usize,
+    /// What the units are in SI units.
+    pub(super) hz: f64,
+    pub(super) pascal: f64,
+    pub(super) loss_unit: f64,
+}
+
+impl Columns {
+    /// The columns by their names.
+    ///
+    /// # Errors
+    /// A column that is missing, or given twice under two names; an unknown unit.
+    pub(super) fn of(table: &Table) -> Result<Self, FormatError> {
+        let frequency = needed(table, &FREQUENCY)?;
+        let storage = needed(table, &STORAGE)?;
+        let (loss, is_factor) = match (one_of(table, &LOSS_FACTOR)?, one_of(table, &LOSS)?) {
+            (Some(_), Some(second)) => {
+                let expected = "one of the columns loss_factor and loss";
+                return Err(table.name_error(second, expected.into(), "a second one".into()));
+            }
+            (None, Some(loss)) => (loss, false),
+            (Some(loss), None) => (loss, true),
+            (None, None) => {
+                let expected = "a column \"loss_factor\" or \"loss\"";
+                return Err(FormatError::line(
+                    table.names_line(),
+                    expected,
+                    format!("only {}", table.listed()),
+                ));
+            }
+        };
+        let deviations = match (table.find("storage_std")?, table.find("loss_factor_std")?) {
+            (Some(storage), Some(eta)) => Some([storage, eta]),
+            (None, None) => None,
+            (Some(one), None) | (None, Some(one)) => {
+                let expected = "both columns storage_std and loss_factor_std, or none".into();
+                return Err(table.name_error(one, expected, "one of them".into()));
+            }
+        };
+        let status = table.find("status")?;
+        let units = has_units(table, [frequency, storage]);
+        let [hz, pascal, loss_unit] = match units {
+            true => [
+                unit(table, frequency, &HERTZ)?,
+                unit(table, storage, &PASCAL)?,
+                if is_factor { 1.0 } else { unit(table, loss, &PASCAL)? },
+            ],
+            false => [1.0; 3],
+        };
+        let first = usize::from(units);
+        Ok(Self { frequency, storage, loss, is_factor, deviations, status, first, hz, pascal, loss_unit })
+    }
 }
 
 /// The column with one of these names; `None` where there is none.

@@ -5,6 +5,7 @@ mod field;
 mod parse;
 mod sections;
 
+pub(crate) use parse::law_of_snippet;
 pub use parse::parse;
 pub(crate) use sections::checked_band;
 

@@ -46,7 +46,7 @@ fn matrix_file(field: &Field<'_>) -> Result<(Located<String>, Option<Located<Str
 }
 
 /// A number, a complex modulus, a law, or a table.
-fn factor(field: &Field<'_>) -> Result<Located<FactorEntry>, InputError> {
+pub(super) fn factor(field: &Field<'_>) -> Result<Located<FactorEntry>, InputError> {
     let located = |value| Located { value, place: field.place.clone() };
     if let Some(number) = field.as_number() {
         return Ok(located(FactorEntry::Law(Law::Constant(c64::new(number, 0.0)))));
