@@ -32,7 +32,7 @@ const LOSS: [&str; 4] = ["loss", "loss_modulus", "e_loss", "e''"];
 /// | frequency | frequency_hz, frequency, freq, f, f_hz |
 /// | E′ | storage, storage_modulus, E_stor, E' |
 /// | η or E″ | loss_factor, tan_delta, tan_del, eta; or loss, loss_modulus, E_loss, E'' |
-/// | deviations, both or none | storage_std, loss_factor_std |
+/// | deviations, both or none, in all rows or in none | storage_std, loss_factor_std |
 /// | status | status: only rows that say `ok` are used |
 ///
 /// Upper and lower case are the same, other columns are passed over. The first line below the names may give units: Hz, kHz or rad/s, and Pa, kPa, MPa or GPa;
@@ -114,8 +114,12 @@ fn read(bytes: &[u8], only: Option<(&str, &str)>) -> Result<ModulusData, FormatE
         let of = |&row: &usize| Ok([pascal * positive(row, a)?, positive(row, b)?]);
         order.iter().map(of).collect::<Result<Vec<_>, FormatError>>()
     };
+    // Where nothing was known of the noise, all cells of the deviations are empty: that is a table without them.
+    let told = |columns: &[usize; 2]| {
+        order.iter().any(|&row| columns.iter().any(|&column| !table.is_empty(row, column)))
+    };
     Ok(ModulusData {
-        std: deviations.map(pair).transpose()?,
+        std: deviations.filter(told).map(pair).transpose()?,
         frequency_hz: frequency_hz.into_iter().map(|f| hz * f).collect(),
         storage: storage_values,
         loss_factor,
@@ -240,6 +244,13 @@ mod tests {
         assert_eq!((data.storage, data.loss_factor), (vec![1e6, 2e6], vec![0.2, 0.1]));
         assert_eq!(data.std, Some(vec![[2e4, 0.02], [1e4, 0.01]]));
         assert_eq!(data.left_out, 2);
+    }
+
+    #[test]
+    fn deviations_that_are_nowhere_told_are_none() {
+        let text =
+            "f,storage,eta,status,storage_std,loss_factor_std\n1,2,3,ok,,\n2,2,3,ok,,\n3,2,3,ambiguous,1,1\n";
+        assert_eq!(read_modulus_data(text.as_bytes()).unwrap().std, None);
     }
 
     #[test]
