@@ -120,7 +120,7 @@ pub fn identify_laws_scaled(
     let sigma = without(&deviations(&view), &out);
     let fitting = Fitting { band: &view, at: &at, sigma: &sigma, unknown, options, hooks };
     let Some(mut space) = space else {
-        let outcomes = free.outcomes.iter().map(|own| fitting.without_law(own)).collect();
+        let outcomes = free.outcomes.iter().map(|own| own.unanswered()).collect();
         let channels = vec![Calibration::default(); unknown.len()];
         return Ok(LawsOutcome {
             work: free.work,
@@ -171,7 +171,7 @@ pub fn identify_laws_scaled(
     }
     let outcomes = match best(&fits) {
         Some(law) => map(hooks.for_each, at.len(), |i| judging.outcome(law, &space, i, &free.outcomes[i])),
-        None => free.outcomes.iter().map(|own| fitting.without_law(own)).collect(),
+        None => free.outcomes.iter().map(|own| own.unanswered()).collect(),
     };
     let mut work = free.work;
     work.factorisations += space.work().factorisations - before.factorisations;
@@ -352,8 +352,8 @@ impl Fitting<'_, '_> {
             let correction = estimate.modulus - own.nominal;
             Some((estimate, correction, space.model(i).assess(at, correction).ok()?))
         });
-        let Some((estimate, correction, assessed)) = found else { return self.without_law(own) };
-        let mut outcome = self.without_law(own);
+        let Some((estimate, correction, assessed)) = found else { return own.unanswered() };
+        let mut outcome = own.unanswered();
         let certified = certificate(&assessed, estimate.modulus, measured);
         let error = relative_error(measured, &assessed.response);
         let rest = measured.iter().zip(&assessed.response).zip(&self.sigma[i]);
@@ -396,18 +396,6 @@ impl Fitting<'_, '_> {
             Status::Ok
         };
         outcome
-    }
-
-    /// What is known of a frequency before any law: the nominal response and the solutions there.
-    fn without_law(&self, own: &Identified) -> Identified {
-        Identified {
-            radius: own.radius,
-            roots: own.roots.clone(),
-            breakdown: own.breakdown.clone(),
-            nominal_response: own.nominal_response.clone(),
-            status: Status::IllConditioned,
-            ..Identified::unknown(own.frequency_hz, own.nominal, own.order)
-        }
     }
 }
 

@@ -108,7 +108,7 @@ pub fn identify_smooth(
     let found = space.and_then(|mut space| Some((smoothing.fit(&mut space, &free)?, space)));
     (hooks.progress)(Stage::Law, 1, 1);
     let Some((fitted, space)) = found else {
-        let outcomes = free.outcomes.iter().map(without_curve).collect();
+        let outcomes = free.outcomes.iter().map(Identified::unanswered).collect();
         return Ok(SmoothOutcome {
             band: BandOutcome { outcomes, fit: None, ..free.clone() },
             free,
@@ -400,7 +400,7 @@ impl Smoothing<'_, '_> {
         free: &[Identified],
     ) -> Judged {
         let (measured, own) = (&self.band.measured[i], &free[i]);
-        let mut outcome = without_curve(own);
+        let mut outcome = own.unanswered();
         let factor = modulus(&fitted.smoothed.curve.states[i]);
         let correction = factor - own.nominal;
         let Some(assessed) = space.assess(i, correction).filter(|_| self.log_omega(i).is_finite()) else {
@@ -510,16 +510,4 @@ fn is_ambiguous(free: &[Identified], i: usize) -> bool {
     let before = free[..i].iter().rev().find(answered);
     let after = free[i + 1..].iter().find(answered);
     before.or(after).is_some() && before.is_none_or(ambiguous) && after.is_none_or(ambiguous)
-}
-
-/// What is known of a frequency before any curve: the nominal response and the solutions there.
-fn without_curve(own: &Identified) -> Identified {
-    Identified {
-        radius: own.radius,
-        roots: own.roots.clone(),
-        breakdown: own.breakdown.clone(),
-        nominal_response: own.nominal_response.clone(),
-        status: Status::IllConditioned,
-        ..Identified::unknown(own.frequency_hz, own.nominal, own.order)
-    }
 }
