@@ -2,7 +2,9 @@
 
 #![no_main]
 
-use frfit_formats::csv::{Cell, Table, read_dof_names, read_frf, read_modulus, read_time_records, read_vector, write};
+use frfit_formats::csv::{
+    Cell, Table, read_dof_names, read_frf, read_modulus, read_modulus_rows, read_time_records, read_vector, write,
+};
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|bytes: &[u8]| {
@@ -10,6 +12,11 @@ fuzz_target!(|bytes: &[u8]| {
     if let Ok(frf) = read_frf(bytes) {
         assert!(frf.frequency_hz.is_sorted_by(|a, b| a < b));
         assert_eq!(frf.frequency_hz.len(), frf.response.len());
+    }
+    if let Ok(rows) = read_modulus_rows(bytes) {
+        // Units may round two frequencies to one.
+        assert!(rows.answered.is_sorted_by(|a, b| a.frequency_hz <= b.frequency_hz));
+        assert!(rows.answered.iter().all(|row| row.loss_factor.is_finite()));
     }
     let Ok(table) = Table::read(bytes) else { return };
     let names: Vec<&str> = table.names().collect();

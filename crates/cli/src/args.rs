@@ -2,6 +2,7 @@
 
 use clap::{Parser, Subcommand};
 use frfit::laws::{Family, UnknownFamily};
+use frfit_workflow::export::{Target, UnitSystem};
 use std::path::PathBuf;
 
 /// Correct a finite element model until its frequency response is the measured one.
@@ -56,6 +57,15 @@ pub(crate) enum Command {
                       loss (loss_modulus, E_loss); storage_std and loss_factor_std, if they are known; status, of which only ok is used. \
                       A line of units below the names is understood.")]
     Fit(Fit),
+    /// Write the identified modulus as the table that another solver reads
+    #[command(
+        after_help = "Examples: frfit export nastran results/identified.csv -o core.bdf --unit-system mm-t-s --poisson 0.45 --id 7\n          \
+                      frfit export abaqus results/identified.csv --law laws/law.json -o core.inp --poisson 0.45 --name CORE\n\n\
+                      nastran: MAT1 and two TABLED1 for SDAMPING in SOL 108; abaqus: *ELASTIC and *VISCOELASTIC, FREQUENCY=TABULAR; \
+                      ansys: TB,ELASTIC and TB,SDAMP over TBFIELD,FREQ; csv and json: frequency, modulus, loss factor, their deviations, status, units. \
+                      How each is to be used stands at the head of the file."
+    )]
+    Export(Export),
     /// Compute the model's response at its nominal factors
     #[command(after_help = "Example: frfit respond case.toml --out response --band 20:2000")]
     Respond(Respond),
@@ -66,7 +76,7 @@ pub(crate) enum Command {
     Inspect(Inspect),
     /// Convert a matrix or an FRF to another format, by the endings of the names
     #[command(
-        after_help = "Examples: frfit convert bcsstk09.rsa bcsstk09.mtx\n          frfit convert frf.uff frf.csv --record 2"
+        after_help = "Examples: frfit convert bcsstk09.rsa bcsstk09.mtx\n          frfit convert model.mat K.mtx --name K\n          frfit convert frf.uff frf.csv --record 2"
     )]
     Convert(Convert),
 }
@@ -197,12 +207,50 @@ pub(crate) struct Identify {
 pub(crate) struct Fit {
     /// Table of the modulus: an identified.csv, or one of dynamic mechanical analysis
     pub(crate) table: PathBuf,
+    /// Only rows with this value in a column, as of one temperature: T=20
+    #[arg(long = "where", value_name = "COLUMN=VALUE", value_parser = cell)]
+    pub(crate) only: Option<(String, String)>,
     /// Laws to compare: constant, fractional, zener, maxwell or maxwell:N (N branches), or all (by default; maxwell with 1 to 4)
     #[arg(long = "law", value_name = "LAWS", value_delimiter = ',', value_parser = laws)]
     pub(crate) laws: Vec<Laws>,
     /// Folder for law.json and a figure
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
+}
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct Export {
+    /// nastran, abaqus, ansys, csv or json
+    pub(crate) format: Target,
+    /// Table of the modulus: an identified.csv, or one of dynamic mechanical analysis
+    pub(crate) table: PathBuf,
+    /// File to write
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) out: PathBuf,
+    /// Units of the model: SI (Pa, kg/m^3) or mm-t-s (MPa, t/mm^3)
+    #[arg(long, value_name = "SYSTEM", default_value = "SI")]
+    pub(crate) unit_system: UnitSystem,
+    /// Poisson's ratio, taken as real and constant; a solver needs it
+    #[arg(long, value_name = "RATIO", allow_negative_numbers = true)]
+    pub(crate) poisson: Option<f64>,
+    /// Density in kg/m^3, in any unit system (default: none is written)
+    #[arg(long, value_name = "DENSITY")]
+    pub(crate) density: Option<f64>,
+    /// Modulus in Pa that the matrix was made with, where the table's factors are relative to it
+    #[arg(long, value_name = "PASCAL")]
+    pub(crate) modulus: Option<f64>,
+    /// Values of the best law in a law.json, at every frequency of the table
+    #[arg(long, value_name = "LAW.JSON")]
+    pub(crate) law: Option<PathBuf>,
+    /// Number of the material (Nastran, Ansys); Nastran's tables have it and the next
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub(crate) id: u32,
+    /// Name of the material (Abaqus)
+    #[arg(long, value_name = "NAME", default_value = "FRFIT")]
+    pub(crate) name: String,
+    /// Every row with a modulus, not only those that are ok
+    #[arg(long)]
+    pub(crate) all: bool,
 }
 
 #[derive(Debug, clap::Args)]
@@ -242,6 +290,9 @@ pub(crate) struct Convert {
     pub(crate) input: PathBuf,
     /// File to write; its ending says the format
     pub(crate) output: PathBuf,
+    /// Which matrix of a file of several
+    #[arg(long)]
+    pub(crate) name: Option<String>,
     /// Which FRF of a UFF file, from 1
     #[arg(long, value_name = "N")]
     pub(crate) record: Option<i64>,
@@ -265,6 +316,14 @@ pub(crate) struct Laws(pub(crate) Vec<Family>);
 
 fn laws(text: &str) -> Result<Laws, UnknownFamily> {
     if text == "all" { Ok(Laws(Family::ALL.to_vec())) } else { Ok(Laws(vec![text.parse()?])) }
+}
+
+/// `T=20` as a column and a value.
+fn cell(text: &str) -> Result<(String, String), String> {
+    let (column, value) = text
+        .split_once('=')
+        .ok_or_else(|| format!("expected a column and a value such as T=20, found {text:?}"))?;
+    Ok((column.trim().to_owned(), value.trim().to_owned()))
 }
 
 /// `200:1550` as a band in Hz.

@@ -1,6 +1,6 @@
 //! What came out, in the few lines that a person reads first.
 
-use frfit::identify::{Explained, Identified, NoiseSource, Scale, Status};
+use frfit::identify::{Calibrated, Explained, Identified, NoiseSource, SmoothCurve, Status};
 use frfit_workflow::check::findings_text;
 use frfit_workflow::job::IdentifyJob;
 use frfit_workflow::output::laws_text;
@@ -78,11 +78,27 @@ pub(crate) fn identified(job: &IdentifyJob, out: &Path) -> String {
     if let (Some(size), Some(error)) = (run.subspace_size, run.certificate()) {
         line("subspace", format!("{size} vectors, error of the response at most {error:.1e} (estimated)"));
     }
-    let more = if run.laws.is_some() { "free.csv, law.json, " } else { "" };
+    if let Some(curve) = run.smooth.as_ref().and_then(|smooth| smooth.curve.as_ref()) {
+        let settled = if curve.converged { "" } else { ", not settled" };
+        let odd = match curve.unexplained {
+            0 => String::new(),
+            count => format!("; {count} frequencies that it does not explain have no say in it"),
+        };
+        let SmoothCurve { parameters, width_octaves, .. } = curve;
+        line(
+            "smooth",
+            format!("{parameters:.1} parameters, one for {width_octaves:.2} octaves{settled}{odd}"),
+        );
+    }
+    let more = match (&run.laws, &run.smooth) {
+        (Some(_), _) => "free.csv, law.json, ",
+        (None, Some(_)) => "free.csv, ",
+        (None, None) => "",
+    };
     line(
         "wrote",
         format!(
-            "{}: identified.csv, {more}candidates.csv, response.csv, summary.json, figures/",
+            "{}: identified.csv, {more}candidates.csv, response.csv, updated.uff, summary.json, figures/",
             out.display()
         ),
     );
@@ -120,6 +136,9 @@ fn doubts(job: &IdentifyJob) -> Vec<(&'static str, String)> {
             NoiseSource::Scatter => {
                 format!("{level:.1e} of what is assumed, from the scatter of the answers")
             }
+            NoiseSource::Curve => {
+                format!("{level:.1e} of what is assumed, from what the smooth curve leaves")
+            }
             NoiseSource::Nothing => "unknown".to_owned(),
         };
         lines.push(("noise", format!("{source}{bar}")));
@@ -128,17 +147,7 @@ fn doubts(job: &IdentifyJob) -> Vec<(&'static str, String)> {
         let done = if fit.left_out { "left out" } else { "kept, as robust = false says" };
         lines.push(("sensor", format!("{} contradicts all others: {done}", sensor.label)));
     }
-    let unknown = job.identify().map_or(&[][..], |identify| &identify.unknown_scale);
-    for (m, sensor) in job.case.sensors.iter().enumerate().filter(|&(m, _)| unknown[m]) {
-        let told = match run.scales.get(m).copied().flatten() {
-            Some(Scale { value, std }) => {
-                let std = std.map_or(String::new(), |std| format!(" ± {std:.1e}"));
-                format!("{value:.6e}{std} times what the file says, at {}", sensor.label)
-            }
-            None => format!("not told by the data, at {}: left out", sensor.label),
-        };
-        lines.push(("scale", told));
-    }
+    lines.extend(channels(job));
     match run.fit {
         Some(fit) if fit.verdict == Explained::No => {
             let left = run.sensors.iter().filter(|sensor| !sensor.left_out).count();
@@ -164,6 +173,31 @@ fn doubts(job: &IdentifyJob) -> Vec<(&'static str, String)> {
             ));
         }
         _ => {}
+    }
+    lines
+}
+
+/// What was found of channels whose scale or delay was unknown.
+fn channels(job: &IdentifyJob) -> Vec<(&'static str, String)> {
+    let unknown = job.identify().map_or(&[][..], |identify| &identify.unknown);
+    let mut lines = Vec::new();
+    for ((sensor, unknown), found) in job.case.sensors.iter().zip(unknown).zip(&job.run.channels) {
+        let mut tell = |label, found: Option<Calibrated>, what: &str| {
+            let told = match found {
+                Some(Calibrated { value, std }) => {
+                    let std = std.map_or(String::new(), |std| format!(" ± {std:.1e}"));
+                    format!("{value:.6e}{std} {what}, at {}", sensor.label)
+                }
+                None => format!("not told by the data, at {}: left out", sensor.label),
+            };
+            lines.push((label, told));
+        };
+        if unknown.scale {
+            tell("scale", found.scale, "times what the file says");
+        }
+        if unknown.delay {
+            tell("delay", found.delay_s, "s late");
+        }
     }
     lines
 }

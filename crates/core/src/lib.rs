@@ -49,6 +49,7 @@ pub mod roots;
 pub mod select;
 pub mod series;
 pub mod signal;
+mod smooth;
 pub mod subspace;
 
 pub use frfit_linalg::c64;

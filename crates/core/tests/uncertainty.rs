@@ -267,6 +267,40 @@ fn error_bars_of_a_sandwich_cover_the_truth() {
     assert_coverage(&sandwich(6, 1), [40.0, 1000.0], [0.95, 0.95, 0.8]);
 }
 
+/// The same where nobody tells the noise, and two sensors show it: the level is found to a few percent from 40 frequencies, and the bars are as good. The noise is what is
+/// assumed of it then, in proportion to the response, but for antiresonances.
+#[test]
+fn error_bars_cover_the_truth_where_the_sensors_tell_the_noise() {
+    const RATIO: f64 = 0.8;
+    for (case, band_hz) in [(bar(66), [60.0, 900.0]), (sandwich(6, 1), [40.0, 1000.0])] {
+        let truth = |f: f64| RATIO * case.parameter.nominal.at(f).unwrap();
+        let mut coverage = Coverage::default();
+        let mut made = Measured::clean(&case, linear_hz(band_hz[0], band_hz[1], 40), RATIO, 1e-2);
+        for m in 0..2 {
+            let mut sizes: Vec<f64> = made.u.iter().map(|u| u[m].norm()).collect();
+            sizes.sort_by(f64::total_cmp);
+            let least = 0.1 * sizes[sizes.len() / 2];
+            made.std.iter_mut().zip(&made.u).for_each(|(std, u)| std[m] = 1e-2 * u[m].norm().max(least));
+        }
+        let mut level = Vec::new();
+        for seed in 0..10 {
+            let band = identify(&case, &made, &made.drawn(seed), Noise::Unknown, &bounded(&case));
+            assert_eq!(band.noise.source, NoiseSource::Sensors, "{} {seed}", case.name);
+            // Of real and imaginary part each.
+            level.push(band.noise.level.unwrap() * 2f64.sqrt() / 1e-2);
+            coverage.count(&band, truth);
+        }
+        let Coverage { storage, loss, ok, all } = coverage;
+        // A level is known to 0.12 from 40 medians, the mean of ten to 0.04.
+        assert!((mean(level.iter().copied()) - 1.0).abs() < 0.12, "{}: {level:?}", case.name);
+        for share in [storage, loss].map(|count| count as f64 / ok as f64) {
+            // Of 400 answers a share of 0.95 is known to 0.011.
+            assert!((0.91..=0.99).contains(&share), "{}: {coverage:?}", case.name);
+        }
+        assert!(10 * ok >= 9 * all, "{}: {coverage:?}", case.name);
+    }
+}
+
 /// η = 0.001 and 1 % noise: away from the resonances a single frequency says nothing of the loss factor, and no such one is ok.
 #[test]
 fn loss_factors_that_noise_has_made_up_are_marked() {

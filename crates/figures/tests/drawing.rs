@@ -108,6 +108,31 @@ fn an_error_bar_that_reaches_zero_runs_to_the_frame_of_a_logarithmic_axis() {
     assert!(from > Figure::default().size.1, "{bars}");
 }
 
+/// Of a thousand points the markers are smaller than of ten, and all are there.
+#[test]
+fn many_markers_are_small_and_leave_something_to_be_seen() {
+    let markers = |count: usize| {
+        let x: Vec<f64> = (0..count).map(|k| k as f64).collect();
+        let points =
+            Series { label: String::new(), marker: Some(Marker::Disc), line: None, ..series(&x, &x) };
+        let svg = figure(Panel { series: vec![points], ..Panel::default() }).svg();
+        paths(&svg, ("fill", BLUE)).concat()
+    };
+    // Each disc is two arcs of its radius: `a r r 0 1 0 …`.
+    let radius = |path: &str| {
+        let arc = path.split('a').nth(1).unwrap();
+        arc.split(' ').next().unwrap().parse::<f64>().unwrap()
+    };
+    let (few, many) = (markers(10), markers(1000));
+    assert_eq!((few.matches('M').count(), many.matches('M').count()), (10, 1000));
+    assert!(
+        radius(&few) > 3.0 && radius(&many) < 1.5 && radius(&many) > 0.9,
+        "{} {}",
+        radius(&few),
+        radius(&many)
+    );
+}
+
 #[test]
 fn a_curve_far_outside_the_range_keeps_its_direction() {
     let axis = Axis { range: Some((0.0, 1.0)), ..Axis::linear("y") };

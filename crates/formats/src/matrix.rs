@@ -3,7 +3,7 @@
 use num_complex::Complex64 as c64;
 
 use crate::FormatError;
-use crate::assemble::{HERMITIAN_DIAGONAL, SKEW_DIAGONAL};
+use crate::assemble::{Assembly, Duplicates, HERMITIAN_DIAGONAL, MOST_ROWS, SKEW_DIAGONAL, Value};
 use crate::text::FINITE;
 
 /// What the file declares about A and its transpose.
@@ -92,6 +92,54 @@ impl CoordinateMatrix {
             }
         }
         Ok(())
+    }
+}
+
+impl CoordinateMatrix {
+    /// The square matrix of `size` rows whose row and column `to[k]` are this one's k-th; where `to[k]` is none, they
+    /// are left out. What nothing comes to is zero.
+    ///
+    /// # Errors
+    /// A matrix that is not square, or breaks [`CoordinateMatrix::validate`]; not a place for each row; a place beyond
+    /// `size`, or two rows with one place.
+    pub fn renumbered(&self, to: &[Option<usize>], size: usize) -> Result<Self, FormatError> {
+        self.validate()?;
+        if self.nrows != self.ncols || to.len() != self.nrows {
+            let expected = format!("a square matrix of {} rows, a place for each", to.len());
+            return Err(FormatError::whole(expected, format!("{} by {}", self.nrows, self.ncols)));
+        }
+        if size as u64 > MOST_ROWS {
+            return Err(FormatError::whole(format!("a size up to {MOST_ROWS}"), size.to_string()));
+        }
+        let mut places: Vec<usize> = to.iter().flatten().copied().collect();
+        places.sort_unstable();
+        if places.last().is_some_and(|&last| last >= size) || places.windows(2).any(|pair| pair[0] == pair[1])
+        {
+            return Err(FormatError::whole(format!("places below {size}, each once"), "others"));
+        }
+        match &self.entries {
+            Entries::Pattern => self.moved(to, size, |_| ()),
+            Entries::Real(values) => self.moved(to, size, |k| values[k]),
+            Entries::Complex(values) => self.moved(to, size, |k| values[k]),
+        }
+    }
+
+    fn moved<V: Value>(
+        &self,
+        to: &[Option<usize>],
+        size: usize,
+        value: impl Fn(usize) -> V,
+    ) -> Result<Self, FormatError> {
+        let mut assembly = Assembly::new(self.symmetry, self.rows.len());
+        for (k, (&row, &col)) in self.rows.iter().zip(&self.cols).enumerate() {
+            if let (Some(row), Some(col)) = (to[row], to[col]) {
+                let pushed = assembly.push(row as u64, col as u64, value(k));
+                pushed.map_err(|(expected, found)| FormatError::whole(expected, found))?;
+            }
+        }
+        // The positions were distinct, and in one triangle: they still are.
+        let twice = |_| FormatError::whole("each position once", "one twice");
+        assembly.finish(Duplicates::Refuse, size, size, self.title.clone()).map_err(twice)
     }
 }
 

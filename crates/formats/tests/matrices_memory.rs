@@ -1,6 +1,6 @@
 //! No reader takes more than 16 times its input plus 1 MB, whatever the header promises.
 
-use frfit_formats::{FormatError, csv, harwell_boeing, matrix_market};
+use frfit_formats::{FormatError, abaqus, ansys, csv, dmig, harwell_boeing, matrix_market, triplets};
 use peak_alloc::PeakAlloc;
 
 #[global_allocator]
@@ -17,6 +17,13 @@ fn memory_is_bounded_by_the_bytes_that_are_there() {
     }
     for (name, text) in harwell_boeing_files() {
         bounded(name, &text, harwell_boeing::read_with_rhs);
+    }
+    for (name, text) in files_with_labels() {
+        bounded(name, &text, triplets::read);
+        bounded(name, &text, triplets::read_dofs);
+        bounded(name, &text, abaqus::read);
+        bounded(name, &text, dmig::read);
+        bounded(name, &text, ansys::read_mapping);
     }
     for (name, text) in tables() {
         bounded(name, &text, csv::Table::read);
@@ -116,6 +123,42 @@ fn harwell_boeing_files() -> Vec<(&'static str, String)> {
             ),
         ),
         ("repeats", file("RUA", [1, 1, 1], "(999(999(999I1)))(99999I1)(F1.0)", [1, 1, 1, 0], "1\n2\n1\n")),
+    ]
+}
+
+fn files_with_labels() -> Vec<(&'static str, String)> {
+    let lines = |head: &str, line: &dyn Fn(usize) -> String| {
+        format!("{head}{}", (1..=LARGE).map(line).collect::<String>())
+    };
+    let (symmetric, complex) = ("DMIG,K,0,6,1\nDMIG,K,1\n", "DMIG,K,0,1,4\nDMIG,K,1\n");
+    vec![
+        ("triplets on one row", lines("", &|k| format!("1 {k} 1.\n"))),
+        (
+            "triplets out of order",
+            lines("", &|k| format!("{} {} 1.\n", (LARGE - k) % 700 + 1, k / 700 + 701)),
+        ),
+        (
+            "both triangles",
+            lines("", &|k| {
+                let (i, j) = (k / 2 % 9, k / 2 / 9 + 9);
+                let (i, j) = if k % 2 == 0 { (i, j) } else { (j, i) };
+                format!("{} {} 1.\n", i + 1, j + 1)
+            }),
+        ),
+        ("a triplet far out", "1 2147483647 1.\n".into()),
+        ("labels", lines("", &|k| format!("1,1,{k},1,1.\n"))),
+        ("fixed", lines("", &|k| format!("{k},1,{k},1,1E36\n"))),
+        ("names of rows", lines("", &|k| format!("{k}.1\n"))),
+        ("comments", "**\n".repeat(LARGE)),
+        ("a title", format!("** {}\n1 1 1.\n", "\u{e9}".repeat(LARGE))),
+        ("a column", lines(symmetric, &|k| format!("+,{k},,1.\n"))),
+        ("a column in a row", lines(symmetric, &|k| format!("+,{},,1.,,{},,1.\n", 2 * k, 2 * k + 1))),
+        ("a complex column", lines(complex, &|k| format!("+,{k},,1.,1.\n"))),
+        ("columns", lines(symmetric, &|k| format!("DMIG,K,{k},,,{k},,1.\n"))),
+        ("a huge NCOL", "DMIG,K,0,9,1,,,,2147483647\nDMIG,K,1,,,1,1,1.\n".into()),
+        ("headers", lines("", &|k| format!("DMIG,A{k},0,6,1\n"))),
+        ("blank cards", "DMIG\n".repeat(LARGE)),
+        ("mapping", lines("Matrix Eqn Node DOF\n", &|k| format!("{k} {k} UX\n"))),
     ]
 }
 

@@ -1,9 +1,9 @@
 //! What came out, as arrays: the columns of `identified.csv`, NaN where a cell is empty.
 
 use frfit::c64;
-use frfit::identify::Identified;
+use frfit::identify::{Calibrated, Calibration, Identified};
 use frfit_workflow::job::Computed;
-use frfit_workflow::output::laws_json;
+use frfit_workflow::output::{laws_json, smooth_json};
 use numpy::{Complex64, Element, IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
@@ -36,7 +36,8 @@ pub(crate) fn identification<'py>(py: Python<'py>, computed: &Computed) -> PyRes
     found.set_item("nominal_response", response(|outcome| &outcome.nominal_response)?)?;
     found.set_item("updated_response", response(|outcome| &outcome.updated_response)?)?;
     if let Some(identify) = &case.identify {
-        let measured = identify.measured.iter().map(|row| run.measured(row));
+        let rows = identify.frequency_hz.iter().zip(&identify.measured);
+        let measured = rows.map(|(&frequency_hz, row)| run.measured(frequency_hz, row));
         found.set_item("measured_response", table(py, measured, sensors)?)?;
         found.set_item("matrices", &identify.names)?;
     }
@@ -55,9 +56,15 @@ pub(crate) fn identification<'py>(py: Python<'py>, computed: &Computed) -> PyRes
     found.set_item("sensor_misfit", misfit.into_pyarray(py))?;
     let left_out: Vec<bool> = run.sensors.iter().map(|fit| fit.left_out).collect();
     found.set_item("sensor_left_out", left_out.into_pyarray(py))?;
-    let scales: Vec<f64> =
-        run.scales.iter().map(|scale| scale.map_or(f64::NAN, |scale| scale.value)).collect();
-    found.set_item("sensor_scale", scales.into_pyarray(py))?;
+    let calibrated = |name: &str, of: &dyn Fn(&Calibration) -> Option<f64>| {
+        let column: Vec<f64> = run.channels.iter().map(|channel| of(channel).unwrap_or(f64::NAN)).collect();
+        found.set_item(name, column.into_pyarray(py))
+    };
+    let value = |found: Calibrated| found.value;
+    calibrated("sensor_scale", &|channel| channel.scale.map(value))?;
+    calibrated("sensor_scale_std", &|channel| channel.scale?.std)?;
+    calibrated("sensor_delay_s", &|channel| channel.delay_s.map(value))?;
+    calibrated("sensor_delay_s_std", &|channel| channel.delay_s?.std)?;
     let told = PyList::empty(py);
     let diagnosis = computed.diagnosis.as_ref();
     for finding in diagnosis.map(|d| frfit_workflow::check::told(case, d)).unwrap_or_default() {
@@ -70,9 +77,12 @@ pub(crate) fn identification<'py>(py: Python<'py>, computed: &Computed) -> PyRes
         told.append(one)?;
     }
     found.set_item("findings", told)?;
-    let laws = run.laws.as_ref().map(|laws| laws_json(laws).to_string());
-    let parsed = laws.map(|text| py.import("json")?.call_method1("loads", (text,))).transpose()?;
-    found.set_item("laws", parsed)?;
+    let parsed = |json: Option<serde_json::Value>| {
+        json.map(|json| py.import("json")?.call_method1("loads", (json.to_string(),))).transpose()
+    };
+    found.set_item("laws", parsed(run.laws.as_ref().map(laws_json))?)?;
+    let curve = run.smooth.as_ref().and_then(|smooth| smooth.curve.as_ref());
+    found.set_item("smooth", parsed(curve.map(smooth_json))?)?;
     Ok(found)
 }
 

@@ -28,7 +28,7 @@ pub(crate) struct Measured<'py> {
     coherence: Option<PyReadonlyArray1<'py, f64>>,
     averages: Option<usize>,
     scale: Option<f64>,
-    delay_s: f64,
+    delay_s: Option<f64>,
 }
 
 /// The options of `frfit.identify`, by their names.
@@ -47,6 +47,7 @@ pub(crate) struct Options {
     real: bool,
     estimate: bool,
     robust: Option<bool>,
+    varies: Option<String>,
     laws: Vec<String>,
     check: bool,
     memory_bytes: Option<u64>,
@@ -100,6 +101,7 @@ pub(crate) fn identify<'py>(
         real: options.real,
         estimate: options.estimate,
         robust: options.robust,
+        varies: options.varies,
         laws: laws.map_err(|error| raise(py, "OptionsError", &format!("law: {error}")))?,
         check: options.check,
     };

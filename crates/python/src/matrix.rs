@@ -70,10 +70,14 @@ pub(crate) fn readable(py: Python<'_>, path: PathBuf) -> PyResult<()> {
     py.detach(|| load_bytes(&path)).map(drop).map_err(|error| input(py, &error))
 }
 
-/// A matrix file as positions and values.
+/// A matrix of a file as positions and values.
 #[pyfunction]
-pub(crate) fn read_matrix(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, PyDict>> {
-    let matrix = py.detach(|| load_matrix(&path)).map_err(|error| input(py, &error))?;
+pub(crate) fn read_matrix(
+    py: Python<'_>,
+    path: PathBuf,
+    name: Option<String>,
+) -> PyResult<Bound<'_, PyDict>> {
+    let matrix = py.detach(|| load_matrix(&path, name.as_deref())).map_err(|error| input(py, &error))?;
     let signed = |indices: Vec<usize>| -> PyResult<_> {
         let indices: Result<Vec<i64>, _> = indices.into_iter().map(i64::try_from).collect();
         Ok(indices?.into_pyarray(py))

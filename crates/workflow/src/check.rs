@@ -5,6 +5,7 @@ use crate::load::{Case, IdentifyCase, Overrides, Purpose, load};
 use crate::memory::check_identify;
 use crate::run::{Used, band_of};
 use frfit::doctor::{Diagnosis, Evidence, Fault, KnownFactor, NotJudged, OtherRow, diagnose};
+use frfit::identify::Unknown;
 use frfit::material::OutsideTable;
 use frfit::quantity::Quantity;
 use rayon::prelude::*;
@@ -60,10 +61,12 @@ pub fn check(case: &Case, identify: &IdentifyCase) -> Result<Diagnosis, OutsideT
     let for_each = |n: usize, each: &(dyn Fn(usize) + Sync)| (0..n).into_par_iter().for_each(each);
     let used = Used::of(identify);
     let mut diagnosis = diagnose(&band_of(case, identify, &used), &quantities, &identify.options, &for_each)?;
-    // A real factor is no finding where it is looked for.
+    // A real factor or a delay is no finding where it is looked for.
     diagnosis.findings.retain(|finding| {
         let real = matches!(finding.fault, Fault::Factor { .. } | Fault::Sign);
-        !(real && finding.sensors.iter().all(|&m| identify.unknown_scale[m]))
+        let late = matches!(finding.fault, Fault::Delay { .. });
+        let looked_for = |unknown: Unknown| (real && unknown.scale) || (late && unknown.delay);
+        !finding.sensors.iter().all(|&m| looked_for(identify.unknown[m]))
     });
     Ok(diagnosis)
 }

@@ -8,7 +8,7 @@ use crate::output::{File, Misfit, law_json, laws_text, write_all};
 use frfit::c64;
 use frfit::frequency::omega_rad_s;
 use frfit::laws::{Datum, Family, LawFit, best, fit_modulus};
-use frfit_formats::csv::{ModulusData, read_modulus_data};
+use frfit_formats::csv::{ModulusData, read_modulus_data, read_modulus_data_where};
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -25,16 +25,25 @@ pub struct FitJob {
     pub text: String,
 }
 
-/// Fits laws to a table of moduli, and writes `law.json` and a figure into `out`, if there is one: all of them, or nothing.
+/// Fits laws to a table of moduli, or of it the rows with a value in a column (`only`), and writes `law.json` and a figure into `out`, if there is one: all of them, or nothing.
 ///
 /// With columns `storage_std` and `loss_factor_std` χ² is in their units; without them every modulus counts relative to its size, and the scatter about the law tells
 /// the deviations.
 ///
 /// # Errors
 /// [`JobError`]: what [`read_modulus_data`] refuses, no law with fewer parameters than numbers, an output folder that cannot be written.
-pub fn fit_table(table: &Path, families: &[Family], out: Option<&Path>) -> Result<FitJob, JobError> {
+pub fn fit_table(
+    table: &Path,
+    only: Option<(&str, &str)>,
+    families: &[Family],
+    out: Option<&Path>,
+) -> Result<FitJob, JobError> {
     let bytes = load_bytes(table)?;
-    let data = read_modulus_data(&bytes).map_err(|error| InputError::in_file(table, error))?;
+    let read = match only {
+        Some((column, value)) => read_modulus_data_where(&bytes, column, value),
+        None => read_modulus_data(&bytes),
+    };
+    let data = read.map_err(|error| InputError::in_file(table, error))?;
     let points = points(&data);
     let fits: Vec<LawFit> =
         families.iter().filter_map(|&family| fit_modulus(&points, family, data.std.is_some())).collect();

@@ -7,7 +7,8 @@ use crate::load::{Case, IdentifyCase, Overrides, Purpose, load};
 use crate::memory::{MemoryError, check_full, check_identify};
 use crate::output::{
     File, WriteError, candidates_csv, hit_reasons, identified_csv, laws_json, measured_csv, measured_summary,
-    measured_text, measured_uff, respond_csv, respond_uff, response_csv, summary_json, write_all,
+    measured_text, measured_uff, respond_csv, respond_uff, response_csv, summary_json, updated_uff,
+    write_all,
 };
 use crate::records::{ChannelOptions, Records, read_records};
 use crate::run::{IdentifyRun, Progress, RespondRun, RunOptions, identify, respond};
@@ -110,8 +111,14 @@ pub fn identify_case(
         files.push(File::new("free.csv", identified_csv(&laws.free)));
         files.push(File::new("law.json", format!("{:#}\n", laws_json(laws))));
     }
+    if let Some(smooth) = &run.smooth {
+        files.push(File::new("free.csv", identified_csv(&smooth.free)));
+    }
     files.push(File::new("candidates.csv", candidates_csv(&run.outcomes)));
     files.push(File::new("response.csv", response_csv(&case, wanted, &run)));
+    let uff =
+        updated_uff(&case, &run).map_err(|error| InputError::in_file(&out.join("updated.uff"), error))?;
+    files.push(File::new("updated.uff", uff));
     files.push(File::new("summary.json", format!("{summary:#}\n")));
     write_all(out, &files)?;
     Ok(IdentifyJob { case, diagnosis, run, summary })

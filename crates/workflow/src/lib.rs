@@ -14,12 +14,14 @@
 //! | [`job`] | whole jobs: from the path of a case to files in a folder |
 //! | [`inspect`](mod@inspect) | what is in a file |
 //! | [`convert`](mod@convert) | from one format of a matrix or an FRF to another |
+//! | [`export`](mod@export) | the identified modulus as the table that the next solver reads |
 //! | [`error`] | what the user has to put right, and where |
 
 pub mod case;
 pub mod check;
 pub mod convert;
 pub mod error;
+pub mod export;
 pub mod figures;
 pub mod fit;
 pub mod inspect;

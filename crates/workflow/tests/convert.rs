@@ -4,7 +4,7 @@ mod shared_data;
 
 use frfit::dof::DofName;
 use frfit::quantity::Quantity;
-use frfit_formats::{csv, read_matrix, uff};
+use frfit_formats::{CoordinateMatrix, Entries, csv, op4, read_matrices, read_matrix, uff};
 use frfit_workflow::convert::{ConvertOptions, convert};
 use frfit_workflow::load::{Choice, load_frf};
 use insta::assert_snapshot;
@@ -41,8 +41,14 @@ impl Folder {
     }
 }
 
-const PLAIN: ConvertOptions =
-    ConvertOptions { record: None, quantity: None, response: None, reference: None, binary: false };
+const PLAIN: ConvertOptions = ConvertOptions {
+    name: None,
+    record: None,
+    quantity: None,
+    response: None,
+    reference: None,
+    binary: false,
+};
 
 fn of_table(binary: bool) -> ConvertOptions {
     ConvertOptions {
@@ -64,6 +70,31 @@ fn matrices_keep_every_bit() {
     let back = folder.convert("K.rsa", "back.mm", &PLAIN);
     assert_eq!(read_matrix(&back), read_matrix(MATRIX.as_bytes()));
     assert_eq!(folder.convert("K.mtx", "K.HB", &PLAIN), folder.convert("K.mtx", "K.RSA", &PLAIN));
+}
+
+#[test]
+fn matrices_go_to_nastran_and_back_one_by_one() {
+    let folder = Folder::with("K_skins.mtx", MATRIX);
+    let op4 = folder.convert("K_skins.mtx", "model.op4", &PLAIN);
+    assert_eq!(read_matrices(&op4).unwrap()[0].name, "KSKINS");
+    let title = |bytes: &[u8]| CoordinateMatrix { title: String::new(), ..read_matrix(bytes).unwrap() };
+    assert_eq!(title(&folder.convert("model.op4", "back.mtx", &PLAIN)), title(MATRIX.as_bytes()));
+
+    let k = read_matrix(MATRIX.as_bytes()).unwrap();
+    let m = CoordinateMatrix { entries: Entries::Real(vec![1.0, 0.5, 1.0]), ..k.clone() };
+    fs::write(folder.path("two.op4"), op4::write(&[("K", &k), ("M", &m)]).unwrap()).unwrap();
+    let named = |name: &str| ConvertOptions { name: Some(name.into()), ..PLAIN };
+    assert_eq!(
+        title(&folder.convert("two.op4", "M.rsa", &named("M"))),
+        CoordinateMatrix { title: String::new(), ..m }
+    );
+    assert_eq!(folder.convert("two.op4", "again.op4", &PLAIN), fs::read(folder.path("two.op4")).unwrap());
+    let one = folder.convert("two.op4", "one.op4", &named("M"));
+    assert_eq!(read_matrices(&one).unwrap().len(), 1);
+    assert_snapshot!(folder.refused("two.op4", "K.mtx", &PLAIN), @"two.op4: expected one matrix, or --name, found K (2 x 2), M (2 x 2)");
+    assert_snapshot!(folder.refused("two.op4", "C.mtx", &named("C")), @r#"--name: expected one matrix named "C", found K (2 x 2), M (2 x 2)"#);
+    assert_snapshot!(folder.refused("two.op4", "K.csv", &PLAIN), @"K.csv: expected an ending to which a Nastran OUTPUT4 file can be converted: .mtx or .mm (Matrix Market), .hb, .rb, .rsa, .rua, .csa, .cua, .psa or another matrix type (Harwell-Boeing), .op4 (Nastran OUTPUT4), found the ending of an FRF");
+    assert_snapshot!(folder.refused("K_skins.mtx", "K.mtx", &named("K")), @"--name: expected no name beside a file that names no matrix, found K");
 }
 
 #[test]
@@ -154,12 +185,12 @@ fn endings_say_what_the_output_is() {
     let folder = Folder::with("K.mtx", MATRIX);
     fs::write(folder.path("frf.csv"), TABLE).unwrap();
     fs::write(folder.path("note.txt"), "Dear reader").unwrap();
-    assert_snapshot!(folder.refused("K.mtx", "K.dat", &PLAIN), @"K.dat: expected an ending that names a format: .mtx or .mm (Matrix Market), .hb, .rb, .rsa, .rua, .csa, .cua, .psa or another matrix type (Harwell-Boeing), .uff, .unv or .uf (UFF), .csv (table), found .dat");
-    assert_snapshot!(folder.refused("K.mtx", "K", &PLAIN), @"K: expected an ending that names a format: .mtx or .mm (Matrix Market), .hb, .rb, .rsa, .rua, .csa, .cua, .psa or another matrix type (Harwell-Boeing), .uff, .unv or .uf (UFF), .csv (table), found none");
-    assert_snapshot!(folder.refused("K.mtx", "K.csv", &PLAIN), @"K.csv: expected an ending to which a Matrix Market file can be converted: .mtx or .mm (Matrix Market), .hb, .rb, .rsa, .rua, .csa, .cua, .psa or another matrix type (Harwell-Boeing), found the ending of an FRF");
+    assert_snapshot!(folder.refused("K.mtx", "K.dat", &PLAIN), @"K.dat: expected an ending that names a format: .mtx or .mm (Matrix Market), .hb, .rb, .rsa, .rua, .csa, .cua, .psa or another matrix type (Harwell-Boeing), .op4 (Nastran OUTPUT4), .uff, .unv or .uf (UFF), .csv (table), found .dat");
+    assert_snapshot!(folder.refused("K.mtx", "K", &PLAIN), @"K: expected an ending that names a format: .mtx or .mm (Matrix Market), .hb, .rb, .rsa, .rua, .csa, .cua, .psa or another matrix type (Harwell-Boeing), .op4 (Nastran OUTPUT4), .uff, .unv or .uf (UFF), .csv (table), found none");
+    assert_snapshot!(folder.refused("K.mtx", "K.csv", &PLAIN), @"K.csv: expected an ending to which a Matrix Market file can be converted: .mtx or .mm (Matrix Market), .hb, .rb, .rsa, .rua, .csa, .cua, .psa or another matrix type (Harwell-Boeing), .op4 (Nastran OUTPUT4), found the ending of an FRF");
     assert_snapshot!(folder.refused("frf.csv", "frf.mtx", &of_table(false)), @"frf.mtx: expected an ending to which a table (CSV) can be converted: .uff, .unv or .uf (UFF), .csv (table), found the ending of a matrix");
     assert_snapshot!(folder.refused("K.mtx", "K.rua", &PLAIN), @"K.rua: expected the ending .rsa of what the matrix is, or .hb, found .rua");
-    assert_snapshot!(folder.refused("note.txt", "K.rua", &PLAIN), @"note.txt: expected a UFF file, a matrix (Matrix Market, Harwell-Boeing) or a table (CSV), found none of them (no %%MatrixMarket or -1 at the top, no matrix type in line 3, no names of columns)");
+    assert_snapshot!(folder.refused("note.txt", "K.rua", &PLAIN), @"note.txt: expected a UFF file, matrices (Matrix Market, Harwell-Boeing, CalculiX, Abaqus, Nastran DMIG, Nastran OUTPUT4, NumPy, MATLAB), a table (CSV), found none of them (no %%MatrixMarket or -1 at the top, no matrix type in line 3, no names of columns)");
 }
 
 #[test]

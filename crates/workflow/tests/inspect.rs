@@ -45,6 +45,66 @@ fn refused(name: &str, content: &str) -> String {
     without_folder(&path, &inspect(&path).unwrap_err().to_string())
 }
 
+/// OUTPUT4: a symmetric K, and a form that stores nothing.
+const OP4: &str = "       2      -2       6       2KAA     1P,3E24.16
+       1       0       6
+       5       1
+  3.0000000000000000E+00 -1.0000000000000000E+00
+       2       0       6
+       5       1
+ -1.0000000000000000E+00  2.0000000000000000E+00
+       3       1       1
+  1.0000000000000000E+00
+       2       2       8       2ID
+       3       1       1
+ 1.000000000E+00
+";
+
+#[test]
+fn matrices_with_names_are_listed_one_by_one() {
+    assert_snapshot!(text("model.op4", OP4), @r#"
+    model.op4: a Nastran OUTPUT4 file
+      KAA
+        size      2 x 2
+        values    real, declared symmetric
+        entries   3 stored, 4 not zero in all
+        diagonal  2 to 3
+        largest   3
+        use       a term of a model (file of a [[matrix]])
+      ID
+        model.op4: expected a matrix that stores its entries, found form 8, an identity
+    "#);
+    let json = json_of("model.op4", OP4);
+    assert_eq!(json["kind"], "op4");
+    assert_eq!(json["matrices"][0]["name"], "KAA");
+    assert_eq!(json["matrices"][0]["triangle"], "one");
+    let error = json["matrices"][1]["error"].as_str().unwrap();
+    assert!(
+        error.ends_with("model.op4: expected a matrix that stores its entries, found form 8, an identity")
+    );
+}
+
+#[test]
+fn of_an_array_without_a_name_it_is_told_which_triangle_is_there() {
+    let header = "{'descr': '<f8', 'fortran_order': False, 'shape': (2, 2), }";
+    let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
+    bytes.extend(u16::try_from(header.len()).unwrap().to_le_bytes());
+    bytes.extend(header.as_bytes());
+    bytes.extend([2.0_f64, -1.0, 0.0, 2.0].iter().flat_map(|x| x.to_le_bytes()));
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("K.npy");
+    fs::write(&path, bytes).unwrap();
+    assert_snapshot!(text_of(&path), @r#"
+    K.npy: a NumPy file (.npy, .npz)
+      size      2 x 2
+      values    real, only the upper triangle stored
+      entries   3 stored, 3 not zero in all
+      diagonal  2 to 2
+      largest   2
+      use       not a term of a model: expected a symmetric matrix (its transpose is A), found -1 at (1, 2) but 0 at (2, 1)
+    "#);
+}
+
 const LUMPED: &str = "%%MatrixMarket matrix coordinate real symmetric\n% ----\n% Lumped masses\n3 3 3\n1 1 2.5\n2 2 0\n3 1 -0.5\n";
 const NOT_SYMMETRIC: &str = "%%MatrixMarket matrix coordinate real general\n2 2 3\n1 1 2\n2 1 0.5\n2 2 3\n";
 
@@ -66,7 +126,7 @@ fn a_term_of_a_model() {
         json_of("M.mtx", LUMPED),
         json!({
             "file": "M.mtx", "kind": "matrix market", "rows": 3, "columns": 3, "stored": 3, "nonzeros": 3,
-            "field": "real", "declared_symmetry": "symmetric", "numerically_symmetric": true, "asymmetry": null,
+            "field": "real", "declared_symmetry": "symmetric", "triangle": "one", "numerically_symmetric": true, "asymmetry": null, "labels": null,
             "zero_rows": 1, "zero_diagonals": 2, "diagonal": {"min": 0.0, "max": 2.5}, "largest": 2.5,
             "title": "----\nLumped masses", "term": true,
         })
@@ -78,7 +138,7 @@ fn what_is_no_term_says_why() {
     assert_snapshot!(text("A.mtx", NOT_SYMMETRIC), @r"
     A.mtx: a Matrix Market file
       size      2 x 2
-      values    real, declared general
+      values    real, declared general, only the lower triangle stored
       entries   3 stored, 3 not zero in all
       diagonal  2 to 3
       largest   3
@@ -171,8 +231,8 @@ fn a_table_that_serves_as_nothing_says_why() {
 
 #[test]
 fn what_is_no_file_of_any_kind() {
-    assert_snapshot!(refused("note.txt", "Dear reader\n"), @"note.txt: expected a UFF file, a matrix (Matrix Market, Harwell-Boeing), a table (CSV) or time records (.lvm), found none of them (no %%MatrixMarket or -1 at the top, no matrix type in line 3, no names of columns)");
-    assert_snapshot!(refused("empty", ""), @"empty: expected a UFF file, a matrix (Matrix Market, Harwell-Boeing), a table (CSV) or time records (.lvm), found an empty file");
+    assert_snapshot!(refused("note.txt", "Dear reader\n"), @"note.txt: expected a UFF file, matrices (Matrix Market, Harwell-Boeing, CalculiX, Abaqus, Nastran DMIG, Nastran OUTPUT4, NumPy, MATLAB), a table (CSV) or time records (.lvm), found none of them (no %%MatrixMarket or -1 at the top, no matrix type in line 3, no names of columns)");
+    assert_snapshot!(refused("empty", ""), @"empty: expected a UFF file, matrices (Matrix Market, Harwell-Boeing, CalculiX, Abaqus, Nastran DMIG, Nastran OUTPUT4, NumPy, MATLAB), a table (CSV) or time records (.lvm), found an empty file");
     assert_snapshot!(refused("torn.mtx", "%%MatrixMarket matrix coordinate real symmetric\n3 3 2\n1 1 1\n"), @"torn.mtx:3: expected 2 entries, as line 2 says, found 1");
     let folder = tempfile::tempdir().unwrap();
     assert!(inspect(folder.path()).unwrap_err().to_string().ends_with("expected a file, found a folder"));

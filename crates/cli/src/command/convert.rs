@@ -9,6 +9,7 @@ use std::path::Path;
 
 pub(crate) fn run(args: &Args, wanted: &Convert) -> Result<Outcome, Failure> {
     let options = ConvertOptions {
+        name: wanted.name.clone(),
         record: wanted.record,
         quantity: wanted.quantity,
         response: wanted.response,

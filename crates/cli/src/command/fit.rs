@@ -16,7 +16,8 @@ pub(crate) fn run(args: &Args, wanted: &Fit) -> Result<Outcome, Failure> {
     if families.is_empty() {
         families = Family::ALL.to_vec();
     }
-    let job = fit_table(&wanted.table, &families, wanted.out.as_deref())?;
+    let only = wanted.only.as_ref().map(|(column, value)| (column.as_str(), value.as_str()));
+    let job = fit_table(&wanted.table, only, &families, wanted.out.as_deref())?;
     if args.json {
         say(&format!("{:#}\n", job.summary))?;
     } else if !args.quiet {

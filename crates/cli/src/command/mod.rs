@@ -4,6 +4,7 @@ pub(crate) mod check;
 pub(crate) mod convert;
 pub(crate) mod demo;
 pub(crate) mod example;
+pub(crate) mod export;
 pub(crate) mod fit;
 pub(crate) mod frf;
 pub(crate) mod identify;

@@ -6,6 +6,7 @@ use super::responses::{Law, Responses};
 use crate::c64;
 use crate::for_each::{ForEach, map};
 use crate::frequency::omega_rad_s;
+use crate::identify::{MOST_PHASE, PHASE_STEP};
 use crate::median::median;
 use argmin::core::{CostFunction, Error, Executor, State};
 use argmin::solver::neldermead::NelderMead;
@@ -32,10 +33,6 @@ const APART: f64 = 0.04;
 
 /// Steps of a simplex for each unknown.
 const STEPS: u64 = 45;
-
-/// Delays that are tried go up to this many radians of phase at the top of the band, either way, in steps of a half: a delay of sixteen periods is another recording.
-const MOST_PHASE: f64 = 100.0;
-const PHASE_STEP: f64 = 0.5;
 
 /// Of a bound that is overstepped by one in ln a or β: enough to come back.
 const OVERSTEPPED: f64 = 1e4;

@@ -9,9 +9,11 @@ mod rational;
 mod uncertainty;
 
 pub use band::{
-    Band, BandOutcome, Explained, GoodnessOfFit, Hooks, LawsOutcome, Noise, NoiseLevel, NoiseSource, Scale,
-    SensorFit, Stage, identify_band, identify_band_scaled, identify_laws, identify_laws_scaled,
+    Band, BandOutcome, Calibrated, Calibration, Explained, GoodnessOfFit, Hooks, LawsOutcome, Noise,
+    NoiseLevel, NoiseSource, SensorFit, SmoothCurve, SmoothOutcome, Stage, Unknown, identify_band,
+    identify_band_scaled, identify_laws, identify_laws_scaled, identify_smooth,
 };
+pub(crate) use band::{MOST_PHASE, PHASE_STEP};
 pub use choice::{Method, Selection, Space, UnknownChoice};
 pub use one::{error_by_order, identify_at, relative_error};
 pub use options::{MAX_ORDER, Options, OptionsError};

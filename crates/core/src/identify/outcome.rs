@@ -112,6 +112,18 @@ impl Identified {
         }
     }
 
+    /// What is known of this frequency before a law or a curve answers for it: the nominal response and the solutions there.
+    pub(super) fn unanswered(&self) -> Self {
+        Self {
+            radius: self.radius,
+            roots: self.roots.clone(),
+            breakdown: self.breakdown.clone(),
+            nominal_response: self.nominal_response.clone(),
+            status: Status::IllConditioned,
+            ..Self::unknown(self.frequency_hz, self.nominal, self.order)
+        }
+    }
+
     /// The outcome at a frequency that is left out.
     pub fn out_of_band(frequency_hz: f64, nominal: c64) -> Self {
         Self { status: Status::OutOfBand, ..Self::unknown(frequency_hz, nominal, 0) }

@@ -1,5 +1,6 @@
 //! Coordinates θ of a law's parameters p in which every constraint holds by itself.
 
+use super::Line;
 use super::least_squares::Residuals;
 use super::{Datum, Family};
 use crate::c64;
@@ -121,6 +122,25 @@ impl Chart {
             }
         }
         Some((residuals, columns.concat()))
+    }
+
+    /// What a law leaves of each datum in ln E, and what that pulls; the real and the imaginary part of ln E as if the datum told them apart.
+    pub(crate) fn lines(&self, data: &[Datum], theta: &[f64]) -> Vec<Line> {
+        let line = |datum: &Datum| {
+            let (modulus, slopes) = self.modulus(theta, datum.omega_rad_s)?;
+            let rest = datum.residual(modulus);
+            // By how much the residual changes with ln E.
+            let of_log = [modulus, modulus * c64::i()].map(|change| datum.slope(modulus, change));
+            let dot = |a: [f64; 2], b: [f64; 2]| a[0] * b[0] + a[1] * b[1];
+            let weight = of_log.map(|a| dot(a, a));
+            let pull = |c: usize| slopes.iter().map(|&s| dot(datum.slope(modulus, s), of_log[c])).collect();
+            Some(Line {
+                weight,
+                rest: [0, 1].map(|c| -dot(of_log[c], rest) / weight[c]),
+                pull: [pull(0), pull(1)],
+            })
+        };
+        data.iter().filter_map(line).collect()
     }
 
     /// The same law with its branches in the order of their times.

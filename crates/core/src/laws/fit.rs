@@ -1,5 +1,6 @@
 //! A fitted law: its parameters, how well they are known, and how well it explains the data.
 
+use super::correlated::{Correlated, Line, correlation, shared_covariance};
 use super::least_squares::{Minima, Search, inverse_information, minimise};
 use super::{Chart, Datum, Family, starts};
 use crate::c64;
@@ -64,6 +65,8 @@ pub struct LawFit {
     pub starts: usize,
     /// How many of them ended here. Where most did not, there may be a better minimum still.
     pub agreeing: usize,
+    /// What neighbouring lines leave in common, by which the deviations are wider than noise alone would have them; `None` where noise of each line explains what is left.
+    pub correlated: Option<Correlated>,
     chart: Chart,
     theta: Vec<f64>,
     /// Other minima that the data cannot exclude.
@@ -86,8 +89,10 @@ const PATIENCE: usize = 50;
 
 /// Weighted least squares of one law on data; `None` where there are fewer numbers than parameters, or no start has a finite misfit.
 ///
+/// Where neighbouring rows leave the same, the error bars are wider ([`Correlated`]).
+///
 /// # Limits
-/// What the law leaves counts as noise that is independent from frequency to frequency. Where the law itself is at fault it is not, and the error bars are too narrow.
+/// Of a law that is itself at fault the error bars say how far its parameters would move if its fault came about again by chance, as large and over as many rows; not that there is none.
 pub fn fit_modulus(data: &[Datum], family: Family, sigma_known: bool) -> Option<LawFit> {
     let omegas: Vec<f64> = data.iter().map(|datum| datum.omega_rad_s).collect();
     let chart = Chart::about(family, &omegas);
@@ -98,7 +103,9 @@ pub fn fit_modulus(data: &[Datum], family: Family, sigma_known: bool) -> Option<
     let evaluate = |theta: &[f64]| chart.residuals(data, theta);
     let search = Search { starts: FOLLOWED, patience: PATIENCE, same: 0.0 };
     let minima = minimise(&starts(&chart, data), &evaluate, &search)?;
-    Some(LawFit::new(chart, minima, evidence))
+    let fit = LawFit::new(chart, minima, evidence);
+    let lines = fit.chart.lines(data, &fit.theta);
+    Some(fit.widened(&lines))
 }
 
 impl Chart {
@@ -131,33 +138,50 @@ impl LawFit {
             inverse.iter_mut().flatten().for_each(|value| *value *= unit);
             inverse
         });
-        let (p, chain) = chart.parameters(&theta);
-        let natural = covariance.as_ref().map(|covariance| carried(&chain, covariance));
-        let std = |i: usize| natural.as_ref().map(|c| c[i][i].sqrt()).filter(|std| std.is_finite());
-        let parameters = chart.family.parameters().into_iter().zip(&p).enumerate();
-        let parameters: Vec<Estimate> = parameters
-            .map(|(i, (named, &value))| Estimate { name: named.name, unit: named.unit, value, std: std(i) })
-            .collect();
-        let correlation = natural.map(|c| {
-            let entry = |i: usize, j: usize| if i == j { 1.0 } else { c[i][j] / (c[i][i] * c[j][j]).sqrt() };
-            (0..n).map(|i| (0..n).map(|j| entry(i, j)).collect::<Vec<f64>>()).collect::<Vec<_>>()
-        });
+        let Told { p, parameters, correlation } = told(&chart, &theta, covariance.as_ref());
         Self {
             family: chart.family,
             law: chart.family.law(&p),
             parameters,
-            correlation: correlation.filter(|rows| rows.iter().flatten().all(|value| value.is_finite())),
+            correlation,
             chi_squared: best.sum,
             residuals,
             sigma_known,
             converged: best.converged,
             starts: followed,
             agreeing: agreeing + near,
+            correlated: None,
             chart,
             theta,
             rivals,
             covariance,
         }
+    }
+
+    /// With the deviations that residuals have which neighbouring lines share; `lines` at this law, in its coordinates.
+    pub(crate) fn widened(mut self, lines: &[Line]) -> Self {
+        let n = self.theta.len();
+        let unit = scale(self.chi_squared, self.residuals, n, self.sigma_known);
+        let found = self.covariance.as_ref().zip(correlation(lines)).filter(|_| unit > 0.0);
+        let Some((covariance, process)) = found else { return self };
+        let inverse: Vec<Vec<f64>> =
+            covariance.iter().map(|row| row.iter().map(|value| value / unit).collect()).collect();
+        let shared = shared_covariance(lines, process, &inverse);
+        let wider: Vec<Vec<f64>> = covariance
+            .iter()
+            .zip(&shared)
+            .map(|(own, shared)| own.iter().zip(shared).map(|(own, shared)| own + shared).collect())
+            .collect();
+        let Told { parameters, correlation, .. } = told(&self.chart, &self.theta, Some(&wider));
+        let factor =
+            |(wide, own): (&Estimate, &Estimate)| Some(wide.std? / own.std?).filter(|by| by.is_finite());
+        self.correlated = Some(Correlated {
+            lines: -1.0 / process.persistence.ln(),
+            size: process.variance.sqrt(),
+            widened: parameters.iter().zip(&self.parameters).map(factor).collect(),
+        });
+        (self.parameters, self.correlation, self.covariance) = (parameters, correlation, Some(wider));
+        self
     }
 
     /// The moduli that other minima, which the data cannot exclude, have at a frequency.
@@ -229,6 +253,31 @@ impl LawFit {
         let row = |&i: &usize| told.iter().map(|&j| g[i] * covariance[i][j] * h[j]).sum::<f64>();
         Some(told.iter().map(row).sum())
     }
+}
+
+/// Parameters as users know them.
+struct Told {
+    p: Vec<f64>,
+    parameters: Vec<Estimate>,
+    correlation: Option<Vec<Vec<f64>>>,
+}
+
+/// From the coordinates and their covariance to the parameters and theirs, by the delta rule.
+fn told(chart: &Chart, theta: &[f64], covariance: Option<&Vec<Vec<f64>>>) -> Told {
+    let n = theta.len();
+    let (p, chain) = chart.parameters(theta);
+    let natural = covariance.map(|covariance| carried(&chain, covariance));
+    let std = |i: usize| natural.as_ref().map(|c| c[i][i].sqrt()).filter(|std| std.is_finite());
+    let parameters = chart.family.parameters().into_iter().zip(&p).enumerate();
+    let parameters = parameters
+        .map(|(i, (named, &value))| Estimate { name: named.name, unit: named.unit, value, std: std(i) })
+        .collect();
+    let correlation = natural.map(|c| {
+        let entry = |i: usize, j: usize| if i == j { 1.0 } else { c[i][j] / (c[i][i] * c[j][j]).sqrt() };
+        (0..n).map(|i| (0..n).map(|j| entry(i, j)).collect::<Vec<f64>>()).collect::<Vec<_>>()
+    });
+    let correlation = correlation.filter(|rows| rows.iter().flatten().all(|value| value.is_finite()));
+    Told { p, parameters, correlation }
 }
 
 /// χ² per number below which the rest is roundoff of numbers that are known to themselves.

@@ -179,6 +179,7 @@ pub(crate) fn beam(elements: usize, loss_factor: f64, mass: Mass) -> Case {
         elements,
         ends: [Support::Clamped, Support::Free],
         mass,
+        shear: None,
     };
     let beam = beam.assemble().unwrap();
     let at = |x: f64| nearest(&beam, [x, 0.0, 0.0], Direction::Z);

@@ -9,6 +9,10 @@ use crate::svg::{N, Svg};
 pub(super) const LINE: f64 = 1.7;
 /// Half-size of markers.
 const RADIUS: f64 = 3.2;
+/// Half-size of markers of which there are so many that they would hide everything else.
+const SMALL: f64 = 1.1;
+/// So many markers without a line lie side by side at their full size.
+const SPARSE: f64 = 120.0;
 /// Markers on a line keep this distance.
 const APART: f64 = 7.0;
 /// Half-length of the caps of error bars.
@@ -84,14 +88,25 @@ pub(super) fn markers(svg: &mut Svg, series: &Series, x: &Map, y: &Map) {
     let Some(marker) = series.marker else { return };
     let mut last: Option<(f64, f64)> = None;
     let mut path = String::new();
+    let radius = radius(series);
     for point in series.points().filter_map(|(a, b)| x.place_inside(a).zip(y.place_inside(b))) {
         let crowded = last.is_some_and(|(a, b)| (point.0 - a).hypot(point.1 - b) < APART);
         if series.line.is_none() || !crowded {
-            path += &outline(marker, point, RADIUS);
+            path += &outline(marker, point, radius);
             last = Some(point);
         }
     }
     svg.path(&path, &paint(series.color.hex(), marker));
+}
+
+/// Half-size of the markers of a series. On a line those that would crowd are left out; without one all are drawn, and are the smaller the more there are: their area with their
+/// number, so that what they cover stays the same.
+fn radius(series: &Series) -> f64 {
+    if series.line.is_some() {
+        return RADIUS;
+    }
+    let count = series.points().filter(|(x, y)| x.is_finite() && y.is_finite()).count() as f64;
+    (RADIUS * (SPARSE / count.max(SPARSE)).sqrt()).max(SMALL)
 }
 
 /// Attributes of markers.

@@ -45,6 +45,12 @@ impl Direction {
         }
     }
 
+    /// From 1, 2, 3 for X, Y, Z and 4, 5, 6 for RX, RY, RZ; `None` for any other number.
+    #[must_use]
+    pub fn from_number(number: i32) -> Option<Self> {
+        Self::ALL.into_iter().find(|direction| direction.number() == number)
+    }
+
     /// 1, 2, 3 for X, Y, Z and 4, 5, 6 for RX, RY, RZ: the number in [`uff::Dof`](crate::uff::Dof).
     #[must_use]
     pub fn number(self) -> i32 {

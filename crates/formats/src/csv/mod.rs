@@ -4,7 +4,7 @@
 //! Cells are separated by commas, semicolons or tabs, whichever the names are separated by, and may be
 //! quoted. Numbers have a decimal point; a decimal comma is refused.
 //!
-//! [`Table`] is any such table; [`read_frf`], [`read_vector`], [`read_dof_names`], [`read_modulus`], [`read_modulus_data`] and
+//! [`Table`] is any such table; [`read_frf`], [`read_vector`], [`read_dof_names`], [`read_modulus`], [`read_modulus_data`], [`read_modulus_rows`] and
 //! [`read_time_records`] are the ones that `frfit` works with; [`write()`] writes one.
 //!
 //! # Source
@@ -15,6 +15,7 @@ mod dof_names;
 mod frf;
 mod modulus;
 mod modulus_data;
+mod modulus_rows;
 mod table;
 mod time_records;
 mod vector;
@@ -23,7 +24,8 @@ mod write;
 pub use dof_names::{Direction, DofName, read_dof_names};
 pub use frf::{FrfTable, read_frf};
 pub use modulus::{ModulusTable, read_modulus};
-pub use modulus_data::{ModulusData, read_modulus_data};
+pub use modulus_data::{ModulusData, read_modulus_data, read_modulus_data_where};
+pub use modulus_rows::{ModulusRow, ModulusRows, read_modulus_rows};
 pub use table::Table;
 pub use time_records::{TimeChannel, TimeTable, read_time_records};
 pub use vector::read_vector;

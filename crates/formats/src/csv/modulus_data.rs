@@ -32,7 +32,7 @@ const LOSS: [&str; 4] = ["loss", "loss_modulus", "e_loss", "e''"];
 /// | frequency | frequency_hz, frequency, freq, f, f_hz |
 /// | E′ | storage, storage_modulus, E_stor, E' |
 /// | η or E″ | loss_factor, tan_delta, tan_del, eta; or loss, loss_modulus, E_loss, E'' |
-/// | deviations, both or none | storage_std, loss_factor_std |
+/// | deviations, both or none, in all rows or in none | storage_std, loss_factor_std |
 /// | status | status: only rows that say `ok` are used |
 ///
 /// Upper and lower case are the same, other columns are passed over. The first line below the names may give units: Hz, kHz or rad/s, and Pa, kPa, MPa or GPa;
@@ -42,46 +42,60 @@ const LOSS: [&str; 4] = ["loss", "loss_modulus", "e_loss", "e''"];
 /// What [`Table::read`] refuses; a column that is missing, or given twice under two names; an unknown unit; a frequency that is not positive or repeated, as where one table
 /// holds several temperatures; a cell that is no finite number; a deviation that is not positive, or only one of the two; no row to use.
 pub fn read_modulus_data(bytes: &[u8]) -> Result<ModulusData, FormatError> {
+    read(bytes, None)
+}
+
+/// As [`read_modulus_data`], of the rows alone whose cell in a column has this value: the same text, or the same number. One table of several temperatures is read so.
+///
+/// # Errors
+/// As [`read_modulus_data`]; a column that is not there, or in which no row has the value: the error lists those that it has.
+pub fn read_modulus_data_where(bytes: &[u8], column: &str, value: &str) -> Result<ModulusData, FormatError> {
+    read(bytes, Some((column, value)))
+}
+
+/// Values of a column that an error lists at most.
+const LISTED: usize = 12;
+
+/// The rows from `first` on whose cell has this value.
+fn rows_where(table: &Table, first: usize, column: &str, value: &str) -> Result<Vec<usize>, FormatError> {
+    let at = table.column(column)?;
+    let number = |text: &str| text.parse::<f64>().ok();
+    let same = |text: &str| text == value || number(value).is_some_and(|value| number(text) == Some(value));
+    let rows: Vec<usize> = (first..table.rows()).filter(|&row| same(table.text(row, at))).collect();
+    if rows.is_empty() {
+        let mut there: Vec<&str> = Vec::new();
+        for text in (first..table.rows()).map(|row| table.text(row, at)) {
+            if !there.contains(&text) {
+                there.push(text);
+            }
+        }
+        let more =
+            if there.len() > LISTED { format!(" and {} more", there.len() - LISTED) } else { String::new() };
+        there.truncate(LISTED);
+        let expected = format!("a row with {value:?} in column {column:?}");
+        return Err(FormatError::line(
+            table.names_line(),
+            expected,
+            format!("only {}{more}", there.join(", ")),
+        ));
+    }
+    Ok(rows)
+}
+
+fn read(bytes: &[u8], only: Option<(&str, &str)>) -> Result<ModulusData, FormatError> {
     let table = Table::read(bytes)?;
-    let frequency = needed(&table, &FREQUENCY)?;
-    let storage = needed(&table, &STORAGE)?;
-    let (loss, is_factor) = match (one_of(&table, &LOSS_FACTOR)?, one_of(&table, &LOSS)?) {
-        (Some(_), Some(second)) => {
-            let expected = "one of the columns loss_factor and loss";
-            return Err(table.name_error(second, expected.into(), "a second one".into()));
-        }
-        (None, Some(loss)) => (loss, false),
-        (Some(loss), None) => (loss, true),
-        (None, None) => {
-            let expected = "a column \"loss_factor\" or \"loss\"";
-            return Err(FormatError::line(table.names_line(), expected, format!("only {}", table.listed())));
-        }
-    };
-    let deviations = match (table.find("storage_std")?, table.find("loss_factor_std")?) {
-        (Some(storage), Some(eta)) => Some([storage, eta]),
-        (None, None) => None,
-        (Some(one), None) | (None, Some(one)) => {
-            let expected = "both columns storage_std and loss_factor_std, or none".into();
-            return Err(table.name_error(one, expected, "one of them".into()));
-        }
-    };
-    let status = table.find("status")?;
-    let units = has_units(&table, [frequency, storage]);
-    let [hz, pascal, loss_unit] = match units {
-        true => [
-            unit(&table, frequency, &HERTZ)?,
-            unit(&table, storage, &PASCAL)?,
-            if is_factor { 1.0 } else { unit(&table, loss, &PASCAL)? },
-        ],
-        false => [1.0; 3],
-    };
-    let first = usize::from(units);
+    let Columns { frequency, storage, loss, is_factor, deviations, status, first, hz, pascal, loss_unit } =
+        Columns::of(&table)?;
     let used = |&row: &usize| {
         let answered = !(table.is_empty(row, storage) && table.is_empty(row, loss));
         answered && status.is_none_or(|status| table.text(row, status) == "ok")
     };
-    let rows: Vec<usize> = (first..table.rows()).filter(used).collect();
-    let left_out = table.rows() - first - rows.len();
+    let all = match only {
+        Some((column, value)) => rows_where(&table, first, column, value)?,
+        None => (first..table.rows()).collect(),
+    };
+    let rows: Vec<usize> = all.iter().copied().filter(used).collect();
+    let left_out = all.len() - rows.len();
     if rows.is_empty() {
         let expected = "at least one line with a modulus (and the status ok) below the names";
         return Err(FormatError::line(table.names_line(), expected, "none"));
@@ -100,13 +114,82 @@ pub fn read_modulus_data(bytes: &[u8]) -> Result<ModulusData, FormatError> {
         let of = |&row: &usize| Ok([pascal * positive(row, a)?, positive(row, b)?]);
         order.iter().map(of).collect::<Result<Vec<_>, FormatError>>()
     };
+    // Where nothing was known of the noise, all cells of the deviations are empty: that is a table without them.
+    let told = |columns: &[usize; 2]| {
+        order.iter().any(|&row| columns.iter().any(|&column| !table.is_empty(row, column)))
+    };
     Ok(ModulusData {
-        std: deviations.map(pair).transpose()?,
+        std: deviations.filter(told).map(pair).transpose()?,
         frequency_hz: frequency_hz.into_iter().map(|f| hz * f).collect(),
         storage: storage_values,
         loss_factor,
         left_out,
     })
+}
+
+/// Where a table has what a modulus is made of, and in which units.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Columns {
+    pub(super) frequency: usize,
+    pub(super) storage: usize,
+    /// η, or E″ where `is_factor` is false.
+    pub(super) loss: usize,
+    pub(super) is_factor: bool,
+    pub(super) deviations: Option<[usize; 2]>,
+    pub(super) status: Option<usize>,
+    /// The first row of numbers: 1 where units are below the names.
+    pub(super) first: usize,
+    /// What the units are in SI units.
+    pub(super) hz: f64,
+    pub(super) pascal: f64,
+    pub(super) loss_unit: f64,
+}
+
+impl Columns {
+    /// The columns by their names.
+    ///
+    /// # Errors
+    /// A column that is missing, or given twice under two names; an unknown unit.
+    pub(super) fn of(table: &Table) -> Result<Self, FormatError> {
+        let frequency = needed(table, &FREQUENCY)?;
+        let storage = needed(table, &STORAGE)?;
+        let (loss, is_factor) = match (one_of(table, &LOSS_FACTOR)?, one_of(table, &LOSS)?) {
+            (Some(_), Some(second)) => {
+                let expected = "one of the columns loss_factor and loss";
+                return Err(table.name_error(second, expected.into(), "a second one".into()));
+            }
+            (None, Some(loss)) => (loss, false),
+            (Some(loss), None) => (loss, true),
+            (None, None) => {
+                let expected = "a column \"loss_factor\" or \"loss\"";
+                return Err(FormatError::line(
+                    table.names_line(),
+                    expected,
+                    format!("only {}", table.listed()),
+                ));
+            }
+        };
+        let deviations = match (table.find("storage_std")?, table.find("loss_factor_std")?) {
+            (Some(storage), Some(eta)) => Some([storage, eta]),
+            (None, None) => None,
+            (Some(one), None) | (None, Some(one)) => {
+                let expected = "both columns storage_std and loss_factor_std, or none".into();
+                return Err(table.name_error(one, expected, "one of them".into()));
+            }
+        };
+        let status = table.find("status")?;
+        let units = has_units(table, [frequency, storage]);
+        let [hz, pascal, loss_unit] = match units {
+            true => [
+                unit(table, frequency, &HERTZ)?,
+                unit(table, storage, &PASCAL)?,
+                if is_factor { 1.0 } else { unit(table, loss, &PASCAL)? },
+            ],
+            false => [1.0; 3],
+        };
+        let first = usize::from(units);
+        Ok(Self { frequency, storage, loss, is_factor, deviations, status, first, hz, pascal, loss_unit })
+    }
 }
 
 /// The column with one of these names; `None` where there is none.
@@ -164,11 +247,33 @@ mod tests {
     }
 
     #[test]
+    fn deviations_that_are_nowhere_told_are_none() {
+        let text =
+            "f,storage,eta,status,storage_std,loss_factor_std\n1,2,3,ok,,\n2,2,3,ok,,\n3,2,3,ambiguous,1,1\n";
+        assert_eq!(read_modulus_data(text.as_bytes()).unwrap().std, None);
+    }
+
+    #[test]
     fn units_below_the_names_are_converted() {
         let text = "f, E_stor, E_loss,T\nkHz, MPa, kPa,C\n1,2,500,-5\n";
         let data = read_modulus_data(text.as_bytes()).unwrap();
         assert_eq!((data.frequency_hz, data.storage), (vec![1e3], vec![2e6]));
         assert_eq!((data.loss_factor, data.std), (vec![0.25], None));
+    }
+
+    #[test]
+    fn one_of_several_temperatures_is_picked() {
+        let text = "f,storage,eta,T\nHz,Pa,-,C\n1,2,0.1,20\n2,3,0.2,20.0\n1,5,0.3,-10\n";
+        let data = read_modulus_data_where(text.as_bytes(), "T", "20").unwrap();
+        assert_eq!((data.storage, data.left_out), (vec![2.0, 3.0], 0));
+        assert_eq!(read_modulus_data_where(text.as_bytes(), "T", "-10").unwrap().storage, [5.0]);
+        let refused =
+            |column: &str| read_modulus_data_where(text.as_bytes(), column, "30").unwrap_err().to_string();
+        assert_eq!(
+            refused("T"),
+            "input:1: expected a row with \"30\" in column \"T\", found only 20, 20.0, -10"
+        );
+        assert!(refused("X").starts_with("input:1: expected a column \"X\""), "{}", refused("X"));
     }
 
     #[test]

@@ -151,11 +151,13 @@ fn kinds_are_told_by_content() {
     let message = |bytes: &[u8]| frfit_formats::read_matrix(bytes).unwrap_err().to_string();
     assert_eq!(
         message(b"    -1\n    58\n"),
-        "input: expected a matrix: a Matrix Market or a Harwell-Boeing file, found a Universal File Format (UFF) file"
+        "input: expected a matrix (Matrix Market, Harwell-Boeing, CalculiX, Abaqus, Nastran DMIG, Nastran OUTPUT4, NumPy, \
+         MATLAB), found a Universal File Format (UFF) file"
     );
     assert_eq!(
         message(b"{}"),
-        "input: expected a matrix: a Matrix Market or a Harwell-Boeing file, found neither \
-         (no %%MatrixMarket in line 1, no matrix type such as RSA in line 3)"
+        "input: expected a matrix (Matrix Market, Harwell-Boeing, CalculiX, Abaqus, Nastran DMIG, Nastran OUTPUT4, NumPy, \
+         MATLAB), found none of them (no %%MatrixMarket, OUTPUT4 header or entry in line 1, no matrix type such as RSA in \
+         line 3, no DMIG card)"
     );
 }

@@ -2,6 +2,7 @@
 
 mod broken;
 mod dialects;
+mod kinds;
 #[path = "../outside/mod.rs"]
 mod outside;
 mod real_files;

@@ -35,9 +35,9 @@ class Measurement:
     coherence, averages
         (f,), and of how many averages: another way to say how well it was measured.
     scale
-        What the values are to be multiplied by; ``"unknown"`` is found, beside a known one or a law.
+        What the values are to be multiplied by; ``"unknown"`` is found, beside a known channel or with a law.
     delay_s
-        By how much the channel is late, s.
+        By how much the channel is late, s; ``"unknown"`` as above.
     """
 
     frequency_hz: ArrayLike
@@ -49,7 +49,7 @@ class Measurement:
     coherence: ArrayLike | None = None
     averages: int | None = None
     scale: float | Literal["unknown"] = 1.0
-    delay_s: float = 0.0
+    delay_s: float | Literal["unknown"] = 0.0
 
 
 def _plain(one: Measurement) -> SimpleNamespace:
@@ -64,7 +64,7 @@ def _plain(one: Measurement) -> SimpleNamespace:
         coherence=None if one.coherence is None else real(one.coherence),
         averages=one.averages,
         scale=None if one.scale == "unknown" else float(one.scale),
-        delay_s=float(one.delay_s),
+        delay_s=None if one.delay_s == "unknown" else float(one.delay_s),
     )
 
 
@@ -87,6 +87,7 @@ def identify(
     order: int | None = None,
     selection: Literal["joint", "smallest"] | None = None,
     space: Literal["auto", "full", "subspace"] | None = None,
+    varies: Literal["frequency", "smooth", "law"] | None = None,
     law: str | Sequence[str] = (),
     real: bool = False,
     robust: bool | None = None,
@@ -107,6 +108,9 @@ def identify(
         The name of the term whose factor is unknown, or of several that share it.
     bounds
         ``{"storage": (low, high), "loss_factor": (low, high)}``, storage in the unit of the factor.
+    varies
+        ``"frequency"``: a factor of its own at each; ``"smooth"``: neighbours help each other; ``"law"``, which is what
+        ``law`` alone means too: by a law, the best of ``law`` or without it of all.
     law
         ``"constant"``, ``"fractional"``, ``"zener"``, ``"maxwell:N"`` or several: fitted to the whole band.
     progress
@@ -147,6 +151,7 @@ def identify(
         "real": real,
         "estimate": nominal == "estimate",
         "robust": robust,
+        "varies": varies,
         "laws": [law] if isinstance(law, str) else list(law),
         "check": check,
         "memory_bytes": memory_bytes,

@@ -11,15 +11,23 @@ import scipy.sparse as sp
 from . import _frfit
 
 
-def read_matrix(path: str | os.PathLike[str]) -> Any:
-    """The matrix of a file (Matrix Market, Harwell-Boeing), both triangles, as a ``scipy.sparse.csc_array``.
+def read_matrix(path: str | os.PathLike[str], name: str | None = None) -> Any:
+    """A matrix of a file, both triangles, as a ``scipy.sparse.csc_array``.
 
-    The kind of file is told by its content. A pattern has ones for values.
+    The kind of file is told by its content: Matrix Market, Harwell-Boeing, CalculiX, Abaqus, Nastran (DMIG, OUTPUT4),
+    NumPy, MATLAB. A pattern has ones for values. Rows are in the order of the file: where files name their rows, and in
+    different orders, :func:`run_case` brings them to one, and this function does not.
+
+    Parameters
+    ----------
+    name
+        Which matrix of a file of several.
 
     Raises
     ------
     InputError
-        A file that cannot be read: where, what was expected, what was found.
+        A file that cannot be read: where, what was expected, what was found. Several matrices and no ``name``, or none
+        of that name: what there is.
 
     Examples
     --------
@@ -31,7 +39,7 @@ def read_matrix(path: str | os.PathLike[str]) -> Any:
     array([[ 2., -1.],
            [-1.,  2.]])
     """
-    found = _frfit.read_matrix(path)
+    found = _frfit.read_matrix(path, name)
     rows, cols, values = found["rows"], found["cols"], found["values"]
     if found["symmetry"] != "general":
         below = rows != cols

@@ -69,7 +69,7 @@ class Identification:
     alternatives: tuple[Complex, ...]
     """f arrays: factors that the data cannot exclude beside the one that is given."""
     measured_response: Complex
-    """(f, sensors), receptance, m/N; scales that were found included."""
+    """(f, sensors), receptance, m/N; scales and delays that were found included."""
     nominal_response: Complex
     """(f, sensors), receptance of the nominal model."""
     updated_response: Complex
@@ -83,11 +83,21 @@ class Identification:
     sensor_left_out: Flags
     """(sensors,), whether it contradicts all others and was left out."""
     sensor_scale: Real
-    """(sensors,), the scale that was found; NaN where it was known."""
+    """(sensors,), the scale that was found; NaN where it was known, or the data do not tell it."""
+    sensor_scale_std: Real
+    """(sensors,), its standard deviation."""
+    sensor_delay_s: Real
+    """(sensors,), by how much the channel was found to be late, s; NaN as above."""
+    sensor_delay_s_std: Real
+    """(sensors,), its standard deviation, s."""
     findings: tuple[Finding, ...]
     """What is wrong with the data."""
     laws: Any
     """The laws that were fitted, as in ``law.json``; ``None`` where none was asked for."""
+    smooth: dict[str, Any] | None
+    """How smooth the factor is, as in ``summary.json``: ``parameters`` that the curve takes for each of its parts,
+    ``width_octaves``, ``converged``, frequencies ``unexplained``; ``None`` where it was not asked to be smooth, or no
+    curve could be laid."""
     noise: float | None
     """Noise over the assumed deviations; ``None`` where nothing tells it."""
     noise_source: str

@@ -5,6 +5,7 @@ mod field;
 mod parse;
 mod sections;
 
+pub(crate) use parse::law_of_snippet;
 pub use parse::parse;
 pub(crate) use sections::checked_band;
 
@@ -58,6 +59,8 @@ pub struct MatrixEntry {
     pub role: Role,
     /// File of the matrix.
     pub file: Located<String>,
+    /// Which matrix of the file, `file = { file = "model.op4", name = "K" }`; `None`: its only one.
+    pub in_file: Option<Located<String>>,
     /// Factor, 1 where none is given.
     pub factor: Located<FactorEntry>,
 }
@@ -120,17 +123,17 @@ pub struct MeasurementEntry {
     /// What was measured; `None`: as the file says.
     pub quantity: Option<Quantity>,
     /// What its values are to be multiplied by; `None`: one.
-    pub scale: Option<Located<ScaleEntry>>,
-    /// By how much the channel is late, s.
-    pub delay_s: Option<f64>,
+    pub scale: Option<Located<Calibration>>,
+    /// By how much the channel is late, s; `None`: by nothing.
+    pub delay_s: Option<Located<Calibration>>,
     /// Over how many records the coherence was averaged; `None`: not told.
     pub averages: Option<Located<i64>>,
 }
 
-/// `scale` of a measurement.
+/// `scale` or `delay_s` of a measurement.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum ScaleEntry {
-    /// The value in SI units over that of the file.
+pub enum Calibration {
+    /// A scale is the value in SI units over that of the file, a delay in s.
     Known(f64),
     /// To be found.
     Unknown,
@@ -147,8 +150,8 @@ pub struct IdentifyEntry {
     pub band_hz: Option<Located<[f64; 2]>>,
     /// Frequencies and bands that are left out: no number of them is used.
     pub leave_out: Vec<LeaveOut>,
-    /// Laws to compare, where it says `varies = "law"`; the place is that of `varies`.
-    pub laws: Option<Located<Vec<Family>>>,
+    /// How the factor varies, where that is said; the place is that of `varies`.
+    pub varies: Option<Located<VariesEntry>>,
     /// Method.
     pub method: Option<Method>,
     /// Order.
@@ -171,6 +174,33 @@ pub struct IdentifyEntry {
     pub check: bool,
     /// The factor that a simulated measurement was made with.
     pub truth: Option<Located<FactorEntry>>,
+}
+
+/// How the factor varies over frequency: `varies`, with `law` and `branches`.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub enum VariesEntry {
+    /// Anyhow: one of its own at each frequency.
+    #[default]
+    Freely,
+    /// Smoothly.
+    Smoothly,
+    /// By one of these laws, which are to be compared.
+    ByLaw(Vec<Family>),
+}
+
+impl VariesEntry {
+    /// What the word alone says: `law` all laws.
+    ///
+    /// # Errors
+    /// The words that there are.
+    pub(crate) fn of_word(word: &str) -> Result<Self, String> {
+        match word {
+            "frequency" => Ok(Self::Freely),
+            "smooth" => Ok(Self::Smoothly),
+            "law" => Ok(Self::ByLaw(Family::ALL.to_vec())),
+            _ => Err("\"frequency\" (a factor of its own at each), \"smooth\" or \"law\"".into()),
+        }
+    }
 }
 
 /// What `leave_out_hz` lists.

@@ -2,9 +2,10 @@
 
 use super::document::Document;
 use super::field::{Table, shown};
-use super::sections::{attached, identify, load, matrix, measurement, respond};
-use super::{CaseFile, MatrixEntry};
+use super::sections::{attached, factor, identify, load, matrix, measurement, respond};
+use super::{CaseFile, FactorEntry, MatrixEntry};
 use crate::error::{InputError, Place};
+use frfit::material::Law;
 use std::path::Path;
 
 /// Reads a case file from its bytes. `file` is its name in errors.
@@ -45,6 +46,21 @@ pub fn parse(file: &Path, bytes: &[u8]) -> Result<CaseFile, InputError> {
         identify: case.find("identify").map(|field| identify(&field)).transpose()?,
         respond: case.find("respond").map(|field| respond(&field)).transpose()?,
     })
+}
+
+/// The law of a line `factor = { … }`, as `law.json` has it. `file` is where the line is.
+///
+/// # Errors
+/// What a case file with such a line would be refused for; a table in place of a law.
+pub(crate) fn law_of_snippet(file: &Path, line: &str) -> Result<Law, InputError> {
+    let document = Document::new(file, line.as_bytes())?;
+    let tables = document.tables()?;
+    let table = Table::new(&document, Place::file(file), tables.get_ref(), &["factor"])?;
+    let field = table.need("factor")?;
+    match factor(&field)?.value {
+        FactorEntry::Law(law) => Ok(law),
+        FactorEntry::Table(_) => Err(field.refuse("a law")),
+    }
 }
 
 const ATTACHED: [&str; 6] = ["dof", "row", "mass_kg", "directions", "stiffness", "damping"];

@@ -2,8 +2,8 @@
 
 use super::field::{Field, Table};
 use super::{
-    AttachedEntry, FactorEntry, IdentifyEntry, LeaveOut, LoadEntry, Located, MatrixEntry, MeasurementEntry,
-    RespondEntry, ScaleEntry, Spot,
+    AttachedEntry, Calibration, FactorEntry, IdentifyEntry, LeaveOut, LoadEntry, Located, MatrixEntry,
+    MeasurementEntry, RespondEntry, Spot, VariesEntry,
 };
 use crate::error::{InputError, Place};
 use frfit::c64;
@@ -29,11 +29,24 @@ pub(super) fn matrix(table: &Table<'_>) -> Result<MatrixEntry, InputError> {
             Located { value: FactorEntry::Law(Law::Constant(c64::new(1.0, 0.0))), place: name.place.clone() }
         }
     };
-    Ok(MatrixEntry { name, role: role.value, file: table.need("file")?.text()?, factor })
+    let (file, in_file) = matrix_file(&table.need("file")?)?;
+    Ok(MatrixEntry { name, role: role.value, file, in_file, factor })
+}
+
+/// A file of one matrix, or a file and the name of one of its matrices.
+fn matrix_file(field: &Field<'_>) -> Result<(Located<String>, Option<Located<String>>), InputError> {
+    if field.is_text() {
+        return Ok((field.text()?, None));
+    }
+    if !field.is_table() {
+        return Err(field.refuse("a text in quotes or { file = \"...\", name = \"...\" }"));
+    }
+    let table = field.table(&["file", "name"])?;
+    Ok((table.need("file")?.text()?, table.find("name").map(|name| name.text()).transpose()?))
 }
 
 /// A number, a complex modulus, a law, or a table.
-fn factor(field: &Field<'_>) -> Result<Located<FactorEntry>, InputError> {
+pub(super) fn factor(field: &Field<'_>) -> Result<Located<FactorEntry>, InputError> {
     let located = |value| Located { value, place: field.place.clone() };
     if let Some(number) = field.as_number() {
         return Ok(located(FactorEntry::Law(Law::Constant(c64::new(number, 0.0)))));
@@ -204,21 +217,30 @@ pub(super) fn measurement(table: &Table<'_>) -> Result<MeasurementEntry, InputEr
         record: table.find("record").map(|record| record.whole()).transpose()?,
         quantity: table.find("quantity").map(quantity).transpose()?.map(|quantity| quantity.value),
         averages: table.find("averages").map(|field| averages(&field)).transpose()?,
-        scale: table.find("scale").map(|field| scale(&field)).transpose()?,
-        delay_s: table.find("delay_s").map(|field| field.number()).transpose()?,
+        scale: table
+            .find("scale")
+            .map(|field| calibration(&field, SCALE, |scale| scale != 0.0))
+            .transpose()?,
+        delay_s: table.find("delay_s").map(|field| calibration(&field, DELAY, |_| true)).transpose()?,
     })
 }
 
+const SCALE: &str = "a finite number other than 0, or \"unknown\"";
+const DELAY: &str = "a finite number of seconds, or \"unknown\"";
+
 /// A number, or that it is to be found.
-fn scale(field: &Field<'_>) -> Result<Located<ScaleEntry>, InputError> {
-    const EXPECTED: &str = "a finite number other than 0, or \"unknown\"";
+fn calibration(
+    field: &Field<'_>,
+    expected: &str,
+    possible: impl Fn(f64) -> bool,
+) -> Result<Located<Calibration>, InputError> {
     match field.as_number() {
-        Some(scale) if scale != 0.0 => {
-            Ok(Located { value: ScaleEntry::Known(scale), place: field.place.clone() })
+        Some(number) if possible(number) => {
+            Ok(Located { value: Calibration::Known(number), place: field.place.clone() })
         }
-        _ => match field.word(|word| (word == "unknown").then_some(()).ok_or_else(|| EXPECTED.to_owned())) {
-            Ok(word) => Ok(Located { value: ScaleEntry::Unknown, place: word.place }),
-            Err(_) => Err(field.refuse(EXPECTED)),
+        _ => match field.word(|word| (word == "unknown").then_some(()).ok_or_else(|| expected.to_owned())) {
+            Ok(word) => Ok(Located { value: Calibration::Unknown, place: word.place }),
+            Err(_) => Err(field.refuse(expected)),
         },
     }
 }
@@ -267,7 +289,7 @@ pub(super) fn identify(field: &Field<'_>) -> Result<IdentifyEntry, InputError> {
         matrices: table.need("matrix")?.texts()?,
         band_hz: table.find("band_hz").map(|band| self::band(&band)).transpose()?,
         leave_out: table.find("leave_out_hz").map_or(Ok(Vec::new()), |field| leave_out(&field))?,
-        laws: laws(&table)?,
+        varies: varies(&table)?,
         method: table.find("method").map(|field| field.word(method)).transpose()?.map(|m| m.value),
         order: table.find("order").map(|order| order.whole()).transpose()?,
         selection: table.find("selection").map(|field| field.word(selection)).transpose()?,
@@ -294,24 +316,22 @@ fn leave_out(field: &Field<'_>) -> Result<Vec<LeaveOut>, InputError> {
 }
 
 /// What `varies`, `law` and `branches` say together.
-fn laws(table: &Table<'_>) -> Result<Option<Located<Vec<Family>>>, InputError> {
-    let varies = |word: &str| match word {
-        "frequency" => Ok(false),
-        "law" => Ok(true),
-        _ => Err("\"frequency\" (a factor of its own at each) or \"law\"".into()),
-    };
-    let by_law = table.find("varies").map(|field| field.word(varies)).transpose()?;
+fn varies(table: &Table<'_>) -> Result<Option<Located<VariesEntry>>, InputError> {
+    let varies = table.find("varies").map(|field| field.word(VariesEntry::of_word)).transpose()?;
     let (law, branches) = (table.find("law"), table.find("branches"));
-    let Some(Located { place, .. }) = by_law.filter(|by_law| by_law.value) else {
+    let Some(Located { place, .. }) =
+        varies.as_ref().filter(|varies| matches!(varies.value, VariesEntry::ByLaw(_)))
+    else {
         return match law.or(branches) {
             Some(key) => Err(InputError::at(&key.place, "varies = \"law\" beside it", "none")),
-            None => Ok(None),
+            None => Ok(varies),
         };
     };
+    let place = place.clone();
     let Some(law) = law else {
         return match branches {
             Some(key) => Err(InputError::at(&key.place, "law = \"maxwell\" beside it", "none")),
-            None => Ok(Some(Located { value: Family::ALL.to_vec(), place })),
+            None => Ok(varies),
         };
     };
     let named = law.texts()?;
@@ -334,7 +354,7 @@ fn laws(table: &Table<'_>) -> Result<Option<Located<Vec<Family>>>, InputError> {
         };
         families[at] = Family::Maxwell { branches };
     }
-    Ok(Some(Located { value: families, place }))
+    Ok(Some(Located { value: VariesEntry::ByLaw(families), place }))
 }
 
 /// `[respond]`.

@@ -1,5 +1,6 @@
 //! From one format to another: matrices to matrices, FRFs to FRFs.
 
+mod matrices;
 mod options;
 mod precision;
 mod table;
@@ -11,19 +12,19 @@ pub(crate) use uff::{companion, frf_dataset};
 
 use crate::error::{InputError, Place};
 use crate::inspect::unknown_kind;
-use crate::load::load_bytes;
-use frfit_formats::{FileKind, FormatError, detect, harwell_boeing, matrix_market, read_matrix};
+use crate::load::{load_bytes, matrices_of};
+use frfit_formats::{FileKind, FormatError, detect, harwell_boeing, matrix_market, read_matrices};
 use std::path::Path;
 use target::Target;
-
-/// What can be converted.
-const CONVERTED: &str = "a UFF file, a matrix (Matrix Market, Harwell-Boeing) or a table (CSV)";
 
 /// The bytes of the output: what the input is, its content says, what the output is to be, its ending.
 ///
 /// | from | to | what is kept |
 /// |---|---|---|
 /// | Matrix Market, Harwell–Boeing | either | every value bit for bit; of a title what the format has room for |
+/// | CalculiX, Abaqus, Nastran DMIG and OUTPUT4, NumPy, MATLAB | Matrix Market, Harwell–Boeing | one matrix, every value bit for bit |
+/// | any of these | Nastran OUTPUT4 | all matrices, or one, every value bit for bit but for the sign of zeros; of names eight letters and digits |
+/// | Harwell–Boeing, CalculiX, Abaqus, Nastran DMIG | table | what each row stands for, as the file or the one beside it says: the file of `[dofs]` |
 /// | UFF | UFF | all datasets: the functions (58) anew as text or binary, the others byte for byte |
 /// | UFF | table | one FRF, bit for bit, and its coherence and standard deviation if the file has them |
 /// | table | UFF | the FRF, its coherence and standard deviation: bit for bit in binary, 13 digits of a value in text |
@@ -37,14 +38,16 @@ pub fn convert(input: &Path, output: &Path, options: &ConvertOptions) -> Result<
     let target = Target::of(output)?;
     let bytes = load_bytes(input)?;
     let in_input = |error: FormatError| InputError::in_file(input, error);
-    let kind = detect(&bytes).ok_or_else(|| unknown_kind(input, &bytes, CONVERTED))?;
+    let kind = detect(&bytes).ok_or_else(|| unknown_kind(input, &bytes, "a table (CSV)"))?;
     match (kind, target) {
-        (
-            FileKind::MatrixMarket | FileKind::HarwellBoeing,
-            Target::MatrixMarket | Target::HarwellBoeing(_),
-        ) => {
-            options.only(&[], "a matrix")?;
-            let matrix = read_matrix(&bytes).map_err(in_input)?;
+        (kind, Target::Op4) if kind.holds_matrices() => {
+            options.only(&["--name"], "a matrix")?;
+            matrices::op4(input, read_matrices(&bytes).map_err(in_input)?, options)
+        }
+        (kind, Target::MatrixMarket | Target::HarwellBoeing(_)) if kind.holds_matrices() => {
+            options.only(&["--name"], "a matrix")?;
+            let all = read_matrices(&bytes).map_err(in_input)?;
+            let matrix = matrices::one(input, all, options)?.matrix.map_err(in_input)?;
             let write = match target {
                 Target::MatrixMarket => matrix_market::write,
                 _ => harwell_boeing::write,
@@ -52,6 +55,11 @@ pub fn convert(input: &Path, output: &Path, options: &ConvertOptions) -> Result<
             let written = write(&matrix).map_err(in_input)?;
             target.fits(&written, output)?;
             Ok(written)
+        }
+        (kind, Target::Table) if kind.may_name_rows() => {
+            options.only(&["--name"], "the names of rows")?;
+            let one = matrices::one(input, matrices_of(input, &bytes)?, options)?;
+            matrices::names_of_rows(&one.labels).map_err(in_input)
         }
         (FileKind::Uff, Target::Uff) => {
             options.only(&["--binary"], "a whole UFF file")?;

@@ -6,8 +6,10 @@ use frfit::quantity::Quantity;
 use frfit_formats::uff::{Endian, Form};
 
 /// What a conversion cannot know from its files. An option that has no meaning for a conversion is refused.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct ConvertOptions {
+    /// Of a file of several matrices: which.
+    pub name: Option<String>,
     /// From UFF to a table: the number of the FRF, from 1.
     pub record: Option<i64>,
     /// From a table to UFF: what the FRF is. From UFF to a table: what it has to be.
@@ -29,6 +31,7 @@ impl ConvertOptions {
     /// Refuses an option that is set and has no meaning.
     pub(super) fn only(&self, meant: &[&str], conversion: &str) -> Result<(), InputError> {
         let set = [
+            ("--name", self.name.clone()),
             ("--record", self.record.map(|record| record.to_string())),
             ("--quantity", self.quantity.map(|quantity| quantity.to_string())),
             ("--response", self.response.map(|dof| dof.to_string())),

@@ -11,11 +11,14 @@ pub(super) enum Target {
     MatrixMarket,
     /// With the matrix type that the ending names, such as `rsa`.
     HarwellBoeing(Option<[u8; 3]>),
+    /// Nastran OUTPUT4.
+    Op4,
     Uff,
     Table,
 }
 
-const OF_MATRICES: &str = ".mtx or .mm (Matrix Market), .hb, .rb, .rsa, .rua, .csa, .cua, .psa or another matrix type (Harwell-Boeing)";
+const OF_MATRICES: &str = ".mtx or .mm (Matrix Market), .hb, .rb, .rsa, .rua, .csa, .cua, .psa or another matrix type (Harwell-Boeing), \
+     .op4 (Nastran OUTPUT4)";
 const OF_FRFS: &str = ".uff, .unv or .uf (UFF), .csv (table)";
 
 impl Target {
@@ -32,6 +35,7 @@ impl Target {
             &[values @ (b'r' | b'c' | b'p'), symmetry @ (b's' | b'u' | b'h' | b'z' | b'r'), b'a'] => {
                 Ok(Self::HarwellBoeing(Some([values, symmetry, b'a'])))
             }
+            b"op4" => Ok(Self::Op4),
             b"uff" | b"unv" | b"uf" => Ok(Self::Uff),
             b"csv" => Ok(Self::Table),
             _ => refuse(format!(".{ending}")),
@@ -56,9 +60,10 @@ impl Target {
 /// The endings to which a file of this kind can be converted.
 pub(super) fn endings_for(kind: FileKind) -> String {
     let endings = match kind {
-        FileKind::MatrixMarket | FileKind::HarwellBoeing => OF_MATRICES,
-        FileKind::Uff | FileKind::Csv => OF_FRFS,
-        FileKind::Lvm => "none: frfit frf makes an FRF of time records",
+        kind if kind.may_name_rows() => format!("{OF_MATRICES}, .csv (the names of the rows)"),
+        kind if kind.holds_matrices() => OF_MATRICES.into(),
+        FileKind::Lvm => "none: frfit frf makes an FRF of time records".into(),
+        _ => OF_FRFS.into(),
     };
     format!("an ending to which {kind} can be converted: {endings}")
 }
@@ -66,7 +71,7 @@ pub(super) fn endings_for(kind: FileKind) -> String {
 impl fmt::Display for Target {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
-            Self::MatrixMarket | Self::HarwellBoeing(_) => "a matrix",
+            Self::MatrixMarket | Self::HarwellBoeing(_) | Self::Op4 => "a matrix",
             Self::Uff | Self::Table => "an FRF",
         })
     }

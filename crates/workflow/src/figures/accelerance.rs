@@ -12,7 +12,8 @@ pub(super) fn identified(case: &Case, identify: &IdentifyCase, run: &IdentifyRun
     let of = |responses: Vec<Option<c64>>| modulus(frequency_hz, responses);
     let nominal = of(run.outcomes.iter().map(|o| o.nominal_response.get(sensor).copied()).collect());
     let updated = of(run.outcomes.iter().map(|o| o.updated_response.get(sensor).copied()).collect());
-    let measured = of(identify.measured.iter().map(|u| run.measured(u).get(sensor).copied()).collect());
+    let measured = frequency_hz.iter().zip(&identify.measured);
+    let measured = of(measured.map(|(&f, u)| run.measured(f, u).get(sensor).copied()).collect());
     let series = |label: &str, y, color, line, marker| Series {
         label: label.into(),
         x: frequency_hz.clone(),

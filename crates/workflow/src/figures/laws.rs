@@ -89,6 +89,49 @@ pub(super) fn of_band(
     free: &[Identified],
     law: &LawFit,
 ) -> Figure {
+    let curve = Drawn {
+        what: "law",
+        label: law.family.to_string(),
+        at: &|i, part, by| part_of(law, run.outcomes[i].frequency_hz, part, by),
+    };
+    curve_of_band(case, identify, run, free, &curve)
+}
+
+/// The smooth modulus of a band in the same way.
+pub(super) fn smooth_of_band(
+    case: &Case,
+    identify: &IdentifyCase,
+    run: &IdentifyRun,
+    free: &[Identified],
+) -> Figure {
+    let at = |i: usize, part: usize, by: f64| {
+        let outcome = &run.outcomes[i];
+        let Some((factor, bars)) = outcome.factor().zip(outcome.uncertainty) else { return f64::NAN };
+        match part {
+            0 => factor.re + by * bars.storage_std,
+            _ => loss_factor(factor) + by * bars.loss_factor_std.unwrap_or(f64::NAN),
+        }
+    };
+    let curve = Drawn { what: "smooth modulus", label: "smooth".into(), at: &at };
+    curve_of_band(case, identify, run, free, &curve)
+}
+
+/// A curve through a band.
+struct Drawn<'d> {
+    /// What the figure shows of the factor.
+    what: &'d str,
+    label: String,
+    /// E′ (0) or η (1) at a frequency, so many deviations off; NaN where there is none.
+    at: &'d dyn Fn(usize, usize, f64) -> f64,
+}
+
+fn curve_of_band(
+    case: &Case,
+    identify: &IdentifyCase,
+    run: &IdentifyRun,
+    free: &[Identified],
+    drawn: &Drawn<'_>,
+) -> Figure {
     let x: Vec<f64> = run.outcomes.iter().map(|outcome| outcome.frequency_hz).collect();
     let parts: [fn(c64) -> f64; 2] = [|e| e.re, loss_factor];
     let panel = |label: &str, part: usize| {
@@ -105,7 +148,7 @@ pub(super) fn of_band(
         let own = |outcome: &Identified| outcome.factor().filter(|_| outcome.status == Status::Ok);
         let own = free.iter().map(|outcome| of(own(outcome))).collect();
         let nominal = run.outcomes.iter().map(|outcome| of(Some(outcome.nominal))).collect();
-        let curve = |by: f64| x.iter().map(|&f| part_of(law, f, part, by)).collect();
+        let curve = |by: f64| (0..x.len()).map(|i| (drawn.at)(i, part, by)).collect();
         let mut all = vec![
             series("nominal", nominal, Color::Blue, Some(Dash::Dashed), None),
             series("each frequency by itself", own, Color::Grey, None, Some(Marker::Circle)),
@@ -114,19 +157,22 @@ pub(super) fn of_band(
             let truth = x.iter().map(|&f| of(truth.at(f).ok())).collect();
             all.push(series("true", truth, Color::Black, Some(Dash::Solid), None));
         }
-        all.push(series(&law.family.to_string(), curve(0.0), Color::Vermilion, Some(Dash::Solid), None));
+        all.push(series(&drawn.label, curve(0.0), Color::Vermilion, Some(Dash::Solid), None));
         all.push(series("± 2 deviations", curve(2.0), Color::Vermilion, Some(Dash::Dotted), None));
         all.push(series("", curve(-2.0), Color::Vermilion, Some(Dash::Dotted), None));
         Panel { y: Axis::linear(label), series: all, ..Panel::default() }
     };
+    let real = identify.options.real;
+    let first = if real { "Real part of the factor" } else { "Storage modulus E′ (Pa)" };
+    let mut panels = vec![Panel { strip: Some(status_strip(run)), ..panel(first, 0) }];
+    if !real {
+        panels.push(panel("Loss factor η", 1));
+    }
     Figure {
-        title: title(case, &format!("law of the factor of {}", identify.names.join(", "))),
+        title: title(case, &format!("{} of the factor of {}", drawn.what, identify.names.join(", "))),
         x: Axis::linear("Frequency (Hz)"),
-        panels: vec![
-            Panel { strip: Some(status_strip(run)), ..panel("Storage modulus E′ (Pa)", 0) },
-            panel("Loss factor η", 1),
-        ],
-        size: (720.0, 620.0),
+        panels,
+        size: if real { (720.0, 460.0) } else { (720.0, 620.0) },
     }
 }
 

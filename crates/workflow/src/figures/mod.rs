@@ -42,9 +42,11 @@ pub fn identify_figures(
         figures.push((name, accelerance::identified(case, identify, run, sensor)));
     }
     let law = run.laws.as_ref().and_then(|laws| Some((laws, best(&laws.fits)?)));
-    let modulus = match law {
-        Some((laws, best)) => laws::of_band(case, identify, run, &laws.free, best),
-        None => modulus::figure(case, identify, run),
+    let smooth = run.smooth.as_ref().filter(|smooth| smooth.curve.is_some());
+    let modulus = match (law, smooth) {
+        (Some((laws, best)), _) => laws::of_band(case, identify, run, &laws.free, best),
+        (None, Some(smooth)) => laws::smooth_of_band(case, identify, run, &smooth.free),
+        (None, None) => modulus::figure(case, identify, run),
     };
     figures.push(("modulus".to_owned(), modulus));
     if run.outcomes.iter().any(|outcome| outcome.spectral_radius.is_some()) {

@@ -1,17 +1,27 @@
 //! The first natural frequencies of K and M: a wrong unit of either shows at once.
 
 use crate::error::{InputError, Place};
-use crate::load::{load_matrix, symmetric_matrix};
+use crate::load::{Member, load_one, one_order, symmetric_matrix};
 use frfit_linalg::modes::{ModesError, lowest};
 use std::path::Path;
 
 /// The lowest natural frequencies of K φ = ω² M φ in Hz, in ascending order; 0 for a rigid-body mode up to roundoff.
-/// Fewer than `count` where M has a smaller rank.
+/// Fewer than `count` where M has a smaller rank. Where the files name the rows, both are brought to one order.
 ///
 /// # Errors
 /// A file that holds no real symmetric matrix, sizes that differ, a K and M without natural frequencies.
 pub fn natural_frequencies(k: &Path, m: &Path, count: usize) -> Result<Vec<f64>, InputError> {
-    let (stiffness, mass) = (load_matrix(k)?, load_matrix(m)?);
+    let ((stiffness, of_stiffness), (mass, of_mass)) = (load_one(k)?, load_one(m)?);
+    let member = |matrix, labels, is_stiffness| Member { matrix, labels, is_stiffness };
+    let order = one_order(&[member(&stiffness, &of_stiffness, true), member(&mass, &of_mass, false)]);
+    let in_file = |at: usize, error| InputError::in_file(if at == 0 { k } else { m }, error);
+    let order = order.map_err(|(at, error)| in_file(at, error))?;
+    let moved = |at: usize, matrix| {
+        let moved = order.as_ref().and_then(|order| order.apply(at, matrix)).transpose();
+        moved.map_err(|error| in_file(at, error))
+    };
+    let (moved_stiffness, moved_mass) = (moved(0, &stiffness)?, moved(1, &mass)?);
+    let (stiffness, mass) = (moved_stiffness.unwrap_or(stiffness), moved_mass.unwrap_or(mass));
     if stiffness.nrows != mass.nrows {
         let expected = format!("as many rows as K ({}: {})", k.display(), stiffness.nrows);
         return Err(InputError::at(&Place::file(m), expected, mass.nrows.to_string()));

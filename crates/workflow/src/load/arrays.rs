@@ -2,13 +2,13 @@
 
 use super::band::band;
 use super::files::NamedFile;
-use super::identify::{check_scales, left_out, middle_of, shared, space_of_laws};
+use super::identify::{can_be_found, fit_for_band, left_out, middle_of, shared};
 use super::measurement::{Curve, Measurement};
 use super::{Case, Frf, IdentifyCase, SensorInfo};
-use crate::case::{LeaveOut, checked_band};
+use crate::case::{LeaveOut, VariesEntry as Varies, checked_band};
 use crate::error::{InputError, Place};
 use frfit::c64;
-use frfit::identify::{Method, Options, OptionsError, Selection, Space};
+use frfit::identify::{Method, Options, OptionsError, Selection, Space, Unknown};
 use frfit::laws::Family;
 use frfit::model::{DynamicStiffness, Experiment, ModelError, Parameter, Sensor};
 use frfit::quantity::Quantity;
@@ -30,8 +30,8 @@ pub struct MeasuredFrf {
     pub frf: Frf,
     /// What its values are to be multiplied by; `None` where that is to be found.
     pub scale: Option<f64>,
-    /// By how much it is late, s.
-    pub delay_s: f64,
+    /// By how much it is late, s; `None` where that is to be found.
+    pub delay_s: Option<f64>,
     /// Over how many records its coherence was averaged, where that is known.
     pub averages: Option<usize>,
 }
@@ -61,7 +61,9 @@ pub struct Wanted {
     pub estimate: bool,
     /// Whether a sensor that contradicts all others is left out; `None`: the default.
     pub robust: Option<bool>,
-    /// Laws to fit to the whole band.
+    /// `frequency`, `smooth` or `law`; `None`: `law` where there are laws, otherwise the default.
+    pub varies: Option<String>,
+    /// Laws to fit to the whole band; none beside `law`: all.
     pub laws: Vec<Family>,
     /// Whether to look for what is wrong with the data first.
     pub check: bool,
@@ -109,7 +111,8 @@ pub fn case_of_arrays(
     if measured.is_empty() {
         return Err(InputError::at(&argument("measurements"), "at least one measurement", "none").into());
     }
-    let unknown_scale: Vec<bool> = measured.iter().map(|frf| frf.scale.is_none()).collect();
+    let looked_for = |frf: &MeasuredFrf| Unknown { scale: frf.scale.is_none(), delay: frf.delay_s.is_none() };
+    let unknown: Vec<Unknown> = measured.iter().map(looked_for).collect();
     let numbered = measured.into_iter().enumerate();
     let measurements = numbered
         .map(|(k, frf)| measurement(frf, k, model.dim()))
@@ -117,13 +120,14 @@ pub fn case_of_arrays(
     let sensors = measurements.iter().map(|measurement| measurement.sensor).collect();
     let experiment = experiment(&model, load, sensors)?;
     let mut options = options(wanted)?;
-    if !wanted.laws.is_empty() {
-        options.space = space_of_laws(&options, &argument("law"))?;
-    }
+    let varies = varies(wanted)?;
+    let place = argument(if wanted.varies.is_some() { "varies" } else { "law" });
+    fit_for_band(&mut options, &varies, &place)?;
     let parameter = parameter(&model, &wanted.matrices, wanted, &options)?;
-    if let Some(first) = unknown_scale.iter().position(|&unknown| unknown) {
-        let place = argument(&format!("measurement {}", first + 1)).below("scale");
-        check_scales(&unknown_scale, &place, !wanted.laws.is_empty(), &options)?;
+    if let Some(first) = unknown.iter().position(|unknown| unknown.any()) {
+        let key = if unknown[first].scale { "scale" } else { "delay_s" };
+        let place = argument(&format!("measurement {}", first + 1)).below(key);
+        can_be_found(&unknown, &place, &varies, &options)?;
     }
     let place = argument("band_hz");
     let band_hz = wanted.band_hz.unwrap_or([0.0, f64::MAX]);
@@ -141,12 +145,12 @@ pub fn case_of_arrays(
         names: wanted.matrices.clone(),
         parameter,
         options,
-        laws: wanted.laws.clone(),
+        varies,
         band_hz: wanted.band_hz.unwrap_or(first_and_last.map(|f| f.unwrap_or(0.0))),
         frequency_hz: data.frequency_hz,
         measured: data.measured,
         left_out,
-        unknown_scale,
+        unknown,
         noise: data.noise,
         check: wanted.check,
         truth: None,
@@ -241,8 +245,9 @@ fn measurement(measured: MeasuredFrf, k: usize, dim: usize) -> Result<Measuremen
         let expected = "a finite number that is not zero";
         return Err(InputError::at(&place.below("scale"), expected, scale.to_string()));
     }
-    if !measured.delay_s.is_finite() {
-        return Err(InputError::at(&place.below("delay_s"), "a finite number", measured.delay_s.to_string()));
+    let delay_s = measured.delay_s.unwrap_or(0.0);
+    if !delay_s.is_finite() {
+        return Err(InputError::at(&place.below("delay_s"), "a finite number", delay_s.to_string()));
     }
     if measured.averages == Some(0) {
         return Err(InputError::at(&place.below("averages"), "1 or more", "0"));
@@ -254,7 +259,7 @@ fn measurement(measured: MeasuredFrf, k: usize, dim: usize) -> Result<Measuremen
         bytes: Default::default(),
         named_by: argument("measurements"),
     };
-    let MeasuredFrf { sensor, frf, delay_s, averages, .. } = measured;
+    let MeasuredFrf { sensor, frf, averages, .. } = measured;
     Ok(Measurement { sensor, info, curve: Some(Curve { frf, scale, delay_s, averages, file }) })
 }
 
@@ -328,6 +333,28 @@ fn parameter(
         parameter.nominal = middle_of(&options.bounds, &argument("nominal"))?;
     }
     Ok(parameter)
+}
+
+/// What `varies` and the laws say together.
+fn varies(wanted: &Wanted) -> Result<Varies, InputError> {
+    let asked = wanted.varies.as_deref().map(|word| {
+        Varies::of_word(word)
+            .map_err(|expected| InputError::at(&argument("varies"), expected, format!("{word:?}")))
+    });
+    let asked = asked.transpose()?;
+    if wanted.laws.is_empty() {
+        return Ok(asked.unwrap_or_default());
+    }
+    let place = argument("law");
+    if let (Some(Varies::Freely | Varies::Smoothly), Some(word)) = (asked, &wanted.varies) {
+        return Err(InputError::at(&place, "varies = \"law\" beside it", format!("varies = {word:?}")));
+    }
+    let twice = |(k, family): &(usize, &Family)| wanted.laws[..*k].contains(family);
+    if let Some((_, family)) = wanted.laws.iter().enumerate().find(twice) {
+        let found = format!("{:?} a second time", family.to_string());
+        return Err(InputError::at(&place, "each law once", found));
+    }
+    Ok(Varies::ByLaw(wanted.laws.clone()))
 }
 
 fn options(wanted: &Wanted) -> Result<Options, ArraysError> {

@@ -25,7 +25,9 @@ pub(super) struct Band {
 pub(super) fn frequencies(curve: &Curve, band_hz: [f64; 2], place: &Place) -> Result<Vec<f64>, InputError> {
     let all = &curve.frf.frequency_hz;
     let [low, high] = band_hz;
-    let inside: Vec<f64> = all.iter().copied().filter(|f| (low..=high).contains(f)).collect();
+    // 1000 Hz as 20 + 999 · 0.980980980981 is rounded, and in the band to 1000 Hz.
+    let wide = low * (1.0 - SAME_FREQUENCY)..=high * (1.0 + SAME_FREQUENCY);
+    let inside: Vec<f64> = all.iter().copied().filter(|f| wide.contains(f)).collect();
     if inside.is_empty() {
         let range = match all.as_slice() {
             [first, .., last] => format!("{first} to {last} Hz in {} steps", all.len() - 1),

@@ -5,26 +5,29 @@ use crate::case::{Located, Spot};
 use crate::error::{InputError, Place};
 use frfit::dof::{Axis, DofName};
 use frfit::model::Sensor;
-use frfit_formats::FormatError;
 use frfit_formats::csv::{self, Direction};
+use frfit_formats::{DofLabel, FormatError};
 use std::collections::BTreeMap;
 
 /// Rows of the model by node and axis.
 #[derive(Debug)]
 pub(super) struct Dofs {
     dim: usize,
-    /// The axes of each node with their rows (from 0); `None` without `[dofs]`.
+    /// The axes of each node with their rows (from 0); `None` where nothing names rows.
     nodes: Option<BTreeMap<u64, Vec<(Axis, usize)>>>,
+    /// What names them.
+    named_by: &'static str,
 }
 
 impl Dofs {
-    /// Reads the names of a model's rows, if the case gives any.
+    /// Reads the names of a model's rows, if the case gives any; else takes those of the matrices' files.
     pub(super) fn read(
         file: Option<&Located<String>>,
         dim: usize,
+        labels: &[DofLabel],
         files: &mut Files,
     ) -> Result<Self, InputError> {
-        let Some(name) = file else { return Ok(Self { dim, nodes: None }) };
+        let Some(name) = file else { return Ok(Self::of_labels(dim, labels)) };
         let file = files.read(name)?;
         let names = csv::read_dof_names(&file.bytes).map_err(|error| file.refuse(error))?;
         let mut nodes = BTreeMap::<u64, Vec<_>>::new();
@@ -34,7 +37,19 @@ impl Dofs {
             }
             nodes.entry(name.node.unsigned_abs()).or_default().push((axis(name.direction), name.row - 1));
         }
-        Ok(Self { dim, nodes: Some(nodes) })
+        Ok(Self { dim, nodes: Some(nodes), named_by: "[dofs] names" })
+    }
+
+    /// Names from what the rows stand for; what has no direction, or a node of the solver's own, has none.
+    fn of_labels(dim: usize, labels: &[DofLabel]) -> Self {
+        let mut nodes = BTreeMap::<u64, Vec<_>>::new();
+        for (row, label) in labels.iter().enumerate() {
+            if let (Ok(node @ 1..), Some(direction)) = (u64::try_from(label.node), label.direction()) {
+                nodes.entry(node).or_default().push((axis(direction), row));
+            }
+        }
+        let nodes = (!labels.is_empty()).then_some(nodes);
+        Self { dim, nodes, named_by: "the files of the matrices name" }
     }
 
     /// The names of rows (from 0), each counted positive along its axis.
@@ -70,7 +85,8 @@ impl Dofs {
             let expected = "a table [dofs] that names the rows, or a row number instead of a name";
             return Err(InputError::at(place, expected, format!("the name {name} without [dofs]")));
         };
-        let refuse = |found| Err(InputError::at(place, "a degree of freedom that [dofs] names", found));
+        let expected = format!("a degree of freedom that {}", self.named_by);
+        let refuse = |found| Err(InputError::at(place, expected, found));
         match nodes.get(&name.node) {
             Some(axes) => match axes.iter().find(|(axis, _)| *axis == name.axis) {
                 Some(&(_, row)) => Ok(Sensor { row, sign: name.sign() }),

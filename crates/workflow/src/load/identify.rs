@@ -5,12 +5,13 @@ use super::band::band;
 use super::factor::law;
 use super::files::Files;
 use super::measurement::Measurement;
-use crate::case::{CaseFile, IdentifyEntry, LeaveOut, Located, ScaleEntry, checked_band};
+use crate::case::{
+    Calibration, CaseFile, IdentifyEntry, LeaveOut, Located, VariesEntry as Varies, checked_band,
+};
 use crate::error::{InputError, Place};
 use crate::nearest::nearest;
 use frfit::c64;
-use frfit::identify::{Method, Options, OptionsError, Selection, Space};
-use frfit::laws::Family;
+use frfit::identify::{Method, Options, OptionsError, Selection, Space, Unknown};
 use frfit::material::Law;
 use frfit::model::{DynamicStiffness, Parameter};
 use frfit::roots::Bounds;
@@ -24,8 +25,8 @@ pub struct IdentifyCase {
     pub parameter: Parameter,
     /// How to find it.
     pub options: Options,
-    /// Laws to fit to the whole band, and to compare; none where every frequency has its own factor.
-    pub laws: Vec<Family>,
+    /// How it varies over the band.
+    pub varies: Varies,
     /// First and last frequency of the band as it was asked for.
     pub band_hz: [f64; 2],
     /// The measured frequencies in it, ascending; at least one.
@@ -34,8 +35,8 @@ pub struct IdentifyCase {
     pub measured: Vec<Vec<c64>>,
     /// Which of the frequencies are left out: their rows have the status `out_of_band`.
     pub left_out: Vec<bool>,
-    /// Which sensors have a scale that is to be found: their receptances are those of scale one.
-    pub unknown_scale: Vec<bool>,
+    /// What of each sensor's channel is to be found: its receptances are those of scale one and no delay.
+    pub unknown: Vec<Unknown>,
     /// How well the receptances were measured.
     pub noise: MeasuredNoise,
     /// Whether to look for what is wrong with the data first.
@@ -68,8 +69,9 @@ pub(super) fn identify(
     };
     let names = known_names(case, entry)?;
     let mut options = options(entry, overrides)?;
-    if let Some(laws) = &entry.laws {
-        options.space = space_of_laws(&options, &laws.place)?;
+    let varies = entry.varies.as_ref().map(|varies| varies.value.clone()).unwrap_or_default();
+    if let Some(Located { place, .. }) = &entry.varies {
+        fit_for_band(&mut options, &varies, place)?;
     }
     let mut parameter = shared_factor(entry, &names, model)?;
     if let Some(place) = &entry.estimate {
@@ -77,7 +79,7 @@ pub(super) fn identify(
     }
     let (band_hz, place) = band_of(entry, overrides)?;
     let truth = entry.truth.as_ref().map(|truth| law(truth, files)).transpose()?;
-    let unknown_scale = unknown_scale(case, entry, &options)?;
+    let unknown = unknown(case, &varies, &options)?;
     let data = band(measurements, band_hz, &place)?;
     let left_out = left_out(&entry.leave_out, &data.frequency_hz);
     if !data.frequency_hz.is_empty() && left_out.iter().all(|&out| out) {
@@ -88,12 +90,12 @@ pub(super) fn identify(
         names,
         parameter,
         options,
-        laws: entry.laws.as_ref().map_or(Vec::new(), |laws| laws.value.clone()),
+        varies,
         band_hz,
         frequency_hz: data.frequency_hz,
         measured: data.measured,
         left_out,
-        unknown_scale,
+        unknown,
         noise: data.noise,
         check: entry.check,
         truth,
@@ -214,18 +216,30 @@ fn options(entry: &IdentifyEntry, overrides: &Overrides) -> Result<Options, Inpu
 
 const ORDERS: &str = "1 to 200";
 
-/// Laws are fitted on the subspace of a joint selection, and are laws of a complex modulus.
-pub(super) fn space_of_laws(options: &Options, varies: &Place) -> Result<Space, InputError> {
+/// Laws and smooth moduli are fitted on the subspace of a joint selection, and laws are laws of a complex modulus.
+pub(super) fn fit_for_band(options: &mut Options, varies: &Varies, place: &Place) -> Result<(), InputError> {
+    match varies {
+        Varies::Freely => {}
+        Varies::Smoothly => options.space = space_of_band(options, "smooth", place)?,
+        Varies::ByLaw(_) => {
+            options.space = space_of_band(options, "law", place)?;
+            if options.real {
+                let found = "\"law\" with real = true";
+                return Err(InputError::at(place, "\"frequency\" or \"smooth\" for a real factor", found));
+            }
+        }
+    }
+    Ok(())
+}
+
+fn space_of_band(options: &Options, word: &str, varies: &Place) -> Result<Space, InputError> {
     let refuse = |expected: &str, found: String| Err(InputError::at(varies, expected, found));
     if options.selection != Selection::Joint {
-        let found = format!("\"law\" with selection {:?}", options.selection.name());
+        let found = format!("{word:?} with selection {:?}", options.selection.name());
         return refuse("\"frequency\", or selection = \"joint\"", found);
     }
     if options.space == Space::Full {
-        return refuse("\"frequency\", or the space \"subspace\"", "\"law\" with space \"full\"".into());
-    }
-    if options.real {
-        return refuse("\"frequency\" for a real factor", "\"law\" with real = true".into());
+        return refuse("\"frequency\", or the space \"subspace\"", format!("{word:?} with space \"full\""));
     }
     Ok(Space::Subspace)
 }
@@ -255,22 +269,29 @@ fn invalid(error: &OptionsError, entry: &IdentifyEntry, overrides: &Overrides) -
     }
 }
 
-/// Which sensors have an unknown scale, where that can be found.
-fn unknown_scale(case: &CaseFile, entry: &IdentifyEntry, options: &Options) -> Result<Vec<bool>, InputError> {
-    let is_unknown = |scale: &&Located<ScaleEntry>| scale.value == ScaleEntry::Unknown;
-    let scales = case.measurements.iter().map(|measurement| measurement.scale.as_ref().filter(is_unknown));
-    let scales: Vec<Option<&Located<ScaleEntry>>> = scales.collect();
-    let unknown: Vec<bool> = scales.iter().map(Option::is_some).collect();
-    let Some(first) = scales.into_iter().flatten().next() else { return Ok(unknown) };
-    check_scales(&unknown, &first.place, entry.laws.is_some(), options)?;
+/// What of each sensor's channel is unknown, where that can be found.
+fn unknown(case: &CaseFile, varies: &Varies, options: &Options) -> Result<Vec<Unknown>, InputError> {
+    let looked_for = |entry: &Option<Located<Calibration>>| {
+        entry.as_ref().filter(|entry| entry.value == Calibration::Unknown).map(|entry| entry.place.clone())
+    };
+    let mut unknown = Vec::with_capacity(case.measurements.len());
+    let mut places = Vec::new();
+    for measurement in &case.measurements {
+        let [scale, delay] = [&measurement.scale, &measurement.delay_s].map(looked_for);
+        unknown.push(Unknown { scale: scale.is_some(), delay: delay.is_some() });
+        places.extend(scale.into_iter().chain(delay));
+    }
+    if let Some(first) = places.first() {
+        can_be_found(&unknown, first, varies, options)?;
+    }
     Ok(unknown)
 }
 
-/// Refuses unknown scales (the first of them at `first`) where they cannot be found.
-pub(super) fn check_scales(
-    unknown: &[bool],
+/// Refuses unknown scales and delays (the first of them at `first`) where they cannot be found.
+pub(super) fn can_be_found(
+    unknown: &[Unknown],
     first: &Place,
-    laws: bool,
+    varies: &Varies,
     options: &Options,
 ) -> Result<(), InputError> {
     let refuse = |expected: &str, found: &str| Err(InputError::at(first, expected, found));
@@ -281,9 +302,15 @@ pub(super) fn check_scales(
     if options.space == Space::Full {
         return refuse("a number, or the space \"subspace\"", "\"unknown\" with space \"full\"");
     }
-    if !laws && !unknown.contains(&false) {
-        let expected = "a number here, another [[measurement]] whose scale is known, or varies = \"law\" \
-                        (a factor of its own at each frequency explains one sensor whatever its scale)";
+    if *varies == Varies::Smoothly {
+        return refuse(
+            "a number, or varies = \"frequency\" or \"law\"",
+            "\"unknown\" with varies \"smooth\"",
+        );
+    }
+    if *varies == Varies::Freely && unknown.iter().all(|unknown| unknown.any()) {
+        let expected = "a number here, another [[measurement]] whose scale and delay are known, or varies = \"law\" \
+                        (a factor of its own at each frequency explains one sensor whatever its scale and delay)";
         return refuse(expected, "\"unknown\" for all sensors");
     }
     Ok(())

@@ -3,7 +3,7 @@
 use super::dofs::Dofs;
 use super::files::{Files, NamedFile};
 use super::frf::{Choice, Frf, read_frf};
-use crate::case::{Located, MeasurementEntry, ScaleEntry, Spot};
+use crate::case::{Calibration, Located, MeasurementEntry, Spot};
 use crate::error::InputError;
 use frfit::dof::DofName;
 use frfit::model::Sensor;
@@ -36,7 +36,7 @@ pub(super) struct Curve {
     pub(super) frf: Frf,
     /// What its values are to be multiplied by, as far as that is known.
     pub(super) scale: f64,
-    /// By how much it is late, s.
+    /// By how much it is late as far as that is known, s.
     pub(super) delay_s: f64,
     /// Over how many records its coherence was averaged, where the case says.
     pub(super) averages: Option<usize>,
@@ -107,10 +107,13 @@ fn curve(
         return Err(file.refuse(FormatError::whole(expected, there.to_string())));
     }
     let averages = entry.averages.as_ref().and_then(|averages| usize::try_from(averages.value).ok());
-    let scale = match entry.scale.as_ref().map(|scale| scale.value) {
-        Some(ScaleEntry::Known(scale)) => scale,
-        Some(ScaleEntry::Unknown) | None => 1.0,
+    let known = |entry: &Option<Located<Calibration>>, otherwise: f64| match entry
+        .as_ref()
+        .map(|entry| entry.value)
+    {
+        Some(Calibration::Known(number)) => number,
+        Some(Calibration::Unknown) | None => otherwise,
     };
-    let delay_s = entry.delay_s.unwrap_or(0.0);
+    let (scale, delay_s) = (known(&entry.scale, 1.0), known(&entry.delay_s, 0.0));
     Ok(Curve { frf, scale, delay_s, averages, file: NamedFile { bytes: Default::default(), ..file } })
 }

@@ -9,6 +9,7 @@ mod files;
 mod force;
 mod frf;
 mod identify;
+mod labels;
 mod matrix;
 mod measurement;
 mod model;
@@ -18,6 +19,7 @@ pub use arrays::{ArraysError, MeasuredFrf, Wanted, case_of_arrays, response_of_a
 pub use files::InputFile;
 pub use frf::{Choice, Frf, read_frf};
 pub use identify::{IdentifyCase, MeasuredNoise};
+pub(crate) use labels::{Member, load_one, matrices_of, one_order};
 pub(crate) use matrix::{asymmetry, complex};
 pub use matrix::{check_symmetric, symmetric_matrix};
 pub use measurement::SensorInfo;
@@ -29,7 +31,7 @@ use dofs::Dofs;
 use files::Files;
 use frfit::frequency::linear_hz;
 use frfit::model::{DynamicStiffness, Experiment};
-use frfit_formats::CoordinateMatrix;
+use frfit_formats::{CoordinateMatrix, read_matrices, take_matrix};
 use measurement::{Measurement, measurement};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -46,7 +48,7 @@ pub struct Case {
     pub experiment: Experiment,
     /// The sensors' labels, quantities and files, in the order of the measurements.
     pub sensors: Vec<SensorInfo>,
-    /// The names of rows (from 0), as `34+Z`; empty without `[dofs]`.
+    /// The names of rows (from 0), as `34+Z`; empty without `[dofs]` where the matrices' files name none either.
     pub row_names: BTreeMap<usize, String>,
     /// Every file that was read, the case file first.
     pub inputs: Vec<InputFile>,
@@ -57,7 +59,7 @@ pub struct Case {
 }
 
 impl Case {
-    /// `34+Z` where `[dofs]` names the row (from 0), `row 97` (from 1) elsewhere.
+    /// `34+Z` where `[dofs]` or a matrix' file names the row (from 0), `row 97` (from 1) elsewhere.
     pub fn row_name(&self, row: usize) -> String {
         self.row_names.get(&row).cloned().unwrap_or_else(|| format!("row {}", row + 1))
     }
@@ -95,9 +97,9 @@ pub enum Purpose {
 pub fn load(case_file: &Path, overrides: &Overrides, purpose: Purpose) -> Result<Case, InputError> {
     let (mut files, bytes) = Files::of_case(case_file)?;
     let case = case::parse(case_file, &bytes)?;
-    let mut terms = model::terms(&case, &mut files)?;
+    let (mut terms, labels) = model::terms(&case, &mut files)?;
     let dim = terms.first().map_or(0, |term| term.matrix.dim());
-    let dofs = Dofs::read(case.dofs.as_ref(), dim, &mut files)?;
+    let dofs = Dofs::read(case.dofs.as_ref(), dim, &labels, &mut files)?;
     terms.extend(attached::terms(&case.attached, dim, &dofs)?);
     let model = model::model(&case, terms)?;
     let load = force::load(&case.load, model.dim(), &dofs, &mut files)?;
@@ -131,13 +133,15 @@ pub fn load(case_file: &Path, overrides: &Overrides, purpose: Purpose) -> Result
     })
 }
 
-/// Reads a matrix file of either kind. For a term of a model it still has to pass [`symmetric_matrix`].
+/// Reads the matrix of this name from a file, or without a name its only one. For a term of a model it still has to pass
+/// [`symmetric_matrix`], and where the files of a model name their rows, [`load`] is what brings these to one order.
 ///
 /// # Errors
-/// A file that cannot be read, or what the reader refuses.
-pub fn load_matrix(path: &Path) -> Result<CoordinateMatrix, InputError> {
+/// A file that cannot be read, what the reader refuses, no matrix of the name, or several that it could be.
+pub fn load_matrix(path: &Path, name: Option<&str>) -> Result<CoordinateMatrix, InputError> {
     let bytes = load_bytes(path)?;
-    frfit_formats::read_matrix(&bytes).map_err(|error| InputError::in_file(path, error))
+    let matrix = read_matrices(&bytes).and_then(|all| take_matrix(all, name)?.matrix);
+    matrix.map_err(|error| InputError::in_file(path, error))
 }
 
 /// Reads an FRF from a UFF file or a table.

@@ -2,32 +2,105 @@
 
 use super::factor::law;
 use super::files::{Files, NamedFile};
+use super::labels::{Member, Order, names_beside, one_order, read_names, sibling};
 use super::matrix::{check_symmetric, symmetric_matrix};
+use crate::case::Located;
 use crate::case::{CaseFile, MatrixEntry};
 use crate::error::InputError;
+use frfit::model::Role;
 use frfit::model::{DynamicStiffness, ModelError, Term};
-use frfit_formats::{CoordinateMatrix, Entries, FormatError, read_matrix};
+use frfit_formats::{
+    CoordinateMatrix, DofLabel, Entries, FormatError, Labels, NamedMatrix, choose_matrix, detect,
+    read_matrices,
+};
+use std::borrow::Cow;
+use std::rc::Rc;
 
-/// Reads all matrices and factors: one term for each, in their order.
-pub(super) fn terms(case: &CaseFile, files: &mut Files) -> Result<Vec<Term>, InputError> {
-    let mut read = Vec::with_capacity(case.matrices.len());
+/// A matrix of the case, and where it is from.
+struct Read<'a> {
+    entry: &'a MatrixEntry,
+    /// All of its file: terms may be in one file.
+    all: Rc<Vec<NamedMatrix>>,
+    /// Names of its rows that are in a file beside it.
+    beside: Option<Labels>,
+    file: NamedFile,
+}
+
+impl Read<'_> {
+    fn chosen(&self) -> Result<&NamedMatrix, FormatError> {
+        choose_matrix(&self.all, self.entry.in_file.as_ref().map(|name| name.value.as_str()))
+    }
+
+    fn matrix(&self) -> Result<&CoordinateMatrix, FormatError> {
+        self.chosen()?.matrix.as_ref().map_err(FormatError::clone)
+    }
+
+    fn labels(&self) -> Result<&Labels, FormatError> {
+        self.beside.as_ref().map_or_else(|| Ok(&self.chosen()?.labels), Ok)
+    }
+
+    /// What is wrong with it, with its file and the key that names it.
+    fn refuse(&self, error: FormatError) -> InputError {
+        self.file.refuse(error)
+    }
+}
+
+/// Reads all matrices and factors: one term for each, in their order. With them what each row stands for, where the
+/// files of the matrices say so: then all are in one order.
+pub(super) fn terms(case: &CaseFile, files: &mut Files) -> Result<(Vec<Term>, Vec<DofLabel>), InputError> {
+    let mut read: Vec<Read<'_>> = Vec::with_capacity(case.matrices.len());
     for entry in &case.matrices {
         let file = files.read(&entry.file)?;
-        let matrix = read_matrix(&file.bytes).map_err(|error| file.refuse(error))?;
-        check_symmetric(&matrix).map_err(|error| file.refuse(error))?;
+        let all = match read.iter().find(|earlier| earlier.file.path == file.path) {
+            Some(earlier) => Rc::clone(&earlier.all),
+            None => Rc::new(read_matrices(&file.bytes).map_err(|error| file.refuse(error))?),
+        };
+        let kind = detect(&file.bytes);
         // The numbers are in the matrix: the text need not stay in memory.
-        read.push((entry, matrix, NamedFile { bytes: Default::default(), ..file }));
+        let file = NamedFile { bytes: Default::default(), ..file };
+        let mut one = Read { entry, all, beside: None, file };
+        one.matrix().and_then(check_symmetric).map_err(|error| one.refuse(error))?;
+        if let Some((kind, path)) = kind.and_then(|kind| Some((kind, names_beside(&one.file.path, kind)?))) {
+            let name = Located { value: sibling(&entry.file.value, &path), place: entry.file.place.clone() };
+            let names = files.read(&name)?;
+            let rows = one.matrix().map_or(0, |matrix| matrix.nrows);
+            one.beside = Some(read_names(kind, &names.bytes, rows).map_err(|error| names.refuse(error))?);
+        }
+        read.push(one);
     }
-    same_sizes(&read)?;
-    every_row_has_an_entry(case, &read)?;
+    let (labels, matrices) = in_one_order(&read)?;
+    same_sizes(&matrices)?;
+    every_row_has_an_entry(case, &matrices, &labels)?;
     let mut terms = Vec::with_capacity(read.len());
-    for (entry, matrix, file) in read {
-        let matrix = symmetric_matrix(&matrix).map_err(|error| file.refuse(error))?;
-        let factor = law(&entry.factor, files)?;
-        terms.push(Term { name: entry.name.value.clone(), role: entry.role, matrix, factor });
+    for (one, matrix) in matrices {
+        let matrix = symmetric_matrix(&matrix).map_err(|error| one.refuse(error))?;
+        let factor = law(&one.entry.factor, files)?;
+        terms.push(Term { name: one.entry.name.value.clone(), role: one.entry.role, matrix, factor });
     }
-    Ok(terms)
+    Ok((terms, labels))
 }
+
+/// All matrices on the same rows, and what these stand for; nothing where no file says so.
+fn in_one_order<'a>(read: &'a [Read<'_>]) -> Result<(Vec<DofLabel>, Vec<OfFile<'a>>), InputError> {
+    let mut members = Vec::with_capacity(read.len());
+    for one in read {
+        let refuse = |error| one.refuse(error);
+        let is_stiffness = one.entry.role == Role::Stiffness;
+        let (matrix, labels) = (one.matrix().map_err(refuse)?, one.labels().map_err(refuse)?);
+        members.push(Member { matrix, labels, is_stiffness });
+    }
+    let order = one_order(&members).map_err(|(k, error)| read[k].refuse(error))?;
+    let mut matrices = Vec::with_capacity(read.len());
+    for (k, (one, member)) in read.iter().zip(&members).enumerate() {
+        let moved = order.as_ref().and_then(|order| order.apply(k, member.matrix)).transpose();
+        let moved = moved.map_err(|error| one.refuse(error))?;
+        matrices.push((one, moved.map_or(Cow::Borrowed(member.matrix), Cow::Owned)));
+    }
+    Ok((order.map_or(Vec::new(), |Order { labels, .. }| labels), matrices))
+}
+
+/// A matrix of the model, and where it is from.
+type OfFile<'a> = (&'a Read<'a>, Cow<'a, CoordinateMatrix>);
 
 /// The model of all terms.
 pub(super) fn model(case: &CaseFile, terms: Vec<Term>) -> Result<DynamicStiffness, InputError> {
@@ -35,12 +108,12 @@ pub(super) fn model(case: &CaseFile, terms: Vec<Term>) -> Result<DynamicStiffnes
     Ok(model.with_threads(rayon::current_num_threads()))
 }
 
-fn same_sizes(read: &[(&MatrixEntry, CoordinateMatrix, NamedFile)]) -> Result<(), InputError> {
-    let Some(((first, size, _), others)) = read.split_first() else { return Ok(()) };
-    match others.iter().find(|(_, matrix, _)| matrix.nrows != size.nrows) {
-        Some((_, matrix, file)) => {
-            let expected = format!("{} rows, as matrix {:?} has", size.nrows, first.name.value);
-            Err(file.refuse(FormatError::whole(expected, matrix.nrows.to_string())))
+fn same_sizes(read: &[OfFile<'_>]) -> Result<(), InputError> {
+    let Some(((first, size), others)) = read.split_first() else { return Ok(()) };
+    match others.iter().find(|(_, matrix)| matrix.nrows != size.nrows) {
+        Some((one, matrix)) => {
+            let expected = format!("{} rows, as matrix {:?} has", size.nrows, first.entry.name.value);
+            Err(one.refuse(FormatError::whole(expected, matrix.nrows.to_string())))
         }
         None => Ok(()),
     }
@@ -51,10 +124,11 @@ fn same_sizes(read: &[(&MatrixEntry, CoordinateMatrix, NamedFile)]) -> Result<()
 /// It is also what bounds memory: a file of a few bytes may say that it has two billion rows.
 fn every_row_has_an_entry(
     case: &CaseFile,
-    read: &[(&MatrixEntry, CoordinateMatrix, NamedFile)],
+    read: &[OfFile<'_>],
+    labels: &[DofLabel],
 ) -> Result<(), InputError> {
-    let rows = read.first().map_or(0, |(_, matrix, _)| matrix.nrows);
-    let entries: usize = read.iter().map(|(_, matrix, _)| matrix.rows.len()).sum();
+    let rows = read.first().map_or(0, |(_, matrix)| matrix.nrows);
+    let entries: usize = read.iter().map(|(_, matrix)| matrix.rows.len()).sum();
     let refuse = |found: String| {
         let place = &case.matrices[0].file.place;
         Err(InputError::at(place, format!("an entry in each of the {rows} rows, in some matrix"), found))
@@ -64,7 +138,7 @@ fn every_row_has_an_entry(
         return refuse(format!("{entries} in all"));
     }
     let mut empty = vec![true; rows];
-    for (_, matrix, _) in read {
+    for (_, matrix) in read {
         for (k, (&row, &col)) in matrix.rows.iter().zip(&matrix.cols).enumerate() {
             if !is_zero(&matrix.entries, k) {
                 empty[row] = false;
@@ -73,7 +147,10 @@ fn every_row_has_an_entry(
         }
     }
     match empty.iter().position(|&empty| empty) {
-        Some(row) => refuse(format!("none in row {}", row + 1)),
+        Some(row) => {
+            let name = labels.get(row).map_or(String::new(), |label| format!(" ({label})"));
+            refuse(format!("none in row {}{name}", row + 1))
+        }
         None => Ok(()),
     }
 }

@@ -1,29 +1,55 @@
-//! `frf.uff`: a forward response as other programs read it.
+//! Responses as other programs read them: UFF.
 
 use crate::convert::frf_dataset;
 use crate::load::{Case, SensorInfo};
-use crate::run::RespondRun;
+use crate::run::{IdentifyRun, RespondRun};
+use frfit::c64;
 use frfit::dof::DofName;
 use frfit_formats::FormatError;
 use frfit_formats::uff::{Dof, Endian, Form, FunctionHeader, Units, write};
 
-/// Units and one binary dataset 58 per sensor, every value bit for bit; frequencies without an answer are left out.
+/// `frf.uff`, a forward response: units and one binary dataset 58 per sensor, every value bit for bit; frequencies without an answer are left out.
 ///
 /// A sensor without a name is the node of its row, without direction.
 ///
 /// # Errors
 /// [`FormatError`] where a node label does not fit the format.
 pub fn respond_uff(case: &Case, run: &RespondRun) -> Result<Vec<u8>, FormatError> {
+    let receptance = |row: usize, m: usize| run.receptance[row].as_ref().ok()?.get(m).copied();
+    responses(case, &run.frequency_hz, &receptance, "")
+}
+
+/// `updated.uff`, the response with the identified factor, in the same form; a sensor without any answer has no dataset.
+///
+/// # Errors
+/// As [`respond_uff`].
+pub fn updated_uff(case: &Case, run: &IdentifyRun) -> Result<Vec<u8>, FormatError> {
+    let frequency_hz: Vec<f64> = run.outcomes.iter().map(|outcome| outcome.frequency_hz).collect();
+    let receptance = |row: usize, m: usize| run.outcomes[row].updated_response.get(m).copied();
+    responses(case, &frequency_hz, &receptance, "updated")
+}
+
+/// What a receptance is, by frequency and sensor.
+type Receptance<'a> = &'a dyn Fn(usize, usize) -> Option<c64>;
+
+fn responses(
+    case: &Case,
+    frequency_hz: &[f64],
+    receptance: Receptance<'_>,
+    kind: &str,
+) -> Result<Vec<u8>, FormatError> {
     let mut file = write::units(&Units::default())?;
     for (m, sensor) in case.sensors.iter().enumerate() {
-        let answered = run.frequency_hz.iter().zip(&run.receptance).filter_map(|(&frequency_hz, x)| {
-            let receptance = *x.as_ref().ok()?.get(m)?;
-            Some((frequency_hz, sensor.quantity.from_receptance(frequency_hz, receptance)))
+        let answered = frequency_hz.iter().enumerate().filter_map(|(row, &frequency_hz)| {
+            Some((frequency_hz, sensor.quantity.from_receptance(frequency_hz, receptance(row, m)?)))
         });
         let (frequency_hz, response): (Vec<f64>, Vec<_>) = answered.unzip();
+        if frequency_hz.is_empty() {
+            continue;
+        }
         let title = case.title.chars().filter(|c| !c.is_control()).take(80).collect();
         let header = FunctionHeader {
-            id: [title, sensor.label.clone(), String::new(), String::new(), String::new()],
+            id: [title, sensor.label.clone(), kind.into(), String::new(), String::new()],
             response: dof(sensor, case.experiment.sensors[m].row),
             ..FunctionHeader::default()
         };

@@ -1,7 +1,8 @@
 //! Fitted laws: for programs, for people, and for the next case file.
 
 use crate::run::LawsRun;
-use frfit::laws::{Estimate, LawFit, best};
+use frfit::identify::SmoothCurve;
+use frfit::laws::{Correlated, Estimate, LawFit, best};
 use frfit::material::Law;
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
@@ -31,6 +32,9 @@ pub fn law_json(fit: &LawFit) -> Value {
             (name.clone(), json!({"value": number(*value), "std": std, "unit": unit}))
         })
         .collect();
+    let widened: Option<Map<String, Value>> = fit.correlated.as_ref().map(|correlated| {
+        fit.parameters.iter().zip(&correlated.widened).map(|(p, by)| (p.name.clone(), json!(by))).collect()
+    });
     json!({
         "law": fit.family.to_string(),
         "parameters": parameters,
@@ -43,10 +47,32 @@ pub fn law_json(fit: &LawFit) -> Value {
         "bic": number(fit.bic()),
         "aic": number(fit.aic()),
         "converged": fit.converged,
+        "residuals_say": residuals_say(fit),
+        "correlated_lines": fit.correlated.as_ref().map(|correlated| correlated.lines),
+        "correlated_size": fit.correlated.as_ref().map(|correlated| correlated.size),
+        "widened": widened,
         "starts": fit.starts,
         "starts_agreeing": fit.agreeing,
         "factor": snippet(&fit.law),
     })
+}
+
+/// How smooth a modulus turned out to be.
+pub fn smooth_json(curve: &SmoothCurve) -> Value {
+    json!({
+        "parameters": curve.parameters, "width_octaves": curve.width_octaves,
+        "converged": curve.converged, "unexplained": curve.unexplained,
+    })
+}
+
+/// What the law leaves, in words.
+fn residuals_say(fit: &LawFit) -> String {
+    match &fit.correlated {
+        Some(Correlated { lines, size, .. }) => format!(
+            "residuals correlated over {lines:.0} lines, {size:.1e} of the modulus: the standard deviations are wider for it"
+        ),
+        None => "residuals not correlated".into(),
+    }
 }
 
 /// The laws of a band: `law.json`, and `laws` in `summary.json`.
@@ -126,6 +152,9 @@ pub fn laws_text(fits: &[LawFit], misfits: &[Option<Misfit>]) -> String {
     let _ = writeln!(text, "  {}", chosen.family);
     for parameter in &chosen.parameters {
         let _ = writeln!(text, "    {:<12}{}", parameter.name, with_std(parameter));
+    }
+    if chosen.correlated.is_some() {
+        let _ = writeln!(text, "  {}", residuals_say(chosen));
     }
     let _ = writeln!(text, "  {}", snippet(&chosen.law));
     text

@@ -11,9 +11,9 @@ mod summary;
 
 pub use candidates::candidates_csv;
 pub use files::{File, WriteError, write_all};
-pub use frf::respond_uff;
+pub use frf::{respond_uff, updated_uff};
 pub use identified::identified_csv;
-pub use laws::{Misfit, law_json, laws_json, laws_text, snippet};
+pub use laws::{Misfit, law_json, laws_json, laws_text, smooth_json, snippet};
 pub use measured::{hit_reasons, measured_csv, measured_summary, measured_text, measured_uff};
 pub use response::{respond_csv, response_csv};
 pub use summary::{RIGHT_WITHIN, summary_json};

@@ -19,7 +19,7 @@ pub fn response_csv(case: &Case, identify: &IdentifyCase, run: &IdentifyRun) -> 
         "updated_im",
     ];
     let rows = run.outcomes.iter().zip(&identify.measured).flat_map(|(outcome, measured)| {
-        let measured = run.measured(measured);
+        let measured = run.measured(outcome.frequency_hz, measured);
         case.sensors.iter().enumerate().map(move |(m, sensor)| {
             let there = |receptance: Option<&c64>| cells(sensor, outcome.frequency_hz, receptance);
             let [nominal_re, nominal_im] = there(outcome.nominal_response.get(m));

@@ -1,10 +1,11 @@
 //! `summary.json`: what went in, what was done, what came out, in a form that programs read.
 
-use super::laws_json;
+use super::{laws_json, smooth_json};
+use crate::case::VariesEntry as Varies;
 use crate::load::{Case, IdentifyCase, MeasuredNoise};
 use crate::run::IdentifyRun;
 use frfit::c64;
-use frfit::identify::{NoiseLevel, Status};
+use frfit::identify::{NoiseLevel, Status, Unknown};
 use frfit::material::loss_factor;
 use serde_json::{Map, Value, json};
 
@@ -37,6 +38,11 @@ pub fn summary_json(
         .map(|term| json!({"name": term.name, "role": format!("{:?}", term.role).to_lowercase()}))
         .collect();
     let options = &identify.options;
+    let (varies, laws) = match &identify.varies {
+        Varies::Freely => ("frequency", &[][..]),
+        Varies::Smoothly => ("smooth", &[][..]),
+        Varies::ByLaw(laws) => ("law", laws.as_slice()),
+    };
     let mut summary = json!({
         "frfit": env!("CARGO_PKG_VERSION"),
         "title": case.title,
@@ -49,8 +55,8 @@ pub fn summary_json(
         "sensors": (0..case.sensors.len()).map(|m| sensor(case, run, m)).collect::<Vec<_>>(),
         "identify": {
             "matrix": identify.names,
-            "varies": if identify.laws.is_empty() { "frequency" } else { "law" },
-            "law": identify.laws.iter().map(|family| family.to_string()).collect::<Vec<_>>(),
+            "varies": varies,
+            "law": laws.iter().map(|family| family.to_string()).collect::<Vec<_>>(),
             "band_hz": identify.band_hz,
             "left_out": identify.left_out.iter().filter(|&&out| out).count(),
             "method": options.method.name(),
@@ -92,6 +98,9 @@ pub fn summary_json(
     if let Some(laws) = &run.laws {
         summary["laws"] = laws_json(laws);
     }
+    if let Some(smooth) = &run.smooth {
+        summary["smooth"] = smooth.curve.as_ref().map_or(Value::Null, smooth_json);
+    }
     if let Some(truth) = truth(identify, run) {
         summary["truth"] = truth;
     }
@@ -102,10 +111,12 @@ pub fn summary_json(
 fn sensor(case: &Case, run: &IdentifyRun, m: usize) -> Value {
     let sensor = &case.sensors[m];
     let mut told = json!({"label": sensor.label, "quantity": sensor.quantity.name()});
-    if case.identify.as_ref().is_some_and(|identify| identify.unknown_scale[m]) {
-        let scale = run.scales.get(m).copied().flatten();
-        told["scale"] = json!(scale.map(|scale| scale.value));
-        told["scale_std"] = json!(scale.and_then(|scale| scale.std));
+    let unknown = case.identify.as_ref().map_or(Unknown::default(), |identify| identify.unknown[m]);
+    let found = run.channels.get(m).copied().unwrap_or_default();
+    let asked = [("scale", unknown.scale, found.scale), ("delay_s", unknown.delay, found.delay_s)];
+    for (key, _, found) in asked.into_iter().filter(|(_, asked, _)| *asked) {
+        told[key] = json!(found.map(|found| found.value));
+        told[format!("{key}_std")] = json!(found.and_then(|found| found.std));
     }
     if let Some(fit) = run.sensors.get(m) {
         told["misfit"] = json!(fit.misfit);

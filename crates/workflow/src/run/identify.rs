@@ -1,12 +1,14 @@
 //! From a case to the outcome at every frequency of its band.
 
 use super::Progress;
+use crate::case::VariesEntry as Varies;
 use crate::load::{Case, IdentifyCase, MeasuredNoise};
 use frfit::c64;
 use frfit::frequency::bands_hz;
 use frfit::identify::{
-    Band, BandOutcome, GoodnessOfFit, Hooks, Identified, LawsOutcome, Method, Noise, NoiseLevel, Scale,
-    SensorFit, Stage, Status, error_by_order, identify_band, identify_band_scaled, identify_laws_scaled,
+    Band, BandOutcome, Calibration, GoodnessOfFit, Hooks, Identified, LawsOutcome, Method, Noise, NoiseLevel,
+    SensorFit, SmoothCurve, SmoothOutcome, Stage, Status, error_by_order, identify_band,
+    identify_band_scaled, identify_laws_scaled, identify_smooth,
 };
 use frfit::laws::LawFit;
 use frfit::material::OutsideTable;
@@ -69,10 +71,12 @@ pub struct IdentifyRun {
     pub fit: Option<GoodnessOfFit>,
     /// One for each sensor of a joint selection.
     pub sensors: Vec<SensorFit>,
-    /// The scale of each sensor that was unknown; `None` where it was known, or is not told.
-    pub scales: Vec<Option<Scale>>,
+    /// What was unknown of each sensor's channel, and is told by the data.
+    pub channels: Vec<Calibration>,
     /// The laws that were fitted; `None` where every frequency has its own factor. The outcomes are those of the best law.
     pub laws: Option<LawsRun>,
+    /// The smooth modulus; `None` where it was not asked to be smooth.
+    pub smooth: Option<SmoothRun>,
     /// How long it took.
     pub seconds: Seconds,
 }
@@ -82,6 +86,15 @@ pub struct IdentifyRun {
 pub struct LawsRun {
     /// One for each law that could be fitted.
     pub fits: Vec<LawFit>,
+    /// What each frequency says by itself.
+    pub free: Vec<Identified>,
+}
+
+/// A modulus that is smooth over a band.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SmoothRun {
+    /// The curve; `None` where there is nothing to lay one through.
+    pub curve: Option<SmoothCurve>,
     /// What each frequency says by itself.
     pub free: Vec<Identified>,
 }
@@ -124,24 +137,34 @@ pub fn identify(
             progress(done, total);
         },
     };
-    let unknown = &identify.unknown_scale;
-    let (found, scales, laws) = match identify.laws.as_slice() {
-        [] if unknown.contains(&true) => {
-            let (found, scales) = identify_band_scaled(&band, unknown, &identify.options, hooks)?;
-            (found, scales, None)
+    let unknown = &identify.unknown;
+    let known = || vec![Calibration::default(); unknown.len()];
+    let mut smooth = None;
+    let (found, channels, laws) = match &identify.varies {
+        Varies::Freely if unknown.iter().any(|unknown| unknown.any()) => {
+            let (found, channels) = identify_band_scaled(&band, unknown, &identify.options, hooks)?;
+            (found, channels, None)
         }
-        [] => (identify_band(&band, &identify.options, hooks)?, vec![None; unknown.len()], None),
-        families => {
-            let LawsOutcome { free, fits, outcomes, scales, work, subspace_size } =
+        Varies::Freely => (identify_band(&band, &identify.options, hooks)?, known(), None),
+        Varies::Smoothly => {
+            let SmoothOutcome { free, band, curve } = identify_smooth(&band, &identify.options, hooks)?;
+            smooth = Some(SmoothRun { curve, free: Used::among_all(identify, free.outcomes)? });
+            (band, known(), None)
+        }
+        Varies::ByLaw(families) => {
+            let LawsOutcome { free, fits, outcomes, channels, work, subspace_size } =
                 identify_laws_scaled(&band, unknown, families, &identify.options, hooks)?;
             // What each frequency by itself told of noise and sensors holds for the laws too.
             let alone = free.outcomes.clone();
             let found = BandOutcome { outcomes, work, subspace_size, fit: None, ..free };
-            (found, scales, Some(LawsRun { fits, free: alone }))
+            (found, channels, Some(LawsRun { fits, free: alone }))
         }
     };
     let mut found = found;
     found.outcomes = Used::among_all(identify, found.outcomes)?;
+    if let Some(curve) = smooth.as_ref().and_then(|smooth| smooth.curve.as_ref()) {
+        bridge(&mut found.outcomes, curve, identify);
+    }
     let laws = match laws {
         Some(laws) => Some(LawsRun { free: Used::among_all(identify, laws.free)?, ..laws }),
         None => None,
@@ -160,10 +183,22 @@ pub fn identify(
         noise,
         fit,
         sensors,
-        scales,
+        channels,
         laws,
+        smooth,
         seconds,
     })
+}
+
+/// The smooth modulus at the frequencies that were left out: their status stays, as nothing was measured there that counts.
+fn bridge(outcomes: &mut [Identified], curve: &SmoothCurve, identify: &IdentifyCase) {
+    let out = |i: &usize| identify.left_out[*i] && identify.frequency_hz[*i] > 0.0;
+    let out: Vec<usize> = (0..outcomes.len()).filter(out).collect();
+    let frequency_hz: Vec<f64> = out.iter().map(|&i| identify.frequency_hz[i]).collect();
+    for (&i, (factor, bars)) in out.iter().zip(curve.bridged(&frequency_hz)) {
+        outcomes[i].correction = Some(factor - outcomes[i].nominal);
+        outcomes[i].uncertainty = Some(bars);
+    }
 }
 
 /// What is not left out of a band.
@@ -304,10 +339,11 @@ impl IdentifyRun {
         self.outcomes.iter().filter(|outcome| outcome.status == status).count()
     }
 
-    /// What was measured at a frequency, as receptance, scales that were found included.
-    pub fn measured(&self, receptance: &[c64]) -> Vec<c64> {
-        let scale = |m: usize| self.scales.get(m).copied().flatten().map_or(1.0, |scale| scale.value);
-        receptance.iter().enumerate().map(|(m, u)| scale(m) * u).collect()
+    /// What was measured at a frequency, as receptance, with the scales and delays that were found.
+    pub fn measured(&self, frequency_hz: f64, receptance: &[c64]) -> Vec<c64> {
+        let one = c64::new(1.0, 0.0);
+        let factor = |m: usize| self.channels.get(m).map_or(one, |channel| channel.factor(frequency_hz));
+        receptance.iter().enumerate().map(|(m, u)| factor(m) * u).collect()
     }
 
     /// The largest estimated error of the subspace's response, relative to the measured one, over all answers; `None` where the full model answered.

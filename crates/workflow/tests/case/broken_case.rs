@@ -171,9 +171,23 @@ fn matrices_and_factors() {
         (
             "file = \"K.mtx\"",
             "file = \"a.csv\"",
-            "a.csv: expected a matrix: a Matrix Market or a Harwell-Boeing file, found a table (CSV)\nnamed in case.toml:5:1: matrix.file",
+            "a.csv: expected a matrix (Matrix Market, Harwell-Boeing, CalculiX, Abaqus, Nastran DMIG, Nastran OUTPUT4, NumPy, MATLAB), found a table (CSV)\nnamed in case.toml:5:1: matrix.file",
         ),
-        ("file = \"K.mtx\"", "file = 3", "case.toml:5:1: matrix.file: expected a text in quotes, found 3"),
+        (
+            "file = \"K.mtx\"",
+            "file = 3",
+            "case.toml:5:1: matrix.file: expected a text in quotes or { file = \"...\", name = \"...\" }, found 3",
+        ),
+        (
+            "file = \"K.mtx\"",
+            "file = { file = \"K.mtx\", name = \"KAA\" }",
+            "K.mtx: expected no name beside a file that names no matrix, found KAA\nnamed in case.toml:5:10: matrix.file.file",
+        ),
+        (
+            "file = \"K.mtx\"",
+            "file = { name = \"KAA\" }",
+            "case.toml:5:8: matrix.file: expected the key \"file\", found none",
+        ),
         (
             "name = \"core\"",
             "name = 1979-05-27",

@@ -85,7 +85,7 @@ fn matrices() {
         (
             "K.mtx",
             "",
-            "K.mtx: expected a matrix: a Matrix Market or a Harwell-Boeing file, found an empty file\nnamed in case.toml:5:1: matrix.file",
+            "K.mtx: expected a matrix (Matrix Market, Harwell-Boeing, CalculiX, Abaqus, Nastran DMIG, Nastran OUTPUT4, NumPy, MATLAB), found an empty file\nnamed in case.toml:5:1: matrix.file",
         ),
         (
             "K.mtx",

@@ -7,7 +7,9 @@ use frfit::material::Law;
 use frfit::model::Sensor;
 use frfit::quantity::Quantity;
 use frfit::roots::Bounds;
+use frfit_formats::{op4, read_matrix};
 use frfit_workflow::load::{MeasuredNoise, Overrides, Purpose, load};
+use std::fs;
 use std::path::Path;
 
 #[test]
@@ -38,6 +40,41 @@ fn everything_that_a_case_says_is_there() {
     assert_eq!((identify.band_hz, &identify.frequency_hz[..]), ([10.0, 30.0], &[10.0, 20.0, 30.0][..]));
     assert_eq!(identify.truth, Some(Law::Fractional { e0: 1e5, e1: 2e4, alpha: 0.5 }));
     assert_eq!(case.respond_hz, [10.0, 20.0, 30.0]);
+}
+
+#[test]
+fn matrices_of_one_file_are_chosen_by_their_names() {
+    let folder = folder("", None);
+    let read = |name: &str| read_matrix(&fs::read(folder.path().join(name)).unwrap()).unwrap();
+    let (k, m) = (read("K.mtx"), read("M.mtx"));
+    fs::write(folder.path().join("model.op4"), op4::write(&[("K", &k), ("M", &m)]).unwrap()).unwrap();
+    let case_file = folder.path().join("case.toml");
+    let load = |case: &str| {
+        fs::write(&case_file, case).unwrap();
+        load(&case_file, &Overrides::default(), Purpose::Identify)
+    };
+    let separate = load(CASE).unwrap();
+    let both = edited("case.toml", "\"K.mtx\"", "{ file = \"model.op4\", name = \"K\" }");
+    let both = both.replace("\"M.mtx\"", "{ file = \"model.op4\", name = \"M\" }");
+    let together = load(&both).unwrap();
+    for (one, other) in separate.model.terms().iter().zip(together.model.terms()) {
+        assert_eq!(one.matrix, other.matrix);
+    }
+    // Read once, named once.
+    let names: Vec<_> = together.inputs.iter().map(|input| input.path.to_str().unwrap()).collect();
+    assert_eq!(names.iter().filter(|name| **name == "model.op4").count(), 1, "{names:?}");
+
+    let refused = |case: &str| crate::files::message(&folder, &load(case).unwrap_err());
+    assert_eq!(
+        refused(&both.replace("{ file = \"model.op4\", name = \"K\" }", "\"model.op4\"")),
+        "model.op4: expected one matrix, or a name: { file = \"...\", name = \"...\" }, found K (3 x 3), M (3 x 3)\n\
+         named in case.toml:5:1: matrix.file"
+    );
+    assert_eq!(
+        refused(&both.replace("name = \"K\" }", "name = \"KAA\" }")),
+        "model.op4: expected one matrix named \"KAA\", found K (3 x 3), M (3 x 3)\n\
+         named in case.toml:5:10: matrix.file.file"
+    );
 }
 
 #[test]

@@ -4,21 +4,31 @@ use crate::files::{edited, folder, refused, with};
 use frfit::identify::Space;
 use frfit::laws::Family;
 use frfit::material::{Branch, Law};
+use frfit_workflow::case::VariesEntry;
 use frfit_workflow::load::{Overrides, Purpose, load};
 
-fn families(keys: &str) -> Vec<Family> {
+fn varies(keys: &str) -> VariesEntry {
     let text = edited("case.toml", "order = 20", &format!("order = 20\n{keys}"));
     let case = with("case.toml", text.as_bytes(), &Overrides::default(), Purpose::Identify).unwrap();
     let identify = case.identify.unwrap();
-    let space = if identify.laws.is_empty() { Space::Auto } else { Space::Subspace };
+    let space = if identify.varies == VariesEntry::Freely { Space::Auto } else { Space::Subspace };
     assert_eq!(identify.options.space, space);
-    identify.laws
+    identify.varies
+}
+
+fn families(keys: &str) -> Vec<Family> {
+    match varies(keys) {
+        VariesEntry::ByLaw(families) => families,
+        other => panic!("{keys}: {other:?}"),
+    }
 }
 
 #[test]
 fn laws_to_be_found() {
-    assert_eq!(families(""), []);
-    assert_eq!(families("varies = \"frequency\""), []);
+    assert_eq!(varies(""), VariesEntry::Freely);
+    assert_eq!(varies("varies = \"frequency\""), VariesEntry::Freely);
+    assert_eq!(varies("varies = \"smooth\""), VariesEntry::Smoothly);
+    assert_eq!(varies("varies = \"smooth\"\nreal = true"), VariesEntry::Smoothly);
     assert_eq!(families("varies = \"law\""), Family::ALL);
     assert_eq!(families("varies = \"law\"\nlaw = \"zener\""), [Family::FractionalZener]);
     assert_eq!(
@@ -36,7 +46,7 @@ fn laws_that_cannot_be_found_are_refused() {
         ("law = \"zener\"", "case.toml:32:1: identify.law: expected varies = \"law\" beside it, found none".to_owned()),
         (
             "varies = \"laws\"",
-            "case.toml:32:1: identify.varies: expected \"frequency\" (a factor of its own at each) or \"law\", found \"laws\"".into(),
+            "case.toml:32:1: identify.varies: expected \"frequency\" (a factor of its own at each), \"smooth\" or \"law\", found \"laws\"".into(),
         ),
         (
             "varies = \"law\"\nlaw = \"zenner\"",
@@ -56,7 +66,15 @@ fn laws_that_cannot_be_found_are_refused() {
         ),
         (
             "varies = \"law\"\nreal = true",
-            "case.toml:32:1: identify.varies: expected \"frequency\" for a real factor, found \"law\" with real = true".into(),
+            "case.toml:32:1: identify.varies: expected \"frequency\" or \"smooth\" for a real factor, found \"law\" with real = true".into(),
+        ),
+        (
+            "varies = \"smooth\"\nlaw = \"zener\"",
+            "case.toml:33:1: identify.law: expected varies = \"law\" beside it, found none".into(),
+        ),
+        (
+            "varies = \"smooth\"\nspace = \"full\"",
+            "case.toml:32:1: identify.varies: expected \"frequency\", or the space \"subspace\", found \"smooth\" with space \"full\"".into(),
         ),
         (
             "varies = \"law\"\nspace = \"full\"",

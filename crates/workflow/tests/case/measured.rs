@@ -252,3 +252,13 @@ fn what_cannot_be_used_is_said() {
         assert_eq!(measured(&uff, keys).unwrap_err(), expected);
     }
 }
+
+/// An analyser's first + k · step ends beside the end of the band by a rounding.
+#[test]
+fn an_end_of_the_band_is_met_but_for_rounding() {
+    let Function { header, values, .. } = function((2, 3), (1, 3), 7.0, Measured::Displacement);
+    let header = FunctionHeader { spacing: Spacing::Uneven, ..header };
+    let beside = Function::new(header, vec![9.999_999_999_99, 20.0, 30.000_000_000_01], values);
+    let case = measured(&file(&[beside]), "file = \"a.uff\"\n").unwrap();
+    assert_eq!(case.identify.unwrap().frequency_hz.len(), 3);
+}

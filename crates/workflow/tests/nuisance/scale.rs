@@ -96,6 +96,29 @@ fn a_law_needs_no_channel_of_known_scale() {
 }
 
 #[test]
+fn an_unknown_delay_is_found_beside_an_unknown_scale() {
+    // More than two periods at the top of the band, on a channel whose sense is reversed too.
+    let (late, mut noise) = (-19e-3, Noise::new(4));
+    let both = "scale = \"unknown\"\ndelay_s = \"unknown\"";
+    let job = run(&folder(&tables([-1.0 / 0.37, 1.0], late, Some((0.02, &mut noise))), &keys(both, "", "")))
+        .unwrap();
+    let told = &job.summary["sensors"][0];
+    let number = |key: &str| told[key].as_f64().unwrap();
+    // A hundredth of a radian at the top of the band, from eighty values of two per cent.
+    assert!(number("delay_s_std") < 1.5e-5, "{told}");
+    assert!((number("delay_s") - late).abs() < 4.0 * number("delay_s_std"), "{told}");
+    assert!((number("scale") + 0.37).abs() < 4.0 * number("scale_std"), "{told}");
+    assert!(job.summary["sensors"][1].get("delay_s").is_none());
+    // The response that is written is that of no delay.
+    let exact = receptance(&[], &[5], &[12.0])[0][0];
+    let measured = job.run.measured(12.0, &job.identify().unwrap().measured[0])[0];
+    assert!((measured - exact).norm() < 0.1 * exact.norm(), "{measured} {exact}");
+    // What is looked for is no finding.
+    let findings = job.diagnosis.as_ref().map_or(&[][..], |diagnosis| &diagnosis.findings);
+    assert!(findings.iter().all(|finding| finding.sensors != [0]), "{findings:?}");
+}
+
+#[test]
 fn what_cannot_be_found_is_refused() {
     let unknown = "scale = \"unknown\"";
     for (first, second, identify, message) in [
@@ -103,7 +126,7 @@ fn what_cannot_be_found_is_refused() {
             unknown,
             unknown,
             "",
-            "measurement.scale: expected a number here, another [[measurement]] whose scale is known, or varies = \"law\" (a factor of its own at each frequency explains one sensor whatever its scale), found \"unknown\" for all sensors",
+            "measurement.scale: expected a number here, another [[measurement]] whose scale and delay are known, or varies = \"law\" (a factor of its own at each frequency explains one sensor whatever its scale and delay), found \"unknown\" for all sensors",
         ),
         (
             unknown,
@@ -131,9 +154,21 @@ fn what_cannot_be_found_is_refused() {
         ),
         (
             "delay_s = \"unknown\"",
+            "delay_s = \"unknown\"",
+            "",
+            "measurement.delay_s: expected a number here, another [[measurement]] whose scale and delay are known, or varies = \"law\" (a factor of its own at each frequency explains one sensor whatever its scale and delay), found \"unknown\" for all sensors",
+        ),
+        (
+            "delay_s = \"unknown\"",
+            "",
+            "selection = \"smallest\"",
+            "measurement.delay_s: expected a number, or selection = \"joint\", found \"unknown\" with selection \"smallest\"",
+        ),
+        (
+            "delay_s = \"soon\"",
             "",
             "",
-            "measurement.delay_s: expected a finite number, found the text \"unknown\"",
+            "measurement.delay_s: expected a finite number of seconds, or \"unknown\", found the text \"soon\"",
         ),
     ] {
         let said = refusal(&folder(&tables([1.0, 1.0], 0.0, None), &keys(first, second, identify)));

@@ -3,4 +3,5 @@
 #[path = "../../../formats/tests/outside/mod.rs"]
 mod outside;
 
-pub(crate) use outside::shared;
+#[allow(unused_imports, reason = "each test uses a part")]
+pub(crate) use outside::{python_with, shared};

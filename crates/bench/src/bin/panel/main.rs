@@ -1,14 +1,13 @@
 //! A sandwich panel from its files to the modulus: `frfit identify` as a user runs it, over the size of the model.
 //!
-//! `panel [DOFS]` leaves out models with more degrees of freedom (default: 310 000, some GB of memory and of disk); `panel 1100000` has the one of a
-//! million, which takes 16 GB.
+//! `panel [DOFS [FOLDER]]` leaves out models with more degrees of freedom (default: 310 000, some GB of memory and of disk); `panel 1100000` has the one of a
+//! million, which takes 16 GB. The cases are kept where there is a folder for them.
 //!
 //! The sandwich of the example in bricks, skins and core in four layers of elements, 1000 frequencies, two sensors, on all cores. The measurement is made with a
 //! subspace of its own ([`frfit_bench::measurement::by_subspace`]) whose estimated error is given. Everything counts: reading the matrices,
 //! identifying, tables and figures.
 #![allow(clippy::print_stdout, clippy::print_stderr)] // tables are what a benchmark is for
 
-use frfit::frequency::linear_hz;
 use frfit_bench::measurement::by_subspace;
 use frfit_bench::{Structure, Table, exponent, machine, memory};
 use frfit_examples::{Model, sandwich};
@@ -23,6 +22,9 @@ use std::{fs, thread};
 const LENGTHS: [usize; 5] = [72, 160, 224, 400, 728];
 
 const FREQUENCIES: usize = 1000;
+
+/// A step that the seven digits of a UFF file hold.
+const STEP_HZ: f64 = 0.98;
 
 /// How often the memory of the program is looked at.
 const LOOK: Duration = Duration::from_millis(20);
@@ -41,14 +43,16 @@ struct Cost {
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let limit = std::env::args().nth(1).map_or(Ok(310_000), |dofs| dofs.parse())?;
+    let mut arguments = std::env::args().skip(1);
+    let limit = arguments.next().map_or(Ok(310_000), |dofs| dofs.parse())?;
+    let kept = arguments.next().map(PathBuf::from);
     let program = program()?;
     println!("From files to the modulus: frfit identify over the size of the model\n{}", machine());
     println!("{FREQUENCIES} frequencies; wall seconds of the whole program and of its stages\n");
     let mut costs = Vec::new();
     for nx in LENGTHS.into_iter().filter(|nx| 15 * nx * (nx / 8 + 1) <= limit) {
         eprintln!("{} degrees of freedom …", 15 * nx * (nx / 8 + 1));
-        costs.push(cost(&program, nx)?);
+        costs.push(cost(&program, nx, kept.as_deref())?);
     }
     println!("{}", table(&costs));
     Ok(())
@@ -65,15 +69,17 @@ fn program() -> Result<PathBuf, Box<dyn Error>> {
     Ok(path)
 }
 
-fn cost(program: &Path, nx: usize) -> Result<Cost, Box<dyn Error>> {
-    let folder = tempfile::tempdir()?;
+fn cost(program: &Path, nx: usize, kept: Option<&Path>) -> Result<Cost, Box<dyn Error>> {
+    let temporary = tempfile::tempdir()?;
     let model = sandwich(nx, nx / 8, 2)?;
     let dofs = model.stiffness.dim();
-    let (bytes, measurement) = write(model, folder.path())?;
+    let folder = kept.map_or(temporary.path().to_path_buf(), |kept| kept.join(dofs.to_string()));
+    fs::create_dir_all(&folder)?;
+    let (bytes, measurement) = write(model, &folder)?;
     let start = Instant::now();
     let mut child = Command::new(program)
         .args(["identify", "case.toml", "--out", "identified"])
-        .current_dir(folder.path())
+        .current_dir(&folder)
         .stdout(Stdio::null())
         .spawn()?;
     let mut peak = None;
@@ -88,14 +94,13 @@ fn cost(program: &Path, nx: usize) -> Result<Cost, Box<dyn Error>> {
     if !status.success() {
         return Err(format!("frfit identify: {status}").into());
     }
-    let summary = serde_json::from_slice(&fs::read(folder.path().join("identified/summary.json"))?)?;
+    let summary = serde_json::from_slice(&fs::read(folder.join("identified/summary.json"))?)?;
     Ok(Cost { dofs, bytes, measurement, seconds, peak, summary })
 }
 
 /// Writes the case; bytes of all files, and the estimated error of the measurement.
 fn write(model: Model, folder: &Path) -> Result<(usize, f64), Box<dyn Error>> {
-    let [first, last] = model.band_hz;
-    let frequency_hz = linear_hz(first, last, FREQUENCIES);
+    let frequency_hz: Vec<f64> = (0..FREQUENCIES).map(|k| model.band_hz[0] + STEP_HZ * k as f64).collect();
     let example = frfit_examples::list().iter().find(|example| example.name == "sandwich");
     let example = example.ok_or("no example is named sandwich")?;
     // The model is large: it is lent to the measurement, and taken back.

@@ -1,12 +1,14 @@
-//! Unknown scales beside a law: eliminated from the least squares, and where they begin.
+//! Unknown scales and delays beside a law: eliminated from the least squares, and where they begin.
 
 use super::joint;
 use super::laws::Fitting;
-use super::scale::{Scale, Scaled, with_scales};
+use super::scale::{Calibrated, Channel, Scaled, Unknown, top, with_scales};
 use super::space::{Space, thinned};
+use super::start::aligned;
 use super::{Band, BandOutcome, Hooks};
 use crate::c64;
 use crate::for_each::map;
+use crate::frequency::omega_rad_s;
 use crate::identify::Options;
 use crate::laws::{Chart, LawFit};
 use crate::median::median;
@@ -24,16 +26,61 @@ pub(super) struct Responded {
 
 /// A channel at a law.
 pub(super) struct ChannelFit {
-    /// γ at which Σ |u − γx|²/σ² over the band is least; one where the scale is known.
+    /// γ and t (s) at which Σ |u − γe^{−iωt}x|²/σ² over the band is least; one and zero where they are known.
     pub(super) gain: f64,
+    pub(super) late_s: f64,
     /// −∂γ/∂θ_j as far as residuals do not matter: what of γ ∂x/∂θ_j is along x. None where the scale is known.
-    pub(super) moved: Vec<f64>,
-    /// Σ |x|²/σ².
-    size: f64,
+    gain_moved: Vec<f64>,
+    /// −∂t/∂θ_j, what is along −iωγx. None where the delay is known.
+    late_moved: Vec<f64>,
+    /// Σ |x|²/σ² and Σ ω²|γx|²/σ²: what tells γ and t. Nothing tells them in common, as x and iωx are at right angles.
+    gain_told: f64,
+    late_told: f64,
+}
+
+impl ChannelFit {
+    /// γe^{−iωt}.
+    pub(super) fn factor(&self, omega: f64) -> c64 {
+        self.gain * c64::from_polar(1.0, -omega * self.late_s)
+    }
+
+    /// What γ and t of their own do to γe^{−iωt}x when θ_j moves, over x.
+    pub(super) fn followed(&self, omega: f64, j: usize) -> c64 {
+        let moved = |moved: &[f64]| moved.get(j).copied().unwrap_or(0.0);
+        let by = moved(&self.gain_moved) - c64::new(0.0, omega * self.gain * moved(&self.late_moved));
+        by * c64::from_polar(1.0, -omega * self.late_s)
+    }
+}
+
+/// Newton's steps to the best delay, and the longest one in radians at the top of the band.
+const DELAY_STEPS: usize = 50;
+const DELAY_STEP: f64 = 0.5;
+
+/// The best delay for w = Σ-terms (ω, x*u/σ²), nearest to none: Σ Re(w e^{iωt}) is largest in size where the gain is free, and largest where it is one.
+fn best_delay(terms: &[(f64, c64)], gain_is_free: bool, top: f64) -> f64 {
+    let derivatives = |t: f64| {
+        terms.iter().fold([0.0; 3], |[value, first, second], (omega, w)| {
+            let w = w * c64::from_polar(1.0, omega * t);
+            [value + w.re, first - omega * w.im, second - omega * omega * w.re]
+        })
+    };
+    let sense = if gain_is_free && derivatives(0.0)[0] < 0.0 { -1.0 } else { 1.0 };
+    let mut t = 0.0;
+    for _ in 0..DELAY_STEPS {
+        let [_, first, second] = derivatives(t).map(|value| sense * value);
+        let most = DELAY_STEP / top;
+        // Uphill where it is not yet bent like a summit.
+        let step = if second < 0.0 { (-first / second).clamp(-most, most) } else { most.copysign(first) };
+        t += step;
+        if (step * top).abs() <= 1e-13 {
+            break;
+        }
+    }
+    t
 }
 
 impl Fitting<'_, '_> {
-    /// Responses over the band at θ, and the best gain of each channel of unknown scale.
+    /// Responses over the band at θ, and the best calibration of each channel.
     pub(super) fn channels(
         &self,
         chart: &Chart,
@@ -53,58 +100,94 @@ impl Fitting<'_, '_> {
     }
 
     fn channel(&self, responses: &[Responded], m: usize, n: usize) -> ChannelFit {
+        let unknown = self.unknown[m];
+        let weight = |i: usize| self.sigma[i][m].powi(-2);
         let weighed = |part: &dyn Fn(usize, &Responded) -> f64| {
-            let terms = responses.iter().enumerate();
-            terms.map(|(i, one)| part(i, one) / self.sigma[i][m].powi(2)).sum::<f64>()
+            responses.iter().enumerate().map(|(i, one)| part(i, one) * weight(i)).sum::<f64>()
         };
         let size = weighed(&|_, one| one.x[m].norm_sqr());
-        if !self.unknown[m] || size == 0.0 {
-            return ChannelFit { gain: 1.0, moved: Vec::new(), size };
+        let mut fit = ChannelFit {
+            gain: 1.0,
+            late_s: 0.0,
+            gain_moved: Vec::new(),
+            late_moved: Vec::new(),
+            gain_told: size,
+            late_told: 0.0,
+        };
+        if !unknown.any() || size == 0.0 {
+            return fit;
         }
-        let gain = weighed(&|i, one| (one.x[m].conj() * self.band.measured[i][m]).re) / size;
-        let along =
-            |j: usize| weighed(&|_, one| (one.x[m].conj() * gain * one.slope[m] * one.of_theta[j]).re) / size;
-        ChannelFit { gain, moved: (0..n).map(along).collect(), size }
+        let product = |i: usize, one: &Responded| one.x[m].conj() * self.band.measured[i][m];
+        if unknown.delay {
+            let term = |(i, one): (usize, &Responded)| (self.omega(i), product(i, one) * weight(i));
+            let terms: Vec<(f64, c64)> = responses.iter().enumerate().map(term).collect();
+            fit.late_s = best_delay(&terms, unknown.scale, top(self.band));
+        }
+        let turn = |i: usize| c64::from_polar(1.0, self.omega(i) * fit.late_s);
+        if unknown.scale {
+            fit.gain = weighed(&|i, one| (product(i, one) * turn(i)).re) / size;
+        }
+        let gain = fit.gain;
+        fit.late_told = weighed(&|i, one| (self.omega(i) * gain).powi(2) * one.x[m].norm_sqr());
+        let along = |j: usize, one: &Responded| one.x[m].conj() * gain * one.slope[m] * one.of_theta[j];
+        if unknown.scale {
+            fit.gain_moved = (0..n).map(|j| weighed(&|_, one| along(j, one).re) / size).collect();
+        }
+        if unknown.delay {
+            // Re((−iωγx)* γ ∂x/∂θ).
+            let part = |j: usize| weighed(&|i, one| -self.omega(i) * gain * along(j, one).im) / fit.late_told;
+            fit.late_moved = (0..n).map(part).collect();
+        }
+        fit
     }
 
-    /// The gains at a law that was fitted, with what noise does to them directly and through the law.
-    pub(super) fn gains_of(&self, law: &LawFit, space: &Space<'_, '_>) -> Option<Vec<Scale>> {
+    /// The calibrations at a law that was fitted, γ and t each with what noise does to it directly and through the law.
+    pub(super) fn calibrations_of(
+        &self,
+        law: &LawFit,
+        space: &Space<'_, '_>,
+    ) -> Option<Vec<[Calibrated; 2]>> {
         let (chart, theta) = law.coordinates();
         let (_, fits) = self.channels(chart, space, theta)?;
         let level = if law.sigma_known { 1.0 } else { law.reduced_chi_squared()? };
-        let told = |fit: &ChannelFit| {
-            let through = law.covariance_of(&fit.moved, &fit.moved);
-            let std = through.map(|through| (level / fit.size + through).max(0.0).sqrt());
-            Scale { value: fit.gain, std: std.filter(|std| std.is_finite()) }
+        let told = |value: f64, told: f64, moved: &[f64]| {
+            let through = law.covariance_of(moved, moved);
+            let std = through.map(|through| (level / told + through).max(0.0).sqrt());
+            Calibrated { value, std: std.filter(|std| std.is_finite()) }
         };
-        let gains: Vec<Scale> = fits.iter().map(told).collect();
-        gains.iter().all(|gain| gain.value.is_finite() && gain.value != 0.0).then_some(gains)
+        let both = |fit: &ChannelFit| {
+            let gain = told(fit.gain, fit.gain_told, &fit.gain_moved);
+            [gain, told(fit.late_s, fit.late_told, &fit.late_moved)]
+        };
+        let usable = |fit: &ChannelFit| fit.gain.is_finite() && fit.gain != 0.0 && fit.late_s.is_finite();
+        fits.iter().all(usable).then(|| fits.iter().map(both).collect())
     }
 }
 
-/// Each frequency by itself, at scales to begin with: one where they are known.
+/// Each frequency by itself, at calibrations to begin with: right ones where they are known.
 pub(super) fn at_scales<'a, 'o>(
     band: &Band<'a>,
     at: &'o [ModelAt<'a>],
-    unknown: &[bool],
+    unknown: &[Unknown],
     options: &'o Options,
     hooks: Hooks<'_>,
-) -> (BandOutcome, (Option<Space<'a, 'o>>, Vec<f64>)) {
+) -> (BandOutcome, (Option<Space<'a, 'o>>, Vec<Channel>)) {
     let mut space = super::space(band, at, options, hooks);
-    let ones = vec![1.0; unknown.len()];
-    if !unknown.contains(&true) {
-        return (joint::identify(band, at, &mut space, &[], options, hooks), (space, ones));
+    let right = vec![Channel::RIGHT; unknown.len()];
+    let is_known = |unknown: &Unknown| !unknown.any();
+    if unknown.iter().all(is_known) {
+        return (joint::identify(band, at, &mut space, &[], options, hooks), (space, right));
     }
-    if unknown.contains(&false) {
-        let (outcome, scales) = with_scales(band, at, &mut space, unknown, options, hooks);
-        let found = scales.iter().all(|scale| scale.is_none_or(|scale| scale.value.is_finite()));
-        let scales = scales.iter().map(|scale| scale.filter(|_| found).map_or(1.0, |scale| scale.value));
-        return (outcome, (space, scales.collect()));
+    if unknown.iter().any(is_known) {
+        let (outcome, found) = with_scales(band, at, &mut space, unknown, options, hooks);
+        let channels = found.map_or(right, |found| found.iter().map(Channel::of).collect());
+        return (outcome, (space, channels));
     }
-    let scales = space.as_ref().and_then(|space| shaped(band, at, space, options, hooks)).unwrap_or(ones);
-    let scaled = Scaled::new(band, &scales);
+    let shaped = space.as_ref().and_then(|space| shaped(band, at, space, unknown, options, hooks));
+    let channels = shaped.unwrap_or(right);
+    let scaled = Scaled::new(band, &channels);
     let outcome = joint::identify(&scaled.band(band), at, &mut space, &[], options, hooks);
-    (outcome, (space, scales))
+    (outcome, (space, channels))
 }
 
 /// Factors of the box that are tried: 2 % apart, as shapes are told by logarithms, which resonances that miss one another by their width do not spoil.
@@ -113,14 +196,15 @@ const FACTORS: usize = 140;
 /// Frequencies at which the shapes are compared.
 const FREQUENCIES: usize = 300;
 
-/// Scales at the factor whose response has the shape that was measured.
+/// Calibrations at the factor whose response has the shape that was measured.
 fn shaped(
     band: &Band<'_>,
     at: &[ModelAt<'_>],
     space: &Space<'_, '_>,
+    unknown: &[Unknown],
     options: &Options,
     hooks: Hooks<'_>,
-) -> Option<Vec<f64>> {
+) -> Option<Vec<Channel>> {
     let all: Vec<usize> = (0..at.len()).collect();
     let which: Vec<usize> = thinned(&all, FREQUENCIES).copied().collect();
     let nominal = at[at.len() / 2].parameters[0].nominal;
@@ -133,23 +217,39 @@ fn shaped(
             Some(space.model(i).respond_with_slope(&at[i], correction).ok()?.0)
         });
         let responses: Vec<Vec<c64>> = responses.collect::<Option<_>>()?;
-        let sensors = 0..band.experiment.sensors.len();
-        let fits = sensors.map(|m| shape(band, &which, &responses, m)).collect::<Option<Vec<_>>>()?;
-        Some((fits.iter().map(|(misfit, _)| misfit).sum::<f64>(), fits))
+        let misfits =
+            unknown.iter().enumerate().map(|(m, unknown)| shape(band, &which, &responses, m, *unknown));
+        Some((misfits.sum::<Option<f64>>()?, responses))
     });
-    let best = tried.into_iter().flatten().min_by(|a, b| a.0.total_cmp(&b.0))?;
-    Some(best.1.into_iter().map(|(_, scale)| scale).collect())
+    let (_, responses) = tried.into_iter().flatten().min_by(|a, b| a.0.total_cmp(&b.0))?;
+    let calibration = |(m, &unknown): (usize, &Unknown)| {
+        let ratios: Vec<(f64, c64)> = which
+            .iter()
+            .zip(&responses)
+            .map(|(&i, x)| (omega_rad_s(band.frequency_hz[i]), x[m] / band.measured[i][m]))
+            .collect();
+        let found = aligned(&ratios, unknown, top(band))?;
+        // The size by logarithms, as the shape is told by them; its sense is that in which most of them move.
+        let size =
+            median(ratios.iter().map(|(_, ratio)| ratio.norm().ln()).filter(|ln| ln.is_finite()).collect())?;
+        let same =
+            |(omega, ratio): &&(f64, c64)| (ratio * c64::from_polar(1.0, -omega * found.delay_s)).re > 0.0;
+        let sense = if 2 * ratios.iter().filter(same).count() >= ratios.len() { 1.0 } else { -1.0 };
+        Some(if unknown.scale { Channel { scale: sense * size.exp(), ..found } } else { found })
+    };
+    unknown.iter().enumerate().map(calibration).collect()
 }
 
-/// How far ln|x| − ln|u| is from its median, on average, and the scale that the median is.
-fn shape(band: &Band<'_>, which: &[usize], responses: &[Vec<c64>], m: usize) -> Option<(f64, f64)> {
-    let pairs = || which.iter().zip(responses).map(|(&i, x)| (band.measured[i][m], x[m]));
-    let logs = pairs().map(|(u, x)| x.norm().ln() - u.norm().ln());
+/// How far ln|x| − ln|u| is from its median, or from none where the scale is known, on average.
+fn shape(
+    band: &Band<'_>,
+    which: &[usize],
+    responses: &[Vec<c64>],
+    m: usize,
+    unknown: Unknown,
+) -> Option<f64> {
+    let logs = which.iter().zip(responses).map(|(&i, x)| x[m].norm().ln() - band.measured[i][m].norm().ln());
     let logs: Vec<f64> = logs.filter(|log| log.is_finite()).collect();
-    let median = median(logs.clone())?;
-    let misfit = logs.iter().map(|log| (log - median).abs()).sum::<f64>() / logs.len() as f64;
-    // The sense in which most of them move.
-    let same = pairs().filter(|(u, x)| (u.conj() * x).re > 0.0).count();
-    let sense = if 2 * same >= which.len() { 1.0 } else { -1.0 };
-    Some((misfit, sense * median.exp()))
+    let middle = if unknown.scale { median(logs.clone())? } else { 0.0 };
+    Some(logs.iter().map(|log| (log - middle).abs()).sum::<f64>() / logs.len() as f64)
 }

@@ -56,16 +56,26 @@ const CONTRADICTION: f64 = 3.0;
 /// No average leaves noise of this part of the response: then sensors contradict one another.
 const NO_NOISE: f64 = 0.3;
 
-/// The fit of answers that have χ² per degree of freedom; `None` where none has.
+/// The fit of answers that have χ² per degree of freedom, where so many numbers were fitted to the whole band too; `None` where nothing is left to tell.
 pub(super) fn goodness(
     outcomes: &[Identified],
     freedom: usize,
+    fitted: usize,
     noise: &NoiseLevel,
     band: &Band<'_>,
 ) -> Option<GoodnessOfFit> {
     let each: Vec<f64> = outcomes.iter().filter_map(|outcome| outcome.chi_squared).collect();
     let chi_squared = freedom as f64 * each.iter().sum::<f64>();
-    let freedom = freedom * each.len();
+    judge(chi_squared, (freedom * each.len()).saturating_sub(fitted), noise, band)
+}
+
+/// What a χ² over the band says; `None` without a degree of freedom.
+pub(super) fn judge(
+    chi_squared: f64,
+    freedom: usize,
+    noise: &NoiseLevel,
+    band: &Band<'_>,
+) -> Option<GoodnessOfFit> {
     if freedom == 0 {
         return None;
     }

@@ -136,7 +136,7 @@ pub(super) fn identify<'a>(
     if let Some(space) = space {
         work += space.work();
     }
-    let fit = goodness(&outcomes, task.freedom(), &noise, band);
+    let fit = goodness(&outcomes, task.freedom(), 0, &noise, band);
     let sensor = |m: usize| SensorFit {
         misfit: sensor_misfit(&outcomes, band.measured, &assumed, m, noise.level),
         contradicts: suspects.contains(&m),

@@ -3,11 +3,11 @@
 //! Every frequency by itself comes first: it trains the subspace, and tells where to begin. Then Σ |u_m − x_m(E(ω; θ))|²/σ_m² over the band is made least in θ on the
 //! models of the neighbourhoods, ∂x_m/∂θ = (∂x_m/∂c)(∂E/∂θ). The subspace is trained further where it is not good enough at the law that came out.
 
-use super::channels::at_scales;
+use super::channels::{Responded, at_scales};
 use super::contradiction::without;
 use super::joint;
 use super::noise::deviations;
-use super::scale::{Scale, Scaled};
+use super::scale::{Calibrated, Calibration, Scaled, Unknown};
 use super::space::{Space, certificate, is_certain};
 use super::{Band, BandOutcome, Hooks, Noise, Stage, near_and_far, near_or_far};
 use crate::c64;
@@ -15,7 +15,7 @@ use crate::for_each::map;
 use crate::frequency::omega_rad_s;
 use crate::identify::{Identified, Options, Selection, Space as Where, Status, Uncertainty, relative_error};
 use crate::laws::{
-    Chart, Datum, Evidence, Family, LawFit, Minima, Residuals, Search, best, minimise, starts,
+    Chart, Datum, Evidence, Family, LawFit, Line, Minima, Residuals, Search, best, minimise, starts,
 };
 use crate::material::OutsideTable;
 use crate::model::ModelAt;
@@ -30,8 +30,8 @@ pub struct LawsOutcome {
     pub fits: Vec<LawFit>,
     /// The law of least BIC at each frequency.
     pub outcomes: Vec<Identified>,
-    /// The scale of each sensor that was unknown, by the law of least BIC.
-    pub scales: Vec<Option<Scale>>,
+    /// What was unknown of each sensor's channel, by the law of least BIC.
+    pub channels: Vec<Calibration>,
     /// All work of size N.
     pub work: Work,
     /// Vectors of the subspace.
@@ -79,14 +79,20 @@ pub fn identify_laws(
     options: &Options,
     hooks: Hooks<'_>,
 ) -> Result<LawsOutcome, OutsideTable> {
-    identify_laws_scaled(band, &vec![false; band.experiment.sensors.len()], families, options, hooks)
+    identify_laws_scaled(
+        band,
+        &vec![Unknown::default(); band.experiment.sensors.len()],
+        families,
+        options,
+        hooks,
+    )
 }
 
-/// As [`identify_laws`], with channels whose scale is unknown ([`super::identify_band_scaled`]); here it may be that of all of them.
+/// As [`identify_laws`], with channels whose scale or delay is unknown ([`super::identify_band_scaled`]); here it may be those of all of them.
 ///
-/// The scales are eliminated: for given θ the best real gain of a channel is linear least squares over the band, and the slopes are those of what it leaves, so that the
-/// error bars of the law have those of the scales in them. Where no channel has a known scale, the first scales are those with which the nominal law, times some
-/// factor of the box, has the shape that was measured: Σ |ln|u_m| − ln|x_m|| about its median.
+/// Both are eliminated: for given θ the best real gain of a channel is linear least squares over the band, the best delay near the first one Newton's, and the slopes
+/// are those of what they leave, so that the error bars of the law have theirs in them. Where no channel is known, the first ones are those with which the nominal law,
+/// times some factor of the box, has the shape that was measured: Σ |ln|u_m| − ln|x_m|| about its median, phases as far as a line over ω takes them.
 ///
 /// # Errors
 /// As [`identify_laws`].
@@ -95,7 +101,7 @@ pub fn identify_laws(
 /// As [`identify_laws`], and where there is not one entry of `unknown` for each sensor.
 pub fn identify_laws_scaled(
     band: &Band<'_>,
-    unknown: &[bool],
+    unknown: &[Unknown],
     families: &[Family],
     options: &Options,
     hooks: Hooks<'_>,
@@ -105,23 +111,23 @@ pub fn identify_laws_scaled(
     let at = band.model.at_all(band.frequency_hz, std::slice::from_ref(band.parameter))?;
     let near = Options { space: Where::Subspace, selection: Selection::Joint, ..*options };
     let boxes = near_and_far(&near);
-    let (mut free, (space, scales)) =
+    let (mut free, (space, channels)) =
         near_or_far(&boxes, |options| at_scales(band, &at, unknown, options, hooks));
-    let scaled = Scaled::new(band, &scales);
+    let scaled = Scaled::new(band, &channels);
     let view = scaled.band(band);
     let sensors = free.sensors.iter().enumerate();
     let out: Vec<usize> = sensors.filter(|(_, sensor)| sensor.left_out).map(|(m, _)| m).collect();
     let sigma = without(&deviations(&view), &out);
     let fitting = Fitting { band: &view, at: &at, sigma: &sigma, unknown, options, hooks };
     let Some(mut space) = space else {
-        let outcomes = free.outcomes.iter().map(|own| fitting.without_law(own)).collect();
-        let scales = vec![None; unknown.len()];
+        let outcomes = free.outcomes.iter().map(|own| own.unanswered()).collect();
+        let channels = vec![Calibration::default(); unknown.len()];
         return Ok(LawsOutcome {
             work: free.work,
             subspace_size: None,
             fits: Vec::new(),
             outcomes,
-            scales,
+            channels,
             free,
         });
     };
@@ -134,21 +140,27 @@ pub fn identify_laws_scaled(
         fits.extend(fitting.fit(family, &mut space, &free, best(&fits)));
     }
     (hooks.progress)(Stage::Law, families.len(), families.len());
-    let gains = best(&fits).and_then(|law| fitting.gains_of(law, &space));
-    let gain = |m: usize| gains.as_ref().map_or(1.0, |gains| gains[m].value);
-    let better: Vec<f64> = scales.iter().enumerate().map(|(m, scale)| scale / gain(m)).collect();
-    let told = |m: usize| {
-        let gain = gains.as_ref()?[m];
-        let std = gain.std.map(|std| (std * better[m] / gain.value).abs());
-        unknown[m].then_some(Scale { value: better[m], std })
+    let left = best(&fits).and_then(|law| fitting.calibrations_of(law, &space));
+    let better: Vec<_> = match &left {
+        Some(left) => {
+            channels.iter().zip(left).map(|(own, [gain, late])| own.better(gain.value, late.value)).collect()
+        }
+        None => channels.clone(),
     };
-    let told_scales = (0..unknown.len()).map(told).collect();
+    let told = |m: usize| {
+        let Some([gain, late]) = left.as_ref().map(|left| left[m]) else { return Calibration::default() };
+        let relative = |std: f64| (std * better[m].scale / gain.value).abs();
+        let scale = Calibrated { value: better[m].scale, std: gain.std.map(relative) };
+        let delay = Calibrated { value: better[m].delay_s, std: late.std };
+        Calibration { scale: unknown[m].scale.then_some(scale), delay_s: unknown[m].delay.then_some(delay) }
+    };
+    let told_channels = (0..unknown.len()).map(told).collect();
     let scaled = Scaled::new(band, &better);
     let view = scaled.band(band);
     let sigma = without(&deviations(&view), &out);
     let judging = Fitting { band: &view, sigma: &sigma, ..fitting };
-    if better != scales {
-        // What each frequency says by itself, at the scales that came out.
+    if better != channels {
+        // What each frequency says by itself, at the calibrations that came out.
         let mut whole = Some(space);
         let spent = free.work;
         free = joint::identify(&view, &at, &mut whole, &[], &near, hooks);
@@ -159,12 +171,12 @@ pub fn identify_laws_scaled(
     }
     let outcomes = match best(&fits) {
         Some(law) => map(hooks.for_each, at.len(), |i| judging.outcome(law, &space, i, &free.outcomes[i])),
-        None => free.outcomes.iter().map(|own| fitting.without_law(own)).collect(),
+        None => free.outcomes.iter().map(|own| own.unanswered()).collect(),
     };
     let mut work = free.work;
     work.factorisations += space.work().factorisations - before.factorisations;
     work.solves += space.work().solves - before.solves;
-    Ok(LawsOutcome { outcomes, fits, scales: told_scales, work, subspace_size: Some(space.size()), free })
+    Ok(LawsOutcome { outcomes, fits, channels: told_channels, work, subspace_size: Some(space.size()), free })
 }
 
 /// What is to be explained, and with what.
@@ -174,8 +186,8 @@ pub(super) struct Fitting<'t, 'a> {
     pub(super) at: &'t [ModelAt<'a>],
     /// Of real and imaginary part each.
     pub(super) sigma: &'t [Vec<f64>],
-    /// Sensors whose scale is to be found.
-    pub(super) unknown: &'t [bool],
+    /// What of each sensor's channel is to be found.
+    pub(super) unknown: &'t [Unknown],
     options: &'t Options,
     pub(super) hooks: Hooks<'t>,
 }
@@ -189,7 +201,7 @@ impl Fitting<'_, '_> {
         Evidence {
             // A sensor that is left out has an infinite deviation.
             residuals: (2 * self.sigma.iter().flatten().filter(|sigma| sigma.is_finite()).count())
-                .saturating_sub(self.unknown.iter().filter(|&&unknown| unknown).count()),
+                .saturating_sub(self.unknown.iter().map(|unknown| unknown.count()).sum()),
             sigma_known: matches!(self.band.noise, Noise::Known(_)),
         }
     }
@@ -227,7 +239,39 @@ impl Fitting<'_, '_> {
             }
             space.localise(&all, self.hooks.for_each);
         }
-        Some(LawFit::new(chart, first?, self.evidence()))
+        let fit = LawFit::new(chart, first?, self.evidence());
+        let lines = self.lines(&fit, space);
+        Some(fit.widened(&lines))
+    }
+
+    /// What a law leaves of ln E at each frequency, by all sensors, and what that pulls.
+    fn lines(&self, law: &LawFit, space: &Space<'_, '_>) -> Vec<Line> {
+        let (chart, theta) = law.coordinates();
+        let Some((responses, fits)) = self.channels(chart, space, theta) else { return Vec::new() };
+        let line = |(i, one): (usize, &Responded)| {
+            let modulus = chart.modulus(theta, self.omega(i)).map_or(c64::default(), |(modulus, _)| modulus);
+            let (mut weight, mut along, mut pull) = (0.0, c64::default(), vec![c64::default(); theta.len()]);
+            for (m, fit) in fits.iter().enumerate() {
+                let sigma = self.sigma[i][m];
+                let (omega, factor) = (self.omega(i), fit.factor(self.omega(i)));
+                let slope = factor * one.slope[m] / sigma;
+                let of_log = slope * modulus;
+                weight += of_log.norm_sqr();
+                along += of_log.conj() * (self.band.measured[i][m] - factor * one.x[m]) / sigma;
+                for (j, pull) in pull.iter_mut().enumerate() {
+                    let column = slope * one.of_theta[j] - fit.followed(omega, j) * one.x[m] / sigma;
+                    *pull += column.conj() * of_log;
+                }
+            }
+            let rest = along / weight;
+            Line {
+                weight: [weight; 2],
+                rest: [rest.re, rest.im],
+                // Re(J* a) for a deviation along the real axis, Re(J* a i) for one along the imaginary one.
+                pull: [pull.iter().map(|p| p.re).collect(), pull.iter().map(|p| -p.im).collect()],
+            }
+        };
+        responses.iter().enumerate().map(line).collect()
     }
 
     /// The law's corrections at which the subspace is not good enough.
@@ -249,13 +293,13 @@ impl Fitting<'_, '_> {
         let parts = |value: c64| [value.re, value.im];
         let rest = |(i, m): (usize, usize)| {
             let sigma = self.sigma[i][m];
-            parts((fits[m].gain * responses[i].x[m] - self.band.measured[i][m]) / sigma)
+            parts((fits[m].factor(self.omega(i)) * responses[i].x[m] - self.band.measured[i][m]) / sigma)
         };
         let residuals: Vec<f64> = each().flat_map(rest).collect();
         let column = |j: usize, (i, m): (usize, usize)| {
-            let one = &responses[i];
-            let own = fits[m].gain * one.slope[m] * one.of_theta[j];
-            parts((own - fits[m].moved.get(j).copied().unwrap_or(0.0) * one.x[m]) / self.sigma[i][m])
+            let (one, omega) = (&responses[i], self.omega(i));
+            let own = fits[m].factor(omega) * one.slope[m] * one.of_theta[j];
+            parts((own - fits[m].followed(omega, j) * one.x[m]) / self.sigma[i][m])
         };
         let jacobian: Vec<f64> =
             (0..n).flat_map(|j| each().map(move |at| (j, at))).flat_map(|(j, at)| column(j, at)).collect();
@@ -308,8 +352,8 @@ impl Fitting<'_, '_> {
             let correction = estimate.modulus - own.nominal;
             Some((estimate, correction, space.model(i).assess(at, correction).ok()?))
         });
-        let Some((estimate, correction, assessed)) = found else { return self.without_law(own) };
-        let mut outcome = self.without_law(own);
+        let Some((estimate, correction, assessed)) = found else { return own.unanswered() };
+        let mut outcome = own.unanswered();
         let certified = certificate(&assessed, estimate.modulus, measured);
         let error = relative_error(measured, &assessed.response);
         let rest = measured.iter().zip(&assessed.response).zip(&self.sigma[i]);
@@ -352,18 +396,6 @@ impl Fitting<'_, '_> {
             Status::Ok
         };
         outcome
-    }
-
-    /// What is known of a frequency before any law: the nominal response and the solutions there.
-    fn without_law(&self, own: &Identified) -> Identified {
-        Identified {
-            radius: own.radius,
-            roots: own.roots.clone(),
-            breakdown: own.breakdown.clone(),
-            nominal_response: own.nominal_response.clone(),
-            status: Status::IllConditioned,
-            ..Identified::unknown(own.frequency_hz, own.nominal, own.order)
-        }
     }
 }
 

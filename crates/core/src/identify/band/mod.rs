@@ -13,12 +13,16 @@ mod noise;
 mod on_space;
 mod same;
 mod scale;
+mod smooth;
 mod space;
+mod start;
 mod tube;
 mod verdict;
 
 pub use laws::{LawsOutcome, identify_laws, identify_laws_scaled};
-pub use scale::{Scale, identify_band_scaled};
+pub use scale::{Calibrated, Calibration, Unknown, identify_band_scaled};
+pub use smooth::{SmoothCurve, SmoothOutcome, identify_smooth};
+pub(crate) use start::{MOST_PHASE, PHASE_STEP};
 
 use super::{Identified, Options, Selection};
 use crate::c64;
@@ -68,7 +72,7 @@ pub enum Stage {
     Solutions,
     /// One of them is chosen at each frequency.
     Selection,
-    /// Laws are fitted.
+    /// Laws, or a smooth curve, are fitted.
     Law,
 }
 

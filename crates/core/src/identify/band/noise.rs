@@ -14,7 +14,7 @@ const RELATIVE_FLOOR: f64 = 0.1;
 const LEAST_STD: f64 = 1e-9;
 
 /// The least level that is believed of one that is not given: a millionth of the response is roundoff near a resonance.
-const LEAST_LEVEL: f64 = 1e-6;
+pub(super) const LEAST_LEVEL: f64 = 1e-6;
 
 /// Answers with two neighbours on either side that a scatter is told from: with fewer, a median is an accident.
 const LEAST_SCATTER: usize = 12;
@@ -28,6 +28,8 @@ pub enum NoiseSource {
     Sensors,
     /// How far the answers lie off a smooth curve over frequency.
     Scatter,
+    /// What a smooth curve leaves, of the sensors and over frequency.
+    Curve,
     /// Nothing: too few sensors, and too few answers side by side.
     Nothing,
 }
@@ -39,6 +41,7 @@ impl NoiseSource {
             Self::Given => "given",
             Self::Sensors => "sensors",
             Self::Scatter => "scatter",
+            Self::Curve => "curve",
             Self::Nothing => "unknown",
         }
     }

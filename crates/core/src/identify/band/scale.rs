@@ -1,25 +1,105 @@
-//! Channels whose calibration nobody knows: one real scale for the whole band, found together with the moduli.
+//! Channels whose calibration nobody knows: one real scale, one delay or both for the whole band, found together with the moduli.
 
 use super::contradiction::without;
+use super::fit::goodness;
 use super::joint;
-use super::noise::deviations;
+use super::noise::{deviations, freedom};
 use super::space::Space;
+use super::start::aligned;
 use super::{Band, BandOutcome, Hooks, Noise, near_and_far, near_or_far};
 use crate::c64;
 use crate::for_each::map;
+use crate::frequency::omega_rad_s;
 use crate::identify::{Options, Selection, Space as Where, Status};
 use crate::material::{OutsideTable, loss_factor};
-use crate::median::median;
 use crate::model::ModelAt;
 use frfit_linalg::dense::symmetric_eigen;
 
-/// The factor by which a channel's values have to be multiplied.
+/// What of a channel is to be found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Unknown {
+    /// The factor by which its values have to be multiplied.
+    pub scale: bool,
+    /// By how much it is late.
+    pub delay: bool,
+}
+
+impl Unknown {
+    /// Whether anything is.
+    pub fn any(self) -> bool {
+        self.scale || self.delay
+    }
+
+    /// How many real numbers are.
+    pub fn count(self) -> usize {
+        usize::from(self.scale) + usize::from(self.delay)
+    }
+}
+
+/// A number that was found, and how well.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Scale {
-    /// Its value; negative where the channel's sense is reversed.
+pub struct Calibrated {
+    /// Its value; of a scale negative where the channel's sense is reversed.
     pub value: f64,
     /// Its standard deviation; `None` where nothing tells the noise.
     pub std: Option<f64>,
+}
+
+/// What was found of a channel: its receptance is s e^{iωτ} times what was measured.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Calibration {
+    /// s; `None` where it was known, or the data do not tell it.
+    pub scale: Option<Calibrated>,
+    /// τ, s: by how much the channel is late; `None` as above.
+    pub delay_s: Option<Calibrated>,
+}
+
+impl Calibration {
+    /// s e^{iωτ}, with one and zero for what was not looked for.
+    pub fn factor(&self, frequency_hz: f64) -> c64 {
+        Channel::of(self).factor(frequency_hz)
+    }
+}
+
+/// A calibration as a search has it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Channel {
+    pub(super) scale: f64,
+    pub(super) delay_s: f64,
+}
+
+impl Channel {
+    pub(super) const RIGHT: Self = Self { scale: 1.0, delay_s: 0.0 };
+
+    /// One and zero for what was not looked for.
+    pub(super) fn of(found: &Calibration) -> Self {
+        let value = |found: Option<Calibrated>, none: f64| found.map_or(none, |found| found.value);
+        Self { scale: value(found.scale, 1.0), delay_s: value(found.delay_s, 0.0) }
+    }
+
+    fn factor(&self, frequency_hz: f64) -> c64 {
+        self.scale * c64::from_polar(1.0, omega_rad_s(frequency_hz) * self.delay_s)
+    }
+
+    /// Where u = γ e^{−iωt} x is what is left of this calibration.
+    pub(super) fn better(&self, gain: f64, late_s: f64) -> Self {
+        Self { scale: self.scale / gain, delay_s: self.delay_s + late_s }
+    }
+}
+
+/// Which number of which channel.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Free {
+    channel: usize,
+    is_delay: bool,
+}
+
+fn free(unknown: &[Unknown]) -> Vec<Free> {
+    let of = |(channel, unknown): (usize, &Unknown)| {
+        let all = [(unknown.scale, false), (unknown.delay, true)].into_iter();
+        all.filter(|(wanted, _)| *wanted).map(move |(_, is_delay)| Free { channel, is_delay })
+    };
+    unknown.iter().enumerate().flat_map(of).collect()
 }
 
 /// Selections among all solutions, each at better scales; they change what is selected hardly ever after the first.
@@ -35,85 +115,93 @@ const ROUNDOFF: f64 = 1e-10;
 /// What of a scale the moduli leave, and what is left of it by the other scales, relative to the channel's size: below this there is no digit.
 const UNTOLD: f64 = 1e-12;
 
-/// As [`super::identify_band`], with channels whose scale s_m is unknown: u_m = s_m times what was measured.
+/// As [`super::identify_band`], with channels whose scale s_m, or delay τ_m, is unknown: u_m = s_m e^{iωτ_m} times what was measured.
 ///
-/// The misfit Σ |y_m − x_m(c)/s_m|²/σ_m² over the band is made least in all moduli and scales together (y_m as measured, with its own deviation): the channels
-/// of known scale alone give the first moduli, the medians of x_m/y_m the first scales; then every frequency is selected anew from all channels, and Gauss and
-/// Newton's steps with the moduli eliminated, frequency by frequency, move the scales. Error bars of the factor have what those of the scales put into them.
-/// The selection is joint, and what answers is the subspace, whatever the options say; the scales are `None`, and their channels left out, where there is no
+/// The misfit Σ |y_m − x_m(c) e^{−iωτ_m}/s_m|²/σ_m² over the band is made least in all moduli, scales and delays together (y_m as measured, with its own deviation): the
+/// channels of which all is known alone give the first moduli; the first delays are those that turn most x_m/y_m to one phase, among the ones that the doctor tries too, the first
+/// scales the medians then. Every frequency is selected anew from all channels, and Gauss and Newton's steps with the moduli eliminated, frequency by
+/// frequency, move scales and delays. Error bars of the factor have what those of the scales and delays put into them, and χ² as many degrees of freedom less.
+/// The selection is joint, and what answers is the subspace, whatever the options say; nothing is told, and the channels are left out, where there is no
 /// subspace, or where what was found does not tell them.
 ///
 /// # Errors
 /// [`OutsideTable`] where a table does not reach a frequency.
 ///
 /// # Panics
-/// Where not one channel has a known scale: one channel and a free modulus at each frequency explain every scale. A law is needed then
+/// Where there is not one channel of which all is known: one channel and a free modulus at each frequency explain every scale. A law is needed then
 /// ([`super::identify_laws_scaled`]).
 pub fn identify_band_scaled(
     band: &Band<'_>,
-    unknown: &[bool],
+    unknown: &[Unknown],
     options: &Options,
     hooks: Hooks<'_>,
-) -> Result<(BandOutcome, Vec<Option<Scale>>), OutsideTable> {
+) -> Result<(BandOutcome, Vec<Calibration>), OutsideTable> {
     assert!(!band.frequency_hz.is_empty() && band.measured.len() == band.frequency_hz.len());
-    assert!(unknown.len() == band.experiment.sensors.len() && unknown.contains(&false));
+    assert!(unknown.len() == band.experiment.sensors.len() && unknown.iter().any(|unknown| !unknown.any()));
     let at = band.model.at_all(band.frequency_hz, std::slice::from_ref(band.parameter))?;
     let near = Options { space: Where::Subspace, selection: Selection::Joint, ..*options };
     let run = |options: &Options| {
         let mut space = super::space(band, &at, options, hooks);
-        with_scales(band, &at, &mut space, unknown, options, hooks)
+        let (outcome, found) = with_scales(band, &at, &mut space, unknown, options, hooks);
+        (outcome, found.unwrap_or_else(|| vec![Calibration::default(); unknown.len()]))
     };
     Ok(near_or_far(&near_and_far(&near), run))
 }
 
-/// Moduli and scales on a subspace.
+/// Moduli and calibrations on a subspace; `None` where the data do not tell the latter.
 pub(super) fn with_scales<'a>(
     band: &Band<'a>,
     at: &[ModelAt<'a>],
     space: &mut Option<Space<'a, '_>>,
-    unknown: &[bool],
+    unknown: &[Unknown],
     options: &Options,
     hooks: Hooks<'_>,
-) -> (BandOutcome, Vec<Option<Scale>>) {
-    let hidden: Vec<usize> = (0..unknown.len()).filter(|&m| unknown[m]).collect();
+) -> (BandOutcome, Option<Vec<Calibration>>) {
+    let hidden: Vec<usize> = (0..unknown.len()).filter(|&m| unknown[m].any()).collect();
     let first = joint::identify(band, at, space, &hidden, options, hooks);
-    let none = vec![None; unknown.len()];
-    let Some(mut scales) = space.as_ref().and_then(|space| starting(band, at, space, &first, unknown)) else {
-        return (first, none);
+    let Some(mut channels) = space.as_ref().and_then(|space| starting(band, at, space, &first, unknown))
+    else {
+        return (first, None);
     };
     for round in 0..ROUNDS {
-        let scaled = Scaled::new(band, &scales);
+        let scaled = Scaled::new(band, &channels);
         let view = scaled.band(band);
         let mut outcome = joint::identify(&view, at, space, &[], options, hooks);
         let told = space.as_ref().and_then(|space| settle(&view, at, space, &outcome, unknown, hooks));
-        let Some(told) = told else { return (first, none) };
-        let settled = |p: usize| (told.gains[p] - 1.0).abs() <= (SETTLED * told.std(p)).max(ROUNDOFF);
-        if (0..hidden.len()).all(settled) || round + 1 == ROUNDS {
+        let Some(told) = told else { return (first, None) };
+        if told.is_settled(top(band)) || round + 1 == ROUNDS {
             told.widen(&mut outcome);
-            let known = outcome.noise.level;
-            let mut found = none;
-            for (p, &m) in hidden.iter().enumerate() {
-                let value = scales[m] / told.gains[p];
-                found[m] = Some(Scale { value, std: known.map(|level| level * told.std(p) * value.abs()) });
-            }
-            return (outcome, found);
+            let counted = outcome.sensors.iter().filter(|sensor| !sensor.left_out).count();
+            let each = freedom(counted, options.real);
+            outcome.fit = goodness(&outcome.outcomes, each, told.free.len(), &outcome.noise, &view);
+            let found = told.calibrations(&channels, outcome.noise.level);
+            return (outcome, Some(found));
         }
-        hidden.iter().zip(&told.gains).for_each(|(&m, gain)| scales[m] /= gain);
+        channels = told.better(&channels);
     }
-    (first, none)
+    (first, None)
 }
 
-/// What was measured, each channel times a scale, and its deviations with it.
+/// ω at the top of the band.
+pub(super) fn top(band: &Band<'_>) -> f64 {
+    band.frequency_hz.last().map_or(1.0, |&f| omega_rad_s(f))
+}
+
+/// What was measured with each channel's calibration, and its deviations with it.
 pub(super) struct Scaled {
     measured: Vec<Vec<c64>>,
     std: Vec<Vec<f64>>,
 }
 
 impl Scaled {
-    pub(super) fn new(band: &Band<'_>, scales: &[f64]) -> Self {
-        let measured = band.measured.iter().map(|u| u.iter().zip(scales).map(|(u, s)| s * u).collect());
+    pub(super) fn new(band: &Band<'_>, channels: &[Channel]) -> Self {
+        let row =
+            |(u, &f): (&Vec<c64>, &f64)| u.iter().zip(channels).map(|(u, own)| own.factor(f) * u).collect();
+        let measured = band.measured.iter().zip(band.frequency_hz).map(row);
         let scaled = |rows: &[Vec<f64>]| {
-            rows.iter().map(|row| row.iter().zip(scales).map(|(std, s)| std * s.abs()).collect()).collect()
+            let row =
+                |row: &Vec<f64>| row.iter().zip(channels).map(|(std, own)| std * own.scale.abs()).collect();
+            rows.iter().map(row).collect()
         };
         let std = match band.noise {
             Noise::Unknown => Vec::new(),
@@ -142,72 +230,73 @@ fn answers(outcome: &BandOutcome) -> Vec<(usize, c64)> {
         .collect()
 }
 
-/// The median of x/y of each channel of unknown scale, as far as it is real: a wrong solution here and there does not move it.
+/// The first calibration of each channel, from the moduli that the others gave: a wrong solution here and there does not move it.
 fn starting(
     band: &Band<'_>,
     at: &[ModelAt<'_>],
     space: &Space<'_, '_>,
     outcome: &BandOutcome,
-    unknown: &[bool],
-) -> Option<Vec<f64>> {
-    let mut ratios: Vec<Vec<f64>> = vec![Vec::new(); unknown.len()];
+    unknown: &[Unknown],
+) -> Option<Vec<Channel>> {
+    let mut ratios: Vec<Vec<(f64, c64)>> = vec![Vec::new(); unknown.len()];
     for (i, correction) in answers(outcome) {
         let Ok((x, _)) = space.model(i).respond_with_slope(&at[i], correction) else { continue };
         for (m, ratios) in ratios.iter_mut().enumerate() {
-            let ratio = (x[m] / band.measured[i][m]).re;
-            ratios.extend(Some(ratio).filter(|ratio| ratio.is_finite()));
+            ratios.push((omega_rad_s(band.frequency_hz[i]), x[m] / band.measured[i][m]));
         }
     }
-    let scale = |(ratios, &unknown): (Vec<f64>, &bool)| match unknown {
-        true => median(ratios).filter(|&median| median != 0.0),
-        false => Some(1.0),
-    };
-    ratios.into_iter().zip(unknown).map(scale).collect()
+    ratios.iter().zip(unknown).map(|(ratios, &unknown)| aligned(ratios, unknown, top(band))).collect()
 }
 
-/// Scales at the least misfit about given answers.
+/// Calibrations at the least misfit about given answers.
 struct Told {
-    /// x_m/u_m of each unknown channel, by which its scale is to be divided.
-    gains: Vec<f64>,
-    /// Covariance of the gains in units of the noise's level squared.
+    free: Vec<Free>,
+    /// γ_m and t_m of what is left: u_m = γ_m e^{−iωt_m} x_m.
+    left: Vec<(f64, f64)>,
+    /// Covariance of the free ones of them, in units of the noise's level squared.
     covariance: Vec<Vec<f64>>,
-    /// (frequency, ∂c/∂γ_p).
+    /// (frequency, ∂c/∂p of each free one).
     moved: Vec<(usize, Vec<c64>)>,
 }
 
-/// Minimises Σ |u_m − γ_m x_m(c_i)|²/σ_m² over all c_i and the γ of unknown channels; `None` where the data do not tell them.
+/// Minimises Σ |u_m − γ_m e^{−iωt_m} x_m(c_i)|²/σ_m² over all c_i and the unknown γ and t; `None` where the data do not tell them.
 fn settle(
     band: &Band<'_>,
     at: &[ModelAt<'_>],
     space: &Space<'_, '_>,
     outcome: &BandOutcome,
-    unknown: &[bool],
+    unknown: &[Unknown],
     hooks: Hooks<'_>,
 ) -> Option<Told> {
     let out: Vec<usize> = (0..unknown.len()).filter(|&m| outcome.sensors[m].left_out).collect();
     let sigma = without(&deviations(band), &out);
-    let channels: Vec<usize> = (0..unknown.len()).filter(|&m| unknown[m]).collect();
-    let n = channels.len();
+    let free = free(unknown);
+    let n = free.len();
+    let top = top(band);
     let mut answers = answers(outcome);
-    let mut gains = vec![1.0; n];
+    let mut left = vec![(1.0, 0.0); unknown.len()];
     let mut last = f64::INFINITY;
     for _ in 0..STEPS {
         let system = |k: usize| -> Option<Local> {
             let (i, correction) = answers[k];
+            let omega = omega_rad_s(band.frequency_hz[i]);
             let (x, slope) = space.model(i).respond_with_slope(&at[i], correction).ok()?;
-            let gain = |m: usize| channels.iter().position(|&c| c == m).map_or(1.0, |p| gains[p]);
             let weighed = |m: usize, value: c64| value / sigma[i][m];
+            let turn = |m: usize| c64::from_polar(1.0, -omega * left[m].1);
             let sensors = 0..x.len();
-            let a: Vec<c64> = sensors.clone().map(|m| weighed(m, gain(m) * slope[m])).collect();
-            let rest: Vec<c64> = sensors.map(|m| weighed(m, band.measured[i][m] - gain(m) * x[m])).collect();
-            let b = channels.iter().map(|&m| weighed(m, x[m])).collect();
-            Some(Local { a, rest, b })
+            let a: Vec<c64> = sensors.clone().map(|m| weighed(m, left[m].0 * turn(m) * slope[m])).collect();
+            let rest = |m: usize| weighed(m, band.measured[i][m] - left[m].0 * turn(m) * x[m]);
+            let of = |&Free { channel: m, is_delay }: &Free| {
+                let by = if is_delay { c64::new(0.0, -omega * left[m].0) } else { c64::new(1.0, 0.0) };
+                weighed(m, by * turn(m) * x[m])
+            };
+            Some(Local { a, rest: sensors.map(rest).collect(), b: free.iter().map(of).collect() })
         };
         let local: Vec<Local> =
             map(hooks.for_each, answers.len(), system).into_iter().collect::<Option<_>>()?;
         let (mut normal, mut right, mut whole) = (vec![vec![0.0; n]; n], vec![0.0; n], vec![0.0; n]);
         for one in &local {
-            one.accumulate(&channels, &mut normal, &mut right, &mut whole);
+            one.accumulate(&free, &mut normal, &mut right, &mut whole);
         }
         let covariance = inverse(&normal, &whole)?;
         let step: Vec<f64> =
@@ -215,20 +304,28 @@ fn settle(
         if step.iter().any(|step| !step.is_finite()) {
             return None;
         }
-        let size = step.iter().zip(&gains).map(|(step, gain)| (step / gain).abs()).fold(0.0, f64::max);
-        let moved = local.iter().map(|one| one.moved(&channels)).collect::<Vec<_>>();
+        // A part of the scale, or radians at the top of the band.
+        let part = |(free, step): (&Free, &f64)| match free.is_delay {
+            true => (step * top).abs(),
+            false => (step / left[free.channel].0).abs(),
+        };
+        let size = free.iter().zip(&step).map(part).fold(0.0, f64::max);
+        let moved = local.iter().map(|one| one.moved(&free)).collect::<Vec<_>>();
         // No more to gain: roundoff does not fall further.
         if size <= 1e-13 || (size <= ROUNDOFF && size >= last) {
             let moved = answers.iter().zip(moved).map(|(&(i, _), moved)| (i, moved)).collect();
-            return Some(Told { gains, covariance, moved });
+            return Some(Told { free, left, covariance, moved });
         }
-        // A scale that jumps by half is far from where the slopes hold.
+        // A scale that jumps by half, or half a radian, is far from where the slopes hold.
         let shortened = (0.5 / size).min(1.0);
         for ((answer, one), moved) in answers.iter_mut().zip(&local).zip(&moved) {
             let other: c64 = moved.iter().zip(&step).map(|(v, d)| v * d).sum();
             answer.1 += shortened * (one.own() + other);
         }
-        gains.iter_mut().zip(&step).for_each(|(gain, step)| *gain += shortened * step);
+        for (free, step) in free.iter().zip(&step) {
+            let (gain, late) = &mut left[free.channel];
+            *(if free.is_delay { late } else { gain }) += shortened * step;
+        }
         last = size;
     }
     None
@@ -236,11 +333,11 @@ fn settle(
 
 /// What one frequency has to say, everything over σ.
 struct Local {
-    /// ∂(γx)/∂c.
+    /// ∂(γe^{−iωt}x)/∂c.
     a: Vec<c64>,
-    /// u − γx.
+    /// u − γe^{−iωt}x.
     rest: Vec<c64>,
-    /// ∂(γx)/∂γ_p, at the channel p alone.
+    /// ∂(γe^{−iωt}x)/∂p of each free number, at its channel alone.
     b: Vec<c64>,
 }
 
@@ -254,20 +351,20 @@ impl Local {
         self.a.iter().zip(&self.rest).map(|(a, r)| a.conj() * r).sum::<c64>() / self.information()
     }
 
-    /// ∂c/∂γ_p.
-    fn moved(&self, channels: &[usize]) -> Vec<c64> {
-        let of = |(&m, b): (&usize, &c64)| -self.a[m].conj() * b / self.information();
-        channels.iter().zip(&self.b).map(of).collect()
+    /// ∂c/∂p.
+    fn moved(&self, free: &[Free]) -> Vec<c64> {
+        let of = |(free, b): (&Free, &c64)| -self.a[free.channel].conj() * b / self.information();
+        free.iter().zip(&self.b).map(of).collect()
     }
 
     /// Normal equations with the correction eliminated: b_pᴴ P b_q and b_pᴴ P r, P = I − aaᴴ/aᴴa.
-    fn accumulate(&self, channels: &[usize], normal: &mut [Vec<f64>], right: &mut [f64], whole: &mut [f64]) {
-        let (own, moved) = (self.own(), self.moved(channels));
-        for (p, (&m, b)) in channels.iter().zip(&self.b).enumerate() {
+    fn accumulate(&self, free: &[Free], normal: &mut [Vec<f64>], right: &mut [f64], whole: &mut [f64]) {
+        let (own, moved) = (self.own(), self.moved(free));
+        for (p, (&Free { channel: m, .. }, b)) in free.iter().zip(&self.b).enumerate() {
             whole[p] += b.norm_sqr();
             right[p] += (b.conj() * (self.rest[m] - self.a[m] * own)).re;
             for (q, moved) in moved.iter().enumerate() {
-                let direct = if p == q { *b } else { c64::default() };
+                let direct = if free[q].channel == m { self.b[q] } else { c64::default() };
                 normal[p][q] += (b.conj() * (direct + self.a[m] * moved)).re;
             }
         }
@@ -295,12 +392,44 @@ fn inverse(normal: &[Vec<f64>], whole: &[f64]) -> Option<Vec<Vec<f64>>> {
 }
 
 impl Told {
-    /// Relative deviation of a scale in units of the noise's level.
+    /// Deviation of a free number in units of the noise's level.
     fn std(&self, p: usize) -> f64 {
-        self.covariance[p][p].max(0.0).sqrt() / self.gains[p].abs()
+        self.covariance[p][p].max(0.0).sqrt()
     }
 
-    /// Adds to the error bars of the factor what those of the scales make of it.
+    /// What is left of a free number: of a scale as a part of it, of a delay in s.
+    fn off(&self, p: usize) -> f64 {
+        let (gain, late) = self.left[self.free[p].channel];
+        if self.free[p].is_delay { late } else { gain - 1.0 }
+    }
+
+    fn is_settled(&self, top: f64) -> bool {
+        let least = |free: &Free| if free.is_delay { ROUNDOFF / top } else { ROUNDOFF };
+        let settled =
+            |(p, free): (usize, &Free)| self.off(p).abs() <= (SETTLED * self.std(p)).max(least(free));
+        self.free.iter().enumerate().all(settled)
+    }
+
+    fn better(&self, channels: &[Channel]) -> Vec<Channel> {
+        channels.iter().zip(&self.left).map(|(own, &(gain, late))| own.better(gain, late)).collect()
+    }
+
+    /// What came out of each channel, at the level of the noise.
+    fn calibrations(&self, channels: &[Channel], level: Option<f64>) -> Vec<Calibration> {
+        let better = self.better(channels);
+        let mut found = vec![Calibration::default(); channels.len()];
+        for (p, &Free { channel: m, is_delay }) in self.free.iter().enumerate() {
+            let std = level.map(|level| level * self.std(p));
+            let relative = |std: f64| std * (better[m].scale / self.left[m].0).abs();
+            match is_delay {
+                true => found[m].delay_s = Some(Calibrated { value: better[m].delay_s, std }),
+                false => found[m].scale = Some(Calibrated { value: better[m].scale, std: std.map(relative) }),
+            }
+        }
+        found
+    }
+
+    /// Adds to the error bars of the factor what those of scales and delays make of it.
     fn widen(&self, outcome: &mut BandOutcome) {
         let Some(level) = outcome.noise.level else { return };
         for (i, moved) in &self.moved {

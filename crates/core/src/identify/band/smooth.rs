@@ -1,0 +1,513 @@
+//! A modulus that is free at every frequency but smooth over them (B-9): all frequencies and all sensors in one penalised least squares.
+//!
+//! Every frequency by itself comes first: it trains the subspace, and tells where to begin. Then ln E(ln ω) is an integrated Wiener process, and
+//! $$ \sum_{k,m} \frac{|u_m - x_m(E(\omega_k))|^2}{\sigma_m^2} + \frac 1 {\kappa^2} \int \Big| \frac{d^2 \ln E}{d(\ln\omega)^2} \Big|^2 d\ln\omega $$
+//! is made least by Gauss and Newton's steps, each of them one smoother's sweep over all frequencies ([`crate::smooth`]); κ, and the level of the noise where it is not
+//! given, are averaged over their posterior. x is holomorphic in ln E and noise circular, and by causality the fluctuations of ln |E| and of the loss angle are
+//! of one size: real and imaginary part have one κ, one weight, and no correlation.
+
+use super::contradiction::without;
+use super::fit::{judge, sensor_misfit};
+use super::noise::{LEAST_LEVEL, deviations};
+use super::space::{Space, certificate, is_certain};
+use super::{
+    Band, BandOutcome, Hooks, Noise, NoiseLevel, NoiseSource, SensorFit, Stage, keeping_space, near_and_far,
+    near_or_far,
+};
+use crate::c64;
+use crate::for_each::map;
+use crate::frequency::omega_rad_s;
+use crate::identify::{Identified, Options, Selection, Space as Where, Status, Uncertainty, relative_error};
+use crate::material::OutsideTable;
+use crate::model::ModelAt;
+use crate::smooth::{Evidence, Observation, Smoothed, State, roughness, smooth};
+
+/// What came out.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SmoothOutcome {
+    /// Each frequency by itself.
+    pub free: BandOutcome,
+    /// The smooth modulus at each frequency, with all work in it.
+    pub band: BandOutcome,
+    /// The curve; `None` where there is no subspace, or fewer than three frequencies have an answer of their own: none has a smooth one then.
+    pub curve: Option<SmoothCurve>,
+}
+
+/// The smooth curve through a band.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SmoothCurve {
+    /// Numbers that the curve takes from the data for E′, and as many for η: two for a power law, as many as there are frequencies where none helps another.
+    pub parameters: f64,
+    /// The band's width over the parameters, in octaves: what is nearer than that to a frequency has a say in its modulus.
+    pub width_octaves: f64,
+    /// Whether Gauss and Newton's steps came to an end.
+    pub converged: bool,
+    /// Frequencies that no smooth modulus explains, and which were left out.
+    pub unexplained: usize,
+    observations: Vec<Observation>,
+    evidence: Evidence,
+    level: f64,
+    real: bool,
+}
+
+/// By how much the first curve is moved: on a lightly damped structure the misfit has a valley for each coincidence of measured and computed resonances.
+const MOVED: [f64; 9] = [0.0, -0.03, -0.01, -0.003, -0.001, 0.001, 0.003, 0.01, 0.03];
+
+/// Steps of Gauss and Newton for each training of the subspace.
+const STEPS: usize = 30;
+
+/// Halvings of a step that makes things worse.
+const HALVINGS: usize = 8;
+
+/// A step of this part of the error bar, or of the modulus, is none.
+const SETTLED: f64 = 1e-3;
+const ROUNDOFF: f64 = 1e-11;
+
+/// Rounds of training at the curve before what is left is called uncertain.
+const ROUNDS: usize = 4;
+
+/// A misfit of this many deviations (root mean square) at a frequency is not noise.
+const UNEXPLAINED: f64 = 5.0;
+
+/// Frequencies that are not explained are left out, but not more than this part of the band: else it is the curve that is wrong.
+const OUTLIERS: f64 = 0.25;
+
+/// Another answer is another one if it is so many deviations away.
+const APART: f64 = 3.0;
+
+/// Identifies a modulus that is smooth over the band, and no smoother than the data say.
+///
+/// The selection is joint, and what answers is the subspace, whatever the options say. Statuses are those of a single frequency ([`super::identify_band`]), judged at the
+/// smooth modulus and its error bars: `ambiguous` is where the path that it follows was; `no_root` where the modulus breaks the bounds, or leaves more than noise and
+/// `options.error`: such a frequency has no say in the others.
+///
+/// # Errors
+/// [`OutsideTable`] where a table does not reach a frequency.
+///
+/// # Panics
+/// Where there is no frequency, or not one measured value for each frequency and sensor.
+///
+/// # Limits
+/// One κ for the whole band: a modulus that is a straight line in one half and has a narrow feature in the other is smoothed less than it could be in the first. Error bars are linear in the noise,
+/// and hold the scatter of answers that belong together: neighbours have nearly the same error. The factor must not be zero; at 0 Hz there is none.
+pub fn identify_smooth(
+    band: &Band<'_>,
+    options: &Options,
+    hooks: Hooks<'_>,
+) -> Result<SmoothOutcome, OutsideTable> {
+    assert!(!band.frequency_hz.is_empty() && band.measured.len() == band.frequency_hz.len());
+    let at = band.model.at_all(band.frequency_hz, std::slice::from_ref(band.parameter))?;
+    let near = Options { space: Where::Subspace, selection: Selection::Joint, ..*options };
+    let boxes = near_and_far(&near);
+    let (free, space) = near_or_far(&boxes, |options| keeping_space(band, &at, options, hooks));
+    let assumed = deviations(band);
+    let out: Vec<usize> = (0..free.sensors.len()).filter(|&m| free.sensors[m].left_out).collect();
+    let sigma = without(&assumed, &out);
+    let smoothing = Smoothing { band, at: &at, sigma: &sigma, out: &out, options, hooks };
+    (hooks.progress)(Stage::Law, 0, 1);
+    let found = space.and_then(|mut space| Some((smoothing.fit(&mut space, &free)?, space)));
+    (hooks.progress)(Stage::Law, 1, 1);
+    let Some((fitted, space)) = found else {
+        let outcomes = free.outcomes.iter().map(Identified::unanswered).collect();
+        return Ok(SmoothOutcome {
+            band: BandOutcome { outcomes, fit: None, ..free.clone() },
+            free,
+            curve: None,
+        });
+    };
+    let noise = smoothing.noise(&free.noise, fitted.smoothed.level);
+    let judged: Vec<Judged> =
+        map(hooks.for_each, at.len(), |i| smoothing.judged(&fitted, &noise, &space, i, &free.outcomes));
+    let explained = || judged.iter().enumerate().filter(|(i, _)| fitted.observations[*i].weight > 0.0);
+    let chi_squared = explained().map(|(_, judged)| judged.chi_squared).sum();
+    let freedom = explained().map(|(_, judged)| judged.freedom).sum::<f64>().round() as usize;
+    let fit = judge(chi_squared, freedom, &noise, band);
+    let outcomes: Vec<Identified> = judged.into_iter().map(|judged| judged.outcome).collect();
+    let sensor = |(m, own): (usize, &SensorFit)| SensorFit {
+        misfit: sensor_misfit(&outcomes, band.measured, &assumed, m, noise.level),
+        ..*own
+    };
+    let sensors = free.sensors.iter().enumerate().map(sensor).collect();
+    let mut work = free.work;
+    work.factorisations += space.work().factorisations - fitted.before.factorisations;
+    work.solves += space.work().solves - fitted.before.solves;
+    let subspace_size = Some(space.size());
+    let smoothed =
+        BandOutcome { outcomes, work, subspace_size, explored: free.explored, noise, fit, sensors };
+    Ok(SmoothOutcome { free, band: smoothed, curve: Some(smoothing.curve(fitted)) })
+}
+
+/// What is to be explained, and with what.
+struct Smoothing<'t, 'a> {
+    band: &'t Band<'a>,
+    at: &'t [ModelAt<'a>],
+    /// Of real and imaginary part each.
+    sigma: &'t [Vec<f64>],
+    /// Sensors that are left out.
+    out: &'t [usize],
+    options: &'t Options,
+    hooks: Hooks<'t>,
+}
+
+/// A curve that was found.
+struct Fitted {
+    observations: Vec<Observation>,
+    evidence: Evidence,
+    smoothed: Smoothed,
+    converged: bool,
+    unexplained: usize,
+    /// Work before.
+    before: crate::response::Work,
+}
+
+/// What the sensors say about a curve: what each frequency observes of ln E, what nothing there can explain, and the whole misfit.
+struct Linearised {
+    observations: Vec<Observation>,
+    evidence: Evidence,
+    misfit: f64,
+}
+
+/// One frequency at the curve.
+struct Judged {
+    outcome: Identified,
+    chi_squared: f64,
+    freedom: f64,
+}
+
+impl Smoothing<'_, '_> {
+    fn numbers(&self) -> usize {
+        if self.options.real { 1 } else { 2 }
+    }
+
+    fn log_omega(&self, i: usize) -> f64 {
+        omega_rad_s(self.band.frequency_hz[i]).ln()
+    }
+
+    fn sensors(&self, i: usize) -> usize {
+        self.sigma[i].iter().filter(|sigma| sigma.is_finite()).count()
+    }
+
+    fn fit(&self, space: &mut Space<'_, '_>, free: &BandOutcome) -> Option<Fitted> {
+        let before = space.work();
+        let all: Vec<usize> = (0..self.at.len()).collect();
+        space.localise(&all, self.hooks.for_each);
+        let mut states = self.start(space, free)?;
+        let mut used: Vec<bool> = all.iter().map(|&i| self.log_omega(i).is_finite()).collect();
+        let mut round = 0;
+        loop {
+            let (linear, smoothed, converged) = self.descend(space, &used, states)?;
+            states = smoothed.curve.states.clone();
+            let lacking = self.lacking(space, &states);
+            if round < ROUNDS && !lacking.is_empty() && space.refine(&lacking, self.hooks).unwrap_or(false) {
+                space.localise(&all, self.hooks.for_each);
+                round += 1;
+                continue;
+            }
+            let odd: Vec<usize> = all
+                .iter()
+                .copied()
+                .filter(|&i| used[i] && self.unexplained(space, &states, smoothed.level, i))
+                .collect();
+            let unexplained = all.iter().filter(|&&i| !used[i] && self.log_omega(i).is_finite()).count();
+            let few = ((unexplained + odd.len()) as f64) < OUTLIERS * all.len() as f64;
+            if odd.is_empty() || !few {
+                let Linearised { observations, evidence, .. } = linear;
+                return Some(Fitted { observations, evidence, smoothed, converged, unexplained, before });
+            }
+            odd.into_iter().for_each(|i| used[i] = false);
+        }
+    }
+
+    /// The curve through what each frequency says by itself, moved to where the sensors like it best.
+    fn start(&self, space: &Space<'_, '_>, free: &BandOutcome) -> Option<Vec<State>> {
+        let own = |i: usize| {
+            let none = Observation { x: self.log_omega(i), value: [0.0; 2], weight: 0.0 };
+            let outcome = &free.outcomes[i];
+            let answer =
+                outcome.factor().filter(|factor| factor.re > 0.0 && outcome.status != Status::NoRoot);
+            let told = answer.and_then(|factor| {
+                let (_, slope) =
+                    space.model(i).respond_with_slope(&self.at[i], factor - outcome.nominal).ok()?;
+                let weight =
+                    slope.iter().zip(&self.sigma[i]).map(|(s, sigma)| (factor * s / *sigma).norm_sqr()).sum();
+                let log = factor.ln();
+                Some(Observation { value: [log.re, log.im], weight, ..none })
+            });
+            told.filter(|o| o.weight.is_finite() && o.x.is_finite()).unwrap_or(none)
+        };
+        let observations = self.placed((0..self.at.len()).map(own).collect());
+        // Among them are wrong ones, so that what is known of the noise does not tell their scatter.
+        let evidence = Evidence { numbers: self.numbers(), known: false, beside: (0.0, 0) };
+        let states = smooth(&observations, evidence)?.curve.states;
+        let tried = MOVED.iter().filter_map(|by: &f64| {
+            let moved: Vec<State> =
+                states.iter().map(|[value, slope]| [[value[0] + by.ln_1p(), value[1]], *slope]).collect();
+            let used = vec![true; moved.len()];
+            let misfit = self.linearised(space, &used, &moved).misfit;
+            misfit.is_finite().then_some((misfit, moved))
+        });
+        tried.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, moved)| moved)
+    }
+
+    /// At 0 Hz there is no ln ω: it stands beside its neighbour, with nothing to say.
+    fn placed(&self, mut observations: Vec<Observation>) -> Vec<Observation> {
+        for k in (0..observations.len().saturating_sub(1)).rev() {
+            if !observations[k].x.is_finite() {
+                observations[k].x = observations[k + 1].x;
+            }
+        }
+        observations
+    }
+
+    /// What the sensors say in linear terms about a curve.
+    fn linearised(&self, space: &Space<'_, '_>, used: &[bool], states: &[State]) -> Linearised {
+        let one = |i: usize| -> (Observation, f64) {
+            let log = c64::new(states[i][0][0], states[i][0][1]);
+            let none = Observation { x: self.log_omega(i), value: states[i][0], weight: 0.0 };
+            let modulus = log.exp();
+            let correction = modulus - self.at[i].parameters[0].nominal;
+            let Some((x, slope)) = Some(used[i])
+                .filter(|used| *used)
+                .and_then(|_| space.model(i).respond_with_slope(&self.at[i], correction).ok())
+            else {
+                return (none, 0.0);
+            };
+            let (mut weight, mut along, mut misfit) = (0.0, c64::default(), 0.0);
+            for ((x, slope), (u, sigma)) in
+                x.iter().zip(&slope).zip(self.band.measured[i].iter().zip(&self.sigma[i]))
+            {
+                let (a, rest) = (modulus * slope / *sigma, (u - x) / *sigma);
+                weight += a.norm_sqr();
+                along += a.conj() * rest;
+                misfit += rest.norm_sqr();
+            }
+            if !(weight.is_finite() && weight > 0.0 && misfit.is_finite()) {
+                return (none, 0.0);
+            }
+            let step = along / weight;
+            let value = match self.options.real {
+                true => [log.re + step.re, 0.0],
+                false => [log.re + step.re, log.im + step.im],
+            };
+            (Observation { value, weight, ..none }, misfit)
+        };
+        let each = map(self.hooks.for_each, states.len(), one);
+        let mut beside = (0.0, 0);
+        let mut total = 0.0;
+        for (i, (o, misfit)) in each.iter().enumerate().filter(|(_, (o, _))| o.weight > 0.0) {
+            let step: f64 = (0..self.numbers()).map(|c| (o.value[c] - states[i][0][c]).powi(2)).sum();
+            beside.0 += (misfit - o.weight * step).max(0.0);
+            beside.1 += 2 * self.sensors(i) - self.numbers();
+            total += misfit;
+        }
+        let observations = self.placed(each.into_iter().map(|(o, _)| o).collect());
+        let known = matches!(self.band.noise, Noise::Known(_));
+        Linearised {
+            observations,
+            evidence: Evidence { numbers: self.numbers(), known, beside },
+            misfit: total,
+        }
+    }
+
+    /// Gauss and Newton's steps to the smooth curve.
+    fn descend(
+        &self,
+        space: &Space<'_, '_>,
+        used: &[bool],
+        mut states: Vec<State>,
+    ) -> Option<(Linearised, Smoothed, bool)> {
+        let mut linear = self.linearised(space, used, &states);
+        let x: Vec<f64> = linear.observations.iter().map(|o| o.x).collect();
+        for step in 0.. {
+            let smoothed = smooth(&linear.observations, linear.evidence)?;
+            let largest = (0..states.len())
+                .map(|i| {
+                    let by = |c: usize| smoothed.curve.states[i][0][c] - states[i][0][c];
+                    let size = by(0).hypot(by(1));
+                    let bar = smoothed.level * smoothed.curve.variance[i].sqrt();
+                    (size / bar).min(size / ROUNDOFF * SETTLED)
+                })
+                .fold(0.0, f64::max);
+            if largest <= SETTLED || step == STEPS {
+                return Some((linear, smoothed, largest <= SETTLED));
+            }
+            let cost = |linear: &Linearised, states: &[State]| {
+                linear.misfit + roughness(&x, states, smoothed.curvature)
+            };
+            let before = cost(&linear, &states);
+            let mut part = 1.0;
+            for halving in 0..=HALVINGS {
+                let moved = between(&states, &smoothed.curve.states, part);
+                let there = self.linearised(space, used, &moved);
+                // A step within the error bars is where everything is linear.
+                let good = largest * part < 1.0 || cost(&there, &moved) <= before;
+                if (good && there.misfit.is_finite()) || halving == HALVINGS {
+                    (states, linear) = (moved, there);
+                    break;
+                }
+                part *= 0.5;
+            }
+        }
+        None
+    }
+
+    /// The curve's corrections at which the subspace is not good enough.
+    fn lacking(&self, space: &Space<'_, '_>, states: &[State]) -> Vec<(usize, c64)> {
+        let one = |i: usize| {
+            let correction = modulus(&states[i]) - self.at[i].parameters[0].nominal;
+            let assessed = space.assess(i, correction)?;
+            (!is_certain(&self.at[i], correction, &assessed)).then_some((i, correction))
+        };
+        map(self.hooks.for_each, self.at.len(), one).into_iter().flatten().collect()
+    }
+
+    /// Whether a frequency leaves more than noise at the curve.
+    fn unexplained(&self, space: &Space<'_, '_>, states: &[State], level: f64, i: usize) -> bool {
+        let correction = modulus(&states[i]) - self.at[i].parameters[0].nominal;
+        let Ok((x, _)) = space.model(i).respond_with_slope(&self.at[i], correction) else { return false };
+        self.is_unexplained(i, &x, level.max(LEAST_LEVEL))
+    }
+
+    fn is_unexplained(&self, i: usize, x: &[c64], level: f64) -> bool {
+        let rms = (self.misfit(i, x) / (2 * self.sensors(i)).max(1) as f64).sqrt();
+        relative_error(&self.kept(&self.band.measured[i]), &self.kept(x)) > self.options.error
+            && rms > UNEXPLAINED * level
+    }
+
+    /// Of the sensors that are not left out.
+    fn kept(&self, values: &[c64]) -> Vec<c64> {
+        values.iter().enumerate().filter(|(m, _)| !self.out.contains(m)).map(|(_, value)| *value).collect()
+    }
+
+    fn misfit(&self, i: usize, x: &[c64]) -> f64 {
+        let rest = self.band.measured[i].iter().zip(x).zip(&self.sigma[i]);
+        rest.map(|((u, x), sigma)| ((u - x) / *sigma).norm_sqr()).sum()
+    }
+
+    fn noise(&self, free: &NoiseLevel, level: f64) -> NoiseLevel {
+        match self.band.noise {
+            Noise::Known(_) => *free,
+            _ => NoiseLevel { level: Some(level.max(LEAST_LEVEL)), source: NoiseSource::Curve, ..*free },
+        }
+    }
+
+    fn judged(
+        &self,
+        fitted: &Fitted,
+        noise: &NoiseLevel,
+        space: &Space<'_, '_>,
+        i: usize,
+        free: &[Identified],
+    ) -> Judged {
+        let (measured, own) = (&self.band.measured[i], &free[i]);
+        let mut outcome = own.unanswered();
+        let factor = modulus(&fitted.smoothed.curve.states[i]);
+        let correction = factor - own.nominal;
+        let Some(assessed) = space.assess(i, correction).filter(|_| self.log_omega(i).is_finite()) else {
+            return Judged { outcome, chi_squared: 0.0, freedom: 0.0 };
+        };
+        let level = noise.level.unwrap_or(1.0);
+        let certified = certificate(&assessed, factor, measured);
+        let variance = fitted.smoothed.curve.variance[i];
+        let second = space.second_derivative(i, correction).map_or(f64::INFINITY, |second| {
+            second.iter().zip(&self.sigma[i]).map(|(s, sigma)| (s / *sigma).norm_sqr()).sum::<f64>().sqrt()
+        });
+        let part_std = factor.norm() * variance.sqrt();
+        let bars = Uncertainty::new(factor, self.options.real, part_std, second, level);
+        let error = relative_error(&self.kept(measured), &self.kept(&assessed.response));
+        // Of 2M numbers, what the curve took from this frequency.
+        let taken = (fitted.observations[i].weight * variance).min(1.0);
+        let freedom = (2 * self.sensors(i)) as f64 - self.numbers() as f64 * taken;
+        let chi_squared = self.misfit(i, &assessed.response) / (level * level);
+        outcome.correction = Some(correction);
+        outcome.error = Some(error).filter(|error| error.is_finite());
+        outcome.uncertainty = Some(bars).filter(|bars| bars.correction_std.is_finite());
+        outcome.chi_squared = Some(chi_squared / freedom).filter(|chi_squared| chi_squared.is_finite());
+        outcome.spectral_radius = outcome.radius.map(|radius| radius.at(correction));
+        outcome.certificate = Some(certified.response).filter(|c| c.is_finite());
+        outcome.status = if self.is_unexplained(i, &assessed.response, level)
+            || self.options.bounds.broken_by(factor).is_some()
+        {
+            Status::NoRoot
+        } else if is_ambiguous(free, i) {
+            let apart = |other: &&c64| (own.nominal + **other - factor).norm() > APART * bars.correction_std;
+            outcome.alternatives = own.alternatives.iter().filter(apart).copied().collect();
+            Status::Ambiguous
+        } else if !fitted.converged
+            || certified.factor > self.options.certain
+            || !bars.is_known(factor)
+            || !bars.is_linear()
+        {
+            Status::IllConditioned
+        } else {
+            Status::Ok
+        };
+        outcome.updated_response = assessed.response;
+        Judged { outcome, chi_squared, freedom }
+    }
+
+    fn curve(&self, fitted: Fitted) -> SmoothCurve {
+        let Fitted { observations, evidence, smoothed, converged, unexplained, .. } = fitted;
+        let taken =
+            observations.iter().zip(&smoothed.curve.variance).map(|(o, variance)| o.weight * variance);
+        let parameters: f64 = taken.sum();
+        let range = observations[observations.len() - 1].x - observations[0].x;
+        let width_octaves = range / parameters / std::f64::consts::LN_2;
+        let (level, real) = (smoothed.level, self.options.real);
+        SmoothCurve { parameters, width_octaves, converged, unexplained, observations, evidence, level, real }
+    }
+}
+
+impl SmoothCurve {
+    /// The modulus with its error bars at other frequencies (ascending, above 0 Hz), as those between lines that were left out: the curve bridges them, and the bars are
+    /// as wide as it may go astray there.
+    pub fn bridged(&self, frequency_hz: &[f64]) -> Vec<(c64, Uncertainty)> {
+        let mut all = self.observations.clone();
+        all.extend(frequency_hz.iter().map(|&f| Observation {
+            x: omega_rad_s(f).ln(),
+            value: [0.0; 2],
+            weight: 0.0,
+        }));
+        all.sort_by(|a, b| a.x.total_cmp(&b.x));
+        let Some(smoothed) = smooth(&all, self.evidence) else { return Vec::new() };
+        let at = |f: &f64| {
+            let x = omega_rad_s(*f).ln();
+            let k = all.partition_point(|o| o.x < x).min(all.len() - 1);
+            let factor = modulus(&smoothed.curve.states[k]);
+            let part_std = factor.norm() * smoothed.curve.variance[k].sqrt();
+            // Nothing was measured there that could be far from linear.
+            (
+                factor,
+                Uncertainty::new(
+                    factor,
+                    self.real,
+                    part_std,
+                    0.0,
+                    self.level.max(if self.evidence.known { 0.0 } else { LEAST_LEVEL }),
+                ),
+            )
+        };
+        frequency_hz.iter().map(at).collect()
+    }
+}
+
+fn modulus(state: &State) -> c64 {
+    c64::new(state[0][0], state[0][1]).exp()
+}
+
+fn between(from: &[State], to: &[State], part: f64) -> Vec<State> {
+    let mix = |a: [f64; 2], b: [f64; 2]| [0, 1].map(|c| a[c] + part * (b[c] - a[c]));
+    from.iter().zip(to).map(|(a, b)| [mix(a[0], b[0]), mix(a[1], b[1])]).collect()
+}
+
+/// Whether the path is ambiguous at a frequency; one that has no answer of its own is if the nearest that have one on either side are.
+fn is_ambiguous(free: &[Identified], i: usize) -> bool {
+    let answered = |o: &&Identified| o.correction.is_some();
+    let ambiguous = |o: &Identified| o.status == Status::Ambiguous;
+    if free[i].correction.is_some() {
+        return ambiguous(&free[i]);
+    }
+    let before = free[..i].iter().rev().find(answered);
+    let after = free[i + 1..].iter().find(answered);
+    before.or(after).is_some() && before.is_none_or(ambiguous) && after.is_none_or(ambiguous)
+}

@@ -1,0 +1,122 @@
+//! The writer.
+
+use std::io::Write;
+
+use crate::{CoordinateMatrix, Entries, FormatError, Symmetry};
+
+/// Numbers in a line of 80 characters: 17 digits, a sign and an exponent of three digits each.
+const IN_LINE: usize = 3;
+/// What fits into 8 characters beside the sign of BIGMAT, and without.
+const MOST: [usize; 2] = [9_999_999, 99_999_998];
+/// Words of a double.
+const WORDS: usize = 2;
+
+/// Writes matrices with names as text, sparse with BIGMAT, types 2 and 4, in the format `1P,3E24.16`.
+///
+/// 17 digits read back to the same bits. Of a symmetric matrix both triangles are written, as Nastran does, with form 6.
+///
+/// # Errors
+/// A name that is not a letter and up to seven letters and digits; a matrix that breaks
+/// [`CoordinateMatrix::validate`], is a pattern, or has more than 9,999,999 rows or 99,999,998 columns (or words in
+/// a column): the format has eight characters for these.
+pub fn write(matrices: &[(&str, &CoordinateMatrix)]) -> Result<Vec<u8>, FormatError> {
+    let mut out = Vec::new();
+    for (name, matrix) in matrices {
+        let is_name = name.len() <= 8
+            && name.starts_with(|c: char| c.is_ascii_alphabetic())
+            && name.chars().all(|c| c.is_ascii_alphanumeric());
+        if !is_name {
+            let expected = "a name of a letter and up to seven letters and digits";
+            return Err(FormatError::whole(expected, format!("{name:?}")));
+        }
+        write_one(&mut out, &name.to_ascii_uppercase(), matrix)?;
+    }
+    Ok(out)
+}
+
+/// An entry: column, row (both from 0), real and imaginary part.
+type Entry = (usize, usize, [f64; 2]);
+
+fn write_one(out: &mut Vec<u8>, name: &str, matrix: &CoordinateMatrix) -> Result<(), FormatError> {
+    matrix.validate()?;
+    let CoordinateMatrix { nrows, ncols, .. } = *matrix;
+    if nrows > MOST[0] || ncols > MOST[1] {
+        let expected = format!("at most {} rows and {} columns", MOST[0], MOST[1]);
+        return Err(FormatError::whole(expected, format!("{nrows} and {ncols}")));
+    }
+    let (kind, numbers) = match &matrix.entries {
+        Entries::Pattern => return Err(FormatError::whole("a matrix with values", "a pattern")),
+        Entries::Real(_) => (2, 1),
+        Entries::Complex(_) => (4, 2),
+    };
+    let form = match matrix.symmetry {
+        Symmetry::Symmetric => 6,
+        _ if nrows == ncols => 1,
+        _ => 2,
+    };
+    // Writing into a Vec cannot fail.
+    let _ = writeln!(out, "{ncols:8}{:8}{form:8}{kind:8}{name:8}1P,{IN_LINE}E24.16", -(nrows as i64));
+    let entries = full(matrix);
+    for column in entries.chunk_by(|a, b| a.0 == b.0) {
+        let strings: Vec<&[Entry]> = column.chunk_by(|a, b| a.1 + 1 == b.1).collect();
+        let words = 2 * strings.len() + WORDS * numbers * column.len();
+        if words > MOST[1] {
+            return Err(FormatError::whole(
+                format!("at most {} words in a column", MOST[1]),
+                words.to_string(),
+            ));
+        }
+        let _ = writeln!(out, "{:8}{:8}{words:8}", column[0].0 + 1, 0);
+        for string in strings {
+            let _ = writeln!(out, "{:8}{:8}", WORDS * numbers * string.len() + 1, string[0].1 + 1);
+            write_numbers(out, string.iter().flat_map(|(_, _, parts)| &parts[..numbers]));
+        }
+    }
+    let _ = writeln!(out, "{:8}{:8}{:8}", ncols + 1, 1, 1);
+    write_numbers(out, std::iter::once(&1.0));
+    Ok(())
+}
+
+/// Every entry of both triangles, by column, then row.
+fn full(matrix: &CoordinateMatrix) -> Vec<Entry> {
+    let parts = |k: usize| match &matrix.entries {
+        Entries::Pattern => [1.0, 0.0],
+        Entries::Real(values) => [values[k], 0.0],
+        Entries::Complex(values) => [values[k].re, values[k].im],
+    };
+    let places = || matrix.rows.iter().copied().zip(matrix.cols.iter().copied()).enumerate();
+    let mut entries: Vec<Entry> = places().map(|(k, (row, col))| (col, row, parts(k))).collect();
+    if matrix.symmetry != Symmetry::General {
+        entries.extend(places().filter(|(_, (row, col))| row != col).map(|(k, (row, col))| {
+            let [re, im] = parts(k);
+            (
+                row,
+                col,
+                match matrix.symmetry {
+                    Symmetry::SkewSymmetric => [-re, -im],
+                    Symmetry::Hermitian => [re, -im],
+                    _ => [re, im],
+                },
+            )
+        }));
+        entries.sort_unstable_by_key(|&(col, row, _)| (col, row));
+    }
+    entries
+}
+
+fn write_numbers<'a>(out: &mut Vec<u8>, numbers: impl Iterator<Item = &'a f64>) {
+    let mut in_line = 0;
+    for number in numbers {
+        let text = format!("{number:.16E}");
+        let (mantissa, exponent) = text.split_once('E').unwrap_or((&text, "0"));
+        let (sign, digits) = exponent.strip_prefix('-').map_or(('+', exponent), |digits| ('-', digits));
+        let _ = write!(out, "{:>24}", format!("{mantissa}E{sign}{digits:0>2}"));
+        in_line = (in_line + 1) % IN_LINE;
+        if in_line == 0 {
+            out.push(b'\n');
+        }
+    }
+    if in_line > 0 {
+        out.push(b'\n');
+    }
+}

@@ -1,0 +1,10 @@
+//! Matrices whose rows have names: CalculiX, Abaqus, Nastran DMIG and Ansys.
+
+mod broken;
+mod doors;
+#[path = "../outside/mod.rs"]
+mod outside;
+mod pynastran;
+mod real_files;
+mod regressions;
+mod round_trip;

@@ -1,0 +1,14 @@
+//! What the NumPy reader accepts is valid.
+
+#![no_main]
+
+use frfit_formats::numpy;
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|bytes: &[u8]| {
+    for named in numpy::read(bytes).into_iter().flatten() {
+        if let Ok(matrix) = named.matrix {
+            matrix.validate().unwrap();
+        }
+    }
+});
