@@ -31,6 +31,25 @@ def test_harwell_boeing_files_read_as_scipy_reads_them(tmp_path):
     np.testing.assert_array_equal(frfit.read_matrix(path).toarray(), scipy.io.hb_read(path).toarray())
 
 
+def test_a_name_chooses_among_the_matrices_of_a_file(tmp_path):
+    k = sp.csc_array(np.array([[2.0, -1.0], [-1.0, 2.0]]))
+    m = sp.csc_array(np.diag([0.5, 0.25]))
+    path = tmp_path / "model.mat"
+    scipy.io.savemat(path, {"K": sp.csc_matrix(k), "M": sp.csc_matrix(m)})
+    np.testing.assert_array_equal(frfit.read_matrix(path, name="K").toarray(), k.toarray())
+    np.testing.assert_array_equal(frfit.read_matrix(path, "M").toarray(), m.toarray())
+    with pytest.raises(frfit.InputError, match=r"expected one matrix, .* found K \(2 x 2\), M \(2 x 2\)"):
+        frfit.read_matrix(path)
+    with pytest.raises(frfit.InputError, match='expected one matrix named "C"'):
+        frfit.read_matrix(path, "C")
+
+
+def test_scipys_own_files_need_no_name(tmp_path):
+    a = sp.csr_array(np.array([[1.5, 0.0, 2.0], [0.0, -3.0, 0.0]]))
+    sp.save_npz(tmp_path / "a.npz", a)
+    np.testing.assert_array_equal(frfit.read_matrix(tmp_path / "a.npz").toarray(), a.toarray())
+
+
 def test_broken_files_are_refused_with_the_place(tmp_path):
     path = tmp_path / "bad.mtx"
     path.write_text("%%MatrixMarket matrix coordinate real general\n2 2 1\n1 x 3\n")
