@@ -14,6 +14,16 @@ pub struct Work {
     pub solves: usize,
 }
 
+impl Work {
+    /// What has been done since there was this much.
+    pub(crate) fn since(self, before: Self) -> Self {
+        Self {
+            factorisations: self.factorisations - before.factorisations,
+            solves: self.solves - before.solves,
+        }
+    }
+}
+
 impl std::ops::AddAssign for Work {
     fn add_assign(&mut self, other: Self) {
         self.factorisations += other.factorisations;

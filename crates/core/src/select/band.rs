@@ -45,20 +45,25 @@ impl Band {
         Some((whole, chosen))
     }
 
-    /// For each candidate the cost of the best path through it (min-marginals, by a pass from either end).
+    /// The point that the cheapest path chooses at each frequency, and for each candidate the cost of the best path through it (min-marginals, by a pass from
+    /// either end).
     ///
     /// # Limits
     /// Of the paths that were kept; a candidate that none of them meets has its cost from the nearest.
-    pub(super) fn costs(&self, curvature: f64) -> Vec<Vec<f64>> {
+    pub(super) fn through_each(&self, curvature: f64) -> (Vec<Option<usize>>, Vec<Vec<f64>>) {
         let rule = Rule { curvature, spread: false };
         let mut forward: Vec<Vec<Path>> = Vec::with_capacity(self.points.len());
-        self.forward(rule, |paths| forward.push(paths.to_vec()));
+        let search = self.forward(rule, |paths| forward.push(paths.to_vec()));
+        let mut chosen = vec![None; forward.len()];
+        let mut at = search.cheapest();
         let mut costs: Vec<Vec<f64>> =
             self.points.iter().map(|points| vec![f64::INFINITY; points.len()]).collect();
         let mut backward = Search::new(rule);
         // What is beyond the last frequency starts there.
         let mut step = 0.0;
         for (k, before) in forward.iter().enumerate().rev() {
+            let way = at.map(|at| before[at]);
+            (chosen[k], at) = (way.and_then(|way| way.chosen), way.map(|way| way.parent));
             let after: Vec<Path> =
                 backward.paths().iter().map(|path| path.advanced(step, curvature)).collect();
             for (path, chosen) in before.iter().filter_map(|path| Some((path, path.chosen?))) {
@@ -69,7 +74,7 @@ impl Band {
             backward.advance(step, &self.points[k]);
             step = -self.step(k);
         }
-        costs
+        (chosen, costs)
     }
 
     /// Step in ln ω from the frequency before.
@@ -152,7 +157,8 @@ mod tests {
             points: (0..60).map(at).collect(),
         };
         let (path, chosen) = band.cheapest(CURVATURE).unwrap();
-        let costs = band.costs(CURVATURE);
+        let (again, costs) = band.through_each(CURVATURE);
+        assert_eq!(again, chosen);
         for k in 0..30 {
             assert_eq!(chosen[k], Some(19), "{k}");
             // What is known of a slope beforehand counts on both sides of the seam.

@@ -97,9 +97,8 @@ pub fn choose(frequency_hz: &[f64], nodes: &[Vec<Node>], options: &SelectOptions
     let Some((best, rivals)) = tracks.split_first() else { return vec![nothing; nodes.len()] };
     let rivals: Vec<_> = rivals.iter().filter(|rival| rival.score < best.score + options.margin).collect();
     let curvature = best.alone().curvature();
-    let Some((_, mut path)) = best.band.cheapest(curvature) else { return vec![nothing; nodes.len()] };
+    let (mut path, costs) = best.band.through_each(curvature);
     bridge(&mut path, &best.chosen);
-    let costs = best.band.costs(curvature);
     let choose_at = |k: usize| {
         let mut choice = nothing.clone();
         let points = &best.band.points[k];

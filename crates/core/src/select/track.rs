@@ -41,6 +41,9 @@ pub(super) fn tracks(mut band: Band, margin: f64) -> Vec<Track> {
     let mut tracks = Vec::new();
     let occupied = band.points.iter().filter(|points| !points.is_empty()).count() as f64;
     for _ in 0..RIVALS {
+        if band.points.iter().all(Vec::is_empty) {
+            break;
+        }
         let Some((path, chosen)) = band.cheapest(CURVATURE) else { break };
         let Path { material, misfit, count, .. } = path;
         if count == 0 {

@@ -11,6 +11,7 @@
 
 mod process;
 
+use crate::median::median;
 use process::Likelihood;
 pub(crate) use process::{Curve, Observation, Process, State, roughness};
 
@@ -58,10 +59,7 @@ impl Process<'_> {
     /// The curvatures among which the posterior is.
     fn curvatures(&self, observations: &[Observation]) -> Vec<f64> {
         let told: Vec<&Observation> = observations.iter().filter(|o| o.weight > 0.0).collect();
-        let middle = |mut values: Vec<f64>| {
-            values.sort_by(f64::total_cmp);
-            values[values.len() / 2]
-        };
+        let middle = |values: Vec<f64>| median(values).unwrap_or_default();
         let range = told[told.len() - 1].x - told[0].x;
         let step = middle(told.windows(2).map(|pair| pair[1].x - pair[0].x).collect()).max(1e-6 * range);
         let variance = middle(told.iter().map(|o| 1.0 / o.weight).collect());

@@ -226,11 +226,9 @@ fn matrix<V: Value>(header: &Header, body: &mut Body<'_>) -> Result<NamedMatrix,
             };
             let refuse = |expected: &str| line.error(0, expected, quoted(line.bytes.trim_ascii()));
             let head = head.ok_or_else(|| refuse(HEAD))?;
-            let row = u64::try_from(head.row).ok().filter(|row| *row > 0).ok_or_else(|| refuse(ROW))?;
+            let row = head.row().ok_or_else(|| refuse(ROW))?;
             left = head
-                .words
-                .checked_add(head.own)
-                .and_then(|taken| left.checked_sub(taken))
+                .leaves(left)
                 .ok_or_else(|| refuse(&format!("a string within the {words} words of its column")))?;
             let numbers = head.words / words_a_number;
             whole_values::<V>(line, numbers)?;

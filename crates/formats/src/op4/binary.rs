@@ -117,14 +117,11 @@ fn matrix<V: Value>(
                 false => StringHead::of_one(first),
             };
             let head = head.ok_or_else(|| FormatError::byte(at, HEAD, first.to_string()))?;
-            let row = u64::try_from(head.row).ok().filter(|row| *row > 0);
-            let row = row.ok_or_else(|| FormatError::byte(at, ROW, head.row.to_string()))?;
-            left = head.words.checked_add(head.own).and_then(|taken| left.checked_sub(taken)).ok_or_else(
-                || {
-                    let expected = format!("a string within the {words} words of its column");
-                    FormatError::byte(at, expected, head.words.to_string())
-                },
-            )?;
+            let row = head.row().ok_or_else(|| FormatError::byte(at, ROW, head.row.to_string()))?;
+            left = head.leaves(left).ok_or_else(|| {
+                let expected = format!("a string within the {words} words of its column");
+                FormatError::byte(at, expected, head.words.to_string())
+            })?;
             values.take(&mut record, row, head.words, at)?;
         }
     }

@@ -76,6 +76,16 @@ impl StringHead {
     pub(super) fn of_one(packed: i64) -> Option<Self> {
         Some(Self { words: u64::try_from(packed >> 16).ok()?.checked_sub(1)?, row: packed & 0xFFFF, own: 1 })
     }
+
+    /// Its first row, from 1.
+    pub(super) fn row(&self) -> Option<u64> {
+        u64::try_from(self.row).ok().filter(|row| *row > 0)
+    }
+
+    /// Words of the column that are left behind it; `None` where there were fewer than it takes.
+    pub(super) fn leaves(&self, left: u64) -> Option<u64> {
+        left.checked_sub(self.words.checked_add(self.own)?)
+    }
 }
 
 /// What a row has to be.

@@ -1,6 +1,6 @@
 //! A sparse matrix times several real vectors side by side: every entry is met once for all of them.
 
-use super::Pattern;
+use super::{Pattern, accumulate};
 use pulp::{Arch, NullaryFnOnce};
 
 /// Vectors that are side by side: a register of the widest instruction set, or a few of the others.
@@ -19,6 +19,10 @@ pub(crate) fn multiply_add<A: Copy>(
 ) {
     let n = pattern.dim();
     assert!(x.len() == out.len() && x.len().is_multiple_of(n.max(1)));
+    if x.len() == n {
+        // One vector has no others to share an entry with.
+        return accumulate(pattern, values, x, out, |a, x| part(a) * x);
+    }
     let (mut rows, mut sums) = (Vec::new(), Vec::new());
     for (x, out) in x.chunks(LANES * n.max(1)).zip(out.chunks_mut(LANES * n.max(1))) {
         rows.clear();

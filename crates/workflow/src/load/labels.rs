@@ -146,11 +146,8 @@ pub(crate) fn one_order(members: &[Member<'_>]) -> Result<Option<Order>, (usize,
 /// A row with Abaqus' mark of a degree of freedom that is held fixed.
 fn held_by_a_large_number(matrix: &CoordinateMatrix) -> Option<usize> {
     let Entries::Real(values) = &matrix.entries else { return None };
-    let entries = matrix.rows.iter().zip(&matrix.cols).zip(values);
-    entries
-        .into_iter()
-        .find(|&((row, col), &value)| row == col && value == abaqus::FIXED)
-        .map(|((&row, _), _)| row)
+    let mut entries = matrix.rows.iter().zip(&matrix.cols).zip(values);
+    entries.find(|&((row, col), &value)| row == col && value == abaqus::FIXED).map(|((&row, _), _)| row)
 }
 
 /// The only matrix of a file, with the names of its rows.

@@ -210,7 +210,7 @@ impl Fit<'_> {
 
     /// (Σ |v_m|²/σ_m²)^{1/2}.
     pub(super) fn weighed(&self, values: &[c64]) -> f64 {
-        values.iter().zip(self.sigma).map(|(v, sigma)| (v / sigma).norm_sqr()).sum::<f64>().sqrt()
+        weighed(values, self.sigma)
     }
 
     /// The sensors with the largest response over their deviation.
@@ -274,35 +274,37 @@ impl Fit<'_> {
         None
     }
 
-    /// As [`Self::descend`] where the way is short: the point that is likely the last is assessed where it is evaluated. `None` where it is not short.
+    /// As [`Self::descend`] where the way is short: the point that is likely the last is assessed where it is evaluated. Where it is not short, how far it came.
     pub(super) fn arrive(
         &self,
         respond: impl Fn(c64) -> Evaluated,
         assess: impl Fn(c64) -> Option<Assessment>,
         start: c64,
-    ) -> Option<(Solution, Assessment)> {
+    ) -> Result<(Solution, Assessment), c64> {
         let size = (self.nominal + start).norm();
         let start = self.admissible(start);
-        let (mut best, mut step) = self.solution_at(respond(start), start).ok()?;
+        let (mut best, mut step) = self.solution_at(respond(start), start).map_err(|_| start)?;
         for _ in 0..SHORT {
             let correction = self.admissible(best.correction + step);
+            let stopped = best.correction;
             if step.norm() > NEAR * size {
-                let (next, further) = self.solution_at(respond(correction), correction).ok()?;
-                (best, step) = if next.misfit < best.misfit { (next, further) } else { return None };
+                let (next, further) =
+                    self.solution_at(respond(correction), correction).map_err(|_| stopped)?;
+                (best, step) = if next.misfit < best.misfit { (next, further) } else { return Err(stopped) };
                 continue;
             }
-            let assessed = assess(correction)?;
+            let assessed = assess(correction).ok_or(stopped)?;
             let evaluated = (assessed.response.clone(), assessed.slope.clone());
-            let (last, further) = self.solution_at(Ok(evaluated), correction).ok()?;
+            let (last, further) = self.solution_at(Ok(evaluated), correction).map_err(|_| stopped)?;
             // What the step after the next would be, at the rate of these two.
             let settled = further.norm_sqr() <= SETTLED * size * step.norm();
             let own = self.measured.len() > 1 || self.matched(&last);
             if settled && own {
-                return Some((last, assessed));
+                return Ok((last, assessed));
             }
-            (best, step) = if last.misfit < best.misfit { (last, further) } else { return None };
+            (best, step) = if last.misfit < best.misfit { (last, further) } else { return Err(stopped) };
         }
-        None
+        Err(best.correction)
     }
 
     /// Whether a single sensor's response is the measured one: a solution is known to roundoff of a response, and where it sits on a flat
@@ -338,6 +340,17 @@ impl Fit<'_> {
             Solution { correction, misfit, std, response, residual: f64::NAN, second: f64::INFINITY };
         if finite { Ok((solution, step)) } else { Err(NoConvergence) }
     }
+}
+
+/// (Σ |v_m|²/σ_m²)^{1/2}.
+pub(super) fn weighed(values: &[c64], sigma: &[f64]) -> f64 {
+    values.iter().zip(sigma).map(|(v, sigma)| (v / sigma).norm_sqr()).sum::<f64>().sqrt()
+}
+
+/// Σ |u_m − x_m|²/σ_m².
+pub(super) fn misfit(measured: &[c64], x: &[c64], sigma: &[f64]) -> f64 {
+    let rest = measured.iter().zip(x).zip(sigma);
+    rest.map(|((u, x), sigma)| ((u - x) / sigma).norm_sqr()).sum()
 }
 
 /// Adds a solution, or takes the better of two that are one.

@@ -178,9 +178,9 @@ impl<'a, F: Fn(usize) -> Fit<'a>> Follower<'a, F> {
             let start = starts[k] - nominal;
             let (respond, assess) = (|c| tube.respond_with_slope(index, c), |c| tube.assess(index, c));
             let (mut solution, assessed) = match fit.arrive(respond, assess, start) {
-                Some((solution, assessed)) => (solution, Some(assessed)),
-                None => {
-                    let solution = fit.descend(respond, start)?;
+                Ok((solution, assessed)) => (solution, Some(assessed)),
+                Err(stopped) => {
+                    let solution = fit.descend(respond, stopped)?;
                     let assessed = assess(solution.correction);
                     (solution, assessed)
                 }

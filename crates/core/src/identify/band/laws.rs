@@ -5,15 +5,16 @@
 
 use super::channels::{Responded, at_scales};
 use super::contradiction::without;
+use super::explore::misfit;
 use super::joint;
 use super::noise::deviations;
 use super::scale::{Calibrated, Calibration, Scaled, Unknown};
-use super::space::{Space, certificate, is_certain};
-use super::{Band, BandOutcome, Hooks, Noise, Stage, near_and_far, near_or_far};
+use super::space::{Space, certificate};
+use super::{Band, BandOutcome, Hooks, Noise, Stage, near_or_far, on_subspace};
 use crate::c64;
 use crate::for_each::map;
 use crate::frequency::omega_rad_s;
-use crate::identify::{Identified, Options, Selection, Space as Where, Status, Uncertainty, relative_error};
+use crate::identify::{Identified, Options, Status, Uncertainty, relative_error};
 use crate::laws::{
     Chart, Datum, Evidence, Family, LawFit, Line, Minima, Residuals, Search, best, minimise, starts,
 };
@@ -45,22 +46,22 @@ const FOLLOWED: usize = 4;
 const PATIENCE: usize = 15;
 
 /// By how much all moduli of a start are moved: on a lightly damped structure the misfit has a valley for each coincidence of measured and computed resonances.
-const MOVED: [f64; 8] = [-0.03, -0.01, -0.003, -0.001, 0.001, 0.003, 0.01, 0.03];
+pub(super) const MOVED: [f64; 8] = [-0.03, -0.01, -0.003, -0.001, 0.001, 0.003, 0.01, 0.03];
 
-/// Rounds of training at the law before what is left is called uncertain.
-const ROUNDS: usize = 4;
+/// Rounds of training at a law or a curve before what is left is called uncertain.
+pub(super) const ROUNDS: usize = 4;
 
 /// No modulus from one frequency is better than this, relative: where the noise is none, no frequency shall rule alone.
 const LEAST_STD: f64 = 1e-6;
 
 /// A misfit of this many deviations (root mean square) at a frequency is not noise.
-const UNEXPLAINED: f64 = 5.0;
+pub(super) const UNEXPLAINED: f64 = 5.0;
 
 /// A modulus with a standard deviation of half of itself is not known.
 const UNKNOWN: f64 = 0.5;
 
-/// Another minimum this many deviations away is another answer.
-const APART: f64 = 3.0;
+/// Another minimum, or another solution, this many deviations away is another answer.
+pub(super) const APART: f64 = 3.0;
 
 /// Fits laws to a band, and takes the one of least BIC.
 ///
@@ -109,14 +110,12 @@ pub fn identify_laws_scaled(
     assert!(unknown.len() == band.experiment.sensors.len());
     assert!(!band.frequency_hz.is_empty() && band.measured.len() == band.frequency_hz.len());
     let at = band.model.at_all(band.frequency_hz, std::slice::from_ref(band.parameter))?;
-    let near = Options { space: Where::Subspace, selection: Selection::Joint, ..*options };
-    let boxes = near_and_far(&near);
+    let boxes = on_subspace(options);
     let (mut free, (space, channels)) =
         near_or_far(&boxes, |options| at_scales(band, &at, unknown, options, hooks));
     let scaled = Scaled::new(band, &channels);
     let view = scaled.band(band);
-    let sensors = free.sensors.iter().enumerate();
-    let out: Vec<usize> = sensors.filter(|(_, sensor)| sensor.left_out).map(|(m, _)| m).collect();
+    let out = free.left_out();
     let sigma = without(&deviations(&view), &out);
     let fitting = Fitting { band: &view, at: &at, sigma: &sigma, unknown, options, hooks };
     let Some(mut space) = space else {
@@ -163,7 +162,7 @@ pub fn identify_laws_scaled(
         // What each frequency says by itself, at the calibrations that came out.
         let mut whole = Some(space);
         let spent = free.work;
-        free = joint::identify(&view, &at, &mut whole, &[], &near, hooks);
+        free = joint::identify(&view, &at, &mut whole, &[], &boxes[0], hooks);
         free.work += spent;
         let Some(again) = whole else { unreachable!("a space that was there stays") };
         space = again;
@@ -174,8 +173,7 @@ pub fn identify_laws_scaled(
         None => free.outcomes.iter().map(|own| own.unanswered()).collect(),
     };
     let mut work = free.work;
-    work.factorisations += space.work().factorisations - before.factorisations;
-    work.solves += space.work().solves - before.solves;
+    work += space.work().since(before);
     Ok(LawsOutcome { outcomes, fits, channels: told_channels, work, subspace_size: Some(space.size()), free })
 }
 
@@ -233,7 +231,11 @@ impl Fitting<'_, '_> {
             let theta = minima.best.theta.clone();
             begin = vec![theta.clone()];
             first = Some(minima);
-            let lacking = self.lacking(&chart, space, &theta);
+            let correction = |i: usize| {
+                let (modulus, _) = chart.modulus(&theta, self.omega(i))?;
+                Some(modulus - self.at[i].parameters[0].nominal)
+            };
+            let lacking = space.lacking(correction, self.hooks.for_each);
             if lacking.is_empty() || round == ROUNDS || !space.refine(&lacking, self.hooks).unwrap_or(false) {
                 break;
             }
@@ -272,17 +274,6 @@ impl Fitting<'_, '_> {
             }
         };
         responses.iter().enumerate().map(line).collect()
-    }
-
-    /// The law's corrections at which the subspace is not good enough.
-    fn lacking(&self, chart: &Chart, space: &Space<'_, '_>, theta: &[f64]) -> Vec<(usize, c64)> {
-        let one = |i: usize| {
-            let (modulus, _) = chart.modulus(theta, self.omega(i))?;
-            let correction = modulus - self.at[i].parameters[0].nominal;
-            let assessed = space.assess(i, correction)?;
-            (!is_certain(&self.at[i], correction, &assessed)).then_some((i, correction))
-        };
-        map(self.hooks.for_each, self.at.len(), one).into_iter().flatten().collect()
     }
 
     /// (x_m − u_m)/σ_m over the band and its slopes.
@@ -356,8 +347,7 @@ impl Fitting<'_, '_> {
         let mut outcome = own.unanswered();
         let certified = certificate(&assessed, estimate.modulus, measured);
         let error = relative_error(measured, &assessed.response);
-        let rest = measured.iter().zip(&assessed.response).zip(&self.sigma[i]);
-        let misfit: f64 = rest.map(|((u, x), sigma)| ((u - x) / sigma).norm_sqr()).sum();
+        let misfit = misfit(measured, &assessed.response, &self.sigma[i]);
         let level = if law.sigma_known { 1.0 } else { law.reduced_chi_squared().unwrap_or(0.0).sqrt() };
         let counted = self.sigma[i].iter().filter(|sigma| sigma.is_finite()).count();
         let rms = (misfit / (2 * counted) as f64).sqrt();

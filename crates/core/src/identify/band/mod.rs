@@ -24,7 +24,7 @@ pub use scale::{Calibrated, Calibration, Unknown, identify_band_scaled};
 pub use smooth::{SmoothCurve, SmoothOutcome, identify_smooth};
 pub(crate) use start::{MOST_PHASE, PHASE_STEP};
 
-use super::{Identified, Options, Selection};
+use super::{Identified, Options, Selection, Space as Where};
 use crate::c64;
 use crate::for_each::ForEach;
 use crate::material::OutsideTable;
@@ -132,6 +132,11 @@ fn near_and_far(options: &Options) -> [Options; 2] {
     [*options, Options { whole_box: true, ..*options }]
 }
 
+/// The same for a joint selection on the subspace, whatever the options say.
+fn on_subspace(options: &Options) -> [Options; 2] {
+    near_and_far(&Options { space: Where::Subspace, selection: Selection::Joint, ..*options })
+}
+
 /// What is found near the nominal; where a path through that leaves out most of the band, the nominal is too far, and the bounds are all that is left:
 /// the one with more answers then, with the work of both.
 fn near_or_far<'o, T>(
@@ -154,6 +159,11 @@ impl BandOutcome {
     /// How many frequencies have an answer.
     fn answered(&self) -> usize {
         self.outcomes.iter().filter(|outcome| outcome.correction.is_some()).count()
+    }
+
+    /// The sensors that are left out.
+    fn left_out(&self) -> Vec<usize> {
+        (0..self.sensors.len()).filter(|&m| self.sensors[m].left_out).collect()
     }
 }
 

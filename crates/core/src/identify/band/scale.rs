@@ -6,11 +6,11 @@ use super::joint;
 use super::noise::{deviations, freedom};
 use super::space::Space;
 use super::start::aligned;
-use super::{Band, BandOutcome, Hooks, Noise, near_and_far, near_or_far};
+use super::{Band, BandOutcome, Hooks, Noise, near_or_far, on_subspace};
 use crate::c64;
 use crate::for_each::map;
 use crate::frequency::omega_rad_s;
-use crate::identify::{Options, Selection, Space as Where, Status};
+use crate::identify::{Options, Status};
 use crate::material::{OutsideTable, loss_factor};
 use crate::model::ModelAt;
 use frfit_linalg::dense::symmetric_eigen;
@@ -139,13 +139,12 @@ pub fn identify_band_scaled(
     assert!(!band.frequency_hz.is_empty() && band.measured.len() == band.frequency_hz.len());
     assert!(unknown.len() == band.experiment.sensors.len() && unknown.iter().any(|unknown| !unknown.any()));
     let at = band.model.at_all(band.frequency_hz, std::slice::from_ref(band.parameter))?;
-    let near = Options { space: Where::Subspace, selection: Selection::Joint, ..*options };
     let run = |options: &Options| {
         let mut space = super::space(band, &at, options, hooks);
         let (outcome, found) = with_scales(band, &at, &mut space, unknown, options, hooks);
         (outcome, found.unwrap_or_else(|| vec![Calibration::default(); unknown.len()]))
     };
-    Ok(near_or_far(&near_and_far(&near), run))
+    Ok(near_or_far(&on_subspace(options), run))
 }
 
 /// Moduli and calibrations on a subspace; `None` where the data do not tell the latter.
@@ -268,8 +267,7 @@ fn settle(
     unknown: &[Unknown],
     hooks: Hooks<'_>,
 ) -> Option<Told> {
-    let out: Vec<usize> = (0..unknown.len()).filter(|&m| outcome.sensors[m].left_out).collect();
-    let sigma = without(&deviations(band), &out);
+    let sigma = without(&deviations(band), &outcome.left_out());
     let free = free(unknown);
     let n = free.len();
     let top = top(band);

@@ -7,17 +7,19 @@
 //! of one size: real and imaginary part have one κ, one weight, and no correlation.
 
 use super::contradiction::without;
+use super::explore::{misfit, weighed};
 use super::fit::{judge, sensor_misfit};
+use super::laws::{APART, MOVED, ROUNDS, UNEXPLAINED};
 use super::noise::{LEAST_LEVEL, deviations};
-use super::space::{Space, certificate, is_certain};
+use super::space::{Space, certificate};
 use super::{
-    Band, BandOutcome, Hooks, Noise, NoiseLevel, NoiseSource, SensorFit, Stage, keeping_space, near_and_far,
-    near_or_far,
+    Band, BandOutcome, Hooks, Noise, NoiseLevel, NoiseSource, SensorFit, Stage, keeping_space, near_or_far,
+    on_subspace,
 };
 use crate::c64;
 use crate::for_each::map;
 use crate::frequency::omega_rad_s;
-use crate::identify::{Identified, Options, Selection, Space as Where, Status, Uncertainty, relative_error};
+use crate::identify::{Identified, Options, Status, Uncertainty, relative_error};
 use crate::material::OutsideTable;
 use crate::model::ModelAt;
 use crate::smooth::{Evidence, Observation, Smoothed, State, roughness, smooth};
@@ -50,9 +52,6 @@ pub struct SmoothCurve {
     real: bool,
 }
 
-/// By how much the first curve is moved: on a lightly damped structure the misfit has a valley for each coincidence of measured and computed resonances.
-const MOVED: [f64; 9] = [0.0, -0.03, -0.01, -0.003, -0.001, 0.001, 0.003, 0.01, 0.03];
-
 /// Steps of Gauss and Newton for each training of the subspace.
 const STEPS: usize = 30;
 
@@ -63,17 +62,8 @@ const HALVINGS: usize = 8;
 const SETTLED: f64 = 1e-3;
 const ROUNDOFF: f64 = 1e-11;
 
-/// Rounds of training at the curve before what is left is called uncertain.
-const ROUNDS: usize = 4;
-
-/// A misfit of this many deviations (root mean square) at a frequency is not noise.
-const UNEXPLAINED: f64 = 5.0;
-
 /// Frequencies that are not explained are left out, but not more than this part of the band: else it is the curve that is wrong.
 const OUTLIERS: f64 = 0.25;
-
-/// Another answer is another one if it is so many deviations away.
-const APART: f64 = 3.0;
 
 /// Identifies a modulus that is smooth over the band, and no smoother than the data say.
 ///
@@ -97,11 +87,10 @@ pub fn identify_smooth(
 ) -> Result<SmoothOutcome, OutsideTable> {
     assert!(!band.frequency_hz.is_empty() && band.measured.len() == band.frequency_hz.len());
     let at = band.model.at_all(band.frequency_hz, std::slice::from_ref(band.parameter))?;
-    let near = Options { space: Where::Subspace, selection: Selection::Joint, ..*options };
-    let boxes = near_and_far(&near);
+    let boxes = on_subspace(options);
     let (free, space) = near_or_far(&boxes, |options| keeping_space(band, &at, options, hooks));
     let assumed = deviations(band);
-    let out: Vec<usize> = (0..free.sensors.len()).filter(|&m| free.sensors[m].left_out).collect();
+    let out = free.left_out();
     let sigma = without(&assumed, &out);
     let smoothing = Smoothing { band, at: &at, sigma: &sigma, out: &out, options, hooks };
     (hooks.progress)(Stage::Law, 0, 1);
@@ -129,8 +118,7 @@ pub fn identify_smooth(
     };
     let sensors = free.sensors.iter().enumerate().map(sensor).collect();
     let mut work = free.work;
-    work.factorisations += space.work().factorisations - fitted.before.factorisations;
-    work.solves += space.work().solves - fitted.before.solves;
+    work += space.work().since(fitted.before);
     let subspace_size = Some(space.size());
     let smoothed =
         BandOutcome { outcomes, work, subspace_size, explored: free.explored, noise, fit, sensors };
@@ -197,7 +185,8 @@ impl Smoothing<'_, '_> {
         loop {
             let (linear, smoothed, converged) = self.descend(space, &used, states)?;
             states = smoothed.curve.states.clone();
-            let lacking = self.lacking(space, &states);
+            let correction = |i: usize| Some(modulus(&states[i]) - self.at[i].parameters[0].nominal);
+            let lacking = space.lacking(correction, self.hooks.for_each);
             if round < ROUNDS && !lacking.is_empty() && space.refine(&lacking, self.hooks).unwrap_or(false) {
                 space.localise(&all, self.hooks.for_each);
                 round += 1;
@@ -239,7 +228,7 @@ impl Smoothing<'_, '_> {
         // Among them are wrong ones, so that what is known of the noise does not tell their scatter.
         let evidence = Evidence { numbers: self.numbers(), known: false, beside: (0.0, 0) };
         let states = smooth(&observations, evidence)?.curve.states;
-        let tried = MOVED.iter().filter_map(|by: &f64| {
+        let tried = std::iter::once(0.0).chain(MOVED).filter_map(|by: f64| {
             let moved: Vec<State> =
                 states.iter().map(|[value, slope]| [[value[0] + by.ln_1p(), value[1]], *slope]).collect();
             let used = vec![true; moved.len()];
@@ -351,16 +340,6 @@ impl Smoothing<'_, '_> {
         None
     }
 
-    /// The curve's corrections at which the subspace is not good enough.
-    fn lacking(&self, space: &Space<'_, '_>, states: &[State]) -> Vec<(usize, c64)> {
-        let one = |i: usize| {
-            let correction = modulus(&states[i]) - self.at[i].parameters[0].nominal;
-            let assessed = space.assess(i, correction)?;
-            (!is_certain(&self.at[i], correction, &assessed)).then_some((i, correction))
-        };
-        map(self.hooks.for_each, self.at.len(), one).into_iter().flatten().collect()
-    }
-
     /// Whether a frequency leaves more than noise at the curve.
     fn unexplained(&self, space: &Space<'_, '_>, states: &[State], level: f64, i: usize) -> bool {
         let correction = modulus(&states[i]) - self.at[i].parameters[0].nominal;
@@ -380,8 +359,7 @@ impl Smoothing<'_, '_> {
     }
 
     fn misfit(&self, i: usize, x: &[c64]) -> f64 {
-        let rest = self.band.measured[i].iter().zip(x).zip(&self.sigma[i]);
-        rest.map(|((u, x), sigma)| ((u - x) / *sigma).norm_sqr()).sum()
+        misfit(&self.band.measured[i], x, &self.sigma[i])
     }
 
     fn noise(&self, free: &NoiseLevel, level: f64) -> NoiseLevel {
@@ -409,9 +387,8 @@ impl Smoothing<'_, '_> {
         let level = noise.level.unwrap_or(1.0);
         let certified = certificate(&assessed, factor, measured);
         let variance = fitted.smoothed.curve.variance[i];
-        let second = space.second_derivative(i, correction).map_or(f64::INFINITY, |second| {
-            second.iter().zip(&self.sigma[i]).map(|(s, sigma)| (s / *sigma).norm_sqr()).sum::<f64>().sqrt()
-        });
+        let second = space.second_derivative(i, correction);
+        let second = second.map_or(f64::INFINITY, |second| weighed(&second, &self.sigma[i]));
         let part_std = factor.norm() * variance.sqrt();
         let bars = Uncertainty::new(factor, self.options.real, part_std, second, level);
         let error = relative_error(&self.kept(measured), &self.kept(&assessed.response));

@@ -169,6 +169,20 @@ impl<'a, 'o> Space<'a, 'o> {
             .or_else(|| self.model(i).assess(&self.at[i], correction).ok())
     }
 
+    /// Corrections, one at each frequency that has any, at which the subspace is not good enough: (frequency, correction).
+    pub(super) fn lacking(
+        &self,
+        correction: impl Fn(usize) -> Option<c64> + Sync,
+        for_each: ForEach<'_>,
+    ) -> Vec<(usize, c64)> {
+        let one = |i: usize| {
+            let correction = correction(i)?;
+            let assessed = self.assess(i, correction)?;
+            (!is_certain(&self.at[i], correction, &assessed)).then_some((i, correction))
+        };
+        map(for_each, self.at.len(), one).into_iter().flatten().collect()
+    }
+
     /// ∂²x_m/∂c² at an answer.
     pub(super) fn second_derivative(&self, i: usize, correction: c64) -> Option<Vec<c64>> {
         self.model(i).second_derivative(&self.at[i], correction).ok()
