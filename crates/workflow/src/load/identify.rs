@@ -65,9 +65,16 @@ pub(super) fn identify(
     files: &mut Files,
 ) -> Result<IdentifyCase, InputError> {
     let Some(entry) = &case.identify else {
-        return Err(InputError::at(&Place::file(&case.file), "a table [identify]", "none"));
+        return Err(match &case.several {
+            Some(several) => InputError::at(
+                &several.place,
+                "one unknown that varies, as [identify] (several, or a constant, are for frfit identify alone)",
+                "[[identify]], a constant or a dimension",
+            ),
+            None => InputError::at(&Place::file(&case.file), "a table [identify]", "none"),
+        });
     };
-    let names = known_names(case, entry)?;
+    let names = known_names(case, &entry.matrices)?;
     let mut options = options(entry, overrides)?;
     let varies = entry.varies.as_ref().map_or(Varies::Freely, |varies| varies.value.clone());
     match (&varies, &entry.varies) {
@@ -83,7 +90,7 @@ pub(super) fn identify(
         }
         _ => {}
     }
-    let mut parameter = shared_factor(entry, &names, model)?;
+    let mut parameter = shared_factor(&entry.matrices, model, &entry.place)?;
     if let Some(place) = &entry.estimate {
         parameter.nominal = middle_of(&options.bounds, place)?;
     }
@@ -113,10 +120,10 @@ pub(super) fn identify(
 }
 
 /// The names, each of them a matrix's, each once.
-fn known_names(case: &CaseFile, entry: &IdentifyEntry) -> Result<Vec<String>, InputError> {
+pub(super) fn known_names(case: &CaseFile, named: &[Located<String>]) -> Result<Vec<String>, InputError> {
     let known = || case.matrices.iter().map(|matrix| matrix.name.value.as_str());
-    let mut names: Vec<String> = Vec::with_capacity(entry.matrices.len());
-    for Located { value, place } in &entry.matrices {
+    let mut names: Vec<String> = Vec::with_capacity(named.len());
+    for Located { value, place } in named {
         if !known().any(|name| name == value) {
             let all = known().map(|name| format!("{name:?}")).collect::<Vec<_>>().join(", ");
             let hint =
@@ -135,17 +142,17 @@ fn known_names(case: &CaseFile, entry: &IdentifyEntry) -> Result<Vec<String>, In
     Ok(names)
 }
 
-fn shared_factor(
-    entry: &IdentifyEntry,
-    names: &[String],
+pub(super) fn shared_factor(
+    named: &[Located<String>],
     model: &DynamicStiffness,
+    place: &Place,
 ) -> Result<Parameter, InputError> {
-    let words: Vec<&str> = names.iter().map(String::as_str).collect();
+    let words: Vec<&str> = named.iter().map(|name| name.value.as_str()).collect();
     let parameter = Parameter::factor_of(model, &words)
-        .map_err(|error| InputError::at(&entry.place, "names of matrices", error.to_string()))?;
-    for (name, member) in entry.matrices.iter().zip(&parameter.members) {
+        .map_err(|error| InputError::at(place, "names of matrices", error.to_string()))?;
+    for (name, member) in named.iter().zip(&parameter.members) {
         if model.terms()[member.term].factor != parameter.nominal {
-            let expected = format!("matrices with one factor, that of {:?}", names[0]);
+            let expected = format!("matrices with one factor, that of {:?}", words[0]);
             return Err(InputError::at(&name.place, expected, format!("{:?} with another", name.value)));
         }
     }
@@ -292,7 +299,7 @@ fn unknown(case: &CaseFile, entry: &IdentifyEntry, options: &Options) -> Result<
 const ON_LINE: f64 = 0.01;
 
 /// Which frequencies (ascending) are left out.
-fn left_out(leave_out: &[LeaveOut], frequency_hz: &[f64]) -> Vec<bool> {
+pub(super) fn left_out(leave_out: &[LeaveOut], frequency_hz: &[f64]) -> Vec<bool> {
     let mut out = vec![false; frequency_hz.len()];
     for entry in leave_out {
         let (first, end) = match *entry {
