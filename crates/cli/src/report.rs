@@ -2,9 +2,19 @@
 
 use frfit::identify::{Calibrated, Explained, Identified, NoiseSource, SmoothCurve, Status};
 use frfit_workflow::check::findings_text;
-use frfit_workflow::job::IdentifyJob;
+use frfit_workflow::job::{IdentifyJob, SeveralJob};
 use frfit_workflow::output::laws_text;
 use std::path::Path;
+
+/// The verdict on several unknowns and where its files are.
+pub(crate) fn several(job: &SeveralJob, out: &Path) -> String {
+    format!(
+        "{}  {:<18}{}: identified.csv, response.csv, updated.uff, summary.json, figures/\n",
+        job.text,
+        "wrote",
+        out.display()
+    )
+}
 
 /// The verdict of an identification and where its files are.
 pub(crate) fn identified(job: &IdentifyJob, out: &Path) -> String {

@@ -2,16 +2,16 @@
 
 use crate::check::{check, findings_json};
 use crate::error::{InputError, Place};
-use crate::figures::{identify_figures, measured_figures, respond_figures};
+use crate::figures::{identify_figures, measured_figures, respond_figures, several_figures};
 use crate::load::{Case, IdentifyCase, Overrides, Purpose, load};
-use crate::memory::{MemoryError, check_full, check_identify};
+use crate::memory::{MemoryError, check_full, check_identify, check_subspace};
 use crate::output::{
     File, WriteError, candidates_csv, hit_reasons, identified_csv, laws_json, measured_csv, measured_summary,
-    measured_text, measured_uff, respond_csv, respond_uff, response_csv, summary_json, updated_uff,
-    write_all,
+    measured_text, measured_uff, respond_csv, respond_uff, response_csv, several_csv, several_json,
+    several_response_csv, several_text, several_updated_uff, summary_json, updated_uff, write_all,
 };
 use crate::records::{ChannelOptions, Records, read_records};
-use crate::run::{IdentifyRun, Progress, RespondRun, RunOptions, identify, respond};
+use crate::run::{IdentifyRun, Progress, RespondRun, RunOptions, SeveralRun, identify, respond, several};
 use frfit::doctor::Diagnosis;
 use frfit::material::OutsideTable;
 use frfit::signal::{self, Measured, SignalError, estimate_frf};
@@ -174,6 +174,49 @@ pub fn compute(
     let seconds_check = start.elapsed().as_secs_f64();
     let run = identify(&case, wanted, options, progress)?;
     Ok(Computed { case, diagnosis, run, seconds_load, seconds_check })
+}
+
+/// Several unknowns that were identified and written.
+#[derive(Debug)]
+pub struct SeveralJob {
+    /// The case.
+    pub case: Case,
+    /// What came out.
+    pub run: SeveralRun,
+    /// `summary.json`.
+    pub summary: serde_json::Value,
+    /// The same for a person.
+    pub text: String,
+}
+
+/// As [`identify_case`], of a case that asks for several unknowns, or for one that does not vary ([`crate::load::asks_for_several`]).
+///
+/// # Errors
+/// [`JobError`].
+pub fn several_case(
+    case_file: &Path,
+    overrides: &Overrides,
+    memory_bytes: Option<u64>,
+    out: &Path,
+    progress: Progress<'_>,
+) -> Result<SeveralJob, JobError> {
+    let start = Instant::now();
+    let case = load(case_file, overrides, Purpose::Several)?;
+    let seconds_load = start.elapsed().as_secs_f64();
+    let wanted = case.several.as_ref().expect("a case loaded for several unknowns has some");
+    check_subspace(&case, memory_bytes)?;
+    let run = several(&case, wanted, progress)?;
+    let summary = several_json(&case, wanted, &run, seconds_load);
+    let mut files = several_figures(&case, wanted, &run)?;
+    files.push(File::new("identified.csv", several_csv(wanted, &run)));
+    files.push(File::new("response.csv", several_response_csv(&case, wanted, &run)));
+    let uff = several_updated_uff(&case, &run)
+        .map_err(|error| InputError::in_file(&out.join("updated.uff"), error))?;
+    files.push(File::new("updated.uff", uff));
+    files.push(File::new("summary.json", format!("{summary:#}\n")));
+    write_all(out, &files)?;
+    let text = several_text(wanted, &run);
+    Ok(SeveralJob { case, run, summary, text })
 }
 
 /// Loads a case, computes its forward response, and writes table, UFF file and figure into `out`.

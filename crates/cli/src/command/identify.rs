@@ -6,8 +6,8 @@ use crate::outcome::{Failure, Outcome};
 use crate::progress::Progress;
 use crate::report;
 use frfit::identify::Status;
-use frfit_workflow::job::{IdentifyJob, identify_case};
-use frfit_workflow::load::Overrides;
+use frfit_workflow::job::{IdentifyJob, identify_case, several_case};
+use frfit_workflow::load::{Overrides, asks_for_several};
 use frfit_workflow::run::RunOptions;
 use std::path::Path;
 
@@ -19,10 +19,31 @@ pub(crate) fn run(args: &Args, identify: &Identify) -> Result<Outcome, Failure> 
         selection: identify.selection.clone(),
         space: identify.space.clone(),
     };
+    if asks_for_several(&identify.case)? {
+        return several(args, identify, &overrides);
+    }
     let options = RunOptions { error_map: identify.error_map, memory_bytes: identify.memory.map(megabytes) };
     let job = carry_out(args, &identify.case, &overrides, options, &identify.out)?;
     // What the user left out needs no answer.
     let trusted = job.run.count(Status::Ok) + job.run.count(Status::OutOfBand) == job.run.outcomes.len();
+    Ok(if identify.strict && !trusted { Outcome::NotTrusted } else { Outcome::Done })
+}
+
+/// Several unknowns, or one that does not vary.
+fn several(args: &Args, identify: &Identify, overrides: &Overrides) -> Result<Outcome, Failure> {
+    let progress = Progress::new(args.quiet || args.json);
+    let memory = identify.memory.map(megabytes);
+    let show = |done, total| progress.show(done, total);
+    let job = several_case(&identify.case, overrides, memory, &identify.out, &show);
+    progress.end();
+    let job = job?;
+    if args.json {
+        say(&format!("{:#}\n", job.summary))?;
+    } else if !args.quiet {
+        say(&report::several(&job, &identify.out))?;
+    }
+    let outcome = &job.run.outcome;
+    let trusted = outcome.is_trusted() && job.run.count(Status::Ok) == outcome.at.len();
     Ok(if identify.strict && !trusted { Outcome::NotTrusted } else { Outcome::Done })
 }
 

@@ -6,6 +6,7 @@ mod one;
 mod options;
 mod outcome;
 mod rational;
+mod several;
 mod uncertainty;
 
 pub use band::{
@@ -18,4 +19,8 @@ pub use choice::{Method, Selection, Space, UnknownChoice};
 pub use one::{error_by_order, identify_at, relative_error};
 pub use options::{MAX_ORDER, Options, OptionsError};
 pub use outcome::{Identified, Status};
+pub use several::{
+    BandValue, Direction, Enters, Number, Profile, Several, SeveralAt, SeveralOutcome, Sought, ValueAt, Vary,
+    identify_several,
+};
 pub use uncertainty::Uncertainty;

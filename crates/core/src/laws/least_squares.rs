@@ -115,7 +115,8 @@ pub(crate) fn minimise(starts: &[Vec<f64>], evaluate: Evaluate<'_>, search: &Sea
     Some(Minima { best, others, followed, agreeing })
 }
 
-fn descend(start: &[f64], evaluate: Evaluate<'_>, search: &Search) -> Option<Minimum> {
+/// Follows one start.
+pub(crate) fn descend(start: &[f64], evaluate: Evaluate<'_>, search: &Search) -> Option<Minimum> {
     let (residuals, jacobian) = evaluate(start)?;
     let (m, n) = (residuals.len(), start.len());
     let problem = Problem {

@@ -3,7 +3,7 @@
 use super::Projection;
 use super::reduced::SINGULAR;
 use crate::c64;
-use crate::model::ModelAt;
+use crate::model::{Combination, ModelAt};
 use frfit_linalg::dense::{Lu, NoConvergence};
 use frfit_linalg::solve::Breakdown;
 use frfit_linalg::vector::{norm, transpose_dot};
@@ -84,6 +84,22 @@ impl Projection {
     ) -> Result<(Vec<c64>, Vec<c64>), Breakdown> {
         let Solutions { response, slope, .. } = Solutions::new(self, at, correction)?;
         Ok((response, slope))
+    }
+
+    /// x_m at the nominal values, and ∂x_m/∂c_j of every parameter there, `[parameter][sensor]`: −z_mᵀA_{j,1}x, one factorisation and one block of solves for all.
+    ///
+    /// # Errors
+    /// [`Breakdown`] where the reduced system is singular.
+    pub fn respond_with_slopes(&self, at: &ModelAt<'_>) -> Result<(Vec<c64>, Vec<Vec<c64>>), Breakdown> {
+        let Solutions { all, response, .. } = Solutions::new(self, at, c64::default())?;
+        let (y, duals) = (&all[0], &all[1..]);
+        let slope = |coefficients: &[Combination]| -> Vec<c64> {
+            let Some(first) = coefficients.first() else { return vec![c64::default(); duals.len()] };
+            let change = self.combine(&self.parts.weights(first)).multiply(y);
+            duals.iter().map(|z| -transpose_dot(z, &change)).collect()
+        };
+        let slopes = at.parameters.iter().map(|parameter| slope(&parameter.coefficients)).collect();
+        Ok((response, slopes))
     }
 
     /// ∂²x_m/∂c² = z_mᵀ (2 D′D⁻¹D′ − D″) x with the correction c of the first parameter, without an estimate of its error.

@@ -179,6 +179,26 @@ impl<'a> Field<'a> {
         Table::new(self.document, self.place.clone(), fields, known)
     }
 
+    /// Whether it is a table with this key, and where a text is given, that text there.
+    pub(super) fn has(&self, key: &str, text: Option<&str>) -> bool {
+        let found = self.value.as_table().and_then(|fields| {
+            fields.iter().find(|(name, _)| name.get_ref() == key).map(|(_, value)| value.get_ref())
+        });
+        found
+            .is_some_and(|value| text.is_none_or(|text| matches!(value, DeValue::String(own) if own == text)))
+    }
+
+    /// The keys of a table and their values; `None` where it is none.
+    pub(super) fn entries(&self) -> Option<Vec<(String, Self)>> {
+        let fields = self.value.as_table()?;
+        let one = |(name, value): (&Spanned<_>, &'a Spanned<DeValue<'a>>)| {
+            let name: &std::borrow::Cow<'a, str> = name.get_ref();
+            let place = self.document.place(value.span(), self.place.below(name).key);
+            (name.to_string(), Self { document: self.document, place, value: value.get_ref() })
+        };
+        Some(fields.iter().map(one).collect())
+    }
+
     /// Tables, each under its own `[[name]]`; at least one.
     pub(super) fn tables(&self, name: &str, known: &[&str]) -> Result<Vec<Table<'a>>, InputError> {
         let expected = format!("at least one table [[{name}]]");

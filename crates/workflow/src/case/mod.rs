@@ -4,6 +4,7 @@ mod document;
 mod field;
 mod parse;
 mod sections;
+mod several;
 
 pub(crate) use parse::law_of_snippet;
 pub use parse::parse;
@@ -44,8 +45,10 @@ pub struct CaseFile {
     pub load: LoadEntry,
     /// `[[measurement]]`, at least one.
     pub measurements: Vec<MeasurementEntry>,
-    /// `[identify]`.
+    /// `[identify]`, of one unknown that varies.
     pub identify: Option<IdentifyEntry>,
+    /// `[[identify]]`: several unknowns, or one that does not vary.
+    pub several: Option<SeveralEntry>,
     /// `[respond]`.
     pub respond: Option<RespondEntry>,
 }
@@ -201,6 +204,55 @@ impl VariesEntry {
             _ => Err("\"frequency\" (a factor of its own at each), \"smooth\" or \"law\"".into()),
         }
     }
+}
+
+/// All `[[identify]]`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SeveralEntry {
+    /// Where the first begins.
+    pub place: Place,
+    /// Each of them, at least one, names distinct.
+    pub unknowns: Vec<SoughtEntry>,
+    /// First and last frequency.
+    pub band_hz: Option<Located<[f64; 2]>>,
+    /// Frequencies and bands that are left out.
+    pub leave_out: Vec<LeaveOut>,
+}
+
+/// One `[[identify]]`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SoughtEntry {
+    /// Where it begins.
+    pub place: Place,
+    /// Its name; that of its matrices where none is given.
+    pub name: Located<String>,
+    /// Matrices that share the unknown factor; none for a dimension.
+    pub matrices: Vec<Located<String>>,
+    /// Matrices that a dimension multiplies, each with its power.
+    pub powers: Vec<(Located<String>, i32)>,
+    /// How it varies.
+    pub varies: SoughtVaries,
+    /// Whether it is real.
+    pub real: bool,
+    /// Value of a dimension to begin with.
+    pub nominal: Option<Located<f64>>,
+    /// `bounds.storage`, or `bounds` of a real one.
+    pub storage: Option<Located<[f64; 2]>>,
+    /// `bounds.loss_factor`.
+    pub loss_factor: Option<Located<[f64; 2]>>,
+    /// What a simulated measurement was made with.
+    pub truth: Option<Located<FactorEntry>>,
+}
+
+/// How one of several unknowns varies.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum SoughtVaries {
+    /// A value of its own at each frequency.
+    Freely,
+    /// One value for the band.
+    Constant,
+    /// By a law.
+    ByLaw(Family),
 }
 
 /// What `leave_out_hz` lists.

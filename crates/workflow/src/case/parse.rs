@@ -3,6 +3,7 @@
 use super::document::Document;
 use super::field::{Table, shown};
 use super::sections::{attached, factor, identify, load, matrix, measurement, respond};
+use super::several::{is_several, several};
 use super::{CaseFile, FactorEntry, MatrixEntry};
 use crate::error::{InputError, Place};
 use frfit::material::Law;
@@ -43,7 +44,12 @@ pub fn parse(file: &Path, bytes: &[u8]) -> Result<CaseFile, InputError> {
         attached,
         load: load(&force.table(&["dof", "row", "file"])?)?,
         measurements: measurements.iter().map(measurement).collect::<Result<_, _>>()?,
-        identify: case.find("identify").map(|field| identify(&field)).transpose()?,
+        identify: case
+            .find("identify")
+            .filter(|f| !is_several(f))
+            .map(|field| identify(&field))
+            .transpose()?,
+        several: case.find("identify").filter(is_several).map(|field| several(&field)).transpose()?,
         respond: case.find("respond").map(|field| respond(&field)).transpose()?,
     })
 }

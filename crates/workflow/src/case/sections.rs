@@ -305,7 +305,7 @@ pub(super) fn identify(field: &Field<'_>) -> Result<IdentifyEntry, InputError> {
 }
 
 /// Frequencies, and bands [low, high].
-fn leave_out(field: &Field<'_>) -> Result<Vec<LeaveOut>, InputError> {
+pub(super) fn leave_out(field: &Field<'_>) -> Result<Vec<LeaveOut>, InputError> {
     const EXPECTED: &str = "a list of frequencies and bands [low, high] in Hz, as [100.0, [49.0, 51.0]]";
     field.each(EXPECTED, |item| match item.as_number() {
         Some(frequency_hz) if frequency_hz >= 0.0 => Ok(LeaveOut::Line(frequency_hz)),
@@ -369,7 +369,7 @@ pub(super) fn respond(field: &Field<'_>) -> Result<RespondEntry, InputError> {
     Ok(RespondEntry { band_hz: band(&table.need("band_hz")?)?, points: count as usize })
 }
 
-fn band(field: &Field<'_>) -> Result<Located<[f64; 2]>, InputError> {
+pub(super) fn band(field: &Field<'_>) -> Result<Located<[f64; 2]>, InputError> {
     let band = field.pair()?;
     checked_band(band.value, &band.place)?;
     Ok(band)

@@ -67,7 +67,7 @@ pub(super) fn forward(case: &Case, run: &RespondRun) -> Figure {
 }
 
 /// |−ω² x|, P-39; a gap where there is no response.
-fn modulus(frequency_hz: &[f64], receptance: Vec<Option<c64>>) -> Vec<f64> {
+pub(super) fn modulus(frequency_hz: &[f64], receptance: Vec<Option<c64>>) -> Vec<f64> {
     let of = |(&f, x): (&f64, Option<c64>)| {
         x.map_or(f64::NAN, |x| Quantity::Accelerance.from_receptance(f, x).norm())
     };

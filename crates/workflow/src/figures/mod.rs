@@ -8,9 +8,11 @@ mod hits;
 mod laws;
 mod measured;
 mod modulus;
+mod several;
 mod spectral_radius;
 
 pub use laws::law_figures;
+pub use several::several_figures;
 
 use crate::load::{Case, IdentifyCase};
 use crate::output::File;
@@ -107,6 +109,10 @@ fn draw_into(folder: &str, figures: Vec<(String, Figure)>) -> Result<Vec<File>, 
 
 /// The status of every frequency, as a strip of colours.
 fn status_strip(run: &IdentifyRun) -> Strip {
+    strip_of(run.outcomes.iter().map(|outcome| (outcome.frequency_hz, outcome.status)))
+}
+
+fn strip_of(statuses: impl Iterator<Item = (f64, Status)>) -> Strip {
     let color = |status| match status {
         Status::Ok => Color::Green,
         Status::Ambiguous => Color::Yellow,
@@ -115,13 +121,11 @@ fn status_strip(run: &IdentifyRun) -> Strip {
         Status::IllConditioned => Color::Grey,
         Status::OutOfBand => Color::Black,
     };
+    let place = |status: Status| Status::ALL.iter().position(|&other| other == status).unwrap_or(0);
+    let (x, class) = statuses.map(|(frequency_hz, status)| (frequency_hz, place(status))).unzip();
     Strip {
-        x: run.outcomes.iter().map(|outcome| outcome.frequency_hz).collect(),
-        class: run
-            .outcomes
-            .iter()
-            .filter_map(|outcome| Status::ALL.iter().position(|&status| status == outcome.status))
-            .collect(),
+        x,
+        class,
         classes: Status::ALL
             .iter()
             .map(|&status| Class { label: status.name().replace('_', " "), color: color(status) })

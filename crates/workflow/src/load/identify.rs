@@ -65,15 +65,22 @@ pub(super) fn identify(
     files: &mut Files,
 ) -> Result<IdentifyCase, InputError> {
     let Some(entry) = &case.identify else {
-        return Err(InputError::at(&Place::file(&case.file), "a table [identify]", "none"));
+        return Err(match &case.several {
+            Some(several) => InputError::at(
+                &several.place,
+                "one unknown that varies, as [identify] (several, or a constant, are for frfit identify alone)",
+                "[[identify]], a constant or a dimension",
+            ),
+            None => InputError::at(&Place::file(&case.file), "a table [identify]", "none"),
+        });
     };
-    let names = known_names(case, entry)?;
+    let names = known_names(case, &entry.matrices)?;
     let mut options = options(entry, overrides)?;
     let varies = entry.varies.as_ref().map(|varies| varies.value.clone()).unwrap_or_default();
     if let Some(Located { place, .. }) = &entry.varies {
         fit_for_band(&mut options, &varies, place)?;
     }
-    let mut parameter = shared_factor(entry, &names, model)?;
+    let mut parameter = shared_factor(&entry.matrices, model, &entry.place)?;
     if let Some(place) = &entry.estimate {
         parameter.nominal = middle_of(&options.bounds, place)?;
     }
@@ -103,10 +110,10 @@ pub(super) fn identify(
 }
 
 /// The names, each of them a matrix's, each once.
-fn known_names(case: &CaseFile, entry: &IdentifyEntry) -> Result<Vec<String>, InputError> {
+pub(super) fn known_names(case: &CaseFile, named: &[Located<String>]) -> Result<Vec<String>, InputError> {
     let known = || case.matrices.iter().map(|matrix| matrix.name.value.as_str());
-    let mut names: Vec<String> = Vec::with_capacity(entry.matrices.len());
-    for Located { value, place } in &entry.matrices {
+    let mut names: Vec<String> = Vec::with_capacity(named.len());
+    for Located { value, place } in named {
         if !known().any(|name| name == value) {
             let all = known().map(|name| format!("{name:?}")).collect::<Vec<_>>().join(", ");
             let hint =
@@ -125,16 +132,16 @@ fn known_names(case: &CaseFile, entry: &IdentifyEntry) -> Result<Vec<String>, In
     Ok(names)
 }
 
-fn shared_factor(
-    entry: &IdentifyEntry,
-    names: &[String],
+pub(super) fn shared_factor(
+    named: &[Located<String>],
     model: &DynamicStiffness,
+    place: &Place,
 ) -> Result<Parameter, InputError> {
-    let words: Vec<&str> = names.iter().map(String::as_str).collect();
+    let words: Vec<&str> = named.iter().map(|name| name.value.as_str()).collect();
     let parameter = Parameter::factor_of(model, &words)
-        .map_err(|error| InputError::at(&entry.place, "names of matrices", error.to_string()))?;
-    for (k, name) in entry.matrices.iter().enumerate() {
-        shared(model, &parameter, k, names, &name.place)?;
+        .map_err(|error| InputError::at(place, "names of matrices", error.to_string()))?;
+    for (k, name) in named.iter().enumerate() {
+        shared(model, &parameter, k, &words, &name.place)?;
     }
     Ok(parameter)
 }
@@ -144,14 +151,14 @@ pub(super) fn shared(
     model: &DynamicStiffness,
     parameter: &Parameter,
     k: usize,
-    names: &[String],
+    names: &[impl AsRef<str>],
     place: &Place,
 ) -> Result<(), InputError> {
     if model.terms()[parameter.members[k].term].factor == parameter.nominal {
         return Ok(());
     }
-    let expected = format!("matrices with one factor, that of {:?}", names[0]);
-    Err(InputError::at(place, expected, format!("{:?} with another", names[k])))
+    let expected = format!("matrices with one factor, that of {:?}", names[0].as_ref());
+    Err(InputError::at(place, expected, format!("{:?} with another", names[k].as_ref())))
 }
 
 /// `nominal = "estimate"`: where the bounds are, without any other word of the user. The factor is looked for in all of them.

@@ -13,6 +13,7 @@ mod labels;
 mod matrix;
 mod measurement;
 mod model;
+mod several;
 mod uff;
 
 pub use arrays::{ArraysError, MeasuredFrf, Wanted, case_of_arrays, response_of_arrays};
@@ -23,6 +24,7 @@ pub(crate) use labels::{Member, load_one, matrices_of, one_order};
 pub(crate) use matrix::{asymmetry, complex};
 pub use matrix::{check_symmetric, symmetric_matrix};
 pub use measurement::SensorInfo;
+pub use several::SeveralCase;
 pub(crate) use uff::STD_LABEL;
 
 use crate::case::{self, CaseFile, LoadEntry, Spot, checked_band};
@@ -52,8 +54,10 @@ pub struct Case {
     pub row_names: BTreeMap<usize, String>,
     /// Every file that was read, the case file first.
     pub inputs: Vec<InputFile>,
-    /// What to identify; `None` where the purpose is a response.
+    /// What to identify; `None` where the purpose is another.
     pub identify: Option<IdentifyCase>,
+    /// What to identify where it is several unknowns, or one that does not vary; `None` where the purpose is another.
+    pub several: Option<SeveralCase>,
     /// The frequencies of a response: those of `[respond]`, or else those that were measured.
     pub respond_hz: Vec<f64>,
 }
@@ -85,6 +89,8 @@ pub struct Overrides {
 pub enum Purpose {
     /// `[identify]` and the files of all measurements are needed.
     Identify,
+    /// As to identify, of `[[identify]]`: several unknowns, or one that does not vary.
+    Several,
     /// Neither is: a measurement's file is opened only for what the case leaves open (where it was measured, what was
     /// measured, and without `[respond]` the frequencies of the first).
     Respond,
@@ -104,11 +110,18 @@ pub fn load(case_file: &Path, overrides: &Overrides, purpose: Purpose) -> Result
     let model = model::model(&case, terms)?;
     let load = force::load(&case.load, model.dim(), &dofs, &mut files)?;
     let measurements = measurements(&case, purpose, &dofs, &mut files)?;
+    let mut several = None;
     let (identify, respond_hz) = match purpose {
         Purpose::Identify => {
             let identify = identify::identify(&case, overrides, &model, &measurements, &mut files)?;
             let frequency_hz = identify.frequency_hz.clone();
             (Some(identify), frequency_hz)
+        }
+        Purpose::Several => {
+            let wanted = several::several(&case, overrides, &model, &measurements, &mut files)?;
+            let frequency_hz = wanted.frequency_hz.clone();
+            several = Some(wanted);
+            (None, frequency_hz)
         }
         Purpose::Respond => (None, respond_hz(&case, overrides, &measurements)?),
     };
@@ -129,8 +142,18 @@ pub fn load(case_file: &Path, overrides: &Overrides, purpose: Purpose) -> Result
         inputs: files.inputs,
         model: Arc::new(model),
         identify,
+        several,
         respond_hz,
     })
+}
+
+/// Whether a case asks for several unknowns, or for one that does not vary: [`Purpose::Several`].
+///
+/// # Errors
+/// A file that cannot be read, or is no case.
+pub fn asks_for_several(case_file: &Path) -> Result<bool, InputError> {
+    let (_, bytes) = Files::of_case(case_file)?;
+    Ok(case::parse(case_file, &bytes)?.several.is_some())
 }
 
 /// Reads the matrix of this name from a file, or without a name its only one. For a term of a model it still has to pass
@@ -173,7 +196,7 @@ fn measurements(
         _ => None,
     };
     let asks_for_values = |k| match purpose {
-        Purpose::Identify => true,
+        Purpose::Identify | Purpose::Several => true,
         Purpose::Respond => k == 0 && case.respond.is_none(),
     };
     (case.measurements.iter().enumerate())

@@ -26,11 +26,6 @@ pub fn summary_json(
         statuses.insert(status.name().into(), json!(run.count(status)));
         bands.insert(status.name().into(), json!(run.bands_hz(status)));
     }
-    let inputs: Vec<Value> = case
-        .inputs
-        .iter()
-        .map(|input| json!({"file": input.path.display().to_string(), "bytes": input.bytes, "sha256": input.sha256}))
-        .collect();
     let matrices: Vec<Value> = case
         .model
         .terms()
@@ -46,7 +41,7 @@ pub fn summary_json(
     let mut summary = json!({
         "frfit": env!("CARGO_PKG_VERSION"),
         "title": case.title,
-        "inputs": inputs,
+        "inputs": inputs_json(case),
         "model": {
             "dofs": case.model.dim(),
             "nonzeros": case.model.analysis().pattern().nonzeros(),
@@ -105,6 +100,14 @@ pub fn summary_json(
         summary["truth"] = truth;
     }
     summary
+}
+
+/// Every file that was read.
+pub(super) fn inputs_json(case: &Case) -> Vec<Value> {
+    case.inputs
+        .iter()
+        .map(|input| json!({"file": input.path.display().to_string(), "bytes": input.bytes, "sha256": input.sha256}))
+        .collect()
 }
 
 /// A sensor, and what it says of the answers: its misfit over its deviation (root mean square).

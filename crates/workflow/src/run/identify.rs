@@ -256,16 +256,21 @@ pub(crate) fn band_of<'a>(case: &'a Case, identify: &'a IdentifyCase, used: &'a 
         parameter: &identify.parameter,
         frequency_hz: &used.frequency_hz,
         measured: &used.measured,
-        noise: match &used.noise {
-            MeasuredNoise::Unknown => Noise::Unknown,
-            MeasuredNoise::Relative(std) => Noise::Relative(std),
-            MeasuredNoise::Known(std) => Noise::Known(std),
-        },
+        noise: noise_of(&used.noise),
+    }
+}
+
+/// How well it was measured, as core takes it.
+pub(super) fn noise_of(noise: &MeasuredNoise) -> Noise<'_> {
+    match noise {
+        MeasuredNoise::Unknown => Noise::Unknown,
+        MeasuredNoise::Relative(std) => Noise::Relative(std),
+        MeasuredNoise::Known(std) => Noise::Known(std),
     }
 }
 
 /// Wall-clock time by stage: each lasts until another is heard of.
-struct StageClock(Mutex<(Seconds, Option<Stage>, Instant)>);
+pub(super) struct StageClock(Mutex<(Seconds, Option<Stage>, Instant)>);
 
 impl Default for StageClock {
     fn default() -> Self {
@@ -274,7 +279,7 @@ impl Default for StageClock {
 }
 
 impl StageClock {
-    fn enter(&self, next: Option<Stage>) {
+    pub(super) fn enter(&self, next: Option<Stage>) {
         // A thread that panicked with the lock takes the run down with it: the clock is beside the point.
         let mut guard = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let (seconds, current, since) = &mut *guard;
@@ -293,7 +298,7 @@ impl StageClock {
         (*current, *since) = (next, now);
     }
 
-    fn seconds(&self) -> Seconds {
+    pub(super) fn seconds(&self) -> Seconds {
         self.enter(None);
         self.0.lock().unwrap_or_else(PoisonError::into_inner).0
     }

@@ -13,8 +13,8 @@ use frfit_linalg::solve::Breakdown;
 
 /// A correction that the measurement does not exclude at this frequency.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Solution {
-    pub(super) correction: c64,
+pub(in crate::identify) struct Solution {
+    pub(in crate::identify) correction: c64,
     /// Σ |u_m − x_m|²/σ_m².
     pub(super) misfit: f64,
     /// (Σ |∂x_m/∂c|²/σ_m²)^{−1/2}: standard deviation of the correction.
@@ -29,8 +29,8 @@ pub(super) struct Solution {
 
 /// What was found at one frequency.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(super) struct Explored {
-    pub(super) solutions: Vec<Solution>,
+pub(in crate::identify) struct Explored {
+    pub(in crate::identify) solutions: Vec<Solution>,
     /// Solutions a little outside the bounds: at the next frequency they may be within.
     pub(super) beyond: Vec<Solution>,
     /// What solves the equations but not the user's conditions.
@@ -106,11 +106,11 @@ const MARGIN: f64 = 0.2;
 pub(super) type Evaluated = Result<(Vec<c64>, Vec<c64>), NoConvergence>;
 
 /// What is to be explained at one frequency, and how.
-pub(super) struct Fit<'a> {
-    pub(super) measured: &'a [c64],
-    pub(super) sigma: &'a [f64],
-    pub(super) nominal: c64,
-    pub(super) options: &'a Options,
+pub(in crate::identify) struct Fit<'a> {
+    pub(in crate::identify) measured: &'a [c64],
+    pub(in crate::identify) sigma: &'a [f64],
+    pub(in crate::identify) nominal: c64,
+    pub(in crate::identify) options: &'a Options,
 }
 
 impl Fit<'_> {
@@ -233,7 +233,7 @@ impl Fit<'_> {
     }
 
     /// Explores a reduced model. What is certified is this model's response, not that of a Krylov space within: that is where the solutions settle.
-    pub(super) fn explore_reduced(&self, model: &Projection, at: &ModelAt<'_>) -> Explored {
+    pub(in crate::identify) fn explore_reduced(&self, model: &Projection, at: &ModelAt<'_>) -> Explored {
         let found = match model.at(at) {
             // Vectors of this length cost nothing: the order bounds those of the full model.
             Ok(system) => self.explore(&system, system.dim()),

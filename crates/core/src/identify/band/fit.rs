@@ -66,15 +66,15 @@ pub(super) fn goodness(
 ) -> Option<GoodnessOfFit> {
     let each: Vec<f64> = outcomes.iter().filter_map(|outcome| outcome.chi_squared).collect();
     let chi_squared = freedom as f64 * each.iter().sum::<f64>();
-    judge(chi_squared, (freedom * each.len()).saturating_sub(fitted), noise, band)
+    judge(chi_squared, (freedom * each.len()).saturating_sub(fitted), noise, band.noise)
 }
 
 /// What a χ² over the band says; `None` without a degree of freedom.
-pub(super) fn judge(
+pub(in crate::identify) fn judge(
     chi_squared: f64,
     freedom: usize,
     noise: &NoiseLevel,
-    band: &Band<'_>,
+    told: Noise<'_>,
 ) -> Option<GoodnessOfFit> {
     if freedom == 0 {
         return None;
@@ -86,7 +86,7 @@ pub(super) fn judge(
         NoiseSource::Given if deviate <= CHANCE => Explained::Yes,
         NoiseSource::Given if chi_squared <= NEARLY * n => Explained::Nearly,
         NoiseSource::Given => Explained::No,
-        _ if band.noise == Noise::Unknown && found > NO_NOISE => Explained::No,
+        _ if told == Noise::Unknown && found > NO_NOISE => Explained::No,
         // Below what a test can show there is nothing to contradict.
         _ if found <= LEAST => Explained::Yes,
         _ => match noise.of_scatter {

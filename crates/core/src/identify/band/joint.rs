@@ -93,7 +93,7 @@ pub(super) fn identify<'a>(
     options: &Options,
     hooks: Hooks<'_>,
 ) -> BandOutcome {
-    let assumed = deviations(band);
+    let assumed = deviations(band.measured, band.noise);
     let sensors = band.experiment.sensors.len();
     let task = Task { band, at, sigma: &assumed, sensors, options, hooks };
     let (suspects, spent) = contradicting(&task, space.as_mut(), hidden);

@@ -49,7 +49,7 @@ const PATIENCE: usize = 15;
 pub(super) const MOVED: [f64; 8] = [-0.03, -0.01, -0.003, -0.001, 0.001, 0.003, 0.01, 0.03];
 
 /// Rounds of training at a law or a curve before what is left is called uncertain.
-pub(super) const ROUNDS: usize = 4;
+pub(in crate::identify) const ROUNDS: usize = 4;
 
 /// No modulus from one frequency is better than this, relative: where the noise is none, no frequency shall rule alone.
 const LEAST_STD: f64 = 1e-6;
@@ -116,7 +116,7 @@ pub fn identify_laws_scaled(
     let scaled = Scaled::new(band, &channels);
     let view = scaled.band(band);
     let out = free.left_out();
-    let sigma = without(&deviations(&view), &out);
+    let sigma = without(&deviations(view.measured, view.noise), &out);
     let fitting = Fitting { band: &view, at: &at, sigma: &sigma, unknown, options, hooks };
     let Some(mut space) = space else {
         let outcomes = free.outcomes.iter().map(|own| own.unanswered()).collect();
@@ -156,7 +156,7 @@ pub fn identify_laws_scaled(
     let told_channels = (0..unknown.len()).map(told).collect();
     let scaled = Scaled::new(band, &better);
     let view = scaled.band(band);
-    let sigma = without(&deviations(&view), &out);
+    let sigma = without(&deviations(view.measured, view.noise), &out);
     let judging = Fitting { band: &view, sigma: &sigma, ..fitting };
     if better != channels {
         // What each frequency says by itself, at the calibrations that came out.
@@ -390,7 +390,7 @@ impl Fitting<'_, '_> {
 }
 
 /// The law nearest to some moduli; `None` where there are too few.
-fn nearest(chart: &Chart, data: &[Datum]) -> Option<Minima> {
+pub(in crate::identify) fn nearest(chart: &Chart, data: &[Datum]) -> Option<Minima> {
     let enough = 2 * data.len() >= chart.family.count();
     let search = Search { starts: 3, patience: 30, same: 0.0 };
     let evaluate = |theta: &[f64]| chart.residuals(data, theta);

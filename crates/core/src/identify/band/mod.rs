@@ -32,6 +32,12 @@ use crate::model::{DynamicStiffness, Experiment, ModelAt, Parameter};
 use crate::response::Work;
 use space::Space;
 
+pub(super) use explore::Fit;
+pub(super) use fit::judge;
+pub(super) use laws::{ROUNDS, nearest};
+pub(super) use noise::deviations;
+pub(super) use space::{BOX, TRAINED, is_certain, thinned};
+
 pub use fit::{Explained, GoodnessOfFit, SensorFit};
 pub use noise::{NoiseLevel, NoiseSource};
 

@@ -1,6 +1,6 @@
 //! How large the noise is: as told, or as the band tells it.
 
-use super::{Band, Noise};
+use super::Noise;
 use crate::c64;
 use crate::frequency::omega_rad_s;
 use crate::median::median;
@@ -62,7 +62,11 @@ pub struct NoiseLevel {
 }
 
 impl NoiseLevel {
-    pub(super) fn new(noise: Noise<'_>, of_sensors: Option<f64>, of_scatter: Option<f64>) -> Self {
+    pub(in crate::identify) fn new(
+        noise: Noise<'_>,
+        of_sensors: Option<f64>,
+        of_scatter: Option<f64>,
+    ) -> Self {
         let (level, source) = match (noise, of_sensors, of_scatter) {
             (Noise::Known(_), ..) => (Some(1.0), NoiseSource::Given),
             (_, Some(level), _) => (Some(level.max(LEAST_LEVEL)), NoiseSource::Sensors),
@@ -78,16 +82,16 @@ impl NoiseLevel {
 }
 
 /// σ of real and imaginary part each, `[frequency][sensor]`: as given, or in proportion to the response.
-pub(super) fn deviations(band: &Band<'_>) -> Vec<Vec<f64>> {
-    let sensors = 0..band.experiment.sensors.len();
+pub(in crate::identify) fn deviations(measured: &[Vec<c64>], noise: Noise<'_>) -> Vec<Vec<f64>> {
+    let sensors = 0..measured.first().map_or(0, Vec::len);
     let sorted = |m: usize| {
-        let mut sizes: Vec<f64> = band.measured.iter().map(|u| u[m].norm()).collect();
+        let mut sizes: Vec<f64> = measured.iter().map(|u| u[m].norm()).collect();
         sizes.sort_by(f64::total_cmp);
         sizes
     };
     let sizes: Vec<Vec<f64>> = sensors.map(sorted).collect();
     let row = |(i, u): (usize, &Vec<c64>)| {
-        let of = |(m, u): (usize, &c64)| match band.noise {
+        let of = |(m, u): (usize, &c64)| match noise {
             Noise::Known(std) | Noise::Relative(std) => {
                 (std[i][m] / 2f64.sqrt()).max(LEAST_STD * sizes[m][sizes[m].len() - 1])
             }
@@ -95,7 +99,7 @@ pub(super) fn deviations(band: &Band<'_>) -> Vec<Vec<f64>> {
         };
         u.iter().enumerate().map(of).collect()
     };
-    band.measured.iter().enumerate().map(row).collect()
+    measured.iter().enumerate().map(row).collect()
 }
 
 /// Degrees of freedom that χ² of so many sensors has once the factor is fitted to them.
@@ -104,7 +108,7 @@ pub(super) fn freedom(sensors: usize, real: bool) -> usize {
 }
 
 /// Noise over σ by the median of the χ² that some frequencies have; `None` without a degree of freedom, or a frequency.
-pub(super) fn level_of(misfits: Vec<f64>, freedom: usize) -> Option<f64> {
+pub(in crate::identify) fn level_of(misfits: Vec<f64>, freedom: usize) -> Option<f64> {
     let median = median(misfits).filter(|_| freedom > 0)?;
     Some((median / median_chi_squared(freedom)).sqrt())
 }

@@ -267,7 +267,7 @@ fn settle(
     unknown: &[Unknown],
     hooks: Hooks<'_>,
 ) -> Option<Told> {
-    let sigma = without(&deviations(band), &outcome.left_out());
+    let sigma = without(&deviations(band.measured, band.noise), &outcome.left_out());
     let free = free(unknown);
     let n = free.len();
     let top = top(band);

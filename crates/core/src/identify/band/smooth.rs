@@ -89,7 +89,7 @@ pub fn identify_smooth(
     let at = band.model.at_all(band.frequency_hz, std::slice::from_ref(band.parameter))?;
     let boxes = on_subspace(options);
     let (free, space) = near_or_far(&boxes, |options| keeping_space(band, &at, options, hooks));
-    let assumed = deviations(band);
+    let assumed = deviations(band.measured, band.noise);
     let out = free.left_out();
     let sigma = without(&assumed, &out);
     let smoothing = Smoothing { band, at: &at, sigma: &sigma, out: &out, options, hooks };
@@ -110,7 +110,7 @@ pub fn identify_smooth(
     let explained = || judged.iter().enumerate().filter(|(i, _)| fitted.observations[*i].weight > 0.0);
     let chi_squared = explained().map(|(_, judged)| judged.chi_squared).sum();
     let freedom = explained().map(|(_, judged)| judged.freedom).sum::<f64>().round() as usize;
-    let fit = judge(chi_squared, freedom, &noise, band);
+    let fit = judge(chi_squared, freedom, &noise, band.noise);
     let outcomes: Vec<Identified> = judged.into_iter().map(|judged| judged.outcome).collect();
     let sensor = |(m, own): (usize, &SensorFit)| SensorFit {
         misfit: sensor_misfit(&outcomes, band.measured, &assumed, m, noise.level),

@@ -13,13 +13,13 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Error over the box of frequencies and factors: enough to find every root, which is then looked at more closely.
-const BOX: f64 = 1e-6;
+pub(in crate::identify) const BOX: f64 = 1e-6;
 
 /// Error at the answers. The factor is read from the response with a loss of some digits near its stationary points, and is to be right to 1e-6.
 const ANSWER: f64 = 1e-9;
 
 /// Error at the answers that were looked at, so that those between them are within what an answer's may be.
-pub(super) const TRAINED: f64 = 0.25 * ANSWER;
+pub(in crate::identify) const TRAINED: f64 = 0.25 * ANSWER;
 
 /// Frequencies of the training at most; neighbours share what they need.
 const FREQUENCIES: usize = 60;
@@ -290,12 +290,12 @@ impl<'a, 'o> Space<'a, 'o> {
 }
 
 /// Whether an answer's error is what it may be.
-pub(super) fn is_certain(at: &ModelAt<'_>, correction: c64, assessed: &Assessment) -> bool {
+pub(in crate::identify) fn is_certain(at: &ModelAt<'_>, correction: c64, assessed: &Assessment) -> bool {
     assessed.relative_truncation(at.parameters[0].nominal + correction) <= ANSWER
 }
 
 /// At most so many of some things, evenly spaced, the ends among them.
-pub(super) fn thinned<T>(all: &[T], most: usize) -> impl Iterator<Item = &T> {
+pub(in crate::identify) fn thinned<T>(all: &[T], most: usize) -> impl Iterator<Item = &T> {
     let count = all.len().min(most);
     (0..count).map(move |k| &all[k * (all.len() - 1) / (count - 1).max(1)])
 }

@@ -1,0 +1,112 @@
+//! The numbers that hold for the whole band, as coordinates θ of a search.
+
+use super::sought::{Sought, Vary};
+use crate::c64;
+use crate::laws::{Chart, Family};
+
+/// How one unknown hangs on its coordinates.
+#[derive(Debug, Clone, PartialEq)]
+enum Form {
+    /// p = e^θ.
+    Logarithm,
+    /// p = s θ, with s of the size of what is expected.
+    Scaled(f64),
+    /// A complex constant or a law.
+    Law(Chart),
+}
+
+/// One unknown that holds for the band.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Own {
+    /// Which.
+    pub(super) sought: usize,
+    /// Its coordinates.
+    pub(super) range: std::ops::Range<usize>,
+    form: Form,
+}
+
+/// All of them, one after the other.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Coordinates {
+    pub(super) each: Vec<Own>,
+    pub(super) count: usize,
+}
+
+impl Coordinates {
+    /// Of the unknowns as they vary; `nominal` are values somewhere in the band.
+    pub(super) fn new(
+        sought: &[Sought],
+        vary: impl Fn(&Sought) -> Vary,
+        nominal: &[c64],
+        omegas: &[f64],
+    ) -> Self {
+        let (mut each, mut count) = (Vec::new(), 0);
+        for (j, one) in sought.iter().enumerate() {
+            let form = match (vary(one), one.real) {
+                (Vary::PerFrequency, _) => continue,
+                (Vary::Constant, true) => {
+                    let [low, high] = one.range(nominal[j]);
+                    match low > 0.0 && nominal[j].re > 0.0 {
+                        true => Form::Logarithm,
+                        false => Form::Scaled(nominal[j].norm().max(low.abs()).max(high.abs())),
+                    }
+                }
+                (Vary::Constant, false) => Form::Law(Chart::about(Family::Constant, omegas)),
+                (Vary::Law(family), _) => Form::Law(Chart::about(family, omegas)),
+            };
+            let own = match &form {
+                Form::Law(chart) => chart.family.count(),
+                _ => 1,
+            };
+            each.push(Own { sought: j, range: count..count + own, form });
+            count += own;
+        }
+        Self { each, count }
+    }
+
+    /// θ of constants with these values; for laws `law` says where to begin.
+    pub(super) fn of(&self, values: &[c64], law: impl Fn(&Chart, usize) -> Vec<f64>) -> Vec<f64> {
+        let of = |own: &Own| match &own.form {
+            Form::Logarithm => vec![values[own.sought].re.ln()],
+            Form::Scaled(scale) => vec![values[own.sought].re / scale],
+            Form::Law(chart) if chart.family == Family::Constant => {
+                let value = values[own.sought];
+                chart.coordinates(&[value.re, crate::material::loss_factor(value)])
+            }
+            Form::Law(chart) => law(chart, own.sought),
+        };
+        self.each.iter().flat_map(of).collect()
+    }
+}
+
+impl Own {
+    /// p at ω, and ∂p/∂θ of its own coordinates.
+    pub(super) fn value(&self, theta: &[f64], omega_rad_s: f64) -> Option<(c64, Vec<c64>)> {
+        let own = &theta[self.range.clone()];
+        let real = |value: f64, slope: f64| (c64::new(value, 0.0), vec![c64::new(slope, 0.0)]);
+        let found = match &self.form {
+            Form::Logarithm => real(own[0].exp(), own[0].exp()),
+            Form::Scaled(scale) => real(own[0] * scale, *scale),
+            Form::Law(chart) => return chart.modulus(own, omega_rad_s),
+        };
+        found.0.is_finite().then_some(found)
+    }
+
+    /// The numbers that its coordinates stand for, with ∂(number)/∂θ, row by row.
+    pub(super) fn numbers(&self, theta: &[f64]) -> (Vec<f64>, Vec<Vec<f64>>) {
+        let own = &theta[self.range.clone()];
+        match &self.form {
+            Form::Logarithm => (vec![own[0].exp()], vec![vec![own[0].exp()]]),
+            Form::Scaled(scale) => (vec![own[0] * scale], vec![vec![*scale]]),
+            Form::Law(chart) => chart.parameters(own),
+        }
+    }
+
+    /// Its law, where it has one: a complex constant is one too.
+    pub(super) fn family(&self) -> Option<Family> {
+        match &self.form {
+            Form::Law(chart) => Some(chart.family),
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,57 @@
+//! What the measurements tell of the numbers that hold for the band.
+
+use frfit_linalg::dense::symmetric_eigen;
+
+/// The sum of squares of the slopes at σ, by its eigenvectors.
+pub(super) struct Information {
+    /// Eigenvalues, ascending; zero where nothing is told.
+    pub(super) values: Vec<f64>,
+    /// Eigenvectors, one after the other.
+    pub(super) vectors: Vec<f64>,
+}
+
+/// Information below this part of the largest tells nothing: a direction that is known a hundred thousand times worse than another one, by slopes of a reduced model.
+const UNTOLD: f64 = 1e-10;
+
+/// A part of a direction that is none.
+const NO_PART: f64 = 1e-4;
+
+impl Information {
+    /// From slopes of residuals, column after column; `None` without a coordinate or a finite number.
+    pub(super) fn new(jacobian: &[f64], n: usize) -> Option<Self> {
+        let m = jacobian.len().checked_div(n)?;
+        let column = |c: usize| &jacobian[c * m..(c + 1) * m];
+        let dot = |a: usize, b: usize| column(a).iter().zip(column(b)).map(|(x, y)| x * y).sum::<f64>();
+        let normal: Vec<f64> = (0..n * n).map(|k| dot(k / n, k % n)).collect();
+        let (mut values, vectors) = symmetric_eigen(n, &normal).ok()?;
+        let least = UNTOLD * values.last().copied().unwrap_or(0.0);
+        values.iter_mut().filter(|value| **value <= least).for_each(|value| *value = 0.0);
+        Some(Self { values, vectors })
+    }
+
+    /// gᵀ N⁻¹ h; infinite where both have a part that nothing tells.
+    pub(super) fn covariance(&self, g: &[f64], h: &[f64]) -> f64 {
+        let size = |g: &[f64]| g.iter().map(|g| g * g).sum::<f64>().sqrt();
+        let least = NO_PART * size(g) * NO_PART * size(h);
+        let along = |v: &[f64], g: &[f64]| v.iter().zip(g).map(|(v, g)| v * g).sum::<f64>();
+        let each = self.vectors.chunks_exact(g.len().max(1)).zip(&self.values);
+        let part = |(v, &value): (&[f64], &f64)| {
+            let both = along(v, g) * along(v, h);
+            if value > 0.0 {
+                both / value
+            } else if both.abs() > least {
+                f64::INFINITY
+            } else {
+                0.0
+            }
+        };
+        each.map(part).sum()
+    }
+
+    /// The directions that are told, of length one.
+    pub(super) fn told(&self) -> Vec<Vec<f64>> {
+        let n = self.values.len().max(1);
+        let told = self.vectors.chunks_exact(n).zip(&self.values).filter(|(_, value)| **value > 0.0);
+        told.map(|(v, _)| v.to_vec()).collect()
+    }
+}

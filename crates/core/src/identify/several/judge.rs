@@ -1,0 +1,346 @@
+//! Error bars, what the measurements do not tell, and statuses.
+
+use super::information::Information;
+use super::outcome::{BandValue, Direction, Number, Profile, SeveralAt, SeveralOutcome, ValueAt};
+use super::search::{Eliminated, Found, Plane};
+use super::space::Space;
+use super::spot::Solution;
+use super::{Sought, Task};
+use crate::c64;
+use crate::for_each::map;
+use crate::identify::band::judge;
+use crate::identify::{NoiseLevel, Status, relative_error};
+use crate::laws::Family;
+use crate::material::{Law, loss_factor};
+
+/// A number is known when its standard deviation is below this part of it, as at single frequencies ([`crate::identify::Uncertainty`]).
+const KNOWN: f64 = 0.3;
+
+/// A loss factor below this is none that a vibration test tells from zero.
+const LEAST_LOSS: f64 = 1e-4;
+
+/// A misfit of this many deviations (root mean square) at a frequency is not noise.
+const UNEXPLAINED: f64 = 5.0;
+
+/// Largest relative error of a response from the subspace at an answer: what a factor may be off by for `ok`, as for one unknown.
+const CERTAIN: f64 = 1e-5;
+
+/// Points of a profile to either side, and how far they reach in deviations.
+const PROFILE: usize = 5;
+const REACH: f64 = 3.0;
+
+/// Evaluations for each coordinate of a point of a profile, which begins at its neighbour.
+const STEPS: usize = 10;
+
+/// Farther than this in logarithms a profile does not go, however little is told.
+const FARTHEST: f64 = 1.0;
+
+impl Task<'_, '_> {
+    pub(super) fn judge(&self, space: &Space<'_>, found: Found) -> SeveralOutcome {
+        let all: Vec<usize> = (0..self.omegas.len()).collect();
+        let n = found.theta.len();
+        let eliminated = self.eliminated(space, &all, &found, &found.theta, None);
+        let information = eliminated.as_ref().and_then(|e| Information::new(&e.jacobian, n));
+        let own: usize = self.band.sought.iter().map(Sought::per_frequency).sum();
+        let answered = all.iter().filter(|&&i| found.at(i).is_some()).count();
+        let sensors = self.band.experiment.sensors.len();
+        let freedom = (answered * 2 * sensors).saturating_sub(answered * own + n);
+        let chi_squared: f64 = all.iter().filter_map(|&i| Some(found.at(i)?.misfit)).sum();
+        let of_sensors = (freedom > 0).then(|| (chi_squared / freedom as f64).sqrt());
+        let noise = NoiseLevel::new(self.band.noise, of_sensors, None);
+        let level = noise.level;
+        let fit =
+            level.and_then(|level| judge(chi_squared / (level * level), freedom, &noise, self.band.noise));
+        let at: Vec<SeveralAt> = map(self.hooks.for_each, all.len(), |i| {
+            let moved =
+                eliminated.as_ref().and_then(|e| e.own[i].as_ref()).map(|(_, moved)| moved.as_slice());
+            self.judge_at(space, &found, i, level, information.as_ref().zip(moved))
+        });
+        let coordinates: Vec<(usize, String)> = found
+            .coordinates
+            .each
+            .iter()
+            .flat_map(|one| names(one.family()).into_iter().map(move |name| (one.sought, name)))
+            .collect();
+        let (directions, correlation) = match &information {
+            Some(information) if n > 0 => (directions(information, level), correlation(information, &found)),
+            _ => (Vec::new(), Vec::new()),
+        };
+        let profile =
+            directions.first().filter(|_| n > 1).and_then(|worst| self.profile(space, &found, worst, level?));
+        let band = found.coordinates.each.iter().map(|one| {
+            let (values, slopes) = one.numbers(&found.theta);
+            let std = |row: &[f64]| {
+                let mut gradient = vec![0.0; n];
+                gradient[one.range.clone()].copy_from_slice(row);
+                Some(level? * information.as_ref()?.covariance(&gradient, &gradient).sqrt())
+            };
+            let numbers: Vec<Number> = names(one.family())
+                .into_iter()
+                .zip(values.iter().zip(&slopes))
+                .map(|(name, (&value, row))| Number { name, value, std: std(row) })
+                .collect();
+            let law = match one.family() {
+                Some(family) => family.law(&values),
+                None => Law::Constant(c64::new(values[0], 0.0)),
+            };
+            let sought = &self.band.sought[one.sought];
+            let middle = self.band.frequency_hz[self.omegas.len() / 2];
+            let breaks = law.at(middle).is_ok_and(|value| sought.bounds.broken_by(value).is_some());
+            let is_known = |number: &Number| {
+                let least = if number.name == "loss_factor" { LEAST_LOSS } else { 0.0 };
+                number.std.is_some_and(|std| std <= KNOWN * number.value.abs().max(least))
+            };
+            // What is not told has no value that could break a bound.
+            let status = if answered == 0 {
+                Status::NoRoot
+            } else if !found.converged || !numbers.iter().all(is_known) {
+                Status::IllConditioned
+            } else if breaks {
+                Status::NoRoot
+            } else {
+                Status::Ok
+            };
+            BandValue { sought: one.sought, numbers, law, status }
+        });
+        SeveralOutcome {
+            band: band.collect(),
+            at,
+            coordinates,
+            correlation,
+            directions,
+            profile,
+            noise,
+            fit,
+            converged: found.converged,
+            starts: found.starts,
+            agreeing: found.agreeing,
+            work: space.work(),
+            subspace_size: space.size(),
+            breakdown: None,
+        }
+    }
+
+    fn judge_at(
+        &self,
+        space: &Space<'_>,
+        found: &Found,
+        i: usize,
+        level: Option<f64>,
+        told: Option<(&Information, &[Vec<f64>])>,
+    ) -> SeveralAt {
+        let nominal = &self.nominal[i];
+        let mut at = SeveralAt {
+            frequency_hz: self.band.frequency_hz[i],
+            nominal: nominal.clone(),
+            values: vec![None; nominal.len()],
+            status: Status::NoRoot,
+            alternatives: found.chosen[i]
+                .alternatives
+                .iter()
+                .map(|&k| found.solutions[i][k].values.clone())
+                .collect(),
+            error: None,
+            chi_squared: None,
+            certificate: None,
+            nominal_response: space.respond(i, nominal).map(|(x, _)| x).unwrap_or_default(),
+            updated_response: Vec::new(),
+        };
+        let Some(solution) = found.at(i) else {
+            if !found.solutions[i].is_empty() {
+                at.status = Status::Ambiguous;
+            }
+            return at;
+        };
+        let measured = &self.band.measured[i];
+        let values = self.with_bars(found, i, solution, level, told);
+        let count = 2 * measured.len();
+        let chi_squared = level.map(|level| solution.misfit / (level * level * count as f64));
+        let error = relative_error(measured, &solution.response);
+        let assessed = space.assess(i, &solution.values);
+        let certificate = assessed.as_ref().map(|assessed| {
+            let square = (0..measured.len()).map(|m| assessed.error(m).powi(2)).sum::<f64>();
+            (square / measured.iter().map(|u| u.norm_sqr()).sum::<f64>()).sqrt()
+        });
+        let own = |(one, value): (&Sought, &ValueAt)| one.per_frequency() == 0 || is_known(value);
+        let known = self.band.sought.iter().zip(&values).all(own);
+        let unexplained =
+            error > self.options.error && chi_squared.is_none_or(|chi| chi.sqrt() > UNEXPLAINED);
+        at.status = if unexplained {
+            Status::NoRoot
+        } else if !at.alternatives.is_empty() {
+            Status::Ambiguous
+        } else if !known || certificate.is_none_or(|certificate| certificate > CERTAIN) {
+            Status::IllConditioned
+        } else {
+            Status::Ok
+        };
+        at.values = values.into_iter().map(Some).collect();
+        at.error = Some(error).filter(|error| error.is_finite());
+        at.chi_squared = chi_squared;
+        at.certificate = certificate;
+        at.updated_response = solution.response.clone();
+        at
+    }
+
+    /// All values at a frequency with their error bars: of its own coordinates (JᵀJ)⁻¹ + (∂y/∂θ) Cov θ (∂y/∂θ)ᵀ.
+    fn with_bars(
+        &self,
+        found: &Found,
+        i: usize,
+        solution: &Solution,
+        level: Option<f64>,
+        told: Option<(&Information, &[Vec<f64>])>,
+    ) -> Vec<ValueAt> {
+        let spot = self.spot(i);
+        let alone = spot.covariance(solution);
+        let n = found.theta.len();
+        // Gradient of one of its own coordinates by θ.
+        let gradient = |a: usize| -> Vec<f64> {
+            told.map_or(vec![0.0; n], |(_, moved)| moved.iter().map(|of_theta| of_theta[a]).collect())
+        };
+        let of_theta =
+            |g: &[f64], h: &[f64]| told.map_or(0.0, |(information, _)| information.covariance(g, h));
+        let mut first = 0;
+        let mut one = |(j, sought): (usize, &Sought)| {
+            let value = solution.values[j];
+            let size = spot.size[j];
+            // Covariance of real and imaginary part at σ.
+            let parts: Option<[f64; 3]> = if sought.per_frequency() > 0 {
+                let a = first;
+                let b = first + sought.per_frequency() - 1;
+                first = b + 1;
+                let both =
+                    |a: usize, b: usize| size * size * (alone[a][b] + of_theta(&gradient(a), &gradient(b)));
+                Some([both(a, a), both(a, b), both(b, b)])
+            } else {
+                let own = found.coordinates.each.iter().find(|own| own.sought == j);
+                own.and_then(|own| {
+                    let (_, slopes) = own.value(&found.theta, self.omegas[i])?;
+                    let part = |of: fn(&c64) -> f64| {
+                        let mut gradient = vec![0.0; n];
+                        gradient[own.range.clone()].iter_mut().zip(&slopes).for_each(|(g, s)| *g = of(s));
+                        gradient
+                    };
+                    let (re, im) = (part(|s| s.re), part(|s| s.im));
+                    told?;
+                    Some([of_theta(&re, &re), of_theta(&re, &im), of_theta(&im, &im)])
+                })
+            };
+            bars(value, sought.real, parts.zip(level))
+        };
+        self.band.sought.iter().enumerate().map(&mut one).collect()
+    }
+
+    /// χ² along a direction of θ, with the directions at right angles to it at their best.
+    fn profile(&self, space: &Space<'_>, found: &Found, worst: &Direction, level: f64) -> Option<Profile> {
+        let all: Vec<usize> = (0..self.omegas.len()).collect();
+        let n = found.theta.len();
+        let mut along = vec![0.0; n];
+        worst.weights.iter().for_each(|&(c, weight)| along[c] = weight);
+        // A basis of what is at right angles: unit vectors without their part along it, by Gram and Schmidt.
+        let mut basis: Vec<Vec<f64>> = vec![along.clone()];
+        for c in 0..n {
+            let mut v = vec![0.0; n];
+            v[c] = 1.0;
+            for _ in 0..2 {
+                for other in &basis {
+                    let overlap: f64 = v.iter().zip(other).map(|(a, b)| a * b).sum();
+                    v.iter_mut().zip(other).for_each(|(a, b)| *a -= overlap * b);
+                }
+            }
+            let norm = v.iter().map(|a| a * a).sum::<f64>().sqrt();
+            if norm > 1e-6 && basis.len() < n {
+                v.iter_mut().for_each(|a| *a /= norm);
+                basis.push(v);
+            }
+        }
+        let base = self.eliminated(space, &all, found, &found.theta, None)?;
+        let sum = |e: &Eliminated| e.residuals.iter().map(|r| r * r).sum::<f64>();
+        let least = sum(&base);
+        let reach = (REACH * worst.std / PROFILE as f64).min(FARTHEST / PROFILE as f64);
+        let mut points = Vec::new();
+        for side in [-1.0, 1.0] {
+            let mut rest = vec![0.0; basis.len() - 1];
+            for k in 1..=PROFILE {
+                let t = side * k as f64 * reach;
+                let origin: Vec<f64> =
+                    found.theta.iter().zip(&along).map(|(theta, v)| theta + t * v).collect();
+                let plane = Plane { origin: &origin, basis: &basis[1..] };
+                let Some(end) = self.search_in(space, &all, (found, &base), &plane, &rest, STEPS) else {
+                    break;
+                };
+                rest = end.theta;
+                points.push((t, (end.sum - least) / (level * level)));
+            }
+        }
+        points.push((0.0, 0.0));
+        points.sort_by(|a, b| a.0.total_cmp(&b.0));
+        Some(Profile { points })
+    }
+}
+
+/// Whether a value that a frequency has of its own is known.
+fn is_known(value: &ValueAt) -> bool {
+    let storage = value.storage_std.is_none_or(|std| std <= KNOWN * value.value.norm());
+    let eta = loss_factor(value.value).abs().max(LEAST_LOSS);
+    storage && value.loss_factor_std.is_none_or(|std| std <= KNOWN * eta)
+}
+
+/// A value with deviations from the covariance of its parts at σ and the level of the noise.
+fn bars(value: c64, real: bool, told: Option<([f64; 3], f64)>) -> ValueAt {
+    let Some(([a, b, c], level)) = told else {
+        return ValueAt { value, storage_std: None, loss_factor_std: None, correlation: None };
+    };
+    let storage = a.max(0.0).sqrt();
+    let eta = loss_factor(value);
+    // δη = (δE″ − η δE′)/E′
+    let of_eta = (c - 2.0 * eta * b + eta * eta * a).max(0.0).sqrt() / value.re.abs();
+    let common = (b - eta * a) / value.re;
+    let loss_factor_std = Some(level * of_eta).filter(|std| !real && std.is_finite());
+    ValueAt {
+        value,
+        storage_std: Some(level * storage),
+        loss_factor_std,
+        correlation: loss_factor_std.map(|_| common / (storage * of_eta)).filter(|c| c.is_finite()),
+    }
+}
+
+fn names(family: Option<Family>) -> Vec<String> {
+    match family {
+        Some(family) => family.parameters().into_iter().map(|name| name.name).collect(),
+        None => vec!["value".to_owned()],
+    }
+}
+
+/// Directions of θ, the one that is told worst first.
+fn directions(information: &Information, level: Option<f64>) -> Vec<Direction> {
+    let n = information.values.len();
+    let one = |(v, value): (&[f64], &f64)| {
+        let mut weights: Vec<(usize, f64)> = v.iter().copied().enumerate().collect();
+        weights.sort_by(|a, b| b.1.abs().total_cmp(&a.1.abs()));
+        // The sense in which the largest weight is positive.
+        let sign = weights.first().map_or(1.0, |(_, weight)| weight.signum());
+        weights.iter_mut().for_each(|(_, weight)| *weight *= sign);
+        Direction { weights, std: level.map_or(f64::INFINITY, |level| level / value.sqrt()) } // 1/0: nothing tells it
+    };
+    information.vectors.chunks_exact(n).zip(&information.values).map(one).collect()
+}
+
+fn correlation(information: &Information, found: &Found) -> Vec<Vec<f64>> {
+    let n = found.theta.len();
+    let mut gradients: Vec<Vec<f64>> = Vec::with_capacity(n);
+    for one in &found.coordinates.each {
+        let (_, slopes) = one.numbers(&found.theta);
+        for row in slopes {
+            let mut gradient = vec![0.0; n];
+            gradient[one.range.clone()].copy_from_slice(&row);
+            gradients.push(gradient);
+        }
+    }
+    let entry = |a: usize, b: usize| {
+        let of = |a: usize, b: usize| information.covariance(&gradients[a], &gradients[b]);
+        of(a, b) / (of(a, a) * of(b, b)).sqrt()
+    };
+    (0..n).map(|a| (0..n).map(|b| entry(a, b)).collect()).collect()
+}

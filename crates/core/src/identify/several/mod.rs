@@ -1,0 +1,159 @@
+//! Several unknowns at once: moduli at every frequency beside constants, laws and dimensions (P-10, B-5, B-8).
+//!
+//! With per-frequency unknowns c_i and numbers θ that hold for the band,
+//! $$ \min_{\theta, c_1 \dots c_n} \sum_i \sum_m \frac{|u_m(\omega_i) - x_m(\omega_i, c_i, \theta)|^2}{\sigma_{im}^2} $$
+//! is made least with the c_i eliminated frequency by frequency: for given θ each c_i is the best of all solutions there, and the slopes of what is left, (1 − QQᵀ) ∂r/∂θ
+//! with Q spanning ∂r/∂c_i, move θ (L. Kaufman, BIT 15 (1975) 49–57). One real subspace serves every frequency and every value of every unknown, so that the cost of
+//! several unknowns is a larger subspace and not more factorisations.
+//!
+//! | file | what is in it |
+//! |---|---|
+//! | `sought` | the unknowns, and the model at their values |
+//! | `coordinates` | θ ↔ what holds for the band |
+//! | `space` | the subspace over the box of all unknowns |
+//! | `starts` | where to begin |
+//! | `spot` | one frequency |
+//! | `path` | which of several solutions belong together |
+//! | `search` | θ |
+//! | `information` | which directions of θ are told |
+//! | `judge` | error bars, what is not told, statuses |
+
+mod coordinates;
+mod information;
+mod judge;
+mod outcome;
+mod path;
+mod search;
+mod sought;
+mod space;
+mod spot;
+mod starts;
+
+pub use outcome::{BandValue, Direction, Number, Profile, SeveralAt, SeveralOutcome, ValueAt};
+pub use sought::{Enters, Sought, Vary};
+
+use super::band::{NoiseLevel, deviations};
+use super::{Hooks, Noise, Options, Status};
+use crate::c64;
+use crate::frequency::omega_rad_s;
+use crate::material::OutsideTable;
+use crate::model::{DynamicStiffness, Experiment};
+use crate::response::Work;
+use frfit_linalg::solve::Breakdown;
+use sought::Composite;
+use space::Space;
+
+/// What was measured on what, and what is looked for.
+#[derive(Debug, Clone, Copy)]
+pub struct Several<'a> {
+    /// The model.
+    pub model: &'a DynamicStiffness,
+    /// Load and sensors.
+    pub experiment: &'a Experiment,
+    /// What is unknown.
+    pub sought: &'a [Sought],
+    /// Frequencies, ascending.
+    pub frequency_hz: &'a [f64],
+    /// Receptance, `[frequency][sensor]`.
+    pub measured: &'a [Vec<c64>],
+    /// How well each was measured.
+    pub noise: Noise<'a>,
+}
+
+impl Several<'_> {
+    /// Real numbers that are measured, and real numbers that are unknown; at each frequency alone where nothing holds for the band.
+    pub fn counts(&self) -> [usize; 2] {
+        let (frequencies, sensors) = (self.frequency_hz.len(), self.experiment.sensors.len());
+        let own: usize = self.sought.iter().map(Sought::per_frequency).sum();
+        let band: usize = self.sought.iter().map(Sought::for_band).sum();
+        [2 * sensors * frequencies, own * frequencies + band]
+    }
+}
+
+/// What there is to work with.
+struct Task<'t, 'a> {
+    band: &'t Several<'a>,
+    /// `[frequency][unknown]`.
+    nominal: &'t [Vec<c64>],
+    omegas: Vec<f64>,
+    /// σ of real and imaginary part each.
+    sigma: Vec<Vec<f64>>,
+    options: &'t Options,
+    hooks: Hooks<'t>,
+}
+
+/// Identifies several unknowns over a band.
+///
+/// Starts are the nominal values and points of the box of all unknowns, judged by the logarithms of the responses with everything constant over the band; what is per frequency is
+/// then freed. Unknowns that the measurements cannot tell apart are found out from the singular directions of the information, and named: their deviations are large, and their
+/// status is `ill_conditioned`.
+///
+/// # Errors
+/// [`OutsideTable`] where a table does not reach a frequency.
+///
+/// # Panics
+/// Where there is no frequency, not one measured value for each frequency and sensor, or fewer measured numbers than unknown ones.
+///
+/// # Limits
+/// Of several per-frequency unknowns solutions are those that several starts lead to, not provably all; a single one that stands for a factor has all of them (B-2).
+pub fn identify_several(
+    band: &Several<'_>,
+    options: &Options,
+    hooks: Hooks<'_>,
+) -> Result<SeveralOutcome, OutsideTable> {
+    assert!(!band.frequency_hz.is_empty() && band.measured.len() == band.frequency_hz.len());
+    let [measured, unknown] = band.counts();
+    assert!(measured >= unknown, "{measured} measured numbers do not tell {unknown}");
+    let composite = Composite { model: band.model, sought: band.sought };
+    let nominal: Vec<Vec<c64>> =
+        band.frequency_hz.iter().map(|&f| composite.nominal(f)).collect::<Result<_, _>>()?;
+    let task = Task {
+        band,
+        nominal: &nominal,
+        omegas: band.frequency_hz.iter().map(|&f| omega_rad_s(f)).collect(),
+        sigma: deviations(band.measured, band.noise),
+        options,
+        hooks,
+    };
+    let space = Space::new(composite, band.experiment, band.frequency_hz, &nominal, hooks)?;
+    Ok(match space {
+        Ok(mut space) => {
+            let found = task.search(&mut space);
+            task.judge(&space, found)
+        }
+        Err(breakdown) => task.broken(breakdown),
+    })
+}
+
+impl Task<'_, '_> {
+    fn broken(&self, breakdown: Breakdown) -> SeveralOutcome {
+        let at = |(nominal, &frequency_hz): (&Vec<c64>, &f64)| SeveralAt {
+            frequency_hz,
+            nominal: nominal.clone(),
+            values: vec![None; nominal.len()],
+            status: Status::IllConditioned,
+            alternatives: Vec::new(),
+            error: None,
+            chi_squared: None,
+            certificate: None,
+            nominal_response: Vec::new(),
+            updated_response: Vec::new(),
+        };
+        SeveralOutcome {
+            band: Vec::new(),
+            at: self.nominal.iter().zip(self.band.frequency_hz).map(at).collect(),
+            coordinates: Vec::new(),
+            correlation: Vec::new(),
+            directions: Vec::new(),
+            profile: None,
+            noise: NoiseLevel::new(self.band.noise, None, None),
+            fit: None,
+            converged: false,
+            starts: 0,
+            agreeing: 0,
+            work: Work { factorisations: 2, solves: 0 },
+            subspace_size: 0,
+            breakdown: Some(breakdown),
+        }
+    }
+}

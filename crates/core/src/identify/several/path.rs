@@ -1,0 +1,136 @@
+//! Which of several solutions at each frequency are one and the same structure over the band.
+
+use super::spot::{Solution, Spot};
+use super::{Sought, Task};
+use crate::identify::Noise;
+use crate::select::{Choice, Node, SelectOptions, choose};
+use frfit_linalg::dense::symmetric_eigen;
+
+/// What is chosen at a frequency.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct Chosen {
+    pub(super) solution: Option<usize>,
+    pub(super) alternatives: Vec<usize>,
+}
+
+/// Values nearer than this part of themselves are one.
+const SAME: f64 = 1e-6;
+
+impl Task<'_, '_> {
+    /// The choice at each frequency. Every unknown that is per frequency chooses its own path by continuity and causality (B-4); one solution has to be on all of them.
+    pub(super) fn choose(&self, which: &[usize], solutions: &[Vec<Solution>]) -> Vec<Chosen> {
+        let own: Vec<usize> =
+            (0..self.band.sought.len()).filter(|&j| self.band.sought[j].per_frequency() > 0).collect();
+        if own.is_empty() {
+            let one = |found: &Vec<Solution>| Chosen {
+                solution: (!found.is_empty()).then_some(0),
+                ..Chosen::default()
+            };
+            return solutions.iter().map(one).collect();
+        }
+        let options = SelectOptions {
+            sensors: self.band.experiment.sensors.len(),
+            sigma_known: matches!(self.band.noise, Noise::Known(_)),
+            ..SelectOptions::default()
+        };
+        let of = |&j: &usize| -> Vec<Choice> {
+            let nodes: Vec<Vec<Node>> = solutions
+                .iter()
+                .zip(which)
+                .map(|(found, &i)| found.iter().map(|solution| self.node(i, j, solution)).collect())
+                .collect();
+            let frequency_hz: Vec<f64> = which.iter().map(|&i| self.band.frequency_hz[i]).collect();
+            choose(&frequency_hz, &nodes, &options)
+        };
+        let choices: Vec<Vec<Choice>> = own.iter().map(of).collect();
+        (0..solutions.len()).map(|i| self.agreed(i, &solutions[i], &own, &choices)).collect()
+    }
+
+    fn node(&self, i: usize, j: usize, solution: &Solution) -> Node {
+        let stds = self.spot(i).stds(solution);
+        Node { factor: solution.values[j], misfit: solution.misfit, std: stds[j] }
+    }
+
+    /// The solution that every unknown's path goes through; those that some path cannot exclude are its alternatives.
+    fn agreed(&self, i: usize, found: &[Solution], own: &[usize], choices: &[Vec<Choice>]) -> Chosen {
+        let same = |j: usize, a: usize, b: usize| {
+            let (a, b) = (found[a].values[j], found[b].values[j]);
+            (a - b).norm() <= SAME * a.norm()
+        };
+        let is_on = |k: usize, (&j, choices): (&usize, &Vec<Choice>)| {
+            choices[i].chosen.is_some_and(|chosen| chosen == k || same(j, chosen, k))
+        };
+        let on_all: Vec<usize> =
+            (0..found.len()).filter(|&k| own.iter().zip(choices).all(|both| is_on(k, both))).collect();
+        let mut others: Vec<usize> =
+            choices.iter().flat_map(|choices| choices[i].alternatives.clone()).collect();
+        others.sort_unstable();
+        others.dedup();
+        match on_all.first() {
+            // By their misfit: the first is the best.
+            Some(&best) => {
+                others.retain(|&k| k != best);
+                // An alternative of one unknown that another one excludes is none.
+                let possible = |k: usize| {
+                    own.iter().zip(choices).all(|(&j, choices)| {
+                        let near = |other: usize| other == k || same(j, other, k);
+                        choices[i].chosen.is_some_and(near)
+                            || choices[i].alternatives.iter().copied().any(near)
+                    })
+                };
+                others.retain(|&k| possible(k));
+                Chosen { solution: Some(best), alternatives: others }
+            }
+            None => {
+                others.extend(choices.iter().filter_map(|choices| choices[i].chosen));
+                others.sort_unstable();
+                others.dedup();
+                Chosen { solution: None, alternatives: others }
+            }
+        }
+    }
+
+    pub(super) fn spot(&self, i: usize) -> Spot<'_> {
+        let size = self.nominal[i].iter().map(|p| if p.norm() > 0.0 { p.norm() } else { 1.0 }).collect();
+        Spot { sought: self.band.sought, measured: &self.band.measured[i], sigma: &self.sigma[i], size }
+    }
+}
+
+impl Spot<'_> {
+    /// Covariance of a frequency's own coordinates for given θ, (JᵀJ)⁻¹ row by row; infinite diagonal where nothing is told.
+    pub(super) fn covariance(&self, solution: &Solution) -> Vec<Vec<f64>> {
+        let n = self.count();
+        if n == 0 {
+            return Vec::new();
+        }
+        let m = solution.residuals.len();
+        let dot = |a: usize, b: usize| -> f64 {
+            let column = |c: usize| &solution.of_own[c * m..(c + 1) * m];
+            column(a).iter().zip(column(b)).map(|(x, y)| x * y).sum()
+        };
+        let normal: Vec<f64> = (0..n * n).map(|k| dot(k / n, k % n)).collect();
+        let untold =
+            || (0..n).map(|a| (0..n).map(|b| if a == b { f64::INFINITY } else { 0.0 }).collect()).collect();
+        let Ok((values, vectors)) = symmetric_eigen(n, &normal) else { return untold() };
+        if values.iter().any(|&value| value <= 0.0) {
+            return untold();
+        }
+        let entry = |a: usize, b: usize| -> f64 {
+            (0..n).map(|k| vectors[k * n + a] * vectors[k * n + b] / values[k]).sum()
+        };
+        (0..n).map(|a| (0..n).map(|b| entry(a, b)).collect()).collect()
+    }
+
+    /// Standard deviation of the parts of each unknown that the frequency has of its own, at σ; 0 for the others.
+    fn stds(&self, solution: &Solution) -> Vec<f64> {
+        let covariance = self.covariance(solution);
+        let mut at = 0;
+        let mut std = |(one, size): (&Sought, &f64)| {
+            let count = one.per_frequency();
+            let largest = (at..at + count).map(|a| covariance[a][a]).fold(0.0, f64::max);
+            at += count;
+            size * largest.sqrt()
+        };
+        self.sought.iter().zip(&self.size).map(&mut std).collect()
+    }
+}

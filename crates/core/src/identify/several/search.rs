@@ -1,0 +1,419 @@
+//! The numbers that hold for the band, with what each frequency has of its own eliminated.
+
+use super::coordinates::Coordinates;
+use super::information::Information;
+use super::path::Chosen;
+use super::sought::{Enters, Vary};
+use super::space::{Space, in_box};
+use super::spot::{Solution, eliminate};
+use super::{Sought, Task};
+use crate::c64;
+use crate::for_each::map;
+use crate::identify::band::{Fit, nearest, thinned};
+use crate::identify::{Options, Stage};
+use crate::laws::{Chart, Datum, Minimum, Search, descend};
+
+/// On which model, and for which θ, a frequency is looked at.
+struct At<'t, 'a> {
+    space: &'t Space<'a>,
+    coordinates: &'t Coordinates,
+    theta: &'t [f64],
+}
+
+/// What was found at some frequencies.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Found {
+    pub(super) coordinates: Coordinates,
+    pub(super) theta: Vec<f64>,
+    /// All solutions at each frequency, for that θ.
+    pub(super) solutions: Vec<Vec<Solution>>,
+    pub(super) chosen: Vec<Chosen>,
+    /// Whether the search ended because there was nothing more to gain.
+    pub(super) converged: bool,
+    /// Starts that were compared, and how many ended at the best.
+    pub(super) starts: usize,
+    pub(super) agreeing: usize,
+}
+
+/// Frequencies at which starts are compared.
+const PART: usize = 48;
+
+/// Points of the box for each unknown that a frequency has of its own.
+const PER_UNKNOWN: usize = 8;
+
+/// Frequencies at which solutions are looked for all over the box: so many at least, and every so-many-th at least. Between them those of both sides are followed.
+const ANCHORS: usize = 12;
+const APART: usize = 8;
+
+/// Choices among the solutions, each at better θ; they change what is chosen hardly ever after the first.
+const CHOICES: usize = 4;
+
+/// A change of θ, whose coordinates are of size one, that changes no choice.
+const SETTLED: f64 = 1e-7;
+
+/// Evaluations for each coordinate.
+const PATIENCE: usize = 25;
+
+/// Starts whose misfits agree to this part are one.
+const AGREE: f64 = 1e-3;
+
+/// Where solutions are looked for at a frequency.
+enum Guess<'g> {
+    /// Near some values, and all over the box.
+    Everywhere(&'g [c64]),
+    /// Where they were.
+    Known(&'g [Vec<Solution>]),
+}
+
+impl Task<'_, '_> {
+    /// Everything, on a subspace that is good where it ends.
+    pub(super) fn search(&self, space: &mut Space<'_>) -> Found {
+        let all: Vec<usize> = (0..self.omegas.len()).collect();
+        let part: Vec<usize> = thinned(&all, PART).copied().collect();
+        (self.hooks.progress)(Stage::Solutions, 0, all.len());
+        let mut tried: Vec<(f64, Found, Vec<c64>)> = Vec::new();
+        let mut begin = self.starts(space);
+        if self.coordinates().count == 0 {
+            // Nothing holds for the band: every frequency is searched for itself, wherever it begins.
+            begin.truncate(1);
+        }
+        for values in begin {
+            let found = self.follow(space, &part, self.theta(&values), &Guess::Everywhere(&values));
+            tried.push((found.misfit(), found, values));
+        }
+        tried.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let (least, first, values) = tried.swap_remove(0);
+        let agreeing = 1 + tried.iter().filter(|other| other.0 <= least * (1.0 + AGREE)).count();
+        let mut found = match part.len() == all.len() {
+            true => first,
+            false => self.follow(space, &all, first.theta, &Guess::Everywhere(&values)),
+        };
+        for _ in 0..Space::ROUNDS {
+            let answers: Vec<(usize, Vec<c64>)> =
+                all.iter().filter_map(|&i| Some((i, found.at(i)?.values.clone()))).collect();
+            if !space.refine(&answers, self.hooks) {
+                break;
+            }
+            let known = std::mem::take(&mut found.solutions);
+            found = self.follow(space, &all, found.theta, &Guess::Known(&known));
+        }
+        (self.hooks.progress)(Stage::Solutions, all.len(), all.len());
+        Found { starts: 1 + tried.len(), agreeing, ..found }
+    }
+
+    /// What holds for the band, as it varies.
+    fn coordinates(&self) -> Coordinates {
+        let middle = &self.nominal[self.nominal.len() / 2];
+        Coordinates::new(self.band.sought, |one| one.varies, middle, &self.omegas)
+    }
+
+    /// θ that begins with these constants; a law with the shape of its nominal.
+    fn theta(&self, values: &[c64]) -> Vec<f64> {
+        let middle = &self.nominal[self.nominal.len() / 2];
+        let law = |chart: &Chart, j: usize| {
+            let ratio = values[j] / middle[j];
+            let data: Vec<Datum> = self
+                .omegas
+                .iter()
+                .zip(self.nominal)
+                .filter(|(_, nominal)| (nominal[j] * ratio).re > 0.0)
+                .map(|(&omega, nominal)| Datum::relative(omega, nominal[j] * ratio))
+                .collect();
+            nearest(chart, &data).map_or_else(|| vec![0.0; chart.family.count()], |near| near.best.theta)
+        };
+        self.coordinates().of(values, law)
+    }
+
+    /// All unknowns at a frequency, those that it has of its own at some given values; and ∂p/∂θ: (unknown, coordinate, slope).
+    fn given(&self, coordinates: &Coordinates, theta: &[f64], i: usize, own: &[c64]) -> Option<Given> {
+        let mut values = own.to_vec();
+        let mut slopes = Vec::with_capacity(theta.len());
+        for one in &coordinates.each {
+            let (value, of_theta) = one.value(theta, self.omegas[i])?;
+            values[one.sought] = value;
+            slopes.extend(of_theta.into_iter().map(|slope| (one.sought, slope)));
+        }
+        Some((values, slopes))
+    }
+
+    /// Solutions, the choice among them and θ in turn, until the choice stays.
+    fn follow(&self, space: &Space<'_>, which: &[usize], theta: Vec<f64>, guess: &Guess<'_>) -> Found {
+        let coordinates = self.coordinates();
+        let mut found = self.found(space, which, coordinates, theta, guess);
+        for _ in 0..CHOICES {
+            if found.theta.is_empty() {
+                break;
+            }
+            let before = found.theta.clone();
+            let Some((theta, converged)) = self.descend(space, which, &found) else { break };
+            let moved = super::spot::distance(&before, &theta);
+            let known = std::mem::take(&mut found.solutions);
+            found = self.found(space, which, found.coordinates, theta, &Guess::Known(&known));
+            found.converged = converged;
+            if moved <= SETTLED {
+                break;
+            }
+        }
+        found
+    }
+
+    fn found(
+        &self,
+        space: &Space<'_>,
+        which: &[usize],
+        coordinates: Coordinates,
+        theta: Vec<f64>,
+        guess: &Guess<'_>,
+    ) -> Found {
+        let at = At { space, coordinates: &coordinates, theta: &theta };
+        let n = which.len();
+        let per_frequency = self.band.sought.iter().any(|one| one.per_frequency() > 0);
+        let from = |solutions: &[Vec<Solution>], k: usize, beside: &[usize]| -> Vec<Solution> {
+            let spot = self.spot(which[k]);
+            let starts = beside.iter().flat_map(|&b| &solutions[b]).map(|one| spot.coordinates(&one.values));
+            self.settled(&at, which[k], &starts.collect::<Vec<_>>())
+        };
+        let mut solutions = match guess {
+            Guess::Known(known) => map(self.hooks.for_each, n, |k| from(known, k, &[k])),
+            Guess::Everywhere(_) if !per_frequency => {
+                map(self.hooks.for_each, n, |k| self.settled(&at, which[k], &[Vec::new()]))
+            }
+            Guess::Everywhere(values) => {
+                let anchors: Vec<usize> = (0..n).step_by((n / ANCHORS).clamp(1, APART)).collect();
+                let found = map(self.hooks.for_each, anchors.len(), |a| {
+                    self.everywhere(&at, which[anchors[a]], values)
+                });
+                let beside = |k: usize| {
+                    let after = anchors.partition_point(|&anchor| anchor <= k);
+                    [after.saturating_sub(1), after.min(anchors.len() - 1)]
+                };
+                map(self.hooks.for_each, n, |k| from(&found, k, &beside(k)))
+            }
+        };
+        if per_frequency {
+            // What one frequency has, its neighbours may have too.
+            let before = solutions;
+            let beside = |k: usize| [k.saturating_sub(1), k, (k + 1).min(n - 1)];
+            solutions = map(self.hooks.for_each, n, |k| from(&before, k, &beside(k)));
+        }
+        let mut chosen = self.choose(which, &solutions);
+        if let Guess::Everywhere(values) = guess {
+            let lost: Vec<usize> =
+                (0..n).filter(|&k| per_frequency && chosen[k].solution.is_none()).collect();
+            if !lost.is_empty() {
+                let again =
+                    map(self.hooks.for_each, lost.len(), |l| self.everywhere(&at, which[lost[l]], values));
+                lost.into_iter().zip(again).for_each(|(k, again)| solutions[k] = again);
+                chosen = self.choose(which, &solutions);
+            }
+        }
+        Found { coordinates, theta, solutions, chosen, converged: true, starts: 1, agreeing: 1 }
+    }
+
+    /// The solutions at a frequency that some values, the nominal ones and points all over the box lead to; of one unknown that stands for a factor, all there are.
+    fn everywhere(&self, at: &At<'_, '_>, i: usize, values: &[c64]) -> Vec<Solution> {
+        let spot = self.spot(i);
+        let mut starts = vec![spot.coordinates(values), spot.coordinates(&self.nominal[i])];
+        match self.all_of_one(at, i) {
+            Some(all) => starts.extend(all.iter().map(|values| spot.coordinates(values))),
+            None => {
+                let own = self.band.sought.iter().filter(|one| one.per_frequency() > 0).count();
+                let points =
+                    (1..=PER_UNKNOWN * own).map(|k| in_box(&at.space.composite, &self.nominal[i], k));
+                starts.extend(points.map(|values| spot.coordinates(&values)));
+            }
+        }
+        // Most starts lead nowhere: that is told on a model of few vectors.
+        let Some((given, _)) = self.given(at.coordinates, at.theta, i, &self.nominal[i]) else {
+            return Vec::new();
+        };
+        let rough = at.space.rough(i);
+        let found = spot.solutions(&starts, &given, |values| at.space.respond_on(&rough, i, values));
+        self.settled(at, i, &found.into_iter().map(|solution| solution.own).collect::<Vec<_>>())
+    }
+
+    fn settled(&self, at: &At<'_, '_>, i: usize, starts: &[Vec<f64>]) -> Vec<Solution> {
+        let Some((given, _)) = self.given(at.coordinates, at.theta, i, &self.nominal[i]) else {
+            return Vec::new();
+        };
+        self.spot(i).solutions(starts, &given, |values| at.space.respond(i, values))
+    }
+
+    /// All solutions (B-2) where one unknown alone is the frequency's own, and stands for a factor; `None` otherwise.
+    fn all_of_one(&self, place: &At<'_, '_>, i: usize) -> Option<Vec<Vec<c64>>> {
+        let At { space, coordinates, theta } = place;
+        let mut own =
+            (0..self.band.sought.len()).filter(|&j| self.band.sought[j].varies == Vary::PerFrequency);
+        let (j, None) = (own.next()?, own.next()) else { return None };
+        let Sought { enters: Enters::Factor(_), bounds, real, .. } = &self.band.sought[j] else {
+            return None;
+        };
+        let (given, _) = self.given(coordinates, theta, i, &self.nominal[i])?;
+        let mut at = space.at(i, &given)?;
+        at.parameters.swap(0, j);
+        at.parameters.truncate(1);
+        let options = Options { bounds: *bounds, real: *real, ..*self.options };
+        let fit = Fit {
+            measured: &self.band.measured[i],
+            sigma: &self.sigma[i],
+            nominal: given[j],
+            options: &options,
+        };
+        let explored = fit.explore_reduced(space.model(i), &at);
+        let values = |correction: c64| {
+            let mut values = given.clone();
+            values[j] += correction;
+            values
+        };
+        Some(explored.solutions.iter().map(|solution| values(solution.correction)).collect())
+    }
+
+    /// θ of least misfit with the chosen solutions, and whether the search settled. A direction that nothing tells is left where it began: there is nothing to gain along it,
+    /// and no end.
+    fn descend(&self, space: &Space<'_>, which: &[usize], found: &Found) -> Option<(Vec<f64>, bool)> {
+        let base = self.eliminated(space, which, found, &found.theta, None)?;
+        let basis = Information::new(&base.jacobian, found.theta.len())?.told();
+        let plane = Plane { origin: &found.theta, basis: &basis };
+        let end = self.search_in(space, which, (found, &base), &plane, &vec![0.0; basis.len()], PATIENCE)?;
+        Some((plane.at(&end.theta), end.converged))
+    }
+
+    /// The least misfit with θ on a plane, its own coordinates the search's; each frequency's own begin where its slopes have them.
+    pub(super) fn search_in(
+        &self,
+        space: &Space<'_>,
+        which: &[usize],
+        (found, base): (&Found, &Eliminated),
+        plane: &Plane<'_>,
+        from: &[f64],
+        patience: usize,
+    ) -> Option<Minimum> {
+        let n = found.theta.len();
+        let evaluate = |t: &[f64]| {
+            let theta = plane.at(t);
+            let moved = |k: usize| -> Option<Vec<f64>> {
+                let (own, slopes) = base.own[k].as_ref()?;
+                let by = |a: usize| -> f64 {
+                    let steps = theta.iter().zip(&found.theta).map(|(t, t0)| t - t0);
+                    slopes.iter().zip(steps).map(|(slope, step)| slope[a] * step).sum()
+                };
+                Some((0..own.len()).map(|a| own[a] + by(a)).collect())
+            };
+            let here = self.eliminated(space, which, found, &theta, Some(&moved))?;
+            let m = here.residuals.len();
+            let along = |v: &Vec<f64>| -> Vec<f64> {
+                (0..m).map(|r| (0..n).map(|c| here.jacobian[c * m + r] * v[c]).sum()).collect()
+            };
+            let jacobian = plane.basis.iter().flat_map(along).collect();
+            Some((here.residuals, jacobian))
+        };
+        let search = Search { starts: 1, patience, same: 0.0 };
+        descend(from, &evaluate, &search)
+    }
+
+    /// Residuals at θ with each frequency's own at its best, and their slopes by θ with that eliminated; `start` says where to look for its own.
+    pub(super) fn eliminated(
+        &self,
+        space: &Space<'_>,
+        which: &[usize],
+        found: &Found,
+        theta: &[f64],
+        start: Option<&(dyn Fn(usize) -> Option<Vec<f64>> + Sync)>,
+    ) -> Option<Eliminated> {
+        let one = |k: usize| -> Option<Option<Part>> {
+            let Some(solution) = found.at(k) else { return Some(None) };
+            let i = which[k];
+            let (given, slopes) = self.given(&found.coordinates, theta, i, &solution.values)?;
+            let spot = self.spot(i);
+            let here = match start {
+                None => solution.clone(),
+                Some(start) => spot.settle(&start(k)?, &given, |values| space.respond(i, values))?,
+            };
+            let m = here.residuals.len();
+            let column = |(j, slope): &(usize, c64)| {
+                here.of_values[*j]
+                    .iter()
+                    .flat_map(|v| {
+                        let v = v * slope;
+                        [v.re, v.im]
+                    })
+                    .collect::<Vec<f64>>()
+            };
+            let mut columns: Vec<f64> = slopes.iter().flat_map(column).collect();
+            let contained = eliminate(&here.of_own, &mut columns, m);
+            let moved = contained.into_iter().map(|x| x.into_iter().map(|x| -x).collect()).collect();
+            Some(Some(Part { residuals: here.residuals, columns, own: here.own, moved }))
+        };
+        let parts = map(self.hooks.for_each, which.len(), one).into_iter().collect::<Option<Vec<_>>>()?;
+        let n = theta.len();
+        let mut residuals: Vec<f64> = Vec::new();
+        let mut jacobian: Vec<f64> = Vec::new();
+        for part in parts.iter().flatten() {
+            residuals.extend(&part.residuals);
+        }
+        for c in 0..n {
+            for part in parts.iter().flatten() {
+                let m = part.residuals.len();
+                jacobian.extend(&part.columns[c * m..(c + 1) * m]);
+            }
+        }
+        let own = parts.into_iter().map(|part| part.map(|part| (part.own, part.moved))).collect();
+        let finite = residuals.iter().chain(&jacobian).all(|value| value.is_finite());
+        finite.then_some(Eliminated { residuals, jacobian, own })
+    }
+}
+
+/// θ = origin + Σ t_k v_k.
+pub(super) struct Plane<'p> {
+    pub(super) origin: &'p [f64],
+    pub(super) basis: &'p [Vec<f64>],
+}
+
+impl Plane<'_> {
+    fn at(&self, t: &[f64]) -> Vec<f64> {
+        let along = |c: usize| self.basis.iter().zip(t).map(|(v, t)| t * v[c]).sum::<f64>();
+        self.origin.iter().enumerate().map(|(c, origin)| origin + along(c)).collect()
+    }
+}
+
+/// Values of all unknowns at a frequency, and (unknown, ∂p/∂θ) for each coordinate of θ.
+type Given = (Vec<c64>, Vec<(usize, c64)>);
+
+/// A frequency's own coordinates y, and ∂y/∂θ as `[coordinate of θ][own]`.
+pub(super) type Moving = (Vec<f64>, Vec<Vec<f64>>);
+
+/// One frequency's part of [`Eliminated`].
+struct Part {
+    residuals: Vec<f64>,
+    columns: Vec<f64>,
+    own: Vec<f64>,
+    moved: Vec<Vec<f64>>,
+}
+
+/// Residuals of the chosen solutions as functions of θ alone.
+pub(super) struct Eliminated {
+    pub(super) residuals: Vec<f64>,
+    /// Column after column.
+    pub(super) jacobian: Vec<f64>,
+    /// At each frequency that has a solution.
+    pub(super) own: Vec<Option<Moving>>,
+}
+
+impl Found {
+    /// The chosen solution at the k-th frequency.
+    pub(super) fn at(&self, k: usize) -> Option<&Solution> {
+        self.solutions[k].get(self.chosen[k].solution?)
+    }
+
+    /// What is left, with what a frequency without an answer would leave at least: nothing is gained by leaving frequencies out.
+    fn misfit(&self) -> f64 {
+        let each: Vec<f64> = (0..self.chosen.len()).filter_map(|k| Some(self.at(k)?.misfit)).collect();
+        let worst = each.iter().copied().fold(0.0, f64::max);
+        let missing = self.chosen.len() - each.len();
+        if each.is_empty() {
+            f64::INFINITY
+        } else {
+            each.iter().sum::<f64>() + 10.0 * missing as f64 * worst.max(1.0)
+        }
+    }
+}

@@ -1,0 +1,189 @@
+//! `[[identify]]`: several unknowns, or one that does not vary.
+
+use super::field::{Field, Table};
+use super::sections::{band, factor, leave_out};
+use super::{Located, SeveralEntry, SoughtEntry, SoughtVaries};
+use crate::error::InputError;
+use frfit::laws::{Family, MAX_BRANCHES, UnknownFamily};
+
+const OF_EACH: [&str; 10] =
+    ["name", "matrix", "powers", "varies", "law", "branches", "nominal", "bounds", "real", "truth"];
+const OF_FIRST: [&str; 2] = ["band_hz", "leave_out_hz"];
+
+/// Whether `identify` is such: `[[identify]]`, or a single table with `powers` or a constant.
+pub(super) fn is_several(field: &Field<'_>) -> bool {
+    let has = |key: &str, value: Option<&str>| field.has(key, value);
+    field.is_list() || has("powers", None) || has("varies", Some("constant"))
+}
+
+/// All unknowns.
+pub(super) fn several(field: &Field<'_>) -> Result<SeveralEntry, InputError> {
+    let known: Vec<&str> = OF_EACH.into_iter().chain(OF_FIRST).collect();
+    let tables = match field.is_list() {
+        true => field.tables("identify", &known)?,
+        false => vec![field.table(&known)?],
+    };
+    for table in &tables[1..] {
+        if let Some(key) = OF_FIRST.into_iter().find_map(|key| table.find(key)) {
+            return Err(InputError::at(&key.place, "this key in the first [[identify]], for all", "it here"));
+        }
+    }
+    let first = &tables[0];
+    let unknowns = tables.iter().map(sought).collect::<Result<Vec<_>, _>>()?;
+    for (k, one) in unknowns.iter().enumerate() {
+        if unknowns[..k].iter().any(|earlier| earlier.name.value == one.name.value) {
+            let found = format!("{:?} a second time", one.name.value);
+            return Err(InputError::at(&one.name.place, "a name of its own for each unknown", found));
+        }
+    }
+    Ok(SeveralEntry {
+        place: first.place.clone(),
+        unknowns,
+        band_hz: first.find("band_hz").map(|field| band(&field)).transpose()?,
+        leave_out: first.find("leave_out_hz").map_or(Ok(Vec::new()), |field| leave_out(&field))?,
+    })
+}
+
+fn sought(table: &Table<'_>) -> Result<SoughtEntry, InputError> {
+    let powers = table.find("powers").map(|field| powers(&field)).transpose()?.unwrap_or_default();
+    let matrices = match (table.find("matrix"), powers.is_empty()) {
+        (Some(matrix), true) => matrix.texts()?,
+        (None, false) => Vec::new(),
+        (Some(matrix), false) => {
+            return Err(InputError::at(&matrix.place, "one of matrix and powers", "both"));
+        }
+        (None, true) => {
+            let expected = "the key matrix (whose factor is unknown) or powers (a dimension)";
+            return Err(InputError::at(&table.place, expected, "none"));
+        }
+    };
+    let is_dimension = !powers.is_empty();
+    let name = match table.find("name") {
+        Some(name) => name.text()?,
+        None if is_dimension => {
+            return Err(InputError::at(&table.place, "the key name beside powers", "none"));
+        }
+        None => {
+            let joined = matrices.iter().map(|name| name.value.clone()).collect::<Vec<_>>().join(", ");
+            Located { value: joined, place: table.place.clone() }
+        }
+    };
+    let real = table.find("real").map(|real| real.flag()).transpose()?.unwrap_or(is_dimension);
+    let varies = varies(table, is_dimension, real)?;
+    let nominal = match table.find("nominal") {
+        Some(field) if is_dimension => Some(Located { value: field.number()?, place: field.place }),
+        Some(field) => {
+            let expected = "no nominal value: it is the factor of the matrix";
+            return Err(InputError::at(&field.place, expected, "one"));
+        }
+        None if is_dimension => {
+            return Err(InputError::at(
+                &table.place,
+                "the key nominal, the dimension's value to begin with",
+                "none",
+            ));
+        }
+        None => None,
+    };
+    let (mut storage, mut loss_factor) = (None, None);
+    if let Some(field) = table.find("bounds") {
+        if field.is_table() {
+            let bounds = field.table(&["storage", "loss_factor"])?;
+            let bound = |name| bounds.find(name).map(|f| f.pair()).transpose();
+            (storage, loss_factor) = (bound("storage")?, bound("loss_factor")?);
+        } else {
+            storage = Some(field.pair()?);
+        }
+    }
+    for bound in storage.iter().chain(&loss_factor) {
+        let [low, high] = bound.value;
+        if !(low < high && high.is_finite()) {
+            return Err(InputError::at(
+                &bound.place,
+                "[low, high] with low < high",
+                format!("[{low}, {high}]"),
+            ));
+        }
+    }
+    Ok(SoughtEntry {
+        place: table.place.clone(),
+        name,
+        matrices,
+        powers,
+        varies,
+        real,
+        nominal,
+        storage,
+        loss_factor,
+        truth: table.find("truth").map(|truth| factor(&truth)).transpose()?,
+    })
+}
+
+/// `powers = { bending = 3, mass = 1 }`.
+fn powers(field: &Field<'_>) -> Result<Vec<(Located<String>, i32)>, InputError> {
+    const EXPECTED: &str = "a table of matrices and powers, as { bending = 3, mass = 1 }";
+    const MOST: i64 = 12;
+    let each = field.entries().ok_or_else(|| field.refuse(EXPECTED))?;
+    let mut powers = Vec::new();
+    for (name, value) in each {
+        let power = value.whole()?.value;
+        if power == 0 || power.abs() > MOST {
+            return Err(value.refuse("a whole number from -12 to 12 other than 0"));
+        }
+        powers.push((Located { value: name, place: value.place }, power as i32));
+    }
+    if powers.is_empty() { Err(field.refuse(EXPECTED)) } else { Ok(powers) }
+}
+
+fn varies(table: &Table<'_>, is_dimension: bool, real: bool) -> Result<SoughtVaries, InputError> {
+    const EXPECTED: &str = "\"frequency\" (a value of its own at each), \"constant\" or \"law\"";
+    enum Word {
+        Frequency,
+        Constant,
+        Law,
+    }
+    let word = |word: &str| match word {
+        "frequency" => Ok(Word::Frequency),
+        "constant" => Ok(Word::Constant),
+        "law" => Ok(Word::Law),
+        _ => Err(EXPECTED.to_owned()),
+    };
+    let found = table.find("varies").map(|field| field.word(word)).transpose()?;
+    let (law, branches) = (table.find("law"), table.find("branches"));
+    match found {
+        Some(Located { value: Word::Law, place }) => {
+            if real {
+                return Err(InputError::at(
+                    &place,
+                    "\"frequency\" or \"constant\" for a real unknown",
+                    "\"law\"",
+                ));
+            }
+            let law = law.ok_or_else(|| InputError::at(&place, "the key law beside it", "none"))?;
+            let family =
+                law.word(|word| word.parse::<Family>().map_err(|_| UnknownFamily::EXPECTED.to_owned()))?;
+            let mut family = family.value;
+            if let Some(key) = branches {
+                let count = key.whole()?.value;
+                let count = usize::try_from(count).ok().filter(|n| (1..=MAX_BRANCHES).contains(n));
+                let branches = count.ok_or_else(|| key.refuse(&format!("1 to {MAX_BRANCHES}")))?;
+                match family {
+                    Family::Maxwell { .. } => family = Family::Maxwell { branches },
+                    _ => return Err(InputError::at(&key.place, "law = \"maxwell\" beside it", "none")),
+                }
+            }
+            Ok(SoughtVaries::ByLaw(family))
+        }
+        other => {
+            if let Some(key) = law.or(branches) {
+                return Err(InputError::at(&key.place, "varies = \"law\" beside it", "none"));
+            }
+            Ok(match other {
+                Some(Located { value: Word::Constant, .. }) => SoughtVaries::Constant,
+                Some(_) => SoughtVaries::Freely,
+                None if is_dimension => SoughtVaries::Constant,
+                None => SoughtVaries::Freely,
+            })
+        }
+    }
+}

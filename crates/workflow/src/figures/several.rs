@@ -1,0 +1,156 @@
+//! Several unknowns: the responses, each unknown over frequency, and how those that hold for the band hang together.
+
+use super::{draw, strip_of, title};
+use crate::figures::accelerance::modulus;
+use crate::load::{Case, SeveralCase};
+use crate::output::{File, file_name};
+use crate::run::SeveralRun;
+use frfit::c64;
+use frfit::identify::{Status, ValueAt, Vary};
+use frfit::material::loss_factor;
+use frfit_figures::{Axis, Color, Dash, Figure, Marker, Panel, PngError, Series};
+
+/// Half-length of an error bar in standard deviations.
+const DEVIATIONS: f64 = 2.0;
+
+/// `figures/accelerance-*.*`, `figures/<unknown>.*` of what varies, `figures/profile.*`.
+///
+/// # Errors
+/// [`PngError`] where a figure cannot be rasterised.
+pub fn several_figures(case: &Case, wanted: &SeveralCase, run: &SeveralRun) -> Result<Vec<File>, PngError> {
+    let mut figures = Vec::new();
+    for m in 0..case.sensors.len() {
+        let name =
+            if case.sensors.len() == 1 { "accelerance".into() } else { format!("accelerance-{}", m + 1) };
+        figures.push((name, accelerance(case, wanted, run, m)));
+    }
+    // A constant over frequency is a number, not a curve.
+    for j in (0..wanted.sought.len()).filter(|&j| wanted.sought[j].varies != Vary::Constant) {
+        figures.push((file_name(&wanted.sought[j].name), over_frequency(case, wanted, run, j)));
+    }
+    if let Some(profile) = &run.outcome.profile {
+        let (x, y): (Vec<f64>, Vec<f64>) = profile.points.iter().copied().unzip();
+        // What a straight line of slopes would have it.
+        let std = run.outcome.directions.first().map_or(f64::INFINITY, |worst| worst.std);
+        let parabola = x.iter().map(|t| (t / std).powi(2)).collect();
+        let series = |label: &str, y, color, line, marker| Series {
+            label: label.into(),
+            x: x.clone(),
+            y,
+            color,
+            line,
+            marker,
+            ..Series::default()
+        };
+        figures.push((
+            "profile".to_owned(),
+            Figure {
+                title: title(case, "misfit along what is told worst"),
+                x: Axis::linear("Distance from the answer (1 is a factor of e)"),
+                panels: vec![Panel {
+                    y: Axis::linear("Δχ²"),
+                    series: vec![
+                        series(
+                            "all else at its best",
+                            y,
+                            Color::Vermilion,
+                            Some(Dash::Solid),
+                            Some(Marker::Circle),
+                        ),
+                        series("as the error bar has it", parabola, Color::Grey, Some(Dash::Dashed), None),
+                    ],
+                    ..Panel::default()
+                }],
+                ..Figure::default()
+            },
+        ));
+    }
+    draw(figures)
+}
+
+fn accelerance(case: &Case, wanted: &SeveralCase, run: &SeveralRun, sensor: usize) -> Figure {
+    let x = &wanted.frequency_hz;
+    let at = &run.outcome.at;
+    let curve = |label: &str, responses: Vec<Option<c64>>, color, line, marker| Series {
+        label: label.into(),
+        x: x.clone(),
+        y: modulus(x, responses),
+        color,
+        line,
+        marker,
+        ..Series::default()
+    };
+    let nominal = at.iter().map(|at| at.nominal_response.get(sensor).copied()).collect();
+    let updated = at.iter().map(|at| at.updated_response.get(sensor).copied()).collect();
+    let measured = wanted.measured.iter().map(|u| u.get(sensor).copied()).collect();
+    Figure {
+        title: title(case, &format!("accelerance at {}", case.sensors[sensor].label)),
+        x: Axis::linear("Frequency (Hz)"),
+        panels: vec![Panel {
+            y: Axis::log("|Accelerance| (m/(s²·N))"),
+            series: vec![
+                curve("nominal", nominal, Color::Blue, Some(Dash::Dashed), None),
+                curve("measured", measured, Color::Black, None, Some(Marker::Circle)),
+                curve("updated", updated, Color::Vermilion, Some(Dash::Solid), None),
+            ],
+            strip: Some(strip_of(at.iter().map(|at| (at.frequency_hz, at.status)))),
+            ..Panel::default()
+        }],
+        ..Figure::default()
+    }
+}
+
+fn over_frequency(case: &Case, wanted: &SeveralCase, run: &SeveralRun, j: usize) -> Figure {
+    let one = &wanted.sought[j];
+    let at = &run.outcome.at;
+    let panel = |label: &str, part: fn(c64) -> f64, std: fn(&ValueAt) -> Option<f64>| {
+        let of = |values: Vec<Option<c64>>| {
+            values.into_iter().map(|v| v.map_or(f64::NAN, part)).collect::<Vec<f64>>()
+        };
+        let with = |ok: bool| {
+            at.iter()
+                .map(|at| at.values[j].filter(|_| (at.status == Status::Ok) == ok).map(|v| v.value))
+                .collect()
+        };
+        let bars = at
+            .iter()
+            .map(|at| at.values[j].as_ref().and_then(std).map_or(f64::NAN, |s| DEVIATIONS * s))
+            .collect();
+        let curve = |label: &str, y, color, line, marker| Series {
+            label: label.into(),
+            x: wanted.frequency_hz.clone(),
+            y,
+            color,
+            line,
+            marker,
+            ..Series::default()
+        };
+        let nominal = of(at.iter().map(|at| Some(at.nominal[j])).collect());
+        let mut series = vec![
+            curve("nominal", nominal, Color::Blue, Some(Dash::Dashed), None),
+            curve("not trusted", of(with(false)), Color::Grey, None, Some(Marker::Cross)),
+            Series {
+                y_error: bars,
+                ..curve("updated", of(with(true)), Color::Vermilion, None, Some(Marker::Circle))
+            },
+        ];
+        series.retain(|one| one.y.iter().any(|y| y.is_finite()));
+        if let Some(truth) = &wanted.truth[j] {
+            let truth = of(wanted.frequency_hz.iter().map(|&f| truth.at(f).ok()).collect());
+            series.push(curve("true", truth, Color::Black, Some(Dash::Solid), None));
+        }
+        Panel { y: Axis::linear(format!("{label}, ±2 std")), series, ..Panel::default() }
+    };
+    let strip = Some(strip_of(at.iter().map(|at| (at.frequency_hz, at.status))));
+    let first = if one.real { "Value" } else { "Storage modulus E′ (Pa)" };
+    let mut panels = vec![Panel { strip, ..panel(first, |v| v.re, |v| v.storage_std) }];
+    if !one.real {
+        panels.push(panel("Loss factor η", loss_factor, |v| v.loss_factor_std));
+    }
+    Figure {
+        title: title(case, &one.name),
+        x: Axis::linear("Frequency (Hz)"),
+        panels,
+        size: if one.real { (720.0, 460.0) } else { (720.0, 620.0) },
+    }
+}

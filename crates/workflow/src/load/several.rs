@@ -1,0 +1,207 @@
+//! Several unknowns, and the measurement to find them from.
+
+use super::Overrides;
+use super::band::band;
+use super::factor::{covers, law};
+use super::files::Files;
+use super::identify::{MeasuredNoise, known_names, left_out, shared_factor};
+use super::measurement::Measurement;
+use crate::case::{CaseFile, Located, SeveralEntry, SoughtEntry, SoughtVaries, checked_band};
+use crate::error::{InputError, Place};
+use frfit::c64;
+use frfit::identify::{Enters, Sought, Vary};
+use frfit::material::Law;
+use frfit::model::DynamicStiffness;
+use frfit::roots::Bounds;
+
+/// An identification of several unknowns, everything checked.
+#[derive(Debug)]
+pub struct SeveralCase {
+    /// What is unknown.
+    pub sought: Vec<Sought>,
+    /// What a simulated measurement was made with, for each.
+    pub truth: Vec<Option<Law>>,
+    /// First and last frequency of the band as it was asked for.
+    pub band_hz: [f64; 2],
+    /// The measured frequencies in it that are not left out, ascending; at least one.
+    pub frequency_hz: Vec<f64>,
+    /// Measured receptance in m/N, `[frequency][sensor]`.
+    pub measured: Vec<Vec<c64>>,
+    /// How well the receptances were measured.
+    pub noise: MeasuredNoise,
+}
+
+pub(super) fn several(
+    case: &CaseFile,
+    overrides: &Overrides,
+    model: &DynamicStiffness,
+    measurements: &[Measurement],
+    files: &mut Files,
+) -> Result<SeveralCase, InputError> {
+    let Some(entry) = &case.several else {
+        return Err(InputError::at(&Place::file(&case.file), "a table [[identify]]", "none"));
+    };
+    for (option, given) in [
+        ("--method", overrides.method.is_some()),
+        ("--order", overrides.order.is_some()),
+        ("--selection", overrides.selection.is_some()),
+        ("--space", overrides.space.is_some()),
+    ] {
+        if given {
+            let expected = "no such option with several unknowns: there is one way to find them";
+            return Err(InputError::at(&Place::option(option), expected, "one"));
+        }
+    }
+    refuse_unknown_channels(case)?;
+    let sought = entry.unknowns.iter().map(|one| sought(case, one, model)).collect::<Result<Vec<_>, _>>()?;
+    refuse_twice(entry, model)?;
+    let truth = entry
+        .unknowns
+        .iter()
+        .map(|one| one.truth.as_ref().map(|truth| law(truth, files)).transpose())
+        .collect::<Result<Vec<_>, _>>()?;
+    let (band_hz, place) = band_of(entry, overrides)?;
+    let data = band(measurements, band_hz, &place)?;
+    let out = left_out(&entry.leave_out, &data.frequency_hz);
+    let kept: Vec<usize> = (0..out.len()).filter(|&i| !out[i]).collect();
+    if !out.is_empty() && kept.is_empty() {
+        let expected = "a frequency of the band that is not left out";
+        return Err(InputError::at(&entry.place.below("leave_out_hz"), expected, "none"));
+    }
+    let pick = |rows: Vec<Vec<f64>>| kept.iter().map(|&i| rows[i].clone()).collect::<Vec<_>>();
+    let noise = match data.noise {
+        MeasuredNoise::Unknown => MeasuredNoise::Unknown,
+        MeasuredNoise::Relative(std) => MeasuredNoise::Relative(pick(std)),
+        MeasuredNoise::Known(std) => MeasuredNoise::Known(pick(std)),
+    };
+    let frequency_hz: Vec<f64> = kept.iter().map(|&i| data.frequency_hz[i]).collect();
+    for (one, truth) in entry.unknowns.iter().zip(&truth) {
+        if let (Some(written), Some(law)) = (&one.truth, truth) {
+            covers(law, &written.place, &frequency_hz)?;
+        }
+    }
+    let measured: Vec<Vec<c64>> = kept.iter().map(|&i| data.measured[i].clone()).collect();
+    enough(entry, &sought, frequency_hz.len(), measurements.len())?;
+    Ok(SeveralCase { sought, truth, band_hz, frequency_hz, measured, noise })
+}
+
+fn sought(case: &CaseFile, entry: &SoughtEntry, model: &DynamicStiffness) -> Result<Sought, InputError> {
+    let varies = match entry.varies {
+        SoughtVaries::Freely => Vary::PerFrequency,
+        SoughtVaries::Constant => Vary::Constant,
+        SoughtVaries::ByLaw(family) => Vary::Law(family),
+    };
+    let bounds = Bounds {
+        storage: entry.storage.as_ref().map(|bound| bound.value),
+        loss_factor: entry.loss_factor.as_ref().map(|bound| bound.value),
+    };
+    let name = entry.name.value.clone();
+    if let Some(Located { value, place }) = &entry.nominal {
+        let named: Vec<Located<String>> = entry.powers.iter().map(|(name, _)| name.clone()).collect();
+        known_names(case, &named)?;
+        let term = |name: &Located<String>| {
+            let found = model.find(&name.value);
+            found.map_err(|error| InputError::at(&name.place, "the name of a matrix", error.to_string()))
+        };
+        let powers = entry
+            .powers
+            .iter()
+            .map(|(name, power)| Ok((term(name)?, *power)))
+            .collect::<Result<_, InputError>>()?;
+        if *value == 0.0 {
+            return Err(InputError::at(place, "a dimension other than 0", "0"));
+        }
+        let nominal = Law::Constant(c64::new(*value, 0.0));
+        return Ok(Sought {
+            name,
+            enters: Enters::Powers(powers),
+            nominal,
+            varies,
+            real: entry.real,
+            bounds,
+        });
+    }
+    known_names(case, &entry.matrices)?;
+    let parameter = shared_factor(&entry.matrices, model, &entry.place)?;
+    let terms = parameter.members.iter().map(|member| member.term).collect();
+    if entry.real && matches!(&parameter.nominal, Law::Constant(value) if value.im != 0.0) {
+        let expected = "a matrix with a real factor, for real = true";
+        return Err(InputError::at(&entry.place, expected, "a loss factor"));
+    }
+    Ok(Sought {
+        name,
+        enters: Enters::Factor(terms),
+        nominal: parameter.nominal,
+        varies,
+        real: entry.real,
+        bounds,
+    })
+}
+
+/// The factor of a matrix is one unknown.
+fn refuse_twice(entry: &SeveralEntry, model: &DynamicStiffness) -> Result<(), InputError> {
+    let mut taken: Vec<(usize, &str)> = Vec::new();
+    for one in &entry.unknowns {
+        for name in &one.matrices {
+            let Ok(term) = model.find(&name.value) else { continue };
+            if let Some((_, other)) = taken.iter().find(|(other, _)| *other == term) {
+                let found = format!("{:?}, which is in {other:?} too", name.value);
+                return Err(InputError::at(&name.place, "each matrix's factor in one unknown", found));
+            }
+            taken.push((term, &one.name.value));
+        }
+    }
+    Ok(())
+}
+
+fn refuse_unknown_channels(case: &CaseFile) -> Result<(), InputError> {
+    use crate::case::Calibration;
+    let is_unknown = |entry: &&Located<Calibration>| entry.value == Calibration::Unknown;
+    let mut channels = case.measurements.iter().flat_map(|m| m.scale.iter().chain(&m.delay_s));
+    match channels.find(is_unknown) {
+        Some(entry) => {
+            let expected = "a number: channels are found beside one unknown that varies, not beside several";
+            Err(InputError::at(&entry.place, expected, "\"unknown\""))
+        }
+        None => Ok(()),
+    }
+}
+
+/// Refuses fewer measured than unknown numbers.
+fn enough(
+    entry: &SeveralEntry,
+    sought: &[Sought],
+    frequencies: usize,
+    sensors: usize,
+) -> Result<(), InputError> {
+    let own: usize = sought.iter().map(Sought::per_frequency).sum();
+    let band: usize = sought.iter().map(Sought::for_band).sum();
+    let told = |what: String| InputError::at(&entry.place, "no more unknown than measured numbers", what);
+    if own > 2 * sensors {
+        let found = format!(
+            "{own} unknown real numbers at each frequency, {} measured ones ({sensors} complex)",
+            2 * sensors
+        );
+        return Err(told(found));
+    }
+    let (unknown, measured) = (own * frequencies + band, 2 * sensors * frequencies);
+    if unknown > measured {
+        let found = format!(
+            "{unknown} unknown real numbers ({own} at each of {frequencies} frequencies, {band} for the band), {measured} measured ones"
+        );
+        return Err(told(found));
+    }
+    Ok(())
+}
+
+fn band_of(entry: &SeveralEntry, overrides: &Overrides) -> Result<([f64; 2], Place), InputError> {
+    if let Some(band_hz) = overrides.band_hz {
+        let place = Place::option("--band");
+        checked_band(band_hz, &place)?;
+        return Ok((band_hz, place));
+    }
+    match &entry.band_hz {
+        Some(band) => Ok((band.value, band.place.clone())),
+        None => Err(InputError::at(&entry.place, "the key \"band_hz\" in the first [[identify]]", "none")),
+    }
+}

@@ -1,0 +1,335 @@
+//! Tables, summary and words for several unknowns.
+
+use super::summary::inputs_json;
+use crate::load::{Case, MeasuredNoise, SeveralCase};
+use crate::run::SeveralRun;
+use frfit::identify::{Direction, Enters, Explained, SeveralOutcome, Sought, Status, ValueAt, Vary};
+use frfit::material::loss_factor;
+use frfit_formats::csv::{Cell, write};
+use serde_json::{Map, Value, json};
+
+/// A value within this of the truth counts as right.
+const RIGHT_WITHIN: f64 = 1e-5;
+
+/// A direction whose deviation is larger is not told.
+const UNTOLD: f64 = 0.3;
+
+/// A weight below this part of the largest is left out of a sentence.
+const SMALL: f64 = 0.05;
+
+/// `identified.csv`: one row a frequency, all unknowns side by side.
+pub fn several_csv(wanted: &SeveralCase, run: &SeveralRun) -> String {
+    let mut columns: Vec<String> =
+        ["frequency_hz", "status", "error", "chi2", "certificate"].map(Into::into).into();
+    for one in &wanted.sought {
+        let name = &one.name;
+        match one.real {
+            true => columns.extend([format!("{name}.value"), format!("{name}.std")]),
+            false => columns.extend(
+                ["storage", "loss_factor", "storage_std", "loss_factor_std", "storage_loss_correlation"]
+                    .map(|part| format!("{name}.{part}")),
+            ),
+        }
+    }
+    let rows = run.outcome.at.iter().map(|at| {
+        let mut row = vec![
+            Cell::Number(at.frequency_hz),
+            Cell::Text(at.status.name()),
+            at.error.into(),
+            at.chi_squared.into(),
+            at.certificate.into(),
+        ];
+        for (one, value) in wanted.sought.iter().zip(&at.values) {
+            row.extend(cells(one, value.as_ref()));
+        }
+        row
+    });
+    let columns: Vec<&str> = columns.iter().map(String::as_str).collect();
+    write(&columns, rows).expect("every row has the columns, and no name a line break")
+}
+
+fn cells<'a>(one: &Sought, value: Option<&ValueAt>) -> Vec<Cell<'a>> {
+    let of = |part: &dyn Fn(&ValueAt) -> Option<f64>| -> Cell<'a> { value.and_then(part).into() };
+    match one.real {
+        true => vec![of(&|v| Some(v.value.re)), of(&|v| v.storage_std)],
+        false => vec![
+            of(&|v| Some(v.value.re)),
+            of(&|v| Some(loss_factor(v.value))),
+            of(&|v| v.storage_std),
+            of(&|v| v.loss_factor_std),
+            of(&|v| v.correlation),
+        ],
+    }
+}
+
+/// `summary.json` of several unknowns.
+pub fn several_json(case: &Case, wanted: &SeveralCase, run: &SeveralRun, seconds_load: f64) -> Value {
+    let outcome = &run.outcome;
+    let mut statuses = Map::new();
+    for status in Status::ALL.into_iter().filter(|&status| run.count(status) > 0) {
+        statuses.insert(status.name().into(), json!(run.count(status)));
+    }
+    let unknown = |(j, one): (usize, &Sought)| {
+        let band = outcome.band.iter().find(|value| value.sought == j);
+        let numbers = band.map(|band| {
+            let of =
+                |n: &frfit::identify::Number| json!({"name": n.name, "value": n.value, "std": finite(n.std)});
+            band.numbers.iter().map(of).collect::<Vec<_>>()
+        });
+        json!({
+            "name": one.name,
+            "matrices": matrices(case, one),
+            "varies": varies(one),
+            "real": one.real,
+            "bounds": {"storage": one.bounds.storage, "loss_factor": one.bounds.loss_factor},
+            "numbers": numbers,
+            "status": band.map(|band| band.status.name()),
+            "truth": truth_json(wanted, run, j),
+        })
+    };
+    let direction = |direction: &Direction| {
+        let weights: Vec<Value> = direction
+            .weights
+            .iter()
+            .map(|&(c, weight)| json!({"of": coordinate(wanted, outcome, c), "weight": weight}))
+            .collect();
+        json!({"std": finite(Some(direction.std)), "weights": weights})
+    };
+    json!({
+        "frfit": env!("CARGO_PKG_VERSION"),
+        "title": case.title,
+        "inputs": inputs_json(case),
+        "model": {"dofs": case.model.dim(), "nonzeros": case.model.analysis().pattern().nonzeros()},
+        "band_hz": wanted.band_hz,
+        "frequencies": outcome.at.len(),
+        "unknowns": wanted.sought.iter().enumerate().map(unknown).collect::<Vec<_>>(),
+        "trusted": outcome.is_trusted(),
+        "status": statuses,
+        "coordinates": (0..outcome.coordinates.len()).map(|c| coordinate(wanted, outcome, c)).collect::<Vec<_>>(),
+        "correlation": outcome.correlation,
+        "directions": outcome.directions.iter().map(direction).collect::<Vec<_>>(),
+        "not_told": not_told(wanted, outcome),
+        "profile": outcome.profile.as_ref().map(|profile| &profile.points),
+        "noise": {
+            "source": noise_source(wanted, outcome),
+            "level": outcome.noise.level,
+        },
+        "fit": outcome.fit.map(|fit| json!({
+            "chi_squared": fit.chi_squared, "freedom": fit.freedom, "deviate": fit.deviate, "verdict": fit.verdict.name(),
+        })),
+        "search": {"converged": outcome.converged, "starts": outcome.starts, "agreeing": outcome.agreeing},
+        "counts": {
+            "factorisations": outcome.work.factorisations,
+            "solves": outcome.work.solves,
+            "subspace_size": outcome.subspace_size,
+            "certificate": certificate(outcome),
+        },
+        "seconds": {"load": seconds_load, "identify": run.seconds.identify()},
+    })
+}
+
+fn finite(value: Option<f64>) -> Option<f64> {
+    value.filter(|value| value.is_finite())
+}
+
+fn certificate(outcome: &SeveralOutcome) -> Option<f64> {
+    outcome.at.iter().filter_map(|at| at.certificate).reduce(f64::max)
+}
+
+fn noise_source(wanted: &SeveralCase, outcome: &SeveralOutcome) -> &'static str {
+    match wanted.noise {
+        MeasuredNoise::Known(_) => "given",
+        _ => outcome.noise.source.name(),
+    }
+}
+
+fn varies(one: &Sought) -> String {
+    match one.varies {
+        Vary::PerFrequency => "frequency".into(),
+        Vary::Constant => "constant".into(),
+        Vary::Law(family) => format!("law {family}"),
+    }
+}
+
+fn matrices(case: &Case, one: &Sought) -> Value {
+    let name = |term: &usize| case.model.terms()[*term].name.clone();
+    match &one.enters {
+        Enters::Factor(terms) => json!(terms.iter().map(name).collect::<Vec<_>>()),
+        Enters::Powers(powers) => {
+            json!(powers.iter().map(|(term, power)| (name(term), json!(power))).collect::<Map<_, _>>())
+        }
+    }
+}
+
+/// How far an unknown is from what a simulated measurement was made with; one that holds for the band by its value at the middle, in its deviations.
+fn truth_json(wanted: &SeveralCase, run: &SeveralRun, j: usize) -> Value {
+    let Some(truth) = &wanted.truth[j] else { return Value::Null };
+    if wanted.sought[j].varies != Vary::PerFrequency {
+        let at = &run.outcome.at[run.outcome.at.len() / 2];
+        let (Ok(exact), Some(found)) = (truth.at(at.frequency_hz), at.values[j]) else { return Value::Null };
+        let parts = [
+            Some(found.value.re - exact.re).zip(found.storage_std),
+            Some(loss_factor(found.value) - loss_factor(exact)).zip(found.loss_factor_std),
+        ];
+        let deviations = parts.into_iter().flatten().map(|(off, std)| (off / std).abs()).reduce(f64::max);
+        let relative = (found.value - exact).norm() / exact.norm();
+        return json!({"relative": relative, "deviations": finite(deviations)});
+    }
+    let off: Vec<Option<(f64, bool)>> = run
+        .outcome
+        .at
+        .iter()
+        .map(|at| {
+            let exact = truth.at(at.frequency_hz).ok()?;
+            let value = at.values[j]?;
+            Some(((value.value - exact).norm() / exact.norm(), at.status == Status::Ok))
+        })
+        .collect();
+    let right = off.iter().flatten().filter(|(off, _)| *off <= RIGHT_WITHIN).count();
+    let largest = off.iter().flatten().filter(|(_, ok)| *ok).map(|(off, _)| *off).reduce(f64::max);
+    let wrong_and_ok = off.iter().flatten().filter(|(off, ok)| *ok && *off > RIGHT_WITHIN).count();
+    json!({
+        "within": RIGHT_WITHIN,
+        "fraction_right": right as f64 / off.len().max(1) as f64,
+        "wrong_and_ok": wrong_and_ok,
+        "deviation_max_ok": largest,
+    })
+}
+
+/// `core`, `core loss_factor`, `skins e0`.
+fn coordinate(wanted: &SeveralCase, outcome: &SeveralOutcome, c: usize) -> String {
+    let (j, number) = &outcome.coordinates[c];
+    let name = &wanted.sought[*j].name;
+    if number == "value" { name.clone() } else { format!("{name} {number}") }
+}
+
+/// The combinations that the measurements do not tell, in words.
+fn not_told(wanted: &SeveralCase, outcome: &SeveralOutcome) -> Vec<String> {
+    let sentence = |direction: &Direction| {
+        let largest = direction.weights.first().map_or(1.0, |(_, weight)| weight.abs());
+        let mut up = Vec::new();
+        let mut down = Vec::new();
+        for &(c, weight) in direction.weights.iter().filter(|(_, weight)| weight.abs() >= SMALL * largest) {
+            let part = weight.abs() / largest;
+            let name = coordinate(wanted, outcome, c);
+            let told =
+                if (part - 1.0).abs() < 0.01 { name } else { format!("{name} (by {part:.2} of that)") };
+            if weight > 0.0 { up.push(told) } else { down.push(told) }
+        }
+        let both = match (up.as_slice(), down.as_slice()) {
+            ([one], []) | ([], [one]) => one.clone(),
+            (up, []) => format!("{} all larger together", up.join(", ")),
+            (up, down) => format!("{} larger with {} smaller", up.join(", "), down.join(", ")),
+        };
+        match direction.std.is_finite() && direction.std < 10.0 {
+            true => format!("{both}: ±{:.0} %", 100.0 * direction.std),
+            false => format!("{both}: nothing tells it"),
+        }
+    };
+    outcome.directions.iter().filter(|direction| direction.std > UNTOLD).map(sentence).collect()
+}
+
+/// What a person reads first.
+pub fn several_text(wanted: &SeveralCase, run: &SeveralRun) -> String {
+    let outcome = &run.outcome;
+    let mut text = String::new();
+    let mut line = |label: &str, value: String| text += &format!("  {label:<18}{value}\n");
+    if let Some(breakdown) = &outcome.breakdown {
+        line("no answer", format!("the model has no real stand-in that can be factorised: {breakdown}"));
+    }
+    let statuses = Status::ALL.into_iter().filter(|&status| run.count(status) > 0);
+    line(
+        "frequencies",
+        statuses.map(|s| format!("{} {}", run.count(s), s.name())).collect::<Vec<_>>().join(", "),
+    );
+    for value in &outcome.band {
+        let one = &wanted.sought[value.sought];
+        let number = |n: &frfit::identify::Number| {
+            let name = if n.name == "value" { String::new() } else { format!("{} ", n.name) };
+            match n.std.filter(|std| std.is_finite()) {
+                Some(std) if std < n.value.abs() => format!("{name}{:.6e} ± {std:.1e}", n.value),
+                Some(_) => format!("{name}not told"),
+                None => format!("{name}{:.6e}", n.value),
+            }
+        };
+        let numbers = value.numbers.iter().map(number).collect::<Vec<_>>().join(", ");
+        let doubt = match value.status {
+            Status::Ok => String::new(),
+            Status::NoRoot => " (outside its bounds, or nothing explains the measurements)".into(),
+            _ => " (not told by these measurements)".into(),
+        };
+        line(&one.name, format!("{numbers}{doubt}"));
+    }
+    for (j, one) in wanted.sought.iter().enumerate().filter(|(_, one)| one.varies == Vary::PerFrequency) {
+        let ok = outcome.at.iter().filter(|at| at.status == Status::Ok).filter_map(|at| at.values[j]);
+        let range = |part: &dyn Fn(&ValueAt) -> f64| {
+            ok.clone()
+                .map(|v| part(&v))
+                .fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)))
+        };
+        let (low, high) = range(&|v| v.value.re);
+        if low > high {
+            continue;
+        }
+        let (least, most) = range(&|v| loss_factor(v.value));
+        let loss = if one.real { String::new() } else { format!(", loss factor {least:.5} to {most:.5}") };
+        line(&one.name, format!("{low:.6e} to {high:.6e}{loss} (where ok)"));
+    }
+    for sentence in not_told(wanted, outcome) {
+        line("not told", sentence);
+    }
+    if let Some(fit) = outcome.fit {
+        let sentence = match fit.verdict {
+            Explained::Untested => None,
+            verdict => Some(format!(
+                "{} (χ² {:.4e} with {} degrees of freedom)",
+                verdict.name(),
+                fit.chi_squared,
+                fit.freedom
+            )),
+        };
+        if let Some(sentence) = sentence {
+            line("measurements", sentence);
+        }
+    }
+    if !outcome.converged {
+        line("search", "did not settle: more frequencies, sensors or narrower bounds may help".into());
+    }
+    for (j, one) in wanted.sought.iter().enumerate() {
+        let truth = truth_json(wanted, run, j);
+        if let Some(right) = truth["fraction_right"].as_f64() {
+            let off = truth["deviation_max_ok"]
+                .as_f64()
+                .map_or(String::new(), |off| format!(", off by at most {off:.1e} where ok"));
+            line("right", format!("{}: {:.1} % within {:.0e}{off}", one.name, 100.0 * right, RIGHT_WITHIN));
+        } else if let Some(off) = truth["relative"].as_f64() {
+            let deviations =
+                truth["deviations"].as_f64().map_or(String::new(), |d| format!(", {d:.1} of its deviations"));
+            line("truth", format!("{}: {off:.1e} off{deviations}", one.name));
+        }
+    }
+    line(
+        "work",
+        format!(
+            "{} factorisations, {} solves, {:.2} s",
+            outcome.work.factorisations,
+            outcome.work.solves,
+            run.seconds.identify()
+        ),
+    );
+    if let Some(error) = certificate(outcome) {
+        line(
+            "subspace",
+            format!(
+                "{} vectors, error of the response at most {error:.1e} (estimated)",
+                outcome.subspace_size
+            ),
+        );
+    }
+    text
+}
+
+/// A name as a part of a file's name: letters, digits, - and _ stay.
+pub(crate) fn file_name(name: &str) -> String {
+    name.chars().map(|c| if c.is_alphanumeric() || c == '-' || c == '_' { c } else { '_' }).collect()
+}
