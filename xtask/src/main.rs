@@ -10,8 +10,9 @@ mod test;
 use std::process::ExitCode;
 
 const USAGE: &str = "\
-cargo xtask test [--quick]       formatting, lints, all tests and doc tests, documentation, the Python package;
-                                 --quick: tests and doc tests only
+cargo xtask test [--quick | --python]
+                                 formatting, lints, all tests and doc tests, documentation, the Python package;
+                                 --quick: tests and doc tests only; --python: the Python package only
 cargo xtask docs                 documentation in target/doc, formulas typeset where there is npm
 cargo xtask bench [NAME [ARG…]]  one benchmark, or all; tables to the terminal, figures to target/bench
 cargo xtask bench solvers [ARG…] multifrontal beside other sparse solvers; crates/multifrontal/compare says what it needs";
@@ -22,6 +23,7 @@ fn main() -> ExitCode {
     let passed = match words.as_slice() {
         ["test"] => test::all(),
         ["test", "--quick"] => test::quick(),
+        ["test", "--python"] => test::python(),
         ["docs"] => docs::build(),
         ["bench"] => bench::all(),
         ["bench", name, rest @ ..] => bench::one(name, rest),

@@ -32,7 +32,8 @@ pub(crate) fn steps() -> Vec<Step> {
         install.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check"]).args(PACKAGES);
         steps.push(run("Python tools", &mut install));
     }
-    steps.push(run("frfit-cli", &mut cargo(["build", "--quiet", "--package", "frfit-cli"])));
+    // Of the whole workspace, as the tests were built: of one package alone dependencies have other features, and are built again.
+    steps.push(run("frfit-cli", &mut cargo(["build", "--quiet", "--workspace", "--bin", "frfit"])));
     let crate_folder = workspace().join("crates/python");
     let wheels = target().join("wheels");
     // Of an older wheel nothing shall be tested; where there is none, that is what is wanted.

@@ -26,6 +26,11 @@ pub(crate) fn quick() -> bool {
     sum_up(&tests())
 }
 
+/// The Python package only.
+pub(crate) fn python() -> bool {
+    sum_up(&python::steps())
+}
+
 /// The documentation, in which a broken link or a missing comment is an error.
 ///
 /// Only rustdoc sees the flag: nothing that other steps have built is built again.
