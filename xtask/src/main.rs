@@ -2,6 +2,7 @@
 #![allow(clippy::print_stdout, clippy::print_stderr)] // its outcome is what it prints
 
 mod bench;
+mod browser;
 mod docs;
 mod step;
 mod test;
@@ -9,8 +10,9 @@ mod test;
 use std::process::ExitCode;
 
 const USAGE: &str = "\
-cargo xtask test [--quick]       formatting, lints, all tests and doc tests, documentation;
+cargo xtask test [--quick]       formatting, lints, all tests and doc tests, documentation, the report in a browser;
                                  --quick: tests and doc tests only
+cargo xtask test browser         the report in headless Chromium alone; pictures to target/browser/pictures
 cargo xtask docs                 documentation in target/doc, formulas typeset where there is npm
 cargo xtask bench [NAME [ARG…]]  one benchmark, or all; tables to the terminal, figures to target/bench
 cargo xtask bench solvers [ARG…] multifrontal beside other sparse solvers; crates/multifrontal/compare says what it needs";
@@ -21,6 +23,7 @@ fn main() -> ExitCode {
     let passed = match words.as_slice() {
         ["test"] => test::all(),
         ["test", "--quick"] => test::quick(),
+        ["test", "browser"] => step::sum_up(&browser::browser()),
         ["docs"] => docs::build(),
         ["bench"] => bench::all(),
         ["bench", name, rest @ ..] => bench::one(name, rest),

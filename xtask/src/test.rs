@@ -1,5 +1,6 @@
 //! Everything that must hold before a change is kept.
 
+use crate::browser::browser;
 use crate::step::{Step, cargo, run, sum_up, works};
 
 /// Formatting, lints, tests, doc tests, documentation; every step runs, whatever the others say.
@@ -16,6 +17,7 @@ pub(crate) fn all() -> bool {
     ];
     steps.extend(tests());
     steps.push(documentation());
+    steps.extend(browser());
     sum_up(&steps)
 }
 

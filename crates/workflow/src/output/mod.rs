@@ -1,19 +1,23 @@
 //! What a run leaves behind: tables, summary and figures, written whole or not at all.
 
 mod candidates;
+mod error_map;
 mod files;
 mod frf;
 mod identified;
 mod laws;
 mod measured;
+mod reference;
 mod response;
 mod summary;
 
 pub use candidates::candidates_csv;
+pub use error_map::error_map_csv;
 pub use files::{File, WriteError, write_all};
 pub use frf::{respond_uff, updated_uff};
 pub use identified::identified_csv;
 pub use laws::{Misfit, law_json, laws_json, laws_text, snippet};
 pub use measured::{hit_reasons, measured_csv, measured_summary, measured_text, measured_uff};
+pub use reference::reference_csv;
 pub use response::{respond_csv, response_csv};
 pub use summary::{RIGHT_WITHIN, summary_json};

@@ -1,0 +1,6 @@
+// Begins.
+
+nameSensor();
+filterRows();
+setCursor(Math.floor(data.frequency_hz.length / 2));
+drawAll();
