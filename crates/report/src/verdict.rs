@@ -289,9 +289,9 @@ fn tiles(results: &Results, names: &Names, nominal_error: &[Option<f64>]) -> Vec
             hertz(band.frequency_hz[last])
         ))
     };
-    let bars = |name: &str| match band.has(name) {
-        true => "± two standard deviations (95 of 100)",
-        false => "no error bars",
+    let bars = |value: f64, std: Option<f64>| match std {
+        Some(std) => format!("± {} (two standard deviations: 95 of 100)", percent(2.0 * std / value.abs())),
+        None => "no error bars".into(),
     };
     if let Some(&middle) = rows.get(rows.len() / 2) {
         let at = hertz(band.frequency_hz[middle]);
@@ -302,10 +302,11 @@ fn tiles(results: &Results, names: &Names, nominal_error: &[Option<f64>]) -> Vec
             let Some(value) = band.at(name, middle).filter(|_| !(names.real && name == "loss_factor")) else {
                 continue;
             };
+            let std = band.at(std, middle);
             tiles.push(Tile {
                 label: format!("{label} at {at}"),
-                value: with_bar(value, band.at(std, middle), unit),
-                detail: format!("{}; {}", bars(std), ends(name, unit).unwrap_or_default()),
+                value: with_bar(value, None, unit),
+                detail: format!("{}; {}", bars(value, std), ends(name, unit).unwrap_or_default()),
             });
         }
     }

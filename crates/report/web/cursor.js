@@ -9,11 +9,10 @@ let cursorWaits = false;
 /** What is known at the cursor's frequency. */
 function cursorText() {
   const at = (name) => column(name)?.[cursorRow] ?? null;
-  const bar = (std, write) => (std === null ? "" : ` ± ${write(2 * std, 2)}`);
   const parts = [`${digits(data.frequency_hz[cursorRow], 7)} Hz`, statusOf(cursorRow).label];
   if (at("storage") !== null) {
-    parts.push(`${names.real ? "value" : "E′"} ${inUnit(at("storage"))}${bar(at("storage_std"), inUnit)}`);
-    if (!names.real) parts.push(`η ${digits(at("loss_factor"))}${bar(at("loss_factor_std"), digits)}`);
+    parts.push(`${names.real ? "value" : "E′"} ${withBar(at("storage"), at("storage_std"))}`);
+    if (!names.real) parts.push(`η ${digits(at("loss_factor"))}${at("loss_factor_std") === null ? "" : ` ± ${digits(2 * at("loss_factor_std"), 2)}`}`);
   }
   if (at("error") !== null) parts.push(`error ${digits(100 * at("error"), 3)} %`);
   return parts.join(" · ");

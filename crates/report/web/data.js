@@ -15,7 +15,11 @@ const plain = (text) => text.replaceAll("&", "&amp;").replaceAll("<", "&lt;").re
 function digits(value, count = 5) {
   if (value === null || value === undefined) return "–";
   const size = Math.abs(value);
-  if (size !== 0 && (size < 1e-4 || size >= 1e7)) return value.toExponential(count - 1).replace(/\.?0*e/, "e").replace("e+", "e");
+  if (size !== 0 && (size < 1e-4 || size >= 1e7)) {
+    const [mantissa, exponent] = value.toExponential(count - 1).split("e");
+    const raised = [...exponent.replace("+", "")].map((c) => "⁰¹²³⁴⁵⁶⁷⁸⁹"[c] ?? "⁻").join("");
+    return `${Number(mantissa)}·10${raised}`;
+  }
   return String(Number(value.toPrecision(count)));
 }
 
@@ -26,6 +30,13 @@ function inUnit(value, count = 5) {
   const size = Math.abs(value);
   const [by, prefix] = [[1e12, "T"], [1e9, "G"], [1e6, "M"], [1e3, "k"]].find(([by]) => size >= by) ?? [1, ""];
   return `${digits(value / by, count)} ${prefix}${names.unit}`;
+}
+
+/** The same with two standard deviations, in one unit. */
+function withBar(value, std) {
+  const [shown, prefix] = inUnit(value).split(" ");
+  if (std === null || value === 0) return inUnit(value);
+  return `${shown} ± ${digits((2 * std * Number(shown)) / value, 2)}${prefix ? ` ${prefix}` : ""}`;
 }
 
 /** The row of ascending frequencies that is nearest. */

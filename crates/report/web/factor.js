@@ -5,6 +5,7 @@ const FACTOR = names.unit ? `%{y:.4s}${names.unit}` : "%{y:.5~g}";
 const PARTS = names.real ? ["storage"] : ["storage", "loss_factor"];
 const factorAxis = () => ({ title: names.real ? "Value" : "Storage modulus E′", ...(names.unit && { tickformat: "~s", ticksuffix: names.unit }) });
 const formatOf = (part) => (part === "storage" ? FACTOR : "%{y:.5~g}");
+const AT = "<br>%{x:.6~g} Hz";
 
 /** Values of a column at drawn rows with one of some statuses. */
 function withStatus(part, wanted, from = data) {
@@ -113,14 +114,14 @@ addPlot({
         ["alternative", "cannot be excluded", "alternative", { symbol: "triangle-up", size: 6 }],
       ]) {
         const found = data.candidates[kind];
-        if (found.frequency_hz.length) push(dots(name, found.frequency_hz, found[part], shade, formatOf(part), { size: 4, ...more }));
+        if (found.frequency_hz.length) push(dots(name, found.frequency_hz, found[part], shade, formatOf(part) + AT, { size: 4, ...more }));
       }
-      push({ ...line("chosen", drawn(data.frequency_hz), withStatus(part, ["ok", "ambiguous"]), "updated", formatOf(part)), mode: "lines+markers", marker: { color: color("updated"), size: 4 } });
+      push({ ...line("chosen", drawn(data.frequency_hz), withStatus(part, ["ok", "ambiguous"]), "updated", formatOf(part) + AT), mode: "lines+markers", marker: { color: color("updated"), size: 4 } });
     });
     return made;
   },
   layout() {
-    const first = { closest: true, xaxis: overFrequency(names.real ? {} : { anchor: "y2" }) };
+    const first = { hovermode: "closest", xaxis: overFrequency(names.real ? {} : { anchor: "y2" }) };
     if (names.real) return { ...first, yaxis: factorAxis() };
     return { ...first, yaxis: { ...factorAxis(), domain: [0.53, 1] }, yaxis2: { title: "Loss factor η", domain: [0, 0.47] } };
   },

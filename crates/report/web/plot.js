@@ -60,7 +60,7 @@ function addTools(plot) {
 function frame(plot) {
   const own = plot.layout();
   const axis = (name, given) => ({
-    gridcolor: color("grid"), linecolor: color("line"), zerolinecolor: color("line"), automargin: true, exponentformat: "power", minexponent: 4,
+    gridcolor: color("grid"), linecolor: color("line"), zerolinecolor: color("line"), automargin: true, exponentformat: "power", minexponent: 4, tickangle: 0,
     ...given,
     title: { text: given.title ?? "", standoff: 8 },
     type: plot.log[name] || (plot.frequency && name.startsWith("xaxis") && logFrequency) ? "log" : "linear",
@@ -73,8 +73,8 @@ function frame(plot) {
     paper_bgcolor: "rgba(0,0,0,0)",
     plot_bgcolor: "rgba(0,0,0,0)",
     hoverlabel: { bgcolor: color("paper"), bordercolor: color("line"), font: { color: color("ink") } },
-    hovermode: plot.frequency && !own.closest ? "x unified" : "closest",
-    legend: { orientation: "h", x: 0, xanchor: "left", y: 1.01, yanchor: "bottom", itemsizing: "constant" },
+    hovermode: own.hovermode ?? (plot.frequency ? "x unified" : "closest"),
+    legend: { orientation: "h", x: 0, xanchor: "left", y: 1.01, yanchor: "bottom" },
     margin: { l: 64, r: 16, t: 30, b: 46 },
     dragmode: touch ? false : "zoom",
     uirevision: plot.revision ?? 0,
@@ -96,8 +96,10 @@ async function draw(plot) {
       plot.revision = (plot.revision ?? 0) + 1;
       draw(plot);
     });
+    plot.canvas.on("plotly_relayout", () => setLogTicks(plot));
     plot.canvas.on("plotly_afterplot", () => placeMark(plot));
   }
+  setLogTicks(plot);
   placeMark(plot);
 }
 
@@ -138,7 +140,8 @@ async function saveSvg(plot) {
   const layout = { ...frame(plot), paper_bgcolor: "#ffffff", title: { text: plain(plot.title) }, width: 900, height: plot.height };
   layout.margin = { ...layout.margin, t: 70 };
   for (const name of Object.keys(layout).filter((name) => /^[xy]axis\d*$/.test(name))) {
-    layout[name] = { ...layout[name], range: [...plot.canvas._fullLayout[name].range] };
+    const { range, tickvals, ticktext } = plot.canvas._fullLayout[name];
+    layout[name] = { ...layout[name], range: [...range], ...(layout[name].type === "log" && { tickvals, ticktext }) };
   }
   const picture = Plotly.toImage({ data: plot.traces(), layout }, { format: "svg", width: 900, height: plot.height });
   root.dataset.theme = theme;

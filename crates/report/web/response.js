@@ -59,7 +59,7 @@ addPlot({
 
 addPlot({
   id: "frac",
-  height: 110 + 34 * Math.max(2, data.sensors.length),
+  height: 96 + 34 * Math.max(2, data.sensors.length),
   traces() {
     const labels = data.sensors.map((one) => plain(one.label));
     const bar = (key, shade) => ({
@@ -70,6 +70,7 @@ addPlot({
   },
   layout: () => ({
     barmode: "group",
+    hovermode: "y",
     xaxis: { title: "FRAC", range: [0, 1.02] },
     yaxis: { tickvals: data.sensors.map((_, m) => m), ticktext: data.sensors.map((one) => plain(one.label)), autorange: "reversed" },
   }),

@@ -1,6 +1,6 @@
 // The table of identified.csv: filter, pages, download.
 
-const PAGE = 50;
+const PAGE = 25;
 const HEADS = [
   ["frequency_hz", "Frequency (Hz)"], ["status", "Status"],
   ["storage", names.real ? "Value" : `E′${names.unit && ` (${names.unit})`}`], ["storage_std", names.real ? "std" : "std of E′"], ["loss_factor", "η"], ["loss_factor_std", "std of η"],

@@ -24,13 +24,13 @@ addColumns("error", "ε, relative", () => [
 
 addPlot({
   id: "error-map",
-  height: 380,
+  height: 330,
   frequency: true,
   traces: () => [{
     type: "heatmap", name: "log₁₀ ε", x: data.error_map.frequency_hz, y: data.error_map.order, z: data.error_map.log_error, colorscale: "Viridis", hoverongaps: false,
     colorbar: { title: { text: "log₁₀ ε" }, thickness: 14, outlinewidth: 0 }, hovertemplate: "%{x:.6~g} Hz, order %{y}: log₁₀ ε = %{z:.2f}<extra></extra>",
   }],
-  layout: () => ({ closest: true, xaxis: overFrequency(), yaxis: { title: "Order of the series" } }),
+  layout: () => ({ hovermode: "closest", xaxis: overFrequency(), yaxis: { title: "Order of the series" } }),
 });
 
 const largestRadius = (column("spectral_radius") ?? []).reduce((most, value) => Math.max(most, value ?? 0), 0);

@@ -36,7 +36,11 @@ pub fn report_of_folder(folder: &Path) -> Result<File, InputError> {
             }
             Err(error) if error.kind() == ErrorKind::NotFound => {}
             Err(error) => {
-                return Err(InputError::at(&Place::file(&path), "a file that can be read", error.to_string()));
+                return Err(InputError::at(
+                    &Place::file(&path),
+                    "a file that can be read",
+                    error.to_string(),
+                ));
             }
         }
     }

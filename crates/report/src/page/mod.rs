@@ -12,10 +12,11 @@ const STYLE: &str = concat!(include_str!("../../web/page.css"), include_str!("..
 const PLOTLY: &str = include_str!("../../vendor/plotly-cartesian.min.js");
 
 /// In the order in which they need one another.
-const SCRIPTS: [&str; 12] = [
+const SCRIPTS: [&str; 13] = [
     include_str!("../../web/data.js"),
     include_str!("../../web/theme.js"),
     include_str!("../../web/download.js"),
+    include_str!("../../web/ticks.js"),
     include_str!("../../web/plot.js"),
     include_str!("../../web/cursor.js"),
     include_str!("../../web/response.js"),

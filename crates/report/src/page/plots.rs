@@ -90,7 +90,7 @@ fn choice(results: &Results) -> String {
 
 fn trust(results: &Results) -> String {
     let band = &results.band;
-    let mut html = String::new();
+    let mut html = "<div class=\"pair\">".to_owned();
     if band.has("error") {
         html += &plot(
             "error",
@@ -105,7 +105,7 @@ fn trust(results: &Results) -> String {
             html += &plot(
                 "error-map",
                 "Error map over the order of the series",
-                "log₁₀ of the error after so many terms of the series. Rows that stay dark from the bottom on converge; bright columns stand at resonances.",
+                "log₁₀ of the error after so many terms of the series. Columns that darken upwards converge; bright ones stand at resonances.",
             );
         }
         None => {
@@ -164,7 +164,7 @@ fn trust(results: &Results) -> String {
         html +=
             &absent("Certificate of the reduced model", "for the full model answered at every frequency.");
     }
-    html
+    html + "</div>\n"
 }
 
 fn plane(results: &Results, verdict: &Verdict) -> String {
@@ -181,16 +181,18 @@ fn plane(results: &Results, verdict: &Verdict) -> String {
         let why = "for no frequency is trusted.";
         return html + &absent("Cole–Cole plot", why) + &absent("Wicket plot", why);
     }
+    html += "<div class=\"pair\">";
     html += &plot(
         "cole-cole",
         "Cole–Cole plot",
         "Loss modulus over storage modulus at trusted frequencies. One material gives one curve.",
     );
-    html + &plot(
+    html += &plot(
         "wicket",
         "Wicket plot",
         "Loss factor over storage modulus, both logarithmic. Points beside the curve are wrong in frequency, temperature or branch.",
-    )
+    );
+    html + "</div>\n"
 }
 
 /// The table with its filter.

@@ -289,6 +289,7 @@ fn shown(value: &Value) -> String {
         Value::Null => "–".into(),
         Value::Bool(true) => "yes".into(),
         Value::Bool(false) => "no".into(),
+        Value::Number(number) if !number.is_f64() => number.to_string(),
         Value::Number(number) => significant(number.as_f64().unwrap_or(f64::NAN), 4),
         Value::String(text) => text.clone(),
         Value::Array(values) if values.is_empty() => "–".into(),
