@@ -240,7 +240,7 @@ fn cautions(results: &Results) -> Vec<String> {
         }
         for (key, unit) in [("scale", " times what the file says"), ("delay_s", " s")] {
             let Some(value) = sensor.get(key) else { continue };
-            let std = sensor.get(&format!("{key}_std")).and_then(serde_json::Value::as_f64);
+            let std = sensor.get(format!("{key}_std")).and_then(serde_json::Value::as_f64);
             let what = if key == "scale" { "scale" } else { "delay" };
             say(match value.as_f64() {
                 Some(value) => format!(
@@ -263,9 +263,10 @@ fn cautions(results: &Results) -> Vec<String> {
             say(format!("The misfit is {} times the given noise: error bars may be too short by that.", significant(times, 3)));
         }
         "explained" => {}
-        _ => say(
+        _ if results.sensors.len() == 1 => say(
             "One sensor alone is reproduced by every solution: a response that matches proves little. A second sensor would test the answer.".into(),
         ),
+        _ => say(format!("Whether noise is all that is left was not tested: {}.", untested(results))),
     }
     if summary.word("/identify/selection") == "smallest" {
         say("Of several solutions the one with the smallest correction was taken (selection = \"smallest\", the rule of the paper). It can be the wrong one, has no error bars, and selection = \"joint\" tells more.".into());
@@ -357,22 +358,31 @@ fn tiles(results: &Results, names: &Names, nominal_error: &[Option<f64>]) -> Vec
         _ => Tile {
             label: "Do all sensors agree?".into(),
             value: "not tested".into(),
-            detail: format!("one sensor has nothing to agree with; noise {}", noise(results)),
+            detail: format!("{}; noise {}", untested(results), noise(results)),
         },
     });
-    if let Some(right) = summary.number("/truth/fraction_right") {
-        let of_ok = summary.number("/truth/fraction_right_of_ok");
+    if let (Some(median), Some(most)) =
+        (summary.number("/truth/deviation/median_ok"), summary.number("/truth/deviation/max_ok"))
+    {
         tiles.push(Tile {
             label: "Known answer".into(),
-            value: format!("{} right", percent(of_ok.unwrap_or(right))),
+            value: format!("{} off", percent(median)),
             detail: format!(
-                "of the trusted frequencies within {}, {} of all: this case was made with a known value",
-                significant(summary.number("/truth/within").unwrap_or(0.0), 1),
-                percent(right)
+                "median where trusted, at most {}: this case was made with a known value",
+                percent(most)
             ),
         });
     }
     tiles
+}
+
+/// Why no χ² over the band tells whether noise is all that is left.
+fn untested(results: &Results) -> &'static str {
+    match (results.sensors.len(), results.summary.word("/identify/varies")) {
+        (1, _) => "one sensor has nothing to agree with",
+        (_, "law") => "the table of laws has the χ² of each",
+        _ => "nothing tells the noise but the misfit itself",
+    }
 }
 
 /// What tells the noise.

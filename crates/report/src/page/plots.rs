@@ -70,7 +70,9 @@ fn response(results: &Results) -> String {
 fn factor(results: &Results, verdict: &Verdict) -> String {
     let title = if verdict.names.real { "Identified value" } else { "Storage modulus and loss factor" };
     let bars = match results.band.has("storage_std") {
-        true => "Bars and bands are two standard deviations: 95 of 100 true values lie within.",
+        true => {
+            "Bars and bands are two standard deviations of what noise does: 95 of 100 true values lie within, if the model is right. Errors of the model (mesh, supports) are not in them."
+        }
         false => "There are no error bars: the noise is unknown, or the selection has none.",
     };
     plot("modulus", title, &format!("{bars} Grey crosses are evidence only, not answers."))
