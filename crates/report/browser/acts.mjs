@@ -105,6 +105,21 @@ export async function logarithms(page) {
   return wrong;
 }
 
+/** Shows what begins switched off. */
+export async function switches(page) {
+  const wrong = [];
+  for (const [id, name] of [["plot-candidates", "refused"], ["plot-nyquist", "nominal"]]) {
+    const curves = () => page.evaluate((id) => document.querySelector(`#${id} .canvas`)._fullData.filter((trace) => trace.visible === true).map((trace) => trace.name), id);
+    const button = page.locator(`#${id} .tools button`, { hasText: new RegExp(`^${name}$`) });
+    if ((await curves()).includes(name)) wrong.push(`${id} begins with ${name}`);
+    await button.click();
+    await page.waitForTimeout(300);
+    if (!(await curves()).includes(name)) wrong.push(`${id} does not show ${name}`);
+    await button.click();
+  }
+  return wrong;
+}
+
 /** Zooms by dragging and by buttons, and back. */
 export async function zooms(page) {
   const range = () => page.evaluate(() => [...document.querySelector("#plot-accelerance .canvas")._fullLayout.xaxis.range]);

@@ -38,7 +38,7 @@ async function check(browser, name, width, colorScheme, work) {
 await mkdir(pictures, { recursive: true });
 const names = (await readdir(reports)).sort();
 const browser = await launch(executable);
-const all = [acts.hover, acts.cursor, acts.logarithms, acts.zooms, acts.filters, acts.downloads, acts.keyboard, acts.theme];
+const all = [acts.hover, acts.cursor, acts.logarithms, acts.switches, acts.zooms, acts.filters, acts.downloads, acts.keyboard, acts.theme];
 for (const name of names) {
   // What a reader does is the same code on every page: all of it on the page with everything, part of it on the others.
   const most = name === "sandwich" ? all : [acts.hover, acts.cursor, acts.filters];

@@ -104,12 +104,13 @@ addPlot({
   height: names.real ? 360 : 560,
   frequency: true,
   logs: names.real ? { yaxis: ["value", false] } : { yaxis: ["E′", true], yaxis2: ["η", false] },
+  extra: data.candidates.refused.frequency_hz.length ? "refused" : null,
   traces() {
     const made = [];
     PARTS.forEach((part, k) => {
       const push = (trace) => made.push({ ...trace, yaxis: k === 0 ? "y" : "y2", legendgroup: trace.name, showlegend: k === 0 });
       for (const [kind, name, shade, more] of [
-        ["refused", "refused", "no_root", { symbol: "x-thin-open", visible: "legendonly" }],
+        ...(this.shows ? [["refused", "refused", "no_root", { symbol: "x-thin-open" }]] : []),
         ["admissible", "other solutions", "evidence", {}],
         ["alternative", "cannot be excluded", "alternative", { symbol: "triangle-up", size: 6 }],
       ]) {

@@ -5,11 +5,12 @@ const HERTZ = "<br>%{customdata:.6~g} Hz";
 addPlot({
   id: "nyquist",
   height: 480,
+  extra: "nominal",
   traces() {
     const told = { customdata: sensor.frequency_hz };
     const format = `%{x:.4~g} + %{y:.4~g}i m/(s²·N)${HERTZ}`;
     const made = [];
-    if (sensor.nominal) made.push(line("nominal", sensor.nominal.re, sensor.nominal.im, "nominal", format, { dash: "dash", visible: "legendonly", ...told }));
+    if (sensor.nominal && this.shows) made.push(line("nominal", sensor.nominal.re, sensor.nominal.im, "nominal", format, { dash: "dash", ...told }));
     if (sensor.measured) made.push(dots("measured", sensor.measured.re, sensor.measured.im, "measured", format, { size: 4, ...told }));
     if (sensor.updated) made.push(line("updated", sensor.updated.re, sensor.updated.im, "updated", format, told));
     return made;

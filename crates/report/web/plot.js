@@ -1,7 +1,7 @@
 // One plot: its traces, its tools, and drawing it in the colours of the page.
 //
 // A plot is { id, height, traces(), layout(), frequency, logs, at(row) }: `frequency` where x is the frequency, `logs` its axes that can be logarithmic as
-// { axis: [label, whether it begins so] }, `at` where the cursor's frequency is in a plot over something else.
+// { axis: [label, whether it begins so] }, `at` where the cursor's frequency is in a plot over something else, `extra` a curve that begins switched off.
 
 const plots = [];
 let logFrequency = false;
@@ -51,6 +51,14 @@ function addTools(plot) {
       draw(plot);
     });
     made.setAttribute("aria-pressed", plot.log[axis]);
+  }
+  if (plot.extra) {
+    const made = button(plot.extra, `Show ${plot.extra}: ${plot.title}`, () => {
+      plot.shows = !plot.shows;
+      made.setAttribute("aria-pressed", plot.shows);
+      draw(plot);
+    });
+    made.setAttribute("aria-pressed", false);
   }
   button("SVG", `Download SVG: ${plot.title}`, () => saveSvg(plot));
   button("CSV", `Download CSV: ${plot.title}`, () => saveCsv(plot));

@@ -34,6 +34,7 @@ addPlot({
     const made = [];
     if (nominal) made.push(line("nominal", f, size(nominal), "nominal", ACCELERANCE, { dash: "dash", legendgroup: "nominal" }));
     if (measured) {
+      // Two standard deviations of the modulus, which has half of the variance of the complex value.
       const bars = sensor.measured_std && { error_y: { type: "data", array: sensor.measured_std.map((std) => std && Math.SQRT2 * std), color: color("evidence"), thickness: 1, width: 0 } };
       made.push(dots("measured", f, size(measured), "measured", ACCELERANCE, { legendgroup: "measured", size: 4, ...bars }));
     }

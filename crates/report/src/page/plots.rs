@@ -86,7 +86,7 @@ fn choice(results: &Results) -> String {
     plot(
         "candidates",
         title,
-        "Every dot reproduces the first measurement. The path through them is the one that the other sensors and frequencies agree with. Refused ones can be switched on in the legend.",
+        "Every dot reproduces the first measurement. The path through them is the one that the other sensors and frequencies agree with. Refused ones are shown by a switch.",
     )
 }
 
