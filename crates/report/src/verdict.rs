@@ -125,7 +125,9 @@ fn level(results: &Results, names: &Names) -> (Level, String) {
         );
     }
     if ok == 0 {
-        return (Level::Bad, format!("No frequency has a trusted {} of {who}.", names.thing));
+        let most = Status::ALL.into_iter().max_by_key(|&status| results.band.count(status));
+        let why = most.map_or("", why_not);
+        return (Level::Bad, format!("No frequency has a trusted {} of {who}: {why}.", names.thing));
     }
     let doubted = !results.summary.array("/findings").is_empty();
     let told = format!("The {} of {who} is known at {ok} of {asked} frequencies ({part})", names.thing);
@@ -192,6 +194,18 @@ pub(crate) fn meaning(status: Status) -> &'static str {
     }
 }
 
+/// The same in a few words, where nothing else came out.
+fn why_not(status: Status) -> &'static str {
+    match status {
+        Status::Ok => "nothing speaks against it",
+        Status::Ambiguous => "several values explain the measurement",
+        Status::Diverged => "the paper’s series does not converge",
+        Status::NoRoot => "no value within the bounds explains the measurement",
+        Status::IllConditioned => "noise drowns it, or the response could not be computed",
+        Status::OutOfBand => "all of them are left out",
+    }
+}
+
 /// A status as a label.
 pub(crate) fn label(status: Status) -> &'static str {
     match status {
@@ -221,6 +235,7 @@ fn where_(bands: &[[f64; 2]]) -> String {
     let shown: Vec<String> = widest.iter().map(one).collect();
     let more = match bands.len().saturating_sub(SHOWN) {
         0 => String::new(),
+        1 => " and a narrower band".into(),
         more => format!(" and {more} narrower bands"),
     };
     format!("{} Hz{more}.", shown.join(", "))

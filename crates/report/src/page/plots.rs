@@ -93,6 +93,7 @@ fn choice(results: &Results) -> String {
 fn trust(results: &Results) -> String {
     let band = &results.band;
     let mut html = "<div class=\"pair\">".to_owned();
+    let mut missing = String::new();
     if band.has("error") {
         html += &plot(
             "error",
@@ -100,7 +101,7 @@ fn trust(results: &Results) -> String {
             "Norm of the misfit over all sensors, relative to the measured response, with the nominal and the updated value. Small is necessary, but proves little: several values may match.",
         );
     } else {
-        html += &absent("Error of the response", "for no frequency has an updated response.");
+        missing += &absent("Error of the response", "for no frequency has an updated response.");
     }
     match &results.error_map {
         Some(_) => {
@@ -112,7 +113,7 @@ fn trust(results: &Results) -> String {
         }
         None => {
             let method = escape(results.summary.word("/identify/method"));
-            html += &absent(
+            missing += &absent(
                 "Error map over the order of the series",
                 &format!(
                     "for it is made with method = \"series\" and --error-map above 0 only, and this run used {method}."
@@ -127,7 +128,7 @@ fn trust(results: &Results) -> String {
             "Below 1 the paper’s series converges to the answer; the nearer to 1, the more terms it needs.",
         );
     } else {
-        html += &absent("Spectral radius", "for no frequency has one.");
+        missing += &absent("Spectral radius", "for no frequency has one.");
     }
     if band.has("pole_distance") {
         html += &plot(
@@ -136,7 +137,7 @@ fn trust(results: &Results) -> String {
             "How far the parameter may change, relative to its nominal value, before the response has a pole; beside it how far it did change.",
         );
     } else {
-        html += &absent("Distance to the nearest pole", "for no frequency has one.");
+        missing += &absent("Distance to the nearest pole", "for no frequency has one.");
     }
     if band.has("series_order") {
         html += &plot(
@@ -145,7 +146,7 @@ fn trust(results: &Results) -> String {
             "Terms of the paper’s series for an error of 10⁻⁶. Where there is a gap no order is enough, and the default method is what answers.",
         );
     } else {
-        html += &absent(
+        missing += &absent(
             "Order that the series would need",
             "for only a joint selection on the band’s subspace asks for it.",
         );
@@ -166,7 +167,7 @@ fn trust(results: &Results) -> String {
         html +=
             &absent("Certificate of the reduced model", "for the full model answered at every frequency.");
     }
-    html + "</div>\n"
+    html + "</div>\n" + &missing
 }
 
 fn plane(results: &Results, verdict: &Verdict) -> String {
