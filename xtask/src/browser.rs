@@ -33,13 +33,14 @@ pub(crate) fn browser() -> Vec<Step> {
 /// The browser, with Node and npm there too; else what is missing.
 fn tools() -> Result<PathBuf, String> {
     if chromium().is_none() {
-        install("chromium");
+        // Without fonts every letter is a box.
+        install(&["chromium", "fonts-dejavu-core"]);
     }
     let chromium = chromium().ok_or("Chromium is missing (apt-get install chromium)")?;
     for (program, package) in [("node", "nodejs"), ("npm", "npm")] {
         let there = || works(Command::new(program).arg("--version"));
         if !there() {
-            install(package);
+            install(&[package]);
         }
         if !there() {
             return Err(format!("{program} is missing (apt-get install {package})"));
@@ -54,18 +55,15 @@ fn chromium() -> Option<PathBuf> {
     paths.into_iter().find(|path| works(Command::new(path).arg("--version")))
 }
 
-/// Installs a Debian package, where that is possible; whether it is there is asked afterwards.
-fn install(package: &str) {
+/// Installs Debian packages, where that is possible; whether they are there is asked afterwards.
+fn install(packages: &[&str]) {
     let is_root = Command::new("id").arg("-u").output().is_ok_and(|id| id.stdout.trim_ascii() == b"0");
     if is_root && works(Command::new("apt-get").arg("--version")) {
-        println!("── apt-get install {package}");
-        works(Command::new("apt-get").args([
-            "install",
-            "--yes",
-            "--quiet",
-            "--no-install-recommends",
-            package,
-        ]));
+        println!("── apt-get install {}", packages.join(" "));
+        // A fresh system has no list of packages.
+        works(Command::new("apt-get").args(["update", "--quiet"]));
+        let install = ["install", "--yes", "--quiet", "--no-install-recommends"];
+        works(Command::new("apt-get").args(install).args(packages).env("DEBIAN_FRONTEND", "noninteractive"));
     }
 }
 

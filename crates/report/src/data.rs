@@ -173,7 +173,7 @@ fn candidates(candidates: &Candidates, notes: &mut Vec<String>) -> Value {
         }
         json!({
             "frequency_hz": kept.iter().map(|&row| rounded(Some(candidates.frequency_hz[row]), FREQUENCY_DIGITS)).collect::<Vec<_>>(),
-            "storage": kept.iter().map(|&row| rounded(Some(candidates.storage[row]), DIGITS)).collect::<Vec<_>>(),
+            "storage": kept.iter().map(|&row| rounded(candidates.storage[row], DIGITS)).collect::<Vec<_>>(),
             "loss_factor": kept.iter().map(|&row| rounded(candidates.loss_factor[row], DIGITS)).collect::<Vec<_>>(),
         })
     };

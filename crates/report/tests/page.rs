@@ -165,6 +165,47 @@ fn the_verdict_says_how_much_can_be_trusted_and_why_not_the_rest() {
     assert!(text_of(&found).contains("Change <code>quantity of [[measurement]] 2</code>"));
 }
 
+#[test]
+fn doubts_about_sensors_are_told_before_the_numbers() {
+    let mut files = results(&Made::default());
+    let summary = String::from_utf8(files["summary.json"].clone()).unwrap();
+    let told = summary.replacen(
+        "\"contradicts\": false",
+        "\"contradicts\": true, \"scale\": 9.80665, \"scale_std\": 0.001, \"delay_s\": null",
+        1,
+    );
+    let told = told.replacen("\"left_out\": false", "\"left_out\": true", 1);
+    assert_ne!(told, summary);
+    files.insert("summary.json", told.into_bytes());
+    let page = page(&files).unwrap();
+    for told in [
+        "Use with care",
+        "Sensor S1 contradicts all others. It was left out.",
+        "The scale of sensor S1 was unknown and found: 9.8066 ± 0.0020 times what the file says.",
+        "The delay of sensor S1 was unknown, and the data do not tell it: it was left out.",
+    ] {
+        assert!(text(&page).contains(told), "{told}");
+    }
+}
+
+#[test]
+fn a_solution_at_infinity_is_no_fault() {
+    let mut files = results(&Made::default());
+    let table = String::from_utf8(files["candidates.csv"].clone()).unwrap();
+    let without = table.replacen(",0.2,0.0,0.0,far", ",,0.0,0.0,far", 1);
+    let line = without.lines().position(|line| line.ends_with(",,0.0,0.0,far")).unwrap();
+    let mut lines: Vec<&str> = without.lines().collect();
+    lines[line] = "20.0,,,0.0,0.0,far";
+    files.insert("candidates.csv", (lines.join("\n") + "\n").into_bytes());
+    assert!(
+        data(&page(&files).unwrap())["candidates"]["refused"]["storage"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .any(Value::is_null)
+    );
+}
+
 fn text_of(made: &Made) -> String {
     text(&page(&results(made)).unwrap()).to_owned()
 }

@@ -31,7 +31,8 @@ const WORDS: [(&str, Verdict); 9] = [
 #[derive(Debug)]
 pub(crate) struct Candidates {
     pub(crate) frequency_hz: Vec<f64>,
-    pub(crate) storage: Vec<f64>,
+    /// `None` where it is infinite.
+    pub(crate) storage: Vec<Option<f64>>,
     pub(crate) loss_factor: Vec<Option<f64>>,
     pub(crate) verdict: Vec<Verdict>,
 }
@@ -43,7 +44,7 @@ impl Candidates {
         Ok(Self {
             verdict: verdict.collect::<Result<_, _>>()?,
             frequency_hz: table.all_numbers("frequency_hz")?,
-            storage: table.all_numbers("storage")?,
+            storage: table.numbers("storage")?,
             loss_factor: table.numbers("loss_factor")?,
         })
     }

@@ -26,6 +26,9 @@ impl Sensor {
         frequency_hz: &[f64],
     ) -> Result<Vec<Self>, FormatError> {
         let count = labels.len();
+        if count == 0 {
+            return Err(FormatError::whole("at least one sensor, in summary.json too", "none"));
+        }
         if table.rows() != count * frequency_hz.len() {
             let expected = format!(
                 "{} rows, for {count} sensors and {} frequencies",
