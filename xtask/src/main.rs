@@ -2,6 +2,7 @@
 #![allow(clippy::print_stdout, clippy::print_stderr)] // its outcome is what it prints
 
 mod bench;
+mod browser;
 mod docs;
 mod python;
 mod step;
@@ -10,9 +11,10 @@ mod test;
 use std::process::ExitCode;
 
 const USAGE: &str = "\
-cargo xtask test [--quick | --python]
-                                 formatting, lints, all tests and doc tests, documentation, the Python package;
-                                 --quick: tests and doc tests only; --python: the Python package only
+cargo xtask test [--quick]       formatting, lints, all tests and doc tests, documentation, the report in a browser, the Python package;
+                                 --quick: tests and doc tests only
+cargo xtask test browser         the report in headless Chromium alone; pictures to target/browser/pictures
+cargo xtask test python          the Python package alone: its wheel, tests and types
 cargo xtask docs                 documentation in target/doc, formulas typeset where there is npm
 cargo xtask bench [NAME [ARG…]]  one benchmark, or all; tables to the terminal, figures to target/bench
 cargo xtask bench solvers [ARG…] multifrontal beside other sparse solvers; crates/multifrontal/compare says what it needs";
@@ -23,7 +25,8 @@ fn main() -> ExitCode {
     let passed = match words.as_slice() {
         ["test"] => test::all(),
         ["test", "--quick"] => test::quick(),
-        ["test", "--python"] => test::python(),
+        ["test", "browser"] => step::sum_up(&browser::browser()),
+        ["test", "python"] => step::sum_up(&python::steps()),
         ["docs"] => docs::build(),
         ["bench"] => bench::all(),
         ["bench", name, rest @ ..] => bench::one(name, rest),

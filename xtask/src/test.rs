@@ -1,9 +1,10 @@
 //! Everything that must hold before a change is kept.
 
+use crate::browser::browser;
 use crate::python;
 use crate::step::{Step, cargo, run, sum_up, works};
 
-/// Formatting, lints, tests, doc tests, documentation, the Python package; every step runs, whatever the others say.
+/// Formatting, lints, tests, doc tests, documentation, the report in a browser, the Python package; every step runs, whatever the others say.
 pub(crate) fn all() -> bool {
     for (command, component) in [("fmt", "rustfmt"), ("clippy", "clippy")] {
         if !works(&mut cargo([command, "--version"])) {
@@ -18,17 +19,13 @@ pub(crate) fn all() -> bool {
     steps.extend(tests());
     steps.push(documentation());
     steps.extend(python::steps());
+    steps.extend(browser());
     sum_up(&steps)
 }
 
 /// Tests and doc tests only.
 pub(crate) fn quick() -> bool {
     sum_up(&tests())
-}
-
-/// The Python package only.
-pub(crate) fn python() -> bool {
-    sum_up(&python::steps())
 }
 
 /// The documentation, in which a broken link or a missing comment is an error.

@@ -57,6 +57,10 @@ pub(crate) enum Command {
                       loss (loss_modulus, E_loss); storage_std and loss_factor_std, if they are known; status, of which only ok is used. \
                       A line of units below the names is understood.")]
     Fit(Fit),
+    /// Make the HTML page of results anew, as identify writes it
+    #[command(after_help = "Example: frfit report results\n\n\
+                      One file that needs no network: verdict, plots, table, inputs with checksums. Open results/report.html in a browser.")]
+    Report(Report),
     /// Write the identified modulus as the table that another solver reads
     #[command(
         after_help = "Examples: frfit export nastran results/identified.csv -o core.bdf --unit-system mm-t-s --poisson 0.45 --id 7\n          \
@@ -216,6 +220,13 @@ pub(crate) struct Fit {
     /// Folder for law.json and a figure
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
+}
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct Report {
+    /// Folder with the results of identify; report.html is written into it
+    #[arg(value_name = "DIR")]
+    pub(crate) results: PathBuf,
 }
 
 #[derive(Debug, clap::Args)]

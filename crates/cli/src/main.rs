@@ -34,6 +34,7 @@ fn run(args: &Args) -> Result<Outcome, Failure> {
         Command::Check(check) => command::check::run(args, check),
         Command::Identify(identify) => command::identify::run(args, identify),
         Command::Fit(fit) => command::fit::run(args, fit),
+        Command::Report(report) => command::report::run(args, report),
         Command::Export(export) => command::export::run(args, export),
         Command::Respond(respond) => command::respond::run(args, respond),
         Command::Inspect(inspect) => command::inspect::run(args, inspect),

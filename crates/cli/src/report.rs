@@ -108,7 +108,7 @@ pub(crate) fn identified(job: &IdentifyJob, out: &Path) -> String {
     line(
         "wrote",
         format!(
-            "{}: identified.csv, {more}candidates.csv, response.csv, updated.uff, summary.json, figures/",
+            "{}: identified.csv, {more}candidates.csv, response.csv, updated.uff, summary.json, figures/, report.html",
             out.display()
         ),
     );

@@ -22,9 +22,10 @@ fn portable(text: &str) -> String {
 fn help_of_every_command() {
     let folder = tempfile::tempdir().unwrap();
     insta::assert_snapshot!("help", done(folder.path(), &["--help"]));
-    for command in
-        ["demo", "example", "frf", "check", "identify", "fit", "export", "respond", "inspect", "convert"]
-    {
+    for command in [
+        "demo", "example", "frf", "check", "identify", "fit", "report", "export", "respond", "inspect",
+        "convert",
+    ] {
         insta::assert_snapshot!(format!("help_{command}"), done(folder.path(), &[command, "--help"]));
     }
 }

@@ -6,11 +6,13 @@ use crate::figures::{identify_figures, measured_figures, respond_figures, severa
 use crate::load::{Case, IdentifyCase, Overrides, Purpose, load};
 use crate::memory::{MemoryError, check_full, check_identify, check_subspace};
 use crate::output::{
-    File, WriteError, candidates_csv, hit_reasons, identified_csv, laws_json, measured_csv, measured_summary,
-    measured_text, measured_uff, respond_csv, respond_uff, response_csv, several_csv, several_json,
-    several_response_csv, several_text, several_updated_uff, summary_json, updated_uff, write_all,
+    File, WriteError, candidates_csv, error_map_csv, hit_reasons, identified_csv, laws_json, measured_csv,
+    measured_summary, measured_text, measured_uff, reference_csv, respond_csv, respond_uff, response_csv,
+    several_csv, several_json, several_response_csv, several_text, several_updated_uff, summary_json,
+    updated_uff, write_all,
 };
 use crate::records::{ChannelOptions, Records, read_records};
+use crate::report::report_of;
 use crate::run::{IdentifyRun, Progress, RespondRun, RunOptions, SeveralRun, identify, respond, several};
 use frfit::doctor::Diagnosis;
 use frfit::material::OutsideTable;
@@ -87,7 +89,7 @@ impl IdentifyJob {
     }
 }
 
-/// Loads a case, looks for what is wrong with its data, identifies, and writes tables, figures and summary into `out`: all of them, or nothing.
+/// Loads a case, looks for what is wrong with its data, identifies, and writes tables, figures, summary and report into `out`: all of them, or nothing.
 ///
 /// # Errors
 /// [`JobError`]. Numerical trouble at a frequency is its status, not an error.
@@ -106,20 +108,30 @@ pub fn identify_case(
     let mut summary = summary_json(&case, wanted, &run, seconds_load, start.elapsed().as_secs_f64());
     summary["findings"] = diagnosis.as_ref().map_or(serde_json::Value::Null, |d| findings_json(&case, d));
     summary["seconds"]["check"] = seconds_check.into();
-    files.push(File::new("identified.csv", identified_csv(&run.outcomes)));
+    let mut tables = vec![
+        File::new("identified.csv", identified_csv(&run.outcomes)),
+        File::new("candidates.csv", candidates_csv(&run.outcomes)),
+        File::new("reference.csv", reference_csv(wanted, &run.outcomes)),
+        File::new("response.csv", response_csv(&case, wanted, &run)),
+    ];
     if let Some(laws) = &run.laws {
-        files.push(File::new("free.csv", identified_csv(&laws.free)));
+        tables.push(File::new("free.csv", identified_csv(&laws.free)));
         files.push(File::new("law.json", format!("{:#}\n", laws_json(laws))));
     }
     if let Some(smooth) = &run.smooth {
-        files.push(File::new("free.csv", identified_csv(&smooth.free)));
+        tables.push(File::new("free.csv", identified_csv(&smooth.free)));
     }
-    files.push(File::new("candidates.csv", candidates_csv(&run.outcomes)));
-    files.push(File::new("response.csv", response_csv(&case, wanted, &run)));
+    if let Some(map) = &run.error_map {
+        tables.push(File::new("error_map.csv", error_map_csv(map)));
+    }
+    // Beside them a folder may have tables of other runs.
+    summary["tables"] = tables.iter().map(|table| table.path.display().to_string()).collect();
+    files.extend(tables);
     let uff =
         updated_uff(&case, &run).map_err(|error| InputError::in_file(&out.join("updated.uff"), error))?;
     files.push(File::new("updated.uff", uff));
     files.push(File::new("summary.json", format!("{summary:#}\n")));
+    files.push(report_of(&files, out)?);
     write_all(out, &files)?;
     Ok(IdentifyJob { case, diagnosis, run, summary })
 }

@@ -9,6 +9,7 @@
 //! | [`run`] | the computations, frequency by frequency, on all cores |
 //! | [`check`](mod@check) | what is wrong with a case's data, in words |
 //! | [`figures`] | what a run looks like, as the paper draws it |
+//! | [`report`](mod@report) | all of it as one HTML page |
 //! | [`output`] | tables, summary, and writing them whole or not at all |
 //! | [`fit`] | laws fitted to a table of moduli |
 //! | [`job`] | whole jobs: from the path of a case to files in a folder |
@@ -31,4 +32,5 @@ pub mod memory;
 mod nearest;
 pub mod output;
 pub mod records;
+pub mod report;
 pub mod run;

@@ -1,21 +1,25 @@
 //! What a run leaves behind: tables, summary and figures, written whole or not at all.
 
 mod candidates;
+mod error_map;
 mod files;
 mod frf;
 mod identified;
 mod laws;
 mod measured;
+mod reference;
 mod response;
 mod several;
 mod summary;
 
 pub use candidates::candidates_csv;
+pub use error_map::error_map_csv;
 pub use files::{File, WriteError, write_all};
 pub use frf::{respond_uff, several_updated_uff, updated_uff};
 pub use identified::identified_csv;
 pub use laws::{Misfit, law_json, laws_json, laws_text, smooth_json, snippet};
 pub use measured::{hit_reasons, measured_csv, measured_summary, measured_text, measured_uff};
+pub use reference::reference_csv;
 pub use response::{respond_csv, response_csv, several_response_csv};
 pub(crate) use several::file_name;
 pub use several::{several_csv, several_json, several_text};

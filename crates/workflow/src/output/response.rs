@@ -1,29 +1,43 @@
-//! `response.csv`: nominal, measured and updated response, per sensor, in the quantity that was measured.
+//! `response.csv`: nominal, measured and updated response, per sensor, in the quantity that was measured, and how well it was measured.
 
-use crate::load::{Case, IdentifyCase, SensorInfo, SeveralCase};
+use crate::load::{Case, IdentifyCase, MeasuredNoise, SensorInfo, SeveralCase};
 use crate::run::{IdentifyRun, RespondRun, SeveralRun};
 use frfit::c64;
 use frfit_formats::csv::{Cell, write};
 
-/// One row a frequency and sensor: nominal, measured, updated; where there is no response, the cells are empty.
+/// One row a frequency and sensor: nominal, measured, updated; where there is no response, the cells are empty. `measured_std` is the
+/// standard deviation √E|δH|² of the measured value, where files and case tell it.
 pub fn response_csv(case: &Case, identify: &IdentifyCase, run: &IdentifyRun) -> String {
-    let rows = run.outcomes.iter().zip(&identify.measured).map(|(outcome, measured)| {
-        let measured = run.measured(outcome.frequency_hz, measured);
-        (outcome.frequency_hz, [outcome.nominal_response.clone(), measured, outcome.updated_response.clone()])
+    let rows = run.outcomes.iter().zip(&identify.measured).enumerate().map(|(i, (outcome, measured))| {
+        let frequency_hz = outcome.frequency_hz;
+        // A scale that was found is one of the values and of their deviations.
+        let std = run.measured(frequency_hz, &known_std(&identify.noise, i, measured.len()));
+        let measured = run.measured(frequency_hz, measured);
+        (frequency_hz, [outcome.nominal_response.clone(), measured, outcome.updated_response.clone()], std)
     });
     responses_csv(case, rows)
 }
 
 /// The same of several unknowns.
 pub fn several_response_csv(case: &Case, wanted: &SeveralCase, run: &SeveralRun) -> String {
-    let rows = run.outcome.at.iter().zip(&wanted.measured).map(|(at, measured)| {
-        (at.frequency_hz, [at.nominal_response.clone(), measured.clone(), at.updated_response.clone()])
+    let rows = run.outcome.at.iter().zip(&wanted.measured).enumerate().map(|(i, (at, measured))| {
+        let std = known_std(&wanted.noise, i, measured.len());
+        (at.frequency_hz, [at.nominal_response.clone(), measured.clone(), at.updated_response.clone()], std)
     });
     responses_csv(case, rows)
 }
 
-/// Nominal, measured and updated receptance at the sensors, frequency by frequency.
-fn responses_csv(case: &Case, rows: impl Iterator<Item = (f64, [Vec<c64>; 3])>) -> String {
+/// Deviations of the sensors at the i-th frequency; NaN where they are not known.
+fn known_std(noise: &MeasuredNoise, i: usize, sensors: usize) -> Vec<c64> {
+    let of_one = |m: usize| match noise {
+        MeasuredNoise::Known(std) => std[i][m],
+        MeasuredNoise::Relative(_) | MeasuredNoise::Unknown => f64::NAN,
+    };
+    (0..sensors).map(|m| c64::from(of_one(m))).collect()
+}
+
+/// Nominal, measured and updated receptance at the sensors and the measured one's deviation, frequency by frequency.
+fn responses_csv(case: &Case, rows: impl Iterator<Item = (f64, [Vec<c64>; 3], Vec<c64>)>) -> String {
     let columns = [
         "frequency_hz",
         "sensor",
@@ -34,8 +48,9 @@ fn responses_csv(case: &Case, rows: impl Iterator<Item = (f64, [Vec<c64>; 3])>) 
         "measured_im",
         "updated_re",
         "updated_im",
+        "measured_std",
     ];
-    let rows = rows.flat_map(|(frequency_hz, responses)| {
+    let rows = rows.flat_map(|(frequency_hz, responses, std)| {
         case.sensors.iter().enumerate().map(move |(m, sensor)| {
             let there = |receptance: &[c64]| cells(sensor, frequency_hz, receptance.get(m));
             let [[nominal_re, nominal_im], [measured_re, measured_im], [updated_re, updated_im]] =
@@ -50,6 +65,7 @@ fn responses_csv(case: &Case, rows: impl Iterator<Item = (f64, [Vec<c64>; 3])>) 
                 measured_im,
                 updated_re,
                 updated_im,
+                std.get(m).map(|std| sensor.quantity.from_receptance(frequency_hz, *std).norm()).into(),
             ]
         })
     });

@@ -1,0 +1,195 @@
+//! What the plots and the table show, as JSON: numbers rounded to what can be seen, fewer of them where there are many.
+
+use crate::number::rounded;
+use crate::results::{COLUMNS, Candidates, ErrorMap, Results, Sensor, Verdict as Kind};
+use crate::thin::{every, rows};
+use crate::verdict::{Verdict, label};
+use frfit::c64;
+use frfit::identify::Status;
+use serde_json::{Value, json};
+
+/// Digits of a frequency: lines of a thousandth of a hertz stay apart.
+const FREQUENCY_DIGITS: usize = 9;
+/// Digits of everything else.
+const DIGITS: usize = 6;
+/// Rows of the table at most. With all columns a row takes some 180 bytes.
+pub(crate) const TABLE_ROWS: usize = 12_000;
+/// Rows of it that are drawn: as many as a plot has pixels across.
+const DRAWN_ROWS: usize = 1_500;
+/// Rows of all sensors together, some 70 bytes each.
+const SENSOR_ROWS: usize = 20_000;
+/// Sensors that are drawn.
+pub(crate) const SENSORS: usize = 40;
+/// Solutions of each kind that are drawn.
+const SOLUTIONS: usize = 2_000;
+
+/// What a page draws, and of how much of it there is.
+pub(crate) struct Data {
+    pub(crate) json: Value,
+    /// Sentences that say what is left out of plots and table.
+    pub(crate) notes: Vec<String>,
+}
+
+/// The data of a page.
+pub(crate) fn data(results: &Results, verdict: &Verdict) -> Data {
+    let mut notes = Vec::new();
+    let band = &results.band;
+    let all: Vec<usize> = (0..band.len()).collect();
+    let table: Vec<usize> = thinned(results, &all, TABLE_ROWS);
+    if table.len() < band.len() {
+        notes.push(format!(
+            "The table has {} of {} frequencies, among them the extremes of every band; identified.csv has all.",
+            table.len(),
+            band.len()
+        ));
+    }
+    let drawn = thinned(results, &table, DRAWN_ROWS);
+    if drawn.len() < band.len() {
+        notes.push(format!(
+            "Curves over frequency are drawn with {} of {} points: of each narrow band the smallest and the largest.",
+            drawn.len(),
+            band.len()
+        ));
+    }
+    let pick =
+        |values: &[Option<f64>]| table.iter().map(|&row| rounded(values[row], DIGITS)).collect::<Vec<_>>();
+    let columns: serde_json::Map<String, Value> = COLUMNS
+        .iter()
+        .filter(|name| band.has(name) && !(verdict.names.real && name.starts_with("loss_factor")))
+        .map(|&name| (name.to_owned(), json!(pick(band.column(name)))))
+        .collect();
+    let factor = |values: &[Option<c64>]| match values.iter().any(Option::is_some) {
+        true => json!({
+            "storage": pick(&values.iter().map(|e| Some(e.as_ref()?.re)).collect::<Vec<_>>()),
+            "loss_factor": pick(&values.iter().map(|e| Some(frfit::material::loss_factor((*e)?))).collect::<Vec<_>>()),
+        }),
+        false => Value::Null,
+    };
+    // Positions in the table.
+    let drawn: Vec<usize> = drawn.iter().filter_map(|row| table.binary_search(row).ok()).collect();
+    let sensors = sensors(results, &mut notes);
+    let json = json!({
+        "names": {
+            "storage": verdict.names.storage, "unit": verdict.names.unit, "real": verdict.names.real,
+            "matrix": results.summary.names(),
+        },
+        "method": results.summary.word("/identify/method"),
+        "varies": results.summary.word("/identify/varies"),
+        "statuses": Status::ALL.map(|status| json!({"name": status.name(), "label": label(status)})),
+        "frequency_hz": table.iter().map(|&row| rounded(Some(band.frequency_hz[row]), FREQUENCY_DIGITS)).collect::<Vec<_>>(),
+        "status": table.iter().map(|&row| band.class(row)).collect::<Vec<_>>(),
+        "columns": columns,
+        "nominal_error": pick(&verdict.nominal_error),
+        "nominal": factor(&results.reference.nominal),
+        "truth": factor(&results.reference.truth),
+        "free": results.free.as_ref().filter(|free| free.len() == band.len()).map(|free| json!({
+            "storage": pick(free.column("storage")),
+            "loss_factor": pick(free.column("loss_factor")),
+            "status": table.iter().map(|&row| free.class(row)).collect::<Vec<_>>(),
+        })),
+        "drawn": drawn,
+        "sensors": sensors,
+        "candidates": candidates(&results.candidates, &mut notes),
+        "error_map": results.error_map.as_ref().map(error_map),
+    });
+    Data { json, notes }
+}
+
+/// Those of some rows of the band that show modulus, errors and every status.
+fn thinned(results: &Results, among: &[usize], most: usize) -> Vec<usize> {
+    let band = &results.band;
+    let column = |name: &'static str| move |k: usize| band.at(name, among[k]);
+    let (storage, loss) = (column("storage"), column("loss_factor"));
+    let (error, radius) = (column("error"), column("spectral_radius"));
+    let curves: [&dyn Fn(usize) -> Option<f64>; 4] = [&storage, &loss, &error, &radius];
+    let kept = rows(among.len(), most, &curves, Status::ALL.len(), &|k| band.class(among[k]));
+    kept.into_iter().map(|k| among[k]).collect()
+}
+
+fn sensors(results: &Results, notes: &mut Vec<String>) -> Vec<Value> {
+    let shown = results.sensors.len().min(SENSORS);
+    if shown < results.sensors.len() {
+        notes.push(format!("{shown} of {} sensors are drawn; response.csv has all.", results.sensors.len()));
+    }
+    let most = SENSOR_ROWS / shown.max(1);
+    if most < results.band.len() {
+        notes.push(format!(
+            "Responses are drawn with up to {most} of {} frequencies: of each narrow band the smallest and the largest of every curve.",
+            results.band.len()
+        ));
+    }
+    results
+        .sensors
+        .iter()
+        .take(SENSORS)
+        .map(|sensor| one_sensor(sensor, &results.band.frequency_hz, most))
+        .collect()
+}
+
+fn one_sensor(sensor: &Sensor, frequency_hz: &[f64], most: usize) -> Value {
+    let size = |values: &'_ [Option<c64>]| -> Vec<Option<f64>> {
+        values.iter().map(|value| Some((*value)?.norm())).collect()
+    };
+    let (nominal, measured, updated) = (size(&sensor.nominal), size(&sensor.measured), size(&sensor.updated));
+    let kept = rows(
+        frequency_hz.len(),
+        most,
+        &[&|row| nominal[row], &|row| measured[row], &|row| updated[row]],
+        1,
+        &|_| 0,
+    );
+    let parts = |values: &[Option<c64>]| match values.iter().any(Option::is_some) {
+        true => json!({
+            "re": kept.iter().map(|&row| rounded(values[row].map(|v| v.re), DIGITS)).collect::<Vec<_>>(),
+            "im": kept.iter().map(|&row| rounded(values[row].map(|v| v.im), DIGITS)).collect::<Vec<_>>(),
+        }),
+        false => Value::Null,
+    };
+    let std = &sensor.measured_std;
+    json!({
+        "label": sensor.label,
+        "quantity": sensor.quantity.name(),
+        "frequency_hz": kept.iter().map(|&row| rounded(Some(frequency_hz[row]), FREQUENCY_DIGITS)).collect::<Vec<_>>(),
+        "nominal": parts(&sensor.nominal),
+        "measured": parts(&sensor.measured),
+        "updated": parts(&sensor.updated),
+        "measured_std": std.iter().any(Option::is_some).then(|| kept.iter().map(|&row| rounded(std[row], 3)).collect::<Vec<_>>()),
+        "frac": {"nominal": rounded(sensor.frac(&sensor.nominal), DIGITS), "updated": rounded(sensor.frac(&sensor.updated), DIGITS)},
+    })
+}
+
+/// The solutions of each kind but the chosen ones, which the table has.
+fn candidates(candidates: &Candidates, notes: &mut Vec<String>) -> Value {
+    let mut of_kind = |kind: Kind, word: &str| {
+        let all: Vec<usize> =
+            (0..candidates.verdict.len()).filter(|&row| candidates.verdict[row] == kind).collect();
+        let kept: Vec<usize> = every(all.len(), SOLUTIONS).map(|k| all[k]).collect();
+        if kept.len() < all.len() {
+            notes.push(format!(
+                "Of {} {word} solutions {} are drawn, at even steps; candidates.csv has all.",
+                all.len(),
+                kept.len()
+            ));
+        }
+        json!({
+            "frequency_hz": kept.iter().map(|&row| rounded(Some(candidates.frequency_hz[row]), FREQUENCY_DIGITS)).collect::<Vec<_>>(),
+            "storage": kept.iter().map(|&row| rounded(candidates.storage[row], DIGITS)).collect::<Vec<_>>(),
+            "loss_factor": kept.iter().map(|&row| rounded(candidates.loss_factor[row], DIGITS)).collect::<Vec<_>>(),
+        })
+    };
+    json!({
+        "alternative": of_kind(Kind::Alternative, "alternative"),
+        "admissible": of_kind(Kind::Admissible, "admissible"),
+        "refused": of_kind(Kind::Refused, "refused"),
+    })
+}
+
+/// log₁₀ ε, not below roundoff: colours are for what can be told apart.
+fn error_map(map: &ErrorMap) -> Value {
+    let log = |error: &Option<f64>| rounded(error.map(|error| error.max(1e-16).log10()), 4);
+    json!({
+        "frequency_hz": map.frequency_hz.iter().map(|&f| rounded(Some(f), FREQUENCY_DIGITS)).collect::<Vec<_>>(),
+        "order": map.order,
+        "log_error": map.error.iter().map(|row| row.iter().map(log).collect::<Vec<_>>()).collect::<Vec<_>>(),
+    })
+}

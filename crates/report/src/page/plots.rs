@@ -1,0 +1,225 @@
+//! The places of plots and table: what each shows, or why it is not there.
+
+use crate::data::SENSORS;
+use crate::escape::escape;
+use crate::results::Results;
+use crate::verdict::{Verdict, label};
+use frfit::identify::Status;
+use std::fmt::Write;
+
+/// The frequency cursor.
+pub(super) fn cursor() -> String {
+    "<section id=\"cursor\" class=\"screen\" aria-label=\"Frequency cursor\"><label for=\"cursor-range\">Frequency cursor</label>\
+     <input type=\"range\" id=\"cursor-range\" min=\"0\" step=\"1\" value=\"0\"><output id=\"cursor-values\" for=\"cursor-range\"></output>\
+     <button type=\"button\" id=\"log-frequency\" aria-pressed=\"false\">Log frequency</button></section>\n"
+        .to_owned()
+}
+
+/// A plot with its heading and how it is read; the scripts fill it.
+fn plot(id: &str, title: &str, reading: &str) -> String {
+    format!(
+        "<figure class=\"plot\" id=\"plot-{id}\"><figcaption><h3>{title}</h3><p>{reading}</p></figcaption>\
+         <div class=\"tools screen\" role=\"toolbar\" aria-label=\"{title}\"></div><div class=\"drawing\"></div></figure>\n"
+    )
+}
+
+/// Why a plot is not there.
+fn absent(title: &str, why: &str) -> String {
+    format!("<p class=\"absent\"><b>{title}</b>: not drawn, {why}</p>\n")
+}
+
+/// All plots, in the order in which they are read.
+pub(super) fn sections(results: &Results, verdict: &Verdict) -> String {
+    let mut html = String::new();
+    for (id, title, content) in [
+        ("response", "Response", response(results)),
+        ("factor", "Identified value", factor(results, verdict)),
+        ("choice", "Choice", choice(results)),
+        ("trust", "Error and convergence", trust(results)),
+        ("plane", "In the complex plane", plane(results, verdict)),
+    ] {
+        let _ = write!(
+            html,
+            "<section id=\"{id}\" aria-labelledby=\"{id}-title\"><h2 id=\"{id}-title\">{title}</h2>\n{content}</section>\n"
+        );
+    }
+    html
+}
+
+fn response(results: &Results) -> String {
+    let mut html = String::new();
+    if results.sensors.len() > 1 {
+        html += "<p class=\"screen\"><label for=\"sensor\">Sensor </label><select id=\"sensor\">";
+        for (m, sensor) in results.sensors.iter().take(SENSORS).enumerate() {
+            let _ = write!(html, "<option value=\"{m}\">{}</option>", escape(&sensor.label));
+        }
+        html += "</select></p><p class=\"print-only\">Sensor <span id=\"sensor-name\"></span>; the others are in figures/.</p>";
+    }
+    html += &plot(
+        "accelerance",
+        "Accelerance: measured, nominal, updated",
+        "Acceleration per force. The updated model should lie on the measured points; the nominal one shows how far off it was.",
+    );
+    html + &plot(
+        "frac",
+        "Agreement of each sensor (FRAC)",
+        "1 is a response of the measured shape at every frequency. A sensor that stays low is wrong, or the model is wrong there.",
+    )
+}
+
+fn factor(results: &Results, verdict: &Verdict) -> String {
+    let title = if verdict.names.real { "Identified value" } else { "Storage modulus and loss factor" };
+    let bars = match results.band.has("storage_std") {
+        true => {
+            "Bars and bands are two standard deviations of what noise does: 95 of 100 true values lie within, if the model is right. Errors of the model (mesh, supports) are not in them."
+        }
+        false => "There are no error bars: the noise is unknown, or the selection has none.",
+    };
+    plot("modulus", title, &format!("{bars} Grey crosses are evidence only, not answers."))
+}
+
+fn choice(results: &Results) -> String {
+    let title = "Candidates and chosen path";
+    if results.candidates.verdict.is_empty() {
+        return absent(title, "for no solution was found at any frequency.");
+    }
+    plot(
+        "candidates",
+        title,
+        "Every dot reproduces the first measurement. The path through them is the one that the other sensors and frequencies agree with. Refused ones are shown by a switch.",
+    )
+}
+
+fn trust(results: &Results) -> String {
+    let band = &results.band;
+    let mut html = "<div class=\"pair\">".to_owned();
+    let mut missing = String::new();
+    if band.has("error") {
+        html += &plot(
+            "error",
+            "Error of the response",
+            "Norm of the misfit over all sensors, relative to the measured response, with the nominal and the updated value. Small is necessary, but proves little: several values may match.",
+        );
+    } else {
+        missing += &absent("Error of the response", "for no frequency has an updated response.");
+    }
+    match &results.error_map {
+        Some(_) => {
+            html += &plot(
+                "error-map",
+                "Error map over the order of the series",
+                "log₁₀ of the error after so many terms of the series. Columns that darken upwards converge; bright ones stand at resonances.",
+            );
+        }
+        None => {
+            let method = escape(results.summary.word("/identify/method"));
+            missing += &absent(
+                "Error map over the order of the series",
+                &format!(
+                    "for it is made with method = \"series\" and --error-map above 0 only, and this run used {method}."
+                ),
+            );
+        }
+    }
+    if band.has("spectral_radius") {
+        html += &plot(
+            "radius",
+            "Spectral radius",
+            "Below 1 the paper’s series converges to the answer; the nearer to 1, the more terms it needs.",
+        );
+    } else {
+        missing += &absent("Spectral radius", "for no frequency has one.");
+    }
+    if band.has("pole_distance") {
+        html += &plot(
+            "pole",
+            "Distance to the nearest pole",
+            "How far the parameter may change, relative to its nominal value, before the response has a pole; beside it how far it did change.",
+        );
+    } else {
+        missing += &absent("Distance to the nearest pole", "for no frequency has one.");
+    }
+    if band.has("series_order") {
+        html += &plot(
+            "order",
+            "Order that the series would need",
+            "Terms of the paper’s series for an error of 10⁻⁶. Where there is a gap no order is enough, and the default method is what answers.",
+        );
+    } else {
+        missing += &absent(
+            "Order that the series would need",
+            "for only a joint selection on the band’s subspace asks for it.",
+        );
+    }
+    if band.has("certificate") {
+        let size = results
+            .summary
+            .number("/counts/subspace_size")
+            .map_or(String::new(), |size| format!(" It has {size} vectors."));
+        html += &plot(
+            "certificate",
+            "Certificate of the reduced model",
+            &format!(
+                "Estimated error of the band’s subspace at the sensors, relative to the measured response.{size}"
+            ),
+        );
+    } else {
+        html +=
+            &absent("Certificate of the reduced model", "for the full model answered at every frequency.");
+    }
+    html + "</div>\n" + &missing
+}
+
+fn plane(results: &Results, verdict: &Verdict) -> String {
+    let mut html = plot(
+        "nyquist",
+        "Nyquist plot",
+        "Imaginary over real part of the accelerance. Resonances are loops; measured and updated loops should be the same.",
+    );
+    if verdict.names.real {
+        let why = "for the factor is real (real = true).";
+        return html + &absent("Cole–Cole plot", why) + &absent("Wicket plot", why);
+    }
+    if results.band.rows(Status::Ok).next().is_none() {
+        let why = "for no frequency is trusted.";
+        return html + &absent("Cole–Cole plot", why) + &absent("Wicket plot", why);
+    }
+    html += "<div class=\"pair\">";
+    html += &plot(
+        "cole-cole",
+        "Cole–Cole plot",
+        "Loss modulus over storage modulus at trusted frequencies. One material gives one curve.",
+    );
+    html += &plot(
+        "wicket",
+        "Wicket plot",
+        "Loss factor over storage modulus, both logarithmic. Points beside the curve are wrong in frequency, temperature or branch.",
+    );
+    html + "</div>\n"
+}
+
+/// The table with its filter.
+pub(super) fn table(notes: &[String], verdict: &Verdict) -> String {
+    let mut html =
+        "<section id=\"table\" aria-labelledby=\"table-title\"><h2 id=\"table-title\">All frequencies</h2>\
+                    <form id=\"filter\" class=\"screen\"><fieldset><legend>Status</legend>"
+            .to_owned();
+    for share in &verdict.shares {
+        let (name, count) = (share.status.name(), share.count);
+        let _ = write!(
+            html,
+            "<label><input type=\"checkbox\" name=\"status\" value=\"{name}\" checked> <span class=\"dot {name}\"></span>{} ({count})</label>",
+            label(share.status)
+        );
+    }
+    html += "</fieldset><fieldset><legend>Frequency in Hz</legend><label>from <input type=\"number\" id=\"from\" step=\"any\"></label> \
+             <label>to <input type=\"number\" id=\"to\" step=\"any\"></label></fieldset>\
+             <button type=\"button\" id=\"table-csv\">Download CSV</button></form>\
+             <p id=\"rows-shown\" role=\"status\"></p>\
+             <div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Table of all frequencies\"><table id=\"rows\"><thead></thead><tbody></tbody></table></div>\
+             <p class=\"pages screen\"><button type=\"button\" id=\"previous\">Previous</button><span id=\"page\"></span><button type=\"button\" id=\"next\">Next</button></p>\n";
+    for note in notes {
+        let _ = write!(html, "<p class=\"note\">{}</p>", escape(note));
+    }
+    html + "<p class=\"note\">Numbers in plots, table and downloads have six digits; identified.csv beside this page has all.</p></section>\n"
+}

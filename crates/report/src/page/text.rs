@@ -1,0 +1,303 @@
+//! What is read: head, verdict, and where everything comes from.
+
+use crate::escape::escape;
+use crate::number::{hertz, significant};
+use crate::results::Results;
+use crate::verdict::{Level, Verdict, label};
+use frfit::identify::Status;
+use serde_json::Value;
+use std::fmt::Write;
+
+pub(super) fn header(title: &str, results: &Results) -> String {
+    let summary = &results.summary;
+    let how = match summary.word("/identify/varies") {
+        "law" => "a law over the band",
+        "smooth" => "a smooth curve over the band",
+        _ => "a value at every frequency",
+    };
+    format!(
+        "<header class=\"page\"><div><p class=\"kicker\">Finite element model against measurement</p><h1>{}</h1>\
+         <p class=\"sub\">{}, {how}, {} sensor{}</p></div>\
+         <button type=\"button\" id=\"theme\" class=\"screen\" aria-live=\"polite\">Dark</button></header>\n",
+        escape(title),
+        escape(&format!("Factor of {}", summary.names())),
+        results.sensors.len(),
+        if results.sensors.len() == 1 { "" } else { "s" },
+    )
+}
+
+pub(super) fn verdict(results: &Results, verdict: &Verdict) -> String {
+    let (class, word) = match verdict.level {
+        Level::Good => ("good", "Can be used"),
+        Level::Care => ("care", "Use with care"),
+        Level::Bad => ("bad", "Do not use yet"),
+    };
+    let mut html = format!(
+        "<section id=\"verdict\" aria-labelledby=\"verdict-title\"><h2 id=\"verdict-title\" class=\"{class}\"><span>{word}</span></h2>\
+         <p class=\"headline\">{}</p>\n<dl class=\"tiles\">",
+        escape(&verdict.headline)
+    );
+    // Writing to a string does not fail.
+    for tile in &verdict.tiles {
+        let _ = write!(
+            html,
+            "<div><dt>{}</dt><dd class=\"value\">{}</dd><dd class=\"detail\">{}</dd></div>",
+            escape(&tile.label),
+            escape(&tile.value),
+            escape(&tile.detail)
+        );
+    }
+    html += "</dl>\n";
+    html += &strip(results, verdict);
+    html += &findings(results);
+    if !verdict.cautions.is_empty() {
+        html += "<h3>Before the numbers are used</h3><ul>";
+        for caution in &verdict.cautions {
+            let _ = write!(html, "<li>{}</li>", escape(caution));
+        }
+        html += "</ul>\n";
+    }
+    html += &three_rows(verdict);
+    html += &laws(results);
+    html + "</section>\n"
+}
+
+/// The statuses over frequency as a strip, and in words.
+fn strip(results: &Results, verdict: &Verdict) -> String {
+    let band = &results.band;
+    let (first, last) = (band.frequency_hz[0], band.frequency_hz[band.len() - 1]);
+    let width = |f: f64| if last > first { 1000.0 * (f - first) / (last - first) } else { 1000.0 };
+    let mut rects = String::new();
+    let mut start = 0;
+    let mut drawn = -1.0;
+    for row in 1..=band.len() {
+        if row < band.len() && band.status[row] == band.status[start] {
+            continue;
+        }
+        // From half-way to the neighbour before to half-way to the one behind.
+        let edge = |row: usize| match row {
+            0 => first,
+            row if row >= band.len() => last,
+            row => f64::midpoint(band.frequency_hz[row - 1], band.frequency_hz[row]),
+        };
+        let (x, end) = (width(edge(start)), width(edge(row)));
+        // Narrower than a third of a pixel nothing is seen, and a page has room for some thousand.
+        if end - drawn > 0.35 {
+            let _ = write!(
+                rects,
+                "<rect class=\"{}\" x=\"{x:.2}\" width=\"{:.2}\" height=\"20\"/>",
+                band.status[start].name(),
+                (end - x).max(0.35)
+            );
+            drawn = end;
+        }
+        start = row;
+    }
+    let mut html = format!(
+        "<h3>Where the answer can be trusted</h3><figure class=\"strip\"><svg viewBox=\"0 0 1000 20\" preserveAspectRatio=\"none\" role=\"img\" \
+         aria-label=\"Status over frequency; the list below says the same in words\">{rects}</svg>\
+         <figcaption><span>{}</span><span>{}</span></figcaption></figure><ul class=\"shares\">",
+        hertz(first),
+        hertz(last)
+    );
+    for share in &verdict.shares {
+        let _ = write!(
+            html,
+            "<li><span class=\"dot {}\"></span><b>{} {}</b> – {}</li>",
+            share.status.name(),
+            share.count,
+            label(share.status),
+            escape(&share.words)
+        );
+    }
+    html + "</ul>\n"
+}
+
+fn findings(results: &Results) -> String {
+    let findings = results.summary.array("/findings");
+    let checked = results.summary.0.get("findings").is_some_and(|found| !found.is_null());
+    if findings.is_empty() {
+        let told = match checked {
+            true => {
+                "The measurements were compared with the model first (sign, quantity, units, delay, position of sensors and load, mesh): nothing was found wrong."
+            }
+            false => "The measurements were not looked at for mistakes (check = false).",
+        };
+        return format!("<p>{told}</p>\n");
+    }
+    let text = |value: &Value, key: &str| escape(value.get(key).and_then(Value::as_str).unwrap_or(""));
+    let mut html = "<h3>What seems wrong with the data</h3><ul class=\"findings\">".to_owned();
+    for finding in findings {
+        let sensors: Vec<String> = finding
+            .get("sensors")
+            .and_then(Value::as_array)
+            .into_iter()
+            .flatten()
+            .filter_map(Value::as_str)
+            .map(escape)
+            .collect();
+        let who = if sensors.is_empty() { String::new() } else { format!("{}: ", sensors.join(", ")) };
+        let number = |key: &str| {
+            finding.pointer(&format!("/evidence/{key}")).and_then(Value::as_f64).map(|v| significant(v, 2))
+        };
+        let evidence = match (number("misfit_before"), number("misfit_after")) {
+            (Some(before), Some(after)) => {
+                format!(" Misfit of ln(measured/model) {before} before, {after} after.")
+            }
+            _ => String::new(),
+        };
+        let _ = write!(
+            html,
+            "<li><b>{who}{}</b>.{evidence} Change <code>{}</code></li>",
+            text(finding, "what"),
+            text(finding, "change")
+        );
+    }
+    html + "</ul>\n"
+}
+
+fn three_rows(verdict: &Verdict) -> String {
+    if verdict.rows.is_empty() {
+        return String::new();
+    }
+    let real = verdict.names.real;
+    let bars = if verdict.rows.iter().any(|row| row[1].contains('±')) {
+        ", ± two standard deviations"
+    } else {
+        ""
+    };
+    let mut html = format!(
+        "<h3>Lowest, middle and highest trusted frequency</h3><div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Values at three frequencies\"><table class=\"plain\">\
+         <thead><tr><th>Frequency</th><th>{}{bars}</th>{}<th>Nominal</th></tr></thead><tbody>",
+        escape(&verdict.names.storage),
+        if real { "" } else { "<th>Loss factor η</th>" }
+    );
+    for [frequency, storage, loss, nominal] in &verdict.rows {
+        let loss = if real { String::new() } else { format!("<td>{}</td>", escape(loss)) };
+        let _ = write!(
+            html,
+            "<tr><td>{}</td><td>{}</td>{loss}<td>{}</td></tr>",
+            escape(frequency),
+            escape(storage),
+            escape(nominal)
+        );
+    }
+    html + "</tbody></table></div>\n"
+}
+
+/// The law or the smooth curve, where there is one.
+fn laws(results: &Results) -> String {
+    let summary = &results.summary;
+    let laws = summary.array("/laws/laws");
+    let mut html = String::new();
+    if !laws.is_empty() {
+        let best = summary.word("/laws/best");
+        html += "<h3>Laws fitted to the whole band</h3><div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Fitted laws\"><table class=\"plain\"><thead><tr><th>Law</th><th>Parameters, ± two standard deviations</th>\
+                 <th>χ² per degree of freedom</th><th>BIC</th></tr></thead><tbody>";
+        for law in laws {
+            let name = law.get("law").and_then(Value::as_str).unwrap_or("");
+            let parameters: Vec<String> = law
+                .get("parameters")
+                .and_then(Value::as_object)
+                .into_iter()
+                .flatten()
+                .filter_map(|(name, told)| {
+                    let number = |key: &str| told.get(key).and_then(Value::as_f64);
+                    let unit = told.get("unit").and_then(Value::as_str).unwrap_or("");
+                    let unit = if unit == "1" { "" } else { unit };
+                    Some(format!(
+                        "{name} = {}",
+                        crate::number::with_bar(number("value")?, number("std"), unit)
+                    ))
+                })
+                .collect();
+            let number =
+                |key: &str| law.get(key).and_then(Value::as_f64).map_or("–".into(), |v| significant(v, 4));
+            let mark = if name == best { " (best)" } else { "" };
+            let _ = write!(
+                html,
+                "<tr><td>{}{mark}</td><td>{}</td><td>{}</td><td>{}</td></tr>",
+                escape(name),
+                escape(&parameters.join("; ")),
+                number("chi_squared_per_degree_of_freedom"),
+                number("bic")
+            );
+        }
+        html += "</tbody></table></div>\n";
+    }
+    if let (Some(parameters), Some(width)) =
+        (summary.number("/smooth/parameters"), summary.number("/smooth/width_octaves"))
+    {
+        let _ = writeln!(
+            html,
+            "<p>The smooth curve takes {} parameters from the data, one for {} octaves.</p>",
+            significant(parameters, 3),
+            significant(width, 2)
+        );
+    }
+    html
+}
+
+/// Files with checksums, options, work, version.
+pub(super) fn provenance(results: &Results) -> String {
+    let summary = &results.summary;
+    let mut html = "<section id=\"provenance\" aria-labelledby=\"provenance-title\"><h2 id=\"provenance-title\">Where this comes from</h2>\
+                    <h3>Input files</h3><div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Input files\"><table class=\"plain files\">\
+                    <thead><tr><th>File</th><th>Bytes</th><th>SHA-256</th></tr></thead><tbody>"
+        .to_owned();
+    for input in summary.array("/inputs") {
+        let text = |key: &str| escape(input.get(key).and_then(Value::as_str).unwrap_or(""));
+        let bytes = input.get("bytes").and_then(Value::as_u64).unwrap_or(0);
+        let _ = write!(
+            html,
+            "<tr><td>{}</td><td>{bytes}</td><td><code>{}</code></td></tr>",
+            text("file"),
+            text("sha256")
+        );
+    }
+    html += "</tbody></table></div>\n<div class=\"columns\">";
+    for (title, pointer) in [
+        ("Model", "/model"),
+        ("Options", "/identify"),
+        ("Noise", "/noise"),
+        ("Fit", "/fit"),
+        ("Work", "/counts"),
+        ("Seconds", "/seconds"),
+    ] {
+        let Some(object) = summary.0.pointer(pointer).and_then(Value::as_object) else { continue };
+        let _ = write!(html, "<div><h3>{title}</h3><dl class=\"pairs\">");
+        for (key, value) in object {
+            let _ =
+                write!(html, "<dt>{}</dt><dd>{}</dd>", escape(&key.replace('_', " ")), escape(&shown(value)));
+        }
+        html += "</dl></div>";
+    }
+    let statuses =
+        Status::ALL.map(|status| format!("{} is <code>{}</code>", label(status), status.name())).join(", ");
+    let _ = write!(
+        html,
+        "</div>\n<p>Made by frfit {} from the files beside this page. In them {statuses}. Plots are drawn by plotly.js (MIT licence, Plotly, Inc.), \
+         which is in this file; nothing is loaded from elsewhere.</p></section>\n",
+        escape(summary.word("/frfit"))
+    );
+    html
+}
+
+/// A value of the summary in a few words.
+fn shown(value: &Value) -> String {
+    match value {
+        Value::Null => "–".into(),
+        Value::Bool(true) => "yes".into(),
+        Value::Bool(false) => "no".into(),
+        Value::Number(number) if !number.is_f64() => number.to_string(),
+        Value::Number(number) => significant(number.as_f64().unwrap_or(f64::NAN), 4),
+        Value::String(text) => text.clone(),
+        Value::Array(values) if values.is_empty() => "–".into(),
+        Value::Array(values) => values.iter().map(shown).collect::<Vec<_>>().join(", "),
+        Value::Object(object) => object
+            .iter()
+            .map(|(key, value)| format!("{} {}", key.replace('_', " "), shown(value)))
+            .collect::<Vec<_>>()
+            .join(", "),
+    }
+}

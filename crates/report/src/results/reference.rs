@@ -1,0 +1,25 @@
+//! `reference.csv`: what the identified factor is compared with.
+
+use super::columns::Columns;
+use frfit::c64;
+use frfit_formats::FormatError;
+
+/// Factors by frequency, in the order of `identified.csv`.
+#[derive(Debug)]
+pub(crate) struct Reference {
+    pub(crate) nominal: Vec<Option<c64>>,
+    /// Where the case tells it.
+    pub(crate) truth: Vec<Option<c64>>,
+}
+
+impl Reference {
+    pub(crate) fn read(table: &Columns, frequency_hz: &[f64]) -> Result<Self, FormatError> {
+        table.at_frequencies(frequency_hz)?;
+        let factor = |what: &str| -> Result<Vec<Option<c64>>, FormatError> {
+            let re = table.numbers(&format!("{what}_re"))?;
+            let im = table.numbers(&format!("{what}_im"))?;
+            Ok(re.into_iter().zip(im).map(|(re, im)| Some(c64::new(re?, im?))).collect())
+        };
+        Ok(Self { nominal: factor("nominal")?, truth: factor("true")? })
+    }
+}

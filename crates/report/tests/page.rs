@@ -1,0 +1,333 @@
+//! The page of results that are made here, whole and broken.
+
+mod made;
+
+use frfit_report::{FILES, LARGEST, html};
+use made::{Made, results};
+use proptest::prelude::*;
+use serde_json::Value;
+use std::collections::BTreeMap;
+
+type Files = BTreeMap<&'static str, Vec<u8>>;
+
+fn page(files: &Files) -> Result<String, String> {
+    html(&|name| files.get(name).cloned()).map_err(|error| error.to_string())
+}
+
+/// The JSON in the page.
+fn data(page: &str) -> Value {
+    let (_, rest) = page.split_once("<script type=\"application/json\" id=\"data\">").unwrap();
+    serde_json::from_str(rest.split_once("</script>").unwrap().0).unwrap()
+}
+
+/// The page without its scripts: what is read.
+fn text(page: &str) -> &str {
+    page.split_once("<body>").unwrap().1.split_once("<script").unwrap().0
+}
+
+#[test]
+fn the_same_files_give_the_same_page_and_nothing_is_loaded() {
+    let files = results(&Made::default());
+    let one = page(&files).unwrap();
+    assert_eq!(one, page(&files).unwrap());
+    assert!(one.starts_with("<!doctype html>\n<html lang=\"en\">") && one.ends_with("</html>\n"));
+    // No element has an address of anything outside: the policy forbids it, and nothing asks for it.
+    let own = one.replace(include_str!("../vendor/plotly-cartesian.min.js"), "");
+    for word in ["http://", "https://", " src=", "@import", "url("] {
+        assert!(!own.contains(word), "{word}");
+    }
+    assert!(own.contains("default-src 'none'"));
+}
+
+#[test]
+fn the_library_is_the_one_whose_sum_is_told() {
+    use sha2::{Digest, Sha256};
+    let sum = Sha256::digest(include_bytes!("../vendor/plotly-cartesian.min.js"));
+    let sum: String = sum.iter().map(|byte| format!("{byte:02x}")).collect();
+    assert!(include_str!("../vendor/README.md").contains(&sum), "{sum}");
+    // It stands in a script element as it is.
+    assert!(!include_str!("../vendor/plotly-cartesian.min.js").to_ascii_lowercase().contains("</script"));
+}
+
+#[test]
+fn text_of_users_is_text() {
+    let evil = "</title></script><script>alert('1')</script>\"<img src=x onerror=alert(2)>";
+    let files = results(&Made { title: evil, label: evil, file: evil, ..Made::default() });
+    let page = page(&files).unwrap();
+    assert!(!page.contains("<script>alert") && !page.contains("<img") && !page.contains("<i>"));
+    assert_eq!(
+        page.matches("<script").count()
+            - include_str!("../vendor/plotly-cartesian.min.js").matches("<script").count(),
+        3
+    );
+    let data = data(&page);
+    assert_eq!(data["sensors"][0]["label"], evil);
+    assert!(text(&page).contains("&lt;img src=x onerror=alert(2)&gt;"));
+}
+
+/// Numbers of one length, finite or null.
+fn is_curve(values: &Value, length: usize) -> bool {
+    let is_number = |value: &Value| value.is_null() || value.as_f64().is_some_and(f64::is_finite);
+    values.as_array().is_some_and(|values| values.len() == length && values.iter().all(is_number))
+}
+
+#[test]
+fn every_curve_is_as_long_as_its_axis() {
+    let made = Made { free: true, error_map: true, std: true, ..Made::default() };
+    let data = data(&page(&results(&made)).unwrap());
+    let length = |value: &Value| value.as_array().unwrap().len();
+    let rows = length(&data["frequency_hz"]);
+    assert_eq!(rows, made.frequencies);
+    for (name, column) in data["columns"].as_object().unwrap() {
+        assert!(is_curve(column, rows), "{name}");
+    }
+    for pointer in [
+        "/nominal_error",
+        "/nominal/storage",
+        "/nominal/loss_factor",
+        "/truth/storage",
+        "/free/storage",
+        "/free/loss_factor",
+        "/status",
+    ] {
+        assert!(is_curve(data.pointer(pointer).unwrap(), rows), "{pointer}");
+    }
+    let sensors = data["sensors"].as_array().unwrap();
+    assert_eq!(sensors.len(), made.sensors);
+    for sensor in sensors {
+        let rows = length(&sensor["frequency_hz"]);
+        for pointer in [
+            "/nominal/re",
+            "/nominal/im",
+            "/measured/re",
+            "/measured/im",
+            "/updated/re",
+            "/updated/im",
+            "/measured_std",
+        ] {
+            assert!(is_curve(sensor.pointer(pointer).unwrap(), rows), "{pointer}");
+        }
+        // The updated response is the measured one; the nominal is another.
+        assert!(sensor["frac"]["updated"].as_f64().unwrap() > 0.999_999, "{}", sensor["frac"]);
+        assert!(sensor["frac"]["nominal"].as_f64().unwrap() < 0.9, "{}", sensor["frac"]);
+    }
+    let map = &data["error_map"];
+    assert_eq!(length(&map["log_error"]), length(&map["order"]));
+    assert!(
+        map["log_error"].as_array().unwrap().iter().all(|row| is_curve(row, length(&map["frequency_hz"])))
+    );
+    for kind in ["alternative", "admissible", "refused"] {
+        let found = &data["candidates"][kind];
+        let rows = length(&found["frequency_hz"]);
+        assert!(is_curve(&found["storage"], rows) && is_curve(&found["loss_factor"], rows), "{kind}");
+        assert!(rows > 0, "{kind}");
+    }
+}
+
+#[test]
+fn the_verdict_says_how_much_can_be_trusted_and_why_not_the_rest() {
+    let made = Made { bad: 10, ..Made::default() };
+    let page = page(&results(&made)).unwrap();
+    let text = text(&page);
+    // 10 of 100 frequencies are ill conditioned: the others can be used.
+    for told in [
+        "Can be used",
+        "90 of 100",
+        "90 %",
+        "<b>90 trusted</b>",
+        "<b>10 ill conditioned</b>",
+        "noise drowns it",
+        "nothing was found wrong",
+    ] {
+        assert!(text.contains(told), "{told}");
+    }
+    let care = Made { bad: 40, ..Made::default() };
+    assert!(text_of(&care).contains("Use with care"));
+    let none = Made { bad: 100, ..Made::default() };
+    assert!(
+        text_of(&none).contains("Do not use yet")
+            && text_of(&none).contains("Cole–Cole plot</b>: not drawn, for no frequency is trusted")
+    );
+    let unexplained = Made { fit: "not explained", ..Made::default() };
+    assert!(
+        text_of(&unexplained).contains("Do not use yet") && text_of(&unexplained).contains("is no noise")
+    );
+    let untested = Made { fit: "untested", ..Made::default() };
+    assert!(
+        text_of(&untested).contains("Use with care")
+            && text_of(&untested).contains("nothing independent tests")
+    );
+    let found = Made { finding: true, ..Made::default() };
+    assert!(
+        text_of(&found).contains("Use with care")
+            && text_of(&found).contains("accelerance is taken for mobility")
+    );
+    assert!(text_of(&found).contains("Change <code>quantity of [[measurement]] 2</code>"));
+}
+
+#[test]
+fn doubts_about_sensors_are_told_before_the_numbers() {
+    let mut files = results(&Made::default());
+    let summary = String::from_utf8(files["summary.json"].clone()).unwrap();
+    let told = summary.replacen(
+        "\"contradicts\": false",
+        "\"contradicts\": true, \"scale\": 9.80665, \"scale_std\": 0.001, \"delay_s\": null",
+        1,
+    );
+    let told = told.replacen("\"left_out\": false", "\"left_out\": true", 1);
+    assert_ne!(told, summary);
+    files.insert("summary.json", told.into_bytes());
+    let page = page(&files).unwrap();
+    for told in [
+        "Use with care",
+        "Sensor S1 contradicts all others. It was left out.",
+        "The scale of sensor S1 was unknown and found: 9.8066 ± 0.0020 times what the file says.",
+        "The delay of sensor S1 was unknown, and the data do not tell it: it was left out.",
+    ] {
+        assert!(text(&page).contains(told), "{told}");
+    }
+}
+
+#[test]
+fn a_solution_at_infinity_is_no_fault() {
+    let mut files = results(&Made::default());
+    let table = String::from_utf8(files["candidates.csv"].clone()).unwrap();
+    let without = table.replacen(",0.2,0.0,0.0,far", ",,0.0,0.0,far", 1);
+    let line = without.lines().position(|line| line.ends_with(",,0.0,0.0,far")).unwrap();
+    let mut lines: Vec<&str> = without.lines().collect();
+    lines[line] = "20.0,,,0.0,0.0,far";
+    files.insert("candidates.csv", (lines.join("\n") + "\n").into_bytes());
+    assert!(
+        data(&page(&files).unwrap())["candidates"]["refused"]["storage"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .any(Value::is_null)
+    );
+}
+
+fn text_of(made: &Made) -> String {
+    text(&page(&results(made)).unwrap()).to_owned()
+}
+
+#[test]
+fn a_plot_without_data_is_left_out_with_a_sentence() {
+    let with = page(&results(&Made { error_map: true, ..Made::default() })).unwrap();
+    assert!(with.contains("id=\"plot-error-map\"") && with.contains("id=\"plot-certificate\""));
+    let without = page(&results(&Made { certificate: false, real: true, ..Made::default() })).unwrap();
+    for (id, told) in [
+        ("plot-error-map", "not drawn, for it is made with method = &quot;series&quot;"),
+        ("plot-error-map", "not drawn, for it is made with method"),
+        ("plot-certificate", "not drawn, for the full model answered"),
+        ("plot-cole-cole", "not drawn, for the factor is real"),
+        ("plot-wicket", "not drawn, for the factor is real"),
+    ] {
+        assert!(!without.contains(&format!("id=\"{id}\"")), "{id}");
+        assert!(without.contains(told) || without.contains(&told.replace("&quot;", "\"")), "{told}");
+    }
+}
+
+#[test]
+fn tables_of_another_run_are_not_read() {
+    let mut files = results(&Made::default());
+    let whole = page(&files).unwrap();
+    // A run with a law has left its table: the summary does not name it.
+    files.insert("free.csv", b"no table of this run".to_vec());
+    assert_eq!(page(&files).unwrap(), whole);
+}
+
+#[test]
+fn what_is_missing_or_broken_is_told_with_its_place() {
+    for name in FILES.iter().filter(|name| !["free.csv", "error_map.csv"].contains(name)) {
+        let mut files = results(&Made::default());
+        files.remove(name);
+        let told = page(&files).unwrap_err();
+        assert_eq!(
+            told,
+            format!("{name}: expected this file, as frfit identify of this version writes it, found none")
+        );
+    }
+    for (name, from, to, told) in [
+        ("summary.json", "{", "{{", "summary.json:1:2: expected JSON, found"),
+        (
+            "summary.json",
+            "\"tables\"",
+            "\"sheets\"",
+            "summary.json: expected a list in tables, as frfit identify of this version writes it, found none",
+        ),
+        ("identified.csv", ",status", ",state", "identified.csv:1: expected a column status, found"),
+        (
+            "identified.csv",
+            ",ok,",
+            ",fine,",
+            "expected one of ok, ambiguous, diverged, no_root, ill_conditioned, out_of_band in column \"status\", found \"fine\"",
+        ),
+        (
+            "reference.csv",
+            "\n20.0,",
+            "\n20.5,",
+            "reference.csv:2:1: expected 20.0, as in identified.csv in column \"frequency_hz\", found 20.5",
+        ),
+        (
+            "response.csv",
+            ",S1,",
+            ",S9,",
+            "expected \"S1\", as in summary.json in column \"sensor\", found \"S9\"",
+        ),
+        ("candidates.csv", "chosen", "liked", "candidates.csv:2:"),
+        ("identified.csv", "\n20.0,", "\nx,", "identified.csv:2:1: expected a finite number"),
+    ] {
+        let mut files = results(&Made::default());
+        let text = String::from_utf8(files[name].clone()).unwrap();
+        assert!(text.contains(from), "{name}: {from}");
+        files.insert(name, text.replacen(from, to, 1).into_bytes());
+        let found = page(&files).unwrap_err();
+        assert!(found.contains(told) && found.starts_with(name), "{found}\n{told}");
+    }
+}
+
+#[test]
+fn large_results_make_a_page_that_is_not_large() {
+    // Ten thousand frequencies with everything a page can have; and more than any measurement has.
+    for (frequencies, sensors) in [(10_000, 8), (60_000, 4), (1_000, 120)] {
+        let made = Made {
+            frequencies,
+            sensors,
+            bad: frequencies / 3,
+            free: true,
+            std: true,
+            error_map: true,
+            ..Made::default()
+        };
+        let page = page(&results(&made)).unwrap();
+        assert!(page.len() < LARGEST, "{frequencies} × {sensors}: {} bytes", page.len());
+        let told = ["drawn with", "sensors are drawn"].iter().any(|told| text(&page).contains(told));
+        assert!(told, "{frequencies} × {sensors}");
+        // The extremes of a column are among what is drawn.
+        let data = data(&page);
+        let storage = data["columns"]["storage"].as_array().unwrap();
+        let most =
+            |values: &mut dyn Iterator<Item = &Value>| values.filter_map(Value::as_f64).fold(0.0, f64::max);
+        let drawn =
+            data["drawn"].as_array().unwrap().iter().map(|row| &storage[row.as_u64().unwrap() as usize]);
+        assert!((most(&mut drawn.into_iter()) / made.largest() - 1.0).abs() < 1e-5);
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+    #[test]
+    fn broken_bytes_give_a_page_or_an_error(name in 0..FILES.len(), at in 0.0..1.0_f64, byte in any::<u8>(), cut in any::<bool>()) {
+        let mut files = results(&Made { frequencies: 6, free: true, error_map: true, ..Made::default() });
+        let bytes = files.get_mut(FILES[name]).unwrap();
+        let at = (at * bytes.len() as f64) as usize;
+        match cut {
+            true => bytes.truncate(at),
+            false => bytes[at] = byte,
+        }
+        match page(&files) {
+            Ok(page) => { data(&page); }
+            Err(told) => prop_assert!(told.contains("expected") && FILES.iter().any(|name| told.starts_with(name)), "{}", told),
+        }
+    }
+}

@@ -1,0 +1,52 @@
+// How good the answers are, and what the series and the subspace would have to do.
+
+/** A plot of one or two columns over frequency. */
+function addColumns(id, title, curves, label, begins = true, level = null) {
+  addPlot({
+    id,
+    height: 330,
+    frequency: true,
+    logs: { yaxis: [label, begins] },
+    traces: () => curves().filter(([, y]) => y).map(([name, y, shade, format, more]) => line(name, drawn(data.frequency_hz), drawn(y), shade, format, { mode: "lines+markers", marker: { color: color(shade), size: 3.5 }, ...more })),
+    layout: () => ({
+      xaxis: overFrequency(),
+      yaxis: { title },
+      showlegend: true,
+      ...(level !== null && { shapes: [{ type: "line", xref: "paper", x0: 0, x1: 1, y0: level, y1: level, line: { color: color("soft"), width: 1, dash: "dot" } }] }),
+    }),
+  });
+}
+
+addColumns("error", "ε, relative", () => [
+  ["nominal", data.nominal_error, "nominal", "%{y:.3~g}", { line: { color: color("nominal"), dash: "dash", width: 1.5 } }],
+  ["updated", column("error"), "updated", "%{y:.3~g}"],
+], "ε");
+
+addPlot({
+  id: "error-map",
+  height: 330,
+  frequency: true,
+  traces: () => [{
+    type: "heatmap", name: "log₁₀ ε", x: data.error_map.frequency_hz, y: data.error_map.order, z: data.error_map.log_error, colorscale: "Viridis", hoverongaps: false,
+    colorbar: { title: { text: "log₁₀ ε" }, thickness: 14, outlinewidth: 0 }, hovertemplate: "%{x:.6~g} Hz, order %{y}: log₁₀ ε = %{z:.2f}<extra></extra>",
+  }],
+  layout: () => ({ hovermode: "closest", xaxis: overFrequency(), yaxis: { title: "Order of the series" } }),
+});
+
+const largestRadius = (column("spectral_radius") ?? []).reduce((most, value) => Math.max(most, value ?? 0), 0);
+addColumns("radius", "Spectral radius ρ", () => [["spectral radius", column("spectral_radius"), "updated", "%{y:.4~g}"]], "ρ", largestRadius > 10, 1);
+
+/** |c| over the nominal factor's size. */
+function relativeChange() {
+  const [re, im] = [column("correction_re"), column("correction_im")];
+  if (!re || !data.nominal) return null;
+  const { storage, loss_factor: loss } = data.nominal;
+  return re.map((value, row) => value === null || storage[row] === null ? null : Math.hypot(value, im?.[row] ?? 0) / Math.abs(storage[row] * Math.hypot(1, loss[row] ?? 0)));
+}
+
+addColumns("pole", "Relative to nominal", () => [
+  ["distance to the nearest pole", column("pole_distance"), "nominal", "%{y:.4~g}"],
+  ["change that was found", relativeChange(), "updated", "%{y:.4~g}"],
+], "distance");
+addColumns("order", "Terms for 10⁻⁶", () => [["order needed", column("series_order"), "nominal", "%{y}"]], "order");
+addColumns("certificate", "Estimated error", () => [["certificate", column("certificate"), "nominal", "%{y:.3~g}"]], "error");
