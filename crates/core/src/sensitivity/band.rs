@@ -1,0 +1,114 @@
+//! Response and derivatives over a band.
+
+use super::{Change, Variable};
+use crate::c64;
+use crate::for_each::{ForEach, map};
+use crate::material::OutsideTable;
+use crate::model::{DynamicStiffness, Experiment, Parameter, Role};
+use crate::response::Work;
+use crate::subspace::{ChangeOptions, ChangePoint, Changed, Subspace, Trained};
+use frfit_linalg::solve::Breakdown;
+
+/// The model at every frequency with ∂D/∂ln p of every variable.
+///
+/// # Errors
+/// [`OutsideTable`] where a table does not reach a frequency.
+pub fn change_points<'m>(
+    model: &'m DynamicStiffness,
+    variables: &[Variable],
+    frequency_hz: &[f64],
+) -> Result<Vec<ChangePoint<'m>>, OutsideTable> {
+    // An antiresonance is no place for a relative error: it is taken relative to the response or its change with the first stiffness, whichever is larger.
+    let stiffness = model.terms().iter().enumerate().find(|(_, term)| term.role == Role::Stiffness);
+    let reference: Vec<Parameter> =
+        stiffness.and_then(|(_, term)| Parameter::factor_of(model, &[&term.name]).ok()).into_iter().collect();
+    let point = |&f: &f64| {
+        let changes = variables.iter().map(|v| v.derivative(model, f)).collect::<Result<_, _>>()?;
+        Ok(ChangePoint { at: model.at(f, &reference)?, changes })
+    };
+    frequency_hz.iter().map(point).collect()
+}
+
+/// The subspace of a band, good for the response and its derivatives, and what it says at every frequency.
+#[derive(Debug)]
+pub struct SensitivityBand<'m> {
+    pub(super) subspace: Subspace<'m>,
+    pub(super) variables: &'m [Variable],
+    pub(super) frequency_hz: Vec<f64>,
+    pub(super) at: Vec<Option<Changed>>,
+    trained: Trained,
+}
+
+impl<'m> SensitivityBand<'m> {
+    /// Trains a subspace for the load and the sensors, at the nominal values, and evaluates it.
+    ///
+    /// # Errors
+    /// [`Breakdown`] where neither the shifted stiffness nor D at the last frequency can be factorised, or a solve fails.
+    ///
+    /// # Panics
+    /// Where there is no point, or one has not one change for each variable.
+    pub fn new(
+        experiment: &'m Experiment,
+        variables: &'m [Variable],
+        points: &[ChangePoint<'m>],
+        options: &ChangeOptions,
+        for_each: ForEach<'_>,
+    ) -> Result<Self, Breakdown> {
+        assert!(points.iter().all(|point| point.changes.len() == variables.len()));
+        let highest = points.iter().max_by(|a, b| a.at.frequency_hz.total_cmp(&b.at.frequency_hz));
+        let mut subspace = Subspace::new(experiment, &highest.expect("a band has a frequency").at)?;
+        let trained = subspace.train_changes(points, options, for_each)?;
+        let at = map(for_each, points.len(), |i| {
+            let mut changed = subspace.projection().changes(&points[i]).ok()?;
+            for (p, variable) in variables.iter().enumerate() {
+                if let Change::Scale(sensor) = variable.change {
+                    // What a channel shows is its scale times the response.
+                    changed.slopes[p][sensor] = changed.response[sensor];
+                    changed.slope_truncation[p][sensor] = changed.error[sensor];
+                }
+            }
+            Some(changed)
+        });
+        let frequency_hz = points.iter().map(|point| point.at.frequency_hz).collect();
+        Ok(Self { subspace, variables, frequency_hz, at, trained })
+    }
+
+    /// What is differentiated by.
+    pub fn variables(&self) -> &[Variable] {
+        self.variables
+    }
+
+    /// The frequencies.
+    pub fn frequency_hz(&self) -> &[f64] {
+        &self.frequency_hz
+    }
+
+    /// Response and derivatives at every frequency; `None` where the system is singular, as an undamped one at a resonance.
+    pub fn at(&self) -> &[Option<Changed>] {
+        &self.at
+    }
+
+    /// Number of basis vectors.
+    pub fn size(&self) -> usize {
+        self.subspace.size()
+    }
+
+    /// Real factorisations and solves.
+    pub fn work(&self) -> Work {
+        self.subspace.work()
+    }
+
+    /// How the training ended: the largest estimated error of a derivative at a sensor, relative to it or to the response, whichever is larger.
+    pub fn trained(&self) -> Trained {
+        self.trained
+    }
+
+    /// ∂ln x_m/∂ln p and its estimated error, the frequency given by its index; `None` where there is none.
+    pub fn logarithmic(&self, frequency: usize, variable: usize, sensor: usize) -> Option<(c64, f64)> {
+        let changed = self.at[frequency].as_ref()?;
+        let (x, slope) = (changed.response[sensor], changed.slopes[variable][sensor]);
+        let value = slope / x;
+        let error = (changed.slope_error(variable, sensor) + value.norm() * changed.error[sensor]) / x.norm();
+        (value.is_finite() && error.is_finite()).then_some((value, error))
+    }
+}
