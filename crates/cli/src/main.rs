@@ -36,6 +36,7 @@ fn run(args: &Args) -> Result<Outcome, Failure> {
         Command::Fit(fit) => command::fit::run(args, fit),
         Command::Export(export) => command::export::run(args, export),
         Command::Respond(respond) => command::respond::run(args, respond),
+        Command::Sensitivities(wanted) => command::sensitivities::run(args, wanted),
         Command::Inspect(inspect) => command::inspect::run(args, inspect),
         Command::Convert(convert) => command::convert::run(args, convert),
     }

@@ -59,13 +59,20 @@ fn bytes(count: u64) -> String {
 pub fn check_identify(case: &Case, identify: &IdentifyCase, limit: Option<u64>) -> Result<(), MemoryError> {
     let dofs = case.model.dim();
     let options = &identify.options;
-    if options.space.is_subspace(options.method, dofs, identify.frequency_hz.len()) {
-        let basis = 8 * dofs * VECTORS;
-        let what = format!("{FACTORS} real factors and {VECTORS} vectors");
-        check(case, case.model.analysis().factor_memory::<f64>(), FACTORS, basis, what, limit)
-    } else {
-        check_full(case, limit)
+    match options.space.is_subspace(options.method, dofs, identify.frequency_hz.len()) {
+        true => check_subspace(case, limit),
+        false => check_full(case, limit),
     }
+}
+
+/// The same for the subspace of a band.
+///
+/// # Errors
+/// [`MemoryError`] with the numbers.
+pub fn check_subspace(case: &Case, limit: Option<u64>) -> Result<(), MemoryError> {
+    let basis = 8 * case.model.dim() * VECTORS;
+    let what = format!("{FACTORS} real factors and {VECTORS} vectors");
+    check(case, case.model.analysis().factor_memory::<f64>(), FACTORS, basis, what, limit)
 }
 
 /// The same for a computation on the full model: a complex factor a thread.

@@ -10,6 +10,7 @@ pub(crate) mod frf;
 pub(crate) mod identify;
 pub(crate) mod inspect;
 pub(crate) mod respond;
+pub(crate) mod sensitivities;
 
 use crate::outcome::Failure;
 use std::io::Write;

@@ -8,9 +8,11 @@ mod hits;
 mod laws;
 mod measured;
 mod modulus;
+mod sensitivities;
 mod spectral_radius;
 
 pub use laws::law_figures;
+pub use sensitivities::sensitivity_figure;
 
 use crate::load::{Case, IdentifyCase};
 use crate::output::File;

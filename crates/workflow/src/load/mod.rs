@@ -12,6 +12,7 @@ mod labels;
 mod matrix;
 mod measurement;
 mod model;
+mod sensitivities;
 mod uff;
 
 pub use files::InputFile;
@@ -21,6 +22,7 @@ pub(crate) use labels::{Member, load_one, matrices_of, one_order};
 pub(crate) use matrix::{asymmetry, complex};
 pub use matrix::{check_symmetric, symmetric_matrix};
 pub use measurement::SensorInfo;
+pub use sensitivities::SensitivitiesCase;
 pub(crate) use uff::STD_LABEL;
 
 use crate::case::{self, CaseFile, LoadEntry, Spot, checked_band};
@@ -49,9 +51,11 @@ pub struct Case {
     pub row_names: BTreeMap<usize, String>,
     /// Every file that was read, the case file first.
     pub inputs: Vec<InputFile>,
-    /// What to identify; `None` where the purpose is a response.
+    /// What to identify; `None` where the purpose is another.
     pub identify: Option<IdentifyCase>,
-    /// The frequencies of a response: those of `[respond]`, or else those that were measured.
+    /// What sensitivities need; `None` where the purpose is another.
+    pub sensitivities: Option<SensitivitiesCase>,
+    /// The frequencies of a response or of sensitivities: those of `[respond]`, or else those that were measured.
     pub respond_hz: Vec<f64>,
 }
 
@@ -85,6 +89,8 @@ pub enum Purpose {
     /// Neither is: a measurement's file is opened only for what the case leaves open (where it was measured, what was
     /// measured, and without `[respond]` the frequencies of the first).
     Respond,
+    /// Neither is: as for a response, but without `[respond]` all files that there are, for what they say about noise, within `identify.band_hz`.
+    Sensitivities,
 }
 
 /// Reads a case and every file it names.
@@ -101,6 +107,7 @@ pub fn load(case_file: &Path, overrides: &Overrides, purpose: Purpose) -> Result
     let model = model::model(&case, terms)?;
     let load = force::load(&case.load, model.dim(), &dofs, &mut files)?;
     let measurements = measurements(&case, purpose, &dofs, &mut files)?;
+    let mut sensitivities = None;
     let (identify, respond_hz) = match purpose {
         Purpose::Identify => {
             let identify = identify::identify(&case, overrides, &model, &measurements, &mut files)?;
@@ -108,6 +115,11 @@ pub fn load(case_file: &Path, overrides: &Overrides, purpose: Purpose) -> Result
             (Some(identify), frequency_hz)
         }
         Purpose::Respond => (None, respond_hz(&case, overrides, &measurements)?),
+        Purpose::Sensitivities => {
+            let (found, frequency_hz) = sensitivities::sensitivities(&case, overrides, &measurements)?;
+            sensitivities = Some(found);
+            (None, frequency_hz)
+        }
     };
     for (term, entry) in model.terms().iter().zip(&case.matrices) {
         factor::covers(&term.factor, &entry.factor.place, &respond_hz)?;
@@ -126,6 +138,7 @@ pub fn load(case_file: &Path, overrides: &Overrides, purpose: Purpose) -> Result
         inputs: files.inputs,
         model,
         identify,
+        sensitivities,
         respond_hz,
     })
 }
@@ -167,9 +180,10 @@ fn measurements(
         LoadEntry::At(Spot::Dof(name)) => Some(name),
         _ => None,
     };
-    let asks_for_values = |k| match purpose {
+    let asks_for_values = |k: usize| match purpose {
         Purpose::Identify => true,
         Purpose::Respond => k == 0 && case.respond.is_none(),
+        Purpose::Sensitivities => case.respond.is_none() && case.measurements[k].file.is_some(),
     };
     (case.measurements.iter().enumerate())
         .map(|(k, entry)| measurement(entry, driven_at, asks_for_values(k), dofs, files))
