@@ -29,6 +29,17 @@ pub fn change_points<'m>(
     frequency_hz.iter().map(point).collect()
 }
 
+/// Frequencies of a band that a subspace is trained at; then those at which it is not good enough yet.
+const DRAWN: usize = 256;
+
+fn evaluated(
+    subspace: &Subspace<'_>,
+    points: &[ChangePoint<'_>],
+    for_each: ForEach<'_>,
+) -> Vec<Option<Changed>> {
+    map(for_each, points.len(), |i| subspace.projection().changes(&points[i]).ok())
+}
+
 /// The subspace of a band, good for the response and its derivatives, and what it says at every frequency.
 #[derive(Debug)]
 pub struct SensitivityBand<'m> {
@@ -57,18 +68,32 @@ impl<'m> SensitivityBand<'m> {
         assert!(points.iter().all(|point| point.changes.len() == variables.len()));
         let highest = points.iter().max_by(|a, b| a.at.frequency_hz.total_cmp(&b.at.frequency_hz));
         let mut subspace = Subspace::new(experiment, &highest.expect("a band has a frequency").at)?;
-        let trained = subspace.train_changes(points, options, for_each)?;
-        let at = map(for_each, points.len(), |i| {
-            let mut changed = subspace.projection().changes(&points[i]).ok()?;
-            for (p, variable) in variables.iter().enumerate() {
-                if let Change::Scale(sensor) = variable.change {
-                    // What a channel shows is its scale times the response.
-                    changed.slopes[p][sensor] = changed.response[sensor];
-                    changed.slope_truncation[p][sensor] = changed.error[sensor];
-                }
+        let step = points.len().div_ceil(DRAWN);
+        let drawn: Vec<ChangePoint<'m>> = points.iter().step_by(step).cloned().collect();
+        subspace.train_changes(&drawn, options, for_each)?;
+        let mut at = evaluated(&subspace, points, for_each);
+        let good = |changed: &Changed| {
+            let everywhere = changed.elsewhere.iter().copied().fold(0.0, f64::max);
+            changed.relative_truncation() <= options.tolerance
+                && options.elsewhere.is_none_or(|tolerance| everywhere <= tolerance)
+        };
+        let missed =
+            points.iter().zip(&at).filter(|(_, at)| at.as_ref().is_some_and(|changed| !good(changed)));
+        let missed: Vec<ChangePoint<'m>> = missed.map(|(point, _)| point.clone()).collect();
+        if step > 1 && !missed.is_empty() {
+            subspace.train_changes(&missed, options, for_each)?;
+            at = evaluated(&subspace, points, for_each);
+        }
+        let error = at.iter().flatten().map(Changed::relative_truncation).fold(0.0, f64::max);
+        let trained = Trained { error, converged: error <= options.tolerance };
+        for (p, variable) in variables.iter().enumerate() {
+            let Change::Scale(sensor) = variable.change else { continue };
+            for changed in at.iter_mut().flatten() {
+                // What a channel shows is its scale times the response.
+                changed.slopes[p][sensor] = changed.response[sensor];
+                changed.slope_truncation[p][sensor] = changed.error[sensor];
             }
-            Some(changed)
-        });
+        }
         let frequency_hz = points.iter().map(|point| point.at.frequency_hz).collect();
         Ok(Self { subspace, variables, frequency_hz, at, trained })
     }

@@ -19,7 +19,7 @@ mod words;
 
 pub use candidates::{Candidates, UnknownCandidates};
 pub use ranking::{Largest, Ranking};
-pub use run::{NextSensor, NoiseFrom, Sensitivity, SensitivityOptions, SensitivityRun, sensitivities};
+pub use run::{NextSensor, NoiseFrom, Place, Sensitivity, SensitivityOptions, SensitivityRun, sensitivities};
 
 use crate::figures::sensitivity_figure;
 use crate::job::JobError;

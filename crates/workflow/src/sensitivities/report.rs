@@ -1,7 +1,7 @@
 //! What is told on the screen.
 
 use super::words::{bar, inseparable as in_words};
-use super::{NextSensor, NoiseFrom, SensitivityRun};
+use super::{NextSensor, NoiseFrom, Place, SensitivityRun};
 use crate::load::Case;
 use frfit::sensitivity::{KNOWN, WorstBar, inseparable};
 use frfit_linalg::solve::Breakdown;
@@ -36,7 +36,7 @@ pub(super) fn text(case: &Case, run: &SensitivityRun) -> String {
                 line("told apart", format!("all parameters, each to {} or better", percent(KNOWN)));
             }
             for group in &groups {
-                line("not told apart", in_words(case, &run.variables, resolved, group));
+                line("not told apart", in_words(&case.model, &run.variables, resolved, group));
             }
         }
         None => line("told apart", "the singular values of the Jacobian were not found".to_owned()),
@@ -106,11 +106,14 @@ impl std::fmt::Display for Shown {
     }
 }
 
+/// Places as good as the best that are named.
+const SHOWN: usize = 4;
+
 fn next_in_words(case: &Case, run: &SensitivityRun, next: &NextSensor) -> Vec<String> {
-    let Some(((row, after), others)) = next.best.split_first() else {
+    let Some((best, others)) = next.best.split_first() else {
         return vec!["no candidate is left".to_owned()];
     };
-    if after.total_cmp(&next.before) != std::cmp::Ordering::Less {
+    if best.after.total_cmp(&next.before) != std::cmp::Ordering::Less {
         return vec![format!("none of {} candidates lowers the worst error bar", next.compared)];
     }
     let of = |bar: &WorstBar| {
@@ -124,12 +127,18 @@ fn next_in_words(case: &Case, run: &SensitivityRun, next: &NextSensor) -> Vec<St
     };
     let mut lines = vec![format!(
         "{}: the worst error bar goes from {} to {}",
-        case.row_name(*row),
+        case.row_name(best.row),
         of(&next.before),
-        of(after)
+        of(&best.after)
     )];
+    if !best.as_good.is_empty() {
+        let shown: Vec<String> = best.as_good.iter().take(SHOWN).map(|&row| case.row_name(row)).collect();
+        let more = best.as_good.len().saturating_sub(SHOWN);
+        let rest = if more > 0 { format!(" and {more} more") } else { String::new() };
+        lines.push(format!("as good: {}{rest}", shown.join(", ")));
+    }
     if !others.is_empty() {
-        let other = |(row, after): &(usize, WorstBar)| format!("{} {}", case.row_name(*row), of(after));
+        let other = |place: &Place| format!("{} {}", case.row_name(place.row), of(&place.after));
         lines.push(format!("then {}", others.iter().map(other).collect::<Vec<_>>().join(", ")));
     }
     let good = if next.trained.converged { "" } else { ", which is not good enough to rely on" };

@@ -8,7 +8,7 @@ use frfit::c64;
 use frfit::model::{Experiment, Sensor};
 use frfit::response::Work;
 use frfit::sensitivity::{
-    Change, Deviations, Resolved, SensitivityBand, Variable, WorstBar, change_points, next_sensors,
+    Change, Deviations, Ranked, Resolved, SensitivityBand, Variable, WorstBar, change_points, next_sensors,
     with_each_added, worst_bar,
 };
 use frfit::subspace::{ChangeOptions, ChangePoint, Trained};
@@ -23,8 +23,11 @@ const ASSUMED_NOISE: f64 = 0.01;
 /// Error of response and derivatives everywhere that candidates are compared with: a hundredth of what error bars are told to.
 const ELSEWHERE: f64 = 1e-3;
 
-/// Candidates that are looked at again as sensors.
+/// Candidates that are looked at again as sensors …
 const SHORTLIST: usize = 5;
+
+/// … each at least so much worse than the one before: those in between are as good as that, for they are compared to no better (and nobody places a sensor by less).
+const AS_GOOD: f64 = 1.01;
 
 /// What is asked for.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -58,10 +61,21 @@ pub struct NextSensor {
     pub compared: usize,
     /// The worst error bar as it is.
     pub before: WorstBar,
-    /// Row (from 0) and worst error bar with a sensor there, each really added to a subspace of its own; the best first.
-    pub best: Vec<(usize, WorstBar)>,
+    /// The best places, the best first.
+    pub best: Vec<Place>,
     /// How good that subspace is.
     pub trained: Trained,
+}
+
+/// A place for a sensor.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Place {
+    /// Row, from 0.
+    pub row: usize,
+    /// The worst error bar with a sensor really added there, to a subspace trained for it.
+    pub after: WorstBar,
+    /// Rows that were found to be as good within a hundredth, as neighbours and mirror images are.
+    pub as_good: Vec<usize>,
 }
 
 /// What came out.
@@ -140,12 +154,13 @@ fn computed(
     let mut next = None;
     if let (Some(resolved), false) = (&resolved, candidates.is_empty()) {
         let ranked = next_sensors(&band, &deviations, candidates, &parallel);
-        let rows: Vec<usize> = ranked.iter().take(SHORTLIST).map(|ranked| ranked.row).collect();
+        let short = shortlist(&ranked);
+        let rows: Vec<usize> = short.iter().map(|(row, _)| *row).collect();
         let experiment = with_sensors(&case.experiment, &rows);
         let again =
             SensitivityBand::new(&experiment, variables, points, &ChangeOptions::default(), &parallel)?;
         work += again.work();
-        next = checked(&again, &deviations, sensors.len(), &rows).ok().map(|best| NextSensor {
+        next = checked(&again, &deviations, sensors.len(), short).ok().map(|best| NextSensor {
             compared: candidates.len(),
             before: worst_bar(resolved),
             best,
@@ -174,15 +189,35 @@ fn with_sensors(experiment: &Experiment, rows: &[usize]) -> Experiment {
     experiment
 }
 
+/// The best candidates, and for each those that are as good.
+fn shortlist(ranked: &[Ranked]) -> Vec<(usize, Vec<usize>)> {
+    let mut short: Vec<(Ranked, Vec<usize>)> = Vec::new();
+    let bar = |ranked: &Ranked| ranked.after.worst.map_or(0.0, |(_, bar)| bar);
+    for candidate in ranked {
+        let full = short.len() == SHORTLIST;
+        match short.last_mut() {
+            Some((last, as_good))
+                if candidate.after.unseen == last.after.unseen && bar(candidate) <= AS_GOOD * bar(last) =>
+            {
+                as_good.push(candidate.row);
+            }
+            _ if full => break,
+            _ => short.push((*candidate, Vec::new())),
+        }
+    }
+    short.into_iter().map(|(ranked, as_good)| (ranked.row, as_good)).collect()
+}
+
 /// The short list with each really added, the best first.
 fn checked(
     again: &SensitivityBand<'_>,
     deviations: &Deviations,
     present: usize,
-    rows: &[usize],
-) -> Result<Vec<(usize, WorstBar)>, NoConvergence> {
+    short: Vec<(usize, Vec<usize>)>,
+) -> Result<Vec<Place>, NoConvergence> {
     let bars = with_each_added(again, deviations, present)?;
-    let mut best: Vec<(usize, WorstBar)> = rows.iter().copied().zip(bars).collect();
-    best.sort_by(|a, b| a.1.total_cmp(&b.1));
+    let place = |((row, as_good), after)| Place { row, after, as_good };
+    let mut best: Vec<Place> = short.into_iter().zip(bars).map(place).collect();
+    best.sort_by(|a, b| a.after.total_cmp(&b.after));
     Ok(best)
 }

@@ -1,7 +1,7 @@
 //! `sensitivities.json`.
 
 use super::words::{inseparable as in_words, monomial};
-use super::{NoiseFrom, SensitivityRun};
+use super::{NoiseFrom, Place, SensitivityRun};
 use crate::load::Case;
 use frfit::sensitivity::{Change, Variable, WorstBar, inseparable};
 use frfit_linalg::solve::Breakdown;
@@ -46,7 +46,7 @@ pub(super) fn json(case: &Case, run: &SensitivityRun) -> Value {
                 "unknown": group.unknown,
                 "direction": group.direction,
                 "std": group.std,
-                "words": in_words(case, &run.variables, resolved, &group),
+                "words": in_words(&case.model, &run.variables, resolved, &group),
             })
         })
     });
@@ -58,7 +58,12 @@ pub(super) fn json(case: &Case, run: &SensitivityRun) -> Value {
         })
     };
     let next = run.next.as_ref().map(|next| {
-        let one = |(row, after): &(usize, WorstBar)| json!({"dof": case.row_name(*row), "row": row + 1, "after": worst(after)});
+        let one = |place: &Place| {
+            json!({
+                "dof": case.row_name(place.row), "row": place.row + 1, "after": worst(&place.after),
+                "as_good": place.as_good.iter().map(|&row| case.row_name(row)).collect::<Vec<_>>(),
+            })
+        };
         json!({
             "compared": next.compared,
             "before": worst(&next.before),

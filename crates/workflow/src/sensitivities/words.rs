@@ -1,6 +1,7 @@
 //! Combinations of parameters as a person names them.
 
-use crate::load::Case;
+use frfit::material::Law;
+use frfit::model::{DynamicStiffness, Role};
 use frfit::sensitivity::{Change, Inseparable, Resolved, Variable};
 
 /// How near a ratio of coefficients must be to one to be called a sum, a ratio or a product: nearer than error bars of 30 % care for.
@@ -18,7 +19,7 @@ pub(super) fn bar(std: Option<f64>) -> String {
 
 /// What of a group is seen and what is not.
 pub(super) fn inseparable(
-    case: &Case,
+    model: &DynamicStiffness,
     variables: &[Variable],
     resolved: &Resolved,
     group: &Inseparable,
@@ -30,7 +31,7 @@ pub(super) fn inseparable(
             unseen if group.std.is_none() => format!("{listed}: {unseen}"),
             bar => format!("{listed}: only to {bar}"),
         },
-        (&[a, b], 1) => format!("{listed}: {}", pair(case, variables, resolved, group, [a, b])),
+        (&[a, b], 1) => format!("{listed}: {}", pair(model, variables, resolved, group, [a, b])),
         (all, unknown) if unknown >= all.len() => format!("{listed}: none of them is seen"),
         (_, 1) if group.direction.iter().all(|d| (d - 1.0).abs() < NEAR) => {
             format!("{listed}: a common factor of all of them is not seen ({})", bar(group.std))
@@ -40,14 +41,14 @@ pub(super) fn inseparable(
         }
         (all, unknown) => {
             let seen = all.len() - unknown;
-            let word = if seen == 1 { "combination" } else { "combinations" };
-            format!("{listed}: only {seen} {word} of the {} are seen", all.len())
+            let words = if seen == 1 { "combination of them is" } else { "combinations of them are" };
+            format!("{listed}: only {seen} {words} seen")
         }
     }
 }
 
 fn pair(
-    case: &Case,
+    model: &DynamicStiffness,
     variables: &[Variable],
     resolved: &Resolved,
     group: &Inseparable,
@@ -59,7 +60,7 @@ fn pair(
         (combination[a], combination[b]) = (ca, cb);
         bar(resolved.std(&combination))
     };
-    if let (Some(va), Some(vb)) = (addend(case, &variables[a]), addend(case, &variables[b]))
+    if let (Some(va), Some(vb)) = (addend(model, &variables[a]), addend(model, &variables[b]))
         && va.0 == vb.0
         && (va.1 * da / (vb.1 * db) + 1.0).abs() < NEAR
     {
@@ -83,18 +84,18 @@ fn pair(
     }
 }
 
-/// Role and value of what adds up with others of its role: the constant real factor of one matrix.
-fn addend(case: &Case, variable: &Variable) -> Option<(frfit::model::Role, f64)> {
+/// Role and value of what adds up with others of its role: the constant factor of one matrix.
+fn addend(model: &DynamicStiffness, variable: &Variable) -> Option<(Role, f64)> {
     let Change::Factor(members) = &variable.change else { return None };
     let [member] = members.as_slice() else { return None };
-    let term = &case.model.terms()[member.term];
+    let term = &model.terms()[member.term];
     match term.factor {
-        frfit::material::Law::Constant(value) if value.re != 0.0 => Some((term.role, value.re)),
+        Law::Constant(value) if value.re != 0.0 => Some((term.role, value.re)),
         _ => None,
     }
 }
 
-/// `a^1.00 · b^-0.50`, without what hardly matters.
+/// `(a) · (b)^-0.50`, without what hardly matters.
 pub(super) fn monomial(names: &[&str], exponents: &[f64]) -> String {
     let shown = names.iter().zip(exponents).filter(|(_, e)| e.abs() >= NEAR);
     let factor = |(name, e): (&&str, &f64)| match *e == 1.0 {
@@ -102,4 +103,57 @@ pub(super) fn monomial(names: &[&str], exponents: &[f64]) -> String {
         false => format!("({name})^{e:.2}"),
     };
     shown.map(factor).collect::<Vec<_>>().join(" · ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use frfit::c64;
+    use frfit::model::Term;
+    use frfit::sensitivity;
+    use frfit_linalg::sparse::Triplets;
+
+    /// What is said of a Jacobian with these rows, of a stiffness of 200, another of 100, and a mass.
+    fn said(rows: &[[f64; 3]]) -> Vec<String> {
+        let mut one = Triplets::new(1);
+        one.add(0, 0, 1.0);
+        let matrix = one.assemble();
+        let term = |(name, role, factor): (&str, Role, f64)| Term {
+            name: name.to_owned(),
+            role,
+            matrix: matrix.clone(),
+            factor: Law::Constant(c64::new(factor, 0.0)),
+        };
+        let terms = [("a", Role::Stiffness, 200.0), ("b", Role::Stiffness, 100.0), ("m", Role::Mass, 3.0)];
+        let model = DynamicStiffness::new(terms.map(term).to_vec()).unwrap();
+        let variables = Variable::of_model(&model, &[1.0]).unwrap();
+        let columns: Vec<f64> = (0..3).flat_map(|p| rows.iter().map(move |row| row[p])).collect();
+        let resolved = Resolved::new(&columns, 3, 0.0).unwrap();
+        let groups = sensitivity::inseparable(&resolved);
+        groups.iter().map(|group| inseparable(&model, &variables, &resolved, group)).collect()
+    }
+
+    #[test]
+    fn pairs_have_the_word_for_what_is_seen() {
+        // The sum of 200 and 100 weighs their logarithms two to one: known to 1/√(100² + 50²) over 3/2 of that length.
+        let sum = said(&[[100.0, 50.0, 0.0], [0.0, 0.0, 100.0]]);
+        assert_eq!(sum, ["a, b: only their sum is seen (±0.67 %), not their difference"]);
+        let ratio = said(&[[100.0, 0.0, -100.0], [0.0, 100.0, 0.0], [1.0, 0.0, 1.0]]);
+        assert_eq!(ratio, ["a, m: only their ratio is seen: ±1.00 %; their product ±100 %"]);
+        let product = said(&[[0.0, 100.0, 100.0], [100.0, 0.0, 0.0]]);
+        assert_eq!(product, ["b, m: only their product is seen: ±1.00 %; their ratio not at all"]);
+        let power = said(&[[100.0, 0.0, -50.0], [0.0, 100.0, 0.0]]);
+        assert_eq!(power, ["a, m: only (a) · (m)^-0.50 is seen: ±1.00 %"]);
+    }
+
+    #[test]
+    fn single_ones_and_many() {
+        assert!(said(&[[100.0, 0.0, 0.0], [0.0, 100.0, 0.0], [0.0, 0.0, 100.0]]).is_empty());
+        let alone = said(&[[100.0, 0.0, 0.0], [0.0, 2.0, 0.0]]);
+        assert_eq!(alone, ["b: only to ±50 %", "m: not at all"]);
+        let common = said(&[[100.0, -100.0, 0.0], [0.0, 100.0, -100.0]]);
+        assert_eq!(common, ["a, b, m: a common factor of all of them is not seen (not at all)"]);
+        let two_of_three = said(&[[60.0, 100.0, 80.0]]);
+        assert_eq!(two_of_three, ["a, b, m: only 1 combination of them is seen"]);
+    }
 }
