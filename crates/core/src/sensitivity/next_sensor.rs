@@ -106,30 +106,33 @@ pub fn next_sensors(
 /// [`NoConvergence`] where singular values are not found.
 ///
 /// # Panics
-/// Where a deviation is missing at a frequency with a response.
+/// Where the band has fewer sensors than `present`.
 pub fn with_each_added(
     band: &SensitivityBand<'_>,
     deviations: &Deviations,
     present: usize,
 ) -> Result<Vec<WorstBar>, NoConvergence> {
     let mut sensors: Vec<usize> = (0..present).collect();
-    let all: Deviations = band
+    let all = band.at.iter().flatten().next().map_or(present, |changed| changed.response.len());
+    let extended: Deviations = band
         .at
         .iter()
         .zip(deviations)
         .map(|(at, deviations)| {
-            let Some(changed) = at else { return Vec::new() };
-            let noise = Noise::of(&deviations[..present], &changed.response);
+            let (Some(changed), Some(there)) = (at, deviations.get(..present)) else {
+                // No deviation, no say.
+                return vec![0.0; all];
+            };
+            let noise = Noise::of(there, &changed.response);
             let new =
                 changed.response[present..].iter().map(|x| noise.as_ref().map_or(0.0, |noise| noise.at(*x)));
-            deviations[..present].iter().copied().chain(new).collect()
+            there.iter().copied().chain(new).collect()
         })
         .collect();
-    let count = band.at.iter().flatten().next().map_or(present, |changed| changed.response.len());
     let mut bars = Vec::new();
-    for m in present..count {
+    for m in present..all {
         sensors.push(m);
-        bars.push(worst_bar(&band.resolved(&all, &sensors)?));
+        bars.push(worst_bar(&band.resolved(&extended, &sensors)?));
         sensors.pop();
     }
     Ok(bars)

@@ -27,6 +27,9 @@ pub enum Change {
 impl Variable {
     /// The factor of every term, and where it is complex its loss factor for itself; terms whose factor is zero have no logarithm and are left out.
     ///
+    /// # Limits
+    /// What a matrix has of its own in imaginary parts goes with its factor.
+    ///
     /// # Errors
     /// [`OutsideTable`] where a table does not reach a frequency.
     pub fn of_model(model: &DynamicStiffness, frequency_hz: &[f64]) -> Result<Vec<Self>, OutsideTable> {
