@@ -13,7 +13,7 @@ use frfit::sensitivity::{
     Change, Inseparable, Resolved, SensitivityBand, Variable, change_points, inseparable, next_sensors,
     with_each_added, worst_bar,
 };
-use frfit::subspace::ChangeOptions;
+use frfit::subspace::{ChangeOptions, Subspace};
 use frfit_linalg::sparse::Triplets;
 use proptest::prelude::*;
 
@@ -210,14 +210,36 @@ fn a_dense_band_is_good_at_every_frequency() {
 
 #[test]
 fn elsewhere_is_as_good_as_it_says() {
-    for (case, frequency_hz) in cases() {
+    for (case, frequency_hz) in [cases().remove(0), cases().remove(2)] {
         let variables = Variable::of_model(&case.model, &frequency_hz).unwrap();
-        let options = ChangeOptions { elsewhere: Some(1e-3), ..ChangeOptions::default() };
-        let plain = band(&case.model, &case.experiment, &variables, &frequency_hz, ChangeOptions::default());
-        let band = band(&case.model, &case.experiment, &variables, &frequency_hz, options);
-        assert!(band.size() >= plain.size());
-        let worst = band.at().iter().flatten().flat_map(|at| at.elsewhere.clone()).fold(0.0, f64::max);
-        assert!(worst <= 1e-3, "{}: {worst:e}", case.name);
+        let points = change_points(&case.model, &variables, &frequency_hz).unwrap();
+        let trained = |elsewhere| {
+            let mut subspace = Subspace::new(&case.experiment, &points[points.len() - 1].at).unwrap();
+            let options = ChangeOptions { elsewhere, ..ChangeOptions::default() };
+            assert!(subspace.train_changes(&points, &options, &sequential).unwrap().converged);
+            subspace
+        };
+        let (plain, subspace) = (trained(None), trained(Some(1e-6)));
+        assert!(subspace.size() > plain.size(), "{}: it had to grow", case.name);
+        let rows: Vec<usize> = (0..case.model.dim()).collect();
+        let v = subspace.rows(&rows);
+        let mut worst = 0.0f64;
+        for (point, &f) in points.iter().zip(&frequency_hz) {
+            let changed = subspace.projection().changes(point).unwrap();
+            let exact = direct(&case.model, &case.experiment, &variables, f);
+            for ((y, exact), estimate) in changed.coordinates.iter().zip(&exact).zip(&changed.elsewhere) {
+                assert!(*estimate <= 1e-6, "{} {f} Hz: {estimate:e}", case.name);
+                let found =
+                    |i: usize| y.iter().enumerate().map(|(k, y)| y * v[i + k * rows.len()]).sum::<c64>();
+                let off = exact.iter().enumerate().map(|(i, x)| (found(i) - x).norm_sqr()).sum::<f64>();
+                let off = (off / exact.iter().map(|x| x.norm_sqr()).sum::<f64>()).sqrt();
+                worst = worst.max(off);
+                // One residual, without what resonances make of it, and in another norm: ten times more on these structures. Roundoff, up to 4e-8 where metal and rubber
+                // meet, is not in it.
+                assert!(off <= 20.0 * estimate + 1e-7, "{} {f} Hz: {off:e}, {estimate:e}", case.name);
+            }
+        }
+        assert!(worst > 3e-7, "{}: the estimate was put to the test, {worst:e}", case.name);
     }
 }
 

@@ -39,7 +39,8 @@ pub struct Changed {
     pub slope_roundoff: Vec<Vec<f64>>,
     /// y of x = V y, then of w_p = V y for each parameter.
     pub coordinates: Vec<Vec<c64>>,
-    /// Estimated ‖x − V y‖/‖x‖ and the same of each w_p, in the norm of the basis: what a sensor at any other place can rely on.
+    /// Estimated ‖x − V y‖/‖x‖ and the same of each w_p, in the norm of the basis: what a sensor at any other place can rely on. From one residual each, and without what a
+    /// resonance makes of it: against direct solves some ten times too small.
     pub elsewhere: Vec<f64>,
 }
 
@@ -115,13 +116,16 @@ impl Projection {
                 })
                 .collect();
             let length: Vec<f64> = moved.iter().map(|w| norm(w)).collect();
+            // w_p − V y = D⁻¹(r_w − A_p e_x), where A_p acts on the error of x as it does on x.
+            let inherited = self.gain * residuals[0] * norm(&change_image.multiply(&solutions[0])) / norms[0];
             let truncation = |m: usize| self.gain * (residuals[m] * rest[0] + residuals[0] * rest[m]);
             let roundoff = |m: usize| ROUNDOFF * (norms[m] * length[0] + norms[0] * length[m]);
             changed.slopes.push(observe(moved[0]));
             changed.slope_truncation.push(sensors.clone().map(truncation).collect());
             changed.slope_roundoff.push(sensors.clone().map(roundoff).collect());
             // A parameter that does nothing there has nothing to be wrong.
-            changed.elsewhere.push(if length[0] > 0.0 { self.gain * rest[0] / length[0] } else { 0.0 });
+            let everywhere = self.gain * (rest[0] + inherited) / length[0];
+            changed.elsewhere.push(if length[0] > 0.0 { everywhere } else { 0.0 });
             changed.coordinates.push(moved[0].to_vec());
         }
         Ok(changed)

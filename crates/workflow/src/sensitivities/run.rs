@@ -20,7 +20,7 @@ use std::time::Instant;
 /// Noise of the response where nothing tells it: that of a careful hammer test between resonances.
 const ASSUMED_NOISE: f64 = 0.01;
 
-/// Error of response and derivatives everywhere that candidates are compared with: a hundredth of what error bars are told to.
+/// Estimated error of response and derivatives everywhere that candidates are compared with: ten times that, which is what may be, is the hundredth to which they are.
 const ELSEWHERE: f64 = 1e-3;
 
 /// Candidates that are looked at again as sensors …
