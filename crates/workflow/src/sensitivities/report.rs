@@ -125,6 +125,7 @@ fn next_in_words(case: &Case, run: &SensitivityRun, next: &NextSensor) -> Vec<St
             unseen => format!("{worst}, with {unseen} not seen"),
         }
     };
+    let parameter = |bar: &WorstBar| bar.worst.map(|(p, _)| p);
     let mut lines = vec![format!(
         "{}: the worst error bar goes from {} to {}",
         case.row_name(best.row),
@@ -138,7 +139,13 @@ fn next_in_words(case: &Case, run: &SensitivityRun, next: &NextSensor) -> Vec<St
         lines.push(format!("as good: {}{rest}", shown.join(", ")));
     }
     if !others.is_empty() {
-        let other = |place: &Place| format!("{} {}", case.row_name(place.row), of(&place.after));
+        // The parameter is named again only where it is another.
+        let named =
+            |bar: &WorstBar| bar.unseen == best.after.unseen && parameter(bar) == parameter(&best.after);
+        let other = |place: &Place| match place.after.worst.filter(|_| named(&place.after)) {
+            Some((_, std)) => format!("{} {}", case.row_name(place.row), self::bar(Some(std))),
+            None => format!("{} {}", case.row_name(place.row), of(&place.after)),
+        };
         lines.push(format!("then {}", others.iter().map(other).collect::<Vec<_>>().join(", ")));
     }
     let good = if next.trained.converged { "" } else { ", which is not good enough to rely on" };
