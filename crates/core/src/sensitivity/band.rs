@@ -29,7 +29,7 @@ pub fn change_points<'m>(
     frequency_hz.iter().map(point).collect()
 }
 
-/// Frequencies of a band that a subspace is trained at; then those at which it is not good enough yet.
+/// Frequencies of a band that a subspace is trained at; then as many of those where it is not good enough yet, the worst.
 const DRAWN: usize = 256;
 
 fn evaluated(
@@ -72,15 +72,19 @@ impl<'m> SensitivityBand<'m> {
         let drawn: Vec<ChangePoint<'m>> = points.iter().step_by(step).cloned().collect();
         subspace.train_changes(&drawn, options, for_each)?;
         let mut at = evaluated(&subspace, points, for_each);
-        let good = |changed: &Changed| {
+        // What is asked for is one.
+        let excess = |changed: &Changed| {
             let everywhere = changed.elsewhere.iter().copied().fold(0.0, f64::max);
-            changed.relative_truncation() <= options.tolerance
-                && options.elsewhere.is_none_or(|tolerance| everywhere <= tolerance)
+            let at_sensors = changed.relative_truncation() / options.tolerance;
+            options.elsewhere.map_or(at_sensors, |tolerance| at_sensors.max(everywhere / tolerance))
         };
-        let missed =
-            points.iter().zip(&at).filter(|(_, at)| at.as_ref().is_some_and(|changed| !good(changed)));
-        let missed: Vec<ChangePoint<'m>> = missed.map(|(point, _)| point.clone()).collect();
+        let mut missed: Vec<(f64, usize)> =
+            at.iter().enumerate().filter_map(|(i, at)| Some((excess(at.as_ref()?), i))).collect();
+        missed.retain(|(excess, _)| *excess > 1.0);
         if step > 1 && !missed.is_empty() {
+            missed.sort_by(|a, b| b.0.total_cmp(&a.0));
+            let missed: Vec<ChangePoint<'m>> =
+                missed.iter().take(DRAWN).map(|&(_, i)| points[i].clone()).collect();
             subspace.train_changes(&missed, options, for_each)?;
             at = evaluated(&subspace, points, for_each);
         }

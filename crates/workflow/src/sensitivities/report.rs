@@ -50,7 +50,7 @@ pub(super) fn text(case: &Case, run: &SensitivityRun) -> String {
     if unanswered > 0 {
         line("no answer", format!("at {unanswered} frequencies: the system is singular there"));
     }
-    let good = if run.trained.converged { "" } else { ", which is not good enough to rely on" };
+    let good = if run.trained.converged { "" } else { "; that is more than was asked for" };
     line(
         "subspace",
         format!(
@@ -148,7 +148,7 @@ fn next_in_words(case: &Case, run: &SensitivityRun, next: &NextSensor) -> Vec<St
         };
         lines.push(format!("then {}", others.iter().map(other).collect::<Vec<_>>().join(", ")));
     }
-    let good = if next.trained.converged { "" } else { ", which is not good enough to rely on" };
+    let good = if next.trained.converged { "" } else { "; that is more than was asked for" };
     lines.push(format!(
         "of {} candidates, the best really added: derivatives there to {:.1e} (estimated){good}",
         next.compared, next.trained.error
