@@ -3,6 +3,7 @@
 use clap::{Parser, Subcommand};
 use frfit::laws::{Family, UnknownFamily};
 use frfit_workflow::export::{Target, UnitSystem};
+use frfit_workflow::sensitivities::Candidates;
 use std::path::PathBuf;
 
 /// Correct a finite element model until its frequency response is the measured one.
@@ -73,6 +74,12 @@ pub(crate) enum Command {
     /// Compute the model's response at its nominal factors
     #[command(after_help = "Example: frfit respond case.toml --out response --band 20:2000")]
     Respond(Respond),
+    /// Rank the model's parameters, say which the sensors cannot tell apart and where the next sensor should go
+    #[command(after_help = "Examples: frfit sensitivities case.toml --out sensitivities\n          \
+                      frfit sensitivities case.toml --noise 0.02 --candidates 12+Z,55+Z\n\n\
+                      About the model as it is: nothing needs to be measured. A [[measurement]] may be a dof alone, with [respond] for the frequencies. \
+                      Parameters are the factor of each [[matrix]] and [[attached]], of complex ones the loss factor for itself, and a scale = \"unknown\".")]
+    Sensitivities(Sensitivities),
     /// Say what is in a matrix, FRF or table file
     #[command(
         after_help = "Examples: frfit inspect frf.uff\n          frfit inspect K.mtx M.mtx --modes 6\n          frfit inspect --json frf.uff"
@@ -286,6 +293,26 @@ pub(crate) struct Respond {
 }
 
 #[derive(Debug, clap::Args)]
+pub(crate) struct Sensitivities {
+    /// Case file
+    pub(crate) case: PathBuf,
+    /// Folder for the table, the summary and the figure
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) overrides: Overrides,
+    /// Standard deviation of a response over the response, such as 0.02 (default: as the files of all measurements say, else 0.01)
+    #[arg(long, value_name = "PART", value_parser = part)]
+    pub(crate) noise: Option<f64>,
+    /// Where the next sensor may go: all (translations), none, or a list such as 12+Z,55+Z or 41 (a row)
+    #[arg(long, value_name = "DOFS", default_value = "all")]
+    pub(crate) candidates: Candidates,
+    /// Memory that may be used, in MB (by default what is available): a model that needs more is refused
+    #[arg(long, value_name = "MB")]
+    pub(crate) memory: Option<u64>,
+}
+
+#[derive(Debug, clap::Args)]
 pub(crate) struct Inspect {
     /// Files
     #[arg(required = true)]
@@ -335,6 +362,12 @@ fn cell(text: &str) -> Result<(String, String), String> {
         .split_once('=')
         .ok_or_else(|| format!("expected a column and a value such as T=20, found {text:?}"))?;
     Ok((column.trim().to_owned(), value.trim().to_owned()))
+}
+
+/// A part of a whole, above zero.
+fn part(text: &str) -> Result<f64, String> {
+    let number = text.trim().parse::<f64>().ok().filter(|part| *part > 0.0 && part.is_finite());
+    number.ok_or_else(|| format!("expected a number above 0 such as 0.02, found {text:?}"))
 }
 
 /// `200:1550` as a band in Hz.

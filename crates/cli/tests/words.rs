@@ -13,6 +13,10 @@ fn portable(text: &str) -> String {
             Some((factorisations, _)) => format!("{factorisations}, [solves], [seconds]"),
             None => line.to_owned(),
         },
+        Some("subspace") | Some("of") => match line.split_once("to ") {
+            Some((before, _)) => format!("{before}to [error] (estimated)"),
+            None => line.to_owned(),
+        },
         _ => line.to_owned(),
     };
     text.lines().map(|line| masked(line) + "\n").collect()
@@ -23,7 +27,17 @@ fn help_of_every_command() {
     let folder = tempfile::tempdir().unwrap();
     insta::assert_snapshot!("help", done(folder.path(), &["--help"]));
     for command in [
-        "demo", "example", "frf", "check", "identify", "fit", "report", "export", "respond", "inspect",
+        "demo",
+        "example",
+        "frf",
+        "check",
+        "identify",
+        "fit",
+        "report",
+        "export",
+        "respond",
+        "sensitivities",
+        "inspect",
         "convert",
     ] {
         insta::assert_snapshot!(format!("help_{command}"), done(folder.path(), &[command, "--help"]));
@@ -51,4 +65,16 @@ fn a_hammer_test() {
         "hammer_inspect",
         done(folder.path(), &["inspect", "bar/records.lvm", "bar/frf.uff"])
     );
+}
+
+#[test]
+fn sensitivities_of_a_sandwich() {
+    let folder = tempfile::tempdir().unwrap();
+    done(folder.path(), &["example", "sandwich", "sandwich"]);
+    let wanted = ["sensitivities", "sandwich/case.toml", "--out", "out", "--candidates", "62+Z,143+Z,196+Z"];
+    insta::assert_snapshot!("sensitivities", portable(&done(folder.path(), &wanted)));
+    let table = std::fs::read_to_string(folder.path().join("out/sensitivities.csv")).unwrap();
+    // 99 frequencies, two sensors, six parameters.
+    assert_eq!(table.lines().count(), 1 + 99 * 2 * 6);
+    assert!(folder.path().join("out/figures/sensitivities.svg").exists());
 }

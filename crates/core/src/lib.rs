@@ -23,6 +23,7 @@
 //! | [`select`] | which of the solutions of a whole band are one material, and where the data cannot tell (B-4) |
 //! | [`identify`] | one frequency from measurement to updated factor, and a band of them |
 //! | [`doctor`] | what is wrong with the data against the model, before anything is identified |
+//! | [`sensitivity`] | what a response depends on, what sensors tell of it, and where another would tell most |
 //! | [`laws`] | laws of the modulus with few parameters, fitted to moduli or straight to the FRFs (B-7) |
 //! | [`signal`] | records of a hammer test to an FRF with coherence and variance (B-6) |
 //! | [`nelder_mead`] | the search on direct solves that the series is compared with |
@@ -47,6 +48,7 @@ pub mod rational;
 pub mod response;
 pub mod roots;
 pub mod select;
+pub mod sensitivity;
 pub mod series;
 pub mod signal;
 mod smooth;

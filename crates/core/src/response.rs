@@ -39,6 +39,8 @@ pub trait Response {
     fn frequency_hz(&self) -> f64;
     /// Number of unknowns of the linear systems.
     fn dim(&self) -> usize;
+    /// Number of sensors.
+    fn sensors(&self) -> usize;
     /// Nominal value p̄ of parameter j.
     fn nominal(&self, parameter: usize) -> c64;
     /// Highest power d of parameter j.
@@ -50,6 +52,14 @@ pub trait Response {
     /// # Errors
     /// [`Breakdown`] where the nominal system cannot be solved.
     fn solve_nominal(&self, x: &mut [c64]) -> Result<(), Breakdown>;
+    /// X ← A₀⁻¹ X, column after column: the factor is met once for all of them where that is cheaper.
+    ///
+    /// # Errors
+    /// [`Breakdown`] where the nominal system cannot be solved.
+    ///
+    /// # Panics
+    /// Where the length is not a multiple of the number of unknowns.
+    fn solve_nominal_block(&self, block: &mut [c64]) -> Result<(), Breakdown>;
     /// Receptance at the sensors with the nominal parameters, P-16, with the factor that is there.
     ///
     /// # Errors
@@ -103,6 +113,10 @@ impl Response for FullModel<'_> {
         self.at.model.dim()
     }
 
+    fn sensors(&self) -> usize {
+        self.experiment.sensors.len()
+    }
+
     fn nominal(&self, parameter: usize) -> c64 {
         self.at.parameters[parameter].nominal
     }
@@ -118,6 +132,11 @@ impl Response for FullModel<'_> {
     fn solve_nominal(&self, x: &mut [c64]) -> Result<(), Breakdown> {
         self.solves.fetch_add(1, Ordering::Relaxed);
         self.factor.solve(x).map(drop)
+    }
+
+    fn solve_nominal_block(&self, block: &mut [c64]) -> Result<(), Breakdown> {
+        self.solves.fetch_add(block.len() / self.dim().max(1), Ordering::Relaxed);
+        self.factor.solve(block).map(drop)
     }
 
     fn multiply_add(&self, parameter: usize, power: usize, factor: c64, x: &[c64], out: &mut [c64]) {

@@ -154,7 +154,14 @@ fn error_map() -> Figure {
         x: Axis::linear("Frequency (Hz)"),
         panels: vec![Panel {
             y: Axis::whole("Order of approximation n"),
-            heat: Some(HeatMap { x: f, y: orders, values, label: "log₁₀ ε".into(), range: None }),
+            heat: Some(HeatMap {
+                x: f,
+                y: orders,
+                values,
+                label: "log₁₀ ε".into(),
+                range: None,
+                names: Vec::new(),
+            }),
             ..Panel::default()
         }],
         ..Figure::default()

@@ -19,6 +19,8 @@ pub struct HeatMap {
     /// Values at the two ends of the colour bar; `None` for the extent of the data. Values outside
     /// take the colour of the nearer end.
     pub range: Option<(f64, f64)>,
+    /// Names of the rows, written at `y` in place of numbers; empty for numbers.
+    pub names: Vec<String>,
 }
 
 /// One class of a [`Strip`].

@@ -5,7 +5,7 @@ use crate::range::{PanelRanges, Ranges};
 use crate::scale::Map;
 use crate::svg::Rect;
 use crate::text::width;
-use crate::ticks::{Ticks, shared_exponent, ticks};
+use crate::ticks::{Ticks, names, shared_exponent, ticks};
 use crate::{Figure, Panel, Scale};
 
 /// Size of axis labels, tick labels and legend; of the title.
@@ -133,7 +133,9 @@ impl Frame {
         });
         let strip =
             panel.strip.as_ref().map(|_| Rect { y: plot.bottom() + STRIP.1, height: STRIP.0, ..plot });
-        Self { plot, y, y_ticks: ticks(&y, &line), legend_y, legend, color_bar, strip }
+        let named = panel.heat.as_ref().filter(|heat| !heat.names.is_empty());
+        let y_ticks = named.map_or_else(|| ticks(&y, &line), |heat| names(&y, &heat.y, &heat.names, &line));
+        Self { plot, y, y_ticks, legend_y, legend, color_bar, strip }
     }
 
     /// Room for tick labels and the axis label.

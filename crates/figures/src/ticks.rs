@@ -27,6 +27,16 @@ pub(crate) fn ticks(map: &Map, extent: &impl Fn(&str) -> f64) -> Ticks {
     }
 }
 
+/// A tick with its name at each value, or at every second, third … where names would touch.
+pub(crate) fn names(map: &Map, values: &[f64], names: &[String], extent: &impl Fn(&str) -> f64) -> Ticks {
+    let tick = |(&value, label): (&f64, &String)| Tick { value, label: label.clone() };
+    let mut all: Vec<Tick> =
+        values.iter().zip(names).map(tick).filter(|tick| map.place(tick.value).is_some()).collect();
+    all.sort_by(|a, b| a.value.total_cmp(&b.value));
+    let every = |k: usize| Ticks { major: all.iter().step_by(k).cloned().collect(), ..Ticks::default() };
+    (1..all.len()).map(every).find(|ticks| ticks.fit(map, extent)).unwrap_or_else(|| every(all.len().max(1)))
+}
+
 impl Ticks {
     /// The multiplier all labels share, as text; empty for 1.
     pub(crate) fn multiplier(&self) -> String {

@@ -60,6 +60,23 @@ fn an_empty_panel_says_so() {
 }
 
 #[test]
+fn rows_of_a_heat_map_have_their_names() {
+    let heat = |rows: u32| HeatMap {
+        x: vec![1.0, 2.0],
+        y: (1..=rows).map(f64::from).collect(),
+        values: vec![0.5; 2 * rows as usize],
+        names: (1..=rows).map(|k| format!("row {k}")).collect(),
+        ..HeatMap::default()
+    };
+    let drawn = |rows| texts(&figure(Panel { heat: Some(heat(rows)), ..Panel::default() }).svg());
+    let names = |rows| drawn(rows).into_iter().filter(|text| text.starts_with("row ")).collect::<Vec<_>>();
+    assert_eq!(names(3), ["row 1", "row 2", "row 3"]);
+    // so many would touch: every so many are named, the first among them
+    let few = names(200);
+    assert!(few.len() < 30 && few.len() > 5 && few[0] == "row 1", "{few:?}");
+}
+
+#[test]
 fn heat_cells_stand_at_their_true_places() {
     // cells 0.5..1.5, 1.5..3, 3..5 on a frame without margin: widths 1 : 1.5 : 2
     let heat = HeatMap {

@@ -51,8 +51,8 @@ fn series() -> impl Strategy<Value = Series> {
 
 fn panel() -> impl Strategy<Value = Panel> {
     let range = proptest::option::of((number(), number()));
-    let heat = (numbers(), numbers(), vec(number(), 0..100), ".{0,20}", range)
-        .prop_map(|(x, y, values, label, range)| HeatMap { x, y, values, label, range });
+    let heat = (numbers(), numbers(), vec(number(), 0..100), ".{0,20}", range, vec(".{0,30}", 0..6))
+        .prop_map(|(x, y, values, label, range, names)| HeatMap { x, y, values, label, range, names });
     let classes = || vec![Class { label: "<a>".into(), color: Color::Blue }, Class::default()];
     let strip =
         (numbers(), vec(0..4usize, 0..12)).prop_map(move |(x, class)| Strip { x, class, classes: classes() });
@@ -145,7 +145,7 @@ proptest! {
 
     #[test]
     fn no_label_is_cut_or_covers_another(
-        x_scale in scale(), y_scale in scale(), panels in 1..4usize, heat in any::<bool>(),
+        x_scale in scale(), y_scale in scale(), panels in 1..4usize, heat in any::<bool>(), named in any::<bool>(),
         x in (-12.0..12.0f64, 0.01..12.0f64), y in (-12.0..12.0f64, 0.01..12.0f64),
         title in "[a-zρε₁⁻ ]{0,150}", label in "[A-Za-zωη⁻¹ ]{1,50}", size in (240.0..1200.0f64, 100.0..900.0f64),
     ) {
@@ -153,7 +153,8 @@ proptest! {
         let ends = |(power, span): (f64, f64)| vec![10f64.powf(power), 10f64.powf(power) * (1.0 + 10f64.powf(span - 5.0))];
         let axis = |scale| Axis { label: label.clone(), scale, range: None };
         let curve = Series { label: label.clone(), x: ends(x), y: ends(y), ..Series::default() };
-        let map = HeatMap { x: ends(x), y: ends(y), values: ends(y), label: label.clone(), range: None };
+        let names = if named { vec![label.clone(); 2] } else { Vec::new() };
+        let map = HeatMap { x: ends(x), y: ends(y), values: ends(y), label: label.clone(), range: None, names };
         let panel = |i: usize| Panel {
             y: axis(y_scale),
             series: vec![Series { color: [Color::Blue, Color::Green, Color::Black][i], ..curve.clone() }],

@@ -66,7 +66,7 @@ pub fn check_identify(case: &Case, identify: &IdentifyCase, limit: Option<u64>) 
     }
 }
 
-/// The same for a computation on a subspace.
+/// The same for the subspace of a band.
 ///
 /// # Errors
 /// [`MemoryError`] with the numbers.

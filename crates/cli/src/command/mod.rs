@@ -11,6 +11,7 @@ pub(crate) mod identify;
 pub(crate) mod inspect;
 pub(crate) mod report;
 pub(crate) mod respond;
+pub(crate) mod sensitivities;
 
 use crate::outcome::Failure;
 use std::io::Write;

@@ -5,9 +5,15 @@
 //! For d = 1 this is the paper's recursion: v_k = s^k/k! ∂ᵏx/∂cᵏ. The scale s = |p̄| keeps every v_k of the size of the
 //! response, where the raw derivatives overflow at E = 1e11 Pa; no factorial is formed. Powers d > 1 are B-8.
 
+mod along;
+mod multi_index;
 mod radius;
+mod several;
 
+pub use along::Along;
+pub use multi_index::MultiIndices;
 pub use radius::{ConvergenceRadius, convergence_radius};
+pub use several::MixedSeries;
 
 use crate::c64;
 use crate::response::Response;

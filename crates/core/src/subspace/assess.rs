@@ -31,7 +31,7 @@ pub(super) struct Solved {
 }
 
 /// Units of roundoff that reduced matrices carry relative to the diagonal of the shifted stiffness.
-const ROUNDOFF: f64 = 4.0 * f64::EPSILON;
+pub(super) const ROUNDOFF: f64 = 4.0 * f64::EPSILON;
 
 impl Assessment {
     /// The largest truncation error of any sensor relative to its response or to p ∂x_m/∂c, whichever is larger: relative error of the

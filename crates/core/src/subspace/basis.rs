@@ -54,6 +54,11 @@ impl Basis {
         self.weight.iter().zip(a.iter().zip(b)).map(|(d, (a, b))| a * b / d).sum()
     }
 
+    /// f/√d: the plain product of two of these is that of the forces.
+    pub(super) fn plain_force(&self, force: &[f64]) -> Vec<f64> {
+        self.weight.iter().zip(force).map(|(d, f)| f / d.sqrt()).collect()
+    }
+
     /// Adds what is new of some vectors (N × k, column after column); returns how many were.
     pub(super) fn append(
         &mut self,

@@ -13,6 +13,7 @@
 
 mod assess;
 mod basis;
+mod changes;
 mod fractions;
 mod local;
 mod parts;
@@ -21,12 +22,15 @@ mod reduced;
 mod shift;
 mod sketch;
 mod train;
+mod train_changes;
 
 pub use assess::Assessment;
+pub use changes::{ChangePoint, Changed};
 pub use fractions::{Drive, Fractions};
 pub use projection::Projection;
 pub use reduced::ReducedModel;
 pub use train::{Point, TrainOptions, Trained};
+pub use train_changes::ChangeOptions;
 
 use crate::frequency::omega_rad_s;
 use crate::model::{DynamicStiffness, Experiment, ModelAt};

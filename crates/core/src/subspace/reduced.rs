@@ -65,6 +65,10 @@ impl Response for ReducedModel<'_> {
         self.load.len()
     }
 
+    fn sensors(&self) -> usize {
+        self.sensors.len()
+    }
+
     fn nominal(&self, parameter: usize) -> c64 {
         self.values[parameter]
     }
@@ -79,6 +83,10 @@ impl Response for ReducedModel<'_> {
 
     fn solve_nominal(&self, x: &mut [c64]) -> Result<(), Breakdown> {
         self.factor.solve(x).map_err(|NoConvergence| SINGULAR)
+    }
+
+    fn solve_nominal_block(&self, block: &mut [c64]) -> Result<(), Breakdown> {
+        self.solve_nominal(block)
     }
 
     fn multiply_add(&self, parameter: usize, power: usize, factor: c64, x: &[c64], out: &mut [c64]) {

@@ -46,7 +46,7 @@ pub struct Trained {
 }
 
 /// Real right-hand sides of one round: enough to block the solves, few enough that each round learns from the one before.
-const BLOCK: usize = 8;
+pub(super) const BLOCK: usize = 8;
 
 /// A residual of which less than this is new among those of its round is left for the next.
 const INDEPENDENT: f64 = 0.1;
@@ -58,7 +58,7 @@ const PATIENCE: usize = 64;
 const WATCHED: usize = 48;
 
 /// Rounds without progress (by a factor of two of the error) after which roundoff is what is left.
-const STALLED: usize = 6;
+pub(super) const STALLED: usize = 6;
 
 /// A residual that is wanted in full.
 struct Wanted<'p, 'm> {
@@ -210,14 +210,14 @@ impl<'m> Subspace<'m> {
         residuals
     }
 
-    fn nearest_shift(&self, frequency_hz: f64) -> usize {
+    pub(super) fn nearest_shift(&self, frequency_hz: f64) -> usize {
         let distance = |shift: &Shift| (shift.frequency_hz - frequency_hz).abs();
         let all = 0..self.shifts.len();
         all.min_by(|&a, &b| distance(&self.shifts[a]).total_cmp(&distance(&self.shifts[b]))).unwrap_or(0)
     }
 
     /// Solves each force (of norm one) with its shift, remembers the gain, and adds what is new.
-    fn solve_and_append(&mut self, forces: Vec<(usize, Vec<f64>)>) -> Result<usize, Breakdown> {
+    pub(super) fn solve_and_append(&mut self, forces: Vec<(usize, Vec<f64>)>) -> Result<usize, Breakdown> {
         if forces.is_empty() {
             return Ok(0); // nothing was learnt about the gain either
         }
@@ -240,7 +240,7 @@ impl<'m> Subspace<'m> {
 
 /// One or two real vectors of norm one for a complex one: its real part after the rotation of phase that makes that largest, and its imaginary part where
 /// that is not small beside it.
-fn real_directions(complex: &[c64], dot: impl Fn(&[f64], &[f64]) -> f64) -> Vec<Vec<f64>> {
+pub(super) fn real_directions(complex: &[c64], dot: impl Fn(&[f64], &[f64]) -> f64) -> Vec<Vec<f64>> {
     let re: Vec<f64> = complex.iter().map(|r| r.re).collect();
     let im: Vec<f64> = complex.iter().map(|r| r.im).collect();
     let (aa, bb, ab) = (dot(&re, &re), dot(&im, &im), dot(&re, &im));
@@ -258,7 +258,7 @@ fn real_directions(complex: &[c64], dot: impl Fn(&[f64], &[f64]) -> f64) -> Vec<
 }
 
 /// Keeps what a vector of norm one has beyond those that are kept already, of norm one; false where that is little.
-fn keep(kept: &mut Vec<Vec<f64>>, vector: &[f64]) -> bool {
+pub(super) fn keep(kept: &mut Vec<Vec<f64>>, vector: &[f64]) -> bool {
     let mut new = vector.to_vec();
     for other in kept.iter() {
         let overlap = transpose_dot(other, &new);

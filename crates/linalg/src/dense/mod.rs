@@ -5,12 +5,14 @@ mod least_squares;
 mod lu;
 mod matrix;
 mod polynomial;
+mod singular;
 
 pub use eigen::{Eigen, eigen, eigenvalues, symmetric_eigen};
 pub use least_squares::{LeastSquares, least_squares};
 pub use lu::{Lu, solve};
 pub use matrix::Matrix;
 pub use polynomial::{Root, evaluate, roots};
+pub use singular::{Singular, singular};
 
 use std::fmt;
 

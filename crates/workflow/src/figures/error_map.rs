@@ -24,6 +24,7 @@ pub(super) fn figure(case: &Case, map: &ErrorMap) -> Figure {
                 values: values.collect(),
                 label: "log₁₀ ε".into(),
                 range: None,
+                names: Vec::new(),
             }),
             ..Panel::default()
         }],

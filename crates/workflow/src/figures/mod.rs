@@ -8,10 +8,12 @@ mod hits;
 mod laws;
 mod measured;
 mod modulus;
+mod sensitivities;
 mod several;
 mod spectral_radius;
 
 pub use laws::law_figures;
+pub use sensitivities::sensitivity_figure;
 pub use several::several_figures;
 
 use crate::load::{Case, IdentifyCase};

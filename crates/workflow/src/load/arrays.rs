@@ -193,7 +193,18 @@ fn case(
     respond_hz: Vec<f64>,
 ) -> Case {
     let (title, row_names, inputs) = (String::new(), BTreeMap::new(), Vec::new());
-    Case { title, model, experiment, sensors, row_names, inputs, identify, several: None, respond_hz }
+    Case {
+        title,
+        model,
+        experiment,
+        sensors,
+        row_names,
+        inputs,
+        identify,
+        several: None,
+        sensitivities: None,
+        respond_hz,
+    }
 }
 
 /// An argument, in the words of an error.

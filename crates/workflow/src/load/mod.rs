@@ -13,6 +13,7 @@ mod labels;
 mod matrix;
 mod measurement;
 mod model;
+mod sensitivities;
 mod several;
 mod uff;
 
@@ -24,6 +25,7 @@ pub(crate) use labels::{Member, load_one, matrices_of, one_order};
 pub(crate) use matrix::{asymmetry, complex};
 pub use matrix::{check_symmetric, symmetric_matrix};
 pub use measurement::SensorInfo;
+pub use sensitivities::SensitivitiesCase;
 pub use several::SeveralCase;
 pub(crate) use uff::STD_LABEL;
 
@@ -58,7 +60,9 @@ pub struct Case {
     pub identify: Option<IdentifyCase>,
     /// What to identify where it is several unknowns, or one that does not vary; `None` where the purpose is another.
     pub several: Option<SeveralCase>,
-    /// The frequencies of a response: those of `[respond]`, or else those that were measured.
+    /// What sensitivities need; `None` where the purpose is another.
+    pub sensitivities: Option<SensitivitiesCase>,
+    /// The frequencies of a response or of sensitivities: those of `[respond]`, or else those that were measured.
     pub respond_hz: Vec<f64>,
 }
 
@@ -94,6 +98,8 @@ pub enum Purpose {
     /// Neither is: a measurement's file is opened only for what the case leaves open (where it was measured, what was
     /// measured, and without `[respond]` the frequencies of the first).
     Respond,
+    /// Neither is: as for a response, but without `[respond]` all files that there are, for what they say about noise, within `identify.band_hz`.
+    Sensitivities,
 }
 
 /// Reads a case and every file it names.
@@ -111,6 +117,7 @@ pub fn load(case_file: &Path, overrides: &Overrides, purpose: Purpose) -> Result
     let load = force::load(&case.load, model.dim(), &dofs, &mut files)?;
     let measurements = measurements(&case, purpose, &dofs, &mut files)?;
     let mut several = None;
+    let mut sensitivities = None;
     let (identify, respond_hz) = match purpose {
         Purpose::Identify => {
             let identify = identify::identify(&case, overrides, &model, &measurements, &mut files)?;
@@ -124,6 +131,11 @@ pub fn load(case_file: &Path, overrides: &Overrides, purpose: Purpose) -> Result
             (None, frequency_hz)
         }
         Purpose::Respond => (None, respond_hz(&case, overrides, &measurements)?),
+        Purpose::Sensitivities => {
+            let (found, frequency_hz) = sensitivities::sensitivities(&case, overrides, &measurements)?;
+            sensitivities = Some(found);
+            (None, frequency_hz)
+        }
     };
     for (term, entry) in model.terms().iter().zip(&case.matrices) {
         factor::covers(&term.factor, &entry.factor.place, &respond_hz)?;
@@ -143,6 +155,7 @@ pub fn load(case_file: &Path, overrides: &Overrides, purpose: Purpose) -> Result
         model: Arc::new(model),
         identify,
         several,
+        sensitivities,
         respond_hz,
     })
 }
@@ -195,9 +208,10 @@ fn measurements(
         LoadEntry::At(Spot::Dof(name)) => Some(name),
         _ => None,
     };
-    let asks_for_values = |k| match purpose {
+    let asks_for_values = |k: usize| match purpose {
         Purpose::Identify | Purpose::Several => true,
         Purpose::Respond => k == 0 && case.respond.is_none(),
+        Purpose::Sensitivities => case.respond.is_none() && case.measurements[k].file.is_some(),
     };
     (case.measurements.iter().enumerate())
         .map(|(k, entry)| measurement(entry, driven_at, asks_for_values(k), dofs, files))

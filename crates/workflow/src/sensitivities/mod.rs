@@ -1,0 +1,71 @@
+//! `frfit sensitivities`: what the response depends on, what the sensors tell apart, and where another one would tell most.
+//!
+//! | file | what is in it |
+//! |---|---|
+//! | `run` | the computation |
+//! | `ranking` | parameters by the size of their sensitivities |
+//! | `words` | combinations of parameters as a person names them |
+//! | `report` | what is told on the screen |
+//! | `summary` | `sensitivities.json` |
+//! | `table` | `sensitivities.csv` |
+
+mod candidates;
+mod ranking;
+mod report;
+mod run;
+mod summary;
+mod table;
+mod words;
+
+pub use candidates::{Candidates, UnknownCandidates};
+pub use ranking::{Largest, Ranking};
+pub use run::{NextSensor, NoiseFrom, Place, Sensitivity, SensitivityOptions, SensitivityRun, sensitivities};
+
+use crate::figures::sensitivity_figure;
+use crate::job::JobError;
+use crate::load::{Case, Overrides, Purpose, load};
+use crate::memory::check_subspace;
+use crate::output::{File, write_all};
+use frfit_linalg::solve::Breakdown;
+use std::path::Path;
+
+/// Sensitivities that were computed and, where a folder was given, written.
+#[derive(Debug)]
+pub struct SensitivityJob {
+    /// The case.
+    pub case: Case,
+    /// What came out, or why nothing could be solved.
+    pub run: Result<SensitivityRun, Breakdown>,
+    /// `sensitivities.json`.
+    pub summary: serde_json::Value,
+    /// The same for a person.
+    pub text: String,
+}
+
+/// Loads a case, computes its sensitivities, and writes tables and figure into `out`, where there is one: all of them, or nothing.
+///
+/// # Errors
+/// [`JobError`]. A model that cannot be solved is an outcome, not an error.
+pub fn sensitivities_case(
+    case_file: &Path,
+    overrides: &Overrides,
+    options: &SensitivityOptions,
+    out: Option<&Path>,
+) -> Result<SensitivityJob, JobError> {
+    let case = load(case_file, overrides, Purpose::Sensitivities)?;
+    check_subspace(&case, options.memory_bytes)?;
+    let run = sensitivities(&case, options)?;
+    let (summary, text) = match &run {
+        Ok(run) => (summary::json(&case, run), report::text(&case, run)),
+        Err(breakdown) => (summary::unsolved(&case, breakdown), report::unsolved(&case, breakdown)),
+    };
+    if let Some(out) = out {
+        let mut files = vec![File::new("sensitivities.json", format!("{summary:#}\n"))];
+        if let Ok(run) = &run {
+            files.push(File::new("sensitivities.csv", table::csv(&case, run)));
+            files.extend(sensitivity_figure(&case, run)?);
+        }
+        write_all(out, &files)?;
+    }
+    Ok(SensitivityJob { case, run, summary, text })
+}

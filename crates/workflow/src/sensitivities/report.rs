@@ -1,0 +1,161 @@
+//! What is told on the screen.
+
+use super::words::{bar, inseparable as in_words};
+use super::{NextSensor, NoiseFrom, Place, SensitivityRun};
+use crate::load::Case;
+use frfit::sensitivity::{KNOWN, WorstBar, inseparable};
+use frfit_linalg::solve::Breakdown;
+
+/// Table, what is told apart, and the next sensor.
+pub(super) fn text(case: &Case, run: &SensitivityRun) -> String {
+    let (first, last) = (run.frequency_hz.first(), run.frequency_hz.last());
+    let band = first.zip(last).map_or(String::new(), |(a, b)| format!(", {a} to {b} Hz"));
+    let mut text = format!(
+        "{}: sensitivities to {} parameter(s) at {} sensor(s), {} frequencies{band}\n",
+        case.title,
+        run.variables.len(),
+        case.sensors.len(),
+        run.frequency_hz.len()
+    );
+    text += &table(case, run);
+    let mut line = |label: &str, value: String| text += &format!("  {label:<18}{value}\n");
+    line(
+        "noise",
+        match run.noise {
+            NoiseFrom::Given(noise) => format!("{} % of the response", 100.0 * noise),
+            NoiseFrom::Assumed(noise) => {
+                format!("{} % of the response, assumed (--noise says otherwise)", 100.0 * noise)
+            }
+            NoiseFrom::Files => "as the files of the measurements say".to_owned(),
+        },
+    );
+    match &run.resolved {
+        Some(resolved) => {
+            let groups = inseparable(resolved);
+            if groups.is_empty() {
+                line("told apart", format!("all parameters, each to {} or better", percent(KNOWN)));
+            }
+            for group in &groups {
+                line("not told apart", in_words(&case.model, &run.variables, resolved, group));
+            }
+        }
+        None => line("told apart", "the singular values of the Jacobian were not found".to_owned()),
+    }
+    if let Some(next) = &run.next {
+        for (k, told) in next_in_words(case, run, next).into_iter().enumerate() {
+            line(if k == 0 { "next sensor" } else { "" }, told);
+        }
+    }
+    let unanswered = run.values.iter().filter(|at| at.iter().flatten().all(Option::is_none)).count();
+    if unanswered > 0 {
+        line("no answer", format!("at {unanswered} frequencies: the system is singular there"));
+    }
+    let good = if run.trained.converged { "" } else { "; that is more than was asked for" };
+    line(
+        "subspace",
+        format!(
+            "{} vectors, derivatives at the sensors to {:.1e} (estimated){good}",
+            run.subspace_size, run.trained.error
+        ),
+    );
+    line(
+        "work",
+        format!(
+            "{} factorisations, {} solves, {:.2} s",
+            run.work.factorisations, run.work.solves, run.seconds
+        ),
+    );
+    text
+}
+
+fn table(case: &Case, run: &SensitivityRun) -> String {
+    let bars = run.resolved.as_ref().map(frfit::sensitivity::Resolved::bars);
+    let names = run.variables.iter().map(|variable| variable.name.chars().count());
+    let width = names.fold("parameter".len(), usize::max);
+    let mut text =
+        format!("  {:<width$}  {:>9}  {:>9}  {:<24}  error bar\n", "parameter", "rms", "largest", "at");
+    for ranking in &run.ranking {
+        let number = |value: Option<f64>| value.map_or("-".to_owned(), |value| format!("{value:.3}"));
+        let at = ranking.largest.map_or(String::new(), |largest| {
+            format!("{:.5} Hz, {}", Shown(largest.frequency_hz), case.sensors[largest.sensor].label)
+        });
+        text += &format!(
+            "  {:<width$}  {:>9}  {:>9}  {at:<24}  {}\n",
+            run.variables[ranking.variable].name,
+            number(ranking.rms),
+            number(ranking.largest.map(|largest| largest.value)),
+            bars.as_ref().map_or(String::new(), |bars| bar(bars[ranking.variable])),
+        );
+    }
+    text
+}
+
+/// Where nothing could be solved.
+pub(super) fn unsolved(case: &Case, breakdown: &Breakdown) -> String {
+    format!("{}: no sensitivities: {breakdown}\n", case.title)
+}
+
+/// A number with as many digits as the precision says, without zeros behind.
+struct Shown(f64);
+
+impl std::fmt::Display for Shown {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let digits = f.precision().unwrap_or(4).saturating_sub(1);
+        let rounded = format!("{:.digits$e}", self.0).parse::<f64>().unwrap_or(self.0);
+        write!(f, "{rounded}")
+    }
+}
+
+/// Places as good as the best that are named.
+const SHOWN: usize = 4;
+
+fn next_in_words(case: &Case, run: &SensitivityRun, next: &NextSensor) -> Vec<String> {
+    let Some((best, others)) = next.best.split_first() else {
+        return vec!["no candidate is left".to_owned()];
+    };
+    if best.after.total_cmp(&next.before) != std::cmp::Ordering::Less {
+        return vec![format!("none of {} candidates lowers the worst error bar", next.compared)];
+    }
+    let of = |bar: &WorstBar| {
+        let worst = bar.worst.map_or(String::new(), |(p, std)| {
+            format!("{} ({})", self::bar(Some(std)), run.variables[p].name)
+        });
+        match bar.unseen {
+            0 => worst,
+            unseen => format!("{worst}, with {unseen} not seen"),
+        }
+    };
+    let parameter = |bar: &WorstBar| bar.worst.map(|(p, _)| p);
+    let mut lines = vec![format!(
+        "{}: the worst error bar goes from {} to {}",
+        case.row_name(best.row),
+        of(&next.before),
+        of(&best.after)
+    )];
+    if !best.as_good.is_empty() {
+        let shown: Vec<String> = best.as_good.iter().take(SHOWN).map(|&row| case.row_name(row)).collect();
+        let more = best.as_good.len().saturating_sub(SHOWN);
+        let rest = if more > 0 { format!(" and {more} more") } else { String::new() };
+        lines.push(format!("as good: {}{rest}", shown.join(", ")));
+    }
+    if !others.is_empty() {
+        // The parameter is named again only where it is another.
+        let named =
+            |bar: &WorstBar| bar.unseen == best.after.unseen && parameter(bar) == parameter(&best.after);
+        let other = |place: &Place| match place.after.worst.filter(|_| named(&place.after)) {
+            Some((_, std)) => format!("{} {}", case.row_name(place.row), self::bar(Some(std))),
+            None => format!("{} {}", case.row_name(place.row), of(&place.after)),
+        };
+        lines.push(format!("then {}", others.iter().map(other).collect::<Vec<_>>().join(", ")));
+    }
+    let good = if next.trained.converged { "" } else { "; that is more than was asked for" };
+    lines.push(format!(
+        "of {} candidates, the best really added: derivatives there to {:.1e} (estimated){good}",
+        next.compared, next.trained.error
+    ));
+    lines
+}
+
+fn percent(part: f64) -> String {
+    format!("{:.0} %", 100.0 * part)
+}
