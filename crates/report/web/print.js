@@ -3,6 +3,7 @@
 const [SHEET, HALF] = [680, 330];
 const LOWER = 0.72;
 let themeOnScreen = null;
+const isPrinting = () => themeOnScreen !== null;
 
 addEventListener("beforeprint", () => {
   themeOnScreen ??= root.dataset.theme;
