@@ -93,6 +93,8 @@ function frame(plot) {
 const config = { displayModeBar: false, responsive: true, doubleClick: false, showTips: false };
 
 async function draw(plot) {
+  // Afterwards everything is drawn again.
+  if (isPrinting()) return;
   await Plotly.react(plot.canvas, plot.traces(), frame(plot), config);
   if (!plot.isDrawn) {
     plot.isDrawn = true;

@@ -3,6 +3,7 @@
 const [SHEET, HALF] = [680, 330];
 const LOWER = 0.72;
 let themeOnScreen = null;
+const isPrinting = () => themeOnScreen !== null;
 
 addEventListener("beforeprint", () => {
   themeOnScreen ??= root.dataset.theme;
@@ -12,7 +13,10 @@ addEventListener("beforeprint", () => {
     const height = Math.round(LOWER * plot.height);
     plot.canvas.style.width = `${width}px`;
     plot.canvas.parentElement.style.height = `${height}px`;
-    Plotly.react(plot.canvas, plot.traces(), { ...frame(plot), width, height }, config);
+    const layout = { ...frame(plot), width, height };
+    // Higher than on the screen: a plot that was resized before keeps its old top margin on the sheet, and the legend would lie in it.
+    layout.legend.y = 1.1;
+    Plotly.react(plot.canvas, plot.traces(), layout, config);
     setLogTicks(plot);
   }
 });
