@@ -66,7 +66,7 @@ impl From<WriteError> for Failure {
 impl From<JobError> for Failure {
     fn from(error: JobError) -> Self {
         match error {
-            JobError::Figure(_) => Self::Internal(error.to_string()),
+            JobError::Figure(_) | JobError::Report(_) => Self::Internal(error.to_string()),
             JobError::Input(_) | JobError::OutsideTable(_) | JobError::Memory(_) | JobError::Write(_) => {
                 Self::Input(error.to_string())
             }

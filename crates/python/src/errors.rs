@@ -65,7 +65,7 @@ pub(crate) fn job(py: Python<'_>, error: &JobError) -> PyErr {
         JobError::OutsideTable(error) => outside_table(py, error),
         JobError::Memory(error) => raise(py, "ModelMemoryError", error),
         JobError::Write(error) => raise(py, "WriteError", error),
-        JobError::Figure(_) => raise(py, "InternalError", error),
+        JobError::Figure(_) | JobError::Report(_) => raise(py, "InternalError", error),
     }
 }
 

@@ -35,6 +35,8 @@ pub enum JobError {
     Write(WriteError),
     /// A figure could not be drawn: a fault of this program.
     Figure(PngError),
+    /// The page could not be made of the results, which are written: a fault of this program.
+    Report(InputError),
 }
 
 impl fmt::Display for JobError {
@@ -45,6 +47,9 @@ impl fmt::Display for JobError {
             Self::Memory(error) => write!(f, "{error}"),
             Self::Write(error) => write!(f, "{error}"),
             Self::Figure(error) => write!(f, "a figure could not be drawn: {error}"),
+            Self::Report(error) => {
+                write!(f, "the results are written, but no report.html could be made of them: {error}")
+            }
         }
     }
 }
@@ -131,8 +136,10 @@ pub fn identify_case(
         updated_uff(&case, &run).map_err(|error| InputError::in_file(&out.join("updated.uff"), error))?;
     files.push(File::new("updated.uff", uff));
     files.push(File::new("summary.json", format!("{summary:#}\n")));
-    files.push(report_of(&files, out)?);
+    let page = report_of(&files, out);
+    files.extend(page.as_ref().ok().cloned());
     write_all(out, &files)?;
+    page.map_err(JobError::Report)?;
     Ok(IdentifyJob { case, diagnosis, run, summary })
 }
 

@@ -22,7 +22,8 @@ pub(super) fn sensitivities(
     overrides: &Overrides,
     measurements: &[Measurement],
 ) -> Result<(SensitivitiesCase, Vec<f64>), InputError> {
-    let identified = case.identify.as_ref().and_then(|entry| entry.band_hz.as_ref());
+    let several = case.several.as_ref().and_then(|entry| entry.band_hz.as_ref());
+    let identified = case.identify.as_ref().and_then(|entry| entry.band_hz.as_ref()).or(several);
     let (band_hz, place) = match (overrides.band_hz, identified) {
         (None, Some(located)) => (Some(located.value), located.place.clone()),
         (given, _) => (given, Place::option("--band")),
