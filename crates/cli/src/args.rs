@@ -6,6 +6,9 @@ use frfit_workflow::export::{Target, UnitSystem};
 use frfit_workflow::sensitivities::Candidates;
 use std::path::PathBuf;
 
+/// Options of every command stand last, whatever else there is.
+const LAST: usize = 1000;
+
 /// Correct a finite element model until its frequency response is the measured one.
 #[derive(Debug, Parser)]
 #[command(name = "frfit", version, arg_required_else_help = true)]
@@ -14,11 +17,11 @@ pub(crate) struct Args {
     pub(crate) command: Command,
 
     /// No progress bar and no words on success
-    #[arg(long, global = true)]
+    #[arg(long, global = true, display_order = LAST)]
     pub(crate) quiet: bool,
 
     /// Results as JSON on standard output
-    #[arg(long, global = true)]
+    #[arg(long, global = true, display_order = LAST)]
     pub(crate) json: bool,
 }
 

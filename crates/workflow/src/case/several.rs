@@ -9,6 +9,8 @@ use frfit::laws::{Family, MAX_BRANCHES, UnknownFamily};
 const OF_EACH: [&str; 10] =
     ["name", "matrix", "powers", "varies", "law", "branches", "nominal", "bounds", "real", "truth"];
 const OF_FIRST: [&str; 2] = ["band_hz", "leave_out_hz"];
+/// Keys of a single unknown that varies.
+const OF_ONE: [&str; 6] = ["method", "order", "selection", "space", "robust", "check"];
 
 /// Whether `identify` is such: `[[identify]]`, or a single table with `powers` or a constant.
 pub(super) fn is_several(field: &Field<'_>) -> bool {
@@ -18,11 +20,15 @@ pub(super) fn is_several(field: &Field<'_>) -> bool {
 
 /// All unknowns.
 pub(super) fn several(field: &Field<'_>) -> Result<SeveralEntry, InputError> {
-    let known: Vec<&str> = OF_EACH.into_iter().chain(OF_FIRST).collect();
+    let known: Vec<&str> = OF_EACH.into_iter().chain(OF_FIRST).chain(OF_ONE).collect();
     let tables = match field.is_list() {
         true => field.tables("identify", &known)?,
         false => vec![field.table(&known)?],
     };
+    if let Some(key) = tables.iter().find_map(|table| OF_ONE.into_iter().find_map(|key| table.find(key))) {
+        let expected = "no such key with several unknowns, or with one that does not vary: there is one way to find them";
+        return Err(InputError::at(&key.place, expected, "one"));
+    }
     for table in &tables[1..] {
         if let Some(key) = OF_FIRST.into_iter().find_map(|key| table.find(key)) {
             return Err(InputError::at(&key.place, "this key in the first [[identify]], for all", "it here"));

@@ -422,7 +422,7 @@ fn options_and_bands() {
         (
             "[identify]",
             "[[identify]]",
-            "case.toml:28:3: identify: expected a table, found the list [a table]",
+            "case.toml:31:1: identify.order: expected no such key with several unknowns, or with one that does not vary: there is one way to find them, found one",
         ),
         (
             "e1 = 2.0e4",
