@@ -190,7 +190,7 @@ impl Task<'_, '_> {
                 map(self.hooks.for_each, n, |k| from(&found, k, &beside(k)))
             }
         };
-        if per_frequency {
+        if per_frequency && matches!(guess, Guess::Everywhere(_)) {
             // What one frequency has, its neighbours may have too.
             let before = solutions;
             let beside = |k: usize| [k.saturating_sub(1), k, (k + 1).min(n - 1)];
