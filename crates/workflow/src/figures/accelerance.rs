@@ -5,19 +5,29 @@ use crate::load::{Case, IdentifyCase};
 use crate::run::{IdentifyRun, RespondRun};
 use frfit::c64;
 use frfit::quantity::Quantity;
-use frfit_figures::{Axis, Color, Dash, Figure, Marker, Panel, Series};
+use frfit_figures::{Axis, Color, Dash, Figure, Marker, Panel, Series, Strip};
 
 pub(super) fn identified(case: &Case, identify: &IdentifyCase, run: &IdentifyRun, sensor: usize) -> Figure {
     let frequency_hz = &identify.frequency_hz;
-    let of = |responses: Vec<Option<c64>>| modulus(frequency_hz, responses);
-    let nominal = of(run.outcomes.iter().map(|o| o.nominal_response.get(sensor).copied()).collect());
-    let updated = of(run.outcomes.iter().map(|o| o.updated_response.get(sensor).copied()).collect());
+    let nominal = run.outcomes.iter().map(|o| o.nominal_response.get(sensor).copied()).collect();
+    let updated = run.outcomes.iter().map(|o| o.updated_response.get(sensor).copied()).collect();
     let measured = frequency_hz.iter().zip(&identify.measured);
-    let measured = of(measured.map(|(&f, u)| run.measured(f, u).get(sensor).copied()).collect());
-    let series = |label: &str, y, color, line, marker| Series {
+    let measured = measured.map(|(&f, u)| run.measured(f, u).get(sensor).copied()).collect();
+    compared(case, sensor, frequency_hz, [nominal, measured, updated], status_strip(run))
+}
+
+/// Nominal, measured and updated receptance of a sensor as accelerance.
+pub(super) fn compared(
+    case: &Case,
+    sensor: usize,
+    frequency_hz: &[f64],
+    [nominal, measured, updated]: [Vec<Option<c64>>; 3],
+    strip: Strip,
+) -> Figure {
+    let series = |label: &str, responses, color, line, marker| Series {
         label: label.into(),
-        x: frequency_hz.clone(),
-        y,
+        x: frequency_hz.to_vec(),
+        y: modulus(frequency_hz, responses),
         color,
         line,
         marker,
@@ -33,7 +43,7 @@ pub(super) fn identified(case: &Case, identify: &IdentifyCase, run: &IdentifyRun
                 series("measured", measured, Color::Black, None, Some(Marker::Circle)),
                 series("updated", updated, Color::Vermilion, Some(Dash::Solid), None),
             ],
-            strip: Some(status_strip(run)),
+            strip: Some(strip),
             ..Panel::default()
         }],
         ..Figure::default()
@@ -67,7 +77,7 @@ pub(super) fn forward(case: &Case, run: &RespondRun) -> Figure {
 }
 
 /// |−ω² x|, P-39; a gap where there is no response.
-pub(super) fn modulus(frequency_hz: &[f64], receptance: Vec<Option<c64>>) -> Vec<f64> {
+fn modulus(frequency_hz: &[f64], receptance: Vec<Option<c64>>) -> Vec<f64> {
     let of = |(&f, x): (&f64, Option<c64>)| {
         x.map_or(f64::NAN, |x| Quantity::Accelerance.from_receptance(f, x).norm())
     };

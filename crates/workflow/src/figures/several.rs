@@ -1,7 +1,7 @@
 //! Several unknowns: the responses, each unknown over frequency, and how those that hold for the band hang together.
 
 use super::{draw, strip_of, title};
-use crate::figures::accelerance::modulus;
+use crate::figures::accelerance::compared;
 use crate::load::{Case, SeveralCase};
 use crate::output::{File, file_name};
 use crate::run::SeveralRun;
@@ -69,35 +69,12 @@ pub fn several_figures(case: &Case, wanted: &SeveralCase, run: &SeveralRun) -> R
 }
 
 fn accelerance(case: &Case, wanted: &SeveralCase, run: &SeveralRun, sensor: usize) -> Figure {
-    let x = &wanted.frequency_hz;
     let at = &run.outcome.at;
-    let curve = |label: &str, responses: Vec<Option<c64>>, color, line, marker| Series {
-        label: label.into(),
-        x: x.clone(),
-        y: modulus(x, responses),
-        color,
-        line,
-        marker,
-        ..Series::default()
-    };
     let nominal = at.iter().map(|at| at.nominal_response.get(sensor).copied()).collect();
     let updated = at.iter().map(|at| at.updated_response.get(sensor).copied()).collect();
     let measured = wanted.measured.iter().map(|u| u.get(sensor).copied()).collect();
-    Figure {
-        title: title(case, &format!("accelerance at {}", case.sensors[sensor].label)),
-        x: Axis::linear("Frequency (Hz)"),
-        panels: vec![Panel {
-            y: Axis::log("|Accelerance| (m/(s²·N))"),
-            series: vec![
-                curve("nominal", nominal, Color::Blue, Some(Dash::Dashed), None),
-                curve("measured", measured, Color::Black, None, Some(Marker::Circle)),
-                curve("updated", updated, Color::Vermilion, Some(Dash::Solid), None),
-            ],
-            strip: Some(strip_of(at.iter().map(|at| (at.frequency_hz, at.status)))),
-            ..Panel::default()
-        }],
-        ..Figure::default()
-    }
+    let strip = strip_of(at.iter().map(|at| (at.frequency_hz, at.status)));
+    compared(case, sensor, &wanted.frequency_hz, [nominal, measured, updated], strip)
 }
 
 fn over_frequency(case: &Case, wanted: &SeveralCase, run: &SeveralRun, j: usize) -> Figure {

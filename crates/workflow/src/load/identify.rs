@@ -84,7 +84,7 @@ pub(super) fn identify(
     if let Some(place) = &entry.estimate {
         parameter.nominal = middle_of(&options.bounds, place)?;
     }
-    let (band_hz, place) = band_of(entry, overrides)?;
+    let (band_hz, place) = band_of(entry.band_hz.as_ref(), &entry.place, overrides)?;
     let truth = entry.truth.as_ref().map(|truth| law(truth, files)).transpose()?;
     let unknown = unknown(case, &varies, &options)?;
     let data = band(measurements, band_hz, &place)?;
@@ -361,15 +361,19 @@ fn lines_of(frequency: f64, frequency_hz: &[f64]) -> (usize, usize) {
 }
 
 /// The band, and the key or the option that it comes from.
-fn band_of(entry: &IdentifyEntry, overrides: &Overrides) -> Result<([f64; 2], Place), InputError> {
+pub(super) fn band_of(
+    written: Option<&Located<[f64; 2]>>,
+    table: &Place,
+    overrides: &Overrides,
+) -> Result<([f64; 2], Place), InputError> {
     if let Some(band_hz) = overrides.band_hz {
         let place = Place::option("--band");
         checked_band(band_hz, &place)?;
         return Ok((band_hz, place));
     }
-    match &entry.band_hz {
+    match written {
         Some(band) => Ok((band.value, band.place.clone())),
-        None => Err(InputError::at(&entry.place, "the key \"band_hz\"", "none")),
+        None => Err(InputError::at(table, "the key \"band_hz\"", "none")),
     }
 }
 

@@ -4,9 +4,9 @@ use super::Overrides;
 use super::band::band;
 use super::factor::{covers, law};
 use super::files::Files;
-use super::identify::{MeasuredNoise, known_names, left_out, shared_factor};
+use super::identify::{MeasuredNoise, band_of, known_names, left_out, shared_factor};
 use super::measurement::Measurement;
-use crate::case::{CaseFile, Located, SeveralEntry, SoughtEntry, SoughtVaries, checked_band};
+use crate::case::{CaseFile, Located, SeveralEntry, SoughtEntry, SoughtVaries};
 use crate::error::{InputError, Place};
 use frfit::c64;
 use frfit::identify::{Enters, Sought, Vary};
@@ -60,7 +60,7 @@ pub(super) fn several(
         .iter()
         .map(|one| one.truth.as_ref().map(|truth| law(truth, files)).transpose())
         .collect::<Result<Vec<_>, _>>()?;
-    let (band_hz, place) = band_of(entry, overrides)?;
+    let (band_hz, place) = band_of(entry.band_hz.as_ref(), &entry.place, overrides)?;
     let data = band(measurements, band_hz, &place)?;
     let out = left_out(&entry.leave_out, &data.frequency_hz);
     let kept: Vec<usize> = (0..out.len()).filter(|&i| !out[i]).collect();
@@ -192,16 +192,4 @@ fn enough(
         return Err(told(found));
     }
     Ok(())
-}
-
-fn band_of(entry: &SeveralEntry, overrides: &Overrides) -> Result<([f64; 2], Place), InputError> {
-    if let Some(band_hz) = overrides.band_hz {
-        let place = Place::option("--band");
-        checked_band(band_hz, &place)?;
-        return Ok((band_hz, place));
-    }
-    match &entry.band_hz {
-        Some(band) => Ok((band.value, band.place.clone())),
-        None => Err(InputError::at(&entry.place, "the key \"band_hz\" in the first [[identify]]", "none")),
-    }
 }
