@@ -38,13 +38,13 @@ const NONLINEAR: f64 = 0.25;
 
 /// A number is known when its standard deviation is below this part of it: it is then three deviations away from nothing, and better
 /// known than by a glance at a table of materials …
-const KNOWN: f64 = 0.3;
+pub(super) const KNOWN: f64 = 0.3;
 
 /// … also if it is as many deviations smaller as the error bar allows: of many numbers that are not known, those that noise has made large would else pass.
 const SMALLER: f64 = 2.0;
 
 /// A loss factor below this is none that a vibration test tells from zero: supports, air and cables take more.
-const LEAST_LOSS: f64 = 1e-4;
+pub(super) const LEAST_LOSS: f64 = 1e-4;
 
 impl Uncertainty {
     /// From the standard deviation `part_std` of the correction's real part, as much of its imaginary part, and ‖∂²x/∂c²‖ weighed by

@@ -21,5 +21,5 @@ pub use fit::{Estimate, LawFit, ModulusEstimate, best, fit_modulus};
 pub(crate) use chart::Chart;
 pub(crate) use correlated::Line;
 pub(crate) use fit::Evidence;
-pub(crate) use least_squares::{Minima, Minimum, Residuals, Search, descend, minimise};
+pub(crate) use least_squares::{Minima, Minimum, Residuals, Search, descend, inverse_information, minimise};
 pub(crate) use starts::starts;

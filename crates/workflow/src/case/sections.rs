@@ -346,15 +346,19 @@ fn varies(table: &Table<'_>) -> Result<Option<Located<VariesEntry>>, InputError>
         families.push(family);
     }
     if let Some(key) = branches {
-        let count = key.whole()?.value;
-        let count = usize::try_from(count).ok().filter(|n| (1..=MAX_BRANCHES).contains(n));
-        let branches = count.ok_or_else(|| key.refuse(&format!("1 to {MAX_BRANCHES}")))?;
+        let branches = self::branches(&key)?;
         let Some(at) = named.iter().position(|named| named.value == "maxwell") else {
             return Err(InputError::at(&key.place, "law = \"maxwell\" beside it", "none"));
         };
         families[at] = Family::Maxwell { branches };
     }
     Ok(Some(Located { value: VariesEntry::ByLaw(families), place }))
+}
+
+/// How many branches a law of Maxwell's has.
+pub(super) fn branches(key: &Field<'_>) -> Result<usize, InputError> {
+    let count = usize::try_from(key.whole()?.value).ok().filter(|n| (1..=MAX_BRANCHES).contains(n));
+    count.ok_or_else(|| key.refuse(&format!("1 to {MAX_BRANCHES}")))
 }
 
 /// `[respond]`.

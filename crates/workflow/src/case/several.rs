@@ -4,7 +4,7 @@ use super::field::{Field, Table};
 use super::sections::{band, factor, leave_out};
 use super::{Located, SeveralEntry, SoughtEntry, SoughtVaries};
 use crate::error::InputError;
-use frfit::laws::{Family, MAX_BRANCHES, UnknownFamily};
+use frfit::laws::{Family, UnknownFamily};
 
 const OF_EACH: [&str; 10] =
     ["name", "matrix", "powers", "varies", "law", "branches", "nominal", "bounds", "real", "truth"];
@@ -170,9 +170,7 @@ fn varies(table: &Table<'_>, is_dimension: bool, real: bool) -> Result<SoughtVar
                 law.word(|word| word.parse::<Family>().map_err(|_| UnknownFamily::EXPECTED.to_owned()))?;
             let mut family = family.value;
             if let Some(key) = branches {
-                let count = key.whole()?.value;
-                let count = usize::try_from(count).ok().filter(|n| (1..=MAX_BRANCHES).contains(n));
-                let branches = count.ok_or_else(|| key.refuse(&format!("1 to {MAX_BRANCHES}")))?;
+                let branches = super::sections::branches(&key)?;
                 match family {
                     Family::Maxwell { .. } => family = Family::Maxwell { branches },
                     _ => return Err(InputError::at(&key.place, "law = \"maxwell\" beside it", "none")),

@@ -1,6 +1,6 @@
 //! |a| over frequency for the nominal, measured and updated response: Figs 2, 7 and 11.
 
-use super::{status_strip, title};
+use super::{curve, status_strip, title};
 use crate::load::{Case, IdentifyCase};
 use crate::run::{IdentifyRun, RespondRun};
 use frfit::c64;
@@ -24,14 +24,8 @@ pub(super) fn compared(
     [nominal, measured, updated]: [Vec<Option<c64>>; 3],
     strip: Strip,
 ) -> Figure {
-    let series = |label: &str, responses, color, line, marker| Series {
-        label: label.into(),
-        x: frequency_hz.to_vec(),
-        y: modulus(frequency_hz, responses),
-        color,
-        line,
-        marker,
-        ..Series::default()
+    let series = |label, responses, color, line, marker| {
+        curve(label, frequency_hz, modulus(frequency_hz, responses), color, line, marker)
     };
     Figure {
         title: title(case, &format!("accelerance at {}", case.sensors[sensor].label)),

@@ -136,15 +136,7 @@ fn curve_of_band(
     let parts: [fn(c64) -> f64; 2] = [|e| e.re, loss_factor];
     let panel = |label: &str, part: usize| {
         let of = |factor: Option<c64>| factor.map_or(f64::NAN, parts[part]);
-        let series = |label: &str, y: Vec<f64>, color, line, marker| Series {
-            label: label.into(),
-            x: x.clone(),
-            y,
-            color,
-            line,
-            marker,
-            ..Series::default()
-        };
+        let series = |label, y, color, line, marker| super::curve(label, &x, y, color, line, marker);
         let own = |outcome: &Identified| outcome.factor().filter(|_| outcome.status == Status::Ok);
         let own = free.iter().map(|outcome| of(own(outcome))).collect();
         let nominal = run.outcomes.iter().map(|outcome| of(Some(outcome.nominal))).collect();

@@ -23,7 +23,7 @@ use crate::run::{IdentifyRun, RespondRun};
 use frfit::identify::{Selection, Status};
 use frfit::laws::best;
 use frfit::signal::Measured;
-use frfit_figures::{Class, Color, Figure, PngError, Strip};
+use frfit_figures::{Class, Color, Dash, Figure, Marker, PngError, Series, Strip};
 
 /// Pixels per SVG unit: 720 units wide become 1080 pixels.
 const PIXELS_PER_UNIT: f64 = 1.5;
@@ -107,6 +107,18 @@ fn draw_into(folder: &str, figures: Vec<(String, Figure)>) -> Result<Vec<File>, 
         files.push(File::new(format!("{folder}/{name}.svg"), figure.svg()));
     }
     Ok(files)
+}
+
+/// A curve, points, or both.
+fn curve(
+    label: &str,
+    x: &[f64],
+    y: Vec<f64>,
+    color: Color,
+    line: Option<Dash>,
+    marker: Option<Marker>,
+) -> Series {
+    Series { label: label.into(), x: x.to_vec(), y, color, line, marker, ..Series::default() }
 }
 
 /// The status of every frequency, as a strip of colours.

@@ -9,7 +9,7 @@ use frfit::material::loss_factor;
 use frfit_figures::{Axis, Color, Dash, Figure, Marker, Panel, Series};
 
 /// Half-length of an error bar in standard deviations: 95 of 100 truths are within.
-const DEVIATIONS: f64 = 2.0;
+pub(super) const DEVIATIONS: f64 = 2.0;
 
 pub(super) fn figure(case: &Case, identify: &IdentifyCase, run: &IdentifyRun) -> Figure {
     let names = identify.names.join(", ");

@@ -1,7 +1,8 @@
 //! Several unknowns: the responses, each unknown over frequency, and how those that hold for the band hang together.
 
-use super::{draw, strip_of, title};
-use crate::figures::accelerance::compared;
+use super::accelerance::compared;
+use super::modulus::DEVIATIONS;
+use super::{curve, draw, strip_of, title};
 use crate::load::{Case, SeveralCase};
 use crate::output::{File, file_name};
 use crate::run::SeveralRun;
@@ -9,9 +10,6 @@ use frfit::c64;
 use frfit::identify::{Status, ValueAt, Vary};
 use frfit::material::loss_factor;
 use frfit_figures::{Axis, Color, Dash, Figure, Marker, Panel, PngError, Series};
-
-/// Half-length of an error bar in standard deviations.
-const DEVIATIONS: f64 = 2.0;
 
 /// `figures/accelerance-*.*`, `figures/<unknown>.*` of what varies, `figures/profile.*`.
 ///
@@ -33,15 +31,7 @@ pub fn several_figures(case: &Case, wanted: &SeveralCase, run: &SeveralRun) -> R
         // What a straight line of slopes would have it.
         let std = run.outcome.directions.first().map_or(f64::INFINITY, |worst| worst.std);
         let parabola = x.iter().map(|t| (t / std).powi(2)).collect();
-        let series = |label: &str, y, color, line, marker| Series {
-            label: label.into(),
-            x: x.clone(),
-            y,
-            color,
-            line,
-            marker,
-            ..Series::default()
-        };
+        let series = |label, y, color, line, marker| curve(label, &x, y, color, line, marker);
         figures.push((
             "profile".to_owned(),
             Figure {
@@ -93,28 +83,21 @@ fn over_frequency(case: &Case, wanted: &SeveralCase, run: &SeveralRun, j: usize)
             .iter()
             .map(|at| at.values[j].as_ref().and_then(std).map_or(f64::NAN, |s| DEVIATIONS * s))
             .collect();
-        let curve = |label: &str, y, color, line, marker| Series {
-            label: label.into(),
-            x: wanted.frequency_hz.clone(),
-            y,
-            color,
-            line,
-            marker,
-            ..Series::default()
-        };
+        let drawn =
+            |label, y, color, line, marker| curve(label, &wanted.frequency_hz, y, color, line, marker);
         let nominal = of(at.iter().map(|at| Some(at.nominal[j])).collect());
         let mut series = vec![
-            curve("nominal", nominal, Color::Blue, Some(Dash::Dashed), None),
-            curve("not trusted", of(with(false)), Color::Grey, None, Some(Marker::Cross)),
+            drawn("nominal", nominal, Color::Blue, Some(Dash::Dashed), None),
+            drawn("not trusted", of(with(false)), Color::Grey, None, Some(Marker::Cross)),
             Series {
                 y_error: bars,
-                ..curve("updated", of(with(true)), Color::Vermilion, None, Some(Marker::Circle))
+                ..drawn("updated", of(with(true)), Color::Vermilion, None, Some(Marker::Circle))
             },
         ];
         series.retain(|one| one.y.iter().any(|y| y.is_finite()));
         if let Some(truth) = &wanted.truth[j] {
             let truth = of(wanted.frequency_hz.iter().map(|&f| truth.at(f).ok()).collect());
-            series.push(curve("true", truth, Color::Black, Some(Dash::Solid), None));
+            series.push(drawn("true", truth, Color::Black, Some(Dash::Solid), None));
         }
         Panel { y: Axis::linear(format!("{label}, ±2 std")), series, ..Panel::default() }
     };

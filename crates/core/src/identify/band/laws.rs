@@ -55,7 +55,7 @@ pub(in crate::identify) const ROUNDS: usize = 4;
 const LEAST_STD: f64 = 1e-6;
 
 /// A misfit of this many deviations (root mean square) at a frequency is not noise.
-pub(super) const UNEXPLAINED: f64 = 5.0;
+pub(in crate::identify) const UNEXPLAINED: f64 = 5.0;
 
 /// A modulus with a standard deviation of half of itself is not known.
 const UNKNOWN: f64 = 0.5;

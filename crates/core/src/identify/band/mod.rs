@@ -34,9 +34,9 @@ use space::Space;
 
 pub(super) use explore::Fit;
 pub(super) use fit::judge;
-pub(super) use laws::{ROUNDS, nearest};
+pub(super) use laws::{ROUNDS, UNEXPLAINED, nearest};
 pub(super) use noise::deviations;
-pub(super) use space::{BOX, TRAINED, is_certain, thinned};
+pub(super) use space::{BOX, TRAINED, certificate, is_certain, thinned};
 
 pub use fit::{Explained, GoodnessOfFit, SensorFit};
 pub use noise::{NoiseLevel, NoiseSource};

@@ -102,6 +102,13 @@ impl Own {
         }
     }
 
+    /// A gradient by all coordinates from that by its own.
+    pub(super) fn gradient(&self, own: impl IntoIterator<Item = f64>, count: usize) -> Vec<f64> {
+        let mut gradient = vec![0.0; count];
+        gradient[self.range.clone()].iter_mut().zip(own).for_each(|(all, own)| *all = own);
+        gradient
+    }
+
     /// Its law, where it has one: a complex constant is one too.
     pub(super) fn family(&self) -> Option<Family> {
         match &self.form {

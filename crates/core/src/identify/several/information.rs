@@ -50,8 +50,18 @@ impl Information {
 
     /// The directions that are told, of length one.
     pub(super) fn told(&self) -> Vec<Vec<f64>> {
+        self.told_from(0)
+    }
+
+    /// The same without the direction that is told worst.
+    pub(super) fn told_but_the_first(&self) -> Vec<Vec<f64>> {
+        self.told_from(1)
+    }
+
+    fn told_from(&self, first: usize) -> Vec<Vec<f64>> {
         let n = self.values.len().max(1);
-        let told = self.vectors.chunks_exact(n).zip(&self.values).filter(|(_, value)| **value > 0.0);
+        let told =
+            self.vectors.chunks_exact(n).zip(&self.values).skip(first).filter(|(_, value)| **value > 0.0);
         told.map(|(v, _)| v.to_vec()).collect()
     }
 }

@@ -1,5 +1,6 @@
 //! Error bars, what the measurements do not tell, and statuses.
 
+use super::coordinates::Own;
 use super::information::Information;
 use super::outcome::{BandValue, Direction, Number, Profile, SeveralAt, SeveralOutcome, ValueAt};
 use super::search::{Eliminated, Found, Plane};
@@ -8,22 +9,11 @@ use super::spot::Solution;
 use super::{Sought, Task};
 use crate::c64;
 use crate::for_each::map;
-use crate::identify::band::judge;
+use crate::identify::band::{UNEXPLAINED, certificate, judge};
+use crate::identify::uncertainty::{KNOWN, LEAST_LOSS};
 use crate::identify::{NoiseLevel, Status, relative_error};
 use crate::laws::Family;
 use crate::material::{Law, loss_factor};
-
-/// A number is known when its standard deviation is below this part of it, as at single frequencies ([`crate::identify::Uncertainty`]).
-const KNOWN: f64 = 0.3;
-
-/// A loss factor below this is none that a vibration test tells from zero.
-const LEAST_LOSS: f64 = 1e-4;
-
-/// A misfit of this many deviations (root mean square) at a frequency is not noise.
-const UNEXPLAINED: f64 = 5.0;
-
-/// Largest relative error of a response from the subspace at an answer: what a factor may be off by for `ok`, as for one unknown.
-const CERTAIN: f64 = 1e-5;
 
 /// Points of a profile to either side, and how far they reach in deviations.
 const PROFILE: usize = 5;
@@ -66,13 +56,15 @@ impl Task<'_, '_> {
             Some(information) if n > 0 => (directions(information, level), correlation(information, &found)),
             _ => (Vec::new(), Vec::new()),
         };
-        let profile =
-            directions.first().filter(|_| n > 1).and_then(|worst| self.profile(space, &found, worst, level?));
+        let told = eliminated.as_ref().zip(information.as_ref());
+        let profile = directions
+            .first()
+            .filter(|_| n > 1)
+            .and_then(|worst| self.profile(space, &found, told?, worst, level?));
         let band = found.coordinates.each.iter().map(|one| {
             let (values, slopes) = one.numbers(&found.theta);
             let std = |row: &[f64]| {
-                let mut gradient = vec![0.0; n];
-                gradient[one.range.clone()].copy_from_slice(row);
+                let gradient = one.gradient(row.iter().copied(), n);
                 Some(level? * information.as_ref()?.covariance(&gradient, &gradient).sqrt())
             };
             let numbers: Vec<Number> = names(one.family())
@@ -158,10 +150,8 @@ impl Task<'_, '_> {
         let chi_squared = level.map(|level| solution.misfit / (level * level * count as f64));
         let error = relative_error(measured, &solution.response);
         let assessed = space.assess(i, &solution.values);
-        let certificate = assessed.as_ref().map(|assessed| {
-            let square = (0..measured.len()).map(|m| assessed.error(m).powi(2)).sum::<f64>();
-            (square / measured.iter().map(|u| u.norm_sqr()).sum::<f64>()).sqrt()
-        });
+        let certificate =
+            assessed.map(|assessed| certificate(&assessed, solution.values[0], measured).response);
         let own = |(one, value): (&Sought, &ValueAt)| one.per_frequency() == 0 || is_known(value);
         let known = self.band.sought.iter().zip(&values).all(own);
         let unexplained =
@@ -170,7 +160,7 @@ impl Task<'_, '_> {
             Status::NoRoot
         } else if !at.alternatives.is_empty() {
             Status::Ambiguous
-        } else if !known || certificate.is_none_or(|certificate| certificate > CERTAIN) {
+        } else if !known || certificate.is_none_or(|certificate| certificate > self.options.certain) {
             Status::IllConditioned
         } else {
             Status::Ok
@@ -217,11 +207,7 @@ impl Task<'_, '_> {
                 let own = found.coordinates.each.iter().find(|own| own.sought == j);
                 own.and_then(|own| {
                     let (_, slopes) = own.value(&found.theta, self.omegas[i])?;
-                    let part = |of: fn(&c64) -> f64| {
-                        let mut gradient = vec![0.0; n];
-                        gradient[own.range.clone()].iter_mut().zip(&slopes).for_each(|(g, s)| *g = of(s));
-                        gradient
-                    };
+                    let part = |of: fn(&c64) -> f64| own.gradient(slopes.iter().map(of), n);
                     let (re, im) = (part(|s| s.re), part(|s| s.im));
                     told?;
                     Some([of_theta(&re, &re), of_theta(&re, &im), of_theta(&im, &im)])
@@ -232,42 +218,31 @@ impl Task<'_, '_> {
         self.band.sought.iter().enumerate().map(&mut one).collect()
     }
 
-    /// χ² along a direction of θ, with the directions at right angles to it at their best.
-    fn profile(&self, space: &Space<'_>, found: &Found, worst: &Direction, level: f64) -> Option<Profile> {
+    /// χ² along a direction of θ, with the directions at right angles to it that are told at their best.
+    fn profile(
+        &self,
+        space: &Space<'_>,
+        found: &Found,
+        (base, information): (&Eliminated, &Information),
+        worst: &Direction,
+        level: f64,
+    ) -> Option<Profile> {
         let all: Vec<usize> = (0..self.omegas.len()).collect();
-        let n = found.theta.len();
-        let mut along = vec![0.0; n];
+        let mut along = vec![0.0; found.theta.len()];
         worst.weights.iter().for_each(|&(c, weight)| along[c] = weight);
-        // A basis of what is at right angles: unit vectors without their part along it, by Gram and Schmidt.
-        let mut basis: Vec<Vec<f64>> = vec![along.clone()];
-        for c in 0..n {
-            let mut v = vec![0.0; n];
-            v[c] = 1.0;
-            for _ in 0..2 {
-                for other in &basis {
-                    let overlap: f64 = v.iter().zip(other).map(|(a, b)| a * b).sum();
-                    v.iter_mut().zip(other).for_each(|(a, b)| *a -= overlap * b);
-                }
-            }
-            let norm = v.iter().map(|a| a * a).sum::<f64>().sqrt();
-            if norm > 1e-6 && basis.len() < n {
-                v.iter_mut().for_each(|a| *a /= norm);
-                basis.push(v);
-            }
-        }
-        let base = self.eliminated(space, &all, found, &found.theta, None)?;
-        let sum = |e: &Eliminated| e.residuals.iter().map(|r| r * r).sum::<f64>();
-        let least = sum(&base);
+        // The worst is the first of the eigenvectors; what is told of the others is at right angles to it.
+        let others = information.told_but_the_first();
+        let least: f64 = base.residuals.iter().map(|r| r * r).sum();
         let reach = (REACH * worst.std / PROFILE as f64).min(FARTHEST / PROFILE as f64);
         let mut points = Vec::new();
         for side in [-1.0, 1.0] {
-            let mut rest = vec![0.0; basis.len() - 1];
+            let mut rest = vec![0.0; others.len()];
             for k in 1..=PROFILE {
                 let t = side * k as f64 * reach;
                 let origin: Vec<f64> =
                     found.theta.iter().zip(&along).map(|(theta, v)| theta + t * v).collect();
-                let plane = Plane { origin: &origin, basis: &basis[1..] };
-                let Some(end) = self.search_in(space, &all, (found, &base), &plane, &rest, STEPS) else {
+                let plane = Plane { origin: &origin, basis: &others };
+                let Some(end) = self.search_in(space, &all, (found, base), &plane, &rest, STEPS) else {
                     break;
                 };
                 rest = end.theta;
@@ -329,15 +304,11 @@ fn directions(information: &Information, level: Option<f64>) -> Vec<Direction> {
 
 fn correlation(information: &Information, found: &Found) -> Vec<Vec<f64>> {
     let n = found.theta.len();
-    let mut gradients: Vec<Vec<f64>> = Vec::with_capacity(n);
-    for one in &found.coordinates.each {
+    let of_one = |one: &Own| -> Vec<Vec<f64>> {
         let (_, slopes) = one.numbers(&found.theta);
-        for row in slopes {
-            let mut gradient = vec![0.0; n];
-            gradient[one.range.clone()].copy_from_slice(&row);
-            gradients.push(gradient);
-        }
-    }
+        slopes.into_iter().map(|row| one.gradient(row, n)).collect()
+    };
+    let gradients: Vec<Vec<f64>> = found.coordinates.each.iter().flat_map(of_one).collect();
     let entry = |a: usize, b: usize| {
         let of = |a: usize, b: usize| information.covariance(&gradients[a], &gradients[b]);
         of(a, b) / (of(a, a) * of(b, b)).sqrt()

@@ -3,8 +3,8 @@
 use super::spot::{Solution, Spot};
 use super::{Sought, Task};
 use crate::identify::Noise;
+use crate::laws::inverse_information;
 use crate::select::{Choice, Node, SelectOptions, choose};
-use frfit_linalg::dense::symmetric_eigen;
 
 /// What is chosen at a frequency.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -33,22 +33,25 @@ impl Task<'_, '_> {
             sigma_known: matches!(self.band.noise, Noise::Known(_)),
             ..SelectOptions::default()
         };
+        let frequency_hz: Vec<f64> = which.iter().map(|&i| self.band.frequency_hz[i]).collect();
+        let stds: Vec<Vec<Vec<f64>>> = solutions
+            .iter()
+            .zip(which)
+            .map(|(found, &i)| found.iter().map(|solution| self.spot(i).stds(solution)).collect())
+            .collect();
         let of = |&j: &usize| -> Vec<Choice> {
-            let nodes: Vec<Vec<Node>> = solutions
-                .iter()
-                .zip(which)
-                .map(|(found, &i)| found.iter().map(|solution| self.node(i, j, solution)).collect())
-                .collect();
-            let frequency_hz: Vec<f64> = which.iter().map(|&i| self.band.frequency_hz[i]).collect();
+            let node = |(solution, stds): (&Solution, &Vec<f64>)| Node {
+                factor: solution.values[j],
+                misfit: solution.misfit,
+                std: stds[j],
+            };
+            let nodes = solutions.iter().zip(&stds);
+            let nodes: Vec<Vec<Node>> =
+                nodes.map(|(found, stds)| found.iter().zip(stds).map(node).collect()).collect();
             choose(&frequency_hz, &nodes, &options)
         };
         let choices: Vec<Vec<Choice>> = own.iter().map(of).collect();
         (0..solutions.len()).map(|i| self.agreed(i, &solutions[i], &own, &choices)).collect()
-    }
-
-    fn node(&self, i: usize, j: usize, solution: &Solution) -> Node {
-        let stds = self.spot(i).stds(solution);
-        Node { factor: solution.values[j], misfit: solution.misfit, std: stds[j] }
     }
 
     /// The solution that every unknown's path goes through; those that some path cannot exclude are its alternatives.
@@ -97,26 +100,17 @@ impl Task<'_, '_> {
 }
 
 impl Spot<'_> {
-    /// Covariance of a frequency's own coordinates for given θ, (JᵀJ)⁻¹ row by row; infinite diagonal where nothing is told.
+    /// Covariance of a frequency's own coordinates for given θ, (JᵀJ)⁻¹ row by row; infinite deviations where nothing is told.
     pub(super) fn covariance(&self, solution: &Solution) -> Vec<Vec<f64>> {
         let n = self.count();
         if n == 0 {
             return Vec::new();
         }
-        let m = solution.residuals.len();
-        let dot = |a: usize, b: usize| -> f64 {
-            let column = |c: usize| &solution.of_own[c * m..(c + 1) * m];
-            column(a).iter().zip(column(b)).map(|(x, y)| x * y).sum()
-        };
-        let normal: Vec<f64> = (0..n * n).map(|k| dot(k / n, k % n)).collect();
-        let untold =
-            || (0..n).map(|a| (0..n).map(|b| if a == b { f64::INFINITY } else { 0.0 }).collect()).collect();
-        let Ok((values, vectors)) = symmetric_eigen(n, &normal) else { return untold() };
-        if values.iter().any(|&value| value <= 0.0) {
-            return untold();
-        }
-        let entry = |a: usize, b: usize| -> f64 {
-            (0..n).map(|k| vectors[k * n + a] * vectors[k * n + b] / values[k]).sum()
+        let untold = |a: usize, b: usize| if a == b { f64::INFINITY } else { 0.0 };
+        let inverse = inverse_information(&solution.of_own, n);
+        let entry = |a: usize, b: usize| {
+            let told = inverse.as_ref().map(|inverse| inverse[a][b]).filter(|value| value.is_finite());
+            told.unwrap_or_else(|| untold(a, b))
         };
         (0..n).map(|a| (0..n).map(|b| entry(a, b)).collect()).collect()
     }
