@@ -24,6 +24,8 @@ const STRIP: (f64, f64) = (12.0, 5.0);
 const BETWEEN: f64 = 14.0;
 /// Smallest plot that can be read.
 const LEAST: (f64, f64) = (160.0, 70.0);
+/// Rounds after which a page is taken as it is; each lets in another set of tick labels, of which an axis has few.
+const ROUNDS: usize = 20;
 
 /// The page.
 pub(crate) struct Layout {
@@ -65,9 +67,18 @@ impl Layout {
         let ranges = Ranges::of(figure);
         let mut margins = Margins { left: 70.0, right: 30.0 };
         // margins follow from tick labels, these from plot heights, these from legend rows, and these from
-        // the margins: three rounds settle it
+        // the margins: two rounds come near
         for _ in 0..2 {
             margins = Self::within(figure, &ranges, margins).margins_needed();
+        }
+        // labels that come and go with the width could take turns for ever: from here on margins only grow
+        for _ in 0..ROUNDS {
+            let layout = Self::within(figure, &ranges, margins);
+            let needed = layout.margins_needed();
+            if needed.left <= margins.left && needed.right <= margins.right {
+                return layout;
+            }
+            margins = Margins { left: needed.left.max(margins.left), right: needed.right.max(margins.right) };
         }
         Self::within(figure, &ranges, margins)
     }

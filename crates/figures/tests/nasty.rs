@@ -125,6 +125,83 @@ fn tree(svg: &str) -> Tree {
     Tree::from_str(svg, &options).expect("a drawing")
 }
 
+/// A page of equal panels, and the words and numbers on it.
+#[derive(Clone)]
+struct Page {
+    scales: (Scale, Scale),
+    panels: usize,
+    heat: bool,
+    named: bool,
+    x: (f64, f64),
+    y: (f64, f64),
+    title: String,
+    label: String,
+    size: (f64, f64),
+}
+
+/// No label of the page leaves it or covers another.
+fn labels_are_whole(page: Page) -> Result<(), TestCaseError> {
+    let Page { scales: (x_scale, y_scale), panels, heat, named, x, y, title, label, size } = page;
+    // ends such as 1e3 and 1e3·(1 + 10^k): narrow and wide ranges of all magnitudes
+    let ends = |(power, span): (f64, f64)| {
+        vec![10f64.powf(power), 10f64.powf(power) * (1.0 + 10f64.powf(span - 5.0))]
+    };
+    let axis = |scale| Axis { label: label.clone(), scale, range: None };
+    let curve = Series { label: label.clone(), x: ends(x), y: ends(y), ..Series::default() };
+    let names = if named { vec![label.clone(); 2] } else { Vec::new() };
+    let map = HeatMap { x: ends(x), y: ends(y), values: ends(y), label: label.clone(), range: None, names };
+    let panel = |i: usize| Panel {
+        y: axis(y_scale),
+        series: vec![Series { color: [Color::Blue, Color::Green, Color::Black][i], ..curve.clone() }],
+        heat: heat.then(|| map.clone()),
+        ..Panel::default()
+    };
+    let figure = Figure { title, x: axis(x_scale), panels: (0..panels).map(panel).collect(), size };
+    let tree = tree(&figure.svg());
+    let mut found = Vec::new();
+    texts(tree.root(), &mut found);
+    prop_assert!(!found.is_empty());
+    for (i, (a, words)) in found.iter().enumerate() {
+        prop_assert!(
+            a.left() >= 0.0
+                && a.top() >= 0.0
+                && a.right() <= tree.size().width()
+                && a.bottom() <= tree.size().height(),
+            "{words} is cut: {a:?} of {:?}",
+            tree.size()
+        );
+        for (b, others) in &found[i + 1..] {
+            // the boxes hold the font's whole ascent and descent, of which digits leave 3 units free
+            let apart = a.left() >= b.right() - 0.5
+                || b.left() >= a.right() - 0.5
+                || a.top() >= b.bottom() - 3.5
+                || b.top() >= a.bottom() - 3.5;
+            prop_assert!(apart, "{words} {a:?} covers {others} {b:?}");
+        }
+    }
+    Ok(())
+}
+
+/// The tick labels that a width leaves asked for margins that left others, in turns for ever.
+#[test]
+fn margins_that_took_turns_settle() {
+    let page = Page {
+        scales: (Scale::Linear, Scale::Linear),
+        panels: 1,
+        heat: false,
+        named: false,
+        x: (6.398_972_449_954_682, 0.918_305_779_530_471_5),
+        y: (0.0, 8.162_482_858_109_067),
+        title: String::new(),
+        label: " ".into(),
+        size: (802.359_212_166_608_6, 100.0),
+    };
+    labels_are_whole(page.clone()).expect("the page that was found");
+    for width in 240..1200 {
+        labels_are_whole(Page { size: (f64::from(width), 100.0), ..page.clone() }).expect("any width");
+    }
+}
+
 proptest! {
     #[test]
     fn any_figure_is_a_valid_drawing(figure in figure()) {
@@ -149,34 +226,6 @@ proptest! {
         x in (-12.0..12.0f64, 0.01..12.0f64), y in (-12.0..12.0f64, 0.01..12.0f64),
         title in "[a-zρε₁⁻ ]{0,150}", label in "[A-Za-zωη⁻¹ ]{1,50}", size in (240.0..1200.0f64, 100.0..900.0f64),
     ) {
-        // ends such as 1e3 and 1e3·(1 + 10^k): narrow and wide ranges of all magnitudes
-        let ends = |(power, span): (f64, f64)| vec![10f64.powf(power), 10f64.powf(power) * (1.0 + 10f64.powf(span - 5.0))];
-        let axis = |scale| Axis { label: label.clone(), scale, range: None };
-        let curve = Series { label: label.clone(), x: ends(x), y: ends(y), ..Series::default() };
-        let names = if named { vec![label.clone(); 2] } else { Vec::new() };
-        let map = HeatMap { x: ends(x), y: ends(y), values: ends(y), label: label.clone(), range: None, names };
-        let panel = |i: usize| Panel {
-            y: axis(y_scale),
-            series: vec![Series { color: [Color::Blue, Color::Green, Color::Black][i], ..curve.clone() }],
-            heat: heat.then(|| map.clone()),
-            ..Panel::default()
-        };
-        let figure = Figure { title, x: axis(x_scale), panels: (0..panels).map(panel).collect(), size };
-        let tree = tree(&figure.svg());
-        let mut found = Vec::new();
-        texts(tree.root(), &mut found);
-        prop_assert!(!found.is_empty());
-        for (i, (a, words)) in found.iter().enumerate() {
-            prop_assert!(
-                a.left() >= 0.0 && a.top() >= 0.0 && a.right() <= tree.size().width() && a.bottom() <= tree.size().height(),
-                "{words} is cut: {a:?} of {:?}", tree.size()
-            );
-            for (b, others) in &found[i + 1..] {
-                // the boxes hold the font's whole ascent and descent, of which digits leave 3 units free
-                let apart = a.left() >= b.right() - 0.5 || b.left() >= a.right() - 0.5
-                    || a.top() >= b.bottom() - 3.5 || b.top() >= a.bottom() - 3.5;
-                prop_assert!(apart, "{words} {a:?} covers {others} {b:?}");
-            }
-        }
+        labels_are_whole(Page { scales: (x_scale, y_scale), panels, heat, named, x, y, title, label, size })?;
     }
 }
