@@ -35,13 +35,18 @@ pub(crate) fn documentation() -> Step {
     run("documentation", cargo(["doc", "--workspace", "--no-deps"]).env("RUSTDOCFLAGS", "-D warnings"))
 }
 
+/// Where property tests begin, unless `PROPTEST_RNG_SEED` says otherwise: the same cases for the same code, so that
+/// a test that fails was broken by the change. Other cases are tried by naming another seed and more `PROPTEST_CASES`.
+const SEED: (&str, &str) = ("PROPTEST_RNG_SEED", "1");
+
 /// All tests with cargo-nextest where it is installed, then the doc tests, which it does not run.
 fn tests() -> [Step; 2] {
+    let seed = std::env::var(SEED.0).unwrap_or_else(|_| SEED.1.into());
     let mut runner = if works(&mut cargo(["nextest", "--version"])) {
         cargo(["nextest", "run", "--workspace", "--no-fail-fast"])
     } else {
         cargo(["test", "--workspace", "--lib", "--bins", "--tests", "--examples", "--no-fail-fast"])
     };
     let mut doc_tests = cargo(["test", "--workspace", "--doc", "--no-fail-fast"]);
-    [run("tests", &mut runner), run("doc tests", &mut doc_tests)]
+    [run("tests", runner.env(SEED.0, seed)), run("doc tests", &mut doc_tests)]
 }
