@@ -3,7 +3,7 @@
 use super::Projection;
 use super::reduced::SINGULAR;
 use crate::c64;
-use crate::model::{Combination, ModelAt};
+use crate::model::{ModelAt, ParameterAt};
 use frfit_linalg::dense::{Lu, NoConvergence};
 use frfit_linalg::solve::Breakdown;
 use frfit_linalg::vector::{norm, transpose_dot};
@@ -50,6 +50,7 @@ impl Assessment {
 /// The reduced system solved for the load and for every sensor.
 struct Solutions {
     theta: Vec<c64>,
+    factor: Lu,
     /// y, z_1, z_2 …
     all: Vec<Vec<c64>>,
     response: Vec<c64>,
@@ -65,10 +66,10 @@ impl Solutions {
         factor.solve(&mut block).map_err(|NoConvergence| SINGULAR)?;
         let all: Vec<Vec<c64>> = block.chunks_exact(small.size).map(<[c64]>::to_vec).collect();
         let (y, duals) = (&all[0], &all[1..]);
-        let change = small.combine(&slope_theta).multiply(y);
+        let change = small.multiply(&[slope_theta], y).concat();
         let response = small.sensors.iter().map(|l| l.iter().zip(y).map(|(l, y)| y * l).sum()).collect();
         let slope = duals.iter().map(|z| -transpose_dot(z, &change)).collect();
-        Ok(Self { theta, all, response, slope })
+        Ok(Self { theta, factor, all, response, slope })
     }
 }
 
@@ -93,13 +94,30 @@ impl Projection {
     pub fn respond_with_slopes(&self, at: &ModelAt<'_>) -> Result<(Vec<c64>, Vec<Vec<c64>>), Breakdown> {
         let Solutions { all, response, .. } = Solutions::new(self, at, c64::default())?;
         let (y, duals) = (&all[0], &all[1..]);
-        let slope = |coefficients: &[Combination]| -> Vec<c64> {
-            let Some(first) = coefficients.first() else { return vec![c64::default(); duals.len()] };
-            let change = self.combine(&self.parts.weights(first)).multiply(y);
-            duals.iter().map(|z| -transpose_dot(z, &change)).collect()
-        };
-        let slopes = at.parameters.iter().map(|parameter| slope(&parameter.coefficients)).collect();
+        let theta = self.first_weights(at);
+        let changes = self.multiply(&theta, y);
+        let slope = |change: &Vec<c64>| duals.iter().map(|z| -transpose_dot(z, change)).collect();
+        let slopes = changes.iter().map(slope).collect();
         Ok((response, slopes))
+    }
+
+    /// y and every z_m at the nominal values, then −D⁻¹A_{j,1} of each for every parameter: their slopes.
+    pub(super) fn solutions_with_slopes(&self, at: &ModelAt<'_>) -> Result<Vec<Vec<c64>>, Breakdown> {
+        let Solutions { factor, mut all, .. } = Solutions::new(self, at, c64::default())?;
+        let theta = self.first_weights(at);
+        let mut slopes: Vec<c64> = all.iter().flat_map(|y| self.multiply(&theta, y).concat()).collect();
+        factor.solve(&mut slopes).map_err(|NoConvergence| SINGULAR)?;
+        all.extend(slopes.chunks_exact(self.size.max(1)).map(<[c64]>::to_vec));
+        Ok(all)
+    }
+
+    /// θ_g of each A_{j,1}.
+    fn first_weights(&self, at: &ModelAt<'_>) -> Vec<Vec<c64>> {
+        let first = |parameter: &ParameterAt| match parameter.coefficients.first() {
+            Some(first) => self.parts.weights(first),
+            None => vec![c64::default(); self.parts.len()],
+        };
+        at.parameters.iter().map(first).collect()
     }
 
     /// ∂²x_m/∂c² = z_mᵀ (2 D′D⁻¹D′ − D″) x with the correction c of the first parameter, without an estimate of its error.
@@ -113,10 +131,10 @@ impl Projection {
         let factor = Lu::new(&self.combine(&theta)).map_err(|NoConvergence| Breakdown::NotFinite)?;
         factor.solve(&mut block).map_err(|NoConvergence| SINGULAR)?;
         let (y, duals) = block.split_at(self.size);
-        let first = self.combine(&slope);
-        let mut change = first.multiply(y);
+        let slope = [slope];
+        let mut change = self.multiply(&slope, y).concat();
         factor.solve(&mut change).map_err(|NoConvergence| SINGULAR)?;
-        let (twice, bend) = (first.multiply(&change), self.combine(&second).multiply(y));
+        let (twice, bend) = (self.multiply(&slope, &change).concat(), self.multiply(&[second], y).concat());
         let total: Vec<c64> = twice.iter().zip(&bend).map(|(a, b)| 2.0 * a - b).collect();
         Ok(duals.chunks_exact(self.size.max(1)).map(|z| transpose_dot(z, &total)).collect())
     }
@@ -124,7 +142,7 @@ impl Projection {
 
 impl Solved {
     pub(super) fn new(small: &Projection, at: &ModelAt<'_>, correction: c64) -> Result<Self, Breakdown> {
-        let Solutions { theta, all: solutions, response, slope } = Solutions::new(small, at, correction)?;
+        let Solutions { theta, all: solutions, response, slope, .. } = Solutions::new(small, at, correction)?;
         let residuals = small.residuals(&theta, &solutions);
         let norms: Vec<f64> = residuals.iter().map(|residual| norm(residual)).collect();
         let size = norm(&solutions[0]);

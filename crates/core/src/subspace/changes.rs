@@ -11,7 +11,7 @@ use super::assess::ROUNDOFF;
 use super::reduced::SINGULAR;
 use crate::c64;
 use crate::model::{Combination, ModelAt};
-use frfit_linalg::dense::{Lu, Matrix, NoConvergence};
+use frfit_linalg::dense::{Lu, NoConvergence};
 use frfit_linalg::solve::Breakdown;
 use frfit_linalg::vector::norm;
 
@@ -76,7 +76,7 @@ impl Projection {
         given.extend(self.sensors.iter().flatten().map(|&l| c64::new(l, 0.0)));
         factor.solve(&mut given).map_err(|NoConvergence| SINGULAR)?;
         let solutions: Vec<Vec<c64>> = given.chunks_exact(n.max(1)).map(<[c64]>::to_vec).collect();
-        let image = self.sketched_images(&theta);
+        let image = self.combine_images(&theta);
         let left = |force: &[c64], y: &[c64]| -> f64 {
             let mut rest = force.to_vec();
             image.multiply_add(c64::new(-1.0, 0.0), y, &mut rest);
@@ -101,7 +101,7 @@ impl Projection {
         };
         for change in &point.changes {
             let theta = self.parts.weights(change);
-            let (matrix, change_image) = (self.combine(&theta), self.sketched_images(&theta));
+            let (matrix, change_image) = (self.combine(&theta), self.combine_images(&theta));
             // w_p, then u_{m,p} of each sensor.
             let mut block: Vec<c64> =
                 solutions.iter().flat_map(|y| matrix.multiply(y)).map(|force| -force).collect();
@@ -129,17 +129,5 @@ impl Projection {
             changed.coordinates.push(moved[0].to_vec());
         }
         Ok(changed)
-    }
-
-    /// Σ θ_g Θ S_g V.
-    fn sketched_images(&self, theta: &[c64]) -> Matrix {
-        let rows = self.sketched[0].len();
-        let mut sum = Matrix::zeros(rows, self.size);
-        for (image, &theta) in self.images.iter().zip(theta) {
-            if theta != c64::default() {
-                sum.add_scaled_real(theta, image);
-            }
-        }
-        sum
     }
 }

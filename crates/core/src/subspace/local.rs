@@ -3,6 +3,7 @@
 use super::assess::Solved;
 use super::{Assessment, Point, Projection};
 use crate::c64;
+use crate::model::ModelAt;
 use frfit_linalg::vector::transpose_dot;
 
 /// Below this part of itself a direction is roundoff of those there are.
@@ -54,6 +55,22 @@ impl Projection {
                 _ => return local,
             }
         }
+    }
+}
+
+impl Projection {
+    /// This model on the span of x, of every sensor's z_m and of their slopes by every parameter at the nominal values: response and slopes are exact there, and since residuals of
+    /// x and of z_m are of second order, what they are off nearby is of fourth. `None` where the system is singular, or no vector would be saved.
+    pub fn about(&self, at: &ModelAt<'_>) -> Option<Self> {
+        let solutions = self.solutions_with_slopes(at).ok()?;
+        let mut directions = Vec::new();
+        for y in &solutions {
+            append(&mut directions, y);
+            if directions.len() as f64 > WORTHWHILE * self.size as f64 {
+                return None;
+            }
+        }
+        Some(self.compressed(&directions.concat()))
     }
 }
 

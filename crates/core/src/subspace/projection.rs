@@ -5,7 +5,7 @@ use super::parts::Parts;
 use super::{Assessment, ReducedModel};
 use crate::c64;
 use crate::model::ModelAt;
-use frfit_linalg::dense::Matrix;
+use frfit_linalg::dense::{self, Matrix, multiply};
 use frfit_linalg::solve::Breakdown;
 use frfit_linalg::tall::{product, transpose_product};
 use frfit_linalg::vector::transpose_dot;
@@ -57,13 +57,28 @@ impl Projection {
 
     /// Σ θ_g VᵀS_gV.
     pub(super) fn combine(&self, theta: &[c64]) -> Matrix {
-        let mut sum = Matrix::zeros(self.size, self.size);
-        for (matrix, &theta) in self.matrices.iter().zip(theta) {
-            if theta != c64::default() {
-                sum.add_scaled_real(theta, matrix);
+        combination([self.size; 2], theta, &self.matrices)
+    }
+
+    /// Σ θ_g Θ S_gV.
+    pub(super) fn combine_images(&self, theta: &[c64]) -> Matrix {
+        combination([self.sketched[0].len(), self.size], theta, &self.images)
+    }
+
+    /// Σ θ_g VᵀS_gV y for each set of θ, every matrix met once.
+    pub(super) fn multiply(&self, theta: &[Vec<c64>], y: &[c64]) -> Vec<Vec<c64>> {
+        let n = self.size;
+        let mut sums = vec![vec![c64::default(); n]; theta.len()];
+        for (g, matrix) in self.matrices.iter().enumerate() {
+            if theta.iter().all(|theta| theta[g] == c64::default()) {
+                continue;
+            }
+            let image = multiply(matrix, y);
+            for (sum, theta) in sums.iter_mut().zip(theta) {
+                sum.iter_mut().zip(&image).for_each(|(sum, image)| *sum += theta[g] * image);
             }
         }
-        sum
+        sums
     }
 
     /// Sketches of F − Σ θ_g S_g V y and ℓ_m − Σ θ_g S_g V z_m in the norm of forces: `solutions` are y, z_1, z_2 …
@@ -104,4 +119,11 @@ impl Projection {
             gain: self.gain,
         }
     }
+}
+
+/// Σ θ_g S_g of those that have any weight.
+fn combination([nrows, ncols]: [usize; 2], theta: &[c64], matrices: &[Vec<f64>]) -> Matrix {
+    let weighed = theta.iter().zip(matrices).filter(|(theta, _)| **theta != c64::default());
+    let parts: Vec<(c64, &[f64])> = weighed.map(|(&theta, matrix)| (theta, matrix.as_slice())).collect();
+    dense::combination(nrows, ncols, &parts)
 }

@@ -29,6 +29,12 @@ impl Matrix {
         matrix
     }
 
+    /// Of its values, column after column.
+    pub(super) fn of(nrows: usize, ncols: usize, values: Vec<c64>) -> Self {
+        assert_eq!(values.len(), nrows * ncols);
+        Self { nrows, ncols, values }
+    }
+
     /// Number of rows.
     pub fn nrows(&self) -> usize {
         self.nrows
@@ -73,15 +79,6 @@ impl Matrix {
     pub fn add_scaled(&mut self, factor: c64, other: &Self) {
         assert!(self.nrows == other.nrows && self.ncols == other.ncols);
         self.values.iter_mut().zip(&other.values).for_each(|(a, b)| *a += factor * b);
-    }
-
-    /// A ← A + factor · B for a real B of the same size, column after column.
-    ///
-    /// # Panics
-    /// Where the sizes differ.
-    pub fn add_scaled_real(&mut self, factor: c64, other: &[f64]) {
-        assert_eq!(self.values.len(), other.len());
-        self.values.iter_mut().zip(other).for_each(|(a, b)| *a += factor * b);
     }
 
     /// max |aᵢⱼ|, NaN where there is one.

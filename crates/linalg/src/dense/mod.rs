@@ -5,6 +5,7 @@ mod least_squares;
 mod lu;
 mod matrix;
 mod polynomial;
+mod real;
 mod singular;
 
 pub use eigen::{Eigen, eigen, eigenvalues, symmetric_eigen};
@@ -12,6 +13,7 @@ pub use least_squares::{LeastSquares, least_squares};
 pub use lu::{Lu, solve};
 pub use matrix::Matrix;
 pub use polynomial::{Root, evaluate, roots};
+pub use real::{combination, multiply};
 pub use singular::{Singular, singular};
 
 use std::fmt;

@@ -3,7 +3,7 @@
 use super::coordinates::Own;
 use super::information::Information;
 use super::outcome::{BandValue, Direction, Number, Profile, SeveralAt, SeveralOutcome, ValueAt};
-use super::search::{Eliminated, Found, Plane};
+use super::search::{Found, Place, Plane, Reach};
 use super::space::Space;
 use super::spot::Solution;
 use super::{Sought, Task};
@@ -19,9 +19,6 @@ use crate::material::{Law, loss_factor};
 const PROFILE: usize = 5;
 const REACH: f64 = 3.0;
 
-/// Evaluations for each coordinate of a point of a profile, which begins at its neighbour.
-const STEPS: usize = 10;
-
 /// Farther than this in logarithms a profile does not go, however little is told.
 const FARTHEST: f64 = 1.0;
 
@@ -29,8 +26,9 @@ impl Task<'_, '_> {
     pub(super) fn judge(&self, space: &Space<'_>, found: Found) -> SeveralOutcome {
         let all: Vec<usize> = (0..self.omegas.len()).collect();
         let n = found.theta.len();
-        let eliminated = self.eliminated(space, &all, &found, &found.theta, None);
-        let information = eliminated.as_ref().and_then(|e| Information::new(&e.jacobian, n));
+        let eliminated = self.eliminated(&all, &found, &found.theta, None);
+        let place = eliminated.map(|eliminated| Place { theta: found.theta.clone(), eliminated });
+        let information = place.as_ref().and_then(|p| Information::new(&p.eliminated.jacobian, n));
         let own: usize = self.band.sought.iter().map(Sought::per_frequency).sum();
         let answered = all.iter().filter(|&&i| found.at(i).is_some()).count();
         let sensors = self.band.experiment.sensors.len();
@@ -43,7 +41,7 @@ impl Task<'_, '_> {
             level.and_then(|level| judge(chi_squared / (level * level), freedom, &noise, self.band.noise));
         let at: Vec<SeveralAt> = map(self.hooks.for_each, all.len(), |i| {
             let moved =
-                eliminated.as_ref().and_then(|e| e.own[i].as_ref()).map(|(_, moved)| moved.as_slice());
+                place.as_ref().and_then(|p| p.eliminated.own[i].as_ref()).map(|(_, moved)| moved.as_slice());
             self.judge_at(space, &found, i, level, information.as_ref().zip(moved))
         });
         let coordinates: Vec<(usize, String)> = found
@@ -56,7 +54,7 @@ impl Task<'_, '_> {
             Some(information) if n > 0 => (directions(information, level), correlation(information, &found)),
             _ => (Vec::new(), Vec::new()),
         };
-        let told = eliminated.as_ref().zip(information.as_ref());
+        let told = place.as_ref().zip(information.as_ref());
         let profile = directions
             .first()
             .filter(|_| n > 1)
@@ -223,7 +221,7 @@ impl Task<'_, '_> {
         &self,
         space: &Space<'_>,
         found: &Found,
-        (base, information): (&Eliminated, &Information),
+        (best, information): (&Place, &Information),
         worst: &Direction,
         level: f64,
     ) -> Option<Profile> {
@@ -232,21 +230,24 @@ impl Task<'_, '_> {
         worst.weights.iter().for_each(|&(c, weight)| along[c] = weight);
         // The worst is the first of the eigenvectors; what is told of the others is at right angles to it.
         let others = information.told_but_the_first();
-        let least: f64 = base.residuals.iter().map(|r| r * r).sum();
         let reach = (REACH * worst.std / PROFILE as f64).min(FARTHEST / PROFILE as f64);
         let mut points = Vec::new();
         for side in [-1.0, 1.0] {
-            let mut rest = vec![0.0; others.len()];
+            let (mut place, mut rest) = (best.clone(), vec![0.0; others.len()]);
             for k in 1..=PROFILE {
                 let t = side * k as f64 * reach;
                 let origin: Vec<f64> =
                     found.theta.iter().zip(&along).map(|(theta, v)| theta + t * v).collect();
                 let plane = Plane { origin: &origin, basis: &others };
-                let Some(end) = self.search_in(space, &all, (found, base), &plane, &rest, STEPS) else {
-                    break;
-                };
-                rest = end.theta;
-                points.push((t, (end.sum - least) / (level * level)));
+                // Where the least is may be told by the models about the point before: what it is, not.
+                let near = self.search_in(space, &all, (found, &place), &plane, &rest, Reach::Near);
+                let next = near.and_then(|near| {
+                    let next = self.moved_to(space, &all, (found, &place), plane.at(&near.theta))?;
+                    Some((next, near.theta))
+                });
+                let Some((next, end)) = next else { break };
+                points.push((t, (next.eliminated.sum() - best.eliminated.sum()) / (level * level)));
+                (place, rest) = (next, end);
             }
         }
         points.push((0.0, 0.0));

@@ -12,6 +12,7 @@ use crate::for_each::map;
 use crate::identify::band::{Fit, nearest, thinned};
 use crate::identify::{Options, Stage};
 use crate::laws::{Chart, Datum, Minimum, Search, descend};
+use crate::subspace::Projection;
 
 /// On which model, and for which θ, a frequency is looked at.
 struct At<'t, 'a> {
@@ -56,6 +57,18 @@ const PATIENCE: usize = 25;
 
 /// Starts whose misfits agree to this part are one.
 const AGREE: f64 = 1e-3;
+
+/// Searches for θ, each about where the one before ended.
+const SEARCHES: usize = 8;
+
+/// How far a search may lead.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Reach {
+    /// Little: models of a few vectors are as good.
+    Near,
+    /// Anywhere.
+    Far,
+}
 
 /// Where solutions are looked for at a frequency.
 enum Guess<'g> {
@@ -270,36 +283,57 @@ impl Task<'_, '_> {
 
     /// θ of least misfit with the chosen solutions, and whether the search settled. A direction that nothing tells is left where it began: there is nothing to gain along it,
     /// and no end.
+    ///
+    /// Each search is on models of a few vectors about where it begins, which are made anew where it ends; one that gains nothing there is made on the whole ones.
     fn descend(&self, space: &Space<'_>, which: &[usize], found: &Found) -> Option<(Vec<f64>, bool)> {
-        let base = self.eliminated(space, which, found, &found.theta, None)?;
-        let basis = Information::new(&base.jacobian, found.theta.len())?.told();
-        let plane = Plane { origin: &found.theta, basis: &basis };
-        let end = self.search_in(space, which, (found, &base), &plane, &vec![0.0; basis.len()], PATIENCE)?;
-        Some((plane.at(&end.theta), end.converged))
+        let mut place = Place {
+            theta: found.theta.clone(),
+            eliminated: self.eliminated(which, found, &found.theta, None)?,
+        };
+        let basis = Information::new(&place.eliminated.jacobian, found.theta.len())?.told();
+        let rest = vec![0.0; basis.len()];
+        for _ in 0..SEARCHES {
+            let plane = Plane { origin: &place.theta.clone(), basis: &basis };
+            let near = self.search_in(space, which, (found, &place), &plane, &rest, Reach::Near)?;
+            let moved = super::spot::distance(&plane.at(&near.theta), plane.origin);
+            match self.moved_to(space, which, (found, &place), plane.at(&near.theta)) {
+                Some(next) if next.eliminated.sum() <= place.eliminated.sum() => place = next,
+                _ if moved <= SETTLED => {}
+                _ => {
+                    let end = self.search_in(space, which, (found, &place), &plane, &rest, Reach::Far)?;
+                    return Some((plane.at(&end.theta), end.converged));
+                }
+            }
+            if moved <= SETTLED {
+                return Some((place.theta, near.converged));
+            }
+        }
+        Some((place.theta, false))
     }
 
-    /// The least misfit with θ on a plane, its own coordinates the search's; each frequency's own begin where its slopes have them.
+    /// The least misfit with θ on a plane, its own coordinates the search's.
     pub(super) fn search_in(
         &self,
         space: &Space<'_>,
         which: &[usize],
-        (found, base): (&Found, &Eliminated),
+        (found, place): (&Found, &Place),
         plane: &Plane<'_>,
         from: &[f64],
-        patience: usize,
+        reach: Reach,
     ) -> Option<Minimum> {
         let n = found.theta.len();
+        let models = match reach {
+            Reach::Near => map(self.hooks.for_each, which.len(), |k| {
+                self.model_about(space, which[k], k, (found, place))
+            }),
+            Reach::Far => vec![None; which.len()],
+        };
         let evaluate = |t: &[f64]| {
             let theta = plane.at(t);
-            let moved = |k: usize| -> Option<Vec<f64>> {
-                let (own, slopes) = base.own[k].as_ref()?;
-                let by = |a: usize| -> f64 {
-                    let steps = theta.iter().zip(&found.theta).map(|(t, t0)| t - t0);
-                    slopes.iter().zip(steps).map(|(slope, step)| slope[a] * step).sum()
-                };
-                Some((0..own.len()).map(|a| own[a] + by(a)).collect())
-            };
-            let here = self.eliminated(space, which, found, &theta, Some(&moved))?;
+            let model = |k: usize| models[k].as_ref().unwrap_or(space.model(which[k]));
+            let start = |k: usize| place.own_at(k, &theta);
+            let on = On { space, model: &model, start: &start };
+            let here = self.eliminated(which, found, &theta, Some(&on))?;
             let m = here.residuals.len();
             let along = |v: &Vec<f64>| -> Vec<f64> {
                 (0..m).map(|r| (0..n).map(|c| here.jacobian[c * m + r] * v[c]).sum()).collect()
@@ -307,27 +341,54 @@ impl Task<'_, '_> {
             let jacobian = plane.basis.iter().flat_map(along).collect();
             Some((here.residuals, jacobian))
         };
-        let search = Search { starts: 1, patience, same: 0.0 };
+        let search = Search { starts: 1, patience: PATIENCE, same: 0.0 };
         descend(from, &evaluate, &search)
     }
 
-    /// Residuals at θ with each frequency's own at its best, and their slopes by θ with that eliminated; `start` says where to look for its own.
-    pub(super) fn eliminated(
+    /// A model of a few vectors about the k-th solution.
+    fn model_about(
+        &self,
+        space: &Space<'_>,
+        i: usize,
+        k: usize,
+        (found, place): (&Found, &Place),
+    ) -> Option<Projection> {
+        let (own, _) = place.eliminated.own[k].as_ref()?;
+        let (given, _) = self.given(&found.coordinates, &place.theta, i, &found.at(k)?.values)?;
+        space.about(i, &self.spot(i).values(own, &given))
+    }
+
+    /// The place at another θ, on the whole models.
+    pub(super) fn moved_to(
         &self,
         space: &Space<'_>,
         which: &[usize],
+        (found, place): (&Found, &Place),
+        theta: Vec<f64>,
+    ) -> Option<Place> {
+        let on = On { space, model: &|k| space.model(which[k]), start: &|k| place.own_at(k, &theta) };
+        let eliminated = self.eliminated(which, found, &theta, Some(&on))?;
+        Some(Place { theta, eliminated })
+    }
+
+    /// Residuals at θ with each frequency's own at its best, and their slopes by θ with that eliminated: of the chosen solutions, or of those to which they lead on some models.
+    pub(super) fn eliminated(
+        &self,
+        which: &[usize],
         found: &Found,
         theta: &[f64],
-        start: Option<&(dyn Fn(usize) -> Option<Vec<f64>> + Sync)>,
+        on: Option<&On<'_, '_>>,
     ) -> Option<Eliminated> {
         let one = |k: usize| -> Option<Option<Part>> {
             let Some(solution) = found.at(k) else { return Some(None) };
             let i = which[k];
             let (given, slopes) = self.given(&found.coordinates, theta, i, &solution.values)?;
             let spot = self.spot(i);
-            let here = match start {
+            let here = match on {
                 None => solution.clone(),
-                Some(start) => spot.settle(&start(k)?, &given, |values| space.respond(i, values))?,
+                Some(on) => spot.settle(&(on.start)(k)?, &given, |values| {
+                    on.space.respond_on((on.model)(k), i, values)
+                })?,
             };
             let m = here.residuals.len();
             let column = |(j, slope): &(usize, c64)| {
@@ -370,10 +431,35 @@ pub(super) struct Plane<'p> {
 }
 
 impl Plane<'_> {
-    fn at(&self, t: &[f64]) -> Vec<f64> {
+    pub(super) fn at(&self, t: &[f64]) -> Vec<f64> {
         let along = |c: usize| self.basis.iter().zip(t).map(|(v, t)| t * v[c]).sum::<f64>();
         self.origin.iter().enumerate().map(|(c, origin)| origin + along(c)).collect()
     }
+}
+
+/// Where a search for θ is.
+#[derive(Clone)]
+pub(super) struct Place {
+    pub(super) theta: Vec<f64>,
+    pub(super) eliminated: Eliminated,
+}
+
+impl Place {
+    /// The k-th frequency's own coordinates at another θ, where their slopes have them.
+    fn own_at(&self, k: usize, theta: &[f64]) -> Option<Vec<f64>> {
+        let (own, slopes) = self.eliminated.own[k].as_ref()?;
+        let by = |a: usize| -> f64 {
+            slopes.iter().zip(theta.iter().zip(&self.theta)).map(|(slope, (t, t0))| slope[a] * (t - t0)).sum()
+        };
+        Some((0..own.len()).map(|a| own[a] + by(a)).collect())
+    }
+}
+
+/// On which models solutions are settled, and where they begin.
+pub(super) struct On<'o, 'a> {
+    space: &'o Space<'a>,
+    model: &'o (dyn Fn(usize) -> &'o Projection + Sync),
+    start: &'o (dyn Fn(usize) -> Option<Vec<f64>> + Sync),
 }
 
 /// Values of all unknowns at a frequency, and (unknown, ∂p/∂θ) for each coordinate of θ.
@@ -391,12 +477,20 @@ struct Part {
 }
 
 /// Residuals of the chosen solutions as functions of θ alone.
+#[derive(Clone)]
 pub(super) struct Eliminated {
     pub(super) residuals: Vec<f64>,
     /// Column after column.
     pub(super) jacobian: Vec<f64>,
     /// At each frequency that has a solution.
     pub(super) own: Vec<Option<Moving>>,
+}
+
+impl Eliminated {
+    /// Σ r².
+    pub(super) fn sum(&self) -> f64 {
+        self.residuals.iter().map(|r| r * r).sum()
+    }
 }
 
 impl Found {

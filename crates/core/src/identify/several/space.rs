@@ -119,6 +119,11 @@ impl<'a> Space<'a> {
         self.model(i).localised(&points, ROUGH)
     }
 
+    /// A model of one frequency that is good near some values.
+    pub(super) fn about(&self, i: usize, values: &[c64]) -> Option<Projection> {
+        self.model(i).about(&self.at(i, values)?)
+    }
+
     /// How good the model is at these values.
     pub(super) fn assess(&self, i: usize, values: &[c64]) -> Option<Assessment> {
         self.model(i).assess(&self.at(i, values)?, c64::default()).ok()
