@@ -4,7 +4,7 @@ use crate::{Score, Stages};
 use cpu_time::ProcessTime;
 use frfit::c64;
 use frfit::for_each::{ForEach, sequential};
-use frfit::identify::{Band, BandOutcome, Hooks, Noise, Options, identify_band};
+use frfit::identify::{Band, BandOutcome, Enters, Hooks, Noise, Options, Sought, Vary, identify_band};
 use frfit::material::{Law, OutsideTable, Table};
 use frfit::model::{DynamicStiffness, Experiment, Parameter};
 use frfit::roots::Bounds;
@@ -84,6 +84,31 @@ impl Structure {
         let nominal = Law::Table(Table::new(self.frequency_hz.clone(), values)?);
         let nominal = Parameter { nominal, ..self.truth.clone() };
         Ok(Task { structure: self, experiment, nominal, picked: (0..self.frequency_hz.len()).collect() })
+    }
+
+    /// One of several unknowns, the factor of a term, with so many times its true law as nominal one; and the true law.
+    ///
+    /// # Errors
+    /// Where there is no such term.
+    pub fn sought(
+        &self,
+        name: &str,
+        off: f64,
+        varies: Vary,
+        real: bool,
+    ) -> Result<(Sought, Law), Box<dyn Error>> {
+        let term = self.stiffness.find(name)?;
+        let is_unknown = self.truth.members.iter().any(|member| member.term == term);
+        let truth = if is_unknown { &self.truth.nominal } else { &self.stiffness.terms()[term].factor };
+        let sought = Sought {
+            name: name.to_owned(),
+            enters: Enters::Factor(vec![term]),
+            nominal: truth.scaled(off),
+            varies,
+            real,
+            bounds: Bounds::default(),
+        };
+        Ok((sought, truth.clone()))
     }
 
     /// Storage from a fifth to five times the truth in the middle of the band: wide enough for a nominal that is three times off.

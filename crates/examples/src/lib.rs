@@ -41,7 +41,7 @@ pub use clamped_plate::clamped_plate;
 pub use density::density;
 pub use error::Error;
 pub use example::{Example, generate, list};
-pub use file::File;
+pub use file::{File, matrix};
 pub use hammer_bar::{hammer_accelerance, hammer_bar, hammer_records, hammer_rod, polyurethane};
 pub use model::Model;
 pub use rubber_bar::{POLYBUTADIENE, rubber_bar, rubber_bar_end};

@@ -5,7 +5,10 @@ use frfit::model::{Role, Term};
 use frfit_formats::{CoordinateMatrix, Entries, Symmetry, harwell_boeing, matrix_market};
 
 /// One term's matrix in the format of the path's ending: `.rsa` is Harwell–Boeing, anything else Matrix Market.
-pub(crate) fn matrix(term: &Term, path: &str) -> Result<Vec<u8>, Error> {
+///
+/// # Errors
+/// Where the format cannot hold it.
+pub fn matrix(term: &Term, path: &str) -> Result<Vec<u8>, Error> {
     let write = if path.ends_with(".rsa") { harwell_boeing::write } else { matrix_market::write };
     Ok(write(&coordinates(term))?)
 }

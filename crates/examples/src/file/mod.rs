@@ -5,7 +5,7 @@ mod matrix;
 mod table;
 
 pub(crate) use frf::{Frf, csv_frf, uff_frfs};
-pub(crate) use matrix::matrix;
+pub use matrix::matrix;
 pub(crate) use table::{dofs, force, truth};
 
 /// A file of an example.

@@ -9,11 +9,10 @@ use frfit::c64;
 use frfit::for_each::sequential;
 use frfit::frequency::linear_hz;
 use frfit::identify::{
-    Enters, Hooks, Noise, Options, Several, SeveralOutcome, Sought, Status, Vary, identify_several,
+    Hooks, Noise, Options, Several, SeveralOutcome, Sought, Status, Vary, identify_several,
 };
 use frfit::laws::Family;
 use frfit::material::Law;
-use frfit::roots::Bounds;
 use frfit_bench::measurement::{BySubspace, by_subspace};
 use frfit_bench::{Structure, Table, machine};
 use frfit_examples::sandwich;
@@ -47,31 +46,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         checked.unwrap_or(f64::NAN)
     );
 
-    let term = |name: &str| structure.stiffness.find(name);
-    let truth = |name: &str| -> Result<Law, Box<dyn Error>> {
-        let index = term(name)?;
-        let unknown = structure.truth.members.iter().any(|member| member.term == index);
-        Ok(if unknown {
-            structure.truth.nominal.clone()
-        } else {
-            structure.stiffness.terms()[index].factor.clone()
-        })
-    };
-    let sought = |name: &str, off: f64, varies: Vary, real: bool| -> Result<(Sought, Law), Box<dyn Error>> {
-        let truth = truth(name)?;
-        let sought = Sought {
-            name: name.to_owned(),
-            enters: Enters::Factor(vec![term(name)?]),
-            nominal: truth.scaled(off),
-            varies,
-            real,
-            bounds: Bounds::default(),
-        };
-        Ok((sought, truth))
-    };
-    let core = |varies| sought("core", 1.0 + DELTA, varies, false);
-    let skins = sought("skins", SKINS, Vary::Constant, false)?;
-    let density = sought("core-mass", DENSITY, Vary::Constant, true)?;
+    let core = |varies| structure.sought("core", 1.0 + DELTA, varies, false);
+    let skins = structure.sought("skins", SKINS, Vary::Constant, false)?;
+    let density = structure.sought("core-mass", DENSITY, Vary::Constant, true)?;
     let freely = core(Vary::PerFrequency)?;
     let by_law = core(Vary::Law(Family::Fractional))?;
     let sets = [

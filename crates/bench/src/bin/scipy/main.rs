@@ -1,0 +1,198 @@
+//! Several unknowns beside `scipy.optimize.least_squares` on direct solves: the same answer, and what it costs.
+//!
+//! `scipy [NX] [FREQUENCIES] [LARGE]`: a sandwich of NX × NX/8 elements in plan (default 16), so many frequencies (default 24); its core's law, its skins' modulus and its core's density are
+//! found by both. Then LARGE (default 160: 50 000 degrees of freedom, 0: none) is found by frfit, and one direct solve of SciPy's there times as many as it took for the small one
+//! says what it would take. Needs a Python with SciPy (FRFIT_PYTHON, or python3).
+#![allow(clippy::print_stdout, clippy::print_stderr)] // tables are what a benchmark is for
+
+use cpu_time::ProcessTime;
+use frfit::c64;
+use frfit::for_each::sequential;
+use frfit::frequency::{linear_hz, omega_rad_s};
+use frfit::identify::{Hooks, Noise, Options, Several, SeveralOutcome, Sought, Vary, identify_several};
+use frfit::laws::Family;
+use frfit::material::Law;
+use frfit_bench::measurement::{by_subspace, direct};
+use frfit_bench::{Structure, Table, machine};
+use frfit_examples::{matrix, sandwich};
+use serde_json::{Value, json};
+use std::error::Error;
+use std::path::Path;
+use std::process::Command;
+
+/// Nominal over true values: near enough for a search that has one start and no model of the misfit's valleys.
+const CORE: f64 = 1.2;
+const SKINS: f64 = 1.1;
+const DENSITY: f64 = 0.9;
+
+const PROGRAM: &str = include_str!("least_squares.py");
+
+/// What both find: E₀, E₁ (iω_r)^α's modulus, α of the core; E′, η of the skins; ρ of the core.
+type Numbers = [f64; 6];
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let mut arguments = std::env::args().skip(1);
+    let mut next = |usual| arguments.next().map_or(Ok(usual), |given| given.parse::<usize>());
+    let (nx, frequencies, large) = (next(16)?, next(24)?, next(160)?);
+    println!("Several unknowns beside scipy.optimize.least_squares on direct solves\n{}", machine());
+    let small = Case::new(nx, frequencies, direct)?;
+    let ours = small.ours()?;
+    let theirs = small.theirs("fit")?;
+    let (count, seconds) = (number(&theirs, "solves")?, number(&theirs, "seconds")?);
+    let theta: Vec<f64> = serde_json::from_value(theirs["theta"].clone())?;
+    let found =
+        [theta[0].exp(), theta[1].exp(), logistic(theta[2]), theta[3].exp(), theta[4], theta[5].exp()];
+    println!(
+        "sandwich, N = {}, {frequencies} frequencies, 2 sensors; SciPy: {count} direct solves, {seconds:.1} s CPU; frfit: {} factorisations, {} solves, {:.2} s CPU; ratio {:.0}\n",
+        small.structure.stiffness.dim(),
+        ours.outcome.work.factorisations,
+        ours.outcome.work.solves,
+        ours.seconds,
+        seconds / ours.seconds
+    );
+    let mut table = Table::new(["", "E0", "|E1 (iω)^α|", "α", "skins E'", "skins η", "core ρ"]);
+    let row = |label: &str, numbers: &Numbers| {
+        std::iter::once(label.to_owned())
+            .chain(numbers.map(|value| format!("{value:.8e}")))
+            .collect::<Vec<_>>()
+    };
+    table.push(row("truth", &small.truth));
+    table.push(row("frfit", &ours.found));
+    table.push(row("SciPy", &found));
+    println!("{table}");
+    if large > 0 {
+        let large = Case::new(large, frequencies, |structure| Ok(by_subspace(structure, 0)?.measured))?;
+        let ours = large.ours()?;
+        let one = number(&large.theirs("solve")?, "seconds")?;
+        println!(
+            "sandwich, N = {}: frfit {:.1} s CPU ({} factorisations, {} solves), farthest number {:.1e} off; SciPy {one:.1} s for one direct solve, {:.0} s for {count}; ratio {:.0}",
+            large.structure.stiffness.dim(),
+            ours.seconds,
+            ours.outcome.work.factorisations,
+            ours.outcome.work.solves,
+            farthest(&ours.found, &large.truth),
+            one * count,
+            one * count / ours.seconds
+        );
+    }
+    Ok(())
+}
+
+struct Case {
+    structure: Structure,
+    sought: Vec<Sought>,
+    truth: Numbers,
+}
+
+struct Ours {
+    outcome: SeveralOutcome,
+    found: Numbers,
+    seconds: f64,
+}
+
+impl Case {
+    fn new(
+        nx: usize,
+        frequencies: usize,
+        measure: impl Fn(&Structure) -> Result<Vec<Vec<c64>>, Box<dyn Error>>,
+    ) -> Result<Self, Box<dyn Error>> {
+        let model = sandwich(nx, nx / 8, 2)?;
+        let [first, last] = model.band_hz;
+        let mut structure = Structure::of(model, linear_hz(first, last, frequencies), 1e-5, 3.0);
+        structure.measured = measure(&structure)?;
+        let (core, core_law) = structure.sought("core", CORE, Vary::Law(Family::Fractional), false)?;
+        let (skins, skins_law) = structure.sought("skins", SKINS, Vary::Constant, false)?;
+        let (density, density_law) = structure.sought("core-mass", DENSITY, Vary::Constant, true)?;
+        let truth = numbers(&structure, [&core_law, &skins_law, &density_law])?;
+        Ok(Self { structure, sought: vec![core, skins, density], truth })
+    }
+
+    fn ours(&self) -> Result<Ours, Box<dyn Error>> {
+        let band = Several {
+            model: &self.structure.stiffness,
+            experiment: &self.structure.experiment,
+            sought: &self.sought,
+            frequency_hz: &self.structure.frequency_hz,
+            measured: &self.structure.measured,
+            noise: Noise::Unknown,
+        };
+        let start = ProcessTime::now();
+        let hooks = Hooks { for_each: &sequential, progress: &|_, _, _| {} };
+        let outcome = identify_several(&band, &Options::default(), hooks)?;
+        let seconds = start.elapsed().as_secs_f64();
+        let law = |j: usize| outcome.band.iter().find(|one| one.sought == j).map(|one| &one.law);
+        let laws = [law(0), law(1), law(2)].map(|law| law.ok_or("an unknown of the band is missing"));
+        let [core, skins, density] = laws;
+        let found = numbers(&self.structure, [core?, skins?, density?])?;
+        Ok(Ours { outcome, found, seconds })
+    }
+
+    /// What the program prints.
+    fn theirs(&self, what: &str) -> Result<Value, Box<dyn Error>> {
+        let folder = tempfile::tempdir()?;
+        for term in self.structure.stiffness.terms() {
+            let name = format!("{}.mtx", term.name);
+            std::fs::write(folder.path().join(&name), matrix(term, &name)?)?;
+        }
+        std::fs::write(folder.path().join("task.json"), self.task()?.to_string())?;
+        python(folder.path(), what)
+    }
+
+    fn task(&self) -> Result<Value, Box<dyn Error>> {
+        let pair = |v: &c64| json!([v.re, v.im]);
+        let pairs = |row: &Vec<c64>| row.iter().map(pair).collect::<Value>();
+        let experiment = &self.structure.experiment;
+        let sensors = (0..experiment.sensors.len()).map(|m| pairs(&experiment.unit_force(m)));
+        let middle = self.structure.frequency_hz[0];
+        let skins_mass = self.structure.stiffness.terms()[self.structure.stiffness.find("skins-mass")?]
+            .factor
+            .at(middle)?;
+        let nominal: Vec<&Law> = self.sought.iter().map(|one| &one.nominal).collect();
+        let [e0, e1, alpha, storage, eta, density] =
+            numbers(&self.structure, [nominal[0], nominal[1], nominal[2]])?;
+        Ok(json!({
+            "frequency_hz": self.structure.frequency_hz,
+            "measured": self.structure.measured.iter().map(pairs).collect::<Value>(),
+            "load": pairs(&experiment.load),
+            "sensors": sensors.collect::<Value>(),
+            "skins_density": skins_mass.re,
+            "start": [e0.ln(), e1.ln(), (alpha / (1.0 - alpha)).ln(), storage.ln(), eta, density.ln()],
+        }))
+    }
+}
+
+fn python(folder: &Path, what: &str) -> Result<Value, Box<dyn Error>> {
+    let python = std::env::var("FRFIT_PYTHON").unwrap_or_else(|_| "python3".into());
+    // one thread, as ours
+    let output = Command::new(&python)
+        .args(["-c", PROGRAM])
+        .arg(folder)
+        .arg(what)
+        .env("OPENBLAS_NUM_THREADS", "1")
+        .output()
+        .map_err(|error| format!("{python} (set FRFIT_PYTHON to a Python with SciPy): {error}"))?;
+    if !output.status.success() {
+        return Err(String::from_utf8_lossy(&output.stderr).into());
+    }
+    Ok(serde_json::from_slice(&output.stdout)?)
+}
+
+/// The laws' numbers as both sides count them: the fractional part at the middle of the band.
+fn numbers(structure: &Structure, [core, skins, density]: [&Law; 3]) -> Result<Numbers, Box<dyn Error>> {
+    let Law::Fractional { e0, e1, alpha } = core else { return Err("the core's law is fractional".into()) };
+    let middle = structure.frequency_hz[structure.frequency_hz.len() / 2];
+    let (skins, density) = (skins.at(middle)?, density.at(middle)?);
+    Ok([*e0, e1 * omega_rad_s(middle).powf(*alpha), *alpha, skins.re, skins.im / skins.re, density.re])
+}
+
+fn logistic(t: f64) -> f64 {
+    1.0 / (1.0 + (-t).exp())
+}
+
+fn farthest(found: &Numbers, truth: &Numbers) -> f64 {
+    found.iter().zip(truth).map(|(found, truth)| (found / truth - 1.0).abs()).fold(0.0, f64::max)
+}
+
+fn number(of: &Value, name: &str) -> Result<f64, Box<dyn Error>> {
+    of[name].as_f64().ok_or_else(|| format!("the program printed no {name}: {of}").into())
+}
