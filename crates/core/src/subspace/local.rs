@@ -12,6 +12,9 @@ const NEW: f64 = 1e-12;
 /// A compressed model of more than this fraction of the size saves nothing.
 const WORTHWHILE: f64 = 0.6;
 
+/// Points whose solutions are taken in before all errors are looked at anew.
+const AT_ONCE: usize = 3;
+
 /// A local error of this many times the band's own is the band's.
 const AS_GOOD: f64 = 3.0;
 
@@ -50,10 +53,12 @@ impl Projection {
                 assessed.map_or(f64::INFINITY, |assessed| relative(&assessed, &points[i]))
             };
             let rest = (0..points.len()).filter(|&i| !done[i]).map(|i| (i, error(i)));
-            match rest.max_by(|a, b| a.1.total_cmp(&b.1)) {
-                Some((i, worst)) if worst > tolerance => next.push((i, worst)),
-                _ => return local,
+            next = rest.filter(|&(_, error)| error > tolerance).collect();
+            if next.is_empty() {
+                return local;
             }
+            next.sort_by(|a, b| b.1.total_cmp(&a.1));
+            next.truncate(AT_ONCE);
         }
     }
 }

@@ -14,6 +14,9 @@ use frfit_linalg::solve::Breakdown;
 /// Frequencies of the training at most.
 const FREQUENCIES: usize = 60;
 
+/// Real factorisations at most: a second unknown wants more vectors, which cost solves.
+const FACTORISATIONS: usize = 3;
+
 /// Points of the box at each of them, for each unknown: neighbouring frequencies have other points of the same sequence, so that together they fill the box.
 const PER_UNKNOWN: usize = 3;
 
@@ -71,7 +74,8 @@ impl<'a> Space<'a> {
         for (k, &i) in thinned(&all, FREQUENCIES).enumerate() {
             points.extend(space.box_points(i, k)?);
         }
-        let training = TrainOptions { tolerance: BOX, ..TrainOptions::default() };
+        let training =
+            TrainOptions { tolerance: BOX, factorisations: FACTORISATIONS, ..TrainOptions::default() };
         if let Err(breakdown) = space.subspace.train(&points, &training, hooks.for_each) {
             return Ok(Err(breakdown));
         }
@@ -150,7 +154,8 @@ impl<'a> Space<'a> {
             self.answers.push(answers[*k].clone());
             points.push(point.clone());
         }
-        let training = TrainOptions { tolerance: TRAINED, ..TrainOptions::default() };
+        let training =
+            TrainOptions { tolerance: TRAINED, factorisations: FACTORISATIONS, ..TrainOptions::default() };
         let trained = self.subspace.train(&points, &training, hooks.for_each);
         self.localise(hooks.for_each);
         trained.is_ok() && self.subspace.size() > before

@@ -4,6 +4,7 @@ use super::Sought;
 use super::space::Responded;
 use crate::c64;
 use crate::laws::{Minimum, Search, descend};
+use std::cell::RefCell;
 
 /// What is to be explained at a frequency.
 pub(super) struct Spot<'t> {
@@ -128,13 +129,20 @@ impl Spot<'_> {
         if start.is_empty() {
             return self.at(start, given, respond);
         }
-        let evaluate = |own: &[f64]| {
-            let here = self.at(own, given, &respond)?;
-            Some((here.residuals, here.of_own))
+        // a search asks for its end again
+        let met: RefCell<Vec<Solution>> = RefCell::default();
+        let at = |own: &[f64]| {
+            let known = met.borrow().iter().find(|known| known.own == own).cloned();
+            known.or_else(|| {
+                let new = self.at(own, given, &respond)?;
+                met.borrow_mut().push(new.clone());
+                Some(new)
+            })
         };
+        let evaluate = |own: &[f64]| at(own).map(|here| (here.residuals, here.of_own));
         let search = Search { starts: 1, patience: PATIENCE, same: 0.0 };
         let Minimum { theta, converged, .. } = descend(start, &evaluate, &search)?;
-        self.at(&theta, given, respond).filter(|_| converged)
+        at(&theta).filter(|_| converged)
     }
 
     /// The different solutions that some starts lead to and no bound excludes, by their misfit.
