@@ -3,7 +3,7 @@
 use super::coordinates::Coordinates;
 use super::information::Information;
 use super::path::Chosen;
-use super::sought::{Enters, Vary};
+use super::sought::Enters;
 use super::space::{Space, in_box};
 use super::spot::{Solution, eliminate};
 use super::{Sought, Task};
@@ -41,6 +41,10 @@ const PART: usize = 48;
 
 /// Points of the box for each unknown that a frequency has of its own.
 const PER_UNKNOWN: usize = 8;
+
+/// Values of one of two unknowns of a frequency at which all of the other are looked for: to an octave, or in all where the range is not positive.
+const STEPS_PER_OCTAVE: f64 = 3.0;
+const STEPS: usize = 16;
 
 /// Frequencies at which solutions are looked for all over the box: so many at least, and every so-many-th at least. Between them those of both sides are followed.
 const ANCHORS: usize = 12;
@@ -223,24 +227,37 @@ impl Task<'_, '_> {
         Found { coordinates, theta, solutions, chosen, converged: true, starts: 1, agreeing: 1 }
     }
 
-    /// The solutions at a frequency that some values, the nominal ones and points all over the box lead to; of one unknown that stands for a factor, all there are.
+    /// The solutions at a frequency that some values, the nominal ones and points all over the box lead to. Of one unknown that stands for a factor, all there are; of two, those that
+    /// begin at all solutions for one of them while the other goes through its range, in either part: every solution of both is one of those at the other's value.
     fn everywhere(&self, at: &At<'_, '_>, i: usize, values: &[c64]) -> Vec<Solution> {
-        let spot = self.spot(i);
-        let mut starts = vec![spot.coordinates(values), spot.coordinates(&self.nominal[i])];
-        match self.all_of_one(at, i) {
-            Some(all) => starts.extend(all.iter().map(|values| spot.coordinates(values))),
-            None => {
-                let own = self.band.sought.iter().filter(|one| one.per_frequency() > 0).count();
-                let points =
-                    (1..=PER_UNKNOWN * own).map(|k| in_box(&at.space.composite, &self.nominal[i], k));
-                starts.extend(points.map(|values| spot.coordinates(&values)));
-            }
-        }
-        // Most starts lead nowhere: that is told on a model of few vectors.
         let Some((given, _)) = self.given(at.coordinates, at.theta, i, &self.nominal[i]) else {
             return Vec::new();
         };
+        let spot = self.spot(i);
+        // Most starts lead nowhere: that is told on a model of few vectors.
         let rough = at.space.rough(i);
+        let factors: Vec<usize> = (0..self.band.sought.len()).filter(|&j| self.is_own_factor(j)).collect();
+        let others = self.band.sought.iter().filter(|one| one.per_frequency() > 0).count() - factors.len();
+        let found = match (factors.as_slice(), others) {
+            (&[j], 0) => self.all_of((at.space, at.space.model(i)), i, j, &given),
+            (&[a, b], 0) => {
+                let along = |a: usize, b: usize| {
+                    let grid = in_turn(&self.band.sought[b], given[b]).into_iter();
+                    let with = |value: c64| {
+                        let mut values = given.clone();
+                        values[b] = value;
+                        self.all_of((at.space, &rough), i, a, &values)
+                    };
+                    grid.flat_map(with).collect::<Vec<_>>()
+                };
+                [along(a, b), along(b, a)].concat()
+            }
+            (_, others) => (1..=PER_UNKNOWN * (factors.len() + others))
+                .map(|k| in_box(&at.space.composite, &self.nominal[i], k))
+                .collect(),
+        };
+        let starts = [values, &self.nominal[i]].into_iter().chain(found.iter().map(Vec::as_slice));
+        let starts: Vec<Vec<f64>> = starts.map(|values| spot.coordinates(values)).collect();
         let found = spot.solutions(&starts, &given, |values| at.space.respond_on(&rough, i, values));
         self.settled(at, i, &found.into_iter().map(|solution| solution.own).collect::<Vec<_>>())
     }
@@ -252,33 +269,38 @@ impl Task<'_, '_> {
         self.spot(i).solutions(starts, &given, |values| at.space.respond(i, values))
     }
 
-    /// All solutions (B-2) where one unknown alone is the frequency's own, and stands for a factor; `None` otherwise.
-    fn all_of_one(&self, place: &At<'_, '_>, i: usize) -> Option<Vec<Vec<c64>>> {
-        let At { space, coordinates, theta } = place;
-        let mut own =
-            (0..self.band.sought.len()).filter(|&j| self.band.sought[j].varies == Vary::PerFrequency);
-        let (j, None) = (own.next()?, own.next()) else { return None };
-        let Sought { enters: Enters::Factor(_), bounds, real, .. } = &self.band.sought[j] else {
-            return None;
-        };
-        let (given, _) = self.given(coordinates, theta, i, &self.nominal[i])?;
-        let mut at = space.at(i, &given)?;
+    /// Whether a frequency has a value of its own of this unknown, in place of a factor.
+    fn is_own_factor(&self, j: usize) -> bool {
+        let one = &self.band.sought[j];
+        one.per_frequency() > 0 && matches!(one.enters, Enters::Factor(_))
+    }
+
+    /// All values of one unknown that stands for a factor (B-2), the others as given: where all sensors' misfit is least.
+    fn all_of(
+        &self,
+        (space, model): (&Space<'_>, &Projection),
+        i: usize,
+        j: usize,
+        given: &[c64],
+    ) -> Vec<Vec<c64>> {
+        let Some(mut at) = space.at(i, given) else { return Vec::new() };
         at.parameters.swap(0, j);
         at.parameters.truncate(1);
-        let options = Options { bounds: *bounds, real: *real, ..*self.options };
+        let Sought { bounds, real, .. } = self.band.sought[j];
+        let options = Options { bounds, real, ..*self.options };
         let fit = Fit {
             measured: &self.band.measured[i],
             sigma: &self.sigma[i],
             nominal: given[j],
             options: &options,
         };
-        let explored = fit.explore_reduced(space.model(i), &at);
         let values = |correction: c64| {
-            let mut values = given.clone();
+            let mut values = given.to_vec();
             values[j] += correction;
             values
         };
-        Some(explored.solutions.iter().map(|solution| values(solution.correction)).collect())
+        let explored = fit.explore_reduced(model, &at);
+        explored.solutions.iter().map(|solution| values(solution.correction)).collect()
     }
 
     /// θ of least misfit with the chosen solutions, and whether the search settled. A direction that nothing tells is left where it began: there is nothing to gain along it,
@@ -422,6 +444,19 @@ impl Task<'_, '_> {
         let finite = residuals.iter().chain(&jacobian).all(|value| value.is_finite());
         finite.then_some(Eliminated { residuals, jacobian, own })
     }
+}
+
+/// Values through the range of an unknown, with the loss factor of a given one.
+fn in_turn(one: &Sought, given: c64) -> Vec<c64> {
+    let [low, high] = one.range(given);
+    let steps = if low > 0.0 { (STEPS_PER_OCTAVE * (high / low).log2()).ceil() as usize } else { STEPS };
+    let eta = if given.re == 0.0 { 0.0 } else { given.im / given.re };
+    let value = |k: usize| {
+        let part = k as f64 / steps.max(1) as f64;
+        let real = if low > 0.0 { low * (high / low).powf(part) } else { low + (high - low) * part };
+        c64::new(1.0, if one.real { 0.0 } else { eta }) * real
+    };
+    (0..=steps).map(value).collect()
 }
 
 /// θ = origin + Σ t_k v_k.
