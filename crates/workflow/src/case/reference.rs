@@ -26,9 +26,9 @@ This page is made from the reader's own list of keys: `FRFIT_RENEW=1 cargo test 
 another. A test also reads every example, and finds each key in one of them.
 ";
 
-/// Text of a table's cell: a stroke would begin the next one, brackets a link.
+/// Text of a table's cell: a stroke would begin the next one.
 fn cell(text: &str) -> String {
-    text.replace('|', "\\|").replace('[', "\\[")
+    text.replace('|', "\\|")
 }
 
 #[cfg(test)]
