@@ -2,7 +2,7 @@
 
 use crate::docs::typeset;
 use crate::links;
-use crate::step::{Step, cargo, run, target, works, workspace};
+use crate::step::{Step, cargo, run, target, workspace};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
