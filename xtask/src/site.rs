@@ -12,6 +12,9 @@ const MDBOOK: &str = "0.5.4";
 /// The steps; none, with a word, where mdBook is neither there nor can be installed.
 pub(crate) fn steps() -> Vec<Step> {
     let mut steps = Vec::new();
+    let folder = target().join("site");
+    // Of an older site nothing shall be looked at.
+    let _ = std::fs::remove_dir_all(&folder);
     let mdbook = match mdbook() {
         Some(there) => there,
         None => {
@@ -26,7 +29,6 @@ pub(crate) fn steps() -> Vec<Step> {
             own
         }
     };
-    let folder = target().join("site");
     let mut build = Command::new(mdbook);
     build.arg("build").arg(workspace().join("docs/site")).arg("--dest-dir").arg(&folder);
     let built = run("site", &mut build);
