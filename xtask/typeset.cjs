@@ -1,4 +1,4 @@
-// Typesets the formulas $…$ and $$…$$ in rustdoc's pages: node typeset.cjs KATEX_PACKAGE DOC_FOLDER
+// Typesets the formulas $…$ and $$…$$ in the pages of rustdoc or of mdBook: node typeset.cjs KATEX_PACKAGE DOC_FOLDER
 //
 // Fails, with the place, where Markdown has eaten a part of a formula or KaTeX cannot read it.
 "use strict";
@@ -25,7 +25,8 @@ function* files(folder, ending) {
 
 // A backslash before punctuation is an escape in Markdown: `\,` arrives as a comma, and no page shows it.
 function checkSource(file) {
-  const comments = fs.readFileSync(file, "utf8").split("\n").map((line) => /^\s*\/\/[/!](.*)/.exec(line)?.[1] ?? "");
+  const lines = fs.readFileSync(file, "utf8").split("\n");
+  const comments = file.endsWith(".md") ? lines : lines.map((line) => /^\s*\/\/[/!](.*)/.exec(line)?.[1] ?? "");
   const blank = (code) => code.replace(/[^\n]/g, " ");
   const text = comments.join("\n").replace(/```[^]*?```|`[^`\n]+`/g, blank);
   for (const match of text.matchAll(FORMULA)) {
@@ -61,7 +62,7 @@ function typeset(page, html) {
     .join("");
 }
 
-for (const file of files("crates", ".rs")) checkSource(file);
+for (const file of [...files("crates", ".rs"), ...files("docs/site/src", ".md")]) checkSource(file);
 
 const assets = path.join(docFolder, "katex");
 fs.mkdirSync(assets, { recursive: true });

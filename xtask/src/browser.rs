@@ -1,4 +1,4 @@
-//! The report in a real browser: `crates/report/browser`.
+//! The report, and the site where it is built, in a real browser: `crates/report/browser`.
 
 use crate::step::{Step, cargo, run, target, works, workspace};
 use std::path::{Path, PathBuf};
@@ -112,8 +112,15 @@ fn check(chromium: &Path) -> Vec<Step> {
     let mut look = Command::new("node");
     look.arg(scripts.join("check.mjs")).arg(chromium).arg(&reports).arg(&pictures);
     let looked = run("browser", &mut look);
+    let mut steps = vec![Step { name: "reports", ..made }, looked];
+    let site = target().join("site");
+    if site.join("index.html").is_file() {
+        let mut look = Command::new("node");
+        look.arg(scripts.join("site.mjs")).arg(chromium).arg(&site).arg(&pictures);
+        steps.push(run("site, looked at", &mut look));
+    }
     println!("pictures: {}", pictures.display());
-    vec![Step { name: "reports", ..made }, looked]
+    steps
 }
 
 /// The files of a folder, into another one.

@@ -1,30 +1,43 @@
-//! The documentation with its formulas typeset.
+//! The documentation with its formulas typeset: the library's pages and the site.
 //!
-//! Formulas in doc comments are written `$…$` and `$$…$$`. After rustdoc, Node typesets them with KaTeX in the pages
+//! Formulas are written `$…$` and `$$…$$`, in doc comments and in docs/site. Node typesets them with KaTeX in the pages
 //! themselves, so that a page needs no script: only KaTeX's style sheet and fonts, which are copied beside it.
 
-use crate::step::{run, sum_up, target, works, workspace};
+use crate::site;
+use crate::step::{Step, run, sum_up, target, works, workspace};
 use crate::test::documentation;
+use std::path::Path;
 use std::process::Command;
 
 /// The version that the pages are known to look right with.
 const KATEX: &str = "katex@0.16.22";
 
-/// Builds target/doc; without npm and Node the formulas stay as they are written.
+/// Builds target/doc and target/site.
 pub(crate) fn build() -> bool {
     let mut steps = vec![documentation()];
-    if works(Command::new("npm").arg("--version")) && works(Command::new("node").arg("--version")) {
-        let folder = target().join("katex");
-        let package = folder.join("node_modules/katex");
+    steps.extend(typeset(&target().join("doc")));
+    println!("{}", target().join("doc/frfit/index.html").display());
+    steps.extend(site::steps());
+    sum_up(&steps)
+}
+
+/// Typesets the pages of a folder; where KaTeX cannot be had, the formulas stay as they are written, with a word.
+pub(crate) fn typeset(pages: &Path) -> Vec<Step> {
+    let folder = target().join(KATEX);
+    let package = folder.join("node_modules/katex");
+    if !package.exists() {
+        println!("── npm install {KATEX}");
         let mut install = Command::new("npm");
         install.args(["install", "--ignore-scripts", "--no-audit", "--no-fund", "--prefix"]);
-        steps.push(run("KaTeX", install.arg(&folder).arg(KATEX)));
-        let mut typeset = Command::new("node");
-        typeset.arg(workspace().join("xtask/typeset.cjs")).arg(package).arg(target().join("doc"));
-        steps.push(run("formulas", typeset.current_dir(workspace())));
-    } else {
-        println!("npm or node is missing: formulas stay as they are written");
+        works(install.arg(&folder).arg(KATEX));
     }
-    println!("{}", target().join("doc/frfit/index.html").display());
-    sum_up(&steps)
+    if !package.exists() || !works(Command::new("node").arg("--version")) {
+        println!(
+            "── formulas: SKIPPED, {KATEX} cannot be installed, or node is missing; they stay as they are written"
+        );
+        return Vec::new();
+    }
+    let mut typeset = Command::new("node");
+    typeset.arg(workspace().join("xtask/typeset.cjs")).arg(package).arg(pages);
+    vec![run("formulas", typeset.current_dir(workspace()))]
 }

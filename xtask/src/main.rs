@@ -4,18 +4,21 @@
 mod bench;
 mod browser;
 mod docs;
+mod links;
 mod python;
+mod site;
 mod step;
 mod test;
 
 use std::process::ExitCode;
 
 const USAGE: &str = "\
-cargo xtask test [--quick]       formatting, lints, all tests and doc tests, documentation, the report in a browser, the Python package;
+cargo xtask test [--quick]       formatting, lints, all tests and doc tests, documentation, the site, the Python package, the report in a browser;
                                  --quick: tests and doc tests only
 cargo xtask test browser         the report in headless Chromium alone; pictures to target/browser/pictures
 cargo xtask test python          the Python package alone: its wheel, tests and types
-cargo xtask docs                 documentation in target/doc, formulas typeset where there is npm
+cargo xtask test site            the documentation site alone: built, formulas typeset, links followed
+cargo xtask docs                 documentation in target/doc and the site in target/site, formulas typeset where there is npm
 cargo xtask bench [NAME [ARG…]]  one benchmark, or all; tables to the terminal, figures to target/bench
 cargo xtask bench solvers [ARG…] multifrontal beside other sparse solvers; crates/multifrontal/compare says what it needs";
 
@@ -27,6 +30,7 @@ fn main() -> ExitCode {
         ["test", "--quick"] => test::quick(),
         ["test", "browser"] => step::sum_up(&browser::browser()),
         ["test", "python"] => step::sum_up(&python::steps()),
+        ["test", "site"] => step::sum_up(&site::steps()),
         ["docs"] => docs::build(),
         ["bench"] => bench::all(),
         ["bench", name, rest @ ..] => bench::one(name, rest),

@@ -2,9 +2,10 @@
 
 use crate::browser::browser;
 use crate::python;
+use crate::site;
 use crate::step::{Step, cargo, run, sum_up, works};
 
-/// Formatting, lints, tests, doc tests, documentation, the report in a browser, the Python package; every step runs, whatever the others say.
+/// Formatting, lints, tests, doc tests, documentation, the site, the Python package, the report in a browser; every step runs, whatever the others say.
 pub(crate) fn all() -> bool {
     for (command, component) in [("fmt", "rustfmt"), ("clippy", "clippy")] {
         if !works(&mut cargo([command, "--version"])) {
@@ -18,6 +19,7 @@ pub(crate) fn all() -> bool {
     ];
     steps.extend(tests());
     steps.push(documentation());
+    steps.extend(site::steps());
     steps.extend(python::steps());
     steps.extend(browser());
     sum_up(&steps)

@@ -46,3 +46,8 @@ pub use hammer_bar::{hammer_accelerance, hammer_bar, hammer_records, hammer_rod,
 pub use model::Model;
 pub use rubber_bar::{POLYBUTADIENE, rubber_bar, rubber_bar_end};
 pub use sandwich::sandwich;
+
+/// The program of the documentation site's page on the library, as a doc test: it uses the crates that this one does.
+#[cfg(doctest)]
+#[doc = include_str!("../../../docs/site/src/library.md")]
+struct Library;

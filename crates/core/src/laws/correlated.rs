@@ -2,9 +2,9 @@
 //!
 //! What a line k leaves of ln E beside the law is taken for the sum of noise that is its own, as large as the weights say times s, and a deviation
 //! δ that the lines share, of the size τ and the correlation φ^{|k−l|}:
-//! $$ d_k = \delta_k + e_k, \qquad \mathrm E\,\delta_k \delta_l = \tau^2 \varphi^{|k-l|}, \qquad \mathrm E\,e_k^2 = s^2/w_k. $$
+//! $$ d_k = \delta_k + e_k, \qquad \mathrm E\\,\delta_k \delta_l = \tau^2 \varphi^{|k-l|}, \qquad \mathrm E\\,e_k^2 = s^2/w_k. $$
 //! s, τ and φ are the likeliest (Kalman's filter gives the likelihood); θ̂ remains that of least squares, and its covariance becomes
-//! $$ \mathrm{Cov}\,\theta = \sigma^2 H^{-1} + H^{-1} \Big( \sum_{kl} a_k \, \tau^2 \varphi^{|k-l|} a_l^T \Big) H^{-1}, \qquad H = J^T J, \quad a_k = J_k^T \, \partial r_k/\partial\delta_k. $$
+//! $$ \mathrm{Cov}\\,\theta = \sigma^2 H^{-1} + H^{-1} \Big( \sum_{kl} a_k \\, \tau^2 \varphi^{|k-l|} a_l^T \Big) H^{-1}, \qquad H = J^T J, \quad a_k = J_k^T \\, \partial r_k/\partial\delta_k. $$
 //!
 //! # Source
 //! The sandwich of correlated scores: W. K. Newey, K. D. West, Econometrica 55 (1987) 703–708; a model's own error as a process:

@@ -2,6 +2,7 @@
 
 use super::Located;
 use super::document::Document;
+use super::keys::{SECTIONS, Section};
 use crate::error::{InputError, Place};
 use crate::nearest::nearest;
 use toml::Spanned;
@@ -24,7 +25,7 @@ pub(super) struct Field<'a> {
 }
 
 impl<'a> Table<'a> {
-    /// A table at a place.
+    /// A table at a place, with the keys of some sections.
     ///
     /// # Errors
     /// The first unknown key, with the known one that is nearest.
@@ -32,8 +33,16 @@ impl<'a> Table<'a> {
         document: &'a Document<'a>,
         place: Place,
         fields: &'a DeTable<'a>,
-        known: &[&str],
+        sections: &[&'static Section],
     ) -> Result<Self, InputError> {
+        let listed = |section: &&'static Section| SECTIONS.iter().any(|known| std::ptr::eq(*known, *section));
+        debug_assert!(sections.iter().all(listed), "keys that the reference does not show");
+        let mut known: Vec<&str> = Vec::new();
+        for key in sections.iter().flat_map(|section| section.keys) {
+            if !known.contains(&key.name) {
+                known.push(key.name);
+            }
+        }
         let is_unknown = |key: &&Spanned<_>| !known.iter().any(|name| *name == key.get_ref());
         if let Some(key) = fields.keys().filter(is_unknown).min_by_key(|key| key.span().start) {
             let here = document.place(key.span(), place.key.clone());
@@ -174,9 +183,9 @@ impl<'a> Field<'a> {
     }
 
     /// A table, as `[name]` or in braces.
-    pub(super) fn table(&self, known: &[&str]) -> Result<Table<'a>, InputError> {
+    pub(super) fn table(&self, sections: &[&'static Section]) -> Result<Table<'a>, InputError> {
         let fields = self.value.as_table().ok_or_else(|| self.refuse("a table"))?;
-        Table::new(self.document, self.place.clone(), fields, known)
+        Table::new(self.document, self.place.clone(), fields, sections)
     }
 
     /// Whether it is a table with this key, and where a text is given, that text there.
@@ -200,7 +209,11 @@ impl<'a> Field<'a> {
     }
 
     /// Tables, each under its own `[[name]]`; at least one.
-    pub(super) fn tables(&self, name: &str, known: &[&str]) -> Result<Vec<Table<'a>>, InputError> {
+    pub(super) fn tables(
+        &self,
+        name: &str,
+        sections: &[&'static Section],
+    ) -> Result<Vec<Table<'a>>, InputError> {
         let expected = format!("at least one table [[{name}]]");
         let items = match self.value {
             DeValue::Array(items) => items,
@@ -209,7 +222,7 @@ impl<'a> Field<'a> {
         };
         let tables = items.iter().map(|item| {
             let place = self.document.place(item.span(), self.place.key.clone());
-            Self { place, value: item.get_ref(), ..*self }.table(known)
+            Self { place, value: item.get_ref(), ..*self }.table(sections)
         });
         match tables.collect::<Result<Vec<_>, _>>() {
             Ok(tables) if tables.is_empty() => Err(InputError::at(&self.place, expected, "an empty list")),

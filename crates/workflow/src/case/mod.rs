@@ -2,12 +2,15 @@
 
 mod document;
 mod field;
+mod keys;
 mod parse;
+mod reference;
 mod sections;
 mod several;
 
 pub(crate) use parse::law_of_snippet;
 pub use parse::parse;
+pub use reference::reference;
 pub(crate) use sections::checked_band;
 
 use crate::error::Place;

@@ -2,6 +2,7 @@
 
 use super::document::Document;
 use super::field::{Table, shown};
+use super::keys::{ATTACHED, CASE, DOFS, LOAD, MATRIX, MEASUREMENT, Section};
 use super::sections::{attached, factor, identify, load, matrix, measurement, respond};
 use super::several::{is_several, several};
 use super::{CaseFile, FactorEntry, MatrixEntry};
@@ -16,24 +17,24 @@ use std::path::Path;
 pub fn parse(file: &Path, bytes: &[u8]) -> Result<CaseFile, InputError> {
     let document = Document::new(file, bytes)?;
     let tables = document.tables()?;
-    let known = ["title", "matrix", "dofs", "attached", "load", "measurement", "identify", "respond"];
-    let case = Table::new(&document, Place::file(file), tables.get_ref(), &known)?;
+    let case = Table::new(&document, Place::file(file), tables.get_ref(), &[&CASE])?;
     let missing = |table: String| InputError::at(&case.place, table, "none");
-    let many = |name: &str, known: &[&str]| match case.find(name) {
-        Some(field) => field.tables(name, known),
+    let many = |name: &str, section: &'static Section| match case.find(name) {
+        Some(field) => field.tables(name, &[section]),
         None => Err(missing(format!("at least one table [[{name}]]"))),
     };
 
-    let matrices = many("matrix", &["name", "role", "file", "factor"])?;
-    let measurements =
-        many("measurement", &["file", "dof", "row", "record", "quantity", "averages", "scale", "delay_s"])?;
+    let matrices = many("matrix", &MATRIX)?;
+    let measurements = many("measurement", &MEASUREMENT)?;
     let attached = match case.find("attached") {
-        Some(field) => field.tables("attached", &ATTACHED)?.iter().map(attached).collect::<Result<_, _>>()?,
+        Some(field) => {
+            field.tables("attached", &[&ATTACHED])?.iter().map(attached).collect::<Result<_, _>>()?
+        }
         None => Vec::new(),
     };
     let force = case.find("load").ok_or_else(|| missing("a table [load]".into()))?;
     let dofs = match case.find("dofs") {
-        Some(dofs) => Some(dofs.table(&["file"])?.need("file")?.text()?),
+        Some(dofs) => Some(dofs.table(&[&DOFS])?.need("file")?.text()?),
         None => None,
     };
     Ok(CaseFile {
@@ -42,7 +43,7 @@ pub fn parse(file: &Path, bytes: &[u8]) -> Result<CaseFile, InputError> {
         matrices: named_once(matrices.iter().map(matrix).collect::<Result<_, _>>()?)?,
         dofs,
         attached,
-        load: load(&force.table(&["dof", "row", "file"])?)?,
+        load: load(&force.table(&[&LOAD])?)?,
         measurements: measurements.iter().map(measurement).collect::<Result<_, _>>()?,
         identify: case
             .find("identify")
@@ -61,15 +62,13 @@ pub fn parse(file: &Path, bytes: &[u8]) -> Result<CaseFile, InputError> {
 pub(crate) fn law_of_snippet(file: &Path, line: &str) -> Result<Law, InputError> {
     let document = Document::new(file, line.as_bytes())?;
     let tables = document.tables()?;
-    let table = Table::new(&document, Place::file(file), tables.get_ref(), &["factor"])?;
+    let table = Table::new(&document, Place::file(file), tables.get_ref(), &[&MATRIX])?;
     let field = table.need("factor")?;
     match factor(&field)?.value {
         FactorEntry::Law(law) => Ok(law),
         FactorEntry::Table(_) => Err(field.refuse("a law")),
     }
 }
-
-const ATTACHED: [&str; 6] = ["dof", "row", "mass_kg", "directions", "stiffness", "damping"];
 
 /// Refuses a name that two matrices have.
 fn named_once(matrices: Vec<MatrixEntry>) -> Result<Vec<MatrixEntry>, InputError> {

@@ -1,6 +1,7 @@
 //! The tables of a case file, one function each.
 
 use super::field::{Field, Table};
+use super::keys;
 use super::{
     AttachedEntry, Calibration, FactorEntry, IdentifyEntry, LeaveOut, LoadEntry, Located, MatrixEntry,
     MeasurementEntry, RespondEntry, Spot, VariesEntry,
@@ -41,7 +42,7 @@ fn matrix_file(field: &Field<'_>) -> Result<(Located<String>, Option<Located<Str
     if !field.is_table() {
         return Err(field.refuse("a text in quotes or { file = \"...\", name = \"...\" }"));
     }
-    let table = field.table(&["file", "name"])?;
+    let table = field.table(&[&keys::MATRIX_FILE])?;
     Ok((table.need("file")?.text()?, table.find("name").map(|name| name.text()).transpose()?))
 }
 
@@ -57,11 +58,15 @@ pub(super) fn factor(field: &Field<'_>) -> Result<Located<FactorEntry>, InputErr
                         { law = \"maxwell\", ... } or { table = \"file\" }";
         return Err(field.refuse(expected));
     }
-    let known =
-        ["storage", "loss_factor", "law", "e0", "e1", "alpha", "e_infinity", "tau", "branches", "table"];
-    let any = field.table(&known)?;
+    let any = field.table(&[
+        &keys::COMPLEX_MODULUS,
+        &keys::FRACTIONAL,
+        &keys::ZENER,
+        &keys::MAXWELL,
+        &keys::TABLE,
+    ])?;
     if any.find("table").is_some() {
-        let file = field.table(&["table"])?.need("table")?.text()?;
+        let file = field.table(&[&keys::TABLE])?.need("table")?.text()?;
         return Ok(located(FactorEntry::Table(file)));
     }
     let law = if any.find("law").is_some() { law(field, &any)? } else { complex_modulus(field)? };
@@ -69,7 +74,7 @@ pub(super) fn factor(field: &Field<'_>) -> Result<Located<FactorEntry>, InputErr
 }
 
 fn complex_modulus(field: &Field<'_>) -> Result<Law, InputError> {
-    let table = field.table(&["storage", "loss_factor"])?;
+    let table = field.table(&[&keys::COMPLEX_MODULUS])?;
     let (storage, loss_factor) = (table.need("storage")?.number()?, table.need("loss_factor")?.number()?);
     if !(storage * loss_factor).is_finite() {
         let found = format!("{storage:?} * {loss_factor:?}");
@@ -93,13 +98,13 @@ fn law(field: &Field<'_>, any: &Table<'_>) -> Result<Law, InputError> {
 }
 
 fn fractional(field: &Field<'_>) -> Result<Law, InputError> {
-    let table = field.table(&["law", "e0", "e1", "alpha"])?;
+    let table = field.table(&[&keys::FRACTIONAL])?;
     let (e0, e1) = (table.need("e0")?.number()?, table.need("e1")?.number()?);
     Ok(Law::Fractional { e0, e1, alpha: exponent(&table)? })
 }
 
 fn zener(field: &Field<'_>) -> Result<Law, InputError> {
-    let table = field.table(&["law", "e0", "e_infinity", "tau", "alpha"])?;
+    let table = field.table(&[&keys::ZENER])?;
     let (e0, e_infinity) = (table.need("e0")?.number()?, table.need("e_infinity")?.number()?);
     let time = table.need("tau")?;
     let tau_s = time.number()?;
@@ -110,7 +115,7 @@ fn zener(field: &Field<'_>) -> Result<Law, InputError> {
 }
 
 fn maxwell(field: &Field<'_>) -> Result<Law, InputError> {
-    let table = field.table(&["law", "e0", "branches"])?;
+    let table = field.table(&[&keys::MAXWELL])?;
     let e0 = table.need("e0")?.number()?;
     let list = table.need("branches")?;
     let branches: Vec<Branch> = (list.pairs("at least one branch [modulus, time]")?.into_iter())
@@ -259,26 +264,8 @@ const ESTIMATE: &str = "\"estimate\" (a nominal value is the factor of the matri
 
 /// `[identify]`.
 pub(super) fn identify(field: &Field<'_>) -> Result<IdentifyEntry, InputError> {
-    let known = [
-        "matrix",
-        "band_hz",
-        "leave_out_hz",
-        "varies",
-        "law",
-        "branches",
-        "method",
-        "order",
-        "selection",
-        "space",
-        "nominal",
-        "bounds",
-        "real",
-        "robust",
-        "check",
-        "truth",
-    ];
-    let table = field.table(&known)?;
-    let bounds = table.find("bounds").map(|field| field.table(&["storage", "loss_factor"])).transpose()?;
+    let table = field.table(&[&keys::IDENTIFY])?;
+    let bounds = table.find("bounds").map(|field| field.table(&[&keys::BOUNDS])).transpose()?;
     let method = |word: &str| word.parse::<Method>().map_err(|unknown| unknown.expected.to_owned());
     let selection = |word: &str| word.parse::<Selection>().map_err(|unknown| unknown.expected.to_owned());
     let space = |word: &str| word.parse::<Space>().map_err(|unknown| unknown.expected.to_owned());
@@ -364,7 +351,7 @@ pub(super) fn branches(key: &Field<'_>) -> Result<usize, InputError> {
 /// `[respond]`.
 pub(super) fn respond(field: &Field<'_>) -> Result<RespondEntry, InputError> {
     const MOST: i64 = 1_000_000;
-    let table = field.table(&["band_hz", "points"])?;
+    let table = field.table(&[&keys::RESPOND])?;
     let points = table.need("points")?;
     let count = points.whole()?.value;
     if !(1..=MOST).contains(&count) {

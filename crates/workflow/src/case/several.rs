@@ -1,14 +1,12 @@
 //! `[[identify]]`: several unknowns, or one that does not vary.
 
 use super::field::{Field, Table};
+use super::keys;
 use super::sections::{band, factor, leave_out};
 use super::{Located, SeveralEntry, SoughtEntry, SoughtVaries};
 use crate::error::InputError;
 use frfit::laws::{Family, UnknownFamily};
 
-const OF_EACH: [&str; 10] =
-    ["name", "matrix", "powers", "varies", "law", "branches", "nominal", "bounds", "real", "truth"];
-const OF_FIRST: [&str; 2] = ["band_hz", "leave_out_hz"];
 /// Keys of a single unknown that varies.
 const OF_ONE: [&str; 6] = ["method", "order", "selection", "space", "robust", "check"];
 
@@ -20,7 +18,8 @@ pub(super) fn is_several(field: &Field<'_>) -> bool {
 
 /// All unknowns.
 pub(super) fn several(field: &Field<'_>) -> Result<SeveralEntry, InputError> {
-    let known: Vec<&str> = OF_EACH.into_iter().chain(OF_FIRST).chain(OF_ONE).collect();
+    // Keys of a single unknown that varies are known, to be refused for what they are.
+    let known = [&keys::SEVERAL, &keys::SEVERAL_FIRST, &keys::IDENTIFY];
     let tables = match field.is_list() {
         true => field.tables("identify", &known)?,
         false => vec![field.table(&known)?],
@@ -30,7 +29,7 @@ pub(super) fn several(field: &Field<'_>) -> Result<SeveralEntry, InputError> {
         return Err(InputError::at(&key.place, expected, "one"));
     }
     for table in &tables[1..] {
-        if let Some(key) = OF_FIRST.into_iter().find_map(|key| table.find(key)) {
+        if let Some(key) = keys::SEVERAL_FIRST.keys.iter().find_map(|key| table.find(key.name)) {
             return Err(InputError::at(&key.place, "this key in the first [[identify]], for all", "it here"));
         }
     }
@@ -94,7 +93,7 @@ fn sought(table: &Table<'_>) -> Result<SoughtEntry, InputError> {
     let (mut storage, mut loss_factor) = (None, None);
     if let Some(field) = table.find("bounds") {
         if field.is_table() {
-            let bounds = field.table(&["storage", "loss_factor"])?;
+            let bounds = field.table(&[&keys::SEVERAL_BOUNDS])?;
             let bound = |name| bounds.find(name).map(|f| f.pair()).transpose();
             (storage, loss_factor) = (bound("storage")?, bound("loss_factor")?);
         } else {

@@ -1,0 +1,616 @@
+//! Every key of a case file, once: the reader takes no other, and the reference is made of these.
+
+/// A kind of table, and the keys that it may have.
+#[derive(Debug)]
+pub(super) struct Section {
+    /// Where it is: the keys that lead to it, `matrix.factor`; empty for the file itself.
+    #[cfg_attr(not(test), expect(dead_code, reason = "tests look there for its keys"))]
+    pub(super) path: &'static str,
+    /// How it is written, for a heading.
+    pub(super) title: &'static str,
+    /// What it is for, as Markdown.
+    pub(super) about: &'static str,
+    /// Its keys, in the order in which an error lists them.
+    pub(super) keys: &'static [Key],
+    /// TOML in which each key stands at least once; what else a case needs is left out.
+    pub(super) examples: &'static [&'static str],
+}
+
+/// A key of a table.
+#[derive(Debug)]
+pub(super) struct Key {
+    pub(super) name: &'static str,
+    /// What its value is. Words in double quotes are those that the reader knows, and all of them.
+    pub(super) value: &'static str,
+    /// What holds where the key is not there: [`NEEDED`], or the value that stands for it.
+    pub(super) otherwise: &'static str,
+    /// What it says, as Markdown.
+    pub(super) about: &'static str,
+}
+
+/// A table without this key is refused.
+pub(super) const NEEDED: &str = "needed";
+
+const fn key(name: &'static str, value: &'static str, otherwise: &'static str, about: &'static str) -> Key {
+    Key { name, value, otherwise, about }
+}
+
+/// All sections, in the order of the reference.
+pub(super) static SECTIONS: [&Section; 18] = [
+    &CASE,
+    &MATRIX,
+    &MATRIX_FILE,
+    &COMPLEX_MODULUS,
+    &FRACTIONAL,
+    &ZENER,
+    &MAXWELL,
+    &TABLE,
+    &DOFS,
+    &LOAD,
+    &ATTACHED,
+    &MEASUREMENT,
+    &IDENTIFY,
+    &BOUNDS,
+    &SEVERAL,
+    &SEVERAL_FIRST,
+    &SEVERAL_BOUNDS,
+    &RESPOND,
+];
+
+pub(super) static CASE: Section = Section {
+    path: "",
+    title: "The file",
+    about: "TOML. Paths are relative to the case file. A key that is not on this page is an error that names the nearest known one.",
+    keys: &[
+        key("title", "text", "the name of the file", "Stands over figures and report."),
+        key("matrix", "tables `[[matrix]]`, at least one", NEEDED, "The terms of the model."),
+        key("dofs", "table `[dofs]`", "names of the matrices' files, else row numbers", "Names of the rows."),
+        key(
+            "attached",
+            "tables `[[attached]]`",
+            "none",
+            "Masses, springs and dampers that are on the structure and not in the matrices.",
+        ),
+        key("load", "table `[load]`", NEEDED, "Where the force acts."),
+        key(
+            "measurement",
+            "tables `[[measurement]]`, at least one",
+            NEEDED,
+            "What was measured, or where it is to be computed.",
+        ),
+        key(
+            "identify",
+            "table `[identify]`, or tables `[[identify]]`",
+            "nothing is identified",
+            "What is unknown.",
+        ),
+        key(
+            "respond",
+            "table `[respond]`",
+            "the measured frequencies",
+            "Frequencies of `frfit respond` and `frfit sensitivities`.",
+        ),
+    ],
+    examples: &["title = \"Bar\"
+[[matrix]]
+name = \"bar\"
+role = \"stiffness\"
+file = \"K.mtx\"
+factor = { storage = 1.2e6, loss_factor = 0.1 }
+[[matrix]]
+name = \"mass\"
+role = \"mass\"
+file = \"M.mtx\"
+factor = 910.0
+[dofs]
+file = \"dofs.csv\"
+[[attached]]
+dof = \"9+X\"
+mass_kg = 0.004
+[load]
+dof = \"1+X\"
+[[measurement]]
+file = \"frf.uff\"
+dof = \"9+X\"
+[identify]
+matrix = \"bar\"
+band_hz = [20.0, 2000.0]
+[respond]
+band_hz = [1.0, 3000.0]
+points = 600
+"],
+};
+
+pub(super) static MATRIX: Section = Section {
+    path: "matrix",
+    title: "`[[matrix]]`",
+    about: "One term of the model each: D(ω) = Σ factor·stiffness + iω Σ factor·viscous − ω² Σ factor·mass. All have the same number of rows, unless their files name their rows.",
+    keys: &[
+        key("name", "text", NEEDED, "By which `[identify]` and the results speak of it; each has its own."),
+        key("role", "\"stiffness\", \"mass\" or \"viscous\"", NEEDED, "Where it stands in D(ω)."),
+        key(
+            "file",
+            "text, or `{ file, name }`",
+            NEEDED,
+            "The matrix: Matrix Market, Harwell–Boeing, CalculiX, Abaqus, Nastran DMIG or OUTPUT4, Ansys HBMAT, NumPy, MATLAB; told by the content. It has to be symmetric.",
+        ),
+        key(
+            "factor",
+            "number, or a table as below",
+            "1",
+            "What the matrix is multiplied by. Of an unknown: its nominal value.",
+        ),
+    ],
+    examples: &["[[matrix]]
+name = \"mass\"
+role = \"mass\"
+file = \"M.mtx\"
+factor = 910.0                 # kg/m³, for a matrix made with density one
+"],
+};
+
+pub(super) static MATRIX_FILE: Section = Section {
+    path: "matrix.file",
+    title: "`file = { … }` of a file with several matrices",
+    about: "`frfit inspect` lists the names.",
+    keys: &[
+        key("file", "text", NEEDED, "The file."),
+        key("name", "text", "its only matrix", "Which of its matrices."),
+    ],
+    examples: &["[[matrix]]
+name = \"plate\"
+role = \"stiffness\"
+file = { file = \"model.op4\", name = \"KAA\" }
+"],
+};
+
+pub(super) static COMPLEX_MODULUS: Section = Section {
+    path: "matrix.factor",
+    title: "`factor = { storage, loss_factor }`",
+    about: "A complex modulus E′(1 + iη), the same at all frequencies. This and the forms below hold for `factor` and for `truth`.",
+    keys: &[
+        key(
+            "storage",
+            "number",
+            NEEDED,
+            "E′, in the unit of the factor (Pa for a matrix made with modulus one).",
+        ),
+        key("loss_factor", "number", NEEDED, "η."),
+    ],
+    examples: &["[[matrix]]
+name = \"plate\"
+role = \"stiffness\"
+file = \"K.mtx\"
+factor = { storage = 2.1e11, loss_factor = 0.001 }
+"],
+};
+
+pub(super) static FRACTIONAL: Section = Section {
+    path: "matrix.factor",
+    title: "`factor = { law = \"fractional\", … }`",
+    about: "E = e0 + e1 (iω)^alpha (P-36).",
+    keys: &[
+        key("law", "\"fractional\", \"zener\" or \"maxwell\"", NEEDED, "Which law."),
+        key("e0", "number", NEEDED, "Modulus at rest."),
+        key("e1", "number", NEEDED, "Modulus times s^alpha."),
+        key("alpha", "number from 0 to 1", NEEDED, "From elastic to viscous."),
+    ],
+    examples: &["[[matrix]]
+name = \"rubber\"
+role = \"stiffness\"
+file = \"K.mtx\"
+factor = { law = \"fractional\", e0 = 8.14e5, e1 = 7.31e4, alpha = 0.528 }
+"],
+};
+
+pub(super) static ZENER: Section = Section {
+    path: "matrix.factor",
+    title: "`factor = { law = \"zener\", … }`",
+    about: "E = (e0 + e_infinity (iω tau)^alpha) / (1 + (iω tau)^alpha).",
+    keys: &[
+        key("law", "\"fractional\", \"zener\" or \"maxwell\"", NEEDED, "Which law."),
+        key("e0", "number", NEEDED, "Modulus at rest."),
+        key("e_infinity", "number", NEEDED, "Modulus at infinite frequency."),
+        key("tau", "number above 0, s", NEEDED, "Relaxation time."),
+        key("alpha", "number from 0 to 1", NEEDED, "Width of the transition: 1 is Zener's model."),
+    ],
+    examples: &["[[matrix]]
+name = \"rubber\"
+role = \"stiffness\"
+file = \"K.mtx\"
+factor = { law = \"zener\", e0 = 1.0e6, e_infinity = 2.0e8, tau = 1.0e-5, alpha = 0.6 }
+"],
+};
+
+pub(super) static MAXWELL: Section = Section {
+    path: "matrix.factor",
+    title: "`factor = { law = \"maxwell\", … }`",
+    about: "E = e0 + Σ modulus · iω time / (1 + iω time) over the branches (generalised Maxwell, Prony).",
+    keys: &[
+        key("law", "\"fractional\", \"zener\" or \"maxwell\"", NEEDED, "Which law."),
+        key("e0", "number", NEEDED, "Modulus at rest."),
+        key("branches", "list of [modulus, time in s]", NEEDED, "At least one; times above 0."),
+    ],
+    examples: &["[[matrix]]
+name = \"rubber\"
+role = \"stiffness\"
+file = \"K.mtx\"
+factor = { law = \"maxwell\", e0 = 1.0e6, branches = [[2.0e6, 1.0e-2], [5.0e6, 1.0e-4]] }
+"],
+};
+
+pub(super) static TABLE: Section = Section {
+    path: "matrix.factor",
+    title: "`factor = { table }`",
+    about: "A modulus over frequency, interpolated over log ω; it has to reach every frequency that is asked for.",
+    keys: &[key(
+        "table",
+        "text",
+        NEEDED,
+        "CSV with `frequency_hz`, `storage` and `loss_factor` (or `loss`).",
+    )],
+    examples: &["[[matrix]]
+name = \"rubber\"
+role = \"stiffness\"
+file = \"K.mtx\"
+factor = { table = \"modulus.csv\" }
+"],
+};
+
+pub(super) static DOFS: Section = Section {
+    path: "dofs",
+    title: "`[dofs]`",
+    about: "Names of the rows, where the files of the matrices have none. A degree of freedom is then a node, a sign and a direction: `12+Z`, `7-RX`.",
+    keys: &[key("file", "text", NEEDED, "CSV with `row` (from 1), `node`, `direction` (X Y Z RX RY RZ).")],
+    examples: &["[dofs]
+file = \"dofs.csv\"
+"],
+};
+
+pub(super) static LOAD: Section = Section {
+    path: "load",
+    title: "`[load]`",
+    about: "One of the three keys. An FRF is the response to a unit force at one degree of freedom; a file is for a force that is spread.",
+    keys: &[
+        key("dof", "name such as 12+Z", "`row` or `file`", "Unit force there; the sign is its sense."),
+        key("row", "whole number", "`dof` or `file`", "Unit force on this row, from 1."),
+        key("file", "text", "`dof` or `row`", "CSV with `row` (from 1), `re`, `im`, in N."),
+    ],
+    examples: &[
+        "[load]
+dof = \"12-Z\"
+",
+        "[load]
+row = 301
+",
+        "[load]
+file = \"force.csv\"
+",
+    ],
+};
+
+pub(super) static ATTACHED: Section = Section {
+    path: "attached",
+    title: "`[[attached]]`",
+    about: "An accelerometer, the tip of a hammer, a suspension. `dof` or `row`, and at least one of `mass_kg`, `stiffness` and `damping`. No rotary inertia.",
+    keys: &[
+        key(
+            "dof",
+            "name such as 12+Z",
+            "`row`",
+            "Where it is; a mass then moves in all translations of that node.",
+        ),
+        key("row", "whole number", "`dof`", "Where it is; a mass then moves in this row alone."),
+        key("mass_kg", "number above 0, kg", "no mass", "A point mass."),
+        key(
+            "directions",
+            "list of X, Y, Z",
+            "all translations of the node",
+            "In which directions the mass moves; beside `dof`.",
+        ),
+        key("stiffness", "number above 0, N/m", "no spring", "A spring to ground (N·m/rad for a rotation)."),
+        key("damping", "number above 0, N·s/m", "no damper", "A viscous damper to ground."),
+    ],
+    examples: &[
+        "[[attached]]
+dof = \"34+Z\"
+mass_kg = 0.005
+directions = [\"X\", \"Z\"]
+",
+        "[[attached]]
+row = 3
+stiffness = 800.0
+damping = 0.2
+",
+    ],
+};
+
+pub(super) static MEASUREMENT: Section = Section {
+    path: "measurement",
+    title: "`[[measurement]]`",
+    about: "One FRF each. `frfit sensitivities` and `frfit respond` need only where the sensor is.",
+    keys: &[
+        key(
+            "file",
+            "text",
+            "none, where nothing measured is needed",
+            "UFF 58 or 58b, or CSV with `frequency_hz`, `re`, `im` and, if known, `coherence` or `std`.",
+        ),
+        key(
+            "dof",
+            "name such as 12+Z",
+            "`row`, or as the file says",
+            "Where it was measured; the sign is its sense.",
+        ),
+        key("row", "whole number", "`dof`, or as the file says", "Where it was measured, from 1."),
+        key("record", "whole number", "the one at this place", "Which FRF of a UFF file, from 1."),
+        key(
+            "quantity",
+            "\"receptance\", \"mobility\" or \"accelerance\"",
+            "as the file says",
+            "Displacement, velocity or acceleration over force.",
+        ),
+        key(
+            "averages",
+            "whole number from 2",
+            "the coherence weighs only",
+            "Over how many records the coherence was averaged: with it the standard deviation follows.",
+        ),
+        key(
+            "scale",
+            "number other than 0, or \"unknown\"",
+            "1",
+            "What the values are to be multiplied by (9.81 for g). Unknown: it is found, beside a known channel or with a law.",
+        ),
+        key(
+            "delay_s",
+            "number, s, or \"unknown\"",
+            "0",
+            "By how much this channel is late. Unknown: as with `scale`.",
+        ),
+    ],
+    examples: &[
+        "[[measurement]]
+file = \"frf.uff\"
+dof = \"34+Z\"
+record = 2
+quantity = \"accelerance\"
+averages = 5
+scale = 9.81
+delay_s = 1e-5
+",
+        "[[measurement]]
+file = \"frf.csv\"
+row = 97
+quantity = \"mobility\"
+scale = \"unknown\"
+delay_s = \"unknown\"
+",
+    ],
+};
+
+pub(super) static IDENTIFY: Section = Section {
+    path: "identify",
+    title: "`[identify]`: one unknown that varies over frequency",
+    about: "The factor of a matrix, complex unless `real`. Laws and smooth moduli need the default method.",
+    keys: &[
+        key("matrix", "text or list of texts", NEEDED, "Whose factor is unknown; several share one."),
+        key("band_hz", "[low, high], Hz", "`--band`", "Measured frequencies from low to high are used."),
+        key(
+            "leave_out_hz",
+            "list of frequencies and [low, high], Hz",
+            "none",
+            "Left out, as mains hum; their rows are `out_of_band`.",
+        ),
+        key(
+            "varies",
+            "\"frequency\", \"smooth\" or \"law\"",
+            "frequency",
+            "A factor of its own at each frequency, a smooth curve, or a law of few parameters.",
+        ),
+        key(
+            "law",
+            "\"constant\", \"fractional\", \"zener\" or \"maxwell\" (\"maxwell:N\"), or a list of them",
+            "all of them",
+            "Beside `varies = \"law\"`: the laws that are fitted and compared.",
+        ),
+        key("branches", "whole number from 1 to 20", "3", "Of `law = \"maxwell\"`."),
+        key(
+            "method",
+            "\"rational\", \"series\" or \"nelder-mead\"",
+            "rational",
+            "All solutions on a reduced model; the paper's Neumann series; a search to compare with.",
+        ),
+        key(
+            "order",
+            "whole number from 1 to 200",
+            "30",
+            "Series: terms. Rational: upper bound. Nelder–Mead: iterations.",
+        ),
+        key(
+            "selection",
+            "\"joint\" or \"smallest\"",
+            "joint with rational, else smallest",
+            "Who chooses among several solutions: all sensors and frequencies together, or the least correction (the paper).",
+        ),
+        key(
+            "space",
+            "\"auto\", \"full\" or \"subspace\"",
+            "auto",
+            "What answers at a frequency: the full model, or one reduced model for the band.",
+        ),
+        key(
+            "nominal",
+            "\"estimate\"",
+            "the factor of the matrix",
+            "There is no nominal value: it is looked for in all of the bounds, and `bounds.storage` is needed.",
+        ),
+        key("bounds", "table", "none", "What the factor can be."),
+        key("real", "true or false", "false", "A real factor, as a density or a spring."),
+        key(
+            "robust",
+            "true or false",
+            "true",
+            "Of three or more sensors one that contradicts all others is left out.",
+        ),
+        key(
+            "check",
+            "true or false",
+            "true",
+            "Look first for what is wrong with the data, as `frfit check` does.",
+        ),
+        key(
+            "truth",
+            "as `factor`",
+            "none",
+            "What a simulated measurement was made with. It is drawn, and used for nothing.",
+        ),
+    ],
+    examples: &[
+        "[identify]
+matrix = [\"skins\", \"ribs\"]
+band_hz = [20.0, 2000.0]
+leave_out_hz = [[49.0, 51.0], 100.0]
+varies = \"law\"
+law = [\"fractional\", \"maxwell\"]
+branches = 3
+bounds = { storage = [1e5, 1e9], loss_factor = [0.0, 3.0] }
+nominal = \"estimate\"
+robust = false
+check = false
+",
+        "[identify]
+matrix = \"plate\"
+method = \"series\"
+order = 30
+selection = \"smallest\"
+space = \"full\"
+real = true
+truth = 2700.0
+",
+    ],
+};
+
+pub(super) static BOUNDS: Section = Section {
+    path: "identify.bounds",
+    title: "`bounds = { … }`",
+    about: "What is known beforehand: wide limits, in the unit of the factor.",
+    keys: &[
+        key(
+            "storage",
+            "[low, high]",
+            "none",
+            "Of E′, or of a real factor. Answers are looked for within a factor of four of the nominal first.",
+        ),
+        key("loss_factor", "[low, high]", "none", "Of η."),
+    ],
+    examples: &["[identify]
+matrix = \"plate\"
+bounds = { storage = [1e10, 1e12], loss_factor = [0.0, 0.5] }
+"],
+};
+
+pub(super) static SEVERAL: Section = Section {
+    path: "identify",
+    title: "`[[identify]]`: several unknowns, or one that does not vary",
+    about: "A table each. A single `[identify]` with `varies = \"constant\"` or `powers` is read the same way. \
+            The keys `method`, `order`, `selection`, `space`, `robust` and `check` are refused here: there is one way to find several unknowns.",
+    keys: &[
+        key("name", "text", "names of the matrices", "Needed beside `powers`."),
+        key("matrix", "text or list of texts", "`powers`", "Whose factor is unknown."),
+        key(
+            "powers",
+            "table of matrices and whole numbers from −12 to 12",
+            "`matrix`",
+            "A dimension: it multiplies the factor of each matrix to this power.",
+        ),
+        key(
+            "varies",
+            "\"frequency\", \"constant\" or \"law\"",
+            "frequency; of `powers` constant",
+            "A value of its own at each frequency, one for the band, or a law.",
+        ),
+        key(
+            "law",
+            "\"constant\", \"fractional\", \"zener\" or \"maxwell\" (\"maxwell:N\")",
+            "needed beside `varies = \"law\"`",
+            "Which law.",
+        ),
+        key("branches", "whole number from 1 to 20", "3", "Of `law = \"maxwell\"`."),
+        key(
+            "nominal",
+            "number",
+            "needed beside `powers`, else the factor of the matrix",
+            "A dimension's value to begin with: 1, or in metres where the matrices are made for one metre.",
+        ),
+        key("bounds", "table, or [low, high] of a real one", "none", "What it can be."),
+        key("real", "true or false", "true of `powers`, else false", "A real unknown."),
+        key("truth", "as `factor`", "none", "What a simulated measurement was made with."),
+    ],
+    examples: &["[[identify]]
+name = \"core modulus\"
+matrix = \"core\"
+varies = \"law\"
+law = \"maxwell\"
+branches = 3
+[[identify]]
+name = \"thickness\"
+powers = { bending = 3, membrane = 1, mass = 1 }
+nominal = 1.0
+bounds = [0.8, 1.25]
+real = true
+truth = 1.05
+"],
+};
+
+pub(super) static SEVERAL_FIRST: Section = Section {
+    path: "identify",
+    title: "Keys of the first `[[identify]]`, for all",
+    about: "They mean what they mean in `[identify]`.",
+    keys: &[
+        key("band_hz", "[low, high], Hz", "`--band`", "Measured frequencies from low to high are used."),
+        key("leave_out_hz", "list of frequencies and [low, high], Hz", "none", "Left out."),
+    ],
+    examples: &["[[identify]]
+matrix = \"core\"
+band_hz = [20.0, 1000.0]
+leave_out_hz = [50.0]
+[[identify]]
+matrix = \"skins\"
+varies = \"constant\"
+"],
+};
+
+pub(super) static SEVERAL_BOUNDS: Section = Section {
+    path: "identify.bounds",
+    title: "`bounds = { … }` of a complex unknown",
+    about: "Here low has to be below high.",
+    keys: &[
+        key("storage", "[low, high]", "none", "Of E′."),
+        key("loss_factor", "[low, high]", "none", "Of η."),
+    ],
+    examples: &["[[identify]]
+matrix = \"skins\"
+varies = \"constant\"
+bounds = { storage = [5e10, 9e10], loss_factor = [0.0, 0.1] }
+"],
+};
+
+pub(super) static RESPOND: Section = Section {
+    path: "respond",
+    title: "`[respond]`",
+    about: "Where `frfit respond` and `frfit sensitivities` compute.",
+    keys: &[
+        key("band_hz", "[low, high], Hz", NEEDED, "First and last frequency."),
+        key(
+            "points",
+            "whole number from 1 to 1000000",
+            NEEDED,
+            "How many, equally spaced, both ends included.",
+        ),
+    ],
+    examples: &["[respond]
+band_hz = [10.0, 2000.0]
+points = 400
+"],
+};
