@@ -146,25 +146,26 @@ fn the_error_bar_of_the_thickness_covers_the_truth() {
 
 #[test]
 fn two_moduli_at_every_frequency() {
-    let (right, wrong_and_ok) = two_moduli(3);
+    let (right, wrong_and_ok) = two_moduli(3, 80);
     assert!(right >= 79 && wrong_and_ok == 0, "{right} right, {wrong_and_ok} wrong and ok");
 }
 
 #[test]
 fn two_moduli_from_two_sensors() {
-    let (right, wrong_and_ok) = two_moduli(2);
-    assert!(right >= 79 && wrong_and_ok == 0, "{right} right, {wrong_and_ok} wrong and ok");
+    // as many equations as unknowns: each frequency has up to a dozen solutions, of which the band tells one
+    let (right, wrong_and_ok) = two_moduli(2, 32);
+    assert!(right >= 31 && wrong_and_ok == 0, "{right} right, {wrong_and_ok} wrong and ok");
 }
 
-/// Frequencies of 80 at which both moduli of a sandwich are right, and those where one is not though it is called `ok`.
-fn two_moduli(sensors: usize) -> (usize, usize) {
+/// Frequencies of so many at which both moduli of a sandwich are right, and those where one is not though it is called `ok`.
+fn two_moduli(sensors: usize, frequencies: usize) -> (usize, usize) {
     let case = sandwich(10, 2);
     let mut experiment = case.experiment.clone();
     let last = experiment.sensors[0].row;
     experiment.sensors.push(Sensor { row: last / 3, sign: 1.0 });
     assert_eq!(experiment.sensors.len(), 3);
     experiment.sensors.truncate(sensors);
-    let frequency_hz = linear_hz(20.0, 1000.0, 80);
+    let frequency_hz = linear_hz(20.0, 1000.0, frequencies);
     let core = Law::Fractional { e0: 8.14e5, e1: 7.31e4, alpha: 0.528 };
     let skins = Law::Constant(c(6.2e10, 6.2e8));
     let factors = [skins.clone(), core.clone(), Law::Constant(c(2700.0, 0.0)), Law::Constant(c(910.0, 0.0))];

@@ -28,6 +28,8 @@ mod sought;
 mod space;
 mod spot;
 mod starts;
+#[cfg(test)]
+mod tests;
 
 pub use outcome::{BandValue, Direction, Number, Profile, SeveralAt, SeveralOutcome, ValueAt};
 pub use sought::{Enters, Sought, Vary};

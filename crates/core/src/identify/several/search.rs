@@ -15,10 +15,10 @@ use crate::laws::{Chart, Datum, Minimum, Search, descend};
 use crate::subspace::Projection;
 
 /// On which model, and for which θ, a frequency is looked at.
-struct At<'t, 'a> {
-    space: &'t Space<'a>,
-    coordinates: &'t Coordinates,
-    theta: &'t [f64],
+pub(super) struct At<'t, 'a> {
+    pub(super) space: &'t Space<'a>,
+    pub(super) coordinates: &'t Coordinates,
+    pub(super) theta: &'t [f64],
 }
 
 /// What was found at some frequencies.
@@ -43,8 +43,11 @@ const PART: usize = 48;
 const PER_UNKNOWN: usize = 8;
 
 /// Values of one of two unknowns of a frequency at which all of the other are looked for: to an octave, or in all where the range is not positive.
-const STEPS_PER_OCTAVE: f64 = 3.0;
+const STEPS_PER_OCTAVE: f64 = 8.0;
 const STEPS: usize = 16;
+
+/// Starts that are followed on the whole model at once.
+const MANY: usize = 4;
 
 /// Frequencies at which solutions are looked for all over the box: so many at least, and every so-many-th at least. Between them those of both sides are followed.
 const ANCHORS: usize = 12;
@@ -119,7 +122,7 @@ impl Task<'_, '_> {
     }
 
     /// What holds for the band, as it varies.
-    fn coordinates(&self) -> Coordinates {
+    pub(super) fn coordinates(&self) -> Coordinates {
         let middle = &self.nominal[self.nominal.len() / 2];
         Coordinates::new(self.band.sought, |one| one.varies, middle, &self.omegas)
     }
@@ -229,12 +232,11 @@ impl Task<'_, '_> {
 
     /// The solutions at a frequency that some values, the nominal ones and points all over the box lead to. Of one unknown that stands for a factor, all there are; of two, those that
     /// begin at all solutions for one of them while the other goes through its range, in either part: every solution of both is one of those at the other's value.
-    fn everywhere(&self, at: &At<'_, '_>, i: usize, values: &[c64]) -> Vec<Solution> {
+    pub(super) fn everywhere(&self, at: &At<'_, '_>, i: usize, values: &[c64]) -> Vec<Solution> {
         let Some((given, _)) = self.given(at.coordinates, at.theta, i, &self.nominal[i]) else {
             return Vec::new();
         };
         let spot = self.spot(i);
-        // Most starts lead nowhere: that is told on a model of few vectors.
         let rough = at.space.rough(i);
         let factors: Vec<usize> = (0..self.band.sought.len()).filter(|&j| self.is_own_factor(j)).collect();
         let others = self.band.sought.iter().filter(|one| one.per_frequency() > 0).count() - factors.len();
@@ -258,15 +260,22 @@ impl Task<'_, '_> {
         };
         let starts = [values, &self.nominal[i]].into_iter().chain(found.iter().map(Vec::as_slice));
         let starts: Vec<Vec<f64>> = starts.map(|values| spot.coordinates(values)).collect();
-        let found = spot.solutions(&starts, &given, |values| at.space.respond_on(&rough, i, values));
-        self.settled(at, i, &found.into_iter().map(|solution| solution.own).collect::<Vec<_>>())
+        self.settled(at, i, &starts)
     }
 
+    /// The solutions that some starts lead to. Most of many lead nowhere, or where another one does: that is told on a model of few vectors.
     fn settled(&self, at: &At<'_, '_>, i: usize, starts: &[Vec<f64>]) -> Vec<Solution> {
         let Some((given, _)) = self.given(at.coordinates, at.theta, i, &self.nominal[i]) else {
             return Vec::new();
         };
-        self.spot(i).solutions(starts, &given, |values| at.space.respond(i, values))
+        let on = |model: &Projection, starts: &[Vec<f64>]| {
+            self.spot(i).solutions(starts, &given, |values| at.space.respond_on(model, i, values))
+        };
+        if starts.len() <= MANY {
+            return on(at.space.model(i), starts);
+        }
+        let rough = on(&at.space.rough(i), starts);
+        on(at.space.model(i), &rough.into_iter().map(|solution| solution.own).collect::<Vec<_>>())
     }
 
     /// Whether a frequency has a value of its own of this unknown, in place of a factor.

@@ -43,8 +43,8 @@ const RIVAL: f64 = 1e4;
 /// … where the best leaves more than roundoff: this part of Σ |u_m|²/σ_m².
 const EXACT: f64 = 1e-20;
 
-/// Solutions of a frequency that are kept at most.
-const MOST: usize = 8;
+/// Solutions of a frequency that are kept at most: as many equations as unknowns may have a dozen of them.
+const MOST: usize = 16;
 
 /// Solutions nearer than this, in coordinates of size one, are one.
 const SAME: f64 = 1e-7;

@@ -1,0 +1,121 @@
+//! All solutions of two unknowns at a frequency, against many starts.
+
+use super::search::At;
+use super::space::in_box;
+use super::spot::distance;
+use super::*;
+use crate::for_each::sequential;
+use crate::material::Law;
+use crate::model::{Role, Sensor, Term};
+use crate::roots::Bounds;
+use frfit_linalg::sparse::Triplets;
+
+/// Springs of a chain: the first half has one factor, the second another.
+const N: usize = 24;
+const LOSS: c64 = c64::new(1.0, 0.03);
+
+fn chain() -> DynamicStiffness {
+    let half = |first: usize, last: usize| {
+        let mut k = Triplets::new(N);
+        for i in first..last {
+            // clamped at its beginning
+            match i.checked_sub(1) {
+                None => k.add(0, 0, 1.0),
+                Some(before) => k.add_element(&[Some(before), Some(i)], &[1.0, -1.0, -1.0, 1.0]),
+            }
+        }
+        k.assemble()
+    };
+    let mut m = Triplets::new(N);
+    (0..N).for_each(|i| m.add(i, i, 1.0));
+    let term = |name: &str, role, matrix, factor: c64| Term {
+        name: name.to_owned(),
+        role,
+        matrix,
+        factor: Law::Constant(factor),
+    };
+    DynamicStiffness::new(vec![
+        term("first", Role::Stiffness, half(0, N / 2), 1.2 * LOSS),
+        term("second", Role::Stiffness, half(N / 2, N), 0.8 * LOSS),
+        term("masses", Role::Mass, m.assemble(), c64::new(1.0, 0.0)),
+    ])
+    .unwrap()
+}
+
+/// Two sensors, two complex unknowns, a dozen modes within reach of the bounds: as many equations as unknowns, and several solutions.
+#[test]
+fn all_solutions_of_two_unknowns_are_found() {
+    let model = chain();
+    let sensor = |row| Sensor { row, sign: 1.0 };
+    let experiment = Experiment::driven_at(N, sensor(N - 1), vec![sensor(N - 1), sensor(N / 2)]);
+    let frequency_hz = [0.1, 0.12, 0.14, 0.16, 0.18];
+    let solve = |&f: &f64| {
+        let factor = model.analysis().factor(&model.at(f, &[]).unwrap().assemble(&[])).unwrap();
+        let mut x = experiment.load.clone();
+        factor.solve(&mut x).unwrap();
+        experiment.observe(&x)
+    };
+    let measured: Vec<Vec<c64>> = frequency_hz.iter().map(solve).collect();
+    let sought = [0, 1].map(|term| Sought {
+        name: model.terms()[term].name.clone(),
+        enters: Enters::Factor(vec![term]),
+        nominal: Law::Constant(LOSS),
+        varies: Vary::PerFrequency,
+        real: false,
+        bounds: Bounds { storage: Some([0.4, 2.5]), loss_factor: Some([0.0, 0.3]) },
+    });
+    let band = Several {
+        model: &model,
+        experiment: &experiment,
+        sought: &sought,
+        frequency_hz: &frequency_hz,
+        measured: &measured,
+        noise: Noise::Unknown,
+    };
+    let nominal = vec![vec![LOSS; 2]; frequency_hz.len()];
+    let hooks = Hooks { for_each: &sequential, progress: &|_, _, _| {} };
+    let composite = Composite { model: &model, sought: &sought };
+    let space = Space::new(composite, &experiment, &frequency_hz, &nominal, hooks).unwrap().unwrap();
+    let options = Options::default();
+    let task = Task {
+        band: &band,
+        nominal: &nominal,
+        omegas: frequency_hz.iter().map(|&f| omega_rad_s(f)).collect(),
+        sigma: deviations(&measured, Noise::Unknown),
+        options: &options,
+        hooks,
+    };
+    let coordinates = task.coordinates();
+    let at = At { space: &space, coordinates: &coordinates, theta: &[] };
+    let (mut several, mut by_few) = (0, 0);
+    for i in 0..frequency_hz.len() {
+        let spot = task.spot(i);
+        let from = |count: usize| {
+            let points = (1..=count).map(|k| spot.coordinates(&in_box(&composite, &nominal[i], k)));
+            spot.solutions(&points.collect::<Vec<_>>(), &nominal[i], |values| space.respond(i, values))
+        };
+        let (many, few) = (from(STARTS), from(FEW));
+        let found = task.everywhere(&at, i, &nominal[i]);
+        println!(
+            "{} Hz: {} of {STARTS} starts, {} of {FEW}, {} found",
+            frequency_hz[i],
+            many.len(),
+            few.len(),
+            found.len()
+        );
+        for solution in &many {
+            // Newton's last step is exact to far less than this
+            let near = |other: &super::spot::Solution| distance(&other.own, &solution.own) < 1e-6;
+            let missed = &solution.values;
+            assert!(found.iter().any(near), "{missed:?} is not among {}", found.len());
+            by_few += usize::from(few.iter().any(near));
+        }
+        several += many.len();
+    }
+    assert!(several > frequency_hz.len(), "a case in which the truth is alone shows nothing");
+    assert!(by_few < several, "a case that {FEW} starts solve shows little");
+}
+
+/// Starts of the comparison, and as many as were thought enough before.
+const STARTS: usize = 1500;
+const FEW: usize = 16;
