@@ -126,3 +126,84 @@ fn faults_are_told_with_their_place() {
     let said = refused(folder.path(), &["identify", "p/case.toml", "--out", "out", "--method", "series"]);
     assert!(said.contains("--method"), "{said}");
 }
+
+/// The matrix of a file times p^power at each of some values, in files of their own; their names as TOML has them.
+fn at_values(folder: &Path, matrix: &str, values: &[f64], power: i32) -> String {
+    let text = std::fs::read_to_string(folder.join(matrix)).unwrap();
+    let name = |value: f64| format!("{}-{value}.mtx", matrix.trim_end_matches(".mtx"));
+    for &value in values {
+        let mut past_size = false;
+        let line = |line: &str| match line.rsplit_once(' ') {
+            Some((position, entry)) if past_size => {
+                format!("{position} {:e}\n", value.powi(power) * entry.parse::<f64>().unwrap())
+            }
+            _ => {
+                past_size = !line.starts_with('%');
+                format!("{line}\n")
+            }
+        };
+        std::fs::write(folder.join(name(value)), text.lines().map(line).collect::<String>()).unwrap();
+    }
+    let files: Vec<String> = values.iter().map(|&value| format!("{:?}", name(value))).collect();
+    format!("at = {{ dimension = \"thickness\", values = {values:?}, files = [{}] }}", files.join(", "))
+}
+
+/// The clamped plate with its true modulus and matrices at values of its thickness, which is looked for from 1.04.
+fn plate_at_values(folder: &Path, of_stiffness: &[f64]) {
+    const NOMINAL: &str = "[[identify]]\nname = \"thickness\"\nnominal = 1.04\nband_hz = [100.0, 2000.0]\nbounds = [0.8, 1.25]\ntruth = 1.0\n";
+    plate(folder, NOMINAL);
+    done(folder, &["--quiet", "convert", "p/K.rsa", "p/K.mtx"]);
+    let [stiffness, mass] = [("K.mtx", of_stiffness, 3), ("M.mtx", &[0.9, 1.1, 1.0], 1)]
+        .map(|(matrix, values, power)| at_values(&folder.join("p"), matrix, values, power));
+    let file = folder.join("p/case.toml");
+    let case = std::fs::read_to_string(&file).unwrap().replace("2.5e11", "2e11");
+    let by_powers = case.replace("nominal = 1.04", "nominal = 1.04\npowers = { plate = 3, mass = 1 }");
+    std::fs::write(folder.join("p/powers.toml"), by_powers).unwrap();
+    let case = case.replace("file = \"M.mtx\"", &mass).replace("file = \"K.rsa\"", &stiffness);
+    std::fs::write(file, case).unwrap();
+}
+
+#[test]
+fn a_thickness_from_matrices_at_its_values() {
+    let folder = tempfile::tempdir().unwrap();
+    plate_at_values(folder.path(), &[0.9, 0.95, 1.0, 1.05, 1.1]);
+    done(folder.path(), &["--quiet", "identify", "p/case.toml", "--out", "out", "--strict"]);
+    let found = summary(folder.path())["unknowns"][0]["numbers"][0]["value"].as_f64().unwrap();
+    // exact data, and a cube from four values that differ by a twentieth: rounding times some ten thousand
+    assert!((found - 1.0).abs() < 1e-8, "{found}");
+    // Whoever does not look for the thickness has the plate at its nominal value, by either way.
+    let [by_values, by_powers] = ["case", "powers"].map(|case| {
+        done(folder.path(), &["--quiet", "respond", &format!("p/{case}.toml"), "--out", case]);
+        let table = std::fs::read_to_string(folder.path().join(case).join("response.csv")).unwrap();
+        let mut lines = table.lines().skip_while(|line| line.starts_with('#')).skip(1);
+        let row = lines.nth(40).unwrap();
+        row.split(',').filter_map(|cell| cell.parse().ok()).collect::<Vec<f64>>()
+    });
+    assert!(by_values.len() >= 3 && by_values.len() == by_powers.len());
+    for (a, b) in by_values.iter().zip(&by_powers) {
+        // near a resonance of a plate with η = 1e-3 rounding is a thousand times larger
+        assert!((a - b).abs() < 1e-7 * b.abs(), "{by_values:?} {by_powers:?}");
+    }
+}
+
+#[test]
+fn a_polynomial_of_too_low_a_degree_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    plate_at_values(folder.path(), &[0.9, 1.0, 1.1]);
+    let said = refused(folder.path(), &["identify", "p/case.toml", "--out", "out"]);
+    assert!(said.contains("degree 1 in thickness") && said.contains("beside it at 1"), "{said}");
+}
+
+#[test]
+fn a_dimension_without_a_nominal_value_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    plate_at_values(folder.path(), &[0.9, 0.95, 1.0, 1.05, 1.1]);
+    let file = folder.path().join("p/case.toml");
+    let case = std::fs::read_to_string(&file).unwrap();
+    let (before, _) = case.split_once("[[identify]]").unwrap();
+    std::fs::write(&file, format!("{before}[identify]\nmatrix = \"mass\"\n")).unwrap();
+    for command in ["identify", "respond"] {
+        let said = refused(folder.path(), &[command, "p/case.toml", "--out", "out"]);
+        assert!(said.contains("an [[identify]] with name = \"thickness\" and its nominal value"), "{said}");
+    }
+}

@@ -36,10 +36,11 @@ const fn key(name: &'static str, value: &'static str, otherwise: &'static str, a
 }
 
 /// All sections, in the order of the reference.
-pub(super) static SECTIONS: [&Section; 18] = [
+pub(super) static SECTIONS: [&Section; 19] = [
     &CASE,
     &MATRIX,
     &MATRIX_FILE,
+    &MATRIX_AT,
     &COMPLEX_MODULUS,
     &FRACTIONAL,
     &ZENER,
@@ -131,8 +132,14 @@ pub(super) static MATRIX: Section = Section {
         key(
             "file",
             "text, or `{ file, name }`",
-            NEEDED,
+            "`at`",
             "The matrix: Matrix Market, Harwell–Boeing, CalculiX, Abaqus, Nastran DMIG or OUTPUT4, Ansys HBMAT, NumPy, MATLAB; told by the content. It has to be symmetric.",
+        ),
+        key(
+            "at",
+            "`{ dimension, values, files }`",
+            "`file`",
+            "The same matrix at several values of a dimension.",
         ),
         key(
             "factor",
@@ -146,6 +153,27 @@ name = \"mass\"
 role = \"mass\"
 file = \"M.mtx\"
 factor = 910.0                 # kg/m³, for a matrix made with density one
+[[matrix]]
+name = \"plate\"
+role = \"stiffness\"
+at = { dimension = \"thickness\", values = [0.0018, 0.002, 0.0022], files = [\"k18.mtx\", \"k20.mtx\", \"k22.mtx\"] }
+"],
+};
+
+pub(super) static MATRIX_AT: Section = Section {
+    path: "matrix.at",
+    title: "`at = { … }` of a matrix that depends on a dimension",
+    about: "A polynomial goes through the matrices at all values but one, in the middle, and has to meet that one: then it is the matrix at every value. \
+            `[[identify]]` with this name and a `nominal` value has the dimension as unknown; elsewhere it has that value.",
+    keys: &[
+        key("dimension", "text", NEEDED, "Its name: that of an `[[identify]]`."),
+        key("values", "list of 3 to 10 numbers other than 0", NEEDED, "One more than the polynomial needs: 5 for a cube."),
+        key("files", "list of texts", NEEDED, "A file for each value, of one matrix each."),
+    ],
+    examples: &["[[matrix]]
+name = \"plate\"
+role = \"stiffness\"
+at = { dimension = \"thickness\", values = [0.0018, 0.002, 0.0022], files = [\"k18.mtx\", \"k20.mtx\", \"k22.mtx\"] }
 "],
 };
 
@@ -516,12 +544,17 @@ pub(super) static SEVERAL: Section = Section {
     about: "A table each. A single `[identify]` with `varies = \"constant\"` or `powers` is read the same way. \
             The keys `method`, `order`, `selection`, `space`, `robust` and `check` are refused here: there is one way to find several unknowns.",
     keys: &[
-        key("name", "text", "names of the matrices", "Needed beside `powers`."),
-        key("matrix", "text or list of texts", "`powers`", "Whose factor is unknown."),
+        key(
+            "name",
+            "text",
+            "names of the matrices",
+            "Needed of a dimension: that of its `powers`, or of the matrices `at` its values.",
+        ),
+        key("matrix", "text or list of texts", "a dimension", "Whose factor is unknown."),
         key(
             "powers",
             "table of matrices and whole numbers from −12 to 12",
-            "`matrix`",
+            "matrices `at` values of it",
             "A dimension: it multiplies the factor of each matrix to this power.",
         ),
         key(
@@ -540,7 +573,7 @@ pub(super) static SEVERAL: Section = Section {
         key(
             "nominal",
             "number",
-            "needed beside `powers`, else the factor of the matrix",
+            "needed of a dimension, else the factor of the matrix",
             "A dimension's value to begin with: 1, or in metres where the matrices are made for one metre.",
         ),
         key("bounds", "table, or [low, high] of a real one", "none", "What it can be."),

@@ -67,8 +67,19 @@ pub struct MatrixEntry {
     pub file: Located<String>,
     /// Which matrix of the file, `file = { file = "model.op4", name = "K" }`; `None`: its only one.
     pub in_file: Option<Located<String>>,
+    /// The files of the same matrix at several values of a dimension, of which `file` is the first; `None` where there is one file.
+    pub at: Option<AtValues>,
     /// Factor, 1 where none is given.
     pub factor: Located<FactorEntry>,
+}
+
+/// A matrix that is given at several values of a dimension.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AtValues {
+    /// The dimension's name.
+    pub dimension: Located<String>,
+    /// Its values, each once, with the file of each.
+    pub files: Vec<(f64, Located<String>)>,
 }
 
 /// A factor: a law, or the file of a table.

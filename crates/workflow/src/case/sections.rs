@@ -3,8 +3,8 @@
 use super::field::{Field, Table};
 use super::keys;
 use super::{
-    AttachedEntry, Calibration, FactorEntry, IdentifyEntry, LeaveOut, LoadEntry, Located, MatrixEntry,
-    MeasurementEntry, RespondEntry, Spot, VariesEntry,
+    AtValues, AttachedEntry, Calibration, FactorEntry, IdentifyEntry, LeaveOut, LoadEntry, Located,
+    MatrixEntry, MeasurementEntry, RespondEntry, Spot, VariesEntry,
 };
 use crate::error::{InputError, Place};
 use frfit::c64;
@@ -30,9 +30,45 @@ pub(super) fn matrix(table: &Table<'_>) -> Result<MatrixEntry, InputError> {
             Located { value: FactorEntry::Law(Law::Constant(c64::new(1.0, 0.0))), place: name.place.clone() }
         }
     };
-    let (file, in_file) = matrix_file(&table.need("file")?)?;
-    Ok(MatrixEntry { name, role: role.value, file, in_file, factor })
+    let at = table.find("at").map(|field| at_values(&field)).transpose()?;
+    let (file, in_file) = match (&at, table.find("file")) {
+        (None, _) => matrix_file(&table.need("file")?)?,
+        (Some(at), None) => (at.files[0].1.clone(), None),
+        (Some(_), Some(file)) => return Err(InputError::at(&file.place, "one of file and at", "both")),
+    };
+    Ok(MatrixEntry { name, role: role.value, file, in_file, at, factor })
 }
+
+/// `at = { dimension = "thickness", values = [0.8, 1.0, 1.2], files = ["k08.mtx", "k10.mtx", "k12.mtx"] }`.
+fn at_values(field: &Field<'_>) -> Result<AtValues, InputError> {
+    let table = field.table(&[&keys::MATRIX_AT])?;
+    let values = table.need("values")?;
+    let numbers = values.each("a list of numbers", |field| field.number())?;
+    let files = table.need("files")?.texts()?;
+    if numbers.len() < LEAST_VALUES || numbers.len() > MOST_VALUES {
+        let expected = format!(
+            "from {LEAST_VALUES} to {MOST_VALUES} values: a polynomial goes through all but one, which checks it"
+        );
+        return Err(InputError::at(&values.place, expected, numbers.len().to_string()));
+    }
+    if files.len() != numbers.len() {
+        let expected = format!("{} files, one for each value", numbers.len());
+        return Err(InputError::at(&table.need("files")?.place, expected, files.len().to_string()));
+    }
+    let twice = |k: &usize| numbers[..*k].contains(&numbers[*k]) || numbers[*k] == 0.0;
+    if let Some(k) = (0..numbers.len()).find(twice) {
+        let expected = "values other than 0, each once";
+        return Err(InputError::at(&values.place, expected, numbers[k].to_string()));
+    }
+    Ok(AtValues {
+        dimension: table.need("dimension")?.text()?,
+        files: numbers.into_iter().zip(files).collect(),
+    })
+}
+
+/// Values at which a matrix may be given: a straight line and its check at least; ninth powers of a dimension are none.
+const LEAST_VALUES: usize = 3;
+const MOST_VALUES: usize = 10;
 
 /// A file of one matrix, or a file and the name of one of its matrices.
 fn matrix_file(field: &Field<'_>) -> Result<(Located<String>, Option<Located<String>>), InputError> {

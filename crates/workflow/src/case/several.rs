@@ -57,16 +57,18 @@ fn sought(table: &Table<'_>) -> Result<SoughtEntry, InputError> {
         (Some(matrix), false) => {
             return Err(InputError::at(&matrix.place, "one of matrix and powers", "both"));
         }
+        // a dimension of matrices that are given at its values
+        (None, true) if table.find("nominal").is_some() => Vec::new(),
         (None, true) => {
             let expected = "the key matrix (whose factor is unknown) or powers (a dimension)";
             return Err(InputError::at(&table.place, expected, "none"));
         }
     };
-    let is_dimension = !powers.is_empty();
+    let is_dimension = matrices.is_empty();
     let name = match table.find("name") {
         Some(name) => name.text()?,
         None if is_dimension => {
-            return Err(InputError::at(&table.place, "the key name beside powers", "none"));
+            return Err(InputError::at(&table.place, "the key name of a dimension", "none"));
         }
         None => {
             let joined = matrices.iter().map(|name| name.value.clone()).collect::<Vec<_>>().join(", ");

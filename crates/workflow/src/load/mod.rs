@@ -3,6 +3,7 @@
 mod arrays;
 mod attached;
 mod band;
+mod dimension;
 mod dofs;
 mod factor;
 mod files;
@@ -37,6 +38,7 @@ use frfit::frequency::linear_hz;
 use frfit::model::{DynamicStiffness, Experiment};
 use frfit_formats::{CoordinateMatrix, read_matrices, take_matrix};
 use measurement::{Measurement, measurement};
+use model::Terms;
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
@@ -109,7 +111,11 @@ pub enum Purpose {
 pub fn load(case_file: &Path, overrides: &Overrides, purpose: Purpose) -> Result<Case, InputError> {
     let (mut files, bytes) = Files::of_case(case_file)?;
     let case = case::parse(case_file, &bytes)?;
-    let (mut terms, labels) = model::terms(&case, &mut files)?;
+    let Terms { terms, of, labels } = model::terms(&case, &mut files)?;
+    let mut terms = match purpose {
+        Purpose::Several => terms,
+        _ => dimension::at_nominal(&case, terms, &of)?,
+    };
     let dim = terms.first().map_or(0, |term| term.matrix.dim());
     let dofs = Dofs::read(case.dofs.as_ref(), dim, &labels, &mut files)?;
     terms.extend(attached::terms(&case.attached, dim, &dofs)?);
@@ -125,7 +131,7 @@ pub fn load(case_file: &Path, overrides: &Overrides, purpose: Purpose) -> Result
             (Some(identify), frequency_hz)
         }
         Purpose::Several => {
-            let wanted = several::several(&case, overrides, &model, &measurements, &mut files)?;
+            let wanted = several::several(&case, overrides, (&model, &of), &measurements, &mut files)?;
             let frequency_hz = wanted.frequency_hz.clone();
             several = Some(wanted);
             (None, frequency_hz)
@@ -137,8 +143,11 @@ pub fn load(case_file: &Path, overrides: &Overrides, purpose: Purpose) -> Result
             (None, frequency_hz)
         }
     };
-    for (term, entry) in model.terms().iter().zip(&case.matrices) {
-        factor::covers(&term.factor, &entry.factor.place, &respond_hz)?;
+    for (term, part) in model.terms().iter().zip(&of) {
+        let entry = case.matrices.iter().find(|entry| entry.name.value == part.matrix);
+        if let Some(entry) = entry {
+            factor::covers(&term.factor, &entry.factor.place, &respond_hz)?;
+        }
     }
     let truth = case.identify.as_ref().and_then(|entry| entry.truth.as_ref());
     if let (Some(law), Some(entry)) = (identify.as_ref().and_then(|identify| identify.truth.as_ref()), truth)

@@ -1,5 +1,6 @@
 //! The matrices and their factors: the model.
 
+use super::dimension::{PartOf, polynomial};
 use super::factor::law;
 use super::files::{Files, NamedFile};
 use super::labels::{Member, Order, names_beside, one_order, read_names, sibling};
@@ -19,6 +20,9 @@ use std::rc::Rc;
 /// A matrix of the case, and where it is from.
 struct Read<'a> {
     entry: &'a MatrixEntry,
+    /// The entry's number, and of a dimension's value whose matrix this is.
+    number: usize,
+    value: Option<f64>,
     /// All of its file: terms may be in one file.
     all: Rc<Vec<NamedMatrix>>,
     /// Names of its rows that are in a file beside it.
@@ -45,12 +49,25 @@ impl Read<'_> {
     }
 }
 
-/// Reads all matrices and factors: one term for each, in their order. With them what each row stands for, where the
-/// files of the matrices say so: then all are in one order.
-pub(super) fn terms(case: &CaseFile, files: &mut Files) -> Result<(Vec<Term>, Vec<DofLabel>), InputError> {
+/// The terms of the model.
+pub(super) struct Terms {
+    pub(super) terms: Vec<Term>,
+    /// The matrix of the case that each is, or is part of.
+    pub(super) of: Vec<PartOf>,
+    /// What each row stands for, where the files of the matrices say so: then all are in one order.
+    pub(super) labels: Vec<DofLabel>,
+}
+
+/// Reads all matrices and factors: one term for each, in their order, or of a matrix that is given at several values of a dimension one for each of its powers.
+pub(super) fn terms(case: &CaseFile, files: &mut Files) -> Result<Terms, InputError> {
     let mut read: Vec<Read<'_>> = Vec::with_capacity(case.matrices.len());
-    for entry in &case.matrices {
-        let file = files.read(&entry.file)?;
+    let wanted = case.matrices.iter().enumerate().flat_map(|(number, entry)| {
+        let alone = entry.at.is_none().then_some((number, entry, None, &entry.file));
+        let each = entry.at.iter().flat_map(|at| &at.files);
+        alone.into_iter().chain(each.map(move |(value, file)| (number, entry, Some(*value), file)))
+    });
+    for (number, entry, value, name) in wanted {
+        let file = files.read(name)?;
         let all = match read.iter().find(|earlier| earlier.file.path == file.path) {
             Some(earlier) => Rc::clone(&earlier.all),
             None => Rc::new(read_matrices(&file.bytes).map_err(|error| file.refuse(error))?),
@@ -58,10 +75,10 @@ pub(super) fn terms(case: &CaseFile, files: &mut Files) -> Result<(Vec<Term>, Ve
         let kind = detect(&file.bytes);
         // The numbers are in the matrix: the text need not stay in memory.
         let file = NamedFile { bytes: Default::default(), ..file };
-        let mut one = Read { entry, all, beside: None, file };
+        let mut one = Read { entry, number, value, all, beside: None, file };
         one.matrix().and_then(check_symmetric).map_err(|error| one.refuse(error))?;
         if let Some((kind, path)) = kind.and_then(|kind| Some((kind, names_beside(&one.file.path, kind)?))) {
-            let name = Located { value: sibling(&entry.file.value, &path), place: entry.file.place.clone() };
+            let name = Located { value: sibling(&name.value, &path), place: name.place.clone() };
             let names = files.read(&name)?;
             let rows = one.matrix().map_or(0, |matrix| matrix.nrows);
             one.beside = Some(read_names(kind, &names.bytes, rows).map_err(|error| names.refuse(error))?);
@@ -71,13 +88,32 @@ pub(super) fn terms(case: &CaseFile, files: &mut Files) -> Result<(Vec<Term>, Ve
     let (labels, matrices) = in_one_order(&read)?;
     same_sizes(&matrices)?;
     every_row_has_an_entry(case, &matrices, &labels)?;
-    let mut terms = Vec::with_capacity(read.len());
-    for (one, matrix) in matrices {
-        let matrix = symmetric_matrix(&matrix).map_err(|error| one.refuse(error))?;
-        let factor = law(&one.entry.factor, files)?;
-        terms.push(Term { name: one.entry.name.value.clone(), role: one.entry.role, matrix, factor });
+    let (mut terms, mut of) = (Vec::with_capacity(read.len()), Vec::with_capacity(read.len()));
+    for (entry, own) in case.matrices.iter().zip(matrices.chunk_by(|(a, _), (b, _)| a.number == b.number)) {
+        let factor = law(&entry.factor, files)?;
+        let term = |name: String, matrix| Term { name, role: entry.role, matrix, factor: factor.clone() };
+        let name = &entry.name.value;
+        let mut samples = Vec::with_capacity(own.len());
+        for (one, matrix) in own {
+            let matrix = symmetric_matrix(matrix).map_err(|error| one.refuse(error))?;
+            samples.push((one.value, matrix));
+        }
+        match &entry.at {
+            None => {
+                terms.extend(samples.into_iter().map(|(_, matrix)| term(name.clone(), matrix)));
+                of.push(PartOf { matrix: name.clone(), dimension: None });
+            }
+            Some(at) => {
+                let samples = samples.into_iter().filter_map(|(value, matrix)| Some((value?, matrix)));
+                for (power, matrix) in polynomial(&samples.collect::<Vec<_>>(), &at.dimension)? {
+                    let dimension = at.dimension.value.clone();
+                    terms.push(term(format!("{name} ({dimension}^{power})"), matrix));
+                    of.push(PartOf { matrix: name.clone(), dimension: Some((dimension, power)) });
+                }
+            }
+        }
     }
-    Ok((terms, labels))
+    Ok(Terms { terms, of, labels })
 }
 
 /// All matrices on the same rows, and what these stand for; nothing where no file says so.

@@ -2,6 +2,7 @@
 
 use super::Overrides;
 use super::band::band;
+use super::dimension::{PartOf, each_has_a_value, powers_of};
 use super::factor::{covers, law};
 use super::files::Files;
 use super::identify::{MeasuredNoise, band_of, known_names, left_out, shared_factor};
@@ -11,7 +12,7 @@ use crate::error::{InputError, Place};
 use frfit::c64;
 use frfit::identify::{Enters, Sought, Vary};
 use frfit::material::Law;
-use frfit::model::DynamicStiffness;
+use frfit::model::{DynamicStiffness, Term};
 use frfit::roots::Bounds;
 
 /// An identification of several unknowns, everything checked.
@@ -34,7 +35,7 @@ pub struct SeveralCase {
 pub(super) fn several(
     case: &CaseFile,
     overrides: &Overrides,
-    model: &DynamicStiffness,
+    (model, of): (&DynamicStiffness, &[PartOf]),
     measurements: &[Measurement],
     files: &mut Files,
 ) -> Result<SeveralCase, InputError> {
@@ -53,8 +54,10 @@ pub(super) fn several(
         }
     }
     refuse_unknown_channels(case)?;
-    let sought = entry.unknowns.iter().map(|one| sought(case, one, model)).collect::<Result<Vec<_>, _>>()?;
-    refuse_twice(entry, model)?;
+    each_has_a_value(case)?;
+    let sought = entry.unknowns.iter().map(|one| sought(case, one, (model, of)));
+    let sought = sought.collect::<Result<Vec<_>, _>>()?;
+    refuse_twice(entry)?;
     let truth = entry
         .unknowns
         .iter()
@@ -85,7 +88,11 @@ pub(super) fn several(
     Ok(SeveralCase { sought, truth, band_hz, frequency_hz, measured, noise })
 }
 
-fn sought(case: &CaseFile, entry: &SoughtEntry, model: &DynamicStiffness) -> Result<Sought, InputError> {
+fn sought(
+    case: &CaseFile,
+    entry: &SoughtEntry,
+    (model, of): (&DynamicStiffness, &[PartOf]),
+) -> Result<Sought, InputError> {
     let varies = match entry.varies {
         SoughtVaries::Freely => Vary::PerFrequency,
         SoughtVaries::Constant => Vary::Constant,
@@ -99,15 +106,11 @@ fn sought(case: &CaseFile, entry: &SoughtEntry, model: &DynamicStiffness) -> Res
     if let Some(Located { value, place }) = &entry.nominal {
         let named: Vec<Located<String>> = entry.powers.iter().map(|(name, _)| name.clone()).collect();
         known_names(case, &named)?;
-        let term = |name: &Located<String>| {
-            let found = model.find(&name.value);
-            found.map_err(|error| InputError::at(&name.place, "the name of a matrix", error.to_string()))
-        };
-        let powers = entry
-            .powers
-            .iter()
-            .map(|(name, power)| Ok((term(name)?, *power)))
-            .collect::<Result<_, InputError>>()?;
+        let powers = powers_of(&name, of, &entry.powers);
+        if powers.is_empty() {
+            let expected = "powers, or a matrix that is given at values of this dimension";
+            return Err(InputError::at(&entry.place, expected, "none"));
+        }
         if *value == 0.0 {
             return Err(InputError::at(place, "a dimension other than 0", "0"));
         }
@@ -122,7 +125,7 @@ fn sought(case: &CaseFile, entry: &SoughtEntry, model: &DynamicStiffness) -> Res
         });
     }
     known_names(case, &entry.matrices)?;
-    let parameter = shared_factor(&entry.matrices, model, &entry.place)?;
+    let parameter = shared_factor(&parts_of(&entry.matrices, (model, of)), model, &entry.place)?;
     let terms = parameter.members.iter().map(|member| member.term).collect();
     if entry.real && matches!(&parameter.nominal, Law::Constant(value) if value.im != 0.0) {
         let expected = "a matrix with a real factor, for real = true";
@@ -138,17 +141,30 @@ fn sought(case: &CaseFile, entry: &SoughtEntry, model: &DynamicStiffness) -> Res
     })
 }
 
+/// The names of the terms that some matrices have become.
+fn parts_of(
+    matrices: &[Located<String>],
+    (model, of): (&DynamicStiffness, &[PartOf]),
+) -> Vec<Located<String>> {
+    let terms = |name: &Located<String>| {
+        let own = model.terms().iter().zip(of).filter(|(_, part)| part.matrix == name.value);
+        let named =
+            |(term, _): (&Term, &PartOf)| Located { value: term.name.clone(), place: name.place.clone() };
+        own.map(named).collect::<Vec<_>>()
+    };
+    matrices.iter().flat_map(terms).collect()
+}
+
 /// The factor of a matrix is one unknown.
-fn refuse_twice(entry: &SeveralEntry, model: &DynamicStiffness) -> Result<(), InputError> {
-    let mut taken: Vec<(usize, &str)> = Vec::new();
+fn refuse_twice(entry: &SeveralEntry) -> Result<(), InputError> {
+    let mut taken: Vec<(&str, &str)> = Vec::new();
     for one in &entry.unknowns {
         for name in &one.matrices {
-            let Ok(term) = model.find(&name.value) else { continue };
-            if let Some((_, other)) = taken.iter().find(|(other, _)| *other == term) {
+            if let Some((_, other)) = taken.iter().find(|(other, _)| *other == name.value) {
                 let found = format!("{:?}, which is in {other:?} too", name.value);
                 return Err(InputError::at(&name.place, "each matrix's factor in one unknown", found));
             }
-            taken.push((term, &one.name.value));
+            taken.push((&name.value, &one.name.value));
         }
     }
     Ok(())

@@ -69,7 +69,7 @@ fn keys_that_are_unknown_or_missing() {
         (
             "[dofs]\nfile = \"dofs.csv\"\n",
             "dofs = \"dofs.csv\"\n",
-            "case.toml:16:1: matrix: expected a known key (name, role, file, factor), found \"dofs\"",
+            "case.toml:16:1: matrix: expected a known key (name, role, file, at, factor), found \"dofs\"",
         ),
         (
             "[[measurement]]\nfile = \"a.csv\"\ndof = \"2-Z\"\nquantity = \"accelerance\"\n[[measurement]]",

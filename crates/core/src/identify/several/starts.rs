@@ -22,6 +22,9 @@ const FOLLOWED: usize = 8;
 /// Evaluations for each start and number.
 const PATIENCE: usize = 12;
 
+/// Weight of a coordinate's way from the nominal one, beside logarithms of responses: a millionth of what a coordinate that is told moves.
+const STAY: f64 = 1e-3;
+
 /// Ends that are kept: later steps tell which is right.
 const KEPT: usize = 4;
 
@@ -54,9 +57,15 @@ impl Task<'_, '_> {
             };
             let rows = map(self.hooks.for_each, which.len(), one).into_iter().collect::<Option<Vec<_>>>()?;
             let parts = |values: &[c64]| values.iter().flat_map(|v| [v.re, v.im]).collect::<Vec<f64>>();
-            let residuals: Vec<f64> = rows.iter().flat_map(|(rest, _)| parts(rest)).collect();
-            let jacobian: Vec<f64> = (0..constants.count)
-                .flat_map(|c| rows.iter().flat_map(move |(_, columns)| parts(&columns[c])))
+            let count = constants.count;
+            // What nothing tells stays where it was.
+            let stay = theta.iter().zip(&begin[0]).map(|(t, t0)| STAY * (t - t0));
+            let residuals: Vec<f64> = rows.iter().flat_map(|(rest, _)| parts(rest)).chain(stay).collect();
+            let jacobian: Vec<f64> = (0..count)
+                .flat_map(|c| {
+                    let measured = rows.iter().flat_map(move |(_, columns)| parts(&columns[c]));
+                    measured.chain((0..count).map(move |other| if other == c { STAY } else { 0.0 }))
+                })
                 .collect();
             let finite = residuals.iter().chain(&jacobian).all(|value| value.is_finite());
             finite.then_some((residuals, jacobian))
