@@ -1,6 +1,7 @@
 //! The examples there are, and their files.
 
 use crate::file::{Frf, csv_frf, dofs, force, matrix, several_truth, truth, uff_frfs};
+use crate::several::Measured;
 use crate::{
     Error, File, Model, Rig, SeveralModel, added_mass, clamped_plate, density, hammer_bar, hammer_records,
     joint_stiffness, plate_thickness, rubber_bar, rubber_bar_end, sandwich, two_materials,
@@ -262,8 +263,9 @@ impl Example {
     fn files_of_several(&self, model: &SeveralModel) -> Result<Vec<File>, Error> {
         let mut files = self.model_files(model.rig())?;
         let frequency_hz = model.rig().frequency_hz();
-        let (measured, std) = model.measured(&frequency_hz)?;
-        files.extend(self.measurement_files(model.rig(), &frequency_hz, &measured, &std)?);
+        let measured = model.measured(&frequency_hz)?;
+        let Measured { receptance, std } = &measured;
+        files.extend(self.measurement_files(model.rig(), &frequency_hz, receptance, std)?);
         files.push(File::new("truth.csv", several_truth(model, &frequency_hz)?));
         Ok(files)
     }

@@ -60,5 +60,5 @@ pub use plate_thickness::plate_thickness;
 pub use rig::Rig;
 pub use rubber_bar::{POLYBUTADIENE, rubber_bar, rubber_bar_end};
 pub use sandwich::sandwich;
-pub use several::SeveralModel;
+pub use several::{Measured, SeveralModel};
 pub use two_materials::two_materials;

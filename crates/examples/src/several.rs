@@ -30,6 +30,15 @@ pub struct SeveralModel {
     pub dofs: Vec<DofName>,
 }
 
+/// Responses with noise, `[frequency][sensor]`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Measured {
+    /// Receptance in m/N.
+    pub receptance: Vec<Vec<c64>>,
+    /// Standard deviation √E|δx|² of each.
+    pub std: Vec<Vec<f64>>,
+}
+
 impl SeveralModel {
     /// What is driven and measured.
     pub fn rig(&self) -> Rig<'_> {
@@ -55,11 +64,11 @@ impl SeveralModel {
         frequency_hz.iter().map(one).collect()
     }
 
-    /// The exact receptances with [`Self::noise`], the same each time, and the standard deviation of each.
+    /// The exact receptances with [`Self::noise`], the same each time.
     ///
     /// # Errors
     /// As [`Self::exact`].
-    pub fn measured(&self, frequency_hz: &[f64]) -> Result<(Vec<Vec<c64>>, Vec<Vec<f64>>), Error> {
+    pub fn measured(&self, frequency_hz: &[f64]) -> Result<Measured, Error> {
         let exact = self.exact(frequency_hz)?;
         let mut random = uniform();
         // Circular: |δx|² is exponentially distributed.
@@ -68,7 +77,7 @@ impl SeveralModel {
             exact.iter().map(|x| x.iter().map(|x| self.noise * x.norm()).collect()).collect();
         let measured =
             exact.iter().zip(&std).map(|(x, s)| x.iter().zip(s).map(|(x, s)| x + s * normal()).collect());
-        Ok((measured.collect(), std))
+        Ok(Measured { receptance: measured.collect(), std })
     }
 
     /// A term with its true factor at a frequency.

@@ -8,8 +8,8 @@ use crate::memory::{MemoryError, check_full, check_identify, check_subspace};
 use crate::output::{
     File, WriteError, candidates_csv, error_map_csv, hit_reasons, identified_csv, laws_json, measured_csv,
     measured_summary, measured_text, measured_uff, reference_csv, respond_csv, respond_uff, response_csv,
-    several_csv, several_json, several_response_csv, several_text, several_updated_uff, summary_json,
-    updated_uff, write_all,
+    several_csv, several_json, several_reference_csv, several_response_csv, several_text,
+    several_updated_uff, summary_json, updated_uff, write_all,
 };
 use crate::records::{ChannelOptions, Records, read_records};
 use crate::report::report_of;
@@ -225,15 +225,24 @@ pub fn several_case(
     let wanted = case.several.as_ref().expect("a case loaded for several unknowns has some");
     check_subspace(&case, memory_bytes)?;
     let run = several(&case, wanted, progress)?;
-    let summary = several_json(&case, wanted, &run, seconds_load);
+    let mut summary = several_json(&case, wanted, &run, seconds_load);
     let mut files = several_figures(&case, wanted, &run)?;
-    files.push(File::new("identified.csv", several_csv(wanted, &run)));
-    files.push(File::new("response.csv", several_response_csv(&case, wanted, &run)));
+    let tables = [
+        File::new("identified.csv", several_csv(wanted, &run)),
+        File::new("reference.csv", several_reference_csv(wanted, &run)),
+        File::new("response.csv", several_response_csv(&case, wanted, &run)),
+    ];
+    // Beside them a folder may have tables of other runs.
+    summary["tables"] = tables.iter().map(|table| table.path.display().to_string()).collect();
+    files.extend(tables);
     let uff = several_updated_uff(&case, &run)
         .map_err(|error| InputError::in_file(&out.join("updated.uff"), error))?;
     files.push(File::new("updated.uff", uff));
     files.push(File::new("summary.json", format!("{summary:#}\n")));
+    let page = report_of(&files, out);
+    files.extend(page.as_ref().ok().cloned());
     write_all(out, &files)?;
+    page.map_err(JobError::Report)?;
     let text = several_text(wanted, &run);
     Ok(SeveralJob { case, run, summary, text })
 }
