@@ -208,6 +208,36 @@ pub struct SeveralJob {
     pub text: String,
 }
 
+/// Several unknowns that were identified, and not written.
+#[derive(Debug)]
+pub struct ComputedSeveral {
+    /// The case.
+    pub case: Case,
+    /// What came out.
+    pub run: SeveralRun,
+    /// How long the files took to read.
+    pub seconds_load: f64,
+}
+
+/// [`several_case`] without its files: the numbers are the same.
+///
+/// # Errors
+/// As [`several_case`], but for what is written.
+pub fn compute_several_case(
+    case_file: &Path,
+    overrides: &Overrides,
+    memory_bytes: Option<u64>,
+    progress: Progress<'_>,
+) -> Result<ComputedSeveral, JobError> {
+    let start = Instant::now();
+    let case = load(case_file, overrides, Purpose::Several)?;
+    let seconds_load = start.elapsed().as_secs_f64();
+    let wanted = case.several.as_ref().expect("a case loaded for several unknowns has some");
+    check_subspace(&case, memory_bytes)?;
+    let run = several(&case, wanted, progress)?;
+    Ok(ComputedSeveral { case, run, seconds_load })
+}
+
 /// As [`identify_case`], of a case that asks for several unknowns, or for one that does not vary ([`crate::load::asks_for_several`]).
 ///
 /// # Errors
@@ -219,12 +249,9 @@ pub fn several_case(
     out: &Path,
     progress: Progress<'_>,
 ) -> Result<SeveralJob, JobError> {
-    let start = Instant::now();
-    let case = load(case_file, overrides, Purpose::Several)?;
-    let seconds_load = start.elapsed().as_secs_f64();
+    let ComputedSeveral { case, run, seconds_load } =
+        compute_several_case(case_file, overrides, memory_bytes, progress)?;
     let wanted = case.several.as_ref().expect("a case loaded for several unknowns has some");
-    check_subspace(&case, memory_bytes)?;
-    let run = several(&case, wanted, progress)?;
     let mut summary = several_json(&case, wanted, &run, seconds_load);
     let mut files = several_figures(&case, wanted, &run)?;
     let tables = [

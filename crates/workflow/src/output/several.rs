@@ -160,7 +160,8 @@ fn noise_source(wanted: &SeveralCase, outcome: &SeveralOutcome) -> &'static str 
     }
 }
 
-fn varies(one: &Sought) -> String {
+/// How an unknown varies, as a case says it: `frequency`, `constant`, `law zener`.
+pub fn varies(one: &Sought) -> String {
     match one.varies {
         Vary::PerFrequency => "frequency".into(),
         Vary::Constant => "constant".into(),
@@ -213,15 +214,15 @@ fn truth_json(wanted: &SeveralCase, run: &SeveralRun, j: usize) -> Value {
     })
 }
 
-/// `core`, `core loss_factor`, `skins e0`.
-pub(crate) fn coordinate(wanted: &SeveralCase, outcome: &SeveralOutcome, c: usize) -> String {
+/// What a coordinate of correlation and directions stands for: `core`, `core loss_factor`, `skins e0`.
+pub fn coordinate(wanted: &SeveralCase, outcome: &SeveralOutcome, c: usize) -> String {
     let (j, number) = &outcome.coordinates[c];
     let name = &wanted.sought[*j].name;
     if number == "value" { name.clone() } else { format!("{name} {number}") }
 }
 
 /// The combinations that the measurements do not tell, in words.
-fn not_told(wanted: &SeveralCase, outcome: &SeveralOutcome) -> Vec<String> {
+pub fn not_told(wanted: &SeveralCase, outcome: &SeveralOutcome) -> Vec<String> {
     let sentence = |direction: &Direction| {
         let largest = direction.weights.first().map_or(1.0, |(_, weight)| weight.abs());
         let mut up = Vec::new();
