@@ -8,14 +8,16 @@ use std::process::Command;
 const PLAYWRIGHT: &str = "playwright-core@1.65.1";
 
 /// Examples whose reports are looked at, with what `identify` is told: the paper's series with an error map, one where it diverges, a real factor, a rule that
-/// leaves most frequencies ambiguous, many frequencies with error bars, two sensors that agree.
-const EXAMPLES: [(&str, &[&str]); 6] = [
+/// leaves most frequencies ambiguous, many frequencies with error bars, two sensors that agree, two numbers that hold for the band and hang together, two curves.
+const EXAMPLES: [(&str, &[&str]); 8] = [
     ("rubber-bar", &[]),
     ("clamped-plate", &[]),
     ("density", &[]),
     ("rubber-bar-end", &["--selection", "smallest"]),
     ("hammer-bar", &["--method", "rational", "--selection", "joint"]),
     ("sandwich", &[]),
+    ("added-mass", &[]),
+    ("two-materials", &[]),
 ];
 
 /// Reports of the examples and of large results, each opened and worked with in Chromium. Where something that it needs can be neither found nor installed,

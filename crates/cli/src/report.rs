@@ -9,7 +9,7 @@ use std::path::Path;
 /// The verdict on several unknowns and where its files are.
 pub(crate) fn several(job: &SeveralJob, out: &Path) -> String {
     format!(
-        "{}  {:<18}{}: identified.csv, response.csv, updated.uff, summary.json, figures/\n",
+        "{}  {:<18}{}: identified.csv, response.csv, updated.uff, summary.json, figures/, report.html\n",
         job.text,
         "wrote",
         out.display()

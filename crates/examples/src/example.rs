@@ -1,9 +1,10 @@
 //! The examples there are, and their files.
 
-use crate::file::{Frf, csv_frf, dofs, force, matrix, truth, uff_frfs};
+use crate::file::{Frf, csv_frf, dofs, force, matrix, several_truth, truth, uff_frfs};
+use crate::several::Measured;
 use crate::{
-    Error, File, Model, clamped_plate, density, hammer_bar, hammer_records, rubber_bar, rubber_bar_end,
-    sandwich,
+    Error, File, Model, Rig, SeveralModel, added_mass, clamped_plate, density, hammer_bar, hammer_records,
+    joint_stiffness, plate_thickness, rubber_bar, rubber_bar_end, sandwich, two_materials,
 };
 use frfit::c64;
 use frfit::material::Law;
@@ -18,7 +19,7 @@ pub struct Example {
     pub summary: &'static str,
     case: &'static str,
     readme: &'static str,
-    model: fn() -> Result<Model, Error>,
+    unknown: Unknown,
     /// File of each term's matrix.
     matrices: &'static [&'static str],
     measurement: Measurement,
@@ -26,22 +27,35 @@ pub struct Example {
     names_dofs: bool,
 }
 
+/// How much is unknown, and the model.
+#[derive(Debug)]
+enum Unknown {
+    /// One factor.
+    One(fn() -> Result<Model, Error>),
+    /// Several things, or one that does not vary.
+    Several(fn() -> Result<SeveralModel, Error>),
+}
+
+use Unknown::{One, Several};
+
 /// What was measured, as a file.
 #[derive(Debug)]
 enum Measurement {
     /// FRFs of the model itself, and their quantity.
     Frf(&'static str, Quantity),
+    /// A table for each sensor, with the standard deviations of its noise.
+    Tables(&'static [&'static str], Quantity),
     /// Records of a hammer test, of which `frfit frf` makes the FRF.
     Records(&'static str, fn() -> Result<Vec<u8>, Error>),
 }
 
-static EXAMPLES: [Example; 6] = [
+static EXAMPLES: [Example; 10] = [
     Example {
         name: "rubber-bar",
         summary: "free-free rubber bar, the same force on every node: its modulus over frequency",
         case: include_str!("../cases/rubber-bar/case.toml"),
         readme: include_str!("../cases/rubber-bar/README.md"),
-        model: || rubber_bar(100),
+        unknown: One(|| rubber_bar(100)),
         matrices: &["K.mtx", "M.mtx"],
         measurement: Measurement::Frf("frf.uff", Quantity::Receptance),
         names_dofs: false,
@@ -51,7 +65,7 @@ static EXAMPLES: [Example; 6] = [
         summary: "free-free rubber bar struck at one end: one sensor cannot tell its modulus",
         case: include_str!("../cases/rubber-bar-end/case.toml"),
         readme: include_str!("../cases/rubber-bar-end/README.md"),
-        model: || rubber_bar_end(100),
+        unknown: One(|| rubber_bar_end(100)),
         matrices: &["K.mtx", "M.mtx"],
         measurement: Measurement::Frf("frf.uff", Quantity::Accelerance),
         names_dofs: false,
@@ -61,7 +75,7 @@ static EXAMPLES: [Example; 6] = [
         summary: "clamped steel plate, lightly damped: where the series converges and where not",
         case: include_str!("../cases/clamped-plate/case.toml"),
         readme: include_str!("../cases/clamped-plate/README.md"),
-        model: || clamped_plate(20),
+        unknown: One(|| clamped_plate(20)),
         matrices: &["K.rsa", "M.mtx"],
         measurement: Measurement::Frf("frf.uff", Quantity::Accelerance),
         names_dofs: true,
@@ -71,7 +85,7 @@ static EXAMPLES: [Example; 6] = [
         summary: "aluminium cantilever of unknown density: a real factor of the mass matrix",
         case: include_str!("../cases/density/case.toml"),
         readme: include_str!("../cases/density/README.md"),
-        model: || density(40),
+        unknown: One(|| density(40)),
         matrices: &["K.mtx", "M.mtx"],
         measurement: Measurement::Frf("frf.csv", Quantity::Mobility),
         names_dofs: false,
@@ -81,7 +95,7 @@ static EXAMPLES: [Example; 6] = [
         summary: "free-free polyurethane bar, records of a hammer test: from the hit to the modulus",
         case: include_str!("../cases/hammer-bar/case.toml"),
         readme: include_str!("../cases/hammer-bar/README.md"),
-        model: || hammer_bar(400),
+        unknown: One(|| hammer_bar(400)),
         matrices: &["K.mtx", "M.mtx"],
         measurement: Measurement::Records("records.lvm", || hammer_records(1, 0.0)),
         names_dofs: false,
@@ -91,9 +105,49 @@ static EXAMPLES: [Example; 6] = [
         summary: "aluminium skins on a rubber core, clamped at one end: the modulus of the core",
         case: include_str!("../cases/sandwich/case.toml"),
         readme: include_str!("../cases/sandwich/README.md"),
-        model: || sandwich(30, 1, 1),
+        unknown: One(|| sandwich(30, 1, 1)),
         matrices: &["K_skins.mtx", "K_core.mtx", "M_skins.mtx", "M_core.mtx"],
         measurement: Measurement::Frf("frf.uff", Quantity::Accelerance),
+        names_dofs: true,
+    },
+    Example {
+        name: "plate-thickness",
+        summary: "plate that was rolled 10 % thinner than drawn: its thickness, from three sensors",
+        case: include_str!("../cases/plate-thickness/case.toml"),
+        readme: include_str!("../cases/plate-thickness/README.md"),
+        unknown: Several(|| plate_thickness(10)),
+        matrices: &["K.mtx", "M.mtx"],
+        measurement: Measurement::Tables(&["frf-1.csv", "frf-2.csv", "frf-3.csv"], Quantity::Mobility),
+        names_dofs: true,
+    },
+    Example {
+        name: "two-materials",
+        summary: "the sandwich again, its skins unknown too: two moduli at every frequency",
+        case: include_str!("../cases/two-materials/case.toml"),
+        readme: include_str!("../cases/two-materials/README.md"),
+        unknown: Several(|| two_materials(30, 1, 1)),
+        matrices: &["K_skins.mtx", "K_core.mtx", "M_skins.mtx", "M_core.mtx"],
+        measurement: Measurement::Frf("frf.uff", Quantity::Accelerance),
+        names_dofs: true,
+    },
+    Example {
+        name: "joint-stiffness",
+        summary: "two beams on a joint: how stiff it is and how much it damps, one for the band",
+        case: include_str!("../cases/joint-stiffness/case.toml"),
+        readme: include_str!("../cases/joint-stiffness/README.md"),
+        unknown: Several(|| joint_stiffness(20)),
+        matrices: &["K_beams.mtx", "K_joint.mtx", "M.mtx"],
+        measurement: Measurement::Tables(&["frf-1.csv", "frf-2.csv"], Quantity::Accelerance),
+        names_dofs: true,
+    },
+    Example {
+        name: "added-mass",
+        summary: "beam with a component on it: the mass of the one, the modulus of the other",
+        case: include_str!("../cases/added-mass/case.toml"),
+        readme: include_str!("../cases/added-mass/README.md"),
+        unknown: Several(|| added_mass(40)),
+        matrices: &["K.mtx", "M.mtx", "M_component.mtx"],
+        measurement: Measurement::Tables(&["frf-1.csv", "frf-2.csv"], Quantity::Accelerance),
         names_dofs: true,
     },
 ];
@@ -105,8 +159,8 @@ pub fn list() -> &'static [Example] {
 
 /// The files of an example, the same bytes each time: `README.md`, `case.toml`, and all that the case names.
 ///
-/// The measurement is computed by direct solves of the same model with the true parameter, without noise; that of
-/// `hammer-bar` are records from an exact solution ([`Example::records`]).
+/// The measurement is computed by direct solves of the same model with the true parameters; those in tables of their own have noise and its
+/// standard deviation, and that of `hammer-bar` are records from an exact solution ([`Example::records`]).
 ///
 /// # Errors
 /// [`Error::UnknownExample`] for a name that is not in [`list`].
@@ -122,7 +176,7 @@ impl Example {
     /// The file with records of which `frfit frf` has to make the measurement first, `frf.uff`; `None` where that is there.
     pub fn records(&self) -> Option<&'static str> {
         match self.measurement {
-            Measurement::Frf(..) => None,
+            Measurement::Frf(..) | Measurement::Tables(..) => None,
             Measurement::Records(path, _) => Some(path),
         }
     }
@@ -135,57 +189,60 @@ impl Example {
     /// [`Error`] where a file cannot be written as its format wants it.
     ///
     /// # Panics
-    /// Where the measurement is not an FRF.
+    /// Where several things are unknown, or the measurement is not an FRF.
     pub fn files_of(
         &self,
         model: &Model,
         frequency_hz: &[f64],
         measured: &[Vec<c64>],
     ) -> Result<Vec<File>, Error> {
-        let Measurement::Frf(path, quantity) = self.measurement else {
-            panic!("the measurement of {} is made of records", self.name)
+        let (One(own), Measurement::Frf(path, quantity)) = (&self.unknown, &self.measurement) else {
+            panic!("{} has several unknowns, or a measurement that is made of records", self.name)
         };
-        let own = (self.model)()?;
+        let own = own()?;
         let mut case = self.case.to_owned();
         let named = |model: &Model| {
-            let sensors = (0..model.experiment.sensors.len()).map(|m| model.measured_dof(m));
-            model.driven_at().into_iter().chain(sensors).map(|dof| format!("\"{dof}\"")).collect::<Vec<_>>()
+            let rig = model.rig();
+            let sensors = (0..rig.experiment.sensors.len()).map(|m| rig.measured_dof(m));
+            rig.driven_at().into_iter().chain(sensors).map(|dof| format!("\"{dof}\"")).collect::<Vec<_>>()
         };
         for (there, here) in named(&own).into_iter().zip(named(model)).filter(|_| self.names_dofs) {
             case = case.replace(&there, &here);
         }
         let mut files = vec![File::new("case.toml", case)];
-        files.extend(self.model_files(model)?);
-        files.push(self.frfs(path, quantity, model, frequency_hz, measured)?);
+        files.extend(self.model_files(model.rig())?);
+        files.push(self.frfs(path, *quantity, model.rig(), frequency_hz, measured)?);
         Ok(files)
     }
 
     /// Matrices, names of the rows and loads.
-    fn model_files(&self, model: &Model) -> Result<Vec<File>, Error> {
+    fn model_files(&self, rig: Rig<'_>) -> Result<Vec<File>, Error> {
         let mut files = Vec::new();
-        for (term, path) in model.stiffness.terms().iter().zip(self.matrices) {
+        for (term, path) in rig.stiffness.terms().iter().zip(self.matrices) {
             files.push(File::new(path, matrix(term, path)?));
         }
         if self.names_dofs {
-            files.push(File::new("dofs.csv", dofs(&model.dofs)?));
+            files.push(File::new("dofs.csv", dofs(rig.dofs)?));
         }
-        if model.driven_at().is_none() {
-            files.push(File::new("force.csv", force(&model.experiment.load)?));
+        if rig.driven_at().is_none() {
+            files.push(File::new("force.csv", force(&rig.experiment.load)?));
         }
         Ok(files)
     }
 
     fn files(&self) -> Result<Vec<File>, Error> {
-        let model = (self.model)()?;
         let mut files = vec![File::new("README.md", self.readme), File::new("case.toml", self.case)];
-        files.extend(self.model_files(&model)?);
+        files.extend(match &self.unknown {
+            One(model) => self.files_of_one(&model()?),
+            Several(model) => self.files_of_several(&model()?),
+        }?);
+        Ok(files)
+    }
+
+    fn files_of_one(&self, model: &Model) -> Result<Vec<File>, Error> {
+        let mut files = self.model_files(model.rig())?;
         let mut frequency_hz = model.frequency_hz();
-        match self.measurement {
-            Measurement::Frf(path, quantity) => {
-                let measured = frequency_hz.iter().map(|&f| model.measured_at(f));
-                let measured = measured.collect::<Result<Vec<_>, Error>>()?;
-                files.push(self.frfs(path, quantity, &model, &frequency_hz, &measured)?);
-            }
+        match &self.measurement {
             Measurement::Records(path, records) => {
                 files.push(File::new(path, records()?));
                 // A table of a factor has to reach every line that the case may ask for.
@@ -193,9 +250,50 @@ impl Example {
                     frequency_hz = table.frequency_hz().to_vec();
                 }
             }
+            _ => {
+                let measured = frequency_hz.iter().map(|&f| model.measured_at(f));
+                let measured = measured.collect::<Result<Vec<_>, Error>>()?;
+                files.extend(self.measurement_files(model.rig(), &frequency_hz, &measured, &[])?);
+            }
         }
-        files.push(File::new("truth.csv", truth(&model, &frequency_hz)?));
+        files.push(File::new("truth.csv", truth(model, &frequency_hz)?));
         Ok(files)
+    }
+
+    fn files_of_several(&self, model: &SeveralModel) -> Result<Vec<File>, Error> {
+        let mut files = self.model_files(model.rig())?;
+        let frequency_hz = model.rig().frequency_hz();
+        let measured = model.measured(&frequency_hz)?;
+        let Measured { receptance, std } = &measured;
+        files.extend(self.measurement_files(model.rig(), &frequency_hz, receptance, std)?);
+        files.push(File::new("truth.csv", several_truth(model, &frequency_hz)?));
+        Ok(files)
+    }
+
+    /// What FRFs are in, `std` with those that stand in tables.
+    fn measurement_files(
+        &self,
+        rig: Rig<'_>,
+        frequency_hz: &[f64],
+        measured: &[Vec<c64>],
+        std: &[Vec<f64>],
+    ) -> Result<Vec<File>, Error> {
+        match &self.measurement {
+            Measurement::Frf(path, quantity) => {
+                Ok(vec![self.frfs(path, *quantity, rig, frequency_hz, measured)?])
+            }
+            Measurement::Tables(paths, quantity) => {
+                let table = |(sensor, path): (usize, &&str)| {
+                    let frf = self.frf(*quantity, rig, frequency_hz, measured, sensor);
+                    let of_sensor = frequency_hz.iter().zip(std);
+                    let std = of_sensor
+                        .map(|(f, std)| quantity.from_receptance(*f, c64::new(std[sensor], 0.0)).norm());
+                    Ok(File::new(path, csv_frf(&frf, Some(&std.collect::<Vec<_>>()))?))
+                };
+                paths.iter().enumerate().map(table).collect()
+            }
+            Measurement::Records(..) => Ok(Vec::new()),
+        }
     }
 
     /// All sensors in one UFF file; in CSV, which holds one, the first.
@@ -203,26 +301,34 @@ impl Example {
         &self,
         path: &str,
         quantity: Quantity,
-        model: &Model,
+        rig: Rig<'_>,
         frequency_hz: &[f64],
         measured: &[Vec<c64>],
     ) -> Result<File, Error> {
-        let frf = |sensor: usize| Frf {
+        let frf = |sensor| self.frf(quantity, rig, frequency_hz, measured, sensor);
+        if path.ends_with(".csv") {
+            return Ok(File::new(path, csv_frf(&frf(0), None)?));
+        }
+        let frfs: Vec<_> = (0..rig.experiment.sensors.len()).map(frf).collect();
+        Ok(File::new(path, uff_frfs(&frfs)?))
+    }
+
+    fn frf<'a>(
+        &self,
+        quantity: Quantity,
+        rig: Rig<'_>,
+        frequency_hz: &'a [f64],
+        measured: &[Vec<c64>],
+        sensor: usize,
+    ) -> Frf<'a> {
+        let of_sensor = frequency_hz.iter().zip(measured);
+        Frf {
             title: self.summary,
             quantity,
-            response: model.measured_dof(sensor),
-            reference: model.driven_at(),
+            response: rig.measured_dof(sensor),
+            reference: rig.driven_at(),
             frequency_hz,
-            values: frequency_hz
-                .iter()
-                .zip(measured)
-                .map(|(f, x)| quantity.from_receptance(*f, x[sensor]))
-                .collect(),
-        };
-        if path.ends_with(".csv") {
-            return Ok(File::new(path, csv_frf(&frf(0))?));
+            values: of_sensor.map(|(f, x)| quantity.from_receptance(*f, x[sensor])).collect(),
         }
-        let frfs: Vec<_> = (0..model.experiment.sensors.len()).map(frf).collect();
-        Ok(File::new(path, uff_frfs(&frfs)?))
     }
 }

@@ -12,10 +12,14 @@
 //! | `density` | [`density`] | a real factor of the mass |
 //! | `hammer-bar` | [`hammer_bar`] | the paper's Section 7: from the records of a hammer test to the modulus |
 //! | `sandwich` | [`sandwich`] | one unknown among several matrices, named degrees of freedom, two sensors |
+//! | `plate-thickness` | [`plate_thickness`] | a dimension: one real number for the band, with an error bar |
+//! | `two-materials` | [`two_materials`] | two complex moduli at every frequency from three sensors |
+//! | `joint-stiffness` | [`joint_stiffness`] | a spring between two parts: a matrix of rank one, a complex constant |
+//! | `added-mass` | [`added_mass`] | a mass that sits on the structure and the modulus below it, and how they hang together |
 //!
 //! The functions in the second column take the size of the mesh, for tests and benchmarks. The measurement is a direct
 //! solution of the same model with the true parameter, as in the paper: it shows what the method recovers, not what
-//! a test rig adds. Only `hammer-bar` is measured on an exact solution: what the mesh adds is in its answer.
+//! a test rig adds. The examples with constants have noise, whose standard deviation is known. Only `hammer-bar` is measured on an exact solution: what the mesh adds is in its answer.
 //!
 //! ```
 //! use frfit::identify::{Options, identify_at};
@@ -27,25 +31,37 @@
 //! # Ok::<(), frfit_examples::Error>(())
 //! ```
 
+mod added_mass;
 mod clamped_plate;
 mod density;
 mod error;
 mod example;
 mod file;
 mod hammer_bar;
+mod joint_stiffness;
 mod model;
+mod plate_thickness;
+mod rig;
 mod rubber_bar;
 mod sandwich;
+mod several;
+mod two_materials;
 
+pub use added_mass::added_mass;
 pub use clamped_plate::clamped_plate;
 pub use density::density;
 pub use error::Error;
 pub use example::{Example, generate, list};
 pub use file::{File, matrix};
 pub use hammer_bar::{hammer_accelerance, hammer_bar, hammer_records, hammer_rod, polyurethane};
+pub use joint_stiffness::joint_stiffness;
 pub use model::Model;
+pub use plate_thickness::plate_thickness;
+pub use rig::Rig;
 pub use rubber_bar::{POLYBUTADIENE, rubber_bar, rubber_bar_end};
 pub use sandwich::sandwich;
+pub use several::{Measured, SeveralModel};
+pub use two_materials::two_materials;
 
 /// The program of the documentation site's page on the library, as a doc test: it uses the crates that this one does.
 #[cfg(doctest)]

@@ -1,6 +1,6 @@
 //! A model with a known answer.
 
-use crate::Error;
+use crate::{Error, Rig};
 use frfit::c64;
 use frfit::dof::{Axis, DofName};
 use frfit::material::Law;
@@ -29,12 +29,15 @@ pub struct Model {
 }
 
 impl Model {
+    /// What is driven and measured.
+    pub fn rig(&self) -> Rig<'_> {
+        let Self { stiffness, experiment, dofs, band_hz, step_hz, .. } = self;
+        Rig { stiffness, experiment, dofs, band_hz: *band_hz, step_hz: *step_hz }
+    }
+
     /// The frequencies first + k · step up to the last.
     pub fn frequency_hz(&self) -> Vec<f64> {
-        let [first, last] = self.band_hz;
-        // Half a step beyond the last, so that rounding decides nothing.
-        let steps = ((last - first) / self.step_hz + 0.5) as usize;
-        (0..=steps).map(|k| first + k as f64 * self.step_hz).collect()
+        self.rig().frequency_hz()
     }
 
     /// The nominal model at one frequency, factorised: what [`frfit::identify::identify_at`] takes.
@@ -55,24 +58,6 @@ impl Model {
         let mut x = system.load().to_vec();
         system.solve_nominal(&mut x)?;
         Ok(system.observe(&x))
-    }
-
-    /// Name of the dof of a sensor.
-    ///
-    /// # Panics
-    /// Where there is no such sensor.
-    pub fn measured_dof(&self, sensor: usize) -> DofName {
-        let Sensor { row, sign } = self.experiment.sensors[sensor];
-        DofName { reversed: sign < 0.0, ..self.dofs[row] }
-    }
-
-    /// Name of the dof that is driven; `None` where there are several.
-    pub fn driven_at(&self) -> Option<DofName> {
-        let mut driven = self.experiment.load.iter().enumerate().filter(|(_, force)| force.norm() > 0.0);
-        match (driven.next(), driven.next()) {
-            (Some((row, force)), None) => Some(DofName { reversed: force.re < 0.0, ..self.dofs[row] }),
-            _ => None,
-        }
     }
 
     fn system(&self, frequency_hz: f64, parameter: &Parameter) -> Result<FullModel<'_>, Error> {

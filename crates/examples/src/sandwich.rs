@@ -4,9 +4,9 @@ use crate::Error;
 use crate::model::{Model, names, nearest, real, term};
 use crate::rubber_bar;
 use frfit::material::Law;
-use frfit::model::{DynamicStiffness, Experiment, Parameter, Role};
+use frfit::model::{DynamicStiffness, Experiment, Parameter, Role, Sensor};
 use frfit_fem::brick::{Face, Layer};
-use frfit_fem::{Brick, Direction};
+use frfit_fem::{Assembled, Brick, Direction};
 
 /// Length, width, thickness of a skin and of the core, in m.
 const LENGTH: f64 = 0.24;
@@ -34,6 +34,11 @@ const DELTA: f64 = 0.5;
 /// # Errors
 /// [`Error::Mesh`] for no element in a direction or too many.
 pub fn sandwich(nx: usize, ny: usize, core: usize) -> Result<Model, Error> {
+    model(&mesh(nx, ny, core)?)
+}
+
+/// The bricks: materials are skins and core.
+pub(crate) fn mesh(nx: usize, ny: usize, core: usize) -> Result<Assembled, Error> {
     let skin = Layer { thickness: SKIN, material: 0, ..Layer::default() };
     let rubber = Layer { thickness: CORE, elements: core, poisson: CORE_POISSON, material: 1 };
     let beam = Brick {
@@ -43,10 +48,17 @@ pub fn sandwich(nx: usize, ny: usize, core: usize) -> Result<Model, Error> {
         layers: vec![skin, rubber, skin],
         clamped: vec![Face::XMin],
         ..Brick::default()
-    }
-    .assemble()?;
-    let top = 2.0 * SKIN + CORE;
-    let at = |x: f64, y: f64| nearest(&beam, [x * LENGTH, y * WIDTH, top], Direction::Z);
+    };
+    Ok(beam.assemble()?)
+}
+
+/// Upwards on the upper skin, at parts of length and width.
+pub(crate) fn upwards(beam: &Assembled, x: f64, y: f64) -> Sensor {
+    nearest(beam, [x * LENGTH, y * WIDTH, 2.0 * SKIN + CORE], Direction::Z)
+}
+
+pub(crate) fn model(beam: &Assembled) -> Result<Model, Error> {
+    let at = |x: f64, y: f64| upwards(beam, x, y);
     let truth = rubber_bar::POLYBUTADIENE;
     let stiffness = DynamicStiffness::new(vec![
         term("skins", Role::Stiffness, &beam.stiffness[0], Law::complex_modulus(STORAGE, LOSS_FACTOR)),
@@ -61,6 +73,6 @@ pub fn sandwich(nx: usize, ny: usize, core: usize) -> Result<Model, Error> {
         truth,
         band_hz: [20.0, 1000.0],
         step_hz: 10.0,
-        dofs: names(&beam),
+        dofs: names(beam),
     })
 }

@@ -255,6 +255,6 @@ fn meshes_of_any_size_are_driven_and_measured_at_the_same_points() {
     let rows = |experiment: &Experiment| experiment.sensors.iter().map(|s| s.row).collect::<Vec<_>>();
     assert_eq!(rows(&rubber_bar(8).unwrap().experiment), [6]);
     assert_eq!(rows(&rubber_bar_end(8).unwrap().experiment), [8, 4]);
-    assert_eq!(rubber_bar_end(8).unwrap().driven_at().unwrap().to_string(), "1+X");
-    assert_eq!(rubber_bar(8).unwrap().driven_at(), None);
+    assert_eq!(rubber_bar_end(8).unwrap().rig().driven_at().unwrap().to_string(), "1+X");
+    assert_eq!(rubber_bar(8).unwrap().rig().driven_at(), None);
 }

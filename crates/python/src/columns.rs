@@ -8,7 +8,8 @@ use numpy::{Complex64, Element, IntoPyArray, PyArray1, PyArray2, PyArrayMethods}
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 
-const NOTHING: c64 = c64::new(f64::NAN, f64::NAN);
+/// No number.
+pub(crate) const NOTHING: c64 = c64::new(f64::NAN, f64::NAN);
 
 /// Rows of equal length as an array of two dimensions.
 pub(crate) fn table<T: Element + Clone>(

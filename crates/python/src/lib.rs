@@ -8,8 +8,10 @@ mod identify;
 mod law;
 mod matrix;
 mod model;
+mod report;
 mod respond;
 mod series;
+mod several;
 mod signal;
 mod uff;
 
@@ -27,6 +29,7 @@ fn _frfit(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(matrix::read_matrix, module)?)?;
     module.add_function(wrap_pyfunction!(identify::identify, module)?)?;
     module.add_function(wrap_pyfunction!(case::run_case, module)?)?;
+    module.add_function(wrap_pyfunction!(report::report, module)?)?;
     module.add_function(wrap_pyfunction!(respond::respond, module)?)?;
     module.add_function(wrap_pyfunction!(series::series, module)?)?;
     module.add_function(wrap_pyfunction!(signal::frf, module)?)?;

@@ -1,7 +1,9 @@
 //! What the plots and the table show, as JSON: numbers rounded to what can be seen, fewer of them where there are many.
 
+mod several;
+
 use crate::number::rounded;
-use crate::results::{COLUMNS, Candidates, ErrorMap, Results, Sensor, Verdict as Kind};
+use crate::results::{Candidates, ErrorMap, Results, Sensor, Verdict as Kind};
 use crate::thin::{every, rows};
 use crate::verdict::{Verdict, label};
 use frfit::c64;
@@ -53,29 +55,23 @@ pub(crate) fn data(results: &Results, verdict: &Verdict) -> Data {
     }
     let pick =
         |values: &[Option<f64>]| table.iter().map(|&row| rounded(values[row], DIGITS)).collect::<Vec<_>>();
-    let columns: serde_json::Map<String, Value> = COLUMNS
-        .iter()
+    let columns: serde_json::Map<String, Value> = band
+        .names()
         .filter(|name| band.has(name) && !(verdict.names.real && name.starts_with("loss_factor")))
-        .map(|&name| (name.to_owned(), json!(pick(band.column(name)))))
+        .map(|name| (name.to_owned(), json!(pick(band.column(name)))))
         .collect();
-    let factor = |values: &[Option<c64>]| match values.iter().any(Option::is_some) {
-        true => json!({
-            "storage": pick(&values.iter().map(|e| Some(e.as_ref()?.re)).collect::<Vec<_>>()),
-            "loss_factor": pick(&values.iter().map(|e| Some(frfit::material::loss_factor((*e)?))).collect::<Vec<_>>()),
-        }),
-        false => Value::Null,
-    };
+    let factor = |values: &[Option<c64>]| modulus(values, &table);
     // Positions in the table.
     let drawn: Vec<usize> = drawn.iter().filter_map(|row| table.binary_search(row).ok()).collect();
     let sensors = sensors(results, &mut notes);
-    let json = json!({
+    let mut json = json!({
         "names": {
             "storage": verdict.names.storage, "unit": verdict.names.unit, "real": verdict.names.real,
             "matrix": results.summary.names(),
         },
         "method": results.summary.word("/identify/method"),
         "varies": results.summary.word("/identify/varies"),
-        "statuses": Status::ALL.map(|status| json!({"name": status.name(), "label": label(status)})),
+        "statuses": Status::ALL.map(|status| json!({"name": status.name(), "label": label(status, verdict.own)})),
         "frequency_hz": table.iter().map(|&row| rounded(Some(band.frequency_hz[row]), FREQUENCY_DIGITS)).collect::<Vec<_>>(),
         "status": table.iter().map(|&row| band.class(row)).collect::<Vec<_>>(),
         "columns": columns,
@@ -92,18 +88,40 @@ pub(crate) fn data(results: &Results, verdict: &Verdict) -> Data {
         "candidates": candidates(&results.candidates, &mut notes),
         "error_map": results.error_map.as_ref().map(error_map),
     });
+    if let Some(several) = &results.several {
+        json["unknowns"] = several::unknowns(several, &table).into();
+        json["together"] = several::together(results);
+    }
     Data { json, notes }
+}
+
+/// Storage modulus and loss factor at some rows; null where no row has any.
+fn modulus(values: &[Option<c64>], rows: &[usize]) -> Value {
+    let pick = |part: &dyn Fn(c64) -> f64| -> Vec<Value> {
+        rows.iter().map(|&row| rounded(values[row].map(part), DIGITS)).collect()
+    };
+    match values.iter().any(Option::is_some) {
+        true => json!({"storage": pick(&|e| e.re), "loss_factor": pick(&frfit::material::loss_factor)}),
+        false => Value::Null,
+    }
 }
 
 /// Those of some rows of the band that show modulus, errors and every status.
 fn thinned(results: &Results, among: &[usize], most: usize) -> Vec<usize> {
     let band = &results.band;
-    let column = |name: &'static str| move |k: usize| band.at(name, among[k]);
-    let (storage, loss) = (column("storage"), column("loss_factor"));
-    let (error, radius) = (column("error"), column("spectral_radius"));
-    let curves: [&dyn Fn(usize) -> Option<f64>; 4] = [&storage, &loss, &error, &radius];
+    // Errors of values are nowhere an extreme that a reader looks for.
+    let shown = |name: &&str| ["error", "spectral_radius"].contains(name) || is_value(name);
+    let columns = band.names().filter(shown).map(|name| band.column(name));
+    let curves: Vec<_> = columns.map(|column| move |k: usize| column[among[k]]).collect();
+    let curves: Vec<&dyn Fn(usize) -> Option<f64>> = curves.iter().map(|curve| curve as _).collect();
     let kept = rows(among.len(), most, &curves, Status::ALL.len(), &|k| band.class(among[k]));
     kept.into_iter().map(|k| among[k]).collect()
+}
+
+/// Whether a column is a value that was identified: `storage`, or `core.storage` of several unknowns.
+fn is_value(name: &str) -> bool {
+    let part = name.rsplit('.').next().unwrap_or(name);
+    ["storage", "loss_factor", "value"].contains(&part)
 }
 
 fn sensors(results: &Results, notes: &mut Vec<String>) -> Vec<Value> {

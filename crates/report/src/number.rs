@@ -61,6 +61,16 @@ fn prefix(value: f64) -> (f64, &'static str) {
 
 /// A value in a unit, with two standard deviations where they are known: `5.971 ± 0.012 MPa`. A unit takes prefixes, no unit takes none.
 pub(crate) fn with_bar(value: f64, std: Option<f64>, unit: &str) -> String {
+    // Without a prefix long numbers take a power of ten, one for value and bar.
+    let exponent = value.abs().log10().floor();
+    if let (true, Some(std)) = (unit.is_empty() && value != 0.0 && !(-4.0..7.0).contains(&exponent), std)
+        && std > 0.0
+        && std.is_finite()
+    {
+        let size = 10.0_f64.powf(exponent);
+        let power = superscript(&exponent.to_string());
+        return format!("({})·10{power}", with_bar(value / size, Some(std / size), ""));
+    }
     let (size, prefix) = if unit.is_empty() { (1.0, "") } else { prefix(value) };
     let value = value / size;
     let space = if unit.is_empty() { "" } else { "\u{a0}" };
@@ -89,6 +99,8 @@ mod tests {
         assert_eq!(with_bar(0.31234, Some(0.001), ""), "0.3123 ± 0.0020");
         assert_eq!(with_bar(1.447604149, Some(1e-9), ""), "1.447604 ± 2·10⁻⁹");
         assert_eq!(with_bar(12.0, Some(30.0), ""), "12 ± 60");
+        assert_eq!(with_bar(6.8999417e10, Some(9.4e5), ""), "(6.89994 ± 0.00019)·10¹⁰");
+        assert_eq!(with_bar(-3.6e-5, Some(1e-7), ""), "(−3.600 ± 0.020)·10⁻⁵");
         assert_eq!(significant(1.0851997e-7, 3), "1.09·10⁻⁷");
         assert_eq!(significant(-0.25, 3), "−0.25");
         assert_eq!(significant(1e10, 3), "1·10¹⁰");

@@ -1,5 +1,7 @@
 //! What the results say, in words: can the answer be used, how sure is it, and why not elsewhere.
 
+mod several;
+
 use crate::number::{hertz, percent, significant, with_bar};
 use crate::results::{Band, Results, Sensor};
 use frfit::c64;
@@ -36,6 +38,8 @@ pub(crate) struct Tile {
 pub(crate) struct Share {
     pub(crate) status: Status,
     pub(crate) count: usize,
+    /// The status in a word or two.
+    pub(crate) label: &'static str,
     pub(crate) words: String,
 }
 
@@ -49,6 +53,8 @@ pub(crate) struct Verdict {
     /// What a reader has to know before the numbers are used.
     pub(crate) cautions: Vec<String>,
     pub(crate) names: Names,
+    /// Whether a frequency has values of its own; else it is explained by those that hold for the band, or not.
+    pub(crate) own: bool,
     /// Frequency, value with bar, loss factor with bar, nominal value: at the lowest, the middle and the highest trusted frequency.
     pub(crate) rows: Vec<[String; 4]>,
     /// ‖x − u‖/‖u‖ of the nominal model over the sensors that count, by frequency.
@@ -88,9 +94,12 @@ impl Names {
 
 impl Verdict {
     pub(crate) fn of(results: &Results) -> Self {
+        if let Some(several) = &results.several {
+            return several::verdict(results, several);
+        }
         let names = Names::of(results);
         let nominal_error = nominal_error(results);
-        let shares = shares(&results.band);
+        let shares = shares(&results.band, true);
         let (level, headline) = level(results, &names);
         Self {
             level,
@@ -100,6 +109,7 @@ impl Verdict {
             cautions: cautions(results),
             rows: rows(results, &names),
             names,
+            own: true,
             nominal_error,
         }
     }
@@ -162,7 +172,7 @@ fn contradicting(results: &Results) -> bool {
     results.summary.array("/sensors").iter().any(|sensor| says(sensor) == Some(true))
 }
 
-fn shares(band: &Band) -> Vec<Share> {
+fn shares(band: &Band, own: bool) -> Vec<Share> {
     let there = Status::ALL.into_iter().filter(|&status| band.count(status) > 0);
     there
         .map(|status| {
@@ -170,15 +180,17 @@ fn shares(band: &Band) -> Vec<Share> {
             Share {
                 status,
                 count: band.count(status),
-                words: format!("{} {}", meaning(status), where_(&bands)),
+                label: label(status, own),
+                words: format!("{} {}", meaning(status, own), where_(&bands)),
             }
         })
         .collect()
 }
 
-/// A status in words.
-pub(crate) fn meaning(status: Status) -> &'static str {
+/// A status in words; `own` as in [`Verdict::own`].
+fn meaning(status: Status, own: bool) -> &'static str {
     match status {
+        Status::Ok if !own => "the values that hold for the band explain all sensors there:",
         Status::Ok => "one answer, and nothing known speaks against it:",
         Status::Ambiguous => {
             "several values explain the measurement; the likeliest is shown, the others are among the candidates:"
@@ -206,9 +218,10 @@ fn why_not(status: Status) -> &'static str {
     }
 }
 
-/// A status as a label.
-pub(crate) fn label(status: Status) -> &'static str {
+/// A status as a label; `own` as in [`Verdict::own`].
+pub(crate) fn label(status: Status, own: bool) -> &'static str {
     match status {
+        Status::Ok if !own => "explained",
         Status::Ok => "trusted",
         Status::Ambiguous => "ambiguous",
         Status::Diverged => "diverged",
@@ -268,30 +281,45 @@ fn cautions(results: &Results) -> Vec<String> {
             });
         }
     }
-    match summary.word("/fit/verdict") {
-        "not explained" => say(
-            "What is left between model and measurement is no noise. Look at mesh, boundary conditions, sensors and units (frfit check) before any number is used."
-                .into(),
-        ),
-        "nearly explained" => {
-            let times = summary.number("/fit/chi2_per_freedom").map_or(1.0, f64::sqrt);
-            say(format!("The misfit is {} times the given noise: error bars may be too short by that.", significant(times, 3)));
-        }
-        "explained" => {}
-        _ if results.sensors.len() == 1 => say(
-            "One sensor alone is reproduced by every solution: a response that matches proves little. A second sensor would test the answer.".into(),
-        ),
-        _ => say(format!("Whether noise is all that is left was not tested: {}.", untested(results))),
-    }
+    told.extend(doubt_of_fit(results));
     if summary.word("/identify/selection") == "smallest" {
-        say("Of several solutions the one with the smallest correction was taken (selection = \"smallest\", the rule of the paper). It can be the wrong one, has no error bars, and selection = \"joint\" tells more.".into());
+        told.push("Of several solutions the one with the smallest correction was taken (selection = \"smallest\", the rule of the paper). It can be the wrong one, has no error bars, and selection = \"joint\" tells more.".into());
     }
     told
 }
 
+/// What is to be said where noise is not all that is left, or nothing tells whether it is.
+fn doubt_of_fit(results: &Results) -> Option<String> {
+    let summary = &results.summary;
+    Some(match summary.word("/fit/verdict") {
+        "not explained" => {
+            "What is left between model and measurement is no noise. Look at mesh, boundary conditions, sensors and units (frfit check) before any number is used."
+                .into()
+        }
+        "nearly explained" => {
+            let times = significant(summary.number("/fit/chi2_per_freedom").map_or(1.0, f64::sqrt), 3);
+            format!("The misfit is {times} times the given noise: error bars may be too short by that.")
+        }
+        "explained" => return None,
+        // What holds for the band has other frequencies to agree with.
+        _ if results.sensors.len() == 1 && results.several.is_none() => {
+            "One sensor alone is reproduced by every solution: a response that matches proves little. A second sensor would test the answer."
+                .into()
+        }
+        _ => format!("Whether noise is all that is left was not tested: {}.", untested(results)),
+    })
+}
+
+/// What an error bar says in words.
+fn bars(value: f64, std: Option<f64>) -> String {
+    match std {
+        Some(std) => format!("± {} (two standard deviations: 95 of 100)", percent(2.0 * std / value.abs())),
+        None => "no error bars".into(),
+    }
+}
+
 fn tiles(results: &Results, names: &Names, nominal_error: &[Option<f64>]) -> Vec<Tile> {
     let (band, summary) = (&results.band, &results.summary);
-    let (asked, ok) = trusted(band);
     let mut tiles = Vec::new();
     let rows: Vec<usize> = band.rows(Status::Ok).filter(|&row| band.at("storage", row).is_some()).collect();
     let ends = |name: &str, unit: &str| {
@@ -304,10 +332,6 @@ fn tiles(results: &Results, names: &Names, nominal_error: &[Option<f64>]) -> Vec
             at(last)?,
             hertz(band.frequency_hz[last])
         ))
-    };
-    let bars = |value: f64, std: Option<f64>| match std {
-        Some(std) => format!("± {} (two standard deviations: 95 of 100)", percent(2.0 * std / value.abs())),
-        None => "no error bars".into(),
     };
     if let Some(&middle) = rows.get(rows.len() / 2) {
         let at = hertz(band.frequency_hz[middle]);
@@ -326,8 +350,29 @@ fn tiles(results: &Results, names: &Names, nominal_error: &[Option<f64>]) -> Vec
             });
         }
     }
+    tiles.extend(shared_tiles(results, &rows, nominal_error, true));
+    if let (Some(median), Some(most)) =
+        (summary.number("/truth/deviation/median_ok"), summary.number("/truth/deviation/max_ok"))
+    {
+        tiles.push(Tile {
+            label: "Known answer".into(),
+            value: format!("{} off", percent(median)),
+            detail: format!(
+                "median where trusted, at most {}: this case was made with a known value",
+                percent(most)
+            ),
+        });
+    }
+    tiles
+}
+
+/// How much of the band is trusted, how well the model fits, and whether the sensors agree; `rows` are those with an answer, `own` as in [`Verdict::own`].
+fn shared_tiles(results: &Results, rows: &[usize], nominal_error: &[Option<f64>], own: bool) -> Vec<Tile> {
+    let (band, summary) = (&results.band, &results.summary);
+    let (asked, ok) = trusted(band);
+    let mut tiles = Vec::new();
     tiles.push(Tile {
-        label: "Frequencies that can be trusted".into(),
+        label: format!("Frequencies that {}", if own { "can be trusted" } else { "are explained" }),
         value: percent(ok as f64 / asked.max(1) as f64),
         detail: format!(
             "{ok} of {asked} between {} and {}",
@@ -376,18 +421,6 @@ fn tiles(results: &Results, names: &Names, nominal_error: &[Option<f64>]) -> Vec
             detail: format!("{}; noise {}", untested(results), noise(results)),
         },
     });
-    if let (Some(median), Some(most)) =
-        (summary.number("/truth/deviation/median_ok"), summary.number("/truth/deviation/max_ok"))
-    {
-        tiles.push(Tile {
-            label: "Known answer".into(),
-            value: format!("{} off", percent(median)),
-            detail: format!(
-                "median where trusted, at most {}: this case was made with a known value",
-                percent(most)
-            ),
-        });
-    }
     tiles
 }
 

@@ -10,9 +10,12 @@ let cursorWaits = false;
 function cursorText() {
   const at = (name) => column(name)?.[cursorRow] ?? null;
   const parts = [`${digits(data.frequency_hz[cursorRow], 7)} Hz`, statusOf(cursorRow).label];
-  if (at("storage") !== null) {
-    parts.push(`${names.real ? "value" : "E′"} ${withBar(at("storage"), at("storage_std"))}`);
-    if (!names.real) parts.push(`η ${digits(at("loss_factor"))}${at("loss_factor_std") === null ? "" : ` ± ${digits(2 * at("loss_factor_std"), 2)}`}`);
+  for (const one of unknowns) {
+    const of = (part) => partOf(one, part)?.[cursorRow] ?? null;
+    if (of("storage") === null) continue;
+    const called = one.label && `${one.label} `;
+    parts.push(`${called}${one.real ? "value" : "E′"} ${withBar(of("storage"), of("storage_std"), one.unit)}`);
+    if (!one.real) parts.push(`${called}η ${digits(of("loss_factor"))}${of("loss_factor_std") === null ? "" : ` ± ${digits(2 * of("loss_factor_std"), 2)}`}`);
   }
   if (at("error") !== null) parts.push(`error ${digits(100 * at("error"), 3)} %`);
   return parts.join(" · ");

@@ -23,19 +23,20 @@ function digits(value, count = 5) {
   return String(Number(value.toPrecision(count)));
 }
 
-/** A value in the unit of the factor, with a prefix. */
-function inUnit(value, count = 5) {
+/** A value in a unit, with a prefix. */
+function inUnit(value, count = 5, unit = names.unit) {
   if (value === null || value === undefined) return "–";
-  if (!names.unit) return digits(value, count);
+  if (!unit) return digits(value, count);
   const size = Math.abs(value);
   const [by, prefix] = [[1e12, "T"], [1e9, "G"], [1e6, "M"], [1e3, "k"]].find(([by]) => size >= by) ?? [1, ""];
-  return `${digits(value / by, count)} ${prefix}${names.unit}`;
+  return `${digits(value / by, count)} ${prefix}${unit}`;
 }
 
 /** The same with two standard deviations, in one unit. */
-function withBar(value, std) {
-  const [shown, prefix] = inUnit(value).split(" ");
-  if (std === null || value === 0) return inUnit(value);
+function withBar(value, std, unit = names.unit) {
+  if (std === null || value === 0) return inUnit(value, 5, unit);
+  if (!unit) return `${digits(value)} ± ${digits(2 * std, 2)}`;
+  const [shown, prefix] = inUnit(value, 5, unit).split(" ");
   return `${shown} ± ${digits((2 * std * Number(shown)) / value, 2)}${prefix ? ` ${prefix}` : ""}`;
 }
 

@@ -3,7 +3,10 @@
 const PAGE = 25;
 const HEADS = [
   ["frequency_hz", "Frequency (Hz)"], ["status", "Status"],
-  ["storage", names.real ? "Value" : `E′${names.unit && ` (${names.unit})`}`], ["storage_std", names.real ? "std" : "std of E′"], ["loss_factor", "η"], ["loss_factor_std", "std of η"],
+  ...unknowns.flatMap(({ columns, real, unit, label }) => {
+    const of = label && `${label}: `;
+    return [[columns.storage, of + (real ? "value" : `E′${unit && ` (${unit})`}`)], [columns.storage_std, of + (real ? "std" : "std of E′")], [columns.loss_factor, `${of}η`], [columns.loss_factor_std, `${of}std of η`]];
+  }),
   ["error", "Error"], ["chi2", "χ²"], ["candidates", "Candidates"], ["spectral_radius", "ρ"], ["pole_distance", "Pole distance"], ["series_order", "Order needed"], ["certificate", "Certificate"],
 ].filter(([name]) => name === "frequency_hz" || name === "status" || column(name));
 const tableElement = document.getElementById("rows");

@@ -8,8 +8,8 @@ use crate::memory::{MemoryError, check_full, check_identify, check_subspace};
 use crate::output::{
     File, WriteError, candidates_csv, error_map_csv, hit_reasons, identified_csv, laws_json, measured_csv,
     measured_summary, measured_text, measured_uff, reference_csv, respond_csv, respond_uff, response_csv,
-    several_csv, several_json, several_response_csv, several_text, several_updated_uff, summary_json,
-    updated_uff, write_all,
+    several_csv, several_json, several_reference_csv, several_response_csv, several_text,
+    several_updated_uff, summary_json, updated_uff, write_all,
 };
 use crate::records::{ChannelOptions, Records, read_records};
 use crate::report::report_of;
@@ -208,6 +208,36 @@ pub struct SeveralJob {
     pub text: String,
 }
 
+/// Several unknowns that were identified, and not written.
+#[derive(Debug)]
+pub struct ComputedSeveral {
+    /// The case.
+    pub case: Case,
+    /// What came out.
+    pub run: SeveralRun,
+    /// How long the files took to read.
+    pub seconds_load: f64,
+}
+
+/// [`several_case`] without its files: the numbers are the same.
+///
+/// # Errors
+/// As [`several_case`], but for what is written.
+pub fn compute_several_case(
+    case_file: &Path,
+    overrides: &Overrides,
+    memory_bytes: Option<u64>,
+    progress: Progress<'_>,
+) -> Result<ComputedSeveral, JobError> {
+    let start = Instant::now();
+    let case = load(case_file, overrides, Purpose::Several)?;
+    let seconds_load = start.elapsed().as_secs_f64();
+    let wanted = case.several.as_ref().expect("a case loaded for several unknowns has some");
+    check_subspace(&case, memory_bytes)?;
+    let run = several(&case, wanted, progress)?;
+    Ok(ComputedSeveral { case, run, seconds_load })
+}
+
 /// As [`identify_case`], of a case that asks for several unknowns, or for one that does not vary ([`crate::load::asks_for_several`]).
 ///
 /// # Errors
@@ -219,21 +249,27 @@ pub fn several_case(
     out: &Path,
     progress: Progress<'_>,
 ) -> Result<SeveralJob, JobError> {
-    let start = Instant::now();
-    let case = load(case_file, overrides, Purpose::Several)?;
-    let seconds_load = start.elapsed().as_secs_f64();
+    let ComputedSeveral { case, run, seconds_load } =
+        compute_several_case(case_file, overrides, memory_bytes, progress)?;
     let wanted = case.several.as_ref().expect("a case loaded for several unknowns has some");
-    check_subspace(&case, memory_bytes)?;
-    let run = several(&case, wanted, progress)?;
-    let summary = several_json(&case, wanted, &run, seconds_load);
+    let mut summary = several_json(&case, wanted, &run, seconds_load);
     let mut files = several_figures(&case, wanted, &run)?;
-    files.push(File::new("identified.csv", several_csv(wanted, &run)));
-    files.push(File::new("response.csv", several_response_csv(&case, wanted, &run)));
+    let tables = [
+        File::new("identified.csv", several_csv(wanted, &run)),
+        File::new("reference.csv", several_reference_csv(wanted, &run)),
+        File::new("response.csv", several_response_csv(&case, wanted, &run)),
+    ];
+    // Beside them a folder may have tables of other runs.
+    summary["tables"] = tables.iter().map(|table| table.path.display().to_string()).collect();
+    files.extend(tables);
     let uff = several_updated_uff(&case, &run)
         .map_err(|error| InputError::in_file(&out.join("updated.uff"), error))?;
     files.push(File::new("updated.uff", uff));
     files.push(File::new("summary.json", format!("{summary:#}\n")));
+    let page = report_of(&files, out);
+    files.extend(page.as_ref().ok().cloned());
     write_all(out, &files)?;
+    page.map_err(JobError::Report)?;
     let text = several_text(wanted, &run);
     Ok(SeveralJob { case, run, summary, text })
 }

@@ -23,10 +23,15 @@ pub(crate) struct Frf<'a> {
     pub(crate) values: Vec<c64>,
 }
 
-/// Columns frequency_hz, re, im.
-pub(crate) fn csv_frf(frf: &Frf<'_>) -> Result<String, Error> {
-    let row = |(f, value): (&f64, &c64)| [*f, value.re, value.im].map(Cell::from);
-    Ok(csv::write(&["frequency_hz", "re", "im"], frf.frequency_hz.iter().zip(&frf.values).map(row))?)
+/// Columns frequency_hz, re, im, and std where it is known.
+pub(crate) fn csv_frf(frf: &Frf<'_>, std: Option<&[f64]>) -> Result<String, Error> {
+    let columns = ["frequency_hz", "re", "im", "std"];
+    let row = |(k, (f, value)): (usize, (&f64, &c64))| {
+        let std = std.map(|std| std[k]);
+        [*f, value.re, value.im].into_iter().chain(std).map(Cell::from).collect::<Vec<_>>()
+    };
+    let rows = frf.frequency_hz.iter().zip(&frf.values).enumerate().map(row);
+    Ok(csv::write(&columns[..if std.is_some() { 4 } else { 3 }], rows)?)
 }
 
 /// The units of the file, then one function a sensor.

@@ -27,9 +27,9 @@ fn coordinates(term: &Term) -> CoordinateMatrix {
 
 fn title(term: &Term) -> String {
     let of = match term.role {
-        Role::Stiffness => "stiffness for a modulus of 1 Pa",
-        Role::Viscous => "viscous damping for a factor of 1",
-        Role::Mass => "mass for a density of 1 kg/m^3",
+        Role::Stiffness => "stiffness",
+        Role::Viscous => "viscous damping",
+        Role::Mass => "mass",
     };
-    format!("{}: {of}", term.name)
+    format!("{}: {of} for a factor of 1 in SI units", term.name)
 }

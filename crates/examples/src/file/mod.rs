@@ -6,7 +6,7 @@ mod table;
 
 pub(crate) use frf::{Frf, csv_frf, uff_frfs};
 pub use matrix::matrix;
-pub(crate) use table::{dofs, force, truth};
+pub(crate) use table::{dofs, force, several_truth, truth};
 
 /// A file of an example.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -1,6 +1,6 @@
 //! Tables: the load, the names of rows, the truth.
 
-use crate::{Error, Model};
+use crate::{Error, Model, SeveralModel};
 use frfit::c64;
 use frfit::dof::DofName;
 use frfit::material::loss_factor;
@@ -36,4 +36,26 @@ pub(crate) fn truth(model: &Model, frequency_hz: &[f64]) -> Result<String, Error
     }
     let columns = if is_modulus { ["storage", "loss_factor"] } else { ["factor_re", "factor_im"] };
     Ok(csv::write(&["frequency_hz", columns[0], columns[1]], rows)?)
+}
+
+/// The true unknowns over frequency, in columns with the names that `identified.csv` has: `<name>.storage` and `<name>.loss_factor`, `<name>.value` of a
+/// real one. What is constant is the same in every row.
+pub(crate) fn several_truth(model: &SeveralModel, frequency_hz: &[f64]) -> Result<String, Error> {
+    let mut columns = vec!["frequency_hz".to_owned()];
+    for one in &model.sought {
+        let parts: &[&str] = if one.real { &["value"] } else { &["storage", "loss_factor"] };
+        columns.extend(parts.iter().map(|part| format!("{}.{part}", one.name)));
+    }
+    let mut rows = Vec::with_capacity(frequency_hz.len());
+    for &f in frequency_hz {
+        let mut row = vec![f];
+        for (one, truth) in model.sought.iter().zip(&model.truth) {
+            let value = truth.at(f)?;
+            row.push(value.re);
+            row.extend((!one.real).then(|| loss_factor(value)));
+        }
+        rows.push(row.into_iter().map(Cell::from).collect::<Vec<_>>());
+    }
+    let columns: Vec<&str> = columns.iter().map(String::as_str).collect();
+    Ok(csv::write(&columns, rows)?)
 }

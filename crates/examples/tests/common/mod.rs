@@ -25,16 +25,23 @@ impl Folder {
         std::str::from_utf8(self.bytes("case.toml")).unwrap().parse().unwrap()
     }
 
+    /// The tables `[[identify]]`, or the one `[identify]`.
+    pub(crate) fn identify(&self) -> Vec<Table> {
+        match &self.case()["identify"] {
+            Value::Array(tables) => tables.iter().map(|table| table.as_table().unwrap().clone()).collect(),
+            one => vec![one.as_table().unwrap().clone()],
+        }
+    }
+
     /// The case's bounds, with everything else as the paper has it.
     pub(crate) fn paper(&self) -> Options {
         let Options { bounds, real, .. } = self.options();
         Options { bounds, real, ..Options::paper() }
     }
 
-    /// The case's options.
+    /// The case's options, of one unknown.
     pub(crate) fn options(&self) -> Options {
-        let case = self.case();
-        let identify = case["identify"].as_table().unwrap();
+        let identify = &self.identify()[0];
         let bound = |name| {
             let pair = identify["bounds"].get(name)?.as_array().unwrap();
             Some([0, 1].map(|k| pair[k].as_float().unwrap()))
@@ -55,13 +62,20 @@ impl Folder {
 
     /// Frequencies and receptances, [frequency][sensor], as the file holds them with its digits.
     pub(crate) fn measured(&self) -> (Vec<f64>, Vec<Vec<c64>>) {
-        if self.0.iter().any(|file| file.path == "frf.csv") {
-            let table = csv::read_frf(self.bytes("frf.csv")).unwrap();
+        if !self.0.iter().any(|file| file.path == "frf.uff") {
             let case = self.case();
-            let quantity: Quantity = case["measurement"][0]["quantity"].as_str().unwrap().parse().unwrap();
-            let receptance = |(&f, &u): (&f64, &c64)| vec![quantity.to_receptance(f, u)];
-            let measured = table.frequency_hz.iter().zip(&table.response).map(receptance).collect();
-            return (table.frequency_hz, measured);
+            let sensor = |entry: &Value| {
+                let quantity: Quantity = entry["quantity"].as_str().unwrap().parse().unwrap();
+                let table = csv::read_frf(self.bytes(entry["file"].as_str().unwrap())).unwrap();
+                let receptance = |(f, u): (&f64, &c64)| quantity.to_receptance(*f, *u);
+                let values: Vec<c64> =
+                    table.frequency_hz.iter().zip(&table.response).map(receptance).collect();
+                (table.frequency_hz, values)
+            };
+            let sensors: Vec<_> = case["measurement"].as_array().unwrap().iter().map(sensor).collect();
+            let frequency_hz = sensors[0].0.clone();
+            let at = |k| sensors.iter().map(|(_, values): &(_, Vec<c64>)| values[k]).collect();
+            return (frequency_hz.clone(), (0..frequency_hz.len()).map(at).collect());
         }
         let file = uff::File::new(self.bytes("frf.uff")).unwrap();
         let functions: Vec<_> = file.functions().map(|index| file.function(index).unwrap()).collect();

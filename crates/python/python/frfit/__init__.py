@@ -31,11 +31,14 @@ from ._frfit import Law, Series, __version__
 from ._identify import Measurement, identify, run_case
 from ._matrix import read_matrix
 from ._model import Model, Term, respond, series
+from ._report import Report
 from ._result import Finding, Identification
+from ._several import Direction, Number, SeveralIdentification, Unknown
 from ._signal import Hit, MeasuredFrf, Recording, frf
 from ._uff import Uff, UffAxis, UffDof, UffFunction, UffSummary, read_uff, write_uff
 
 __all__ = [
+    "Direction",
     "Finding",
     "FrfitError",
     "Hit",
@@ -49,10 +52,13 @@ __all__ = [
     "Model",
     "ModelError",
     "ModelMemoryError",
+    "Number",
     "OptionsError",
     "OutsideTableError",
     "Recording",
+    "Report",
     "Series",
+    "SeveralIdentification",
     "SignalError",
     "SolveError",
     "TableError",
@@ -62,6 +68,7 @@ __all__ = [
     "UffDof",
     "UffFunction",
     "UffSummary",
+    "Unknown",
     "WriteError",
     "__version__",
     "frf",

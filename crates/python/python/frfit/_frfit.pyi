@@ -17,6 +17,7 @@ __all__ = [
     "identify",
     "read_matrix",
     "readable",
+    "report",
     "respond",
     "run_case",
     "series",
@@ -97,6 +98,7 @@ def run_case(
     memory_bytes: int | None,
     progress: _Progress,
 ) -> dict[str, Any]: ...
+def report(folder: _Path) -> str: ...
 def respond(
     model: Model,
     load: _Complex,

@@ -14,6 +14,7 @@ from . import _frfit
 from ._arrays import complex_, load_vector, real
 from ._model import Model, Progress
 from ._result import Identification
+from ._several import SeveralIdentification
 
 
 @dataclass(frozen=True, eq=False)
@@ -172,8 +173,11 @@ def run_case(
     space: str | None = None,
     memory_bytes: int | None = None,
     progress: Progress | None = None,
-) -> Identification:
+) -> Identification | SeveralIdentification:
     """What ``frfit identify CASE`` computes: the same numbers, bit for bit.
+
+    A case with ``[[identify]]``, or with one unknown that is constant or a dimension, gives a
+    :class:`SeveralIdentification`.
 
     With ``out`` the files of the command line are written there too, all of them or none. The other arguments stand in
     place of the case file's.
@@ -183,8 +187,7 @@ def run_case(
     InputError, OutsideTableError, ModelMemoryError, WriteError
         With the text of the command line.
     """
-    return Identification._of(
-        _frfit.run_case(path, out, method, order, band_hz, selection, space, memory_bytes, progress)
-    )
+    found = _frfit.run_case(path, out, method, order, band_hz, selection, space, memory_bytes, progress)
+    return SeveralIdentification._of(found) if "unknowns" in found else Identification._of(found)
 
 

@@ -1,6 +1,7 @@
 //! The page: one file, its style, its scripts and its data inside.
 
 mod plots;
+mod several;
 mod text;
 
 use crate::data::data;
@@ -12,7 +13,7 @@ const STYLE: &str = concat!(include_str!("../../web/page.css"), include_str!("..
 const PLOTLY: &str = include_str!("../../vendor/plotly-cartesian.min.js");
 
 /// In the order in which they need one another.
-const SCRIPTS: [&str; 13] = [
+const SCRIPTS: [&str; 14] = [
     include_str!("../../web/data.js"),
     include_str!("../../web/theme.js"),
     include_str!("../../web/download.js"),
@@ -22,6 +23,7 @@ const SCRIPTS: [&str; 13] = [
     include_str!("../../web/response.js"),
     include_str!("../../web/factor.js"),
     include_str!("../../web/trust.js"),
+    include_str!("../../web/together.js"),
     include_str!("../../web/plane.js"),
     include_str!("../../web/table.js"),
     include_str!("../../web/print.js"),
@@ -44,9 +46,12 @@ pub(crate) fn page(results: &Results, verdict: &Verdict) -> String {
         "<main>".to_owned(),
         text::verdict(results, verdict),
         plots::cursor(),
-        plots::sections(results, verdict),
+        match &results.several {
+            Some(several) => several::sections(results, several),
+            None => plots::sections(results, verdict),
+        },
         plots::table(&data.notes, verdict),
-        text::provenance(results),
+        text::provenance(results, verdict.own),
         "</main>".to_owned(),
     ]
     .concat();

@@ -2,8 +2,8 @@
 
 use crate::data::SENSORS;
 use crate::escape::escape;
-use crate::results::Results;
-use crate::verdict::{Verdict, label};
+use crate::results::{Band, Results};
+use crate::verdict::Verdict;
 use frfit::identify::Status;
 use std::fmt::Write;
 
@@ -16,7 +16,7 @@ pub(super) fn cursor() -> String {
 }
 
 /// A plot with its heading and how it is read; the scripts fill it.
-fn plot(id: &str, title: &str, reading: &str) -> String {
+pub(super) fn plot(id: &str, title: &str, reading: &str) -> String {
     format!(
         "<figure class=\"plot\" id=\"plot-{id}\"><figcaption><h3>{title}</h3><p>{reading}</p></figcaption>\
          <div class=\"tools screen\" role=\"toolbar\" aria-label=\"{title}\"></div><div class=\"drawing\"></div></figure>\n"
@@ -24,20 +24,25 @@ fn plot(id: &str, title: &str, reading: &str) -> String {
 }
 
 /// Why a plot is not there.
-fn absent(title: &str, why: &str) -> String {
+pub(super) fn absent(title: &str, why: &str) -> String {
     format!("<p class=\"absent\"><b>{title}</b>: not drawn, {why}</p>\n")
 }
 
 /// All plots, in the order in which they are read.
 pub(super) fn sections(results: &Results, verdict: &Verdict) -> String {
-    let mut html = String::new();
-    for (id, title, content) in [
+    write_sections(vec![
         ("response", "Response", response(results)),
         ("factor", "Identified value", factor(results, verdict)),
         ("choice", "Choice", choice(results)),
         ("trust", "Error and convergence", trust(results)),
         ("plane", "In the complex plane", plane(results, verdict)),
-    ] {
+    ])
+}
+
+/// Sections of (id, title, content).
+pub(super) fn write_sections(sections: Vec<(&str, &str, String)>) -> String {
+    let mut html = String::new();
+    for (id, title, content) in sections {
         let _ = write!(
             html,
             "<section id=\"{id}\" aria-labelledby=\"{id}-title\"><h2 id=\"{id}-title\">{title}</h2>\n{content}</section>\n"
@@ -46,7 +51,7 @@ pub(super) fn sections(results: &Results, verdict: &Verdict) -> String {
     html
 }
 
-fn response(results: &Results) -> String {
+pub(super) fn response(results: &Results) -> String {
     let mut html = String::new();
     if results.sensors.len() > 1 {
         html += "<p class=\"screen\"><label for=\"sensor\">Sensor </label><select id=\"sensor\">";
@@ -94,14 +99,9 @@ fn trust(results: &Results) -> String {
     let band = &results.band;
     let mut html = "<div class=\"pair\">".to_owned();
     let mut missing = String::new();
-    if band.has("error") {
-        html += &plot(
-            "error",
-            "Error of the response",
-            "Norm of the misfit over all sensors, relative to the measured response, with the nominal and the updated value. Small is necessary, but proves little: several values may match.",
-        );
-    } else {
-        missing += &absent("Error of the response", "for no frequency has an updated response.");
+    match error(band) {
+        (true, plot) => html += &plot,
+        (false, why) => missing += &why,
     }
     match &results.error_map {
         Some(_) => {
@@ -151,23 +151,38 @@ fn trust(results: &Results) -> String {
             "for only a joint selection on the band’s subspace asks for it.",
         );
     }
-    if band.has("certificate") {
-        let size = results
-            .summary
-            .number("/counts/subspace_size")
-            .map_or(String::new(), |size| format!(" It has {size} vectors."));
-        html += &plot(
-            "certificate",
-            "Certificate of the reduced model",
-            &format!(
-                "Estimated error of the band’s subspace at the sensors, relative to the measured response.{size}"
-            ),
-        );
-    } else {
-        html +=
-            &absent("Certificate of the reduced model", "for the full model answered at every frequency.");
-    }
+    html += &certificate(results);
     html + "</div>\n" + &missing
+}
+
+/// Error and certificate, which any identification may have.
+pub(super) fn trust_of_band(results: &Results) -> String {
+    error(&results.band).1 + &certificate(results)
+}
+
+/// The error of the response, or why it is not there.
+fn error(band: &Band) -> (bool, String) {
+    const TITLE: &str = "Error of the response";
+    match band.has("error") {
+        true => {
+            let reading = "Norm of the misfit over all sensors, relative to the measured response, with the nominal and the updated value. Small is necessary, but proves little: several values may match.";
+            (true, plot("error", TITLE, reading))
+        }
+        false => (false, absent(TITLE, "for no frequency has an updated response.")),
+    }
+}
+
+fn certificate(results: &Results) -> String {
+    const TITLE: &str = "Certificate of the reduced model";
+    if !results.band.has("certificate") {
+        return absent(TITLE, "for the full model answered at every frequency.");
+    }
+    let size = results.summary.number("/counts/subspace_size");
+    let size = size.map_or(String::new(), |size| format!(" It has {size} vectors."));
+    let reading = format!(
+        "Estimated error of the band’s subspace at the sensors, relative to the measured response.{size}"
+    );
+    plot("certificate", TITLE, &reading)
 }
 
 fn plane(results: &Results, verdict: &Verdict) -> String {
@@ -209,7 +224,7 @@ pub(super) fn table(notes: &[String], verdict: &Verdict) -> String {
         let _ = write!(
             html,
             "<label><input type=\"checkbox\" name=\"status\" value=\"{name}\" checked> <span class=\"dot {name}\"></span>{} ({count})</label>",
-            label(share.status)
+            share.label
         );
     }
     html += "</fieldset><fieldset><legend>Frequency in Hz</legend><label>from <input type=\"number\" id=\"from\" step=\"any\"></label> \

@@ -1,5 +1,6 @@
 //! What is read: head, verdict, and where everything comes from.
 
+use super::several;
 use crate::escape::escape;
 use crate::number::{hertz, significant};
 use crate::results::Results;
@@ -10,17 +11,23 @@ use std::fmt::Write;
 
 pub(super) fn header(title: &str, results: &Results) -> String {
     let summary = &results.summary;
-    let how = match summary.word("/identify/varies") {
-        "law" => "a law over the band",
-        "smooth" => "a smooth curve over the band",
-        _ => "a value at every frequency",
+    let how = match (&results.several, summary.word("/identify/varies")) {
+        (Some(several), _) => several::how(several),
+        (None, varies) => {
+            let how = match varies {
+                "law" => "a law over the band",
+                "smooth" => "a smooth curve over the band",
+                _ => "a value at every frequency",
+            };
+            format!("Factor of {}, {how}", summary.names())
+        }
     };
     format!(
         "<header class=\"page\"><div><p class=\"kicker\">Finite element model against measurement</p><h1>{}</h1>\
-         <p class=\"sub\">{}, {how}, {} sensor{}</p></div>\
+         <p class=\"sub\">{}, {} sensor{}</p></div>\
          <button type=\"button\" id=\"theme\" class=\"screen\" aria-live=\"polite\">Dark</button></header>\n",
         escape(title),
-        escape(&format!("Factor of {}", summary.names())),
+        escape(&how),
         results.sensors.len(),
         if results.sensors.len() == 1 { "" } else { "s" },
     )
@@ -57,8 +64,13 @@ pub(super) fn verdict(results: &Results, verdict: &Verdict) -> String {
         }
         html += "</ul>\n";
     }
-    html += &three_rows(verdict);
-    html += &laws(results);
+    match &results.several {
+        Some(several) => html += &several::constants(several),
+        None => {
+            html += &three_rows(verdict);
+            html += &laws(results);
+        }
+    }
     html + "</section>\n"
 }
 
@@ -94,9 +106,14 @@ fn strip(results: &Results, verdict: &Verdict) -> String {
         start = row;
     }
     let mut html = format!(
-        "<h3>Where the answer can be trusted</h3><figure class=\"strip\"><svg viewBox=\"0 0 1000 20\" preserveAspectRatio=\"none\" role=\"img\" \
+        "<h3>{}</h3><figure class=\"strip\"><svg viewBox=\"0 0 1000 20\" preserveAspectRatio=\"none\" role=\"img\" \
          aria-label=\"Status over frequency; the list below says the same in words\">{rects}</svg>\
          <figcaption><span>{}</span><span>{}</span></figcaption></figure><ul class=\"shares\">",
+        if verdict.own {
+            "Where the answer can be trusted"
+        } else {
+            "Where the values explain the measurements"
+        },
         hertz(first),
         hertz(last)
     );
@@ -106,7 +123,7 @@ fn strip(results: &Results, verdict: &Verdict) -> String {
             "<li><span class=\"dot {}\"></span><b>{} {}</b> – {}</li>",
             share.status.name(),
             share.count,
-            label(share.status),
+            share.label,
             escape(&share.words)
         );
     }
@@ -117,11 +134,14 @@ fn findings(results: &Results) -> String {
     let findings = results.summary.array("/findings");
     let checked = results.summary.0.get("findings").is_some_and(|found| !found.is_null());
     if findings.is_empty() {
-        let told = match checked {
-            true => {
+        let told = match (checked, results.several.is_some()) {
+            (_, true) => {
+                "The measurements were not compared with the model beforehand: frfit check looks at one unknown."
+            }
+            (true, _) => {
                 "The measurements were compared with the model first (sign, quantity, units, delay, position of sensors and load, mesh): nothing was found wrong."
             }
-            false => "The measurements were not looked at for mistakes (check = false).",
+            (false, _) => "The measurements were not looked at for mistakes (check = false).",
         };
         return format!("<p>{told}</p>\n");
     }
@@ -239,7 +259,7 @@ fn laws(results: &Results) -> String {
 }
 
 /// Files with checksums, options, work, version.
-pub(super) fn provenance(results: &Results) -> String {
+pub(super) fn provenance(results: &Results, own: bool) -> String {
     let summary = &results.summary;
     let mut html = "<section id=\"provenance\" aria-labelledby=\"provenance-title\"><h2 id=\"provenance-title\">Where this comes from</h2>\
                     <h3>Input files</h3><div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Input files\"><table class=\"plain files\">\
@@ -259,6 +279,7 @@ pub(super) fn provenance(results: &Results) -> String {
     for (title, pointer) in [
         ("Model", "/model"),
         ("Options", "/identify"),
+        ("Search", "/search"),
         ("Noise", "/noise"),
         ("Fit", "/fit"),
         ("Work", "/counts"),
@@ -272,8 +293,9 @@ pub(super) fn provenance(results: &Results) -> String {
         }
         html += "</dl></div>";
     }
-    let statuses =
-        Status::ALL.map(|status| format!("{} is <code>{}</code>", label(status), status.name())).join(", ");
+    let statuses = Status::ALL
+        .map(|status| format!("{} is <code>{}</code>", label(status, own), status.name()))
+        .join(", ");
     let _ = write!(
         html,
         "</div>\n<p>Made by frfit {} from the files beside this page. In them {statuses}. Plots are drawn by plotly.js (MIT licence, Plotly, Inc.), \

@@ -4,8 +4,8 @@ use super::columns::Columns;
 use frfit::identify::Status;
 use frfit_formats::FormatError;
 
-/// The columns of numbers beside the frequency that a page shows or offers.
-pub(crate) const COLUMNS: [&str; 14] = [
+/// The columns of numbers beside the frequency that a page of one unknown shows or offers.
+pub(super) const COLUMNS: [&str; 14] = [
     "storage",
     "storage_std",
     "loss_factor",
@@ -27,12 +27,12 @@ pub(crate) const COLUMNS: [&str; 14] = [
 pub(crate) struct Band {
     pub(crate) frequency_hz: Vec<f64>,
     pub(crate) status: Vec<Status>,
-    /// In the order of [`COLUMNS`].
-    numbers: Vec<Vec<Option<f64>>>,
+    /// Names and numbers of the columns that were asked for.
+    numbers: Vec<(String, Vec<Option<f64>>)>,
 }
 
 impl Band {
-    pub(crate) fn read(table: &Columns) -> Result<Self, FormatError> {
+    pub(crate) fn read(table: &Columns, columns: &[String]) -> Result<Self, FormatError> {
         let frequency_hz = table.all_numbers("frequency_hz")?;
         let at = table.column("frequency_hz")?;
         if frequency_hz.is_empty() {
@@ -46,13 +46,19 @@ impl Band {
         let known = Status::ALL.map(|status| (status.name(), status));
         let status =
             (0..table.rows()).map(|row| table.word(row, column, &known)).collect::<Result<_, _>>()?;
-        let numbers = COLUMNS.iter().map(|name| table.numbers(name)).collect::<Result<_, _>>()?;
+        let numbers = columns.iter().map(|name| Ok((name.clone(), table.numbers(name)?)));
+        let numbers = numbers.collect::<Result<_, FormatError>>()?;
         Ok(Self { frequency_hz, status, numbers })
     }
 
-    /// A column of [`COLUMNS`] by its name; empty for any other.
+    /// The columns that were asked for.
+    pub(crate) fn names(&self) -> impl Iterator<Item = &str> {
+        self.numbers.iter().map(|(name, _)| name.as_str())
+    }
+
+    /// A column by its name; empty where it was not asked for.
     pub(crate) fn column(&self, name: &str) -> &[Option<f64>] {
-        COLUMNS.iter().position(|column| *column == name).map_or(&[], |k| &self.numbers[k])
+        self.numbers.iter().find(|(column, _)| column == name).map_or(&[], |(_, numbers)| numbers)
     }
 
     /// A number of a row.

@@ -28,7 +28,7 @@ const WORDS: [(&str, Verdict); 9] = [
 ];
 
 /// One row a solution, by frequency.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(crate) struct Candidates {
     pub(crate) frequency_hz: Vec<f64>,
     /// `None` where it is infinite.

@@ -15,11 +15,18 @@ pub(crate) struct Reference {
 impl Reference {
     pub(crate) fn read(table: &Columns, frequency_hz: &[f64]) -> Result<Self, FormatError> {
         table.at_frequencies(frequency_hz)?;
-        let factor = |what: &str| -> Result<Vec<Option<c64>>, FormatError> {
-            let re = table.numbers(&format!("{what}_re"))?;
-            let im = table.numbers(&format!("{what}_im"))?;
-            Ok(re.into_iter().zip(im).map(|(re, im)| Some(c64::new(re?, im?))).collect())
-        };
-        Ok(Self { nominal: factor("nominal")?, truth: factor("true")? })
+        Ok(Self { nominal: factors(table, "nominal")?, truth: factors(table, "true")? })
     }
+
+    /// Nothing to compare with.
+    pub(crate) fn none(frequencies: usize) -> Self {
+        Self { nominal: vec![None; frequencies], truth: vec![None; frequencies] }
+    }
+}
+
+/// Columns `<what>_re` and `<what>_im`.
+pub(super) fn factors(table: &Columns, what: &str) -> Result<Vec<Option<c64>>, FormatError> {
+    let re = table.numbers(&format!("{what}_re"))?;
+    let im = table.numbers(&format!("{what}_im"))?;
+    Ok(re.into_iter().zip(im).map(|(re, im)| Some(c64::new(re?, im?))).collect())
 }

@@ -17,10 +17,17 @@ impl Summary {
         // What every page needs: the rest may be null or missing.
         summary.text("/title")?;
         summary.text("/frfit")?;
-        summary.text("/identify/method")?;
-        summary.text("/identify/selection")?;
-        summary.text("/identify/varies")?;
+        if !summary.is_several() {
+            summary.text("/identify/method")?;
+            summary.text("/identify/selection")?;
+            summary.text("/identify/varies")?;
+        }
         Ok(summary)
+    }
+
+    /// Whether several things were unknown, or one that does not vary.
+    pub(crate) fn is_several(&self) -> bool {
+        self.0.get("unknowns").is_some_and(Value::is_array)
     }
 
     /// Text at a JSON pointer.
@@ -58,8 +65,12 @@ impl Summary {
         self.0.pointer("/identify/real").and_then(Value::as_bool).unwrap_or(false)
     }
 
-    /// The names of the matrices that share the factor.
+    /// The names of the matrices that share the factor, or of the unknowns.
     pub(crate) fn names(&self) -> String {
+        if self.is_several() {
+            let name = |one: &Value| Some(one.get("name")?.as_str()?.to_owned());
+            return self.array("/unknowns").iter().filter_map(name).collect::<Vec<_>>().join(", ");
+        }
         self.array("/identify/matrix").iter().filter_map(Value::as_str).collect::<Vec<_>>().join(", ")
     }
 
@@ -73,7 +84,7 @@ impl Summary {
         role.unwrap_or("stiffness")
     }
 
-    fn texts<'v>(
+    pub(super) fn texts<'v>(
         &'v self,
         pointer: &str,
         text: impl Fn(&'v Value) -> Option<&'v str>,
@@ -87,7 +98,7 @@ impl Summary {
         all.iter().map(one).collect()
     }
 
-    fn missing(&self, pointer: &str, what: &str) -> FormatError {
+    pub(super) fn missing(&self, pointer: &str, what: &str) -> FormatError {
         let key = pointer[1..].replace('/', ".");
         let found = self.0.pointer(pointer).map_or("none".to_owned(), |value| {
             let text = value.to_string();

@@ -4,14 +4,14 @@ use super::accelerance::compared;
 use super::modulus::DEVIATIONS;
 use super::{curve, draw, strip_of, title};
 use crate::load::{Case, SeveralCase};
-use crate::output::{File, file_name};
+use crate::output::{File, coordinate, file_name};
 use crate::run::SeveralRun;
 use frfit::c64;
 use frfit::identify::{Status, ValueAt, Vary};
 use frfit::material::loss_factor;
-use frfit_figures::{Axis, Color, Dash, Figure, Marker, Panel, PngError, Series};
+use frfit_figures::{Axis, Color, Dash, Figure, HeatMap, Marker, Panel, PngError, Series};
 
-/// `figures/accelerance-*.*`, `figures/<unknown>.*` of what varies, `figures/profile.*`.
+/// `figures/accelerance-*.*`, `figures/<unknown>.*` of what varies, `figures/correlation.*` and `figures/profile.*` of what holds for the band.
 ///
 /// # Errors
 /// [`PngError`] where a figure cannot be rasterised.
@@ -25,6 +25,9 @@ pub fn several_figures(case: &Case, wanted: &SeveralCase, run: &SeveralRun) -> R
     // A constant over frequency is a number, not a curve.
     for j in (0..wanted.sought.len()).filter(|&j| wanted.sought[j].varies != Vary::Constant) {
         figures.push((file_name(&wanted.sought[j].name), over_frequency(case, wanted, run, j)));
+    }
+    if run.outcome.correlation.len() > 1 {
+        figures.push(("correlation".to_owned(), correlation(case, wanted, run)));
     }
     if let Some(profile) = &run.outcome.profile {
         let (x, y): (Vec<f64>, Vec<f64>) = profile.points.iter().copied().unzip();
@@ -56,6 +59,35 @@ pub fn several_figures(case: &Case, wanted: &SeveralCase, run: &SeveralRun) -> R
         ));
     }
     draw(figures)
+}
+
+/// Width and height of the correlation beside its cells, and of each cell.
+const AROUND: (f64, f64) = (330.0, 130.0);
+const CELL: f64 = 56.0;
+
+/// Correlation of the numbers that hold for the band, in the order of the summary's `coordinates`, the first on top.
+fn correlation(case: &Case, wanted: &SeveralCase, run: &SeveralRun) -> Figure {
+    let outcome = &run.outcome;
+    let count = outcome.correlation.len();
+    let numbers: Vec<f64> = (1..=count).map(|k| k as f64).collect();
+    let names = (0..count).rev().map(|c| format!("{} {}", c + 1, coordinate(wanted, outcome, c)));
+    Figure {
+        title: title(case, "correlation of what holds for the band"),
+        x: Axis::whole("Number, as on the left"),
+        panels: vec![Panel {
+            y: Axis::whole(""),
+            heat: Some(HeatMap {
+                x: numbers.clone(),
+                y: numbers,
+                values: outcome.correlation.iter().rev().flatten().copied().collect(),
+                label: "Correlation".into(),
+                range: Some((-1.0, 1.0)),
+                names: names.collect(),
+            }),
+            ..Panel::default()
+        }],
+        size: (AROUND.0 + CELL * count as f64, AROUND.1 + CELL * count as f64),
+    }
 }
 
 fn accelerance(case: &Case, wanted: &SeveralCase, run: &SeveralRun, sensor: usize) -> Figure {

@@ -22,5 +22,7 @@ pub use measured::{hit_reasons, measured_csv, measured_summary, measured_text, m
 pub use reference::reference_csv;
 pub use response::{respond_csv, response_csv, several_response_csv};
 pub(crate) use several::file_name;
-pub use several::{several_csv, several_json, several_text};
+pub use several::{
+    coordinate, not_told, several_csv, several_json, several_reference_csv, several_text, varies,
+};
 pub use summary::{RIGHT_WITHIN, summary_json};

@@ -1,10 +1,11 @@
 //! Tables, summary and words for several unknowns.
 
-use super::summary::inputs_json;
+use super::summary::{fit_json, inputs_json, model_json};
 use crate::load::{Case, MeasuredNoise, SeveralCase};
 use crate::run::SeveralRun;
+use frfit::c64;
 use frfit::identify::{Direction, Enters, Explained, SeveralOutcome, Sought, Status, ValueAt, Vary};
-use frfit::material::loss_factor;
+use frfit::material::{Law, loss_factor};
 use frfit_formats::csv::{Cell, write};
 use serde_json::{Map, Value, json};
 
@@ -43,6 +44,23 @@ pub fn several_csv(wanted: &SeveralCase, run: &SeveralRun) -> String {
             row.extend(cells(one, value.as_ref()));
         }
         row
+    });
+    let columns: Vec<&str> = columns.iter().map(String::as_str).collect();
+    write(&columns, rows).expect("every row has the columns, and no name a line break")
+}
+
+/// `reference.csv`: the nominal value of each unknown by frequency, and the true one where the case tells it.
+pub fn several_reference_csv(wanted: &SeveralCase, run: &SeveralRun) -> String {
+    let parts = ["nominal_re", "nominal_im", "true_re", "true_im"];
+    let mut columns = vec!["frequency_hz".to_owned()];
+    columns.extend(wanted.sought.iter().flat_map(|one| parts.map(|part| format!("{}.{part}", one.name))));
+    let rows = run.outcome.at.iter().map(|at| {
+        let of_one = |(nominal, truth): (&c64, &Option<Law>)| {
+            let truth = truth.as_ref().and_then(|law| law.at(at.frequency_hz).ok());
+            [nominal.re.into(), nominal.im.into(), truth.map(|p| p.re).into(), truth.map(|p| p.im).into()]
+        };
+        let values = at.nominal.iter().zip(&wanted.truth).flat_map(of_one);
+        std::iter::once(Cell::Number(at.frequency_hz)).chain(values).collect::<Vec<_>>()
     });
     let columns: Vec<&str> = columns.iter().map(String::as_str).collect();
     write(&columns, rows).expect("every row has the columns, and no name a line break")
@@ -99,7 +117,8 @@ pub fn several_json(case: &Case, wanted: &SeveralCase, run: &SeveralRun, seconds
         "frfit": env!("CARGO_PKG_VERSION"),
         "title": case.title,
         "inputs": inputs_json(case),
-        "model": {"dofs": case.model.dim(), "nonzeros": case.model.analysis().pattern().nonzeros()},
+        "model": model_json(case),
+        "sensors": case.sensors.iter().map(|sensor| json!({"label": sensor.label, "quantity": sensor.quantity.name()})).collect::<Vec<_>>(),
         "band_hz": wanted.band_hz,
         "frequencies": outcome.at.len(),
         "unknowns": wanted.sought.iter().enumerate().map(unknown).collect::<Vec<_>>(),
@@ -114,9 +133,7 @@ pub fn several_json(case: &Case, wanted: &SeveralCase, run: &SeveralRun, seconds
             "source": noise_source(wanted, outcome),
             "level": outcome.noise.level,
         },
-        "fit": outcome.fit.map(|fit| json!({
-            "chi_squared": fit.chi_squared, "freedom": fit.freedom, "deviate": fit.deviate, "verdict": fit.verdict.name(),
-        })),
+        "fit": fit_json(outcome.fit.as_ref()),
         "search": {"converged": outcome.converged, "starts": outcome.starts, "agreeing": outcome.agreeing},
         "counts": {
             "factorisations": outcome.work.factorisations,
@@ -143,7 +160,8 @@ fn noise_source(wanted: &SeveralCase, outcome: &SeveralOutcome) -> &'static str 
     }
 }
 
-fn varies(one: &Sought) -> String {
+/// How an unknown varies, as a case says it: `frequency`, `constant`, `law zener`.
+pub fn varies(one: &Sought) -> String {
     match one.varies {
         Vary::PerFrequency => "frequency".into(),
         Vary::Constant => "constant".into(),
@@ -196,15 +214,15 @@ fn truth_json(wanted: &SeveralCase, run: &SeveralRun, j: usize) -> Value {
     })
 }
 
-/// `core`, `core loss_factor`, `skins e0`.
-fn coordinate(wanted: &SeveralCase, outcome: &SeveralOutcome, c: usize) -> String {
+/// What a coordinate of correlation and directions stands for: `core`, `core loss_factor`, `skins e0`.
+pub fn coordinate(wanted: &SeveralCase, outcome: &SeveralOutcome, c: usize) -> String {
     let (j, number) = &outcome.coordinates[c];
     let name = &wanted.sought[*j].name;
     if number == "value" { name.clone() } else { format!("{name} {number}") }
 }
 
 /// The combinations that the measurements do not tell, in words.
-fn not_told(wanted: &SeveralCase, outcome: &SeveralOutcome) -> Vec<String> {
+pub fn not_told(wanted: &SeveralCase, outcome: &SeveralOutcome) -> Vec<String> {
     let sentence = |direction: &Direction| {
         let largest = direction.weights.first().map_or(1.0, |(_, weight)| weight.abs());
         let mut up = Vec::new();
@@ -233,7 +251,7 @@ fn not_told(wanted: &SeveralCase, outcome: &SeveralOutcome) -> Vec<String> {
 pub fn several_text(wanted: &SeveralCase, run: &SeveralRun) -> String {
     let outcome = &run.outcome;
     let mut text = String::new();
-    let mut line = |label: &str, value: String| text += &format!("  {label:<18}{value}\n");
+    let mut line = |label: &str, value: String| text += &format!("  {label:<17} {value}\n");
     if let Some(breakdown) = &outcome.breakdown {
         line("no answer", format!("the model has no real stand-in that can be factorised: {breakdown}"));
     }

@@ -5,8 +5,9 @@ use crate::case::VariesEntry as Varies;
 use crate::load::{Case, IdentifyCase, MeasuredNoise};
 use crate::run::IdentifyRun;
 use frfit::c64;
-use frfit::identify::{NoiseLevel, Status, Unknown};
+use frfit::identify::{GoodnessOfFit, NoiseLevel, Status, Unknown};
 use frfit::material::loss_factor;
+use frfit::model::Term;
 use serde_json::{Map, Value, json};
 
 /// A modulus within this of the truth counts as right.
@@ -26,12 +27,6 @@ pub fn summary_json(
         statuses.insert(status.name().into(), json!(run.count(status)));
         bands.insert(status.name().into(), json!(run.bands_hz(status)));
     }
-    let matrices: Vec<Value> = case
-        .model
-        .terms()
-        .iter()
-        .map(|term| json!({"name": term.name, "role": format!("{:?}", term.role).to_lowercase()}))
-        .collect();
     let options = &identify.options;
     let (varies, laws) = match &identify.varies {
         Varies::Freely => ("frequency", &[][..]),
@@ -42,11 +37,7 @@ pub fn summary_json(
         "frfit": env!("CARGO_PKG_VERSION"),
         "title": case.title,
         "inputs": inputs_json(case),
-        "model": {
-            "dofs": case.model.dim(),
-            "nonzeros": case.model.analysis().pattern().nonzeros(),
-            "matrices": matrices,
-        },
+        "model": model_json(case),
         "sensors": (0..case.sensors.len()).map(|m| sensor(case, run, m)).collect::<Vec<_>>(),
         "identify": {
             "matrix": identify.names,
@@ -66,7 +57,7 @@ pub fn summary_json(
         "status": statuses,
         "bands_hz": bands,
         "noise": noise(identify, run),
-        "fit": fit(run),
+        "fit": fit_json(run.fit.as_ref()),
         "error": spread(run, |outcome| outcome.error),
         "storage_std": spread(run, |outcome| Some(outcome.uncertainty?.storage_std)),
         "loss_factor_std": spread(run, |outcome| outcome.uncertainty?.loss_factor_std),
@@ -100,6 +91,16 @@ pub fn summary_json(
         summary["truth"] = truth;
     }
     summary
+}
+
+/// How large the model is, and what its matrices are.
+pub(super) fn model_json(case: &Case) -> Value {
+    let matrix = |term: &Term| json!({"name": term.name, "role": format!("{:?}", term.role).to_lowercase()});
+    json!({
+        "dofs": case.model.dim(),
+        "nonzeros": case.model.analysis().pattern().nonzeros(),
+        "matrices": case.model.terms().iter().map(matrix).collect::<Vec<_>>(),
+    })
 }
 
 /// Every file that was read.
@@ -144,8 +145,8 @@ fn noise(identify: &IdentifyCase, run: &IdentifyRun) -> Value {
 }
 
 /// χ² over the band and what it says; null where nothing can tell.
-fn fit(run: &IdentifyRun) -> Value {
-    let Some(fit) = &run.fit else { return Value::Null };
+pub(super) fn fit_json(fit: Option<&GoodnessOfFit>) -> Value {
+    let Some(fit) = fit else { return Value::Null };
     json!({
         "chi2": fit.chi_squared, "freedom": fit.freedom, "chi2_per_freedom": fit.chi_squared / fit.freedom as f64,
         "deviate": fit.deviate, "verdict": fit.verdict.name(),

@@ -96,13 +96,6 @@ fn all_solutions_of_two_unknowns_are_found() {
         };
         let (many, few) = (from(STARTS), from(FEW));
         let found = task.everywhere(&at, i, &nominal[i]);
-        println!(
-            "{} Hz: {} of {STARTS} starts, {} of {FEW}, {} found",
-            frequency_hz[i],
-            many.len(),
-            few.len(),
-            found.len()
-        );
         for solution in &many {
             // Newton's last step is exact to far less than this
             let near = |other: &super::spot::Solution| distance(&other.own, &solution.own) < 1e-6;

@@ -1,0 +1,15 @@
+//! The results of an identification as one HTML page.
+
+use crate::errors::job;
+use frfit_workflow::job::JobError;
+use frfit_workflow::report::report_of_folder;
+use pyo3::prelude::*;
+use std::path::PathBuf;
+
+/// The page that `frfit report FOLDER` writes.
+#[pyfunction]
+pub(crate) fn report(py: Python<'_>, folder: PathBuf) -> PyResult<String> {
+    let page = py.detach(|| report_of_folder(&folder)).map_err(|error| job(py, &JobError::Input(error)))?;
+    // It is made of strings.
+    Ok(String::from_utf8_lossy(&page.bytes).into_owned())
+}

@@ -1,0 +1,138 @@
+//! Results of several unknowns in the form of `frfit identify`: a modulus at every frequency beside a mass and a complex constant.
+
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+/// What to make.
+pub(crate) struct MadeSeveral {
+    pub(crate) name: &'static str,
+    pub(crate) frequencies: usize,
+    /// The last so many frequencies are ill conditioned.
+    pub(crate) bad: usize,
+    pub(crate) fit: &'static str,
+    /// Whether the core varies over the band; else there are constants only.
+    pub(crate) varies: bool,
+    /// How many of the mass and the complex constant there are: none, the mass, both.
+    pub(crate) constants: usize,
+    /// The mass is not told, and a sentence says what it cannot be told from.
+    pub(crate) untold: bool,
+}
+
+impl Default for MadeSeveral {
+    fn default() -> Self {
+        Self {
+            name: "mass",
+            frequencies: 50,
+            bad: 0,
+            fit: "explained",
+            varies: true,
+            constants: 2,
+            untold: false,
+        }
+    }
+}
+
+/// The files.
+pub(crate) fn several(made: &MadeSeveral) -> BTreeMap<&'static str, Vec<u8>> {
+    let quoted = |text: &str| format!("\"{}\"", text.replace('"', "\"\""));
+    let mut heads =
+        (vec!["frequency_hz,status,error,chi2,certificate".to_owned()], vec!["frequency_hz".to_owned()]);
+    let mut add = |name: &str, parts: &[&str]| {
+        heads.0.extend(parts.iter().map(|part| quoted(&format!("{name}.{part}"))));
+        let reference = ["nominal_re", "nominal_im", "true_re", "true_im"];
+        heads.1.extend(reference.iter().map(|part| quoted(&format!("{name}.{part}"))));
+    };
+    let complex = ["storage", "loss_factor", "storage_std", "loss_factor_std", "storage_loss_correlation"];
+    if made.varies {
+        add("core", &complex);
+    }
+    if made.constants > 0 {
+        add(made.name, &["value", "std"]);
+    }
+    if made.constants > 1 {
+        add("skins", &complex);
+    }
+    let (mut identified, mut reference) = (heads.0.join(",") + "\n", heads.1.join(",") + "\n");
+    let mut response =
+        "frequency_hz,sensor,quantity,nominal_re,nominal_im,measured_re,measured_im,updated_re,updated_im,measured_std\n".to_owned();
+    for i in 0..made.frequencies {
+        let f = 20.0 + 0.5 * i as f64;
+        let status = if i + made.bad >= made.frequencies { "ill_conditioned" } else { "ok" };
+        // Writing to a string does not fail.
+        let _ = write!(identified, "{f:?},{status},1e-3,1.01,1e-9");
+        let _ = write!(reference, "{f:?}");
+        if made.varies {
+            let _ = write!(identified, ",{:?},0.4,1e3,1e-3,0.1", 1e6 + 1e4 * i as f64);
+            reference += ",2e6,1e5,1e6,4e5";
+        }
+        if made.constants > 0 {
+            identified += ",0.065,1e-5";
+            reference += ",0.04,0.0,0.065,0.0";
+        }
+        if made.constants > 1 {
+            identified += ",6.9e10,0.003,9e5,1e-5,0.0";
+            reference += ",7.3e10,7.3e7,6.9e10,2.07e8";
+        }
+        identified += "\n";
+        reference += "\n";
+        for sensor in ["S1", "S2"] {
+            let _ = writeln!(response, "{f:?},{sensor},receptance,2e-6,-1e-6,1e-6,-2e-6,1e-6,-2e-6,1e-9");
+        }
+    }
+    let mut unknowns = Vec::new();
+    let mut coordinates: Vec<String> = Vec::new();
+    if made.varies {
+        let truth =
+            json!({"within": 1e-5, "fraction_right": 1.0, "wrong_and_ok": 0, "deviation_max_ok": 2e-7});
+        unknowns.push(json!({"name": "core", "matrices": ["core"], "varies": "frequency", "real": false, "numbers": null, "status": null, "truth": truth}));
+    }
+    if made.constants > 0 {
+        let (std, status) = if made.untold { (Value::Null, "ill_conditioned") } else { (json!(1e-5), "ok") };
+        let numbers = json!([{"name": "value", "value": 0.065, "std": std}]);
+        let truth = json!({"relative": 1e-4, "deviations": 0.8});
+        unknowns.push(json!({"name": made.name, "matrices": ["mass"], "varies": "constant", "real": true, "numbers": numbers, "status": status, "truth": truth}));
+        coordinates.push(made.name.to_owned());
+    }
+    if made.constants > 1 {
+        let numbers = json!([{"name": "storage", "value": 6.9e10, "std": 9e5}, {"name": "loss_factor", "value": 0.003, "std": 1e-5}]);
+        unknowns.push(json!({"name": "skins", "matrices": ["skins"], "varies": "constant", "real": false, "numbers": numbers, "status": "ok", "truth": null}));
+        coordinates.extend(["skins storage", "skins loss_factor"].map(str::to_owned));
+    }
+    let count = coordinates.len();
+    let correlation: Vec<Vec<f64>> =
+        (0..count).map(|i| (0..count).map(|j| if i == j { 1.0 } else { 0.25 }).collect()).collect();
+    let weights: Vec<Value> = coordinates
+        .iter()
+        .enumerate()
+        .map(|(k, name)| json!({"of": name, "weight": if k == 0 { 0.9 } else { -0.3 }}))
+        .collect();
+    let profile: Vec<[f64; 2]> = (-5..=5).map(|k| [f64::from(k) * 1e-4, f64::from(k * k)]).collect();
+    let untold = made.untold && count > 0;
+    let not_told: Vec<String> = untold
+        .then(|| format!("{} larger with skins storage smaller: nothing tells it", made.name))
+        .into_iter()
+        .collect();
+    let summary = json!({
+        "frfit": "0.1.0", "title": "Made", "tables": ["identified.csv", "reference.csv", "response.csv"],
+        "inputs": [{"file": "K.mtx", "bytes": 1000, "sha256": "00".repeat(32)}],
+        "model": {"dofs": 10, "nonzeros": 28, "matrices": [{"name": "core", "role": "stiffness"}]},
+        "sensors": [{"label": "S1", "quantity": "receptance"}, {"label": "S2", "quantity": "receptance"}],
+        "unknowns": unknowns, "trusted": !untold, "coordinates": coordinates, "correlation": correlation,
+        "directions": if count > 0 { json!([{"std": 1e-4, "weights": weights}]) } else { json!([]) },
+        "profile": if count > 0 { json!(profile) } else { Value::Null },
+        "not_told": not_told,
+        "noise": {"source": "given", "level": 1.0},
+        "fit": {"chi2": 100.0, "freedom": 98, "chi2_per_freedom": 1.02, "deviate": 0.1, "verdict": made.fit},
+        "search": {"converged": true, "starts": 4, "agreeing": 4},
+        "counts": {"factorisations": 1, "solves": 20, "subspace_size": 12, "certificate": 1e-9},
+        "seconds": {"load": 0.1, "identify": 0.5},
+    });
+    let files = [
+        ("identified.csv", identified),
+        ("reference.csv", reference),
+        ("response.csv", response),
+        ("summary.json", format!("{summary:#}\n")),
+    ];
+    files.into_iter().map(|(name, text)| (name, text.into_bytes())).collect()
+}
