@@ -88,14 +88,14 @@ fn all_solutions_of_two_unknowns_are_found() {
     let coordinates = task.coordinates();
     let at = At { space: &space, coordinates: &coordinates, theta: &[] };
     let (mut several, mut by_few) = (0, 0);
-    for i in 0..frequency_hz.len() {
+    for (i, nominal) in nominal.iter().enumerate() {
         let spot = task.spot(i);
         let from = |count: usize| {
-            let points = (1..=count).map(|k| spot.coordinates(&in_box(&composite, &nominal[i], k)));
-            spot.solutions(&points.collect::<Vec<_>>(), &nominal[i], |values| space.respond(i, values))
+            let points = (1..=count).map(|k| spot.coordinates(&in_box(&composite, nominal, k)));
+            spot.solutions(&points.collect::<Vec<_>>(), nominal, |values| space.respond(i, values))
         };
         let (many, few) = (from(STARTS), from(FEW));
-        let found = task.everywhere(&at, i, &nominal[i]);
+        let found = task.everywhere(&at, i, nominal);
         for solution in &many {
             // Newton's last step is exact to far less than this
             let near = |other: &super::spot::Solution| distance(&other.own, &solution.own) < 1e-6;
