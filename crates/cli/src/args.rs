@@ -320,7 +320,8 @@ pub(crate) struct Inspect {
     /// Files
     #[arg(required = true)]
     pub(crate) files: Vec<PathBuf>,
-    /// Take the two files as K and M and give their first natural frequencies
+    /// Take the two files as K and M and give so many of their first natural frequencies (12 of any two
+    /// files that are such)
     #[arg(long, value_name = "COUNT")]
     pub(crate) modes: Option<usize>,
 }

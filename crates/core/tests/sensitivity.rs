@@ -86,6 +86,29 @@ fn one_degree_of_freedom_is_the_closed_form() {
     }
 }
 
+/// k ∝ h³ and m ∝ h of one dof: ∂ ln x/∂ ln h = −(3k − ω²m)/(k − ω²m), by closed form; and h stands for itself beside neither k nor m.
+#[test]
+fn a_dimension_has_the_slope_of_its_powers() {
+    let (k, m) = (c(400.0, 20.0), 2.0);
+    let model = DynamicStiffness::new(vec![
+        term("spring", Role::Stiffness, one_by_one(1.0), k),
+        term("mass", Role::Mass, one_by_one(1.0), c(m, 0.0)),
+    ])
+    .unwrap();
+    let experiment = tip_load(&model, &[0]);
+    let frequency_hz = [0.5, 2.25, 9.0];
+    let change = Change::Powers(vec![(0, 3), (1, 1)]);
+    let variables = [Variable { name: "h".into(), change }];
+    let band = band(&model, &experiment, &variables, &frequency_hz, ChangeOptions::default());
+    for (i, &f) in frequency_hz.iter().enumerate() {
+        let inertia = omega_rad_s(f).powi(2) * m;
+        let exact = -(3.0 * k - inertia) / (k - inertia);
+        let (found, _) = band.logarithmic(i, 0, 0).unwrap();
+        // one vector is all there is: roundoff
+        assert!((found - exact).norm() < 1e-13 * exact.norm(), "{f} Hz: {found} against {exact}");
+    }
+}
+
 /// The bar with its law as the factor of its stiffness.
 fn rubber_bar() -> Case {
     let mut case = bar(40);
@@ -158,7 +181,7 @@ fn derivatives_are_finite_differences_of_direct_solves() {
     for (p, variable) in variables.iter().enumerate() {
         let respond = |step: f64, f: f64| {
             let of = |index: usize, factor: c64| match &variable.change {
-                Change::Factor(members) if members[0].term == index => factor * step.exp(),
+                Change::Factor(terms) if terms[0] == index => factor * step.exp(),
                 Change::LossFactor(terms) if terms[0] == index => c(factor.re, factor.im * step.exp()),
                 _ => factor,
             };

@@ -183,3 +183,18 @@ fn what_cannot_be_used_is_refused() {
     let unnamed = refused(&with, "12+Z");
     assert!(unnamed.contains("--candidates") && unnamed.contains("[dofs]"), "{unnamed}");
 }
+
+/// Stiffness and mass that go with a dimension as with factors: it is a parameter, and with both of them it cannot be told apart.
+#[test]
+fn dimensions_are_parameters() {
+    let folder = tempfile::tempdir().unwrap();
+    let case = chain()
+        + "[[measurement]]\nrow = 6\n[[measurement]]\nrow = 3\n[[identify]]\nname = \"thickness\"\npowers = { springs = 3, masses = 1 }\nnominal = 1.1\n"
+        + RESPOND;
+    let job = run(&folder, &case, &options(Some(0.02), "none"));
+    let parameters = job.summary["parameters"].as_array().unwrap();
+    let kind = |name: &str| &parameters.iter().find(|one| one["name"] == name).unwrap()["kind"];
+    assert_eq!((kind("thickness"), kind("springs")), (&Value::from("dimension"), &Value::from("factor")));
+    let found = &job.summary["inseparable"];
+    assert_eq!(found[0]["parameters"], serde_json::json!(["springs", "masses", "thickness"]), "{found}");
+}

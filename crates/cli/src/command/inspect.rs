@@ -3,7 +3,7 @@
 use super::say;
 use crate::args::{Args, Inspect};
 use crate::outcome::{Failure, Outcome};
-use frfit_workflow::inspect::{inspect, natural_frequencies};
+use frfit_workflow::inspect::{inspect, natural_frequencies, rigid_body_modes};
 use serde_json::json;
 
 pub(crate) fn run(args: &Args, wanted: &Inspect) -> Result<Outcome, Failure> {
@@ -11,17 +11,33 @@ pub(crate) fn run(args: &Args, wanted: &Inspect) -> Result<Outcome, Failure> {
         let found = inspect(file)?;
         say(&if args.json { format!("{}\n", found.json()) } else { found.text() })?;
     }
-    let Some(count) = wanted.modes else { return Ok(Outcome::Done) };
-    let [stiffness, mass] = &wanted.files[..] else {
-        let found = wanted.files.len();
-        return Err(Failure::Input(format!("--modes: expected two files, K and M, found {found}")));
+    let frequency_hz = match (&wanted.files[..], wanted.modes) {
+        ([stiffness, mass], Some(count)) => natural_frequencies(stiffness, mass, count)?,
+        // two files that are not K and M have none
+        ([stiffness, mass], None) => natural_frequencies(stiffness, mass, USUAL).unwrap_or_default(),
+        (files, Some(_)) => {
+            let found = files.len();
+            return Err(Failure::Input(format!("--modes: expected two files, K and M, found {found}")));
+        }
+        (_, None) => Vec::new(),
     };
-    let frequency_hz = natural_frequencies(stiffness, mass, count)?;
+    if frequency_hz.is_empty() {
+        return Ok(Outcome::Done);
+    }
+    let rigid = rigid_body_modes(&frequency_hz);
     say(&if args.json {
-        format!("{}\n", json!({"natural_frequencies_hz": frequency_hz}))
+        format!("{}\n", json!({"natural_frequencies_hz": frequency_hz, "rigid_body_modes": rigid}))
     } else {
         let lines = frequency_hz.iter().enumerate().map(|(i, f)| format!("  {:>3}  {f:.6} Hz\n", i + 1));
-        format!("natural frequencies of K φ = ω² M φ\n{}", lines.collect::<String>())
+        let rigid = match rigid {
+            0 => String::new(),
+            1 => "; the first is a rigid-body mode".to_owned(),
+            more => format!("; the first {more} are rigid-body modes"),
+        };
+        format!("natural frequencies of K φ = ω² M φ{rigid}\n{}", lines.collect::<String>())
     })?;
     Ok(Outcome::Done)
 }
+
+/// Natural frequencies of two files where no number is asked for: six rigid-body modes, and as many others.
+const USUAL: usize = 12;

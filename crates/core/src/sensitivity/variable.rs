@@ -2,7 +2,7 @@
 
 use crate::c64;
 use crate::material::OutsideTable;
-use crate::model::{Combination, DynamicStiffness, Member};
+use crate::model::{Combination, DynamicStiffness};
 
 /// A real parameter of a model, by whose logarithm is differentiated.
 #[derive(Debug, Clone, PartialEq)]
@@ -16,8 +16,10 @@ pub struct Variable {
 /// What a parameter changes.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Change {
-    /// The factors of some terms, in proportion to a power of the parameter: 1 for a modulus (its loss factor stays), 3 for a thickness in bending.
-    Factor(Vec<Member>),
+    /// The factors of some terms, in proportion to the parameter: a modulus (its loss factor stays), a density.
+    Factor(Vec<usize>),
+    /// The factors of some terms, in proportion to a power of the parameter (B-8): a dimension, 3 for a thickness in bending.
+    Powers(Vec<(usize, i32)>),
     /// The loss factors of some terms: the imaginary parts of their factors.
     LossFactor(Vec<usize>),
     /// The scale of a sensor's channel, which is not known: what it measures is in proportion.
@@ -33,17 +35,33 @@ impl Variable {
     /// # Errors
     /// [`OutsideTable`] where a table does not reach a frequency.
     pub fn of_model(model: &DynamicStiffness, frequency_hz: &[f64]) -> Result<Vec<Self>, OutsideTable> {
+        let alone = model.terms().iter().enumerate().map(|(index, term)| (term.name.clone(), vec![index]));
+        Self::of_matrices(model, &alone.collect::<Vec<_>>(), frequency_hz)
+    }
+
+    /// The same where several terms are one matrix, with one factor: its name and its terms.
+    ///
+    /// # Errors
+    /// [`OutsideTable`] where a table does not reach a frequency.
+    ///
+    /// # Panics
+    /// Where a matrix has no term, or one that the model has not.
+    pub fn of_matrices(
+        model: &DynamicStiffness,
+        matrices: &[(String, Vec<usize>)],
+        frequency_hz: &[f64],
+    ) -> Result<Vec<Self>, OutsideTable> {
         let mut variables = Vec::new();
-        for (index, term) in model.terms().iter().enumerate() {
-            let factors = frequency_hz.iter().map(|&f| term.factor.at(f)).collect::<Result<Vec<c64>, _>>()?;
+        for (name, terms) in matrices {
+            let factor = &model.terms()[terms[0]].factor;
+            let factors = frequency_hz.iter().map(|&f| factor.at(f)).collect::<Result<Vec<c64>, _>>()?;
             if factors.iter().all(|factor| factor.norm() == 0.0) {
                 continue;
             }
-            let factor = Change::Factor(vec![Member { term: index, power: 1 }]);
-            variables.push(Self { name: term.name.clone(), change: factor });
+            variables.push(Self { name: name.clone(), change: Change::Factor(terms.clone()) });
             if factors.iter().any(|factor| factor.im != 0.0) {
-                let name = format!("{} loss factor", term.name);
-                variables.push(Self { name, change: Change::LossFactor(vec![index]) });
+                let name = format!("{name} loss factor");
+                variables.push(Self { name, change: Change::LossFactor(terms.clone()) });
             }
         }
         Ok(variables)
@@ -63,12 +81,16 @@ impl Variable {
             Ok((term.role.weight(frequency_hz), term.factor.at(frequency_hz)?))
         };
         let parts = match &self.change {
-            Change::Factor(members) => {
-                let part = |member: &Member| {
-                    let (weight, factor) = term(member.term)?;
-                    Ok((member.term, member.power as f64 * weight * factor))
+            Change::Factor(terms) => {
+                let part = |&index: &usize| term(index).map(|(weight, factor)| (index, weight * factor));
+                terms.iter().map(part).collect::<Result<_, OutsideTable>>()?
+            }
+            Change::Powers(terms) => {
+                let part = |&(index, power): &(usize, i32)| {
+                    let (weight, factor) = term(index)?;
+                    Ok((index, f64::from(power) * weight * factor))
                 };
-                members.iter().map(part).collect::<Result<_, OutsideTable>>()?
+                terms.iter().map(part).collect::<Result<_, OutsideTable>>()?
             }
             Change::LossFactor(terms) => {
                 let part = |&index: &usize| {

@@ -41,3 +41,15 @@ pub fn natural_frequencies(k: &Path, m: &Path, count: usize) -> Result<Vec<f64>,
     })?;
     Ok(modes.frequencies_hz())
 }
+
+/// How many of the first natural frequencies, ascending, are those of rigid-body modes: zero up to roundoff.
+///
+/// # Limits
+/// Where all are zero there is nothing to compare them with: none is counted.
+pub fn rigid_body_modes(frequency_hz: &[f64]) -> usize {
+    let highest = frequency_hz.last().copied().unwrap_or_default();
+    frequency_hz.iter().take_while(|&&f| f < RIGID * highest).count()
+}
+
+/// A frequency of this part of the highest is roundoff: of ω² some 1e-12 are left of the highest, and softer suspensions are rare.
+const RIGID: f64 = 1e-5;

@@ -1,5 +1,6 @@
 //! Dimensions: matrices that are given at several values of one, and models that stand at the nominal value of each.
 
+use super::identify::known_names;
 use crate::case::{CaseFile, Located};
 use crate::error::InputError;
 use frfit::c64;
@@ -114,6 +115,7 @@ pub(super) fn at_nominal(
     each_has_a_value(case)?;
     for one in case.several.iter().flat_map(|several| &several.unknowns) {
         let Some(nominal) = &one.nominal else { continue };
+        known_names(case, &one.powers.iter().map(|(name, _)| name.clone()).collect::<Vec<_>>())?;
         for (term, power) in powers_of(&one.name.value, of, &one.powers) {
             terms[term].factor = terms[term].factor.scaled(nominal.value.powi(power));
         }

@@ -138,7 +138,8 @@ pub fn load(case_file: &Path, overrides: &Overrides, purpose: Purpose) -> Result
         }
         Purpose::Respond => (None, respond_hz(&case, overrides, &measurements)?),
         Purpose::Sensitivities => {
-            let (found, frequency_hz) = sensitivities::sensitivities(&case, overrides, &measurements)?;
+            let (found, frequency_hz) =
+                sensitivities::sensitivities(&case, overrides, (&model, &of), &measurements)?;
             sensitivities = Some(found);
             (None, frequency_hz)
         }

@@ -1,17 +1,23 @@
 //! What sensitivities take of a case beside its model: frequencies, noise, channels of unknown scale.
 
 use super::band::band;
+use super::dimension::{PartOf, powers_of};
 use super::identify::MeasuredNoise;
 use super::measurement::{Curve, Measurement};
 use super::{Overrides, respond_hz};
 use crate::case::{Calibration, CaseFile};
 use crate::error::{InputError, Place};
+use frfit::model::DynamicStiffness;
 
 /// The part of a case that sensitivities are about.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SensitivitiesCase {
     /// Standard deviations √E|δx|² of the receptance, `[frequency][sensor]`, where the files of all measurements tell them.
     pub std: Option<Vec<Vec<f64>>>,
+    /// The matrices of the case, and what is attached: the terms of the model that each is.
+    pub matrices: Vec<(String, Vec<usize>)>,
+    /// The dimensions of the case, and the powers to which each multiplies terms.
+    pub dimensions: Vec<(String, Vec<(usize, i32)>)>,
     /// Whether a sensor's scale is to be found.
     pub unknown_scale: Vec<bool>,
 }
@@ -20,6 +26,7 @@ pub struct SensitivitiesCase {
 pub(super) fn sensitivities(
     case: &CaseFile,
     overrides: &Overrides,
+    (model, of): (&DynamicStiffness, &[PartOf]),
     measurements: &[Measurement],
 ) -> Result<(SensitivitiesCase, Vec<f64>), InputError> {
     let several = case.several.as_ref().and_then(|entry| entry.band_hz.as_ref());
@@ -62,5 +69,25 @@ pub(super) fn sensitivities(
     let scale = |entry: &crate::case::MeasurementEntry| entry.scale.as_ref().map(|located| located.value);
     let unknown_scale =
         case.measurements.iter().map(|entry| scale(entry) == Some(Calibration::Unknown)).collect();
-    Ok((SensitivitiesCase { std, unknown_scale }, frequency_hz))
+    let (matrices, dimensions) = (matrices(model, of), dimensions(case, of));
+    Ok((SensitivitiesCase { std, matrices, dimensions, unknown_scale }, frequency_hz))
+}
+
+/// What is one matrix of the case is one parameter; what is attached comes after.
+fn matrices(model: &DynamicStiffness, of: &[PartOf]) -> Vec<(String, Vec<usize>)> {
+    let mut matrices: Vec<(String, Vec<usize>)> = Vec::new();
+    for (index, term) in model.terms().iter().enumerate() {
+        let name = of.get(index).map_or(&term.name, |part| &part.matrix);
+        match matrices.last_mut().filter(|(last, _)| last == name) {
+            Some((_, terms)) => terms.push(index),
+            None => matrices.push((name.clone(), vec![index])),
+        }
+    }
+    matrices
+}
+
+fn dimensions(case: &CaseFile, of: &[PartOf]) -> Vec<(String, Vec<(usize, i32)>)> {
+    let unknowns = case.several.iter().flat_map(|several| &several.unknowns);
+    let dimensions = unknowns.filter(|one| one.nominal.is_some());
+    dimensions.map(|one| (one.name.value.clone(), powers_of(&one.name.value, of, &one.powers))).collect()
 }

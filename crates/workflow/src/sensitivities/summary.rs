@@ -106,6 +106,7 @@ pub(super) fn json(case: &Case, run: &SensitivityRun) -> Value {
 fn kind(variable: &Variable) -> &'static str {
     match variable.change {
         Change::Factor(_) => "factor",
+        Change::Powers(_) => "dimension",
         Change::LossFactor(_) => "loss_factor",
         Change::Scale(_) => "scale",
     }

@@ -86,9 +86,9 @@ fn pair(
 
 /// Role and value of what adds up with others of its role: the constant factor of one matrix.
 fn addend(model: &DynamicStiffness, variable: &Variable) -> Option<(Role, f64)> {
-    let Change::Factor(members) = &variable.change else { return None };
-    let [member] = members.as_slice() else { return None };
-    let term = &model.terms()[member.term];
+    let Change::Factor(terms) = &variable.change else { return None };
+    let [term] = terms.as_slice() else { return None };
+    let term = &model.terms()[*term];
     match term.factor {
         Law::Constant(value) if value.re != 0.0 => Some((term.role, value.re)),
         _ => None,
