@@ -66,6 +66,7 @@ fn what_is_not_told_comes_before_the_numbers_and_has_none() {
             "Not told by these measurements: mass larger with skins storage smaller: nothing tells it.",
             "<td>mass</td><td>not told</td>",
             "<dd class=\"value\">not told</dd>",
+            "nothing tells this direction",
         ],
     );
     assert!(!text(&made).contains("0.065 "));

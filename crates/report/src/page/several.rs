@@ -2,7 +2,7 @@
 
 use super::plots::{absent, plot, response, trust_of_band, write_sections};
 use crate::escape::escape;
-use crate::number::{significant, with_bar};
+use crate::number::{percent, significant, with_bar};
 use crate::results::{Number, Results, Several, Unknown};
 use crate::verdict::label;
 use frfit::material::loss_factor;
@@ -128,11 +128,16 @@ fn together(several: &Several) -> String {
     };
     match &several.worst {
         Some(worst) if !several.profile.is_empty() => {
+            let told = match worst.std {
+                Some(std) => format!(
+                    "A change of 4 is two standard deviations, {}. Where circles leave the dashed curve, the error bar is not the whole truth.",
+                    percent(2.0 * std)
+                ),
+                None => "It does not become worse: nothing tells this direction.".into(),
+            };
             let reading = format!(
-                "How much worse the fit becomes when the values move along the direction that is told worst, all else at its best: {}. A change of 4 is two standard deviations{}. \
-                 Where circles leave the dashed curve, the error bar is not the whole truth.",
-                escape(&direction(&worst.weights)),
-                worst.std.map_or(String::new(), |std| format!(", {}", crate::number::percent(2.0 * std)))
+                "How much worse the fit becomes when the values move along the direction that is told worst, all else at its best: {}. {told}",
+                escape(&direction(&worst.weights))
             );
             html += &plot("profile", "Misfit along what is told worst", &reading);
         }

@@ -119,7 +119,7 @@ pub(crate) fn several(made: &MadeSeveral) -> BTreeMap<&'static str, Vec<u8>> {
         "model": {"dofs": 10, "nonzeros": 28, "matrices": [{"name": "core", "role": "stiffness"}]},
         "sensors": [{"label": "S1", "quantity": "receptance"}, {"label": "S2", "quantity": "receptance"}],
         "unknowns": unknowns, "trusted": !untold, "coordinates": coordinates, "correlation": correlation,
-        "directions": if count > 0 { json!([{"std": 1e-4, "weights": weights}]) } else { json!([]) },
+        "directions": if count > 0 { json!([{"std": if untold { Value::Null } else { json!(1e-4) }, "weights": weights}]) } else { json!([]) },
         "profile": if count > 0 { json!(profile) } else { Value::Null },
         "not_told": not_told,
         "noise": {"source": "given", "level": 1.0},
