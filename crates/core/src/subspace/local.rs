@@ -12,7 +12,7 @@ const NEW: f64 = 1e-12;
 /// A compressed model of more than this fraction of the size saves nothing.
 const WORTHWHILE: f64 = 0.6;
 
-/// Points whose solutions are taken in before all errors are looked at anew.
+/// Points whose solutions are taken in before all errors are looked at anew, as long as there is room for many.
 const AT_ONCE: usize = 3;
 
 /// A local error of this many times the band's own is the band's.
@@ -44,7 +44,8 @@ impl Projection {
                     solved.solutions.iter().for_each(|y| append(&mut directions, y));
                 }
             }
-            if directions.is_empty() || directions.len() as f64 > WORTHWHILE * self.size as f64 {
+            let room = WORTHWHILE * self.size as f64 - directions.len() as f64;
+            if directions.is_empty() || room < 0.0 {
                 return self.clone();
             }
             let local = self.compressed(&directions.concat());
@@ -58,7 +59,8 @@ impl Projection {
                 return local;
             }
             next.sort_by(|a, b| b.1.total_cmp(&a.1));
-            next.truncate(AT_ONCE);
+            // Each alone where vectors have to be spared.
+            next.truncate(if room > directions.len() as f64 { AT_ONCE } else { 1 });
         }
     }
 }
