@@ -123,7 +123,10 @@ fn natural_frequencies_show_at_once() {
 fn a_free_chain_has_a_rigid_body_mode() {
     let folder = tempfile::tempdir().unwrap();
     let write = |name: &str, entries: &str| {
-        let text = format!("%%MatrixMarket matrix coordinate real symmetric\n3 3 {}\n{entries}", entries.lines().count());
+        let text = format!(
+            "%%MatrixMarket matrix coordinate real symmetric\n3 3 {}\n{entries}",
+            entries.lines().count()
+        );
         std::fs::write(folder.path().join(name), text).unwrap();
     };
     write("K.mtx", "1 1 1\n2 1 -1\n2 2 2\n3 2 -1\n3 3 1\n");
@@ -131,7 +134,10 @@ fn a_free_chain_has_a_rigid_body_mode() {
     let said = done(folder.path(), &["inspect", "K.mtx", "M.mtx"]);
     assert!(said.contains("K φ = ω² M φ; the first is a rigid-body mode"), "{said}");
     // ω² = 0, 1, 3
-    assert!(said.contains("1  0.000000 Hz") && said.contains("2  0.159155 Hz") && said.contains("3  0.275664 Hz"), "{said}");
+    assert!(
+        said.contains("1  0.000000 Hz") && said.contains("2  0.159155 Hz") && said.contains("3  0.275664 Hz"),
+        "{said}"
+    );
     // Two files that are not K and M have no natural frequencies, and nothing is wrong with that.
     write("Z.mtx", "1 1 0\n");
     let said = done(folder.path(), &["inspect", "K.mtx", "Z.mtx"]);

@@ -122,10 +122,12 @@ pub fn sensitivities(
     let wanted = case.sensitivities.as_ref();
     let matrices = wanted.map(|wanted| wanted.matrices.clone()).unwrap_or_default();
     let mut variables = Variable::of_matrices(&case.model, &matrices, &case.respond_hz)?;
-    variables.extend(wanted.iter().flat_map(|wanted| &wanted.dimensions).map(|(name, powers)| Variable {
-        name: name.clone(),
-        change: Change::Powers(powers.clone()),
-    }));
+    variables.extend(
+        wanted
+            .iter()
+            .flat_map(|wanted| &wanted.dimensions)
+            .map(|(name, powers)| Variable { name: name.clone(), change: Change::Powers(powers.clone()) }),
+    );
     let unknown = wanted.iter().flat_map(|wanted| &wanted.unknown_scale).enumerate();
     for (sensor, _) in unknown.filter(|(_, unknown)| **unknown) {
         let name = format!("scale at {}", case.sensors[sensor].label);
