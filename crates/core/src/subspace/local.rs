@@ -12,9 +12,6 @@ const NEW: f64 = 1e-12;
 /// A compressed model of more than this fraction of the size saves nothing.
 const WORTHWHILE: f64 = 0.6;
 
-/// Points whose solutions are taken in before all errors are looked at anew, as long as there is room for many.
-const AT_ONCE: usize = 3;
-
 /// A local error of this many times the band's own is the band's.
 const AS_GOOD: f64 = 3.0;
 
@@ -44,8 +41,7 @@ impl Projection {
                     solved.solutions.iter().for_each(|y| append(&mut directions, y));
                 }
             }
-            let room = WORTHWHILE * self.size as f64 - directions.len() as f64;
-            if directions.is_empty() || room < 0.0 {
+            if directions.is_empty() || directions.len() as f64 > WORTHWHILE * self.size as f64 {
                 return self.clone();
             }
             let local = self.compressed(&directions.concat());
@@ -54,13 +50,10 @@ impl Projection {
                 assessed.map_or(f64::INFINITY, |assessed| relative(&assessed, &points[i]))
             };
             let rest = (0..points.len()).filter(|&i| !done[i]).map(|i| (i, error(i)));
-            next = rest.filter(|&(_, error)| error > tolerance).collect();
-            if next.is_empty() {
-                return local;
+            match rest.max_by(|a, b| a.1.total_cmp(&b.1)) {
+                Some((i, worst)) if worst > tolerance => next.push((i, worst)),
+                _ => return local,
             }
-            next.sort_by(|a, b| b.1.total_cmp(&a.1));
-            // Each alone where vectors have to be spared.
-            next.truncate(if room > directions.len() as f64 { AT_ONCE } else { 1 });
         }
     }
 }
