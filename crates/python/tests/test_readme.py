@@ -1,4 +1,4 @@
-"""The README's example, as it stands."""
+"""The example of the package's README and of the project's, as it stands."""
 
 from __future__ import annotations
 
@@ -6,10 +6,13 @@ import pathlib
 import re
 
 import numpy as np
+import pytest
+
+HERE = pathlib.Path(__file__)
 
 
-def test_the_example_runs_and_finds_the_truth(capsys):
-    readme = pathlib.Path(__file__).parents[1] / "README.md"
+@pytest.mark.parametrize("readme", [HERE.parents[1] / "README.md", HERE.parents[3] / "README.md"])
+def test_the_example_runs_and_finds_the_truth(readme, capsys):
     (code,) = re.findall(r"```python\n(.*?)```", readme.read_text(), flags=re.DOTALL)
     names: dict[str, object] = {}
     exec(compile(code, str(readme), "exec"), names)
