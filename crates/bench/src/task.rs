@@ -4,7 +4,10 @@ use crate::{Score, Stages};
 use cpu_time::ProcessTime;
 use frfit::c64;
 use frfit::for_each::{ForEach, sequential};
-use frfit::identify::{Band, BandOutcome, Enters, Hooks, Noise, Options, Sought, Vary, identify_band};
+use frfit::identify::{
+    Band, BandOutcome, Enters, Hooks, Noise, Options, Several, SeveralOutcome, Sought, Vary, identify_band,
+    identify_several,
+};
 use frfit::material::{Law, OutsideTable, Table};
 use frfit::model::{DynamicStiffness, Experiment, Parameter};
 use frfit::roots::Bounds;
@@ -109,6 +112,25 @@ impl Structure {
             bounds: Bounds::default(),
         };
         Ok((sought, truth.clone()))
+    }
+
+    /// Identifies several unknowns on one thread: what came out, and CPU seconds.
+    ///
+    /// # Errors
+    /// [`OutsideTable`] where a law does not reach a frequency.
+    pub fn identify_several(&self, sought: &[Sought]) -> Result<(SeveralOutcome, f64), OutsideTable> {
+        let band = Several {
+            model: &self.stiffness,
+            experiment: &self.experiment,
+            sought,
+            frequency_hz: &self.frequency_hz,
+            measured: &self.measured,
+            noise: Noise::Unknown,
+        };
+        let start = ProcessTime::now();
+        let hooks = Hooks { for_each: &sequential, progress: &|_, _, _| {} };
+        let outcome = identify_several(&band, &Options::default(), hooks)?;
+        Ok((outcome, start.elapsed().as_secs_f64()))
     }
 
     /// Storage from a fifth to five times the truth in the middle of the band: wide enough for a nominal that is three times off.

@@ -1,18 +1,14 @@
 //! A beam with a component on it: neither the component's mass nor the beam's modulus are known.
 
+use crate::cantilever::{LENGTH, cantilever};
 use crate::model::{names, nearest, real, term};
 use crate::{Error, SeveralModel};
 use frfit::identify::{Enters, Sought, Vary};
 use frfit::material::Law;
 use frfit::model::{DynamicStiffness, Experiment, Role};
 use frfit::roots::Bounds;
-use frfit_fem::{Beam, Direction, Support};
+use frfit_fem::Direction;
 use frfit_linalg::sparse::Triplets;
-
-/// Length, width and height in m.
-const LENGTH: f64 = 0.5;
-const WIDTH: f64 = 0.03;
-const HEIGHT: f64 = 0.006;
 
 /// Density of aluminium in kg/m³, known: the beam was weighed.
 const DENSITY: f64 = 2700.0;
@@ -31,15 +27,7 @@ const MOUNTED: f64 = 0.065;
 /// # Errors
 /// [`Error::Mesh`] for no element or too many.
 pub fn added_mass(elements: usize) -> Result<SeveralModel, Error> {
-    let beam = Beam {
-        length: LENGTH,
-        area: WIDTH * HEIGHT,
-        inertia: WIDTH * HEIGHT.powi(3) / 12.0,
-        elements,
-        ends: [Support::Clamped, Support::Free],
-        ..Beam::default()
-    }
-    .assemble()?;
+    let beam = cantilever(elements)?;
     let at = |x: f64| nearest(&beam, [x * LENGTH, 0.0, 0.0], Direction::Z);
     let dim = beam.dofs.len();
     let place = at(0.7).row;

@@ -1,15 +1,11 @@
 //! A cantilever whose density is unknown: a real parameter of the mass.
 
 use crate::Error;
+use crate::cantilever::{LENGTH, cantilever};
 use crate::model::{Model, names, nearest, real, term};
 use frfit::material::Law;
 use frfit::model::{DynamicStiffness, Experiment, Parameter, Role};
-use frfit_fem::{Beam, Direction, Support};
-
-/// Length, width and height in m.
-const LENGTH: f64 = 0.5;
-const WIDTH: f64 = 0.03;
-const HEIGHT: f64 = 0.006;
+use frfit_fem::Direction;
 
 /// Storage modulus of aluminium in Pa, and a loss factor with the damping of its clamp in it.
 const STORAGE: f64 = 7.0e10;
@@ -25,15 +21,7 @@ const DELTA: f64 = 0.15;
 /// # Errors
 /// [`Error::Mesh`] for no element or too many.
 pub fn density(elements: usize) -> Result<Model, Error> {
-    let beam = Beam {
-        length: LENGTH,
-        area: WIDTH * HEIGHT,
-        inertia: WIDTH * HEIGHT.powi(3) / 12.0,
-        elements,
-        ends: [Support::Clamped, Support::Free],
-        ..Beam::default()
-    }
-    .assemble()?;
+    let beam = cantilever(elements)?;
     let [struck, measured] = [0.4, 1.0].map(|x| nearest(&beam, [x * LENGTH, 0.0, 0.0], Direction::Z));
     let truth = real(DENSITY);
     let stiffness = DynamicStiffness::new(vec![

@@ -32,6 +32,7 @@
 //! ```
 
 mod added_mass;
+mod cantilever;
 mod clamped_plate;
 mod density;
 mod error;

@@ -32,10 +32,10 @@ def response(theta, with_slopes=False):
     """Receptance at the sensors, and its slopes by theta: one sparse LU for each frequency."""
     global factorisations
     e0, e1, alpha = np.exp(theta[0]), np.exp(theta[1]), 1 / (1 + np.exp(-theta[2]))
-    modulus = e0 + e1 * (1j * omega / reference) ** alpha
+    power = (1j * omega / reference) ** alpha
+    modulus = e0 + e1 * power
     skins_modulus = np.exp(theta[3]) * (1 + 1j * theta[4])
     density = np.exp(theta[5])
-    power = (1j * omega / reference) ** alpha
     of_theta = [
         e0 * np.ones_like(power),
         e1 * power,

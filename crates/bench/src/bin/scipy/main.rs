@@ -5,11 +5,9 @@
 //! says what it would take. Needs a Python with SciPy (FRFIT_PYTHON, or python3).
 #![allow(clippy::print_stdout, clippy::print_stderr)] // tables are what a benchmark is for
 
-use cpu_time::ProcessTime;
 use frfit::c64;
-use frfit::for_each::sequential;
 use frfit::frequency::{linear_hz, omega_rad_s};
-use frfit::identify::{Hooks, Noise, Options, Several, SeveralOutcome, Sought, Vary, identify_several};
+use frfit::identify::{SeveralOutcome, Sought, Vary};
 use frfit::laws::Family;
 use frfit::material::Law;
 use frfit_bench::measurement::{by_subspace, direct};
@@ -126,18 +124,7 @@ impl Case {
     }
 
     fn ours(&self) -> Result<Ours, Box<dyn Error>> {
-        let band = Several {
-            model: &self.structure.stiffness,
-            experiment: &self.structure.experiment,
-            sought: &self.sought,
-            frequency_hz: &self.structure.frequency_hz,
-            measured: &self.structure.measured,
-            noise: Noise::Unknown,
-        };
-        let start = ProcessTime::now();
-        let hooks = Hooks { for_each: &sequential, progress: &|_, _, _| {} };
-        let outcome = identify_several(&band, &Options::default(), hooks)?;
-        let seconds = start.elapsed().as_secs_f64();
+        let (outcome, seconds) = self.structure.identify_several(&self.sought)?;
         let law = |j: usize| outcome.band.iter().find(|one| one.sought == j).map(|one| &one.law);
         let laws = [law(0), law(1), law(2)].map(|law| law.ok_or("an unknown of the band is missing"));
         let [core, skins, density] = laws;
@@ -161,10 +148,9 @@ impl Case {
         let pairs = |row: &Vec<c64>| row.iter().map(pair).collect::<Value>();
         let experiment = &self.structure.experiment;
         let sensors = (0..experiment.sensors.len()).map(|m| pairs(&experiment.unit_force(m)));
-        let middle = self.structure.frequency_hz[0];
-        let skins_mass = self.structure.stiffness.terms()[self.structure.stiffness.find("skins-mass")?]
-            .factor
-            .at(middle)?;
+        let stiffness = &self.structure.stiffness;
+        let skins_mass = &stiffness.terms()[stiffness.find("skins-mass")?].factor;
+        let skins_density = skins_mass.at(self.structure.frequency_hz[0])?.re;
         let nominal: Vec<&Law> = self.sought.iter().map(|one| &one.nominal).collect();
         let [e0, e1, alpha, storage, eta, density] =
             numbers(&self.structure, [nominal[0], nominal[1], nominal[2]])?;
@@ -173,7 +159,7 @@ impl Case {
             "measured": self.structure.measured.iter().map(pairs).collect::<Value>(),
             "load": pairs(&experiment.load),
             "sensors": sensors.collect::<Value>(),
-            "skins_density": skins_mass.re,
+            "skins_density": skins_density,
             "start": [e0.ln(), e1.ln(), (alpha / (1.0 - alpha)).ln(), storage.ln(), eta, density.ln()],
         }))
     }

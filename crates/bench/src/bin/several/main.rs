@@ -4,13 +4,9 @@
 //! made with a subspace of its own, checked by direct solves.
 #![allow(clippy::print_stdout, clippy::print_stderr)] // tables are what a benchmark is for
 
-use cpu_time::ProcessTime;
 use frfit::c64;
-use frfit::for_each::sequential;
 use frfit::frequency::linear_hz;
-use frfit::identify::{
-    Hooks, Noise, Options, Several, SeveralOutcome, Sought, Status, Vary, identify_several,
-};
+use frfit::identify::{Options, SeveralOutcome, Sought, Status, Vary};
 use frfit::laws::Family;
 use frfit::material::Law;
 use frfit_bench::measurement::{BySubspace, by_subspace};
@@ -84,20 +80,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     for (label, set) in sets {
         eprintln!("{label} …");
         let (sought, truths): (Vec<Sought>, Vec<Law>) = set.into_iter().unzip();
-        let start = ProcessTime::now();
-        let outcome = identify_several(
-            &Several {
-                model: &structure.stiffness,
-                experiment: &structure.experiment,
-                sought: &sought,
-                frequency_hz: &structure.frequency_hz,
-                measured: &structure.measured,
-                noise: Noise::Unknown,
-            },
-            &Options::default(),
-            Hooks { for_each: &sequential, progress: &|_, _, _| {} },
-        )?;
-        let cpu = start.elapsed().as_secs_f64();
+        let (outcome, cpu) = structure.identify_several(&sought)?;
         let [right, wrong] = score(&outcome, &truths)?;
         table.push([
             label.to_owned(),

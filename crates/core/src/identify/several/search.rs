@@ -4,7 +4,7 @@ use super::coordinates::Coordinates;
 use super::information::Information;
 use super::path::Chosen;
 use super::sought::Enters;
-use super::space::{Space, in_box};
+use super::space::{Space, between, in_box};
 use super::spot::{Solution, eliminate};
 use super::{Sought, Task};
 use crate::c64;
@@ -191,12 +191,12 @@ impl Task<'_, '_> {
         let from = |solutions: &[Vec<Solution>], k: usize, beside: &[usize]| -> Vec<Solution> {
             let spot = self.spot(which[k]);
             let starts = beside.iter().flat_map(|&b| &solutions[b]).map(|one| spot.coordinates(&one.values));
-            self.settled(&at, which[k], &starts.collect::<Vec<_>>())
+            self.settled(&at, which[k], &starts.collect::<Vec<_>>(), None)
         };
         let mut solutions = match guess {
             Guess::Known(known) => map(self.hooks.for_each, n, |k| from(known, k, &[k])),
             Guess::Everywhere(_) if !per_frequency => {
-                map(self.hooks.for_each, n, |k| self.settled(&at, which[k], &[Vec::new()]))
+                map(self.hooks.for_each, n, |k| self.settled(&at, which[k], &[Vec::new()], None))
             }
             Guess::Everywhere(values) => {
                 let anchors: Vec<usize> = (0..n).step_by((n / ANCHORS).clamp(1, APART)).collect();
@@ -237,18 +237,19 @@ impl Task<'_, '_> {
             return Vec::new();
         };
         let spot = self.spot(i);
-        let rough = at.space.rough(i);
+        let mut rough = None;
         let factors: Vec<usize> = (0..self.band.sought.len()).filter(|&j| self.is_own_factor(j)).collect();
         let others = self.band.sought.iter().filter(|one| one.per_frequency() > 0).count() - factors.len();
         let found = match (factors.as_slice(), others) {
             (&[j], 0) => self.all_of((at.space, at.space.model(i)), i, j, &given),
             (&[a, b], 0) => {
+                let rough = rough.insert(at.space.rough(i));
                 let along = |a: usize, b: usize| {
                     let grid = in_turn(&self.band.sought[b], given[b]).into_iter();
                     let with = |value: c64| {
                         let mut values = given.clone();
                         values[b] = value;
-                        self.all_of((at.space, &rough), i, a, &values)
+                        self.all_of((at.space, rough), i, a, &values)
                     };
                     grid.flat_map(with).collect::<Vec<_>>()
                 };
@@ -260,11 +261,17 @@ impl Task<'_, '_> {
         };
         let starts = [values, &self.nominal[i]].into_iter().chain(found.iter().map(Vec::as_slice));
         let starts: Vec<Vec<f64>> = starts.map(|values| spot.coordinates(values)).collect();
-        self.settled(at, i, &starts)
+        self.settled(at, i, &starts, rough)
     }
 
-    /// The solutions that some starts lead to. Most of many lead nowhere, or where another one does: that is told on a model of few vectors.
-    fn settled(&self, at: &At<'_, '_>, i: usize, starts: &[Vec<f64>]) -> Vec<Solution> {
+    /// The solutions that some starts lead to. Most of many lead nowhere, or where another one does: that is told on a model of few vectors, which may be there already.
+    fn settled(
+        &self,
+        at: &At<'_, '_>,
+        i: usize,
+        starts: &[Vec<f64>],
+        rough: Option<Projection>,
+    ) -> Vec<Solution> {
         let Some((given, _)) = self.given(at.coordinates, at.theta, i, &self.nominal[i]) else {
             return Vec::new();
         };
@@ -274,7 +281,7 @@ impl Task<'_, '_> {
         if starts.len() <= MANY {
             return on(at.space.model(i), starts);
         }
-        let rough = on(&at.space.rough(i), starts);
+        let rough = on(&rough.unwrap_or_else(|| at.space.rough(i)), starts);
         on(at.space.model(i), &rough.into_iter().map(|solution| solution.own).collect::<Vec<_>>())
     }
 
@@ -326,8 +333,9 @@ impl Task<'_, '_> {
         for _ in 0..SEARCHES {
             let plane = Plane { origin: &place.theta.clone(), basis: &basis };
             let near = self.search_in(space, which, (found, &place), &plane, &rest, Reach::Near)?;
-            let moved = super::spot::distance(&plane.at(&near.theta), plane.origin);
-            match self.moved_to(space, which, (found, &place), plane.at(&near.theta)) {
+            let end = plane.at(&near.theta);
+            let moved = super::spot::distance(&end, plane.origin);
+            match self.moved_to(space, which, (found, &place), end) {
                 Some(next) if next.eliminated.sum() <= place.eliminated.sum() => place = next,
                 _ if moved <= SETTLED => {}
                 _ => {
@@ -461,8 +469,7 @@ fn in_turn(one: &Sought, given: c64) -> Vec<c64> {
     let steps = if low > 0.0 { (STEPS_PER_OCTAVE * (high / low).log2()).ceil() as usize } else { STEPS };
     let eta = if given.re == 0.0 { 0.0 } else { given.im / given.re };
     let value = |k: usize| {
-        let part = k as f64 / steps.max(1) as f64;
-        let real = if low > 0.0 { low * (high / low).powf(part) } else { low + (high - low) * part };
+        let real = between([low, high], k as f64 / steps.max(1) as f64);
         c64::new(1.0, if one.real { 0.0 } else { eta }) * real
     };
     (0..=steps).map(value).collect()

@@ -193,14 +193,17 @@ impl<'a> Space<'a> {
 /// The k-th point of a sequence over the box of all unknowns, logarithmic where a range is positive: one dimension for each.
 pub(super) fn in_box(composite: &Composite<'_>, nominal: &[c64], k: usize) -> Vec<c64> {
     let value = |(j, (one, &nominal)): (usize, (&super::Sought, &c64))| {
-        let [low, high] = one.range(nominal);
-        let part = radical_inverse(k, PRIMES[j % PRIMES.len()]);
-        let real = if low > 0.0 { low * (high / low).powf(part) } else { low + (high - low) * part };
+        let real = between(one.range(nominal), radical_inverse(k, PRIMES[j % PRIMES.len()]));
         let eta = loss_factor(nominal);
         let eta = one.bounds.loss_factor.map_or(eta, |[low, high]| eta.clamp(low, high));
         if one.real || !eta.is_finite() { c64::new(real, 0.0) } else { c64::new(1.0, eta) * real }
     };
     composite.sought.iter().zip(nominal).enumerate().map(value).collect()
+}
+
+/// The value that divides a range in this part: of its logarithm where it is positive.
+pub(super) fn between([low, high]: [f64; 2], part: f64) -> f64 {
+    if low > 0.0 { low * (high / low).powf(part) } else { low + (high - low) * part }
 }
 
 const PRIMES: [usize; 12] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37];
