@@ -49,12 +49,12 @@ impl Assessment {
 
 /// The reduced system solved for the load and for every sensor.
 struct Solutions {
+    /// θ_g of D and of ∂D/∂c.
     theta: Vec<c64>,
+    slope_theta: Vec<c64>,
     factor: Lu,
     /// y, z_1, z_2 …
     all: Vec<Vec<c64>>,
-    response: Vec<c64>,
-    slope: Vec<c64>,
 }
 
 impl Solutions {
@@ -64,16 +64,46 @@ impl Solutions {
         block.extend(small.sensors.iter().flatten().map(|&l| c64::new(l, 0.0)));
         let factor = Lu::new(&small.combine(&theta)).map_err(|NoConvergence| Breakdown::NotFinite)?;
         factor.solve(&mut block).map_err(|NoConvergence| SINGULAR)?;
-        let all: Vec<Vec<c64>> = block.chunks_exact(small.size).map(<[c64]>::to_vec).collect();
-        let (y, duals) = (&all[0], &all[1..]);
-        let change = small.multiply(&[slope_theta], y).concat();
-        let response = small.sensors.iter().map(|l| l.iter().zip(y).map(|(l, y)| y * l).sum()).collect();
-        let slope = duals.iter().map(|z| -transpose_dot(z, &change)).collect();
-        Ok(Self { theta, factor, all, response, slope })
+        let all = block.chunks_exact(small.size).map(<[c64]>::to_vec).collect();
+        Ok(Self { theta, slope_theta, factor, all })
+    }
+
+    /// x_m.
+    fn response(&self, small: &Projection) -> Vec<c64> {
+        small.observe(&self.all[0])
+    }
+
+    /// −z_mᵀ (Σ_g θ_g S_g) y for each set of θ.
+    fn slopes(&self, small: &Projection, theta: &[Vec<c64>]) -> Vec<Vec<c64>> {
+        let changes = small.multiply(theta, &self.all[0]);
+        let slope = |change: &Vec<c64>| self.all[1..].iter().map(|z| -transpose_dot(z, change)).collect();
+        changes.iter().map(slope).collect()
+    }
+
+    /// ∂x_m/∂c.
+    fn slope(&self, small: &Projection) -> Vec<c64> {
+        self.slopes(small, std::slice::from_ref(&self.slope_theta)).concat()
     }
 }
 
 impl Projection {
+    /// x_m at the nominal values.
+    ///
+    /// # Errors
+    /// [`Breakdown`] where the reduced system is singular.
+    pub fn respond(&self, at: &ModelAt<'_>) -> Result<Vec<c64>, Breakdown> {
+        let mut y = self.load.clone();
+        let factor = Lu::new(&self.combine(&self.parts.weights(&at.nominal)));
+        let factor = factor.map_err(|NoConvergence| Breakdown::NotFinite)?;
+        factor.solve(&mut y).map_err(|NoConvergence| SINGULAR)?;
+        Ok(self.observe(&y))
+    }
+
+    /// ℓ_mᵀV y.
+    fn observe(&self, y: &[c64]) -> Vec<c64> {
+        self.sensors.iter().map(|l| l.iter().zip(y).map(|(l, y)| y * l).sum()).collect()
+    }
+
     /// x_m and ∂x_m/∂c with the correction c of the first parameter, without an estimate of their error.
     ///
     /// # Errors
@@ -83,8 +113,8 @@ impl Projection {
         at: &ModelAt<'_>,
         correction: c64,
     ) -> Result<(Vec<c64>, Vec<c64>), Breakdown> {
-        let Solutions { response, slope, .. } = Solutions::new(self, at, correction)?;
-        Ok((response, slope))
+        let solutions = Solutions::new(self, at, correction)?;
+        Ok((solutions.response(self), solutions.slope(self)))
     }
 
     /// x_m at the nominal values, and ∂x_m/∂c_j of every parameter there, `[parameter][sensor]`: −z_mᵀA_{j,1}x, one factorisation and one block of solves for all.
@@ -92,13 +122,8 @@ impl Projection {
     /// # Errors
     /// [`Breakdown`] where the reduced system is singular.
     pub fn respond_with_slopes(&self, at: &ModelAt<'_>) -> Result<(Vec<c64>, Vec<Vec<c64>>), Breakdown> {
-        let Solutions { all, response, .. } = Solutions::new(self, at, c64::default())?;
-        let (y, duals) = (&all[0], &all[1..]);
-        let theta = self.first_weights(at);
-        let changes = self.multiply(&theta, y);
-        let slope = |change: &Vec<c64>| duals.iter().map(|z| -transpose_dot(z, change)).collect();
-        let slopes = changes.iter().map(slope).collect();
-        Ok((response, slopes))
+        let solutions = Solutions::new(self, at, c64::default())?;
+        Ok((solutions.response(self), solutions.slopes(self, &self.first_weights(at))))
     }
 
     /// y and every z_m at the nominal values, then −D⁻¹A_{j,1} of each for every parameter: their slopes.
@@ -125,24 +150,23 @@ impl Projection {
     /// # Errors
     /// [`Breakdown`] where the reduced system is singular.
     pub fn second_derivative(&self, at: &ModelAt<'_>, correction: c64) -> Result<Vec<c64>, Breakdown> {
-        let [theta, slope, second] = weights_to_second(self, at, correction);
-        let mut block = self.load.clone();
-        block.extend(self.sensors.iter().flatten().map(|&l| c64::new(l, 0.0)));
-        let factor = Lu::new(&self.combine(&theta)).map_err(|NoConvergence| Breakdown::NotFinite)?;
-        factor.solve(&mut block).map_err(|NoConvergence| SINGULAR)?;
-        let (y, duals) = block.split_at(self.size);
+        let Solutions { factor, all, .. } = Solutions::new(self, at, correction)?;
+        let [_, slope, second] = weights_to_second(self, at, correction);
+        let (y, duals) = (&all[0], &all[1..]);
         let slope = [slope];
         let mut change = self.multiply(&slope, y).concat();
         factor.solve(&mut change).map_err(|NoConvergence| SINGULAR)?;
         let (twice, bend) = (self.multiply(&slope, &change).concat(), self.multiply(&[second], y).concat());
         let total: Vec<c64> = twice.iter().zip(&bend).map(|(a, b)| 2.0 * a - b).collect();
-        Ok(duals.chunks_exact(self.size.max(1)).map(|z| transpose_dot(z, &total)).collect())
+        Ok(duals.iter().map(|z| transpose_dot(z, &total)).collect())
     }
 }
 
 impl Solved {
     pub(super) fn new(small: &Projection, at: &ModelAt<'_>, correction: c64) -> Result<Self, Breakdown> {
-        let Solutions { theta, all: solutions, response, slope, .. } = Solutions::new(small, at, correction)?;
+        let solved = Solutions::new(small, at, correction)?;
+        let (response, slope) = (solved.response(small), solved.slope(small));
+        let Solutions { theta, all: solutions, .. } = solved;
         let residuals = small.residuals(&theta, &solutions);
         let norms: Vec<f64> = residuals.iter().map(|residual| norm(residual)).collect();
         let size = norm(&solutions[0]);

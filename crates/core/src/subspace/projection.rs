@@ -83,18 +83,16 @@ impl Projection {
 
     /// Sketches of F − Σ θ_g S_g V y and ℓ_m − Σ θ_g S_g V z_m in the norm of forces: `solutions` are y, z_1, z_2 …
     pub(super) fn residuals(&self, theta: &[c64], solutions: &[Vec<c64>]) -> Vec<Vec<c64>> {
+        let rows = self.sketched[0].len();
+        let weighed = self.images.iter().zip(theta).filter(|(_, theta)| **theta != c64::default());
+        let weighed: Vec<(&Vec<f64>, &c64)> = weighed.collect();
         let residual = |(given, y): (&Vec<c64>, &Vec<c64>)| {
-            let mut rest = given.clone();
-            for (image, &theta) in self.images.iter().zip(theta) {
-                if theta == c64::default() {
-                    continue;
-                }
-                for (column, y) in image.chunks_exact(given.len()).zip(y) {
-                    let factor = theta * y;
-                    rest.iter_mut().zip(column).for_each(|(r, a)| *r -= factor * a);
-                }
+            let mut parts: Vec<(c64, &[f64])> = Vec::with_capacity(weighed.len() * y.len());
+            for (image, theta) in &weighed {
+                parts.extend(image.chunks_exact(rows).zip(y).map(|(column, y)| (*theta * y, column)));
             }
-            rest
+            let forces = dense::combination(rows, 1, &parts);
+            given.iter().zip(forces.column(0)).map(|(given, force)| given - force).collect()
         };
         self.sketched.iter().zip(solutions).map(residual).collect()
     }

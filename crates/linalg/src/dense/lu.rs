@@ -1,5 +1,6 @@
 //! A x = b by LU with partial pivoting.
 
+use super::planar::PlanarLu;
 use super::{Matrix, NoConvergence};
 use crate::c64;
 use faer::linalg::solvers::{PartialPivLu, SolveCore};
@@ -7,10 +8,17 @@ use faer::{Conj, MatMut};
 
 /// A factorised square matrix, P A = L U.
 #[derive(Debug, Clone)]
-pub struct Lu {
-    factor: PartialPivLu<c64>,
-    dim: usize,
+pub struct Lu(Factor);
+
+#[derive(Debug, Clone)]
+enum Factor {
+    Planar(PlanarLu),
+    Blocked(PartialPivLu<c64>),
 }
+
+/// Up to so many rows a library's blocks cost more than they gain: of 18 rows, with three right-hand sides, 2.9 µs against 4.9, of 64 52 against 71; of 80 the
+/// blocks win.
+const PLANAR: usize = 64;
 
 impl Lu {
     /// Factorises A.
@@ -25,12 +33,19 @@ impl Lu {
         if !a.is_finite() {
             return Err(NoConvergence);
         }
-        Ok(Self { factor: a.as_faer().partial_piv_lu(), dim: a.nrows() })
+        Ok(Self(if a.nrows() <= PLANAR {
+            Factor::Planar(PlanarLu::new(a))
+        } else {
+            Factor::Blocked(a.as_faer().partial_piv_lu())
+        }))
     }
 
     /// Number of unknowns n.
     pub fn dim(&self) -> usize {
-        self.dim
+        match &self.0 {
+            Factor::Planar(factor) => factor.dim(),
+            Factor::Blocked(factor) => factor.L().nrows(),
+        }
     }
 
     /// Overwrites k right-hand sides (n × k, column after column) with the solutions of A X = B.
@@ -44,13 +59,18 @@ impl Lu {
     /// # Limits
     /// A nearly singular matrix gives a solution of small residual and unknown error.
     pub fn solve(&self, rhs: &mut [c64]) -> Result<(), NoConvergence> {
-        if self.dim == 0 {
+        let n = self.dim();
+        if n == 0 {
             return Ok(());
         }
-        assert_eq!(rhs.len() % self.dim, 0, "whole right-hand sides");
-        let columns = rhs.len() / self.dim;
-        let view = MatMut::from_column_major_slice_mut(rhs, self.dim, columns);
-        self.factor.solve_in_place_with_conj(Conj::No, view);
+        assert_eq!(rhs.len() % n, 0, "whole right-hand sides");
+        match &self.0 {
+            Factor::Planar(factor) => factor.solve(rhs),
+            Factor::Blocked(factor) => {
+                let view = MatMut::from_column_major_slice_mut(rhs, n, rhs.len() / n);
+                factor.solve_in_place_with_conj(Conj::No, view);
+            }
+        }
         if rhs.iter().all(|x| x.is_finite()) { Ok(()) } else { Err(NoConvergence) }
     }
 }
@@ -70,4 +90,46 @@ pub fn solve(a: &Matrix, b: &[c64]) -> Result<Vec<c64>, NoConvergence> {
     let mut x = b.to_vec();
     Lu::new(a)?.solve(&mut x)?;
     Ok(x)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Entries of no pattern, with a diagonal that a factorisation without exchanges would stumble over.
+    fn matrix(n: usize) -> Matrix {
+        let part = |k: usize| ((k * k + 3 * k) as f64 * 0.618_034).fract() - 0.5;
+        Matrix::from_fn(n, n, |i, j| {
+            let k = 1 + i * n + j;
+            if i == j { c64::default() } else { c64::new(part(k), part(7 * k)) }
+        })
+    }
+
+    #[test]
+    fn solutions_solve_in_both_forms() {
+        for n in (0..20).chain([PLANAR - 1, PLANAR, PLANAR + 1, PLANAR + 9]).filter(|&n| n != 1) {
+            let a = matrix(n);
+            let lu = Lu::new(&a).unwrap();
+            assert_eq!((lu.dim(), matches!(lu.0, Factor::Planar(_))), (n, n <= PLANAR));
+            let exact: Vec<Vec<c64>> =
+                (1..4).map(|k| (0..n).map(|i| c64::new((i * k) as f64, 1.0 - k as f64)).collect()).collect();
+            let mut rhs: Vec<c64> = exact.iter().flat_map(|x| a.multiply(x)).collect();
+            lu.solve(&mut rhs).unwrap();
+            let off = rhs.iter().zip(exact.concat()).map(|(x, exact)| (x - exact).norm()).fold(0.0, f64::max);
+            // Entries up to 200, condition numbers of some thousands.
+            assert!(off < 1e-9, "{n}: {off}");
+        }
+    }
+
+    #[test]
+    fn both_forms_say_where_there_is_no_solution() {
+        for n in [1, 5, PLANAR + 1] {
+            let mut a = matrix(n);
+            (0..n).for_each(|i| a[(i, n - 1)] = c64::default());
+            let singular = Lu::new(&a).and_then(|lu| lu.solve(&mut vec![c64::new(1.0, 0.0); n]));
+            assert_eq!(singular, Err(NoConvergence), "{n}");
+            a[(0, 0)] = c64::new(f64::NAN, 0.0);
+            assert!(Lu::new(&a).is_err());
+        }
+    }
 }

@@ -4,6 +4,7 @@ mod eigen;
 mod least_squares;
 mod lu;
 mod matrix;
+mod planar;
 mod polynomial;
 mod real;
 mod singular;
