@@ -18,9 +18,10 @@ pub(super) struct Band {
 }
 
 impl Band {
-    /// That of several which makes its cheapest path likeliest: the same candidates, with more or less scatter allowed, least first.
-    pub(super) fn likeliest(count: usize, frequencies: usize, band: impl Fn(usize) -> Self) -> Self {
-        band(lowest(count, frequencies, |b, every| band(b).likelihood(CURVATURE, every)))
+    /// That of several bands(b, every) of every so-many-th frequency which makes its cheapest path likeliest: the same candidates, with more or less scatter
+    /// allowed, least first.
+    pub(super) fn likeliest(count: usize, frequencies: usize, band: impl Fn(usize, usize) -> Self) -> Self {
+        band(lowest(count, frequencies, |b, every| band(b, every).likelihood(CURVATURE, 1)), 1)
     }
 
     /// κ of largest likelihood, and one size more: what is too stiff for the right path skips it. For a band of one path.
@@ -183,13 +184,13 @@ mod tests {
                 let off = 3.5 * scatter * c64::new(random(k), random(k + n));
                 vec![point(0, level + off), point(1, c64::new(2.0 * x - 1.0 + random(7 * k), 0.1))]
             };
-            let band = |s: usize| Band {
-                log_frequency: log_frequency.clone(),
-                points: (0..n).map(|k| at(k, sizes[s])).collect(),
+            let band = |s: usize, every: usize| Band {
+                log_frequency: log_frequency.iter().step_by(every).copied().collect(),
+                points: (0..n).step_by(every).map(|k| at(k, sizes[s])).collect(),
             };
             let lowest =
                 |costs: Vec<f64>| (0..costs.len()).min_by(|&a, &b| costs[a].total_cmp(&costs[b])).unwrap();
-            let best = lowest((0..sizes.len()).map(|s| band(s).likelihood(CURVATURE, 1)).collect());
+            let best = lowest((0..sizes.len()).map(|s| band(s, 1).likelihood(CURVATURE, 1)).collect());
             let found = Band::likeliest(sizes.len(), n, band);
             assert_eq!(found.points[0][0].variance, sizes[best].powi(2), "{scatter}");
             let costs = CURVATURES.iter().map(|&curvature| found.likelihood(curvature, 1));

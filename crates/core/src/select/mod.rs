@@ -86,11 +86,12 @@ pub fn choose(frequency_hz: &[f64], nodes: &[Vec<Node>], options: &SelectOptions
     let log_frequency: Vec<f64> = frequency_hz.iter().map(|&f| omega_rad_s(f).ln()).collect();
     // At 0 Hz there is no ln ω; nothing is chosen there.
     let scatters: Vec<Scatter> = noise.scatters(nodes).collect();
-    let band = |k: usize| {
-        let points = nodes.iter().zip(&log_frequency);
+    let band = |k: usize, every: usize| {
+        let points = nodes.iter().zip(&log_frequency).step_by(every);
         let points = points
             .map(|(nodes, log)| if log.is_finite() { noise.points(nodes, scatters[k]) } else { Vec::new() });
-        Band { points: points.collect(), log_frequency: log_frequency.clone() }
+        let log_frequency = log_frequency.iter().step_by(every).copied().collect();
+        Band { points: points.collect(), log_frequency }
     };
     let nothing = Choice { chosen: None, alternatives: Vec::new(), margin: f64::INFINITY };
     let tracks = tracks(Band::likeliest(scatters.len(), nodes.len(), band), options.margin);

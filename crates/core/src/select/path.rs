@@ -79,22 +79,23 @@ impl Path {
         self.cost + other.cost + self.trend.zip(other.trend).map_or(0.0, |(a, b)| a.apart(&b))
     }
 
-    fn through(&self, index: usize, point: &Point, step: f64, at: usize, rule: Rule) -> Self {
-        let (mut cost, mut material) = (point.misfit, 0.0);
-        let trend = match self.trend {
-            None => Trend::start(point.log, point.variance),
-            Some(trend) => {
-                cost += trend.surprise(point.log, point.variance);
-                if rule.spread {
-                    cost += trend.spread(point.variance);
-                }
-                let (nats, trend) = trend.joined(point.log, point.variance).as_material(step);
-                material = nats;
-                trend
-            }
+    /// What this path costs with a point, but for what says that it is no material: not more than it does cost.
+    fn cost_with(&self, point: &Point, rule: Rule) -> f64 {
+        let trend = self.trend.map_or(0.0, |trend| {
+            let surprise = trend.surprise(point.log, point.variance);
+            if rule.spread { surprise + trend.spread(point.variance) } else { surprise }
+        });
+        self.cost + point.misfit + trend
+    }
+
+    /// With a point, which [`Self::cost_with`] has the cost of.
+    fn through(&self, index: usize, point: &Point, cost: f64, step: f64, at: usize) -> Self {
+        let (material, trend) = match self.trend {
+            None => (0.0, Trend::start(point.log, point.variance)),
+            Some(trend) => trend.joined(point.log, point.variance).as_material(step),
         };
         Self {
-            cost: self.cost + cost + material,
+            cost: cost + material,
             material: self.material + material,
             misfit: self.misfit + point.misfit,
             trend: Some(trend),
@@ -135,12 +136,14 @@ pub(super) struct Search {
     /// Frequencies so far.
     at: usize,
     now: Vec<Path>,
+    /// Those of the frequency before.
+    before: Vec<Path>,
 }
 
 impl Search {
     /// Before the first frequency.
     pub(super) fn new(rule: Rule) -> Self {
-        Self { rule, at: 0, now: vec![Path::START] }
+        Self { rule, at: 0, now: vec![Path::START], before: Vec::new() }
     }
 
     /// The best paths so far.
@@ -150,20 +153,18 @@ impl Search {
 
     /// One frequency on: the step in ln ω that leads there, and what is there.
     pub(super) fn advance(&mut self, step: f64, points: &[Point]) {
-        let mut before =
-            std::mem::replace(&mut self.now, Vec::with_capacity(KEPT * points.len() + KEPT_IN_GAP + 1));
-        for (parent, path) in before.iter_mut().enumerate() {
+        std::mem::swap(&mut self.now, &mut self.before);
+        for (parent, path) in self.before.iter_mut().enumerate() {
             *path = Path { parent, ..path.advanced(step, self.rule.curvature) };
         }
-        let mut further = Vec::with_capacity(before.len());
+        self.now.clear();
         for (index, point) in points.iter().enumerate() {
-            further.clear();
-            further.extend(before.iter().map(|path| path.through(index, point, step, self.at, self.rule)));
-            keep_best(&before, &further, KEPT, &mut self.now);
+            keep_best(&self.before, KEPT, &mut self.now, |path, limit| {
+                let cost = path.cost_with(point, self.rule);
+                (cost < limit).then(|| path.through(index, point, cost, step, self.at))
+            });
         }
-        further.clear();
-        further.extend(before.iter().map(|path| path.past(points.is_empty())));
-        keep_best(&before, &further, KEPT_IN_GAP, &mut self.now);
+        keep_best(&self.before, KEPT_IN_GAP, &mut self.now, |path, _| Some(path.past(points.is_empty())));
         self.at += 1;
     }
 
@@ -173,17 +174,40 @@ impl Search {
     }
 }
 
-/// The cheapest of each history (what `before` chose last), and of those the cheapest; the one that has chosen nothing so far stays, for it alone can
-/// start anew.
-fn keep_best(before: &[Path], further: &[Path], count: usize, kept: &mut Vec<Path>) {
-    let mut order: Vec<usize> = (0..further.len()).collect();
-    order.sort_by(|&a, &b| further[a].cost.total_cmp(&further[b].cost));
+/// Of what becomes of each path the cheapest of each history (what was chosen last before), and of those the cheapest; the one that has chosen nothing so far
+/// stays, for it alone can start anew. What costs more than a limit may be left out: most do, and are not looked at closely.
+fn keep_best(
+    before: &[Path],
+    count: usize,
+    kept: &mut Vec<Path>,
+    further: impl Fn(&Path, f64) -> Option<Path>,
+) {
     let first = kept.len();
-    for k in order {
-        let history = before[k].last;
-        let is_new = kept[first..].iter().all(|other| before[other.parent].last != history);
-        if is_new && (kept.len() - first < count || history.is_none()) {
-            kept.push(further[k]);
+    let (mut anew, mut limit) = (None, f64::INFINITY);
+    for path in before {
+        let Some(history) = path.last else {
+            anew = further(path, f64::INFINITY);
+            continue;
+        };
+        let Some(new) = further(path, limit).filter(|new| new.cost < limit) else { continue };
+        match kept[first..].iter_mut().find(|other| before[other.parent].last == Some(history)) {
+            Some(same) if new.cost < same.cost => *same = new,
+            Some(_) => continue,
+            None => kept.push(new),
         }
+        if kept.len() - first >= count {
+            let own = &mut kept[first..];
+            own.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+            limit = own[count - 1].cost;
+            kept.truncate(first + count);
+        }
+    }
+    kept[first..].sort_by(|a, b| a.cost.total_cmp(&b.cost));
+    if let Some(anew) = anew {
+        let place = kept[first..].partition_point(|other| other.cost <= anew.cost);
+        if place < count {
+            kept.truncate(first + count - 1);
+        }
+        kept.insert(first + place, anew);
     }
 }
