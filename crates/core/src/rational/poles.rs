@@ -79,20 +79,23 @@ impl Poles {
         let allowed = error * self.respond_with_slope(correction).0[sensor].norm();
         let residues = &self.residues[sensor];
         let least = least(residues);
-        let order = |(k, lambda): (usize, &c64)| {
-            let rho = residues[k];
-            let (size, share) = ((z * lambda).norm(), (rho / (1.0 + z * lambda)).norm());
+        let mut most = 0;
+        for (lambda, rho) in self.lambda.iter().zip(residues) {
+            let size = (z * lambda).norm();
             if size >= 1.0 {
-                (rho.norm() <= least).then_some(0)
-            } else if share * size <= allowed {
-                Some(0)
-            } else {
-                // Smallest n with share · size^{n+1} <= allowed.
-                let orders = ((allowed / share).ln() / size.ln()).ceil();
-                orders.is_finite().then(|| (orders as usize).saturating_sub(1))
+                if rho.norm() > least {
+                    return None;
+                }
+                continue;
             }
-        };
-        self.lambda.iter().enumerate().map(order).try_fold(0, |most, n| Some(most.max(n?)))
+            let share = (rho / (1.0 + z * lambda)).norm();
+            // Smallest n with share · size^{n+1} <= allowed: most poles are far, and need less than one that is near.
+            if share * size.powi(most + 1) > allowed {
+                let orders = ((allowed / share).ln() / size.ln()).ceil();
+                most = if orders < f64::from(i32::MAX) { orders as i32 - 1 } else { return None };
+            }
+        }
+        usize::try_from(most).ok()
     }
 
     /// ρ/|c|: one over the distance to the nearest pole (P-14).

@@ -91,7 +91,7 @@ const STEPS: usize = 30;
 const SHORT: usize = 6;
 
 /// A step of this part of the factor is likely the last: Newton's next is the square of it.
-const NEAR: f64 = 1e-6;
+const NEAR: f64 = 1e-5;
 
 /// What is left after the last: beyond the digits that an answer has, whatever the noise.
 const SETTLED: f64 = 1e-11;

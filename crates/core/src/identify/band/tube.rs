@@ -61,6 +61,11 @@ impl<'e, 'a> Tube<'e, 'a> {
         a + fraction(self.at, left, i, right) * (b - a)
     }
 
+    /// x_m at the nominal values.
+    pub(super) fn respond(&self, i: usize) -> Result<Vec<c64>, NoConvergence> {
+        self.model.respond(&self.at[i]).map_err(|_| NoConvergence)
+    }
+
     pub(super) fn respond_with_slope(&self, i: usize, correction: c64) -> Evaluated {
         self.model.respond_with_slope(&self.at[i], correction).map_err(|_| NoConvergence)
     }
