@@ -56,11 +56,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
     let two = run(&band, 2)?;
     // In turn, so that what disturbs one disturbs all.
-    let mut rounds = Vec::with_capacity(RUNS);
+    let mut rounds: Vec<Round> = Vec::with_capacity(RUNS);
     for _ in 0..RUNS {
         rounds.push((run(&band, 1)?, run(&dense, 1)?, factorisations(&band)?));
     }
-    let each = |what: &dyn Fn(&(Run, Run, [f64; 3])) -> f64| median(rounds.iter().map(what).collect());
+    let each = |what: &dyn Fn(&Round) -> f64| median(rounds.iter().map(what).collect());
     // What training costs does not depend on how many frequencies there are, and differs by more than all the rest from run to run.
     let after = |run: &Run| run.cpu - run.stages.subspace;
     let more = each(&|(one, many, _)| after(many) - after(one));
@@ -150,6 +150,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("medians of {RUNS} rounds in turn, on one thread");
     Ok(())
 }
+
+/// The band, the dense one, and [`factorisations`].
+type Round = (Run, Run, [f64; 3]);
 
 /// CPU seconds of one factorisation: of a stand-in that is positive definite, of one that is not, and of D.
 fn factorisations(structure: &Structure) -> Result<[f64; 3], Box<dyn Error>> {
