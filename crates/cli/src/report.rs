@@ -162,6 +162,7 @@ fn doubts(job: &IdentifyJob) -> Vec<(&'static str, String)> {
         Some(fit) if fit.verdict == Explained::No => {
             let left = run.sensors.iter().filter(|sensor| !sensor.left_out).count();
             let who = match left {
+                _ if run.laws.is_some() => "the law, or the model, cannot explain the measurements",
                 2 => {
                     "the two sensors contradict one another, or the model cannot explain them; two cannot tell which"
                 }

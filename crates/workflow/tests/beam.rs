@@ -38,8 +38,15 @@ const POLES: [(f64, f64); 8] = [
     (1655.391, 0.2456e-3),
 ];
 
-/// Damping is compared at the first seven: the noise at the eighth, 5 % of its peak, leaves sdypy-EMA's open by the fifth between orders.
-const DAMPED: usize = 7;
+/// What one modulus of all modes would be: the mean of what they say one by one.
+const MODULUS: f64 = 2610.5;
+
+/// Of the lines of the whole band so many.
+const LINES: usize = 1600;
+
+/// The eighth of these poles is not that of its peak: it leaves six times what the best one of a resonance and a straight line leaves of the lines within 3 Hz, which is this one, known to
+/// half a percent; in bands about it sdypy-EMA has 0.00027 to 0.00039. The other seven leave 1.2 to 2.1 times what the best ones do.
+const EIGHTH: f64 = 3.53e-4;
 
 /// Twice the rate of decay that all modes share, 1/s.
 const WINDOW: f64 = 1.15;
@@ -87,8 +94,14 @@ fn measured() -> Option<Vec<Frf>> {
     Some((1..=3).map(one).collect())
 }
 
-/// A case with those lines that are wanted, all scales unknown.
-fn run(frfs: &[Frf], nominal: f64, bounds: [f64; 2], wanted: impl Fn(f64) -> bool) -> (TempDir, IdentifyJob) {
+/// A case with the lines of a band, all scales unknown.
+fn run(
+    frfs: &[Frf],
+    nominal: f64,
+    bounds: [f64; 2],
+    band_hz: [f64; 2],
+    most_lines: usize,
+) -> (TempDir, IdentifyJob) {
     let folder = tempfile::tempdir().unwrap();
     let write = |name: &str, bytes: &[u8]| fs::write(folder.path().join(name), bytes).unwrap();
     let beam = beam();
@@ -104,16 +117,16 @@ fn run(frfs: &[Frf], nominal: f64, bounds: [f64; 2], wanted: impl Fn(f64) -> boo
     );
     for (k, (frf, node)) in frfs.iter().zip(NODES).enumerate() {
         let mut table = String::from("frequency_hz,re,im\n");
-        let lines = frf.frequency_hz.iter().zip(&frf.response).filter(|(f, _)| wanted(**f));
+        let lines = frf.frequency_hz.iter().zip(&frf.response);
         lines.for_each(|(f, u)| writeln!(table, "{f},{},{}", u.re, u.im).unwrap());
         write(&format!("{k}.csv"), table.as_bytes());
         let row = 2 * node - 1;
         write!(case, "[[measurement]]\nfile = \"{k}.csv\"\nrow = {row}\nquantity = \"accelerance\"\nscale = \"unknown\"\n").unwrap();
     }
-    let [low, high] = bounds;
+    let ([low, high], [first, last]) = (bounds, band_hz);
     write!(
         case,
-        "[identify]\nmatrix = \"steel\"\nband_hz = [20.0, 2000.0]\nvaries = \"law\"\nlaw = \"constant\"\nrobust = false\n\
+        "[identify]\nmatrix = \"steel\"\nband_hz = [{first}, {last}]\nmost_lines = {most_lines}\nvaries = \"law\"\nlaw = \"constant\"\nrobust = false\n\
          bounds = {{ storage = [{low}, {high}], loss_factor = [0.0, 0.1] }}\n"
     )
     .unwrap();
@@ -139,13 +152,16 @@ fn unit_frequencies() -> Vec<f64> {
 #[test]
 fn one_modulus_has_all_natural_frequencies_to_2_khz() {
     let Some(frfs) = measured() else { return };
-    // All lines of the peaks, every hundredth between them; a nominal that is off by 2.6, and bounds of three decades.
-    let near = |f: f64| POLES.iter().any(|(pole, _)| (f - pole).abs() <= 0.55);
-    let wanted = |f: f64| near(f) || ((f / 10.0).round() * 10.0 - f).abs() < 1e-6;
-    let (_folder, job) = run(&frfs, 1000.0, [1e2, 1e5], |f| (20.0..=2000.0).contains(&f) && wanted(f));
+    // Of 19,800 lines those that tell most; a nominal that is off by 2.6, and bounds of three decades.
+    let (_folder, job) = run(&frfs, 1000.0, [1e2, 1e5], [20.0, 2000.0], LINES);
     let [[storage, std], [eta, _]] = modulus(&job);
     println!("E/rho (h/L^2)^2 = {storage} ± {std} 1/s², η = {eta}");
-    assert_eq!(job.run.count(Status::Ok), job.run.outcomes.len());
+    // What single modes say of it, below.
+    assert!((storage - MODULUS).abs() < std && std < 0.01 * storage, "{storage} ± {std}");
+    // One loss factor for all modes leaves a quarter of the response where they are: no noise, and said so.
+    assert_eq!(job.summary["fit"]["verdict"], "not explained");
+    assert!(job.run.count(Status::Ok) < LINES / 2, "{}", job.summary["status"]);
+    assert_eq!(job.run.count(Status::OutOfBand), job.run.outcomes.len() - LINES);
     for (unit, (pole, _)) in unit_frequencies().iter().zip(POLES) {
         let off = unit * storage.sqrt() / pole - 1.0;
         println!("{pole} Hz: off by {:.3} %", 100.0 * off);
@@ -163,7 +179,7 @@ fn each_mode_has_the_damping_of_a_modal_fit() {
     let unit = unit_frequencies();
     let mut moduli = Vec::new();
     for (k, (pole, zeta)) in POLES.into_iter().enumerate() {
-        let (_folder, job) = run(&frfs, 2600.0, [2400.0, 2800.0], |f| (f - pole).abs() <= 3.0);
+        let (_folder, job) = run(&frfs, 2600.0, [2400.0, 2800.0], [pole - 3.0, pole + 3.0], 60);
         let [[storage, _], [eta, eta_std]] = modulus(&job);
         let frequency_hz = unit[k] * storage.sqrt();
         let ours = eta / 2.0 + WINDOW / (4.0 * PI * frequency_hz);
@@ -171,7 +187,8 @@ fn each_mode_has_the_damping_of_a_modal_fit() {
             "{frequency_hz:.3} Hz: modulus {storage:.1}, η {eta:.2e} ± {eta_std:.0e}, ζ {ours:.3e} ({zeta:.3e})"
         );
         assert!((frequency_hz / pole - 1.0).abs() < 0.005, "{frequency_hz} and {pole}");
-        assert!(k >= DAMPED || (ours / zeta - 1.0).abs() < 0.2, "{pole} Hz: {ours} and {zeta}");
+        let zeta = if k == 7 { EIGHTH } else { zeta };
+        assert!((ours / zeta - 1.0).abs() < 0.2, "{pole} Hz: {ours} and {zeta}");
         moduli.push(storage);
     }
     // What one modulus for all modes is good for: 0.34 % at the first, whose suspension the model has not, 0.3 % at the last, 0.2 % at the others.
@@ -183,6 +200,7 @@ fn each_mode_has_the_damping_of_a_modal_fit() {
 const SCRIPT: &str = "
 import sys
 import numpy as np
+from scipy.optimize import least_squares
 from sdypy import EMA
 f = np.loadtxt(sys.argv[1], delimiter=',')
 frf = np.array([f[:, 1 + 2 * k] + 1j * f[:, 2 + 2 * k] for k in range(3)])
@@ -190,7 +208,16 @@ model = EMA.Model(frf, f[:, 0], lower=20, upper=2000, pol_order_high=60)
 model.get_poles(show_progress=False)
 model.select_closest_poles([float(x) for x in sys.argv[2:]])
 for pole in zip(model.nat_freq, model.nat_xi):
-    print('pole', *pole)
+    near = abs(f[:, 0] - pole[0]) <= 3.0
+    omega, lines = 2 * np.pi * f[near, 0], frf[:, near].T
+    def left(at):
+        own = 2 * np.pi * at[0]
+        resonance = omega**2 / (own**2 - omega**2 + 2j * at[1] * own * omega)
+        basis = np.stack([resonance, omega**0, omega - omega.mean()], 1)
+        rest = (lines - basis @ np.linalg.lstsq(basis, lines, rcond=None)[0]) / abs(lines).max(axis=0)
+        return np.concatenate([rest.real.ravel(), rest.imag.ravel()])
+    best = least_squares(left, pole, x_scale=[1e-2, 1e-5])
+    print('pole', *pole, best.x[1], np.linalg.norm(left(pole)) / np.linalg.norm(best.fun))
 ";
 
 #[test]
@@ -216,8 +243,14 @@ fn sdypy_ema_has_these_poles() {
         .collect();
     assert_eq!(theirs.len(), POLES.len());
     for (pole, (frequency_hz, zeta)) in theirs.iter().zip(POLES) {
-        // As far as other orders and other builds of LAPACK move them; the last one's damping is not used.
-        let damping = if frequency_hz > 1500.0 { 0.3 } else { 0.05 };
+        let is_eighth = frequency_hz > 1500.0;
+        // As far as other orders and other builds of LAPACK move them.
+        let damping = if is_eighth { 0.3 } else { 0.05 };
+        println!("{pole:?}");
+        assert!(if is_eighth { pole[3] > 3.0 } else { pole[3] < 3.0 }, "{pole:?}");
+        // What the peak alone says of its damping: of the first as sdypy-EMA to a tenth.
+        let peak = if is_eighth { EIGHTH } else { zeta };
+        assert!((pole[2] / peak - 1.0).abs() < if is_eighth { 0.02 } else { 0.1 }, "{pole:?}");
         assert!((pole[0] / frequency_hz - 1.0).abs() < 1e-4, "{pole:?} {frequency_hz}");
         assert!((pole[1] / zeta - 1.0).abs() < damping, "{pole:?} {zeta}");
     }

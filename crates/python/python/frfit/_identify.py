@@ -93,6 +93,7 @@ def identify(
     real: bool = False,
     robust: bool | None = None,
     leave_out_hz: Sequence[float | tuple[float, float]] = (),
+    most_lines: int | None = None,
     check: bool = True,
     memory_bytes: int | None = None,
     progress: Progress | None = None,
@@ -112,6 +113,8 @@ def identify(
     varies
         ``"frequency"``: a factor of its own at each; ``"smooth"``: neighbours help each other; ``"law"``, which is what
         ``law`` alone means too: by a law, the best of ``law`` or without it of all.
+    most_lines
+        Of more measured frequencies than this those that tell most; the others are ``out_of_band``.
     law
         ``"constant"``, ``"fractional"``, ``"zener"``, ``"maxwell:N"`` or several: fitted to the whole band.
     progress
@@ -143,6 +146,7 @@ def identify(
         "matrices": [matrix] if isinstance(matrix, str) else list(matrix),
         "band_hz": band_hz,
         "leave_out_hz": [_band(entry) for entry in leave_out_hz],
+        "most_lines": most_lines,
         "method": method,
         "selection": selection,
         "space": space,

@@ -167,6 +167,8 @@ pub struct IdentifyEntry {
     pub band_hz: Option<Located<[f64; 2]>>,
     /// Frequencies and bands that are left out: no number of them is used.
     pub leave_out: Vec<LeaveOut>,
+    /// Of more lines than this those that tell most.
+    pub most_lines: Option<Located<i64>>,
     /// How the factor varies, where that is said; the place is that of `varies`.
     pub varies: Option<Located<VariesEntry>>,
     /// Method.
@@ -231,6 +233,8 @@ pub struct SeveralEntry {
     pub band_hz: Option<Located<[f64; 2]>>,
     /// Frequencies and bands that are left out.
     pub leave_out: Vec<LeaveOut>,
+    /// Of more lines than this those that tell most.
+    pub most_lines: Option<Located<i64>>,
 }
 
 /// One `[[identify]]`.

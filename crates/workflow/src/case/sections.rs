@@ -312,6 +312,7 @@ pub(super) fn identify(field: &Field<'_>) -> Result<IdentifyEntry, InputError> {
         matrices: table.need("matrix")?.texts()?,
         band_hz: table.find("band_hz").map(|band| self::band(&band)).transpose()?,
         leave_out: table.find("leave_out_hz").map_or(Ok(Vec::new()), |field| leave_out(&field))?,
+        most_lines: table.find("most_lines").map(|most| most.whole()).transpose()?,
         varies: varies(&table)?,
         method: table.find("method").map(|field| field.word(method)).transpose()?.map(|m| m.value),
         order: table.find("order").map(|order| order.whole()).transpose()?,

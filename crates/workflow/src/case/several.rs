@@ -46,6 +46,7 @@ pub(super) fn several(field: &Field<'_>) -> Result<SeveralEntry, InputError> {
         unknowns,
         band_hz: first.find("band_hz").map(|field| band(&field)).transpose()?,
         leave_out: first.find("leave_out_hz").map_or(Ok(Vec::new()), |field| leave_out(&field))?,
+        most_lines: first.find("most_lines").map(|most| most.whole()).transpose()?,
     })
 }
 

@@ -2,10 +2,11 @@
 
 use super::band::band;
 use super::files::NamedFile;
-use super::identify::{can_be_found, fit_for_band, left_out, middle_of, shared};
+use super::identify::{can_be_found, fit_for_band, middle_of, shared};
+use super::lines::{most_lines, unused};
 use super::measurement::{Curve, Measurement};
 use super::{Case, Frf, IdentifyCase, SensorInfo};
-use crate::case::{LeaveOut, VariesEntry as Varies, checked_band};
+use crate::case::{LeaveOut, Located, VariesEntry as Varies, checked_band};
 use crate::error::{InputError, Place};
 use frfit::c64;
 use frfit::identify::{Method, Options, OptionsError, Selection, Space, Unknown};
@@ -45,6 +46,8 @@ pub struct Wanted {
     pub band_hz: Option<[f64; 2]>,
     /// Bands that are left out; one of no width is the line next to it.
     pub leave_out_hz: Vec<[f64; 2]>,
+    /// Of more lines than this those that tell most; `None`: all.
+    pub most_lines: Option<i64>,
     /// `rational`, `series` or `nelder-mead`; `None`: the default.
     pub method: Option<String>,
     /// `joint` or `smallest`; `None`: what the method usually has.
@@ -134,11 +137,9 @@ pub fn case_of_arrays(
     checked_band(band_hz, &place)?;
     let data = band(&measurements, band_hz, &place)?;
     let out: Vec<LeaveOut> = wanted.leave_out_hz.iter().map(|&band| leave_out(band)).collect();
-    let left_out = left_out(&out, &data.frequency_hz);
-    if left_out.iter().all(|&out| out) {
-        let expected = "a frequency of the band that is not left out";
-        return Err(InputError::at(&argument("leave_out_hz"), expected, "none").into());
-    }
+    let most = wanted.most_lines.map(|value| Located { value, place: argument("most_lines") });
+    let most = most.as_ref().map(most_lines).transpose()?;
+    let left_out = unused(&data, &out, most, &argument("leave_out_hz"))?;
     covers(&model, &data.frequency_hz)?;
     let first_and_last = [data.frequency_hz.first(), data.frequency_hz.last()].map(|f| f.copied());
     let identify = IdentifyCase {

@@ -4,10 +4,9 @@ use super::Overrides;
 use super::band::band;
 use super::factor::law;
 use super::files::Files;
+use super::lines::{most_lines, unused};
 use super::measurement::Measurement;
-use crate::case::{
-    Calibration, CaseFile, IdentifyEntry, LeaveOut, Located, VariesEntry as Varies, checked_band,
-};
+use crate::case::{Calibration, CaseFile, IdentifyEntry, Located, VariesEntry as Varies, checked_band};
 use crate::error::{InputError, Place};
 use crate::nearest::nearest;
 use frfit::c64;
@@ -88,11 +87,8 @@ pub(super) fn identify(
     let truth = entry.truth.as_ref().map(|truth| law(truth, files)).transpose()?;
     let unknown = unknown(case, &varies, &options)?;
     let data = band(measurements, band_hz, &place)?;
-    let left_out = left_out(&entry.leave_out, &data.frequency_hz);
-    if !data.frequency_hz.is_empty() && left_out.iter().all(|&out| out) {
-        let expected = "a frequency of the band that is not left out";
-        return Err(InputError::at(&entry.place.below("leave_out_hz"), expected, "none"));
-    }
+    let most_lines = entry.most_lines.as_ref().map(most_lines).transpose()?;
+    let left_out = unused(&data, &entry.leave_out, most_lines, &entry.place.below("leave_out_hz"))?;
     Ok(IdentifyCase {
         names,
         parameter,
@@ -323,43 +319,6 @@ pub(super) fn can_be_found(
     Ok(())
 }
 
-/// A frequency this near to a line, as a part of their distance, is that line: between two lines a disturbance is in both.
-const ON_LINE: f64 = 0.01;
-
-/// Which frequencies (ascending) are left out.
-pub(super) fn left_out(leave_out: &[LeaveOut], frequency_hz: &[f64]) -> Vec<bool> {
-    let mut out = vec![false; frequency_hz.len()];
-    for entry in leave_out {
-        let (first, end) = match *entry {
-            LeaveOut::Band([low, high]) => {
-                (frequency_hz.partition_point(|&f| f < low), frequency_hz.partition_point(|&f| f <= high))
-            }
-            LeaveOut::Line(line) => lines_of(line, frequency_hz),
-        };
-        out[first..end.max(first)].fill(true);
-    }
-    out
-}
-
-/// The lines [first, end) that a frequency is on, or between.
-fn lines_of(frequency: f64, frequency_hz: &[f64]) -> (usize, usize) {
-    let above = frequency_hz.partition_point(|&f| f < frequency);
-    match (above.checked_sub(1).map(|below| frequency_hz[below]), frequency_hz.get(above)) {
-        (Some(low), Some(&high)) => {
-            let near = ON_LINE * (high - low);
-            match (frequency - low <= near, high - frequency <= near) {
-                (true, _) => (above - 1, above),
-                (_, true) => (above, above + 1),
-                _ => (above - 1, above + 1),
-            }
-        }
-        // At the ends of the band, or outside: the line itself only, to the rounding of twelve digits.
-        (None, Some(&high)) if high - frequency <= 1e-9 * high => (above, above + 1),
-        (Some(low), None) if frequency - low <= 1e-9 * low => (above - 1, above),
-        _ => (above, above),
-    }
-}
-
 /// The band, and the key or the option that it comes from.
 pub(super) fn band_of(
     written: Option<&Located<[f64; 2]>>,
@@ -380,22 +339,6 @@ pub(super) fn band_of(
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn lines_and_bands_are_left_out() {
-        let lines: Vec<f64> = (0..10).map(|k| 10.0 + 2.0 * k as f64).collect();
-        let out = |entries: &[LeaveOut]| {
-            let out = left_out(entries, &lines);
-            lines.iter().zip(out).filter(|(_, out)| *out).map(|(f, _)| *f).collect::<Vec<_>>()
-        };
-        assert_eq!(out(&[LeaveOut::Band([12.0, 15.9]), LeaveOut::Line(20.0)]), [12.0, 14.0, 20.0]);
-        // Between two lines a hum is in both; next to one, in that one.
-        assert_eq!(out(&[LeaveOut::Line(13.0), LeaveOut::Line(20.019)]), [12.0, 14.0, 20.0]);
-        assert_eq!(out(&[LeaveOut::Line(10.0), LeaveOut::Line(28.0)]), [10.0, 28.0]);
-        // Nothing of the band is there.
-        assert_eq!(out(&[LeaveOut::Line(9.0), LeaveOut::Line(50.0), LeaveOut::Band([30.0, 40.0])]), [0.0; 0]);
-        assert_eq!(out(&[LeaveOut::Band([12.5, 13.5])]), [0.0; 0]);
-    }
 
     #[test]
     fn the_orders_named_are_those_allowed() {

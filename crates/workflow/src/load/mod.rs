@@ -11,6 +11,7 @@ mod force;
 mod frf;
 mod identify;
 mod labels;
+mod lines;
 mod matrix;
 mod measurement;
 mod model;

@@ -5,7 +5,8 @@ use super::band::band;
 use super::dimension::{PartOf, each_has_a_value, powers_of};
 use super::factor::{covers, law};
 use super::files::Files;
-use super::identify::{MeasuredNoise, band_of, known_names, left_out, shared_factor};
+use super::identify::{MeasuredNoise, band_of, known_names, shared_factor};
+use super::lines::{most_lines, unused};
 use super::measurement::Measurement;
 use crate::case::{CaseFile, Located, SeveralEntry, SoughtEntry, SoughtVaries};
 use crate::error::{InputError, Place};
@@ -65,12 +66,9 @@ pub(super) fn several(
         .collect::<Result<Vec<_>, _>>()?;
     let (band_hz, place) = band_of(entry.band_hz.as_ref(), &entry.place, overrides)?;
     let data = band(measurements, band_hz, &place)?;
-    let out = left_out(&entry.leave_out, &data.frequency_hz);
+    let most = entry.most_lines.as_ref().map(most_lines).transpose()?;
+    let out = unused(&data, &entry.leave_out, most, &entry.place.below("leave_out_hz"))?;
     let kept: Vec<usize> = (0..out.len()).filter(|&i| !out[i]).collect();
-    if !out.is_empty() && kept.is_empty() {
-        let expected = "a frequency of the band that is not left out";
-        return Err(InputError::at(&entry.place.below("leave_out_hz"), expected, "none"));
-    }
     let pick = |rows: Vec<Vec<f64>>| kept.iter().map(|&i| rows[i].clone()).collect::<Vec<_>>();
     let noise = match data.noise {
         MeasuredNoise::Unknown => MeasuredNoise::Unknown,

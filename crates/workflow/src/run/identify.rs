@@ -152,11 +152,11 @@ pub fn identify(
             (band, known(), None)
         }
         Varies::ByLaw(families) => {
-            let LawsOutcome { free, fits, outcomes, channels, work, subspace_size } =
+            let LawsOutcome { free, fits, outcomes, channels, fit, work, subspace_size } =
                 identify_laws_scaled(&band, unknown, families, &identify.options, hooks)?;
             // What each frequency by itself told of noise and sensors holds for the laws too.
             let alone = free.outcomes.clone();
-            let found = BandOutcome { outcomes, work, subspace_size, fit: None, ..free };
+            let found = BandOutcome { outcomes, work, subspace_size, fit, ..free };
             (found, channels, Some(LawsRun { fits, free: alone }))
         }
     };

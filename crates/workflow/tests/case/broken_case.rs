@@ -281,6 +281,11 @@ fn options_and_bands() {
     for (from, to, message) in [
         (
             "order = 20",
+            "order = 20\nmost_lines = 2",
+            "case.toml:32:1: identify.most_lines: expected a whole number of at least 3, found 2",
+        ),
+        (
+            "order = 20",
             "order = \"20\"",
             "case.toml:31:1: identify.order: expected a whole number, found the text \"20\"",
         ),

@@ -3,7 +3,7 @@
 use super::joint;
 use super::laws::Fitting;
 use super::scale::{Calibrated, Channel, Scaled, Unknown, top, with_scales};
-use super::space::{Space, thinned};
+use super::space::Space;
 use super::start::aligned;
 use super::{Band, BandOutcome, Hooks};
 use crate::c64;
@@ -164,6 +164,13 @@ impl Fitting<'_, '_> {
     }
 }
 
+/// Where a fit begins: the subspace, calibrations, and the factor over the nominal one whose response has the shape that was measured.
+pub(super) struct Begin<'a, 'o> {
+    pub(super) space: Option<Space<'a, 'o>>,
+    pub(super) channels: Vec<Channel>,
+    pub(super) ratio: f64,
+}
+
 /// Each frequency by itself, at calibrations to begin with: right ones where they are known.
 pub(super) fn at_scales<'a, 'o>(
     band: &Band<'a>,
@@ -171,23 +178,24 @@ pub(super) fn at_scales<'a, 'o>(
     unknown: &[Unknown],
     options: &'o Options,
     hooks: Hooks<'_>,
-) -> (BandOutcome, (Option<Space<'a, 'o>>, Vec<Channel>)) {
+) -> (BandOutcome, Begin<'a, 'o>) {
     let mut space = super::space(band, at, options, hooks);
     let right = vec![Channel::RIGHT; unknown.len()];
     let is_known = |unknown: &Unknown| !unknown.any();
     if unknown.iter().all(is_known) {
-        return (joint::identify(band, at, &mut space, &[], options, hooks), (space, right));
+        let outcome = joint::identify(band, at, &mut space, &[], options, hooks);
+        return (outcome, Begin { space, channels: right, ratio: 1.0 });
     }
     if unknown.iter().any(is_known) {
         let (outcome, found) = with_scales(band, at, &mut space, unknown, options, hooks);
         let channels = found.map_or(right, |found| found.iter().map(Channel::of).collect());
-        return (outcome, (space, channels));
+        return (outcome, Begin { space, channels, ratio: 1.0 });
     }
     let shaped = space.as_ref().and_then(|space| shaped(band, at, space, unknown, options, hooks));
-    let channels = shaped.unwrap_or(right);
+    let (channels, ratio) = shaped.unwrap_or((right, 1.0));
     let scaled = Scaled::new(band, &channels);
     let outcome = joint::identify(&scaled.band(band), at, &mut space, &[], options, hooks);
-    (outcome, (space, channels))
+    (outcome, Begin { space, channels, ratio })
 }
 
 /// Factors of the box that are tried: 2 % apart, as shapes are told by logarithms, which resonances that miss one another by their width do not spoil.
@@ -196,7 +204,7 @@ const FACTORS: usize = 140;
 /// Frequencies at which the shapes are compared.
 const FREQUENCIES: usize = 300;
 
-/// Calibrations at the factor whose response has the shape that was measured.
+/// Calibrations at the factor whose response has the shape that was measured, and that factor over the nominal one.
 fn shaped(
     band: &Band<'_>,
     at: &[ModelAt<'_>],
@@ -204,9 +212,8 @@ fn shaped(
     unknown: &[Unknown],
     options: &Options,
     hooks: Hooks<'_>,
-) -> Option<Vec<Channel>> {
-    let all: Vec<usize> = (0..at.len()).collect();
-    let which: Vec<usize> = thinned(&all, FREQUENCIES).copied().collect();
+) -> Option<(Vec<Channel>, f64)> {
+    let which = spread(band.frequency_hz);
     let nominal = at[at.len() / 2].parameters[0].nominal;
     let [low, high] =
         options.box_about(nominal).filter(|[low, high]| 0.0 < *low && low < high && high.is_finite())?;
@@ -219,9 +226,9 @@ fn shaped(
         let responses: Vec<Vec<c64>> = responses.collect::<Option<_>>()?;
         let misfits =
             unknown.iter().enumerate().map(|(m, unknown)| shape(band, &which, &responses, m, *unknown));
-        Some((misfits.sum::<Option<f64>>()?, responses))
+        Some((misfits.sum::<Option<f64>>()?, responses, ratio(k)))
     });
-    let (_, responses) = tried.into_iter().flatten().min_by(|a, b| a.0.total_cmp(&b.0))?;
+    let (_, responses, ratio) = tried.into_iter().flatten().min_by(|a, b| a.0.total_cmp(&b.0))?;
     let calibration = |(m, &unknown): (usize, &Unknown)| {
         let ratios: Vec<(f64, c64)> = which
             .iter()
@@ -237,7 +244,18 @@ fn shaped(
         let sense = if 2 * ratios.iter().filter(same).count() >= ratios.len() { 1.0 } else { -1.0 };
         Some(if unknown.scale { Channel { scale: sense * size.exp(), ..found } } else { found })
     };
-    unknown.iter().enumerate().map(calibration).collect()
+    let channels: Option<Vec<Channel>> = unknown.iter().enumerate().map(calibration).collect();
+    Some((channels?, ratio))
+}
+
+/// Frequencies that are evenly spread over the band, wherever there are more of them: many at resonances, and shapes would have to meet there to their width.
+fn spread(frequency_hz: &[f64]) -> Vec<usize> {
+    let (first, last) = (frequency_hz[0], frequency_hz[frequency_hz.len() - 1]);
+    let grid = (0..FREQUENCIES).map(|k| first + (last - first) * k as f64 / (FREQUENCIES - 1) as f64);
+    let at_or_above = |f: f64| frequency_hz.partition_point(|&own| own < f).min(frequency_hz.len() - 1);
+    let mut which: Vec<usize> = grid.map(at_or_above).collect();
+    which.dedup();
+    which
 }
 
 /// How far ln|x| − ln|u| is from its median, or from none where the scale is known, on average.

@@ -3,11 +3,12 @@
 //! Every frequency by itself comes first: it trains the subspace, and tells where to begin. Then Σ |u_m − x_m(E(ω; θ))|²/σ_m² over the band is made least in θ on the
 //! models of the neighbourhoods, ∂x_m/∂θ = (∂x_m/∂c)(∂E/∂θ). The subspace is trained further where it is not good enough at the law that came out.
 
-use super::channels::{Responded, at_scales};
+use super::channels::{Begin, Responded, at_scales};
 use super::contradiction::without;
 use super::explore::misfit;
+use super::fit::{Explained, GoodnessOfFit, judge};
 use super::joint;
-use super::noise::deviations;
+use super::noise::{NoiseLevel, NoiseSource, deviations};
 use super::scale::{Calibrated, Calibration, Scaled, Unknown};
 use super::space::{Space, certificate};
 use super::{Band, BandOutcome, Hooks, Noise, Stage, near_or_far, on_subspace};
@@ -33,6 +34,8 @@ pub struct LawsOutcome {
     pub outcomes: Vec<Identified>,
     /// What was unknown of each sensor's channel, by the law of least BIC.
     pub channels: Vec<Calibration>,
+    /// Whether noise is all that this law leaves: as large as was told, or where nothing was told, as what each frequency by itself leaves; `None` where there is no law.
+    pub fit: Option<GoodnessOfFit>,
     /// All work of size N.
     pub work: Work,
     /// Vectors of the subspace.
@@ -66,7 +69,8 @@ pub(super) const APART: f64 = 3.0;
 /// Fits laws to a band, and takes the one of least BIC.
 ///
 /// The selection is joint, and what answers is the subspace, whatever the options say: on the full model every step would take a factorisation at each frequency. Statuses
-/// are those of the law at each frequency: `ok`; `no_root` where it breaks the bounds or leaves more than noise and `options.error`; `ambiguous` where another minimum
+/// are those of the law at each frequency: `ok`; `no_root` where it breaks the bounds or leaves more than noise and `options.error` (what it leaves on average is noise only if
+/// [`LawsOutcome::fit`] says so); `ambiguous` where another minimum
 /// that cannot be excluded has another modulus; `ill_conditioned` where the search did not settle, the deviation is half the modulus, or the subspace is not good enough.
 ///
 /// # Errors
@@ -111,13 +115,13 @@ pub fn identify_laws_scaled(
     assert!(!band.frequency_hz.is_empty() && band.measured.len() == band.frequency_hz.len());
     let at = band.model.at_all(band.frequency_hz, std::slice::from_ref(band.parameter))?;
     let boxes = on_subspace(options);
-    let (mut free, (space, channels)) =
+    let (mut free, Begin { space, channels, ratio }) =
         near_or_far(&boxes, |options| at_scales(band, &at, unknown, options, hooks));
     let scaled = Scaled::new(band, &channels);
     let view = scaled.band(band);
     let out = free.left_out();
     let sigma = without(&deviations(view.measured, view.noise), &out);
-    let fitting = Fitting { band: &view, at: &at, sigma: &sigma, unknown, options, hooks };
+    let fitting = Fitting { band: &view, at: &at, sigma: &sigma, unknown, ratio, options, hooks };
     let Some(mut space) = space else {
         let outcomes = free.outcomes.iter().map(|own| own.unanswered()).collect();
         let channels = vec![Calibration::default(); unknown.len()];
@@ -127,6 +131,7 @@ pub fn identify_laws_scaled(
             fits: Vec::new(),
             outcomes,
             channels,
+            fit: None,
             free,
         });
     };
@@ -168,13 +173,18 @@ pub fn identify_laws_scaled(
         space = again;
         space.localise(&all, hooks.for_each);
     }
-    let outcomes = match best(&fits) {
-        Some(law) => map(hooks.for_each, at.len(), |i| judging.outcome(law, &space, i, &free.outcomes[i])),
-        None => free.outcomes.iter().map(|own| own.unanswered()).collect(),
+    let (outcomes, fit) = match best(&fits) {
+        Some(law) => {
+            let (fit, noise) = judging.goodness(law, &free.noise);
+            let one = |i: usize| judging.outcome((law, noise), &space, i, &free.outcomes[i]);
+            (map(hooks.for_each, at.len(), one), fit)
+        }
+        None => (free.outcomes.iter().map(|own| own.unanswered()).collect(), None),
     };
     let mut work = free.work;
     work += space.work().since(before);
-    Ok(LawsOutcome { outcomes, fits, channels: told_channels, work, subspace_size: Some(space.size()), free })
+    let subspace_size = Some(space.size());
+    Ok(LawsOutcome { outcomes, fits, channels: told_channels, fit, work, subspace_size, free })
 }
 
 /// What is to be explained, and with what.
@@ -186,6 +196,8 @@ pub(super) struct Fitting<'t, 'a> {
     pub(super) sigma: &'t [Vec<f64>],
     /// What of each sensor's channel is to be found.
     pub(super) unknown: &'t [Unknown],
+    /// Of a factor over the nominal one that has the shape of what was measured.
+    ratio: f64,
     options: &'t Options,
     pub(super) hooks: Hooks<'t>,
 }
@@ -298,7 +310,8 @@ impl Fitting<'_, '_> {
         finite.then_some((residuals, jacobian))
     }
 
-    /// Where to begin: the law of what each frequency says, the law nearest to another law that fits, that of the nominal, and the neighbourhood of the first.
+    /// Where to begin: the law of what each frequency says and that of the shape that was measured, with the neighbourhoods of both, the law nearest to another law that fits, and that of the
+    /// nominal.
     fn starts(
         &self,
         chart: &Chart,
@@ -311,12 +324,17 @@ impl Fitting<'_, '_> {
             all.clone().filter_map(|i| self.datum(space, i, &free.outcomes[i])).collect();
         let relative =
             |i: usize, modulus: c64| (modulus.re > 0.0).then(|| Datum::relative(self.omega(i), modulus));
-        let nominal = all.clone().filter_map(|i| relative(i, self.at[i].parameters[0].nominal)).collect();
-        let other = all.filter_map(|i| relative(i, so_far?.at(self.band.frequency_hz[i])?.modulus)).collect();
+        let nominal = |ratio: f64| -> Vec<Datum> {
+            all.clone().filter_map(|i| relative(i, ratio * self.at[i].parameters[0].nominal)).collect()
+        };
+        let other =
+            all.clone().filter_map(|i| relative(i, so_far?.at(self.band.frequency_hz[i])?.modulus)).collect();
         let mut begin: Vec<Vec<f64>> = Vec::new();
-        for data in [answered, other, nominal] {
+        let like_measured = if self.ratio == 1.0 { Vec::new() } else { nominal(self.ratio) };
+        for (data, moved) in [(answered, true), (like_measured, true), (other, false), (nominal(1.0), false)]
+        {
             let Some(near) = nearest(chart, &data) else { continue };
-            if begin.is_empty() {
+            if moved || begin.is_empty() {
                 begin.extend(MOVED.map(|by| chart.scaled(&near.best.theta, by)));
             }
             begin.push(near.best.theta);
@@ -336,8 +354,32 @@ impl Fitting<'_, '_> {
         (std.is_finite() && modulus.re > 0.0).then(|| Datum::circular(self.omega(i), modulus, std))
     }
 
-    /// The law at one frequency, judged there.
-    fn outcome(&self, law: &LawFit, space: &Space<'_, '_>, i: usize, own: &Identified) -> Identified {
+    /// Whether what a law leaves is noise, and noise over the assumed deviations: what the law leaves where that is noise, otherwise the least that sensors or scatter of the frequencies by
+    /// themselves show.
+    fn goodness(&self, law: &LawFit, alone: &NoiseLevel) -> (Option<GoodnessOfFit>, f64) {
+        let left = law.reduced_chi_squared().unwrap_or(0.0).sqrt();
+        if law.sigma_known {
+            let given = NoiseLevel { source: NoiseSource::Given, ..*alone };
+            return (judge(law.chi_squared, law.degrees_of_freedom(), &given, self.band.noise), 1.0);
+        }
+        // Of one kind of evidence the law's, of the other that without it.
+        let noise = NoiseLevel { of_sensors: Some(left), of_scatter: alone.level, ..*alone };
+        let level = alone.level.unwrap_or(left);
+        let chi_squared = law.chi_squared / (level * level);
+        let fit = judge(chi_squared, law.degrees_of_freedom(), &noise, self.band.noise);
+        let is_noise = fit.is_none_or(|fit| fit.verdict != Explained::No);
+        let shown = [alone.of_sensors, alone.of_scatter].into_iter().flatten().reduce(f64::min);
+        (fit, if is_noise { left } else { shown.unwrap_or(0.0).min(left) })
+    }
+
+    /// The law at one frequency, judged there; noise over the assumed deviations.
+    fn outcome(
+        &self,
+        (law, noise): (&LawFit, f64),
+        space: &Space<'_, '_>,
+        i: usize,
+        own: &Identified,
+    ) -> Identified {
         let (at, measured) = (&self.at[i], &self.band.measured[i]);
         let found = law.at(self.band.frequency_hz[i]).and_then(|estimate| {
             let correction = estimate.modulus - own.nominal;
@@ -348,7 +390,6 @@ impl Fitting<'_, '_> {
         let certified = certificate(&assessed, estimate.modulus, measured);
         let error = relative_error(measured, &assessed.response);
         let misfit = misfit(measured, &assessed.response, &self.sigma[i]);
-        let level = if law.sigma_known { 1.0 } else { law.reduced_chi_squared().unwrap_or(0.0).sqrt() };
         let counted = self.sigma[i].iter().filter(|sigma| sigma.is_finite()).count();
         let rms = (misfit / (2 * counted) as f64).sqrt();
         let size = estimate.modulus.norm();
@@ -374,7 +415,7 @@ impl Fitting<'_, '_> {
         let apart = |rival: &c64| (rival - estimate.modulus).norm() > APART * std.unwrap_or(f64::INFINITY);
         let rivals = law.rivals_at(self.band.frequency_hz[i]).into_iter().filter(apart);
         outcome.alternatives = rivals.map(|rival| rival - own.nominal).collect();
-        let unexplained = error > self.options.error && rms > UNEXPLAINED * level;
+        let unexplained = error > self.options.error && rms > UNEXPLAINED * noise;
         let known = std.is_some_and(|std| std <= UNKNOWN * size);
         outcome.status = if unexplained || self.options.bounds.broken_by(estimate.modulus).is_some() {
             Status::NoRoot
