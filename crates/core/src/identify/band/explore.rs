@@ -125,15 +125,17 @@ impl Fit<'_> {
         let mut response = RationalResponse::new(system, 0, reached)?;
         loop {
             let mut explored = self.solutions(&response).map_err(broken)?;
-            for solution in &mut explored.solutions {
+            for solution in explored.solutions.iter_mut().chain(&mut explored.beyond) {
                 solution.residual = response.residual(solution.correction).unwrap_or(f64::INFINITY);
             }
-            explored.unsure = explored.solutions.iter().any(|solution| solution.residual > RESIDUAL);
+            let unsure =
+                |solutions: &[Solution]| solutions.iter().any(|solution| solution.residual > RESIDUAL);
             // The whole space leaves nothing but roundoff.
             let whole = response.is_complete() || response.size() == system.dim();
-            explored.unsure &= !whole;
-            // No solution at a low order is no proof that there is none.
-            let settled = !explored.unsure && (!explored.solutions.is_empty() || whole);
+            explored.unsure = !whole && unsure(&explored.solutions);
+            // At a low order no solution is no proof that there is none, and what is beyond the bounds may be within them.
+            let open = !whole && (explored.solutions.is_empty() || unsure(&explored.beyond));
+            let settled = !explored.unsure && !open;
             if settled || reached >= order {
                 let powers = explored.poles.is_none();
                 for solution in explored.solutions.iter_mut().filter(|_| powers) {
