@@ -60,6 +60,30 @@ struct Stretch<'e, 'a> {
     poles: Option<PolesBetween>,
 }
 
+/// How far a solution was off its curve at the last frequency and at the one before. Where the line through both led to the last one better than the curve did, it goes on: to nearly where the
+/// next one is if frequencies are dense and without noise, which a line multiplies.
+#[derive(Debug, Clone, Copy, Default)]
+struct Off {
+    last: c64,
+    before: c64,
+    straight: bool,
+}
+
+impl Off {
+    fn line(self) -> c64 {
+        2.0 * self.last - self.before
+    }
+
+    fn expected(self) -> c64 {
+        if self.straight { self.line() } else { c64::default() }
+    }
+
+    fn found(&mut self, off: c64) {
+        let straight = (off - self.line()).norm_sqr() < off.norm_sqr();
+        *self = Self { last: off, before: self.last, straight };
+    }
+}
+
 impl<'a, F: Fn(usize) -> Fit<'a>> Follower<'a, F> {
     /// Everything between frequencies (ascending, of one neighbourhood) that were explored on its model.
     pub(super) fn between(&self, model: &Projection, known: &[(usize, &Explored)]) -> Vec<Found> {
@@ -158,7 +182,7 @@ impl<'a, F: Fn(usize) -> Fit<'a>> Follower<'a, F> {
             });
             let misfits = curves.iter().map(|curve| curve[k].1.misfit.max(curve[k + 1].1.misfit)).collect();
             let stretch = Stretch { model, left, right, misfits, tubes: &tubes, nominal: &nominal, poles };
-            let mut off = vec![[c64::default(); 2]; tubes.len()];
+            let mut off = vec![Off::default(); tubes.len()];
             for i in left.index + 1..right.index {
                 found.push(self.follow(&stretch, i, &mut off).unwrap_or_else(|| self.explore(model, i)));
             }
@@ -166,9 +190,8 @@ impl<'a, F: Fn(usize) -> Fit<'a>> Follower<'a, F> {
         found
     }
 
-    /// The same solutions at a frequency between; `None` where one is not found beyond doubt. How far each was off its curve at the last frequency, and at the one before, says where to begin:
-    /// for dense frequencies without noise, nearly where it is.
-    fn follow(&self, stretch: &Stretch<'_, 'a>, index: usize, off: &mut [[c64; 2]]) -> Option<Found> {
+    /// The same solutions at a frequency between; `None` where one is not found beyond doubt.
+    fn follow(&self, stretch: &Stretch<'_, 'a>, index: usize, off: &mut [Off]) -> Option<Found> {
         let (fit, at) = ((self.fit)(index), &self.at[index]);
         let nominal = at.parameters[0].nominal;
         let starts: Vec<c64> = stretch.tubes.iter().map(|tube| tube.factor(index)).collect();
@@ -178,8 +201,7 @@ impl<'a, F: Fn(usize) -> Fit<'a>> Follower<'a, F> {
         let residuals = [left, right].into_iter().flat_map(|end| &end.solutions).map(|s| s.residual);
         let residual = residuals.fold(0.0, f64::max);
         for (k, tube) in stretch.tubes.iter().enumerate() {
-            let [last, before] = off[k];
-            let start = starts[k] + 2.0 * last - before - nominal;
+            let start = starts[k] + off[k].expected() - nominal;
             let (respond, assess) = (|c| tube.respond_with_slope(index, c), |c| tube.assess(index, c));
             let (mut solution, assessed) = match fit.arrive(respond, assess, start) {
                 Ok((solution, assessed)) => (solution, Some(assessed)),
@@ -195,7 +217,7 @@ impl<'a, F: Fn(usize) -> Fit<'a>> Follower<'a, F> {
                 None => solution = fit.descend(fit.on(stretch.model, at), solution.correction)?,
             }
             let factor = nominal + solution.correction;
-            off[k] = [factor - starts[k], last];
+            off[k].found(factor - starts[k]);
             if !is_same(&starts, k, factor) || solution.misfit > self.usual.max(WORSE * stretch.misfits[k]) {
                 return None;
             }
