@@ -3,7 +3,7 @@
 use super::band::band;
 use super::files::NamedFile;
 use super::identify::{can_be_found, fit_for_band, middle_of, shared};
-use super::lines::{most_lines, unused};
+use super::lines::unused;
 use super::measurement::{Curve, Measurement};
 use super::{Case, Frf, IdentifyCase, SensorInfo};
 use crate::case::{LeaveOut, Located, VariesEntry as Varies, checked_band};
@@ -138,8 +138,7 @@ pub fn case_of_arrays(
     let data = band(&measurements, band_hz, &place)?;
     let out: Vec<LeaveOut> = wanted.leave_out_hz.iter().map(|&band| leave_out(band)).collect();
     let most = wanted.most_lines.map(|value| Located { value, place: argument("most_lines") });
-    let most = most.as_ref().map(most_lines).transpose()?;
-    let left_out = unused(&data, &out, most, &argument("leave_out_hz"))?;
+    let left_out = unused(&data, &out, most.as_ref(), &argument("leave_out_hz"))?;
     covers(&model, &data.frequency_hz)?;
     let first_and_last = [data.frequency_hz.first(), data.frequency_hz.last()].map(|f| f.copied());
     let identify = IdentifyCase {

@@ -4,7 +4,7 @@ use super::Overrides;
 use super::band::band;
 use super::factor::law;
 use super::files::Files;
-use super::lines::{most_lines, unused};
+use super::lines::unused;
 use super::measurement::Measurement;
 use crate::case::{Calibration, CaseFile, IdentifyEntry, Located, VariesEntry as Varies, checked_band};
 use crate::error::{InputError, Place};
@@ -87,8 +87,8 @@ pub(super) fn identify(
     let truth = entry.truth.as_ref().map(|truth| law(truth, files)).transpose()?;
     let unknown = unknown(case, &varies, &options)?;
     let data = band(measurements, band_hz, &place)?;
-    let most_lines = entry.most_lines.as_ref().map(most_lines).transpose()?;
-    let left_out = unused(&data, &entry.leave_out, most_lines, &entry.place.below("leave_out_hz"))?;
+    let most = entry.most_lines.as_ref();
+    let left_out = unused(&data, &entry.leave_out, most, &entry.place.below("leave_out_hz"))?;
     Ok(IdentifyCase {
         names,
         parameter,

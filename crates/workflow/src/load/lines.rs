@@ -8,13 +8,14 @@ use frfit::c64;
 /// Which frequencies of a band are not used: what is left out, and of more than `most` others those that tell least.
 ///
 /// # Errors
-/// [`InputError`] at `place` where none is left of a band that has any.
+/// [`InputError`] where `most` is less than three, and at `place` where none is left of a band that has any.
 pub(super) fn unused(
     data: &Band,
     leave_out: &[LeaveOut],
-    most: Option<usize>,
+    most: Option<&Located<i64>>,
     place: &Place,
 ) -> Result<Vec<bool>, InputError> {
+    let most = most.map(most_lines).transpose()?;
     let mut out = left_out(leave_out, &data.frequency_hz);
     let used: Vec<usize> = (0..out.len()).filter(|&i| !out[i]).collect();
     if used.is_empty() && !out.is_empty() {
@@ -35,7 +36,7 @@ const LEAST: usize = 3;
 ///
 /// # Errors
 /// [`InputError`] where it is less than three.
-pub(super) fn most_lines(written: &Located<i64>) -> Result<usize, InputError> {
+fn most_lines(written: &Located<i64>) -> Result<usize, InputError> {
     let found = usize::try_from(written.value).ok().filter(|&most| most >= LEAST);
     found.ok_or_else(|| {
         InputError::at(&written.place, "a whole number of at least 3", written.value.to_string())
@@ -96,7 +97,7 @@ const HALVINGS: usize = 60;
 const ON_LINE: f64 = 0.01;
 
 /// Which frequencies (ascending) are left out.
-pub(super) fn left_out(leave_out: &[LeaveOut], frequency_hz: &[f64]) -> Vec<bool> {
+fn left_out(leave_out: &[LeaveOut], frequency_hz: &[f64]) -> Vec<bool> {
     let mut out = vec![false; frequency_hz.len()];
     for entry in leave_out {
         let (first, end) = match *entry {

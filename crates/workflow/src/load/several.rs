@@ -6,7 +6,7 @@ use super::dimension::{PartOf, each_has_a_value, powers_of};
 use super::factor::{covers, law};
 use super::files::Files;
 use super::identify::{MeasuredNoise, band_of, known_names, shared_factor};
-use super::lines::{most_lines, unused};
+use super::lines::unused;
 use super::measurement::Measurement;
 use crate::case::{CaseFile, Located, SeveralEntry, SoughtEntry, SoughtVaries};
 use crate::error::{InputError, Place};
@@ -66,7 +66,7 @@ pub(super) fn several(
         .collect::<Result<Vec<_>, _>>()?;
     let (band_hz, place) = band_of(entry.band_hz.as_ref(), &entry.place, overrides)?;
     let data = band(measurements, band_hz, &place)?;
-    let most = entry.most_lines.as_ref().map(most_lines).transpose()?;
+    let most = entry.most_lines.as_ref();
     let out = unused(&data, &entry.leave_out, most, &entry.place.below("leave_out_hz"))?;
     let kept: Vec<usize> = (0..out.len()).filter(|&i| !out[i]).collect();
     let pick = |rows: Vec<Vec<f64>>| kept.iter().map(|&i| rows[i].clone()).collect::<Vec<_>>();
