@@ -6,7 +6,7 @@ use crate::scalar::{Real, Scalar};
 use crate::threads::each;
 
 /// Numbers of a Schur complement below which another thread costs more than it brings.
-const SHARE_FROM: usize = 100_000;
+const SHARE_FROM: usize = 50_000;
 
 /// What the elimination of a front leaves to its parent.
 #[derive(Debug)]

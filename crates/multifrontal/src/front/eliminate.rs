@@ -8,7 +8,7 @@
 
 use super::assemble::schur_strips;
 use super::corner::{CORNER, Corner, invert_pair};
-use super::rows::solve_rows;
+use super::rows::{Tile, solve_rows};
 use super::{Front, strips};
 use crate::kernel::{Buffers, Left, Pivots, downdate};
 use crate::scalar::{Real, Scalar};
@@ -22,6 +22,7 @@ pub(crate) struct Elimination<T: Scalar> {
     corner: Box<Corner<T>>,
     left: Left<T::Real>,
     idle: Idle<Buffers<T::Real>>,
+    tiles: Idle<Box<Tile<T::Real>>>,
     saved: Vec<T::Real>,
     /// No entry of L is larger than 1/threshold.
     pub(crate) threshold: f64,
@@ -34,6 +35,7 @@ impl<T: Scalar> Elimination<T> {
             corner: Corner::new(),
             left: Left::default(),
             idle: Idle::default(),
+            tiles: Idle::default(),
             saved: Vec::new(),
             threshold,
             threads: 1,
@@ -96,7 +98,7 @@ fn eliminate_block<T: Scalar>(
         for (col, part) in columns::<T>(at..at + tried) {
             with.saved.extend_from_slice(front.part(col, part, col));
         }
-        let accepted = solve_rows(front, at, &with.corner, 1.0 / with.threshold, with.threads);
+        let accepted = solve_rows(front, at, &with.corner, 1.0 / with.threshold, &with.tiles, with.threads);
         // Put back what was not accepted.
         let mut saved = with.saved.as_slice();
         for (col, part) in columns::<T>(at..at + tried) {
@@ -230,7 +232,7 @@ fn eliminate_anywhere<T: Scalar>(
     let width = 1 + usize::from(second.is_some());
     with.corner.force(front, at, width);
     // Already judged; roundoff may take an entry a little over the limit.
-    let accepted = solve_rows(front, at, &with.corner, 2.0 * limit, with.threads);
+    let accepted = solve_rows(front, at, &with.corner, 2.0 * limit, &with.tiles, with.threads);
     debug_assert_eq!(accepted, width);
     d.extend_from_slice(&with.corner.d);
     update(front, at, at + width, candidates, &d[at..], with);

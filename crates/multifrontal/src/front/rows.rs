@@ -2,16 +2,16 @@
 
 use super::Front;
 use super::corner::{CORNER, Corner, invert_pair};
-use crate::kernel::{WIDE, copy, tile_rows};
+use crate::kernel::{FEW, MANY, WIDE, copy, many, tile_rows};
 use crate::scalar::{Real, Scalar};
-use crate::threads::map;
+use crate::threads::{Idle, map};
 use pulp::{Simd, WithSimd};
 
 /// Rows that one thread takes at a time.
-const CHUNK: usize = 384;
+const CHUNK: usize = 192;
 
 /// Numbers below which another thread costs more than it brings.
-const SHARE_FROM: usize = 30_000;
+const SHARE_FROM: usize = 15_000;
 
 /// Overwrites the corner and the rows below it by L; how many of its pivots keep every entry of L under
 /// the limit, counted up to the first that does not (a block of two counts as a whole).
@@ -20,6 +20,7 @@ pub(super) fn solve_rows<T: Scalar>(
     at: usize,
     corner: &Corner<T>,
     limit: f64,
+    tiles: &Idle<Box<Tile<T::Real>>>,
     threads: usize,
 ) -> usize {
     let (count, rows) = (corner.d.len(), front.rows());
@@ -35,15 +36,22 @@ pub(super) fn solve_rows<T: Scalar>(
     let threads = if below * count < SHARE_FROM { 1 } else { threads };
     let chunk = if threads == 1 { below.max(1) } else { CHUNK };
     let mut tasks: Vec<SolveRows<'_, T>> = Vec::new();
-    tasks.resize_with(below.div_ceil(chunk), || SolveRows { columns: Vec::new(), corner, inverse: &inverse });
+    let limit = T::Real::from_f64(limit);
+    tasks.resize_with(below.div_ceil(chunk), || SolveRows {
+        columns: Vec::with_capacity(count * T::PARTS),
+        corner,
+        inverse: &inverse,
+        limit,
+    });
     let (step, stride) = (front.step(), front.stride);
     for column in front.panel[at * step..].chunks_mut(stride).take(count * T::PARTS) {
         let chunks = column[at + count..rows].chunks_mut(chunk);
         tasks.iter_mut().zip(chunks).for_each(|(task, chunk)| task.columns.push(chunk));
     }
-    let largest = map(threads, tasks, |task| crate::arch().dispatch(task));
-    // A number that is none must not pass for a small one.
-    let small = |j: usize| largest.iter().all(|largest| largest[j].into() <= limit);
+    let fine = map(threads, tasks, |task| {
+        tiles.lend(new_tile, |tile| crate::arch().dispatch(InTile { rows: task, tile }))
+    });
+    let small = |j: usize| fine.iter().all(|fine| fine[j]);
     let mut accepted = 0;
     while accepted < count {
         let width = 1 + usize::from(corner.d[accepted][1] != T::default());
@@ -60,55 +68,48 @@ struct SolveRows<'a, T: Scalar> {
     columns: Vec<&'a mut [T::Real]>,
     corner: &'a Corner<T>,
     inverse: &'a [[(usize, T); 2]],
+    limit: T::Real,
 }
 
 /// L D of the rows of a tile: `w[part][column][row]`.
-type Tile<R> = [[[R; WIDE]; CORNER]; 2];
+pub(super) type Tile<R> = [[[R; WIDE]; CORNER]; 2];
 
-impl<T: Scalar> WithSimd for SolveRows<'_, T> {
-    /// The largest entry of each column, the sum of its parts.
-    type Output = [T::Real; CORNER];
+fn new_tile<R: Real>() -> Box<Tile<R>> {
+    Box::new([[[R::default(); WIDE]; CORNER]; 2])
+}
+
+/// Some rows, and a tile to work in.
+struct InTile<'a, 'b, T: Scalar> {
+    rows: SolveRows<'a, T>,
+    tile: &'b mut Tile<T::Real>,
+}
+
+impl<T: Scalar> WithSimd for InTile<'_, '_, T> {
+    /// Whether all entries of each column are under the limit, the sizes of their parts added.
+    type Output = [bool; CORNER];
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> [T::Real; CORNER] {
-        let Self { mut columns, corner, inverse } = self;
-        let (height, count) = (tile_rows::<T::Real, S>(), corner.d.len());
+    fn with_simd<S: Simd>(self, simd: S) -> [bool; CORNER] {
+        let Self { rows: SolveRows { mut columns, corner, inverse, limit }, tile: w } = self;
+        let height = tile_rows::<T::Real, S>();
         let rows = columns.first().map_or(0, |column| column.len());
-        let mut largest = [T::Real::default(); CORNER];
-        let mut w: Tile<T::Real> = [[[T::Real::default(); WIDE]; CORNER]; 2];
+        let mut fine = [true; CORNER];
+        let mut l = [[T::Real::default(); WIDE]; 2];
         for from in (0..rows).step_by(height) {
             let len = height.min(rows - from);
-            for j in 0..count {
+            for (j, parts) in columns.chunks_exact(T::PARTS).enumerate() {
                 for part in 0..T::PARTS {
-                    copy::<T::Real, S>(&columns[j * T::PARTS + part][from..from + len], &mut w[part][j]);
+                    copy::<T::Real, S>(&parts[part][from..from + len], &mut w[part][j]);
                 }
-                substitute::<T, S>(simd, &mut w, j, height, corner);
             }
-            for (j, factors) in inverse.iter().enumerate() {
-                let mut l = [[T::Real::default(); WIDE]; 2];
-                for &(k, factor) in factors.iter().take(1 + usize::from(factors[1].1 != T::default())) {
-                    let [re, im] = factor.parts();
-                    for i in 0..len {
-                        if T::PARTS == 1 {
-                            l[0][i] += w[0][k][i] * re;
-                        } else {
-                            l[0][i] += w[0][k][i] * re - w[1][k][i] * im;
-                            l[1][i] += w[0][k][i] * im + w[1][k][i] * re;
-                        }
-                    }
-                }
-                let mut most = largest[j];
-                for i in 0..len {
-                    let size = l[0][i].absolute() + l[1][i].absolute();
-                    // A number that is none must not pass for a small one, nor be forgotten for the next.
-                    #[expect(clippy::eq_op, reason = "only what is no number differs from itself")]
-                    if size > most || size != size {
-                        most = size;
-                    }
-                }
-                largest[j] = most;
+            substitute::<T, S>(simd, w, corner);
+            for (j, parts) in columns.chunks_exact_mut(T::PARTS).enumerate() {
+                times_inverse::<T>(w, &inverse[j], height, &mut l);
+                // What is no number is not under the limit either.
+                let under = |i: usize| l[0][i].absolute() + l[1][i].absolute() <= limit;
+                fine[j] &= (0..height).fold(true, |fine, i| fine & under(i));
                 for part in 0..T::PARTS {
-                    let column = &mut columns[j * T::PARTS + part][from..from + len];
+                    let column = &mut parts[part][from..from + len];
                     if len == height {
                         copy::<T::Real, S>(&l[part][..len], column);
                     } else {
@@ -117,7 +118,32 @@ impl<T: Scalar> WithSimd for SolveRows<'_, T> {
                 }
             }
         }
-        largest
+        fine
+    }
+}
+
+/// A column of L: one column of L D, or two, by their factors.
+#[inline(always)]
+fn times_inverse<T: Scalar>(
+    w: &Tile<T::Real>,
+    factors: &[(usize, T); 2],
+    height: usize,
+    l: &mut [[T::Real; WIDE]; 2],
+) {
+    let [l_re, l_im] = l;
+    for (term, &(k, factor)) in factors.iter().take(1 + usize::from(factors[1].1 != T::default())).enumerate()
+    {
+        let ([re, im], first) = (factor.parts(), term == 0);
+        let (w_re, w_im) = (&w[0][k], &w[1][k]);
+        for i in 0..height {
+            let (mut x, mut y) = (w_re[i] * re, T::Real::default());
+            if T::PARTS == 2 {
+                x -= w_im[i] * im;
+                y = w_re[i] * im + w_im[i] * re;
+            }
+            l_re[i] = if first { x } else { l_re[i] + x };
+            l_im[i] = if first { y } else { l_im[i] + y };
+        }
     }
 }
 
@@ -136,34 +162,80 @@ fn inverse_column<T: Scalar>(d: &[[T; 2]], j: usize) -> [(usize, T); 2] {
 
 /// w_j −= Σ_{i<j} w_i l_ji.
 #[inline(always)]
-fn substitute<T: Scalar, S: Simd>(
+fn substitute<T: Scalar, S: Simd>(simd: S, w: &mut Tile<T::Real>, corner: &Corner<T>) {
+    // Constant, so that only one of them is compiled.
+    match const { (many::<S>(), T::PARTS) } {
+        (true, 1) => substitute_together::<T, S, { MANY.0 }, 4>(simd, w, corner),
+        (true, _) => substitute_together::<T, S, { MANY.0 }, 2>(simd, w, corner),
+        (false, 1) => substitute_together::<T, S, { FEW.0 }, 4>(simd, w, corner),
+        (false, _) => substitute_together::<T, S, { FEW.0 }, 2>(simd, w, corner),
+    }
+}
+
+/// The same for C columns of M registers at a time; what is behind the last column means nothing.
+#[inline(always)]
+fn substitute_together<T: Scalar, S: Simd, const M: usize, const C: usize>(
     simd: S,
     w: &mut Tile<T::Real>,
-    j: usize,
-    height: usize,
     corner: &Corner<T>,
 ) {
-    let [w_re, w_im] = w;
-    let (before_re, own_re) = w_re.split_at_mut(j);
-    let (before_im, own_im) = w_im.split_at_mut(j);
-    let own_re = T::Real::vectors_mut::<S>(&mut own_re[0][..height]).0;
-    let own_im = T::Real::vectors_mut::<S>(&mut own_im[0][..height]).0;
-    let factors = |i: usize| {
-        let l = corner.get(j, i);
-        let minus = (-l).parts().map(|part| T::Real::splat(simd, part));
-        (minus, T::Real::splat(simd, l.parts()[1]))
-    };
-    for (k, (r, m)) in own_re.iter_mut().zip(own_im).enumerate() {
-        for i in 0..j {
-            let (minus, im) = factors(i);
-            let x = T::Real::vectors::<S>(&before_re[i][..height]).0[k];
-            *r = T::Real::mul_add(simd, x, minus[0], *r);
-            if T::PARTS == 2 {
-                let y = T::Real::vectors::<S>(&before_im[i][..height]).0[k];
-                *r = T::Real::mul_add(simd, y, im, *r);
-                *m = T::Real::mul_add(simd, x, minus[1], *m);
-                *m = T::Real::mul_add(simd, y, minus[0], *m);
+    // No closures: they would not be compiled for these registers.
+    let zero = T::Real::splat(simd, T::Real::default());
+    for first in (0..corner.d.len()).step_by(C) {
+        let mut sums = [[[zero; M]; 2]; C];
+        for c in 0..C {
+            load::<T, S, M>(w, first + c, &mut sums[c]);
+        }
+        let mut x = [[zero; M]; 2];
+        for i in 0..first {
+            load::<T, S, M>(w, i, &mut x);
+            for c in 0..C {
+                term::<T, S, M>(simd, &x, corner.get(first + c, i), &mut sums[c]);
             }
+        }
+        for c in 1..C {
+            for d in 0..c {
+                let x = sums[d];
+                term::<T, S, M>(simd, &x, corner.get(first + c, first + d), &mut sums[c]);
+            }
+        }
+        for c in 0..C {
+            for part in 0..T::PARTS {
+                T::Real::vectors_mut::<S>(&mut w[part][first + c]).0[..M].copy_from_slice(&sums[c][part]);
+            }
+        }
+    }
+}
+
+/// The rows of a column of a tile.
+#[inline(always)]
+fn load<T: Scalar, S: Simd, const M: usize>(
+    w: &Tile<T::Real>,
+    col: usize,
+    into: &mut [[<T::Real as Real>::Vector<S>; M]; 2],
+) {
+    for part in 0..T::PARTS {
+        into[part].copy_from_slice(&T::Real::vectors::<S>(&w[part][col]).0[..M]);
+    }
+}
+
+/// sum −= x l.
+#[inline(always)]
+fn term<T: Scalar, S: Simd, const M: usize>(
+    simd: S,
+    x: &[[<T::Real as Real>::Vector<S>; M]; 2],
+    l: T,
+    sum: &mut [[<T::Real as Real>::Vector<S>; M]; 2],
+) {
+    let (minus, l) = ((-l).parts(), l.parts());
+    let (re, im) = (T::Real::splat(simd, minus[0]), T::Real::splat(simd, minus[1]));
+    let minus = T::Real::splat(simd, l[1]);
+    for k in 0..M {
+        sum[0][k] = T::Real::mul_add(simd, x[0][k], re, sum[0][k]);
+        if T::PARTS == 2 {
+            sum[0][k] = T::Real::mul_add(simd, x[1][k], minus, sum[0][k]);
+            sum[1][k] = T::Real::mul_add(simd, x[0][k], im, sum[1][k]);
+            sum[1][k] = T::Real::mul_add(simd, x[1][k], re, sum[1][k]);
         }
     }
 }

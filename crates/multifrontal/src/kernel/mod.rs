@@ -7,12 +7,12 @@ mod pack;
 mod tile;
 
 pub(crate) use pack::{Left, Pivots};
-pub(crate) use tile::{WIDE, copy, tile_rows};
+pub(crate) use tile::{FEW, MANY, WIDE, copy, many, tile_rows};
 
 use crate::scalar::{Real, Scalar};
 use crate::threads::{Idle, each};
 use pulp::{Simd, WithSimd};
-use tile::{FEW, MANY, many, store, tile};
+use tile::{store, tile};
 
 /// Columns of a strip: whole tiles for every instruction set, and its packed copy stays in the second cache.
 pub(crate) const STRIP: usize = 96;
@@ -21,7 +21,7 @@ pub(crate) const STRIP: usize = 96;
 pub(crate) const TOGETHER: usize = 4;
 
 /// Products below which another thread costs more than it brings: some tens of microseconds.
-const SHARE_FROM: usize = 2_000_000;
+const SHARE_FROM: usize = 1_000_000;
 
 /// Neighbouring columns of a lower triangle, from the diagonal of the first downwards.
 pub(crate) struct Strip<'a, T: Scalar> {
@@ -60,6 +60,14 @@ pub(crate) struct Buffers<R> {
     products: Vec<R>,
 }
 
+/// The beginning of a buffer that has so many numbers at least; nothing is cleared that is written anyway.
+fn at_least<R: Real>(buffer: &mut Vec<R>, len: usize) -> &mut [R] {
+    if buffer.len() < len {
+        buffer.resize(len, R::default());
+    }
+    &mut buffer[..len]
+}
+
 struct StripDowndate<'a, 'b, T: Scalar> {
     strip: Strip<'b, T>,
     pivots: &'a Pivots<'a, T>,
@@ -88,10 +96,11 @@ impl<T: Scalar> StripDowndate<'_, '_, T> {
         let Self { mut strip, pivots, left, buffers: Buffers { right, products } } = self;
         let (count, height) = (pivots.count(), tile_rows::<T::Real, S>());
         let plane = N * count;
+        let right = at_least(right, strip.width.next_multiple_of(N) * T::PRODUCTS * count);
         pivots.pack_right::<N>(strip.first, strip.width, right);
         // From one column of the products to the next, and from one plane to the next.
         let (step, size) = (TOGETHER * height, strip.width.next_multiple_of(N) * TOGETHER * height);
-        products.resize(size * T::PRODUCTS, T::Real::default());
+        let products = at_least(products, size * T::PRODUCTS);
         let panels = left.panels(height);
         for first in (strip.first / height..panels).step_by(TOGETHER) {
             for panel in first..panels.min(first + TOGETHER) {

@@ -1,7 +1,7 @@
 //! Packed copies of L and of L D, tile after tile, a plane for each real product.
 
 use super::tile::{copy, tile_rows};
-use super::{SHARE_FROM, TOGETHER};
+use super::{SHARE_FROM, TOGETHER, at_least};
 use crate::scalar::{Real, Scalar};
 use crate::threads::each;
 use pulp::{Simd, WithSimd};
@@ -32,10 +32,8 @@ impl<T: Scalar> Pivots<'_, T> {
 
     /// The rows `first..first + width` of L D, N at a time, zeros behind the last.
     #[inline(always)]
-    pub(super) fn pack_right<const N: usize>(&self, first: usize, width: usize, into: &mut Vec<T::Real>) {
-        let (count, size) = (self.count(), width.next_multiple_of(N) * T::PRODUCTS);
-        // Nothing is cleared that is written anyway.
-        into.resize(size * count, T::Real::default());
+    pub(super) fn pack_right<const N: usize>(&self, first: usize, width: usize, into: &mut [T::Real]) {
+        let count = self.count();
         let mut k = 0;
         while k < count {
             let [d, below] = self.d[k];
@@ -97,13 +95,11 @@ impl<R: Real> Left<R> {
         self.rows = pivots.rows;
         let panel = height * count * T::PRODUCTS;
         let size = self.rows.div_ceil(height) * panel;
-        // Nothing is cleared that is written anyway; what is behind the last row is.
-        if self.packed.len() < size {
-            self.packed.resize(size, R::default());
-        }
+        // What is behind the last row is cleared on the way.
+        let packed = at_least(&mut self.packed, size);
         let threads = if size < SHARE_FROM { 1 } else { threads };
         let panels = if threads > 1 { TOGETHER } else { size.div_ceil(panel.max(1)) };
-        let tasks = self.packed[..size].chunks_mut((panels * panel).max(1)).enumerate();
+        let tasks = packed.chunks_mut((panels * panel).max(1)).enumerate();
         let tasks = tasks.map(|(k, packed)| PackLeft { pivots, first: k * panels * height, packed });
         each(threads, tasks.collect(), |task| crate::arch().dispatch(task));
     }

@@ -5,14 +5,14 @@ use pulp::Simd;
 
 /// Registers of rows and columns of a tile on a processor with so many registers: its sums stay in them, beside the
 /// rows and one number of the other factor.
-pub(super) const MANY: (usize, usize) = (3, 8);
+pub(crate) const MANY: (usize, usize) = (3, 8);
 /// The same for the sixteen registers of AVX2.
-pub(super) const FEW: (usize, usize) = (2, 6);
+pub(crate) const FEW: (usize, usize) = (2, 6);
 /// The most rows of a tile: three registers of sixteen single-precision numbers.
 pub(crate) const WIDE: usize = 48;
 
 /// Whether a tile has the shape [`MANY`], not [`FEW`].
-pub(super) const fn many<S: Simd>() -> bool {
+pub(crate) const fn many<S: Simd>() -> bool {
     S::REGISTER_COUNT >= 32
 }
 
