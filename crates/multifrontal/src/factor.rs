@@ -6,7 +6,7 @@ use crate::front::{
 use crate::part::Part;
 use crate::scalar::Scalar;
 use crate::symbolic::{ROOT, Symbolic};
-use crate::threads::{Idle, map, with};
+use crate::threads::{Idle, awake, map, with};
 use crate::{FactorError, scaling};
 use std::ops::Range;
 use std::sync::OnceLock;
@@ -135,7 +135,7 @@ impl<T: Scalar> Run<'_, T> {
         let fronts = &self.symbolic.fronts;
         let done: Vec<_> = fronts.iter().map(|_| OnceLock::new()).collect();
         let threads = self.options.threads.max(1);
-        if threads == 1 || self.symbolic.subtrees.is_empty() {
+        if threads == 1 || !self.symbolic.worth_sharing() {
             self.run(0..fronts.len(), &done);
         } else {
             let roots = (0..fronts.len()).filter(|&k| fronts[k].parent == ROOT).collect();
@@ -168,7 +168,7 @@ impl<T: Scalar> Run<'_, T> {
         for &k in chain.iter().rev() {
             let mut stacks = [Stack::default(), Stack::default()];
             let front = |with: &mut _| self.front(k, below, &mut stacks, with, done);
-            let left = self.with_idle(threads, front);
+            let left = awake(threads, || self.with_idle(threads, front));
             let stack = &mut stacks[symbolic.parity(k)];
             below = left.map(|left| (k, left.taken_from(stack))).into_iter().collect();
         }

@@ -1,7 +1,13 @@
 //! Work shared out to threads.
 
 use rayon::prelude::*;
-use std::sync::{Mutex, PoisonError};
+use std::cell::Cell;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
+
+/// How long an idle thread looks out for work before it may sleep.
+const PATIENCE: Duration = Duration::from_millis(1);
 
 /// Room to work in that no thread uses at the moment.
 pub(crate) struct Idle<B>(Mutex<Vec<B>>);
@@ -25,11 +31,61 @@ impl<B> Idle<B> {
     }
 }
 
+thread_local! {
+    /// Whether this thread is in the middle of a piece of our work.
+    static AT_WORK: Cell<bool> = const { Cell::new(false) };
+}
+
+/// Says of this thread that it is at work.
+fn at_work<O>(work: impl FnOnce() -> O) -> O {
+    struct Restore(bool);
+    impl Drop for Restore {
+        fn drop(&mut self) {
+            AT_WORK.set(self.0);
+        }
+    }
+    let _restore = Restore(AT_WORK.replace(true));
+    work()
+}
+
+/// Works while the pool's idle threads look out for pieces of it: asleep they would take longer to wake than many
+/// a piece takes.
+///
+/// Only threads that are in no other piece of our work look out, so that nobody waits for one of them; and none for
+/// longer than [`PATIENCE`] in vain.
+pub(crate) fn awake<O>(threads: usize, work: impl FnOnce() -> O) -> O {
+    if threads < 2 {
+        return work();
+    }
+    let busy = Arc::new(AtomicBool::new(true));
+    let look_out = {
+        let busy = Arc::clone(&busy);
+        move || {
+            let mut last = Instant::now();
+            while busy.load(Ordering::Relaxed) && last.elapsed() < PATIENCE {
+                match rayon::yield_now() {
+                    Some(rayon::Yield::Executed) => last = Instant::now(),
+                    _ => std::hint::spin_loop(),
+                }
+            }
+        }
+    };
+    rayon::spawn_broadcast(move |_| {
+        if !AT_WORK.get() {
+            look_out();
+        }
+    });
+    let out = at_work(work);
+    busy.store(false, Ordering::Relaxed);
+    out
+}
+
 /// Runs with so many threads at hand: those of the caller's pool where it has as many, else new ones.
 pub(crate) fn with<O: Send>(threads: usize, run: impl FnOnce() -> O + Send) -> O {
     if threads < 2 {
         return run();
     }
+    let run = || awake(threads, run);
     if rayon::current_num_threads() == threads {
         return rayon::scope(|_| run());
     }
@@ -45,7 +101,7 @@ pub(crate) fn each<I: Send>(threads: usize, items: Vec<I>, work: impl Fn(I) + Sy
     if threads < 2 || items.len() < 2 {
         items.into_iter().for_each(work);
     } else {
-        items.into_par_iter().with_max_len(1).for_each(work);
+        items.into_par_iter().with_max_len(1).for_each(|item| at_work(|| work(item)));
     }
 }
 
@@ -58,6 +114,6 @@ pub(crate) fn map<I: Send, O: Send>(
     if threads < 2 || items.len() < 2 {
         items.into_iter().map(work).collect()
     } else {
-        items.into_par_iter().with_max_len(1).map(work).collect()
+        items.into_par_iter().with_max_len(1).map(|item| at_work(|| work(item))).collect()
     }
 }

@@ -151,6 +151,11 @@ impl Symbolic {
             + self.dim() * row
     }
 
+    /// Whether another thread brings more than it costs.
+    pub(crate) fn worth_sharing(&self) -> bool {
+        self.flops() >= share::SHARE_FROM
+    }
+
     pub(crate) fn children_of(&self, front: usize) -> &[u32] {
         &self.children[self.child_start[front]..self.child_start[front + 1]]
     }

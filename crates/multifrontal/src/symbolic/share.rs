@@ -9,7 +9,7 @@ use std::ops::Range;
 const SUBTREES: usize = 32;
 
 /// Multiplications below which nothing is shared: a factorisation of less takes a millisecond.
-const SHARE_FROM: f64 = 1e7;
+pub(super) const SHARE_FROM: f64 = 1e7;
 
 /// Σ over the pivots of (entries of their columns)².
 pub(super) fn multiplications(pivots: usize, below: usize) -> f64 {
