@@ -49,6 +49,17 @@ fn complex_solids() {
     }
 }
 
+/// One right-hand side is solved with in its own way, and a matrix without zeros is a single front.
+#[test]
+fn one_right_hand_side_and_one_front() {
+    check(&solid(8, |re, _| re, 1), 1, GROWN, |re, _| re);
+    check(&solid(8, c64::new, 1), 1, GROWN, c64::new);
+    let mut noise = noise(3);
+    let dense: Vec<_> = (0..400).flat_map(|j| (j..400).map(move |i| (i, j))).collect();
+    let dense = dense.into_iter().map(|(i, j)| (i, j, c64::new(noise(), noise())));
+    check(&Lower::new(400, dense.collect::<Vec<_>>()), 1, GROWN, c64::new);
+}
+
 #[test]
 fn single_precision_solids() {
     check(&solid(5, |re, _| re as f32, 1), 4, 1e-5, |re, _| re as f32);

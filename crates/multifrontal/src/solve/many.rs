@@ -1,12 +1,15 @@
 //! Right-hand sides side by side: a register holds those of one row, so that every number of L is met once.
 
-use super::{BLOCK, CHUNK, SHARE_FROM, Step, pieces};
+use super::{BLOCK, Step, pieces, shares};
 use crate::factor::Node;
 use crate::scalar::{Real, Scalar};
 use crate::threads::each;
 use pulp::{Simd, WithSimd};
 use std::marker::PhantomData;
 use std::ops::Range;
+
+/// The most rows at a time: what belongs to them stays in the first caches while all columns pass.
+const CHUNK: usize = 512;
 
 /// Right-hand sides that are side by side.
 pub(super) fn lanes<R: Real>() -> usize {
@@ -72,21 +75,23 @@ impl<T: Scalar> Shaped for Forward<'_, T> {
 
     #[inline(always)]
     fn run<S: Simd, const V: usize, const G: usize>(self, simd: S) {
-        let Step { node, local, buffer: y, threads } = self.0;
+        let Step { node, local, buffer: y, threads, .. } = self.0;
         let (pivots, rows) = (node.pivots(), node.order());
         let row = row_len::<T, S, V>();
         y.clear();
         y.resize(row * rows, T::Real::default());
         y[..row * pivots].copy_from_slice(&local[node.first * row..][..row * pivots]);
         for span in node.spans() {
-            let (own, below) = y.split_at_mut(span.end * row);
+            let inner = node.inner(&span, true);
+            let (own, below) = y.split_at_mut(inner * row);
             for cols in pieces(span.clone(), BLOCK) {
                 let (block, rest) = own[cols.start * row..].split_at_mut(cols.len() * row);
                 triangle::<T, S, V>(simd, node, &cols, block);
-                multiply::<T, S, V, G>(simd, node, &cols, block, cols.end..span.end, rest);
+                multiply::<T, S, V, G>(simd, node, &cols, block, cols.end..inner, rest);
             }
-            let own = &own[span.start * row..];
-            let tasks = pieces(span.end..rows, CHUNK).zip(below.chunks_mut(CHUNK * row));
+            let own = &own[span.start * row..span.end * row];
+            let (len, shares) = shares(inner..rows, threads, CHUNK);
+            let tasks = shares.zip(below.chunks_mut(len * row));
             let tasks = tasks.map(|(rows, y)| Multiply { node, span: span.clone(), own, rows, y });
             each(threads, tasks.collect(), Shaped::dispatch);
         }
@@ -104,7 +109,7 @@ impl<T: Scalar> Shaped for Backward<'_, T> {
 
     #[inline(always)]
     fn run<S: Simd, const V: usize, const G: usize>(self, simd: S) {
-        let Step { node, local, buffer: y, threads } = self.0;
+        let Step { node, local, buffer: y, threads, .. } = self.0;
         let (pivots, rows) = (node.pivots(), node.order());
         let row = row_len::<T, S, V>();
         y.clear();
@@ -114,15 +119,17 @@ impl<T: Scalar> Shaped for Backward<'_, T> {
         }
         times_inverse::<T, S, V>(simd, &node.inverse, y);
         for span in node.spans().rev() {
-            let (own, below) = y.split_at_mut(span.end * row);
+            let inner = node.inner(&span, true);
+            let (own, below) = y.split_at_mut(inner * row);
             let (own, below) = (&mut own[span.start * row..], &*below);
-            let threads = if span.len() * (rows - span.end) < SHARE_FROM { 1 } else { threads };
-            let tasks = pieces(span.clone(), BLOCK).zip(own.chunks_mut(BLOCK * row));
-            let tasks = tasks.map(|(cols, block)| Dot { node, cols, block, rows: span.end..rows, y: below });
-            each(threads, tasks.collect(), Shaped::dispatch);
+            if inner < rows {
+                let tasks = pieces(span.clone(), BLOCK).zip(own[..span.len() * row].chunks_mut(BLOCK * row));
+                let tasks = tasks.map(|(cols, block)| Dot { node, cols, block, rows: inner..rows, y: below });
+                each(threads, tasks.collect(), Shaped::dispatch);
+            }
             for cols in pieces(span.clone(), BLOCK).rev() {
                 let (block, rest) = own[(cols.start - span.start) * row..].split_at_mut(cols.len() * row);
-                subtract_dot::<T, S, V, G>(simd, node, cols.clone(), block, cols.end..span.end, rest);
+                subtract_dot::<T, S, V, G>(simd, node, cols.clone(), block, cols.end..inner, rest);
                 transposed_triangle::<T, S, V>(simd, node, &cols, block);
             }
         }

@@ -14,7 +14,7 @@ use many::Shaped;
 use std::ops::Range;
 
 /// Numbers of a factor below which another thread costs more than it brings.
-const SHARE_FROM: usize = 200_000;
+const SHARE_FROM: usize = 40_000;
 
 /// Columns of L that are met together: as many streams as a processor follows, complex ones having two.
 const BLOCK: usize = 8;
@@ -22,8 +22,8 @@ const BLOCK: usize = 8;
 /// Pivots of a node after which the threads meet.
 const SPAN: usize = 256;
 
-/// Rows that one thread takes at a time: what belongs to them stays in the second cache.
-const CHUNK: usize = 512;
+/// The fewest rows that one thread takes at a time, so that columns are met in runs.
+const FEWEST: usize = 96;
 
 /// One node, and the numbers of its part: of each row the parts, of each part the right-hand sides.
 struct Step<'a, T: Scalar> {
@@ -32,6 +32,8 @@ struct Step<'a, T: Scalar> {
     /// Numbers of the front's rows.
     buffer: &'a mut Vec<T::Real>,
     threads: usize,
+    /// Whether it may be shared out to threads, however many there are: sums do not depend on that.
+    shared: bool,
 }
 
 impl<T: Scalar> Node<T> {
@@ -48,10 +50,22 @@ impl<T: Scalar> Node<T> {
         T::from_parts([at(0), at(T::PARTS - 1)])
     }
 
-    /// The pivots in spans, and where in them the blocks of columns begin.
+    /// The pivots in spans.
     fn spans(&self) -> impl DoubleEndedIterator<Item = Range<usize>> {
         pieces(0..self.pivots(), SPAN)
     }
+
+    /// Where the rows end that the columns of a span are met in one after the other.
+    fn inner(&self, span: &Range<usize>, shared: bool) -> usize {
+        if shared && span.len() * self.order() >= SHARE_FROM { span.end } else { self.order() }
+    }
+}
+
+/// Rows in pieces for so many threads, a few for each, and none longer than `most`.
+fn shares(rows: Range<usize>, threads: usize, most: usize) -> (usize, impl Iterator<Item = Range<usize>>) {
+    let len = if threads < 2 { rows.len() } else { rows.len().div_ceil(2 * threads) };
+    let len = len.clamp(FEWEST, most);
+    (len, pieces(rows, len))
 }
 
 /// A range in pieces of some length, the last perhaps shorter.
@@ -142,8 +156,14 @@ impl<T: Scalar> Factor<T> {
         part.nodes.iter().flat_map(|run| &self.nodes[run.clone()])
     }
 
+    /// Whether a part is what is above all subtrees.
+    fn is_top(&self, part: &Part) -> bool {
+        self.parts.last().is_some_and(|top| std::ptr::eq(top, part))
+    }
+
     /// y = L⁻¹ b over the nodes of a part; places outside receive what they have to add.
     fn forward(&self, part: &Part, local: &mut [T::Real], lanes: usize, threads: usize) {
+        let shared = self.is_top(part);
         let buffer = &mut Vec::new();
         let row = T::PARTS * lanes;
         for node in self.nodes_of(part) {
@@ -151,7 +171,7 @@ impl<T: Scalar> Factor<T> {
             if own.iter().all(|&x| x == T::Real::default()) {
                 continue;
             }
-            let step = Step { node, local, buffer, threads };
+            let step = Step { node, local, buffer, threads, shared };
             if lanes == 1 {
                 crate::arch().dispatch(one::Forward(step));
             } else {
@@ -162,9 +182,10 @@ impl<T: Scalar> Factor<T> {
 
     /// x = L⁻ᵀ D⁻¹ y over the nodes of a part.
     fn backward(&self, part: &Part, local: &mut [T::Real], lanes: usize, threads: usize) {
+        let shared = self.is_top(part);
         let buffer = &mut Vec::new();
         for node in self.nodes_of(part).rev() {
-            let step = Step { node, local, buffer, threads };
+            let step = Step { node, local, buffer, threads, shared };
             if lanes == 1 {
                 crate::arch().dispatch(one::Backward(step));
             } else {

@@ -1,14 +1,11 @@
 //! One right-hand side: registers hold rows, at the speed at which L comes from memory.
 
-use super::{BLOCK, Step, pieces};
+use super::{BLOCK, Step, pieces, shares};
 use crate::factor::Node;
 use crate::scalar::{Real, Scalar};
 use crate::threads::each;
 use pulp::{Simd, WithSimd};
 use std::ops::Range;
-
-/// Rows that one thread takes at a time: their sums stay in the second cache, and a column is met in long runs.
-const CHUNK: usize = 4096;
 
 /// y = L⁻¹ b.
 pub(super) struct Forward<'a, T: Scalar>(pub(super) Step<'a, T>);
@@ -18,7 +15,7 @@ impl<T: Scalar> WithSimd for Forward<'_, T> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let Step { node, local, buffer, threads } = self.0;
+        let Step { node, local, buffer, threads, shared } = self.0;
         let (pivots, rows) = (node.pivots(), node.order());
         let (re, im) = planes(buffer, rows);
         for k in 0..pivots {
@@ -26,16 +23,18 @@ impl<T: Scalar> WithSimd for Forward<'_, T> {
             (re[k], im[k]) = (x, y);
         }
         for span in node.spans() {
+            let inner = node.inner(&span, shared);
             for cols in pieces(span.clone(), BLOCK) {
                 triangle(node, &cols, re, im);
-                let (x, below) = (factors(&cols, re, im), cols.end..span.end);
+                let (x, below) = (factors(&cols, re, im), cols.end..inner);
                 multiply(simd, node, cols, &x, below.clone(), (&mut re[below.clone()], &mut im[below]));
             }
-            let (own_re, re) = re.split_at_mut(span.end);
-            let (own_im, im) = im.split_at_mut(span.end);
-            let chunks = re.chunks_mut(CHUNK).zip(im.chunks_mut(CHUNK));
+            let (own_re, re) = re.split_at_mut(inner);
+            let (own_im, im) = im.split_at_mut(inner);
+            let (len, shares) = shares(inner..rows, threads, usize::MAX);
+            let chunks = re.chunks_mut(len).zip(im.chunks_mut(len));
             let own = (&*own_re, &*own_im);
-            let tasks = pieces(span.end..rows, CHUNK).zip(chunks);
+            let tasks = shares.zip(chunks);
             let tasks = tasks.map(|(rows, y)| Multiply { node, span: span.clone(), own, rows, y });
             each(threads, tasks.collect(), |task| crate::arch().dispatch(task));
         }
@@ -57,7 +56,7 @@ impl<T: Scalar> WithSimd for Backward<'_, T> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let Step { node, local, buffer, threads } = self.0;
+        let Step { node, local, buffer, threads, shared } = self.0;
         let (pivots, rows) = (node.pivots(), node.order());
         let (re, im) = planes(buffer, rows);
         let places = (node.first..node.first + pivots).chain(node.rows.iter().map(|&row| row as usize));
@@ -68,14 +67,17 @@ impl<T: Scalar> WithSimd for Backward<'_, T> {
         times_inverse(&node.inverse, re, im);
         let mut sums = [[T::default(); BLOCK]; super::SPAN / BLOCK];
         for span in node.spans().rev() {
-            let below = span.end..rows;
-            let x = (&re[below.clone()], &im[below.clone()]);
-            let threads = if span.len() * below.len() < super::SHARE_FROM { 1 } else { threads };
-            let tasks = pieces(span.clone(), BLOCK).zip(&mut sums);
-            let tasks = tasks.map(|(cols, sums)| Dot { node, cols, rows: below.clone(), x, sums });
-            each(threads, tasks.collect(), |task| crate::arch().dispatch(task));
+            let inner = node.inner(&span, shared);
+            let below = inner..rows;
+            sums.fill([T::default(); BLOCK]);
+            if !below.is_empty() {
+                let x = (&re[below.clone()], &im[below.clone()]);
+                let tasks = pieces(span.clone(), BLOCK).zip(&mut sums);
+                let tasks = tasks.map(|(cols, sums)| Dot { node, cols, rows: below.clone(), x, sums });
+                each(threads, tasks.collect(), |task| crate::arch().dispatch(task));
+            }
             for (cols, sums) in pieces(span.clone(), BLOCK).zip(&mut sums).rev() {
-                let inside = cols.end..span.end;
+                let inside = cols.end..inner;
                 dot(simd, node, cols.clone(), inside.clone(), (&re[inside.clone()], &im[inside]), sums);
                 transposed_triangle(node, &cols, sums, re, im);
             }
@@ -123,7 +125,6 @@ impl<T: Scalar> WithSimd for Dot<'_, T> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
         let Self { node, cols, rows, x, sums } = self;
-        *sums = [T::default(); BLOCK];
         dot(simd, node, cols, rows, x, sums);
     }
 }
