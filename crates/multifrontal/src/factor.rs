@@ -1,8 +1,10 @@
 //! The numeric factorisation: front after front, subtrees at the same time.
 
 use crate::front::{
-    Child, Contribution, Elimination, Front, Places, Stack, add_to_schur, eliminate, schur_len,
+    Child, Contribution, Elimination, Front, Stack, add_children, each_strip, eliminate, schur_len,
+    schur_strips, strips,
 };
+use crate::kernel::Strip;
 use crate::part::Part;
 use crate::scalar::Scalar;
 use crate::symbolic::{ROOT, Symbolic};
@@ -126,6 +128,14 @@ struct Run<'a, T: Scalar> {
 /// What each front gave, as it is done.
 type Done<T> = [OnceLock<Eliminated<T>>];
 
+/// What threads that work on the same tree need.
+struct Shared<'a, T: Scalar> {
+    threads: usize,
+    /// Multiplications of each front and all below it.
+    work: Vec<f64>,
+    done: &'a Done<T>,
+}
+
 /// A front with what it left to its parent.
 type Left<T> = (usize, Contribution<<T as Scalar>::Real>);
 
@@ -139,14 +149,23 @@ impl<T: Scalar> Run<'_, T> {
             self.run(0..fronts.len(), &done);
         } else {
             let roots = (0..fronts.len()).filter(|&k| fronts[k].parent == ROOT).collect();
-            map(threads, roots, |root| self.tree(root, threads, &done));
+            self.branches(roots, &Shared { threads, work: self.symbolic.work(), done: &done });
         }
         done.into_iter().filter_map(OnceLock::into_inner).collect()
     }
 
+    /// Branches at the same time, the one with most work first; what they leave, in their order.
+    fn branches(&self, mut roots: Vec<usize>, shared: &Shared<'_, T>) -> Vec<Left<T>> {
+        roots.sort_by(|&a, &b| shared.work[b].total_cmp(&shared.work[a]));
+        let left = map(shared.threads, roots, |root| Some((root, self.tree(root, shared)?)));
+        let mut left: Vec<_> = left.into_iter().flatten().collect();
+        left.sort_unstable_by_key(|(root, _)| *root);
+        left
+    }
+
     /// The fronts under one and itself, branches at the same time; what it leaves.
-    fn tree(&self, root: usize, threads: usize, done: &Done<T>) -> Option<Contribution<T::Real>> {
-        let symbolic = self.symbolic;
+    fn tree(&self, root: usize, shared: &Shared<'_, T>) -> Option<Contribution<T::Real>> {
+        let (symbolic, &Shared { threads, done, .. }) = (self.symbolic, shared);
         // Where there is one child only, it goes on in a loop: a chain may be as long as the matrix.
         let mut chain = vec![root];
         let mut below = loop {
@@ -158,10 +177,7 @@ impl<T: Scalar> Run<'_, T> {
             match symbolic.children_of(k) {
                 [only] => chain.push(*only as usize),
                 several => {
-                    let left = |&child: &u32| self.tree(child as usize, threads, done);
-                    let left = map(threads, several.iter().collect(), left);
-                    let several = several.iter().map(|&child| child as usize).zip(left);
-                    break several.filter_map(|(child, left)| Some((child, left?))).collect();
+                    break self.branches(several.iter().map(|&child| child as usize).collect(), shared);
                 }
             }
         };
@@ -189,19 +205,30 @@ impl<T: Scalar> Run<'_, T> {
     /// The fronts of a subtree one after the other; what its root leaves.
     fn run(&self, range: Range<usize>, done: &Done<T>) -> Option<Contribution<T::Real>> {
         let symbolic = self.symbolic;
-        let mut stacks = symbolic.stacks(range.clone()).map(|len| Stack::new(T::PARTS * len));
         let mut pending: Vec<Option<Contribution<T::Real>>> = range.clone().map(|_| None).collect();
         self.with_idle(1, |with| {
-            for k in range.clone() {
+            let mut stacks = std::mem::take(&mut with.stacks);
+            for (stack, len) in stacks.iter_mut().zip(symbolic.stacks(range.clone())) {
+                stack.clear(T::PARTS * len);
+            }
+            let root = range.end.checked_sub(1)?;
+            let mut front = |k: usize, stacks: &mut _| {
                 let children = symbolic.children_of(k).iter().map(|&child| child as usize);
                 let children =
                     children.filter_map(|child| Some((child, pending[child - range.start].take()?)));
-                pending[k - range.start] = self.front(k, children.collect(), &mut stacks, with, done);
-            }
-        });
-        let root = range.end.checked_sub(1)?;
-        // The others have been taken by their parents.
-        pending.pop().flatten().map(|left| left.taken_from(&mut stacks[symbolic.parity(root)]))
+                let left = self.front(k, children.collect(), stacks, with, done);
+                pending[k - range.start] = left;
+            };
+            (range.start..root).for_each(|k| front(k, &mut stacks));
+            // What the root leaves goes elsewhere: it has a stack of its own.
+            let parity = symbolic.parity(root);
+            let own = std::mem::take(&mut stacks[parity]);
+            front(root, &mut stacks);
+            let left = pending.pop()?.map(|left| left.taken_from(&mut stacks[parity]));
+            stacks[parity] = own;
+            with.stacks = stacks;
+            left
+        })
     }
 
     /// Assembles one front from the matrix and its children, and eliminates its columns; what it leaves.
@@ -221,27 +248,33 @@ impl<T: Scalar> Run<'_, T> {
         ids.extend(symbolic.rows_of(k));
         let (candidates, others) = (delayed + shape.pivots, shape.rows.len());
         let stride = padded(ids.len());
-        let mut values = vec![T::Real::default(); T::PARTS * stride * candidates];
         let [even, odd] = stacks;
         let (own, below) = if symbolic.parity(k) == 0 { (even, odd) } else { (odd, even) };
         let mut schur = own.push(schur_len::<T>(others));
         let target = own.values_of_mut(&mut schur);
-
-        let mut front = Front { ids, candidates, panel: &mut values, stride };
-        self.add_entries(&mut front, k, delayed);
         let mut base = 0;
         let given = children.iter().map(|(child, left)| {
             let relative = &symbolic.relative[symbolic.fronts[*child].rows.clone()];
-            let places = Places { base, delayed, relative };
+            let child = Child::new(left, below.values_of(&left.schur), base, delayed, relative);
             base += left.delayed.len();
-            Child { left, schur: below.values_of(&left.schur), places }
+            child
         });
         let given: Vec<_> = given.collect();
-        for child in &given {
-            child.left.add_to_panel(&mut front, child.schur, &child.places);
-        }
+
+        let mut values = vec![T::Real::default(); T::PARTS * stride * candidates];
+        let (numbers, threads) = (values.len(), with.threads);
+        each_strip(strips(&mut values, stride, 0, candidates, threads), numbers, threads, |mut strip| {
+            self.add_entries(&mut strip, k, &ids, delayed);
+            let from = strip.first;
+            add_children(&mut strip, from, &given);
+        });
+        let mut front = Front { ids, candidates, panel: &mut values, stride };
         let d = eliminate(&mut front, target, with);
-        add_to_schur::<T>(target, others, candidates, &given, with.threads);
+        let numbers = target.len();
+        each_strip(schur_strips::<T>(target, others, false), numbers, threads, |mut strip| {
+            let from = candidates + strip.first;
+            add_children(&mut strip, from, &given);
+        });
         children.iter().for_each(|(_, left)| below.pop(&left.schur));
 
         let (pivots, rest) = front.ids.split_at(d.len());
@@ -256,17 +289,19 @@ impl<T: Scalar> Run<'_, T> {
         left
     }
 
-    /// The entries of the matrix in the front's own columns, scaled.
-    fn add_entries(&self, front: &mut Front<'_, T>, k: usize, delayed: usize) {
+    /// The entries of the matrix in a strip of the front's columns, scaled; its rows are at these positions.
+    fn add_entries(&self, strip: &mut Strip<'_, T>, k: usize, ids: &[u32], delayed: usize) {
         let symbolic = self.symbolic;
-        for (j, position) in symbolic.fronts[k].own().enumerate() {
-            let entries = symbolic.entry_start[position]..symbolic.entry_start[position + 1];
-            for entry in &symbolic.entries[entries] {
+        for col in strip.first.max(delayed)..strip.first + strip.width {
+            let position = symbolic.fronts[k].first + col - delayed;
+            let start = (col - strip.first) * T::PARTS * strip.stride;
+            for entry in &symbolic.entries[symbolic.entry_start[position]..symbolic.entry_start[position + 1]]
+            {
                 let row = delayed + entry.row as usize;
-                let scale = self.scale[position] * self.scale[front.ids[row] as usize];
+                let scale = self.scale[position] * self.scale[ids[row] as usize];
                 let parts = self.values[entry.value as usize].scale(scale).parts();
                 for part in 0..T::PARTS {
-                    front.part_mut(delayed + j, part, 0)[row] += parts[part];
+                    strip.values[start + part * strip.stride + row - strip.first] += parts[part];
                 }
             }
         }

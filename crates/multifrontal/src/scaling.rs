@@ -19,23 +19,27 @@ pub(crate) fn scaling<T: Scalar>(pattern: &Lower, values: &[T]) -> Result<Vec<T:
     if values.len() != expected {
         return Err(FactorError::Values { expected, found: values.len() });
     }
+    if let Some(at) = values.iter().position(|value| !value.is_finite()) {
+        let col = pattern.col_ptr.partition_point(|&start| start <= at) - 1;
+        return Err(FactorError::NotFinite { row: pattern.row_idx[at] as usize, col });
+    }
+    let sizes: Vec<f64> = values.iter().map(|value| value.size()).collect();
     let mut scale = vec![1.0f64; pattern.dim];
     let mut largest = vec![0.0f64; pattern.dim];
-    for pass in 0..PASSES {
+    // Plain comparisons: `f64::max` asks for numbers that are none.
+    let larger = |a: f64, b: f64| if b > a { b } else { a };
+    for _ in 0..PASSES {
         largest.fill(0.0);
         for col in 0..pattern.dim {
-            let range = pattern.col_ptr[col]..pattern.col_ptr[col + 1];
-            let mut own = largest[col];
-            for (&row, value) in pattern.column(col).iter().zip(&values[range]) {
+            let (mut own, by) = (largest[col], scale[col]);
+            let sizes = &sizes[pattern.col_ptr[col]..pattern.col_ptr[col + 1]];
+            for (&row, size) in pattern.column(col).iter().zip(sizes) {
                 let row = row as usize;
-                let size = value.size() * scale[row] * scale[col];
-                if pass == 0 && !value.is_finite() {
-                    return Err(FactorError::NotFinite { row, col });
-                }
-                largest[row] = largest[row].max(size);
-                own = own.max(size);
+                let size = size * scale[row] * by;
+                largest[row] = larger(largest[row], size);
+                own = larger(own, size);
             }
-            largest[col] = own.max(largest[col]);
+            largest[col] = larger(largest[col], own);
         }
         for (scale, &largest) in scale.iter_mut().zip(&largest) {
             // A row of zeros stays one; a size that overflows or underflows has no root to divide by.

@@ -5,10 +5,11 @@ use crate::kernel::{STRIP, Strip};
 use crate::scalar::{Real, Scalar};
 use crate::threads::each;
 
-/// Numbers of a Schur complement below which another thread costs more than it brings.
+/// Numbers of a front below which another thread costs more than it brings.
 const SHARE_FROM: usize = 50_000;
 
-/// What the elimination of a front leaves to its parent.
+/// What the elimination of a front leaves to its parent: the columns of the candidates that could not be eliminated,
+/// then those of its other rows.
 #[derive(Debug)]
 pub(crate) struct Contribution<R> {
     /// Positions of the candidates that could not be eliminated.
@@ -17,23 +18,6 @@ pub(crate) struct Contribution<R> {
     columns: Vec<R>,
     /// The Schur complement of the other rows, in strips of columns from their diagonals downwards.
     pub(crate) schur: Kept<R>,
-}
-
-/// Rows of a child in its parent's front.
-pub(crate) struct Places<'a> {
-    /// Where its delayed candidates begin.
-    pub(crate) base: usize,
-    /// How many of the parent's candidates are delayed ones.
-    pub(crate) delayed: usize,
-    /// Places of its other rows behind these.
-    pub(crate) relative: &'a [u32],
-}
-
-/// What a child left, and where it goes.
-pub(crate) struct Child<'a, R> {
-    pub(crate) left: &'a Contribution<R>,
-    pub(crate) schur: &'a [R],
-    pub(crate) places: Places<'a>,
 }
 
 impl<R: Real> Contribution<R> {
@@ -48,71 +32,19 @@ impl<R: Real> Contribution<R> {
     pub(crate) fn taken_from(self, stack: &mut Stack<R>) -> Self {
         Self { schur: stack.take(self.schur), ..self }
     }
-
-    /// Adds what is the parent's candidates' to its panel.
-    pub(crate) fn add_to_panel<T: Scalar<Real = R>>(
-        &self,
-        front: &mut Front<'_, T>,
-        schur: &[R],
-        places: &Places<'_>,
-    ) {
-        let (own, others, step) = (self.delayed.len(), places.relative.len(), front.step());
-        let runs = runs(places);
-        let mut columns = self.columns.as_slice();
-        for k in 0..own {
-            let col = places.base + k;
-            for part in 0..T::PARTS {
-                let (head, rest) = columns.split_at(own - k);
-                let (tail, rest) = rest.split_at(others);
-                columns = rest;
-                let column = &mut front.panel[col * step + part * front.stride..][..front.stride];
-                add(&mut column[col..], head);
-                add_runs(column, 0, tail, 0, &runs);
-            }
-        }
-        for (j, place) in places.columns().take_while(|&(_, place)| place < front.candidates) {
-            let runs = &runs[runs.partition_point(|run| run.from + run.len <= j)..];
-            for part in 0..T::PARTS {
-                let column = &mut front.panel[place * step + part * front.stride..][..front.stride];
-                add_runs(column, 0, column_part::<T>(schur, others, j, part), j, runs);
-            }
-        }
-    }
 }
 
-/// Adds what is not the parent's candidates' to its Schur complement, strip after strip.
-pub(crate) fn add_to_schur<T: Scalar>(
-    target: &mut [T::Real],
-    order: usize,
-    candidates: usize,
-    children: &[Child<'_, T::Real>],
-    threads: usize,
-) {
-    let runs: Vec<_> = children.iter().map(|child| runs(&child.places)).collect();
-    let threads = if target.len() < SHARE_FROM { 1 } else { threads };
-    each(threads, schur_strips::<T>(target, order, false).collect(), |strip| {
-        let from = candidates + strip.first;
-        for (Child { schur, places, .. }, runs) in children.iter().zip(&runs) {
-            let others = places.relative.len();
-            let first = places.relative.partition_point(|&place| places.delayed + (place as usize) < from);
-            let columns = places.columns().skip(first);
-            for (j, place) in columns.take_while(|&(_, place)| place < from + strip.width) {
-                let runs = &runs[runs.partition_point(|run| run.from + run.len <= j)..];
-                for part in 0..T::PARTS {
-                    let start = ((place - from) * T::PARTS + part) * strip.stride;
-                    let column = &mut strip.values[start..start + strip.stride];
-                    add_runs(column, from, column_part::<T>(schur, others, j, part), j, runs);
-                }
-            }
-        }
-    });
-}
-
-impl Places<'_> {
-    /// The columns of the child's Schur complement, and where they are in the parent's front.
-    fn columns(&self) -> impl Iterator<Item = (usize, usize)> {
-        self.relative.iter().map(|&place| self.delayed + place as usize).enumerate()
-    }
+/// What a child left, and where it goes.
+pub(crate) struct Child<'a, R> {
+    left: &'a Contribution<R>,
+    schur: &'a [R],
+    /// Where its delayed candidates begin in its parent's front.
+    base: usize,
+    /// How many of the parent's candidates are delayed ones.
+    delayed: usize,
+    /// Places of its other rows behind these.
+    relative: &'a [u32],
+    runs: Vec<Run>,
 }
 
 /// Neighbouring rows of a child that are neighbours in its parent too.
@@ -123,15 +55,83 @@ struct Run {
     len: usize,
 }
 
-fn runs(places: &Places<'_>) -> Vec<Run> {
-    let mut runs: Vec<Run> = Vec::new();
-    for (from, to) in places.columns() {
-        match runs.last_mut() {
-            Some(run) if run.to + run.len == to => run.len += 1,
-            _ => runs.push(Run { from, to, len: 1 }),
+impl<'a, R: Real> Child<'a, R> {
+    pub(crate) fn new(
+        left: &'a Contribution<R>,
+        schur: &'a [R],
+        base: usize,
+        delayed: usize,
+        relative: &'a [u32],
+    ) -> Self {
+        let mut child = Self { left, schur, base, delayed, relative, runs: Vec::new() };
+        for from in 0..child.own() + relative.len() {
+            let to = child.place(from);
+            match child.runs.last_mut() {
+                Some(run) if run.to + run.len == to => run.len += 1,
+                _ => child.runs.push(Run { from, to, len: 1 }),
+            }
+        }
+        child
+    }
+
+    fn own(&self) -> usize {
+        self.left.delayed.len()
+    }
+
+    /// Where a row is in the parent's front; ascending.
+    fn place(&self, row: usize) -> usize {
+        match row.checked_sub(self.own()) {
+            Some(other) => self.delayed + self.relative[other] as usize,
+            None => self.base + row,
         }
     }
-    runs
+
+    /// The first row that is at a place or behind it.
+    fn first_at(&self, place: usize) -> usize {
+        let own = place.saturating_sub(self.base).min(self.own());
+        let before = |&other: &u32| self.delayed + (other as usize) < place;
+        if own < self.own() { own } else { own + self.relative.partition_point(before) }
+    }
+
+    /// One part of a column from its diagonal downwards.
+    fn column<T: Scalar<Real = R>>(&self, col: usize, part: usize) -> &[R] {
+        let (own, others) = (self.own(), self.relative.len());
+        match col.checked_sub(own) {
+            Some(other) => column_part::<T>(self.schur, others, other, part),
+            None => {
+                let before = col * (own + others) - col * col.saturating_sub(1) / 2;
+                let len = own + others - col;
+                &self.left.columns[T::PARTS * before + part * len..][..len]
+            }
+        }
+    }
+}
+
+/// Adds what children left to a strip of their parent's front, whose first column and row is `from`.
+pub(crate) fn add_children<T: Scalar>(
+    strip: &mut Strip<'_, T>,
+    from: usize,
+    children: &[Child<'_, T::Real>],
+) {
+    for child in children {
+        for col in child.first_at(from)..child.first_at(from + strip.width) {
+            let runs = &child.runs[child.runs.partition_point(|run| run.from + run.len <= col)..];
+            for part in 0..T::PARTS {
+                let start = ((child.place(col) - from) * T::PARTS + part) * strip.stride;
+                add_runs(&mut strip.values[start..], from, child.column::<T>(col, part), col, runs);
+            }
+        }
+    }
+}
+
+/// Works on the strips of a front, by as many threads as so many numbers are worth.
+pub(crate) fn each_strip<'a, T: Scalar>(
+    strips: impl Iterator<Item = Strip<'a, T>>,
+    numbers: usize,
+    threads: usize,
+    work: impl Fn(Strip<'a, T>) + Sync + Send,
+) {
+    each(if numbers < SHARE_FROM { 1 } else { threads }, strips.collect(), work);
 }
 
 /// Adds the rows from `first` on of a child's column to a column that begins at row `start` of the front.
@@ -169,7 +169,7 @@ fn column_part<T: Scalar>(values: &[T::Real], order: usize, col: usize, part: us
 }
 
 /// The strips of a triangle of this order, to be written for the first time or changed.
-pub(super) fn schur_strips<T: Scalar>(
+pub(crate) fn schur_strips<T: Scalar>(
     values: &mut [T::Real],
     order: usize,
     fresh: bool,

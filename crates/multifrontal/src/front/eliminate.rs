@@ -9,7 +9,7 @@
 use super::assemble::schur_strips;
 use super::corner::{CORNER, Corner, invert_pair};
 use super::rows::{Tile, solve_rows};
-use super::{Front, strips};
+use super::{Front, Stack, strips};
 use crate::kernel::{Buffers, Left, Pivots, downdate};
 use crate::scalar::{Real, Scalar};
 use crate::threads::Idle;
@@ -24,6 +24,8 @@ pub(crate) struct Elimination<T: Scalar> {
     idle: Idle<Buffers<T::Real>>,
     tiles: Idle<Box<Tile<T::Real>>>,
     saved: Vec<T::Real>,
+    /// For what fronts of a subtree leave, at even and at odd depths.
+    pub(crate) stacks: [Stack<T::Real>; 2],
     /// No entry of L is larger than 1/threshold.
     pub(crate) threshold: f64,
     pub(crate) threads: usize,
@@ -37,6 +39,7 @@ impl<T: Scalar> Elimination<T> {
             idle: Idle::default(),
             tiles: Idle::default(),
             saved: Vec::new(),
+            stacks: [Stack::default(), Stack::default()],
             threshold,
             threads: 1,
         }

@@ -9,7 +9,7 @@ mod eliminate;
 mod rows;
 mod stack;
 
-pub(crate) use assemble::{Child, Contribution, Places, add_to_schur, schur_len};
+pub(crate) use assemble::{Child, Contribution, add_children, each_strip, schur_len, schur_strips};
 pub(crate) use corner::invert_pair;
 pub(crate) use eliminate::{BLOCK, Elimination, eliminate};
 pub(crate) use stack::{Kept, Stack};
@@ -75,7 +75,7 @@ impl<T: Scalar> Front<'_, T> {
 }
 
 /// Columns `from..to` of a panel as strips for so many threads; rows and columns are counted from `from`.
-fn strips<T: Scalar>(
+pub(crate) fn strips<T: Scalar>(
     values: &mut [T::Real],
     stride: usize,
     from: usize,
@@ -83,7 +83,9 @@ fn strips<T: Scalar>(
     threads: usize,
 ) -> impl Iterator<Item = Strip<'_, T>> {
     let step = T::PARTS * stride;
-    let most = if threads > 1 { STRIP / 2 } else { STRIP };
+    // A few for each thread, so that none waits long for the last.
+    let share = (to - from).div_ceil(4 * threads).next_multiple_of(STRIP / 4);
+    let most = if threads > 1 { share.clamp(STRIP / 4, STRIP / 2) } else { STRIP };
     values.chunks_mut(most * step).take((to - from).div_ceil(most)).enumerate().map(move |(k, values)| {
         let first = k * most;
         let width = most.min(to - from - first);

@@ -20,9 +20,14 @@ pub(crate) enum Kept<R> {
 }
 
 impl<R: Copy + Default> Stack<R> {
-    /// Room for so many numbers; more is found when it is needed.
-    pub(crate) fn new(len: usize) -> Self {
-        Self { values: vec![R::default(); len], top: 0 }
+    /// Empty, with room for so many numbers; more is found when it is needed.
+    pub(crate) fn clear(&mut self, len: usize) {
+        self.top = 0;
+        if self.values.len() < len {
+            // Not both at the same time.
+            self.values = Vec::new();
+            self.values = vec![R::default(); len];
+        }
     }
 
     pub(crate) fn push(&mut self, len: usize) -> Kept<R> {
@@ -44,12 +49,11 @@ impl<R: Copy + Default> Stack<R> {
         }
     }
 
+    /// Hands the only one that there is on.
     pub(crate) fn take(&mut self, kept: Kept<R>) -> Kept<R> {
         self.pop(&kept);
-        if matches!(kept, Kept::Stacked(0, len) if len == self.values.len()) {
-            return Kept::Taken(std::mem::take(&mut self.values));
-        }
-        Kept::Taken(self.values_of(&kept).to_vec())
+        debug_assert!(matches!(kept, Kept::Stacked(0, len) if len == self.values.len()));
+        Kept::Taken(std::mem::take(&mut self.values))
     }
 
     pub(crate) fn values_of<'a>(&'a self, kept: &'a Kept<R>) -> &'a [R] {

@@ -1,11 +1,14 @@
 //! Packed copies of L and of L D, tile after tile, a plane for each real product.
 
 use super::tile::{copy, tile_rows};
-use super::{SHARE_FROM, TOGETHER, at_least};
+use super::{TOGETHER, at_least};
 use crate::scalar::{Real, Scalar};
 use crate::threads::each;
 use pulp::{Simd, WithSimd};
 use std::marker::PhantomData;
+
+/// Numbers of a packed copy below which another thread costs more than it brings.
+const PACK_FROM: usize = 50_000;
 
 /// Eliminated columns of a front, and their pivots.
 pub(crate) struct Pivots<'a, T: Scalar> {
@@ -97,7 +100,7 @@ impl<R: Real> Left<R> {
         let size = self.rows.div_ceil(height) * panel;
         // What is behind the last row is cleared on the way.
         let packed = at_least(&mut self.packed, size);
-        let threads = if size < SHARE_FROM { 1 } else { threads };
+        let threads = if size < PACK_FROM { 1 } else { threads };
         let panels = if threads > 1 { TOGETHER } else { size.div_ceil(panel.max(1)) };
         let tasks = packed.chunks_mut((panels * panel).max(1)).enumerate();
         let tasks = tasks.map(|(k, packed)| PackLeft { pivots, first: k * panels * height, packed });

@@ -156,6 +156,11 @@ impl Symbolic {
         self.flops() >= share::SHARE_FROM
     }
 
+    /// Multiplications of each front and all below it.
+    pub(crate) fn work(&self) -> Vec<f64> {
+        share::work(&self.fronts)
+    }
+
     pub(crate) fn children_of(&self, front: usize) -> &[u32] {
         &self.children[self.child_start[front]..self.child_start[front + 1]]
     }

@@ -22,9 +22,18 @@ pub(super) fn flops(front: &Shape) -> f64 {
     multiplications(front.pivots, front.rows.len())
 }
 
+/// Multiplications of each front and all below it.
+pub(super) fn work(fronts: &[Shape]) -> Vec<f64> {
+    let mut work: Vec<f64> = fronts.iter().map(flops).collect();
+    for (k, front) in fronts.iter().enumerate().filter(|(_, front)| front.parent != ROOT) {
+        work[front.parent] += work[k];
+    }
+    work
+}
+
 /// Disjoint subtrees, each a run of fronts, ascending; the same whatever the number of threads.
 pub(super) fn subtrees(fronts: &[Shape]) -> Vec<Range<usize>> {
-    let mut work: Vec<f64> = fronts.iter().map(flops).collect();
+    let work = work(fronts);
     let mut first: Vec<usize> = (0..fronts.len()).collect();
     let mut children: Vec<Vec<usize>> = vec![Vec::new(); fronts.len()];
     let mut open: Vec<usize> = Vec::new();
@@ -32,7 +41,6 @@ pub(super) fn subtrees(fronts: &[Shape]) -> Vec<Range<usize>> {
         if front.parent == ROOT {
             open.push(k);
         } else {
-            work[front.parent] += work[k];
             first[front.parent] = first[front.parent].min(first[k]);
             children[front.parent].push(k);
         }
