@@ -45,8 +45,10 @@ pub struct Factor<T: Scalar> {
     /// S, by position.
     pub(crate) scale: Vec<T::Real>,
     pub(crate) nodes: Vec<Node<T>>,
-    /// Subtrees, and last what is above all of them.
+    /// What can be solved with at the same time, parts below before those above.
     pub(crate) parts: Vec<Part>,
+    /// Parts that are below no other.
+    pub(crate) roots: Vec<usize>,
     inertia: Inertia,
     delayed: usize,
     pairs: usize,
@@ -335,9 +337,9 @@ impl<T: Scalar> Run<'_, T> {
             nodes.push(Node { first: 0, inverse, rows, values: front.values, stride: front.stride });
         }
         inertia.positive = dim - inertia.negative;
-        let parts = Part::of(&symbolic.subtrees, &firsts, &mut nodes, dim);
+        let (parts, roots) = Part::of(symbolic, &firsts, &mut nodes);
         let order = order.iter().map(|&position| symbolic.order[position as usize]).collect();
-        Ok(Factor { order, scale, nodes, parts, inertia, delayed, pairs })
+        Ok(Factor { order, scale, nodes, parts, roots, inertia, delayed, pairs })
     }
 }
 

@@ -2,75 +2,91 @@
 
 use crate::factor::Node;
 use crate::scalar::Scalar;
+use crate::symbolic::{ROOT, Symbolic};
+use std::cmp::Reverse;
 use std::ops::Range;
 
-/// Some nodes, and the positions that they see: their own, then those above that they change.
+/// Neighbouring nodes, and the positions that they see: their own, then those above that they change.
 #[derive(Debug)]
 pub(crate) struct Part {
-    pub(crate) nodes: Vec<Range<usize>>,
-    /// Positions that are eliminated here: runs that ascend, as the nodes do.
-    pub(crate) own: Vec<Range<usize>>,
-    /// Places in the last part of the positions that are eliminated there and changed here.
+    pub(crate) nodes: Range<usize>,
+    /// Positions that are eliminated here.
+    pub(crate) own: Range<usize>,
+    /// Places in the part above of the positions that are changed here.
     pub(crate) outside: Vec<u32>,
+    /// The parts right below, the one with most numbers first.
+    pub(crate) below: Vec<usize>,
+    /// Whether it is above subtrees: its nodes are large, and few others stand beside them.
+    pub(crate) top: bool,
 }
 
 impl Part {
-    /// The subtrees, and last what is above all of them; gives the nodes' positions their places in their parts.
+    /// Subtrees, and what is above them, as long as no two branches meet, in one part each; gives the rows of nodes
+    /// (positions so far) their places in their parts. Last the parts below no other.
     pub(crate) fn of<T: Scalar>(
-        subtrees: &[Range<usize>],
+        symbolic: &Symbolic,
         firsts: &[usize],
         nodes: &mut [Node<T>],
-        dim: usize,
-    ) -> Vec<Self> {
-        let position = |node: usize| firsts.get(node).copied().unwrap_or(dim);
-        let mut parts: Vec<Self> = subtrees
-            .iter()
-            .map(|subtree| {
-                let outside = nodes[subtree.end - 1].rows.clone();
-                let own = position(subtree.start)..position(subtree.end);
-                Self { nodes: vec![subtree.clone()], own: vec![own], outside }
-            })
-            .collect();
-        let mut place = vec![0u32; dim];
-        for part in &parts {
-            part.give_places(firsts, nodes, &mut place);
-        }
-        parts.push(Self::between(subtrees, nodes.len(), position));
-        if let Some((top, subtrees)) = parts.split_last_mut() {
-            top.give_places(firsts, nodes, &mut place);
-            for part in subtrees {
-                part.outside.iter_mut().for_each(|row| *row = place[*row as usize]);
+    ) -> (Vec<Self>, Vec<usize>) {
+        let position = |node: usize| firsts.get(node).copied().unwrap_or(symbolic.dim());
+        let runs = runs(symbolic);
+        let mut below = vec![Vec::new(); runs.len() + 1];
+        let mut numbers = vec![0; runs.len() + 1];
+        let mut place = vec![0u32; symbolic.dim()];
+        let mut parts: Vec<Self> = Vec::with_capacity(runs.len());
+        for (k, (nodes_here, top)) in runs.iter().enumerate() {
+            let own = position(nodes_here.start)..position(nodes_here.end);
+            let outside = nodes[nodes_here.end - 1].rows.clone();
+            let seen = own.clone().chain(outside.iter().map(|&row| row as usize));
+            seen.enumerate().for_each(|(to, position)| place[position] = to as u32);
+            let to_place = |row: &mut u32| *row = place[*row as usize];
+            for node in nodes_here.clone() {
+                nodes[node].first = position(node) - own.start;
+                nodes[node].rows.iter_mut().for_each(to_place);
+                numbers[k] += nodes[node].values.len();
             }
+            let mut below_here: Vec<usize> = std::mem::take(&mut below[k]);
+            below_here.iter().for_each(|&part| parts[part].outside.iter_mut().for_each(to_place));
+            below_here.sort_by_key(|&part| Reverse(numbers[part]));
+            // Behind the last part where it is below none.
+            let above = match symbolic.fronts[nodes_here.end - 1].parent {
+                ROOT => runs.len(),
+                parent => runs.partition_point(|(nodes, _)| nodes.end <= parent),
+            };
+            below[above].push(k);
+            numbers[above] += numbers[k];
+            parts.push(Self { nodes: nodes_here.clone(), own, outside, below: below_here, top: *top });
         }
-        parts
-    }
-
-    fn between(subtrees: &[Range<usize>], nodes: usize, position: impl Fn(usize) -> usize) -> Self {
-        let starts = std::iter::once(0).chain(subtrees.iter().map(|subtree| subtree.end));
-        let ends = subtrees.iter().map(|subtree| subtree.start).chain(std::iter::once(nodes));
-        let nodes: Vec<_> =
-            starts.zip(ends).map(|(start, end)| start..end).filter(|run| !run.is_empty()).collect();
-        let own = nodes.iter().map(|run| position(run.start)..position(run.end)).collect();
-        Self { nodes, own, outside: Vec::new() }
-    }
-
-    fn give_places<T: Scalar>(&self, firsts: &[usize], nodes: &mut [Node<T>], place: &mut [u32]) {
-        let seen = self.own.iter().cloned().flatten().chain(self.outside.iter().map(|&row| row as usize));
-        seen.enumerate().for_each(|(to, position)| place[position] = to as u32);
-        for k in self.nodes.iter().cloned().flatten() {
-            // A node without pivots has no place, and needs none.
-            nodes[k].first = place.get(firsts[k]).map_or(0, |&first| first as usize);
-            nodes[k].rows.iter_mut().for_each(|row| *row = place[*row as usize]);
-        }
+        (parts, below.pop().unwrap_or_default())
     }
 
     /// Positions that are seen here.
     pub(crate) fn size(&self) -> usize {
-        self.len() + self.outside.len()
+        self.own.len() + self.outside.len()
     }
+}
 
-    /// Positions that are eliminated here.
-    pub(crate) fn len(&self) -> usize {
-        self.own.iter().map(ExactSizeIterator::len).sum()
+/// The nodes of each part, and whether it is above subtrees.
+fn runs(symbolic: &Symbolic) -> Vec<(Range<usize>, bool)> {
+    let count = symbolic.fronts.len();
+    if symbolic.subtrees.is_empty() {
+        return if count == 0 { Vec::new() } else { vec![(0..count, true)] };
     }
+    let mut runs: Vec<(Range<usize>, bool)> = Vec::new();
+    let mut subtrees = symbolic.subtrees.iter().peekable();
+    let mut k = 0;
+    while k < count {
+        if let Some(subtree) = subtrees.next_if(|subtree| subtree.start == k) {
+            runs.push((subtree.clone(), false));
+            k = subtree.end;
+            continue;
+        }
+        match runs.last_mut() {
+            // An only child comes right before its parent.
+            Some((above, true)) if symbolic.children_of(k).len() == 1 => above.end = k + 1,
+            _ => runs.push((k..k + 1, true)),
+        }
+        k += 1;
+    }
+    runs
 }

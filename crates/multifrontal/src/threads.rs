@@ -2,8 +2,7 @@
 
 use rayon::prelude::*;
 use std::cell::Cell;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 /// How long an idle thread looks out for work before it may sleep.
@@ -32,7 +31,7 @@ impl<B> Idle<B> {
 }
 
 thread_local! {
-    /// Whether this thread is in the middle of a piece of our work.
+    /// Whether this thread is in the middle of a piece of our work, or looks out for one already.
     static AT_WORK: Cell<bool> = const { Cell::new(false) };
 }
 
@@ -49,7 +48,7 @@ fn at_work<O>(work: impl FnOnce() -> O) -> O {
 }
 
 /// Works while the pool's idle threads look out for pieces of it: asleep they would take longer to wake than many
-/// a piece takes.
+/// a piece takes, and the next call often follows at once.
 ///
 /// Only threads that are in no other piece of our work look out, so that nobody waits for one of them; and none for
 /// longer than [`PATIENCE`] in vain.
@@ -57,27 +56,24 @@ pub(crate) fn awake<O>(threads: usize, work: impl FnOnce() -> O) -> O {
     if threads < 2 {
         return work();
     }
-    let busy = Arc::new(AtomicBool::new(true));
-    let look_out = {
-        let busy = Arc::clone(&busy);
-        move || {
-            let mut last = Instant::now();
-            while busy.load(Ordering::Relaxed) && last.elapsed() < PATIENCE {
-                match rayon::yield_now() {
-                    Some(rayon::Yield::Executed) => last = Instant::now(),
-                    _ => std::hint::spin_loop(),
-                }
-            }
-        }
-    };
-    rayon::spawn_broadcast(move |_| {
-        if !AT_WORK.get() {
-            look_out();
+    let own = rayon::current_thread_index();
+    rayon::spawn_broadcast(move |thread| {
+        if Some(thread.index()) != own && !AT_WORK.get() {
+            at_work(look_out);
         }
     });
-    let out = at_work(work);
-    busy.store(false, Ordering::Relaxed);
-    out
+    at_work(work)
+}
+
+/// Does whatever piece of work there is until there has been none for a while.
+fn look_out() {
+    let mut last = Instant::now();
+    while last.elapsed() < PATIENCE {
+        match rayon::yield_now() {
+            Some(rayon::Yield::Executed) => last = Instant::now(),
+            _ => std::hint::spin_loop(),
+        }
+    }
 }
 
 /// Runs with so many threads at hand: those of the caller's pool where it has as many, else new ones.

@@ -1,4 +1,4 @@
-//! Solutions: forward through the subtrees, through what is above them and back, and back through the subtrees.
+//! Solutions: forward from the subtrees to the roots of the tree, and back.
 //!
 //! Every part works on numbers of its own, so that parts can be shared out to threads; the sums are the same
 //! whoever makes them. A few right-hand sides are worked on at the same time, side by side.
@@ -9,7 +9,7 @@ mod one;
 use crate::factor::{Factor, Node};
 use crate::part::Part;
 use crate::scalar::Scalar;
-use crate::threads::{map, with};
+use crate::threads::{each, map, with};
 use many::Shaped;
 use std::ops::Range;
 
@@ -93,40 +93,71 @@ impl<T: Scalar> Factor<T> {
 
     /// Right-hand sides side by side, `lanes` or fewer.
     fn solve_together(&self, rhs: &mut [T], lanes: usize, threads: usize) {
-        let Some((top, subtrees)) = self.parts.split_last() else { return };
-        let row = T::PARTS * lanes;
+        let run = Together { factor: self, lanes, threads };
         let given: &[T] = rhs;
-        let below = map(threads, subtrees.iter().collect(), |part| {
-            let mut local = self.gather(part, given, lanes);
-            self.forward(part, &mut local, lanes, 1);
-            local
+        let solved = map(threads, self.roots.clone(), |root| run.down(root, run.up(root, given), &[]));
+        let some = self.dim() * lanes.div_ceil(threads);
+        each(threads, rhs.chunks_mut(some).enumerate().collect(), |(k, x)| {
+            let roots = self.roots.iter().zip(&solved);
+            roots.for_each(|(&root, local)| run.scatter(root, local, x, k * lanes.div_ceil(threads)));
         });
-        let mut above = self.gather(top, given, lanes);
-        for (part, local) in subtrees.iter().zip(&below) {
-            let changes = local[part.len() * row..].chunks_exact(row);
-            for (&place, changes) in part.outside.iter().zip(changes) {
-                let above = &mut above[place as usize * row..][..row];
-                above.iter_mut().zip(changes).for_each(|(above, &change)| *above += change);
+    }
+}
+
+/// The numbers of a part, of each position the parts, of each part the right-hand sides; and those of the parts below.
+struct Local<R> {
+    values: Vec<R>,
+    below: Vec<Local<R>>,
+}
+
+/// Right-hand sides that are solved for at the same time.
+struct Together<'a, T: Scalar> {
+    factor: &'a Factor<T>,
+    lanes: usize,
+    threads: usize,
+}
+
+impl<T: Scalar> Together<'_, T> {
+    /// Numbers of a position.
+    fn row(&self) -> usize {
+        T::PARTS * self.lanes
+    }
+
+    /// y = L⁻¹ S b of a part and of those below it; numbers outside are what it adds there.
+    fn up(&self, part: usize, rhs: &[T]) -> Local<T::Real> {
+        let (part, row) = (&self.factor.parts[part], self.row());
+        let below = map(self.threads, part.below.clone(), |below| self.up(below, rhs));
+        let mut values = self.gather(part, rhs);
+        for (&from, local) in part.below.iter().zip(&below) {
+            let from = &self.factor.parts[from];
+            let changes = local.values[from.own.len() * row..].chunks_exact(row);
+            for (&place, changes) in from.outside.iter().zip(changes) {
+                let values = &mut values[place as usize * row..][..row];
+                values.iter_mut().zip(changes).for_each(|(value, &change)| *value += change);
             }
         }
-        self.forward(top, &mut above, lanes, threads);
-        self.backward(top, &mut above, lanes, threads);
-        let below = map(threads, subtrees.iter().zip(below).collect(), |(part, mut local)| {
-            for (&place, local) in part.outside.iter().zip(local[part.len() * row..].chunks_exact_mut(row)) {
-                local.copy_from_slice(&above[place as usize * row..][..row]);
-            }
-            self.backward(part, &mut local, lanes, 1);
-            local
-        });
-        self.scatter(top, &above, rhs, lanes);
-        subtrees.iter().zip(&below).for_each(|(part, local)| self.scatter(part, local, rhs, lanes));
+        self.forward(part, &mut values);
+        Local { values, below }
+    }
+
+    /// x = L⁻ᵀ D⁻¹ y likewise, once what is above is known.
+    fn down(&self, part: usize, mut local: Local<T::Real>, above: &[T::Real]) -> Local<T::Real> {
+        let (part, row) = (&self.factor.parts[part], self.row());
+        let outside = local.values[part.own.len() * row..].chunks_exact_mut(row);
+        for (&place, values) in part.outside.iter().zip(outside) {
+            values.copy_from_slice(&above[place as usize * row..][..row]);
+        }
+        self.backward(part, &mut local.values);
+        let below = part.below.iter().zip(local.below).collect();
+        let below = map(self.threads, below, |(&part, below)| self.down(part, below, &local.values));
+        Local { values: local.values, below }
     }
 
     /// S b in the order of a part's positions, zeros for those outside of it.
-    fn gather(&self, part: &Part, rhs: &[T], lanes: usize) -> Vec<T::Real> {
-        let row = T::PARTS * lanes;
+    fn gather(&self, part: &Part, rhs: &[T]) -> Vec<T::Real> {
+        let (row, lanes) = (self.row(), self.lanes);
         let mut local = vec![T::Real::default(); part.size() * row];
-        for (lane, b) in rhs.chunks_exact(self.dim()).enumerate() {
+        for (lane, b) in rhs.chunks_exact(self.factor.dim()).enumerate() {
             for (local, (from, scale)) in local.chunks_exact_mut(row).zip(self.rows_of(part)) {
                 let parts = b[from].scale(scale).parts();
                 for p in 0..T::PARTS {
@@ -137,42 +168,34 @@ impl<T: Scalar> Factor<T> {
         local
     }
 
-    /// x = S y.
-    fn scatter(&self, part: &Part, local: &[T::Real], rhs: &mut [T], lanes: usize) {
-        for (lane, x) in rhs.chunks_exact_mut(self.dim()).enumerate() {
-            for (local, (to, scale)) in local.chunks_exact(T::PARTS * lanes).zip(self.rows_of(part)) {
-                x[to] = T::from_parts([local[lane], local[(T::PARTS - 1) * lanes + lane]]).scale(scale);
+    /// The solutions S x from one on, of a part and of those below it.
+    fn scatter(&self, part: usize, local: &Local<T::Real>, into: &mut [T], first: usize) {
+        let part = &self.factor.parts[part];
+        for (lane, x) in (first..).zip(into.chunks_exact_mut(self.factor.dim())) {
+            for (local, (to, scale)) in local.values.chunks_exact(self.row()).zip(self.rows_of(part)) {
+                let parts = [local[lane], local[(T::PARTS - 1) * self.lanes + lane]];
+                x[to] = T::from_parts(parts).scale(scale);
             }
         }
+        part.below.iter().zip(&local.below).for_each(|(&part, local)| self.scatter(part, local, into, first));
     }
 
     /// Rows of the matrix, and their scales, of what is eliminated in a part.
-    fn rows_of<'a>(&'a self, part: &'a Part) -> impl Iterator<Item = (usize, T::Real)> {
-        let of = |run: &Range<usize>| self.order[run.clone()].iter().zip(&self.scale[run.clone()]);
-        part.own.iter().flat_map(of).map(|(&row, &scale)| (row as usize, scale))
-    }
-
-    fn nodes_of<'a>(&'a self, part: &'a Part) -> impl DoubleEndedIterator<Item = &'a Node<T>> {
-        part.nodes.iter().flat_map(|run| &self.nodes[run.clone()])
-    }
-
-    /// Whether a part is what is above all subtrees.
-    fn is_top(&self, part: &Part) -> bool {
-        self.parts.last().is_some_and(|top| std::ptr::eq(top, part))
+    fn rows_of(&self, part: &Part) -> impl Iterator<Item = (usize, T::Real)> {
+        let (rows, scales) = (&self.factor.order[part.own.clone()], &self.factor.scale[part.own.clone()]);
+        rows.iter().zip(scales).map(|(&row, &scale)| (row as usize, scale))
     }
 
     /// y = L⁻¹ b over the nodes of a part; places outside receive what they have to add.
-    fn forward(&self, part: &Part, local: &mut [T::Real], lanes: usize, threads: usize) {
-        let shared = self.is_top(part);
-        let buffer = &mut Vec::new();
-        let row = T::PARTS * lanes;
-        for node in self.nodes_of(part) {
+    fn forward(&self, part: &Part, local: &mut [T::Real]) {
+        let (buffer, row) = (&mut Vec::new(), self.row());
+        for node in &self.factor.nodes[part.nodes.clone()] {
             let own = &local[node.first * row..][..node.pivots() * row];
             if own.iter().all(|&x| x == T::Real::default()) {
                 continue;
             }
-            let step = Step { node, local, buffer, threads, shared };
-            if lanes == 1 {
+            let step = self.step(node, part, local, buffer);
+            if self.lanes == 1 {
                 crate::arch().dispatch(one::Forward(step));
             } else {
                 many::Forward(step).dispatch();
@@ -181,17 +204,27 @@ impl<T: Scalar> Factor<T> {
     }
 
     /// x = L⁻ᵀ D⁻¹ y over the nodes of a part.
-    fn backward(&self, part: &Part, local: &mut [T::Real], lanes: usize, threads: usize) {
-        let shared = self.is_top(part);
+    fn backward(&self, part: &Part, local: &mut [T::Real]) {
         let buffer = &mut Vec::new();
-        for node in self.nodes_of(part).rev() {
-            let step = Step { node, local, buffer, threads, shared };
-            if lanes == 1 {
+        for node in self.factor.nodes[part.nodes.clone()].iter().rev() {
+            let step = self.step(node, part, local, buffer);
+            if self.lanes == 1 {
                 crate::arch().dispatch(one::Backward(step));
             } else {
                 many::Backward(step).dispatch();
             }
         }
+    }
+
+    fn step<'a>(
+        &self,
+        node: &'a Node<T>,
+        part: &Part,
+        local: &'a mut [T::Real],
+        buffer: &'a mut Vec<T::Real>,
+    ) -> Step<'a, T> {
+        let threads = if part.top { self.threads } else { 1 };
+        Step { node, local, buffer, threads, shared: part.top }
     }
 }
 

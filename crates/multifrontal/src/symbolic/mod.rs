@@ -127,16 +127,19 @@ impl Symbolic {
     pub fn factor_bytes<T: Scalar>(&self) -> usize {
         let scalars: usize = self.fronts.iter().map(|front| front.pivots * padded(front.order())).sum();
         let row = size_of::<[T; 2]>() + size_of::<T::Real>() + size_of::<u32>();
-        // Its runs of nodes and of positions, as many between it and the next, and what its root changes above.
-        let part = |subtree: &Range<usize>| {
-            size_of::<Part>() + 8 * size_of::<Range<usize>>() + size_of_val(self.rows_of(subtree.end - 1))
+        // At most one for each subtree and for each front above them: what it is above, and what it changes there.
+        let part = |root: usize| size_of::<Part>() + size_of::<usize>() + size_of_val(self.rows_of(root));
+        let in_subtrees = |front: usize| {
+            let at = self.subtrees.partition_point(|subtree| subtree.end <= front);
+            self.subtrees.get(at).is_some_and(|subtree| subtree.contains(&front))
         };
+        let roots = self.subtrees.iter().map(|subtree| subtree.end - 1);
+        let above = (0..self.fronts.len()).filter(|&front| !in_subtrees(front));
         scalars * size_of::<T>()
             + self.rows.len() * size_of::<u32>()
             + self.fronts.len() * size_of::<Node<T>>()
             + self.dim() * row
-            + self.subtrees.iter().map(part).sum::<usize>()
-            + size_of::<Part>()
+            + roots.chain(above).map(part).sum::<usize>()
     }
 
     /// Bytes that a factorisation by one worker needs beyond the factor, at most, if no pivot is delayed.
