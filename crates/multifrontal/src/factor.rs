@@ -111,11 +111,14 @@ pub(crate) fn factor<T: Scalar>(
     let bytes = symbolic.factor_bytes::<T>().saturating_add(symbolic.working_bytes::<T>());
     // Asked for and given back: whether there is as much, before anything is done.
     Vec::<u8>::new().try_reserve_exact(bytes).map_err(|_| FactorError::OutOfMemory)?;
-    let scale = scaling::scaling(&symbolic.pattern, values)?;
-    let scale: Vec<T::Real> = symbolic.order.iter().map(|&row| scale[row as usize]).collect();
-    let run = Run { symbolic, values, scale: &scale, options, idle: Idle::default() };
-    let eliminated = with(options.threads, || run.all());
-    run.finish(eliminated)
+    let threads = symbolic.threads(options);
+    with(threads, || {
+        let scale = scaling::scaling(&symbolic.pattern, values, threads)?;
+        let scale: Vec<T::Real> = symbolic.order.iter().map(|&row| scale[row as usize]).collect();
+        let threshold = options.threshold;
+        let run = Run { symbolic, values, scale: &scale, threshold, threads, idle: Idle::default() };
+        run.finish(run.all())
+    })
 }
 
 /// One factorisation.
@@ -123,7 +126,8 @@ struct Run<'a, T: Scalar> {
     symbolic: &'a Symbolic,
     values: &'a [T],
     scale: &'a [T::Real],
-    options: &'a Options,
+    threshold: f64,
+    threads: usize,
     idle: Idle<Elimination<T>>,
 }
 
@@ -132,7 +136,6 @@ type Done<T> = [OnceLock<Eliminated<T>>];
 
 /// What threads that work on the same tree need.
 struct Shared<'a, T: Scalar> {
-    threads: usize,
     /// Multiplications of each front and all below it.
     work: Vec<f64>,
     done: &'a Done<T>,
@@ -146,12 +149,11 @@ impl<T: Scalar> Run<'_, T> {
     fn all(&self) -> Vec<Eliminated<T>> {
         let fronts = &self.symbolic.fronts;
         let done: Vec<_> = fronts.iter().map(|_| OnceLock::new()).collect();
-        let threads = self.options.threads.max(1);
-        if threads == 1 || !self.symbolic.worth_sharing() {
+        if self.threads == 1 {
             self.run(0..fronts.len(), &done);
         } else {
             let roots = (0..fronts.len()).filter(|&k| fronts[k].parent == ROOT).collect();
-            self.branches(roots, &Shared { threads, work: self.symbolic.work(), done: &done });
+            self.branches(roots, &Shared { work: self.symbolic.work(), done: &done });
         }
         done.into_iter().filter_map(OnceLock::into_inner).collect()
     }
@@ -159,7 +161,7 @@ impl<T: Scalar> Run<'_, T> {
     /// Branches at the same time, the one with most work first; what they leave, in their order.
     fn branches(&self, mut roots: Vec<usize>, shared: &Shared<'_, T>) -> Vec<Left<T>> {
         roots.sort_by(|&a, &b| shared.work[b].total_cmp(&shared.work[a]));
-        let left = map(shared.threads, roots, |root| Some((root, self.tree(root, shared)?)));
+        let left = map(self.threads, roots, |root| Some((root, self.tree(root, shared)?)));
         let mut left: Vec<_> = left.into_iter().flatten().collect();
         left.sort_unstable_by_key(|(root, _)| *root);
         left
@@ -167,7 +169,7 @@ impl<T: Scalar> Run<'_, T> {
 
     /// The fronts under one and itself, branches at the same time; what it leaves.
     fn tree(&self, root: usize, shared: &Shared<'_, T>) -> Option<Contribution<T::Real>> {
-        let (symbolic, &Shared { threads, done, .. }) = (self.symbolic, shared);
+        let (symbolic, done) = (self.symbolic, shared.done);
         // Where there is one child only, it goes on in a loop: a chain may be as long as the matrix.
         let mut chain = vec![root];
         let mut below = loop {
@@ -186,7 +188,7 @@ impl<T: Scalar> Run<'_, T> {
         for &k in chain.iter().rev() {
             let mut stacks = [Stack::default(), Stack::default()];
             let front = |with: &mut _| self.front(k, below, &mut stacks, with, done);
-            let left = awake(threads, || self.with_idle(threads, front));
+            let left = awake(self.threads, || self.with_idle(self.threads, front));
             let stack = &mut stacks[symbolic.parity(k)];
             below = left.map(|left| (k, left.taken_from(stack))).into_iter().collect();
         }
@@ -196,7 +198,7 @@ impl<T: Scalar> Run<'_, T> {
     /// Works with the buffers of an elimination that no thread has at the moment.
     fn with_idle<O>(&self, threads: usize, work: impl FnOnce(&mut Elimination<T>) -> O) -> O {
         self.idle.lend(
-            || Elimination::new(self.options.threshold),
+            || Elimination::new(self.threshold),
             |with| {
                 with.threads = threads;
                 work(with)

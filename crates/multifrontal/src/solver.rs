@@ -234,7 +234,7 @@ struct Rounded<T: Scalar> {
 
 impl<T: Scalar> Rounded<T> {
     fn new(symbolic: &Symbolic, values: &[T], options: &Options) -> Result<Self, FactorError> {
-        let scale = scaling::scaling(&symbolic.pattern, values)?;
+        let scale = scaling::scaling(&symbolic.pattern, values, 1)?;
         let scaled = symbolic.pattern.positions().zip(values);
         let scaled = scaled.map(|((row, col), value)| value.scale(scale[row]).scale(scale[col]).to_single());
         let factor = symbolic.factor(&scaled.collect::<Vec<_>>(), options)?;

@@ -4,6 +4,7 @@ use super::{Front, Kept, Stack};
 use crate::kernel::{STRIP, Strip};
 use crate::scalar::{Real, Scalar};
 use crate::threads::each;
+use pulp::{Simd, WithSimd};
 
 /// Numbers of a front below which another thread costs more than it brings.
 const SHARE_FROM: usize = 50_000;
@@ -113,12 +114,28 @@ pub(crate) fn add_children<T: Scalar>(
     from: usize,
     children: &[Child<'_, T::Real>],
 ) {
-    for child in children {
-        for col in child.first_at(from)..child.first_at(from + strip.width) {
-            let runs = &child.runs[child.runs.partition_point(|run| run.from + run.len <= col)..];
-            for part in 0..T::PARTS {
-                let start = ((child.place(col) - from) * T::PARTS + part) * strip.stride;
-                add_runs(&mut strip.values[start..], from, child.column::<T>(col, part), col, runs);
+    crate::arch().dispatch(AddChildren { strip, from, children });
+}
+
+struct AddChildren<'a, 'b, T: Scalar> {
+    strip: &'a mut Strip<'b, T>,
+    from: usize,
+    children: &'a [Child<'a, T::Real>],
+}
+
+impl<T: Scalar> WithSimd for AddChildren<'_, '_, T> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self { strip, from, children } = self;
+        for child in children {
+            for col in child.first_at(from)..child.first_at(from + strip.width) {
+                let runs = &child.runs[child.runs.partition_point(|run| run.from + run.len <= col)..];
+                for part in 0..T::PARTS {
+                    let start = ((child.place(col) - from) * T::PARTS + part) * strip.stride;
+                    add_runs(&mut strip.values[start..], from, child.column::<T>(col, part), col, runs);
+                }
             }
         }
     }
@@ -135,6 +152,7 @@ pub(crate) fn each_strip<'a, T: Scalar>(
 }
 
 /// Adds the rows from `first` on of a child's column to a column that begins at row `start` of the front.
+#[inline(always)]
 fn add_runs<R: Real>(column: &mut [R], start: usize, source: &[R], first: usize, runs: &[Run]) {
     for run in runs {
         let skip = first.saturating_sub(run.from);
@@ -143,6 +161,7 @@ fn add_runs<R: Real>(column: &mut [R], start: usize, source: &[R], first: usize,
     }
 }
 
+#[inline(always)]
 fn add<R: Real>(to: &mut [R], from: &[R]) {
     to.iter_mut().zip(from).for_each(|(to, from)| *to += *from);
 }

@@ -7,6 +7,7 @@ mod share;
 pub(crate) use pattern::Lower;
 pub use pattern::PatternError;
 
+use crate::Options;
 use crate::factor::{Node, padded};
 use crate::ordering;
 use crate::part::Part;
@@ -154,9 +155,9 @@ impl Symbolic {
             + self.dim() * row
     }
 
-    /// Whether another thread brings more than it costs.
-    pub(crate) fn worth_sharing(&self) -> bool {
-        self.flops() >= share::SHARE_FROM
+    /// As many threads as are asked for, where another one brings more than it costs.
+    pub(crate) fn threads(&self, options: &Options) -> usize {
+        if self.flops() < share::SHARE_FROM { 1 } else { options.threads.max(1) }
     }
 
     /// Multiplications of each front and all below it.
