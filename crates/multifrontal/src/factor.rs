@@ -116,7 +116,8 @@ pub(crate) fn factor<T: Scalar>(
         let scale = scaling::scaling(&symbolic.pattern, values, threads)?;
         let scale: Vec<T::Real> = symbolic.order.iter().map(|&row| scale[row as usize]).collect();
         let threshold = options.threshold;
-        let run = Run { symbolic, values, scale: &scale, threshold, threads, idle: Idle::default() };
+        let stacks = symbolic.stacks(threads);
+        let run = Run { symbolic, values, scale: &scale, threshold, threads, stacks, idle: Idle::default() };
         run.finish(run.all())
     })
 }
@@ -128,6 +129,8 @@ struct Run<'a, T: Scalar> {
     scale: &'a [T::Real],
     threshold: f64,
     threads: usize,
+    /// Numbers that are kept at even and at odd depths in whatever one thread does.
+    stacks: [usize; 2],
     idle: Idle<Elimination<T>>,
 }
 
@@ -212,7 +215,7 @@ impl<T: Scalar> Run<'_, T> {
         let mut pending: Vec<Option<Contribution<T::Real>>> = range.clone().map(|_| None).collect();
         self.with_idle(1, |with| {
             let mut stacks = std::mem::take(&mut with.stacks);
-            for (stack, len) in stacks.iter_mut().zip(symbolic.stacks(range.clone())) {
+            for (stack, len) in stacks.iter_mut().zip(self.stacks) {
                 stack.clear(T::PARTS * len);
             }
             let root = range.end.checked_sub(1)?;

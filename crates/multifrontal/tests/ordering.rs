@@ -3,7 +3,7 @@
 mod common;
 
 use common::{Lower, solid};
-use multifrontal::Ordering;
+use multifrontal::{Options, Ordering, Symbolic};
 
 /// n² nodes, coupled to their neighbours along axes and diagonals.
 fn square(n: usize) -> Lower<f64> {
@@ -97,4 +97,21 @@ fn automatic_is_the_better_of_both() {
         // A square of one unknown a node costs so little that the other order is not looked for.
         assert_eq!(automatic == dissection, name == "cube", "{name}");
     }
+}
+
+/// Large enough to be cut several times by several threads.
+#[test]
+fn threads_change_neither_order_nor_numbers() {
+    let cube = solid(16, |re, _| re, 1);
+    let solution = |threads: usize| {
+        let order = Ordering::NestedDissection;
+        let symbolic =
+            Symbolic::with_threads(cube.dim, &cube.col_ptr, &cube.row_idx, &order, threads).unwrap();
+        let factor = symbolic.factor(&cube.values, &Options { threads, ..Options::default() }).unwrap();
+        let mut x = vec![1.0; cube.dim];
+        factor.solve_in_place(&mut x, threads);
+        (symbolic.factor_entries(), x)
+    };
+    let one = solution(1);
+    assert!(one == solution(2) && one == solution(3));
 }

@@ -22,11 +22,11 @@ const SOLID: (usize, f64) = (8000, 16.0);
 /// The graph that is ordered, and its elimination with every subtree in one piece.
 ///
 /// Minimum degree or nested dissection of the graph of nodes, whichever costs fewer operations. The same
-/// pattern always has the same order.
+/// pattern always has the same order, with any number of threads.
 ///
 /// # Source
 /// P. R. Amestoy, T. A. Davis, I. S. Duff, SIAM J. Matrix Anal. Appl. 17 (1996) 886–905; of dissection in its module.
-pub(crate) fn order(pattern: &Lower, ordering: &Ordering) -> (Graph, Elimination) {
+pub(crate) fn order(pattern: &Lower, ordering: &Ordering, threads: usize) -> (Graph, Elimination) {
     if let Ordering::Given(order) = ordering {
         let graph = Graph::of_rows(pattern);
         // Checked to be rows of the pattern, which are fewer than 2³².
@@ -35,20 +35,24 @@ pub(crate) fn order(pattern: &Lower, ordering: &Ordering) -> (Graph, Elimination
     }
     let graph = Graph::compressed(pattern);
     let best = match ordering {
-        Ordering::MinimumDegree => minimum_degree(&graph),
-        Ordering::NestedDissection => dissected(&graph),
+        Ordering::MinimumDegree => minimum_degree(&graph, threads),
+        Ordering::NestedDissection => dissected(&graph, threads),
         _ if graph.vertices() >= SOLID.0 && graph.edges() >= SOLID.1 * graph.vertices() as f64 => {
             // Few operations for a solid: it is a beam or a shell, for which minimum degree may do with less.
-            let first = dissected(&graph);
+            let first = dissected(&graph, threads);
             if first.flops() > COMPARE * graph.edges() {
                 first
             } else {
-                better(minimum_degree(&graph), first)
+                better(minimum_degree(&graph, threads), first)
             }
         }
         _ => {
-            let first = minimum_degree(&graph);
-            if first.flops() > COMPARE * graph.edges() { better(first, dissected(&graph)) } else { first }
+            let first = minimum_degree(&graph, threads);
+            if first.flops() > COMPARE * graph.edges() {
+                better(first, dissected(&graph, threads))
+            } else {
+                first
+            }
         }
     };
     (graph, best.postordered())
@@ -58,12 +62,15 @@ fn better(a: Elimination, b: Elimination) -> Elimination {
     if b.flops() < a.flops() { b } else { a }
 }
 
-fn dissected(graph: &Graph) -> Elimination {
-    Elimination::new(dissection::order(graph), graph)
+fn dissected(graph: &Graph, threads: usize) -> Elimination {
+    Elimination::new(dissection::order(graph, threads), graph)
 }
 
-fn minimum_degree(graph: &Graph) -> Elimination {
-    approximate_minimum_degree(graph).map_or_else(|| dissected(graph), |order| Elimination::new(order, graph))
+fn minimum_degree(graph: &Graph, threads: usize) -> Elimination {
+    match approximate_minimum_degree(graph) {
+        Some(order) => Elimination::new(order, graph),
+        None => dissected(graph, threads),
+    }
 }
 
 /// `None` where there are too many edges for 32-bit indices.

@@ -12,6 +12,7 @@ use crate::factor::{Node, padded};
 use crate::ordering;
 use crate::part::Part;
 use crate::scalar::Scalar;
+use crate::threads::with;
 use std::ops::Range;
 
 /// Marks a front without parent.
@@ -95,15 +96,29 @@ impl Symbolic {
         row_idx: &[usize],
         ordering: &Ordering,
     ) -> Result<Self, PatternError> {
+        Self::with_threads(dim, col_ptr, row_idx, ordering, 1)
+    }
+
+    /// The same by several threads; what comes of it does not depend on how many there are.
+    ///
+    /// # Errors
+    /// As [`Symbolic::new`].
+    pub fn with_threads(
+        dim: usize,
+        col_ptr: &[usize],
+        row_idx: &[usize],
+        ordering: &Ordering,
+        threads: usize,
+    ) -> Result<Self, PatternError> {
         let pattern = Lower::new(dim, col_ptr, row_idx)?;
         if let Ordering::Given(order) = ordering {
             pattern::check_permutation(dim, order)?;
         }
-        let (graph, elimination) = ordering::order(&pattern, ordering);
+        let (graph, elimination) = with(threads, || ordering::order(&pattern, ordering, threads));
         Ok(fronts::build(&pattern, &graph, &elimination).unwrap_or_else(|| {
             // Two rows were taken for alike that are not: every row for itself then.
             let order = graph.rows_in(elimination.steps());
-            let (graph, elimination) = ordering::order(&pattern, &Ordering::Given(order));
+            let (graph, elimination) = ordering::order(&pattern, &Ordering::Given(order), 1);
             fronts::build(&pattern, &graph, &elimination).expect("a graph of all entries has them all")
         }))
     }
@@ -180,10 +195,14 @@ impl Symbolic {
         self.depth[front] as usize % 2
     }
 
-    /// The most numbers of Schur complements that are kept at even and at odd depths while one worker goes
-    /// through these fronts.
-    pub(crate) fn stacks(&self, fronts: Range<usize>) -> [usize; 2] {
-        share::stacks(self, fronts)
+    /// The most numbers of Schur complements that are kept at even and at odd depths while one thread goes through
+    /// all fronts, or one of several through any subtree.
+    pub(crate) fn stacks(&self, threads: usize) -> [usize; 2] {
+        if threads == 1 {
+            return share::stacks(self, 0..self.fronts.len());
+        }
+        let each = self.subtrees.iter().map(|subtree| share::stacks(self, subtree.clone()));
+        each.fold([0; 2], |most, it| [most[0].max(it[0]), most[1].max(it[1])])
     }
 
     pub(crate) fn rows_of(&self, front: usize) -> &[u32] {

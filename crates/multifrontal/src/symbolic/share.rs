@@ -81,7 +81,7 @@ pub(super) fn stacks(symbolic: &Symbolic, fronts: Range<usize>) -> [usize; 2] {
 
 /// The most numbers that live beside the factor while one worker goes through all fronts.
 pub(super) fn working_scalars(symbolic: &Symbolic) -> usize {
-    stacks(symbolic, 0..symbolic.fronts.len()).iter().sum()
+    symbolic.stacks(1).iter().sum()
 }
 
 /// The most numbers, for one real product, of the packed copies that one worker makes of a front's columns.

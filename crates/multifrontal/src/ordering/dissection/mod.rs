@@ -13,6 +13,7 @@ mod tests;
 mod weighted;
 
 use super::Graph;
+use crate::threads::map;
 use coarse::coarsen;
 use leaf::Leaves;
 use random::Random;
@@ -36,34 +37,65 @@ const COARSER: f64 = 0.9;
 /// once.
 const DENSE: f64 = 10.0;
 
-/// An order of elimination of the graph's vertices.
-pub(super) fn order(graph: &Graph) -> Vec<u32> {
+/// How often a graph is cut before one thread goes on with what is left: some parts for each of a few threads.
+const SHARED_CUTS: usize = 4;
+
+/// Parts of fewer vertices are not worth another thread.
+const SHARE_FROM: usize = 1000;
+
+/// An order of elimination of the graph's vertices, the same with any number of threads.
+pub(super) fn order(graph: &Graph, threads: usize) -> Vec<u32> {
     let vertices = 0..graph.vertices() as u32;
     let dense = DENSE * (graph.vertices() as f64).sqrt();
     let is_dense = |&vertex: &u32| graph.neighbours(vertex as usize).len() as f64 > dense;
     let (dense, sparse): (Vec<u32>, Vec<u32>) = vertices.partition(is_dense);
-    // From the last to the first.
     let mut reversed = dense;
+    reversed.extend(dissected(graph, Part::of(graph, sparse).pieces(|_| false), SHARED_CUTS, threads));
+    reversed.reverse();
+    reversed
+}
+
+/// The vertices of some parts from the last to the first, parts shared out to threads as long as they are large.
+fn dissected(graph: &Graph, parts: Vec<Part>, cuts: usize, threads: usize) -> Vec<u32> {
+    let (large, small): (Vec<Part>, Vec<Part>) =
+        parts.into_iter().partition(|part| cuts > 0 && part.vertices.len() >= SHARE_FROM);
+    let mut reversed = one_by_one(graph, small);
+    for part in map(threads, large, |part| {
+        let (mut between, sides) = cut(part, &mut Random::new());
+        between.extend(dissected(graph, sides, cuts - 1, threads));
+        between
+    }) {
+        reversed.extend(part);
+    }
+    reversed
+}
+
+/// The same by one thread.
+fn one_by_one(graph: &Graph, mut parts: Vec<Part>) -> Vec<u32> {
+    let mut reversed = Vec::new();
     let mut random = Random::new();
     let mut leaves = Leaves::new(graph);
-    let mut parts = Part::of(graph, sparse).pieces(|_| false);
     while let Some(part) = parts.pop() {
         if part.vertices.len() <= LEAF {
             reversed.extend(leaves.order(&part.vertices).iter().rev());
-            continue;
+        } else {
+            let (between, sides) = cut(part, &mut random);
+            reversed.extend(between);
+            parts.extend(sides);
         }
-        let separator = separator(&part.graph, &mut random);
-        if separator.cost().is_infinite() {
-            // As good as complete: one order is like another.
-            reversed.extend(part.vertices);
-            continue;
-        }
-        let between = (0..).zip(&part.vertices).filter(|&(k, _)| separator.is_between(k));
-        reversed.extend(between.map(|(_, &vertex)| vertex));
-        parts.extend(part.pieces(|k| separator.is_between(k)));
     }
-    reversed.reverse();
     reversed
+}
+
+/// The vertices of a part that come last, and what they leave.
+fn cut(part: Part, random: &mut Random) -> (Vec<u32>, Vec<Part>) {
+    let separator = separator(&part.graph, random);
+    if separator.cost().is_infinite() {
+        // As good as complete: one order is like another.
+        return (part.vertices, Vec::new());
+    }
+    let between = (0..).zip(&part.vertices).filter(|&(k, _)| separator.is_between(k));
+    (between.map(|(_, &vertex)| vertex).collect(), part.pieces(|k| separator.is_between(k)))
 }
 
 /// Of a graph in one piece.

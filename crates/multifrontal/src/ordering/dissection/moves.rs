@@ -29,8 +29,8 @@ pub(super) struct Moves<'a> {
     /// For vertices between: the weight of their neighbours on the far side.
     far: Vec<u32>,
     /// Vertices between by the weight that the separator loses with them. This only grows, so that old
-    /// entries of a vertex come after its newest, when it is between no more.
-    queue: BinaryHeap<(i64, u32)>,
+    /// entries of a vertex come after its newest, when it is between no more. The vertex is in the lower half.
+    queue: BinaryHeap<i64>,
     /// What was moved, and how many vertices came between by it: these are in `pulled`.
     log: Vec<(u32, usize)>,
     pulled: Vec<u32>,
@@ -72,7 +72,8 @@ impl<'a> Moves<'a> {
 
     /// Moves the vertex that gains most, if there is one.
     pub(super) fn next(&mut self) -> bool {
-        let Some((_, vertex)) = self.queue.pop() else { return false };
+        let Some(offer) = self.queue.pop() else { return false };
+        let vertex = offer as u32;
         if !self.separator.is_between(vertex) {
             return true;
         }
@@ -107,7 +108,8 @@ impl<'a> Moves<'a> {
 
     fn offer(&mut self, vertex: u32) {
         let gain = i64::from(self.graph.weight[vertex as usize]) - i64::from(self.far[vertex as usize]);
-        self.queue.push((gain, vertex));
+        let gain = gain.clamp(i32::MIN.into(), i32::MAX.into());
+        self.queue.push(gain << 32 | i64::from(vertex));
     }
 
     fn is_far(&self, vertex: u32) -> bool {
