@@ -10,8 +10,9 @@ use multifrontal::{Options, Ordering, Symbolic};
 /// What it says.
 pub fn round<T: Number>(case: &Case<T>, threads: usize) -> Result<Round<T>, String> {
     let (n, pattern) = (case.dim(), &case.pattern);
-    let (symbolic, analysis) =
-        timed(|| Symbolic::with_threads(n, pattern.col_ptr(), pattern.row_idx(), &Ordering::default(), threads));
+    let (symbolic, analysis) = timed(|| {
+        Symbolic::with_threads(n, pattern.col_ptr(), pattern.row_idx(), &Ordering::default(), threads)
+    });
     let symbolic = symbolic.map_err(|error| error.to_string())?;
     let options = Options { threads, ..Options::default() };
     let (outcome, factor) = timed(|| symbolic.factor(&case.values, &options));
