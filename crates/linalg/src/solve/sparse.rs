@@ -18,12 +18,10 @@ impl Sparse {
         Self { pattern: Arc::clone(pattern), symbolic: OnceLock::new() }
     }
 
-    /// What comes of it does not depend on the threads of whoever is first.
-    fn symbolic(&self, threads: usize) -> Result<&multifrontal::Symbolic, Breakdown> {
+    fn symbolic(&self) -> Result<&multifrontal::Symbolic, Breakdown> {
         let (n, columns, rows) = (self.pattern.dim(), self.pattern.col_ptr(), self.pattern.row_idx());
-        let ordering = Ordering::default();
-        let analyse = || multifrontal::Symbolic::with_threads(n, columns, rows, &ordering, threads);
-        let symbolic = self.symbolic.get_or_init(analyse);
+        let symbolic =
+            self.symbolic.get_or_init(|| multifrontal::Symbolic::new(n, columns, rows, &Ordering::default()));
         // A pattern is a lower triangle by construction: all that can be wrong with it is its size.
         symbolic.as_ref().map_err(|_| Breakdown::OutOfMemory)
     }
@@ -32,7 +30,7 @@ impl Sparse {
 impl<T: Scalar> Symbolic<T> for Sparse {
     fn factor(&self, values: &[T], threads: usize) -> Result<Box<dyn Factor<T>>, Breakdown> {
         let options = Options { threads, ..Options::default() };
-        let factor = self.symbolic(threads)?.factor(values, &options).map_err(|error| match error {
+        let factor = self.symbolic()?.factor(values, &options).map_err(|error| match error {
             FactorError::NotFinite { .. } => Breakdown::NotFinite,
             FactorError::Singular { .. } => Breakdown::Singular { condition_at_least: f64::INFINITY },
             // One value an entry is asserted before, and nothing is solved yet.
@@ -44,7 +42,7 @@ impl<T: Scalar> Symbolic<T> for Sparse {
     }
 
     fn memory(&self) -> Result<FactorMemory, Breakdown> {
-        let symbolic = self.symbolic(1)?;
+        let symbolic = self.symbolic()?;
         Ok(FactorMemory { kept: symbolic.factor_bytes::<T>(), scratch: symbolic.working_bytes::<T>() })
     }
 }
