@@ -5,13 +5,14 @@ use crate::front::{
     schur_strips, strips,
 };
 use crate::kernel::Strip;
+use crate::memory::Memory;
 use crate::part::Part;
 use crate::scalar::Scalar;
 use crate::symbolic::{ROOT, Symbolic};
 use crate::threads::{Idle, awake, map, with};
 use crate::{FactorError, scaling};
 use std::ops::Range;
-use std::sync::OnceLock;
+use std::sync::{Mutex, OnceLock, PoisonError};
 
 /// How a matrix is factorised.
 #[derive(Debug, Clone, PartialEq)]
@@ -45,6 +46,8 @@ pub struct Factor<T: Scalar> {
     /// S, by position.
     pub(crate) scale: Vec<T::Real>,
     pub(crate) nodes: Vec<Node<T>>,
+    /// Columns of L of all nodes that came with no more of them than foreseen.
+    values: Memory<T::Real>,
     /// What can be solved with at the same time, parts below before those above.
     pub(crate) parts: Vec<Part>,
     /// Parts that are below no other.
@@ -63,9 +66,10 @@ pub(crate) struct Node<T: Scalar> {
     pub(crate) inverse: Vec<[T; 2]>,
     /// Places of its other rows in its part.
     pub(crate) rows: Vec<u32>,
-    /// L as its front left it: columns of real parts with those of the imaginary parts behind; what is on the
-    /// diagonal and above it means nothing.
-    pub(crate) values: Vec<T::Real>,
+    /// Where its columns of L are in the factor's.
+    columns: Range<usize>,
+    /// Its columns of L where delayed candidates made them too many for that place; else empty.
+    more: Vec<T::Real>,
     /// From one part of a column to the next.
     pub(crate) stride: usize,
 }
@@ -78,6 +82,11 @@ impl<T: Scalar> Node<T> {
     pub(crate) fn order(&self) -> usize {
         self.pivots() + self.rows.len()
     }
+
+    /// How many numbers its columns of L are.
+    pub(crate) fn numbers(&self) -> usize {
+        T::PARTS * self.stride * self.pivots()
+    }
 }
 
 /// What an elimination gives: positions are those of the analysis.
@@ -85,7 +94,7 @@ struct Eliminated<T: Scalar> {
     pivots: Vec<u32>,
     d: Vec<[T; 2]>,
     below: Vec<u32>,
-    values: Vec<T::Real>,
+    more: Vec<T::Real>,
     stride: usize,
 }
 
@@ -117,8 +126,14 @@ pub(crate) fn factor<T: Scalar>(
         let scale: Vec<T::Real> = symbolic.order.iter().map(|&row| scale[row as usize]).collect();
         let threshold = options.threshold;
         let stacks = symbolic.stacks(threads);
-        let run = Run { symbolic, values, scale: &scale, threshold, threads, stacks, idle: Idle::default() };
-        run.finish(run.all())
+        let places = symbolic.places::<T>();
+        let mut columns = Memory::zeros(places.last().map_or(0, |place| place.end));
+        let room = room(&mut columns, &places);
+        let run =
+            Run { symbolic, values, scale: &scale, threshold, threads, stacks, room, idle: Idle::default() };
+        let eliminated = run.all();
+        let scale = scale.as_slice();
+        finish(symbolic, scale, eliminated, places, columns)
     })
 }
 
@@ -131,6 +146,8 @@ struct Run<'a, T: Scalar> {
     threads: usize,
     /// Numbers that are kept at even and at odd depths in whatever one thread does.
     stacks: [usize; 2],
+    /// For the columns of each front.
+    room: Vec<Mutex<&'a mut [T::Real]>>,
     idle: Idle<Elimination<T>>,
 }
 
@@ -268,14 +285,17 @@ impl<T: Scalar> Run<'_, T> {
         });
         let given: Vec<_> = given.collect();
 
-        let mut values = vec![T::Real::default(); T::PARTS * stride * candidates];
-        let (numbers, threads) = (values.len(), with.threads);
-        each_strip(strips(&mut values, stride, 0, candidates, threads), numbers, threads, |mut strip| {
+        let numbers = T::PARTS * stride * candidates;
+        let room = std::mem::take(&mut *self.room[k].lock().unwrap_or_else(PoisonError::into_inner));
+        let mut more = vec![T::Real::default(); if delayed > 0 { numbers } else { 0 }];
+        let values = if delayed > 0 { more.as_mut_slice() } else { room };
+        let threads = with.threads;
+        each_strip(strips(values, stride, 0, candidates, threads), numbers, threads, |mut strip| {
             self.add_entries(&mut strip, k, &ids, delayed);
             let from = strip.first;
             add_children(&mut strip, from, &given);
         });
-        let mut front = Front { ids, candidates, panel: &mut values, stride };
+        let mut front = Front { ids, candidates, panel: values, stride };
         let d = eliminate(&mut front, target, with);
         let numbers = target.len();
         each_strip(schur_strips::<T>(target, others, false), numbers, threads, |mut strip| {
@@ -288,11 +308,11 @@ impl<T: Scalar> Run<'_, T> {
         let left = (!rest.is_empty()).then(|| Contribution::new(&front, d.len(), schur));
         let (pivots, below) = (pivots.to_vec(), rest.to_vec());
         if d.len() < candidates {
-            values.truncate(T::PARTS * stride * d.len());
-            values.shrink_to_fit();
+            more.truncate(T::PARTS * stride * d.len());
+            more.shrink_to_fit();
         }
         // Every front comes once.
-        let _ = done[k].set(Eliminated { pivots, below, d, values, stride });
+        let _ = done[k].set(Eliminated { pivots, below, d, more, stride });
         left
     }
 
@@ -313,42 +333,65 @@ impl<T: Scalar> Run<'_, T> {
             }
         }
     }
+}
 
-    /// Numbers the pivots in the order in which they came to be.
-    fn finish(&self, eliminated: Vec<Eliminated<T>>) -> Result<Factor<T>, FactorError> {
-        let symbolic = self.symbolic;
-        let dim = symbolic.dim();
-        let order: Vec<u32> = eliminated.iter().flat_map(|front| &front.pivots).copied().collect();
-        if order.len() < dim {
-            let mut left = vec![true; dim];
-            order.iter().for_each(|&position| left[position as usize] = false);
-            let position = left.iter().position(|&left| left).unwrap_or_default();
-            let row = symbolic.order[position] as usize;
-            return Err(FactorError::Singular { row, deficiency: dim - order.len() });
-        }
-        let scale = order.iter().map(|&position| self.scale[position as usize]).collect();
-        let mut new = vec![0u32; dim];
-        order.iter().enumerate().for_each(|(to, &from)| new[from as usize] = to as u32);
-        let mut inertia = Inertia::default();
-        let (mut delayed, mut pairs, mut first) = (0, 0, 0);
-        let mut firsts = Vec::with_capacity(eliminated.len());
-        let mut nodes = Vec::with_capacity(eliminated.len());
-        for (front, shape) in eliminated.into_iter().zip(&symbolic.fronts) {
-            delayed += front.below.len() - shape.rows.len();
-            let inverse = inverse(&front.d, &mut inertia, &mut pairs);
-            let rows = front.below.iter().map(|&position| new[position as usize]).collect();
-            firsts.push(first);
-            first += front.pivots.len();
-            nodes.push(Node { first: 0, inverse, rows, values: front.values, stride: front.stride });
-        }
-        inertia.positive = dim - inertia.negative;
-        let (parts, roots) = Part::of(symbolic, &firsts, &mut nodes);
-        let order = order.iter().map(|&position| symbolic.order[position as usize]).collect();
-        Ok(Factor { order, scale, nodes, parts, roots, inertia, delayed, pairs })
+/// For the columns of each front its place.
+fn room<'a, R>(columns: &'a mut [R], places: &[Range<usize>]) -> Vec<Mutex<&'a mut [R]>> {
+    let mut rest = columns;
+    let mut room = Vec::with_capacity(places.len());
+    for place in places {
+        let (here, behind) = std::mem::take(&mut rest).split_at_mut(place.len());
+        rest = behind;
+        room.push(Mutex::new(here));
     }
+    room
+}
+
+/// Numbers the pivots in the order in which they came to be.
+fn finish<T: Scalar>(
+    symbolic: &Symbolic,
+    scale: &[T::Real],
+    eliminated: Vec<Eliminated<T>>,
+    places: Vec<Range<usize>>,
+    values: Memory<T::Real>,
+) -> Result<Factor<T>, FactorError> {
+    let dim = symbolic.dim();
+    let order: Vec<u32> = eliminated.iter().flat_map(|front| &front.pivots).copied().collect();
+    if order.len() < dim {
+        let mut left = vec![true; dim];
+        order.iter().for_each(|&position| left[position as usize] = false);
+        let position = left.iter().position(|&left| left).unwrap_or_default();
+        let row = symbolic.order[position] as usize;
+        return Err(FactorError::Singular { row, deficiency: dim - order.len() });
+    }
+    let scale = order.iter().map(|&position| scale[position as usize]).collect();
+    let mut new = vec![0u32; dim];
+    order.iter().enumerate().for_each(|(to, &from)| new[from as usize] = to as u32);
+    let mut inertia = Inertia::default();
+    let (mut delayed, mut pairs, mut first) = (0, 0, 0);
+    let mut firsts = Vec::with_capacity(eliminated.len());
+    let mut nodes = Vec::with_capacity(eliminated.len());
+    for ((front, shape), columns) in eliminated.into_iter().zip(&symbolic.fronts).zip(places) {
+        delayed += front.below.len() - shape.rows.len();
+        let inverse = inverse(&front.d, &mut inertia, &mut pairs);
+        let rows = front.below.iter().map(|&position| new[position as usize]).collect();
+        firsts.push(first);
+        first += front.pivots.len();
+        nodes.push(Node { first: 0, inverse, rows, columns, more: front.more, stride: front.stride });
+    }
+    inertia.positive = dim - inertia.negative;
+    let (parts, roots) = Part::of(symbolic, &firsts, &mut nodes);
+    let order = order.iter().map(|&position| symbolic.order[position as usize]).collect();
+    Ok(Factor { order, scale, nodes, values, parts, roots, inertia, delayed, pairs })
 }
 
 impl<T: Scalar> Factor<T> {
+    /// L of a node as its front left it: columns of real parts with those of the imaginary parts behind; what is on
+    /// the diagonal and above it means nothing.
+    pub(crate) fn columns_of<'a>(&'a self, node: &'a Node<T>) -> &'a [T::Real] {
+        if node.more.is_empty() { &self.values[node.columns.clone()] } else { &node.more }
+    }
+
     /// Number of rows n.
     pub fn dim(&self) -> usize {
         self.order.len()
@@ -372,11 +415,13 @@ impl<T: Scalar> Factor<T> {
     /// Bytes that this factor keeps.
     pub fn bytes(&self) -> usize {
         let node = |node: &Node<T>| {
-            node.values.len() * size_of::<T::Real>()
+            node.more.len() * size_of::<T::Real>()
                 + node.inverse.len() * size_of::<[T; 2]>()
                 + node.rows.len() * size_of::<u32>()
         };
-        self.nodes.iter().map(node).sum::<usize>() + self.dim() * (size_of::<u32>() + size_of::<T::Real>())
+        self.nodes.iter().map(node).sum::<usize>()
+            + self.values.len() * size_of::<T::Real>()
+            + self.dim() * (size_of::<u32>() + size_of::<T::Real>())
     }
 }
 

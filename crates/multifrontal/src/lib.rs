@@ -29,6 +29,7 @@ mod error;
 mod factor;
 mod front;
 mod kernel;
+mod memory;
 mod ordering;
 mod part;
 mod scalar;

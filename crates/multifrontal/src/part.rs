@@ -43,7 +43,7 @@ impl Part {
             for node in nodes_here.clone() {
                 nodes[node].first = position(node) - own.start;
                 nodes[node].rows.iter_mut().for_each(to_place);
-                numbers[k] += nodes[node].values.len();
+                numbers[k] += nodes[node].numbers();
             }
             let mut below_here: Vec<usize> = std::mem::take(&mut below[k]);
             below_here.iter().for_each(|&part| parts[part].outside.iter_mut().for_each(to_place));

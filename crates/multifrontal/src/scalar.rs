@@ -14,7 +14,7 @@ pub type c64 = Complex<f64>;
 pub type c32 = Complex<f32>;
 
 /// `f32` or `f64`, with the vector registers of an instruction set.
-pub trait Real: Scalar<Real = Self> + PartialOrd + Into<f64> {
+pub trait Real: Scalar<Real = Self> + PartialOrd + Into<f64> + pulp::bytemuck::Pod {
     /// A register full of them.
     type Vector<S: Simd>: Copy;
     /// Unit roundoff.

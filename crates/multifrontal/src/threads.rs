@@ -92,6 +92,15 @@ pub(crate) fn with<O: Send>(threads: usize, run: impl FnOnce() -> O + Send) -> O
     }
 }
 
+/// Two pieces of work, at the same time where there are threads for it.
+pub(crate) fn both<A: Send, B: Send>(
+    threads: usize,
+    a: impl FnOnce() -> A + Send,
+    b: impl FnOnce() -> B + Send,
+) -> (A, B) {
+    if threads < 2 { (a(), b()) } else { rayon::join(|| at_work(a), || at_work(b)) }
+}
+
 /// Applies a function to all items, each by whichever thread is free.
 pub(crate) fn each<I: Send>(threads: usize, items: Vec<I>, work: impl Fn(I) + Sync + Send) {
     if threads < 2 || items.len() < 2 {

@@ -3,10 +3,13 @@
 //! In the order of the fronts the children of a front are the last that were kept of their depth, so two stacks
 //! are enough: one for even depths and one for odd, and a front's complement never overlaps its children's.
 
+use crate::memory::Memory;
+use crate::scalar::Real;
+
 /// A stack of numbers; what it hands out is overwritten before it is read.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(crate) struct Stack<R> {
-    values: Vec<R>,
+    values: Memory<R>,
     top: usize,
 }
 
@@ -16,17 +19,23 @@ pub(crate) enum Kept<R> {
     /// So many numbers of the stack from a place on.
     Stacked(usize, usize),
     /// Taken out of it, to be handed to another thread.
-    Taken(Vec<R>),
+    Taken(Memory<R>),
 }
 
-impl<R: Copy + Default> Stack<R> {
+impl<R> Default for Stack<R> {
+    fn default() -> Self {
+        Self { values: Memory::default(), top: 0 }
+    }
+}
+
+impl<R: Real> Stack<R> {
     /// Empty, with room for so many numbers; more is found when it is needed.
     pub(crate) fn clear(&mut self, len: usize) {
         self.top = 0;
         if self.values.len() < len {
             // Not both at the same time.
-            self.values = Vec::new();
-            self.values = vec![R::default(); len];
+            self.values = Memory::default();
+            self.values = Memory::zeros(len);
         }
     }
 
@@ -35,9 +44,11 @@ impl<R: Copy + Default> Stack<R> {
         self.top += len;
         if self.values.is_empty() {
             // Zeros of the system are free until they are touched.
-            self.values = vec![R::default(); len];
+            self.values = Memory::zeros(len);
         } else if self.top > self.values.len() {
-            self.values.resize(self.top, R::default());
+            let mut more = Memory::zeros(self.top);
+            more[..from].copy_from_slice(&self.values[..from]);
+            self.values = more;
         }
         Kept::Stacked(from, len)
     }

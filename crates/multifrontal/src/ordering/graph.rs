@@ -29,10 +29,15 @@ impl Graph {
     pub(super) fn compressed(pattern: &Lower) -> Self {
         // A row's signature is a sum over its neighbours. Equal sums of different rows are as good as
         // impossible; `Symbolic::new` sees it and does without classes.
-        let mut signature: Vec<u64> = (0..pattern.dim).map(scramble).collect();
-        for (row, col) in pattern.positions().filter(|(row, col)| row != col) {
-            signature[col] = signature[col].wrapping_add(scramble(row));
-            signature[row] = signature[row].wrapping_add(scramble(col));
+        let own: Vec<u64> = (0..pattern.dim).map(scramble).collect();
+        let mut signature = own.clone();
+        for col in 0..pattern.dim {
+            let mut sum = 0u64;
+            for row in pattern.column(col).iter().map(|&row| row as usize).filter(|&row| row != col) {
+                sum = sum.wrapping_add(own[row]);
+                signature[row] = signature[row].wrapping_add(own[col]);
+            }
+            signature[col] = signature[col].wrapping_add(sum);
         }
         let mut seen = HashMap::with_capacity(pattern.dim / 2);
         let mut classes = 0;
@@ -58,8 +63,15 @@ impl Graph {
             next[class as usize] += 1;
         }
         // Between the first rows of two classes there is an edge where there is one between the classes.
-        let first = |row: usize| rows[row_start[class[row] as usize]] == row as u32;
-        let edges = || pattern.positions().filter(|&(row, col)| row != col && first(col) && first(row));
+        let mut first = vec![false; pattern.dim];
+        (0..classes).for_each(|k| first[rows[row_start[k]] as usize] = true);
+        let first = &first;
+        let edges = || {
+            (0..pattern.dim).filter(|&col| first[col]).flat_map(move |col| {
+                let rows = pattern.column(col).iter().map(|&row| row as usize);
+                rows.filter(move |&row| row != col && first[row]).map(move |row| (row, col))
+            })
+        };
         let mut start = vec![0; classes + 1];
         for (row, col) in edges() {
             start[class[row] as usize + 1] += 1;

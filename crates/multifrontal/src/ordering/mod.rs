@@ -8,6 +8,8 @@ pub(crate) use elimination::{Elimination, postorder};
 pub(crate) use graph::Graph;
 
 use crate::symbolic::{Lower, Ordering};
+use crate::threads::both;
+use dissection::{Begun, SHARE_FROM};
 use feral_amd::{CscPattern, amd_order};
 
 /// From this many operations an edge on an order is compared with the other one. Both take about as long as
@@ -36,10 +38,10 @@ pub(crate) fn order(pattern: &Lower, ordering: &Ordering, threads: usize) -> (Gr
     let graph = Graph::compressed(pattern);
     let best = match ordering {
         Ordering::MinimumDegree => minimum_degree(&graph, threads),
-        Ordering::NestedDissection => dissected(&graph, threads),
+        Ordering::NestedDissection => dissected(Begun::new(&graph, threads)),
         _ if graph.vertices() >= SOLID.0 && graph.edges() >= SOLID.1 * graph.vertices() as f64 => {
             // Few operations for a solid: it is a beam or a shell, for which minimum degree may do with less.
-            let first = dissected(&graph, threads);
+            let first = dissected(Begun::new(&graph, threads));
             if first.flops() > COMPARE * graph.edges() {
                 first
             } else {
@@ -47,9 +49,12 @@ pub(crate) fn order(pattern: &Lower, ordering: &Ordering, threads: usize) -> (Gr
             }
         }
         _ => {
-            let first = minimum_degree(&graph, threads);
+            // Another thread may find the first cut in the meantime.
+            let begin = || Begun::new(&graph, threads);
+            let share = threads > 1 && graph.vertices() >= SHARE_FROM;
+            let (first, begun) = both(threads, || minimum_degree(&graph, threads), || share.then(begin));
             if first.flops() > COMPARE * graph.edges() {
-                better(first, dissected(&graph, threads))
+                better(first, dissected(begun.unwrap_or_else(begin)))
             } else {
                 first
             }
@@ -62,14 +67,15 @@ fn better(a: Elimination, b: Elimination) -> Elimination {
     if b.flops() < a.flops() { b } else { a }
 }
 
-fn dissected(graph: &Graph, threads: usize) -> Elimination {
-    Elimination::new(dissection::order(graph, threads), graph)
+fn dissected(begun: Begun<'_>) -> Elimination {
+    let graph = begun.graph();
+    Elimination::new(begun.order(), graph)
 }
 
 fn minimum_degree(graph: &Graph, threads: usize) -> Elimination {
     match approximate_minimum_degree(graph) {
         Some(order) => Elimination::new(order, graph),
-        None => dissected(graph, threads),
+        None => dissected(Begun::new(graph, threads)),
     }
 }
 

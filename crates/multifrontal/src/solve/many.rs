@@ -1,7 +1,6 @@
 //! Right-hand sides side by side: a register holds those of one row, so that every number of L is met once.
 
-use super::{BLOCK, Step, pieces, shares};
-use crate::factor::Node;
+use super::{BLOCK, Columns, Step, pieces, shares};
 use crate::scalar::{Real, Scalar};
 use crate::threads::each;
 use pulp::{Simd, WithSimd};
@@ -139,7 +138,7 @@ impl<T: Scalar> Shaped for Backward<'_, T> {
 
 /// Subtracts L · own of a span from some rows.
 struct Multiply<'a, T: Scalar> {
-    node: &'a Node<T>,
+    node: Columns<'a, T>,
     span: Range<usize>,
     own: &'a [T::Real],
     rows: Range<usize>,
@@ -161,7 +160,7 @@ impl<T: Scalar> Shaped for Multiply<'_, T> {
 
 /// Subtracts Lᵀ y over some rows from a block.
 struct Dot<'a, T: Scalar> {
-    node: &'a Node<T>,
+    node: Columns<'a, T>,
     cols: Range<usize>,
     block: &'a mut [T::Real],
     rows: Range<usize>,
@@ -238,7 +237,7 @@ fn add<T: Scalar, S: Simd, const V: usize>(simd: S, y: &mut [T::Real], to: usize
 #[inline(always)]
 fn triangle<T: Scalar, S: Simd, const V: usize>(
     simd: S,
-    node: &Node<T>,
+    node: Columns<'_, T>,
     cols: &Range<usize>,
     y: &mut [T::Real],
 ) {
@@ -252,7 +251,7 @@ fn triangle<T: Scalar, S: Simd, const V: usize>(
 #[inline(always)]
 fn transposed_triangle<T: Scalar, S: Simd, const V: usize>(
     simd: S,
-    node: &Node<T>,
+    node: Columns<'_, T>,
     cols: &Range<usize>,
     y: &mut [T::Real],
 ) {
@@ -267,7 +266,7 @@ fn transposed_triangle<T: Scalar, S: Simd, const V: usize>(
 #[inline(always)]
 fn multiply<T: Scalar, S: Simd, const V: usize, const G: usize>(
     simd: S,
-    node: &Node<T>,
+    node: Columns<'_, T>,
     cols: &Range<usize>,
     block: &[T::Real],
     rows: Range<usize>,
@@ -288,7 +287,7 @@ fn multiply<T: Scalar, S: Simd, const V: usize, const G: usize>(
 #[inline(always)]
 fn multiply_rows<T: Scalar, S: Simd, const V: usize, const G: usize>(
     simd: S,
-    node: &Node<T>,
+    node: Columns<'_, T>,
     cols: &Range<usize>,
     block: &[T::Real],
     row: usize,
@@ -313,7 +312,7 @@ fn multiply_rows<T: Scalar, S: Simd, const V: usize, const G: usize>(
 #[inline(always)]
 fn subtract_dot<T: Scalar, S: Simd, const V: usize, const G: usize>(
     simd: S,
-    node: &Node<T>,
+    node: Columns<'_, T>,
     cols: Range<usize>,
     block: &mut [T::Real],
     rows: Range<usize>,

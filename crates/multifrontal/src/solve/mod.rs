@@ -27,7 +27,7 @@ const FEWEST: usize = 96;
 
 /// One node, and the numbers of its part: of each row the parts, of each part the right-hand sides.
 struct Step<'a, T: Scalar> {
-    node: &'a Node<T>,
+    node: Columns<'a, T>,
     local: &'a mut [T::Real],
     /// Numbers of the front's rows.
     buffer: &'a mut Vec<T::Real>,
@@ -36,10 +36,32 @@ struct Step<'a, T: Scalar> {
     shared: bool,
 }
 
-impl<T: Scalar> Node<T> {
+/// A node with its columns of L.
+struct Columns<'a, T: Scalar> {
+    node: &'a Node<T>,
+    values: &'a [T::Real],
+}
+
+impl<T: Scalar> Clone for Columns<'_, T> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<T: Scalar> Copy for Columns<'_, T> {}
+
+impl<T: Scalar> std::ops::Deref for Columns<'_, T> {
+    type Target = Node<T>;
+
+    fn deref(&self) -> &Node<T> {
+        self.node
+    }
+}
+
+impl<'a, T: Scalar> Columns<'a, T> {
     /// Some rows of one part of a column of L.
     #[inline(always)]
-    fn part(&self, col: usize, part: usize, rows: Range<usize>) -> &[T::Real] {
+    fn part(&self, col: usize, part: usize, rows: Range<usize>) -> &'a [T::Real] {
         &self.values[(col * T::PARTS + part) * self.stride..][rows]
     }
 
@@ -217,13 +239,14 @@ impl<T: Scalar> Together<'_, T> {
     }
 
     fn step<'a>(
-        &self,
+        &'a self,
         node: &'a Node<T>,
         part: &Part,
         local: &'a mut [T::Real],
         buffer: &'a mut Vec<T::Real>,
     ) -> Step<'a, T> {
         let threads = if part.top { self.threads } else { 1 };
+        let node = Columns { node, values: self.factor.columns_of(node) };
         Step { node, local, buffer, threads, shared: part.top }
     }
 }
@@ -234,7 +257,7 @@ pub(crate) fn solve<T: Scalar>(factor: &Factor<T>, rhs: &mut [T], threads: usize
         return;
     }
     assert_eq!(rhs.len() % dim, 0, "whole right-hand sides");
-    let numbers: usize = factor.nodes.iter().map(|node| node.values.len()).sum();
+    let numbers: usize = factor.nodes.iter().map(Node::numbers).sum();
     let threads = if numbers < SHARE_FROM { 1 } else { threads.max(1) };
     let together = many::lanes::<T::Real>();
     with(threads, || {

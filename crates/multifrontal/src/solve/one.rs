@@ -1,7 +1,6 @@
 //! One right-hand side: registers hold rows, at the speed at which L comes from memory.
 
-use super::{BLOCK, Step, pieces, shares};
-use crate::factor::Node;
+use super::{BLOCK, Columns, Step, pieces, shares};
 use crate::scalar::{Real, Scalar};
 use crate::threads::each;
 use pulp::{Simd, WithSimd};
@@ -90,7 +89,7 @@ impl<T: Scalar> WithSimd for Backward<'_, T> {
 
 /// Subtracts L · own of a span from some rows.
 struct Multiply<'a, T: Scalar> {
-    node: &'a Node<T>,
+    node: Columns<'a, T>,
     span: Range<usize>,
     own: (&'a [T::Real], &'a [T::Real]),
     rows: Range<usize>,
@@ -112,7 +111,7 @@ impl<T: Scalar> WithSimd for Multiply<'_, T> {
 
 /// Lᵀ x of some rows, for a block of columns.
 struct Dot<'a, T: Scalar> {
-    node: &'a Node<T>,
+    node: Columns<'a, T>,
     cols: Range<usize>,
     rows: Range<usize>,
     x: (&'a [T::Real], &'a [T::Real]),
@@ -148,7 +147,7 @@ fn put<T: Scalar>(local: &mut [T::Real], row: usize, parts: [T::Real; 2]) {
 
 /// Solves with the triangle of a block of columns.
 #[inline(always)]
-fn triangle<T: Scalar>(node: &Node<T>, cols: &Range<usize>, re: &mut [T::Real], im: &mut [T::Real]) {
+fn triangle<T: Scalar>(node: Columns<'_, T>, cols: &Range<usize>, re: &mut [T::Real], im: &mut [T::Real]) {
     for j in cols.clone() {
         let x = T::from_parts([re[j], im[j]]);
         for i in j + 1..cols.end {
@@ -162,7 +161,7 @@ fn triangle<T: Scalar>(node: &Node<T>, cols: &Range<usize>, re: &mut [T::Real], 
 /// Takes the sums from a block of unknowns and solves with the transpose of its triangle.
 #[inline(always)]
 fn transposed_triangle<T: Scalar>(
-    node: &Node<T>,
+    node: Columns<'_, T>,
     cols: &Range<usize>,
     sums: &[T; BLOCK],
     re: &mut [T::Real],
@@ -190,7 +189,7 @@ fn factors<R: Real>(cols: &Range<usize>, re: &[R], im: &[R]) -> [[R; 2]; BLOCK] 
 #[inline(always)]
 fn multiply<T: Scalar, S: Simd>(
     simd: S,
-    node: &Node<T>,
+    node: Columns<'_, T>,
     cols: Range<usize>,
     factors: &[[T::Real; 2]; BLOCK],
     rows: Range<usize>,
@@ -248,7 +247,7 @@ fn term<T: Scalar, S: Simd>(
 #[inline(always)]
 fn dot<T: Scalar, S: Simd>(
     simd: S,
-    node: &Node<T>,
+    node: Columns<'_, T>,
     cols: Range<usize>,
     rows: Range<usize>,
     (re, im): (&[T::Real], &[T::Real]),

@@ -139,6 +139,17 @@ impl Symbolic {
         self.fronts.iter().map(share::flops).sum()
     }
 
+    /// Where the columns of L of each front are among those of all, if no pivot is delayed.
+    pub(crate) fn places<T: Scalar>(&self) -> Vec<Range<usize>> {
+        let mut end = 0;
+        let place = |front: &Shape| {
+            let start = end;
+            end += T::PARTS * front.pivots * padded(front.order());
+            start..end
+        };
+        self.fronts.iter().map(place).collect()
+    }
+
     /// Bytes that the factor keeps, if no pivot is delayed.
     pub fn factor_bytes<T: Scalar>(&self) -> usize {
         let scalars: usize = self.fronts.iter().map(|front| front.pivots * padded(front.order())).sum();

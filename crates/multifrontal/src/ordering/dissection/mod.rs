@@ -41,33 +41,68 @@ const DENSE: f64 = 10.0;
 const SHARED_CUTS: usize = 4;
 
 /// Parts of fewer vertices are not worth another thread.
-const SHARE_FROM: usize = 1000;
+pub(super) const SHARE_FROM: usize = 1000;
 
-/// An order of elimination of the graph's vertices, the same with any number of threads.
-pub(super) fn order(graph: &Graph, threads: usize) -> Vec<u32> {
-    let vertices = 0..graph.vertices() as u32;
-    let dense = DENSE * (graph.vertices() as f64).sqrt();
-    let is_dense = |&vertex: &u32| graph.neighbours(vertex as usize).len() as f64 > dense;
-    let (dense, sparse): (Vec<u32>, Vec<u32>) = vertices.partition(is_dense);
-    let mut reversed = dense;
-    reversed.extend(dissected(graph, Part::of(graph, sparse).pieces(|_| false), SHARED_CUTS, threads));
-    reversed.reverse();
-    reversed
+/// A dissection after its first cuts.
+pub(super) struct Begun<'a> {
+    graph: &'a Graph,
+    /// Vertices that come last.
+    dense: Vec<u32>,
+    level: Level,
+    threads: usize,
 }
 
-/// The vertices of some parts from the last to the first, parts shared out to threads as long as they are large.
-fn dissected(graph: &Graph, parts: Vec<Part>, cuts: usize, threads: usize) -> Vec<u32> {
-    let (large, small): (Vec<Part>, Vec<Part>) =
-        parts.into_iter().partition(|part| cuts > 0 && part.vertices.len() >= SHARE_FROM);
-    let mut reversed = one_by_one(graph, small);
-    for part in map(threads, large, |part| {
-        let (mut between, sides) = cut(part, &mut Random::new());
-        between.extend(dissected(graph, sides, cuts - 1, threads));
-        between
-    }) {
-        reversed.extend(part);
+impl<'a> Begun<'a> {
+    pub(super) fn new(graph: &'a Graph, threads: usize) -> Self {
+        let vertices = 0..graph.vertices() as u32;
+        let dense = DENSE * (graph.vertices() as f64).sqrt();
+        let is_dense = |&vertex: &u32| graph.neighbours(vertex as usize).len() as f64 > dense;
+        let (dense, sparse): (Vec<u32>, Vec<u32>) = vertices.partition(is_dense);
+        let level = Level::of(Part::of(graph, sparse).pieces(|_| false), SHARED_CUTS, threads);
+        Self { graph, dense, level, threads }
     }
-    reversed
+
+    pub(super) fn graph(&self) -> &'a Graph {
+        self.graph
+    }
+
+    /// An order of elimination of the graph's vertices, the same with any number of threads.
+    pub(super) fn order(self) -> Vec<u32> {
+        let mut reversed = self.dense;
+        reversed.extend(self.level.dissected(self.graph, self.threads));
+        reversed.reverse();
+        reversed
+    }
+}
+
+/// Parts that threads share out as long as they are large.
+struct Level {
+    /// What one thread goes on with.
+    small: Vec<Part>,
+    /// Of each large part the vertices that come last, and what they leave.
+    large: Vec<(Vec<u32>, Vec<Part>)>,
+    /// How often what is left may be shared out.
+    cuts: usize,
+}
+
+impl Level {
+    fn of(parts: Vec<Part>, cuts: usize, threads: usize) -> Self {
+        let (large, small): (Vec<Part>, Vec<Part>) =
+            parts.into_iter().partition(|part| cuts > 0 && part.vertices.len() >= SHARE_FROM);
+        let large = map(threads, large, |part| cut(part, &mut Random::new()));
+        Self { small, large, cuts: cuts.saturating_sub(1) }
+    }
+
+    /// All vertices from the last to the first.
+    fn dissected(self, graph: &Graph, threads: usize) -> Vec<u32> {
+        let mut reversed = one_by_one(graph, self.small);
+        let below = |(mut between, sides): (Vec<u32>, Vec<Part>)| {
+            between.extend(Level::of(sides, self.cuts, threads).dissected(graph, threads));
+            between
+        };
+        map(threads, self.large, below).into_iter().for_each(|part| reversed.extend(part));
+        reversed
+    }
 }
 
 /// The same by one thread.

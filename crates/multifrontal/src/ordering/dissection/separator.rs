@@ -49,16 +49,17 @@ impl Separator {
         moves.separator
     }
 
-    /// Moved to one side and to the other until neither is better.
+    /// Moved to one side and to the other, the lighter first, as long as that is better. To try the other side too
+    /// before that is believed takes 6 % of an analysis, and structures cost the same to a few per mille.
     pub(super) fn refined(mut self, graph: &Weighted) -> Self {
         let mut to = u8::from(self.weight[1] < self.weight[0]);
-        let mut vain = 0;
-        while vain < 2 {
+        loop {
             let before = self.cost();
             self = Moves::new(graph, self, to).pass();
-            vain = if self.cost() < before { 0 } else { vain + 1 };
+            if self.cost() >= before {
+                return self;
+            }
             to = 1 - to;
         }
-        self
     }
 }
