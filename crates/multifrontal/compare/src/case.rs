@@ -149,14 +149,19 @@ impl<T: Number> Case<T> {
         self.pattern.dim()
     }
 
-    /// ‖b − Ax‖∞ / (‖A‖∞ ‖x‖∞ + ‖b‖∞) of the first right-hand side.
+    /// ‖b − Ax‖∞ / (‖A‖∞ ‖x‖∞ + ‖b‖∞), the largest of the right-hand sides that were solved for.
     ///
     /// # Source
     /// J. L. Rigal, J. Gaches, J. ACM 14 (1967) 543–548.
     pub fn backward_error(&self, x: &[T]) -> f64 {
+        let each = x.chunks_exact(self.dim()).zip(self.rhs.chunks_exact(self.dim()));
+        each.map(|(x, b)| self.error_of(x, b)).fold(0.0, larger)
+    }
+
+    fn error_of(&self, x: &[T], rhs: &[T]) -> f64 {
         let largest = |values: &[c64]| values.iter().map(|value| value.norm()).fold(0.0, larger);
-        let x: Vec<c64> = x[..self.dim()].iter().map(|x| x.complex()).collect();
-        let rhs: Vec<c64> = self.rhs[..self.dim()].iter().map(|b| b.complex()).collect();
+        let x: Vec<c64> = x.iter().map(|x| x.complex()).collect();
+        let rhs: Vec<c64> = rhs.iter().map(|b| b.complex()).collect();
         let mut residual = rhs.clone();
         let mut rows = vec![0.0; self.dim()];
         for ((row, col), value) in self.pattern.positions().zip(&self.values) {

@@ -96,8 +96,8 @@ pub fn symmetric<T: Number>(kind: Symmetric, case: &Case<T>, threads: usize) -> 
         }
         Ok::<_, String>(())
     };
-    let (_, solve_8) = solves(rhs, solve)?;
-    let (x, solve_1) = solves(&rhs[..n], solve)?;
+    let (x, solve_8) = solves(rhs, solve)?;
+    let (_, solve_1) = solves(&rhs[..n], solve)?;
     let report = Report {
         memory: Some(size_of_val(l.as_slice()) as f64 / 1e6),
         entries: Some(l.len() as f64 / 1e6),
@@ -156,7 +156,7 @@ pub fn lu<T: Number>(case: &Case<T>, threads: usize) -> Result<Round<T>, String>
         LuRef::new_unchecked(&symbolic, &numeric).solve_in_place_with_conj(Conj::No, x, par, stack);
         Ok::<_, String>(())
     };
-    let (_, solve_8) = solves(&case.rhs, solve)?;
-    let (solution, solve_1) = solves(&case.rhs[..n], solve)?;
+    let (solution, solve_8) = solves(&case.rhs, solve)?;
+    let (_, solve_1) = solves(&case.rhs[..n], solve)?;
     Ok(Round { analysis, factor, solve_1, solve_8, report: Report::default(), peak: None, solution })
 }

@@ -21,8 +21,8 @@ pub fn round<T: Number>(case: &Case<T>, threads: usize) -> Result<Round<T>, Stri
         factorised.solve_in_place(x, threads);
         Ok::<_, String>(())
     };
-    let (_, solve_8) = solves(&case.rhs, solve)?;
-    let (solution, solve_1) = solves(&case.rhs[..n], solve)?;
+    let (solution, solve_8) = solves(&case.rhs, solve)?;
+    let (_, solve_1) = solves(&case.rhs[..n], solve)?;
     let mut remark = Vec::new();
     for (count, of) in [(factorised.delayed(), "pivots delayed"), (factorised.pairs(), "pairs")] {
         if count > 0 {
@@ -30,7 +30,7 @@ pub fn round<T: Number>(case: &Case<T>, threads: usize) -> Result<Round<T>, Stri
         }
     }
     let report = Report {
-        memory: Some(factorised.bytes() as f64 / 1e6),
+        memory: Some((symbolic.bytes() + factorised.bytes()) as f64 / 1e6),
         entries: Some(symbolic.factor_entries() as f64 / 1e6),
         gflop: Some(T::FLOPS * symbolic.flops() / 1e9),
         negative: T::real(&case.values).map(|_| factorised.inertia().negative),

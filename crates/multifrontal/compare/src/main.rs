@@ -28,9 +28,10 @@ use solver::{Installed, Solver};
 use std::error::Error;
 use std::io::Write;
 use std::process::ExitCode;
+use std::time::Instant;
 
 /// Seconds after which a solver runs [`FEW`] rounds only.
-const PATIENCE: f64 = 30.0;
+const PATIENCE: f64 = 60.0;
 
 /// Rounds of a solver that is slow.
 const FEW: usize = 2;
@@ -65,7 +66,7 @@ fn compare(options: &Options) -> Result<(), Box<dyn Error>> {
     let program = std::env::current_exe()?;
     let folder = program.ancestors().nth(2).ok_or("no build folder")?.join("solvers");
     let installed = Installed::find(&folder);
-    println!("Sparse direct solvers\n{}; load {}", frfit_bench::machine(), load());
+    println!("Sparse direct solvers\n{}", frfit_bench::machine());
     match &installed.mkl {
         Ok(mkl) => println!("{}", mkl.version),
         Err(why) => println!("without PARDISO: {why}"),
@@ -78,8 +79,8 @@ fn compare(options: &Options) -> Result<(), Box<dyn Error>> {
         "\nSeconds of one thread are CPU seconds, of several those on the clock; medians over the rounds (where a factor takes \
          more than\n{PATIENCE} s: {FEW} rounds); least: of all rounds, on the clock. GF/s: operations of L D Lᵀ under nested \
          dissection, Σ c² (complex: four\ntimes), over the factor's seconds; of dense: over the speed of a large product. \
-         solve 8: eight right-hand sides at once. L: entries;\nGF own: operations; memory: of the factor; all three by its own \
-         report. peak: growth of resident memory. error: ‖b − Ax‖∞ / (‖A‖∞ ‖x‖∞ + ‖b‖∞),\nunrefined unless remarked. \
+         solve 8: eight right-hand sides at once. L: entries;\nGF own: operations; memory: of what is kept of analysis and factor; all three by its own \
+         report. peak: growth of resident memory. error: ‖b − Ax‖∞ / (‖A‖∞ ‖x‖∞ + ‖b‖∞),\nof the worst right-hand side (of MUMPS: the first), unrefined unless remarked. \
          negative: pivots, that is modes below ω.\n"
     );
     let mut csv = options.csv.as_ref().map(std::fs::File::create).transpose()?;
@@ -140,7 +141,7 @@ fn contest<T: Number>(
             contenders.push(Contender { name, solver, threads, rounds: Vec::new(), failure: None });
         }
     }
-    let before = load();
+    let begun = (Instant::now(), stolen());
     for round in 0..options.rounds {
         for contender in &mut contenders {
             let slow = contender.rounds.first().is_some_and(|first| first.factor.wall > PATIENCE);
@@ -155,13 +156,13 @@ fn contest<T: Number>(
         }
     }
     println!(
-        "\n{matrix}, {}: n = {}, {:.2} M entries in the lower triangle; L {:.2} M entries, {:.2} GF; load {before} before, {} after",
+        "\n{matrix}, {}: n = {}, {:.2} M entries in the lower triangle; L {:.2} M entries, {:.2} GF; the host took {:.1} % of the processors",
         T::NAME,
         case.dim(),
         case.pattern.stored() as f64 / 1e6,
         entries / 1e6,
         rating.gflop,
-        load()
+        100.0 * (stolen() - begun.1) / (processors() * begun.0.elapsed().as_secs_f64())
     );
     let mut table = Vec::new();
     for Contender { name, threads, rounds, failure, .. } in &contenders {
@@ -178,8 +179,14 @@ fn contest<T: Number>(
     Ok(())
 }
 
-/// Processes that run or wait, on average over the last minute.
-fn load() -> String {
-    let text = std::fs::read_to_string("/proc/loadavg").unwrap_or_default();
-    text.split(' ').next().unwrap_or("unknown").to_owned()
+/// Seconds that the machine's host took from its processors, all together; NaN where the system does not say.
+fn stolen() -> f64 {
+    let text = std::fs::read_to_string("/proc/stat").unwrap_or_default();
+    let ticks = text.lines().next().and_then(|all| all.split_whitespace().nth(8)?.parse().ok());
+    // USER_HZ, which is 100 wherever Linux shows it.
+    ticks.unwrap_or(f64::NAN) / 100.0
+}
+
+fn processors() -> f64 {
+    std::thread::available_parallelism().map_or(1, usize::from) as f64
 }

@@ -51,8 +51,8 @@ pub fn round<T: Number>(order: Order, case: &Case<T>, threads: usize) -> Result<
             Ok::<_, String>(())
         })
     };
-    let (_, solve_8) = solves(rhs, &mut solve)?;
-    let (x, solve_1) = solves(&rhs[..n], &mut solve)?;
+    let (x, solve_8) = solves(rhs, &mut solve)?;
+    let (_, solve_1) = solves(&rhs[..n], &mut solve)?;
     let delayed = solver.stats().map_or(0, |stats| stats.total_delayed);
     let report = Report {
         negative: solver.inertia().map(|inertia| inertia.negative),

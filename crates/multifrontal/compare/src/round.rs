@@ -27,7 +27,7 @@ pub struct Round<T> {
     pub report: Report,
     /// Growth of the largest resident memory, in MB, where it was measured by the solver itself.
     pub peak: Option<f64>,
-    /// Solution for the first right-hand side.
+    /// Solutions of all right-hand sides, or of the first.
     pub solution: Vec<T>,
 }
 

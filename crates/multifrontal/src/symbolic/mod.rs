@@ -181,6 +181,15 @@ impl Symbolic {
             + self.dim() * row
     }
 
+    /// Bytes that this analysis keeps.
+    pub fn bytes(&self) -> usize {
+        let pattern = size_of_val(&*self.pattern.col_ptr) + size_of_val(&*self.pattern.row_idx);
+        let entries = size_of_val(&*self.entry_start) + size_of_val(&*self.entries);
+        let tree = size_of_val(&*self.child_start) + size_of_val(&*self.children) + size_of_val(&*self.depth);
+        let rows = size_of_val(&*self.order) + size_of_val(&*self.rows) + size_of_val(&*self.relative);
+        pattern + entries + tree + rows + size_of_val(&*self.fronts) + size_of_val(&*self.subtrees)
+    }
+
     /// As many threads as are asked for, where another one brings more than it costs.
     pub(crate) fn threads(&self, options: &Options) -> usize {
         if self.flops() < share::SHARE_FROM { 1 } else { options.threads.max(1) }

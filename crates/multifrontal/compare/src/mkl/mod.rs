@@ -31,7 +31,6 @@ pub fn pardiso<T: Number>(mkl: &Mkl, case: &Case<T>, threads: usize) -> Result<R
     let mut x = vec![T::default(); case.rhs.len()];
     let (_, solve_8) = solves(&case.rhs, |b| handle.solve(b, &mut x)).map_err(failed)?;
     let (_, solve_1) = solves(&case.rhs[..n], |b| handle.solve(b, &mut x[..n])).map_err(failed)?;
-    x.truncate(n);
     let iparm = handle.iparm;
     let megabytes = |kilobytes: i32| f64::from(kilobytes) * 1024.0 / 1e6;
     let mut remark = format!(
