@@ -79,7 +79,15 @@ impl<'a, T: Scalar> Solver<'a, T> {
     /// # Errors
     /// As [`Symbolic::factor`].
     pub fn factor(&self) -> Result<&Factor<T>, FactorError> {
-        let factor = self.full.get_or_init(|| self.symbolic.factor(self.values, &self.options));
+        let factor = match self.full.get() {
+            Some(factor) => factor,
+            None => {
+                // Not while others wait for it: a thread that waits for a piece of this work may take up other work,
+                // and that may ask for this factor too.
+                let factor = self.symbolic.factor(self.values, &self.options);
+                self.full.get_or_init(|| factor)
+            }
+        };
         factor.as_ref().map_err(Clone::clone)
     }
 

@@ -9,12 +9,9 @@ use pulp::{Simd, WithSimd};
 /// Columns of a corner: their rows fill whole registers of every instruction set.
 pub(super) const CORNER: usize = 32;
 
-/// Growth-optimal threshold of Bunch and Kaufman, (1 + √17)/8.
+/// Growth-optimal threshold of Bunch and Kaufman, (1 + √17)/8. With 0.1 for the diagonal there are hardly fewer
+/// exchanges, and three of four undamped structures were solved with up to 2.4 times the backward error.
 const ALPHA: f64 = 0.640_388_203_202_208_4;
-
-/// A pivot on the diagonal is taken as it comes where no entry below it is more than ten times larger: the
-/// order is kept where the numbers allow it, and the growth of each step stays below eleven.
-const TAKE: f64 = 0.1;
 
 type Columns<R> = [[R; CORNER]; CORNER];
 
@@ -130,7 +127,7 @@ impl<T: Scalar> WithSimd for Factor<'_, T> {
                 continue;
             }
             let mut pair = false;
-            if diagonal < TAKE * largest {
+            if diagonal < ALPHA * largest {
                 let across = corner.largest(r, at, end).1;
                 if diagonal * across < ALPHA * largest * largest {
                     if corner.get(r, r).size() >= ALPHA * across {
