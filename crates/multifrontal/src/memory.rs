@@ -25,7 +25,7 @@ impl<R: Real> Memory<R> {
         Self::pages(len).unwrap_or_else(|| Self::Small(vec![R::default(); len]))
     }
 
-    /// From a large page on; `None` where that is not worth it, or not to be had.
+    /// From a large page on, and to the end of one; `None` where that is not worth it, or not to be had.
     fn pages(len: usize) -> Option<Self> {
         let bytes = len.checked_mul(size_of::<R>()).filter(|&bytes| bytes >= LARGE)?;
         let pages = MmapMut::map_anon(bytes.checked_next_multiple_of(LARGE)?.checked_add(LARGE)?).ok()?;
@@ -60,6 +60,25 @@ impl<R: Real> DerefMut for Memory<R> {
             Self::Small(values) => values,
             &mut Self::Pages { ref mut pages, from, len } => {
                 cast_slice_mut(&mut pages[from..from + len * size_of::<R>()])
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn all_is_zero_and_can_be_written_from_a_large_page_on() {
+        let whole = LARGE / size_of::<f64>();
+        for len in [0, 1, whole - 1, whole, whole + 1, 3 * whole] {
+            let mut memory = Memory::<f64>::zeros(len);
+            assert!(memory.len() == len && memory.iter().all(|&x| x == 0.0));
+            memory.fill(1.0);
+            assert!(memory.iter().all(|&x| x == 1.0));
+            if let Memory::Pages { pages, from, .. } = &memory {
+                assert!(len >= whole && (pages.as_ptr() as usize + from).is_multiple_of(LARGE));
             }
         }
     }
