@@ -132,8 +132,7 @@ pub(crate) fn factor<T: Scalar>(
         let run =
             Run { symbolic, values, scale: &scale, threshold, threads, stacks, room, idle: Idle::default() };
         let eliminated = run.all();
-        let scale = scale.as_slice();
-        finish(symbolic, scale, eliminated, places, columns)
+        finish(symbolic, &scale, eliminated, places, columns)
     })
 }
 

@@ -68,7 +68,7 @@ fn better(a: Elimination, b: Elimination) -> Elimination {
 }
 
 fn dissected(begun: Begun<'_>) -> Elimination {
-    let graph = begun.graph();
+    let graph = begun.graph;
     Elimination::new(begun.order(), graph)
 }
 

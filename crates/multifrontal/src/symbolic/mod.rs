@@ -52,6 +52,11 @@ impl Shape {
     pub(crate) fn order(&self) -> usize {
         self.pivots + self.rows.len()
     }
+
+    /// Numbers of its own columns, as they are stored.
+    fn panel(&self) -> usize {
+        self.pivots * padded(self.order())
+    }
 }
 
 /// An entry of the matrix: where its value is, and its row in the front.
@@ -144,7 +149,7 @@ impl Symbolic {
         let mut end = 0;
         let place = |front: &Shape| {
             let start = end;
-            end += T::PARTS * front.pivots * padded(front.order());
+            end += T::PARTS * front.panel();
             start..end
         };
         self.fronts.iter().map(place).collect()
@@ -152,7 +157,7 @@ impl Symbolic {
 
     /// Bytes that the factor keeps, if no pivot is delayed.
     pub fn factor_bytes<T: Scalar>(&self) -> usize {
-        let scalars: usize = self.fronts.iter().map(|front| front.pivots * padded(front.order())).sum();
+        let scalars: usize = self.fronts.iter().map(Shape::panel).sum();
         let row = size_of::<[T; 2]>() + size_of::<T::Real>() + size_of::<u32>();
         // At most one for each subtree and for each front above them: what it is above, and what it changes there.
         let part = |root: usize| size_of::<Part>() + size_of::<usize>() + size_of_val(self.rows_of(root));

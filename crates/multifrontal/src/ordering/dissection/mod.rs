@@ -45,7 +45,7 @@ pub(super) const SHARE_FROM: usize = 1000;
 
 /// A dissection after its first cuts.
 pub(super) struct Begun<'a> {
-    graph: &'a Graph,
+    pub(super) graph: &'a Graph,
     /// Vertices that come last.
     dense: Vec<u32>,
     level: Level,
@@ -60,10 +60,6 @@ impl<'a> Begun<'a> {
         let (dense, sparse): (Vec<u32>, Vec<u32>) = vertices.partition(is_dense);
         let level = Level::of(Part::of(graph, sparse).pieces(|_| false), SHARED_CUTS, threads);
         Self { graph, dense, level, threads }
-    }
-
-    pub(super) fn graph(&self) -> &'a Graph {
-        self.graph
     }
 
     /// An order of elimination of the graph's vertices, the same with any number of threads.
