@@ -10,6 +10,10 @@ use std::ops::Range;
 /// The most rows at a time: what belongs to them stays in the first caches while all columns pass.
 const CHUNK: usize = 512;
 
+/// Rows whose products are summed before they are added to what the others gave. An error grows with the root of how
+/// often something was added: one sum over all rows made nine tenths of the backward error of a block of 51,000 unknowns.
+const SUMMED: usize = 32;
+
 /// Right-hand sides that are side by side.
 pub(super) fn lanes<R: Real>() -> usize {
     crate::arch().dispatch(Lanes(PhantomData::<R>))
@@ -203,6 +207,22 @@ fn minus<R: Real, S: Simd, const V: usize>(simd: S, mut x: [R::Vector<S>; V]) ->
     x
 }
 
+/// x + y.
+#[inline(always)]
+fn plus<T: Scalar, S: Simd, const V: usize>(
+    simd: S,
+    mut x: Row<T::Real, S, V>,
+    y: Row<T::Real, S, V>,
+) -> Row<T::Real, S, V> {
+    let one = T::Real::splat(simd, T::Real::ONE);
+    for part in 0..T::PARTS {
+        for v in 0..V {
+            x[part][v] = T::Real::mul_add(simd, one, y[part][v], x[part][v]);
+        }
+    }
+    x
+}
+
 /// sum + l x, the row x with minus its imaginary part.
 #[inline(always)]
 fn term<T: Scalar, S: Simd, const V: usize>(
@@ -324,20 +344,25 @@ fn subtract_dot<T: Scalar, S: Simd, const V: usize, const G: usize>(
         let column =
             |g: usize, part: usize| node.part((some.start + g).min(some.end - 1), part, rows.clone());
         let columns: [[&[T::Real]; 2]; G] = std::array::from_fn(|g| [column(g, 0), column(g, T::PARTS - 1)]);
-        let mut sums = [[[zero; V]; 2]; G];
-        for at in 0..rows.len() {
-            let x = load::<T, S, V>(y, at);
-            let minus_im = minus::<T::Real, S, V>(simd, x[1]);
+        let mut less = [[[zero; V]; 2]; G];
+        for piece in pieces(0..rows.len(), SUMMED) {
+            let mut sums = [[[zero; V]; 2]; G];
+            for at in piece {
+                let x = load::<T, S, V>(y, at);
+                let minus_im = minus::<T::Real, S, V>(simd, x[1]);
+                for g in 0..G {
+                    let l = [columns[g][0][at], columns[g][1][at]];
+                    sums[g] = term::<T, S, V>(simd, l, x, minus_im, sums[g]);
+                }
+            }
             for g in 0..G {
-                let l = [columns[g][0][at], columns[g][1][at]];
-                sums[g] = term::<T, S, V>(simd, l, x, minus_im, sums[g]);
+                less[g] = plus::<T, S, V>(simd, less[g], sums[g]);
             }
         }
-        for (col, sum) in some.zip(sums) {
+        for (col, less) in some.zip(less) {
             let x = load::<T, S, V>(block, col - cols.start);
-            let minus_im = minus::<T::Real, S, V>(simd, sum[1]);
-            let less = [-T::Real::ONE, T::Real::default()];
-            store::<T, S, V>(block, col - cols.start, term::<T, S, V>(simd, less, sum, minus_im, x));
+            let less = less.map(|part| minus::<T::Real, S, V>(simd, part));
+            store::<T, S, V>(block, col - cols.start, plus::<T, S, V>(simd, x, less));
         }
     }
 }
