@@ -25,7 +25,7 @@ pub struct Options {
 
 impl Default for Options {
     fn default() -> Self {
-        Self { threads: 1, threshold: 0.01 }
+        Self { threads: 1, threshold: 0.1 }
     }
 }
 

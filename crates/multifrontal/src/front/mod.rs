@@ -6,6 +6,7 @@
 mod assemble;
 mod corner;
 mod eliminate;
+mod rook;
 mod rows;
 mod stack;
 
@@ -55,8 +56,11 @@ impl<T: Scalar> Front<'_, T> {
         T::from_parts([self.panel[at], self.panel[at + (T::PARTS - 1) * self.stride]])
     }
 
-    /// Exchanges two candidates i < j, rows and columns.
+    /// Exchanges two candidates i ≤ j, rows and columns.
     fn exchange(&mut self, i: usize, j: usize) {
+        if i == j {
+            return;
+        }
         let (step, rows) = (self.step(), self.rows());
         self.ids.swap(i, j);
         for part in (0..T::PARTS).map(|part| part * self.stride) {

@@ -13,13 +13,22 @@ const CHUNK: usize = 192;
 /// Numbers below which another thread costs more than it brings.
 const SHARE_FROM: usize = 15_000;
 
-/// Overwrites the corner and the rows below it by L; how many of its pivots keep every entry of L under
-/// the limit, counted up to the first that does not (a block of two counts as a whole).
+/// What the rows below a corner are held to.
+#[derive(Clone, Copy)]
+pub(super) struct Limits {
+    /// Of an entry of L.
+    pub(super) l: f64,
+    /// Of what one pivot takes from a diagonal entry, |l²d|.
+    pub(super) growth: f64,
+}
+
+/// Overwrites the corner and the rows below it by L; how many of its pivots keep to the limits in every row, counted
+/// up to the first that does not (a block of two counts as a whole).
 pub(super) fn solve_rows<T: Scalar>(
     front: &mut Front<'_, T>,
     at: usize,
     corner: &Corner<T>,
-    limit: f64,
+    limits: Limits,
     tiles: &Idle<Box<Tile<T::Real>>>,
     threads: usize,
 ) -> usize {
@@ -36,12 +45,12 @@ pub(super) fn solve_rows<T: Scalar>(
     let threads = if below * count < SHARE_FROM { 1 } else { threads };
     let chunk = if threads == 1 { below.max(1) } else { CHUNK };
     let mut tasks: Vec<SolveRows<'_, T>> = Vec::new();
-    let limit = T::Real::from_f64(limit);
+    let limits = [limits.l, limits.growth].map(T::Real::from_f64);
     tasks.resize_with(below.div_ceil(chunk), || SolveRows {
         columns: Vec::with_capacity(count * T::PARTS),
         corner,
         inverse: &inverse,
-        limit,
+        limits,
     });
     let (step, stride) = (front.step(), front.stride);
     for column in front.panel[at * step..].chunks_mut(stride).take(count * T::PARTS) {
@@ -68,7 +77,8 @@ struct SolveRows<'a, T: Scalar> {
     columns: Vec<&'a mut [T::Real]>,
     corner: &'a Corner<T>,
     inverse: &'a [[(usize, T); 2]],
-    limit: T::Real,
+    /// Of L, and of growth.
+    limits: [T::Real; 2],
 }
 
 /// L D of the rows of a tile: `w[part][column][row]`.
@@ -85,12 +95,12 @@ struct InTile<'a, 'b, T: Scalar> {
 }
 
 impl<T: Scalar> WithSimd for InTile<'_, '_, T> {
-    /// Whether all entries of each column are under the limit, the sizes of their parts added.
+    /// Whether all entries of each column keep to the limits, the sizes of their parts added.
     type Output = [bool; CORNER];
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> [bool; CORNER] {
-        let Self { rows: SolveRows { mut columns, corner, inverse, limit }, tile: w } = self;
+        let Self { rows: SolveRows { mut columns, corner, inverse, limits }, tile: w } = self;
         let height = tile_rows::<T::Real, S>();
         let rows = columns.first().map_or(0, |column| column.len());
         let mut fine = [true; CORNER];
@@ -105,9 +115,7 @@ impl<T: Scalar> WithSimd for InTile<'_, '_, T> {
             substitute::<T, S>(simd, w, corner);
             for (j, parts) in columns.chunks_exact_mut(T::PARTS).enumerate() {
                 times_inverse::<T>(w, &inverse[j], height, &mut l);
-                // What is no number is not under the limit either.
-                let under = |i: usize| l[0][i].absolute() + l[1][i].absolute() <= limit;
-                fine[j] &= (0..height).fold(true, |fine, i| fine & under(i));
+                fine[j] &= within::<T>(&l, [&w[0][j], &w[1][j]], height, limits);
                 for part in 0..T::PARTS {
                     let column = &mut parts[part][from..from + len];
                     if len == height {
@@ -120,6 +128,24 @@ impl<T: Scalar> WithSimd for InTile<'_, '_, T> {
         }
         fine
     }
+}
+
+/// Whether a column of L, and its products with that of L D, keep to the limits; what is no number does not.
+#[inline(always)]
+fn within<T: Scalar>(
+    l: &[[T::Real; WIDE]; 2],
+    w: [&[T::Real; WIDE]; 2],
+    height: usize,
+    [most, growth]: [T::Real; 2],
+) -> bool {
+    let size = |parts: [&[T::Real; WIDE]; 2], i: usize| {
+        let re = parts[0][i].absolute();
+        if T::PARTS == 2 { re + parts[1][i].absolute() } else { re }
+    };
+    (0..height).fold(true, |fine, i| {
+        let entry = size([&l[0], &l[1]], i);
+        fine & (entry <= most) & (entry * size(w, i) <= growth)
+    })
 }
 
 /// A column of L: one column of L D, or two, by their factors.
