@@ -12,7 +12,7 @@ const CHUNK: usize = 512;
 
 /// Rows whose products are summed before they are added to what the others gave. An error grows with the root of how
 /// often something was added: one sum over all rows made nine tenths of the backward error of a block of 51,000 unknowns.
-const SUMMED: usize = 32;
+const SUMMED: usize = 64;
 
 /// Right-hand sides that are side by side.
 pub(super) fn lanes<R: Real>() -> usize {
