@@ -114,6 +114,23 @@ pub trait Scalar:
     fn solve(factor: &Factor<Self>, rhs: &mut [Self], threads: usize);
 }
 
+/// sum + v x for numbers v and one number x: v and the sum in registers of real and of imaginary parts.
+#[inline(always)]
+pub(crate) fn add_product<T: Scalar, S: Simd>(
+    simd: S,
+    [re, im]: [<T::Real as Real>::Vector<S>; 2],
+    [x, y]: [T::Real; 2],
+    [sum_re, sum_im]: [<T::Real as Real>::Vector<S>; 2],
+) -> [<T::Real as Real>::Vector<S>; 2] {
+    let (minus, x) = (T::Real::splat(simd, -y), T::Real::splat(simd, x));
+    let sum_re = T::Real::mul_add(simd, re, x, sum_re);
+    if T::PARTS == 1 {
+        return [sum_re, sum_im];
+    }
+    let sum_im = T::Real::mul_add(simd, re, T::Real::splat(simd, y), sum_im);
+    [T::Real::mul_add(simd, im, minus, sum_re), T::Real::mul_add(simd, im, x, sum_im)]
+}
+
 macro_rules! compiled_here {
     () => {
         fn factor(

@@ -141,7 +141,7 @@ fn contest<T: Number>(
             contenders.push(Contender { name, solver, threads, rounds: Vec::new(), failure: None });
         }
     }
-    let begun = (Instant::now(), stolen());
+    let begun = ticks();
     for round in 0..options.rounds {
         for contender in &mut contenders {
             let slow = contender.rounds.first().is_some_and(|first| first.factor.wall > PATIENCE);
@@ -162,7 +162,7 @@ fn contest<T: Number>(
         case.pattern.stored() as f64 / 1e6,
         entries / 1e6,
         rating.gflop,
-        100.0 * (stolen() - begun.1) / (processors() * begun.0.elapsed().as_secs_f64())
+        share_taken(begun, ticks())
     );
     let mut table = Vec::new();
     for Contender { name, threads, rounds, failure, .. } in &contenders {
@@ -179,14 +179,16 @@ fn contest<T: Number>(
     Ok(())
 }
 
-/// Seconds that the machine's host took from its processors, all together; NaN where the system does not say.
-fn stolen() -> f64 {
+/// Ticks of all processors so far, and those that the machine's host took of them; zeros where the system does not say.
+fn ticks() -> [f64; 2] {
     let text = std::fs::read_to_string("/proc/stat").unwrap_or_default();
-    let ticks = text.lines().next().and_then(|all| all.split_whitespace().nth(8)?.parse().ok());
-    // USER_HZ, which is 100 wherever Linux shows it.
-    ticks.unwrap_or(f64::NAN) / 100.0
+    // user, nice, system, idle, iowait, irq, softirq, steal; guests are among the users.
+    let of_all = text.lines().next().into_iter().flat_map(str::split_whitespace).skip(1).take(8);
+    let ticks: Vec<f64> = of_all.filter_map(|ticks| ticks.parse().ok()).collect();
+    [ticks.iter().sum(), ticks.get(7).copied().unwrap_or_default()]
 }
 
-fn processors() -> f64 {
-    std::thread::available_parallelism().map_or(1, usize::from) as f64
+/// What the host took in between, in per cent; NaN where the system does not say.
+fn share_taken(begun: [f64; 2], ended: [f64; 2]) -> f64 {
+    100.0 * (ended[1] - begun[1]) / (ended[0] - begun[0])
 }

@@ -3,7 +3,7 @@
 use super::Front;
 use super::corner::{CORNER, Corner, invert_pair};
 use crate::kernel::{FEW, MANY, WIDE, copy, many, tile_rows};
-use crate::scalar::{Real, Scalar};
+use crate::scalar::{Real, Scalar, add_product};
 use crate::threads::{Idle, map};
 use pulp::{Simd, WithSimd};
 
@@ -253,15 +253,8 @@ fn term<T: Scalar, S: Simd, const M: usize>(
     l: T,
     sum: &mut [[<T::Real as Real>::Vector<S>; M]; 2],
 ) {
-    let (minus, l) = ((-l).parts(), l.parts());
-    let (re, im) = (T::Real::splat(simd, minus[0]), T::Real::splat(simd, minus[1]));
-    let minus = T::Real::splat(simd, l[1]);
+    let minus = (-l).parts();
     for k in 0..M {
-        sum[0][k] = T::Real::mul_add(simd, x[0][k], re, sum[0][k]);
-        if T::PARTS == 2 {
-            sum[0][k] = T::Real::mul_add(simd, x[1][k], minus, sum[0][k]);
-            sum[1][k] = T::Real::mul_add(simd, x[0][k], im, sum[1][k]);
-            sum[1][k] = T::Real::mul_add(simd, x[1][k], re, sum[1][k]);
-        }
+        [sum[0][k], sum[1][k]] = add_product::<T, S>(simd, [x[0][k], x[1][k]], minus, [sum[0][k], sum[1][k]]);
     }
 }

@@ -1,7 +1,7 @@
 //! One right-hand side: registers hold rows, at the speed at which L comes from memory.
 
 use super::{BLOCK, Columns, Step, pieces, shares};
-use crate::scalar::{Real, Scalar};
+use crate::scalar::{Real, Scalar, add_product};
 use crate::threads::each;
 use pulp::{Simd, WithSimd};
 use std::ops::Range;
@@ -207,7 +207,7 @@ fn multiply<T: Scalar, S: Simd>(
         let mut sum = [re[at], if T::PARTS == 2 { im[at] } else { re[at] }];
         for (column, &x) in columns.iter().zip(factors) {
             let l = [T::Real::vectors::<S>(column[0]).0[at], T::Real::vectors::<S>(column[1]).0[at]];
-            sum = term::<T, S>(simd, l, x, sum);
+            sum = add_product::<T, S>(simd, l, x, sum);
         }
         re[at] = sum[0];
         if T::PARTS == 2 {
@@ -219,28 +219,11 @@ fn multiply<T: Scalar, S: Simd>(
         for (column, &x) in columns.iter().zip(factors) {
             let [l, m] = [T::Real::vectors::<S>(column[0]).1, T::Real::vectors::<S>(column[1]).1];
             let l = [T::Real::load_part(simd, l), T::Real::load_part(simd, m)];
-            sum = term::<T, S>(simd, l, x, sum);
+            sum = add_product::<T, S>(simd, l, x, sum);
         }
         T::Real::store_part(simd, re_end, sum[0]);
         T::Real::store_part(simd, im_end, sum[1]);
     }
-}
-
-/// sum + l x.
-#[inline(always)]
-fn term<T: Scalar, S: Simd>(
-    simd: S,
-    [l, m]: [<T::Real as Real>::Vector<S>; 2],
-    [x, y]: [T::Real; 2],
-    [re, im]: [<T::Real as Real>::Vector<S>; 2],
-) -> [<T::Real as Real>::Vector<S>; 2] {
-    let (minus, x) = (T::Real::splat(simd, -y), T::Real::splat(simd, x));
-    let re = T::Real::mul_add(simd, l, x, re);
-    if T::PARTS == 1 {
-        return [re, im];
-    }
-    let im = T::Real::mul_add(simd, l, T::Real::splat(simd, y), im);
-    [T::Real::mul_add(simd, m, minus, re), T::Real::mul_add(simd, m, x, im)]
 }
 
 /// Adds Lᵀ x over some rows to the sums of a block's columns, four columns at a time.
