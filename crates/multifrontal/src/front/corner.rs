@@ -1,7 +1,7 @@
 //! The diagonal block of a few candidates, factorised with pivots of one and two.
 
 use super::Front;
-use super::rook::rook;
+use super::rook::{largest, rook};
 use crate::scalar::{Real, Scalar};
 use pulp::{Simd, WithSimd};
 
@@ -70,19 +70,6 @@ impl<T: Scalar> Corner<T> {
         }
     }
 
-    /// The largest entry of a row and column of what is left, and where it is.
-    #[inline(always)]
-    fn largest(&self, of: usize, from: usize, end: usize) -> (usize, f64) {
-        let mut best = (of, 0.0);
-        for k in from..end {
-            let size = if k < of { self.get(of, k) } else { self.get(k, of) }.size();
-            if k != of && size > best.1 {
-                best = (k, size);
-            }
-        }
-        best
-    }
-
     fn exchange(&mut self, i: usize, j: usize) {
         if i == j {
             return;
@@ -114,14 +101,14 @@ impl<T: Scalar> WithSimd for Factor<'_, T> {
         // What is nothing against entries of at most 1, as scaling leaves them.
         let nothing = T::Real::ROUNDOFF * T::Real::ROUNDOFF;
         while at < end {
-            let largest = corner.largest(at, at, end);
-            if corner.get(at, at).size().max(largest.1) <= nothing {
+            let size = |i: usize, j: usize| corner.get(i, j).size();
+            let found = largest(at, at..end, size);
+            if size(at, at).max(found.1) <= nothing {
                 end -= 1;
                 corner.exchange(at, end);
                 continue;
             }
-            let (first, second) =
-                rook(at, largest, |k| corner.get(k, k).size(), |k| corner.largest(k, at, end));
+            let (first, second) = rook(at..end, found, size);
             corner.exchange(at, first);
             if let Some(second) = second {
                 corner.exchange(at + 1, second);

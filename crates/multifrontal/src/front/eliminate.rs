@@ -9,7 +9,7 @@
 
 use super::assemble::schur_strips;
 use super::corner::{CORNER, Corner, invert_pair};
-use super::rook::rook;
+use super::rook::{largest, rook};
 use super::rows::{Limits, Tile, solve_rows};
 use super::{Front, Stack, strips};
 use crate::kernel::{Buffers, Left, Pivots, downdate};
@@ -113,16 +113,20 @@ fn eliminate_block<T: Scalar>(
 ) -> bool {
     let (to, mut at, mut end) = (block.end, block.start, block.end);
     while at < end {
-        let width = if chosen > 0 { chosen } else { CORNER.min(end - at) };
-        if chosen > 0 {
-            with.corner.force(front, at, chosen);
-        } else {
-            with.corner.factor(front, at, width);
-        }
         // It is chosen once: behind columns that failed, nobody looks for a better one.
         let search = chosen == 0 && end == to && growth.is_finite();
         let limits = Limits { l: 1.0 / with.threshold, growth: if search { growth } else { f64::INFINITY } };
-        chosen = 0;
+        let width = match std::mem::take(&mut chosen) {
+            0 => {
+                let width = CORNER.min(end - at);
+                with.corner.factor(front, at, width);
+                width
+            }
+            width => {
+                with.corner.force(front, at, width);
+                width
+            }
+        };
         for &(i, j) in &with.corner.exchanges {
             front.exchange(at + i, at + j);
         }
@@ -163,17 +167,9 @@ fn eliminate_block<T: Scalar>(
 
 /// Brings to the front a pivot that keeps it from growing; its columns.
 fn choose<T: Scalar>(front: &mut Front<'_, T>, at: usize, end: usize) -> usize {
-    let entry = |i: usize, j: usize| front.at(i.max(j), i.min(j)).size();
-    let largest = |of: usize| {
-        let others = (at..end).filter(|&k| k != of).map(|k| (k, entry(k, of)));
-        others.fold((of, 0.0), |best, it| if it.1 > best.1 { it } else { best })
-    };
-    let (first, second) = rook(at, largest(at), |k| entry(k, k), largest);
-    front.exchange(at, first);
-    if let Some(second) = second {
-        front.exchange(at + 1, second);
-    }
-    1 + usize::from(second.is_some())
+    let size = |i: usize, j: usize| front.at(i, j).size();
+    let pivot = rook(at..end, largest(at, at..end, size), size);
+    front.bring(at, pivot)
 }
 
 /// The parts of some columns.
@@ -265,18 +261,14 @@ fn eliminate_anywhere<T: Scalar>(
                 && inverse[1] * p + inverse[2] * q <= limit
         })
     };
-    let (first, second) = match one {
+    let pivot = match one {
         Some(col) => (col, None),
         None => match two() {
             Some((i, j)) => (i, Some(j)),
             None => return false,
         },
     };
-    front.exchange(at, first);
-    if let Some(second) = second {
-        front.exchange(at + 1, second);
-    }
-    let width = 1 + usize::from(second.is_some());
+    let width = front.bring(at, pivot);
     with.corner.force(front, at, width);
     // Already judged; roundoff may take an entry a little over the limit.
     let limits = Limits { l: 2.0 * limit, growth: f64::INFINITY };

@@ -56,6 +56,14 @@ impl<T: Scalar> Front<'_, T> {
         T::from_parts([self.panel[at], self.panel[at + (T::PARTS - 1) * self.stride]])
     }
 
+    /// Brings a pivot, of one column or of two in ascending order, to a place before it; its columns.
+    fn bring(&mut self, at: usize, (first, second): (usize, Option<usize>)) -> usize {
+        self.exchange(at, first);
+        let Some(second) = second else { return 1 };
+        self.exchange(at + 1, second);
+        2
+    }
+
     /// Exchanges two candidates i ≤ j, rows and columns.
     fn exchange(&mut self, i: usize, j: usize) {
         if i == j {

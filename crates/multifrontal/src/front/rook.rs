@@ -2,27 +2,41 @@
 //!
 //! C. Ashcraft, R. G. Grimes, J. G. Lewis, SIAM J. Matrix Anal. Appl. 20 (1998) 513–561.
 
+use std::ops::Range;
+
 /// Growth-optimal threshold of Bunch and Kaufman, (1 + √17)/8.
 const ALPHA: f64 = 0.640_388_203_202_208_4;
 
+/// Where the largest other entry of a row and column is, and its size; `size` is that of an entry on the diagonal or
+/// below it.
+#[inline(always)]
+pub(super) fn largest(of: usize, among: Range<usize>, size: impl Fn(usize, usize) -> f64) -> (usize, f64) {
+    let mut best = (of, 0.0);
+    for k in among {
+        let size = size(k.max(of), k.min(of));
+        if k != of && size > best.1 {
+            best = (k, size);
+        }
+    }
+    best
+}
+
 /// A column, or two in ascending order, as the next pivot: no entry of a real L becomes larger than 1/(1 − α) = 2.8.
 ///
-/// `diagonal` gives the size of a diagonal entry, `largest` where the largest other entry of a row and column is, and
-/// its size: `found` in the first.
+/// `found` is what [`largest`] gives for the first.
 #[inline(always)]
 pub(super) fn rook(
-    first: usize,
+    among: Range<usize>,
     found: (usize, f64),
-    diagonal: impl Fn(usize) -> f64,
-    largest: impl Fn(usize) -> (usize, f64),
+    size: impl Fn(usize, usize) -> f64 + Copy,
 ) -> (usize, Option<usize>) {
-    let (mut at, (mut next, mut most)) = (first, found);
-    if next == at || diagonal(at) >= ALPHA * most {
+    let (mut at, (mut next, mut most)) = (among.start, found);
+    if next == at || size(at, at) >= ALPHA * most {
         return (at, None);
     }
     loop {
-        let (after, across) = largest(next);
-        if diagonal(next) >= ALPHA * across {
+        let (after, across) = largest(next, among.clone(), size);
+        if size(next, next) >= ALPHA * across {
             return (next, None);
         }
         // The largest of its row and of its column; `across` grows from turn to turn, so there is an end.
@@ -35,16 +49,13 @@ pub(super) fn rook(
 
 #[cfg(test)]
 mod tests {
-    use super::{ALPHA, rook};
+    use super::{ALPHA, largest, rook};
     use proptest::prelude::*;
 
     /// What a rook finds in a symmetric matrix, row after row.
     fn chosen(matrix: &[f64], n: usize) -> (usize, Option<usize>) {
-        let largest = |of: usize| {
-            let others = (0..n).filter(|&k| k != of).map(|k| (k, matrix[of * n + k].abs()));
-            others.fold((of, 0.0), |best, it| if it.1 > best.1 { it } else { best })
-        };
-        rook(0, largest(0), |k| matrix[k * n + k].abs(), largest)
+        let size = |i: usize, j: usize| matrix[i * n + j].abs();
+        rook(0..n, largest(0, 0..n, size), size)
     }
 
     #[test]
