@@ -1,18 +1,14 @@
-//! The numeric factorisation: front after front, subtrees at the same time.
+//! The numeric factorisation from values to a factor; what is between is [`crate::run`]'s.
 
-use crate::front::{
-    Child, Contribution, Elimination, Front, Stack, add_children, each_strip, eliminate, schur_len,
-    schur_strips, strips,
-};
-use crate::kernel::Strip;
 use crate::memory::Memory;
 use crate::part::Part;
+use crate::run::{Eliminated, Run};
 use crate::scalar::Scalar;
-use crate::symbolic::{ROOT, Symbolic};
-use crate::threads::{Idle, awake, map, with};
+use crate::symbolic::Symbolic;
+use crate::threads::with;
+use crate::triangle::Triangle;
 use crate::{FactorError, scaling};
 use std::ops::Range;
-use std::sync::{Mutex, OnceLock, PoisonError};
 
 /// How a matrix is factorised.
 #[derive(Debug, Clone, PartialEq)]
@@ -70,8 +66,6 @@ pub(crate) struct Node<T: Scalar> {
     columns: Range<usize>,
     /// Its columns of L where delayed candidates made them too many for that place; else empty.
     more: Vec<T::Real>,
-    /// From one part of a column to the next.
-    pub(crate) stride: usize,
 }
 
 impl<T: Scalar> Node<T> {
@@ -85,17 +79,8 @@ impl<T: Scalar> Node<T> {
 
     /// How many numbers its columns of L are.
     pub(crate) fn numbers(&self) -> usize {
-        T::PARTS * self.stride * self.pivots()
+        Triangle::new(self.order()).start::<T>(self.pivots())
     }
-}
-
-/// What an elimination gives: positions are those of the analysis.
-struct Eliminated<T: Scalar> {
-    pivots: Vec<u32>,
-    d: Vec<[T; 2]>,
-    below: Vec<u32>,
-    more: Vec<T::Real>,
-    stride: usize,
 }
 
 impl Symbolic {
@@ -124,226 +109,12 @@ pub(crate) fn factor<T: Scalar>(
     with(threads, || {
         let scale = scaling::scaling(&symbolic.pattern, values, threads)?;
         let scale: Vec<T::Real> = symbolic.order.iter().map(|&row| scale[row as usize]).collect();
-        let threshold = options.threshold;
-        let stacks = symbolic.stacks(threads);
         let places = symbolic.places::<T>();
         let mut columns = Memory::zeros(places.last().map_or(0, |place| place.end));
-        let room = room(&mut columns, &places);
-        let run =
-            Run { symbolic, values, scale: &scale, threshold, threads, stacks, room, idle: Idle::default() };
+        let run = Run::new(symbolic, values, &scale, options.threshold, threads, (&mut columns, &places));
         let eliminated = run.all();
         finish(symbolic, &scale, eliminated, places, columns)
     })
-}
-
-/// One factorisation.
-struct Run<'a, T: Scalar> {
-    symbolic: &'a Symbolic,
-    values: &'a [T],
-    scale: &'a [T::Real],
-    threshold: f64,
-    threads: usize,
-    /// Numbers that are kept at even and at odd depths in whatever one thread does.
-    stacks: [usize; 2],
-    /// For the columns of each front.
-    room: Vec<Mutex<&'a mut [T::Real]>>,
-    idle: Idle<Elimination<T>>,
-}
-
-/// What each front gave, as it is done.
-type Done<T> = [OnceLock<Eliminated<T>>];
-
-/// What threads that work on the same tree need.
-struct Shared<'a, T: Scalar> {
-    /// Multiplications of each front and all below it.
-    work: Vec<f64>,
-    done: &'a Done<T>,
-}
-
-/// A front with what it left to its parent.
-type Left<T> = (usize, Contribution<<T as Scalar>::Real>);
-
-impl<T: Scalar> Run<'_, T> {
-    /// All fronts.
-    fn all(&self) -> Vec<Eliminated<T>> {
-        let fronts = &self.symbolic.fronts;
-        let done: Vec<_> = fronts.iter().map(|_| OnceLock::new()).collect();
-        if self.threads == 1 {
-            self.run(0..fronts.len(), &done);
-        } else {
-            let roots = (0..fronts.len()).filter(|&k| fronts[k].parent == ROOT).collect();
-            self.branches(roots, &Shared { work: self.symbolic.work(), done: &done });
-        }
-        done.into_iter().filter_map(OnceLock::into_inner).collect()
-    }
-
-    /// Branches at the same time, the one with most work first; what they leave, in their order.
-    fn branches(&self, mut roots: Vec<usize>, shared: &Shared<'_, T>) -> Vec<Left<T>> {
-        roots.sort_by(|&a, &b| shared.work[b].total_cmp(&shared.work[a]));
-        let left = map(self.threads, roots, |root| Some((root, self.tree(root, shared)?)));
-        let mut left: Vec<_> = left.into_iter().flatten().collect();
-        left.sort_unstable_by_key(|(root, _)| *root);
-        left
-    }
-
-    /// The fronts under one and itself, branches at the same time; what it leaves.
-    fn tree(&self, root: usize, shared: &Shared<'_, T>) -> Option<Contribution<T::Real>> {
-        let (symbolic, done) = (self.symbolic, shared.done);
-        // Where there is one child only, it goes on in a loop: a chain may be as long as the matrix.
-        let mut chain = vec![root];
-        let mut below = loop {
-            let k = *chain.last().unwrap_or(&root);
-            if let Some(range) = symbolic.subtree_of(k) {
-                chain.pop();
-                break self.run(range, done).map(|left| (k, left)).into_iter().collect();
-            }
-            match symbolic.children_of(k) {
-                [only] => chain.push(*only as usize),
-                several => {
-                    break self.branches(several.iter().map(|&child| child as usize).collect(), shared);
-                }
-            }
-        };
-        for &k in chain.iter().rev() {
-            let mut stacks = [Stack::default(), Stack::default()];
-            let front = |with: &mut _| self.front(k, below, &mut stacks, with, done);
-            let left = awake(self.threads, || self.with_idle(self.threads, front));
-            let stack = &mut stacks[symbolic.parity(k)];
-            below = left.map(|left| (k, left.taken_from(stack))).into_iter().collect();
-        }
-        below.pop().map(|(_, left)| left)
-    }
-
-    /// Works with the buffers of an elimination that no thread has at the moment.
-    fn with_idle<O>(&self, threads: usize, work: impl FnOnce(&mut Elimination<T>) -> O) -> O {
-        self.idle.lend(
-            || Elimination::new(self.threshold),
-            |with| {
-                with.threads = threads;
-                work(with)
-            },
-        )
-    }
-
-    /// The fronts of a subtree one after the other; what its root leaves.
-    fn run(&self, range: Range<usize>, done: &Done<T>) -> Option<Contribution<T::Real>> {
-        let symbolic = self.symbolic;
-        let mut pending: Vec<Option<Contribution<T::Real>>> = range.clone().map(|_| None).collect();
-        self.with_idle(1, |with| {
-            let mut stacks = std::mem::take(&mut with.stacks);
-            for (stack, len) in stacks.iter_mut().zip(self.stacks) {
-                stack.clear(T::PARTS * len);
-            }
-            let root = range.end.checked_sub(1)?;
-            let mut front = |k: usize, stacks: &mut _| {
-                let children = symbolic.children_of(k).iter().map(|&child| child as usize);
-                let children =
-                    children.filter_map(|child| Some((child, pending[child - range.start].take()?)));
-                let left = self.front(k, children.collect(), stacks, with, done);
-                pending[k - range.start] = left;
-            };
-            (range.start..root).for_each(|k| front(k, &mut stacks));
-            // What the root leaves goes elsewhere: it has a stack of its own.
-            let parity = symbolic.parity(root);
-            let own = std::mem::take(&mut stacks[parity]);
-            front(root, &mut stacks);
-            let left = pending.pop()?.map(|left| left.taken_from(&mut stacks[parity]));
-            stacks[parity] = own;
-            with.stacks = stacks;
-            left
-        })
-    }
-
-    /// Assembles one front from the matrix and its children, and eliminates its columns; what it leaves.
-    fn front(
-        &self,
-        k: usize,
-        children: Vec<Left<T>>,
-        stacks: &mut [Stack<T::Real>; 2],
-        with: &mut Elimination<T>,
-        done: &Done<T>,
-    ) -> Option<Contribution<T::Real>> {
-        let symbolic = self.symbolic;
-        let shape = &symbolic.fronts[k];
-        let mut ids: Vec<u32> = children.iter().flat_map(|(_, child)| &child.delayed).copied().collect();
-        let delayed = ids.len();
-        ids.extend(shape.own().map(|position| position as u32));
-        ids.extend(symbolic.rows_of(k));
-        let (candidates, others) = (delayed + shape.pivots, shape.rows.len());
-        let stride = padded(ids.len());
-        let [even, odd] = stacks;
-        let (own, below) = if symbolic.parity(k) == 0 { (even, odd) } else { (odd, even) };
-        let mut schur = own.push(schur_len::<T>(others));
-        let target = own.values_of_mut(&mut schur);
-        let mut base = 0;
-        let given = children.iter().map(|(child, left)| {
-            let relative = &symbolic.relative[symbolic.fronts[*child].rows.clone()];
-            let child = Child::new(left, below.values_of(&left.schur), base, delayed, relative);
-            base += left.delayed.len();
-            child
-        });
-        let given: Vec<_> = given.collect();
-
-        let numbers = T::PARTS * stride * candidates;
-        let room = std::mem::take(&mut *self.room[k].lock().unwrap_or_else(PoisonError::into_inner));
-        let mut more = vec![T::Real::default(); if delayed > 0 { numbers } else { 0 }];
-        let values = if delayed > 0 { more.as_mut_slice() } else { room };
-        let threads = with.threads;
-        each_strip(strips(values, stride, 0, candidates, threads), numbers, threads, |mut strip| {
-            self.add_entries(&mut strip, k, &ids, delayed);
-            let from = strip.first;
-            add_children(&mut strip, from, &given);
-        });
-        let mut front = Front { ids, candidates, panel: values, stride };
-        let d = eliminate(&mut front, target, with);
-        let numbers = target.len();
-        each_strip(schur_strips::<T>(target, others, false), numbers, threads, |mut strip| {
-            let from = candidates + strip.first;
-            add_children(&mut strip, from, &given);
-        });
-        children.iter().for_each(|(_, left)| below.pop(&left.schur));
-
-        let (pivots, rest) = front.ids.split_at(d.len());
-        let left = (!rest.is_empty()).then(|| Contribution::new(&front, d.len(), schur));
-        let (pivots, below) = (pivots.to_vec(), rest.to_vec());
-        if d.len() < candidates {
-            more.truncate(T::PARTS * stride * d.len());
-            more.shrink_to_fit();
-        }
-        // Every front comes once.
-        let _ = done[k].set(Eliminated { pivots, below, d, more, stride });
-        left
-    }
-
-    /// The entries of the matrix in a strip of the front's columns, scaled; its rows are at these positions.
-    fn add_entries(&self, strip: &mut Strip<'_, T>, k: usize, ids: &[u32], delayed: usize) {
-        let symbolic = self.symbolic;
-        for col in strip.first.max(delayed)..strip.first + strip.width {
-            let position = symbolic.fronts[k].first + col - delayed;
-            let start = (col - strip.first) * T::PARTS * strip.stride;
-            for entry in &symbolic.entries[symbolic.entry_start[position]..symbolic.entry_start[position + 1]]
-            {
-                let row = delayed + entry.row as usize;
-                let scale = self.scale[position] * self.scale[ids[row] as usize];
-                let parts = self.values[entry.value as usize].scale(scale).parts();
-                for part in 0..T::PARTS {
-                    strip.values[start + part * strip.stride + row - strip.first] += parts[part];
-                }
-            }
-        }
-    }
-}
-
-/// For the columns of each front its place.
-fn room<'a, R>(columns: &'a mut [R], places: &[Range<usize>]) -> Vec<Mutex<&'a mut [R]>> {
-    let mut rest = columns;
-    let mut room = Vec::with_capacity(places.len());
-    for place in places {
-        let (here, behind) = std::mem::take(&mut rest).split_at_mut(place.len());
-        rest = behind;
-        room.push(Mutex::new(here));
-    }
-    room
 }
 
 /// Numbers the pivots in the order in which they came to be.
@@ -376,7 +147,7 @@ fn finish<T: Scalar>(
         let rows = front.below.iter().map(|&position| new[position as usize]).collect();
         firsts.push(first);
         first += front.pivots.len();
-        nodes.push(Node { first: 0, inverse, rows, columns, more: front.more, stride: front.stride });
+        nodes.push(Node { first: 0, inverse, rows, columns, more: front.more });
     }
     inertia.positive = dim - inertia.negative;
     let (parts, roots) = Part::of(symbolic, &firsts, &mut nodes);
@@ -422,11 +193,6 @@ impl<T: Scalar> Factor<T> {
             + self.values.len() * size_of::<T::Real>()
             + self.dim() * (size_of::<u32>() + size_of::<T::Real>())
     }
-}
-
-/// A stride at which the columns of a tile do not fall onto the same lines of a cache.
-pub(crate) fn padded(rows: usize) -> usize {
-    if rows > 64 && rows.is_multiple_of(32) { rows + 4 } else { rows }
 }
 
 /// D⁻¹, counting on the way.

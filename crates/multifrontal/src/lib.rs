@@ -32,12 +32,14 @@ mod kernel;
 mod memory;
 mod ordering;
 mod part;
+mod run;
 mod scalar;
 mod scaling;
 mod solve;
 mod solver;
 mod symbolic;
 mod threads;
+mod triangle;
 
 pub use error::FactorError;
 pub use factor::{Factor, Inertia, Options};

@@ -65,9 +65,68 @@ impl<R: Real> DerefMut for Memory<R> {
     }
 }
 
+/// Bytes that a processor fetches together, and of its widest registers.
+pub(crate) const LINE: usize = 64;
+
+/// Numbers from the beginning of a line on: a register as wide as a line is then in one, not in two.
+#[derive(Debug)]
+pub(crate) struct Lines<R> {
+    values: Vec<R>,
+    from: usize,
+    len: usize,
+}
+
+impl<R> Default for Lines<R> {
+    fn default() -> Self {
+        Self { values: Vec::new(), from: 0, len: 0 }
+    }
+}
+
+impl<R: Real> Lines<R> {
+    pub(crate) fn zeros(len: usize) -> Self {
+        let spare = LINE / size_of::<R>();
+        let values = vec![R::default(); len + spare];
+        let from = values.as_ptr().align_offset(LINE).min(spare);
+        Self { values, from, len }
+    }
+
+    /// So many numbers, whatever they are.
+    pub(crate) fn some(&mut self, len: usize) -> &mut [R] {
+        if self.len < len {
+            *self = Self::zeros(len);
+        }
+        &mut self[..len]
+    }
+}
+
+impl<R> Deref for Lines<R> {
+    type Target = [R];
+
+    fn deref(&self) -> &[R] {
+        &self.values[self.from..self.from + self.len]
+    }
+}
+
+impl<R> DerefMut for Lines<R> {
+    fn deref_mut(&mut self) -> &mut [R] {
+        &mut self.values[self.from..self.from + self.len]
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn lines_begin_at_a_line_and_grow() {
+        let mut lines = Lines::<f32>::default();
+        for len in [0, 1, 100, 50, 1000] {
+            let some = lines.some(len);
+            some.fill(1.0);
+            assert!(some.len() == len && (len == 0 || (some.as_ptr() as usize).is_multiple_of(LINE)));
+        }
+        assert!(Lines::<f64>::zeros(5).iter().all(|&x| x == 0.0));
+    }
 
     #[test]
     fn all_is_zero_and_can_be_written_from_a_large_page_on() {

@@ -1,24 +1,27 @@
 //! What children leave is added to the front of their parent.
 
 use super::{Front, Kept, Stack};
-use crate::kernel::{STRIP, Strip};
+use crate::kernel::Strip;
 use crate::scalar::{Real, Scalar};
 use crate::threads::each;
+use crate::triangle::Triangle;
 use pulp::{Simd, WithSimd};
 
 /// Numbers of a front below which another thread costs more than it brings.
 const SHARE_FROM: usize = 50_000;
 
 /// What the elimination of a front leaves to its parent: the columns of the candidates that could not be eliminated,
-/// then those of its other rows.
+/// and those of its other rows.
 #[derive(Debug)]
 pub(crate) struct Contribution<R> {
     /// Positions of the candidates that could not be eliminated.
     pub(crate) delayed: Vec<u32>,
     /// The parts of their columns from the diagonal downwards, one after the other.
     columns: Vec<R>,
-    /// The Schur complement of the other rows, in strips of columns from their diagonals downwards.
+    /// The Schur complement of the other rows, but for the columns that the parent has already.
     pub(crate) schur: Kept<R>,
+    /// How many these are.
+    moved: usize,
 }
 
 impl<R: Real> Contribution<R> {
@@ -26,24 +29,52 @@ impl<R: Real> Contribution<R> {
         let delayed = eliminated..front.candidates;
         let parts = delayed.clone().flat_map(|col| (0..T::PARTS).map(move |part| (col, part)));
         let columns = parts.flat_map(|(col, part)| front.part(col, part, col).iter().copied()).collect();
-        Self { delayed: front.ids[delayed].to_vec(), columns, schur }
+        Self { delayed: front.ids[delayed].to_vec(), columns, schur, moved: 0 }
     }
 
     /// The same without its stack.
     pub(crate) fn taken_from(self, stack: &mut Stack<R>) -> Self {
         Self { schur: stack.take(self.schur), ..self }
     }
+
+    /// Forgets the columns of the parent's candidates, which have been added there; rows have these places in its front.
+    pub(crate) fn give_back<T: Scalar<Real = R>>(
+        &mut self,
+        stack: &mut Stack<R>,
+        relative: &[u32],
+        candidates: usize,
+    ) {
+        let moved = relative.partition_point(|&place| (place as usize) < candidates);
+        let start = |col| Triangle::new(relative.len()).start::<T>(col);
+        stack.give_back(&mut self.schur, start(moved) - start(self.moved));
+        self.moved = moved;
+    }
+
+    /// Adds the delayed columns to the panel of the parent, where they are from `base` on and `delayed` with all others
+    /// before its own.
+    pub(crate) fn add_delayed<T: Scalar<Real = R>>(
+        &self,
+        front: &mut Front<'_, T>,
+        base: usize,
+        delayed: usize,
+        relative: &[u32],
+    ) {
+        let own = self.delayed.len();
+        let mut columns = self.columns.iter();
+        for (col, part) in (0..own).flat_map(|col| (0..T::PARTS).map(move |part| (col, part))) {
+            let column = front.part_mut(base + col, part, base + col);
+            let rows =
+                (0..own - col).chain(relative.iter().map(|&place| delayed + place as usize - base - col));
+            rows.zip(&mut columns).for_each(|(row, &value)| column[row] += value);
+        }
+    }
 }
 
-/// What a child left, and where it goes.
+/// What a child left of its other rows, and where it goes.
 pub(crate) struct Child<'a, R> {
-    left: &'a Contribution<R>,
     schur: &'a [R],
-    /// Where its delayed candidates begin in its parent's front.
-    base: usize,
-    /// How many of the parent's candidates are delayed ones.
-    delayed: usize,
-    /// Places of its other rows behind these.
+    moved: usize,
+    /// Places of its rows in its parent's front, were none of its candidates delayed ones.
     relative: &'a [u32],
     runs: Vec<Run>,
 }
@@ -57,54 +88,28 @@ struct Run {
 }
 
 impl<'a, R: Real> Child<'a, R> {
-    pub(crate) fn new(
-        left: &'a Contribution<R>,
-        schur: &'a [R],
-        base: usize,
-        delayed: usize,
-        relative: &'a [u32],
-    ) -> Self {
-        let mut child = Self { left, schur, base, delayed, relative, runs: Vec::new() };
-        for from in 0..child.own() + relative.len() {
-            let to = child.place(from);
-            match child.runs.last_mut() {
+    pub(crate) fn new(left: &'a Contribution<R>, stack: &'a Stack<R>, relative: &'a [u32]) -> Self {
+        let mut runs: Vec<Run> = Vec::new();
+        for (from, &to) in relative.iter().enumerate() {
+            let to = to as usize;
+            match runs.last_mut() {
                 Some(run) if run.to + run.len == to => run.len += 1,
-                _ => child.runs.push(Run { from, to, len: 1 }),
+                _ => runs.push(Run { from, to, len: 1 }),
             }
         }
-        child
-    }
-
-    fn own(&self) -> usize {
-        self.left.delayed.len()
-    }
-
-    /// Where a row is in the parent's front; ascending.
-    fn place(&self, row: usize) -> usize {
-        match row.checked_sub(self.own()) {
-            Some(other) => self.delayed + self.relative[other] as usize,
-            None => self.base + row,
-        }
+        Self { schur: stack.values_of(&left.schur), moved: left.moved, relative, runs }
     }
 
     /// The first row that is at a place or behind it.
     fn first_at(&self, place: usize) -> usize {
-        let own = place.saturating_sub(self.base).min(self.own());
-        let before = |&other: &u32| self.delayed + (other as usize) < place;
-        if own < self.own() { own } else { own + self.relative.partition_point(before) }
+        self.relative.partition_point(|&other| (other as usize) < place)
     }
 
     /// One part of a column from its diagonal downwards.
     fn column<T: Scalar<Real = R>>(&self, col: usize, part: usize) -> &[R] {
-        let (own, others) = (self.own(), self.relative.len());
-        match col.checked_sub(own) {
-            Some(other) => column_part::<T>(self.schur, others, other, part),
-            None => {
-                let before = col * (own + others) - col * col.saturating_sub(1) / 2;
-                let len = own + others - col;
-                &self.left.columns[T::PARTS * before + part * len..][..len]
-            }
-        }
+        let triangle = Triangle::new(self.relative.len());
+        let (gone, place) = (triangle.start::<T>(self.moved), triangle.part::<T>(col, part, col));
+        &self.schur[place.start - gone..place.end - gone]
     }
 }
 
@@ -133,7 +138,7 @@ impl<T: Scalar> WithSimd for AddChildren<'_, '_, T> {
             for col in child.first_at(from)..child.first_at(from + strip.width) {
                 let runs = &child.runs[child.runs.partition_point(|run| run.from + run.len <= col)..];
                 for part in 0..T::PARTS {
-                    let start = ((child.place(col) - from) * T::PARTS + part) * strip.stride;
+                    let start = ((child.relative[col] as usize - from) * T::PARTS + part) * strip.stride;
                     add_runs(&mut strip.values[start..], from, child.column::<T>(col, part), col, runs);
                 }
             }
@@ -164,40 +169,4 @@ fn add_runs<R: Real>(column: &mut [R], start: usize, source: &[R], first: usize,
 #[inline(always)]
 fn add<R: Real>(to: &mut [R], from: &[R]) {
     to.iter_mut().zip(from).for_each(|(to, from)| *to += *from);
-}
-
-/// Real numbers in the strips of a triangle of this order.
-pub(crate) fn schur_len<T: Scalar>(order: usize) -> usize {
-    let whole = order / STRIP;
-    let last = order - whole * STRIP;
-    column_start::<T>(order, whole * STRIP) + T::PARTS * last * last
-}
-
-/// Where a column of a triangle begins in its strips: at the row at which its strip begins.
-fn column_start<T: Scalar>(order: usize, col: usize) -> usize {
-    let strip = col / STRIP;
-    let before = strip * STRIP * order - STRIP * STRIP * (strip * strip.saturating_sub(1) / 2);
-    T::PARTS * (before + (col - strip * STRIP) * (order - strip * STRIP))
-}
-
-/// One part of a column from its diagonal downwards.
-fn column_part<T: Scalar>(values: &[T::Real], order: usize, col: usize, part: usize) -> &[T::Real] {
-    let strip = col / STRIP * STRIP;
-    let start = column_start::<T>(order, col) + part * (order - strip);
-    &values[start + col - strip..start + order - strip]
-}
-
-/// The strips of a triangle of this order, to be written for the first time or changed.
-pub(crate) fn schur_strips<T: Scalar>(
-    values: &mut [T::Real],
-    order: usize,
-    fresh: bool,
-) -> impl Iterator<Item = Strip<'_, T>> {
-    let mut rest = values;
-    (0..order).step_by(STRIP).map(move |first| {
-        let (width, stride) = (STRIP.min(order - first), order - first);
-        let (values, behind) = std::mem::take(&mut rest).split_at_mut(T::PARTS * width * stride);
-        rest = behind;
-        Strip { first, width, stride, fresh, values }
-    })
 }

@@ -31,7 +31,7 @@ impl<T: Scalar> Corner<T> {
         self.clear(width);
         for j in 0..width {
             for part in 0..T::PARTS {
-                let column = &front.part(at + j, part, at)[j..width];
+                let column = &front.part(at + j, part, at + j)[..width - j];
                 self.parts[part][j][j..width].copy_from_slice(column);
             }
         }

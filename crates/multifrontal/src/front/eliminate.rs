@@ -7,14 +7,14 @@
 //!
 //! I. S. Duff, J. Hogg, F. Lopez, SIAM J. Sci. Comput. 42 (2020) C23–C42.
 
-use super::assemble::schur_strips;
 use super::corner::{CORNER, Corner, invert_pair};
 use super::rook::{largest, rook};
 use super::rows::{Limits, Tile, solve_rows};
-use super::{Front, Stack, strips};
-use crate::kernel::{Buffers, Left, Pivots, downdate};
+use super::{Front, Stack, strip_width};
+use crate::kernel::{Buffers, Left, Pivots, STRIP, downdate};
 use crate::scalar::{Real, Scalar};
 use crate::threads::Idle;
+use crate::triangle::Triangle;
 use std::ops::Range;
 
 /// Columns whose elimination is carried to the rest of the front in one product.
@@ -189,12 +189,12 @@ fn update<T: Scalar>(
     if at == done || done == to {
         return;
     }
-    let (rows, stride, step) = (front.rows() - done, front.stride, front.step());
-    let (eliminated, rest) = front.panel.split_at_mut(done * step);
-    let pivots = Pivots { columns: &eliminated[at * step + done..], stride, rows, d };
+    let triangle = front.triangle;
+    let (values, rest) = front.panel.split_at_mut(triangle.start::<T>(done));
+    let pivots = Pivots { values, triangle, col: at, row: done, d };
     with.left.pack(&pivots, with.threads);
-    let strips = strips(rest, stride, done, to, with.threads).collect();
-    downdate(strips, &pivots, &with.left, &with.idle, with.threads);
+    let strips = triangle.strips(rest, done..to, strip_width(to - done, with.threads), false);
+    downdate(strips.collect(), &pivots, &with.left, &with.idle, with.threads);
 }
 
 /// Carries the pivots from `from` on to all that is right of candidate `to`.
@@ -206,17 +206,19 @@ fn carry<T: Scalar>(
     d: &[[T; 2]],
     with: &mut Elimination<T>,
 ) {
-    let (rows, stride, step) = (front.rows() - to, front.stride, front.step());
-    if from == d.len() || rows == 0 {
+    if from == d.len() || to == front.rows() {
         return;
     }
-    let candidates = front.candidates;
-    let (eliminated, rest) = front.panel.split_at_mut(to * step);
-    let pivots = Pivots { columns: &eliminated[from * step + to..], stride, rows, d: &d[from..] };
+    let (triangle, candidates) = (front.triangle, front.candidates);
+    let others = front.rows() - candidates;
+    let (values, rest) = front.panel.split_at_mut(triangle.start::<T>(to));
+    let pivots = Pivots { values, triangle, col: from, row: to, d: &d[from..] };
     with.left.pack(&pivots, with.threads);
-    let mut all: Vec<_> = strips(rest, stride, to, candidates, with.threads).collect();
+    let width = strip_width(candidates - to, with.threads);
+    let mut all: Vec<_> = triangle.strips(rest, to..candidates, width, false).collect();
     // The first pivots of all find nothing there.
-    all.extend(schur_strips(schur, front.ids.len() - candidates, from == 0).map(|mut strip| {
+    let fresh = from == 0;
+    all.extend(Triangle::new(others).strips(schur, 0..others, STRIP, fresh).map(|mut strip| {
         strip.first += candidates - to;
         strip
     }));
@@ -285,14 +287,18 @@ mod tests {
     use super::*;
 
     /// I − (1 − δ)uuᵀ with the first rows, so that they are near a resonance of their own, and others that hold them.
-    fn held(n: usize, part: usize, delta: f64) -> Vec<f64> {
+    fn held(n: usize, part: usize, delta: f64, triangle: Triangle) -> Vec<f64> {
         let u = (1.0 / part as f64).sqrt();
         let entry = |i: usize, j: usize| match (i < part, j < part) {
             (true, true) => f64::from(i == j) - (1.0 - delta) * u * u,
             (false, false) => f64::from(i == j),
             _ => 0.5 * u * ((i * j) as f64).cos(),
         };
-        (0..n * n).map(|k| entry(k % n, k / n)).collect()
+        let mut panel = vec![0.0; triangle.start::<f64>(n)];
+        for (row, col) in (0..n).flat_map(|col| (col..n).map(move |row| (row, col))) {
+            panel[triangle.place::<f64>(row, col, 0)] = entry(row, col);
+        }
+        panel
     }
 
     /// The largest of |L||D||Lᵀ|, which is on its diagonal.
@@ -315,9 +321,10 @@ mod tests {
     fn a_part_near_its_own_resonance_does_not_make_the_front_grow() {
         let (n, part) = (400, 170);
         for delta in [1e-2, 1e-3, 1e-4, 1e-6] {
-            let mut panel = held(n, part, delta);
+            let triangle = Triangle::new(n);
+            let mut panel = held(n, part, delta, triangle);
             let mut front =
-                Front { ids: (0..n as u32).collect(), candidates: n, panel: &mut panel, stride: n };
+                Front { ids: (0..n as u32).collect(), candidates: n, panel: &mut panel, triangle };
             // A threshold that refuses none of these pivots.
             let d = eliminate(&mut front, &mut [], &mut Elimination::new(0.01));
             assert_eq!(d.len(), n);

@@ -36,7 +36,7 @@ pub(super) fn solve_rows<T: Scalar>(
     for (j, i) in (0..count).flat_map(|j| (j + 1..count).map(move |i| (j, i))) {
         let parts = corner.get(i, j).parts();
         for part in 0..T::PARTS {
-            front.part_mut(at + j, part, at)[i] = parts[part];
+            front.part_mut(at + j, part, at + i)[0] = parts[part];
         }
     }
     // D⁻¹ by columns: what takes part, and with which factors.
@@ -52,9 +52,9 @@ pub(super) fn solve_rows<T: Scalar>(
         inverse: &inverse,
         limits,
     });
-    let (step, stride) = (front.step(), front.stride);
-    for column in front.panel[at * step..].chunks_mut(stride).take(count * T::PARTS) {
-        let chunks = column[at + count..rows].chunks_mut(chunk);
+    let (triangle, start) = (front.triangle, front.triangle.start::<T>(at));
+    for column in triangle.parts_mut::<T>(&mut front.panel[start..], at..at + count, at + count) {
+        let chunks = column.chunks_mut(chunk);
         tasks.iter_mut().zip(chunks).for_each(|(task, chunk)| task.columns.push(chunk));
     }
     let fine = map(threads, tasks, |task| {

@@ -9,6 +9,7 @@ mod tile;
 pub(crate) use pack::{Left, Pivots};
 pub(crate) use tile::{FEW, MANY, WIDE, copy, many, tile_rows};
 
+use crate::memory::Lines;
 use crate::scalar::{Real, Scalar};
 use crate::threads::{Idle, each};
 use pulp::{Simd, WithSimd};
@@ -52,20 +53,17 @@ pub(crate) fn downdate<T: Scalar>(
 }
 
 /// What one thread needs for a strip.
-#[derive(Default)]
 pub(crate) struct Buffers<R> {
     /// L D of a strip's columns, packed.
-    right: Vec<R>,
+    right: Lines<R>,
     /// Sums of the real products, column after column, a plane for each.
-    products: Vec<R>,
+    products: Lines<R>,
 }
 
-/// The beginning of a buffer that has so many numbers at least; nothing is cleared that is written anyway.
-fn at_least<R: Real>(buffer: &mut Vec<R>, len: usize) -> &mut [R] {
-    if buffer.len() < len {
-        buffer.resize(len, R::default());
+impl<R> Default for Buffers<R> {
+    fn default() -> Self {
+        Self { right: Lines::default(), products: Lines::default() }
     }
-    &mut buffer[..len]
 }
 
 struct StripDowndate<'a, 'b, T: Scalar> {
@@ -96,11 +94,11 @@ impl<T: Scalar> StripDowndate<'_, '_, T> {
         let Self { mut strip, pivots, left, buffers: Buffers { right, products } } = self;
         let (count, height) = (pivots.count(), tile_rows::<T::Real, S>());
         let plane = N * count;
-        let right = at_least(right, strip.width.next_multiple_of(N) * T::PRODUCTS * count);
+        let right = right.some(strip.width.next_multiple_of(N) * T::PRODUCTS * count);
         pivots.pack_right::<N>(strip.first, strip.width, right);
         // From one column of the products to the next, and from one plane to the next.
         let (step, size) = (TOGETHER * height, strip.width.next_multiple_of(N) * TOGETHER * height);
-        let products = at_least(products, size * T::PRODUCTS);
+        let products = products.some(size * T::PRODUCTS);
         let panels = left.panels(height);
         for first in (strip.first / height..panels).step_by(TOGETHER) {
             for panel in first..panels.min(first + TOGETHER) {

@@ -1,9 +1,11 @@
 //! Packed copies of L and of L D, tile after tile, a plane for each real product.
 
+use super::TOGETHER;
 use super::tile::{copy, tile_rows};
-use super::{TOGETHER, at_least};
+use crate::memory::Lines;
 use crate::scalar::{Real, Scalar};
 use crate::threads::each;
+use crate::triangle::Triangle;
 use pulp::{Simd, WithSimd};
 use std::marker::PhantomData;
 
@@ -12,12 +14,12 @@ const PACK_FROM: usize = 50_000;
 
 /// Eliminated columns of a front, and their pivots.
 pub(crate) struct Pivots<'a, T: Scalar> {
-    /// The columns' parts, from the first row that is looked at.
-    pub(crate) columns: &'a [T::Real],
-    /// From one part of a column to the next.
-    pub(crate) stride: usize,
-    /// The rows that are looked at: these many from the beginning of each column.
-    pub(crate) rows: usize,
+    /// The columns of the front as far as they are eliminated.
+    pub(crate) values: &'a [T::Real],
+    pub(crate) triangle: Triangle,
+    /// The first of these columns, and the first row that is looked at.
+    pub(crate) col: usize,
+    pub(crate) row: usize,
     /// Diagonal of D, and its entry below where it begins a block of two.
     pub(crate) d: &'a [[T; 2]],
 }
@@ -27,10 +29,15 @@ impl<T: Scalar> Pivots<'_, T> {
         self.d.len()
     }
 
+    fn rows(&self) -> usize {
+        self.triangle.rows() - self.row
+    }
+
     /// One part of some rows of a column.
     #[inline(always)]
     fn part(&self, k: usize, part: usize, rows: std::ops::Range<usize>) -> &[T::Real] {
-        &self.columns[(k * T::PARTS + part) * self.stride..][rows]
+        let start = self.triangle.place::<T>(self.row + rows.start, self.col + k, part);
+        &self.values[start..start + rows.len()]
     }
 
     /// The rows `first..first + width` of L D, N at a time, zeros behind the last.
@@ -85,21 +92,27 @@ impl<T: Scalar> Pivots<'_, T> {
 }
 
 /// L packed by the rows of a tile.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(crate) struct Left<R> {
-    packed: Vec<R>,
+    packed: Lines<R>,
     rows: usize,
+}
+
+impl<R> Default for Left<R> {
+    fn default() -> Self {
+        Self { packed: Lines::default(), rows: 0 }
+    }
 }
 
 impl<R: Real> Left<R> {
     /// Packs all rows of L.
     pub(crate) fn pack<T: Scalar<Real = R>>(&mut self, pivots: &Pivots<'_, T>, threads: usize) {
         let (height, count) = (crate::arch().dispatch(Height(PhantomData::<R>)), pivots.count());
-        self.rows = pivots.rows;
+        self.rows = pivots.rows();
         let panel = height * count * T::PRODUCTS;
         let size = self.rows.div_ceil(height) * panel;
         // What is behind the last row is cleared on the way.
-        let packed = at_least(&mut self.packed, size);
+        let packed = self.packed.some(size);
         let threads = if size < PACK_FROM { 1 } else { threads };
         let panels = if threads > 1 { TOGETHER } else { size.div_ceil(panel.max(1)) };
         let tasks = packed.chunks_mut((panels * panel).max(1)).enumerate();
@@ -151,7 +164,7 @@ impl<T: Scalar> WithSimd for PackLeft<'_, T> {
         let size = height * count * T::PRODUCTS;
         for (panel, packed) in packed.chunks_exact_mut(size.max(1)).enumerate() {
             let from = first + panel * height;
-            let to = (from + height).min(pivots.rows);
+            let to = (from + height).min(pivots.rows());
             let (first, rest) = packed.split_at_mut(height * count);
             let (second, third) = rest.split_at_mut((height * count).min(rest.len()));
             for k in 0..count {

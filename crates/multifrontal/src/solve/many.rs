@@ -1,6 +1,6 @@
 //! Right-hand sides side by side: a register holds those of one row, so that every number of L is met once.
 
-use super::{BLOCK, Columns, Step, pieces, shares};
+use super::{BLOCK, Columns, InStrip, Step, pieces, shares};
 use crate::scalar::{Real, Scalar};
 use crate::threads::each;
 use pulp::{Simd, WithSimd};
@@ -78,12 +78,13 @@ impl<T: Scalar> Shaped for Forward<'_, T> {
 
     #[inline(always)]
     fn run<S: Simd, const V: usize, const G: usize>(self, simd: S) {
-        let Step { node, local, buffer: y, threads, .. } = self.0;
+        let Step { node, local, buffer, threads, .. } = self.0;
         let (pivots, rows) = (node.pivots(), node.order());
         let row = row_len::<T, S, V>();
-        y.clear();
-        y.resize(row * rows, T::Real::default());
-        y[..row * pivots].copy_from_slice(&local[node.first * row..][..row * pivots]);
+        let y = buffer.some(row * rows);
+        let (own, below) = y.split_at_mut(row * pivots);
+        own.copy_from_slice(&local[node.first * row..][..row * pivots]);
+        below.fill(T::Real::default());
         for span in node.spans() {
             let inner = node.inner(&span, true);
             let (own, below) = y.split_at_mut(inner * row);
@@ -112,13 +113,14 @@ impl<T: Scalar> Shaped for Backward<'_, T> {
 
     #[inline(always)]
     fn run<S: Simd, const V: usize, const G: usize>(self, simd: S) {
-        let Step { node, local, buffer: y, threads, .. } = self.0;
+        let Step { node, local, buffer, threads, .. } = self.0;
         let (pivots, rows) = (node.pivots(), node.order());
         let row = row_len::<T, S, V>();
-        y.clear();
-        y.extend_from_slice(&local[node.first * row..][..row * pivots]);
-        for &place in &node.rows {
-            y.extend_from_slice(&local[place as usize * row..][..row]);
+        let y = buffer.some(row * rows);
+        let (own, below) = y.split_at_mut(row * pivots);
+        own.copy_from_slice(&local[node.first * row..][..row * pivots]);
+        for (&place, below) in node.rows.iter().zip(below.chunks_exact_mut(row)) {
+            below.copy_from_slice(&local[place as usize * row..][..row]);
         }
         times_inverse::<T, S, V>(simd, &node.inverse, y);
         for span in node.spans().rev() {
@@ -185,16 +187,15 @@ type Row<R, S, const V: usize> = [[<R as Real>::Vector<S>; V]; 2];
 
 #[inline(always)]
 fn load<T: Scalar, S: Simd, const V: usize>(y: &[T::Real], row: usize) -> Row<T::Real, S, V> {
-    let y = T::Real::vectors::<S>(y).0;
-    [0, T::PARTS - 1].map(|part| std::array::from_fn(|v| y[(row * T::PARTS + part) * V + v]))
+    // Not by closures, which would go by way of memory.
+    let y = T::Real::vectors::<S>(y).0.as_chunks::<V>().0;
+    [y[row * T::PARTS], y[row * T::PARTS + T::PARTS - 1]]
 }
 
 #[inline(always)]
 fn store<T: Scalar, S: Simd, const V: usize>(y: &mut [T::Real], row: usize, values: Row<T::Real, S, V>) {
-    let y = T::Real::vectors_mut::<S>(y).0;
-    for part in 0..T::PARTS {
-        y[(row * T::PARTS + part) * V..][..V].copy_from_slice(&values[part]);
-    }
+    let y = T::Real::vectors_mut::<S>(y).0.as_chunks_mut::<V>().0;
+    y[row * T::PARTS..][..T::PARTS].copy_from_slice(&values[..T::PARTS]);
 }
 
 /// −x.
@@ -261,9 +262,10 @@ fn triangle<T: Scalar, S: Simd, const V: usize>(
     cols: &Range<usize>,
     y: &mut [T::Real],
 ) {
+    let l = node.in_strip(cols.start);
     for j in cols.clone() {
         for i in j + 1..cols.end {
-            add::<T, S, V>(simd, y, i - cols.start, -node.at(i, j), j - cols.start);
+            add::<T, S, V>(simd, y, i - cols.start, -l.at(i, j), j - cols.start);
         }
     }
 }
@@ -275,9 +277,10 @@ fn transposed_triangle<T: Scalar, S: Simd, const V: usize>(
     cols: &Range<usize>,
     y: &mut [T::Real],
 ) {
+    let l = node.in_strip(cols.start);
     for j in cols.clone().rev() {
         for i in j + 1..cols.end {
-            add::<T, S, V>(simd, y, j - cols.start, -node.at(i, j), i - cols.start);
+            add::<T, S, V>(simd, y, j - cols.start, -l.at(i, j), i - cols.start);
         }
     }
 }
@@ -292,14 +295,14 @@ fn multiply<T: Scalar, S: Simd, const V: usize, const G: usize>(
     rows: Range<usize>,
     y: &mut [T::Real],
 ) {
-    let count = rows.len();
+    let (l, count) = (node.in_strip(cols.start), rows.len());
     let mut at = 0;
     while at + G <= count {
-        multiply_rows::<T, S, V, G>(simd, node, cols, block, rows.start + at, (&mut *y, at));
+        multiply_rows::<T, S, V, G>(simd, &l, cols, block, rows.start + at, (&mut *y, at));
         at += G;
     }
     while at < count {
-        multiply_rows::<T, S, V, 1>(simd, node, cols, block, rows.start + at, (&mut *y, at));
+        multiply_rows::<T, S, V, 1>(simd, &l, cols, block, rows.start + at, (&mut *y, at));
         at += 1;
     }
 }
@@ -307,18 +310,21 @@ fn multiply<T: Scalar, S: Simd, const V: usize, const G: usize>(
 #[inline(always)]
 fn multiply_rows<T: Scalar, S: Simd, const V: usize, const G: usize>(
     simd: S,
-    node: Columns<'_, T>,
+    columns: &InStrip<'_, T>,
     cols: &Range<usize>,
     block: &[T::Real],
     row: usize,
     (y, at): (&mut [T::Real], usize),
 ) {
-    let mut sums: [Row<T::Real, S, V>; G] = std::array::from_fn(|g| load::<T, S, V>(y, at + g));
+    let mut sums = [[[T::Real::splat(simd, T::Real::default()); V]; 2]; G];
+    for g in 0..G {
+        sums[g] = load::<T, S, V>(y, at + g);
+    }
     for (k, col) in cols.clone().enumerate() {
         let [x, z] = load::<T, S, V>(block, k);
         let x = [minus::<T::Real, S, V>(simd, x), minus::<T::Real, S, V>(simd, z)];
-        let l = node.part(col, 0, row..row + G);
-        let m = node.part(col, T::PARTS - 1, row..row + G);
+        let l = columns.part(col, 0, row..row + G);
+        let m = columns.part(col, T::PARTS - 1, row..row + G);
         for g in 0..G {
             sums[g] = term::<T, S, V>(simd, [l[g], m[g]], x, z, sums[g]);
         }
@@ -338,11 +344,10 @@ fn subtract_dot<T: Scalar, S: Simd, const V: usize, const G: usize>(
     rows: Range<usize>,
     y: &[T::Real],
 ) {
-    let zero = T::Real::splat(simd, T::Real::default());
+    let (l, zero) = (node.in_strip(cols.start), T::Real::splat(simd, T::Real::default()));
     for some in pieces(cols.clone(), G) {
         // The last column again where there are fewer: those sums are not looked at.
-        let column =
-            |g: usize, part: usize| node.part((some.start + g).min(some.end - 1), part, rows.clone());
+        let column = |g: usize, part: usize| l.part((some.start + g).min(some.end - 1), part, rows.clone());
         let columns: [[&[T::Real]; 2]; G] = std::array::from_fn(|g| [column(g, 0), column(g, T::PARTS - 1)]);
         let mut less = [[[zero; V]; 2]; G];
         for piece in pieces(0..rows.len(), SUMMED) {

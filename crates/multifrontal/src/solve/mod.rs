@@ -7,9 +7,12 @@ mod many;
 mod one;
 
 use crate::factor::{Factor, Node};
+use crate::kernel::STRIP;
+use crate::memory::Lines;
 use crate::part::Part;
 use crate::scalar::Scalar;
 use crate::threads::{each, map, with};
+use crate::triangle::{Triangle, top};
 use many::Shaped;
 use std::ops::Range;
 
@@ -18,6 +21,9 @@ const SHARE_FROM: usize = 40_000;
 
 /// Columns of L that are met together: as many streams as a processor follows, complex ones having two.
 const BLOCK: usize = 8;
+
+// Blocks begin at multiples of their size in spans.
+const _: () = assert!(STRIP.is_multiple_of(BLOCK) && SPAN.is_multiple_of(BLOCK));
 
 /// Pivots of a node after which the threads meet.
 const SPAN: usize = 256;
@@ -30,7 +36,7 @@ struct Step<'a, T: Scalar> {
     node: Columns<'a, T>,
     local: &'a mut [T::Real],
     /// Numbers of the front's rows.
-    buffer: &'a mut Vec<T::Real>,
+    buffer: &'a mut Lines<T::Real>,
     threads: usize,
     /// Whether it may be shared out to threads, however many there are: sums do not depend on that.
     shared: bool,
@@ -40,6 +46,16 @@ struct Step<'a, T: Scalar> {
 struct Columns<'a, T: Scalar> {
     node: &'a Node<T>,
     values: &'a [T::Real],
+    triangle: Triangle,
+}
+
+/// Columns of L in one strip, from one on.
+struct InStrip<'a, T: Scalar> {
+    first: usize,
+    /// From its first row on.
+    values: &'a [T::Real],
+    top: usize,
+    stride: usize,
 }
 
 impl<T: Scalar> Clone for Columns<'_, T> {
@@ -58,18 +74,29 @@ impl<T: Scalar> std::ops::Deref for Columns<'_, T> {
     }
 }
 
-impl<'a, T: Scalar> Columns<'a, T> {
+impl<'a, T: Scalar> InStrip<'a, T> {
     /// Some rows of one part of a column of L.
     #[inline(always)]
     fn part(&self, col: usize, part: usize, rows: Range<usize>) -> &'a [T::Real] {
-        &self.values[(col * T::PARTS + part) * self.stride..][rows]
+        &self.values[((col - self.first) * T::PARTS + part) * self.stride..]
+            [rows.start - self.top..rows.end - self.top]
     }
 
     /// Entry of L below its diagonal.
     #[inline(always)]
     fn at(&self, row: usize, col: usize) -> T {
-        let at = |part: usize| self.values[(col * T::PARTS + part) * self.stride + row];
+        let at =
+            |part: usize| self.values[((col - self.first) * T::PARTS + part) * self.stride + row - self.top];
         T::from_parts([at(0), at(T::PARTS - 1)])
+    }
+}
+
+impl<'a, T: Scalar> Columns<'a, T> {
+    /// The columns of a strip from one on; [`BLOCK`]s are in one strip each.
+    #[inline(always)]
+    fn in_strip(&self, first: usize) -> InStrip<'a, T> {
+        let values = &self.values[self.triangle.start::<T>(first)..];
+        InStrip { first, values, top: top(first), stride: self.triangle.stride(first) }
     }
 
     /// The pivots in spans.
@@ -128,7 +155,7 @@ impl<T: Scalar> Factor<T> {
 
 /// The numbers of a part, of each position the parts, of each part the right-hand sides; and those of the parts below.
 struct Local<R> {
-    values: Vec<R>,
+    values: Lines<R>,
     below: Vec<Local<R>>,
 }
 
@@ -176,9 +203,9 @@ impl<T: Scalar> Together<'_, T> {
     }
 
     /// S b in the order of a part's positions, zeros for those outside of it.
-    fn gather(&self, part: &Part, rhs: &[T]) -> Vec<T::Real> {
+    fn gather(&self, part: &Part, rhs: &[T]) -> Lines<T::Real> {
         let (row, lanes) = (self.row(), self.lanes);
-        let mut local = vec![T::Real::default(); part.size() * row];
+        let mut local = Lines::zeros(part.size() * row);
         for (lane, b) in rhs.chunks_exact(self.factor.dim()).enumerate() {
             for (local, (from, scale)) in local.chunks_exact_mut(row).zip(self.rows_of(part)) {
                 let parts = b[from].scale(scale).parts();
@@ -210,7 +237,7 @@ impl<T: Scalar> Together<'_, T> {
 
     /// y = L⁻¹ b over the nodes of a part; places outside receive what they have to add.
     fn forward(&self, part: &Part, local: &mut [T::Real]) {
-        let (buffer, row) = (&mut Vec::new(), self.row());
+        let (buffer, row) = (&mut Lines::default(), self.row());
         for node in &self.factor.nodes[part.nodes.clone()] {
             let own = &local[node.first * row..][..node.pivots() * row];
             if own.iter().all(|&x| x == T::Real::default()) {
@@ -227,7 +254,7 @@ impl<T: Scalar> Together<'_, T> {
 
     /// x = L⁻ᵀ D⁻¹ y over the nodes of a part.
     fn backward(&self, part: &Part, local: &mut [T::Real]) {
-        let buffer = &mut Vec::new();
+        let buffer = &mut Lines::default();
         for node in self.factor.nodes[part.nodes.clone()].iter().rev() {
             let step = self.step(node, part, local, buffer);
             if self.lanes == 1 {
@@ -243,10 +270,11 @@ impl<T: Scalar> Together<'_, T> {
         node: &'a Node<T>,
         part: &Part,
         local: &'a mut [T::Real],
-        buffer: &'a mut Vec<T::Real>,
+        buffer: &'a mut Lines<T::Real>,
     ) -> Step<'a, T> {
         let threads = if part.top { self.threads } else { 1 };
-        let node = Columns { node, values: self.factor.columns_of(node) };
+        let (values, triangle) = (self.factor.columns_of(node), Triangle::new(node.order()));
+        let node = Columns { node, values, triangle };
         Step { node, local, buffer, threads, shared: part.top }
     }
 }

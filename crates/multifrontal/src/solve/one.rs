@@ -1,6 +1,7 @@
 //! One right-hand side: registers hold rows, at the speed at which L comes from memory.
 
 use super::{BLOCK, Columns, Step, pieces, shares};
+use crate::memory::{LINE, Lines};
 use crate::scalar::{Real, Scalar, add_product};
 use crate::threads::each;
 use pulp::{Simd, WithSimd};
@@ -129,10 +130,12 @@ impl<T: Scalar> WithSimd for Dot<'_, T> {
 }
 
 /// Zeros for the real and the imaginary parts of some rows.
-fn planes<R: Real>(buffer: &mut Vec<R>, rows: usize) -> (&mut [R], &mut [R]) {
-    buffer.clear();
-    buffer.resize(2 * rows, R::default());
-    buffer.split_at_mut(rows)
+fn planes<R: Real>(buffer: &mut Lines<R>, rows: usize) -> (&mut [R], &mut [R]) {
+    let plane = rows.next_multiple_of(LINE / size_of::<R>());
+    let planes = buffer.some(2 * plane);
+    planes.fill(R::default());
+    let (re, im) = planes.split_at_mut(plane);
+    (&mut re[..rows], &mut im[..rows])
 }
 
 #[inline(always)]
@@ -148,10 +151,11 @@ fn put<T: Scalar>(local: &mut [T::Real], row: usize, parts: [T::Real; 2]) {
 /// Solves with the triangle of a block of columns.
 #[inline(always)]
 fn triangle<T: Scalar>(node: Columns<'_, T>, cols: &Range<usize>, re: &mut [T::Real], im: &mut [T::Real]) {
+    let l = node.in_strip(cols.start);
     for j in cols.clone() {
         let x = T::from_parts([re[j], im[j]]);
         for i in j + 1..cols.end {
-            let [p, q] = (node.at(i, j) * x).parts();
+            let [p, q] = (l.at(i, j) * x).parts();
             re[i] -= p;
             im[i] -= q;
         }
@@ -167,10 +171,11 @@ fn transposed_triangle<T: Scalar>(
     re: &mut [T::Real],
     im: &mut [T::Real],
 ) {
+    let l = node.in_strip(cols.start);
     for j in cols.clone().rev() {
         let mut x = T::from_parts([re[j], im[j]]) - sums[j - cols.start];
         for i in j + 1..cols.end {
-            x -= node.at(i, j) * T::from_parts([re[i], im[i]]);
+            x -= l.at(i, j) * T::from_parts([re[i], im[i]]);
         }
         let [p, q] = x.parts();
         (re[j], im[j]) = (p, q);
@@ -196,9 +201,9 @@ fn multiply<T: Scalar, S: Simd>(
     (re, im): (&mut [T::Real], &mut [T::Real]),
 ) {
     let none: &[T::Real] = &[];
-    let mut columns = [[none; 2]; BLOCK];
+    let (l, mut columns) = (node.in_strip(cols.start), [[none; 2]; BLOCK]);
     for (column, col) in columns.iter_mut().zip(cols.clone()) {
-        *column = [0, T::PARTS - 1].map(|part| node.part(col, part, rows.clone()));
+        *column = [0, T::PARTS - 1].map(|part| l.part(col, part, rows.clone()));
     }
     let columns = &columns[..cols.len()];
     let (re, re_end) = T::Real::vectors_mut::<S>(re);
@@ -238,12 +243,12 @@ fn dot<T: Scalar, S: Simd>(
 ) {
     const C: usize = 4;
     let zero = T::Real::splat(simd, T::Real::default());
+    let l = node.in_strip(cols.start);
     let (re, re_end) = T::Real::vectors::<S>(re);
     let (im, im_end) = T::Real::vectors::<S>(im);
     for (some, sums) in pieces(cols, C).zip(sums.chunks_mut(C)) {
         // The last column again where there are fewer: those sums are not looked at.
-        let column =
-            |c: usize, part: usize| node.part((some.start + c).min(some.end - 1), part, rows.clone());
+        let column = |c: usize, part: usize| l.part((some.start + c).min(some.end - 1), part, rows.clone());
         let columns: [[&[T::Real]; 2]; C] = std::array::from_fn(|c| [column(c, 0), column(c, T::PARTS - 1)]);
         // Σ l re, Σ m im, which is to be taken from it, and Σ l im + m re.
         let mut totals = [[zero; 3]; C];

@@ -8,11 +8,12 @@ pub(crate) use pattern::Lower;
 pub use pattern::PatternError;
 
 use crate::Options;
-use crate::factor::{Node, padded};
+use crate::factor::Node;
 use crate::ordering;
 use crate::part::Part;
 use crate::scalar::Scalar;
 use crate::threads::with;
+use crate::triangle::Triangle;
 use std::ops::Range;
 
 /// Marks a front without parent.
@@ -55,7 +56,7 @@ impl Shape {
 
     /// Numbers of its own columns, as they are stored.
     fn panel(&self) -> usize {
-        self.pivots * padded(self.order())
+        Triangle::new(self.order()).start::<f64>(self.pivots)
     }
 }
 
@@ -232,5 +233,10 @@ impl Symbolic {
 
     pub(crate) fn rows_of(&self, front: usize) -> &[u32] {
         &self.rows[self.fronts[front].rows.clone()]
+    }
+
+    /// Where a front's rows are in its parent's.
+    pub(crate) fn relative_of(&self, front: usize) -> &[u32] {
+        &self.relative[self.fronts[front].rows.clone()]
     }
 }

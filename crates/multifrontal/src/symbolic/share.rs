@@ -1,8 +1,9 @@
 //! Costs of fronts, and which subtrees are worth a thread.
 
 use super::{ROOT, Shape, Symbolic};
-use crate::front::{BLOCK, schur_len};
+use crate::front::BLOCK;
 use crate::kernel::{STRIP, TOGETHER, WIDE};
+use crate::triangle::Triangle;
 use std::ops::Range;
 
 /// Subtrees that are looked for: enough to keep some threads busy, few enough to leave work to each.
@@ -68,13 +69,22 @@ pub(super) fn subtrees(fronts: &[Shape]) -> Vec<Range<usize>> {
 /// The most numbers of Schur complements at even and at odd depths while one worker goes through these fronts.
 pub(super) fn stacks(symbolic: &Symbolic, fronts: Range<usize>) -> [usize; 2] {
     let (mut live, mut most) = ([0; 2], [0; 2]);
-    let schur = |front: usize| schur_len::<f64>(symbolic.fronts[front].rows.len());
+    let schur = |front: usize| Triangle::new(symbolic.fronts[front].rows.len());
+    let whole = |front: usize| schur(front).start::<f64>(schur(front).rows());
+    // The columns of the parent's candidates, which are given back at once.
+    let moved = |front: usize| {
+        let own = symbolic.fronts.get(symbolic.fronts[front].parent).map_or(0, |parent| parent.pivots);
+        schur(front)
+            .start::<f64>(symbolic.relative_of(front).partition_point(|&place| (place as usize) < own))
+    };
     for front in fronts.clone() {
         let parity = symbolic.parity(front);
-        live[parity] += schur(front);
+        live[parity] += whole(front);
         most[parity] = most[parity].max(live[parity]);
         let children = symbolic.children_of(front).iter().map(|&child| child as usize);
-        live[1 - parity] -= children.filter(|child| fronts.contains(child)).map(schur).sum::<usize>();
+        let children = children.filter(|child| fronts.contains(child));
+        live[1 - parity] -= children.map(|child| whole(child) - moved(child)).sum::<usize>();
+        live[parity] -= moved(front);
     }
     most
 }

@@ -1,0 +1,312 @@
+//! One factorisation: front after front, subtrees at the same time.
+
+use crate::front::{
+    Child, Contribution, Elimination, Front, Stack, add_children, each_strip, eliminate, strip_width,
+};
+use crate::kernel::{STRIP, Strip};
+use crate::scalar::Scalar;
+use crate::symbolic::{ROOT, Symbolic};
+use crate::threads::{Idle, awake, map};
+use crate::triangle::Triangle;
+use std::ops::Range;
+use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
+
+/// What a factorisation works on, and how.
+pub(crate) struct Run<'a, T: Scalar> {
+    symbolic: &'a Symbolic,
+    values: &'a [T],
+    scale: &'a [T::Real],
+    threshold: f64,
+    threads: usize,
+    /// Numbers that are kept at even and at odd depths in whatever one thread does.
+    stacks: [usize; 2],
+    /// The own columns of each front.
+    panels: Vec<Mutex<Panel<'a, T::Real>>>,
+    idle: Idle<Elimination<T>>,
+}
+
+/// Own columns of a front, where no candidates were delayed.
+struct Panel<'a, R> {
+    values: &'a mut [R],
+    /// Whether the entries of the matrix are there.
+    begun: bool,
+}
+
+impl<R> Default for Panel<'_, R> {
+    fn default() -> Self {
+        Self { values: &mut [], begun: false }
+    }
+}
+
+/// What an elimination gives: positions are those of the analysis.
+pub(crate) struct Eliminated<T: Scalar> {
+    pub(crate) pivots: Vec<u32>,
+    pub(crate) d: Vec<[T; 2]>,
+    pub(crate) below: Vec<u32>,
+    /// Its columns, where delayed candidates made them too many for their place.
+    pub(crate) more: Vec<T::Real>,
+}
+
+/// What each front gave, as it is done.
+type Done<T> = [OnceLock<Eliminated<T>>];
+
+/// What threads that work on the same tree need.
+struct Shared<'a, T: Scalar> {
+    /// Multiplications of each front and all below it.
+    work: Vec<f64>,
+    done: &'a Done<T>,
+}
+
+/// A front with what it left to its parent.
+type Left<T> = (usize, Contribution<<T as Scalar>::Real>);
+
+/// For what fronts leave, at even and at odd depths.
+type Stacks<T> = [Stack<<T as Scalar>::Real>; 2];
+
+impl<'a, T: Scalar> Run<'a, T> {
+    /// With room for the columns of all fronts, and the place of each in it.
+    pub(crate) fn new(
+        symbolic: &'a Symbolic,
+        values: &'a [T],
+        scale: &'a [T::Real],
+        threshold: f64,
+        threads: usize,
+        (mut rest, places): (&'a mut [T::Real], &[Range<usize>]),
+    ) -> Self {
+        let panel = |place: &Range<usize>| {
+            let (values, behind) = std::mem::take(&mut rest).split_at_mut(place.len());
+            rest = behind;
+            Mutex::new(Panel { values, begun: false })
+        };
+        let (panels, stacks) = (places.iter().map(panel).collect(), symbolic.stacks(threads));
+        Self { symbolic, values, scale, threshold, threads, stacks, panels, idle: Idle::default() }
+    }
+
+    /// All fronts.
+    pub(crate) fn all(&self) -> Vec<Eliminated<T>> {
+        let fronts = &self.symbolic.fronts;
+        let done: Vec<_> = fronts.iter().map(|_| OnceLock::new()).collect();
+        if self.threads == 1 {
+            self.run(0..fronts.len(), &done);
+        } else {
+            let roots = (0..fronts.len()).filter(|&k| fronts[k].parent == ROOT).collect();
+            self.branches(roots, &Shared { work: self.symbolic.work(), done: &done });
+        }
+        done.into_iter().filter_map(OnceLock::into_inner).collect()
+    }
+
+    /// Branches at the same time, the one with most work first; what they leave, in their order.
+    fn branches(&self, mut roots: Vec<usize>, shared: &Shared<'_, T>) -> Vec<Left<T>> {
+        roots.sort_by(|&a, &b| shared.work[b].total_cmp(&shared.work[a]));
+        let left = map(self.threads, roots, |root| Some((root, self.tree(root, shared)?)));
+        let mut left: Vec<_> = left.into_iter().flatten().collect();
+        left.sort_unstable_by_key(|(root, _)| *root);
+        left
+    }
+
+    /// The fronts under one and itself, branches at the same time; what it leaves.
+    fn tree(&self, root: usize, shared: &Shared<'_, T>) -> Option<Contribution<T::Real>> {
+        let (symbolic, done) = (self.symbolic, shared.done);
+        // Where there is one child only, it goes on in a loop: a chain may be as long as the matrix.
+        let mut chain = vec![root];
+        let mut below = loop {
+            let k = *chain.last().unwrap_or(&root);
+            if let Some(range) = symbolic.subtree_of(k) {
+                chain.pop();
+                break self.run(range, done).map(|left| (k, left)).into_iter().collect();
+            }
+            match symbolic.children_of(k) {
+                [only] => chain.push(*only as usize),
+                several => {
+                    break self.branches(several.iter().map(|&child| child as usize).collect(), shared);
+                }
+            }
+        };
+        for &k in chain.iter().rev() {
+            let mut stacks = Stacks::<T>::default();
+            let left = awake(self.threads, || {
+                self.add(k, &mut below, &mut stacks, self.threads);
+                self.with_idle(self.threads, |with| self.front(k, below, &mut stacks, with, done))
+            });
+            let stack = &mut stacks[symbolic.parity(k)];
+            below = left.map(|left| (k, left.taken_from(stack))).into_iter().collect();
+        }
+        below.pop().map(|(_, left)| left)
+    }
+
+    /// Works with the buffers of an elimination that no thread has at the moment.
+    fn with_idle<O>(&self, threads: usize, work: impl FnOnce(&mut Elimination<T>) -> O) -> O {
+        self.idle.lend(
+            || Elimination::new(self.threshold),
+            |with| {
+                with.threads = threads;
+                work(with)
+            },
+        )
+    }
+
+    /// The fronts of a subtree one after the other; what its root leaves.
+    fn run(&self, range: Range<usize>, done: &Done<T>) -> Option<Contribution<T::Real>> {
+        let symbolic = self.symbolic;
+        let mut pending: Vec<Option<Contribution<T::Real>>> = range.clone().map(|_| None).collect();
+        self.with_idle(1, |with| {
+            let mut stacks = std::mem::take(&mut with.stacks);
+            for (stack, len) in stacks.iter_mut().zip(self.stacks) {
+                stack.clear(T::PARTS * len);
+            }
+            let root = range.end.checked_sub(1)?;
+            let mut front = |k: usize, stacks: &mut Stacks<T>| {
+                let children = symbolic.children_of(k).iter().map(|&child| child as usize);
+                let children =
+                    children.filter_map(|child| Some((child, pending[child - range.start].take()?)));
+                let left = self.front(k, children.collect(), stacks, with, done);
+                let parent = symbolic.fronts[k].parent;
+                pending[k - range.start] = left.map(|left| {
+                    let mut left = [(k, left)];
+                    if range.contains(&parent) {
+                        self.add(parent, &mut left, stacks, 1);
+                    }
+                    let [(_, left)] = left;
+                    left
+                });
+            };
+            (range.start..root).for_each(|k| front(k, &mut stacks));
+            // What the root leaves goes elsewhere: it has a stack of its own.
+            let parity = symbolic.parity(root);
+            let own = std::mem::take(&mut stacks[parity]);
+            front(root, &mut stacks);
+            let left = pending.pop()?.map(|left| left.taken_from(&mut stacks[parity]));
+            stacks[parity] = own;
+            with.stacks = stacks;
+            left
+        })
+    }
+
+    /// Adds to a front's own columns the entries of the matrix, where they are not there yet, and what children left of
+    /// these columns, which is given back then.
+    fn add(&self, k: usize, children: &mut [Left<T>], stacks: &mut Stacks<T>, threads: usize) {
+        let (symbolic, shape) = (self.symbolic, &self.symbolic.fronts[k]);
+        // Nobody waits for it: all that it is made of comes from this thread.
+        let Panel { values, begun } = std::mem::take(&mut *self.panel(k));
+        let stack = &mut stacks[1 - symbolic.parity(k)];
+        let given =
+            children.iter().map(|(child, left)| Child::new(left, stack, symbolic.relative_of(*child)));
+        let given: Vec<_> = given.collect();
+        let (numbers, width) = (values.len(), strip_width(shape.pivots, threads));
+        let strips = Triangle::new(shape.order()).strips(values, 0..shape.pivots, width, false);
+        each_strip(strips, numbers, threads, |mut strip| {
+            if !begun {
+                self.add_entries(&mut strip, k);
+            }
+            let from = strip.first;
+            add_children(&mut strip, from, &given);
+        });
+        for (child, left) in children {
+            left.give_back::<T>(stack, symbolic.relative_of(*child), shape.pivots);
+        }
+        *self.panel(k) = Panel { values, begun: true };
+    }
+
+    fn panel(&self, k: usize) -> MutexGuard<'_, Panel<'a, T::Real>> {
+        self.panels[k].lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Eliminates the columns of a front that has all that its children leave there; what it leaves.
+    fn front(
+        &self,
+        k: usize,
+        children: Vec<Left<T>>,
+        stacks: &mut Stacks<T>,
+        with: &mut Elimination<T>,
+        done: &Done<T>,
+    ) -> Option<Contribution<T::Real>> {
+        let symbolic = self.symbolic;
+        let shape = &symbolic.fronts[k];
+        if !self.panel(k).begun {
+            self.add(k, &mut [], stacks, with.threads);
+        }
+        let mut ids: Vec<u32> = children.iter().flat_map(|(_, child)| &child.delayed).copied().collect();
+        let delayed = ids.len();
+        ids.extend(shape.own().map(|position| position as u32));
+        ids.extend(symbolic.rows_of(k));
+        let (candidates, others) = (delayed + shape.pivots, shape.rows.len());
+        let triangle = Triangle::new(ids.len());
+        let own = std::mem::take(&mut *self.panel(k)).values;
+        let mut more =
+            vec![T::Real::default(); if delayed > 0 { triangle.start::<T>(candidates) } else { 0 }];
+        let mut front = if delayed > 0 {
+            let mut front = Front { ids, candidates, panel: more.as_mut_slice(), triangle };
+            self.move_behind(own, shape.order(), &mut front, delayed);
+            let mut base = 0;
+            for (child, left) in &children {
+                left.add_delayed(&mut front, base, delayed, symbolic.relative_of(*child));
+                base += left.delayed.len();
+            }
+            front
+        } else {
+            Front { ids, candidates, panel: own, triangle }
+        };
+
+        let [even, odd] = stacks;
+        let (stack, below) = if symbolic.parity(k) == 0 { (even, odd) } else { (odd, even) };
+        let complement = Triangle::new(others);
+        let mut schur = stack.push(complement.start::<T>(others));
+        let target = stack.values_of_mut(&mut schur);
+        let d = eliminate(&mut front, target, with);
+        let given =
+            children.iter().map(|(child, left)| Child::new(left, below, symbolic.relative_of(*child)));
+        let (given, numbers): (Vec<_>, _) = (given.collect(), target.len());
+        each_strip(
+            complement.strips::<T>(target, 0..others, STRIP, false),
+            numbers,
+            with.threads,
+            |mut strip| {
+                let from = shape.pivots + strip.first;
+                add_children(&mut strip, from, &given);
+            },
+        );
+        children.iter().for_each(|(_, left)| below.pop(&left.schur));
+
+        let (pivots, rest) = front.ids.split_at(d.len());
+        let left = (!rest.is_empty()).then(|| Contribution::new(&front, d.len(), schur));
+        let (pivots, below) = (pivots.to_vec(), rest.to_vec());
+        if d.len() < candidates {
+            more.truncate(triangle.start::<T>(d.len()));
+            more.shrink_to_fit();
+        }
+        // Every front comes once.
+        let _ = done[k].set(Eliminated { pivots, below, d, more });
+        left
+    }
+
+    /// Copies a front's own columns to where they are behind delayed ones.
+    fn move_behind(&self, own: &[T::Real], order: usize, front: &mut Front<'_, T>, delayed: usize) {
+        let triangle = Triangle::new(order);
+        for (col, part) in
+            (0..front.candidates - delayed).flat_map(|col| (0..T::PARTS).map(move |p| (col, p)))
+        {
+            let column = &own[triangle.part::<T>(col, part, col)];
+            front.part_mut(delayed + col, part, delayed + col).copy_from_slice(column);
+        }
+    }
+
+    /// The entries of the matrix in a strip of the front's own columns, scaled.
+    fn add_entries(&self, strip: &mut Strip<'_, T>, k: usize) {
+        let (symbolic, shape) = (self.symbolic, &self.symbolic.fronts[k]);
+        let rows = symbolic.rows_of(k);
+        for col in strip.first..strip.first + strip.width {
+            let position = shape.first + col;
+            let start = (col - strip.first) * T::PARTS * strip.stride;
+            for entry in &symbolic.entries[symbolic.entry_start[position]..symbolic.entry_start[position + 1]]
+            {
+                let row = entry.row as usize;
+                let other = row.checked_sub(shape.pivots).map_or(shape.first + row, |row| rows[row] as usize);
+                let scale = self.scale[position] * self.scale[other];
+                let parts = self.values[entry.value as usize].scale(scale).parts();
+                for part in 0..T::PARTS {
+                    strip.values[start + part * strip.stride + row - strip.first] += parts[part];
+                }
+            }
+        }
+    }
+}
