@@ -1,4 +1,4 @@
-//! Room for many numbers, in large pages where the system has them.
+//! Room for many numbers, in large pages where the system has them, from the beginning of a line on.
 //!
 //! A factor is read from end to end with each solution: with pages of 4 kB a tenth of the time goes into finding them,
 //! and when it is written for the first time each page is a call of the system.
@@ -11,18 +11,26 @@ use std::ops::{Deref, DerefMut};
 /// Bytes of a large page.
 const LARGE: usize = 2 << 20;
 
+/// Bytes that a processor fetches together, and of its widest registers: from its beginning on a register is in one.
+pub(crate) const LINE: usize = 64;
+
 /// Numbers that are zero at first.
 #[derive(Debug)]
 pub(crate) enum Memory<R> {
-    /// Of the allocator.
-    Small(Vec<R>),
+    /// Of the allocator: so many from one on.
+    Small { values: Vec<R>, from: usize, len: usize },
     /// Whole pages of the system: so many numbers from a byte on.
     Pages { pages: MmapMut, from: usize, len: usize },
 }
 
 impl<R: Real> Memory<R> {
     pub(crate) fn zeros(len: usize) -> Self {
-        Self::pages(len).unwrap_or_else(|| Self::Small(vec![R::default(); len]))
+        Self::pages(len).unwrap_or_else(|| {
+            let spare = LINE / size_of::<R>();
+            let values = vec![R::default(); len + spare];
+            let from = values.as_ptr().align_offset(LINE).min(spare);
+            Self::Small { values, from, len }
+        })
     }
 
     /// From a large page on, and to the end of one; `None` where that is not worth it, or not to be had.
@@ -35,11 +43,21 @@ impl<R: Real> Memory<R> {
         let from = pages.as_ptr().align_offset(LARGE);
         (from <= LARGE).then_some(Self::Pages { pages, from, len })
     }
+
+    /// So many numbers, whatever they are.
+    pub(crate) fn some(&mut self, len: usize) -> &mut [R] {
+        if self.len() < len {
+            // Not both at the same time.
+            *self = Self::default();
+            *self = Self::zeros(len);
+        }
+        &mut self[..len]
+    }
 }
 
 impl<R> Default for Memory<R> {
     fn default() -> Self {
-        Self::Small(Vec::new())
+        Self::Small { values: Vec::new(), from: 0, len: 0 }
     }
 }
 
@@ -47,69 +65,21 @@ impl<R: Real> Deref for Memory<R> {
     type Target = [R];
 
     fn deref(&self) -> &[R] {
-        match self {
-            Self::Small(values) => values,
-            &Self::Pages { ref pages, from, len } => cast_slice(&pages[from..from + len * size_of::<R>()]),
+        match *self {
+            Self::Small { ref values, from, len } => &values[from..from + len],
+            Self::Pages { ref pages, from, len } => cast_slice(&pages[from..from + len * size_of::<R>()]),
         }
     }
 }
 
 impl<R: Real> DerefMut for Memory<R> {
     fn deref_mut(&mut self) -> &mut [R] {
-        match self {
-            Self::Small(values) => values,
-            &mut Self::Pages { ref mut pages, from, len } => {
+        match *self {
+            Self::Small { ref mut values, from, len } => &mut values[from..from + len],
+            Self::Pages { ref mut pages, from, len } => {
                 cast_slice_mut(&mut pages[from..from + len * size_of::<R>()])
             }
         }
-    }
-}
-
-/// Bytes that a processor fetches together, and of its widest registers.
-pub(crate) const LINE: usize = 64;
-
-/// Numbers from the beginning of a line on: a register as wide as a line is then in one, not in two.
-#[derive(Debug)]
-pub(crate) struct Lines<R> {
-    values: Vec<R>,
-    from: usize,
-    len: usize,
-}
-
-impl<R> Default for Lines<R> {
-    fn default() -> Self {
-        Self { values: Vec::new(), from: 0, len: 0 }
-    }
-}
-
-impl<R: Real> Lines<R> {
-    pub(crate) fn zeros(len: usize) -> Self {
-        let spare = LINE / size_of::<R>();
-        let values = vec![R::default(); len + spare];
-        let from = values.as_ptr().align_offset(LINE).min(spare);
-        Self { values, from, len }
-    }
-
-    /// So many numbers, whatever they are.
-    pub(crate) fn some(&mut self, len: usize) -> &mut [R] {
-        if self.len < len {
-            *self = Self::zeros(len);
-        }
-        &mut self[..len]
-    }
-}
-
-impl<R> Deref for Lines<R> {
-    type Target = [R];
-
-    fn deref(&self) -> &[R] {
-        &self.values[self.from..self.from + self.len]
-    }
-}
-
-impl<R> DerefMut for Lines<R> {
-    fn deref_mut(&mut self) -> &mut [R] {
-        &mut self.values[self.from..self.from + self.len]
     }
 }
 
@@ -118,14 +88,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn lines_begin_at_a_line_and_grow() {
-        let mut lines = Lines::<f32>::default();
-        for len in [0, 1, 100, 50, 1000] {
-            let some = lines.some(len);
+    fn room_for_some_begins_at_a_line_and_grows() {
+        let mut memory = Memory::<f32>::default();
+        for len in [0, 1, 100, 50, 1000, LARGE] {
+            let some = memory.some(len);
             some.fill(1.0);
             assert!(some.len() == len && (len == 0 || (some.as_ptr() as usize).is_multiple_of(LINE)));
         }
-        assert!(Lines::<f64>::zeros(5).iter().all(|&x| x == 0.0));
     }
 
     #[test]

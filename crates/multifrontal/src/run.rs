@@ -6,9 +6,10 @@ use crate::front::{
 use crate::kernel::{STRIP, Strip};
 use crate::scalar::Scalar;
 use crate::symbolic::{ROOT, Symbolic};
-use crate::threads::{Idle, awake, map};
+use crate::threads::{Idle, awake, each};
 use crate::triangle::Triangle;
 use std::ops::Range;
+use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
 /// What a factorisation works on, and how.
@@ -20,6 +21,8 @@ pub(crate) struct Run<'a, T: Scalar> {
     threads: usize,
     /// Numbers that are kept at even and at odd depths in whatever one thread does.
     stacks: [usize; 2],
+    /// Subtrees that nobody has finished yet.
+    subtrees: AtomicUsize,
     /// The own columns of each front.
     panels: Vec<Mutex<Panel<'a, T::Real>>>,
     idle: Idle<Elimination<T>>,
@@ -57,6 +60,25 @@ struct Shared<'a, T: Scalar> {
     done: &'a Done<T>,
 }
 
+/// Branches below the same front.
+struct Meeting<T: Scalar> {
+    /// What each has left, nothing or one, once it is done.
+    arrived: Vec<Option<Vec<Left<T>>>>,
+    /// What those have left that the front above has its columns of.
+    added: Vec<Left<T>>,
+    /// The next to be added, and whether somebody is about one.
+    next: usize,
+    busy: bool,
+}
+
+impl<T: Scalar> Meeting<T> {
+    fn next_one(&mut self) -> Option<Vec<Left<T>>> {
+        let left = self.arrived.get_mut(self.next)?.take()?;
+        self.next += 1;
+        Some(left)
+    }
+}
+
 /// A front with what it left to its parent.
 type Left<T> = (usize, Contribution<<T as Scalar>::Real>);
 
@@ -79,7 +101,8 @@ impl<'a, T: Scalar> Run<'a, T> {
             Mutex::new(Panel { values, begun: false })
         };
         let (panels, stacks) = (places.iter().map(panel).collect(), symbolic.stacks(threads));
-        Self { symbolic, values, scale, threshold, threads, stacks, panels, idle: Idle::default() }
+        let subtrees = AtomicUsize::new(symbolic.subtrees.len());
+        Self { symbolic, values, scale, threshold, threads, stacks, subtrees, panels, idle: Idle::default() }
     }
 
     /// All fronts.
@@ -89,19 +112,50 @@ impl<'a, T: Scalar> Run<'a, T> {
         if self.threads == 1 {
             self.run(0..fronts.len(), &done);
         } else {
-            let roots = (0..fronts.len()).filter(|&k| fronts[k].parent == ROOT).collect();
-            self.branches(roots, &Shared { work: self.symbolic.work(), done: &done });
+            let roots: Vec<usize> = (0..fronts.len()).filter(|&k| fronts[k].parent == ROOT).collect();
+            self.branches(ROOT, &roots, &Shared { work: self.symbolic.work(), done: &done });
         }
         done.into_iter().filter_map(OnceLock::into_inner).collect()
     }
 
-    /// Branches at the same time, the one with most work first; what they leave, in their order.
-    fn branches(&self, mut roots: Vec<usize>, shared: &Shared<'_, T>) -> Vec<Left<T>> {
-        roots.sort_by(|&a, &b| shared.work[b].total_cmp(&shared.work[a]));
-        let left = map(self.threads, roots, |root| Some((root, self.tree(root, shared)?)));
-        let mut left: Vec<_> = left.into_iter().flatten().collect();
-        left.sort_unstable_by_key(|(root, _)| *root);
-        left
+    /// Branches at the same time, the one with most work first; what they leave, in their order, once the front above
+    /// them, if there is one, has its columns of that.
+    fn branches(&self, above: usize, branches: &[usize], shared: &Shared<'_, T>) -> Vec<Left<T>> {
+        let mut order: Vec<usize> = (0..branches.len()).collect();
+        order.sort_by(|&a, &b| shared.work[branches[b]].total_cmp(&shared.work[branches[a]]));
+        let meeting = Mutex::new(Meeting {
+            arrived: branches.iter().map(|_| None).collect(),
+            added: Vec::new(),
+            next: 0,
+            busy: false,
+        });
+        each(self.threads, order, |at| {
+            let left = self.tree(branches[at], shared).map(|left| (branches[at], left));
+            self.arrive(above, at, left, &meeting);
+        });
+        meeting.into_inner().unwrap_or_else(PoisonError::into_inner).added
+    }
+
+    /// Adds to the front above what branches have left so far: in the order of the branches, so that sums do not depend
+    /// on who is first.
+    fn arrive(&self, above: usize, at: usize, left: Option<Left<T>>, meeting: &Mutex<Meeting<T>>) {
+        let lock = || meeting.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut now = lock();
+        now.arrived[at] = Some(left.into_iter().collect());
+        let mut stacks = Stacks::<T>::default();
+        while !now.busy
+            && let Some(mut left) = now.next_one()
+        {
+            now.busy = true;
+            // Who arrives meanwhile does not wait: this thread goes on with what is there then.
+            drop(now);
+            if above != ROOT {
+                self.add(above, &mut left, &mut stacks, self.threads);
+            }
+            now = lock();
+            now.busy = false;
+            now.added.extend(left);
+        }
     }
 
     /// The fronts under one and itself, branches at the same time; what it leaves.
@@ -118,7 +172,8 @@ impl<'a, T: Scalar> Run<'a, T> {
             match symbolic.children_of(k) {
                 [only] => chain.push(*only as usize),
                 several => {
-                    break self.branches(several.iter().map(|&child| child as usize).collect(), shared);
+                    let several: Vec<usize> = several.iter().map(|&child| child as usize).collect();
+                    break self.branches(k, &several, shared);
                 }
             }
         };
@@ -177,13 +232,16 @@ impl<'a, T: Scalar> Run<'a, T> {
             front(root, &mut stacks);
             let left = pending.pop()?.map(|left| left.taken_from(&mut stacks[parity]));
             stacks[parity] = own;
-            with.stacks = stacks;
+            // The last ones are not needed again, and memory is.
+            if self.subtrees.fetch_sub(1, Relaxed) > self.threads {
+                with.stacks = stacks;
+            }
             left
         })
     }
 
-    /// Adds to a front's own columns the entries of the matrix, where they are not there yet, and what children left of
-    /// these columns, which is given back then.
+    /// Adds to a front's own columns the entries of the matrix and what children left of these columns, each once; what
+    /// they left of them is given back then.
     fn add(&self, k: usize, children: &mut [Left<T>], stacks: &mut Stacks<T>, threads: usize) {
         let (symbolic, shape) = (self.symbolic, &self.symbolic.fronts[k]);
         // Nobody waits for it: all that it is made of comes from this thread.

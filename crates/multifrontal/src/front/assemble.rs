@@ -135,7 +135,7 @@ impl<T: Scalar> WithSimd for AddChildren<'_, '_, T> {
     fn with_simd<S: Simd>(self, _: S) {
         let Self { strip, from, children } = self;
         for child in children {
-            for col in child.first_at(from)..child.first_at(from + strip.width) {
+            for col in child.first_at(from).max(child.moved)..child.first_at(from + strip.width) {
                 let runs = &child.runs[child.runs.partition_point(|run| run.from + run.len <= col)..];
                 for part in 0..T::PARTS {
                     let start = ((child.relative[col] as usize - from) * T::PARTS + part) * strip.stride;

@@ -35,11 +35,7 @@ impl<R> Default for Stack<R> {
 impl<R: Real> Stack<R> {
     /// Empty, with room for so many numbers.
     pub(crate) fn clear(&mut self, len: usize) {
-        if self.values.len() < len {
-            // Not both at the same time.
-            self.values = Memory::default();
-            self.values = Memory::zeros(len);
-        }
+        self.values.some(len);
         self.top = self.values.len();
     }
 

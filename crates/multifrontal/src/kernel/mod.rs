@@ -9,7 +9,7 @@ mod tile;
 pub(crate) use pack::{Left, Pivots};
 pub(crate) use tile::{FEW, MANY, WIDE, copy, many, tile_rows};
 
-use crate::memory::Lines;
+use crate::memory::Memory;
 use crate::scalar::{Real, Scalar};
 use crate::threads::{Idle, each};
 use pulp::{Simd, WithSimd};
@@ -55,14 +55,14 @@ pub(crate) fn downdate<T: Scalar>(
 /// What one thread needs for a strip.
 pub(crate) struct Buffers<R> {
     /// L D of a strip's columns, packed.
-    right: Lines<R>,
+    right: Memory<R>,
     /// Sums of the real products, column after column, a plane for each.
-    products: Lines<R>,
+    products: Memory<R>,
 }
 
 impl<R> Default for Buffers<R> {
     fn default() -> Self {
-        Self { right: Lines::default(), products: Lines::default() }
+        Self { right: Memory::default(), products: Memory::default() }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::TOGETHER;
 use super::tile::{copy, tile_rows};
-use crate::memory::Lines;
+use crate::memory::Memory;
 use crate::scalar::{Real, Scalar};
 use crate::threads::each;
 use crate::triangle::Triangle;
@@ -94,13 +94,13 @@ impl<T: Scalar> Pivots<'_, T> {
 /// L packed by the rows of a tile.
 #[derive(Debug)]
 pub(crate) struct Left<R> {
-    packed: Lines<R>,
+    packed: Memory<R>,
     rows: usize,
 }
 
 impl<R> Default for Left<R> {
     fn default() -> Self {
-        Self { packed: Lines::default(), rows: 0 }
+        Self { packed: Memory::default(), rows: 0 }
     }
 }
 

@@ -8,7 +8,7 @@ mod one;
 
 use crate::factor::{Factor, Node};
 use crate::kernel::STRIP;
-use crate::memory::Lines;
+use crate::memory::Memory;
 use crate::part::Part;
 use crate::scalar::Scalar;
 use crate::threads::{each, map, with};
@@ -36,7 +36,7 @@ struct Step<'a, T: Scalar> {
     node: Columns<'a, T>,
     local: &'a mut [T::Real],
     /// Numbers of the front's rows.
-    buffer: &'a mut Lines<T::Real>,
+    buffer: &'a mut Memory<T::Real>,
     threads: usize,
     /// Whether it may be shared out to threads, however many there are: sums do not depend on that.
     shared: bool,
@@ -155,7 +155,7 @@ impl<T: Scalar> Factor<T> {
 
 /// The numbers of a part, of each position the parts, of each part the right-hand sides; and those of the parts below.
 struct Local<R> {
-    values: Lines<R>,
+    values: Memory<R>,
     below: Vec<Local<R>>,
 }
 
@@ -203,9 +203,9 @@ impl<T: Scalar> Together<'_, T> {
     }
 
     /// S b in the order of a part's positions, zeros for those outside of it.
-    fn gather(&self, part: &Part, rhs: &[T]) -> Lines<T::Real> {
+    fn gather(&self, part: &Part, rhs: &[T]) -> Memory<T::Real> {
         let (row, lanes) = (self.row(), self.lanes);
-        let mut local = Lines::zeros(part.size() * row);
+        let mut local = Memory::zeros(part.size() * row);
         for (lane, b) in rhs.chunks_exact(self.factor.dim()).enumerate() {
             for (local, (from, scale)) in local.chunks_exact_mut(row).zip(self.rows_of(part)) {
                 let parts = b[from].scale(scale).parts();
@@ -237,7 +237,7 @@ impl<T: Scalar> Together<'_, T> {
 
     /// y = L⁻¹ b over the nodes of a part; places outside receive what they have to add.
     fn forward(&self, part: &Part, local: &mut [T::Real]) {
-        let (buffer, row) = (&mut Lines::default(), self.row());
+        let (buffer, row) = (&mut Memory::default(), self.row());
         for node in &self.factor.nodes[part.nodes.clone()] {
             let own = &local[node.first * row..][..node.pivots() * row];
             if own.iter().all(|&x| x == T::Real::default()) {
@@ -254,7 +254,7 @@ impl<T: Scalar> Together<'_, T> {
 
     /// x = L⁻ᵀ D⁻¹ y over the nodes of a part.
     fn backward(&self, part: &Part, local: &mut [T::Real]) {
-        let buffer = &mut Lines::default();
+        let buffer = &mut Memory::default();
         for node in self.factor.nodes[part.nodes.clone()].iter().rev() {
             let step = self.step(node, part, local, buffer);
             if self.lanes == 1 {
@@ -270,7 +270,7 @@ impl<T: Scalar> Together<'_, T> {
         node: &'a Node<T>,
         part: &Part,
         local: &'a mut [T::Real],
-        buffer: &'a mut Lines<T::Real>,
+        buffer: &'a mut Memory<T::Real>,
     ) -> Step<'a, T> {
         let threads = if part.top { self.threads } else { 1 };
         let (values, triangle) = (self.factor.columns_of(node), Triangle::new(node.order()));

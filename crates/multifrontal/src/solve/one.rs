@@ -1,7 +1,7 @@
 //! One right-hand side: registers hold rows, at the speed at which L comes from memory.
 
 use super::{BLOCK, Columns, Step, pieces, shares};
-use crate::memory::{LINE, Lines};
+use crate::memory::{LINE, Memory};
 use crate::scalar::{Real, Scalar, add_product};
 use crate::threads::each;
 use pulp::{Simd, WithSimd};
@@ -130,7 +130,7 @@ impl<T: Scalar> WithSimd for Dot<'_, T> {
 }
 
 /// Zeros for the real and the imaginary parts of some rows.
-fn planes<R: Real>(buffer: &mut Lines<R>, rows: usize) -> (&mut [R], &mut [R]) {
+fn planes<R: Real>(buffer: &mut Memory<R>, rows: usize) -> (&mut [R], &mut [R]) {
     let plane = rows.next_multiple_of(LINE / size_of::<R>());
     let planes = buffer.some(2 * plane);
     planes.fill(R::default());
