@@ -20,7 +20,9 @@ pub(crate) struct Run<'a, T: Scalar> {
     threshold: f64,
     threads: usize,
     /// Numbers that are kept at even and at odd depths in whatever one thread does.
-    stacks: [usize; 2],
+    sizes: [usize; 2],
+    /// Stacks of as many, one for each thread that is in a subtree.
+    stacks: Idle<Stacks<T>>,
     /// Subtrees that nobody has finished yet.
     subtrees: AtomicUsize,
     /// The own columns of each front.
@@ -100,9 +102,10 @@ impl<'a, T: Scalar> Run<'a, T> {
             rest = behind;
             Mutex::new(Panel { values, begun: false })
         };
-        let (panels, stacks) = (places.iter().map(panel).collect(), symbolic.stacks(threads));
+        let panels = places.iter().map(panel).collect();
+        let (sizes, stacks, idle) = (symbolic.stacks(threads), Idle::default(), Idle::default());
         let subtrees = AtomicUsize::new(symbolic.subtrees.len());
-        Self { symbolic, values, scale, threshold, threads, stacks, subtrees, panels, idle: Idle::default() }
+        Self { symbolic, values, scale, threshold, threads, sizes, stacks, subtrees, panels, idle }
     }
 
     /// All fronts.
@@ -200,44 +203,48 @@ impl<'a, T: Scalar> Run<'a, T> {
         )
     }
 
-    /// The fronts of a subtree one after the other; what its root leaves.
+    /// The fronts of a subtree one after the other, on stacks that nobody uses; what its root leaves.
     fn run(&self, range: Range<usize>, done: &Done<T>) -> Option<Contribution<T::Real>> {
-        let symbolic = self.symbolic;
-        let mut pending: Vec<Option<Contribution<T::Real>>> = range.clone().map(|_| None).collect();
-        self.with_idle(1, |with| {
-            let mut stacks = std::mem::take(&mut with.stacks);
-            for (stack, len) in stacks.iter_mut().zip(self.stacks) {
+        self.stacks.lend(Stacks::<T>::default, |stacks| {
+            for (stack, len) in stacks.iter_mut().zip(self.sizes) {
                 stack.clear(T::PARTS * len);
             }
-            let root = range.end.checked_sub(1)?;
-            let mut front = |k: usize, stacks: &mut Stacks<T>| {
-                let children = symbolic.children_of(k).iter().map(|&child| child as usize);
-                let children =
-                    children.filter_map(|child| Some((child, pending[child - range.start].take()?)));
-                let left = self.front(k, children.collect(), stacks, with, done);
-                let parent = symbolic.fronts[k].parent;
-                pending[k - range.start] = left.map(|left| {
-                    let mut left = [(k, left)];
-                    if range.contains(&parent) {
-                        self.add(parent, &mut left, stacks, 1);
-                    }
-                    let [(_, left)] = left;
-                    left
-                });
-            };
-            (range.start..root).for_each(|k| front(k, &mut stacks));
-            // What the root leaves goes elsewhere: it has a stack of its own.
-            let parity = symbolic.parity(root);
-            let own = std::mem::take(&mut stacks[parity]);
-            front(root, &mut stacks);
-            let left = pending.pop()?.map(|left| left.taken_from(&mut stacks[parity]));
-            stacks[parity] = own;
+            let left = self.with_idle(1, |with| self.subtree(range, stacks, with, done));
             // The last ones are not needed again, and memory is.
-            if self.subtrees.fetch_sub(1, Relaxed) > self.threads {
-                with.stacks = stacks;
+            if self.subtrees.fetch_sub(1, Relaxed) <= self.threads {
+                *stacks = Stacks::<T>::default();
             }
             left
         })
+    }
+
+    fn subtree(
+        &self,
+        range: Range<usize>,
+        stacks: &mut Stacks<T>,
+        with: &mut Elimination<T>,
+        done: &Done<T>,
+    ) -> Option<Contribution<T::Real>> {
+        let symbolic = self.symbolic;
+        let mut pending: Vec<Option<Left<T>>> = range.clone().map(|_| None).collect();
+        for k in range.clone() {
+            let (parity, last) = (symbolic.parity(k), k + 1 == range.end);
+            let children = symbolic.children_of(k).iter().map(|&child| child as usize - range.start);
+            let children = children.filter_map(|child| pending[child].take()).collect();
+            // What the root leaves goes elsewhere: it has a stack of its own.
+            let others = last.then(|| std::mem::take(&mut stacks[parity]));
+            let mut left = self.front(k, children, stacks, with, done).map(|left| (k, left));
+            if let Some(others) = others {
+                let left = left.map(|(_, left)| left.taken_from(&mut stacks[parity]));
+                stacks[parity] = others;
+                return left;
+            }
+            if range.contains(&symbolic.fronts[k].parent) {
+                self.add(symbolic.fronts[k].parent, left.as_mut_slice(), stacks, 1);
+            }
+            pending[k - range.start] = left;
+        }
+        None
     }
 
     /// Adds to a front's own columns the entries of the matrix and what children left of these columns, each once; what

@@ -28,13 +28,12 @@ use solver::{Installed, Solver};
 use std::error::Error;
 use std::io::Write;
 use std::process::ExitCode;
-use std::time::Instant;
 
-/// Seconds of a factorisation from which on a solver runs [`FEW`] rounds only, but for the two that are compared by medians.
+/// Seconds of a factorisation from which on a solver runs [`FEW`] round only, but for the two that are compared by medians.
 const PATIENCE: f64 = 10.0;
 
 /// Rounds of another solver that is slow.
-const FEW: usize = 2;
+const FEW: usize = 1;
 
 fn main() -> ExitCode {
     let options = match Options::parse(std::env::args().skip(1)) {
@@ -77,7 +76,7 @@ fn compare(options: &Options) -> Result<(), Box<dyn Error>> {
     }
     println!(
         "\nSeconds of one thread are CPU seconds, of several those on the clock; medians over the rounds (where a factor of \
-         others than multifrontal and\nPARDISO takes more than {PATIENCE} s: {FEW} rounds); least: of all rounds, on the clock. GF/s: operations of L D Lᵀ under nested \
+         others than multifrontal and\nPARDISO takes more than {PATIENCE} s: {FEW} round); least: of all rounds, on the clock. GF/s: operations of L D Lᵀ under nested \
          dissection, Σ c² (complex: four\ntimes), over the factor's seconds; of dense: over the speed of a large product. \
          solve 8: eight right-hand sides at once. L: entries;\nGF own: operations; memory: of what is kept of analysis and factor; all three by its own \
          report. peak: growth of resident memory. error: ‖b − Ax‖∞ / (‖A‖∞ ‖x‖∞ + ‖b‖∞),\nof the worst right-hand side (of MUMPS: the first), unrefined unless remarked. \
@@ -141,6 +140,8 @@ fn contest<T: Number>(
             contenders.push(Contender { name, solver, threads, rounds: Vec::new(), failure: None });
         }
     }
+    // Any solver's factor and what it works in, but for those that take many times as much.
+    let room = (1.5 * entries) as usize * size_of::<T>();
     let begun = ticks();
     for round in 0..options.rounds {
         for contender in &mut contenders {
@@ -150,7 +151,7 @@ fn contest<T: Number>(
                 continue;
             }
             eprintln!("  {} {}, round {}: {}", matrix, T::NAME, round + 1, contender.name);
-            match contender.solver.round(installed, &case, contender.threads) {
+            match contender.solver.round(installed, &case, contender.threads, room) {
                 Ok(round) => contender.rounds.push(round),
                 Err(failure) => contender.failure = Some(failure),
             }

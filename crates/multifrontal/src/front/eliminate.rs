@@ -10,7 +10,7 @@
 use super::corner::{CORNER, Corner, invert_pair};
 use super::rook::{largest, rook};
 use super::rows::{Limits, Tile, solve_rows};
-use super::{Front, Stack, strip_width};
+use super::{Front, strip_width};
 use crate::kernel::{Buffers, Left, Pivots, STRIP, downdate};
 use crate::scalar::{Real, Scalar};
 use crate::threads::Idle;
@@ -35,8 +35,6 @@ pub(crate) struct Elimination<T: Scalar> {
     idle: Idle<Buffers<T::Real>>,
     tiles: Idle<Box<Tile<T::Real>>>,
     saved: Vec<T::Real>,
-    /// For what fronts of a subtree leave, at even and at odd depths.
-    pub(crate) stacks: [Stack<T::Real>; 2],
     /// No entry of L is larger than 1/threshold.
     pub(crate) threshold: f64,
     pub(crate) threads: usize,
@@ -50,7 +48,6 @@ impl<T: Scalar> Elimination<T> {
             idle: Idle::default(),
             tiles: Idle::default(),
             saved: Vec::new(),
-            stacks: [Stack::default(), Stack::default()],
             threshold,
             threads: 1,
         }

@@ -16,7 +16,11 @@ use crate::triangle::{Triangle, top};
 use many::Shaped;
 use std::ops::Range;
 
-/// Numbers of a factor below which another thread costs more than it brings.
+/// Numbers of a factor below which one thread solves alone: to have another one takes a tenth of a millisecond, and so
+/// does half of the solution with a million.
+const ALONE_BELOW: usize = 1_000_000;
+
+/// Numbers of a node below which another thread costs more than it brings.
 const SHARE_FROM: usize = 40_000;
 
 /// Columns of L that are met together: as many streams as a processor follows, complex ones having two.
@@ -286,7 +290,7 @@ pub(crate) fn solve<T: Scalar>(factor: &Factor<T>, rhs: &mut [T], threads: usize
     }
     assert_eq!(rhs.len() % dim, 0, "whole right-hand sides");
     let numbers: usize = factor.nodes.iter().map(Node::numbers).sum();
-    let threads = if numbers < SHARE_FROM { 1 } else { threads.max(1) };
+    let threads = if numbers < ALONE_BELOW { 1 } else { threads.max(1) };
     let together = many::lanes::<T::Real>();
     with(threads, || {
         for some in rhs.chunks_mut(dim * together) {
