@@ -267,7 +267,7 @@ impl<'a, T: Scalar> Run<'a, T> {
             add_children(&mut strip, from, &given);
         });
         for (child, left) in children {
-            left.give_back::<T>(stack, symbolic.relative_of(*child), shape.pivots);
+            left.give_back::<T>(stack, symbolic.moved(*child), symbolic.rows_of(*child).len());
         }
         *self.panel(k) = Panel { values, begun: true };
     }
@@ -301,7 +301,7 @@ impl<'a, T: Scalar> Run<'a, T> {
             vec![T::Real::default(); if delayed > 0 { triangle.start::<T>(candidates) } else { 0 }];
         let mut front = if delayed > 0 {
             let mut front = Front { ids, candidates, panel: more.as_mut_slice(), triangle };
-            self.move_behind(own, shape.order(), &mut front, delayed);
+            move_behind(own, shape.order(), &mut front, delayed);
             let mut base = 0;
             for (child, left) in &children {
                 left.add_delayed(&mut front, base, delayed, symbolic.relative_of(*child));
@@ -344,17 +344,6 @@ impl<'a, T: Scalar> Run<'a, T> {
         left
     }
 
-    /// Copies a front's own columns to where they are behind delayed ones.
-    fn move_behind(&self, own: &[T::Real], order: usize, front: &mut Front<'_, T>, delayed: usize) {
-        let triangle = Triangle::new(order);
-        for (col, part) in
-            (0..front.candidates - delayed).flat_map(|col| (0..T::PARTS).map(move |p| (col, p)))
-        {
-            let column = &own[triangle.part::<T>(col, part, col)];
-            front.part_mut(delayed + col, part, delayed + col).copy_from_slice(column);
-        }
-    }
-
     /// The entries of the matrix in a strip of the front's own columns, scaled.
     fn add_entries(&self, strip: &mut Strip<'_, T>, k: usize) {
         let (symbolic, shape) = (self.symbolic, &self.symbolic.fronts[k]);
@@ -373,5 +362,14 @@ impl<'a, T: Scalar> Run<'a, T> {
                 }
             }
         }
+    }
+}
+
+/// Copies a front's own columns to where they are behind delayed ones.
+fn move_behind<T: Scalar>(own: &[T::Real], order: usize, front: &mut Front<'_, T>, delayed: usize) {
+    let triangle = Triangle::new(order);
+    for (col, part) in (0..front.candidates - delayed).flat_map(|col| (0..T::PARTS).map(move |p| (col, p))) {
+        let column = &own[triangle.part::<T>(col, part, col)];
+        front.part_mut(delayed + col, part, delayed + col).copy_from_slice(column);
     }
 }

@@ -37,15 +37,9 @@ impl<R: Real> Contribution<R> {
         Self { schur: stack.take(self.schur), ..self }
     }
 
-    /// Forgets the columns of the parent's candidates, which have been added there; rows have these places in its front.
-    pub(crate) fn give_back<T: Scalar<Real = R>>(
-        &mut self,
-        stack: &mut Stack<R>,
-        relative: &[u32],
-        candidates: usize,
-    ) {
-        let moved = relative.partition_point(|&place| (place as usize) < candidates);
-        let start = |col| Triangle::new(relative.len()).start::<T>(col);
+    /// Forgets the columns of the parent's candidates, so many of so many rows, which have been added there.
+    pub(crate) fn give_back<T: Scalar<Real = R>>(&mut self, stack: &mut Stack<R>, moved: usize, rows: usize) {
+        let start = |col| Triangle::new(rows).start::<T>(col);
         stack.give_back(&mut self.schur, start(moved) - start(self.moved));
         self.moved = moved;
     }

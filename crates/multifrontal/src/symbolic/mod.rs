@@ -235,6 +235,12 @@ impl Symbolic {
         &self.rows[self.fronts[front].rows.clone()]
     }
 
+    /// How many of a front's rows are candidates of its parent.
+    pub(crate) fn moved(&self, front: usize) -> usize {
+        let own = self.fronts.get(self.fronts[front].parent).map_or(0, |parent| parent.pivots);
+        self.relative_of(front).partition_point(|&place| (place as usize) < own)
+    }
+
     /// Where a front's rows are in its parent's.
     pub(crate) fn relative_of(&self, front: usize) -> &[u32] {
         &self.relative[self.fronts[front].rows.clone()]

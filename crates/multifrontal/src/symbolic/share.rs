@@ -72,11 +72,7 @@ pub(super) fn stacks(symbolic: &Symbolic, fronts: Range<usize>) -> [usize; 2] {
     let schur = |front: usize| Triangle::new(symbolic.fronts[front].rows.len());
     let whole = |front: usize| schur(front).start::<f64>(schur(front).rows());
     // The columns of the parent's candidates, which are given back at once.
-    let moved = |front: usize| {
-        let own = symbolic.fronts.get(symbolic.fronts[front].parent).map_or(0, |parent| parent.pivots);
-        schur(front)
-            .start::<f64>(symbolic.relative_of(front).partition_point(|&place| (place as usize) < own))
-    };
+    let moved = |front: usize| schur(front).start::<f64>(symbolic.moved(front));
     for front in fronts.clone() {
         let parity = symbolic.parity(front);
         live[parity] += whole(front);
