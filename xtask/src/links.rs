@@ -74,7 +74,7 @@ fn of_style_sheets(html: &str) -> impl Iterator<Item = String> + '_ {
 }
 
 /// What stands between < and > of each opening tag.
-fn tags(html: &str) -> impl Iterator<Item = &str> {
+pub(crate) fn tags(html: &str) -> impl Iterator<Item = &str> {
     let mut rest = html;
     std::iter::from_fn(move || {
         let start = rest.find('<')? + 1;
@@ -91,7 +91,7 @@ fn tags(html: &str) -> impl Iterator<Item = &str> {
 }
 
 /// The value of an attribute in double quotes.
-fn attribute(tag: &str, name: &str) -> Option<String> {
+pub(crate) fn attribute(tag: &str, name: &str) -> Option<String> {
     let (_, value) = tag.split_once(&format!(" {name}=\""))?;
     let (value, _) = value.split_once('"')?;
     Some(value.replace("&amp;", "&"))

@@ -5,16 +5,20 @@ mod bench;
 mod browser;
 mod docs;
 mod links;
+mod outside;
 mod python;
 mod site;
+mod slowest;
 mod step;
 mod test;
 
 use std::process::ExitCode;
+use test::Tier;
 
 const USAGE: &str = "\
-cargo xtask test [--quick]       formatting, lints, all tests and doc tests, documentation, the site, the Python package, the report in a browser;
-                                 --quick: tests and doc tests only
+cargo xtask test                 the daily tier: formatting, lints, tests, doc tests, documentation, the Python package
+cargo xtask test --long          everything: statistical tests with all their seeds and cases, the site, the report in a browser
+cargo xtask test --quick         tests and doc tests of the daily tier only; --quick --long: of the long one
 cargo xtask test browser         the report in headless Chromium alone; pictures to target/browser/pictures
 cargo xtask test python          the Python package alone: its wheel, tests and types
 cargo xtask test site            the documentation site alone: built, formulas typeset, links followed
@@ -26,8 +30,10 @@ fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
     let passed = match words.as_slice() {
-        ["test"] => test::all(),
-        ["test", "--quick"] => test::quick(),
+        ["test"] => test::all(Tier::Daily),
+        ["test", "--long"] => test::all(Tier::Long),
+        ["test", "--quick"] => test::quick(Tier::Daily),
+        ["test", "--quick", "--long"] => test::quick(Tier::Long),
         ["test", "browser"] => step::sum_up(&browser::browser()),
         ["test", "python"] => step::sum_up(&python::steps()),
         ["test", "site"] => step::sum_up(&site::steps()),

@@ -1,62 +1,131 @@
 //! The Python package: its wheel, installed into an environment of its own, with its tests, doctests and types.
 
 use crate::step::{Step, cargo, run, target, works, workspace};
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::time::Instant;
 
-/// What the tests need beside the wheel; where one of the optional ones is missing, its tests say that they were left out.
+/// What the tests need beside the wheel, those in Rust too; the version of pyuff is the one whose reading is known.
 const PACKAGES: [&str; 8] =
-    ["maturin>=1.9,<2", "numpy", "scipy", "pytest", "mypy", "pandas", "matplotlib", "pyuff"];
+    ["maturin>=1.9,<2", "numpy", "scipy", "pytest", "mypy", "pandas", "matplotlib", "pyuff==2.4.2"];
+
+/// What the Rust tests of the long tier read and write files with.
+const OUTSIDE: [&str; 5] = ["pyNastran", "pyyeti", "lvm_read", "pyFRF", "sdypy-EMA"];
 
 /// Python from 3.10 on, with `venv`.
 const SUITED: &str = "import sys, venv, ensurepip; sys.exit(sys.version_info < (3, 10))";
 
-/// The steps; none, with a word, where there is no such Python, or no package index to install from.
+/// The package alone.
 pub(crate) fn steps() -> Vec<Step> {
+    let (mut steps, python) = environment();
+    if python.is_some() {
+        steps.extend(package());
+    }
+    steps
+}
+
+fn binary(name: &str) -> PathBuf {
+    let place = if cfg!(windows) { "Scripts" } else { "bin" };
+    target().join("python-venv").join(place).join(name)
+}
+
+/// The interpreter of the environment; `None` where the environment was not made.
+pub(crate) fn interpreter() -> Option<PathBuf> {
+    binary("maturin").exists().then(|| binary("python"))
+}
+
+/// Lets PyO3 see the interpreter that maturin shows to it: with another one it would be built anew.
+pub(crate) fn seen_by(cargo: &mut Command) -> &mut Command {
+    match interpreter() {
+        Some(python) => cargo.env("PYO3_PYTHON", python),
+        None => cargo,
+    }
+}
+
+/// Makes the environment where there is none; no interpreter, with a word, where there is no Python, or no package index
+/// to install from.
+pub(crate) fn environment() -> (Vec<Step>, Option<PathBuf>) {
+    if let Some(python) = interpreter() {
+        return (Vec::new(), Some(python));
+    }
     let names = ["python3", "python"];
     let Some(python) = names.into_iter().find(|name| works(Command::new(name).args(["-c", SUITED]))) else {
         println!(
             "── Python: SKIPPED, no Python 3.10 or later with venv was found; crates/python is not tested"
         );
-        return Vec::new();
+        return (Vec::new(), None);
     };
     let folder = target().join("python-venv");
-    let binary = |name: &str| {
-        let place = if cfg!(windows) { "Scripts" } else { "bin" };
-        folder.join(place).join(name)
-    };
-    let mut steps = Vec::new();
-    if !binary("maturin").exists() {
-        let mut install = Command::new(binary("python"));
-        install.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check"]).args(PACKAGES);
-        let venv = run("Python venv", Command::new(python).args(["-m", "venv"]).arg(&folder));
-        steps.extend([venv, run("Python tools", &mut install)]);
-        if steps.iter().any(|step| !step.passed) {
-            println!(
-                "── Python: SKIPPED, {} cannot be installed; crates/python is not tested",
-                PACKAGES.join(", ")
-            );
-            return Vec::new();
-        }
+    let venv = run("Python venv", Command::new(python).args(["-m", "venv"]).arg(folder));
+    let tools = run("Python tools", pip_install().args(PACKAGES));
+    if !(venv.passed && tools.passed) {
+        println!(
+            "── Python: SKIPPED, {} cannot be installed; crates/python is not tested",
+            PACKAGES.join(", ")
+        );
+        return (Vec::new(), None);
     }
-    // Of the whole workspace, as the tests were built: of one package alone dependencies have other features, and are built again.
-    steps.push(run("frfit-cli", &mut cargo(["build", "--quiet", "--workspace", "--bin", "frfit"])));
+    (vec![venv, tools], interpreter())
+}
+
+/// Installs what only the long tier needs; where that cannot be had, `outside::look` says which tests are left out.
+pub(crate) fn install_outside() {
+    println!("── pip install {}", OUTSIDE.join(" "));
+    works(pip_install().args(OUTSIDE));
+}
+
+fn pip_install() -> Command {
+    let mut command = Command::new(binary("python"));
+    command.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check"]);
+    command
+}
+
+/// The dependencies of a selection of packages, each with its features.
+fn dependencies(selection: &[&str], edges: &str) -> BTreeSet<String> {
+    let tree =
+        cargo(["tree", "--prefix", "none", "--format", "{p} {f}", "--edges", edges]).args(selection).output();
+    let text = tree.map(|output| String::from_utf8_lossy(&output.stdout).into_owned()).unwrap_or_default();
+    text.lines().map(|line| line.trim_end_matches("(*)").trim_end().to_owned()).collect()
+}
+
+/// That the wheel, built alone, asks for no crate with other features than the tests of the workspace: it would be compiled twice.
+fn features() -> Step {
+    println!("── features");
+    let start = Instant::now();
+    let wheel = dependencies(&["--package", "frfit-python"], "normal,build");
+    let tests = dependencies(&["--workspace"], "normal,build,dev");
+    let twice: Vec<&String> = wheel.difference(&tests).collect();
+    for line in &twice {
+        eprintln!(
+            "{line}: the tests use it with other features; crates/python/Cargo.toml shall ask for the same"
+        );
+    }
+    let passed = twice.is_empty() && !wheel.is_empty();
+    Step { name: "features", seconds: start.elapsed().as_secs_f64(), passed, closing: Vec::new() }
+}
+
+/// Builds the wheel, installs it and tests it.
+pub(crate) fn package() -> Vec<Step> {
+    // Of the whole workspace, as the tests were built.
+    let mut program = cargo(["build", "--quiet", "--workspace", "--bin", "frfit"]);
+    let mut steps = vec![features(), run("frfit-cli", seen_by(&mut program))];
     let crate_folder = workspace().join("crates/python");
     let wheels = target().join("wheels");
     // Of an older wheel nothing shall be tested; where there is none, that is what is wanted.
     let _ = std::fs::remove_dir_all(&wheels);
     let mut build = Command::new(binary("maturin"));
     build.args(["build", "--quiet", "--interpreter"]).arg(binary("python")).arg("--out").arg(&wheels);
-    steps.push(run("Python wheel", build.env("CARGO_TARGET_DIR", target()).current_dir(&crate_folder)));
+    build.env("CARGO_TARGET_DIR", target()).current_dir(&crate_folder);
+    steps.push(run("Python wheel", seen_by(&mut build)));
     let Some(wheel) = only_file(&wheels) else { return steps };
-    let mut install = Command::new(binary("python"));
-    install.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check"]);
+    let mut install = pip_install();
     steps.push(run("Python install", install.args(["--force-reinstall", "--no-deps"]).arg(wheel)));
     // From a folder in which there is no package of this name: what is tested is the wheel.
     let mut tests = Command::new(binary("python"));
     tests.args(["-m", "pytest", "-q", "-c"]).arg(crate_folder.join("pyproject.toml"));
     tests.arg("--rootdir").arg(&crate_folder).arg(crate_folder.join("tests"));
-    tests.args(["--doctest-modules", "--pyargs", "frfit"]);
+    tests.args(["--durations", "5", "--doctest-modules", "--pyargs", "frfit"]);
     steps
         .push(run("Python tests", tests.env("FRFIT_CLI", target().join("debug/frfit")).current_dir(&wheels)));
     let types = |name: &'static str, arguments: &[&str]| {

@@ -1,40 +1,64 @@
-//! Everything that must hold before a change is kept.
+//! Everything that must hold before a change is kept, in two tiers: daily, and long.
 
 use crate::browser::browser;
+use crate::outside::{self, Outside};
 use crate::python;
 use crate::site;
+use crate::slowest;
 use crate::step::{Step, cargo, run, sum_up, works};
 
-/// Formatting, lints, tests, doc tests, documentation, the site, the Python package, the report in a browser; every step runs, whatever the others say.
-pub(crate) fn all() -> bool {
+/// How much of the tests is run.
+#[derive(Clone, Copy, PartialEq)]
+pub(crate) enum Tier {
+    /// What a change has to pass: minutes.
+    Daily,
+    /// Statistical tests with all their seeds and cases, the site, and the report in a browser too.
+    Long,
+}
+
+/// Formatting, lints, tests, doc tests, documentation, the Python package; of the long tier the site and the report in
+/// a browser too. Every step runs, even after one that failed.
+pub(crate) fn all(tier: Tier) -> bool {
     for (command, component) in [("fmt", "rustfmt"), ("clippy", "clippy")] {
         if !works(&mut cargo([command, "--version"])) {
             eprintln!("cargo {command} is missing: rustup component add {component}");
             return false;
         }
     }
-    let mut steps = vec![
-        run("format", &mut cargo(["fmt", "--all", "--check"])),
-        run("clippy", &mut cargo(["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"])),
-    ];
-    steps.extend(tests());
+    // The interpreter comes first: lints, tests and wheel have to see the same one, or PyO3 is built anew for each.
+    let (mut steps, python) = python::environment();
+    if python.is_some() && tier == Tier::Long {
+        python::install_outside();
+    }
+    steps.push(run("format", &mut cargo(["fmt", "--all", "--check"])));
+    let mut clippy = cargo(["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"]);
+    steps.push(run("clippy", python::seen_by(&mut clippy)));
+    steps.extend(tests(tier));
     steps.push(documentation());
-    steps.extend(site::steps());
-    steps.extend(python::steps());
-    steps.extend(browser());
+    if python.is_some() {
+        steps.extend(python::package());
+    }
+    if tier == Tier::Long {
+        steps.extend(site::steps());
+        steps.extend(browser());
+    }
+    slowest::print();
     sum_up(&steps)
 }
 
-/// Tests and doc tests only.
-pub(crate) fn quick() -> bool {
-    sum_up(&tests())
+/// Tests and doc tests only, with the Python that is there.
+pub(crate) fn quick(tier: Tier) -> bool {
+    let steps = tests(tier);
+    slowest::print();
+    sum_up(&steps)
 }
 
 /// The documentation, in which a broken link or a missing comment is an error.
 ///
 /// Only rustdoc sees the flag: nothing that other steps have built is built again.
 pub(crate) fn documentation() -> Step {
-    run("documentation", cargo(["doc", "--workspace", "--no-deps"]).env("RUSTDOCFLAGS", "-D warnings"))
+    let mut command = cargo(["doc", "--workspace", "--no-deps"]);
+    run("documentation", python::seen_by(&mut command).env("RUSTDOCFLAGS", "-D warnings"))
 }
 
 /// Where property tests begin, unless `PROPTEST_RNG_SEED` says otherwise: the same cases for the same code, so that
@@ -42,13 +66,32 @@ pub(crate) fn documentation() -> Step {
 const SEED: (&str, &str) = ("PROPTEST_RNG_SEED", "1");
 
 /// All tests with cargo-nextest where it is installed, then the doc tests, which it does not run.
-fn tests() -> [Step; 2] {
+fn tests(tier: Tier) -> [Step; 2] {
     let seed = std::env::var(SEED.0).unwrap_or_else(|_| SEED.1.into());
+    let Outside { python, absent } = outside::look();
     let mut runner = if works(&mut cargo(["nextest", "--version"])) {
-        cargo(["nextest", "run", "--workspace", "--no-fail-fast"])
+        slowest::forget();
+        let mut runner = cargo(["nextest", "run", "--workspace", "--tests"]);
+        runner.args(["--no-fail-fast", "--run-ignored", "all"]);
+        if !absent.is_empty() {
+            runner.args(["--filterset", &format!("not test(/_(needs|and)_({})/)", absent.join("|"))]);
+        }
+        runner
     } else {
-        cargo(["test", "--workspace", "--lib", "--bins", "--tests", "--examples", "--no-fail-fast"])
+        let mut runner = cargo(["test", "--workspace", "--tests", "--no-fail-fast"]);
+        runner.args(["--", "--include-ignored"]);
+        for name in absent {
+            runner.args(["--skip", &format!("_needs_{name}"), "--skip", &format!("_and_{name}")]);
+        }
+        runner
     };
+    runner.env(SEED.0, seed);
+    if let Some(python) = python {
+        runner.env(outside::PYTHON, python);
+    }
+    if tier == Tier::Long {
+        runner.env("FRFIT_LONG", "1");
+    }
     let mut doc_tests = cargo(["test", "--workspace", "--doc", "--no-fail-fast"]);
-    [run("tests", runner.env(SEED.0, seed)), run("doc tests", &mut doc_tests)]
+    [run("tests", python::seen_by(&mut runner)), run("doc tests", python::seen_by(&mut doc_tests))]
 }

@@ -5,8 +5,8 @@ use cpu_time::ProcessTime;
 use frfit::c64;
 use frfit::for_each::{ForEach, sequential};
 use frfit::identify::{
-    Band, BandOutcome, Enters, Hooks, Noise, Options, Several, SeveralOutcome, Sought, Vary, identify_band,
-    identify_several,
+    Band, BandOutcome, Context, Dependence, Noise, Options, Several, SeveralOutcome, Unknown, Variation,
+    identify_band, identify_several,
 };
 use frfit::material::{Law, OutsideTable, Table};
 use frfit::model::{DynamicStiffness, Experiment, Parameter};
@@ -93,42 +93,42 @@ impl Structure {
     ///
     /// # Errors
     /// Where there is no such term.
-    pub fn sought(
+    pub fn unknowns(
         &self,
         name: &str,
         off: f64,
-        varies: Vary,
+        varies: Variation,
         real: bool,
-    ) -> Result<(Sought, Law), Box<dyn Error>> {
+    ) -> Result<(Unknown, Law), Box<dyn Error>> {
         let term = self.stiffness.find(name)?;
         let is_unknown = self.truth.members.iter().any(|member| member.term == term);
         let truth = if is_unknown { &self.truth.nominal } else { &self.stiffness.terms()[term].factor };
-        let sought = Sought {
+        let unknowns = Unknown {
             name: name.to_owned(),
-            enters: Enters::Factor(vec![term]),
+            dependence: Dependence::Factor(vec![term]),
             nominal: truth.scaled(off),
             varies,
             real,
             bounds: Bounds::default(),
         };
-        Ok((sought, truth.clone()))
+        Ok((unknowns, truth.clone()))
     }
 
     /// Identifies several unknowns on one thread: what came out, and CPU seconds.
     ///
     /// # Errors
     /// [`OutsideTable`] where a law does not reach a frequency.
-    pub fn identify_several(&self, sought: &[Sought]) -> Result<(SeveralOutcome, f64), OutsideTable> {
+    pub fn identify_several(&self, unknowns: &[Unknown]) -> Result<(SeveralOutcome, f64), OutsideTable> {
         let band = Several {
             model: &self.stiffness,
             experiment: &self.experiment,
-            sought,
+            unknowns,
             frequency_hz: &self.frequency_hz,
             measured: &self.measured,
             noise: Noise::Unknown,
         };
         let start = ProcessTime::now();
-        let hooks = Hooks { for_each: &sequential, progress: &|_, _, _| {} };
+        let hooks = Context { for_each: &sequential, progress: &|_, _, _| {} };
         let outcome = identify_several(&band, &Options::default(), hooks)?;
         Ok((outcome, start.elapsed().as_secs_f64()))
     }
@@ -177,7 +177,7 @@ impl Task<'_> {
         let identify = |for_each: ForEach<'_>| {
             let (start, wall) = (ProcessTime::now(), Instant::now());
             let progress = |stage, _, _| clock.enter(stage);
-            let found = identify_band(&band, &options, Hooks { for_each, progress: &progress })?;
+            let found = identify_band(&band, &options, Context { for_each, progress: &progress })?;
             Ok::<_, OutsideTable>((found, wall.elapsed().as_secs_f64(), start.elapsed().as_secs_f64()))
         };
         let (found, wall, cpu) = match threads {

@@ -1,7 +1,7 @@
 //! What can be said on the command line.
 
 use clap::{Parser, Subcommand};
-use frfit::laws::{Family, UnknownFamily};
+use frfit::laws::{LawKind, UnknownLawKind};
 use frfit_workflow::export::{Target, UnitSystem};
 use frfit_workflow::sensitivities::Candidates;
 use std::path::PathBuf;
@@ -16,7 +16,7 @@ pub(crate) struct Args {
     #[command(subcommand)]
     pub(crate) command: Command,
 
-    /// No progress bar and no words on success
+    /// No progress bar and no words on success; warnings and findings are said
     #[arg(long, global = true, display_order = LAST)]
     pub(crate) quiet: bool,
 
@@ -67,7 +67,7 @@ pub(crate) enum Command {
     Report(Report),
     /// Write the identified modulus as the table that another solver reads
     #[command(
-        after_help = "Examples: frfit export nastran results/identified.csv -o core.bdf --unit-system mm-t-s --poisson 0.45 --id 7\n          \
+        after_help = "Examples: frfit export nastran results/identified.csv -o core.bdf --poisson 0.45 --id 7\n          \
                       frfit export abaqus results/identified.csv --law laws/law.json -o core.inp --poisson 0.45 --name CORE\n\n\
                       nastran: MAT1 and two TABLED1 for SDAMPING in SOL 108; abaqus: *ELASTIC and *VISCOELASTIC, FREQUENCY=TABULAR; \
                       ansys: TB,ELASTIC and TB,SDAMP over TBFIELD,FREQ; csv and json: frequency, modulus, loss factor, their deviations, status, units. \
@@ -115,9 +115,12 @@ pub(crate) struct Frf {
     /// Files with the records; several recordings are taken as one hit each
     #[arg(required = true)]
     pub(crate) records: Vec<PathBuf>,
-    /// File to write; .uff or .csv says the format. A summary and figures are written beside it
+    /// File to write; .uff or .csv says the format. A summary and figures are written beside it. - for standard output
     #[arg(short, long, value_name = "FRF")]
     pub(crate) out: PathBuf,
+    /// Format of the file in place of that of its name, such as uff or csv
+    #[arg(long, value_name = "ENDING")]
+    pub(crate) to: Option<String>,
     /// Channel of the force, by name or number (default: the one in a unit of force)
     #[arg(long, value_name = "CHANNEL")]
     pub(crate) force: Option<String>,
@@ -205,7 +208,7 @@ pub(crate) struct Identify {
     pub(crate) selection: Option<String>,
     /// What answers at a frequency (auto, full, subspace), in place of the case's
     #[arg(long)]
-    pub(crate) space: Option<String>,
+    pub(crate) reduction: Option<String>,
     /// Memory that may be used, in MB (by default what is available): a model that needs more is refused
     #[arg(long, value_name = "MB")]
     pub(crate) memory: Option<u64>,
@@ -245,12 +248,12 @@ pub(crate) struct Export {
     pub(crate) format: Target,
     /// Table of the modulus: an identified.csv, or one of dynamic mechanical analysis
     pub(crate) table: PathBuf,
-    /// File to write
+    /// File to write, - for standard output
     #[arg(short, long, value_name = "FILE")]
     pub(crate) out: PathBuf,
-    /// Units of the model: SI (Pa, kg/m^3) or mm-t-s (MPa, t/mm^3)
-    #[arg(long, value_name = "SYSTEM", default_value = "SI")]
-    pub(crate) unit_system: UnitSystem,
+    /// Units to write, as mm-t-s (MPa, t/mm^3); by default those of the case that the table came of, else SI (Pa, kg/m^3)
+    #[arg(long, value_name = "SYSTEM")]
+    pub(crate) unit_system: Option<UnitSystem>,
     /// Poisson's ratio, taken as real and constant; a solver needs it
     #[arg(long, value_name = "RATIO", allow_negative_numbers = true)]
     pub(crate) poisson: Option<f64>,
@@ -330,8 +333,11 @@ pub(crate) struct Inspect {
 pub(crate) struct Convert {
     /// File to read
     pub(crate) input: PathBuf,
-    /// File to write; its ending says the format
+    /// File to write; its ending says the format. - for standard output
     pub(crate) output: PathBuf,
+    /// Format of the output in place of that of its name, such as mtx or csv
+    #[arg(long, value_name = "ENDING")]
+    pub(crate) to: Option<String>,
     /// Which matrix of a file of several
     #[arg(long)]
     pub(crate) name: Option<String>,
@@ -354,10 +360,10 @@ pub(crate) struct Convert {
 
 /// A law, or `all` of them.
 #[derive(Debug, Clone)]
-pub(crate) struct Laws(pub(crate) Vec<Family>);
+pub(crate) struct Laws(pub(crate) Vec<LawKind>);
 
-fn laws(text: &str) -> Result<Laws, UnknownFamily> {
-    if text == "all" { Ok(Laws(Family::ALL.to_vec())) } else { Ok(Laws(vec![text.parse()?])) }
+fn laws(text: &str) -> Result<Laws, UnknownLawKind> {
+    if text == "all" { Ok(Laws(LawKind::ALL.to_vec())) } else { Ok(Laws(vec![text.parse()?])) }
 }
 
 /// `T=20` as a column and a value.

@@ -8,18 +8,22 @@ mod report;
 
 use args::{Args, Command};
 use clap::Parser;
+use frfit_workflow::terminal::printable;
 use outcome::{Failure, Outcome};
 use std::io::Write;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    let args = Args::parse();
+    let args = match Args::try_parse() {
+        Ok(args) => args,
+        Err(error) => return outcome::usage(&error),
+    };
     // A panic is a fault of this program: exit code 3, after the message that the default hook prints.
     match std::panic::catch_unwind(|| run(&args)) {
         Ok(Ok(outcome)) => outcome.code(),
         Ok(Err(failure)) => {
             // Nothing can be done where standard error is closed.
-            let _ = writeln!(std::io::stderr(), "frfit: {failure}");
+            let _ = writeln!(std::io::stderr(), "frfit: {}", printable(&failure.to_string()));
             failure.code()
         }
         Err(_) => ExitCode::from(3),

@@ -3,7 +3,9 @@
 use frfit_workflow::error::InputError;
 use frfit_workflow::job::JobError;
 use frfit_workflow::output::WriteError;
+use frfit_workflow::terminal::printable;
 use std::fmt;
+use std::io::Write;
 use std::process::ExitCode;
 
 /// A command that was carried out.
@@ -40,6 +42,19 @@ impl Failure {
             Self::Internal(_) => 3,
         })
     }
+}
+
+/// How a command line ends that is none, or that asks for help.
+pub(crate) fn usage(error: &clap::Error) -> ExitCode {
+    // In colours, unless what was typed would bring some of its own.
+    let typed = std::env::args_os().any(|word| word.to_string_lossy().contains(char::is_control));
+    let shown = error.render().to_string();
+    // Nothing can be done where standard error is closed.
+    let _ = match typed && error.use_stderr() {
+        true => std::io::stderr().write_all(printable(&shown).as_bytes()),
+        false => error.print(),
+    };
+    ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2))
 }
 
 impl fmt::Display for Failure {

@@ -3,28 +3,43 @@
 use frfit::identify::{Calibrated, Explained, Identified, NoiseSource, SmoothCurve, Status};
 use frfit_workflow::check::findings_text;
 use frfit_workflow::job::{IdentifyJob, SeveralJob};
-use frfit_workflow::output::laws_text;
+use frfit_workflow::output::{Words, laws_text};
 use std::path::Path;
 
 /// The verdict on several unknowns and where its files are.
-pub(crate) fn several(job: &SeveralJob, out: &Path) -> String {
-    format!(
-        "{}  {:<18}{}: identified.csv, response.csv, updated.uff, summary.json, figures/, report.html\n",
-        job.text,
+pub(crate) fn several(job: &SeveralJob, out: &Path) -> Words {
+    let mut words = job.text.clone();
+    words.say(&format!(
+        "  {:<18}{}: identified.csv, response.csv, updated.uff, summary.json, figures/, report.html\n",
         "wrote",
         out.display()
-    )
+    ));
+    words
 }
 
 /// The verdict of an identification and where its files are.
-pub(crate) fn identified(job: &IdentifyJob, out: &Path) -> String {
-    let Some(identify) = job.identify() else { return String::new() };
+pub(crate) fn identified(job: &IdentifyJob, out: &Path) -> Words {
+    let mut words = Words::default();
+    let Some(identify) = job.identify() else { return words };
     let run = &job.run;
+    let band = match (run.outcomes.first(), run.outcomes.last()) {
+        (Some(first), Some(last)) => format!("{} to {} Hz", first.frequency_hz, last.frequency_hz),
+        _ => String::new(),
+    };
+    words.say(&format!(
+        "{}: factor of {} at {} frequencies, {band}\n",
+        job.case.title,
+        identify.names.join(", "),
+        run.outcomes.len()
+    ));
     // What is wrong with the data comes before what was made of them.
-    let mut text = job.diagnosis.as_ref().map_or(String::new(), |found| findings_text(&job.case, found));
-    let mut line = |label: &str, value: String| text += &format!("  {label:<18}{value}\n");
+    words.warn(&job.diagnosis.as_ref().map_or(String::new(), |found| findings_text(&job.case, found)));
+    let mut add = |is_warning: bool, label: &str, value: String| {
+        words.add(is_warning, &format!("  {label:<18}{value}\n"));
+    };
     let statuses = Status::ALL.into_iter().filter(|&status| run.count(status) > 0);
-    line(
+    add(
+        false,
         "status",
         statuses
             .map(|status| format!("{} {}", run.count(status), status.name()))
@@ -40,26 +55,28 @@ pub(crate) fn identified(job: &IdentifyJob, out: &Path) -> String {
     };
     let real = identify.options.real;
     if let Some((low, high)) = range(&|outcome| outcome.storage()) {
-        let (label, unit) = if real { ("factor", "") } else { ("storage modulus", " Pa") };
-        line(label, format!("{low:.6e} to {high:.6e}{unit} (where ok)"));
+        let (label, unit) = if real { ("factor", "") } else { ("storage modulus", identify.unit.unit()) };
+        let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
+        add(false, label, format!("{low:.6e} to {high:.6e}{unit} (where ok)"));
     }
     if let (Some((low, high)), false) = (range(&|outcome| outcome.loss_factor()), real) {
-        line("loss factor", format!("{low:.6} to {high:.6} (where ok)"));
+        add(false, "loss factor", format!("{low:.6} to {high:.6} (where ok)"));
     }
     if let Some((_, high)) = range(&|outcome| outcome.error) {
-        line("error", format!("at most {high:.1e} (where ok)"));
+        add(false, "error", format!("at most {high:.1e} (where ok)"));
     }
-    for (label, sentence) in doubts(job) {
-        line(label, sentence);
+    for (is_warning, label, sentence) in doubts(job) {
+        add(is_warning, label, sentence);
     }
     let largest = run.outcomes.iter().filter_map(|outcome| outcome.spectral_radius).reduce(f64::max);
     if let Some(radius) = largest {
-        line("spectral radius", format!("up to {radius:.4}"));
+        add(false, "spectral radius", format!("up to {radius:.4}"));
     }
     for status in Status::ALL.into_iter().filter(|&status| status != Status::Ok) {
         let bands = run.bands_hz(status);
         if !bands.is_empty() {
-            line(status.name(), bands_hz(&bands));
+            // What the user left out is no surprise.
+            add(status != Status::OutOfBand, status.name(), bands_hz(&bands));
         }
     }
     let truth = &job.summary["truth"];
@@ -71,12 +88,14 @@ pub(crate) fn identified(job: &IdentifyJob, out: &Path) -> String {
             Some(off) if all < 1.0 => format!("; off by at most {off:.1e} where ok"),
             _ => String::new(),
         };
-        line(
+        add(
+            false,
             "right",
             format!("{} of all{of_ok} (the truth is known; within {}{off})", percent(all), truth["within"]),
         );
     }
-    line(
+    add(
+        false,
         "work",
         format!(
             "{} factorisations, {} solves, {:.2} s",
@@ -86,7 +105,11 @@ pub(crate) fn identified(job: &IdentifyJob, out: &Path) -> String {
         ),
     );
     if let (Some(size), Some(error)) = (run.subspace_size, run.certificate()) {
-        line("subspace", format!("{size} vectors, error of the response at most {error:.1e} (estimated)"));
+        add(
+            false,
+            "subspace",
+            format!("{size} vectors, error of the response at most {error:.1e} (estimated)"),
+        );
     }
     if let Some(curve) = run.smooth.as_ref().and_then(|smooth| smooth.curve.as_ref()) {
         let settled = if curve.converged { "" } else { ", not settled" };
@@ -95,7 +118,8 @@ pub(crate) fn identified(job: &IdentifyJob, out: &Path) -> String {
             count => format!("; {count} frequencies that it does not explain have no say in it"),
         };
         let SmoothCurve { parameters, width_octaves, .. } = curve;
-        line(
+        add(
+            !curve.converged || curve.unexplained > 0,
             "smooth",
             format!("{parameters:.1} parameters, one for {width_octaves:.2} octaves{settled}{odd}"),
         );
@@ -105,7 +129,8 @@ pub(crate) fn identified(job: &IdentifyJob, out: &Path) -> String {
         (None, Some(_)) => "free.csv, ",
         (None, None) => "",
     };
-    line(
+    add(
+        false,
         "wrote",
         format!(
             "{}: identified.csv, {more}candidates.csv, response.csv, updated.uff, summary.json, figures/, report.html",
@@ -113,23 +138,13 @@ pub(crate) fn identified(job: &IdentifyJob, out: &Path) -> String {
         ),
     );
     if let Some(laws) = &run.laws {
-        text += &laws_text(&laws.fits, &vec![None; laws.fits.len()]);
+        words.say(&laws_text(&laws.fits, &vec![None; laws.fits.len()], identify.unit));
     }
-    let band = (run.outcomes.first(), run.outcomes.last());
-    let band = match band {
-        (Some(first), Some(last)) => format!("{} to {} Hz", first.frequency_hz, last.frequency_hz),
-        _ => String::new(),
-    };
-    format!(
-        "{}: factor of {} at {} frequencies, {band}\n{text}",
-        job.case.title,
-        identify.names.join(", "),
-        run.outcomes.len()
-    )
+    words
 }
 
-/// What is known of the noise, and what speaks against sensors or model.
-fn doubts(job: &IdentifyJob) -> Vec<(&'static str, String)> {
+/// What is known of the noise, and what speaks against sensors or model: whether it must not be missed, what it is about, and a sentence.
+fn doubts(job: &IdentifyJob) -> Vec<(bool, &'static str, String)> {
     let run = &job.run;
     let mut lines = Vec::new();
     if let Some(level) = run.noise.level {
@@ -151,11 +166,11 @@ fn doubts(job: &IdentifyJob) -> Vec<(&'static str, String)> {
             }
             NoiseSource::Nothing => "unknown".to_owned(),
         };
-        lines.push(("noise", format!("{source}{bar}")));
+        lines.push((false, "noise", format!("{source}{bar}")));
     }
     for (sensor, fit) in job.case.sensors.iter().zip(&run.sensors).filter(|(_, fit)| fit.contradicts) {
-        let done = if fit.left_out { "left out" } else { "kept, as robust = false says" };
-        lines.push(("sensor", format!("{} contradicts all others: {done}", sensor.label)));
+        let done = if fit.left_out { "left out" } else { "kept, as reject_outliers = false says" };
+        lines.push((true, "sensor", format!("{} contradicts all others: {done}", sensor.label)));
     }
     lines.extend(channels(job));
     match run.fit {
@@ -174,11 +189,12 @@ fn doubts(job: &IdentifyJob) -> Vec<(&'static str, String)> {
                 }
                 _ => " (what is left over is no noise)".to_owned(),
             };
-            lines.push(("not explained", format!("{who}{told}")));
+            lines.push((true, "not explained", format!("{who}{told}")));
         }
         Some(fit) if fit.verdict == Explained::Nearly => {
             let times = (fit.chi_squared / fit.freedom as f64).sqrt();
             lines.push((
+                true,
                 "fit",
                 format!("misfit {times:.2} times the given noise: error bars may be too short by that"),
             ));
@@ -189,7 +205,7 @@ fn doubts(job: &IdentifyJob) -> Vec<(&'static str, String)> {
 }
 
 /// What was found of channels whose scale or delay was unknown.
-fn channels(job: &IdentifyJob) -> Vec<(&'static str, String)> {
+fn channels(job: &IdentifyJob) -> Vec<(bool, &'static str, String)> {
     let unknown = job.identify().map_or(&[][..], |identify| &identify.unknown);
     let mut lines = Vec::new();
     for ((sensor, unknown), found) in job.case.sensors.iter().zip(unknown).zip(&job.run.channels) {
@@ -201,7 +217,7 @@ fn channels(job: &IdentifyJob) -> Vec<(&'static str, String)> {
                 }
                 None => format!("not told by the data, at {}: left out", sensor.label),
             };
-            lines.push((label, told));
+            lines.push((found.is_none(), label, told));
         };
         if unknown.scale {
             tell("scale", found.scale, "times what the file says");

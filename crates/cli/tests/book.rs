@@ -6,7 +6,7 @@
 //! is that file; `<!-- file NAME after BASE -->`, that it stands in place of all from `[identify]` on in BASE; `<!-- copy NAME TO -->`, a file of docs/site/data;
 //! `<!-- picture FIGURE NAME -->`, a figure that was just made and is docs/site/src/images/NAME: `FRFIT_RENEW=1 cargo test -p frfit-cli --test book` renews all of them.
 
-mod common;
+use crate::common;
 
 use common::frfit;
 use std::fmt::Write;
@@ -175,7 +175,7 @@ fn follow(page: &str) -> Result<(), String> {
                                 .map_err(|error| here(error.to_string()))?;
                         }
                     }
-                    // Those of Python are run by crates/python/tests/test_book.py, those of Rust by crates/examples as doc tests.
+                    // Those of Python are run by crates/python/tests/test_site.py, those of Rust by crates/examples as doc tests.
                     "python" | "rust" => {}
                     "sh" | "text" if !code.iter().any(|line| line.trim_start().starts_with("frfit")) => {}
                     _ => return Err(here(format!("```{language}: no test looks at such a block"))),
@@ -237,4 +237,71 @@ fn faults_are_found() {
     assert!(same("a … c", "a b b c") && same("…", "") && !same("a …c", "a b") && !same("a", "ab"));
     assert!(all_same(&["a", "…", "c…"], &["a", "b", "b", "cd"]) && all_same(&["…"], &[]));
     assert!(!all_same(&["a", "…"], &["b"]) && !all_same(&["a"], &["a", "b"]));
+}
+
+/// All Markdown that a reader of the repository or of the site sees.
+fn documents() -> Vec<PathBuf> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let folders = ["", "docs", "docs/site/src", "crates/python", "crates/multifrontal"];
+    let files = folders.map(|folder| std::fs::read_dir(root.join(folder)).unwrap());
+    let paths = files.into_iter().flatten().map(|entry| entry.unwrap().path());
+    paths.filter(|path| path.extension().is_some_and(|ending| ending == "md")).collect()
+}
+
+/// Headings as GitHub and mdBook make places of them.
+fn places(page: &str) -> Vec<String> {
+    let mut is_code = false;
+    let headings = page.lines().filter(|line| {
+        is_code ^= line.trim_start().starts_with("```");
+        !is_code && line.starts_with('#')
+    });
+    let place = |heading: &str| {
+        let text = heading.trim_start_matches('#').trim().to_lowercase().replace(' ', "-");
+        text.chars().filter(|c| c.is_alphanumeric() || "-_".contains(*c)).collect()
+    };
+    headings.map(place).collect()
+}
+
+/// The links of a document that lead nowhere.
+fn lost_links(path: &Path, page: &str) -> Vec<String> {
+    let prose: String = parts_of_prose(page);
+    let links = prose.split("](").skip(1).filter_map(|rest| Some(rest.split_once(')')?.0));
+    let is_lost = |link: &&str| {
+        if link.contains("://") || link.starts_with("mailto:") {
+            return false;
+        }
+        let (file, place) = link.split_once('#').map_or((*link, None), |(file, place)| (file, Some(place)));
+        let to = if file.is_empty() { path.to_owned() } else { path.with_file_name(file) };
+        let Some(place) = place else { return !to.exists() };
+        let text = if file.is_empty() { Ok(page.to_owned()) } else { std::fs::read_to_string(&to) };
+        !text.is_ok_and(|text| places(&text).iter().any(|known| known == place))
+    };
+    links.filter(is_lost).map(|link| format!("{}: {link}", path.display())).collect()
+}
+
+/// A document without its code.
+fn parts_of_prose(page: &str) -> String {
+    let mut is_code = false;
+    let lines = page.lines().filter(|line| {
+        let is_fence = line.trim_start().starts_with("```");
+        is_code ^= is_fence;
+        !is_code && !is_fence
+    });
+    // Of a line the odd pieces between backticks are code.
+    let prose = lines.map(|line| line.split('`').step_by(2).collect::<Vec<_>>().join("code"));
+    prose.collect::<Vec<_>>().join("\n")
+}
+
+/// The site's own check, of pages as mdBook builds them, is in the long tier.
+#[test]
+fn every_link_of_the_sources_leads_somewhere() {
+    let documents = documents();
+    assert!(documents.len() > 20, "{documents:?}");
+    let lost = documents.iter().flat_map(|path| lost_links(path, &std::fs::read_to_string(path).unwrap()));
+    let lost: Vec<String> = lost.collect();
+    assert!(lost.is_empty(), "{lost:#?}");
+    let here = Path::new("here.md");
+    let page = "# A title, too\n[a](#a-title-too) `[b](b.md)` [c](https://c.org)\n```\n[d](d.md)\n```\n";
+    assert_eq!(lost_links(here, page), Vec::<String>::new());
+    assert_eq!(lost_links(here, "# A\n[a](#b) [b](missing.md)"), ["here.md: #b", "here.md: missing.md"]);
 }

@@ -1,6 +1,6 @@
 //! `frfit check`, and what `frfit identify` says of it.
 
-mod common;
+use crate::common;
 
 use common::{done, frfit, refused};
 use std::fs;

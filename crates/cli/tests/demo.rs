@@ -1,6 +1,8 @@
 //! The main job, as the README shows it.
 
-mod common;
+use crate::common;
+use crate::picture::assert_shows_something;
+use crate::tier::{is_long, of_tier};
 
 use common::{column, done, frfit, refused};
 use serde_json::Value;
@@ -9,7 +11,9 @@ use serde_json::Value;
 fn demo_runs_the_papers_rubber_bar() {
     let folder = tempfile::tempdir().unwrap();
     let said = done(folder.path(), &["demo"]);
-    for word in ["ok", "storage modulus", "loss factor", "spectral radius", "figures/"] {
+    for word in
+        ["  status            199 ok\n", "storage modulus", "loss factor", "spectral radius", "figures/"]
+    {
         assert!(said.contains(word), "{word:?} is not in\n{said}");
     }
     let out = folder.path().join("frfit-demo/out");
@@ -24,6 +28,7 @@ fn demo_runs_the_papers_rubber_bar() {
     // The paper: at least a hundred frequencies, all with ε < 2e-8.
     assert!(errors.len() >= 100);
     assert!(errors.iter().all(|error| error.parse::<f64>().unwrap() < 2e-8));
+    assert_eq!(column(&table, "status"), vec!["ok"; 199]);
     let summary: Value = serde_json::from_slice(&std::fs::read(out.join("summary.json")).unwrap()).unwrap();
     // Where one root is admissible it is the right one.
     assert_eq!(summary["truth"]["fraction_right_of_ok"], 1.0);
@@ -37,8 +42,7 @@ fn demo_runs_the_papers_rubber_bar() {
     for figure in ["accelerance", "modulus", "error", "spectral_radius"] {
         let svg = std::fs::read_to_string(out.join(format!("figures/{figure}.svg"))).unwrap();
         assert!(svg.starts_with("<svg") && !svg.contains("NaN"));
-        let png = std::fs::read(out.join(format!("figures/{figure}.png"))).unwrap();
-        assert!(png.starts_with(b"\x89PNG"));
+        assert_shows_something(&out.join(format!("figures/{figure}.png")));
     }
 }
 
@@ -72,6 +76,9 @@ fn every_example_runs_and_strict_tells_of_frequencies_without_a_trusted_answer()
         let case = format!("{name}/case.toml");
         if name == "hammer-bar" {
             continue; // its measurement has to be made first: see hammer.rs
+        }
+        if !is_long() && !["rubber-bar", "density", "added-mass"].contains(&name) {
+            continue; // one of each kind; crates/examples looks at the answers of all
         }
         done(folder.path(), &["--quiet", "example", name]);
         assert!(folder.path().join(name).join("README.md").exists());
@@ -182,7 +189,7 @@ fn an_estimated_nominal_needs_nothing_but_bounds() {
     assert_eq!(summary["truth"]["fraction_right"], 1.0, "{summary:#}");
     assert!(summary["counts"]["factorisations"].as_u64().unwrap() <= 4, "{}", summary["counts"]);
     for figure in ["candidates", "certificate"] {
-        assert!(folder.path().join(format!("out/figures/{figure}.png")).exists());
+        assert_shows_something(&folder.path().join(format!("out/figures/{figure}.png")));
     }
 }
 
@@ -195,7 +202,10 @@ fn the_rational_method_is_never_wrong_and_ok() {
         ("clamped-plate", "800:2000", false),
         ("density", "10:1000", true),
         ("sandwich", "20:1000", true),
-    ] {
+    ]
+    .into_iter()
+    .step_by(of_tier(2, 1))
+    {
         done(folder.path(), &["--quiet", "example", name]);
         let case = format!("{name}/case.toml");
         let arguments = ["identify", &case, "--out", "out", "--method", "rational", "--band", band, "--json"];
@@ -233,10 +243,13 @@ fn a_sensor_that_contradicts_the_others_is_named_and_left_out() {
     assert_eq!(left_out["truth"]["fraction_right_of_ok"], 1.0, "{said}");
     assert_eq!(left_out["fit"]["verdict"], "explained");
 
-    std::fs::write(at.join("beam/case.toml"), case.replace("[identify]", "[identify]\nrobust = false"))
-        .unwrap();
+    std::fs::write(
+        at.join("beam/case.toml"),
+        case.replace("[identify]", "[identify]\nreject_outliers = false"),
+    )
+    .unwrap();
     let said = done(at, &["identify", "beam/case.toml", "--out", "kept"]);
-    assert!(said.contains("220+Z contradicts all others: kept, as robust = false says"), "{said}");
+    assert!(said.contains("220+Z contradicts all others: kept, as reject_outliers = false says"), "{said}");
     assert!(said.contains("the model cannot explain the measurements"), "{said}");
     assert_eq!(summary("kept")["sensors"][2]["left_out"], false);
     assert_eq!(summary("kept")["fit"]["verdict"], "not explained");

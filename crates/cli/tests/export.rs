@@ -1,6 +1,6 @@
 //! The way out: decks of other solvers, tables, and the updated responses.
 
-mod common;
+use crate::common;
 
 use common::{column, done, frfit, refused};
 

@@ -1,6 +1,6 @@
 //! From the hammer to the modulus, one command a step.
 
-mod common;
+use crate::common;
 
 use common::{column, done, refused};
 use serde_json::Value;

@@ -3,7 +3,7 @@
 //! K is read from its Harwell–Boeing file, M from Matrix Market; the measurement is made by `frfit respond` with the true modulus
 //! (1 + 0.001i, P-42), the identification starts from (1 + δ) times that.
 
-mod common;
+use crate::common;
 
 use common::{column, data, done};
 use serde_json::Value;
@@ -37,8 +37,9 @@ points = 300
 }
 
 #[test]
-fn modulus_of_the_plate_from_an_frf_file() {
-    let Some(plate) = data("plate") else { return };
+#[ignore = "needs the data of ../shared/data"]
+fn modulus_of_the_plate_from_an_frf_file_needs_data() {
+    let plate = data("plate");
     let folder = tempfile::tempdir().unwrap();
     let write = |name: &str, text: String| std::fs::write(folder.path().join(name), text).unwrap();
     write("truth.toml", case(&plate, 1.0, "quantity = \"accelerance\""));
@@ -77,8 +78,9 @@ truth = { storage = 1.0, loss_factor = 0.001 }
 }
 
 #[test]
-fn by_default_every_modulus_of_the_plate_is_right() {
-    let Some(plate) = data("plate") else { return };
+#[ignore = "needs the data of ../shared/data"]
+fn by_default_every_modulus_of_the_plate_is_right_needs_data() {
+    let plate = data("plate");
     let folder = tempfile::tempdir().unwrap();
     let write = |name: &str, text: String| std::fs::write(folder.path().join(name), text).unwrap();
     write("truth.toml", case(&plate, 1.0, "quantity = \"accelerance\""));
@@ -110,8 +112,9 @@ truth = { storage = 1.0, loss_factor = 0.001 }
 }
 
 #[test]
-fn natural_frequencies_show_at_once() {
-    let Some(plate) = data("plate") else { return };
+#[ignore = "needs the data of ../shared/data"]
+fn natural_frequencies_show_at_once_needs_data() {
+    let plate = data("plate");
     let (k, m) = (plate.join("bcsstk09.rsa"), plate.join("bcsstm09.mtx"));
     let said = done(&plate, &["inspect", k.to_str().unwrap(), m.to_str().unwrap(), "--modes", "5"]);
     for frequency in ["858.089", "1748.537987", "2566.20", "3134.1"] {

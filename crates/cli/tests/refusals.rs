@@ -1,6 +1,6 @@
 //! Inputs at fault: exit code 2, what, where, expected and found, and nothing written.
 
-mod common;
+use crate::common;
 
 use common::{done, frfit, refused};
 use std::path::Path;

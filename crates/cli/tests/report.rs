@@ -1,6 +1,6 @@
 //! The HTML page of an identification.
 
-mod common;
+use crate::common;
 
 use common::{column, done, refused};
 use serde_json::Value;
@@ -100,6 +100,10 @@ fn a_folder_without_results_is_refused_with_what_is_missing() {
     std::fs::remove_file(out.join("report.html")).unwrap();
     let table = read(&out, "identified.csv").replacen(",ok,", ",good,", 1);
     std::fs::write(out.join("identified.csv"), table).unwrap();
+    let told = refused(folder.path(), &["report", "frfit-demo/out"]);
+    assert!(told.contains("changed, or of another run: identified.csv"), "{told}");
+    // Without the list of files it is read, and found to be wrong.
+    std::fs::remove_file(out.join("identify-manifest.json")).unwrap();
     let told = refused(folder.path(), &["report", "frfit-demo/out"]);
     assert!(
         told.starts_with("frfit: frfit-demo/out/identified.csv:2:") && told.contains("found \"good\""),

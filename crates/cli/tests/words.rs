@@ -1,6 +1,6 @@
 //! What the program says, word for word.
 
-mod common;
+use crate::common;
 
 use common::done;
 

@@ -22,7 +22,7 @@
 //! | [`roots`] | the polynomial's roots, which of them are admissible, and why the others are not |
 //! | [`select`] | which of the solutions of a whole band are one material, and where the data cannot tell (B-4) |
 //! | [`identify`] | one frequency from measurement to updated factor, and a band of them |
-//! | [`doctor`] | what is wrong with the data against the model, before anything is identified |
+//! | [`diagnostics`] | what is wrong with the data against the model, before anything is identified |
 //! | [`sensitivity`] | what a response depends on, what sensors tell of it, and where another would tell most |
 //! | [`laws`] | laws of the modulus with few parameters, fitted to moduli or straight to the FRFs (B-7) |
 //! | [`signal`] | records of a hammer test to an FRF with coherence and variance (B-6) |
@@ -32,7 +32,7 @@
 //! Labels P-n are equations of the paper (DOI 10.1115/1.4041217), B-n go beyond it; `docs/equations.md` lists
 //! where each lives. Time convention e^{+iωt}; SI units unless the name says otherwise.
 
-pub mod doctor;
+pub mod diagnostics;
 pub mod dof;
 pub mod efficiency;
 pub mod for_each;

@@ -203,6 +203,11 @@ impl Table {
         &self.frequency_hz
     }
 
+    /// The value at each of its frequencies.
+    pub fn values(&self) -> &[c64] {
+        &self.values
+    }
+
     fn at(&self, frequency_hz: f64) -> Result<c64, OutsideTable> {
         let (first, last) = (self.frequency_hz[0], self.frequency_hz[self.frequency_hz.len() - 1]);
         if !(first..=last).contains(&frequency_hz) {

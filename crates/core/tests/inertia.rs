@@ -1,7 +1,7 @@
 //! The factorisation that everything rests on, on real structures: Sylvester's law against dense eigenvalues, and
 //! solutions of what the Harwell–Boeing collection has of structures.
 
-mod shared_data;
+use crate::shared_data;
 
 use frfit_fem::brick::Face;
 use frfit_fem::{Assembled, Bar, Beam, Brick, Mass, Plate, Support};
@@ -113,8 +113,9 @@ fn negative_pivots_are_the_modes_below_a_shift() {
 }
 
 #[test]
-fn structures_of_the_harwell_boeing_collection() {
-    let Some(folder) = shared("hb") else { return };
+#[ignore = "needs the data of ../shared/data"]
+fn structures_of_the_harwell_boeing_collection_needs_data() {
+    let folder = shared("hb");
     let files = std::fs::read_dir(&folder).unwrap();
     let mut names: Vec<String> = files
         .map(|file| file.unwrap().file_name().into_string().unwrap())

@@ -1,10 +1,10 @@
 //! Laws fitted to moduli whose law is known.
 
-mod noise;
+use crate::noise;
 
 use frfit::c64;
 use frfit::frequency::omega_rad_s;
-use frfit::laws::{Datum, Family, LawFit, best, fit_modulus};
+use frfit::laws::{Datum, LawFit, LawKind, best, fit_modulus};
 use frfit::material::{Branch, Law};
 use noise::Noise;
 
@@ -13,7 +13,7 @@ fn frequencies(first: f64, last: f64, count: usize) -> Vec<f64> {
 }
 
 /// A law of each family, with its frequencies.
-fn materials() -> Vec<(Family, Law, Vec<f64>)> {
+fn materials() -> Vec<(LawKind, Law, Vec<f64>)> {
     let maxwell = Law::Maxwell {
         e0: 1e6,
         branches: vec![
@@ -23,20 +23,20 @@ fn materials() -> Vec<(Family, Law, Vec<f64>)> {
         ],
     };
     vec![
-        (Family::Constant, Law::complex_modulus(2e11, 1e-3), frequencies(20.0, 4000.0, 60)),
+        (LawKind::Constant, Law::complex_modulus(2e11, 1e-3), frequencies(20.0, 4000.0, 60)),
         // The paper's polybutadiene.
         (
-            Family::Fractional,
+            LawKind::Fractional,
             Law::Fractional { e0: 8.14e5, e1: 7.31e4, alpha: 0.528 },
             frequencies(20.0, 2000.0, 60),
         ),
         // The core of the NLEVP sandwich: its time is far above the band's frequencies.
         (
-            Family::FractionalZener,
+            LawKind::FractionalZener,
             Law::FractionalZener { e0: 3.504e5, e_infinity: 3.062e9, tau_s: 8.23e-9, alpha: 0.675 },
             frequencies(1.0, 1e9, 80),
         ),
-        (Family::Maxwell { branches: 3 }, maxwell, frequencies(0.1, 2e4, 80)),
+        (LawKind::Maxwell { branches: 3 }, maxwell, frequencies(0.1, 2e4, 80)),
     ]
 }
 
@@ -133,11 +133,11 @@ fn the_least_bic_is_that_of_the_law_that_made_the_data() {
             let (mut noise, mut right) = (Noise::new(3), 0);
             for _ in 0..6 {
                 let data = data(&law, &f, 0.01, &mut noise);
-                let fits: Vec<LawFit> = Family::ALL
+                let fits: Vec<LawFit> = LawKind::ALL
                     .iter()
                     .filter_map(|&family| fit_modulus(&data, family, sigma_known))
                     .collect();
-                assert_eq!(fits.len(), Family::ALL.len());
+                assert_eq!(fits.len(), LawKind::ALL.len());
                 right += usize::from(best(&fits).unwrap().family == truth);
                 let own = fits.iter().find(|fit| fit.family == truth).unwrap();
                 if sigma_known {
@@ -156,7 +156,7 @@ fn what_the_data_do_not_tell_has_no_small_error_bar() {
     // Rubber far below its transition: of Zener's law E∞ and τ are told only by E∞τ^α.
     let law = Law::FractionalZener { e0: 1e6, e_infinity: 1e9, tau_s: 1e-9, alpha: 0.5 };
     let f = frequencies(10.0, 1000.0, 40);
-    let fit = fit_modulus(&data(&law, &f, 0.01, &mut Noise::new(5)), Family::FractionalZener, true).unwrap();
+    let fit = fit_modulus(&data(&law, &f, 0.01, &mut Noise::new(5)), LawKind::FractionalZener, true).unwrap();
     for name in ["e_infinity", "tau"] {
         let parameter = fit.parameters.iter().find(|p| p.name == name).unwrap();
         assert!(parameter.std.is_none_or(|std| std > parameter.value), "{parameter:?}");
@@ -171,17 +171,17 @@ fn what_the_data_do_not_tell_has_no_small_error_bar() {
 #[test]
 fn too_few_data_are_no_fit() {
     let one = [Datum::relative(1.0, c64::new(1e6, 1e5))];
-    let constant = fit_modulus(&one, Family::Constant, false).unwrap();
+    let constant = fit_modulus(&one, LawKind::Constant, false).unwrap();
     assert_eq!((constant.degrees_of_freedom(), constant.reduced_chi_squared()), (0, None));
-    assert!(fit_modulus(&one, Family::Fractional, false).is_none());
-    assert!(fit_modulus(&[], Family::Constant, false).is_none());
+    assert!(fit_modulus(&one, LawKind::Fractional, false).is_none());
+    assert!(fit_modulus(&[], LawKind::Constant, false).is_none());
 }
 
 #[test]
 fn a_negative_loss_factor_is_told_and_not_forced_away() {
     let conjugate = Law::complex_modulus(1e6, -0.1);
     let f = frequencies(10.0, 100.0, 10);
-    let fit = fit_modulus(&data(&conjugate, &f, 0.01, &mut Noise::new(2)), Family::Constant, true).unwrap();
+    let fit = fit_modulus(&data(&conjugate, &f, 0.01, &mut Noise::new(2)), LawKind::Constant, true).unwrap();
     let eta = &fit.parameters[1];
     assert!((eta.value + 0.1).abs() < 4.0 * eta.std.unwrap());
 }

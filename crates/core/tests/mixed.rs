@@ -1,6 +1,6 @@
 //! Mixed derivatives in several parameters against Cramer's rule in exact arithmetic, one-parameter series and direct solves.
 
-mod common;
+use crate::common;
 
 use common::{c, chain, full, sandwich, term, tip_load, unknown};
 use frfit::c64;

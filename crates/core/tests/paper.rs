@@ -1,7 +1,7 @@
 //! The paper's demonstrations of Sections 6 and 8, with the choices it leaves open stated here.
 
-mod common;
-mod shared_data;
+use crate::common;
+use crate::shared_data;
 
 use common::{c, term};
 use frfit::c64;
@@ -184,14 +184,15 @@ fn a_resonance_without_damping_is_a_status() {
     }
 }
 
-/// A matrix of the plate, or `None` with a word where the data is absent.
-fn plate_matrix(name: &str) -> Option<SymmetricMatrix> {
-    Some(read_matrix(&shared("plate")?.join(name)))
+/// A matrix of the plate.
+fn plate_matrix(name: &str) -> SymmetricMatrix {
+    read_matrix(&shared("plate").join(name))
 }
 
 #[test]
-fn natural_frequencies_of_the_clamped_plate() {
-    let (Some(k), Some(m)) = (plate_matrix("bcsstk09.mtx"), plate_matrix("bcsstm09.mtx")) else { return };
+#[ignore = "needs the data of ../shared/data"]
+fn natural_frequencies_of_the_clamped_plate_needs_data() {
+    let (k, m) = (plate_matrix("bcsstk09.mtx"), plate_matrix("bcsstm09.mtx"));
     let found = modes::lowest(&k, &m, 5).unwrap().frequencies_hz();
     // Known to the digits given.
     for (found, (expected, digit)) in found.iter().zip([
@@ -207,8 +208,8 @@ fn natural_frequencies_of_the_clamped_plate() {
 
 /// Section 8 on BCSSTK09/BCSSTM09: K = (1 + 0.001i)K₀ (P-42), nominal (1 + δ) times that. Not in the paper: unit force on the deflection
 /// of node 101 (row 301), measured at the centre's neighbour, node 180 (row 538), 300 frequencies from 20 to 3500 Hz.
-fn plate(delta: f64) -> Option<(DynamicStiffness, Experiment, c64)> {
-    let (k, m) = (plate_matrix("bcsstk09.mtx")?, plate_matrix("bcsstm09.mtx")?);
+fn plate(delta: f64) -> (DynamicStiffness, Experiment, c64) {
+    let (k, m) = (plate_matrix("bcsstk09.mtx"), plate_matrix("bcsstm09.mtx"));
     let truth = c(1.0, 1e-3);
     let terms = vec![
         term("plate", Role::Stiffness, k, truth * (1.0 + delta)),
@@ -217,12 +218,13 @@ fn plate(delta: f64) -> Option<(DynamicStiffness, Experiment, c64)> {
     let model = DynamicStiffness::new(terms).unwrap();
     let sensor = |row| Sensor { row, sign: 1.0 };
     let experiment = Experiment::driven_at(model.dim(), sensor(300), vec![sensor(537)]);
-    Some((model, experiment, truth))
+    (model, experiment, truth)
 }
 
 #[test]
-fn the_plate_diverges_near_its_resonances_and_nowhere_else() {
-    let Some((model, experiment, truth)) = plate(0.25) else { return };
+#[ignore = "needs the data of ../shared/data"]
+fn the_plate_diverges_near_its_resonances_and_nowhere_else_needs_data() {
+    let (model, experiment, truth) = plate(0.25);
     let plate = (model, experiment);
     let bounds = Bounds { storage: Some([0.2, 5.0]), loss_factor: Some([0.0, 1.0]) };
     let options = Options { bounds, ..Options::paper() };
@@ -243,9 +245,10 @@ fn the_plate_diverges_near_its_resonances_and_nowhere_else() {
 }
 
 #[test]
-fn rational_roots_hold_the_plates_modulus_where_the_series_diverges() {
+#[ignore = "needs the data of ../shared/data"]
+fn rational_roots_hold_the_plates_modulus_where_the_series_diverges_needs_data() {
     for delta in [0.25, -0.25] {
-        let Some((model, experiment, truth)) = plate(delta) else { return };
+        let (model, experiment, truth) = plate(delta);
         let parameter = Parameter::factor_of(&model, &["plate"]).unwrap();
         // Through the first six resonances of both plates, in and out of the series' bands of divergence.
         for frequency_hz in linear_hz(50.0, 3500.0, 24) {
@@ -264,12 +267,13 @@ fn rational_roots_hold_the_plates_modulus_where_the_series_diverges() {
 }
 
 #[test]
-fn the_rational_method_never_calls_a_wrong_modulus_of_the_plate_ok() {
+#[ignore = "needs the data of ../shared/data"]
+fn the_rational_method_never_calls_a_wrong_modulus_of_the_plate_ok_needs_data() {
     let bounds = Bounds { storage: Some([0.2, 5.0]), loss_factor: Some([0.0, 1.0]) };
     let rational = Options { method: Method::Rational, ..Options { bounds, ..Options::paper() } };
     let series = Options { method: Method::Series, ..rational };
     for (delta, least_right) in [(0.25, 0.95), (-0.25, 0.6)] {
-        let Some((model, experiment, truth)) = plate(delta) else { return };
+        let (model, experiment, truth) = plate(delta);
         let plate = (model, experiment);
         let frequencies = linear_hz(50.0, 3500.0, 36);
         let (mut right, mut right_by_series, mut directly_decided) = (0, 0, 0);

@@ -1,6 +1,6 @@
 //! Poles and residues of the rational response against the series themselves and direct solves.
 
-mod common;
+use crate::common;
 
 use common::{Case, bar, beam, c, chain, plate, tip_load, unknown};
 use frfit::c64;

@@ -1,6 +1,6 @@
 //! The rational response where the series fails: on and between the resonances of lightly damped structures.
 
-mod common;
+use crate::common;
 
 use common::{c, chain, tip_load, unknown};
 use frfit::c64;
@@ -27,7 +27,7 @@ fn reaches_far_beyond_the_circle_of_convergence() {
     let exact = system.solve_at(&[change]).unwrap();
     let error = |x: &[c64]| (x[0] - exact[0]).norm() / exact[0].norm();
     assert!(error(&series.respond(change, 39)) > 1.0);
-    // 40 unknowns, 40 vectors: the space is the whole, the rest is roundoff times the condition near a resonance.
+    // 40 unknowns, 40 vectors: the reduction is the whole, the rest is roundoff times the condition near a resonance.
     assert!(error(&rational.respond(change).unwrap()) < 1e-8);
     assert!(rational.residual(change).unwrap() < 1e-8);
 }

@@ -1,6 +1,6 @@
 //! Sensitivities against closed forms, finite differences of direct solves and brute force.
 
-mod common;
+use crate::common;
 
 use common::{Case, bar, c, chain, plate, sandwich, term, tip_load};
 use frfit::c64;

@@ -1,6 +1,6 @@
 //! The Neumann series against exact rational arithmetic, contour integrals and direct solves.
 
-mod common;
+use crate::common;
 
 use common::{c, chain, full, taylor_on_circle, term, tip_load, unknown};
 use frfit::c64;

@@ -1,19 +1,21 @@
 //! Several unknowns at once, against models that are solved directly at known values.
 
-mod common;
+use crate::common;
+use crate::tier::of_tier;
 
 use common::{bar, c, plate, sandwich, term};
 use frfit::c64;
 use frfit::for_each::sequential;
 use frfit::frequency::linear_hz;
 use frfit::identify::{
-    Enters, Hooks, Noise, Options, Several, SeveralOutcome, Sought, Status, Vary, identify_several,
+    Context, Dependence, Noise, Options, Several, SeveralOutcome, Status, Unknown, Variation,
+    identify_several,
 };
 use frfit::material::Law;
 use frfit::model::{DynamicStiffness, Experiment, Role, Sensor, Term};
 use frfit::roots::Bounds;
 
-const HOOKS: Hooks<'static> = Hooks { for_each: &sequential, progress: &|_, _, _| {} };
+const HOOKS: Context<'static> = Context { for_each: &sequential, progress: &|_, _, _| {} };
 
 /// x at the sensors, by direct solves with these factors in place of the terms' own: the oracle.
 fn direct(
@@ -55,12 +57,12 @@ fn noisy(exact: &[Vec<c64>], part: f64, seed: u64) -> (Vec<Vec<c64>>, Vec<Vec<f6
     (measured.collect(), std)
 }
 
-fn constant(name: &str, enters: Enters, nominal: f64, bounds: [f64; 2]) -> Sought {
-    Sought {
+fn constant(name: &str, dependence: Dependence, nominal: f64, bounds: [f64; 2]) -> Unknown {
+    Unknown {
         name: name.into(),
-        enters,
+        dependence,
         nominal: Law::Constant(c(nominal, 0.0)),
-        varies: Vary::Constant,
+        varies: Variation::Constant,
         real: true,
         bounds: Bounds { storage: Some(bounds), loss_factor: None },
     }
@@ -94,11 +96,11 @@ fn thickness() -> Thickness {
 #[test]
 fn a_plate_tells_its_thickness() {
     let plate = thickness();
-    let sought = [constant("h", Enters::Powers(vec![(0, 3), (1, 1)]), 1.0, [0.5, 2.0])];
+    let unknowns = [constant("h", Dependence::Powers(vec![(0, 3), (1, 1)]), 1.0, [0.5, 2.0])];
     let band = Several {
         model: &plate.model,
         experiment: &plate.experiment,
-        sought: &sought,
+        unknowns: &unknowns,
         frequency_hz: &plate.frequency_hz,
         measured: &plate.exact,
         noise: Noise::Unknown,
@@ -122,14 +124,15 @@ fn the_error_bar_of_the_thickness_covers_the_truth() {
     let plate = thickness();
     let every_other = |rows: &[Vec<c64>]| rows.iter().step_by(2).cloned().collect::<Vec<_>>();
     let frequency_hz: Vec<f64> = plate.frequency_hz.iter().copied().step_by(2).collect();
-    let sought = [constant("h", Enters::Powers(vec![(0, 3), (1, 1)]), 1.0, [0.5, 2.0])];
+    let unknowns = [constant("h", Dependence::Powers(vec![(0, 3), (1, 1)]), 1.0, [0.5, 2.0])];
     let (mut within_one, mut within_two) = (0, 0);
-    for seed in 0..50 {
+    let seeds = of_tier(1, 50);
+    for seed in 0..seeds {
         let (measured, std) = noisy(&every_other(&plate.exact), 0.01, 1000 + seed);
         let outcome = run(&Several {
             model: &plate.model,
             experiment: &plate.experiment,
-            sought: &sought,
+            unknowns: &unknowns,
             frequency_hz: &frequency_hz,
             measured: &measured,
             noise: Noise::Known(&std),
@@ -137,8 +140,13 @@ fn the_error_bar_of_the_thickness_covers_the_truth() {
         let number = &outcome.band[0].numbers[0];
         assert_eq!(outcome.band[0].status, Status::Ok, "{seed}: {number:?}");
         let off = (number.value - TRUE_THICKNESS).abs() / number.std.unwrap();
+        // Once in 16,000 by chance.
+        assert!(off < 4.0, "{seed}: {number:?}");
         within_one += usize::from(off < 1.0);
         within_two += usize::from(off < 2.0);
+    }
+    if seeds < 50 {
+        return;
     }
     // 68 and 95 of 100 of a normal deviate; of 50, 34 and 47.7 with standard deviations of 3.3 and 1.5: three of them to either side. The seeds are fixed.
     assert!((24..=44).contains(&within_one) && within_two >= 44, "{within_one} and {within_two} of 50");
@@ -146,8 +154,9 @@ fn the_error_bar_of_the_thickness_covers_the_truth() {
 
 #[test]
 fn two_moduli_at_every_frequency() {
-    let (right, wrong_and_ok) = two_moduli(3, 80);
-    assert!(right >= 79 && wrong_and_ok == 0, "{right} right, {wrong_and_ok} wrong and ok");
+    let frequencies = of_tier(24, 80);
+    let (right, wrong_and_ok) = two_moduli(3, frequencies);
+    assert!(right + 1 >= frequencies && wrong_and_ok == 0, "{right} right, {wrong_and_ok} wrong and ok");
 }
 
 #[test]
@@ -170,18 +179,18 @@ fn two_moduli(sensors: usize, frequencies: usize) -> (usize, usize) {
     let skins = Law::Constant(c(6.2e10, 6.2e8));
     let factors = [skins.clone(), core.clone(), Law::Constant(c(2700.0, 0.0)), Law::Constant(c(910.0, 0.0))];
     let exact = direct(&case.model, &experiment, &factors, &frequency_hz);
-    let sought = [0, 1].map(|term| Sought {
+    let unknowns = [0, 1].map(|term| Unknown {
         name: case.model.terms()[term].name.clone(),
-        enters: Enters::Factor(vec![term]),
+        dependence: Dependence::Factor(vec![term]),
         nominal: case.model.terms()[term].factor.clone(),
-        varies: Vary::PerFrequency,
+        varies: Variation::PerFrequency,
         real: false,
         bounds: Bounds::default(),
     });
     let outcome = run(&Several {
         model: &case.model,
         experiment: &experiment,
-        sought: &sought,
+        unknowns: &unknowns,
         frequency_hz: &frequency_hz,
         measured: &exact,
         noise: Noise::Unknown,
@@ -215,32 +224,32 @@ fn length_and_density_of_a_bar() {
     let factors = [modulus.scaled(1.0 / length), Law::Constant(c(density * length, 0.0))];
     let exact = direct(&model, &case.experiment, &factors, &frequency_hz);
     let (measured, std) = noisy(&exact, 0.01, 3);
-    let sought = vec![
-        constant("length", Enters::Powers(vec![(0, -1), (1, 1)]), 1.0, [0.7, 1.4]),
-        constant("density", Enters::Factor(vec![1]), 910.0, [500.0, 1500.0]),
+    let unknowns = vec![
+        constant("length", Dependence::Powers(vec![(0, -1), (1, 1)]), 1.0, [0.7, 1.4]),
+        constant("density", Dependence::Factor(vec![1]), 910.0, [500.0, 1500.0]),
     ];
-    let mut with_modulus = sought.clone();
-    with_modulus.push(Sought {
+    let mut with_modulus = unknowns.clone();
+    with_modulus.push(Unknown {
         name: "modulus".into(),
-        enters: Enters::Factor(vec![0]),
+        dependence: Dependence::Factor(vec![0]),
         nominal: modulus.scaled(1.2),
-        varies: Vary::Law(frfit::laws::Family::Fractional),
+        varies: Variation::Law(frfit::laws::LawKind::Fractional),
         real: false,
         bounds: Bounds::default(),
     });
-    let band = |sought| {
+    let band = |unknowns| {
         let noise = Noise::Known(&std);
         Several {
             model: &model,
             experiment: &case.experiment,
-            sought,
+            unknowns,
             frequency_hz: &frequency_hz,
             measured: &measured,
             noise,
         }
     };
     // The modulus is known: both are told.
-    let outcome = run(&band(&sought));
+    let outcome = run(&band(&unknowns));
     for (found, truth) in outcome.band.iter().zip([length, density]) {
         let number = &found.numbers[0];
         assert_eq!(found.status, Status::Ok, "{number:?}");

@@ -1,14 +1,15 @@
 //! A modulus that is smooth over the band, on structures whose modulus is known.
 
-mod common;
-mod noise;
+use crate::common;
+use crate::noise;
+use crate::tier::{of_tier, scatter_of_95};
 
 use common::{Case, bar, plate, sandwich};
 use frfit::c64;
 use frfit::for_each::sequential;
 use frfit::frequency::linear_hz;
 use frfit::identify::{
-    Band, BandOutcome, Explained, Hooks, Identified, Noise as Known, NoiseSource, Options, SmoothOutcome,
+    Band, BandOutcome, Context, Explained, Identified, Noise as Known, NoiseSource, Options, SmoothOutcome,
     Stage, Status, identify_smooth,
 };
 use frfit::material::{Law, loss_factor};
@@ -60,7 +61,7 @@ impl Test {
             measured,
             noise,
         };
-        let hooks = Hooks { for_each: &sequential, progress: &|_: Stage, _, _| {} };
+        let hooks = Context { for_each: &sequential, progress: &|_: Stage, _, _| {} };
         identify_smooth(&band, options, hooks).unwrap()
     }
 }
@@ -119,10 +120,14 @@ fn assert_coverage(test: &Test, seeds: u64, least_ok: [f64; 3], most: f64) {
         }
         let at = format!("{} {share} {known}: {within:?} of {ok}", test.case.name);
         // Neighbours share their error: of a seed only some four numbers are independent, of 30 seeds a share of 0.95 is known to 0.02.
-        assert!(within.iter().all(|&n| (0.91..=most).contains(&(n as f64 / ok as f64))), "{at}");
-        assert!(ok as f64 >= least_ok * (seeds as usize * test.frequency_hz.len()) as f64, "{at}");
+        let least = of_tier(0.95 - scatter_of_95(4.0 * seeds as f64), 0.91);
+        let most = of_tier(1.0, most);
+        assert!(within.iter().all(|&n| (least..=most).contains(&(n as f64 / ok as f64))), "{at}");
+        // Of one seed's sixteen answers one more or less is ok.
+        let chance = of_tier(1.0, 0.0);
+        assert!(ok as f64 + chance >= least_ok * (seeds as usize * test.frequency_hz.len()) as f64, "{at}");
         // A mean over the seeds of what some sixty numbers tell to a tenth each.
-        assert!((level - 1.0).abs() < 0.08, "{at}: level {level}");
+        assert!((level - 1.0).abs() < of_tier(0.4, 0.08), "{at}: level {level}");
     }
 }
 
@@ -130,7 +135,7 @@ fn assert_coverage(test: &Test, seeds: u64, least_ok: [f64; 3], most: f64) {
 fn error_bars_of_a_bar_cover_the_truth() {
     let case = bar(66);
     let truth = case.parameter.nominal.clone();
-    assert_coverage(&Test::new(case, truth, [60.0, 900.0], 16), 30, [0.99, 0.99, 0.95], 0.99);
+    assert_coverage(&Test::new(case, truth, [60.0, 900.0], 16), of_tier(1, 30), [0.99, 0.99, 0.95], 0.99);
 }
 
 #[test]
@@ -139,14 +144,14 @@ fn error_bars_of_a_plate_cover_the_truth() {
     // Each frequency by itself: 0.5 and 0.15 of the last two.
     // A few frequencies beside the resonances know nearly all, and so few do not tell a straight line from a curve: the bars are as wide as for a curve, and a constant is within them more often than 95
     // times of 100.
-    assert_coverage(&test, 30, [0.99, 0.95, 0.7], 1.0);
+    assert_coverage(&test, of_tier(1, 30), [0.99, 0.95, 0.7], 1.0);
 }
 
 #[test]
 fn error_bars_of_a_sandwich_cover_the_truth() {
     let case = sandwich(6, 1);
     let truth = case.parameter.nominal.clone();
-    assert_coverage(&Test::new(case, truth, [40.0, 1000.0], 16), 30, [0.99, 0.99, 0.95], 0.99);
+    assert_coverage(&Test::new(case, truth, [40.0, 1000.0], 16), of_tier(1, 30), [0.99, 0.99, 0.95], 0.99);
 }
 
 /// Light damping, where a single frequency says next to nothing of the loss factor: all of them together do, and say how well.

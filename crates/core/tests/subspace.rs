@@ -1,6 +1,6 @@
 //! The subspace of a band against direct solves of the full model.
 
-mod common;
+use crate::common;
 
 use common::{Case, bar, beam, c, chain, plate, sandwich, term, thickness, tip_load};
 use frfit::c64;

@@ -1,13 +1,14 @@
 //! Error bars against what noise does when it is drawn, and χ² against what it should be.
 
-mod common;
+use crate::common;
+use crate::tier::{of_tier, scatter_of_95};
 
 use common::{Case, bar, c, chain, plate, sandwich, thickness, tip_load};
 use frfit::c64;
 use frfit::for_each::sequential;
 use frfit::frequency::linear_hz;
 use frfit::identify::{
-    Band, BandOutcome, Explained, Hooks, Identified, Noise, NoiseSource, Options, Space, Stage, Status,
+    Band, BandOutcome, Context, Explained, Identified, Noise, NoiseSource, Options, Reduction, Stage, Status,
     Uncertainty, identify_band,
 };
 use frfit::material::Law;
@@ -74,7 +75,7 @@ fn identify(
         measured: u,
         noise,
     };
-    let hooks = Hooks { for_each: &sequential, progress: &|_: Stage, _, _| {} };
+    let hooks = Context { for_each: &sequential, progress: &|_: Stage, _, _| {} };
     identify_band(&band, options, hooks).unwrap()
 }
 
@@ -109,7 +110,7 @@ fn deviations_and_correlation_are_those_of_many_draws() {
         }
         let truth = case.parameter.nominal.at(f).unwrap();
         let made = Measured::clean(&case, vec![f], 1.0, 0.01);
-        let options = Options { real, space: Space::Full, ..within(truth.re, 1.25) };
+        let options = Options { real, reduction: Reduction::Full, ..within(truth.re, 1.25) };
         let draws: Vec<Identified> = (0..DRAWS)
             .map(|seed| {
                 let band = identify(&case, &made, &made.drawn(seed), Noise::Known(&made.std), &options);
@@ -224,7 +225,7 @@ fn bounded(case: &Case) -> Options {
     Options { bounds, ..Options::default() }
 }
 
-/// 20 seeds of a band at 0.1 %, 1 % and 5 % noise: what is called ok has the truth within two deviations 95 times of 100.
+/// 20 seeds (of the daily tier: one) of a band at 0.1 %, 1 % and 5 % noise: what is called ok has the truth within two deviations 95 times of 100.
 fn assert_coverage(case: &Case, band_hz: [f64; 2], least_ok: [f64; 3]) {
     const RATIO: f64 = 0.8;
     let truth = |f: f64| RATIO * case.parameter.nominal.at(f).unwrap();
@@ -233,7 +234,7 @@ fn assert_coverage(case: &Case, band_hz: [f64; 2], least_ok: [f64; 3]) {
         let mut coverage = Coverage::default();
         // Other draws for each size of noise.
         let first = (1e5 * noise) as u64;
-        for seed in first..first + 20 {
+        for seed in first..first + of_tier(1, 20) {
             let u = made.drawn(seed);
             let band = identify(case, &made, &u, Noise::Known(&made.std), &bounded(case));
             coverage.count(&band, truth);
@@ -245,10 +246,13 @@ fn assert_coverage(case: &Case, band_hz: [f64; 2], least_ok: [f64; 3]) {
         let Coverage { storage, loss, ok, all } = coverage;
         let share = |count: usize| count as f64 / ok as f64;
         // Of 320 answers a share of 0.95 is known to 0.012.
+        let scatter = of_tier(scatter_of_95(ok as f64), 0.04);
         for share in [share(storage), share(loss)] {
-            assert!((0.91..=0.99).contains(&share), "{} {noise}: {coverage:?} {share}", case.name);
+            assert!((share - 0.95).abs() <= scatter, "{} {noise}: {coverage:?} {share}", case.name);
         }
-        assert!(ok as f64 >= least_ok * all as f64, "{} {noise}: {coverage:?}", case.name);
+        // Of one seed's sixteen answers two more or less are ok.
+        let chance = of_tier(2.0, 0.0);
+        assert!(ok as f64 + chance >= least_ok * all as f64, "{} {noise}: {coverage:?}", case.name);
     }
 }
 
@@ -283,7 +287,7 @@ fn error_bars_cover_the_truth_where_the_sensors_tell_the_noise() {
             made.std.iter_mut().zip(&made.u).for_each(|(std, u)| std[m] = 1e-2 * u[m].norm().max(least));
         }
         let mut level = Vec::new();
-        for seed in 0..10 {
+        for seed in 0..of_tier(1, 10) {
             let band = identify(&case, &made, &made.drawn(seed), Noise::Unknown, &bounded(&case));
             assert_eq!(band.noise.source, NoiseSource::Sensors, "{} {seed}", case.name);
             // Of real and imaginary part each.
@@ -292,10 +296,11 @@ fn error_bars_cover_the_truth_where_the_sensors_tell_the_noise() {
         }
         let Coverage { storage, loss, ok, all } = coverage;
         // A level is known to 0.12 from 40 medians, the mean of ten to 0.04.
-        assert!((mean(level.iter().copied()) - 1.0).abs() < 0.12, "{}: {level:?}", case.name);
+        assert!((mean(level.iter().copied()) - 1.0).abs() < of_tier(0.36, 0.12), "{}: {level:?}", case.name);
         for share in [storage, loss].map(|count| count as f64 / ok as f64) {
             // Of 400 answers a share of 0.95 is known to 0.011.
-            assert!((0.91..=0.99).contains(&share), "{}: {coverage:?}", case.name);
+            let scatter = of_tier(scatter_of_95(ok as f64), 0.04);
+            assert!((share - 0.95).abs() <= scatter, "{}: {coverage:?}", case.name);
         }
         assert!(10 * ok >= 9 * all, "{}: {coverage:?}", case.name);
     }
@@ -307,7 +312,7 @@ fn loss_factors_that_noise_has_made_up_are_marked() {
     let case = plate(6, 0.4, 1e-3);
     let made = Measured::clean(&case, linear_hz(100.0, 2500.0, 40), 0.8, 1e-2);
     let (mut known, mut marked, mut useless) = (0, 0, 0);
-    for seed in 0..4 {
+    for seed in 0..of_tier(1, 4) {
         let u = made.drawn(seed);
         let band = identify(&case, &made, &u, Noise::Known(&made.std), &bounded(&case));
         for outcome in band.outcomes.iter().filter(|outcome| outcome.correction.is_some()) {
@@ -324,7 +329,8 @@ fn loss_factors_that_noise_has_made_up_are_marked() {
             useless += usize::from((eta - 1e-3).abs() > 1e-3);
         }
     }
-    assert!(known > 0 && useless > 20 && marked >= useless, "{known} {marked} {useless}");
+    // Twenty of four seeds; of one, four.
+    assert!(known > 0 && useless > of_tier(4, 20) && marked >= useless, "{known} {marked} {useless}");
 }
 
 /// One sensor of three is rubbish: it is named and left out, and the answer stays within its error bars.
@@ -340,7 +346,7 @@ fn one_bad_sensor_of_three_is_named_and_left_out() {
     other.experiment.sensors.iter_mut().for_each(|sensor| sensor.row = elsewhere);
     let wrong = Measured::clean(&other, frequency_hz, 0.8, 3e-3);
     let truth = |f: f64| 0.8 * case.parameter.nominal.at(f).unwrap();
-    for bad in 0..3 {
+    for bad in 0..of_tier(1, 3) {
         for random in [true, false] {
             let at = format!("sensor {bad}, random {random}");
             let (mut u, swapped) = (made.drawn(7), wrong.drawn(8));
@@ -361,7 +367,7 @@ fn one_bad_sensor_of_three_is_named_and_left_out() {
                 assert!(5 * coverage.storage >= 4 * coverage.ok, "{at}: {coverage:?}");
                 assert!(5 * coverage.loss >= 4 * coverage.ok, "{at}: {coverage:?}");
                 // Kept, the answer cannot be explained.
-                let options = Options { robust: false, ..bounded(&case) };
+                let options = Options { reject_outliers: false, ..bounded(&case) };
                 let kept = identify(&case, &made, &u, noise, &options);
                 assert!(kept.sensors[bad].contradicts && !kept.sensors[bad].left_out, "{at}");
                 assert_eq!(kept.fit.map(|fit| fit.verdict), Some(Explained::No), "{at}: {:?}", kept.noise);

@@ -3,7 +3,7 @@
 use crate::cantilever::{LENGTH, cantilever};
 use crate::model::{names, nearest, real, term};
 use crate::{Error, SeveralModel};
-use frfit::identify::{Enters, Sought, Vary};
+use frfit::identify::{Dependence, Unknown, Variation};
 use frfit::material::Law;
 use frfit::model::{DynamicStiffness, Experiment, Role};
 use frfit::roots::Bounds;
@@ -40,26 +40,26 @@ pub fn added_mass(elements: usize) -> Result<SeveralModel, Error> {
         term("mass", Role::Mass, &beam.mass[0], real(DENSITY)),
         term("component", Role::Mass, &component.assemble(), real(DATA_SHEET)),
     ])?;
-    let component = Sought {
+    let component = Unknown {
         name: "component".into(),
-        enters: Enters::Factor(vec![2]),
+        dependence: Dependence::Factor(vec![2]),
         nominal: real(DATA_SHEET),
-        varies: Vary::Constant,
+        varies: Variation::Constant,
         real: true,
         bounds: Bounds { storage: Some([0.01, 0.2]), loss_factor: None },
     };
-    let beam_modulus = Sought {
+    let beam_modulus = Unknown {
         name: "beam".into(),
-        enters: Enters::Factor(vec![0]),
+        dependence: Dependence::Factor(vec![0]),
         nominal: handbook,
-        varies: Vary::Constant,
+        varies: Variation::Constant,
         real: false,
         bounds: Bounds { storage: Some([5e10, 9e10]), loss_factor: Some([0.0, 0.1]) },
     };
     Ok(SeveralModel {
         stiffness,
         experiment: Experiment::driven_at(dim, at(0.3), vec![at(1.0), at(0.5)]),
-        sought: vec![component, beam_modulus],
+        unknowns: vec![component, beam_modulus],
         truth: vec![real(MOUNTED), modulus],
         noise: 0.01,
         band_hz: [10.0, 1000.0],

@@ -2,7 +2,7 @@
 
 use crate::model::{names, nearest, real, term};
 use crate::{Error, SeveralModel};
-use frfit::identify::{Enters, Sought, Vary};
+use frfit::identify::{Dependence, Unknown, Variation};
 use frfit::material::Law;
 use frfit::model::{DynamicStiffness, Experiment, Role};
 use frfit::roots::Bounds;
@@ -41,11 +41,11 @@ pub fn joint_stiffness(elements: usize) -> Result<SeveralModel, Error> {
         term("joint", Role::Stiffness, &joint, designed.clone()),
         term("mass", Role::Mass, &beams.mass[0], real(DENSITY)),
     ])?;
-    let joint = Sought {
+    let joint = Unknown {
         name: "joint".into(),
-        enters: Enters::Factor(vec![1]),
+        dependence: Dependence::Factor(vec![1]),
         nominal: designed,
-        varies: Vary::Constant,
+        varies: Variation::Constant,
         real: false,
         bounds: Bounds { storage: Some([100.0, 1e5]), loss_factor: Some([0.0, 0.5]) },
     };
@@ -53,7 +53,7 @@ pub fn joint_stiffness(elements: usize) -> Result<SeveralModel, Error> {
     Ok(SeveralModel {
         stiffness,
         experiment: Experiment::driven_at(beams.dofs.len(), at(0.8 * LENGTHS[0]), sensors),
-        sought: vec![joint],
+        unknowns: vec![joint],
         truth: vec![truth],
         noise: 0.02,
         band_hz: [10.0, 1000.0],

@@ -2,7 +2,7 @@
 
 use crate::model::{names, nearest, real, term};
 use crate::{Error, SeveralModel};
-use frfit::identify::{Enters, Sought, Vary};
+use frfit::identify::{Dependence, Unknown, Variation};
 use frfit::material::Law;
 use frfit::model::{DynamicStiffness, Experiment, Role};
 use frfit::roots::Bounds;
@@ -41,11 +41,11 @@ pub fn plate_thickness(n: usize) -> Result<SeveralModel, Error> {
         term("bending", Role::Stiffness, &plate.stiffness[0], Law::complex_modulus(STORAGE, LOSS_FACTOR)),
         term("mass", Role::Mass, &plate.mass[0], real(DENSITY)),
     ])?;
-    let thickness = Sought {
+    let thickness = Unknown {
         name: "thickness".into(),
-        enters: Enters::Powers(vec![(0, 3), (1, 1)]),
+        dependence: Dependence::Powers(vec![(0, 3), (1, 1)]),
         nominal: real(DRAWN),
-        varies: Vary::Constant,
+        varies: Variation::Constant,
         real: true,
         bounds: Bounds { storage: Some([0.003, 0.005]), loss_factor: None },
     };
@@ -53,7 +53,7 @@ pub fn plate_thickness(n: usize) -> Result<SeveralModel, Error> {
     Ok(SeveralModel {
         stiffness,
         experiment: Experiment::driven_at(plate.dofs.len(), at([0.9, 0.1]), sensors),
-        sought: vec![thickness],
+        unknowns: vec![thickness],
         truth: vec![real(ROLLED)],
         noise: 0.01,
         band_hz: [10.0, 600.0],

@@ -3,7 +3,7 @@
 use crate::{Error, Rig};
 use frfit::c64;
 use frfit::dof::DofName;
-use frfit::identify::{Enters, Sought};
+use frfit::identify::{Dependence, Unknown};
 use frfit::material::Law;
 use frfit::model::{DynamicStiffness, Experiment, Term};
 use frfit::response::{FullModel, Response};
@@ -17,7 +17,7 @@ pub struct SeveralModel {
     /// Load and sensors.
     pub experiment: Experiment,
     /// What is unknown, with its nominal values.
-    pub sought: Vec<Sought>,
+    pub unknowns: Vec<Unknown>,
     /// The law that the measurement is made with, of each of them.
     pub truth: Vec<Law>,
     /// Standard deviation √E|δx|² of the measured responses, relative to each; 0 where they are exact.
@@ -83,15 +83,15 @@ impl SeveralModel {
     /// A term with its true factor at a frequency.
     fn true_term(&self, index: usize, term: &Term, frequency_hz: f64) -> Result<Term, Error> {
         let mut factor = term.factor.at(frequency_hz)?;
-        let unknowns = self.sought.iter().zip(&self.truth);
+        let unknowns = self.unknowns.iter().zip(&self.truth);
         for (one, truth) in unknowns.clone() {
-            match &one.enters {
-                Enters::Factor(terms) if terms.contains(&index) => factor = truth.at(frequency_hz)?,
+            match &one.dependence {
+                Dependence::Factor(terms) if terms.contains(&index) => factor = truth.at(frequency_hz)?,
                 _ => {}
             }
         }
         for (one, truth) in unknowns {
-            let Enters::Powers(powers) = &one.enters else { continue };
+            let Dependence::Powers(powers) = &one.dependence else { continue };
             for (_, power) in powers.iter().filter(|(term, _)| *term == index) {
                 factor *= truth.at(frequency_hz)?.powi(*power);
             }

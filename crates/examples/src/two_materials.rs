@@ -2,7 +2,7 @@
 
 use crate::sandwich::{self, upwards};
 use crate::{Error, Model, SeveralModel};
-use frfit::identify::{Enters, Sought, Vary};
+use frfit::identify::{Dependence, Unknown, Variation};
 use frfit::material::Law;
 use frfit::roots::Bounds;
 
@@ -22,15 +22,15 @@ pub fn two_materials(nx: usize, ny: usize, core: usize) -> Result<SeveralModel, 
     let beam = sandwich::mesh(nx, ny, core)?;
     let Model { stiffness, mut experiment, truth, band_hz, step_hz, dofs, .. } = sandwich::model(&beam)?;
     experiment.sensors.push(upwards(&beam, 0.7, 1.0));
-    let unknown = |term: usize, [storage, loss_factor]: [[f64; 2]; 2]| Sought {
+    let unknown = |term: usize, [storage, loss_factor]: [[f64; 2]; 2]| Unknown {
         name: stiffness.terms()[term].name.clone(),
-        enters: Enters::Factor(vec![term]),
+        dependence: Dependence::Factor(vec![term]),
         nominal: stiffness.terms()[term].factor.clone(),
-        varies: Vary::PerFrequency,
+        varies: Variation::PerFrequency,
         real: false,
         bounds: Bounds { storage: Some(storage), loss_factor: Some(loss_factor) },
     };
-    let sought = vec![unknown(0, SKINS), unknown(1, CORE)];
+    let unknowns = vec![unknown(0, SKINS), unknown(1, CORE)];
     let truth = vec![Law::complex_modulus(STORAGE, LOSS_FACTOR), truth];
-    Ok(SeveralModel { stiffness, experiment, sought, truth, noise: 0.0, band_hz, step_hz, dofs })
+    Ok(SeveralModel { stiffness, experiment, unknowns, truth, noise: 0.0, band_hz, step_hz, dofs })
 }

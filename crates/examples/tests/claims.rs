@@ -2,11 +2,11 @@
 //!
 //! Bands are thinned for time; what is asserted is per frequency.
 
-mod common;
+use crate::common;
 
 use common::{Answer, Folder, answers};
 use frfit::for_each::sequential;
-use frfit::identify::{Band, Hooks, Method, Noise, Options, Selection, Status, identify_at, identify_band};
+use frfit::identify::{Band, Context, Method, Noise, Options, Selection, Status, identify_at, identify_band};
 use frfit::model::{Experiment, Sensor};
 use frfit_examples::{Model, clamped_plate, density, rubber_bar, rubber_bar_end, sandwich};
 use frfit_linalg::modes;
@@ -225,7 +225,7 @@ fn by_default_every_example_is_right_everywhere() {
             measured: &measured,
             noise: Noise::Unknown,
         };
-        let hooks = Hooks { for_each: &sequential, progress: &|_, _, _| {} };
+        let hooks = Context { for_each: &sequential, progress: &|_, _, _| {} };
         for found in identify_band(&band, &options, hooks).unwrap().outcomes {
             let truth = model.truth.at(found.frequency_hz).unwrap();
             assert_eq!(found.status, Status::Ok, "{name}, {} Hz", found.frequency_hz);

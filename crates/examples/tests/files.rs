@@ -1,10 +1,10 @@
 //! The files of every example: readable, the same each time, and of one story.
 
-mod common;
+use crate::common;
 
 use common::{Folder, number, quantity};
 use frfit::c64;
-use frfit::identify::{Enters, Vary};
+use frfit::identify::{Dependence, Variation};
 use frfit::material::{Law, Table};
 use frfit::model::Role;
 use frfit_examples::{
@@ -215,11 +215,11 @@ fn cases_of_one_unknown_say_which() {
 fn cases_of_several_unknowns_say_which() {
     each_of_several(|name, folder, model| {
         let tables = folder.identify();
-        assert_eq!((tables.len(), model.truth.len()), (model.sought.len(), model.sought.len()), "{name}");
+        assert_eq!((tables.len(), model.truth.len()), (model.unknowns.len(), model.unknowns.len()), "{name}");
         let term = |index: &usize| model.stiffness.terms()[*index].name.as_str();
-        for ((table, one), truth) in tables.iter().zip(&model.sought).zip(&model.truth) {
-            match &one.enters {
-                Enters::Factor(terms) => {
+        for ((table, one), truth) in tables.iter().zip(&model.unknowns).zip(&model.truth) {
+            match &one.dependence {
+                Dependence::Factor(terms) => {
                     assert_eq!(table["matrix"].as_str(), Some(term(&terms[0])), "{name}");
                     assert_eq!(
                         (table["matrix"].as_str(), terms.len()),
@@ -228,7 +228,7 @@ fn cases_of_several_unknowns_say_which() {
                     );
                     assert_eq!(one.nominal, model.stiffness.terms()[terms[0]].factor, "{name}");
                 }
-                Enters::Powers(powers) => {
+                Dependence::Powers(powers) => {
                     assert_eq!(table["name"].as_str(), Some(one.name.as_str()), "{name}");
                     let written = table["powers"].as_table().unwrap();
                     assert_eq!(written.len(), powers.len(), "{name}");
@@ -239,8 +239,8 @@ fn cases_of_several_unknowns_say_which() {
                 }
             }
             let varies = table.get("varies").and_then(Value::as_str);
-            let is_constant = varies == Some("constant") || matches!(one.enters, Enters::Powers(_));
-            assert_eq!(is_constant, one.varies == Vary::Constant, "{name}: {}", one.name);
+            let is_constant = varies == Some("constant") || matches!(one.dependence, Dependence::Powers(_));
+            assert_eq!(is_constant, one.varies == Variation::Constant, "{name}: {}", one.name);
             let real = table.get("real").and_then(Value::as_bool).unwrap_or(table.contains_key("powers"));
             assert_eq!(real, one.real, "{name}: {}", one.name);
             let pair = |value: &Value| value.as_array().map(|pair| [0, 1].map(|k| number(&pair[k])));
@@ -396,7 +396,7 @@ fn truths_of_several_unknowns_have_the_columns_of_the_results() {
         for row in 0..table.rows() {
             let number = |name: &str| table.number(row, column(name)).unwrap();
             let f = number("frequency_hz");
-            for (one, truth) in model.sought.iter().zip(&model.truth) {
+            for (one, truth) in model.unknowns.iter().zip(&model.truth) {
                 let truth = truth.at(f).unwrap();
                 let written = match one.real {
                     true => c64::new(number(&format!("{}.value", one.name)), 0.0),

@@ -1,10 +1,12 @@
 //! What the READMEs of the examples with several unknowns promise, from the files as they are written.
 
-mod common;
+use crate::common;
 
 use common::Folder;
 use frfit::for_each::sequential;
-use frfit::identify::{Explained, Hooks, Noise, Options, Several, SeveralOutcome, Status, identify_several};
+use frfit::identify::{
+    Context, Explained, Noise, Options, Several, SeveralOutcome, Status, identify_several,
+};
 use frfit::material::{Law, loss_factor};
 use frfit::model::{Experiment, Sensor};
 use frfit_examples::{SeveralModel, added_mass, joint_stiffness, plate_thickness, two_materials};
@@ -33,12 +35,12 @@ fn identified(name: &str, model: &SeveralModel) -> SeveralOutcome {
     let band = Several {
         model: &model.stiffness,
         experiment: &model.experiment,
-        sought: &model.sought,
+        unknowns: &model.unknowns,
         frequency_hz: &frequency_hz,
         measured: &measured,
         noise: std.as_deref().map_or(Noise::Unknown, Noise::Known),
     };
-    let hooks = Hooks { for_each: &sequential, progress: &|_, _, _| {} };
+    let hooks = Context { for_each: &sequential, progress: &|_, _, _| {} };
     identify_several(&band, &Options::default(), hooks).unwrap()
 }
 
@@ -50,9 +52,9 @@ fn constants_are_within_their_bars(name: &str, model: &SeveralModel, bars: &[f64
     assert_eq!(found.fit.unwrap().verdict, Explained::Yes, "{name}");
     let mut promised = bars.iter();
     for value in &found.band {
-        let truth = model.truth[value.sought].at(100.0).unwrap();
+        let truth = model.truth[value.unknowns].at(100.0).unwrap();
         let exact = [truth.re, loss_factor(truth)];
-        assert_eq!(value.numbers.len(), if model.sought[value.sought].real { 1 } else { 2 }, "{name}");
+        assert_eq!(value.numbers.len(), if model.unknowns[value.unknowns].real { 1 } else { 2 }, "{name}");
         for (number, exact) in value.numbers.iter().zip(exact) {
             let (std, bar) = (number.std.unwrap(), promised.next().unwrap());
             let off = (number.value - exact).abs();

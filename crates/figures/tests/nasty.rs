@@ -7,6 +7,7 @@ use frfit_figures::{
 };
 use proptest::collection::vec;
 use proptest::prelude::*;
+use resvg::tiny_skia::Pixmap;
 use resvg::usvg::{Group, Node, Options, Rect, Tree, fontdb};
 
 /// Numbers with all that can go wrong.
@@ -218,6 +219,7 @@ proptest! {
         // a tenth of the resolution: what is tested is the reader of the drawing, not its pixels
         let png = figure.png(0.1);
         prop_assert!(png.is_ok(), "{png:?}");
+        prop_assert!(Pixmap::decode_png(&png.unwrap()).is_ok());
     }
 
     #[test]

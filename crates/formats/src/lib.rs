@@ -28,6 +28,7 @@ mod bytes;
 mod detect;
 mod error;
 mod gather;
+mod inflated;
 mod label;
 mod labelled;
 mod matrix;

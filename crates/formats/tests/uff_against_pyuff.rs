@@ -1,15 +1,12 @@
 //! pyuff reads the same from the sample files and from files written here, number for number.
 //!
-//! The test makes a virtual environment of its own in the build folder, once. Without Python, without a package
-//! index to install from, or without sample data it says so and passes.
-#![allow(clippy::print_stderr)]
+//! What pyuff 2.4.2 reads is known; xtask installs that version.
 
-mod uff_support;
+use crate::{outside, uff_support};
 
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use std::sync::OnceLock;
 
 use frfit_formats::uff::{
     self, Axis, DataType, Dof, Endian, Form, Function, Node, Record, Spacing, Units, Values,
@@ -17,33 +14,8 @@ use frfit_formats::uff::{
 
 use uff_support::{function, variants};
 
-const PYUFF: &str = "pyuff==2.4.2";
-
-/// The interpreter of a virtual environment with pyuff in it, which the first test makes where there is none yet.
-fn python() -> Option<&'static Path> {
-    static PYTHON: OnceLock<Option<PathBuf>> = OnceLock::new();
-    PYTHON.get_or_init(environment).as_deref()
-}
-
-fn environment() -> Option<PathBuf> {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("pyuff");
-    let python = folder.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
-    let runs = |program: &Path, arguments: &[&str]| {
-        Command::new(program).args(arguments).output().is_ok_and(|output| output.status.success())
-    };
-    let folder_name = folder.to_str()?;
-    let is_ready = runs(&python, &["-c", "import pyuff"])
-        || (runs(Path::new("python3"), &["-m", "venv", folder_name])
-            && runs(&python, &["-m", "pip", "install", "--quiet", "--disable-pip-version-check", PYUFF]));
-    if !is_ready {
-        eprintln!("skipped: no Python 3 with venv and pip, or {PYUFF} cannot be installed");
-        return None;
-    }
-    Some(python)
-}
-
 /// What pyuff reads from these files, one text a file.
-fn dumps(python: &Path, files: &[PathBuf]) -> Vec<String> {
+fn dumps(python: &str, files: &[PathBuf]) -> Vec<String> {
     let script = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/uff_support/dump.py");
     let output = Command::new(python).arg(script).args(files).output().expect("Python starts");
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
@@ -192,22 +164,24 @@ fn compare(path: &Path, dump: &str) -> usize {
 }
 
 #[test]
-fn sample_files() {
-    let Some(samples) = uff_support::samples() else { return };
-    let Some(python) = python() else { return };
+#[ignore = "needs the data of ../shared/data and Python with pyuff"]
+fn sample_files_needs_data_and_pyuff() {
+    let samples = uff_support::samples();
+    let python = outside::python_with("pyuff");
     let files = fs::read_dir(samples).expect("a readable folder").map(|file| file.expect("an entry").path());
     let mut files: Vec<PathBuf> = files.collect();
     files.sort();
     let compared =
-        files.iter().zip(dumps(python, &files)).map(|(file, dump)| compare(file, &dump)).sum::<usize>();
+        files.iter().zip(dumps(&python, &files)).map(|(file, dump)| compare(file, &dump)).sum::<usize>();
     // All of the typed datasets but five functions at which pyuff stops: the four after whose data a line end
     // stands, and the one whose header holds the characters of a delimiter.
     assert_eq!(compared, 27);
 }
 
 #[test]
-fn files_written_here() {
-    let Some(python) = python() else { return };
+#[ignore = "needs Python with pyuff"]
+fn files_written_here_needs_pyuff() {
+    let python = outside::python_with("pyuff");
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("uff_written");
     fs::create_dir_all(&folder).expect("a folder for files");
     let forms = [
@@ -238,7 +212,7 @@ fn files_written_here() {
     files.push(rest);
 
     let compared: Vec<usize> =
-        files.iter().zip(dumps(python, &files)).map(|(file, dump)| compare(file, &dump)).collect();
+        files.iter().zip(dumps(&python, &files)).map(|(file, dump)| compare(file, &dump)).collect();
     assert_eq!(compared, [vec![1; 24], vec![4]].concat());
 }
 

@@ -1,6 +1,6 @@
 //! What vendors write, as far as it can be told what they mean.
 
-mod uff_support;
+use crate::uff_support;
 
 use frfit_formats::uff::{self, DataType, Endian, Form, Function, Record, Spacing, Values};
 use frfit_formats::{FormatError, Position};

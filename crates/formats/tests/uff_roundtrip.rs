@@ -1,6 +1,6 @@
 //! What is written is read again, and no bytes make the reader panic.
 
-mod uff_support;
+use crate::uff_support;
 
 use frfit_formats::uff::{
     self, DataType, Dof, Endian, FileHeader, Form, Function, Node, Record, Spacing, Units, Values,

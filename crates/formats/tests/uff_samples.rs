@@ -1,18 +1,19 @@
 //! Every sample file is read, header and data, and says what is known about it.
 
-mod uff_support;
+use crate::uff_support;
 
 use std::fs;
 
 use frfit_formats::uff::{self, DataType, FunctionType, Quantity, Record, Spacing, Values};
 
-fn read(name: &str) -> Option<Vec<u8>> {
-    Some(fs::read(uff_support::samples()?.join(name)).expect("the sample file is readable"))
+fn read(name: &str) -> Vec<u8> {
+    fs::read(uff_support::samples().join(name)).expect("the sample file is readable")
 }
 
 #[test]
-fn all_samples_read_and_binary_copies_of_their_functions_too() {
-    let Some(samples) = uff_support::samples() else { return };
+#[ignore = "needs the data of ../shared/data"]
+fn all_samples_read_and_binary_copies_of_their_functions_too_needs_data() {
+    let samples = uff_support::samples();
     let mut functions = 0;
     for file in fs::read_dir(samples).expect("a readable folder") {
         let path = file.expect("a readable entry").path();
@@ -35,8 +36,9 @@ fn all_samples_read_and_binary_copies_of_their_functions_too() {
 }
 
 #[test]
-fn the_beam_is_three_responses_over_an_uneven_abscissa() {
-    let Some(bytes) = read("beam.uff") else { return };
+#[ignore = "needs the data of ../shared/data"]
+fn the_beam_is_three_responses_over_an_uneven_abscissa_needs_data() {
+    let bytes = read("beam.uff");
     let file = uff::File::new(&bytes).expect("a readable list");
     let numbers: Vec<_> = file.entries().iter().map(|entry| (entry.dataset, entry.line)).collect();
     assert_eq!(numbers[..4], [(151, 1), (164, 11), (2420, 17), (2411, 82)]);
@@ -60,8 +62,9 @@ fn the_beam_is_three_responses_over_an_uneven_abscissa() {
 }
 
 #[test]
-fn a_file_cut_short_says_how_many_points_are_missing() {
-    let Some(bytes) = read("dataset_milestone_in_header.uff") else { return };
+#[ignore = "needs the data of ../shared/data"]
+fn a_file_cut_short_says_how_many_points_are_missing_needs_data() {
+    let bytes = read("dataset_milestone_in_header.uff");
     let function = uff::File::new(&bytes).and_then(|file| file.function(0)).expect("a readable function");
     assert_eq!((function.values.len(), function.header.points), (42, 2_508_876));
     assert_eq!(function.missing_points(), 2_508_834);
@@ -69,9 +72,10 @@ fn a_file_cut_short_says_how_many_points_are_missing() {
 }
 
 #[test]
-fn latin_1_and_utf_8_units_read_the_same() {
-    let Some(latin_1) = read("sample_dataset58_psd.uff") else { return };
-    let Some(utf_8) = read("time-history-not-all-columns-filled.uff") else { return };
+#[ignore = "needs the data of ../shared/data"]
+fn latin_1_and_utf_8_units_read_the_same_needs_data() {
+    let latin_1 = read("sample_dataset58_psd.uff");
+    let utf_8 = read("time-history-not-all-columns-filled.uff");
     let psd = uff::File::new(&latin_1).and_then(|file| file.function(0)).expect("a readable function");
     assert_eq!(psd.header.function_type, FunctionType::PowerSpectralDensity);
     assert_eq!((psd.header.ordinate.unit.as_str(), psd.abscissa[3200]), ("g²/Hz", 3200.0));
@@ -82,8 +86,9 @@ fn latin_1_and_utf_8_units_read_the_same() {
 }
 
 #[test]
-fn binary_data_are_stepped_over_and_read() {
-    let Some(bytes) = read("MPSTD#Set001_2024_10_08_10_27_07.uff") else { return };
+#[ignore = "needs the data of ../shared/data"]
+fn binary_data_are_stepped_over_and_read_needs_data() {
+    let bytes = read("MPSTD#Set001_2024_10_08_10_27_07.uff");
     let file = uff::File::new(&bytes).expect("a readable list");
     let lines: Vec<_> = file.entries().iter().map(|entry| (entry.is_binary(), entry.line)).collect();
     assert_eq!(lines, [(true, 1), (true, 2467), (true, 4251), (true, 6499)]);
@@ -93,8 +98,9 @@ fn binary_data_are_stepped_over_and_read() {
 }
 
 #[test]
-fn meshes_are_nodes_trace_lines_and_units() {
-    let Some(bytes) = read("TestLab 161 164 18 15 82.uff") else { return };
+#[ignore = "needs the data of ../shared/data"]
+fn meshes_are_nodes_trace_lines_and_units_needs_data() {
+    let bytes = read("TestLab 161 164 18 15 82.uff");
     let records = uff::read_all(&bytes).expect("a readable file");
     let Record::Units(units) = &records[1] else { panic!("units") };
     assert_eq!((units.temperature_mode, units.temperature_offset), (0, -273.15));

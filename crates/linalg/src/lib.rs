@@ -6,7 +6,7 @@
 //! | [`solve`] | analyse → factor → solve, every solution checked by its true residual |
 //! | [`spectral`] | the spectral radius of an operator given by its action |
 //! | [`modes`] | the lowest natural modes of K φ = ω² M φ |
-//! | [`tall`] | a few long real vectors as one matrix |
+//! | [`column_block`] | a few long real vectors as one matrix |
 //! | [`vector`] | products and projections of complex vectors |
 //! | [`dense`] | small dense problems: eigenvalues, least squares, roots of polynomials |
 //!
@@ -14,13 +14,13 @@
 //! hysteretic damping is. This is the only crate of the workspace that names faer. Scalars are `f64` and
 //! [`c64`]; where one code serves both it is generic over exactly these two ([`Scalar`], sealed).
 
+pub mod column_block;
 pub mod dense;
 pub mod modes;
 mod scalar;
 pub mod solve;
 pub mod sparse;
 pub mod spectral;
-pub mod tall;
 pub mod vector;
 
 pub use num_complex::Complex64 as c64;

@@ -1,12 +1,12 @@
 //! The numeric factorisation from values to a factor; what is between is [`crate::run`]'s.
 
 use crate::memory::Memory;
+use crate::packed_lower::PackedLower;
 use crate::part::Part;
 use crate::run::{Eliminated, Run};
 use crate::scalar::Scalar;
 use crate::symbolic::Symbolic;
 use crate::threads::with;
-use crate::triangle::Triangle;
 use crate::{FactorError, scaling};
 use std::ops::Range;
 
@@ -79,7 +79,7 @@ impl<T: Scalar> Node<T> {
 
     /// How many numbers its columns of L are.
     pub(crate) fn numbers(&self) -> usize {
-        Triangle::new(self.order()).start::<T>(self.pivots())
+        PackedLower::new(self.order()).start::<T>(self.pivots())
     }
 }
 

@@ -3,7 +3,7 @@
 //! ```
 //! use multifrontal::{Options, Ordering, Symbolic};
 //!
-//! // [4 1 0; 1 0 2; 0 2 5], the lower triangle by columns.
+//! // [4 1 0; 1 0 2; 0 2 5], the lower packed_lower by columns.
 //! let symbolic = Symbolic::new(3, &[0, 2, 4, 5], &[0, 1, 1, 2, 2], &Ordering::default())?;
 //! let values = [4.0, 1.0, 0.0, 2.0, 5.0];
 //! let factor = symbolic.factor(&values, &Options::default())?;
@@ -31,6 +31,7 @@ mod front;
 mod kernel;
 mod memory;
 mod ordering;
+mod packed_lower;
 mod part;
 mod run;
 mod scalar;
@@ -39,7 +40,6 @@ mod solve;
 mod solver;
 mod symbolic;
 mod threads;
-mod triangle;
 
 pub use error::FactorError;
 pub use factor::{Factor, Inertia, Options};

@@ -4,10 +4,10 @@ use crate::front::{
     Child, Contribution, Elimination, Front, Stack, add_children, each_strip, eliminate, strip_width,
 };
 use crate::kernel::{STRIP, Strip};
+use crate::packed_lower::PackedLower;
 use crate::scalar::Scalar;
 use crate::symbolic::{ROOT, Symbolic};
 use crate::threads::{Idle, awake, each};
-use crate::triangle::Triangle;
 use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
@@ -258,7 +258,7 @@ impl<'a, T: Scalar> Run<'a, T> {
             children.iter().map(|(child, left)| Child::new(left, stack, symbolic.relative_of(*child)));
         let given: Vec<_> = given.collect();
         let (numbers, width) = (values.len(), strip_width(shape.pivots, threads));
-        let strips = Triangle::new(shape.order()).strips(values, 0..shape.pivots, width, false);
+        let strips = PackedLower::new(shape.order()).strips(values, 0..shape.pivots, width, false);
         each_strip(strips, numbers, threads, |mut strip| {
             if !begun {
                 self.add_entries(&mut strip, k);
@@ -295,12 +295,12 @@ impl<'a, T: Scalar> Run<'a, T> {
         ids.extend(shape.own().map(|position| position as u32));
         ids.extend(symbolic.rows_of(k));
         let (candidates, others) = (delayed + shape.pivots, shape.rows.len());
-        let triangle = Triangle::new(ids.len());
+        let packed_lower = PackedLower::new(ids.len());
         let own = std::mem::take(&mut *self.panel(k)).values;
         let mut more =
-            vec![T::Real::default(); if delayed > 0 { triangle.start::<T>(candidates) } else { 0 }];
+            vec![T::Real::default(); if delayed > 0 { packed_lower.start::<T>(candidates) } else { 0 }];
         let mut front = if delayed > 0 {
-            let mut front = Front { ids, candidates, panel: more.as_mut_slice(), triangle };
+            let mut front = Front { ids, candidates, panel: more.as_mut_slice(), packed_lower };
             move_behind(own, shape.order(), &mut front, delayed);
             let mut base = 0;
             for (child, left) in &children {
@@ -309,12 +309,12 @@ impl<'a, T: Scalar> Run<'a, T> {
             }
             front
         } else {
-            Front { ids, candidates, panel: own, triangle }
+            Front { ids, candidates, panel: own, packed_lower }
         };
 
         let [even, odd] = stacks;
         let (stack, below) = if symbolic.parity(k) == 0 { (even, odd) } else { (odd, even) };
-        let complement = Triangle::new(others);
+        let complement = PackedLower::new(others);
         let mut schur = stack.push(complement.start::<T>(others));
         let target = stack.values_of_mut(&mut schur);
         let d = eliminate(&mut front, target, with);
@@ -336,7 +336,7 @@ impl<'a, T: Scalar> Run<'a, T> {
         let left = (!rest.is_empty()).then(|| Contribution::new(&front, d.len(), schur));
         let (pivots, below) = (pivots.to_vec(), rest.to_vec());
         if d.len() < candidates {
-            more.truncate(triangle.start::<T>(d.len()));
+            more.truncate(packed_lower.start::<T>(d.len()));
             more.shrink_to_fit();
         }
         // Every front comes once.
@@ -367,9 +367,9 @@ impl<'a, T: Scalar> Run<'a, T> {
 
 /// Copies a front's own columns to where they are behind delayed ones.
 fn move_behind<T: Scalar>(own: &[T::Real], order: usize, front: &mut Front<'_, T>, delayed: usize) {
-    let triangle = Triangle::new(order);
+    let packed_lower = PackedLower::new(order);
     for (col, part) in (0..front.candidates - delayed).flat_map(|col| (0..T::PARTS).map(move |p| (col, p))) {
-        let column = &own[triangle.part::<T>(col, part, col)];
+        let column = &own[packed_lower.part::<T>(col, part, col)];
         front.part_mut(delayed + col, part, delayed + col).copy_from_slice(column);
     }
 }

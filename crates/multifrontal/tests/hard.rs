@@ -1,6 +1,6 @@
 //! What breaks factorisations: singular, badly scaled and constrained matrices, numbers that are none.
 
-mod common;
+use crate::common;
 
 use common::{Lower, noise, solid};
 use multifrontal::{FactorError, Inertia, Options, Ordering, PatternError, Precision, Solver, Symbolic, c64};

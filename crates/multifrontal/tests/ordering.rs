@@ -1,6 +1,6 @@
 //! What orders cost, against those that are known for grids.
 
-mod common;
+use crate::common;
 
 use common::{Lower, solid};
 use multifrontal::{Options, Ordering, Symbolic};

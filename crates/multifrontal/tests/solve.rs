@@ -1,6 +1,6 @@
 //! Solutions of random matrices against their residuals, in every precision and with any number of threads.
 
-mod common;
+use crate::common;
 
 use common::{Lower, noise, solid};
 use multifrontal::{Options, Ordering, Scalar, c64};

@@ -5,8 +5,8 @@
 //! a processor, but nobody waits for it.
 
 use crate::errors::{internal, no_thread};
+use crate::pool;
 use pyo3::prelude::*;
-use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -19,9 +19,6 @@ const BEAT: Duration = Duration::from_millis(50);
 
 /// How long a cancelled work is given to end before it is left to itself.
 const GRACE: Duration = Duration::from_millis(400);
-
-/// That of the main thread of most systems: dissections recurse.
-const STACK_BYTES: usize = 8 << 20;
 
 /// What both threads see of the work.
 #[derive(Default)]
@@ -62,11 +59,13 @@ pub(crate) fn in_background<T: Send + 'static>(
     let watch = Arc::new(Watch::default());
     let (send, mut receive) = mpsc::channel();
     let its = Arc::clone(&watch);
+    let pool = pool::take(py)?;
     let run = move || {
+        let done = catch_unwind(AssertUnwindSafe(|| pool.install(|| work(&its))));
         // The receiver is gone where the work was left to itself.
-        let _ = send.send(catch_unwind(AssertUnwindSafe(|| work(&its))));
+        let _ = send.send((done, pool));
     };
-    let builder = thread::Builder::new().name("frfit".into()).stack_size(STACK_BYTES);
+    let builder = thread::Builder::new().name("frfit".into());
     builder.spawn(run).map_err(|error| no_thread(&error))?;
     let mut told = (0, 0);
     loop {
@@ -85,10 +84,12 @@ pub(crate) fn in_background<T: Send + 'static>(
             return Err(raised);
         }
         match got {
-            Ok(Ok(result)) => return Ok(result),
-            Ok(Err(panic)) => return Err(internal(py, words(&*panic))),
+            Ok((done, pool)) => {
+                pool::give_back(py, pool);
+                return done.map_err(|_| internal(py));
+            }
             Err(RecvTimeoutError::Timeout) => {}
-            Err(RecvTimeoutError::Disconnected) => return Err(internal(py, "a thread ended without a word")),
+            Err(RecvTimeoutError::Disconnected) => return Err(internal(py)),
         }
     }
 }
@@ -97,7 +98,10 @@ fn wait<T: Send>(py: Python<'_>, receive: &mut Receiver<T>, time: Duration) -> R
     py.detach(move || receive.recv_timeout(time))
 }
 
-fn words(panic: &(dyn Any + Send)) -> &str {
-    let owned = panic.downcast_ref::<String>().map(String::as_str);
-    owned.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("a panic without words")
+/// Does short work here, the GIL free meanwhile.
+///
+/// # Errors
+/// An internal error where the work panics.
+pub(crate) fn at_once<T: Send>(py: Python<'_>, work: impl FnOnce() -> T + Send) -> PyResult<T> {
+    py.detach(|| catch_unwind(AssertUnwindSafe(work))).map_err(|_| internal(py))
 }

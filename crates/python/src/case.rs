@@ -31,11 +31,11 @@ pub(crate) fn run_case<'py>(
     order: Option<usize>,
     band_hz: Option<[f64; 2]>,
     selection: Option<String>,
-    space: Option<String>,
+    reduction: Option<String>,
     memory_bytes: Option<u64>,
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let overrides = Overrides { method, order, band_hz, selection, space };
+    let overrides = Overrides { method, order, band_hz, selection, reduction };
     let error_map = if out.is_some() { None } else { Some(0) };
     let options = RunOptions { error_map, memory_bytes };
     let ran = in_background(py, progress, move |watch| {

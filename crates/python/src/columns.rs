@@ -4,6 +4,7 @@ use frfit::c64;
 use frfit::identify::{Calibrated, Calibration, Identified};
 use frfit_workflow::job::Computed;
 use frfit_workflow::output::{laws_json, smooth_json};
+use frfit_workflow::units::FactorUnit;
 use numpy::{Complex64, Element, IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
@@ -81,7 +82,9 @@ pub(crate) fn identification<'py>(py: Python<'py>, computed: &Computed) -> PyRes
     let parsed = |json: Option<serde_json::Value>| {
         json.map(|json| py.import("json")?.call_method1("loads", (json.to_string(),))).transpose()
     };
-    found.set_item("laws", parsed(run.laws.as_ref().map(laws_json))?)?;
+    let unit = case.identify.as_ref().map_or(FactorUnit::Other, |identify| identify.unit);
+    let laws = run.laws.as_ref().map(|laws| laws_json(laws, unit, case.units));
+    found.set_item("laws", parsed(laws)?)?;
     let curve = run.smooth.as_ref().and_then(|smooth| smooth.curve.as_ref());
     found.set_item("smooth", parsed(curve.map(smooth_json))?)?;
     Ok(found)

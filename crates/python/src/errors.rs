@@ -4,7 +4,7 @@
 
 use frfit::material::OutsideTable;
 use frfit_formats::Position;
-use frfit_workflow::error::InputError;
+use frfit_workflow::error::{InputError, Place};
 use frfit_workflow::job::JobError;
 use frfit_workflow::load::ArraysError;
 use pyo3::exceptions::PyRuntimeError;
@@ -78,12 +78,18 @@ pub(crate) fn arrays(py: Python<'_>, error: &ArraysError) -> PyErr {
     }
 }
 
-/// A fault of this program, such as a panic.
-pub(crate) fn internal(py: Python<'_>, what: &str) -> PyErr {
-    raise(py, "InternalError", &format!("internal error: {what}"))
+/// A fault of this program: a panic, whose words Rust has written to standard error.
+pub(crate) fn internal(py: Python<'_>) -> PyErr {
+    let text = "a fault of frfit, not of what it was given: please report it with what is on standard error";
+    raise(py, "InternalError", &text)
+}
+
+/// An argument that is not as it has to be.
+pub(crate) fn argument(py: Python<'_>, name: &str, expected: &str, found: &impl Display) -> PyErr {
+    input(py, &InputError::at(&Place::option(name), expected, found.to_string()))
 }
 
 /// The system gave no thread.
-pub(crate) fn no_thread(error: &std::io::Error) -> PyErr {
+pub(crate) fn no_thread(error: &impl Display) -> PyErr {
     PyRuntimeError::new_err(format!("no thread could be started: {error}"))
 }

@@ -2,9 +2,9 @@
 
 use crate::background::in_background;
 use crate::columns::identification;
-use crate::errors::{arrays, job, raise};
+use crate::errors::{arrays, input, job, raise};
 use crate::model::Model;
-use frfit::laws::Family;
+use frfit::laws::LawKind;
 use frfit::model::Sensor;
 use frfit::quantity::Quantity;
 use frfit::roots::Bounds;
@@ -41,13 +41,13 @@ pub(crate) struct Options {
     most_lines: Option<i64>,
     method: Option<String>,
     selection: Option<String>,
-    space: Option<String>,
+    reduction: Option<String>,
     order: Option<usize>,
     storage: Option<[f64; 2]>,
     loss_factor: Option<[f64; 2]>,
     real: bool,
     estimate: bool,
-    robust: Option<bool>,
+    reject_outliers: Option<bool>,
     varies: Option<String>,
     laws: Vec<String>,
     check: bool,
@@ -78,6 +78,13 @@ impl Measured<'_> {
     }
 }
 
+/// Refuses a measurement that no model could be held against; `name` is what errors call it.
+#[pyfunction]
+pub(crate) fn check_measurement(py: Python<'_>, name: &str, measurement: Measured<'_>) -> PyResult<()> {
+    let measured = measurement.frf(py)?;
+    measured.check(name).map_err(|error| input(py, &error))
+}
+
 /// What `frfit.Identification` is made of.
 #[pyfunction]
 pub(crate) fn identify<'py>(
@@ -89,7 +96,7 @@ pub(crate) fn identify<'py>(
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let measured = measurements.into_iter().map(|one| one.frf(py)).collect::<PyResult<Vec<_>>>()?;
-    let laws = options.laws.iter().map(|word| word.parse::<Family>()).collect::<Result<Vec<_>, _>>();
+    let laws = options.laws.iter().map(|word| word.parse::<LawKind>()).collect::<Result<Vec<_>, _>>();
     let wanted = Wanted {
         matrices: options.matrices,
         band_hz: options.band_hz,
@@ -97,12 +104,12 @@ pub(crate) fn identify<'py>(
         most_lines: options.most_lines,
         method: options.method,
         selection: options.selection,
-        space: options.space,
+        reduction: options.reduction,
         order: options.order,
         bounds: Bounds { storage: options.storage, loss_factor: options.loss_factor },
         real: options.real,
         estimate: options.estimate,
-        robust: options.robust,
+        reject_outliers: options.reject_outliers,
         varies: options.varies,
         laws: laws.map_err(|error| raise(py, "OptionsError", &format!("law: {error}")))?,
         check: options.check,

@@ -1,10 +1,11 @@
 //! Laws of a factor over frequency.
 
-use crate::errors::{outside_table, raise};
+use crate::errors::{argument, outside_table, raise};
 use frfit::c64;
 use frfit::material::{self, Branch, Table};
 use numpy::{Complex64, IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
+use pyo3::types::PyTuple;
 
 /// A factor's dependence on frequency.
 #[pyclass(frozen, eq, from_py_object, module = "frfit")]
@@ -15,45 +16,59 @@ pub(crate) struct Law(pub(crate) material::Law);
 impl Law {
     /// The same number at every frequency: a real or complex modulus, in Pa.
     #[staticmethod]
-    fn constant(value: Complex64) -> Self {
-        Self(material::Law::Constant(value))
+    fn constant(py: Python<'_>, value: Complex64) -> PyResult<Self> {
+        finite(py, "value", value)?;
+        Ok(Self(material::Law::Constant(value)))
     }
 
     /// E' (1 + i eta) at every frequency: `storage` E' in Pa, `loss_factor` eta.
     #[staticmethod]
     #[pyo3(signature = (storage, loss_factor = 0.0))]
-    fn complex_modulus(storage: f64, loss_factor: f64) -> Self {
-        Self(material::Law::complex_modulus(storage, loss_factor))
+    fn complex_modulus(py: Python<'_>, storage: f64, loss_factor: f64) -> PyResult<Self> {
+        finite(py, "storage", storage)?;
+        finite(py, "loss_factor", loss_factor)?;
+        finite(py, "storage * loss_factor", storage * loss_factor)?;
+        Ok(Self(material::Law::complex_modulus(storage, loss_factor)))
     }
 
     /// E0 + E1 (i omega)^alpha: `e0` in Pa, `e1` in Pa s^alpha, `alpha` from 0 to 1.
     #[staticmethod]
-    fn fractional(e0: f64, e1: f64, alpha: f64) -> Self {
-        Self(material::Law::Fractional { e0, e1, alpha })
+    fn fractional(py: Python<'_>, e0: f64, e1: f64, alpha: f64) -> PyResult<Self> {
+        finite(py, "e0", e0)?;
+        finite(py, "e1", e1)?;
+        exponent(py, alpha)?;
+        Ok(Self(material::Law::Fractional { e0, e1, alpha }))
     }
 
     /// (E0 + Einf (i omega tau)^alpha) / (1 + (i omega tau)^alpha): moduli in Pa, `tau_s` in s.
     #[staticmethod]
-    fn zener(e0: f64, e_infinity: f64, tau_s: f64, alpha: f64) -> Self {
-        Self(material::Law::FractionalZener { e0, e_infinity, tau_s, alpha })
+    fn zener(py: Python<'_>, e0: f64, e_infinity: f64, tau_s: f64, alpha: f64) -> PyResult<Self> {
+        finite(py, "e0", e0)?;
+        finite(py, "e_infinity", e_infinity)?;
+        time(py, "tau_s", tau_s)?;
+        exponent(py, alpha)?;
+        Ok(Self(material::Law::FractionalZener { e0, e_infinity, tau_s, alpha }))
     }
 
     /// E0 + sum Ek i omega tauk / (1 + i omega tauk): `branches` are pairs (Ek in Pa, tauk in s).
     #[staticmethod]
-    fn maxwell(e0: f64, branches: Vec<(f64, f64)>) -> Self {
+    fn maxwell(py: Python<'_>, e0: f64, branches: Vec<(f64, f64)>) -> PyResult<Self> {
+        finite(py, "e0", e0)?;
+        for &(modulus, tau_s) in &branches {
+            finite(py, "branches", modulus)?;
+            time(py, "branches", tau_s)?;
+        }
         let branches = branches.into_iter().map(|(modulus, tau_s)| Branch { modulus, tau_s }).collect();
-        Self(material::Law::Maxwell { e0, branches })
+        Ok(Self(material::Law::Maxwell { e0, branches }))
     }
 
-    /// Values (f,), complex128, at frequencies (f,) in Hz, ascending; linear over log frequency in between, never beyond.
+    /// Values (f,), complex, at frequencies (f,) in Hz, ascending; linear over log frequency in between, never beyond.
     #[staticmethod]
-    fn table(
-        py: Python<'_>,
-        frequency_hz: PyReadonlyArray1<'_, f64>,
-        values: PyReadonlyArray1<'_, Complex64>,
-    ) -> PyResult<Self> {
-        let values = values.as_array().to_vec();
-        let table = Table::new(frequency_hz.as_array().to_vec(), values);
+    fn table(py: Python<'_>, frequency_hz: Bound<'_, PyAny>, values: Bound<'_, PyAny>) -> PyResult<Self> {
+        let frequency_hz = reals(&frequency_hz, "frequency_hz")?.as_array().to_vec();
+        let values = values.py().import("frfit._arrays")?.getattr("complex_")?.call1((values, "values"))?;
+        let values: PyReadonlyArray1<'_, Complex64> = values.extract()?;
+        let table = Table::new(frequency_hz, values.as_array().to_vec());
         table.map(|table| Self(material::Law::Table(table))).map_err(|error| raise(py, "TableError", &error))
     }
 
@@ -61,10 +76,41 @@ impl Law {
     fn at<'py>(
         &self,
         py: Python<'py>,
-        frequency_hz: PyReadonlyArray1<'py, f64>,
+        frequency_hz: Bound<'py, PyAny>,
     ) -> PyResult<Bound<'py, PyArray1<Complex64>>> {
+        let frequency_hz = reals(&frequency_hz, "frequency_hz")?;
         let values = frequency_hz.as_array().iter().map(|&f| self.0.at(f)).collect::<Result<Vec<c64>, _>>();
         values.map(|values| values.into_pyarray(py)).map_err(|error| outside_table(py, &error))
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+        let parts = match &self.0 {
+            material::Law::Constant(value) => ("constant", *value).into_pyobject(py)?,
+            material::Law::Fractional { e0, e1, alpha } => {
+                ("fractional", *e0, *e1, *alpha).into_pyobject(py)?
+            }
+            material::Law::FractionalZener { e0, e_infinity, tau_s, alpha } => {
+                ("zener", *e0, *e_infinity, *tau_s, *alpha).into_pyobject(py)?
+            }
+            material::Law::Maxwell { e0, branches } => {
+                let pairs: Vec<(f64, f64)> = branches.iter().map(|b| (b.modulus, b.tau_s)).collect();
+                ("maxwell", *e0, pairs).into_pyobject(py)?
+            }
+            material::Law::Table(table) => {
+                let hz = table.frequency_hz().to_vec().into_pyarray(py);
+                ("table", hz, table.values().to_vec().into_pyarray(py)).into_pyobject(py)?
+            }
+        };
+        Ok((py.import("frfit._restore")?.getattr("law")?, parts))
+    }
+
+    fn __copy__(slf: Py<Self>) -> Py<Self> {
+        slf
+    }
+
+    /// Nothing of it ever changes.
+    fn __deepcopy__(slf: Py<Self>, _memo: Bound<'_, PyAny>) -> Py<Self> {
+        slf
     }
 
     fn __repr__(&self) -> String {
@@ -83,5 +129,33 @@ impl Law {
             }
             material::Law::Table(table) => format!("<Law.table of {} rows>", table.frequency_hz().len()),
         }
+    }
+}
+
+/// Numbers in whatever form the package takes them.
+fn reals<'py>(values: &Bound<'py, PyAny>, name: &str) -> PyResult<PyReadonlyArray1<'py, f64>> {
+    let real = values.py().import("frfit._arrays")?.getattr("real")?;
+    real.call1((values, name))?.extract()
+}
+
+fn finite(py: Python<'_>, name: &str, value: impl Into<Complex64>) -> PyResult<()> {
+    let value = value.into();
+    match value.is_finite() {
+        true => Ok(()),
+        false => Err(argument(py, name, "a finite number", &value)),
+    }
+}
+
+fn exponent(py: Python<'_>, alpha: f64) -> PyResult<()> {
+    match (0.0..=1.0).contains(&alpha) {
+        true => Ok(()),
+        false => Err(argument(py, "alpha", "a number from 0 (elastic) to 1 (viscous)", &alpha)),
+    }
+}
+
+fn time(py: Python<'_>, name: &str, tau_s: f64) -> PyResult<()> {
+    match tau_s > 0.0 && tau_s.is_finite() {
+        true => Ok(()),
+        false => Err(argument(py, name, "a finite time above 0 s", &tau_s)),
     }
 }

@@ -8,6 +8,7 @@ mod identify;
 mod law;
 mod matrix;
 mod model;
+mod pool;
 mod report;
 mod respond;
 mod series;
@@ -25,7 +26,10 @@ fn _frfit(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<model::Model>()?;
     module.add_class::<series::Series>()?;
     module.add_class::<uff::UffFile>()?;
+    module.add_function(wrap_pyfunction!(identify::check_measurement, module)?)?;
     module.add_function(wrap_pyfunction!(matrix::readable, module)?)?;
+    module.add_function(wrap_pyfunction!(model::restored_model, module)?)?;
+    module.add_function(wrap_pyfunction!(series::restored_series, module)?)?;
     module.add_function(wrap_pyfunction!(matrix::read_matrix, module)?)?;
     module.add_function(wrap_pyfunction!(identify::identify, module)?)?;
     module.add_function(wrap_pyfunction!(case::run_case, module)?)?;

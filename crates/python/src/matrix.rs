@@ -1,8 +1,10 @@
 //! Sparse matrices: compressed columns of SciPy in, positions and values of files out.
 
+use crate::background::at_once;
 use crate::errors::{input, raise};
 use frfit_formats::{CoordinateMatrix, Entries, Symmetry};
 use frfit_linalg::sparse::SymmetricMatrix;
+use frfit_workflow::Reads;
 use frfit_workflow::load::{load_bytes, load_matrix, symmetric_matrix};
 use numpy::{Complex64, IntoPyArray, PyReadonlyArray1};
 use pyo3::prelude::*;
@@ -36,10 +38,11 @@ pub(crate) enum Data<'py> {
     Complex(PyReadonlyArray1<'py, Complex64>),
 }
 
-/// The symmetric matrix of compressed columns; refused as a file with these entries would be.
+/// The symmetric matrix of compressed columns, both triangles or the lower one; refused as a file with these entries would be.
 pub(crate) fn symmetric(
     py: Python<'_>,
     name: &str,
+    symmetry: Symmetry,
     [nrows, ncols]: [usize; 2],
     data: &Data<'_>,
     indices: &Indices<'_>,
@@ -49,7 +52,8 @@ pub(crate) fn symmetric(
     let negative = || refuse("expected indices that are not negative".into());
     let rows = indices.to_vec().ok_or_else(negative)?;
     let ends = indptr.to_vec().ok_or_else(negative)?;
-    if ends.len() != ncols + 1 || ends.last() != Some(&rows.len()) || ends.windows(2).any(|w| w[0] > w[1]) {
+    let is_sound = ends.first() == Some(&0) && ends.last() == Some(&rows.len()) && ends.is_sorted();
+    if !is_sound || Some(ends.len()) != ncols.checked_add(1) {
         return Err(refuse("expected column pointers that ascend from 0 to the number of entries".into()));
     }
     let cols =
@@ -58,16 +62,15 @@ pub(crate) fn symmetric(
         Data::Real(values) => Entries::Real(values.as_array().to_vec()),
         Data::Complex(values) => Entries::Complex(values.as_array().to_vec()),
     };
-    let symmetry = Symmetry::General;
     let matrix = CoordinateMatrix { nrows, ncols, symmetry, rows, cols, entries, title: String::new() };
-    let made = py.detach(|| matrix.validate().and_then(|()| symmetric_matrix(&matrix)));
+    let made = at_once(py, || matrix.validate().and_then(|()| symmetric_matrix(&matrix)))?;
     made.map_err(|error| refuse(format!("expected {}, found {}", error.expected, error.found)))
 }
 
 /// Refuses a path at which there is no file that can be read, in the words of the command line.
 #[pyfunction]
 pub(crate) fn readable(py: Python<'_>, path: PathBuf) -> PyResult<()> {
-    py.detach(|| load_bytes(&path)).map(drop).map_err(|error| input(py, &error))
+    at_once(py, || load_bytes(&path, &mut Reads::default()).map(drop))?.map_err(|error| input(py, &error))
 }
 
 /// A matrix of a file as positions and values.
@@ -77,7 +80,7 @@ pub(crate) fn read_matrix(
     path: PathBuf,
     name: Option<String>,
 ) -> PyResult<Bound<'_, PyDict>> {
-    let matrix = py.detach(|| load_matrix(&path, name.as_deref())).map_err(|error| input(py, &error))?;
+    let matrix = at_once(py, || load_matrix(&path, name.as_deref()))?.map_err(|error| input(py, &error))?;
     let signed = |indices: Vec<usize>| -> PyResult<_> {
         let indices: Result<Vec<i64>, _> = indices.into_iter().map(i64::try_from).collect();
         Ok(indices?.into_pyarray(py))

@@ -2,7 +2,7 @@
 
 use crate::background::in_background;
 use crate::columns::table;
-use crate::errors::{arrays, input, outside_table, raise};
+use crate::errors::{argument, arrays, input, outside_table, raise};
 use crate::model::Model;
 use crate::respond::sensors;
 use frfit::identify::{MAX_ORDER, OptionsError};
@@ -11,9 +11,9 @@ use frfit::quantity::Quantity;
 use frfit::response::FullModel;
 use frfit::series::{ConvergenceRadius, NeumannSeries, convergence_radius};
 use frfit_workflow::load::{ArraysError, response_of_arrays};
-use numpy::{Complex64, IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1};
-use pyo3::exceptions::PyValueError;
+use numpy::{Complex64, IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
+use pyo3::types::PyTuple;
 use std::sync::Arc;
 
 /// Taylor coefficients of the response in one factor, and how far they converge.
@@ -64,9 +64,10 @@ impl Series {
 
     /// The k-th derivative (sensors,) of the receptance with respect to the factor, at its nominal value.
     fn derivative<'py>(&self, py: Python<'py>, k: usize) -> PyResult<Bound<'py, PyArray1<Complex64>>> {
-        let values = self.series.derivative(k).ok_or_else(|| {
-            PyValueError::new_err(format!("k: expected 0 to {}, found {k}", self.series.order()))
-        })?;
+        let values = self
+            .series
+            .derivative(k)
+            .ok_or_else(|| argument(py, "k", &format!("0 to {}", self.series.order()), &k))?;
         Ok(values.into_pyarray(py))
     }
 
@@ -74,6 +75,39 @@ impl Series {
     fn spectral_radius(&self, correction: Complex64) -> f64 {
         self.radius.at(correction)
     }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+        let ConvergenceRadius { per_unit, residual, converged } = self.radius;
+        let radius = (per_unit, residual, converged);
+        let parts = (self.scale(), self.nominal, self.coefficients(py)?, radius).into_pyobject(py)?;
+        Ok((py.import("frfit._restore")?.getattr("series")?, parts))
+    }
+
+    fn __copy__(slf: Py<Self>) -> Py<Self> {
+        slf
+    }
+
+    /// Nothing of it ever changes.
+    fn __deepcopy__(slf: Py<Self>, _memo: Bound<'_, PyAny>) -> Py<Self> {
+        slf
+    }
+}
+
+/// A series of what one was pickled as.
+#[pyfunction]
+pub(crate) fn restored_series(
+    py: Python<'_>,
+    scale: f64,
+    nominal: Complex64,
+    coefficients: PyReadonlyArray2<'_, Complex64>,
+    radius: (f64, f64, bool),
+) -> PyResult<Series> {
+    let (per_unit, residual, converged) = radius;
+    let terms = coefficients.as_array().rows().into_iter().map(|row| row.to_vec()).collect();
+    let series = NeumannSeries::from_coefficients(scale, terms).ok_or_else(|| {
+        argument(py, "coefficients", "at least one of each sensor, and a scale above 0", &"others")
+    })?;
+    Ok(Series { series, radius: ConvergenceRadius { per_unit, residual, converged }, nominal })
 }
 
 /// The series about the nominal factor of the named matrices.

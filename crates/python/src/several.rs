@@ -24,7 +24,7 @@ pub(crate) fn several<'py>(py: Python<'py>, computed: &ComputedSeveral) -> PyRes
     real("chi2", &|at| at.chi_squared)?;
     real("certificate", &|at| at.certificate)?;
     found.set_item("status", outcome.at.iter().map(|at| at.status.name()).collect::<Vec<_>>())?;
-    let unknowns = (0..wanted.sought.len()).map(|j| unknown(py, wanted, computed, j));
+    let unknowns = (0..wanted.unknowns.len()).map(|j| unknown(py, wanted, computed, j));
     found.set_item("unknowns", PyList::new(py, unknowns.collect::<PyResult<Vec<_>>>()?)?)?;
     let sensors = case.sensors.len();
     let response = |of: &dyn Fn(&SeveralAt) -> Vec<c64>| {
@@ -75,7 +75,7 @@ fn unknown<'py>(
     computed: &ComputedSeveral,
     j: usize,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let (one, outcome) = (&wanted.sought[j], &computed.run.outcome);
+    let (one, outcome) = (&wanted.unknowns[j], &computed.run.outcome);
     let found = PyDict::new(py);
     found.set_item("name", &one.name)?;
     found.set_item("varies", varies(one))?;
@@ -91,7 +91,7 @@ fn unknown<'py>(
     real("storage_std", &|v| v.storage_std)?;
     real("loss_factor_std", &|v| v.loss_factor_std)?;
     real("storage_loss_correlation", &|v| v.correlation)?;
-    let band = outcome.band.iter().find(|value| value.sought == j);
+    let band = outcome.band.iter().find(|value| value.unknowns == j);
     let numbers: Vec<(&str, f64, f64)> = band
         .into_iter()
         .flat_map(|band| &band.numbers)

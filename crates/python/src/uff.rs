@@ -1,17 +1,19 @@
 //! Universal files: mapped into memory, listed without being read, read function by function.
 
+use crate::background::at_once;
 use crate::errors::{input, raise};
 use frfit_formats::FormatError;
 use frfit_formats::uff::{
     Axis, DataType, Dof, Endian, Entry, File, Form, Function, FunctionHeader, FunctionType, Quantity,
     Spacing, Summary, Values, scan, write,
 };
+use frfit_workflow::Reads;
 use frfit_workflow::error::InputError;
 use frfit_workflow::output;
 use numpy::{Complex64, IntoPyArray, PyArray1, PyArrayMethods, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// The bytes of a file, owned by an array of NumPy (a map of the file), and where its datasets are.
 #[pyclass(frozen, module = "frfit._frfit")]
@@ -31,7 +33,7 @@ impl UffFile {
         let bytes = self.bytes.bind(py).readonly();
         let bytes = bytes.as_slice()?;
         let file = File::with_entries(bytes, &self.entries);
-        py.detach(|| call(&file)).map_err(|error| self.refuse(py, error))
+        at_once(py, || call(&file))?.map_err(|error| self.refuse(py, error))
     }
 
     fn refuse(&self, py: Python<'_>, error: FormatError) -> PyErr {
@@ -46,7 +48,7 @@ impl UffFile {
         let entries = {
             let bytes = bytes.readonly();
             let bytes = bytes.as_slice()?;
-            py.detach(|| scan(bytes))
+            at_once(py, || scan(bytes))?
         };
         let entries = entries.map_err(|error| input(py, &InputError::in_file(&path, error)))?;
         Ok(Self { path, bytes: bytes.unbind(), entries })
@@ -190,11 +192,9 @@ pub(crate) fn write_uff(
     let form = if binary { Form::Binary { endian: Endian::Little } } else { Form::Ascii };
     let mut bytes = Vec::new();
     for function in functions.into_iter().map(Written::function) {
-        let written = py.detach(|| write::function(&function, form));
+        let written = at_once(py, || write::function(&function, form))?;
         bytes.extend(written.map_err(|error| input(py, &InputError::in_file(&path, error)))?);
     }
-    let name = path.file_name().unwrap_or_default();
-    let folder = path.parent().unwrap_or(Path::new(""));
-    let file = output::File::new(name, bytes);
-    output::write_all(folder, &[file]).map_err(|error| raise(py, "WriteError", &error))
+    // What is written is no matter of files that were read.
+    output::write_one(&path, bytes, &Reads::default()).map_err(|error| raise(py, "WriteError", &error))
 }

@@ -189,9 +189,17 @@ def test_what_is_wrong_is_said(chain):
     fails(frfit.InputError, "load: expected 12 values", load=np.ones(3))
     fails(frfit.InputError, "load: expected a load that is not zero", load=np.zeros(12))
     fails(frfit.InputError, "measurement 1.row: expected 0 to 11, found 12", frfit.Measurement(F, F, row=12))
-    fails(frfit.InputError, "strictly ascending", frfit.Measurement(F[::-1], F, row=1))
-    fails(frfit.InputError, "one value of response for each of 54", frfit.Measurement(F, F[1:], row=1))
-    fails(frfit.InputError, "finite responses", frfit.Measurement(F, F * np.nan, row=1))
+    # What no model could be held against is refused before there is one.
+    for match, response, keys in (
+        ("strictly ascending", F, {"frequency_hz": F[::-1]}),
+        ("one value of response for each of 54", F[1:], {}),
+        ("finite responses", F * np.nan, {}),
+        ("measurement.scale: expected a finite number that is not zero, found 0", F, {"scale": 0.0}),
+        ("measurement.delay_s: expected a finite number", F, {"delay_s": np.inf}),
+        ("coherences from 0 to 1", F, {"coherence": F}),
+    ):
+        with pytest.raises(frfit.InputError, match=match):
+            frfit.Measurement(**{"frequency_hz": F, "response": response, "row": 1, **keys})
     fails(frfit.ModelMemoryError, "of memory", memory_bytes=10)
     with pytest.raises(frfit.MatrixError, match=r'matrix "k": expected a symmetric matrix .* \(2, 1\)'):
         frfit.Model([frfit.Term("k", np.array([[1.0, 2.0], [0.0, 1.0]]))])

@@ -59,7 +59,7 @@ fn prefix(value: f64) -> (f64, &'static str) {
     known.into_iter().find(|(size, _)| value.abs() >= *size).unwrap_or((1.0, ""))
 }
 
-/// A value in a unit, with two standard deviations where they are known: `5.971 ± 0.012 MPa`. A unit takes prefixes, no unit takes none.
+/// A value in a unit, with two standard deviations where they are known: `5.971 ± 0.012 MPa`. Units of Pa and of s take prefixes; others, as MPa and psi, take none.
 pub(crate) fn with_bar(value: f64, std: Option<f64>, unit: &str) -> String {
     // Without a prefix long numbers take a power of ten, one for value and bar.
     let exponent = value.abs().log10().floor();
@@ -71,7 +71,7 @@ pub(crate) fn with_bar(value: f64, std: Option<f64>, unit: &str) -> String {
         let power = superscript(&exponent.to_string());
         return format!("({})·10{power}", with_bar(value / size, Some(std / size), ""));
     }
-    let (size, prefix) = if unit.is_empty() { (1.0, "") } else { prefix(value) };
+    let (size, prefix) = if unit.starts_with("Pa") || unit == "s" { prefix(value) } else { (1.0, "") };
     let value = value / size;
     let space = if unit.is_empty() { "" } else { "\u{a0}" };
     let Some(bar) = std.map(|std| 2.0 * std / size).filter(|bar| bar.is_finite() && *bar > 0.0) else {
@@ -96,6 +96,7 @@ mod tests {
     fn as_people_write_them() {
         assert_eq!(with_bar(5.9712e6, Some(6e3), "Pa"), "5.971 ± 0.012\u{a0}MPa");
         assert_eq!(with_bar(2e11, None, "Pa"), "200\u{a0}GPa");
+        assert_eq!(with_bar(2e5, Some(50.0), "MPa"), "200000 ± 100\u{a0}MPa");
         assert_eq!(with_bar(0.31234, Some(0.001), ""), "0.3123 ± 0.0020");
         assert_eq!(with_bar(1.447604149, Some(1e-9), ""), "1.447604 ± 2·10⁻⁹");
         assert_eq!(with_bar(12.0, Some(30.0), ""), "12 ± 60");

@@ -11,9 +11,6 @@ use frfit::identify::Status;
 /// Above this share of trusted frequencies a band is called usable as a whole.
 const MOST_OF_IT: f64 = 0.9;
 
-/// A factor below this is relative to the modulus its matrix was made with: no solid that vibrates has a modulus of 100 Pa.
-const RELATIVE: f64 = 100.0;
-
 /// How far the answer as a whole can be trusted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Level {
@@ -68,27 +65,27 @@ pub(crate) struct Names {
     pub(crate) storage: String,
     /// The same in running text.
     pub(crate) thing: String,
-    /// `Pa`, or nothing where the factor is relative.
-    pub(crate) unit: &'static str,
+    /// `Pa` or another unit of stress, or nothing where the factor is relative.
+    pub(crate) unit: String,
     pub(crate) real: bool,
 }
 
 impl Names {
     fn of(results: &Results) -> Self {
         let summary = &results.summary;
-        let nominal = results.reference.nominal.iter().flatten().map(|factor| factor.norm());
-        let relative = nominal.fold(0.0, f64::max) < RELATIVE;
+        // "1" is a number relative to the modulus that the matrix was made with; a factor of a mass or a damping has no unit that is known.
+        let unit = summary.word("/factor_unit");
         let real = summary.real();
-        let (storage, thing, unit) = match (summary.role(), real, relative) {
-            ("stiffness", false, false) => ("Storage modulus E′", "storage modulus", "Pa"),
+        let (storage, thing, unit) = match (summary.role(), real, unit == "1") {
+            ("stiffness", false, false) => ("Storage modulus E′", "storage modulus", unit),
             ("stiffness", false, true) => {
                 ("Storage modulus E′ (relative to the matrix)", "relative storage modulus", "")
             }
-            ("stiffness", true, false) => ("Modulus E", "modulus", "Pa"),
+            ("stiffness", true, false) => ("Modulus E", "modulus", unit),
             (_, false, _) => ("Real part of the factor", "factor", ""),
             (_, true, _) => ("Factor", "factor", ""),
         };
-        Self { storage: storage.into(), thing: thing.into(), unit, real }
+        Self { storage: storage.into(), thing: thing.into(), unit: unit.into(), real }
     }
 }
 
@@ -262,8 +259,11 @@ fn cautions(results: &Results) -> Vec<String> {
         let label = sensor.get("label").and_then(serde_json::Value::as_str).unwrap_or("");
         let flag = |key| sensor.get(key).and_then(serde_json::Value::as_bool) == Some(true);
         if flag("contradicts") {
-            let done =
-                if flag("left_out") { "It was left out." } else { "It was kept, as robust = false says." };
+            let done = if flag("left_out") {
+                "It was left out."
+            } else {
+                "It was kept, as reject_outliers = false says."
+            };
             say(format!("Sensor {label} contradicts all others. {done}"));
         }
         for (key, unit) in [("scale", " times what the file says"), ("delay_s", " s")] {
@@ -336,7 +336,7 @@ fn tiles(results: &Results, names: &Names, nominal_error: &[Option<f64>]) -> Vec
     if let Some(&middle) = rows.get(rows.len() / 2) {
         let at = hertz(band.frequency_hz[middle]);
         for (name, std, label, unit) in [
-            ("storage", "storage_std", names.storage.as_str(), names.unit),
+            ("storage", "storage_std", names.storage.as_str(), names.unit.as_str()),
             ("loss_factor", "loss_factor_std", "Loss factor η", ""),
         ] {
             let Some(value) = band.at(name, middle).filter(|_| !(names.real && name == "loss_factor")) else {
@@ -462,11 +462,11 @@ fn rows(results: &Results, names: &Names) -> Vec<[String; 4]> {
             } else {
                 format!(", η {}", significant(frfit::material::loss_factor(factor), 4))
             };
-            format!("{}{eta}", with_bar(factor.re, None, names.unit))
+            format!("{}{eta}", with_bar(factor.re, None, &names.unit))
         });
         [
             hertz(band.frequency_hz[row]),
-            cell("storage", "storage_std", names.unit),
+            cell("storage", "storage_std", &names.unit),
             cell("loss_factor", "loss_factor_std", ""),
             nominal,
         ]

@@ -1,6 +1,6 @@
 //! The page of results that are made here, whole and broken.
 
-mod made;
+use crate::made;
 
 use frfit_report::{FILES, LARGEST, html};
 use made::{Made, results};

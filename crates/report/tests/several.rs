@@ -1,10 +1,7 @@
 //! The page of several unknowns.
 
-#[path = "made/several.rs"]
-mod made;
-
+use crate::made::several::{MadeSeveral, several};
 use frfit_report::{FILES, html};
-use made::{MadeSeveral, several};
 use proptest::prelude::*;
 use serde_json::Value;
 use std::collections::BTreeMap;

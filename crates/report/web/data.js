@@ -23,10 +23,14 @@ function digits(value, count = 5) {
   return String(Number(value.toPrecision(count)));
 }
 
-/** A value in a unit, with a prefix. */
+/** Whether a unit takes prefixes: MPa and psi take none. */
+const takesPrefix = (unit) => unit === "Pa";
+
+/** A value in a unit, with a prefix where it takes one. */
 function inUnit(value, count = 5, unit = names.unit) {
   if (value === null || value === undefined) return "–";
   if (!unit) return digits(value, count);
+  if (!takesPrefix(unit)) return `${digits(value, count)} ${unit}`;
   const size = Math.abs(value);
   const [by, prefix] = [[1e12, "T"], [1e9, "G"], [1e6, "M"], [1e3, "k"]].find(([by]) => size >= by) ?? [1, ""];
   return `${digits(value / by, count)} ${prefix}${unit}`;
@@ -35,7 +39,7 @@ function inUnit(value, count = 5, unit = names.unit) {
 /** The same with two standard deviations, in one unit. */
 function withBar(value, std, unit = names.unit) {
   if (std === null || value === 0) return inUnit(value, 5, unit);
-  if (!unit) return `${digits(value)} ± ${digits(2 * std, 2)}`;
+  if (!takesPrefix(unit)) return `${digits(value)} ± ${digits(2 * std, 2)}${unit && ` ${unit}`}`;
   const [shown, prefix] = inUnit(value, 5, unit).split(" ");
   return `${shown} ± ${digits((2 * std * Number(shown)) / value, 2)}${prefix ? ` ${prefix}` : ""}`;
 }

@@ -7,8 +7,10 @@ const unknowns = data.unknowns ?? [{
 }];
 const isCurve = data.varies !== "frequency";
 const partsOf = ({ real }) => (real ? ["storage"] : ["storage", "loss_factor"]);
-const factorAxis = ({ real, unit } = names) => ({ title: real ? "Value" : "Storage modulus E′", ...(unit && { tickformat: "~s", ticksuffix: unit }) });
-const formatOf = (part, { unit } = names) => (part === "storage" && unit ? `%{y:.4s}${unit}` : "%{y:.5~g}");
+const factorAxis = ({ real, unit } = names) => ({ title: real ? "Value" : "Storage modulus E′", ...(takesPrefix(unit) ? { tickformat: "~s", ticksuffix: unit } : unit && { title: `${real ? "Value" : "Storage modulus E′"} (${unit})` }) });
+const formatOf = (part, { unit } = names) => (part === "storage" && unit ? withUnit("y", unit) : "%{y:.5~g}");
+/** A coordinate in a unit, as a plot writes it. */
+const withUnit = (axis, unit) => (takesPrefix(unit) ? `%{${axis}:.4s}${unit}` : `%{${axis}:.5~g}${unit && ` ${unit}`}`);
 const AT = "<br>%{x:.6~g} Hz";
 
 /** A part of an unknown, by row. */

@@ -29,7 +29,7 @@ function along(other) {
   const points = (name, storage, loss, rows, shade, draw, more) => {
     const there = rows.filter((row) => storage[row] !== null && loss[row] !== null);
     if (!there.length) return;
-    const format = `E′ %{x:.4s}${names.unit}, ${other.told}${HERTZ}`;
+    const format = `E′ ${withUnit("x", names.unit)}, ${other.told}${HERTZ}`;
     made.push(draw(name, there.map((row) => storage[row]), there.map((row) => other.of(storage[row], loss[row])), shade, format, { customdata: there.map((row) => data.frequency_hz[row]), ...more }));
   };
   const [storage, loss] = [column("storage"), column("loss_factor")];
@@ -45,7 +45,7 @@ const onFactor = (other) => (_, row) => {
   return Number.isFinite(e) && Number.isFinite(eta) ? { x: e, y: other.of(e, eta) } : null;
 };
 
-const LOSS_MODULUS = { of: (e, eta) => e * eta, told: `E″ %{y:.4s}${names.unit}` };
+const LOSS_MODULUS = { of: (e, eta) => e * eta, told: `E″ ${withUnit("y", names.unit)}` };
 const LOSS_FACTOR = { of: (_, eta) => eta, told: "η %{y:.4~g}" };
 
 addPlot({
@@ -53,7 +53,7 @@ addPlot({
   height: 420,
   logs: { xaxis: ["E′", false], yaxis: ["E″", false] },
   traces: () => along(LOSS_MODULUS),
-  layout: () => ({ xaxis: factorAxis(), yaxis: { ...factorAxis(), title: "Loss modulus E″" } }),
+  layout: () => ({ xaxis: factorAxis(), yaxis: { ...factorAxis(), title: `Loss modulus E″${names.unit && !takesPrefix(names.unit) ? ` (${names.unit})` : ""}` } }),
   at: onFactor(LOSS_MODULUS),
 });
 

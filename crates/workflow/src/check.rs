@@ -3,9 +3,13 @@
 use crate::job::JobError;
 use crate::load::{Case, IdentifyCase, Overrides, Purpose, load};
 use crate::memory::check_identify;
+use crate::output::Words;
 use crate::run::{Used, band_of};
-use frfit::doctor::{Diagnosis, Evidence, Fault, KnownFactor, NotJudged, OtherRow, diagnose};
-use frfit::identify::Unknown;
+use crate::units::UnitSystem;
+use frfit::diagnostics::{
+    Diagnosis, Evidence, Fault, KnownFactor, NAMED_WITHIN, NotJudged, OtherRow, diagnose,
+};
+use frfit::identify::ChannelUnknowns;
 use frfit::material::OutsideTable;
 use frfit::quantity::Quantity;
 use rayon::prelude::*;
@@ -14,7 +18,7 @@ use std::path::Path;
 
 /// A finding as a person reads it.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Told {
+pub struct FindingText {
     /// A word for programs: `conjugated`, `sign`, `quantity`, `factor`, `delay`, `response_dof`, `load_dof`, `mesh`.
     pub kind: &'static str,
     /// The sensors' labels; empty where it is no matter of sensors.
@@ -65,15 +69,15 @@ pub fn check(case: &Case, identify: &IdentifyCase) -> Result<Diagnosis, OutsideT
     diagnosis.findings.retain(|finding| {
         let real = matches!(finding.fault, Fault::Factor { .. } | Fault::Sign);
         let late = matches!(finding.fault, Fault::Delay { .. });
-        let looked_for = |unknown: Unknown| (real && unknown.scale) || (late && unknown.delay);
+        let looked_for = |unknown: ChannelUnknowns| (real && unknown.scale) || (late && unknown.delay);
         !finding.sensors.iter().all(|&m| looked_for(identify.unknown[m]))
     });
     Ok(diagnosis)
 }
 
 /// The findings in words.
-pub fn told(case: &Case, diagnosis: &Diagnosis) -> Vec<Told> {
-    let tell = |finding: &frfit::doctor::Finding| {
+pub fn told(case: &Case, diagnosis: &Diagnosis) -> Vec<FindingText> {
+    let tell = |finding: &frfit::diagnostics::Finding| {
         let sensors = &finding.sensors;
         let measurements = match sensors.as_slice() {
             [m] => format!("[[measurement]] {}", m + 1),
@@ -86,7 +90,7 @@ pub fn told(case: &Case, diagnosis: &Diagnosis) -> Vec<Told> {
             Fault::Mesh { .. } | Fault::LoadDof { .. } => Vec::new(),
             _ => sensors.iter().map(|&m| case.sensors[m].label.clone()).collect(),
         };
-        Told { kind, sensors: labels, what, evidence: evidence.collect::<Vec<_>>().join("; "), change }
+        FindingText { kind, sensors: labels, what, evidence: evidence.collect::<Vec<_>>().join("; "), change }
     };
     diagnosis.findings.iter().map(tell).collect()
 }
@@ -120,7 +124,7 @@ fn words(
             format!("{is} is taken for {taken_for}"),
             format!("quantity of {measurements}: \"{is}\""),
         ),
-        Fault::Factor { factor, known, .. } => (
+        Fault::Factor { factor, known, relative_std } => (
             "factor",
             match known {
                 Some(known) => {
@@ -132,13 +136,15 @@ fn words(
                 ),
             },
             match sensors {
-                [_] => format!(
+                // Where other sensors are right, the model is in the units that the case says.
+                [_] if case.sensors.len() > 1 => format!(
                     "scale of {measurements}: {}, or units and sensitivity of its file; SI is expected",
                     number(1.0 / factor)
                 ),
                 _ => format!(
-                    "scale of {measurements}: {}, or units and the hammer's sensitivity in their files; SI is expected. Or the units of [[matrix]]",
-                    number(1.0 / factor)
+                    "scale of {measurements}: {}, or units and the hammer's sensitivity in their files; SI is expected. Or {}",
+                    number(1.0 / factor),
+                    of_the_model(case.units, *factor, *relative_std)
                 ),
             },
         ),
@@ -181,6 +187,18 @@ fn words(
                 number(0.5 * row_hz)
             ),
         ),
+    }
+}
+
+/// The key that says in which units the model is, with the system in which it would agree, where there is one.
+fn of_the_model(units: UnitSystem, factor: f64, relative_std: f64) -> String {
+    let off = |system: UnitSystem| Some((factor / units.measured_over_model(system)?).ln().abs());
+    let near = |system: &UnitSystem| off(*system).is_some_and(|off| off <= NAMED_WITHIN + 3.0 * relative_std);
+    let others = UnitSystem::ALL.into_iter().filter(|system| *system != units).filter(near);
+    let named: Vec<String> = others.map(|system| format!("{:?}", system.name())).collect();
+    match named.as_slice() {
+        [] => format!("units of the case (now {:?})", units.name()),
+        named => format!("units = {} of the case (now {:?})", named.join(" or "), units.name()),
     }
 }
 
@@ -291,12 +309,13 @@ pub fn findings_text(case: &Case, diagnosis: &Diagnosis) -> String {
 }
 
 /// What `frfit check` says.
-pub fn check_text(job: &CheckJob) -> String {
+pub fn check_text(job: &CheckJob) -> Words {
     let CheckJob { case, diagnosis } = job;
-    let mut text = format!("{}: {} frequencies of the band looked at\n", case.title, diagnosis.frequencies);
-    text += &findings_text(case, diagnosis);
+    let mut words = Words::default();
+    words.say(&format!("{}: {} frequencies of the band looked at\n", case.title, diagnosis.frequencies));
+    words.warn(&findings_text(case, diagnosis));
     match (diagnosis.not_judged, diagnosis.misfit) {
-        (Some(reason), _) => text += &format!("  not judged        {}\n", not_judged(reason)),
+        (Some(reason), _) => words.warn(&format!("  not judged        {}\n", not_judged(reason))),
         (None, Some(misfit)) => {
             let left = format!("ln(measured/model) is left with {misfit:.2} by the likeliest modulus");
             let (label, end) = match (diagnosis.findings.is_empty(), misfit > UNEXPLAINED) {
@@ -305,11 +324,11 @@ pub fn check_text(job: &CheckJob) -> String {
                 (false, false) => ("left", ""),
                 (false, true) => ("left", ": that is much, and nothing else that is looked for explains it"),
             };
-            text += &format!("  {label:<18}{left}{end}\n");
+            words.add(misfit > UNEXPLAINED, &format!("  {label:<18}{left}{end}\n"));
         }
         (None, None) => {}
     }
-    text
+    words
 }
 
 /// A misfit beyond this is no noise that anybody would identify a modulus from: a factor of 1.3, or 17 degrees.

@@ -1,5 +1,6 @@
 //! What a user has to put right: where, what was expected, what was found.
 
+use crate::terminal::one_line;
 use frfit_formats::{FormatError, Position};
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -37,7 +38,7 @@ impl Place {
 impl fmt::Display for Place {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let Some(file) = &self.file {
-            write!(f, "{}", file.display())?;
+            write!(f, "{}", one_line(&file.to_string_lossy()))?;
             match self.position {
                 Position::File => {}
                 Position::Line { line, column: None } => write!(f, ":{line}")?,
@@ -46,8 +47,8 @@ impl fmt::Display for Place {
             }
         }
         match (&self.file, &self.key) {
-            (Some(_), Some(key)) => write!(f, ": {key}"),
-            (None, Some(key)) => write!(f, "{key}"),
+            (Some(_), Some(key)) => write!(f, ": {}", one_line(key)),
+            (None, Some(key)) => write!(f, "{}", one_line(key)),
             (_, None) => Ok(()),
         }
     }
@@ -56,7 +57,7 @@ impl fmt::Display for Place {
 /// An input that cannot be used.
 ///
 /// Shown in one line, `place: expected …, found …`, and, where a file is at fault that a case names, a second
-/// line that says where it is named.
+/// line that says where it is named. What is quoted of files has no end of a line in it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct InputError {
     /// Where.
@@ -95,7 +96,8 @@ impl InputError {
 
 impl fmt::Display for InputError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: expected {}, found {}", self.place, self.expected, self.found)?;
+        let (expected, found) = (one_line(&self.expected), one_line(&self.found));
+        write!(f, "{}: expected {expected}, found {found}", self.place)?;
         match &self.named_by {
             Some(place) => write!(f, "\nnamed in {place}"),
             None => Ok(()),

@@ -4,10 +4,12 @@ use crate::error::{InputError, Place};
 use crate::figures::law_figures;
 use crate::job::JobError;
 use crate::load::load_bytes;
-use crate::output::{File, Misfit, law_json, laws_text, write_all};
+use crate::output::{File, Misfit, check_folder, law_json, laws_text, write_result};
+use crate::reads::Reads;
+use crate::units::{FactorUnit, TableUnits, UnitSystem};
 use frfit::c64;
 use frfit::frequency::omega_rad_s;
-use frfit::laws::{Datum, Family, LawFit, best, fit_modulus};
+use frfit::laws::{Datum, LawFit, LawKind, best, fit_modulus};
 use frfit_formats::csv::{ModulusData, read_modulus_data, read_modulus_data_where};
 use serde_json::{Value, json};
 use std::path::Path;
@@ -35,32 +37,41 @@ pub struct FitJob {
 pub fn fit_table(
     table: &Path,
     only: Option<(&str, &str)>,
-    families: &[Family],
+    kinds: &[LawKind],
     out: Option<&Path>,
 ) -> Result<FitJob, JobError> {
-    let bytes = load_bytes(table)?;
+    let mut reads = Reads::default();
+    let bytes = load_bytes(table, &mut reads)?;
+    if let Some(out) = out {
+        check_folder(out, &["law.json"], &reads)?;
+    }
     let read = match only {
         Some((column, value)) => read_modulus_data_where(&bytes, column, value),
         None => read_modulus_data(&bytes),
     };
     let data = read.map_err(|error| InputError::in_file(table, error))?;
+    let of = match TableUnits::beside(table)? {
+        // A table that names its unit was converted to Pa.
+        Some(units) if !data.names_unit => units,
+        _ => TableUnits { system: UnitSystem::Si, factor: FactorUnit::Modulus(UnitSystem::Si) },
+    };
     let points = points(&data);
     let fits: Vec<LawFit> =
-        families.iter().filter_map(|&family| fit_modulus(&points, family, data.std.is_some())).collect();
+        kinds.iter().filter_map(|&family| fit_modulus(&points, family, data.std.is_some())).collect();
     if fits.is_empty() {
-        let least = families.iter().map(|family| family.count()).min().unwrap_or(0);
+        let least = kinds.iter().map(|family| family.count()).min().unwrap_or(0);
         let expected = format!("at least {} moduli, for {least} parameters", least.div_ceil(2));
         return Err(InputError::at(&Place::file(table), expected, data.storage.len().to_string()).into());
     }
     let misfits: Vec<Option<Misfit>> = fits.iter().map(|fit| misfit(fit, &data)).collect();
-    let summary = summary(table, &data, &fits, &misfits);
+    let summary = summary(table, &data, &fits, &misfits, of);
     let name = table.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
     if let Some(out) = out {
-        let mut files = law_figures(&format!("{name}: laws of the modulus"), &data, &fits)?;
+        let mut files = law_figures(&format!("{name}: laws of the modulus"), &data, &fits, of.factor)?;
         files.push(File::new("law.json", format!("{summary:#}\n")));
-        write_all(out, &files)?;
+        write_result(out, "fit", files, None, &reads)?;
     }
-    let text = format!("{}\n{}", heading(&name, &data), laws_text(&fits, &misfits));
+    let text = format!("{}\n{}", heading(&name, &data), laws_text(&fits, &misfits, of.factor));
     Ok(FitJob { data, fits, summary, text })
 }
 
@@ -85,15 +96,23 @@ fn misfit(fit: &LawFit, data: &ModulusData) -> Option<Misfit> {
     Misfit::of(rows.map(relative).collect::<Option<_>>()?)
 }
 
-fn summary(table: &Path, data: &ModulusData, fits: &[LawFit], misfits: &[Option<Misfit>]) -> Value {
+fn summary(
+    table: &Path,
+    data: &ModulusData,
+    fits: &[LawFit],
+    misfits: &[Option<Misfit>],
+    of: TableUnits,
+) -> Value {
     let laws = fits.iter().zip(misfits).map(|(fit, misfit)| {
-        let mut law = law_json(fit);
+        let mut law = law_json(fit, of.factor);
         law["misfit"] = json!({"worst": misfit.map(|m| m.worst), "median": misfit.map(|m| m.median)});
         law
     });
     json!({
         "frfit": env!("CARGO_PKG_VERSION"),
         "table": table.display().to_string(),
+        "units": of.system.json(),
+        "factor_unit": of.factor.word(),
         "moduli": data.storage.len(),
         "left_out": data.left_out,
         "range_hz": [data.frequency_hz.first(), data.frequency_hz.last()],

@@ -1,20 +1,22 @@
 //! Whole jobs: from the path of a case to files in a folder. What the command line and other front ends share.
 
 use crate::check::{check, findings_json};
+use crate::convert::{OR_TO, ending_of};
 use crate::error::{InputError, Place};
 use crate::figures::{identify_figures, measured_figures, respond_figures, several_figures};
 use crate::load::{Case, IdentifyCase, Overrides, Purpose, load};
 use crate::memory::{MemoryError, check_full, check_identify, check_subspace};
 use crate::output::{
-    File, WriteError, candidates_csv, error_map_csv, hit_reasons, identified_csv, laws_json, measured_csv,
-    measured_summary, measured_text, measured_uff, reference_csv, respond_csv, respond_uff, response_csv,
-    several_csv, several_json, several_reference_csv, several_response_csv, several_text,
-    several_updated_uff, summary_json, updated_uff, write_all,
+    File, Words, WriteError, candidates_csv, check_file, check_folder, error_map_csv, hit_reasons,
+    identified_csv, is_stream, laws_json, measured_csv, measured_summary, measured_text, measured_uff,
+    reference_csv, respond_csv, respond_uff, response_csv, several_csv, several_json, several_reference_csv,
+    several_response_csv, several_text, several_updated_uff, summary_json, updated_uff, write_one,
+    write_result,
 };
 use crate::records::{ChannelOptions, Records, read_records};
 use crate::report::report_of;
 use crate::run::{IdentifyRun, Progress, RespondRun, RunOptions, SeveralRun, identify, respond, several};
-use frfit::doctor::Diagnosis;
+use frfit::diagnostics::Diagnosis;
 use frfit::material::OutsideTable;
 use frfit::signal::{self, Measured, SignalError, estimate_frf};
 use frfit_figures::PngError;
@@ -74,6 +76,24 @@ from!(
     Figure(PngError)
 );
 
+/// What the results of an identification are called in the list of their files.
+pub(crate) const IDENTIFIED: &str = "identify";
+
+/// The files of an identification, beside its figures.
+const IDENTIFIED_FILES: [&str; 11] = [
+    "identified.csv",
+    "candidates.csv",
+    "reference.csv",
+    "response.csv",
+    "free.csv",
+    "law.json",
+    "error_map.csv",
+    "updated.uff",
+    "summary.json",
+    "identify-manifest.json",
+    "report.html",
+];
+
 /// An identification that was done and written.
 #[derive(Debug)]
 pub struct IdentifyJob {
@@ -105,8 +125,12 @@ pub fn identify_case(
     out: &Path,
     progress: Progress<'_>,
 ) -> Result<IdentifyJob, JobError> {
+    let start = Instant::now();
+    let case = load(case_file, overrides, Purpose::Identify)?;
+    let seconds_load = start.elapsed().as_secs_f64();
+    check_folder(out, &IDENTIFIED_FILES, &case.reads)?;
     let Computed { case, diagnosis, run, seconds_load, seconds_check } =
-        compute_case(case_file, overrides, options, progress)?;
+        compute(case, options, seconds_load, progress)?;
     let wanted = case.identify.as_ref().expect("a case loaded to identify has something to identify");
     let start = Instant::now();
     let mut files = identify_figures(&case, wanted, &run)?;
@@ -121,7 +145,7 @@ pub fn identify_case(
     ];
     if let Some(laws) = &run.laws {
         tables.push(File::new("free.csv", identified_csv(&laws.free)));
-        files.push(File::new("law.json", format!("{:#}\n", laws_json(laws))));
+        files.push(File::new("law.json", format!("{:#}\n", laws_json(laws, wanted.unit, case.units))));
     }
     if let Some(smooth) = &run.smooth {
         tables.push(File::new("free.csv", identified_csv(&smooth.free)));
@@ -137,8 +161,7 @@ pub fn identify_case(
     files.push(File::new("updated.uff", uff));
     files.push(File::new("summary.json", format!("{summary:#}\n")));
     let page = report_of(&files, out);
-    files.extend(page.as_ref().ok().cloned());
-    write_all(out, &files)?;
+    write_result(out, IDENTIFIED, files, page.as_ref().ok().cloned(), &case.reads)?;
     page.map_err(JobError::Report)?;
     Ok(IdentifyJob { case, diagnosis, run, summary })
 }
@@ -205,7 +228,7 @@ pub struct SeveralJob {
     /// `summary.json`.
     pub summary: serde_json::Value,
     /// The same for a person.
-    pub text: String,
+    pub text: Words,
 }
 
 /// Several unknowns that were identified, and not written.
@@ -229,9 +252,23 @@ pub fn compute_several_case(
     memory_bytes: Option<u64>,
     progress: Progress<'_>,
 ) -> Result<ComputedSeveral, JobError> {
+    let (case, seconds_load) = load_several(case_file, overrides)?;
+    compute_several(case, memory_bytes, seconds_load, progress)
+}
+
+/// A case of several unknowns, and how long it took to read.
+fn load_several(case_file: &Path, overrides: &Overrides) -> Result<(Case, f64), JobError> {
     let start = Instant::now();
     let case = load(case_file, overrides, Purpose::Several)?;
-    let seconds_load = start.elapsed().as_secs_f64();
+    Ok((case, start.elapsed().as_secs_f64()))
+}
+
+fn compute_several(
+    case: Case,
+    memory_bytes: Option<u64>,
+    seconds_load: f64,
+    progress: Progress<'_>,
+) -> Result<ComputedSeveral, JobError> {
     let wanted = case.several.as_ref().expect("a case loaded for several unknowns has some");
     check_subspace(&case, memory_bytes)?;
     let run = several(&case, wanted, progress)?;
@@ -249,8 +286,10 @@ pub fn several_case(
     out: &Path,
     progress: Progress<'_>,
 ) -> Result<SeveralJob, JobError> {
+    let (case, seconds_load) = load_several(case_file, overrides)?;
+    check_folder(out, &IDENTIFIED_FILES, &case.reads)?;
     let ComputedSeveral { case, run, seconds_load } =
-        compute_several_case(case_file, overrides, memory_bytes, progress)?;
+        compute_several(case, memory_bytes, seconds_load, progress)?;
     let wanted = case.several.as_ref().expect("a case loaded for several unknowns has some");
     let mut summary = several_json(&case, wanted, &run, seconds_load);
     let mut files = several_figures(&case, wanted, &run)?;
@@ -267,8 +306,7 @@ pub fn several_case(
     files.push(File::new("updated.uff", uff));
     files.push(File::new("summary.json", format!("{summary:#}\n")));
     let page = report_of(&files, out);
-    files.extend(page.as_ref().ok().cloned());
-    write_all(out, &files)?;
+    write_result(out, IDENTIFIED, files, page.as_ref().ok().cloned(), &case.reads)?;
     page.map_err(JobError::Report)?;
     let text = several_text(wanted, &run);
     Ok(SeveralJob { case, run, summary, text })
@@ -286,13 +324,14 @@ pub fn respond_case(
     progress: Progress<'_>,
 ) -> Result<(Case, RespondRun), JobError> {
     let case = load(case_file, overrides, Purpose::Respond)?;
+    check_folder(out, &["response.csv", "frf.uff"], &case.reads)?;
     check_full(&case, memory_bytes)?;
     let run = respond(&case, progress)?;
     let mut files = respond_figures(&case, &run)?;
     files.push(File::new("response.csv", respond_csv(&case, &run)));
     let uff = respond_uff(&case, &run).map_err(|error| InputError::in_file(&out.join("frf.uff"), error))?;
     files.push(File::new("frf.uff", uff));
-    write_all(out, &files)?;
+    write_result(out, "respond", files, None, &case.reads)?;
     Ok((case, run))
 }
 
@@ -306,11 +345,12 @@ pub struct FrfJob {
     /// `<name>-summary.json`.
     pub summary: serde_json::Value,
     /// The same for a person.
-    pub text: String,
+    pub text: Words,
 }
 
-/// Reads the records of a hammer test and writes its FRF as UFF or table, by the ending of `out`, with
-/// `<name>-summary.json` and `<name>-figures/` beside it: all of them, or nothing.
+/// Reads the records of a hammer test and writes its FRF as UFF or table, by the ending `to`, or else that of `out`, with
+/// `<name>-summary.json` and `<name>-figures/` beside it: all of them, or nothing. Beside what is no plain file (`-`, which is standard output, a device, a
+/// pipe) there is nothing.
 ///
 /// # Errors
 /// [`JobError`]: what [`read_records`] refuses, no hit without fault, an ending that is neither, several responses for a table.
@@ -319,18 +359,30 @@ pub fn frf_of_records(
     channels: &ChannelOptions,
     options: &signal::Options,
     out: &Path,
+    to: Option<&str>,
 ) -> Result<FrfJob, JobError> {
-    let ending = out.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase());
+    let (place, ending) = ending_of(out, to);
     let is_table = match ending.as_deref() {
         Some("csv") => true,
         Some("uff" | "unv" | "uf") => false,
         found => {
             let found = found.map_or("none".into(), |ending| format!(".{ending}"));
-            let expected = "an ending that names a format: .uff, .unv or .uf (UFF), .csv (table)";
-            return Err(InputError::at(&Place::file(out), expected, found).into());
+            let expected =
+                format!("an ending that names a format: .uff, .unv or .uf (UFF), .csv (table){OR_TO}");
+            return Err(InputError::at(&place, expected, found).into());
         }
     };
     let records = read_records(files, channels)?;
+    let name = out.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+    let folder = out.parent().unwrap_or(Path::new(""));
+    check_file(out, &records.reads)?;
+    if !is_stream(out) {
+        check_folder(
+            folder,
+            &[&format!("{name}-summary.json"), &format!("{name}-manifest.json")],
+            &records.reads,
+        )?;
+    }
     if is_table && records.responses.len() > 1 {
         let expected = "one response for a table (--response), or the ending .uff";
         return Err(InputError::at(&Place::file(out), expected, records.responses.len().to_string()).into());
@@ -338,16 +390,19 @@ pub fn frf_of_records(
     let measured =
         estimate_frf(&records.recordings, options).map_err(|error| refusal(error, &records, files))?;
     let summary = measured_summary(&records, &measured, options);
-    let name = out.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
-    let mut written = measured_figures(&records, &measured, &format!("{name}-figures"))?;
-    written.push(File::new(format!("{name}-summary.json"), format!("{summary:#}\n")));
     let bytes = match is_table {
         true => measured_csv(&measured).into_bytes(),
         false => measured_uff(&records, &measured, &title(files))
             .map_err(|error| InputError::in_file(out, error))?,
     };
-    written.push(File::new(out.file_name().unwrap_or_default(), bytes));
-    write_all(out.parent().unwrap_or(Path::new("")), &written)?;
+    if is_stream(out) {
+        write_one(out, bytes, &records.reads)?;
+    } else {
+        let mut written = measured_figures(&records, &measured, &format!("{name}-figures"))?;
+        written.push(File::new(format!("{name}-summary.json"), format!("{summary:#}\n")));
+        written.push(File::new(out.file_name().unwrap_or_default(), bytes));
+        write_result(folder, &name, written, None, &records.reads)?;
+    }
     let text = measured_text(&records, &measured, options);
     Ok(FrfJob { records, measured, summary, text })
 }

@@ -18,6 +18,8 @@
 //! | [`convert`](mod@convert) | from one format of a matrix or an FRF to another |
 //! | [`export`](mod@export) | the identified modulus as the table that the next solver reads |
 //! | [`error`] | what the user has to put right, and where |
+//! | [`Reads`] | which files were read, so that nothing is written over them |
+//! | [`terminal`] | text of files without what steers a terminal |
 
 pub mod case;
 pub mod check;
@@ -32,7 +34,12 @@ pub mod load;
 pub mod memory;
 mod nearest;
 pub mod output;
+mod reads;
 pub mod records;
 pub mod report;
 pub mod run;
 pub mod sensitivities;
+pub mod terminal;
+pub mod units;
+
+pub use reads::Reads;

@@ -59,7 +59,7 @@ fn bytes(count: u64) -> String {
 pub fn check_identify(case: &Case, identify: &IdentifyCase, limit: Option<u64>) -> Result<(), MemoryError> {
     let dofs = case.model.dim();
     let options = &identify.options;
-    if options.space.is_subspace(options.method, dofs, identify.frequency_hz.len()) {
+    if options.reduction.is_subspace(options.method, dofs, identify.frequency_hz.len()) {
         check_subspace(case, limit)
     } else {
         check_full(case, limit)

@@ -1,10 +1,11 @@
 //! The results of an identification as one HTML page, from memory or from the folder that has them.
 
 use crate::error::{InputError, Place};
-use crate::output::File;
+use crate::job::IDENTIFIED;
+use crate::load::load_bytes;
+use crate::output::{File, read_result};
+use crate::reads::Reads;
 use frfit_formats::FormatError;
-use std::collections::BTreeMap;
-use std::io::ErrorKind;
 use std::path::Path;
 
 /// The page for results that are about to be written into `out`.
@@ -20,28 +21,21 @@ pub(crate) fn report_of(files: &[File], out: &Path) -> Result<File, InputError> 
 /// The page for the results in a folder, as `frfit identify` writes it beside them.
 ///
 /// # Errors
-/// [`InputError`]: a folder or a file in it that cannot be read, is missing, or is not what this version writes.
-pub fn report_of_folder(folder: &Path) -> Result<File, InputError> {
+/// [`InputError`]: a folder or a file in it that cannot be read, is missing, or is not what this version writes; files that are not all of one run.
+pub fn report_of_folder(folder: &Path, reads: &mut Reads) -> Result<File, InputError> {
     if !folder.is_dir() {
         let expected = "a folder with the results of frfit identify";
         let found = if folder.exists() { "a file" } else { "nothing of that name" };
         return Err(InputError::at(&Place::file(folder), expected, found));
     }
-    let mut files = BTreeMap::new();
+    let mut files = read_result(folder, IDENTIFIED, reads)?;
     for name in frfit_report::FILES {
+        if files.contains_key(name) {
+            continue;
+        }
         let path = folder.join(name);
-        match std::fs::read(&path) {
-            Ok(bytes) => {
-                files.insert(name, bytes);
-            }
-            Err(error) if error.kind() == ErrorKind::NotFound => {}
-            Err(error) => {
-                return Err(InputError::at(
-                    &Place::file(&path),
-                    "a file that can be read",
-                    error.to_string(),
-                ));
-            }
+        if path.exists() {
+            files.insert(name.to_owned(), load_bytes(&path, reads)?);
         }
     }
     page(&|name| files.get(name).cloned(), folder)

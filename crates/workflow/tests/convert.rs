@@ -1,10 +1,11 @@
 //! Conversions there and back.
 
-mod shared_data;
+use crate::shared_data;
 
 use frfit::dof::DofName;
 use frfit::quantity::Quantity;
 use frfit_formats::{CoordinateMatrix, Entries, csv, op4, read_matrices, read_matrix, uff};
+use frfit_workflow::Reads;
 use frfit_workflow::convert::{ConvertOptions, convert};
 use frfit_workflow::load::{Choice, load_frf};
 use insta::assert_snapshot;
@@ -30,13 +31,15 @@ impl Folder {
 
     /// Converts, writes and gives the bytes.
     fn convert(&self, from: &str, to: &str, options: &ConvertOptions) -> Vec<u8> {
-        let bytes = convert(&self.path(from), &self.path(to), options).unwrap();
+        let bytes = convert(&self.path(from), &self.path(to), options, &mut Reads::default()).unwrap();
         fs::write(self.path(to), &bytes).unwrap();
         bytes
     }
 
     fn refused(&self, from: &str, to: &str, options: &ConvertOptions) -> String {
-        let error = convert(&self.path(from), &self.path(to), options).unwrap_err().to_string();
+        let error = convert(&self.path(from), &self.path(to), options, &mut Reads::default())
+            .unwrap_err()
+            .to_string();
         error.replace(&format!("{}/", self.0.path().display()), "")
     }
 }
@@ -47,6 +50,7 @@ const PLAIN: ConvertOptions = ConvertOptions {
     quantity: None,
     response: None,
     reference: None,
+    to: None,
     binary: false,
 };
 
@@ -185,8 +189,8 @@ fn endings_say_what_the_output_is() {
     let folder = Folder::with("K.mtx", MATRIX);
     fs::write(folder.path("frf.csv"), TABLE).unwrap();
     fs::write(folder.path("note.txt"), "Dear reader").unwrap();
-    assert_snapshot!(folder.refused("K.mtx", "K.dat", &PLAIN), @"K.dat: expected an ending that names a format: .mtx or .mm (Matrix Market), .hb, .rb, .rsa, .rua, .csa, .cua, .psa or another matrix type (Harwell-Boeing), .op4 (Nastran OUTPUT4), .uff, .unv or .uf (UFF), .csv (table), found .dat");
-    assert_snapshot!(folder.refused("K.mtx", "K", &PLAIN), @"K: expected an ending that names a format: .mtx or .mm (Matrix Market), .hb, .rb, .rsa, .rua, .csa, .cua, .psa or another matrix type (Harwell-Boeing), .op4 (Nastran OUTPUT4), .uff, .unv or .uf (UFF), .csv (table), found none");
+    assert_snapshot!(folder.refused("K.mtx", "K.dat", &PLAIN), @"K.dat: expected an ending that names a format: .mtx or .mm (Matrix Market), .hb, .rb, .rsa, .rua, .csa, .cua, .psa or another matrix type (Harwell-Boeing), .op4 (Nastran OUTPUT4), .uff, .unv or .uf (UFF), .csv (table); or --to with one, for a name without (standard output, a device), found .dat");
+    assert_snapshot!(folder.refused("K.mtx", "K", &PLAIN), @"K: expected an ending that names a format: .mtx or .mm (Matrix Market), .hb, .rb, .rsa, .rua, .csa, .cua, .psa or another matrix type (Harwell-Boeing), .op4 (Nastran OUTPUT4), .uff, .unv or .uf (UFF), .csv (table); or --to with one, for a name without (standard output, a device), found none");
     assert_snapshot!(folder.refused("K.mtx", "K.csv", &PLAIN), @"K.csv: expected an ending to which a Matrix Market file can be converted: .mtx or .mm (Matrix Market), .hb, .rb, .rsa, .rua, .csa, .cua, .psa or another matrix type (Harwell-Boeing), .op4 (Nastran OUTPUT4), found the ending of an FRF");
     assert_snapshot!(folder.refused("frf.csv", "frf.mtx", &of_table(false)), @"frf.mtx: expected an ending to which a table (CSV) can be converted: .uff, .unv or .uf (UFF), .csv (table), found the ending of a matrix");
     assert_snapshot!(folder.refused("K.mtx", "K.rua", &PLAIN), @"K.rua: expected the ending .rsa of what the matrix is, or .hb, found .rua");
@@ -263,7 +267,7 @@ proptest! {
     #[test]
     fn any_frf_survives_text_to_twelve_digits_or_is_refused(frequency_hz in frequencies(), seed in 0.1..3.0f64) {
         let folder = Folder::with("frf.csv", table(&frequency_hz, seed));
-        let Ok(text) = convert(&folder.path("frf.csv"), Path::new("frf.uff"), &of_table(false)) else {
+        let Ok(text) = convert(&folder.path("frf.csv"), Path::new("frf.uff"), &of_table(false), &mut Reads::default()) else {
             return Ok(());
         };
         fs::write(folder.path("frf.uff"), text).unwrap();
@@ -283,8 +287,9 @@ proptest! {
 }
 
 #[test]
-fn real_matrices_there_and_back() {
-    let Some(data) = shared("") else { return };
+#[ignore = "needs the data of ../shared/data"]
+fn real_matrices_there_and_back_needs_data() {
+    let data = shared("");
     for name in ["plate/bcsstk09.mtx", "plate/bcsstm09.mtx", "hb/bcsstm01.mtx", "hb/bcsstk12.mtx"] {
         let folder = Folder::with("A.mtx", fs::read(data.join(name)).unwrap());
         folder.convert("A.mtx", "A.rsa", &PLAIN);
@@ -296,14 +301,21 @@ fn real_matrices_there_and_back() {
 }
 
 #[test]
-fn real_measurements_there_and_back() {
-    let Some(beam) = shared("uff/beam.uff") else { return };
+#[ignore = "needs the data of ../shared/data"]
+fn real_measurements_there_and_back_needs_data() {
+    let beam = shared("uff/beam.uff");
     let folder = Folder::with("x", "");
-    let binary = convert(&beam, Path::new("beam.uff"), &ConvertOptions { binary: true, ..PLAIN }).unwrap();
+    let binary = convert(
+        &beam,
+        Path::new("beam.uff"),
+        &ConvertOptions { binary: true, ..PLAIN },
+        &mut Reads::default(),
+    )
+    .unwrap();
     fs::write(folder.path("binary.uff"), &binary).unwrap();
     for record in 1..=3 {
         let options = ConvertOptions { record: Some(record), ..PLAIN };
-        let from_text = convert(&beam, Path::new("frf.csv"), &options).unwrap();
+        let from_text = convert(&beam, Path::new("frf.csv"), &options, &mut Reads::default()).unwrap();
         assert_eq!(folder.convert("binary.uff", "frf.csv", &options), from_text);
         let frf = csv::read_frf(&from_text).unwrap();
         assert_eq!((frf.frequency_hz.len(), frf.frequency_hz[63_999]), (64_000, 6399.9));
@@ -317,17 +329,20 @@ fn real_measurements_there_and_back() {
 }
 
 #[test]
-fn real_uff_files_become_binary_and_are_the_same() {
-    let Some(folder) = shared("uff") else { return };
+#[ignore = "needs the data of ../shared/data"]
+fn real_uff_files_become_binary_and_are_the_same_needs_data() {
+    let folder = shared("uff");
     for file in fs::read_dir(folder).unwrap() {
         let path = file.unwrap().path();
         let options = ConvertOptions { binary: true, ..PLAIN };
         if path.ends_with("dataset_milestone_in_header.uff") {
-            let error = convert(&path, Path::new("a.uff"), &options).unwrap_err().to_string();
+            let error =
+                convert(&path, Path::new("a.uff"), &options, &mut Reads::default()).unwrap_err().to_string();
             assert!(error.contains("expected 2508876 points, as the header says, found 42"), "{error}");
             continue;
         }
-        let binary = convert(&path, Path::new("a.uff"), &options).unwrap_or_else(|error| panic!("{error}"));
+        let binary = convert(&path, Path::new("a.uff"), &options, &mut Reads::default())
+            .unwrap_or_else(|error| panic!("{error}"));
         let there = fs::read(&path).unwrap();
         let (there, back) = (uff::File::new(&there).unwrap(), uff::File::new(&binary).unwrap());
         assert_eq!(there.entries().len(), back.entries().len(), "{}", path.display());

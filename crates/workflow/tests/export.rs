@@ -1,10 +1,10 @@
 //! What `frfit export` writes, read back: the modulus that comes out of a deck, by the solver's own formula, is the one that went in.
 
-#[path = "../../formats/tests/outside/mod.rs"]
-mod outside;
+use crate::outside;
 
 use frfit::c64;
 use frfit_formats::csv::{read_modulus_data, read_modulus_rows};
+use frfit_workflow::Reads;
 use frfit_workflow::export::{ExportOptions, Target, UnitSystem, export};
 use proptest::prelude::*;
 use std::path::{Path, PathBuf};
@@ -13,7 +13,7 @@ use std::process::Command;
 fn options(target: Target, units: UnitSystem) -> ExportOptions {
     ExportOptions {
         target,
-        units,
+        units: Some(units),
         poisson: Some(0.45),
         density: Some(1100.0),
         modulus: None,
@@ -173,7 +173,7 @@ proptest! {
         ];
         for (target, read, within) in decks {
             for (units, unit) in UNITS {
-                let done = export(&path, None, &options(target, units)).unwrap();
+                let done = export(&path, None, &options(target, units), &mut Reads::default()).unwrap();
                 let found = read(&done.text);
                 prop_assert_eq!(found.len(), points.len());
                 for ((f, e), (at, value)) in points.iter().zip(found) {
@@ -196,7 +196,7 @@ fn tables_are_read_by_frfit_itself() {
     let (_folder, path) = written(IDENTIFIED);
     let all = read_modulus_rows(IDENTIFIED.as_bytes()).unwrap();
     for (units, unit) in UNITS {
-        let done = export(&path, None, &options(Target::Csv, units)).unwrap();
+        let done = export(&path, None, &options(Target::Csv, units), &mut Reads::default()).unwrap();
         let again = read_modulus_data(done.text.as_bytes()).unwrap();
         let known = read_modulus_data(IDENTIFIED.as_bytes()).unwrap();
         assert_eq!((&again.frequency_hz, &again.loss_factor), (&known.frequency_hz, &known.loss_factor));
@@ -207,7 +207,7 @@ fn tables_are_read_by_frfit_itself() {
         assert!(again.iter().zip(&known).all(|(a, b)| same(a[0], b[0]) && a[1] == b[1]));
         // Everything that has a modulus, with its status.
         let everything = ExportOptions { all: true, ..options(Target::Json, units) };
-        let done = export(&path, None, &everything).unwrap();
+        let done = export(&path, None, &everything, &mut Reads::default()).unwrap();
         assert_eq!(done.modulus.rows, all.answered);
         assert_eq!(done.modulus.left_out, [("no_root".to_owned(), 1)]);
         let json: serde_json::Value = serde_json::from_str(&done.text).unwrap();
@@ -221,7 +221,7 @@ fn tables_are_read_by_frfit_itself() {
 #[test]
 fn only_what_is_ok_is_written_and_the_rest_is_told() {
     let (_folder, path) = written(IDENTIFIED);
-    let done = export(&path, None, &options(Target::Ansys, UnitSystem::Si)).unwrap();
+    let done = export(&path, None, &options(Target::Ansys, UnitSystem::Si), &mut Reads::default()).unwrap();
     assert_eq!(done.modulus.left_out_words().unwrap(), "1 ambiguous, 1 no_root");
     assert_eq!(from_ansys(&done.text).len(), 3);
     assert!(done.text.contains("left out: 1 ambiguous, 1 no_root"), "{}", done.text);
@@ -231,13 +231,13 @@ fn only_what_is_ok_is_written_and_the_rest_is_told() {
 fn relative_factors_are_multiplied_by_their_modulus() {
     let (_folder, path) = written("f,storage,eta\n10,1.1,0.2\n20,1.2,0.3\n");
     let plain = options(Target::Ansys, UnitSystem::MillimetreTonne);
-    let error = export(&path, None, &plain).unwrap_err().to_string();
+    let error = export(&path, None, &plain, &mut Reads::default()).unwrap_err().to_string();
     assert!(
         error.contains("expected moduli in Pa (--modulus") && error.contains("found at most 1.2"),
         "{error}"
     );
     let scaled = ExportOptions { modulus: Some(2e9), ..plain };
-    let found = from_ansys(&export(&path, None, &scaled).unwrap().text);
+    let found = from_ansys(&export(&path, None, &scaled, &mut Reads::default()).unwrap().text);
     // In MPa; one multiplication and one division.
     assert!((found[1].1 - 2.4e3 * c64::new(1.0, 0.3)).norm() < 1e-15 * 2.4e3, "{found:?}");
 }
@@ -252,7 +252,8 @@ fn a_law_answers_at_every_frequency_of_the_table() {
         {"law": "constant", "factor": other}, {"law": "zener", "factor": factor},
     ]});
     std::fs::write(&law, text.to_string()).unwrap();
-    let done = export(&path, Some(&law), &options(Target::Abaqus, UnitSystem::Si)).unwrap();
+    let done =
+        export(&path, Some(&law), &options(Target::Abaqus, UnitSystem::Si), &mut Reads::default()).unwrap();
     let zener = frfit::material::Law::FractionalZener { e0: 4e6, e_infinity: 2.9e7, tau_s: 1e-3, alpha: 0.7 };
     let found = from_abaqus(&done.text);
     let at: Vec<f64> = found.iter().map(|point| point.0).collect();
@@ -269,7 +270,9 @@ fn a_law_answers_at_every_frequency_of_the_table() {
         ("{\"best\": \"zener\", \"laws\": []}", "found no factor of the law \"zener\""),
     ] {
         std::fs::write(&law, wrong).unwrap();
-        let error = export(&path, Some(&law), &options(Target::Csv, UnitSystem::Si)).unwrap_err().to_string();
+        let error = export(&path, Some(&law), &options(Target::Csv, UnitSystem::Si), &mut Reads::default())
+            .unwrap_err()
+            .to_string();
         assert!(error.contains("law.json: expected a law.json of frfit") && error.contains(said), "{error}");
     }
 }
@@ -278,7 +281,9 @@ fn a_law_answers_at_every_frequency_of_the_table() {
 fn what_cannot_be_written_is_refused() {
     let (_folder, path) = written(IDENTIFIED);
     let plain = |target| options(target, UnitSystem::Si);
-    let refused = |path: &Path, options: ExportOptions| export(path, None, &options).unwrap_err().to_string();
+    let refused = |path: &Path, options: ExportOptions| {
+        export(path, None, &options, &mut Reads::default()).unwrap_err().to_string()
+    };
     for (options, said) in [
         (ExportOptions { poisson: None, ..plain(Target::Nastran) }, "--poisson: expected Poisson's ratio"),
         (ExportOptions { poisson: Some(0.5), ..plain(Target::Abaqus) }, "found 0.5"),
@@ -331,14 +336,15 @@ print(json.dumps({
 ";
 
 #[test]
-fn pynastran_reads_the_deck() {
-    let Some(python) = outside::python_with("pyNastran") else { return };
+#[ignore = "needs Python with pyNastran"]
+fn pynastran_reads_the_deck_needs_pynastran() {
+    let python = outside::python_with("pyNastran");
     let law = frfit::material::Law::FractionalZener { e0: 4e6, e_infinity: 2.9e7, tau_s: 1e-3, alpha: 0.7 };
     let points: Vec<(f64, c64)> =
         (1..=301).map(|k| 7.3 * f64::from(k)).map(|f| (f, law.at(f).unwrap())).collect();
     for (units, unit) in UNITS {
         let (folder, path) = written(&table(&points));
-        let done = export(&path, None, &options(Target::Nastran, units)).unwrap();
+        let done = export(&path, None, &options(Target::Nastran, units), &mut Reads::default()).unwrap();
         let deck = folder.path().join("core.bdf");
         std::fs::write(&deck, &done.text).unwrap();
         let output = Command::new(&python).args(["-c", PYNASTRAN]).arg(&deck).output().unwrap();

@@ -1,8 +1,7 @@
 //! Real hammer tests, from file to FRF.
 
-#![allow(clippy::print_stdout, reason = "a skipped test says why")]
-
-mod shared_data;
+use crate::picture::assert_shows_something;
+use crate::shared_data;
 
 use frfit::c64;
 use frfit::quantity::Quantity;
@@ -10,17 +9,18 @@ use frfit::signal::{Estimator, Fault, Options, estimate_frf};
 use frfit_workflow::job::{FrfJob, frf_of_records};
 use frfit_workflow::load::{Choice, load_frf};
 use frfit_workflow::records::{ChannelOptions, read_records};
-use shared_data::shared;
+use shared_data::{python_with, shared};
 use std::path::Path;
 use std::process::Command;
 
 fn job(file: &Path, options: &Options, out: &Path) -> FrfJob {
-    frf_of_records(&[file.to_path_buf()], &ChannelOptions::default(), options, out).unwrap()
+    frf_of_records(&[file.to_path_buf()], &ChannelOptions::default(), options, out, None).unwrap()
 }
 
 #[test]
-fn of_five_hits_a_spike_and_a_double_hit_are_left_out() {
-    let Some(file) = shared("hammer/impact2_response0.lvm") else { return };
+#[ignore = "needs the data of ../shared/data"]
+fn of_five_hits_a_spike_and_a_double_hit_are_left_out_needs_data() {
+    let file = shared("hammer/impact2_response0.lvm");
     let folder = tempfile::tempdir().unwrap();
     let FrfJob { measured, summary, text, .. } =
         job(&file, &Options::default(), &folder.path().join("frf.uff"));
@@ -31,15 +31,16 @@ fn of_five_hits_a_spike_and_a_double_hit_are_left_out() {
         matches!(measured.hits[0].faults[..], [Fault::Spike { samples: 3, height, .. }] if (height - 2000.0).abs() < 1.0)
     );
     // 37.8 N at sample 1224 of the third segment, to which the response answers.
-    let [Fault::DoubleHit { after_s, share }] = measured.hits[2].faults[..] else { panic!("{text}") };
+    let [Fault::DoubleHit { after_s, share }] = measured.hits[2].faults[..] else { panic!("{}", text.all) };
     assert!((after_s - 0.02283).abs() < 1e-4 && (share - 0.204).abs() < 2e-3, "{after_s} {share}");
     assert_eq!(summary["hits"][0]["faults"][0]["fault"], "spike");
     assert_eq!(summary["averages"], 3);
     assert!(
-        text.contains(
+        text.all.contains(
             "hit 1   left out     172.2 N    0.27 ms  spike of 3 samples in Force (Trigger), up to 2000"
         ),
-        "{text}"
+        "{}",
+        text.all
     );
 
     // The written FRF is the one that was computed, with coherence and standard deviation.
@@ -56,14 +57,14 @@ fn of_five_hits_a_spike_and_a_double_hit_are_left_out() {
     }
     assert_eq!(frf.coherence.unwrap().len(), 25599);
     for figure in ["force", "response", "spectra", "frf"] {
-        let png = std::fs::read(folder.path().join(format!("frf-figures/{figure}.png"))).unwrap();
-        assert!(png.starts_with(b"\x89PNG"), "{figure}");
+        assert_shows_something(&folder.path().join(format!("frf-figures/{figure}.png")));
     }
 }
 
 #[test]
-fn a_table_has_the_same_frf() {
-    let Some(file) = shared("hammer/impact2_response0.lvm") else { return };
+#[ignore = "needs the data of ../shared/data"]
+fn a_table_has_the_same_frf_needs_data() {
+    let file = shared("hammer/impact2_response0.lvm");
     let folder = tempfile::tempdir().unwrap();
     let measured = job(&file, &Options::default(), &folder.path().join("frf.csv")).measured;
     let frf = load_frf(&folder.path().join("frf.csv"), &Choice::default()).unwrap();
@@ -73,8 +74,9 @@ fn a_table_has_the_same_frf() {
 }
 
 #[test]
-fn a_decimal_comma_and_an_acceleration_in_g() {
-    let Some(file) = shared("hammer/acceleration.lvm") else { return };
+#[ignore = "needs the data of ../shared/data"]
+fn a_decimal_comma_and_an_acceleration_in_g_needs_data() {
+    let file = shared("hammer/acceleration.lvm");
     let folder = tempfile::tempdir().unwrap();
     let FrfJob { records, measured, .. } = job(&file, &Options::default(), &folder.path().join("frf.uff"));
     assert_eq!((records.force.name.as_str(), records.responses[0].scale), ("Force (Trigger)", 9.80665));
@@ -99,14 +101,10 @@ for k in range(1, len(h1) - 1):
 ";
 
 #[test]
-fn pyfrf_estimates_the_same() {
-    let python = std::env::var("FRFIT_PYTHON").unwrap_or_else(|_| "python3".into());
-    let has_it = Command::new(&python).args(["-c", "import pyFRF, lvm_read"]).output();
-    if !has_it.is_ok_and(|output| output.status.success()) {
-        println!("skipped: {python} has no pyFRF and lvm_read (set FRFIT_PYTHON to one that has)");
-        return;
-    }
-    let Some(file) = shared("hammer/impact2_response0.lvm") else { return };
+#[ignore = "needs the data of ../shared/data and Python with pyFRF, lvm_read"]
+fn pyfrf_estimates_the_same_needs_data_and_pyfrf_and_lvm_read() {
+    let python = python_with("pyFRF, lvm_read");
+    let file = shared("hammer/impact2_response0.lvm");
     let records = read_records(std::slice::from_ref(&file), &ChannelOptions::default()).unwrap();
     // The second contact of the third hit is 20 % of the first: with a limit above that four hits are averaged.
     for (double_hit, averages) in [(0.1, 3), (0.25, 4)] {
@@ -199,8 +197,13 @@ fn time_functions_of_a_uff_file_are_paired_in_their_order_and_scaled() {
         assert_eq!(frf.measured_at.unwrap().to_string(), format!("{node}+X"));
         assert_eq!(frf.driven_at.unwrap().to_string(), "1+X");
     }
-    let table =
-        frf_of_records(&[file], &ChannelOptions::default(), &Options::default(), &out.with_extension("csv"));
+    let table = frf_of_records(
+        &[file],
+        &ChannelOptions::default(),
+        &Options::default(),
+        &out.with_extension("csv"),
+        None,
+    );
     assert!(table.unwrap_err().to_string().contains("expected one response for a table"));
 }
 
@@ -235,5 +238,9 @@ fn a_channel_that_one_recording_lacks_is_named() {
     std::fs::write(&file, text).unwrap();
     let FrfJob { measured, text, .. } = job(&file, &Options::default(), &out);
     assert_eq!(measured.averages(), 2);
-    assert!(text.contains("hit 2   left out") && text.contains("a is missing or does not move"), "{text}");
+    assert!(
+        text.all.contains("hit 2   left out") && text.all.contains("a is missing or does not move"),
+        "{}",
+        text.all
+    );
 }

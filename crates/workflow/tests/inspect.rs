@@ -1,6 +1,6 @@
 //! What `inspect` says about files of every kind.
 
-mod shared_data;
+use crate::shared_data;
 
 use frfit_workflow::inspect::{inspect, natural_frequencies};
 use insta::assert_snapshot;
@@ -281,8 +281,9 @@ fn a_broken_dataset_is_listed_with_its_error() {
 }
 
 #[test]
-fn the_clamped_plate_has_the_natural_frequencies_of_the_paper() {
-    let Some(plate) = shared("plate") else { return };
+#[ignore = "needs the data of ../shared/data"]
+fn the_clamped_plate_has_the_natural_frequencies_of_the_paper_needs_data() {
+    let plate = shared("plate");
     let found = natural_frequencies(&plate.join("bcsstk09.mtx"), &plate.join("bcsstm09.mtx"), 5).unwrap();
     // With half of the last digit that is known: below 2e-6 of each.
     let known = [(858.089, 5e-4), (1748.538, 5e-4), (1748.538, 5e-4), (2566.205, 5e-4), (3134.19, 5e-3)];
@@ -296,8 +297,9 @@ fn the_clamped_plate_has_the_natural_frequencies_of_the_paper() {
 }
 
 #[test]
-fn real_matrices() {
-    let Some(data) = shared("") else { return };
+#[ignore = "needs the data of ../shared/data"]
+fn real_matrices_needs_data() {
+    let data = shared("");
     assert_snapshot!(text_of(&data.join("plate/bcsstk09.rsa")), @r"
     bcsstk09.rsa: a Harwell-Boeing file
       title     1SYMMETRIC STIFFNESS MATRIX, SQUARE PLATE CLAMPED
@@ -322,8 +324,9 @@ fn real_matrices() {
 }
 
 #[test]
-fn real_measurements() {
-    let Some(uff) = shared("uff") else { return };
+#[ignore = "needs the data of ../shared/data"]
+fn real_measurements_needs_data() {
+    let uff = shared("uff");
     assert_snapshot!(text_of(&uff.join("beam.uff")), @r#"
     beam.uff: a Universal File Format (UFF) file, 7 datasets, 3 FRFs
       line      1  151   file header: NewModel, DefaultDecription, modaldata v1, 29-Jan-16 14:48:16
@@ -351,8 +354,9 @@ fn real_measurements() {
 }
 
 #[test]
-fn every_real_uff_file_is_listed_without_an_error() {
-    let Some(uff) = shared("uff") else { return };
+#[ignore = "needs the data of ../shared/data"]
+fn every_real_uff_file_is_listed_without_an_error_needs_data() {
+    let uff = shared("uff");
     for file in fs::read_dir(uff).unwrap() {
         let path = file.unwrap().path();
         let json = inspect(&path).unwrap().json();

@@ -79,7 +79,7 @@ fn of_springs_in_parallel_only_the_sum_is_seen() {
     let next = &job.summary["next_sensor"];
     assert_eq!((&next["compared"], &next["before"]["unseen"]), (&Value::from(N - 1), &Value::from(2)));
     assert_eq!(next["best"][0]["after"]["unseen"], 2);
-    assert!(job.text.contains("not told apart    soft, stiff: only their sum"), "{}", job.text);
+    assert!(job.text.all.contains("not told apart    soft, stiff: only their sum"), "{}", job.text.all);
 }
 
 #[test]
@@ -90,7 +90,7 @@ fn with_an_unknown_scale_a_common_factor_is_not_seen() {
     assert!(
         job.summary["inseparable"].as_array().unwrap().is_empty() && job.summary["next_sensor"].is_null()
     );
-    assert!(job.text.contains("told apart        all parameters"), "{}", job.text);
+    assert!(job.text.all.contains("told apart        all parameters"), "{}", job.text.all);
     let unknown = chain() + "[[measurement]]\nrow = 6\nscale = \"unknown\"\n" + RESPOND;
     let job = run(&folder, &unknown, &options(None, "all"));
     let words = job.summary["inseparable"][0]["words"].as_str().unwrap();

@@ -1,6 +1,6 @@
 //! `frfit check`
 
-use super::{megabytes, say};
+use super::{megabytes, say_json, say_words};
 use crate::args::{Args, Check};
 use crate::outcome::{Failure, Outcome};
 use frfit_workflow::check::{check_case, check_text, findings_json, not_judged};
@@ -18,9 +18,9 @@ pub(crate) fn run(args: &Args, wanted: &Check) -> Result<Outcome, Failure> {
             "not_judged": job.diagnosis.not_judged.map(not_judged),
             "frequencies": job.diagnosis.frequencies,
         });
-        say(&format!("{found:#}\n"))?;
-    } else if !args.quiet {
-        say(&check_text(&job))?;
+        say_json(&found)?;
+    } else {
+        say_words(args, &check_text(&job))?;
     }
     let clean = job.diagnosis.findings.is_empty();
     Ok(if wanted.strict && !clean { Outcome::NotTrusted } else { Outcome::Done })

@@ -1,11 +1,11 @@
 //! `frfit convert`
 
-use super::say;
+use super::{one_on_standard_output, say_beside};
 use crate::args::{Args, Convert};
 use crate::outcome::{Failure, Outcome};
+use frfit_workflow::Reads;
 use frfit_workflow::convert::{ConvertOptions, convert};
-use frfit_workflow::output::{File, write_all};
-use std::path::Path;
+use frfit_workflow::output::{Words, write_one};
 
 pub(crate) fn run(args: &Args, wanted: &Convert) -> Result<Outcome, Failure> {
     let options = ConvertOptions {
@@ -14,13 +14,18 @@ pub(crate) fn run(args: &Args, wanted: &Convert) -> Result<Outcome, Failure> {
         quantity: wanted.quantity,
         response: wanted.response,
         reference: wanted.reference,
+        to: wanted.to.clone(),
         binary: wanted.binary,
     };
-    let bytes = convert(&wanted.input, &wanted.output, &options)?;
+    one_on_standard_output(args, &wanted.output)?;
+    let mut reads = Reads::default();
+    let bytes = convert(&wanted.input, &wanted.output, &options, &mut reads)?;
     let size = bytes.len();
-    write_all(Path::new(""), &[File::new(wanted.output.clone(), bytes)])?;
-    if !args.quiet && !args.json {
-        say(&format!("wrote {} ({size} bytes)\n", wanted.output.display()))?;
+    write_one(&wanted.output, bytes, &reads)?;
+    if !args.json {
+        let mut words = Words::default();
+        words.say(&format!("wrote {} ({size} bytes)\n", wanted.output.display()));
+        say_beside(args, &wanted.output, &words)?;
     }
     Ok(Outcome::Done)
 }

@@ -1,8 +1,9 @@
 //! `frfit example`
 
-use super::say;
+use super::{say, say_json};
 use crate::args::{Args, Example};
 use crate::outcome::{Failure, Outcome};
+use frfit_workflow::Reads;
 use frfit_workflow::output::{File, write_all};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
@@ -12,7 +13,7 @@ pub(crate) fn run(args: &Args, example: &Example) -> Result<Outcome, Failure> {
     let dir = example.dir.clone().unwrap_or_else(|| PathBuf::from(name));
     let files = write(name, &dir)?;
     if args.json {
-        say(&format!("{:#}\n", json!({"name": name, "dir": dir.display().to_string(), "files": files})))?;
+        say_json(&json!({"name": name, "dir": dir.display().to_string(), "files": files}))?;
     } else if !args.quiet {
         let (case, shown) = (dir.join("case.toml"), dir.display());
         let records = frfit_examples::list().iter().find(|example| example.name == name);
@@ -34,7 +35,7 @@ pub(crate) fn write(name: &str, dir: &Path) -> Result<Vec<String>, Failure> {
     let files = frfit_examples::generate(name).map_err(|error| Failure::Input(error.to_string()))?;
     let names = files.iter().map(|file| file.path.clone()).collect();
     let files: Vec<File> = files.into_iter().map(|file| File::new(file.path, file.bytes)).collect();
-    write_all(dir, &files)?;
+    write_all(dir, files, &Reads::default())?;
     Ok(names)
 }
 
@@ -44,7 +45,7 @@ fn list(args: &Args) -> Result<Outcome, Failure> {
             .iter()
             .map(|example| json!({"name": example.name, "summary": example.summary}))
             .collect();
-        say(&format!("{:#}\n", Value::from(names)))?;
+        say_json(&Value::from(names))?;
     } else {
         for example in frfit_examples::list() {
             say(&format!("{:16} {}\n", example.name, example.summary))?;

@@ -1,12 +1,12 @@
 //! `frfit export`
 
-use super::say;
+use super::{one_on_standard_output, say_beside, say_json};
 use crate::args::{Args, Export};
 use crate::outcome::{Failure, Outcome};
+use frfit_workflow::Reads;
 use frfit_workflow::export::{ExportOptions, export};
-use frfit_workflow::output::{File, write_all};
+use frfit_workflow::output::{Words, write_one};
 use serde_json::{Map, Value, json};
-use std::path::Path;
 
 pub(crate) fn run(args: &Args, wanted: &Export) -> Result<Outcome, Failure> {
     let options = ExportOptions {
@@ -19,37 +19,39 @@ pub(crate) fn run(args: &Args, wanted: &Export) -> Result<Outcome, Failure> {
         name: wanted.name.clone(),
         all: wanted.all,
     };
-    let done = export(&wanted.table, wanted.law.as_deref(), &options)?;
-    write_all(Path::new(""), &[File::new(wanted.out.clone(), done.text)])?;
-    let (modulus, out) = (done.modulus, wanted.out.display());
+    one_on_standard_output(args, &wanted.out)?;
+    let mut reads = Reads::default();
+    let done = export(&wanted.table, wanted.law.as_deref(), &options, &mut reads)?;
+    write_one(&wanted.out, done.text.into_bytes(), &reads)?;
+    let (modulus, units, out) = (done.modulus, done.units, wanted.out.display());
     let ([first, last], count) = (modulus.band_hz(), modulus.rows.len());
     if args.json {
         let left_out: Map<String, Value> =
             modulus.left_out.iter().map(|(status, count)| (status.clone(), json!(count))).collect();
         let told = json!({
             "wrote": out.to_string(),
-            "unit_system": wanted.unit_system.name(),
+            "unit_system": units.name(),
             "frequencies": count,
             "range_hz": [first, last],
             "left_out": left_out,
             "law": modulus.law,
         });
-        say(&format!("{told:#}\n"))?;
-    } else if !args.quiet {
-        let units = wanted.unit_system;
-        let mut text = format!(
+        say_json(&told)?;
+    } else {
+        let mut words = Words::default();
+        words.say(&format!(
             "wrote {out}: {count} frequencies, {first} to {last} Hz, in {} ({})\n",
             units.name(),
-            units.modulus_unit()
-        );
+            modulus.unit(units)
+        ));
         if let Some(law) = &modulus.law {
-            text += &format!("  law       {law}\n");
+            words.say(&format!("  law       {law}\n"));
         }
-        if let Some(words) = modulus.left_out_words() {
+        if let Some(left_out) = modulus.left_out_words() {
             let hint = if wanted.all { "" } else { " (--all takes those with a modulus)" };
-            text += &format!("  left out  {words}{hint}\n");
+            words.warn(&format!("  left out  {left_out}{hint}\n"));
         }
-        say(&text)?;
+        say_beside(args, &wanted.out, &words)?;
     }
     Ok(Outcome::Done)
 }

@@ -1,25 +1,25 @@
 //! `frfit fit`
 
-use super::say;
+use super::{say, say_json};
 use crate::args::{Args, Fit};
 use crate::outcome::{Failure, Outcome};
-use frfit::laws::Family;
+use frfit::laws::LawKind;
 use frfit_workflow::fit::fit_table;
 
 pub(crate) fn run(args: &Args, wanted: &Fit) -> Result<Outcome, Failure> {
-    let mut families: Vec<Family> = Vec::new();
+    let mut kinds: Vec<LawKind> = Vec::new();
     for &family in wanted.laws.iter().flat_map(|laws| &laws.0) {
-        if !families.contains(&family) {
-            families.push(family);
+        if !kinds.contains(&family) {
+            kinds.push(family);
         }
     }
-    if families.is_empty() {
-        families = Family::ALL.to_vec();
+    if kinds.is_empty() {
+        kinds = LawKind::ALL.to_vec();
     }
     let only = wanted.only.as_ref().map(|(column, value)| (column.as_str(), value.as_str()));
-    let job = fit_table(&wanted.table, only, &families, wanted.out.as_deref())?;
+    let job = fit_table(&wanted.table, only, &kinds, wanted.out.as_deref())?;
     if args.json {
-        say(&format!("{:#}\n", job.summary))?;
+        say_json(&job.summary)?;
     } else if !args.quiet {
         let wrote = wanted
             .out

@@ -1,10 +1,11 @@
 //! `frfit frf`
 
-use super::say;
+use super::{one_on_standard_output, say_beside, say_json};
 use crate::args::{Args, Frf};
 use crate::outcome::{Failure, Outcome};
 use frfit::signal::{Options, Windows};
 use frfit_workflow::job::frf_of_records;
+use frfit_workflow::output::is_stream;
 use frfit_workflow::records::ChannelOptions;
 
 pub(crate) fn run(args: &Args, wanted: &Frf) -> Result<Outcome, Failure> {
@@ -29,18 +30,20 @@ pub(crate) fn run(args: &Args, wanted: &Frf) -> Result<Outcome, Failure> {
         windows: Windows { force_s: wanted.force_window, exponential_s: wanted.exponential_window },
         keep: wanted.keep.clone(),
     };
-    let job = frf_of_records(&wanted.records, &channels, &options, &wanted.out)?;
+    one_on_standard_output(args, &wanted.out)?;
+    let job = frf_of_records(&wanted.records, &channels, &options, &wanted.out, wanted.to.as_deref())?;
     if args.json {
-        say(&format!("{:#}\n", job.summary))?;
-    } else if !args.quiet {
+        say_json(&job.summary)?;
+    } else {
         let name = wanted.out.with_extension("");
         let name = name.display();
-        say(&format!(
-            "{}  {:<8}{}, {name}-summary.json, {name}-figures/\n",
-            job.text,
-            "wrote",
-            wanted.out.display()
-        ))?;
+        let beside = match is_stream(&wanted.out) {
+            true => String::new(),
+            false => format!(", {name}-summary.json, {name}-figures/"),
+        };
+        let mut words = job.text;
+        words.say(&format!("  {:<8}{}{beside}\n", "wrote", wanted.out.display()));
+        say_beside(args, &wanted.out, &words)?;
     }
     Ok(Outcome::Done)
 }

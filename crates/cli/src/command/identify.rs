@@ -1,6 +1,6 @@
 //! `frfit identify`
 
-use super::{megabytes, say};
+use super::{megabytes, say_json, say_words};
 use crate::args::{Args, Identify};
 use crate::outcome::{Failure, Outcome};
 use crate::progress::Progress;
@@ -17,7 +17,7 @@ pub(crate) fn run(args: &Args, identify: &Identify) -> Result<Outcome, Failure> 
         order: identify.order,
         band_hz: identify.overrides.band,
         selection: identify.selection.clone(),
-        space: identify.space.clone(),
+        reduction: identify.reduction.clone(),
     };
     if asks_for_several(&identify.case)? {
         return several(args, identify, &overrides);
@@ -38,9 +38,9 @@ fn several(args: &Args, identify: &Identify, overrides: &Overrides) -> Result<Ou
     progress.end();
     let job = job?;
     if args.json {
-        say(&format!("{:#}\n", job.summary))?;
-    } else if !args.quiet {
-        say(&report::several(&job, &identify.out))?;
+        say_json(&job.summary)?;
+    } else {
+        say_words(args, &report::several(&job, &identify.out))?;
     }
     let outcome = &job.run.outcome;
     let trusted = outcome.is_trusted() && job.run.count(Status::Ok) == outcome.at.len();
@@ -60,9 +60,9 @@ pub(crate) fn carry_out(
     progress.end();
     let job = job?;
     if args.json {
-        say(&format!("{:#}\n", job.summary))?;
-    } else if !args.quiet {
-        say(&report::identified(&job, out))?;
+        say_json(&job.summary)?;
+    } else {
+        say_words(args, &report::identified(&job, out))?;
     }
     Ok(job)
 }

@@ -1,6 +1,6 @@
 //! `frfit inspect`
 
-use super::say;
+use super::{say, say_json_line};
 use crate::args::{Args, Inspect};
 use crate::outcome::{Failure, Outcome};
 use frfit_workflow::inspect::{inspect, natural_frequencies, rigid_body_modes};
@@ -9,7 +9,10 @@ use serde_json::json;
 pub(crate) fn run(args: &Args, wanted: &Inspect) -> Result<Outcome, Failure> {
     for file in &wanted.files {
         let found = inspect(file)?;
-        say(&if args.json { format!("{}\n", found.json()) } else { found.text() })?;
+        match args.json {
+            true => say_json_line(&found.json())?,
+            false => say(&found.text())?,
+        }
     }
     let frequency_hz = match (&wanted.files[..], wanted.modes) {
         ([stiffness, mass], Some(count)) => natural_frequencies(stiffness, mass, count)?,
@@ -25,8 +28,8 @@ pub(crate) fn run(args: &Args, wanted: &Inspect) -> Result<Outcome, Failure> {
         return Ok(Outcome::Done);
     }
     let rigid = rigid_body_modes(&frequency_hz);
-    say(&if args.json {
-        format!("{}\n", json!({"natural_frequencies_hz": frequency_hz, "rigid_body_modes": rigid}))
+    if args.json {
+        say_json_line(&json!({"natural_frequencies_hz": frequency_hz, "rigid_body_modes": rigid}))?;
     } else {
         let lines = frequency_hz.iter().enumerate().map(|(i, f)| format!("  {:>3}  {f:.6} Hz\n", i + 1));
         let rigid = match rigid {
@@ -34,8 +37,9 @@ pub(crate) fn run(args: &Args, wanted: &Inspect) -> Result<Outcome, Failure> {
             1 => "; the first is a rigid-body mode".to_owned(),
             more => format!("; the first {more} are rigid-body modes"),
         };
-        format!("natural frequencies of K φ = ω² M φ{rigid}\n{}", lines.collect::<String>())
-    })?;
+        let lines = lines.collect::<String>();
+        say(&format!("natural frequencies of K φ = ω² M φ{rigid}\n{lines}"))?;
+    }
     Ok(Outcome::Done)
 }
 

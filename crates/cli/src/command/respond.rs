@@ -1,11 +1,12 @@
 //! `frfit respond`
 
-use super::{megabytes, say};
+use super::{megabytes, say_json, say_words};
 use crate::args::{Args, Respond};
 use crate::outcome::{Failure, Outcome};
 use crate::progress::Progress;
 use frfit_workflow::job::respond_case;
 use frfit_workflow::load::Overrides;
+use frfit_workflow::output::Words;
 use serde_json::json;
 
 pub(crate) fn run(args: &Args, respond: &Respond) -> Result<Outcome, Failure> {
@@ -23,19 +24,20 @@ pub(crate) fn run(args: &Args, respond: &Respond) -> Result<Outcome, Failure> {
         .filter_map(|(frequency_hz, x)| Some(format!("at {frequency_hz} Hz {}", x.as_ref().err()?)))
         .collect();
     if args.json {
-        say(&format!("{:#}\n", json!({"frequencies": run.frequency_hz.len(), "unsolved": broken})))?;
-    } else if !args.quiet {
+        say_json(&json!({"frequencies": run.frequency_hz.len(), "unsolved": broken}))?;
+    } else {
         let (first, last) = (run.frequency_hz.first(), run.frequency_hz.last());
         let band = first.zip(last).map_or(String::new(), |(a, b)| format!(", {a} to {b} Hz"));
-        let mut text = format!(
+        let mut words = Words::default();
+        words.say(&format!(
             "{}: response at {} sensor(s), {} frequencies{band}\nwrote {}: response.csv, frf.uff, figures/\n",
             case.title,
             case.sensors.len(),
             run.frequency_hz.len(),
             respond.out.display()
-        );
-        broken.iter().for_each(|line| text += &format!("no answer {line}\n"));
-        say(&text)?;
+        ));
+        broken.iter().for_each(|line| words.warn(&format!("no answer {line}\n")));
+        say_words(args, &words)?;
     }
     Ok(Outcome::Done)
 }

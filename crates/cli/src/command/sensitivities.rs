@@ -1,6 +1,6 @@
 //! `frfit sensitivities`
 
-use super::{megabytes, say};
+use super::{megabytes, say_json, say_words};
 use crate::args::{Args, Sensitivities};
 use crate::outcome::{Failure, Outcome};
 use frfit_workflow::load::Overrides;
@@ -15,16 +15,17 @@ pub(crate) fn run(args: &Args, wanted: &Sensitivities) -> Result<Outcome, Failur
     };
     let job = sensitivities_case(&wanted.case, &overrides, &options, wanted.out.as_deref())?;
     if args.json {
-        say(&format!("{:#}\n", job.summary))?;
-    } else if !args.quiet {
-        let wrote = wanted.out.as_ref().map_or(String::new(), |out| {
+        say_json(&job.summary)?;
+    } else {
+        let mut words = job.text;
+        if let Some(out) = &wanted.out {
             let files = match job.run {
                 Ok(_) => "sensitivities.csv, sensitivities.json, figures/",
                 Err(_) => "sensitivities.json",
             };
-            format!("  {:<18}{}: {files}\n", "wrote", out.display())
-        });
-        say(&format!("{}{wrote}", job.text))?;
+            words.say(&format!("  {:<18}{}: {files}\n", "wrote", out.display()));
+        }
+        say_words(args, &words)?;
     }
     Ok(Outcome::Done)
 }

@@ -1,8 +1,7 @@
 //! Running the program as a user does.
 #![allow(dead_code, reason = "each test file uses its own part")]
 
-#[path = "../../../formats/tests/outside/mod.rs"]
-mod outside;
+use crate::outside;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -30,8 +29,8 @@ pub(crate) fn refused(folder: &Path, arguments: &[&str]) -> String {
 }
 
 /// A file or folder of the data for tests, wherever the program runs.
-pub(crate) fn data(name: &str) -> Option<PathBuf> {
-    outside::shared(name).map(|path| path.canonicalize().unwrap())
+pub(crate) fn data(name: &str) -> PathBuf {
+    outside::shared(name).canonicalize().unwrap()
 }
 
 /// The cells of one column of a table.

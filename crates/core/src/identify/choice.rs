@@ -28,7 +28,7 @@ pub enum Selection {
 
 /// What answers at a frequency.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Space {
+pub enum Reduction {
     /// The band's subspace where that is cheaper than the full model: for the rational method, a handful of frequencies or more, and more than a
     /// handful of degrees of freedom. The paper's series and Nelder–Mead run on the full model, as the paper has them.
     #[default]
@@ -105,7 +105,7 @@ impl FromStr for Selection {
     }
 }
 
-impl Space {
+impl Reduction {
     /// The name that case files use.
     pub fn name(self) -> &'static str {
         match self {
@@ -125,7 +125,7 @@ impl Space {
     }
 }
 
-impl FromStr for Space {
+impl FromStr for Reduction {
     type Err = UnknownChoice;
 
     fn from_str(name: &str) -> Result<Self, UnknownChoice> {

@@ -10,17 +10,17 @@ mod several;
 mod uncertainty;
 
 pub use band::{
-    Band, BandOutcome, Calibrated, Calibration, Explained, GoodnessOfFit, Hooks, LawsOutcome, Noise,
-    NoiseLevel, NoiseSource, SensorFit, SmoothCurve, SmoothOutcome, Stage, Unknown, identify_band,
+    Band, BandOutcome, Calibrated, Calibration, ChannelUnknowns, Context, Explained, GoodnessOfFit,
+    LawsOutcome, Noise, NoiseLevel, NoiseSource, SensorFit, SmoothCurve, SmoothOutcome, Stage, identify_band,
     identify_band_scaled, identify_laws, identify_laws_scaled, identify_smooth,
 };
 pub(crate) use band::{MOST_PHASE, PHASE_STEP};
-pub use choice::{Method, Selection, Space, UnknownChoice};
+pub use choice::{Method, Reduction, Selection, UnknownChoice};
 pub use one::{error_by_order, identify_at, relative_error};
 pub use options::{MAX_ORDER, Options, OptionsError};
 pub use outcome::{Identified, Status};
 pub use several::{
-    BandValue, Direction, Enters, Number, Profile, Several, SeveralAt, SeveralOutcome, Sought, ValueAt, Vary,
-    identify_several,
+    BandValue, Dependence, Direction, Number, Profile, Several, SeveralAt, SeveralOutcome, Unknown, ValueAt,
+    Variation, identify_several,
 };
 pub use uncertainty::Uncertainty;

@@ -1,6 +1,6 @@
 //! How to identify.
 
-use super::{Method, Selection, Space};
+use super::{Method, Reduction, Selection};
 use crate::c64;
 use crate::roots::{Bounds, RootOptions};
 use std::fmt;
@@ -21,7 +21,7 @@ pub struct Options {
     /// Joint (default) or smallest |c|. The series and Nelder–Mead know only the latter.
     pub selection: Selection,
     /// What answers at a frequency. Default automatic.
-    pub space: Space,
+    pub reduction: Reduction,
     /// Bounds on the updated factor. Default none.
     pub bounds: Bounds,
     /// Whether the parameter is real. Default false.
@@ -36,7 +36,7 @@ pub struct Options {
     /// of the nominal first.
     pub whole_box: bool,
     /// Whether a joint selection leaves out a sensor of three or more that contradicts all others. Default true: it is named in any case.
-    pub robust: bool,
+    pub reject_outliers: bool,
     /// Whether a joint selection on the subspace looks for all solutions at every frequency, however many there are. Default false: at some hundred of a dense
     /// band, and follows them in between.
     pub everywhere: bool,
@@ -48,13 +48,13 @@ impl Default for Options {
             method: Method::default(),
             order: 30,
             selection: Selection::default(),
-            space: Space::default(),
+            reduction: Reduction::default(),
             bounds: Bounds::default(),
             real: false,
             error: 1e-2,
             certain: 1e-5,
             whole_box: false,
-            robust: true,
+            reject_outliers: true,
             everywhere: false,
         }
     }

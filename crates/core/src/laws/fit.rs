@@ -1,8 +1,8 @@
 //! A fitted law: its parameters, how well they are known, and how well it explains the data.
 
 use super::correlated::{Correlated, Line, correlation, shared_covariance};
-use super::least_squares::{Minima, Search, inverse_information, minimise};
-use super::{Chart, Datum, Family, starts};
+use super::least_squares::{LocalMinima, Search, inverse_information, minimise};
+use super::{Datum, LawKind, Parametrization, starts};
 use crate::c64;
 use crate::frequency::omega_rad_s;
 use crate::material::{Law, loss_factor};
@@ -46,7 +46,7 @@ pub(crate) struct Evidence {
 #[derive(Debug, Clone, PartialEq)]
 pub struct LawFit {
     /// Which law.
-    pub family: Family,
+    pub family: LawKind,
     /// The law with its parameters.
     pub law: Law,
     /// The parameters.
@@ -67,7 +67,7 @@ pub struct LawFit {
     pub agreeing: usize,
     /// What neighbouring lines leave in common, by which the deviations are wider than noise alone would have them; `None` where noise of each line explains what is left.
     pub correlated: Option<Correlated>,
-    chart: Chart,
+    parametrization: Parametrization,
     theta: Vec<f64>,
     /// Other minima that the data cannot exclude.
     rivals: Vec<Vec<f64>>,
@@ -93,24 +93,24 @@ const PATIENCE: usize = 50;
 ///
 /// # Limits
 /// Of a law that is itself at fault the error bars say how far its parameters would move if its fault came about again by chance, as large and over as many rows; not that there is none.
-pub fn fit_modulus(data: &[Datum], family: Family, sigma_known: bool) -> Option<LawFit> {
+pub fn fit_modulus(data: &[Datum], family: LawKind, sigma_known: bool) -> Option<LawFit> {
     let omegas: Vec<f64> = data.iter().map(|datum| datum.omega_rad_s).collect();
-    let chart = Chart::about(family, &omegas);
+    let parametrization = Parametrization::about(family, &omegas);
     let evidence = Evidence { residuals: 2 * data.len(), sigma_known };
     if evidence.residuals < family.count() {
         return None;
     }
-    let evaluate = |theta: &[f64]| chart.residuals(data, theta);
+    let evaluate = |theta: &[f64]| parametrization.residuals(data, theta);
     let search = Search { starts: FOLLOWED, patience: PATIENCE, same: 0.0 };
-    let minima = minimise(&starts(&chart, data), &evaluate, &search)?;
-    let fit = LawFit::new(chart, minima, evidence);
-    let lines = fit.chart.lines(data, &fit.theta);
+    let minima = minimise(&starts(&parametrization, data), &evaluate, &search)?;
+    let fit = LawFit::new(parametrization, minima, evidence);
+    let lines = fit.parametrization.lines(data, &fit.theta);
     Some(fit.widened(&lines))
 }
 
-impl Chart {
+impl Parametrization {
     /// About the middle of some frequencies, in the sense of ratios.
-    pub(crate) fn about(family: Family, omegas_rad_s: &[f64]) -> Self {
+    pub(crate) fn about(family: LawKind, omegas_rad_s: &[f64]) -> Self {
         let logs: f64 = omegas_rad_s.iter().map(|omega| omega.ln()).sum();
         Self { family, reference_rad_s: (logs / omegas_rad_s.len().max(1) as f64).exp() }
     }
@@ -120,10 +120,10 @@ impl Chart {
 const NATS: f64 = 7.0;
 
 impl LawFit {
-    pub(crate) fn new(chart: Chart, minima: Minima, evidence: Evidence) -> Self {
-        let Minima { best, others, followed, agreeing } = minima;
+    pub(crate) fn new(parametrization: Parametrization, minima: LocalMinima, evidence: Evidence) -> Self {
+        let LocalMinima { best, others, followed, agreeing } = minima;
         let Evidence { residuals, sigma_known } = evidence;
-        let n = chart.family.count();
+        let n = parametrization.family.count();
         let unit = scale(best.sum, residuals, n, sigma_known);
         // Ends that differ by less than a thousandth of what noise makes of χ² are one.
         let same = SAME * unit + EXACT * residuals as f64;
@@ -131,17 +131,17 @@ impl LawFit {
         let behind = |sum: f64| 0.5 * (sum - best.sum) / unit.max(f64::MIN_POSITIVE);
         let rivals = others.iter().filter(|other| other.converged && behind(other.sum) <= NATS);
         let rivals = rivals.map(|other| other.theta.clone()).collect();
-        let theta = chart.sorted(&best.theta);
+        let theta = parametrization.sorted(&best.theta);
         // The branches' order is that of θ, and so is the Jacobian's.
-        let jacobian = reordered(&chart, &best.theta, &theta, &best.jacobian);
+        let jacobian = reordered(&parametrization, &best.theta, &theta, &best.jacobian);
         let covariance = inverse_information(&jacobian, n).map(|mut inverse| {
             inverse.iter_mut().flatten().for_each(|value| *value *= unit);
             inverse
         });
-        let Told { p, parameters, correlation } = told(&chart, &theta, covariance.as_ref());
+        let Told { p, parameters, correlation } = told(&parametrization, &theta, covariance.as_ref());
         Self {
-            family: chart.family,
-            law: chart.family.law(&p),
+            family: parametrization.family,
+            law: parametrization.family.law(&p),
             parameters,
             correlation,
             chi_squared: best.sum,
@@ -151,7 +151,7 @@ impl LawFit {
             starts: followed,
             agreeing: agreeing + near,
             correlated: None,
-            chart,
+            parametrization,
             theta,
             rivals,
             covariance,
@@ -172,7 +172,7 @@ impl LawFit {
             .zip(&shared)
             .map(|(own, shared)| own.iter().zip(shared).map(|(own, shared)| own + shared).collect())
             .collect();
-        let Told { parameters, correlation, .. } = told(&self.chart, &self.theta, Some(&wider));
+        let Told { parameters, correlation, .. } = told(&self.parametrization, &self.theta, Some(&wider));
         let factor =
             |(wide, own): (&Estimate, &Estimate)| Some(wide.std? / own.std?).filter(|by| by.is_finite());
         self.correlated = Some(Correlated {
@@ -186,7 +186,7 @@ impl LawFit {
 
     /// The moduli that other minima, which the data cannot exclude, have at a frequency.
     pub(crate) fn rivals_at(&self, frequency_hz: f64) -> Vec<c64> {
-        let at = |theta: &Vec<f64>| self.chart.modulus(theta, omega_rad_s(frequency_hz));
+        let at = |theta: &Vec<f64>| self.parametrization.modulus(theta, omega_rad_s(frequency_hz));
         self.rivals.iter().filter_map(at).map(|(modulus, _)| modulus).collect()
     }
 
@@ -229,7 +229,7 @@ impl LawFit {
 
     /// E at a frequency, with the deviations that those of the parameters make.
     pub fn at(&self, frequency_hz: f64) -> Option<ModulusEstimate> {
-        let (modulus, slopes) = self.chart.modulus(&self.theta, omega_rad_s(frequency_hz))?;
+        let (modulus, slopes) = self.parametrization.modulus(&self.theta, omega_rad_s(frequency_hz))?;
         let eta = loss_factor(modulus);
         let storage: Vec<f64> = slopes.iter().map(|slope| slope.re).collect();
         let loss: Vec<f64> = slopes.iter().map(|slope| (slope.im - eta * slope.re) / modulus.re).collect();
@@ -242,8 +242,8 @@ impl LawFit {
     }
 
     /// θ.
-    pub(crate) fn coordinates(&self) -> (&Chart, &[f64]) {
-        (&self.chart, &self.theta)
+    pub(crate) fn coordinates(&self) -> (&Parametrization, &[f64]) {
+        (&self.parametrization, &self.theta)
     }
 
     /// gᵀ Cov h over the coordinates that are told.
@@ -263,12 +263,12 @@ struct Told {
 }
 
 /// From the coordinates and their covariance to the parameters and theirs, by the delta rule.
-fn told(chart: &Chart, theta: &[f64], covariance: Option<&Vec<Vec<f64>>>) -> Told {
+fn told(parametrization: &Parametrization, theta: &[f64], covariance: Option<&Vec<Vec<f64>>>) -> Told {
     let n = theta.len();
-    let (p, chain) = chart.parameters(theta);
+    let (p, chain) = parametrization.parameters(theta);
     let natural = covariance.map(|covariance| carried(&chain, covariance));
     let std = |i: usize| natural.as_ref().map(|c| c[i][i].sqrt()).filter(|std| std.is_finite());
-    let parameters = chart.family.parameters().into_iter().zip(&p).enumerate();
+    let parameters = parametrization.family.parameters().into_iter().zip(&p).enumerate();
     let parameters = parameters
         .map(|(i, (named, &value))| Estimate { name: named.name, unit: named.unit, value, std: std(i) })
         .collect();
@@ -303,8 +303,8 @@ fn carried(a: &[Vec<f64>], covariance: &[Vec<f64>]) -> Vec<Vec<f64>> {
 }
 
 /// The columns of a Jacobian in the order in which its branches are sorted.
-fn reordered(chart: &Chart, before: &[f64], after: &[f64], jacobian: &[f64]) -> Vec<f64> {
-    let Family::Maxwell { .. } = chart.family else { return jacobian.to_vec() };
+fn reordered(parametrization: &Parametrization, before: &[f64], after: &[f64], jacobian: &[f64]) -> Vec<f64> {
+    let LawKind::Maxwell { .. } = parametrization.family else { return jacobian.to_vec() };
     let m = jacobian.len() / before.len();
     let column = |j: usize| &jacobian[j * m..(j + 1) * m];
     let mut free: Vec<usize> = (1..before.len()).step_by(2).collect();
@@ -328,10 +328,14 @@ mod tests {
 
     #[test]
     fn branches_and_their_jacobian_are_sorted_alike() {
-        let chart = Chart { family: Family::Maxwell { branches: 2 }, reference_rad_s: 1.0 };
+        let parametrization =
+            Parametrization { family: LawKind::Maxwell { branches: 2 }, reference_rad_s: 1.0 };
         let theta = [0.0, 1.0, 5.0, 2.0, 3.0];
-        let sorted = chart.sorted(&theta);
+        let sorted = parametrization.sorted(&theta);
         assert_eq!(sorted, [0.0, 2.0, 3.0, 1.0, 5.0]);
-        assert_eq!(reordered(&chart, &theta, &sorted, &[0.0, 1.0, 2.0, 3.0, 4.0]), [0.0, 3.0, 4.0, 1.0, 2.0]);
+        assert_eq!(
+            reordered(&parametrization, &theta, &sorted, &[0.0, 1.0, 2.0, 3.0, 4.0]),
+            [0.0, 3.0, 4.0, 1.0, 2.0]
+        );
     }
 }

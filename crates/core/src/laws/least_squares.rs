@@ -35,7 +35,7 @@ pub(crate) struct Minimum {
 
 /// What became of all starts.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Minima {
+pub(crate) struct LocalMinima {
     pub(crate) best: Minimum,
     /// Where else a start ended, by its sum: each differs from the best by more than what is the same.
     pub(crate) others: Vec<Minimum>,
@@ -91,7 +91,7 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Problem<'_> {
 ///
 /// # Source
 /// J. J. Moré, The Levenberg–Marquardt algorithm, Lecture Notes in Mathematics 630 (1978) 105–116.
-pub(crate) fn minimise(starts: &[Vec<f64>], evaluate: Evaluate<'_>, search: &Search) -> Option<Minima> {
+pub(crate) fn minimise(starts: &[Vec<f64>], evaluate: Evaluate<'_>, search: &Search) -> Option<LocalMinima> {
     let sum = |r: &[f64]| r.iter().map(|r| r * r).sum::<f64>();
     let mut ranked: Vec<(f64, &Vec<f64>)> =
         starts.iter().filter_map(|theta| Some((sum(&evaluate(theta)?.0), theta))).collect();
@@ -112,7 +112,7 @@ pub(crate) fn minimise(starts: &[Vec<f64>], evaluate: Evaluate<'_>, search: &Sea
             others.push(end);
         }
     }
-    Some(Minima { best, others, followed, agreeing })
+    Some(LocalMinima { best, others, followed, agreeing })
 }
 
 /// Follows one start.

@@ -5,21 +5,23 @@
 //!
 //! [`fit_modulus`] fits to a table of moduli, [`crate::identify::identify_laws`] to what was measured on a structure.
 
-mod chart;
 mod correlated;
 mod datum;
-mod family;
 mod fit;
+mod kind;
 mod least_squares;
+mod parametrization;
 mod starts;
 
 pub use correlated::Correlated;
 pub use datum::Datum;
-pub use family::{Family, MAX_BRANCHES, ParameterName, USUAL_BRANCHES, UnknownFamily};
 pub use fit::{Estimate, LawFit, ModulusEstimate, best, fit_modulus};
+pub use kind::{LawKind, MAX_BRANCHES, ParameterName, USUAL_BRANCHES, UnknownLawKind};
 
-pub(crate) use chart::Chart;
 pub(crate) use correlated::Line;
 pub(crate) use fit::Evidence;
-pub(crate) use least_squares::{Minima, Minimum, Residuals, Search, descend, inverse_information, minimise};
+pub(crate) use least_squares::{
+    LocalMinima, Minimum, Residuals, Search, descend, inverse_information, minimise,
+};
+pub(crate) use parametrization::Parametrization;
 pub(crate) use starts::starts;

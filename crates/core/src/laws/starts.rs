@@ -1,6 +1,6 @@
 //! Where a fit begins: for given times and exponents every law is a sum with coefficients that are positive.
 
-use super::{Chart, Datum, Family};
+use super::{Datum, LawKind, Parametrization};
 use crate::c64;
 use crate::material::{fractional_power, saturation};
 
@@ -17,28 +17,28 @@ const LEAST: f64 = 1e-3;
 const SWEEPS: usize = 200;
 
 /// θ of all starts for these data, which are not empty.
-pub(crate) fn starts(chart: &Chart, data: &[Datum]) -> Vec<Vec<f64>> {
+pub(crate) fn starts(parametrization: &Parametrization, data: &[Datum]) -> Vec<Vec<f64>> {
     let omegas = || data.iter().map(|datum| datum.omega_rad_s);
     let first = omegas().fold(f64::INFINITY, f64::min);
     let last = omegas().fold(0.0, f64::max);
     let one = |_: f64| c64::new(1.0, 0.0);
-    let of = |p: Vec<f64>| chart.coordinates(&p);
-    match chart.family {
-        Family::Constant => {
+    let of = |p: Vec<f64>| parametrization.coordinates(&p);
+    match parametrization.family {
+        LawKind::Constant => {
             let a = coefficients(data, &[&one, &|_| c64::I], false);
             // A storage modulus that is not positive is no start, but one there has to be.
             let size = data.iter().map(|datum| datum.modulus.norm()).sum::<f64>() / data.len() as f64;
             let storage = if a[0] > 0.0 { a[0] } else { size };
             vec![of(vec![storage, a[1] / storage])]
         }
-        Family::Fractional => {
+        LawKind::Fractional => {
             let start = |&alpha: &f64| {
                 let a = coefficients(data, &[&one, &|omega| fractional_power(omega, alpha)], true);
                 of(vec![a[0], a[1], alpha])
             };
             EXPONENTS.iter().map(start).collect()
         }
-        Family::FractionalZener => {
+        LawKind::FractionalZener => {
             let times = spread(0.1 / last, 10.0 / first, TIMES);
             let start = |(tau, alpha): (f64, f64)| {
                 let turn = |omega: f64| saturation(fractional_power(omega * tau, alpha));
@@ -47,7 +47,7 @@ pub(crate) fn starts(chart: &Chart, data: &[Datum]) -> Vec<Vec<f64>> {
             };
             times.iter().flat_map(|&tau| EXPONENTS.map(|alpha| (tau, alpha))).map(start).collect()
         }
-        Family::Maxwell { branches } => {
+        LawKind::Maxwell { branches } => {
             // Times over the band, beyond it, and over either half.
             let middle = (first * last).sqrt();
             let ranges = [

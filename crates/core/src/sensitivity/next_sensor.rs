@@ -3,8 +3,8 @@
 use super::{Deviations, Resolved, SensitivityBand};
 use crate::c64;
 use crate::for_each::{ForEach, map};
+use frfit_linalg::column_block::product;
 use frfit_linalg::dense::{NoConvergence, symmetric_eigen};
-use frfit_linalg::tall::product;
 
 /// Frequencies at which candidates are compared at most, evenly drawn from the band: the few best are to be looked at over all of it.
 const COMPARED: usize = 128;

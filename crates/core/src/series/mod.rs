@@ -58,6 +58,14 @@ impl NeumannSeries {
         Ok(Self { scale, terms })
     }
 
+    /// A series of [`Self::scale`] and the [`Self::coefficients`] of each sensor, as another has them; `None` where
+    /// the scale is not positive and finite, or sensors have none or different numbers of them.
+    pub fn from_coefficients(scale: f64, terms: Vec<Vec<c64>>) -> Option<Self> {
+        let count = terms.first().map_or(0, Vec::len);
+        let is_sound = scale.is_finite() && scale > 0.0 && count > 0;
+        (is_sound && terms.iter().all(|t| t.len() == count)).then_some(Self { scale, terms })
+    }
+
     /// Order n.
     pub fn order(&self) -> usize {
         self.terms.first().map_or(0, |t| t.len() - 1)

@@ -5,14 +5,14 @@ use super::projection::Projection;
 use super::sketch::Sketch;
 use crate::c64;
 use crate::model::{DynamicStiffness, Experiment};
-use frfit_linalg::tall::Tall;
+use frfit_linalg::column_block::ColumnBlock;
 
 /// V with Vᵀ diag(d) V = 1, and everything small that belongs to it.
 #[derive(Debug, Clone)]
 pub(super) struct Basis {
     /// d, the diagonal of the first shifted stiffness: it makes translations and rotations, steel and rubber comparable.
     weight: Vec<f64>,
-    vectors: Tall,
+    vectors: ColumnBlock,
     sketch: Sketch,
     pub(super) projection: Projection,
 }
@@ -36,11 +36,11 @@ impl Basis {
             gain: 0.0,
             parts,
         };
-        Self { vectors: Tall::new(weight.len()), sketch, weight, projection }
+        Self { vectors: ColumnBlock::new(weight.len()), sketch, weight, projection }
     }
 
     /// V.
-    pub(super) fn vectors(&self) -> &Tall {
+    pub(super) fn vectors(&self) -> &ColumnBlock {
         &self.vectors
     }
 

@@ -14,9 +14,9 @@
 mod assess;
 mod basis;
 mod changes;
-mod fractions;
 mod local;
 mod parts;
+mod pole_residue;
 mod projection;
 mod reduced;
 mod shift;
@@ -26,7 +26,7 @@ mod train_changes;
 
 pub use assess::Assessment;
 pub use changes::{ChangePoint, Changed};
-pub use fractions::{Drive, Fractions};
+pub use pole_residue::{Drive, PoleResidue};
 pub use projection::Projection;
 pub use reduced::ReducedModel;
 pub use train::{Point, TrainOptions, Trained};

@@ -5,9 +5,9 @@ use super::parts::Parts;
 use super::{Assessment, ReducedModel};
 use crate::c64;
 use crate::model::ModelAt;
+use frfit_linalg::column_block::{product, transpose_product};
 use frfit_linalg::dense::{self, Matrix, multiply};
 use frfit_linalg::solve::Breakdown;
-use frfit_linalg::tall::{product, transpose_product};
 use frfit_linalg::vector::transpose_dot;
 
 /// VᵀS_gV, VᵀF, ℓ_mᵀV and Θ S_gV for a basis V of r vectors: a model for a band, without anything of size N.

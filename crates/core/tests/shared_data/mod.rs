@@ -1,7 +1,6 @@
 //! Real matrices, where there are any.
 
-#[path = "../../../formats/tests/outside/mod.rs"]
-mod outside;
+use crate::outside;
 
 pub(crate) use outside::shared;
 

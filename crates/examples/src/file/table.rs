@@ -42,14 +42,14 @@ pub(crate) fn truth(model: &Model, frequency_hz: &[f64]) -> Result<String, Error
 /// real one. What is constant is the same in every row.
 pub(crate) fn several_truth(model: &SeveralModel, frequency_hz: &[f64]) -> Result<String, Error> {
     let mut columns = vec!["frequency_hz".to_owned()];
-    for one in &model.sought {
+    for one in &model.unknowns {
         let parts: &[&str] = if one.real { &["value"] } else { &["storage", "loss_factor"] };
         columns.extend(parts.iter().map(|part| format!("{}.{part}", one.name)));
     }
     let mut rows = Vec::with_capacity(frequency_hz.len());
     for &f in frequency_hz {
         let mut row = vec![f];
-        for (one, truth) in model.sought.iter().zip(&model.truth) {
+        for (one, truth) in model.unknowns.iter().zip(&model.truth) {
             let value = truth.at(f)?;
             row.push(value.re);
             row.extend((!one.real).then(|| loss_factor(value)));

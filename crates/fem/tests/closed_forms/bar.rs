@@ -1,7 +1,7 @@
 //! The bar against the rod in closed form.
 
-use crate::modes::lowest;
-use crate::support::{form, rate, relative_product, translation};
+use super::modes::lowest;
+use super::support::{form, rate, relative_product, translation};
 use frfit_fem::exact::rod::Rod;
 use frfit_fem::{Bar, Direction, Error, Mass, Support};
 use frfit_linalg::{c64, solve::Analysis};

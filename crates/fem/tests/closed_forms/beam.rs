@@ -1,7 +1,7 @@
 //! The beam against the characteristic equations.
 
-use crate::modes::lowest;
-use crate::support::{field, form, rate, relative_product, translation};
+use super::modes::lowest;
+use super::support::{field, form, rate, relative_product, translation};
 use frfit_fem::exact::beam::UniformBeam;
 use frfit_fem::{Beam, Direction, Error, Mass, Support};
 use proptest::prelude::*;

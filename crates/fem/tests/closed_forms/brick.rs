@@ -1,7 +1,7 @@
 //! Boxes of bricks against bars and beams, and their layers.
 
-use crate::modes::lowest;
-use crate::support::{field, form, product, rate, relative_product, translation};
+use super::modes::lowest;
+use super::support::{field, form, product, rate, relative_product, translation};
 use frfit_fem::brick::{Face, Formulation, Layer};
 use frfit_fem::exact::beam::UniformBeam;
 use frfit_fem::exact::rod::Rod;

@@ -1,6 +1,6 @@
 //! The hexahedron: null space, patch test, pure bending.
 
-use crate::support::{dot, largest, misfit};
+use super::support::{dot, largest, misfit};
 use frfit_fem::Error;
 use frfit_fem::brick::{Formulation, hexahedron};
 use nalgebra::{DMatrix, DVector, SymmetricEigen};

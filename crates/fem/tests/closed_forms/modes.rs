@@ -1,6 +1,6 @@
 //! Natural frequencies by subspace iteration.
 
-use crate::support::{form, product};
+use super::support::{form, product};
 use frfit_linalg::solve::Analysis;
 use frfit_linalg::sparse::SymmetricMatrix;
 use nalgebra::{DMatrix, SymmetricEigen};

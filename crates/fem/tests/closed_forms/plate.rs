@@ -1,7 +1,7 @@
 //! The plate against Navier, and the clamped square plate against Ritz.
 
-use crate::modes::lowest;
-use crate::support::{field, form, rate, relative_product, translation};
+use super::modes::lowest;
+use super::support::{field, form, rate, relative_product, translation};
 use frfit_fem::exact::plate::{CLAMPED_SQUARE, UniformPlate};
 use frfit_fem::{Direction, Error, Mass, Plate, Support};
 use nalgebra::{DMatrix, SymmetricEigen};

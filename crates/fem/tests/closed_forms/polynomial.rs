@@ -1,6 +1,6 @@
 //! Beam and plate elements hold the polynomials that they are made of, exactly.
 
-use crate::support::misfit;
+use super::support::misfit;
 use frfit_fem::{beam, plate};
 use proptest::prelude::*;
 

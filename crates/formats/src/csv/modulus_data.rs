@@ -17,6 +17,8 @@ pub struct ModulusData {
     pub std: Option<Vec<[f64; 2]>>,
     /// Rows that were left out: without a modulus, or with another status than `ok`.
     pub left_out: usize,
+    /// Whether the table names its unit of E′, which then is in pascal.
+    pub names_unit: bool,
 }
 
 /// Names of the columns, the first that of `identified.csv`.
@@ -35,7 +37,7 @@ const LOSS: [&str; 4] = ["loss", "loss_modulus", "e_loss", "e''"];
 /// | deviations, both or none, in all rows or in none | storage_std, loss_factor_std |
 /// | status | status: only rows that say `ok` are used |
 ///
-/// Upper and lower case are the same, other columns are passed over. The first line below the names may give units: Hz, kHz or rad/s, and Pa, kPa, MPa or GPa;
+/// Upper and lower case are the same, other columns are passed over. The first line below the names may give units: Hz, kHz or rad/s, and Pa, kPa, MPa, GPa, psi, psf or dyn/cm^2;
 /// E′ and E″ then come out in pascal. Rows in which both cells of the modulus are empty are left out.
 ///
 /// # Errors
@@ -124,6 +126,7 @@ fn read(bytes: &[u8], only: Option<(&str, &str)>) -> Result<ModulusData, FormatE
         storage: storage_values,
         loss_factor,
         left_out,
+        names_unit: first > 0,
     })
 }
 
@@ -214,7 +217,15 @@ fn needed(table: &Table, names: &[&str]) -> Result<usize, FormatError> {
 }
 
 const HERTZ: [(&str, f64); 3] = [("Hz", 1.0), ("kHz", 1e3), ("rad/s", 1.0 / std::f64::consts::TAU)];
-const PASCAL: [(&str, f64); 4] = [("Pa", 1.0), ("kPa", 1e3), ("MPa", 1e6), ("GPa", 1e9)];
+const PASCAL: [(&str, f64); 7] = [
+    ("Pa", 1.0),
+    ("kPa", 1e3),
+    ("MPa", 1e6),
+    ("GPa", 1e9),
+    ("psi", 4.448_221_615_260_5 / (0.0254 * 0.0254)),
+    ("psf", 4.448_221_615_260_5 / (0.3048 * 0.3048)),
+    ("dyn/cm^2", 0.1),
+];
 
 /// Whether the first row holds units: words where numbers belong.
 fn has_units(table: &Table, columns: [usize; 2]) -> bool {
@@ -288,8 +299,8 @@ mod tests {
                 "input:1:14: expected one of the columns loss_factor and loss, found a second one",
             ),
             (
-                "f,E_stor,E_loss\nHz,psi,psi\n1,2,3\n",
-                "input:2:4: expected one of the units Pa, kPa, MPa, GPa in column \"E_stor\", found \"psi\"",
+                "f,E_stor,E_loss\nHz,bar,bar\n1,2,3\n",
+                "input:2:4: expected one of the units Pa, kPa, MPa, GPa, psi, psf, dyn/cm^2 in column \"E_stor\", found \"bar\"",
             ),
             (
                 "f,E_stor,E_loss\n1,2,3\n1,3,4\n",

@@ -27,6 +27,8 @@ pub struct ModulusRows {
     pub answered: Vec<ModulusRow>,
     /// Frequency in hertz and status of those without, in the order of the table.
     pub empty: Vec<(f64, String)>,
+    /// Whether the table names its unit of E′, which then is in pascal.
+    pub names_unit: bool,
 }
 
 /// Reads every row of a table of a measured modulus, whatever its status; names and units are those of [`read_modulus_data`](super::read_modulus_data).
@@ -60,7 +62,8 @@ pub fn read_modulus_rows(bytes: &[u8]) -> Result<ModulusRows, FormatError> {
         }
         Ok(ModulusRow { frequency_hz: columns.hz * f, storage: e, loss_factor, std, status: status(row) })
     });
-    Ok(ModulusRows { answered: answered.collect::<Result<_, FormatError>>()?, empty })
+    let names_unit = columns.first > 0;
+    Ok(ModulusRows { answered: answered.collect::<Result<_, FormatError>>()?, empty, names_unit })
 }
 
 #[cfg(test)]
@@ -82,6 +85,7 @@ mod tests {
         let second = row(20.0, 2e6, 0.1, Some([5e5, 0.01]), "ok");
         assert_eq!(rows.answered, [row(10.0, 1e6, 0.2, None, "ambiguous"), second]);
         assert_eq!(rows.empty, [(30.0, "no_root".into())]);
+        assert!(rows.names_unit);
     }
 
     #[test]

@@ -1,106 +1,125 @@
 //! The values of a matrix.
 
+use std::iter::Peekable;
+use std::vec::IntoIter;
+
 use num_complex::Complex64 as c64;
 
-use super::element::Element;
+use super::stream::{Stream, Tag};
 use super::variable::Head;
 use crate::assemble::{Duplicates, Value};
-use crate::bytes::Cursor;
 use crate::gather::Gather;
 use crate::{CoordinateMatrix, FormatError, Position};
 
-/// Real and imaginary parts of all values; without imaginary ones zeros.
-struct Parts {
-    re: Vec<f64>,
-    im: Vec<f64>,
+/// How many imaginary parts there have to be.
+fn check_parts(place: usize, real: u64, imaginary: u64) -> Result<(), FormatError> {
+    if real == imaginary {
+        return Ok(());
+    }
+    let expected = format!("{real} imaginary parts, as there are real ones");
+    Err(FormatError::byte(place, expected, imaginary.to_string()))
 }
 
-impl Parts {
-    fn read(head: &Head, cursor: &mut Cursor<'_>) -> Result<Self, FormatError> {
-        let re = Element::read(cursor, "the values of a matrix")?.values();
-        let im = match head.is_complex {
-            true => Element::read(cursor, "the imaginary parts of a matrix")?.values(),
-            false => Vec::new(),
-        };
-        if head.is_complex && re.len() != im.len() {
-            let expected = format!("{} imaginary parts, as there are real ones", re.len());
-            return Err(FormatError::byte(cursor.place(), expected, im.len().to_string()));
+/// Calls something with those of an element's numbers that are not zero, each with its place among them.
+fn each_not_zero(
+    stream: &mut Stream<'_>,
+    tag: Tag,
+    mut call: impl FnMut(u64, f64),
+) -> Result<(), FormatError> {
+    let (value, mut left) = (stream.reader(tag), tag.length);
+    stream.each_number(tag, |k, bytes, allowance| {
+        let value = value(bytes);
+        if value != 0.0 {
+            allowance.entry(&mut left)?;
+            call(k, value);
         }
-        Ok(Self { re, im })
-    }
-
-    fn get(&self, k: usize) -> [f64; 2] {
-        [self.re[k], self.im.get(k).copied().unwrap_or(0.0)]
-    }
-}
-
-/// The matrix of entries: row, column (both from 0), real and imaginary part.
-fn gathered(
-    head: &Head,
-    entries: impl Iterator<Item = (u64, u64, [f64; 2])>,
-    size: [u64; 2],
-    name: &str,
-) -> Result<CoordinateMatrix, FormatError> {
-    fn of<V: Value>(
-        entries: impl Iterator<Item = (u64, u64, [f64; 2])>,
-        [nrows, ncols]: [u64; 2],
-        name: &str,
-    ) -> Result<CoordinateMatrix, FormatError> {
-        let mut gather = Gather::<V>::new(nrows, ncols);
-        for (row, col, parts) in entries {
-            gather.push(row, col, V::from_numbers(parts), Position::File);
-        }
-        gather.finish(Duplicates::Refuse, name)
-    }
-    if head.is_complex { of::<c64>(entries, size, name) } else { of::<f64>(entries, size, name) }
+        Ok(())
+    })
 }
 
 /// A full matrix, column by column; its zeros are not stored.
 pub(super) fn full(
     head: &Head,
-    mut cursor: Cursor<'_>,
+    stream: &mut Stream<'_>,
     size: [u64; 2],
     name: &str,
 ) -> Result<CoordinateMatrix, FormatError> {
-    let place = cursor.place();
-    let parts = Parts::read(head, &mut cursor)?;
-    if size[0].checked_mul(size[1]) != Some(parts.re.len() as u64) {
+    let place = stream.place();
+    let tag = stream.tag("the values of a matrix")?;
+    if size[0].checked_mul(size[1]) != Some(tag.count()) {
         let expected = format!("{} x {} values", size[0], size[1]);
-        return Err(FormatError::byte(place, expected, parts.re.len().to_string()));
+        return Err(FormatError::byte(place, expected, tag.count().to_string()));
     }
-    let all = (0..parts.re.len()).filter(|&k| parts.get(k) != [0.0; 2]);
-    let entries = all.map(|k| (k as u64 % size[0], k as u64 / size[0], parts.get(k)));
-    gathered(head, entries, size, name)
+    let [nrows, ncols] = size;
+    if !head.is_complex {
+        let mut gather = Gather::<f64>::new(nrows, ncols);
+        let push = |k, value| gather.push(k % nrows, k / nrows, value, Position::File);
+        each_not_zero(stream, tag, push)?;
+        return gather.finish(Duplicates::Refuse, name);
+    }
+    let (mut re, mut im) = (Vec::new(), Vec::new());
+    each_not_zero(stream, tag, |k, value| re.push((k, value)))?;
+    let tag_im = stream.tag("the imaginary parts of a matrix")?;
+    check_parts(stream.place(), tag.count(), tag_im.count())?;
+    each_not_zero(stream, tag_im, |k, value| im.push((k, value)))?;
+    let (mut re, mut im) = (re.into_iter().peekable(), im.into_iter().peekable());
+    let mut gather = Gather::<c64>::new(nrows, ncols);
+    while let Some(k) = [re.peek(), im.peek()].into_iter().flatten().map(|&(k, _)| k).min() {
+        let at = |parts: &mut Peekable<IntoIter<(u64, f64)>>| {
+            parts.next_if(|&(place, _)| place == k).map_or(0.0, |(_, value)| value)
+        };
+        gather.push(k % nrows, k / nrows, c64::new(at(&mut re), at(&mut im)), Position::File);
+    }
+    gather.finish(Duplicates::Refuse, name)
 }
 
 /// A sparse matrix: rows, column pointers, values. Rows and values may be longer than the last pointer says.
 pub(super) fn sparse(
     head: &Head,
-    mut cursor: Cursor<'_>,
+    stream: &mut Stream<'_>,
     size: [u64; 2],
     name: &str,
 ) -> Result<CoordinateMatrix, FormatError> {
-    let place = cursor.place();
-    let rows = Element::read(&mut cursor, "the rows of a sparse matrix")?.wholes().unwrap_or_default();
-    let ends =
-        Element::read(&mut cursor, "the column pointers of a sparse matrix")?.wholes().unwrap_or_default();
-    let parts = Parts::read(head, &mut cursor)?;
+    let place = stream.place();
+    let rows = stream.wholes("the rows of a sparse matrix")?.unwrap_or_default();
+    let ends = stream.wholes("the column pointers of a sparse matrix")?.unwrap_or_default();
+    let tag = stream.tag("the values of a matrix")?;
+    let re = stream.values(tag)?;
+    let mut im = Vec::new();
+    if head.is_complex {
+        let tag_im = stream.tag("the imaginary parts of a matrix")?;
+        check_parts(stream.place(), tag.count(), tag_im.count())?;
+        im = stream.values(tag_im)?;
+    }
     let last = ends.last().copied().unwrap_or(0);
     let is_sound = size[1].checked_add(1) == Some(ends.len() as u64)
         && ends.first() == Some(&0)
         && ends.is_sorted()
         && last <= rows.len() as u64
-        && last <= parts.re.len() as u64;
+        && last <= re.len() as u64;
     if !is_sound {
         let expected = format!(
             "{} column pointers that ascend from 0 to the number of entries",
             size[1].saturating_add(1)
         );
-        let found =
-            format!("{} up to {last}, with {} rows and {} values", ends.len(), rows.len(), parts.re.len());
+        let found = format!("{} up to {last}, with {} rows and {} values", ends.len(), rows.len(), re.len());
         return Err(FormatError::byte(place, expected, found));
     }
-    let columns = ends.windows(2).map(|range| range[0] as usize..range[1] as usize).enumerate();
-    let entries = columns.flat_map(|(col, range)| range.map(move |k| (k, col as u64)));
-    gathered(head, entries.map(|(k, col)| (rows[k], col, parts.get(k))), size, name)
+    fn of<V: Value>(
+        [nrows, ncols]: [u64; 2],
+        ends: &[u64],
+        entry: impl Fn(usize) -> (u64, [f64; 2]),
+        name: &str,
+    ) -> Result<CoordinateMatrix, FormatError> {
+        let mut gather = Gather::<V>::new(nrows, ncols);
+        for (col, range) in (0..).zip(ends.windows(2)) {
+            for k in range[0] as usize..range[1] as usize {
+                let (row, parts) = entry(k);
+                gather.push(row, col, V::from_numbers(parts), Position::File);
+            }
+        }
+        gather.finish(Duplicates::Refuse, name)
+    }
+    let entry = |k: usize| (rows[k], [re[k], im.get(k).copied().unwrap_or(0.0)]);
+    if head.is_complex { of::<c64>(size, &ends, entry, name) } else { of::<f64>(size, &ends, entry, name) }
 }

@@ -14,18 +14,18 @@
 //! # Source
 //! The MathWorks, "MAT-File Format" (R2019a), chapter 1: Level 5 MAT-files.
 
-mod element;
 mod matrix;
+mod stream;
 mod variable;
 
 use std::io::Read;
 
 use flate2::read::ZlibDecoder;
 
-use crate::bytes::Cursor;
+use crate::inflated::Allowance;
 use crate::uff::Endian;
 use crate::{FormatError, NamedMatrix};
-use element::{Element, Kind};
+use stream::{Kind, Stream};
 
 const HEADER: usize = 128;
 
@@ -51,7 +51,10 @@ pub(crate) fn looks_like(bytes: &[u8]) -> bool {
 /// one whose parts contradict each other, is refused by itself.
 ///
 /// # Limits
-/// Memory is bounded by the numbers that are there (of version 7: once they are unpacked), not by what tags say.
+/// Memory is bounded by the numbers that are there, not by what tags say. A compressed variable is inflated as far as its
+/// tag declares. What is kept of full matrices (entries that are not zero, 16 bytes each, and no matrix counts more than it
+/// declares) may take 16 × the size of the file + 1 MB, the vectors of sparse matrices 128 × + 1 MB: what is beyond is
+/// refused, and is read where it is saved uncompressed (`-v6`).
 pub fn read(bytes: &[u8]) -> Result<Vec<NamedMatrix>, FormatError> {
     let endian = match version(bytes) {
         Some((endian, 0x100)) => endian,
@@ -61,48 +64,67 @@ pub fn read(bytes: &[u8]) -> Result<Vec<NamedMatrix>, FormatError> {
         }
         None => return Err(FormatError::whole("a MATLAB file of version 5, 6 or 7", "no header of one")),
     };
-    let mut cursor = Cursor::new(&bytes[HEADER..], HEADER, endian);
+    let mut allowance = Allowance::of(bytes.len());
     let mut matrices = Vec::new();
-    while cursor.left() > 0 {
-        let place = cursor.place();
-        let element = Element::read(&mut cursor, "a variable")?;
-        match element.kind {
-            Kind::Matrix => variable::read(element.data, &mut matrices)?,
+    let mut at = HEADER;
+    while at < bytes.len() {
+        let mut input = &bytes[at..];
+        let range = [at as u64, bytes.len() as u64];
+        let mut stream = Stream::new(&mut input, range, endian, &mut allowance);
+        let tag = stream.tag("a variable")?;
+        match tag.kind {
             Kind::Compressed => {
-                let bytes = unpacked(element.data)?;
-                let mut inside = Cursor::new(&bytes, 0, endian);
-                // Places within what was unpacked mean nothing to whoever has the file.
-                let element = Element::read(&mut inside, "a variable").map_err(|error| at(place, error))?;
-                if element.kind == Kind::Matrix {
-                    let first = matrices.len();
-                    variable::read(element.data, &mut matrices).map_err(|error| at(place, error))?;
-                    for named in &mut matrices[first..] {
-                        named.matrix = std::mem::replace(&mut named.matrix, Err(FormatError::whole("", "")))
-                            .map_err(|error| at(place, error));
-                    }
-                }
+                let place = stream.place();
+                let end = place + usize::try_from(tag.length).unwrap_or(usize::MAX);
+                inflated(&bytes[place..end], place, endian, &mut allowance, &mut matrices)
+                    .map_err(|error| at_variable(place, error))?;
+                at = end;
             }
-            // Elements of other kinds are no variables.
-            Kind::Numbers(_) | Kind::Other(_) => {}
+            kind => {
+                stream.inside(tag, |inside| match kind {
+                    Kind::Matrix => variable::read(inside, &mut matrices),
+                    // Elements of other kinds are no variables.
+                    _ => Ok(()),
+                })?;
+                at = stream.place();
+            }
         }
     }
     Ok(matrices)
 }
 
+/// Reads a variable from what its bytes inflate to, as far as it is needed.
+fn inflated(
+    packed: &[u8],
+    place: usize,
+    endian: Endian,
+    allowance: &mut Allowance,
+    matrices: &mut Vec<NamedMatrix>,
+) -> Result<(), FormatError> {
+    const TAG: u64 = 8;
+    let mut input = ZlibDecoder::new(packed);
+    let tag = Stream::new(&mut (&mut input).take(TAG), [0, u64::MAX], endian, allowance).tag("a variable")?;
+    if tag.kind != Kind::Matrix {
+        return Ok(());
+    }
+    let first = matrices.len();
+    let mut stream = Stream::new(&mut input, [TAG, TAG + tag.length], endian, allowance);
+    variable::read(&mut stream, matrices)?;
+    // Places within what was unpacked mean nothing to whoever has the file.
+    let mut is_sound = true;
+    for named in &mut matrices[first..] {
+        named.matrix = std::mem::replace(&mut named.matrix, Err(FormatError::whole("", "")))
+            .map_err(|error| at_variable(place, error));
+        is_sound &= named.matrix.is_ok();
+    }
+    // What is refused need not be inflated to its end.
+    if is_sound { stream.ends() } else { Ok(()) }
+}
+
 /// An error with the place of the compressed variable.
-fn at(place: usize, error: FormatError) -> FormatError {
+fn at_variable(place: usize, error: FormatError) -> FormatError {
     match error.position {
         crate::Position::File => error,
         _ => FormatError { position: crate::Position::Byte(place), ..error },
     }
-}
-
-fn unpacked(mut packed: Cursor<'_>) -> Result<Vec<u8>, FormatError> {
-    let place = packed.place();
-    let mut bytes = Vec::new();
-    let data = packed.take(packed.left() as u64, "a compressed variable")?;
-    ZlibDecoder::new(data)
-        .read_to_end(&mut bytes)
-        .map_err(|error| FormatError::byte(place, "a compressed variable", error.to_string()))?;
-    Ok(bytes)
 }

@@ -1,38 +1,46 @@
 //! An array: its header, and elements by their indices.
 
-use std::borrow::Cow;
+use std::io::Read;
 
 use num_complex::Complex64 as c64;
 
 use super::header::{Element, Header};
 use crate::FormatError;
+use crate::inflated::{Allowance, at_most, fill};
 
-/// An array whose bytes are there.
+/// An array whose bytes are there: a vector of a sparse matrix.
 #[derive(Debug, Clone)]
-pub(super) struct Array<'a> {
+pub(super) struct Array {
     pub(super) header: Header,
-    /// With the header before them.
-    file: Cow<'a, [u8]>,
+    data: Vec<u8>,
 }
 
-impl<'a> Array<'a> {
-    /// `name` is that of the array, for errors.
-    pub(super) fn read(file: Cow<'a, [u8]>, name: &str) -> Result<Self, FormatError> {
-        let header = Header::parse(&file, name)?;
-        let data = &file[header.end..];
-        if header.length() != Some(data.len()) {
-            let expected = match header.length() {
-                Some(length) => format!("{length} bytes for {}", header.described()),
-                None => format!("an array that fits into memory, not {}", header.described()),
-            };
-            let of = if name.is_empty() { String::new() } else { format!(" (array {name:?})") };
-            return Err(FormatError::byte(header.end, expected + &of, format!("{} bytes", data.len())));
+impl Array {
+    /// Reads the elements behind a header, no further than it declares. `name` is that of the array, for errors.
+    pub(super) fn read(
+        header: Header,
+        input: &mut dyn Read,
+        allowance: &mut Allowance,
+        name: &str,
+    ) -> Result<Self, FormatError> {
+        let declared = header.declared(name)?;
+        match header.element {
+            Element::Text { .. } => allowance.plain(declared)?,
+            Element::Real(_) | Element::Complex(_) => allowance.sparse(declared)?,
         }
-        Ok(Self { header, file })
-    }
-
-    fn data(&self) -> &[u8] {
-        &self.file[self.header.end..]
+        allowance.inflate(declared)?;
+        let broken = |error: std::io::Error| {
+            FormatError::whole(format!("an array {name:?} in the archive"), error.to_string())
+        };
+        let data = at_most(input, declared).map_err(broken)?;
+        if (data.len() as u64) < declared {
+            return Err(header.wrong_length(declared, &data.len().to_string(), name));
+        }
+        // The end is read too: there an archive compares its checksum.
+        if fill(input, &mut [0]).map_err(broken)? > 0 {
+            return Err(header.wrong_length(declared, "more", name));
+        }
+        Ok(Self { header, data })
     }
 
     pub(super) fn shape(&self) -> &[u64] {
@@ -43,32 +51,20 @@ impl<'a> Array<'a> {
         matches!(self.header.element, Element::Complex(_))
     }
 
-    pub(super) fn is_text(&self) -> bool {
-        matches!(self.header.element, Element::Text { .. })
-    }
-
     /// How many elements.
     pub(super) fn count(&self) -> usize {
-        self.data().len().checked_div(self.header.element.size()).unwrap_or(0)
+        self.data.len().checked_div(self.header.element.size()).unwrap_or(0)
     }
 
     /// The bytes of the element that is k-th in the file.
     fn bytes(&self, k: usize) -> &[u8] {
         let size = self.header.element.size();
-        &self.data()[k * size..][..size]
+        &self.data[k * size..][..size]
     }
 
     /// The element that is k-th in the file, as a number.
     pub(super) fn value(&self, k: usize) -> c64 {
-        let (bytes, endian) = (self.bytes(k), self.header.endian);
-        match self.header.element {
-            Element::Real(storage) => c64::new(storage.value(bytes, endian), 0.0),
-            Element::Complex(storage) => {
-                let (re, im) = bytes.split_at(storage.size());
-                c64::new(storage.value(re, endian), storage.value(im, endian))
-            }
-            Element::Text { .. } => c64::new(f64::NAN, 0.0),
-        }
+        self.header.value(self.bytes(k))
     }
 
     /// The element that is k-th in the file, as a whole number; `None` where it is none.
@@ -85,7 +81,7 @@ impl<'a> Array<'a> {
     /// The only text of an array of texts.
     pub(super) fn text(&self) -> Option<String> {
         let Element::Text { size, .. } = self.header.element else { return None };
-        let characters = self.data().chunks_exact(size).map(|bytes| bytes.iter().copied().find(|&b| b != 0));
+        let characters = self.data.chunks_exact(size).map(|bytes| bytes.iter().copied().find(|&b| b != 0));
         (self.count() == 1).then(|| characters.map_while(|byte| byte.map(char::from)).collect())
     }
 

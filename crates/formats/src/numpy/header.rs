@@ -1,5 +1,7 @@
 //! The header of an array: a Python dictionary of `descr`, `fortran_order` and `shape`.
 
+use num_complex::Complex64 as c64;
+
 use crate::FormatError;
 use crate::bytes::Storage;
 use crate::text::quoted;
@@ -44,8 +46,7 @@ impl Header {
     /// `name` is that of the array, for errors.
     pub(super) fn parse(bytes: &[u8], name: &str) -> Result<Self, FormatError> {
         let refuse = |expected: &str, found: String| {
-            let of = if name.is_empty() { String::new() } else { format!(" (array {name:?})") };
-            Err(FormatError::byte(0, format!("{expected}{of}"), found))
+            Err(FormatError::byte(0, format!("{expected}{}", of(name)), found))
         };
         let start = match bytes {
             [0x93, b'N', b'U', b'M', b'P', b'Y', 1, _, low, high, ..] => {
@@ -94,6 +95,36 @@ impl Header {
         let count = self.shape.iter().try_fold(1_u64, |product, size| product.checked_mul(*size))?;
         usize::try_from(count).ok()?.checked_mul(self.element.size())
     }
+
+    /// The same, refused where no memory holds as many.
+    pub(super) fn declared(&self, name: &str) -> Result<u64, FormatError> {
+        let fits = || format!("an array that fits into memory{}", of(name));
+        let length = self.length().ok_or_else(|| FormatError::byte(self.end, fits(), self.described()))?;
+        Ok(length as u64)
+    }
+
+    /// An array with other bytes than its shape takes.
+    pub(super) fn wrong_length(&self, declared: u64, found: &str, name: &str) -> FormatError {
+        let expected = format!("{declared} bytes for {}{}", self.described(), of(name));
+        FormatError::byte(self.end, expected, format!("{found} bytes"))
+    }
+
+    /// An element as a number.
+    pub(super) fn value(&self, bytes: &[u8]) -> c64 {
+        match self.element {
+            Element::Real(storage) => c64::new(storage.value(bytes, self.endian), 0.0),
+            Element::Complex(storage) => {
+                let (re, im) = bytes.split_at(storage.size());
+                c64::new(storage.value(re, self.endian), storage.value(im, self.endian))
+            }
+            Element::Text { .. } => c64::new(f64::NAN, 0.0),
+        }
+    }
+}
+
+/// Which array of an archive, for errors.
+fn of(name: &str) -> String {
+    if name.is_empty() { String::new() } else { format!(" (array {name:?})") }
 }
 
 /// Byte order and element of a type such as `<f8`.

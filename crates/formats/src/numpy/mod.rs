@@ -20,12 +20,13 @@ mod dense;
 mod header;
 mod sparse;
 
-use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::io::{self, Read};
 
+use crate::inflated::{Allowance, at_most};
 use crate::{FormatError, NamedMatrix};
 use array::Array;
+use header::Header;
 
 const NPY: &[u8] = b"\x93NUMPY";
 /// A local file header, and the end of an archive without files.
@@ -43,13 +44,22 @@ pub(crate) fn looks_like(bytes: &[u8]) -> bool {
 /// cannot be read or is no matrix is refused by itself.
 ///
 /// # Limits
-/// Memory is bounded by the numbers that are there (of an archive: once it is unpacked), not by what headers say.
+/// Memory is bounded by the numbers that are there, not by what headers say. Of an archive an array is inflated as far
+/// as its header declares. What is kept of dense arrays (entries that are not zero, 16 bytes each, and no array counts
+/// more than it declares) may take 16 × the size of the file + 1 MB, the vectors of a sparse matrix 128 × + 1 MB: what is
+/// beyond is refused, and is read where it is saved uncompressed.
 pub fn read(bytes: &[u8]) -> Result<Vec<NamedMatrix>, FormatError> {
+    let mut allowance = Allowance::of(bytes.len());
     if bytes.starts_with(NPY) {
-        let matrix = Array::read(Cow::Borrowed(bytes), "").and_then(|array| dense::matrix(&array, ""));
-        return matrix.map(|matrix| vec![NamedMatrix::plain("", Ok(matrix))]);
+        let header = Header::parse(bytes, "")?;
+        let mut elements = &bytes[header.end..];
+        if header.length() != Some(elements.len()) {
+            return Err(header.wrong_length(header.declared("")?, &elements.len().to_string(), ""));
+        }
+        let matrix = dense::matrix(&header, &mut elements, &mut allowance, "")?;
+        return Ok(vec![NamedMatrix::plain("", Ok(matrix))]);
     }
-    let mut files = Files::open(bytes)?;
+    let mut files = Files::open(bytes, allowance)?;
     if sparse::is_one(&files.names) {
         let matrix = sparse::matrix(&mut files)?;
         return Ok(vec![NamedMatrix::plain("", Ok(matrix))]);
@@ -58,7 +68,8 @@ pub fn read(bytes: &[u8]) -> Result<Vec<NamedMatrix>, FormatError> {
     Ok(names
         .into_iter()
         .map(|name| {
-            let matrix = files.array(&name).and_then(|array| dense::matrix(&array, &name));
+            let matrix =
+                files.with(&name, |header, input, allowance| dense::matrix(&header, input, allowance, &name));
             NamedMatrix::plain(name, matrix)
         })
         .collect())
@@ -69,10 +80,11 @@ struct Files<'a> {
     archive: zip::ZipArchive<io::Cursor<&'a [u8]>>,
     /// The name of each array, without its ending, and where it is.
     names: BTreeMap<String, usize>,
+    allowance: Allowance,
 }
 
 impl<'a> Files<'a> {
-    fn open(bytes: &'a [u8]) -> Result<Self, FormatError> {
+    fn open(bytes: &'a [u8], allowance: Allowance) -> Result<Self, FormatError> {
         let archive = zip::ZipArchive::new(io::Cursor::new(bytes))
             .map_err(|error| FormatError::whole("an archive of arrays (.npz)", error.to_string()))?;
         let names: BTreeMap<_, _> = (0..archive.len())
@@ -85,21 +97,28 @@ impl<'a> Files<'a> {
             };
             return Err(FormatError::whole("an archive of arrays (.npz)", found));
         }
-        Ok(Self { archive, names })
+        Ok(Self { archive, names, allowance })
     }
 
     /// An array by its name.
-    fn array(&mut self, name: &str) -> Result<Array<'static>, FormatError> {
+    fn array(&mut self, name: &str) -> Result<Array, FormatError> {
+        self.with(name, |header, input, allowance| Array::read(header, input, allowance, name))
+    }
+
+    /// Calls something with the header of an array and what follows it.
+    fn with<T>(
+        &mut self,
+        name: &str,
+        call: impl FnOnce(Header, &mut dyn Read, &mut Allowance) -> Result<T, FormatError>,
+    ) -> Result<T, FormatError> {
         let missing = || FormatError::whole(format!("an array {name:?}"), "none");
         let broken = |found: String| FormatError::whole(format!("an array {name:?} in the archive"), found);
         let index = *self.names.get(name).ok_or_else(missing)?;
-        let file = self.archive.by_index(index).map_err(|error| broken(error.to_string()))?;
-        let mut bytes = Vec::new();
-        // An archive may unpack to a thousand times its size: not where the header says that nothing of it is of use.
-        let mut start = file.take(header::LONGEST);
-        start.read_to_end(&mut bytes).map_err(|error| broken(error.to_string()))?;
-        header::Header::parse(&bytes, name)?;
-        start.into_inner().read_to_end(&mut bytes).map_err(|error| broken(error.to_string()))?;
-        Array::read(Cow::Owned(bytes), name)
+        let mut file = self.archive.by_index(index).map_err(|error| broken(error.to_string()))?;
+        let start = at_most(&mut file, header::LONGEST).map_err(|error| broken(error.to_string()))?;
+        self.allowance.inflate(start.len() as u64)?;
+        let header = Header::parse(&start, name)?;
+        let mut input = start[header.end..].chain(file);
+        call(header, &mut input, &mut self.allowance)
     }
 }

@@ -25,7 +25,7 @@ pub(super) fn matrix(files: &mut Files<'_>) -> Result<CoordinateMatrix, FormatEr
 fn read<V: Value>(
     files: &mut Files<'_>,
     format: &str,
-    data: &Array<'_>,
+    data: &Array,
 ) -> Result<CoordinateMatrix, FormatError> {
     let size = wholes(&files.array("shape")?, "shape")?;
     let &[nrows, ncols] = size.as_slice() else {
@@ -117,7 +117,7 @@ fn read<V: Value>(
 }
 
 /// The numbers of a vector, each whole and not negative.
-fn wholes(array: &Array<'_>, name: &str) -> Result<Vec<u64>, FormatError> {
+fn wholes(array: &Array, name: &str) -> Result<Vec<u64>, FormatError> {
     let refuse =
         |found: String| FormatError::whole(format!("whole numbers from 0 in the vector {name:?}"), found);
     if array.shape().len() != 1 {
@@ -128,7 +128,7 @@ fn wholes(array: &Array<'_>, name: &str) -> Result<Vec<u64>, FormatError> {
 }
 
 /// Rows and columns of an array of two rows.
-fn coordinates(array: &Array<'_>) -> Result<(Vec<u64>, Vec<u64>), FormatError> {
+fn coordinates(array: &Array) -> Result<(Vec<u64>, Vec<u64>), FormatError> {
     let refuse =
         || FormatError::whole("whole numbers from 0 in two rows of \"coords\"", array.header.described());
     let &[2, count] = array.shape() else { return Err(refuse()) };
@@ -137,7 +137,7 @@ fn coordinates(array: &Array<'_>) -> Result<(Vec<u64>, Vec<u64>), FormatError> {
     Ok((line(0)?, line(1)?))
 }
 
-fn contradiction(format: &str, name: &str, array: &Array<'_>) -> FormatError {
+fn contradiction(format: &str, name: &str, array: &Array) -> FormatError {
     let expected = format!("an array {name:?} that fits to the others of a matrix of format {format}");
     FormatError::whole(expected, array.header.described())
 }

@@ -1,7 +1,7 @@
 //! OUTPUT4 beside pyYeti and pyNastran.
 
+use super::{compare, run, samples};
 use crate::outside::python_with;
-use crate::{compare, run, samples};
 use frfit_formats::{CoordinateMatrix, Entries, FileKind, Symmetry, detect, matrix_market, op4};
 use num_complex::Complex64 as c64;
 use proptest::prelude::*;
@@ -10,8 +10,9 @@ use std::fs;
 const MODULES: &str = "scipy, pyyeti.nastran.op4, pyNastran.op4.op4";
 
 #[test]
-fn what_pyyeti_and_pynastran_write_is_read() {
-    let Some(python) = python_with(MODULES) else { return };
+#[ignore = "needs Python with SciPy, pyYeti, pyNastran"]
+fn what_pyyeti_and_pynastran_write_is_read_needs_scipy_and_pyyeti_and_pynastran() {
+    let python = python_with(MODULES);
     let folder = tempfile::tempdir().unwrap();
     assert_eq!(run(&python, "op4.py", &[folder.path().to_str().unwrap()]), "written 22");
     assert_eq!(compare(folder.path(), ".op4"), (22, 100));
@@ -35,8 +36,9 @@ fn real(symmetry: Symmetry, places: &[(usize, usize, f64)]) -> CoordinateMatrix 
 }
 
 #[test]
-fn pyyeti_and_pynastran_read_ours() {
-    let Some(python) = python_with(MODULES) else { return };
+#[ignore = "needs Python with SciPy, pyYeti, pyNastran"]
+fn pyyeti_and_pynastran_read_ours_needs_scipy_and_pyyeti_and_pynastran() {
+    let python = python_with(MODULES);
     let k = real(Symmetry::Symmetric, &[(0, 0, 2.0), (1, 0, -1.0 / 3.0), (3, 0, 1e-300), (2, 2, -7e12)]);
     let g = real(Symmetry::General, &[(0, 1, 0.1), (1, 1, 2.0), (3, 1, -3e200), (0, 3, 0.2)]);
     let Entries::Real(values) = &k.entries else { panic!("real above") };

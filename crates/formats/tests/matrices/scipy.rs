@@ -40,8 +40,9 @@ print("checked", len(matrices))
 "#;
 
 #[test]
-fn scipy_and_we_read_each_other() {
-    let Some(python) = python_with("scipy") else { return };
+#[ignore = "needs Python with SciPy"]
+fn scipy_and_we_read_each_other_needs_scipy() {
+    let python = python_with("scipy");
     let folder = tempfile::tempdir().unwrap();
     let matrices = matrices();
     for (name, matrix) in &matrices {

@@ -1,27 +1,35 @@
-//! What tests find outside of the project, or say that they do not: for all crates, by path.
-#![allow(dead_code, clippy::print_stdout, reason = "each test uses a part; one that is skipped says so")]
+//! What some tests need from outside of the project, for all crates, by path.
+//!
+//! Such a test is marked `#[ignore = "needs …"]`, and the end of its name says the same to cargo-nextest: `_needs_data`,
+//! `_needs_scipy`, `_needs_data_and_lvm_read`. `cargo xtask test` runs it where all that is there. A test that runs
+//! without what it needs fails.
+#![allow(dead_code, reason = "each crate uses a part")]
 
 use std::path::PathBuf;
 use std::process::Command;
 
-/// A file or folder of the data for tests; `None` and a word where there is none.
-pub(crate) fn shared(name: &str) -> Option<PathBuf> {
+/// A file or folder of the data for tests.
+///
+/// # Panics
+///
+/// Where there is none.
+pub(crate) fn shared(name: &str) -> PathBuf {
     let beside = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data");
     let path = PathBuf::from(std::env::var("FRFIT_DATA").unwrap_or_else(|_| beside.into())).join(name);
-    if !path.exists() {
-        println!("skipped: no {} (set FRFIT_DATA)", path.display());
-        return None;
-    }
-    Some(path)
+    assert!(path.exists(), "this test needs {} (FRFIT_DATA names another folder)", path.display());
+    path
 }
 
-/// A Python that has a module; `None` and a word where there is none.
-pub(crate) fn python_with(module: &str) -> Option<String> {
+/// A Python that has these modules, as `import` lists them.
+///
+/// # Panics
+///
+/// Where there is none.
+pub(crate) fn python_with(modules: &str) -> String {
     let python = std::env::var("FRFIT_PYTHON").unwrap_or_else(|_| "python3".into());
-    let found = Command::new(&python).args(["-c", &format!("import {module}")]).output();
-    if !found.is_ok_and(|output| output.status.success()) {
-        println!("skipped: {python} has no {module} (set FRFIT_PYTHON to one that has)");
-        return None;
-    }
-    Some(python)
+    let output = Command::new(&python).args(["-c", &format!("import {modules}")]).output();
+    let output = output.unwrap_or_else(|error| panic!("{python}: {error} (FRFIT_PYTHON names another one)"));
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{python} lacks {modules} (FRFIT_PYTHON names another one): {errors}");
+    python
 }

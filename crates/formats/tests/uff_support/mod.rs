@@ -3,8 +3,7 @@
 // Every test that includes this module uses a part of it.
 #![allow(dead_code)]
 
-#[path = "../outside/mod.rs"]
-mod outside;
+use crate::outside;
 
 use std::path::PathBuf;
 
@@ -13,8 +12,8 @@ use frfit_formats::uff::{
 };
 use num_complex::Complex64 as c64;
 
-/// The folder of UFF samples, or `None` with a word where it is not there.
-pub(crate) fn samples() -> Option<PathBuf> {
+/// The folder of UFF samples.
+pub(crate) fn samples() -> PathBuf {
     outside::shared("uff")
 }
 

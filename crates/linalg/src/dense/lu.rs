@@ -1,6 +1,6 @@
 //! A x = b by LU with partial pivoting.
 
-use super::planar::PlanarLu;
+use super::split_complex_lu::PlanarLu;
 use super::{Matrix, NoConvergence};
 use crate::c64;
 use faer::linalg::solvers::{PartialPivLu, SolveCore};
@@ -12,7 +12,7 @@ pub struct Lu(Factor);
 
 #[derive(Debug, Clone)]
 enum Factor {
-    Planar(PlanarLu),
+    SplitComplexLu(PlanarLu),
     Blocked(PartialPivLu<c64>),
 }
 
@@ -34,7 +34,7 @@ impl Lu {
             return Err(NoConvergence);
         }
         Ok(Self(if a.nrows() <= PLANAR {
-            Factor::Planar(PlanarLu::new(a))
+            Factor::SplitComplexLu(PlanarLu::new(a))
         } else {
             Factor::Blocked(a.as_faer().partial_piv_lu())
         }))
@@ -43,7 +43,7 @@ impl Lu {
     /// Number of unknowns n.
     pub fn dim(&self) -> usize {
         match &self.0 {
-            Factor::Planar(factor) => factor.dim(),
+            Factor::SplitComplexLu(factor) => factor.dim(),
             Factor::Blocked(factor) => factor.L().nrows(),
         }
     }
@@ -65,7 +65,7 @@ impl Lu {
         }
         assert_eq!(rhs.len() % n, 0, "whole right-hand sides");
         match &self.0 {
-            Factor::Planar(factor) => factor.solve(rhs),
+            Factor::SplitComplexLu(factor) => factor.solve(rhs),
             Factor::Blocked(factor) => {
                 let view = MatMut::from_column_major_slice_mut(rhs, n, rhs.len() / n);
                 factor.solve_in_place_with_conj(Conj::No, view);
@@ -110,7 +110,7 @@ mod tests {
         for n in (0..20).chain([PLANAR - 1, PLANAR, PLANAR + 1, PLANAR + 9]).filter(|&n| n != 1) {
             let a = matrix(n);
             let lu = Lu::new(&a).unwrap();
-            assert_eq!((lu.dim(), matches!(lu.0, Factor::Planar(_))), (n, n <= PLANAR));
+            assert_eq!((lu.dim(), matches!(lu.0, Factor::SplitComplexLu(_))), (n, n <= PLANAR));
             let exact: Vec<Vec<c64>> =
                 (1..4).map(|k| (0..n).map(|i| c64::new((i * k) as f64, 1.0 - k as f64)).collect()).collect();
             let mut rhs: Vec<c64> = exact.iter().flat_map(|x| a.multiply(x)).collect();

@@ -4,10 +4,10 @@ mod eigen;
 mod least_squares;
 mod lu;
 mod matrix;
-mod planar;
 mod polynomial;
 mod real;
 mod singular;
+mod split_complex_lu;
 
 pub use eigen::{Eigen, eigen, eigenvalues, symmetric_eigen};
 pub use least_squares::{LeastSquares, least_squares};

@@ -2,9 +2,9 @@
 
 use super::{Front, Kept, Stack};
 use crate::kernel::Strip;
+use crate::packed_lower::PackedLower;
 use crate::scalar::{Real, Scalar};
 use crate::threads::each;
-use crate::triangle::Triangle;
 use pulp::{Simd, WithSimd};
 
 /// Numbers of a front below which another thread costs more than it brings.
@@ -39,7 +39,7 @@ impl<R: Real> Contribution<R> {
 
     /// Forgets the columns of the parent's candidates, so many of so many rows, which have been added there.
     pub(crate) fn give_back<T: Scalar<Real = R>>(&mut self, stack: &mut Stack<R>, moved: usize, rows: usize) {
-        let start = |col| Triangle::new(rows).start::<T>(col);
+        let start = |col| PackedLower::new(rows).start::<T>(col);
         stack.give_back(&mut self.schur, start(moved) - start(self.moved));
         self.moved = moved;
     }
@@ -101,8 +101,8 @@ impl<'a, R: Real> Child<'a, R> {
 
     /// One part of a column from its diagonal downwards.
     fn column<T: Scalar<Real = R>>(&self, col: usize, part: usize) -> &[R] {
-        let triangle = Triangle::new(self.relative.len());
-        let (gone, place) = (triangle.start::<T>(self.moved), triangle.part::<T>(col, part, col));
+        let packed_lower = PackedLower::new(self.relative.len());
+        let (gone, place) = (packed_lower.start::<T>(self.moved), packed_lower.part::<T>(col, part, col));
         &self.schur[place.start - gone..place.end - gone]
     }
 }

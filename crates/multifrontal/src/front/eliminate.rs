@@ -1,20 +1,20 @@
 //! Elimination of a front's candidates: corners one after the other, everything else by products of matrices.
 //!
-//! A pivot is chosen inside its corner and judged afterwards by all rows of the front. Where the front would grow, it is
+//! A pivot is chosen inside its diagonal_block and judged afterwards by all rows of the front. Where the front would grow, it is
 //! chosen again among all candidates: a part of a structure that is near a resonance of its own has no good pivot in a
-//! corner. Where an entry of L would be larger than the threshold allows, the column is put back and tried again at the
+//! diagonal_block. Where an entry of L would be larger than the threshold allows, the column is put back and tried again at the
 //! end; what never succeeds is left to the parent, whose front knows more of its row.
 //!
 //! I. S. Duff, J. Hogg, F. Lopez, SIAM J. Sci. Comput. 42 (2020) C23–C42.
 
-use super::corner::{CORNER, Corner, invert_pair};
+use super::diagonal_block::{CORNER, DiagonalBlock, invert_pair};
+use super::panel_trsm::{Limits, Tile, solve_rows};
 use super::rook::{largest, rook};
-use super::rows::{Limits, Tile, solve_rows};
 use super::{Front, strip_width};
 use crate::kernel::{Buffers, Left, Pivots, STRIP, downdate};
+use crate::packed_lower::PackedLower;
 use crate::scalar::{Real, Scalar};
 use crate::threads::Idle;
-use crate::triangle::Triangle;
 use std::ops::Range;
 
 /// Columns whose elimination is carried to the rest of the front in one product.
@@ -30,7 +30,7 @@ const SEARCHES: (usize, usize) = (4, 64);
 
 /// Buffers of one worker, and how it works.
 pub(crate) struct Elimination<T: Scalar> {
-    corner: Box<Corner<T>>,
+    diagonal_block: Box<DiagonalBlock<T>>,
     left: Left<T::Real>,
     idle: Idle<Buffers<T::Real>>,
     tiles: Idle<Box<Tile<T::Real>>>,
@@ -43,7 +43,7 @@ pub(crate) struct Elimination<T: Scalar> {
 impl<T: Scalar> Elimination<T> {
     pub(crate) fn new(threshold: f64) -> Self {
         Self {
-            corner: Corner::new(),
+            diagonal_block: DiagonalBlock::new(),
             left: Left::default(),
             idle: Idle::default(),
             tiles: Idle::default(),
@@ -116,23 +116,23 @@ fn eliminate_block<T: Scalar>(
         let width = match std::mem::take(&mut chosen) {
             0 => {
                 let width = CORNER.min(end - at);
-                with.corner.factor(front, at, width);
+                with.diagonal_block.factor(front, at, width);
                 width
             }
             width => {
-                with.corner.force(front, at, width);
+                with.diagonal_block.force(front, at, width);
                 width
             }
         };
-        for &(i, j) in &with.corner.exchanges {
+        for &(i, j) in &with.diagonal_block.exchanges {
             front.exchange(at + i, at + j);
         }
-        let tried = with.corner.d.len();
+        let tried = with.diagonal_block.d.len();
         with.saved.clear();
         for (col, part) in columns::<T>(at..at + tried) {
             with.saved.extend_from_slice(front.part(col, part, col));
         }
-        let accepted = solve_rows(front, at, &with.corner, limits, &with.tiles, with.threads);
+        let accepted = solve_rows(front, at, &with.diagonal_block, limits, &with.tiles, with.threads);
         // Put back what was not accepted.
         let mut saved = with.saved.as_slice();
         for (col, part) in columns::<T>(at..at + tried) {
@@ -142,9 +142,9 @@ fn eliminate_block<T: Scalar>(
                 front.part_mut(col, part, col).copy_from_slice(column);
             }
         }
-        d.extend_from_slice(&with.corner.d[..accepted]);
-        // A refused pivot, or all that is zero in its corner, moves behind the untried columns of the block.
-        let refused = match with.corner.d.get(accepted) {
+        d.extend_from_slice(&with.diagonal_block.d[..accepted]);
+        // A refused pivot, or all that is zero in its diagonal_block, moves behind the untried columns of the block.
+        let refused = match with.diagonal_block.d.get(accepted) {
             Some([_, below]) => 1 + usize::from(*below != T::default()),
             None => width - tried,
         };
@@ -186,11 +186,11 @@ fn update<T: Scalar>(
     if at == done || done == to {
         return;
     }
-    let triangle = front.triangle;
-    let (values, rest) = front.panel.split_at_mut(triangle.start::<T>(done));
-    let pivots = Pivots { values, triangle, col: at, row: done, d };
+    let packed_lower = front.packed_lower;
+    let (values, rest) = front.panel.split_at_mut(packed_lower.start::<T>(done));
+    let pivots = Pivots { values, packed_lower, col: at, row: done, d };
     with.left.pack(&pivots, with.threads);
-    let strips = triangle.strips(rest, done..to, strip_width(to - done, with.threads), false);
+    let strips = packed_lower.strips(rest, done..to, strip_width(to - done, with.threads), false);
     downdate(strips.collect(), &pivots, &with.left, &with.idle, with.threads);
 }
 
@@ -206,16 +206,16 @@ fn carry<T: Scalar>(
     if from == d.len() || to == front.rows() {
         return;
     }
-    let (triangle, candidates) = (front.triangle, front.candidates);
+    let (packed_lower, candidates) = (front.packed_lower, front.candidates);
     let others = front.rows() - candidates;
-    let (values, rest) = front.panel.split_at_mut(triangle.start::<T>(to));
-    let pivots = Pivots { values, triangle, col: from, row: to, d: &d[from..] };
+    let (values, rest) = front.panel.split_at_mut(packed_lower.start::<T>(to));
+    let pivots = Pivots { values, packed_lower, col: from, row: to, d: &d[from..] };
     with.left.pack(&pivots, with.threads);
     let width = strip_width(candidates - to, with.threads);
-    let mut all: Vec<_> = triangle.strips(rest, to..candidates, width, false).collect();
+    let mut all: Vec<_> = packed_lower.strips(rest, to..candidates, width, false).collect();
     // The first pivots of all find nothing there.
     let fresh = from == 0;
-    all.extend(Triangle::new(others).strips(schur, 0..others, STRIP, fresh).map(|mut strip| {
+    all.extend(PackedLower::new(others).strips(schur, 0..others, STRIP, fresh).map(|mut strip| {
         strip.first += candidates - to;
         strip
     }));
@@ -268,12 +268,12 @@ fn eliminate_anywhere<T: Scalar>(
         },
     };
     let width = front.bring(at, pivot);
-    with.corner.force(front, at, width);
+    with.diagonal_block.force(front, at, width);
     // Already judged; roundoff may take an entry a little over the limit.
     let limits = Limits { l: 2.0 * limit, growth: f64::INFINITY };
-    let accepted = solve_rows(front, at, &with.corner, limits, &with.tiles, with.threads);
+    let accepted = solve_rows(front, at, &with.diagonal_block, limits, &with.tiles, with.threads);
     debug_assert_eq!(accepted, width);
-    d.extend_from_slice(&with.corner.d);
+    d.extend_from_slice(&with.diagonal_block.d);
     update(front, at, at + width, candidates, &d[at..], with);
     carry(front, at, candidates, schur, d, with);
     true
@@ -284,16 +284,16 @@ mod tests {
     use super::*;
 
     /// I − (1 − δ)uuᵀ with the first rows, so that they are near a resonance of their own, and others that hold them.
-    fn held(n: usize, part: usize, delta: f64, triangle: Triangle) -> Vec<f64> {
+    fn held(n: usize, part: usize, delta: f64, packed_lower: PackedLower) -> Vec<f64> {
         let u = (1.0 / part as f64).sqrt();
         let entry = |i: usize, j: usize| match (i < part, j < part) {
             (true, true) => f64::from(i == j) - (1.0 - delta) * u * u,
             (false, false) => f64::from(i == j),
             _ => 0.5 * u * ((i * j) as f64).cos(),
         };
-        let mut panel = vec![0.0; triangle.start::<f64>(n)];
+        let mut panel = vec![0.0; packed_lower.start::<f64>(n)];
         for (row, col) in (0..n).flat_map(|col| (col..n).map(move |row| (row, col))) {
-            panel[triangle.place::<f64>(row, col, 0)] = entry(row, col);
+            panel[packed_lower.place::<f64>(row, col, 0)] = entry(row, col);
         }
         panel
     }
@@ -318,10 +318,10 @@ mod tests {
     fn a_part_near_its_own_resonance_does_not_make_the_front_grow() {
         let (n, part) = (400, 170);
         for delta in [1e-2, 1e-3, 1e-4, 1e-6] {
-            let triangle = Triangle::new(n);
-            let mut panel = held(n, part, delta, triangle);
+            let packed_lower = PackedLower::new(n);
+            let mut panel = held(n, part, delta, packed_lower);
             let mut front =
-                Front { ids: (0..n as u32).collect(), candidates: n, panel: &mut panel, triangle };
+                Front { ids: (0..n as u32).collect(), candidates: n, panel: &mut panel, packed_lower };
             // A threshold that refuses none of these pivots.
             let d = eliminate(&mut front, &mut [], &mut Elimination::new(0.01));
             assert_eq!(d.len(), n);

@@ -4,20 +4,20 @@
 //! hold numbers of one kind.
 
 mod assemble;
-mod corner;
+mod diagonal_block;
 mod eliminate;
+mod panel_trsm;
 mod rook;
-mod rows;
 mod stack;
 
 pub(crate) use assemble::{Child, Contribution, add_children, each_strip};
-pub(crate) use corner::invert_pair;
+pub(crate) use diagonal_block::invert_pair;
 pub(crate) use eliminate::{BLOCK, Elimination, eliminate};
 pub(crate) use stack::{Kept, Stack};
 
 use crate::kernel::STRIP;
+use crate::packed_lower::PackedLower;
 use crate::scalar::Scalar;
-use crate::triangle::Triangle;
 
 /// Rows and columns of a front in elimination order; the first columns are candidates for elimination, and
 /// only they are here: what the elimination leaves behind is the Schur complement.
@@ -28,7 +28,7 @@ pub(crate) struct Front<'a, T: Scalar> {
     pub(crate) candidates: usize,
     /// The candidates' columns.
     pub(crate) panel: &'a mut [T::Real],
-    pub(crate) triangle: Triangle,
+    pub(crate) packed_lower: PackedLower,
 }
 
 impl<T: Scalar> Front<'_, T> {
@@ -38,15 +38,15 @@ impl<T: Scalar> Front<'_, T> {
 
     /// Rows `from..` of one part of a column.
     pub(crate) fn part(&self, col: usize, part: usize, from: usize) -> &[T::Real] {
-        &self.panel[self.triangle.part::<T>(col, part, from)]
+        &self.panel[self.packed_lower.part::<T>(col, part, from)]
     }
 
     pub(crate) fn part_mut(&mut self, col: usize, part: usize, from: usize) -> &mut [T::Real] {
-        &mut self.panel[self.triangle.part::<T>(col, part, from)]
+        &mut self.panel[self.packed_lower.part::<T>(col, part, from)]
     }
 
     fn at(&self, row: usize, col: usize) -> T {
-        let at = |part: usize| self.panel[self.triangle.place::<T>(row, col, part)];
+        let at = |part: usize| self.panel[self.packed_lower.place::<T>(row, col, part)];
         T::from_parts([at(0), at(T::PARTS - 1)])
     }
 
@@ -64,9 +64,9 @@ impl<T: Scalar> Front<'_, T> {
             return;
         }
         self.ids.swap(i, j);
-        let (triangle, start) = (self.triangle, self.triangle.start::<T>(j));
+        let (packed_lower, start) = (self.packed_lower, self.packed_lower.start::<T>(j));
         for part in 0..T::PARTS {
-            let place = |row: usize, col: usize| triangle.place::<T>(row, col, part);
+            let place = |row: usize, col: usize| packed_lower.place::<T>(row, col, part);
             for col in 0..i {
                 self.panel.swap(place(i, col), place(j, col));
             }
@@ -75,8 +75,8 @@ impl<T: Scalar> Front<'_, T> {
                 self.panel.swap(place(k, i), place(j, k));
             }
             let (head, tail) = self.panel.split_at_mut(start);
-            let below = triangle.part::<T>(j, part, j + 1);
-            head[triangle.part::<T>(i, part, j + 1)]
+            let below = packed_lower.part::<T>(j, part, j + 1);
+            head[packed_lower.part::<T>(i, part, j + 1)]
                 .swap_with_slice(&mut tail[below.start - start..below.end - start]);
         }
     }

@@ -3,9 +3,9 @@
 use super::TOGETHER;
 use super::tile::{copy, tile_rows};
 use crate::memory::Memory;
+use crate::packed_lower::PackedLower;
 use crate::scalar::{Real, Scalar};
 use crate::threads::each;
-use crate::triangle::Triangle;
 use pulp::{Simd, WithSimd};
 use std::marker::PhantomData;
 
@@ -16,7 +16,7 @@ const PACK_FROM: usize = 50_000;
 pub(crate) struct Pivots<'a, T: Scalar> {
     /// The columns of the front as far as they are eliminated.
     pub(crate) values: &'a [T::Real],
-    pub(crate) triangle: Triangle,
+    pub(crate) packed_lower: PackedLower,
     /// The first of these columns, and the first row that is looked at.
     pub(crate) col: usize,
     pub(crate) row: usize,
@@ -30,13 +30,13 @@ impl<T: Scalar> Pivots<'_, T> {
     }
 
     fn rows(&self) -> usize {
-        self.triangle.rows() - self.row
+        self.packed_lower.rows() - self.row
     }
 
     /// One part of some rows of a column.
     #[inline(always)]
     fn part(&self, k: usize, part: usize, rows: std::ops::Range<usize>) -> &[T::Real] {
-        let start = self.triangle.place::<T>(self.row + rows.start, self.col + k, part);
+        let start = self.packed_lower.place::<T>(self.row + rows.start, self.col + k, part);
         &self.values[start..start + rows.len()]
     }
 

@@ -90,7 +90,7 @@ impl<T: Scalar> Shaped for Forward<'_, T> {
             let (own, below) = y.split_at_mut(inner * row);
             for cols in pieces(span.clone(), BLOCK) {
                 let (block, rest) = own[cols.start * row..].split_at_mut(cols.len() * row);
-                triangle::<T, S, V>(simd, node, &cols, block);
+                packed_lower::<T, S, V>(simd, node, &cols, block);
                 multiply::<T, S, V, G>(simd, node, &cols, block, cols.end..inner, rest);
             }
             let own = &own[span.start * row..span.end * row];
@@ -254,9 +254,9 @@ fn add<T: Scalar, S: Simd, const V: usize>(simd: S, y: &mut [T::Real], to: usize
     store::<T, S, V>(y, to, sum);
 }
 
-/// Solves with the triangle of a block of columns.
+/// Solves with the packed_lower of a block of columns.
 #[inline(always)]
-fn triangle<T: Scalar, S: Simd, const V: usize>(
+fn packed_lower<T: Scalar, S: Simd, const V: usize>(
     simd: S,
     node: Columns<'_, T>,
     cols: &Range<usize>,

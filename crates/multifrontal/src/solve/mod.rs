@@ -9,10 +9,10 @@ mod one;
 use crate::factor::{Factor, Node};
 use crate::kernel::STRIP;
 use crate::memory::Memory;
+use crate::packed_lower::{PackedLower, top};
 use crate::part::Part;
 use crate::scalar::Scalar;
 use crate::threads::{each, map, with};
-use crate::triangle::{Triangle, top};
 use many::Shaped;
 use std::ops::Range;
 
@@ -50,7 +50,7 @@ struct Step<'a, T: Scalar> {
 struct Columns<'a, T: Scalar> {
     node: &'a Node<T>,
     values: &'a [T::Real],
-    triangle: Triangle,
+    packed_lower: PackedLower,
 }
 
 /// Columns of L in one strip, from one on.
@@ -99,8 +99,8 @@ impl<'a, T: Scalar> Columns<'a, T> {
     /// The columns of a strip from one on; [`BLOCK`]s are in one strip each.
     #[inline(always)]
     fn in_strip(&self, first: usize) -> InStrip<'a, T> {
-        let values = &self.values[self.triangle.start::<T>(first)..];
-        InStrip { first, values, top: top(first), stride: self.triangle.stride(first) }
+        let values = &self.values[self.packed_lower.start::<T>(first)..];
+        InStrip { first, values, top: top(first), stride: self.packed_lower.stride(first) }
     }
 
     /// The pivots in spans.
@@ -277,8 +277,8 @@ impl<T: Scalar> Together<'_, T> {
         buffer: &'a mut Memory<T::Real>,
     ) -> Step<'a, T> {
         let threads = if part.top { self.threads } else { 1 };
-        let (values, triangle) = (self.factor.columns_of(node), Triangle::new(node.order()));
-        let node = Columns { node, values, triangle };
+        let (values, packed_lower) = (self.factor.columns_of(node), PackedLower::new(node.order()));
+        let node = Columns { node, values, packed_lower };
         Step { node, local, buffer, threads, shared: part.top }
     }
 }

@@ -25,7 +25,7 @@ impl<T: Scalar> WithSimd for Forward<'_, T> {
         for span in node.spans() {
             let inner = node.inner(&span, shared);
             for cols in pieces(span.clone(), BLOCK) {
-                triangle(node, &cols, re, im);
+                packed_lower(node, &cols, re, im);
                 let (x, below) = (factors(&cols, re, im), cols.end..inner);
                 multiply(simd, node, cols, &x, below.clone(), (&mut re[below.clone()], &mut im[below]));
             }
@@ -148,9 +148,14 @@ fn put<T: Scalar>(local: &mut [T::Real], row: usize, parts: [T::Real; 2]) {
     local[row * T::PARTS..][..T::PARTS].copy_from_slice(&parts[..T::PARTS]);
 }
 
-/// Solves with the triangle of a block of columns.
+/// Solves with the packed_lower of a block of columns.
 #[inline(always)]
-fn triangle<T: Scalar>(node: Columns<'_, T>, cols: &Range<usize>, re: &mut [T::Real], im: &mut [T::Real]) {
+fn packed_lower<T: Scalar>(
+    node: Columns<'_, T>,
+    cols: &Range<usize>,
+    re: &mut [T::Real],
+    im: &mut [T::Real],
+) {
     let l = node.in_strip(cols.start);
     for j in cols.clone() {
         let x = T::from_parts([re[j], im[j]]);
@@ -162,7 +167,7 @@ fn triangle<T: Scalar>(node: Columns<'_, T>, cols: &Range<usize>, re: &mut [T::R
     }
 }
 
-/// Takes the sums from a block of unknowns and solves with the transpose of its triangle.
+/// Takes the sums from a block of unknowns and solves with the transpose of its packed_lower.
 #[inline(always)]
 fn transposed_triangle<T: Scalar>(
     node: Columns<'_, T>,

@@ -10,10 +10,10 @@ pub use pattern::PatternError;
 use crate::Options;
 use crate::factor::Node;
 use crate::ordering;
+use crate::packed_lower::PackedLower;
 use crate::part::Part;
 use crate::scalar::Scalar;
 use crate::threads::with;
-use crate::triangle::Triangle;
 use std::ops::Range;
 
 /// Marks a front without parent.
@@ -56,7 +56,7 @@ impl Shape {
 
     /// Numbers of its own columns, as they are stored.
     fn panel(&self) -> usize {
-        Triangle::new(self.order()).start::<f64>(self.pivots)
+        PackedLower::new(self.order()).start::<f64>(self.pivots)
     }
 }
 
@@ -92,10 +92,10 @@ pub struct Symbolic {
 }
 
 impl Symbolic {
-    /// Analyses the lower triangle of a symmetric n × n matrix, stored by columns.
+    /// Analyses the lower packed_lower of a symmetric n × n matrix, stored by columns.
     ///
     /// # Errors
-    /// [`PatternError`] where the columns do not make a lower triangle, or are too many.
+    /// [`PatternError`] where the columns do not make a lower packed_lower, or are too many.
     pub fn new(
         dim: usize,
         col_ptr: &[usize],

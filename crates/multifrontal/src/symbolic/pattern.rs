@@ -1,8 +1,8 @@
-//! Where the entries of a lower triangle are.
+//! Where the entries of a lower packed_lower are.
 
 use std::fmt;
 
-/// Positions of a lower triangle by columns.
+/// Positions of a lower packed_lower by columns.
 #[derive(Debug, Clone)]
 pub(crate) struct Lower {
     pub(crate) dim: usize,
@@ -38,7 +38,7 @@ impl fmt::Display for PatternError {
                 )
             }
             Self::Row { col, row } => {
-                write!(f, "column {col}: expected rows of the lower triangle, found row {row}")
+                write!(f, "column {col}: expected rows of the lower packed_lower, found row {row}")
             }
             Self::Permutation(row) => {
                 write!(f, "order: expected every row once, found otherwise for row {row}")

@@ -3,7 +3,7 @@
 use super::{ROOT, Shape, Symbolic};
 use crate::front::BLOCK;
 use crate::kernel::{STRIP, TOGETHER, WIDE};
-use crate::triangle::Triangle;
+use crate::packed_lower::PackedLower;
 use std::ops::Range;
 
 /// Subtrees that are looked for: enough to keep some threads busy, few enough to leave work to each.
@@ -69,7 +69,7 @@ pub(super) fn subtrees(fronts: &[Shape]) -> Vec<Range<usize>> {
 /// The most numbers of Schur complements at even and at odd depths while one worker goes through these fronts.
 pub(super) fn stacks(symbolic: &Symbolic, fronts: Range<usize>) -> [usize; 2] {
     let (mut live, mut most) = ([0; 2], [0; 2]);
-    let schur = |front: usize| Triangle::new(symbolic.fronts[front].rows.len());
+    let schur = |front: usize| PackedLower::new(symbolic.fronts[front].rows.len());
     let whole = |front: usize| schur(front).start::<f64>(schur(front).rows());
     // The columns of the parent's candidates, which are given back at once.
     let moved = |front: usize| schur(front).start::<f64>(symbolic.moved(front));

@@ -1,36 +1,181 @@
-"""What the compiled part takes: one-dimensional arrays of float64 and complex128, copied only where they are not."""
+"""Arguments: checked, and made what the compiled part takes.
+
+Arrays become one-dimensional float64 and complex128, copied only where they are not. What is no number is refused here
+by the argument's name: NumPy would read dates, flags and texts as numbers.
+"""
 
 from __future__ import annotations
 
+import operator
+from collections.abc import Iterable
 from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+
+from ._errors import InputError
 
 Real: TypeAlias = NDArray[np.float64]
 Complex: TypeAlias = NDArray[np.complex128]
 Whole: TypeAlias = NDArray[np.int64]
 Flags: TypeAlias = NDArray[np.bool_]
 
+_KINDS = {
+    "b": "booleans",
+    "c": "complex numbers",
+    "S": "bytes",
+    "U": "text",
+    "M": "dates (datetime64)",
+    "m": "durations (timedelta64)",
+    "O": "Python objects",
+    "V": "records",
+}
 
-def real(values: ArrayLike) -> Real:
+
+def refuse(name: str, expected: str, found: str) -> InputError:
+    """The exception for an argument that is not as it has to be."""
+    error = InputError(f"{name}: expected {expected}, found {found}")
+    error.key, error.expected, error.found = name, expected, found
+    return error
+
+
+def shown(value: object) -> str:
+    """A value in few characters."""
+    text = repr(value)
+    return text if len(text) <= 60 else f"{text[:57]}..."
+
+
+def numbers(values: Any, name: str, *, kinds: str = "iuf", expected: str = "real numbers") -> NDArray[Any]:
+    """An array of numbers of these kinds, of any shape."""
+    if isinstance(values, np.ma.MaskedArray) and np.ma.is_masked(values):
+        raise refuse(name, expected, "masked values")
+    try:
+        array = np.asarray(values)
+    except (TypeError, ValueError):
+        raise refuse(name, f"an array of {expected}", shown(values)) from None
+    if array.dtype.kind not in kinds:
+        found = _KINDS.get(array.dtype.kind, str(array.dtype))
+        raise refuse(name, expected, f"{found}, {shown(values)}")
+    return array
+
+
+def _vector(array: NDArray[Any], name: str) -> NDArray[Any]:
+    """A vector, also where it stands as a row or a column of a table."""
+    if sum(size != 1 for size in array.shape) > 1:
+        raise refuse(name, "one dimension", f"an array of {' x '.join(map(str, array.shape))}")
+    return np.atleast_1d(array).ravel()
+
+
+def real(values: ArrayLike, name: str) -> Real:
     """A vector of float64."""
-    return np.atleast_1d(np.asarray(values, dtype=np.float64)).ravel()
+    return np.asarray(_vector(numbers(values, name), name), dtype=np.float64)
 
 
-def complex_(values: ArrayLike) -> Complex:
+def complex_(values: ArrayLike, name: str) -> Complex:
     """A vector of complex128."""
-    return np.atleast_1d(np.asarray(values, dtype=np.complex128)).ravel()
+    found = numbers(values, name, kinds="iufc", expected="real or complex numbers")
+    return np.asarray(_vector(found, name), dtype=np.complex128)
+
+
+def number(value: Any, name: str, expected: str = "a real number") -> float:
+    """One real number."""
+    array = numbers(value, name, expected=expected)
+    if array.size != 1:
+        raise refuse(name, expected, shown(value))
+    return float(array.reshape(()))
+
+
+def optional_number(value: Any, name: str, expected: str = "a real number") -> float | None:
+    """One real number, or nothing."""
+    return None if value is None else number(value, name, expected)
+
+
+def pair(value: Any, name: str) -> tuple[float, float]:
+    """Two real numbers."""
+    array = numbers(value, name, expected="two real numbers")
+    if array.shape != (2,):
+        raise refuse(name, "two real numbers", shown(value))
+    return float(array[0]), float(array[1])
+
+
+def whole(value: Any, name: str, expected: str = "a whole number") -> int:
+    """A whole number of Python or NumPy; neither a flag nor a float, whatever its value."""
+    if isinstance(value, (bool, np.bool_)):
+        raise refuse(name, expected, shown(value))
+    try:
+        return operator.index(value)
+    except TypeError:
+        raise refuse(name, expected, shown(value)) from None
+
+
+def optional_whole(value: Any, name: str, least: int, most: int = 2**63 - 1) -> int | None:
+    """A whole number from `least` on, or nothing."""
+    if value is None:
+        return None
+    expected = f"a whole number of at least {least}"
+    found = whole(value, name, expected)
+    if not least <= found <= most:
+        raise refuse(name, expected if found < least else f"at most {most}", str(found))
+    return found
+
+
+def flag(value: Any, name: str) -> bool:
+    """True or False."""
+    if not isinstance(value, (bool, np.bool_)):
+        raise refuse(name, "True or False", shown(value))
+    return bool(value)
+
+
+def word(value: Any, name: str) -> str:
+    """A text."""
+    if not isinstance(value, str):
+        raise refuse(name, "a text", shown(value))
+    return str(value)
+
+
+def words(value: Any, name: str) -> list[str]:
+    """A text, or several."""
+    if isinstance(value, str):
+        return [str(value)]
+    return [word(one, name) for one in several(value, name, "a text or several")]
+
+
+def several(values: Any, name: str, expected: str) -> list[Any]:
+    """What a sequence holds; a text is none."""
+    if isinstance(values, (str, bytes)) or not isinstance(values, Iterable):
+        raise refuse(name, expected, shown(values))
+    return list(values)
+
+
+def callable_(value: Any) -> Any:
+    """Something to call with (done, total), or nothing."""
+    if value is not None and not callable(value):
+        raise refuse("progress", "something to call with (done, total)", shown(value))
+    return value
+
+
+def row(value: Any, name: str, dim: int | None = None) -> int:
+    """A row of a model, from 0."""
+    expected = "a row, a whole number from 0" if dim is None else f"a row, a whole number from 0 to {dim - 1}"
+    found = whole(value, name, expected)
+    if found < 0 or (dim is not None and found >= dim):
+        raise refuse(name, expected, str(found))
+    return found
+
+
+def sign(value: Any, name: str) -> float:
+    """The sense that counts as positive."""
+    found = number(value, name, "+1 or -1")
+    if abs(found) != 1.0:
+        raise refuse(name, "+1 or -1", shown(value))
+    return found
 
 
 def load_vector(load: ArrayLike, dim: int) -> Complex:
     """A unit force where `load` is one whole number (a row from 0), else `load` itself."""
-    array: NDArray[Any] = np.asarray(load)
-    if array.ndim == 0 and np.issubdtype(array.dtype, np.integer):
-        row = int(array)
-        if not 0 <= row < dim:
-            raise IndexError(f"load: expected a row from 0 to {dim - 1}, found {row}")
+    array = numbers(load, "load", kinds="iufc", expected="a row, or real or complex forces")
+    if array.ndim == 0 and array.dtype.kind in "iu":
         force = np.zeros(dim, dtype=np.complex128)
-        force[row] = 1.0
+        force[row(array.item(), "load", dim)] = 1.0
         return force
-    return complex_(array)
+    return complex_(array, "load")

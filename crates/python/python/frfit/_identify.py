@@ -3,16 +3,34 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from types import SimpleNamespace
-from typing import Literal
+from typing import Any, Literal
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _frfit
-from ._arrays import complex_, load_vector, real
-from ._model import Model, Progress
+from ._arrays import (
+    callable_,
+    complex_,
+    flag,
+    load_vector,
+    number,
+    optional_whole,
+    pair,
+    real,
+    refuse,
+    row,
+    several,
+    shown,
+    sign,
+    whole,
+    word,
+    words,
+)
+from ._model import Model, Progress, model_of
 from ._result import Identification
 from ._several import SeveralIdentification
 
@@ -53,26 +71,45 @@ class Measurement:
     delay_s: float | Literal["unknown"] = 0.0
 
 
-def _plain(one: Measurement) -> SimpleNamespace:
+    def __post_init__(self) -> None:
+        _frfit.check_measurement("measurement", _plain(self, "measurement"))
+
+
+def _plain(one: Measurement, name: str) -> SimpleNamespace:
     """The measurement with plain arrays."""
+
+    def below(key: str) -> str:
+        return f"{name}.{key}"
+
+    def known(value: Any, key: str) -> float | None:
+        if isinstance(value, str) and value == "unknown":
+            return None
+        return number(value, below(key), 'a real number or "unknown"')
+
     return SimpleNamespace(
-        row=one.row,
-        sign=float(one.sign),
-        quantity=one.quantity,
-        frequency_hz=real(one.frequency_hz),
-        response=complex_(one.response),
-        std=None if one.std is None else real(one.std),
-        coherence=None if one.coherence is None else real(one.coherence),
-        averages=one.averages,
-        scale=None if one.scale == "unknown" else float(one.scale),
-        delay_s=None if one.delay_s == "unknown" else float(one.delay_s),
+        row=row(one.row, below("row")),
+        sign=sign(one.sign, below("sign")),
+        quantity=word(one.quantity, below("quantity")),
+        frequency_hz=real(one.frequency_hz, below("frequency_hz")),
+        response=complex_(one.response, below("response")),
+        std=None if one.std is None else real(one.std, below("std")),
+        coherence=None if one.coherence is None else real(one.coherence, below("coherence")),
+        averages=optional_whole(one.averages, below("averages"), 1),
+        scale=known(one.scale, "scale"),
+        delay_s=known(one.delay_s, "delay_s"),
     )
 
 
-def _band(entry: float | tuple[float, float]) -> tuple[float, float]:
+def _band(entry: Any) -> tuple[float, float]:
     """A line as a band of no width."""
-    low, high = entry if isinstance(entry, tuple | list) else (entry, entry)
-    return float(low), float(high)
+    if np.ndim(entry) == 0:
+        line = number(entry, "leave_out_hz")
+        return line, line
+    return pair(entry, "leave_out_hz")
+
+
+def _optional_word(value: Any, name: str) -> str | None:
+    return None if value is None else word(value, name)
 
 
 def identify(
@@ -87,11 +124,11 @@ def identify(
     method: Literal["rational", "series", "nelder-mead"] | None = None,
     order: int | None = None,
     selection: Literal["joint", "smallest"] | None = None,
-    space: Literal["auto", "full", "subspace"] | None = None,
+    reduction: Literal["auto", "full", "subspace"] | None = None,
     varies: Literal["frequency", "smooth", "law"] | None = None,
     law: str | Sequence[str] = (),
     real: bool = False,
-    robust: bool | None = None,
+    reject_outliers: bool | None = None,
     leave_out_hz: Sequence[float | tuple[float, float]] = (),
     most_lines: int | None = None,
     check: bool = True,
@@ -138,32 +175,46 @@ def identify(
     >>> bool(np.allclose(found.factor[found.ok], 1000 * (1 + 0.02j), rtol=1e-6)), found.trusted
     (True, 1.0)
     """
-    several = [measurements] if isinstance(measurements, Measurement) else list(measurements)
-    bounds = bounds or {}
+    compiled = model_of(model)
+    expected = "a Measurement or several"
+    one = isinstance(measurements, Measurement)
+    measured = [measurements] if one else several(measurements, "measurements", expected)
+    for measurement in measured:
+        if not isinstance(measurement, Measurement):
+            raise refuse("measurements", expected, shown(measurement))
+    if bounds is not None and not isinstance(bounds, Mapping):
+        raise refuse("bounds", "a dictionary of storage and loss_factor", shown(bounds))
+    bounds = dict(bounds or {})
     if unknown := set(bounds) - {"storage", "loss_factor"}:
-        raise TypeError(f"bounds: expected storage or loss_factor, found {sorted(unknown)[0]!r}")
+        raise refuse("bounds", "storage or loss_factor", shown(sorted(map(str, unknown))[0]))
+    if nominal not in (None, "estimate"):
+        raise refuse("nominal", '"estimate" or None', shown(nominal))
+
+    def bound(key: str) -> tuple[float, float] | None:
+        return pair(bounds[key], f"bounds.{key}") if bounds.get(key) is not None else None
+
     options = {
-        "matrices": [matrix] if isinstance(matrix, str) else list(matrix),
-        "band_hz": band_hz,
-        "leave_out_hz": [_band(entry) for entry in leave_out_hz],
-        "most_lines": most_lines,
-        "method": method,
-        "selection": selection,
-        "space": space,
-        "order": order,
-        "storage": bounds.get("storage"),
-        "loss_factor": bounds.get("loss_factor"),
-        "real": real,
+        "matrices": words(matrix, "matrix"),
+        "band_hz": None if band_hz is None else pair(band_hz, "band_hz"),
+        "leave_out_hz": [_band(entry) for entry in several(leave_out_hz, "leave_out_hz", "lines and bands")],
+        "most_lines": None if most_lines is None else whole(most_lines, "most_lines"),
+        "method": _optional_word(method, "method"),
+        "selection": _optional_word(selection, "selection"),
+        "reduction": _optional_word(reduction, "reduction"),
+        "order": optional_whole(order, "order", 0),
+        "storage": bound("storage"),
+        "loss_factor": bound("loss_factor"),
+        "real": flag(real, "real"),
         "estimate": nominal == "estimate",
-        "robust": robust,
-        "varies": varies,
-        "laws": [law] if isinstance(law, str) else list(law),
-        "check": check,
-        "memory_bytes": memory_bytes,
+        "reject_outliers": None if reject_outliers is None else flag(reject_outliers, "reject_outliers"),
+        "varies": _optional_word(varies, "varies"),
+        "laws": words(law, "law"),
+        "check": flag(check, "check"),
+        "memory_bytes": optional_whole(memory_bytes, "memory_bytes", 0),
     }
     force = load_vector(load, model.dim)
-    found = _frfit.identify(model._model, force, [_plain(one) for one in several], options, progress)
-    return Identification._of(found)
+    plain = [_plain(one, f"measurement {k}") for k, one in enumerate(measured, 1)]
+    return Identification._of(_frfit.identify(compiled, force, plain, options, callable_(progress)))
 
 
 def run_case(
@@ -174,7 +225,7 @@ def run_case(
     order: int | None = None,
     band_hz: tuple[float, float] | None = None,
     selection: str | None = None,
-    space: str | None = None,
+    reduction: str | None = None,
     memory_bytes: int | None = None,
     progress: Progress | None = None,
 ) -> Identification | SeveralIdentification:
@@ -191,7 +242,17 @@ def run_case(
     InputError, OutsideTableError, ModelMemoryError, WriteError
         With the text of the command line.
     """
-    found = _frfit.run_case(path, out, method, order, band_hz, selection, space, memory_bytes, progress)
+    found = _frfit.run_case(
+        path,
+        out,
+        _optional_word(method, "method"),
+        optional_whole(order, "order", 0),
+        None if band_hz is None else pair(band_hz, "band_hz"),
+        _optional_word(selection, "selection"),
+        _optional_word(reduction, "reduction"),
+        optional_whole(memory_bytes, "memory_bytes", 0),
+        callable_(progress),
+    )
     return SeveralIdentification._of(found) if "unknowns" in found else Identification._of(found)
 
 

@@ -9,6 +9,8 @@ import numpy as np
 import scipy.sparse as sp
 
 from . import _frfit
+from ._arrays import shown
+from ._errors import MatrixError
 
 
 def read_matrix(path: str | os.PathLike[str], name: str | None = None) -> Any:
@@ -17,6 +19,10 @@ def read_matrix(path: str | os.PathLike[str], name: str | None = None) -> Any:
     The kind of file is told by its content: Matrix Market, Harwell-Boeing, CalculiX, Abaqus, Nastran (DMIG, OUTPUT4),
     NumPy, MATLAB. A pattern has ones for values. Rows are in the order of the file: where files name their rows, and in
     different orders, :func:`run_case` brings them to one, and this function does not.
+
+    Compressed files (``.npz``, ``.mat``) are inflated no further than their headers declare. What dense arrays hold but
+    zeros may take 16 times the size of the file + 1 MB, the vectors of a sparse matrix 128 times + 1 MB; what takes more
+    is read where it is saved uncompressed.
 
     Parameters
     ----------
@@ -53,11 +59,128 @@ def read_matrix(path: str | os.PathLike[str], name: str | None = None) -> Any:
     return sp.csc_array((values, (rows, cols)), shape=found["shape"])
 
 
-def compressed(matrix: Any) -> tuple[Any, Any, Any, Any]:
-    """Shape, data, row indices and column pointers: those of the matrix itself where it is CSC and canonical."""
-    csc = matrix.tocsc() if sp.issparse(matrix) else sp.csc_array(np.atleast_2d(np.asarray(matrix)))
+def compressed(matrix: Any, name: str) -> tuple[Any, Any, Any, Any]:
+    """Shape, data, row indices and column pointers: those of the matrix itself where it is CSC and canonical.
+
+    SciPy converts without a look at the indices: where they point outside, it reads and writes there. So they are
+    checked before anything else is done with them.
+
+    Raises
+    ------
+    MatrixError
+        Arrays that contradict each other, or what is no number.
+    """
+    if sp.issparse(matrix):
+        if matrix.ndim != 2:
+            raise _refused(name, "rows and columns", f"{matrix.ndim} dimension(s)")
+        kind = matrix.dtype.kind
+        if kind not in "iufc":
+            raise _refused(name, "real or complex numbers", f"a matrix of {matrix.dtype}")
+        try:
+            csc = _canonical(matrix, name)
+        except MatrixError:
+            raise
+        except Exception as error:
+            # Whatever SciPy says of arrays of other kinds than it makes itself.
+            found = f"one that SciPy cannot convert: {error}"
+            raise _refused(name, f"a sound matrix of format {matrix.format}", found) from error
+    else:
+        try:
+            array = np.asarray(matrix)
+        except (TypeError, ValueError):
+            raise _refused(name, "an array of numbers", shown(matrix)) from None
+        if array.dtype.kind not in "iufc":
+            raise _refused(name, "real or complex numbers", f"an array of {array.dtype}")
+        if array.ndim > 2:
+            raise _refused(name, "rows and columns", f"{array.ndim} dimensions")
+        csc = sp.csc_array(np.atleast_2d(array))
+    kind = np.complex128 if np.iscomplexobj(csc.data) else np.float64
+    return csc.shape, np.asarray(csc.data, dtype=kind), _indices(csc.indices), _indices(csc.indptr)
+
+
+def _indices(array: Any) -> Any:
+    """Indices of the two kinds that the compiled part takes."""
+    return array if array.dtype in (np.int32, np.int64) else array.astype(np.int64)
+
+
+def _canonical(matrix: Any, name: str) -> Any:
+    """Sound compressed columns, sorted, each position once."""
+    if matrix.format not in _SOUND:
+        # Lists and dictionaries: SciPy makes compressed rows or positions of them without a look at the numbers.
+        matrix = matrix.tocsr() if matrix.format == "lil" else matrix.tocoo()
+    _SOUND[matrix.format](matrix, name)
+    csc = matrix.tocsc()
+    _compressed(csc, name)
+    # The same arrays in another matrix: what this one remembers of itself may not hold any more.
+    csc = sp.csc_array((csc.data, csc.indices, csc.indptr), shape=csc.shape)
     if not csc.has_canonical_format:
         csc = csc.copy()
         csc.sum_duplicates()
-    kind = np.complex128 if np.iscomplexobj(csc.data) else np.float64
-    return csc.shape, np.asarray(csc.data, dtype=kind), csc.indices, csc.indptr
+    return csc
+
+
+def _refused(name: str, expected: str, found: str) -> MatrixError:
+    return MatrixError(f"matrix {name!r}: expected {expected}, found {found}")
+
+
+def _vector(array: Any, what: str, name: str, kinds: str = "iu") -> Any:
+    array = np.asarray(array)
+    if array.ndim != 1 or array.dtype.kind not in kinds:
+        expected = "whole numbers" if kinds == "iu" else "numbers"
+        raise _refused(name, f"{what} in a vector of {expected}", f"{array.ndim} dimension(s) of {array.dtype}")
+    return array
+
+
+def _within(array: Any, end: int, what: str, name: str) -> None:
+    if array.size and (array.min() < 0 or array.max() >= end):
+        outside = array.min() if array.min() < 0 else array.max()
+        raise _refused(name, f"{what} from 0 to {end - 1}", str(outside))
+
+
+def _pointers(indptr: Any, indices: Any, count: int, major: int, name: str) -> None:
+    """Of compressed rows or columns: behind the last pointer arrays may be longer, as SciPy has them."""
+    if indptr.shape != (major + 1,):
+        raise _refused(name, f"indptr of {major + 1} numbers", str(indptr.size))
+    if indptr[0] != 0 or (indptr[1:] < indptr[:-1]).any():
+        raise _refused(name, "indptr that ascends from 0", "one that does not")
+    last = int(indptr[-1])
+    if last > min(indices.size, count):
+        raise _refused(name, f"indptr that ends at the {min(indices.size, count)} entries that are there", str(last))
+
+
+def _compressed(matrix: Any, name: str) -> None:
+    indices, indptr = _vector(matrix.indices, "indices", name), _vector(matrix.indptr, "indptr", name)
+    data = _vector(matrix.data, "data", name, "iufc")
+    major, minor = matrix.shape if matrix.format == "csr" else matrix.shape[::-1]
+    _pointers(indptr, indices, data.size, major, name)
+    _within(indices[: int(indptr[-1])], minor, "indices", name)
+
+
+def _blocks(matrix: Any, name: str) -> None:
+    indices, indptr = _vector(matrix.indices, "indices", name), _vector(matrix.indptr, "indptr", name)
+    data = np.asarray(matrix.data)
+    blocks = data.shape[1:]
+    if data.ndim != 3 or 0 in blocks or any(size % block for size, block in zip(matrix.shape, blocks, strict=True)):
+        raise _refused(name, "data of blocks that fill the matrix", f"an array of {' x '.join(map(str, data.shape))}")
+    _pointers(indptr, indices, data.shape[0], matrix.shape[0] // blocks[0], name)
+    _within(indices[: int(indptr[-1])], matrix.shape[1] // blocks[1], "indices", name)
+
+
+def _coordinates(matrix: Any, name: str) -> None:
+    rows, cols = _vector(matrix.row, "rows", name), _vector(matrix.col, "columns", name)
+    data = _vector(matrix.data, "data", name, "iufc")
+    if not rows.size == cols.size == data.size:
+        found = f"{rows.size} rows, {cols.size} columns, {data.size} values"
+        raise _refused(name, "as many rows as columns as values", found)
+    _within(rows, matrix.shape[0], "rows", name)
+    _within(cols, matrix.shape[1], "columns", name)
+
+
+def _diagonals(matrix: Any, name: str) -> None:
+    offsets, data = _vector(matrix.offsets, "offsets", name), np.asarray(matrix.data)
+    if data.ndim != 2 or data.shape[0] != offsets.size or np.unique(offsets).size != offsets.size:
+        found = f"{offsets.size} offsets and an array of {' x '.join(map(str, data.shape))}"
+        raise _refused(name, "one row of data for each of different offsets", found)
+
+
+_SOUND = {"csr": _compressed, "csc": _compressed, "bsr": _blocks, "coo": _coordinates, "dia": _diagonals}

@@ -6,10 +6,26 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal, TypeAlias
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _frfit
-from ._arrays import Complex, load_vector, real
+from ._arrays import (
+    Complex,
+    callable_,
+    load_vector,
+    number,
+    numbers,
+    real,
+    refuse,
+    row,
+    several,
+    shown,
+    sign,
+    whole,
+    word,
+    words,
+)
 from ._frfit import Law, Series
 from ._matrix import compressed
 
@@ -52,12 +68,14 @@ class Model:
     """
 
     def __init__(self, terms: Sequence[Term]) -> None:
-        def law(factor: complex | Law) -> Law:
-            return factor if isinstance(factor, Law) else Law.constant(complex(factor))
-
-        self._model = _frfit.Model(
-            [(term.name, term.role, law(term.factor), *compressed(term.matrix)) for term in terms]
-        )
+        plain = []
+        for term in several(terms, "terms", "a sequence of Term"):
+            if not isinstance(term, Term):
+                raise refuse("terms", "a sequence of Term", shown(term))
+            name = word(term.name, "name")
+            role = word(term.role, f"matrix {name!r}.role")
+            plain.append((name, role, _law(term.factor, f"matrix {name!r}.factor"), *compressed(term.matrix, name)))
+        self._model = _frfit.Model(plain)
 
     @property
     def dim(self) -> int:
@@ -73,13 +91,33 @@ class Model:
         return f"<frfit.Model of {self.dim} degrees of freedom: {', '.join(self.names)}>"
 
 
-def _sensors(sensors: Sequence[int], signs: Sequence[float] | None) -> tuple[list[int], list[float]]:
-    rows = [int(row) for row in sensors]
-    if any(row < 0 for row in rows):
-        raise IndexError(f"sensors: expected rows from 0, found {min(rows)}")
-    senses = [1.0] * len(rows) if signs is None else [float(sign) for sign in signs]
+def _law(factor: Any, name: str) -> Law:
+    """A law, of a number the constant one."""
+    if isinstance(factor, Law):
+        return factor
+    expected = "a real or complex number, or a Law"
+    array = numbers(factor, name, kinds="iufc", expected=expected)
+    if array.size != 1 or not np.isfinite(array).all():
+        raise refuse(name, f"{expected}, finite", shown(factor))
+    return Law.constant(complex(array.reshape(())))
+
+
+def model_of(model: Any) -> _frfit.Model:
+    """The compiled model."""
+    if not isinstance(model, Model):
+        raise refuse("model", "a Model", shown(model))
+    return model._model
+
+
+def _sensors(sensors: Any, signs: Any, dim: int) -> tuple[list[int], list[float]]:
+    rows = [row(one, "sensors", dim) for one in several(sensors, "sensors", "a sequence of rows")]
+    if not rows:
+        raise refuse("sensors", "at least one row", "none")
+    if signs is None:
+        return rows, [1.0] * len(rows)
+    senses = [sign(one, "signs") for one in several(signs, "signs", "a sequence of +1 and -1")]
     if len(senses) != len(rows):
-        raise ValueError(f"signs: expected {len(rows)}, one for each sensor, found {len(senses)}")
+        raise refuse("signs", f"{len(rows)}, one for each sensor", str(len(senses)))
     return rows, senses
 
 
@@ -117,9 +155,10 @@ def respond(
     >>> bool(np.allclose(x[:, 0], [1 / 100, 1 / (100 - 2 * (2 * np.pi) ** 2)]))
     True
     """
-    rows, senses = _sensors(sensors, signs)
+    compiled = model_of(model)
+    rows, senses = _sensors(sensors, signs, model.dim)
     force = load_vector(load, model.dim)
-    return _frfit.respond(model._model, force, rows, senses, real(frequency_hz), progress)
+    return _frfit.respond(compiled, force, rows, senses, real(frequency_hz, "frequency_hz"), callable_(progress))
 
 
 def series(
@@ -150,7 +189,9 @@ def series(
     >>> round(s.spectral_radius(50.0), 6)                # converges for |c| < 100
     0.5
     """
-    rows, senses = _sensors(sensors, signs)
-    names = [matrix] if isinstance(matrix, str) else list(matrix)
+    compiled = model_of(model)
+    rows, senses = _sensors(sensors, signs, model.dim)
     force = load_vector(load, model.dim)
-    return _frfit.series(model._model, force, rows, senses, frequency_hz, names, order)
+    hz = number(frequency_hz, "frequency_hz")
+    most = max(whole(order, "order"), 0)
+    return _frfit.series(compiled, force, rows, senses, hz, words(matrix, "matrix"), most)

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from types import SimpleNamespace
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _frfit
-from ._arrays import Complex, Real, real
+from ._arrays import Complex, Real, number, numbers, optional_number, real, refuse, several, shown, whole, word
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,6 +25,33 @@ class Recording:
     step_s: float
     force: ArrayLike
     responses: ArrayLike
+
+    def __post_init__(self) -> None:
+        _plain(self)
+
+
+def _plain(one: Any) -> SimpleNamespace:
+    """The recording with plain arrays."""
+    if not isinstance(one, Recording):
+        raise refuse("recordings", "a Recording or several", shown(one))
+    step_s, force = number(one.step_s, "step_s"), real(one.force, "force")
+    if not (np.isfinite(step_s) and step_s > 0.0):
+        raise refuse("step_s", "a finite time above 0 s", shown(one.step_s))
+    responses = np.atleast_2d(np.asarray(numbers(one.responses, "responses"), dtype=np.float64))
+    if responses.ndim != 2 or responses.shape[1] != force.size:
+        found = f"an array of {' x '.join(map(str, responses.shape))}"
+        raise refuse("responses", f"{force.size} samples of each sensor, as force has", found)
+    for name, values in (("force", force), ("responses", responses)):
+        if not np.isfinite(values).all():
+            raise refuse(name, "finite numbers", shown(float(values[~np.isfinite(values)][0])))
+    return SimpleNamespace(step_s=step_s, force=force, responses=responses)
+
+
+def _hit(value: Any) -> int:
+    found = whole(value, "keep", "numbers of hits, from 1")
+    if found < 1:
+        raise refuse("keep", "numbers of hits, from 1", str(found))
+    return found
 
 
 @dataclass(frozen=True)
@@ -89,25 +116,19 @@ def frf(
     >>> bool(np.allclose(found.response, 2.0)), found.averages
     (True, 1)
     """
-    several = [recordings] if isinstance(recordings, Recording) else list(recordings)
-    plain = [
-        SimpleNamespace(
-            step_s=float(one.step_s),
-            force=real(one.force),
-            responses=np.atleast_2d(np.asarray(one.responses, dtype=np.float64)),
-        )
-        for one in several
-    ]
+    expected = "a Recording or several"
+    one = isinstance(recordings, Recording)
+    plain = [_plain(each) for each in ([recordings] if one else several(recordings, "recordings", expected))]
     how = {
-        "estimator": estimator,
-        "trigger_n": trigger_n,
-        "pre_trigger_s": pre_trigger_s,
-        "length_s": length_s,
-        "double_hit": double_hit,
-        "drift": drift,
-        "force_window_s": force_window_s,
-        "exponential_window_s": exponential_window_s,
-        "keep": list(keep),
+        "estimator": word(estimator, "estimator"),
+        "trigger_n": optional_number(trigger_n, "trigger_n"),
+        "pre_trigger_s": optional_number(pre_trigger_s, "pre_trigger_s"),
+        "length_s": optional_number(length_s, "length_s"),
+        "double_hit": number(double_hit, "double_hit"),
+        "drift": number(drift, "drift"),
+        "force_window_s": optional_number(force_window_s, "force_window_s"),
+        "exponential_window_s": optional_number(exponential_window_s, "exponential_window_s"),
+        "keep": [_hit(hit) for hit in several(keep, "keep", "numbers of hits, from 1")],
     }
     found = _frfit.frf(plain, how)
     hits = tuple(Hit(**{**hit, "faults": tuple(hit["faults"])}) for hit in found.pop("hits"))

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _frfit
-from ._arrays import Complex, Real, complex_, real
+from ._arrays import Complex, Real, complex_, flag, number, pair, real, refuse, several, shown, whole, word
 
 
 @dataclass(frozen=True)
@@ -90,8 +90,13 @@ class Uff:
             # The words for a file that is not there are the reader's.
             _frfit.readable(path)
             raise
+        self._path = os.path.abspath(path)
         self._file = _frfit.UffFile(path, np.asarray(mapped))
         self._summaries: tuple[UffSummary, ...] | None = None
+
+    def __reduce__(self) -> tuple[type[Uff], tuple[str | bytes]]:
+        """Pickled as where it is: whoever unpickles it maps the file anew."""
+        return Uff, (self._path,)
 
     def __len__(self) -> int:
         return len(self._file)
@@ -109,7 +114,10 @@ class Uff:
 
     def function(self, index: int) -> UffFunction:
         """The function at this place among :attr:`datasets`, from 0."""
-        found: dict[str, Any] = self._file.function(index)
+        place = whole(index, "index")
+        if place < 0:
+            raise refuse("index", "a whole number from 0", str(place))
+        found: dict[str, Any] = self._file.function(place)
 
         def dof(key: str) -> UffDof:
             entity, node, direction = found.pop(key)
@@ -159,23 +167,44 @@ def write_uff(
     path: str | os.PathLike[str], functions: UffFunction | Sequence[UffFunction], *, binary: bool = False
 ) -> None:
     """Writes functions as datasets 58 (text), or 58b (binary, exact in double precision): all of them, or nothing."""
-    several = [functions] if isinstance(functions, UffFunction) else list(functions)
+    expected = "a UffFunction or several"
+    found = [functions] if isinstance(functions, UffFunction) else several(functions, "functions", expected)
+
+    def dof(at: UffDof, key: str) -> tuple[str, int, int]:
+        if not isinstance(at, UffDof):
+            raise refuse(key, "a UffDof", shown(at))
+        node, direction = whole(at.node, f"{key}.node"), whole(at.direction, f"{key}.direction")
+        return word(at.entity, f"{key}.entity"), node, direction
+
+    def axis(of: UffAxis, key: str) -> tuple[int, str, str]:
+        if not isinstance(of, UffAxis):
+            raise refuse(key, "a UffAxis", shown(of))
+        label, unit = word(of.label, f"{key}.label"), word(of.unit, f"{key}.unit")
+        return whole(of.quantity, f"{key}.quantity"), label, unit
 
     def plain(one: UffFunction) -> dict[str, Any]:
-        axes = (one.abscissa_axis, one.ordinate_axis, one.denominator_axis)
-        values: Real | Complex = complex_(one.values) if np.iscomplexobj(one.values) else real(one.values)
+        if not isinstance(one, UffFunction):
+            raise refuse("functions", expected, shown(one))
+        values: Real | Complex = complex_(one.values, "values")
+        if not np.iscomplexobj(one.values):
+            values = real(one.values, "values")
+        lines = [word(line, "id") for line in several(one.id, "id", "up to five lines of text")]
         return {
-            "id": [*one.id, *[""] * 5][:5],
-            "function_type": one.function_type,
-            "response_dof": (one.response_dof.entity, one.response_dof.node, one.response_dof.direction),
-            "reference_dof": (one.reference_dof.entity, one.reference_dof.node, one.reference_dof.direction),
-            "double_precision": one.double_precision,
-            "load_case": one.load_case,
-            "z_value": float(one.z_value),
-            "even": one.even,
-            "axes": [(axis.quantity, axis.label, axis.unit) for axis in axes],
-            "abscissa": real(one.abscissa),
+            "id": [*lines, *[""] * 5][:5],
+            "function_type": whole(one.function_type, "function_type"),
+            "response_dof": dof(one.response_dof, "response_dof"),
+            "reference_dof": dof(one.reference_dof, "reference_dof"),
+            "double_precision": flag(one.double_precision, "double_precision"),
+            "load_case": whole(one.load_case, "load_case"),
+            "z_value": number(one.z_value, "z_value"),
+            "even": None if one.even is None else pair(one.even, "even"),
+            "axes": [
+                axis(one.abscissa_axis, "abscissa_axis"),
+                axis(one.ordinate_axis, "ordinate_axis"),
+                axis(one.denominator_axis, "denominator_axis"),
+            ],
+            "abscissa": real(one.abscissa, "abscissa"),
             "values": values,
         }
 
-    _frfit.write_uff(path, [plain(one) for one in several], binary)
+    _frfit.write_uff(path, [plain(one) for one in found], flag(binary, "binary"))

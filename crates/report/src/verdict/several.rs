@@ -7,7 +7,7 @@ use crate::number::{hertz, percent, significant, with_bar};
 use crate::results::{Number, Results, Several, Unknown};
 use frfit::identify::Status;
 
-/// Values have the units of the case, which no file tells.
+/// Values have the units of the case: numbers, laws and dimensions side by side.
 const NO_UNIT: &str = "";
 
 pub(super) fn verdict(results: &Results, several: &Several) -> Verdict {
@@ -25,7 +25,7 @@ pub(super) fn verdict(results: &Results, several: &Several) -> Verdict {
         shares: shares(&results.band, own),
         own,
         cautions: cautions(results, several),
-        names: Names { storage: "Value".into(), thing: "value".into(), unit: NO_UNIT, real: false },
+        names: Names { storage: "Value".into(), thing: "value".into(), unit: NO_UNIT.into(), real: false },
         rows: Vec::new(),
         nominal_error,
     }

@@ -1,5 +1,7 @@
 //! Results in the form of `frfit identify`, of an oscillator whose stiffness was half of what it should be.
 
+pub(crate) mod several;
+
 use serde_json::json;
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -140,6 +142,7 @@ pub(crate) fn results(made: &Made) -> BTreeMap<&'static str, Vec<u8>> {
     let summary = json!({
         "frfit": "0.1.0", "title": made.title, "tables": tables, "findings": findings, "sensors": sensors,
         "inputs": [{"file": made.file, "bytes": 1000, "sha256": "00".repeat(32)}],
+        "units": {"system": "SI"}, "factor_unit": "Pa",
         "model": {"dofs": 10, "nonzeros": 28, "matrices": [{"name": "core", "role": "stiffness"}]},
         "identify": {
             "matrix": ["core"], "varies": if made.free { "smooth" } else { "frequency" }, "method": "rational", "selection": "joint", "real": made.real,

@@ -24,6 +24,9 @@ pub(super) struct Field<'a> {
     value: &'a DeValue<'a>,
 }
 
+/// Keys that had another name: (old, new). A case with an old one is refused with the new one.
+const RENAMED: [(&str, &str); 2] = [("space", "reduction"), ("robust", "reject_outliers")];
+
 impl<'a> Table<'a> {
     /// A table at a place, with the keys of some sections.
     ///
@@ -47,7 +50,12 @@ impl<'a> Table<'a> {
         if let Some(key) = fields.keys().filter(is_unknown).min_by_key(|key| key.span().start) {
             let here = document.place(key.span(), place.key.clone());
             let listed = known.join(", ");
-            let expected = match nearest(key.get_ref(), known.iter().copied()) {
+            let renamed = RENAMED.iter().find(|(old, new)| old == key.get_ref() && known.contains(new));
+            let expected = match renamed
+                .map(|(_, new)| *new)
+                .or_else(|| nearest(key.get_ref(), known.iter().copied()))
+            {
+                Some(name) if renamed.is_some() => format!("the key {name:?}, which was renamed"),
                 Some(name) => format!("a known key, of which {name:?} is nearest"),
                 None => format!("a known key ({listed})"),
             };

@@ -64,6 +64,13 @@ pub(super) static CASE: Section = Section {
     about: "TOML. Paths are relative to the case file. A key that is not on this page is an error that names the nearest known one.",
     keys: &[
         key("title", "text", "the name of the file", "Stands over figures and report."),
+        key(
+            "units",
+            "\"m-kg-s\", \"SI\", \"mm-t-s\", \"mm-kg-ms\", \"mm-g-ms\", \"mm-kg-s\", \"m-t-s\", \"cm-g-s\", \"in-lbf-s\" or \"ft-lbf-s\"",
+            "SI",
+            "Units of the model: of matrices, factors, bounds, nominal values and what is attached; see [Units](units.md). \
+             Measurements and loads are in SI units in each of them, frequencies in hertz, and times of laws in seconds.",
+        ),
         key("matrix", "tables `[[matrix]]`, at least one", NEEDED, "The terms of the model."),
         key("dofs", "table `[dofs]`", "names of the matrices' files, else row numbers", "Names of the rows."),
         key(
@@ -93,6 +100,7 @@ pub(super) static CASE: Section = Section {
         ),
     ],
     examples: &["title = \"Bar\"
+units = \"SI\"
 [[matrix]]
 name = \"bar\"
 role = \"stiffness\"
@@ -137,7 +145,7 @@ pub(super) static MATRIX: Section = Section {
         ),
         key(
             "at",
-            "`{ dimension, values, files }`",
+            "`{ dimension, values, files, powers }`",
             "`file`",
             "The same matrix at several values of a dimension.",
         ),
@@ -146,6 +154,13 @@ pub(super) static MATRIX: Section = Section {
             "number, or a table as below",
             "1",
             "What the matrix is multiplied by. Of an unknown: its nominal value.",
+        ),
+        key(
+            "factor_is",
+            "\"modulus\" or \"relative\"",
+            "`modulus` from 100 on, else `relative`",
+            "Of a stiffness: a modulus, for a matrix that was made with modulus one, or a number relative to the modulus that the matrix was made with. \
+             Results are labelled by it. Say it where `units` have moduli of such sizes, as 2 MPa of rubber.",
         ),
     ],
     examples: &["[[matrix]]
@@ -156,6 +171,7 @@ factor = 910.0                 # kg/m³, for a matrix made with density one
 [[matrix]]
 name = \"plate\"
 role = \"stiffness\"
+factor_is = \"relative\"
 at = { dimension = \"thickness\", values = [0.0018, 0.002, 0.0022], files = [\"k18.mtx\", \"k20.mtx\", \"k22.mtx\"] }
 "],
 };
@@ -163,17 +179,33 @@ at = { dimension = \"thickness\", values = [0.0018, 0.002, 0.0022], files = [\"k
 pub(super) static MATRIX_AT: Section = Section {
     path: "matrix.at",
     title: "`at = { … }` of a matrix that depends on a dimension",
-    about: "A polynomial goes through the matrices at all values but one, in the middle, and has to meet that one: then it is the matrix at every value. \
-            `[[identify]]` with this name and a `nominal` value has the dimension as unknown; elsewhere it has that value.",
+    about: "The matrix is a sum of powers of the dimension. The sum goes through the matrices at all values but one, in the middle, and has to meet that one: then it is the matrix at every value. \
+            `[[identify]]` with this name and a `nominal` value has the dimension as unknown; elsewhere it has that value. \
+            Which powers solids, shells and beams need: [Several unknowns](several.md).",
     keys: &[
         key("dimension", "text", NEEDED, "Its name: that of an `[[identify]]`."),
-        key("values", "list of 3 to 10 numbers other than 0", NEEDED, "One more than the polynomial needs: 5 for a cube."),
+        key(
+            "values",
+            "list of numbers",
+            NEEDED,
+            "One more than there are powers, each once: 5 without `powers` for a cube. With `powers` above 0; without, from 3 to 10 of them, other than 0.",
+        ),
         key("files", "list of texts", NEEDED, "A file for each value, of one matrix each."),
+        key(
+            "powers",
+            "list of whole numbers from −12 to 12",
+            "0, 1, 2 and so on, one fewer than values",
+            "The powers of the dimension that are in the matrix, each once.",
+        ),
     ],
     examples: &["[[matrix]]
 name = \"plate\"
 role = \"stiffness\"
 at = { dimension = \"thickness\", values = [0.0018, 0.002, 0.0022], files = [\"k18.mtx\", \"k20.mtx\", \"k22.mtx\"] }
+", "[[matrix]]
+name = \"block\"
+role = \"stiffness\"
+at = { dimension = \"height\", powers = [-1, 0, 1], values = [1.6, 1.8, 2.0, 2.2], files = [\"k16.mtx\", \"k18.mtx\", \"k20.mtx\", \"k22.mtx\"] }
 "],
 };
 
@@ -201,7 +233,7 @@ pub(super) static COMPLEX_MODULUS: Section = Section {
             "storage",
             "number",
             NEEDED,
-            "E′, in the unit of the factor (Pa for a matrix made with modulus one).",
+            "E′, in the unit of the factor: that of a modulus in the case's `units` (Pa, MPa …) for a matrix made with modulus one.",
         ),
         key("loss_factor", "number", NEEDED, "η."),
     ],
@@ -302,7 +334,12 @@ pub(super) static LOAD: Section = Section {
     keys: &[
         key("dof", "name such as 12+Z", "`row` or `file`", "Unit force there; the sign is its sense."),
         key("row", "whole number", "`dof` or `file`", "Unit force on this row, from 1."),
-        key("file", "text", "`dof` or `row`", "CSV with `row` (from 1), `re`, `im`, in N."),
+        key(
+            "file",
+            "text",
+            "`dof` or `row`",
+            "CSV with `row` (from 1), `re`, `im`, in N (N·m in a row that is named as a rotation).",
+        ),
     ],
     examples: &[
         "[load]
@@ -320,7 +357,7 @@ file = \"force.csv\"
 pub(super) static ATTACHED: Section = Section {
     path: "attached",
     title: "`[[attached]]`",
-    about: "An accelerometer, the tip of a hammer, a suspension. `dof` or `row`, and at least one of `mass_kg`, `stiffness` and `damping`. No rotary inertia.",
+    about: "An accelerometer, the tip of a hammer, a suspension. `dof` or `row`, and at least one of `mass`, `mass_kg`, `stiffness` and `damping`. A number is in the `units` of the case, a text has units of its own. No rotary inertia.",
     keys: &[
         key(
             "dof",
@@ -329,15 +366,26 @@ pub(super) static ATTACHED: Section = Section {
             "Where it is; a mass then moves in all translations of that node.",
         ),
         key("row", "whole number", "`dof`", "Where it is; a mass then moves in this row alone."),
-        key("mass_kg", "number above 0, kg", "no mass", "A point mass."),
+        key("mass", "number above 0, or a text as `12 g`", "no mass", "A point mass."),
+        key("mass_kg", "number above 0, kg", "no mass", "The same in kg, whatever the `units` are."),
         key(
             "directions",
             "list of X, Y, Z",
             "all translations of the node",
             "In which directions the mass moves; beside `dof`.",
         ),
-        key("stiffness", "number above 0, N/m", "no spring", "A spring to ground (N·m/rad for a rotation)."),
-        key("damping", "number above 0, N·s/m", "no damper", "A viscous damper to ground."),
+        key(
+            "stiffness",
+            "number above 0, or a text as `3 N/mm`",
+            "no spring",
+            "A spring to ground: force over length, of a rotation moment over angle (`5 N m/rad`).",
+        ),
+        key(
+            "damping",
+            "number above 0, or a text as `0.2 N s/m`",
+            "no damper",
+            "A viscous damper to ground: force over velocity, of a rotation moment over angular velocity.",
+        ),
     ],
     examples: &[
         "[[attached]]
@@ -347,6 +395,7 @@ directions = [\"X\", \"Z\"]
 ",
         "[[attached]]
 row = 3
+mass = \"12 g\"
 stiffness = 800.0
 damping = 0.2
 ",
@@ -468,7 +517,7 @@ pub(super) static IDENTIFY: Section = Section {
             "Who chooses among several solutions: all sensors and frequencies together, or the least correction (the paper).",
         ),
         key(
-            "space",
+            "reduction",
             "\"auto\", \"full\" or \"subspace\"",
             "auto",
             "What answers at a frequency: the full model, or one reduced model for the band.",
@@ -482,7 +531,7 @@ pub(super) static IDENTIFY: Section = Section {
         key("bounds", "table", "none", "What the factor can be."),
         key("real", "true or false", "false", "A real factor, as a density or a spring."),
         key(
-            "robust",
+            "reject_outliers",
             "true or false",
             "true",
             "Of three or more sensors one that contradicts all others is left out.",
@@ -511,7 +560,7 @@ law = [\"fractional\", \"maxwell\"]
 branches = 3
 bounds = { storage = [1e5, 1e9], loss_factor = [0.0, 3.0] }
 nominal = \"estimate\"
-robust = false
+reject_outliers = false
 check = false
 ",
         "[identify]
@@ -519,7 +568,7 @@ matrix = \"plate\"
 method = \"series\"
 order = 30
 selection = \"smallest\"
-space = \"full\"
+reduction = \"full\"
 real = true
 truth = 2700.0
 ",
@@ -529,7 +578,7 @@ truth = 2700.0
 pub(super) static BOUNDS: Section = Section {
     path: "identify.bounds",
     title: "`bounds = { … }`",
-    about: "What is known beforehand: wide limits, in the unit of the factor.",
+    about: "What is known beforehand: wide limits, in the unit of the factor, of the case's `units`.",
     keys: &[
         key(
             "storage",
@@ -549,7 +598,7 @@ pub(super) static SEVERAL: Section = Section {
     path: "identify",
     title: "`[[identify]]`: several unknowns, or one that does not vary",
     about: "A table each. A single `[identify]` with `varies = \"constant\"` or `powers` is read the same way. \
-            The keys `method`, `order`, `selection`, `space`, `robust` and `check` are refused here: there is one way to find several unknowns.",
+            The keys `method`, `order`, `selection`, `reduction`, `reject_outliers` and `check` are refused here: there is one way to find several unknowns.",
     keys: &[
         key(
             "name",
@@ -581,7 +630,7 @@ pub(super) static SEVERAL: Section = Section {
             "nominal",
             "number",
             "needed of a dimension, else the factor of the matrix",
-            "A dimension's value to begin with: 1, or in metres where the matrices are made for one metre.",
+            "A dimension's value to begin with: 1, or a length in the case's `units` where the matrices are made for a length of one.",
         ),
         key("bounds", "table, or [low, high] of a real one", "none", "What it can be."),
         key("real", "true or false", "true of `powers`, else false", "A real unknown."),

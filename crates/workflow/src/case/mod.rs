@@ -14,9 +14,10 @@ pub use reference::reference;
 pub(crate) use sections::checked_band;
 
 use crate::error::Place;
+use crate::units::{Amount, UnitSystem};
 use frfit::dof::{Axis, DofName};
-use frfit::identify::{Method, Selection, Space};
-use frfit::laws::Family;
+use frfit::identify::{Method, Reduction, Selection};
+use frfit::laws::LawKind;
 use frfit::material::Law;
 use frfit::model::Role;
 use frfit::quantity::Quantity;
@@ -38,6 +39,8 @@ pub struct CaseFile {
     pub file: PathBuf,
     /// `title`.
     pub title: Option<String>,
+    /// `units`: those of the model.
+    pub units: UnitSystem,
     /// `[[matrix]]`, at least one, names distinct.
     pub matrices: Vec<MatrixEntry>,
     /// `dofs.file`.
@@ -71,6 +74,8 @@ pub struct MatrixEntry {
     pub at: Option<AtValues>,
     /// Factor, 1 where none is given.
     pub factor: Located<FactorEntry>,
+    /// Whether its factor is a modulus, where the case says; else it is relative to that of the matrix.
+    pub factor_is_modulus: Option<bool>,
 }
 
 /// A matrix that is given at several values of a dimension.
@@ -80,6 +85,8 @@ pub struct AtValues {
     pub dimension: Located<String>,
     /// Its values, each once, with the file of each.
     pub files: Vec<(f64, Located<String>)>,
+    /// Its powers that are in the matrix, one fewer than values; `None`: 0, 1, 2 and so on.
+    pub powers: Option<Located<Vec<i32>>>,
 }
 
 /// A factor: a law, or the file of a table.
@@ -108,13 +115,13 @@ pub struct AttachedEntry {
     /// Where it is.
     pub spot: Spot,
     /// A point mass, as of an accelerometer or a hammer's tip.
-    pub mass_kg: Option<f64>,
+    pub mass: Option<Amount>,
     /// In which directions of the node it moves; `None`: in all translations that the node has.
     pub directions: Option<Vec<Located<Axis>>>,
-    /// A spring to ground, N/m (N·m/rad for a rotation).
-    pub stiffness: Option<f64>,
-    /// A viscous damper to ground, N·s/m.
-    pub damping: Option<f64>,
+    /// A spring to ground.
+    pub stiffness: Option<Amount>,
+    /// A viscous damper to ground.
+    pub damping: Option<Amount>,
 }
 
 /// `[load]`.
@@ -178,7 +185,7 @@ pub struct IdentifyEntry {
     /// Selection.
     pub selection: Option<Located<Selection>>,
     /// What answers at a frequency.
-    pub space: Option<Space>,
+    pub reduction: Option<Reduction>,
     /// Where it says `nominal = "estimate"`.
     pub estimate: Option<Place>,
     /// `bounds.storage`.
@@ -188,7 +195,7 @@ pub struct IdentifyEntry {
     /// Whether the factor is real.
     pub real: bool,
     /// Whether a sensor that contradicts all others is left out.
-    pub robust: Option<bool>,
+    pub reject_outliers: Option<bool>,
     /// Whether to look for what is wrong with the data first.
     pub check: bool,
     /// The factor that a simulated measurement was made with.
@@ -204,7 +211,7 @@ pub enum VariesEntry {
     /// Smoothly.
     Smoothly,
     /// By one of these laws, which are to be compared.
-    ByLaw(Vec<Family>),
+    ByLaw(Vec<LawKind>),
 }
 
 impl VariesEntry {
@@ -216,7 +223,7 @@ impl VariesEntry {
         match word {
             "frequency" => Ok(Self::Freely),
             "smooth" => Ok(Self::Smoothly),
-            "law" => Ok(Self::ByLaw(Family::ALL.to_vec())),
+            "law" => Ok(Self::ByLaw(LawKind::ALL.to_vec())),
             _ => Err("\"frequency\" (a factor of its own at each), \"smooth\" or \"law\"".into()),
         }
     }
@@ -270,7 +277,7 @@ pub enum SoughtVaries {
     /// One value for the band.
     Constant,
     /// By a law.
-    ByLaw(Family),
+    ByLaw(LawKind),
 }
 
 /// What `leave_out_hz` lists.

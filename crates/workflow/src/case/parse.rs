@@ -3,7 +3,7 @@
 use super::document::Document;
 use super::field::{Table, shown};
 use super::keys::{ATTACHED, CASE, DOFS, LOAD, MATRIX, MEASUREMENT, Section};
-use super::sections::{attached, factor, identify, load, matrix, measurement, respond};
+use super::sections::{attached, factor, identify, load, matrix, measurement, respond, units};
 use super::several::{is_several, several};
 use super::{CaseFile, FactorEntry, MatrixEntry};
 use crate::error::{InputError, Place};
@@ -39,6 +39,7 @@ pub fn parse(file: &Path, bytes: &[u8]) -> Result<CaseFile, InputError> {
     };
     Ok(CaseFile {
         file: file.to_path_buf(),
+        units: case.find("units").map(|units| self::units(&units)).transpose()?.unwrap_or_default(),
         title: case.find("title").map(|title| title.text()).transpose()?.map(|title| title.value),
         matrices: named_once(matrices.iter().map(matrix).collect::<Result<_, _>>()?)?,
         dofs,

@@ -7,13 +7,20 @@ use super::{
     MatrixEntry, MeasurementEntry, RespondEntry, Spot, VariesEntry,
 };
 use crate::error::{InputError, Place};
+use crate::units::{Amount, AmountOf, UnitSystem, UnknownSystem, amount};
 use frfit::c64;
 use frfit::dof::{Axis, DofName};
-use frfit::identify::{Method, Selection, Space};
-use frfit::laws::{Family, MAX_BRANCHES, UnknownFamily};
+use frfit::identify::{Method, Reduction, Selection};
+use frfit::laws::{LawKind, MAX_BRANCHES, UnknownLawKind};
 use frfit::material::{Branch, Law};
 use frfit::model::Role;
 use frfit::quantity::Quantity;
+
+/// `units`.
+pub(super) fn units(field: &Field<'_>) -> Result<UnitSystem, InputError> {
+    let Located { value, place } = field.text()?;
+    value.parse().map_err(|unknown: UnknownSystem| InputError::at(&place, unknown.expected, unknown.found))
+}
 
 /// `[[matrix]]`.
 pub(super) fn matrix(table: &Table<'_>) -> Result<MatrixEntry, InputError> {
@@ -30,13 +37,24 @@ pub(super) fn matrix(table: &Table<'_>) -> Result<MatrixEntry, InputError> {
             Located { value: FactorEntry::Law(Law::Constant(c64::new(1.0, 0.0))), place: name.place.clone() }
         }
     };
+    let factor_is = |word: &str| match word {
+        "modulus" => Ok(true),
+        "relative" => Ok(false),
+        _ => Err("\"modulus\" or \"relative\"".to_owned()),
+    };
+    let factor_is = table.find("factor_is").map(|field| field.word(factor_is)).transpose()?;
+    if let (Some(given), Role::Mass | Role::Viscous) = (&factor_is, role.value) {
+        let found = "that of a mass or a damping";
+        return Err(InputError::at(&given.place, "the factor of a stiffness", found));
+    }
+    let factor_is_modulus = factor_is.map(|given| given.value);
     let at = table.find("at").map(|field| at_values(&field)).transpose()?;
     let (file, in_file) = match (&at, table.find("file")) {
         (None, _) => matrix_file(&table.need("file")?)?,
         (Some(at), None) => (at.files[0].1.clone(), None),
         (Some(_), Some(file)) => return Err(InputError::at(&file.place, "one of file and at", "both")),
     };
-    Ok(MatrixEntry { name, role: role.value, file, in_file, at, factor })
+    Ok(MatrixEntry { name, role: role.value, file, in_file, at, factor, factor_is_modulus })
 }
 
 /// `at = { dimension = "thickness", values = [0.8, 1.0, 1.2], files = ["k08.mtx", "k10.mtx", "k12.mtx"] }`.
@@ -45,30 +63,65 @@ fn at_values(field: &Field<'_>) -> Result<AtValues, InputError> {
     let values = table.need("values")?;
     let numbers = values.each("a list of numbers", |field| field.number())?;
     let files = table.need("files")?.texts()?;
-    if numbers.len() < LEAST_VALUES || numbers.len() > MOST_VALUES {
-        let expected = format!(
-            "from {LEAST_VALUES} to {MOST_VALUES} values: a polynomial goes through all but one, which checks it"
-        );
-        return Err(InputError::at(&values.place, expected, numbers.len().to_string()));
+    let powers = table.find("powers").map(|field| at_powers(&field)).transpose()?;
+    match &powers {
+        Some(powers) if numbers.len() != powers.value.len() + 1 => {
+            let count = powers.value.len();
+            let expected =
+                format!("{} values: one for each of {count} powers, and one that checks them", count + 1);
+            return Err(InputError::at(&values.place, expected, numbers.len().to_string()));
+        }
+        None if numbers.len() < LEAST_VALUES || numbers.len() > MOST_VALUES => {
+            let expected = format!(
+                "from {LEAST_VALUES} to {MOST_VALUES} values: a polynomial goes through all but one, which checks it"
+            );
+            return Err(InputError::at(&values.place, expected, numbers.len().to_string()));
+        }
+        _ => {}
     }
     if files.len() != numbers.len() {
         let expected = format!("{} files, one for each value", numbers.len());
         return Err(InputError::at(&table.need("files")?.place, expected, files.len().to_string()));
     }
-    let twice = |k: &usize| numbers[..*k].contains(&numbers[*k]) || numbers[*k] == 0.0;
-    if let Some(k) = (0..numbers.len()).find(twice) {
-        let expected = "values other than 0, each once";
+    // With powers a matrix of two values of opposite sign may be the same one twice, and a negative power of zero is none.
+    let (allowed, expected): (fn(f64) -> bool, _) = match powers {
+        Some(_) => (|value| value > 0.0, "values above 0, each once"),
+        None => (|value| value != 0.0, "values other than 0, each once"),
+    };
+    let wrong = |k: &usize| numbers[..*k].contains(&numbers[*k]) || !allowed(numbers[*k]);
+    if let Some(k) = (0..numbers.len()).find(wrong) {
         return Err(InputError::at(&values.place, expected, numbers[k].to_string()));
     }
     Ok(AtValues {
         dimension: table.need("dimension")?.text()?,
         files: numbers.into_iter().zip(files).collect(),
+        powers,
     })
 }
+
+/// The largest power of a dimension, and its least.
+pub(super) const MOST_POWER: i64 = 12;
 
 /// Values at which a matrix may be given: a straight line and its check at least; ninth powers of a dimension are none.
 const LEAST_VALUES: usize = 3;
 const MOST_VALUES: usize = 10;
+
+/// `powers = [-1, 0, 1]` of `at`: each once.
+fn at_powers(field: &Field<'_>) -> Result<Located<Vec<i32>>, InputError> {
+    let expected = format!("a list of 1 to {} whole numbers, each once", MOST_VALUES - 1);
+    let powers = field.each(&expected, |item| {
+        let power = item.whole()?.value;
+        match (-MOST_POWER..=MOST_POWER).contains(&power) {
+            true => Ok(power as i32),
+            false => Err(item.refuse(&format!("a whole number from -{MOST_POWER} to {MOST_POWER}"))),
+        }
+    })?;
+    let twice = (1..powers.len()).any(|k| powers[..k].contains(&powers[k]));
+    if twice || powers.is_empty() || powers.len() >= MOST_VALUES {
+        return Err(field.refuse(&expected));
+    }
+    Ok(Located { value: powers, place: field.place.clone() })
+}
 
 /// A file of one matrix, or a file and the name of one of its matrices.
 fn matrix_file(field: &Field<'_>) -> Result<(Located<String>, Option<Located<String>>), InputError> {
@@ -188,38 +241,60 @@ fn spot(table: &Table<'_>) -> Result<Option<Spot>, InputError> {
 
 /// `[[attached]]`.
 pub(super) fn attached(table: &Table<'_>) -> Result<AttachedEntry, InputError> {
-    let positive = |key: &str, expected: &str| {
-        let number = |field: Field<'_>| match field.number()? {
-            value if value > 0.0 => Ok(value),
-            _ => Err(field.refuse(expected)),
-        };
-        table.find(key).map(number).transpose()
-    };
-    let mass_kg = positive("mass_kg", "a mass above 0 kg")?;
-    let stiffness = positive("stiffness", "a stiffness above 0 N/m")?;
-    let damping = positive("damping", "a damping above 0 N s/m")?;
+    let positive =
+        |key: &str, of: AmountOf| table.find(key).map(|field| attached_amount(&field, of)).transpose();
+    let mass_kg = table.find("mass_kg").map(|field| match field.number()? {
+        value if value > 0.0 => Ok(Amount::Si { value, rotational: false }),
+        _ => Err(field.refuse("a mass above 0 kg")),
+    });
+    let (mass, mass_kg) = (positive("mass", AmountOf::Mass)?, mass_kg.transpose()?);
+    if let (Some(_), Some(field)) = (mass, table.find("mass_kg")) {
+        return Err(InputError::at(&field.place, "one of mass and mass_kg", "both"));
+    }
+    let mass = mass.or(mass_kg);
+    let stiffness = positive("stiffness", AmountOf::Stiffness)?;
+    let damping = positive("damping", AmountOf::Damping)?;
     let spot = spot(table)?
         .ok_or_else(|| InputError::at(&table.place, "the key \"dof\" or \"row\", where it is", "none"))?;
-    if mass_kg.or(stiffness).or(damping).is_none() {
-        let expected = "one of the keys mass_kg, stiffness and damping";
+    if mass.or(stiffness).or(damping).is_none() {
+        let expected = "one of the keys mass, mass_kg, stiffness and damping";
         return Err(InputError::at(&table.place, expected, "none"));
     }
     let directions = match table.find("directions") {
-        Some(field) => Some(directions(&field, &spot, mass_kg)?),
+        Some(field) => Some(directions(&field, &spot, mass)?),
         None => None,
     };
-    Ok(AttachedEntry { place: table.place.clone(), spot, mass_kg, directions, stiffness, damping })
+    Ok(AttachedEntry { place: table.place.clone(), spot, mass, directions, stiffness, damping })
+}
+
+/// A number above 0 in units of the case, or a text with units of its own.
+fn attached_amount(field: &Field<'_>, of: AmountOf) -> Result<Amount, InputError> {
+    let what = match of {
+        AmountOf::Mass => "a mass",
+        AmountOf::Stiffness => "a stiffness",
+        AmountOf::Damping => "a damping",
+    };
+    let expected =
+        format!("{what} above 0: a number in the units of the case, or a text as {:?}", of.example());
+    let found = match field.is_text() {
+        true => {
+            let Located { value, place } = field.text()?;
+            amount(&value, of).map_err(|found| InputError::at(&place, &expected, found))?
+        }
+        false => Amount::OfModel(field.as_number().ok_or_else(|| field.refuse(&expected))?),
+    };
+    if found.value() > 0.0 { Ok(found) } else { Err(field.refuse(&expected)) }
 }
 
 /// The directions in which a mass moves with its node.
 fn directions(
     field: &Field<'_>,
     spot: &Spot,
-    mass_kg: Option<f64>,
+    mass: Option<Amount>,
 ) -> Result<Vec<Located<Axis>>, InputError> {
     const EXPECTED: &str = "a list of \"X\", \"Y\" and \"Z\", each at most once";
-    if mass_kg.is_none() {
-        return Err(InputError::at(&field.place, "the key mass_kg beside it", "none"));
+    if mass.is_none() {
+        return Err(InputError::at(&field.place, "the key mass or mass_kg beside it", "none"));
     }
     if let Spot::Row(_) = spot {
         let found = "row, which has no node";
@@ -304,7 +379,7 @@ pub(super) fn identify(field: &Field<'_>) -> Result<IdentifyEntry, InputError> {
     let bounds = table.find("bounds").map(|field| field.table(&[&keys::BOUNDS])).transpose()?;
     let method = |word: &str| word.parse::<Method>().map_err(|unknown| unknown.expected.to_owned());
     let selection = |word: &str| word.parse::<Selection>().map_err(|unknown| unknown.expected.to_owned());
-    let space = |word: &str| word.parse::<Space>().map_err(|unknown| unknown.expected.to_owned());
+    let reduction = |word: &str| word.parse::<Reduction>().map_err(|unknown| unknown.expected.to_owned());
     let estimate = |word: &str| (word == "estimate").then_some(()).ok_or_else(|| ESTIMATE.to_owned());
     let bound = |name| bounds.as_ref().and_then(|table| table.find(name)).map(|f| f.pair()).transpose();
     Ok(IdentifyEntry {
@@ -317,12 +392,15 @@ pub(super) fn identify(field: &Field<'_>) -> Result<IdentifyEntry, InputError> {
         method: table.find("method").map(|field| field.word(method)).transpose()?.map(|m| m.value),
         order: table.find("order").map(|order| order.whole()).transpose()?,
         selection: table.find("selection").map(|field| field.word(selection)).transpose()?,
-        space: table.find("space").map(|field| field.word(space)).transpose()?.map(|s| s.value),
+        reduction: table.find("reduction").map(|field| field.word(reduction)).transpose()?.map(|s| s.value),
         estimate: table.find("nominal").map(|field| field.word(estimate)).transpose()?.map(|e| e.place),
         storage: bound("storage")?,
         loss_factor: bound("loss_factor")?,
         real: table.find("real").map(|real| real.flag()).transpose()?.unwrap_or(false),
-        robust: table.find("robust").map(|robust| robust.flag()).transpose()?,
+        reject_outliers: table
+            .find("reject_outliers")
+            .map(|reject_outliers| reject_outliers.flag())
+            .transpose()?,
         check: table.find("check").map(|check| check.flag()).transpose()?.unwrap_or(true),
         truth: table.find("truth").map(|truth| factor(&truth)).transpose()?,
     })
@@ -359,24 +437,24 @@ fn varies(table: &Table<'_>) -> Result<Option<Located<VariesEntry>>, InputError>
         };
     };
     let named = law.texts()?;
-    let mut families: Vec<Family> = Vec::with_capacity(named.len());
+    let mut kinds: Vec<LawKind> = Vec::with_capacity(named.len());
     for Located { value, place: here } in &named {
-        let family = value.parse::<Family>();
+        let family = value.parse::<LawKind>();
         let family =
-            family.map_err(|_| InputError::at(here, UnknownFamily::EXPECTED, format!("{value:?}")))?;
-        if families.contains(&family) {
+            family.map_err(|_| InputError::at(here, UnknownLawKind::EXPECTED, format!("{value:?}")))?;
+        if kinds.contains(&family) {
             return Err(InputError::at(here, "each law once", format!("{value:?} a second time")));
         }
-        families.push(family);
+        kinds.push(family);
     }
     if let Some(key) = branches {
         let branches = self::branches(&key)?;
         let Some(at) = named.iter().position(|named| named.value == "maxwell") else {
             return Err(InputError::at(&key.place, "law = \"maxwell\" beside it", "none"));
         };
-        families[at] = Family::Maxwell { branches };
+        kinds[at] = LawKind::Maxwell { branches };
     }
-    Ok(Some(Located { value: VariesEntry::ByLaw(families), place }))
+    Ok(Some(Located { value: VariesEntry::ByLaw(kinds), place }))
 }
 
 /// How many branches a law of Maxwell's has.

@@ -2,13 +2,13 @@
 
 use super::field::{Field, Table};
 use super::keys;
-use super::sections::{band, factor, leave_out};
+use super::sections::{MOST_POWER, band, factor, leave_out};
 use super::{Located, SeveralEntry, SoughtEntry, SoughtVaries};
 use crate::error::InputError;
-use frfit::laws::{Family, UnknownFamily};
+use frfit::laws::{LawKind, UnknownLawKind};
 
 /// Keys of a single unknown that varies.
-const OF_ONE: [&str; 6] = ["method", "order", "selection", "space", "robust", "check"];
+const OF_ONE: [&str; 6] = ["method", "order", "selection", "reduction", "reject_outliers", "check"];
 
 /// Whether `identify` is such: `[[identify]]`, or a single table with `powers` or a constant.
 pub(super) fn is_several(field: &Field<'_>) -> bool {
@@ -34,7 +34,7 @@ pub(super) fn several(field: &Field<'_>) -> Result<SeveralEntry, InputError> {
         }
     }
     let first = &tables[0];
-    let unknowns = tables.iter().map(sought).collect::<Result<Vec<_>, _>>()?;
+    let unknowns = tables.iter().map(unknowns).collect::<Result<Vec<_>, _>>()?;
     for (k, one) in unknowns.iter().enumerate() {
         if unknowns[..k].iter().any(|earlier| earlier.name.value == one.name.value) {
             let found = format!("{:?} a second time", one.name.value);
@@ -50,7 +50,7 @@ pub(super) fn several(field: &Field<'_>) -> Result<SeveralEntry, InputError> {
     })
 }
 
-fn sought(table: &Table<'_>) -> Result<SoughtEntry, InputError> {
+fn unknowns(table: &Table<'_>) -> Result<SoughtEntry, InputError> {
     let powers = table.find("powers").map(|field| powers(&field)).transpose()?.unwrap_or_default();
     let matrices = match (table.find("matrix"), powers.is_empty()) {
         (Some(matrix), true) => matrix.texts()?,
@@ -130,13 +130,13 @@ fn sought(table: &Table<'_>) -> Result<SoughtEntry, InputError> {
 /// `powers = { bending = 3, mass = 1 }`.
 fn powers(field: &Field<'_>) -> Result<Vec<(Located<String>, i32)>, InputError> {
     const EXPECTED: &str = "a table of matrices and powers, as { bending = 3, mass = 1 }";
-    const MOST: i64 = 12;
     let each = field.entries().ok_or_else(|| field.refuse(EXPECTED))?;
     let mut powers = Vec::new();
     for (name, value) in each {
         let power = value.whole()?.value;
-        if power == 0 || power.abs() > MOST {
-            return Err(value.refuse("a whole number from -12 to 12 other than 0"));
+        if power == 0 || !(-MOST_POWER..=MOST_POWER).contains(&power) {
+            let expected = format!("a whole number from -{MOST_POWER} to {MOST_POWER} other than 0");
+            return Err(value.refuse(&expected));
         }
         powers.push((Located { value: name, place: value.place }, power as i32));
     }
@@ -169,12 +169,12 @@ fn varies(table: &Table<'_>, is_dimension: bool, real: bool) -> Result<SoughtVar
             }
             let law = law.ok_or_else(|| InputError::at(&place, "the key law beside it", "none"))?;
             let family =
-                law.word(|word| word.parse::<Family>().map_err(|_| UnknownFamily::EXPECTED.to_owned()))?;
+                law.word(|word| word.parse::<LawKind>().map_err(|_| UnknownLawKind::EXPECTED.to_owned()))?;
             let mut family = family.value;
             if let Some(key) = branches {
                 let branches = super::sections::branches(&key)?;
                 match family {
-                    Family::Maxwell { .. } => family = Family::Maxwell { branches },
+                    LawKind::Maxwell { .. } => family = LawKind::Maxwell { branches },
                     _ => return Err(InputError::at(&key.place, "law = \"maxwell\" beside it", "none")),
                 }
             }

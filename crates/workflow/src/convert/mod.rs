@@ -8,11 +8,13 @@ mod target;
 mod uff;
 
 pub use options::ConvertOptions;
+pub(crate) use target::{OR_TO, ending_of};
 pub(crate) use uff::{companion, frf_dataset};
 
 use crate::error::{InputError, Place};
 use crate::inspect::unknown_kind;
 use crate::load::{load_bytes, matrices_of};
+use crate::reads::Reads;
 use frfit_formats::{FileKind, FormatError, detect, harwell_boeing, matrix_market, read_matrices};
 use std::path::Path;
 use target::Target;
@@ -34,9 +36,14 @@ use target::Target;
 /// An ending that names no format, or not one of matrices for a matrix, nor one of FRFs for an FRF; an option that
 /// is missing or has no meaning here; whatever the reader or the writer refuses; frequencies that the text of a UFF
 /// file would blur.
-pub fn convert(input: &Path, output: &Path, options: &ConvertOptions) -> Result<Vec<u8>, InputError> {
-    let target = Target::of(output)?;
-    let bytes = load_bytes(input)?;
+pub fn convert(
+    input: &Path,
+    output: &Path,
+    options: &ConvertOptions,
+    reads: &mut Reads,
+) -> Result<Vec<u8>, InputError> {
+    let target = Target::of(output, options.to.as_deref())?;
+    let bytes = load_bytes(input, reads)?;
     let in_input = |error: FormatError| InputError::in_file(input, error);
     let kind = detect(&bytes).ok_or_else(|| unknown_kind(input, &bytes, "a table (CSV)"))?;
     match (kind, target) {
@@ -58,7 +65,7 @@ pub fn convert(input: &Path, output: &Path, options: &ConvertOptions) -> Result<
         }
         (kind, Target::Table) if kind.may_name_rows() => {
             options.only(&["--name"], "the names of rows")?;
-            let one = matrices::one(input, matrices_of(input, &bytes)?, options)?;
+            let one = matrices::one(input, matrices_of(input, &bytes, reads)?, options)?;
             matrices::names_of_rows(&one.labels).map_err(in_input)
         }
         (FileKind::Uff, Target::Uff) => {

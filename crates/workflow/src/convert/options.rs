@@ -18,6 +18,8 @@ pub struct ConvertOptions {
     pub response: Option<DofName>,
     /// From a table to UFF: where it was driven. From UFF to a table: the FRF that was driven there.
     pub reference: Option<DofName>,
+    /// The ending that says the format of the output, in place of that of its name.
+    pub to: Option<String>,
     /// To UFF: functions in binary (58b, little endian) rather than as text.
     pub binary: bool,
 }

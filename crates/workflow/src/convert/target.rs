@@ -22,11 +22,12 @@ const OF_MATRICES: &str = ".mtx or .mm (Matrix Market), .hb, .rb, .rsa, .rua, .c
 const OF_FRFS: &str = ".uff, .unv or .uf (UFF), .csv (table)";
 
 impl Target {
-    pub(super) fn of(output: &Path) -> Result<Self, InputError> {
-        let ending = output.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase());
+    /// By the ending of the output's name, or by one that is given in its place.
+    pub(super) fn of(output: &Path, to: Option<&str>) -> Result<Self, InputError> {
+        let (place, ending) = ending_of(output, to);
         let refuse = |found| {
-            let expected = format!("an ending that names a format: {OF_MATRICES}, {OF_FRFS}");
-            Err(InputError::at(&Place::file(output), expected, found))
+            let expected = format!("an ending that names a format: {OF_MATRICES}, {OF_FRFS}{OR_TO}");
+            Err(InputError::at(&place, expected, found))
         };
         let Some(ending) = ending else { return refuse("none".to_owned()) };
         match ending.as_bytes() {
@@ -54,6 +55,20 @@ impl Target {
         let shown = |letters: &[u8]| String::from_utf8_lossy(letters).to_ascii_lowercase();
         let expected = format!("the ending .{} of what the matrix is, or .hb", shown(kind));
         Err(InputError::at(&Place::file(output), expected, format!(".{}", shown(&named))))
+    }
+}
+
+/// What else can be said where a name has no ending.
+pub(crate) const OR_TO: &str = "; or --to with one, for a name without (standard output, a device)";
+
+/// The ending that says the format of an output, and where it stands.
+pub(crate) fn ending_of(output: &Path, to: Option<&str>) -> (Place, Option<String>) {
+    match to {
+        Some(to) => (Place::option("--to"), Some(to.strip_prefix('.').unwrap_or(to).to_ascii_lowercase())),
+        None => {
+            let ending = output.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase());
+            (Place::file(output), ending)
+        }
     }
 }
 

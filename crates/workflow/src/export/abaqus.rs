@@ -6,7 +6,7 @@
 //! ω Re g* = G″/G∞, ω Im g* = 1 − G′/G∞, ω Re k* = K″/K∞, ω Im k* = 1 − K′/K∞, f in cycles per time.
 //!
 //! With a real, constant Poisson's ratio shear and bulk modulus have the factor of E, so that both pairs are those of E. Since only the product of the long-term modulus
-//! and these numbers enters a steady-state step, any E∞ gives the same E(ω); the one at the lowest frequency is written, which static steps use.
+//! and these numbers enter a steady-state step, any E∞ gives the same E(ω); the one at the lowest frequency is written, which static steps use.
 //!
 //! # Source
 //! Abaqus Analysis User's Guide, "Frequency domain viscoelasticity"; Abaqus Keywords Reference Guide, `*VISCOELASTIC`.

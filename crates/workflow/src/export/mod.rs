@@ -8,10 +8,12 @@ mod options;
 mod plain;
 mod solid;
 
+pub use crate::units::UnitSystem;
 pub use modulus::{Modulus, modulus};
-pub use options::{ExportOptions, Target, UnitSystem, UnknownWord};
+pub use options::{ExportOptions, Target, UnknownWord};
 
 use crate::error::{InputError, Place};
+use crate::reads::Reads;
 use solid::{Solid, heading};
 use std::path::Path;
 
@@ -22,6 +24,8 @@ pub struct Export {
     pub text: String,
     /// What is in it, in SI units.
     pub modulus: Modulus,
+    /// The units in which it was written.
+    pub units: UnitSystem,
 }
 
 /// A table of moduli, such as `identified.csv`, as the input of a solver, as a table or as JSON. With a law (a `law.json`) the values are those of the best law in it, at the
@@ -36,20 +40,26 @@ pub struct Export {
 ///
 /// # Errors
 /// What [`modulus()`] refuses; for a solver Poisson's ratio that is missing or out of range, a density that is not above zero, a number or name that the solver does not take.
-pub fn export(table: &Path, law: Option<&Path>, options: &ExportOptions) -> Result<Export, InputError> {
+pub fn export(
+    table: &Path,
+    law: Option<&Path>,
+    options: &ExportOptions,
+    reads: &mut Reads,
+) -> Result<Export, InputError> {
     if let Some(value) = options.modulus.filter(|&value| !(value > 0.0 && value.is_finite())) {
         return Err(InputError::at(&Place::option("--modulus"), "a modulus above 0 Pa", value.to_string()));
     }
-    let modulus = modulus(table, law, options)?;
+    let modulus = modulus(table, law, options, reads)?;
+    let units = options.units.or(modulus.units).unwrap_or_default();
     let source = table.file_name().unwrap_or_default().to_string_lossy();
-    let solid = || Solid::new(&modulus, options);
-    let heading = || heading(&modulus, options, &source);
+    let solid = || Solid::new(&modulus, options, units);
+    let heading = || heading(&modulus, options, units, &source);
     let text = match options.target {
         Target::Nastran => nastran::nastran(&solid()?, options.id, &heading(), table)?,
         Target::Abaqus => abaqus::abaqus(&solid()?, &options.name, &heading(), table)?,
         Target::Ansys => ansys::ansys(&solid()?, options.id, &heading(), table)?,
-        Target::Csv => plain::csv(&modulus, options),
-        Target::Json => plain::json(&modulus, options, &source),
+        Target::Csv => plain::csv(&modulus, units),
+        Target::Json => plain::json(&modulus, units, &source),
     };
-    Ok(Export { text, modulus })
+    Ok(Export { text, modulus, units })
 }

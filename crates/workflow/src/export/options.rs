@@ -1,5 +1,6 @@
 //! What a table of moduli is written as.
 
+use crate::units::UnitSystem;
 use std::fmt;
 use std::str::FromStr;
 
@@ -64,78 +65,18 @@ impl FromStr for Target {
     }
 }
 
-/// The units of the model that the table is for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum UnitSystem {
-    /// m, kg, s: moduli in Pa, densities in kg/m³.
-    #[default]
-    Si,
-    /// mm, t, s (and N): moduli in MPa, densities in t/mm³.
-    MillimetreTonne,
-}
-
-impl UnitSystem {
-    /// As the command line has it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Si => "SI",
-            Self::MillimetreTonne => "mm-t-s",
-        }
-    }
-
-    /// The unit of a modulus.
-    pub fn modulus_unit(self) -> &'static str {
-        match self {
-            Self::Si => "Pa",
-            Self::MillimetreTonne => "MPa",
-        }
-    }
-
-    /// The unit of a density.
-    pub fn density_unit(self) -> &'static str {
-        match self {
-            Self::Si => "kg/m^3",
-            Self::MillimetreTonne => "t/mm^3",
-        }
-    }
-
-    /// A modulus in pascal, in this system: 1 N/mm² = 1 MPa.
-    pub fn modulus(self, pascal: f64) -> f64 {
-        match self {
-            Self::Si => pascal,
-            Self::MillimetreTonne => pascal / 1e6,
-        }
-    }
-
-    /// A density in kg/m³, in this system: 1 t/mm³ = 1e12 kg/m³.
-    pub fn density(self, kg_per_m3: f64) -> f64 {
-        match self {
-            Self::Si => kg_per_m3,
-            Self::MillimetreTonne => kg_per_m3 / 1e12,
-        }
-    }
-}
-
-impl FromStr for UnitSystem {
-    type Err = UnknownWord;
-
-    fn from_str(text: &str) -> Result<Self, UnknownWord> {
-        known(&[("SI", Self::Si), ("mm-t-s", Self::MillimetreTonne)], text)
-    }
-}
-
 /// What is to be written, and how.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ExportOptions {
     /// Who is to read it.
     pub target: Target,
-    /// The units of the numbers.
-    pub units: UnitSystem,
+    /// The units of the numbers; `None`: those of the case that the table came of, else SI.
+    pub units: Option<UnitSystem>,
     /// Poisson's ratio; a solver needs it.
     pub poisson: Option<f64>,
     /// kg/m³.
     pub density: Option<f64>,
-    /// The modulus in pascal that the matrix was made with, where the table's factors are relative to it.
+    /// The modulus in pascal that the matrix was made with, where the table's factors are relative to it: then they are, whatever the case says.
     pub modulus: Option<f64>,
     /// Number of the material (Nastran and Ansys), and of the first of Nastran's tables.
     pub id: u32,

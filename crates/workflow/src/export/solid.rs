@@ -3,6 +3,7 @@
 use super::modulus::Modulus;
 use super::options::ExportOptions;
 use crate::error::{InputError, Place};
+use crate::units::UnitSystem;
 use frfit::c64;
 
 /// An isotropic solid with a modulus over frequency, in the units of its model.
@@ -19,7 +20,11 @@ impl Solid {
     ///
     /// # Errors
     /// Poisson's ratio that is missing or not above −1 and below ½; a density that is not above zero.
-    pub(super) fn new(modulus: &Modulus, options: &ExportOptions) -> Result<Self, InputError> {
+    pub(super) fn new(
+        modulus: &Modulus,
+        options: &ExportOptions,
+        units: UnitSystem,
+    ) -> Result<Self, InputError> {
         let place = Place::option("--poisson");
         let expected =
             "Poisson's ratio, above -1 and below 0.5: the material needs it, and one modulus does not tell";
@@ -32,21 +37,20 @@ impl Solid {
             return Err(InputError::at(&place, "a density above 0 kg/m^3", density.to_string()));
         }
         let point = |row: &frfit_formats::csv::ModulusRow| {
-            let storage = options.units.modulus(row.storage);
+            let storage = units.modulus(row.storage);
             (row.frequency_hz, c64::new(storage, storage * row.loss_factor))
         };
         Ok(Self {
             points: modulus.rows.iter().map(point).collect(),
             poisson,
-            density: options.density.map(|density| options.units.density(density)),
+            density: options.density.map(|density| units.density(density)),
         })
     }
 }
 
 /// What every deck says at its head.
-pub(super) fn heading(modulus: &Modulus, options: &ExportOptions, source: &str) -> String {
+pub(super) fn heading(modulus: &Modulus, options: &ExportOptions, units: UnitSystem, source: &str) -> String {
     let [first, last] = modulus.band_hz();
-    let units = options.units;
     let mut text = format!(
         "frfit {}: complex modulus E = E'(1 + i eta) of {source}, time convention exp(+i omega t)\n\
          units {}: E in {}, density in {}, frequency in Hz\n\
@@ -58,7 +62,7 @@ pub(super) fn heading(modulus: &Modulus, options: &ExportOptions, source: &str) 
         modulus.rows.len()
     );
     text += &match (&modulus.law, modulus.left_out_words(), options.all) {
-        (Some(law), _, _) => format!(", values of the law {law} (SI units)"),
+        (Some(law), _, _) => format!(", values of the law {law} ({})", modulus.law_unit()),
         (None, Some(words), _) => format!("; left out: {words}"),
         (None, None, true) => ", whatever their status".into(),
         (None, None, false) => String::new(),

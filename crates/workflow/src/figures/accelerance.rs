@@ -12,7 +12,7 @@ pub(super) fn identified(case: &Case, identify: &IdentifyCase, run: &IdentifyRun
     let nominal = run.outcomes.iter().map(|o| o.nominal_response.get(sensor).copied()).collect();
     let updated = run.outcomes.iter().map(|o| o.updated_response.get(sensor).copied()).collect();
     let measured = frequency_hz.iter().zip(&identify.measured);
-    let measured = measured.map(|(&f, u)| run.measured(f, u).get(sensor).copied()).collect();
+    let measured = measured.map(|(&f, u)| Some(run.measured_by(sensor, f, *u.get(sensor)?))).collect();
     compared(case, sensor, frequency_hz, [nominal, measured, updated], status_strip(run))
 }
 

@@ -1,7 +1,7 @@
 //! Every solution over frequency, and the path that was chosen through them.
 
 use super::{status_strip, title};
-use crate::load::Case;
+use crate::load::{Case, IdentifyCase};
 use crate::run::IdentifyRun;
 use frfit::c64;
 use frfit::identify::Identified;
@@ -9,7 +9,7 @@ use frfit::material::loss_factor;
 use frfit::roots::Candidate;
 use frfit_figures::{Axis, Color, Figure, Marker, Panel, Series};
 
-pub(super) fn figure(case: &Case, run: &IdentifyRun) -> Figure {
+pub(super) fn figure(case: &Case, identify: &IdentifyCase, run: &IdentifyRun) -> Figure {
     let panel = |y: Axis, part: fn(c64) -> f64| Panel {
         y,
         series: vec![
@@ -39,7 +39,7 @@ pub(super) fn figure(case: &Case, run: &IdentifyRun) -> Figure {
         panels: vec![
             Panel {
                 strip: Some(status_strip(run)),
-                ..panel(Axis::log("Storage modulus E′ (Pa)"), |factor| factor.re)
+                ..panel(Axis::log(identify.unit.storage_label()), |factor| factor.re)
             },
             panel(Axis::linear("Loss factor η"), loss_factor),
         ],

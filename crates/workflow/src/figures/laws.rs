@@ -4,6 +4,7 @@ use super::{draw, status_strip, title};
 use crate::load::{Case, IdentifyCase};
 use crate::output::File;
 use crate::run::IdentifyRun;
+use crate::units::FactorUnit;
 use frfit::c64;
 use frfit::identify::{Identified, Status};
 use frfit::laws::LawFit;
@@ -24,7 +25,12 @@ const WIDE: f64 = 10.0;
 ///
 /// # Errors
 /// [`PngError`] where a figure cannot be rasterised.
-pub fn law_figures(title: &str, data: &ModulusData, fits: &[LawFit]) -> Result<Vec<File>, PngError> {
+pub fn law_figures(
+    title: &str,
+    data: &ModulusData,
+    fits: &[LawFit],
+    of: FactorUnit,
+) -> Result<Vec<File>, PngError> {
     let (first, last) = (data.frequency_hz[0], data.frequency_hz[data.frequency_hz.len() - 1]);
     let at = |k: usize| first * (last / first).powf(k as f64 / (POINTS - 1) as f64);
     let x: Vec<f64> = (0..POINTS).map(at).collect();
@@ -68,7 +74,7 @@ pub fn law_figures(title: &str, data: &ModulusData, fits: &[LawFit]) -> Result<V
     };
     let extent = |f: fn(f64, f64) -> f64| data.storage.iter().copied().reduce(f).unwrap_or(1.0);
     let wide = extent(f64::max) > WIDE * extent(f64::min);
-    let storage = "Storage modulus E′ (Pa)";
+    let storage = of.storage_label();
     let figure = Figure {
         title: title.to_owned(),
         x: if last > WIDE * first { Axis::log("Frequency (Hz)") } else { Axis::linear("Frequency (Hz)") },
@@ -155,8 +161,8 @@ fn curve_of_band(
         Panel { y: Axis::linear(label), series: all, ..Panel::default() }
     };
     let real = identify.options.real;
-    let first = if real { "Real part of the factor" } else { "Storage modulus E′ (Pa)" };
-    let mut panels = vec![Panel { strip: Some(status_strip(run)), ..panel(first, 0) }];
+    let first = if real { "Real part of the factor".to_owned() } else { identify.unit.storage_label() };
+    let mut panels = vec![Panel { strip: Some(status_strip(run)), ..panel(&first, 0) }];
     if !real {
         panels.push(panel("Loss factor η", 1));
     }

@@ -57,7 +57,7 @@ pub fn identify_figures(
         figures.push(("spectral_radius".to_owned(), spectral_radius::figure(case, run)));
     }
     if identify.options.selection == Selection::Joint {
-        figures.push(("candidates".to_owned(), candidates::figure(case, run)));
+        figures.push(("candidates".to_owned(), candidates::figure(case, identify, run)));
     }
     if run.certificate().is_some() {
         figures.push(("certificate".to_owned(), certificate::figure(case, run)));

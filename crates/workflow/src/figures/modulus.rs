@@ -19,7 +19,8 @@ pub(super) fn figure(case: &Case, identify: &IdentifyCase, run: &IdentifyRun) ->
         ..panel(identify, run, "Real part of the factor", |e| e.re, |bars| Some(bars.storage_std))
     }];
     if !real {
-        panels[0].y.label = panels[0].y.label.replace("Real part of the factor", "Storage modulus E′ (Pa)");
+        panels[0].y.label =
+            panels[0].y.label.replace("Real part of the factor", &identify.unit.storage_label());
         panels.push(panel(identify, run, "Loss factor η", loss_factor, |bars| bars.loss_factor_std));
     }
     Figure {

@@ -7,7 +7,7 @@ use crate::load::{Case, SeveralCase};
 use crate::output::{File, coordinate, file_name};
 use crate::run::SeveralRun;
 use frfit::c64;
-use frfit::identify::{Status, ValueAt, Vary};
+use frfit::identify::{Status, ValueAt, Variation};
 use frfit::material::loss_factor;
 use frfit_figures::{Axis, Color, Dash, Figure, HeatMap, Marker, Panel, PngError, Series};
 
@@ -23,8 +23,8 @@ pub fn several_figures(case: &Case, wanted: &SeveralCase, run: &SeveralRun) -> R
         figures.push((name, accelerance(case, wanted, run, m)));
     }
     // A constant over frequency is a number, not a curve.
-    for j in (0..wanted.sought.len()).filter(|&j| wanted.sought[j].varies != Vary::Constant) {
-        figures.push((file_name(&wanted.sought[j].name), over_frequency(case, wanted, run, j)));
+    for j in (0..wanted.unknowns.len()).filter(|&j| wanted.unknowns[j].varies != Variation::Constant) {
+        figures.push((file_name(&wanted.unknowns[j].name), over_frequency(case, wanted, run, j)));
     }
     if run.outcome.correlation.len() > 1 {
         figures.push(("correlation".to_owned(), correlation(case, wanted, run)));
@@ -100,7 +100,7 @@ fn accelerance(case: &Case, wanted: &SeveralCase, run: &SeveralRun, sensor: usiz
 }
 
 fn over_frequency(case: &Case, wanted: &SeveralCase, run: &SeveralRun, j: usize) -> Figure {
-    let one = &wanted.sought[j];
+    let one = &wanted.unknowns[j];
     let at = &run.outcome.at;
     let panel = |label: &str, part: fn(c64) -> f64, std: fn(&ValueAt) -> Option<f64>| {
         let of = |values: Vec<Option<c64>>| {
@@ -134,8 +134,8 @@ fn over_frequency(case: &Case, wanted: &SeveralCase, run: &SeveralRun, j: usize)
         Panel { y: Axis::linear(format!("{label}, ±2 std")), series, ..Panel::default() }
     };
     let strip = Some(strip_of(at.iter().map(|at| (at.frequency_hz, at.status))));
-    let first = if one.real { "Value" } else { "Storage modulus E′ (Pa)" };
-    let mut panels = vec![Panel { strip, ..panel(first, |v| v.re, |v| v.storage_std) }];
+    let first = if one.real { "Value".to_owned() } else { wanted.units[j].storage_label() };
+    let mut panels = vec![Panel { strip, ..panel(&first, |v| v.re, |v| v.storage_std) }];
     if !one.real {
         panels.push(panel("Loss factor η", loss_factor, |v| v.loss_factor_std));
     }

@@ -16,6 +16,7 @@ pub use uff::{UffContent, UffRecord};
 
 use crate::error::{InputError, Place};
 use crate::load::{load_bytes, matrices_of};
+use crate::reads::Reads;
 use frfit_formats::{FileKind, FormatError, MATRIX_FORMATS, NamedMatrix, detect};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
@@ -60,13 +61,15 @@ pub struct NamedFacts {
 /// # Errors
 /// A file that cannot be read, is of no known kind, or is a broken matrix or table.
 pub fn inspect(path: &Path) -> Result<Inspection, InputError> {
-    let bytes = load_bytes(path)?;
+    // Nothing is written of it.
+    let mut reads = Reads::default();
+    let bytes = load_bytes(path, &mut reads)?;
     let refuse = |error| InputError::in_file(path, error);
     let content = match detect(&bytes) {
         Some(FileKind::Uff) => Content::Uff(uff::records(&bytes).map_err(refuse)?),
         Some(FileKind::Lvm) => Content::Lvm(LvmFacts::read(&bytes).map_err(refuse)?),
         Some(FileKind::Csv) => Content::Table(TableFacts::read(&bytes).map_err(refuse)?),
-        Some(kind) => matrices(path, kind, matrices_of(path, &bytes)?)?,
+        Some(kind) => matrices(path, kind, matrices_of(path, &bytes, &mut reads)?)?,
         None => return Err(unknown_kind(path, &bytes, "a table (CSV) or time records (.lvm)")),
     };
     Ok(Inspection { file: path.to_path_buf(), content })

@@ -1,9 +1,11 @@
 //! Aligned lines, numbers short enough to be read.
 
-/// Lines of a label and a value.
+use crate::terminal::one_line;
+
+/// Lines of a label and a value, which may be quoted of a file and cannot make lines of its own.
 pub(super) fn aligned(lines: &[(&str, String)]) -> String {
     let width = lines.iter().map(|(label, _)| label.chars().count()).max().unwrap_or(0);
-    lines.iter().map(|(label, value)| format!("  {label:<width$}  {value}\n")).collect()
+    lines.iter().map(|(label, value)| format!("  {label:<width$}  {}\n", one_line(value))).collect()
 }
 
 /// Six significant digits.

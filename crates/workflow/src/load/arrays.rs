@@ -8,10 +8,11 @@ use super::measurement::{Curve, Measurement};
 use super::{Case, Frf, IdentifyCase, SensorInfo};
 use crate::case::{LeaveOut, Located, VariesEntry as Varies, checked_band};
 use crate::error::{InputError, Place};
+use crate::units::{FactorUnit, UnitSystem};
 use frfit::c64;
-use frfit::identify::{Method, Options, OptionsError, Selection, Space, Unknown};
-use frfit::laws::Family;
-use frfit::model::{DynamicStiffness, Experiment, ModelError, Parameter, Sensor};
+use frfit::identify::{ChannelUnknowns, Method, Options, OptionsError, Reduction, Selection};
+use frfit::laws::LawKind;
+use frfit::model::{DynamicStiffness, Experiment, ModelError, Parameter, Role, Sensor};
 use frfit::quantity::Quantity;
 use frfit::roots::Bounds;
 use frfit_formats::FormatError;
@@ -37,6 +38,30 @@ pub struct MeasuredFrf {
     pub averages: Option<usize>,
 }
 
+impl MeasuredFrf {
+    /// Refuses what no model could be held against; `name` is what errors call it.
+    ///
+    /// # Errors
+    /// Frequencies that are not ascending, values that are not finite or not as many, a scale of zero.
+    pub fn check(&self, name: &str) -> Result<(), InputError> {
+        let place = argument(name);
+        check_frf(&self.frf).map_err(|error| InputError::at(&place, error.expected, error.found))?;
+        let scale = self.scale.unwrap_or(1.0);
+        if !(scale.is_finite() && scale != 0.0) {
+            let expected = "a finite number that is not zero";
+            return Err(InputError::at(&place.below("scale"), expected, scale.to_string()));
+        }
+        let delay_s = self.delay_s.unwrap_or(0.0);
+        if !delay_s.is_finite() {
+            return Err(InputError::at(&place.below("delay_s"), "a finite number", delay_s.to_string()));
+        }
+        if self.averages == Some(0) {
+            return Err(InputError::at(&place.below("averages"), "1 or more", "0"));
+        }
+        Ok(())
+    }
+}
+
 /// What to identify, and how: the keys of `[identify]`.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Wanted {
@@ -53,7 +78,7 @@ pub struct Wanted {
     /// `joint` or `smallest`; `None`: what the method usually has.
     pub selection: Option<String>,
     /// `auto`, `full` or `subspace`; `None`: the default.
-    pub space: Option<String>,
+    pub reduction: Option<String>,
     /// Order of the series, or upper bound of it; `None`: the default.
     pub order: Option<usize>,
     /// Bounds on the updated factor.
@@ -63,11 +88,11 @@ pub struct Wanted {
     /// Whether the nominal is no more than the middle of the bounds.
     pub estimate: bool,
     /// Whether a sensor that contradicts all others is left out; `None`: the default.
-    pub robust: Option<bool>,
+    pub reject_outliers: Option<bool>,
     /// `frequency`, `smooth` or `law`; `None`: `law` where there are laws, otherwise the default.
     pub varies: Option<String>,
     /// Laws to fit to the whole band; none beside `law`: all.
-    pub laws: Vec<Family>,
+    pub laws: Vec<LawKind>,
     /// Whether to look for what is wrong with the data first.
     pub check: bool,
 }
@@ -114,8 +139,9 @@ pub fn case_of_arrays(
     if measured.is_empty() {
         return Err(InputError::at(&argument("measurements"), "at least one measurement", "none").into());
     }
-    let looked_for = |frf: &MeasuredFrf| Unknown { scale: frf.scale.is_none(), delay: frf.delay_s.is_none() };
-    let unknown: Vec<Unknown> = measured.iter().map(looked_for).collect();
+    let looked_for =
+        |frf: &MeasuredFrf| ChannelUnknowns { scale: frf.scale.is_none(), delay: frf.delay_s.is_none() };
+    let unknown: Vec<ChannelUnknowns> = measured.iter().map(looked_for).collect();
     let numbered = measured.into_iter().enumerate();
     let measurements = numbered
         .map(|(k, frf)| measurement(frf, k, model.dim()))
@@ -141,8 +167,11 @@ pub fn case_of_arrays(
     let left_out = unused(&data, &out, most.as_ref(), &argument("leave_out_hz"))?;
     covers(&model, &data.frequency_hz)?;
     let first_and_last = [data.frequency_hz.first(), data.frequency_hz.last()].map(|f| f.copied());
+    let role = parameter.members.first().map_or(Role::Stiffness, |member| model.terms()[member.term].role);
+    let unit = FactorUnit::of(role, None, &parameter.nominal, &data.frequency_hz, UnitSystem::Si);
     let identify = IdentifyCase {
         names: wanted.matrices.clone(),
+        unit,
         parameter,
         options,
         varies,
@@ -194,12 +223,14 @@ fn case(
 ) -> Case {
     let (title, row_names, inputs) = (String::new(), BTreeMap::new(), Vec::new());
     Case {
+        units: UnitSystem::Si,
         title,
         model,
         experiment,
         sensors,
         row_names,
         inputs,
+        reads: Default::default(),
         identify,
         several: None,
         sensitivities: None,
@@ -250,26 +281,11 @@ fn measurement(measured: MeasuredFrf, k: usize, dim: usize) -> Result<Measuremen
     let name = format!("measurement {}", k + 1);
     let place = argument(&name);
     inside(&place, measured.sensor.row, dim)?;
-    check_frf(&measured.frf).map_err(|error| InputError::at(&place, error.expected, error.found))?;
-    let scale = measured.scale.unwrap_or(1.0);
-    if !(scale.is_finite() && scale != 0.0) {
-        let expected = "a finite number that is not zero";
-        return Err(InputError::at(&place.below("scale"), expected, scale.to_string()));
-    }
-    let delay_s = measured.delay_s.unwrap_or(0.0);
-    if !delay_s.is_finite() {
-        return Err(InputError::at(&place.below("delay_s"), "a finite number", delay_s.to_string()));
-    }
-    if measured.averages == Some(0) {
-        return Err(InputError::at(&place.below("averages"), "1 or more", "0"));
-    }
+    measured.check(&name)?;
+    let (scale, delay_s) = (measured.scale.unwrap_or(1.0), measured.delay_s.unwrap_or(0.0));
     let info =
         SensorInfo { label: row(measured.sensor.row), quantity: measured.quantity, file: None::<PathBuf> };
-    let file = NamedFile {
-        path: Path::new(&name).to_path_buf(),
-        bytes: Default::default(),
-        named_by: argument("measurements"),
-    };
+    let file = NamedFile::closed_at(Path::new(&name), argument("measurements"));
     let MeasuredFrf { sensor, frf, averages, .. } = measured;
     Ok(Measurement { sensor, info, curve: Some(Curve { frf, scale, delay_s, averages, file }) })
 }
@@ -360,7 +376,7 @@ fn varies(wanted: &Wanted) -> Result<Varies, InputError> {
     if let (Some(Varies::Freely | Varies::Smoothly), Some(word)) = (asked, &wanted.varies) {
         return Err(InputError::at(&place, "varies = \"law\" beside it", format!("varies = {word:?}")));
     }
-    let twice = |(k, family): &(usize, &Family)| wanted.laws[..*k].contains(family);
+    let twice = |(k, family): &(usize, &LawKind)| wanted.laws[..*k].contains(family);
     if let Some((_, family)) = wanted.laws.iter().enumerate().find(twice) {
         let found = format!("{:?} a second time", family.to_string());
         return Err(InputError::at(&place, "each law once", found));
@@ -382,18 +398,18 @@ fn options(wanted: &Wanted) -> Result<Options, ArraysError> {
         Some(word) => word.parse::<Selection>().map_err(|error| refuse("selection", word, error.expected))?,
         None => usual,
     };
-    let space = match &wanted.space {
-        Some(word) => word.parse::<Space>().map_err(|error| refuse("space", word, error.expected))?,
-        None => defaults.space,
+    let reduction = match &wanted.reduction {
+        Some(word) => word.parse::<Reduction>().map_err(|error| refuse("reduction", word, error.expected))?,
+        None => defaults.reduction,
     };
     let options = Options {
         method,
         selection,
-        space,
+        reduction,
         order: wanted.order.unwrap_or(defaults.order),
         bounds: wanted.bounds,
         real: wanted.real,
-        robust: wanted.robust.unwrap_or(defaults.robust),
+        reject_outliers: wanted.reject_outliers.unwrap_or(defaults.reject_outliers),
         whole_box: wanted.estimate,
         ..defaults
     };

@@ -3,6 +3,7 @@
 use super::dofs::Dofs;
 use crate::case::{AttachedEntry, Spot};
 use crate::error::InputError;
+use crate::units::{Amount, UnitSystem};
 use frfit::c64;
 use frfit::dof::Axis;
 use frfit::material::Law;
@@ -16,7 +17,12 @@ use frfit_linalg::sparse::Triplets;
 ///
 /// # Limits
 /// No rotary inertia, nor that of a mass which sits off its node.
-pub(super) fn terms(entries: &[AttachedEntry], dim: usize, dofs: &Dofs) -> Result<Vec<Term>, InputError> {
+pub(super) fn terms(
+    entries: &[AttachedEntry],
+    units: UnitSystem,
+    dim: usize,
+    dofs: &Dofs,
+) -> Result<Vec<Term>, InputError> {
     let mut terms = Vec::new();
     for (k, entry) in entries.iter().enumerate() {
         let (sensor, label) = dofs.find(&entry.spot)?;
@@ -31,14 +37,25 @@ pub(super) fn terms(entries: &[AttachedEntry], dim: usize, dofs: &Dofs) -> Resul
                 factor: Law::Constant(c64::new(1.0, 0.0)),
             });
         };
-        if let Some(mass) = entry.mass_kg {
-            add("mass", Role::Mass, &moving(entry, sensor.row, dofs)?, mass);
+        if let Some(mass) = entry.mass {
+            add("mass", Role::Mass, &moving(entry, sensor.row, dofs)?, mass.entry(units, Role::Mass));
         }
-        if let Some(stiffness) = entry.stiffness {
-            add("stiffness", Role::Stiffness, &[sensor.row], stiffness);
-        }
-        if let Some(damping) = entry.damping {
-            add("damping", Role::Viscous, &[sensor.row], damping);
+        let single = [
+            ("stiffness", Role::Stiffness, entry.stiffness, "N/m, of a rotation N m/rad"),
+            ("damping", Role::Viscous, entry.damping, "N s/m, of a rotation N m s/rad"),
+        ];
+        for (word, role, amount, expected) in single {
+            let Some(amount) = amount else { continue };
+            // A row without a name can be either.
+            let turns = dofs.is_rotation(sensor.row);
+            if let (Amount::Si { rotational, .. }, Some(turns)) = (amount, turns)
+                && rotational != turns
+            {
+                let found = format!("the unit of {}", if turns { "a translation" } else { "a rotation" });
+                let place = entry.place.below(word);
+                return Err(InputError::at(&place, format!("a unit as that of {expected}"), found));
+            }
+            add(word, role, &[sensor.row], amount.entry(units, role));
         }
     }
     Ok(terms)

@@ -24,17 +24,23 @@ const MEETS: f64 = 1e-6;
 /// A power whose part of the matrix is smaller than this, relative to its largest entry, is rounding.
 const NONE: f64 = 1e-11;
 
-/// K_q of K(p) = Σ_q p^q K_q through the matrices at all values but the middle one, which has to be met (B-8).
+/// Rounding of a matrix' digits may be amplified by at most this in K_q: of sixteen digits there are then as many left as [`MEETS`] asks for.
+const AMPLIFIED: f64 = MEETS / f64::EPSILON;
+
+/// K_q of K(p) = Σ_q p^q K_q through the matrices at all values but the middle one, which has to be met (B-8). Without `powers` q is 0, 1, 2 and so on.
 ///
 /// # Errors
-/// Where it is not, or a matrix is complex.
+/// Where it is not, a matrix is complex, or values are too near to each other for as many powers.
 pub(super) fn polynomial(
     samples: &[(f64, SymmetricMatrix)],
+    powers: Option<&Located<Vec<i32>>>,
     dimension: &Located<String>,
 ) -> Result<Vec<(i32, SymmetricMatrix)>, InputError> {
     let mut samples: Vec<&(f64, SymmetricMatrix)> = samples.iter().collect();
     samples.sort_by(|a, b| a.0.total_cmp(&b.0));
     let n = samples.len();
+    let all: Vec<i32> = (0..n as i32 - 1).collect();
+    let exponents = powers.map_or(&all, |powers| &powers.value);
     // Every entry at every value, those of the check last.
     let check = samples.remove(n / 2);
     samples.push(check);
@@ -52,7 +58,13 @@ pub(super) fn polynomial(
     let unit = check.0;
     let fitted = &samples[..n - 1];
     let vandermonde =
-        Matrix::from_fn(n - 1, n - 1, |i, q| c64::new((fitted[i].0 / unit).powi(q as i32), 0.0));
+        Matrix::from_fn(n - 1, n - 1, |i, q| c64::new((fitted[i].0 / unit).powi(exponents[q]), 0.0));
+    if amplification(&vandermonde, n - 1).is_none_or(|by| by > AMPLIFIED) {
+        let expected =
+            format!("values of {} far enough apart for its powers {}", dimension.value, listed(exponents));
+        let found = samples.iter().map(|(value, _)| value.to_string()).collect::<Vec<_>>().join(", ");
+        return Err(InputError::at(powers.map_or(&dimension.place, |own| &own.place), expected, found));
+    }
     let (mut largest, mut off) = (0.0f64, 0.0f64);
     let mut coefficients = Vec::with_capacity(entries.len());
     for (position, values) in entries {
@@ -66,13 +78,27 @@ pub(super) fn polynomial(
     let beside = off / largest;
     // a matrix of zeros has no largest entry
     if largest > 0.0 && (beside.is_nan() || beside > MEETS) {
-        let expected = format!(
-            "a matrix that is a polynomial of degree {} in {} through the other values: at more values, one of higher degree",
-            n - 2,
-            dimension.value
-        );
+        let name = &dimension.value;
+        let (place, expected) = match powers {
+            None => (
+                &dimension.place,
+                format!(
+                    "a matrix that is a polynomial of degree {} in {name} through the other values: at more values, one of higher degree; or its powers",
+                    n - 2
+                ),
+            ),
+            Some(own) => {
+                let told = listed(exponents);
+                (
+                    &own.place,
+                    format!(
+                        "a matrix with the powers {told} of {name} through the other values: others, or more"
+                    ),
+                )
+            }
+        };
         let found = format!("{beside:.1e} of its largest entry beside it at {unit}");
-        return Err(InputError::at(&dimension.place, expected, found));
+        return Err(InputError::at(place, expected, found));
     }
     let dim = check.1.dim();
     let of_power = |q: usize| {
@@ -80,12 +106,25 @@ pub(super) fn polynomial(
         any.then(|| {
             let mut matrix = Triplets::new(dim);
             for ((row, col), own) in &coefficients {
-                matrix.add(*row, *col, own[q] / unit.powi(q as i32));
+                matrix.add(*row, *col, own[q] / unit.powi(exponents[q]));
             }
-            (q as i32, matrix.assemble())
+            (exponents[q], matrix.assemble())
         })
     };
     Ok((0..n - 1).filter_map(of_power).collect())
+}
+
+/// ‖V⁻¹‖∞, which is by how much rounding of the matrices is amplified in their parts; `None` where there is no inverse.
+fn amplification(vandermonde: &Matrix, n: usize) -> Option<f64> {
+    let unit = |k: usize| (0..n).map(|i| c64::new(f64::from(u8::from(i == k)), 0.0)).collect::<Vec<_>>();
+    let columns = (0..n).map(|k| solve(vandermonde, &unit(k)).ok()).collect::<Option<Vec<_>>>()?;
+    let of_row = |q: usize| columns.iter().map(|column| column[q].norm()).sum::<f64>();
+    let largest = (0..n).map(of_row).fold(0.0, f64::max);
+    largest.is_finite().then_some(largest)
+}
+
+fn listed(powers: &[i32]) -> String {
+    powers.iter().map(i32::to_string).collect::<Vec<_>>().join(", ")
 }
 
 /// (term, power) of a dimension, from the matrices that are given at its values and from `powers`.
@@ -158,7 +197,7 @@ mod tests {
     fn powers_are_told_from_values() {
         let entry = |p: f64| 3.0 + 5.0 * p.powi(3);
         let samples: Vec<_> = [0.8, 1.0, 1.1, 1.3, 0.9].map(|p| sample(p, entry)).into();
-        let found = polynomial(&samples, &name()).unwrap();
+        let found = polynomial(&samples, None, &name()).unwrap();
         assert_eq!(found.iter().map(|(power, _)| *power).collect::<Vec<_>>(), [0, 1, 3]);
         let at = |p: f64, row: usize| -> f64 {
             let value = |matrix: &SymmetricMatrix| {
@@ -174,7 +213,7 @@ mod tests {
     #[test]
     fn what_is_no_polynomial_of_that_degree_is_refused() {
         let samples: Vec<_> = [0.8, 1.0, 1.1, 1.3].map(|p| sample(p, |p| 5.0 * p.powi(3))).into();
-        let error = polynomial(&samples, &name()).unwrap_err().to_string();
+        let error = polynomial(&samples, None, &name()).unwrap_err().to_string();
         assert!(error.contains("degree 2 in h") && error.contains("at 1.1"), "{error}");
     }
 }

@@ -3,6 +3,7 @@
 use super::files::Files;
 use crate::case::{Located, Spot};
 use crate::error::{InputError, Place};
+use crate::units::UnitSystem;
 use frfit::dof::{Axis, DofName};
 use frfit::model::Sensor;
 use frfit_formats::csv::{self, Direction};
@@ -17,6 +18,10 @@ pub(super) struct Dofs {
     nodes: Option<BTreeMap<u64, Vec<(Axis, usize)>>>,
     /// What names them.
     named_by: &'static str,
+    /// Whether a named row is a rotation.
+    turns: BTreeMap<usize, bool>,
+    /// What the value of a rotation's row is multiplied by to be in rad: see [`crate::units`].
+    rotation: f64,
 }
 
 impl Dofs {
@@ -25,9 +30,11 @@ impl Dofs {
         file: Option<&Located<String>>,
         dim: usize,
         labels: &[DofLabel],
+        units: UnitSystem,
         files: &mut Files,
     ) -> Result<Self, InputError> {
-        let Some(name) = file else { return Ok(Self::of_labels(dim, labels)) };
+        let rotation = units.rotation();
+        let Some(name) = file else { return Ok(Self::of_labels(dim, labels, rotation)) };
         let file = files.read(name)?;
         let names = csv::read_dof_names(&file.bytes).map_err(|error| file.refuse(error))?;
         let mut nodes = BTreeMap::<u64, Vec<_>>::new();
@@ -37,19 +44,33 @@ impl Dofs {
             }
             nodes.entry(name.node.unsigned_abs()).or_default().push((axis(name.direction), name.row - 1));
         }
-        Ok(Self { dim, nodes: Some(nodes), named_by: "[dofs] names" })
+        let turns = turns(&nodes);
+        Ok(Self { dim, nodes: Some(nodes), named_by: "[dofs] names", turns, rotation })
     }
 
     /// Names from what the rows stand for; what has no direction, or a node of the solver's own, has none.
-    fn of_labels(dim: usize, labels: &[DofLabel]) -> Self {
+    fn of_labels(dim: usize, labels: &[DofLabel], rotation: f64) -> Self {
         let mut nodes = BTreeMap::<u64, Vec<_>>::new();
         for (row, label) in labels.iter().enumerate() {
             if let (Ok(node @ 1..), Some(direction)) = (u64::try_from(label.node), label.direction()) {
                 nodes.entry(node).or_default().push((axis(direction), row));
             }
         }
+        let turns = turns(&nodes);
         let nodes = (!labels.is_empty()).then_some(nodes);
-        Self { dim, nodes, named_by: "the files of the matrices name" }
+        Self { dim, nodes, named_by: "the files of the matrices name", turns, rotation }
+    }
+
+    /// Whether a row (from 0) is a rotation; `None` where nothing names it.
+    pub(super) fn is_rotation(&self, row: usize) -> Option<bool> {
+        self.turns.get(&row).copied()
+    }
+
+    /// What a row's value is multiplied by to be a displacement in m or an angle in rad, and what a force in N or a moment in N·m is multiplied by to load
+    /// it. A row without a name counts as a translation.
+    pub(super) fn in_si(&self, row: usize) -> f64 {
+        // In metres there is nothing to look up.
+        if self.rotation != 1.0 && self.is_rotation(row) == Some(true) { self.rotation } else { 1.0 }
     }
 
     /// The names of rows (from 0), each counted positive along its axis.
@@ -59,12 +80,12 @@ impl Dofs {
         named.map(|(node, axis, row)| (row, DofName { node, axis, reversed: false }.to_string())).collect()
     }
 
-    /// Row, sign and label of a degree of freedom.
+    /// Row, sign (in units other than metres times [`Dofs::in_si`]) and label of a degree of freedom.
     pub(super) fn find(&self, spot: &Spot) -> Result<(Sensor, String), InputError> {
         match spot {
             Spot::Row(row) => match usize::try_from(row.value) {
                 Ok(n) if (1..=self.dim).contains(&n) => {
-                    Ok((Sensor { row: n - 1, sign: 1.0 }, format!("row {n}")))
+                    Ok((Sensor { row: n - 1, sign: self.in_si(n - 1) }, format!("row {n}")))
                 }
                 _ => Err(InputError::at(&row.place, format!("1 to {}", self.dim), row.value.to_string())),
             },
@@ -89,7 +110,7 @@ impl Dofs {
         let refuse = |found| Err(InputError::at(place, expected, found));
         match nodes.get(&name.node) {
             Some(axes) => match axes.iter().find(|(axis, _)| *axis == name.axis) {
-                Some(&(_, row)) => Ok(Sensor { row, sign: name.sign() }),
+                Some(&(_, row)) => Ok(Sensor { row, sign: name.sign() * self.in_si(row) }),
                 None => refuse(format!("{name} (node {} has {})", name.node, listed(axes))),
             },
             None => {
@@ -102,6 +123,12 @@ impl Dofs {
             }
         }
     }
+}
+
+/// Which rows are rotations.
+fn turns(nodes: &BTreeMap<u64, Vec<(Axis, usize)>>) -> BTreeMap<usize, bool> {
+    let turns = |axis: Axis| matches!(axis, Axis::Rx | Axis::Ry | Axis::Rz);
+    nodes.values().flatten().map(|&(axis, row)| (row, turns(axis))).collect()
 }
 
 fn listed(axes: &[(Axis, usize)]) -> String {

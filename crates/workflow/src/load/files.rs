@@ -1,11 +1,14 @@
 //! The files of a case: read once, recorded with their checksums.
 
+use super::frf::{Choice, Frf, read_frf};
+use super::uff::Index;
 use crate::case::Located;
 use crate::error::{InputError, Place};
-use frfit_formats::FormatError;
-use sha2::{Digest, Sha256};
-use std::fs;
-use std::io::ErrorKind;
+use crate::output::sha256;
+use crate::reads::Reads;
+use frfit_formats::{FileKind, FormatError, detect};
+use std::cell::OnceCell;
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
@@ -23,8 +26,7 @@ pub struct InputFile {
 impl InputFile {
     /// The path and the checksum of the bytes.
     pub(crate) fn of(path: &Path, bytes: &[u8]) -> Self {
-        let sha256 = Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect();
-        Self { path: path.to_path_buf(), sha256, bytes: bytes.len() }
+        Self { path: path.to_path_buf(), sha256: sha256(bytes), bytes: bytes.len() }
     }
 }
 
@@ -35,33 +37,68 @@ pub(super) struct NamedFile {
     pub(super) path: PathBuf,
     /// What is in it.
     pub(super) bytes: Rc<Vec<u8>>,
+    /// Of a UFF file what is where in it, from its first FRF on.
+    index: Rc<OnceCell<Index>>,
     /// The key of the case.
     pub(super) named_by: Place,
 }
 
 impl NamedFile {
+    /// The FRF of a choice.
+    pub(super) fn frf(&self, choice: &Choice) -> Result<Frf, FormatError> {
+        if detect(&self.bytes) != Some(FileKind::Uff) {
+            return read_frf(&self.bytes, choice);
+        }
+        let index = match self.index.get() {
+            Some(index) => index,
+            None => {
+                let index = Index::of(&self.bytes)?;
+                self.index.get_or_init(|| index)
+            }
+        };
+        index.read(&self.bytes, choice)
+    }
+
+    /// The same without its contents.
+    pub(super) fn closed(self) -> Self {
+        Self::closed_at(&self.path, self.named_by)
+    }
+
+    /// A place without contents.
+    pub(super) fn closed_at(path: &Path, named_by: Place) -> Self {
+        Self { path: path.to_path_buf(), bytes: Default::default(), index: Default::default(), named_by }
+    }
+
     /// What is wrong in the file, with its name and the key that names it.
     pub(super) fn refuse(&self, error: FormatError) -> InputError {
         InputError::in_file(&self.path, error).named_by(&self.named_by)
     }
 }
 
+/// Path, contents, and what is where in them.
+type Last = (PathBuf, Rc<Vec<u8>>, Rc<OnceCell<Index>>);
+
 /// All files read so far.
 #[derive(Debug)]
 pub(super) struct Files {
     folder: PathBuf,
     pub(super) inputs: Vec<InputFile>,
+    /// Of all of them where they are.
+    pub(super) reads: Reads,
+    known: HashSet<PathBuf>,
     /// Measurements often share one large file, one after the other.
-    last: Option<(PathBuf, Rc<Vec<u8>>)>,
+    last: Option<Last>,
 }
 
 impl Files {
     /// Reads a case file; paths in it are relative to it.
     pub(super) fn of_case(case_file: &Path) -> Result<(Self, Vec<u8>), InputError> {
-        let bytes =
-            read(case_file).map_err(|found| InputError::at(&Place::file(case_file), "a case file", found))?;
+        let mut reads = Reads::default();
+        let bytes = reads
+            .read(case_file)
+            .map_err(|found| InputError::at(&Place::file(case_file), "a case file", found))?;
         let folder = case_file.parent().unwrap_or(Path::new("")).to_path_buf();
-        let mut files = Self { folder, inputs: Vec::new(), last: None };
+        let mut files = Self { folder, inputs: Vec::new(), reads, known: HashSet::new(), last: None };
         files.record(case_file, &bytes);
         Ok((files, bytes))
     }
@@ -72,38 +109,22 @@ impl Files {
             return Err(InputError::at(&name.place, "the path of a file", "an empty text"));
         }
         let path = self.folder.join(&name.value);
-        let bytes = match &self.last {
-            Some((last, bytes)) if *last == path => Rc::clone(bytes),
+        let (bytes, index) = match &self.last {
+            Some((last, bytes, index)) if *last == path => (Rc::clone(bytes), Rc::clone(index)),
             _ => {
                 let expected = format!("a file at {}", path.display());
-                Rc::new(read(&path).map_err(|found| InputError::at(&name.place, expected, found))?)
+                let bytes = self.reads.read(&path);
+                (Rc::new(bytes.map_err(|found| InputError::at(&name.place, expected, found))?), Rc::default())
             }
         };
-        self.last = Some((path.clone(), Rc::clone(&bytes)));
+        self.last = Some((path.clone(), Rc::clone(&bytes), Rc::clone(&index)));
         self.record(Path::new(&name.value), &bytes);
-        Ok(NamedFile { path, bytes, named_by: name.place.clone() })
+        Ok(NamedFile { path, bytes, index, named_by: name.place.clone() })
     }
 
     fn record(&mut self, path: &Path, bytes: &[u8]) {
-        if self.inputs.iter().all(|input| input.path != path) {
+        if self.known.insert(path.to_path_buf()) {
             self.inputs.push(InputFile::of(path, bytes));
         }
     }
-}
-
-/// The bytes of a file, or what is there instead. What is no plain file (a directory, a pipe that never ends) is
-/// not opened.
-pub(super) fn read(path: &Path) -> Result<Vec<u8>, String> {
-    let failure = |error: std::io::Error| match error.kind() {
-        ErrorKind::NotFound => "none".to_owned(),
-        kind => format!("one that cannot be read ({kind})"),
-    };
-    let metadata = fs::metadata(path).map_err(failure)?;
-    if metadata.is_dir() {
-        return Err("a folder".into());
-    }
-    if !metadata.is_file() {
-        return Err("something that is no plain file".into());
-    }
-    fs::read(path).map_err(failure)
 }

@@ -15,7 +15,7 @@ pub(super) fn load(
     files: &mut Files,
 ) -> Result<Vec<c64>, InputError> {
     match entry {
-        LoadEntry::File(name) => vector(name, dim, files),
+        LoadEntry::File(name) => vector(name, dim, dofs, files),
         LoadEntry::At(spot) => {
             let (driven, _) = dofs.find(spot)?;
             let mut load = vec![c64::default(); dim];
@@ -25,14 +25,19 @@ pub(super) fn load(
     }
 }
 
-fn vector(name: &Located<String>, dim: usize, files: &mut Files) -> Result<Vec<c64>, InputError> {
+fn vector(
+    name: &Located<String>,
+    dim: usize,
+    dofs: &Dofs,
+    files: &mut Files,
+) -> Result<Vec<c64>, InputError> {
     let file = files.read(name)?;
     let mut load = vec![c64::default(); dim];
     for (k, (row, value)) in
         csv::read_vector(&file.bytes).map_err(|error| file.refuse(error))?.into_iter().enumerate()
     {
         match load.get_mut(row - 1) {
-            Some(entry) => *entry = value,
+            Some(entry) => *entry = value * dofs.in_si(row - 1),
             None => return Err(file.refuse(beyond(&file.bytes, k, dim, row))),
         }
     }

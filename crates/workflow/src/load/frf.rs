@@ -11,7 +11,7 @@ use frfit_formats::{FileKind, FormatError, csv, detect};
 pub struct Frf {
     /// Frequencies in hertz, not negative, strictly ascending; at least one.
     pub frequency_hz: Vec<f64>,
-    /// The complex values, in the quantity of the file.
+    /// The complex values, in the quantity of the file, in SI units where the file says its units.
     pub response: Vec<c64>,
     /// Coherence γ² of each value.
     pub coherence: Option<Vec<f64>>,
@@ -40,7 +40,7 @@ pub struct Choice {
 ///
 /// # Errors
 /// What the readers refuse; in a UFF file: no FRF, none or several that the choice fits, one that was cut short,
-/// real values, frequencies that are not ascending, units other than SI.
+/// real values, frequencies that are not ascending, units that contradict each other.
 pub fn read_frf(bytes: &[u8], choice: &Choice) -> Result<Frf, FormatError> {
     let found = match detect(bytes) {
         Some(FileKind::Uff) => return uff::read(bytes, choice),

@@ -6,13 +6,16 @@ use super::factor::law;
 use super::files::Files;
 use super::lines::unused;
 use super::measurement::Measurement;
-use crate::case::{Calibration, CaseFile, IdentifyEntry, Located, VariesEntry as Varies, checked_band};
+use crate::case::{
+    Calibration, CaseFile, IdentifyEntry, Located, MatrixEntry, VariesEntry as Varies, checked_band,
+};
 use crate::error::{InputError, Place};
 use crate::nearest::nearest;
+use crate::units::FactorUnit;
 use frfit::c64;
-use frfit::identify::{Method, Options, OptionsError, Selection, Space, Unknown};
+use frfit::identify::{ChannelUnknowns, Method, Options, OptionsError, Reduction, Selection};
 use frfit::material::Law;
-use frfit::model::{DynamicStiffness, Parameter};
+use frfit::model::{DynamicStiffness, Parameter, Role};
 use frfit::roots::Bounds;
 
 /// An identification, everything checked.
@@ -22,6 +25,8 @@ pub struct IdentifyCase {
     pub names: Vec<String>,
     /// The unknown factor.
     pub parameter: Parameter,
+    /// What it is a number of.
+    pub unit: FactorUnit,
     /// How to find it.
     pub options: Options,
     /// How it varies over the band.
@@ -35,7 +40,7 @@ pub struct IdentifyCase {
     /// Which of the frequencies are left out: their rows have the status `out_of_band`.
     pub left_out: Vec<bool>,
     /// What of each sensor's channel is to be found: its receptances are those of scale one and no delay.
-    pub unknown: Vec<Unknown>,
+    pub unknown: Vec<ChannelUnknowns>,
     /// How well the receptances were measured.
     pub noise: MeasuredNoise,
     /// Whether to look for what is wrong with the data first.
@@ -89,8 +94,10 @@ pub(super) fn identify(
     let data = band(measurements, band_hz, &place)?;
     let most = entry.most_lines.as_ref();
     let left_out = unused(&data, &entry.leave_out, most, &entry.place.below("leave_out_hz"))?;
+    let unit = factor_unit(case, &entry.matrices, &parameter.nominal, &data.frequency_hz);
     Ok(IdentifyCase {
         names,
+        unit,
         parameter,
         options,
         varies,
@@ -103,6 +110,20 @@ pub(super) fn identify(
         check: entry.check,
         truth,
     })
+}
+
+/// What the factor of some matrices is a number of.
+pub(super) fn factor_unit(
+    case: &CaseFile,
+    named: &[Located<String>],
+    nominal: &Law,
+    frequency_hz: &[f64],
+) -> FactorUnit {
+    let own = |entry: &&MatrixEntry| named.iter().any(|name| name.value == entry.name.value);
+    let mut entries = case.matrices.iter().filter(own);
+    let role = entries.clone().next().map_or(Role::Stiffness, |entry| entry.role);
+    let is_modulus = entries.find_map(|entry| entry.factor_is_modulus);
+    FactorUnit::of(role, is_modulus, nominal, frequency_hz, case.units)
 }
 
 /// The names, each of them a matrix's, each once.
@@ -184,8 +205,8 @@ const SMALL_LOSS: f64 = 0.01;
 fn options(entry: &IdentifyEntry, overrides: &Overrides) -> Result<Options, InputError> {
     let mut options = Options { real: entry.real, ..Options::default() };
     options.method = entry.method.unwrap_or(options.method);
-    options.space = entry.space.unwrap_or(options.space);
-    options.robust = entry.robust.unwrap_or(options.robust);
+    options.reduction = entry.reduction.unwrap_or(options.reduction);
+    options.reject_outliers = entry.reject_outliers.unwrap_or(options.reject_outliers);
     options.whole_box = entry.estimate.is_some();
     options.bounds.storage = entry.storage.as_ref().map(|bound| bound.value);
     options.bounds.loss_factor = entry.loss_factor.as_ref().map(|bound| bound.value);
@@ -200,8 +221,9 @@ fn options(entry: &IdentifyEntry, overrides: &Overrides) -> Result<Options, Inpu
     if let Some(word) = &overrides.method {
         options.method = word.parse::<Method>().map_err(|error| refuse("--method", word, error.expected))?;
     }
-    if let Some(word) = &overrides.space {
-        options.space = word.parse::<Space>().map_err(|error| refuse("--space", word, error.expected))?;
+    if let Some(word) = &overrides.reduction {
+        options.reduction =
+            word.parse::<Reduction>().map_err(|error| refuse("--reduction", word, error.expected))?;
     }
     // Only the rational method has several roots to select from jointly.
     let usual = if options.method == Method::Rational { Selection::Joint } else { Selection::Smallest };
@@ -223,9 +245,9 @@ const ORDERS: &str = "1 to 200";
 pub(super) fn fit_for_band(options: &mut Options, varies: &Varies, place: &Place) -> Result<(), InputError> {
     match varies {
         Varies::Freely => {}
-        Varies::Smoothly => options.space = space_of_band(options, "smooth", place)?,
+        Varies::Smoothly => options.reduction = reduction_of_band(options, "smooth", place)?,
         Varies::ByLaw(_) => {
-            options.space = space_of_band(options, "law", place)?;
+            options.reduction = reduction_of_band(options, "law", place)?;
             if options.real {
                 let found = "\"law\" with real = true";
                 return Err(InputError::at(place, "\"frequency\" or \"smooth\" for a real factor", found));
@@ -235,16 +257,19 @@ pub(super) fn fit_for_band(options: &mut Options, varies: &Varies, place: &Place
     Ok(())
 }
 
-fn space_of_band(options: &Options, word: &str, varies: &Place) -> Result<Space, InputError> {
+fn reduction_of_band(options: &Options, word: &str, varies: &Place) -> Result<Reduction, InputError> {
     let refuse = |expected: &str, found: String| Err(InputError::at(varies, expected, found));
     if options.selection != Selection::Joint {
         let found = format!("{word:?} with selection {:?}", options.selection.name());
         return refuse("\"frequency\", or selection = \"joint\"", found);
     }
-    if options.space == Space::Full {
-        return refuse("\"frequency\", or the space \"subspace\"", format!("{word:?} with space \"full\""));
+    if options.reduction == Reduction::Full {
+        return refuse(
+            "\"frequency\", or the reduction \"subspace\"",
+            format!("{word:?} with reduction \"full\""),
+        );
     }
-    Ok(Space::Subspace)
+    Ok(Reduction::Subspace)
 }
 
 /// The key or the option that an invalid option comes from.
@@ -273,7 +298,7 @@ fn invalid(error: &OptionsError, entry: &IdentifyEntry, overrides: &Overrides) -
 }
 
 /// What of each sensor's channel is unknown, where that can be found.
-fn unknown(case: &CaseFile, varies: &Varies, options: &Options) -> Result<Vec<Unknown>, InputError> {
+fn unknown(case: &CaseFile, varies: &Varies, options: &Options) -> Result<Vec<ChannelUnknowns>, InputError> {
     let looked_for = |entry: &Option<Located<Calibration>>| {
         entry.as_ref().filter(|entry| entry.value == Calibration::Unknown).map(|entry| entry.place.clone())
     };
@@ -281,7 +306,7 @@ fn unknown(case: &CaseFile, varies: &Varies, options: &Options) -> Result<Vec<Un
     let mut places = Vec::new();
     for measurement in &case.measurements {
         let [scale, delay] = [&measurement.scale, &measurement.delay_s].map(looked_for);
-        unknown.push(Unknown { scale: scale.is_some(), delay: delay.is_some() });
+        unknown.push(ChannelUnknowns { scale: scale.is_some(), delay: delay.is_some() });
         places.extend(scale.into_iter().chain(delay));
     }
     if let Some(first) = places.first() {
@@ -292,7 +317,7 @@ fn unknown(case: &CaseFile, varies: &Varies, options: &Options) -> Result<Vec<Un
 
 /// Refuses unknown scales and delays (the first of them at `first`) where they cannot be found.
 pub(super) fn can_be_found(
-    unknown: &[Unknown],
+    unknown: &[ChannelUnknowns],
     first: &Place,
     varies: &Varies,
     options: &Options,
@@ -302,8 +327,8 @@ pub(super) fn can_be_found(
         let found = format!("\"unknown\" with selection {:?}", options.selection.name());
         return refuse("a number, or selection = \"joint\"", &found);
     }
-    if options.space == Space::Full {
-        return refuse("a number, or the space \"subspace\"", "\"unknown\" with space \"full\"");
+    if options.reduction == Reduction::Full {
+        return refuse("a number, or the reduction \"subspace\"", "\"unknown\" with reduction \"full\"");
     }
     if *varies == Varies::Smoothly {
         return refuse(

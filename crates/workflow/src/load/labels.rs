@@ -1,6 +1,7 @@
 //! Matrices whose rows have names: the files beside them, and one order for all.
 
 use crate::error::{InputError, Place};
+use crate::reads::Reads;
 use frfit_formats::{
     CoordinateMatrix, DofLabel, Entries, FileKind, FormatError, Labels, NamedMatrix, abaqus, ansys, detect,
     listed_labels, read_matrices, take_matrix, triplets,
@@ -40,11 +41,15 @@ pub(super) fn read_names(kind: FileKind, bytes: &[u8], rows: usize) -> Result<La
 ///
 /// # Errors
 /// What either reader refuses; a file that names more or fewer rows than there are.
-pub(crate) fn matrices_of(path: &Path, bytes: &[u8]) -> Result<Vec<NamedMatrix>, InputError> {
+pub(crate) fn matrices_of(
+    path: &Path,
+    bytes: &[u8],
+    reads: &mut Reads,
+) -> Result<Vec<NamedMatrix>, InputError> {
     let mut all = read_matrices(bytes).map_err(|error| InputError::in_file(path, error))?;
     let beside = detect(bytes).and_then(|kind| Some((kind, names_beside(path, kind)?)));
     if let (Some((kind, names)), [NamedMatrix { matrix: Ok(matrix), labels, .. }]) = (beside, &mut all[..]) {
-        let read = super::load_bytes(&names)?;
+        let read = super::load_bytes(&names, reads)?;
         *labels =
             read_names(kind, &read, matrix.nrows).map_err(|error| InputError::in_file(&names, error))?;
     }
@@ -155,9 +160,12 @@ fn held_by_a_large_number(matrix: &CoordinateMatrix) -> Option<usize> {
 /// # Errors
 /// A file that cannot be read, that holds several matrices, or what the readers refuse.
 pub(crate) fn load_one(path: &Path) -> Result<(CoordinateMatrix, Labels), InputError> {
-    let bytes = super::load_bytes(path)?;
+    // Nothing is written of it.
+    let mut reads = Reads::default();
+    let bytes = super::load_bytes(path, &mut reads)?;
     let refuse = |error: FormatError| InputError::at(&Place::file(path), "a file of one matrix", error.found);
-    let NamedMatrix { matrix, labels, .. } = take_matrix(matrices_of(path, &bytes)?, None).map_err(refuse)?;
+    let NamedMatrix { matrix, labels, .. } =
+        take_matrix(matrices_of(path, &bytes, &mut reads)?, None).map_err(refuse)?;
     Ok((matrix.map_err(|error| InputError::in_file(path, error))?, labels))
 }
 

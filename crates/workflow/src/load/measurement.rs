@@ -2,7 +2,7 @@
 
 use super::dofs::Dofs;
 use super::files::{Files, NamedFile};
-use super::frf::{Choice, Frf, read_frf};
+use super::frf::{Choice, Frf};
 use crate::case::{Calibration, Located, MeasurementEntry, Spot};
 use crate::error::InputError;
 use frfit::dof::DofName;
@@ -98,7 +98,7 @@ fn curve(
     let driven = driven_at.map(|name| name.value);
     let choice =
         Choice { record: entry.record.as_ref().map(|record| record.value), measured_at, driven_at: driven };
-    let frf = read_frf(&file.bytes, &choice).map_err(|error| file.refuse(error))?;
+    let frf = file.frf(&choice).map_err(|error| file.refuse(error))?;
     // The same node and axis in the opposite sense: every value would have the wrong sign.
     if let (Some(load), Some(there)) = (driven, frf.driven_at)
         && there == (DofName { reversed: !load.reversed, ..load })
@@ -115,5 +115,5 @@ fn curve(
         Some(Calibration::Unknown) | None => otherwise,
     };
     let (scale, delay_s) = (known(&entry.scale, 1.0), known(&entry.delay_s, 0.0));
-    Ok(Curve { frf, scale, delay_s, averages, file: NamedFile { bytes: Default::default(), ..file } })
+    Ok(Curve { frf, scale, delay_s, averages, file: file.closed() })
 }

@@ -33,6 +33,9 @@ pub(crate) use uff::STD_LABEL;
 
 use crate::case::{self, CaseFile, LoadEntry, Spot, checked_band};
 use crate::error::{InputError, Place};
+use crate::reads::Reads;
+use crate::terminal::one_line;
+use crate::units::UnitSystem;
 use dofs::Dofs;
 use files::Files;
 use frfit::frequency::linear_hz;
@@ -47,9 +50,11 @@ use std::sync::Arc;
 /// A case read from its file, everything checked, nothing computed.
 #[derive(Debug)]
 pub struct Case {
-    /// Its title, or the name of its file.
+    /// Its title, or the name of its file, in one line.
     pub title: String,
-    /// D(ω); shared, because a program may ask one model more than once.
+    /// Units of the model as the case has it.
+    pub units: UnitSystem,
+    /// D(ω), which acts on metres ([`crate::units`]); shared, because a program may ask one model more than once.
     pub model: Arc<DynamicStiffness>,
     /// Load and sensors.
     pub experiment: Experiment,
@@ -59,6 +64,8 @@ pub struct Case {
     pub row_names: BTreeMap<usize, String>,
     /// Every file that was read, the case file first.
     pub inputs: Vec<InputFile>,
+    /// Where they are, so that nothing is written over them.
+    pub reads: Reads,
     /// What to identify; `None` where the purpose is another.
     pub identify: Option<IdentifyCase>,
     /// What to identify where it is several unknowns, or one that does not vary; `None` where the purpose is another.
@@ -87,8 +94,8 @@ pub struct Overrides {
     pub band_hz: Option<[f64; 2]>,
     /// In place of `identify.selection`.
     pub selection: Option<String>,
-    /// In place of `identify.space`.
-    pub space: Option<String>,
+    /// In place of `identify.reduction`.
+    pub reduction: Option<String>,
 }
 
 /// What a case is loaded for.
@@ -118,8 +125,8 @@ pub fn load(case_file: &Path, overrides: &Overrides, purpose: Purpose) -> Result
         _ => dimension::at_nominal(&case, terms, &of)?,
     };
     let dim = terms.first().map_or(0, |term| term.matrix.dim());
-    let dofs = Dofs::read(case.dofs.as_ref(), dim, &labels, &mut files)?;
-    terms.extend(attached::terms(&case.attached, dim, &dofs)?);
+    let dofs = Dofs::read(case.dofs.as_ref(), dim, &labels, case.units, &mut files)?;
+    terms.extend(attached::terms(&case.attached, case.units, dim, &dofs)?);
     let model = model::model(&case, terms)?;
     let load = force::load(&case.load, model.dim(), &dofs, &mut files)?;
     let measurements = measurements(&case, purpose, &dofs, &mut files)?;
@@ -151,6 +158,7 @@ pub fn load(case_file: &Path, overrides: &Overrides, purpose: Purpose) -> Result
             factor::covers(&term.factor, &entry.factor.place, &respond_hz)?;
         }
     }
+    factor::sizes(&case, &model, &of, &respond_hz)?;
     let truth = case.identify.as_ref().and_then(|entry| entry.truth.as_ref());
     if let (Some(law), Some(entry)) = (identify.as_ref().and_then(|identify| identify.truth.as_ref()), truth)
     {
@@ -158,11 +166,13 @@ pub fn load(case_file: &Path, overrides: &Overrides, purpose: Purpose) -> Result
     }
     let sensors = measurements.iter().map(|measurement| measurement.sensor).collect();
     Ok(Case {
-        title: case.title.unwrap_or_else(|| stem(case_file)),
+        units: case.units,
+        title: one_line(&case.title.unwrap_or_else(|| stem(case_file))).into_owned(),
         experiment: Experiment { load, sensors },
         sensors: measurements.into_iter().map(|measurement| measurement.info).collect(),
         row_names: dofs.names(),
         inputs: files.inputs,
+        reads: files.reads,
         model: Arc::new(model),
         identify,
         several,
@@ -186,7 +196,7 @@ pub fn asks_for_several(case_file: &Path) -> Result<bool, InputError> {
 /// # Errors
 /// A file that cannot be read, what the reader refuses, no matrix of the name, or several that it could be.
 pub fn load_matrix(path: &Path, name: Option<&str>) -> Result<CoordinateMatrix, InputError> {
-    let bytes = load_bytes(path)?;
+    let bytes = load_bytes(path, &mut Reads::default())?;
     let matrix = read_matrices(&bytes).and_then(|all| take_matrix(all, name)?.matrix);
     matrix.map_err(|error| InputError::in_file(path, error))
 }
@@ -196,16 +206,16 @@ pub fn load_matrix(path: &Path, name: Option<&str>) -> Result<CoordinateMatrix, 
 /// # Errors
 /// A file that cannot be read, or as [`read_frf`].
 pub fn load_frf(path: &Path, choice: &Choice) -> Result<Frf, InputError> {
-    let bytes = load_bytes(path)?;
+    let bytes = load_bytes(path, &mut Reads::default())?;
     read_frf(&bytes, choice).map_err(|error| InputError::in_file(path, error))
 }
 
-/// The bytes of a plain file.
+/// The bytes of a plain file, which is one of those that were read from now on.
 ///
 /// # Errors
 /// What is there instead: nothing, a folder, something that may not be read.
-pub fn load_bytes(path: &Path) -> Result<Vec<u8>, InputError> {
-    files::read(path).map_err(|found| InputError::at(&Place::file(path), "a file", found))
+pub fn load_bytes(path: &Path, reads: &mut Reads) -> Result<Vec<u8>, InputError> {
+    reads.read(path).map_err(|found| InputError::at(&Place::file(path), "a file", found))
 }
 
 /// All measurements, read as far as the purpose asks for.

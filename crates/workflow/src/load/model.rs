@@ -14,8 +14,10 @@ use frfit_formats::{
     CoordinateMatrix, DofLabel, Entries, FormatError, Labels, NamedMatrix, choose_matrix, detect,
     read_matrices,
 };
+use frfit_linalg::sparse::{SymmetricMatrix, Values};
 use std::borrow::Cow;
 use std::rc::Rc;
+use std::sync::Arc;
 
 /// A matrix of the case, and where it is from.
 struct Read<'a> {
@@ -74,7 +76,7 @@ pub(super) fn terms(case: &CaseFile, files: &mut Files) -> Result<Terms, InputEr
         };
         let kind = detect(&file.bytes);
         // The numbers are in the matrix: the text need not stay in memory.
-        let file = NamedFile { bytes: Default::default(), ..file };
+        let file = file.closed();
         let mut one = Read { entry, number, value, all, beside: None, file };
         one.matrix().and_then(check_symmetric).map_err(|error| one.refuse(error))?;
         if let Some((kind, path)) = kind.and_then(|kind| Some((kind, names_beside(&one.file.path, kind)?))) {
@@ -96,6 +98,7 @@ pub(super) fn terms(case: &CaseFile, files: &mut Files) -> Result<Terms, InputEr
         let mut samples = Vec::with_capacity(own.len());
         for (one, matrix) in own {
             let matrix = symmetric_matrix(matrix).map_err(|error| one.refuse(error))?;
+            let matrix = in_metres(matrix, case.units.matrix(entry.role));
             samples.push((one.value, matrix));
         }
         match &entry.at {
@@ -105,7 +108,8 @@ pub(super) fn terms(case: &CaseFile, files: &mut Files) -> Result<Terms, InputEr
             }
             Some(at) => {
                 let samples = samples.into_iter().filter_map(|(value, matrix)| Some((value?, matrix)));
-                for (power, matrix) in polynomial(&samples.collect::<Vec<_>>(), &at.dimension)? {
+                let samples: Vec<_> = samples.collect();
+                for (power, matrix) in polynomial(&samples, at.powers.as_ref(), &at.dimension)? {
                     let dimension = at.dimension.value.clone();
                     terms.push(term(format!("{name} ({dimension}^{power})"), matrix));
                     of.push(PartOf { matrix: name.clone(), dimension: Some((dimension, power)) });
@@ -114,6 +118,18 @@ pub(super) fn terms(case: &CaseFile, files: &mut Files) -> Result<Terms, InputEr
         }
     }
     Ok(Terms { terms, of, labels })
+}
+
+/// A matrix of the model's units that acts on metres: see [`crate::units`].
+fn in_metres(matrix: SymmetricMatrix, by: f64) -> SymmetricMatrix {
+    if by == 1.0 {
+        return matrix;
+    }
+    let values = match matrix.values() {
+        Values::Real(values) => Values::Real(values.iter().map(|value| by * value).collect()),
+        Values::Complex(values) => Values::Complex(values.iter().map(|value| by * value).collect()),
+    };
+    SymmetricMatrix::new(Arc::clone(matrix.pattern()), values)
 }
 
 /// All matrices on the same rows, and what these stand for; nothing where no file says so.

@@ -5,13 +5,14 @@ use super::band::band;
 use super::dimension::{PartOf, each_has_a_value, powers_of};
 use super::factor::{covers, law};
 use super::files::Files;
-use super::identify::{MeasuredNoise, band_of, known_names, shared_factor};
+use super::identify::{MeasuredNoise, band_of, factor_unit, known_names, shared_factor};
 use super::lines::unused;
 use super::measurement::Measurement;
 use crate::case::{CaseFile, Located, SeveralEntry, SoughtEntry, SoughtVaries};
 use crate::error::{InputError, Place};
+use crate::units::FactorUnit;
 use frfit::c64;
-use frfit::identify::{Enters, Sought, Vary};
+use frfit::identify::{Dependence, Unknown, Variation};
 use frfit::material::Law;
 use frfit::model::{DynamicStiffness, Term};
 use frfit::roots::Bounds;
@@ -20,7 +21,9 @@ use frfit::roots::Bounds;
 #[derive(Debug)]
 pub struct SeveralCase {
     /// What is unknown.
-    pub sought: Vec<Sought>,
+    pub unknowns: Vec<Unknown>,
+    /// What each is a number of.
+    pub units: Vec<FactorUnit>,
     /// What a simulated measurement was made with, for each.
     pub truth: Vec<Option<Law>>,
     /// First and last frequency of the band as it was asked for.
@@ -47,7 +50,7 @@ pub(super) fn several(
         ("--method", overrides.method.is_some()),
         ("--order", overrides.order.is_some()),
         ("--selection", overrides.selection.is_some()),
-        ("--space", overrides.space.is_some()),
+        ("--reduction", overrides.reduction.is_some()),
     ] {
         if given {
             let expected = "no such option with several unknowns: there is one way to find them";
@@ -56,8 +59,8 @@ pub(super) fn several(
     }
     refuse_unknown_channels(case)?;
     each_has_a_value(case)?;
-    let sought = entry.unknowns.iter().map(|one| sought(case, one, (model, of)));
-    let sought = sought.collect::<Result<Vec<_>, _>>()?;
+    let unknowns = entry.unknowns.iter().map(|one| unknowns(case, one, (model, of)));
+    let unknowns = unknowns.collect::<Result<Vec<_>, _>>()?;
     refuse_twice(entry)?;
     let truth = entry
         .unknowns
@@ -82,19 +85,24 @@ pub(super) fn several(
         }
     }
     let measured: Vec<Vec<c64>> = kept.iter().map(|&i| data.measured[i].clone()).collect();
-    enough(entry, &sought, frequency_hz.len(), measurements.len())?;
-    Ok(SeveralCase { sought, truth, band_hz, frequency_hz, measured, noise })
+    enough(entry, &unknowns, frequency_hz.len(), measurements.len())?;
+    let unit = |(one, unknowns): (&SoughtEntry, &Unknown)| match one.matrices.as_slice() {
+        [] => FactorUnit::Other,
+        named => factor_unit(case, named, &unknowns.nominal, &frequency_hz),
+    };
+    let units = entry.unknowns.iter().zip(&unknowns).map(unit).collect();
+    Ok(SeveralCase { unknowns, units, truth, band_hz, frequency_hz, measured, noise })
 }
 
-fn sought(
+fn unknowns(
     case: &CaseFile,
     entry: &SoughtEntry,
     (model, of): (&DynamicStiffness, &[PartOf]),
-) -> Result<Sought, InputError> {
+) -> Result<Unknown, InputError> {
     let varies = match entry.varies {
-        SoughtVaries::Freely => Vary::PerFrequency,
-        SoughtVaries::Constant => Vary::Constant,
-        SoughtVaries::ByLaw(family) => Vary::Law(family),
+        SoughtVaries::Freely => Variation::PerFrequency,
+        SoughtVaries::Constant => Variation::Constant,
+        SoughtVaries::ByLaw(family) => Variation::Law(family),
     };
     let bounds = Bounds {
         storage: entry.storage.as_ref().map(|bound| bound.value),
@@ -113,9 +121,9 @@ fn sought(
             return Err(InputError::at(place, "a dimension other than 0", "0"));
         }
         let nominal = Law::Constant(c64::new(*value, 0.0));
-        return Ok(Sought {
+        return Ok(Unknown {
             name,
-            enters: Enters::Powers(powers),
+            dependence: Dependence::Powers(powers),
             nominal,
             varies,
             real: entry.real,
@@ -129,9 +137,9 @@ fn sought(
         let expected = "a matrix with a real factor, for real = true";
         return Err(InputError::at(&entry.place, expected, "a loss factor"));
     }
-    Ok(Sought {
+    Ok(Unknown {
         name,
-        enters: Enters::Factor(terms),
+        dependence: Dependence::Factor(terms),
         nominal: parameter.nominal,
         varies,
         real: entry.real,
@@ -184,12 +192,12 @@ fn refuse_unknown_channels(case: &CaseFile) -> Result<(), InputError> {
 /// Refuses fewer measured than unknown numbers.
 fn enough(
     entry: &SeveralEntry,
-    sought: &[Sought],
+    unknowns: &[Unknown],
     frequencies: usize,
     sensors: usize,
 ) -> Result<(), InputError> {
-    let own: usize = sought.iter().map(Sought::per_frequency).sum();
-    let band: usize = sought.iter().map(Sought::for_band).sum();
+    let own: usize = unknowns.iter().map(Unknown::per_frequency).sum();
+    let band: usize = unknowns.iter().map(Unknown::for_band).sum();
     let told = |what: String| InputError::at(&entry.place, "no more unknown than measured numbers", what);
     if own > 2 * sensors {
         let found = format!(

@@ -3,69 +3,156 @@
 use super::frf::{Choice, Frf};
 use frfit::dof::DofName;
 use frfit::quantity::Quantity;
-use frfit_formats::uff::{self, File, FunctionHeader, FunctionType, Record, Values};
+use frfit::signal::Unit;
+use frfit_formats::uff::{self, Entry, File, FunctionHeader, FunctionType, Record, Values};
 use frfit_formats::{FormatError, uff::Quantity as Axis};
+use std::collections::HashMap;
 
 /// Reads the FRF of a choice.
 pub(super) fn read(bytes: &[u8], choice: &Choice) -> Result<Frf, FormatError> {
-    let file = File::new(bytes)?;
-    let frfs = frfs(&file)?;
-    let (index, header) = &frfs[chosen(&frfs, choice)?];
-    let line = file.entries().get(*index).map_or(1, |entry| entry.line);
-    in_hertz(header).map_err(|found| FormatError::line(line, "an abscissa in Hz", found))?;
-    in_si_units(&file)?;
-    let function = file.function(*index)?;
-    let (points, missing) = (function.header.points, function.missing_points());
-    if missing > 0 {
-        let (expected, found) = (format!("{points} points, as the header says"), points - missing);
-        return Err(FormatError::line(line, expected, found.to_string()));
+    Index::of(bytes)?.read(bytes, choice)
+}
+
+/// What is where in a file: found once for all FRFs that are taken of it, and looked up for each.
+#[derive(Debug)]
+pub(super) struct Index {
+    entries: Vec<Entry>,
+    /// Index of the dataset, and header, of every FRF.
+    frfs: Vec<(usize, FunctionHeader)>,
+    /// Where each was measured: which of the FRFs.
+    measured_at: HashMap<DofName, Vec<usize>>,
+    /// Other functions, by where they were measured and driven.
+    others: HashMap<Ends, Vec<(usize, FunctionHeader)>>,
+}
+
+/// Where a function was measured and driven.
+type Ends = [Option<DofName>; 2];
+
+fn ends(header: &FunctionHeader) -> Ends {
+    [dof(&header.response), dof(&header.reference)]
+}
+
+impl Index {
+    /// Finds all datasets and reads the headers of the functions.
+    pub(super) fn of(bytes: &[u8]) -> Result<Self, FormatError> {
+        let file = File::new(bytes)?;
+        let mut frfs = Vec::new();
+        let mut measured_at: HashMap<DofName, Vec<usize>> = HashMap::new();
+        let mut others: HashMap<Ends, Vec<(usize, FunctionHeader)>> = HashMap::new();
+        let mut count = 0;
+        for index in file.functions() {
+            let header = file.function_header(index)?;
+            if header.function_type == FunctionType::FrequencyResponse {
+                if let Some(at) = dof(&header.response) {
+                    measured_at.entry(at).or_default().push(frfs.len());
+                }
+                frfs.push((index, header));
+            } else {
+                count += 1;
+                others.entry(ends(&header)).or_default().push((index, header));
+            }
+        }
+        if frfs.is_empty() {
+            return Err(FormatError::whole(
+                "a frequency response function (dataset 58 of function type 4)",
+                format!("none, and {count} functions of other types"),
+            ));
+        }
+        Ok(Self { entries: file.entries().to_vec(), frfs, measured_at, others })
     }
-    let Values::Complex(response) = function.values else {
-        return Err(FormatError::line(line, "complex values of an FRF", "real ones"));
-    };
-    let is_coherence = |other: &FunctionHeader| other.function_type == FunctionType::Coherence;
-    let is_std = |other: &FunctionHeader| {
-        other.function_type == FunctionType::General && other.ordinate.label == STD_LABEL
-    };
-    let of = |is_wanted: &dyn Fn(&FunctionHeader) -> bool, limits| {
-        companion(&file, header, &function.abscissa, is_wanted, limits)
-    };
-    let coherence = of(&is_coherence, ("coherences from 0 to 1", 1.0))?;
-    let std = of(&is_std, ("standard deviations from 0 on", f64::MAX))?;
-    let frf = Frf {
-        frequency_hz: function.abscissa,
-        response,
-        coherence,
-        std,
-        quantity: quantity(header),
-        measured_at: dof(&header.response),
-        driven_at: dof(&header.reference),
-    };
-    sound(&frf, line)?;
-    Ok(frf)
+
+    /// Reads the FRF of a choice from the bytes that were looked through.
+    pub(super) fn read(&self, bytes: &[u8], choice: &Choice) -> Result<Frf, FormatError> {
+        let file = File::with_entries(bytes, &self.entries);
+        let (index, header) = &self.frfs[self.chosen(choice)?];
+        let line = self.entries.get(*index).map_or(1, |entry| entry.line);
+        in_hertz(header).map_err(|found| FormatError::line(line, "an abscissa in Hz", found))?;
+        let to_si = to_si(&file, header)?;
+        let function = file.function(*index)?;
+        let (points, missing) = (function.header.points, function.missing_points());
+        if missing > 0 {
+            let (expected, found) = (format!("{points} points, as the header says"), points - missing);
+            return Err(FormatError::line(line, expected, found.to_string()));
+        }
+        let Values::Complex(mut response) = function.values else {
+            return Err(FormatError::line(line, "complex values of an FRF", "real ones"));
+        };
+        let is_coherence = |other: &FunctionHeader| other.function_type == FunctionType::Coherence;
+        let is_std = |other: &FunctionHeader| {
+            other.function_type == FunctionType::General && other.ordinate.label == STD_LABEL
+        };
+        let others = self.others.get(&ends(header)).map_or(&[][..], Vec::as_slice);
+        let of = |is_wanted: &dyn Fn(&FunctionHeader) -> bool, limits| {
+            companion(&file, others, &function.abscissa, is_wanted, limits)
+        };
+        let coherence = of(&is_coherence, ("coherences from 0 to 1", 1.0))?;
+        let mut std = of(&is_std, ("standard deviations from 0 on", f64::MAX))?;
+        if to_si != 1.0 {
+            response.iter_mut().for_each(|value| *value *= to_si);
+            std.iter_mut().flatten().for_each(|value| *value *= to_si);
+        }
+        let frf = Frf {
+            frequency_hz: function.abscissa,
+            response,
+            coherence,
+            std,
+            quantity: quantity(header),
+            measured_at: dof(&header.response),
+            driven_at: dof(&header.reference),
+        };
+        sound(&frf, line)?;
+        Ok(frf)
+    }
+
+    /// By number; else by its degrees of freedom; else the only one.
+    fn chosen(&self, choice: &Choice) -> Result<usize, FormatError> {
+        let frfs = &self.frfs;
+        if let Some(record) = choice.record {
+            let at = usize::try_from(record).ok().filter(|number| (1..=frfs.len()).contains(number));
+            let refuse = || {
+                FormatError::whole(
+                    format!("record = 1 to {} ({})", frfs.len(), listed(frfs)),
+                    record.to_string(),
+                )
+            };
+            return Ok(at.ok_or_else(refuse)? - 1);
+        }
+        let agrees = |wanted: Option<DofName>, there: &uff::Dof| wanted.is_none() || wanted == dof(there);
+        let there = choice.measured_at.and_then(|wanted| self.measured_at.get(&wanted));
+        let there = there.map_or(&[][..], Vec::as_slice);
+        let mut fitting = there.iter().filter(|&&k| agrees(choice.driven_at, &frfs[k].1.reference));
+        match (frfs.len(), fitting.next(), fitting.next()) {
+            (1, ..) => Ok(0),
+            (_, Some(&k), None) => Ok(k),
+            (_, first, _) => {
+                let which = match (choice.measured_at, first) {
+                    (None, _) => "several, and no dof or record that tells which",
+                    (Some(_), None) => "none with the dof and load of the case",
+                    (Some(_), Some(_)) => {
+                        "several with the dof and load of the case, and no record that tells which"
+                    }
+                };
+                let found = format!("{which} ({})", listed(frfs));
+                Err(FormatError::whole("one frequency response function", found))
+            }
+        }
+    }
 }
 
 /// The label of a function that is the standard deviation √E|δH|² of an FRF: the format has no type for it.
 pub(crate) const STD_LABEL: &str = "Standard deviation";
 
-/// What the file says of an FRF beside its values: the one real function between the same degrees of freedom, at the same frequencies,
+/// What the file says of an FRF beside its values: of the other functions between the same degrees of freedom the one real one, at the same frequencies,
 /// that is wanted. None where there is none, or several.
 fn companion(
     file: &File<'_>,
-    frf: &FunctionHeader,
+    others: &[(usize, FunctionHeader)],
     frequency_hz: &[f64],
     is_wanted: impl Fn(&FunctionHeader) -> bool,
     (expected, most): (&str, f64),
 ) -> Result<Option<Vec<f64>>, FormatError> {
     let mut found = None;
-    for index in file.functions() {
-        let header = file.function_header(index)?;
-        let belongs = is_wanted(&header)
-            && dof(&header.response) == dof(&frf.response)
-            && dof(&header.reference) == dof(&frf.reference);
-        if !belongs {
-            continue;
-        }
+    for &(index, _) in others.iter().filter(|(_, header)| is_wanted(header)) {
         let line = file.entries().get(index).map_or(1, |entry| entry.line);
         let function = file.function(index)?;
         let Values::Real(values) = function.values else {
@@ -82,58 +169,6 @@ fn companion(
         }
     }
     Ok(found)
-}
-
-/// The FRFs of a file: index of the dataset and header.
-fn frfs(file: &File<'_>) -> Result<Vec<(usize, FunctionHeader)>, FormatError> {
-    let mut frfs = Vec::new();
-    let mut others = 0;
-    for index in file.functions() {
-        let header = file.function_header(index)?;
-        match header.function_type {
-            FunctionType::FrequencyResponse => frfs.push((index, header)),
-            _ => others += 1,
-        }
-    }
-    match frfs.is_empty() {
-        true => Err(FormatError::whole(
-            "a frequency response function (dataset 58 of function type 4)",
-            format!("none, and {others} functions of other types"),
-        )),
-        false => Ok(frfs),
-    }
-}
-
-/// By number; else by its degrees of freedom; else the only one.
-fn chosen(frfs: &[(usize, FunctionHeader)], choice: &Choice) -> Result<usize, FormatError> {
-    if let Some(record) = choice.record {
-        let at = usize::try_from(record).ok().filter(|number| (1..=frfs.len()).contains(number));
-        let refuse = || {
-            FormatError::whole(format!("record = 1 to {} ({})", frfs.len(), listed(frfs)), record.to_string())
-        };
-        return Ok(at.ok_or_else(refuse)? - 1);
-    }
-    let agrees = |wanted: Option<DofName>, there: &uff::Dof| wanted.is_none() || wanted == dof(there);
-    let mut fitting = frfs.iter().enumerate().filter(|(_, (_, header))| {
-        choice.measured_at.is_some()
-            && agrees(choice.measured_at, &header.response)
-            && agrees(choice.driven_at, &header.reference)
-    });
-    match (frfs.len(), fitting.next(), fitting.next()) {
-        (1, ..) => Ok(0),
-        (_, Some((k, _)), None) => Ok(k),
-        (_, first, _) => {
-            let which = match (choice.measured_at, first) {
-                (None, _) => "several, and no dof or record that tells which",
-                (Some(_), None) => "none with the dof and load of the case",
-                (Some(_), Some(_)) => {
-                    "several with the dof and load of the case, and no record that tells which"
-                }
-            };
-            let found = format!("{which} ({})", listed(frfs));
-            Err(FormatError::whole("one frequency response function", found))
-        }
-    }
 }
 
 /// Number, response and reference of the first few FRFs.
@@ -175,18 +210,40 @@ fn in_hertz(header: &FunctionHeader) -> Result<(), String> {
     }
 }
 
-/// Refuses units in which an FRF differs from m/N by a factor: a mistake of 1000 would pass for physics.
-fn in_si_units(file: &File<'_>) -> Result<(), FormatError> {
+/// What the values of an FRF are multiplied by to be in SI units, as the file's dataset 164 says; 1 without one.
+///
+/// # Errors
+/// Units that the labels of the FRF contradict: a mistake of 1000 would pass for physics.
+fn to_si(file: &File<'_>, frf: &FunctionHeader) -> Result<f64, FormatError> {
+    // The factor, and the line that says it.
+    let mut said: Option<(f64, usize)> = None;
     for (index, entry) in file.entries().iter().enumerate().filter(|(_, entry)| entry.dataset == 164) {
         let Record::Units(units) = file.record(index)? else { continue };
-        // Length over force in the file's units, over that in metres per newton.
-        let scale = units.length / units.force;
-        if (scale - 1.0).abs() > 1e-6 {
-            let found = format!("unit factors {} of length and {} of force", units.length, units.force);
-            return Err(FormatError::line(entry.line, "an FRF in SI units", found));
+        let turns = |dof: &uff::Dof| dof.direction.unsigned_abs() > 3;
+        let check = |label: &str, of_file: f64| match label.parse::<Unit>() {
+            Ok(unit) if (unit.factor * of_file - 1.0).abs() > 1e-6 => {
+                let expected = format!("units of the file (dataset 164) that agree with the label {label:?}");
+                let found = format!("unit factors {} of length and {} of force", units.length, units.force);
+                Err(FormatError::line(entry.line, expected, found))
+            }
+            _ => Ok(()),
+        };
+        // An angle is in rad, and a moment in force times length. SI is the value over the factor.
+        let length = if turns(&frf.response) { 1.0 } else { units.length };
+        let force = if turns(&frf.reference) { units.force * units.length } else { units.force };
+        let this = force / length;
+        if (this - 1.0).abs() > 1e-6 {
+            check(&frf.ordinate.unit, length)?;
+            check(&frf.denominator.unit, force)?;
         }
+        if let Some((_, line)) = said.filter(|(other, _)| *other != this) {
+            let found = format!("other ones than in line {line}");
+            return Err(FormatError::line(entry.line, "the same units throughout the file", found));
+        }
+        said = Some((this, entry.line));
     }
-    Ok(())
+    // Factors that are 1 but for rounding are 1.
+    Ok(said.map(|(factor, _)| factor).filter(|factor| (factor - 1.0).abs() > 1e-6).unwrap_or(1.0))
 }
 
 /// Refuses what a table would not have: no point, values that are not finite, frequencies that do not ascend.

@@ -1,6 +1,7 @@
 //! Fitted laws: for programs, for people, and for the next case file.
 
 use crate::run::LawsRun;
+use crate::units::{FactorUnit, UnitSystem};
 use frfit::identify::SmoothCurve;
 use frfit::laws::{Correlated, Estimate, LawFit, best};
 use frfit::material::Law;
@@ -24,12 +25,12 @@ impl Misfit {
     }
 }
 
-/// One fitted law.
-pub fn law_json(fit: &LawFit) -> Value {
+/// One fitted law of a factor.
+pub fn law_json(fit: &LawFit, of: FactorUnit) -> Value {
     let number = |value: f64| if value.is_finite() { json!(value) } else { Value::Null };
     let parameters: Map<String, Value> = (fit.parameters.iter())
         .map(|Estimate { name, unit, value, std }| {
-            (name.clone(), json!({"value": number(*value), "std": std, "unit": unit}))
+            (name.clone(), json!({"value": number(*value), "std": std, "unit": of.of_parameter(unit)}))
         })
         .collect();
     let widened: Option<Map<String, Value>> = fit.correlated.as_ref().map(|correlated| {
@@ -76,11 +77,13 @@ fn residuals_say(fit: &LawFit) -> String {
 }
 
 /// The laws of a band: `law.json`, and `laws` in `summary.json`.
-pub fn laws_json(laws: &LawsRun) -> Value {
+pub fn laws_json(laws: &LawsRun, of: FactorUnit, units: UnitSystem) -> Value {
     json!({
+        "units": units.json(),
+        "factor_unit": of.word(),
         "criterion": "bic",
         "best": best(&laws.fits).map(|fit| fit.family.to_string()),
-        "laws": laws.fits.iter().map(law_json).collect::<Vec<_>>(),
+        "laws": laws.fits.iter().map(|fit| law_json(fit, of)).collect::<Vec<_>>(),
     })
 }
 
@@ -111,7 +114,7 @@ pub fn snippet(law: &Law) -> String {
 }
 
 /// The laws, best first: what they leave, by how much each is behind the best, and their parameters. `misfits` are those of the fits.
-pub fn laws_text(fits: &[LawFit], misfits: &[Option<Misfit>]) -> String {
+pub fn laws_text(fits: &[LawFit], misfits: &[Option<Misfit>], of: FactorUnit) -> String {
     let mut text = String::new();
     let Some(chosen) = best(fits) else { return text };
     let mut order: Vec<usize> = (0..fits.len()).collect();
@@ -151,7 +154,7 @@ pub fn laws_text(fits: &[LawFit], misfits: &[Option<Misfit>]) -> String {
     }
     let _ = writeln!(text, "  {}", chosen.family);
     for parameter in &chosen.parameters {
-        let _ = writeln!(text, "    {:<12}{}", parameter.name, with_std(parameter));
+        let _ = writeln!(text, "    {:<12}{}", parameter.name, with_std(parameter, of));
     }
     if chosen.correlated.is_some() {
         let _ = writeln!(text, "  {}", residuals_say(chosen));
@@ -169,7 +172,8 @@ fn short(value: f64, digits: usize) -> String {
 }
 
 /// Value ± deviation and unit.
-fn with_std(Estimate { value, std, unit, .. }: &Estimate) -> String {
+fn with_std(Estimate { value, std, unit, .. }: &Estimate, of: FactorUnit) -> String {
+    let unit = of.of_parameter(unit);
     let std = std.map_or("not told by the data".into(), |std| format!("{std:.1e}"));
     let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
     format!("{value:.6e} ± {std}{unit}")

@@ -1,5 +1,6 @@
 //! The FRF of a hammer test as UFF or table, and its summary.
 
+use super::words::Words;
 use crate::convert::{companion, frf_dataset};
 use crate::records::{Records, Sensor};
 use frfit::dof::DofName;
@@ -8,7 +9,6 @@ use frfit_formats::FormatError;
 use frfit_formats::csv::{Cell, write};
 use frfit_formats::uff::{Dof, Form, FunctionHeader, FunctionType, Units, write as uff};
 use serde_json::{Value, json};
-use std::fmt::Write;
 
 /// Share of the force's largest spectral value down to which a frequency counts as excited: 20 dB.
 const EXCITED: f64 = 0.1;
@@ -232,15 +232,16 @@ fn sensor_json(sensor: &Sensor) -> Value {
 }
 
 /// The hits, the FRF and the warnings in a few lines.
-pub fn measured_text(records: &Records, measured: &Measured, options: &Options) -> String {
-    let mut text = format!(
+pub fn measured_text(records: &Records, measured: &Measured, options: &Options) -> Words {
+    let mut words = Words::default();
+    words.say(&format!(
         "{} found, {} averaged, {} samples each ({} s at {} Hz)\n",
         plural(measured.hits.len(), "hit"),
         measured.averages(),
         measured.samples,
         short(length_s(measured)),
         short(1.0 / measured.step_s),
-    );
+    ));
     for (number, hit) in (1..).zip(&measured.hits) {
         let reasons: Vec<String> = hit.faults.iter().map(|fault| reason(records, fault)).collect();
         let (verdict, reasons) = match (hit.is_kept(), reasons.is_empty()) {
@@ -249,18 +250,14 @@ pub fn measured_text(records: &Records, measured: &Measured, options: &Options) 
             (false, _) => ("left out", format!("  {}", reasons.join("; "))),
         };
         let contact_ms = 1e3 * hit.contact_s(measured.step_s);
-        // Writing to a string does not fail.
-        let _ = writeln!(
-            text,
-            "  hit {number:<3} {verdict}  {:>8.1} N  {contact_ms:>6.2} ms{reasons}",
-            hit.peak_n
-        );
+        let line =
+            format!("  hit {number:<3} {verdict}  {:>8.1} N  {contact_ms:>6.2} ms{reasons}\n", hit.peak_n);
+        words.add(!reasons.is_empty(), &line);
     }
     let (first, last) = (measured.frequency_hz.first(), measured.frequency_hz.last());
     for sensor in &records.responses {
-        let _ = writeln!(
-            text,
-            "  {:<8}{} of {} over {}, {} to {} Hz, {}",
+        words.say(&format!(
+            "  {:<8}{} of {} over {}, {} to {} Hz, {}\n",
             "frf",
             sensor.quantity(),
             sensor.name,
@@ -268,12 +265,12 @@ pub fn measured_text(records: &Records, measured: &Measured, options: &Options) 
             short(first.copied().unwrap_or(0.0)),
             short(last.copied().unwrap_or(0.0)),
             options.estimator,
-        );
+        ));
     }
     for warning in warnings(records, measured) {
-        let _ = writeln!(text, "  {:<8}{warning}", "note");
+        words.warn(&format!("  {:<8}{warning}\n", "note"));
     }
-    text
+    words
 }
 
 fn plural(count: usize, noun: &str) -> String {

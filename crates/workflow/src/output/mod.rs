@@ -6,18 +6,23 @@ mod files;
 mod frf;
 mod identified;
 mod laws;
+mod manifest;
 mod measured;
 mod reference;
 mod response;
 mod several;
+mod staging;
 mod summary;
+mod target;
+mod words;
 
 pub use candidates::candidates_csv;
 pub use error_map::error_map_csv;
-pub use files::{File, WriteError, write_all};
+pub use files::{File, WriteError, check_file, check_folder, write_all, write_one, write_result};
 pub use frf::{respond_uff, several_updated_uff, updated_uff};
 pub use identified::identified_csv;
 pub use laws::{Misfit, law_json, laws_json, laws_text, smooth_json, snippet};
+pub(crate) use manifest::{read_result, sha256};
 pub use measured::{hit_reasons, measured_csv, measured_summary, measured_text, measured_uff};
 pub use reference::reference_csv;
 pub use response::{respond_csv, response_csv, several_response_csv};
@@ -26,3 +31,5 @@ pub use several::{
     coordinate, not_told, several_csv, several_json, several_reference_csv, several_text, varies,
 };
 pub use summary::{RIGHT_WITHIN, summary_json};
+pub use target::{is_standard_output, is_stream};
+pub use words::Words;

@@ -1,10 +1,13 @@
 //! Tables, summary and words for several unknowns.
 
 use super::summary::{fit_json, inputs_json, model_json};
+use super::words::Words;
 use crate::load::{Case, MeasuredNoise, SeveralCase};
 use crate::run::SeveralRun;
 use frfit::c64;
-use frfit::identify::{Direction, Enters, Explained, SeveralOutcome, Sought, Status, ValueAt, Vary};
+use frfit::identify::{
+    Dependence, Direction, Explained, SeveralOutcome, Status, Unknown, ValueAt, Variation,
+};
 use frfit::material::{Law, loss_factor};
 use frfit_formats::csv::{Cell, write};
 use serde_json::{Map, Value, json};
@@ -22,7 +25,7 @@ const SMALL: f64 = 0.05;
 pub fn several_csv(wanted: &SeveralCase, run: &SeveralRun) -> String {
     let mut columns: Vec<String> =
         ["frequency_hz", "status", "error", "chi2", "certificate"].map(Into::into).into();
-    for one in &wanted.sought {
+    for one in &wanted.unknowns {
         let name = &one.name;
         match one.real {
             true => columns.extend([format!("{name}.value"), format!("{name}.std")]),
@@ -40,7 +43,7 @@ pub fn several_csv(wanted: &SeveralCase, run: &SeveralRun) -> String {
             at.chi_squared.into(),
             at.certificate.into(),
         ];
-        for (one, value) in wanted.sought.iter().zip(&at.values) {
+        for (one, value) in wanted.unknowns.iter().zip(&at.values) {
             row.extend(cells(one, value.as_ref()));
         }
         row
@@ -53,7 +56,7 @@ pub fn several_csv(wanted: &SeveralCase, run: &SeveralRun) -> String {
 pub fn several_reference_csv(wanted: &SeveralCase, run: &SeveralRun) -> String {
     let parts = ["nominal_re", "nominal_im", "true_re", "true_im"];
     let mut columns = vec!["frequency_hz".to_owned()];
-    columns.extend(wanted.sought.iter().flat_map(|one| parts.map(|part| format!("{}.{part}", one.name))));
+    columns.extend(wanted.unknowns.iter().flat_map(|one| parts.map(|part| format!("{}.{part}", one.name))));
     let rows = run.outcome.at.iter().map(|at| {
         let of_one = |(nominal, truth): (&c64, &Option<Law>)| {
             let truth = truth.as_ref().and_then(|law| law.at(at.frequency_hz).ok());
@@ -66,7 +69,7 @@ pub fn several_reference_csv(wanted: &SeveralCase, run: &SeveralRun) -> String {
     write(&columns, rows).expect("every row has the columns, and no name a line break")
 }
 
-fn cells<'a>(one: &Sought, value: Option<&ValueAt>) -> Vec<Cell<'a>> {
+fn cells<'a>(one: &Unknown, value: Option<&ValueAt>) -> Vec<Cell<'a>> {
     let of = |part: &dyn Fn(&ValueAt) -> Option<f64>| -> Cell<'a> { value.and_then(part).into() };
     match one.real {
         true => vec![of(&|v| Some(v.value.re)), of(&|v| v.storage_std)],
@@ -87,8 +90,8 @@ pub fn several_json(case: &Case, wanted: &SeveralCase, run: &SeveralRun, seconds
     for status in Status::ALL.into_iter().filter(|&status| run.count(status) > 0) {
         statuses.insert(status.name().into(), json!(run.count(status)));
     }
-    let unknown = |(j, one): (usize, &Sought)| {
-        let band = outcome.band.iter().find(|value| value.sought == j);
+    let unknown = |(j, one): (usize, &Unknown)| {
+        let band = outcome.band.iter().find(|value| value.unknowns == j);
         let numbers = band.map(|band| {
             let of =
                 |n: &frfit::identify::Number| json!({"name": n.name, "value": n.value, "std": finite(n.std)});
@@ -97,6 +100,7 @@ pub fn several_json(case: &Case, wanted: &SeveralCase, run: &SeveralRun, seconds
         json!({
             "name": one.name,
             "matrices": matrices(case, one),
+            "unit": wanted.units[j].word(),
             "varies": varies(one),
             "real": one.real,
             "bounds": {"storage": one.bounds.storage, "loss_factor": one.bounds.loss_factor},
@@ -117,11 +121,12 @@ pub fn several_json(case: &Case, wanted: &SeveralCase, run: &SeveralRun, seconds
         "frfit": env!("CARGO_PKG_VERSION"),
         "title": case.title,
         "inputs": inputs_json(case),
+        "units": case.units.json(),
         "model": model_json(case),
         "sensors": case.sensors.iter().map(|sensor| json!({"label": sensor.label, "quantity": sensor.quantity.name()})).collect::<Vec<_>>(),
         "band_hz": wanted.band_hz,
         "frequencies": outcome.at.len(),
-        "unknowns": wanted.sought.iter().enumerate().map(unknown).collect::<Vec<_>>(),
+        "unknowns": wanted.unknowns.iter().enumerate().map(unknown).collect::<Vec<_>>(),
         "trusted": outcome.is_trusted(),
         "status": statuses,
         "coordinates": (0..outcome.coordinates.len()).map(|c| coordinate(wanted, outcome, c)).collect::<Vec<_>>(),
@@ -161,19 +166,19 @@ fn noise_source(wanted: &SeveralCase, outcome: &SeveralOutcome) -> &'static str 
 }
 
 /// How an unknown varies, as a case says it: `frequency`, `constant`, `law zener`.
-pub fn varies(one: &Sought) -> String {
+pub fn varies(one: &Unknown) -> String {
     match one.varies {
-        Vary::PerFrequency => "frequency".into(),
-        Vary::Constant => "constant".into(),
-        Vary::Law(family) => format!("law {family}"),
+        Variation::PerFrequency => "frequency".into(),
+        Variation::Constant => "constant".into(),
+        Variation::Law(family) => format!("law {family}"),
     }
 }
 
-fn matrices(case: &Case, one: &Sought) -> Value {
+fn matrices(case: &Case, one: &Unknown) -> Value {
     let name = |term: &usize| case.model.terms()[*term].name.clone();
-    match &one.enters {
-        Enters::Factor(terms) => json!(terms.iter().map(name).collect::<Vec<_>>()),
-        Enters::Powers(powers) => {
+    match &one.dependence {
+        Dependence::Factor(terms) => json!(terms.iter().map(name).collect::<Vec<_>>()),
+        Dependence::Powers(powers) => {
             json!(powers.iter().map(|(term, power)| (name(term), json!(power))).collect::<Map<_, _>>())
         }
     }
@@ -182,7 +187,7 @@ fn matrices(case: &Case, one: &Sought) -> Value {
 /// How far an unknown is from what a simulated measurement was made with; one that holds for the band by its value at the middle, in its deviations.
 fn truth_json(wanted: &SeveralCase, run: &SeveralRun, j: usize) -> Value {
     let Some(truth) = &wanted.truth[j] else { return Value::Null };
-    if wanted.sought[j].varies != Vary::PerFrequency {
+    if wanted.unknowns[j].varies != Variation::PerFrequency {
         let at = &run.outcome.at[run.outcome.at.len() / 2];
         let (Ok(exact), Some(found)) = (truth.at(at.frequency_hz), at.values[j]) else { return Value::Null };
         let parts = [
@@ -217,7 +222,7 @@ fn truth_json(wanted: &SeveralCase, run: &SeveralRun, j: usize) -> Value {
 /// What a coordinate of correlation and directions stands for: `core`, `core loss_factor`, `skins e0`.
 pub fn coordinate(wanted: &SeveralCase, outcome: &SeveralOutcome, c: usize) -> String {
     let (j, number) = &outcome.coordinates[c];
-    let name = &wanted.sought[*j].name;
+    let name = &wanted.unknowns[*j].name;
     if number == "value" { name.clone() } else { format!("{name} {number}") }
 }
 
@@ -248,20 +253,23 @@ pub fn not_told(wanted: &SeveralCase, outcome: &SeveralOutcome) -> Vec<String> {
 }
 
 /// What a person reads first.
-pub fn several_text(wanted: &SeveralCase, run: &SeveralRun) -> String {
+pub fn several_text(wanted: &SeveralCase, run: &SeveralRun) -> Words {
     let outcome = &run.outcome;
-    let mut text = String::new();
-    let mut line = |label: &str, value: String| text += &format!("  {label:<17} {value}\n");
+    let mut words = Words::default();
+    let mut add = |is_warning: bool, label: &str, value: String| {
+        words.add(is_warning, &format!("  {label:<17} {value}\n"));
+    };
     if let Some(breakdown) = &outcome.breakdown {
-        line("no answer", format!("the model has no real stand-in that can be factorised: {breakdown}"));
+        add(true, "no answer", format!("the model has no real stand-in that can be factorised: {breakdown}"));
     }
     let statuses = Status::ALL.into_iter().filter(|&status| run.count(status) > 0);
-    line(
+    add(
+        run.count(Status::Ok) < outcome.at.len(),
         "frequencies",
         statuses.map(|s| format!("{} {}", run.count(s), s.name())).collect::<Vec<_>>().join(", "),
     );
     for value in &outcome.band {
-        let one = &wanted.sought[value.sought];
+        let one = &wanted.unknowns[value.unknowns];
         let number = |n: &frfit::identify::Number| {
             let name = if n.name == "value" { String::new() } else { format!("{} ", n.name) };
             match n.std.filter(|std| std.is_finite()) {
@@ -276,9 +284,11 @@ pub fn several_text(wanted: &SeveralCase, run: &SeveralRun) -> String {
             Status::NoRoot => " (outside its bounds, or nothing explains the measurements)".into(),
             _ => " (not told by these measurements)".into(),
         };
-        line(&one.name, format!("{numbers}{doubt}"));
+        add(!doubt.is_empty(), &one.name, format!("{numbers}{doubt}"));
     }
-    for (j, one) in wanted.sought.iter().enumerate().filter(|(_, one)| one.varies == Vary::PerFrequency) {
+    for (j, one) in
+        wanted.unknowns.iter().enumerate().filter(|(_, one)| one.varies == Variation::PerFrequency)
+    {
         let ok = outcome.at.iter().filter(|at| at.status == Status::Ok).filter_map(|at| at.values[j]);
         let range = |part: &dyn Fn(&ValueAt) -> f64| {
             ok.clone()
@@ -291,10 +301,10 @@ pub fn several_text(wanted: &SeveralCase, run: &SeveralRun) -> String {
         }
         let (least, most) = range(&|v| loss_factor(v.value));
         let loss = if one.real { String::new() } else { format!(", loss factor {least:.5} to {most:.5}") };
-        line(&one.name, format!("{low:.6e} to {high:.6e}{loss} (where ok)"));
+        add(false, &one.name, format!("{low:.6e} to {high:.6e}{loss} (where ok)"));
     }
     for sentence in not_told(wanted, outcome) {
-        line("not told", sentence);
+        add(true, "not told", sentence);
     }
     if let Some(fit) = outcome.fit {
         let sentence = match fit.verdict {
@@ -307,26 +317,31 @@ pub fn several_text(wanted: &SeveralCase, run: &SeveralRun) -> String {
             )),
         };
         if let Some(sentence) = sentence {
-            line("measurements", sentence);
+            add(fit.verdict != Explained::Yes, "measurements", sentence);
         }
     }
     if !outcome.converged {
-        line("search", "did not settle: more frequencies, sensors or narrower bounds may help".into());
+        add(true, "search", "did not settle: more frequencies, sensors or narrower bounds may help".into());
     }
-    for (j, one) in wanted.sought.iter().enumerate() {
+    for (j, one) in wanted.unknowns.iter().enumerate() {
         let truth = truth_json(wanted, run, j);
         if let Some(right) = truth["fraction_right"].as_f64() {
             let off = truth["deviation_max_ok"]
                 .as_f64()
                 .map_or(String::new(), |off| format!(", off by at most {off:.1e} where ok"));
-            line("right", format!("{}: {:.1} % within {:.0e}{off}", one.name, 100.0 * right, RIGHT_WITHIN));
+            add(
+                false,
+                "right",
+                format!("{}: {:.1} % within {:.0e}{off}", one.name, 100.0 * right, RIGHT_WITHIN),
+            );
         } else if let Some(off) = truth["relative"].as_f64() {
             let deviations =
                 truth["deviations"].as_f64().map_or(String::new(), |d| format!(", {d:.1} of its deviations"));
-            line("truth", format!("{}: {off:.1e} off{deviations}", one.name));
+            add(false, "truth", format!("{}: {off:.1e} off{deviations}", one.name));
         }
     }
-    line(
+    add(
+        false,
         "work",
         format!(
             "{} factorisations, {} solves, {:.2} s",
@@ -336,7 +351,8 @@ pub fn several_text(wanted: &SeveralCase, run: &SeveralRun) -> String {
         ),
     );
     if let Some(error) = certificate(outcome) {
-        line(
+        add(
+            false,
             "subspace",
             format!(
                 "{} vectors, error of the response at most {error:.1e} (estimated)",
@@ -344,7 +360,7 @@ pub fn several_text(wanted: &SeveralCase, run: &SeveralRun) -> String {
             ),
         );
     }
-    text
+    words
 }
 
 /// A name as a part of a file's name: letters, digits, - and _ stay.

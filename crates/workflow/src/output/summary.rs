@@ -5,7 +5,7 @@ use crate::case::VariesEntry as Varies;
 use crate::load::{Case, IdentifyCase, MeasuredNoise};
 use crate::run::IdentifyRun;
 use frfit::c64;
-use frfit::identify::{GoodnessOfFit, NoiseLevel, Status, Unknown};
+use frfit::identify::{ChannelUnknowns, GoodnessOfFit, NoiseLevel, Status};
 use frfit::material::loss_factor;
 use frfit::model::Term;
 use serde_json::{Map, Value, json};
@@ -37,6 +37,8 @@ pub fn summary_json(
         "frfit": env!("CARGO_PKG_VERSION"),
         "title": case.title,
         "inputs": inputs_json(case),
+        "units": case.units.json(),
+        "factor_unit": identify.unit.word(),
         "model": model_json(case),
         "sensors": (0..case.sensors.len()).map(|m| sensor(case, run, m)).collect::<Vec<_>>(),
         "identify": {
@@ -48,10 +50,10 @@ pub fn summary_json(
             "method": options.method.name(),
             "order": options.order,
             "selection": options.selection.name(),
-            "space": options.space.name(),
+            "reduction": options.reduction.name(),
             "bounds": {"storage": options.bounds.storage, "loss_factor": options.bounds.loss_factor},
             "real": options.real,
-            "robust": options.robust,
+            "reject_outliers": options.reject_outliers,
         },
         "frequencies": run.outcomes.len(),
         "status": statuses,
@@ -82,7 +84,7 @@ pub fn summary_json(
         },
     });
     if let Some(laws) = &run.laws {
-        summary["laws"] = laws_json(laws);
+        summary["laws"] = laws_json(laws, identify.unit, case.units);
     }
     if let Some(smooth) = &run.smooth {
         summary["smooth"] = smooth.curve.as_ref().map_or(Value::Null, smooth_json);
@@ -115,7 +117,7 @@ pub(super) fn inputs_json(case: &Case) -> Vec<Value> {
 fn sensor(case: &Case, run: &IdentifyRun, m: usize) -> Value {
     let sensor = &case.sensors[m];
     let mut told = json!({"label": sensor.label, "quantity": sensor.quantity.name()});
-    let unknown = case.identify.as_ref().map_or(Unknown::default(), |identify| identify.unknown[m]);
+    let unknown = case.identify.as_ref().map_or(ChannelUnknowns::default(), |identify| identify.unknown[m]);
     let found = run.channels.get(m).copied().unwrap_or_default();
     let asked = [("scale", unknown.scale, found.scale), ("delay_s", unknown.delay, found.delay_s)];
     for (key, _, found) in asked.into_iter().filter(|(_, asked, _)| *asked) {

@@ -9,6 +9,7 @@ pub use roles::{ChannelOptions, Sensor};
 
 use crate::error::{InputError, Place};
 use crate::load::{InputFile, load_bytes};
+use crate::reads::Reads;
 use frfit::signal::Recording;
 use raw::Raw;
 use std::path::{Path, PathBuf};
@@ -26,6 +27,8 @@ pub struct Records {
     pub responses: Vec<Sensor>,
     /// The files that were read.
     pub inputs: Vec<InputFile>,
+    /// Where they are, so that nothing is written over them.
+    pub reads: Reads,
 }
 
 /// Reads the records of a hammer test: UFF (time functions), LabVIEW measurement files, tables with a column of time.
@@ -35,9 +38,9 @@ pub struct Records {
 /// none in a known unit; an option that no channel fits.
 pub fn read_records(files: &[PathBuf], options: &ChannelOptions) -> Result<Records, InputError> {
     let mut raw: Vec<Raw> = Vec::new();
-    let mut inputs = Vec::new();
+    let (mut inputs, mut reads) = (Vec::new(), Reads::default());
     for path in files {
-        let bytes = load_bytes(path)?;
+        let bytes = load_bytes(path, &mut reads)?;
         raw.extend(read::raw(path, &bytes)?);
         inputs.push(InputFile::of(path, &bytes));
     }
@@ -57,5 +60,6 @@ pub fn read_records(files: &[PathBuf], options: &ChannelOptions) -> Result<Recor
         force,
         responses,
         inputs,
+        reads,
     })
 }

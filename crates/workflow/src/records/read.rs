@@ -3,6 +3,7 @@
 use super::raw::{Raw, RawChannel, common_step_s, step_s};
 use super::uff;
 use crate::error::InputError;
+use crate::terminal::one_line;
 use frfit_formats::lvm::{self, Abscissa};
 use frfit_formats::{FileKind, FormatError, csv, detect};
 use std::path::Path;
@@ -34,7 +35,7 @@ fn of_lvm(path: &Path, bytes: &[u8]) -> Result<Vec<Raw>, InputError> {
         };
         let step_s = common_step_s(path, segment.channels.iter().map(step))?;
         let channel = |channel: lvm::Channel| RawChannel {
-            name: channel.name,
+            name: one_line(&channel.name).into_owned(),
             unit: channel.unit,
             said: None,
             dof: None,
@@ -50,7 +51,7 @@ fn of_table(path: &Path, bytes: &[u8]) -> Result<Raw, InputError> {
     let in_file = |error| InputError::in_file(path, error);
     let table = csv::read_time_records(bytes).map_err(in_file)?;
     let channel = |channel: csv::TimeChannel| RawChannel {
-        name: channel.name,
+        name: one_line(&channel.name).into_owned(),
         unit: channel.unit,
         said: None,
         dof: None,

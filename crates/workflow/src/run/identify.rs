@@ -6,8 +6,8 @@ use crate::load::{Case, IdentifyCase, MeasuredNoise};
 use frfit::c64;
 use frfit::frequency::bands_hz;
 use frfit::identify::{
-    Band, BandOutcome, Calibration, GoodnessOfFit, Hooks, Identified, LawsOutcome, Method, Noise, NoiseLevel,
-    SensorFit, SmoothCurve, SmoothOutcome, Stage, Status, error_by_order, identify_band,
+    Band, BandOutcome, Calibration, Context, GoodnessOfFit, Identified, LawsOutcome, Method, Noise,
+    NoiseLevel, SensorFit, SmoothCurve, SmoothOutcome, Stage, Status, error_by_order, identify_band,
     identify_band_scaled, identify_laws_scaled, identify_smooth,
 };
 use frfit::laws::LawFit;
@@ -122,7 +122,7 @@ pub fn identify(
     let used = Used::of(identify);
     let band = band_of(case, identify, &used);
     let last = (AtomicUsize::new(0), AtomicUsize::new(band.frequency_hz.len()));
-    let hooks = Hooks {
+    let hooks = Context {
         for_each: &|n, each| {
             (0..n).into_par_iter().for_each(|i| {
                 // Who cancels by unwinding from here is not to wait for what has not begun.
@@ -151,9 +151,9 @@ pub fn identify(
             smooth = Some(SmoothRun { curve, free: Used::among_all(identify, free.outcomes)? });
             (band, known(), None)
         }
-        Varies::ByLaw(families) => {
+        Varies::ByLaw(kinds) => {
             let LawsOutcome { free, fits, outcomes, channels, fit, work, subspace_size } =
-                identify_laws_scaled(&band, unknown, families, &identify.options, hooks)?;
+                identify_laws_scaled(&band, unknown, kinds, &identify.options, hooks)?;
             // What each frequency by itself told of noise and sensors holds for the laws too.
             let alone = free.outcomes.clone();
             let found = BandOutcome { outcomes, work, subspace_size, fit, ..free };
@@ -346,9 +346,12 @@ impl IdentifyRun {
 
     /// What was measured at a frequency, as receptance, with the scales and delays that were found.
     pub fn measured(&self, frequency_hz: f64, receptance: &[c64]) -> Vec<c64> {
-        let one = c64::new(1.0, 0.0);
-        let factor = |m: usize| self.channels.get(m).map_or(one, |channel| channel.factor(frequency_hz));
-        receptance.iter().enumerate().map(|(m, u)| factor(m) * u).collect()
+        receptance.iter().enumerate().map(|(m, &u)| self.measured_by(m, frequency_hz, u)).collect()
+    }
+
+    /// The same of one sensor.
+    pub fn measured_by(&self, sensor: usize, frequency_hz: f64, receptance: c64) -> c64 {
+        self.channels.get(sensor).map_or(receptance, |channel| channel.factor(frequency_hz) * receptance)
     }
 
     /// The largest estimated error of the subspace's response, relative to the measured one, over all answers; `None` where the full model answered.

@@ -4,7 +4,7 @@ use super::Progress;
 use super::identify::StageClock;
 use super::{Seconds, noise_of};
 use crate::load::{Case, SeveralCase};
-use frfit::identify::{Hooks, Options, Several, SeveralOutcome, Status, identify_several};
+use frfit::identify::{Context, Options, Several, SeveralOutcome, Status, identify_several};
 use frfit::material::OutsideTable;
 use rayon::prelude::*;
 
@@ -37,12 +37,12 @@ pub fn several(
     let band = Several {
         model: &case.model,
         experiment: &case.experiment,
-        sought: &wanted.sought,
+        unknowns: &wanted.unknowns,
         frequency_hz: &wanted.frequency_hz,
         measured: &wanted.measured,
         noise: noise_of(&wanted.noise),
     };
-    let hooks = Hooks {
+    let hooks = Context {
         for_each: &|n, each| (0..n).into_par_iter().for_each(each),
         progress: &|stage, done, total| {
             clock.enter(Some(stage));

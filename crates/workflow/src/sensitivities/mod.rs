@@ -25,7 +25,7 @@ use crate::figures::sensitivity_figure;
 use crate::job::JobError;
 use crate::load::{Case, Overrides, Purpose, load};
 use crate::memory::check_subspace;
-use crate::output::{File, write_all};
+use crate::output::{File, Words, check_folder, write_result};
 use frfit_linalg::solve::Breakdown;
 use std::path::Path;
 
@@ -39,7 +39,7 @@ pub struct SensitivityJob {
     /// `sensitivities.json`.
     pub summary: serde_json::Value,
     /// The same for a person.
-    pub text: String,
+    pub text: Words,
 }
 
 /// Loads a case, computes its sensitivities, and writes tables and figure into `out`, where there is one: all of them, or nothing.
@@ -53,6 +53,9 @@ pub fn sensitivities_case(
     out: Option<&Path>,
 ) -> Result<SensitivityJob, JobError> {
     let case = load(case_file, overrides, Purpose::Sensitivities)?;
+    if let Some(out) = out {
+        check_folder(out, &["sensitivities.json", "sensitivities.csv"], &case.reads)?;
+    }
     check_subspace(&case, options.memory_bytes)?;
     let run = sensitivities(&case, options)?;
     let (summary, text) = match &run {
@@ -65,7 +68,7 @@ pub fn sensitivities_case(
             files.push(File::new("sensitivities.csv", table::csv(&case, run)));
             files.extend(sensitivity_figure(&case, run)?);
         }
-        write_all(out, &files)?;
+        write_result(out, "sensitivities", files, None, &case.reads)?;
     }
     Ok(SensitivityJob { case, run, summary, text })
 }

@@ -3,23 +3,28 @@
 use super::words::{bar, inseparable as in_words};
 use super::{NextSensor, NoiseFrom, Place, SensitivityRun};
 use crate::load::Case;
+use crate::output::Words;
 use frfit::sensitivity::{KNOWN, WorstBar, inseparable};
 use frfit_linalg::solve::Breakdown;
 
 /// Table, what is told apart, and the next sensor.
-pub(super) fn text(case: &Case, run: &SensitivityRun) -> String {
+pub(super) fn text(case: &Case, run: &SensitivityRun) -> Words {
     let (first, last) = (run.frequency_hz.first(), run.frequency_hz.last());
     let band = first.zip(last).map_or(String::new(), |(a, b)| format!(", {a} to {b} Hz"));
-    let mut text = format!(
+    let mut words = Words::default();
+    words.say(&format!(
         "{}: sensitivities to {} parameter(s) at {} sensor(s), {} frequencies{band}\n",
         case.title,
         run.variables.len(),
         case.sensors.len(),
         run.frequency_hz.len()
-    );
-    text += &table(case, run);
-    let mut line = |label: &str, value: String| text += &format!("  {label:<18}{value}\n");
-    line(
+    ));
+    words.say(&table(case, run));
+    let mut add = |is_warning: bool, label: &str, value: String| {
+        words.add(is_warning, &format!("  {label:<18}{value}\n"));
+    };
+    add(
+        false,
         "noise",
         match run.noise {
             NoiseFrom::Given(noise) => format!("{} % of the response", 100.0 * noise),
@@ -33,39 +38,41 @@ pub(super) fn text(case: &Case, run: &SensitivityRun) -> String {
         Some(resolved) => {
             let groups = inseparable(resolved);
             if groups.is_empty() {
-                line("told apart", format!("all parameters, each to {} or better", percent(KNOWN)));
+                add(false, "told apart", format!("all parameters, each to {} or better", percent(KNOWN)));
             }
             for group in &groups {
-                line("not told apart", in_words(&case.model, &run.variables, resolved, group));
+                add(true, "not told apart", in_words(&case.model, &run.variables, resolved, group));
             }
         }
-        None => line("told apart", "the singular values of the Jacobian were not found".to_owned()),
+        None => add(true, "told apart", "the singular values of the Jacobian were not found".to_owned()),
     }
     if let Some(next) = &run.next {
         for (k, told) in next_in_words(case, run, next).into_iter().enumerate() {
-            line(if k == 0 { "next sensor" } else { "" }, told);
+            add(false, if k == 0 { "next sensor" } else { "" }, told);
         }
     }
     let unanswered = run.values.iter().filter(|at| at.iter().flatten().all(Option::is_none)).count();
     if unanswered > 0 {
-        line("no answer", format!("at {unanswered} frequencies: the system is singular there"));
+        add(true, "no answer", format!("at {unanswered} frequencies: the system is singular there"));
     }
     let good = if run.trained.converged { "" } else { "; that is more than was asked for" };
-    line(
+    add(
+        !run.trained.converged,
         "subspace",
         format!(
             "{} vectors, derivatives at the sensors to {:.1e} (estimated){good}",
             run.subspace_size, run.trained.error
         ),
     );
-    line(
+    add(
+        false,
         "work",
         format!(
             "{} factorisations, {} solves, {:.2} s",
             run.work.factorisations, run.work.solves, run.seconds
         ),
     );
-    text
+    words
 }
 
 fn table(case: &Case, run: &SensitivityRun) -> String {
@@ -91,8 +98,10 @@ fn table(case: &Case, run: &SensitivityRun) -> String {
 }
 
 /// Where nothing could be solved.
-pub(super) fn unsolved(case: &Case, breakdown: &Breakdown) -> String {
-    format!("{}: no sensitivities: {breakdown}\n", case.title)
+pub(super) fn unsolved(case: &Case, breakdown: &Breakdown) -> Words {
+    let mut words = Words::default();
+    words.warn(&format!("{}: no sensitivities: {breakdown}\n", case.title));
+    words
 }
 
 /// A number with as many digits as the precision says, without zeros behind.

@@ -1,6 +1,6 @@
 //! Whatever stands in a case file, it is read or refused: nothing panics.
 
-use crate::files::{CASE, folder};
+use super::files::{CASE, folder};
 use frfit_workflow::case::parse;
 use frfit_workflow::load::{Overrides, Purpose, load};
 use proptest::prelude::*;

@@ -1,6 +1,6 @@
 //! Broken case files: what is said, and where it points.
 
-use crate::files::{edited, folder, message, refused, with};
+use super::files::{edited, folder, message, refused, with};
 use frfit_workflow::load::{Overrides, Purpose, load};
 
 #[test]
@@ -37,6 +37,19 @@ fn text_that_is_not_toml() {
 }
 
 #[test]
+fn a_key_with_its_old_name_is_refused_with_the_new_one() {
+    for (old, new) in [("space = \"full\"", "reduction"), ("robust = false", "reject_outliers")] {
+        let text = edited("case.toml", "[identify]", &format!("[identify]\n{old}"));
+        let folder = folder("case.toml", Some(text.as_bytes()));
+        let case = load(&folder.path().join("case.toml"), &Overrides::default(), Purpose::Identify);
+        let name = old.split(' ').next().unwrap();
+        let expected = format!("identify: expected the key {new:?}, which was renamed, found {name:?}");
+        let error = message(&folder, &case.unwrap_err());
+        assert!(error.contains(&expected), "{error}");
+    }
+}
+
+#[test]
 fn keys_that_are_unknown_or_missing() {
     for (from, to, message) in [
         (
@@ -69,7 +82,7 @@ fn keys_that_are_unknown_or_missing() {
         (
             "[dofs]\nfile = \"dofs.csv\"\n",
             "dofs = \"dofs.csv\"\n",
-            "case.toml:16:1: matrix: expected a known key (name, role, file, at, factor), found \"dofs\"",
+            "case.toml:16:1: matrix: expected a known key (name, role, file, at, factor, factor_is), found \"dofs\"",
         ),
         (
             "[[measurement]]\nfile = \"a.csv\"\ndof = \"2-Z\"\nquantity = \"accelerance\"\n[[measurement]]",
@@ -488,8 +501,8 @@ fn what_the_command_line_says_is_checked_like_the_case() {
             "--selection: expected \"smallest\" with method \"series\", found \"joint\"",
         ),
         (
-            Overrides { space: Some("half".into()), ..none() },
-            "--space: expected \"auto\", \"full\" or \"subspace\", found \"half\"",
+            Overrides { reduction: Some("half".into()), ..none() },
+            "--reduction: expected \"auto\", \"full\" or \"subspace\", found \"half\"",
         ),
         (Overrides { order: Some(0), ..none() }, "--order: expected 1 to 200, found 0"),
         (

@@ -1,6 +1,6 @@
 //! Broken files that a case names: what is said, where it points, and which key named the file.
 
-use crate::files::{edited, folder, message, refused};
+use super::files::{edited, folder, message, refused};
 use frfit_workflow::load::{Overrides, Purpose, load};
 
 #[test]

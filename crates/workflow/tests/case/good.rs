@@ -1,8 +1,8 @@
 //! A complete case with every feature, and the freedoms that a case has.
 
-use crate::files::{CASE, edited, folder, with};
+use super::files::{CASE, edited, folder, with};
 use frfit::c64;
-use frfit::identify::{Method, Options, Selection, Space};
+use frfit::identify::{Method, Options, Reduction, Selection};
 use frfit::material::Law;
 use frfit::model::Sensor;
 use frfit::quantity::Quantity;
@@ -64,7 +64,7 @@ fn matrices_of_one_file_are_chosen_by_their_names() {
     let names: Vec<_> = together.inputs.iter().map(|input| input.path.to_str().unwrap()).collect();
     assert_eq!(names.iter().filter(|name| **name == "model.op4").count(), 1, "{names:?}");
 
-    let refused = |case: &str| crate::files::message(&folder, &load(case).unwrap_err());
+    let refused = |case: &str| super::files::message(&folder, &load(case).unwrap_err());
     assert_eq!(
         refused(&both.replace("{ file = \"model.op4\", name = \"K\" }", "\"model.op4\"")),
         "model.op4: expected one matrix, or a name: { file = \"...\", name = \"...\" }, found K (3 x 3), M (3 x 3)\n\
@@ -159,12 +159,15 @@ fn the_command_line_overrides_the_case() {
         order: Some(7),
         band_hz: Some([15.0, 25.0]),
         selection: None,
-        space: Some("full".into()),
+        reduction: Some("full".into()),
     };
     let identify = with("", b"", &overrides, Purpose::Identify).unwrap().identify.unwrap();
     assert_eq!((identify.options.method, identify.options.order), (Method::NelderMead, 7));
     // A method without several roots brings the selection that it can have.
-    assert_eq!((identify.options.selection, identify.options.space), (Selection::Smallest, Space::Full));
+    assert_eq!(
+        (identify.options.selection, identify.options.reduction),
+        (Selection::Smallest, Reduction::Full)
+    );
     assert_eq!((identify.band_hz, &identify.frequency_hz[..]), ([15.0, 25.0], &[20.0][..]));
     let response = with("", b"", &overrides, Purpose::Respond).unwrap();
     assert_eq!((response.respond_hz[0], response.respond_hz[3]), (15.0, 25.0));

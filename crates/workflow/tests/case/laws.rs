@@ -1,8 +1,8 @@
 //! Laws in a case: as a factor, and as what is to be found.
 
-use crate::files::{edited, folder, refused, with};
-use frfit::identify::Space;
-use frfit::laws::Family;
+use super::files::{edited, folder, refused, with};
+use frfit::identify::Reduction;
+use frfit::laws::LawKind;
 use frfit::material::{Branch, Law};
 use frfit_workflow::case::VariesEntry;
 use frfit_workflow::load::{Overrides, Purpose, load};
@@ -11,14 +11,15 @@ fn varies(keys: &str) -> VariesEntry {
     let text = edited("case.toml", "order = 20", &format!("order = 20\n{keys}"));
     let case = with("case.toml", text.as_bytes(), &Overrides::default(), Purpose::Identify).unwrap();
     let identify = case.identify.unwrap();
-    let space = if identify.varies == VariesEntry::Freely { Space::Auto } else { Space::Subspace };
-    assert_eq!(identify.options.space, space);
+    let reduction =
+        if identify.varies == VariesEntry::Freely { Reduction::Auto } else { Reduction::Subspace };
+    assert_eq!(identify.options.reduction, reduction);
     identify.varies
 }
 
-fn families(keys: &str) -> Vec<Family> {
+fn kinds(keys: &str) -> Vec<LawKind> {
     match varies(keys) {
-        VariesEntry::ByLaw(families) => families,
+        VariesEntry::ByLaw(kinds) => kinds,
         other => panic!("{keys}: {other:?}"),
     }
 }
@@ -29,13 +30,13 @@ fn laws_to_be_found() {
     assert_eq!(varies("varies = \"frequency\""), VariesEntry::Freely);
     assert_eq!(varies("varies = \"smooth\""), VariesEntry::Smoothly);
     assert_eq!(varies("varies = \"smooth\"\nreal = true"), VariesEntry::Smoothly);
-    assert_eq!(families("varies = \"law\""), Family::ALL);
-    assert_eq!(families("varies = \"law\"\nlaw = \"zener\""), [Family::FractionalZener]);
+    assert_eq!(kinds("varies = \"law\""), LawKind::ALL);
+    assert_eq!(kinds("varies = \"law\"\nlaw = \"zener\""), [LawKind::FractionalZener]);
     assert_eq!(
-        families("varies = \"law\"\nlaw = [\"constant\", \"maxwell\"]\nbranches = 5"),
-        [Family::Constant, Family::Maxwell { branches: 5 }]
+        kinds("varies = \"law\"\nlaw = [\"constant\", \"maxwell\"]\nbranches = 5"),
+        [LawKind::Constant, LawKind::Maxwell { branches: 5 }]
     );
-    assert_eq!(families("varies = \"law\"\nlaw = \"maxwell:2\""), [Family::Maxwell { branches: 2 }]);
+    assert_eq!(kinds("varies = \"law\"\nlaw = \"maxwell:2\""), [LawKind::Maxwell { branches: 2 }]);
 }
 
 #[test]
@@ -73,12 +74,12 @@ fn laws_that_cannot_be_found_are_refused() {
             "case.toml:33:1: identify.law: expected varies = \"law\" beside it, found none".into(),
         ),
         (
-            "varies = \"smooth\"\nspace = \"full\"",
-            "case.toml:32:1: identify.varies: expected \"frequency\", or the space \"subspace\", found \"smooth\" with space \"full\"".into(),
+            "varies = \"smooth\"\nreduction = \"full\"",
+            "case.toml:32:1: identify.varies: expected \"frequency\", or the reduction \"subspace\", found \"smooth\" with reduction \"full\"".into(),
         ),
         (
-            "varies = \"law\"\nspace = \"full\"",
-            "case.toml:32:1: identify.varies: expected \"frequency\", or the space \"subspace\", found \"law\" with space \"full\"".into(),
+            "varies = \"law\"\nreduction = \"full\"",
+            "case.toml:32:1: identify.varies: expected \"frequency\", or the reduction \"subspace\", found \"law\" with reduction \"full\"".into(),
         ),
         (
             "varies = \"law\"\nmethod = \"series\"",

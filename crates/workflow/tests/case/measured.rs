@@ -1,6 +1,6 @@
 //! FRFs in UFF files: which one is taken, and what is taken from it.
 
-use crate::files::{edited, folder, message};
+use super::files::{edited, folder, message};
 use frfit::c64;
 use frfit::quantity::Quantity;
 use frfit_formats::uff::{
@@ -145,7 +145,8 @@ fn what_cannot_be_used_is_said() {
         bytes.replacen("         6         3", "         6         9", 1).into_bytes()
     };
     let units = Units { code: 9, length: 1000.0, ..Units::default() };
-    let in_mm = [write::units(&units).unwrap(), edit(&|_| {})].concat();
+    let metres = |f: &mut Function| f.header.ordinate.unit = "m/s^2".into();
+    let contradicted = [write::units(&units).unwrap(), edit(&metres)].concat();
     let only = "file = \"a.uff\"\n";
     for (uff, keys, expected) in [
         (
@@ -239,9 +240,9 @@ fn what_cannot_be_used_is_said() {
             "a.uff:1: expected 9 points, as the header says, found 3\nnamed in case.toml:21:1: measurement.file",
         ),
         (
-            in_mm,
+            contradicted,
             only,
-            "a.uff:1: expected an FRF in SI units, found unit factors 1000 of length and 1 of force\nnamed in case.toml:21:1: measurement.file",
+            "a.uff:1: expected units of the file (dataset 164) that agree with the label \"m/s^2\", found unit factors 1000 of length and 1 of force\nnamed in case.toml:21:1: measurement.file",
         ),
         (
             b"    -1\n    58\n".to_vec(),
@@ -250,6 +251,34 @@ fn what_cannot_be_used_is_said() {
         ),
     ] {
         assert_eq!(measured(&uff, keys).unwrap_err(), expected);
+    }
+}
+
+/// SI is the value of the file times force over length of dataset 164; an angle has no length.
+#[test]
+fn units_of_the_file_are_converted() {
+    let units = Units { code: 9, length: 1000.0, force: 0.5, ..Units::default() };
+    let head = write::units(&units).unwrap();
+    let std = |response, values: [f64; 3]| {
+        let Function { header, abscissa, .. } = coherence(response, (1, 3), values);
+        let ordinate = Axis { label: "Standard deviation".into(), ..header.ordinate };
+        let header = FunctionHeader { function_type: FunctionType::General, ordinate, ..header };
+        Function::new(header, abscissa, Values::Real(values.to_vec()))
+    };
+    for (response, dof, expected) in [((2, 3), "2+Z", 8e3 * 0.5e-3), ((2, 4), "2+RX", 8e3 * 0.5)] {
+        let mut frf = function(response, (1, 3), 8e3, Measured::Displacement);
+        frf.header.ordinate.unit = "mm".into();
+        frf.header.ordinate.unit.truncate(if response.1 > 3 { 0 } else { 2 });
+        let bytes = [head.clone(), file(&[frf, std(response, [80.0; 3])])].concat();
+        let case = measured(&bytes, &format!("file = \"a.uff\"\ndof = \"{dof}\"\n")).unwrap();
+        let identify = case.identify.unwrap();
+        assert!(
+            (identify.measured[0][0].re / expected - 1.0).abs() < 1e-12,
+            "{dof}: {}",
+            identify.measured[0][0]
+        );
+        let MeasuredNoise::Known(std) = &identify.noise else { panic!("{:?}", identify.noise) };
+        assert!((std[0][0] / (0.01 * expected) - 1.0).abs() < 1e-12, "{dof}: {}", std[0][0]);
     }
 }
 

@@ -1,6 +1,6 @@
 //! Masses of sensors and hammers, and the suspension.
 
-use crate::planted::{DIM, OnIt, folder, receptance, refusal, run, table, worst};
+use super::planted::{DIM, OnIt, folder, receptance, refusal, run, table, worst};
 use frfit::frequency::linear_hz;
 use frfit::model::Role;
 
@@ -66,21 +66,24 @@ fn what_cannot_be_attached_is_refused() {
             "dof = \"7+X\"\nmass_kg = 1",
             "attached.dof: expected a degree of freedom that [dofs] names, found 7+X (no node 7; the nearest is 4 with X, Z)",
         ),
-        ("row = 1", "attached: expected one of the keys mass_kg, stiffness and damping, found none"),
+        ("row = 1", "attached: expected one of the keys mass, mass_kg, stiffness and damping, found none"),
         ("row = 1\nmass_kg = 0", "attached.mass_kg: expected a mass above 0 kg, found 0"),
+        ("row = 1\nmas = 0", "attached: expected a known key, of which \"mass\" is nearest, found \"mas\""),
         (
-            "row = 1\nmass = 0",
-            "attached: expected a known key, of which \"mass_kg\" is nearest, found \"mass\"",
+            "row = 1\nstiffness = -1",
+            "attached.stiffness: expected a stiffness above 0: a number in the units of the case, or a text as \"3 N/mm\", found -1",
         ),
-        ("row = 1\nstiffness = -1", "attached.stiffness: expected a stiffness above 0 N/m, found -1"),
-        ("row = 1\ndamping = nan", "attached.damping: expected a finite number, found nan"),
+        (
+            "row = 1\ndamping = nan",
+            "attached.damping: expected a damping above 0: a number in the units of the case, or a text as \"0.2 N s/m\", found nan",
+        ),
         (
             "row = 1\nmass_kg = 1\ndirections = [\"X\"]",
             "attached.directions: expected dof beside it, found row, which has no node",
         ),
         (
             "dof = \"1+X\"\nstiffness = 1\ndirections = [\"X\"]",
-            "attached.directions: expected the key mass_kg beside it, found none",
+            "attached.directions: expected the key mass or mass_kg beside it, found none",
         ),
         (
             "dof = \"1+X\"\nmass_kg = 1\ndirections = [\"Y\"]",

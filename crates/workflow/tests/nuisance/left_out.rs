@@ -1,6 +1,6 @@
 //! Lines and bands that are left out.
 
-use crate::planted::{folder, receptance, refusal, run, table, worst};
+use super::planted::{folder, receptance, refusal, run, table, worst};
 use frfit::frequency::linear_hz;
 use frfit::identify::Status;
 use std::fs;

@@ -1,7 +1,8 @@
 //! Channels with a scale or a delay, known or to be found.
 
+use super::planted::{TRUTH, folder, receptance, refusal, run, table, turned, worst};
 use crate::noise::Noise;
-use crate::planted::{TRUTH, folder, receptance, refusal, run, table, turned, worst};
+use crate::tier::of_tier;
 use frfit::c64;
 use frfit::frequency::linear_hz;
 use frfit::identify::Status;
@@ -50,7 +51,8 @@ fn an_unknown_scale_is_found_beside_a_known_one() {
     assert!(exact.summary["sensors"][0].get("scale").is_none());
 
     let (mut noise, mut pulls, mut covered) = (Noise::new(3), Vec::new(), Vec::new());
-    for _ in 0..6 {
+    let draws = of_tier(1, 6);
+    for _ in 0..draws {
         let tables = tables([1.0, -1.0 / 0.37], 0.0, Some((0.02, &mut noise)));
         let job = run(&folder(&tables, &keys("", "scale = \"unknown\"", ""))).unwrap();
         let told = &job.summary["sensors"][1];
@@ -63,17 +65,17 @@ fn an_unknown_scale_is_found_beside_a_known_one() {
         );
     }
     // All of six within 4 deviations but for one in 2600; their mean square is 1 ± 0.6.
-    let mean_square = pulls.iter().map(|pull| pull * pull).sum::<f64>() / 6.0;
-    assert!(pulls.iter().all(|pull| pull.abs() < 4.0) && mean_square < 3.5, "{pulls:?}");
+    let mean_square = pulls.iter().map(|pull| pull * pull).sum::<f64>() / draws as f64;
+    assert!(pulls.iter().all(|pull| pull.abs() < 4.0) && mean_square < of_tier(16.0, 3.5), "{pulls:?}");
     // Of some hundred answers 95 % of normal errors; those of one seed share the scale's.
     let share = covered.iter().filter(|&&within| within).count() as f64 / covered.len() as f64;
-    assert!(covered.len() > 100 && share > 0.85, "{share} of {}", covered.len());
+    assert!(covered.len() > of_tier(16, 100) && share > of_tier(0.6, 0.85), "{share} of {}", covered.len());
 }
 
 #[test]
 fn a_law_needs_no_channel_of_known_scale() {
     let (mut noise, mut pulls) = (Noise::new(8), Vec::new());
-    for _ in 0..5 {
+    for _ in 0..of_tier(1, 5) {
         let tables = tables([-0.4, 1.0 / 0.37], 0.0, Some((0.02, &mut noise)));
         let job = run(&folder(&tables, &keys("scale = \"unknown\"", "scale = \"unknown\"", LAW))).unwrap();
         for (m, truth) in [(0, -2.5), (1, 0.37)] {
@@ -92,7 +94,10 @@ fn a_law_needs_no_channel_of_known_scale() {
     }
     // Twenty within 4 deviations but for one in 800.
     let mean_square = pulls.iter().map(|pull| pull * pull).sum::<f64>() / pulls.len() as f64;
-    assert!(pulls.iter().all(|pull| pull.abs() < 4.0) && (0.2..2.5).contains(&mean_square), "{pulls:?}");
+    assert!(
+        pulls.iter().all(|pull| pull.abs() < 4.0) && of_tier(0.0..4.0, 0.2..2.5).contains(&mean_square),
+        "{pulls:?}"
+    );
 }
 
 #[test]
@@ -137,8 +142,8 @@ fn what_cannot_be_found_is_refused() {
         (
             unknown,
             "",
-            "space = \"full\"",
-            "measurement.scale: expected a number, or the space \"subspace\", found \"unknown\" with space \"full\"",
+            "reduction = \"full\"",
+            "measurement.scale: expected a number, or the reduction \"subspace\", found \"unknown\" with reduction \"full\"",
         ),
         (
             "scale = 0",

@@ -1,7 +1,6 @@
 //! Real files, where there are any.
 
-#[path = "../../../formats/tests/outside/mod.rs"]
-mod outside;
+use crate::outside;
 
 #[allow(unused_imports, reason = "each test uses a part")]
 pub(crate) use outside::{python_with, shared};

@@ -7,8 +7,8 @@
 
 use frfit::c64;
 use frfit::frequency::{linear_hz, omega_rad_s};
-use frfit::identify::{SeveralOutcome, Sought, Vary};
-use frfit::laws::Family;
+use frfit::identify::{SeveralOutcome, Unknown, Variation};
+use frfit::laws::LawKind;
 use frfit::material::Law;
 use frfit_bench::measurement::{by_subspace, direct};
 use frfit_bench::{Structure, Table, machine};
@@ -96,7 +96,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
 struct Case {
     structure: Structure,
-    sought: Vec<Sought>,
+    unknowns: Vec<Unknown>,
     truth: Numbers,
 }
 
@@ -116,16 +116,17 @@ impl Case {
         let [first, last] = model.band_hz;
         let mut structure = Structure::of(model, linear_hz(first, last, frequencies), 1e-5, 3.0);
         structure.measured = measure(&structure)?;
-        let (core, core_law) = structure.sought("core", CORE, Vary::Law(Family::Fractional), false)?;
-        let (skins, skins_law) = structure.sought("skins", SKINS, Vary::Constant, false)?;
-        let (density, density_law) = structure.sought("core-mass", DENSITY, Vary::Constant, true)?;
+        let (core, core_law) =
+            structure.unknowns("core", CORE, Variation::Law(LawKind::Fractional), false)?;
+        let (skins, skins_law) = structure.unknowns("skins", SKINS, Variation::Constant, false)?;
+        let (density, density_law) = structure.unknowns("core-mass", DENSITY, Variation::Constant, true)?;
         let truth = numbers(&structure, [&core_law, &skins_law, &density_law])?;
-        Ok(Self { structure, sought: vec![core, skins, density], truth })
+        Ok(Self { structure, unknowns: vec![core, skins, density], truth })
     }
 
     fn ours(&self) -> Result<Ours, Box<dyn Error>> {
-        let (outcome, seconds) = self.structure.identify_several(&self.sought)?;
-        let law = |j: usize| outcome.band.iter().find(|one| one.sought == j).map(|one| &one.law);
+        let (outcome, seconds) = self.structure.identify_several(&self.unknowns)?;
+        let law = |j: usize| outcome.band.iter().find(|one| one.unknowns == j).map(|one| &one.law);
         let laws = [law(0), law(1), law(2)].map(|law| law.ok_or("an unknown of the band is missing"));
         let [core, skins, density] = laws;
         let found = numbers(&self.structure, [core?, skins?, density?])?;
@@ -151,7 +152,7 @@ impl Case {
         let stiffness = &self.structure.stiffness;
         let skins_mass = &stiffness.terms()[stiffness.find("skins-mass")?].factor;
         let skins_density = skins_mass.at(self.structure.frequency_hz[0])?.re;
-        let nominal: Vec<&Law> = self.sought.iter().map(|one| &one.nominal).collect();
+        let nominal: Vec<&Law> = self.unknowns.iter().map(|one| &one.nominal).collect();
         let [e0, e1, alpha, storage, eta, density] =
             numbers(&self.structure, [nominal[0], nominal[1], nominal[2]])?;
         Ok(json!({

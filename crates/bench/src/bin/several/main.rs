@@ -6,8 +6,8 @@
 
 use frfit::c64;
 use frfit::frequency::linear_hz;
-use frfit::identify::{Options, SeveralOutcome, Sought, Status, Vary};
-use frfit::laws::Family;
+use frfit::identify::{Options, SeveralOutcome, Status, Unknown, Variation};
+use frfit::laws::LawKind;
 use frfit::material::Law;
 use frfit_bench::measurement::{BySubspace, by_subspace};
 use frfit_bench::{Structure, Table, machine};
@@ -42,11 +42,11 @@ fn main() -> Result<(), Box<dyn Error>> {
         checked.unwrap_or(f64::NAN)
     );
 
-    let core = |varies| structure.sought("core", 1.0 + DELTA, varies, false);
-    let skins = structure.sought("skins", SKINS, Vary::Constant, false)?;
-    let density = structure.sought("core-mass", DENSITY, Vary::Constant, true)?;
-    let freely = core(Vary::PerFrequency)?;
-    let by_law = core(Vary::Law(Family::Fractional))?;
+    let core = |varies| structure.unknowns("core", 1.0 + DELTA, varies, false);
+    let skins = structure.unknowns("skins", SKINS, Variation::Constant, false)?;
+    let density = structure.unknowns("core-mass", DENSITY, Variation::Constant, true)?;
+    let freely = core(Variation::PerFrequency)?;
+    let by_law = core(Variation::Law(LawKind::Fractional))?;
     let sets = [
         ("core E(ω)", vec![freely.clone()]),
         ("core E(ω), skins E", vec![freely.clone(), skins.clone()]),
@@ -79,8 +79,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     ]);
     for (label, set) in sets {
         eprintln!("{label} …");
-        let (sought, truths): (Vec<Sought>, Vec<Law>) = set.into_iter().unzip();
-        let (outcome, cpu) = structure.identify_several(&sought)?;
+        let (unknowns, truths): (Vec<Unknown>, Vec<Law>) = set.into_iter().unzip();
+        let (outcome, cpu) = structure.identify_several(&unknowns)?;
         let [right, wrong] = score(&outcome, &truths)?;
         table.push([
             label.to_owned(),

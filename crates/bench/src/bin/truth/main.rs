@@ -12,7 +12,7 @@ mod cases;
 mod files;
 
 use cases::{CASES, Case};
-use frfit::identify::{Options, Selection, Space};
+use frfit::identify::{Options, Reduction, Selection};
 use frfit_bench::{Run, Structure, Table, machine, measurement};
 use std::error::Error;
 
@@ -70,7 +70,8 @@ fn add(
     delta: f64,
     sample: usize,
 ) -> Result<(), Box<dyn Error>> {
-    let smallest = Options { selection: Selection::Smallest, space: Space::Full, ..Options::default() };
+    let smallest =
+        Options { selection: Selection::Smallest, reduction: Reduction::Full, ..Options::default() };
     let alone = |options: &Options| structure.task(1, delta)?.sample(sample).run(options, THREADS);
     let (series, smallest) = (alone(&Options::paper())?, alone(&smallest)?);
     for sensors in 1..=structure.experiment.sensors.len() {

@@ -1,16 +1,16 @@
 //! Unknown scales and delays beside a law: eliminated from the least squares, and where they begin.
 
+use super::calibration::{Calibrated, Channel, ChannelUnknowns, Scaled, top, with_scales};
+use super::initial_calibration::aligned;
 use super::joint;
 use super::laws::Fitting;
-use super::scale::{Calibrated, Channel, Scaled, Unknown, top, with_scales};
-use super::space::Space;
-use super::start::aligned;
-use super::{Band, BandOutcome, Hooks};
+use super::reduced_band::ReducedBand;
+use super::{Band, BandOutcome, Context};
 use crate::c64;
 use crate::for_each::map;
 use crate::frequency::omega_rad_s;
 use crate::identify::Options;
-use crate::laws::{Chart, LawFit};
+use crate::laws::{LawFit, Parametrization};
 use crate::median::median;
 use crate::model::ModelAt;
 
@@ -83,12 +83,12 @@ impl Fitting<'_, '_> {
     /// Responses over the band at θ, and the best calibration of each channel.
     pub(super) fn channels(
         &self,
-        chart: &Chart,
-        space: &Space<'_, '_>,
+        parametrization: &Parametrization,
+        space: &ReducedBand<'_, '_>,
         theta: &[f64],
     ) -> Option<(Vec<Responded>, Vec<ChannelFit>)> {
         let one = |i: usize| -> Option<Responded> {
-            let (modulus, of_theta) = chart.modulus(theta, self.omega(i))?;
+            let (modulus, of_theta) = parametrization.modulus(theta, self.omega(i))?;
             let correction = modulus - self.at[i].parameters[0].nominal;
             let (x, slope) = space.model(i).respond_with_slope(&self.at[i], correction).ok()?;
             Some(Responded { x, slope, of_theta })
@@ -145,10 +145,10 @@ impl Fitting<'_, '_> {
     pub(super) fn calibrations_of(
         &self,
         law: &LawFit,
-        space: &Space<'_, '_>,
+        space: &ReducedBand<'_, '_>,
     ) -> Option<Vec<[Calibrated; 2]>> {
-        let (chart, theta) = law.coordinates();
-        let (_, fits) = self.channels(chart, space, theta)?;
+        let (parametrization, theta) = law.coordinates();
+        let (_, fits) = self.channels(parametrization, space, theta)?;
         let level = if law.sigma_known { 1.0 } else { law.reduced_chi_squared()? };
         let told = |value: f64, told: f64, moved: &[f64]| {
             let through = law.covariance_of(moved, moved);
@@ -166,7 +166,7 @@ impl Fitting<'_, '_> {
 
 /// Where a fit begins: the subspace, calibrations, and the factor over the nominal one whose response has the shape that was measured.
 pub(super) struct Begin<'a, 'o> {
-    pub(super) space: Option<Space<'a, 'o>>,
+    pub(super) space: Option<ReducedBand<'a, 'o>>,
     pub(super) channels: Vec<Channel>,
     pub(super) ratio: f64,
 }
@@ -175,13 +175,13 @@ pub(super) struct Begin<'a, 'o> {
 pub(super) fn at_scales<'a, 'o>(
     band: &Band<'a>,
     at: &'o [ModelAt<'a>],
-    unknown: &[Unknown],
+    unknown: &[ChannelUnknowns],
     options: &'o Options,
-    hooks: Hooks<'_>,
+    hooks: Context<'_>,
 ) -> (BandOutcome, Begin<'a, 'o>) {
     let mut space = super::space(band, at, options, hooks);
     let right = vec![Channel::RIGHT; unknown.len()];
-    let is_known = |unknown: &Unknown| !unknown.any();
+    let is_known = |unknown: &ChannelUnknowns| !unknown.any();
     if unknown.iter().all(is_known) {
         let outcome = joint::identify(band, at, &mut space, &[], options, hooks);
         return (outcome, Begin { space, channels: right, ratio: 1.0 });
@@ -208,10 +208,10 @@ const FREQUENCIES: usize = 300;
 fn shaped(
     band: &Band<'_>,
     at: &[ModelAt<'_>],
-    space: &Space<'_, '_>,
-    unknown: &[Unknown],
+    space: &ReducedBand<'_, '_>,
+    unknown: &[ChannelUnknowns],
     options: &Options,
-    hooks: Hooks<'_>,
+    hooks: Context<'_>,
 ) -> Option<(Vec<Channel>, f64)> {
     let which = spread(band.frequency_hz);
     let nominal = at[at.len() / 2].parameters[0].nominal;
@@ -229,7 +229,7 @@ fn shaped(
         Some((misfits.sum::<Option<f64>>()?, responses, ratio(k)))
     });
     let (_, responses, ratio) = tried.into_iter().flatten().min_by(|a, b| a.0.total_cmp(&b.0))?;
-    let calibration = |(m, &unknown): (usize, &Unknown)| {
+    let calibration = |(m, &unknown): (usize, &ChannelUnknowns)| {
         let ratios: Vec<(f64, c64)> = which
             .iter()
             .zip(&responses)
@@ -264,7 +264,7 @@ fn shape(
     which: &[usize],
     responses: &[Vec<c64>],
     m: usize,
-    unknown: Unknown,
+    unknown: ChannelUnknowns,
 ) -> Option<f64> {
     let logs = which.iter().zip(responses).map(|(&i, x)| x[m].norm().ln() - band.measured[i][m].norm().ln());
     let logs: Vec<f64> = logs.filter(|log| log.is_finite()).collect();

@@ -1,13 +1,13 @@
 //! All frequencies and all sensors together.
 
-use super::contradiction::{contradicting, without};
-use super::explore::{Explored, Fit};
+use super::candidates::{Candidates, Fit};
 use super::fit::{SensorFit, goodness, sensor_misfit};
 use super::noise::{NoiseLevel, deviations, freedom, of_scatter, of_sensors};
-use super::on_space::on_space;
-use super::space::Space;
+use super::on_reduced::on_space;
+use super::outlier_sensor::{contradicting, without};
+use super::reduced_band::ReducedBand;
 use super::verdict::{Evidence, verdict};
-use super::{Band, BandOutcome, Hooks, Noise, Stage};
+use super::{Band, BandOutcome, Context, Noise, Stage};
 use crate::c64;
 use crate::for_each::map;
 use crate::identify::{Identified, Options};
@@ -25,15 +25,15 @@ pub(super) struct Task<'t, 'a> {
     /// Sensors that are not left out.
     pub(super) sensors: usize,
     pub(super) options: &'t Options,
-    pub(super) hooks: Hooks<'t>,
+    pub(super) hooks: Context<'t>,
 }
 
 /// The choice at each of some frequencies, and noise over σ.
 pub(super) type Selected = (Vec<Choice>, Option<f64>);
 
 /// What was found at every frequency, at how many of them all solutions were looked for, and what was chosen.
-pub(super) struct Solved {
-    pub(super) found: Vec<Explored>,
+pub(super) struct BandSolution {
+    pub(super) found: Vec<Candidates>,
     pub(super) explored: usize,
     pub(super) selected: Selected,
 }
@@ -51,7 +51,7 @@ impl Task<'_, '_> {
     }
 
     /// How large the noise is, by all answers.
-    fn noise_level(&self, found: &[Explored], choices: &[Choice]) -> NoiseLevel {
+    fn noise_level(&self, found: &[Candidates], choices: &[Choice]) -> NoiseLevel {
         let nominal = |i: usize| self.at[i].parameters[0].nominal;
         let nodes: Vec<Vec<Node>> = (0..found.len()).map(|i| nodes(&found[i], nominal(i))).collect();
         let chosen: Vec<Option<Node>> =
@@ -64,7 +64,11 @@ impl Task<'_, '_> {
     }
 
     /// The choice among what was found at some frequencies.
-    pub(super) fn select<'e>(&self, which: &[usize], found: impl Iterator<Item = &'e Explored>) -> Selected {
+    pub(super) fn select<'e>(
+        &self,
+        which: &[usize],
+        found: impl Iterator<Item = &'e Candidates>,
+    ) -> Selected {
         (self.hooks.progress)(Stage::Selection, 0, self.at.len());
         let frequency_hz: Vec<f64> = which.iter().map(|&i| self.band.frequency_hz[i]).collect();
         let nodes: Vec<Vec<Node>> = which
@@ -88,16 +92,16 @@ impl Task<'_, '_> {
 pub(super) fn identify<'a>(
     band: &Band<'a>,
     at: &[ModelAt<'a>],
-    space: &mut Option<Space<'_, '_>>,
+    space: &mut Option<ReducedBand<'_, '_>>,
     hidden: &[usize],
     options: &Options,
-    hooks: Hooks<'_>,
+    hooks: Context<'_>,
 ) -> BandOutcome {
     let assumed = deviations(band.measured, band.noise);
     let sensors = band.experiment.sensors.len();
     let task = Task { band, at, sigma: &assumed, sensors, options, hooks };
     let (suspects, spent) = contradicting(&task, space.as_mut(), hidden);
-    let out = [hidden, if options.robust { &suspects[..] } else { &[] }].concat();
+    let out = [hidden, if options.reject_outliers { &suspects[..] } else { &[] }].concat();
     let sigma = without(&assumed, &out);
     let task = Task { sigma: &sigma, sensors: sensors - out.len(), ..task };
     let (solved, mut work) = match space {
@@ -105,11 +109,11 @@ pub(super) fn identify<'a>(
         None => {
             let (found, work) = on_full_model(&task);
             let all: Vec<usize> = (0..at.len()).collect();
-            (Solved { explored: all.len(), selected: task.select(&all, found.iter()), found }, work)
+            (BandSolution { explored: all.len(), selected: task.select(&all, found.iter()), found }, work)
         }
     };
     work += spent;
-    let Solved { found, explored, selected: (choices, _) } = solved;
+    let BandSolution { found, explored, selected: (choices, _) } = solved;
     let noise = task.noise_level(&found, &choices);
     let outcomes: Vec<Identified> = map(hooks.for_each, at.len(), |i| {
         let chosen = choices[i].chosen.map(|k| &found[i].solutions[k]);
@@ -154,7 +158,7 @@ pub(super) fn identify<'a>(
     }
 }
 
-fn on_full_model(task: &Task<'_, '_>) -> (Vec<Explored>, Work) {
+fn on_full_model(task: &Task<'_, '_>) -> (Vec<Candidates>, Work) {
     let Task { band, at, sigma, options, hooks, .. } = *task;
     let done = AtomicUsize::new(0);
     let found = map(hooks.for_each, at.len(), |i| {
@@ -164,7 +168,7 @@ fn on_full_model(task: &Task<'_, '_>) -> (Vec<Explored>, Work) {
                 explored.confirm(&system, &band.measured[i], &sigma[i]);
                 (explored, system.work())
             }
-            Err(breakdown) => (Explored::broken(breakdown), Work { factorisations: 1, solves: 0 }),
+            Err(breakdown) => (Candidates::broken(breakdown), Work { factorisations: 1, solves: 0 }),
         };
         (hooks.progress)(Stage::Solutions, done.fetch_add(1, Ordering::Relaxed) + 1, at.len());
         explored
@@ -174,8 +178,11 @@ fn on_full_model(task: &Task<'_, '_>) -> (Vec<Explored>, Work) {
     (found.into_iter().map(|(explored, _)| explored).collect(), work)
 }
 
-fn nodes(found: &Explored, nominal: c64) -> Vec<Node> {
-    let node =
-        |s: &super::explore::Solution| Node { factor: nominal + s.correction, misfit: s.misfit, std: s.std };
+fn nodes(found: &Candidates, nominal: c64) -> Vec<Node> {
+    let node = |s: &super::candidates::Solution| Node {
+        factor: nominal + s.correction,
+        misfit: s.misfit,
+        std: s.std,
+    };
     found.solutions.iter().map(node).collect()
 }

@@ -3,21 +3,22 @@
 //! Every frequency by itself comes first: it trains the subspace, and tells where to begin. Then Σ |u_m − x_m(E(ω; θ))|²/σ_m² over the band is made least in θ on the
 //! models of the neighbourhoods, ∂x_m/∂θ = (∂x_m/∂c)(∂E/∂θ). The subspace is trained further where it is not good enough at the law that came out.
 
+use super::calibration::{Calibrated, Calibration, ChannelUnknowns, Scaled};
+use super::candidates::misfit;
 use super::channels::{Begin, Responded, at_scales};
-use super::contradiction::without;
-use super::explore::misfit;
 use super::fit::{Explained, GoodnessOfFit, judge};
 use super::joint;
 use super::noise::{NoiseLevel, NoiseSource, deviations};
-use super::scale::{Calibrated, Calibration, Scaled, Unknown};
-use super::space::{Space, certificate};
-use super::{Band, BandOutcome, Hooks, Noise, Stage, near_or_far, on_subspace};
+use super::outlier_sensor::without;
+use super::reduced_band::{ReducedBand, certificate};
+use super::{Band, BandOutcome, Context, Noise, Stage, near_or_far, on_subspace};
 use crate::c64;
 use crate::for_each::map;
 use crate::frequency::omega_rad_s;
 use crate::identify::{Identified, Options, Status, Uncertainty, relative_error};
 use crate::laws::{
-    Chart, Datum, Evidence, Family, LawFit, Line, Minima, Residuals, Search, best, minimise, starts,
+    Datum, Evidence, LawFit, LawKind, Line, LocalMinima, Parametrization, Residuals, Search, best, minimise,
+    starts,
 };
 use crate::material::OutsideTable;
 use crate::model::ModelAt;
@@ -80,14 +81,14 @@ pub(super) const APART: f64 = 3.0;
 /// Where there is no frequency, or not one measured value for each frequency and sensor.
 pub fn identify_laws(
     band: &Band<'_>,
-    families: &[Family],
+    kinds: &[LawKind],
     options: &Options,
-    hooks: Hooks<'_>,
+    hooks: Context<'_>,
 ) -> Result<LawsOutcome, OutsideTable> {
     identify_laws_scaled(
         band,
-        &vec![Unknown::default(); band.experiment.sensors.len()],
-        families,
+        &vec![ChannelUnknowns::default(); band.experiment.sensors.len()],
+        kinds,
         options,
         hooks,
     )
@@ -106,10 +107,10 @@ pub fn identify_laws(
 /// As [`identify_laws`], and where there is not one entry of `unknown` for each sensor.
 pub fn identify_laws_scaled(
     band: &Band<'_>,
-    unknown: &[Unknown],
-    families: &[Family],
+    unknown: &[ChannelUnknowns],
+    kinds: &[LawKind],
     options: &Options,
-    hooks: Hooks<'_>,
+    hooks: Context<'_>,
 ) -> Result<LawsOutcome, OutsideTable> {
     assert!(unknown.len() == band.experiment.sensors.len());
     assert!(!band.frequency_hz.is_empty() && band.measured.len() == band.frequency_hz.len());
@@ -139,11 +140,11 @@ pub fn identify_laws_scaled(
     let all: Vec<usize> = (0..at.len()).collect();
     space.localise(&all, hooks.for_each);
     let mut fits: Vec<LawFit> = Vec::new();
-    for &family in families {
-        (hooks.progress)(Stage::Law, fits.len(), families.len());
+    for &family in kinds {
+        (hooks.progress)(Stage::Law, fits.len(), kinds.len());
         fits.extend(fitting.fit(family, &mut space, &free, best(&fits)));
     }
-    (hooks.progress)(Stage::Law, families.len(), families.len());
+    (hooks.progress)(Stage::Law, kinds.len(), kinds.len());
     let left = best(&fits).and_then(|law| fitting.calibrations_of(law, &space));
     let better: Vec<_> = match &left {
         Some(left) => {
@@ -195,11 +196,11 @@ pub(super) struct Fitting<'t, 'a> {
     /// Of real and imaginary part each.
     pub(super) sigma: &'t [Vec<f64>],
     /// What of each sensor's channel is to be found.
-    pub(super) unknown: &'t [Unknown],
+    pub(super) unknown: &'t [ChannelUnknowns],
     /// Of a factor over the nominal one that has the shape of what was measured.
     ratio: f64,
     options: &'t Options,
-    pub(super) hooks: Hooks<'t>,
+    pub(super) hooks: Context<'t>,
 }
 
 impl Fitting<'_, '_> {
@@ -219,8 +220,8 @@ impl Fitting<'_, '_> {
     /// Fits one law, and trains the subspace at it; `None` where there are fewer numbers than parameters, or nowhere a finite misfit.
     fn fit(
         &self,
-        family: Family,
-        space: &mut Space<'_, '_>,
+        family: LawKind,
+        space: &mut ReducedBand<'_, '_>,
         free: &BandOutcome,
         so_far: Option<&LawFit>,
     ) -> Option<LawFit> {
@@ -228,23 +229,23 @@ impl Fitting<'_, '_> {
             return None;
         }
         let omegas: Vec<f64> = (0..self.at.len()).map(|i| self.omega(i)).collect();
-        let chart = Chart::about(family, &omegas);
-        let mut begin = self.starts(&chart, space, free, so_far);
+        let parametrization = Parametrization::about(family, &omegas);
+        let mut begin = self.starts(&parametrization, space, free, so_far);
         let all: Vec<usize> = (0..self.at.len()).collect();
-        let mut first: Option<Minima> = None;
+        let mut first: Option<LocalMinima> = None;
         for round in 0..=ROUNDS {
             let search = Search { starts: FOLLOWED, patience: PATIENCE, same: 0.0 };
-            let found = minimise(&begin, &|theta| self.residuals(&chart, space, theta), &search)?;
+            let found = minimise(&begin, &|theta| self.residuals(&parametrization, space, theta), &search)?;
             // What the starts said is said once; later rounds move the one that was best.
             let minima = match first.take() {
-                Some(before) => Minima { best: found.best, ..before },
+                Some(before) => LocalMinima { best: found.best, ..before },
                 None => found,
             };
             let theta = minima.best.theta.clone();
             begin = vec![theta.clone()];
             first = Some(minima);
             let correction = |i: usize| {
-                let (modulus, _) = chart.modulus(&theta, self.omega(i))?;
+                let (modulus, _) = parametrization.modulus(&theta, self.omega(i))?;
                 Some(modulus - self.at[i].parameters[0].nominal)
             };
             let lacking = space.lacking(correction, self.hooks.for_each);
@@ -253,17 +254,18 @@ impl Fitting<'_, '_> {
             }
             space.localise(&all, self.hooks.for_each);
         }
-        let fit = LawFit::new(chart, first?, self.evidence());
+        let fit = LawFit::new(parametrization, first?, self.evidence());
         let lines = self.lines(&fit, space);
         Some(fit.widened(&lines))
     }
 
     /// What a law leaves of ln E at each frequency, by all sensors, and what that pulls.
-    fn lines(&self, law: &LawFit, space: &Space<'_, '_>) -> Vec<Line> {
-        let (chart, theta) = law.coordinates();
-        let Some((responses, fits)) = self.channels(chart, space, theta) else { return Vec::new() };
+    fn lines(&self, law: &LawFit, space: &ReducedBand<'_, '_>) -> Vec<Line> {
+        let (parametrization, theta) = law.coordinates();
+        let Some((responses, fits)) = self.channels(parametrization, space, theta) else { return Vec::new() };
         let line = |(i, one): (usize, &Responded)| {
-            let modulus = chart.modulus(theta, self.omega(i)).map_or(c64::default(), |(modulus, _)| modulus);
+            let modulus =
+                parametrization.modulus(theta, self.omega(i)).map_or(c64::default(), |(modulus, _)| modulus);
             let (mut weight, mut along, mut pull) = (0.0, c64::default(), vec![c64::default(); theta.len()]);
             for (m, fit) in fits.iter().enumerate() {
                 let sigma = self.sigma[i][m];
@@ -289,8 +291,13 @@ impl Fitting<'_, '_> {
     }
 
     /// (x_m − u_m)/σ_m over the band and its slopes.
-    fn residuals(&self, chart: &Chart, space: &Space<'_, '_>, theta: &[f64]) -> Option<Residuals> {
-        let (responses, fits) = self.channels(chart, space, theta)?;
+    fn residuals(
+        &self,
+        parametrization: &Parametrization,
+        space: &ReducedBand<'_, '_>,
+        theta: &[f64],
+    ) -> Option<Residuals> {
+        let (responses, fits) = self.channels(parametrization, space, theta)?;
         let (sensors, n) = (self.unknown.len(), theta.len());
         let each = || (0..responses.len()).flat_map(|i| (0..sensors).map(move |m| (i, m)));
         let parts = |value: c64| [value.re, value.im];
@@ -314,8 +321,8 @@ impl Fitting<'_, '_> {
     /// nominal.
     fn starts(
         &self,
-        chart: &Chart,
-        space: &Space<'_, '_>,
+        parametrization: &Parametrization,
+        space: &ReducedBand<'_, '_>,
         free: &BandOutcome,
         so_far: Option<&LawFit>,
     ) -> Vec<Vec<f64>> {
@@ -333,9 +340,9 @@ impl Fitting<'_, '_> {
         let like_measured = if self.ratio == 1.0 { Vec::new() } else { nominal(self.ratio) };
         for (data, moved) in [(answered, true), (like_measured, true), (other, false), (nominal(1.0), false)]
         {
-            let Some(near) = nearest(chart, &data) else { continue };
+            let Some(near) = nearest(parametrization, &data) else { continue };
             if moved || begin.is_empty() {
-                begin.extend(MOVED.map(|by| chart.scaled(&near.best.theta, by)));
+                begin.extend(MOVED.map(|by| parametrization.scaled(&near.best.theta, by)));
             }
             begin.push(near.best.theta);
             begin.extend(near.others.into_iter().map(|other| other.theta));
@@ -344,7 +351,7 @@ impl Fitting<'_, '_> {
     }
 
     /// What a frequency says by itself, with its deviation: σ carried by the slope of the response.
-    fn datum(&self, space: &Space<'_, '_>, i: usize, own: &Identified) -> Option<Datum> {
+    fn datum(&self, space: &ReducedBand<'_, '_>, i: usize, own: &Identified) -> Option<Datum> {
         let correction = own.correction.filter(|_| own.status == Status::Ok)?;
         let modulus = own.nominal + correction;
         let (_, slope) = space.model(i).respond_with_slope(&self.at[i], correction).ok()?;
@@ -376,7 +383,7 @@ impl Fitting<'_, '_> {
     fn outcome(
         &self,
         (law, noise): (&LawFit, f64),
-        space: &Space<'_, '_>,
+        space: &ReducedBand<'_, '_>,
         i: usize,
         own: &Identified,
     ) -> Identified {
@@ -431,9 +438,9 @@ impl Fitting<'_, '_> {
 }
 
 /// The law nearest to some moduli; `None` where there are too few.
-pub(in crate::identify) fn nearest(chart: &Chart, data: &[Datum]) -> Option<Minima> {
-    let enough = 2 * data.len() >= chart.family.count();
+pub(in crate::identify) fn nearest(parametrization: &Parametrization, data: &[Datum]) -> Option<LocalMinima> {
+    let enough = 2 * data.len() >= parametrization.family.count();
     let search = Search { starts: 3, patience: 30, same: 0.0 };
-    let evaluate = |theta: &[f64]| chart.residuals(data, theta);
-    if enough { minimise(&starts(chart, data), &evaluate, &search) } else { None }
+    let evaluate = |theta: &[f64]| parametrization.residuals(data, theta);
+    if enough { minimise(&starts(parametrization, data), &evaluate, &search) } else { None }
 }

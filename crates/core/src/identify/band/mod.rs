@@ -1,42 +1,42 @@
 //! A whole band: all frequencies, and all sensors, together or one by one.
 
-mod alone;
-mod anchors;
+mod calibration;
+mod candidates;
 mod channels;
-mod contradiction;
-mod explore;
+mod continuation;
+mod exploration_grid;
 mod fit;
-mod follow;
+mod initial_calibration;
 mod joint;
 mod laws;
+mod matching;
 mod noise;
-mod on_space;
-mod same;
-mod scale;
+mod on_reduced;
+mod outlier_sensor;
+mod path_model;
+mod per_frequency;
+mod reduced_band;
 mod smooth;
-mod space;
-mod start;
-mod tube;
 mod verdict;
 
+pub use calibration::{Calibrated, Calibration, ChannelUnknowns, identify_band_scaled};
+pub(crate) use initial_calibration::{MOST_PHASE, PHASE_STEP};
 pub use laws::{LawsOutcome, identify_laws, identify_laws_scaled};
-pub use scale::{Calibrated, Calibration, Unknown, identify_band_scaled};
 pub use smooth::{SmoothCurve, SmoothOutcome, identify_smooth};
-pub(crate) use start::{MOST_PHASE, PHASE_STEP};
 
-use super::{Identified, Options, Selection, Space as Where};
+use super::{Identified, Options, Reduction, Selection};
 use crate::c64;
 use crate::for_each::ForEach;
 use crate::material::OutsideTable;
 use crate::model::{DynamicStiffness, Experiment, ModelAt, Parameter};
 use crate::response::Work;
-use space::Space;
+use reduced_band::ReducedBand;
 
-pub(super) use explore::Fit;
+pub(super) use candidates::Fit;
 pub(super) use fit::judge;
 pub(super) use laws::{ROUNDS, UNEXPLAINED, nearest};
 pub(super) use noise::deviations;
-pub(super) use space::{BOX, TRAINED, certificate, is_certain, thinned};
+pub(super) use reduced_band::{BOX, TRAINED, certificate, is_certain, thinned};
 
 pub use fit::{Explained, GoodnessOfFit, SensorFit};
 pub use noise::{NoiseLevel, NoiseSource};
@@ -84,7 +84,7 @@ pub enum Stage {
 
 /// What the caller lends: threads, and an ear for (stage, how many frequencies are done, of how many).
 #[derive(Clone, Copy)]
-pub struct Hooks<'a> {
+pub struct Context<'a> {
     /// Does independent pieces of work.
     pub for_each: ForEach<'a>,
     /// Called from any thread.
@@ -125,7 +125,7 @@ pub struct BandOutcome {
 pub fn identify_band(
     band: &Band<'_>,
     options: &Options,
-    hooks: Hooks<'_>,
+    hooks: Context<'_>,
 ) -> Result<BandOutcome, OutsideTable> {
     assert!(!band.frequency_hz.is_empty() && band.measured.len() == band.frequency_hz.len());
     let at = band.model.at_all(band.frequency_hz, std::slice::from_ref(band.parameter))?;
@@ -140,7 +140,7 @@ fn near_and_far(options: &Options) -> [Options; 2] {
 
 /// The same for a joint selection on the subspace, whatever the options say.
 fn on_subspace(options: &Options) -> [Options; 2] {
-    near_and_far(&Options { space: Where::Subspace, selection: Selection::Joint, ..*options })
+    near_and_far(&Options { reduction: Reduction::Subspace, selection: Selection::Joint, ..*options })
 }
 
 /// What is found near the nominal; where a path through that leaves out most of the band, the nominal is too far, and the bounds are all that is left:
@@ -177,11 +177,13 @@ fn identify_at_all<'a>(
     band: &Band<'a>,
     at: &[ModelAt<'a>],
     options: &Options,
-    hooks: Hooks<'_>,
+    hooks: Context<'_>,
 ) -> BandOutcome {
     match options.selection {
         Selection::Joint => keeping_space(band, at, options, hooks).0,
-        Selection::Smallest => alone::identify(band, at, space(band, at, options, hooks), options, hooks),
+        Selection::Smallest => {
+            per_frequency::identify(band, at, space(band, at, options, hooks), options, hooks)
+        }
     }
 }
 
@@ -190,8 +192,8 @@ fn keeping_space<'a, 'o>(
     band: &Band<'a>,
     at: &'o [ModelAt<'a>],
     options: &'o Options,
-    hooks: Hooks<'_>,
-) -> (BandOutcome, Option<Space<'a, 'o>>) {
+    hooks: Context<'_>,
+) -> (BandOutcome, Option<ReducedBand<'a, 'o>>) {
     let mut space = space(band, at, options, hooks);
     (joint::identify(band, at, &mut space, &[], options, hooks), space)
 }
@@ -200,9 +202,9 @@ fn space<'a, 'o>(
     band: &Band<'a>,
     at: &'o [ModelAt<'a>],
     options: &'o Options,
-    hooks: Hooks<'_>,
-) -> Option<Space<'a, 'o>> {
-    let wanted = options.space.is_subspace(options.method, band.model.dim(), at.len());
+    hooks: Context<'_>,
+) -> Option<ReducedBand<'a, 'o>> {
+    let wanted = options.reduction.is_subspace(options.method, band.model.dim(), at.len());
     // A singular stand-in for D is no reason to give up: the full model says at which frequency what breaks down.
-    wanted.then(|| Space::new(band, at, options, hooks).ok()).flatten()
+    wanted.then(|| ReducedBand::new(band, at, options, hooks).ok()).flatten()
 }

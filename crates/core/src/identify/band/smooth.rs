@@ -6,14 +6,14 @@
 //! given, are averaged over their posterior. x is holomorphic in ln E and noise circular, and by causality the fluctuations of ln |E| and of the loss angle are
 //! of one size: real and imaginary part have one κ, one weight, and no correlation.
 
-use super::contradiction::without;
-use super::explore::{misfit, weighed};
+use super::candidates::{misfit, weighed};
 use super::fit::{judge, sensor_misfit};
 use super::laws::{APART, MOVED, ROUNDS, UNEXPLAINED};
 use super::noise::{LEAST_LEVEL, deviations};
-use super::space::{Space, certificate};
+use super::outlier_sensor::without;
+use super::reduced_band::{ReducedBand, certificate};
 use super::{
-    Band, BandOutcome, Hooks, Noise, NoiseLevel, NoiseSource, SensorFit, Stage, keeping_space, near_or_far,
+    Band, BandOutcome, Context, Noise, NoiseLevel, NoiseSource, SensorFit, Stage, keeping_space, near_or_far,
     on_subspace,
 };
 use crate::c64;
@@ -83,7 +83,7 @@ const OUTLIERS: f64 = 0.25;
 pub fn identify_smooth(
     band: &Band<'_>,
     options: &Options,
-    hooks: Hooks<'_>,
+    hooks: Context<'_>,
 ) -> Result<SmoothOutcome, OutsideTable> {
     assert!(!band.frequency_hz.is_empty() && band.measured.len() == band.frequency_hz.len());
     let at = band.model.at_all(band.frequency_hz, std::slice::from_ref(band.parameter))?;
@@ -134,7 +134,7 @@ struct Smoothing<'t, 'a> {
     /// Sensors that are left out.
     out: &'t [usize],
     options: &'t Options,
-    hooks: Hooks<'t>,
+    hooks: Context<'t>,
 }
 
 /// A curve that was found.
@@ -175,7 +175,7 @@ impl Smoothing<'_, '_> {
         self.sigma[i].iter().filter(|sigma| sigma.is_finite()).count()
     }
 
-    fn fit(&self, space: &mut Space<'_, '_>, free: &BandOutcome) -> Option<Fitted> {
+    fn fit(&self, space: &mut ReducedBand<'_, '_>, free: &BandOutcome) -> Option<Fitted> {
         let before = space.work();
         let all: Vec<usize> = (0..self.at.len()).collect();
         space.localise(&all, self.hooks.for_each);
@@ -208,7 +208,7 @@ impl Smoothing<'_, '_> {
     }
 
     /// The curve through what each frequency says by itself, moved to where the sensors like it best.
-    fn start(&self, space: &Space<'_, '_>, free: &BandOutcome) -> Option<Vec<State>> {
+    fn start(&self, space: &ReducedBand<'_, '_>, free: &BandOutcome) -> Option<Vec<State>> {
         let own = |i: usize| {
             let none = Observation { x: self.log_omega(i), value: [0.0; 2], weight: 0.0 };
             let outcome = &free.outcomes[i];
@@ -249,7 +249,7 @@ impl Smoothing<'_, '_> {
     }
 
     /// What the sensors say in linear terms about a curve.
-    fn linearised(&self, space: &Space<'_, '_>, used: &[bool], states: &[State]) -> Linearised {
+    fn linearised(&self, space: &ReducedBand<'_, '_>, used: &[bool], states: &[State]) -> Linearised {
         let one = |i: usize| -> (Observation, f64) {
             let log = c64::new(states[i][0][0], states[i][0][1]);
             let none = Observation { x: self.log_omega(i), value: states[i][0], weight: 0.0 };
@@ -301,7 +301,7 @@ impl Smoothing<'_, '_> {
     /// Gauss and Newton's steps to the smooth curve.
     fn descend(
         &self,
-        space: &Space<'_, '_>,
+        space: &ReducedBand<'_, '_>,
         used: &[bool],
         mut states: Vec<State>,
     ) -> Option<(Linearised, Smoothed, bool)> {
@@ -341,7 +341,7 @@ impl Smoothing<'_, '_> {
     }
 
     /// Whether a frequency leaves more than noise at the curve.
-    fn unexplained(&self, space: &Space<'_, '_>, states: &[State], level: f64, i: usize) -> bool {
+    fn unexplained(&self, space: &ReducedBand<'_, '_>, states: &[State], level: f64, i: usize) -> bool {
         let correction = modulus(&states[i]) - self.at[i].parameters[0].nominal;
         let Ok((x, _)) = space.model(i).respond_with_slope(&self.at[i], correction) else { return false };
         self.is_unexplained(i, &x, level.max(LEAST_LEVEL))
@@ -373,7 +373,7 @@ impl Smoothing<'_, '_> {
         &self,
         fitted: &Fitted,
         noise: &NoiseLevel,
-        space: &Space<'_, '_>,
+        space: &ReducedBand<'_, '_>,
         i: usize,
         free: &[Identified],
     ) -> Judged {

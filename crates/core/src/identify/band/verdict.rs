@@ -1,7 +1,7 @@
 //! From the choice at a frequency to its outcome.
 
-use super::explore::Explored;
-use super::space::certificate;
+use super::candidates::Candidates;
+use super::reduced_band::certificate;
 use crate::c64;
 use crate::identify::{Identified, Options, Status, Uncertainty, relative_error};
 use crate::model::ModelAt;
@@ -31,7 +31,7 @@ const UNEXPLAINED: f64 = 5.0;
 
 pub(super) fn verdict(
     evidence: &Evidence<'_>,
-    found: &Explored,
+    found: &Candidates,
     choice: &Choice,
     options: &Options,
 ) -> Identified {
@@ -97,7 +97,7 @@ pub(super) fn verdict(
 /// Error for which the order of the series is predicted: that to which the modulus is to be right.
 const SERIES_ERROR: f64 = 1e-6;
 
-impl Explored {
+impl Candidates {
     /// Everything that was found, as candidates: solutions first.
     fn candidates(&self) -> Vec<Candidate> {
         let admitted = self.solutions.iter().map(|s| Candidate {

@@ -1,8 +1,8 @@
 //! The numbers that hold for the whole band, as coordinates θ of a search.
 
-use super::sought::{Sought, Vary};
+use super::unknown::{Unknown, Variation};
 use crate::c64;
-use crate::laws::{Chart, Family};
+use crate::laws::{LawKind, Parametrization};
 
 /// How one unknown hangs on its coordinates.
 #[derive(Debug, Clone, PartialEq)]
@@ -12,14 +12,14 @@ enum Form {
     /// p = s θ, with s of the size of what is expected.
     Scaled(f64),
     /// A complex constant or a law.
-    Law(Chart),
+    Law(Parametrization),
 }
 
 /// One unknown that holds for the band.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Own {
     /// Which.
-    pub(super) sought: usize,
+    pub(super) unknowns: usize,
     /// Its coordinates.
     pub(super) range: std::ops::Range<usize>,
     form: Form,
@@ -35,45 +35,45 @@ pub(super) struct Coordinates {
 impl Coordinates {
     /// Of the unknowns as they vary; `nominal` are values somewhere in the band.
     pub(super) fn new(
-        sought: &[Sought],
-        vary: impl Fn(&Sought) -> Vary,
+        unknowns: &[Unknown],
+        vary: impl Fn(&Unknown) -> Variation,
         nominal: &[c64],
         omegas: &[f64],
     ) -> Self {
         let (mut each, mut count) = (Vec::new(), 0);
-        for (j, one) in sought.iter().enumerate() {
+        for (j, one) in unknowns.iter().enumerate() {
             let form = match (vary(one), one.real) {
-                (Vary::PerFrequency, _) => continue,
-                (Vary::Constant, true) => {
+                (Variation::PerFrequency, _) => continue,
+                (Variation::Constant, true) => {
                     let [low, high] = one.range(nominal[j]);
                     match low > 0.0 && nominal[j].re > 0.0 {
                         true => Form::Logarithm,
                         false => Form::Scaled(nominal[j].norm().max(low.abs()).max(high.abs())),
                     }
                 }
-                (Vary::Constant, false) => Form::Law(Chart::about(Family::Constant, omegas)),
-                (Vary::Law(family), _) => Form::Law(Chart::about(family, omegas)),
+                (Variation::Constant, false) => Form::Law(Parametrization::about(LawKind::Constant, omegas)),
+                (Variation::Law(family), _) => Form::Law(Parametrization::about(family, omegas)),
             };
             let own = match &form {
-                Form::Law(chart) => chart.family.count(),
+                Form::Law(parametrization) => parametrization.family.count(),
                 _ => 1,
             };
-            each.push(Own { sought: j, range: count..count + own, form });
+            each.push(Own { unknowns: j, range: count..count + own, form });
             count += own;
         }
         Self { each, count }
     }
 
     /// θ of constants with these values; for laws `law` says where to begin.
-    pub(super) fn of(&self, values: &[c64], law: impl Fn(&Chart, usize) -> Vec<f64>) -> Vec<f64> {
+    pub(super) fn of(&self, values: &[c64], law: impl Fn(&Parametrization, usize) -> Vec<f64>) -> Vec<f64> {
         let of = |own: &Own| match &own.form {
-            Form::Logarithm => vec![values[own.sought].re.ln()],
-            Form::Scaled(scale) => vec![values[own.sought].re / scale],
-            Form::Law(chart) if chart.family == Family::Constant => {
-                let value = values[own.sought];
-                chart.coordinates(&[value.re, crate::material::loss_factor(value)])
+            Form::Logarithm => vec![values[own.unknowns].re.ln()],
+            Form::Scaled(scale) => vec![values[own.unknowns].re / scale],
+            Form::Law(parametrization) if parametrization.family == LawKind::Constant => {
+                let value = values[own.unknowns];
+                parametrization.coordinates(&[value.re, crate::material::loss_factor(value)])
             }
-            Form::Law(chart) => law(chart, own.sought),
+            Form::Law(parametrization) => law(parametrization, own.unknowns),
         };
         self.each.iter().flat_map(of).collect()
     }
@@ -87,7 +87,7 @@ impl Own {
         let found = match &self.form {
             Form::Logarithm => real(own[0].exp(), own[0].exp()),
             Form::Scaled(scale) => real(own[0] * scale, *scale),
-            Form::Law(chart) => return chart.modulus(own, omega_rad_s),
+            Form::Law(parametrization) => return parametrization.modulus(own, omega_rad_s),
         };
         found.0.is_finite().then_some(found)
     }
@@ -98,7 +98,7 @@ impl Own {
         match &self.form {
             Form::Logarithm => (vec![own[0].exp()], vec![vec![own[0].exp()]]),
             Form::Scaled(scale) => (vec![own[0] * scale], vec![vec![*scale]]),
-            Form::Law(chart) => chart.parameters(own),
+            Form::Law(parametrization) => parametrization.parameters(own),
         }
     }
 
@@ -110,9 +110,9 @@ impl Own {
     }
 
     /// Its law, where it has one: a complex constant is one too.
-    pub(super) fn family(&self) -> Option<Family> {
+    pub(super) fn family(&self) -> Option<LawKind> {
         match &self.form {
-            Form::Law(chart) => Some(chart.family),
+            Form::Law(parametrization) => Some(parametrization.family),
             _ => None,
         }
     }

@@ -1,18 +1,18 @@
 //! Error bars, what the measurements do not tell, and statuses.
 
+use super::at_frequency::Solution;
 use super::coordinates::Own;
 use super::information::Information;
 use super::outcome::{BandValue, Direction, Number, Profile, SeveralAt, SeveralOutcome, ValueAt};
-use super::search::{Found, Place, Plane, Reach};
-use super::space::Space;
-use super::spot::Solution;
-use super::{Sought, Task};
+use super::reduced_band::ReducedBand;
+use super::search::{BandSolution, Place, Plane, Reach};
+use super::{Task, Unknown};
 use crate::c64;
 use crate::for_each::map;
 use crate::identify::band::{UNEXPLAINED, certificate, judge};
 use crate::identify::uncertainty::{KNOWN, LEAST_LOSS};
 use crate::identify::{NoiseLevel, Status, relative_error};
-use crate::laws::Family;
+use crate::laws::LawKind;
 use crate::material::{Law, loss_factor};
 
 /// Points of a profile to either side, and how far they reach in deviations.
@@ -23,13 +23,13 @@ const REACH: f64 = 3.0;
 const FARTHEST: f64 = 1.0;
 
 impl Task<'_, '_> {
-    pub(super) fn judge(&self, space: &Space<'_>, found: Found) -> SeveralOutcome {
+    pub(super) fn judge(&self, space: &ReducedBand<'_>, found: BandSolution) -> SeveralOutcome {
         let all: Vec<usize> = (0..self.omegas.len()).collect();
         let n = found.theta.len();
         let eliminated = self.eliminated(&all, &found, &found.theta, None);
         let place = eliminated.map(|eliminated| Place { theta: found.theta.clone(), eliminated });
         let information = place.as_ref().and_then(|p| Information::new(&p.eliminated.jacobian, n));
-        let own: usize = self.band.sought.iter().map(Sought::per_frequency).sum();
+        let own: usize = self.band.unknowns.iter().map(Unknown::per_frequency).sum();
         let answered = all.iter().filter(|&&i| found.at(i).is_some()).count();
         let sensors = self.band.experiment.sensors.len();
         let freedom = (answered * 2 * sensors).saturating_sub(answered * own + n);
@@ -48,7 +48,7 @@ impl Task<'_, '_> {
             .coordinates
             .each
             .iter()
-            .flat_map(|one| names(one.family()).into_iter().map(move |name| (one.sought, name)))
+            .flat_map(|one| names(one.family()).into_iter().map(move |name| (one.unknowns, name)))
             .collect();
         let (directions, correlation) = match &information {
             Some(information) if n > 0 => (directions(information, level), correlation(information, &found)),
@@ -74,9 +74,9 @@ impl Task<'_, '_> {
                 Some(family) => family.law(&values),
                 None => Law::Constant(c64::new(values[0], 0.0)),
             };
-            let sought = &self.band.sought[one.sought];
+            let unknowns = &self.band.unknowns[one.unknowns];
             let middle = self.band.frequency_hz[self.omegas.len() / 2];
-            let breaks = law.at(middle).is_ok_and(|value| sought.bounds.broken_by(value).is_some());
+            let breaks = law.at(middle).is_ok_and(|value| unknowns.bounds.broken_by(value).is_some());
             let is_known = |number: &Number| {
                 let least = if number.name == "loss_factor" { LEAST_LOSS } else { 0.0 };
                 number.std.is_some_and(|std| std <= KNOWN * number.value.abs().max(least))
@@ -91,7 +91,7 @@ impl Task<'_, '_> {
             } else {
                 Status::Ok
             };
-            BandValue { sought: one.sought, numbers, law, status }
+            BandValue { unknowns: one.unknowns, numbers, law, status }
         });
         SeveralOutcome {
             band: band.collect(),
@@ -113,8 +113,8 @@ impl Task<'_, '_> {
 
     fn judge_at(
         &self,
-        space: &Space<'_>,
-        found: &Found,
+        space: &ReducedBand<'_>,
+        found: &BandSolution,
         i: usize,
         level: Option<f64>,
         told: Option<(&Information, &[Vec<f64>])>,
@@ -150,8 +150,8 @@ impl Task<'_, '_> {
         let assessed = space.assess(i, &solution.values);
         let certificate =
             assessed.map(|assessed| certificate(&assessed, solution.values[0], measured).response);
-        let own = |(one, value): (&Sought, &ValueAt)| one.per_frequency() == 0 || is_known(value);
-        let known = self.band.sought.iter().zip(&values).all(own);
+        let own = |(one, value): (&Unknown, &ValueAt)| one.per_frequency() == 0 || is_known(value);
+        let known = self.band.unknowns.iter().zip(&values).all(own);
         let unexplained =
             error > self.options.error && chi_squared.is_none_or(|chi| chi.sqrt() > UNEXPLAINED);
         at.status = if unexplained {
@@ -174,7 +174,7 @@ impl Task<'_, '_> {
     /// All values at a frequency with their error bars: of its own coordinates (JᵀJ)⁻¹ + (∂y/∂θ) Cov θ (∂y/∂θ)ᵀ.
     fn with_bars(
         &self,
-        found: &Found,
+        found: &BandSolution,
         i: usize,
         solution: &Solution,
         level: Option<f64>,
@@ -190,19 +190,19 @@ impl Task<'_, '_> {
         let of_theta =
             |g: &[f64], h: &[f64]| told.map_or(0.0, |(information, _)| information.covariance(g, h));
         let mut first = 0;
-        let mut one = |(j, sought): (usize, &Sought)| {
+        let mut one = |(j, unknowns): (usize, &Unknown)| {
             let value = solution.values[j];
             let size = spot.size[j];
             // Covariance of real and imaginary part at σ.
-            let parts: Option<[f64; 3]> = if sought.per_frequency() > 0 {
+            let parts: Option<[f64; 3]> = if unknowns.per_frequency() > 0 {
                 let a = first;
-                let b = first + sought.per_frequency() - 1;
+                let b = first + unknowns.per_frequency() - 1;
                 first = b + 1;
                 let both =
                     |a: usize, b: usize| size * size * (alone[a][b] + of_theta(&gradient(a), &gradient(b)));
                 Some([both(a, a), both(a, b), both(b, b)])
             } else {
-                let own = found.coordinates.each.iter().find(|own| own.sought == j);
+                let own = found.coordinates.each.iter().find(|own| own.unknowns == j);
                 own.and_then(|own| {
                     let (_, slopes) = own.value(&found.theta, self.omegas[i])?;
                     let part = |of: fn(&c64) -> f64| own.gradient(slopes.iter().map(of), n);
@@ -211,16 +211,16 @@ impl Task<'_, '_> {
                     Some([of_theta(&re, &re), of_theta(&re, &im), of_theta(&im, &im)])
                 })
             };
-            bars(value, sought.real, parts.zip(level))
+            bars(value, unknowns.real, parts.zip(level))
         };
-        self.band.sought.iter().enumerate().map(&mut one).collect()
+        self.band.unknowns.iter().enumerate().map(&mut one).collect()
     }
 
     /// χ² along a direction of θ, with the directions at right angles to it that are told at their best.
     fn profile(
         &self,
-        space: &Space<'_>,
-        found: &Found,
+        space: &ReducedBand<'_>,
+        found: &BandSolution,
         (best, information): (&Place, &Information),
         worst: &Direction,
         level: f64,
@@ -282,7 +282,7 @@ fn bars(value: c64, real: bool, told: Option<([f64; 3], f64)>) -> ValueAt {
     }
 }
 
-fn names(family: Option<Family>) -> Vec<String> {
+fn names(family: Option<LawKind>) -> Vec<String> {
     match family {
         Some(family) => family.parameters().into_iter().map(|name| name.name).collect(),
         None => vec!["value".to_owned()],
@@ -303,7 +303,7 @@ fn directions(information: &Information, level: Option<f64>) -> Vec<Direction> {
     information.vectors.chunks_exact(n).zip(&information.values).map(one).collect()
 }
 
-fn correlation(information: &Information, found: &Found) -> Vec<Vec<f64>> {
+fn correlation(information: &Information, found: &BandSolution) -> Vec<Vec<f64>> {
     let n = found.theta.len();
     let of_one = |one: &Own| -> Vec<Vec<f64>> {
         let (_, slopes) = one.numbers(&found.theta);

@@ -8,7 +8,7 @@
 //!
 //! | file | what is in it |
 //! |---|---|
-//! | `sought` | the unknowns, and the model at their values |
+//! | `unknowns` | the unknowns, and the model at their values |
 //! | `coordinates` | θ ↔ what holds for the band |
 //! | `space` | the subspace over the box of all unknowns |
 //! | `starts` | where to begin |
@@ -18,32 +18,32 @@
 //! | `information` | which directions of θ are told |
 //! | `judge` | error bars, what is not told, statuses |
 
+mod at_frequency;
 mod coordinates;
 mod information;
 mod judge;
 mod outcome;
 mod path;
+mod reduced_band;
 mod search;
-mod sought;
-mod space;
-mod spot;
 mod starts;
 #[cfg(test)]
 mod tests;
+mod unknown;
 
 pub use outcome::{BandValue, Direction, Number, Profile, SeveralAt, SeveralOutcome, ValueAt};
-pub use sought::{Enters, Sought, Vary};
+pub use unknown::{Dependence, Unknown, Variation};
 
 use super::band::{NoiseLevel, deviations};
-use super::{Hooks, Noise, Options, Status};
+use super::{Context, Noise, Options, Status};
 use crate::c64;
 use crate::frequency::omega_rad_s;
 use crate::material::OutsideTable;
 use crate::model::{DynamicStiffness, Experiment};
 use crate::response::Work;
 use frfit_linalg::solve::Breakdown;
-use sought::Composite;
-use space::Space;
+use reduced_band::ReducedBand;
+use unknown::Composite;
 
 /// What was measured on what, and what is looked for.
 #[derive(Debug, Clone, Copy)]
@@ -53,7 +53,7 @@ pub struct Several<'a> {
     /// Load and sensors.
     pub experiment: &'a Experiment,
     /// What is unknown.
-    pub sought: &'a [Sought],
+    pub unknowns: &'a [Unknown],
     /// Frequencies, ascending.
     pub frequency_hz: &'a [f64],
     /// Receptance, `[frequency][sensor]`.
@@ -66,8 +66,8 @@ impl Several<'_> {
     /// Real numbers that are measured, and real numbers that are unknown; at each frequency alone where nothing holds for the band.
     pub fn counts(&self) -> [usize; 2] {
         let (frequencies, sensors) = (self.frequency_hz.len(), self.experiment.sensors.len());
-        let own: usize = self.sought.iter().map(Sought::per_frequency).sum();
-        let band: usize = self.sought.iter().map(Sought::for_band).sum();
+        let own: usize = self.unknowns.iter().map(Unknown::per_frequency).sum();
+        let band: usize = self.unknowns.iter().map(Unknown::for_band).sum();
         [2 * sensors * frequencies, own * frequencies + band]
     }
 }
@@ -81,7 +81,7 @@ struct Task<'t, 'a> {
     /// σ of real and imaginary part each.
     sigma: Vec<Vec<f64>>,
     options: &'t Options,
-    hooks: Hooks<'t>,
+    hooks: Context<'t>,
 }
 
 /// Identifies several unknowns over a band.
@@ -101,12 +101,12 @@ struct Task<'t, 'a> {
 pub fn identify_several(
     band: &Several<'_>,
     options: &Options,
-    hooks: Hooks<'_>,
+    hooks: Context<'_>,
 ) -> Result<SeveralOutcome, OutsideTable> {
     assert!(!band.frequency_hz.is_empty() && band.measured.len() == band.frequency_hz.len());
     let [measured, unknown] = band.counts();
     assert!(measured >= unknown, "{measured} measured numbers do not tell {unknown}");
-    let composite = Composite { model: band.model, sought: band.sought };
+    let composite = Composite { model: band.model, unknowns: band.unknowns };
     let nominal: Vec<Vec<c64>> =
         band.frequency_hz.iter().map(|&f| composite.nominal(f)).collect::<Result<_, _>>()?;
     let task = Task {
@@ -117,7 +117,7 @@ pub fn identify_several(
         options,
         hooks,
     };
-    let space = Space::new(composite, band.experiment, band.frequency_hz, &nominal, hooks)?;
+    let space = ReducedBand::new(composite, band.experiment, band.frequency_hz, &nominal, hooks)?;
     Ok(match space {
         Ok(mut space) => {
             let found = task.search(&mut space);

@@ -21,7 +21,7 @@ pub struct Number {
 #[derive(Debug, Clone, PartialEq)]
 pub struct BandValue {
     /// Which of the unknowns.
-    pub sought: usize,
+    pub unknowns: usize,
     /// Its numbers.
     pub numbers: Vec<Number>,
     /// It as a law.

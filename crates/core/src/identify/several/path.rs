@@ -1,7 +1,7 @@
 //! Which of several solutions at each frequency are one and the same structure over the band.
 
-use super::spot::{Solution, Spot};
-use super::{Sought, Task};
+use super::at_frequency::{Solution, Spot};
+use super::{Task, Unknown};
 use crate::identify::Noise;
 use crate::laws::inverse_information;
 use crate::select::{Choice, Node, SelectOptions, choose};
@@ -20,7 +20,7 @@ impl Task<'_, '_> {
     /// The choice at each frequency. Every unknown that is per frequency chooses its own path by continuity and causality (B-4); one solution has to be on all of them.
     pub(super) fn choose(&self, which: &[usize], solutions: &[Vec<Solution>]) -> Vec<Chosen> {
         let own: Vec<usize> =
-            (0..self.band.sought.len()).filter(|&j| self.band.sought[j].per_frequency() > 0).collect();
+            (0..self.band.unknowns.len()).filter(|&j| self.band.unknowns[j].per_frequency() > 0).collect();
         if own.is_empty() {
             let one = |found: &Vec<Solution>| Chosen {
                 solution: (!found.is_empty()).then_some(0),
@@ -95,7 +95,7 @@ impl Task<'_, '_> {
 
     pub(super) fn spot(&self, i: usize) -> Spot<'_> {
         let size = self.nominal[i].iter().map(|p| if p.norm() > 0.0 { p.norm() } else { 1.0 }).collect();
-        Spot { sought: self.band.sought, measured: &self.band.measured[i], sigma: &self.sigma[i], size }
+        Spot { unknowns: self.band.unknowns, measured: &self.band.measured[i], sigma: &self.sigma[i], size }
     }
 }
 
@@ -119,12 +119,12 @@ impl Spot<'_> {
     fn stds(&self, solution: &Solution) -> Vec<f64> {
         let covariance = self.covariance(solution);
         let mut at = 0;
-        let mut std = |(one, size): (&Sought, &f64)| {
+        let mut std = |(one, size): (&Unknown, &f64)| {
             let count = one.per_frequency();
             let largest = (at..at + count).map(|a| covariance[a][a]).fold(0.0, f64::max);
             at += count;
             size * largest.sqrt()
         };
-        self.sought.iter().zip(&self.size).map(&mut std).collect()
+        self.unknowns.iter().zip(&self.size).map(&mut std).collect()
     }
 }

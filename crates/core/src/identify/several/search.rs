@@ -1,29 +1,29 @@
 //! The numbers that hold for the band, with what each frequency has of its own eliminated.
 
+use super::at_frequency::{Solution, eliminate};
 use super::coordinates::Coordinates;
 use super::information::Information;
 use super::path::Chosen;
-use super::sought::Enters;
-use super::space::{Space, between, in_box};
-use super::spot::{Solution, eliminate};
-use super::{Sought, Task};
+use super::reduced_band::{ReducedBand, between, in_box};
+use super::unknown::Dependence;
+use super::{Task, Unknown};
 use crate::c64;
 use crate::for_each::map;
 use crate::identify::band::{Fit, nearest, thinned};
 use crate::identify::{Options, Stage};
-use crate::laws::{Chart, Datum, Minimum, Search, descend};
+use crate::laws::{Datum, Minimum, Parametrization, Search, descend};
 use crate::subspace::Projection;
 
 /// On which model, and for which θ, a frequency is looked at.
 pub(super) struct At<'t, 'a> {
-    pub(super) space: &'t Space<'a>,
+    pub(super) space: &'t ReducedBand<'a>,
     pub(super) coordinates: &'t Coordinates,
     pub(super) theta: &'t [f64],
 }
 
 /// What was found at some frequencies.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Found {
+pub(super) struct BandSolution {
     pub(super) coordinates: Coordinates,
     pub(super) theta: Vec<f64>,
     /// All solutions at each frequency, for that θ.
@@ -87,11 +87,11 @@ enum Guess<'g> {
 
 impl Task<'_, '_> {
     /// Everything, on a subspace that is good where it ends.
-    pub(super) fn search(&self, space: &mut Space<'_>) -> Found {
+    pub(super) fn search(&self, space: &mut ReducedBand<'_>) -> BandSolution {
         let all: Vec<usize> = (0..self.omegas.len()).collect();
         let part: Vec<usize> = thinned(&all, PART).copied().collect();
         (self.hooks.progress)(Stage::Solutions, 0, all.len());
-        let mut tried: Vec<(f64, Found, Vec<c64>)> = Vec::new();
+        let mut tried: Vec<(f64, BandSolution, Vec<c64>)> = Vec::new();
         let mut begin = self.starts(space);
         if self.coordinates().count == 0 {
             // Nothing holds for the band: every frequency is searched for itself, wherever it begins.
@@ -108,7 +108,7 @@ impl Task<'_, '_> {
             true => first,
             false => self.follow(space, &all, first.theta, &Guess::Everywhere(&values)),
         };
-        for _ in 0..Space::ROUNDS {
+        for _ in 0..ReducedBand::ROUNDS {
             let answers: Vec<(usize, Vec<c64>)> =
                 all.iter().filter_map(|&i| Some((i, found.at(i)?.values.clone()))).collect();
             if !space.refine(&answers, self.hooks) {
@@ -118,19 +118,19 @@ impl Task<'_, '_> {
             found = self.follow(space, &all, found.theta, &Guess::Known(&known));
         }
         (self.hooks.progress)(Stage::Solutions, all.len(), all.len());
-        Found { starts: 1 + tried.len(), agreeing, ..found }
+        BandSolution { starts: 1 + tried.len(), agreeing, ..found }
     }
 
     /// What holds for the band, as it varies.
     pub(super) fn coordinates(&self) -> Coordinates {
         let middle = &self.nominal[self.nominal.len() / 2];
-        Coordinates::new(self.band.sought, |one| one.varies, middle, &self.omegas)
+        Coordinates::new(self.band.unknowns, |one| one.varies, middle, &self.omegas)
     }
 
     /// θ that begins with these constants; a law with the shape of its nominal.
     fn theta(&self, values: &[c64]) -> Vec<f64> {
         let middle = &self.nominal[self.nominal.len() / 2];
-        let law = |chart: &Chart, j: usize| {
+        let law = |parametrization: &Parametrization, j: usize| {
             let ratio = values[j] / middle[j];
             let data: Vec<Datum> = self
                 .omegas
@@ -139,7 +139,8 @@ impl Task<'_, '_> {
                 .filter(|(_, nominal)| (nominal[j] * ratio).re > 0.0)
                 .map(|(&omega, nominal)| Datum::relative(omega, nominal[j] * ratio))
                 .collect();
-            nearest(chart, &data).map_or_else(|| vec![0.0; chart.family.count()], |near| near.best.theta)
+            nearest(parametrization, &data)
+                .map_or_else(|| vec![0.0; parametrization.family.count()], |near| near.best.theta)
         };
         self.coordinates().of(values, law)
     }
@@ -150,14 +151,20 @@ impl Task<'_, '_> {
         let mut slopes = Vec::with_capacity(theta.len());
         for one in &coordinates.each {
             let (value, of_theta) = one.value(theta, self.omegas[i])?;
-            values[one.sought] = value;
-            slopes.extend(of_theta.into_iter().map(|slope| (one.sought, slope)));
+            values[one.unknowns] = value;
+            slopes.extend(of_theta.into_iter().map(|slope| (one.unknowns, slope)));
         }
         Some((values, slopes))
     }
 
     /// Solutions, the choice among them and θ in turn, until the choice stays.
-    fn follow(&self, space: &Space<'_>, which: &[usize], theta: Vec<f64>, guess: &Guess<'_>) -> Found {
+    fn follow(
+        &self,
+        space: &ReducedBand<'_>,
+        which: &[usize],
+        theta: Vec<f64>,
+        guess: &Guess<'_>,
+    ) -> BandSolution {
         let coordinates = self.coordinates();
         let mut found = self.found(space, which, coordinates, theta, guess);
         for _ in 0..CHOICES {
@@ -166,7 +173,7 @@ impl Task<'_, '_> {
             }
             let before = found.theta.clone();
             let Some((theta, converged)) = self.descend(space, which, &found) else { break };
-            let moved = super::spot::distance(&before, &theta);
+            let moved = super::at_frequency::distance(&before, &theta);
             let known = std::mem::take(&mut found.solutions);
             found = self.found(space, which, found.coordinates, theta, &Guess::Known(&known));
             found.converged = converged;
@@ -179,15 +186,15 @@ impl Task<'_, '_> {
 
     fn found(
         &self,
-        space: &Space<'_>,
+        space: &ReducedBand<'_>,
         which: &[usize],
         coordinates: Coordinates,
         theta: Vec<f64>,
         guess: &Guess<'_>,
-    ) -> Found {
+    ) -> BandSolution {
         let at = At { space, coordinates: &coordinates, theta: &theta };
         let n = which.len();
-        let per_frequency = self.band.sought.iter().any(|one| one.per_frequency() > 0);
+        let per_frequency = self.band.unknowns.iter().any(|one| one.per_frequency() > 0);
         let from = |solutions: &[Vec<Solution>], k: usize, beside: &[usize]| -> Vec<Solution> {
             let spot = self.spot(which[k]);
             let starts = beside.iter().flat_map(|&b| &solutions[b]).map(|one| spot.coordinates(&one.values));
@@ -227,7 +234,7 @@ impl Task<'_, '_> {
                 chosen = self.choose(which, &solutions);
             }
         }
-        Found { coordinates, theta, solutions, chosen, converged: true, starts: 1, agreeing: 1 }
+        BandSolution { coordinates, theta, solutions, chosen, converged: true, starts: 1, agreeing: 1 }
     }
 
     /// The solutions at a frequency that some values, the nominal ones and points all over the box lead to. Of one unknown that stands for a factor, all there are; of two, those that
@@ -238,14 +245,14 @@ impl Task<'_, '_> {
         };
         let spot = self.spot(i);
         let mut rough = None;
-        let factors: Vec<usize> = (0..self.band.sought.len()).filter(|&j| self.is_own_factor(j)).collect();
-        let others = self.band.sought.iter().filter(|one| one.per_frequency() > 0).count() - factors.len();
+        let factors: Vec<usize> = (0..self.band.unknowns.len()).filter(|&j| self.is_own_factor(j)).collect();
+        let others = self.band.unknowns.iter().filter(|one| one.per_frequency() > 0).count() - factors.len();
         let found = match (factors.as_slice(), others) {
             (&[j], 0) => self.all_of((at.space, at.space.model(i)), i, j, &given),
             (&[a, b], 0) => {
                 let rough = rough.insert(at.space.rough(i));
                 let along = |a: usize, b: usize| {
-                    let grid = in_turn(&self.band.sought[b], given[b]).into_iter();
+                    let grid = in_turn(&self.band.unknowns[b], given[b]).into_iter();
                     let with = |value: c64| {
                         let mut values = given.clone();
                         values[b] = value;
@@ -287,14 +294,14 @@ impl Task<'_, '_> {
 
     /// Whether a frequency has a value of its own of this unknown, in place of a factor.
     fn is_own_factor(&self, j: usize) -> bool {
-        let one = &self.band.sought[j];
-        one.per_frequency() > 0 && matches!(one.enters, Enters::Factor(_))
+        let one = &self.band.unknowns[j];
+        one.per_frequency() > 0 && matches!(one.dependence, Dependence::Factor(_))
     }
 
     /// All values of one unknown that stands for a factor (B-2), the others as given: where all sensors' misfit is least.
     fn all_of(
         &self,
-        (space, model): (&Space<'_>, &Projection),
+        (space, model): (&ReducedBand<'_>, &Projection),
         i: usize,
         j: usize,
         given: &[c64],
@@ -302,7 +309,7 @@ impl Task<'_, '_> {
         let Some(mut at) = space.at(i, given) else { return Vec::new() };
         at.parameters.swap(0, j);
         at.parameters.truncate(1);
-        let Sought { bounds, real, .. } = self.band.sought[j];
+        let Unknown { bounds, real, .. } = self.band.unknowns[j];
         let options = Options { bounds, real, ..*self.options };
         let fit = Fit {
             measured: &self.band.measured[i],
@@ -323,7 +330,12 @@ impl Task<'_, '_> {
     /// and no end.
     ///
     /// Each search is on models of a few vectors about where it begins, which are made anew where it ends; one that gains nothing there is made on the whole ones.
-    fn descend(&self, space: &Space<'_>, which: &[usize], found: &Found) -> Option<(Vec<f64>, bool)> {
+    fn descend(
+        &self,
+        space: &ReducedBand<'_>,
+        which: &[usize],
+        found: &BandSolution,
+    ) -> Option<(Vec<f64>, bool)> {
         let mut place = Place {
             theta: found.theta.clone(),
             eliminated: self.eliminated(which, found, &found.theta, None)?,
@@ -334,7 +346,7 @@ impl Task<'_, '_> {
             let plane = Plane { origin: &place.theta.clone(), basis: &basis };
             let near = self.search_in(space, which, (found, &place), &plane, &rest, Reach::Near)?;
             let end = plane.at(&near.theta);
-            let moved = super::spot::distance(&end, plane.origin);
+            let moved = super::at_frequency::distance(&end, plane.origin);
             match self.moved_to(space, which, (found, &place), end) {
                 Some(next) if next.eliminated.sum() <= place.eliminated.sum() => place = next,
                 _ if moved <= SETTLED => {}
@@ -353,9 +365,9 @@ impl Task<'_, '_> {
     /// The least misfit with θ on a plane, its own coordinates the search's.
     pub(super) fn search_in(
         &self,
-        space: &Space<'_>,
+        space: &ReducedBand<'_>,
         which: &[usize],
-        (found, place): (&Found, &Place),
+        (found, place): (&BandSolution, &Place),
         plane: &Plane<'_>,
         from: &[f64],
         reach: Reach,
@@ -387,10 +399,10 @@ impl Task<'_, '_> {
     /// A model of a few vectors about the k-th solution.
     fn model_about(
         &self,
-        space: &Space<'_>,
+        space: &ReducedBand<'_>,
         i: usize,
         k: usize,
-        (found, place): (&Found, &Place),
+        (found, place): (&BandSolution, &Place),
     ) -> Option<Projection> {
         let (own, _) = place.eliminated.own[k].as_ref()?;
         let (given, _) = self.given(&found.coordinates, &place.theta, i, &found.at(k)?.values)?;
@@ -400,9 +412,9 @@ impl Task<'_, '_> {
     /// The place at another θ, on the whole models.
     pub(super) fn moved_to(
         &self,
-        space: &Space<'_>,
+        space: &ReducedBand<'_>,
         which: &[usize],
-        (found, place): (&Found, &Place),
+        (found, place): (&BandSolution, &Place),
         theta: Vec<f64>,
     ) -> Option<Place> {
         let on = On { space, model: &|k| space.model(which[k]), start: &|k| place.own_at(k, &theta) };
@@ -414,7 +426,7 @@ impl Task<'_, '_> {
     pub(super) fn eliminated(
         &self,
         which: &[usize],
-        found: &Found,
+        found: &BandSolution,
         theta: &[f64],
         on: Option<&On<'_, '_>>,
     ) -> Option<Eliminated> {
@@ -464,7 +476,7 @@ impl Task<'_, '_> {
 }
 
 /// Values through the range of an unknown, with the loss factor of a given one.
-fn in_turn(one: &Sought, given: c64) -> Vec<c64> {
+fn in_turn(one: &Unknown, given: c64) -> Vec<c64> {
     let [low, high] = one.range(given);
     let steps = if low > 0.0 { (STEPS_PER_OCTAVE * (high / low).log2()).ceil() as usize } else { STEPS };
     let eta = if given.re == 0.0 { 0.0 } else { given.im / given.re };
@@ -508,7 +520,7 @@ impl Place {
 
 /// On which models solutions are settled, and where they begin.
 pub(super) struct On<'o, 'a> {
-    space: &'o Space<'a>,
+    space: &'o ReducedBand<'a>,
     model: &'o (dyn Fn(usize) -> &'o Projection + Sync),
     start: &'o (dyn Fn(usize) -> Option<Vec<f64>> + Sync),
 }
@@ -544,7 +556,7 @@ impl Eliminated {
     }
 }
 
-impl Found {
+impl BandSolution {
     /// The chosen solution at the k-th frequency.
     pub(super) fn at(&self, k: usize) -> Option<&Solution> {
         self.solutions[k].get(self.chosen[k].solution?)

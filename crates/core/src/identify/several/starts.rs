@@ -5,8 +5,8 @@
 
 use super::Task;
 use super::coordinates::Coordinates;
-use super::sought::Vary;
-use super::space::{Space, in_box};
+use super::reduced_band::{ReducedBand, in_box};
+use super::unknown::Variation;
 use crate::c64;
 use crate::for_each::map;
 use crate::identify::band::thinned;
@@ -30,12 +30,12 @@ const KEPT: usize = 4;
 
 impl Task<'_, '_> {
     /// Values of all unknowns, constant over the band, the likeliest first.
-    pub(super) fn starts(&self, space: &Space<'_>) -> Vec<Vec<c64>> {
+    pub(super) fn starts(&self, space: &ReducedBand<'_>) -> Vec<Vec<c64>> {
         let all: Vec<usize> = (0..self.omegas.len()).collect();
         let which: Vec<usize> = thinned(&all, FREQUENCIES).copied().collect();
         let rough = map(self.hooks.for_each, which.len(), |k| space.rough(which[k]));
         let middle = &self.nominal[all.len() / 2];
-        let constants = Coordinates::new(self.band.sought, |_| Vary::Constant, middle, &self.omegas);
+        let constants = Coordinates::new(self.band.unknowns, |_| Variation::Constant, middle, &self.omegas);
         let of = |values: &[c64]| constants.of(values, |_, _| Vec::new());
         let points = (1..=PER_NUMBER * constants.count).map(|k| of(&in_box(&space.composite, middle, k)));
         let begin: Vec<Vec<f64>> = std::iter::once(of(middle)).chain(points).collect();

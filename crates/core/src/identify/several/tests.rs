@@ -1,8 +1,8 @@
 //! All solutions of two unknowns at a frequency, against many starts.
 
+use super::at_frequency::distance;
+use super::reduced_band::in_box;
 use super::search::At;
-use super::space::in_box;
-use super::spot::distance;
 use super::*;
 use crate::for_each::sequential;
 use crate::material::Law;
@@ -56,26 +56,26 @@ fn all_solutions_of_two_unknowns_are_found() {
         experiment.observe(&x)
     };
     let measured: Vec<Vec<c64>> = frequency_hz.iter().map(solve).collect();
-    let sought = [0, 1].map(|term| Sought {
+    let unknowns = [0, 1].map(|term| Unknown {
         name: model.terms()[term].name.clone(),
-        enters: Enters::Factor(vec![term]),
+        dependence: Dependence::Factor(vec![term]),
         nominal: Law::Constant(LOSS),
-        varies: Vary::PerFrequency,
+        varies: Variation::PerFrequency,
         real: false,
         bounds: Bounds { storage: Some([0.4, 2.5]), loss_factor: Some([0.0, 0.3]) },
     });
     let band = Several {
         model: &model,
         experiment: &experiment,
-        sought: &sought,
+        unknowns: &unknowns,
         frequency_hz: &frequency_hz,
         measured: &measured,
         noise: Noise::Unknown,
     };
     let nominal = vec![vec![LOSS; 2]; frequency_hz.len()];
-    let hooks = Hooks { for_each: &sequential, progress: &|_, _, _| {} };
-    let composite = Composite { model: &model, sought: &sought };
-    let space = Space::new(composite, &experiment, &frequency_hz, &nominal, hooks).unwrap().unwrap();
+    let hooks = Context { for_each: &sequential, progress: &|_, _, _| {} };
+    let composite = Composite { model: &model, unknowns: &unknowns };
+    let space = ReducedBand::new(composite, &experiment, &frequency_hz, &nominal, hooks).unwrap().unwrap();
     let options = Options::default();
     let task = Task {
         band: &band,
@@ -98,7 +98,7 @@ fn all_solutions_of_two_unknowns_are_found() {
         let found = task.everywhere(&at, i, nominal);
         for solution in &many {
             // Newton's last step is exact to far less than this
-            let near = |other: &super::spot::Solution| distance(&other.own, &solution.own) < 1e-6;
+            let near = |other: &super::at_frequency::Solution| distance(&other.own, &solution.own) < 1e-6;
             let missed = &solution.values;
             assert!(found.iter().any(near), "{missed:?} is not among {}", found.len());
             by_few += usize::from(few.iter().any(near));

@@ -1,0 +1,23 @@
+//! The binary as a person runs it: arguments, words, files, exit codes.
+
+mod book;
+mod check;
+mod common;
+mod demo;
+mod export;
+mod fit;
+mod hammer;
+mod interrupted;
+#[path = "../../formats/tests/outside/mod.rs"]
+mod outside;
+#[path = "../../figures/tests/picture/mod.rs"]
+mod picture;
+mod plate;
+mod refusals;
+mod report;
+mod several;
+mod several_report;
+#[path = "../../core/tests/tier/mod.rs"]
+mod tier;
+mod words;
+mod writing;

@@ -1,0 +1,157 @@
+//! How measured values are read: as the case says, or otherwise.
+
+use super::misfit::HALF_TURN;
+use crate::c64;
+use crate::frequency::omega_rad_s;
+use crate::quantity::Quantity;
+
+/// One way in which values may be meant otherwise.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Change {
+    Conjugated,
+    Reversed,
+    Quantity(Quantity),
+    /// By a factor that is looked for.
+    Factor,
+    /// By a time that is looked for.
+    Delay,
+    /// Compared with another column of the responses: another sensor's row, or another load.
+    Column(Vec<usize>, DofMismatch),
+}
+
+/// What is on another row.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum DofMismatch {
+    /// The sensor, on this row.
+    Response(usize),
+    /// The load, on this row.
+    Load(usize),
+}
+
+/// A change, and of which sensors.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Edit {
+    pub(super) change: Change,
+    pub(super) sensors: Vec<usize>,
+}
+
+/// How every sensor's values are read.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct DataHypothesis {
+    pub(super) quantity: Vec<Quantity>,
+    conjugated: Vec<bool>,
+    reversed: Vec<bool>,
+    factor: Vec<bool>,
+    delay: Vec<bool>,
+    /// Which column of the responses each is compared with.
+    pub(super) column: Vec<usize>,
+}
+
+impl DataHypothesis {
+    /// As the case says.
+    pub(super) fn as_told(quantities: &[Quantity]) -> Self {
+        let no = vec![false; quantities.len()];
+        Self {
+            quantity: quantities.to_vec(),
+            conjugated: no.clone(),
+            reversed: no.clone(),
+            factor: no.clone(),
+            delay: no,
+            column: (0..quantities.len()).collect(),
+        }
+    }
+
+    pub(super) fn sensors(&self) -> usize {
+        self.quantity.len()
+    }
+
+    /// Whether a factor, and whether a delay is looked for.
+    pub(super) fn free(&self) -> [bool; 2] {
+        [&self.factor, &self.delay].map(|which| which.contains(&true))
+    }
+
+    /// With one more change.
+    pub(super) fn with(&self, edit: &Edit) -> Self {
+        let mut other = self.clone();
+        for (k, &m) in edit.sensors.iter().enumerate() {
+            match &edit.change {
+                Change::Conjugated => other.conjugated[m] = true,
+                Change::Reversed => other.reversed[m] = true,
+                Change::Quantity(quantity) => other.quantity[m] = *quantity,
+                Change::Factor => other.factor[m] = true,
+                Change::Delay => other.delay[m] = true,
+                Change::Column(columns, _) => other.column[m] = columns[k],
+            }
+        }
+        other
+    }
+
+    /// The changes of values that are still to be tried: of all sensors, and of each.
+    pub(super) fn edits(&self) -> Vec<Edit> {
+        let all: Vec<usize> = (0..self.sensors()).collect();
+        let alone = all.iter().map(|&m| vec![m]).filter(|alone| *alone != all);
+        let mut edits = Vec::new();
+        for sensors in std::iter::once(all.clone()).chain(alone) {
+            let none = |which: &[bool]| sensors.iter().all(|&m| !which[m]);
+            let mut push = |change| edits.push(Edit { change, sensors: sensors.clone() });
+            if none(&self.conjugated) {
+                push(Change::Conjugated);
+            }
+            if none(&self.reversed) {
+                push(Change::Reversed);
+            }
+            let taken_for = self.quantity[sensors[0]];
+            if sensors.iter().all(|&m| self.quantity[m] == taken_for) {
+                Quantity::ALL.into_iter().filter(|&q| q != taken_for).for_each(|q| push(Change::Quantity(q)));
+            }
+            let [factor, delay] = self.free();
+            if !factor {
+                push(Change::Factor);
+            }
+            if !delay {
+                push(Change::Delay);
+            }
+        }
+        edits
+    }
+
+    /// ln of the receptance that a value is read as: ln of the value as it was written, the factor's logarithm, and the delay.
+    pub(super) fn receptance(
+        &self,
+        m: usize,
+        frequency_hz: f64,
+        written: c64,
+        ln_factor: f64,
+        delay_s: f64,
+    ) -> c64 {
+        let mut value = written;
+        if self.conjugated[m] {
+            value.im = -value.im;
+        }
+        if self.reversed[m] {
+            value.im += HALF_TURN;
+        }
+        if self.factor[m] {
+            value.re -= ln_factor;
+        }
+        if self.delay[m] {
+            value.im += omega_rad_s(frequency_hz) * delay_s;
+        }
+        value - ln_over_receptance(self.quantity[m], frequency_hz)
+    }
+
+    /// Whether a factor, or a delay, concerns a sensor.
+    pub(super) fn concerned(&self, m: usize) -> [bool; 2] {
+        [self.factor[m], self.delay[m]]
+    }
+}
+
+/// ln of 1, iω or −ω².
+pub(super) fn ln_over_receptance(quantity: Quantity, frequency_hz: f64) -> c64 {
+    let ln_omega = omega_rad_s(frequency_hz).ln();
+    match quantity {
+        Quantity::Receptance => c64::default(),
+        Quantity::Mobility => c64::new(ln_omega, 0.5 * HALF_TURN),
+        Quantity::Accelerance => c64::new(2.0 * ln_omega, HALF_TURN),
+    }
+}

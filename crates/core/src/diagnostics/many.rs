@@ -1,0 +1,133 @@
+//! More sensors than can be fitted together at a price that grows with their number alone.
+//!
+//! A change of one sensor is fitted with all others beside it: of M sensors that is M fits to M sensors' values. So at most [`MOST_SENSORS`] are fitted together. What is wrong with
+//! all sensors is wrong with these. Then every sensor is compared with the modulus that they agree on, and each of those that differ most is looked at beside [`BESIDE`] of those that
+//! differ least.
+//!
+//! # Limits
+//! Of sensors that are wrong each in a way of its own, [`SUSPECTS`] are looked at: the worst.
+
+use super::data_hypothesis::{DataHypothesis, Edit};
+use super::misfit::{misfit, wrapped};
+use super::{Agreed, Diagnosis, look, written};
+use crate::c64;
+use crate::for_each::ForEach;
+use crate::identify::{Band, Options};
+use crate::material::OutsideTable;
+use crate::median::median;
+use crate::model::{Experiment, Sensor};
+use crate::quantity::Quantity;
+use crate::subspace::Drive;
+
+/// Sensors that are fitted together: with twelve frequencies of each there are 240 values.
+pub(super) const MOST_SENSORS: usize = 20;
+
+/// Sensors that are looked at one by one.
+const SUSPECTS: usize = 3;
+
+/// Sensors beside each of them: three others that agree are a majority.
+const BESIDE: usize = 3;
+
+/// Misfit of one sensor, over that of most, from which on it is looked at. Noise alone seldom doubles it with twelve values.
+const SUSPECT: f64 = 2.0;
+
+/// [`super::diagnose`] of more than [`MOST_SENSORS`] sensors.
+pub(super) fn diagnose(
+    band: &Band<'_>,
+    quantities: &[Quantity],
+    options: &Options,
+    for_each: ForEach<'_>,
+) -> Result<Diagnosis, OutsideTable> {
+    let count = quantities.len();
+    let panel: Vec<usize> = (0..MOST_SENSORS).map(|k| k * (count - 1) / (MOST_SENSORS - 1)).collect();
+    let own = |agreed: Agreed<'_, '_>| own_misfits(band, quantities, &agreed);
+    let part = Part::of(band, quantities, &panel);
+    let (mut diagnosis, own) = look(&part.band(band), &part.quantities, options, for_each, &own)?;
+    for finding in &mut diagnosis.findings {
+        finding.sensors = match finding.sensors.len() == panel.len() {
+            true => (0..count).collect(),
+            false => finding.sensors.iter().map(|&k| panel[k]).collect(),
+        };
+    }
+    let Some(own) = own else { return Ok(diagnosis) };
+    let mut order: Vec<usize> = (0..count).filter(|&m| own[m].is_finite()).collect();
+    order.sort_by(|&a, &b| own[a].total_cmp(&own[b]));
+    let usual = median(order.iter().map(|&m| own[m]).collect()).unwrap_or(0.0);
+    let is_found = |m: usize| diagnosis.findings.iter().any(|finding| finding.sensors == [m]);
+    let suspects = order.iter().rev().take_while(|&&m| own[m] > SUSPECT * usual);
+    let suspects: Vec<usize> = suspects.copied().filter(|&m| !is_found(m)).take(SUSPECTS).collect();
+    let mut found = Vec::new();
+    for suspect in suspects {
+        let mut few: Vec<usize> = order.iter().copied().take(BESIDE).collect();
+        few.push(suspect);
+        let part = Part::of(band, quantities, &few);
+        let (alone, _) = look(&part.band(band), &part.quantities, options, for_each, &|_| ())?;
+        diagnosis.work += alone.work;
+        let of_it = alone.findings.into_iter().filter(|finding| finding.sensors == [BESIDE]);
+        found.extend(of_it.map(|mut finding| {
+            finding.sensors = vec![suspect];
+            finding
+        }));
+    }
+    // The mesh comes last.
+    let values = diagnosis.findings.iter().take_while(|finding| finding.evidence.is_some()).count();
+    diagnosis.findings.splice(values..values, found);
+    Ok(diagnosis)
+}
+
+/// Misfit of every sensor for itself, by the modulus that some agree on and the changes of all.
+fn own_misfits(band: &Band<'_>, quantities: &[Quantity], agreed: &Agreed<'_, '_>) -> Vec<f64> {
+    let Agreed { responses, picked, fitted, edits } = agreed;
+    let all: Vec<usize> = (0..quantities.len()).collect();
+    let as_told = DataHypothesis::as_told(quantities);
+    let data_hypothesis = edits.iter().fold(as_told, |data_hypothesis, edit| {
+        data_hypothesis.with(&Edit { change: edit.change.clone(), sensors: all.clone() })
+    });
+    let mut residuals: Vec<Vec<c64>> = vec![Vec::with_capacity(picked.len()); quantities.len()];
+    for (k, &i) in picked.iter().enumerate() {
+        let correction = responses.correction(fitted.law, k);
+        let x = responses.subspace.everywhere(&responses.fractions[k].coordinates(Drive::Load, correction));
+        let values = written(band, quantities, i);
+        for (m, (value, &Sensor { row, sign })) in
+            values.into_iter().zip(&band.experiment.sensors).enumerate()
+        {
+            let Some(value) = value else { continue };
+            let read =
+                data_hypothesis.receptance(m, band.frequency_hz[i], value, fitted.ln_factor, fitted.delay_s);
+            residuals[m].push(wrapped(read - (sign * x[row]).ln()));
+        }
+    }
+    // Of fewer than half of the values nothing is said.
+    let told = |rest: &Vec<c64>| 2 * rest.len() >= picked.len();
+    residuals.iter().map(|rest| if told(rest) { misfit(rest).sigma } else { f64::NAN }).collect()
+}
+
+/// Some sensors of a band.
+struct Part {
+    experiment: Experiment,
+    quantities: Vec<Quantity>,
+    measured: Vec<Vec<c64>>,
+}
+
+impl Part {
+    fn of(band: &Band<'_>, quantities: &[Quantity], sensors: &[usize]) -> Self {
+        Self {
+            experiment: Experiment {
+                load: band.experiment.load.clone(),
+                sensors: sensors.iter().map(|&m| band.experiment.sensors[m]).collect(),
+            },
+            quantities: sensors.iter().map(|&m| quantities[m]).collect(),
+            measured: band.measured.iter().map(|at| sensors.iter().map(|&m| at[m]).collect()).collect(),
+        }
+    }
+
+    /// The band with these sensors only; its noise is not looked at.
+    fn band<'b>(&'b self, whole: &Band<'b>) -> Band<'b> {
+        Band {
+            experiment: &self.experiment,
+            measured: &self.measured,
+            noise: crate::identify::Noise::Unknown,
+            ..*whole
+        }
+    }
+}

@@ -1,0 +1,462 @@
+//! Channels whose calibration nobody knows: one real scale, one delay or both for the whole band, found together with the moduli.
+
+use super::fit::goodness;
+use super::initial_calibration::aligned;
+use super::joint;
+use super::noise::{deviations, freedom};
+use super::outlier_sensor::without;
+use super::reduced_band::ReducedBand;
+use super::{Band, BandOutcome, Context, Noise, near_or_far, on_subspace};
+use crate::c64;
+use crate::for_each::map;
+use crate::frequency::omega_rad_s;
+use crate::identify::{Options, Status};
+use crate::material::{OutsideTable, loss_factor};
+use crate::model::ModelAt;
+use frfit_linalg::dense::symmetric_eigen;
+
+/// What of a channel is to be found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct ChannelUnknowns {
+    /// The factor by which its values have to be multiplied.
+    pub scale: bool,
+    /// By how much it is late.
+    pub delay: bool,
+}
+
+impl ChannelUnknowns {
+    /// Whether anything is.
+    pub fn any(self) -> bool {
+        self.scale || self.delay
+    }
+
+    /// How many real numbers are.
+    pub fn count(self) -> usize {
+        usize::from(self.scale) + usize::from(self.delay)
+    }
+}
+
+/// A number that was found, and how well.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Calibrated {
+    /// Its value; of a scale negative where the channel's sense is reversed.
+    pub value: f64,
+    /// Its standard deviation; `None` where nothing tells the noise.
+    pub std: Option<f64>,
+}
+
+/// What was found of a channel: its receptance is s e^{iωτ} times what was measured.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Calibration {
+    /// s; `None` where it was known, or the data do not tell it.
+    pub scale: Option<Calibrated>,
+    /// τ, s: by how much the channel is late; `None` as above.
+    pub delay_s: Option<Calibrated>,
+}
+
+impl Calibration {
+    /// s e^{iωτ}, with one and zero for what was not looked for.
+    pub fn factor(&self, frequency_hz: f64) -> c64 {
+        Channel::of(self).factor(frequency_hz)
+    }
+}
+
+/// A calibration as a search has it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Channel {
+    pub(super) scale: f64,
+    pub(super) delay_s: f64,
+}
+
+impl Channel {
+    pub(super) const RIGHT: Self = Self { scale: 1.0, delay_s: 0.0 };
+
+    /// One and zero for what was not looked for.
+    pub(super) fn of(found: &Calibration) -> Self {
+        let value = |found: Option<Calibrated>, none: f64| found.map_or(none, |found| found.value);
+        Self { scale: value(found.scale, 1.0), delay_s: value(found.delay_s, 0.0) }
+    }
+
+    fn factor(&self, frequency_hz: f64) -> c64 {
+        self.scale * c64::from_polar(1.0, omega_rad_s(frequency_hz) * self.delay_s)
+    }
+
+    /// Where u = γ e^{−iωt} x is what is left of this calibration.
+    pub(super) fn better(&self, gain: f64, late_s: f64) -> Self {
+        Self { scale: self.scale / gain, delay_s: self.delay_s + late_s }
+    }
+}
+
+/// Which number of which channel.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Free {
+    channel: usize,
+    is_delay: bool,
+}
+
+fn free(unknown: &[ChannelUnknowns]) -> Vec<Free> {
+    let of = |(channel, unknown): (usize, &ChannelUnknowns)| {
+        let all = [(unknown.scale, false), (unknown.delay, true)].into_iter();
+        all.filter(|(wanted, _)| *wanted).map(move |(_, is_delay)| Free { channel, is_delay })
+    };
+    unknown.iter().enumerate().flat_map(of).collect()
+}
+
+/// Selections among all solutions, each at better scales; they change what is selected hardly ever after the first.
+const ROUNDS: usize = 6;
+
+/// Steps of Gauss and Newton on moduli and scales together.
+const STEPS: usize = 30;
+
+/// A change of a scale by this part of its deviation, or of itself, is none.
+const SETTLED: f64 = 1e-3;
+const ROUNDOFF: f64 = 1e-10;
+
+/// What of a scale the moduli leave, and what is left of it by the other scales, relative to the channel's size: below this there is no digit.
+const UNTOLD: f64 = 1e-12;
+
+/// As [`super::identify_band`], with channels whose scale s_m, or delay τ_m, is unknown: u_m = s_m e^{iωτ_m} times what was measured.
+///
+/// The misfit Σ |y_m − x_m(c) e^{−iωτ_m}/s_m|²/σ_m² over the band is made least in all moduli, scales and delays together (y_m as measured, with its own deviation): the
+/// channels of which all is known alone give the first moduli; the first delays are those that turn most x_m/y_m to one phase, among the ones that the diagnostics tries too, the first
+/// scales the medians then. Every frequency is selected anew from all channels, and Gauss and Newton's steps with the moduli eliminated, frequency by
+/// frequency, move scales and delays. Error bars of the factor have what those of the scales and delays put into them, and χ² as many degrees of freedom less.
+/// The selection is joint, and what answers is the subspace, whatever the options say; nothing is told, and the channels are left out, where there is no
+/// subspace, or where what was found does not tell them.
+///
+/// # Errors
+/// [`OutsideTable`] where a table does not reach a frequency.
+///
+/// # Panics
+/// Where there is not one channel of which all is known: one channel and a free modulus at each frequency explain every scale. A law is needed then
+/// ([`super::identify_laws_scaled`]).
+pub fn identify_band_scaled(
+    band: &Band<'_>,
+    unknown: &[ChannelUnknowns],
+    options: &Options,
+    hooks: Context<'_>,
+) -> Result<(BandOutcome, Vec<Calibration>), OutsideTable> {
+    assert!(!band.frequency_hz.is_empty() && band.measured.len() == band.frequency_hz.len());
+    assert!(unknown.len() == band.experiment.sensors.len() && unknown.iter().any(|unknown| !unknown.any()));
+    let at = band.model.at_all(band.frequency_hz, std::slice::from_ref(band.parameter))?;
+    let run = |options: &Options| {
+        let mut space = super::space(band, &at, options, hooks);
+        let (outcome, found) = with_scales(band, &at, &mut space, unknown, options, hooks);
+        (outcome, found.unwrap_or_else(|| vec![Calibration::default(); unknown.len()]))
+    };
+    Ok(near_or_far(&on_subspace(options), run))
+}
+
+/// Moduli and calibrations on a subspace; `None` where the data do not tell the latter.
+pub(super) fn with_scales<'a>(
+    band: &Band<'a>,
+    at: &[ModelAt<'a>],
+    space: &mut Option<ReducedBand<'a, '_>>,
+    unknown: &[ChannelUnknowns],
+    options: &Options,
+    hooks: Context<'_>,
+) -> (BandOutcome, Option<Vec<Calibration>>) {
+    let hidden: Vec<usize> = (0..unknown.len()).filter(|&m| unknown[m].any()).collect();
+    let first = joint::identify(band, at, space, &hidden, options, hooks);
+    let Some(mut channels) = space.as_ref().and_then(|space| starting(band, at, space, &first, unknown))
+    else {
+        return (first, None);
+    };
+    for round in 0..ROUNDS {
+        let scaled = Scaled::new(band, &channels);
+        let view = scaled.band(band);
+        let mut outcome = joint::identify(&view, at, space, &[], options, hooks);
+        let told = space.as_ref().and_then(|space| settle(&view, at, space, &outcome, unknown, hooks));
+        let Some(told) = told else { return (first, None) };
+        if told.is_settled(top(band)) || round + 1 == ROUNDS {
+            told.widen(&mut outcome);
+            let counted = outcome.sensors.iter().filter(|sensor| !sensor.left_out).count();
+            let each = freedom(counted, options.real);
+            outcome.fit = goodness(&outcome.outcomes, each, told.free.len(), &outcome.noise, &view);
+            let found = told.calibrations(&channels, outcome.noise.level);
+            return (outcome, Some(found));
+        }
+        channels = told.better(&channels);
+    }
+    (first, None)
+}
+
+/// ω at the top of the band.
+pub(super) fn top(band: &Band<'_>) -> f64 {
+    band.frequency_hz.last().map_or(1.0, |&f| omega_rad_s(f))
+}
+
+/// What was measured with each channel's calibration, and its deviations with it.
+pub(super) struct Scaled {
+    measured: Vec<Vec<c64>>,
+    std: Vec<Vec<f64>>,
+}
+
+impl Scaled {
+    pub(super) fn new(band: &Band<'_>, channels: &[Channel]) -> Self {
+        let row =
+            |(u, &f): (&Vec<c64>, &f64)| u.iter().zip(channels).map(|(u, own)| own.factor(f) * u).collect();
+        let measured = band.measured.iter().zip(band.frequency_hz).map(row);
+        let scaled = |rows: &[Vec<f64>]| {
+            let row =
+                |row: &Vec<f64>| row.iter().zip(channels).map(|(std, own)| std * own.scale.abs()).collect();
+            rows.iter().map(row).collect()
+        };
+        let std = match band.noise {
+            Noise::Unknown => Vec::new(),
+            Noise::Relative(std) | Noise::Known(std) => scaled(std),
+        };
+        Self { measured: measured.collect(), std }
+    }
+
+    pub(super) fn band<'s>(&'s self, band: &Band<'s>) -> Band<'s> {
+        let noise = match band.noise {
+            Noise::Unknown => Noise::Unknown,
+            Noise::Relative(_) => Noise::Relative(&self.std),
+            Noise::Known(_) => Noise::Known(&self.std),
+        };
+        Band { measured: &self.measured, noise, ..*band }
+    }
+}
+
+/// The frequencies whose answers are beyond doubt but for their size: (frequency, correction).
+fn answers(outcome: &BandOutcome) -> Vec<(usize, c64)> {
+    let trusted = |status| matches!(status, Status::Ok | Status::IllConditioned);
+    let linear = |bars: Option<crate::identify::Uncertainty>| bars.is_none_or(|bars| bars.is_linear());
+    let all = outcome.outcomes.iter().enumerate();
+    all.filter(|(_, o)| trusted(o.status) && linear(o.uncertainty))
+        .filter_map(|(i, o)| Some((i, o.correction?)))
+        .collect()
+}
+
+/// The first calibration of each channel, from the moduli that the others gave: a wrong solution here and there does not move it.
+fn starting(
+    band: &Band<'_>,
+    at: &[ModelAt<'_>],
+    space: &ReducedBand<'_, '_>,
+    outcome: &BandOutcome,
+    unknown: &[ChannelUnknowns],
+) -> Option<Vec<Channel>> {
+    let mut ratios: Vec<Vec<(f64, c64)>> = vec![Vec::new(); unknown.len()];
+    for (i, correction) in answers(outcome) {
+        let Ok((x, _)) = space.model(i).respond_with_slope(&at[i], correction) else { continue };
+        for (m, ratios) in ratios.iter_mut().enumerate() {
+            ratios.push((omega_rad_s(band.frequency_hz[i]), x[m] / band.measured[i][m]));
+        }
+    }
+    ratios.iter().zip(unknown).map(|(ratios, &unknown)| aligned(ratios, unknown, top(band))).collect()
+}
+
+/// Calibrations at the least misfit about given answers.
+struct CalibrationEstimate {
+    free: Vec<Free>,
+    /// γ_m and t_m of what is left: u_m = γ_m e^{−iωt_m} x_m.
+    left: Vec<(f64, f64)>,
+    /// Covariance of the free ones of them, in units of the noise's level squared.
+    covariance: Vec<Vec<f64>>,
+    /// (frequency, ∂c/∂p of each free one).
+    moved: Vec<(usize, Vec<c64>)>,
+}
+
+/// Minimises Σ |u_m − γ_m e^{−iωt_m} x_m(c_i)|²/σ_m² over all c_i and the unknown γ and t; `None` where the data do not tell them.
+fn settle(
+    band: &Band<'_>,
+    at: &[ModelAt<'_>],
+    space: &ReducedBand<'_, '_>,
+    outcome: &BandOutcome,
+    unknown: &[ChannelUnknowns],
+    hooks: Context<'_>,
+) -> Option<CalibrationEstimate> {
+    let sigma = without(&deviations(band.measured, band.noise), &outcome.left_out());
+    let free = free(unknown);
+    let n = free.len();
+    let top = top(band);
+    let mut answers = answers(outcome);
+    let mut left = vec![(1.0, 0.0); unknown.len()];
+    let mut last = f64::INFINITY;
+    for _ in 0..STEPS {
+        let system = |k: usize| -> Option<Local> {
+            let (i, correction) = answers[k];
+            let omega = omega_rad_s(band.frequency_hz[i]);
+            let (x, slope) = space.model(i).respond_with_slope(&at[i], correction).ok()?;
+            let weighed = |m: usize, value: c64| value / sigma[i][m];
+            let turn = |m: usize| c64::from_polar(1.0, -omega * left[m].1);
+            let sensors = 0..x.len();
+            let a: Vec<c64> = sensors.clone().map(|m| weighed(m, left[m].0 * turn(m) * slope[m])).collect();
+            let rest = |m: usize| weighed(m, band.measured[i][m] - left[m].0 * turn(m) * x[m]);
+            let of = |&Free { channel: m, is_delay }: &Free| {
+                let by = if is_delay { c64::new(0.0, -omega * left[m].0) } else { c64::new(1.0, 0.0) };
+                weighed(m, by * turn(m) * x[m])
+            };
+            Some(Local { a, rest: sensors.map(rest).collect(), b: free.iter().map(of).collect() })
+        };
+        let local: Vec<Local> =
+            map(hooks.for_each, answers.len(), system).into_iter().collect::<Option<_>>()?;
+        let (mut normal, mut right, mut whole) = (vec![vec![0.0; n]; n], vec![0.0; n], vec![0.0; n]);
+        for one in &local {
+            one.accumulate(&free, &mut normal, &mut right, &mut whole);
+        }
+        let covariance = inverse(&normal, &whole)?;
+        let step: Vec<f64> =
+            covariance.iter().map(|row| row.iter().zip(&right).map(|(a, b)| a * b).sum()).collect();
+        if step.iter().any(|step| !step.is_finite()) {
+            return None;
+        }
+        // A part of the scale, or radians at the top of the band.
+        let part = |(free, step): (&Free, &f64)| match free.is_delay {
+            true => (step * top).abs(),
+            false => (step / left[free.channel].0).abs(),
+        };
+        let size = free.iter().zip(&step).map(part).fold(0.0, f64::max);
+        let moved = local.iter().map(|one| one.moved(&free)).collect::<Vec<_>>();
+        // No more to gain: roundoff does not fall further.
+        if size <= 1e-13 || (size <= ROUNDOFF && size >= last) {
+            let moved = answers.iter().zip(moved).map(|(&(i, _), moved)| (i, moved)).collect();
+            return Some(CalibrationEstimate { free, left, covariance, moved });
+        }
+        // A scale that jumps by half, or half a radian, is far from where the slopes hold.
+        let shortened = (0.5 / size).min(1.0);
+        for ((answer, one), moved) in answers.iter_mut().zip(&local).zip(&moved) {
+            let other: c64 = moved.iter().zip(&step).map(|(v, d)| v * d).sum();
+            answer.1 += shortened * (one.own() + other);
+        }
+        for (free, step) in free.iter().zip(&step) {
+            let (gain, late) = &mut left[free.channel];
+            *(if free.is_delay { late } else { gain }) += shortened * step;
+        }
+        last = size;
+    }
+    None
+}
+
+/// What one frequency has to say, everything over σ.
+struct Local {
+    /// ∂(γe^{−iωt}x)/∂c.
+    a: Vec<c64>,
+    /// u − γe^{−iωt}x.
+    rest: Vec<c64>,
+    /// ∂(γe^{−iωt}x)/∂p of each free number, at its channel alone.
+    b: Vec<c64>,
+}
+
+impl Local {
+    fn information(&self) -> f64 {
+        self.a.iter().map(|a| a.norm_sqr()).sum::<f64>().max(f64::MIN_POSITIVE)
+    }
+
+    /// The correction's own step.
+    fn own(&self) -> c64 {
+        self.a.iter().zip(&self.rest).map(|(a, r)| a.conj() * r).sum::<c64>() / self.information()
+    }
+
+    /// ∂c/∂p.
+    fn moved(&self, free: &[Free]) -> Vec<c64> {
+        let of = |(free, b): (&Free, &c64)| -self.a[free.channel].conj() * b / self.information();
+        free.iter().zip(&self.b).map(of).collect()
+    }
+
+    /// Normal equations with the correction eliminated: b_pᴴ P b_q and b_pᴴ P r, P = I − aaᴴ/aᴴa.
+    fn accumulate(&self, free: &[Free], normal: &mut [Vec<f64>], right: &mut [f64], whole: &mut [f64]) {
+        let (own, moved) = (self.own(), self.moved(free));
+        for (p, (&Free { channel: m, .. }, b)) in free.iter().zip(&self.b).enumerate() {
+            whole[p] += b.norm_sqr();
+            right[p] += (b.conj() * (self.rest[m] - self.a[m] * own)).re;
+            for (q, moved) in moved.iter().enumerate() {
+                let direct = if free[q].channel == m { self.b[q] } else { c64::default() };
+                normal[p][q] += (b.conj() * (direct + self.a[m] * moved)).re;
+            }
+        }
+    }
+}
+
+/// The inverse of a small information matrix; `None` where it has no digit beside what there is without the moduli.
+fn inverse(normal: &[Vec<f64>], whole: &[f64]) -> Option<Vec<Vec<f64>>> {
+    let n = whole.len();
+    let entry = |p: usize, q: usize| 0.5 * (normal[p][q] + normal[q][p]) / (whole[p] * whole[q]).sqrt();
+    let scaled: Vec<f64> =
+        (0..n).flat_map(|p| (0..n).map(move |q| (p, q))).map(|(p, q)| entry(p, q)).collect();
+    if scaled.iter().any(|value| !value.is_finite()) {
+        return None;
+    }
+    let (values, vectors) = symmetric_eigen(n, &scaled).ok()?;
+    if values.iter().any(|&value| value < UNTOLD) {
+        return None;
+    }
+    let sum = |p: usize, q: usize| {
+        let sum: f64 = (0..n).map(|k| vectors[k * n + p] * vectors[k * n + q] / values[k]).sum();
+        sum / (whole[p] * whole[q]).sqrt()
+    };
+    Some((0..n).map(|p| (0..n).map(|q| sum(p, q)).collect()).collect())
+}
+
+impl CalibrationEstimate {
+    /// Deviation of a free number in units of the noise's level.
+    fn std(&self, p: usize) -> f64 {
+        self.covariance[p][p].max(0.0).sqrt()
+    }
+
+    /// What is left of a free number: of a scale as a part of it, of a delay in s.
+    fn off(&self, p: usize) -> f64 {
+        let (gain, late) = self.left[self.free[p].channel];
+        if self.free[p].is_delay { late } else { gain - 1.0 }
+    }
+
+    fn is_settled(&self, top: f64) -> bool {
+        let least = |free: &Free| if free.is_delay { ROUNDOFF / top } else { ROUNDOFF };
+        let settled =
+            |(p, free): (usize, &Free)| self.off(p).abs() <= (SETTLED * self.std(p)).max(least(free));
+        self.free.iter().enumerate().all(settled)
+    }
+
+    fn better(&self, channels: &[Channel]) -> Vec<Channel> {
+        channels.iter().zip(&self.left).map(|(own, &(gain, late))| own.better(gain, late)).collect()
+    }
+
+    /// What came out of each channel, at the level of the noise.
+    fn calibrations(&self, channels: &[Channel], level: Option<f64>) -> Vec<Calibration> {
+        let better = self.better(channels);
+        let mut found = vec![Calibration::default(); channels.len()];
+        for (p, &Free { channel: m, is_delay }) in self.free.iter().enumerate() {
+            let std = level.map(|level| level * self.std(p));
+            let relative = |std: f64| std * (better[m].scale / self.left[m].0).abs();
+            match is_delay {
+                true => found[m].delay_s = Some(Calibrated { value: better[m].delay_s, std }),
+                false => found[m].scale = Some(Calibrated { value: better[m].scale, std: std.map(relative) }),
+            }
+        }
+        found
+    }
+
+    /// Adds to the error bars of the factor what those of scales and delays make of it.
+    fn widen(&self, outcome: &mut BandOutcome) {
+        let Some(level) = outcome.noise.level else { return };
+        for (i, moved) in &self.moved {
+            let own = &mut outcome.outcomes[*i];
+            let (Some(factor), Some(bars)) = (own.factor(), own.uncertainty.as_mut()) else { continue };
+            let eta = loss_factor(factor);
+            let form = |g: &dyn Fn(&c64) -> f64, h: &dyn Fn(&c64) -> f64| {
+                let row = |(p, v): (usize, &c64)| {
+                    moved.iter().zip(&self.covariance[p]).map(|(w, c)| g(v) * c * h(w)).sum::<f64>()
+                };
+                level * level * moved.iter().enumerate().map(row).sum::<f64>()
+            };
+            let storage = |v: &c64| v.re;
+            let loss = |v: &c64| (v.im - eta * v.re) / factor.re;
+            let imaginary = |v: &c64| v.im;
+            let extra = form(&storage, &storage);
+            bars.correction_std =
+                (bars.correction_std.powi(2) + extra + form(&imaginary, &imaginary)).max(0.0).sqrt();
+            let before = bars.storage_std;
+            bars.storage_std = (before.powi(2) + extra).max(0.0).sqrt();
+            if let (Some(std), Some(correlation)) = (bars.loss_factor_std, bars.correlation) {
+                let wider = (std * std + form(&loss, &loss)).max(0.0).sqrt();
+                let common = correlation * before * std + form(&storage, &loss);
+                bars.loss_factor_std = Some(wider);
+                bars.correlation = Some(common / (bars.storage_std * wider)).filter(|c| c.is_finite());
+            }
+            if own.status == Status::Ok && !bars.is_known(factor) {
+                own.status = Status::IllConditioned;
+            }
+        }
+    }
+}

@@ -1,0 +1,61 @@
+//! Which solutions at two frequencies are one and the same.
+
+use super::continuation::LineCandidates;
+use crate::c64;
+use crate::model::ModelAt;
+
+/// One and the same solution at two frequencies is nearer to itself than this part of the distance to any other …
+const NEARER: f64 = 1.0 / 3.0;
+
+/// … and differs by no more than this part of itself: solutions move by a few times the step in frequency, and scatter by what noise does to them.
+const CHANGE: f64 = 0.2;
+
+/// Pairs (left, right) of what is the same solution, in the order of the left ones; `None` where that is not beyond doubt for all within the bounds on both
+/// sides.
+pub(super) fn pairs(
+    at: &[ModelAt<'_>],
+    left: &LineCandidates,
+    right: &LineCandidates,
+) -> Option<Vec<(usize, usize)>> {
+    let factors = |found: &LineCandidates| {
+        let nominal = at[found.index].parameters[0].nominal;
+        found.explored.all_near().map(|s| nominal + s.correction).collect::<Vec<c64>>()
+    };
+    let doubtful = |found: &LineCandidates| {
+        found.explored.unsure || found.explored.breakdown.is_some() || found.explored.solutions.is_empty()
+    };
+    if doubtful(left) || doubtful(right) {
+        return None;
+    }
+    let (a, b) = (factors(left), factors(right));
+    let same = |k: usize| {
+        let other = nearest(&b, a[k], None)?;
+        let near = (b[other] - a[k]).norm();
+        let apart = apart(&a, k).min(apart(&b, other));
+        let same = near <= NEARER * apart && near <= CHANGE * a[k].norm();
+        (same && nearest(&a, b[other], None) == Some(k)).then_some((k, other))
+    };
+    let pairs: Vec<(usize, usize)> = (0..a.len()).filter_map(same).collect();
+    // Those within the bounds come first.
+    let within = |found: &LineCandidates| 0..found.explored.solutions.len();
+    let all = within(left).all(|k| pairs.iter().any(|&(own, _)| own == k))
+        && within(right).all(|k| pairs.iter().any(|&(_, own)| own == k));
+    all.then_some(pairs)
+}
+
+/// Whether a factor is that of several which was expected to be there.
+pub(super) fn is_same(expected: &[c64], k: usize, factor: c64) -> bool {
+    let moved = (factor - expected[k]).norm();
+    moved <= NEARER * apart(expected, k) && moved <= CHANGE * expected[k].norm()
+}
+
+/// The nearest of several to a value, one of them left out.
+fn nearest(all: &[c64], to: c64, but: Option<usize>) -> Option<usize> {
+    let others = (0..all.len()).filter(|&k| Some(k) != but);
+    others.min_by(|&a, &b| (all[a] - to).norm().total_cmp(&(all[b] - to).norm()))
+}
+
+/// How far one of several is from all others.
+fn apart(all: &[c64], k: usize) -> f64 {
+    nearest(all, all[k], Some(k)).map_or(f64::INFINITY, |other| (all[other] - all[k]).norm())
+}

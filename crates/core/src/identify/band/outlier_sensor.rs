@@ -1,0 +1,105 @@
+//! A sensor that contradicts the others: found by leaving out each in turn.
+
+use super::candidates::Candidates;
+use super::fit::LEAST;
+use super::joint::Task;
+use super::noise::{freedom, level_of};
+use super::reduced_band::{ReducedBand, thinned};
+use super::{Context, Noise};
+use crate::for_each::map;
+use crate::response::{FullModel, Response, Work};
+use crate::subspace::Projection;
+
+/// Frequencies at which it is tried: the median of their χ² is known to a third, where what is looked for is a factor of ten.
+const FREQUENCIES: usize = 24;
+
+/// A sensor is at fault if χ² without it is so many times smaller than with it, and than without any other: its misfit is then more than
+/// three times what all others show.
+const TIMES: f64 = 10.0;
+
+/// The sensors that contradict the others, worst first, and the work of size N that it took to find them. Of two sensors
+/// neither can be told to be the wrong one. Those that are `hidden` are left out throughout.
+pub(super) fn contradicting(
+    task: &Task<'_, '_>,
+    space: Option<&mut ReducedBand<'_, '_>>,
+    hidden: &[usize],
+) -> (Vec<usize>, Work) {
+    let sensors = task.band.experiment.sensors.len();
+    let mut trial = Trial { task, space, work: Work::default() };
+    let mut out: Vec<usize> = hidden.to_vec();
+    // A single sensor beside those that are left out explains everything.
+    while sensors - out.len() > 2 {
+        let with_all = trial.misfit(&out);
+        let floor = match task.band.noise {
+            Noise::Known(_) => 1.0,
+            Noise::Unknown | Noise::Relative(_) => LEAST * LEAST,
+        };
+        if with_all <= TIMES * floor {
+            break;
+        }
+        let mut without: Vec<(f64, usize)> = (0..sensors)
+            .filter(|m| !out.contains(m))
+            .map(|m| (trial.misfit(&[&out[..], &[m]].concat()), m))
+            .collect();
+        without.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let (least, worst) = without[0];
+        if TIMES * least.max(floor) < with_all.min(without[1].0) {
+            out.push(worst);
+        } else {
+            break;
+        }
+    }
+    (out.split_off(hidden.len()), trial.work)
+}
+
+struct Trial<'t, 'a, 's, 'b, 'o> {
+    task: &'t Task<'t, 'a>,
+    space: Option<&'s mut ReducedBand<'b, 'o>>,
+    work: Work,
+}
+
+impl Trial<'_, '_, '_, '_, '_> {
+    /// χ² over its usual size without some sensors: the median over some frequencies of the best solution at each. Infinite where most have none.
+    fn misfit(&mut self, out: &[usize]) -> f64 {
+        let task = self.task;
+        let all: Vec<usize> = (0..task.at.len()).collect();
+        let which: Vec<usize> = thinned(&all, FREQUENCIES).copied().collect();
+        let sigma = without(task.sigma, out);
+        let task = Task { sigma: &sigma, ..*task };
+        let quiet = Context { progress: &|_, _, _| {}, ..task.hooks };
+        let best = |explored: &Candidates| {
+            let misfits = explored.solutions.iter().map(|solution| solution.misfit);
+            misfits.min_by(f64::total_cmp).unwrap_or(f64::INFINITY)
+        };
+        let misfits = match &mut self.space {
+            Some(space) => {
+                let find =
+                    |i: usize, model: &Projection| best(&task.fit(i).explore_reduced(model, &task.at[i]));
+                space.find(&which, quiet, find)
+            }
+            None => {
+                let find = |k: usize| {
+                    let i = which[k];
+                    match FullModel::new(task.at[i].clone(), task.band.experiment) {
+                        Ok(system) => {
+                            (best(&task.fit(i).explore(&system, task.options.order)), system.work())
+                        }
+                        Err(_) => (f64::INFINITY, Work { factorisations: 1, solves: 0 }),
+                    }
+                };
+                let found = map(task.hooks.for_each, which.len(), find);
+                found.iter().for_each(|(_, own)| self.work += *own);
+                found.into_iter().map(|(misfit, _)| misfit).collect()
+            }
+        };
+        let left = task.band.experiment.sensors.len() - out.len();
+        level_of(misfits, freedom(left, task.options.real)).map_or(0.0, |level| level * level)
+    }
+}
+
+/// The deviations with those of some sensors infinite: nothing is asked of them.
+pub(super) fn without(sigma: &[Vec<f64>], out: &[usize]) -> Vec<Vec<f64>> {
+    let mut sigma = sigma.to_vec();
+    sigma.iter_mut().for_each(|row| out.iter().for_each(|&m| row[m] = f64::INFINITY));
+    sigma
+}

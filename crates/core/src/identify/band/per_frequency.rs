@@ -1,0 +1,84 @@
+//! Each frequency by itself, on the full model or on the subspace.
+
+use super::noise::NoiseLevel;
+use super::reduced_band::{ReducedBand, certificate};
+use super::{Band, BandOutcome, Context, Stage};
+use crate::for_each::map;
+use crate::identify::{Identified, Options, Status, identify_at};
+use crate::model::ModelAt;
+use crate::response::{FullModel, Work};
+use crate::subspace::Projection;
+use frfit_linalg::solve::Breakdown;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+pub(super) fn identify<'a>(
+    band: &Band<'a>,
+    at: &[ModelAt<'a>],
+    space: Option<ReducedBand<'a, '_>>,
+    options: &Options,
+    hooks: Context<'_>,
+) -> BandOutcome {
+    let broken = |i: usize, breakdown: Breakdown| {
+        Identified::broken(band.frequency_hz[i], at[i].parameters[0].nominal, options.order, breakdown)
+    };
+    match space {
+        Some(mut space) => {
+            let find = |i: usize, model: &Projection| match model.at(&at[i]) {
+                Ok(system) => identify_at(&system, &band.measured[i], options),
+                Err(breakdown) => broken(i, breakdown),
+            };
+            let answers = |found: &[Identified]| {
+                let corrections =
+                    found.iter().enumerate().filter_map(|(i, outcome)| Some((i, outcome.correction?)));
+                corrections.collect()
+            };
+            let all: Vec<usize> = (0..at.len()).collect();
+            let found = space.find(&all, hooks, find);
+            let found = space.certify(&all, found, hooks, |i, model, _| find(i, model), answers);
+            let outcomes = found.into_iter().enumerate().map(|(i, mut outcome)| {
+                if let Some(correction) = outcome.correction {
+                    let assessed = space.assess(i, correction);
+                    let certified =
+                        assessed.map(|a| certificate(&a, outcome.nominal + correction, &band.measured[i]));
+                    outcome.certificate =
+                        certified.map(|certified| certified.response).filter(|c| c.is_finite());
+                    if outcome.status == Status::Ok && certified.is_none_or(|c| c.factor > options.certain) {
+                        outcome.status = Status::IllConditioned;
+                    }
+                }
+                outcome
+            });
+            BandOutcome {
+                explored: at.len(),
+                outcomes: outcomes.collect(),
+                work: space.work(),
+                subspace_size: Some(space.size()),
+                noise: NoiseLevel::NONE,
+                fit: None,
+                sensors: Vec::new(),
+            }
+        }
+        None => {
+            let done = AtomicUsize::new(0);
+            let outcomes = map(hooks.for_each, at.len(), |i| {
+                let outcome = match FullModel::new(at[i].clone(), band.experiment) {
+                    Ok(system) => identify_at(&system, &band.measured[i], options),
+                    Err(breakdown) => broken(i, breakdown),
+                };
+                (hooks.progress)(Stage::Solutions, done.fetch_add(1, Ordering::Relaxed) + 1, at.len());
+                outcome
+            });
+            let mut work = Work::default();
+            outcomes.iter().for_each(|outcome| work += outcome.work);
+            BandOutcome {
+                outcomes,
+                work,
+                subspace_size: None,
+                explored: at.len(),
+                noise: NoiseLevel::NONE,
+                fit: None,
+                sensors: Vec::new(),
+            }
+        }
+    }
+}

@@ -1,0 +1,318 @@
+//! The subspace of a band: trained over the box in which the answer may be, then where answers were found.
+
+use super::{Band, Context, Stage};
+use crate::c64;
+use crate::for_each::{ForEach, map};
+use crate::identify::Options;
+use crate::material::loss_factor;
+use crate::model::ModelAt;
+use crate::response::Work;
+use crate::subspace::{Assessment, Point, Projection, Subspace, TrainOptions};
+use frfit_linalg::solve::Breakdown;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Error over the box of frequencies and factors: enough to find every root, which is then looked at more closely.
+pub(in crate::identify) const BOX: f64 = 1e-6;
+
+/// Error at the answers. The factor is read from the response with a loss of some digits near its stationary points, and is to be right to 1e-6.
+const ANSWER: f64 = 1e-9;
+
+/// Error at the answers that were looked at, so that those between them are within what an answer's may be.
+pub(in crate::identify) const TRAINED: f64 = 0.25 * ANSWER;
+
+/// Frequencies of the training at most; neighbours share what they need.
+const FREQUENCIES: usize = 60;
+
+/// Neighbourhoods at most, and the least frequencies that are worth one.
+const BLOCKS: usize = 24;
+const BLOCK_LEAST: usize = 8;
+
+/// Frequencies of a neighbourhood at which its model is made good, at least; more where the neighbourhoods are few, to the resolution of the
+/// training: in a sparse band neighbours have little in common, and where a model is bad nothing is found and nothing says so.
+const BLOCK_POINTS: usize = 3;
+
+/// Storage values of the box per octave, and the least.
+const PER_OCTAVE: f64 = 1.0;
+
+/// Rounds of refinement at the answers before what is left is called uncertain.
+const ROUNDS: usize = 6;
+
+pub(super) struct ReducedBand<'a, 'o> {
+    subspace: Subspace<'a>,
+    at: &'o [ModelAt<'a>],
+    options: &'o Options,
+    blocks: Vec<Block>,
+    /// The model that answered at each frequency: that of its neighbourhood, when it was last asked.
+    models: Vec<Option<Arc<Projection>>>,
+    /// Answers at each frequency, and how good their model is there.
+    assessed: Vec<Vec<(c64, Assessment)>>,
+    /// Answers that the training looked at: (frequency, correction).
+    answers: Vec<(usize, c64)>,
+}
+
+/// How far the training had come: vectors, and answers that it looked at.
+type Training = (usize, usize);
+
+/// A neighbourhood.
+struct Block {
+    /// First and last frequency (index).
+    ends: [usize; 2],
+    /// Its model, and what it was made from.
+    model: Option<(Training, Arc<Projection>)>,
+}
+
+impl<'a, 'o> ReducedBand<'a, 'o> {
+    /// Trains over the box.
+    ///
+    /// # Errors
+    /// [`Breakdown`] where no real stand-in for D can be factorised.
+    pub(super) fn new(
+        band: &Band<'a>,
+        at: &'o [ModelAt<'a>],
+        options: &'o Options,
+        hooks: Context<'_>,
+    ) -> Result<Self, Breakdown> {
+        let n = at.len();
+        (hooks.progress)(Stage::Subspace, 0, n);
+        let subspace = Subspace::new(band.experiment, &at[n - 1])?;
+        let count = (n / BLOCK_LEAST).clamp(1, BLOCKS);
+        let block = |b| Block { ends: [b * n / count, (b + 1) * n / count - 1], model: None };
+        let blocks = (0..count).map(block).collect();
+        let mut space = Self {
+            subspace,
+            at,
+            options,
+            blocks,
+            models: vec![None; n],
+            assessed: vec![Vec::new(); n],
+            answers: Vec::new(),
+        };
+        let all: Vec<usize> = (0..n).collect();
+        let points: Vec<Point<'a>> = thinned(&all, FREQUENCIES).flat_map(|&i| space.box_points(i)).collect();
+        let training = TrainOptions { tolerance: BOX, ..TrainOptions::default() };
+        space.subspace.train(&points, &training, hooks.for_each)?;
+        Ok(space)
+    }
+
+    /// Some of the frequencies, over the whole band: once the subspace is good at their answers, it is at most of the others.
+    pub(super) fn pilots(&self) -> Vec<usize> {
+        let all: Vec<usize> = (0..self.at.len()).collect();
+        thinned(&all, FREQUENCIES).copied().collect()
+    }
+
+    /// Finds what there is at some frequencies (ascending), each on the model of its neighbourhood.
+    pub(super) fn find<T: Send + Sync>(
+        &mut self,
+        which: &[usize],
+        hooks: Context<'_>,
+        find: impl Fn(usize, &Projection) -> T + Sync,
+    ) -> Vec<T> {
+        self.localise(which, hooks.for_each);
+        let done = AtomicUsize::new(0);
+        let space = &*self;
+        (hooks.progress)(Stage::Solutions, 0, which.len());
+        map(hooks.for_each, which.len(), |k| {
+            let found = find(which[k], space.model(which[k]));
+            (hooks.progress)(Stage::Solutions, done.fetch_add(1, Ordering::Relaxed) + 1, which.len());
+            found
+        })
+    }
+
+    /// Lets the caller say which corrections (k, c) at the k-th of some frequencies (ascending) are the answers among what was found there; where the subspace
+    /// is not good enough at one, trains it there and finds again, with what was found before.
+    pub(super) fn certify<T: Send + Sync>(
+        &mut self,
+        which: &[usize],
+        mut found: Vec<T>,
+        hooks: Context<'_>,
+        again: impl Fn(usize, &Projection, &T) -> T + Sync,
+        mut answers: impl FnMut(&[T]) -> Vec<(usize, c64)>,
+    ) -> Vec<T> {
+        for round in 0..=ROUNDS {
+            let answers = answers(&found);
+            let space = &*self;
+            let assessed = map(hooks.for_each, answers.len(), |a| {
+                let (k, correction) = answers[a];
+                space.assess(which[k], correction)
+            });
+            let mut uncertain: Vec<(usize, c64)> = Vec::new();
+            for ((k, correction), assessed) in answers.into_iter().zip(assessed) {
+                let Some(assessed) = assessed else { continue };
+                if !is_certain(&self.at[which[k]], correction, &assessed) {
+                    uncertain.push((k, correction));
+                }
+                self.remember(which[k], correction, assessed);
+            }
+            let lacking: Vec<(usize, c64)> = uncertain.iter().map(|&(k, c)| (which[k], c)).collect();
+            if lacking.is_empty() || round == ROUNDS || !self.refine(&lacking, hooks).unwrap_or(false) {
+                break;
+            }
+            let mut pending: Vec<usize> = uncertain.into_iter().map(|(k, _)| k).collect();
+            pending.dedup();
+            let frequencies: Vec<usize> = pending.iter().map(|&k| which[k]).collect();
+            let before = &found;
+            let better = self.find(&frequencies, hooks, |i, model| {
+                let k = which.binary_search(&i).unwrap_or_default();
+                again(i, model, &before[k])
+            });
+            pending.into_iter().zip(better).for_each(|(k, better)| found[k] = better);
+        }
+        found
+    }
+
+    /// How good the model that answered at a frequency is at a correction there.
+    pub(super) fn assess(&self, i: usize, correction: c64) -> Option<Assessment> {
+        let known = self.assessed[i].iter().find(|(same, _)| *same == correction);
+        known
+            .map(|(_, assessed)| assessed.clone())
+            .or_else(|| self.model(i).assess(&self.at[i], correction).ok())
+    }
+
+    /// Corrections, one at each frequency that has any, at which the subspace is not good enough: (frequency, correction).
+    pub(super) fn lacking(
+        &self,
+        correction: impl Fn(usize) -> Option<c64> + Sync,
+        for_each: ForEach<'_>,
+    ) -> Vec<(usize, c64)> {
+        let one = |i: usize| {
+            let correction = correction(i)?;
+            let assessed = self.assess(i, correction)?;
+            (!is_certain(&self.at[i], correction, &assessed)).then_some((i, correction))
+        };
+        map(for_each, self.at.len(), one).into_iter().flatten().collect()
+    }
+
+    /// ∂²x_m/∂c² at an answer.
+    pub(super) fn second_derivative(&self, i: usize, correction: c64) -> Option<Vec<c64>> {
+        self.model(i).second_derivative(&self.at[i], correction).ok()
+    }
+
+    /// Keeps how good the model that found a correction is there.
+    pub(super) fn remember(&mut self, i: usize, correction: c64, assessed: Assessment) {
+        if self.assessed[i].iter().all(|(same, _)| *same != correction) {
+            self.assessed[i].push((correction, assessed));
+        }
+    }
+
+    /// Trains at answers (frequency, correction); false where nothing was gained.
+    pub(super) fn refine(&mut self, answers: &[(usize, c64)], hooks: Context<'_>) -> Result<bool, Breakdown> {
+        (hooks.progress)(Stage::Subspace, 0, self.at.len());
+        // Neighbours lack the same: those that this leaves uncertain are looked at in the next round.
+        let answers: Vec<(usize, c64)> = thinned(answers, FREQUENCIES).copied().collect();
+        let points: Vec<Point<'a>> =
+            answers.iter().map(|&(i, correction)| Point { at: self.at[i].clone(), correction }).collect();
+        let before = self.subspace.size();
+        let training = TrainOptions { tolerance: TRAINED, ..TrainOptions::default() };
+        self.subspace.train(&points, &training, hooks.for_each)?;
+        self.answers.extend(answers);
+        Ok(self.subspace.size() > before)
+    }
+
+    /// Makes the models of the neighbourhoods in which these frequencies (ascending) are, for them; one that no training has outgrown stays.
+    pub(super) fn localise(&mut self, frequencies: &[usize], for_each: ForEach<'_>) {
+        let training = (self.size(), self.answers.len());
+        let members = |[first, last]: [usize; 2]| {
+            let from = frequencies.partition_point(|&i| i < first);
+            &frequencies[from..frequencies.partition_point(|&i| i <= last)]
+        };
+        let outgrown = |block: &Block| block.model.as_ref().is_none_or(|&(before, _)| before != training);
+        let wanted: Vec<usize> = (0..self.blocks.len())
+            .filter(|&b| !members(self.blocks[b].ends).is_empty() && outgrown(&self.blocks[b]))
+            .collect();
+        let space = &*self;
+        let models = map(for_each, wanted.len(), |k| Arc::new(space.local(space.blocks[wanted[k]].ends)));
+        wanted.into_iter().zip(models).for_each(|(b, model)| self.blocks[b].model = Some((training, model)));
+        for block in &self.blocks {
+            for &i in members(block.ends) {
+                let model = block.model.as_ref().map(|(_, model)| Arc::clone(model));
+                let same =
+                    self.models[i].as_ref().zip(model.as_ref()).is_some_and(|(a, b)| Arc::ptr_eq(a, b));
+                if !same {
+                    self.assessed[i].clear();
+                }
+                self.models[i] = model;
+            }
+        }
+    }
+
+    /// The model of a neighbourhood.
+    fn local(&self, [first, last]: [usize; 2]) -> Projection {
+        let steps = (last - first).min(BLOCK_POINTS.max(FREQUENCIES / self.blocks.len()) - 1);
+        let picked = (0..=steps).map(|k| first + k * (last - first) / steps.max(1));
+        let box_points = picked.flat_map(|i| self.box_points(i));
+        let answers = self.answers.iter().filter(|(i, _)| (first..=last).contains(i));
+        let answers: Vec<(usize, c64)> = answers.copied().collect();
+        let answers = thinned(&answers, BLOCK_LEAST);
+        let answers = answers.map(|&(i, correction)| Point { at: self.at[i].clone(), correction });
+        let points: Vec<Point<'_>> = box_points.chain(answers).collect();
+        self.subspace.projection().localised(&points, TRAINED)
+    }
+
+    /// First and last frequency of each neighbourhood.
+    pub(super) fn neighbourhoods(&self) -> impl Iterator<Item = [usize; 2]> {
+        self.blocks.iter().map(|block| block.ends)
+    }
+
+    /// The model that answered at a frequency.
+    pub(super) fn model(&self, i: usize) -> &Projection {
+        self.models[i].as_deref().unwrap_or(self.subspace.projection())
+    }
+
+    pub(super) fn size(&self) -> usize {
+        self.subspace.size()
+    }
+
+    pub(super) fn work(&self) -> Work {
+        self.subspace.work()
+    }
+
+    /// The nominal factor and a grid over the box at a frequency.
+    fn box_points(&self, i: usize) -> Vec<Point<'a>> {
+        let at = &self.at[i];
+        let nominal = at.parameters[0].nominal;
+        let point = |factor: c64| Point { at: at.clone(), correction: factor - nominal };
+        let mut points = vec![point(nominal)];
+        if let Some([low, high]) =
+            self.options.box_about(nominal).filter(|[low, high]| 0.0 < *low && high.is_finite())
+        {
+            let steps = ((PER_OCTAVE * (high / low).log2()).ceil() as usize).max(2);
+            let eta = self
+                .options
+                .bounds
+                .loss_factor
+                .map_or(loss_factor(nominal), |[low, high]| loss_factor(nominal).clamp(low, high));
+            let storage = |k: usize| low * (high / low).powf(k as f64 / steps as f64);
+            points.extend((0..=steps).map(|k| point(c64::new(1.0, eta) * storage(k))));
+        }
+        points
+    }
+}
+
+/// Whether an answer's error is what it may be.
+pub(in crate::identify) fn is_certain(at: &ModelAt<'_>, correction: c64, assessed: &Assessment) -> bool {
+    assessed.relative_truncation(at.parameters[0].nominal + correction) <= ANSWER
+}
+
+/// At most so many of some things, evenly spaced, the ends among them.
+pub(in crate::identify) fn thinned<T>(all: &[T], most: usize) -> impl Iterator<Item = &T> {
+    let count = all.len().min(most);
+    (0..count).map(move |k| &all[k * (all.len() - 1) / (count - 1).max(1)])
+}
+
+/// What the subspace may have done to an answer.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(in crate::identify) struct Certificate {
+    /// Estimated error of the response over all sensors, relative to the measured one.
+    pub(in crate::identify) response: f64,
+    /// What that does to the factor, relative.
+    pub(super) factor: f64,
+}
+
+pub(in crate::identify) fn certificate(assessed: &Assessment, factor: c64, measured: &[c64]) -> Certificate {
+    let norm = |values: &mut dyn Iterator<Item = f64>| values.map(|v| v * v).sum::<f64>().sqrt();
+    let error = norm(&mut (0..measured.len()).map(|m| assessed.error(m)));
+    let size = norm(&mut measured.iter().map(|u| u.norm()));
+    let slope = norm(&mut assessed.slope.iter().map(|slope| slope.norm()));
+    Certificate { response: error / size, factor: error / (slope * factor.norm()) }
+}

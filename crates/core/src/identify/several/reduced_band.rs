@@ -1,0 +1,220 @@
+//! The subspace of a band with several unknowns: good over the box of all of them, then where answers were found.
+
+use super::unknown::Composite;
+use crate::c64;
+use crate::for_each::{ForEach, map};
+use crate::identify::band::{BOX, ROUNDS, TRAINED, is_certain, thinned};
+use crate::identify::{Context, Stage};
+use crate::material::{OutsideTable, loss_factor};
+use crate::model::{Experiment, ModelAt};
+use crate::response::Work;
+use crate::subspace::{Assessment, Point, Projection, Subspace, TrainOptions};
+use frfit_linalg::solve::Breakdown;
+
+/// Frequencies of the training at most.
+const FREQUENCIES: usize = 60;
+
+/// Real factorisations at most: a second unknown wants more vectors, which cost solves.
+const FACTORISATIONS: usize = 3;
+
+/// Points of the box at each of them, for each unknown: neighbouring frequencies have other points of the same sequence, so that together they fill the box.
+const PER_UNKNOWN: usize = 3;
+
+/// Neighbourhoods at most, the least frequencies that are worth one, and the frequencies at which its model is made good.
+const BLOCKS: usize = 24;
+const BLOCK_LEAST: usize = 8;
+const BLOCK_POINTS: usize = 4;
+
+/// Answers of a neighbourhood that its model is made good at, at most.
+const BLOCK_ANSWERS: usize = 8;
+
+/// Error of a model that only has to lead there.
+const ROUGH: f64 = 1e-4;
+
+/// A reduced model for a band and a box of several unknowns.
+pub(super) struct ReducedBand<'a> {
+    pub(super) composite: Composite<'a>,
+    frequency_hz: &'a [f64],
+    /// `[frequency][unknown]`.
+    nominal: &'a [Vec<c64>],
+    subspace: Subspace<'a>,
+    /// First and last frequency of each neighbourhood, and its model.
+    blocks: Vec<([usize; 2], Projection)>,
+    answers: Vec<(usize, Vec<c64>)>,
+}
+
+/// A response and its slopes: x_m, and ∂x_m/∂p_j as `[unknown][sensor]`.
+pub(super) type Responded = (Vec<c64>, Vec<Vec<c64>>);
+
+impl<'a> ReducedBand<'a> {
+    /// Trains over the box.
+    ///
+    /// # Errors
+    /// [`Breakdown`] where no real stand-in for D can be factorised, [`OutsideTable`] where a table ends within the band.
+    pub(super) fn new(
+        composite: Composite<'a>,
+        experiment: &'a Experiment,
+        frequency_hz: &'a [f64],
+        nominal: &'a [Vec<c64>],
+        hooks: Context<'_>,
+    ) -> Result<Result<Self, Breakdown>, OutsideTable> {
+        let n = frequency_hz.len();
+        (hooks.progress)(Stage::Subspace, 0, n);
+        let reference = composite.at(frequency_hz[n - 1], &nominal[n - 1])?;
+        let subspace = match Subspace::new(experiment, &reference) {
+            Ok(subspace) => subspace,
+            Err(breakdown) => return Ok(Err(breakdown)),
+        };
+        let count = (n / BLOCK_LEAST).clamp(1, BLOCKS);
+        let ends = (0..count).map(|b| [b * n / count, (b + 1) * n / count - 1]);
+        let blocks = ends.map(|ends| (ends, subspace.projection().clone())).collect();
+        let mut space = Self { composite, frequency_hz, nominal, subspace, blocks, answers: Vec::new() };
+        let all: Vec<usize> = (0..n).collect();
+        let mut points = Vec::new();
+        for (k, &i) in thinned(&all, FREQUENCIES).enumerate() {
+            points.extend(space.box_points(i, k)?);
+        }
+        let training =
+            TrainOptions { tolerance: BOX, factorisations: FACTORISATIONS, ..TrainOptions::default() };
+        if let Err(breakdown) = space.subspace.train(&points, &training, hooks.for_each) {
+            return Ok(Err(breakdown));
+        }
+        space.localise(hooks.for_each);
+        Ok(Ok(space))
+    }
+
+    /// Everything at its nominal value, and points of a sequence over the box.
+    fn box_points(&self, i: usize, k: usize) -> Result<Vec<Point<'a>>, OutsideTable> {
+        let count = PER_UNKNOWN * self.nominal[i].len();
+        let values = std::iter::once(self.nominal[i].clone());
+        let values =
+            values.chain((0..count).map(|p| in_box(&self.composite, &self.nominal[i], 1 + k * count + p)));
+        values.map(|values| self.point(i, &values)).collect()
+    }
+
+    fn point(&self, i: usize, values: &[c64]) -> Result<Point<'a>, OutsideTable> {
+        Ok(Point { at: self.composite.at(self.frequency_hz[i], values)?, correction: c64::default() })
+    }
+
+    /// The model's matrices at these values.
+    pub(super) fn at(&self, i: usize, values: &[c64]) -> Option<ModelAt<'a>> {
+        self.composite.at(self.frequency_hz[i], values).ok()
+    }
+
+    /// The model that answers at a frequency.
+    pub(super) fn model(&self, i: usize) -> &Projection {
+        let block = self.blocks.iter().find(|([first, last], _)| (*first..=*last).contains(&i));
+        block.map_or(self.subspace.projection(), |(_, model)| model)
+    }
+
+    /// Response and slopes at these values.
+    pub(super) fn respond(&self, i: usize, values: &[c64]) -> Option<Responded> {
+        self.respond_on(self.model(i), i, values)
+    }
+
+    /// The same on another model.
+    pub(super) fn respond_on(&self, model: &Projection, i: usize, values: &[c64]) -> Option<Responded> {
+        model.respond_with_slopes(&self.at(i, values)?).ok()
+    }
+
+    /// A model of one frequency with few vectors, to tell starts from one another.
+    pub(super) fn rough(&self, i: usize) -> Projection {
+        let points = self.box_points(i, i).unwrap_or_default();
+        self.model(i).localised(&points, ROUGH)
+    }
+
+    /// A model of one frequency that is good near some values.
+    pub(super) fn about(&self, i: usize, values: &[c64]) -> Option<Projection> {
+        self.model(i).about(&self.at(i, values)?)
+    }
+
+    /// How good the model is at these values.
+    pub(super) fn assess(&self, i: usize, values: &[c64]) -> Option<Assessment> {
+        self.model(i).assess(&self.at(i, values)?, c64::default()).ok()
+    }
+
+    /// Trains at the answers where the subspace is not good enough; whether anything was gained.
+    pub(super) fn refine(&mut self, answers: &[(usize, Vec<c64>)], hooks: Context<'_>) -> bool {
+        let lacking = |(i, values): &(usize, Vec<c64>)| {
+            let at = self.at(*i, values)?;
+            let assessed = self.assess(*i, values)?;
+            (!is_certain(&at, c64::default(), &assessed)).then(|| Point { at, correction: c64::default() })
+        };
+        let lacking: Vec<(usize, Point<'a>)> =
+            map(hooks.for_each, answers.len(), |k| Some((k, lacking(&answers[k])?)))
+                .into_iter()
+                .flatten()
+                .collect();
+        if lacking.is_empty() {
+            return false;
+        }
+        (hooks.progress)(Stage::Subspace, 0, self.frequency_hz.len());
+        let (mut points, before) = (Vec::new(), self.subspace.size());
+        for (k, point) in thinned(&lacking, FREQUENCIES) {
+            self.answers.push(answers[*k].clone());
+            points.push(point.clone());
+        }
+        let training =
+            TrainOptions { tolerance: TRAINED, factorisations: FACTORISATIONS, ..TrainOptions::default() };
+        let trained = self.subspace.train(&points, &training, hooks.for_each);
+        self.localise(hooks.for_each);
+        trained.is_ok() && self.subspace.size() > before
+    }
+
+    /// Rounds of training at answers.
+    pub(super) const ROUNDS: usize = ROUNDS;
+
+    fn localise(&mut self, for_each: ForEach<'_>) {
+        let space = &*self;
+        let models = map(for_each, space.blocks.len(), |b| space.local(space.blocks[b].0));
+        self.blocks.iter_mut().zip(models).for_each(|(block, model)| block.1 = model);
+    }
+
+    fn local(&self, [first, last]: [usize; 2]) -> Projection {
+        let steps = (last - first).min(BLOCK_POINTS - 1);
+        let picked = (0..=steps).map(|k| first + k * (last - first) / steps.max(1));
+        let boxes = picked.filter_map(|i| self.box_points(i, i).ok()).flatten();
+        let own: Vec<&(usize, Vec<c64>)> =
+            self.answers.iter().filter(|(i, _)| (first..=last).contains(i)).collect();
+        let own = thinned(&own, BLOCK_ANSWERS).filter_map(|(i, values)| self.point(*i, values).ok());
+        let points: Vec<Point<'_>> = boxes.chain(own).collect();
+        self.subspace.projection().localised(&points, TRAINED)
+    }
+
+    pub(super) fn size(&self) -> usize {
+        self.subspace.size()
+    }
+
+    pub(super) fn work(&self) -> Work {
+        self.subspace.work()
+    }
+}
+
+/// The k-th point of a sequence over the box of all unknowns, logarithmic where a range is positive: one dimension for each.
+pub(super) fn in_box(composite: &Composite<'_>, nominal: &[c64], k: usize) -> Vec<c64> {
+    let value = |(j, (one, &nominal)): (usize, (&super::Unknown, &c64))| {
+        let real = between(one.range(nominal), radical_inverse(k, PRIMES[j % PRIMES.len()]));
+        let eta = loss_factor(nominal);
+        let eta = one.bounds.loss_factor.map_or(eta, |[low, high]| eta.clamp(low, high));
+        if one.real || !eta.is_finite() { c64::new(real, 0.0) } else { c64::new(1.0, eta) * real }
+    };
+    composite.unknowns.iter().zip(nominal).enumerate().map(value).collect()
+}
+
+/// The value that divides a range in this part: of its logarithm where it is positive.
+pub(super) fn between([low, high]: [f64; 2], part: f64) -> f64 {
+    if low > 0.0 { low * (high / low).powf(part) } else { low + (high - low) * part }
+}
+
+const PRIMES: [usize; 12] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37];
+
+/// The digits of k in a base, mirrored at the point: with a prime for each dimension the points of J. H. Halton, Numer. Math. 2 (1960) 84–90.
+fn radical_inverse(mut k: usize, base: usize) -> f64 {
+    let (mut value, mut place) = (0.0, 1.0 / base as f64);
+    while k > 0 {
+        value += (k % base) as f64 * place;
+        k /= base;
+        place /= base as f64;
+    }
+    value
+}

@@ -1,0 +1,143 @@
+//! What is looked for when several things are.
+
+use super::super::Options;
+use crate::c64;
+use crate::laws::LawKind;
+use crate::material::{Law, OutsideTable};
+use crate::model::{DynamicStiffness, ModelAt, ParameterAt};
+use crate::roots::Bounds;
+
+/// How an unknown varies over the band.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Variation {
+    /// A value of its own at every frequency.
+    PerFrequency,
+    /// One value for the band.
+    Constant,
+    /// A law with so many parameters.
+    Law(LawKind),
+}
+
+/// How an unknown p enters the terms of a model.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Dependence {
+    /// In place of the factor of these terms: a modulus, a density.
+    Factor(Vec<usize>),
+    /// The factors of these terms are multiplied by p^d, (term, d), d positive or negative (B-8): a dimension. A plate's thickness enters bending with 3, membrane and
+    /// mass with 1; a bar's length its stiffness with −1 and its mass with 1.
+    Powers(Vec<(usize, i32)>),
+}
+
+/// One unknown of several.
+///
+/// A term may have one unknown in place of its factor, and be multiplied by any number of others: E h³ of a plate in bending.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Unknown {
+    /// What it is called.
+    pub name: String,
+    /// How it enters.
+    pub dependence: Dependence,
+    /// Where to begin.
+    pub nominal: Law,
+    /// How it varies.
+    pub varies: Variation,
+    /// Whether it is real; a law is not.
+    pub real: bool,
+    /// What is known about it beforehand.
+    pub bounds: Bounds,
+}
+
+impl Unknown {
+    /// Real numbers that it has at each frequency: two, one, or none of its own.
+    pub fn per_frequency(&self) -> usize {
+        match (self.varies, self.real) {
+            (Variation::PerFrequency, true) => 1,
+            (Variation::PerFrequency, false) => 2,
+            _ => 0,
+        }
+    }
+
+    /// Real numbers that it has for the band.
+    pub fn for_band(&self) -> usize {
+        match (self.varies, self.real) {
+            (Variation::PerFrequency, _) => 0,
+            (Variation::Constant, true) => 1,
+            (Variation::Constant, false) => 2,
+            (Variation::Law(family), _) => family.count(),
+        }
+    }
+
+    /// [low, high] of the real part in which it is looked for about a nominal value.
+    pub(super) fn range(&self, nominal: c64) -> [f64; 2] {
+        let options = Options { bounds: self.bounds, ..Options::default() };
+        let about = options.box_about(nominal);
+        // A value of zero has no neighbourhood of its own, and nothing bounds it: the caller's nominal is then all there is.
+        let [low, high] = about.unwrap_or([nominal.re, nominal.re]);
+        match self.dependence {
+            Dependence::Factor(_) => [low, high],
+            // A dimension is known better than a modulus: by drawing.
+            Dependence::Powers(_) if nominal.re > 0.0 => {
+                [low.max(nominal.re / DIMENSION), high.min(nominal.re * DIMENSION)]
+            }
+            Dependence::Powers(_) => [low, high],
+        }
+    }
+}
+
+/// By how much a dimension may be off.
+const DIMENSION: f64 = 2.0;
+
+/// A model with several unknowns in it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Composite<'a> {
+    pub(super) model: &'a DynamicStiffness,
+    pub(super) unknowns: &'a [Unknown],
+}
+
+impl<'a> Composite<'a> {
+    /// D at these values of the unknowns, and the first derivative by each as its only coefficient: exact for small changes, and for any change of one that
+    /// stands in place of a factor.
+    pub(super) fn at(&self, frequency_hz: f64, values: &[c64]) -> Result<ModelAt<'a>, OutsideTable> {
+        let mut at = ModelAt {
+            model: self.model,
+            frequency_hz,
+            nominal: Default::default(),
+            parameters: values
+                .iter()
+                .map(|&nominal| ParameterAt { nominal, coefficients: vec![Default::default()] })
+                .collect(),
+        };
+        for (index, term) in self.model.terms().iter().enumerate() {
+            let replaced = self.unknowns.iter().position(
+                |one| matches!(&one.dependence, Dependence::Factor(terms) if terms.contains(&index)),
+            );
+            let own = match replaced {
+                Some(j) => values[j],
+                None => term.factor.at(frequency_hz)?,
+            };
+            let mut multiplied = term.role.weight(frequency_hz);
+            let powers = self.unknowns.iter().enumerate().filter_map(|(j, one)| match &one.dependence {
+                Dependence::Powers(all) => Some((j, all.iter().find(|(term, _)| *term == index)?.1)),
+                Dependence::Factor(_) => None,
+            });
+            let powers: Vec<(usize, i32)> = powers.collect();
+            for &(j, power) in &powers {
+                multiplied *= values[j].powi(power);
+            }
+            at.nominal.parts.push((index, own * multiplied));
+            if let Some(j) = replaced {
+                at.parameters[j].coefficients[0].parts.push((index, multiplied));
+            }
+            for (j, power) in powers {
+                let slope = f64::from(power) * own * multiplied / values[j];
+                at.parameters[j].coefficients[0].parts.push((index, slope));
+            }
+        }
+        Ok(at)
+    }
+
+    /// The nominal values at a frequency.
+    pub(super) fn nominal(&self, frequency_hz: f64) -> Result<Vec<c64>, OutsideTable> {
+        self.unknowns.iter().map(|one| one.nominal.at(frequency_hz)).collect()
+    }
+}

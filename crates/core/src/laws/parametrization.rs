@@ -1,0 +1,255 @@
+//! Coordinates θ of a law's parameters p in which every constraint holds by itself.
+
+use super::Line;
+use super::least_squares::Residuals;
+use super::{Datum, LawKind};
+use crate::c64;
+
+/// θ ↔ p about a reference frequency.
+///
+/// Moduli and times are logarithms, exponents are logits, and E∞ − E₀ stands for E∞:
+///
+/// | family | θ |
+/// |---|---|
+/// | constant | ln E′, η |
+/// | fractional | ln E₀, ln(E₁ ω₀^α), logit α |
+/// | zener | ln E₀, ln(E∞ − E₀), ln(τ ω₀), logit α |
+/// | maxwell | ln E₀, ln E_k, ln(τ_k ω₀) … |
+///
+/// At the reference frequency ω₀, in the middle of the data, E₁ω₀^α is what the data tell; E₁ alone hangs on α from 1 rad/s up. So every law but the constant one is passive
+/// whatever θ is. The loss factor of the constant one is free in sign: a negative one says that the data follow the other time convention, or that noise
+/// hides the damping, and is not to be forced away.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Parametrization {
+    pub(crate) family: LawKind,
+    /// ω₀, rad/s.
+    pub(crate) reference_rad_s: f64,
+}
+
+/// Logits beyond this leave no digit between α and 0 or 1.
+const MOST_LOGIT: f64 = 36.0;
+
+impl Parametrization {
+    /// p, and ∂p_i/∂θ_j as row i, column j.
+    pub(crate) fn parameters(&self, theta: &[f64]) -> (Vec<f64>, Vec<Vec<f64>>) {
+        let n = self.family.count();
+        let mut slopes = vec![vec![0.0; n]; n];
+        let mut p: Vec<f64> = theta.iter().map(|t| t.exp()).collect();
+        for i in 0..n {
+            slopes[i][i] = p[i];
+        }
+        let mut logistic = |i: usize, p: &mut [f64]| {
+            p[i] = 1.0 / (1.0 + (-theta[i]).exp());
+            // α(1 − α) without cancellation at either end.
+            slopes[i][i] = p[i] / (1.0 + theta[i].exp());
+        };
+        match self.family {
+            LawKind::Constant => {
+                p[1] = theta[1];
+                slopes[1][1] = 1.0;
+            }
+            LawKind::Fractional => {
+                logistic(2, &mut p);
+                p[1] = (theta[1] - p[2] * self.reference_rad_s.ln()).exp();
+                slopes[1][1] = p[1];
+                slopes[1][2] = -p[1] * self.reference_rad_s.ln() * slopes[2][2];
+            }
+            LawKind::FractionalZener => {
+                logistic(3, &mut p);
+                p[1] += p[0];
+                slopes[1][0] = p[0];
+                p[2] /= self.reference_rad_s;
+                slopes[2][2] = p[2];
+            }
+            LawKind::Maxwell { .. } => {
+                for i in (2..n).step_by(2) {
+                    p[i] /= self.reference_rad_s;
+                    slopes[i][i] = p[i];
+                }
+            }
+        }
+        (p, slopes)
+    }
+
+    /// θ of parameters that satisfy the constraints; what is on their edge comes to stand just inside.
+    pub(crate) fn coordinates(&self, p: &[f64]) -> Vec<f64> {
+        let log = |x: f64| x.max(f64::MIN_POSITIVE).ln();
+        let logit = |x: f64| (log(x) - log(1.0 - x)).clamp(-MOST_LOGIT, MOST_LOGIT);
+        let reference = self.reference_rad_s;
+        match self.family {
+            LawKind::Constant => vec![log(p[0]), p[1]],
+            LawKind::Fractional => vec![log(p[0]), log(p[1]) + p[2] * reference.ln(), logit(p[2])],
+            LawKind::FractionalZener => {
+                vec![log(p[0]), log(p[1] - p[0]), log(p[2] * reference), logit(p[3])]
+            }
+            LawKind::Maxwell { .. } => {
+                let branch = |b: &[f64]| [log(b[0]), log(b[1] * reference)];
+                std::iter::once(log(p[0])).chain(p[1..].chunks_exact(2).flat_map(branch)).collect()
+            }
+        }
+    }
+
+    /// E(ω) and ∂E/∂θ; `None` where a number is not finite.
+    pub(crate) fn modulus(&self, theta: &[f64], omega_rad_s: f64) -> Option<(c64, Vec<c64>)> {
+        let (p, chain) = self.parameters(theta);
+        let (modulus, of_p) = self.family.with_slopes(&p, omega_rad_s);
+        let of_theta: Vec<c64> = (0..theta.len())
+            .map(|j| of_p.iter().zip(&chain).map(|(slope, row)| slope * row[j]).sum())
+            .collect();
+        let finite = modulus.is_finite() && of_theta.iter().all(|slope| slope.is_finite());
+        finite.then_some((modulus, of_theta))
+    }
+
+    /// The law with all its moduli multiplied by e^`by`.
+    pub(crate) fn scaled(&self, theta: &[f64], by: f64) -> Vec<f64> {
+        let is_modulus = |i: usize| match self.family {
+            LawKind::Constant => i == 0,
+            LawKind::Fractional | LawKind::FractionalZener => i < 2,
+            LawKind::Maxwell { .. } => i == 0 || i % 2 == 1,
+        };
+        theta.iter().enumerate().map(|(i, t)| if is_modulus(i) { t + by } else { *t }).collect()
+    }
+
+    /// Whitened E(θ) − E over some data, and its slopes; `None` where a number is not finite.
+    pub(crate) fn residuals(&self, data: &[Datum], theta: &[f64]) -> Option<Residuals> {
+        let mut residuals = Vec::with_capacity(2 * data.len());
+        let mut columns: Vec<Vec<f64>> = vec![Vec::with_capacity(2 * data.len()); theta.len()];
+        for datum in data {
+            let (modulus, slopes) = self.modulus(theta, datum.omega_rad_s)?;
+            residuals.extend(datum.residual(modulus));
+            for (column, slope) in columns.iter_mut().zip(slopes) {
+                column.extend(datum.slope(modulus, slope));
+            }
+        }
+        Some((residuals, columns.concat()))
+    }
+
+    /// What a law leaves of each datum in ln E, and what that pulls; the real and the imaginary part of ln E as if the datum told them apart.
+    pub(crate) fn lines(&self, data: &[Datum], theta: &[f64]) -> Vec<Line> {
+        let line = |datum: &Datum| {
+            let (modulus, slopes) = self.modulus(theta, datum.omega_rad_s)?;
+            let rest = datum.residual(modulus);
+            // By how much the residual changes with ln E.
+            let of_log = [modulus, modulus * c64::i()].map(|change| datum.slope(modulus, change));
+            let dot = |a: [f64; 2], b: [f64; 2]| a[0] * b[0] + a[1] * b[1];
+            let weight = of_log.map(|a| dot(a, a));
+            let pull = |c: usize| slopes.iter().map(|&s| dot(datum.slope(modulus, s), of_log[c])).collect();
+            Some(Line {
+                weight,
+                rest: [0, 1].map(|c| -dot(of_log[c], rest) / weight[c]),
+                pull: [pull(0), pull(1)],
+            })
+        };
+        data.iter().filter_map(line).collect()
+    }
+
+    /// The same law with its branches in the order of their times.
+    pub(crate) fn sorted(&self, theta: &[f64]) -> Vec<f64> {
+        let mut sorted = theta.to_vec();
+        if let LawKind::Maxwell { .. } = self.family {
+            let mut branches: Vec<&[f64]> = theta[1..].chunks_exact(2).collect();
+            branches.sort_by(|a, b| a[1].total_cmp(&b[1]));
+            sorted[1..].copy_from_slice(&branches.concat());
+        }
+        sorted
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn any_chart() -> impl Strategy<Value = (Parametrization, Vec<f64>)> {
+        let family = proptest::sample::select(LawKind::ALL.to_vec());
+        (family, 0.1f64..1e4).prop_flat_map(|(family, reference_rad_s)| {
+            // Moduli over 14 decades, exponents from 0.002 to 0.998, times within e^6 of the reference.
+            let theta = proptest::collection::vec(-6.0f64..6.0, family.count());
+            theta.prop_map(move |theta| (Parametrization { family, reference_rad_s }, theta))
+        })
+    }
+
+    proptest! {
+        #[test]
+        fn coordinates_come_back((parametrization, theta) in any_chart()) {
+            let (p, _) = parametrization.parameters(&theta);
+            let back = parametrization.coordinates(&p);
+            for (a, b) in theta.iter().zip(&back) {
+                // ln(E∞ − E₀) loses what E₀/(E∞ − E₀) ≤ e^12 takes: eleven digits are left of sixteen. So it is with logits.
+                prop_assert!((a - b).abs() < 1e-9, "{theta:?} {back:?}");
+            }
+        }
+
+        #[test]
+        fn every_law_is_passive_and_causal_in_its_limits((parametrization, theta) in any_chart(), at in -7.0f64..7.0) {
+            let omega = parametrization.reference_rad_s * at.exp();
+            let (e, _) = parametrization.modulus(&theta, omega).unwrap();
+            prop_assert!(e.re > 0.0);
+            if parametrization.family != LawKind::Constant {
+                prop_assert!(e.im >= 0.0, "{e}");
+                // What is lost at some frequency is a gain of stiffness above it.
+                let (above, _) = parametrization.modulus(&theta, 1.5 * omega).unwrap();
+                prop_assert!(above.re >= e.re * (1.0 - 1e-14));
+            }
+            let (p, _) = parametrization.parameters(&theta);
+            prop_assert!(parametrization.family == LawKind::Constant || p.iter().all(|&p| p > 0.0));
+            // The law that is written out is the law that was fitted.
+            let law = parametrization.family.law(&p).at(omega / std::f64::consts::TAU).unwrap();
+            prop_assert!((law - e).norm() <= 1e-13 * e.norm());
+        }
+
+        #[test]
+        fn slopes_are_those_of_differences((parametrization, theta) in any_chart(), at in -5.0f64..5.0) {
+            let omega = parametrization.reference_rad_s * at.exp();
+            let (e, slopes) = parametrization.modulus(&theta, omega).unwrap();
+            // Central differences: h² of truncation times a third derivative (up to (ln ωτ)³ ≈ 1e3 E), and ε/h of roundoff.
+            let h = 1e-4;
+            for (j, slope) in slopes.iter().enumerate() {
+                let moved = |by: f64| {
+                    let mut theta = theta.clone();
+                    theta[j] += by;
+                    parametrization.modulus(&theta, omega).unwrap().0
+                };
+                let difference = (moved(h) - moved(-h)) / (2.0 * h);
+                prop_assert!((difference - slope).norm() <= 1e-5 * e.norm(), "{j}: {difference} {slope} of {e}");
+            }
+        }
+
+        #[test]
+        fn slopes_of_natural_parameters_are_those_of_differences((parametrization, theta) in any_chart(), at in -5.0f64..5.0) {
+            let omega = parametrization.reference_rad_s * at.exp();
+            let (p, _) = parametrization.parameters(&theta);
+            let (e, slopes) = parametrization.family.with_slopes(&p, omega);
+            for (j, slope) in slopes.iter().enumerate() {
+                // Relative steps: h ∂E/∂p is up to 1e-4 E, and what differences leave of it h³∂³E/∂p³/6 of up to 1e3 times the cube of 1e-4.
+                let h = 1e-4 * p[j].abs().max(1e-12);
+                let moved = |by: f64| {
+                    let mut p = p.clone();
+                    p[j] += by;
+                    parametrization.family.with_slopes(&p, omega).0
+                };
+                let difference = (moved(h) - moved(-h)) / (2.0 * h);
+                prop_assert!((difference - slope).norm() * h <= 1e-8 * e.norm(), "{j}: {difference} {slope}");
+            }
+        }
+
+        #[test]
+        fn scaling_multiplies_the_modulus((parametrization, theta) in any_chart(), by in -1.0f64..1.0) {
+            let at = |theta: &[f64]| parametrization.modulus(theta, parametrization.reference_rad_s).unwrap().0;
+            let (before, after) = (at(&theta), at(&parametrization.scaled(&theta, by)));
+            // exp(θ + by) and exp(θ)·exp(by) differ by some ε.
+            prop_assert!((after - by.exp() * before).norm() <= 1e-13 * after.norm());
+        }
+
+        #[test]
+        fn branches_are_told_in_the_order_of_their_times((parametrization, theta) in any_chart()) {
+            let sorted = parametrization.sorted(&theta);
+            let (p, _) = parametrization.parameters(&sorted);
+            if let LawKind::Maxwell { .. } = parametrization.family {
+                prop_assert!(p[1..].chunks_exact(2).map(|b| b[1]).is_sorted());
+            }
+            let at = |theta: &[f64]| parametrization.modulus(theta, parametrization.reference_rad_s).unwrap().0;
+            prop_assert!((at(&theta) - at(&sorted)).norm() <= 1e-14 * at(&theta).norm());
+        }
+    }
+}

@@ -1,0 +1,314 @@
+//! Planted faults are named, each alone; clean data with a wrong nominal get none.
+
+use crate::common;
+use crate::noise;
+use crate::tier::of_tier;
+
+use common::{Case, bar, plate, sandwich};
+use frfit::c64;
+use frfit::diagnostics::{Diagnosis, Fault, Finding, KnownFactor, NotJudged, diagnose};
+use frfit::for_each::{ForEach, sequential};
+use frfit::frequency::{linear_hz, omega_rad_s};
+use frfit::identify::{Band, Noise as Known, Options};
+use frfit::material::Law;
+use frfit::model::{Experiment, Sensor};
+use frfit::quantity::Quantity;
+use frfit::roots::Bounds;
+use noise::Noise;
+
+/// A test on a structure: what is written in its files, and what the case says of it.
+struct Test {
+    case: Case,
+    frequency_hz: Vec<f64>,
+    /// Values as they are written, `[frequency][sensor]`.
+    written: Vec<Vec<c64>>,
+    quantities: Vec<Quantity>,
+    bounds: Bounds,
+}
+
+impl Test {
+    /// Accelerances measured with noise of this size, with the nominal so many times the truth.
+    fn new(mut case: Case, count: usize, noise: f64, seed: u64, nominal: f64) -> Self {
+        let frequency_hz = linear_hz(case.band_hz[0], case.band_hz[1], count);
+        let mut random = Noise::new(seed);
+        let written = frequency_hz
+            .iter()
+            .map(|&f| {
+                let x = case.direct(f, c64::default()).unwrap();
+                let disturbed = |x: &c64| {
+                    let noisy = x * (1.0 + noise / 2f64.sqrt() * random.complex());
+                    Quantity::Accelerance.from_receptance(f, noisy)
+                };
+                x.iter().map(disturbed).collect()
+            })
+            .collect();
+        case.parameter.nominal = case.parameter.nominal.scaled(nominal);
+        let quantities = vec![Quantity::Accelerance; case.experiment.sensors.len()];
+        let size = case.parameter.nominal.at(case.band_hz[1]).unwrap().re;
+        let bounds = Bounds { storage: Some([size / 100.0, size * 100.0]), loss_factor: Some([0.0, 3.0]) };
+        Self { case, frequency_hz, written, quantities, bounds }
+    }
+
+    /// Changes every value of some sensors.
+    fn change(mut self, sensors: &[usize], by: impl Fn(f64, c64) -> c64) -> Self {
+        for (&f, values) in self.frequency_hz.iter().zip(&mut self.written) {
+            sensors.iter().for_each(|&m| values[m] = by(f, values[m]));
+        }
+        self
+    }
+
+    fn diagnose(&self) -> Diagnosis {
+        self.diagnose_by(&sequential)
+    }
+
+    fn diagnose_by(&self, for_each: ForEach<'_>) -> Diagnosis {
+        let receptance = |(&f, values): (&f64, &Vec<c64>)| {
+            values.iter().zip(&self.quantities).map(|(&v, q)| q.to_receptance(f, v)).collect()
+        };
+        let measured: Vec<Vec<c64>> = self.frequency_hz.iter().zip(&self.written).map(receptance).collect();
+        let band = Band {
+            model: &self.case.model,
+            experiment: &self.case.experiment,
+            parameter: &self.case.parameter,
+            frequency_hz: &self.frequency_hz,
+            measured: &measured,
+            noise: Known::Unknown,
+        };
+        let options = Options { bounds: self.bounds, ..Options::default() };
+        diagnose(&band, &self.quantities, &options, for_each).unwrap()
+    }
+}
+
+/// The one finding.
+fn alone(name: &str, diagnosis: &Diagnosis) -> Finding {
+    let [finding] = diagnosis.findings.as_slice() else { panic!("{name}: {diagnosis:#?}") };
+    finding.clone()
+}
+
+/// Makes a structure.
+type Make = fn() -> Case;
+
+/// Small structures with their names: a bar of rubber, a plate of little damping, a sandwich.
+fn structures() -> [(&'static str, Make); 3] {
+    [("bar", || bar(60)), ("plate", || plate(8, 0.4, 5e-3)), ("sandwich", || sandwich(12, 1))]
+}
+
+/// Every fault of values on one structure, of both sensors and of the second alone; the nominal is off, the noise 2 %.
+fn assert_faults_of_values(name: &str, make: Make) {
+    type Change = fn(f64, c64) -> c64;
+    type Is = fn(&Fault) -> bool;
+    // Five per cent is many times what noise of 2 % at forty frequencies leaves of a factor, a delay or a slope.
+    let faults: [(&str, Change, Is); 8] = [
+        ("conjugated", |_, v| v.conj(), |fault| *fault == Fault::Conjugated),
+        ("sign", |_, v| -v, |fault| *fault == Fault::Sign),
+        (
+            "receptance",
+            |f, v| Quantity::Accelerance.to_receptance(f, v),
+            |fault| match *fault {
+                Fault::Quantity { is, slope, slope_std, .. } => {
+                    is == Quantity::Receptance && (slope + 2.0).abs() < 0.05 && slope_std < 0.05
+                }
+                _ => false,
+            },
+        ),
+        (
+            "mobility",
+            |f, v| v / c64::new(0.0, omega_rad_s(f)),
+            |fault| matches!(fault, Fault::Quantity { is: Quantity::Mobility, slope, .. } if (slope + 1.0).abs() < 0.05),
+        ),
+        (
+            "g",
+            |_, v| v / 9.80665,
+            |fault| matches!(fault, Fault::Factor { known: Some(KnownFactor::PerStandardGravity), .. }),
+        ),
+        (
+            "millimetres",
+            |_, v| v * 1e3,
+            |fault| matches!(fault, Fault::Factor { known: Some(KnownFactor::Thousand), .. }),
+        ),
+        (
+            "factor",
+            |_, v| v * 1.5,
+            |fault| matches!(fault, Fault::Factor { known: None, factor, .. } if (factor / 1.5 - 1.0).abs() < 0.05),
+        ),
+        (
+            "delay",
+            |f, v| v * c64::from_polar(1.0, -omega_rad_s(f) * 3e-4),
+            |fault| matches!(fault, Fault::Delay { seconds, .. } if (seconds / 3e-4 - 1.0).abs() < 0.05),
+        ),
+    ];
+    for (k, (fault, change, is)) in faults.into_iter().enumerate() {
+        let sensors: &[usize] = if k % 2 == 0 { &[1] } else { &[0, 1] };
+        let nominal = if k % 3 == 0 { 1.3 } else { 0.75 };
+        let diagnosis = Test::new(make(), 120, 0.02, k as u64, nominal).change(sensors, change).diagnose();
+        let finding = alone(&format!("{fault} on {name}"), &diagnosis);
+        assert!(is(&finding.fault), "{fault} on {name}: {finding:?}");
+        assert_eq!(finding.sensors, sensors, "{fault} on {name}");
+        let evidence = finding.evidence.unwrap();
+        assert!(evidence.nats > 15.0 && evidence.after < 0.6 * evidence.before, "{evidence:?}");
+    }
+}
+
+#[test]
+fn faults_of_values_on_a_bar() {
+    assert_faults_of_values("bar", || bar(60));
+}
+
+#[test]
+fn faults_of_values_on_a_plate() {
+    assert_faults_of_values("plate", || plate(8, 0.4, 5e-3));
+}
+
+#[test]
+fn faults_of_values_on_a_sandwich() {
+    assert_faults_of_values("sandwich", || sandwich(12, 1));
+}
+
+#[test]
+fn sensors_and_loads_elsewhere_are_found_among_all_rows() {
+    for (name, make) in structures() {
+        for is_load in [false, true] {
+            let mut test = Test::new(make(), 120, 0.02, 7, 0.75);
+            let rows = test.case.model.dim();
+            let experiment = &mut test.case.experiment;
+            let was = match is_load {
+                true => experiment.load.iter().position(|force| force.norm() > 0.0).unwrap(),
+                false => experiment.sensors[0].row,
+            };
+            let other = (was + rows / 3) % rows;
+            if is_load {
+                experiment.load.swap(was, other);
+            } else {
+                experiment.sensors[0].row = other;
+            }
+            let finding = alone(name, &test.diagnose());
+            let found = match &finding.fault {
+                Fault::LoadDof { rows } if is_load => rows,
+                Fault::ResponseDof { rows } if !is_load => rows,
+                fault => panic!("{name}: {fault:?}"),
+            };
+            assert!(found.iter().any(|other| other.row == was), "{name}, row {was}: {found:?}");
+        }
+    }
+}
+
+#[test]
+fn clean_data_have_no_finding_whatever_the_nominal_and_the_seed() {
+    for (name, make) in structures() {
+        for seed in 0..of_tier(1, 3) {
+            for (nominal, noise) in [(0.7, 0.01), (1.3, 0.05)] {
+                // Few frequencies, too: of twelve, each peak is met or missed by chance.
+                for count in [12, 100] {
+                    let diagnosis = Test::new(make(), count, noise, seed, nominal).diagnose();
+                    let what = format!("{name}, seed {seed}, {nominal}, {count} frequencies");
+                    assert!(
+                        diagnosis.findings.is_empty() && diagnosis.not_judged.is_none(),
+                        "{what}: {diagnosis:?}"
+                    );
+                    assert!(diagnosis.misfit.unwrap() < 1.5 * noise, "{what}: {diagnosis:?}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_law_that_was_told_as_a_constant_is_no_finding() {
+    let mut test = Test::new(bar(60), 100, 0.02, 1, 1.0);
+    // The rubber's modulus at 500 Hz, without its slope of a factor of ten over the band, and with a hundredth of its damping.
+    let middle = test.case.parameter.nominal.at(500.0).unwrap();
+    test.case.parameter.nominal = Law::complex_modulus(middle.re, 0.005);
+    let diagnosis = test.diagnose();
+    assert!(diagnosis.findings.is_empty(), "{diagnosis:?}");
+}
+
+#[test]
+fn two_faults_at_once_are_two_findings() {
+    let test = Test::new(plate(8, 0.4, 5e-3), 120, 0.02, 3, 0.75);
+    let diagnosis = test.change(&[0, 1], |_, v| v.conj() / 9.80665).diagnose();
+    let faults: Vec<&Fault> = diagnosis.findings.iter().map(|finding| &finding.fault).collect();
+    assert_eq!(faults.len(), 2, "{faults:?}");
+    assert!(faults.contains(&&Fault::Conjugated), "{faults:?}");
+    assert!(faults.iter().any(|fault| matches!(fault, Fault::Factor { .. })), "{faults:?}");
+}
+
+#[test]
+fn load_and_response_that_are_swapped_cannot_be_told() {
+    let mut test = Test::new(bar(60), 100, 0.02, 2, 0.75);
+    let kept = test.case.experiment.sensors[1];
+    let driven = test.case.experiment.load.iter().position(|force| force.norm() > 0.0).unwrap();
+    test.written.iter_mut().for_each(|values| *values = vec![values[1]]);
+    test.quantities.truncate(1);
+    let rows = test.case.model.dim();
+    test.case.experiment = Experiment::driven_at(rows, kept, vec![Sensor { row: driven, sign: 1.0 }]);
+    assert!(test.diagnose().findings.is_empty());
+}
+
+#[test]
+fn a_band_beyond_the_mesh_is_told_by_the_matrices() {
+    // Waves of rubber at 2 kHz and |E| of 8 MPa are 5 cm long: six elements have one a wavelength, sixty twelve.
+    let diagnosis = Test::new(bar(6), 100, 0.01, 1, 1.0).diagnose();
+    assert!(
+        matches!(alone("mesh", &diagnosis).fault, Fault::Mesh { row_hz, top_hz } if row_hz < 2.0 * top_hz)
+    );
+}
+
+#[test]
+fn what_cannot_be_judged_says_so() {
+    let few = Test::new(bar(20), 3, 0.01, 1, 1.0).diagnose();
+    assert_eq!((few.findings.len(), few.not_judged), (0, Some(NotJudged::FewValues)));
+    let mut without = Test::new(bar(20), 30, 0.01, 1, 1.0);
+    without.case.parameter.nominal = Law::Constant(c64::default());
+    without.bounds = Bounds::default();
+    assert_eq!(without.diagnose().not_judged, Some(NotJudged::Parameter));
+}
+
+/// A plate with so many sensors, one after the other on its translations, and a constant factor that is not the nominal.
+fn crowd(count: usize) -> Test {
+    let mut case = plate(8, 0.4, 5e-3);
+    let rows: Vec<usize> = (0..case.model.dim()).step_by(3).collect();
+    case.experiment.sensors = (0..count).map(|m| Sensor { row: rows[m % rows.len()], sign: 1.0 }).collect();
+    Test::new(case, 60, 0.02, 5, 1.3)
+}
+
+#[test]
+fn of_many_sensors_the_one_that_is_wrong_is_named() {
+    let clean = crowd(120).diagnose();
+    assert_eq!(clean.findings, [], "{clean:#?}");
+    // Neither is among the twenty that are fitted together: those are number 0, 6, 12, 18, 25, ...
+    let two = crowd(120).change(&[71], |_, v| -v).change(&[3], |_, v| 9.80665 * v).diagnose();
+    let is_named = |m: usize, is: &dyn Fn(&Fault) -> bool| {
+        two.findings.iter().any(|finding| finding.sensors == [m] && is(&finding.fault))
+    };
+    let is_gravity =
+        |fault: &Fault| matches!(fault, Fault::Factor { known: Some(KnownFactor::StandardGravity), .. });
+    assert_eq!(two.findings.len(), 2, "{two:#?}");
+    assert!(is_named(71, &|fault| *fault == Fault::Sign) && is_named(3, &is_gravity), "{two:#?}");
+    // One that is among them: beside nineteen others it would not be seen.
+    let of_one = crowd(120).change(&[6], |_, v| -v).diagnose();
+    assert_eq!(alone("sign of a sensor that is fitted", &of_one).sensors, [6]);
+    let all: Vec<usize> = (0..120).collect();
+    let of_all = crowd(120).change(&all, |_, v| v.conj()).diagnose();
+    let finding = alone("conjugated", &of_all);
+    assert_eq!((finding.fault, finding.sensors), (Fault::Conjugated, all));
+}
+
+#[test]
+fn the_work_does_not_grow_faster_than_the_sensors() {
+    // One sensor is wrong, so that every search is made. What is counted are the pieces that are handed over, such as points of a grid and changes to be fitted.
+    let work = |count: usize| {
+        let test = crowd(count).change(&[1], |_, v| -v);
+        let pieces = std::sync::atomic::AtomicUsize::new(0);
+        let counting = |n: usize, each: &(dyn Fn(usize) + Sync)| {
+            pieces.fetch_add(n, std::sync::atomic::Ordering::Relaxed);
+            sequential(n, each);
+        };
+        let diagnosis = test.diagnose_by(&counting);
+        assert_eq!(alone("sign", &diagnosis).sensors, [1]);
+        (pieces.into_inner() as f64, diagnosis.work.solves as f64)
+    };
+    let (few, many) = (work(40), work(400));
+    // Without sensors judged in turn both are the same but for which rows are looked at.
+    assert!(many.0 < 1.5 * few.0, "{few:?} {many:?}");
+    assert!(many.1 < 1.5 * few.1, "{few:?} {many:?}");
+}

@@ -1,0 +1,27 @@
+//! The method against independent answers: closed forms, direct solves, exact arithmetic.
+
+mod band;
+mod band_laws;
+mod calibration;
+mod common;
+mod dense;
+mod diagnostics;
+mod inertia;
+mod laws;
+mod mixed;
+mod noise;
+#[path = "../../formats/tests/outside/mod.rs"]
+mod outside;
+mod paper;
+mod poles;
+mod rational;
+mod select;
+mod sensitivity;
+mod series;
+mod several;
+mod shared_data;
+mod signal;
+mod smooth;
+mod subspace;
+mod tier;
+mod uncertainty;

@@ -1,0 +1,3 @@
+//! Elements against closed forms.
+
+mod closed_forms;

@@ -1,0 +1,4 @@
+//! Pictures of good and of nasty data.
+
+mod drawing;
+mod nasty;

@@ -1,0 +1,4 @@
+//! Solutions and symmetry.
+
+mod solve;
+mod symmetric;

@@ -1,0 +1,5 @@
+//! The page that is made of results.
+
+mod made;
+mod page;
+mod several;

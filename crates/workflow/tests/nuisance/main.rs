@@ -1,8 +1,0 @@
-//! What disturbs real tests, planted and found: mains hum, masses of sensors, suspension, scales and delays of channels.
-
-mod attached;
-mod left_out;
-#[path = "../../../core/tests/noise/mod.rs"]
-mod noise;
-mod planted;
-mod scale;

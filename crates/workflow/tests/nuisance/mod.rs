@@ -1,0 +1,6 @@
+//! What disturbs real tests, planted and found: mains hum, masses of sensors, suspension, scales and delays of channels.
+
+mod attached;
+mod left_out;
+mod planted;
+mod scale;

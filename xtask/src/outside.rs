@@ -1,0 +1,58 @@
+//! What some tests need from outside of the project: the data of ../shared/data, and modules of Python.
+//!
+//! Such a test is ignored by default, and its name ends with what it needs: `_needs_data`, `_needs_data_and_lvm_read`.
+
+use crate::python;
+use crate::step::{works, workspace};
+use std::ffi::OsString;
+use std::path::PathBuf;
+use std::process::Command;
+
+/// Names the Python of the tests.
+pub(crate) const PYTHON: &str = "FRFIT_PYTHON";
+
+/// Set by whoever has the data: tests that need them fail where they are absent.
+const REQUIRE_DATA: &str = "FRFIT_REQUIRE_DATA";
+
+/// The same for Python's modules.
+const REQUIRE_PYTHON: &str = "FRFIT_REQUIRE_PYTHON";
+
+/// How the names of tests call a module, and its own name.
+const MODULES: [(&str, &str); 7] = [
+    ("scipy", "scipy"),
+    ("pyuff", "pyuff"),
+    ("pynastran", "pyNastran"),
+    ("pyyeti", "pyyeti"),
+    ("lvm_read", "lvm_read"),
+    ("pyfrf", "pyFRF"),
+    ("sdypy", "sdypy.EMA"),
+];
+
+pub(crate) struct Outside {
+    /// The interpreter for the tests; `None` where there is only what the path has.
+    pub(crate) python: Option<OsString>,
+    /// What is not there, as the names of tests call it: tests that need it are left out.
+    pub(crate) absent: Vec<&'static str>,
+}
+
+/// Looks for all of it, and says what is absent.
+pub(crate) fn look() -> Outside {
+    let own = || python::interpreter().filter(|path| path.exists()).map(PathBuf::into_os_string);
+    let python = std::env::var_os(PYTHON).or_else(own);
+    let mut absent = Vec::new();
+    let data =
+        std::env::var_os("FRFIT_DATA").map_or_else(|| workspace().join("../shared/data"), PathBuf::from);
+    if !data.is_dir() && std::env::var_os(REQUIRE_DATA).is_none() {
+        println!("── tests that need the data are SKIPPED: no {}", data.display());
+        absent.push("data");
+    }
+    let program = python.clone().unwrap_or_else(|| "python3".into());
+    for (name, module) in MODULES {
+        let there = || works(Command::new(&program).args(["-c", &format!("import {module}")]));
+        if std::env::var_os(REQUIRE_PYTHON).is_none() && !there() {
+            println!("── tests that need {module} are SKIPPED: {} lacks it", program.display());
+            absent.push(name);
+        }
+    }
+    Outside { python, absent }
+}
