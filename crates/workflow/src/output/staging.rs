@@ -1,6 +1,6 @@
 //! New files beside the places where they will be, in a folder that is known as left over when whoever made it has ended.
 
-use std::fs::{self, File, OpenOptions};
+use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -53,19 +53,33 @@ impl Staging {
 impl Drop for Staging {
     fn drop(&mut self) {
         // What cannot be removed is cleared away by the next run.
-        let _ = fs::remove_dir_all(&self.path);
+        let _ = remove(&self.path);
     }
+}
+
+/// Removes a folder of new files, its lock last: whoever is killed meanwhile leaves what the next run can clear.
+fn remove(folder: &Path) -> std::io::Result<()> {
+    for entry in fs::read_dir(folder)? {
+        let entry = entry?;
+        if entry.file_name() != LOCK {
+            fs::remove_file(entry.path())?;
+        }
+    }
+    fs::remove_file(folder.join(LOCK))?;
+    fs::remove_dir(folder)
 }
 
 /// Makes a folder and locks it.
 fn made(path: &Path) -> std::io::Result<File> {
     fs::create_dir(path)?;
     let lock = OpenOptions::new().write(true).create_new(true).open(path.join(LOCK))?;
-    // A file system without locks has no leftovers cleared away either.
-    if lock.try_lock().is_ok() && !path.join(LOCK).exists() {
-        return Err(std::io::ErrorKind::NotFound.into());
+    match lock.try_lock() {
+        // Another run took it for a leftover before it was locked, and clears it away.
+        Err(TryLockError::WouldBlock) => Err(std::io::ErrorKind::WouldBlock.into()),
+        Ok(()) if !path.join(LOCK).exists() => Err(std::io::ErrorKind::NotFound.into()),
+        // A file system without locks has no leftovers cleared away either.
+        Ok(()) | Err(TryLockError::Error(_)) => Ok(lock),
     }
-    Ok(lock)
 }
 
 /// Removes what killed processes have left; nothing is said of what cannot be removed.
@@ -79,11 +93,58 @@ fn clear(folder: &Path) {
         }
         let path = entry.path();
         match OpenOptions::new().write(true).open(path.join(LOCK)) {
-            Ok(lock) if lock.try_lock().is_ok() => drop(fs::remove_dir_all(&path)),
+            Ok(lock) if lock.try_lock().is_ok() => drop(remove(&path)),
             // In use.
             Ok(_) => {}
-            // Ended before it was locked: nothing is in it.
+            // Ended before it was locked, or after the lock was removed: nothing is in it.
             Err(_) => drop(fs::remove_dir(&path)),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn entries(folder: &Path) -> usize {
+        fs::read_dir(folder).unwrap().count()
+    }
+
+    #[test]
+    fn leftovers_are_cleared_wherever_their_writer_was_killed() {
+        let root = tempfile::tempdir().unwrap();
+        let folder = |number: u32| root.path().join(format!("{PREFIX}{number}-0{SUFFIX}"));
+        // Before the lock was made; with files under a lock; with the lock alone.
+        for (number, names) in [(1, &[][..]), (2, &["0", "1", LOCK]), (3, &[LOCK])] {
+            fs::create_dir(folder(number)).unwrap();
+            for name in names {
+                fs::write(folder(number).join(name), "x").unwrap();
+            }
+        }
+        drop(Staging::within(root.path()).unwrap());
+        assert_eq!(entries(root.path()), 0);
+    }
+
+    #[test]
+    fn a_folder_in_use_is_left_alone() {
+        let root = tempfile::tempdir().unwrap();
+        let mut first = Staging::within(root.path()).unwrap();
+        let file = first.write(b"x").unwrap();
+        drop(Staging::within(root.path()).unwrap());
+        assert!(file.exists());
+        drop(first);
+        assert_eq!(entries(root.path()), 0);
+    }
+
+    #[test]
+    fn the_lock_is_removed_last() {
+        let root = tempfile::tempdir().unwrap();
+        let folder = root.path().join("staging");
+        fs::create_dir(&folder).unwrap();
+        fs::write(folder.join(LOCK), "").unwrap();
+        // A folder in place of a file cannot be removed as one: the removal ends there, as a kill would end it.
+        fs::create_dir(folder.join("0")).unwrap();
+        assert!(remove(&folder).is_err());
+        assert!(folder.join(LOCK).exists());
     }
 }
