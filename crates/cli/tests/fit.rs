@@ -213,7 +213,7 @@ fn a_smooth_modulus_is_found_from_a_hammer_test() {
     done(folder.path(), &["--quiet", "example", "hammer-bar", "bar"]);
     done(folder.path(), &["--quiet", "frf", "bar/records.lvm", "-o", "bar/frf.uff"]);
     let case = folder.path().join("bar/case.toml");
-    set(&case, "[identify]", "[identify]\nvaries = \"smooth\"\nleave_out_hz = [[490.0, 510.0]]");
+    set(&case, "[identify]", "[identify]\nvaries = \"smooth\"\nexclude_hz = [[490.0, 510.0]]");
     let summary = json(&done(folder.path(), &["identify", "bar/case.toml", "--out", "out", "--json"]));
     assert_eq!(summary["identify"]["varies"], "smooth");
     let out = summary["identify"]["left_out"].as_u64().unwrap();

@@ -37,8 +37,8 @@ pub(crate) struct Measured<'py> {
 pub(crate) struct Options {
     matrices: Vec<String>,
     band_hz: Option<[f64; 2]>,
-    leave_out_hz: Vec<[f64; 2]>,
-    most_lines: Option<i64>,
+    exclude_hz: Vec<[f64; 2]>,
+    max_lines: Option<i64>,
     method: Option<String>,
     selection: Option<String>,
     reduction: Option<String>,
@@ -100,8 +100,8 @@ pub(crate) fn identify<'py>(
     let wanted = Wanted {
         matrices: options.matrices,
         band_hz: options.band_hz,
-        leave_out_hz: options.leave_out_hz,
-        most_lines: options.most_lines,
+        exclude_hz: options.exclude_hz,
+        max_lines: options.max_lines,
         method: options.method,
         selection: options.selection,
         reduction: options.reduction,

@@ -123,7 +123,7 @@ def test_error_bars_hold_the_truth_and_the_band_is_cut(chain):
         noisy.append(frfit.Measurement(F, one.response + noise[0] + 1j * noise[1], row=one.row, std=std))
     band = (20.0, 80.0)
     found = frfit.identify(
-        chain.model(1200.0), noisy, load=0, matrix="springs", band_hz=band, leave_out_hz=[(49.0, 51.0)]
+        chain.model(1200.0), noisy, load=0, matrix="springs", band_hz=band, exclude_hz=[(49.0, 51.0)]
     )
     assert found.frequency_hz[0] >= 20.0 and found.frequency_hz[-1] <= 80.0
     out = found.status == "out_of_band"
@@ -132,7 +132,7 @@ def test_error_bars_hold_the_truth_and_the_band_is_cut(chain):
     inside = np.abs(found.storage - TRUE.real) <= 3 * found.storage_std
     # Three deviations leave out 0.3 %; a few of the band are allowed for, as few as a wrong bar would not leave.
     assert inside[found.ok].mean() > 0.9 and found.ok.sum() > 5
-    few = frfit.identify(chain.model(1200.0), noisy, load=0, matrix="springs", band_hz=band, most_lines=12)
+    few = frfit.identify(chain.model(1200.0), noisy, load=0, matrix="springs", band_hz=band, max_lines=12)
     assert (few.status != "out_of_band").sum() in (11, 12)
 
 
@@ -184,8 +184,8 @@ def test_what_is_wrong_is_said(chain):
     error = fails(frfit.InputError, 'method: expected "series"', method="magic")
     assert (error.key, error.found, error.file) == ("method", '"magic"', None)
     fails(frfit.InputError, r"band_hz: expected a band with frequencies", band_hz=(500.0, 600.0))
-    fails(frfit.InputError, "leave_out_hz: expected a frequency", leave_out_hz=[(0.0, 1e4)])
-    fails(frfit.InputError, "most_lines: expected a whole number of at least 3, found 2", most_lines=2)
+    fails(frfit.InputError, "exclude_hz: expected a frequency", exclude_hz=[(0.0, 1e4)])
+    fails(frfit.InputError, "max_lines: expected a whole number of at least 3, found 2", max_lines=2)
     fails(frfit.InputError, "load: expected 12 values", load=np.ones(3))
     fails(frfit.InputError, "load: expected a load that is not zero", load=np.zeros(12))
     fails(frfit.InputError, "measurement 1.row: expected 0 to 11, found 12", frfit.Measurement(F, F, row=12))

@@ -100,7 +100,7 @@ fn run(
     nominal: f64,
     bounds: [f64; 2],
     band_hz: [f64; 2],
-    most_lines: usize,
+    max_lines: usize,
 ) -> (TempDir, IdentifyJob) {
     let folder = tempfile::tempdir().unwrap();
     let write = |name: &str, bytes: &[u8]| fs::write(folder.path().join(name), bytes).unwrap();
@@ -126,7 +126,7 @@ fn run(
     let ([low, high], [first, last]) = (bounds, band_hz);
     write!(
         case,
-        "[identify]\nmatrix = \"steel\"\nband_hz = [{first}, {last}]\nmost_lines = {most_lines}\nvaries = \"law\"\nlaw = \"constant\"\nreject_outliers = false\n\
+        "[identify]\nmatrix = \"steel\"\nband_hz = [{first}, {last}]\nmax_lines = {max_lines}\nvaries = \"law\"\nlaw = \"constant\"\nreject_outliers = false\n\
          bounds = {{ storage = [{low}, {high}], loss_factor = [0.0, 0.1] }}\n"
     )
     .unwrap();

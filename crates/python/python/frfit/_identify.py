@@ -103,9 +103,9 @@ def _plain(one: Measurement, name: str) -> SimpleNamespace:
 def _band(entry: Any) -> tuple[float, float]:
     """A line as a band of no width."""
     if np.ndim(entry) == 0:
-        line = number(entry, "leave_out_hz")
+        line = number(entry, "exclude_hz")
         return line, line
-    return pair(entry, "leave_out_hz")
+    return pair(entry, "exclude_hz")
 
 
 def _optional_word(value: Any, name: str) -> str | None:
@@ -129,8 +129,8 @@ def identify(
     law: str | Sequence[str] = (),
     real: bool = False,
     reject_outliers: bool | None = None,
-    leave_out_hz: Sequence[float | tuple[float, float]] = (),
-    most_lines: int | None = None,
+    exclude_hz: Sequence[float | tuple[float, float]] = (),
+    max_lines: int | None = None,
     check: bool = True,
     memory_bytes: int | None = None,
     progress: Progress | None = None,
@@ -150,7 +150,7 @@ def identify(
     varies
         ``"frequency"``: a factor of its own at each; ``"smooth"``: neighbours help each other; ``"law"``, which is what
         ``law`` alone means too: by a law, the best of ``law`` or without it of all.
-    most_lines
+    max_lines
         Of more measured frequencies than this those that tell most; the others are ``out_of_band``.
     law
         ``"constant"``, ``"fractional"``, ``"zener"``, ``"maxwell:N"`` or several: fitted to the whole band.
@@ -196,8 +196,8 @@ def identify(
     options = {
         "matrices": words(matrix, "matrix"),
         "band_hz": None if band_hz is None else pair(band_hz, "band_hz"),
-        "leave_out_hz": [_band(entry) for entry in several(leave_out_hz, "leave_out_hz", "lines and bands")],
-        "most_lines": None if most_lines is None else whole(most_lines, "most_lines"),
+        "exclude_hz": [_band(entry) for entry in several(exclude_hz, "exclude_hz", "lines and bands")],
+        "max_lines": None if max_lines is None else whole(max_lines, "max_lines"),
         "method": _optional_word(method, "method"),
         "selection": _optional_word(selection, "selection"),
         "reduction": _optional_word(reduction, "reduction"),

@@ -25,7 +25,12 @@ pub(super) struct Field<'a> {
 }
 
 /// Keys that had another name: (old, new). A case with an old one is refused with the new one.
-const RENAMED: [(&str, &str); 2] = [("space", "reduction"), ("robust", "reject_outliers")];
+const RENAMED: [(&str, &str); 4] = [
+    ("space", "reduction"),
+    ("robust", "reject_outliers"),
+    ("most_lines", "max_lines"),
+    ("leave_out_hz", "exclude_hz"),
+];
 
 impl<'a> Table<'a> {
     /// A table at a place, with the keys of some sections.

@@ -474,13 +474,13 @@ pub(super) static IDENTIFY: Section = Section {
         key("matrix", "text or list of texts", NEEDED, "Whose factor is unknown; several share one."),
         key("band_hz", "[low, high], Hz", "`--band`", "Measured frequencies from low to high are used."),
         key(
-            "leave_out_hz",
+            "exclude_hz",
             "list of frequencies and [low, high], Hz",
             "none",
             "Left out, as mains hum; their rows are `out_of_band`.",
         ),
         key(
-            "most_lines",
+            "max_lines",
             "whole number, 3 and more",
             "all",
             "Of more lines than this those that tell most: half of them evenly spread, half where the measurement changes fastest. The others are `out_of_band`.",
@@ -553,8 +553,8 @@ pub(super) static IDENTIFY: Section = Section {
         "[identify]
 matrix = [\"skins\", \"ribs\"]
 band_hz = [20.0, 2000.0]
-leave_out_hz = [[49.0, 51.0], 100.0]
-most_lines = 2000
+exclude_hz = [[49.0, 51.0], 100.0]
+max_lines = 2000
 varies = \"law\"
 law = [\"fractional\", \"maxwell\"]
 branches = 3
@@ -658,14 +658,14 @@ pub(super) static SEVERAL_FIRST: Section = Section {
     about: "They mean what they mean in `[identify]`.",
     keys: &[
         key("band_hz", "[low, high], Hz", "`--band`", "Measured frequencies from low to high are used."),
-        key("leave_out_hz", "list of frequencies and [low, high], Hz", "none", "Left out."),
-        key("most_lines", "whole number, 3 and more", "all", "Of more lines than this those that tell most."),
+        key("exclude_hz", "list of frequencies and [low, high], Hz", "none", "Left out."),
+        key("max_lines", "whole number, 3 and more", "all", "Of more lines than this those that tell most."),
     ],
     examples: &["[[identify]]
 matrix = \"core\"
 band_hz = [20.0, 1000.0]
-leave_out_hz = [50.0]
-most_lines = 500
+exclude_hz = [50.0]
+max_lines = 500
 [[identify]]
 matrix = \"skins\"
 varies = \"constant\"

@@ -173,9 +173,9 @@ pub struct IdentifyEntry {
     /// First and last frequency.
     pub band_hz: Option<Located<[f64; 2]>>,
     /// Frequencies and bands that are left out: no number of them is used.
-    pub leave_out: Vec<LeaveOut>,
+    pub exclude: Vec<Exclusion>,
     /// Of more lines than this those that tell most.
-    pub most_lines: Option<Located<i64>>,
+    pub max_lines: Option<Located<i64>>,
     /// How the factor varies, where that is said; the place is that of `varies`.
     pub varies: Option<Located<VariesEntry>>,
     /// Method.
@@ -239,9 +239,9 @@ pub struct SeveralEntry {
     /// First and last frequency.
     pub band_hz: Option<Located<[f64; 2]>>,
     /// Frequencies and bands that are left out.
-    pub leave_out: Vec<LeaveOut>,
+    pub exclude: Vec<Exclusion>,
     /// Of more lines than this those that tell most.
-    pub most_lines: Option<Located<i64>>,
+    pub max_lines: Option<Located<i64>>,
 }
 
 /// One `[[identify]]`.
@@ -280,9 +280,9 @@ pub enum SoughtVaries {
     ByLaw(LawKind),
 }
 
-/// What `leave_out_hz` lists.
+/// What `exclude_hz` lists.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum LeaveOut {
+pub enum Exclusion {
     /// A frequency: the line there, or where it is between two lines, both.
     Line(f64),
     /// All lines from low to high, both included.

@@ -3,7 +3,7 @@
 use super::field::{Field, Table};
 use super::keys;
 use super::{
-    AtValues, AttachedEntry, Calibration, FactorEntry, IdentifyEntry, LeaveOut, LoadEntry, Located,
+    AtValues, AttachedEntry, Calibration, Exclusion, FactorEntry, IdentifyEntry, LoadEntry, Located,
     MatrixEntry, MeasurementEntry, RespondEntry, Spot, VariesEntry,
 };
 use crate::error::{InputError, Place};
@@ -386,8 +386,8 @@ pub(super) fn identify(field: &Field<'_>) -> Result<IdentifyEntry, InputError> {
         place: table.place.clone(),
         matrices: table.need("matrix")?.texts()?,
         band_hz: table.find("band_hz").map(|band| self::band(&band)).transpose()?,
-        leave_out: table.find("leave_out_hz").map_or(Ok(Vec::new()), |field| leave_out(&field))?,
-        most_lines: table.find("most_lines").map(|most| most.whole()).transpose()?,
+        exclude: table.find("exclude_hz").map_or(Ok(Vec::new()), |field| exclude(&field))?,
+        max_lines: table.find("max_lines").map(|most| most.whole()).transpose()?,
         varies: varies(&table)?,
         method: table.find("method").map(|field| field.word(method)).transpose()?.map(|m| m.value),
         order: table.find("order").map(|order| order.whole()).transpose()?,
@@ -407,12 +407,12 @@ pub(super) fn identify(field: &Field<'_>) -> Result<IdentifyEntry, InputError> {
 }
 
 /// Frequencies, and bands [low, high].
-pub(super) fn leave_out(field: &Field<'_>) -> Result<Vec<LeaveOut>, InputError> {
+pub(super) fn exclude(field: &Field<'_>) -> Result<Vec<Exclusion>, InputError> {
     const EXPECTED: &str = "a list of frequencies and bands [low, high] in Hz, as [100.0, [49.0, 51.0]]";
     field.each(EXPECTED, |item| match item.as_number() {
-        Some(frequency_hz) if frequency_hz >= 0.0 => Ok(LeaveOut::Line(frequency_hz)),
+        Some(frequency_hz) if frequency_hz >= 0.0 => Ok(Exclusion::Line(frequency_hz)),
         Some(_) => Err(item.refuse("a frequency in Hz that is not negative")),
-        None if item.is_list() => Ok(LeaveOut::Band(band(item)?.value)),
+        None if item.is_list() => Ok(Exclusion::Band(band(item)?.value)),
         None => Err(item.refuse("a frequency or a band [low, high] in Hz")),
     })
 }

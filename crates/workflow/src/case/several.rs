@@ -2,7 +2,7 @@
 
 use super::field::{Field, Table};
 use super::keys;
-use super::sections::{MOST_POWER, band, factor, leave_out};
+use super::sections::{MOST_POWER, band, exclude, factor};
 use super::{Located, SeveralEntry, SoughtEntry, SoughtVaries};
 use crate::error::InputError;
 use frfit::laws::{LawKind, UnknownLawKind};
@@ -45,8 +45,8 @@ pub(super) fn several(field: &Field<'_>) -> Result<SeveralEntry, InputError> {
         place: first.place.clone(),
         unknowns,
         band_hz: first.find("band_hz").map(|field| band(&field)).transpose()?,
-        leave_out: first.find("leave_out_hz").map_or(Ok(Vec::new()), |field| leave_out(&field))?,
-        most_lines: first.find("most_lines").map(|most| most.whole()).transpose()?,
+        exclude: first.find("exclude_hz").map_or(Ok(Vec::new()), |field| exclude(&field))?,
+        max_lines: first.find("max_lines").map(|most| most.whole()).transpose()?,
     })
 }
 

@@ -6,7 +6,7 @@ use super::identify::{can_be_found, fit_for_band, middle_of, shared};
 use super::lines::unused;
 use super::measurement::{Curve, Measurement};
 use super::{Case, Frf, IdentifyCase, SensorInfo};
-use crate::case::{LeaveOut, Located, VariesEntry as Varies, checked_band};
+use crate::case::{Exclusion, Located, VariesEntry as Varies, checked_band};
 use crate::error::{InputError, Place};
 use crate::units::{FactorUnit, UnitSystem};
 use frfit::c64;
@@ -70,9 +70,9 @@ pub struct Wanted {
     /// First and last frequency; `None`: all that were measured.
     pub band_hz: Option<[f64; 2]>,
     /// Bands that are left out; one of no width is the line next to it.
-    pub leave_out_hz: Vec<[f64; 2]>,
+    pub exclude_hz: Vec<[f64; 2]>,
     /// Of more lines than this those that tell most; `None`: all.
-    pub most_lines: Option<i64>,
+    pub max_lines: Option<i64>,
     /// `rational`, `series` or `nelder-mead`; `None`: the default.
     pub method: Option<String>,
     /// `joint` or `smallest`; `None`: what the method usually has.
@@ -162,9 +162,9 @@ pub fn case_of_arrays(
     let band_hz = wanted.band_hz.unwrap_or([0.0, f64::MAX]);
     checked_band(band_hz, &place)?;
     let data = band(&measurements, band_hz, &place)?;
-    let out: Vec<LeaveOut> = wanted.leave_out_hz.iter().map(|&band| leave_out(band)).collect();
-    let most = wanted.most_lines.map(|value| Located { value, place: argument("most_lines") });
-    let left_out = unused(&data, &out, most.as_ref(), &argument("leave_out_hz"))?;
+    let out: Vec<Exclusion> = wanted.exclude_hz.iter().map(|&band| exclude(band)).collect();
+    let most = wanted.max_lines.map(|value| Located { value, place: argument("max_lines") });
+    let left_out = unused(&data, &out, most.as_ref(), &argument("exclude_hz"))?;
     covers(&model, &data.frequency_hz)?;
     let first_and_last = [data.frequency_hz.first(), data.frequency_hz.last()].map(|f| f.copied());
     let role = parameter.members.first().map_or(Role::Stiffness, |member| model.terms()[member.term].role);
@@ -273,8 +273,8 @@ fn experiment(
     Ok(Experiment { load, sensors })
 }
 
-fn leave_out([low, high]: [f64; 2]) -> LeaveOut {
-    if low == high { LeaveOut::Line(low) } else { LeaveOut::Band([low, high]) }
+fn exclude([low, high]: [f64; 2]) -> Exclusion {
+    if low == high { Exclusion::Line(low) } else { Exclusion::Band([low, high]) }
 }
 
 fn measurement(measured: MeasuredFrf, k: usize, dim: usize) -> Result<Measurement, InputError> {

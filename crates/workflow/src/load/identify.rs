@@ -92,8 +92,8 @@ pub(super) fn identify(
     let truth = entry.truth.as_ref().map(|truth| law(truth, files)).transpose()?;
     let unknown = unknown(case, &varies, &options)?;
     let data = band(measurements, band_hz, &place)?;
-    let most = entry.most_lines.as_ref();
-    let left_out = unused(&data, &entry.leave_out, most, &entry.place.below("leave_out_hz"))?;
+    let most = entry.max_lines.as_ref();
+    let left_out = unused(&data, &entry.exclude, most, &entry.place.below("exclude_hz"))?;
     let unit = factor_unit(case, &entry.matrices, &parameter.nominal, &data.frequency_hz);
     Ok(IdentifyCase {
         names,

@@ -1,7 +1,7 @@
 //! Which measured lines count: those that are not left out, and of too many those that tell most.
 
 use super::band::Band;
-use crate::case::{LeaveOut, Located};
+use crate::case::{Exclusion, Located};
 use crate::error::{InputError, Place};
 use frfit::c64;
 
@@ -11,12 +11,12 @@ use frfit::c64;
 /// [`InputError`] where `most` is less than three, and at `place` where none is left of a band that has any.
 pub(super) fn unused(
     data: &Band,
-    leave_out: &[LeaveOut],
+    exclude: &[Exclusion],
     most: Option<&Located<i64>>,
     place: &Place,
 ) -> Result<Vec<bool>, InputError> {
-    let most = most.map(most_lines).transpose()?;
-    let mut out = left_out(leave_out, &data.frequency_hz);
+    let most = most.map(max_lines).transpose()?;
+    let mut out = left_out(exclude, &data.frequency_hz);
     let used: Vec<usize> = (0..out.len()).filter(|&i| !out[i]).collect();
     if used.is_empty() && !out.is_empty() {
         return Err(InputError::at(place, "a frequency of the band that is not left out", "none"));
@@ -29,14 +29,14 @@ pub(super) fn unused(
     Ok(out)
 }
 
-/// The fewest lines that `most_lines` may ask for: ends, and something between them.
+/// The fewest lines that `max_lines` may ask for: ends, and something between them.
 const LEAST: usize = 3;
 
-/// `most_lines` as a number of lines.
+/// `max_lines` as a number of lines.
 ///
 /// # Errors
 /// [`InputError`] where it is less than three.
-fn most_lines(written: &Located<i64>) -> Result<usize, InputError> {
+fn max_lines(written: &Located<i64>) -> Result<usize, InputError> {
     let found = usize::try_from(written.value).ok().filter(|&most| most >= LEAST);
     found.ok_or_else(|| {
         InputError::at(&written.place, "a whole number of at least 3", written.value.to_string())
@@ -97,14 +97,14 @@ const HALVINGS: usize = 60;
 const ON_LINE: f64 = 0.01;
 
 /// Which frequencies (ascending) are left out.
-fn left_out(leave_out: &[LeaveOut], frequency_hz: &[f64]) -> Vec<bool> {
+fn left_out(exclude: &[Exclusion], frequency_hz: &[f64]) -> Vec<bool> {
     let mut out = vec![false; frequency_hz.len()];
-    for entry in leave_out {
+    for entry in exclude {
         let (first, end) = match *entry {
-            LeaveOut::Band([low, high]) => {
+            Exclusion::Band([low, high]) => {
                 (frequency_hz.partition_point(|&f| f < low), frequency_hz.partition_point(|&f| f <= high))
             }
-            LeaveOut::Line(line) => lines_of(line, frequency_hz),
+            Exclusion::Line(line) => lines_of(line, frequency_hz),
         };
         out[first..end.max(first)].fill(true);
     }
@@ -137,17 +137,20 @@ mod tests {
     #[test]
     fn lines_and_bands_are_left_out() {
         let lines: Vec<f64> = (0..10).map(|k| 10.0 + 2.0 * k as f64).collect();
-        let out = |entries: &[LeaveOut]| {
+        let out = |entries: &[Exclusion]| {
             let out = left_out(entries, &lines);
             lines.iter().zip(out).filter(|(_, out)| *out).map(|(f, _)| *f).collect::<Vec<_>>()
         };
-        assert_eq!(out(&[LeaveOut::Band([12.0, 15.9]), LeaveOut::Line(20.0)]), [12.0, 14.0, 20.0]);
+        assert_eq!(out(&[Exclusion::Band([12.0, 15.9]), Exclusion::Line(20.0)]), [12.0, 14.0, 20.0]);
         // Between two lines a hum is in both; next to one, in that one.
-        assert_eq!(out(&[LeaveOut::Line(13.0), LeaveOut::Line(20.019)]), [12.0, 14.0, 20.0]);
-        assert_eq!(out(&[LeaveOut::Line(10.0), LeaveOut::Line(28.0)]), [10.0, 28.0]);
+        assert_eq!(out(&[Exclusion::Line(13.0), Exclusion::Line(20.019)]), [12.0, 14.0, 20.0]);
+        assert_eq!(out(&[Exclusion::Line(10.0), Exclusion::Line(28.0)]), [10.0, 28.0]);
         // Nothing of the band is there.
-        assert_eq!(out(&[LeaveOut::Line(9.0), LeaveOut::Line(50.0), LeaveOut::Band([30.0, 40.0])]), [0.0; 0]);
-        assert_eq!(out(&[LeaveOut::Band([12.5, 13.5])]), [0.0; 0]);
+        assert_eq!(
+            out(&[Exclusion::Line(9.0), Exclusion::Line(50.0), Exclusion::Band([30.0, 40.0])]),
+            [0.0; 0]
+        );
+        assert_eq!(out(&[Exclusion::Band([12.5, 13.5])]), [0.0; 0]);
     }
 
     /// Two resonances of a thousandth on 4000 lines with noise, the second of them weak: of 200 lines each has those within its width at half power, where an even spread has none.

@@ -69,8 +69,8 @@ pub(super) fn several(
         .collect::<Result<Vec<_>, _>>()?;
     let (band_hz, place) = band_of(entry.band_hz.as_ref(), &entry.place, overrides)?;
     let data = band(measurements, band_hz, &place)?;
-    let most = entry.most_lines.as_ref();
-    let out = unused(&data, &entry.leave_out, most, &entry.place.below("leave_out_hz"))?;
+    let most = entry.max_lines.as_ref();
+    let out = unused(&data, &entry.exclude, most, &entry.place.below("exclude_hz"))?;
     let kept: Vec<usize> = (0..out.len()).filter(|&i| !out[i]).collect();
     let pick = |rows: Vec<Vec<f64>>| kept.iter().map(|&i| rows[i].clone()).collect::<Vec<_>>();
     let noise = match data.noise {

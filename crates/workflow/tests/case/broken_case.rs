@@ -38,7 +38,12 @@ fn text_that_is_not_toml() {
 
 #[test]
 fn a_key_with_its_old_name_is_refused_with_the_new_one() {
-    for (old, new) in [("space = \"full\"", "reduction"), ("robust = false", "reject_outliers")] {
+    for (old, new) in [
+        ("space = \"full\"", "reduction"),
+        ("robust = false", "reject_outliers"),
+        ("most_lines = 20", "max_lines"),
+        ("leave_out_hz = [50.0]", "exclude_hz"),
+    ] {
         let text = edited("case.toml", "[identify]", &format!("[identify]\n{old}"));
         let folder = folder("case.toml", Some(text.as_bytes()));
         let case = load(&folder.path().join("case.toml"), &Overrides::default(), Purpose::Identify);
@@ -294,8 +299,8 @@ fn options_and_bands() {
     for (from, to, message) in [
         (
             "order = 20",
-            "order = 20\nmost_lines = 2",
-            "case.toml:32:1: identify.most_lines: expected a whole number of at least 3, found 2",
+            "order = 20\nmax_lines = 2",
+            "case.toml:32:1: identify.max_lines: expected a whole number of at least 3, found 2",
         ),
         (
             "order = 20",

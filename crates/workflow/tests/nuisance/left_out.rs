@@ -27,7 +27,7 @@ fn hum() -> [String; 2] {
 #[test]
 fn hum_is_left_out_and_its_rows_are_marked() {
     for law in ["", "varies = \"law\"\nlaw = \"constant\"\n"] {
-        let keys = format!("{KEYS}leave_out_hz = [[49.0, 51.0], 100.5]\n{law}");
+        let keys = format!("{KEYS}exclude_hz = [[49.0, 51.0], 100.5]\n{law}");
         let folder = folder(&hum(), &keys);
         let job = run(&folder).unwrap();
         assert_eq!(job.run.outcomes.len(), 91);
@@ -79,9 +79,9 @@ fn what_cannot_be_left_out_is_refused() {
         ("[[1, 2, 3]]", "expected two finite numbers [low, high], found the list [1, 2, 3]".into()),
         ("[[0, 1e4]]", "expected a frequency of the band that is not left out, found none".into()),
     ] {
-        let folder = folder(&hum(), &format!("{KEYS}leave_out_hz = {value}\n"));
+        let folder = folder(&hum(), &format!("{KEYS}exclude_hz = {value}\n"));
         let said = refusal(&folder);
-        assert!(said.starts_with("case.toml:") && said.contains("identify.leave_out_hz"), "{said}");
+        assert!(said.starts_with("case.toml:") && said.contains("identify.exclude_hz"), "{said}");
         assert!(said.ends_with(&message), "{said}");
     }
 }
