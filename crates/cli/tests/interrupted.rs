@@ -2,6 +2,7 @@
 #![cfg(unix)]
 
 use crate::common;
+use crate::tier::of_tier;
 
 use common::{done, frfit};
 use std::collections::BTreeMap;
@@ -77,7 +78,7 @@ fn a_run_that_is_killed_at_any_moment_leaves_whole_files_and_a_result_that_is_kn
     let tables: Vec<(&str, [Vec<u8>; 2])> = tables.map(|name| (name, whole(name))).collect();
     assert!(tables.len() >= 4);
     let mut ended = 0;
-    for round in 0..40 {
+    for round in 0..of_tier(15, 40) {
         let mut run = Command::new(env!("CARGO_BIN_EXE_frfit"))
             .args(arguments(bands[round % 2], "out"))
             .current_dir(folder.path())
