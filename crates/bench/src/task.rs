@@ -193,8 +193,8 @@ impl Task<'_> {
 
 impl Run {
     /// The largest estimated error of the subspace's response over all answers; `None` where the full model answered.
-    pub fn certificate(&self) -> Option<f64> {
-        self.found.outcomes.iter().filter_map(|outcome| outcome.certificate).reduce(f64::max)
+    pub fn reduction_error(&self) -> Option<f64> {
+        self.found.outcomes.iter().filter_map(|outcome| outcome.reduction_error).reduce(f64::max)
     }
 }
 

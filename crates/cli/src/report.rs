@@ -79,19 +79,23 @@ pub(crate) fn identified(job: &IdentifyJob, out: &Path) -> Words {
             add(status != Status::OutOfBand, status.name(), bands_hz(&bands));
         }
     }
-    let truth = &job.summary["truth"];
-    if let Some(all) = truth["fraction_right"].as_f64() {
-        let of_ok = truth["fraction_right_of_ok"]
+    let reference = &job.summary["reference"];
+    if let Some(all) = reference["fraction_right"].as_f64() {
+        let of_ok = reference["fraction_right_of_ok"]
             .as_f64()
             .map_or(String::new(), |f| format!(", {} of ok", percent(f)));
-        let off = match truth["deviation"]["max_ok"].as_f64() {
+        let off = match reference["deviation"]["max_ok"].as_f64() {
             Some(off) if all < 1.0 => format!("; off by at most {off:.1e} where ok"),
             _ => String::new(),
         };
         add(
             false,
             "right",
-            format!("{} of all{of_ok} (the truth is known; within {}{off})", percent(all), truth["within"]),
+            format!(
+                "{} of all{of_ok} (the reference is known; within {}{off})",
+                percent(all),
+                reference["within"]
+            ),
         );
     }
     add(
@@ -104,7 +108,7 @@ pub(crate) fn identified(job: &IdentifyJob, out: &Path) -> Words {
             run.seconds.identify()
         ),
     );
-    if let (Some(size), Some(error)) = (run.subspace_size, run.certificate()) {
+    if let (Some(size), Some(error)) = (run.subspace_size, run.reduction_error()) {
         add(
             false,
             "subspace",
@@ -215,7 +219,7 @@ fn channels(job: &IdentifyJob) -> Vec<(bool, &'static str, String)> {
                     let std = std.map_or(String::new(), |std| format!(" ± {std:.1e}"));
                     format!("{value:.6e}{std} {what}, at {}", sensor.label)
                 }
-                None => format!("not told by the data, at {}: left out", sensor.label),
+                None => format!("not identifiable, at {}: left out", sensor.label),
             };
             lines.push((found.is_none(), label, told));
         };

@@ -86,7 +86,7 @@ fn by_default_the_modulus_is_the_truth_up_to_the_mesh() {
     for (f, off, modulus) in found {
         assert!(off < mesh(f, modulus), "{f} Hz: {off:e} of {:e}", mesh(f, modulus));
     }
-    assert!(summary["truth"]["deviation"]["max_ok"].as_f64().unwrap() < 3e-4);
+    assert!(summary["reference"]["deviation"]["max_ok"].as_f64().unwrap() < 3e-4);
 }
 
 #[test]

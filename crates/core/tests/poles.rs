@@ -35,7 +35,7 @@ fn the_predicted_order_is_the_one_that_the_series_needs() {
                     let correction = c64::from_polar(rho / radius.per_unit, angle);
                     let exact = case.direct(frequency_hz, correction).unwrap();
                     for (m, exact) in exact.iter().enumerate() {
-                        let order = poles.series_order(m, correction, 1e-6).unwrap();
+                        let order = poles.required_order(m, correction, 1e-6).unwrap();
                         if order > series.order() {
                             continue;
                         }
@@ -57,11 +57,11 @@ fn the_predicted_order_is_the_one_that_the_series_needs() {
                 // Every mode of these structures is driven, and seen by one of the sensors.
                 let correction = c64::from_polar(rho / radius.per_unit, 0.5);
                 let mut sensors = 0..case.experiment.sensors.len();
-                let diverges = sensors.any(|m| poles.series_order(m, correction, 1e-6).is_none());
+                let diverges = sensors.any(|m| poles.required_order(m, correction, 1e-6).is_none());
                 assert!(diverges, "{} ρ {rho}", case.name);
             }
             assert!((poles.radius_per_unit() / radius.per_unit - 1.0).abs() < 1e-3);
-            assert_eq!(poles.series_order(0, c64::default(), 1e-6), Some(0));
+            assert_eq!(poles.required_order(0, c64::default(), 1e-6), Some(0));
         }
     }
     assert!(tried > 400 && long > 100, "{tried} {long}");

@@ -257,12 +257,56 @@ fn length_and_density_of_a_bar() {
     }
     // The modulus is not: E/L and ρL are all that there is, and one combination of the three is told by nothing.
     let outcome = run(&band(&with_modulus));
-    assert_eq!(outcome.band[0].status, Status::IllConditioned);
-    assert_eq!(outcome.band[1].status, Status::IllConditioned);
+    assert_eq!(outcome.band[0].status, Status::NotIdentifiable);
+    assert_eq!(outcome.band[1].status, Status::NotIdentifiable);
     assert!(outcome.directions[0].std > 1.0 && outcome.directions[1].std < 0.1, "{:?}", outcome.directions);
     // ln L goes with −ln ρ and with ln E: the same size for all, e0 and e1 both.
     let weight = |c: usize| outcome.directions[0].weights.iter().find(|(k, _)| *k == c).unwrap().1;
     for (c, sign) in [(0, 1.0), (1, -1.0), (2, 1.0), (3, 1.0)] {
         assert!((weight(c) * sign - weight(0)).abs() < 1e-3, "{c}: {:?}", outcome.directions[0]);
     }
+}
+
+/// A length that is longer than its bounds allow stops at them, and says so; the density is found for that length.
+#[test]
+fn a_constant_stops_at_its_bounds() {
+    let case = bar(40);
+    let frequency_hz = linear_hz(200.0, 2000.0, 60);
+    let modulus = Law::Fractional { e0: 8.14e5, e1: 7.31e4, alpha: 0.528 };
+    let (length, density) = (1.07, 850.0);
+    let terms = case.model.terms();
+    let model = DynamicStiffness::new(vec![
+        Term { factor: modulus.scaled(1.0), ..terms[0].clone() },
+        term("mass", Role::Mass, terms[1].matrix.clone(), c(910.0, 0.0)),
+    ])
+    .unwrap();
+    let factors = [modulus.scaled(1.0 / length), Law::Constant(c(density * length, 0.0))];
+    let exact = direct(&model, &case.experiment, &factors, &frequency_hz);
+    let (measured, std) = noisy(&exact, 0.01, 3);
+    let lengths = [[0.7, 0.95], [1.2, 1.4], [0.7, 1.4]].map(|bounds| {
+        let unknowns = [
+            constant("length", Dependence::Powers(vec![(0, -1), (1, 1)]), 1.0, bounds),
+            constant("density", Dependence::Factor(vec![1]), 910.0, [500.0, 1500.0]),
+        ];
+        let found = run(&Several {
+            model: &model,
+            experiment: &case.experiment,
+            unknowns: &unknowns,
+            frequency_hz: &frequency_hz,
+            measured: &measured,
+            noise: Noise::Known(&std),
+        });
+        let value = found.band[0].numbers[0].value;
+        assert!((bounds[0]..=bounds[1]).contains(&value), "{value} in {bounds:?}");
+        // At the bound the data are not explained, and nothing is ok.
+        let ok = found.at.iter().filter(|at| at.status == Status::Ok).count();
+        assert_eq!(ok > 0, !found.band[0].at_bound, "{:?}", found.fit);
+        (value, found.band[0].at_bound, found.band[0].status)
+    });
+    assert_eq!(lengths[0], (0.95, true, Status::NoRoot));
+    assert_eq!(lengths[1], (1.2, true, Status::NoRoot));
+    assert!(
+        !lengths[2].1 && lengths[2].2 == Status::Ok && (lengths[2].0 - length).abs() < 0.01,
+        "{lengths:?}"
+    );
 }

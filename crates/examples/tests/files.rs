@@ -206,7 +206,7 @@ fn cases_of_one_unknown_say_which() {
         let unknown = &model.stiffness.terms()[model.parameter.members[0].term];
         assert_eq!(identify["matrix"].as_str(), Some(unknown.name.as_str()), "{name}");
         assert_eq!(model.parameter.nominal, unknown.factor, "{name}");
-        assert!(same_law(&law(&identify["truth"]), &model.truth), "{name}");
+        assert!(same_law(&law(&identify["reference"]), &model.truth), "{name}");
         folder.options().validate().unwrap();
     });
 }
@@ -250,7 +250,7 @@ fn cases_of_several_unknowns_say_which() {
                 None => (pair(bounds), None),
             };
             assert_eq!((storage, loss_factor), (one.bounds.storage, one.bounds.loss_factor), "{name}");
-            assert!(same_law(&law(&table["truth"]), truth), "{name}: {}", one.name);
+            assert!(same_law(&law(&table["reference"]), truth), "{name}: {}", one.name);
         }
     });
 }

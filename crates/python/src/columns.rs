@@ -108,9 +108,9 @@ fn outcomes<'py>(py: Python<'py>, outcomes: &[Identified]) -> PyResult<Bound<'py
     found.set_item("correction", complex(&|o| o.correction))?;
     real("error", &|o| o.error)?;
     real("spectral_radius", &|o| o.spectral_radius)?;
-    real("pole_distance", &|o| o.pole_distance())?;
-    real("series_order", &|o| o.series_order.map(|order| order as f64))?;
-    real("certificate", &|o| o.certificate)?;
+    real("convergence_radius", &|o| o.convergence_radius())?;
+    real("required_order", &|o| o.required_order.map(|order| order as f64))?;
+    real("reduction_error", &|o| o.reduction_error)?;
     real("storage_std", &|o| o.uncertainty.map(|bars| bars.storage_std))?;
     real("loss_factor_std", &|o| o.uncertainty.and_then(|bars| bars.loss_factor_std))?;
     real("storage_loss_correlation", &|o| o.uncertainty.and_then(|bars| bars.correlation))?;
@@ -120,7 +120,7 @@ fn outcomes<'py>(py: Python<'py>, outcomes: &[Identified]) -> PyResult<Bound<'py
         column.map(|column| column.into_pyarray(py))
     };
     found.set_item("order", count(&|o| o.order)?)?;
-    found.set_item("candidates", count(&|o| o.admissible())?)?;
+    found.set_item("candidate_count", count(&|o| o.admissible())?)?;
     let status: Vec<&str> = outcomes.iter().map(|outcome| outcome.status.name()).collect();
     found.set_item("status", status)?;
     let alternatives: Vec<_> = outcomes

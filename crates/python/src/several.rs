@@ -22,7 +22,7 @@ pub(crate) fn several<'py>(py: Python<'py>, computed: &ComputedSeveral) -> PyRes
     real("frequency_hz", &|at| Some(at.frequency_hz))?;
     real("error", &|at| at.error)?;
     real("chi2", &|at| at.chi_squared)?;
-    real("certificate", &|at| at.certificate)?;
+    real("reduction_error", &|at| at.reduction_error)?;
     found.set_item("status", outcome.at.iter().map(|at| at.status.name()).collect::<Vec<_>>())?;
     let unknowns = (0..wanted.unknowns.len()).map(|j| unknown(py, wanted, computed, j));
     found.set_item("unknowns", PyList::new(py, unknowns.collect::<PyResult<Vec<_>>>()?)?)?;

@@ -132,7 +132,7 @@ def test_measurements_are_checked_as_they_are_made(key, options, found):
         ("exclude_hz", {"exclude_hz": 50.0}, "50.0"),
         ("exclude_hz", {"exclude_hz": ["50"]}, "text"),
         ("exclude_hz", {"exclude_hz": [(49.0, 50.0, 51.0)]}, "51.0"),
-        ("nominal", {"nominal": "guess"}, "'guess'"),
+        ("start", {"start": "guess"}, "'guess'"),
         ("method", {"method": 3}, "3"),
         ("varies", {"varies": 1}, "1"),
         ("law", {"law": 3}, "3"),

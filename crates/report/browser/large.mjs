@@ -19,14 +19,14 @@ function receptance(frequency, s, loss, sensor) {
   return [re, im];
 }
 
-const identified = ["frequency_hz,storage,loss_factor,factor_re,factor_im,correction_re,correction_im,error,spectral_radius,order,candidates,status,pole_distance,series_order,certificate,storage_std,loss_factor_std,storage_loss_correlation,chi2"];
+const identified = ["frequency_hz,storage,loss_factor,factor_re,factor_im,correction_re,correction_im,error,spectral_radius,order,candidate_count,status,convergence_radius,required_order,reduction_error,storage_std,loss_factor_std,storage_loss_correlation,chi2"];
 const reference = ["frequency_hz,nominal_re,nominal_im,true_re,true_im"];
 const response = ["frequency_hz,sensor,quantity,nominal_re,nominal_im,measured_re,measured_im,updated_re,updated_im,measured_std"];
 const candidates = ["frequency_hz,storage,loss_factor,correction_re,correction_im,verdict"];
-const statuses = { ok: 0, ambiguous: 0, no_root: 0, ill_conditioned: 0 };
+const statuses = { ok: 0, ambiguous: 0, no_root: 0, not_identifiable: 0 };
 frequencies.forEach((f, k) => {
   const [storage, loss] = [1e6 * (1 + 0.4 * Math.log(f)), 0.2 + 0.02 * Math.sin(f / 90)];
-  const status = k % 997 < 30 ? "ill_conditioned" : k % 1999 === 5 ? "no_root" : k % 499 < 9 ? "ambiguous" : "ok";
+  const status = k % 997 < 30 ? "not_identifiable" : k % 1999 === 5 ? "no_root" : k % 499 < 9 ? "ambiguous" : "ok";
   statuses[status] += 1;
   const noise = 1e-3 * Math.sin(k * k);
   const answer = status === "no_root" ? ",,,,,," : [storage * (1 + noise), loss * (1 - noise), storage, storage * loss, storage - 2e6, storage * loss - 2e5, Math.abs(noise)].join(",");

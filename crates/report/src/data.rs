@@ -77,7 +77,7 @@ pub(crate) fn data(results: &Results, verdict: &Verdict) -> Data {
         "columns": columns,
         "nominal_error": pick(&verdict.nominal_error),
         "nominal": factor(&results.reference.nominal),
-        "truth": factor(&results.reference.truth),
+        "reference": factor(&results.reference.reference),
         "free": results.free.as_ref().filter(|free| free.len() == band.len()).map(|free| json!({
             "storage": pick(free.column("storage")),
             "loss_factor": pick(free.column("loss_factor")),

@@ -193,13 +193,20 @@ fn meaning(status: Status, own: bool) -> &'static str {
             "several values explain the measurement; the likeliest is shown, the others are among the candidates:"
         }
         Status::Diverged => {
-            "the paper’s series does not converge, as near resonances of lightly damped structures; what is shown is evidence, not an answer:"
+            "the paper’s series does not converge, as near resonances of lightly damped structures; the value shown is evidence, not a result:"
         }
-        Status::NoRoot => "no value within the bounds explains the measurement:",
-        Status::IllConditioned => {
-            "the response hardly depends on the parameter, so that noise drowns it, or could not be computed; what is shown is evidence, not an answer:"
+        Status::NoRoot => "no value within the bounds solves the equations:",
+        Status::NotIdentifiable => {
+            "the response hardly depends on the parameter, so that noise leaves it unknown; the value shown is evidence, not a result:"
+        }
+        Status::Unexplained => {
+            "the model does not explain the measurement within its errors; the value shown is evidence, not a result:"
         }
         Status::OutOfBand => "left out, as the case says:",
+        // The library may have a new one before this page has words for it.
+        _ => {
+            "a system could not be solved accurately, or a search did not converge; the value shown is evidence, not a result:"
+        }
     }
 }
 
@@ -209,9 +216,11 @@ fn why_not(status: Status) -> &'static str {
         Status::Ok => "nothing speaks against it",
         Status::Ambiguous => "several values explain the measurement",
         Status::Diverged => "the paper’s series does not converge",
-        Status::NoRoot => "no value within the bounds explains the measurement",
-        Status::IllConditioned => "noise drowns it, or the response could not be computed",
+        Status::NoRoot => "no value within the bounds solves the equations",
+        Status::NotIdentifiable => "noise leaves it unknown",
+        Status::Unexplained => "the model does not explain the measurement within its errors",
         Status::OutOfBand => "all of them are left out",
+        _ => "a system could not be solved accurately, or a search did not converge",
     }
 }
 
@@ -223,8 +232,10 @@ pub(crate) fn label(status: Status, own: bool) -> &'static str {
         Status::Ambiguous => "ambiguous",
         Status::Diverged => "diverged",
         Status::NoRoot => "no solution",
-        Status::IllConditioned => "ill conditioned",
+        Status::NotIdentifiable => "not identifiable",
+        Status::Unexplained => "not explained",
         Status::OutOfBand => "left out",
+        _ => "failed",
     }
 }
 
@@ -352,7 +363,7 @@ fn tiles(results: &Results, names: &Names, nominal_error: &[Option<f64>]) -> Vec
     }
     tiles.extend(shared_tiles(results, &rows, nominal_error, true));
     if let (Some(median), Some(most)) =
-        (summary.number("/truth/deviation/median_ok"), summary.number("/truth/deviation/max_ok"))
+        (summary.number("/reference/deviation/median_ok"), summary.number("/reference/deviation/max_ok"))
     {
         tiles.push(Tile {
             label: "Known answer".into(),

@@ -85,7 +85,7 @@ fn every_curve_is_as_long_as_its_axis() {
         "/nominal_error",
         "/nominal/storage",
         "/nominal/loss_factor",
-        "/truth/storage",
+        "/reference/storage",
         "/free/storage",
         "/free/loss_factor",
         "/status",
@@ -129,14 +129,14 @@ fn the_verdict_says_how_much_can_be_trusted_and_why_not_the_rest() {
     let made = Made { bad: 10, ..Made::default() };
     let page = page(&results(&made)).unwrap();
     let text = text(&page);
-    // 10 of 100 frequencies are ill conditioned: the others can be used.
+    // 10 of 100 frequencies are not identifiable: the others can be used.
     for told in [
         "Can be used",
         "90 of 100",
         "90 %",
         "<b>90 trusted</b>",
-        "<b>10 ill conditioned</b>",
-        "noise drowns it",
+        "<b>10 not identifiable</b>",
+        "noise leaves it unknown",
         "nothing was found wrong",
     ] {
         assert!(text.contains(told), "{told}");
@@ -213,12 +213,12 @@ fn text_of(made: &Made) -> String {
 #[test]
 fn a_plot_without_data_is_left_out_with_a_sentence() {
     let with = page(&results(&Made { error_map: true, ..Made::default() })).unwrap();
-    assert!(with.contains("id=\"plot-error-map\"") && with.contains("id=\"plot-certificate\""));
-    let without = page(&results(&Made { certificate: false, real: true, ..Made::default() })).unwrap();
+    assert!(with.contains("id=\"plot-error-map\"") && with.contains("id=\"plot-reduction-error\""));
+    let without = page(&results(&Made { reduction_error: false, real: true, ..Made::default() })).unwrap();
     for (id, told) in [
         ("plot-error-map", "not drawn, for it is made with method = &quot;series&quot;"),
         ("plot-error-map", "not drawn, for it is made with method"),
-        ("plot-certificate", "not drawn, for the full model answered"),
+        ("plot-reduction-error", "not drawn, for the full model answered"),
         ("plot-cole-cole", "not drawn, for the factor is real"),
         ("plot-wicket", "not drawn, for the factor is real"),
     ] {
@@ -258,9 +258,15 @@ fn what_is_missing_or_broken_is_told_with_its_place() {
         ("identified.csv", ",status", ",state", "identified.csv:1: expected a column status, found"),
         (
             "identified.csv",
+            ",reduction_error",
+            ",certificate",
+            "identified.csv:1: expected a column reduction_error, as certificate is called now: run frfit identify again, found certificate",
+        ),
+        (
+            "identified.csv",
             ",ok,",
             ",fine,",
-            "expected one of ok, ambiguous, diverged, no_root, ill_conditioned, out_of_band in column \"status\", found \"fine\"",
+            "expected one of ok, ambiguous, no_root, not_identifiable, unexplained, diverged, failed, out_of_band in column \"status\", found \"fine\"",
         ),
         (
             "reference.csv",

@@ -60,9 +60,9 @@ fn what_is_not_told_comes_before_the_numbers_and_has_none() {
         &[
             "Use with care",
             "skins is known for the whole band; mass is not;",
-            "Not told by these measurements: mass larger with skins storage smaller: nothing tells it.",
-            "<td>mass</td><td>not told</td>",
-            "<dd class=\"value\">not told</dd>",
+            "Not identifiable from these measurements: mass larger with skins storage smaller: not identifiable.",
+            "<td>mass</td><td>not identifiable</td>",
+            "<dd class=\"value\">not identifiable</dd>",
             "nothing tells this direction",
         ],
     );
@@ -126,7 +126,7 @@ fn data_has_the_curves_of_what_varies_and_the_picture_of_the_rest() {
         let column = &data["columns"][unknowns[0]["columns"][part].as_str().unwrap()];
         assert_eq!(column.as_array().unwrap().len(), 50, "{part}");
     }
-    assert_eq!(unknowns[0]["truth"]["storage"][0], 1_000_000);
+    assert_eq!(unknowns[0]["reference"]["storage"][0], 1_000_000);
     // A constant has one number, not a column of it.
     assert!(data["columns"].get("mass.value").is_none());
     let together = &data["together"];

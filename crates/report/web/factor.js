@@ -2,7 +2,7 @@
 
 /** What is identified over frequency: one unknown in plain columns, or several in columns of their own. */
 const unknowns = data.unknowns ?? [{
-  ...names, id: "modulus", label: "", varies: data.varies, nominal: data.nominal, truth: data.truth, free: data.free,
+  ...names, id: "modulus", label: "", varies: data.varies, nominal: data.nominal, reference: data.reference, free: data.free,
   columns: { storage: "storage", storage_std: "storage_std", loss_factor: "loss_factor", loss_factor_std: "loss_factor_std" },
 }];
 const isCurve = data.varies !== "frequency";
@@ -54,7 +54,7 @@ function rangeOf(one, part, log) {
     const half = 2 * (std?.[row] ?? 0);
     values.push(value - half, value + half);
   });
-  for (const other of [one.nominal, one.truth]) values.push(...(other?.[part] ?? []).filter((value) => value !== null));
+  for (const other of [one.nominal, one.reference]) values.push(...(other?.[part] ?? []).filter((value) => value !== null));
   const usable = values.filter((value) => !log || value > 0).map((value) => (log ? Math.log10(value) : value));
   if (usable.length === 0) return undefined;
   const [low, high] = usable.reduce(([low, high], value) => [Math.min(low, value), Math.max(high, value)], [Infinity, -Infinity]);
@@ -87,14 +87,14 @@ const addFactor = (one) => addPlot({
         if (one.free) values("each frequency by itself", withStatus(one.free[part], ["ok"], one.free.status), "free", { size: 4, opacity: 0.7 });
         const [y, std] = [drawn(own), drawn(partOf(one, `${part}_std`))];
         if (y && std) made.push(band(x, y, std.map((value) => value === null ? null : 2 * value), "band", axis));
-        if (one.truth) push(line("true", x, drawn(one.truth[part]), "truth", format));
+        if (one.reference) push(line("true", x, drawn(one.reference[part]), "reference", format));
         if (y) push(line(one.varies === "law" ? "law" : "smooth curve", x, y, "updated", format));
         return;
       }
-      values("evidence only", withStatus(own, ["ill_conditioned", "diverged", "no_root"]), "evidence", { symbol: "x-thin-open", size: 5 });
+      values("evidence only", withStatus(own, ["not_identifiable", "unexplained", "failed", "diverged"]), "evidence", { symbol: "x-thin-open", size: 5 });
       values("ambiguous", withStatus(own, ["ambiguous"]), "alternative", { symbol: "triangle-up", size: 6, ...withBars(one, part) });
       values("identified", withStatus(own, ["ok"]), "updated", withBars(one, part));
-      if (one.truth) push(line("true", x, drawn(one.truth[part]), "truth", format));
+      if (one.reference) push(line("true", x, drawn(one.reference[part]), "reference", format));
     });
     return made;
   },

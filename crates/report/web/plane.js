@@ -34,7 +34,7 @@ function along(other) {
   };
   const [storage, loss] = [column("storage"), column("loss_factor")];
   if (data.nominal) points("nominal", data.nominal.storage, data.nominal.loss_factor, data.drawn, "nominal", line, { dash: "dash" });
-  if (data.truth) points("true", data.truth.storage, data.truth.loss_factor, data.drawn, "truth", line);
+  if (data.reference) points("true", data.reference.storage, data.reference.loss_factor, data.drawn, "reference", line);
   const trusted = data.drawn.filter((row) => statusOf(row).name === "ok");
   if (storage && loss) points(isCurve ? "law or curve" : "identified", storage, loss, trusted, "updated", isCurve ? line : dots);
   return made;

@@ -7,7 +7,7 @@ const HEADS = [
     const of = label && `${label}: `;
     return [[columns.storage, of + (real ? "value" : `E′${unit && ` (${unit})`}`)], [columns.storage_std, of + (real ? "std" : "std of E′")], [columns.loss_factor, `${of}η`], [columns.loss_factor_std, `${of}std of η`]];
   }),
-  ["error", "Error"], ["chi2", "χ²"], ["candidates", "Candidates"], ["spectral_radius", "ρ"], ["pole_distance", "Pole distance"], ["series_order", "Order needed"], ["certificate", "Certificate"],
+  ["error", "Error"], ["chi2", "χ²"], ["candidate_count", "Candidates"], ["spectral_radius", "ρ"], ["convergence_radius", "Convergence radius"], ["required_order", "Required order"], ["reduction_error", "Reduction error"],
 ].filter(([name]) => name === "frequency_hz" || name === "status" || column(name));
 const tableElement = document.getElementById("rows");
 const filterForm = document.getElementById("filter");

@@ -12,7 +12,7 @@ addPlot({
   traces() {
     const { coordinates, correlation } = together;
     const index = coordinates.map((_, k) => k + 1);
-    const shown = (value) => (value === null ? "nothing tells it" : digits(value, 3));
+    const shown = (value) => (value === null ? "not identifiable" : digits(value, 3));
     const told = coordinates.map((row, k) => coordinates.map((column, j) => `${numbered(row, k)} and ${numbered(column, j)}: ${shown(correlation[k][j])}`));
     return [{
       type: "heatmap", name: "correlation", x: index, y: index, z: correlation, text: told, zmin: -1, zmax: 1, colorscale: "RdBu", xgap: 2, ygap: 2,

@@ -45,8 +45,8 @@ function relativeChange() {
 }
 
 addColumns("pole", "Relative to nominal", () => [
-  ["distance to the nearest pole", column("pole_distance"), "nominal", "%{y:.4~g}"],
+  ["distance to the nearest pole", column("convergence_radius"), "nominal", "%{y:.4~g}"],
   ["change that was found", relativeChange(), "updated", "%{y:.4~g}"],
 ], "distance");
-addColumns("order", "Terms for 10⁻⁶", () => [["order needed", column("series_order"), "nominal", "%{y}"]], "order");
-addColumns("certificate", "Estimated error", () => [["certificate", column("certificate"), "nominal", "%{y:.3~g}"]], "error");
+addColumns("order", "Terms for 10⁻⁶", () => [["required order", column("required_order"), "nominal", "%{y}"]], "order");
+addColumns("reduction-error", "Estimated error", () => [["reduction error", column("reduction_error"), "nominal", "%{y:.3~g}"]], "error");

@@ -79,7 +79,7 @@ fn of_springs_in_parallel_only_the_sum_is_seen() {
     let next = &job.summary["next_sensor"];
     assert_eq!((&next["compared"], &next["before"]["unseen"]), (&Value::from(N - 1), &Value::from(2)));
     assert_eq!(next["best"][0]["after"]["unseen"], 2);
-    assert!(job.text.all.contains("not told apart    soft, stiff: only their sum"), "{}", job.text.all);
+    assert!(job.text.all.contains("inseparable       soft, stiff: only their sum"), "{}", job.text.all);
 }
 
 #[test]

@@ -153,7 +153,7 @@ fn three_matrices_give_a_solid_at_every_thickness() {
 
 #[test]
 fn the_thickness_of_a_solid_is_found() {
-    let folder = folder(POWERS, &VALUES, &(unknown(0.019) + &format!("truth = {TRUTH}\n")));
+    let folder = folder(POWERS, &VALUES, &(unknown(0.019) + &format!("reference = {TRUTH}\n")));
     let (case, out) = (folder.path().join("case.toml"), folder.path().join("out"));
     let job = several_case(&case, &Overrides::default(), None, &out, &|_, _| {}).unwrap();
     let found = job.run.outcome.band[0].numbers[0].value;

@@ -32,7 +32,7 @@ pub fn identify_at(system: &impl Response, measured: &[c64], options: &Options) 
         Method::NelderMead => by_search(system, measured, options, &mut outcome),
     };
     if let Err(breakdown) = result {
-        outcome.status = Status::IllConditioned;
+        outcome.status = Status::Failed;
         outcome.breakdown = Some(breakdown);
     }
     outcome.work = system.work();
@@ -98,14 +98,10 @@ fn by_search(
     outcome.nominal_response = system.respond_nominal()?;
     let found = nelder_mead::search(system, &measured[SENSOR..=SENSOR], options.order);
     let matched = confirm(system, measured, options, found.correction, outcome)?;
-    let within = options.bounds.broken_by(outcome.nominal + found.correction).is_none();
-    outcome.status = if !within {
-        Status::NoRoot
-    } else if matched {
-        Status::Ok
-    } else {
-        Status::Diverged
-    };
+    outcome.status = if matched { Status::Ok } else { Status::Diverged };
+    if options.bounds.broken_by(outcome.nominal + found.correction).is_some() {
+        outcome.forget_value(Status::NoRoot);
+    }
     Ok(())
 }
 

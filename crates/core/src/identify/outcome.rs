@@ -1,6 +1,6 @@
 //! What came out at one frequency, with its evidence.
 
-use super::Uncertainty;
+use super::{Explained, GoodnessOfFit, Uncertainty};
 use crate::c64;
 use crate::material::loss_factor;
 use crate::response::Work;
@@ -8,39 +8,65 @@ use crate::roots::Candidate;
 use crate::series::ConvergenceRadius;
 use frfit_linalg::solve::Breakdown;
 
-/// How far an answer can be trusted.
+/// How far a value can be trusted. A value that exists is given whatever the status.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Status {
-    /// One answer, and nothing known speaks against it.
+    /// One value, and nothing known speaks against it.
     Ok,
-    /// Several admissible roots explain the measurement; the likeliest is given (joint), or that of least |c| (smallest).
+    /// Several values explain the measurement; the likeliest is given with its rivals.
     Ambiguous,
+    /// No value within the bounds solves the equations.
+    NoRoot,
+    /// Noise leaves the value unknown: the response hardly depends on it, or so nonlinearly that the error bar is not
+    /// valid ([`super::Uncertainty`]).
+    NotIdentifiable,
+    /// The model does not explain the measurement of this line, or of the band, within its errors.
+    Unexplained,
     /// The series does not converge at the root: its spectral radius is above one, or the root moves as terms are added.
     Diverged,
-    /// No root within the bounds.
-    NoRoot,
-    /// A system could not be solved, or the response hardly depends on the parameter: noise leaves the factor, or its loss factor, no better known
-    /// than before, or the error bar is not valid ([`super::Uncertainty`]). What is given then is evidence, not an answer.
-    IllConditioned,
+    /// A system could not be solved, or not accurately enough, or a search did not converge.
+    Failed,
     /// The frequency is outside the band or without data.
     OutOfBand,
 }
 
 impl Status {
     /// All of them.
-    pub const ALL: [Self; 6] =
-        [Self::Ok, Self::Ambiguous, Self::Diverged, Self::NoRoot, Self::IllConditioned, Self::OutOfBand];
+    pub const ALL: [Self; 8] = [
+        Self::Ok,
+        Self::Ambiguous,
+        Self::NoRoot,
+        Self::NotIdentifiable,
+        Self::Unexplained,
+        Self::Diverged,
+        Self::Failed,
+        Self::OutOfBand,
+    ];
 
     /// The word that tables use.
     pub fn name(self) -> &'static str {
         match self {
             Self::Ok => "ok",
             Self::Ambiguous => "ambiguous",
-            Self::Diverged => "diverged",
             Self::NoRoot => "no_root",
-            Self::IllConditioned => "ill_conditioned",
+            Self::NotIdentifiable => "not_identifiable",
+            Self::Unexplained => "unexplained",
+            Self::Diverged => "diverged",
+            Self::Failed => "failed",
             Self::OutOfBand => "out_of_band",
         }
+    }
+
+    /// The status of the first doubt that holds.
+    pub(super) fn of(doubts: impl IntoIterator<Item = (bool, Self)>) -> Self {
+        doubts.into_iter().find(|(holds, _)| *holds).map_or(Self::Ok, |(_, status)| status)
+    }
+
+    /// This status where the band has a fit: no value is `ok` where the band is not explained.
+    pub(super) fn within(self, fit: Option<GoodnessOfFit>) -> Self {
+        let unexplained = fit.is_some_and(|fit| fit.verdict == Explained::No);
+        if self == Self::Ok && unexplained { Self::Unexplained } else { self }
     }
 }
 
@@ -51,8 +77,11 @@ pub struct Identified {
     pub frequency_hz: f64,
     /// Nominal value p̄ of the parameter.
     pub nominal: c64,
-    /// The correction c. With status `diverged` it is the root of least |c| within the bounds: evidence, not an answer.
+    /// The correction c, whatever the status. With `diverged` it is the root of least |c| within the bounds.
     pub correction: Option<c64>,
+    /// Whether the correction lies on the path that a joint selection chose through the band. Otherwise it is the likeliest of
+    /// the solutions of a line that the path leaves out.
+    pub on_path: bool,
     /// ε over all sensors but those that were left out, P-40, from a fresh direct solve with the corrected parameter; `None` where nothing but
     /// zeros was measured.
     pub error: Option<f64>,
@@ -76,9 +105,9 @@ pub struct Identified {
     pub alternatives: Vec<c64>,
     /// Estimated error of the reduced model's response at the sensors, relative to the measured one, at the correction; `None` where the
     /// full model answered, or nothing but zeros was measured.
-    pub certificate: Option<f64>,
+    pub reduction_error: Option<f64>,
     /// Order that the paper's series would need for a truncation error of 1e-6 at the correction; `None` where it diverges, or was not asked.
-    pub series_order: Option<usize>,
+    pub required_order: Option<usize>,
     /// Error bars of the factor: of a joint selection, where the noise is known or the band tells it.
     pub uncertainty: Option<Uncertainty>,
     /// χ² of the sensors per degree of freedom; `None` where there is no degree of freedom, as for the complex factor of one sensor.
@@ -94,6 +123,7 @@ impl Identified {
             frequency_hz,
             nominal,
             correction: None,
+            on_path: false,
             error: None,
             spectral_radius: None,
             radius: None,
@@ -104,8 +134,8 @@ impl Identified {
             nominal_response: Vec::new(),
             updated_response: Vec::new(),
             alternatives: Vec::new(),
-            certificate: None,
-            series_order: None,
+            reduction_error: None,
+            required_order: None,
             uncertainty: None,
             chi_squared: None,
             work: Work::default(),
@@ -119,9 +149,14 @@ impl Identified {
             roots: self.roots.clone(),
             breakdown: self.breakdown.clone(),
             nominal_response: self.nominal_response.clone(),
-            status: Status::IllConditioned,
+            status: Status::Failed,
             ..Self::unknown(self.frequency_hz, self.nominal, self.order)
         }
+    }
+
+    /// No value is given beyond its bounds.
+    pub(super) fn forget_value(&mut self, status: Status) {
+        *self = Self { status, ..self.unanswered() };
     }
 
     /// The outcome at a frequency that is left out.
@@ -131,7 +166,7 @@ impl Identified {
 
     /// The outcome where the nominal system could not even be factorised.
     pub fn broken(frequency_hz: f64, nominal: c64, order: usize, breakdown: Breakdown) -> Self {
-        let status = Status::IllConditioned;
+        let status = Status::Failed;
         Self { status, breakdown: Some(breakdown), ..Self::unknown(frequency_hz, nominal, order) }
     }
 
@@ -142,7 +177,7 @@ impl Identified {
 
     /// Distance of the nearest pole of the response from the nominal value, over |p̄|: how far the parameter may change before the series
     /// diverges.
-    pub fn pole_distance(&self) -> Option<f64> {
+    pub fn convergence_radius(&self) -> Option<f64> {
         self.radius.map(|radius| 1.0 / (radius.per_unit * self.nominal.norm()))
     }
 

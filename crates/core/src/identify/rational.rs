@@ -57,7 +57,7 @@ pub(super) fn by_rational(
     outcome.spectral_radius = Some(radius.at(chosen.correction));
     let confirmed = confirm(system, measured, options, chosen.correction, outcome)?;
     outcome.status = match (confirmed && chosen.refusal.is_none(), outcome.admissible()) {
-        (false, _) => Status::IllConditioned,
+        (false, _) => Status::Failed,
         (true, 1) if !unsure(&outcome.roots) => Status::Ok,
         (true, _) => Status::Ambiguous,
     };

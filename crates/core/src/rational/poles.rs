@@ -74,7 +74,7 @@ impl Poles {
     ///
     /// # Limits
     /// Roundoff of the series is not in it.
-    pub fn series_order(&self, sensor: usize, correction: c64, error: f64) -> Option<usize> {
+    pub fn required_order(&self, sensor: usize, correction: c64, error: f64) -> Option<usize> {
         let z = correction / self.scale;
         let allowed = error * self.respond_with_slope(correction).0[sensor].norm();
         let residues = &self.residues[sensor];

@@ -120,7 +120,7 @@ def identify(
     matrix: str | Sequence[str],
     band_hz: tuple[float, float] | None = None,
     bounds: dict[str, tuple[float, float]] | None = None,
-    nominal: Literal["estimate"] | None = None,
+    start: Literal["bounds"] | None = None,
     method: Literal["rational", "series", "nelder-mead"] | None = None,
     order: int | None = None,
     selection: Literal["joint", "smallest"] | None = None,
@@ -187,8 +187,8 @@ def identify(
     bounds = dict(bounds or {})
     if unknown := set(bounds) - {"storage", "loss_factor"}:
         raise refuse("bounds", "storage or loss_factor", shown(sorted(map(str, unknown))[0]))
-    if nominal not in (None, "estimate"):
-        raise refuse("nominal", '"estimate" or None', shown(nominal))
+    if start not in (None, "bounds"):
+        raise refuse("start", '"bounds" or None', shown(start))
 
     def bound(key: str) -> tuple[float, float] | None:
         return pair(bounds[key], f"bounds.{key}") if bounds.get(key) is not None else None
@@ -205,7 +205,7 @@ def identify(
         "storage": bound("storage"),
         "loss_factor": bound("loss_factor"),
         "real": flag(real, "real"),
-        "estimate": nominal == "estimate",
+        "start_at_bounds": start == "bounds",
         "reject_outliers": None if reject_outliers is None else flag(reject_outliers, "reject_outliers"),
         "varies": _optional_word(varies, "varies"),
         "laws": words(law, "law"),

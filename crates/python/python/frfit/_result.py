@@ -54,18 +54,19 @@ class Identification:
     """(f,), norm of the misfit over that of the measured responses."""
     spectral_radius: Real
     """(f,), below 1 where the series converges at the answer."""
-    pole_distance: Real
+    convergence_radius: Real
     """(f,), how far the nominal is from the nearest pole, over the nominal."""
-    series_order: Real
+    required_order: Real
     """(f,), terms that the series would need for 1e-6."""
-    certificate: Real
+    reduction_error: Real
     """(f,), estimated relative error of the reduced model's response."""
     order: Whole
     """(f,), order of the series or of the rational response."""
-    candidates: Whole
+    candidate_count: Whole
     """(f,), admissible solutions."""
     status: NDArray[np.str_]
-    """(f,), ``ok``, ``ambiguous``, ``diverged``, ``no_root``, ``ill_conditioned`` or ``out_of_band``."""
+    """(f,), ``ok``, ``ambiguous``, ``no_root``, ``not_identifiable``, ``unexplained``, ``diverged``, ``failed`` or
+    ``out_of_band``."""
     alternatives: tuple[Complex, ...]
     """f arrays: factors that the data cannot exclude beside the one that is given."""
     measured_response: Complex
@@ -161,11 +162,11 @@ class Identification:
             "error": self.error,
             "spectral_radius": self.spectral_radius,
             "order": self.order,
-            "candidates": self.candidates,
+            "candidate_count": self.candidate_count,
             "status": self.status,
-            "pole_distance": self.pole_distance,
-            "series_order": self.series_order,
-            "certificate": self.certificate,
+            "convergence_radius": self.convergence_radius,
+            "required_order": self.required_order,
+            "reduction_error": self.reduction_error,
             "storage_std": self.storage_std,
             "loss_factor_std": self.loss_factor_std,
             "storage_loss_correlation": self.storage_loss_correlation,

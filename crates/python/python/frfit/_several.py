@@ -43,7 +43,7 @@ class Unknown:
     numbers: tuple[Number, ...]
     """What holds for the whole band; empty where each frequency has a value of its own."""
     status: str | None
-    """Of what holds for the band: ``ok``, ``ill_conditioned`` or ``no_root``."""
+    """Of what holds for the band: ``ok``, ``no_root`` (at its bounds), ``not_identifiable``, ``unexplained`` or ``failed``."""
 
     @property
     def storage(self) -> Real:
@@ -87,7 +87,7 @@ class SeveralIdentification:
     """(f,), norm of the misfit over that of the measured responses."""
     chi2: Real
     """(f,), what the sensors leave unexplained over what noise leaves: about 1."""
-    certificate: Real
+    reduction_error: Real
     """(f,), estimated relative error of the reduced model's response."""
     measured_response: Complex
     """(f, sensors), receptance, m/N."""
@@ -174,7 +174,7 @@ class SeveralIdentification:
             "status": self.status,
             "error": self.error,
             "chi2": self.chi2,
-            "certificate": self.certificate,
+            "reduction_error": self.reduction_error,
         }
         for one in self.unknowns:
             if one.is_real:

@@ -18,7 +18,7 @@ pub(super) fn unknowns(several: &Several, table: &[usize]) -> Vec<Value> {
             "columns": {
                 "storage": storage, "storage_std": storage_std, "loss_factor": loss_factor, "loss_factor_std": loss_factor_std,
             },
-            "nominal": of(&one.nominal), "truth": of(&one.truth),
+            "nominal": of(&one.nominal), "reference": of(&one.reference),
         })
     };
     curves.map(one).collect()

@@ -130,7 +130,7 @@ fn trust(results: &Results) -> String {
     } else {
         missing += &absent("Spectral radius", "for no frequency has one.");
     }
-    if band.has("pole_distance") {
+    if band.has("convergence_radius") {
         html += &plot(
             "pole",
             "Distance to the nearest pole",
@@ -139,7 +139,7 @@ fn trust(results: &Results) -> String {
     } else {
         missing += &absent("Distance to the nearest pole", "for no frequency has one.");
     }
-    if band.has("series_order") {
+    if band.has("required_order") {
         html += &plot(
             "order",
             "Order that the series would need",
@@ -151,13 +151,13 @@ fn trust(results: &Results) -> String {
             "for only a joint selection on the band’s subspace asks for it.",
         );
     }
-    html += &certificate(results);
+    html += &reduction_error(results);
     html + "</div>\n" + &missing
 }
 
-/// Error and certificate, which any identification may have.
+/// Error and reduction error, which any identification may have.
 pub(super) fn trust_of_band(results: &Results) -> String {
-    error(&results.band).1 + &certificate(results)
+    error(&results.band).1 + &reduction_error(results)
 }
 
 /// The error of the response, or why it is not there.
@@ -172,9 +172,9 @@ fn error(band: &Band) -> (bool, String) {
     }
 }
 
-fn certificate(results: &Results) -> String {
-    const TITLE: &str = "Certificate of the reduced model";
-    if !results.band.has("certificate") {
+fn reduction_error(results: &Results) -> String {
+    const TITLE: &str = "Error of the reduced model";
+    if !results.band.has("reduction_error") {
         return absent(TITLE, "for the full model answered at every frequency.");
     }
     let size = results.summary.number("/counts/subspace_size");
@@ -182,7 +182,7 @@ fn certificate(results: &Results) -> String {
     let reading = format!(
         "Estimated error of the band’s subspace at the sensors, relative to the measured response.{size}"
     );
-    plot("certificate", TITLE, &reading)
+    plot("reduction-error", TITLE, &reading)
 }
 
 fn plane(results: &Results, verdict: &Verdict) -> String {

@@ -45,7 +45,7 @@ pub(super) fn sections(results: &Results, several: &Several) -> String {
     sections.push(("together", "How the values hang together", together(several)));
     sections.push((
         "trust",
-        "Error and certificate",
+        "Error and reduction error",
         format!("<div class=\"pair\">{}</div>\n", trust_of_band(results)),
     ));
     sections.push(("plane", "In the complex plane", nyquist));
@@ -96,7 +96,7 @@ pub(super) fn constants(several: &Several) -> String {
 }
 
 fn value(one: &Unknown, number: &Number) -> String {
-    if one.is_told(number) { with_bar(number.value, number.std, "") } else { "not told".into() }
+    if one.is_told(number) { with_bar(number.value, number.std, "") } else { "not identifiable".into() }
 }
 
 /// The nominal value of a constant's number; a law's has none of its own.
@@ -144,7 +144,7 @@ fn together(several: &Several) -> String {
         _ => {
             html += &absent(
                 "Misfit along what is told worst",
-                "for too little holds for the whole band, or nothing tells it.",
+                "for too little holds for the whole band, or it is not identifiable.",
             )
         }
     }

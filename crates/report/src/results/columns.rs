@@ -7,9 +7,24 @@ use frfit_formats::csv::Table;
 #[derive(Debug)]
 pub(crate) struct Columns(Table);
 
+/// Columns that had another name: (old, new).
+const RENAMED: [(&str, &str); 4] = [
+    ("candidates", "candidate_count"),
+    ("pole_distance", "convergence_radius"),
+    ("series_order", "required_order"),
+    ("certificate", "reduction_error"),
+];
+
 impl Columns {
     pub(crate) fn read(bytes: &[u8]) -> Result<Self, FormatError> {
-        Table::read(bytes).map(Self)
+        let table = Table::read(bytes)?;
+        match RENAMED.iter().find(|(old, _)| table.names().any(|name| name == *old)) {
+            Some((old, new)) => {
+                let expected = format!("a column {new}, as {old} is called now: run frfit identify again");
+                Err(FormatError::line(table.names_line(), expected, *old))
+            }
+            None => Ok(Self(table)),
+        }
     }
 
     pub(crate) fn rows(&self) -> usize {

@@ -9,18 +9,18 @@ use frfit_formats::FormatError;
 pub(crate) struct Reference {
     pub(crate) nominal: Vec<Option<c64>>,
     /// Where the case tells it.
-    pub(crate) truth: Vec<Option<c64>>,
+    pub(crate) reference: Vec<Option<c64>>,
 }
 
 impl Reference {
     pub(crate) fn read(table: &Columns, frequency_hz: &[f64]) -> Result<Self, FormatError> {
         table.at_frequencies(frequency_hz)?;
-        Ok(Self { nominal: factors(table, "nominal")?, truth: factors(table, "true")? })
+        Ok(Self { nominal: factors(table, "nominal")?, reference: factors(table, "true")? })
     }
 
     /// Nothing to compare with.
     pub(crate) fn none(frequencies: usize) -> Self {
-        Self { nominal: vec![None; frequencies], truth: vec![None; frequencies] }
+        Self { nominal: vec![None; frequencies], reference: vec![None; frequencies] }
     }
 }
 

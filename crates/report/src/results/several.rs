@@ -9,7 +9,7 @@ use frfit_formats::FormatError;
 use serde_json::Value;
 
 /// Columns of `identified.csv` that belong to no unknown.
-const SHARED: [&str; 3] = ["error", "chi2", "certificate"];
+const SHARED: [&str; 3] = ["error", "chi2", "reduction_error"];
 
 /// A number that holds for the band.
 #[derive(Debug)]
@@ -34,7 +34,7 @@ pub(crate) struct Unknown {
     /// By frequency.
     pub(crate) nominal: Vec<Option<c64>>,
     /// By frequency, where the case tells it.
-    pub(crate) truth: Vec<Option<c64>>,
+    pub(crate) reference: Vec<Option<c64>>,
     /// How far from it the answer is, as the summary says it.
     pub(crate) off: Value,
 }
@@ -177,8 +177,8 @@ fn unknown(summary: &Summary, one: &Value, reference: &Columns) -> Result<Unknow
         numbers: numbers.filter_map(number).collect(),
         status,
         nominal: factors(reference, &format!("{name}.nominal"))?,
-        truth: factors(reference, &format!("{name}.true"))?,
-        off: one.get("truth").cloned().unwrap_or(Value::Null),
+        reference: factors(reference, &format!("{name}.true"))?,
+        off: one.get("reference").cloned().unwrap_or(Value::Null),
         name,
     })
 }

@@ -101,7 +101,7 @@ fn cautions(results: &Results, several: &Several) -> Vec<String> {
     let mut told: Vec<String> = several
         .not_told
         .iter()
-        .map(|sentence| format!("Not told by these measurements: {sentence}."))
+        .map(|sentence| format!("Not identifiable from these measurements: {sentence}."))
         .collect();
     if !several.converged {
         told.push("The search did not settle. More frequencies, sensors or narrower bounds may help.".into());
@@ -142,7 +142,7 @@ fn tile(one: &Unknown, number: &Number) -> Tile {
     let label = label.replace('_', " ");
     if !one.is_told(number) {
         let detail = "the measurements leave any value of this size possible".into();
-        return Tile { label, value: "not told".into(), detail };
+        return Tile { label, value: "not identifiable".into(), detail };
     }
     let value = with_bar(number.value, None, NO_UNIT);
     Tile { label, value, detail: bars(number.value, number.std) }

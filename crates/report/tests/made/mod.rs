@@ -13,14 +13,14 @@ pub(crate) struct Made {
     pub(crate) file: &'static str,
     pub(crate) frequencies: usize,
     pub(crate) sensors: usize,
-    /// The last so many frequencies are ill conditioned.
+    /// The last so many frequencies are not identifiable.
     pub(crate) bad: usize,
     pub(crate) fit: &'static str,
     pub(crate) finding: bool,
     pub(crate) free: bool,
     pub(crate) std: bool,
     pub(crate) error_map: bool,
-    pub(crate) certificate: bool,
+    pub(crate) reduction_error: bool,
     pub(crate) real: bool,
 }
 
@@ -38,7 +38,7 @@ impl Default for Made {
             free: false,
             std: false,
             error_map: false,
-            certificate: true,
+            reduction_error: true,
             real: false,
         }
     }
@@ -61,14 +61,14 @@ impl Made {
     }
 
     fn status(&self, i: usize) -> &'static str {
-        if i + self.bad >= self.frequencies { "ill_conditioned" } else { "ok" }
+        if i + self.bad >= self.frequencies { "not_identifiable" } else { "ok" }
     }
 }
 
 /// The files.
 pub(crate) fn results(made: &Made) -> BTreeMap<&'static str, Vec<u8>> {
-    let columns = "frequency_hz,storage,loss_factor,factor_re,factor_im,correction_re,correction_im,error,spectral_radius,order,candidates,status,\
-                   pole_distance,series_order,certificate,storage_std,loss_factor_std,storage_loss_correlation,chi2\n";
+    let columns = "frequency_hz,storage,loss_factor,factor_re,factor_im,correction_re,correction_im,error,spectral_radius,order,candidate_count,status,\
+                   convergence_radius,required_order,reduction_error,storage_std,loss_factor_std,storage_loss_correlation,chi2\n";
     let (mut identified, mut reference) =
         (columns.to_owned(), "frequency_hz,nominal_re,nominal_im,true_re,true_im\n".to_owned());
     let mut response =
@@ -80,11 +80,11 @@ pub(crate) fn results(made: &Made) -> BTreeMap<&'static str, Vec<u8>> {
     let quoted = |text: &str| format!("\"{}\"", text.replace('"', "\"\""));
     for i in 0..made.frequencies {
         let (f, e) = (made.frequency(i), made.storage(i));
-        let (status, certificate) = (made.status(i), if made.certificate { "1e-9" } else { "" });
+        let (status, reduction_error) = (made.status(i), if made.reduction_error { "1e-9" } else { "" });
         // Writing to a string does not fail.
         let _ = writeln!(
             identified,
-            "{f:?},{e:?},0.2,{e:?},{:?},{:?},1e5,1e-5,0.7,16,2,{status},0.9,12,{certificate},{:?},0.001,0.1,1.02",
+            "{f:?},{e:?},0.2,{e:?},{:?},{:?},1e5,1e-5,0.7,16,2,{status},0.9,12,{reduction_error},{:?},0.001,0.1,1.02",
             0.2 * e,
             e - 1e6,
             1e-3 * e

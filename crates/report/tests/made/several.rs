@@ -8,7 +8,7 @@ use std::fmt::Write;
 pub(crate) struct MadeSeveral {
     pub(crate) name: &'static str,
     pub(crate) frequencies: usize,
-    /// The last so many frequencies are ill conditioned.
+    /// The last so many frequencies are not identifiable.
     pub(crate) bad: usize,
     pub(crate) fit: &'static str,
     /// Whether the core varies over the band; else there are constants only.
@@ -37,7 +37,7 @@ impl Default for MadeSeveral {
 pub(crate) fn several(made: &MadeSeveral) -> BTreeMap<&'static str, Vec<u8>> {
     let quoted = |text: &str| format!("\"{}\"", text.replace('"', "\"\""));
     let mut heads =
-        (vec!["frequency_hz,status,error,chi2,certificate".to_owned()], vec!["frequency_hz".to_owned()]);
+        (vec!["frequency_hz,status,error,chi2,reduction_error".to_owned()], vec!["frequency_hz".to_owned()]);
     let mut add = |name: &str, parts: &[&str]| {
         heads.0.extend(parts.iter().map(|part| quoted(&format!("{name}.{part}"))));
         let reference = ["nominal_re", "nominal_im", "true_re", "true_im"];
@@ -58,7 +58,7 @@ pub(crate) fn several(made: &MadeSeveral) -> BTreeMap<&'static str, Vec<u8>> {
         "frequency_hz,sensor,quantity,nominal_re,nominal_im,measured_re,measured_im,updated_re,updated_im,measured_std\n".to_owned();
     for i in 0..made.frequencies {
         let f = 20.0 + 0.5 * i as f64;
-        let status = if i + made.bad >= made.frequencies { "ill_conditioned" } else { "ok" };
+        let status = if i + made.bad >= made.frequencies { "not_identifiable" } else { "ok" };
         // Writing to a string does not fail.
         let _ = write!(identified, "{f:?},{status},1e-3,1.01,1e-9");
         let _ = write!(reference, "{f:?}");
@@ -83,20 +83,20 @@ pub(crate) fn several(made: &MadeSeveral) -> BTreeMap<&'static str, Vec<u8>> {
     let mut unknowns = Vec::new();
     let mut coordinates: Vec<String> = Vec::new();
     if made.varies {
-        let truth =
+        let reference =
             json!({"within": 1e-5, "fraction_right": 1.0, "wrong_and_ok": 0, "deviation_max_ok": 2e-7});
-        unknowns.push(json!({"name": "core", "matrices": ["core"], "varies": "frequency", "real": false, "numbers": null, "status": null, "truth": truth}));
+        unknowns.push(json!({"name": "core", "matrices": ["core"], "varies": "frequency", "real": false, "numbers": null, "status": null, "reference": reference}));
     }
     if made.constants > 0 {
-        let (std, status) = if made.untold { (Value::Null, "ill_conditioned") } else { (json!(1e-5), "ok") };
+        let (std, status) = if made.untold { (Value::Null, "not_identifiable") } else { (json!(1e-5), "ok") };
         let numbers = json!([{"name": "value", "value": 0.065, "std": std}]);
-        let truth = json!({"relative": 1e-4, "deviations": 0.8});
-        unknowns.push(json!({"name": made.name, "matrices": ["mass"], "varies": "constant", "real": true, "numbers": numbers, "status": status, "truth": truth}));
+        let reference = json!({"relative": 1e-4, "deviations": 0.8});
+        unknowns.push(json!({"name": made.name, "matrices": ["mass"], "varies": "constant", "real": true, "numbers": numbers, "status": status, "reference": reference}));
         coordinates.push(made.name.to_owned());
     }
     if made.constants > 1 {
         let numbers = json!([{"name": "storage", "value": 6.9e10, "std": 9e5}, {"name": "loss_factor", "value": 0.003, "std": 1e-5}]);
-        unknowns.push(json!({"name": "skins", "matrices": ["skins"], "varies": "constant", "real": false, "numbers": numbers, "status": "ok", "truth": null}));
+        unknowns.push(json!({"name": "skins", "matrices": ["skins"], "varies": "constant", "real": false, "numbers": numbers, "status": "ok", "reference": null}));
         coordinates.extend(["skins storage", "skins loss_factor"].map(str::to_owned));
     }
     let count = coordinates.len();
@@ -110,7 +110,7 @@ pub(crate) fn several(made: &MadeSeveral) -> BTreeMap<&'static str, Vec<u8>> {
     let profile: Vec<[f64; 2]> = (-5..=5).map(|k| [f64::from(k) * 1e-4, f64::from(k * k)]).collect();
     let untold = made.untold && count > 0;
     let not_told: Vec<String> = untold
-        .then(|| format!("{} larger with skins storage smaller: nothing tells it", made.name))
+        .then(|| format!("{} larger with skins storage smaller: not identifiable", made.name))
         .into_iter()
         .collect();
     let summary = json!({
@@ -125,7 +125,7 @@ pub(crate) fn several(made: &MadeSeveral) -> BTreeMap<&'static str, Vec<u8>> {
         "noise": {"source": "given", "level": 1.0},
         "fit": {"chi2": 100.0, "freedom": 98, "chi2_per_freedom": 1.02, "deviate": 0.1, "verdict": made.fit},
         "search": {"converged": true, "starts": 4, "agreeing": 4},
-        "counts": {"factorisations": 1, "solves": 20, "subspace_size": 12, "certificate": 1e-9},
+        "counts": {"factorisations": 1, "solves": 20, "subspace_size": 12, "reduction_error": 1e-9},
         "seconds": {"load": 0.1, "identify": 0.5},
     });
     let files = [

@@ -25,11 +25,13 @@ pub(super) struct Field<'a> {
 }
 
 /// Keys that had another name: (old, new). A case with an old one is refused with the new one.
-const RENAMED: [(&str, &str); 4] = [
+const RENAMED: [(&str, &str); 6] = [
     ("space", "reduction"),
     ("robust", "reject_outliers"),
     ("most_lines", "max_lines"),
     ("leave_out_hz", "exclude_hz"),
+    ("nominal", "start"),
+    ("truth", "reference"),
 ];
 
 impl<'a> Table<'a> {

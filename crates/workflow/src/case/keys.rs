@@ -227,7 +227,7 @@ file = { file = \"model.op4\", name = \"KAA\" }
 pub(super) static COMPLEX_MODULUS: Section = Section {
     path: "matrix.factor",
     title: "`factor = { storage, loss_factor }`",
-    about: "A complex modulus E′(1 + iη), the same at all frequencies. This and the forms below hold for `factor` and for `truth`.",
+    about: "A complex modulus E′(1 + iη), the same at all frequencies. This and the forms below hold for `factor` and for `reference`.",
     keys: &[
         key(
             "storage",
@@ -523,8 +523,8 @@ pub(super) static IDENTIFY: Section = Section {
             "What answers at a frequency: the full model, or one reduced model for the band.",
         ),
         key(
-            "nominal",
-            "\"estimate\"",
+            "start",
+            "\"bounds\"",
             "the factor of the matrix",
             "There is no nominal value: it is looked for in all of the bounds, and `bounds.storage` is needed.",
         ),
@@ -543,7 +543,7 @@ pub(super) static IDENTIFY: Section = Section {
             "Look first for what is wrong with the data, as `frfit check` does.",
         ),
         key(
-            "truth",
+            "reference",
             "as `factor`",
             "none",
             "What a simulated measurement was made with. It is drawn, and used for nothing.",
@@ -559,7 +559,7 @@ varies = \"law\"
 law = [\"fractional\", \"maxwell\"]
 branches = 3
 bounds = { storage = [1e5, 1e9], loss_factor = [0.0, 3.0] }
-nominal = \"estimate\"
+start = \"bounds\"
 reject_outliers = false
 check = false
 ",
@@ -570,7 +570,7 @@ order = 30
 selection = \"smallest\"
 reduction = \"full\"
 real = true
-truth = 2700.0
+reference = 2700.0
 ",
     ],
 };
@@ -634,7 +634,7 @@ pub(super) static SEVERAL: Section = Section {
         ),
         key("bounds", "table, or [low, high] of a real one", "none", "What it can be."),
         key("real", "true or false", "true of `powers`, else false", "A real unknown."),
-        key("truth", "as `factor`", "none", "What a simulated measurement was made with."),
+        key("reference", "as `factor`", "none", "What a simulated measurement was made with."),
     ],
     examples: &["[[identify]]
 name = \"core modulus\"
@@ -648,7 +648,7 @@ powers = { bending = 3, membrane = 1, mass = 1 }
 nominal = 1.0
 bounds = [0.8, 1.25]
 real = true
-truth = 1.05
+reference = 1.05
 "],
 };
 

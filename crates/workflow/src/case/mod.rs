@@ -186,8 +186,8 @@ pub struct IdentifyEntry {
     pub selection: Option<Located<Selection>>,
     /// What answers at a frequency.
     pub reduction: Option<Reduction>,
-    /// Where it says `nominal = "estimate"`.
-    pub estimate: Option<Place>,
+    /// Where it says `start = "bounds"`.
+    pub start: Option<Place>,
     /// `bounds.storage`.
     pub storage: Option<Located<[f64; 2]>>,
     /// `bounds.loss_factor`.
@@ -199,7 +199,7 @@ pub struct IdentifyEntry {
     /// Whether to look for what is wrong with the data first.
     pub check: bool,
     /// The factor that a simulated measurement was made with.
-    pub truth: Option<Located<FactorEntry>>,
+    pub reference: Option<Located<FactorEntry>>,
 }
 
 /// How the factor varies over frequency: `varies`, with `law` and `branches`.
@@ -266,7 +266,7 @@ pub struct SoughtEntry {
     /// `bounds.loss_factor`.
     pub loss_factor: Option<Located<[f64; 2]>>,
     /// What a simulated measurement was made with.
-    pub truth: Option<Located<FactorEntry>>,
+    pub reference: Option<Located<FactorEntry>>,
 }
 
 /// How one of several unknowns varies.

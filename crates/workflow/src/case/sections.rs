@@ -370,8 +370,8 @@ fn averages(field: &Field<'_>) -> Result<Located<i64>, InputError> {
     Ok(averages)
 }
 
-/// The one thing that `nominal` can say: numbers belong to the matrix.
-const ESTIMATE: &str = "\"estimate\" (a nominal value is the factor of the matrix)";
+/// The one thing that `start` can say: numbers belong to the matrix.
+const START: &str = "\"bounds\" (a nominal value is the factor of the matrix)";
 
 /// `[identify]`.
 pub(super) fn identify(field: &Field<'_>) -> Result<IdentifyEntry, InputError> {
@@ -380,7 +380,7 @@ pub(super) fn identify(field: &Field<'_>) -> Result<IdentifyEntry, InputError> {
     let method = |word: &str| word.parse::<Method>().map_err(|unknown| unknown.expected.to_owned());
     let selection = |word: &str| word.parse::<Selection>().map_err(|unknown| unknown.expected.to_owned());
     let reduction = |word: &str| word.parse::<Reduction>().map_err(|unknown| unknown.expected.to_owned());
-    let estimate = |word: &str| (word == "estimate").then_some(()).ok_or_else(|| ESTIMATE.to_owned());
+    let start = |word: &str| (word == "bounds").then_some(()).ok_or_else(|| START.to_owned());
     let bound = |name| bounds.as_ref().and_then(|table| table.find(name)).map(|f| f.pair()).transpose();
     Ok(IdentifyEntry {
         place: table.place.clone(),
@@ -393,7 +393,7 @@ pub(super) fn identify(field: &Field<'_>) -> Result<IdentifyEntry, InputError> {
         order: table.find("order").map(|order| order.whole()).transpose()?,
         selection: table.find("selection").map(|field| field.word(selection)).transpose()?,
         reduction: table.find("reduction").map(|field| field.word(reduction)).transpose()?.map(|s| s.value),
-        estimate: table.find("nominal").map(|field| field.word(estimate)).transpose()?.map(|e| e.place),
+        start: table.find("start").map(|field| field.word(start)).transpose()?.map(|start| start.place),
         storage: bound("storage")?,
         loss_factor: bound("loss_factor")?,
         real: table.find("real").map(|real| real.flag()).transpose()?.unwrap_or(false),
@@ -402,7 +402,7 @@ pub(super) fn identify(field: &Field<'_>) -> Result<IdentifyEntry, InputError> {
             .map(|reject_outliers| reject_outliers.flag())
             .transpose()?,
         check: table.find("check").map(|check| check.flag()).transpose()?.unwrap_or(true),
-        truth: table.find("truth").map(|truth| factor(&truth)).transpose()?,
+        reference: table.find("reference").map(|reference| factor(&reference)).transpose()?,
     })
 }
 

@@ -123,7 +123,7 @@ fn unknowns(table: &Table<'_>) -> Result<SoughtEntry, InputError> {
         nominal,
         storage,
         loss_factor,
-        truth: table.find("truth").map(|truth| factor(&truth)).transpose()?,
+        reference: table.find("reference").map(|reference| factor(&reference)).transpose()?,
     })
 }
 

@@ -151,9 +151,9 @@ fn curve_of_band(
             series("nominal", nominal, Color::Blue, Some(Dash::Dashed), None),
             series("each frequency by itself", own, Color::Grey, None, Some(Marker::Circle)),
         ];
-        if let Some(truth) = &identify.truth {
-            let truth = x.iter().map(|&f| of(truth.at(f).ok())).collect();
-            all.push(series("true", truth, Color::Black, Some(Dash::Solid), None));
+        if let Some(reference) = &identify.reference {
+            let reference = x.iter().map(|&f| of(reference.at(f).ok())).collect();
+            all.push(series("true", reference, Color::Black, Some(Dash::Solid), None));
         }
         all.push(series(&drawn.label, curve(0.0), Color::Vermilion, Some(Dash::Solid), None));
         all.push(series("± 2 deviations", curve(2.0), Color::Vermilion, Some(Dash::Dotted), None));

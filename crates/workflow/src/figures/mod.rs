@@ -2,12 +2,12 @@
 
 mod accelerance;
 mod candidates;
-mod certificate;
 mod error_map;
 mod hits;
 mod laws;
 mod measured;
 mod modulus;
+mod reduction_error;
 mod sensitivities;
 mod several;
 mod spectral_radius;
@@ -59,8 +59,8 @@ pub fn identify_figures(
     if identify.options.selection == Selection::Joint {
         figures.push(("candidates".to_owned(), candidates::figure(case, identify, run)));
     }
-    if run.certificate().is_some() {
-        figures.push(("certificate".to_owned(), certificate::figure(case, run)));
+    if run.reduction_error().is_some() {
+        figures.push(("reduction-error".to_owned(), reduction_error::figure(case, run)));
     }
     if let Some(map) = &run.error_map {
         figures.push(("error".to_owned(), error_map::figure(case, map)));
@@ -132,8 +132,10 @@ fn strip_of(statuses: impl Iterator<Item = (f64, Status)>) -> Strip {
         Status::Ambiguous => Color::Yellow,
         Status::Diverged => Color::Vermilion,
         Status::NoRoot => Color::Purple,
-        Status::IllConditioned => Color::Grey,
+        Status::NotIdentifiable => Color::Grey,
+        Status::Unexplained => Color::Orange,
         Status::OutOfBand => Color::Black,
+        _ => Color::Blue,
     };
     let place = |status: Status| Status::ALL.iter().position(|&other| other == status).unwrap_or(0);
     let (x, class) = statuses.map(|(frequency_hz, status)| (frequency_hz, place(status))).unzip();

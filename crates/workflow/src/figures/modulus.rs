@@ -56,24 +56,25 @@ fn panel(
         .map(|o| o.uncertainty.and_then(std).map_or(f64::NAN, |s| DEVIATIONS * s))
         .collect();
     // A diverged frequency has no answer: what its series ended on belongs into the table, not into a curve.
-    for (label, status, color, marker) in [
-        ("evidence only (ill conditioned)", Status::IllConditioned, Color::Grey, Marker::Cross),
-        ("updated, ambiguous", Status::Ambiguous, Color::Orange, Marker::Triangle),
-        ("updated", Status::Ok, Color::Vermilion, Marker::Circle),
+    let evidence = [Status::NotIdentifiable, Status::Unexplained, Status::Failed];
+    for (label, statuses, color, marker) in [
+        ("evidence only", &evidence[..], Color::Grey, Marker::Cross),
+        ("updated, ambiguous", &[Status::Ambiguous], Color::Orange, Marker::Triangle),
+        ("updated", &[Status::Ok], Color::Vermilion, Marker::Circle),
     ] {
-        let y: Vec<f64> = with(&[status]);
+        let y: Vec<f64> = with(statuses);
         if y.iter().any(|y| y.is_finite()) {
             // The bars of what is not known would hide what is, and stretch the axis with it.
-            let y_error = if status == Status::IllConditioned { Vec::new() } else { bars.clone() };
+            let y_error = if color == Color::Grey { Vec::new() } else { bars.clone() };
             let (label, marker) = (label.into(), Some(marker));
             series.push(Series { label, y, y_error, color, line: None, marker, ..Series::default() });
         }
     }
     // Above the others: a line shows among many markers, and would not below them.
-    if let Some(truth) = &identify.truth {
+    if let Some(reference) = &identify.reference {
         series.push(Series {
             label: "true".into(),
-            y: of(x.iter().map(|&f| truth.at(f).ok()).collect()),
+            y: of(x.iter().map(|&f| reference.at(f).ok()).collect()),
             color: Color::Black,
             ..Series::default()
         });

@@ -127,9 +127,9 @@ fn over_frequency(case: &Case, wanted: &SeveralCase, run: &SeveralRun, j: usize)
             },
         ];
         series.retain(|one| one.y.iter().any(|y| y.is_finite()));
-        if let Some(truth) = &wanted.truth[j] {
-            let truth = of(wanted.frequency_hz.iter().map(|&f| truth.at(f).ok()).collect());
-            series.push(drawn("true", truth, Color::Black, Some(Dash::Solid), None));
+        if let Some(reference) = &wanted.reference[j] {
+            let reference = of(wanted.frequency_hz.iter().map(|&f| reference.at(f).ok()).collect());
+            series.push(drawn("true", reference, Color::Black, Some(Dash::Solid), None));
         }
         Panel { y: Axis::linear(format!("{label}, ±2 std")), series, ..Panel::default() }
     };

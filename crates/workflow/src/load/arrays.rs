@@ -86,7 +86,7 @@ pub struct Wanted {
     /// Whether the factor is real.
     pub real: bool,
     /// Whether the nominal is no more than the middle of the bounds.
-    pub estimate: bool,
+    pub start_at_bounds: bool,
     /// Whether a sensor that contradicts all others is left out; `None`: the default.
     pub reject_outliers: Option<bool>,
     /// `frequency`, `smooth` or `law`; `None`: `law` where there are laws, otherwise the default.
@@ -182,7 +182,7 @@ pub fn case_of_arrays(
         unknown,
         noise: data.noise,
         check: wanted.check,
-        truth: None,
+        reference: None,
     };
     let respond_hz = identify.frequency_hz.clone();
     let sensors = measurements.into_iter().map(|measurement| measurement.info).collect();
@@ -356,7 +356,7 @@ fn parameter(
         }
         shared(model, &parameter, k, names, &place)?;
     }
-    if wanted.estimate {
+    if wanted.start_at_bounds {
         parameter.nominal = middle_of(&options.bounds, &argument("nominal"))?;
     }
     Ok(parameter)
@@ -410,7 +410,7 @@ fn options(wanted: &Wanted) -> Result<Options, ArraysError> {
         bounds: wanted.bounds,
         real: wanted.real,
         reject_outliers: wanted.reject_outliers.unwrap_or(defaults.reject_outliers),
-        whole_box: wanted.estimate,
+        whole_box: wanted.start_at_bounds,
         ..defaults
     };
     options.validate().map_err(ArraysError::Options)?;

@@ -46,7 +46,7 @@ pub struct IdentifyCase {
     /// Whether to look for what is wrong with the data first.
     pub check: bool,
     /// The factor that a simulated measurement was made with.
-    pub truth: Option<Law>,
+    pub reference: Option<Law>,
 }
 
 /// Standard deviations √E|δx|² of the measured receptances, `[frequency][sensor]`, as far as files and case tell.
@@ -85,11 +85,11 @@ pub(super) fn identify(
         fit_for_band(&mut options, &varies, place)?;
     }
     let mut parameter = shared_factor(&entry.matrices, model, &entry.place)?;
-    if let Some(place) = &entry.estimate {
+    if let Some(place) = &entry.start {
         parameter.nominal = middle_of(&options.bounds, place)?;
     }
     let (band_hz, place) = band_of(entry.band_hz.as_ref(), &entry.place, overrides)?;
-    let truth = entry.truth.as_ref().map(|truth| law(truth, files)).transpose()?;
+    let reference = entry.reference.as_ref().map(|reference| law(reference, files)).transpose()?;
     let unknown = unknown(case, &varies, &options)?;
     let data = band(measurements, band_hz, &place)?;
     let most = entry.max_lines.as_ref();
@@ -108,7 +108,7 @@ pub(super) fn identify(
         unknown,
         noise: data.noise,
         check: entry.check,
-        truth,
+        reference,
     })
 }
 
@@ -178,20 +178,16 @@ pub(super) fn shared(
     Err(InputError::at(place, expected, format!("{:?} with another", names[k].as_ref())))
 }
 
-/// `nominal = "estimate"`: where the bounds are, without any other word of the user. The factor is looked for in all of them.
+/// `start = "bounds"`: where the bounds are, without any other word of the user. The factor is looked for in all of them.
 pub(super) fn middle_of(bounds: &Bounds, place: &Place) -> Result<Law, InputError> {
     let [low, high] = match bounds.storage {
         Some([low, high]) if low > 0.0 => [low, high],
         Some([low, high]) => {
-            let expected = "bounds.storage above zero, to estimate the nominal from";
+            let expected = "bounds.storage above zero, to begin in the middle of";
             return Err(InputError::at(place, expected, format!("[{low}, {high}]")));
         }
         None => {
-            return Err(InputError::at(
-                place,
-                "the key bounds.storage, to estimate the nominal from",
-                "none",
-            ));
+            return Err(InputError::at(place, "the key bounds.storage, to begin in the middle of", "none"));
         }
     };
     let loss_factor = bounds.loss_factor.map_or(0.0, |[low, high]| SMALL_LOSS.clamp(low, high));
@@ -207,7 +203,7 @@ fn options(entry: &IdentifyEntry, overrides: &Overrides) -> Result<Options, Inpu
     options.method = entry.method.unwrap_or(options.method);
     options.reduction = entry.reduction.unwrap_or(options.reduction);
     options.reject_outliers = entry.reject_outliers.unwrap_or(options.reject_outliers);
-    options.whole_box = entry.estimate.is_some();
+    options.whole_box = entry.start.is_some();
     options.bounds.storage = entry.storage.as_ref().map(|bound| bound.value);
     options.bounds.loss_factor = entry.loss_factor.as_ref().map(|bound| bound.value);
     if let Some(order) = &entry.order {

@@ -159,8 +159,9 @@ pub fn load(case_file: &Path, overrides: &Overrides, purpose: Purpose) -> Result
         }
     }
     factor::sizes(&case, &model, &of, &respond_hz)?;
-    let truth = case.identify.as_ref().and_then(|entry| entry.truth.as_ref());
-    if let (Some(law), Some(entry)) = (identify.as_ref().and_then(|identify| identify.truth.as_ref()), truth)
+    let reference = case.identify.as_ref().and_then(|entry| entry.reference.as_ref());
+    if let (Some(law), Some(entry)) =
+        (identify.as_ref().and_then(|identify| identify.reference.as_ref()), reference)
     {
         factor::covers(law, &entry.place, &respond_hz)?;
     }

@@ -25,7 +25,7 @@ pub struct SeveralCase {
     /// What each is a number of.
     pub units: Vec<FactorUnit>,
     /// What a simulated measurement was made with, for each.
-    pub truth: Vec<Option<Law>>,
+    pub reference: Vec<Option<Law>>,
     /// First and last frequency of the band as it was asked for.
     pub band_hz: [f64; 2],
     /// The measured frequencies in it that are not left out, ascending; at least one.
@@ -62,10 +62,10 @@ pub(super) fn several(
     let unknowns = entry.unknowns.iter().map(|one| unknowns(case, one, (model, of)));
     let unknowns = unknowns.collect::<Result<Vec<_>, _>>()?;
     refuse_twice(entry)?;
-    let truth = entry
+    let reference = entry
         .unknowns
         .iter()
-        .map(|one| one.truth.as_ref().map(|truth| law(truth, files)).transpose())
+        .map(|one| one.reference.as_ref().map(|reference| law(reference, files)).transpose())
         .collect::<Result<Vec<_>, _>>()?;
     let (band_hz, place) = band_of(entry.band_hz.as_ref(), &entry.place, overrides)?;
     let data = band(measurements, band_hz, &place)?;
@@ -79,8 +79,8 @@ pub(super) fn several(
         MeasuredNoise::Known(std) => MeasuredNoise::Known(pick(std)),
     };
     let frequency_hz: Vec<f64> = kept.iter().map(|&i| data.frequency_hz[i]).collect();
-    for (one, truth) in entry.unknowns.iter().zip(&truth) {
-        if let (Some(written), Some(law)) = (&one.truth, truth) {
+    for (one, reference) in entry.unknowns.iter().zip(&reference) {
+        if let (Some(written), Some(law)) = (&one.reference, reference) {
             covers(law, &written.place, &frequency_hz)?;
         }
     }
@@ -91,7 +91,7 @@ pub(super) fn several(
         named => factor_unit(case, named, &unknowns.nominal, &frequency_hz),
     };
     let units = entry.unknowns.iter().zip(&unknowns).map(unit).collect();
-    Ok(SeveralCase { unknowns, units, truth, band_hz, frequency_hz, measured, noise })
+    Ok(SeveralCase { unknowns, units, reference, band_hz, frequency_hz, measured, noise })
 }
 
 fn unknowns(

@@ -174,7 +174,7 @@ fn short(value: f64, digits: usize) -> String {
 /// Value ± deviation and unit.
 fn with_std(Estimate { value, std, unit, .. }: &Estimate, of: FactorUnit) -> String {
     let unit = of.of_parameter(unit);
-    let std = std.map_or("not told by the data".into(), |std| format!("{std:.1e}"));
+    let std = std.map_or("not identifiable".into(), |std| format!("{std:.1e}"));
     let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
     format!("{value:.6e} ± {std}{unit}")
 }

@@ -9,13 +9,13 @@ const COLUMNS: [&str; 5] = ["frequency_hz", "nominal_re", "nominal_im", "true_re
 /// One row a frequency: the nominal factor, and the true one where the case tells it.
 pub fn reference_csv(identify: &IdentifyCase, outcomes: &[Identified]) -> String {
     let rows = outcomes.iter().map(|outcome| {
-        let truth = identify.truth.as_ref().and_then(|law| law.at(outcome.frequency_hz).ok());
+        let reference = identify.reference.as_ref().and_then(|law| law.at(outcome.frequency_hz).ok());
         [
             Cell::Number(outcome.frequency_hz),
             Cell::Number(outcome.nominal.re),
             Cell::Number(outcome.nominal.im),
-            truth.map(|factor| factor.re).into(),
-            truth.map(|factor| factor.im).into(),
+            reference.map(|factor| factor.re).into(),
+            reference.map(|factor| factor.im).into(),
         ]
     });
     write(&COLUMNS, rows).expect("every row has the columns")

@@ -12,7 +12,7 @@ use frfit::material::{Law, loss_factor};
 use frfit_formats::csv::{Cell, write};
 use serde_json::{Map, Value, json};
 
-/// A value within this of the truth counts as right.
+/// A value within this of the reference counts as right.
 const RIGHT_WITHIN: f64 = 1e-5;
 
 /// A direction whose deviation is larger is not told.
@@ -24,7 +24,7 @@ const SMALL: f64 = 0.05;
 /// `identified.csv`: one row a frequency, all unknowns side by side.
 pub fn several_csv(wanted: &SeveralCase, run: &SeveralRun) -> String {
     let mut columns: Vec<String> =
-        ["frequency_hz", "status", "error", "chi2", "certificate"].map(Into::into).into();
+        ["frequency_hz", "status", "error", "chi2", "reduction_error"].map(Into::into).into();
     for one in &wanted.unknowns {
         let name = &one.name;
         match one.real {
@@ -41,7 +41,7 @@ pub fn several_csv(wanted: &SeveralCase, run: &SeveralRun) -> String {
             Cell::Text(at.status.name()),
             at.error.into(),
             at.chi_squared.into(),
-            at.certificate.into(),
+            at.reduction_error.into(),
         ];
         for (one, value) in wanted.unknowns.iter().zip(&at.values) {
             row.extend(cells(one, value.as_ref()));
@@ -58,11 +58,16 @@ pub fn several_reference_csv(wanted: &SeveralCase, run: &SeveralRun) -> String {
     let mut columns = vec!["frequency_hz".to_owned()];
     columns.extend(wanted.unknowns.iter().flat_map(|one| parts.map(|part| format!("{}.{part}", one.name))));
     let rows = run.outcome.at.iter().map(|at| {
-        let of_one = |(nominal, truth): (&c64, &Option<Law>)| {
-            let truth = truth.as_ref().and_then(|law| law.at(at.frequency_hz).ok());
-            [nominal.re.into(), nominal.im.into(), truth.map(|p| p.re).into(), truth.map(|p| p.im).into()]
+        let of_one = |(nominal, reference): (&c64, &Option<Law>)| {
+            let reference = reference.as_ref().and_then(|law| law.at(at.frequency_hz).ok());
+            [
+                nominal.re.into(),
+                nominal.im.into(),
+                reference.map(|p| p.re).into(),
+                reference.map(|p| p.im).into(),
+            ]
         };
-        let values = at.nominal.iter().zip(&wanted.truth).flat_map(of_one);
+        let values = at.nominal.iter().zip(&wanted.reference).flat_map(of_one);
         std::iter::once(Cell::Number(at.frequency_hz)).chain(values).collect::<Vec<_>>()
     });
     let columns: Vec<&str> = columns.iter().map(String::as_str).collect();
@@ -106,7 +111,7 @@ pub fn several_json(case: &Case, wanted: &SeveralCase, run: &SeveralRun, seconds
             "bounds": {"storage": one.bounds.storage, "loss_factor": one.bounds.loss_factor},
             "numbers": numbers,
             "status": band.map(|band| band.status.name()),
-            "truth": truth_json(wanted, run, j),
+            "reference": reference_json(wanted, run, j),
         })
     };
     let direction = |direction: &Direction| {
@@ -144,7 +149,7 @@ pub fn several_json(case: &Case, wanted: &SeveralCase, run: &SeveralRun, seconds
             "factorisations": outcome.work.factorisations,
             "solves": outcome.work.solves,
             "subspace_size": outcome.subspace_size,
-            "certificate": certificate(outcome),
+            "reduction_error": reduction_error(outcome),
         },
         "seconds": {"load": seconds_load, "identify": run.seconds.identify()},
     })
@@ -154,8 +159,8 @@ fn finite(value: Option<f64>) -> Option<f64> {
     value.filter(|value| value.is_finite())
 }
 
-fn certificate(outcome: &SeveralOutcome) -> Option<f64> {
-    outcome.at.iter().filter_map(|at| at.certificate).reduce(f64::max)
+fn reduction_error(outcome: &SeveralOutcome) -> Option<f64> {
+    outcome.at.iter().filter_map(|at| at.reduction_error).reduce(f64::max)
 }
 
 fn noise_source(wanted: &SeveralCase, outcome: &SeveralOutcome) -> &'static str {
@@ -185,11 +190,13 @@ fn matrices(case: &Case, one: &Unknown) -> Value {
 }
 
 /// How far an unknown is from what a simulated measurement was made with; one that holds for the band by its value at the middle, in its deviations.
-fn truth_json(wanted: &SeveralCase, run: &SeveralRun, j: usize) -> Value {
-    let Some(truth) = &wanted.truth[j] else { return Value::Null };
+fn reference_json(wanted: &SeveralCase, run: &SeveralRun, j: usize) -> Value {
+    let Some(reference) = &wanted.reference[j] else { return Value::Null };
     if wanted.unknowns[j].varies != Variation::PerFrequency {
         let at = &run.outcome.at[run.outcome.at.len() / 2];
-        let (Ok(exact), Some(found)) = (truth.at(at.frequency_hz), at.values[j]) else { return Value::Null };
+        let (Ok(exact), Some(found)) = (reference.at(at.frequency_hz), at.values[j]) else {
+            return Value::Null;
+        };
         let parts = [
             Some(found.value.re - exact.re).zip(found.storage_std),
             Some(loss_factor(found.value) - loss_factor(exact)).zip(found.loss_factor_std),
@@ -203,7 +210,7 @@ fn truth_json(wanted: &SeveralCase, run: &SeveralRun, j: usize) -> Value {
         .at
         .iter()
         .map(|at| {
-            let exact = truth.at(at.frequency_hz).ok()?;
+            let exact = reference.at(at.frequency_hz).ok()?;
             let value = at.values[j]?;
             Some(((value.value - exact).norm() / exact.norm(), at.status == Status::Ok))
         })
@@ -246,7 +253,7 @@ pub fn not_told(wanted: &SeveralCase, outcome: &SeveralOutcome) -> Vec<String> {
         };
         match direction.std.is_finite() && direction.std < 10.0 {
             true => format!("{both}: ±{:.0} %", 100.0 * direction.std),
-            false => format!("{both}: nothing tells it"),
+            false => format!("{both}: not identifiable"),
         }
     };
     outcome.directions.iter().filter(|direction| direction.std > UNTOLD).map(sentence).collect()
@@ -274,15 +281,18 @@ pub fn several_text(wanted: &SeveralCase, run: &SeveralRun) -> Words {
             let name = if n.name == "value" { String::new() } else { format!("{} ", n.name) };
             match n.std.filter(|std| std.is_finite()) {
                 Some(std) if std < n.value.abs() => format!("{name}{:.6e} ± {std:.1e}", n.value),
-                Some(_) => format!("{name}not told"),
+                Some(_) => format!("{name}{:.2e}, not identifiable", n.value),
                 None => format!("{name}{:.6e}", n.value),
             }
         };
         let numbers = value.numbers.iter().map(number).collect::<Vec<_>>().join(", ");
         let doubt = match value.status {
             Status::Ok => String::new(),
-            Status::NoRoot => " (outside its bounds, or nothing explains the measurements)".into(),
-            _ => " (not told by these measurements)".into(),
+            _ if value.at_bound => " (at its bounds: the measurements ask for a value beyond them)".into(),
+            Status::NoRoot => " (no value within the bounds solves the equations)".into(),
+            Status::Unexplained => " (the model does not explain the measurements)".into(),
+            Status::Failed => " (the search did not converge)".into(),
+            _ => " (not identifiable from these measurements)".into(),
         };
         add(!doubt.is_empty(), &one.name, format!("{numbers}{doubt}"));
     }
@@ -304,7 +314,7 @@ pub fn several_text(wanted: &SeveralCase, run: &SeveralRun) -> Words {
         add(false, &one.name, format!("{low:.6e} to {high:.6e}{loss} (where ok)"));
     }
     for sentence in not_told(wanted, outcome) {
-        add(true, "not told", sentence);
+        add(true, "not identifiable", sentence);
     }
     if let Some(fit) = outcome.fit {
         let sentence = match fit.verdict {
@@ -324,9 +334,9 @@ pub fn several_text(wanted: &SeveralCase, run: &SeveralRun) -> Words {
         add(true, "search", "did not settle: more frequencies, sensors or narrower bounds may help".into());
     }
     for (j, one) in wanted.unknowns.iter().enumerate() {
-        let truth = truth_json(wanted, run, j);
-        if let Some(right) = truth["fraction_right"].as_f64() {
-            let off = truth["deviation_max_ok"]
+        let reference = reference_json(wanted, run, j);
+        if let Some(right) = reference["fraction_right"].as_f64() {
+            let off = reference["deviation_max_ok"]
                 .as_f64()
                 .map_or(String::new(), |off| format!(", off by at most {off:.1e} where ok"));
             add(
@@ -334,10 +344,11 @@ pub fn several_text(wanted: &SeveralCase, run: &SeveralRun) -> Words {
                 "right",
                 format!("{}: {:.1} % within {:.0e}{off}", one.name, 100.0 * right, RIGHT_WITHIN),
             );
-        } else if let Some(off) = truth["relative"].as_f64() {
-            let deviations =
-                truth["deviations"].as_f64().map_or(String::new(), |d| format!(", {d:.1} of its deviations"));
-            add(false, "truth", format!("{}: {off:.1e} off{deviations}", one.name));
+        } else if let Some(off) = reference["relative"].as_f64() {
+            let deviations = reference["deviations"]
+                .as_f64()
+                .map_or(String::new(), |d| format!(", {d:.1} of its deviations"));
+            add(false, "reference", format!("{}: {off:.1e} off{deviations}", one.name));
         }
     }
     add(
@@ -350,7 +361,7 @@ pub fn several_text(wanted: &SeveralCase, run: &SeveralRun) -> Words {
             run.seconds.identify()
         ),
     );
-    if let Some(error) = certificate(outcome) {
+    if let Some(error) = reduction_error(outcome) {
         add(
             false,
             "subspace",

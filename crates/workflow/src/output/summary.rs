@@ -10,7 +10,7 @@ use frfit::material::loss_factor;
 use frfit::model::Term;
 use serde_json::{Map, Value, json};
 
-/// A modulus within this of the truth counts as right.
+/// A modulus within this of the reference counts as right.
 pub const RIGHT_WITHIN: f64 = 1e-6;
 
 /// The summary of an identification. `seconds_load` and `seconds_figures` are the stages outside the run.
@@ -63,14 +63,14 @@ pub fn summary_json(
         "error": spread(run, |outcome| outcome.error),
         "storage_std": spread(run, |outcome| Some(outcome.uncertainty?.storage_std)),
         "loss_factor_std": spread(run, |outcome| outcome.uncertainty?.loss_factor_std),
-        "series_order": series_order(run),
+        "required_order": required_order(run),
         "spectral_radius": spread(run, |outcome| outcome.spectral_radius),
         "counts": {
             "factorisations": run.work.factorisations,
             "solves": run.work.solves,
             "subspace_size": run.subspace_size,
             "explored": run.explored,
-            "certificate": run.certificate(),
+            "reduction_error": run.reduction_error(),
         },
         "seconds": {
             "load": seconds_load,
@@ -89,8 +89,8 @@ pub fn summary_json(
     if let Some(smooth) = &run.smooth {
         summary["smooth"] = smooth.curve.as_ref().map_or(Value::Null, smooth_json);
     }
-    if let Some(truth) = truth(identify, run) {
-        summary["truth"] = truth;
+    if let Some(reference) = reference(identify, run) {
+        summary["reference"] = reference;
     }
     summary
 }
@@ -157,10 +157,12 @@ pub(super) fn fit_json(fit: Option<&GoodnessOfFit>) -> Value {
 
 /// The order that the paper's series would need for a truncation error of 1e-6, and at how many answers no order is enough; null where that was not
 /// asked of any.
-fn series_order(run: &IdentifyRun) -> Value {
-    let asked =
-        run.outcomes.iter().filter(|outcome| outcome.certificate.is_some() && outcome.correction.is_some());
-    let orders: Vec<Option<usize>> = asked.map(|outcome| outcome.series_order).collect();
+fn required_order(run: &IdentifyRun) -> Value {
+    let asked = run
+        .outcomes
+        .iter()
+        .filter(|outcome| outcome.reduction_error.is_some() && outcome.correction.is_some());
+    let orders: Vec<Option<usize>> = asked.map(|outcome| outcome.required_order).collect();
     if orders.is_empty() {
         return Value::Null;
     }
@@ -176,9 +178,9 @@ fn spread(run: &IdentifyRun, number: impl Fn(&frfit::identify::Identified) -> Op
     json!({"median_ok": values.get(values.len() / 2), "max_ok": values.last()})
 }
 
-/// Where the truth is known: the fraction of frequencies with the right factor, of all and of those called `ok`.
-fn truth(identify: &IdentifyCase, run: &IdentifyRun) -> Option<Value> {
-    let law = identify.truth.as_ref()?;
+/// Where the reference is known: the fraction of frequencies with the right factor, of all and of those called `ok`.
+fn reference(identify: &IdentifyCase, run: &IdentifyRun) -> Option<Value> {
+    let law = identify.reference.as_ref()?;
     let right = run.right(|frequency_hz| law.at(frequency_hz).ok(), RIGHT_WITHIN)?;
     let ok: Vec<bool> = run
         .outcomes
@@ -191,12 +193,12 @@ fn truth(identify: &IdentifyCase, run: &IdentifyRun) -> Option<Value> {
         let count = flags.iter().filter(|&&flag| flag).count();
         (!flags.is_empty()).then(|| count as f64 / flags.len() as f64)
     };
-    // Where the measurement is not one of the model itself, the mesh decides how near the truth an answer can be.
+    // Where the measurement is not one of the model itself, the mesh decides how near the reference an answer can be.
     let deviation = |outcome: &frfit::identify::Identified| {
-        let truth = law.at(outcome.frequency_hz).ok()?;
-        Some((outcome.factor()? - truth).norm() / truth.norm())
+        let reference = law.at(outcome.frequency_hz).ok()?;
+        Some((outcome.factor()? - reference).norm() / reference.norm())
     };
-    // Of the answers with error bars that are called ok, those that have the truth within two standard deviations: 0.95 is right.
+    // Of the answers with error bars that are called ok, those that have the reference within two standard deviations: 0.95 is right.
     let covered = |off: &dyn Fn(&frfit::identify::Identified, c64) -> Option<f64>| {
         let ok = run.outcomes.iter().filter(|outcome| outcome.status == Status::Ok);
         let within: Vec<bool> =
@@ -205,9 +207,9 @@ fn truth(identify: &IdentifyCase, run: &IdentifyRun) -> Option<Value> {
     };
     Some(json!({
         "covered": {
-            "storage": covered(&|o, truth| Some((o.storage()? - truth.re).abs() / o.uncertainty?.storage_std)),
-            "loss_factor": covered(&|o, truth| {
-                Some((o.loss_factor()? - loss_factor(truth)).abs() / o.uncertainty?.loss_factor_std?)
+            "storage": covered(&|o, reference| Some((o.storage()? - reference.re).abs() / o.uncertainty?.storage_std)),
+            "loss_factor": covered(&|o, reference| {
+                Some((o.loss_factor()? - loss_factor(reference)).abs() / o.uncertainty?.loss_factor_std?)
             }),
         },
         "deviation": spread(run, deviation),

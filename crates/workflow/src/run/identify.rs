@@ -355,8 +355,8 @@ impl IdentifyRun {
     }
 
     /// The largest estimated error of the subspace's response, relative to the measured one, over all answers; `None` where the full model answered.
-    pub fn certificate(&self) -> Option<f64> {
-        self.outcomes.iter().filter_map(|outcome| outcome.certificate).reduce(f64::max)
+    pub fn reduction_error(&self) -> Option<f64> {
+        self.outcomes.iter().filter_map(|outcome| outcome.reduction_error).reduce(f64::max)
     }
 
     /// The bands [first, last] in Hz of neighbouring frequencies with this status.
@@ -364,13 +364,13 @@ impl IdentifyRun {
         bands_hz(self.outcomes.iter().map(|outcome| (outcome.frequency_hz, outcome.status == status)))
     }
 
-    /// Whether each frequency's updated factor is the truth to a relative tolerance; `None` where no truth is known.
-    pub fn right(&self, truth: impl Fn(f64) -> Option<c64>, tolerance: f64) -> Option<Vec<bool>> {
+    /// Whether each frequency's updated factor is the reference to a relative tolerance; `None` where no reference is known.
+    pub fn right(&self, reference: impl Fn(f64) -> Option<c64>, tolerance: f64) -> Option<Vec<bool>> {
         self.outcomes
             .iter()
             .map(|outcome| {
-                let truth = truth(outcome.frequency_hz)?;
-                let close = |factor: c64| (factor - truth).norm() <= tolerance * truth.norm();
+                let reference = reference(outcome.frequency_hz)?;
+                let close = |factor: c64| (factor - reference).norm() <= tolerance * reference.norm();
                 Some(outcome.factor().is_some_and(close))
             })
             .collect()

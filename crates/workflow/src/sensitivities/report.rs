@@ -41,7 +41,7 @@ pub(super) fn text(case: &Case, run: &SensitivityRun) -> Words {
                 add(false, "told apart", format!("all parameters, each to {} or better", percent(KNOWN)));
             }
             for group in &groups {
-                add(true, "not told apart", in_words(&case.model, &run.variables, resolved, group));
+                add(true, "inseparable", in_words(&case.model, &run.variables, resolved, group));
             }
         }
         None => add(true, "told apart", "the singular values of the Jacobian were not found".to_owned()),

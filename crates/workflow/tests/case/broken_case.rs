@@ -43,6 +43,8 @@ fn a_key_with_its_old_name_is_refused_with_the_new_one() {
         ("robust = false", "reject_outliers"),
         ("most_lines = 20", "max_lines"),
         ("leave_out_hz = [50.0]", "exclude_hz"),
+        ("nominal = \"estimate\"", "start"),
+        ("truth = 1.0", "reference"),
     ] {
         let text = edited("case.toml", "[identify]", &format!("[identify]\n{old}"));
         let folder = folder("case.toml", Some(text.as_bytes()));
@@ -116,11 +118,11 @@ fn keys_that_are_unknown_or_missing() {
             "case.toml:32:12: identify.bounds: expected a known key, of which \"storage\" is nearest, found \"storag\"",
         ),
         (
-            "truth = {",
-            "truth = { storage = 1, ",
-            "case.toml:33:11: identify.truth: expected a known key (law, e0, e1, alpha), found \"storage\"",
+            "reference = {",
+            "reference = { storage = 1, ",
+            "case.toml:33:15: identify.reference: expected a known key (law, e0, e1, alpha), found \"storage\"",
         ),
-        ("e1 = 2.0e4, ", "", "case.toml:33:9: identify.truth: expected the key \"e1\", found none"),
+        ("e1 = 2.0e4, ", "", "case.toml:33:13: identify.reference: expected the key \"e1\", found none"),
         (
             "[identify]\nmatrix = \"springs\"",
             "[identify]",
@@ -385,15 +387,11 @@ fn options_and_bands() {
             "method = \"series\"\nselection = \"joint\"",
             "case.toml:32:1: identify.selection: expected \"smallest\" with method \"series\", found \"joint\"",
         ),
+        ("order = 20", "start = 2e5", "case.toml:31:1: identify.start: expected a text in quotes, found 2e5"),
         (
             "order = 20",
-            "nominal = 2e5",
-            "case.toml:31:1: identify.nominal: expected a text in quotes, found 2e5",
-        ),
-        (
-            "order = 20",
-            "nominal = \"guess\"",
-            "case.toml:31:1: identify.nominal: expected \"estimate\" (a nominal value is the factor of the matrix), found \"guess\"",
+            "start = \"guess\"",
+            "case.toml:31:1: identify.start: expected \"bounds\" (a nominal value is the factor of the matrix), found \"guess\"",
         ),
         (
             "order = 20",
@@ -408,22 +406,22 @@ fn options_and_bands() {
         (
             "alpha = 0.5",
             "alpha = 5",
-            "case.toml:33:55: identify.truth.alpha: expected a number from 0 (elastic) to 1 (viscous), found 5",
+            "case.toml:33:59: identify.reference.alpha: expected a number from 0 (elastic) to 1 (viscous), found 5",
         ),
         (
             "alpha = 0.5",
             "alpha = inf",
-            "case.toml:33:55: identify.truth.alpha: expected a finite number, found inf",
+            "case.toml:33:59: identify.reference.alpha: expected a finite number, found inf",
         ),
         (
             "law = \"fractional\"",
             "law = \"fractal\"",
-            "case.toml:33:11: identify.truth.law: expected \"fractional\", \"zener\" or \"maxwell\", found \"fractal\"",
+            "case.toml:33:15: identify.reference.law: expected \"fractional\", \"zener\" or \"maxwell\", found \"fractal\"",
         ),
         (
-            "truth = { law = \"fractional\", e0 = 1.0e5, e1 = 2.0e4, alpha = 0.5 }",
-            "truth = \"x.csv\"",
-            "case.toml:33:1: identify.truth: expected a finite number, { storage = ..., loss_factor = ... }, { law = \"fractional\", e0 = ..., e1 = ..., alpha = ... }, { law = \"zener\", ... }, { law = \"maxwell\", ... } or { table = \"file\" }, found the text \"x.csv\"",
+            "reference = { law = \"fractional\", e0 = 1.0e5, e1 = 2.0e4, alpha = 0.5 }",
+            "reference = \"x.csv\"",
+            "case.toml:33:1: identify.reference: expected a finite number, { storage = ..., loss_factor = ... }, { law = \"fractional\", e0 = ..., e1 = ..., alpha = ... }, { law = \"zener\", ... }, { law = \"maxwell\", ... } or { table = \"file\" }, found the text \"x.csv\"",
         ),
         ("points = 4", "points = 0", "case.toml:36:1: respond.points: expected 1 to 1000000, found 0"),
         (
@@ -450,7 +448,7 @@ fn options_and_bands() {
         (
             "e1 = 2.0e4",
             "e1 = 1e308",
-            "case.toml:33:9: identify.truth: expected a factor with a value at 10 Hz, found inf+infi",
+            "case.toml:33:13: identify.reference: expected a factor with a value at 10 Hz, found inf+infi",
         ),
     ] {
         refused("case.toml", &edited("case.toml", from, to), message);

@@ -37,7 +37,7 @@ matrix = "springs"
 band_hz = [10.0, 30.0]
 order = 20
 bounds = { storage = [1e5, 1e6], loss_factor = [0.0, 1.0] }
-truth = { law = "fractional", e0 = 1.0e5, e1 = 2.0e4, alpha = 0.5 }
+reference = { law = "fractional", e0 = 1.0e5, e1 = 2.0e4, alpha = 0.5 }
 [respond]
 band_hz = [10, 40]
 points = 4

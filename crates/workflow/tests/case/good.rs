@@ -38,7 +38,7 @@ fn everything_that_a_case_says_is_there() {
     let bounds = Bounds { storage: Some([1e5, 1e6]), loss_factor: Some([0.0, 1.0]) };
     assert_eq!(identify.options, Options { order: 20, bounds, ..Options::default() });
     assert_eq!((identify.band_hz, &identify.frequency_hz[..]), ([10.0, 30.0], &[10.0, 20.0, 30.0][..]));
-    assert_eq!(identify.truth, Some(Law::Fractional { e0: 1e5, e1: 2e4, alpha: 0.5 }));
+    assert_eq!(identify.reference, Some(Law::Fractional { e0: 1e5, e1: 2e4, alpha: 0.5 }));
     assert_eq!(case.respond_hz, [10.0, 20.0, 30.0]);
 }
 
@@ -124,7 +124,7 @@ fn deviations_are_those_of_the_receptance_and_coherence_gives_them_up_to_a_facto
 #[test]
 fn an_estimated_nominal_is_the_middle_of_the_bounds() {
     let estimate = |bounds: &str| {
-        let text = edited("case.toml", "order = 20", "order = 20\nnominal = \"estimate\"");
+        let text = edited("case.toml", "order = 20", "order = 20\nstart = \"bounds\"");
         let text = text.replace("storage = [1e5, 1e6]", bounds);
         with("case.toml", text.as_bytes(), &Overrides::default(), Purpose::Identify)
     };
@@ -134,7 +134,7 @@ fn an_estimated_nominal_is_the_middle_of_the_bounds() {
     assert!(identify.options.whole_box);
     let error = estimate("storage = [0, 1]").unwrap_err().to_string();
     assert!(
-        error.ends_with("expected bounds.storage above zero, to estimate the nominal from, found [0, 1]"),
+        error.ends_with("expected bounds.storage above zero, to begin in the middle of, found [0, 1]"),
         "{error}"
     );
 }

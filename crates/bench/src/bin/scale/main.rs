@@ -78,7 +78,7 @@ fn table(costs: &[Cost]) -> Table {
         "solves",
         "vectors",
         "right",
-        "certificate",
+        "reduction_error",
         "measurement",
         "checked",
     ];
@@ -101,7 +101,7 @@ fn table(costs: &[Cost]) -> Table {
             run.found.work.solves.to_string(),
             run.found.subspace_size.map_or("–".to_owned(), |size| size.to_string()),
             run.score.to_string(),
-            or_none(run.certificate()),
+            or_none(run.reduction_error()),
             or_none(Some(measurement.truncation)),
             or_none(measurement.checked),
         ]);

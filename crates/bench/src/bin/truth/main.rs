@@ -40,7 +40,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         "factorisations",
         "solves",
         "vectors",
-        "certificate",
+        "reduction_error",
         "CPU (s)",
     ];
     let mut table = Table::new(heading);
@@ -89,7 +89,7 @@ fn add(
             joint.found.work.factorisations.to_string(),
             joint.found.work.solves.to_string(),
             or_none(joint.found.subspace_size.map(|size| size.to_string())),
-            or_none(joint.certificate().map(|certificate| format!("{certificate:.1e}"))),
+            or_none(joint.reduction_error().map(|error| format!("{error:.1e}"))),
             format!("{:.2}", joint.cpu),
         ]);
     }

@@ -144,7 +144,8 @@ pub fn identify_band_scaled(
         let (outcome, found) = with_scales(band, &at, &mut space, unknown, options, hooks);
         (outcome, found.unwrap_or_else(|| vec![Calibration::default(); unknown.len()]))
     };
-    Ok(near_or_far(&on_subspace(options), run))
+    let (outcome, found) = near_or_far(&on_subspace(options), run);
+    Ok((outcome.judged_by_fit(), found))
 }
 
 /// Moduli and calibrations on a subspace; `None` where the data do not tell the latter.
@@ -221,11 +222,11 @@ impl Scaled {
 
 /// The frequencies whose answers are beyond doubt but for their size: (frequency, correction).
 fn answers(outcome: &BandOutcome) -> Vec<(usize, c64)> {
-    let trusted = |status| matches!(status, Status::Ok | Status::IllConditioned);
+    let trusted = |status| matches!(status, Status::Ok | Status::NotIdentifiable | Status::Failed);
     let linear = |bars: Option<crate::identify::Uncertainty>| bars.is_none_or(|bars| bars.is_linear());
     let all = outcome.outcomes.iter().enumerate();
     all.filter(|(_, o)| trusted(o.status) && linear(o.uncertainty))
-        .filter_map(|(i, o)| Some((i, o.correction?)))
+        .filter_map(|(i, o)| Some((i, o.correction.filter(|_| o.on_path)?)))
         .collect()
 }
 
@@ -455,7 +456,7 @@ impl CalibrationEstimate {
                 bars.correlation = Some(common / (bars.storage_std * wider)).filter(|c| c.is_finite());
             }
             if own.status == Status::Ok && !bars.is_known(factor) {
-                own.status = Status::IllConditioned;
+                own.status = Status::NotIdentifiable;
             }
         }
     }

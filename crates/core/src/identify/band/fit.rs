@@ -64,7 +64,8 @@ pub(super) fn goodness(
     noise: &NoiseLevel,
     band: &Band<'_>,
 ) -> Option<GoodnessOfFit> {
-    let each: Vec<f64> = outcomes.iter().filter_map(|outcome| outcome.chi_squared).collect();
+    let on_path = outcomes.iter().filter(|outcome| outcome.on_path);
+    let each: Vec<f64> = on_path.filter_map(|outcome| outcome.chi_squared).collect();
     let chi_squared = freedom as f64 * each.iter().sum::<f64>();
     judge(chi_squared, (freedom * each.len()).saturating_sub(fitted), noise, band.noise)
 }
@@ -122,7 +123,7 @@ pub(super) fn sensor_misfit(
     level: Option<f64>,
 ) -> Option<f64> {
     let square = |k: usize| {
-        let x = outcomes[k].updated_response.get(sensor)?;
+        let x = outcomes[k].updated_response.get(sensor).filter(|_| outcomes[k].on_path)?;
         Some((measured[k][sensor] - x).norm_sqr() / (2.0 * (level? * sigma[k][sensor]).powi(2)))
     };
     let squares: Vec<f64> = (0..outcomes.len()).filter_map(square).filter(|s| s.is_finite()).collect();

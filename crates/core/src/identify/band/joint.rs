@@ -115,8 +115,14 @@ pub(super) fn identify<'a>(
     work += spent;
     let BandSolution { found, explored, selected: (choices, _) } = solved;
     let noise = task.noise_level(&found, &choices);
+    let path: Vec<(usize, c64)> = (0..at.len())
+        .filter_map(|i| {
+            Some((i, at[i].parameters[0].nominal + found[i].solutions[choices[i].chosen?].correction))
+        })
+        .collect();
     let outcomes: Vec<Identified> = map(hooks.for_each, at.len(), |i| {
-        let chosen = choices[i].chosen.map(|k| &found[i].solutions[k]);
+        let solution = choices[i].chosen.or_else(|| likeliest(&task.fit(i), &found[i], &path, i));
+        let chosen = solution.map(|k| &found[i].solutions[k]);
         let on_space = space.as_ref().zip(chosen.map(|solution| solution.correction));
         let weighed = |second: Vec<c64>| task.fit(i).weighed(&second);
         // The poles have it without another factorisation; how nearly linear something is takes few digits.
@@ -128,6 +134,7 @@ pub(super) fn identify<'a>(
         let evidence = Evidence {
             at: &at[i],
             measured: &band.measured[i],
+            solution,
             left_out: &out,
             noise: noise.level,
             freedom: task.freedom(),
@@ -176,6 +183,32 @@ fn on_full_model(task: &Task<'_, '_>) -> (Vec<Candidates>, Work) {
     let mut work = Work::default();
     found.iter().for_each(|(_, own)| work += *own);
     (found.into_iter().map(|(explored, _)| explored).collect(), work)
+}
+
+/// Standard deviation of ln E between neighbouring lines by which solutions of a line off the path are compared.
+const OFF_PATH: f64 = 0.1;
+
+/// Of the solutions at a line that the path leaves out the likeliest: by the sensors' misfit, and by the way from the path between
+/// its neighbours.
+fn likeliest(fit: &Fit<'_>, found: &Candidates, path: &[(usize, c64)], i: usize) -> Option<usize> {
+    let after = path.partition_point(|&(k, _)| k < i);
+    let neighbours = [after.checked_sub(1), Some(after)].map(|k| k.and_then(|k| path.get(k)));
+    let between = match neighbours {
+        [Some(&(a, from)), Some(&(b, to))] => {
+            Some(from.ln() + (to.ln() - from.ln()) * ((i - a) as f64 / (b - a) as f64))
+        }
+        [one, other] => one.or(other).map(|&(_, factor)| factor.ln()),
+    };
+    let least = found.solutions.iter().map(|s| s.misfit).min_by(f64::total_cmp)?;
+    let scale = (least / fit.measured.len().max(1) as f64).max(f64::MIN_POSITIVE);
+    let cost = |k: &usize| {
+        let solution = &found.solutions[*k];
+        let way = between.map_or(0.0, |log| ((fit.nominal + solution.correction).ln() - log).norm());
+        // With one sensor every solution fits: the way alone tells.
+        let misfit = if fit.measured.len() > 1 { solution.misfit / scale } else { 0.0 };
+        misfit + (way / OFF_PATH).powi(2)
+    };
+    (0..found.solutions.len()).min_by(|a, b| cost(a).total_cmp(&cost(b)))
 }
 
 fn nodes(found: &Candidates, nominal: c64) -> Vec<Node> {

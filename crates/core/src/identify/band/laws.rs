@@ -10,7 +10,7 @@ use super::fit::{Explained, GoodnessOfFit, judge};
 use super::joint;
 use super::noise::{NoiseLevel, NoiseSource, deviations};
 use super::outlier_sensor::without;
-use super::reduced_band::{ReducedBand, certificate};
+use super::reduced_band::{ReducedBand, reduction_error};
 use super::{Band, BandOutcome, Context, Noise, Stage, near_or_far, on_subspace};
 use crate::c64;
 use crate::for_each::map;
@@ -70,9 +70,9 @@ pub(super) const APART: f64 = 3.0;
 /// Fits laws to a band, and takes the one of least BIC.
 ///
 /// The selection is joint, and what answers is the subspace, whatever the options say: on the full model every step would take a factorisation at each frequency. Statuses
-/// are those of the law at each frequency: `ok`; `no_root` where it breaks the bounds or leaves more than noise and `options.error` (what it leaves on average is noise only if
-/// [`LawsOutcome::fit`] says so); `ambiguous` where another minimum
-/// that cannot be excluded has another modulus; `ill_conditioned` where the search did not settle, the deviation is half the modulus, or the subspace is not good enough.
+/// are those of the law at each frequency: `no_root` without a value where it breaks the bounds; `unexplained` where it leaves more than noise and `options.error`, or
+/// [`LawsOutcome::fit`] says "not explained"; `ambiguous` where another minimum that cannot be excluded has another modulus; `not_identifiable` where the deviation is half the
+/// modulus; `failed` where the search did not converge or the reduced model is not good enough.
 ///
 /// # Errors
 /// [`OutsideTable`] where a table does not reach a frequency.
@@ -185,6 +185,9 @@ pub fn identify_laws_scaled(
     let mut work = free.work;
     work += space.work().since(before);
     let subspace_size = Some(space.size());
+    let within = |outcome: Identified| Identified { status: outcome.status.within(fit), ..outcome };
+    let outcomes = outcomes.into_iter().map(within).collect();
+    let free = free.judged_by_fit();
     Ok(LawsOutcome { outcomes, fits, channels: told_channels, fit, work, subspace_size, free })
 }
 
@@ -394,7 +397,7 @@ impl Fitting<'_, '_> {
         });
         let Some((estimate, correction, assessed)) = found else { return own.unanswered() };
         let mut outcome = own.unanswered();
-        let certified = certificate(&assessed, estimate.modulus, measured);
+        let certified = reduction_error(&assessed, estimate.modulus, measured);
         let error = relative_error(measured, &assessed.response);
         let misfit = misfit(measured, &assessed.response, &self.sigma[i]);
         let counted = self.sigma[i].iter().filter(|sigma| sigma.is_finite()).count();
@@ -417,22 +420,24 @@ impl Fitting<'_, '_> {
             });
         outcome.error = Some(error).filter(|error| error.is_finite());
         outcome.spectral_radius = outcome.radius.map(|radius| radius.at(correction));
-        outcome.certificate = Some(certified.response).filter(|c| c.is_finite());
+        outcome.reduction_error = Some(certified.response).filter(|c| c.is_finite());
         outcome.updated_response = assessed.response;
         let apart = |rival: &c64| (rival - estimate.modulus).norm() > APART * std.unwrap_or(f64::INFINITY);
         let rivals = law.rivals_at(self.band.frequency_hz[i]).into_iter().filter(apart);
         outcome.alternatives = rivals.map(|rival| rival - own.nominal).collect();
         let unexplained = error > self.options.error && rms > UNEXPLAINED * noise;
         let known = std.is_some_and(|std| std <= UNKNOWN * size);
-        outcome.status = if unexplained || self.options.bounds.broken_by(estimate.modulus).is_some() {
-            Status::NoRoot
-        } else if !outcome.alternatives.is_empty() {
-            Status::Ambiguous
-        } else if !law.converged || !known || certified.factor > self.options.certain {
-            Status::IllConditioned
-        } else {
-            Status::Ok
-        };
+        outcome.on_path = true;
+        outcome.status = Status::of([
+            (unexplained, Status::Unexplained),
+            (!outcome.alternatives.is_empty(), Status::Ambiguous),
+            (!law.converged, Status::Failed),
+            (!known, Status::NotIdentifiable),
+            (certified.factor > self.options.certain, Status::Failed),
+        ]);
+        if self.options.bounds.broken_by(estimate.modulus).is_some() {
+            outcome.forget_value(Status::NoRoot);
+        }
         outcome
     }
 }

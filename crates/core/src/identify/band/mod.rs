@@ -36,7 +36,7 @@ pub(super) use candidates::Fit;
 pub(super) use fit::judge;
 pub(super) use laws::{ROUNDS, UNEXPLAINED, nearest};
 pub(super) use noise::deviations;
-pub(super) use reduced_band::{BOX, TRAINED, certificate, is_certain, thinned};
+pub(super) use reduced_band::{BOX, TRAINED, is_certain, reduction_error, thinned};
 
 pub use fit::{Explained, GoodnessOfFit, SensorFit};
 pub use noise::{NoiseLevel, NoiseSource};
@@ -112,7 +112,7 @@ pub struct BandOutcome {
 
 /// Identifies the first parameter at every frequency of a band.
 ///
-/// With the subspace (B-3) every answer carries a certificate; where it cannot be built, the full model answers. The joint selection (B-4, B-5) finds
+/// With the subspace (B-3) every answer carries its reduction error; where it cannot be built, the full model answers. The joint selection (B-4, B-5) finds
 /// every solution within the bounds at every sensor, fits it to all sensors, and chooses one path through all; the other one is
 /// [`super::identify_at`] at each frequency. Answers are looked for within a factor of four of the nominal, and in the whole of the bounds where that
 /// leaves most of the band without any.
@@ -130,7 +130,7 @@ pub fn identify_band(
     assert!(!band.frequency_hz.is_empty() && band.measured.len() == band.frequency_hz.len());
     let at = band.model.at_all(band.frequency_hz, std::slice::from_ref(band.parameter))?;
     let run = |options: &Options| (identify_at_all(band, &at, options, hooks), ());
-    Ok(near_or_far(&near_and_far(options), run).0)
+    Ok(near_or_far(&near_and_far(options), run).0.judged_by_fit())
 }
 
 /// Options to look near the nominal, and in the whole of the bounds.
@@ -164,7 +164,13 @@ fn near_or_far<'o, T>(
 impl BandOutcome {
     /// How many frequencies have an answer.
     fn answered(&self) -> usize {
-        self.outcomes.iter().filter(|outcome| outcome.correction.is_some()).count()
+        self.outcomes.iter().filter(|outcome| outcome.on_path).count()
+    }
+
+    /// With statuses that the fit of the band allows.
+    fn judged_by_fit(mut self) -> Self {
+        self.outcomes.iter_mut().for_each(|outcome| outcome.status = outcome.status.within(self.fit));
+        self
     }
 
     /// The sensors that are left out.

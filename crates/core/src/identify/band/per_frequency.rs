@@ -1,7 +1,7 @@
 //! Each frequency by itself, on the full model or on the subspace.
 
 use super::noise::NoiseLevel;
-use super::reduced_band::{ReducedBand, certificate};
+use super::reduced_band::{ReducedBand, reduction_error};
 use super::{Band, BandOutcome, Context, Stage};
 use crate::for_each::map;
 use crate::identify::{Identified, Options, Status, identify_at};
@@ -38,12 +38,12 @@ pub(super) fn identify<'a>(
             let outcomes = found.into_iter().enumerate().map(|(i, mut outcome)| {
                 if let Some(correction) = outcome.correction {
                     let assessed = space.assess(i, correction);
-                    let certified =
-                        assessed.map(|a| certificate(&a, outcome.nominal + correction, &band.measured[i]));
-                    outcome.certificate =
+                    let certified = assessed
+                        .map(|a| reduction_error(&a, outcome.nominal + correction, &band.measured[i]));
+                    outcome.reduction_error =
                         certified.map(|certified| certified.response).filter(|c| c.is_finite());
                     if outcome.status == Status::Ok && certified.is_none_or(|c| c.factor > options.certain) {
-                        outcome.status = Status::IllConditioned;
+                        outcome.status = Status::Failed;
                     }
                 }
                 outcome

@@ -302,17 +302,21 @@ pub(in crate::identify) fn thinned<T>(all: &[T], most: usize) -> impl Iterator<I
 
 /// What the subspace may have done to an answer.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(in crate::identify) struct Certificate {
+pub(in crate::identify) struct ReductionError {
     /// Estimated error of the response over all sensors, relative to the measured one.
     pub(in crate::identify) response: f64,
     /// What that does to the factor, relative.
     pub(super) factor: f64,
 }
 
-pub(in crate::identify) fn certificate(assessed: &Assessment, factor: c64, measured: &[c64]) -> Certificate {
+pub(in crate::identify) fn reduction_error(
+    assessed: &Assessment,
+    factor: c64,
+    measured: &[c64],
+) -> ReductionError {
     let norm = |values: &mut dyn Iterator<Item = f64>| values.map(|v| v * v).sum::<f64>().sqrt();
     let error = norm(&mut (0..measured.len()).map(|m| assessed.error(m)));
     let size = norm(&mut measured.iter().map(|u| u.norm()));
     let slope = norm(&mut assessed.slope.iter().map(|slope| slope.norm()));
-    Certificate { response: error / size, factor: error / (slope * factor.norm()) }
+    ReductionError { response: error / size, factor: error / (slope * factor.norm()) }
 }

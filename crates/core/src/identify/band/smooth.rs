@@ -11,7 +11,7 @@ use super::fit::{judge, sensor_misfit};
 use super::laws::{APART, MOVED, ROUNDS, UNEXPLAINED};
 use super::noise::{LEAST_LEVEL, deviations};
 use super::outlier_sensor::without;
-use super::reduced_band::{ReducedBand, certificate};
+use super::reduced_band::{ReducedBand, reduction_error};
 use super::{
     Band, BandOutcome, Context, Noise, NoiseLevel, NoiseSource, SensorFit, Stage, keeping_space, near_or_far,
     on_subspace,
@@ -68,8 +68,8 @@ const OUTLIERS: f64 = 0.25;
 /// Identifies a modulus that is smooth over the band, and no smoother than the data say.
 ///
 /// The selection is joint, and what answers is the subspace, whatever the options say. Statuses are those of a single frequency ([`super::identify_band`]), judged at the
-/// smooth modulus and its error bars: `ambiguous` is where the path that it follows was; `no_root` where the modulus breaks the bounds, or leaves more than noise and
-/// `options.error`: such a frequency has no say in the others.
+/// smooth modulus and its error bars: `ambiguous` is where the path that it follows was; `no_root` where the modulus breaks the bounds; `unexplained` where it leaves more
+/// than noise and `options.error`: such a frequency has no say in the others.
 ///
 /// # Errors
 /// [`OutsideTable`] where a table does not reach a frequency.
@@ -122,7 +122,11 @@ pub fn identify_smooth(
     let subspace_size = Some(space.size());
     let smoothed =
         BandOutcome { outcomes, work, subspace_size, explored: free.explored, noise, fit, sensors };
-    Ok(SmoothOutcome { free, band: smoothed, curve: Some(smoothing.curve(fitted)) })
+    Ok(SmoothOutcome {
+        free: free.judged_by_fit(),
+        band: smoothed.judged_by_fit(),
+        curve: Some(smoothing.curve(fitted)),
+    })
 }
 
 /// What is to be explained, and with what.
@@ -212,8 +216,9 @@ impl Smoothing<'_, '_> {
         let own = |i: usize| {
             let none = Observation { x: self.log_omega(i), value: [0.0; 2], weight: 0.0 };
             let outcome = &free.outcomes[i];
-            let answer =
-                outcome.factor().filter(|factor| factor.re > 0.0 && outcome.status != Status::NoRoot);
+            let answer = outcome
+                .factor()
+                .filter(|factor| factor.re > 0.0 && outcome.on_path && outcome.status != Status::Unexplained);
             let told = answer.and_then(|factor| {
                 let (_, slope) =
                     space.model(i).respond_with_slope(&self.at[i], factor - outcome.nominal).ok()?;
@@ -385,7 +390,7 @@ impl Smoothing<'_, '_> {
             return Judged { outcome, chi_squared: 0.0, freedom: 0.0 };
         };
         let level = noise.level.unwrap_or(1.0);
-        let certified = certificate(&assessed, factor, measured);
+        let certified = reduction_error(&assessed, factor, measured);
         let variance = fitted.smoothed.curve.variance[i];
         let second = space.second_derivative(i, correction);
         let second = second.map_or(f64::INFINITY, |second| weighed(&second, &self.sigma[i]));
@@ -401,25 +406,24 @@ impl Smoothing<'_, '_> {
         outcome.uncertainty = Some(bars).filter(|bars| bars.correction_std.is_finite());
         outcome.chi_squared = Some(chi_squared / freedom).filter(|chi_squared| chi_squared.is_finite());
         outcome.spectral_radius = outcome.radius.map(|radius| radius.at(correction));
-        outcome.certificate = Some(certified.response).filter(|c| c.is_finite());
-        outcome.status = if self.is_unexplained(i, &assessed.response, level)
-            || self.options.bounds.broken_by(factor).is_some()
-        {
-            Status::NoRoot
-        } else if is_ambiguous(free, i) {
+        outcome.reduction_error = Some(certified.response).filter(|c| c.is_finite());
+        let ambiguous = is_ambiguous(free, i);
+        if ambiguous {
             let apart = |other: &&c64| (own.nominal + **other - factor).norm() > APART * bars.correction_std;
             outcome.alternatives = own.alternatives.iter().filter(apart).copied().collect();
-            Status::Ambiguous
-        } else if !fitted.converged
-            || certified.factor > self.options.certain
-            || !bars.is_known(factor)
-            || !bars.is_linear()
-        {
-            Status::IllConditioned
-        } else {
-            Status::Ok
-        };
+        }
+        outcome.on_path = true;
+        outcome.status = Status::of([
+            (self.is_unexplained(i, &assessed.response, level), Status::Unexplained),
+            (ambiguous, Status::Ambiguous),
+            (!fitted.converged, Status::Failed),
+            (!bars.is_known(factor) || !bars.is_linear(), Status::NotIdentifiable),
+            (certified.factor > self.options.certain, Status::Failed),
+        ]);
         outcome.updated_response = assessed.response;
+        if self.options.bounds.broken_by(factor).is_some() {
+            outcome.forget_value(Status::NoRoot);
+        }
         Judged { outcome, chi_squared, freedom }
     }
 
@@ -479,9 +483,9 @@ fn between(from: &[State], to: &[State], part: f64) -> Vec<State> {
 
 /// Whether the path is ambiguous at a frequency; one that has no answer of its own is if the nearest that have one on either side are.
 fn is_ambiguous(free: &[Identified], i: usize) -> bool {
-    let answered = |o: &&Identified| o.correction.is_some();
+    let answered = |o: &&Identified| o.on_path;
     let ambiguous = |o: &Identified| o.status == Status::Ambiguous;
-    if free[i].correction.is_some() {
+    if free[i].on_path {
         return ambiguous(&free[i]);
     }
     let before = free[..i].iter().rev().find(answered);

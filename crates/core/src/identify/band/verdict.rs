@@ -1,7 +1,7 @@
 //! From the choice at a frequency to its outcome.
 
 use super::candidates::Candidates;
-use super::reduced_band::certificate;
+use super::reduced_band::reduction_error;
 use crate::c64;
 use crate::identify::{Identified, Options, Status, Uncertainty, relative_error};
 use crate::model::ModelAt;
@@ -14,6 +14,8 @@ use crate::subspace::Assessment;
 pub(super) struct Evidence<'a> {
     pub(super) at: &'a ModelAt<'a>,
     pub(super) measured: &'a [c64],
+    /// The solution that is given: the chosen one, or the likeliest of a line that the path leaves out.
+    pub(super) solution: Option<usize>,
     /// Sensors that count for nothing.
     pub(super) left_out: &'a [usize],
     /// Noise over the assumed deviations.
@@ -45,16 +47,16 @@ pub(super) fn verdict(
         converged: true,
     });
     outcome.breakdown = found.breakdown.clone();
-    let Some(chosen) = choice.chosen.map(|k| &found.solutions[k]) else {
-        // Solutions, but none that belongs to the others: more than one answer is possible, or none is right.
-        outcome.alternatives = choice.alternatives.iter().map(|&k| found.solutions[k].correction).collect();
-        outcome.status = match (&found.breakdown, found.solutions.is_empty()) {
-            (Some(_), _) => Status::IllConditioned,
-            (None, true) => Status::NoRoot,
-            (None, false) => Status::Ambiguous,
-        };
+    let Some(chosen) = evidence.solution.map(|k| &found.solutions[k]) else {
+        outcome.status = if found.breakdown.is_some() { Status::Failed } else { Status::NoRoot };
         return outcome;
     };
+    outcome.on_path = choice.chosen.is_some();
+    let mut rivals = choice.alternatives.clone();
+    if !outcome.on_path {
+        // Solutions, but none that belongs to those of the other lines: more than one is possible, or none is right.
+        rivals = (0..found.solutions.len()).filter(|&k| evidence.solution != Some(k)).collect();
+    }
     let factor = nominal + chosen.correction;
     let kept = |values: &[c64]| -> Vec<c64> {
         let kept = values.iter().enumerate().filter(|(m, _)| !evidence.left_out.contains(m));
@@ -65,13 +67,13 @@ pub(super) fn verdict(
     outcome.error = Some(error).filter(|error| error.is_finite());
     outcome.spectral_radius = outcome.radius.map(|radius| radius.at(chosen.correction));
     outcome.updated_response = chosen.response.clone();
-    outcome.alternatives = choice.alternatives.iter().map(|&k| found.solutions[k].correction).collect();
-    outcome.series_order = found.poles.as_ref().and_then(|poles| {
-        let order = |m| poles.series_order(m, chosen.correction, SERIES_ERROR);
+    outcome.alternatives = rivals.iter().map(|&k| found.solutions[k].correction).collect();
+    outcome.required_order = found.poles.as_ref().and_then(|poles| {
+        let order = |m| poles.required_order(m, chosen.correction, SERIES_ERROR);
         (0..evidence.measured.len()).map(order).try_fold(0, |most, n| Some(most.max(n?)))
     });
-    let certified = evidence.assessment.as_ref().map(|a| certificate(a, factor, evidence.measured));
-    outcome.certificate = certified.map(|certified| certified.response).filter(|c| c.is_finite());
+    let certified = evidence.assessment.as_ref().map(|a| reduction_error(a, factor, evidence.measured));
+    outcome.reduction_error = certified.map(|certified| certified.response).filter(|c| c.is_finite());
     let noise = evidence.noise.unwrap_or(0.0);
     let square = chosen.misfit / evidence.freedom.max(1) as f64;
     let unexplained = error > options.error && square.sqrt() > UNEXPLAINED * noise;
@@ -82,15 +84,14 @@ pub(super) fn verdict(
     let unknown = uncertainty.is_some_and(|bars| !bars.is_known(factor) || !bars.is_linear());
     outcome.uncertainty = uncertainty.filter(|bars| bars.correction_std.is_finite());
     let uncertain = certified.is_some_and(|certified| certified.factor > options.certain);
-    outcome.status = if unexplained {
-        Status::NoRoot
-    } else if !outcome.alternatives.is_empty() {
-        Status::Ambiguous
-    } else if unknown || uncertain || found.unsure {
-        Status::IllConditioned
-    } else {
-        Status::Ok
-    };
+    outcome.status = Status::of([
+        (unexplained, Status::Unexplained),
+        (!outcome.alternatives.is_empty(), Status::Ambiguous),
+        // The only solution, and it contradicts those of the other lines.
+        (!outcome.on_path, Status::Unexplained),
+        (unknown, Status::NotIdentifiable),
+        (uncertain || found.unsure, Status::Failed),
+    ]);
     outcome
 }
 

@@ -30,6 +30,24 @@ pub(super) struct Own {
 pub(super) struct Coordinates {
     pub(super) each: Vec<Own>,
     pub(super) count: usize,
+    /// [low, high] of each coordinate: the bounds of constants. Those of a law are on its modulus, not on its coordinates.
+    pub(super) limits: Vec<[f64; 2]>,
+}
+
+/// A coordinate without bounds.
+const FREE: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
+
+/// ln of positive bounds, rounded so that e^θ lies within them.
+fn log_limits(bound: Option<[f64; 2]>) -> [f64; 2] {
+    let [low, high] = bound.unwrap_or([0.0, f64::INFINITY]).map(|value| value.max(0.0));
+    let (mut from, mut to) = (low.ln(), high.ln());
+    while from.exp() < low {
+        from = from.next_up();
+    }
+    while to.exp() > high {
+        to = to.next_down();
+    }
+    [from, to]
 }
 
 impl Coordinates {
@@ -40,7 +58,7 @@ impl Coordinates {
         nominal: &[c64],
         omegas: &[f64],
     ) -> Self {
-        let (mut each, mut count) = (Vec::new(), 0);
+        let (mut each, mut count, mut limits) = (Vec::new(), 0, Vec::new());
         for (j, one) in unknowns.iter().enumerate() {
             let form = match (vary(one), one.real) {
                 (Variation::PerFrequency, _) => continue,
@@ -58,10 +76,34 @@ impl Coordinates {
                 Form::Law(parametrization) => parametrization.family.count(),
                 _ => 1,
             };
+            match &form {
+                Form::Logarithm => limits.push(log_limits(one.bounds.storage)),
+                Form::Scaled(scale) => {
+                    limits.push(one.bounds.storage.unwrap_or(FREE).map(|bound| bound / scale))
+                }
+                Form::Law(law) if law.family == LawKind::Constant => {
+                    limits.extend([log_limits(one.bounds.storage), one.bounds.loss_factor.unwrap_or(FREE)]);
+                }
+                Form::Law(law) => limits.extend(vec![FREE; law.family.count()]),
+            }
             each.push(Own { unknowns: j, range: count..count + own, form });
             count += own;
         }
-        Self { each, count }
+        Self { each, count, limits }
+    }
+
+    /// θ with every coordinate within its bounds.
+    pub(super) fn within_bounds(&self, theta: &[f64]) -> Vec<f64> {
+        theta.iter().zip(&self.limits).map(|(t, [low, high])| t.clamp(*low, *high)).collect()
+    }
+
+    /// The coordinates at a bound beyond which the misfit, whose gradient is given, would be less.
+    pub(super) fn binding(&self, theta: &[f64], gradient: &[f64]) -> Vec<usize> {
+        let is_binding = |&c: &usize| {
+            let [low, high] = self.limits[c];
+            (theta[c] <= low && gradient[c] > 0.0) || (theta[c] >= high && gradient[c] < 0.0)
+        };
+        (0..self.count).filter(is_binding).collect()
     }
 
     /// θ of constants with these values; for laws `law` says where to begin.

@@ -48,9 +48,21 @@ impl Information {
         each.map(part).sum()
     }
 
-    /// The directions that are told, of length one.
-    pub(super) fn told(&self) -> Vec<Vec<f64>> {
-        self.told_from(0)
+    /// The identifiable directions of coordinates some of which are held, of length one.
+    pub(super) fn identifiable_with(jacobian: &[f64], n: usize, held: &[usize]) -> Option<Vec<Vec<f64>>> {
+        let m = jacobian.len().checked_div(n)?;
+        let free: Vec<usize> = (0..n).filter(|c| !held.contains(c)).collect();
+        if free.is_empty() {
+            return Some(Vec::new());
+        }
+        let columns: Vec<f64> =
+            free.iter().flat_map(|&c| jacobian[c * m..(c + 1) * m].iter().copied()).collect();
+        let expanded = |v: Vec<f64>| {
+            let mut all = vec![0.0; n];
+            free.iter().zip(v).for_each(|(&c, value)| all[c] = value);
+            all
+        };
+        Some(Self::new(&columns, free.len())?.told_from(0).into_iter().map(expanded).collect())
     }
 
     /// The same without the direction that is told worst.

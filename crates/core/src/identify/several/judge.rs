@@ -9,9 +9,9 @@ use super::search::{BandSolution, Place, Plane, Reach};
 use super::{Task, Unknown};
 use crate::c64;
 use crate::for_each::map;
-use crate::identify::band::{UNEXPLAINED, certificate, judge};
+use crate::identify::band::{UNEXPLAINED, judge, reduction_error};
 use crate::identify::uncertainty::{KNOWN, LEAST_LOSS};
-use crate::identify::{NoiseLevel, Status, relative_error};
+use crate::identify::{GoodnessOfFit, NoiseLevel, Status, relative_error};
 use crate::laws::LawKind;
 use crate::material::{Law, loss_factor};
 
@@ -28,6 +28,9 @@ impl Task<'_, '_> {
         let n = found.theta.len();
         let eliminated = self.eliminated(&all, &found, &found.theta, None);
         let place = eliminated.map(|eliminated| Place { theta: found.theta.clone(), eliminated });
+        let binding = place.as_ref().map_or(Vec::new(), |place| {
+            found.coordinates.binding(&place.theta, &place.eliminated.gradient())
+        });
         let information = place.as_ref().and_then(|p| Information::new(&p.eliminated.jacobian, n));
         let own: usize = self.band.unknowns.iter().map(Unknown::per_frequency).sum();
         let answered = all.iter().filter(|&&i| found.at(i).is_some()).count();
@@ -42,7 +45,7 @@ impl Task<'_, '_> {
         let at: Vec<SeveralAt> = map(self.hooks.for_each, all.len(), |i| {
             let moved =
                 place.as_ref().and_then(|p| p.eliminated.own[i].as_ref()).map(|(_, moved)| moved.as_slice());
-            self.judge_at(space, &found, i, level, information.as_ref().zip(moved))
+            self.judge_at(space, &found, i, level, fit, information.as_ref().zip(moved))
         });
         let coordinates: Vec<(usize, String)> = found
             .coordinates
@@ -76,22 +79,21 @@ impl Task<'_, '_> {
             };
             let unknowns = &self.band.unknowns[one.unknowns];
             let middle = self.band.frequency_hz[self.omegas.len() / 2];
-            let breaks = law.at(middle).is_ok_and(|value| unknowns.bounds.broken_by(value).is_some());
+            // Constants stop at their bounds; of a law the modulus is compared with them.
+            let at_bound = one.range.clone().any(|c| binding.contains(&c))
+                || law.at(middle).is_ok_and(|value| unknowns.bounds.broken_by(value).is_some());
             let is_known = |number: &Number| {
                 let least = if number.name == "loss_factor" { LEAST_LOSS } else { 0.0 };
                 number.std.is_some_and(|std| std <= KNOWN * number.value.abs().max(least))
             };
-            // What is not told has no value that could break a bound.
-            let status = if answered == 0 {
-                Status::NoRoot
-            } else if !found.converged || !numbers.iter().all(is_known) {
-                Status::IllConditioned
-            } else if breaks {
-                Status::NoRoot
-            } else {
-                Status::Ok
-            };
-            BandValue { unknowns: one.unknowns, numbers, law, status }
+            // What is not identifiable has no value that could break a bound.
+            let status = Status::of([
+                (answered == 0, Status::NoRoot),
+                (!numbers.iter().all(is_known), Status::NotIdentifiable),
+                (!found.converged, Status::Failed),
+                (at_bound, Status::NoRoot),
+            ]);
+            BandValue { unknowns: one.unknowns, numbers, law, at_bound, status: status.within(fit) }
         });
         SeveralOutcome {
             band: band.collect(),
@@ -117,6 +119,7 @@ impl Task<'_, '_> {
         found: &BandSolution,
         i: usize,
         level: Option<f64>,
+        fit: Option<GoodnessOfFit>,
         told: Option<(&Information, &[Vec<f64>])>,
     ) -> SeveralAt {
         let nominal = &self.nominal[i];
@@ -132,41 +135,43 @@ impl Task<'_, '_> {
                 .collect(),
             error: None,
             chi_squared: None,
-            certificate: None,
+            reduction_error: None,
             nominal_response: space.respond(i, nominal).map(|(x, _)| x).unwrap_or_default(),
             updated_response: Vec::new(),
         };
-        let Some(solution) = found.at(i) else {
-            if !found.solutions[i].is_empty() {
-                at.status = Status::Ambiguous;
-            }
-            return at;
-        };
+        let chosen = found.at(i);
+        // Of solutions none of which is on the path of every unknown, that of least misfit.
+        let Some(solution) = chosen.or_else(|| found.solutions[i].first()) else { return at };
+        if chosen.is_none() {
+            at.alternatives = found.solutions[i][1..].iter().map(|other| other.values.clone()).collect();
+        }
         let measured = &self.band.measured[i];
         let values = self.with_bars(found, i, solution, level, told);
         let count = 2 * measured.len();
         let chi_squared = level.map(|level| solution.misfit / (level * level * count as f64));
         let error = relative_error(measured, &solution.response);
         let assessed = space.assess(i, &solution.values);
-        let certificate =
-            assessed.map(|assessed| certificate(&assessed, solution.values[0], measured).response);
+        let reduction_error =
+            assessed.map(|assessed| reduction_error(&assessed, solution.values[0], measured).response);
         let own = |(one, value): (&Unknown, &ValueAt)| one.per_frequency() == 0 || is_known(value);
         let known = self.band.unknowns.iter().zip(&values).all(own);
         let unexplained =
             error > self.options.error && chi_squared.is_none_or(|chi| chi.sqrt() > UNEXPLAINED);
-        at.status = if unexplained {
-            Status::NoRoot
-        } else if !at.alternatives.is_empty() {
-            Status::Ambiguous
-        } else if !known || certificate.is_none_or(|certificate| certificate > self.options.certain) {
-            Status::IllConditioned
-        } else {
-            Status::Ok
-        };
+        at.status = Status::of([
+            (unexplained, Status::Unexplained),
+            (!at.alternatives.is_empty(), Status::Ambiguous),
+            (chosen.is_none(), Status::Unexplained),
+            (!known, Status::NotIdentifiable),
+            (
+                reduction_error.is_none_or(|reduction_error| reduction_error > self.options.certain),
+                Status::Failed,
+            ),
+        ])
+        .within(fit);
         at.values = values.into_iter().map(Some).collect();
         at.error = Some(error).filter(|error| error.is_finite());
         at.chi_squared = chi_squared;
-        at.certificate = certificate;
+        at.reduction_error = reduction_error;
         at.updated_response = solution.response.clone();
         at
     }

@@ -88,7 +88,7 @@ struct Task<'t, 'a> {
 ///
 /// Starts are the nominal values and points of the box of all unknowns, judged by the logarithms of the responses with everything constant over the band; what is per frequency is
 /// then freed. Unknowns that the measurements cannot tell apart are found out from the singular directions of the information, and named: their deviations are large, and their
-/// status is `ill_conditioned`.
+/// status is `not_identifiable`.
 ///
 /// # Errors
 /// [`OutsideTable`] where a table does not reach a frequency.
@@ -133,11 +133,11 @@ impl Task<'_, '_> {
             frequency_hz,
             nominal: nominal.clone(),
             values: vec![None; nominal.len()],
-            status: Status::IllConditioned,
+            status: Status::Failed,
             alternatives: Vec::new(),
             error: None,
             chi_squared: None,
-            certificate: None,
+            reduction_error: None,
             nominal_response: Vec::new(),
             updated_response: Vec::new(),
         };

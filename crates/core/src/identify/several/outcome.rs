@@ -26,8 +26,10 @@ pub struct BandValue {
     pub numbers: Vec<Number>,
     /// It as a law.
     pub law: Law,
-    /// `ok`; `ill_conditioned` where the data do not tell it to 30 %, or the search did not settle; `no_root` where it breaks its bounds, or the model explains the
-    /// measurements no better than the nominal values.
+    /// Whether it is at one of its bounds, beyond which the misfit is less.
+    pub at_bound: bool,
+    /// `ok`; `not_identifiable` where its standard deviation is above 30 %; `failed` where the search did not converge; `no_root` where it is at its bounds, or nothing was
+    /// found at any frequency; `unexplained` where the band is not explained.
     pub status: Status,
 }
 
@@ -62,7 +64,7 @@ pub struct SeveralAt {
     /// χ² of the sensors at the level of the noise, over their number of real values.
     pub chi_squared: Option<f64>,
     /// Estimated error of the reduced response, relative to the measured one.
-    pub certificate: Option<f64>,
+    pub reduction_error: Option<f64>,
     /// Receptance at the sensors with the nominal values; empty where it could not be solved.
     pub nominal_response: Vec<c64>,
     /// Receptance with the values that were found.

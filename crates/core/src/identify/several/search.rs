@@ -336,11 +336,41 @@ impl Task<'_, '_> {
         which: &[usize],
         found: &BandSolution,
     ) -> Option<(Vec<f64>, bool)> {
-        let mut place = Place {
-            theta: found.theta.clone(),
-            eliminated: self.eliminated(which, found, &found.theta, None)?,
+        let theta = found.coordinates.within_bounds(&found.theta);
+        let on_solutions = theta == found.theta;
+        let mut place = match on_solutions {
+            true => Place { eliminated: self.eliminated(which, found, &theta, None)?, theta },
+            false => {
+                let eliminated = self.eliminated(which, found, &found.theta, None)?;
+                let beyond = Place { theta: found.theta.clone(), eliminated };
+                self.moved_to(space, which, (found, &beyond), theta)?
+            }
         };
-        let basis = Information::new(&place.eliminated.jacobian, found.theta.len())?.told();
+        let mut held = found.coordinates.binding(&place.theta, &place.eliminated.gradient());
+        loop {
+            let (end, converged) = self.descend_free(space, which, (found, place), &held)?;
+            let theta = found.coordinates.within_bounds(&end.theta);
+            if theta == end.theta {
+                return Some((end.theta, converged));
+            }
+            // A coordinate that leaves its bounds is held at them, and the others are searched anew.
+            held.extend((0..theta.len()).filter(|&c| theta[c] != end.theta[c]));
+            place = self.moved_to(space, which, (found, &end), theta)?;
+        }
+    }
+
+    /// The same with some coordinates held, and no regard to bounds.
+    fn descend_free(
+        &self,
+        space: &ReducedBand<'_>,
+        which: &[usize],
+        (found, mut place): (&BandSolution, Place),
+        held: &[usize],
+    ) -> Option<(Place, bool)> {
+        let basis = Information::identifiable_with(&place.eliminated.jacobian, found.theta.len(), held)?;
+        if basis.is_empty() {
+            return Some((place, true));
+        }
         let rest = vec![0.0; basis.len()];
         for _ in 0..SEARCHES {
             let plane = Plane { origin: &place.theta.clone(), basis: &basis };
@@ -352,14 +382,15 @@ impl Task<'_, '_> {
                 _ if moved <= SETTLED => {}
                 _ => {
                     let end = self.search_in(space, which, (found, &place), &plane, &rest, Reach::Far)?;
-                    return Some((plane.at(&end.theta), end.converged));
+                    let next = self.moved_to(space, which, (found, &place), plane.at(&end.theta))?;
+                    return Some((next, end.converged));
                 }
             }
             if moved <= SETTLED {
-                return Some((place.theta, near.converged));
+                return Some((place, near.converged));
             }
         }
-        Some((place.theta, false))
+        Some((place, false))
     }
 
     /// The least misfit with θ on a plane, its own coordinates the search's.
@@ -550,6 +581,12 @@ pub(super) struct Eliminated {
 }
 
 impl Eliminated {
+    /// ∂(Σ r²/2)/∂θ.
+    pub(super) fn gradient(&self) -> Vec<f64> {
+        let columns = self.jacobian.chunks_exact(self.residuals.len().max(1));
+        columns.map(|column| column.iter().zip(&self.residuals).map(|(j, r)| j * r).sum()).collect()
+    }
+
     /// Σ r².
     pub(super) fn sum(&self) -> f64 {
         self.residuals.iter().map(|r| r * r).sum()

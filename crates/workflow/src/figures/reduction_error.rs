@@ -13,7 +13,7 @@ pub(super) fn figure(case: &Case, run: &IdentifyRun) -> Figure {
             y: Axis::log("Error of the response at the sensors, relative"),
             series: vec![Series {
                 x: run.outcomes.iter().map(|outcome| outcome.frequency_hz).collect(),
-                y: run.outcomes.iter().map(|outcome| outcome.certificate.unwrap_or(f64::NAN)).collect(),
+                y: run.outcomes.iter().map(|outcome| outcome.reduction_error.unwrap_or(f64::NAN)).collect(),
                 color: Color::Blue,
                 ..Series::default()
             }],
