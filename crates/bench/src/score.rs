@@ -1,7 +1,7 @@
 //! How much of an identification is right.
 
 use frfit::c64;
-use frfit::identify::{Identified, Status};
+use frfit::identify::{Line, Status};
 use frfit::material::OutsideTable;
 use std::fmt;
 
@@ -24,7 +24,7 @@ impl Score {
     /// # Errors
     /// [`OutsideTable`] where the truth is not known.
     pub fn of(
-        outcomes: &[Identified],
+        outcomes: &[Line],
         truth: impl Fn(f64) -> Result<c64, OutsideTable>,
         tolerance: f64,
     ) -> Result<Self, OutsideTable> {
@@ -51,19 +51,21 @@ impl fmt::Display for Score {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use frfit_linalg::solve::Breakdown;
 
     #[test]
     fn an_answer_counts_as_right_whatever_its_status_and_none_never() {
         let nominal = c64::new(2.0, 0.1);
-        let broken = Identified::broken(1.0, nominal, 30, Breakdown::NotFinite);
-        let answer =
-            |correction, status| Identified { correction: Some(correction), status, ..broken.clone() };
+        let missing = Line::out_of_band(1.0, &[nominal]);
+        let answer = |correction: c64, status| {
+            let mut line = Line { status, ..missing.clone() };
+            line.values[0].value = Some(nominal + correction);
+            line
+        };
         let outcomes = [
             answer(c64::new(1e-7, 0.0), Status::Ok),
             answer(c64::default(), Status::Ambiguous),
             answer(c64::new(1e-3, 0.0), Status::Ok),
-            broken.clone(),
+            missing.clone(),
         ];
         let score = Score::of(&outcomes, |_| Ok(nominal), 1e-6).unwrap();
         assert_eq!(score, Score { right: 2, wrong_ok: 1, right_ok: 1, count: 4 });

@@ -5,8 +5,8 @@ use cpu_time::ProcessTime;
 use frfit::c64;
 use frfit::for_each::{ForEach, sequential};
 use frfit::identify::{
-    Band, BandOutcome, Context, Dependence, Noise, Options, Several, SeveralOutcome, Unknown, Variation,
-    identify_band, identify_several,
+    Context, Dependence, Frfs, Identification, Noise, Options, Problem, ProblemError, Unknown, Variation,
+    identify,
 };
 use frfit::material::{Law, OutsideTable, Table};
 use frfit::model::{DynamicStiffness, Experiment, Parameter};
@@ -50,7 +50,7 @@ pub struct Task<'a> {
 #[derive(Debug)]
 pub struct Run {
     /// The outcome.
-    pub found: BandOutcome,
+    pub found: Identification,
     /// Wall-clock seconds.
     pub wall: f64,
     /// CPU seconds of all threads.
@@ -114,23 +114,18 @@ impl Structure {
         Ok((unknowns, truth.clone()))
     }
 
-    /// Identifies several unknowns on one thread: what came out, and CPU seconds.
+    /// Identifies unknowns on one thread: what came out, and CPU seconds.
     ///
     /// # Errors
-    /// [`OutsideTable`] where a law does not reach a frequency.
-    pub fn identify_several(&self, unknowns: &[Unknown]) -> Result<(SeveralOutcome, f64), OutsideTable> {
-        let band = Several {
-            model: &self.stiffness,
-            experiment: &self.experiment,
-            unknowns,
-            frequency_hz: &self.frequency_hz,
-            measured: &self.measured,
-            noise: Noise::Unknown,
-        };
+    /// [`ProblemError`] where the unknowns do not belong to the structure.
+    pub fn identify(&self, unknowns: &[Unknown]) -> Result<(Identification, f64), ProblemError> {
+        let frfs =
+            Frfs { frequency_hz: &self.frequency_hz, receptance: &self.measured, noise: Noise::Unknown };
+        let problem = Problem::new(&self.stiffness, &self.experiment, unknowns, &[], frfs)?;
         let start = ProcessTime::now();
-        let hooks = Context { for_each: &sequential, progress: &|_, _, _| {} };
-        let outcome = identify_several(&band, &Options::default(), hooks)?;
-        Ok((outcome, start.elapsed().as_secs_f64()))
+        let context = Context { for_each: &sequential, progress: &|_, _, _| {} };
+        let found = identify(&problem, &Options::default(), context)?;
+        Ok((found, start.elapsed().as_secs_f64()))
     }
 
     /// Storage from a fifth to five times the truth in the middle of the band: wide enough for a nominal that is three times off.
@@ -160,41 +155,35 @@ impl Task<'_> {
     /// # Errors
     /// Where the true law does not reach a frequency, or there are no threads to be had.
     pub fn run(&self, options: &Options, threads: usize) -> Result<Run, Box<dyn Error>> {
-        let options = Options { bounds: self.structure.bounds()?, ..*options };
         let frequency_hz: Vec<f64> = self.picked.iter().map(|&i| self.structure.frequency_hz[i]).collect();
         let sensors = self.experiment.sensors.len();
         let measured: Vec<Vec<c64>> =
             self.picked.iter().map(|&i| self.structure.measured[i][..sensors].to_vec()).collect();
-        let band = Band {
-            model: &self.structure.stiffness,
-            experiment: &self.experiment,
-            parameter: &self.nominal,
-            frequency_hz: &frequency_hz,
-            measured: &measured,
-            noise: Noise::Unknown,
-        };
+        let unknowns = [Unknown {
+            name: "factor".into(),
+            dependence: Dependence::Factor(self.nominal.members.iter().map(|member| member.term).collect()),
+            nominal: self.nominal.nominal.clone(),
+            varies: Variation::PerFrequency,
+            real: false,
+            bounds: self.structure.bounds()?,
+        }];
+        let frfs = Frfs { frequency_hz: &frequency_hz, receptance: &measured, noise: Noise::Unknown };
+        let problem = Problem::new(&self.structure.stiffness, &self.experiment, &unknowns, &[], frfs)?;
         let clock = Stages::clock();
-        let identify = |for_each: ForEach<'_>| {
+        let run = |for_each: ForEach<'_>| {
             let (start, wall) = (ProcessTime::now(), Instant::now());
             let progress = |stage, _, _| clock.enter(stage);
-            let found = identify_band(&band, &options, Context { for_each, progress: &progress })?;
-            Ok::<_, OutsideTable>((found, wall.elapsed().as_secs_f64(), start.elapsed().as_secs_f64()))
+            let found = identify(&problem, options, Context { for_each, progress: &progress })?;
+            Ok::<_, ProblemError>((found, wall.elapsed().as_secs_f64(), start.elapsed().as_secs_f64()))
         };
         let (found, wall, cpu) = match threads {
-            1 => identify(&sequential)?,
+            1 => run(&sequential)?,
             // As the workflow does it.
-            _ => in_pool(threads, || identify(&|n, each| (0..n).into_par_iter().for_each(each)))??,
+            _ => in_pool(threads, || run(&|n, each| (0..n).into_par_iter().for_each(each)))??,
         };
         let truth = |f| self.structure.truth.nominal.at(f);
-        let score = Score::of(&found.outcomes, truth, self.structure.tolerance)?;
+        let score = Score::of(&found.lines, truth, self.structure.tolerance)?;
         Ok(Run { found, wall, cpu, stages: clock.stop(), score })
-    }
-}
-
-impl Run {
-    /// The largest estimated error of the subspace's response over all answers; `None` where the full model answered.
-    pub fn reduction_error(&self) -> Option<f64> {
-        self.found.outcomes.iter().filter_map(|outcome| outcome.reduction_error).reduce(f64::max)
     }
 }
 

@@ -82,9 +82,11 @@ impl From<JobError> for Failure {
     fn from(error: JobError) -> Self {
         match error {
             JobError::Figure(_) | JobError::Report(_) => Self::Internal(error.to_string()),
-            JobError::Input(_) | JobError::OutsideTable(_) | JobError::Memory(_) | JobError::Write(_) => {
-                Self::Input(error.to_string())
-            }
+            JobError::Input(_)
+            | JobError::OutsideTable(_)
+            | JobError::Problem(_)
+            | JobError::Memory(_)
+            | JobError::Write(_) => Self::Input(error.to_string()),
         }
     }
 }

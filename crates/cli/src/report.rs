@@ -1,6 +1,7 @@
 //! What came out, in the few lines that a person reads first.
 
-use frfit::identify::{Calibrated, Explained, Identified, NoiseSource, SmoothCurve, Status};
+use frfit::identify::{Calibrated, Explained, Line, NoiseSource, SmoothCurve, Status};
+use frfit_workflow::case::VariesEntry;
 use frfit_workflow::check::findings_text;
 use frfit_workflow::job::{IdentifyJob, SeveralJob};
 use frfit_workflow::output::{Words, laws_text};
@@ -22,7 +23,7 @@ pub(crate) fn identified(job: &IdentifyJob, out: &Path) -> Words {
     let mut words = Words::default();
     let Some(identify) = job.identify() else { return words };
     let run = &job.run;
-    let band = match (run.outcomes.first(), run.outcomes.last()) {
+    let band = match (run.found.lines.first(), run.found.lines.last()) {
         (Some(first), Some(last)) => format!("{} to {} Hz", first.frequency_hz, last.frequency_hz),
         _ => String::new(),
     };
@@ -30,7 +31,7 @@ pub(crate) fn identified(job: &IdentifyJob, out: &Path) -> Words {
         "{}: factor of {} at {} frequencies, {band}\n",
         job.case.title,
         identify.names.join(", "),
-        run.outcomes.len()
+        run.found.lines.len()
     ));
     // What is wrong with the data comes before what was made of them.
     words.warn(&job.diagnosis.as_ref().map_or(String::new(), |found| findings_text(&job.case, found)));
@@ -46,9 +47,9 @@ pub(crate) fn identified(job: &IdentifyJob, out: &Path) -> Words {
             .collect::<Vec<_>>()
             .join(", "),
     );
-    let ok = |outcome: &&Identified| outcome.status == Status::Ok;
-    let range = |number: &dyn Fn(&Identified) -> Option<f64>| {
-        let values = run.outcomes.iter().filter(ok).filter_map(number);
+    let ok = |outcome: &&Line| outcome.status == Status::Ok;
+    let range = |number: &dyn Fn(&Line) -> Option<f64>| {
+        let values = run.found.lines.iter().filter(ok).filter_map(number);
         values.fold(None, |range: Option<(f64, f64)>, v| {
             Some(range.map_or((v, v), |(low, high)| (low.min(v), high.max(v))))
         })
@@ -68,7 +69,7 @@ pub(crate) fn identified(job: &IdentifyJob, out: &Path) -> Words {
     for (is_warning, label, sentence) in doubts(job) {
         add(is_warning, label, sentence);
     }
-    let largest = run.outcomes.iter().filter_map(|outcome| outcome.spectral_radius).reduce(f64::max);
+    let largest = run.found.lines.iter().filter_map(|outcome| outcome.spectral_radius).reduce(f64::max);
     if let Some(radius) = largest {
         add(false, "spectral radius", format!("up to {radius:.4}"));
     }
@@ -103,19 +104,19 @@ pub(crate) fn identified(job: &IdentifyJob, out: &Path) -> Words {
         "work",
         format!(
             "{} factorisations, {} solves, {:.2} s",
-            run.work.factorisations,
-            run.work.solves,
+            run.found.search.work.factorisations,
+            run.found.search.work.solves,
             run.seconds.identify()
         ),
     );
-    if let (Some(size), Some(error)) = (run.subspace_size, run.reduction_error()) {
+    if let (Some(size), Some(error)) = (run.found.search.reduced_size, run.found.reduction_error()) {
         add(
             false,
             "subspace",
             format!("{size} vectors, error of the response at most {error:.1e} (estimated)"),
         );
     }
-    if let Some(curve) = run.smooth.as_ref().and_then(|smooth| smooth.curve.as_ref()) {
+    if let Some(curve) = &run.found.curve {
         let settled = if curve.converged { "" } else { ", not settled" };
         let odd = match curve.unexplained {
             0 => String::new(),
@@ -128,10 +129,10 @@ pub(crate) fn identified(job: &IdentifyJob, out: &Path) -> Words {
             format!("{parameters:.1} parameters, one for {width_octaves:.2} octaves{settled}{odd}"),
         );
     }
-    let more = match (&run.laws, &run.smooth) {
-        (Some(_), _) => "free.csv, law.json, ",
-        (None, Some(_)) => "free.csv, ",
-        (None, None) => "",
+    let more = match &identify.varies {
+        VariesEntry::ByLaw(_) => "free.csv, law.json, ",
+        VariesEntry::Smoothly => "free.csv, ",
+        VariesEntry::Freely => "",
     };
     add(
         false,
@@ -141,8 +142,8 @@ pub(crate) fn identified(job: &IdentifyJob, out: &Path) -> Words {
             out.display()
         ),
     );
-    if let Some(laws) = &run.laws {
-        words.say(&laws_text(&laws.fits, &vec![None; laws.fits.len()], identify.unit));
+    if !run.found.laws.is_empty() {
+        words.say(&laws_text(&run.found.laws, &vec![None; run.found.laws.len()], identify.unit));
     }
     words
 }
@@ -151,15 +152,15 @@ pub(crate) fn identified(job: &IdentifyJob, out: &Path) -> Words {
 fn doubts(job: &IdentifyJob) -> Vec<(bool, &'static str, String)> {
     let run = &job.run;
     let mut lines = Vec::new();
-    if let Some(level) = run.noise.level {
-        let known = run.outcomes.iter().filter(|outcome| outcome.status == Status::Ok);
-        let relative = known.filter_map(|o| Some(o.uncertainty?.correction_std / o.factor()?.norm()));
+    if let Some(level) = run.found.noise.level {
+        let known = run.found.lines.iter().filter(|outcome| outcome.status == Status::Ok);
+        let relative = known.filter_map(|o| Some(o.uncertainty()?.correction_std / o.factor()?.norm()));
         let mut relative: Vec<f64> = relative.collect();
         relative.sort_by(f64::total_cmp);
         let bar = relative.get(relative.len() / 2).map_or(String::new(), |median| {
             format!("; standard deviation of the factor {} (median where ok)", percent_of(*median))
         });
-        let source = match run.noise.source {
+        let source = match run.found.noise.source {
             NoiseSource::Given => "as given".to_owned(),
             NoiseSource::Sensors => format!("{level:.1e} of what is assumed, from the misfit of the sensors"),
             NoiseSource::Scatter => {
@@ -172,22 +173,22 @@ fn doubts(job: &IdentifyJob) -> Vec<(bool, &'static str, String)> {
         };
         lines.push((false, "noise", format!("{source}{bar}")));
     }
-    for (sensor, fit) in job.case.sensors.iter().zip(&run.sensors).filter(|(_, fit)| fit.contradicts) {
+    for (sensor, fit) in job.case.sensors.iter().zip(&run.found.sensors).filter(|(_, fit)| fit.contradicts) {
         let done = if fit.left_out { "left out" } else { "kept, as reject_outliers = false says" };
         lines.push((true, "sensor", format!("{} contradicts all others: {done}", sensor.label)));
     }
     lines.extend(channels(job));
-    match run.fit {
+    match run.found.fit {
         Some(fit) if fit.verdict == Explained::No => {
-            let left = run.sensors.iter().filter(|sensor| !sensor.left_out).count();
+            let left = run.found.sensors.iter().filter(|sensor| !sensor.left_out).count();
             let who = match left {
-                _ if run.laws.is_some() => "the law, or the model, cannot explain the measurements",
+                _ if !run.found.laws.is_empty() => "the law, or the model, cannot explain the measurements",
                 2 => {
                     "the two sensors contradict one another, or the model cannot explain them; two cannot tell which"
                 }
                 _ => "the model cannot explain the measurements",
             };
-            let told = match run.noise.source {
+            let told = match run.found.noise.source {
                 NoiseSource::Given => {
                     format!(" (χ² is {:.1} times what noise gives)", fit.chi_squared / fit.freedom as f64)
                 }
@@ -212,7 +213,7 @@ fn doubts(job: &IdentifyJob) -> Vec<(bool, &'static str, String)> {
 fn channels(job: &IdentifyJob) -> Vec<(bool, &'static str, String)> {
     let unknown = job.identify().map_or(&[][..], |identify| &identify.unknown);
     let mut lines = Vec::new();
-    for ((sensor, unknown), found) in job.case.sensors.iter().zip(unknown).zip(&job.run.channels) {
+    for ((sensor, unknown), found) in job.case.sensors.iter().zip(unknown).zip(&job.run.found.channels) {
         let mut tell = |label, found: Option<Calibrated>, what: &str| {
             let told = match found {
                 Some(Calibrated { value, std }) => {

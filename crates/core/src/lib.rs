@@ -6,6 +6,59 @@
 //! from one factorisation. Setting it equal to a measured response gives a polynomial in the change, P-30; one of its
 //! roots corrects the model.
 //!
+//! ```
+//! use frfit::c64;
+//! use frfit::for_each::sequential;
+//! use frfit::identify::{Context, Frfs, Noise, Options, Problem, Status, Unknown, identify};
+//! use frfit::linalg::sparse::Triplets;
+//! use frfit::material::Law;
+//! use frfit::model::{DynamicStiffness, Experiment, Role, Sensor, Term};
+//!
+//! // Three masses of 1 kg on springs, clamped at one end, and struck and measured at the other.
+//! let (mut springs, mut masses) = (Triplets::new(3), Triplets::new(3));
+//! springs.add(0, 0, 1.0);
+//! for i in 0..3 {
+//!     masses.add(i, i, 1.0);
+//!     if i < 2 {
+//!         springs.add_element(&[Some(i), Some(i + 1)], &[1.0, -1.0, -1.0, 1.0]);
+//!     }
+//! }
+//! let (springs, masses) = (springs.assemble(), masses.assemble());
+//! let chain = |stiffness: c64| {
+//!     let term = |name: &str, role, matrix, factor| Term { name: String::from(name), role, matrix, factor };
+//!     DynamicStiffness::new(vec![
+//!         term("springs", Role::Stiffness, springs.clone(), Law::Constant(stiffness)),
+//!         term("masses", Role::Mass, masses.clone(), Law::Constant(c64::new(1.0, 0.0))),
+//!     ])
+//! };
+//! let tip = Sensor { row: 2, sign: 1.0 };
+//! let experiment = Experiment::driven_at(3, tip, vec![tip]);
+//!
+//! // What is measured: the springs have 1200 N/m, and a loss factor of 0.05.
+//! let truth = c64::new(1200.0, 60.0);
+//! let measured_chain = chain(truth)?;
+//! let frequency_hz = [2.0, 3.0, 4.0, 5.0, 6.0];
+//! let mut receptance = Vec::new();
+//! for f in frequency_hz {
+//!     let factor = measured_chain.analysis().factor(&measured_chain.at(f, &[])?.assemble(&[]))?;
+//!     let mut x = experiment.load.clone();
+//!     factor.solve(&mut x)?;
+//!     receptance.push(experiment.observe(&x));
+//! }
+//!
+//! // The model has 1000 N/m.
+//! let model = chain(c64::new(1000.0, 0.0))?;
+//! let unknowns = [Unknown::factor_of(&model, &["springs"])?];
+//! let frfs = Frfs { frequency_hz: &frequency_hz, receptance: &receptance, noise: Noise::Unknown };
+//! let problem = Problem::new(&model, &experiment, &unknowns, &[], frfs)?;
+//! let context = Context { for_each: &sequential, progress: &|_, _, _| {} };
+//! let found = identify(&problem, &Options::default(), context)?;
+//! for line in &found.lines {
+//!     assert!(line.status == Status::Ok && (line.factor().unwrap() - truth).norm() < 1e-6 * truth.norm());
+//! }
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
 //! Data flows one way:
 //!
 //! ```text
@@ -54,4 +107,5 @@ pub mod signal;
 mod smooth;
 pub mod subspace;
 
+pub use frfit_linalg as linalg;
 pub use frfit_linalg::c64;

@@ -4,12 +4,12 @@ use crate::common;
 use crate::noise;
 use crate::tier::{of_tier, scatter_of_95};
 
-use common::{Case, bar, plate, sandwich};
+use common::{Band, Case, bar, plate, sandwich};
 use frfit::c64;
 use frfit::for_each::sequential;
 use frfit::frequency::linear_hz;
 use frfit::identify::{
-    Band, Context, Explained, LawsOutcome, Noise as Known, Options, Stage, Status, identify_laws,
+    Context, Explained, Identification, Noise as Known, Options, Stage, Status, Variation,
 };
 use frfit::laws::{LawFit, LawKind, best};
 use frfit::material::{Law, loss_factor};
@@ -43,7 +43,7 @@ fn identify(
     measured: &[Vec<c64>],
     noise: Known<'_>,
     kinds: &[LawKind],
-) -> LawsOutcome {
+) -> Identification {
     case.parameter.nominal = truth.scaled(off);
     let size = truth.at(frequency_hz[frequency_hz.len() - 1]).unwrap().re;
     let bounds = Bounds { storage: Some([size / 10.0, size * 10.0]), loss_factor: Some([0.0, 2.0]) };
@@ -56,7 +56,7 @@ fn identify(
         noise,
     };
     let hooks = Context { for_each: &sequential, progress: &quiet };
-    identify_laws(&band, kinds, &Options { bounds, ..Options::default() }, hooks).unwrap()
+    band.identify(Variation::Law(kinds.to_vec()), &[], &Options { bounds, ..Options::default() }, hooks)
 }
 
 fn parameter(fit: &LawFit, name: &str) -> (f64, f64) {
@@ -83,7 +83,7 @@ fn light_damping_is_found_from_one_percent_of_noise() {
             Known::Known(&std),
             &[LawKind::Constant],
         );
-        let fit = best(&found.fits).unwrap();
+        let fit = best(&found.laws).unwrap();
         let ((storage, storage_std), (eta, eta_std)) =
             (parameter(fit, "storage"), parameter(fit, "loss_factor"));
         assert!((storage - 2e11).abs() < 1e-4 * 2e11, "seed {seed}: {storage:e}");
@@ -91,7 +91,7 @@ fn light_damping_is_found_from_one_percent_of_noise() {
         pulls.push([(storage - 2e11) / storage_std, (eta - 1e-3) / eta_std]);
         // χ²/ν of 598 degrees of freedom is 1 ± 0.058; five times that.
         assert!((fit.reduced_chi_squared().unwrap() - 1.0).abs() < 0.29, "{:?}", fit.reduced_chi_squared());
-        assert!(found.outcomes.iter().all(|outcome| outcome.status == Status::Ok));
+        assert!(found.lines.iter().all(|outcome| outcome.status == Status::Ok));
     }
     for k in 0..2 {
         // All of eight within 4 deviations but for one in 2000; the mean square is 1 ± 0.5.
@@ -111,7 +111,7 @@ fn a_law_without_known_noise_has_the_same_error_bars() {
     let (measured, std) = noisy(&clean, 0.01, &mut Noise::new(5));
     let mut fit = |noise| {
         let found = identify(&mut case, &truth, 1.2, &frequency_hz, &measured, noise, &[LawKind::Constant]);
-        best(&found.fits).unwrap().clone()
+        best(&found.laws).unwrap().clone()
     };
     let (known, unknown) = (fit(Known::Known(&std)), fit(Known::Unknown));
     assert!(known.sigma_known && !unknown.sigma_known);
@@ -135,12 +135,12 @@ fn the_core_of_a_sandwich_has_its_fractional_law() {
         let (measured, std) = noisy(&clean, 0.01, &mut noise);
         let kinds = [LawKind::Constant, LawKind::Fractional, LawKind::Maxwell { branches: 2 }];
         let found = identify(&mut case, &truth, 1.4, &frequency_hz, &measured, Known::Known(&std), &kinds);
-        let fit = best(&found.fits).unwrap();
+        let fit = best(&found.laws).unwrap();
         assert_eq!(
             fit.family,
             LawKind::Fractional,
             "seed {seed}: {:?}",
-            found.fits.iter().map(LawFit::bic).collect::<Vec<_>>()
+            found.laws.iter().map(LawFit::bic).collect::<Vec<_>>()
         );
         for (name, value) in [("e0", e0), ("e1", e1), ("alpha", alpha)] {
             let (found, std) = parameter(fit, name);
@@ -171,7 +171,7 @@ fn a_law_of_exact_data_is_exact_and_certified() {
     let measured = exact(&case, &frequency_hz);
     let found =
         identify(&mut case, &truth, 1.5, &frequency_hz, &measured, Known::Unknown, &[LawKind::Fractional]);
-    for outcome in &found.outcomes {
+    for outcome in &found.lines {
         let exact = truth.at(outcome.frequency_hz).unwrap();
         let factor = outcome.factor().unwrap();
         // The subspace answers to 1e-9, of which an inverse problem of three numbers loses a few digits.
@@ -182,7 +182,7 @@ fn a_law_of_exact_data_is_exact_and_certified() {
         );
         assert_eq!(outcome.status, Status::Ok);
         // The reduction error is that of the full model at the law.
-        let direct = case.direct(outcome.frequency_hz, factor - outcome.nominal).unwrap();
+        let direct = case.direct(outcome.frequency_hz, factor - outcome.nominal()).unwrap();
         let error = frfit::identify::relative_error(&direct, &outcome.updated_response);
         assert!(error <= 5.0 * outcome.reduction_error.unwrap(), "{error:e} {:?}", outcome.reduction_error);
     }
@@ -196,14 +196,14 @@ fn a_law_that_is_wrong_is_called_so() {
     let (measured, std) = noisy(&exact(&case, &frequency_hz), 0.01, &mut Noise::new(4));
     let found =
         identify(&mut case, &truth, 1.2, &frequency_hz, &measured, Known::Known(&std), &[LawKind::Constant]);
-    let fit = best(&found.fits).unwrap();
+    let fit = best(&found.laws).unwrap();
     // The modulus doubles over the band.
     assert!(fit.reduced_chi_squared().unwrap() > 20.0);
     // The law's band is not explained: no line of it is ok, and every line has the law's value.
     assert_eq!(found.fit.unwrap().verdict, Explained::No);
-    assert!(found.outcomes.iter().all(|outcome| outcome.status == Status::Unexplained), "{:?}", found.fit);
-    assert!(found.outcomes.iter().all(|outcome| outcome.correction.is_some()));
-    assert_eq!(found.free.outcomes.len(), frequency_hz.len());
+    assert!(found.lines.iter().all(|outcome| outcome.status == Status::Unexplained), "{:?}", found.fit);
+    assert!(found.lines.iter().all(|outcome| outcome.correction().is_some()));
+    assert_eq!(found.free.len(), frequency_hz.len());
 }
 
 /// How many deviations the parameters of a law are off, of 20 seeds (of the daily tier: one) at 0.1 %, 1 % and 5 % noise each.
@@ -222,7 +222,7 @@ fn pulls(case: &mut Case, band_hz: [f64; 2], family: LawKind) -> Vec<f64> {
         for _ in 0..of_tier(1, 20) {
             let (measured, std) = noisy(&clean, share, &mut noise);
             let found = identify(case, &truth, 1.1, &frequency_hz, &measured, Known::Known(&std), &[family]);
-            let fit = best(&found.fits).unwrap();
+            let fit = best(&found.laws).unwrap();
             assert!(fit.converged, "{} {share}", case.name);
             let pull =
                 |(found, truth): (&frfit::laws::Estimate, &f64)| (found.value - truth) / found.std.unwrap();

@@ -4,13 +4,12 @@ use crate::common;
 use crate::noise;
 use crate::tier::of_tier;
 
-use common::{Case, bar, c, plate};
+use common::{Band, Case, bar, c, plate};
 use frfit::c64;
 use frfit::for_each::sequential;
 use frfit::frequency::{linear_hz, omega_rad_s};
 use frfit::identify::{
-    Band, Calibrated, Calibration, ChannelUnknowns, Context, Noise, Options, Stage, Status,
-    identify_band_scaled, identify_laws_scaled,
+    Calibrated, Calibration, ChannelUnknowns, Context, Noise, Options, Stage, Status, Variation,
 };
 use frfit::laws::LawKind;
 use frfit::material::Law;
@@ -106,12 +105,13 @@ fn a_plate_beside_a_channel_that_is_known() {
     let draws = of_tier(1, 12);
     for _ in 0..draws {
         let values = test.drawn(&mut noise);
-        let (outcome, found) =
-            identify_band_scaled(&test.band(&values), &unknown, &test.options(), hooks()).unwrap();
-        pulls.extend(test.pulls(&found, &unknown));
+        let outcome =
+            test.band(&values).identify(Variation::PerFrequency, &unknown, &test.options(), hooks());
+        let found = &outcome.channels;
+        pulls.extend(test.pulls(found, &unknown));
         let fit = outcome.fit.unwrap();
         // Two channels and one complex modulus leave two at each frequency, and scale and delay take one each.
-        let answered = outcome.outcomes.iter().filter(|one| one.chi_squared.is_some()).count();
+        let answered = outcome.lines.iter().filter(|one| one.chi_squared.is_some()).count();
         assert_eq!(fit.freedom, 2 * answered - 2);
         per_freedom.push(fit.chi_squared / fit.freedom as f64);
     }
@@ -139,16 +139,10 @@ fn a_bar_with_a_law_and_no_channel_that_is_known() {
     let draws = of_tier(1, 6);
     for _ in 0..draws {
         let values = test.drawn(&mut noise);
-        let found = identify_laws_scaled(
-            &test.band(&values),
-            &unknown,
-            &[LawKind::Constant],
-            &test.options(),
-            hooks(),
-        );
-        let found = found.unwrap();
-        assert!(found.outcomes.iter().all(|one| one.status == Status::Ok), "{:?}", found.channels);
-        let law = &found.fits[0];
+        let law = Variation::law(LawKind::Constant);
+        let found = test.band(&values).identify(law, &unknown, &test.options(), hooks());
+        assert!(found.lines.iter().all(|one| one.status == Status::Ok), "{:?}", found.channels);
+        let law = &found.laws[0];
         // All numbers of the measurement, less what was fitted.
         assert_eq!(law.residuals, 2 * 50 * sensors - 2 * sensors);
         let at = law.at(test.frequency_hz[0]).unwrap();
@@ -173,13 +167,14 @@ fn delays_of_many_periods_have_the_right_minimum() {
         );
         let values = test.drawn(&mut noise::Noise::new(2));
         let unknown = [NEITHER, ChannelUnknowns { scale: false, delay: true }];
-        let (outcome, found) =
-            identify_band_scaled(&test.band(&values), &unknown, &test.options(), hooks()).unwrap();
+        let outcome =
+            test.band(&values).identify(Variation::PerFrequency, &unknown, &test.options(), hooks());
+        let found = &outcome.channels;
         let Calibrated { value, std } = found[1].delay_s.unwrap();
         assert!(
             (value - late).abs() < 4.5 * std.unwrap() && found[1].scale.is_none(),
             "{late} {value} {std:?}"
         );
-        assert!(outcome.outcomes.iter().filter(|one| one.status == Status::Ok).count() > 50);
+        assert!(outcome.lines.iter().filter(|one| one.status == Status::Ok).count() > 50);
     }
 }

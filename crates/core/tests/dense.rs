@@ -3,11 +3,11 @@
 use crate::common;
 use crate::tier::is_long;
 
-use common::{Case, plate, sandwich};
+use common::{Band, Case, plate, sandwich};
 use frfit::c64;
 use frfit::for_each::sequential;
 use frfit::frequency::linear_hz;
-use frfit::identify::{Band, BandOutcome, Context, Noise, Options, Status, identify_band, relative_error};
+use frfit::identify::{Context, Identification, Noise, Options, Status, Variation, relative_error};
 use frfit::roots::Bounds;
 
 /// Dense for a structure of a dozen modes.
@@ -30,7 +30,7 @@ impl Gauss {
 }
 
 /// A measurement with this much relative noise, identified from a nominal off by this factor, both ways: followed, and everywhere.
-fn both(mut case: Case, frequencies: usize, off: f64, noise: f64, sensors: usize) -> [BandOutcome; 2] {
+fn both(mut case: Case, frequencies: usize, off: f64, noise: f64, sensors: usize) -> [Identification; 2] {
     let truth = case.parameter.nominal.clone();
     let frequency_hz = linear_hz(case.band_hz[0], case.band_hz[1], frequencies);
     case.experiment.sensors.truncate(sensors);
@@ -56,25 +56,30 @@ fn both(mut case: Case, frequencies: usize, off: f64, noise: f64, sensors: usize
     };
     [false, true].map(|everywhere| {
         let hooks = Context { for_each: &sequential, progress: &|_, _, _| {} };
-        identify_band(&band, &Options { bounds, everywhere, ..Options::default() }, hooks).unwrap()
+        band.identify(
+            Variation::PerFrequency,
+            &[],
+            &Options { bounds, everywhere, ..Options::default() },
+            hooks,
+        )
     })
 }
 
 /// The same statuses and answers, and no more than this part of the band explored.
-fn assert_same(name: &str, [followed, everywhere]: &[BandOutcome; 2], most: f64) {
-    let n = everywhere.outcomes.len();
-    assert_eq!((everywhere.explored, followed.outcomes.len()), (n, n));
-    let explored = followed.explored as f64 / n as f64;
+fn assert_same(name: &str, [followed, everywhere]: &[Identification; 2], most: f64) {
+    let n = everywhere.lines.len();
+    assert_eq!((everywhere.search.explored, followed.lines.len()), (n, n));
+    let explored = followed.search.explored as f64 / n as f64;
     assert!(explored < most, "{name}: {explored}");
     let (mut ok, mut radii) = (0, 0);
-    for (a, b) in followed.outcomes.iter().zip(&everywhere.outcomes) {
+    for (a, b) in followed.lines.iter().zip(&everywhere.lines) {
         let at = format!("{name} at {} Hz: {a:?}\n{b:?}", a.frequency_hz);
         assert_eq!(a.status, b.status, "{at}");
-        assert_eq!(a.alternatives.len(), b.alternatives.len(), "{at}");
+        assert_eq!(a.rivals.len(), b.rivals.len(), "{at}");
         // What either subspace may have done to a factor is of this size.
-        let same = |x: c64, y: c64| (x - y).norm() <= 1e-6 * (b.nominal + y).norm();
-        assert!(a.correction.zip(b.correction).is_none_or(|(x, y)| same(x, y)), "{at}");
-        assert_eq!(a.correction.is_some(), b.correction.is_some(), "{at}");
+        let same = |x: c64, y: c64| (x - y).norm() <= 1e-6 * (b.nominal() + y).norm();
+        assert!(a.correction().zip(b.correction()).is_none_or(|(x, y)| same(x, y)), "{at}");
+        assert_eq!(a.correction().is_some(), b.correction().is_some(), "{at}");
         assert!(a.nominal_response.len() == b.nominal_response.len(), "{at}");
         let off = relative_error(&b.nominal_response, &a.nominal_response);
         assert!(off < 1e-6, "{at}");
@@ -109,6 +114,6 @@ fn a_dense_plate_is_followed_where_that_is_beyond_doubt() {
 #[test]
 fn a_short_band_is_explored_everywhere() {
     let [short, everywhere] = both(sandwich(12, 1), 250, 1.5, 0.0, 1);
-    assert_eq!(short.explored, 250);
+    assert_eq!(short.search.explored, 250);
     assert!(short == everywhere);
 }

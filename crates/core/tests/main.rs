@@ -14,6 +14,7 @@ mod noise;
 mod outside;
 mod paper;
 mod poles;
+mod problem;
 mod rational;
 mod select;
 mod sensitivity;

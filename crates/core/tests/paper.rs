@@ -6,7 +6,7 @@ use crate::shared_data;
 use common::{c, term};
 use frfit::c64;
 use frfit::frequency::linear_hz;
-use frfit::identify::{Identified, Method, Options, Status, error_by_order, identify_at};
+use frfit::identify::{Line, Method, Options, Status, error_by_order, identify_at};
 use frfit::material::Law;
 use frfit::model::{DynamicStiffness, Experiment, Parameter, Role, Sensor, Term};
 use frfit::rational::RationalResponse;
@@ -58,7 +58,7 @@ fn identified(
     truth: c64,
     frequency_hz: f64,
     options: &Options,
-) -> Identified {
+) -> Line {
     let parameter = Parameter::factor_of(model, &[name]).unwrap();
     let system = FullModel::new(model.at(frequency_hz, &[parameter]).unwrap(), experiment).unwrap();
     let measured = system.solve_at(&[truth - system.nominal(0)]).unwrap();
@@ -78,7 +78,7 @@ fn rubber_bar_matches_the_response_everywhere_and_the_modulus_where_one_root_is_
         assert!(outcome.error.unwrap() < 2e-8, "{frequency_hz} Hz: {:?}", outcome.error);
         assert!(outcome.spectral_radius.unwrap() < 1.0);
         assert!(matches!(outcome.status, Status::Ok | Status::Ambiguous), "{frequency_hz} Hz");
-        if outcome.admissible() == 1 {
+        if outcome.candidate_count() == 1 {
             unique += 1;
             let wrong = (outcome.factor().unwrap() - truth).norm() / truth.norm();
             // ρ³¹ < 1e-7 for ρ < 0.6, which holds over the band.
@@ -165,7 +165,7 @@ fn bounds_exclude_and_say_so() {
     let truth = polybutadiene(1.0).at(100.0).unwrap();
     let bounds = Bounds { storage: Some([1e10, 1e11]), loss_factor: None };
     let outcome = identified(&bar, "rubber", truth, 100.0, &Options { bounds, ..Options::paper() });
-    assert_eq!((outcome.status, outcome.correction, outcome.error), (Status::NoRoot, None, None));
+    assert_eq!((outcome.status, outcome.correction(), outcome.error), (Status::NoRoot, None, None));
     assert!(outcome.roots.iter().any(|root| root.refusal == Some(Refusal::OutOfBounds("storage"))));
 }
 
@@ -180,7 +180,7 @@ fn a_resonance_without_damping_is_a_status() {
     if let Ok(system) = FullModel::new(at, &experiment) {
         let outcome = identify_at(&system, &[c(2.0, 0.0)], &Options::paper());
         assert_eq!(outcome.status, Status::Failed, "{outcome:?}");
-        assert!(outcome.breakdown.is_some() && outcome.correction.is_none());
+        assert!(outcome.breakdown.is_some() && outcome.correction().is_none());
     }
 }
 
@@ -278,7 +278,7 @@ fn the_rational_method_never_calls_a_wrong_modulus_of_the_plate_ok_needs_data() 
         let frequencies = linear_hz(50.0, 3500.0, 36);
         let (mut right, mut right_by_series, mut directly_decided) = (0, 0, 0);
         for &frequency_hz in &frequencies {
-            let is_right = |outcome: &Identified| outcome.factor().is_some_and(|e| (e - truth).norm() < 1e-6);
+            let is_right = |outcome: &Line| outcome.factor().is_some_and(|e| (e - truth).norm() < 1e-6);
             let outcome = identified(&plate, "plate", truth, frequency_hz, &rational);
             assert!(
                 matches!(outcome.status, Status::Ok | Status::Ambiguous),

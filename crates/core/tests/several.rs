@@ -8,8 +8,7 @@ use frfit::c64;
 use frfit::for_each::sequential;
 use frfit::frequency::linear_hz;
 use frfit::identify::{
-    Context, Dependence, Noise, Options, Several, SeveralOutcome, Status, Unknown, Variation,
-    identify_several,
+    Context, Dependence, Frfs, Identification, Noise, Options, Problem, Status, Unknown, Variation, identify,
 };
 use frfit::material::Law;
 use frfit::model::{DynamicStiffness, Experiment, Role, Sensor, Term};
@@ -68,8 +67,22 @@ fn constant(name: &str, dependence: Dependence, nominal: f64, bounds: [f64; 2]) 
     }
 }
 
-fn run(band: &Several<'_>) -> SeveralOutcome {
-    identify_several(band, &Options::default(), HOOKS).unwrap()
+/// What was measured on what, and what is unknown.
+#[derive(Clone, Copy)]
+struct Setup<'a> {
+    model: &'a DynamicStiffness,
+    experiment: &'a Experiment,
+    unknowns: &'a [Unknown],
+    frequency_hz: &'a [f64],
+    measured: &'a [Vec<c64>],
+    noise: Noise<'a>,
+}
+
+fn run(setup: &Setup<'_>) -> Identification {
+    let Setup { model, experiment, unknowns, frequency_hz, measured, noise } = *setup;
+    let frfs = Frfs { frequency_hz, receptance: measured, noise };
+    let problem = Problem::new(model, experiment, unknowns, &[], frfs).unwrap();
+    identify(&problem, &Options::default(), HOOKS).unwrap()
 }
 
 /// A plate whose thickness is 10 % off: h³ in bending, h in the mass.
@@ -97,7 +110,7 @@ fn thickness() -> Thickness {
 fn a_plate_tells_its_thickness() {
     let plate = thickness();
     let unknowns = [constant("h", Dependence::Powers(vec![(0, 3), (1, 1)]), 1.0, [0.5, 2.0])];
-    let band = Several {
+    let band = Setup {
         model: &plate.model,
         experiment: &plate.experiment,
         unknowns: &unknowns,
@@ -107,14 +120,18 @@ fn a_plate_tells_its_thickness() {
     };
     let outcome = run(&band);
     // Exact data: what is left is the subspace (1e-9 of the response).
-    assert!((outcome.band[0].numbers[0].value - TRUE_THICKNESS).abs() < 1e-8, "{:?}", outcome.band);
-    assert_eq!(outcome.band[0].status, Status::Ok);
-    assert!(outcome.at.iter().all(|at| at.status == Status::Ok));
-    assert!(outcome.work.factorisations <= 2 && outcome.work.solves < 100, "{:?}", outcome.work);
+    assert!((outcome.constants[0].numbers[0].value - TRUE_THICKNESS).abs() < 1e-8, "{:?}", outcome.constants);
+    assert_eq!(outcome.constants[0].status, Status::Ok);
+    assert!(outcome.lines.iter().all(|at| at.status == Status::Ok));
+    assert!(
+        outcome.search.work.factorisations <= 2 && outcome.search.work.solves < 100,
+        "{:?}",
+        outcome.search.work
+    );
 
     let (measured, std) = noisy(&plate.exact, 0.01, 7);
-    let outcome = run(&Several { measured: &measured, noise: Noise::Known(&std), ..band });
-    let number = &outcome.band[0].numbers[0];
+    let outcome = run(&Setup { measured: &measured, noise: Noise::Known(&std), ..band });
+    let number = &outcome.constants[0].numbers[0];
     let std = number.std.unwrap();
     assert!((number.value - TRUE_THICKNESS).abs() < 4.0 * std && std < 1e-3, "{number:?}");
 }
@@ -129,7 +146,7 @@ fn the_error_bar_of_the_thickness_covers_the_truth() {
     let seeds = of_tier(1, 50);
     for seed in 0..seeds {
         let (measured, std) = noisy(&every_other(&plate.exact), 0.01, 1000 + seed);
-        let outcome = run(&Several {
+        let outcome = run(&Setup {
             model: &plate.model,
             experiment: &plate.experiment,
             unknowns: &unknowns,
@@ -137,8 +154,8 @@ fn the_error_bar_of_the_thickness_covers_the_truth() {
             measured: &measured,
             noise: Noise::Known(&std),
         });
-        let number = &outcome.band[0].numbers[0];
-        assert_eq!(outcome.band[0].status, Status::Ok, "{seed}: {number:?}");
+        let number = &outcome.constants[0].numbers[0];
+        assert_eq!(outcome.constants[0].status, Status::Ok, "{seed}: {number:?}");
         let off = (number.value - TRUE_THICKNESS).abs() / number.std.unwrap();
         // Once in 16,000 by chance.
         assert!(off < 4.0, "{seed}: {number:?}");
@@ -187,7 +204,7 @@ fn two_moduli(sensors: usize, frequencies: usize) -> (usize, usize) {
         real: false,
         bounds: Bounds::default(),
     });
-    let outcome = run(&Several {
+    let outcome = run(&Setup {
         model: &case.model,
         experiment: &experiment,
         unknowns: &unknowns,
@@ -197,15 +214,19 @@ fn two_moduli(sensors: usize, frequencies: usize) -> (usize, usize) {
     });
     let truth = |f: f64| [skins.at(f).unwrap(), core.at(f).unwrap()];
     let (mut right, mut wrong_and_ok) = (0, 0);
-    for at in &outcome.at {
+    for at in &outcome.lines {
         let exact = truth(at.frequency_hz);
         let is_right = (0..2).all(|j| {
-            at.values[j].is_some_and(|found| (found.value - exact[j]).norm() <= 1e-5 * exact[j].norm())
+            at.values[j].value.is_some_and(|found| (found - exact[j]).norm() <= 1e-5 * exact[j].norm())
         });
         right += usize::from(is_right);
         wrong_and_ok += usize::from(!is_right && at.status == Status::Ok);
     }
-    assert!(outcome.work.factorisations <= 3 && outcome.work.solves < 200, "{:?}", outcome.work);
+    assert!(
+        outcome.search.work.factorisations <= 3 && outcome.search.work.solves < 200,
+        "{:?}",
+        outcome.search.work
+    );
     (right, wrong_and_ok)
 }
 
@@ -233,13 +254,13 @@ fn length_and_density_of_a_bar() {
         name: "modulus".into(),
         dependence: Dependence::Factor(vec![0]),
         nominal: modulus.scaled(1.2),
-        varies: Variation::Law(frfit::laws::LawKind::Fractional),
+        varies: Variation::law(frfit::laws::LawKind::Fractional),
         real: false,
         bounds: Bounds::default(),
     });
     let band = |unknowns| {
         let noise = Noise::Known(&std);
-        Several {
+        Setup {
             model: &model,
             experiment: &case.experiment,
             unknowns,
@@ -250,20 +271,29 @@ fn length_and_density_of_a_bar() {
     };
     // The modulus is known: both are told.
     let outcome = run(&band(&unknowns));
-    for (found, truth) in outcome.band.iter().zip([length, density]) {
+    for (found, truth) in outcome.constants.iter().zip([length, density]) {
         let number = &found.numbers[0];
         assert_eq!(found.status, Status::Ok, "{number:?}");
         assert!((number.value - truth).abs() < 4.0 * number.std.unwrap(), "{number:?}");
     }
     // The modulus is not: E/L and ρL are all that there is, and one combination of the three is told by nothing.
     let outcome = run(&band(&with_modulus));
-    assert_eq!(outcome.band[0].status, Status::NotIdentifiable);
-    assert_eq!(outcome.band[1].status, Status::NotIdentifiable);
-    assert!(outcome.directions[0].std > 1.0 && outcome.directions[1].std < 0.1, "{:?}", outcome.directions);
+    assert_eq!(outcome.constants[0].status, Status::NotIdentifiable);
+    assert_eq!(outcome.constants[1].status, Status::NotIdentifiable);
+    assert!(
+        outcome.identifiability.directions[0].std > 1.0 && outcome.identifiability.directions[1].std < 0.1,
+        "{:?}",
+        outcome.identifiability.directions
+    );
     // ln L goes with −ln ρ and with ln E: the same size for all, e0 and e1 both.
-    let weight = |c: usize| outcome.directions[0].weights.iter().find(|(k, _)| *k == c).unwrap().1;
+    let weight =
+        |c: usize| outcome.identifiability.directions[0].weights.iter().find(|(k, _)| *k == c).unwrap().1;
     for (c, sign) in [(0, 1.0), (1, -1.0), (2, 1.0), (3, 1.0)] {
-        assert!((weight(c) * sign - weight(0)).abs() < 1e-3, "{c}: {:?}", outcome.directions[0]);
+        assert!(
+            (weight(c) * sign - weight(0)).abs() < 1e-3,
+            "{c}: {:?}",
+            outcome.identifiability.directions[0]
+        );
     }
 }
 
@@ -288,7 +318,7 @@ fn a_constant_stops_at_its_bounds() {
             constant("length", Dependence::Powers(vec![(0, -1), (1, 1)]), 1.0, bounds),
             constant("density", Dependence::Factor(vec![1]), 910.0, [500.0, 1500.0]),
         ];
-        let found = run(&Several {
+        let found = run(&Setup {
             model: &model,
             experiment: &case.experiment,
             unknowns: &unknowns,
@@ -296,12 +326,12 @@ fn a_constant_stops_at_its_bounds() {
             measured: &measured,
             noise: Noise::Known(&std),
         });
-        let value = found.band[0].numbers[0].value;
+        let value = found.constants[0].numbers[0].value;
         assert!((bounds[0]..=bounds[1]).contains(&value), "{value} in {bounds:?}");
         // At the bound the data are not explained, and nothing is ok.
-        let ok = found.at.iter().filter(|at| at.status == Status::Ok).count();
-        assert_eq!(ok > 0, !found.band[0].at_bound, "{:?}", found.fit);
-        (value, found.band[0].at_bound, found.band[0].status)
+        let ok = found.lines.iter().filter(|at| at.status == Status::Ok).count();
+        assert_eq!(ok > 0, !found.constants[0].at_bound, "{:?}", found.fit);
+        (value, found.constants[0].at_bound, found.constants[0].status)
     });
     assert_eq!(lengths[0], (0.95, true, Status::NoRoot));
     assert_eq!(lengths[1], (1.2, true, Status::NoRoot));

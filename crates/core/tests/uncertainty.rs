@@ -3,13 +3,13 @@
 use crate::common;
 use crate::tier::{of_tier, scatter_of_95};
 
-use common::{Case, bar, c, chain, plate, sandwich, thickness, tip_load};
+use common::{Band, Case, bar, c, chain, plate, sandwich, thickness, tip_load};
 use frfit::c64;
 use frfit::for_each::sequential;
 use frfit::frequency::linear_hz;
 use frfit::identify::{
-    Band, BandOutcome, Context, Explained, Identified, Noise, NoiseSource, Options, Reduction, Stage, Status,
-    Uncertainty, identify_band,
+    Context, Explained, Identification, Line, Noise, NoiseSource, Options, Reduction, Stage, Status,
+    Uncertainty, Variation,
 };
 use frfit::material::Law;
 use frfit::model::{DynamicStiffness, Parameter, Role, Sensor, Term};
@@ -66,7 +66,7 @@ fn identify(
     u: &[Vec<c64>],
     noise: Noise<'_>,
     options: &Options,
-) -> BandOutcome {
+) -> Identification {
     let band = Band {
         model: &case.model,
         experiment: &case.experiment,
@@ -76,7 +76,7 @@ fn identify(
         noise,
     };
     let hooks = Context { for_each: &sequential, progress: &|_: Stage, _, _| {} };
-    identify_band(&band, options, hooks).unwrap()
+    band.identify(Variation::PerFrequency, &[], options, hooks)
 }
 
 fn within(size: f64, by: f64) -> Options {
@@ -111,14 +111,14 @@ fn deviations_and_correlation_are_those_of_many_draws() {
         let truth = case.parameter.nominal.at(f).unwrap();
         let made = Measured::clean(&case, vec![f], 1.0, 0.01);
         let options = Options { real, reduction: Reduction::Full, ..within(truth.re, 1.25) };
-        let draws: Vec<Identified> = (0..DRAWS)
+        let draws: Vec<Line> = (0..DRAWS)
             .map(|seed| {
                 let band = identify(&case, &made, &made.drawn(seed), Noise::Known(&made.std), &options);
                 assert_eq!((band.noise.level, band.noise.source), (Some(1.0), NoiseSource::Given));
-                band.outcomes.into_iter().next().unwrap()
+                band.lines.into_iter().next().unwrap()
             })
             .collect();
-        let bars: Vec<Uncertainty> = draws.iter().map(|outcome| outcome.uncertainty.unwrap()).collect();
+        let bars: Vec<Uncertainty> = draws.iter().map(|outcome| outcome.uncertainty().unwrap()).collect();
         // A standard deviation of n draws is known to 1/√(2n): 1.8 %; four of those, and a little for what is not linear.
         let near =
             |drawn: f64, told: f64| assert!((drawn / told - 1.0).abs() < 0.08, "{f} Hz: {drawn} {told}");
@@ -201,13 +201,13 @@ struct Coverage {
 }
 
 impl Coverage {
-    fn count(&mut self, band: &BandOutcome, truth: impl Fn(f64) -> c64) {
-        for outcome in &band.outcomes {
+    fn count(&mut self, band: &Identification, truth: impl Fn(f64) -> c64) {
+        for outcome in &band.lines {
             self.all += 1;
             if outcome.status != Status::Ok {
                 continue;
             }
-            let (truth, bars) = (truth(outcome.frequency_hz), outcome.uncertainty.unwrap());
+            let (truth, bars) = (truth(outcome.frequency_hz), outcome.uncertainty().unwrap());
             self.ok += 1;
             let within = |value: f64, truth: f64, std: f64| usize::from((value - truth).abs() <= 2.0 * std);
             self.storage += within(outcome.storage().unwrap(), truth.re, bars.storage_std);
@@ -315,9 +315,9 @@ fn loss_factors_that_noise_has_made_up_are_marked() {
     for seed in 0..of_tier(1, 4) {
         let u = made.drawn(seed);
         let band = identify(&case, &made, &u, Noise::Known(&made.std), &bounded(&case));
-        for outcome in band.outcomes.iter().filter(|outcome| outcome.correction.is_some()) {
+        for outcome in band.lines.iter().filter(|outcome| outcome.correction().is_some()) {
             let eta = outcome.loss_factor().unwrap();
-            let std = outcome.uncertainty.unwrap().loss_factor_std.unwrap();
+            let std = outcome.uncertainty().unwrap().loss_factor_std.unwrap();
             if outcome.status == Status::Ok {
                 // Three deviations: of two dozen answers one in fifteen such tests is that far off by chance.
                 assert!((eta - 1e-3).abs() < 3.0 * std, "{} Hz: {eta} {std}", outcome.frequency_hz);
@@ -387,7 +387,7 @@ fn of_two_sensors_neither_is_named() {
     for noise in [Noise::Known(&made.std), Noise::Unknown] {
         let band = identify(&case, &made, &u, noise, &bounded(&case));
         assert!(band.sensors.iter().all(|sensor| !sensor.contradicts && !sensor.left_out));
-        assert!(band.outcomes.iter().all(|outcome| outcome.status != Status::Ok));
+        assert!(band.lines.iter().all(|outcome| outcome.status != Status::Ok));
         assert!(band.fit.is_none_or(|fit| fit.verdict == Explained::No), "{:?}", band.fit);
     }
 }
@@ -407,13 +407,13 @@ fn no_line_is_ok_where_the_band_is_not_explained() {
     let made = Measured::clean(&heavy, linear_hz(100.0, 2500.0, 120), 1.0, 5e-3);
     let band = identify(&case, &made, &made.drawn(1), Noise::Known(&made.std), &bounded(&case));
     assert_eq!(band.fit.unwrap().verdict, Explained::No);
-    assert!(band.outcomes.iter().all(|outcome| outcome.status != Status::Ok));
-    let unexplained = band.outcomes.iter().filter(|outcome| outcome.status == Status::Unexplained);
+    assert!(band.lines.iter().all(|outcome| outcome.status != Status::Ok));
+    let unexplained = band.lines.iter().filter(|outcome| outcome.status == Status::Unexplained);
     assert!(unexplained.clone().count() > 40, "{}", unexplained.count());
-    assert!(unexplained.clone().all(|outcome| outcome.correction.is_some()));
+    assert!(unexplained.clone().all(|outcome| outcome.correction().is_some()));
     // A line off the path has its likeliest value and the others as rivals.
-    for outcome in band.outcomes.iter().filter(|outcome| !outcome.on_path && outcome.admissible() > 0) {
-        assert!(outcome.correction.is_some(), "{outcome:?}");
-        assert_eq!(outcome.alternatives.len() + 1, outcome.admissible(), "{outcome:?}");
+    for outcome in band.lines.iter().filter(|outcome| !outcome.on_path && outcome.candidate_count() > 0) {
+        assert!(outcome.correction().is_some(), "{outcome:?}");
+        assert_eq!(outcome.rivals.len() + 1, outcome.candidate_count(), "{outcome:?}");
     }
 }

@@ -6,7 +6,9 @@ use crate::common;
 
 use common::{Answer, Folder, answers};
 use frfit::for_each::sequential;
-use frfit::identify::{Band, Context, Method, Noise, Options, Selection, Status, identify_at, identify_band};
+use frfit::identify::{
+    Context, Frfs, Method, Noise, Options, Problem, Selection, Status, Unknown, identify, identify_at,
+};
 use frfit::model::{Experiment, Sensor};
 use frfit_examples::{Model, clamped_plate, density, rubber_bar, rubber_bar_end, sandwich};
 use frfit_linalg::modes;
@@ -217,16 +219,24 @@ fn by_default_every_example_is_right_everywhere() {
         let (folder, model) = (Folder::new(name), model.unwrap());
         let (frequency_hz, measured) = folder.measured();
         let options = Options { method: Method::Rational, selection: Selection::Joint, ..folder.options() };
-        let band = Band {
-            model: &model.stiffness,
-            experiment: &model.experiment,
-            parameter: &model.parameter,
-            frequency_hz: &frequency_hz,
-            measured: &measured,
-            noise: Noise::Unknown,
+        let names: Vec<&str> = model
+            .parameter
+            .members
+            .iter()
+            .map(|member| model.stiffness.terms()[member.term].name.as_str())
+            .collect();
+        let unknown = Unknown {
+            nominal: model.parameter.nominal.clone(),
+            real: options.real,
+            bounds: options.bounds,
+            ..Unknown::factor_of(&model.stiffness, &names).unwrap()
         };
-        let hooks = Context { for_each: &sequential, progress: &|_, _, _| {} };
-        for found in identify_band(&band, &options, hooks).unwrap().outcomes {
+        let frfs = Frfs { frequency_hz: &frequency_hz, receptance: &measured, noise: Noise::Unknown };
+        let problem =
+            Problem::new(&model.stiffness, &model.experiment, std::slice::from_ref(&unknown), &[], frfs)
+                .unwrap();
+        let context = Context { for_each: &sequential, progress: &|_, _, _| {} };
+        for found in identify(&problem, &options, context).unwrap().lines {
             let truth = model.truth.at(found.frequency_hz).unwrap();
             assert_eq!(found.status, Status::Ok, "{name}, {} Hz", found.frequency_hz);
             let deviation = (found.factor().unwrap() - truth).norm() / truth.norm();

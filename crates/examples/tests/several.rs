@@ -4,9 +4,7 @@ use crate::common;
 
 use common::Folder;
 use frfit::for_each::sequential;
-use frfit::identify::{
-    Context, Explained, Noise, Options, Several, SeveralOutcome, Status, identify_several,
-};
+use frfit::identify::{Context, Explained, Frfs, Identification, Noise, Options, Problem, Status, identify};
 use frfit::material::{Law, loss_factor};
 use frfit::model::{Experiment, Sensor};
 use frfit_examples::{SeveralModel, added_mass, joint_stiffness, plate_thickness, two_materials};
@@ -19,7 +17,7 @@ const DEVIATIONS: f64 = 3.0;
 /// Of exact data: far below any reading of a modulus, far above what 13 digits of a measurement leave.
 const RIGHT: f64 = 1e-5;
 
-fn identified(name: &str, model: &SeveralModel) -> SeveralOutcome {
+fn identified(name: &str, model: &SeveralModel) -> Identification {
     let folder = Folder::new(name);
     let (frequency_hz, measured) = folder.measured();
     let std = (model.noise > 0.0).then(|| {
@@ -32,26 +30,24 @@ fn identified(name: &str, model: &SeveralModel) -> SeveralOutcome {
         let sensors: Vec<Vec<f64>> = (0..model.experiment.sensors.len()).map(of_sensor).collect();
         (0..frequency_hz.len()).map(|k| sensors.iter().map(|s| s[k]).collect()).collect::<Vec<Vec<f64>>>()
     });
-    let band = Several {
-        model: &model.stiffness,
-        experiment: &model.experiment,
-        unknowns: &model.unknowns,
+    let frfs = Frfs {
         frequency_hz: &frequency_hz,
-        measured: &measured,
+        receptance: &measured,
         noise: std.as_deref().map_or(Noise::Unknown, Noise::Known),
     };
-    let hooks = Context { for_each: &sequential, progress: &|_, _, _| {} };
-    identify_several(&band, &Options::default(), hooks).unwrap()
+    let problem = Problem::new(&model.stiffness, &model.experiment, &model.unknowns, &[], frfs).unwrap();
+    let context = Context { for_each: &sequential, progress: &|_, _, _| {} };
+    identify(&problem, &Options::default(), context).unwrap()
 }
 
 /// Every number of the unknowns that hold for the band, with its deviation, its truth, and the relative bar that the README promises.
 fn constants_are_within_their_bars(name: &str, model: &SeveralModel, bars: &[f64]) {
     let found = identified(name, model);
-    assert!(found.is_trusted() && found.converged, "{name}");
-    assert!(found.at.iter().all(|at| at.status == Status::Ok), "{name}");
+    assert!(found.is_trusted() && found.search.converged, "{name}");
+    assert!(found.lines.iter().all(|at| at.status == Status::Ok), "{name}");
     assert_eq!(found.fit.unwrap().verdict, Explained::Yes, "{name}");
     let mut promised = bars.iter();
-    for value in &found.band {
+    for value in &found.constants {
         let truth = model.truth[value.unknowns].at(100.0).unwrap();
         let exact = [truth.re, loss_factor(truth)];
         assert_eq!(value.numbers.len(), if model.unknowns[value.unknowns].real { 1 } else { 2 }, "{name}");
@@ -85,12 +81,16 @@ fn the_mass_of_a_component_and_the_modulus_below_it() {
 fn two_moduli_at_every_frequency() {
     let model = two_materials(30, 1, 1).unwrap();
     let found = identified("two-materials", &model);
-    assert!(found.work.factorisations <= 4 && found.work.solves < 200, "{:?}", found.work);
-    for at in &found.at {
+    assert!(
+        found.search.work.factorisations <= 4 && found.search.work.solves < 200,
+        "{:?}",
+        found.search.work
+    );
+    for at in &found.lines {
         assert_eq!(at.status, Status::Ok, "{} Hz", at.frequency_hz);
         for (value, truth) in at.values.iter().zip(&model.truth) {
             let truth = truth.at(at.frequency_hz).unwrap();
-            let off = (value.unwrap().value - truth).norm() / truth.norm();
+            let off = (value.value.unwrap() - truth).norm() / truth.norm();
             assert!(off < RIGHT, "{} Hz: off by {off:e}", at.frequency_hz);
         }
     }

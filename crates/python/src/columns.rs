@@ -1,7 +1,8 @@
 //! What came out, as arrays: the columns of `identified.csv`, NaN where a cell is empty.
 
 use frfit::c64;
-use frfit::identify::{Calibrated, Calibration, Identified};
+use frfit::identify::{Calibrated, Calibration, Line};
+use frfit_workflow::case::VariesEntry;
 use frfit_workflow::job::Computed;
 use frfit_workflow::output::{laws_json, smooth_json};
 use frfit_workflow::units::FactorUnit;
@@ -26,10 +27,10 @@ pub(crate) fn table<T: Element + Clone>(
 /// Everything that `frfit.Identification` is made of.
 pub(crate) fn identification<'py>(py: Python<'py>, computed: &Computed) -> PyResult<Bound<'py, PyDict>> {
     let (case, run) = (&computed.case, &computed.run);
-    let found = outcomes(py, &run.outcomes)?;
+    let found = outcomes(py, &run.found.lines)?;
     let sensors = case.sensors.len();
-    let response = |of: fn(&Identified) -> &Vec<c64>| {
-        let rows = run.outcomes.iter().map(|outcome| match of(outcome) {
+    let response = |of: fn(&Line) -> &Vec<c64>| {
+        let rows = run.found.lines.iter().map(|outcome| match of(outcome) {
             values if values.len() == sensors => values.clone(),
             _ => vec![NOTHING; sensors],
         });
@@ -46,20 +47,21 @@ pub(crate) fn identification<'py>(py: Python<'py>, computed: &Computed) -> PyRes
     let labels: Vec<&str> = case.sensors.iter().map(|sensor| sensor.label.as_str()).collect();
     found.set_item("sensors", labels)?;
     found.set_item("title", &case.title)?;
-    found.set_item("noise", run.noise.level)?;
-    found.set_item("noise_source", run.noise.source.name())?;
-    found.set_item("explored", run.explored)?;
-    found.set_item("subspace_size", run.subspace_size)?;
-    found.set_item("factorisations", run.work.factorisations)?;
-    found.set_item("solves", run.work.solves)?;
+    found.set_item("noise", run.found.noise.level)?;
+    found.set_item("noise_source", run.found.noise.source.name())?;
+    found.set_item("explored", run.found.search.explored)?;
+    found.set_item("subspace_size", run.found.search.reduced_size)?;
+    found.set_item("factorisations", run.found.search.work.factorisations)?;
+    found.set_item("solves", run.found.search.work.solves)?;
     found.set_item("seconds", run.seconds.identify())?;
-    found.set_item("explained", run.fit.map(|fit| fit.verdict.name()))?;
-    let misfit: Vec<f64> = run.sensors.iter().map(|fit| fit.misfit.unwrap_or(f64::NAN)).collect();
+    found.set_item("explained", run.found.fit.map(|fit| fit.verdict.name()))?;
+    let misfit: Vec<f64> = run.found.sensors.iter().map(|fit| fit.misfit.unwrap_or(f64::NAN)).collect();
     found.set_item("sensor_misfit", misfit.into_pyarray(py))?;
-    let left_out: Vec<bool> = run.sensors.iter().map(|fit| fit.left_out).collect();
+    let left_out: Vec<bool> = run.found.sensors.iter().map(|fit| fit.left_out).collect();
     found.set_item("sensor_left_out", left_out.into_pyarray(py))?;
     let calibrated = |name: &str, of: &dyn Fn(&Calibration) -> Option<f64>| {
-        let column: Vec<f64> = run.channels.iter().map(|channel| of(channel).unwrap_or(f64::NAN)).collect();
+        let column: Vec<f64> =
+            run.found.channels.iter().map(|channel| of(channel).unwrap_or(f64::NAN)).collect();
         found.set_item(name, column.into_pyarray(py))
     };
     let value = |found: Calibrated| found.value;
@@ -83,20 +85,20 @@ pub(crate) fn identification<'py>(py: Python<'py>, computed: &Computed) -> PyRes
         json.map(|json| py.import("json")?.call_method1("loads", (json.to_string(),))).transpose()
     };
     let unit = case.identify.as_ref().map_or(FactorUnit::Other, |identify| identify.unit);
-    let laws = run.laws.as_ref().map(|laws| laws_json(laws, unit, case.units));
-    found.set_item("laws", parsed(laws)?)?;
-    let curve = run.smooth.as_ref().and_then(|smooth| smooth.curve.as_ref());
-    found.set_item("smooth", parsed(curve.map(smooth_json))?)?;
+    let by_law =
+        case.identify.as_ref().is_some_and(|identify| matches!(identify.varies, VariesEntry::ByLaw(_)));
+    found.set_item("laws", parsed(by_law.then(|| laws_json(&run.found.laws, unit, case.units)))?)?;
+    found.set_item("smooth", parsed(run.found.curve.as_ref().map(smooth_json))?)?;
     Ok(found)
 }
 
-fn outcomes<'py>(py: Python<'py>, outcomes: &[Identified]) -> PyResult<Bound<'py, PyDict>> {
+fn outcomes<'py>(py: Python<'py>, outcomes: &[Line]) -> PyResult<Bound<'py, PyDict>> {
     let found = PyDict::new(py);
-    let real = |name: &str, of: &dyn Fn(&Identified) -> Option<f64>| {
+    let real = |name: &str, of: &dyn Fn(&Line) -> Option<f64>| {
         let column: Vec<f64> = outcomes.iter().map(|outcome| of(outcome).unwrap_or(f64::NAN)).collect();
         found.set_item(name, column.into_pyarray(py))
     };
-    let complex = |of: &dyn Fn(&Identified) -> Option<c64>| -> Bound<'py, PyArray1<Complex64>> {
+    let complex = |of: &dyn Fn(&Line) -> Option<c64>| -> Bound<'py, PyArray1<Complex64>> {
         let column: Vec<c64> = outcomes.iter().map(|outcome| of(outcome).unwrap_or(NOTHING)).collect();
         column.into_pyarray(py)
     };
@@ -104,28 +106,28 @@ fn outcomes<'py>(py: Python<'py>, outcomes: &[Identified]) -> PyResult<Bound<'py
     real("storage", &|o| o.storage())?;
     real("loss_factor", &|o| o.loss_factor())?;
     found.set_item("factor", complex(&|o| o.factor()))?;
-    found.set_item("nominal", complex(&|o| Some(o.nominal)))?;
-    found.set_item("correction", complex(&|o| o.correction))?;
+    found.set_item("nominal", complex(&|o| Some(o.nominal())))?;
+    found.set_item("correction", complex(&|o| o.correction()))?;
     real("error", &|o| o.error)?;
     real("spectral_radius", &|o| o.spectral_radius)?;
     real("convergence_radius", &|o| o.convergence_radius())?;
     real("required_order", &|o| o.required_order.map(|order| order as f64))?;
     real("reduction_error", &|o| o.reduction_error)?;
-    real("storage_std", &|o| o.uncertainty.map(|bars| bars.storage_std))?;
-    real("loss_factor_std", &|o| o.uncertainty.and_then(|bars| bars.loss_factor_std))?;
-    real("storage_loss_correlation", &|o| o.uncertainty.and_then(|bars| bars.correlation))?;
+    real("storage_std", &|o| o.uncertainty().map(|bars| bars.storage_std))?;
+    real("loss_factor_std", &|o| o.uncertainty().and_then(|bars| bars.loss_factor_std))?;
+    real("storage_loss_correlation", &|o| o.uncertainty().and_then(|bars| bars.correlation))?;
     real("chi2", &|o| o.chi_squared)?;
-    let count = |of: &dyn Fn(&Identified) -> usize| {
+    let count = |of: &dyn Fn(&Line) -> usize| {
         let column: Result<Vec<i64>, _> = outcomes.iter().map(|o| i64::try_from(of(o))).collect();
         column.map(|column| column.into_pyarray(py))
     };
     found.set_item("order", count(&|o| o.order)?)?;
-    found.set_item("candidate_count", count(&|o| o.admissible())?)?;
+    found.set_item("candidate_count", count(&|o| o.candidate_count())?)?;
     let status: Vec<&str> = outcomes.iter().map(|outcome| outcome.status.name()).collect();
     found.set_item("status", status)?;
     let alternatives: Vec<_> = outcomes
         .iter()
-        .map(|o| o.alternatives.iter().map(|c| o.nominal + c).collect::<Vec<c64>>().into_pyarray(py))
+        .map(|o| o.rivals.iter().map(|rival| rival[0]).collect::<Vec<c64>>().into_pyarray(py))
         .collect();
     found.set_item("alternatives", alternatives)?;
     Ok(found)

@@ -2,6 +2,7 @@
 //!
 //! The classes are in `frfit/_errors.py`, where a class may have two bases.
 
+use frfit::identify::ProblemError;
 use frfit::material::OutsideTable;
 use frfit_formats::Position;
 use frfit_workflow::error::{InputError, Place};
@@ -62,7 +63,10 @@ pub(crate) fn outside_table(py: Python<'_>, error: &OutsideTable) -> PyErr {
 pub(crate) fn job(py: Python<'_>, error: &JobError) -> PyErr {
     match error {
         JobError::Input(error) => input(py, error),
-        JobError::OutsideTable(error) => outside_table(py, error),
+        JobError::OutsideTable(error) | JobError::Problem(ProblemError::Table(error)) => {
+            outside_table(py, error)
+        }
+        JobError::Problem(error) => raise(py, "ModelError", error),
         JobError::Memory(error) => raise(py, "ModelMemoryError", error),
         JobError::Write(error) => raise(py, "WriteError", error),
         JobError::Figure(_) | JobError::Report(_) => raise(py, "InternalError", error),

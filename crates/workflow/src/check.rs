@@ -4,13 +4,12 @@ use crate::job::JobError;
 use crate::load::{Case, IdentifyCase, Overrides, Purpose, load};
 use crate::memory::check_identify;
 use crate::output::Words;
-use crate::run::{Used, band_of};
+use crate::run::{Used, problem_of};
 use crate::units::UnitSystem;
 use frfit::diagnostics::{
     Diagnosis, Evidence, Fault, KnownFactor, NAMED_WITHIN, NotJudged, OtherRow, diagnose,
 };
-use frfit::identify::ChannelUnknowns;
-use frfit::material::OutsideTable;
+use frfit::identify::{ChannelUnknowns, ProblemError};
 use frfit::quantity::Quantity;
 use rayon::prelude::*;
 use serde_json::{Value, json};
@@ -59,12 +58,14 @@ pub fn check_case(
 /// Looks for what is wrong with a case's data, on all cores; the result does not depend on their number.
 ///
 /// # Errors
-/// [`OutsideTable`] where a table of a factor does not reach a frequency.
-pub fn check(case: &Case, identify: &IdentifyCase) -> Result<Diagnosis, OutsideTable> {
+/// [`ProblemError`] where the case has a fault that was not seen when it was loaded.
+pub fn check(case: &Case, identify: &IdentifyCase) -> Result<Diagnosis, ProblemError> {
     let quantities: Vec<Quantity> = case.sensors.iter().map(|sensor| sensor.quantity).collect();
     let for_each = |n: usize, each: &(dyn Fn(usize) + Sync)| (0..n).into_par_iter().for_each(each);
     let used = Used::of(identify);
-    let mut diagnosis = diagnose(&band_of(case, identify, &used), &quantities, &identify.options, &for_each)?;
+    let unknowns = [identify.factor()];
+    let problem = problem_of(case, identify, &unknowns, &used)?;
+    let mut diagnosis = diagnose(&problem, &quantities, &identify.options, &for_each)?;
     // A real factor or a delay is no finding where it is looked for.
     diagnosis.findings.retain(|finding| {
         let real = matches!(finding.fault, Fault::Factor { .. } | Fault::Sign);
@@ -256,7 +257,10 @@ pub fn not_judged(reason: NotJudged) -> &'static str {
     match reason {
         NotJudged::Parameter => "the unknown factor has no positive real part to begin with",
         NotJudged::FewValues => "too few values",
-        NotJudged::Breakdown => "no reduced model of the band could be made",
+        NotJudged::SeveralUnknowns => {
+            "no single unknown explains the data with the others at their nominal values"
+        }
+        _ => "no reduced model of the band could be made",
     }
 }
 

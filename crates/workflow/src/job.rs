@@ -1,5 +1,6 @@
 //! Whole jobs: from the path of a case to files in a folder. What the command line and other front ends share.
 
+use crate::case::VariesEntry;
 use crate::check::{check, findings_json};
 use crate::convert::{OR_TO, ending_of};
 use crate::error::{InputError, Place};
@@ -10,13 +11,13 @@ use crate::output::{
     File, Words, WriteError, candidates_csv, check_file, check_folder, error_map_csv, hit_reasons,
     identified_csv, is_stream, laws_json, measured_csv, measured_summary, measured_text, measured_uff,
     reference_csv, respond_csv, respond_uff, response_csv, several_csv, several_json, several_reference_csv,
-    several_response_csv, several_text, several_updated_uff, summary_json, updated_uff, write_one,
-    write_result,
+    several_response_csv, several_text, summary_json, updated_uff, write_one, write_result,
 };
 use crate::records::{ChannelOptions, Records, read_records};
 use crate::report::report_of;
-use crate::run::{IdentifyRun, Progress, RespondRun, RunOptions, SeveralRun, identify, respond, several};
+use crate::run::{IdentifyRun, Progress, RespondRun, RunOptions, identify, respond, several};
 use frfit::diagnostics::Diagnosis;
+use frfit::identify::ProblemError;
 use frfit::material::OutsideTable;
 use frfit::signal::{self, Measured, SignalError, estimate_frf};
 use frfit_figures::PngError;
@@ -31,6 +32,8 @@ pub enum JobError {
     Input(InputError),
     /// A table of a factor does not reach a frequency of the band.
     OutsideTable(OutsideTable),
+    /// The case has a fault that was not seen when it was loaded.
+    Problem(ProblemError),
     /// The model does not fit into memory.
     Memory(MemoryError),
     /// The output folder cannot be written.
@@ -46,6 +49,7 @@ impl fmt::Display for JobError {
         match self {
             Self::Input(error) => write!(f, "{error}"),
             Self::OutsideTable(error) => write!(f, "{error}"),
+            Self::Problem(error) => write!(f, "{error}"),
             Self::Memory(error) => write!(f, "{error}"),
             Self::Write(error) => write!(f, "{error}"),
             Self::Figure(error) => write!(f, "a figure could not be drawn: {error}"),
@@ -71,6 +75,7 @@ macro_rules! from {
 from!(
     Input(InputError),
     OutsideTable(OutsideTable),
+    Problem(ProblemError),
     Memory(MemoryError),
     Write(WriteError),
     Figure(PngError)
@@ -138,17 +143,17 @@ pub fn identify_case(
     summary["findings"] = diagnosis.as_ref().map_or(serde_json::Value::Null, |d| findings_json(&case, d));
     summary["seconds"]["check"] = seconds_check.into();
     let mut tables = vec![
-        File::new("identified.csv", identified_csv(&run.outcomes)),
-        File::new("candidates.csv", candidates_csv(&run.outcomes)),
-        File::new("reference.csv", reference_csv(wanted, &run.outcomes)),
+        File::new("identified.csv", identified_csv(&run.found.lines)),
+        File::new("candidates.csv", candidates_csv(&run.found.lines)),
+        File::new("reference.csv", reference_csv(wanted, &run.found.lines)),
         File::new("response.csv", response_csv(&case, wanted, &run)),
     ];
-    if let Some(laws) = &run.laws {
-        tables.push(File::new("free.csv", identified_csv(&laws.free)));
-        files.push(File::new("law.json", format!("{:#}\n", laws_json(laws, wanted.unit, case.units))));
+    if !run.found.free.is_empty() {
+        tables.push(File::new("free.csv", identified_csv(&run.found.free)));
     }
-    if let Some(smooth) = &run.smooth {
-        tables.push(File::new("free.csv", identified_csv(&smooth.free)));
+    if matches!(wanted.varies, VariesEntry::ByLaw(_)) {
+        let laws = laws_json(&run.found.laws, wanted.unit, case.units);
+        files.push(File::new("law.json", format!("{laws:#}\n")));
     }
     if let Some(map) = &run.error_map {
         tables.push(File::new("error_map.csv", error_map_csv(map)));
@@ -224,7 +229,7 @@ pub struct SeveralJob {
     /// The case.
     pub case: Case,
     /// What came out.
-    pub run: SeveralRun,
+    pub run: IdentifyRun,
     /// `summary.json`.
     pub summary: serde_json::Value,
     /// The same for a person.
@@ -237,7 +242,7 @@ pub struct ComputedSeveral {
     /// The case.
     pub case: Case,
     /// What came out.
-    pub run: SeveralRun,
+    pub run: IdentifyRun,
     /// How long the files took to read.
     pub seconds_load: f64,
 }
@@ -301,8 +306,8 @@ pub fn several_case(
     // Beside them a folder may have tables of other runs.
     summary["tables"] = tables.iter().map(|table| table.path.display().to_string()).collect();
     files.extend(tables);
-    let uff = several_updated_uff(&case, &run)
-        .map_err(|error| InputError::in_file(&out.join("updated.uff"), error))?;
+    let uff =
+        updated_uff(&case, &run).map_err(|error| InputError::in_file(&out.join("updated.uff"), error))?;
     files.push(File::new("updated.uff", uff));
     files.push(File::new("summary.json", format!("{summary:#}\n")));
     let page = report_of(&files, out);

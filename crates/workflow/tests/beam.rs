@@ -162,7 +162,7 @@ fn one_modulus_has_all_natural_frequencies_to_2_khz_needs_data() {
     // One loss factor for all modes leaves a quarter of the response where they are: no noise, and said so.
     assert_eq!(job.summary["fit"]["verdict"], "not explained");
     assert!(job.run.count(Status::Ok) < LINES / 2, "{}", job.summary["status"]);
-    assert_eq!(job.run.count(Status::OutOfBand), job.run.outcomes.len() - LINES);
+    assert_eq!(job.run.count(Status::OutOfBand), job.run.found.lines.len() - LINES);
     for (unit, (pole, _)) in unit_frequencies().iter().zip(POLES) {
         let off = unit * storage.sqrt() / pole - 1.0;
         println!("{pole} Hz: off by {:.3} %", 100.0 * off);

@@ -231,11 +231,11 @@ fn the_loss_factor_of_a_bar_is_found_from_the_files_of_calculix_alone_needs_data
     )
     .unwrap();
     assert_eq!(done.case.sensors[0].label, "712+X");
-    assert_eq!((done.case.inputs.len(), done.run.outcomes.len()), (6, 121));
-    for outcome in &done.run.outcomes {
+    assert_eq!((done.case.inputs.len(), done.run.found.lines.len()), (6, 121));
+    for outcome in &done.run.found.lines {
         let at = format!("{} Hz: {outcome:?}", outcome.frequency_hz);
         assert_eq!(outcome.status, Status::Ok, "{at}");
-        let factor = outcome.nominal + outcome.correction.unwrap();
+        let factor = outcome.nominal() + outcome.correction().unwrap();
         // CalculiX sums 60 modes: at the far end it agrees with a direct solve to 0.3 % in the middle of all frequencies.
         // What came out is at most 0.15 % off in storage and 0.8 % in the loss factor.
         assert!((factor.re - 1.0).abs() < 5e-3, "{at}");

@@ -156,7 +156,7 @@ fn the_thickness_of_a_solid_is_found() {
     let folder = folder(POWERS, &VALUES, &(unknown(0.019) + &format!("reference = {TRUTH}\n")));
     let (case, out) = (folder.path().join("case.toml"), folder.path().join("out"));
     let job = several_case(&case, &Overrides::default(), None, &out, &|_, _| {}).unwrap();
-    let found = job.run.outcome.band[0].numbers[0].value;
+    let found = job.run.found.constants[0].numbers[0].value;
     // Exact data, and answers that are asked to 1e-6.
     assert!((found / TRUTH - 1.0).abs() < 1e-6, "{found}\n{}", job.text.all);
 }

@@ -188,12 +188,13 @@ fn the_modulus_is_the_same_in_every_system() {
             let stress = mass / (length * time * time);
             let found: Vec<c64> = job
                 .run
-                .outcomes
+                .found
+                .lines
                 .iter()
                 .map(|o| o.factor().unwrap_or_else(|| panic!("{name}, {k}: {o:?}")) * stress)
                 .collect();
             assert_eq!(found.len(), 30);
-            for (e, o) in found.iter().zip(&job.run.outcomes) {
+            for (e, o) in found.iter().zip(&job.run.found.lines) {
                 // Data are exact; the answer is asked to 1e-6.
                 assert!((e - TRUTH).norm() < 1e-6 * TRUTH.norm(), "{name}: {e} at {} Hz", o.frequency_hz);
             }
@@ -351,7 +352,7 @@ fn a_relative_factor_has_no_unit_and_makes_no_deck_alone() {
     let plain = ExportOptions { target: Target::Csv, ..to_nastran() };
     let csv = export(&out.join("identified.csv"), None, &plain, &mut Reads::default()).unwrap().text;
     let first: Vec<&str> = csv.lines().nth(1).unwrap().split(',').collect();
-    let storage = job.run.outcomes[0].factor().unwrap().re;
+    let storage = job.run.found.lines[0].factor().unwrap().re;
     assert_eq!((first[0], first[1].parse::<f64>().unwrap()), ("20.0", storage));
     let made_with = ExportOptions { modulus: Some(1e6), ..to_nastran() };
     let mat1 = card(
@@ -371,7 +372,7 @@ fn several_unknowns_are_in_the_units_of_the_case() {
     let case = folder.path().join("case.toml");
     let job = several_case(&case, &Overrides::default(), None, &out, &|_, _| {}).unwrap();
     assert_eq!(job.summary["unknowns"][0]["unit"], "MPa");
-    let storage = job.run.outcome.band[0].numbers[0].value;
+    let storage = job.run.found.constants[0].numbers[0].value;
     assert!((storage / (TRUTH.re / 1e6) - 1.0).abs() < 1e-6, "{storage}");
 }
 

@@ -25,7 +25,7 @@ pub(crate) fn run(args: &Args, identify: &Identify) -> Result<Outcome, Failure> 
     let options = RunOptions { error_map: identify.error_map, memory_bytes: identify.memory.map(megabytes) };
     let job = carry_out(args, &identify.case, &overrides, options, &identify.out)?;
     // What the user left out needs no answer.
-    let trusted = job.run.count(Status::Ok) + job.run.count(Status::OutOfBand) == job.run.outcomes.len();
+    let trusted = job.run.count(Status::Ok) + job.run.count(Status::OutOfBand) == job.run.found.lines.len();
     Ok(if identify.strict && !trusted { Outcome::NotTrusted } else { Outcome::Done })
 }
 
@@ -42,8 +42,8 @@ fn several(args: &Args, identify: &Identify, overrides: &Overrides) -> Result<Ou
     } else {
         say_words(args, &report::several(&job, &identify.out))?;
     }
-    let outcome = &job.run.outcome;
-    let trusted = outcome.is_trusted() && job.run.count(Status::Ok) == outcome.at.len();
+    let outcome = &job.run.found;
+    let trusted = outcome.is_trusted() && job.run.count(Status::Ok) == outcome.lines.len();
     Ok(if identify.strict && !trusted { Outcome::NotTrusted } else { Outcome::Done })
 }
 

@@ -141,6 +141,7 @@ pub struct Finding {
 
 /// Why data were not judged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum NotJudged {
     /// The unknown factor has no positive real part to begin with, or enters with a power.
     Parameter,
@@ -148,4 +149,6 @@ pub enum NotJudged {
     FewValues,
     /// The reduced model cannot be built or solved.
     Breakdown,
+    /// With none of several unknowns free, the others at their nominal values, are the data explained, as they are or with a finding.
+    SeveralUnknowns,
 }

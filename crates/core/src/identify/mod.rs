@@ -1,26 +1,79 @@
-//! From a measured response to the factor that reproduces it, and how far to trust it.
+//! From a measured response to the values that reproduce it, and how far to trust them.
+//!
+//! [`identify`] is the one entry: a [`Problem`] says what is known and what is not, an [`Identification`] what came out.
+//!
+//! | file | what is in it |
+//! |---|---|
+//! | `problem` | what is to be identified, checked |
+//! | `band` | a single unknown: all solutions at each frequency, one path through the band, laws, a smooth curve |
+//! | `several` | any number of unknowns in one least squares |
+//! | `one` | a single frequency, as the paper has it |
+//! | `outcome`, `identification` | what came out of a line, and of a band |
 
 mod band;
 mod choice;
+mod identification;
 mod one;
 mod options;
 mod outcome;
+mod problem;
 mod rational;
 mod several;
 mod uncertainty;
 
+pub(crate) use band::{Band, MOST_PHASE, PHASE_STEP};
 pub use band::{
-    Band, BandOutcome, Calibrated, Calibration, ChannelUnknowns, Context, Explained, GoodnessOfFit,
-    LawsOutcome, Noise, NoiseLevel, NoiseSource, SensorFit, SmoothCurve, SmoothOutcome, Stage, identify_band,
-    identify_band_scaled, identify_laws, identify_laws_scaled, identify_smooth,
+    Calibrated, Calibration, ChannelUnknowns, Context, Explained, GoodnessOfFit, Noise, NoiseLevel,
+    NoiseSource, SensorFit, SmoothCurve, Stage,
 };
-pub(crate) use band::{MOST_PHASE, PHASE_STEP};
 pub use choice::{Method, Reduction, Selection, UnknownChoice};
+pub use identification::{Identifiability, Identification, SearchReport};
 pub use one::{error_by_order, identify_at, relative_error};
 pub use options::{MAX_ORDER, Options, OptionsError};
-pub use outcome::{Identified, Status};
-pub use several::{
-    BandValue, Dependence, Direction, Number, Profile, Several, SeveralAt, SeveralOutcome, Unknown, ValueAt,
-    Variation, identify_several,
-};
+pub use outcome::{Line, LineValue, Status};
+pub use problem::{Frfs, Problem, ProblemError};
+pub use several::{BandValue, Dependence, Direction, Number, Profile, Unknown, Variation};
 pub use uncertainty::Uncertainty;
+
+use problem::Strategy;
+
+/// Identifies the unknowns of a problem.
+///
+/// One reduced model (B-3) answers for the whole band, with an estimate of its error in every line; where it cannot be built, the
+/// full model answers. A single factor is found with all its solutions at each frequency (B-2), fitted to all sensors (B-5), and one
+/// path is chosen through the band (B-4); a law (B-7) or a smooth curve (B-9) begins there. Several unknowns, constants and
+/// dimensions are found in one least squares in which what each frequency has of its own is eliminated (B-8). Channels of unknown
+/// scale or delay are found together with a single unknown.
+///
+/// # Errors
+/// [`ProblemError`] for options that do not belong to the problem. Numerical trouble is a [`Status`] with its evidence, never an
+/// error.
+///
+/// # Limits
+/// Error bars hold the noise of the measurement. Of several unknowns that a frequency has of its own, the solutions are those that
+/// several starts lead to, not provably all.
+pub fn identify(
+    problem: &Problem<'_>,
+    options: &Options,
+    context: Context<'_>,
+) -> Result<Identification, ProblemError> {
+    let options = &problem.checked(options)?;
+    let channels = problem.channels();
+    Ok(match problem.single() {
+        None => several::identify_several(problem, options, context)?.into(),
+        Some((strategy, parameter)) => {
+            let band = &problem.band(&parameter);
+            match strategy {
+                Strategy::PerFrequency if channels.is_empty() => {
+                    band::identify_band(band, options, context)?.into()
+                }
+                Strategy::PerFrequency => {
+                    let (found, channels) = band::identify_band_scaled(band, channels, options, context)?;
+                    Identification { channels, ..found.into() }
+                }
+                Strategy::Smooth => band::identify_smooth(band, options, context)?.into(),
+                Strategy::Law(kinds) => band::identify_laws(band, channels, kinds, options, context)?.into(),
+            }
+        }
+    })
+}

@@ -1,7 +1,7 @@
 //! One frequency.
 
 use super::rational::by_rational;
-use super::{Identified, Method, Options, Status};
+use super::{Line, Method, Options, Status};
 use crate::c64;
 use crate::nelder_mead;
 use crate::response::Response;
@@ -24,8 +24,8 @@ pub(super) const SENSOR: usize = 0;
 /// # Limits
 /// `ok` says that one root is admissible *inside the circle of convergence* and reproduces the first sensor's response. Roots outside it are not seen:
 /// where the true one is outside, a wrong one inside can be `ok`. Another sensor's error tells.
-pub fn identify_at(system: &impl Response, measured: &[c64], options: &Options) -> Identified {
-    let mut outcome = Identified::unknown(system.frequency_hz(), system.nominal(0), options.order);
+pub fn identify_at(system: &impl Response, measured: &[c64], options: &Options) -> Line {
+    let mut outcome = Line::unknown(system.frequency_hz(), system.nominal(0), options.order);
     let result = match options.method {
         Method::Series => by_series(system, measured, options, &mut outcome),
         Method::Rational => by_rational(system, measured, options, &mut outcome),
@@ -43,15 +43,16 @@ fn by_series(
     system: &impl Response,
     measured: &[c64],
     options: &Options,
-    outcome: &mut Identified,
+    outcome: &mut Line,
 ) -> Result<(), Breakdown> {
     let series = NeumannSeries::new(system, 0, options.order)?;
     outcome.nominal_response = series.respond(c64::default(), 0);
     outcome.roots =
-        candidates(&series, SENSOR, measured[SENSOR], outcome.nominal, options.order, &options.roots());
+        candidates(&series, SENSOR, measured[SENSOR], outcome.nominal(), options.order, &options.roots());
     let radius = convergence_radius(system, 0)?;
     outcome.radius = Some(radius);
-    refuse_diverged(&mut outcome.roots, &series, SENSOR, outcome.nominal, &radius, &options.roots());
+    let nominal = outcome.nominal();
+    refuse_diverged(&mut outcome.roots, &series, SENSOR, nominal, &radius, &options.roots());
     let Some(chosen) = choose(&outcome.roots) else {
         outcome.status = Status::NoRoot;
         return Ok(());
@@ -59,7 +60,7 @@ fn by_series(
     outcome.spectral_radius = Some(radius.at(chosen.correction));
     let confirmed =
         confirm(system, measured, options, chosen.correction, outcome)? && chosen.refusal.is_none();
-    outcome.status = match (confirmed, outcome.admissible()) {
+    outcome.status = match (confirmed, outcome.candidate_count()) {
         (false, _) => Status::Diverged,
         (true, 1) => Status::Ok,
         (true, _) => Status::Ambiguous,
@@ -73,11 +74,11 @@ pub(super) fn confirm(
     measured: &[c64],
     options: &Options,
     correction: c64,
-    outcome: &mut Identified,
+    outcome: &mut Line,
 ) -> Result<bool, Breakdown> {
     let updated = system.solve_at(&[correction])?;
     let here = relative_error(&measured[SENSOR..=SENSOR], &updated[SENSOR..=SENSOR]);
-    outcome.correction = Some(correction);
+    outcome.set_correction(correction);
     outcome.error = Some(relative_error(measured, &updated)).filter(|error| error.is_finite());
     outcome.updated_response = updated;
     // False for NaN too.
@@ -93,13 +94,13 @@ fn by_search(
     system: &impl Response,
     measured: &[c64],
     options: &Options,
-    outcome: &mut Identified,
+    outcome: &mut Line,
 ) -> Result<(), Breakdown> {
     outcome.nominal_response = system.respond_nominal()?;
     let found = nelder_mead::search(system, &measured[SENSOR..=SENSOR], options.order);
     let matched = confirm(system, measured, options, found.correction, outcome)?;
     outcome.status = if matched { Status::Ok } else { Status::Diverged };
-    if options.bounds.broken_by(outcome.nominal + found.correction).is_some() {
+    if options.bounds.broken_by(outcome.nominal() + found.correction).is_some() {
         outcome.forget_value(Status::NoRoot);
     }
     Ok(())

@@ -70,76 +70,107 @@ impl Status {
     }
 }
 
-/// The outcome at one frequency. What does not exist is `None`, never zero.
+/// One unknown at one frequency.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LineValue {
+    /// Nominal value p̄.
+    pub nominal: c64,
+    /// The identified value p = p̄ + c, P-35, whatever the status of the line; of an unknown that holds for the band its
+    /// value at this frequency. `None` where nothing was found.
+    pub value: Option<c64>,
+    /// The correction c. With status `diverged` it is the root of least |c| within the bounds.
+    pub correction: Option<c64>,
+    /// Its error bars: of a joint selection, where the noise is known or the band shows it.
+    pub uncertainty: Option<Uncertainty>,
+}
+
+impl LineValue {
+    /// Nothing but the nominal value.
+    pub(super) fn unknown(nominal: c64) -> Self {
+        Self { nominal, value: None, correction: None, uncertainty: None }
+    }
+
+    /// Real part of the value: the storage modulus E′.
+    pub fn storage(&self) -> Option<f64> {
+        self.value.map(|value| value.re)
+    }
+
+    /// Loss factor η of the value, P-31.
+    pub fn loss_factor(&self) -> Option<f64> {
+        self.value.map(loss_factor)
+    }
+}
+
+/// What was found at one frequency. What does not exist is `None`, never zero.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Identified {
+pub struct Line {
     /// The frequency.
     pub frequency_hz: f64,
-    /// Nominal value p̄ of the parameter.
-    pub nominal: c64,
-    /// The correction c, whatever the status. With `diverged` it is the root of least |c| within the bounds.
-    pub correction: Option<c64>,
-    /// Whether the correction lies on the path that a joint selection chose through the band. Otherwise it is the likeliest of
+    /// One for each unknown of the problem, those that hold for the band too.
+    pub values: Vec<LineValue>,
+    /// How far the values of this frequency can be trusted; where all unknowns hold for the band, whether they explain it.
+    pub status: Status,
+    /// Whether the values lie on the path that a joint selection chose through the band. Otherwise they are the likeliest of
     /// the solutions of a line that the path leaves out.
     pub on_path: bool,
-    /// ε over all sensors but those that were left out, P-40, from a fresh direct solve with the corrected parameter; `None` where nothing but
-    /// zeros was measured.
+    /// Other values of all unknowns that the data cannot exclude.
+    pub rivals: Vec<Vec<c64>>,
+    /// ε over all sensors but those that were left out, P-40; `None` where nothing but zeros was measured.
     pub error: Option<f64>,
-    /// ρ(−c A₀⁻¹A₁) at the correction, P-14.
+    /// χ² of the sensors per degree of freedom; `None` where there is no degree of freedom, as for the complex factor of one
+    /// sensor.
+    pub chi_squared: Option<f64>,
+    /// Estimated error of the reduced model's response at the sensors, relative to the measured one; `None` where the full
+    /// model answered, or nothing but zeros was measured.
+    pub reduction_error: Option<f64>,
+    /// Why a system could not be solved, where one could not.
+    pub breakdown: Option<Breakdown>,
+    /// Receptance at the sensors with the nominal values; empty where it could not be solved.
+    pub nominal_response: Vec<c64>,
+    /// Receptance at the sensors with the identified values; empty where there are none.
+    pub updated_response: Vec<c64>,
+    /// Roots of the highest order, least |c| first, each admissible or with the reason why not: of a single unknown.
+    pub roots: Vec<Candidate>,
+    /// Order of the series or of the rational response, or iterations: of a single unknown.
+    pub order: usize,
+    /// ρ(−c A₀⁻¹A₁) at the correction, P-14: of a single unknown.
     pub spectral_radius: Option<f64>,
     /// The radius of convergence behind it.
     pub radius: Option<ConvergenceRadius>,
-    /// Order of the series, or iterations.
-    pub order: usize,
-    /// Roots of the highest order, least |c| first, each admissible or with the reason why not.
-    pub roots: Vec<Candidate>,
-    /// The verdict.
-    pub status: Status,
-    /// Why a system could not be solved, where one could not.
-    pub breakdown: Option<Breakdown>,
-    /// Receptance at the sensors with the nominal parameter; empty where it could not be solved.
-    pub nominal_response: Vec<c64>,
-    /// Receptance at the sensors with the corrected parameter, from the direct solve; empty where there is none.
-    pub updated_response: Vec<c64>,
-    /// Corrections that the data cannot exclude beside the one that is given: of a joint selection with status `ambiguous`.
-    pub alternatives: Vec<c64>,
-    /// Estimated error of the reduced model's response at the sensors, relative to the measured one, at the correction; `None` where the
-    /// full model answered, or nothing but zeros was measured.
-    pub reduction_error: Option<f64>,
-    /// Order that the paper's series would need for a truncation error of 1e-6 at the correction; `None` where it diverges, or was not asked.
+    /// Order that the paper's series would need for a truncation error of 1e-6 at the correction; `None` where it diverges, or
+    /// was not asked.
     pub required_order: Option<usize>,
-    /// Error bars of the factor: of a joint selection, where the noise is known or the band tells it.
-    pub uncertainty: Option<Uncertainty>,
-    /// χ² of the sensors per degree of freedom; `None` where there is no degree of freedom, as for the complex factor of one sensor.
-    pub chi_squared: Option<f64>,
-    /// Work done.
+    /// Work done at this frequency alone.
     pub work: Work,
 }
 
-impl Identified {
-    /// An outcome with nothing known yet.
-    pub(super) fn unknown(frequency_hz: f64, nominal: c64, order: usize) -> Self {
+impl Line {
+    /// A line with nothing known yet.
+    pub(super) fn of_values(frequency_hz: f64, values: Vec<LineValue>) -> Self {
         Self {
             frequency_hz,
-            nominal,
-            correction: None,
-            on_path: false,
-            error: None,
-            spectral_radius: None,
-            radius: None,
-            order,
-            roots: Vec::new(),
+            values,
             status: Status::NoRoot,
+            on_path: false,
+            rivals: Vec::new(),
+            error: None,
+            chi_squared: None,
+            reduction_error: None,
             breakdown: None,
             nominal_response: Vec::new(),
             updated_response: Vec::new(),
-            alternatives: Vec::new(),
-            reduction_error: None,
+            roots: Vec::new(),
+            order: 0,
+            spectral_radius: None,
+            radius: None,
             required_order: None,
-            uncertainty: None,
-            chi_squared: None,
             work: Work::default(),
         }
+    }
+
+    /// The same for a single unknown.
+    pub(super) fn unknown(frequency_hz: f64, nominal: c64, order: usize) -> Self {
+        Self { order, ..Self::of_values(frequency_hz, vec![LineValue::unknown(nominal)]) }
     }
 
     /// What is known of this frequency before a law or a curve answers for it: the nominal response and the solutions there.
@@ -150,7 +181,7 @@ impl Identified {
             breakdown: self.breakdown.clone(),
             nominal_response: self.nominal_response.clone(),
             status: Status::Failed,
-            ..Self::unknown(self.frequency_hz, self.nominal, self.order)
+            ..Self::unknown(self.frequency_hz, self.nominal(), self.order)
         }
     }
 
@@ -159,40 +190,70 @@ impl Identified {
         *self = Self { status, ..self.unanswered() };
     }
 
-    /// The outcome at a frequency that is left out.
-    pub fn out_of_band(frequency_hz: f64, nominal: c64) -> Self {
-        Self { status: Status::OutOfBand, ..Self::unknown(frequency_hz, nominal, 0) }
+    /// A line that is left out.
+    pub fn out_of_band(frequency_hz: f64, nominal: &[c64]) -> Self {
+        let values = nominal.iter().map(|&nominal| LineValue::unknown(nominal)).collect();
+        Self { status: Status::OutOfBand, ..Self::of_values(frequency_hz, values) }
     }
 
-    /// The outcome where the nominal system could not even be factorised.
-    pub fn broken(frequency_hz: f64, nominal: c64, order: usize, breakdown: Breakdown) -> Self {
+    /// A line where the nominal system could not even be factorised.
+    pub(super) fn broken(frequency_hz: f64, nominal: &[c64], order: usize, breakdown: Breakdown) -> Self {
+        let values = nominal.iter().map(|&nominal| LineValue::unknown(nominal)).collect();
         let status = Status::Failed;
-        Self { status, breakdown: Some(breakdown), ..Self::unknown(frequency_hz, nominal, order) }
+        Self { status, order, breakdown: Some(breakdown), ..Self::of_values(frequency_hz, values) }
     }
 
-    /// Updated factor p̄ + c, P-35.
+    pub(super) fn set_correction(&mut self, correction: c64) {
+        let value = &mut self.values[0];
+        (value.correction, value.value) = (Some(correction), Some(value.nominal + correction));
+    }
+
+    /// Nominal value of the first unknown.
+    pub fn nominal(&self) -> c64 {
+        self.values[0].nominal
+    }
+
+    /// Correction c of the first unknown.
+    pub fn correction(&self) -> Option<c64> {
+        self.values[0].correction
+    }
+
+    /// Value p̄ + c of the first unknown, P-35.
     pub fn factor(&self) -> Option<c64> {
-        self.correction.map(|c| self.nominal + c)
+        self.values[0].value
     }
 
-    /// Distance of the nearest pole of the response from the nominal value, over |p̄|: how far the parameter may change before the series
-    /// diverges.
-    pub fn convergence_radius(&self) -> Option<f64> {
-        self.radius.map(|radius| 1.0 / (radius.per_unit * self.nominal.norm()))
+    /// Error bars of the first unknown.
+    pub fn uncertainty(&self) -> Option<Uncertainty> {
+        self.values[0].uncertainty
     }
 
-    /// Storage modulus E′, the updated factor's real part.
+    /// Storage modulus E′ of the first unknown.
     pub fn storage(&self) -> Option<f64> {
-        self.factor().map(|factor| factor.re)
+        self.values[0].storage()
     }
 
-    /// Loss factor η of the updated factor, P-31.
+    /// Loss factor η of the first unknown, P-31.
     pub fn loss_factor(&self) -> Option<f64> {
-        self.factor().map(loss_factor)
+        self.values[0].loss_factor()
     }
 
-    /// Number of admissible roots.
-    pub fn admissible(&self) -> usize {
-        self.roots.iter().filter(|root| root.refusal.is_none()).count()
+    /// Distance of the nearest pole of the response from the nominal value, over |p̄|: how far the parameter may change before
+    /// the series diverges.
+    pub fn convergence_radius(&self) -> Option<f64> {
+        self.radius.map(|radius| 1.0 / (radius.per_unit * self.nominal().norm()))
+    }
+
+    /// Whether a root of the only unknown is a rival of the value that is given.
+    pub fn is_rival(&self, root: &Candidate) -> bool {
+        let factor = self.nominal() + root.correction;
+        self.rivals.iter().any(|rival| rival[0] == factor)
+    }
+
+    /// Number of solutions that were found within the bounds.
+    pub fn candidate_count(&self) -> usize {
+        let admissible = self.roots.iter().filter(|root| root.refusal.is_none()).count();
+        let known = usize::from(self.values.iter().any(|value| value.value.is_some())) + self.rivals.len();
+        if self.roots.is_empty() { known } else { admissible }
     }
 }

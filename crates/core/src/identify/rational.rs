@@ -1,7 +1,7 @@
 //! One frequency by the rational response: all solutions within the bounds, not only those of a convergent series.
 
 use super::one::{SENSOR, choose, confirm, relative_error};
-use super::{Identified, Options, Status};
+use super::{Line, Options, Status};
 use crate::c64;
 use crate::rational::{RationalResponse, RationalRoot};
 use crate::response::Response;
@@ -29,15 +29,15 @@ pub(super) fn by_rational(
     system: &impl Response,
     measured: &[c64],
     options: &Options,
-    outcome: &mut Identified,
+    outcome: &mut Line,
 ) -> Result<(), Breakdown> {
     let mut order = STEP.min(options.order);
     let mut response = RationalResponse::new(system, 0, order)?;
     loop {
-        let judged = judge(&response, measured[SENSOR], outcome.nominal, &options.roots());
+        let judged = judge(&response, measured[SENSOR], outcome.nominal(), &options.roots());
         outcome.roots = judged.map_err(|NoConvergence| Breakdown::NotFinite)?;
         // No solution at a low order is no proof that there is none.
-        let settled = !unsure(&outcome.roots) && outcome.admissible() > 0;
+        let settled = !unsure(&outcome.roots) && outcome.candidate_count() > 0;
         if settled || order == options.order || response.is_complete() {
             break;
         }
@@ -56,7 +56,7 @@ pub(super) fn by_rational(
     };
     outcome.spectral_radius = Some(radius.at(chosen.correction));
     let confirmed = confirm(system, measured, options, chosen.correction, outcome)?;
-    outcome.status = match (confirmed && chosen.refusal.is_none(), outcome.admissible()) {
+    outcome.status = match (confirmed && chosen.refusal.is_none(), outcome.candidate_count()) {
         (false, _) => Status::Failed,
         (true, 1) if !unsure(&outcome.roots) => Status::Ok,
         (true, _) => Status::Ambiguous,

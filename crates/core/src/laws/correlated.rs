@@ -12,7 +12,7 @@
 
 /// One line of the data: a frequency of a band, or a row of a table. Each of the two numbers of ln E by itself.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Line {
+pub(crate) struct LineResidual {
     /// Inverse variance of what the line tells, up to the common factor s².
     pub(crate) weight: [f64; 2],
     /// What the law leaves, d.
@@ -52,7 +52,7 @@ const STRONG: f64 = 1e6;
 const LEAST_LINES: usize = 12;
 
 /// The likeliest correlation of what lines leave; `None` where noise of their own explains it as well.
-pub(super) fn correlation(lines: &[Line]) -> Option<Process> {
+pub(super) fn correlation(lines: &[LineResidual]) -> Option<Process> {
     let told: Vec<(usize, [f64; 2], [f64; 2])> = (lines.iter().enumerate())
         .filter(|(_, line)| line.weight.iter().all(|w| w.is_finite() && *w > 0.0))
         .filter(|(_, line)| line.rest.iter().all(|d| d.is_finite()))
@@ -104,7 +104,11 @@ fn deviance(lines: &[(usize, [f64; 2], [f64; 2])], persistence: f64, ratio: f64)
 }
 
 /// Σ z_k τ²φ^{|k−l|} z_lᵀ of both numbers with z = H⁻¹a: what the shared deviation makes of the covariance.
-pub(super) fn shared_covariance(lines: &[Line], process: Process, inverse: &[Vec<f64>]) -> Vec<Vec<f64>> {
+pub(super) fn shared_covariance(
+    lines: &[LineResidual],
+    process: Process,
+    inverse: &[Vec<f64>],
+) -> Vec<Vec<f64>> {
     let n = inverse.len();
     // Coordinates that nothing depends on have no finite row, and no pull.
     let product = |row: &[f64], pull: &[f64]| -> f64 {
@@ -132,8 +136,8 @@ pub(super) fn shared_covariance(lines: &[Line], process: Process, inverse: &[Vec
 mod tests {
     use super::*;
 
-    fn lines(rest: impl Fn(usize) -> f64, count: usize) -> Vec<Line> {
-        let line = |k: usize| Line {
+    fn lines(rest: impl Fn(usize) -> f64, count: usize) -> Vec<LineResidual> {
+        let line = |k: usize| LineResidual {
             weight: [4.0; 2],
             rest: [rest(2 * k), rest(2 * k + 1)],
             pull: [vec![1.0], vec![0.0]],

@@ -1,6 +1,6 @@
 //! A fitted law: its parameters, how well they are known, and how well it explains the data.
 
-use super::correlated::{Correlated, Line, correlation, shared_covariance};
+use super::correlated::{Correlated, LineResidual, correlation, shared_covariance};
 use super::least_squares::{LocalMinima, Search, inverse_information, minimise};
 use super::{Datum, LawKind, Parametrization, starts};
 use crate::c64;
@@ -159,7 +159,7 @@ impl LawFit {
     }
 
     /// With the deviations that residuals have which neighbouring lines share; `lines` at this law, in its coordinates.
-    pub(crate) fn widened(mut self, lines: &[Line]) -> Self {
+    pub(crate) fn widened(mut self, lines: &[LineResidual]) -> Self {
         let n = self.theta.len();
         let unit = scale(self.chi_squared, self.residuals, n, self.sigma_known);
         let found = self.covariance.as_ref().zip(correlation(lines)).filter(|_| unit > 0.0);

@@ -3,7 +3,7 @@
 //! A law says at all frequencies together what the data say at each: the fewer its parameters, the narrower its error bars, if it is the right law.
 //! That is told by χ² per degree of freedom, and between laws by BIC.
 //!
-//! [`fit_modulus`] fits to a table of moduli, [`crate::identify::identify_laws`] to what was measured on a structure.
+//! [`fit_modulus`] fits to a table of moduli, [`crate::identify::identify`] to what was measured on a structure.
 
 mod correlated;
 mod datum;
@@ -18,7 +18,7 @@ pub use datum::Datum;
 pub use fit::{Estimate, LawFit, ModulusEstimate, best, fit_modulus};
 pub use kind::{LawKind, MAX_BRANCHES, ParameterName, USUAL_BRANCHES, UnknownLawKind};
 
-pub(crate) use correlated::Line;
+pub(crate) use correlated::LineResidual;
 pub(crate) use fit::Evidence;
 pub(crate) use least_squares::{
     LocalMinima, Minimum, Residuals, Search, descend, inverse_information, minimise,

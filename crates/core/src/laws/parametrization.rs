@@ -1,6 +1,6 @@
 //! Coordinates θ of a law's parameters p in which every constraint holds by itself.
 
-use super::Line;
+use super::LineResidual;
 use super::least_squares::Residuals;
 use super::{Datum, LawKind};
 use crate::c64;
@@ -125,7 +125,7 @@ impl Parametrization {
     }
 
     /// What a law leaves of each datum in ln E, and what that pulls; the real and the imaginary part of ln E as if the datum told them apart.
-    pub(crate) fn lines(&self, data: &[Datum], theta: &[f64]) -> Vec<Line> {
+    pub(crate) fn lines(&self, data: &[Datum], theta: &[f64]) -> Vec<LineResidual> {
         let line = |datum: &Datum| {
             let (modulus, slopes) = self.modulus(theta, datum.omega_rad_s)?;
             let rest = datum.residual(modulus);
@@ -134,7 +134,7 @@ impl Parametrization {
             let dot = |a: [f64; 2], b: [f64; 2]| a[0] * b[0] + a[1] * b[1];
             let weight = of_log.map(|a| dot(a, a));
             let pull = |c: usize| slopes.iter().map(|&s| dot(datum.slope(modulus, s), of_log[c])).collect();
-            Some(Line {
+            Some(LineResidual {
                 weight,
                 rest: [0, 1].map(|c| -dot(of_log[c], rest) / weight[c]),
                 pull: [pull(0), pull(1)],

@@ -70,7 +70,11 @@ impl DynamicStiffness {
             let degree = parameter.members.iter().map(|member| member.power).max().unwrap_or(0);
             let mut coefficients = vec![Combination::default(); degree];
             for member in &parameter.members {
-                let weight = self.terms()[member.term].role.weight(frequency_hz);
+                let term = &self.terms()[member.term];
+                let mut weight = term.role.weight(frequency_hz);
+                if parameter.multiplies {
+                    weight *= term.factor.at(frequency_hz)?;
+                }
                 // (p̄ + c)^d = Σ_q binomial(d, q) p̄^{d−q} c^q
                 nominal.parts.push((member.term, weight * value.powu(member.power as u32)));
                 let mut binomial = 1.0;

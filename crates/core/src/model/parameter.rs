@@ -13,7 +13,7 @@ pub struct Member {
     pub power: usize,
 }
 
-/// An unknown factor: it stands in front of the matrices of its members, in place of their own factors.
+/// An unknown factor: it stands in front of the matrices of its members, in place of their own factors or beside them.
 ///
 /// Several matrices may share one; each term may belong to one parameter.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,6 +22,8 @@ pub struct Parameter {
     pub members: Vec<Member>,
     /// Its nominal value over frequency; the correction c is counted from it, P-35.
     pub nominal: Law,
+    /// Whether it multiplies the members' own factors (a dimension), in place of standing for them (a modulus).
+    pub multiplies: bool,
 }
 
 impl Parameter {
@@ -35,6 +37,7 @@ impl Parameter {
         Ok(Self {
             members: terms.into_iter().map(|term| Member { term, power: 1 }).collect(),
             nominal: model.terms()[first].factor.clone(),
+            multiplies: false,
         })
     }
 }

@@ -4,6 +4,10 @@
 use frfit::c64;
 use frfit::for_each::sequential;
 use frfit::frequency::linear_hz;
+use frfit::identify::{
+    ChannelUnknowns, Context, Dependence, Frfs, Identification, Noise, Options, Problem, Unknown, Variation,
+    identify,
+};
 use frfit::material::Law;
 use frfit::model::{DynamicStiffness, Experiment, Member, ModelAt, Parameter, Role, Sensor, Term};
 use frfit::response::{FullModel, Response};
@@ -54,7 +58,7 @@ pub(crate) fn full(n: usize, values: &[c64]) -> SymmetricMatrix {
 
 /// All of one term's factor, to the given power.
 pub(crate) fn unknown(term: usize, power: usize, nominal: c64) -> Parameter {
-    Parameter { members: vec![Member { term, power }], nominal: Law::Constant(nominal) }
+    Parameter { members: vec![Member { term, power }], nominal: Law::Constant(nominal), multiplies: false }
 }
 
 /// Taylor coefficients times r^k, k = 0 … `count` − 1, at sensor `m`: Cauchy's integral on the circle |c| = r, by direct
@@ -230,10 +234,57 @@ pub(crate) fn thickness() -> Case {
         let values = scaled(term.matrix.real_values().unwrap(), by);
         term.matrix = SymmetricMatrix::new(term.matrix.pattern().clone(), values);
     }
+    for term in &mut terms {
+        term.factor = Law::Constant(c(1.0, 0.0));
+    }
     let parameter = Parameter {
         members: vec![Member { term: 0, power: 3 }, Member { term: 1, power: 1 }],
         nominal: Law::Constant(c(1.0, 0.003)),
+        multiplies: true,
     };
     let model = DynamicStiffness::new(terms).unwrap();
     Case { name: "thickness", model, parameter, box_ratio: [0.7, 1.4], ..case }
+}
+
+/// A single unknown, measured over a band.
+#[derive(Clone, Copy)]
+pub(crate) struct Band<'a> {
+    pub(crate) model: &'a DynamicStiffness,
+    pub(crate) experiment: &'a Experiment,
+    pub(crate) parameter: &'a Parameter,
+    pub(crate) frequency_hz: &'a [f64],
+    pub(crate) measured: &'a [Vec<c64>],
+    pub(crate) noise: Noise<'a>,
+}
+
+impl Band<'_> {
+    /// The parameter as an unknown with the bounds of some options.
+    pub(crate) fn unknown(&self, varies: Variation, options: &Options) -> Unknown {
+        let members = &self.parameter.members;
+        let dependence = match self.parameter.multiplies {
+            false => Dependence::Factor(members.iter().map(|member| member.term).collect()),
+            true => {
+                Dependence::Powers(members.iter().map(|member| (member.term, member.power as i32)).collect())
+            }
+        };
+        let nominal = self.parameter.nominal.clone();
+        Unknown { name: "p".into(), dependence, nominal, varies, real: options.real, bounds: options.bounds }
+    }
+
+    pub(crate) fn frfs(&self) -> Frfs<'_> {
+        Frfs { frequency_hz: self.frequency_hz, receptance: self.measured, noise: self.noise }
+    }
+
+    /// Identifies the parameter as it varies, with the bounds of the options.
+    pub(crate) fn identify(
+        &self,
+        varies: Variation,
+        channels: &[ChannelUnknowns],
+        options: &Options,
+        context: Context<'_>,
+    ) -> Identification {
+        let unknowns = [self.unknown(varies, options)];
+        let problem = Problem::new(self.model, self.experiment, &unknowns, channels, self.frfs()).unwrap();
+        identify(&problem, options, context).unwrap()
+    }
 }

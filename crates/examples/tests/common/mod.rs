@@ -2,7 +2,7 @@
 #![allow(dead_code, reason = "each test file uses its own part")]
 
 use frfit::c64;
-use frfit::identify::{Identified, Method, Options, Selection, identify_at};
+use frfit::identify::{Line, Method, Options, Selection, identify_at};
 use frfit::quantity::Quantity;
 use frfit::roots::Bounds;
 use frfit_examples::{File, Model, generate};
@@ -107,7 +107,7 @@ pub(crate) fn number(value: &Value) -> f64 {
 /// What came out at one frequency, and what should have.
 pub(crate) struct Answer {
     pub(crate) frequency_hz: f64,
-    pub(crate) found: Identified,
+    pub(crate) found: Line,
     /// |E − truth| / |truth|; infinite where there is no answer.
     pub(crate) deviation: f64,
     /// ρ at the true correction: whether the series converges there.
@@ -124,7 +124,7 @@ pub(crate) fn answers(folder: &Folder, model: &Model, step: usize) -> Vec<Answer
         Answer {
             frequency_hz: f,
             deviation: found.factor().map_or(f64::INFINITY, |factor| (factor - truth).norm() / truth.norm()),
-            radius_at_truth: found.radius.unwrap().at(truth - found.nominal),
+            radius_at_truth: found.radius.unwrap().at(truth - found.nominal()),
             found,
         }
     };

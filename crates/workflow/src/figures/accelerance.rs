@@ -9,8 +9,8 @@ use frfit_figures::{Axis, Color, Dash, Figure, Marker, Panel, Series, Strip};
 
 pub(super) fn identified(case: &Case, identify: &IdentifyCase, run: &IdentifyRun, sensor: usize) -> Figure {
     let frequency_hz = &identify.frequency_hz;
-    let nominal = run.outcomes.iter().map(|o| o.nominal_response.get(sensor).copied()).collect();
-    let updated = run.outcomes.iter().map(|o| o.updated_response.get(sensor).copied()).collect();
+    let nominal = run.found.lines.iter().map(|o| o.nominal_response.get(sensor).copied()).collect();
+    let updated = run.found.lines.iter().map(|o| o.updated_response.get(sensor).copied()).collect();
     let measured = frequency_hz.iter().zip(&identify.measured);
     let measured = measured.map(|(&f, u)| Some(run.measured_by(sensor, f, *u.get(sensor)?))).collect();
     compared(case, sensor, frequency_hz, [nominal, measured, updated], status_strip(run))

@@ -4,7 +4,7 @@ use super::{status_strip, title};
 use crate::load::{Case, IdentifyCase};
 use crate::run::IdentifyRun;
 use frfit::c64;
-use frfit::identify::Identified;
+use frfit::identify::Line;
 use frfit::material::loss_factor;
 use frfit::roots::Candidate;
 use frfit_figures::{Axis, Color, Figure, Marker, Panel, Series};
@@ -14,16 +14,13 @@ pub(super) fn figure(case: &Case, identify: &IdentifyCase, run: &IdentifyRun) ->
         y,
         series: vec![
             scatter("other solutions", run, Color::Grey, part, |outcome, root| {
-                outcome.correction != Some(root.correction)
-                    && !outcome.alternatives.contains(&root.correction)
+                outcome.correction() != Some(root.correction) && !outcome.is_rival(root)
             }),
-            scatter("alternatives", run, Color::Orange, part, |outcome, root| {
-                outcome.alternatives.contains(&root.correction)
-            }),
+            scatter("alternatives", run, Color::Orange, part, |outcome, root| outcome.is_rival(root)),
             Series {
                 label: "chosen".into(),
-                x: run.outcomes.iter().map(|outcome| outcome.frequency_hz).collect(),
-                y: run.outcomes.iter().map(|outcome| outcome.factor().map_or(f64::NAN, part)).collect(),
+                x: run.found.lines.iter().map(|outcome| outcome.frequency_hz).collect(),
+                y: run.found.lines.iter().map(|outcome| outcome.factor().map_or(f64::NAN, part)).collect(),
                 color: Color::Blue,
                 ..Series::default()
             },
@@ -53,12 +50,14 @@ fn scatter(
     run: &IdentifyRun,
     color: Color,
     part: fn(c64) -> f64,
-    kind: impl Fn(&Identified, &Candidate) -> bool,
+    kind: impl Fn(&Line, &Candidate) -> bool,
 ) -> Series {
-    let points = run.outcomes.iter().flat_map(|outcome| {
+    let points = run.found.lines.iter().flat_map(|outcome| {
         let admitted = outcome.roots.iter().filter(|root| root.refusal.is_none());
         let wanted = admitted.filter(|root| kind(outcome, root));
-        wanted.map(|root| (outcome.frequency_hz, part(outcome.nominal + root.correction))).collect::<Vec<_>>()
+        wanted
+            .map(|root| (outcome.frequency_hz, part(outcome.nominal() + root.correction)))
+            .collect::<Vec<_>>()
     });
     let (x, y) = points.unzip();
     Series { label: label.into(), x, y, color, line: None, marker: Some(Marker::Circle), ..Series::default() }

@@ -6,7 +6,7 @@ use crate::output::File;
 use crate::run::IdentifyRun;
 use crate::units::FactorUnit;
 use frfit::c64;
-use frfit::identify::{Identified, Status};
+use frfit::identify::{Line, Status};
 use frfit::laws::LawFit;
 use frfit::material::loss_factor;
 use frfit_figures::{Axis, Color, Dash, Figure, Marker, Panel, PngError, Series};
@@ -92,13 +92,13 @@ pub(super) fn of_band(
     case: &Case,
     identify: &IdentifyCase,
     run: &IdentifyRun,
-    free: &[Identified],
+    free: &[Line],
     law: &LawFit,
 ) -> Figure {
     let curve = Drawn {
         what: "law",
         label: law.family.to_string(),
-        at: &|i, part, by| part_of(law, run.outcomes[i].frequency_hz, part, by),
+        at: &|i, part, by| part_of(law, run.found.lines[i].frequency_hz, part, by),
     };
     curve_of_band(case, identify, run, free, &curve)
 }
@@ -108,11 +108,11 @@ pub(super) fn smooth_of_band(
     case: &Case,
     identify: &IdentifyCase,
     run: &IdentifyRun,
-    free: &[Identified],
+    free: &[Line],
 ) -> Figure {
     let at = |i: usize, part: usize, by: f64| {
-        let outcome = &run.outcomes[i];
-        let Some((factor, bars)) = outcome.factor().zip(outcome.uncertainty) else { return f64::NAN };
+        let outcome = &run.found.lines[i];
+        let Some((factor, bars)) = outcome.factor().zip(outcome.uncertainty()) else { return f64::NAN };
         match part {
             0 => factor.re + by * bars.storage_std,
             _ => loss_factor(factor) + by * bars.loss_factor_std.unwrap_or(f64::NAN),
@@ -135,17 +135,17 @@ fn curve_of_band(
     case: &Case,
     identify: &IdentifyCase,
     run: &IdentifyRun,
-    free: &[Identified],
+    free: &[Line],
     drawn: &Drawn<'_>,
 ) -> Figure {
-    let x: Vec<f64> = run.outcomes.iter().map(|outcome| outcome.frequency_hz).collect();
+    let x: Vec<f64> = run.found.lines.iter().map(|outcome| outcome.frequency_hz).collect();
     let parts: [fn(c64) -> f64; 2] = [|e| e.re, loss_factor];
     let panel = |label: &str, part: usize| {
         let of = |factor: Option<c64>| factor.map_or(f64::NAN, parts[part]);
         let series = |label, y, color, line, marker| super::curve(label, &x, y, color, line, marker);
-        let own = |outcome: &Identified| outcome.factor().filter(|_| outcome.status == Status::Ok);
+        let own = |outcome: &Line| outcome.factor().filter(|_| outcome.status == Status::Ok);
         let own = free.iter().map(|outcome| of(own(outcome))).collect();
-        let nominal = run.outcomes.iter().map(|outcome| of(Some(outcome.nominal))).collect();
+        let nominal = run.found.lines.iter().map(|outcome| of(Some(outcome.nominal()))).collect();
         let curve = |by: f64| (0..x.len()).map(|i| (drawn.at)(i, part, by)).collect();
         let mut all = vec![
             series("nominal", nominal, Color::Blue, Some(Dash::Dashed), None),

@@ -45,21 +45,19 @@ pub fn identify_figures(
         };
         figures.push((name, accelerance::identified(case, identify, run, sensor)));
     }
-    let law = run.laws.as_ref().and_then(|laws| Some((laws, best(&laws.fits)?)));
-    let smooth = run.smooth.as_ref().filter(|smooth| smooth.curve.is_some());
-    let modulus = match (law, smooth) {
-        (Some((laws, best)), _) => laws::of_band(case, identify, run, &laws.free, best),
-        (None, Some(smooth)) => laws::smooth_of_band(case, identify, run, &smooth.free),
+    let modulus = match (best(&run.found.laws), &run.found.curve) {
+        (Some(best), _) => laws::of_band(case, identify, run, &run.found.free, best),
+        (None, Some(_)) => laws::smooth_of_band(case, identify, run, &run.found.free),
         (None, None) => modulus::figure(case, identify, run),
     };
     figures.push(("modulus".to_owned(), modulus));
-    if run.outcomes.iter().any(|outcome| outcome.spectral_radius.is_some()) {
+    if run.found.lines.iter().any(|outcome| outcome.spectral_radius.is_some()) {
         figures.push(("spectral_radius".to_owned(), spectral_radius::figure(case, run)));
     }
     if identify.options.selection == Selection::Joint {
         figures.push(("candidates".to_owned(), candidates::figure(case, identify, run)));
     }
-    if run.reduction_error().is_some() {
+    if run.found.reduction_error().is_some() {
         figures.push(("reduction-error".to_owned(), reduction_error::figure(case, run)));
     }
     if let Some(map) = &run.error_map {
@@ -123,7 +121,7 @@ fn curve(
 
 /// The status of every frequency, as a strip of colours.
 fn status_strip(run: &IdentifyRun) -> Strip {
-    strip_of(run.outcomes.iter().map(|outcome| (outcome.frequency_hz, outcome.status)))
+    strip_of(run.found.lines.iter().map(|outcome| (outcome.frequency_hz, outcome.status)))
 }
 
 fn strip_of(statuses: impl Iterator<Item = (f64, Status)>) -> Strip {

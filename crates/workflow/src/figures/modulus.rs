@@ -38,22 +38,23 @@ fn panel(
     part: fn(c64) -> f64,
     std: fn(Uncertainty) -> Option<f64>,
 ) -> Panel {
-    let x: Vec<f64> = run.outcomes.iter().map(|outcome| outcome.frequency_hz).collect();
+    let x: Vec<f64> = run.found.lines.iter().map(|outcome| outcome.frequency_hz).collect();
     let of = |values: Vec<Option<c64>>| values.into_iter().map(|e| e.map_or(f64::NAN, part)).collect();
     let with = |status: &[Status]| {
-        of(run.outcomes.iter().map(|o| status.contains(&o.status).then(|| o.factor()).flatten()).collect())
+        of(run.found.lines.iter().map(|o| status.contains(&o.status).then(|| o.factor()).flatten()).collect())
     };
     let mut series = vec![Series {
         label: "nominal".into(),
-        y: of(run.outcomes.iter().map(|outcome| Some(outcome.nominal)).collect()),
+        y: of(run.found.lines.iter().map(|outcome| Some(outcome.nominal())).collect()),
         color: Color::Blue,
         line: Some(Dash::Dashed),
         ..Series::default()
     }];
     let bars: Vec<f64> = run
-        .outcomes
+        .found
+        .lines
         .iter()
-        .map(|o| o.uncertainty.and_then(std).map_or(f64::NAN, |s| DEVIATIONS * s))
+        .map(|o| o.uncertainty().and_then(std).map_or(f64::NAN, |s| DEVIATIONS * s))
         .collect();
     // A diverged frequency has no answer: what its series ended on belongs into the table, not into a curve.
     let evidence = [Status::NotIdentifiable, Status::Unexplained, Status::Failed];
@@ -82,7 +83,7 @@ fn panel(
     for one in &mut series {
         one.x = x.clone();
     }
-    let shown = run.outcomes.iter().any(|o| o.status == Status::Ok && o.uncertainty.is_some());
+    let shown = run.found.lines.iter().any(|o| o.status == Status::Ok && o.uncertainty().is_some());
     let label = if shown { format!("{label}, ±2 std") } else { label.to_owned() };
     Panel { y: Axis { range: range_of_answers(&series), ..Axis::linear(label) }, series, ..Panel::default() }
 }

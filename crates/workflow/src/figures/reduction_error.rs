@@ -12,8 +12,13 @@ pub(super) fn figure(case: &Case, run: &IdentifyRun) -> Figure {
         panels: vec![Panel {
             y: Axis::log("Error of the response at the sensors, relative"),
             series: vec![Series {
-                x: run.outcomes.iter().map(|outcome| outcome.frequency_hz).collect(),
-                y: run.outcomes.iter().map(|outcome| outcome.reduction_error.unwrap_or(f64::NAN)).collect(),
+                x: run.found.lines.iter().map(|outcome| outcome.frequency_hz).collect(),
+                y: run
+                    .found
+                    .lines
+                    .iter()
+                    .map(|outcome| outcome.reduction_error.unwrap_or(f64::NAN))
+                    .collect(),
                 color: Color::Blue,
                 ..Series::default()
             }],

@@ -5,9 +5,9 @@ use super::modulus::DEVIATIONS;
 use super::{curve, draw, strip_of, title};
 use crate::load::{Case, SeveralCase};
 use crate::output::{File, coordinate, file_name};
-use crate::run::SeveralRun;
+use crate::run::IdentifyRun;
 use frfit::c64;
-use frfit::identify::{Status, ValueAt, Variation};
+use frfit::identify::{Status, Uncertainty, Variation};
 use frfit::material::loss_factor;
 use frfit_figures::{Axis, Color, Dash, Figure, HeatMap, Marker, Panel, PngError, Series};
 
@@ -15,7 +15,7 @@ use frfit_figures::{Axis, Color, Dash, Figure, HeatMap, Marker, Panel, PngError,
 ///
 /// # Errors
 /// [`PngError`] where a figure cannot be rasterised.
-pub fn several_figures(case: &Case, wanted: &SeveralCase, run: &SeveralRun) -> Result<Vec<File>, PngError> {
+pub fn several_figures(case: &Case, wanted: &SeveralCase, run: &IdentifyRun) -> Result<Vec<File>, PngError> {
     let mut figures = Vec::new();
     for m in 0..case.sensors.len() {
         let name =
@@ -26,13 +26,13 @@ pub fn several_figures(case: &Case, wanted: &SeveralCase, run: &SeveralRun) -> R
     for j in (0..wanted.unknowns.len()).filter(|&j| wanted.unknowns[j].varies != Variation::Constant) {
         figures.push((file_name(&wanted.unknowns[j].name), over_frequency(case, wanted, run, j)));
     }
-    if run.outcome.correlation.len() > 1 {
+    if run.found.identifiability.correlation.len() > 1 {
         figures.push(("correlation".to_owned(), correlation(case, wanted, run)));
     }
-    if let Some(profile) = &run.outcome.profile {
+    if let Some(profile) = &run.found.identifiability.profile {
         let (x, y): (Vec<f64>, Vec<f64>) = profile.points.iter().copied().unzip();
         // What a straight line of slopes would have it.
-        let std = run.outcome.directions.first().map_or(f64::INFINITY, |worst| worst.std);
+        let std = run.found.identifiability.directions.first().map_or(f64::INFINITY, |worst| worst.std);
         let parabola = x.iter().map(|t| (t / std).powi(2)).collect();
         let series = |label, y, color, line, marker| curve(label, &x, y, color, line, marker);
         figures.push((
@@ -66,9 +66,9 @@ const AROUND: (f64, f64) = (330.0, 130.0);
 const CELL: f64 = 56.0;
 
 /// Correlation of the numbers that hold for the band, in the order of the summary's `coordinates`, the first on top.
-fn correlation(case: &Case, wanted: &SeveralCase, run: &SeveralRun) -> Figure {
-    let outcome = &run.outcome;
-    let count = outcome.correlation.len();
+fn correlation(case: &Case, wanted: &SeveralCase, run: &IdentifyRun) -> Figure {
+    let outcome = &run.found;
+    let count = outcome.identifiability.correlation.len();
     let numbers: Vec<f64> = (1..=count).map(|k| k as f64).collect();
     let names = (0..count).rev().map(|c| format!("{} {}", c + 1, coordinate(wanted, outcome, c)));
     Figure {
@@ -79,7 +79,7 @@ fn correlation(case: &Case, wanted: &SeveralCase, run: &SeveralRun) -> Figure {
             heat: Some(HeatMap {
                 x: numbers.clone(),
                 y: numbers,
-                values: outcome.correlation.iter().rev().flatten().copied().collect(),
+                values: outcome.identifiability.correlation.iter().rev().flatten().copied().collect(),
                 label: "Correlation".into(),
                 range: Some((-1.0, 1.0)),
                 names: names.collect(),
@@ -90,8 +90,8 @@ fn correlation(case: &Case, wanted: &SeveralCase, run: &SeveralRun) -> Figure {
     }
 }
 
-fn accelerance(case: &Case, wanted: &SeveralCase, run: &SeveralRun, sensor: usize) -> Figure {
-    let at = &run.outcome.at;
+fn accelerance(case: &Case, wanted: &SeveralCase, run: &IdentifyRun, sensor: usize) -> Figure {
+    let at = &run.found.lines;
     let nominal = at.iter().map(|at| at.nominal_response.get(sensor).copied()).collect();
     let updated = at.iter().map(|at| at.updated_response.get(sensor).copied()).collect();
     let measured = wanted.measured.iter().map(|u| u.get(sensor).copied()).collect();
@@ -99,25 +99,23 @@ fn accelerance(case: &Case, wanted: &SeveralCase, run: &SeveralRun, sensor: usiz
     compared(case, sensor, &wanted.frequency_hz, [nominal, measured, updated], strip)
 }
 
-fn over_frequency(case: &Case, wanted: &SeveralCase, run: &SeveralRun, j: usize) -> Figure {
+fn over_frequency(case: &Case, wanted: &SeveralCase, run: &IdentifyRun, j: usize) -> Figure {
     let one = &wanted.unknowns[j];
-    let at = &run.outcome.at;
-    let panel = |label: &str, part: fn(c64) -> f64, std: fn(&ValueAt) -> Option<f64>| {
+    let at = &run.found.lines;
+    let panel = |label: &str, part: fn(c64) -> f64, std: fn(Uncertainty) -> Option<f64>| {
         let of = |values: Vec<Option<c64>>| {
             values.into_iter().map(|v| v.map_or(f64::NAN, part)).collect::<Vec<f64>>()
         };
         let with = |ok: bool| {
-            at.iter()
-                .map(|at| at.values[j].filter(|_| (at.status == Status::Ok) == ok).map(|v| v.value))
-                .collect()
+            at.iter().map(|at| at.values[j].value.filter(|_| (at.status == Status::Ok) == ok)).collect()
         };
         let bars = at
             .iter()
-            .map(|at| at.values[j].as_ref().and_then(std).map_or(f64::NAN, |s| DEVIATIONS * s))
+            .map(|at| at.values[j].uncertainty.and_then(std).map_or(f64::NAN, |s| DEVIATIONS * s))
             .collect();
         let drawn =
             |label, y, color, line, marker| curve(label, &wanted.frequency_hz, y, color, line, marker);
-        let nominal = of(at.iter().map(|at| Some(at.nominal[j])).collect());
+        let nominal = of(at.iter().map(|at| Some(at.values[j].nominal)).collect());
         let mut series = vec![
             drawn("nominal", nominal, Color::Blue, Some(Dash::Dashed), None),
             drawn("not trusted", of(with(false)), Color::Grey, None, Some(Marker::Cross)),
@@ -135,9 +133,9 @@ fn over_frequency(case: &Case, wanted: &SeveralCase, run: &SeveralRun, j: usize)
     };
     let strip = Some(strip_of(at.iter().map(|at| (at.frequency_hz, at.status))));
     let first = if one.real { "Value".to_owned() } else { wanted.units[j].storage_label() };
-    let mut panels = vec![Panel { strip, ..panel(&first, |v| v.re, |v| v.storage_std) }];
+    let mut panels = vec![Panel { strip, ..panel(&first, |v| v.re, |bars| Some(bars.storage_std)) }];
     if !one.real {
-        panels.push(panel("Loss factor η", loss_factor, |v| v.loss_factor_std));
+        panels.push(panel("Loss factor η", loss_factor, |bars| bars.loss_factor_std));
     }
     Figure {
         title: title(case, &one.name),

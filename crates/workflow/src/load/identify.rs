@@ -13,7 +13,9 @@ use crate::error::{InputError, Place};
 use crate::nearest::nearest;
 use crate::units::FactorUnit;
 use frfit::c64;
-use frfit::identify::{ChannelUnknowns, Method, Options, OptionsError, Reduction, Selection};
+use frfit::identify::{
+    ChannelUnknowns, Dependence, Method, Options, OptionsError, Reduction, Selection, Unknown, Variation,
+};
 use frfit::material::Law;
 use frfit::model::{DynamicStiffness, Parameter, Role};
 use frfit::roots::Bounds;
@@ -47,6 +49,24 @@ pub struct IdentifyCase {
     pub check: bool,
     /// The factor that a simulated measurement was made with.
     pub reference: Option<Law>,
+}
+
+impl IdentifyCase {
+    /// The factor as the library's unknown.
+    pub fn factor(&self) -> Unknown {
+        Unknown {
+            name: self.names.join(", "),
+            dependence: Dependence::Factor(self.parameter.members.iter().map(|member| member.term).collect()),
+            nominal: self.parameter.nominal.clone(),
+            varies: match &self.varies {
+                Varies::Freely => Variation::PerFrequency,
+                Varies::Smoothly => Variation::Smooth,
+                Varies::ByLaw(kinds) => Variation::Law(kinds.clone()),
+            },
+            real: self.options.real,
+            bounds: self.options.bounds,
+        }
+    }
 }
 
 /// Standard deviations √E|δx|² of the measured receptances, `[frequency][sensor]`, as far as files and case tell.

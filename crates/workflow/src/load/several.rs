@@ -102,7 +102,7 @@ fn unknowns(
     let varies = match entry.varies {
         SoughtVaries::Freely => Variation::PerFrequency,
         SoughtVaries::Constant => Variation::Constant,
-        SoughtVaries::ByLaw(family) => Variation::Law(family),
+        SoughtVaries::ByLaw(family) => Variation::law(family),
     };
     let bounds = Bounds {
         storage: entry.storage.as_ref().map(|bound| bound.value),

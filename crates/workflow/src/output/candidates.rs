@@ -1,6 +1,6 @@
 //! `candidates.csv`: every solution that was found, and why one was not taken.
 
-use frfit::identify::Identified;
+use frfit::identify::Line;
 use frfit::material::loss_factor;
 use frfit::roots::{Candidate, Refusal};
 use frfit_formats::csv::{Cell, write};
@@ -12,10 +12,10 @@ const COLUMNS: [&str; 6] =
 ///
 /// The verdict is `chosen`, `alternative` (the data cannot exclude it), `admissible` (the other frequencies or sensors exclude it), or the
 /// reason of a refusal: `storage` or `loss_factor` (that bound is broken), `not_real`, `far` (from the nominal), `moves`, `not_a_root`.
-pub fn candidates_csv(outcomes: &[Identified]) -> String {
+pub fn candidates_csv(outcomes: &[Line]) -> String {
     let rows = outcomes.iter().flat_map(|outcome| {
         outcome.roots.iter().map(|root| {
-            let factor = outcome.nominal + root.correction;
+            let factor = outcome.nominal() + root.correction;
             [
                 Cell::Number(outcome.frequency_hz),
                 Cell::Number(factor.re),
@@ -29,10 +29,10 @@ pub fn candidates_csv(outcomes: &[Identified]) -> String {
     write(&COLUMNS, rows).expect("every row has the columns, and no text a line break")
 }
 
-fn verdict(outcome: &Identified, root: &Candidate) -> &'static str {
+fn verdict(outcome: &Line, root: &Candidate) -> &'static str {
     match root.refusal {
-        _ if outcome.correction == Some(root.correction) => "chosen",
-        None if outcome.alternatives.contains(&root.correction) => "alternative",
+        _ if outcome.correction() == Some(root.correction) => "chosen",
+        None if outcome.is_rival(root) => "alternative",
         None => "admissible",
         Some(Refusal::OutOfBounds(bound)) => bound,
         Some(Refusal::NotReal) => "not_real",

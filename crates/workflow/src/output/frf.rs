@@ -2,7 +2,7 @@
 
 use crate::convert::frf_dataset;
 use crate::load::{Case, SensorInfo};
-use crate::run::{IdentifyRun, RespondRun, SeveralRun};
+use crate::run::{IdentifyRun, RespondRun};
 use frfit::c64;
 use frfit::dof::DofName;
 use frfit_formats::FormatError;
@@ -24,18 +24,8 @@ pub fn respond_uff(case: &Case, run: &RespondRun) -> Result<Vec<u8>, FormatError
 /// # Errors
 /// As [`respond_uff`].
 pub fn updated_uff(case: &Case, run: &IdentifyRun) -> Result<Vec<u8>, FormatError> {
-    let frequency_hz: Vec<f64> = run.outcomes.iter().map(|outcome| outcome.frequency_hz).collect();
-    let receptance = |row: usize, m: usize| run.outcomes[row].updated_response.get(m).copied();
-    responses(case, &frequency_hz, &receptance, "updated")
-}
-
-/// The same of several unknowns.
-///
-/// # Errors
-/// As [`respond_uff`].
-pub fn several_updated_uff(case: &Case, run: &SeveralRun) -> Result<Vec<u8>, FormatError> {
-    let frequency_hz: Vec<f64> = run.outcome.at.iter().map(|at| at.frequency_hz).collect();
-    let receptance = |row: usize, m: usize| run.outcome.at[row].updated_response.get(m).copied();
+    let frequency_hz: Vec<f64> = run.found.lines.iter().map(|outcome| outcome.frequency_hz).collect();
+    let receptance = |row: usize, m: usize| run.found.lines[row].updated_response.get(m).copied();
     responses(case, &frequency_hz, &receptance, "updated")
 }
 

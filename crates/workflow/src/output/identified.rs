@@ -1,6 +1,6 @@
 //! `identified.csv`: one row a frequency.
 
-use frfit::identify::Identified;
+use frfit::identify::Line;
 use frfit_formats::csv::{Cell, write};
 
 const COLUMNS: [&str; 19] = [
@@ -26,21 +26,21 @@ const COLUMNS: [&str; 19] = [
 ];
 
 /// The table; what does not exist is an empty cell.
-pub fn identified_csv(outcomes: &[Identified]) -> String {
+pub fn identified_csv(outcomes: &[Line]) -> String {
     let rows = outcomes.iter().map(|outcome| {
-        let (factor, bars) = (outcome.factor(), outcome.uncertainty);
+        let (factor, bars) = (outcome.factor(), outcome.uncertainty());
         [
             Cell::Number(outcome.frequency_hz),
             outcome.storage().into(),
             outcome.loss_factor().into(),
             factor.map(|f| f.re).into(),
             factor.map(|f| f.im).into(),
-            outcome.correction.map(|c| c.re).into(),
-            outcome.correction.map(|c| c.im).into(),
+            outcome.correction().map(|c| c.re).into(),
+            outcome.correction().map(|c| c.im).into(),
             outcome.error.into(),
             outcome.spectral_radius.into(),
             Cell::Count(outcome.order),
-            Cell::Count(outcome.admissible()),
+            Cell::Count(outcome.candidate_count()),
             Cell::Text(outcome.status.name()),
             outcome.convergence_radius().into(),
             outcome.required_order.map_or(Cell::Empty, Cell::Count),

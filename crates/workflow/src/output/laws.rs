@@ -1,6 +1,5 @@
 //! Fitted laws: for programs, for people, and for the next case file.
 
-use crate::run::LawsRun;
 use crate::units::{FactorUnit, UnitSystem};
 use frfit::identify::SmoothCurve;
 use frfit::laws::{Correlated, Estimate, LawFit, best};
@@ -77,13 +76,13 @@ fn residuals_say(fit: &LawFit) -> String {
 }
 
 /// The laws of a band: `law.json`, and `laws` in `summary.json`.
-pub fn laws_json(laws: &LawsRun, of: FactorUnit, units: UnitSystem) -> Value {
+pub fn laws_json(laws: &[LawFit], of: FactorUnit, units: UnitSystem) -> Value {
     json!({
         "units": units.json(),
         "factor_unit": of.word(),
         "criterion": "bic",
-        "best": best(&laws.fits).map(|fit| fit.family.to_string()),
-        "laws": laws.fits.iter().map(|fit| law_json(fit, of)).collect::<Vec<_>>(),
+        "best": best(laws).map(|fit| fit.family.to_string()),
+        "laws": laws.iter().map(|fit| law_json(fit, of)).collect::<Vec<_>>(),
     })
 }
 

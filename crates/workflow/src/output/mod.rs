@@ -19,7 +19,7 @@ mod words;
 pub use candidates::candidates_csv;
 pub use error_map::error_map_csv;
 pub use files::{File, WriteError, check_file, check_folder, write_all, write_one, write_result};
-pub use frf::{respond_uff, several_updated_uff, updated_uff};
+pub use frf::{respond_uff, updated_uff};
 pub use identified::identified_csv;
 pub use laws::{Misfit, law_json, laws_json, laws_text, smooth_json, snippet};
 pub(crate) use manifest::{read_result, sha256};

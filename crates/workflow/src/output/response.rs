@@ -1,14 +1,14 @@
 //! `response.csv`: nominal, measured and updated response, per sensor, in the quantity that was measured, and how well it was measured.
 
 use crate::load::{Case, IdentifyCase, MeasuredNoise, SensorInfo, SeveralCase};
-use crate::run::{IdentifyRun, RespondRun, SeveralRun};
+use crate::run::{IdentifyRun, RespondRun};
 use frfit::c64;
 use frfit_formats::csv::{Cell, write};
 
 /// One row a frequency and sensor: nominal, measured, updated; where there is no response, the cells are empty. `measured_std` is the
 /// standard deviation √E|δH|² of the measured value, where files and case tell it.
 pub fn response_csv(case: &Case, identify: &IdentifyCase, run: &IdentifyRun) -> String {
-    let rows = run.outcomes.iter().zip(&identify.measured).enumerate().map(|(i, (outcome, measured))| {
+    let rows = run.found.lines.iter().zip(&identify.measured).enumerate().map(|(i, (outcome, measured))| {
         let frequency_hz = outcome.frequency_hz;
         // A scale that was found is one of the values and of their deviations.
         let std = run.measured(frequency_hz, &known_std(&identify.noise, i, measured.len()));
@@ -19,8 +19,8 @@ pub fn response_csv(case: &Case, identify: &IdentifyCase, run: &IdentifyRun) -> 
 }
 
 /// The same of several unknowns.
-pub fn several_response_csv(case: &Case, wanted: &SeveralCase, run: &SeveralRun) -> String {
-    let rows = run.outcome.at.iter().zip(&wanted.measured).enumerate().map(|(i, (at, measured))| {
+pub fn several_response_csv(case: &Case, wanted: &SeveralCase, run: &IdentifyRun) -> String {
+    let rows = run.found.lines.iter().zip(&wanted.measured).enumerate().map(|(i, (at, measured))| {
         let std = known_std(&wanted.noise, i, measured.len());
         (at.frequency_hz, [at.nominal_response.clone(), measured.clone(), at.updated_response.clone()], std)
     });

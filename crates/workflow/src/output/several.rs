@@ -3,10 +3,10 @@
 use super::summary::{fit_json, inputs_json, model_json};
 use super::words::Words;
 use crate::load::{Case, MeasuredNoise, SeveralCase};
-use crate::run::SeveralRun;
+use crate::run::IdentifyRun;
 use frfit::c64;
 use frfit::identify::{
-    Dependence, Direction, Explained, SeveralOutcome, Status, Unknown, ValueAt, Variation,
+    Dependence, Direction, Explained, Identification, LineValue, Status, Uncertainty, Unknown, Variation,
 };
 use frfit::material::{Law, loss_factor};
 use frfit_formats::csv::{Cell, write};
@@ -22,7 +22,7 @@ const UNTOLD: f64 = 0.3;
 const SMALL: f64 = 0.05;
 
 /// `identified.csv`: one row a frequency, all unknowns side by side.
-pub fn several_csv(wanted: &SeveralCase, run: &SeveralRun) -> String {
+pub fn several_csv(wanted: &SeveralCase, run: &IdentifyRun) -> String {
     let mut columns: Vec<String> =
         ["frequency_hz", "status", "error", "chi2", "reduction_error"].map(Into::into).into();
     for one in &wanted.unknowns {
@@ -35,7 +35,7 @@ pub fn several_csv(wanted: &SeveralCase, run: &SeveralRun) -> String {
             ),
         }
     }
-    let rows = run.outcome.at.iter().map(|at| {
+    let rows = run.found.lines.iter().map(|at| {
         let mut row = vec![
             Cell::Number(at.frequency_hz),
             Cell::Text(at.status.name()),
@@ -44,7 +44,7 @@ pub fn several_csv(wanted: &SeveralCase, run: &SeveralRun) -> String {
             at.reduction_error.into(),
         ];
         for (one, value) in wanted.unknowns.iter().zip(&at.values) {
-            row.extend(cells(one, value.as_ref()));
+            row.extend(cells(one, value));
         }
         row
     });
@@ -53,11 +53,11 @@ pub fn several_csv(wanted: &SeveralCase, run: &SeveralRun) -> String {
 }
 
 /// `reference.csv`: the nominal value of each unknown by frequency, and the true one where the case tells it.
-pub fn several_reference_csv(wanted: &SeveralCase, run: &SeveralRun) -> String {
+pub fn several_reference_csv(wanted: &SeveralCase, run: &IdentifyRun) -> String {
     let parts = ["nominal_re", "nominal_im", "true_re", "true_im"];
     let mut columns = vec!["frequency_hz".to_owned()];
     columns.extend(wanted.unknowns.iter().flat_map(|one| parts.map(|part| format!("{}.{part}", one.name))));
-    let rows = run.outcome.at.iter().map(|at| {
+    let rows = run.found.lines.iter().map(|at| {
         let of_one = |(nominal, reference): (&c64, &Option<Law>)| {
             let reference = reference.as_ref().and_then(|law| law.at(at.frequency_hz).ok());
             [
@@ -67,36 +67,37 @@ pub fn several_reference_csv(wanted: &SeveralCase, run: &SeveralRun) -> String {
                 reference.map(|p| p.im).into(),
             ]
         };
-        let values = at.nominal.iter().zip(&wanted.reference).flat_map(of_one);
+        let values = at.values.iter().map(|value| &value.nominal).zip(&wanted.reference).flat_map(of_one);
         std::iter::once(Cell::Number(at.frequency_hz)).chain(values).collect::<Vec<_>>()
     });
     let columns: Vec<&str> = columns.iter().map(String::as_str).collect();
     write(&columns, rows).expect("every row has the columns, and no name a line break")
 }
 
-fn cells<'a>(one: &Unknown, value: Option<&ValueAt>) -> Vec<Cell<'a>> {
-    let of = |part: &dyn Fn(&ValueAt) -> Option<f64>| -> Cell<'a> { value.and_then(part).into() };
+fn cells<'a>(one: &Unknown, value: &LineValue) -> Vec<Cell<'a>> {
+    let bars =
+        |part: &dyn Fn(Uncertainty) -> Option<f64>| -> Cell<'a> { value.uncertainty.and_then(part).into() };
     match one.real {
-        true => vec![of(&|v| Some(v.value.re)), of(&|v| v.storage_std)],
+        true => vec![value.storage().into(), bars(&|b| Some(b.storage_std))],
         false => vec![
-            of(&|v| Some(v.value.re)),
-            of(&|v| Some(loss_factor(v.value))),
-            of(&|v| v.storage_std),
-            of(&|v| v.loss_factor_std),
-            of(&|v| v.correlation),
+            value.storage().into(),
+            value.loss_factor().into(),
+            bars(&|b| Some(b.storage_std)),
+            bars(&|b| b.loss_factor_std),
+            bars(&|b| b.correlation),
         ],
     }
 }
 
 /// `summary.json` of several unknowns.
-pub fn several_json(case: &Case, wanted: &SeveralCase, run: &SeveralRun, seconds_load: f64) -> Value {
-    let outcome = &run.outcome;
+pub fn several_json(case: &Case, wanted: &SeveralCase, run: &IdentifyRun, seconds_load: f64) -> Value {
+    let outcome = &run.found;
     let mut statuses = Map::new();
     for status in Status::ALL.into_iter().filter(|&status| run.count(status) > 0) {
         statuses.insert(status.name().into(), json!(run.count(status)));
     }
     let unknown = |(j, one): (usize, &Unknown)| {
-        let band = outcome.band.iter().find(|value| value.unknowns == j);
+        let band = outcome.constants.iter().find(|value| value.unknowns == j);
         let numbers = band.map(|band| {
             let of =
                 |n: &frfit::identify::Number| json!({"name": n.name, "value": n.value, "std": finite(n.std)});
@@ -130,26 +131,26 @@ pub fn several_json(case: &Case, wanted: &SeveralCase, run: &SeveralRun, seconds
         "model": model_json(case),
         "sensors": case.sensors.iter().map(|sensor| json!({"label": sensor.label, "quantity": sensor.quantity.name()})).collect::<Vec<_>>(),
         "band_hz": wanted.band_hz,
-        "frequencies": outcome.at.len(),
+        "frequencies": outcome.lines.len(),
         "unknowns": wanted.unknowns.iter().enumerate().map(unknown).collect::<Vec<_>>(),
         "trusted": outcome.is_trusted(),
         "status": statuses,
-        "coordinates": (0..outcome.coordinates.len()).map(|c| coordinate(wanted, outcome, c)).collect::<Vec<_>>(),
-        "correlation": outcome.correlation,
-        "directions": outcome.directions.iter().map(direction).collect::<Vec<_>>(),
+        "coordinates": (0..outcome.identifiability.coordinates.len()).map(|c| coordinate(wanted, outcome, c)).collect::<Vec<_>>(),
+        "correlation": outcome.identifiability.correlation,
+        "directions": outcome.identifiability.directions.iter().map(direction).collect::<Vec<_>>(),
         "not_told": not_told(wanted, outcome),
-        "profile": outcome.profile.as_ref().map(|profile| &profile.points),
+        "profile": outcome.identifiability.profile.as_ref().map(|profile| &profile.points),
         "noise": {
             "source": noise_source(wanted, outcome),
             "level": outcome.noise.level,
         },
         "fit": fit_json(outcome.fit.as_ref()),
-        "search": {"converged": outcome.converged, "starts": outcome.starts, "agreeing": outcome.agreeing},
+        "search": {"converged": outcome.search.converged, "starts": outcome.search.starts, "agreeing": outcome.search.agreeing},
         "counts": {
-            "factorisations": outcome.work.factorisations,
-            "solves": outcome.work.solves,
-            "subspace_size": outcome.subspace_size,
-            "reduction_error": reduction_error(outcome),
+            "factorisations": outcome.search.work.factorisations,
+            "solves": outcome.search.work.solves,
+            "subspace_size": outcome.search.reduced_size.unwrap_or(0),
+            "reduction_error": outcome.reduction_error(),
         },
         "seconds": {"load": seconds_load, "identify": run.seconds.identify()},
     })
@@ -159,11 +160,7 @@ fn finite(value: Option<f64>) -> Option<f64> {
     value.filter(|value| value.is_finite())
 }
 
-fn reduction_error(outcome: &SeveralOutcome) -> Option<f64> {
-    outcome.at.iter().filter_map(|at| at.reduction_error).reduce(f64::max)
-}
-
-fn noise_source(wanted: &SeveralCase, outcome: &SeveralOutcome) -> &'static str {
+fn noise_source(wanted: &SeveralCase, outcome: &Identification) -> &'static str {
     match wanted.noise {
         MeasuredNoise::Known(_) => "given",
         _ => outcome.noise.source.name(),
@@ -172,10 +169,13 @@ fn noise_source(wanted: &SeveralCase, outcome: &SeveralOutcome) -> &'static str 
 
 /// How an unknown varies, as a case says it: `frequency`, `constant`, `law zener`.
 pub fn varies(one: &Unknown) -> String {
-    match one.varies {
+    match &one.varies {
         Variation::PerFrequency => "frequency".into(),
         Variation::Constant => "constant".into(),
-        Variation::Law(family) => format!("law {family}"),
+        Variation::Law(kinds) => {
+            format!("law {}", kinds.iter().map(ToString::to_string).collect::<Vec<_>>().join(", "))
+        }
+        _ => "smooth".into(),
     }
 }
 
@@ -190,29 +190,30 @@ fn matrices(case: &Case, one: &Unknown) -> Value {
 }
 
 /// How far an unknown is from what a simulated measurement was made with; one that holds for the band by its value at the middle, in its deviations.
-fn reference_json(wanted: &SeveralCase, run: &SeveralRun, j: usize) -> Value {
+fn reference_json(wanted: &SeveralCase, run: &IdentifyRun, j: usize) -> Value {
     let Some(reference) = &wanted.reference[j] else { return Value::Null };
     if wanted.unknowns[j].varies != Variation::PerFrequency {
-        let at = &run.outcome.at[run.outcome.at.len() / 2];
-        let (Ok(exact), Some(found)) = (reference.at(at.frequency_hz), at.values[j]) else {
+        let at = &run.found.lines[run.found.lines.len() / 2];
+        let (Ok(exact), Some(found)) = (reference.at(at.frequency_hz), at.values[j].value) else {
             return Value::Null;
         };
+        let bars = at.values[j].uncertainty;
         let parts = [
-            Some(found.value.re - exact.re).zip(found.storage_std),
-            Some(loss_factor(found.value) - loss_factor(exact)).zip(found.loss_factor_std),
+            Some(found.re - exact.re).zip(bars.map(|bars| bars.storage_std)),
+            Some(loss_factor(found) - loss_factor(exact)).zip(bars.and_then(|bars| bars.loss_factor_std)),
         ];
         let deviations = parts.into_iter().flatten().map(|(off, std)| (off / std).abs()).reduce(f64::max);
-        let relative = (found.value - exact).norm() / exact.norm();
+        let relative = (found - exact).norm() / exact.norm();
         return json!({"relative": relative, "deviations": finite(deviations)});
     }
     let off: Vec<Option<(f64, bool)>> = run
-        .outcome
-        .at
+        .found
+        .lines
         .iter()
         .map(|at| {
             let exact = reference.at(at.frequency_hz).ok()?;
-            let value = at.values[j]?;
-            Some(((value.value - exact).norm() / exact.norm(), at.status == Status::Ok))
+            let value = at.values[j].value?;
+            Some(((value - exact).norm() / exact.norm(), at.status == Status::Ok))
         })
         .collect();
     let right = off.iter().flatten().filter(|(off, _)| *off <= RIGHT_WITHIN).count();
@@ -227,14 +228,14 @@ fn reference_json(wanted: &SeveralCase, run: &SeveralRun, j: usize) -> Value {
 }
 
 /// What a coordinate of correlation and directions stands for: `core`, `core loss_factor`, `skins e0`.
-pub fn coordinate(wanted: &SeveralCase, outcome: &SeveralOutcome, c: usize) -> String {
-    let (j, number) = &outcome.coordinates[c];
+pub fn coordinate(wanted: &SeveralCase, outcome: &Identification, c: usize) -> String {
+    let (j, number) = &outcome.identifiability.coordinates[c];
     let name = &wanted.unknowns[*j].name;
     if number == "value" { name.clone() } else { format!("{name} {number}") }
 }
 
 /// The combinations that the measurements do not tell, in words.
-pub fn not_told(wanted: &SeveralCase, outcome: &SeveralOutcome) -> Vec<String> {
+pub fn not_told(wanted: &SeveralCase, outcome: &Identification) -> Vec<String> {
     let sentence = |direction: &Direction| {
         let largest = direction.weights.first().map_or(1.0, |(_, weight)| weight.abs());
         let mut up = Vec::new();
@@ -256,26 +257,32 @@ pub fn not_told(wanted: &SeveralCase, outcome: &SeveralOutcome) -> Vec<String> {
             false => format!("{both}: not identifiable"),
         }
     };
-    outcome.directions.iter().filter(|direction| direction.std > UNTOLD).map(sentence).collect()
+    outcome
+        .identifiability
+        .directions
+        .iter()
+        .filter(|direction| direction.std > UNTOLD)
+        .map(sentence)
+        .collect()
 }
 
 /// What a person reads first.
-pub fn several_text(wanted: &SeveralCase, run: &SeveralRun) -> Words {
-    let outcome = &run.outcome;
+pub fn several_text(wanted: &SeveralCase, run: &IdentifyRun) -> Words {
+    let outcome = &run.found;
     let mut words = Words::default();
     let mut add = |is_warning: bool, label: &str, value: String| {
         words.add(is_warning, &format!("  {label:<17} {value}\n"));
     };
-    if let Some(breakdown) = &outcome.breakdown {
+    if let Some(breakdown) = &outcome.search.breakdown {
         add(true, "no answer", format!("the model has no real stand-in that can be factorised: {breakdown}"));
     }
     let statuses = Status::ALL.into_iter().filter(|&status| run.count(status) > 0);
     add(
-        run.count(Status::Ok) < outcome.at.len(),
+        run.count(Status::Ok) < outcome.lines.len(),
         "frequencies",
         statuses.map(|s| format!("{} {}", run.count(s), s.name())).collect::<Vec<_>>().join(", "),
     );
-    for value in &outcome.band {
+    for value in &outcome.constants {
         let one = &wanted.unknowns[value.unknowns];
         let number = |n: &frfit::identify::Number| {
             let name = if n.name == "value" { String::new() } else { format!("{} ", n.name) };
@@ -299,17 +306,16 @@ pub fn several_text(wanted: &SeveralCase, run: &SeveralRun) -> Words {
     for (j, one) in
         wanted.unknowns.iter().enumerate().filter(|(_, one)| one.varies == Variation::PerFrequency)
     {
-        let ok = outcome.at.iter().filter(|at| at.status == Status::Ok).filter_map(|at| at.values[j]);
-        let range = |part: &dyn Fn(&ValueAt) -> f64| {
-            ok.clone()
-                .map(|v| part(&v))
-                .fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)))
+        let ok =
+            outcome.lines.iter().filter(|at| at.status == Status::Ok).filter_map(|at| at.values[j].value);
+        let range = |part: &dyn Fn(c64) -> f64| {
+            ok.clone().map(part).fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)))
         };
-        let (low, high) = range(&|v| v.value.re);
+        let (low, high) = range(&|v| v.re);
         if low > high {
             continue;
         }
-        let (least, most) = range(&|v| loss_factor(v.value));
+        let (least, most) = range(&|v| loss_factor(v));
         let loss = if one.real { String::new() } else { format!(", loss factor {least:.5} to {most:.5}") };
         add(false, &one.name, format!("{low:.6e} to {high:.6e}{loss} (where ok)"));
     }
@@ -330,7 +336,7 @@ pub fn several_text(wanted: &SeveralCase, run: &SeveralRun) -> Words {
             add(fit.verdict != Explained::Yes, "measurements", sentence);
         }
     }
-    if !outcome.converged {
+    if !outcome.search.converged {
         add(true, "search", "did not settle: more frequencies, sensors or narrower bounds may help".into());
     }
     for (j, one) in wanted.unknowns.iter().enumerate() {
@@ -356,18 +362,18 @@ pub fn several_text(wanted: &SeveralCase, run: &SeveralRun) -> Words {
         "work",
         format!(
             "{} factorisations, {} solves, {:.2} s",
-            outcome.work.factorisations,
-            outcome.work.solves,
+            outcome.search.work.factorisations,
+            outcome.search.work.solves,
             run.seconds.identify()
         ),
     );
-    if let Some(error) = reduction_error(outcome) {
+    if let Some(error) = outcome.reduction_error() {
         add(
             false,
             "subspace",
             format!(
                 "{} vectors, error of the response at most {error:.1e} (estimated)",
-                outcome.subspace_size
+                outcome.search.reduced_size.unwrap_or(0)
             ),
         );
     }

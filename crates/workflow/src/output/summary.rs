@@ -55,22 +55,22 @@ pub fn summary_json(
             "real": options.real,
             "reject_outliers": options.reject_outliers,
         },
-        "frequencies": run.outcomes.len(),
+        "frequencies": run.found.lines.len(),
         "status": statuses,
         "bands_hz": bands,
         "noise": noise(identify, run),
-        "fit": fit_json(run.fit.as_ref()),
+        "fit": fit_json(run.found.fit.as_ref()),
         "error": spread(run, |outcome| outcome.error),
-        "storage_std": spread(run, |outcome| Some(outcome.uncertainty?.storage_std)),
-        "loss_factor_std": spread(run, |outcome| outcome.uncertainty?.loss_factor_std),
+        "storage_std": spread(run, |outcome| Some(outcome.uncertainty()?.storage_std)),
+        "loss_factor_std": spread(run, |outcome| outcome.uncertainty()?.loss_factor_std),
         "required_order": required_order(run),
         "spectral_radius": spread(run, |outcome| outcome.spectral_radius),
         "counts": {
-            "factorisations": run.work.factorisations,
-            "solves": run.work.solves,
-            "subspace_size": run.subspace_size,
-            "explored": run.explored,
-            "reduction_error": run.reduction_error(),
+            "factorisations": run.found.search.work.factorisations,
+            "solves": run.found.search.work.solves,
+            "subspace_size": run.found.search.reduced_size,
+            "explored": run.found.search.explored,
+            "reduction_error": run.found.reduction_error(),
         },
         "seconds": {
             "load": seconds_load,
@@ -83,11 +83,10 @@ pub fn summary_json(
             "figures": seconds_figures,
         },
     });
-    if let Some(laws) = &run.laws {
-        summary["laws"] = laws_json(laws, identify.unit, case.units);
-    }
-    if let Some(smooth) = &run.smooth {
-        summary["smooth"] = smooth.curve.as_ref().map_or(Value::Null, smooth_json);
+    match &identify.varies {
+        Varies::Freely => {}
+        Varies::Smoothly => summary["smooth"] = run.found.curve.as_ref().map_or(Value::Null, smooth_json),
+        Varies::ByLaw(_) => summary["laws"] = laws_json(&run.found.laws, identify.unit, case.units),
     }
     if let Some(reference) = reference(identify, run) {
         summary["reference"] = reference;
@@ -118,13 +117,13 @@ fn sensor(case: &Case, run: &IdentifyRun, m: usize) -> Value {
     let sensor = &case.sensors[m];
     let mut told = json!({"label": sensor.label, "quantity": sensor.quantity.name()});
     let unknown = case.identify.as_ref().map_or(ChannelUnknowns::default(), |identify| identify.unknown[m]);
-    let found = run.channels.get(m).copied().unwrap_or_default();
+    let found = run.found.channels.get(m).copied().unwrap_or_default();
     let asked = [("scale", unknown.scale, found.scale), ("delay_s", unknown.delay, found.delay_s)];
     for (key, _, found) in asked.into_iter().filter(|(_, asked, _)| *asked) {
         told[key] = json!(found.map(|found| found.value));
         told[format!("{key}_std")] = json!(found.and_then(|found| found.std));
     }
-    if let Some(fit) = run.sensors.get(m) {
+    if let Some(fit) = run.found.sensors.get(m) {
         told["misfit"] = json!(fit.misfit);
         told["contradicts"] = json!(fit.contradicts);
         told["left_out"] = json!(fit.left_out);
@@ -134,7 +133,7 @@ fn sensor(case: &Case, run: &IdentifyRun, m: usize) -> Value {
 
 /// How large the noise is, and what tells it: `level` is in units of what `deviation` names.
 fn noise(identify: &IdentifyCase, run: &IdentifyRun) -> Value {
-    let NoiseLevel { level, source, of_sensors, of_scatter } = run.noise;
+    let NoiseLevel { level, source, of_sensors, of_scatter } = run.found.noise;
     let deviation = match &identify.noise {
         MeasuredNoise::Known(_) => "std, or coherence and averages, of the measurements",
         MeasuredNoise::Relative(_) => "coherence of the measurements, as of one average",
@@ -159,9 +158,10 @@ pub(super) fn fit_json(fit: Option<&GoodnessOfFit>) -> Value {
 /// asked of any.
 fn required_order(run: &IdentifyRun) -> Value {
     let asked = run
-        .outcomes
+        .found
+        .lines
         .iter()
-        .filter(|outcome| outcome.reduction_error.is_some() && outcome.correction.is_some());
+        .filter(|outcome| outcome.reduction_error.is_some() && outcome.correction().is_some());
     let orders: Vec<Option<usize>> = asked.map(|outcome| outcome.required_order).collect();
     if orders.is_empty() {
         return Value::Null;
@@ -171,8 +171,8 @@ fn required_order(run: &IdentifyRun) -> Value {
 }
 
 /// Median and largest of a number over the frequencies with status `ok`; null where there is none.
-fn spread(run: &IdentifyRun, number: impl Fn(&frfit::identify::Identified) -> Option<f64>) -> Value {
-    let ok = run.outcomes.iter().filter(|outcome| outcome.status == Status::Ok);
+fn spread(run: &IdentifyRun, number: impl Fn(&frfit::identify::Line) -> Option<f64>) -> Value {
+    let ok = run.found.lines.iter().filter(|outcome| outcome.status == Status::Ok);
     let mut values: Vec<f64> = ok.filter_map(number).collect();
     values.sort_by(f64::total_cmp);
     json!({"median_ok": values.get(values.len() / 2), "max_ok": values.last()})
@@ -183,7 +183,8 @@ fn reference(identify: &IdentifyCase, run: &IdentifyRun) -> Option<Value> {
     let law = identify.reference.as_ref()?;
     let right = run.right(|frequency_hz| law.at(frequency_hz).ok(), RIGHT_WITHIN)?;
     let ok: Vec<bool> = run
-        .outcomes
+        .found
+        .lines
         .iter()
         .zip(&right)
         .filter(|(outcome, _)| outcome.status == Status::Ok)
@@ -194,22 +195,22 @@ fn reference(identify: &IdentifyCase, run: &IdentifyRun) -> Option<Value> {
         (!flags.is_empty()).then(|| count as f64 / flags.len() as f64)
     };
     // Where the measurement is not one of the model itself, the mesh decides how near the reference an answer can be.
-    let deviation = |outcome: &frfit::identify::Identified| {
+    let deviation = |outcome: &frfit::identify::Line| {
         let reference = law.at(outcome.frequency_hz).ok()?;
         Some((outcome.factor()? - reference).norm() / reference.norm())
     };
     // Of the answers with error bars that are called ok, those that have the reference within two standard deviations: 0.95 is right.
-    let covered = |off: &dyn Fn(&frfit::identify::Identified, c64) -> Option<f64>| {
-        let ok = run.outcomes.iter().filter(|outcome| outcome.status == Status::Ok);
+    let covered = |off: &dyn Fn(&frfit::identify::Line, c64) -> Option<f64>| {
+        let ok = run.found.lines.iter().filter(|outcome| outcome.status == Status::Ok);
         let within: Vec<bool> =
             ok.filter_map(|o| Some(off(o, law.at(o.frequency_hz).ok()?)? <= 2.0)).collect();
         fraction(&within)
     };
     Some(json!({
         "covered": {
-            "storage": covered(&|o, reference| Some((o.storage()? - reference.re).abs() / o.uncertainty?.storage_std)),
+            "storage": covered(&|o, reference| Some((o.storage()? - reference.re).abs() / o.uncertainty()?.storage_std)),
             "loss_factor": covered(&|o, reference| {
-                Some((o.loss_factor()? - loss_factor(reference)).abs() / o.uncertainty?.loss_factor_std?)
+                Some((o.loss_factor()? - loss_factor(reference)).abs() / o.uncertainty()?.loss_factor_std?)
             }),
         },
         "deviation": spread(run, deviation),

@@ -1,18 +1,15 @@
 //! From a case to the outcome at every frequency of its band.
 
 use super::Progress;
-use crate::case::VariesEntry as Varies;
 use crate::load::{Case, IdentifyCase, MeasuredNoise};
 use frfit::c64;
 use frfit::frequency::bands_hz;
 use frfit::identify::{
-    Band, BandOutcome, Calibration, Context, GoodnessOfFit, Identified, LawsOutcome, Method, Noise,
-    NoiseLevel, SensorFit, SmoothCurve, SmoothOutcome, Stage, Status, error_by_order, identify_band,
-    identify_band_scaled, identify_laws_scaled, identify_smooth,
+    Context, Frfs, Identification, Line, Method, Noise, Problem, ProblemError, SmoothCurve, Stage, Status,
+    Unknown, error_by_order,
 };
-use frfit::laws::LawFit;
 use frfit::material::OutsideTable;
-use frfit::response::{FullModel, Work};
+use frfit::response::FullModel;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
@@ -55,48 +52,12 @@ pub struct Seconds {
 /// What came out.
 #[derive(Debug, Clone, PartialEq)]
 pub struct IdentifyRun {
-    /// One outcome a frequency, ascending.
-    pub outcomes: Vec<Identified>,
-    /// The error map, where one was made.
+    /// The identification; its lines are all measured frequencies of the band, ascending.
+    pub found: Identification,
+    /// The error map, where one was made. Its work is not in that of the identification.
     pub error_map: Option<ErrorMap>,
-    /// All work of the identification; that of the error map is not in it.
-    pub work: Work,
-    /// Vectors of the subspace; `None` where the full model answered.
-    pub subspace_size: Option<usize>,
-    /// Frequencies at which all solutions were looked for, not only those of their neighbours.
-    pub explored: usize,
-    /// How large the noise is, and what tells it.
-    pub noise: NoiseLevel,
-    /// Whether noise is all that the answers leave unexplained; `None` where nothing can tell.
-    pub fit: Option<GoodnessOfFit>,
-    /// One for each sensor of a joint selection.
-    pub sensors: Vec<SensorFit>,
-    /// What was unknown of each sensor's channel, and is told by the data.
-    pub channels: Vec<Calibration>,
-    /// The laws that were fitted; `None` where every frequency has its own factor. The outcomes are those of the best law.
-    pub laws: Option<LawsRun>,
-    /// The smooth modulus; `None` where it was not asked to be smooth.
-    pub smooth: Option<SmoothRun>,
     /// How long it took.
     pub seconds: Seconds,
-}
-
-/// Laws fitted to a band.
-#[derive(Debug, Clone, PartialEq)]
-pub struct LawsRun {
-    /// One for each law that could be fitted.
-    pub fits: Vec<LawFit>,
-    /// What each frequency says by itself.
-    pub free: Vec<Identified>,
-}
-
-/// A modulus that is smooth over a band.
-#[derive(Debug, Clone, PartialEq)]
-pub struct SmoothRun {
-    /// The curve; `None` where there is nothing to lay one through.
-    pub curve: Option<SmoothCurve>,
-    /// What each frequency says by itself.
-    pub free: Vec<Identified>,
 }
 
 /// Columns of the error map where none are asked for.
@@ -111,17 +72,18 @@ fn map_columns(dofs: usize) -> usize {
 /// Identifies over the case's band, on all cores; the result does not depend on their number.
 ///
 /// # Errors
-/// [`OutsideTable`] where a table of a factor does not reach a frequency. Numerical trouble is a status of its frequency, never an error.
+/// [`ProblemError`] where the case has a fault that was not seen when it was loaded. Numerical trouble is a status of its frequency, never an error.
 pub fn identify(
     case: &Case,
     identify: &IdentifyCase,
     options: RunOptions,
     progress: Progress<'_>,
-) -> Result<IdentifyRun, OutsideTable> {
+) -> Result<IdentifyRun, ProblemError> {
     let clock = StageClock::default();
     let used = Used::of(identify);
-    let band = band_of(case, identify, &used);
-    let last = (AtomicUsize::new(0), AtomicUsize::new(band.frequency_hz.len()));
+    let unknowns = [identify.factor()];
+    let problem = problem_of(case, identify, &unknowns, &used)?;
+    let last = (AtomicUsize::new(0), AtomicUsize::new(used.frequency_hz.len()));
     let hooks = Context {
         for_each: &|n, each| {
             (0..n).into_par_iter().for_each(|i| {
@@ -137,67 +99,28 @@ pub fn identify(
             progress(done, total);
         },
     };
-    let unknown = &identify.unknown;
-    let known = || vec![Calibration::default(); unknown.len()];
-    let mut smooth = None;
-    let (found, channels, laws) = match &identify.varies {
-        Varies::Freely if unknown.iter().any(|unknown| unknown.any()) => {
-            let (found, channels) = identify_band_scaled(&band, unknown, &identify.options, hooks)?;
-            (found, channels, None)
-        }
-        Varies::Freely => (identify_band(&band, &identify.options, hooks)?, known(), None),
-        Varies::Smoothly => {
-            let SmoothOutcome { free, band, curve } = identify_smooth(&band, &identify.options, hooks)?;
-            smooth = Some(SmoothRun { curve, free: Used::among_all(identify, free.outcomes)? });
-            (band, known(), None)
-        }
-        Varies::ByLaw(kinds) => {
-            let LawsOutcome { free, fits, outcomes, channels, fit, work, subspace_size } =
-                identify_laws_scaled(&band, unknown, kinds, &identify.options, hooks)?;
-            // What each frequency by itself told of noise and sensors holds for the laws too.
-            let alone = free.outcomes.clone();
-            let found = BandOutcome { outcomes, work, subspace_size, fit, ..free };
-            (found, channels, Some(LawsRun { fits, free: alone }))
-        }
-    };
-    let mut found = found;
-    found.outcomes = Used::among_all(identify, found.outcomes)?;
-    if let Some(curve) = smooth.as_ref().and_then(|smooth| smooth.curve.as_ref()) {
-        bridge(&mut found.outcomes, curve, identify);
+    let mut found = frfit::identify::identify(&problem, &identify.options, hooks)?;
+    found.lines = Used::among_all(identify, found.lines)?;
+    found.free = if found.free.is_empty() { found.free } else { Used::among_all(identify, found.free)? };
+    if let Some(curve) = &found.curve {
+        bridge(&mut found.lines, curve, identify);
     }
-    let laws = match laws {
-        Some(laws) => Some(LawsRun { free: Used::among_all(identify, laws.free)?, ..laws }),
-        None => None,
-    };
     let mut seconds = clock.seconds();
     let start = Instant::now();
     let error_map = error_map(case, identify, options)?;
     seconds.error_map = start.elapsed().as_secs_f64();
-    let BandOutcome { outcomes, work, subspace_size, explored, noise, fit, sensors } = found;
-    Ok(IdentifyRun {
-        outcomes,
-        error_map,
-        work,
-        subspace_size,
-        explored,
-        noise,
-        fit,
-        sensors,
-        channels,
-        laws,
-        smooth,
-        seconds,
-    })
+    Ok(IdentifyRun { found, error_map, seconds })
 }
 
 /// The smooth modulus at the frequencies that were left out: their status stays, as nothing was measured there that counts.
-fn bridge(outcomes: &mut [Identified], curve: &SmoothCurve, identify: &IdentifyCase) {
+fn bridge(outcomes: &mut [Line], curve: &SmoothCurve, identify: &IdentifyCase) {
     let out = |i: &usize| identify.left_out[*i] && identify.frequency_hz[*i] > 0.0;
     let out: Vec<usize> = (0..outcomes.len()).filter(out).collect();
     let frequency_hz: Vec<f64> = out.iter().map(|&i| identify.frequency_hz[i]).collect();
     for (&i, (factor, bars)) in out.iter().zip(curve.bridged(&frequency_hz)) {
-        outcomes[i].correction = Some(factor - outcomes[i].nominal);
-        outcomes[i].uncertainty = Some(bars);
+        let value = &mut outcomes[i].values[0];
+        (value.value, value.correction) = (Some(factor), Some(factor - value.nominal));
+        value.uncertainty = Some(bars);
     }
 }
 
@@ -223,19 +146,14 @@ impl Used {
     }
 
     /// One outcome for each measured frequency of the band, `out_of_band` where it is left out.
-    fn among_all(
-        identify: &IdentifyCase,
-        outcomes: Vec<Identified>,
-    ) -> Result<Vec<Identified>, OutsideTable> {
+    fn among_all(identify: &IdentifyCase, outcomes: Vec<Line>) -> Result<Vec<Line>, OutsideTable> {
         let mut outcomes = outcomes.into_iter();
         let all = identify.frequency_hz.iter().zip(&identify.left_out);
         let mut whole = Vec::with_capacity(identify.frequency_hz.len());
         for (&frequency_hz, &out) in all {
             match out {
-                true => whole.push(Identified::out_of_band(
-                    frequency_hz,
-                    identify.parameter.nominal.at(frequency_hz)?,
-                )),
+                true => whole
+                    .push(Line::out_of_band(frequency_hz, &[identify.parameter.nominal.at(frequency_hz)?])),
                 false => whole.extend(outcomes.next()),
             }
         }
@@ -248,20 +166,20 @@ fn kept<'i, T>(rows: &'i [T], identify: &'i IdentifyCase) -> impl Iterator<Item 
     rows.iter().zip(&identify.left_out).filter(|(_, out)| !**out).map(|(row, _)| row)
 }
 
-/// A case's band as core takes it.
-pub(crate) fn band_of<'a>(case: &'a Case, identify: &'a IdentifyCase, used: &'a Used) -> Band<'a> {
-    Band {
-        model: &case.model,
-        experiment: &case.experiment,
-        parameter: &identify.parameter,
-        frequency_hz: &used.frequency_hz,
-        measured: &used.measured,
-        noise: noise_of(&used.noise),
-    }
+/// A case's band as the library takes it.
+pub(crate) fn problem_of<'a>(
+    case: &'a Case,
+    identify: &'a IdentifyCase,
+    unknowns: &'a [Unknown],
+    used: &'a Used,
+) -> Result<Problem<'a>, ProblemError> {
+    let frfs =
+        Frfs { frequency_hz: &used.frequency_hz, receptance: &used.measured, noise: noise_of(&used.noise) };
+    Problem::new(&case.model, &case.experiment, unknowns, &identify.unknown, frfs)
 }
 
 /// How well it was measured, as core takes it.
-pub(super) fn noise_of(noise: &MeasuredNoise) -> Noise<'_> {
+pub(crate) fn noise_of(noise: &MeasuredNoise) -> Noise<'_> {
     match noise {
         MeasuredNoise::Unknown => Noise::Unknown,
         MeasuredNoise::Relative(std) => Noise::Relative(std),
@@ -341,7 +259,7 @@ fn error_map(
 impl IdentifyRun {
     /// How many frequencies have this status.
     pub fn count(&self, status: Status) -> usize {
-        self.outcomes.iter().filter(|outcome| outcome.status == status).count()
+        self.found.count(status)
     }
 
     /// What was measured at a frequency, as receptance, with the scales and delays that were found.
@@ -351,22 +269,21 @@ impl IdentifyRun {
 
     /// The same of one sensor.
     pub fn measured_by(&self, sensor: usize, frequency_hz: f64, receptance: c64) -> c64 {
-        self.channels.get(sensor).map_or(receptance, |channel| channel.factor(frequency_hz) * receptance)
-    }
-
-    /// The largest estimated error of the subspace's response, relative to the measured one, over all answers; `None` where the full model answered.
-    pub fn reduction_error(&self) -> Option<f64> {
-        self.outcomes.iter().filter_map(|outcome| outcome.reduction_error).reduce(f64::max)
+        self.found
+            .channels
+            .get(sensor)
+            .map_or(receptance, |channel| channel.factor(frequency_hz) * receptance)
     }
 
     /// The bands [first, last] in Hz of neighbouring frequencies with this status.
     pub fn bands_hz(&self, status: Status) -> Vec<[f64; 2]> {
-        bands_hz(self.outcomes.iter().map(|outcome| (outcome.frequency_hz, outcome.status == status)))
+        bands_hz(self.found.lines.iter().map(|outcome| (outcome.frequency_hz, outcome.status == status)))
     }
 
     /// Whether each frequency's updated factor is the reference to a relative tolerance; `None` where no reference is known.
     pub fn right(&self, reference: impl Fn(f64) -> Option<c64>, tolerance: f64) -> Option<Vec<bool>> {
-        self.outcomes
+        self.found
+            .lines
             .iter()
             .map(|outcome| {
                 let reference = reference(outcome.frequency_hz)?;

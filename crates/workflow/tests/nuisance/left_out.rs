@@ -30,8 +30,8 @@ fn hum_is_left_out_and_its_rows_are_marked() {
         let keys = format!("{KEYS}exclude_hz = [[49.0, 51.0], 100.5]\n{law}");
         let folder = folder(&hum(), &keys);
         let job = run(&folder).unwrap();
-        assert_eq!(job.run.outcomes.len(), 91);
-        let out: Vec<f64> = (job.run.outcomes.iter())
+        assert_eq!(job.run.found.lines.len(), 91);
+        let out: Vec<f64> = (job.run.found.lines.iter())
             .filter(|o| o.status == Status::OutOfBand)
             .map(|o| o.frequency_hz)
             .collect();

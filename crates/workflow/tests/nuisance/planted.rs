@@ -119,7 +119,7 @@ pub(crate) fn refusal(folder: &TempDir) -> String {
 
 /// How far the factor is from the truth at worst, relative, over the frequencies that have an answer; and how many have one.
 pub(crate) fn worst(job: &IdentifyJob) -> (f64, usize) {
-    let off = job.run.outcomes.iter().filter_map(|o| Some((o.factor()? - TRUTH).norm() / TRUTH.norm()));
+    let off = job.run.found.lines.iter().filter_map(|o| Some((o.factor()? - TRUTH).norm() / TRUTH.norm()));
     let off: Vec<f64> = off.collect();
     (off.iter().copied().fold(0.0, f64::max), off.len())
 }

@@ -59,9 +59,9 @@ fn an_unknown_scale_is_found_beside_a_known_one() {
         let [value, std] = ["scale", "scale_std"].map(|key| told[key].as_f64().unwrap());
         assert!(std < 0.02 * 0.37, "{told}");
         pulls.push((value + 0.37) / std);
-        let ok = job.run.outcomes.iter().filter(|o| o.status == Status::Ok);
+        let ok = job.run.found.lines.iter().filter(|o| o.status == Status::Ok);
         covered.extend(
-            ok.filter_map(|o| Some((o.storage()? - TRUTH.re).abs() <= 2.0 * o.uncertainty?.storage_std)),
+            ok.filter_map(|o| Some((o.storage()? - TRUTH.re).abs() <= 2.0 * o.uncertainty()?.storage_std)),
         );
     }
     // All of six within 4 deviations but for one in 2600; their mean square is 1 ± 0.6.

@@ -102,10 +102,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut table = Table::new(heading);
     let mut add = |way: &str, threads: usize, frequencies: usize, run: &Run| {
         // What was sampled counts for the whole band.
-        let share = frequencies as f64 / run.found.outcomes.len() as f64;
+        let share = frequencies as f64 / run.found.lines.len() as f64;
         let times = |seconds: f64| format!("{:.1}", share * seconds);
         // The full model's stages are not told apart: there is one.
-        let stage = |seconds: f64| run.found.subspace_size.map_or("–".to_owned(), |_| times(seconds));
+        let stage = |seconds: f64| run.found.search.reduced_size.map_or("–".to_owned(), |_| times(seconds));
         let stages = run.stages;
         let cost = share * run.cpu / one.cpu;
         let work = |count: usize| ((share * count as f64) as usize).to_string();
@@ -119,9 +119,9 @@ fn main() -> Result<(), Box<dyn Error>> {
             stage(stages.solutions),
             stage(stages.selection),
             format!("{cost:.2}"),
-            work(run.found.work.factorisations),
-            work(run.found.work.solves),
-            run.found.subspace_size.map_or("–".to_owned(), |size| size.to_string()),
+            work(run.found.search.work.factorisations),
+            work(run.found.search.work.solves),
+            run.found.search.reduced_size.map_or("–".to_owned(), |size| size.to_string()),
             run.score.to_string(),
         ]);
     };

@@ -97,11 +97,11 @@ fn table(costs: &[Cost]) -> Table {
             format!("{:.2}", stages.selection),
             format!("{:.0}", megabytes(*peak)),
             format!("{:.0}", megabytes(*before)),
-            run.found.work.factorisations.to_string(),
-            run.found.work.solves.to_string(),
-            run.found.subspace_size.map_or("–".to_owned(), |size| size.to_string()),
+            run.found.search.work.factorisations.to_string(),
+            run.found.search.work.solves.to_string(),
+            run.found.search.reduced_size.map_or("–".to_owned(), |size| size.to_string()),
             run.score.to_string(),
-            or_none(run.reduction_error()),
+            or_none(run.found.reduction_error()),
             or_none(Some(measurement.truncation)),
             or_none(measurement.checked),
         ]);
@@ -120,9 +120,9 @@ fn table(costs: &[Cost]) -> Table {
         power(&|cost| cost.run.stages.selection),
         power(&|cost| megabytes(cost.peak)),
         power(&|cost| megabytes(cost.before)),
-        power(&|cost| cost.run.found.work.factorisations as f64),
-        power(&|cost| cost.run.found.work.solves as f64),
-        power(&|cost| cost.run.found.subspace_size.unwrap_or(0) as f64),
+        power(&|cost| cost.run.found.search.work.factorisations as f64),
+        power(&|cost| cost.run.found.search.work.solves as f64),
+        power(&|cost| cost.run.found.search.reduced_size.unwrap_or(0) as f64),
     ]);
     table
 }

@@ -7,7 +7,7 @@
 
 use frfit::c64;
 use frfit::frequency::{linear_hz, omega_rad_s};
-use frfit::identify::{SeveralOutcome, Unknown, Variation};
+use frfit::identify::{Identification, Unknown, Variation};
 use frfit::laws::LawKind;
 use frfit::material::Law;
 use frfit_bench::measurement::{by_subspace, direct};
@@ -46,7 +46,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
     answers.push(answer("truth", &small.truth));
     answers.push(answer("frfit", &ours.found));
-    let work = ours.outcome.work;
+    let work = ours.outcome.search.work;
     costs.push([
         "frfit".to_owned(),
         work.factorisations.to_string(),
@@ -82,8 +82,8 @@ fn main() -> Result<(), Box<dyn Error>> {
             "sandwich, N = {}: frfit {:.1} s CPU ({} factorisations, {} solves), farthest number {:.1e} off; SciPy {one:.1} s for one factorisation with its solve",
             large.structure.stiffness.dim(),
             ours.seconds,
-            ours.outcome.work.factorisations,
-            ours.outcome.work.solves,
+            ours.outcome.search.work.factorisations,
+            ours.outcome.search.work.solves,
             farthest(&ours.found, &large.truth),
         );
         for (label, count) in counts {
@@ -101,7 +101,7 @@ struct Case {
 }
 
 struct Ours {
-    outcome: SeveralOutcome,
+    outcome: Identification,
     found: Numbers,
     seconds: f64,
 }
@@ -117,7 +117,7 @@ impl Case {
         let mut structure = Structure::of(model, linear_hz(first, last, frequencies), 1e-5, 3.0);
         structure.measured = measure(&structure)?;
         let (core, core_law) =
-            structure.unknowns("core", CORE, Variation::Law(LawKind::Fractional), false)?;
+            structure.unknowns("core", CORE, Variation::law(LawKind::Fractional), false)?;
         let (skins, skins_law) = structure.unknowns("skins", SKINS, Variation::Constant, false)?;
         let (density, density_law) = structure.unknowns("core-mass", DENSITY, Variation::Constant, true)?;
         let truth = numbers(&structure, [&core_law, &skins_law, &density_law])?;
@@ -125,8 +125,8 @@ impl Case {
     }
 
     fn ours(&self) -> Result<Ours, Box<dyn Error>> {
-        let (outcome, seconds) = self.structure.identify_several(&self.unknowns)?;
-        let law = |j: usize| outcome.band.iter().find(|one| one.unknowns == j).map(|one| &one.law);
+        let (outcome, seconds) = self.structure.identify(&self.unknowns)?;
+        let law = |j: usize| outcome.constants.iter().find(|one| one.unknowns == j).map(|one| &one.law);
         let laws = [law(0), law(1), law(2)].map(|law| law.ok_or("an unknown of the band is missing"));
         let [core, skins, density] = laws;
         let found = numbers(&self.structure, [core?, skins?, density?])?;

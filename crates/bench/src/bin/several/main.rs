@@ -6,7 +6,7 @@
 
 use frfit::c64;
 use frfit::frequency::linear_hz;
-use frfit::identify::{Options, SeveralOutcome, Status, Unknown, Variation};
+use frfit::identify::{Identification, Options, Status, Unknown, Variation};
 use frfit::laws::LawKind;
 use frfit::material::Law;
 use frfit_bench::measurement::{BySubspace, by_subspace};
@@ -46,7 +46,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let skins = structure.unknowns("skins", SKINS, Variation::Constant, false)?;
     let density = structure.unknowns("core-mass", DENSITY, Variation::Constant, true)?;
     let freely = core(Variation::PerFrequency)?;
-    let by_law = core(Variation::Law(LawKind::Fractional))?;
+    let by_law = core(Variation::law(LawKind::Fractional))?;
     let sets = [
         ("core E(ω)", vec![freely.clone()]),
         ("core E(ω), skins E", vec![freely.clone(), skins.clone()]),
@@ -71,25 +71,25 @@ fn main() -> Result<(), Box<dyn Error>> {
         "core E(ω), by itself".to_owned(),
         format!("{:.1}", usual.cpu),
         "1.00".to_owned(),
-        usual.found.work.factorisations.to_string(),
-        usual.found.work.solves.to_string(),
-        usual.found.subspace_size.map_or("–".to_owned(), |size| size.to_string()),
+        usual.found.search.work.factorisations.to_string(),
+        usual.found.search.work.solves.to_string(),
+        usual.found.search.reduced_size.map_or("–".to_owned(), |size| size.to_string()),
         usual.score.to_string(),
         String::new(),
     ]);
     for (label, set) in sets {
         eprintln!("{label} …");
         let (unknowns, truths): (Vec<Unknown>, Vec<Law>) = set.into_iter().unzip();
-        let (outcome, cpu) = structure.identify_several(&unknowns)?;
+        let (outcome, cpu) = structure.identify(&unknowns)?;
         let [right, wrong] = score(&outcome, &truths)?;
         table.push([
             label.to_owned(),
             format!("{cpu:.1}"),
             format!("{:.2}", cpu / usual.cpu),
-            outcome.work.factorisations.to_string(),
-            outcome.work.solves.to_string(),
-            outcome.subspace_size.to_string(),
-            format!("{:.3}", right as f64 / outcome.at.len() as f64),
+            outcome.search.work.factorisations.to_string(),
+            outcome.search.work.solves.to_string(),
+            outcome.search.reduced_size.unwrap_or(0).to_string(),
+            format!("{:.3}", right as f64 / outcome.lines.len() as f64),
             wrong.to_string(),
         ]);
     }
@@ -98,12 +98,12 @@ fn main() -> Result<(), Box<dyn Error>> {
 }
 
 /// Frequencies at which every unknown is right, and those at which one is not but all are called `ok`.
-fn score(outcome: &SeveralOutcome, truths: &[Law]) -> Result<[usize; 2], Box<dyn Error>> {
+fn score(outcome: &Identification, truths: &[Law]) -> Result<[usize; 2], Box<dyn Error>> {
     let mut counts = [0, 0];
-    for at in &outcome.at {
+    for at in &outcome.lines {
         let exact: Vec<c64> = truths.iter().map(|law| law.at(at.frequency_hz)).collect::<Result<_, _>>()?;
-        let near = |(found, exact): (&Option<frfit::identify::ValueAt>, &c64)| {
-            found.is_some_and(|found| (found.value - exact).norm() <= RIGHT * exact.norm())
+        let near = |(found, exact): (&frfit::identify::LineValue, &c64)| {
+            found.value.is_some_and(|value| (value - exact).norm() <= RIGHT * exact.norm())
         };
         let right = at.values.iter().zip(&exact).all(near);
         counts[0] += usize::from(right);

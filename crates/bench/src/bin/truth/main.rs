@@ -86,10 +86,10 @@ fn add(
             once(&smallest),
             joint.score.to_string(),
             joint.score.right_ok.to_string(),
-            joint.found.work.factorisations.to_string(),
-            joint.found.work.solves.to_string(),
-            or_none(joint.found.subspace_size.map(|size| size.to_string())),
-            or_none(joint.reduction_error().map(|error| format!("{error:.1e}"))),
+            joint.found.search.work.factorisations.to_string(),
+            joint.found.search.work.solves.to_string(),
+            or_none(joint.found.search.reduced_size.map(|size| size.to_string())),
+            or_none(joint.found.reduction_error().map(|error| format!("{error:.1e}"))),
             format!("{:.2}", joint.cpu),
         ]);
     }

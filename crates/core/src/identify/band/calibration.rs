@@ -126,18 +126,12 @@ const UNTOLD: f64 = 1e-12;
 ///
 /// # Errors
 /// [`OutsideTable`] where a table does not reach a frequency.
-///
-/// # Panics
-/// Where there is not one channel of which all is known: one channel and a free modulus at each frequency explain every scale. A law is needed then
-/// ([`super::identify_laws_scaled`]).
-pub fn identify_band_scaled(
+pub(in crate::identify) fn identify_band_scaled(
     band: &Band<'_>,
     unknown: &[ChannelUnknowns],
     options: &Options,
     hooks: Context<'_>,
 ) -> Result<(BandOutcome, Vec<Calibration>), OutsideTable> {
-    assert!(!band.frequency_hz.is_empty() && band.measured.len() == band.frequency_hz.len());
-    assert!(unknown.len() == band.experiment.sensors.len() && unknown.iter().any(|unknown| !unknown.any()));
     let at = band.model.at_all(band.frequency_hz, std::slice::from_ref(band.parameter))?;
     let run = |options: &Options| {
         let mut space = super::space(band, &at, options, hooks);
@@ -225,8 +219,8 @@ fn answers(outcome: &BandOutcome) -> Vec<(usize, c64)> {
     let trusted = |status| matches!(status, Status::Ok | Status::NotIdentifiable | Status::Failed);
     let linear = |bars: Option<crate::identify::Uncertainty>| bars.is_none_or(|bars| bars.is_linear());
     let all = outcome.outcomes.iter().enumerate();
-    all.filter(|(_, o)| trusted(o.status) && linear(o.uncertainty))
-        .filter_map(|(i, o)| Some((i, o.correction.filter(|_| o.on_path)?)))
+    all.filter(|(_, o)| trusted(o.status) && linear(o.uncertainty()))
+        .filter_map(|(i, o)| Some((i, o.correction().filter(|_| o.on_path)?)))
         .collect()
 }
 
@@ -433,7 +427,9 @@ impl CalibrationEstimate {
         let Some(level) = outcome.noise.level else { return };
         for (i, moved) in &self.moved {
             let own = &mut outcome.outcomes[*i];
-            let (Some(factor), Some(bars)) = (own.factor(), own.uncertainty.as_mut()) else { continue };
+            let (Some(factor), Some(bars)) = (own.factor(), own.values[0].uncertainty.as_mut()) else {
+                continue;
+            };
             let eta = loss_factor(factor);
             let form = |g: &dyn Fn(&c64) -> f64, h: &dyn Fn(&c64) -> f64| {
                 let row = |(p, v): (usize, &c64)| {

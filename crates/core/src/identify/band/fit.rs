@@ -3,7 +3,7 @@
 use super::noise::{NoiseLevel, NoiseSource};
 use super::{Band, Noise};
 use crate::c64;
-use crate::identify::Identified;
+use crate::identify::Line;
 
 /// How well the answers explain the sensors over the band.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -58,7 +58,7 @@ const NO_NOISE: f64 = 0.3;
 
 /// The fit of answers that have χ² per degree of freedom, where so many numbers were fitted to the whole band too; `None` where nothing is left to tell.
 pub(super) fn goodness(
-    outcomes: &[Identified],
+    outcomes: &[Line],
     freedom: usize,
     fitted: usize,
     noise: &NoiseLevel,
@@ -116,7 +116,7 @@ pub struct SensorFit {
 
 /// What each sensor says of the answers.
 pub(super) fn sensor_misfit(
-    outcomes: &[Identified],
+    outcomes: &[Line],
     measured: &[Vec<c64>],
     sigma: &[Vec<f64>],
     sensor: usize,

@@ -10,7 +10,7 @@ use super::verdict::{Evidence, verdict};
 use super::{Band, BandOutcome, Context, Noise, Stage};
 use crate::c64;
 use crate::for_each::map;
-use crate::identify::{Identified, Options};
+use crate::identify::{Line, Options};
 use crate::model::ModelAt;
 use crate::response::{FullModel, Response, Work};
 use crate::select::{Choice, Node, SelectOptions, choose};
@@ -120,7 +120,7 @@ pub(super) fn identify<'a>(
             Some((i, at[i].parameters[0].nominal + found[i].solutions[choices[i].chosen?].correction))
         })
         .collect();
-    let outcomes: Vec<Identified> = map(hooks.for_each, at.len(), |i| {
+    let outcomes: Vec<Line> = map(hooks.for_each, at.len(), |i| {
         let solution = choices[i].chosen.or_else(|| likeliest(&task.fit(i), &found[i], &path, i));
         let chosen = solution.map(|k| &found[i].solutions[k]);
         let on_space = space.as_ref().zip(chosen.map(|solution| solution.correction));

@@ -15,10 +15,10 @@ use super::{Band, BandOutcome, Context, Noise, Stage, near_or_far, on_subspace};
 use crate::c64;
 use crate::for_each::map;
 use crate::frequency::omega_rad_s;
-use crate::identify::{Identified, Options, Status, Uncertainty, relative_error};
+use crate::identify::{Line, Options, Status, Uncertainty, relative_error};
 use crate::laws::{
-    Datum, Evidence, LawFit, LawKind, Line, LocalMinima, Parametrization, Residuals, Search, best, minimise,
-    starts,
+    Datum, Evidence, LawFit, LawKind, LineResidual, LocalMinima, Parametrization, Residuals, Search, best,
+    minimise, starts,
 };
 use crate::material::OutsideTable;
 use crate::model::ModelAt;
@@ -26,13 +26,13 @@ use crate::response::Work;
 
 /// What came out.
 #[derive(Debug, Clone, PartialEq)]
-pub struct LawsOutcome {
+pub(in crate::identify) struct LawsOutcome {
     /// Each frequency by itself.
     pub free: BandOutcome,
     /// One for each law with a finite misfit, in the order in which they were asked for; none where there is no subspace to fit on.
     pub fits: Vec<LawFit>,
     /// The law of least BIC at each frequency.
-    pub outcomes: Vec<Identified>,
+    pub outcomes: Vec<Line>,
     /// What was unknown of each sensor's channel, by the law of least BIC.
     pub channels: Vec<Calibration>,
     /// Whether noise is all that this law leaves: as large as was told, or where nothing was told, as what each frequency by itself leaves; `None` where there is no law.
@@ -74,46 +74,22 @@ pub(super) const APART: f64 = 3.0;
 /// [`LawsOutcome::fit`] says "not explained"; `ambiguous` where another minimum that cannot be excluded has another modulus; `not_identifiable` where the deviation is half the
 /// modulus; `failed` where the search did not converge or the reduced model is not good enough.
 ///
-/// # Errors
-/// [`OutsideTable`] where a table does not reach a frequency.
-///
-/// # Panics
-/// Where there is no frequency, or not one measured value for each frequency and sensor.
-pub fn identify_laws(
-    band: &Band<'_>,
-    kinds: &[LawKind],
-    options: &Options,
-    hooks: Context<'_>,
-) -> Result<LawsOutcome, OutsideTable> {
-    identify_laws_scaled(
-        band,
-        &vec![ChannelUnknowns::default(); band.experiment.sensors.len()],
-        kinds,
-        options,
-        hooks,
-    )
-}
-
-/// As [`identify_laws`], with channels whose scale or delay is unknown ([`super::identify_band_scaled`]); here it may be those of all of them.
-///
+/// Channels may have an unknown scale or delay, all of them too (`unknown`, one for each sensor, or empty).
 /// Both are eliminated: for given θ the best real gain of a channel is linear least squares over the band, the best delay near the first one Newton's, and the slopes
 /// are those of what they leave, so that the error bars of the law have theirs in them. Where no channel is known, the first ones are those with which the nominal law,
 /// times some factor of the box, has the shape that was measured: Σ |ln|u_m| − ln|x_m|| about its median, phases as far as a line over ω takes them.
 ///
 /// # Errors
-/// As [`identify_laws`].
-///
-/// # Panics
-/// As [`identify_laws`], and where there is not one entry of `unknown` for each sensor.
-pub fn identify_laws_scaled(
+/// [`OutsideTable`] where a table does not reach a frequency.
+pub(in crate::identify) fn identify_laws(
     band: &Band<'_>,
     unknown: &[ChannelUnknowns],
     kinds: &[LawKind],
     options: &Options,
     hooks: Context<'_>,
 ) -> Result<LawsOutcome, OutsideTable> {
-    assert!(unknown.len() == band.experiment.sensors.len());
-    assert!(!band.frequency_hz.is_empty() && band.measured.len() == band.frequency_hz.len());
+    let calibrated = vec![ChannelUnknowns::default(); band.experiment.sensors.len()];
+    let unknown = if unknown.is_empty() { &calibrated } else { unknown };
     let at = band.model.at_all(band.frequency_hz, std::slice::from_ref(band.parameter))?;
     let boxes = on_subspace(options);
     let (mut free, Begin { space, channels, ratio }) =
@@ -185,7 +161,7 @@ pub fn identify_laws_scaled(
     let mut work = free.work;
     work += space.work().since(before);
     let subspace_size = Some(space.size());
-    let within = |outcome: Identified| Identified { status: outcome.status.within(fit), ..outcome };
+    let within = |outcome: Line| Line { status: outcome.status.within(fit), ..outcome };
     let outcomes = outcomes.into_iter().map(within).collect();
     let free = free.judged_by_fit();
     Ok(LawsOutcome { outcomes, fits, channels: told_channels, fit, work, subspace_size, free })
@@ -263,7 +239,7 @@ impl Fitting<'_, '_> {
     }
 
     /// What a law leaves of ln E at each frequency, by all sensors, and what that pulls.
-    fn lines(&self, law: &LawFit, space: &ReducedBand<'_, '_>) -> Vec<Line> {
+    fn lines(&self, law: &LawFit, space: &ReducedBand<'_, '_>) -> Vec<LineResidual> {
         let (parametrization, theta) = law.coordinates();
         let Some((responses, fits)) = self.channels(parametrization, space, theta) else { return Vec::new() };
         let line = |(i, one): (usize, &Responded)| {
@@ -283,7 +259,7 @@ impl Fitting<'_, '_> {
                 }
             }
             let rest = along / weight;
-            Line {
+            LineResidual {
                 weight: [weight; 2],
                 rest: [rest.re, rest.im],
                 // Re(J* a) for a deviation along the real axis, Re(J* a i) for one along the imaginary one.
@@ -354,9 +330,9 @@ impl Fitting<'_, '_> {
     }
 
     /// What a frequency says by itself, with its deviation: σ carried by the slope of the response.
-    fn datum(&self, space: &ReducedBand<'_, '_>, i: usize, own: &Identified) -> Option<Datum> {
-        let correction = own.correction.filter(|_| own.status == Status::Ok)?;
-        let modulus = own.nominal + correction;
+    fn datum(&self, space: &ReducedBand<'_, '_>, i: usize, own: &Line) -> Option<Datum> {
+        let correction = own.correction().filter(|_| own.status == Status::Ok)?;
+        let modulus = own.nominal() + correction;
         let (_, slope) = space.model(i).respond_with_slope(&self.at[i], correction).ok()?;
         let information: f64 =
             slope.iter().zip(&self.sigma[i]).map(|(slope, sigma)| slope.norm_sqr() / (sigma * sigma)).sum();
@@ -388,11 +364,11 @@ impl Fitting<'_, '_> {
         (law, noise): (&LawFit, f64),
         space: &ReducedBand<'_, '_>,
         i: usize,
-        own: &Identified,
-    ) -> Identified {
+        own: &Line,
+    ) -> Line {
         let (at, measured) = (&self.at[i], &self.band.measured[i]);
         let found = law.at(self.band.frequency_hz[i]).and_then(|estimate| {
-            let correction = estimate.modulus - own.nominal;
+            let correction = estimate.modulus - own.nominal();
             Some((estimate, correction, space.model(i).assess(at, correction).ok()?))
         });
         let Some((estimate, correction, assessed)) = found else { return own.unanswered() };
@@ -408,8 +384,8 @@ impl Fitting<'_, '_> {
             .storage_std
             .zip(estimate.loss_factor_std)
             .map(|(storage, eta)| storage.hypot(eta * size));
-        outcome.correction = Some(correction);
-        outcome.uncertainty =
+        outcome.set_correction(correction);
+        outcome.values[0].uncertainty =
             std.zip(estimate.storage_std).map(|(correction_std, storage_std)| Uncertainty {
                 correction_std,
                 storage_std,
@@ -424,13 +400,13 @@ impl Fitting<'_, '_> {
         outcome.updated_response = assessed.response;
         let apart = |rival: &c64| (rival - estimate.modulus).norm() > APART * std.unwrap_or(f64::INFINITY);
         let rivals = law.rivals_at(self.band.frequency_hz[i]).into_iter().filter(apart);
-        outcome.alternatives = rivals.map(|rival| rival - own.nominal).collect();
+        outcome.rivals = rivals.map(|rival| vec![rival]).collect();
         let unexplained = error > self.options.error && rms > UNEXPLAINED * noise;
         let known = std.is_some_and(|std| std <= UNKNOWN * size);
         outcome.on_path = true;
         outcome.status = Status::of([
             (unexplained, Status::Unexplained),
-            (!outcome.alternatives.is_empty(), Status::Ambiguous),
+            (!outcome.rivals.is_empty(), Status::Ambiguous),
             (!law.converged, Status::Failed),
             (!known, Status::NotIdentifiable),
             (certified.factor > self.options.certain, Status::Failed),

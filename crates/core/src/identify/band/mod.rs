@@ -19,12 +19,14 @@ mod reduced_band;
 mod smooth;
 mod verdict;
 
-pub use calibration::{Calibrated, Calibration, ChannelUnknowns, identify_band_scaled};
+pub(super) use calibration::identify_band_scaled;
+pub use calibration::{Calibrated, Calibration, ChannelUnknowns};
 pub(crate) use initial_calibration::{MOST_PHASE, PHASE_STEP};
-pub use laws::{LawsOutcome, identify_laws, identify_laws_scaled};
-pub use smooth::{SmoothCurve, SmoothOutcome, identify_smooth};
+pub(super) use laws::{LawsOutcome, identify_laws};
+pub use smooth::SmoothCurve;
+pub(super) use smooth::{SmoothOutcome, identify_smooth};
 
-use super::{Identified, Options, Reduction, Selection};
+use super::{Line, Options, Reduction, Selection};
 use crate::c64;
 use crate::for_each::ForEach;
 use crate::material::OutsideTable;
@@ -43,7 +45,7 @@ pub use noise::{NoiseLevel, NoiseSource};
 
 /// What was measured on what.
 #[derive(Debug, Clone, Copy)]
-pub struct Band<'a> {
+pub(crate) struct Band<'a> {
     /// The model.
     pub model: &'a DynamicStiffness,
     /// Load and sensors.
@@ -93,9 +95,9 @@ pub struct Context<'a> {
 
 /// What came out.
 #[derive(Debug, Clone, PartialEq)]
-pub struct BandOutcome {
+pub(super) struct BandOutcome {
     /// One for each frequency.
-    pub outcomes: Vec<Identified>,
+    pub outcomes: Vec<Line>,
     /// Work of size N.
     pub work: Work,
     /// Vectors of the subspace; `None` where the full model answered.
@@ -114,20 +116,17 @@ pub struct BandOutcome {
 ///
 /// With the subspace (B-3) every answer carries its reduction error; where it cannot be built, the full model answers. The joint selection (B-4, B-5) finds
 /// every solution within the bounds at every sensor, fits it to all sensors, and chooses one path through all; the other one is
-/// [`super::identify_at`] at each frequency. Answers are looked for within a factor of four of the nominal, and in the whole of the bounds where that
+/// [`crate::identify::identify_at`] at each frequency. Answers are looked for within a factor of four of the nominal, and in the whole of the bounds where that
 /// leaves most of the band without any.
 ///
 /// # Errors
 /// [`OutsideTable`] where a table does not reach a frequency.
 ///
-/// # Panics
-/// Where there is no frequency, or not one measured value for each frequency and sensor.
-pub fn identify_band(
+pub(super) fn identify_band(
     band: &Band<'_>,
     options: &Options,
     hooks: Context<'_>,
 ) -> Result<BandOutcome, OutsideTable> {
-    assert!(!band.frequency_hz.is_empty() && band.measured.len() == band.frequency_hz.len());
     let at = band.model.at_all(band.frequency_hz, std::slice::from_ref(band.parameter))?;
     let run = |options: &Options| (identify_at_all(band, &at, options, hooks), ());
     Ok(near_or_far(&near_and_far(options), run).0.judged_by_fit())

@@ -4,7 +4,7 @@ use super::noise::NoiseLevel;
 use super::reduced_band::{ReducedBand, reduction_error};
 use super::{Band, BandOutcome, Context, Stage};
 use crate::for_each::map;
-use crate::identify::{Identified, Options, Status, identify_at};
+use crate::identify::{Line, Options, Status, identify_at};
 use crate::model::ModelAt;
 use crate::response::{FullModel, Work};
 use crate::subspace::Projection;
@@ -19,7 +19,7 @@ pub(super) fn identify<'a>(
     hooks: Context<'_>,
 ) -> BandOutcome {
     let broken = |i: usize, breakdown: Breakdown| {
-        Identified::broken(band.frequency_hz[i], at[i].parameters[0].nominal, options.order, breakdown)
+        Line::broken(band.frequency_hz[i], &[at[i].parameters[0].nominal], options.order, breakdown)
     };
     match space {
         Some(mut space) => {
@@ -27,19 +27,19 @@ pub(super) fn identify<'a>(
                 Ok(system) => identify_at(&system, &band.measured[i], options),
                 Err(breakdown) => broken(i, breakdown),
             };
-            let answers = |found: &[Identified]| {
+            let answers = |found: &[Line]| {
                 let corrections =
-                    found.iter().enumerate().filter_map(|(i, outcome)| Some((i, outcome.correction?)));
+                    found.iter().enumerate().filter_map(|(i, outcome)| Some((i, outcome.correction()?)));
                 corrections.collect()
             };
             let all: Vec<usize> = (0..at.len()).collect();
             let found = space.find(&all, hooks, find);
             let found = space.certify(&all, found, hooks, |i, model, _| find(i, model), answers);
             let outcomes = found.into_iter().enumerate().map(|(i, mut outcome)| {
-                if let Some(correction) = outcome.correction {
+                if let Some(correction) = outcome.correction() {
                     let assessed = space.assess(i, correction);
                     let certified = assessed
-                        .map(|a| reduction_error(&a, outcome.nominal + correction, &band.measured[i]));
+                        .map(|a| reduction_error(&a, outcome.nominal() + correction, &band.measured[i]));
                     outcome.reduction_error =
                         certified.map(|certified| certified.response).filter(|c| c.is_finite());
                     if outcome.status == Status::Ok && certified.is_none_or(|c| c.factor > options.certain) {

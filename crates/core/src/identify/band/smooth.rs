@@ -19,14 +19,14 @@ use super::{
 use crate::c64;
 use crate::for_each::map;
 use crate::frequency::omega_rad_s;
-use crate::identify::{Identified, Options, Status, Uncertainty, relative_error};
+use crate::identify::{Line, Options, Status, Uncertainty, relative_error};
 use crate::material::OutsideTable;
 use crate::model::ModelAt;
 use crate::smooth::{Evidence, Observation, Smoothed, State, roughness, smooth};
 
 /// What came out.
 #[derive(Debug, Clone, PartialEq)]
-pub struct SmoothOutcome {
+pub(in crate::identify) struct SmoothOutcome {
     /// Each frequency by itself.
     pub free: BandOutcome,
     /// The smooth modulus at each frequency, with all work in it.
@@ -74,18 +74,14 @@ const OUTLIERS: f64 = 0.25;
 /// # Errors
 /// [`OutsideTable`] where a table does not reach a frequency.
 ///
-/// # Panics
-/// Where there is no frequency, or not one measured value for each frequency and sensor.
-///
 /// # Limits
 /// One κ for the whole band: a modulus that is a straight line in one half and has a narrow feature in the other is smoothed less than it could be in the first. Error bars are linear in the noise,
 /// and hold the scatter of answers that belong together: neighbours have nearly the same error. The factor must not be zero; at 0 Hz there is none.
-pub fn identify_smooth(
+pub(in crate::identify) fn identify_smooth(
     band: &Band<'_>,
     options: &Options,
     hooks: Context<'_>,
 ) -> Result<SmoothOutcome, OutsideTable> {
-    assert!(!band.frequency_hz.is_empty() && band.measured.len() == band.frequency_hz.len());
     let at = band.model.at_all(band.frequency_hz, std::slice::from_ref(band.parameter))?;
     let boxes = on_subspace(options);
     let (free, space) = near_or_far(&boxes, |options| keeping_space(band, &at, options, hooks));
@@ -97,7 +93,7 @@ pub fn identify_smooth(
     let found = space.and_then(|mut space| Some((smoothing.fit(&mut space, &free)?, space)));
     (hooks.progress)(Stage::Law, 1, 1);
     let Some((fitted, space)) = found else {
-        let outcomes = free.outcomes.iter().map(Identified::unanswered).collect();
+        let outcomes = free.outcomes.iter().map(Line::unanswered).collect();
         return Ok(SmoothOutcome {
             band: BandOutcome { outcomes, fit: None, ..free.clone() },
             free,
@@ -111,7 +107,7 @@ pub fn identify_smooth(
     let chi_squared = explained().map(|(_, judged)| judged.chi_squared).sum();
     let freedom = explained().map(|(_, judged)| judged.freedom).sum::<f64>().round() as usize;
     let fit = judge(chi_squared, freedom, &noise, band.noise);
-    let outcomes: Vec<Identified> = judged.into_iter().map(|judged| judged.outcome).collect();
+    let outcomes: Vec<Line> = judged.into_iter().map(|judged| judged.outcome).collect();
     let sensor = |(m, own): (usize, &SensorFit)| SensorFit {
         misfit: sensor_misfit(&outcomes, band.measured, &assumed, m, noise.level),
         ..*own
@@ -161,7 +157,7 @@ struct Linearised {
 
 /// One frequency at the curve.
 struct Judged {
-    outcome: Identified,
+    outcome: Line,
     chi_squared: f64,
     freedom: f64,
 }
@@ -221,7 +217,7 @@ impl Smoothing<'_, '_> {
                 .filter(|factor| factor.re > 0.0 && outcome.on_path && outcome.status != Status::Unexplained);
             let told = answer.and_then(|factor| {
                 let (_, slope) =
-                    space.model(i).respond_with_slope(&self.at[i], factor - outcome.nominal).ok()?;
+                    space.model(i).respond_with_slope(&self.at[i], factor - outcome.nominal()).ok()?;
                 let weight =
                     slope.iter().zip(&self.sigma[i]).map(|(s, sigma)| (factor * s / *sigma).norm_sqr()).sum();
                 let log = factor.ln();
@@ -380,12 +376,12 @@ impl Smoothing<'_, '_> {
         noise: &NoiseLevel,
         space: &ReducedBand<'_, '_>,
         i: usize,
-        free: &[Identified],
+        free: &[Line],
     ) -> Judged {
         let (measured, own) = (&self.band.measured[i], &free[i]);
         let mut outcome = own.unanswered();
         let factor = modulus(&fitted.smoothed.curve.states[i]);
-        let correction = factor - own.nominal;
+        let correction = factor - own.nominal();
         let Some(assessed) = space.assess(i, correction).filter(|_| self.log_omega(i).is_finite()) else {
             return Judged { outcome, chi_squared: 0.0, freedom: 0.0 };
         };
@@ -401,16 +397,16 @@ impl Smoothing<'_, '_> {
         let taken = (fitted.observations[i].weight * variance).min(1.0);
         let freedom = (2 * self.sensors(i)) as f64 - self.numbers() as f64 * taken;
         let chi_squared = self.misfit(i, &assessed.response) / (level * level);
-        outcome.correction = Some(correction);
+        outcome.set_correction(correction);
         outcome.error = Some(error).filter(|error| error.is_finite());
-        outcome.uncertainty = Some(bars).filter(|bars| bars.correction_std.is_finite());
+        outcome.values[0].uncertainty = Some(bars).filter(|bars| bars.correction_std.is_finite());
         outcome.chi_squared = Some(chi_squared / freedom).filter(|chi_squared| chi_squared.is_finite());
         outcome.spectral_radius = outcome.radius.map(|radius| radius.at(correction));
         outcome.reduction_error = Some(certified.response).filter(|c| c.is_finite());
         let ambiguous = is_ambiguous(free, i);
         if ambiguous {
-            let apart = |other: &&c64| (own.nominal + **other - factor).norm() > APART * bars.correction_std;
-            outcome.alternatives = own.alternatives.iter().filter(apart).copied().collect();
+            let apart = |other: &&Vec<c64>| (other[0] - factor).norm() > APART * bars.correction_std;
+            outcome.rivals = own.rivals.iter().filter(apart).cloned().collect();
         }
         outcome.on_path = true;
         outcome.status = Status::of([
@@ -482,9 +478,9 @@ fn between(from: &[State], to: &[State], part: f64) -> Vec<State> {
 }
 
 /// Whether the path is ambiguous at a frequency; one that has no answer of its own is if the nearest that have one on either side are.
-fn is_ambiguous(free: &[Identified], i: usize) -> bool {
-    let answered = |o: &&Identified| o.on_path;
-    let ambiguous = |o: &Identified| o.status == Status::Ambiguous;
+fn is_ambiguous(free: &[Line], i: usize) -> bool {
+    let answered = |o: &&Line| o.on_path;
+    let ambiguous = |o: &Line| o.status == Status::Ambiguous;
     if free[i].on_path {
         return ambiguous(&free[i]);
     }

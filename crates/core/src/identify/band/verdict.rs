@@ -3,7 +3,7 @@
 use super::candidates::Candidates;
 use super::reduced_band::reduction_error;
 use crate::c64;
-use crate::identify::{Identified, Options, Status, Uncertainty, relative_error};
+use crate::identify::{Line, Options, Status, Uncertainty, relative_error};
 use crate::model::ModelAt;
 use crate::roots::Candidate;
 use crate::select::Choice;
@@ -36,9 +36,9 @@ pub(super) fn verdict(
     found: &Candidates,
     choice: &Choice,
     options: &Options,
-) -> Identified {
+) -> Line {
     let nominal = evidence.at.parameters[0].nominal;
-    let mut outcome = Identified::unknown(evidence.at.frequency_hz, nominal, found.order);
+    let mut outcome = Line::unknown(evidence.at.frequency_hz, nominal, found.order);
     outcome.nominal_response = found.nominal_response.clone();
     outcome.roots = found.candidates();
     outcome.radius = found.poles.as_ref().map(|poles| ConvergenceRadius {
@@ -63,11 +63,11 @@ pub(super) fn verdict(
         kept.map(|(_, value)| *value).collect()
     };
     let error = relative_error(&kept(evidence.measured), &kept(&chosen.response));
-    outcome.correction = Some(chosen.correction);
+    outcome.set_correction(chosen.correction);
     outcome.error = Some(error).filter(|error| error.is_finite());
     outcome.spectral_radius = outcome.radius.map(|radius| radius.at(chosen.correction));
     outcome.updated_response = chosen.response.clone();
-    outcome.alternatives = rivals.iter().map(|&k| found.solutions[k].correction).collect();
+    outcome.rivals = rivals.iter().map(|&k| vec![nominal + found.solutions[k].correction]).collect();
     outcome.required_order = found.poles.as_ref().and_then(|poles| {
         let order = |m| poles.required_order(m, chosen.correction, SERIES_ERROR);
         (0..evidence.measured.len()).map(order).try_fold(0, |most, n| Some(most.max(n?)))
@@ -82,11 +82,11 @@ pub(super) fn verdict(
     let bars = |level| Uncertainty::new(factor, options.real, chosen.std, evidence.second, level);
     let uncertainty = evidence.noise.map(bars);
     let unknown = uncertainty.is_some_and(|bars| !bars.is_known(factor) || !bars.is_linear());
-    outcome.uncertainty = uncertainty.filter(|bars| bars.correction_std.is_finite());
+    outcome.values[0].uncertainty = uncertainty.filter(|bars| bars.correction_std.is_finite());
     let uncertain = certified.is_some_and(|certified| certified.factor > options.certain);
     outcome.status = Status::of([
         (unexplained, Status::Unexplained),
-        (!outcome.alternatives.is_empty(), Status::Ambiguous),
+        (!outcome.rivals.is_empty(), Status::Ambiguous),
         // The only solution, and it contradicts those of the other lines.
         (!outcome.on_path, Status::Unexplained),
         (unknown, Status::NotIdentifiable),

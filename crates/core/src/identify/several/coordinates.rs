@@ -60,8 +60,8 @@ impl Coordinates {
     ) -> Self {
         let (mut each, mut count, mut limits) = (Vec::new(), 0, Vec::new());
         for (j, one) in unknowns.iter().enumerate() {
-            let form = match (vary(one), one.real) {
-                (Variation::PerFrequency, _) => continue,
+            let form = match (&vary(one), one.real) {
+                (Variation::PerFrequency | Variation::Smooth, _) => continue,
                 (Variation::Constant, true) => {
                     let [low, high] = one.range(nominal[j]);
                     match low > 0.0 && nominal[j].re > 0.0 {
@@ -70,7 +70,7 @@ impl Coordinates {
                     }
                 }
                 (Variation::Constant, false) => Form::Law(Parametrization::about(LawKind::Constant, omegas)),
-                (Variation::Law(family), _) => Form::Law(Parametrization::about(family, omegas)),
+                (Variation::Law(kinds), _) => Form::Law(Parametrization::about(kinds[0], omegas)),
             };
             let own = match &form {
                 Form::Law(parametrization) => parametrization.family.count(),

@@ -3,7 +3,7 @@
 use super::at_frequency::Solution;
 use super::coordinates::Own;
 use super::information::Information;
-use super::outcome::{BandValue, Direction, Number, Profile, SeveralAt, SeveralOutcome, ValueAt};
+use super::outcome::{BandValue, Direction, Number, Profile, SeveralOutcome};
 use super::reduced_band::ReducedBand;
 use super::search::{BandSolution, Place, Plane, Reach};
 use super::{Task, Unknown};
@@ -11,7 +11,7 @@ use crate::c64;
 use crate::for_each::map;
 use crate::identify::band::{UNEXPLAINED, judge, reduction_error};
 use crate::identify::uncertainty::{KNOWN, LEAST_LOSS};
-use crate::identify::{GoodnessOfFit, NoiseLevel, Status, relative_error};
+use crate::identify::{GoodnessOfFit, Line, LineValue, NoiseLevel, Status, Uncertainty, relative_error};
 use crate::laws::LawKind;
 use crate::material::{Law, loss_factor};
 
@@ -32,17 +32,17 @@ impl Task<'_, '_> {
             found.coordinates.binding(&place.theta, &place.eliminated.gradient())
         });
         let information = place.as_ref().and_then(|p| Information::new(&p.eliminated.jacobian, n));
-        let own: usize = self.band.unknowns.iter().map(Unknown::per_frequency).sum();
+        let own: usize = self.problem.unknowns.iter().map(Unknown::per_frequency).sum();
         let answered = all.iter().filter(|&&i| found.at(i).is_some()).count();
-        let sensors = self.band.experiment.sensors.len();
+        let sensors = self.problem.experiment.sensors.len();
         let freedom = (answered * 2 * sensors).saturating_sub(answered * own + n);
         let chi_squared: f64 = all.iter().filter_map(|&i| Some(found.at(i)?.misfit)).sum();
         let of_sensors = (freedom > 0).then(|| (chi_squared / freedom as f64).sqrt());
-        let noise = NoiseLevel::new(self.band.noise, of_sensors, None);
+        let noise = NoiseLevel::new(self.problem.frfs.noise, of_sensors, None);
         let level = noise.level;
-        let fit =
-            level.and_then(|level| judge(chi_squared / (level * level), freedom, &noise, self.band.noise));
-        let at: Vec<SeveralAt> = map(self.hooks.for_each, all.len(), |i| {
+        let fit = level
+            .and_then(|level| judge(chi_squared / (level * level), freedom, &noise, self.problem.frfs.noise));
+        let at: Vec<Line> = map(self.hooks.for_each, all.len(), |i| {
             let moved =
                 place.as_ref().and_then(|p| p.eliminated.own[i].as_ref()).map(|(_, moved)| moved.as_slice());
             self.judge_at(space, &found, i, level, fit, information.as_ref().zip(moved))
@@ -77,8 +77,8 @@ impl Task<'_, '_> {
                 Some(family) => family.law(&values),
                 None => Law::Constant(c64::new(values[0], 0.0)),
             };
-            let unknowns = &self.band.unknowns[one.unknowns];
-            let middle = self.band.frequency_hz[self.omegas.len() / 2];
+            let unknowns = &self.problem.unknowns[one.unknowns];
+            let middle = self.problem.frfs.frequency_hz[self.omegas.len() / 2];
             // Constants stop at their bounds; of a law the modulus is compared with them.
             let at_bound = one.range.clone().any(|c| binding.contains(&c))
                 || law.at(middle).is_ok_and(|value| unknowns.bounds.broken_by(value).is_some());
@@ -121,31 +121,20 @@ impl Task<'_, '_> {
         level: Option<f64>,
         fit: Option<GoodnessOfFit>,
         told: Option<(&Information, &[Vec<f64>])>,
-    ) -> SeveralAt {
+    ) -> Line {
         let nominal = &self.nominal[i];
-        let mut at = SeveralAt {
-            frequency_hz: self.band.frequency_hz[i],
-            nominal: nominal.clone(),
-            values: vec![None; nominal.len()],
-            status: Status::NoRoot,
-            alternatives: found.chosen[i]
-                .alternatives
-                .iter()
-                .map(|&k| found.solutions[i][k].values.clone())
-                .collect(),
-            error: None,
-            chi_squared: None,
-            reduction_error: None,
-            nominal_response: space.respond(i, nominal).map(|(x, _)| x).unwrap_or_default(),
-            updated_response: Vec::new(),
-        };
+        let values = nominal.iter().map(|&nominal| LineValue::unknown(nominal)).collect();
+        let mut at = Line::of_values(self.problem.frfs.frequency_hz[i], values);
+        at.nominal_response = space.respond(i, nominal).map(|(x, _)| x).unwrap_or_default();
+        at.rivals =
+            found.chosen[i].alternatives.iter().map(|&k| found.solutions[i][k].values.clone()).collect();
         let chosen = found.at(i);
         // Of solutions none of which is on the path of every unknown, that of least misfit.
         let Some(solution) = chosen.or_else(|| found.solutions[i].first()) else { return at };
         if chosen.is_none() {
-            at.alternatives = found.solutions[i][1..].iter().map(|other| other.values.clone()).collect();
+            at.rivals = found.solutions[i][1..].iter().map(|other| other.values.clone()).collect();
         }
-        let measured = &self.band.measured[i];
+        let measured = &self.problem.frfs.receptance[i];
         let values = self.with_bars(found, i, solution, level, told);
         let count = 2 * measured.len();
         let chi_squared = level.map(|level| solution.misfit / (level * level * count as f64));
@@ -153,13 +142,13 @@ impl Task<'_, '_> {
         let assessed = space.assess(i, &solution.values);
         let reduction_error =
             assessed.map(|assessed| reduction_error(&assessed, solution.values[0], measured).response);
-        let own = |(one, value): (&Unknown, &ValueAt)| one.per_frequency() == 0 || is_known(value);
-        let known = self.band.unknowns.iter().zip(&values).all(own);
+        let own = |(one, value): (&Unknown, &LineValue)| one.per_frequency() == 0 || is_known(value);
+        let known = self.problem.unknowns.iter().zip(&values).all(own);
         let unexplained =
             error > self.options.error && chi_squared.is_none_or(|chi| chi.sqrt() > UNEXPLAINED);
         at.status = Status::of([
             (unexplained, Status::Unexplained),
-            (!at.alternatives.is_empty(), Status::Ambiguous),
+            (!at.rivals.is_empty(), Status::Ambiguous),
             (chosen.is_none(), Status::Unexplained),
             (!known, Status::NotIdentifiable),
             (
@@ -168,7 +157,8 @@ impl Task<'_, '_> {
             ),
         ])
         .within(fit);
-        at.values = values.into_iter().map(Some).collect();
+        at.values = values;
+        at.on_path = chosen.is_some();
         at.error = Some(error).filter(|error| error.is_finite());
         at.chi_squared = chi_squared;
         at.reduction_error = reduction_error;
@@ -184,7 +174,7 @@ impl Task<'_, '_> {
         solution: &Solution,
         level: Option<f64>,
         told: Option<(&Information, &[Vec<f64>])>,
-    ) -> Vec<ValueAt> {
+    ) -> Vec<LineValue> {
         let spot = self.spot(i);
         let alone = spot.covariance(solution);
         let n = found.theta.len();
@@ -216,9 +206,9 @@ impl Task<'_, '_> {
                     Some([of_theta(&re, &re), of_theta(&re, &im), of_theta(&im, &im)])
                 })
             };
-            bars(value, unknowns.real, parts.zip(level))
+            bars(self.nominal[i][j], value, unknowns.real, parts.zip(level))
         };
-        self.band.unknowns.iter().enumerate().map(&mut one).collect()
+        self.problem.unknowns.iter().enumerate().map(&mut one).collect()
     }
 
     /// χ² along a direction of θ, with the directions at right angles to it that are told at their best.
@@ -262,29 +252,32 @@ impl Task<'_, '_> {
 }
 
 /// Whether a value that a frequency has of its own is known.
-fn is_known(value: &ValueAt) -> bool {
-    let storage = value.storage_std.is_none_or(|std| std <= KNOWN * value.value.norm());
-    let eta = loss_factor(value.value).abs().max(LEAST_LOSS);
-    storage && value.loss_factor_std.is_none_or(|std| std <= KNOWN * eta)
+fn is_known(value: &LineValue) -> bool {
+    let (Some(found), Some(bars)) = (value.value, value.uncertainty) else { return true };
+    let eta = loss_factor(found).abs().max(LEAST_LOSS);
+    bars.storage_std <= KNOWN * found.norm() && bars.loss_factor_std.is_none_or(|std| std <= KNOWN * eta)
 }
 
 /// A value with deviations from the covariance of its parts at σ and the level of the noise.
-fn bars(value: c64, real: bool, told: Option<([f64; 3], f64)>) -> ValueAt {
-    let Some(([a, b, c], level)) = told else {
-        return ValueAt { value, storage_std: None, loss_factor_std: None, correlation: None };
-    };
+fn bars(nominal: c64, value: c64, real: bool, covariance: Option<([f64; 3], f64)>) -> LineValue {
+    let found =
+        LineValue { value: Some(value), correction: Some(value - nominal), ..LineValue::unknown(nominal) };
+    let Some(([a, b, c], level)) = covariance else { return found };
     let storage = a.max(0.0).sqrt();
     let eta = loss_factor(value);
     // δη = (δE″ − η δE′)/E′
     let of_eta = (c - 2.0 * eta * b + eta * eta * a).max(0.0).sqrt() / value.re.abs();
     let common = (b - eta * a) / value.re;
     let loss_factor_std = Some(level * of_eta).filter(|std| !real && std.is_finite());
-    ValueAt {
-        value,
-        storage_std: Some(level * storage),
+    let uncertainty = Uncertainty {
+        correction_std: level * (a + if real { 0.0 } else { c }).max(0.0).sqrt(),
+        storage_std: level * storage,
         loss_factor_std,
         correlation: loss_factor_std.map(|_| common / (storage * of_eta)).filter(|c| c.is_finite()),
-    }
+        // Linear in θ: how far that holds is for the profile to show.
+        nonlinearity: 0.0,
+    };
+    LineValue { uncertainty: Some(uncertainty), ..found }
 }
 
 fn names(family: Option<LawKind>) -> Vec<String> {

@@ -31,50 +31,23 @@ mod starts;
 mod tests;
 mod unknown;
 
-pub use outcome::{BandValue, Direction, Number, Profile, SeveralAt, SeveralOutcome, ValueAt};
+pub(super) use outcome::SeveralOutcome;
+pub use outcome::{BandValue, Direction, Number, Profile};
 pub use unknown::{Dependence, Unknown, Variation};
 
 use super::band::{NoiseLevel, deviations};
-use super::{Context, Noise, Options, Status};
+use super::{Context, Line, Options, Problem};
 use crate::c64;
 use crate::frequency::omega_rad_s;
 use crate::material::OutsideTable;
-use crate::model::{DynamicStiffness, Experiment};
 use crate::response::Work;
 use frfit_linalg::solve::Breakdown;
 use reduced_band::ReducedBand;
 use unknown::Composite;
 
-/// What was measured on what, and what is looked for.
-#[derive(Debug, Clone, Copy)]
-pub struct Several<'a> {
-    /// The model.
-    pub model: &'a DynamicStiffness,
-    /// Load and sensors.
-    pub experiment: &'a Experiment,
-    /// What is unknown.
-    pub unknowns: &'a [Unknown],
-    /// Frequencies, ascending.
-    pub frequency_hz: &'a [f64],
-    /// Receptance, `[frequency][sensor]`.
-    pub measured: &'a [Vec<c64>],
-    /// How well each was measured.
-    pub noise: Noise<'a>,
-}
-
-impl Several<'_> {
-    /// Real numbers that are measured, and real numbers that are unknown; at each frequency alone where nothing holds for the band.
-    pub fn counts(&self) -> [usize; 2] {
-        let (frequencies, sensors) = (self.frequency_hz.len(), self.experiment.sensors.len());
-        let own: usize = self.unknowns.iter().map(Unknown::per_frequency).sum();
-        let band: usize = self.unknowns.iter().map(Unknown::for_band).sum();
-        [2 * sensors * frequencies, own * frequencies + band]
-    }
-}
-
 /// What there is to work with.
 struct Task<'t, 'a> {
-    band: &'t Several<'a>,
+    problem: &'t Problem<'a>,
     /// `[frequency][unknown]`.
     nominal: &'t [Vec<c64>],
     omegas: Vec<f64>,
@@ -93,31 +66,26 @@ struct Task<'t, 'a> {
 /// # Errors
 /// [`OutsideTable`] where a table does not reach a frequency.
 ///
-/// # Panics
-/// Where there is no frequency, not one measured value for each frequency and sensor, or fewer measured numbers than unknown ones.
-///
 /// # Limits
 /// Of several per-frequency unknowns solutions are those that several starts lead to, not provably all; a single one that stands for a factor has all of them (B-2).
-pub fn identify_several(
-    band: &Several<'_>,
+pub(super) fn identify_several(
+    problem: &Problem<'_>,
     options: &Options,
     hooks: Context<'_>,
 ) -> Result<SeveralOutcome, OutsideTable> {
-    assert!(!band.frequency_hz.is_empty() && band.measured.len() == band.frequency_hz.len());
-    let [measured, unknown] = band.counts();
-    assert!(measured >= unknown, "{measured} measured numbers do not tell {unknown}");
-    let composite = Composite { model: band.model, unknowns: band.unknowns };
+    let Problem { model, experiment, unknowns, frfs, .. } = *problem;
+    let composite = Composite { model, unknowns };
     let nominal: Vec<Vec<c64>> =
-        band.frequency_hz.iter().map(|&f| composite.nominal(f)).collect::<Result<_, _>>()?;
+        frfs.frequency_hz.iter().map(|&f| composite.nominal(f)).collect::<Result<_, _>>()?;
     let task = Task {
-        band,
+        problem,
         nominal: &nominal,
-        omegas: band.frequency_hz.iter().map(|&f| omega_rad_s(f)).collect(),
-        sigma: deviations(band.measured, band.noise),
+        omegas: frfs.frequency_hz.iter().map(|&f| omega_rad_s(f)).collect(),
+        sigma: deviations(frfs.receptance, frfs.noise),
         options,
         hooks,
     };
-    let space = ReducedBand::new(composite, band.experiment, band.frequency_hz, &nominal, hooks)?;
+    let space = ReducedBand::new(composite, experiment, frfs.frequency_hz, &nominal, hooks)?;
     Ok(match space {
         Ok(mut space) => {
             let found = task.search(&mut space);
@@ -129,26 +97,17 @@ pub fn identify_several(
 
 impl Task<'_, '_> {
     fn broken(&self, breakdown: Breakdown) -> SeveralOutcome {
-        let at = |(nominal, &frequency_hz): (&Vec<c64>, &f64)| SeveralAt {
-            frequency_hz,
-            nominal: nominal.clone(),
-            values: vec![None; nominal.len()],
-            status: Status::Failed,
-            alternatives: Vec::new(),
-            error: None,
-            chi_squared: None,
-            reduction_error: None,
-            nominal_response: Vec::new(),
-            updated_response: Vec::new(),
+        let at = |(nominal, &frequency_hz): (&Vec<c64>, &f64)| {
+            Line::broken(frequency_hz, nominal, 0, breakdown.clone())
         };
         SeveralOutcome {
             band: Vec::new(),
-            at: self.nominal.iter().zip(self.band.frequency_hz).map(at).collect(),
+            at: self.nominal.iter().zip(self.problem.frfs.frequency_hz).map(at).collect(),
             coordinates: Vec::new(),
             correlation: Vec::new(),
             directions: Vec::new(),
             profile: None,
-            noise: NoiseLevel::new(self.band.noise, None, None),
+            noise: NoiseLevel::new(self.problem.frfs.noise, None, None),
             fit: None,
             converged: false,
             starts: 0,

@@ -1,7 +1,6 @@
 //! What came out when several things were looked for.
 
-use crate::c64;
-use crate::identify::{Explained, GoodnessOfFit, NoiseLevel, Status};
+use crate::identify::{GoodnessOfFit, Line, NoiseLevel, Status};
 use crate::material::Law;
 use crate::response::Work;
 use frfit_linalg::solve::Breakdown;
@@ -33,44 +32,6 @@ pub struct BandValue {
     pub status: Status,
 }
 
-/// The value of an unknown at a frequency.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ValueAt {
-    /// p.
-    pub value: c64,
-    /// Standard deviation of its real part.
-    pub storage_std: Option<f64>,
-    /// Standard deviation of its loss factor; `None` for a real one.
-    pub loss_factor_std: Option<f64>,
-    /// Correlation of the two.
-    pub correlation: Option<f64>,
-}
-
-/// One frequency.
-#[derive(Debug, Clone, PartialEq)]
-pub struct SeveralAt {
-    /// The frequency.
-    pub frequency_hz: f64,
-    /// Nominal values of all unknowns.
-    pub nominal: Vec<c64>,
-    /// One for each unknown, those that hold for the band too; `None` where nothing was found.
-    pub values: Vec<Option<ValueAt>>,
-    /// How far what the frequency has of its own can be trusted; of unknowns that all hold for the band, whether it is explained by them.
-    pub status: Status,
-    /// Other values of all unknowns that the data cannot exclude.
-    pub alternatives: Vec<Vec<c64>>,
-    /// ε over all sensors, P-40.
-    pub error: Option<f64>,
-    /// χ² of the sensors at the level of the noise, over their number of real values.
-    pub chi_squared: Option<f64>,
-    /// Estimated error of the reduced response, relative to the measured one.
-    pub reduction_error: Option<f64>,
-    /// Receptance at the sensors with the nominal values; empty where it could not be solved.
-    pub nominal_response: Vec<c64>,
-    /// Receptance with the values that were found.
-    pub updated_response: Vec<c64>,
-}
-
 /// A direction in the logarithms of the numbers that hold for the band.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Direction {
@@ -83,47 +44,39 @@ pub struct Direction {
 /// The misfit along the direction that is told worst, all else at its best.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Profile {
-    /// How far from the answer along [`SeveralOutcome::directions`]`[0]`, and by how much χ² is larger there.
+    /// How far from the answer along the least identifiable direction, and by how much χ² is larger there.
     pub points: Vec<(f64, f64)>,
 }
 
 /// What came out.
 #[derive(Debug, Clone, PartialEq)]
-pub struct SeveralOutcome {
+pub(in crate::identify) struct SeveralOutcome {
     /// The unknowns that hold for the band.
-    pub band: Vec<BandValue>,
+    pub(in crate::identify) band: Vec<BandValue>,
     /// One for each frequency.
-    pub at: Vec<SeveralAt>,
+    pub(in crate::identify) at: Vec<Line>,
     /// What the coordinates of [`Self::correlation`] and [`Self::directions`] are: (unknown, name of the number).
-    pub coordinates: Vec<(usize, String)>,
+    pub(in crate::identify) coordinates: Vec<(usize, String)>,
     /// Correlation of the numbers that hold for the band.
-    pub correlation: Vec<Vec<f64>>,
+    pub(in crate::identify) correlation: Vec<Vec<f64>>,
     /// Combinations of them, the one that is told worst first.
-    pub directions: Vec<Direction>,
+    pub(in crate::identify) directions: Vec<Direction>,
     /// χ² along the first of them.
-    pub profile: Option<Profile>,
+    pub(in crate::identify) profile: Option<Profile>,
     /// How large the noise is.
-    pub noise: NoiseLevel,
+    pub(in crate::identify) noise: NoiseLevel,
     /// Whether noise is all that is left.
-    pub fit: Option<GoodnessOfFit>,
+    pub(in crate::identify) fit: Option<GoodnessOfFit>,
     /// Whether the search settled.
-    pub converged: bool,
+    pub(in crate::identify) converged: bool,
     /// Starts that were followed, and how many of them ended at the answer.
-    pub starts: usize,
+    pub(in crate::identify) starts: usize,
     /// See [`Self::starts`].
-    pub agreeing: usize,
+    pub(in crate::identify) agreeing: usize,
     /// Work of size N.
-    pub work: Work,
+    pub(in crate::identify) work: Work,
     /// Vectors of the subspace.
-    pub subspace_size: usize,
+    pub(in crate::identify) subspace_size: usize,
     /// Why there is no subspace; nothing was looked for then.
-    pub breakdown: Option<Breakdown>,
-}
-
-impl SeveralOutcome {
-    /// Whether all that holds for the band is trusted, and the measurements are not contradicted.
-    pub fn is_trusted(&self) -> bool {
-        let explained = self.fit.is_none_or(|fit| fit.verdict != Explained::No);
-        explained && self.band.iter().all(|value| value.status == Status::Ok)
-    }
+    pub(in crate::identify) breakdown: Option<Breakdown>,
 }

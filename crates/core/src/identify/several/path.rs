@@ -19,8 +19,9 @@ const SAME: f64 = 1e-6;
 impl Task<'_, '_> {
     /// The choice at each frequency. Every unknown that is per frequency chooses its own path by continuity and causality (B-4); one solution has to be on all of them.
     pub(super) fn choose(&self, which: &[usize], solutions: &[Vec<Solution>]) -> Vec<Chosen> {
-        let own: Vec<usize> =
-            (0..self.band.unknowns.len()).filter(|&j| self.band.unknowns[j].per_frequency() > 0).collect();
+        let own: Vec<usize> = (0..self.problem.unknowns.len())
+            .filter(|&j| self.problem.unknowns[j].per_frequency() > 0)
+            .collect();
         if own.is_empty() {
             let one = |found: &Vec<Solution>| Chosen {
                 solution: (!found.is_empty()).then_some(0),
@@ -29,11 +30,11 @@ impl Task<'_, '_> {
             return solutions.iter().map(one).collect();
         }
         let options = SelectOptions {
-            sensors: self.band.experiment.sensors.len(),
-            sigma_known: matches!(self.band.noise, Noise::Known(_)),
+            sensors: self.problem.experiment.sensors.len(),
+            sigma_known: matches!(self.problem.frfs.noise, Noise::Known(_)),
             ..SelectOptions::default()
         };
-        let frequency_hz: Vec<f64> = which.iter().map(|&i| self.band.frequency_hz[i]).collect();
+        let frequency_hz: Vec<f64> = which.iter().map(|&i| self.problem.frfs.frequency_hz[i]).collect();
         let stds: Vec<Vec<Vec<f64>>> = solutions
             .iter()
             .zip(which)
@@ -95,7 +96,12 @@ impl Task<'_, '_> {
 
     pub(super) fn spot(&self, i: usize) -> Spot<'_> {
         let size = self.nominal[i].iter().map(|p| if p.norm() > 0.0 { p.norm() } else { 1.0 }).collect();
-        Spot { unknowns: self.band.unknowns, measured: &self.band.measured[i], sigma: &self.sigma[i], size }
+        Spot {
+            unknowns: self.problem.unknowns,
+            measured: &self.problem.frfs.receptance[i],
+            sigma: &self.sigma[i],
+            size,
+        }
     }
 }
 

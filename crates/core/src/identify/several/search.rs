@@ -124,7 +124,7 @@ impl Task<'_, '_> {
     /// What holds for the band, as it varies.
     pub(super) fn coordinates(&self) -> Coordinates {
         let middle = &self.nominal[self.nominal.len() / 2];
-        Coordinates::new(self.band.unknowns, |one| one.varies, middle, &self.omegas)
+        Coordinates::new(self.problem.unknowns, |one| one.varies.clone(), middle, &self.omegas)
     }
 
     /// θ that begins with these constants; a law with the shape of its nominal.
@@ -194,7 +194,7 @@ impl Task<'_, '_> {
     ) -> BandSolution {
         let at = At { space, coordinates: &coordinates, theta: &theta };
         let n = which.len();
-        let per_frequency = self.band.unknowns.iter().any(|one| one.per_frequency() > 0);
+        let per_frequency = self.problem.unknowns.iter().any(|one| one.per_frequency() > 0);
         let from = |solutions: &[Vec<Solution>], k: usize, beside: &[usize]| -> Vec<Solution> {
             let spot = self.spot(which[k]);
             let starts = beside.iter().flat_map(|&b| &solutions[b]).map(|one| spot.coordinates(&one.values));
@@ -245,14 +245,16 @@ impl Task<'_, '_> {
         };
         let spot = self.spot(i);
         let mut rough = None;
-        let factors: Vec<usize> = (0..self.band.unknowns.len()).filter(|&j| self.is_own_factor(j)).collect();
-        let others = self.band.unknowns.iter().filter(|one| one.per_frequency() > 0).count() - factors.len();
+        let factors: Vec<usize> =
+            (0..self.problem.unknowns.len()).filter(|&j| self.is_own_factor(j)).collect();
+        let others =
+            self.problem.unknowns.iter().filter(|one| one.per_frequency() > 0).count() - factors.len();
         let found = match (factors.as_slice(), others) {
             (&[j], 0) => self.all_of((at.space, at.space.model(i)), i, j, &given),
             (&[a, b], 0) => {
                 let rough = rough.insert(at.space.rough(i));
                 let along = |a: usize, b: usize| {
-                    let grid = in_turn(&self.band.unknowns[b], given[b]).into_iter();
+                    let grid = in_turn(&self.problem.unknowns[b], given[b]).into_iter();
                     let with = |value: c64| {
                         let mut values = given.clone();
                         values[b] = value;
@@ -294,7 +296,7 @@ impl Task<'_, '_> {
 
     /// Whether a frequency has a value of its own of this unknown, in place of a factor.
     fn is_own_factor(&self, j: usize) -> bool {
-        let one = &self.band.unknowns[j];
+        let one = &self.problem.unknowns[j];
         one.per_frequency() > 0 && matches!(one.dependence, Dependence::Factor(_))
     }
 
@@ -309,10 +311,10 @@ impl Task<'_, '_> {
         let Some(mut at) = space.at(i, given) else { return Vec::new() };
         at.parameters.swap(0, j);
         at.parameters.truncate(1);
-        let Unknown { bounds, real, .. } = self.band.unknowns[j];
+        let Unknown { bounds, real, .. } = self.problem.unknowns[j];
         let options = Options { bounds, real, ..*self.options };
         let fit = Fit {
-            measured: &self.band.measured[i],
+            measured: &self.problem.frfs.receptance[i],
             sigma: &self.sigma[i],
             nominal: given[j],
             options: &options,

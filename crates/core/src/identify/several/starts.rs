@@ -35,7 +35,8 @@ impl Task<'_, '_> {
         let which: Vec<usize> = thinned(&all, FREQUENCIES).copied().collect();
         let rough = map(self.hooks.for_each, which.len(), |k| space.rough(which[k]));
         let middle = &self.nominal[all.len() / 2];
-        let constants = Coordinates::new(self.band.unknowns, |_| Variation::Constant, middle, &self.omegas);
+        let constants =
+            Coordinates::new(self.problem.unknowns, |_| Variation::Constant, middle, &self.omegas);
         let of = |values: &[c64]| constants.of(values, |_, _| Vec::new());
         let points = (1..=PER_NUMBER * constants.count).map(|k| of(&in_box(&space.composite, middle, k)));
         let begin: Vec<Vec<f64>> = std::iter::once(of(middle)).chain(points).collect();
@@ -47,7 +48,7 @@ impl Task<'_, '_> {
                     own.collect::<Option<Vec<_>>>()?.into_iter().unzip();
                 let (x, of_values) = space.respond_on(&rough[k], i, &values)?;
                 let rest: Vec<c64> =
-                    x.iter().zip(&self.band.measured[i]).map(|(x, u)| (x / u).ln()).collect();
+                    x.iter().zip(&self.problem.frfs.receptance[i]).map(|(x, u)| (x / u).ln()).collect();
                 let column = |(j, slope): (usize, c64)| -> Vec<c64> {
                     of_values[j].iter().zip(&x).map(|(s, x)| s * slope / x).collect()
                 };

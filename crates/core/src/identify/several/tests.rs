@@ -5,8 +5,9 @@ use super::reduced_band::in_box;
 use super::search::At;
 use super::*;
 use crate::for_each::sequential;
+use crate::identify::{Frfs, Noise};
 use crate::material::Law;
-use crate::model::{Role, Sensor, Term};
+use crate::model::{DynamicStiffness, Experiment, Role, Sensor, Term};
 use crate::roots::Bounds;
 use frfit_linalg::sparse::Triplets;
 
@@ -64,21 +65,15 @@ fn all_solutions_of_two_unknowns_are_found() {
         real: false,
         bounds: Bounds { storage: Some([0.4, 2.5]), loss_factor: Some([0.0, 0.3]) },
     });
-    let band = Several {
-        model: &model,
-        experiment: &experiment,
-        unknowns: &unknowns,
-        frequency_hz: &frequency_hz,
-        measured: &measured,
-        noise: Noise::Unknown,
-    };
+    let frfs = Frfs { frequency_hz: &frequency_hz, receptance: &measured, noise: Noise::Unknown };
+    let problem = Problem::new(&model, &experiment, &unknowns, &[], frfs).unwrap();
     let nominal = vec![vec![LOSS; 2]; frequency_hz.len()];
     let hooks = Context { for_each: &sequential, progress: &|_, _, _| {} };
     let composite = Composite { model: &model, unknowns: &unknowns };
     let space = ReducedBand::new(composite, &experiment, &frequency_hz, &nominal, hooks).unwrap().unwrap();
     let options = Options::default();
     let task = Task {
-        band: &band,
+        problem: &problem,
         nominal: &nominal,
         omegas: frequency_hz.iter().map(|&f| omega_rad_s(f)).collect(),
         sigma: deviations(&measured, Noise::Unknown),

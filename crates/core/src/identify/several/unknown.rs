@@ -4,18 +4,28 @@ use super::super::Options;
 use crate::c64;
 use crate::laws::LawKind;
 use crate::material::{Law, OutsideTable};
-use crate::model::{DynamicStiffness, ModelAt, ParameterAt};
+use crate::model::{DynamicStiffness, Member, ModelAt, ModelError, Parameter, ParameterAt};
 use crate::roots::Bounds;
 
 /// How an unknown varies over the band.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Variation {
     /// A value of its own at every frequency.
     PerFrequency,
+    /// A smooth function of frequency, no smoother than the data say (B-9).
+    Smooth,
     /// One value for the band.
     Constant,
-    /// A law with so many parameters.
-    Law(LawKind),
+    /// The law of least BIC among these (B-7).
+    Law(Vec<LawKind>),
+}
+
+impl Variation {
+    /// One law.
+    pub fn law(kind: LawKind) -> Self {
+        Self::Law(vec![kind])
+    }
 }
 
 /// How an unknown p enters the terms of a model.
@@ -28,7 +38,18 @@ pub enum Dependence {
     Powers(Vec<(usize, i32)>),
 }
 
-/// One unknown of several.
+impl Dependence {
+    /// The terms that it enters, by their index.
+    pub fn terms(&self) -> impl Iterator<Item = usize> + '_ {
+        let (factors, powers) = match self {
+            Self::Factor(terms) => (terms.as_slice(), [].as_slice()),
+            Self::Powers(powers) => ([].as_slice(), powers.as_slice()),
+        };
+        factors.iter().copied().chain(powers.iter().map(|(term, _)| *term))
+    }
+}
+
+/// An unknown of a problem.
 ///
 /// A term may have one unknown in place of its factor, and be multiplied by any number of others: E h³ of a plate in bending.
 #[derive(Debug, Clone, PartialEq)]
@@ -50,7 +71,7 @@ pub struct Unknown {
 impl Unknown {
     /// Real numbers that it has at each frequency: two, one, or none of its own.
     pub fn per_frequency(&self) -> usize {
-        match (self.varies, self.real) {
+        match (&self.varies, self.real) {
             (Variation::PerFrequency, true) => 1,
             (Variation::PerFrequency, false) => 2,
             _ => 0,
@@ -59,12 +80,42 @@ impl Unknown {
 
     /// Real numbers that it has for the band.
     pub fn for_band(&self) -> usize {
-        match (self.varies, self.real) {
+        match (&self.varies, self.real) {
             (Variation::PerFrequency, _) => 0,
             (Variation::Constant, true) => 1,
             (Variation::Constant, false) => 2,
-            (Variation::Law(family), _) => family.count(),
+            // A smooth one has as many as the data say.
+            (Variation::Smooth, _) => 0,
+            (Variation::Law(kinds), _) => kinds.iter().map(|kind| kind.count()).min().unwrap_or(0),
         }
+    }
+
+    /// The common factor of the named terms, nominally that of the first of them, with a value at each frequency.
+    ///
+    /// # Errors
+    /// [`ModelError::UnknownName`] for a name that no term has, [`ModelError::Empty`] for no name.
+    pub fn factor_of(model: &DynamicStiffness, names: &[&str]) -> Result<Self, ModelError> {
+        let terms = names.iter().map(|name| model.find(name)).collect::<Result<Vec<_>, _>>()?;
+        let first = *terms.first().ok_or(ModelError::Empty)?;
+        Ok(Self {
+            name: names.join(", "),
+            dependence: Dependence::Factor(terms),
+            nominal: model.terms()[first].factor.clone(),
+            varies: Variation::PerFrequency,
+            real: false,
+            bounds: Bounds::default(),
+        })
+    }
+
+    /// It as the parameter of a polynomial, P-10 and B-8; `None` of one with a negative power.
+    pub(crate) fn parameter(&self) -> Option<Parameter> {
+        let member = |(term, power): (usize, i32)| Some(Member { term, power: usize::try_from(power).ok()? });
+        let (members, multiplies) = match &self.dependence {
+            Dependence::Factor(terms) => (terms.iter().map(|&term| member((term, 1))).collect(), false),
+            Dependence::Powers(powers) => (powers.iter().copied().map(member).collect(), true),
+        };
+        let members: Option<Vec<Member>> = members;
+        Some(Parameter { members: members?, nominal: self.nominal.clone(), multiplies })
     }
 
     /// [low, high] of the real part in which it is looked for about a nominal value.

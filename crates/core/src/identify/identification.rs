@@ -1,0 +1,181 @@
+//! What came out of an identification.
+
+use super::band::{BandOutcome, Calibration, Explained, GoodnessOfFit, LawsOutcome, NoiseLevel, SensorFit};
+use super::band::{SmoothCurve, SmoothOutcome};
+use super::several::{BandValue, Direction, Number, Profile, SeveralOutcome};
+use super::uncertainty::{KNOWN, LEAST_LOSS};
+use super::{Line, Status};
+use crate::laws::{Estimate, LawFit, best};
+use crate::response::Work;
+use frfit_linalg::solve::Breakdown;
+
+/// What came out of an identification.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Identification {
+    /// One for each frequency.
+    pub lines: Vec<Line>,
+    /// The unknowns that hold for the band: constants, dimensions and laws.
+    pub constants: Vec<BandValue>,
+    /// The laws that were fitted to a single unknown, in the order in which they were asked for.
+    pub laws: Vec<LawFit>,
+    /// The smooth curve of a single unknown.
+    pub curve: Option<SmoothCurve>,
+    /// Beside a law or a curve: what each frequency says by itself.
+    pub free: Vec<Line>,
+    /// What was found of each sensor's channel; empty where all channels are calibrated.
+    pub channels: Vec<Calibration>,
+    /// One for each sensor; empty where each frequency is identified by itself.
+    pub sensors: Vec<SensorFit>,
+    /// How large the noise is, and from what that is known.
+    pub noise: NoiseLevel,
+    /// Whether noise is all that the model leaves unexplained; `None` where nothing can show it.
+    pub fit: Option<GoodnessOfFit>,
+    /// Which combinations of the numbers that hold for the band are identifiable.
+    pub identifiability: Identifiability,
+    /// What the search did.
+    pub search: SearchReport,
+}
+
+/// Which combinations of the numbers that hold for the band are identifiable.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Identifiability {
+    /// What the coordinates below are: (unknown, name of the number).
+    pub coordinates: Vec<(usize, String)>,
+    /// Correlation of the numbers.
+    pub correlation: Vec<Vec<f64>>,
+    /// Combinations of them, the least identifiable first.
+    pub directions: Vec<Direction>,
+    /// χ² along the first of them.
+    pub profile: Option<Profile>,
+}
+
+/// What a search did, and how it ended.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct SearchReport {
+    /// Work of size N.
+    pub work: Work,
+    /// Vectors of the reduced model; `None` where the full model answered.
+    pub reduced_size: Option<usize>,
+    /// Frequencies at which all solutions were looked for; at the others those of their neighbours were followed.
+    pub explored: usize,
+    /// Starts that were followed for several unknowns.
+    pub starts: usize,
+    /// How many of them ended at the result.
+    pub agreeing: usize,
+    /// Whether the search converged.
+    pub converged: bool,
+    /// Why there is no reduced model; nothing was looked for then.
+    pub breakdown: Option<Breakdown>,
+}
+
+impl Identification {
+    /// How many lines have this status.
+    pub fn count(&self, status: Status) -> usize {
+        self.lines.iter().filter(|line| line.status == status).count()
+    }
+
+    /// Whether all that holds for the band is trusted, and the measurements are not contradicted.
+    pub fn is_trusted(&self) -> bool {
+        let explained = self.fit.is_none_or(|fit| fit.verdict != Explained::No);
+        explained && self.constants.iter().all(|value| value.status == Status::Ok)
+    }
+
+    /// The largest estimated error of the reduced model's response over all values, relative to the measured one; `None` where
+    /// the full model answered.
+    pub fn reduction_error(&self) -> Option<f64> {
+        self.lines.iter().filter_map(|line| line.reduction_error).reduce(f64::max)
+    }
+}
+
+impl From<BandOutcome> for Identification {
+    fn from(band: BandOutcome) -> Self {
+        let BandOutcome { outcomes, work, subspace_size, explored, noise, fit, sensors } = band;
+        let search = SearchReport {
+            work,
+            reduced_size: subspace_size,
+            explored,
+            converged: true,
+            ..SearchReport::default()
+        };
+        Self {
+            lines: outcomes,
+            constants: Vec::new(),
+            laws: Vec::new(),
+            curve: None,
+            free: Vec::new(),
+            channels: Vec::new(),
+            sensors,
+            noise,
+            fit,
+            identifiability: Identifiability::default(),
+            search,
+        }
+    }
+}
+
+impl From<SmoothOutcome> for Identification {
+    fn from(smooth: SmoothOutcome) -> Self {
+        Self { curve: smooth.curve, free: smooth.free.outcomes, ..smooth.band.into() }
+    }
+}
+
+impl From<LawsOutcome> for Identification {
+    fn from(laws: LawsOutcome) -> Self {
+        let LawsOutcome { free, fits, outcomes, channels, fit, work, subspace_size } = laws;
+        // The noise and the sensors of the band, as each frequency by itself shows them.
+        let alone = free.outcomes.clone();
+        let band = BandOutcome { outcomes, work, subspace_size, fit, ..free };
+        let constants = best(&fits).map(|law| of_law(law, fit)).into_iter().collect();
+        Self { constants, laws: fits, free: alone, channels, ..band.into() }
+    }
+}
+
+/// The law of a single unknown as what holds for the band.
+fn of_law(fit: &LawFit, band: Option<GoodnessOfFit>) -> BandValue {
+    let number = |one: &Estimate| Number { name: one.name.clone(), value: one.value, std: one.std };
+    let is_known = |one: &Estimate| {
+        let least = if one.name == "loss_factor" { LEAST_LOSS } else { 0.0 };
+        one.std.is_some_and(|std| std <= KNOWN * one.value.abs().max(least))
+    };
+    let status = Status::of([
+        (!fit.parameters.iter().all(is_known), Status::NotIdentifiable),
+        (!fit.converged, Status::Failed),
+    ]);
+    BandValue {
+        unknowns: 0,
+        numbers: fit.parameters.iter().map(number).collect(),
+        law: fit.law.clone(),
+        at_bound: false,
+        status: status.within(band),
+    }
+}
+
+impl From<SeveralOutcome> for Identification {
+    fn from(several: SeveralOutcome) -> Self {
+        let SeveralOutcome { band, at, coordinates, correlation, directions, profile, noise, fit, .. } =
+            several;
+        let SeveralOutcome { converged, starts, agreeing, work, subspace_size, breakdown, .. } = several;
+        let search = SearchReport {
+            work,
+            reduced_size: breakdown.is_none().then_some(subspace_size),
+            explored: 0,
+            starts,
+            agreeing,
+            converged,
+            breakdown,
+        };
+        Self {
+            lines: at,
+            constants: band,
+            laws: Vec::new(),
+            curve: None,
+            free: Vec::new(),
+            channels: Vec::new(),
+            sensors: Vec::new(),
+            noise,
+            fit,
+            identifiability: Identifiability { coordinates, correlation, directions, profile },
+            search,
+        }
+    }
+}

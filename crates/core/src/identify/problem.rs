@@ -1,0 +1,456 @@
+//! What is to be identified, checked: a model, an experiment, unknowns, channels and measured FRFs.
+
+use super::band::{Band, ChannelUnknowns, Noise};
+use super::several::{Dependence, Unknown, Variation};
+use super::{Method, Options, OptionsError, Selection};
+use crate::c64;
+use crate::laws::LawKind;
+use crate::material::OutsideTable;
+use crate::model::{DynamicStiffness, Experiment, Parameter};
+use std::fmt;
+
+/// Measured frequency response functions.
+#[derive(Debug, Clone, Copy)]
+pub struct Frfs<'a> {
+    /// Frequencies, strictly ascending.
+    pub frequency_hz: &'a [f64],
+    /// Receptance, `[frequency][sensor]`, m/N.
+    pub receptance: &'a [Vec<c64>],
+    /// How well each was measured.
+    pub noise: Noise<'a>,
+}
+
+/// A problem without a fault that could be seen before it is solved.
+#[derive(Debug, Clone, Copy)]
+pub struct Problem<'a> {
+    pub(super) model: &'a DynamicStiffness,
+    pub(super) experiment: &'a Experiment,
+    pub(super) unknowns: &'a [Unknown],
+    pub(super) channels: &'a [ChannelUnknowns],
+    pub(super) frfs: Frfs<'a>,
+}
+
+/// What is wrong with a problem, and where.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum ProblemError {
+    /// A wrong number of something.
+    Count {
+        /// Of what, and where.
+        what: String,
+        /// How many there should be.
+        expected: String,
+        /// How many there are.
+        found: usize,
+    },
+    /// A value that cannot be.
+    Value {
+        /// Which, and where.
+        what: String,
+        /// What it should be.
+        expected: &'static str,
+        /// What it is.
+        found: String,
+    },
+    /// An unknown that cannot be.
+    Unknown {
+        /// Its name.
+        name: String,
+        /// What was expected of it.
+        expected: String,
+        /// What it is.
+        found: String,
+    },
+    /// More unknown than measured real numbers.
+    Undetermined {
+        /// Measured real numbers.
+        measured: usize,
+        /// Unknown real numbers.
+        unknown: usize,
+    },
+    /// A combination that has no method.
+    Unsupported {
+        /// What.
+        what: &'static str,
+        /// Why.
+        reason: &'static str,
+    },
+    /// A table of a factor that does not reach a frequency.
+    Table(OutsideTable),
+    /// A wrong option.
+    Options(OptionsError),
+}
+
+impl fmt::Display for ProblemError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Count { what, expected, found } => write!(f, "{what}: expected {expected}, found {found}"),
+            Self::Value { what, expected, found } => write!(f, "{what}: expected {expected}, found {found}"),
+            Self::Unknown { name, expected, found } => {
+                write!(f, "unknown {name:?}: expected {expected}, found {found}")
+            }
+            Self::Undetermined { measured, unknown } => {
+                write!(
+                    f,
+                    "expected at least {unknown} measured real numbers for as many unknown ones, found {measured}"
+                )
+            }
+            Self::Unsupported { what, reason } => write!(f, "{what}: {reason}"),
+            Self::Table(outside) => outside.fmt(f),
+            Self::Options(wrong) => wrong.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for ProblemError {}
+
+impl From<OutsideTable> for ProblemError {
+    fn from(outside: OutsideTable) -> Self {
+        Self::Table(outside)
+    }
+}
+
+impl From<OptionsError> for ProblemError {
+    fn from(wrong: OptionsError) -> Self {
+        Self::Options(wrong)
+    }
+}
+
+/// How a single unknown is found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Strategy<'a> {
+    /// At each frequency, with all its solutions (B-2, B-4).
+    PerFrequency,
+    /// As a smooth function of frequency (B-9).
+    Smooth,
+    /// By the law of least BIC among these (B-7).
+    Law(&'a [LawKind]),
+}
+
+/// Powers of an unknown beyond these leave no digit.
+const MAX_POWER: i32 = 12;
+
+impl<'a> Problem<'a> {
+    /// Checks everything that can be checked before the problem is solved.
+    ///
+    /// `channels` has one entry for each sensor, or none where all of them are calibrated.
+    ///
+    /// # Errors
+    /// [`ProblemError`]: what is wrong, where, what was expected and what was found.
+    pub fn new(
+        model: &'a DynamicStiffness,
+        experiment: &'a Experiment,
+        unknowns: &'a [Unknown],
+        channels: &'a [ChannelUnknowns],
+        frfs: Frfs<'a>,
+    ) -> Result<Self, ProblemError> {
+        let known =
+            channels.len() == experiment.sensors.len() && !channels.iter().any(|channel| channel.any());
+        let channels = if known { &[] } else { channels };
+        let problem = Self { model, experiment, unknowns, channels, frfs };
+        problem.check_experiment()?;
+        problem.check_frfs()?;
+        problem.check_noise()?;
+        problem.check_unknowns()?;
+        problem.check_channels()?;
+        Ok(problem)
+    }
+
+    /// The model.
+    pub fn model(&self) -> &'a DynamicStiffness {
+        self.model
+    }
+
+    /// Load and sensors.
+    pub fn experiment(&self) -> &'a Experiment {
+        self.experiment
+    }
+
+    /// The unknowns.
+    pub fn unknowns(&self) -> &'a [Unknown] {
+        self.unknowns
+    }
+
+    /// What is unknown of each sensor's channel; empty where all of them are calibrated.
+    pub fn channels(&self) -> &'a [ChannelUnknowns] {
+        self.channels
+    }
+
+    /// The measurement.
+    pub fn frfs(&self) -> Frfs<'a> {
+        self.frfs
+    }
+
+    /// Real numbers that are measured, and real numbers that are unknown.
+    pub fn counts(&self) -> [usize; 2] {
+        let (frequencies, sensors) = (self.frfs.frequency_hz.len(), self.experiment.sensors.len());
+        let per_frequency: usize = self.unknowns.iter().map(Unknown::per_frequency).sum();
+        let for_band: usize = self.unknowns.iter().map(Unknown::for_band).sum();
+        let channels: usize = self.channels.iter().map(|channel| channel.count()).sum();
+        [2 * sensors * frequencies, per_frequency * frequencies + for_band + channels]
+    }
+
+    /// How the only unknown is found, and it as the parameter of a polynomial; `None` where all unknowns are found in one least squares
+    /// (B-8): several, a constant, or one with a negative power.
+    pub(super) fn single(&self) -> Option<(Strategy<'a>, Parameter)> {
+        let [only] = self.unknowns else { return None };
+        let strategy = match &only.varies {
+            Variation::PerFrequency => Strategy::PerFrequency,
+            Variation::Smooth => Strategy::Smooth,
+            Variation::Law(kinds) => Strategy::Law(kinds),
+            Variation::Constant => return None,
+        };
+        Some((strategy, only.parameter()?))
+    }
+
+    /// The band as the strategies of a single unknown take it.
+    pub(crate) fn band<'b>(&self, parameter: &'b Parameter) -> Band<'b>
+    where
+        'a: 'b,
+    {
+        let Self { model, experiment, frfs: Frfs { frequency_hz, receptance: measured, noise }, .. } = *self;
+        Band { model, experiment, parameter, frequency_hz, measured, noise }
+    }
+
+    /// The model with all other unknowns than the j-th at their nominal values; `None` where its factors have them already.
+    pub(crate) fn model_about(&self, j: usize) -> Result<Option<DynamicStiffness>, ProblemError> {
+        let mut terms = self.model.terms().to_vec();
+        for other in self.unknowns.iter().enumerate().filter(|(k, _)| *k != j).map(|(_, other)| other) {
+            let nominal = other.nominal.at(self.frfs.frequency_hz[0])?;
+            match &other.dependence {
+                Dependence::Factor(all) => {
+                    all.iter().for_each(|&term| terms[term].factor = other.nominal.clone())
+                }
+                Dependence::Powers(all) => {
+                    for &(term, power) in all {
+                        terms[term].factor = terms[term].factor.scaled(nominal.re.powi(power));
+                    }
+                }
+            }
+        }
+        let changed = terms.iter().zip(self.model.terms()).any(|(new, old)| new.factor != old.factor);
+        // The same matrices as those of a model that is there.
+        Ok(if changed { DynamicStiffness::new(terms).ok() } else { None })
+    }
+
+    /// Options of this problem: a single unknown's bounds in them.
+    pub(super) fn checked(&self, options: &Options) -> Result<Options, ProblemError> {
+        let mut options = *options;
+        if let [only] = self.unknowns {
+            (options.bounds, options.real) = (only.bounds, only.real);
+        }
+        options.validate()?;
+        let per_frequency = self.single().is_some_and(|(strategy, _)| strategy == Strategy::PerFrequency);
+        let paper = options.method != Method::Rational || options.selection != Selection::Joint;
+        if paper && (!per_frequency || !self.channels.is_empty()) {
+            return Err(ProblemError::Unsupported {
+                what: "method and selection",
+                reason: "expected \"rational\" and \"joint\": the others find one factor at each frequency from calibrated channels",
+            });
+        }
+        Ok(options)
+    }
+
+    fn check_experiment(&self) -> Result<(), ProblemError> {
+        let dim = self.model.dim();
+        let Experiment { load, sensors } = self.experiment;
+        if load.len() != dim {
+            let expected = format!("{dim} entries, as the model has degrees of freedom");
+            return Err(ProblemError::Count { what: "load".into(), expected, found: load.len() });
+        }
+        if let Some(row) = load.iter().position(|force| !force.is_finite()) {
+            return Err(value(format!("load at row {row}"), "a finite number", load[row]));
+        }
+        if load.iter().all(|force| force.norm() == 0.0) {
+            return Err(value("load", "at least one entry that is not zero", "none"));
+        }
+        if sensors.is_empty() {
+            return Err(ProblemError::Count {
+                what: "sensors".into(),
+                expected: "at least one".into(),
+                found: 0,
+            });
+        }
+        match sensors.iter().enumerate().find(|(_, sensor)| sensor.row >= dim || !sensor.sign.is_finite()) {
+            None => Ok(()),
+            Some((m, sensor)) if sensor.row >= dim => {
+                Err(value(format!("row of sensor {m}"), "a row of the model", sensor.row))
+            }
+            Some((m, sensor)) => Err(value(format!("sign of sensor {m}"), "1 or -1", sensor.sign)),
+        }
+    }
+
+    fn check_frfs(&self) -> Result<(), ProblemError> {
+        let Frfs { frequency_hz, receptance, .. } = self.frfs;
+        if frequency_hz.is_empty() {
+            let what = "frequencies".into();
+            return Err(ProblemError::Count { what, expected: "at least one".into(), found: 0 });
+        }
+        for (i, &f) in frequency_hz.iter().enumerate() {
+            if !(f.is_finite() && f >= 0.0) {
+                return Err(value(format!("frequency {i}"), "a finite number of Hz that is not negative", f));
+            }
+            if i > 0 && f <= frequency_hz[i - 1] {
+                let found = format!("{f} after {}", frequency_hz[i - 1]);
+                return Err(value(format!("frequency {i}"), "ascending frequencies", found));
+            }
+        }
+        self.check_rows("FRF", receptance)?;
+        for (i, row) in receptance.iter().enumerate() {
+            if let Some(m) = row.iter().position(|u| !u.is_finite()) {
+                let what = format!("FRF of sensor {m} at {} Hz", frequency_hz[i]);
+                return Err(value(what, "a finite number", row[m]));
+            }
+        }
+        Ok(())
+    }
+
+    /// One row for each frequency, with one entry for each sensor.
+    fn check_rows<T>(&self, what: &str, rows: &[Vec<T>]) -> Result<(), ProblemError> {
+        let (frequencies, sensors) = (self.frfs.frequency_hz.len(), self.experiment.sensors.len());
+        if rows.len() != frequencies {
+            let expected = format!("{frequencies} rows, one for each frequency");
+            return Err(ProblemError::Count { what: what.into(), expected, found: rows.len() });
+        }
+        match rows.iter().position(|row| row.len() != sensors) {
+            None => Ok(()),
+            Some(i) => Err(ProblemError::Count {
+                what: format!("{what} at {} Hz", self.frfs.frequency_hz[i]),
+                expected: format!("{sensors} values, one for each sensor"),
+                found: rows[i].len(),
+            }),
+        }
+    }
+
+    fn check_noise(&self) -> Result<(), ProblemError> {
+        let (Noise::Known(std) | Noise::Relative(std)) = self.frfs.noise else { return Ok(()) };
+        self.check_rows("standard deviation", std)?;
+        for (row, f) in std.iter().zip(self.frfs.frequency_hz) {
+            // An infinite one is a value that counts for nothing.
+            if let Some(m) = row.iter().position(|std| std.is_nan() || *std < 0.0) {
+                let what = format!("standard deviation of sensor {m} at {f} Hz");
+                return Err(value(what, "a number that is not negative", row[m]));
+            }
+        }
+        Ok(())
+    }
+
+    fn check_unknowns(&self) -> Result<(), ProblemError> {
+        if self.unknowns.is_empty() {
+            let what = "unknowns".into();
+            return Err(ProblemError::Count { what, expected: "at least one".into(), found: 0 });
+        }
+        for (j, one) in self.unknowns.iter().enumerate() {
+            self.check_unknown(j, one)?;
+        }
+        let [measured, unknown] = self.counts();
+        if self.single().is_none() && measured < unknown {
+            return Err(ProblemError::Undetermined { measured, unknown });
+        }
+        Ok(())
+    }
+
+    fn check_unknown(&self, j: usize, one: &Unknown) -> Result<(), ProblemError> {
+        let wrong = |expected: &str, found: &dyn fmt::Display| ProblemError::Unknown {
+            name: one.name.clone(),
+            expected: expected.into(),
+            found: found.to_string(),
+        };
+        let terms: Vec<usize> = one.dependence.terms().collect();
+        if terms.is_empty() {
+            return Err(wrong("at least one matrix that it enters", &"none"));
+        }
+        for (k, &term) in terms.iter().enumerate() {
+            if term >= self.model.terms().len() {
+                return Err(wrong("matrices of the model", &format_args!("matrix {term}")));
+            }
+            if terms[..k].contains(&term) {
+                return Err(wrong(
+                    "each matrix once",
+                    &format_args!("{:?} twice", self.model.terms()[term].name),
+                ));
+            }
+        }
+        if let Dependence::Powers(powers) = &one.dependence
+            && let Some((_, power)) = powers.iter().find(|(_, d)| *d == 0 || d.abs() > MAX_POWER)
+        {
+            return Err(wrong("powers from -12 to 12 that are not zero", power));
+        }
+        for other in &self.unknowns[..j] {
+            if other.name == one.name {
+                return Err(wrong("a name of its own", &"another unknown of this name"));
+            }
+            if let (Dependence::Factor(mine), Dependence::Factor(theirs)) =
+                (&one.dependence, &other.dependence)
+                && let Some(term) = mine.iter().find(|term| theirs.contains(term))
+            {
+                let found = format!(
+                    "{:?}, which is the factor of {:?} too",
+                    other.name,
+                    self.model.terms()[*term].name
+                );
+                return Err(wrong("a factor of its own", &found));
+            }
+        }
+        let bounds = [("storage", one.bounds.storage), ("loss_factor", one.bounds.loss_factor)];
+        for (name, bound) in bounds {
+            if let Some([low, high]) =
+                bound.filter(|[low, high]| !(low <= high && low.is_finite() && high.is_finite()))
+            {
+                return Err(wrong(
+                    &format!("bounds.{name} as [low, high] with low <= high"),
+                    &format_args!("[{low}, {high}]"),
+                ));
+            }
+        }
+        match &one.varies {
+            Variation::Law(kinds) if kinds.is_empty() => return Err(wrong("at least one law", &"none")),
+            Variation::Law(kinds) if kinds.len() > 1 && self.unknowns.len() > 1 => {
+                return Err(wrong("one law beside other unknowns", &kinds.len()));
+            }
+            Variation::Law(_) if one.real => return Err(wrong("a complex law", &"a real unknown")),
+            Variation::Smooth if self.unknowns.len() > 1 => {
+                return Err(wrong("no other unknown beside a smooth factor", &self.unknowns.len()));
+            }
+            Variation::Smooth if matches!(one.dependence, Dependence::Powers(_)) => {
+                return Err(wrong("a smooth factor", &"powers"));
+            }
+            _ => {}
+        }
+        for &f in self.frfs.frequency_hz {
+            let nominal = one.nominal.at(f)?;
+            if !nominal.is_finite() {
+                return Err(wrong("a finite nominal value", &format_args!("{nominal} at {f} Hz")));
+            }
+        }
+        Ok(())
+    }
+
+    fn check_channels(&self) -> Result<(), ProblemError> {
+        let (channels, sensors) = (self.channels.len(), self.experiment.sensors.len());
+        if channels != 0 && channels != sensors {
+            let expected = format!("{sensors}, one for each sensor, or none");
+            return Err(ProblemError::Count { what: "channels".into(), expected, found: channels });
+        }
+        let unsupported = |reason| {
+            let what = "a channel of unknown scale or delay";
+            Err(ProblemError::Unsupported { what, reason })
+        };
+        let free = self.channels.iter().all(|channel| channel.any());
+        match self.single() {
+            _ if channels == 0 => Ok(()),
+            Some((Strategy::PerFrequency, _)) if free => unsupported(
+                "a free value at each frequency explains every scale: expected one calibrated channel, or a law",
+            ),
+            Some((Strategy::PerFrequency | Strategy::Law(_), _)) => Ok(()),
+            Some((Strategy::Smooth, _)) => {
+                unsupported("expected a law or a value at each frequency, found a smooth factor")
+            }
+            None => unsupported("expected a single unknown"),
+        }
+    }
+}
+
+fn value(what: impl Into<String>, expected: &'static str, found: impl ToString) -> ProblemError {
+    ProblemError::Value { what: what.into(), expected, found: found.to_string() }
+}
