@@ -275,6 +275,9 @@ pub(crate) struct Export {
     /// Every row with a modulus, not only those that are ok
     #[arg(long)]
     pub(crate) all: bool,
+    /// Which unknown of a table of several
+    #[arg(long, value_name = "NAME")]
+    pub(crate) unknown: Option<String>,
 }
 
 #[derive(Debug, clap::Args)]

@@ -1,28 +1,27 @@
 //! What came out, in the few lines that a person reads first.
 
-use frfit::identify::{Calibrated, Explained, Line, NoiseSource, SmoothCurve, Status};
-use frfit_workflow::case::VariesEntry;
+use frfit::identify::{Calibrated, Explained, Line, NoiseSource, SmoothCurve, Status, Variation};
 use frfit_workflow::check::findings_text;
-use frfit_workflow::job::{IdentifyJob, SeveralJob};
-use frfit_workflow::output::{Words, laws_text};
+use frfit_workflow::job::IdentifyJob;
+use frfit_workflow::load::Layout;
+use frfit_workflow::output::{Words, laws_text, several_text};
 use std::path::Path;
-
-/// The verdict on several unknowns and where its files are.
-pub(crate) fn several(job: &SeveralJob, out: &Path) -> Words {
-    let mut words = job.text.clone();
-    words.say(&format!(
-        "  {:<18}{}: identified.csv, response.csv, updated.uff, summary.json, figures/, report.html\n",
-        "wrote",
-        out.display()
-    ));
-    words
-}
 
 /// The verdict of an identification and where its files are.
 pub(crate) fn identified(job: &IdentifyJob, out: &Path) -> Words {
     let mut words = Words::default();
     let Some(identify) = job.identify() else { return words };
     let run = &job.run;
+    if identify.layout == Layout::Named {
+        words = several_text(identify, run);
+        words.warn(&job.diagnosis.as_ref().map_or(String::new(), |found| findings_text(&job.case, found)));
+        words.say(&format!(
+            "  {:<18}{}: identified.csv, response.csv, updated.uff, summary.json, figures/, report.html\n",
+            "wrote",
+            out.display()
+        ));
+        return words;
+    }
     let band = match (run.found.lines.first(), run.found.lines.last()) {
         (Some(first), Some(last)) => format!("{} to {} Hz", first.frequency_hz, last.frequency_hz),
         _ => String::new(),
@@ -30,7 +29,7 @@ pub(crate) fn identified(job: &IdentifyJob, out: &Path) -> Words {
     words.say(&format!(
         "{}: factor of {} at {} frequencies, {band}\n",
         job.case.title,
-        identify.names.join(", "),
+        identify.unknowns[0].name,
         run.found.lines.len()
     ));
     // What is wrong with the data comes before what was made of them.
@@ -54,9 +53,9 @@ pub(crate) fn identified(job: &IdentifyJob, out: &Path) -> Words {
             Some(range.map_or((v, v), |(low, high)| (low.min(v), high.max(v))))
         })
     };
-    let real = identify.options.real;
+    let real = identify.unknowns[0].real;
     if let Some((low, high)) = range(&|outcome| outcome.storage()) {
-        let (label, unit) = if real { ("factor", "") } else { ("storage modulus", identify.unit.unit()) };
+        let (label, unit) = if real { ("factor", "") } else { ("storage modulus", identify.units[0].unit()) };
         let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
         add(false, label, format!("{low:.6e} to {high:.6e}{unit} (where ok)"));
     }
@@ -129,10 +128,10 @@ pub(crate) fn identified(job: &IdentifyJob, out: &Path) -> Words {
             format!("{parameters:.1} parameters, one for {width_octaves:.2} octaves{settled}{odd}"),
         );
     }
-    let more = match &identify.varies {
-        VariesEntry::ByLaw(_) => "free.csv, law.json, ",
-        VariesEntry::Smoothly => "free.csv, ",
-        VariesEntry::Freely => "",
+    let more = match &identify.unknowns[0].varies {
+        Variation::Law(_) => "free.csv, law.json, ",
+        Variation::Smooth => "free.csv, ",
+        _ => "",
     };
     add(
         false,
@@ -143,7 +142,7 @@ pub(crate) fn identified(job: &IdentifyJob, out: &Path) -> Words {
         ),
     );
     if !run.found.laws.is_empty() {
-        words.say(&laws_text(&run.found.laws, &vec![None; run.found.laws.len()], identify.unit));
+        words.say(&laws_text(&run.found.laws, &vec![None; run.found.laws.len()], identify.units[0]));
     }
     words
 }
@@ -211,7 +210,7 @@ fn doubts(job: &IdentifyJob) -> Vec<(bool, &'static str, String)> {
 
 /// What was found of channels whose scale or delay was unknown.
 fn channels(job: &IdentifyJob) -> Vec<(bool, &'static str, String)> {
-    let unknown = job.identify().map_or(&[][..], |identify| &identify.unknown);
+    let unknown = job.identify().map_or(&[][..], |identify| identify.channels.as_slice());
     let mut lines = Vec::new();
     for ((sensor, unknown), found) in job.case.sensors.iter().zip(unknown).zip(&job.run.found.channels) {
         let mut tell = |label, found: Option<Calibrated>, what: &str| {

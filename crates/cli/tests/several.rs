@@ -125,8 +125,8 @@ fn faults_are_told_with_their_place() {
     );
     refused_with(&format!("{MODULUS}{}", DENSITY.replace("bounds", "band_hz")), &["first [[identify]]"]);
     std::fs::write(&file, format!("{before}{MODULUS}{DENSITY}")).unwrap();
-    let said = refused(folder.path(), &["check", "p/case.toml"]);
-    assert!(said.contains("one unknown that varies"), "{said}");
+    let said = done(folder.path(), &["check", "p/case.toml"]);
+    assert!(said.contains("no finding"), "{said}");
     let said = refused(folder.path(), &["identify", "p/case.toml", "--out", "out", "--method", "series"]);
     assert!(said.contains("--method"), "{said}");
 }
@@ -210,4 +210,80 @@ fn a_dimension_without_a_nominal_value_is_refused() {
         let said = refused(folder.path(), &[command, "p/case.toml", "--out", "out"]);
         assert!(said.contains("an [[identify]] with name = \"thickness\" and its nominal value"), "{said}");
     }
+}
+
+/// A modulus at every frequency, a constant and a dimension: every command takes such a case.
+#[test]
+fn three_unknowns_through_every_command() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    done(folder.path(), &["--quiet", "example", "two-materials", "p"]);
+    let case = std::fs::read_to_string(at("p/case.toml")).unwrap();
+    let (before, _) = case.split_once("# Each varies").unwrap();
+    let unknowns = r#"
+[[identify]]
+matrix = "core"
+band_hz = [20.0, 1000.0]
+max_lines = 40
+exclude_hz = [[490.0, 510.0]]
+bounds = { storage = [1e5, 1e8], loss_factor = [0.0, 3.0] }
+reference = { law = "fractional", e0 = 8.14e5, e1 = 7.31e4, alpha = 0.528 }
+
+[[identify]]
+matrix = "skins"
+varies = "constant"
+bounds = { storage = [1e10, 2e11], loss_factor = [0.0, 0.2] }
+reference = { storage = 6.2e10, loss_factor = 0.01 }
+
+[[identify]]
+name = "filling"
+powers = { core-mass = 1 }
+nominal = 1.2
+bounds = [0.5, 2.0]
+reference = 1.0
+"#;
+    std::fs::write(at("p/case.toml"), format!("{before}{unknowns}")).unwrap();
+
+    let said = done(folder.path(), &["identify", "p/case.toml", "--out", "out", "--strict"]);
+    let summary = summary(folder.path());
+    assert_eq!(summary["trusted"], true, "{said}");
+    let excluded = summary["status"]["out_of_band"].as_u64().unwrap();
+    assert!(excluded > 0 && summary["frequencies"] == summary["status"]["ok"].as_u64().unwrap() + excluded);
+    assert_eq!(summary["unknowns"][0]["reference"]["wrong_and_ok"], 0, "{said}");
+    for (unknown, exact) in [(1, 6.2e10), (2, 1.0)] {
+        let found = summary["unknowns"][unknown]["numbers"][0]["value"].as_f64().unwrap();
+        assert!((found / exact - 1.0).abs() < 1e-6, "{found} for {exact}");
+    }
+    let table = std::fs::read_to_string(at("out/identified.csv")).unwrap();
+    let status = column(&table, "status");
+    assert_eq!(status.iter().filter(|status| **status == "out_of_band").count() as u64, excluded);
+    done(folder.path(), &["report", "out"]);
+    assert!(std::fs::read_to_string(at("out/report.html")).unwrap().contains("filling"));
+
+    // One of the unknowns as a material; without a name the names are listed.
+    let export = ["export", "csv", "out/identified.csv", "-o", "core.csv"];
+    let said = refused(folder.path(), &export);
+    assert!(said.contains("--unknown: expected one of \"core\", \"skins\", \"filling\""), "{said}");
+    done(folder.path(), &[&export[..], &["--unknown", "core"]].concat());
+    let exported = std::fs::read_to_string(at("core.csv")).unwrap();
+    let rows = |table: &str, f: &str, name: &str| -> Vec<[f64; 2]> {
+        // The line of units, and rows without a value, have no numbers.
+        let number = |cell: String| cell.parse::<f64>().ok();
+        let [f, e] = [f, name].map(|name| column(table, name));
+        f.into_iter().zip(e).filter_map(|(f, e)| Some([number(f)?, number(e)?])).collect()
+    };
+    let names: Vec<&str> = exported.lines().next().unwrap().split(',').collect();
+    assert_eq!(
+        rows(&exported, names[0], "storage"),
+        rows(&table, "frequency_hz", "core.storage"),
+        "{names:?}"
+    );
+    assert!(refused(folder.path(), &[&export[..], &["--unknown", "skin"]].concat()).contains("\"skin\""));
+
+    // A sign that is wrong is found beside three unknowns.
+    let right = std::fs::read_to_string(at("p/case.toml")).unwrap();
+    let wrong = right.replace("dof = \"248+Z\"", "scale = -1.0\ndof = \"248+Z\"").replace("= 40", "= 20");
+    std::fs::write(at("p/wrong.toml"), wrong).unwrap();
+    let said = done(folder.path(), &["check", "p/wrong.toml"]);
+    assert!(said.contains("  sign") && said.contains("248"), "{said}");
 }

@@ -4,21 +4,12 @@ use crate::background::in_background;
 use crate::columns::identification;
 use crate::errors::job;
 use crate::several::several;
-use frfit_workflow::job::{
-    Computed, ComputedSeveral, IdentifyJob, JobError, SeveralJob, compute_case, compute_several_case,
-    identify_case, several_case,
-};
-use frfit_workflow::load::{Overrides, asks_for_several};
+use frfit_workflow::job::{Computed, IdentifyJob, compute_case, identify_case};
+use frfit_workflow::load::{Layout, Overrides};
 use frfit_workflow::run::RunOptions;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::path::PathBuf;
-
-/// What came out of a case.
-enum Ran {
-    One(Box<Computed>),
-    Several(Box<ComputedSeveral>),
-}
 
 /// What `frfit.Identification` is made of, or with a key `unknowns` `frfit.SeveralIdentification`; with `out` the files of `frfit identify` too.
 #[pyfunction]
@@ -40,17 +31,6 @@ pub(crate) fn run_case<'py>(
     let options = RunOptions { error_map, memory_bytes };
     let ran = in_background(py, progress, move |watch| {
         let progress = |done: usize, total: usize| watch.progress(done, total);
-        if asks_for_several(&path).map_err(JobError::Input)? {
-            let computed = match out {
-                None => compute_several_case(&path, &overrides, memory_bytes, &progress)?,
-                Some(out) => {
-                    let SeveralJob { case, run, .. } =
-                        several_case(&path, &overrides, memory_bytes, &out, &progress)?;
-                    ComputedSeveral { case, run, seconds_load: 0.0 }
-                }
-            };
-            return Ok(Ran::Several(Box::new(computed)));
-        }
         let computed = match out {
             None => compute_case(&path, &overrides, options, &progress)?,
             Some(out) => {
@@ -59,10 +39,11 @@ pub(crate) fn run_case<'py>(
                 Computed { case, diagnosis, run, seconds_load: 0.0, seconds_check: 0.0 }
             }
         };
-        Ok(Ran::One(Box::new(computed)))
+        Ok(computed)
     })?;
-    match ran.map_err(|error| job(py, &error))? {
-        Ran::One(computed) => identification(py, &computed),
-        Ran::Several(computed) => several(py, &computed),
+    let computed = ran.map_err(|error| job(py, &error))?;
+    match computed.case.identify.as_ref().map(|identify| identify.layout) {
+        Some(Layout::Named) => several(py, &computed),
+        _ => identification(py, &computed),
     }
 }

@@ -1,8 +1,7 @@
 //! What came out, as arrays: the columns of `identified.csv`, NaN where a cell is empty.
 
 use frfit::c64;
-use frfit::identify::{Calibrated, Calibration, Line};
-use frfit_workflow::case::VariesEntry;
+use frfit::identify::{Calibrated, Calibration, Line, Variation};
 use frfit_workflow::job::Computed;
 use frfit_workflow::output::{laws_json, smooth_json};
 use frfit_workflow::units::FactorUnit;
@@ -42,7 +41,7 @@ pub(crate) fn identification<'py>(py: Python<'py>, computed: &Computed) -> PyRes
         let rows = identify.frequency_hz.iter().zip(&identify.measured);
         let measured = rows.map(|(&frequency_hz, row)| run.measured(frequency_hz, row));
         found.set_item("measured_response", table(py, measured, sensors)?)?;
-        found.set_item("matrices", &identify.names)?;
+        found.set_item("matrices", identify.matrices(&case.model))?;
     }
     let labels: Vec<&str> = case.sensors.iter().map(|sensor| sensor.label.as_str()).collect();
     found.set_item("sensors", labels)?;
@@ -84,9 +83,11 @@ pub(crate) fn identification<'py>(py: Python<'py>, computed: &Computed) -> PyRes
     let parsed = |json: Option<serde_json::Value>| {
         json.map(|json| py.import("json")?.call_method1("loads", (json.to_string(),))).transpose()
     };
-    let unit = case.identify.as_ref().map_or(FactorUnit::Other, |identify| identify.unit);
-    let by_law =
-        case.identify.as_ref().is_some_and(|identify| matches!(identify.varies, VariesEntry::ByLaw(_)));
+    let unit = case.identify.as_ref().map_or(FactorUnit::Other, |identify| identify.units[0]);
+    let by_law = case
+        .identify
+        .as_ref()
+        .is_some_and(|identify| matches!(identify.unknowns[0].varies, Variation::Law(_)));
     found.set_item("laws", parsed(by_law.then(|| laws_json(&run.found.laws, unit, case.units)))?)?;
     found.set_item("smooth", parsed(run.found.curve.as_ref().map(smooth_json))?)?;
     Ok(found)

@@ -3,18 +3,18 @@
 use crate::columns::{NOTHING, table};
 use frfit::c64;
 use frfit::identify::{Line, Uncertainty};
-use frfit_workflow::job::ComputedSeveral;
-use frfit_workflow::load::SeveralCase;
+use frfit_workflow::job::Computed;
+use frfit_workflow::load::IdentifyCase;
 use frfit_workflow::output::{coordinate, not_told, varies};
 use numpy::IntoPyArray;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 
 /// Everything that `frfit.SeveralIdentification` is made of.
-pub(crate) fn several<'py>(py: Python<'py>, computed: &ComputedSeveral) -> PyResult<Bound<'py, PyDict>> {
+pub(crate) fn several<'py>(py: Python<'py>, computed: &Computed) -> PyResult<Bound<'py, PyDict>> {
     let (case, run) = (&computed.case, &computed.run);
     let (outcome, found) = (&run.found, PyDict::new(py));
-    let Some(wanted) = &case.several else { return Ok(found) };
+    let Some(wanted) = &case.identify else { return Ok(found) };
     let real = |name: &str, of: &dyn Fn(&Line) -> Option<f64>| {
         let column: Vec<f64> = outcome.lines.iter().map(|at| of(at).unwrap_or(f64::NAN)).collect();
         found.set_item(name, column.into_pyarray(py))
@@ -72,8 +72,8 @@ pub(crate) fn several<'py>(py: Python<'py>, computed: &ComputedSeveral) -> PyRes
 
 fn unknown<'py>(
     py: Python<'py>,
-    wanted: &SeveralCase,
-    computed: &ComputedSeveral,
+    wanted: &IdentifyCase,
+    computed: &Computed,
     j: usize,
 ) -> PyResult<Bound<'py, PyDict>> {
     let (one, outcome) = (&wanted.unknowns[j], &computed.run.found);

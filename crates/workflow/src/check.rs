@@ -63,15 +63,15 @@ pub fn check(case: &Case, identify: &IdentifyCase) -> Result<Diagnosis, ProblemE
     let quantities: Vec<Quantity> = case.sensors.iter().map(|sensor| sensor.quantity).collect();
     let for_each = |n: usize, each: &(dyn Fn(usize) + Sync)| (0..n).into_par_iter().for_each(each);
     let used = Used::of(identify);
-    let unknowns = [identify.factor()];
-    let problem = problem_of(case, identify, &unknowns, &used)?;
+    let problem = problem_of(case, identify, &used)?;
     let mut diagnosis = diagnose(&problem, &quantities, &identify.options, &for_each)?;
     // A real factor or a delay is no finding where it is looked for.
     diagnosis.findings.retain(|finding| {
         let real = matches!(finding.fault, Fault::Factor { .. } | Fault::Sign);
         let late = matches!(finding.fault, Fault::Delay { .. });
         let looked_for = |unknown: ChannelUnknowns| (real && unknown.scale) || (late && unknown.delay);
-        !finding.sensors.iter().all(|&m| looked_for(identify.unknown[m]))
+        let channel = |&m: &usize| identify.channels.get(m).copied().unwrap_or_default();
+        !finding.sensors.iter().map(channel).all(looked_for)
     });
     Ok(diagnosis)
 }

@@ -50,7 +50,7 @@ pub fn fit_table(
         None => read_modulus_data(&bytes),
     };
     let data = read.map_err(|error| InputError::in_file(table, error))?;
-    let of = match TableUnits::beside(table)? {
+    let of = match TableUnits::beside(table, None)? {
         // A table that names its unit was converted to Pa.
         Some(units) if !data.names_unit => units,
         _ => TableUnits { system: UnitSystem::Si, factor: FactorUnit::Modulus(UnitSystem::Si) },

@@ -1,23 +1,22 @@
 //! Whole jobs: from the path of a case to files in a folder. What the command line and other front ends share.
 
-use crate::case::VariesEntry;
 use crate::check::{check, findings_json};
 use crate::convert::{OR_TO, ending_of};
 use crate::error::{InputError, Place};
 use crate::figures::{identify_figures, measured_figures, respond_figures, several_figures};
-use crate::load::{Case, IdentifyCase, Overrides, Purpose, load};
-use crate::memory::{MemoryError, check_full, check_identify, check_subspace};
+use crate::load::{Case, IdentifyCase, Layout, Overrides, Purpose, load};
+use crate::memory::{MemoryError, check_full, check_identify};
 use crate::output::{
     File, Words, WriteError, candidates_csv, check_file, check_folder, error_map_csv, hit_reasons,
     identified_csv, is_stream, laws_json, measured_csv, measured_summary, measured_text, measured_uff,
     reference_csv, respond_csv, respond_uff, response_csv, several_csv, several_json, several_reference_csv,
-    several_response_csv, several_text, summary_json, updated_uff, write_one, write_result,
+    summary_json, updated_uff, write_one, write_result,
 };
 use crate::records::{ChannelOptions, Records, read_records};
 use crate::report::report_of;
-use crate::run::{IdentifyRun, Progress, RespondRun, RunOptions, identify, respond, several};
+use crate::run::{IdentifyRun, Progress, RespondRun, RunOptions, identify, respond};
 use frfit::diagnostics::Diagnosis;
-use frfit::identify::ProblemError;
+use frfit::identify::{Explained, ProblemError, Variation};
 use frfit::material::OutsideTable;
 use frfit::signal::{self, Measured, SignalError, estimate_frf};
 use frfit_figures::PngError;
@@ -137,22 +136,36 @@ pub fn identify_case(
     let Computed { case, diagnosis, run, seconds_load, seconds_check } =
         compute(case, options, seconds_load, progress)?;
     let wanted = case.identify.as_ref().expect("a case loaded to identify has something to identify");
-    let start = Instant::now();
-    let mut files = identify_figures(&case, wanted, &run)?;
-    let mut summary = summary_json(&case, wanted, &run, seconds_load, start.elapsed().as_secs_f64());
+    let (mut tables, mut files, mut summary) = match wanted.layout {
+        Layout::Single => {
+            let start = Instant::now();
+            let figures = identify_figures(&case, wanted, &run)?;
+            let summary = summary_json(&case, wanted, &run, seconds_load, start.elapsed().as_secs_f64());
+            let lines = &run.found.lines;
+            let tables = vec![
+                File::new("identified.csv", identified_csv(lines)),
+                File::new("candidates.csv", candidates_csv(lines)),
+                File::new("reference.csv", reference_csv(wanted, lines)),
+            ];
+            (tables, figures, summary)
+        }
+        Layout::Named => {
+            let tables = vec![
+                File::new("identified.csv", several_csv(wanted, &run)),
+                File::new("reference.csv", several_reference_csv(wanted, &run)),
+            ];
+            let summary = several_json(&case, wanted, &run, seconds_load);
+            (tables, several_figures(&case, wanted, &run)?, summary)
+        }
+    };
+    tables.push(File::new("response.csv", response_csv(&case, wanted, &run)));
     summary["findings"] = diagnosis.as_ref().map_or(serde_json::Value::Null, |d| findings_json(&case, d));
     summary["seconds"]["check"] = seconds_check.into();
-    let mut tables = vec![
-        File::new("identified.csv", identified_csv(&run.found.lines)),
-        File::new("candidates.csv", candidates_csv(&run.found.lines)),
-        File::new("reference.csv", reference_csv(wanted, &run.found.lines)),
-        File::new("response.csv", response_csv(&case, wanted, &run)),
-    ];
-    if !run.found.free.is_empty() {
+    if wanted.layout == Layout::Single && !run.found.free.is_empty() {
         tables.push(File::new("free.csv", identified_csv(&run.found.free)));
     }
-    if matches!(wanted.varies, VariesEntry::ByLaw(_)) {
-        let laws = laws_json(&run.found.laws, wanted.unit, case.units);
+    if wanted.layout == Layout::Single && matches!(wanted.unknowns[0].varies, Variation::Law(_)) {
+        let laws = laws_json(&run.found.laws, wanted.units[0], case.units);
         files.push(File::new("law.json", format!("{laws:#}\n")));
     }
     if let Some(map) = &run.error_map {
@@ -217,104 +230,17 @@ pub fn compute(
     };
     check_identify(&case, wanted, options.memory_bytes)?;
     let start = Instant::now();
-    let diagnosis = wanted.check.then(|| check(&case, wanted)).transpose()?;
-    let seconds_check = start.elapsed().as_secs_f64();
+    let mut diagnosis = wanted.check.then(|| check(&case, wanted)).transpose()?;
+    let mut seconds_check = start.elapsed().as_secs_f64();
     let run = identify(&case, wanted, options, progress)?;
+    let unexplained = run.found.fit.is_some_and(|fit| fit.verdict == Explained::No);
+    if wanted.layout == Layout::Named && unexplained {
+        // A model for each unknown is trained to look for faults: only where there is something to explain.
+        let start = Instant::now();
+        diagnosis = Some(check(&case, wanted)?);
+        seconds_check += start.elapsed().as_secs_f64();
+    }
     Ok(Computed { case, diagnosis, run, seconds_load, seconds_check })
-}
-
-/// Several unknowns that were identified and written.
-#[derive(Debug)]
-pub struct SeveralJob {
-    /// The case.
-    pub case: Case,
-    /// What came out.
-    pub run: IdentifyRun,
-    /// `summary.json`.
-    pub summary: serde_json::Value,
-    /// The same for a person.
-    pub text: Words,
-}
-
-/// Several unknowns that were identified, and not written.
-#[derive(Debug)]
-pub struct ComputedSeveral {
-    /// The case.
-    pub case: Case,
-    /// What came out.
-    pub run: IdentifyRun,
-    /// How long the files took to read.
-    pub seconds_load: f64,
-}
-
-/// [`several_case`] without its files: the numbers are the same.
-///
-/// # Errors
-/// As [`several_case`], but for what is written.
-pub fn compute_several_case(
-    case_file: &Path,
-    overrides: &Overrides,
-    memory_bytes: Option<u64>,
-    progress: Progress<'_>,
-) -> Result<ComputedSeveral, JobError> {
-    let (case, seconds_load) = load_several(case_file, overrides)?;
-    compute_several(case, memory_bytes, seconds_load, progress)
-}
-
-/// A case of several unknowns, and how long it took to read.
-fn load_several(case_file: &Path, overrides: &Overrides) -> Result<(Case, f64), JobError> {
-    let start = Instant::now();
-    let case = load(case_file, overrides, Purpose::Several)?;
-    Ok((case, start.elapsed().as_secs_f64()))
-}
-
-fn compute_several(
-    case: Case,
-    memory_bytes: Option<u64>,
-    seconds_load: f64,
-    progress: Progress<'_>,
-) -> Result<ComputedSeveral, JobError> {
-    let wanted = case.several.as_ref().expect("a case loaded for several unknowns has some");
-    check_subspace(&case, memory_bytes)?;
-    let run = several(&case, wanted, progress)?;
-    Ok(ComputedSeveral { case, run, seconds_load })
-}
-
-/// As [`identify_case`], of a case that asks for several unknowns, or for one that does not vary ([`crate::load::asks_for_several`]).
-///
-/// # Errors
-/// [`JobError`].
-pub fn several_case(
-    case_file: &Path,
-    overrides: &Overrides,
-    memory_bytes: Option<u64>,
-    out: &Path,
-    progress: Progress<'_>,
-) -> Result<SeveralJob, JobError> {
-    let (case, seconds_load) = load_several(case_file, overrides)?;
-    check_folder(out, &IDENTIFIED_FILES, &case.reads)?;
-    let ComputedSeveral { case, run, seconds_load } =
-        compute_several(case, memory_bytes, seconds_load, progress)?;
-    let wanted = case.several.as_ref().expect("a case loaded for several unknowns has some");
-    let mut summary = several_json(&case, wanted, &run, seconds_load);
-    let mut files = several_figures(&case, wanted, &run)?;
-    let tables = [
-        File::new("identified.csv", several_csv(wanted, &run)),
-        File::new("reference.csv", several_reference_csv(wanted, &run)),
-        File::new("response.csv", several_response_csv(&case, wanted, &run)),
-    ];
-    // Beside them a folder may have tables of other runs.
-    summary["tables"] = tables.iter().map(|table| table.path.display().to_string()).collect();
-    files.extend(tables);
-    let uff =
-        updated_uff(&case, &run).map_err(|error| InputError::in_file(&out.join("updated.uff"), error))?;
-    files.push(File::new("updated.uff", uff));
-    files.push(File::new("summary.json", format!("{summary:#}\n")));
-    let page = report_of(&files, out);
-    write_result(out, IDENTIFIED, files, page.as_ref().ok().cloned(), &case.reads)?;
-    page.map_err(JobError::Report)?;
-    let text = several_text(wanted, &run);
-    Ok(SeveralJob { case, run, summary, text })
 }
 
 /// Loads a case, computes its forward response, and writes table, UFF file and figure into `out`.

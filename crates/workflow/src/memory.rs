@@ -1,6 +1,6 @@
 //! Whether a model fits into memory, told before any of it is factorised.
 
-use crate::load::{Case, IdentifyCase};
+use crate::load::{Case, IdentifyCase, Layout};
 use frfit_linalg::c64;
 use frfit_linalg::solve::{Breakdown, FactorMemory};
 use std::fmt;
@@ -59,7 +59,8 @@ fn bytes(count: u64) -> String {
 pub fn check_identify(case: &Case, identify: &IdentifyCase, limit: Option<u64>) -> Result<(), MemoryError> {
     let dofs = case.model.dim();
     let options = &identify.options;
-    if options.reduction.is_subspace(options.method, dofs, identify.frequency_hz.len()) {
+    let reduced = options.reduction.is_subspace(options.method, dofs, identify.frequency_hz.len());
+    if reduced || identify.layout == Layout::Named {
         check_subspace(case, limit)
     } else {
         check_full(case, limit)

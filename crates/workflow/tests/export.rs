@@ -20,6 +20,7 @@ fn options(target: Target, units: UnitSystem) -> ExportOptions {
         id: 7,
         name: "CORE".into(),
         all: false,
+        unknown: None,
     }
 }
 

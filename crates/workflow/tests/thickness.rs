@@ -9,8 +9,9 @@ use frfit::response::{FullModel, Response};
 use frfit_fem::brick::{Face, Formulation, Layer};
 use frfit_fem::{Assembled, Brick, Direction};
 use frfit_linalg::sparse::SymmetricMatrix;
-use frfit_workflow::job::{respond_case, several_case};
+use frfit_workflow::job::{identify_case, respond_case};
 use frfit_workflow::load::Overrides;
+use frfit_workflow::run::RunOptions;
 use std::fmt::Write;
 use std::fs;
 use tempfile::TempDir;
@@ -155,16 +156,17 @@ fn three_matrices_give_a_solid_at_every_thickness() {
 fn the_thickness_of_a_solid_is_found() {
     let folder = folder(POWERS, &VALUES, &(unknown(0.019) + &format!("reference = {TRUTH}\n")));
     let (case, out) = (folder.path().join("case.toml"), folder.path().join("out"));
-    let job = several_case(&case, &Overrides::default(), None, &out, &|_, _| {}).unwrap();
+    let job = identify_case(&case, &Overrides::default(), RunOptions::default(), &out, &|_, _| {}).unwrap();
     let found = job.run.found.constants[0].numbers[0].value;
     // Exact data, and answers that are asked to 1e-6.
-    assert!((found / TRUTH - 1.0).abs() < 1e-6, "{found}\n{}", job.text.all);
+    assert!((found / TRUTH - 1.0).abs() < 1e-6, "{found}\n{:#}", job.summary);
 }
 
 fn refusal(powers: &str, values: &[f64]) -> String {
     let folder = folder(powers, values, &unknown(0.02));
     let (case, out) = (folder.path().join("case.toml"), folder.path().join("out"));
-    let error = several_case(&case, &Overrides::default(), None, &out, &|_, _| {}).unwrap_err();
+    let error =
+        identify_case(&case, &Overrides::default(), RunOptions::default(), &out, &|_, _| {}).unwrap_err();
     error.to_string().replace(&format!("{}/", folder.path().display()), "")
 }
 

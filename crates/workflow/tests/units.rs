@@ -12,7 +12,7 @@ use frfit_workflow::Reads;
 use frfit_workflow::check::{check_case, check_text};
 use frfit_workflow::export::{ExportOptions, Target, UnitSystem, export};
 use frfit_workflow::fit::fit_table;
-use frfit_workflow::job::{IdentifyJob, JobError, identify_case, respond_case, several_case};
+use frfit_workflow::job::{IdentifyJob, JobError, identify_case, respond_case};
 use frfit_workflow::load::Overrides;
 use frfit_workflow::run::RunOptions;
 use std::fmt::Write;
@@ -274,6 +274,7 @@ fn to_nastran() -> ExportOptions {
         id: 3,
         name: "BEAM".into(),
         all: false,
+        unknown: None,
     }
 }
 
@@ -370,7 +371,7 @@ fn several_unknowns_are_in_the_units_of_the_case() {
     let folder = folder("mm-t-s", made, &load_of(0), keys);
     let out = folder.path().join("out");
     let case = folder.path().join("case.toml");
-    let job = several_case(&case, &Overrides::default(), None, &out, &|_, _| {}).unwrap();
+    let job = identify_case(&case, &Overrides::default(), RunOptions::default(), &out, &|_, _| {}).unwrap();
     assert_eq!(job.summary["unknowns"][0]["unit"], "MPa");
     let storage = job.run.found.constants[0].numbers[0].value;
     assert!((storage / (TRUTH.re / 1e6) - 1.0).abs() < 1e-6, "{storage}");

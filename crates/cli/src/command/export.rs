@@ -18,6 +18,7 @@ pub(crate) fn run(args: &Args, wanted: &Export) -> Result<Outcome, Failure> {
         id: wanted.id,
         name: wanted.name.clone(),
         all: wanted.all,
+        unknown: wanted.unknown.clone(),
     };
     one_on_standard_output(args, &wanted.out)?;
     let mut reads = Reads::default();

@@ -6,8 +6,8 @@ use crate::outcome::{Failure, Outcome};
 use crate::progress::Progress;
 use crate::report;
 use frfit::identify::Status;
-use frfit_workflow::job::{IdentifyJob, identify_case, several_case};
-use frfit_workflow::load::{Overrides, asks_for_several};
+use frfit_workflow::job::{IdentifyJob, identify_case};
+use frfit_workflow::load::Overrides;
 use frfit_workflow::run::RunOptions;
 use std::path::Path;
 
@@ -19,31 +19,12 @@ pub(crate) fn run(args: &Args, identify: &Identify) -> Result<Outcome, Failure> 
         selection: identify.selection.clone(),
         reduction: identify.reduction.clone(),
     };
-    if asks_for_several(&identify.case)? {
-        return several(args, identify, &overrides);
-    }
     let options = RunOptions { error_map: identify.error_map, memory_bytes: identify.memory.map(megabytes) };
     let job = carry_out(args, &identify.case, &overrides, options, &identify.out)?;
-    // What the user left out needs no answer.
-    let trusted = job.run.count(Status::Ok) + job.run.count(Status::OutOfBand) == job.run.found.lines.len();
-    Ok(if identify.strict && !trusted { Outcome::NotTrusted } else { Outcome::Done })
-}
-
-/// Several unknowns, or one that does not vary.
-fn several(args: &Args, identify: &Identify, overrides: &Overrides) -> Result<Outcome, Failure> {
-    let progress = Progress::new(args.quiet || args.json);
-    let memory = identify.memory.map(megabytes);
-    let show = |done, total| progress.show(done, total);
-    let job = several_case(&identify.case, overrides, memory, &identify.out, &show);
-    progress.end();
-    let job = job?;
-    if args.json {
-        say_json(&job.summary)?;
-    } else {
-        say_words(args, &report::several(&job, &identify.out))?;
-    }
-    let outcome = &job.run.found;
-    let trusted = outcome.is_trusted() && job.run.count(Status::Ok) == outcome.lines.len();
+    let found = &job.run.found;
+    // What the user left out needs no value.
+    let trusted = found.count(Status::Ok) + found.count(Status::OutOfBand) == found.lines.len();
+    let trusted = trusted && found.is_trusted();
     Ok(if identify.strict && !trusted { Outcome::NotTrusted } else { Outcome::Done })
 }
 

@@ -96,7 +96,8 @@ const FINDINGS: usize = 2;
 /// [`ProblemError`]: where there is not one quantity for each sensor, or an option does not belong to the problem.
 ///
 /// # Limits
-/// Several unknowns that are all far from their nominal values hide a fault.
+/// Several unknowns that are all far from their nominal values hide a fault. A factor that has no name (a unit, gravity) is not a
+/// finding beside several unknowns: these may be off by as much.
 pub fn diagnose(
     problem: &Problem<'_>,
     quantities: &[Quantity],
@@ -116,11 +117,15 @@ pub fn diagnose(
         let mut band = problem.band(&parameter);
         band.model = about.as_ref().unwrap_or(band.model);
         let options = Options { bounds: unknown.bounds, real: unknown.real, ..*options };
-        let found = match sensors > many::MOST_SENSORS {
+        let mut found = match sensors > many::MOST_SENSORS {
             true => many::diagnose(&band, quantities, &options, for_each)?,
             false => look(&band, quantities, &options, for_each, &|_| ())?.0,
         };
         work += found.work;
+        if problem.unknowns().len() > 1 {
+            // What the other unknowns may be off by looks like a factor without a name.
+            found.findings.retain(|finding| !matches!(finding.fault, Fault::Factor { known: None, .. }));
+        }
         let misfit = |found: &Diagnosis| found.misfit.unwrap_or(f64::INFINITY);
         if best.as_ref().is_none_or(|best| misfit(&found) < misfit(best)) {
             best = Some(found);

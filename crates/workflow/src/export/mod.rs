@@ -7,6 +7,7 @@ mod nastran;
 mod options;
 mod plain;
 mod solid;
+mod unknown;
 
 pub use crate::units::UnitSystem;
 pub use modulus::{Modulus, modulus};

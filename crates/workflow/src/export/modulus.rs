@@ -1,6 +1,7 @@
 //! The modulus that is written: of a table, or of a law at the frequencies of a table.
 
 use super::options::ExportOptions;
+use super::unknown::of_unknown;
 use crate::case::law_of_snippet;
 use crate::error::{InputError, Place};
 use crate::load::load_bytes;
@@ -72,9 +73,10 @@ pub fn modulus(
     options: &ExportOptions,
     reads: &mut Reads,
 ) -> Result<Modulus, InputError> {
-    let bytes = load_bytes(table, reads)?;
+    let unknown = options.unknown.as_deref();
+    let bytes = of_unknown(load_bytes(table, reads)?, unknown, table)?;
     let rows = read_modulus_rows(&bytes).map_err(|error| InputError::in_file(table, error))?;
-    let beside = TableUnits::beside(table)?;
+    let beside = TableUnits::beside(table, unknown)?;
     // A table that names its unit was converted to Pa. One without unit and summary is taken as in Pa.
     let own = beside.map(|units| units.factor).filter(|_| !rows.names_unit);
     let (mut modulus, of) = match law {

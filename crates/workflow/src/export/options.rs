@@ -84,4 +84,6 @@ pub struct ExportOptions {
     pub name: String,
     /// Every row with a modulus, not only those that are `ok`.
     pub all: bool,
+    /// Which of several unknowns; `None` where the table has one.
+    pub unknown: Option<String>,
 }

@@ -36,7 +36,7 @@ pub(super) fn figure(case: &Case, identify: &IdentifyCase, run: &IdentifyRun) ->
         panels: vec![
             Panel {
                 strip: Some(status_strip(run)),
-                ..panel(Axis::log(identify.unit.storage_label()), |factor| factor.re)
+                ..panel(Axis::log(identify.units[0].storage_label()), |factor| factor.re)
             },
             panel(Axis::linear("Loss factor η"), loss_factor),
         ],

@@ -151,7 +151,7 @@ fn curve_of_band(
             series("nominal", nominal, Color::Blue, Some(Dash::Dashed), None),
             series("each frequency by itself", own, Color::Grey, None, Some(Marker::Circle)),
         ];
-        if let Some(reference) = &identify.reference {
+        if let Some(reference) = &identify.reference[0] {
             let reference = x.iter().map(|&f| of(reference.at(f).ok())).collect();
             all.push(series("true", reference, Color::Black, Some(Dash::Solid), None));
         }
@@ -160,14 +160,14 @@ fn curve_of_band(
         all.push(series("", curve(-2.0), Color::Vermilion, Some(Dash::Dotted), None));
         Panel { y: Axis::linear(label), series: all, ..Panel::default() }
     };
-    let real = identify.options.real;
-    let first = if real { "Real part of the factor".to_owned() } else { identify.unit.storage_label() };
+    let real = identify.unknowns[0].real;
+    let first = if real { "Real part of the factor".to_owned() } else { identify.units[0].storage_label() };
     let mut panels = vec![Panel { strip: Some(status_strip(run)), ..panel(&first, 0) }];
     if !real {
         panels.push(panel("Loss factor η", 1));
     }
     Figure {
-        title: title(case, &format!("{} of the factor of {}", drawn.what, identify.names.join(", "))),
+        title: title(case, &format!("{} of the factor of {}", drawn.what, identify.unknowns[0].name)),
         x: Axis::linear("Frequency (Hz)"),
         panels,
         size: if real { (720.0, 460.0) } else { (720.0, 620.0) },

@@ -12,15 +12,15 @@ use frfit_figures::{Axis, Color, Dash, Figure, Marker, Panel, Series};
 pub(super) const DEVIATIONS: f64 = 2.0;
 
 pub(super) fn figure(case: &Case, identify: &IdentifyCase, run: &IdentifyRun) -> Figure {
-    let names = identify.names.join(", ");
-    let real = identify.options.real;
+    let names = identify.unknowns[0].name.clone();
+    let real = identify.unknowns[0].real;
     let mut panels = vec![Panel {
         strip: Some(status_strip(run)),
         ..panel(identify, run, "Real part of the factor", |e| e.re, |bars| Some(bars.storage_std))
     }];
     if !real {
         panels[0].y.label =
-            panels[0].y.label.replace("Real part of the factor", &identify.unit.storage_label());
+            panels[0].y.label.replace("Real part of the factor", &identify.units[0].storage_label());
         panels.push(panel(identify, run, "Loss factor η", loss_factor, |bars| bars.loss_factor_std));
     }
     Figure {
@@ -72,7 +72,7 @@ fn panel(
         }
     }
     // Above the others: a line shows among many markers, and would not below them.
-    if let Some(reference) = &identify.reference {
+    if let Some(reference) = &identify.reference[0] {
         series.push(Series {
             label: "true".into(),
             y: of(x.iter().map(|&f| reference.at(f).ok()).collect()),

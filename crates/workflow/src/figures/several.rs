@@ -3,7 +3,7 @@
 use super::accelerance::compared;
 use super::modulus::DEVIATIONS;
 use super::{curve, draw, strip_of, title};
-use crate::load::{Case, SeveralCase};
+use crate::load::{Case, IdentifyCase};
 use crate::output::{File, coordinate, file_name};
 use crate::run::IdentifyRun;
 use frfit::c64;
@@ -15,7 +15,7 @@ use frfit_figures::{Axis, Color, Dash, Figure, HeatMap, Marker, Panel, PngError,
 ///
 /// # Errors
 /// [`PngError`] where a figure cannot be rasterised.
-pub fn several_figures(case: &Case, wanted: &SeveralCase, run: &IdentifyRun) -> Result<Vec<File>, PngError> {
+pub fn several_figures(case: &Case, wanted: &IdentifyCase, run: &IdentifyRun) -> Result<Vec<File>, PngError> {
     let mut figures = Vec::new();
     for m in 0..case.sensors.len() {
         let name =
@@ -66,7 +66,7 @@ const AROUND: (f64, f64) = (330.0, 130.0);
 const CELL: f64 = 56.0;
 
 /// Correlation of the numbers that hold for the band, in the order of the summary's `coordinates`, the first on top.
-fn correlation(case: &Case, wanted: &SeveralCase, run: &IdentifyRun) -> Figure {
+fn correlation(case: &Case, wanted: &IdentifyCase, run: &IdentifyRun) -> Figure {
     let outcome = &run.found;
     let count = outcome.identifiability.correlation.len();
     let numbers: Vec<f64> = (1..=count).map(|k| k as f64).collect();
@@ -90,7 +90,7 @@ fn correlation(case: &Case, wanted: &SeveralCase, run: &IdentifyRun) -> Figure {
     }
 }
 
-fn accelerance(case: &Case, wanted: &SeveralCase, run: &IdentifyRun, sensor: usize) -> Figure {
+fn accelerance(case: &Case, wanted: &IdentifyCase, run: &IdentifyRun, sensor: usize) -> Figure {
     let at = &run.found.lines;
     let nominal = at.iter().map(|at| at.nominal_response.get(sensor).copied()).collect();
     let updated = at.iter().map(|at| at.updated_response.get(sensor).copied()).collect();
@@ -99,7 +99,7 @@ fn accelerance(case: &Case, wanted: &SeveralCase, run: &IdentifyRun, sensor: usi
     compared(case, sensor, &wanted.frequency_hz, [nominal, measured, updated], strip)
 }
 
-fn over_frequency(case: &Case, wanted: &SeveralCase, run: &IdentifyRun, j: usize) -> Figure {
+fn over_frequency(case: &Case, wanted: &IdentifyCase, run: &IdentifyRun, j: usize) -> Figure {
     let one = &wanted.unknowns[j];
     let at = &run.found.lines;
     let panel = |label: &str, part: fn(c64) -> f64, std: fn(Uncertainty) -> Option<f64>| {

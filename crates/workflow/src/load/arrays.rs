@@ -2,7 +2,7 @@
 
 use super::band::band;
 use super::files::NamedFile;
-use super::identify::{can_be_found, fit_for_band, middle_of, shared};
+use super::identify::{Layout, can_be_found, factor_of, fit_for_band, middle_of, shared};
 use super::lines::unused;
 use super::measurement::{Curve, Measurement};
 use super::{Case, Frf, IdentifyCase, SensorInfo};
@@ -170,19 +170,18 @@ pub fn case_of_arrays(
     let role = parameter.members.first().map_or(Role::Stiffness, |member| model.terms()[member.term].role);
     let unit = FactorUnit::of(role, None, &parameter.nominal, &data.frequency_hz, UnitSystem::Si);
     let identify = IdentifyCase {
-        names: wanted.matrices.clone(),
-        unit,
-        parameter,
+        unknowns: vec![factor_of(&parameter, &model, &options, &varies)],
+        units: vec![unit],
+        reference: vec![None],
+        layout: Layout::Single,
         options,
-        varies,
         band_hz: wanted.band_hz.unwrap_or(first_and_last.map(|f| f.unwrap_or(0.0))),
         frequency_hz: data.frequency_hz,
         measured: data.measured,
         left_out,
-        unknown,
+        channels: unknown,
         noise: data.noise,
         check: wanted.check,
-        reference: None,
     };
     let respond_hz = identify.frequency_hz.clone();
     let sensors = measurements.into_iter().map(|measurement| measurement.info).collect();
@@ -232,7 +231,6 @@ fn case(
         inputs,
         reads: Default::default(),
         identify,
-        several: None,
         sensitivities: None,
         respond_hz,
     }

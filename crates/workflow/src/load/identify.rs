@@ -23,16 +23,16 @@ use frfit::roots::Bounds;
 /// An identification, everything checked.
 #[derive(Debug)]
 pub struct IdentifyCase {
-    /// Names of the matrices that share the unknown factor.
-    pub names: Vec<String>,
-    /// The unknown factor.
-    pub parameter: Parameter,
-    /// What it is a number of.
-    pub unit: FactorUnit,
-    /// How to find it.
+    /// What is unknown; at least one.
+    pub unknowns: Vec<Unknown>,
+    /// What each is a number of.
+    pub units: Vec<FactorUnit>,
+    /// What a simulated measurement was made with, for each.
+    pub reference: Vec<Option<Law>>,
+    /// How results are laid out.
+    pub layout: Layout,
+    /// How to find them.
     pub options: Options,
-    /// How it varies over the band.
-    pub varies: Varies,
     /// First and last frequency of the band as it was asked for.
     pub band_hz: [f64; 2],
     /// The measured frequencies in it, ascending; at least one.
@@ -42,30 +42,31 @@ pub struct IdentifyCase {
     /// Which of the frequencies are left out: their rows have the status `out_of_band`.
     pub left_out: Vec<bool>,
     /// What of each sensor's channel is to be found: its receptances are those of scale one and no delay.
-    pub unknown: Vec<ChannelUnknowns>,
+    pub channels: Vec<ChannelUnknowns>,
     /// How well the receptances were measured.
     pub noise: MeasuredNoise,
     /// Whether to look for what is wrong with the data first.
     pub check: bool,
-    /// The factor that a simulated measurement was made with.
-    pub reference: Option<Law>,
+}
+
+/// How the results of an identification are laid out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Layout {
+    /// The columns of the only unknown that varies: `[identify]`.
+    Single,
+    /// Columns with the name of each unknown: `[[identify]]`, a constant or a dimension.
+    Named,
 }
 
 impl IdentifyCase {
-    /// The factor as the library's unknown.
-    pub fn factor(&self) -> Unknown {
-        Unknown {
-            name: self.names.join(", "),
-            dependence: Dependence::Factor(self.parameter.members.iter().map(|member| member.term).collect()),
-            nominal: self.parameter.nominal.clone(),
-            varies: match &self.varies {
-                Varies::Freely => Variation::PerFrequency,
-                Varies::Smoothly => Variation::Smooth,
-                Varies::ByLaw(kinds) => Variation::Law(kinds.clone()),
-            },
-            real: self.options.real,
-            bounds: self.options.bounds,
-        }
+    /// Names of the matrices that the first unknown enters.
+    pub fn matrices<'m>(&self, model: &'m DynamicStiffness) -> Vec<&'m str> {
+        self.unknowns[0].dependence.terms().map(|term| model.terms()[term].name.as_str()).collect()
+    }
+
+    /// Lines that are used.
+    pub fn used(&self) -> usize {
+        self.left_out.iter().filter(|&&out| !out).count()
     }
 }
 
@@ -89,16 +90,9 @@ pub(super) fn identify(
     files: &mut Files,
 ) -> Result<IdentifyCase, InputError> {
     let Some(entry) = &case.identify else {
-        return Err(match &case.several {
-            Some(several) => InputError::at(
-                &several.place,
-                "one unknown that varies, as [identify] (several, or a constant, are for frfit identify alone)",
-                "[[identify]], a constant or a dimension",
-            ),
-            None => InputError::at(&Place::file(&case.file), "a table [identify]", "none"),
-        });
+        return Err(InputError::at(&Place::file(&case.file), "a table [identify]", "none"));
     };
-    let names = known_names(case, &entry.matrices)?;
+    known_names(case, &entry.matrices)?;
     let mut options = options(entry, overrides)?;
     let varies = entry.varies.as_ref().map(|varies| varies.value.clone()).unwrap_or_default();
     if let Some(Located { place, .. }) = &entry.varies {
@@ -110,26 +104,48 @@ pub(super) fn identify(
     }
     let (band_hz, place) = band_of(entry.band_hz.as_ref(), &entry.place, overrides)?;
     let reference = entry.reference.as_ref().map(|reference| law(reference, files)).transpose()?;
-    let unknown = unknown(case, &varies, &options)?;
+    let channels = unknown(case, &varies, &options)?;
     let data = band(measurements, band_hz, &place)?;
     let most = entry.max_lines.as_ref();
     let left_out = unused(&data, &entry.exclude, most, &entry.place.below("exclude_hz"))?;
     let unit = factor_unit(case, &entry.matrices, &parameter.nominal, &data.frequency_hz);
     Ok(IdentifyCase {
-        names,
-        unit,
-        parameter,
+        unknowns: vec![factor_of(&parameter, model, &options, &varies)],
+        units: vec![unit],
+        reference: vec![reference],
+        layout: Layout::Single,
         options,
-        varies,
         band_hz,
         frequency_hz: data.frequency_hz,
         measured: data.measured,
         left_out,
-        unknown,
+        channels,
         noise: data.noise,
         check: entry.check,
-        reference,
     })
+}
+
+/// The common factor of a parameter's matrices as an unknown.
+pub(super) fn factor_of(
+    parameter: &Parameter,
+    model: &DynamicStiffness,
+    options: &Options,
+    varies: &Varies,
+) -> Unknown {
+    let terms: Vec<usize> = parameter.members.iter().map(|member| member.term).collect();
+    let names: Vec<&str> = terms.iter().map(|&term| model.terms()[term].name.as_str()).collect();
+    Unknown {
+        name: names.join(", "),
+        dependence: Dependence::Factor(terms),
+        nominal: parameter.nominal.clone(),
+        varies: match varies {
+            Varies::Freely => Variation::PerFrequency,
+            Varies::Smoothly => Variation::Smooth,
+            Varies::ByLaw(kinds) => Variation::Law(kinds.clone()),
+        },
+        real: options.real,
+        bounds: options.bounds,
+    }
 }
 
 /// What the factor of some matrices is a number of.

@@ -22,13 +22,12 @@ mod uff;
 pub use arrays::{ArraysError, MeasuredFrf, Wanted, case_of_arrays, response_of_arrays};
 pub use files::InputFile;
 pub use frf::{Choice, Frf, read_frf};
-pub use identify::{IdentifyCase, MeasuredNoise};
+pub use identify::{IdentifyCase, Layout, MeasuredNoise};
 pub(crate) use labels::{Member, load_one, matrices_of, one_order};
 pub(crate) use matrix::{asymmetry, complex};
 pub use matrix::{check_symmetric, symmetric_matrix};
 pub use measurement::SensorInfo;
 pub use sensitivities::SensitivitiesCase;
-pub use several::SeveralCase;
 pub(crate) use uff::STD_LABEL;
 
 use crate::case::{self, CaseFile, LoadEntry, Spot, checked_band};
@@ -68,8 +67,6 @@ pub struct Case {
     pub reads: Reads,
     /// What to identify; `None` where the purpose is another.
     pub identify: Option<IdentifyCase>,
-    /// What to identify where it is several unknowns, or one that does not vary; `None` where the purpose is another.
-    pub several: Option<SeveralCase>,
     /// What sensitivities need; `None` where the purpose is another.
     pub sensitivities: Option<SensitivitiesCase>,
     /// The frequencies of a response or of sensitivities: those of `[respond]`, or else those that were measured.
@@ -103,8 +100,6 @@ pub struct Overrides {
 pub enum Purpose {
     /// `[identify]` and the files of all measurements are needed.
     Identify,
-    /// As to identify, of `[[identify]]`: several unknowns, or one that does not vary.
-    Several,
     /// Neither is: a measurement's file is opened only for what the case leaves open (where it was measured, what was
     /// measured, and without `[respond]` the frequencies of the first).
     Respond,
@@ -121,7 +116,7 @@ pub fn load(case_file: &Path, overrides: &Overrides, purpose: Purpose) -> Result
     let case = case::parse(case_file, &bytes)?;
     let Terms { terms, of, labels } = model::terms(&case, &mut files)?;
     let mut terms = match purpose {
-        Purpose::Several => terms,
+        Purpose::Identify if case.several.is_some() => terms,
         _ => dimension::at_nominal(&case, terms, &of)?,
     };
     let dim = terms.first().map_or(0, |term| term.matrix.dim());
@@ -130,19 +125,15 @@ pub fn load(case_file: &Path, overrides: &Overrides, purpose: Purpose) -> Result
     let model = model::model(&case, terms)?;
     let load = force::load(&case.load, model.dim(), &dofs, &mut files)?;
     let measurements = measurements(&case, purpose, &dofs, &mut files)?;
-    let mut several = None;
     let mut sensitivities = None;
     let (identify, respond_hz) = match purpose {
         Purpose::Identify => {
-            let identify = identify::identify(&case, overrides, &model, &measurements, &mut files)?;
+            let identify = match &case.several {
+                Some(_) => several::several(&case, overrides, (&model, &of), &measurements, &mut files)?,
+                None => identify::identify(&case, overrides, &model, &measurements, &mut files)?,
+            };
             let frequency_hz = identify.frequency_hz.clone();
             (Some(identify), frequency_hz)
-        }
-        Purpose::Several => {
-            let wanted = several::several(&case, overrides, (&model, &of), &measurements, &mut files)?;
-            let frequency_hz = wanted.frequency_hz.clone();
-            several = Some(wanted);
-            (None, frequency_hz)
         }
         Purpose::Respond => (None, respond_hz(&case, overrides, &measurements)?),
         Purpose::Sensitivities => {
@@ -160,9 +151,8 @@ pub fn load(case_file: &Path, overrides: &Overrides, purpose: Purpose) -> Result
     }
     factor::sizes(&case, &model, &of, &respond_hz)?;
     let reference = case.identify.as_ref().and_then(|entry| entry.reference.as_ref());
-    if let (Some(law), Some(entry)) =
-        (identify.as_ref().and_then(|identify| identify.reference.as_ref()), reference)
-    {
+    let law = identify.as_ref().and_then(|identify| identify.reference[0].as_ref());
+    if let (Some(law), Some(entry)) = (law, reference) {
         factor::covers(law, &entry.place, &respond_hz)?;
     }
     let sensors = measurements.iter().map(|measurement| measurement.sensor).collect();
@@ -176,19 +166,9 @@ pub fn load(case_file: &Path, overrides: &Overrides, purpose: Purpose) -> Result
         reads: files.reads,
         model: Arc::new(model),
         identify,
-        several,
         sensitivities,
         respond_hz,
     })
-}
-
-/// Whether a case asks for several unknowns, or for one that does not vary: [`Purpose::Several`].
-///
-/// # Errors
-/// A file that cannot be read, or is no case.
-pub fn asks_for_several(case_file: &Path) -> Result<bool, InputError> {
-    let (_, bytes) = Files::of_case(case_file)?;
-    Ok(case::parse(case_file, &bytes)?.several.is_some())
 }
 
 /// Reads the matrix of this name from a file, or without a name its only one. For a term of a model it still has to pass
@@ -231,7 +211,7 @@ fn measurements(
         _ => None,
     };
     let asks_for_values = |k: usize| match purpose {
-        Purpose::Identify | Purpose::Several => true,
+        Purpose::Identify => true,
         Purpose::Respond => k == 0 && case.respond.is_none(),
         Purpose::Sensitivities => case.respond.is_none() && case.measurements[k].file.is_some(),
     };

@@ -5,44 +5,26 @@ use super::band::band;
 use super::dimension::{PartOf, each_has_a_value, powers_of};
 use super::factor::{covers, law};
 use super::files::Files;
-use super::identify::{MeasuredNoise, band_of, factor_unit, known_names, shared_factor};
+use super::identify::{IdentifyCase, Layout, band_of, factor_unit, known_names, shared_factor};
 use super::lines::unused;
 use super::measurement::Measurement;
 use crate::case::{CaseFile, Located, SeveralEntry, SoughtEntry, SoughtVaries};
 use crate::error::{InputError, Place};
 use crate::units::FactorUnit;
 use frfit::c64;
-use frfit::identify::{Dependence, Unknown, Variation};
+use frfit::identify::{Dependence, Options, Unknown, Variation};
 use frfit::material::Law;
 use frfit::model::{DynamicStiffness, Term};
 use frfit::roots::Bounds;
 
-/// An identification of several unknowns, everything checked.
-#[derive(Debug)]
-pub struct SeveralCase {
-    /// What is unknown.
-    pub unknowns: Vec<Unknown>,
-    /// What each is a number of.
-    pub units: Vec<FactorUnit>,
-    /// What a simulated measurement was made with, for each.
-    pub reference: Vec<Option<Law>>,
-    /// First and last frequency of the band as it was asked for.
-    pub band_hz: [f64; 2],
-    /// The measured frequencies in it that are not left out, ascending; at least one.
-    pub frequency_hz: Vec<f64>,
-    /// Measured receptance in m/N, `[frequency][sensor]`.
-    pub measured: Vec<Vec<c64>>,
-    /// How well the receptances were measured.
-    pub noise: MeasuredNoise,
-}
-
+/// Puts the identification of several unknowns together, or of one that does not vary.
 pub(super) fn several(
     case: &CaseFile,
     overrides: &Overrides,
     (model, of): (&DynamicStiffness, &[PartOf]),
     measurements: &[Measurement],
     files: &mut Files,
-) -> Result<SeveralCase, InputError> {
+) -> Result<IdentifyCase, InputError> {
     let Some(entry) = &case.several else {
         return Err(InputError::at(&Place::file(&case.file), "a table [[identify]]", "none"));
     };
@@ -71,27 +53,33 @@ pub(super) fn several(
     let data = band(measurements, band_hz, &place)?;
     let most = entry.max_lines.as_ref();
     let out = unused(&data, &entry.exclude, most, &entry.place.below("exclude_hz"))?;
-    let kept: Vec<usize> = (0..out.len()).filter(|&i| !out[i]).collect();
-    let pick = |rows: Vec<Vec<f64>>| kept.iter().map(|&i| rows[i].clone()).collect::<Vec<_>>();
-    let noise = match data.noise {
-        MeasuredNoise::Unknown => MeasuredNoise::Unknown,
-        MeasuredNoise::Relative(std) => MeasuredNoise::Relative(pick(std)),
-        MeasuredNoise::Known(std) => MeasuredNoise::Known(pick(std)),
-    };
-    let frequency_hz: Vec<f64> = kept.iter().map(|&i| data.frequency_hz[i]).collect();
+    let frequency_hz = data.frequency_hz;
     for (one, reference) in entry.unknowns.iter().zip(&reference) {
         if let (Some(written), Some(law)) = (&one.reference, reference) {
             covers(law, &written.place, &frequency_hz)?;
         }
     }
-    let measured: Vec<Vec<c64>> = kept.iter().map(|&i| data.measured[i].clone()).collect();
-    enough(entry, &unknowns, frequency_hz.len(), measurements.len())?;
+    let used = out.iter().filter(|&&out| !out).count();
+    enough(entry, &unknowns, used, measurements.len())?;
     let unit = |(one, unknowns): (&SoughtEntry, &Unknown)| match one.matrices.as_slice() {
         [] => FactorUnit::Other,
         named => factor_unit(case, named, &unknowns.nominal, &frequency_hz),
     };
     let units = entry.unknowns.iter().zip(&unknowns).map(unit).collect();
-    Ok(SeveralCase { unknowns, units, reference, band_hz, frequency_hz, measured, noise })
+    Ok(IdentifyCase {
+        unknowns,
+        units,
+        reference,
+        layout: Layout::Named,
+        options: Options::default(),
+        band_hz,
+        frequency_hz,
+        measured: data.measured,
+        left_out: out,
+        channels: Vec::new(),
+        noise: data.noise,
+        check: false,
+    })
 }
 
 fn unknowns(

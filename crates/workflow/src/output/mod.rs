@@ -25,7 +25,7 @@ pub use laws::{Misfit, law_json, laws_json, laws_text, smooth_json, snippet};
 pub(crate) use manifest::{read_result, sha256};
 pub use measured::{hit_reasons, measured_csv, measured_summary, measured_text, measured_uff};
 pub use reference::reference_csv;
-pub use response::{respond_csv, response_csv, several_response_csv};
+pub use response::{respond_csv, response_csv};
 pub(crate) use several::file_name;
 pub use several::{
     coordinate, not_told, several_csv, several_json, several_reference_csv, several_text, varies,

@@ -9,7 +9,7 @@ const COLUMNS: [&str; 5] = ["frequency_hz", "nominal_re", "nominal_im", "true_re
 /// One row a frequency: the nominal factor, and the true one where the case tells it.
 pub fn reference_csv(identify: &IdentifyCase, outcomes: &[Line]) -> String {
     let rows = outcomes.iter().map(|outcome| {
-        let reference = identify.reference.as_ref().and_then(|law| law.at(outcome.frequency_hz).ok());
+        let reference = identify.reference[0].as_ref().and_then(|law| law.at(outcome.frequency_hz).ok());
         [
             Cell::Number(outcome.frequency_hz),
             Cell::Number(outcome.nominal().re),

@@ -1,6 +1,6 @@
 //! `response.csv`: nominal, measured and updated response, per sensor, in the quantity that was measured, and how well it was measured.
 
-use crate::load::{Case, IdentifyCase, MeasuredNoise, SensorInfo, SeveralCase};
+use crate::load::{Case, IdentifyCase, MeasuredNoise, SensorInfo};
 use crate::run::{IdentifyRun, RespondRun};
 use frfit::c64;
 use frfit_formats::csv::{Cell, write};
@@ -14,15 +14,6 @@ pub fn response_csv(case: &Case, identify: &IdentifyCase, run: &IdentifyRun) -> 
         let std = run.measured(frequency_hz, &known_std(&identify.noise, i, measured.len()));
         let measured = run.measured(frequency_hz, measured);
         (frequency_hz, [outcome.nominal_response.clone(), measured, outcome.updated_response.clone()], std)
-    });
-    responses_csv(case, rows)
-}
-
-/// The same of several unknowns.
-pub fn several_response_csv(case: &Case, wanted: &SeveralCase, run: &IdentifyRun) -> String {
-    let rows = run.found.lines.iter().zip(&wanted.measured).enumerate().map(|(i, (at, measured))| {
-        let std = known_std(&wanted.noise, i, measured.len());
-        (at.frequency_hz, [at.nominal_response.clone(), measured.clone(), at.updated_response.clone()], std)
     });
     responses_csv(case, rows)
 }

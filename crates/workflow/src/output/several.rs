@@ -2,7 +2,7 @@
 
 use super::summary::{fit_json, inputs_json, model_json};
 use super::words::Words;
-use crate::load::{Case, MeasuredNoise, SeveralCase};
+use crate::load::{Case, IdentifyCase, MeasuredNoise};
 use crate::run::IdentifyRun;
 use frfit::c64;
 use frfit::identify::{
@@ -22,7 +22,7 @@ const UNTOLD: f64 = 0.3;
 const SMALL: f64 = 0.05;
 
 /// `identified.csv`: one row a frequency, all unknowns side by side.
-pub fn several_csv(wanted: &SeveralCase, run: &IdentifyRun) -> String {
+pub fn several_csv(wanted: &IdentifyCase, run: &IdentifyRun) -> String {
     let mut columns: Vec<String> =
         ["frequency_hz", "status", "error", "chi2", "reduction_error"].map(Into::into).into();
     for one in &wanted.unknowns {
@@ -53,7 +53,7 @@ pub fn several_csv(wanted: &SeveralCase, run: &IdentifyRun) -> String {
 }
 
 /// `reference.csv`: the nominal value of each unknown by frequency, and the true one where the case tells it.
-pub fn several_reference_csv(wanted: &SeveralCase, run: &IdentifyRun) -> String {
+pub fn several_reference_csv(wanted: &IdentifyCase, run: &IdentifyRun) -> String {
     let parts = ["nominal_re", "nominal_im", "true_re", "true_im"];
     let mut columns = vec!["frequency_hz".to_owned()];
     columns.extend(wanted.unknowns.iter().flat_map(|one| parts.map(|part| format!("{}.{part}", one.name))));
@@ -90,7 +90,7 @@ fn cells<'a>(one: &Unknown, value: &LineValue) -> Vec<Cell<'a>> {
 }
 
 /// `summary.json` of several unknowns.
-pub fn several_json(case: &Case, wanted: &SeveralCase, run: &IdentifyRun, seconds_load: f64) -> Value {
+pub fn several_json(case: &Case, wanted: &IdentifyCase, run: &IdentifyRun, seconds_load: f64) -> Value {
     let outcome = &run.found;
     let mut statuses = Map::new();
     for status in Status::ALL.into_iter().filter(|&status| run.count(status) > 0) {
@@ -160,7 +160,7 @@ fn finite(value: Option<f64>) -> Option<f64> {
     value.filter(|value| value.is_finite())
 }
 
-fn noise_source(wanted: &SeveralCase, outcome: &Identification) -> &'static str {
+fn noise_source(wanted: &IdentifyCase, outcome: &Identification) -> &'static str {
     match wanted.noise {
         MeasuredNoise::Known(_) => "given",
         _ => outcome.noise.source.name(),
@@ -190,7 +190,7 @@ fn matrices(case: &Case, one: &Unknown) -> Value {
 }
 
 /// How far an unknown is from what a simulated measurement was made with; one that holds for the band by its value at the middle, in its deviations.
-fn reference_json(wanted: &SeveralCase, run: &IdentifyRun, j: usize) -> Value {
+fn reference_json(wanted: &IdentifyCase, run: &IdentifyRun, j: usize) -> Value {
     let Some(reference) = &wanted.reference[j] else { return Value::Null };
     if wanted.unknowns[j].varies != Variation::PerFrequency {
         let at = &run.found.lines[run.found.lines.len() / 2];
@@ -228,14 +228,14 @@ fn reference_json(wanted: &SeveralCase, run: &IdentifyRun, j: usize) -> Value {
 }
 
 /// What a coordinate of correlation and directions stands for: `core`, `core loss_factor`, `skins e0`.
-pub fn coordinate(wanted: &SeveralCase, outcome: &Identification, c: usize) -> String {
+pub fn coordinate(wanted: &IdentifyCase, outcome: &Identification, c: usize) -> String {
     let (j, number) = &outcome.identifiability.coordinates[c];
     let name = &wanted.unknowns[*j].name;
     if number == "value" { name.clone() } else { format!("{name} {number}") }
 }
 
 /// The combinations that the measurements do not tell, in words.
-pub fn not_told(wanted: &SeveralCase, outcome: &Identification) -> Vec<String> {
+pub fn not_told(wanted: &IdentifyCase, outcome: &Identification) -> Vec<String> {
     let sentence = |direction: &Direction| {
         let largest = direction.weights.first().map_or(1.0, |(_, weight)| weight.abs());
         let mut up = Vec::new();
@@ -267,7 +267,7 @@ pub fn not_told(wanted: &SeveralCase, outcome: &Identification) -> Vec<String> {
 }
 
 /// What a person reads first.
-pub fn several_text(wanted: &SeveralCase, run: &IdentifyRun) -> Words {
+pub fn several_text(wanted: &IdentifyCase, run: &IdentifyRun) -> Words {
     let outcome = &run.found;
     let mut words = Words::default();
     let mut add = |is_warning: bool, label: &str, value: String| {

@@ -1,11 +1,10 @@
 //! `summary.json`: what went in, what was done, what came out, in a form that programs read.
 
 use super::{laws_json, smooth_json};
-use crate::case::VariesEntry as Varies;
 use crate::load::{Case, IdentifyCase, MeasuredNoise};
 use crate::run::IdentifyRun;
 use frfit::c64;
-use frfit::identify::{ChannelUnknowns, GoodnessOfFit, NoiseLevel, Status};
+use frfit::identify::{GoodnessOfFit, NoiseLevel, Status, Variation};
 use frfit::material::loss_factor;
 use frfit::model::Term;
 use serde_json::{Map, Value, json};
@@ -28,21 +27,22 @@ pub fn summary_json(
         bands.insert(status.name().into(), json!(run.bands_hz(status)));
     }
     let options = &identify.options;
-    let (varies, laws) = match &identify.varies {
-        Varies::Freely => ("frequency", &[][..]),
-        Varies::Smoothly => ("smooth", &[][..]),
-        Varies::ByLaw(laws) => ("law", laws.as_slice()),
+    let unknown = &identify.unknowns[0];
+    let (varies, laws) = match &unknown.varies {
+        Variation::Smooth => ("smooth", &[][..]),
+        Variation::Law(laws) => ("law", laws.as_slice()),
+        _ => ("frequency", &[][..]),
     };
     let mut summary = json!({
         "frfit": env!("CARGO_PKG_VERSION"),
         "title": case.title,
         "inputs": inputs_json(case),
         "units": case.units.json(),
-        "factor_unit": identify.unit.word(),
+        "factor_unit": identify.units[0].word(),
         "model": model_json(case),
         "sensors": (0..case.sensors.len()).map(|m| sensor(case, run, m)).collect::<Vec<_>>(),
         "identify": {
-            "matrix": identify.names,
+            "matrix": identify.matrices(&case.model),
             "varies": varies,
             "law": laws.iter().map(|family| family.to_string()).collect::<Vec<_>>(),
             "band_hz": identify.band_hz,
@@ -51,8 +51,8 @@ pub fn summary_json(
             "order": options.order,
             "selection": options.selection.name(),
             "reduction": options.reduction.name(),
-            "bounds": {"storage": options.bounds.storage, "loss_factor": options.bounds.loss_factor},
-            "real": options.real,
+            "bounds": {"storage": unknown.bounds.storage, "loss_factor": unknown.bounds.loss_factor},
+            "real": unknown.real,
             "reject_outliers": options.reject_outliers,
         },
         "frequencies": run.found.lines.len(),
@@ -83,10 +83,10 @@ pub fn summary_json(
             "figures": seconds_figures,
         },
     });
-    match &identify.varies {
-        Varies::Freely => {}
-        Varies::Smoothly => summary["smooth"] = run.found.curve.as_ref().map_or(Value::Null, smooth_json),
-        Varies::ByLaw(_) => summary["laws"] = laws_json(&run.found.laws, identify.unit, case.units),
+    match &unknown.varies {
+        Variation::Smooth => summary["smooth"] = run.found.curve.as_ref().map_or(Value::Null, smooth_json),
+        Variation::Law(_) => summary["laws"] = laws_json(&run.found.laws, identify.units[0], case.units),
+        _ => {}
     }
     if let Some(reference) = reference(identify, run) {
         summary["reference"] = reference;
@@ -116,7 +116,8 @@ pub(super) fn inputs_json(case: &Case) -> Vec<Value> {
 fn sensor(case: &Case, run: &IdentifyRun, m: usize) -> Value {
     let sensor = &case.sensors[m];
     let mut told = json!({"label": sensor.label, "quantity": sensor.quantity.name()});
-    let unknown = case.identify.as_ref().map_or(ChannelUnknowns::default(), |identify| identify.unknown[m]);
+    let channels = case.identify.as_ref().map_or(&[][..], |identify| &identify.channels);
+    let unknown = channels.get(m).copied().unwrap_or_default();
     let found = run.found.channels.get(m).copied().unwrap_or_default();
     let asked = [("scale", unknown.scale, found.scale), ("delay_s", unknown.delay, found.delay_s)];
     for (key, _, found) in asked.into_iter().filter(|(_, asked, _)| *asked) {
@@ -180,7 +181,7 @@ fn spread(run: &IdentifyRun, number: impl Fn(&frfit::identify::Line) -> Option<f
 
 /// Where the reference is known: the fraction of frequencies with the right factor, of all and of those called `ok`.
 fn reference(identify: &IdentifyCase, run: &IdentifyRun) -> Option<Value> {
-    let law = identify.reference.as_ref()?;
+    let law = identify.reference[0].as_ref()?;
     let right = run.right(|frequency_hz| law.at(frequency_hz).ok(), RIGHT_WITHIN)?;
     let ok: Vec<bool> = run
         .found

@@ -6,7 +6,7 @@ use frfit::c64;
 use frfit::frequency::bands_hz;
 use frfit::identify::{
     Context, Frfs, Identification, Line, Method, Noise, Problem, ProblemError, SmoothCurve, Stage, Status,
-    Unknown, error_by_order,
+    error_by_order,
 };
 use frfit::material::OutsideTable;
 use frfit::response::FullModel;
@@ -81,8 +81,7 @@ pub fn identify(
 ) -> Result<IdentifyRun, ProblemError> {
     let clock = StageClock::default();
     let used = Used::of(identify);
-    let unknowns = [identify.factor()];
-    let problem = problem_of(case, identify, &unknowns, &used)?;
+    let problem = problem_of(case, identify, &used)?;
     let last = (AtomicUsize::new(0), AtomicUsize::new(used.frequency_hz.len()));
     let hooks = Context {
         for_each: &|n, each| {
@@ -151,10 +150,11 @@ impl Used {
         let all = identify.frequency_hz.iter().zip(&identify.left_out);
         let mut whole = Vec::with_capacity(identify.frequency_hz.len());
         for (&frequency_hz, &out) in all {
-            match out {
-                true => whole
-                    .push(Line::out_of_band(frequency_hz, &[identify.parameter.nominal.at(frequency_hz)?])),
-                false => whole.extend(outcomes.next()),
+            if out {
+                let nominal = identify.unknowns.iter().map(|unknown| unknown.nominal.at(frequency_hz));
+                whole.push(Line::out_of_band(frequency_hz, &nominal.collect::<Result<Vec<_>, _>>()?));
+            } else {
+                whole.extend(outcomes.next());
             }
         }
         Ok(whole)
@@ -170,16 +170,15 @@ fn kept<'i, T>(rows: &'i [T], identify: &'i IdentifyCase) -> impl Iterator<Item 
 pub(crate) fn problem_of<'a>(
     case: &'a Case,
     identify: &'a IdentifyCase,
-    unknowns: &'a [Unknown],
     used: &'a Used,
 ) -> Result<Problem<'a>, ProblemError> {
     let frfs =
         Frfs { frequency_hz: &used.frequency_hz, receptance: &used.measured, noise: noise_of(&used.noise) };
-    Problem::new(&case.model, &case.experiment, unknowns, &identify.unknown, frfs)
+    Problem::new(&case.model, &case.experiment, &identify.unknowns, &identify.channels, frfs)
 }
 
 /// How well it was measured, as core takes it.
-pub(crate) fn noise_of(noise: &MeasuredNoise) -> Noise<'_> {
+fn noise_of(noise: &MeasuredNoise) -> Noise<'_> {
     match noise {
         MeasuredNoise::Unknown => Noise::Unknown,
         MeasuredNoise::Relative(std) => Noise::Relative(std),
@@ -188,7 +187,7 @@ pub(crate) fn noise_of(noise: &MeasuredNoise) -> Noise<'_> {
 }
 
 /// Wall-clock time by stage: each lasts until another is heard of.
-pub(super) struct StageClock(Mutex<(Seconds, Option<Stage>, Instant)>);
+struct StageClock(Mutex<(Seconds, Option<Stage>, Instant)>);
 
 impl Default for StageClock {
     fn default() -> Self {
@@ -197,7 +196,7 @@ impl Default for StageClock {
 }
 
 impl StageClock {
-    pub(super) fn enter(&self, next: Option<Stage>) {
+    fn enter(&self, next: Option<Stage>) {
         // A thread that panicked with the lock takes the run down with it: the clock is beside the point.
         let mut guard = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let (seconds, current, since) = &mut *guard;
@@ -216,7 +215,7 @@ impl StageClock {
         (*current, *since) = (next, now);
     }
 
-    pub(super) fn seconds(&self) -> Seconds {
+    fn seconds(&self) -> Seconds {
         self.enter(None);
         self.0.lock().unwrap_or_else(PoisonError::into_inner).0
     }
@@ -237,15 +236,17 @@ fn error_map(
     let affordable = map_columns(case.model.dim());
     let used: Vec<usize> = (0..identify.frequency_hz.len()).filter(|&i| !identify.left_out[i]).collect();
     let columns = options.error_map.unwrap_or(affordable).min(used.len());
-    if columns == 0 || identify.options.method != Method::Series {
+    let parameter = identify.unknowns[0].parameter();
+    let Some(parameter) = parameter.filter(|_| columns > 0 && identify.options.method == Method::Series)
+    else {
         return Ok(None);
-    }
+    };
     let last = used.len() - 1;
     let picked: Vec<usize> = (0..columns).map(|k| used[k * last / (columns - 1).max(1)]).collect();
     let error = picked
         .par_iter()
         .map(|&i| {
-            let at = case.model.at(identify.frequency_hz[i], std::slice::from_ref(&identify.parameter))?;
+            let at = case.model.at(identify.frequency_hz[i], std::slice::from_ref(&parameter))?;
             let none = || vec![None; identify.options.order];
             let Ok(system) = FullModel::new(at, &case.experiment) else { return Ok(none()) };
             let by_order = error_by_order(&system, &identify.measured[i], &identify.options);

@@ -2,13 +2,10 @@
 
 mod identify;
 mod respond;
-mod several;
 
-use identify::noise_of;
 pub use identify::{ErrorMap, IdentifyRun, RunOptions, Seconds, identify};
 pub(crate) use identify::{Used, problem_of};
 pub use respond::{RespondRun, respond};
-pub use several::several;
 
 /// Called before and after each frequency with how many are done, of how many; from any thread. Who unwinds from it cancels.
 pub type Progress<'a> = &'a (dyn Fn(usize, usize) + Sync);

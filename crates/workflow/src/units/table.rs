@@ -14,11 +14,11 @@ pub(crate) struct TableUnits {
 }
 
 impl TableUnits {
-    /// Of a table of `frfit identify`, from the `summary.json` beside it; `None` for any other table, as one of an instrument.
+    /// Of a table of `frfit identify`, or of one of its unknowns, from the `summary.json` beside it; `None` for any other table, as one of an instrument.
     ///
     /// # Errors
     /// A summary that lists the table, with units that this version does not know.
-    pub(crate) fn beside(table: &Path) -> Result<Option<Self>, InputError> {
+    pub(crate) fn beside(table: &Path, unknown: Option<&str>) -> Result<Option<Self>, InputError> {
         let path = table.with_file_name("summary.json");
         let bytes = match std::fs::read(&path) {
             Ok(bytes) => bytes,
@@ -32,7 +32,12 @@ impl TableUnits {
             }
         };
         // A folder may have a file of this name from elsewhere.
-        let Ok(summary) = serde_json::from_slice::<Value>(&bytes) else { return Ok(None) };
+        let Ok(mut summary) = serde_json::from_slice::<Value>(&bytes) else { return Ok(None) };
+        let one =
+            unknown.and_then(|name| summary["unknowns"].as_array()?.iter().find(|one| one["name"] == name));
+        if let Some(unit) = one.map(|one| one["unit"].clone()) {
+            summary["factor_unit"] = unit;
+        }
         let name = table.file_name().and_then(|name| name.to_str());
         let listed =
             summary["tables"].as_array().is_some_and(|all| all.iter().any(|one| one.as_str() == name));

@@ -32,13 +32,13 @@ fn everything_that_a_case_says_is_there() {
     assert_eq!(sensors, [("2-Z", Quantity::Accelerance), ("row 3", Quantity::Receptance)]);
     assert_eq!(case.sensors[1].file.as_deref(), Some(Path::new("b.csv")));
 
-    let identify = case.identify.unwrap();
-    assert_eq!(identify.names, ["springs"]);
-    assert_eq!(identify.parameter.nominal, Law::Constant(c64::new(2e5, 2e4)));
+    let identify = case.identify.as_ref().unwrap();
+    assert_eq!(identify.matrices(&case.model), ["springs"]);
+    assert_eq!(identify.unknowns[0].nominal, Law::Constant(c64::new(2e5, 2e4)));
     let bounds = Bounds { storage: Some([1e5, 1e6]), loss_factor: Some([0.0, 1.0]) };
     assert_eq!(identify.options, Options { order: 20, bounds, ..Options::default() });
     assert_eq!((identify.band_hz, &identify.frequency_hz[..]), ([10.0, 30.0], &[10.0, 20.0, 30.0][..]));
-    assert_eq!(identify.reference, Some(Law::Fractional { e0: 1e5, e1: 2e4, alpha: 0.5 }));
+    assert_eq!(identify.reference[0], Some(Law::Fractional { e0: 1e5, e1: 2e4, alpha: 0.5 }));
     assert_eq!(case.respond_hz, [10.0, 20.0, 30.0]);
 }
 
@@ -129,7 +129,7 @@ fn an_estimated_nominal_is_the_middle_of_the_bounds() {
         with("case.toml", text.as_bytes(), &Overrides::default(), Purpose::Identify)
     };
     let identify = estimate("storage = [1e5, 1e7]").unwrap().identify.unwrap();
-    let Law::Constant(nominal) = identify.parameter.nominal else { panic!("{:?}", identify.parameter) };
+    let Law::Constant(nominal) = identify.unknowns[0].nominal else { panic!("{:?}", identify.unknowns) };
     assert!((nominal - c64::new(1e6, 1e4)).norm() < 1e-9 * 1e6, "{nominal}");
     assert!(identify.options.whole_box);
     let error = estimate("storage = [0, 1]").unwrap_err().to_string();
@@ -204,9 +204,8 @@ fn matrices_with_equal_factors_share_one() {
     let text = edited("case.toml", "{ table = \"modulus.csv\" }", "{ storage = 2e5, loss_factor = 0.1 }")
         .replace("matrix = \"springs\"", "matrix = [\"springs\", \"core\"]");
     let case = with("case.toml", text.as_bytes(), &Overrides::default(), Purpose::Identify).unwrap();
-    let identify = case.identify.unwrap();
-    assert_eq!(identify.names, ["springs", "core"]);
-    assert_eq!(identify.parameter.members.iter().map(|member| member.term).collect::<Vec<_>>(), [0, 1]);
+    let identify = case.identify.as_ref().unwrap();
+    assert_eq!(identify.matrices(&case.model), ["springs", "core"]);
 }
 
 #[test]

@@ -1,35 +1,34 @@
 //! Laws in a case: as a factor, and as what is to be found.
 
 use super::files::{edited, folder, refused, with};
-use frfit::identify::Reduction;
+use frfit::identify::{Reduction, Variation};
 use frfit::laws::LawKind;
 use frfit::material::{Branch, Law};
-use frfit_workflow::case::VariesEntry;
 use frfit_workflow::load::{Overrides, Purpose, load};
 
-fn varies(keys: &str) -> VariesEntry {
+fn varies(keys: &str) -> Variation {
     let text = edited("case.toml", "order = 20", &format!("order = 20\n{keys}"));
     let case = with("case.toml", text.as_bytes(), &Overrides::default(), Purpose::Identify).unwrap();
     let identify = case.identify.unwrap();
-    let reduction =
-        if identify.varies == VariesEntry::Freely { Reduction::Auto } else { Reduction::Subspace };
+    let varies = identify.unknowns[0].varies.clone();
+    let reduction = if varies == Variation::PerFrequency { Reduction::Auto } else { Reduction::Subspace };
     assert_eq!(identify.options.reduction, reduction);
-    identify.varies
+    varies
 }
 
 fn kinds(keys: &str) -> Vec<LawKind> {
     match varies(keys) {
-        VariesEntry::ByLaw(kinds) => kinds,
+        Variation::Law(kinds) => kinds,
         other => panic!("{keys}: {other:?}"),
     }
 }
 
 #[test]
 fn laws_to_be_found() {
-    assert_eq!(varies(""), VariesEntry::Freely);
-    assert_eq!(varies("varies = \"frequency\""), VariesEntry::Freely);
-    assert_eq!(varies("varies = \"smooth\""), VariesEntry::Smoothly);
-    assert_eq!(varies("varies = \"smooth\"\nreal = true"), VariesEntry::Smoothly);
+    assert_eq!(varies(""), Variation::PerFrequency);
+    assert_eq!(varies("varies = \"frequency\""), Variation::PerFrequency);
+    assert_eq!(varies("varies = \"smooth\""), Variation::Smooth);
+    assert_eq!(varies("varies = \"smooth\"\nreal = true"), Variation::Smooth);
     assert_eq!(kinds("varies = \"law\""), LawKind::ALL);
     assert_eq!(kinds("varies = \"law\"\nlaw = \"zener\""), [LawKind::FractionalZener]);
     assert_eq!(

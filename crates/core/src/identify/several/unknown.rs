@@ -108,7 +108,7 @@ impl Unknown {
     }
 
     /// It as the parameter of a polynomial, P-10 and B-8; `None` of one with a negative power.
-    pub(crate) fn parameter(&self) -> Option<Parameter> {
+    pub fn parameter(&self) -> Option<Parameter> {
         let member = |(term, power): (usize, i32)| Some(Member { term, power: usize::try_from(power).ok()? });
         let (members, multiplies) = match &self.dependence {
             Dependence::Factor(terms) => (terms.iter().map(|&term| member((term, 1))).collect(), false),
