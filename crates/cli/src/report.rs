@@ -15,6 +15,7 @@ pub(crate) fn identified(job: &IdentifyJob, out: &Path) -> Words {
     if identify.layout == Layout::Named {
         words = several_text(identify, run);
         words.warn(&job.diagnosis.as_ref().map_or(String::new(), |found| findings_text(&job.case, found)));
+        contradictions(job).for_each(|sentence| words.warn(&format!("  {:<18}{sentence}\n", "sensor")));
         words.say(&format!(
             "  {:<18}{}: identified.csv, response.csv, updated.uff, summary.json, figures/, report.html\n",
             "wrote",
@@ -147,6 +148,15 @@ pub(crate) fn identified(job: &IdentifyJob, out: &Path) -> Words {
     words
 }
 
+/// The sensors that contradict all others, and what was done with them.
+fn contradictions(job: &IdentifyJob) -> impl Iterator<Item = String> {
+    let fits = job.case.sensors.iter().zip(&job.run.found.sensors).filter(|(_, fit)| fit.contradicts);
+    fits.map(|(sensor, fit)| {
+        let done = if fit.left_out { "left out" } else { "kept, as reject_outliers = false says" };
+        format!("{} contradicts all others: {done}", sensor.label)
+    })
+}
+
 /// What is known of the noise, and what speaks against sensors or model: whether it must not be missed, what it is about, and a sentence.
 fn doubts(job: &IdentifyJob) -> Vec<(bool, &'static str, String)> {
     let run = &job.run;
@@ -172,10 +182,7 @@ fn doubts(job: &IdentifyJob) -> Vec<(bool, &'static str, String)> {
         };
         lines.push((false, "noise", format!("{source}{bar}")));
     }
-    for (sensor, fit) in job.case.sensors.iter().zip(&run.found.sensors).filter(|(_, fit)| fit.contradicts) {
-        let done = if fit.left_out { "left out" } else { "kept, as reject_outliers = false says" };
-        lines.push((true, "sensor", format!("{} contradicts all others: {done}", sensor.label)));
-    }
+    lines.extend(contradictions(job).map(|sentence| (true, "sensor", sentence)));
     lines.extend(channels(job));
     match run.found.fit {
         Some(fit) if fit.verdict == Explained::No => {

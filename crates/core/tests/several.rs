@@ -340,3 +340,56 @@ fn a_constant_stops_at_its_bounds() {
         "{lengths:?}"
     );
 }
+
+/// Of five sensors one measures half of what it should: it is named and left out, and the unknowns are right without it; kept, it
+/// leaves the band unexplained. Without a fault no sensor is named.
+#[test]
+fn a_sensor_that_contradicts_the_others_is_named_and_left_out() {
+    let plate = thickness();
+    let mut experiment = plate.experiment.clone();
+    experiment.sensors.push(Sensor { row: 45, sign: 1.0 });
+    experiment.sensors.push(Sensor { row: 12, sign: 1.0 });
+    let h = TRUE_THICKNESS;
+    let factors = [c(2e11, 2e9) * h.powi(3), c(7800.0 * h, 0.0)].map(Law::Constant);
+    let frequency_hz: Vec<f64> = plate.frequency_hz.iter().copied().step_by(2).collect();
+    let exact = direct(&plate.model, &experiment, &factors, &frequency_hz);
+    let unknowns = [constant("h", Dependence::Powers(vec![(0, 3), (1, 1)]), 1.0, [0.5, 2.0])];
+    let (measured, std) = noisy(&exact, 0.01, 21);
+    let faulty: Vec<Vec<c64>> = measured
+        .iter()
+        .map(|row| row.iter().enumerate().map(|(m, u)| if m == 2 { 0.5 * u } else { *u }).collect())
+        .collect();
+    for noise in [Noise::Known(&std), Noise::Unknown] {
+        let setup = Setup {
+            model: &plate.model,
+            experiment: &experiment,
+            unknowns: &unknowns,
+            frequency_hz: &frequency_hz,
+            measured: &faulty,
+            noise,
+        };
+        let found = run(&setup);
+        let named: Vec<bool> = found.sensors.iter().map(|sensor| sensor.contradicts).collect();
+        assert_eq!(named, [false, false, true, false, false], "{:?}", found.sensors);
+        assert!(found.sensors[2].left_out && found.sensors[2].misfit.unwrap() > 5.0);
+        let number = &found.constants[0].numbers[0];
+        assert!(
+            (number.value - h).abs() < 4.0 * number.std.unwrap() && number.std.unwrap() < 1e-3,
+            "{number:?}"
+        );
+        assert!(found.constants[0].status == Status::Ok, "{:?}", found.fit);
+
+        let right = run(&Setup { measured: &measured, ..setup });
+        assert!(right.sensors.iter().all(|sensor| !sensor.contradicts), "{:?}", right.sensors);
+
+        let Setup { model, experiment, unknowns, frequency_hz, .. } = setup;
+        let frfs = Frfs { frequency_hz, receptance: &faulty, noise };
+        let problem = Problem::new(model, experiment, unknowns, &[], frfs).unwrap();
+        let options = Options { reject_outliers: false, ..Options::default() };
+        let kept = identify(&problem, &options, HOOKS).unwrap();
+        assert!(kept.sensors[2].contradicts && !kept.sensors[2].left_out);
+        if noise != Noise::Unknown {
+            assert!(kept.lines.iter().all(|line| line.status != Status::Ok), "{:?}", kept.fit);
+        }
+    }
+}

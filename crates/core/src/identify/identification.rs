@@ -152,8 +152,18 @@ fn of_law(fit: &LawFit, band: Option<GoodnessOfFit>) -> BandValue {
 
 impl From<SeveralOutcome> for Identification {
     fn from(several: SeveralOutcome) -> Self {
-        let SeveralOutcome { band, at, coordinates, correlation, directions, profile, noise, fit, .. } =
-            several;
+        let SeveralOutcome {
+            band,
+            at,
+            coordinates,
+            correlation,
+            directions,
+            profile,
+            noise,
+            fit,
+            sensors,
+            ..
+        } = several;
         let SeveralOutcome { converged, starts, agreeing, work, subspace_size, breakdown, .. } = several;
         let search = SearchReport {
             work,
@@ -171,7 +181,7 @@ impl From<SeveralOutcome> for Identification {
             curve: None,
             free: Vec::new(),
             channels: Vec::new(),
-            sensors: Vec::new(),
+            sensors,
             noise,
             fit,
             identifiability: Identifiability { coordinates, correlation, directions, profile },

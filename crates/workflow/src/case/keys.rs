@@ -598,7 +598,7 @@ pub(super) static SEVERAL: Section = Section {
     path: "identify",
     title: "`[[identify]]`: several unknowns, or one that does not vary",
     about: "A table each. A single `[identify]` with `varies = \"constant\"` or `powers` is read the same way. \
-            The keys `method`, `order`, `selection`, `reduction`, `reject_outliers` and `check` are refused here: there is one way to find several unknowns.",
+            The keys `method`, `order`, `selection`, `reduction` and `check` are refused here: there is one way to find several unknowns.",
     keys: &[
         key(
             "name",
@@ -660,12 +660,19 @@ pub(super) static SEVERAL_FIRST: Section = Section {
         key("band_hz", "[low, high], Hz", "`--band`", "Measured frequencies from low to high are used."),
         key("exclude_hz", "list of frequencies and [low, high], Hz", "none", "Left out."),
         key("max_lines", "whole number, 3 and more", "all", "Of more lines than this those that tell most."),
+        key(
+            "reject_outliers",
+            "true or false",
+            "true",
+            "Of three or more sensors one that contradicts all others is left out.",
+        ),
     ],
     examples: &["[[identify]]
 matrix = \"core\"
 band_hz = [20.0, 1000.0]
 exclude_hz = [50.0]
 max_lines = 500
+reject_outliers = false
 [[identify]]
 matrix = \"skins\"
 varies = \"constant\"

@@ -242,6 +242,8 @@ pub struct SeveralEntry {
     pub exclude: Vec<Exclusion>,
     /// Of more lines than this those that tell most.
     pub max_lines: Option<Located<i64>>,
+    /// Whether a sensor that contradicts all others is left out.
+    pub reject_outliers: Option<bool>,
 }
 
 /// One `[[identify]]`.

@@ -8,7 +8,7 @@ use crate::error::InputError;
 use frfit::laws::{LawKind, UnknownLawKind};
 
 /// Keys of a single unknown that varies.
-const OF_ONE: [&str; 6] = ["method", "order", "selection", "reduction", "reject_outliers", "check"];
+const OF_ONE: [&str; 5] = ["method", "order", "selection", "reduction", "check"];
 
 /// Whether `identify` is such: `[[identify]]`, or a single table with `powers` or a constant.
 pub(super) fn is_several(field: &Field<'_>) -> bool {
@@ -47,6 +47,7 @@ pub(super) fn several(field: &Field<'_>) -> Result<SeveralEntry, InputError> {
         band_hz: first.find("band_hz").map(|field| band(&field)).transpose()?,
         exclude: first.find("exclude_hz").map_or(Ok(Vec::new()), |field| exclude(&field))?,
         max_lines: first.find("max_lines").map(|most| most.whole()).transpose()?,
+        reject_outliers: first.find("reject_outliers").map(|reject| reject.flag()).transpose()?,
     })
 }
 

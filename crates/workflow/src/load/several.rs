@@ -71,7 +71,7 @@ pub(super) fn several(
         units,
         reference,
         layout: Layout::Named,
-        options: Options::default(),
+        options: Options { reject_outliers: entry.reject_outliers.unwrap_or(true), ..Options::default() },
         band_hz,
         frequency_hz,
         measured: data.measured,

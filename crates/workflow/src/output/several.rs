@@ -1,6 +1,6 @@
 //! Tables, summary and words for several unknowns.
 
-use super::summary::{fit_json, inputs_json, model_json};
+use super::summary::{fit_json, inputs_json, model_json, sensor};
 use super::words::Words;
 use crate::load::{Case, IdentifyCase, MeasuredNoise};
 use crate::run::IdentifyRun;
@@ -129,7 +129,7 @@ pub fn several_json(case: &Case, wanted: &IdentifyCase, run: &IdentifyRun, secon
         "inputs": inputs_json(case),
         "units": case.units.json(),
         "model": model_json(case),
-        "sensors": case.sensors.iter().map(|sensor| json!({"label": sensor.label, "quantity": sensor.quantity.name()})).collect::<Vec<_>>(),
+        "sensors": (0..case.sensors.len()).map(|m| sensor(case, run, m)).collect::<Vec<_>>(),
         "band_hz": wanted.band_hz,
         "frequencies": outcome.lines.len(),
         "unknowns": wanted.unknowns.iter().enumerate().map(unknown).collect::<Vec<_>>(),

@@ -113,7 +113,7 @@ pub(super) fn inputs_json(case: &Case) -> Vec<Value> {
 }
 
 /// A sensor, and what it says of the answers: its misfit over its deviation (root mean square).
-fn sensor(case: &Case, run: &IdentifyRun, m: usize) -> Value {
+pub(super) fn sensor(case: &Case, run: &IdentifyRun, m: usize) -> Value {
     let sensor = &case.sensors[m];
     let mut told = json!({"label": sensor.label, "quantity": sensor.quantity.name()});
     let channels = case.identify.as_ref().map_or(&[][..], |identify| &identify.channels);

@@ -37,7 +37,8 @@ use reduced_band::ReducedBand;
 pub(super) use candidates::Fit;
 pub(super) use fit::judge;
 pub(super) use laws::{ROUNDS, UNEXPLAINED, nearest};
-pub(super) use noise::deviations;
+pub(super) use noise::{deviations, level_of};
+pub(super) use outlier_sensor::without;
 pub(super) use reduced_band::{BOX, TRAINED, is_certain, reduction_error, thinned};
 
 pub use fit::{Explained, GoodnessOfFit, SensorFit};

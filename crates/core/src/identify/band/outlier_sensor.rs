@@ -98,7 +98,7 @@ impl Trial<'_, '_, '_, '_, '_> {
 }
 
 /// The deviations with those of some sensors infinite: nothing is asked of them.
-pub(super) fn without(sigma: &[Vec<f64>], out: &[usize]) -> Vec<Vec<f64>> {
+pub(in crate::identify) fn without(sigma: &[Vec<f64>], out: &[usize]) -> Vec<Vec<f64>> {
     let mut sigma = sigma.to_vec();
     sigma.iter_mut().for_each(|row| out.iter().for_each(|&m| row[m] = f64::INFINITY));
     sigma

@@ -34,7 +34,7 @@ impl Task<'_, '_> {
         let information = place.as_ref().and_then(|p| Information::new(&p.eliminated.jacobian, n));
         let own: usize = self.problem.unknowns.iter().map(Unknown::per_frequency).sum();
         let answered = all.iter().filter(|&&i| found.at(i).is_some()).count();
-        let sensors = self.problem.experiment.sensors.len();
+        let sensors = self.problem.experiment.sensors.len() - self.left_out.len();
         let freedom = (answered * 2 * sensors).saturating_sub(answered * own + n);
         let chi_squared: f64 = all.iter().filter_map(|&i| Some(found.at(i)?.misfit)).sum();
         let of_sensors = (freedom > 0).then(|| (chi_squared / freedom as f64).sqrt());
@@ -104,6 +104,7 @@ impl Task<'_, '_> {
             profile,
             noise,
             fit,
+            sensors: Vec::new(),
             converged: found.converged,
             starts: found.starts,
             agreeing: found.agreeing,
@@ -136,9 +137,13 @@ impl Task<'_, '_> {
         }
         let measured = &self.problem.frfs.receptance[i];
         let values = self.with_bars(found, i, solution, level, told);
-        let count = 2 * measured.len();
+        let count = 2 * (measured.len() - self.left_out.len());
+        let kept = |values: &[c64]| -> Vec<c64> {
+            let kept = values.iter().enumerate().filter(|(m, _)| !self.left_out.contains(m));
+            kept.map(|(_, value)| *value).collect()
+        };
         let chi_squared = level.map(|level| solution.misfit / (level * level * count as f64));
-        let error = relative_error(measured, &solution.response);
+        let error = relative_error(&kept(measured), &kept(&solution.response));
         let assessed = space.assess(i, &solution.values);
         let reduction_error =
             assessed.map(|assessed| reduction_error(&assessed, solution.values[0], measured).response);

@@ -23,6 +23,7 @@ mod coordinates;
 mod information;
 mod judge;
 mod outcome;
+mod outlier_sensor;
 mod path;
 mod reduced_band;
 mod search;
@@ -51,8 +52,9 @@ struct Task<'t, 'a> {
     /// `[frequency][unknown]`.
     nominal: &'t [Vec<c64>],
     omegas: Vec<f64>,
-    /// σ of real and imaginary part each.
+    /// σ of real and imaginary part each; infinite of a sensor that is left out.
     sigma: Vec<Vec<f64>>,
+    left_out: Vec<usize>,
     options: &'t Options,
     hooks: Context<'t>,
 }
@@ -82,14 +84,25 @@ pub(super) fn identify_several(
         nominal: &nominal,
         omegas: frfs.frequency_hz.iter().map(|&f| omega_rad_s(f)).collect(),
         sigma: deviations(frfs.receptance, frfs.noise),
+        left_out: Vec::new(),
         options,
         hooks,
     };
     let space = ReducedBand::new(composite, experiment, frfs.frequency_hz, &nominal, hooks)?;
     Ok(match space {
         Ok(mut space) => {
-            let found = task.search(&mut space);
-            task.judge(&space, found)
+            let mut found = task.search(&mut space);
+            let contradicting = task.contradicting(&space, &found);
+            let rejected = if options.reject_outliers { contradicting.as_slice() } else { &[] };
+            let kept = task.leaving_out(rejected);
+            if !rejected.is_empty() {
+                found = kept.search(&mut space);
+            }
+            let mut outcome = kept.judge(&space, found);
+            let responses: Vec<&[c64]> =
+                outcome.at.iter().map(|line| line.updated_response.as_slice()).collect();
+            outcome.sensors = kept.sensor_fits(&task.sigma, &contradicting, &responses, outcome.noise.level);
+            outcome
         }
         Err(breakdown) => task.broken(breakdown),
     })
@@ -109,6 +122,7 @@ impl Task<'_, '_> {
             profile: None,
             noise: NoiseLevel::new(self.problem.frfs.noise, None, None),
             fit: None,
+            sensors: Vec::new(),
             converged: false,
             starts: 0,
             agreeing: 0,

@@ -1,6 +1,6 @@
 //! What came out when several things were looked for.
 
-use crate::identify::{GoodnessOfFit, Line, NoiseLevel, Status};
+use crate::identify::{GoodnessOfFit, Line, NoiseLevel, SensorFit, Status};
 use crate::material::Law;
 use crate::response::Work;
 use frfit_linalg::solve::Breakdown;
@@ -67,6 +67,8 @@ pub(in crate::identify) struct SeveralOutcome {
     pub(in crate::identify) noise: NoiseLevel,
     /// Whether noise is all that is left.
     pub(in crate::identify) fit: Option<GoodnessOfFit>,
+    /// One for each sensor.
+    pub(in crate::identify) sensors: Vec<SensorFit>,
     /// Whether the search settled.
     pub(in crate::identify) converged: bool,
     /// Starts that were followed, and how many of them ended at the answer.

@@ -30,7 +30,7 @@ impl Task<'_, '_> {
             return solutions.iter().map(one).collect();
         }
         let options = SelectOptions {
-            sensors: self.problem.experiment.sensors.len(),
+            sensors: self.problem.experiment.sensors.len() - self.left_out.len(),
             sigma_known: matches!(self.problem.frfs.noise, Noise::Known(_)),
             ..SelectOptions::default()
         };

@@ -91,17 +91,7 @@ impl Task<'_, '_> {
         let all: Vec<usize> = (0..self.omegas.len()).collect();
         let part: Vec<usize> = thinned(&all, PART).copied().collect();
         (self.hooks.progress)(Stage::Solutions, 0, all.len());
-        let mut tried: Vec<(f64, BandSolution, Vec<c64>)> = Vec::new();
-        let mut begin = self.starts(space);
-        if self.coordinates().count == 0 {
-            // Nothing holds for the band: every frequency is searched for itself, wherever it begins.
-            begin.truncate(1);
-        }
-        for values in begin {
-            let found = self.follow(space, &part, self.theta(&values), &Guess::Everywhere(&values));
-            tried.push((found.misfit(), found, values));
-        }
-        tried.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut tried = self.tried(space, &part);
         let (least, first, values) = tried.swap_remove(0);
         let agreeing = 1 + tried.iter().filter(|other| other.0 <= least * (1.0 + AGREE)).count();
         let mut found = match part.len() == all.len() {
@@ -119,6 +109,26 @@ impl Task<'_, '_> {
         }
         (self.hooks.progress)(Stage::Solutions, all.len(), all.len());
         BandSolution { starts: 1 + tried.len(), agreeing, ..found }
+    }
+
+    /// Where each start leads at some frequencies, least misfit first: (misfit, solution, start); at least one.
+    pub(super) fn tried(
+        &self,
+        space: &ReducedBand<'_>,
+        which: &[usize],
+    ) -> Vec<(f64, BandSolution, Vec<c64>)> {
+        let mut begin = self.starts(space);
+        if self.coordinates().count == 0 {
+            // Nothing holds for the band: every frequency is searched for itself, wherever it begins.
+            begin.truncate(1);
+        }
+        let mut tried = Vec::with_capacity(begin.len());
+        for values in begin {
+            let found = self.follow(space, which, self.theta(&values), &Guess::Everywhere(&values));
+            tried.push((found.misfit(), found, values));
+        }
+        tried.sort_by(|a, b| a.0.total_cmp(&b.0));
+        tried
     }
 
     /// What holds for the band, as it varies.

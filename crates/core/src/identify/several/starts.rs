@@ -47,10 +47,13 @@ impl Task<'_, '_> {
                 let (values, slopes): (Vec<c64>, Vec<Vec<c64>>) =
                     own.collect::<Option<Vec<_>>>()?.into_iter().unzip();
                 let (x, of_values) = space.respond_on(&rough[k], i, &values)?;
-                let rest: Vec<c64> =
-                    x.iter().zip(&self.problem.frfs.receptance[i]).map(|(x, u)| (x / u).ln()).collect();
+                let u = &self.problem.frfs.receptance[i];
+                // A zero has no logarithm, and a sensor that is left out no say.
+                let kept: Vec<usize> =
+                    (0..u.len()).filter(|&m| self.sigma[i][m].is_finite() && u[m].norm() > 0.0).collect();
+                let rest: Vec<c64> = kept.iter().map(|&m| (x[m] / u[m]).ln()).collect();
                 let column = |(j, slope): (usize, c64)| -> Vec<c64> {
-                    of_values[j].iter().zip(&x).map(|(s, x)| s * slope / x).collect()
+                    kept.iter().map(|&m| of_values[j][m] * slope / x[m]).collect()
                 };
                 let all =
                     slopes.iter().enumerate().flat_map(|(j, own)| own.iter().map(move |&slope| (j, slope)));

@@ -77,6 +77,7 @@ fn all_solutions_of_two_unknowns_are_found() {
         nominal: &nominal,
         omegas: frequency_hz.iter().map(|&f| omega_rad_s(f)).collect(),
         sigma: deviations(&measured, Noise::Unknown),
+        left_out: Vec::new(),
         options: &options,
         hooks,
     };

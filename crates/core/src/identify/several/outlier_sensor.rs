@@ -1,0 +1,107 @@
+//! A sensor that contradicts the others: all unknowns are found without each in turn.
+
+use super::reduced_band::ReducedBand;
+use super::search::BandSolution;
+use super::{Task, Unknown};
+use crate::identify::Noise;
+use crate::identify::band::{SensorFit, level_of, thinned, without};
+
+/// Frequencies at which it is tried.
+const FREQUENCIES: usize = 24;
+
+/// A sensor is at fault if χ² without it is so many times smaller than with it, and than without any other.
+const TIMES: f64 = 10.0;
+
+/// Where no deviation is given: one per cent of the response is usual noise, and no reason to doubt a sensor.
+const USUAL_NOISE: f64 = 1e-2;
+
+impl Task<'_, '_> {
+    /// The sensors that contradict the others, worst first. Of two sensors neither can be told to be the wrong one.
+    ///
+    /// Each trial is a search on a few frequencies, so that there is none where what was found explains the sensors.
+    pub(super) fn contradicting(&self, space: &ReducedBand<'_>, found: &BandSolution) -> Vec<usize> {
+        let sensors = self.problem.experiment.sensors.len();
+        let floor = match self.problem.frfs.noise {
+            Noise::Known(_) => 1.0,
+            Noise::Unknown | Noise::Relative(_) => USUAL_NOISE * USUAL_NOISE,
+        };
+        let all: Vec<usize> = (0..self.omegas.len()).collect();
+        let of_band = all.iter().map(|&k| found.at(k).map_or(f64::INFINITY, |solution| solution.misfit));
+        let mut with_all = self.chi_squared(of_band.collect(), sensors);
+        let mut out: Vec<usize> = Vec::new();
+        while with_all > TIMES * floor && self.is_determined(sensors - out.len()) {
+            let mut trials: Vec<(f64, usize)> = (0..sensors)
+                .filter(|m| !out.contains(m))
+                .map(|m| (self.chi_squared_without(space, &[&out[..], &[m]].concat()), m))
+                .collect();
+            trials.sort_by(|a, b| a.0.total_cmp(&b.0));
+            let (least, worst) = trials[0];
+            if TIMES * least.max(floor) >= with_all.min(trials[1].0) {
+                break;
+            }
+            out.push(worst);
+            with_all = least;
+        }
+        out
+    }
+
+    /// Whether two sensors and more are left without one of so many, with more numbers at a frequency than it has of its own.
+    fn is_determined(&self, sensors: usize) -> bool {
+        sensors > 2 && 2 * (sensors - 1) > self.own()
+    }
+
+    /// Real numbers that a frequency has of its own.
+    fn own(&self) -> usize {
+        self.problem.unknowns.iter().map(Unknown::per_frequency).sum()
+    }
+
+    /// χ² over its usual size at some frequencies, of so many sensors.
+    fn chi_squared(&self, misfits: Vec<f64>, sensors: usize) -> f64 {
+        level_of(misfits, (2 * sensors).saturating_sub(self.own())).map_or(0.0, |level| level * level)
+    }
+
+    fn chi_squared_without(&self, space: &ReducedBand<'_>, out: &[usize]) -> f64 {
+        let task = self.leaving_out(out);
+        let all: Vec<usize> = (0..self.omegas.len()).collect();
+        let which: Vec<usize> = thinned(&all, FREQUENCIES).copied().collect();
+        let tried = task.tried(space, &which);
+        let best = &tried[0].1;
+        let misfit = |k: usize| best.at(k).or(best.solutions[k].first()).map_or(f64::INFINITY, |s| s.misfit);
+        let sensors = self.problem.experiment.sensors.len() - out.len();
+        self.chi_squared((0..which.len()).map(misfit).collect(), sensors)
+    }
+
+    /// The same task, in which some sensors count for nothing.
+    pub(super) fn leaving_out(&self, out: &[usize]) -> Self {
+        Self {
+            omegas: self.omegas.clone(),
+            sigma: without(&self.sigma, out),
+            left_out: out.to_vec(),
+            ..*self
+        }
+    }
+
+    /// How each sensor fits: root mean square of its misfit over its assumed deviation and the level of the noise.
+    pub(super) fn sensor_fits(
+        &self,
+        assumed: &[Vec<f64>],
+        contradicting: &[usize],
+        responses: &[&[crate::c64]],
+        level: Option<f64>,
+    ) -> Vec<SensorFit> {
+        let one = |m: usize| {
+            let square = |(i, x): (usize, &&[crate::c64])| {
+                let off = (self.problem.frfs.receptance[i][m] - x.get(m)?).norm_sqr();
+                Some(off / (2.0 * (level? * assumed[i][m]).powi(2))).filter(|square| square.is_finite())
+            };
+            let squares: Vec<f64> = responses.iter().enumerate().filter_map(square).collect();
+            let misfit = (squares.iter().sum::<f64>() / squares.len() as f64).sqrt();
+            SensorFit {
+                misfit: Some(misfit).filter(|misfit| misfit.is_finite()),
+                contradicts: contradicting.contains(&m),
+                left_out: self.left_out.contains(&m),
+            }
+        };
+        (0..self.problem.experiment.sensors.len()).map(one).collect()
+    }
+}
