@@ -14,6 +14,7 @@ mod score;
 mod stages;
 mod table;
 mod task;
+pub mod wrong_models;
 
 pub use exponent::exponent;
 pub use machine::machine;

@@ -1,0 +1,98 @@
+//! A zoo of wrong models: how far the modulus is off where the model is not the structure that was measured, and whether error bars and statuses say so.
+//!
+//! `wrong-models [CASES] [SEED] [--class CLASS] [--way WAY] [--csv FILE] [--case K]`: so many cases (default 40) of a seed (default 1), of all classes
+//! and ways or of one; with `--case` the case K alone, line by line. Case K of a seed is always the same, and its class is the K-th, counted round.
+//!
+//! Each case draws a structure, its material, load, sensors and noise, and measures the truth, which is another model by class, with direct solves.
+#![allow(clippy::print_stdout, clippy::print_stderr)] // tables are what a benchmark is for
+
+use frfit::identify::Options;
+use frfit_bench::wrong_models::case::Way;
+use frfit_bench::wrong_models::fault::Class;
+use frfit_bench::wrong_models::report::{LEGEND, Tried, csv, described, lines, markdown};
+use frfit_bench::wrong_models::{Failure, tried};
+use frfit_bench::{in_pool, machine};
+use rayon::prelude::*;
+
+/// Threads, each with a case of its own.
+const THREADS: usize = 2;
+
+/// What was asked for.
+struct Arguments {
+    cases: usize,
+    seed: u64,
+    class: Option<Class>,
+    ways: Vec<Way>,
+    csv: Option<String>,
+    case: Option<u64>,
+}
+
+impl Arguments {
+    fn read(mut words: impl Iterator<Item = String>) -> Result<Self, Failure> {
+        let ways = Way::ALL.to_vec();
+        let mut read = Self { cases: 40, seed: 1, class: None, ways, csv: None, case: None };
+        let mut positions = 0;
+        while let Some(word) = words.next() {
+            if !word.starts_with("--") {
+                match positions {
+                    0 => read.cases = number(&word)?,
+                    1 => read.seed = number(&word)?,
+                    _ => return Err(format!("expected CASES and SEED, found {word:?} besides").into()),
+                }
+                positions += 1;
+                continue;
+            }
+            let value = words.next().ok_or_else(|| format!("{word}: expected a value"))?;
+            match word.as_str() {
+                "--class" => read.class = Some(value.parse()?),
+                "--way" => read.ways = vec![value.parse()?],
+                "--csv" => read.csv = Some(value),
+                "--case" => read.case = Some(number(&value)?),
+                _ => return Err(format!("expected --class, --way, --csv or --case, found {word}").into()),
+            }
+        }
+        Ok(read)
+    }
+}
+
+fn number<T: std::str::FromStr>(text: &str) -> Result<T, Failure> {
+    text.parse().map_err(|_| format!("expected a number, found {text:?}").into())
+}
+
+fn main() -> Result<(), Failure> {
+    let arguments = Arguments::read(std::env::args().skip(1))?;
+    let Arguments { cases, seed, class, ways, .. } = &arguments;
+    println!("Wrong models: the modulus, its error bars and statuses\n{}\n", machine());
+    let options = Options::default();
+    let (first, count) = arguments.case.map_or((0, *cases), |index| (index, 1));
+    let classes = Class::ALL.len() as u64;
+    let is_asked = |index: &u64| {
+        arguments.case.is_some() || class.is_none_or(|class| Class::ALL[(index % classes) as usize] == class)
+    };
+    let indices: Vec<u64> = (first..).filter(is_asked).take(count).collect();
+    let one = |&index: &u64| {
+        let done = tried(seed.to_owned(), index, ways, &options);
+        done.as_ref().map_or_else(|why| eprintln!("{why}"), |done| eprintln!("{}", described(done)));
+        done
+    };
+    let all: Vec<Result<Tried, Failure>> =
+        in_pool(THREADS, || indices.par_iter().with_max_len(1).map(one).collect())?;
+    let failed = all.iter().filter_map(|one| one.as_ref().err()).map(ToString::to_string);
+    let failed: Vec<String> = failed.collect();
+    let all: Vec<Tried> = all.into_iter().flatten().collect();
+    if let Some(file) = &arguments.csv {
+        std::fs::write(file, csv(&all))?;
+    }
+    if arguments.case.is_some() {
+        for case in &all {
+            println!("{}\n", described(case));
+            case.runs.iter().for_each(|run| println!("{}", lines(run)));
+        }
+    }
+    println!("{} cases of seed {seed}\n\n{}\n{LEGEND}", all.len(), markdown(&all));
+    match failed.len() {
+        0 => Ok(()),
+        // The table is there without them, but a fault of this program is not a result.
+        count => Err(format!("{count} cases could not be made: {}", failed.join("; ")).into()),
+    }
+}
