@@ -1,6 +1,8 @@
 //! What came out, in the few lines that a person reads first.
 
-use frfit::identify::{Calibrated, Explained, Line, NoiseSource, SmoothCurve, Status, Variation};
+use frfit::identify::{
+    Calibrated, Explained, Line, ModeError, ModelErrorsFound, NoiseSource, SmoothCurve, Status, Variation,
+};
 use frfit_workflow::check::findings_text;
 use frfit_workflow::job::IdentifyJob;
 use frfit_workflow::load::Layout;
@@ -182,6 +184,9 @@ fn doubts(job: &IdentifyJob) -> Vec<(bool, &'static str, String)> {
         };
         lines.push((false, "noise", format!("{source}{bar}")));
     }
+    if let Some(errors) = &run.found.model_errors {
+        lines.push((true, "model errors", model_errors(job, errors)));
+    }
     lines.extend(contradictions(job).map(|sentence| (true, "sensor", sentence)));
     lines.extend(channels(job));
     match run.found.fit {
@@ -213,6 +218,29 @@ fn doubts(job: &IdentifyJob) -> Vec<(bool, &'static str, String)> {
         _ => {}
     }
     lines
+}
+
+/// The errors of the model that are taken out of the values, and are in their error bars.
+fn model_errors(job: &IdentifyJob, errors: &ModelErrorsFound) -> String {
+    let size = |one: &&ModeError| one.error.abs() / one.std;
+    let worst = errors.modes.iter().max_by(|a, b| size(a).total_cmp(&size(b))).map(|mode| {
+        format!(
+            "; the mode at {:.0} Hz is off by {:+.2} ± {:.2} %",
+            mode.frequency_hz,
+            100.0 * mode.error,
+            100.0 * mode.std
+        )
+    });
+    let known = errors.factors.iter().filter(|factor| factor.error.abs() > 2.0 * factor.std).map(|factor| {
+        let name = &job.case.model.terms()[factor.term].name;
+        format!("; {name} is off by {:+.2} ± {:.2} %", 100.0 * factor.error, 100.0 * factor.std)
+    });
+    let [frequency, shape] = [errors.frequency_std, errors.shape_std].map(|std| 100.0 * std);
+    format!(
+        "natural frequencies {frequency:.2} %, mode shapes {shape:.1} %: taken out, and in the error bars{}{}",
+        worst.unwrap_or_default(),
+        known.collect::<String>()
+    )
 }
 
 /// What was found of channels whose scale or delay was unknown.

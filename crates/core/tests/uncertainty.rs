@@ -8,8 +8,8 @@ use frfit::c64;
 use frfit::for_each::sequential;
 use frfit::frequency::linear_hz;
 use frfit::identify::{
-    Context, Explained, Identification, Line, Noise, NoiseSource, Options, Reduction, Stage, Status,
-    Uncertainty, Variation,
+    Context, Explained, Identification, Line, ModelErrors, Noise, NoiseSource, Options, Reduction, Stage,
+    Status, Uncertainty, Variation,
 };
 use frfit::material::Law;
 use frfit::model::{DynamicStiffness, Parameter, Role, Sensor, Term};
@@ -405,9 +405,20 @@ fn no_line_is_ok_where_the_band_is_not_explained() {
         Case { model: DynamicStiffness::new(terms.collect()).unwrap(), ..plate(6, 0.4, 1e-2) }
     };
     let made = Measured::clean(&heavy, linear_hz(100.0, 2500.0, 120), 1.0, 5e-3);
-    let band = identify(&case, &made, &made.drawn(1), Noise::Known(&made.std), &bounded(&case));
+    let drawn = made.drawn(1);
+    let as_it_is = Options { model_errors: ModelErrors::None, ..bounded(&case) };
+    let band = identify(&case, &made, &drawn, Noise::Known(&made.std), &as_it_is);
     assert_eq!(band.fit.unwrap().verdict, Explained::No);
     assert!(band.lines.iter().all(|outcome| outcome.status != Status::Ok));
+    // With its errors estimated the mass is found, and the factor with it.
+    let corrected = identify(&case, &made, &drawn, Noise::Known(&made.std), &bounded(&case));
+    let errors = corrected.model_errors.as_ref().unwrap();
+    let [mass] = errors.factors[..] else { panic!("{errors:?}") };
+    assert!((mass.error - 0.03).abs() < 3.0 * mass.std && mass.std < 0.01, "{mass:?}");
+    let mut coverage = Coverage::default();
+    coverage.count(&corrected, |f| case.parameter.nominal.at(f).unwrap());
+    assert!(coverage.ok >= 60 && 10 * coverage.storage >= 9 * coverage.ok, "{coverage:?}");
+    assert!(10 * coverage.loss >= 9 * coverage.ok, "{coverage:?}");
     let unexplained = band.lines.iter().filter(|outcome| outcome.status == Status::Unexplained);
     assert!(unexplained.clone().count() > 40, "{}", unexplained.count());
     assert!(unexplained.clone().all(|outcome| outcome.correction().is_some()));

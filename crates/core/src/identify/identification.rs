@@ -4,7 +4,7 @@ use super::band::{BandOutcome, Calibration, Explained, GoodnessOfFit, LawsOutcom
 use super::band::{SmoothCurve, SmoothOutcome};
 use super::several::{BandValue, Direction, Number, Profile, SeveralOutcome};
 use super::uncertainty::{KNOWN, LEAST_LOSS};
-use super::{Line, Status};
+use super::{Line, ModelErrorsFound, Status};
 use crate::laws::{Estimate, LawFit, best};
 use crate::response::Work;
 use frfit_linalg::solve::Breakdown;
@@ -32,6 +32,9 @@ pub struct Identification {
     pub fit: Option<GoodnessOfFit>,
     /// Which combinations of the numbers that hold for the band are identifiable.
     pub identifiability: Identifiability,
+    /// The errors of the model that were taken out of the values and are carried into their error bars; `None` where a right
+    /// model explains the band as well.
+    pub model_errors: Option<ModelErrorsFound>,
     /// What the search did.
     pub search: SearchReport,
 }
@@ -89,7 +92,7 @@ impl Identification {
 
 impl From<BandOutcome> for Identification {
     fn from(band: BandOutcome) -> Self {
-        let BandOutcome { outcomes, work, subspace_size, explored, noise, fit, sensors } = band;
+        let BandOutcome { outcomes, work, subspace_size, explored, noise, fit, sensors, model_errors } = band;
         let search = SearchReport {
             work,
             reduced_size: subspace_size,
@@ -108,6 +111,7 @@ impl From<BandOutcome> for Identification {
             noise,
             fit,
             identifiability: Identifiability::default(),
+            model_errors: model_errors.map(|errors| errors.found()),
             search,
         }
     }
@@ -185,6 +189,7 @@ impl From<SeveralOutcome> for Identification {
             noise,
             fit,
             identifiability: Identifiability { coordinates, correlation, directions, profile },
+            model_errors: None,
             search,
         }
     }

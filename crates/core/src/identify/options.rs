@@ -1,9 +1,10 @@
 //! How to identify.
 
-use super::{Method, Reduction, Selection};
+use super::{Method, Reduction, Selection, UnknownChoice};
 use crate::c64;
 use crate::roots::{Bounds, RootOptions};
 use std::fmt;
+use std::str::FromStr;
 
 /// Nominal values further off are estimates of another kind: `whole_box`.
 const BOX_RATIO: f64 = 4.0;
@@ -37,6 +38,8 @@ pub struct Options {
     pub whole_box: bool,
     /// Whether a joint selection leaves out a sensor of three or more that contradicts all others. Default true: it is named in any case.
     pub reject_outliers: bool,
+    /// What is known of the errors of the model. Default: they are estimated.
+    pub model_errors: ModelErrors,
     /// Whether a joint selection on the subspace looks for all solutions at every frequency, however many there are. Default false: at some hundred of a dense
     /// band, and follows them in between.
     pub everywhere: bool,
@@ -56,6 +59,39 @@ impl Default for Options {
             whole_box: false,
             reject_outliers: true,
             everywhere: false,
+            model_errors: ModelErrors::default(),
+        }
+    }
+}
+
+/// What is known of the errors of the model: of its natural frequencies, mode shapes and known factors (B-11).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum ModelErrors {
+    /// Nothing: whether there are any, and how large they are, is estimated from the band.
+    #[default]
+    Estimated,
+    /// There are none that count: error bars hold the noise of the measurement alone.
+    None,
+}
+
+impl ModelErrors {
+    /// The name that case files use.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Estimated => "estimated",
+            Self::None => "none",
+        }
+    }
+}
+
+impl FromStr for ModelErrors {
+    type Err = UnknownChoice;
+
+    fn from_str(name: &str) -> Result<Self, UnknownChoice> {
+        match name {
+            "estimated" => Ok(Self::Estimated),
+            "none" => Ok(Self::None),
+            _ => Err(UnknownChoice { found: name.to_owned(), expected: "\"estimated\" or \"none\"" }),
         }
     }
 }

@@ -65,6 +65,21 @@ impl Uncertainty {
         }
     }
 
+    /// Adds an error of the factor that is independent of the noise: variances of its real and imaginary part, and their covariance.
+    pub(crate) fn widen(&mut self, factor: c64, [real, imaginary, both]: [f64; 3]) {
+        let eta = loss_factor(factor);
+        let before = *self;
+        self.correction_std = (before.correction_std.powi(2) + real + imaginary).max(0.0).sqrt();
+        self.storage_std = (before.storage_std.powi(2) + real).max(0.0).sqrt();
+        if let (Some(std), Some(correlation)) = (before.loss_factor_std, before.correlation) {
+            let of_loss = (imaginary - 2.0 * eta * both + eta * eta * real) / factor.re.powi(2);
+            let wider = (std * std + of_loss).max(0.0).sqrt();
+            let common = correlation * before.storage_std * std + (both - eta * real) / factor.re;
+            self.loss_factor_std = Some(wider);
+            self.correlation = Some(common / (self.storage_std * wider)).filter(|c| c.is_finite());
+        }
+    }
+
     /// Whether the linear error bar is valid.
     pub fn is_linear(&self) -> bool {
         // False for NaN too.

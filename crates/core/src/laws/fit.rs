@@ -184,6 +184,14 @@ impl LawFit {
         self
     }
 
+    /// With another covariance of θ, as that with errors of the model in it.
+    pub(crate) fn with_covariance(mut self, covariance: Vec<Vec<f64>>) -> Self {
+        let Told { parameters, correlation, .. } =
+            told(&self.parametrization, &self.theta, Some(&covariance));
+        (self.parameters, self.correlation, self.covariance) = (parameters, correlation, Some(covariance));
+        self
+    }
+
     /// The moduli that other minima, which the data cannot exclude, have at a frequency.
     pub(crate) fn rivals_at(&self, frequency_hz: f64) -> Vec<c64> {
         let at = |theta: &Vec<f64>| self.parametrization.modulus(theta, omega_rad_s(frequency_hz));

@@ -36,6 +36,13 @@ pub struct ParameterAt {
     pub coefficients: Vec<Combination>,
 }
 
+impl ParameterAt {
+    /// Whether it enters a term of the model.
+    pub(crate) fn enters(&self, term: usize) -> bool {
+        self.coefficients.iter().flat_map(|c| &c.parts).any(|(own, _)| *own == term)
+    }
+}
+
 /// D(c) = A₀ + Σ_j Σ_q c_j^q A_{j,q} at one frequency, P-10 and B-8.
 #[derive(Debug, Clone)]
 pub struct ModelAt<'m> {

@@ -48,17 +48,17 @@ impl Assessment {
 }
 
 /// The reduced system solved for the load and for every sensor.
-struct Solutions {
+pub(super) struct Solutions {
     /// θ_g of D and of ∂D/∂c.
-    theta: Vec<c64>,
+    pub(super) theta: Vec<c64>,
     slope_theta: Vec<c64>,
     factor: Lu,
     /// y, z_1, z_2 …
-    all: Vec<Vec<c64>>,
+    pub(super) all: Vec<Vec<c64>>,
 }
 
 impl Solutions {
-    fn new(small: &Projection, at: &ModelAt<'_>, correction: c64) -> Result<Self, Breakdown> {
+    pub(super) fn new(small: &Projection, at: &ModelAt<'_>, correction: c64) -> Result<Self, Breakdown> {
         let (theta, slope_theta) = weights(small, at, correction);
         let mut block = small.load.clone();
         block.extend(small.sensors.iter().flatten().map(|&l| c64::new(l, 0.0)));
@@ -69,19 +69,19 @@ impl Solutions {
     }
 
     /// x_m.
-    fn response(&self, small: &Projection) -> Vec<c64> {
+    pub(super) fn response(&self, small: &Projection) -> Vec<c64> {
         small.observe(&self.all[0])
     }
 
     /// −z_mᵀ (Σ_g θ_g S_g) y for each set of θ.
-    fn slopes(&self, small: &Projection, theta: &[Vec<c64>]) -> Vec<Vec<c64>> {
+    pub(super) fn slopes(&self, small: &Projection, theta: &[Vec<c64>]) -> Vec<Vec<c64>> {
         let changes = small.multiply(theta, &self.all[0]);
         let slope = |change: &Vec<c64>| self.all[1..].iter().map(|z| -transpose_dot(z, change)).collect();
         changes.iter().map(slope).collect()
     }
 
     /// ∂x_m/∂c.
-    fn slope(&self, small: &Projection) -> Vec<c64> {
+    pub(super) fn slope(&self, small: &Projection) -> Vec<c64> {
         self.slopes(small, std::slice::from_ref(&self.slope_theta)).concat()
     }
 }

@@ -22,11 +22,22 @@ impl Projection {
     /// # Limits
     /// Its [`Projection::assess`] tells errors of the full model, not of this one.
     pub fn localised(&self, points: &[Point<'_>], tolerance: f64) -> Self {
+        self.localised_with(points, tolerance, &[]).map_or_else(|| self.clone(), |(local, _)| local)
+    }
+
+    /// The same with some vectors in the span, and the coordinates W (r × q, column after column) of its basis VW; `None` where it would be no smaller.
+    pub(super) fn localised_with(
+        &self,
+        points: &[Point<'_>],
+        tolerance: f64,
+        vectors: &[Vec<f64>],
+    ) -> Option<(Self, Vec<f64>)> {
         let relative = |solved: &Assessment, point: &Point<'_>| {
             let nominal = point.at.parameters.first().map_or(c64::default(), |p| p.nominal);
             solved.relative_truncation(nominal + point.correction)
         };
         let mut directions = Vec::new();
+        vectors.iter().for_each(|vector| append_real(&mut directions, vector.clone()));
         let mut done = vec![false; points.len()];
         // Ends and middle first; then where it is worst.
         let mut next: Vec<(usize, f64)> =
@@ -42,9 +53,10 @@ impl Projection {
                 }
             }
             if directions.is_empty() || directions.len() as f64 > WORTHWHILE * self.size as f64 {
-                return self.clone();
+                return None;
             }
-            let local = self.compressed(&directions.concat());
+            let basis = directions.concat();
+            let local = self.compressed(&basis);
             let error = |i: usize| {
                 let assessed = local.assess(&points[i].at, points[i].correction);
                 assessed.map_or(f64::INFINITY, |assessed| relative(&assessed, &points[i]))
@@ -52,7 +64,7 @@ impl Projection {
             let rest = (0..points.len()).filter(|&i| !done[i]).map(|i| (i, error(i)));
             match rest.max_by(|a, b| a.1.total_cmp(&b.1)) {
                 Some((i, worst)) if worst > tolerance => next.push((i, worst)),
-                _ => return local,
+                _ => return Some((local, basis)),
             }
         }
     }
@@ -77,19 +89,22 @@ impl Projection {
 /// The real and the imaginary part of y, orthonormalised.
 fn append(directions: &mut Vec<Vec<f64>>, y: &[c64]) {
     for part in [|y: &c64| y.re, |y: &c64| y.im] {
-        let mut x: Vec<f64> = y.iter().map(part).collect();
-        let length = |x: &[f64]| transpose_dot(x, x).sqrt();
-        let before = length(&x);
-        for _ in 0..2 {
-            for v in directions.iter() {
-                let overlap = transpose_dot(v, &x);
-                x.iter_mut().zip(v).for_each(|(x, v)| *x -= overlap * v);
-            }
+        append_real(directions, y.iter().map(part).collect());
+    }
+}
+
+fn append_real(directions: &mut Vec<Vec<f64>>, mut x: Vec<f64>) {
+    let length = |x: &[f64]| transpose_dot(x, x).sqrt();
+    let before = length(&x);
+    for _ in 0..2 {
+        for v in directions.iter() {
+            let overlap = transpose_dot(v, &x);
+            x.iter_mut().zip(v).for_each(|(x, v)| *x -= overlap * v);
         }
-        let rest = length(&x);
-        if rest > NEW * before {
-            x.iter_mut().for_each(|x| *x /= rest);
-            directions.push(x);
-        }
+    }
+    let rest = length(&x);
+    if rest > NEW * before {
+        x.iter_mut().for_each(|x| *x /= rest);
+        directions.push(x);
     }
 }

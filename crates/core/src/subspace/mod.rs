@@ -15,6 +15,7 @@ mod assess;
 mod basis;
 mod changes;
 mod local;
+mod modes;
 mod parts;
 mod pole_residue;
 mod projection;
@@ -26,6 +27,7 @@ mod train_changes;
 
 pub use assess::Assessment;
 pub use changes::{ChangePoint, Changed};
+pub(crate) use modes::{ErrorSlopes, ModalErrors, Modes};
 pub use pole_residue::{Drive, PoleResidue};
 pub use projection::Projection;
 pub use reduced::ReducedModel;

@@ -21,6 +21,11 @@ impl Parts {
         self.0.len()
     }
 
+    /// The term to which a part belongs.
+    pub(super) fn term(&self, g: usize) -> usize {
+        self.0[g].0
+    }
+
     /// out += S_g X for real vectors, N × k column after column.
     pub(super) fn multiply_add(&self, model: &DynamicStiffness, g: usize, x: &[f64], out: &mut [f64]) {
         let (term, part) = self.0[g];

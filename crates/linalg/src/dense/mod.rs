@@ -1,5 +1,6 @@
 //! Small dense problems. Sizes here are tens, not thousands: the order of a series, a Krylov space.
 
+mod cholesky;
 mod eigen;
 mod least_squares;
 mod lu;
@@ -9,6 +10,7 @@ mod real;
 mod singular;
 mod split_complex_lu;
 
+pub use cholesky::Cholesky;
 pub use eigen::{Eigen, eigen, eigenvalues, symmetric_eigen};
 pub use least_squares::{LeastSquares, least_squares};
 pub use lu::{Lu, solve};

@@ -537,6 +537,12 @@ pub(super) static IDENTIFY: Section = Section {
             "Of three or more sensors one that contradicts all others is left out.",
         ),
         key(
+            "model_errors",
+            "\"estimated\" or \"none\"",
+            "\"estimated\"",
+            "Errors of the model's natural frequencies, mode shapes and known matrices: estimated from the band and taken out where they explain it better than a right model, or none, where error bars hold the noise alone.",
+        ),
+        key(
             "check",
             "true or false",
             "true",
@@ -561,6 +567,7 @@ branches = 3
 bounds = { storage = [1e5, 1e9], loss_factor = [0.0, 3.0] }
 start = \"bounds\"
 reject_outliers = false
+model_errors = \"none\"
 check = false
 ",
         "[identify]

@@ -16,7 +16,7 @@ pub(crate) use sections::checked_band;
 use crate::error::Place;
 use crate::units::{Amount, UnitSystem};
 use frfit::dof::{Axis, DofName};
-use frfit::identify::{Method, Reduction, Selection};
+use frfit::identify::{Method, ModelErrors, Reduction, Selection};
 use frfit::laws::LawKind;
 use frfit::material::Law;
 use frfit::model::Role;
@@ -196,6 +196,8 @@ pub struct IdentifyEntry {
     pub real: bool,
     /// Whether a sensor that contradicts all others is left out.
     pub reject_outliers: Option<bool>,
+    /// What is known of the errors of the model.
+    pub model_errors: Option<ModelErrors>,
     /// Whether to look for what is wrong with the data first.
     pub check: bool,
     /// The factor that a simulated measurement was made with.

@@ -10,7 +10,7 @@ use crate::error::{InputError, Place};
 use crate::units::{Amount, AmountOf, UnitSystem, UnknownSystem, amount};
 use frfit::c64;
 use frfit::dof::{Axis, DofName};
-use frfit::identify::{Method, Reduction, Selection};
+use frfit::identify::{Method, ModelErrors, Reduction, Selection};
 use frfit::laws::{LawKind, MAX_BRANCHES, UnknownLawKind};
 use frfit::material::{Branch, Law};
 use frfit::model::Role;
@@ -380,6 +380,8 @@ pub(super) fn identify(field: &Field<'_>) -> Result<IdentifyEntry, InputError> {
     let method = |word: &str| word.parse::<Method>().map_err(|unknown| unknown.expected.to_owned());
     let selection = |word: &str| word.parse::<Selection>().map_err(|unknown| unknown.expected.to_owned());
     let reduction = |word: &str| word.parse::<Reduction>().map_err(|unknown| unknown.expected.to_owned());
+    let model_errors =
+        |word: &str| word.parse::<ModelErrors>().map_err(|unknown| unknown.expected.to_owned());
     let start = |word: &str| (word == "bounds").then_some(()).ok_or_else(|| START.to_owned());
     let bound = |name| bounds.as_ref().and_then(|table| table.find(name)).map(|f| f.pair()).transpose();
     Ok(IdentifyEntry {
@@ -401,6 +403,11 @@ pub(super) fn identify(field: &Field<'_>) -> Result<IdentifyEntry, InputError> {
             .find("reject_outliers")
             .map(|reject_outliers| reject_outliers.flag())
             .transpose()?,
+        model_errors: table
+            .find("model_errors")
+            .map(|field| field.word(model_errors))
+            .transpose()?
+            .map(|found| found.value),
         check: table.find("check").map(|check| check.flag()).transpose()?.unwrap_or(true),
         reference: table.find("reference").map(|reference| factor(&reference)).transpose()?,
     })

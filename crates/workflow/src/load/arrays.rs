@@ -10,7 +10,7 @@ use crate::case::{Exclusion, Located, VariesEntry as Varies, checked_band};
 use crate::error::{InputError, Place};
 use crate::units::{FactorUnit, UnitSystem};
 use frfit::c64;
-use frfit::identify::{ChannelUnknowns, Method, Options, OptionsError, Reduction, Selection};
+use frfit::identify::{ChannelUnknowns, Method, ModelErrors, Options, OptionsError, Reduction, Selection};
 use frfit::laws::LawKind;
 use frfit::model::{DynamicStiffness, Experiment, ModelError, Parameter, Role, Sensor};
 use frfit::quantity::Quantity;
@@ -89,6 +89,8 @@ pub struct Wanted {
     pub start_at_bounds: bool,
     /// Whether a sensor that contradicts all others is left out; `None`: the default.
     pub reject_outliers: Option<bool>,
+    /// `estimated` or `none`; `None`: the default.
+    pub model_errors: Option<String>,
     /// `frequency`, `smooth` or `law`; `None`: `law` where there are laws, otherwise the default.
     pub varies: Option<String>,
     /// Laws to fit to the whole band; none beside `law`: all.
@@ -400,7 +402,14 @@ fn options(wanted: &Wanted) -> Result<Options, ArraysError> {
         Some(word) => word.parse::<Reduction>().map_err(|error| refuse("reduction", word, error.expected))?,
         None => defaults.reduction,
     };
+    let model_errors = match &wanted.model_errors {
+        Some(word) => {
+            word.parse::<ModelErrors>().map_err(|error| refuse("model_errors", word, error.expected))?
+        }
+        None => defaults.model_errors,
+    };
     let options = Options {
+        model_errors,
         method,
         selection,
         reduction,

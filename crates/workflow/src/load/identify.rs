@@ -239,6 +239,7 @@ fn options(entry: &IdentifyEntry, overrides: &Overrides) -> Result<Options, Inpu
     options.method = entry.method.unwrap_or(options.method);
     options.reduction = entry.reduction.unwrap_or(options.reduction);
     options.reject_outliers = entry.reject_outliers.unwrap_or(options.reject_outliers);
+    options.model_errors = entry.model_errors.unwrap_or(options.model_errors);
     options.whole_box = entry.start.is_some();
     options.bounds.storage = entry.storage.as_ref().map(|bound| bound.value);
     options.bounds.loss_factor = entry.loss_factor.as_ref().map(|bound| bound.value);

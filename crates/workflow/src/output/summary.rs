@@ -4,7 +4,9 @@ use super::{laws_json, smooth_json};
 use crate::load::{Case, IdentifyCase, MeasuredNoise};
 use crate::run::IdentifyRun;
 use frfit::c64;
-use frfit::identify::{GoodnessOfFit, NoiseLevel, Status, Variation};
+use frfit::identify::{
+    FactorError, GoodnessOfFit, ModeError, ModelErrorsFound, NoiseLevel, Status, Variation,
+};
 use frfit::material::loss_factor;
 use frfit::model::Term;
 use serde_json::{Map, Value, json};
@@ -54,12 +56,14 @@ pub fn summary_json(
             "bounds": {"storage": unknown.bounds.storage, "loss_factor": unknown.bounds.loss_factor},
             "real": unknown.real,
             "reject_outliers": options.reject_outliers,
+            "model_errors": options.model_errors.name(),
         },
         "frequencies": run.found.lines.len(),
         "status": statuses,
         "bands_hz": bands,
         "noise": noise(identify, run),
         "fit": fit_json(run.found.fit.as_ref()),
+        "model_errors": run.found.model_errors.as_ref().map(|errors| model_errors_json(case, errors)),
         "error": spread(run, |outcome| outcome.error),
         "storage_std": spread(run, |outcome| Some(outcome.uncertainty()?.storage_std)),
         "loss_factor_std": spread(run, |outcome| outcome.uncertainty()?.loss_factor_std),
@@ -143,6 +147,20 @@ fn noise(identify: &IdentifyCase, run: &IdentifyRun) -> Value {
     json!({
         "level": level, "source": source.name(), "deviation": deviation,
         "level_of_sensors": of_sensors, "level_of_scatter": of_scatter,
+    })
+}
+
+/// The errors of the model that were taken out.
+fn model_errors_json(case: &Case, errors: &ModelErrorsFound) -> Value {
+    let mode =
+        |mode: &ModeError| json!({"frequency_hz": mode.frequency_hz, "error": mode.error, "std": mode.std});
+    let matrix = |factor: &FactorError| json!({"matrix": case.model.terms()[factor.term].name, "error": factor.error, "std": factor.std});
+    json!({
+        "frequency_std": errors.frequency_std,
+        "shape_std": errors.shape_std,
+        "evidence_nats": errors.evidence,
+        "modes": errors.modes.iter().map(mode).collect::<Vec<_>>(),
+        "matrices": errors.factors.iter().map(matrix).collect::<Vec<_>>(),
     })
 }
 

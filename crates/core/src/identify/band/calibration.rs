@@ -11,7 +11,7 @@ use crate::c64;
 use crate::for_each::map;
 use crate::frequency::omega_rad_s;
 use crate::identify::{Options, Status};
-use crate::material::{OutsideTable, loss_factor};
+use crate::material::OutsideTable;
 use crate::model::ModelAt;
 use frfit_linalg::dense::symmetric_eigen;
 
@@ -152,7 +152,7 @@ pub(super) fn with_scales<'a>(
     hooks: Context<'_>,
 ) -> (BandOutcome, Option<Vec<Calibration>>) {
     let hidden: Vec<usize> = (0..unknown.len()).filter(|&m| unknown[m].any()).collect();
-    let first = joint::identify(band, at, space, &hidden, options, hooks);
+    let first = joint::identify(band, at, space.as_mut(), &hidden, options, hooks);
     let Some(mut channels) = space.as_ref().and_then(|space| starting(band, at, space, &first, unknown))
     else {
         return (first, None);
@@ -160,7 +160,7 @@ pub(super) fn with_scales<'a>(
     for round in 0..ROUNDS {
         let scaled = Scaled::new(band, &channels);
         let view = scaled.band(band);
-        let mut outcome = joint::identify(&view, at, space, &[], options, hooks);
+        let mut outcome = joint::identify(&view, at, space.as_mut(), &[], options, hooks);
         let told = space.as_ref().and_then(|space| settle(&view, at, space, &outcome, unknown, hooks));
         let Some(told) = told else { return (first, None) };
         if told.is_settled(top(band)) || round + 1 == ROUNDS {
@@ -430,27 +430,14 @@ impl CalibrationEstimate {
             let (Some(factor), Some(bars)) = (own.factor(), own.values[0].uncertainty.as_mut()) else {
                 continue;
             };
-            let eta = loss_factor(factor);
             let form = |g: &dyn Fn(&c64) -> f64, h: &dyn Fn(&c64) -> f64| {
                 let row = |(p, v): (usize, &c64)| {
                     moved.iter().zip(&self.covariance[p]).map(|(w, c)| g(v) * c * h(w)).sum::<f64>()
                 };
                 level * level * moved.iter().enumerate().map(row).sum::<f64>()
             };
-            let storage = |v: &c64| v.re;
-            let loss = |v: &c64| (v.im - eta * v.re) / factor.re;
-            let imaginary = |v: &c64| v.im;
-            let extra = form(&storage, &storage);
-            bars.correction_std =
-                (bars.correction_std.powi(2) + extra + form(&imaginary, &imaginary)).max(0.0).sqrt();
-            let before = bars.storage_std;
-            bars.storage_std = (before.powi(2) + extra).max(0.0).sqrt();
-            if let (Some(std), Some(correlation)) = (bars.loss_factor_std, bars.correlation) {
-                let wider = (std * std + form(&loss, &loss)).max(0.0).sqrt();
-                let common = correlation * before * std + form(&storage, &loss);
-                bars.loss_factor_std = Some(wider);
-                bars.correlation = Some(common / (bars.storage_std * wider)).filter(|c| c.is_finite());
-            }
+            let (real, imaginary) = (|v: &c64| v.re, |v: &c64| v.im);
+            bars.widen(factor, [form(&real, &real), form(&imaginary, &imaginary), form(&real, &imaginary)]);
             if own.status == Status::Ok && !bars.is_known(factor) {
                 own.status = Status::NotIdentifiable;
             }

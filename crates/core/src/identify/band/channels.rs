@@ -183,7 +183,7 @@ pub(super) fn at_scales<'a, 'o>(
     let right = vec![Channel::RIGHT; unknown.len()];
     let is_known = |unknown: &ChannelUnknowns| !unknown.any();
     if unknown.iter().all(is_known) {
-        let outcome = joint::identify(band, at, &mut space, &[], options, hooks);
+        let outcome = joint::identify(band, at, space.as_mut(), &[], options, hooks);
         return (outcome, Begin { space, channels: right, ratio: 1.0 });
     }
     if unknown.iter().any(is_known) {
@@ -194,7 +194,7 @@ pub(super) fn at_scales<'a, 'o>(
     let shaped = space.as_ref().and_then(|space| shaped(band, at, space, unknown, options, hooks));
     let (channels, ratio) = shaped.unwrap_or((right, 1.0));
     let scaled = Scaled::new(band, &channels);
-    let outcome = joint::identify(&scaled.band(band), at, &mut space, &[], options, hooks);
+    let outcome = joint::identify(&scaled.band(band), at, space.as_mut(), &[], options, hooks);
     (outcome, Begin { space, channels, ratio })
 }
 

@@ -92,7 +92,7 @@ impl Task<'_, '_> {
 pub(super) fn identify<'a>(
     band: &Band<'a>,
     at: &[ModelAt<'a>],
-    space: &mut Option<ReducedBand<'_, '_>>,
+    mut space: Option<&mut ReducedBand<'_, '_>>,
     hidden: &[usize],
     options: &Options,
     hooks: Context<'_>,
@@ -100,11 +100,11 @@ pub(super) fn identify<'a>(
     let assumed = deviations(band.measured, band.noise);
     let sensors = band.experiment.sensors.len();
     let task = Task { band, at, sigma: &assumed, sensors, options, hooks };
-    let (suspects, spent) = contradicting(&task, space.as_mut(), hidden);
+    let (suspects, spent) = contradicting(&task, space.as_deref_mut(), hidden);
     let out = [hidden, if options.reject_outliers { &suspects[..] } else { &[] }].concat();
     let sigma = without(&assumed, &out);
     let task = Task { sigma: &sigma, sensors: sensors - out.len(), ..task };
-    let (solved, mut work) = match space {
+    let (solved, mut work) = match space.as_deref_mut() {
         Some(space) => (on_space(&task, space), Work::default()),
         None => {
             let (found, work) = on_full_model(&task);
@@ -123,7 +123,7 @@ pub(super) fn identify<'a>(
     let outcomes: Vec<Line> = map(hooks.for_each, at.len(), |i| {
         let solution = choices[i].chosen.or_else(|| likeliest(&task.fit(i), &found[i], &path, i));
         let chosen = solution.map(|k| &found[i].solutions[k]);
-        let on_space = space.as_ref().zip(chosen.map(|solution| solution.correction));
+        let on_space = space.as_deref().zip(chosen.map(|solution| solution.correction));
         let weighed = |second: Vec<c64>| task.fit(i).weighed(&second);
         // The poles have it without another factorisation; how nearly linear something is takes few digits.
         let second = match (found[i].poles.as_ref().zip(chosen), on_space) {
@@ -144,7 +144,7 @@ pub(super) fn identify<'a>(
         };
         verdict(&evidence, &found[i], &choices[i], options)
     });
-    if let Some(space) = space {
+    if let Some(space) = &space {
         work += space.work();
     }
     let fit = goodness(&outcomes, task.freedom(), 0, &noise, band);
@@ -162,6 +162,7 @@ pub(super) fn identify<'a>(
         noise,
         fit,
         sensors,
+        model_errors: None,
     }
 }
 

@@ -11,10 +11,11 @@ use super::joint;
 use super::noise::{NoiseLevel, NoiseSource, deviations};
 use super::outlier_sensor::without;
 use super::reduced_band::{ReducedBand, reduction_error};
-use super::{Band, BandOutcome, Context, Noise, Stage, near_or_far, on_subspace};
+use super::{Band, BandOutcome, Context, Noise, Stage, corrected, near_or_far, on_subspace};
 use crate::c64;
 use crate::for_each::map;
 use crate::frequency::omega_rad_s;
+use crate::identify::model_errors::estimate_with_law;
 use crate::identify::{Line, Options, Status, Uncertainty, relative_error};
 use crate::laws::{
     Datum, Evidence, LawFit, LawKind, LineResidual, LocalMinima, Parametrization, Residuals, Search, best,
@@ -94,6 +95,10 @@ pub(in crate::identify) fn identify_laws(
     let boxes = on_subspace(options);
     let (mut free, Begin { space, channels, ratio }) =
         near_or_far(&boxes, |options| at_scales(band, &at, unknown, options, hooks));
+    let mut space = space;
+    if let Some(space) = space.as_mut().filter(|_| !unknown.iter().any(|channel| channel.any())) {
+        free = corrected::correct(band, &at, free, space, &boxes[0], hooks);
+    }
     let scaled = Scaled::new(band, &channels);
     let view = scaled.band(band);
     let out = free.left_out();
@@ -120,6 +125,7 @@ pub(in crate::identify) fn identify_laws(
         (hooks.progress)(Stage::Law, fits.len(), kinds.len());
         fits.extend(fitting.fit(family, &mut space, &free, best(&fits)));
     }
+    fitting.with_errors(&mut fits, &mut space, &mut free);
     (hooks.progress)(Stage::Law, kinds.len(), kinds.len());
     let left = best(&fits).and_then(|law| fitting.calibrations_of(law, &space));
     let better: Vec<_> = match &left {
@@ -144,7 +150,7 @@ pub(in crate::identify) fn identify_laws(
         // What each frequency says by itself, at the calibrations that came out.
         let mut whole = Some(space);
         let spent = free.work;
-        free = joint::identify(&view, &at, &mut whole, &[], &boxes[0], hooks);
+        free = joint::identify(&view, &at, whole.as_mut(), &[], &boxes[0], hooks);
         free.work += spent;
         let Some(again) = whole else { unreachable!("a space that was there stays") };
         space = again;
@@ -185,6 +191,29 @@ pub(super) struct Fitting<'t, 'a> {
 impl Fitting<'_, '_> {
     pub(super) fn omega(&self, i: usize) -> f64 {
         omega_rad_s(self.band.frequency_hz[i])
+    }
+
+    /// Finds the errors of the model once more with the law of least BIC, and that law with them; its error bars have both.
+    fn with_errors(
+        &self,
+        fits: &mut [LawFit],
+        space: &mut ReducedBand<'_, '_>,
+        free: &mut BandOutcome,
+    ) -> Option<()> {
+        let errors = free.model_errors.as_ref()?;
+        let family = best(fits)?.family;
+        let place = fits.iter().position(|fit| fit.family == family)?;
+        let weights = corrected::Weights::new(self.band, &free.left_out());
+        let measured = weights.of(self.band, self.at, free, self.options);
+        let law = fits[place].coordinates();
+        let errors = estimate_with_law(space.whole(), &measured, errors, law, self.hooks.for_each)?;
+        space.correct(&errors.modes, &errors.errors);
+        let all: Vec<usize> = (0..self.at.len()).collect();
+        space.localise(&all, self.hooks.for_each);
+        let again = self.fit(family, space, free, Some(&fits[place]))?;
+        fits[place] = again.with_covariance(errors.coordinates());
+        free.model_errors = Some(errors);
+        Some(())
     }
 
     fn evidence(&self) -> Evidence {
@@ -366,10 +395,10 @@ impl Fitting<'_, '_> {
         i: usize,
         own: &Line,
     ) -> Line {
-        let (at, measured) = (&self.at[i], &self.band.measured[i]);
+        let measured = &self.band.measured[i];
         let found = law.at(self.band.frequency_hz[i]).and_then(|estimate| {
             let correction = estimate.modulus - own.nominal();
-            Some((estimate, correction, space.model(i).assess(at, correction).ok()?))
+            Some((estimate, correction, space.assess(i, correction)?))
         });
         let Some((estimate, correction, assessed)) = found else { return own.unanswered() };
         let mut outcome = own.unanswered();

@@ -4,6 +4,7 @@ mod calibration;
 mod candidates;
 mod channels;
 mod continuation;
+mod corrected;
 mod exploration_grid;
 mod fit;
 mod initial_calibration;
@@ -26,6 +27,7 @@ pub(super) use laws::{LawsOutcome, identify_laws};
 pub use smooth::SmoothCurve;
 pub(super) use smooth::{SmoothOutcome, identify_smooth};
 
+use super::model_errors::Estimated;
 use super::{Line, Options, Reduction, Selection};
 use crate::c64;
 use crate::for_each::ForEach;
@@ -111,6 +113,8 @@ pub(super) struct BandOutcome {
     pub fit: Option<GoodnessOfFit>,
     /// One for each sensor; empty where each frequency is answered by itself.
     pub sensors: Vec<SensorFit>,
+    /// Errors of the model that were taken out; `None` where none were found.
+    pub model_errors: Option<Estimated>,
 }
 
 /// Identifies the first parameter at every frequency of a band.
@@ -129,8 +133,17 @@ pub(super) fn identify_band(
     hooks: Context<'_>,
 ) -> Result<BandOutcome, OutsideTable> {
     let at = band.model.at_all(band.frequency_hz, std::slice::from_ref(band.parameter))?;
-    let run = |options: &Options| (identify_at_all(band, &at, options, hooks), ());
-    Ok(near_or_far(&near_and_far(options), run).0.judged_by_fit())
+    let boxes = near_and_far(options);
+    let run = |options| identify_at_all(band, &at, options, hooks);
+    let (found, space) = near_or_far(&boxes, run);
+    // A model that is answered for as it is has no modes at hand: they are those of a reduced one.
+    let wanted = options.selection == Selection::Joint && options.reduction == Reduction::Auto;
+    let reduced = || ReducedBand::new(band, &at, &boxes[0], hooks).ok().filter(|_| wanted);
+    let found = match space.or_else(reduced).filter(|_| options.selection == Selection::Joint) {
+        Some(mut space) => corrected::correct(band, &at, found, &mut space, &boxes[0], hooks),
+        None => found,
+    };
+    Ok(found.judged_by_fit())
 }
 
 /// Options to look near the nominal, and in the whole of the bounds.
@@ -179,16 +192,16 @@ impl BandOutcome {
     }
 }
 
-fn identify_at_all<'a>(
+fn identify_at_all<'a, 'o>(
     band: &Band<'a>,
-    at: &[ModelAt<'a>],
-    options: &Options,
+    at: &'o [ModelAt<'a>],
+    options: &'o Options,
     hooks: Context<'_>,
-) -> BandOutcome {
+) -> (BandOutcome, Option<ReducedBand<'a, 'o>>) {
     match options.selection {
-        Selection::Joint => keeping_space(band, at, options, hooks).0,
+        Selection::Joint => keeping_space(band, at, options, hooks),
         Selection::Smallest => {
-            per_frequency::identify(band, at, space(band, at, options, hooks), options, hooks)
+            (per_frequency::identify(band, at, space(band, at, options, hooks), options, hooks), None)
         }
     }
 }
@@ -201,7 +214,7 @@ fn keeping_space<'a, 'o>(
     hooks: Context<'_>,
 ) -> (BandOutcome, Option<ReducedBand<'a, 'o>>) {
     let mut space = space(band, at, options, hooks);
-    (joint::identify(band, at, &mut space, &[], options, hooks), space)
+    (joint::identify(band, at, space.as_mut(), &[], options, hooks), space)
 }
 
 fn space<'a, 'o>(

@@ -19,7 +19,6 @@ pub(super) fn on_space(task: &Task<'_, '_>, space: &mut ReducedBand<'_, '_>) -> 
     let pilots = space.pilots();
     let found = space.find(&pilots, hooks, find);
     space.certify(&pilots, found, hooks, settle, |found| taken(&task.select(&pilots, found.iter()).0, found));
-
     let all: Vec<usize> = (0..at.len()).collect();
     let anchors = if task.options.everywhere {
         all.clone()

@@ -56,6 +56,7 @@ pub(super) fn identify<'a>(
                 noise: NoiseLevel::NONE,
                 fit: None,
                 sensors: Vec::new(),
+                model_errors: None,
             }
         }
         None => {
@@ -78,6 +79,7 @@ pub(super) fn identify<'a>(
                 noise: NoiseLevel::NONE,
                 fit: None,
                 sensors: Vec::new(),
+                model_errors: None,
             }
         }
     }

@@ -7,7 +7,7 @@ use crate::identify::Options;
 use crate::material::loss_factor;
 use crate::model::ModelAt;
 use crate::response::Work;
-use crate::subspace::{Assessment, Point, Projection, Subspace, TrainOptions};
+use crate::subspace::{Assessment, ModalErrors, Modes, Point, Projection, Subspace, TrainOptions};
 use frfit_linalg::solve::Breakdown;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -44,7 +44,9 @@ pub(super) struct ReducedBand<'a, 'o> {
     options: &'o Options,
     blocks: Vec<Block>,
     /// The model that answered at each frequency: that of its neighbourhood, when it was last asked.
-    models: Vec<Option<Arc<Projection>>>,
+    models: Vec<Option<Arc<Local>>>,
+    /// Errors of the model that are taken out of every answer, and the whole reduced model without them.
+    errors: Option<(Modes, ModalErrors, Projection)>,
     /// Answers at each frequency, and how good their model is there.
     assessed: Vec<Vec<(c64, Assessment)>>,
     /// Answers that the training looked at: (frequency, correction).
@@ -59,7 +61,15 @@ struct Block {
     /// First and last frequency (index).
     ends: [usize; 2],
     /// Its model, and what it was made from.
-    model: Option<(Training, Arc<Projection>)>,
+    model: Option<(Training, Arc<Local>)>,
+}
+
+/// The model of a neighbourhood.
+struct Local {
+    /// As the full model is.
+    own: Projection,
+    /// With the errors of the model taken out, where there are any.
+    corrected: Option<Projection>,
 }
 
 impl<'a, 'o> ReducedBand<'a, 'o> {
@@ -87,6 +97,7 @@ impl<'a, 'o> ReducedBand<'a, 'o> {
             models: vec![None; n],
             assessed: vec![Vec::new(); n],
             answers: Vec::new(),
+            errors: None,
         };
         let all: Vec<usize> = (0..n).collect();
         let points: Vec<Point<'a>> = thinned(&all, FREQUENCIES).flat_map(|&i| space.box_points(i)).collect();
@@ -164,9 +175,34 @@ impl<'a, 'o> ReducedBand<'a, 'o> {
     /// How good the model that answered at a frequency is at a correction there.
     pub(super) fn assess(&self, i: usize, correction: c64) -> Option<Assessment> {
         let known = self.assessed[i].iter().find(|(same, _)| *same == correction);
-        known
-            .map(|(_, assessed)| assessed.clone())
-            .or_else(|| self.model(i).assess(&self.at[i], correction).ok())
+        known.map(|(_, assessed)| assessed.clone()).or_else(|| self.assess_anew(i, correction))
+    }
+
+    fn assess_anew(&self, i: usize, correction: c64) -> Option<Assessment> {
+        let mut assessed = self.model(i).assess(&self.at[i], correction).ok()?;
+        // A model with errors in it knows how far it is from the whole reduced one; that one knows how far it is from the full one.
+        if let Some(Local { own, corrected: Some(_) }) = self.models[i].as_deref() {
+            let of_full = own.assess(&self.at[i], correction).ok()?;
+            let sum =
+                |own: &mut Vec<f64>, other: Vec<f64>| own.iter_mut().zip(other).for_each(|(a, b)| *a += b);
+            sum(&mut assessed.truncation, of_full.truncation);
+            sum(&mut assessed.roundoff, of_full.roundoff);
+        }
+        Some(assessed)
+    }
+
+    /// The whole reduced model, without errors taken out of it.
+    pub(super) fn whole(&self) -> &Projection {
+        self.subspace.projection()
+    }
+
+    /// Takes errors of the model out of every answer from now on.
+    pub(super) fn correct(&mut self, modes: &Modes, errors: &ModalErrors) {
+        let corrected = self.whole().with_errors(modes, errors);
+        self.errors = Some((modes.clone(), errors.clone(), corrected));
+        self.blocks.iter_mut().for_each(|block| block.model = None);
+        self.models.iter_mut().for_each(|model| *model = None);
+        self.assessed.iter_mut().for_each(Vec::clear);
     }
 
     /// Corrections, one at each frequency that has any, at which the subspace is not good enough: (frequency, correction).
@@ -206,6 +242,13 @@ impl<'a, 'o> ReducedBand<'a, 'o> {
         let training = TrainOptions { tolerance: TRAINED, ..TrainOptions::default() };
         self.subspace.train(&points, &training, hooks.for_each)?;
         self.answers.extend(answers);
+        if self.subspace.size() > before
+            && let Some((modes, errors, _)) = &self.errors
+        {
+            let modes = modes.in_larger(self.whole());
+            let corrected = self.whole().with_errors(&modes, errors);
+            self.errors = Some((modes, errors.clone(), corrected));
+        }
         Ok(self.subspace.size() > before)
     }
 
@@ -237,7 +280,7 @@ impl<'a, 'o> ReducedBand<'a, 'o> {
     }
 
     /// The model of a neighbourhood.
-    fn local(&self, [first, last]: [usize; 2]) -> Projection {
+    fn local(&self, [first, last]: [usize; 2]) -> Local {
         let steps = (last - first).min(BLOCK_POINTS.max(FREQUENCIES / self.blocks.len()) - 1);
         let picked = (0..=steps).map(|k| first + k * (last - first) / steps.max(1));
         let box_points = picked.flat_map(|i| self.box_points(i));
@@ -246,7 +289,8 @@ impl<'a, 'o> ReducedBand<'a, 'o> {
         let answers = thinned(&answers, BLOCK_LEAST);
         let answers = answers.map(|&(i, correction)| Point { at: self.at[i].clone(), correction });
         let points: Vec<Point<'_>> = box_points.chain(answers).collect();
-        self.subspace.projection().localised(&points, TRAINED)
+        let corrected = self.errors.as_ref().map(|(_, _, whole)| whole.localised(&points, TRAINED));
+        Local { own: self.whole().localised(&points, TRAINED), corrected }
     }
 
     /// First and last frequency of each neighbourhood.
@@ -256,7 +300,16 @@ impl<'a, 'o> ReducedBand<'a, 'o> {
 
     /// The model that answered at a frequency.
     pub(super) fn model(&self, i: usize) -> &Projection {
-        self.models[i].as_deref().unwrap_or(self.subspace.projection())
+        match (self.models[i].as_deref(), &self.errors) {
+            (Some(Local { own, corrected }), _) => corrected.as_ref().unwrap_or(own),
+            (None, Some((_, _, whole))) => whole,
+            (None, None) => self.whole(),
+        }
+    }
+
+    /// Errors that are taken out, in the basis that there is.
+    pub(super) fn errors(&self) -> Option<(&Modes, &ModalErrors, &Projection)> {
+        self.errors.as_ref().map(|(modes, errors, whole)| (modes, errors, whole))
     }
 
     pub(super) fn size(&self) -> usize {

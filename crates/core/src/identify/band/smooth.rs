@@ -7,6 +7,7 @@
 //! of one size: real and imaginary part have one κ, one weight, and no correlation.
 
 use super::candidates::{misfit, weighed};
+use super::corrected::correct;
 use super::fit::{judge, sensor_misfit};
 use super::laws::{APART, MOVED, ROUNDS, UNEXPLAINED};
 use super::noise::{LEAST_LEVEL, deviations};
@@ -84,7 +85,10 @@ pub(in crate::identify) fn identify_smooth(
 ) -> Result<SmoothOutcome, OutsideTable> {
     let at = band.model.at_all(band.frequency_hz, std::slice::from_ref(band.parameter))?;
     let boxes = on_subspace(options);
-    let (free, space) = near_or_far(&boxes, |options| keeping_space(band, &at, options, hooks));
+    let (mut free, mut space) = near_or_far(&boxes, |options| keeping_space(band, &at, options, hooks));
+    if let Some(space) = &mut space {
+        free = correct(band, &at, free, space, &boxes[0], hooks);
+    }
     let assumed = deviations(band.measured, band.noise);
     let out = free.left_out();
     let sigma = without(&assumed, &out);
@@ -102,7 +106,7 @@ pub(in crate::identify) fn identify_smooth(
     };
     let noise = smoothing.noise(&free.noise, fitted.smoothed.level);
     let judged: Vec<Judged> =
-        map(hooks.for_each, at.len(), |i| smoothing.judged(&fitted, &noise, &space, i, &free.outcomes));
+        map(hooks.for_each, at.len(), |i| smoothing.judged(&fitted, &noise, &space, i, &free));
     let explained = || judged.iter().enumerate().filter(|(i, _)| fitted.observations[*i].weight > 0.0);
     let chi_squared = explained().map(|(_, judged)| judged.chi_squared).sum();
     let freedom = explained().map(|(_, judged)| judged.freedom).sum::<f64>().round() as usize;
@@ -116,8 +120,7 @@ pub(in crate::identify) fn identify_smooth(
     let mut work = free.work;
     work += space.work().since(fitted.before);
     let subspace_size = Some(space.size());
-    let smoothed =
-        BandOutcome { outcomes, work, subspace_size, explored: free.explored, noise, fit, sensors };
+    let smoothed = BandOutcome { outcomes, work, subspace_size, noise, fit, sensors, ..free.clone() };
     Ok(SmoothOutcome {
         free: free.judged_by_fit(),
         band: smoothed.judged_by_fit(),
@@ -376,8 +379,9 @@ impl Smoothing<'_, '_> {
         noise: &NoiseLevel,
         space: &ReducedBand<'_, '_>,
         i: usize,
-        free: &[Line],
+        alone: &BandOutcome,
     ) -> Judged {
+        let free = &alone.outcomes;
         let (measured, own) = (&self.band.measured[i], &free[i]);
         let mut outcome = own.unanswered();
         let factor = modulus(&fitted.smoothed.curve.states[i]);
@@ -391,7 +395,15 @@ impl Smoothing<'_, '_> {
         let second = space.second_derivative(i, correction);
         let second = second.map_or(f64::INFINITY, |second| weighed(&second, &self.sigma[i]));
         let part_std = factor.norm() * variance.sqrt();
-        let bars = Uncertainty::new(factor, self.options.real, part_std, second, level);
+        let mut bars = Uncertainty::new(factor, self.options.real, part_std, second, level);
+        let both = alone.model_errors.as_ref();
+        if let Some([real, imaginary, both]) =
+            both.and_then(|errors| errors.modulus_covariance(i, self.band.frequency_hz[i]))
+        {
+            // What the errors of the model add to the noise that is in the bars already.
+            let noise = bars.storage_std.powi(2);
+            bars.widen(factor, [(real - noise).max(0.0), (imaginary - noise).max(0.0), both]);
+        }
         let error = relative_error(&self.kept(measured), &self.kept(&assessed.response));
         // Of 2M numbers, what the curve took from this frequency.
         let taken = (fitted.observations[i].weight * variance).min(1.0);

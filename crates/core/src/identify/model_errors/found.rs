@@ -1,0 +1,83 @@
+//! What was found of the errors of a model.
+
+use super::Estimated;
+use std::f64::consts::TAU;
+
+/// The errors of a model (B-11): relative, as (truth − model)/model.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ModelErrorsFound {
+    /// Standard deviation s of the errors of natural frequencies, each its own.
+    pub frequency_std: f64,
+    /// Standard deviation s_a of the errors of mode shapes at the sensors.
+    pub shape_std: f64,
+    /// One for each mode of the nominal model up to the end of the band, and a little further.
+    pub modes: Vec<ModeError>,
+    /// One for each known matrix.
+    pub factors: Vec<FactorError>,
+    /// By how many nats these errors explain the band better than a right model does.
+    pub evidence: f64,
+}
+
+/// The error of a natural frequency.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ModeError {
+    /// The model's natural frequency at the modulus of the middle of the band.
+    pub frequency_hz: f64,
+    /// Its relative error.
+    pub error: f64,
+    /// The standard deviation of that.
+    pub std: f64,
+}
+
+/// The error of the factor of a known matrix.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FactorError {
+    /// The term of the model.
+    pub term: usize,
+    /// Its relative error.
+    pub error: f64,
+    /// The standard deviation of that.
+    pub std: f64,
+}
+
+/// Modes this far above the band are told of.
+const ABOVE_BAND: f64 = 1.2;
+
+impl Estimated {
+    /// What users are told.
+    pub(in crate::identify) fn found(&self) -> ModelErrorsFound {
+        let n = self.errors.frequency.len() + self.errors.factors.len() + self.errors.shape.concat().len();
+        let covariance = |a: usize, b: usize| self.covariance[a * n + b];
+        let mode = |(i, omega): (usize, &f64)| {
+            let own: Vec<usize> =
+                (0..self.modes.of_error.len()).filter(|&error| self.modes.of_error[error] == i).collect();
+            let variance: f64 = own.iter().flat_map(|&a| own.iter().map(move |&b| covariance(a, b))).sum();
+            ModeError {
+                frequency_hz: omega / TAU,
+                error: own.iter().map(|&error| self.errors.frequency[error]).sum(),
+                std: variance.max(0.0).sqrt(),
+            }
+        };
+        let first = self.modes.of_error.len();
+        let factor = |(t, &(term, error)): (usize, &(usize, f64))| {
+            let std = covariance(first + t, first + t).max(0.0).sqrt();
+            FactorError { term, error, std }
+        };
+        let told = |omega: &f64| *omega <= ABOVE_BAND * self.highest_rad_s;
+        let [frequency_std, shape_std] = self.sizes;
+        ModelErrorsFound {
+            frequency_std,
+            shape_std,
+            modes: self
+                .modes
+                .omega_rad_s
+                .iter()
+                .enumerate()
+                .filter(|(_, omega)| told(omega))
+                .map(mode)
+                .collect(),
+            factors: self.errors.factors.iter().enumerate().map(factor).collect(),
+            evidence: self.evidence,
+        }
+    }
+}

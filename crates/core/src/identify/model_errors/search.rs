@@ -1,0 +1,295 @@
+//! The least squares of a curve with the errors of the model: min over θ, δ, ν, a of χ² + their priors.
+
+use super::curve::Curve;
+use crate::c64;
+use crate::for_each::{ForEach, map};
+use crate::frequency::omega_rad_s;
+use crate::model::ModelAt;
+use crate::subspace::{ErrorSlopes, ModalErrors, Modes, Projection};
+use frfit_linalg::dense::Cholesky;
+
+/// What is to be explained, and with what.
+#[derive(Clone, Copy)]
+pub(super) struct Fitting<'t, 'a> {
+    /// The reduced model without errors.
+    pub(super) model: &'t Projection,
+    pub(super) modes: &'t Modes,
+    pub(super) at: &'t [ModelAt<'a>],
+    pub(super) measured: &'t [Vec<c64>],
+    /// Lines that are used.
+    pub(super) lines: &'t [usize],
+    pub(super) curve: &'t Curve,
+    /// The highest frequency of the band.
+    pub(super) highest_rad_s: f64,
+    /// Known terms whose factor may be in error.
+    pub(super) terms: &'t [usize],
+    pub(super) for_each: ForEach<'t>,
+}
+
+/// Parts that all δ_i have in common.
+pub(super) const COMMON: usize = 6;
+
+/// Sizes of the errors: standard deviations.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Sizes {
+    /// Of δ_i, each its own.
+    pub(super) frequency: f64,
+    /// Of what all δ_i have in common.
+    pub(super) common: f64,
+    /// Of a_mi.
+    pub(super) shape: f64,
+    /// Of ν_t.
+    pub(super) factor: f64,
+}
+
+/// Where a search is: θ, the common part of δ, own parts of δ, ν, then a of each sensor.
+pub(super) type Place = Vec<f64>;
+
+/// The normal equations at a place: χ², ½ ∂χ²/∂p, JᵀJ (n × n).
+pub(super) struct Normal {
+    pub(super) chi_squared: f64,
+    gradient: Vec<f64>,
+    pub(super) information: Vec<f64>,
+}
+
+/// A minimum.
+pub(super) struct Found {
+    pub(super) place: Place,
+    pub(super) normal: Normal,
+    pub(super) prior: f64,
+}
+
+/// Steps that are refused before a search ends.
+const REFUSED: usize = 6;
+
+/// The largest step of a coordinate of θ.
+const LONGEST: f64 = 0.5;
+
+/// A gain of this part of the cost is none.
+const SETTLED: f64 = 1e-5;
+
+impl Fitting<'_, '_> {
+    pub(super) fn sensors(&self) -> usize {
+        self.measured[0].len()
+    }
+
+    fn modes(&self) -> usize {
+        self.modes.omega_rad_s.len()
+    }
+
+    fn frequency_errors(&self) -> usize {
+        self.modes.of_error.len()
+    }
+
+    /// θ, common and own δ, ν: what every sensor hangs on.
+    fn shared(&self) -> usize {
+        self.first_own() + self.frequency_errors() + self.terms.len()
+    }
+
+    pub(super) fn count(&self) -> usize {
+        self.shared() + self.sensors() * self.modes()
+    }
+
+    /// The place of δ_1, and of ν_1.
+    pub(super) fn first_own(&self) -> usize {
+        self.curve.count() + if self.modes() > 0 { COMMON } else { 0 }
+    }
+
+    /// What δ_i has of each common part: the same for all modes, and with ω_i and its square, as the errors of meshes grow.
+    pub(super) fn common(&self, i: usize) -> [f64; COMMON] {
+        let omega = self.modes.omega_rad_s[self.modes.of_error[i]] / self.highest_rad_s;
+        let [known, unknown] = if self.modes.in_unknown[i] { [0.0, 1.0] } else { [1.0, 0.0] };
+        let squared = omega * omega;
+        [known, known * omega, known * squared, unknown, unknown * omega, unknown * squared]
+    }
+
+    pub(super) fn first_factor(&self) -> usize {
+        self.first_own() + self.frequency_errors()
+    }
+
+    fn first_shape(&self, sensor: usize) -> usize {
+        self.shared() + sensor * self.modes()
+    }
+
+    pub(super) fn shapes(&self) -> std::ops::Range<usize> {
+        self.shared()..self.count()
+    }
+
+    /// How much larger the error of a mode is than in the band: above it errors of meshes grow with the square of the frequency. Of the
+    /// coordinate of an own δ or of an a.
+    pub(super) fn growth(&self, coordinate: usize) -> f64 {
+        let mode = match self.shapes().contains(&coordinate) {
+            true => (coordinate - self.shared()) % self.modes(),
+            false => self.modes.of_error[coordinate - self.first_own()],
+        };
+        (self.modes.omega_rad_s[mode] / self.highest_rad_s).powi(2).max(1.0)
+    }
+
+    /// No errors.
+    pub(super) fn start(&self, theta: &[f64]) -> Place {
+        let mut place = theta.to_vec();
+        place.resize(self.count(), 0.0);
+        place
+    }
+
+    pub(super) fn errors(&self, place: &[f64]) -> ModalErrors {
+        let (own, n) = (self.first_own(), self.modes());
+        let first = self.curve.count();
+        let common = |i: usize| self.common(i).iter().zip(&place[first..]).map(|(w, e)| w * e).sum::<f64>();
+        let shape = |m: usize| place[self.first_shape(m)..self.first_shape(m) + n].to_vec();
+        ModalErrors {
+            frequency: (0..self.frequency_errors()).map(|i| common(i) + place[own + i]).collect(),
+            shape: (0..self.sensors()).map(shape).collect(),
+            factors: self.terms.iter().copied().zip(place[self.first_factor()..].iter().copied()).collect(),
+        }
+    }
+
+    /// Slopes of x_m by the shared coordinates, and by the shapes at the sensor.
+    pub(super) fn row(&self, slopes: &ErrorSlopes, of_theta: &[c64], m: usize) -> (Vec<c64>, Vec<c64>) {
+        let mut shared: Vec<c64> = of_theta.iter().map(|of| slopes.slope[m] * of).collect();
+        if self.modes() > 0 {
+            let part =
+                |p: usize| slopes.frequency[m].iter().enumerate().map(|(i, s)| self.common(i)[p] * s).sum();
+            shared.extend((0..COMMON).map(part).collect::<Vec<c64>>());
+            shared.extend(&slopes.frequency[m]);
+        }
+        shared.extend(&slopes.factors[m]);
+        (shared, slopes.shape[m].clone())
+    }
+
+    /// The normal equations; `None` where the response is not finite. σ is that of real and imaginary part each, for each of the lines.
+    pub(super) fn normal(&self, place: &[f64], sigma: &[Vec<f64>]) -> Option<Normal> {
+        let n = self.count();
+        let errors = self.errors(place);
+        let model = self.model.with_errors(self.modes, &errors);
+        let chunks = self.lines.len().min(CHUNKS);
+        let part = |c: usize| -> Option<Normal> {
+            let mut sum = Normal { chi_squared: 0.0, gradient: vec![0.0; n], information: vec![0.0; n * n] };
+            for k in (c..self.lines.len()).step_by(chunks) {
+                self.add_line(place, (&model, &errors), k, &sigma[k], &mut sum)?;
+            }
+            Some(sum)
+        };
+        let parts: Option<Vec<Normal>> = map(self.for_each, chunks, part).into_iter().collect();
+        let sum = parts?.into_iter().reduce(|mut sum, other| {
+            sum.chi_squared += other.chi_squared;
+            sum.gradient.iter_mut().zip(other.gradient).for_each(|(a, b)| *a += b);
+            sum.information.iter_mut().zip(other.information).for_each(|(a, b)| *a += b);
+            sum
+        });
+        let mut sum = sum.filter(|sum| sum.chi_squared.is_finite())?;
+        // Only the lower triangle was added to.
+        for j in 0..n {
+            (j + 1..n).for_each(|i| sum.information[i * n + j] = sum.information[j * n + i]);
+        }
+        Some(sum)
+    }
+
+    fn add_line(
+        &self,
+        place: &[f64],
+        (model, errors): (&Projection, &ModalErrors),
+        k: usize,
+        sigma: &[f64],
+        sum: &mut Normal,
+    ) -> Option<()> {
+        let i = self.lines[k];
+        let at = &self.at[i];
+        let theta = &place[..self.curve.count()];
+        let (modulus, of_theta) = self.curve.modulus(theta, i, omega_rad_s(at.frequency_hz))?;
+        let correction = modulus - at.parameters[0].nominal;
+        let slopes = model.respond_with_error_slopes((self.modes, errors), at, correction).ok()?;
+        let n = self.count();
+        for m in (0..self.sensors()).filter(|&m| sigma[m].is_finite()) {
+            let (shared, shape) = self.row(&slopes, &of_theta, m);
+            let rest = (self.measured[i][m] - slopes.response[m]) / sigma[m];
+            sum.chi_squared += rest.norm_sqr();
+            let index = |a: usize| if a < shared.len() { a } else { self.first_shape(m) + a - shared.len() };
+            let row: Vec<c64> = shared.iter().chain(&shape).map(|slope| slope / sigma[m]).collect();
+            for (a, x) in row.iter().enumerate() {
+                sum.gradient[index(a)] += x.re * rest.re + x.im * rest.im;
+                let column = &mut sum.information[index(a) * n..][..n];
+                for (b, y) in row.iter().enumerate().skip(a) {
+                    column[index(b)] += x.re * y.re + x.im * y.im;
+                }
+            }
+        }
+        Some(())
+    }
+
+    /// The prior's precision, n × n: curve and errors.
+    pub(super) fn precision(&self, sizes: &Sizes) -> Vec<f64> {
+        let (n, own) = (self.count(), self.curve.count());
+        let mut all = vec![0.0; n * n];
+        let curve = self.curve.precision();
+        for i in 0..own {
+            all[i * n..i * n + own].copy_from_slice(&curve[i * own..(i + 1) * own]);
+        }
+        let mut set = |i: usize, std: f64| all[i * n + i] = std.powi(-2);
+        (own..self.first_own()).for_each(|i| set(i, sizes.common));
+        (self.first_own()..self.first_factor()).for_each(|i| set(i, sizes.frequency * self.growth(i)));
+        (self.first_factor()..self.shared()).for_each(|i| set(i, sizes.factor));
+        self.shapes().for_each(|i| set(i, sizes.shape * self.growth(i)));
+        all
+    }
+
+    /// Levenberg and Marquardt's method from a place; `centre` is where the prior of θ is about.
+    pub(super) fn descend(
+        &self,
+        start: Place,
+        sigma: &[Vec<f64>],
+        precision: &[f64],
+        centre: &[f64],
+        steps: usize,
+    ) -> Option<Found> {
+        let n = self.count();
+        let prior = |place: &[f64]| -> (f64, Vec<f64>) {
+            let off = |i: usize| place[i] - centre.get(i).copied().unwrap_or(0.0);
+            let off: Vec<f64> = (0..n).map(off).collect();
+            let times: Vec<f64> =
+                precision.chunks_exact(n).map(|row| row.iter().zip(&off).map(|(p, o)| p * o).sum()).collect();
+            (times.iter().zip(&off).map(|(p, o)| p * o).sum(), times)
+        };
+        let mut place = start;
+        let mut normal = self.normal(&place, sigma)?;
+        let (mut of_prior, mut pull) = prior(&place);
+        let (mut damping, mut refused) = (1e-4, 0);
+        for _ in 0..steps {
+            let mut matrix: Vec<f64> = normal.information.iter().zip(precision).map(|(a, b)| a + b).collect();
+            (0..n).for_each(|i| matrix[i * n + i] *= 1.0 + damping);
+            let mut step: Vec<f64> = normal.gradient.iter().zip(&pull).map(|(g, p)| g - p).collect();
+            let Ok(factor) = Cholesky::new(n, &matrix) else {
+                damping *= 10.0;
+                continue;
+            };
+            factor.solve(&mut step);
+            let longest = step[..self.curve.count()].iter().fold(0.0f64, |most, s| most.max(s.abs()));
+            let part = (LONGEST / longest).min(1.0);
+            let there: Place = place.iter().zip(&step).map(|(p, s)| p + part * s).collect();
+            let (other_prior, other_pull) = prior(&there);
+            let cost = normal.chi_squared + of_prior;
+            match self.normal(&there, sigma).filter(|other| other.chi_squared + other_prior <= cost) {
+                Some(other) => {
+                    let gain = cost - other.chi_squared - other_prior;
+                    (place, normal, of_prior, pull) = (there, other, other_prior, other_pull);
+                    damping = (damping * 0.1).max(1e-9);
+                    refused = 0;
+                    if gain <= SETTLED * cost && part == 1.0 {
+                        break;
+                    }
+                }
+                None => {
+                    damping = (damping * 10.0).max(1e-6);
+                    refused += 1;
+                    if refused == REFUSED {
+                        break;
+                    }
+                }
+            }
+        }
+        Some(Found { place, normal, prior: of_prior })
+    }
+}
+
+/// Parts in which the lines are summed.
+const CHUNKS: usize = 4;

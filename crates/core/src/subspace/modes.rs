@@ -1,0 +1,421 @@
+//! Natural frequencies and mode shapes of a reduced model, and the same model with errors in them (B-11).
+//!
+//! With the real pencil (K, M) of the reduced model at some values, its modes y_i (yᵀMy = 1) and ν_t for the relative error of a known term,
+//! $$ S_g \leftarrow (1 + \nu_t)\Big( S_g + \sum_i 2 \delta_i \\, (y_i^T S_g y_i) \\, (M y_i)(M y_i)^T \Big) $$
+//! for each stiffness S_g, and S_g ← (1 + ν_t) S_g for all others, shifts the natural frequency of mode i by the relative δ_i with its damping kept;
+//! $$ \ell_m \leftarrow \ell_m + \sum_i a_{mi} \\, (\ell_m^T y_i) \\, M y_i $$
+//! changes mode i at sensor m by the relative a_mi. What comes out is a reduced model like any other.
+
+use super::assess::{Solutions, weights};
+use super::{Point, Projection};
+use crate::c64;
+use crate::model::{ModelAt, Role};
+use frfit_linalg::dense::{NoConvergence, symmetric_eigen};
+use frfit_linalg::solve::Breakdown;
+use frfit_linalg::vector::transpose_dot;
+
+/// Modes of a reduced model.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Modes {
+    /// Natural frequencies ω_i, rad/s, ascending; zero of rigid bodies.
+    pub(crate) omega_rad_s: Vec<f64>,
+    /// y_i, one after the other.
+    shapes: Vec<Vec<f64>>,
+    /// My_i, one after the other.
+    momenta: Vec<Vec<f64>>,
+    /// M = Σ factor S_g.
+    mass: Vec<(usize, f64)>,
+    /// The mode of each frequency error: a mode has one in the known stiffness, and one in that of the first parameter.
+    pub(crate) of_error: Vec<usize>,
+    /// Whether it is in the stiffness of the first parameter.
+    pub(crate) in_unknown: Vec<bool>,
+    /// What of S_g goes with each frequency error, `[g][error]`; empty for parts that are no stiffness.
+    stiffness: Vec<Vec<f64>>,
+    /// ℓ_mᵀVy_i, `[m][i]`.
+    sensors: Vec<Vec<f64>>,
+    /// The term of each part.
+    terms: Vec<usize>,
+}
+
+/// Relative errors of modes and terms.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct ModalErrors {
+    /// δ of natural frequencies, by [`Modes::of_error`]: the model with it has ω_i(1 + δ).
+    pub frequency: Vec<f64>,
+    /// a_mi of mode i at sensor m.
+    pub shape: Vec<Vec<f64>>,
+    /// (term, ν) of known terms.
+    pub factors: Vec<(usize, f64)>,
+}
+
+/// Response and slopes of a model with errors at one frequency.
+pub(crate) struct ErrorSlopes {
+    /// x_m.
+    pub(crate) response: Vec<c64>,
+    /// ∂x_m/∂c.
+    pub(crate) slope: Vec<c64>,
+    /// ∂x_m/∂δ_i, `[m][i]`.
+    pub(crate) frequency: Vec<Vec<c64>>,
+    /// ∂x_m/∂a_mi, `[m][i]`.
+    pub(crate) shape: Vec<Vec<c64>>,
+    /// ∂x_m/∂ν_t, `[m][t]`.
+    pub(crate) factors: Vec<Vec<c64>>,
+}
+
+/// A shift of the pencil that makes rigid bodies definite: this part of the square of the highest frequency.
+const BELOW: f64 = 1e-4;
+
+/// A share of a mode's strain energy below which an error there is none of the mode.
+const LEAST_SHARE: f64 = 0.02;
+
+/// μ = 1/(λ + σ) below this part of the largest is a direction without mass.
+const MASSLESS: f64 = 1e-12;
+
+impl Projection {
+    /// The modes up to some frequency at the correction c of the first parameter.
+    ///
+    /// # Errors
+    /// [`NoConvergence`] where the real stiffness is indefinite, or a number is not finite.
+    pub(crate) fn modes(
+        &self,
+        at: &ModelAt<'_>,
+        correction: c64,
+        highest_rad_s: f64,
+        most: usize,
+    ) -> Result<Modes, NoConvergence> {
+        let r = self.size;
+        let (theta, _) = weights(self, at, correction);
+        let role = |g: usize| at.model.terms()[self.parts.term(g)].role;
+        let factors = |wanted: Role| -> Vec<(usize, f64)> {
+            let factor = |g: usize| (theta[g] / wanted.weight(at.frequency_hz)).re;
+            (0..theta.len()).filter(|&g| role(g) == wanted).map(|g| (g, factor(g))).collect()
+        };
+        let of_mass = factors(Role::Mass);
+        let mass = self.real_sum(&of_mass);
+        let shift = BELOW * highest_rad_s * highest_rad_s;
+        let of_stiffness = factors(Role::Stiffness);
+        let stiffness = self.real_sum(&of_stiffness);
+        let unknown = |g: usize| at.parameters.iter().any(|one| one.enters(self.parts.term(g)));
+        let shifted: Vec<f64> = stiffness.iter().zip(&mass).map(|(k, m)| k + shift * m).collect();
+        // (K + σM)^{−1/2}, and M between it: μ = 1/(λ + σ).
+        let (values, vectors) = symmetric_eigen(r, &shifted)?;
+        let largest = values.last().copied().unwrap_or(0.0);
+        if values.iter().any(|&value| value <= MASSLESS * MASSLESS * largest) {
+            return Err(NoConvergence);
+        }
+        let root: Vec<f64> = vectors
+            .chunks_exact(r.max(1))
+            .zip(&values)
+            .flat_map(|(v, value)| v.iter().map(move |v| v / value.sqrt()))
+            .collect();
+        let between = congruent(&mass, &root, r);
+        let (mu, w) = symmetric_eigen(r, &between)?;
+        let greatest = mu.last().copied().unwrap_or(0.0);
+        let mut modes = Modes {
+            omega_rad_s: Vec::new(),
+            shapes: Vec::new(),
+            momenta: Vec::new(),
+            mass: of_mass,
+            of_error: Vec::new(),
+            in_unknown: Vec::new(),
+            stiffness: (0..theta.len()).map(|_| Vec::new()).collect(),
+            sensors: vec![Vec::new(); self.sensors.len()],
+            terms: (0..theta.len()).map(|g| self.parts.term(g)).collect(),
+        };
+        for k in (0..r).rev().take(most) {
+            if mu[k] <= MASSLESS * greatest {
+                break;
+            }
+            let omega = (1.0 / mu[k] - shift).max(0.0).sqrt();
+            if omega > highest_rad_s {
+                break;
+            }
+            let coefficients = &w[k * r..(k + 1) * r];
+            let mut y = vec![0.0; r];
+            for (root, coefficient) in root.chunks_exact(r).zip(coefficients) {
+                y.iter_mut().zip(root).for_each(|(y, root)| *y += coefficient * root / mu[k].sqrt());
+            }
+            let times = |matrix: &[f64]| -> Vec<f64> {
+                matrix.chunks_exact(r).map(|column| transpose_dot(column, &y)).collect()
+            };
+            modes.omega_rad_s.push(omega);
+            modes.momenta.push(times(&mass));
+            let energies: Vec<f64> =
+                of_stiffness.iter().map(|&(g, _)| transpose_dot(&y, &times(&self.matrices[g]))).collect();
+            let each = || of_stiffness.iter().zip(&energies);
+            let whole: f64 = each().map(|((_, factor), energy)| factor * energy).sum();
+            for group in [false, true] {
+                let of_group = each().filter(|((g, _), _)| unknown(*g) == group);
+                let own: f64 = of_group.map(|((_, factor), energy)| factor * energy).sum();
+                if own <= LEAST_SHARE * whole {
+                    continue;
+                }
+                modes.of_error.push(modes.omega_rad_s.len() - 1);
+                modes.in_unknown.push(group);
+                for ((g, _), energy) in each() {
+                    modes.stiffness[*g].push(if unknown(*g) == group { energy * whole / own } else { 0.0 });
+                }
+            }
+            for (own, sensor) in modes.sensors.iter_mut().zip(&self.sensors) {
+                own.push(transpose_dot(sensor, &y));
+            }
+            modes.shapes.push(y);
+        }
+        Ok(modes)
+    }
+
+    /// A smaller model of the modes and of what is near some points, with its modes; `None` where it would be no smaller.
+    pub(crate) fn about_modes(
+        &self,
+        modes: &Modes,
+        points: &[Point<'_>],
+        tolerance: f64,
+    ) -> Option<(Self, Modes)> {
+        let (local, basis) = self.localised_with(points, tolerance, &modes.shapes)?;
+        let along =
+            |x: &Vec<f64>| basis.chunks_exact(self.size.max(1)).map(|w| transpose_dot(w, x)).collect();
+        let mut of_local = modes.clone();
+        of_local.shapes = modes.shapes.iter().map(along).collect();
+        of_local.momenta = modes.momenta.iter().map(along).collect();
+        Some((local, of_local))
+    }
+
+    /// Σ factor S_g.
+    fn real_sum(&self, factors: &[(usize, f64)]) -> Vec<f64> {
+        let mut sum = vec![0.0; self.size * self.size];
+        for &(g, factor) in factors {
+            sum.iter_mut().zip(&self.matrices[g]).for_each(|(sum, s)| *sum += factor * s);
+        }
+        sum
+    }
+
+    /// This model with errors. What its residuals tell is how far a smaller model is from it, not it from the full one.
+    pub(crate) fn with_errors(&self, modes: &Modes, errors: &ModalErrors) -> Self {
+        let r = self.size;
+        let mut corrected = self.clone();
+        for (g, matrix) in corrected.matrices.iter_mut().enumerate() {
+            for (error, by) in modes.stiffness[g].iter().enumerate().filter(|(_, by)| **by != 0.0) {
+                let by = 2.0 * errors.frequency[error] * by;
+                let momentum = &modes.momenta[modes.of_error[error]];
+                for (column, at) in matrix.chunks_exact_mut(r).zip(momentum) {
+                    let by = by * at;
+                    column.iter_mut().zip(momentum).for_each(|(entry, momentum)| *entry += by * momentum);
+                }
+            }
+            if let Some((_, error)) = errors.factors.iter().find(|(term, _)| *term == modes.terms[g]) {
+                matrix.iter_mut().for_each(|entry| *entry *= 1.0 + error);
+            }
+        }
+        for (m, sensor) in corrected.sensors.iter_mut().enumerate() {
+            for (i, momentum) in modes.momenta.iter().enumerate() {
+                let by = errors.shape[m][i] * modes.sensors[m][i];
+                sensor.iter_mut().zip(momentum).for_each(|(entry, momentum)| *entry += by * momentum);
+            }
+        }
+        corrected.images = corrected.matrices.clone();
+        let real = |l: &Vec<f64>| l.iter().map(|&l| c64::new(l, 0.0)).collect();
+        corrected.sketched =
+            std::iter::once(corrected.load.clone()).chain(corrected.sensors.iter().map(real)).collect();
+        corrected
+    }
+
+    /// Response and slopes of a model that [`Self::with_errors`] gave.
+    ///
+    /// # Errors
+    /// [`Breakdown`] where the system is singular.
+    pub(crate) fn respond_with_error_slopes(
+        &self,
+        (modes, errors): (&Modes, &ModalErrors),
+        at: &ModelAt<'_>,
+        correction: c64,
+    ) -> Result<ErrorSlopes, Breakdown> {
+        let solutions = Solutions::new(self, at, correction)?;
+        let (y, duals) = (&solutions.all[0], &solutions.all[1..]);
+        let along = |x: &[c64]| -> Vec<c64> {
+            let one = |momentum: &Vec<f64>| momentum.iter().zip(x).map(|(m, x)| *m * x).sum();
+            modes.momenta.iter().map(one).collect()
+        };
+        let of_load = along(y);
+        let by_sensor: Vec<Vec<c64>> = duals.iter().map(|z| along(z)).collect();
+        // The complex stiffness that goes with each frequency error.
+        let scale = |g: usize| {
+            1.0 + errors.factors.iter().find(|(term, _)| *term == modes.terms[g]).map_or(0.0, |(_, nu)| *nu)
+        };
+        let stiffness = |error: usize| -> c64 {
+            let parts = modes.stiffness.iter().enumerate().filter(|(_, own)| !own.is_empty());
+            parts.map(|(g, own)| solutions.theta[g] * scale(g) * own[error]).sum()
+        };
+        let stiffness: Vec<c64> = (0..modes.of_error.len()).map(stiffness).collect();
+        let frequency = |z: &Vec<c64>| {
+            let each = modes.of_error.iter().zip(&stiffness);
+            each.map(|(&i, stiffness)| -2.0 * stiffness * z[i] * of_load[i]).collect()
+        };
+        let shape = |own: &Vec<f64>| own.iter().zip(&of_load).map(|(l, y)| *l * y).collect();
+        let theta = |&(term, error): &(usize, f64)| -> Vec<c64> {
+            let one =
+                |(g, theta): (usize, &c64)| if modes.terms[g] == term { *theta } else { c64::default() };
+            solutions.theta.iter().enumerate().map(|g| one(g) / (1.0 + error)).collect()
+        };
+        let of_terms = solutions.slopes(self, &errors.factors.iter().map(theta).collect::<Vec<_>>());
+        let factors = |m: usize| of_terms.iter().map(|of_term| of_term[m]).collect();
+        Ok(ErrorSlopes {
+            response: solutions.response(self),
+            slope: solutions.slope(self),
+            frequency: by_sensor.iter().map(frequency).collect(),
+            shape: modes.sensors.iter().map(shape).collect(),
+            factors: (0..duals.len()).map(factors).collect(),
+        })
+    }
+}
+
+/// WᵀAW for a symmetric A and columns W, both r × r.
+fn congruent(a: &[f64], w: &[f64], r: usize) -> Vec<f64> {
+    use frfit_linalg::column_block::{product, transpose_product};
+    transpose_product(w, r, &product(a, r, w))
+}
+
+impl Modes {
+    /// None of them: a model without errors.
+    pub(crate) fn none(model: &Projection) -> Self {
+        Self {
+            omega_rad_s: Vec::new(),
+            shapes: Vec::new(),
+            momenta: Vec::new(),
+            mass: Vec::new(),
+            of_error: Vec::new(),
+            in_unknown: Vec::new(),
+            stiffness: vec![Vec::new(); model.matrices.len()],
+            sensors: vec![Vec::new(); model.sensors.len()],
+            terms: (0..model.matrices.len()).map(|g| model.parts.term(g)).collect(),
+        }
+    }
+
+    /// The same modes in a basis to which vectors were added.
+    pub(crate) fn in_larger(&self, model: &Projection) -> Self {
+        let r = model.size;
+        let mass = model.real_sum(&self.mass);
+        let mut larger = self.clone();
+        for (shape, momentum) in larger.shapes.iter_mut().zip(&mut larger.momenta) {
+            shape.resize(r, 0.0);
+            *momentum = mass.chunks_exact(r.max(1)).map(|column| transpose_dot(column, shape)).collect();
+        }
+        larger
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::for_each::sequential;
+    use crate::frequency::omega_rad_s;
+    use crate::material::Law;
+    use crate::model::{DynamicStiffness, Experiment, Parameter, Sensor, Term};
+    use crate::subspace::Subspace;
+    use crate::subspace::TrainOptions;
+    use frfit_linalg::sparse::Triplets;
+
+    /// A chain of twelve masses: the springs of its first half are known, those of the other are not.
+    fn chain() -> DynamicStiffness {
+        let n = 12;
+        let spring = |from: usize, to: usize| {
+            let mut k = Triplets::new(n);
+            (from..to).for_each(|i| match i {
+                0 => k.add(0, 0, 1.0),
+                _ => k.add_element(&[Some(i - 1), Some(i)], &[1.0, -1.0, -1.0, 1.0]),
+            });
+            k.assemble()
+        };
+        let mut mass = Triplets::new(n);
+        (0..n).for_each(|i| mass.add(i, i, 1.0));
+        let term = |name: &str, role, matrix, factor| Term {
+            name: name.into(),
+            role,
+            matrix,
+            factor: Law::Constant(factor),
+        };
+        DynamicStiffness::new(vec![
+            term("known", Role::Stiffness, spring(0, 6), c64::new(1e4, 1e2)),
+            term("unknown", Role::Stiffness, spring(6, n), c64::new(2e4, 4e3)),
+            term("mass", Role::Mass, mass.assemble(), c64::new(1.0, 0.0)),
+        ])
+        .unwrap()
+    }
+
+    /// Errors move natural frequencies by what they say, and slopes are those of finite differences.
+    #[test]
+    fn errors_move_natural_frequencies_and_slopes_are_right() {
+        let model = chain();
+        let parameter = Parameter::factor_of(&model, &["unknown"]).unwrap();
+        let sensor = |row| Sensor { row, sign: 1.0 };
+        let experiment = Experiment::driven_at(12, sensor(11), vec![sensor(4), sensor(9)]);
+        let at = model.at(9.0, std::slice::from_ref(&parameter)).unwrap();
+        let points: Vec<Point<'_>> = [1.0, 4.0, 9.0, 15.0, 25.0]
+            .iter()
+            .map(|&f| {
+                let at = model.at(f, std::slice::from_ref(&parameter)).unwrap();
+                Point { at, correction: c64::default() }
+            })
+            .collect();
+        let mut subspace = Subspace::new(&experiment, &at).unwrap();
+        subspace.train(&points, &TrainOptions::default(), &sequential).unwrap();
+        let whole = subspace.projection();
+        let highest = omega_rad_s(1e3);
+        let modes = whole.modes(&at, c64::default(), highest, 6).unwrap();
+        assert_eq!(modes.omega_rad_s.len(), 6);
+        let mut errors = ModalErrors {
+            frequency: vec![0.0; modes.of_error.len()],
+            shape: vec![vec![0.0; 6]; 2],
+            factors: vec![(0, 0.0), (2, 0.0)],
+        };
+        for k in 0..modes.of_error.len() {
+            errors.frequency[k] = 1e-4;
+            let moved = whole.with_errors(&modes, &errors).modes(&at, c64::default(), highest, 6).unwrap();
+            for i in 0..6 {
+                let expected = if modes.of_error[k] == i { 1e-4 } else { 0.0 };
+                let found = moved.omega_rad_s[i] / modes.omega_rad_s[i] - 1.0;
+                // (1 + 2δ)^½ = 1 + δ − δ²/2.
+                assert!((found - expected).abs() < 1e-8, "{k} {i}: {found:e}");
+            }
+            errors.frequency[k] = 0.0;
+        }
+        // Somewhere with errors of every kind.
+        errors.frequency.iter_mut().enumerate().for_each(|(k, error)| *error = 0.01 / (1.0 + k as f64));
+        errors.shape[1][2] = 0.05;
+        errors.factors[1].1 = -0.02;
+        let correction = c64::new(1e3, -2e2);
+        let slopes = |errors: &ModalErrors| {
+            whole
+                .with_errors(&modes, errors)
+                .respond_with_error_slopes((&modes, errors), &at, correction)
+                .unwrap()
+        };
+        let here = slopes(&errors);
+        let step = 1e-6;
+        let check = |moved: &ModalErrors, of: &dyn Fn(&ErrorSlopes, usize) -> c64| {
+            let there = slopes(moved);
+            for m in 0..2 {
+                let difference = (there.response[m] - here.response[m]) / step;
+                let middle = 0.5 * (of(&there, m) + of(&here, m));
+                assert!(
+                    (difference - middle).norm() < 1e-5 * here.response[m].norm(),
+                    "{difference} {middle}"
+                );
+            }
+        };
+        for k in 0..modes.of_error.len() {
+            let mut moved = errors.clone();
+            moved.frequency[k] += step;
+            check(&moved, &|slopes, m| slopes.frequency[m][k]);
+        }
+        for t in 0..2 {
+            let mut moved = errors.clone();
+            moved.factors[t].1 += step;
+            check(&moved, &|slopes, m| slopes.factors[m][t]);
+        }
+        for (sensor, i) in [(0, 0), (1, 2)] {
+            let mut moved = errors.clone();
+            moved.shape[sensor][i] += step;
+            check(&moved, &|slopes, m| if m == sensor { slopes.shape[m][i] } else { c64::default() });
+        }
+    }
+}

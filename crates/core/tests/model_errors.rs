@@ -1,0 +1,131 @@
+//! Errors of the model (B-11): truths that come from another mesh, another neighbour or another mass, by direct solves.
+
+use crate::common::{Band, Case, sandwich};
+use crate::noise::Noise as Dice;
+use crate::tier::of_tier;
+use frfit::c64;
+use frfit::for_each::sequential;
+use frfit::frequency::linear_hz;
+use frfit::identify::{Context, Identification, ModelErrors, Noise, Options, Status, Variation};
+use frfit::laws::LawKind;
+use frfit::material::{Law, loss_factor};
+use frfit::model::{DynamicStiffness, Role, Term};
+use frfit::response::{FullModel, Response};
+
+/// What was measured on a truth.
+struct Measured {
+    frequency_hz: Vec<f64>,
+    u: Vec<Vec<c64>>,
+    std: Vec<Vec<f64>>,
+    truth: Vec<c64>,
+}
+
+impl Measured {
+    /// On the structure `case`, its unknown factor as `truth` says, with noise of this part of each response.
+    fn on(case: &Case, truth: &Law, frequency_hz: Vec<f64>, noise: f64, seed: u64) -> Self {
+        let mut parameter = case.parameter.clone();
+        parameter.nominal = truth.clone();
+        let mut dice = Dice::new(seed);
+        let (mut u, mut std) = (Vec::new(), Vec::new());
+        for &f in &frequency_hz {
+            let at = case.model.at(f, std::slice::from_ref(&parameter)).unwrap();
+            let x = FullModel::new(at, &case.experiment).unwrap().solve_at(&[c64::default()]).unwrap();
+            std.push(x.iter().map(|x| noise * x.norm()).collect::<Vec<f64>>());
+            u.push(x.iter().map(|x| x + dice.complex() * (noise * x.norm() / 2f64.sqrt())).collect());
+        }
+        let truth = frequency_hz.iter().map(|&f| truth.at(f).unwrap()).collect();
+        Self { frequency_hz, u, std, truth }
+    }
+
+    fn identified(&self, case: &Case, varies: Variation, model_errors: ModelErrors) -> Identification {
+        let band = Band {
+            model: &case.model,
+            experiment: &case.experiment,
+            parameter: &case.parameter,
+            frequency_hz: &self.frequency_hz,
+            measured: &self.u,
+            noise: Noise::Known(&self.std),
+        };
+        let options = Options { model_errors, ..Options::default() };
+        let context = Context { for_each: &sequential, progress: &|_, _, _| {} };
+        band.identify(varies, &[], &options, context)
+    }
+
+    /// Of the lines that are ok: how many, median relative error of E′, and the parts with E′ and η within two deviations.
+    fn judged(&self, found: &Identification) -> (usize, f64, [f64; 2]) {
+        let mut errors = Vec::new();
+        let mut within = [0.0; 2];
+        for (line, truth) in found.lines.iter().zip(&self.truth) {
+            let (Some(value), Some(bars)) = (line.factor(), line.uncertainty()) else { continue };
+            if line.status == Status::Ok {
+                errors.push((value.re / truth.re - 1.0).abs());
+                within[0] += f64::from((value.re - truth.re).abs() <= 2.0 * bars.storage_std);
+                let off = (loss_factor(value) - loss_factor(*truth)).abs();
+                within[1] += f64::from(off <= 2.0 * bars.loss_factor_std.unwrap());
+            }
+        }
+        errors.sort_by(f64::total_cmp);
+        let count = errors.len();
+        (count, errors.get(count / 2).copied().unwrap_or(f64::NAN), within.map(|w| w / count as f64))
+    }
+}
+
+/// The same structure with the factors of some terms multiplied.
+fn changed(case: Case, change: impl Fn(&Term) -> f64) -> Case {
+    let terms = case.model.terms().iter();
+    let terms = terms.map(|term| Term { factor: term.factor.scaled(change(term)), ..term.clone() });
+    Case { model: DynamicStiffness::new(terms.collect()).unwrap(), ..case }
+}
+
+/// Skins that are 1 % too stiff, or a mass that is 3 % short, make the core of a sandwich wrong by more than four bars at most lines. With the errors of the model estimated it is right within its bars, and the error is found.
+#[test]
+fn a_wrong_neighbour_and_a_wrong_mass_are_found() {
+    let truth = Law::Fractional { e0: 8.14e5, e1: 7.31e4, alpha: 0.528 };
+    let frequency_hz = linear_hz(20.0, 1000.0, 100);
+    let measured = Measured::on(&sandwich(12, 1), &truth, frequency_hz, 0.01, 3);
+    let skins = changed(sandwich(12, 1), |term| if term.name == "skins" { 1.01 } else { 1.0 });
+    let mass = changed(sandwich(12, 1), |term| if term.role == Role::Mass { 0.97 } else { 1.0 });
+    let daily = [("skins", skins)];
+    for (what, case) in daily.into_iter().chain(of_tier(None, Some(("mass", mass)))) {
+        let as_it_is = measured.identified(&case, Variation::PerFrequency, ModelErrors::None);
+        let off = |(line, truth): (&frfit::identify::Line, &c64)| {
+            let factor = line.factor()?;
+            Some((factor.re - truth.re).abs() / line.uncertainty()?.storage_std)
+        };
+        let far = as_it_is.lines.iter().zip(&measured.truth).filter_map(off).filter(|off| *off > 4.0).count();
+        assert!(far > 40, "{what}: {far}");
+        let ways = [
+            (Variation::PerFrequency, 0.02),
+            (Variation::Smooth, 0.02),
+            (Variation::Law(vec![LawKind::Fractional]), 0.02),
+        ];
+        for (varies, most) in ways {
+            let at = format!("{what} {varies:?}");
+            let found = measured.identified(&case, varies, ModelErrors::Estimated);
+            let (ok, error, within) = measured.judged(&found);
+            assert!(ok >= 90, "{at}: {ok} ok");
+            assert!(error < most, "{at}: {error}");
+            // 95 of 100 by the bars of 100 lines; of a law and a smooth curve the lines have one error.
+            assert!(within.iter().all(|within| *within > 0.88), "{at}: {within:?}");
+            let errors = found.model_errors.expect(&at);
+            assert!(errors.evidence > 20.0, "{at}: {errors:?}");
+        }
+    }
+}
+
+/// A right model is left as it is, to the last bit.
+#[test]
+fn a_right_model_is_left_as_it_is() {
+    let truth = Law::Fractional { e0: 8.14e5, e1: 7.31e4, alpha: 0.528 };
+    for seed in 0..of_tier(1, 6) {
+        let measured = Measured::on(&sandwich(12, 1), &truth, linear_hz(20.0, 1000.0, 80), 0.01, seed as u64);
+        for varies in
+            of_tier(&[Variation::PerFrequency][..], &[Variation::PerFrequency, Variation::Smooth][..])
+        {
+            let as_it_is = measured.identified(&sandwich(12, 1), varies.clone(), ModelErrors::None);
+            let estimated = measured.identified(&sandwich(12, 1), varies.clone(), ModelErrors::Estimated);
+            assert_eq!(estimated.model_errors, None);
+            assert!(estimated.lines == as_it_is.lines);
+        }
+    }
+}
