@@ -1,10 +1,21 @@
-//! Hertz and radians per second.
+//! Hertz, radians per second, and the Laplace variable.
 
+use crate::c64;
 use std::f64::consts::TAU;
 
 /// ω = 2π f, in rad/s.
 pub fn omega_rad_s(frequency_hz: f64) -> f64 {
     TAU * frequency_hz
+}
+
+/// s = iω + α in 1/s, the Laplace variable of e^{+iωt} under a window e^{−αt}: ∫ x(t) e^{−αt} e^{−iωt} dt = X(s).
+pub fn laplace_per_s(frequency_hz: f64, decay_per_s: f64) -> c64 {
+    c64::new(decay_per_s, omega_rad_s(frequency_hz))
+}
+
+/// s² of [`laplace_per_s`]: exactly −ω² without a decay, with the sign of its zero at 0 Hz.
+pub(crate) fn squared(s: c64) -> c64 {
+    c64::new(-(s.im * s.im - s.re * s.re), 2.0 * s.re * s.im)
 }
 
 /// `count` frequencies from `first_hz` to `last_hz`, both included, equally spaced.

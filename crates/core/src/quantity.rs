@@ -1,7 +1,7 @@
 //! Receptance, mobility, accelerance: displacement, velocity or acceleration over force.
 
 use crate::c64;
-use crate::frequency::omega_rad_s;
+use crate::frequency::{laplace_per_s, squared};
 use std::fmt;
 use std::str::FromStr;
 
@@ -23,11 +23,16 @@ impl Quantity {
 
     /// 1, iω or −ω²: this quantity over receptance.
     pub fn over_receptance(self, frequency_hz: f64) -> c64 {
-        let omega = omega_rad_s(frequency_hz);
+        self.over_receptance_windowed(frequency_hz, 0.0)
+    }
+
+    /// 1, s or s² with s = iω + α: the same under a window e^{−αt} on force and response (α in 1/s), where what is windowed is the derivative.
+    pub fn over_receptance_windowed(self, frequency_hz: f64, decay_per_s: f64) -> c64 {
+        let s = laplace_per_s(frequency_hz, decay_per_s);
         match self {
             Self::Receptance => c64::new(1.0, 0.0),
-            Self::Mobility => c64::new(0.0, omega),
-            Self::Accelerance => c64::new(-omega * omega, 0.0),
+            Self::Mobility => s,
+            Self::Accelerance => squared(s),
         }
     }
 
@@ -90,6 +95,7 @@ impl FromStr for Quantity {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::frequency::omega_rad_s;
 
     #[test]
     fn conversions_are_derivatives_of_e_to_the_plus_i_omega_t() {

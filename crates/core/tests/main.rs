@@ -27,3 +27,4 @@ mod smooth;
 mod subspace;
 mod tier;
 mod uncertainty;
+mod window;

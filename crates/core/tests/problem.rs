@@ -70,7 +70,12 @@ fn a_right_problem_is_solved() {
 #[test]
 fn faults_are_refused_with_their_place() {
     type Break = fn(&mut Parts);
-    let cases: [(Break, &str); 26] = [
+    let cases: [(Break, &str); 28] = [
+        (
+            |p| p.model = p.model.clone().with_decay_per_s(-6.0),
+            "decay_per_s of the model: expected a finite number of 1/s that is not negative: that of a window e^(-decay t), found -6",
+        ),
+        (|p| p.model = p.model.clone().with_decay_per_s(f64::NAN), "decay_per_s of the model: expected "),
         (|p| p.experiment.load.truncate(5), "load: expected "),
         (
             |p| p.experiment.load.fill(c(0.0, 0.0)),

@@ -45,11 +45,13 @@ pub(super) struct DataHypothesis {
     delay: Vec<bool>,
     /// Which column of the responses each is compared with.
     pub(super) column: Vec<usize>,
+    /// α of a window on force and response, 1/s.
+    decay_per_s: f64,
 }
 
 impl DataHypothesis {
     /// As the case says.
-    pub(super) fn as_told(quantities: &[Quantity]) -> Self {
+    pub(super) fn as_told(quantities: &[Quantity], decay_per_s: f64) -> Self {
         let no = vec![false; quantities.len()];
         Self {
             quantity: quantities.to_vec(),
@@ -58,6 +60,7 @@ impl DataHypothesis {
             factor: no.clone(),
             delay: no,
             column: (0..quantities.len()).collect(),
+            decay_per_s,
         }
     }
 
@@ -137,7 +140,7 @@ impl DataHypothesis {
         if self.delay[m] {
             value.im += omega_rad_s(frequency_hz) * delay_s;
         }
-        value - ln_over_receptance(self.quantity[m], frequency_hz)
+        value - ln_over_receptance(self.quantity[m], frequency_hz, self.decay_per_s)
     }
 
     /// Whether a factor, or a delay, concerns a sensor.
@@ -146,12 +149,13 @@ impl DataHypothesis {
     }
 }
 
-/// ln of 1, iω or −ω².
-pub(super) fn ln_over_receptance(quantity: Quantity, frequency_hz: f64) -> c64 {
-    let ln_omega = omega_rad_s(frequency_hz).ln();
+/// ln of 1, s or s² with s = iω + α: of 1, iω or −ω² without a window.
+pub(super) fn ln_over_receptance(quantity: Quantity, frequency_hz: f64, decay_per_s: f64) -> c64 {
+    let omega = omega_rad_s(frequency_hz);
+    let ln_s = c64::new(omega.hypot(decay_per_s).ln(), 0.5 * HALF_TURN - decay_per_s.atan2(omega));
     match quantity {
         Quantity::Receptance => c64::default(),
-        Quantity::Mobility => c64::new(ln_omega, 0.5 * HALF_TURN),
-        Quantity::Accelerance => c64::new(2.0 * ln_omega, HALF_TURN),
+        Quantity::Mobility => ln_s,
+        Quantity::Accelerance => 2.0 * ln_s,
     }
 }

@@ -79,7 +79,7 @@ pub(super) fn diagnose(
 fn own_misfits(band: &Band<'_>, quantities: &[Quantity], agreed: &Agreed<'_, '_>) -> Vec<f64> {
     let Agreed { responses, picked, fitted, edits } = agreed;
     let all: Vec<usize> = (0..quantities.len()).collect();
-    let as_told = DataHypothesis::as_told(quantities);
+    let as_told = DataHypothesis::as_told(quantities, band.model.decay_per_s());
     let data_hypothesis = edits.iter().fold(as_told, |data_hypothesis, edit| {
         data_hypothesis.with(&Edit { change: edit.change.clone(), sensors: all.clone() })
     });

@@ -30,7 +30,7 @@ pub(super) fn beyond_mesh(top: &ModelAt<'_>, correction: c64) -> Option<Fault> {
                 Role::Mass => &mut mass,
                 Role::Viscous => continue,
             };
-            let factor = by * coefficient / term.role.weight(top.frequency_hz);
+            let factor = by * coefficient / top.model.weight(term.role, top.frequency_hz);
             into.iter_mut().enumerate().for_each(|(i, sum)| *sum += (factor * term.matrix.get(i, i)).re);
         }
     };

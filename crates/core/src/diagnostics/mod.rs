@@ -198,7 +198,7 @@ fn look<T>(
     diagnosis.work = responses.work();
     let search = Search { responses: &responses, written: &written, for_each };
     let grid = search.grid(quantities.len());
-    let mut data_hypothesis = DataHypothesis::as_told(quantities);
+    let mut data_hypothesis = DataHypothesis::as_told(quantities, band.model.decay_per_s());
     let mut current = search.fit(&data_hypothesis, &grid, None);
     let (mut common, mut elsewhere_found) = (Vec::new(), false);
     while diagnosis.findings.len() < FINDINGS {
@@ -278,7 +278,10 @@ fn looked_at(band: &Band<'_>, most: usize) -> Vec<usize> {
 fn written(band: &Band<'_>, quantities: &[Quantity], i: usize) -> Vec<Option<c64>> {
     let values = band.measured[i].iter().zip(quantities);
     values
-        .map(|(u, &quantity)| Some(u.ln() + ln_over_receptance(quantity, band.frequency_hz[i])))
+        .map(|(u, &quantity)| {
+            let ln = ln_over_receptance(quantity, band.frequency_hz[i], band.model.decay_per_s());
+            Some(u.ln() + ln)
+        })
         .map(|ln| ln.filter(|ln| ln.is_finite()))
         .collect()
 }

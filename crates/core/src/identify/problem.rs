@@ -230,7 +230,9 @@ impl<'a> Problem<'a> {
         }
         let changed = terms.iter().zip(self.model.terms()).any(|(new, old)| new.factor != old.factor);
         // The same matrices as those of a model that is there.
-        Ok(if changed { DynamicStiffness::new(terms).ok() } else { None })
+        let decay_per_s = self.model.decay_per_s();
+        let about = || DynamicStiffness::new(terms).ok().map(|model| model.with_decay_per_s(decay_per_s));
+        Ok(if changed { about() } else { None })
     }
 
     /// Options of this problem: a single unknown's bounds in them.
@@ -253,6 +255,11 @@ impl<'a> Problem<'a> {
 
     fn check_experiment(&self) -> Result<(), ProblemError> {
         let dim = self.model.dim();
+        let decay_per_s = self.model.decay_per_s();
+        if !(decay_per_s.is_finite() && decay_per_s >= 0.0) {
+            let expected = "a finite number of 1/s that is not negative: that of a window e^(-decay t)";
+            return Err(value("decay_per_s of the model", expected, decay_per_s));
+        }
         let Experiment { load, sensors } = self.experiment;
         if load.len() != dim {
             let expected = format!("{dim} entries, as the model has degrees of freedom");

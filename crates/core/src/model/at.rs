@@ -69,7 +69,7 @@ impl DynamicStiffness {
         let mut nominal = Combination::default();
         let unknown = |term| parameters.iter().any(|p| p.members.iter().any(|member| member.term == term));
         for (index, term) in self.terms().iter().enumerate().filter(|&(index, _)| !unknown(index)) {
-            nominal.parts.push((index, term.role.weight(frequency_hz) * term.factor.at(frequency_hz)?));
+            nominal.parts.push((index, self.weight(term.role, frequency_hz) * term.factor.at(frequency_hz)?));
         }
         let mut expanded = Vec::with_capacity(parameters.len());
         for parameter in parameters {
@@ -78,7 +78,7 @@ impl DynamicStiffness {
             let mut coefficients = vec![Combination::default(); degree];
             for member in &parameter.members {
                 let term = &self.terms()[member.term];
-                let mut weight = term.role.weight(frequency_hz);
+                let mut weight = self.weight(term.role, frequency_hz);
                 if parameter.multiplies {
                     weight *= term.factor.at(frequency_hz)?;
                 }

@@ -50,7 +50,7 @@ pub struct Measured {
     pub force: Vec<f64>,
     /// One a response channel.
     pub frfs: Vec<Frf>,
-    /// Decay rate β in 1/s that an exponential window has added ([`added_decay`]).
+    /// Decay rate β in 1/s that an exponential window has added ([`added_decay`]): that of the model to compare with.
     pub added_decay_per_s: Option<f64>,
 }
 

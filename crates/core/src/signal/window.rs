@@ -11,7 +11,7 @@ pub struct Windows {
     /// after the contact.
     pub force_s: Option<f64>,
     /// Time constant τ in s of the factor e^{−t/τ} on force and response: forces a response to decay within the record.
-    /// It adds damping ([`added_decay`]).
+    /// It adds damping, which the model is told of ([`added_decay`]).
     pub exponential_s: Option<f64>,
 }
 
@@ -20,9 +20,7 @@ pub struct Windows {
 /// With the same window on both channels the quotient is exactly the FRF on a parallel to the imaginary axis,
 /// $$ H_w(\omega) = H(s)\big|_{s = i\omega + \beta}, $$
 /// since e^{−βt} shifts a Laplace transform. It cannot be taken back from one frequency to the next without a model of
-/// the structure; with one it can. For a single factor E of the stiffness and mass alone,
-/// $$ \bigl(E(s) K + s^2 M\bigr)^{-1} = (1 - i\beta/\omega)^{-2} \bigl(E_w K - \omega^2 M\bigr)^{-1}, \quad E_w = \frac{E(s)}{(1 - i\beta/\omega)^2}: $$
-/// the FRF times (1 − iβ/ω)² identifies E_w, whose loss factor is too large by [`added_loss_factor`].
+/// the structure; a model has it exactly ([`crate::model::DynamicStiffness::with_decay_per_s`]).
 pub fn added_decay(exponential_s: f64) -> f64 {
     1.0 / exponential_s
 }

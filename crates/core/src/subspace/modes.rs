@@ -87,7 +87,7 @@ impl Projection {
         let (theta, _) = weights(self, at, correction);
         let role = |g: usize| at.model.terms()[self.parts.term(g)].role;
         let factors = |wanted: Role| -> Vec<(usize, f64)> {
-            let factor = |g: usize| (theta[g] / wanted.weight(at.frequency_hz)).re;
+            let factor = |g: usize| (theta[g] / at.model.weight(wanted, at.frequency_hz)).re;
             (0..theta.len()).filter(|&g| role(g) == wanted).map(|g| (g, factor(g))).collect()
         };
         let of_mass = factors(Role::Mass);

@@ -27,7 +27,7 @@ impl Shift {
             if sigma == 0.0 && term.role != Role::Stiffness {
                 continue; // at 0 Hz, where the weight does not tell the factor
             }
-            let factor: c64 = coefficient / term.role.weight(at.frequency_hz);
+            let factor: c64 = coefficient / model.weight(term.role, at.frequency_hz);
             let weight = match term.role {
                 Role::Stiffness => factor.re,
                 Role::Mass => sigma * factor.re,

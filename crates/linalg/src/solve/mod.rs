@@ -50,7 +50,8 @@ trait Factor<T>: Send + Sync {
 }
 
 /// Everything about a pattern that no number changes: ordering and symbolic factorisations, done once
-/// for all frequencies and shared between threads.
+/// for all frequencies and shared between threads. A clone shares it too.
+#[derive(Clone)]
 pub struct Analysis {
     pattern: Arc<Pattern>,
     real: Arc<dyn Symbolic<f64>>,

@@ -166,7 +166,7 @@ impl<'a> Composite<'a> {
                 Some(j) => values[j],
                 None => term.factor.at(frequency_hz)?,
             };
-            let mut multiplied = term.role.weight(frequency_hz);
+            let mut multiplied = self.model.weight(term.role, frequency_hz);
             let powers = self.unknowns.iter().enumerate().filter_map(|(j, one)| match &one.dependence {
                 Dependence::Powers(all) => Some((j, all.iter().find(|(term, _)| *term == index)?.1)),
                 Dependence::Factor(_) => None,
