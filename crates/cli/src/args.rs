@@ -166,7 +166,7 @@ pub(crate) struct Frf {
     /// Force window: zero from so long after the trigger
     #[arg(long, value_name = "SECONDS")]
     pub(crate) force_window: Option<f64>,
-    /// Exponential window: time constant of the decay that is put on both channels
+    /// Exponential window: time constant of the decay that is put on both channels; `frfit identify` takes it into the model
     #[arg(long, value_name = "SECONDS")]
     pub(crate) exponential_window: Option<f64>,
     /// Hits to average whatever is wrong with them, such as 1,3

@@ -9,6 +9,12 @@ use frfit_workflow::load::Layout;
 use frfit_workflow::output::{Words, laws_text, several_text};
 use std::path::Path;
 
+/// That the model is the one behind an exponential window.
+fn window(job: &IdentifyJob) -> Option<String> {
+    let decay_per_s = job.case.model.decay_per_s();
+    (decay_per_s > 0.0).then(|| format!("decay_per_s = {decay_per_s}, taken into the model"))
+}
+
 /// The verdict of an identification and where its files are.
 pub(crate) fn identified(job: &IdentifyJob, out: &Path) -> Words {
     let mut words = Words::default();
@@ -18,6 +24,7 @@ pub(crate) fn identified(job: &IdentifyJob, out: &Path) -> Words {
         words = several_text(identify, run);
         words.warn(&job.diagnosis.as_ref().map_or(String::new(), |found| findings_text(&job.case, found)));
         contradictions(job).for_each(|sentence| words.warn(&format!("  {:<18}{sentence}\n", "sensor")));
+        window(job).iter().for_each(|sentence| words.say(&format!("  {:<18}{sentence}\n", "window")));
         words.say(&format!(
             "  {:<18}{}: identified.csv, response.csv, updated.uff, summary.json, figures/, report.html\n",
             "wrote",
@@ -49,6 +56,9 @@ pub(crate) fn identified(job: &IdentifyJob, out: &Path) -> Words {
             .collect::<Vec<_>>()
             .join(", "),
     );
+    if let Some(sentence) = window(job) {
+        add(false, "window", sentence);
+    }
     let ok = |outcome: &&Line| outcome.status == Status::Ok;
     let range = |number: &dyn Fn(&Line) -> Option<f64>| {
         let values = run.found.lines.iter().filter(ok).filter_map(number);

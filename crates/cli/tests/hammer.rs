@@ -89,6 +89,88 @@ fn by_default_the_modulus_is_the_truth_up_to_the_mesh() {
     assert!(summary["reference"]["deviation"]["max_ok"].as_f64().unwrap() < 3e-4);
 }
 
+/// Largest |η − truth|/truth of the answers.
+fn worst_loss_factor(folder: &Path, table: &str) -> f64 {
+    let truth = std::fs::read_to_string(folder.join("bar/truth.csv")).unwrap();
+    let [at, exact] = ["frequency_hz", "loss_factor"].map(|name| numbers(&truth, name));
+    let [f, found] = ["frequency_hz", "loss_factor"].map(|name| numbers(table, name));
+    let of = |k: usize| {
+        let row = at.iter().position(|at| *at == f[k]).unwrap();
+        (found[k] - exact[row]).abs() / exact[row]
+    };
+    (0..f.len()).filter(|&k| found[k].is_finite()).map(of).fold(0.0, f64::max)
+}
+
+/// The window of `frfit frf` is in the file that it writes, and from there in the model.
+#[test]
+fn windowed_impacts_have_the_loss_factor_of_the_material() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    done(at, &["--quiet", "example", "hammer-bar", "bar"]);
+    let case = std::fs::read_to_string(at.join("bar/case.toml")).unwrap();
+    let measurement = |keys: &str| {
+        let changed = case.replace("file = \"frf.uff\"", keys);
+        assert_ne!(changed, case);
+        std::fs::write(at.join("bar/case.toml"), changed).unwrap();
+    };
+    let decay = 15.625;
+    let band = ["--band", "200:700", "--error-map", "0"];
+    done(at, &["--quiet", "frf", "bar/records.lvm", "--exponential-window", "0.064", "-o", "bar/frf.uff"]);
+    let (summary, table) = identify(at, &band);
+    assert_eq!(summary["decay_per_s"], decay);
+    // One sensor: at some lines of windowed data another modulus fits as well, whatever the model knows of the window.
+    let ok = summary["status"]["ok"].as_u64().unwrap();
+    assert!(ok > 220 && ok + summary["status"]["ambiguous"].as_u64().unwrap_or(0) == 251, "{ok}");
+    // The end of the record (0.1 % without a window), and (2/π)α/ω, as E is taken at the real ω.
+    let with = worst_loss_factor(at, &table);
+    assert!(with < 0.001 + 4.0 * decay / (TAU * TAU * 200.0), "{with}");
+    // The same file without its word: 2α/ω over η = 0.119 at 200 Hz.
+    let text = std::fs::read_to_string(at.join("bar/frf.uff")).unwrap();
+    let said = format!("{:<80}", "decay_per_s = 15.625");
+    assert_eq!(text.matches(&said).count(), 1);
+    std::fs::write(at.join("bar/silent.uff"), text.replace(&said, &format!("{:<80}", "NONE"))).unwrap();
+    measurement("file = \"silent.uff\"");
+    let (summary, wrong) = identify(at, &band);
+    assert_eq!((&summary["decay_per_s"], &summary["status"]["ok"]), (&Value::from(0.0), &Value::from(ok)));
+    let without = worst_loss_factor(at, &wrong);
+    assert!(without > 0.2, "{without}");
+    // The case's word in its place: the same numbers.
+    measurement("decay_per_s = 15.625\nfile = \"silent.uff\"");
+    assert!(identify(at, &band).1 == table);
+    // A table says it in a comment, which a conversion keeps, both ways.
+    done(at, &["--quiet", "convert", "bar/frf.uff", "bar/frf.csv"]);
+    let of_table = std::fs::read_to_string(at.join("bar/frf.csv")).unwrap();
+    assert!(of_table.starts_with("# decay_per_s = 15.625\nfrequency_hz,"), "{}", &of_table[..60]);
+    let dofs = ["--quantity", "accelerance", "--response", "401+X", "--reference", "1+X"];
+    done(at, &[&["--quiet", "convert", "bar/frf.csv", "bar/again.uff"], &dofs[..]].concat());
+    assert!(std::fs::read_to_string(at.join("bar/again.uff")).unwrap().contains(&said));
+    done(at, &["--quiet", "frf", "bar/records.lvm", "--exponential-window", "0.064", "-o", "bar/direct.csv"]);
+    let direct = std::fs::read_to_string(at.join("bar/direct.csv")).unwrap();
+    assert!(direct.starts_with("# decay_per_s = 15.625\nfrequency_hz,"));
+    // Its word and the case's must not contradict each other.
+    measurement("decay_per_s = 6.0\nfile = \"frf.uff\"");
+    let message = refused(at, &["identify", "bar/case.toml", "--out", "out"]);
+    let expected = "measurement.decay_per_s: expected 15.625, as frf.uff says, or no such key, found 6";
+    assert!(message.contains(expected), "{message}");
+    let second = "decay_per_s = 15.625\nfile = \"frf.uff\"\nrow = 401\n[[measurement]]\n\
+                  file = \"silent.uff\"";
+    measurement(second);
+    let message = refused(at, &["identify", "bar/case.toml", "--out", "out"]);
+    let expected = "expected the decay_per_s of all measurements, 15.625 as of the first, found 0";
+    assert!(message.contains(expected), "{message}");
+    for wrong in ["-6.0", "inf", "\"6/s\""] {
+        measurement(&format!("decay_per_s = {wrong}\nfile = \"frf.uff\""));
+        let message = refused(at, &["identify", "bar/case.toml", "--out", "out"]);
+        assert!(message.contains("expected a finite number of 1/s that is not negative"), "{message}");
+    }
+    // Nor must it be nonsense.
+    std::fs::write(at.join("bar/frf.csv"), of_table.replace("= 15.625", "= soon")).unwrap();
+    measurement("quantity = \"accelerance\"\nfile = \"frf.csv\"");
+    let message = refused(at, &["identify", "bar/case.toml", "--out", "out"]);
+    let expected = "frf.csv:1: expected decay_per_s = a number of 1/s from 0 on, found decay_per_s = soon";
+    assert!(message.contains(expected), "{message}");
+}
+
 #[test]
 fn records_at_fault_and_options_that_fit_nothing_are_refused() {
     let folder = tempfile::tempdir().unwrap();

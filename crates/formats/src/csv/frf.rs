@@ -1,9 +1,10 @@
-//! Frequency response functions: frequency_hz, re, im[, coherence][, std].
+//! Frequency response functions: frequency_hz, re, im[, coherence][, std], and `# decay_per_s = 6` of a windowed one.
 
 use num_complex::Complex64 as c64;
 
 use super::Table;
 use crate::FormatError;
+use crate::text::{Lines, number};
 
 /// A measured frequency response function, sorted by frequency.
 #[derive(Debug, Clone, PartialEq)]
@@ -16,13 +17,15 @@ pub struct FrfTable {
     pub coherence: Option<Vec<f64>>,
     /// Standard deviation of each complex value, √E|δH|².
     pub std: Option<Vec<f64>>,
+    /// What a comment line `# decay_per_s = 6` says: the decay rate in 1/s of an exponential window on both channels.
+    pub decay_per_s: Option<f64>,
 }
 
 /// Reads a frequency response function: columns frequency_hz, re, im, and coherence and std if there are any.
 ///
 /// # Errors
 /// What [`Table::read`] refuses; a column that is missing or unknown; no line of data; a negative or repeated
-/// frequency; a coherence outside 0…1; a negative std; a cell that is no finite number.
+/// frequency; a coherence outside 0…1; a negative std; a cell that is no finite number; a comment `decay_per_s =` without a number from 0 on, or two that differ.
 pub fn read_frf(bytes: &[u8]) -> Result<FrfTable, FormatError> {
     let table = Table::read(bytes)?;
     table.only(&["frequency_hz", "re", "im", "coherence", "std"])?;
@@ -39,6 +42,7 @@ pub fn read_frf(bytes: &[u8]) -> Result<FrfTable, FormatError> {
     };
     Ok(FrfTable {
         frequency_hz,
+        decay_per_s: decay(bytes)?,
         coherence: optional("coherence", "a number from 0 to 1", 1.0)?,
         std: optional("std", "a number from 0 on", f64::MAX)?,
         response: order
@@ -46,6 +50,30 @@ pub fn read_frf(bytes: &[u8]) -> Result<FrfTable, FormatError> {
             .map(|&row| Ok(c64::new(table.number(row, re)?, table.number(row, im)?)))
             .collect::<Result<_, FormatError>>()?,
     })
+}
+
+/// What comment lines `# decay_per_s = 6` say.
+fn decay(bytes: &[u8]) -> Result<Option<f64>, FormatError> {
+    let mut found = None;
+    for line in Lines::new(bytes) {
+        let Some(comment) = line.bytes.trim_ascii_start().strip_prefix(b"#") else { continue };
+        let Some(said) = decay_said(comment) else { continue };
+        let of_line = |expected: &str, found: String| FormatError::line(line.number, expected, found);
+        let shown = || String::from_utf8_lossy(comment.trim_ascii()).into_owned();
+        let value = said.ok_or_else(|| of_line(DECAY, shown()))?;
+        if let Some(before) = found.replace(value).filter(|before| *before != value) {
+            return Err(of_line("one decay_per_s", format!("{value} after {before}")));
+        }
+    }
+    Ok(found)
+}
+
+const DECAY: &str = "decay_per_s = a number of 1/s from 0 on";
+
+/// What a line of text says about the decay rate of an exponential window: `decay_per_s = 6`, in 1/s. `None` where it says nothing of it, `Some(None)` where what it says is no number from 0 on.
+pub fn decay_said(text: &[u8]) -> Option<Option<f64>> {
+    let rest = text.trim_ascii().strip_prefix(b"decay_per_s")?.trim_ascii_start().strip_prefix(b"=")?;
+    Some(number(rest.trim_ascii()).filter(|value| *value >= 0.0))
 }
 
 /// The frequencies of some rows in ascending order, and the rows in that order.

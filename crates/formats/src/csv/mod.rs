@@ -22,7 +22,7 @@ mod vector;
 mod write;
 
 pub use dof_names::{Direction, DofName, read_dof_names};
-pub use frf::{FrfTable, read_frf};
+pub use frf::{FrfTable, decay_said, read_frf};
 pub use modulus::{ModulusTable, read_modulus};
 pub use modulus_data::{ModulusData, read_modulus_data, read_modulus_data_where};
 pub use modulus_rows::{ModulusRow, ModulusRows, read_modulus_rows};

@@ -445,6 +445,12 @@ pub(super) static MEASUREMENT: Section = Section {
             "0",
             "By how much this channel is late. Unknown: as with `scale`.",
         ),
+        key(
+            "decay_per_s",
+            "number from 0, 1/s",
+            "as the file says, or 0",
+            "α = 1/τ of an exponential window e^(−αt) on force and response: the model is evaluated at ω − iα. The same for all measurements.",
+        ),
     ],
     examples: &[
         "[[measurement]]
@@ -455,6 +461,7 @@ quantity = \"accelerance\"
 averages = 5
 scale = 9.81
 delay_s = 1e-5
+decay_per_s = 6.0
 ",
         "[[measurement]]
 file = \"frf.csv\"

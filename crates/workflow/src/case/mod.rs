@@ -152,6 +152,8 @@ pub struct MeasurementEntry {
     pub delay_s: Option<Located<Calibration>>,
     /// Over how many records the coherence was averaged; `None`: not told.
     pub averages: Option<Located<i64>>,
+    /// The decay rate α of an exponential window e^{−αt} on force and response, 1/s; `None`: as the file says.
+    pub decay_per_s: Option<Located<f64>>,
 }
 
 /// `scale` or `delay_s` of a measurement.

@@ -338,6 +338,7 @@ pub(super) fn measurement(table: &Table<'_>) -> Result<MeasurementEntry, InputEr
             .map(|field| calibration(&field, SCALE, |scale| scale != 0.0))
             .transpose()?,
         delay_s: table.find("delay_s").map(|field| calibration(&field, DELAY, |_| true)).transpose()?,
+        decay_per_s: table.find("decay_per_s").map(|field| decay(&field)).transpose()?,
     })
 }
 
@@ -358,6 +359,14 @@ fn calibration(
             Ok(word) => Ok(Located { value: Calibration::Unknown, place: word.place }),
             Err(_) => Err(field.refuse(expected)),
         },
+    }
+}
+
+/// The decay rate of an exponential window.
+fn decay(field: &Field<'_>) -> Result<Located<f64>, InputError> {
+    match field.as_number().filter(|value| *value >= 0.0) {
+        Some(value) => Ok(Located { value, place: field.place.clone() }),
+        None => Err(field.refuse("a finite number of 1/s that is not negative")),
     }
 }
 

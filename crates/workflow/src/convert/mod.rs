@@ -8,6 +8,7 @@ mod target;
 mod uff;
 
 pub use options::ConvertOptions;
+pub(crate) use table::windowed;
 pub(crate) use target::{OR_TO, ending_of};
 pub(crate) use uff::{companion, frf_dataset};
 

@@ -2,7 +2,7 @@
 
 use super::options::ConvertOptions;
 use crate::error::{InputError, Place};
-use crate::load::{Choice, Frf, read_frf};
+use crate::load::{Choice, Frf, decay_line, read_frf};
 use frfit::dof::DofName;
 use frfit_formats::FormatError;
 use frfit_formats::csv::{Cell, write};
@@ -47,7 +47,16 @@ fn written(frf: &Frf) -> Result<Vec<u8>, FormatError> {
             .map(Cell::from)
             .collect::<Vec<_>>()
     });
-    write(&columns, rows).map(String::into_bytes)
+    let table = write(&columns, rows)?;
+    Ok(windowed(frf.decay_per_s, table).into_bytes())
+}
+
+/// A table of an FRF, with what is known of its window in a comment line before it.
+pub(crate) fn windowed(decay_per_s: Option<f64>, table: String) -> String {
+    match decay_per_s {
+        Some(decay_per_s) => format!("# {}\n{table}", decay_line(decay_per_s)),
+        None => table,
+    }
 }
 
 /// The coherence between response and reference of an FRF at its frequencies: the only one in the file, with

@@ -3,7 +3,7 @@
 use super::options::ConvertOptions;
 use super::precision::{written, written_evenly_or_not};
 use crate::error::{InputError, Place};
-use crate::load::{Choice, Frf, STD_LABEL, read_frf};
+use crate::load::{Choice, Frf, STD_LABEL, decay_line, read_frf};
 use frfit::c64;
 use frfit::dof::DofName;
 use frfit::quantity::Quantity;
@@ -54,8 +54,9 @@ pub(super) fn of_table(bytes: &[u8], input: &Path, options: &ConvertOptions) -> 
         .ok_or_else(|| needs("--reference", "where it was driven, such as 12+Z: the table does not say"))?;
     let in_input = |error| InputError::in_file(input, error);
     let frf = read_frf(bytes, &Choice::default()).map_err(in_input)?;
+    let decay = frf.decay_per_s.map(decay_line).unwrap_or_default();
     let header = FunctionHeader {
-        id: [name(input), String::new(), String::new(), String::new(), String::new()],
+        id: [name(input), String::new(), decay, String::new(), String::new()],
         response: dof(response, "--response")?,
         reference: dof(reference, "--reference")?,
         ..FunctionHeader::default()

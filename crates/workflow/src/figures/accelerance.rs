@@ -25,7 +25,7 @@ pub(super) fn compared(
     strip: Strip,
 ) -> Figure {
     let series = |label, responses, color, line, marker| {
-        curve(label, frequency_hz, modulus(frequency_hz, responses), color, line, marker)
+        curve(label, frequency_hz, modulus(case, frequency_hz, responses), color, line, marker)
     };
     Figure {
         title: title(case, &format!("accelerance at {}", case.sensors[sensor].label)),
@@ -51,6 +51,7 @@ pub(super) fn forward(case: &Case, run: &RespondRun) -> Figure {
         label: sensor.label.clone(),
         x: run.frequency_hz.clone(),
         y: modulus(
+            case,
             &run.frequency_hz,
             run.receptance.iter().map(|x| x.as_ref().ok()?.get(m).copied()).collect(),
         ),
@@ -70,10 +71,9 @@ pub(super) fn forward(case: &Case, run: &RespondRun) -> Figure {
     }
 }
 
-/// |−ω² x|, P-39; a gap where there is no response.
-fn modulus(frequency_hz: &[f64], receptance: Vec<Option<c64>>) -> Vec<f64> {
-    let of = |(&f, x): (&f64, Option<c64>)| {
-        x.map_or(f64::NAN, |x| Quantity::Accelerance.from_receptance(f, x).norm())
-    };
+/// |−ω² x|, P-39, |s² x| under a window of the measurements; a gap where there is no response.
+fn modulus(case: &Case, frequency_hz: &[f64], receptance: Vec<Option<c64>>) -> Vec<f64> {
+    let over = |f: f64| Quantity::Accelerance.over_receptance_windowed(f, case.model.decay_per_s());
+    let of = |(&f, x): (&f64, Option<c64>)| x.map_or(f64::NAN, |x| (over(f) * x).norm());
     frequency_hz.iter().zip(receptance).map(of).collect()
 }

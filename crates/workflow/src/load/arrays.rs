@@ -4,7 +4,7 @@ use super::band::band;
 use super::files::NamedFile;
 use super::identify::{Layout, can_be_found, factor_of, fit_for_band, middle_of, shared};
 use super::lines::unused;
-use super::measurement::{Curve, Measurement};
+use super::measurement::{Curve, Decay, Measurement, common_decay};
 use super::{Case, Frf, IdentifyCase, SensorInfo};
 use crate::case::{Exclusion, Located, VariesEntry as Varies, checked_band};
 use crate::error::{InputError, Place};
@@ -54,6 +54,11 @@ impl MeasuredFrf {
         let delay_s = self.delay_s.unwrap_or(0.0);
         if !delay_s.is_finite() {
             return Err(InputError::at(&place.below("delay_s"), "a finite number", delay_s.to_string()));
+        }
+        let decay_per_s = self.frf.decay_per_s.unwrap_or(0.0);
+        if !(decay_per_s.is_finite() && decay_per_s >= 0.0) {
+            let expected = "a finite number of 1/s that is not negative";
+            return Err(InputError::at(&place.below("decay_per_s"), expected, decay_per_s.to_string()));
         }
         if self.averages == Some(0) {
             return Err(InputError::at(&place.below("averages"), "1 or more", "0"));
@@ -148,6 +153,11 @@ pub fn case_of_arrays(
     let measurements = numbered
         .map(|(k, frf)| measurement(frf, k, model.dim()))
         .collect::<Result<Vec<Measurement>, InputError>>()?;
+    let decay_per_s = common_decay(&measurements)?;
+    let model = match decay_per_s == model.decay_per_s() {
+        true => model,
+        false => Arc::new(Arc::unwrap_or_clone(model).with_decay_per_s(decay_per_s)),
+    };
     let sensors = measurements.iter().map(|measurement| measurement.sensor).collect();
     let experiment = experiment(&model, load, sensors)?;
     let mut options = options(wanted)?;
@@ -163,7 +173,7 @@ pub fn case_of_arrays(
     let place = argument("band_hz");
     let band_hz = wanted.band_hz.unwrap_or([0.0, f64::MAX]);
     checked_band(band_hz, &place)?;
-    let data = band(&measurements, band_hz, &place)?;
+    let data = band(&measurements, decay_per_s, band_hz, &place)?;
     let out: Vec<Exclusion> = wanted.exclude_hz.iter().map(|&band| exclude(band)).collect();
     let most = wanted.max_lines.map(|value| Located { value, place: argument("max_lines") });
     let left_out = unused(&data, &out, most.as_ref(), &argument("exclude_hz"))?;
@@ -287,7 +297,8 @@ fn measurement(measured: MeasuredFrf, k: usize, dim: usize) -> Result<Measuremen
         SensorInfo { label: row(measured.sensor.row), quantity: measured.quantity, file: None::<PathBuf> };
     let file = NamedFile::closed_at(Path::new(&name), argument("measurements"));
     let MeasuredFrf { sensor, frf, averages, .. } = measured;
-    Ok(Measurement { sensor, info, curve: Some(Curve { frf, scale, delay_s, averages, file }) })
+    let decay = Some(Decay { per_s: frf.decay_per_s.unwrap_or(0.0), place: place.below("decay_per_s") });
+    Ok(Measurement { sensor, info, curve: Some(Curve { frf, scale, delay_s, averages, file }), decay })
 }
 
 /// What the readers of files make sure of.

@@ -40,9 +40,10 @@ pub(super) fn frequencies(curve: &Curve, band_hz: [f64; 2], place: &Place) -> Re
     Ok(inside)
 }
 
-/// All measurements at the frequencies that the first has in the band.
+/// All measurements at the frequencies that the first has in the band; `decay_per_s` is that of their window.
 pub(super) fn band(
     measurements: &[Measurement],
+    decay_per_s: f64,
     band_hz: [f64; 2],
     place: &Place,
 ) -> Result<Band, InputError> {
@@ -60,10 +61,10 @@ pub(super) fn band(
         let picked = |column: &Vec<f64>| rows.iter().map(|&row| column[row]).collect::<Vec<_>>();
         let quantity = measurement.info.quantity;
         for ((&row, &f), values) in rows.iter().zip(&frequency_hz).zip(&mut measured) {
-            // A late channel has the phase e^{-iωτ}.
+            // A late channel has the phase e^{-iωτ}; what a window makes of its delay, e^{-ατ}, is part of the scale.
             let channel = c64::from_polar(curve.scale.abs(), omega_rad_s(f) * curve.delay_s);
             let response = curve.scale.signum() * channel * frf.response[row];
-            let receptance = quantity.to_receptance(f, response);
+            let receptance = response / quantity.over_receptance_windowed(f, decay_per_s);
             if !receptance.is_finite() {
                 let expected = format!("a band in which {quantity} can be converted to receptance");
                 return Err(InputError::at(place, expected, format!("{f} Hz in it")));
@@ -71,7 +72,8 @@ pub(super) fn band(
             values.push(receptance);
         }
         let std = frf.std.as_ref().map(picked).map(|std| {
-            let per_receptance = frequency_hz.iter().map(|&f| quantity.over_receptance(f).norm());
+            let per_receptance =
+                frequency_hz.iter().map(|&f| quantity.over_receptance_windowed(f, decay_per_s).norm());
             std.into_iter()
                 .zip(per_receptance)
                 .map(|(std, factor)| std * curve.scale.abs() / factor)

@@ -23,6 +23,14 @@ pub struct Frf {
     pub measured_at: Option<DofName>,
     /// Where and in which direction it was driven, where the file says.
     pub driven_at: Option<DofName>,
+    /// The decay rate α in 1/s of an exponential window e^{−αt} on force and response, where the file says: the line `decay_per_s = 6` among the ID lines of a UFF
+    /// function, or `# decay_per_s = 6` in a table, as `frfit frf` writes them.
+    pub decay_per_s: Option<f64>,
+}
+
+/// The line that says so.
+pub(crate) fn decay_line(decay_per_s: f64) -> String {
+    format!("decay_per_s = {decay_per_s}")
 }
 
 /// Which of several FRFs of a file.
@@ -52,11 +60,12 @@ pub fn read_frf(bytes: &[u8], choice: &Choice) -> Result<Frf, FormatError> {
     Err(FormatError::whole("an FRF: a UFF file or a table (CSV)", found))
 }
 
-/// A table has one FRF, and says neither what nor where it is.
+/// A table has one FRF, and says neither what nor where it is, only in a comment line how it was windowed.
 fn table(bytes: &[u8], choice: &Choice) -> Result<Frf, FormatError> {
     if let Some(record) = choice.record.filter(|&record| record != 1) {
         return Err(FormatError::whole("no record number, or 1: a table has one FRF", record.to_string()));
     }
-    let csv::FrfTable { frequency_hz, response, coherence, std } = csv::read_frf(bytes)?;
-    Ok(Frf { frequency_hz, response, coherence, std, quantity: None, measured_at: None, driven_at: None })
+    let csv::FrfTable { frequency_hz, response, coherence, std, decay_per_s } = csv::read_frf(bytes)?;
+    let (quantity, measured_at, driven_at) = (None, None, None);
+    Ok(Frf { frequency_hz, response, coherence, std, quantity, measured_at, driven_at, decay_per_s })
 }

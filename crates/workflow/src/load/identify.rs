@@ -105,7 +105,7 @@ pub(super) fn identify(
     let (band_hz, place) = band_of(entry.band_hz.as_ref(), &entry.place, overrides)?;
     let reference = entry.reference.as_ref().map(|reference| law(reference, files)).transpose()?;
     let channels = unknown(case, &varies, &options)?;
-    let data = band(measurements, band_hz, &place)?;
+    let data = band(measurements, model.decay_per_s(), band_hz, &place)?;
     let most = entry.max_lines.as_ref();
     let left_out = unused(&data, &entry.exclude, most, &entry.place.below("exclude_hz"))?;
     let unit = factor_unit(case, &entry.matrices, &parameter.nominal, &data.frequency_hz);

@@ -4,7 +4,7 @@ use super::dofs::Dofs;
 use super::files::{Files, NamedFile};
 use super::frf::{Choice, Frf};
 use crate::case::{Calibration, Located, MeasurementEntry, Spot};
-use crate::error::InputError;
+use crate::error::{InputError, Place};
 use frfit::dof::DofName;
 use frfit::model::Sensor;
 use frfit::quantity::Quantity;
@@ -28,6 +28,54 @@ pub(super) struct Measurement {
     pub(super) sensor: Sensor,
     pub(super) info: SensorInfo,
     pub(super) curve: Option<Curve>,
+    /// α of its window, 1/s, and who says so; `None` where nobody does: the case does not, and its file was not read.
+    pub(super) decay: Option<Decay>,
+}
+
+/// How an FRF was windowed.
+#[derive(Debug, Clone)]
+pub(super) struct Decay {
+    /// α, 1/s.
+    pub(super) per_s: f64,
+    /// Where it is said; where nothing is said that it is zero, the measurement.
+    pub(super) place: Place,
+}
+
+/// Two numbers of 1/s that are the same but for the digits they are written with.
+const SAME_DECAY: f64 = 1e-6;
+
+/// The decay of all measurements' windows: there is one model, and one s = iω + α that it is evaluated at.
+pub(super) fn common_decay(measurements: &[Measurement]) -> Result<f64, InputError> {
+    let mut all = measurements.iter().filter_map(|measurement| measurement.decay.as_ref());
+    let Some(first) = all.next() else { return Ok(0.0) };
+    match all.find(|other| !same(first.per_s, other.per_s)) {
+        None => Ok(first.per_s),
+        Some(other) => {
+            let expected = format!("the decay_per_s of all measurements, {} as of the first", first.per_s);
+            Err(InputError::at(&other.place, expected, other.per_s.to_string()))
+        }
+    }
+}
+
+fn same(a: f64, b: f64) -> bool {
+    (a - b).abs() <= SAME_DECAY * a.max(b)
+}
+
+/// What the case says, or else the file; neither may contradict the other.
+fn decay(entry: &MeasurementEntry, curve: Option<&Curve>) -> Result<Option<Decay>, InputError> {
+    let of_file = curve.map(|curve| curve.frf.decay_per_s);
+    match (&entry.decay_per_s, of_file) {
+        (Some(key), Some(Some(of_file))) if !same(key.value, of_file) => {
+            let file = entry.file.as_ref().map_or("the file", |file| file.value.as_str());
+            let expected = format!("{of_file}, as {file} says, or no such key");
+            Err(InputError::at(&key.place, expected, key.value.to_string()))
+        }
+        // The file has all digits.
+        (_, Some(Some(per_s))) => Ok(Some(Decay { per_s, place: entry.place.below("file") })),
+        (Some(key), _) => Ok(Some(Decay { per_s: key.value, place: key.place.clone() })),
+        (None, Some(None)) => Ok(Some(Decay { per_s: 0.0, place: entry.place.below("decay_per_s") })),
+        (None, None) => Ok(None),
+    }
 }
 
 /// Measured values and where they are from.
@@ -81,7 +129,8 @@ pub(super) fn measurement(
         (None, None) => Quantity::default(),
     };
     let file = entry.file.as_ref().map(|name| PathBuf::from(&name.value));
-    Ok(Measurement { sensor, info: SensorInfo { label, quantity, file }, curve })
+    let decay = decay(entry, curve.as_ref())?;
+    Ok(Measurement { sensor, info: SensorInfo { label, quantity, file }, curve, decay })
 }
 
 fn curve(

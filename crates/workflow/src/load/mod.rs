@@ -21,6 +21,7 @@ mod uff;
 
 pub use arrays::{ArraysError, MeasuredFrf, Wanted, case_of_arrays, response_of_arrays};
 pub use files::InputFile;
+pub(crate) use frf::decay_line;
 pub use frf::{Choice, Frf, read_frf};
 pub use identify::{IdentifyCase, Layout, MeasuredNoise};
 pub(crate) use labels::{Member, load_one, matrices_of, one_order};
@@ -37,10 +38,11 @@ use crate::terminal::one_line;
 use crate::units::UnitSystem;
 use dofs::Dofs;
 use files::Files;
+use frfit::c64;
 use frfit::frequency::linear_hz;
 use frfit::model::{DynamicStiffness, Experiment};
 use frfit_formats::{CoordinateMatrix, read_matrices, take_matrix};
-use measurement::{Measurement, measurement};
+use measurement::{Measurement, common_decay, measurement};
 use model::Terms;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -53,7 +55,7 @@ pub struct Case {
     pub title: String,
     /// Units of the model as the case has it.
     pub units: UnitSystem,
-    /// D(ω), which acts on metres ([`crate::units`]); shared, because a program may ask one model more than once.
+    /// D(ω), which acts on metres ([`crate::units`]), at the complex frequency that the measurements' window makes of ω; shared, because a program may ask one model more than once.
     pub model: Arc<DynamicStiffness>,
     /// Load and sensors.
     pub experiment: Experiment,
@@ -77,6 +79,11 @@ impl Case {
     /// `34+Z` where `[dofs]` or a matrix' file names the row (from 0), `row 97` (from 1) elsewhere.
     pub fn row_name(&self, row: usize) -> String {
         self.row_names.get(&row).cloned().unwrap_or_else(|| format!("row {}", row + 1))
+    }
+
+    /// What a sensor's receptance is multiplied by to be in the quantity that it measures, under the measurements' window.
+    pub(crate) fn over_receptance(&self, sensor: &SensorInfo, frequency_hz: f64) -> c64 {
+        sensor.quantity.over_receptance_windowed(frequency_hz, self.model.decay_per_s())
     }
 }
 
@@ -125,6 +132,7 @@ pub fn load(case_file: &Path, overrides: &Overrides, purpose: Purpose) -> Result
     let model = model::model(&case, terms)?;
     let load = force::load(&case.load, model.dim(), &dofs, &mut files)?;
     let measurements = measurements(&case, purpose, &dofs, &mut files)?;
+    let model = model.with_decay_per_s(common_decay(&measurements)?);
     let mut sensitivities = None;
     let (identify, respond_hz) = match purpose {
         Purpose::Identify => {

@@ -42,7 +42,7 @@ pub(super) fn sensitivities(
     let known = case.respond.is_none() && curves.len() == measurements.len() && curves.iter().all(told);
     let (mut frequency_hz, mut std) = match known {
         true => {
-            let band = band(measurements, band_hz.unwrap_or([0.0, f64::MAX]), &place)?;
+            let band = band(measurements, model.decay_per_s(), band_hz.unwrap_or([0.0, f64::MAX]), &place)?;
             let std = match band.noise {
                 MeasuredNoise::Known(std) => Some(std),
                 MeasuredNoise::Relative(_) | MeasuredNoise::Unknown => None,

@@ -50,7 +50,7 @@ pub(super) fn several(
         .map(|one| one.reference.as_ref().map(|reference| law(reference, files)).transpose())
         .collect::<Result<Vec<_>, _>>()?;
     let (band_hz, place) = band_of(entry.band_hz.as_ref(), &entry.place, overrides)?;
-    let data = band(measurements, band_hz, &place)?;
+    let data = band(measurements, model.decay_per_s(), band_hz, &place)?;
     let most = entry.max_lines.as_ref();
     let out = unused(&data, &entry.exclude, most, &entry.place.below("exclude_hz"))?;
     let frequency_hz = data.frequency_hz;

@@ -4,6 +4,7 @@ use super::frf::{Choice, Frf};
 use frfit::dof::DofName;
 use frfit::quantity::Quantity;
 use frfit::signal::Unit;
+use frfit_formats::csv::decay_said;
 use frfit_formats::uff::{self, Entry, File, FunctionHeader, FunctionType, Record, Values};
 use frfit_formats::{FormatError, uff::Quantity as Axis};
 use std::collections::HashMap;
@@ -99,6 +100,7 @@ impl Index {
             quantity: quantity(header),
             measured_at: dof(&header.response),
             driven_at: dof(&header.reference),
+            decay_per_s: decay(header, line)?,
         };
         sound(&frf, line)?;
         Ok(frf)
@@ -179,6 +181,14 @@ fn listed(frfs: &[(usize, FunctionHeader)]) -> String {
     };
     let first: Vec<_> = frfs.iter().enumerate().take(MOST).map(shown).collect();
     format!("{}{}", first.join(", "), if frfs.len() > MOST { ", ..." } else { "" })
+}
+
+/// What the ID lines say about an exponential window.
+fn decay(header: &FunctionHeader, line: usize) -> Result<Option<f64>, FormatError> {
+    let mut said = header.id.iter().filter_map(|id| Some((id, decay_said(id.as_bytes())?)));
+    let Some((id, value)) = said.next() else { return Ok(None) };
+    let refuse = || FormatError::line(line, "decay_per_s = a number of 1/s from 0 on in an ID line", id);
+    value.ok_or_else(refuse).map(Some)
 }
 
 /// What the numerator of the ordinate says, where the denominator is a force or says nothing.

@@ -1,7 +1,7 @@
 //! Responses as other programs read them: UFF.
 
 use crate::convert::frf_dataset;
-use crate::load::{Case, SensorInfo};
+use crate::load::{Case, SensorInfo, decay_line};
 use crate::run::{IdentifyRun, RespondRun};
 use frfit::c64;
 use frfit::dof::DofName;
@@ -10,7 +10,7 @@ use frfit_formats::uff::{Dof, Endian, Form, FunctionHeader, Units, write};
 
 /// `frf.uff`, a forward response: units and one binary dataset 58 per sensor, every value bit for bit; frequencies without an answer are left out.
 ///
-/// A sensor without a name is the node of its row, without direction.
+/// Under a window of the measurements an ID line says so, as in an FRF of [`measured_uff`](super::measured_uff). A sensor without a name is the node of its row, without direction.
 ///
 /// # Errors
 /// [`FormatError`] where a node label does not fit the format.
@@ -41,15 +41,22 @@ fn responses(
     let mut file = write::units(&Units::default())?;
     for (m, sensor) in case.sensors.iter().enumerate() {
         let answered = frequency_hz.iter().enumerate().filter_map(|(row, &frequency_hz)| {
-            Some((frequency_hz, sensor.quantity.from_receptance(frequency_hz, receptance(row, m)?)))
+            Some((frequency_hz, case.over_receptance(sensor, frequency_hz) * receptance(row, m)?))
         });
         let (frequency_hz, response): (Vec<f64>, Vec<_>) = answered.unzip();
         if frequency_hz.is_empty() {
             continue;
         }
         let title = case.title.chars().filter(|c| !c.is_control()).take(80).collect();
+        let decay = Some(case.model.decay_per_s()).filter(|&decay| decay > 0.0);
         let header = FunctionHeader {
-            id: [title, sensor.label.clone(), kind.into(), String::new(), String::new()],
+            id: [
+                title,
+                sensor.label.clone(),
+                kind.into(),
+                decay.map(decay_line).unwrap_or_default(),
+                String::new(),
+            ],
             response: dof(sensor, case.experiment.sensors[m].row),
             ..FunctionHeader::default()
         };

@@ -1,7 +1,8 @@
 //! The FRF of a hammer test as UFF or table, and its summary.
 
 use super::words::Words;
-use crate::convert::{companion, frf_dataset};
+use crate::convert::{companion, frf_dataset, windowed};
+use crate::load::decay_line;
 use crate::records::{Records, Sensor};
 use frfit::dof::DofName;
 use frfit::signal::{Channel, Fault, Frf, Hit, Measured, Options, added_loss_factor};
@@ -13,7 +14,7 @@ use serde_json::{Value, json};
 /// Share of the force's largest spectral value down to which a frequency counts as excited: 20 dB.
 const EXCITED: f64 = 0.1;
 
-/// Units; of each sensor the FRF, its coherence and its standard deviation.
+/// Units; of each sensor the FRF, its coherence and its standard deviation. The third ID line has the decay rate of an exponential window, `decay_per_s = 6`, in 1/s.
 ///
 /// # Errors
 /// A degree of freedom that does not fit its columns.
@@ -25,7 +26,7 @@ pub fn measured_uff(records: &Records, measured: &Measured, title: &str) -> Resu
             id: [
                 title.chars().filter(|c| !c.is_control()).take(80).collect(),
                 format!("Hammer test, {averages} hits averaged, {:.6} s each", length_s(measured)),
-                String::new(),
+                measured.added_decay_per_s.map(decay_line).unwrap_or_default(),
                 String::new(),
                 String::new(),
             ],
@@ -48,7 +49,8 @@ pub fn measured_uff(records: &Records, measured: &Measured, title: &str) -> Resu
     Ok(bytes)
 }
 
-/// Columns frequency_hz, re, im, and of more than one hit coherence and std, of the first sensor: a table has one FRF.
+/// Columns frequency_hz, re, im, and of more than one hit coherence and std, of the first sensor: a table has one FRF. A comment line before them has the
+/// decay rate of an exponential window, `# decay_per_s = 6`, in 1/s.
 ///
 /// `std` is √E|δH|² of the complex value, √2 times that of its real and imaginary parts (B-6).
 pub fn measured_csv(measured: &Measured) -> String {
@@ -64,7 +66,7 @@ pub fn measured_csv(measured: &Measured) -> String {
         let more = optional.iter().map(|(_, values)| values[k]);
         [f, value.re, value.im].into_iter().chain(more).map(Cell::from).collect::<Vec<_>>()
     });
-    write(&columns, rows).expect("every row has the columns")
+    windowed(measured.added_decay_per_s, write(&columns, rows).expect("every row has the columns"))
 }
 
 /// √E|δH|²: √2 times the standard deviation of either part.
@@ -135,8 +137,8 @@ fn warnings(records: &Records, measured: &Measured) -> Vec<String> {
     }
     if let (Some(decay), Some(first)) = (measured.added_decay_per_s, measured.frequency_hz.first()) {
         warnings.push(format!(
-            "the exponential window adds the decay rate {decay:.4} 1/s to every mode: a loss factor of {:.4} at {first:.1} Hz, \
-             less in proportion above; it is not removed",
+            "the exponential window's decay_per_s = {decay:.4} goes with the FRF, and frfit identify takes it into the model; \
+             another program would see it as a loss factor of {:.4} at {first:.1} Hz, less in proportion above",
             added_loss_factor(decay, *first)
         ));
     }

@@ -1,6 +1,6 @@
 //! `response.csv`: nominal, measured and updated response, per sensor, in the quantity that was measured, and how well it was measured.
 
-use crate::load::{Case, IdentifyCase, MeasuredNoise, SensorInfo};
+use crate::load::{Case, IdentifyCase, MeasuredNoise};
 use crate::run::{IdentifyRun, RespondRun};
 use frfit::c64;
 use frfit_formats::csv::{Cell, write};
@@ -43,7 +43,8 @@ fn responses_csv(case: &Case, rows: impl Iterator<Item = (f64, [Vec<c64>; 3], Ve
     ];
     let rows = rows.flat_map(|(frequency_hz, responses, std)| {
         case.sensors.iter().enumerate().map(move |(m, sensor)| {
-            let there = |receptance: &[c64]| cells(sensor, frequency_hz, receptance.get(m));
+            let over_receptance = case.over_receptance(sensor, frequency_hz);
+            let there = |receptance: &[c64]| cells(over_receptance, receptance.get(m));
             let [[nominal_re, nominal_im], [measured_re, measured_im], [updated_re, updated_im]] =
                 [0, 1, 2].map(|k| there(&responses[k]));
             [
@@ -56,7 +57,7 @@ fn responses_csv(case: &Case, rows: impl Iterator<Item = (f64, [Vec<c64>; 3], Ve
                 measured_im,
                 updated_re,
                 updated_im,
-                std.get(m).map(|std| sensor.quantity.from_receptance(frequency_hz, *std).norm()).into(),
+                std.get(m).map(|std| (over_receptance * std).norm()).into(),
             ]
         })
     });
@@ -68,7 +69,8 @@ pub fn respond_csv(case: &Case, run: &RespondRun) -> String {
     let columns = ["frequency_hz", "sensor", "quantity", "re", "im"];
     let rows = run.frequency_hz.iter().zip(&run.receptance).flat_map(|(&frequency_hz, receptance)| {
         case.sensors.iter().enumerate().map(move |(m, sensor)| {
-            let [re, im] = cells(sensor, frequency_hz, receptance.as_ref().ok().and_then(|x| x.get(m)));
+            let over_receptance = case.over_receptance(sensor, frequency_hz);
+            let [re, im] = cells(over_receptance, receptance.as_ref().ok().and_then(|x| x.get(m)));
             [
                 Cell::Number(frequency_hz),
                 Cell::Text(&sensor.label),
@@ -81,8 +83,8 @@ pub fn respond_csv(case: &Case, run: &RespondRun) -> String {
     write(&columns, rows).expect("every row has the columns, and no label a line break")
 }
 
-fn cells<'a>(sensor: &SensorInfo, frequency_hz: f64, receptance: Option<&c64>) -> [Cell<'a>; 2] {
-    match receptance.map(|&x| sensor.quantity.from_receptance(frequency_hz, x)) {
+fn cells<'a>(over_receptance: c64, receptance: Option<&c64>) -> [Cell<'a>; 2] {
+    match receptance.map(|&x| over_receptance * x) {
         Some(value) => [Cell::Number(value.re), Cell::Number(value.im)],
         None => [Cell::Empty; 2],
     }

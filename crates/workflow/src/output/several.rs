@@ -128,6 +128,7 @@ pub fn several_json(case: &Case, wanted: &IdentifyCase, run: &IdentifyRun, secon
         "title": case.title,
         "inputs": inputs_json(case),
         "units": case.units.json(),
+        "decay_per_s": case.model.decay_per_s(),
         "model": model_json(case),
         "sensors": (0..case.sensors.len()).map(|m| sensor(case, run, m)).collect::<Vec<_>>(),
         "band_hz": wanted.band_hz,

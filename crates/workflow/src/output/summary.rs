@@ -40,6 +40,7 @@ pub fn summary_json(
         "title": case.title,
         "inputs": inputs_json(case),
         "units": case.units.json(),
+        "decay_per_s": case.model.decay_per_s(),
         "factor_unit": identify.units[0].word(),
         "model": model_json(case),
         "sensors": (0..case.sensors.len()).map(|m| sensor(case, run, m)).collect::<Vec<_>>(),
