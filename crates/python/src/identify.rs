@@ -29,6 +29,7 @@ pub(crate) struct Measured<'py> {
     averages: Option<usize>,
     scale: Option<f64>,
     delay_s: Option<f64>,
+    decay_per_s: f64,
 }
 
 /// The options of `frfit.identify`, by their names.
@@ -67,6 +68,7 @@ impl Measured<'_> {
             quantity: None,
             measured_at: None,
             driven_at: None,
+            decay_per_s: Some(self.decay_per_s),
         };
         Ok(MeasuredFrf {
             sensor: Sensor { row: self.row, sign: self.sign },

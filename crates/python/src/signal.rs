@@ -59,6 +59,7 @@ pub(crate) fn frf<'py>(
     let measured = measured.map_err(|error| raise(py, "SignalError", &error))?;
     let found = PyDict::new(py);
     found.set_item("averages", measured.averages())?;
+    found.set_item("decay_per_s", measured.added_decay_per_s.unwrap_or(0.0))?;
     let points = measured.frequency_hz.len();
     let column = |of: &dyn Fn(&frfit::signal::Frf) -> Option<Vec<f64>>| {
         let rows: Option<Vec<Vec<f64>>> = measured.frfs.iter().map(of).collect();

@@ -82,6 +82,7 @@ def identified(chain, values, std, channels, **keys):
 
 
 UNKNOWN = {"scale": "unknown", "delay_s": "unknown"}
+WINDOW = {"decay_per_s": 0.5}
 
 
 @pytest.mark.parametrize(
@@ -90,13 +91,14 @@ UNKNOWN = {"scale": "unknown", "delay_s": "unknown"}
         (({}, {}), {"varies": "frequency"}),
         (({}, {}), {"varies": "smooth"}),
         (({}, {}), {"varies": "law", "law": "fractional"}),
+        ((WINDOW, WINDOW), {"varies": "frequency"}),
         (({}, UNKNOWN), {}),
         ((UNKNOWN, UNKNOWN), {"varies": "law", "law": "fractional"}),
     ],
-    ids=["free", "smooth", "law", "unknown beside known", "all unknown with a law"],
+    ids=["free", "smooth", "law", "window", "unknown beside known", "all unknown with a law"],
 )
 def test_numbers_are_the_same_bit_by_bit(chain: Chain, tmp_path, channels, keys):
-    wrong = (SCALE, LATE_S) if channels[1] else (1.0, 0.0)
+    wrong = (SCALE, LATE_S) if channels[1] is UNKNOWN else (1.0, 0.0)
     values, std = records(chain, *wrong)
     ours = identified(chain, values, std, channels, **keys)
     theirs = frfit.run_case(case_file(chain, tmp_path, values, std, channels, keys))

@@ -57,6 +57,9 @@ class Measurement:
         What the values are to be multiplied by; ``"unknown"`` is found, beside a known channel or with a law.
     delay_s
         By how much the channel is late, s; ``"unknown"`` as above.
+    decay_per_s
+        Decay rate of an exponential window exp(-decay_per_s t) on force and response, 1/s (``MeasuredFrf.decay_per_s``): the
+        model is evaluated at the complex frequency of the window. The same for all measurements.
     """
 
     frequency_hz: ArrayLike
@@ -69,7 +72,7 @@ class Measurement:
     averages: int | None = None
     scale: float | Literal["unknown"] = 1.0
     delay_s: float | Literal["unknown"] = 0.0
-
+    decay_per_s: float = 0.0
 
     def __post_init__(self) -> None:
         _frfit.check_measurement("measurement", _plain(self, "measurement"))
@@ -97,6 +100,7 @@ def _plain(one: Measurement, name: str) -> SimpleNamespace:
         averages=optional_whole(one.averages, below("averages"), 1),
         scale=known(one.scale, "scale"),
         delay_s=known(one.delay_s, "delay_s"),
+        decay_per_s=number(one.decay_per_s, below("decay_per_s")),
     )
 
 

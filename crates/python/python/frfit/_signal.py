@@ -72,7 +72,8 @@ class MeasuredFrf:
     """The FRF of every sensor, with how sure it is.
 
     ``frequency_hz`` (f,); ``response`` (sensors, f), response over force; ``coherence`` and ``std`` (sensors, f), ``None`` for a
-    single hit, ``std`` that of the complex value; ``force`` (f,), rms of the force's transform, N s.
+    single hit, ``std`` that of the complex value; ``force`` (f,), rms of the force's transform, N s; ``decay_per_s``, 1/s, that of
+    the exponential window, for ``Measurement``.
     """
 
     frequency_hz: Real
@@ -82,6 +83,7 @@ class MeasuredFrf:
     force: Real
     averages: int
     hits: tuple[Hit, ...]
+    decay_per_s: float = 0.0
 
 
 def frf(
