@@ -14,7 +14,8 @@ use std::fmt;
 pub struct Frfs<'a> {
     /// Frequencies, strictly ascending.
     pub frequency_hz: &'a [f64],
-    /// Receptance, `[frequency][sensor]`, m/N.
+    /// Receptance, `[frequency][sensor]`, m/N: of windowed records that of
+    /// [`Quantity::over_receptance_windowed`](crate::quantity::Quantity::over_receptance_windowed), with the decay of the model.
     pub receptance: &'a [Vec<c64>],
     /// How well each was measured.
     pub noise: Noise<'a>,

@@ -40,6 +40,14 @@ fn frequency_responses_are_refused_with_a_word() {
         read_frf,
         &[
             (
+                b"# decay_per_s = -6\nfrequency_hz,re,im\n1,2,3\n",
+                "input:1: expected decay_per_s = a number of 1/s from 0 on, found decay_per_s = -6",
+            ),
+            (
+                b"# decay_per_s = 6\nfrequency_hz,re,im\n#decay_per_s=7\n1,2,3\n",
+                "input:3: expected one decay_per_s, found 7 after 6",
+            ),
+            (
                 b"frequency_hz,re,im\n",
                 "input:1: expected at least one line of data below the names, found none",
             ),

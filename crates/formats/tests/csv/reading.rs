@@ -35,7 +35,19 @@ fn an_frf_is_sorted_and_carries_its_quality() {
     let frf = read_frf(b"IM;re;frequency_hz;coherence\n-2;1;20;0.5\n0;1e-3;10;1\n").unwrap();
     assert_eq!(frf.frequency_hz, [10.0, 20.0]);
     assert_eq!(frf.response, [c64::new(1e-3, 0.0), c64::new(1.0, -2.0)]);
-    assert_eq!((frf.coherence, frf.std), (Some(vec![1.0, 0.5]), None));
+    assert_eq!((frf.coherence, frf.std, frf.decay_per_s), (Some(vec![1.0, 0.5]), None, None));
+}
+
+#[test]
+fn a_comment_line_says_how_an_frf_was_windowed() {
+    for head in ["# decay_per_s = 6.25", "  #decay_per_s=6.25\r", "# by hand\n# decay_per_s  =  625e-2 \n\n#"]
+    {
+        let frf = read_frf(format!("{head}\nfrequency_hz,re,im\n1,2,3\n").as_bytes()).unwrap();
+        assert_eq!(frf.decay_per_s, Some(6.25), "{head:?}");
+    }
+    // Other words are comments.
+    let frf = read_frf(b"# decay_per_second = 6\n# decay_per_s of the window\nfrequency_hz,re,im\n1,2,3\n");
+    assert_eq!(frf.unwrap().decay_per_s, None);
 }
 
 #[test]

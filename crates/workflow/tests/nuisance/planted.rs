@@ -19,7 +19,7 @@ pub(crate) const DIM: usize = 8;
 pub(crate) const TRUTH: c64 = c64::new(2.2e5, 1.1e4);
 
 /// Springs between rows (from 0), and one to ground.
-fn springs() -> Triplets {
+pub(crate) fn springs() -> Triplets {
     let mut k = Triplets::new(DIM);
     k.add(0, 0, 1.0);
     for i in 0..DIM {

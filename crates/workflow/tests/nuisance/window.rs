@@ -1,0 +1,143 @@
+//! The exponential window of an impact test, planted in mobility and accelerance.
+
+use super::planted::{DIM, TRUTH, folder, refusal, run, springs, table, worst};
+use frfit::c64;
+use frfit::frequency::linear_hz;
+use frfit::material::Law;
+use frfit::model::{DynamicStiffness, Experiment, Role, Sensor, Term};
+use frfit::response::{FullModel, Response};
+use frfit_linalg::sparse::Triplets;
+use frfit_workflow::job::respond_case;
+use frfit_workflow::load::{Choice, Overrides, Purpose, load, load_frf};
+use std::f64::consts::TAU;
+use std::fs;
+
+const DECAY: f64 = 6.0;
+
+/// Viscous damping of the fourth row (from 1), N s/m.
+const DAMPING: f64 = 4.0;
+
+/// Mobility of row 6 and accelerance of row 8 (from 1) behind the window: K + s C + s² M with s = α + iω, all three as stiffnesses of a model at one frequency.
+fn measured(frequency_hz: &[f64]) -> [Vec<c64>; 2] {
+    let (mut mass, mut damper) = (Triplets::new(DIM), Triplets::new(DIM));
+    (0..DIM).for_each(|i| mass.add(i, i, 1.0));
+    damper.add(3, 3, DAMPING);
+    let matrices = [springs(), damper, mass].map(|triplets| triplets.assemble());
+    let at = |f: f64| {
+        let s = c64::new(DECAY, TAU * f);
+        let terms = matrices.iter().zip([("k", TRUTH), ("c", s), ("m", s * s)]);
+        let terms = terms.map(|(matrix, (name, factor))| Term {
+            name: name.into(),
+            role: Role::Stiffness,
+            matrix: matrix.clone(),
+            factor: Law::Constant(factor),
+        });
+        let model = DynamicStiffness::new(terms.collect()).unwrap();
+        let sensor = |row: usize| Sensor { row, sign: 1.0 };
+        let experiment = Experiment::driven_at(DIM, sensor(0), vec![sensor(5), sensor(7)]);
+        let system = FullModel::new(model.at(f, &[]).unwrap(), &experiment).unwrap();
+        let x = system.respond_nominal().unwrap();
+        [s * x[0], s * s * x[1]]
+    };
+    let all: Vec<[c64; 2]> = frequency_hz.iter().map(|&f| at(f)).collect();
+    [0, 1].map(|m| all.iter().map(|values| values[m]).collect())
+}
+
+const SPRINGS: &str = "[identify]\nmatrix = \"springs\"\nband_hz = [10.0, 120.0]\n\
+                       bounds = { storage = [1e4, 1e7], loss_factor = [0.0, 1.0] }\n";
+
+fn keys(first: &str, second: &str, identify: &str) -> String {
+    format!(
+        "[[attached]]\ndof = \"2+Z\"\ndamping = {DAMPING}\n\
+         [[measurement]]\nfile = \"0.csv\"\nrow = 6\nquantity = \"mobility\"\n{first}\n\
+         [[measurement]]\nfile = \"1.csv\"\nrow = 8\nquantity = \"accelerance\"\n{second}\n{identify}"
+    )
+}
+
+fn tables(head: &str) -> [String; 2] {
+    let frequency_hz = linear_hz(10.0, 120.0, 56);
+    measured(&frequency_hz).map(|values| format!("{head}{}", table(&frequency_hz, &values, None)))
+}
+
+const SAID: &str = "decay_per_s = 6.0";
+
+#[test]
+fn the_window_is_part_of_the_model_by_key_or_by_file() {
+    let by_key = run(&folder(&tables(""), &keys(SAID, SAID, SPRINGS))).unwrap();
+    // Exact data, and answers that are asked to 1e-6.
+    assert!(worst(&by_key).0 < 1e-6 && worst(&by_key).1 == 56, "{:?}", worst(&by_key));
+    assert_eq!(by_key.summary["decay_per_s"], DECAY);
+    let by_file = run(&folder(&tables("# decay_per_s = 6\n"), &keys("", SAID, SPRINGS))).unwrap();
+    assert_eq!(worst(&by_file), worst(&by_key));
+    let without = run(&folder(&tables(""), &keys("", "", SPRINGS))).unwrap();
+    assert!(worst(&without).0 > 0.02, "{:?}", worst(&without));
+    // What is told of responses is in the measured quantities, as measured.
+    let folder = folder(&tables(""), &keys(SAID, SAID, SPRINGS));
+    run(&folder).unwrap();
+    let response = fs::read_to_string(folder.path().join("out/response.csv")).unwrap();
+    let row: Vec<&str> = response.lines().nth(2).unwrap().split(',').collect();
+    let value = c64::new(row[5].parse().unwrap(), row[6].parse().unwrap());
+    let exact = measured(&[10.0])[1][0];
+    assert!(row[2] == "accelerance" && (value - exact).norm() < 1e-12 * exact.norm(), "{row:?} {exact}");
+}
+
+#[test]
+fn several_unknowns_have_the_window_too() {
+    let identify = "[[identify]]\nmatrix = \"springs\"\nvaries = \"constant\"\nbounds = { storage = [1e5, 5e5], loss_factor = [0.0, 0.5] }\n\
+                    [[identify]]\nmatrix = \"mass\"\nvaries = \"constant\"\nreal = true\nbounds = [0.7, 1.4]\n";
+    let identify = identify.replacen("varies", "band_hz = [10.0, 120.0]\nvaries", 1);
+    let job = run(&folder(&tables(""), &keys(SAID, SAID, &identify))).unwrap();
+    let constants = &job.run.found.constants;
+    let [springs, mass] = [0, 1].map(|j| constants[j].law.at(50.0).unwrap());
+    assert!(
+        (springs - TRUTH).norm() < 1e-5 * TRUTH.norm() && (mass.re - 1.0).abs() < 1e-5,
+        "{springs} {mass}"
+    );
+}
+
+#[test]
+fn who_contradicts_whom_is_said() {
+    for (head, keys_of, message) in [
+        (
+            "# decay_per_s = 6\n",
+            ["decay_per_s = 5.0", ""],
+            "decay_per_s: expected 6, as 0.csv says, or no such key, found 5",
+        ),
+        (
+            "",
+            [SAID, ""],
+            "measurement.decay_per_s: expected the decay_per_s of all measurements, 6 as of the first, found 0",
+        ),
+        (
+            "# decay_per_s = six\n",
+            ["", ""],
+            "0.csv:1: expected decay_per_s = a number of 1/s from 0 on, found decay_per_s = six",
+        ),
+    ] {
+        let found = refusal(&folder(&tables(head), &keys(keys_of[0], keys_of[1], SPRINGS)));
+        assert!(found.contains(message), "{found}");
+    }
+}
+
+/// A response behind a window says so in its file.
+#[test]
+fn a_response_of_a_windowed_case_is_what_would_be_measured() {
+    let respond = "[respond]\nband_hz = [10.0, 120.0]\npoints = 56\n";
+    let folder = folder(&tables(""), &keys(SAID, SAID, respond));
+    let case = folder.path().join("case.toml");
+    let text = fs::read_to_string(&case).unwrap();
+    let exact = format!("factor = {{ storage = {}, loss_factor = {} }}", TRUTH.re, TRUTH.im / TRUTH.re);
+    fs::write(&case, text.replace("factor = { storage = 2e5, loss_factor = 0.02 }", &exact)).unwrap();
+    assert_eq!(load(&case, &Overrides::default(), Purpose::Respond).unwrap().model.decay_per_s(), DECAY);
+    let out = folder.path().join("out");
+    respond_case(&case, &Overrides::default(), None, &out, &|_, _| {}).unwrap();
+    let measured = measured(&linear_hz(10.0, 120.0, 56));
+    for (m, values) in measured.iter().enumerate() {
+        let choice = Choice { record: Some(m as i64 + 1), ..Choice::default() };
+        let frf = load_frf(&out.join("frf.uff"), &choice).unwrap();
+        assert_eq!(frf.decay_per_s, Some(DECAY));
+        for (there, value) in frf.response.iter().zip(values) {
+            assert!((there - value).norm() < 1e-10 * value.norm());
+        }
+    }
+}
