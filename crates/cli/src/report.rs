@@ -23,6 +23,9 @@ pub(crate) fn identified(job: &IdentifyJob, out: &Path) -> Words {
     if identify.layout == Layout::Named {
         words = several_text(identify, run);
         words.warn(&job.diagnosis.as_ref().map_or(String::new(), |found| findings_text(&job.case, found)));
+        if let Some(errors) = &run.found.model_errors {
+            words.warn(&format!("  {:<18}{}\n", "model errors", model_errors(job, errors)));
+        }
         contradictions(job).for_each(|sentence| words.warn(&format!("  {:<18}{sentence}\n", "sensor")));
         window(job).iter().for_each(|sentence| words.say(&format!("  {:<18}{sentence}\n", "window")));
         words.say(&format!(

@@ -92,7 +92,9 @@ impl Identification {
 
 impl From<BandOutcome> for Identification {
     fn from(band: BandOutcome) -> Self {
-        let BandOutcome { outcomes, work, subspace_size, explored, noise, fit, sensors, model_errors } = band;
+        let BandOutcome {
+            outcomes, work, subspace_size, explored, noise, fit, sensors, model_errors, ..
+        } = band;
         let search = SearchReport {
             work,
             reduced_size: subspace_size,
@@ -166,6 +168,7 @@ impl From<SeveralOutcome> for Identification {
             noise,
             fit,
             sensors,
+            model_errors,
             ..
         } = several;
         let SeveralOutcome { converged, starts, agreeing, work, subspace_size, breakdown, .. } = several;
@@ -189,7 +192,7 @@ impl From<SeveralOutcome> for Identification {
             noise,
             fit,
             identifiability: Identifiability { coordinates, correlation, directions, profile },
-            model_errors: None,
+            model_errors,
             search,
         }
     }

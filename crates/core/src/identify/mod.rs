@@ -12,6 +12,7 @@
 
 mod band;
 mod choice;
+mod form;
 mod identification;
 mod model_errors;
 mod one;
@@ -52,8 +53,8 @@ use problem::Strategy;
 /// error.
 ///
 /// # Limits
-/// Error bars hold the noise of the measurement. Of several unknowns that a frequency has of its own, the solutions are those that
-/// several starts lead to, not provably all.
+/// An error of the model that all modes have in common with an unknown is in the error bars by its usual size alone. Of several
+/// unknowns that a frequency has of its own, the solutions are those that several starts lead to, not provably all.
 pub fn identify(
     problem: &Problem<'_>,
     options: &Options,

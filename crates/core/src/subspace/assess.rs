@@ -51,7 +51,7 @@ impl Assessment {
 pub(super) struct Solutions {
     /// θ_g of D and of ∂D/∂c.
     pub(super) theta: Vec<c64>,
-    slope_theta: Vec<c64>,
+    pub(super) slope_theta: Vec<c64>,
     factor: Lu,
     /// y, z_1, z_2 …
     pub(super) all: Vec<Vec<c64>>,
@@ -137,7 +137,7 @@ impl Projection {
     }
 
     /// θ_g of each A_{j,1}.
-    fn first_weights(&self, at: &ModelAt<'_>) -> Vec<Vec<c64>> {
+    pub(super) fn first_weights(&self, at: &ModelAt<'_>) -> Vec<Vec<c64>> {
         let first = |parameter: &ParameterAt| match parameter.coefficients.first() {
             Some(first) => self.parts.weights(first),
             None => vec![c64::default(); self.parts.len()],

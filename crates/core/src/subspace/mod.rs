@@ -14,6 +14,7 @@
 mod assess;
 mod basis;
 mod changes;
+mod corrected;
 mod local;
 mod modes;
 mod parts;
@@ -27,6 +28,7 @@ mod train_changes;
 
 pub use assess::Assessment;
 pub use changes::{ChangePoint, Changed};
+pub(crate) use corrected::{Corrected, Local};
 pub(crate) use modes::{ErrorSlopes, ModalErrors, Modes};
 pub use pole_residue::{Drive, PoleResidue};
 pub use projection::Projection;

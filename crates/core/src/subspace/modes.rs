@@ -25,10 +25,10 @@ pub(crate) struct Modes {
     momenta: Vec<Vec<f64>>,
     /// M = Σ factor S_g.
     mass: Vec<(usize, f64)>,
-    /// The mode of each frequency error: a mode has one in the known stiffness, and one in that of the first parameter.
+    /// The mode of each frequency error: a mode has one in the known stiffness, and one in that of each parameter.
     pub(crate) of_error: Vec<usize>,
-    /// Whether it is in the stiffness of the first parameter.
-    pub(crate) in_unknown: Vec<bool>,
+    /// Where it is: 0 in the known stiffness, 1 + j in that of parameter j.
+    pub(crate) group: Vec<usize>,
     /// What of S_g goes with each frequency error, `[g][error]`; empty for parts that are no stiffness.
     stiffness: Vec<Vec<f64>>,
     /// ℓ_mᵀVy_i, `[m][i]`.
@@ -52,8 +52,8 @@ pub(crate) struct ModalErrors {
 pub(crate) struct ErrorSlopes {
     /// x_m.
     pub(crate) response: Vec<c64>,
-    /// ∂x_m/∂c.
-    pub(crate) slope: Vec<c64>,
+    /// ∂x_m/∂c_j, `[parameter][m]`.
+    pub(crate) slopes: Vec<Vec<c64>>,
     /// ∂x_m/∂δ_i, `[m][i]`.
     pub(crate) frequency: Vec<Vec<c64>>,
     /// ∂x_m/∂a_mi, `[m][i]`.
@@ -95,7 +95,10 @@ impl Projection {
         let shift = BELOW * highest_rad_s * highest_rad_s;
         let of_stiffness = factors(Role::Stiffness);
         let stiffness = self.real_sum(&of_stiffness);
-        let unknown = |g: usize| at.parameters.iter().any(|one| one.enters(self.parts.term(g)));
+        let group = |g: usize| {
+            let of_term = at.parameters.iter().position(|one| one.enters(self.parts.term(g)));
+            of_term.map_or(0, |j| 1 + j)
+        };
         let shifted: Vec<f64> = stiffness.iter().zip(&mass).map(|(k, m)| k + shift * m).collect();
         // (K + σM)^{−1/2}, and M between it: μ = 1/(λ + σ).
         let (values, vectors) = symmetric_eigen(r, &shifted)?;
@@ -117,7 +120,7 @@ impl Projection {
             momenta: Vec::new(),
             mass: of_mass,
             of_error: Vec::new(),
-            in_unknown: Vec::new(),
+            group: Vec::new(),
             stiffness: (0..theta.len()).map(|_| Vec::new()).collect(),
             sensors: vec![Vec::new(); self.sensors.len()],
             terms: (0..theta.len()).map(|g| self.parts.term(g)).collect(),
@@ -144,16 +147,16 @@ impl Projection {
                 of_stiffness.iter().map(|&(g, _)| transpose_dot(&y, &times(&self.matrices[g]))).collect();
             let each = || of_stiffness.iter().zip(&energies);
             let whole: f64 = each().map(|((_, factor), energy)| factor * energy).sum();
-            for group in [false, true] {
-                let of_group = each().filter(|((g, _), _)| unknown(*g) == group);
+            for wanted in 0..=at.parameters.len() {
+                let of_group = each().filter(|((g, _), _)| group(*g) == wanted);
                 let own: f64 = of_group.map(|((_, factor), energy)| factor * energy).sum();
                 if own <= LEAST_SHARE * whole {
                     continue;
                 }
                 modes.of_error.push(modes.omega_rad_s.len() - 1);
-                modes.in_unknown.push(group);
+                modes.group.push(wanted);
                 for ((g, _), energy) in each() {
-                    modes.stiffness[*g].push(if unknown(*g) == group { energy * whole / own } else { 0.0 });
+                    modes.stiffness[*g].push(if group(*g) == wanted { energy * whole / own } else { 0.0 });
                 }
             }
             for (own, sensor) in modes.sensors.iter_mut().zip(&self.sensors) {
@@ -246,6 +249,8 @@ impl Projection {
             parts.map(|(g, own)| solutions.theta[g] * scale(g) * own[error]).sum()
         };
         let stiffness: Vec<c64> = (0..modes.of_error.len()).map(stiffness).collect();
+        let mut of_parameters = self.first_weights(at);
+        of_parameters[0].clone_from(&solutions.slope_theta);
         let frequency = |z: &Vec<c64>| {
             let each = modes.of_error.iter().zip(&stiffness);
             each.map(|(&i, stiffness)| -2.0 * stiffness * z[i] * of_load[i]).collect()
@@ -260,7 +265,7 @@ impl Projection {
         let factors = |m: usize| of_terms.iter().map(|of_term| of_term[m]).collect();
         Ok(ErrorSlopes {
             response: solutions.response(self),
-            slope: solutions.slope(self),
+            slopes: solutions.slopes(self, &of_parameters),
             frequency: by_sensor.iter().map(frequency).collect(),
             shape: modes.sensors.iter().map(shape).collect(),
             factors: (0..duals.len()).map(factors).collect(),
@@ -283,7 +288,7 @@ impl Modes {
             momenta: Vec::new(),
             mass: Vec::new(),
             of_error: Vec::new(),
-            in_unknown: Vec::new(),
+            group: Vec::new(),
             stiffness: vec![Vec::new(); model.matrices.len()],
             sensors: vec![Vec::new(); model.sensors.len()],
             terms: (0..model.matrices.len()).map(|g| model.parts.term(g)).collect(),

@@ -543,12 +543,7 @@ pub(super) static IDENTIFY: Section = Section {
             "true",
             "Of three or more sensors one that contradicts all others is left out.",
         ),
-        key(
-            "model_errors",
-            "\"estimated\" or \"none\"",
-            "\"estimated\"",
-            "Errors of the model's natural frequencies, mode shapes and known matrices: estimated from the band and taken out where they explain it better than a right model, or none, where error bars hold the noise alone.",
-        ),
+        MODEL_ERRORS,
         key(
             "check",
             "true or false",
@@ -666,6 +661,13 @@ reference = 1.05
 "],
 };
 
+const MODEL_ERRORS: Key = key(
+    "model_errors",
+    "\"estimated\" or \"none\"",
+    "\"estimated\"",
+    "Errors of the model's natural frequencies, mode shapes and known matrices: estimated from the band and taken out where they explain it better than a right model, or none, where error bars hold the noise alone.",
+);
+
 pub(super) static SEVERAL_FIRST: Section = Section {
     path: "identify",
     title: "Keys of the first `[[identify]]`, for all",
@@ -680,6 +682,7 @@ pub(super) static SEVERAL_FIRST: Section = Section {
             "true",
             "Of three or more sensors one that contradicts all others is left out.",
         ),
+        MODEL_ERRORS,
     ],
     examples: &["[[identify]]
 matrix = \"core\"
@@ -687,6 +690,7 @@ band_hz = [20.0, 1000.0]
 exclude_hz = [50.0]
 max_lines = 500
 reject_outliers = false
+model_errors = \"none\"
 [[identify]]
 matrix = \"skins\"
 varies = \"constant\"

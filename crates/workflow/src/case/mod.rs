@@ -248,6 +248,8 @@ pub struct SeveralEntry {
     pub max_lines: Option<Located<i64>>,
     /// Whether a sensor that contradicts all others is left out.
     pub reject_outliers: Option<bool>,
+    /// What is known of the errors of the model.
+    pub model_errors: Option<ModelErrors>,
 }
 
 /// One `[[identify]]`.

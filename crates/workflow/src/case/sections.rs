@@ -382,6 +382,13 @@ fn averages(field: &Field<'_>) -> Result<Located<i64>, InputError> {
 /// The one thing that `start` can say: numbers belong to the matrix.
 const START: &str = "\"bounds\" (a nominal value is the factor of the matrix)";
 
+/// `model_errors = "…"`.
+pub(super) fn model_errors(table: &Table<'_>) -> Result<Option<ModelErrors>, InputError> {
+    let word = |word: &str| word.parse::<ModelErrors>().map_err(|unknown| unknown.expected.to_owned());
+    let found = table.find("model_errors").map(|field| field.word(word)).transpose()?;
+    Ok(found.map(|found| found.value))
+}
+
 /// `[identify]`.
 pub(super) fn identify(field: &Field<'_>) -> Result<IdentifyEntry, InputError> {
     let table = field.table(&[&keys::IDENTIFY])?;
@@ -389,8 +396,6 @@ pub(super) fn identify(field: &Field<'_>) -> Result<IdentifyEntry, InputError> {
     let method = |word: &str| word.parse::<Method>().map_err(|unknown| unknown.expected.to_owned());
     let selection = |word: &str| word.parse::<Selection>().map_err(|unknown| unknown.expected.to_owned());
     let reduction = |word: &str| word.parse::<Reduction>().map_err(|unknown| unknown.expected.to_owned());
-    let model_errors =
-        |word: &str| word.parse::<ModelErrors>().map_err(|unknown| unknown.expected.to_owned());
     let start = |word: &str| (word == "bounds").then_some(()).ok_or_else(|| START.to_owned());
     let bound = |name| bounds.as_ref().and_then(|table| table.find(name)).map(|f| f.pair()).transpose();
     Ok(IdentifyEntry {
@@ -412,11 +417,7 @@ pub(super) fn identify(field: &Field<'_>) -> Result<IdentifyEntry, InputError> {
             .find("reject_outliers")
             .map(|reject_outliers| reject_outliers.flag())
             .transpose()?,
-        model_errors: table
-            .find("model_errors")
-            .map(|field| field.word(model_errors))
-            .transpose()?
-            .map(|found| found.value),
+        model_errors: model_errors(&table)?,
         check: table.find("check").map(|check| check.flag()).transpose()?.unwrap_or(true),
         reference: table.find("reference").map(|reference| factor(&reference)).transpose()?,
     })

@@ -71,7 +71,11 @@ pub(super) fn several(
         units,
         reference,
         layout: Layout::Named,
-        options: Options { reject_outliers: entry.reject_outliers.unwrap_or(true), ..Options::default() },
+        options: Options {
+            reject_outliers: entry.reject_outliers.unwrap_or(true),
+            model_errors: entry.model_errors.unwrap_or_default(),
+            ..Options::default()
+        },
         band_hz,
         frequency_hz,
         measured: data.measured,

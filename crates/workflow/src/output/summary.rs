@@ -152,7 +152,7 @@ fn noise(identify: &IdentifyCase, run: &IdentifyRun) -> Value {
 }
 
 /// The errors of the model that were taken out.
-fn model_errors_json(case: &Case, errors: &ModelErrorsFound) -> Value {
+pub(super) fn model_errors_json(case: &Case, errors: &ModelErrorsFound) -> Value {
     let mode =
         |mode: &ModeError| json!({"frequency_hz": mode.frequency_hz, "error": mode.error, "std": mode.std});
     let matrix = |factor: &FactorError| json!({"matrix": case.model.terms()[factor.term].name, "error": factor.error, "std": factor.std});

@@ -6,9 +6,12 @@ use super::reduced_band::ReducedBand;
 use super::{Band, BandOutcome, Context, Noise, joint};
 use crate::c64;
 use crate::for_each::map;
-use crate::identify::model_errors::{Deviations, Estimated, Measured, covariance, estimate};
+use crate::frequency::omega_rad_s;
+use crate::identify::model_errors::{Curve, Curves, Deviations, Estimated, Measured, PointAt, Spline};
+use crate::identify::model_errors::{Explanation, covariance, estimate};
 use crate::identify::{ModelErrors, Options, Status};
 use crate::model::ModelAt;
+use crate::subspace::{Corrected, Point};
 
 /// What is found when the errors of the model are estimated and taken out; the same where a right model explains the band as well.
 pub(super) fn correct<'a>(
@@ -22,9 +25,15 @@ pub(super) fn correct<'a>(
     if options.model_errors == ModelErrors::None {
         return found;
     }
-    let sigma = Weights::new(band, &found.left_out());
-    let measured = sigma.of(band, at, &found, options);
-    let Some(errors) = estimate(space.whole(), &measured, hooks.for_each) else { return found };
+    let weights = Weights::new(band, at, &found.left_out());
+    let curves = Curves::new(vec![Curve::Spline(Spline::new(&weights.omegas, options.real))]);
+    let point = point(at);
+    let measured = weights.of(band, &point, &found);
+    let errors = match estimate(space.whole(), &measured, &curves, hooks.for_each) {
+        Explanation::RightModel => return found,
+        Explanation::OtherModel => return BandOutcome { other_model: true, ..found },
+        Explanation::Errors(errors) => *errors,
+    };
     let before = space.work();
     space.correct(&errors.modes, &errors.errors);
     let mut outcome = joint::identify(band, at, Some(space), &found.left_out(), options, hooks);
@@ -34,40 +43,58 @@ pub(super) fn correct<'a>(
         sensor.contradicts |= before.contradicts;
         sensor.left_out |= before.left_out;
     }
-    widen(&mut outcome, &errors, at, space, &sigma.sigma, hooks);
+    widen(&mut outcome, &errors, at, space, &weights.sigma, hooks);
     outcome.model_errors = Some(errors);
     outcome
 }
 
-/// What the lines of a band are weighed by.
+/// The model of a band with a value of its unknown.
+pub(super) fn point<'t, 'a>(
+    at: &'t [ModelAt<'a>],
+) -> impl Fn(usize, &[c64]) -> Option<Point<'a>> + Sync + 't {
+    |i, values| {
+        let at = at[i].clone();
+        Some(Point { correction: values[0] - at.parameters[0].nominal, at })
+    }
+}
+
+/// What the lines of a band are weighed by, and their nominal values.
 pub(super) struct Weights {
     sigma: Vec<Vec<f64>>,
     size: Vec<Vec<f64>>,
+    omegas: Vec<f64>,
+    nominal: Vec<Vec<c64>>,
 }
 
 impl Weights {
-    pub(super) fn new(band: &Band<'_>, left_out: &[usize]) -> Self {
+    pub(super) fn new(band: &Band<'_>, at: &[ModelAt<'_>], left_out: &[usize]) -> Self {
         let of = |noise: Noise<'_>| without(&deviations(band.measured, noise), left_out);
-        Self { sigma: of(band.noise), size: of(Noise::Unknown) }
+        Self {
+            sigma: of(band.noise),
+            size: of(Noise::Unknown),
+            omegas: at.iter().map(|at| omega_rad_s(at.frequency_hz)).collect(),
+            nominal: at.iter().map(|at| vec![at.parameters[0].nominal]).collect(),
+        }
     }
 
     pub(super) fn of<'t, 'a>(
         &'t self,
         band: &Band<'t>,
-        at: &'t [ModelAt<'a>],
+        point: PointAt<'t, 'a>,
         found: &'t BandOutcome,
-        options: &Options,
     ) -> Measured<'t, 'a> {
-        let known = matches!(band.noise, Noise::Known(_));
         Measured {
-            at,
+            point,
+            omegas: &self.omegas,
+            nominal: &self.nominal,
+            given: &[],
             measured: band.measured,
             sigma: &self.sigma,
             size: &self.size,
-            deviations: if known { Deviations::Known } else { Deviations::Relative },
+            deviations: Deviations::of(band.noise),
             free: &found.outcomes,
+            own: &[0],
             alone: found.noise.level,
-            real: options.real,
         }
     }
 }
@@ -81,7 +108,8 @@ fn widen(
     sigma: &[Vec<f64>],
     hooks: Context<'_>,
 ) {
-    let Some((modes, values, model)) = space.errors() else { return };
+    let Some(Corrected { modes, errors: values, model }) = space.corrected() else { return };
+    let of_errors = errors.of_errors();
     let lines = &outcome.outcomes;
     let moved = map(hooks.for_each, lines.len(), |i| -> Option<[f64; 3]> {
         let correction = lines[i].correction()?;
@@ -92,8 +120,8 @@ fn widen(
         let mut pulls = vec![c64::default(); count];
         let mut weight = 0.0;
         for (m, sigma) in sigma[i].iter().enumerate().filter(|(_, sigma)| sigma.is_finite()) {
-            let along = slopes.slope[m].conj() / (sigma * sigma);
-            weight += slopes.slope[m].norm_sqr() / (sigma * sigma);
+            let along = slopes.slopes[0][m].conj() / (sigma * sigma);
+            weight += slopes.slopes[0][m].norm_sqr() / (sigma * sigma);
             let own = [
                 (0, &slopes.frequency[m]),
                 (modes.of_error.len(), &slopes.factors[m]),
@@ -104,7 +132,7 @@ fn widen(
             }
         }
         pulls.iter_mut().for_each(|pull| *pull /= weight);
-        Some(covariance(&errors.covariance, &pulls))
+        Some(covariance(&of_errors, &pulls))
     });
     for (line, moved) in outcome.outcomes.iter_mut().zip(moved) {
         let (Some(moved), Some(factor)) = (moved, line.factor()) else { continue };

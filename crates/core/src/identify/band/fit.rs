@@ -18,6 +18,13 @@ pub struct GoodnessOfFit {
     pub verdict: Explained,
 }
 
+impl GoodnessOfFit {
+    /// The same, not explained where another model is needed for it.
+    pub(in crate::identify) fn of_model(self, other: bool) -> Self {
+        Self { verdict: if other { Explained::No } else { self.verdict }, ..self }
+    }
+}
+
 /// Whether noise is all that is left.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Explained {

@@ -15,7 +15,8 @@ use super::{Band, BandOutcome, Context, Noise, Stage, corrected, near_or_far, on
 use crate::c64;
 use crate::for_each::map;
 use crate::frequency::omega_rad_s;
-use crate::identify::model_errors::estimate_with_law;
+use crate::identify::form::Form;
+use crate::identify::model_errors::{Curve, Curves, estimate_with_laws};
 use crate::identify::{Line, Options, Status, Uncertainty, relative_error};
 use crate::laws::{
     Datum, Evidence, LawFit, LawKind, LineResidual, LocalMinima, Parametrization, Residuals, Search, best,
@@ -164,6 +165,7 @@ pub(in crate::identify) fn identify_laws(
         }
         None => (free.outcomes.iter().map(|own| own.unanswered()).collect(), None),
     };
+    let fit = fit.map(|fit| fit.of_model(free.other_model));
     let mut work = free.work;
     work += space.work().since(before);
     let subspace_size = Some(space.size());
@@ -203,15 +205,18 @@ impl Fitting<'_, '_> {
         let errors = free.model_errors.as_ref()?;
         let family = best(fits)?.family;
         let place = fits.iter().position(|fit| fit.family == family)?;
-        let weights = corrected::Weights::new(self.band, &free.left_out());
-        let measured = weights.of(self.band, self.at, free, self.options);
-        let law = fits[place].coordinates();
-        let errors = estimate_with_law(space.whole(), &measured, errors, law, self.hooks.for_each)?;
+        let weights = corrected::Weights::new(self.band, self.at, &free.left_out());
+        let point = corrected::point(self.at);
+        let measured = weights.of(self.band, &point, free);
+        let (law, theta) = fits[place].coordinates();
+        let curves = Curves::new(vec![Curve::Form(Form::Law(*law))]);
+        let errors =
+            estimate_with_laws(space.whole(), &measured, errors, (&curves, theta), self.hooks.for_each)?;
         space.correct(&errors.modes, &errors.errors);
         let all: Vec<usize> = (0..self.at.len()).collect();
         space.localise(&all, self.hooks.for_each);
         let again = self.fit(family, space, free, Some(&fits[place]))?;
-        fits[place] = again.with_covariance(errors.coordinates());
+        fits[place] = again.with_covariance(errors.of_theta());
         free.model_errors = Some(errors);
         Some(())
     }

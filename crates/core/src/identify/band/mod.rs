@@ -27,6 +27,7 @@ pub(super) use laws::{LawsOutcome, identify_laws};
 pub use smooth::SmoothCurve;
 pub(super) use smooth::{SmoothOutcome, identify_smooth};
 
+use super::Status;
 use super::model_errors::Estimated;
 use super::{Line, Options, Reduction, Selection};
 use crate::c64;
@@ -115,6 +116,8 @@ pub(super) struct BandOutcome {
     pub sensors: Vec<SensorFit>,
     /// Errors of the model that were taken out; `None` where none were found.
     pub model_errors: Option<Estimated>,
+    /// Whether a model with large errors explains the band far better: it is another one.
+    pub other_model: bool,
 }
 
 /// Identifies the first parameter at every frequency of a band.
@@ -182,7 +185,13 @@ impl BandOutcome {
 
     /// With statuses that the fit of the band allows.
     fn judged_by_fit(mut self) -> Self {
-        self.outcomes.iter_mut().for_each(|outcome| outcome.status = outcome.status.within(self.fit));
+        self.fit = self.fit.map(|fit| fit.of_model(self.other_model));
+        for outcome in &mut self.outcomes {
+            outcome.status = match outcome.status {
+                Status::Ok if self.other_model => Status::Unexplained,
+                status => status.within(self.fit),
+            };
+        }
         self
     }
 

@@ -57,6 +57,7 @@ pub(super) fn identify<'a>(
                 fit: None,
                 sensors: Vec::new(),
                 model_errors: None,
+                other_model: false,
             }
         }
         None => {
@@ -80,6 +81,7 @@ pub(super) fn identify<'a>(
                 fit: None,
                 sensors: Vec::new(),
                 model_errors: None,
+                other_model: false,
             }
         }
     }

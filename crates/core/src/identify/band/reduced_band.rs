@@ -7,7 +7,8 @@ use crate::identify::Options;
 use crate::material::loss_factor;
 use crate::model::ModelAt;
 use crate::response::Work;
-use crate::subspace::{Assessment, ModalErrors, Modes, Point, Projection, Subspace, TrainOptions};
+use crate::subspace::{Assessment, Corrected, Local, ModalErrors, Modes};
+use crate::subspace::{Point, Projection, Subspace, TrainOptions};
 use frfit_linalg::solve::Breakdown;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -45,8 +46,8 @@ pub(super) struct ReducedBand<'a, 'o> {
     blocks: Vec<Block>,
     /// The model that answered at each frequency: that of its neighbourhood, when it was last asked.
     models: Vec<Option<Arc<Local>>>,
-    /// Errors of the model that are taken out of every answer, and the whole reduced model without them.
-    errors: Option<(Modes, ModalErrors, Projection)>,
+    /// The whole reduced model without its errors, where they are taken out of every answer.
+    corrected: Option<Corrected>,
     /// Answers at each frequency, and how good their model is there.
     assessed: Vec<Vec<(c64, Assessment)>>,
     /// Answers that the training looked at: (frequency, correction).
@@ -62,14 +63,6 @@ struct Block {
     ends: [usize; 2],
     /// Its model, and what it was made from.
     model: Option<(Training, Arc<Local>)>,
-}
-
-/// The model of a neighbourhood.
-struct Local {
-    /// As the full model is.
-    own: Projection,
-    /// With the errors of the model taken out, where there are any.
-    corrected: Option<Projection>,
 }
 
 impl<'a, 'o> ReducedBand<'a, 'o> {
@@ -97,7 +90,7 @@ impl<'a, 'o> ReducedBand<'a, 'o> {
             models: vec![None; n],
             assessed: vec![Vec::new(); n],
             answers: Vec::new(),
-            errors: None,
+            corrected: None,
         };
         let all: Vec<usize> = (0..n).collect();
         let points: Vec<Point<'a>> = thinned(&all, FREQUENCIES).flat_map(|&i| space.box_points(i)).collect();
@@ -179,16 +172,11 @@ impl<'a, 'o> ReducedBand<'a, 'o> {
     }
 
     fn assess_anew(&self, i: usize, correction: c64) -> Option<Assessment> {
-        let mut assessed = self.model(i).assess(&self.at[i], correction).ok()?;
-        // A model with errors in it knows how far it is from the whole reduced one; that one knows how far it is from the full one.
-        if let Some(Local { own, corrected: Some(_) }) = self.models[i].as_deref() {
-            let of_full = own.assess(&self.at[i], correction).ok()?;
-            let sum =
-                |own: &mut Vec<f64>, other: Vec<f64>| own.iter_mut().zip(other).for_each(|(a, b)| *a += b);
-            sum(&mut assessed.truncation, of_full.truncation);
-            sum(&mut assessed.roundoff, of_full.roundoff);
-        }
-        Some(assessed)
+        let assessed = match self.models[i].as_deref() {
+            Some(local) => local.assess(&self.at[i], correction),
+            None => self.model(i).assess(&self.at[i], correction),
+        };
+        assessed.ok()
     }
 
     /// The whole reduced model, without errors taken out of it.
@@ -198,8 +186,7 @@ impl<'a, 'o> ReducedBand<'a, 'o> {
 
     /// Takes errors of the model out of every answer from now on.
     pub(super) fn correct(&mut self, modes: &Modes, errors: &ModalErrors) {
-        let corrected = self.whole().with_errors(modes, errors);
-        self.errors = Some((modes.clone(), errors.clone(), corrected));
+        self.corrected = Some(Corrected::new(self.whole(), modes, errors));
         self.blocks.iter_mut().for_each(|block| block.model = None);
         self.models.iter_mut().for_each(|model| *model = None);
         self.assessed.iter_mut().for_each(Vec::clear);
@@ -242,12 +229,8 @@ impl<'a, 'o> ReducedBand<'a, 'o> {
         let training = TrainOptions { tolerance: TRAINED, ..TrainOptions::default() };
         self.subspace.train(&points, &training, hooks.for_each)?;
         self.answers.extend(answers);
-        if self.subspace.size() > before
-            && let Some((modes, errors, _)) = &self.errors
-        {
-            let modes = modes.in_larger(self.whole());
-            let corrected = self.whole().with_errors(&modes, errors);
-            self.errors = Some((modes, errors.clone(), corrected));
+        if self.subspace.size() > before {
+            self.corrected = self.corrected.as_ref().map(|corrected| corrected.in_larger(self.whole()));
         }
         Ok(self.subspace.size() > before)
     }
@@ -289,8 +272,7 @@ impl<'a, 'o> ReducedBand<'a, 'o> {
         let answers = thinned(&answers, BLOCK_LEAST);
         let answers = answers.map(|&(i, correction)| Point { at: self.at[i].clone(), correction });
         let points: Vec<Point<'_>> = box_points.chain(answers).collect();
-        let corrected = self.errors.as_ref().map(|(_, _, whole)| whole.localised(&points, TRAINED));
-        Local { own: self.whole().localised(&points, TRAINED), corrected }
+        Local::new(self.whole(), self.corrected.as_ref(), &points, TRAINED)
     }
 
     /// First and last frequency of each neighbourhood.
@@ -300,16 +282,16 @@ impl<'a, 'o> ReducedBand<'a, 'o> {
 
     /// The model that answered at a frequency.
     pub(super) fn model(&self, i: usize) -> &Projection {
-        match (self.models[i].as_deref(), &self.errors) {
-            (Some(Local { own, corrected }), _) => corrected.as_ref().unwrap_or(own),
-            (None, Some((_, _, whole))) => whole,
+        match (self.models[i].as_deref(), &self.corrected) {
+            (Some(local), _) => local.model(),
+            (None, Some(corrected)) => &corrected.model,
             (None, None) => self.whole(),
         }
     }
 
-    /// Errors that are taken out, in the basis that there is.
-    pub(super) fn errors(&self) -> Option<(&Modes, &ModalErrors, &Projection)> {
-        self.errors.as_ref().map(|(modes, errors, whole)| (modes, errors, whole))
+    /// The model without its errors, in the basis that there is.
+    pub(super) fn corrected(&self) -> Option<&Corrected> {
+        self.corrected.as_ref()
     }
 
     pub(super) fn size(&self) -> usize {

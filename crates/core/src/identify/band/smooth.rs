@@ -398,7 +398,7 @@ impl Smoothing<'_, '_> {
         let mut bars = Uncertainty::new(factor, self.options.real, part_std, second, level);
         let both = alone.model_errors.as_ref();
         if let Some([real, imaginary, both]) =
-            both.and_then(|errors| errors.modulus_covariance(i, self.band.frequency_hz[i]))
+            both.and_then(|errors| errors.covariance_at(0, i, self.band.frequency_hz[i]))
         {
             // What the errors of the model add to the noise that is in the bars already.
             let noise = bars.storage_std.powi(2);

@@ -1,20 +1,27 @@
-//! A factor over the band with few numbers: a law, or a smooth curve.
+//! Unknowns over the band with few numbers: constants, laws, smooth curves.
 
 use crate::c64;
-use crate::laws::Parametrization;
+use crate::identify::form::Form;
+use std::ops::Range;
 
-/// E(ω; θ).
+/// p(ω; θ) of one unknown.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Curve {
-    /// A law of the modulus.
-    Law(Parametrization),
-    /// ln E as a natural cubic spline over ln ω.
+pub(in crate::identify) enum Curve {
+    /// A constant or a law.
+    Form(Form),
+    /// ln p as a natural cubic spline over ln ω.
     Spline(Spline),
+}
+
+/// All unknowns, θ one after the other.
+#[derive(Debug, Clone, PartialEq)]
+pub(in crate::identify) struct Curves {
+    each: Vec<(Curve, Range<usize>)>,
 }
 
 /// A natural cubic spline of ln E over ln ω by its values at knots: θ is ln|E| at the knots, then the phase at the knots unless E is real.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Spline {
+pub(in crate::identify) struct Spline {
     /// What each knot has at each line, `[line][knot]`.
     weights: Vec<Vec<f64>>,
     /// Distance of the knots in ln ω.
@@ -33,11 +40,18 @@ const BEND: [f64; 2] = [0.3, 0.15];
 /// What is known of ln|E| and of the phase before anything is measured.
 const WIDTH: [f64; 2] = [3.0, 1.0];
 
-/// What is known of a law's coordinates, logarithms and logits, before anything is measured.
-const LAW_WIDTH: f64 = 10.0;
+/// d ln|E|/d ln ω over arg E.
+const BODE: f64 = std::f64::consts::FRAC_2_PI;
+
+/// The mean slope of a band is that to this part of it, and to a slope for which no loss is needed that can be measured.
+const SLOPE: f64 = 0.5;
+const LEAST_SLOPE: f64 = 0.001;
+
+/// What is known of the coordinates of constants and laws, logarithms and logits, before anything is measured.
+const FORM_WIDTH: f64 = 10.0;
 
 impl Spline {
-    pub(super) fn new(omegas: &[f64], real: bool) -> Self {
+    pub(in crate::identify) fn new(omegas: &[f64], real: bool) -> Self {
         let x: Vec<f64> = {
             let least = omegas.iter().copied().find(|&omega| omega > 0.0).unwrap_or(1.0);
             omegas.iter().map(|omega| omega.max(least).ln()).collect()
@@ -91,61 +105,109 @@ fn bends(n: usize, k: usize) -> Vec<f64> {
 
 impl Curve {
     /// How many numbers.
-    pub(super) fn count(&self) -> usize {
+    fn count(&self) -> usize {
         match self {
-            Self::Law(law) => law.family.count(),
+            Self::Form(form) => form.count(),
             Self::Spline(spline) => spline.knots() * if spline.real { 1 } else { 2 },
         }
     }
 
-    /// E at a line, and ∂E/∂θ; `None` where a number is not finite.
-    pub(super) fn modulus(&self, theta: &[f64], line: usize, omega: f64) -> Option<(c64, Vec<c64>)> {
+    /// p at a line, and ∂p/∂θ; `None` where a number is not finite.
+    fn value(&self, theta: &[f64], line: usize, omega: f64) -> Option<(c64, Vec<c64>)> {
         match self {
-            Self::Law(law) => law.modulus(theta, omega),
+            Self::Form(form) => form.value(theta, omega),
             Self::Spline(spline) => {
-                let modulus = spline.log(theta, line).exp();
-                let of = |unit: c64| spline.weights[line].iter().map(move |&w| modulus * unit * w);
+                let value = spline.log(theta, line).exp();
+                let of = |unit: c64| spline.weights[line].iter().map(move |&w| value * unit * w);
                 let mut slopes: Vec<c64> = of(c64::new(1.0, 0.0)).collect();
                 if !spline.real {
                     slopes.extend(of(c64::I));
                 }
-                modulus.is_finite().then_some((modulus, slopes))
+                value.is_finite().then_some((value, slopes))
             }
         }
     }
 
-    /// The prior's precision, n × n, about the same θ as that of the other fits of this curve.
-    pub(super) fn precision(&self) -> Vec<f64> {
+    /// The precision of what is known beforehand, n × n, about a centre: of a smooth curve its size, its slope and, `bend` times what is usual, its bends.
+    ///
+    /// A causal modulus has a slope d ln|E|/d ln ω near (2/π) arg E (Bode's relation); where the loss is small so is the slope.
+    fn precision(&self, centre: &[f64], bend: [f64; 2]) -> Vec<f64> {
         let n = self.count();
         let mut precision = vec![0.0; n * n];
         let Self::Spline(spline) = self else {
-            (0..n).for_each(|i| precision[i * n + i] = LAW_WIDTH.powi(-2));
+            (0..n).for_each(|i| precision[i * n + i] = FORM_WIDTH.powi(-2));
             return precision;
         };
         let knots = spline.knots();
-        // An integrated Wiener process: second differences grow with the 3/2 power of the distance.
-        let scale = (spline.step / KNOT_DISTANCE).powf(1.5);
-        for part in 0..n / knots {
+        for (part, bend) in bend.into_iter().enumerate().take(n / knots) {
             let first = part * knots;
             (first..first + knots).for_each(|i| precision[i * n + i] += WIDTH[part].powi(-2) / knots as f64);
-            for k in first + 1..first + knots - 1 {
-                let bend = [(k - 1, 1.0), (k, -2.0), (k + 1, 1.0)];
-                for (i, a) in bend {
-                    for (j, b) in bend {
-                        precision[i * n + j] += a * b / (scale * BEND[part]).powi(2);
-                    }
+            precision.iter_mut().zip(self.bends(part)).for_each(|(sum, own)| *sum += own / (bend * bend));
+        }
+        if !spline.real {
+            let range = spline.step * (knots - 1) as f64;
+            let row = |i: usize| match i {
+                0 => -1.0 / range,
+                i if i + 1 == knots => 1.0 / range,
+                i if i >= knots => -BODE / knots as f64,
+                _ => 0.0,
+            };
+            let std = SLOPE * BODE * centre[knots].abs() + LEAST_SLOPE;
+            (0..n * n).for_each(|k| precision[k] += row(k / n) * row(k % n) / (std * std));
+        }
+        precision
+    }
+
+    /// The precision of the bends of a part alone, n × n: an integrated Wiener process, whose second differences grow with the 3/2 power of the distance.
+    fn bends(&self, part: usize) -> Vec<f64> {
+        let n = self.count();
+        let mut precision = vec![0.0; n * n];
+        let Self::Spline(spline) = self else { return precision };
+        let knots = spline.knots();
+        let first = part * knots;
+        if first >= n {
+            return precision;
+        }
+        let scale = (spline.step / KNOT_DISTANCE).powf(1.5);
+        for k in first + 1..first + knots - 1 {
+            let bend = [(k - 1, 1.0), (k, -2.0), (k + 1, 1.0)];
+            for (i, a) in bend {
+                for (j, b) in bend {
+                    precision[i * n + j] += a * b / (scale * BEND[part]).powi(2);
                 }
             }
         }
         precision
     }
 
+    /// How many second differences a part has.
+    fn bend_count(&self, part: usize) -> usize {
+        match self {
+            Self::Spline(spline) if part == 0 || !spline.real => spline.knots() - 2,
+            _ => 0,
+        }
+    }
+
+    /// A straight line in ln ω through the middle of a curve, with the slope of its mean phase; constants and laws as they are.
+    fn straight(&self, theta: &[f64]) -> Vec<f64> {
+        let Self::Spline(spline) = self else { return theta.to_vec() };
+        let knots = spline.knots();
+        let mean = |part: &[f64]| part.iter().sum::<f64>() / knots as f64;
+        let size = mean(&theta[..knots]);
+        let phase = if spline.real { 0.0 } else { mean(&theta[knots..]) };
+        let at = |k: usize| size + BODE * phase * spline.step * (k as f64 - 0.5 * (knots - 1) as f64);
+        (0..knots).map(at).chain(theta[knots..].iter().map(|_| phase)).collect()
+    }
+
     /// θ nearest to moduli with weights (inverse variances of ln E) at some lines; of a spline.
-    pub(super) fn through(&self, data: &[(usize, c64, f64)]) -> Option<Vec<f64>> {
+    fn through(&self, data: &[(usize, c64, f64)]) -> Option<Vec<f64>> {
         let Self::Spline(spline) = self else { return None };
         let n = self.count();
         let knots = spline.knots();
-        let mut normal = self.precision();
+        let mut normal = [0, 1].map(|part| self.bends(part)).into_iter().reduce(|mut sum, other| {
+            sum.iter_mut().zip(other).for_each(|(a, b)| *a += b);
+            sum
+        })?;
         let mut right = vec![0.0; n];
         // The prior is about the mean of the data, not about one.
         let total: f64 = data.iter().map(|(_, _, weight)| weight).sum();
@@ -169,6 +231,102 @@ impl Curve {
     }
 }
 
+/// Values of all unknowns at a line, and (unknown, ∂p/∂θ) for each coordinate of θ.
+pub(super) type Values = (Vec<c64>, Vec<(usize, c64)>);
+
+impl Curves {
+    pub(in crate::identify) fn new(each: Vec<Curve>) -> Self {
+        let mut first = 0;
+        let place = |curve: Curve| {
+            let range = first..first + curve.count();
+            first = range.end;
+            (curve, range)
+        };
+        Self { each: each.into_iter().map(place).collect() }
+    }
+
+    /// How many numbers.
+    pub(in crate::identify) fn count(&self) -> usize {
+        self.each.last().map_or(0, |(_, range)| range.end)
+    }
+
+    /// The coordinates of an unknown.
+    pub(in crate::identify) fn range(&self, unknown: usize) -> Range<usize> {
+        self.each[unknown].1.clone()
+    }
+
+    /// The unknowns that are smooth curves: a frequency may have a value of its own of them.
+    pub(super) fn smooth(&self) -> Vec<usize> {
+        (0..self.each.len()).filter(|&j| matches!(self.each[j].0, Curve::Spline(_))).collect()
+    }
+
+    /// Everything at a line; `None` where a number is not finite.
+    pub(super) fn values(&self, theta: &[f64], line: usize, omega: f64) -> Option<Values> {
+        let (mut values, mut slopes) = (Vec::with_capacity(self.each.len()), Vec::with_capacity(theta.len()));
+        for (j, (curve, range)) in self.each.iter().enumerate() {
+            let (value, of_theta) = curve.value(&theta[range.clone()], line, omega)?;
+            values.push(value);
+            slopes.extend(of_theta.into_iter().map(|slope| (j, slope)));
+        }
+        Some((values, slopes))
+    }
+
+    /// ∂p/∂θ of one unknown, by all coordinates.
+    pub(super) fn slopes(&self, theta: &[f64], unknown: usize, line: usize, omega: f64) -> Option<Vec<c64>> {
+        let (_, slopes) = self.values(theta, line, omega)?;
+        let own = |(j, slope): (usize, c64)| if j == unknown { slope } else { c64::default() };
+        Some(slopes.into_iter().map(own).collect())
+    }
+
+    /// The precision of what is known beforehand about a centre, n × n; see [`Curve::precision`].
+    pub(super) fn precision(&self, centre: &[f64], bend: [f64; 2]) -> Vec<f64> {
+        self.blocks(|curve, range| curve.precision(&centre[range], bend))
+    }
+
+    /// That of the bends of a part alone, and how many there are.
+    pub(super) fn bends(&self, part: usize) -> (Vec<f64>, usize) {
+        let count = self.each.iter().map(|(curve, _)| curve.bend_count(part)).sum();
+        (self.blocks(|curve, _| curve.bends(part)), count)
+    }
+
+    fn blocks(&self, block: impl Fn(&Curve, Range<usize>) -> Vec<f64>) -> Vec<f64> {
+        let n = self.count();
+        let mut all = vec![0.0; n * n];
+        for (curve, range) in &self.each {
+            let own = block(curve, range.clone());
+            for (i, row) in range.clone().zip(own.chunks_exact(range.len().max(1))) {
+                all[i * n + range.start..i * n + range.end].copy_from_slice(row);
+            }
+        }
+        all
+    }
+
+    /// Smooth curves without bends, as causal materials have them; constants and laws as they are.
+    pub(super) fn straight(&self, theta: &[f64]) -> Vec<f64> {
+        self.each.iter().flat_map(|(curve, range)| curve.straight(&theta[range.clone()])).collect()
+    }
+
+    /// θ with given coordinates of constants and laws, and smooth curves nearest to some values with weights (inverse variances
+    /// of ln p) at some lines; `None` where one of them has none.
+    pub(super) fn through(
+        &self,
+        given: &[f64],
+        data: impl Fn(usize) -> Vec<(usize, c64, f64)>,
+    ) -> Option<Vec<f64>> {
+        let mut given = given.iter().copied();
+        let mut theta = Vec::with_capacity(self.count());
+        for (j, (curve, range)) in self.each.iter().enumerate() {
+            match curve {
+                Curve::Form(_) => theta.extend(given.by_ref().take(range.len())),
+                Curve::Spline(_) => {
+                    theta.extend(curve.through(&data(j)).filter(|own| own.len() == range.len())?)
+                }
+            }
+        }
+        Some(theta)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -182,12 +340,12 @@ mod tests {
             (0..200).map(|k| (k, (c64::new(0.1, 0.2) * omegas[k].ln() + 3.0).exp(), 1e6)).collect();
         let theta = curve.through(&data).unwrap();
         for &(k, modulus, _) in &data {
-            let (found, slopes) = curve.modulus(&theta, k, omegas[k]).unwrap();
+            let (found, slopes) = curve.value(&theta, k, omegas[k]).unwrap();
             assert!((found / modulus - 1.0).norm() < 1e-4, "{k}: {found} {modulus}");
             for j in 0..theta.len() {
                 let mut moved = theta.clone();
                 moved[j] += 1e-6;
-                let (there, _) = curve.modulus(&moved, k, omegas[k]).unwrap();
+                let (there, _) = curve.value(&moved, k, omegas[k]).unwrap();
                 assert!(((there - found) / 1e-6 - slopes[j]).norm() < 1e-4 * found.norm());
             }
         }

@@ -46,8 +46,8 @@ const ABOVE_BAND: f64 = 1.2;
 impl Estimated {
     /// What users are told.
     pub(in crate::identify) fn found(&self) -> ModelErrorsFound {
-        let n = self.errors.frequency.len() + self.errors.factors.len() + self.errors.shape.concat().len();
-        let covariance = |a: usize, b: usize| self.covariance[a * n + b];
+        let (n, first) = (self.count(), self.curves.count());
+        let covariance = |a: usize, b: usize| self.covariance[(first + a) * n + first + b];
         let mode = |(i, omega): (usize, &f64)| {
             let own: Vec<usize> =
                 (0..self.modes.of_error.len()).filter(|&error| self.modes.of_error[error] == i).collect();
@@ -58,9 +58,9 @@ impl Estimated {
                 std: variance.max(0.0).sqrt(),
             }
         };
-        let first = self.modes.of_error.len();
+        let of_factors = self.modes.of_error.len();
         let factor = |(t, &(term, error)): (usize, &(usize, f64))| {
-            let std = covariance(first + t, first + t).max(0.0).sqrt();
+            let std = covariance(of_factors + t, of_factors + t).max(0.0).sqrt();
             FactorError { term, error, std }
         };
         let told = |omega: &f64| *omega <= ABOVE_BAND * self.highest_rad_s;

@@ -7,6 +7,7 @@
 //! $$ \sum_{k,m} \frac{|u_m - x_m(\omega_k; \theta, \delta, a, \nu)|^2}{\sigma_m^2} + \frac{e^2 + \sum_i d_i^2}{s^2} + \frac{\sum a_{mi}^2}{s_a^2} + \frac{\sum \nu_t^2}{s_\nu^2} $$
 //! is made least on the reduced model, with the noise approached from above; s and s_a are those of largest evidence. Whether there are errors at all is decided by
 //! the evidence of three explanations: a smooth modulus and a right model, a modulus that scatters from line to line and a right model, a smooth modulus and errors.
+//! Of several unknowns each is a constant, a law or a spline.
 //!
 //! # Source
 //! M. C. Kennedy, A. O'Hagan, J. R. Stat. Soc. B 63 (2001) 425–464 (errors of a model beside its parameters); D. J. C. MacKay, Neural Comput. 4 (1992) 415–447
@@ -16,19 +17,17 @@ mod curve;
 mod found;
 mod search;
 
-use super::Line;
+use super::{Line, Noise};
 use crate::c64;
 use crate::for_each::ForEach;
 use crate::frequency::omega_rad_s;
-use crate::laws::Parametrization;
 use crate::median::median;
-use crate::model::ModelAt;
 use crate::subspace::{ModalErrors, Modes, Point, Projection};
+pub(super) use curve::{Curve, Curves, Spline};
 pub use found::{FactorError, ModeError, ModelErrorsFound};
 
-use curve::{Curve, Spline};
 use frfit_linalg::dense::Cholesky;
-use search::{COMMON, Fitting, Found, Place, Sizes};
+use search::{Fitting, Found, Place, Sizes};
 
 /// What is known of the noise.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -39,9 +38,23 @@ pub(super) enum Deviations {
     Relative,
 }
 
+impl Deviations {
+    pub(super) fn of(noise: Noise<'_>) -> Self {
+        if matches!(noise, Noise::Known(_)) { Self::Known } else { Self::Relative }
+    }
+}
+
+/// The model at a line with these values of its unknowns.
+pub(super) type PointAt<'t, 'a> = &'t (dyn Fn(usize, &[c64]) -> Option<Point<'a>> + Sync);
+
 /// What was measured, and where to begin.
 pub(super) struct Measured<'t, 'a> {
-    pub(super) at: &'t [ModelAt<'a>],
+    pub(super) point: PointAt<'t, 'a>,
+    pub(super) omegas: &'t [f64],
+    /// `[frequency][unknown]`.
+    pub(super) nominal: &'t [Vec<c64>],
+    /// θ of the unknowns that hold for the band, as a right model has it.
+    pub(super) given: &'t [f64],
     pub(super) measured: &'t [Vec<c64>],
     /// Of real and imaginary part each, `[frequency][sensor]`; infinite of a sensor that is left out.
     pub(super) sigma: &'t [Vec<f64>],
@@ -50,8 +63,9 @@ pub(super) struct Measured<'t, 'a> {
     pub(super) deviations: Deviations,
     /// What each frequency says by itself, and noise over σ by that.
     pub(super) free: &'t [Line],
+    /// The unknowns that each frequency has a value of its own of.
+    pub(super) own: &'t [usize],
     pub(super) alone: Option<f64>,
-    pub(super) real: bool,
 }
 
 /// The errors of a model, and how well they are known.
@@ -59,7 +73,7 @@ pub(super) struct Measured<'t, 'a> {
 pub(super) struct Estimated {
     pub(super) modes: Modes,
     pub(super) errors: ModalErrors,
-    /// Of δ (own and common together), ν, then a of each sensor: n × n.
+    /// Of θ, δ (own and common together), ν, then a of each sensor: n × n.
     pub(super) covariance: Vec<f64>,
     pub(super) sizes: [f64; 2],
     /// χ² at σ times `level`, and how many numbers it has.
@@ -69,24 +83,64 @@ pub(super) struct Estimated {
     /// By how many nats errors of the model explain the band better than a right model does.
     pub(super) evidence: f64,
     highest_rad_s: f64,
-    curve: Curve,
-    /// θ and its covariance, n × n.
-    theta: Vec<f64>,
-    theta_covariance: Vec<f64>,
-    /// The errors as the search has them.
+    curves: Curves,
+    /// θ, then the errors as the search has them.
     place: Place,
 }
 
 impl Estimated {
-    /// Variances of the real and the imaginary part of the smooth modulus at a line, and their covariance.
-    pub(super) fn modulus_covariance(&self, line: usize, frequency_hz: f64) -> Option<[f64; 3]> {
-        let (_, slopes) = self.curve.modulus(&self.theta, line, omega_rad_s(frequency_hz))?;
-        Some(covariance(&self.theta_covariance, &slopes))
+    pub(super) fn theta(&self) -> &[f64] {
+        &self.place[..self.curves.count()]
     }
 
-    /// The covariance of the coordinates of the curve, row after row.
-    pub(super) fn coordinates(&self) -> Vec<Vec<f64>> {
-        self.theta_covariance.chunks_exact(self.theta.len().max(1)).map(<[f64]>::to_vec).collect()
+    /// Variances of the real and the imaginary part of an unknown at a line, and their covariance.
+    pub(super) fn covariance_at(&self, unknown: usize, line: usize, frequency_hz: f64) -> Option<[f64; 3]> {
+        let slopes = self.curves.slopes(self.theta(), unknown, line, omega_rad_s(frequency_hz))?;
+        Some(covariance(&self.block(0..slopes.len()), &slopes))
+    }
+
+    /// The covariance of some coordinates, column after column.
+    pub(super) fn covariance_of(&self, coordinates: &[usize]) -> Vec<f64> {
+        let n = self.count();
+        let column = |&a: &usize| coordinates.iter().map(move |b| self.covariance[a * n + b]);
+        coordinates.iter().flat_map(column).collect()
+    }
+
+    fn block(&self, range: std::ops::Range<usize>) -> Vec<f64> {
+        self.covariance_of(&range.collect::<Vec<_>>())
+    }
+
+    /// The coordinates of an unknown.
+    pub(super) fn range(&self, unknown: usize) -> std::ops::Range<usize> {
+        self.curves.range(unknown)
+    }
+
+    /// The errors, as coordinates.
+    pub(super) fn error_range(&self) -> std::ops::Range<usize> {
+        self.curves.count()..self.count()
+    }
+
+    /// All unknowns at a line.
+    pub(super) fn values(&self, line: usize, frequency_hz: f64) -> Option<Vec<c64>> {
+        Some(self.curves.values(self.theta(), line, omega_rad_s(frequency_hz))?.0)
+    }
+
+    /// The covariance of θ, row after row.
+    pub(super) fn of_theta(&self) -> Vec<Vec<f64>> {
+        let n = self.curves.count();
+        self.block(0..n).chunks_exact(n.max(1)).map(<[f64]>::to_vec).collect()
+    }
+
+    /// The covariance of the errors.
+    pub(super) fn of_errors(&self) -> Vec<f64> {
+        self.block(self.error_range())
+    }
+
+    /// Coordinates: θ, and the errors.
+    pub(super) fn count(&self) -> usize {
+        let ModalErrors { frequency, shape, factors } = &self.errors;
+        let of_shapes: usize = shape.iter().map(Vec::len).sum();
+        self.curves.count() + frequency.len() + factors.len() + of_shapes
     }
 }
 
@@ -110,6 +164,14 @@ const MOST_MODES: usize = 30;
 /// Noise that is added to begin with, relative to the response.
 const FROM_ABOVE: [f64; 6] = [1.0, 0.3, 0.1, 0.03, 0.01, 0.003];
 
+/// Stages in which a band is gone through upwards, noise that is added at each, and steps.
+const STAGES: usize = 8;
+const STAGE_LEVELS: [f64; 2] = [1.0, 0.2];
+const STAGE_STEPS: usize = 3;
+
+/// Noise over response above which a fit is looked for from other starts too.
+const USUAL_NOISE: f64 = 0.01;
+
 /// Steps at each level of the noise, and at the last.
 const STEPS: usize = 5;
 const LAST_STEPS: usize = 5;
@@ -123,7 +185,10 @@ const SHAPE: f64 = 0.02;
 const FACTOR: f64 = 0.02;
 
 /// What all modes have in common is larger than their scatter: a mesh errs in one sense.
-const COMMON_RATIO: f64 = 2.0;
+const COMMON_RATIO: f64 = 5.0;
+
+/// By how much bends of a smooth curve may be less or more than the usual ones.
+const BEND_RANGE: [f64; 2] = [0.01, 3.0];
 
 /// What the data have to tell of a size counts from this many modes on.
 const PRIOR_MODES: f64 = 0.05;
@@ -137,7 +202,13 @@ const OF_ONE_SENSOR: f64 = 5e-3;
 impl Sizes {
     /// Before the data.
     fn prior() -> Self {
-        Self { frequency: FREQUENCY, common: COMMON_RATIO * FREQUENCY, shape: SHAPE, factor: FACTOR }
+        Self {
+            frequency: FREQUENCY,
+            common: COMMON_RATIO * FREQUENCY,
+            shape: SHAPE,
+            factor: FACTOR,
+            bend: [1.0; 2],
+        }
     }
 }
 
@@ -150,57 +221,90 @@ struct Explained {
     evidence: f64,
 }
 
-/// The errors of a model by the data of a band; `None` where a right model explains them as well, or no small errors do.
+/// What explains a band.
+pub(super) enum Explanation {
+    /// A right model does as well as one with errors.
+    RightModel,
+    /// One with small errors.
+    Errors(Box<Estimated>),
+    /// One whose errors are no small ones: it is another model.
+    OtherModel,
+}
+
+/// The errors of a model by the data of a band.
 pub(super) fn estimate(
     model: &Projection,
     data: &Measured<'_, '_>,
+    curves: &Curves,
     for_each: ForEach<'_>,
-) -> Option<Estimated> {
-    let omegas = data.omegas();
-    let curve = Curve::Spline(Spline::new(&omegas, data.real));
-    let starts = data.starts(&curve);
-    let search = Search::new(model, data, &curve, starts.first()?, for_each)?;
+) -> Explanation {
+    explanation(model, data, curves, for_each).unwrap_or(Explanation::RightModel)
+}
+
+/// The same; `None` where nothing can be compared.
+fn explanation(
+    model: &Projection,
+    data: &Measured<'_, '_>,
+    curves: &Curves,
+    for_each: ForEach<'_>,
+) -> Option<Explanation> {
+    let starts = data.starts(curves);
+    let centre = curves.straight(starts.first()?);
+    let search = Search::new(model, data, (curves, &centre), starts.first()?, for_each)?;
 
     // Far from the answer a rough model is as good.
     let points: Vec<Point<'_>> = starts.iter().flat_map(|start| search.points(start)).collect();
     let rough = search.smaller(&points, ROUGH);
     let none = Modes::none(&rough.0);
     let right_model = Fitting { terms: &[], ..search.fitting(&rough.0, &none, &search.lines) };
-    let right = data.explain(&right_model, right_model.start(&starts[0]), &starts[0], &FROM_ABOVE[2..])?;
-    if data.is_noise(&right, data.numbers(&search.lines)) {
+    let right = data.explain(&right_model, right_model.start(&starts[0]), &FROM_ABOVE[2..])?;
+    let whole = search.fitting(&rough.0, &rough.1, &search.lines);
+    if data.is_noise(&right, data.numbers(&search.lines), curves) && data.promise(&whole, &right)? < PROMISE {
         return None;
     }
     let coarse = search.fitting(&rough.0, &rough.1, &search.some);
-    let ends = starts.iter().filter_map(|start| data.approach(&coarse, start));
-    let (_, place) = ends.min_by(|a, b| a.0.total_cmp(&b.0))?;
-
-    let near = search.smaller(&search.points(&place), NEIGHBOURHOOD);
+    let fitted = |places: Vec<Place>| -> Option<Explained> {
+        let ends = places.into_iter().filter_map(|place| data.approach(&coarse, place));
+        let (_, place) = ends.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        let near = search.smaller(&search.points(&place), NEIGHBOURHOOD);
+        data.explain(&search.fitting(&near.0, &near.1, &search.lines), place, &FROM_ABOVE[NEAR..])
+    };
+    let mut wrong = fitted(starts.iter().map(|start| coarse.start(start)).collect())?;
+    if !data.is_explained(&wrong, &search.lines) {
+        let upwards = fitted(starts.iter().filter_map(|start| data.upwards(&whole, start)).collect());
+        wrong = upwards.into_iter().fold(wrong, |a, b| if b.evidence < a.evidence { b } else { a });
+    }
+    let near = search.smaller(&search.points(&wrong.found.place), NEIGHBOURHOOD);
     let fine = search.fitting(&near.0, &near.1, &search.lines);
-    let centre = place[..curve.count()].to_vec();
-    let wrong = data.explain(&fine, place, &centre, &FROM_ABOVE[NEAR..])?;
-    let scattered = data.scattered(&search.lines, &curve, &starts[0], wrong.level);
+    let scattered = data.scattered(&search.lines, curves, &starts[0], wrong.level);
     let least = scattered.map_or(right.evidence, |scattered| scattered.min(right.evidence));
     let evidence = 0.5 * (least - wrong.evidence);
-    let small = wrong.sizes.frequency <= LARGEST_FREQUENCY && wrong.sizes.shape <= LARGEST_SHAPE;
-    let estimated = (evidence > NATS && small).then(|| data.posterior(&fine, wrong, evidence)).flatten()?;
-    Some(Estimated { modes: search.modes, ..estimated })
+    if evidence <= NATS {
+        return None;
+    }
+    if !fine.are_small(&wrong.found.place) {
+        return Some(Explanation::OtherModel);
+    }
+    let estimated = data.posterior(&fine, wrong, evidence)?;
+    Some(Explanation::Errors(Box::new(Estimated { modes: search.modes, ..estimated })))
 }
 
-/// The errors of a model once more, with a law in place of a smooth modulus: it says more of what they are.
-pub(super) fn estimate_with_law(
+/// The errors of a model once more, with laws in place of smooth curves: they say more of what the errors are.
+pub(super) fn estimate_with_laws(
     model: &Projection,
     data: &Measured<'_, '_>,
     before: &Estimated,
-    (law, theta): (&Parametrization, &[f64]),
+    (curves, theta): (&Curves, &[f64]),
     for_each: ForEach<'_>,
 ) -> Option<Estimated> {
-    let curve = Curve::Law(*law);
-    let search =
-        Search { modes: before.modes.in_larger(model), ..Search::new(model, data, &curve, theta, for_each)? };
+    let search = Search {
+        modes: before.modes.in_larger(model),
+        ..Search::new(model, data, (curves, theta), theta, for_each)?
+    };
     let near = search.smaller(&search.points(theta), NEIGHBOURHOOD);
     let fitting = search.fitting(&near.0, &near.1, &search.lines);
-    let place: Place = theta.iter().chain(&before.place[before.theta.len()..]).copied().collect();
-    let found = data.explain(&fitting, place, theta, &FROM_ABOVE[NEAR..])?;
+    let place: Place = theta.iter().chain(&before.place[before.curves.count()..]).copied().collect();
+    let found = data.explain(&fitting, place, &FROM_ABOVE[NEAR..])?;
     let estimated = data.posterior(&fitting, found, before.evidence)?;
     Some(Estimated { modes: search.modes, ..estimated })
 }
@@ -209,9 +313,9 @@ pub(super) fn estimate_with_law(
 struct Search<'t, 'a> {
     model: &'t Projection,
     data: &'t Measured<'t, 'a>,
-    curve: &'t Curve,
+    curves: &'t Curves,
+    centre: &'t [f64],
     for_each: ForEach<'t>,
-    omegas: Vec<f64>,
     /// Lines that are used, some of them, and those about which a smaller model is made.
     lines: Vec<usize>,
     some: Vec<usize>,
@@ -223,34 +327,39 @@ struct Search<'t, 'a> {
 }
 
 impl<'t, 'a> Search<'t, 'a> {
-    /// With the modes that the model has at a curve in the middle of the band.
+    /// With the modes that the model has in the middle of the band.
     fn new(
         model: &'t Projection,
         data: &'t Measured<'t, 'a>,
-        curve: &'t Curve,
+        (curves, centre): (&'t Curves, &'t [f64]),
         theta: &[f64],
         for_each: ForEach<'t>,
     ) -> Option<Self> {
-        let all: Vec<usize> = (0..data.at.len()).filter(|&i| data.at[i].frequency_hz > 0.0).collect();
+        let all: Vec<usize> = (0..data.omegas.len()).filter(|&i| data.omegas[i] > 0.0).collect();
         let of = |most: usize| -> Vec<usize> { super::band::thinned(&all, most).copied().collect() };
-        let (lines, omegas) = (of(LINES), data.omegas());
-        let middle = lines[lines.len() / 2];
-        let at = &data.at[middle];
-        let (modulus, _) = curve.modulus(theta, middle, omegas[middle])?;
-        let highest = ABOVE * omegas.last()?;
-        let modes = model.modes(at, modulus - at.parameters[0].nominal, highest, MOST_MODES).ok()?;
-        let (some, about, known) = (of(FEW_LINES), of(POINTS), data.known_terms());
-        Some(Self { model, data, curve, for_each, omegas, lines, some, about, modes, known })
+        let lines = of(LINES);
+        let Point { at, correction } = data.on(curves, theta, lines[lines.len() / 2])?;
+        let highest = ABOVE * data.omegas.last()?;
+        let modes = model.modes(&at, correction, highest, MOST_MODES).ok()?;
+        let unknown = |term: usize| at.parameters.iter().any(|one| one.enters(term));
+        let known = (0..at.model.terms().len()).filter(|&term| !unknown(term)).collect();
+        Some(Self {
+            model,
+            data,
+            curves,
+            centre,
+            for_each,
+            lines,
+            some: of(FEW_LINES),
+            about: of(POINTS),
+            modes,
+            known,
+        })
     }
 
-    /// Points along a curve.
+    /// Points along some curves.
     fn points(&self, theta: &[f64]) -> Vec<Point<'a>> {
-        let point = |&i: &usize| {
-            let at = self.data.at[i].clone();
-            let (modulus, _) = self.curve.modulus(theta, i, self.omegas[i])?;
-            Some(Point { correction: modulus - at.parameters[0].nominal, at })
-        };
-        self.about.iter().filter_map(point).collect()
+        self.about.iter().filter_map(|&i| self.data.on(self.curves, theta, i)).collect()
     }
 
     /// A smaller model of the modes and of what is near some points, with its modes; the same where it would be no smaller.
@@ -263,11 +372,13 @@ impl<'t, 'a> Search<'t, 'a> {
         Fitting {
             model,
             modes,
-            at: self.data.at,
+            point: self.data.point,
+            omegas: self.data.omegas,
             measured: self.data.measured,
             lines,
-            curve: self.curve,
-            highest_rad_s: self.omegas[self.omegas.len() - 1],
+            curves: self.curves,
+            centre: self.centre,
+            highest_rad_s: self.data.omegas[self.data.omegas.len() - 1],
             terms: &self.known,
             for_each: self.for_each,
         }
@@ -286,25 +397,24 @@ const POINTS: usize = 24;
 const NEIGHBOURHOOD: f64 = 1e-6;
 const ROUGH: f64 = 1e-4;
 
+/// Of the sizes before the data; and nats that errors of some such size must promise where noise seems to be all that is left.
+const PARTS: [f64; 4] = [1.0, 0.3, 0.1, 0.03];
+const PROMISE: f64 = 3.0;
+
 /// What is left is noise up to so many standard deviations of χ².
 const CHANCE: f64 = 3.0;
 
 /// By how much a modulus may scatter from line to line.
 const SCATTER: [f64; 7] = [1e-4, 1e-3, 3e-3, 1e-2, 3e-2, 0.1, 0.3];
 
-/// Errors larger than these are no small errors of this model: it is another one.
-const LARGEST_FREQUENCY: f64 = 0.03;
-const LARGEST_SHAPE: f64 = 0.3;
-
 /// Nats by which errors of the model have to explain a band better: sizes were fitted too.
 const NATS: f64 = 6.0;
 
-impl Measured<'_, '_> {
-    /// Known terms whose factor may be in error.
-    fn known_terms(&self) -> Vec<usize> {
-        let at = &self.at[0];
-        let unknown = |term: usize| at.parameters.iter().any(|one| one.enters(term));
-        (0..at.model.terms().len()).filter(|&term| !unknown(term)).collect()
+impl<'a> Measured<'_, 'a> {
+    /// The model at a line of some curves.
+    fn on(&self, curves: &Curves, theta: &[f64], line: usize) -> Option<Point<'a>> {
+        let (values, _) = curves.values(theta, line, self.omegas[line])?;
+        (self.point)(line, &values)
     }
 
     /// Real numbers that were measured.
@@ -313,27 +423,40 @@ impl Measured<'_, '_> {
     }
 
     /// θ to begin with: through what each frequency says by itself, and the nominal.
-    fn starts(&self, curve: &Curve) -> Vec<Vec<f64>> {
-        let nominal = |i: usize| self.at[i].parameters[0].nominal;
-        let answered = |(i, line): (usize, &Line)| {
-            let factor = line.factor().filter(|factor| line.on_path && factor.re > 0.0)?;
-            let std = line.values[0].uncertainty.map_or(1.0, |bars| bars.correction_std / factor.norm());
-            Some((i, factor, 1.0 / (std * std + 1e-4)))
+    fn starts(&self, curves: &Curves) -> Vec<Vec<f64>> {
+        let answered = |j: usize| -> Vec<(usize, c64, f64)> {
+            let one = |(i, line): (usize, &Line)| {
+                let value = line.values[j].value.filter(|value| line.on_path && value.re > 0.0)?;
+                let bars = line.values[j].uncertainty;
+                let std = bars.map_or(1.0, |bars| bars.correction_std / value.norm());
+                Some((i, value, 1.0 / (std * std + 1e-4)))
+            };
+            self.free.iter().enumerate().filter_map(one).collect()
         };
-        let free: Vec<(usize, c64, f64)> = self.free.iter().enumerate().filter_map(answered).collect();
-        let given = (0..self.at.len()).filter(|&i| nominal(i).re > 0.0).map(|i| (i, nominal(i), 1e4));
+        // Where modes are narrow most lines are right and some are far off.
+        let usual = |j: usize| -> Vec<(usize, c64, f64)> {
+            let all = answered(j);
+            let middle = |part: &dyn Fn(c64) -> f64| median(all.iter().map(|one| part(one.1.ln())).collect());
+            let value = middle(&|log| log.re).zip(middle(&|log| log.im));
+            let value = value.map(|(size, phase)| c64::new(size, phase).exp());
+            value.map_or(Vec::new(), |value| all.iter().map(|one| (one.0, value, 1e4)).collect())
+        };
+        let nominal = |j: usize| -> Vec<(usize, c64, f64)> {
+            let positive = (0..self.omegas.len()).filter(|&i| self.nominal[i][j].re > 0.0);
+            positive.map(|i| (i, self.nominal[i][j], 1e4)).collect()
+        };
+        let smooth = curves.smooth();
+        let few = smooth.iter().any(|&j| answered(j).len() <= 2);
         let mut starts = Vec::new();
-        if free.len() > 2 {
-            starts.extend(curve.through(&free));
-            // Where modes are narrow most lines are right and some are far off.
-            let middle =
-                |part: &dyn Fn(c64) -> f64| median(free.iter().map(|one| part(one.1.ln())).collect());
-            if let (Some(size), Some(phase)) = (middle(&|log| log.re), middle(&|log| log.im)) {
-                let usual = c64::new(size, phase).exp();
-                starts.extend(curve.through(&free.iter().map(|one| (one.0, usual, 1e4)).collect::<Vec<_>>()));
-            }
+        if !few {
+            starts.extend(curves.through(self.given, answered));
         }
-        starts.extend(curve.through(&given.collect::<Vec<_>>()));
+        if !few && !smooth.is_empty() {
+            starts.extend(curves.through(self.given, usual));
+        }
+        if !smooth.is_empty() {
+            starts.extend(curves.through(self.given, nominal));
+        }
         starts
     }
 
@@ -346,21 +469,43 @@ impl Measured<'_, '_> {
         lines.iter().map(one).collect()
     }
 
-    fn omegas(&self) -> Vec<f64> {
-        self.at.iter().map(|at| omega_rad_s(at.frequency_hz)).collect()
-    }
-
     /// From a start to where all lines are used: the cost and the place.
-    fn approach(&self, coarse: &Fitting<'_, '_>, start: &[f64]) -> Option<(f64, Place)> {
+    fn approach(&self, coarse: &Fitting<'_, '_>, place: Place) -> Option<(f64, Place)> {
         let precision = coarse.precision(&Sizes::prior());
         let own = if self.known() { 1.0 } else { 0.0 };
-        let mut end = (f64::INFINITY, coarse.start(start));
+        let mut end = (f64::INFINITY, place);
         for added in &FROM_ABOVE[..NEAR] {
             let sigma = self.sigma_at(coarse.lines, own, *added);
-            let found = coarse.descend(end.1, &sigma, &precision, start, STEPS)?;
+            let found = coarse.descend(end.1, &sigma, &precision, STEPS)?;
             end = (found.normal.chi_squared + found.prior, found.place);
         }
         Some(end)
+    }
+
+    /// Whether the noise that is left is usual noise.
+    fn is_explained(&self, wrong: &Explained, lines: &[usize]) -> bool {
+        let n = self.numbers(lines) as f64;
+        match self.known() {
+            true => wrong.found.normal.chi_squared <= n + CHANCE * (2.0 * n).sqrt(),
+            false => wrong.level <= USUAL_NOISE,
+        }
+    }
+
+    /// From a start to where lines are used from the lowest on, mode after mode: where a mode is off by many half-widths it has no slope towards
+    /// its place, and the modes below it say where that is.
+    fn upwards(&self, whole: &Fitting<'_, '_>, start: &[f64]) -> Option<Place> {
+        let precision = whole.precision(&Sizes::prior());
+        let own = if self.known() { 1.0 } else { 0.0 };
+        let mut place = whole.start(start);
+        for below in whole.stages(STAGES) {
+            let lines: Vec<usize> = super::band::thinned(below, FEW_LINES).copied().collect();
+            let stage = Fitting { lines: &lines, ..*whole };
+            for added in STAGE_LEVELS {
+                let sigma = self.sigma_at(&lines, own, added);
+                place = stage.descend(place, &sigma, &precision, STAGE_STEPS)?.place;
+            }
+        }
+        Some(place)
     }
 
     fn known(&self) -> bool {
@@ -368,35 +513,66 @@ impl Measured<'_, '_> {
     }
 
     /// Whether noise is all that a smooth modulus leaves.
-    fn is_noise(&self, right: &Explained, numbers: usize) -> bool {
+    fn is_noise(&self, right: &Explained, numbers: usize, curves: &Curves) -> bool {
         let n = numbers as f64;
         match self.known() {
             true => right.found.normal.chi_squared <= n + CHANCE * (2.0 * n).sqrt(),
             false => {
                 let sensors = self.sigma[0].iter().filter(|sigma| sigma.is_finite()).count();
-                let least = if sensors > 1 { LEAST_LEVEL } else { OF_ONE_SENSOR };
+                let contradicted = sensors > 1 || curves.smooth().is_empty();
+                let least = if contradicted { LEAST_LEVEL } else { OF_ONE_SENSOR };
                 let usual = self.alone.map_or(0.0, |alone| alone * (1.0 + CHANCE / n.sqrt()));
                 right.level <= least.max(usual)
             }
         }
     }
 
-    /// The least squares with the noise approached from above, and the sizes of largest evidence; the prior of θ is about `centre`.
-    fn explain(
-        &self,
-        fitting: &Fitting<'_, '_>,
-        mut place: Place,
-        centre: &[f64],
-        from_above: &[f64],
-    ) -> Option<Explained> {
-        let mean = centre;
+    /// Nats by which errors of some size explain the band better, by the slopes where a right model explains it: a test of small errors
+    /// that costs no search.
+    fn promise(&self, whole: &Fitting<'_, '_>, right: &Explained) -> Option<f64> {
+        let n = whole.count();
+        let m = whole.curves.count();
+        let place = whole.start(&right.found.place);
+        let normal = whole.normal(&place, &self.sigma_at(whole.lines, right.level, 0.0))?;
+        let gain = |part: f64| -> Option<f64> {
+            let usual = Sizes::prior();
+            let sizes = Sizes {
+                frequency: part * usual.frequency,
+                common: part * usual.common,
+                shape: part * usual.shape,
+                bend: right.sizes.bend,
+                ..usual
+            };
+            let precision = whole.precision(&sizes);
+            let sum: Vec<f64> = normal.information.iter().zip(&precision).map(|(a, b)| a + b).collect();
+            let pull = |i: usize| -> f64 {
+                (0..m.min(place.len())).map(|j| precision[i * n + j] * (place[j] - whole.centre[j])).sum()
+            };
+            let slope: Vec<f64> = (0..n).map(|i| normal.gradient[i] - pull(i)).collect();
+            let factor = Cholesky::new(n, &sum).ok()?;
+            let mut step = slope.clone();
+            factor.solve(&mut step);
+            let gained: f64 = slope.iter().zip(&step).map(|(g, s)| g * s).sum();
+            let volume = |matrix: &[f64], size: usize| -> Option<f64> {
+                let block: Vec<f64> = (0..size * size).map(|k| matrix[k / size * n + k % size]).collect();
+                Some(Cholesky::new(size, &block).ok()?.log_determinant())
+            };
+            let of_errors = factor.log_determinant() - volume(&precision, n)?;
+            let of_curves = volume(&sum, m)? - volume(&precision, m)?;
+            Some(0.5 * (gained - of_errors + of_curves))
+        };
+        PARTS.into_iter().filter_map(gain).reduce(f64::max)
+    }
+
+    /// The least squares with the noise approached from above, and the sizes of largest evidence.
+    fn explain(&self, fitting: &Fitting<'_, '_>, mut place: Place, from_above: &[f64]) -> Option<Explained> {
         let known = self.known();
         let mut sizes = Sizes::prior();
         let numbers = self.numbers(fitting.lines) as f64;
         let mut level = 1.0;
         for &added in from_above {
             let sigma = self.sigma_at(fitting.lines, if known { 1.0 } else { 0.0 }, added);
-            let found = fitting.descend(place, &sigma, &fitting.precision(&sizes), mean, STEPS)?;
+            let found = fitting.descend(place, &sigma, &fitting.precision(&sizes), STEPS)?;
             place = found.place;
             if !known {
                 level = added;
@@ -410,7 +586,7 @@ impl Measured<'_, '_> {
         for _ in 0..ROUNDS {
             let sigma = self.sigma_at(fitting.lines, level, 0.0);
             let precision = fitting.precision(&sizes);
-            let found = fitting.descend(place, &sigma, &precision, mean, LAST_STEPS)?;
+            let found = fitting.descend(place, &sigma, &precision, LAST_STEPS)?;
             place = found.place.clone();
             let n = fitting.count();
             let whole: Vec<f64> =
@@ -430,6 +606,18 @@ impl Measured<'_, '_> {
             if !known {
                 level = (level * (chi_squared / (numbers - told).max(1.0)).sqrt()).max(LEAST_LEVEL);
             }
+            for part in 0..2 {
+                let (bends, count) = fitting.curves.bends(part);
+                let m = fitting.curves.count();
+                let sum = |of: &dyn Fn(usize, usize) -> f64| -> f64 {
+                    (0..m * m).map(|k| bends[k] * of(k / m, k % m)).sum()
+                };
+                let squares = sum(&|i, j| place[i] * place[j]);
+                let untold = sum(&|i, j| inverse[i * n + j]) / sizes.bend[part].powi(2);
+                let told = (count as f64 - untold).clamp(0.0, count as f64);
+                let [least, most] = BEND_RANGE;
+                sizes.bend[part] = ((squares + PRIOR_MODES) / (told + PRIOR_MODES)).sqrt().clamp(least, most);
+            }
             if !fitting.shapes().is_empty() {
                 let fresh = |range: std::ops::Range<usize>, size: f64, prior: f64| {
                     let squares: f64 = range.clone().map(|i| (place[i] / fitting.growth(i)).powi(2)).sum();
@@ -446,6 +634,7 @@ impl Measured<'_, '_> {
             if settled(level, before.0)
                 && settled(sizes.frequency, before.1.frequency)
                 && settled(sizes.shape, before.1.shape)
+                && (0..2).all(|part| (sizes.bend[part] / before.1.bend[part] - 1.0).abs() < 0.2)
             {
                 break;
             }
@@ -453,28 +642,33 @@ impl Measured<'_, '_> {
         last
     }
 
-    /// −2 ln of the evidence of a modulus that scatters about a smooth one from line to line, by what each frequency says; `None` where most say
-    /// nothing. `level` is that of the noise where one sensor cannot show it.
-    fn scattered(&self, lines: &[usize], curve: &Curve, theta: &[f64], level: f64) -> Option<f64> {
+    /// −2 ln of the evidence of smooth unknowns that scatter from line to line, by what each frequency says; `None` where most say
+    /// nothing, or none has a value of its own. `level` is that of the noise where one sensor cannot show it.
+    fn scattered(&self, lines: &[usize], curves: &Curves, theta: &[f64], level: f64) -> Option<f64> {
         struct Told {
             misfit: f64,
-            /// Relative, at the noise of the lines by themselves.
-            std: f64,
-            off: f64,
+            /// Of each unknown: relative standard deviation at the noise of the lines by themselves, and the square of the way from the curve.
+            unknowns: Vec<[f64; 2]>,
+        }
+        if self.own.is_empty() {
+            return None;
         }
         let told = |&i: &usize| {
             let line = &self.free[i];
-            let factor = line.factor().filter(|factor| line.on_path && factor.re > 0.0)?;
-            let (smooth, _) = curve.modulus(theta, i, omega_rad_s(line.frequency_hz))?;
+            let (values, _) = curves.values(theta, i, self.omegas[i])?;
             let sigma = match self.known() {
                 true => self.sigma_at(&[i], 1.0, 0.0).concat(),
                 false => self.sigma[i].clone(),
             };
             let each = line.updated_response.iter().zip(&self.measured[i]).zip(&sigma);
+            let one = |&j: &usize| {
+                let value = line.values[j].value.filter(|value| line.on_path && value.re > 0.0)?;
+                let std = line.values[j].uncertainty?.storage_std / value.norm();
+                Some([std, (value / values[j]).ln().norm_sqr()])
+            };
             Some(Told {
                 misfit: each.map(|((x, u), sigma)| (u - x).norm_sqr() / (sigma * sigma)).sum(),
-                std: line.values[0].uncertainty?.storage_std / factor.norm(),
-                off: (factor / smooth).ln().norm_sqr(),
+                unknowns: self.own.iter().map(one).collect::<Option<_>>()?,
             })
         };
         let told: Vec<Told> = lines.iter().filter_map(told).collect();
@@ -484,21 +678,21 @@ impl Measured<'_, '_> {
         // Lines that say nothing are as good as those that do.
         let share = lines.len() as f64 / told.len() as f64;
         let misfit = share * told.iter().map(|one| one.misfit).sum::<f64>();
-        let free = self.numbers(lines) as f64 - 2.0 * lines.len() as f64;
+        let free = self.numbers(lines) as f64 - 2.0 * (self.own.len() * lines.len()) as f64;
         let own = match self.known() {
             true => 1.0,
             false if free > 0.0 => (misfit / free).sqrt().clamp(LEAST_LEVEL, level),
             false => level,
         };
-        let std = |one: &Told| one.std * own / self.alone.unwrap_or(own);
+        let at_own = own / self.alone.unwrap_or(own);
         let sigma = self.sigma_at(lines, own, 0.0);
         let logs: f64 = sigma.iter().flatten().filter(|s| s.is_finite()).map(|s| 4.0 * s.ln()).sum();
         let of_scatter = |tau: f64| -> f64 {
-            let one = |one: &Told| {
-                let (noise, whole) = (std(one).powi(2), std(one).powi(2) + tau * tau);
-                2.0 * (whole / noise).ln() + one.off / whole
+            let one = |&[std, off]: &[f64; 2]| {
+                let (noise, whole) = ((std * at_own).powi(2), (std * at_own).powi(2) + tau * tau);
+                2.0 * (whole / noise).ln() + off / whole
             };
-            share * told.iter().map(one).sum::<f64>()
+            share * told.iter().flat_map(|told| &told.unknowns).map(one).sum::<f64>()
         };
         let least = SCATTER.map(of_scatter).into_iter().fold(f64::INFINITY, f64::min);
         Some(logs + misfit / (own * own) + least)
@@ -514,14 +708,15 @@ impl Measured<'_, '_> {
         // δ_i = e + d_i.
         let first = fitting.first_own();
         let modes = errors.frequency.len();
-        let kept = n - first;
-        let common = first - COMMON;
+        let theta = fitting.curves.count();
+        let kept = n - first + theta;
         let of = |a: usize, b: usize| inverse[a * n + b];
-        // What of each of the search's coordinates is in δ_i, ν_t, a_mi.
+        // What of each of the search's coordinates is in θ, δ_i, ν_t, a_mi.
         let parts = |a: usize| -> Vec<(usize, f64)> {
-            let own = std::iter::once((first + a, 1.0));
-            let shared = (0..COMMON).filter(|_| a < modes).map(|p| (common + p, fitting.common(a)[p]));
-            own.chain(shared).collect()
+            let Some(error) = a.checked_sub(theta) else { return vec![(a, 1.0)] };
+            let own = std::iter::once((first + error, 1.0));
+            let shared = (theta..first).filter(|_| error < modes);
+            own.chain(shared.map(|p| (p, fitting.common(error)[p - theta]))).collect()
         };
         let parts: Vec<Vec<(usize, f64)>> = (0..kept).map(parts).collect();
         let entry = |a: usize, b: usize| {
@@ -539,9 +734,7 @@ impl Measured<'_, '_> {
             level,
             evidence,
             highest_rad_s: fitting.highest_rad_s,
-            curve: fitting.curve.clone(),
-            theta: found.place[..first - COMMON].to_vec(),
-            theta_covariance: (0..common * common).map(|k| of(k % common, k / common)).collect(),
+            curves: fitting.curves.clone(),
             place: found.place,
         })
     }

@@ -1,10 +1,9 @@
 //! The least squares of a curve with the errors of the model: min over θ, δ, ν, a of χ² + their priors.
 
-use super::curve::Curve;
+use super::PointAt;
+use super::curve::Curves;
 use crate::c64;
 use crate::for_each::{ForEach, map};
-use crate::frequency::omega_rad_s;
-use crate::model::ModelAt;
 use crate::subspace::{ErrorSlopes, ModalErrors, Modes, Projection};
 use frfit_linalg::dense::Cholesky;
 
@@ -14,11 +13,14 @@ pub(super) struct Fitting<'t, 'a> {
     /// The reduced model without errors.
     pub(super) model: &'t Projection,
     pub(super) modes: &'t Modes,
-    pub(super) at: &'t [ModelAt<'a>],
+    pub(super) point: PointAt<'t, 'a>,
+    pub(super) omegas: &'t [f64],
     pub(super) measured: &'t [Vec<c64>],
     /// Lines that are used.
     pub(super) lines: &'t [usize],
-    pub(super) curve: &'t Curve,
+    pub(super) curves: &'t Curves,
+    /// About where θ is before the data.
+    pub(super) centre: &'t [f64],
     /// The highest frequency of the band.
     pub(super) highest_rad_s: f64,
     /// Known terms whose factor may be in error.
@@ -26,8 +28,8 @@ pub(super) struct Fitting<'t, 'a> {
     pub(super) for_each: ForEach<'t>,
 }
 
-/// Parts that all δ_i have in common.
-pub(super) const COMMON: usize = 6;
+/// Parts that the δ_i of a group have in common: the same for all modes, and with ω_i and its square, as the errors of meshes grow.
+const COMMON: usize = 3;
 
 /// Sizes of the errors: standard deviations.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -40,6 +42,8 @@ pub(super) struct Sizes {
     pub(super) shape: f64,
     /// Of ν_t.
     pub(super) factor: f64,
+    /// Of bends of ln|E| and of the phase, over the usual ones.
+    pub(super) bend: [f64; 2],
 }
 
 /// Where a search is: θ, the common part of δ, own parts of δ, ν, then a of each sensor.
@@ -48,7 +52,7 @@ pub(super) type Place = Vec<f64>;
 /// The normal equations at a place: χ², ½ ∂χ²/∂p, JᵀJ (n × n).
 pub(super) struct Normal {
     pub(super) chi_squared: f64,
-    gradient: Vec<f64>,
+    pub(super) gradient: Vec<f64>,
     pub(super) information: Vec<f64>,
 }
 
@@ -64,6 +68,10 @@ const REFUSED: usize = 6;
 
 /// The largest step of a coordinate of θ.
 const LONGEST: f64 = 0.5;
+
+/// Errors larger than these, root mean squares over the modes of the band, are no small errors of this model: it is another one.
+const LARGEST_FREQUENCY: f64 = 0.05;
+const LARGEST_SHAPE: f64 = 0.3;
 
 /// A gain of this part of the cost is none.
 const SETTLED: f64 = 1e-5;
@@ -92,15 +100,20 @@ impl Fitting<'_, '_> {
 
     /// The place of δ_1, and of ν_1.
     pub(super) fn first_own(&self) -> usize {
-        self.curve.count() + if self.modes() > 0 { COMMON } else { 0 }
+        self.curves.count() + self.common_errors()
     }
 
-    /// What δ_i has of each common part: the same for all modes, and with ω_i and its square, as the errors of meshes grow.
-    pub(super) fn common(&self, i: usize) -> [f64; COMMON] {
+    /// Coordinates of what the δ_i have in common.
+    fn common_errors(&self) -> usize {
+        COMMON * self.modes.group.iter().max().map_or(0, |last| 1 + last)
+    }
+
+    /// What δ_i has of each common part.
+    pub(super) fn common(&self, i: usize) -> Vec<f64> {
         let omega = self.modes.omega_rad_s[self.modes.of_error[i]] / self.highest_rad_s;
-        let [known, unknown] = if self.modes.in_unknown[i] { [0.0, 1.0] } else { [1.0, 0.0] };
-        let squared = omega * omega;
-        [known, known * omega, known * squared, unknown, unknown * omega, unknown * squared]
+        let mut parts = vec![0.0; self.common_errors()];
+        parts[COMMON * self.modes.group[i]..][..COMMON].copy_from_slice(&[1.0, omega, omega * omega]);
+        parts
     }
 
     pub(super) fn first_factor(&self) -> usize {
@@ -134,7 +147,7 @@ impl Fitting<'_, '_> {
 
     pub(super) fn errors(&self, place: &[f64]) -> ModalErrors {
         let (own, n) = (self.first_own(), self.modes());
-        let first = self.curve.count();
+        let first = self.curves.count();
         let common = |i: usize| self.common(i).iter().zip(&place[first..]).map(|(w, e)| w * e).sum::<f64>();
         let shape = |m: usize| place[self.first_shape(m)..self.first_shape(m) + n].to_vec();
         ModalErrors {
@@ -144,13 +157,52 @@ impl Fitting<'_, '_> {
         }
     }
 
+    /// The lines below the gap over the first mode, or over some modes more, up to all.
+    pub(super) fn stages(&self, most: usize) -> impl Iterator<Item = &[usize]> {
+        let modes: Vec<f64> =
+            self.modes.omega_rad_s.iter().copied().filter(|&omega| omega <= self.highest_rad_s).collect();
+        let count = modes.len().clamp(1, most);
+        (1..=count).map(move |stage| {
+            let last = stage * modes.len() / count;
+            let end = match (last.checked_sub(1).and_then(|k| modes.get(k)), modes.get(last)) {
+                (Some(below), Some(above)) => (below * above).sqrt(),
+                _ => f64::INFINITY,
+            };
+            let below = self.lines.partition_point(|&i| self.omegas[i] <= end);
+            &self.lines[..below]
+        })
+    }
+
+    /// Whether the errors in the band are small ones of this model, and it is no other.
+    pub(super) fn are_small(&self, place: &[f64]) -> bool {
+        let errors = self.errors(place);
+        let in_band: Vec<usize> =
+            (0..self.modes()).filter(|&i| self.modes.omega_rad_s[i] <= self.highest_rad_s).collect();
+        let square = |of: &dyn Fn(usize) -> f64| {
+            in_band.iter().map(|&i| of(i).powi(2)).sum::<f64>() / in_band.len().max(1) as f64
+        };
+        let frequency = |i: usize| -> f64 {
+            let own = self.modes.of_error.iter().zip(&errors.frequency).filter(|(mode, _)| **mode == i);
+            own.map(|(_, error)| error).sum()
+        };
+        let of_shapes = |shape: &Vec<f64>| square(&|i| shape[i]) <= LARGEST_SHAPE * LARGEST_SHAPE;
+        square(&frequency) <= LARGEST_FREQUENCY * LARGEST_FREQUENCY && errors.shape.iter().all(of_shapes)
+    }
+
     /// Slopes of x_m by the shared coordinates, and by the shapes at the sensor.
-    pub(super) fn row(&self, slopes: &ErrorSlopes, of_theta: &[c64], m: usize) -> (Vec<c64>, Vec<c64>) {
-        let mut shared: Vec<c64> = of_theta.iter().map(|of| slopes.slope[m] * of).collect();
+    pub(super) fn row(
+        &self,
+        slopes: &ErrorSlopes,
+        of_theta: &[(usize, c64)],
+        m: usize,
+    ) -> (Vec<c64>, Vec<c64>) {
+        let mut shared: Vec<c64> = of_theta.iter().map(|(j, of)| slopes.slopes[*j][m] * of).collect();
         if self.modes() > 0 {
-            let part =
-                |p: usize| slopes.frequency[m].iter().enumerate().map(|(i, s)| self.common(i)[p] * s).sum();
-            shared.extend((0..COMMON).map(part).collect::<Vec<c64>>());
+            let mut common = vec![c64::default(); self.common_errors()];
+            for (i, slope) in slopes.frequency[m].iter().enumerate() {
+                common.iter_mut().zip(self.common(i)).for_each(|(sum, part)| *sum += part * slope);
+            }
+            shared.extend(common);
             shared.extend(&slopes.frequency[m]);
         }
         shared.extend(&slopes.factors[m]);
@@ -194,11 +246,10 @@ impl Fitting<'_, '_> {
         sum: &mut Normal,
     ) -> Option<()> {
         let i = self.lines[k];
-        let at = &self.at[i];
-        let theta = &place[..self.curve.count()];
-        let (modulus, of_theta) = self.curve.modulus(theta, i, omega_rad_s(at.frequency_hz))?;
-        let correction = modulus - at.parameters[0].nominal;
-        let slopes = model.respond_with_error_slopes((self.modes, errors), at, correction).ok()?;
+        let (values, of_theta) = self.curves.values(&place[..self.curves.count()], i, self.omegas[i])?;
+        let point = (self.point)(i, &values)?;
+        let slopes =
+            model.respond_with_error_slopes((self.modes, errors), &point.at, point.correction).ok()?;
         let n = self.count();
         for m in (0..self.sensors()).filter(|&m| sigma[m].is_finite()) {
             let (shared, shape) = self.row(&slopes, &of_theta, m);
@@ -219,9 +270,9 @@ impl Fitting<'_, '_> {
 
     /// The prior's precision, n × n: curve and errors.
     pub(super) fn precision(&self, sizes: &Sizes) -> Vec<f64> {
-        let (n, own) = (self.count(), self.curve.count());
+        let (n, own) = (self.count(), self.curves.count());
         let mut all = vec![0.0; n * n];
-        let curve = self.curve.precision();
+        let curve = self.curves.precision(self.centre, sizes.bend);
         for i in 0..own {
             all[i * n..i * n + own].copy_from_slice(&curve[i * own..(i + 1) * own]);
         }
@@ -233,18 +284,17 @@ impl Fitting<'_, '_> {
         all
     }
 
-    /// Levenberg and Marquardt's method from a place; `centre` is where the prior of θ is about.
+    /// Levenberg and Marquardt's method from a place
     pub(super) fn descend(
         &self,
         start: Place,
         sigma: &[Vec<f64>],
         precision: &[f64],
-        centre: &[f64],
         steps: usize,
     ) -> Option<Found> {
         let n = self.count();
         let prior = |place: &[f64]| -> (f64, Vec<f64>) {
-            let off = |i: usize| place[i] - centre.get(i).copied().unwrap_or(0.0);
+            let off = |i: usize| place[i] - self.centre.get(i).copied().unwrap_or(0.0);
             let off: Vec<f64> = (0..n).map(off).collect();
             let times: Vec<f64> =
                 precision.chunks_exact(n).map(|row| row.iter().zip(&off).map(|(p, o)| p * o).sum()).collect();
@@ -263,7 +313,7 @@ impl Fitting<'_, '_> {
                 continue;
             };
             factor.solve(&mut step);
-            let longest = step[..self.curve.count()].iter().fold(0.0f64, |most, s| most.max(s.abs()));
+            let longest = step[..self.curves.count()].iter().fold(0.0f64, |most, s| most.max(s.abs()));
             let part = (LONGEST / longest).min(1.0);
             let there: Place = place.iter().zip(&step).map(|(p, s)| p + part * s).collect();
             let (other_prior, other_pull) = prior(&there);

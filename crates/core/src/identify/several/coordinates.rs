@@ -2,18 +2,8 @@
 
 use super::unknown::{Unknown, Variation};
 use crate::c64;
+use crate::identify::form::Form;
 use crate::laws::{LawKind, Parametrization};
-
-/// How one unknown hangs on its coordinates.
-#[derive(Debug, Clone, PartialEq)]
-enum Form {
-    /// p = e^θ.
-    Logarithm,
-    /// p = s θ, with s of the size of what is expected.
-    Scaled(f64),
-    /// A complex constant or a law.
-    Law(Parametrization),
-}
 
 /// One unknown that holds for the band.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,7 +12,7 @@ pub(super) struct Own {
     pub(super) unknowns: usize,
     /// Its coordinates.
     pub(super) range: std::ops::Range<usize>,
-    form: Form,
+    pub(super) form: Form,
 }
 
 /// All of them, one after the other.
@@ -72,10 +62,7 @@ impl Coordinates {
                 (Variation::Constant, false) => Form::Law(Parametrization::about(LawKind::Constant, omegas)),
                 (Variation::Law(kinds), _) => Form::Law(Parametrization::about(kinds[0], omegas)),
             };
-            let own = match &form {
-                Form::Law(parametrization) => parametrization.family.count(),
-                _ => 1,
-            };
+            let own = form.count();
             match &form {
                 Form::Logarithm => limits.push(log_limits(one.bounds.storage)),
                 Form::Scaled(scale) => {
@@ -124,24 +111,12 @@ impl Coordinates {
 impl Own {
     /// p at ω, and ∂p/∂θ of its own coordinates.
     pub(super) fn value(&self, theta: &[f64], omega_rad_s: f64) -> Option<(c64, Vec<c64>)> {
-        let own = &theta[self.range.clone()];
-        let real = |value: f64, slope: f64| (c64::new(value, 0.0), vec![c64::new(slope, 0.0)]);
-        let found = match &self.form {
-            Form::Logarithm => real(own[0].exp(), own[0].exp()),
-            Form::Scaled(scale) => real(own[0] * scale, *scale),
-            Form::Law(parametrization) => return parametrization.modulus(own, omega_rad_s),
-        };
-        found.0.is_finite().then_some(found)
+        self.form.value(&theta[self.range.clone()], omega_rad_s)
     }
 
     /// The numbers that its coordinates stand for, with ∂(number)/∂θ, row by row.
     pub(super) fn numbers(&self, theta: &[f64]) -> (Vec<f64>, Vec<Vec<f64>>) {
-        let own = &theta[self.range.clone()];
-        match &self.form {
-            Form::Logarithm => (vec![own[0].exp()], vec![vec![own[0].exp()]]),
-            Form::Scaled(scale) => (vec![own[0] * scale], vec![vec![*scale]]),
-            Form::Law(parametrization) => parametrization.parameters(own),
-        }
+        self.form.numbers(&theta[self.range.clone()])
     }
 
     /// A gradient by all coordinates from that by its own.
@@ -153,9 +128,6 @@ impl Own {
 
     /// Its law, where it has one: a complex constant is one too.
     pub(super) fn family(&self) -> Option<LawKind> {
-        match &self.form {
-            Form::Law(parametrization) => Some(parametrization.family),
-            _ => None,
-        }
+        self.form.family()
     }
 }

@@ -29,6 +29,14 @@ impl Information {
         Some(Self { values, vectors })
     }
 
+    /// From a covariance where noise is `level` times σ.
+    pub(super) fn from_covariance(covariance: &[f64], n: usize, level: f64) -> Option<Self> {
+        let (variances, columns) = symmetric_eigen(n, covariance).ok()?;
+        let values = variances.iter().rev().map(|variance| level * level / variance).collect();
+        let vectors = columns.rchunks_exact(n.max(1)).flatten().copied().collect();
+        Some(Self { values, vectors })
+    }
+
     /// gᵀ N⁻¹ h; infinite where both have a part that nothing tells.
     pub(super) fn covariance(&self, g: &[f64], h: &[f64]) -> f64 {
         let size = |g: &[f64]| g.iter().map(|g| g * g).sum::<f64>().sqrt();

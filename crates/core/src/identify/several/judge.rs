@@ -10,6 +10,7 @@ use super::{Task, Unknown};
 use crate::c64;
 use crate::for_each::map;
 use crate::identify::band::{UNEXPLAINED, judge, reduction_error};
+use crate::identify::model_errors::Estimated;
 use crate::identify::uncertainty::{KNOWN, LEAST_LOSS};
 use crate::identify::{GoodnessOfFit, Line, LineValue, NoiseLevel, Status, Uncertainty, relative_error};
 use crate::laws::LawKind;
@@ -22,16 +23,28 @@ const REACH: f64 = 3.0;
 /// Farther than this in logarithms a profile does not go, however little is told.
 const FARTHEST: f64 = 1.0;
 
+/// How well θ and what it hangs on are known, and what they do to a frequency's own coordinates.
+struct Known<'k> {
+    /// gᵀ C h at σ.
+    covariance: &'k (dyn Fn(&[f64], &[f64]) -> f64 + Sync),
+    /// ∂y/∂θ, then by the errors of the model, `[coordinate][own]`.
+    moved: Vec<Vec<f64>>,
+}
+
 impl Task<'_, '_> {
-    pub(super) fn judge(&self, space: &ReducedBand<'_>, found: BandSolution) -> SeveralOutcome {
+    pub(super) fn judge(
+        &self,
+        space: &ReducedBand<'_>,
+        found: &BandSolution,
+        errors: Option<&Estimated>,
+    ) -> SeveralOutcome {
         let all: Vec<usize> = (0..self.omegas.len()).collect();
         let n = found.theta.len();
-        let eliminated = self.eliminated(&all, &found, &found.theta, None);
+        let eliminated = self.eliminated(&all, found, &found.theta, None);
         let place = eliminated.map(|eliminated| Place { theta: found.theta.clone(), eliminated });
         let binding = place.as_ref().map_or(Vec::new(), |place| {
             found.coordinates.binding(&place.theta, &place.eliminated.gradient())
         });
-        let information = place.as_ref().and_then(|p| Information::new(&p.eliminated.jacobian, n));
         let own: usize = self.problem.unknowns.iter().map(Unknown::per_frequency).sum();
         let answered = all.iter().filter(|&&i| found.at(i).is_some()).count();
         let sensors = self.problem.experiment.sensors.len() - self.left_out.len();
@@ -42,10 +55,44 @@ impl Task<'_, '_> {
         let level = noise.level;
         let fit = level
             .and_then(|level| judge(chi_squared / (level * level), freedom, &noise, self.problem.frfs.noise));
+        // Of θ, and of the errors of the model that it hangs on.
+        let joint = errors.map(|errors| {
+            let of_band = found.coordinates.each.iter().flat_map(|own| errors.range(own.unknowns));
+            errors.covariance_of(&of_band.chain(errors.error_range()).collect::<Vec<_>>())
+        });
+        let information = match &joint {
+            Some(joint) => {
+                let size = joint.len().isqrt();
+                let of_theta: Vec<f64> =
+                    joint.chunks_exact(size.max(1)).take(n).flat_map(|c| &c[..n]).copied().collect();
+                Information::from_covariance(&of_theta, n, level.unwrap_or(1.0))
+            }
+            None => place.as_ref().and_then(|p| Information::new(&p.eliminated.jacobian, n)),
+        };
+        let covariance = |g: &[f64], h: &[f64]| match (&joint, &information) {
+            (Some(joint), _) => {
+                let size = joint.len().isqrt();
+                let rows = joint.chunks_exact(size.max(1)).zip(g);
+                let times = rows.map(|(row, g)| g * row.iter().zip(h).map(|(c, h)| c * h).sum::<f64>());
+                times.sum::<f64>() / level.unwrap_or(1.0).powi(2)
+            }
+            (None, Some(information)) => information.covariance(g, h),
+            (None, None) => 0.0,
+        };
         let at: Vec<Line> = map(self.hooks.for_each, all.len(), |i| {
-            let moved =
-                place.as_ref().and_then(|p| p.eliminated.own[i].as_ref()).map(|(_, moved)| moved.as_slice());
-            self.judge_at(space, &found, i, level, fit, information.as_ref().zip(moved))
+            let own = place.as_ref().and_then(|p| p.eliminated.own[i].as_ref());
+            let mut moved = own.map(|(_, moved)| moved.clone());
+            if let (Some(moved), Some(solution), Some(_)) = (&mut moved, found.at(i), errors) {
+                moved.extend(self.moved_by_errors(space, i, solution).into_iter().flatten());
+            }
+            let known = information.as_ref().and(moved);
+            self.judge_at(
+                space,
+                found,
+                i,
+                (level, fit),
+                known.map(|moved| Known { covariance: &covariance, moved }),
+            )
         });
         let coordinates: Vec<(usize, String)> = found
             .coordinates
@@ -54,14 +101,14 @@ impl Task<'_, '_> {
             .flat_map(|one| names(one.family()).into_iter().map(move |name| (one.unknowns, name)))
             .collect();
         let (directions, correlation) = match &information {
-            Some(information) if n > 0 => (directions(information, level), correlation(information, &found)),
+            Some(information) if n > 0 => (directions(information, level), correlation(information, found)),
             _ => (Vec::new(), Vec::new()),
         };
         let told = place.as_ref().zip(information.as_ref());
         let profile = directions
             .first()
             .filter(|_| n > 1)
-            .and_then(|worst| self.profile(space, &found, told?, worst, level?));
+            .and_then(|worst| self.profile(space, found, told?, worst, level?));
         let band = found.coordinates.each.iter().map(|one| {
             let (values, slopes) = one.numbers(&found.theta);
             let std = |row: &[f64]| {
@@ -105,6 +152,7 @@ impl Task<'_, '_> {
             noise,
             fit,
             sensors: Vec::new(),
+            model_errors: None,
             converged: found.converged,
             starts: found.starts,
             agreeing: found.agreeing,
@@ -119,9 +167,8 @@ impl Task<'_, '_> {
         space: &ReducedBand<'_>,
         found: &BandSolution,
         i: usize,
-        level: Option<f64>,
-        fit: Option<GoodnessOfFit>,
-        told: Option<(&Information, &[Vec<f64>])>,
+        (level, fit): (Option<f64>, Option<GoodnessOfFit>),
+        known: Option<Known<'_>>,
     ) -> Line {
         let nominal = &self.nominal[i];
         let values = nominal.iter().map(|&nominal| LineValue::unknown(nominal)).collect();
@@ -136,7 +183,7 @@ impl Task<'_, '_> {
             at.rivals = found.solutions[i][1..].iter().map(|other| other.values.clone()).collect();
         }
         let measured = &self.problem.frfs.receptance[i];
-        let values = self.with_bars(found, i, solution, level, told);
+        let values = self.with_bars(found, i, solution, level, known.as_ref());
         let count = 2 * (measured.len() - self.left_out.len());
         let kept = |values: &[c64]| -> Vec<c64> {
             let kept = values.iter().enumerate().filter(|(m, _)| !self.left_out.contains(m));
@@ -178,17 +225,16 @@ impl Task<'_, '_> {
         i: usize,
         solution: &Solution,
         level: Option<f64>,
-        told: Option<(&Information, &[Vec<f64>])>,
+        known: Option<&Known<'_>>,
     ) -> Vec<LineValue> {
         let spot = self.spot(i);
         let alone = spot.covariance(solution);
         let n = found.theta.len();
         // Gradient of one of its own coordinates by θ.
         let gradient = |a: usize| -> Vec<f64> {
-            told.map_or(vec![0.0; n], |(_, moved)| moved.iter().map(|of_theta| of_theta[a]).collect())
+            known.map_or(vec![0.0; n], |known| known.moved.iter().map(|of_theta| of_theta[a]).collect())
         };
-        let of_theta =
-            |g: &[f64], h: &[f64]| told.map_or(0.0, |(information, _)| information.covariance(g, h));
+        let of_theta = |g: &[f64], h: &[f64]| known.map_or(0.0, |known| (known.covariance)(g, h));
         let mut first = 0;
         let mut one = |(j, unknowns): (usize, &Unknown)| {
             let value = solution.values[j];
@@ -207,7 +253,7 @@ impl Task<'_, '_> {
                     let (_, slopes) = own.value(&found.theta, self.omegas[i])?;
                     let part = |of: fn(&c64) -> f64| own.gradient(slopes.iter().map(of), n);
                     let (re, im) = (part(|s| s.re), part(|s| s.im));
-                    told?;
+                    known?;
                     Some([of_theta(&re, &re), of_theta(&re, &im), of_theta(&im, &im)])
                 })
             };

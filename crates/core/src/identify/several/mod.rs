@@ -17,9 +17,11 @@
 //! | `search` | θ |
 //! | `information` | which directions of θ are told |
 //! | `judge` | error bars, what is not told, statuses |
+//! | `corrected` | errors of the model |
 
 mod at_frequency;
 mod coordinates;
+mod corrected;
 mod information;
 mod judge;
 mod outcome;
@@ -98,7 +100,8 @@ pub(super) fn identify_several(
             if !rejected.is_empty() {
                 found = kept.search(&mut space);
             }
-            let mut outcome = kept.judge(&space, found);
+            let right = kept.judge(&space, &found, None);
+            let mut outcome = kept.correct(&mut space, &found, right);
             let responses: Vec<&[c64]> =
                 outcome.at.iter().map(|line| line.updated_response.as_slice()).collect();
             outcome.sensors = kept.sensor_fits(&task.sigma, &contradicting, &responses, outcome.noise.level);
@@ -123,6 +126,7 @@ impl Task<'_, '_> {
             noise: NoiseLevel::new(self.problem.frfs.noise, None, None),
             fit: None,
             sensors: Vec::new(),
+            model_errors: None,
             converged: false,
             starts: 0,
             agreeing: 0,

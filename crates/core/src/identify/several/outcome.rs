@@ -1,6 +1,6 @@
 //! What came out when several things were looked for.
 
-use crate::identify::{GoodnessOfFit, Line, NoiseLevel, SensorFit, Status};
+use crate::identify::{GoodnessOfFit, Line, ModelErrorsFound, NoiseLevel, SensorFit, Status};
 use crate::material::Law;
 use crate::response::Work;
 use frfit_linalg::solve::Breakdown;
@@ -69,6 +69,8 @@ pub(in crate::identify) struct SeveralOutcome {
     pub(in crate::identify) fit: Option<GoodnessOfFit>,
     /// One for each sensor.
     pub(in crate::identify) sensors: Vec<SensorFit>,
+    /// The errors of the model that were taken out.
+    pub(in crate::identify) model_errors: Option<ModelErrorsFound>,
     /// Whether the search settled.
     pub(in crate::identify) converged: bool,
     /// Starts that were followed, and how many of them ended at the answer.
@@ -81,4 +83,15 @@ pub(in crate::identify) struct SeveralOutcome {
     pub(in crate::identify) subspace_size: usize,
     /// Why there is no subspace; nothing was looked for then.
     pub(in crate::identify) breakdown: Option<Breakdown>,
+}
+
+impl SeveralOutcome {
+    /// The same where a model with large errors explains the band far better: nothing is ok.
+    pub(super) fn of_other_model(mut self) -> Self {
+        self.fit = self.fit.map(|fit| fit.of_model(true));
+        let statuses = self.at.iter_mut().map(|line| &mut line.status);
+        let statuses = statuses.chain(self.band.iter_mut().map(|value| &mut value.status));
+        statuses.filter(|status| **status == Status::Ok).for_each(|status| *status = Status::Unexplained);
+        self
+    }
 }

@@ -8,7 +8,8 @@ use crate::identify::{Context, Stage};
 use crate::material::{OutsideTable, loss_factor};
 use crate::model::{Experiment, ModelAt};
 use crate::response::Work;
-use crate::subspace::{Assessment, Point, Projection, Subspace, TrainOptions};
+use crate::subspace::{Assessment, Corrected, Local, ModalErrors, Modes};
+use crate::subspace::{Point, Projection, Subspace, TrainOptions};
 use frfit_linalg::solve::Breakdown;
 
 /// Frequencies of the training at most.
@@ -39,7 +40,9 @@ pub(super) struct ReducedBand<'a> {
     nominal: &'a [Vec<c64>],
     subspace: Subspace<'a>,
     /// First and last frequency of each neighbourhood, and its model.
-    blocks: Vec<([usize; 2], Projection)>,
+    blocks: Vec<([usize; 2], Option<Local>)>,
+    /// The whole reduced model without its errors, where they are taken out of every answer.
+    corrected: Option<Corrected>,
     answers: Vec<(usize, Vec<c64>)>,
 }
 
@@ -67,8 +70,9 @@ impl<'a> ReducedBand<'a> {
         };
         let count = (n / BLOCK_LEAST).clamp(1, BLOCKS);
         let ends = (0..count).map(|b| [b * n / count, (b + 1) * n / count - 1]);
-        let blocks = ends.map(|ends| (ends, subspace.projection().clone())).collect();
-        let mut space = Self { composite, frequency_hz, nominal, subspace, blocks, answers: Vec::new() };
+        let blocks = ends.map(|ends| (ends, None)).collect();
+        let (answers, corrected) = (Vec::new(), None);
+        let mut space = Self { composite, frequency_hz, nominal, subspace, blocks, answers, corrected };
         let all: Vec<usize> = (0..n).collect();
         let mut points = Vec::new();
         for (k, &i) in thinned(&all, FREQUENCIES).enumerate() {
@@ -103,8 +107,32 @@ impl<'a> ReducedBand<'a> {
 
     /// The model that answers at a frequency.
     pub(super) fn model(&self, i: usize) -> &Projection {
+        match (self.local(i), &self.corrected) {
+            (Some(local), _) => local.model(),
+            (None, Some(corrected)) => &corrected.model,
+            (None, None) => self.whole(),
+        }
+    }
+
+    fn local(&self, i: usize) -> Option<&Local> {
         let block = self.blocks.iter().find(|([first, last], _)| (*first..=*last).contains(&i));
-        block.map_or(self.subspace.projection(), |(_, model)| model)
+        block.and_then(|(_, local)| local.as_ref())
+    }
+
+    /// The whole reduced model, without errors taken out of it.
+    pub(super) fn whole(&self) -> &Projection {
+        self.subspace.projection()
+    }
+
+    /// Takes errors of the model out of every answer from now on.
+    pub(super) fn correct(&mut self, modes: &Modes, errors: &ModalErrors, for_each: ForEach<'_>) {
+        self.corrected = Some(Corrected::new(self.whole(), modes, errors));
+        self.localise(for_each);
+    }
+
+    /// The model without its errors, in the basis that there is.
+    pub(super) fn corrected(&self) -> Option<&Corrected> {
+        self.corrected.as_ref()
     }
 
     /// Response and slopes at these values.
@@ -130,7 +158,7 @@ impl<'a> ReducedBand<'a> {
 
     /// How good the model is at these values.
     pub(super) fn assess(&self, i: usize, values: &[c64]) -> Option<Assessment> {
-        self.model(i).assess(&self.at(i, values)?, c64::default()).ok()
+        self.local(i)?.assess(&self.at(i, values)?, c64::default()).ok()
     }
 
     /// Trains at the answers where the subspace is not good enough; whether anything was gained.
@@ -157,6 +185,7 @@ impl<'a> ReducedBand<'a> {
         let training =
             TrainOptions { tolerance: TRAINED, factorisations: FACTORISATIONS, ..TrainOptions::default() };
         let trained = self.subspace.train(&points, &training, hooks.for_each);
+        self.corrected = self.corrected.as_ref().map(|corrected| corrected.in_larger(self.whole()));
         self.localise(hooks.for_each);
         trained.is_ok() && self.subspace.size() > before
     }
@@ -166,11 +195,11 @@ impl<'a> ReducedBand<'a> {
 
     fn localise(&mut self, for_each: ForEach<'_>) {
         let space = &*self;
-        let models = map(for_each, space.blocks.len(), |b| space.local(space.blocks[b].0));
-        self.blocks.iter_mut().zip(models).for_each(|(block, model)| block.1 = model);
+        let models = map(for_each, space.blocks.len(), |b| space.about_block(space.blocks[b].0));
+        self.blocks.iter_mut().zip(models).for_each(|(block, model)| block.1 = Some(model));
     }
 
-    fn local(&self, [first, last]: [usize; 2]) -> Projection {
+    fn about_block(&self, [first, last]: [usize; 2]) -> Local {
         let steps = (last - first).min(BLOCK_POINTS - 1);
         let picked = (0..=steps).map(|k| first + k * (last - first) / steps.max(1));
         let boxes = picked.filter_map(|i| self.box_points(i, i).ok()).flatten();
@@ -178,7 +207,7 @@ impl<'a> ReducedBand<'a> {
             self.answers.iter().filter(|(i, _)| (first..=last).contains(i)).collect();
         let own = thinned(&own, BLOCK_ANSWERS).filter_map(|(i, values)| self.point(*i, values).ok());
         let points: Vec<Point<'_>> = boxes.chain(own).collect();
-        self.subspace.projection().localised(&points, TRAINED)
+        Local::new(self.whole(), self.corrected.as_ref(), &points, TRAINED)
     }
 
     pub(super) fn size(&self) -> usize {

@@ -94,10 +94,30 @@ impl Task<'_, '_> {
         let mut tried = self.tried(space, &part);
         let (least, first, values) = tried.swap_remove(0);
         let agreeing = 1 + tried.iter().filter(|other| other.0 <= least * (1.0 + AGREE)).count();
-        let mut found = match part.len() == all.len() {
+        let found = match part.len() == all.len() {
             true => first,
             false => self.follow(space, &all, first.theta, &Guess::Everywhere(&values)),
         };
+        let found = self.refined(space, found);
+        (self.hooks.progress)(Stage::Solutions, all.len(), all.len());
+        BandSolution { starts: 1 + tried.len(), agreeing, ..found }
+    }
+
+    /// The same from one start: θ, and values of all unknowns.
+    pub(super) fn search_from(
+        &self,
+        space: &mut ReducedBand<'_>,
+        theta: Vec<f64>,
+        values: &[c64],
+    ) -> BandSolution {
+        let all: Vec<usize> = (0..self.omegas.len()).collect();
+        let found = self.follow(space, &all, theta, &Guess::Everywhere(values));
+        self.refined(space, found)
+    }
+
+    /// The same on a subspace that is good at its answers.
+    fn refined(&self, space: &mut ReducedBand<'_>, mut found: BandSolution) -> BandSolution {
+        let all: Vec<usize> = (0..self.omegas.len()).collect();
         for _ in 0..ReducedBand::ROUNDS {
             let answers: Vec<(usize, Vec<c64>)> =
                 all.iter().filter_map(|&i| Some((i, found.at(i)?.values.clone()))).collect();
@@ -107,8 +127,7 @@ impl Task<'_, '_> {
             let known = std::mem::take(&mut found.solutions);
             found = self.follow(space, &all, found.theta, &Guess::Known(&known));
         }
-        (self.hooks.progress)(Stage::Solutions, all.len(), all.len());
-        BandSolution { starts: 1 + tried.len(), agreeing, ..found }
+        found
     }
 
     /// Where each start leads at some frequencies, least misfit first: (misfit, solution, start); at least one.

@@ -1,0 +1,119 @@
+//! A band once more, with the errors of the model taken out and carried into every error bar (B-11).
+
+use super::at_frequency::{Solution, eliminate};
+use super::outcome::SeveralOutcome;
+use super::reduced_band::ReducedBand;
+use super::search::BandSolution;
+use super::{Task, Unknown, Variation};
+use crate::c64;
+use crate::identify::band::{deviations, without};
+use crate::identify::model_errors::{
+    Curve, Curves, Deviations, Explanation, Measured, Spline, estimate, estimate_with_laws,
+};
+use crate::identify::{ModelErrors, Noise};
+use crate::subspace::{Corrected, Point};
+
+impl Task<'_, '_> {
+    /// What is found when the errors of the model are estimated and taken out; the same where a right model explains the band as well.
+    pub(super) fn correct(
+        &self,
+        space: &mut ReducedBand<'_>,
+        solution: &BandSolution,
+        found: SeveralOutcome,
+    ) -> SeveralOutcome {
+        if self.options.model_errors == ModelErrors::None {
+            return found;
+        }
+        let errors = match self.errors(space, solution, &found) {
+            Explanation::RightModel => return found,
+            Explanation::OtherModel => return found.of_other_model(),
+            Explanation::Errors(errors) => *errors,
+        };
+        space.correct(&errors.modes, &errors.errors, self.hooks.for_each);
+        let middle = self.omegas.len() / 2;
+        let Some(values) = errors.values(middle, self.problem.frfs.frequency_hz[middle]) else {
+            return found;
+        };
+        let of_band = solution.coordinates.each.iter().flat_map(|own| errors.range(own.unknowns));
+        let theta = of_band.map(|c| errors.theta()[c]).collect();
+        let again = self.search_from(space, theta, &values);
+        let again = BandSolution { starts: solution.starts, agreeing: solution.agreeing, ..again };
+        SeveralOutcome { model_errors: Some(errors.found()), ..self.judge(space, &again, Some(&errors)) }
+    }
+
+    fn errors(
+        &self,
+        space: &ReducedBand<'_>,
+        solution: &BandSolution,
+        found: &SeveralOutcome,
+    ) -> Explanation {
+        let unknowns = self.problem.unknowns;
+        // A law that is wrong is no error of the model: smooth curves in place of laws say whether there are any.
+        let is_law = |j: usize| matches!(unknowns[j].varies, Variation::Law(_));
+        let of = |j: usize| solution.coordinates.each.iter().find(|own| own.unknowns == j);
+        let curves = |laws: bool| {
+            let curve = |(j, one): (usize, &Unknown)| match of(j).filter(|_| laws || !is_law(j)) {
+                Some(own) => Curve::Form(own.form.clone()),
+                None => Curve::Spline(Spline::new(&self.omegas, one.real)),
+            };
+            Curves::new(unknowns.iter().enumerate().map(curve).collect())
+        };
+        let constants = solution.coordinates.each.iter().filter(|own| !is_law(own.unknowns));
+        let given: Vec<f64> = constants.flat_map(|own| &solution.theta[own.range.clone()]).copied().collect();
+        let own: Vec<usize> = (0..unknowns.len()).filter(|&j| unknowns[j].per_frequency() > 0).collect();
+        let point =
+            |i: usize, values: &[c64]| Some(Point { at: space.at(i, values)?, correction: c64::default() });
+        let measured = Measured {
+            point: &point,
+            omegas: &self.omegas,
+            nominal: self.nominal,
+            given: &given,
+            measured: self.problem.frfs.receptance,
+            sigma: &self.sigma,
+            size: &without(&deviations(self.problem.frfs.receptance, Noise::Unknown), &self.left_out),
+            deviations: Deviations::of(self.problem.frfs.noise),
+            free: &found.at,
+            own: &own,
+            // What holds for the band cannot show the noise: it is part of what is to be explained.
+            alone: found.noise.level.filter(|_| !own.is_empty()),
+        };
+        let errors = match estimate(space.whole(), &measured, &curves(false), self.hooks.for_each) {
+            Explanation::Errors(errors) if (0..unknowns.len()).any(is_law) => errors,
+            explanation => return explanation,
+        };
+        let theta = |j: usize| match of(j).filter(|_| is_law(j)) {
+            Some(own) => &solution.theta[own.range.clone()],
+            None => &errors.theta()[errors.range(j)],
+        };
+        let theta: Vec<f64> = (0..unknowns.len()).flat_map(theta).copied().collect();
+        let laws = (&curves(true), theta.as_slice());
+        let with_laws = estimate_with_laws(space.whole(), &measured, &errors, laws, self.hooks.for_each);
+        with_laws.map_or(Explanation::Errors(errors), |errors| Explanation::Errors(Box::new(errors)))
+    }
+
+    /// ∂y/∂(error) of a frequency's own coordinates, `[error][own]`.
+    pub(super) fn moved_by_errors(
+        &self,
+        space: &ReducedBand<'_>,
+        i: usize,
+        solution: &Solution,
+    ) -> Option<Vec<Vec<f64>>> {
+        let Corrected { modes, errors, model } = space.corrected()?;
+        let at = space.at(i, &solution.values)?;
+        let slopes = model.respond_with_error_slopes((modes, errors), &at, c64::default()).ok()?;
+        let sensors = self.sigma[i].len();
+        let column = |of: &dyn Fn(usize) -> c64| -> Vec<f64> {
+            (0..sensors).map(|m| of(m) / self.sigma[i][m]).flat_map(|v| [v.re, v.im]).collect()
+        };
+        let shared =
+            |of: &[Vec<c64>]| -> Vec<f64> { (0..of[0].len()).flat_map(|k| column(&|m| of[m][k])).collect() };
+        let shape = |at: usize| {
+            let one = |k: usize| column(&|m| if m == at { slopes.shape[m][k] } else { c64::default() });
+            (0..modes.omega_rad_s.len()).flat_map(one).collect::<Vec<f64>>()
+        };
+        let mut columns = [shared(&slopes.frequency), shared(&slopes.factors)].concat();
+        columns.extend((0..sensors).flat_map(shape));
+        let contained = eliminate(&solution.of_own, &mut columns, 2 * sensors);
+        Some(contained.into_iter().map(|x| x.into_iter().map(|x| -x).collect()).collect())
+    }
+}

@@ -1,0 +1,68 @@
+//! A reduced model from which errors are taken out (B-11), and the models of its neighbourhoods.
+
+use super::{Assessment, ModalErrors, Modes, Point, Projection};
+use crate::c64;
+use crate::model::ModelAt;
+use frfit_linalg::solve::Breakdown;
+
+/// A whole reduced model with errors in it.
+#[derive(Debug, Clone)]
+pub(crate) struct Corrected {
+    pub(crate) modes: Modes,
+    pub(crate) errors: ModalErrors,
+    pub(crate) model: Projection,
+}
+
+impl Corrected {
+    pub(crate) fn new(whole: &Projection, modes: &Modes, errors: &ModalErrors) -> Self {
+        let model = whole.with_errors(modes, errors);
+        Self { modes: modes.clone(), errors: errors.clone(), model }
+    }
+
+    /// The same errors in a reduced model to which vectors were added.
+    pub(crate) fn in_larger(&self, whole: &Projection) -> Self {
+        Self::new(whole, &self.modes.in_larger(whole), &self.errors)
+    }
+}
+
+/// The model of a neighbourhood: good near some points.
+#[derive(Debug, Clone)]
+pub(crate) struct Local {
+    /// As the full model is.
+    own: Projection,
+    /// With the errors of the model taken out, where there are any.
+    corrected: Option<Projection>,
+}
+
+impl Local {
+    pub(crate) fn new(
+        whole: &Projection,
+        corrected: Option<&Corrected>,
+        points: &[Point<'_>],
+        tolerance: f64,
+    ) -> Self {
+        let corrected = corrected.map(|corrected| corrected.model.localised(points, tolerance));
+        Self { own: whole.localised(points, tolerance), corrected }
+    }
+
+    /// What answers there.
+    pub(crate) fn model(&self) -> &Projection {
+        self.corrected.as_ref().unwrap_or(&self.own)
+    }
+
+    /// How good it is. A model with errors in it knows how far it is from the whole reduced one; that one knows how far it is from the full one.
+    ///
+    /// # Errors
+    /// [`Breakdown`] where the reduced system is singular.
+    pub(crate) fn assess(&self, at: &ModelAt<'_>, correction: c64) -> Result<Assessment, Breakdown> {
+        let mut assessed = self.model().assess(at, correction)?;
+        if self.corrected.is_some() {
+            let of_full = self.own.assess(at, correction)?;
+            let sum =
+                |own: &mut Vec<f64>, other: Vec<f64>| own.iter_mut().zip(other).for_each(|(a, b)| *a += b);
+            sum(&mut assessed.truncation, of_full.truncation);
+            sum(&mut assessed.roundoff, of_full.roundoff);
+        }
+        Ok(assessed)
+    }
+}
