@@ -1,8 +1,10 @@
 //! What came out, in the few lines that a person reads first.
 
 use frfit::identify::{
-    Calibrated, Explained, Line, ModeError, ModelErrorsFound, NoiseSource, SmoothCurve, Status, Variation,
+    Calibrated, Explained, Leverage, Line, ModeError, ModelErrorsFound, NoiseSource, SmoothCurve, Status,
+    Variation,
 };
+use frfit::model::FactorPart;
 use frfit_workflow::check::findings_text;
 use frfit_workflow::job::IdentifyJob;
 use frfit_workflow::load::Layout;
@@ -26,6 +28,7 @@ pub(crate) fn identified(job: &IdentifyJob, out: &Path) -> Words {
         if let Some(errors) = &run.found.model_errors {
             words.warn(&format!("  {:<18}{}\n", "model errors", model_errors(job, errors)));
         }
+        leverage(job).iter().for_each(|sentence| words.say(&format!("  {:<18}{sentence}\n", "leverage")));
         contradictions(job).for_each(|sentence| words.warn(&format!("  {:<18}{sentence}\n", "sensor")));
         window(job).iter().for_each(|sentence| words.say(&format!("  {:<18}{sentence}\n", "window")));
         words.say(&format!(
@@ -200,6 +203,9 @@ fn doubts(job: &IdentifyJob) -> Vec<(bool, &'static str, String)> {
     if let Some(errors) = &run.found.model_errors {
         lines.push((true, "model errors", model_errors(job, errors)));
     }
+    if let Some(sentence) = leverage(job) {
+        lines.push((false, "leverage", sentence));
+    }
     lines.extend(contradictions(job).map(|sentence| (true, "sensor", sentence)));
     lines.extend(channels(job));
     match run.found.fit {
@@ -246,14 +252,36 @@ fn model_errors(job: &IdentifyJob, errors: &ModelErrorsFound) -> String {
     });
     let known = errors.factors.iter().filter(|factor| factor.error.abs() > 2.0 * factor.std).map(|factor| {
         let name = &job.case.model.terms()[factor.term].name;
-        format!("; {name} is off by {:+.2} ± {:.2} %", 100.0 * factor.error, 100.0 * factor.std)
+        match factor.part {
+            FactorPart::Storage => {
+                format!("; {name} is off by {:+.2} ± {:.2} %", 100.0 * factor.error, 100.0 * factor.std)
+            }
+            FactorPart::LossFactor => {
+                format!("; the loss factor of {name} is off by {:+.1e} ± {:.1e}", factor.error, factor.std)
+            }
+        }
     });
     let [frequency, shape] = [errors.frequency_std, errors.shape_std].map(|std| 100.0 * std);
-    format!(
-        "natural frequencies {frequency:.2} %, mode shapes {shape:.1} %: taken out, and in the error bars{}{}",
-        worst.unwrap_or_default(),
-        known.collect::<String>()
-    )
+    let sizes = match errors.modes.is_empty() {
+        true => "known factors are".to_owned(),
+        false => format!("natural frequencies {frequency:.2} %, mode shapes {shape:.1} %:"),
+    };
+    let known = known.collect::<String>();
+    format!("{sizes} taken out, and in the error bars{}{known}", worst.unwrap_or_default())
+}
+
+/// The known factors of which an error moves an unknown by more than itself, the worst first.
+fn leverage(job: &IdentifyJob) -> Option<String> {
+    const SHOWN: usize = 2;
+    let mut large: Vec<&Leverage> = job.run.found.leverage.iter().filter(|one| one.change > 1.0).collect();
+    large.sort_by(|a, b| b.change.total_cmp(&a.change));
+    let unknowns = job.identify().map_or(&[][..], |identify| identify.unknowns.as_slice());
+    let one = |one: &&Leverage| {
+        let unknown = unknowns.get(one.unknown).map_or("the factor", |unknown| unknown.name.as_str());
+        format!("1 % in {} moves {unknown} by {:.1} %", job.case.model.terms()[one.term].name, one.change)
+    };
+    let said: Vec<String> = large.iter().take(SHOWN).map(one).collect();
+    (!said.is_empty()).then(|| said.join("; "))
 }
 
 /// What was found of channels whose scale or delay was unknown.

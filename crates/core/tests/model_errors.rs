@@ -7,13 +7,13 @@ use frfit::c64;
 use frfit::for_each::sequential;
 use frfit::frequency::linear_hz;
 use frfit::identify::{
-    Context, Frfs, Identification, ModelErrors, Noise, Number, Options, Problem, Status, Unknown, Variation,
-    identify,
+    Context, ErrorSizes, Frfs, Identification, ModelErrors, Noise, Number, Options, Problem, Status, Unknown,
+    Variation, identify,
 };
 use frfit::laws::LawKind;
 use frfit::linalg::sparse::Triplets;
 use frfit::material::{Law, loss_factor};
-use frfit::model::{DynamicStiffness, Experiment, Parameter, Role, Sensor, Term};
+use frfit::model::{DynamicStiffness, Experiment, FactorStd, Parameter, Role, Sensor, Term};
 use frfit::response::{FullModel, Response};
 use frfit_fem::{Beam, Direction};
 
@@ -118,6 +118,49 @@ fn a_wrong_neighbour_and_a_wrong_mass_are_found() {
     }
 }
 
+/// A known factor may be as far off as is said of it: the band says how far, and the leverage what that does to the unknown. Sizes of
+/// errors that are given are in every bar however well a right model explains the band.
+#[test]
+fn what_is_known_of_the_model_is_in_every_bar() {
+    let truth = Law::Fractional { e0: 8.14e5, e1: 7.31e4, alpha: 0.528 };
+    let measured = Measured::on(&sandwich(12, 1), &truth, linear_hz(20.0, 1000.0, 60), 0.01, 3);
+    let bars = |found: &Identification| {
+        let mut all: Vec<f64> = (found.lines.iter().filter(|line| line.status == Status::Ok))
+            .map(|line| line.uncertainty().unwrap().storage_std / line.factor().unwrap().re)
+            .collect();
+        all.sort_by(f64::total_cmp);
+        all[all.len() / 2]
+    };
+    // Skins 0.3 % too stiff, known to 0.5 %.
+    let stiff = changed(sandwich(12, 1), |term| if term.name == "skins" { 1.003 } else { 1.0 });
+    let skins = stiff.model.find("skins").unwrap();
+    let std = FactorStd { storage: Some(0.005), loss_factor: None };
+    let model = stiff.model.clone().with_factor_std(skins, std);
+    let said = Case { model, ..stiff };
+    let law = Variation::Law(vec![LawKind::Fractional]);
+    for varies in of_tier(&[Variation::PerFrequency][..], &[Variation::PerFrequency, law][..]) {
+        let found = measured.identified(&said, varies.clone(), ModelErrors::Estimated);
+        let at = format!("{varies:?} {:?}", found.model_errors);
+        let (ok, error, within) = measured.judged(&found);
+        assert!(ok >= 54 && error < 0.02, "{at}: {ok} ok, {error}");
+        assert!(within.iter().all(|within| *within > 0.88), "{at}: {within:?}");
+        // Three sensors say it better than the case does.
+        let errors = found.model_errors.as_ref().unwrap();
+        let of_skins = errors.factors.iter().find(|one| one.term == skins).unwrap();
+        assert!(of_skins.std < 0.002, "{at}");
+        assert!((of_skins.error - (1.0 / 1.003 - 1.0)).abs() < 3.0 * of_skins.std, "{at}");
+        let of_skins = found.leverage.iter().find(|one| one.term == skins).unwrap();
+        assert!((1.0..100.0).contains(&of_skins.change), "{at}: {of_skins:?}");
+    }
+    let right = sandwich(12, 1);
+    let given = ModelErrors::Given(ErrorSizes { frequency: Some(0.005), shape: None });
+    let found = measured.identified(&right, Variation::Law(vec![LawKind::Fractional]), given);
+    let as_it_is = measured.identified(&right, Variation::Law(vec![LawKind::Fractional]), ModelErrors::None);
+    let (ok, error, within) = measured.judged(&found);
+    assert!(ok == 60 && error < 0.02 && within == [1.0; 2], "{ok} ok, {error}, {within:?}");
+    assert!(bars(&found) > 3.0 * bars(&as_it_is), "{} {}", bars(&found), bars(&as_it_is));
+}
+
 /// A free beam on two springs: modulus of the beam and stiffness of the springs hold for the band. Its mass is 2 % too large, or its
 /// mesh so coarse that natural frequencies are up to 1 % off; without errors of the model both are wrong by many bars.
 #[test]
@@ -160,7 +203,7 @@ fn constants_of_a_wrong_model_are_within_their_bars() {
         // Three numbers.
         assert!(estimated < 3.0, "{what}: {estimated} {:?}", after.constants);
         if what == "right" {
-            assert!(after == before);
+            assert!(after.lines == before.lines && after.constants == before.constants);
         } else {
             assert!(as_it_is > 20.0, "{what}: {as_it_is}");
             assert!(after.model_errors.unwrap().evidence > 100.0, "{what}");

@@ -4,6 +4,7 @@ use crate::background::in_background;
 use crate::columns::identification;
 use crate::errors::{arrays, input, job, raise};
 use crate::model::Model;
+use frfit::identify::{ErrorSizes, ModelErrors};
 use frfit::laws::LawKind;
 use frfit::model::Sensor;
 use frfit::quantity::Quantity;
@@ -14,6 +15,7 @@ use frfit_workflow::run::RunOptions;
 use numpy::{Complex64, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use std::collections::HashMap;
 use std::sync::Arc;
 
 /// The fields of `frfit.Measurement`, arrays made contiguous.
@@ -49,11 +51,39 @@ pub(crate) struct Options {
     real: bool,
     start_at_bounds: bool,
     reject_outliers: Option<bool>,
-    model_errors: Option<String>,
+    model_error: Option<KnownErrors>,
     varies: Option<String>,
     laws: Vec<String>,
     check: bool,
     memory_bytes: Option<u64>,
+}
+
+/// `"estimated"`, `"none"`, the size of the errors of natural frequencies, or sizes by their names.
+#[derive(FromPyObject)]
+enum KnownErrors {
+    Word(String),
+    Frequency(f64),
+    Sizes(HashMap<String, f64>),
+}
+
+fn known_errors(py: Python<'_>, known: Option<KnownErrors>) -> PyResult<ModelErrors> {
+    let refuse = |found: String| {
+        let expected = "\"estimated\", \"none\", a number, or a dict with \"frequency\" and \"shape\"";
+        raise(py, "OptionsError", &format!("model_error: expected {expected}, found {found}"))
+    };
+    let sizes = match known {
+        None => return Ok(ModelErrors::default()),
+        Some(KnownErrors::Word(word)) => return word.parse().map_err(|_| refuse(format!("{word:?}"))),
+        Some(KnownErrors::Frequency(size)) => ErrorSizes { frequency: Some(size), shape: None },
+        Some(KnownErrors::Sizes(sizes)) => {
+            if let Some(other) = sizes.keys().find(|name| !["frequency", "shape"].contains(&name.as_str())) {
+                return Err(refuse(format!("{other:?}")));
+            }
+            let of = |name: &str| sizes.get(name).copied();
+            ErrorSizes { frequency: of("frequency"), shape: of("shape") }
+        }
+    };
+    if sizes.any() { Ok(ModelErrors::Given(sizes)) } else { Err(refuse("an empty dict".into())) }
 }
 
 impl Measured<'_> {
@@ -113,7 +143,7 @@ pub(crate) fn identify<'py>(
         real: options.real,
         start_at_bounds: options.start_at_bounds,
         reject_outliers: options.reject_outliers,
-        model_errors: options.model_errors,
+        model_errors: known_errors(py, options.model_error)?,
         varies: options.varies,
         laws: laws.map_err(|error| raise(py, "OptionsError", &format!("law: {error}")))?,
         check: options.check,

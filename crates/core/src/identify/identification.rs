@@ -4,7 +4,7 @@ use super::band::{BandOutcome, Calibration, Explained, GoodnessOfFit, LawsOutcom
 use super::band::{SmoothCurve, SmoothOutcome};
 use super::several::{BandValue, Direction, Number, Profile, SeveralOutcome};
 use super::uncertainty::{KNOWN, LEAST_LOSS};
-use super::{Line, ModelErrorsFound, Status};
+use super::{Leverage, Line, ModelErrorsFound, Status};
 use crate::laws::{Estimate, LawFit, best};
 use crate::response::Work;
 use frfit_linalg::solve::Breakdown;
@@ -35,6 +35,8 @@ pub struct Identification {
     /// The errors of the model that were taken out of the values and are carried into their error bars; `None` where a right
     /// model explains the band as well.
     pub model_errors: Option<ModelErrorsFound>,
+    /// How far an error of each known factor moves each unknown; empty where that was not looked for.
+    pub leverage: Vec<Leverage>,
     /// What the search did.
     pub search: SearchReport,
 }
@@ -93,7 +95,16 @@ impl Identification {
 impl From<BandOutcome> for Identification {
     fn from(band: BandOutcome) -> Self {
         let BandOutcome {
-            outcomes, work, subspace_size, explored, noise, fit, sensors, model_errors, ..
+            outcomes,
+            work,
+            subspace_size,
+            explored,
+            noise,
+            fit,
+            sensors,
+            model_errors,
+            leverage,
+            ..
         } = band;
         let search = SearchReport {
             work,
@@ -114,6 +125,7 @@ impl From<BandOutcome> for Identification {
             fit,
             identifiability: Identifiability::default(),
             model_errors: model_errors.map(|errors| errors.found()),
+            leverage,
             search,
         }
     }
@@ -169,6 +181,7 @@ impl From<SeveralOutcome> for Identification {
             fit,
             sensors,
             model_errors,
+            leverage,
             ..
         } = several;
         let SeveralOutcome { converged, starts, agreeing, work, subspace_size, breakdown, .. } = several;
@@ -193,6 +206,7 @@ impl From<SeveralOutcome> for Identification {
             fit,
             identifiability: Identifiability { coordinates, correlation, directions, profile },
             model_errors,
+            leverage,
             search,
         }
     }

@@ -30,9 +30,9 @@ pub use band::{
 };
 pub use choice::{Method, Reduction, Selection, UnknownChoice};
 pub use identification::{Identifiability, Identification, SearchReport};
-pub use model_errors::{FactorError, ModeError, ModelErrorsFound};
+pub use model_errors::{FactorError, Leverage, ModeError, ModelErrorsFound};
 pub use one::{error_by_order, identify_at, relative_error};
-pub use options::{MAX_ORDER, ModelErrors, Options, OptionsError};
+pub use options::{ErrorSizes, MAX_ORDER, ModelErrors, Options, OptionsError};
 pub use outcome::{Line, LineValue, Status};
 pub use problem::{Frfs, Problem, ProblemError};
 pub use several::{BandValue, Dependence, Direction, Number, Profile, Unknown, Variation};

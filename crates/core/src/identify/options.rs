@@ -65,21 +65,51 @@ impl Default for Options {
 }
 
 /// What is known of the errors of the model: of its natural frequencies, mode shapes and known factors (B-11).
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum ModelErrors {
     /// Nothing: whether there are any, and how large they are, is estimated from the band.
     #[default]
     Estimated,
+    /// There are some, as large as this: they are in every error bar, however well a right model explains the band.
+    Given(ErrorSizes),
     /// There are none that count: error bars hold the noise of the measurement alone.
     None,
 }
 
+/// How large errors of the model are: standard deviations, relative. `None` where that is to be estimated.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct ErrorSizes {
+    /// Of natural frequencies.
+    pub frequency: Option<f64>,
+    /// Of mode shapes at the sensors.
+    pub shape: Option<f64>,
+}
+
+/// The largest error that a model may have and be a model of the structure.
+const LARGEST_SIZE: f64 = 0.5;
+
+impl ErrorSizes {
+    /// Whether one is given.
+    pub fn any(self) -> bool {
+        self.frequency.or(self.shape).is_some()
+    }
+
+    fn validate(self) -> Result<(), OptionsError> {
+        for (name, size) in [("frequency", self.frequency), ("shape", self.shape)] {
+            if let Some(size) = size.filter(|size| !(*size > 0.0 && *size <= LARGEST_SIZE)) {
+                return Err(OptionsError::ErrorSize(name, size));
+            }
+        }
+        Ok(())
+    }
+}
+
 impl ModelErrors {
-    /// The name that case files use.
-    pub fn name(self) -> &'static str {
+    /// What is given of their sizes.
+    pub(super) fn sizes(self) -> ErrorSizes {
         match self {
-            Self::Estimated => "estimated",
-            Self::None => "none",
+            Self::Given(sizes) => sizes,
+            Self::Estimated | Self::None => ErrorSizes::default(),
         }
     }
 }
@@ -108,6 +138,8 @@ pub enum OptionsError {
     Bounds(&'static str, [f64; 2]),
     /// An error limit that is not positive.
     Error(f64),
+    /// A size of errors of the model, by its name, that is none.
+    ErrorSize(&'static str, f64),
     /// A joint selection with a method that offers nothing to select from.
     Selection(Method),
 }
@@ -120,6 +152,9 @@ impl fmt::Display for OptionsError {
                 write!(f, "bounds.{name}: expected [low, high] with low <= high, found [{low}, {high}]")
             }
             Self::Error(error) => write!(f, "error: expected a positive number, found {error}"),
+            Self::ErrorSize(name, size) => {
+                write!(f, "model_error.{name}: expected a number above 0 up to {LARGEST_SIZE}, found {size}")
+            }
             Self::Selection(method) => {
                 let method = method.name();
                 write!(f, "selection: expected \"smallest\" with method {method:?}, found \"joint\"")
@@ -154,6 +189,7 @@ impl Options {
         if self.error <= 0.0 || self.error.is_nan() {
             return Err(OptionsError::Error(self.error));
         }
+        self.model_errors.sizes().validate()?;
         if self.selection == Selection::Joint && self.method != Method::Rational {
             return Err(OptionsError::Selection(self.method));
         }
@@ -204,6 +240,12 @@ mod tests {
         assert_eq!(
             Options { bounds, ..Options::default() }.validate().unwrap_err().to_string(),
             "bounds.loss_factor: expected [low, high] with low <= high, found [1, 0]"
+        );
+        let sizes = ErrorSizes { frequency: Some(0.0), shape: None };
+        let model_errors = ModelErrors::Given(sizes);
+        assert_eq!(
+            Options { model_errors, ..Options::default() }.validate().unwrap_err().to_string(),
+            "model_error.frequency: expected a number above 0 up to 0.5, found 0"
         );
         assert!(Options { error: f64::NAN, ..Options::default() }.validate().is_err());
     }

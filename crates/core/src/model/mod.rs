@@ -8,4 +8,4 @@ mod stiffness;
 pub use at::{Combination, ModelAt, ParameterAt};
 pub use experiment::{Experiment, Sensor};
 pub use parameter::{Member, Parameter};
-pub use stiffness::{DynamicStiffness, ModelError, Role, Term};
+pub use stiffness::{DynamicStiffness, FactorPart, FactorStd, ModelError, Role, Term};

@@ -90,6 +90,26 @@ pub struct DynamicStiffness {
     analysis: Analysis,
     threads: usize,
     decay_per_s: f64,
+    /// One for each term.
+    factor_std: Vec<FactorStd>,
+}
+
+/// How well the factor of a term is known: standard deviations; `None` where nothing is said.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct FactorStd {
+    /// Relative, of the storage part, or of a real factor.
+    pub storage: Option<f64>,
+    /// Absolute, of the loss factor.
+    pub loss_factor: Option<f64>,
+}
+
+/// A part of a factor.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FactorPart {
+    /// The storage part, or a real factor.
+    Storage,
+    /// The loss factor.
+    LossFactor,
 }
 
 impl DynamicStiffness {
@@ -114,7 +134,8 @@ impl DynamicStiffness {
         for term in &mut terms {
             term.matrix = term.matrix.on_pattern(&union);
         }
-        Ok(Self { terms, analysis, threads: 1, decay_per_s: 0.0 })
+        let factor_std = vec![FactorStd::default(); terms.len()];
+        Ok(Self { terms, analysis, threads: 1, decay_per_s: 0.0, factor_std })
     }
 
     /// The same with so many threads for one factorisation where nothing else is going on, those of the caller's pool where it has as many: a subspace's.
@@ -141,6 +162,21 @@ impl DynamicStiffness {
     /// The decay α of a window on force and response, 1/s; 0 without one.
     pub fn decay_per_s(&self) -> f64 {
         self.decay_per_s
+    }
+
+    /// The same with what is known of the factor of a term: a known one has that in the error bars of every unknown (B-11). Default: nothing.
+    ///
+    /// # Panics
+    /// Where there is no such term.
+    #[must_use]
+    pub fn with_factor_std(mut self, term: usize, std: FactorStd) -> Self {
+        self.factor_std[term] = std;
+        self
+    }
+
+    /// How well the factor of a term is known.
+    pub fn factor_std(&self, term: usize) -> FactorStd {
+        self.factor_std[term]
     }
 
     /// What a matrix of this role is multiplied by: [`Role::weight`] with the decay of this model.

@@ -29,7 +29,7 @@ mod train_changes;
 pub use assess::Assessment;
 pub use changes::{ChangePoint, Changed};
 pub(crate) use corrected::{Corrected, Local};
-pub(crate) use modes::{ErrorSlopes, ModalErrors, Modes};
+pub(crate) use modes::{ErrorSlopes, FactorError, ModalErrors, Modes};
 pub use pole_residue::{Drive, PoleResidue};
 pub use projection::Projection;
 pub use reduced::ReducedModel;

@@ -1,15 +1,17 @@
 //! Natural frequencies and mode shapes of a reduced model, and the same model with errors in them (B-11).
 //!
-//! With the real pencil (K, M) of the reduced model at some values, its modes y_i (yᵀMy = 1) and ν_t for the relative error of a known term,
-//! $$ S_g \leftarrow (1 + \nu_t)\Big( S_g + \sum_i 2 \delta_i \\, (y_i^T S_g y_i) \\, (M y_i)(M y_i)^T \Big) $$
-//! for each stiffness S_g, and S_g ← (1 + ν_t) S_g for all others, shifts the natural frequency of mode i by the relative δ_i with its damping kept;
+//! With the real pencil (K, M) of the reduced model at some values and its modes y_i (yᵀMy = 1),
+//! $$ S_g \leftarrow S_g + \sum_i 2 \delta_i \\, (y_i^T S_g y_i) \\, (M y_i)(M y_i)^T $$
+//! for each stiffness S_g shifts the natural frequency of mode i by the relative δ_i with its damping kept;
 //! $$ \ell_m \leftarrow \ell_m + \sum_i a_{mi} \\, (\ell_m^T y_i) \\, M y_i $$
-//! changes mode i at sensor m by the relative a_mi. What comes out is a reduced model like any other.
+//! changes mode i at sensor m by the relative a_mi;
+//! $$ f_t \leftarrow (1 + \nu_t)(f_t + i \\, \Delta\eta_t \operatorname{Re} f_t) $$
+//! changes a known factor. What comes out is a reduced model like any other.
 
 use super::assess::{Solutions, weights};
 use super::{Point, Projection};
 use crate::c64;
-use crate::model::{ModelAt, Role};
+use crate::model::{FactorPart, ModelAt, Role};
 use frfit_linalg::dense::{NoConvergence, symmetric_eigen};
 use frfit_linalg::solve::Breakdown;
 use frfit_linalg::vector::transpose_dot;
@@ -33,8 +35,6 @@ pub(crate) struct Modes {
     stiffness: Vec<Vec<f64>>,
     /// ℓ_mᵀVy_i, `[m][i]`.
     sensors: Vec<Vec<f64>>,
-    /// The term of each part.
-    terms: Vec<usize>,
 }
 
 /// Relative errors of modes and terms.
@@ -44,8 +44,27 @@ pub(crate) struct ModalErrors {
     pub frequency: Vec<f64>,
     /// a_mi of mode i at sensor m.
     pub shape: Vec<Vec<f64>>,
-    /// (term, ν) of known terms.
-    pub factors: Vec<(usize, f64)>,
+    /// Of known factors.
+    pub factors: Vec<FactorError>,
+}
+
+/// The error of a known factor.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct FactorError {
+    pub(crate) term: usize,
+    pub(crate) part: FactorPart,
+    /// ν, relative, of the storage; Δη, absolute, of the loss factor.
+    pub(crate) error: f64,
+}
+
+impl FactorError {
+    /// f(1 + ν), or f + iΔη Re f.
+    pub(super) fn applied_to(&self, factor: c64) -> c64 {
+        match self.part {
+            FactorPart::Storage => factor * (1.0 + self.error),
+            FactorPart::LossFactor => factor + c64::I * self.error * factor.re,
+        }
+    }
 }
 
 /// Response and slopes of a model with errors at one frequency.
@@ -123,7 +142,6 @@ impl Projection {
             group: Vec::new(),
             stiffness: (0..theta.len()).map(|_| Vec::new()).collect(),
             sensors: vec![Vec::new(); self.sensors.len()],
-            terms: (0..theta.len()).map(|g| self.parts.term(g)).collect(),
         };
         for k in (0..r).rev().take(most) {
             if mu[k] <= MASSLESS * greatest {
@@ -195,7 +213,7 @@ impl Projection {
     /// This model with errors. What its residuals tell is how far a smaller model is from it, not it from the full one.
     pub(crate) fn with_errors(&self, modes: &Modes, errors: &ModalErrors) -> Self {
         let r = self.size;
-        let mut corrected = self.clone();
+        let mut corrected = Self { parts: self.parts.with_errors(&errors.factors), ..self.clone() };
         for (g, matrix) in corrected.matrices.iter_mut().enumerate() {
             for (error, by) in modes.stiffness[g].iter().enumerate().filter(|(_, by)| **by != 0.0) {
                 let by = 2.0 * errors.frequency[error] * by;
@@ -204,9 +222,6 @@ impl Projection {
                     let by = by * at;
                     column.iter_mut().zip(momentum).for_each(|(entry, momentum)| *entry += by * momentum);
                 }
-            }
-            if let Some((_, error)) = errors.factors.iter().find(|(term, _)| *term == modes.terms[g]) {
-                matrix.iter_mut().for_each(|entry| *entry *= 1.0 + error);
             }
         }
         for (m, sensor) in corrected.sensors.iter_mut().enumerate() {
@@ -241,12 +256,9 @@ impl Projection {
         let of_load = along(y);
         let by_sensor: Vec<Vec<c64>> = duals.iter().map(|z| along(z)).collect();
         // The complex stiffness that goes with each frequency error.
-        let scale = |g: usize| {
-            1.0 + errors.factors.iter().find(|(term, _)| *term == modes.terms[g]).map_or(0.0, |(_, nu)| *nu)
-        };
         let stiffness = |error: usize| -> c64 {
             let parts = modes.stiffness.iter().enumerate().filter(|(_, own)| !own.is_empty());
-            parts.map(|(g, own)| solutions.theta[g] * scale(g) * own[error]).sum()
+            parts.map(|(g, own)| solutions.theta[g] * own[error]).sum()
         };
         let stiffness: Vec<c64> = (0..modes.of_error.len()).map(stiffness).collect();
         let mut of_parameters = self.first_weights(at);
@@ -256,10 +268,8 @@ impl Projection {
             each.map(|(&i, stiffness)| -2.0 * stiffness * z[i] * of_load[i]).collect()
         };
         let shape = |own: &Vec<f64>| own.iter().zip(&of_load).map(|(l, y)| *l * y).collect();
-        let theta = |&(term, error): &(usize, f64)| -> Vec<c64> {
-            let one =
-                |(g, theta): (usize, &c64)| if modes.terms[g] == term { *theta } else { c64::default() };
-            solutions.theta.iter().enumerate().map(|g| one(g) / (1.0 + error)).collect()
+        let theta = |by: &FactorError| -> Vec<c64> {
+            solutions.theta.iter().enumerate().map(|(g, &theta)| self.parts.slope(g, theta, by)).collect()
         };
         let of_terms = solutions.slopes(self, &errors.factors.iter().map(theta).collect::<Vec<_>>());
         let factors = |m: usize| of_terms.iter().map(|of_term| of_term[m]).collect();
@@ -291,7 +301,6 @@ impl Modes {
             group: Vec::new(),
             stiffness: vec![Vec::new(); model.matrices.len()],
             sensors: vec![Vec::new(); model.sensors.len()],
-            terms: (0..model.matrices.len()).map(|g| model.parts.term(g)).collect(),
         }
     }
 
@@ -367,10 +376,15 @@ mod tests {
         let highest = omega_rad_s(1e3);
         let modes = whole.modes(&at, c64::default(), highest, 6).unwrap();
         assert_eq!(modes.omega_rad_s.len(), 6);
+        let of = |term, part| FactorError { term, part, error: 0.0 };
         let mut errors = ModalErrors {
             frequency: vec![0.0; modes.of_error.len()],
             shape: vec![vec![0.0; 6]; 2],
-            factors: vec![(0, 0.0), (2, 0.0)],
+            factors: vec![
+                of(0, FactorPart::Storage),
+                of(0, FactorPart::LossFactor),
+                of(2, FactorPart::Storage),
+            ],
         };
         for k in 0..modes.of_error.len() {
             errors.frequency[k] = 1e-4;
@@ -386,7 +400,8 @@ mod tests {
         // Somewhere with errors of every kind.
         errors.frequency.iter_mut().enumerate().for_each(|(k, error)| *error = 0.01 / (1.0 + k as f64));
         errors.shape[1][2] = 0.05;
-        errors.factors[1].1 = -0.02;
+        errors.factors[1].error = 0.03;
+        errors.factors[2].error = -0.02;
         let correction = c64::new(1e3, -2e2);
         let slopes = |errors: &ModalErrors| {
             whole
@@ -412,9 +427,9 @@ mod tests {
             moved.frequency[k] += step;
             check(&moved, &|slopes, m| slopes.frequency[m][k]);
         }
-        for t in 0..2 {
+        for t in 0..3 {
             let mut moved = errors.clone();
-            moved.factors[t].1 += step;
+            moved.factors[t].error += step;
             check(&moved, &|slopes, m| slopes.factors[m][t]);
         }
         for (sensor, i) in [(0, 0), (1, 2)] {

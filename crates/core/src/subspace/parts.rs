@@ -1,12 +1,17 @@
 //! D(ω, c) as a combination of real matrices: each term is one, or two where its values are complex.
 
+use super::FactorError;
 use crate::c64;
-use crate::model::{Combination, DynamicStiffness};
+use crate::model::{Combination, DynamicStiffness, FactorPart};
 use frfit_linalg::sparse::Part;
 
 /// The real matrices S_g of a model: D = Σ_g θ_g S_g with complex θ_g.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Parts(Vec<(usize, Part)>);
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Parts {
+    each: Vec<(usize, Part)>,
+    /// Errors of known factors, which are in every θ_g.
+    errors: Vec<FactorError>,
+}
 
 impl Parts {
     pub(super) fn of(model: &DynamicStiffness) -> Self {
@@ -14,21 +19,26 @@ impl Parts {
             let imaginary = t.matrix.is_complex().then_some((term, Part::Im));
             std::iter::once((term, Part::Re)).chain(imaginary)
         });
-        Self(parts.collect())
+        Self { each: parts.collect(), errors: Vec::new() }
+    }
+
+    /// The same with errors of known factors.
+    pub(super) fn with_errors(&self, errors: &[FactorError]) -> Self {
+        Self { each: self.each.clone(), errors: errors.to_vec() }
     }
 
     pub(super) fn len(&self) -> usize {
-        self.0.len()
+        self.each.len()
     }
 
     /// The term to which a part belongs.
     pub(super) fn term(&self, g: usize) -> usize {
-        self.0[g].0
+        self.each[g].0
     }
 
     /// out += S_g X for real vectors, N × k column after column.
     pub(super) fn multiply_add(&self, model: &DynamicStiffness, g: usize, x: &[f64], out: &mut [f64]) {
-        let (term, part) = self.0[g];
+        let (term, part) = self.each[g];
         model.terms()[term].matrix.multiply_add_real(part, x, out);
     }
 
@@ -36,15 +46,34 @@ impl Parts {
     pub(super) fn weights(&self, combination: &Combination) -> Vec<c64> {
         let mut weights = vec![c64::default(); self.len()];
         for &(term, coefficient) in &combination.parts {
-            for (weight, &(own, part)) in weights.iter_mut().zip(&self.0) {
+            let of_term = self.errors.iter().filter(|error| error.term == term);
+            let coefficient = of_term.fold(coefficient, |value, error| error.applied_to(value));
+            for (weight, &(own, part)) in weights.iter_mut().zip(&self.each) {
                 if own == term {
-                    *weight += match part {
-                        Part::Re => coefficient,
-                        Part::Im => coefficient * c64::I,
-                    };
+                    *weight += coefficient * unit(part);
                 }
             }
         }
         weights
+    }
+
+    /// ∂θ_g by an error of a known factor that is in θ_g.
+    pub(super) fn slope(&self, g: usize, theta: c64, by: &FactorError) -> c64 {
+        let (term, part) = self.each[g];
+        if term != by.term {
+            return c64::default();
+        }
+        match by.part {
+            FactorPart::Storage => theta / (1.0 + by.error),
+            FactorPart::LossFactor => c64::I * (theta / unit(part)).re * unit(part),
+        }
+    }
+}
+
+/// A complex matrix is S_re + i S_im.
+fn unit(part: Part) -> c64 {
+    match part {
+        Part::Re => c64::new(1.0, 0.0),
+        Part::Im => c64::I,
     }
 }

@@ -116,6 +116,14 @@ def _optional_word(value: Any, name: str) -> str | None:
     return None if value is None else word(value, name)
 
 
+def _model_error(value: Any) -> str | float | dict[str, float] | None:
+    if value is None or isinstance(value, str):
+        return value
+    if isinstance(value, Mapping):
+        return {word(key, "model_error"): number(size, f"model_error.{key}") for key, size in value.items()}
+    return number(value, "model_error")
+
+
 def identify(
     model: Model,
     measurements: Measurement | Sequence[Measurement],
@@ -133,7 +141,7 @@ def identify(
     law: str | Sequence[str] = (),
     real: bool = False,
     reject_outliers: bool | None = None,
-    model_errors: Literal["estimated", "none"] | None = None,
+    model_error: Literal["estimated", "none"] | float | Mapping[str, float] | None = None,
     exclude_hz: Sequence[float | tuple[float, float]] = (),
     max_lines: int | None = None,
     check: bool = True,
@@ -155,6 +163,9 @@ def identify(
     varies
         ``"frequency"``: a factor of its own at each; ``"smooth"``: neighbours help each other; ``"law"``, which is what
         ``law`` alone means too: by a law, the best of ``law`` or without it of all.
+    model_error
+        ``"estimated"``: errors of the model are taken out where the band shows them; ``"none"``: there are none; a number,
+        or ``{"frequency": 0.005, "shape": 0.02}``: natural frequencies (mode shapes) are good to that, in every error bar.
     max_lines
         Of more measured frequencies than this those that tell most; the others are ``out_of_band``.
     law
@@ -211,7 +222,7 @@ def identify(
         "loss_factor": bound("loss_factor"),
         "real": flag(real, "real"),
         "start_at_bounds": start == "bounds",
-        "model_errors": _optional_word(model_errors, "model_errors"),
+        "model_error": _model_error(model_error),
         "reject_outliers": None if reject_outliers is None else flag(reject_outliers, "reject_outliers"),
         "varies": _optional_word(varies, "varies"),
         "laws": words(law, "law"),

@@ -182,6 +182,13 @@ impl<'a> Field<'a> {
         number(self.value)
     }
 
+    /// A part of a whole: a number, or a text in per cent.
+    pub(super) fn share(&self) -> Option<f64> {
+        let Some(text) = self.value.as_str() else { return self.as_number() };
+        let number: f64 = text.trim().strip_suffix('%')?.trim_end().parse().ok()?;
+        Some(0.01 * number).filter(|share| share.is_finite())
+    }
+
     /// Whether it is a text.
     pub(super) fn is_text(&self) -> bool {
         self.value.is_str()

@@ -36,7 +36,7 @@ const fn key(name: &'static str, value: &'static str, otherwise: &'static str, a
 }
 
 /// All sections, in the order of the reference.
-pub(super) static SECTIONS: [&Section; 19] = [
+pub(super) static SECTIONS: [&Section; 21] = [
     &CASE,
     &MATRIX,
     &MATRIX_FILE,
@@ -46,10 +46,12 @@ pub(super) static SECTIONS: [&Section; 19] = [
     &ZENER,
     &MAXWELL,
     &TABLE,
+    &FACTOR_STD,
     &DOFS,
     &LOAD,
     &ATTACHED,
     &MEASUREMENT,
+    &MODEL_ERROR,
     &IDENTIFY,
     &BOUNDS,
     &SEVERAL,
@@ -87,6 +89,12 @@ pub(super) static CASE: Section = Section {
             "What was measured, or where it is to be computed.",
         ),
         key(
+            "model_error",
+            "\"estimated\", \"none\", a number, a text as \"0.5 %\", or table `[model_error]`",
+            "\"estimated\"",
+            "Errors of the model's natural frequencies, mode shapes and known matrices: estimated from the band and taken out where they explain it better than a right model, or none, where error bars hold the noise alone, or as large as you know them to be, and in every error bar.",
+        ),
+        key(
             "identify",
             "table `[identify]`, or tables `[[identify]]`",
             "nothing is identified",
@@ -101,6 +109,7 @@ pub(super) static CASE: Section = Section {
     ],
     examples: &["title = \"Bar\"
 units = \"SI\"
+model_error = \"0.5 %\"
 [[matrix]]
 name = \"bar\"
 role = \"stiffness\"
@@ -317,6 +326,32 @@ factor = { table = \"modulus.csv\" }
 "],
 };
 
+pub(super) static FACTOR_STD: Section = Section {
+    path: "matrix.factor",
+    title: "How well a factor is known",
+    about: "Beside the keys of any of these forms. The error bars of all unknowns hold it, and the measurements may say better: then the error that they show is taken out.",
+    keys: &[
+        key(
+            "storage_std",
+            "number, or a text as \"2 %\"",
+            "2 %, where the band shows errors of the model; else none",
+            "Standard deviation of E′, or of a real factor: in its unit, or a part of it. A factor that varies has a part.",
+        ),
+        key(
+            "loss_factor_std",
+            "number, or a text as \"20 %\"",
+            "0.002 and a tenth of η, where the band shows errors of the model; else none",
+            "Standard deviation of η: a number, or a part of it.",
+        ),
+    ],
+    examples: &["[[matrix]]
+name = \"skins\"
+role = \"stiffness\"
+file = \"K_skins.mtx\"
+factor = { storage = 7.0e10, loss_factor = 0.001, storage_std = \"2 %\", loss_factor_std = 0.0005 }
+"],
+};
+
 pub(super) static DOFS: Section = Section {
     path: "dofs",
     title: "`[dofs]`",
@@ -473,6 +508,25 @@ delay_s = \"unknown\"
     ],
 };
 
+pub(super) static MODEL_ERROR: Section = Section {
+    path: "model_error",
+    title: "`[model_error]`",
+    about: "How large the errors of the model are: relative standard deviations, as numbers or as texts such as \"0.5 %\". They are in every error bar, however well a right model explains the band. `model_error = \"0.5 %\"` is short for a table with `frequency` alone, `model_error = \"none\"` is for who knows that there are none. What is not said is estimated.",
+    keys: &[
+        key(
+            "frequency",
+            "number, or a text as \"0.5 %\"",
+            "estimated",
+            "Of natural frequencies, as of a mesh: at the upper end of the band.",
+        ),
+        key("shape", "number, or a text as \"3 %\"", "estimated", "Of mode shapes at the sensors."),
+    ],
+    examples: &["[model_error]
+frequency = 0.005
+shape = \"2 %\"
+"],
+};
+
 pub(super) static IDENTIFY: Section = Section {
     path: "identify",
     title: "`[identify]`: one unknown that varies over frequency",
@@ -543,7 +597,6 @@ pub(super) static IDENTIFY: Section = Section {
             "true",
             "Of three or more sensors one that contradicts all others is left out.",
         ),
-        MODEL_ERRORS,
         key(
             "check",
             "true or false",
@@ -569,7 +622,6 @@ branches = 3
 bounds = { storage = [1e5, 1e9], loss_factor = [0.0, 3.0] }
 start = \"bounds\"
 reject_outliers = false
-model_errors = \"none\"
 check = false
 ",
         "[identify]
@@ -661,13 +713,6 @@ reference = 1.05
 "],
 };
 
-const MODEL_ERRORS: Key = key(
-    "model_errors",
-    "\"estimated\" or \"none\"",
-    "\"estimated\"",
-    "Errors of the model's natural frequencies, mode shapes and known matrices: estimated from the band and taken out where they explain it better than a right model, or none, where error bars hold the noise alone.",
-);
-
 pub(super) static SEVERAL_FIRST: Section = Section {
     path: "identify",
     title: "Keys of the first `[[identify]]`, for all",
@@ -682,7 +727,6 @@ pub(super) static SEVERAL_FIRST: Section = Section {
             "true",
             "Of three or more sensors one that contradicts all others is left out.",
         ),
-        MODEL_ERRORS,
     ],
     examples: &["[[identify]]
 matrix = \"core\"
@@ -690,7 +734,6 @@ band_hz = [20.0, 1000.0]
 exclude_hz = [50.0]
 max_lines = 500
 reject_outliers = false
-model_errors = \"none\"
 [[identify]]
 matrix = \"skins\"
 varies = \"constant\"

@@ -19,7 +19,7 @@ use frfit::dof::{Axis, DofName};
 use frfit::identify::{Method, ModelErrors, Reduction, Selection};
 use frfit::laws::LawKind;
 use frfit::material::Law;
-use frfit::model::Role;
+use frfit::model::{FactorStd, Role};
 use frfit::quantity::Quantity;
 use std::path::PathBuf;
 
@@ -51,6 +51,8 @@ pub struct CaseFile {
     pub load: LoadEntry,
     /// `[[measurement]]`, at least one.
     pub measurements: Vec<MeasurementEntry>,
+    /// `model_error`: what is known of the errors of the model.
+    pub model_error: ModelErrors,
     /// `[identify]`, of one unknown that varies.
     pub identify: Option<IdentifyEntry>,
     /// `[[identify]]`: several unknowns, or one that does not vary.
@@ -74,6 +76,8 @@ pub struct MatrixEntry {
     pub at: Option<AtValues>,
     /// Factor, 1 where none is given.
     pub factor: Located<FactorEntry>,
+    /// How well it is known, where the case says so.
+    pub factor_std: Option<Located<FactorStd>>,
     /// Whether its factor is a modulus, where the case says; else it is relative to that of the matrix.
     pub factor_is_modulus: Option<bool>,
 }
@@ -198,8 +202,6 @@ pub struct IdentifyEntry {
     pub real: bool,
     /// Whether a sensor that contradicts all others is left out.
     pub reject_outliers: Option<bool>,
-    /// What is known of the errors of the model.
-    pub model_errors: Option<ModelErrors>,
     /// Whether to look for what is wrong with the data first.
     pub check: bool,
     /// The factor that a simulated measurement was made with.
@@ -248,8 +250,6 @@ pub struct SeveralEntry {
     pub max_lines: Option<Located<i64>>,
     /// Whether a sensor that contradicts all others is left out.
     pub reject_outliers: Option<bool>,
-    /// What is known of the errors of the model.
-    pub model_errors: Option<ModelErrors>,
 }
 
 /// One `[[identify]]`.

@@ -3,7 +3,7 @@
 use super::document::Document;
 use super::field::{Table, shown};
 use super::keys::{ATTACHED, CASE, DOFS, LOAD, MATRIX, MEASUREMENT, Section};
-use super::sections::{attached, factor, identify, load, matrix, measurement, respond, units};
+use super::sections::{attached, factor, identify, load, matrix, measurement, model_error, respond, units};
 use super::several::{is_several, several};
 use super::{CaseFile, FactorEntry, MatrixEntry};
 use crate::error::{InputError, Place};
@@ -46,6 +46,11 @@ pub fn parse(file: &Path, bytes: &[u8]) -> Result<CaseFile, InputError> {
         attached,
         load: load(&force.table(&[&LOAD])?)?,
         measurements: measurements.iter().map(measurement).collect::<Result<_, _>>()?,
+        model_error: case
+            .find("model_error")
+            .map(|field| model_error(&field))
+            .transpose()?
+            .unwrap_or_default(),
         identify: case
             .find("identify")
             .filter(|f| !is_several(f))

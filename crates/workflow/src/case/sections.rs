@@ -10,10 +10,10 @@ use crate::error::{InputError, Place};
 use crate::units::{Amount, AmountOf, UnitSystem, UnknownSystem, amount};
 use frfit::c64;
 use frfit::dof::{Axis, DofName};
-use frfit::identify::{Method, ModelErrors, Reduction, Selection};
+use frfit::identify::{ErrorSizes, Method, ModelErrors, Reduction, Selection};
 use frfit::laws::{LawKind, MAX_BRANCHES, UnknownLawKind};
 use frfit::material::{Branch, Law};
-use frfit::model::Role;
+use frfit::model::{FactorStd, Role};
 use frfit::quantity::Quantity;
 
 /// `units`.
@@ -31,12 +31,17 @@ pub(super) fn matrix(table: &Table<'_>) -> Result<MatrixEntry, InputError> {
         "viscous" => Ok(Role::Viscous),
         _ => Err("\"stiffness\", \"mass\" or \"viscous\"".into()),
     })?;
-    let factor = match table.find("factor") {
-        Some(field) => factor(&field)?,
-        None => {
-            Located { value: FactorEntry::Law(Law::Constant(c64::new(1.0, 0.0))), place: name.place.clone() }
-        }
+    let one = || FactorEntry::Law(Law::Constant(c64::new(1.0, 0.0)));
+    let (factor, factor_std) = match table.find("factor") {
+        Some(field) => factor_of_matrix(&field)?,
+        None => (Located { value: one(), place: name.place.clone() }, None),
     };
+    if let (Some(std), Role::Mass | Role::Viscous) = (&factor_std, role.value)
+        && std.value.loss_factor.is_some()
+    {
+        let found = "that of a mass or a damping";
+        return Err(InputError::at(&std.place, "loss_factor_std of a stiffness", found));
+    }
     let factor_is = |word: &str| match word {
         "modulus" => Ok(true),
         "relative" => Ok(false),
@@ -54,7 +59,14 @@ pub(super) fn matrix(table: &Table<'_>) -> Result<MatrixEntry, InputError> {
         (Some(at), None) => (at.files[0].1.clone(), None),
         (Some(_), Some(file)) => return Err(InputError::at(&file.place, "one of file and at", "both")),
     };
-    Ok(MatrixEntry { name, role: role.value, file, in_file, at, factor, factor_is_modulus })
+    if let (Some(_), Some(std)) = (&at, &factor_std) {
+        return Err(InputError::at(
+            &std.place,
+            "a matrix that is given once",
+            "one with values of a dimension",
+        ));
+    }
+    Ok(MatrixEntry { name, role: role.value, file, in_file, at, factor, factor_std, factor_is_modulus })
 }
 
 /// `at = { dimension = "thickness", values = [0.8, 1.0, 1.2], files = ["k08.mtx", "k10.mtx", "k12.mtx"] }`.
@@ -135,8 +147,13 @@ fn matrix_file(field: &Field<'_>) -> Result<(Located<String>, Option<Located<Str
     Ok((table.need("file")?.text()?, table.find("name").map(|name| name.text()).transpose()?))
 }
 
-/// A number, a complex modulus, a law, or a table.
+/// A factor of which nothing else is said.
 pub(super) fn factor(field: &Field<'_>) -> Result<Located<FactorEntry>, InputError> {
+    read_factor(field, &[])
+}
+
+/// A number, a complex modulus, a law, or a table; `more` are the keys that may stand beside any of them.
+fn read_factor(field: &Field<'_>, more: More) -> Result<Located<FactorEntry>, InputError> {
     let located = |value| Located { value, place: field.place.clone() };
     if let Some(number) = field.as_number() {
         return Ok(located(FactorEntry::Law(Law::Constant(c64::new(number, 0.0)))));
@@ -147,23 +164,66 @@ pub(super) fn factor(field: &Field<'_>) -> Result<Located<FactorEntry>, InputErr
                         { law = \"maxwell\", ... } or { table = \"file\" }";
         return Err(field.refuse(expected));
     }
-    let any = field.table(&[
-        &keys::COMPLEX_MODULUS,
-        &keys::FRACTIONAL,
-        &keys::ZENER,
-        &keys::MAXWELL,
-        &keys::TABLE,
-    ])?;
+    let any = field.table(&[&FORMS[..], more].concat())?;
     if any.find("table").is_some() {
-        let file = field.table(&[&keys::TABLE])?.need("table")?.text()?;
+        let file = field.table(&[&[&keys::TABLE], more].concat())?.need("table")?.text()?;
         return Ok(located(FactorEntry::Table(file)));
     }
-    let law = if any.find("law").is_some() { law(field, &any)? } else { complex_modulus(field)? };
+    let law = if any.find("law").is_some() { law(field, &any, more)? } else { complex_modulus(field, more)? };
     Ok(located(FactorEntry::Law(law)))
 }
 
-fn complex_modulus(field: &Field<'_>) -> Result<Law, InputError> {
-    let table = field.table(&[&keys::COMPLEX_MODULUS])?;
+/// The factor of a matrix, and how well it is known.
+fn factor_of_matrix(
+    field: &Field<'_>,
+) -> Result<(Located<FactorEntry>, Option<Located<FactorStd>>), InputError> {
+    let entry = read_factor(field, STD)?;
+    let find = |key: &str| -> Result<Option<Field<'_>>, InputError> {
+        Ok(if field.is_table() { field.table(&[&FORMS[..], STD].concat())?.find(key) } else { None })
+    };
+    let (storage, loss_factor) = (find("storage_std")?, find("loss_factor_std")?);
+    let Some(place) = storage.as_ref().or(loss_factor.as_ref()).map(|field| field.place.clone()) else {
+        return Ok((entry, None));
+    };
+    // Of a factor that varies there is no one number to which another would belong.
+    let constant = match &entry.value {
+        FactorEntry::Law(Law::Constant(value)) => Some(*value),
+        _ => None,
+    };
+    let relative = |field: &Field<'_>| {
+        let number = field.as_number().zip(constant).map(|(std, factor)| std / factor.re.abs());
+        let std = if field.is_text() { field.share() } else { number };
+        let expected = match constant {
+            Some(_) => "a number above 0 in the unit of storage, or a text as \"2 %\"",
+            None => "a text as \"2 %\", for a factor that varies",
+        };
+        std.filter(|std| *std > 0.0 && std.is_finite()).ok_or_else(|| field.refuse(expected))
+    };
+    let absolute = |field: &Field<'_>| {
+        let share = field.share().zip(constant).map(|(share, factor)| share * (factor.im / factor.re).abs());
+        let std = if field.is_text() { share } else { field.as_number() };
+        let expected = "a number above 0, or a text as \"20 %\" of a constant loss factor";
+        std.filter(|std| *std > 0.0 && std.is_finite()).ok_or_else(|| field.refuse(expected))
+    };
+    let std = FactorStd {
+        storage: storage.as_ref().map(relative).transpose()?,
+        loss_factor: loss_factor.as_ref().map(absolute).transpose()?,
+    };
+    Ok((entry, Some(Located { value: std, place })))
+}
+
+/// Sections of keys beside those of a form.
+type More = &'static [&'static keys::Section];
+
+/// Those of how well a factor is known.
+static STD: More = &[&keys::FACTOR_STD];
+
+/// All keys of factors.
+static FORMS: [&keys::Section; 5] =
+    [&keys::COMPLEX_MODULUS, &keys::FRACTIONAL, &keys::ZENER, &keys::MAXWELL, &keys::TABLE];
+
+fn complex_modulus(field: &Field<'_>, more: More) -> Result<Law, InputError> {
+    let table = field.table(&[&[&keys::COMPLEX_MODULUS], more].concat())?;
     let (storage, loss_factor) = (table.need("storage")?.number()?, table.need("loss_factor")?.number()?);
     if !(storage * loss_factor).is_finite() {
         let found = format!("{storage:?} * {loss_factor:?}");
@@ -175,25 +235,25 @@ fn complex_modulus(field: &Field<'_>) -> Result<Law, InputError> {
 const LAWS: &str = "\"fractional\", \"zener\" or \"maxwell\"";
 
 /// A law by its name; `any` is its table with all keys that some law has.
-fn law(field: &Field<'_>, any: &Table<'_>) -> Result<Law, InputError> {
-    type Read = fn(&Field<'_>) -> Result<Law, InputError>;
+fn law(field: &Field<'_>, any: &Table<'_>, more: More) -> Result<Law, InputError> {
+    type Read = fn(&Field<'_>, More) -> Result<Law, InputError>;
     let read = any.need("law")?.word(|word| match word {
         "fractional" => Ok(fractional as Read),
         "zener" => Ok(zener as Read),
         "maxwell" => Ok(maxwell as Read),
         _ => Err(LAWS.into()),
     })?;
-    (read.value)(field)
+    (read.value)(field, more)
 }
 
-fn fractional(field: &Field<'_>) -> Result<Law, InputError> {
-    let table = field.table(&[&keys::FRACTIONAL])?;
+fn fractional(field: &Field<'_>, more: More) -> Result<Law, InputError> {
+    let table = field.table(&[&[&keys::FRACTIONAL], more].concat())?;
     let (e0, e1) = (table.need("e0")?.number()?, table.need("e1")?.number()?);
     Ok(Law::Fractional { e0, e1, alpha: exponent(&table)? })
 }
 
-fn zener(field: &Field<'_>) -> Result<Law, InputError> {
-    let table = field.table(&[&keys::ZENER])?;
+fn zener(field: &Field<'_>, more: More) -> Result<Law, InputError> {
+    let table = field.table(&[&[&keys::ZENER], more].concat())?;
     let (e0, e_infinity) = (table.need("e0")?.number()?, table.need("e_infinity")?.number()?);
     let time = table.need("tau")?;
     let tau_s = time.number()?;
@@ -203,8 +263,8 @@ fn zener(field: &Field<'_>) -> Result<Law, InputError> {
     }
 }
 
-fn maxwell(field: &Field<'_>) -> Result<Law, InputError> {
-    let table = field.table(&[&keys::MAXWELL])?;
+fn maxwell(field: &Field<'_>, more: More) -> Result<Law, InputError> {
+    let table = field.table(&[&[&keys::MAXWELL], more].concat())?;
     let e0 = table.need("e0")?.number()?;
     let list = table.need("branches")?;
     let branches: Vec<Branch> = (list.pairs("at least one branch [modulus, time]")?.into_iter())
@@ -382,11 +442,28 @@ fn averages(field: &Field<'_>) -> Result<Located<i64>, InputError> {
 /// The one thing that `start` can say: numbers belong to the matrix.
 const START: &str = "\"bounds\" (a nominal value is the factor of the matrix)";
 
-/// `model_errors = "…"`.
-pub(super) fn model_errors(table: &Table<'_>) -> Result<Option<ModelErrors>, InputError> {
-    let word = |word: &str| word.parse::<ModelErrors>().map_err(|unknown| unknown.expected.to_owned());
-    let found = table.find("model_errors").map(|field| field.word(word)).transpose()?;
-    Ok(found.map(|found| found.value))
+/// `model_error = "estimated"`, `"none"` or a size, or `[model_error]`.
+pub(super) fn model_error(field: &Field<'_>) -> Result<ModelErrors, InputError> {
+    const EXPECTED: &str = "\"estimated\", \"none\", a number above 0 up to 0.5, or a text as \"0.5 %\"";
+    let size = |field: &Field<'_>, expected: &str| match field.share() {
+        Some(size) if size > 0.0 && size <= 0.5 => Ok(size),
+        _ => Err(field.refuse(expected)),
+    };
+    if !field.is_table() {
+        let word = field.text().ok().and_then(|word| word.value.parse::<ModelErrors>().ok());
+        let sized = |size| ModelErrors::Given(ErrorSizes { frequency: Some(size), shape: None });
+        return word.map_or_else(|| size(field, EXPECTED).map(sized), Ok);
+    }
+    let table = field.table(&[&keys::MODEL_ERROR])?;
+    let of = |key: &str, example: &str| {
+        let expected = format!("a number above 0 up to 0.5, or a text as {example:?}");
+        table.find(key).map(|field| size(&field, &expected)).transpose()
+    };
+    let sizes = ErrorSizes { frequency: of("frequency", "0.5 %")?, shape: of("shape", "3 %")? };
+    match sizes.any() {
+        true => Ok(ModelErrors::Given(sizes)),
+        false => Err(InputError::at(&field.place, "one of the keys frequency and shape", "none")),
+    }
 }
 
 /// `[identify]`.
@@ -417,7 +494,6 @@ pub(super) fn identify(field: &Field<'_>) -> Result<IdentifyEntry, InputError> {
             .find("reject_outliers")
             .map(|reject_outliers| reject_outliers.flag())
             .transpose()?,
-        model_errors: model_errors(&table)?,
         check: table.find("check").map(|check| check.flag()).transpose()?.unwrap_or(true),
         reference: table.find("reference").map(|reference| factor(&reference)).transpose()?,
     })

@@ -2,7 +2,7 @@
 
 use super::field::{Field, Table};
 use super::keys;
-use super::sections::{MOST_POWER, band, exclude, factor, model_errors};
+use super::sections::{MOST_POWER, band, exclude, factor};
 use super::{Located, SeveralEntry, SoughtEntry, SoughtVaries};
 use crate::error::InputError;
 use frfit::laws::{LawKind, UnknownLawKind};
@@ -48,7 +48,6 @@ pub(super) fn several(field: &Field<'_>) -> Result<SeveralEntry, InputError> {
         exclude: first.find("exclude_hz").map_or(Ok(Vec::new()), |field| exclude(&field))?,
         max_lines: first.find("max_lines").map(|most| most.whole()).transpose()?,
         reject_outliers: first.find("reject_outliers").map(|reject| reject.flag()).transpose()?,
-        model_errors: model_errors(first)?,
     })
 }
 

@@ -94,8 +94,8 @@ pub struct Wanted {
     pub start_at_bounds: bool,
     /// Whether a sensor that contradicts all others is left out; `None`: the default.
     pub reject_outliers: Option<bool>,
-    /// `estimated` or `none`; `None`: the default.
-    pub model_errors: Option<String>,
+    /// What is known of the errors of the model.
+    pub model_errors: ModelErrors,
     /// `frequency`, `smooth` or `law`; `None`: `law` where there are laws, otherwise the default.
     pub varies: Option<String>,
     /// Laws to fit to the whole band; none beside `law`: all.
@@ -413,14 +413,8 @@ fn options(wanted: &Wanted) -> Result<Options, ArraysError> {
         Some(word) => word.parse::<Reduction>().map_err(|error| refuse("reduction", word, error.expected))?,
         None => defaults.reduction,
     };
-    let model_errors = match &wanted.model_errors {
-        Some(word) => {
-            word.parse::<ModelErrors>().map_err(|error| refuse("model_errors", word, error.expected))?
-        }
-        None => defaults.model_errors,
-    };
     let options = Options {
-        model_errors,
+        model_errors: wanted.model_errors,
         method,
         selection,
         reduction,

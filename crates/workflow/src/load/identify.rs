@@ -94,6 +94,7 @@ pub(super) fn identify(
     };
     known_names(case, &entry.matrices)?;
     let mut options = options(entry, overrides)?;
+    options.model_errors = case.model_error;
     let varies = entry.varies.as_ref().map(|varies| varies.value.clone()).unwrap_or_default();
     if let Some(Located { place, .. }) = &entry.varies {
         fit_for_band(&mut options, &varies, place)?;
@@ -109,8 +110,10 @@ pub(super) fn identify(
     let most = entry.max_lines.as_ref();
     let left_out = unused(&data, &entry.exclude, most, &entry.place.below("exclude_hz"))?;
     let unit = factor_unit(case, &entry.matrices, &parameter.nominal, &data.frequency_hz);
+    let unknowns = vec![factor_of(&parameter, model, &options, &varies)];
+    known_have_std(case, model, &unknowns)?;
     Ok(IdentifyCase {
-        unknowns: vec![factor_of(&parameter, model, &options, &varies)],
+        unknowns,
         units: vec![unit],
         reference: vec![reference],
         layout: Layout::Single,
@@ -160,6 +163,25 @@ pub(super) fn factor_unit(
     let role = entries.clone().next().map_or(Role::Stiffness, |entry| entry.role);
     let is_modulus = entries.find_map(|entry| entry.factor_is_modulus);
     FactorUnit::of(role, is_modulus, nominal, frequency_hz, case.units)
+}
+
+/// Refuses a standard deviation of a factor that is unknown: bounds limit it.
+pub(super) fn known_have_std(
+    case: &CaseFile,
+    model: &DynamicStiffness,
+    unknowns: &[Unknown],
+) -> Result<(), InputError> {
+    let is_unknown = |name: &str| {
+        let mut terms = unknowns.iter().flat_map(|one| one.dependence.terms());
+        terms.any(|term| model.terms()[term].name == name)
+    };
+    for entry in case.matrices.iter().filter(|entry| is_unknown(&entry.name.value)) {
+        if let Some(std) = &entry.factor_std {
+            let found = format!("one of {:?}, which is unknown", entry.name.value);
+            return Err(InputError::at(&std.place, "a standard deviation of a known factor", found));
+        }
+    }
+    Ok(())
 }
 
 /// The names, each of them a matrix's, each once.
@@ -239,7 +261,6 @@ fn options(entry: &IdentifyEntry, overrides: &Overrides) -> Result<Options, Inpu
     options.method = entry.method.unwrap_or(options.method);
     options.reduction = entry.reduction.unwrap_or(options.reduction);
     options.reject_outliers = entry.reject_outliers.unwrap_or(options.reject_outliers);
-    options.model_errors = entry.model_errors.unwrap_or(options.model_errors);
     options.whole_box = entry.start.is_some();
     options.bounds.storage = entry.storage.as_ref().map(|bound| bound.value);
     options.bounds.loss_factor = entry.loss_factor.as_ref().map(|bound| bound.value);
@@ -323,6 +344,9 @@ fn invalid(error: &OptionsError, entry: &IdentifyEntry, overrides: &Overrides) -
             let written = entry.selection.as_ref().map_or(of_key("selection"), |s| s.place.clone());
             let place = overrides.selection.as_ref().map_or(written, |_| Place::option("--selection"));
             InputError::at(&place, format!("\"smallest\" with method {:?}", method.name()), "\"joint\"")
+        }
+        OptionsError::ErrorSize(name, size) => {
+            InputError::at(&of_key(name), "a number above 0 up to 0.5", size.to_string())
         }
         OptionsError::Error(limit) => {
             InputError::at(&of_key("error"), "a positive number", limit.to_string())

@@ -157,6 +157,14 @@ type OfFile<'a> = (&'a Read<'a>, Cow<'a, CoordinateMatrix>);
 /// The model of all terms.
 pub(super) fn model(case: &CaseFile, terms: Vec<Term>) -> Result<DynamicStiffness, InputError> {
     let model = DynamicStiffness::new(terms).map_err(|error| unusable(case, &error))?;
+    let with_std = |model: DynamicStiffness, entry: &MatrixEntry| match &entry.factor_std {
+        Some(std) => {
+            let term = model.find(&entry.name.value).map_err(|error| unusable(case, &error))?;
+            Ok(model.with_factor_std(term, std.value))
+        }
+        None => Ok(model),
+    };
+    let model = case.matrices.iter().try_fold(model, with_std)?;
     Ok(model.with_threads(rayon::current_num_threads()))
 }
 

@@ -5,7 +5,9 @@ use super::band::band;
 use super::dimension::{PartOf, each_has_a_value, powers_of};
 use super::factor::{covers, law};
 use super::files::Files;
-use super::identify::{IdentifyCase, Layout, band_of, factor_unit, known_names, shared_factor};
+use super::identify::{
+    IdentifyCase, Layout, band_of, factor_unit, known_have_std, known_names, shared_factor,
+};
 use super::lines::unused;
 use super::measurement::Measurement;
 use crate::case::{CaseFile, Located, SeveralEntry, SoughtEntry, SoughtVaries};
@@ -44,6 +46,7 @@ pub(super) fn several(
     let unknowns = entry.unknowns.iter().map(|one| unknowns(case, one, (model, of)));
     let unknowns = unknowns.collect::<Result<Vec<_>, _>>()?;
     refuse_twice(entry)?;
+    known_have_std(case, model, &unknowns)?;
     let reference = entry
         .unknowns
         .iter()
@@ -73,7 +76,7 @@ pub(super) fn several(
         layout: Layout::Named,
         options: Options {
             reject_outliers: entry.reject_outliers.unwrap_or(true),
-            model_errors: entry.model_errors.unwrap_or_default(),
+            model_errors: case.model_error,
             ..Options::default()
         },
         band_hz,

@@ -1,6 +1,6 @@
 //! Tables, summary and words for several unknowns.
 
-use super::summary::{fit_json, inputs_json, model_errors_json, model_json, sensor};
+use super::summary::{fit_json, inputs_json, leverage_json, model_errors_json, model_json, sensor};
 use super::words::Words;
 use crate::load::{Case, IdentifyCase, MeasuredNoise};
 use crate::run::IdentifyRun;
@@ -147,6 +147,7 @@ pub fn several_json(case: &Case, wanted: &IdentifyCase, run: &IdentifyRun, secon
         },
         "fit": fit_json(outcome.fit.as_ref()),
         "model_errors": outcome.model_errors.as_ref().map(|errors| model_errors_json(case, errors)),
+        "leverage": leverage_json(case, outcome),
         "search": {"converged": outcome.search.converged, "starts": outcome.search.starts, "agreeing": outcome.search.agreeing},
         "counts": {
             "factorisations": outcome.search.work.factorisations,

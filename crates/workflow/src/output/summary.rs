@@ -5,10 +5,11 @@ use crate::load::{Case, IdentifyCase, MeasuredNoise};
 use crate::run::IdentifyRun;
 use frfit::c64;
 use frfit::identify::{
-    FactorError, GoodnessOfFit, ModeError, ModelErrorsFound, NoiseLevel, Status, Variation,
+    FactorError, GoodnessOfFit, Identification, Leverage, ModeError, ModelErrors, ModelErrorsFound,
+    NoiseLevel, Status, Variation,
 };
 use frfit::material::loss_factor;
-use frfit::model::Term;
+use frfit::model::{FactorPart, Term};
 use serde_json::{Map, Value, json};
 
 /// A modulus within this of the reference counts as right.
@@ -57,7 +58,7 @@ pub fn summary_json(
             "bounds": {"storage": unknown.bounds.storage, "loss_factor": unknown.bounds.loss_factor},
             "real": unknown.real,
             "reject_outliers": options.reject_outliers,
-            "model_errors": options.model_errors.name(),
+            "model_error": model_error_json(options.model_errors),
         },
         "frequencies": run.found.lines.len(),
         "status": statuses,
@@ -65,6 +66,7 @@ pub fn summary_json(
         "noise": noise(identify, run),
         "fit": fit_json(run.found.fit.as_ref()),
         "model_errors": run.found.model_errors.as_ref().map(|errors| model_errors_json(case, errors)),
+        "leverage": leverage_json(case, &run.found),
         "error": spread(run, |outcome| outcome.error),
         "storage_std": spread(run, |outcome| Some(outcome.uncertainty()?.storage_std)),
         "loss_factor_std": spread(run, |outcome| outcome.uncertainty()?.loss_factor_std),
@@ -151,11 +153,34 @@ fn noise(identify: &IdentifyCase, run: &IdentifyRun) -> Value {
     })
 }
 
+/// What the case says of the errors of the model, as its key does.
+fn model_error_json(known: ModelErrors) -> Value {
+    match known {
+        ModelErrors::Estimated => json!("estimated"),
+        ModelErrors::None => json!("none"),
+        ModelErrors::Given(sizes) => json!({"frequency": sizes.frequency, "shape": sizes.shape}),
+    }
+}
+
+/// How far 1 % of each known factor moves each unknown, in per cent.
+pub(super) fn leverage_json(case: &Case, found: &Identification) -> Vec<Value> {
+    let names = case.identify.as_ref().map_or(&[][..], |identify| identify.unknowns.as_slice());
+    let one = |one: &Leverage| {
+        let unknown = names.get(one.unknown).map(|unknown| unknown.name.as_str());
+        json!({"matrix": case.model.terms()[one.term].name, "unknown": unknown, "percent_by_percent": one.change})
+    };
+    found.leverage.iter().map(one).collect()
+}
+
 /// The errors of the model that were taken out.
 pub(super) fn model_errors_json(case: &Case, errors: &ModelErrorsFound) -> Value {
     let mode =
         |mode: &ModeError| json!({"frequency_hz": mode.frequency_hz, "error": mode.error, "std": mode.std});
-    let matrix = |factor: &FactorError| json!({"matrix": case.model.terms()[factor.term].name, "error": factor.error, "std": factor.std});
+    let part = |part: FactorPart| match part {
+        FactorPart::Storage => "storage",
+        FactorPart::LossFactor => "loss_factor",
+    };
+    let matrix = |factor: &FactorError| json!({"matrix": case.model.terms()[factor.term].name, "part": part(factor.part), "error": factor.error, "std": factor.std});
     json!({
         "frequency_std": errors.frequency_std,
         "shape_std": errors.shape_std,

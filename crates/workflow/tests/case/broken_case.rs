@@ -138,7 +138,7 @@ fn keys_that_are_unknown_or_missing() {
         (
             "{ table = \"modulus.csv\" }",
             "{ table = \"modulus.csv\", storage = 1 }",
-            "case.toml:11:35: matrix.factor: expected a known key (table), found \"storage\"",
+            "case.toml:11:35: matrix.factor: expected a known key, of which \"storage_std\" is nearest, found \"storage\"",
         ),
         (
             "{ table = \"modulus.csv\" }",
@@ -217,6 +217,55 @@ fn matrices_and_factors() {
             "{ table = \"modulus.csv\" }",
             "{ table = \"K.mtx\" }",
             "K.mtx:1: expected a column \"frequency_hz\", found only \"%%MatrixMarket matrix coordinate real sy\"...\nnamed in case.toml:11:12: matrix.factor.table",
+        ),
+    ] {
+        refused("case.toml", &edited("case.toml", from, to), message);
+    }
+}
+
+#[test]
+fn what_is_known_of_the_model() {
+    let table = "{ table = \"modulus.csv\" }";
+    for (from, to, message) in [
+        (
+            "loss_factor = 0.1 }",
+            "loss_factor = 0.1, storage_std = \"2 %\" }",
+            "case.toml:6:48: matrix.factor.storage_std: expected a standard deviation of a known factor, found one of \"springs\", which is unknown",
+        ),
+        (
+            table,
+            "{ table = \"modulus.csv\", storage_std = 0.3 }",
+            "case.toml:11:35: matrix.factor.storage_std: expected a text as \"2 %\", for a factor that varies, found 0.3",
+        ),
+        (
+            table,
+            "{ storage = 15.0, loss_factor = 0.1, storage_std = \"2\" }",
+            "case.toml:11:47: matrix.factor.storage_std: expected a number above 0 in the unit of storage, or a text as \"2 %\", found the text \"2\"",
+        ),
+        (
+            table,
+            "{ storage = 15.0, loss_factor = 0.1, loss_factor_std = -0.1 }",
+            "case.toml:11:47: matrix.factor.loss_factor_std: expected a number above 0, or a text as \"20 %\" of a constant loss factor, found -0.1",
+        ),
+        (
+            "file = \"M.mtx\"",
+            "file = \"M.mtx\"\nfactor = { storage = 1.0, loss_factor = 0.0, loss_factor_std = 0.1 }",
+            "case.toml:16:46: matrix.factor.loss_factor_std: expected loss_factor_std of a stiffness, found that of a mass or a damping",
+        ),
+        (
+            "title = \"Three masses\"",
+            "model_error = \"non\"",
+            "case.toml:1:1: model_error: expected \"estimated\", \"none\", a number above 0 up to 0.5, or a text as \"0.5 %\", found the text \"non\"",
+        ),
+        (
+            "[identify]",
+            "[model_error]\nfrequency = 3\n[identify]",
+            "case.toml:29:1: model_error.frequency: expected a number above 0 up to 0.5, or a text as \"0.5 %\", found 3",
+        ),
+        (
+            "[identify]",
+            "[model_error]\n[identify]",
+            "case.toml:28:1: model_error: expected one of the keys frequency and shape, found none",
         ),
     ] {
         refused("case.toml", &edited("case.toml", from, to), message);

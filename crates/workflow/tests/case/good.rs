@@ -2,9 +2,9 @@
 
 use super::files::{CASE, edited, folder, with};
 use frfit::c64;
-use frfit::identify::{Method, Options, Reduction, Selection};
+use frfit::identify::{ErrorSizes, Method, ModelErrors, Options, Reduction, Selection};
 use frfit::material::Law;
-use frfit::model::Sensor;
+use frfit::model::{FactorStd, Sensor};
 use frfit::quantity::Quantity;
 use frfit::roots::Bounds;
 use frfit_formats::{op4, read_matrix};
@@ -40,6 +40,32 @@ fn everything_that_a_case_says_is_there() {
     assert_eq!((identify.band_hz, &identify.frequency_hz[..]), ([10.0, 30.0], &[10.0, 20.0, 30.0][..]));
     assert_eq!(identify.reference[0], Some(Law::Fractional { e0: 1e5, e1: 2e4, alpha: 0.5 }));
     assert_eq!(case.respond_hz, [10.0, 20.0, 30.0]);
+}
+
+/// Deviations of factors are relative to the storage, absolute of the loss factor, be they written as numbers or in per cent.
+#[test]
+fn what_is_known_of_the_model_is_read() {
+    let read = |factor: &str, known: &str| {
+        let text = edited("case.toml", "{ table = \"modulus.csv\" }", factor);
+        let text = text.replace("title = \"Three masses\"", known);
+        let case = with("case.toml", text.as_bytes(), &Overrides::default(), Purpose::Identify).unwrap();
+        (case.model.factor_std(1), case.identify.unwrap().options.model_errors)
+    };
+    let (std, errors) = read(
+        "{ storage = 15.0, loss_factor = 0.1, storage_std = 0.3, loss_factor_std = \"20 %\" }",
+        "model_error = \"0.5 %\"",
+    );
+    assert!((std.storage.unwrap() - 0.02).abs() < 1e-12, "{std:?}");
+    assert!((std.loss_factor.unwrap() - 0.02).abs() < 1e-12, "{std:?}");
+    assert_eq!(errors, ModelErrors::Given(ErrorSizes { frequency: Some(0.005), shape: None }));
+    let (std, errors) = read(
+        "{ table = \"modulus.csv\", storage_std = \"2 %\", loss_factor_std = 0.01 }",
+        "model_error = { shape = 0.02 }",
+    );
+    assert_eq!(std, FactorStd { storage: Some(0.02), loss_factor: Some(0.01) });
+    assert_eq!(errors, ModelErrors::Given(ErrorSizes { frequency: None, shape: Some(0.02) }));
+    let (std, errors) = read("15.0", "model_error = \"none\"");
+    assert_eq!((std, errors), (FactorStd::default(), ModelErrors::None));
 }
 
 #[test]

@@ -28,8 +28,10 @@ pub(super) fn correct<'a>(
     let weights = Weights::new(band, at, &found.left_out());
     let curves = Curves::new(vec![Curve::Spline(Spline::new(&weights.omegas, options.real))]);
     let point = point(at);
-    let measured = weights.of(band, &point, &found);
-    let errors = match estimate(space.whole(), &measured, &curves, hooks.for_each) {
+    let measured = weights.of((band, options), &point, &found);
+    let (explanation, leverage) = estimate(space.whole(), &measured, &curves, hooks.for_each);
+    let found = BandOutcome { leverage, ..found };
+    let errors = match explanation {
         Explanation::RightModel => return found,
         Explanation::OtherModel => return BandOutcome { other_model: true, ..found },
         Explanation::Errors(errors) => *errors,
@@ -37,6 +39,7 @@ pub(super) fn correct<'a>(
     let before = space.work();
     space.correct(&errors.modes, &errors.errors);
     let mut outcome = joint::identify(band, at, Some(space), &found.left_out(), options, hooks);
+    outcome.leverage.clone_from(&found.leverage);
     outcome.work = found.work;
     outcome.work += space.work().since(before);
     for (sensor, before) in outcome.sensors.iter_mut().zip(&found.sensors) {
@@ -79,7 +82,7 @@ impl Weights {
 
     pub(super) fn of<'t, 'a>(
         &'t self,
-        band: &Band<'t>,
+        (band, options): (&Band<'t>, &Options),
         point: PointAt<'t, 'a>,
         found: &'t BandOutcome,
     ) -> Measured<'t, 'a> {
@@ -88,6 +91,7 @@ impl Weights {
             omegas: &self.omegas,
             nominal: &self.nominal,
             given: &[],
+            given_sizes: options.model_errors.sizes(),
             measured: band.measured,
             sigma: &self.sigma,
             size: &self.size,

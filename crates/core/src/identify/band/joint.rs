@@ -163,6 +163,7 @@ pub(super) fn identify<'a>(
         fit,
         sensors,
         model_errors: None,
+        leverage: Vec::new(),
         other_model: false,
     }
 }

@@ -207,7 +207,7 @@ impl Fitting<'_, '_> {
         let place = fits.iter().position(|fit| fit.family == family)?;
         let weights = corrected::Weights::new(self.band, self.at, &free.left_out());
         let point = corrected::point(self.at);
-        let measured = weights.of(self.band, &point, free);
+        let measured = weights.of((self.band, self.options), &point, free);
         let (law, theta) = fits[place].coordinates();
         let curves = Curves::new(vec![Curve::Form(Form::Law(*law))]);
         let errors =

@@ -28,7 +28,7 @@ pub use smooth::SmoothCurve;
 pub(super) use smooth::{SmoothOutcome, identify_smooth};
 
 use super::Status;
-use super::model_errors::Estimated;
+use super::model_errors::{Estimated, Leverage};
 use super::{Line, Options, Reduction, Selection};
 use crate::c64;
 use crate::for_each::ForEach;
@@ -116,6 +116,8 @@ pub(super) struct BandOutcome {
     pub sensors: Vec<SensorFit>,
     /// Errors of the model that were taken out; `None` where none were found.
     pub model_errors: Option<Estimated>,
+    /// How far errors of known factors move the unknown.
+    pub leverage: Vec<Leverage>,
     /// Whether a model with large errors explains the band far better: it is another one.
     pub other_model: bool,
 }

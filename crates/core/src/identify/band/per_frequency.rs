@@ -57,6 +57,7 @@ pub(super) fn identify<'a>(
                 fit: None,
                 sensors: Vec::new(),
                 model_errors: None,
+                leverage: Vec::new(),
                 other_model: false,
             }
         }
@@ -81,6 +82,7 @@ pub(super) fn identify<'a>(
                 fit: None,
                 sensors: Vec::new(),
                 model_errors: None,
+                leverage: Vec::new(),
                 other_model: false,
             }
         }

@@ -1,18 +1,20 @@
 //! What was found of the errors of a model.
 
 use super::Estimated;
+use crate::model::FactorPart;
+use crate::subspace;
 use std::f64::consts::TAU;
 
 /// The errors of a model (B-11): relative, as (truth − model)/model.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ModelErrorsFound {
-    /// Standard deviation s of the errors of natural frequencies, each its own.
+    /// Standard deviation s of the errors of natural frequencies, each its own; zero where only factors are in error.
     pub frequency_std: f64,
     /// Standard deviation s_a of the errors of mode shapes at the sensors.
     pub shape_std: f64,
     /// One for each mode of the nominal model up to the end of the band, and a little further.
     pub modes: Vec<ModeError>,
-    /// One for each known matrix.
+    /// Of the known matrices.
     pub factors: Vec<FactorError>,
     /// By how many nats these errors explain the band better than a right model does.
     pub evidence: f64,
@@ -29,12 +31,14 @@ pub struct ModeError {
     pub std: f64,
 }
 
-/// The error of the factor of a known matrix.
+/// An error of the factor of a known matrix.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FactorError {
     /// The term of the model.
     pub term: usize,
-    /// Its relative error.
+    /// Which part of the factor.
+    pub part: FactorPart,
+    /// Its error: relative of the storage part, absolute of the loss factor.
     pub error: f64,
     /// The standard deviation of that.
     pub std: f64,
@@ -59,9 +63,9 @@ impl Estimated {
             }
         };
         let of_factors = self.modes.of_error.len();
-        let factor = |(t, &(term, error)): (usize, &(usize, f64))| {
+        let factor = |(t, &subspace::FactorError { term, part, error })| {
             let std = covariance(of_factors + t, of_factors + t).max(0.0).sqrt();
-            FactorError { term, error, std }
+            FactorError { term, part, error, std }
         };
         let told = |omega: &f64| *omega <= ABOVE_BAND * self.highest_rad_s;
         let [frequency_std, shape_std] = self.sizes;

@@ -3,7 +3,7 @@
 //! A model's natural frequencies are some tenths of a per cent off, its mode shapes and the factors of its known parts some per cent. A factor that is
 //! fitted to each frequency by itself swallows all of that. Over a band the two are told apart: each mode has one real error over its whole resonance,
 //! a material has one smooth complex modulus. With a smooth ln E(ω; θ) (a law, or a spline), relative errors δ_i = e + d_i of natural frequencies, a_mi of mode shapes at
-//! the sensors and ν_t of known factors,
+//! the sensors, ν_t of known factors (and Δη_t of their loss factors),
 //! $$ \sum_{k,m} \frac{|u_m - x_m(\omega_k; \theta, \delta, a, \nu)|^2}{\sigma_m^2} + \frac{e^2 + \sum_i d_i^2}{s^2} + \frac{\sum a_{mi}^2}{s_a^2} + \frac{\sum \nu_t^2}{s_\nu^2} $$
 //! is made least on the reduced model, with the noise approached from above; s and s_a are those of largest evidence. Whether there are errors at all is decided by
 //! the evidence of three explanations: a smooth modulus and a right model, a modulus that scatters from line to line and a right model, a smooth modulus and errors.
@@ -15,19 +15,22 @@
 
 mod curve;
 mod found;
+mod leverage;
 mod search;
 
-use super::{Line, Noise};
+use super::{ErrorSizes, Line, Noise};
 use crate::c64;
 use crate::for_each::ForEach;
 use crate::frequency::omega_rad_s;
 use crate::median::median;
+use crate::model::{FactorPart, ModelAt, Role};
 use crate::subspace::{ModalErrors, Modes, Point, Projection};
 pub(super) use curve::{Curve, Curves, Spline};
 pub use found::{FactorError, ModeError, ModelErrorsFound};
+pub use leverage::Leverage;
 
 use frfit_linalg::dense::Cholesky;
-use search::{Fitting, Found, Place, Sizes};
+use search::{FactorPrior, Fitting, Found, Place, Sizes};
 
 /// What is known of the noise.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -61,6 +64,8 @@ pub(super) struct Measured<'t, 'a> {
     /// The responses themselves, as deviations.
     pub(super) size: &'t [Vec<f64>],
     pub(super) deviations: Deviations,
+    /// What the user says of the sizes of errors.
+    pub(super) given_sizes: ErrorSizes,
     /// What each frequency says by itself, and noise over σ by that.
     pub(super) free: &'t [Line],
     /// The unknowns that each frequency has a value of its own of.
@@ -73,7 +78,7 @@ pub(super) struct Measured<'t, 'a> {
 pub(super) struct Estimated {
     pub(super) modes: Modes,
     pub(super) errors: ModalErrors,
-    /// Of θ, δ (own and common together), ν, then a of each sensor: n × n.
+    /// Of θ, δ (own and common together), ν and Δη, then a of each sensor: n × n.
     pub(super) covariance: Vec<f64>,
     pub(super) sizes: [f64; 2],
     /// χ² at σ times `level`, and how many numbers it has.
@@ -84,6 +89,7 @@ pub(super) struct Estimated {
     pub(super) evidence: f64,
     highest_rad_s: f64,
     curves: Curves,
+    factors: Vec<FactorPrior>,
     /// θ, then the errors as the search has them.
     place: Place,
 }
@@ -179,10 +185,13 @@ const LAST_STEPS: usize = 5;
 /// Rounds in which sizes and errors are found in turn.
 const ROUNDS: usize = 8;
 
-/// Before the data: natural frequencies are good to a half per cent, shapes and known factors to two.
+/// Before the data: natural frequencies are good to a half per cent, shapes and known factors to two, loss factors of known stiffnesses to a tenth of themselves
+/// or what bearings and air have.
 const FREQUENCY: f64 = 0.005;
 const SHAPE: f64 = 0.02;
 const FACTOR: f64 = 0.02;
+const LOSS_FACTOR: f64 = 0.002;
+const OF_LOSS_FACTOR: f64 = 0.1;
 
 /// What all modes have in common is larger than their scatter: a mesh errs in one sense.
 const COMMON_RATIO: f64 = 5.0;
@@ -199,16 +208,21 @@ const LEAST_LEVEL: f64 = 5e-4;
 /// The same of a single sensor, whose noise nobody told: it cannot contradict itself.
 const OF_ONE_SENSOR: f64 = 5e-3;
 
+/// The share of a given size that is each mode's own, and that each of three common parts has: together they are as large as was said.
+const OF_GIVEN: f64 = 0.5;
+
 impl Sizes {
     /// Before the data.
-    fn prior() -> Self {
-        Self {
-            frequency: FREQUENCY,
-            common: COMMON_RATIO * FREQUENCY,
-            shape: SHAPE,
-            factor: FACTOR,
-            bend: [1.0; 2],
-        }
+    fn prior(given: ErrorSizes) -> Self {
+        let frequency = given.frequency.map_or(FREQUENCY, |size| OF_GIVEN * size);
+        Self { frequency, shape: given.shape.unwrap_or(SHAPE), bend: [1.0; 2], common: 0.0 }
+            .with_common(given)
+    }
+
+    /// With what goes with the errors of natural frequencies.
+    fn with_common(self, given: ErrorSizes) -> Self {
+        let ratio = if given.frequency.is_some() { 1.0 } else { COMMON_RATIO };
+        Self { common: ratio * self.frequency, ..self }
     }
 }
 
@@ -231,36 +245,52 @@ pub(super) enum Explanation {
     OtherModel,
 }
 
-/// The errors of a model by the data of a band.
+/// The errors of a model by the data of a band, and how far those of known factors would move the unknowns.
 pub(super) fn estimate(
     model: &Projection,
     data: &Measured<'_, '_>,
     curves: &Curves,
     for_each: ForEach<'_>,
-) -> Explanation {
-    explanation(model, data, curves, for_each).unwrap_or(Explanation::RightModel)
+) -> (Explanation, Vec<Leverage>) {
+    let nothing = || (Explanation::RightModel, Vec::new());
+    let starts = data.starts(curves);
+    let Some(start) = starts.first() else { return nothing() };
+    let centre = curves.straight(start);
+    let Some(search) = Search::new(model, data, (curves, &centre), start, for_each) else { return nothing() };
+    let explanation = explanation(&search, &starts).unwrap_or(Explanation::RightModel);
+    (explanation, search.leverage(start))
 }
 
-/// The same; `None` where nothing can be compared.
-fn explanation(
-    model: &Projection,
-    data: &Measured<'_, '_>,
-    curves: &Curves,
-    for_each: ForEach<'_>,
-) -> Option<Explanation> {
-    let starts = data.starts(curves);
-    let centre = curves.straight(starts.first()?);
-    let search = Search::new(model, data, (curves, &centre), starts.first()?, for_each)?;
-
+/// What explains a band; `None` where nothing can be compared.
+fn explanation(search: &Search<'_, '_>, starts: &[Vec<f64>]) -> Option<Explanation> {
+    let Search { model, data, curves, .. } = *search;
     // Far from the answer a rough model is as good.
     let points: Vec<Point<'_>> = starts.iter().flat_map(|start| search.points(start)).collect();
     let rough = search.smaller(&points, ROUGH);
-    let none = Modes::none(&rough.0);
-    let right_model = Fitting { terms: &[], ..search.fitting(&rough.0, &none, &search.lines) };
-    let right = data.explain(&right_model, right_model.start(&starts[0]), &FROM_ABOVE[2..])?;
+    let given: Vec<FactorPrior> = search.factors.iter().filter(|factor| factor.is_given).copied().collect();
+    let right_of = |model: &Projection, start: Place| -> Option<Explained> {
+        let none = Modes::none(model);
+        let fitting = Fitting { factors: &given, ..search.fitting(model, &none, &search.lines) };
+        data.explain(&fitting, start, &FROM_ABOVE[2..])
+    };
+    let start = starts[0].iter().copied().chain(given.iter().map(|_| 0.0)).collect();
+    let right = right_of(&rough.0, start)?;
+    // What is said of known factors is in the error bars of a right model too.
+    let right_model = || -> Option<Explanation> {
+        let near = search.smaller(&search.points(&right.found.place), NEIGHBOURHOOD);
+        let right = right_of(&near.0, right.found.place.clone())?;
+        let none = Modes::none(&near.0);
+        let fitting = Fitting { factors: &given, ..search.fitting(&near.0, &none, &search.lines) };
+        let estimated = data.posterior(&fitting, right, 0.0)?;
+        let modes = Modes::none(model);
+        Some(Explanation::Errors(Box::new(Estimated { modes, ..estimated })))
+    };
+    let right_model = || if given.is_empty() { None } else { right_model() };
     let whole = search.fitting(&rough.0, &rough.1, &search.lines);
-    if data.is_noise(&right, data.numbers(&search.lines), curves) && data.promise(&whole, &right)? < PROMISE {
-        return None;
+    let sized = data.given_sizes.any();
+    let is_noise = || data.is_noise(&right, data.numbers(&search.lines), curves);
+    if !sized && is_noise() && data.promise(&whole, &right, &given)? < PROMISE {
+        return right_model();
     }
     let coarse = search.fitting(&rough.0, &rough.1, &search.some);
     let fitted = |places: Vec<Place>| -> Option<Explained> {
@@ -279,14 +309,14 @@ fn explanation(
     let scattered = data.scattered(&search.lines, curves, &starts[0], wrong.level);
     let least = scattered.map_or(right.evidence, |scattered| scattered.min(right.evidence));
     let evidence = 0.5 * (least - wrong.evidence);
-    if evidence <= NATS {
-        return None;
+    if !sized && evidence <= NATS {
+        return right_model();
     }
-    if !fine.are_small(&wrong.found.place) {
+    if !fine.are_small(&wrong.found.place, data.given_sizes) {
         return Some(Explanation::OtherModel);
     }
     let estimated = data.posterior(&fine, wrong, evidence)?;
-    Some(Explanation::Errors(Box::new(Estimated { modes: search.modes, ..estimated })))
+    Some(Explanation::Errors(Box::new(Estimated { modes: search.modes.clone(), ..estimated })))
 }
 
 /// The errors of a model once more, with laws in place of smooth curves: they say more of what the errors are.
@@ -299,6 +329,7 @@ pub(super) fn estimate_with_laws(
 ) -> Option<Estimated> {
     let search = Search {
         modes: before.modes.in_larger(model),
+        factors: before.factors.clone(),
         ..Search::new(model, data, (curves, theta), theta, for_each)?
     };
     let near = search.smaller(&search.points(theta), NEIGHBOURHOOD);
@@ -307,6 +338,27 @@ pub(super) fn estimate_with_laws(
     let found = data.explain(&fitting, place, &FROM_ABOVE[NEAR..])?;
     let estimated = data.posterior(&fitting, found, before.evidence)?;
     Some(Estimated { modes: search.modes, ..estimated })
+}
+
+/// What is known of the errors of the known factors: what the model says, or what is usual.
+fn priors(at: &ModelAt<'_>) -> Vec<FactorPrior> {
+    let known = |term: &usize| !at.parameters.iter().any(|one| one.enters(*term));
+    let of_term = |term: usize| {
+        let (given, one) = (at.model.factor_std(term), &at.model.terms()[term]);
+        let factor = one.factor.at(at.frequency_hz).unwrap_or_default();
+        let loss_factor = if factor.re == 0.0 { 0.0 } else { factor.im / factor.re };
+        let prior = |part, std: Option<f64>, usual| FactorPrior {
+            term,
+            part,
+            std: std.unwrap_or(usual),
+            is_given: std.is_some(),
+        };
+        let storage = prior(FactorPart::Storage, given.storage, FACTOR);
+        let usual = LOSS_FACTOR.hypot(OF_LOSS_FACTOR * loss_factor);
+        let loss = prior(FactorPart::LossFactor, given.loss_factor, usual);
+        std::iter::once(storage).chain((one.role == Role::Stiffness).then_some(loss))
+    };
+    (0..at.model.terms().len()).filter(known).flat_map(of_term).collect()
 }
 
 /// What all fits of a band have in common.
@@ -322,8 +374,8 @@ struct Search<'t, 'a> {
     about: Vec<usize>,
     /// Of the whole reduced model.
     modes: Modes,
-    /// Known terms whose factor may be in error.
-    known: Vec<usize>,
+    /// Known factors that may be in error.
+    factors: Vec<FactorPrior>,
 }
 
 impl<'t, 'a> Search<'t, 'a> {
@@ -341,8 +393,6 @@ impl<'t, 'a> Search<'t, 'a> {
         let Point { at, correction } = data.on(curves, theta, lines[lines.len() / 2])?;
         let highest = ABOVE * data.omegas.last()?;
         let modes = model.modes(&at, correction, highest, MOST_MODES).ok()?;
-        let unknown = |term: usize| at.parameters.iter().any(|one| one.enters(term));
-        let known = (0..at.model.terms().len()).filter(|&term| !unknown(term)).collect();
         Some(Self {
             model,
             data,
@@ -353,7 +403,7 @@ impl<'t, 'a> Search<'t, 'a> {
             some: of(FEW_LINES),
             about: of(POINTS),
             modes,
-            known,
+            factors: priors(&at),
         })
     }
 
@@ -379,7 +429,7 @@ impl<'t, 'a> Search<'t, 'a> {
             curves: self.curves,
             centre: self.centre,
             highest_rad_s: self.data.omegas[self.data.omegas.len() - 1],
-            terms: &self.known,
+            factors: &self.factors,
             for_each: self.for_each,
         }
     }
@@ -471,7 +521,7 @@ impl<'a> Measured<'_, 'a> {
 
     /// From a start to where all lines are used: the cost and the place.
     fn approach(&self, coarse: &Fitting<'_, '_>, place: Place) -> Option<(f64, Place)> {
-        let precision = coarse.precision(&Sizes::prior());
+        let precision = coarse.precision(&Sizes::prior(self.given_sizes));
         let own = if self.known() { 1.0 } else { 0.0 };
         let mut end = (f64::INFINITY, place);
         for added in &FROM_ABOVE[..NEAR] {
@@ -494,7 +544,7 @@ impl<'a> Measured<'_, 'a> {
     /// From a start to where lines are used from the lowest on, mode after mode: where a mode is off by many half-widths it has no slope towards
     /// its place, and the modes below it say where that is.
     fn upwards(&self, whole: &Fitting<'_, '_>, start: &[f64]) -> Option<Place> {
-        let precision = whole.precision(&Sizes::prior());
+        let precision = whole.precision(&Sizes::prior(self.given_sizes));
         let own = if self.known() { 1.0 } else { 0.0 };
         let mut place = whole.start(start);
         for below in whole.stages(STAGES) {
@@ -529,36 +579,38 @@ impl<'a> Measured<'_, 'a> {
 
     /// Nats by which errors of some size explain the band better, by the slopes where a right model explains it: a test of small errors
     /// that costs no search.
-    fn promise(&self, whole: &Fitting<'_, '_>, right: &Explained) -> Option<f64> {
+    fn promise(&self, whole: &Fitting<'_, '_>, right: &Explained, given: &[FactorPrior]) -> Option<f64> {
         let n = whole.count();
         let m = whole.curves.count();
-        let place = whole.start(&right.found.place);
+        let of_right = whole.coordinates_of(&Fitting { factors: given, ..*whole });
+        let mut place = whole.start(&right.found.place[..m]);
+        of_right.iter().zip(&right.found.place).for_each(|(&i, value)| place[i] = *value);
         let normal = whole.normal(&place, &self.sigma_at(whole.lines, right.level, 0.0))?;
         let gain = |part: f64| -> Option<f64> {
-            let usual = Sizes::prior();
+            let usual = Sizes::prior(self.given_sizes);
             let sizes = Sizes {
                 frequency: part * usual.frequency,
                 common: part * usual.common,
                 shape: part * usual.shape,
                 bend: right.sizes.bend,
-                ..usual
             };
             let precision = whole.precision(&sizes);
             let sum: Vec<f64> = normal.information.iter().zip(&precision).map(|(a, b)| a + b).collect();
-            let pull = |i: usize| -> f64 {
-                (0..m.min(place.len())).map(|j| precision[i * n + j] * (place[j] - whole.centre[j])).sum()
-            };
+            let off = |j: usize| place[j] - whole.centre.get(j).copied().unwrap_or(0.0);
+            let pull = |i: usize| -> f64 { of_right.iter().map(|&j| precision[i * n + j] * off(j)).sum() };
             let slope: Vec<f64> = (0..n).map(|i| normal.gradient[i] - pull(i)).collect();
             let factor = Cholesky::new(n, &sum).ok()?;
             let mut step = slope.clone();
             factor.solve(&mut step);
             let gained: f64 = slope.iter().zip(&step).map(|(g, s)| g * s).sum();
-            let volume = |matrix: &[f64], size: usize| -> Option<f64> {
-                let block: Vec<f64> = (0..size * size).map(|k| matrix[k / size * n + k % size]).collect();
-                Some(Cholesky::new(size, &block).ok()?.log_determinant())
+            let all: Vec<usize> = (0..n).collect();
+            let volume = |matrix: &[f64], of: &[usize]| -> Option<f64> {
+                let row = |&i: &usize| of.iter().map(move |j| matrix[i * n + j]);
+                let block: Vec<f64> = of.iter().flat_map(row).collect();
+                Some(Cholesky::new(of.len(), &block).ok()?.log_determinant())
             };
-            let of_errors = factor.log_determinant() - volume(&precision, n)?;
-            let of_curves = volume(&sum, m)? - volume(&precision, m)?;
+            let of_errors = factor.log_determinant() - volume(&precision, &all)?;
+            let of_curves = volume(&sum, &of_right)? - volume(&precision, &of_right)?;
             Some(0.5 * (gained - of_errors + of_curves))
         };
         PARTS.into_iter().filter_map(gain).reduce(f64::max)
@@ -567,7 +619,7 @@ impl<'a> Measured<'_, 'a> {
     /// The least squares with the noise approached from above, and the sizes of largest evidence.
     fn explain(&self, fitting: &Fitting<'_, '_>, mut place: Place, from_above: &[f64]) -> Option<Explained> {
         let known = self.known();
-        let mut sizes = Sizes::prior();
+        let mut sizes = Sizes::prior(self.given_sizes);
         let numbers = self.numbers(fitting.lines) as f64;
         let mut level = 1.0;
         for &added in from_above {
@@ -625,10 +677,14 @@ impl<'a> Measured<'_, 'a> {
                     let told: f64 = range.map(|i| (1.0 - share(i)).clamp(0.0, 1.0)).sum();
                     ((squares + PRIOR_MODES * prior * prior) / (told + PRIOR_MODES)).sqrt()
                 };
-                sizes.frequency =
-                    fresh(fitting.first_own()..fitting.first_factor(), sizes.frequency, FREQUENCY);
-                sizes.common = COMMON_RATIO * sizes.frequency;
-                sizes.shape = fresh(fitting.shapes(), sizes.shape, SHAPE);
+                let own = fitting.first_own()..fitting.first_factor();
+                if self.given_sizes.frequency.is_none() {
+                    sizes.frequency = fresh(own, sizes.frequency, FREQUENCY);
+                }
+                if self.given_sizes.shape.is_none() {
+                    sizes.shape = fresh(fitting.shapes(), sizes.shape, SHAPE);
+                }
+                sizes = sizes.with_common(self.given_sizes);
             }
             let settled = |a: f64, b: f64| (a / b - 1.0).abs() < 0.03;
             if settled(level, before.0)
@@ -728,13 +784,14 @@ impl<'a> Measured<'_, 'a> {
             modes: fitting.modes.clone(),
             errors,
             covariance,
-            sizes: [sizes.frequency, sizes.shape],
+            sizes: if modes == 0 { [0.0; 2] } else { [sizes.frequency, sizes.shape] },
             chi_squared: found.normal.chi_squared,
             numbers: self.numbers(fitting.lines),
             level,
             evidence,
             highest_rad_s: fitting.highest_rad_s,
             curves: fitting.curves.clone(),
+            factors: fitting.factors.to_vec(),
             place: found.place,
         })
     }

@@ -4,7 +4,9 @@ use super::PointAt;
 use super::curve::Curves;
 use crate::c64;
 use crate::for_each::{ForEach, map};
-use crate::subspace::{ErrorSlopes, ModalErrors, Modes, Projection};
+use crate::identify::ErrorSizes;
+use crate::model::FactorPart;
+use crate::subspace::{ErrorSlopes, FactorError, ModalErrors, Modes, Projection};
 use frfit_linalg::dense::Cholesky;
 
 /// What is to be explained, and with what.
@@ -23,9 +25,19 @@ pub(super) struct Fitting<'t, 'a> {
     pub(super) centre: &'t [f64],
     /// The highest frequency of the band.
     pub(super) highest_rad_s: f64,
-    /// Known terms whose factor may be in error.
-    pub(super) terms: &'t [usize],
+    /// Known factors that may be in error.
+    pub(super) factors: &'t [FactorPrior],
     pub(super) for_each: ForEach<'t>,
+}
+
+/// What is known of the error of a known factor.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct FactorPrior {
+    pub(super) term: usize,
+    pub(super) part: FactorPart,
+    pub(super) std: f64,
+    /// Whether the model says so, and it is no default.
+    pub(super) is_given: bool,
 }
 
 /// Parts that the δ_i of a group have in common: the same for all modes, and with ω_i and its square, as the errors of meshes grow.
@@ -40,8 +52,6 @@ pub(super) struct Sizes {
     pub(super) common: f64,
     /// Of a_mi.
     pub(super) shape: f64,
-    /// Of ν_t.
-    pub(super) factor: f64,
     /// Of bends of ln|E| and of the phase, over the usual ones.
     pub(super) bend: [f64; 2],
 }
@@ -73,6 +83,9 @@ const LONGEST: f64 = 0.5;
 const LARGEST_FREQUENCY: f64 = 0.05;
 const LARGEST_SHAPE: f64 = 0.3;
 
+/// The same over the sizes that were given.
+const OF_GIVEN: f64 = 3.0;
+
 /// A gain of this part of the cost is none.
 const SETTLED: f64 = 1e-5;
 
@@ -91,7 +104,7 @@ impl Fitting<'_, '_> {
 
     /// θ, common and own δ, ν: what every sensor hangs on.
     fn shared(&self) -> usize {
-        self.first_own() + self.frequency_errors() + self.terms.len()
+        self.first_own() + self.frequency_errors() + self.factors.len()
     }
 
     pub(super) fn count(&self) -> usize {
@@ -145,15 +158,24 @@ impl Fitting<'_, '_> {
         place
     }
 
+    /// The coordinate here of each of another fitting that has no modes and none but factors of this one.
+    pub(super) fn coordinates_of(&self, other: &Self) -> Vec<usize> {
+        let same = |wanted: &FactorPrior| self.factors.iter().position(|own| own == wanted);
+        let factors = other.factors.iter().filter_map(same).map(|t| self.first_factor() + t);
+        (0..self.curves.count()).chain(factors).collect()
+    }
+
     pub(super) fn errors(&self, place: &[f64]) -> ModalErrors {
         let (own, n) = (self.first_own(), self.modes());
         let first = self.curves.count();
         let common = |i: usize| self.common(i).iter().zip(&place[first..]).map(|(w, e)| w * e).sum::<f64>();
         let shape = |m: usize| place[self.first_shape(m)..self.first_shape(m) + n].to_vec();
+        let factor =
+            |(prior, &error): (&FactorPrior, &f64)| FactorError { term: prior.term, part: prior.part, error };
         ModalErrors {
             frequency: (0..self.frequency_errors()).map(|i| common(i) + place[own + i]).collect(),
             shape: (0..self.sensors()).map(shape).collect(),
-            factors: self.terms.iter().copied().zip(place[self.first_factor()..].iter().copied()).collect(),
+            factors: self.factors.iter().zip(&place[self.first_factor()..]).map(factor).collect(),
         }
     }
 
@@ -173,8 +195,8 @@ impl Fitting<'_, '_> {
         })
     }
 
-    /// Whether the errors in the band are small ones of this model, and it is no other.
-    pub(super) fn are_small(&self, place: &[f64]) -> bool {
+    /// Whether the errors in the band are small ones of this model, or not much larger than was given, and it is no other.
+    pub(super) fn are_small(&self, place: &[f64], given: ErrorSizes) -> bool {
         let errors = self.errors(place);
         let in_band: Vec<usize> =
             (0..self.modes()).filter(|&i| self.modes.omega_rad_s[i] <= self.highest_rad_s).collect();
@@ -185,8 +207,10 @@ impl Fitting<'_, '_> {
             let own = self.modes.of_error.iter().zip(&errors.frequency).filter(|(mode, _)| **mode == i);
             own.map(|(_, error)| error).sum()
         };
-        let of_shapes = |shape: &Vec<f64>| square(&|i| shape[i]) <= LARGEST_SHAPE * LARGEST_SHAPE;
-        square(&frequency) <= LARGEST_FREQUENCY * LARGEST_FREQUENCY && errors.shape.iter().all(of_shapes)
+        let largest = |usual: f64, given: Option<f64>| usual.max(OF_GIVEN * given.unwrap_or(0.0)).powi(2);
+        let of_shapes = |shape: &Vec<f64>| square(&|i| shape[i]) <= largest(LARGEST_SHAPE, given.shape);
+        square(&frequency) <= largest(LARGEST_FREQUENCY, given.frequency)
+            && errors.shape.iter().all(of_shapes)
     }
 
     /// Slopes of x_m by the shared coordinates, and by the shapes at the sensor.
@@ -279,7 +303,7 @@ impl Fitting<'_, '_> {
         let mut set = |i: usize, std: f64| all[i * n + i] = std.powi(-2);
         (own..self.first_own()).for_each(|i| set(i, sizes.common));
         (self.first_own()..self.first_factor()).for_each(|i| set(i, sizes.frequency * self.growth(i)));
-        (self.first_factor()..self.shared()).for_each(|i| set(i, sizes.factor));
+        (self.first_factor()..).zip(self.factors).for_each(|(i, prior)| set(i, prior.std));
         self.shapes().for_each(|i| set(i, sizes.shape * self.growth(i)));
         all
     }

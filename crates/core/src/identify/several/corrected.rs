@@ -8,7 +8,7 @@ use super::{Task, Unknown, Variation};
 use crate::c64;
 use crate::identify::band::{deviations, without};
 use crate::identify::model_errors::{
-    Curve, Curves, Deviations, Explanation, Measured, Spline, estimate, estimate_with_laws,
+    Curve, Curves, Deviations, Explanation, Leverage, Measured, Spline, estimate, estimate_with_laws,
 };
 use crate::identify::{ModelErrors, Noise};
 use crate::subspace::{Corrected, Point};
@@ -19,12 +19,14 @@ impl Task<'_, '_> {
         &self,
         space: &mut ReducedBand<'_>,
         solution: &BandSolution,
-        found: SeveralOutcome,
+        mut found: SeveralOutcome,
     ) -> SeveralOutcome {
         if self.options.model_errors == ModelErrors::None {
             return found;
         }
-        let errors = match self.errors(space, solution, &found) {
+        let (explanation, leverage) = self.errors(space, solution, &found);
+        found.leverage = leverage;
+        let errors = match explanation {
             Explanation::RightModel => return found,
             Explanation::OtherModel => return found.of_other_model(),
             Explanation::Errors(errors) => *errors,
@@ -38,7 +40,8 @@ impl Task<'_, '_> {
         let theta = of_band.map(|c| errors.theta()[c]).collect();
         let again = self.search_from(space, theta, &values);
         let again = BandSolution { starts: solution.starts, agreeing: solution.agreeing, ..again };
-        SeveralOutcome { model_errors: Some(errors.found()), ..self.judge(space, &again, Some(&errors)) }
+        let judged = self.judge(space, &again, Some(&errors));
+        SeveralOutcome { model_errors: Some(errors.found()), leverage: found.leverage, ..judged }
     }
 
     fn errors(
@@ -46,7 +49,7 @@ impl Task<'_, '_> {
         space: &ReducedBand<'_>,
         solution: &BandSolution,
         found: &SeveralOutcome,
-    ) -> Explanation {
+    ) -> (Explanation, Vec<Leverage>) {
         let unknowns = self.problem.unknowns;
         // A law that is wrong is no error of the model: smooth curves in place of laws say whether there are any.
         let is_law = |j: usize| matches!(unknowns[j].varies, Variation::Law(_));
@@ -68,6 +71,7 @@ impl Task<'_, '_> {
             omegas: &self.omegas,
             nominal: self.nominal,
             given: &given,
+            given_sizes: self.options.model_errors.sizes(),
             measured: self.problem.frfs.receptance,
             sigma: &self.sigma,
             size: &without(&deviations(self.problem.frfs.receptance, Noise::Unknown), &self.left_out),
@@ -77,9 +81,10 @@ impl Task<'_, '_> {
             // What holds for the band cannot show the noise: it is part of what is to be explained.
             alone: found.noise.level.filter(|_| !own.is_empty()),
         };
-        let errors = match estimate(space.whole(), &measured, &curves(false), self.hooks.for_each) {
+        let (explanation, leverage) = estimate(space.whole(), &measured, &curves(false), self.hooks.for_each);
+        let errors = match explanation {
             Explanation::Errors(errors) if (0..unknowns.len()).any(is_law) => errors,
-            explanation => return explanation,
+            explanation => return (explanation, leverage),
         };
         let theta = |j: usize| match of(j).filter(|_| is_law(j)) {
             Some(own) => &solution.theta[own.range.clone()],
@@ -88,7 +93,7 @@ impl Task<'_, '_> {
         let theta: Vec<f64> = (0..unknowns.len()).flat_map(theta).copied().collect();
         let laws = (&curves(true), theta.as_slice());
         let with_laws = estimate_with_laws(space.whole(), &measured, &errors, laws, self.hooks.for_each);
-        with_laws.map_or(Explanation::Errors(errors), |errors| Explanation::Errors(Box::new(errors)))
+        (Explanation::Errors(with_laws.map_or(errors, Box::new)), leverage)
     }
 
     /// ∂y/∂(error) of a frequency's own coordinates, `[error][own]`.

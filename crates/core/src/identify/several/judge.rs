@@ -153,6 +153,7 @@ impl Task<'_, '_> {
             fit,
             sensors: Vec::new(),
             model_errors: None,
+            leverage: Vec::new(),
             converged: found.converged,
             starts: found.starts,
             agreeing: found.agreeing,

@@ -127,6 +127,7 @@ impl Task<'_, '_> {
             fit: None,
             sensors: Vec::new(),
             model_errors: None,
+            leverage: Vec::new(),
             converged: false,
             starts: 0,
             agreeing: 0,

@@ -1,6 +1,6 @@
 //! What came out when several things were looked for.
 
-use crate::identify::{GoodnessOfFit, Line, ModelErrorsFound, NoiseLevel, SensorFit, Status};
+use crate::identify::{GoodnessOfFit, Leverage, Line, ModelErrorsFound, NoiseLevel, SensorFit, Status};
 use crate::material::Law;
 use crate::response::Work;
 use frfit_linalg::solve::Breakdown;
@@ -71,6 +71,7 @@ pub(in crate::identify) struct SeveralOutcome {
     pub(in crate::identify) sensors: Vec<SensorFit>,
     /// The errors of the model that were taken out.
     pub(in crate::identify) model_errors: Option<ModelErrorsFound>,
+    pub(in crate::identify) leverage: Vec<Leverage>,
     /// Whether the search settled.
     pub(in crate::identify) converged: bool,
     /// Starts that were followed, and how many of them ended at the answer.
