@@ -67,23 +67,20 @@ enum KnownErrors {
 }
 
 fn known_errors(py: Python<'_>, known: Option<KnownErrors>) -> PyResult<ModelErrors> {
-    let refuse = |found: String| {
-        let expected = "\"estimated\", \"none\", a number, or a dict with \"frequency\" and \"shape\"";
-        raise(py, "OptionsError", &format!("model_error: expected {expected}, found {found}"))
-    };
     let sizes = match known {
         None => return Ok(ModelErrors::default()),
-        Some(KnownErrors::Word(word)) => return word.parse().map_err(|_| refuse(format!("{word:?}"))),
+        Some(KnownErrors::Word(word)) => {
+            let refuse = |expected| format!("model_error: expected {expected}, found {word:?}");
+            let known = word.parse::<ModelErrors>();
+            return known.map_err(|error| raise(py, "OptionsError", &refuse(error.expected)));
+        }
         Some(KnownErrors::Frequency(size)) => ErrorSizes { frequency: Some(size), shape: None },
         Some(KnownErrors::Sizes(sizes)) => {
-            if let Some(other) = sizes.keys().find(|name| !["frequency", "shape"].contains(&name.as_str())) {
-                return Err(refuse(format!("{other:?}")));
-            }
             let of = |name: &str| sizes.get(name).copied();
             ErrorSizes { frequency: of("frequency"), shape: of("shape") }
         }
     };
-    if sizes.any() { Ok(ModelErrors::Given(sizes)) } else { Err(refuse("an empty dict".into())) }
+    Ok(ModelErrors::Given(sizes))
 }
 
 impl Measured<'_> {

@@ -117,11 +117,14 @@ def _optional_word(value: Any, name: str) -> str | None:
 
 
 def _model_error(value: Any) -> str | float | dict[str, float] | None:
-    if value is None or isinstance(value, str):
+    expected = '"estimated", "none", a number, or a dictionary of frequency and shape'
+    if value is None or value in ("estimated", "none"):
         return value
     if isinstance(value, Mapping):
-        return {word(key, "model_error"): number(size, f"model_error.{key}") for key, size in value.items()}
-    return number(value, "model_error")
+        if not value or set(value) - {"frequency", "shape"}:
+            raise refuse("model_error", expected, shown(dict(value)))
+        return {key: number(size, f"model_error.{key}") for key, size in value.items()}
+    return number(value, "model_error", expected)
 
 
 def identify(
