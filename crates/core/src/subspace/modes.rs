@@ -4,7 +4,7 @@
 //! $$ S_g \leftarrow S_g + \sum_i 2 \delta_i \\, (y_i^T S_g y_i) \\, (M y_i)(M y_i)^T $$
 //! for each stiffness S_g shifts the natural frequency of mode i by the relative δ_i with its damping kept;
 //! $$ \ell_m \leftarrow \ell_m + \sum_i a_{mi} \\, (\ell_m^T y_i) \\, M y_i $$
-//! changes mode i at sensor m by the relative a_mi;
+//! changes mode i at sensor m by the relative a_mi, the same with F where the force acts;
 //! $$ f_t \leftarrow (1 + \nu_t)(f_t + i \\, \Delta\eta_t \operatorname{Re} f_t) $$
 //! changes a known factor. What comes out is a reduced model like any other.
 
@@ -33,6 +33,8 @@ pub(crate) struct Modes {
     pub(crate) group: Vec<usize>,
     /// What of S_g goes with each frequency error, `[g][error]`; empty for parts that are no stiffness.
     stiffness: Vec<Vec<f64>>,
+    /// FᵀVy_i.
+    load: Vec<c64>,
     /// ℓ_mᵀVy_i, `[m][i]`.
     sensors: Vec<Vec<f64>>,
 }
@@ -42,6 +44,8 @@ pub(crate) struct Modes {
 pub(crate) struct ModalErrors {
     /// δ of natural frequencies, by [`Modes::of_error`]: the model with it has ω_i(1 + δ).
     pub frequency: Vec<f64>,
+    /// a_0i of mode i where the force acts.
+    pub load: Vec<f64>,
     /// a_mi of mode i at sensor m.
     pub shape: Vec<Vec<f64>>,
     /// Of known factors.
@@ -75,6 +79,8 @@ pub(crate) struct ErrorSlopes {
     pub(crate) slopes: Vec<Vec<c64>>,
     /// ∂x_m/∂δ_i, `[m][i]`.
     pub(crate) frequency: Vec<Vec<c64>>,
+    /// ∂x_m/∂a_0i, `[m][i]`.
+    pub(crate) load: Vec<Vec<c64>>,
     /// ∂x_m/∂a_mi, `[m][i]`.
     pub(crate) shape: Vec<Vec<c64>>,
     /// ∂x_m/∂ν_t, `[m][t]`.
@@ -141,6 +147,7 @@ impl Projection {
             of_error: Vec::new(),
             group: Vec::new(),
             stiffness: (0..theta.len()).map(|_| Vec::new()).collect(),
+            load: Vec::new(),
             sensors: vec![Vec::new(); self.sensors.len()],
         };
         for k in (0..r).rev().take(most) {
@@ -177,6 +184,7 @@ impl Projection {
                     modes.stiffness[*g].push(if group(*g) == wanted { energy * whole / own } else { 0.0 });
                 }
             }
+            modes.load.push(self.load.iter().zip(&y).map(|(force, y)| force * y).sum());
             for (own, sensor) in modes.sensors.iter_mut().zip(&self.sensors) {
                 own.push(transpose_dot(sensor, &y));
             }
@@ -223,6 +231,10 @@ impl Projection {
                     column.iter_mut().zip(momentum).for_each(|(entry, momentum)| *entry += by * momentum);
                 }
             }
+        }
+        for (i, momentum) in modes.momenta.iter().enumerate() {
+            let by = errors.load[i] * modes.load[i];
+            corrected.load.iter_mut().zip(momentum).for_each(|(entry, momentum)| *entry += by * momentum);
         }
         for (m, sensor) in corrected.sensors.iter_mut().enumerate() {
             for (i, momentum) in modes.momenta.iter().enumerate() {
@@ -277,6 +289,7 @@ impl Projection {
             response: solutions.response(self),
             slopes: solutions.slopes(self, &of_parameters),
             frequency: by_sensor.iter().map(frequency).collect(),
+            load: by_sensor.iter().map(|z| z.iter().zip(&modes.load).map(|(z, f)| z * f).collect()).collect(),
             shape: modes.sensors.iter().map(shape).collect(),
             factors: (0..duals.len()).map(factors).collect(),
         })
@@ -300,6 +313,7 @@ impl Modes {
             of_error: Vec::new(),
             group: Vec::new(),
             stiffness: vec![Vec::new(); model.matrices.len()],
+            load: Vec::new(),
             sensors: vec![Vec::new(); model.sensors.len()],
         }
     }
@@ -379,6 +393,7 @@ mod tests {
         let of = |term, part| FactorError { term, part, error: 0.0 };
         let mut errors = ModalErrors {
             frequency: vec![0.0; modes.of_error.len()],
+            load: vec![0.0; 6],
             shape: vec![vec![0.0; 6]; 2],
             factors: vec![
                 of(0, FactorPart::Storage),
@@ -400,6 +415,7 @@ mod tests {
         // Somewhere with errors of every kind.
         errors.frequency.iter_mut().enumerate().for_each(|(k, error)| *error = 0.01 / (1.0 + k as f64));
         errors.shape[1][2] = 0.05;
+        errors.load[3] = -0.04;
         errors.factors[1].error = 0.03;
         errors.factors[2].error = -0.02;
         let correction = c64::new(1e3, -2e2);
@@ -431,6 +447,11 @@ mod tests {
             let mut moved = errors.clone();
             moved.factors[t].error += step;
             check(&moved, &|slopes, m| slopes.factors[m][t]);
+        }
+        for i in 0..6 {
+            let mut moved = errors.clone();
+            moved.load[i] += step;
+            check(&moved, &|slopes, m| slopes.load[m][i]);
         }
         for (sensor, i) in [(0, 0), (1, 2)] {
             let mut moved = errors.clone();

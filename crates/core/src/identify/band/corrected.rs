@@ -119,7 +119,8 @@ fn widen(
         let correction = lines[i].correction()?;
         let slopes = model.respond_with_error_slopes((modes, values), &at[i], correction).ok()?;
         let (n, t) = (modes.omega_rad_s.len(), values.factors.len());
-        let first_shape = modes.of_error.len() + t;
+        let first_load = modes.of_error.len() + t;
+        let first_shape = first_load + n;
         let count = first_shape + sigma[i].len() * n;
         let mut pulls = vec![c64::default(); count];
         let mut weight = 0.0;
@@ -129,6 +130,7 @@ fn widen(
             let own = [
                 (0, &slopes.frequency[m]),
                 (modes.of_error.len(), &slopes.factors[m]),
+                (first_load, &slopes.load[m]),
                 (first_shape + m * n, &slopes.shape[m]),
             ];
             for (first, slopes) in own {

@@ -130,7 +130,7 @@ impl Curve {
 
     /// The precision of what is known beforehand, n × n, about a centre: of a smooth curve its size, its slope and, `bend` times what is usual, its bends.
     ///
-    /// A causal modulus has a slope d ln|E|/d ln ω near (2/π) arg E (Bode's relation); where the loss is small so is the slope.
+    /// A causal modulus has a slope d ln|E|/d ln ω near (2/π) arg E (Bode's relation), over the band and at each frequency; where the loss is small so is the slope.
     fn precision(&self, centre: &[f64], bend: [f64; 2]) -> Vec<f64> {
         let n = self.count();
         let mut precision = vec![0.0; n * n];
@@ -154,6 +154,17 @@ impl Curve {
             };
             let std = SLOPE * BODE * centre[knots].abs() + LEAST_SLOPE;
             (0..n * n).for_each(|k| precision[k] += row(k / n) * row(k % n) / (std * std));
+            // The slope between two knots, beside that of the band: the relation holds at each frequency.
+            for k in 0..knots - 1 {
+                let own = |i: usize| match i {
+                    _ if i == k => -1.0 / spline.step,
+                    _ if i == k + 1 => 1.0 / spline.step,
+                    _ if i == knots + k || i == knots + k + 1 => -0.5 * BODE,
+                    _ => 0.0,
+                };
+                let off: Vec<f64> = (0..n).map(|i| own(i) - row(i)).collect();
+                (0..n * n).for_each(|k| precision[k] += off[k / n] * off[k % n] / (std * std));
+            }
         }
         precision
     }

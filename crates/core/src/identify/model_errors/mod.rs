@@ -78,7 +78,7 @@ pub(super) struct Measured<'t, 'a> {
 pub(super) struct Estimated {
     pub(super) modes: Modes,
     pub(super) errors: ModalErrors,
-    /// Of θ, δ (own and common together), ν and Δη, then a of each sensor: n × n.
+    /// Of θ, δ (own and common together), ν and Δη, then a of the load and of each sensor: n × n.
     pub(super) covariance: Vec<f64>,
     pub(super) sizes: [f64; 2],
     /// χ² at σ times `level`, and how many numbers it has.
@@ -144,9 +144,9 @@ impl Estimated {
 
     /// Coordinates: θ, and the errors.
     pub(super) fn count(&self) -> usize {
-        let ModalErrors { frequency, shape, factors } = &self.errors;
+        let ModalErrors { frequency, load, shape, factors } = &self.errors;
         let of_shapes: usize = shape.iter().map(Vec::len).sum();
-        self.curves.count() + frequency.len() + factors.len() + of_shapes
+        self.curves.count() + frequency.len() + factors.len() + load.len() + of_shapes
     }
 }
 
@@ -201,6 +201,9 @@ const BEND_RANGE: [f64; 2] = [0.01, 3.0];
 
 /// What the data have to tell of a size counts from this many modes on.
 const PRIOR_MODES: f64 = 0.05;
+
+/// The same of what all modes have in common.
+const PRIOR_COMMON: f64 = 0.5;
 
 /// No measured response is better than this part of itself: what is smaller is no reason to doubt a model.
 const LEAST_LEVEL: f64 = 5e-4;
@@ -685,6 +688,15 @@ impl<'a> Measured<'_, 'a> {
                     sizes.shape = fresh(fitting.shapes(), sizes.shape, SHAPE);
                 }
                 sizes = sizes.with_common(self.given_sizes);
+                if self.given_sizes.frequency.is_none() {
+                    // A trend over the frequency shows how large that is which no frequency can show.
+                    let common = fitting.curves.count()..fitting.first_own();
+                    let squares: f64 = common.clone().map(|i| place[i] * place[i]).sum();
+                    let share = |i: usize| variance(i) / before.1.common.powi(2);
+                    let told: f64 = common.map(|i| (1.0 - share(i)).clamp(0.0, 1.0)).sum();
+                    let shown = (squares + PRIOR_COMMON * sizes.common.powi(2)) / (told + PRIOR_COMMON);
+                    sizes.common = sizes.common.max(shown.sqrt());
+                }
             }
             let settled = |a: f64, b: f64| (a / b - 1.0).abs() < 0.03;
             if settled(level, before.0)

@@ -56,7 +56,7 @@ pub(super) struct Sizes {
     pub(super) bend: [f64; 2],
 }
 
-/// Where a search is: θ, the common part of δ, own parts of δ, ν, then a of each sensor.
+/// Where a search is: θ, the common part of δ, own parts of δ, ν and Δη, then a of the load and of each sensor.
 pub(super) type Place = Vec<f64>;
 
 /// The normal equations at a place: χ², ½ ∂χ²/∂p, JᵀJ (n × n).
@@ -102,9 +102,9 @@ impl Fitting<'_, '_> {
         self.modes.of_error.len()
     }
 
-    /// θ, common and own δ, ν: what every sensor hangs on.
+    /// θ, common and own δ, ν, a of the load: what every sensor hangs on.
     fn shared(&self) -> usize {
-        self.first_own() + self.frequency_errors() + self.factors.len()
+        self.first_load() + self.modes()
     }
 
     pub(super) fn count(&self) -> usize {
@@ -133,19 +133,24 @@ impl Fitting<'_, '_> {
         self.first_own() + self.frequency_errors()
     }
 
+    fn first_load(&self) -> usize {
+        self.first_factor() + self.factors.len()
+    }
+
     fn first_shape(&self, sensor: usize) -> usize {
         self.shared() + sensor * self.modes()
     }
 
+    /// a of the load and of the sensors.
     pub(super) fn shapes(&self) -> std::ops::Range<usize> {
-        self.shared()..self.count()
+        self.first_load()..self.count()
     }
 
     /// How much larger the error of a mode is than in the band: above it errors of meshes grow with the square of the frequency. Of the
     /// coordinate of an own δ or of an a.
     pub(super) fn growth(&self, coordinate: usize) -> f64 {
         let mode = match self.shapes().contains(&coordinate) {
-            true => (coordinate - self.shared()) % self.modes(),
+            true => (coordinate - self.first_load()) % self.modes(),
             false => self.modes.of_error[coordinate - self.first_own()],
         };
         (self.modes.omega_rad_s[mode] / self.highest_rad_s).powi(2).max(1.0)
@@ -174,6 +179,7 @@ impl Fitting<'_, '_> {
             |(prior, &error): (&FactorPrior, &f64)| FactorError { term: prior.term, part: prior.part, error };
         ModalErrors {
             frequency: (0..self.frequency_errors()).map(|i| common(i) + place[own + i]).collect(),
+            load: place[self.first_load()..self.shared()].to_vec(),
             shape: (0..self.sensors()).map(shape).collect(),
             factors: self.factors.iter().zip(&place[self.first_factor()..]).map(factor).collect(),
         }
@@ -210,7 +216,7 @@ impl Fitting<'_, '_> {
         let largest = |usual: f64, given: Option<f64>| usual.max(OF_GIVEN * given.unwrap_or(0.0)).powi(2);
         let of_shapes = |shape: &Vec<f64>| square(&|i| shape[i]) <= largest(LARGEST_SHAPE, given.shape);
         square(&frequency) <= largest(LARGEST_FREQUENCY, given.frequency)
-            && errors.shape.iter().all(of_shapes)
+            && errors.shape.iter().chain([&errors.load]).all(of_shapes)
     }
 
     /// Slopes of x_m by the shared coordinates, and by the shapes at the sensor.
@@ -230,6 +236,7 @@ impl Fitting<'_, '_> {
             shared.extend(&slopes.frequency[m]);
         }
         shared.extend(&slopes.factors[m]);
+        shared.extend(&slopes.load[m]);
         (shared, slopes.shape[m].clone())
     }
 

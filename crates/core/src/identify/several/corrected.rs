@@ -116,7 +116,7 @@ impl Task<'_, '_> {
             let one = |k: usize| column(&|m| if m == at { slopes.shape[m][k] } else { c64::default() });
             (0..modes.omega_rad_s.len()).flat_map(one).collect::<Vec<f64>>()
         };
-        let mut columns = [shared(&slopes.frequency), shared(&slopes.factors)].concat();
+        let mut columns = [shared(&slopes.frequency), shared(&slopes.factors), shared(&slopes.load)].concat();
         columns.extend((0..sensors).flat_map(shape));
         let contained = eliminate(&solution.of_own, &mut columns, 2 * sensors);
         Some(contained.into_iter().map(|x| x.into_iter().map(|x| -x).collect()).collect())
