@@ -118,7 +118,9 @@ def _optional_word(value: Any, name: str) -> str | None:
 
 def _model_error(value: Any) -> str | float | dict[str, float] | None:
     expected = '"estimated", "none", a number, or a dictionary of frequency and shape'
-    if value is None or value in ("estimated", "none"):
+    if value is None:
+        return None
+    if isinstance(value, str) and value in ("estimated", "none"):
         return value
     if isinstance(value, Mapping):
         if not value or set(value) - {"frequency", "shape"}:
