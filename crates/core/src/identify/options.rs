@@ -138,7 +138,7 @@ pub enum OptionsError {
     Bounds(&'static str, [f64; 2]),
     /// An error limit that is not positive.
     Error(f64),
-    /// A size of errors of the model, by its name, that is none.
+    /// A standard deviation of errors of the model, by its name, that is not positive or is too large.
     ErrorSize(&'static str, f64),
     /// A joint selection with a method that offers nothing to select from.
     Selection(Method),

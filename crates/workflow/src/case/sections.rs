@@ -147,7 +147,7 @@ fn matrix_file(field: &Field<'_>) -> Result<(Located<String>, Option<Located<Str
     Ok((table.need("file")?.text()?, table.find("name").map(|name| name.text()).transpose()?))
 }
 
-/// A factor of which nothing else is said.
+/// A factor without standard deviations.
 pub(super) fn factor(field: &Field<'_>) -> Result<Located<FactorEntry>, InputError> {
     read_factor(field, &[])
 }

@@ -48,12 +48,11 @@ impl Search<'_, '_> {
     /// At the lines that have an answer.
     fn moved_by_line(&self, fitting: &Fitting<'_, '_>) -> Vec<Moved> {
         let errors = fitting.errors(&fitting.start(&vec![0.0; self.curves.count()]));
-        let model = self.model.with_errors(fitting.modes, &errors);
         let at_line = |&i: &usize| -> Option<Moved> {
             let value = self.data.free[i].values[0].value.filter(|_| self.data.free[i].on_path)?;
             let point = (self.data.point)(i, &[value])?;
             let at = (fitting.modes, &errors);
-            let slopes = model.respond_with_error_slopes(at, &point.at, point.correction).ok()?;
+            let slopes = self.model.respond_with_error_slopes(at, &point.at, point.correction).ok()?;
             let own = &slopes.slopes[0];
             let weight = |m: usize| 1.0 / self.data.sigma[i][m].powi(2);
             let all = || (0..own.len()).filter(|&m| self.data.sigma[i][m].is_finite());

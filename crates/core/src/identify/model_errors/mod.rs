@@ -585,7 +585,7 @@ impl<'a> Measured<'_, 'a> {
     fn promise(&self, whole: &Fitting<'_, '_>, right: &Explained, given: &[FactorPrior]) -> Option<f64> {
         let n = whole.count();
         let m = whole.curves.count();
-        let of_right = whole.coordinates_of(&Fitting { factors: given, ..*whole });
+        let of_right = whole.coordinates_of(given);
         let mut place = whole.start(&right.found.place[..m]);
         of_right.iter().zip(&right.found.place).for_each(|(&i, value)| place[i] = *value);
         let normal = whole.normal(&place, &self.sigma_at(whole.lines, right.level, 0.0))?;

@@ -163,10 +163,10 @@ impl Fitting<'_, '_> {
         place
     }
 
-    /// The coordinate here of each of another fitting that has no modes and none but factors of this one.
-    pub(super) fn coordinates_of(&self, other: &Self) -> Vec<usize> {
+    /// The coordinates of the curves and of some of the factors: those of a fitting without modes.
+    pub(super) fn coordinates_of(&self, some: &[FactorPrior]) -> Vec<usize> {
         let same = |wanted: &FactorPrior| self.factors.iter().position(|own| own == wanted);
-        let factors = other.factors.iter().filter_map(same).map(|t| self.first_factor() + t);
+        let factors = some.iter().filter_map(same).map(|t| self.first_factor() + t);
         (0..self.curves.count()).chain(factors).collect()
     }
 
