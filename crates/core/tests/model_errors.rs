@@ -211,7 +211,7 @@ fn constants_of_a_wrong_model_are_within_their_bars() {
                 after
                     .constants
                     .iter()
-                    .all(|value| value.numbers[0].std.unwrap() < 0.02 * value.numbers[0].value)
+                    .all(|value| value.numbers[0].std.unwrap() < 0.03 * value.numbers[0].value)
             );
         }
     }

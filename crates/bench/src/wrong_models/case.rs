@@ -89,6 +89,8 @@ pub struct Case {
     pub modes: usize,
     /// Median of |f/f₀ − 1| of these modes, f₀ of the truth; `None` where the truth has none of them.
     pub frequency_error: Option<f64>,
+    /// The natural frequency of each of these modes that the truth has too, and f/f₀ − 1.
+    pub frequency_errors: Vec<[f64; 2]>,
     /// Rows of the true model.
     pub truth_rows: usize,
 }
@@ -184,6 +186,7 @@ impl Case {
             noise_known,
             modes: modes.count,
             frequency_error: size(&in_band),
+            frequency_errors: in_band,
             truth_rows: real.model.dim(),
         })
     }
@@ -284,7 +287,7 @@ impl About {
 }
 
 /// Errors of the natural frequencies in the band of a structure's model, something being different in truth; none where the mesh has not so many modes.
-fn all_errors(structure: &Structure, change: &Change, wanted: Range) -> Result<Vec<f64>, Failure> {
+fn all_errors(structure: &Structure, change: &Change, wanted: Range) -> Result<Vec<[f64; 2]>, Failure> {
     let at_storage = Law::complex_modulus(structure.storage, 0.0);
     let model = Realised::new(structure, &at_storage, &Change::default())?;
     let truth = Realised::new(structure, &at_storage, change)?;
@@ -388,7 +391,8 @@ fn thicken(structure: &mut Structure, wanted: &mut Range, dice: &mut Dice) -> Re
             }
             _ => {
                 wanted.count = FEWEST.max(wanted.count - 1);
-                let is_shear = median(errors).is_some_and(|error| error > 0.0);
+                let is_shear =
+                    median(errors.iter().map(|[_, error]| *error).collect()).is_some_and(|error| error > 0.0);
                 if is_shear { 1.0 / THICKER } else { THICKER }
             }
         };

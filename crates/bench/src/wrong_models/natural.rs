@@ -62,14 +62,14 @@ const ALIKE: f64 = 0.7;
 /// Nor are those whose frequencies differ by more than this: between nodes a high mode may look like a low one.
 const NEAR: f64 = 0.25;
 
-/// f/f₀ − 1 of each mode of a model that the truth has too, f₀ that of the truth's mode in the neighbourhood whose shape is most alike
-/// (modal assurance criterion).
-pub fn errors(model: &[Mode], truth: &[Mode]) -> Vec<f64> {
+/// The natural frequency f of each mode of a model that the truth has too, and f/f₀ − 1, f₀ that of the truth's mode in the neighbourhood whose shape
+/// is most alike (modal assurance criterion).
+pub fn errors(model: &[Mode], truth: &[Mode]) -> Vec<[f64; 2]> {
     let error = |mode: &Mode| {
         let near = truth.iter().filter(|other| (mode.hz / other.hz - 1.0).abs() <= NEAR);
         let alike = near.map(|other| (assurance(&mode.shape, &other.shape), other.hz));
         let (assurance, hz) = alike.max_by(|a, b| a.0.total_cmp(&b.0))?;
-        (assurance > ALIKE).then(|| mode.hz / hz - 1.0)
+        (assurance > ALIKE).then(|| [mode.hz, mode.hz / hz - 1.0])
     };
     model.iter().filter_map(error).collect()
 }
@@ -80,8 +80,8 @@ fn assurance(a: &[f64], b: &[f64]) -> f64 {
 }
 
 /// Median of the absolute values of some errors; `None` of none.
-pub fn size(errors: &[f64]) -> Option<f64> {
-    median(errors.iter().map(|error| error.abs()).collect())
+pub fn size(errors: &[[f64; 2]]) -> Option<f64> {
+    median(errors.iter().map(|[_, error]| error.abs()).collect())
 }
 
 /// The middle of some numbers; `None` of none.
@@ -102,7 +102,7 @@ mod tests {
         let model = [mode(10.0, [1.0, 0.0]), mode(11.0, [0.0, 1.0])];
         let truth = [mode(10.0, [0.0, -2.0]), mode(10.5, [0.6, 0.6]), mode(12.5, [3.0, 0.0])];
         let errors = errors(&model, &truth);
-        assert!((errors[0] + 0.2).abs() < 1e-12 && (errors[1] - 0.1).abs() < 1e-12, "{errors:?}");
+        assert!((errors[0][1] + 0.2).abs() < 1e-12 && (errors[1][1] - 0.1).abs() < 1e-12, "{errors:?}");
     }
 
     #[test]

@@ -5,7 +5,7 @@ use super::fault::Class;
 use super::natural::median;
 use super::score::{Judged, Part, Summary};
 use super::structure::Kind;
-use frfit::identify::{Explained, Identification, Status};
+use frfit::identify::{Explained, Identification, ModelErrorsFound, Status};
 
 /// What is kept of a case.
 #[derive(Debug, Clone)]
@@ -34,6 +34,8 @@ pub struct Tried {
     pub ratio: f64,
     /// Median error of the natural frequencies; `None` where the truth has none of these modes.
     pub frequency_error: Option<f64>,
+    /// Natural frequencies of the model, and by how much each is too high.
+    pub frequency_errors: Vec<[f64; 2]>,
     /// What came of it, each way.
     pub runs: Vec<Run>,
 }
@@ -49,6 +51,8 @@ pub struct Run {
     pub verdict: Option<Explained>,
     /// Level of the noise with which the error bars were made.
     pub level: Option<f64>,
+    /// Errors of the model that were found.
+    pub errors: Option<ModelErrorsFound>,
     /// CPU seconds.
     pub seconds: f64,
 }
@@ -56,7 +60,8 @@ pub struct Run {
 impl Run {
     /// Of an identification, and what of it is right.
     pub fn new(way: Way, found: &Identification, judged: Vec<Judged>, seconds: f64) -> Self {
-        Self { way, judged, verdict: found.fit.map(|fit| fit.verdict), level: found.noise.level, seconds }
+        let verdict = found.fit.map(|fit| fit.verdict);
+        Self { way, judged, verdict, level: found.noise.level, errors: found.model_errors.clone(), seconds }
     }
 
     fn ok(&self) -> impl Iterator<Item = &Judged> + Clone {
@@ -80,6 +85,7 @@ impl Tried {
             loss: case.middle_loss(),
             ratio: case.ratio,
             frequency_error: case.frequency_error,
+            frequency_errors: case.frequency_errors.clone(),
             runs,
         }
     }
@@ -228,6 +234,40 @@ pub fn described(case: &Tried) -> String {
          noise {:.2} % ({told}), η {loss:.2e} in the middle, nominal {ratio:.3} of the truth, Δf {} %",
         100.0 * noise,
         percent(case.frequency_error)
+    )
+}
+
+/// The errors of the model that were found, beside what they are.
+pub fn errors(case: &Tried, run: &Run) -> String {
+    let Some(found) = &run.errors else { return String::from("no errors of the model") };
+    let mut rows = vec![["Hz", "δ % true", "δ %", "σ %"].map(String::from).to_vec()];
+    for mode in &found.modes {
+        let nearest = case
+            .frequency_errors
+            .iter()
+            .min_by(|a, b| (a[0] - mode.frequency_hz).abs().total_cmp(&(b[0] - mode.frequency_hz).abs()));
+        // The model has ω_i(1 + δ) where it is right.
+        let truth =
+            nearest.map_or_else(none, |[_, error]| format!("{:.3}", 100.0 * (1.0 / (1.0 + error) - 1.0)));
+        let own = [mode.error, mode.std].map(|value| format!("{:.3}", 100.0 * value));
+        rows.push([format!("{:.2}", mode.frequency_hz), truth].into_iter().chain(own).collect());
+    }
+    let factors = found.factors.iter().map(|factor| {
+        format!(
+            "term {} {:?}: {:.3} ± {:.3} %\n",
+            factor.term,
+            factor.part,
+            100.0 * factor.error,
+            100.0 * factor.std
+        )
+    });
+    format!(
+        "errors of the model, by {:.1} nats: s {:.3} %, s_a {:.2} %\n\n{}\n{}",
+        found.evidence,
+        100.0 * found.frequency_std,
+        100.0 * found.shape_std,
+        table(&rows),
+        factors.collect::<String>()
     )
 }
 

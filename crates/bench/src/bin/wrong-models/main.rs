@@ -9,7 +9,7 @@
 use frfit::identify::Options;
 use frfit_bench::wrong_models::case::Way;
 use frfit_bench::wrong_models::fault::Class;
-use frfit_bench::wrong_models::report::{LEGEND, Tried, csv, described, lines, markdown};
+use frfit_bench::wrong_models::report::{LEGEND, Tried, csv, described, errors, lines, markdown};
 use frfit_bench::wrong_models::{Failure, tried};
 use frfit_bench::{in_pool, machine};
 use rayon::prelude::*;
@@ -86,7 +86,7 @@ fn main() -> Result<(), Failure> {
     if arguments.case.is_some() {
         for case in &all {
             println!("{}\n", described(case));
-            case.runs.iter().for_each(|run| println!("{}", lines(run)));
+            case.runs.iter().for_each(|run| println!("{}\n{}", lines(run), errors(case, run)));
         }
     }
     println!("{} cases of seed {seed}\n\n{}\n{LEGEND}", all.len(), markdown(&all));

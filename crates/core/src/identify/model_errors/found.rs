@@ -69,6 +69,8 @@ impl Estimated {
         };
         let told = |omega: &f64| *omega <= ABOVE_BAND * self.highest_rad_s;
         let [frequency_std, shape_std] = self.sizes;
+        let errors_of_known =
+            self.errors.factors.iter().enumerate().filter(|(t, _)| self.factors[*t].is_known);
         ModelErrorsFound {
             frequency_std,
             shape_std,
@@ -80,7 +82,7 @@ impl Estimated {
                 .filter(|(_, omega)| told(omega))
                 .map(mode)
                 .collect(),
-            factors: self.errors.factors.iter().enumerate().map(factor).collect(),
+            factors: errors_of_known.map(factor).collect(),
             evidence: self.evidence,
         }
     }

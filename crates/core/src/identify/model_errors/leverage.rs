@@ -30,7 +30,7 @@ impl Search<'_, '_> {
     /// $$ \frac{\partial p}{\partial \nu_t} = -\frac{\sum_m \sigma_m^{-2} \\, \overline{\partial_p x_m} \\, \partial_{\nu_t} x_m}{\sum_m \sigma_m^{-2} \\, |\partial_p x_m|^2}; $$
     /// others by the least squares of the band, as constants, laws and smooth curves.
     pub(super) fn leverage(&self, theta: &[f64]) -> Vec<Leverage> {
-        let storage = |factor: &&FactorPrior| factor.part == FactorPart::Storage;
+        let storage = |factor: &&FactorPrior| factor.is_known && factor.part == FactorPart::Storage;
         let factors: Vec<FactorPrior> = self.factors.iter().filter(storage).copied().collect();
         let none = Modes::none(self.model);
         let fitting = Fitting { factors: &factors, ..self.fitting(self.model, &none, &self.lines) };

@@ -343,9 +343,10 @@ pub(super) fn estimate_with_laws(
     Some(Estimated { modes: search.modes, ..estimated })
 }
 
-/// What is known of the errors of the known factors: what the model says, or what is usual.
-fn priors(at: &ModelAt<'_>) -> Vec<FactorPrior> {
-    let known = |term: &usize| !at.parameters.iter().any(|one| one.enters(*term));
+/// What is known of the errors of the factors: what the model says, or what is usual. The stiffness of an unknown is not that of the structure either: no data
+/// tell that error, and the unknown is as uncertain.
+fn priors(at: &ModelAt<'_>, sizes: ErrorSizes) -> Vec<FactorPrior> {
+    let is_known = |term: usize| !at.parameters.iter().any(|one| one.enters(term));
     let of_term = |term: usize| {
         let (given, one) = (at.model.factor_std(term), &at.model.terms()[term]);
         let factor = one.factor.at(at.frequency_hz).unwrap_or_default();
@@ -355,13 +356,16 @@ fn priors(at: &ModelAt<'_>) -> Vec<FactorPrior> {
             part,
             std: std.unwrap_or(usual),
             is_given: std.is_some(),
+            is_known: is_known(term),
         };
         let storage = prior(FactorPart::Storage, given.storage, FACTOR);
         let usual = LOSS_FACTOR.hypot(OF_LOSS_FACTOR * loss_factor);
         let loss = prior(FactorPart::LossFactor, given.loss_factor, usual);
-        std::iter::once(storage).chain((one.role == Role::Stiffness).then_some(loss))
+        let is_stiffness = one.role == Role::Stiffness;
+        let has_error = is_known(term) || (is_stiffness && sizes.frequency.is_none());
+        has_error.then_some(storage).into_iter().chain((is_known(term) && is_stiffness).then_some(loss))
     };
-    (0..at.model.terms().len()).filter(known).flat_map(of_term).collect()
+    (0..at.model.terms().len()).flat_map(of_term).collect()
 }
 
 /// What all fits of a band have in common.
@@ -406,7 +410,7 @@ impl<'t, 'a> Search<'t, 'a> {
             some: of(FEW_LINES),
             about: of(POINTS),
             modes,
-            factors: priors(&at),
+            factors: priors(&at, data.given_sizes),
         })
     }
 

@@ -38,6 +38,8 @@ pub(super) struct FactorPrior {
     pub(super) std: f64,
     /// Whether the model says so, and it is no default.
     pub(super) is_given: bool,
+    /// Whether the term has no unknown.
+    pub(super) is_known: bool,
 }
 
 /// Parts that the δ_i of a group have in common: the same for all modes, and with ω_i and its square, as the errors of meshes grow.
