@@ -207,6 +207,7 @@ fn constants_of_a_wrong_model_are_within_their_bars() {
         } else {
             assert!(as_it_is > 20.0, "{what}: {as_it_is}");
             assert!(after.model_errors.unwrap().evidence > 100.0, "{what}");
+            // 2 % for the stiffness of the unknown, and what the band leaves.
             assert!(
                 after
                     .constants

@@ -237,15 +237,17 @@ pub fn described(case: &Tried) -> String {
     )
 }
 
+/// Natural frequencies at the found and at the true modulus that differ by more than this part are two modes.
+const SAME_MODE: f64 = 0.1;
+
 /// The errors of the model that were found, beside what they are.
 pub fn errors(case: &Tried, run: &Run) -> String {
     let Some(found) = &run.errors else { return String::from("no errors of the model") };
     let mut rows = vec![["Hz", "δ % true", "δ %", "σ %"].map(String::from).to_vec()];
     for mode in &found.modes {
-        let nearest = case
-            .frequency_errors
-            .iter()
-            .min_by(|a, b| (a[0] - mode.frequency_hz).abs().total_cmp(&(b[0] - mode.frequency_hz).abs()));
+        let away = |[hz, _]: &[f64; 2]| (hz / mode.frequency_hz - 1.0).abs();
+        let near = case.frequency_errors.iter().filter(|known| away(known) <= SAME_MODE);
+        let nearest = near.min_by(|a, b| away(a).total_cmp(&away(b)));
         // The model has ω_i(1 + δ) where it is right.
         let truth =
             nearest.map_or_else(none, |[_, error]| format!("{:.3}", 100.0 * (1.0 / (1.0 + error) - 1.0)));

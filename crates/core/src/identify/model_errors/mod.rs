@@ -343,11 +343,11 @@ pub(super) fn estimate_with_laws(
     Some(Estimated { modes: search.modes, ..estimated })
 }
 
-/// What is known of the errors of the factors: what the model says, or what is usual. The stiffness of an unknown is not that of the structure either: no data
-/// tell that error, and the unknown is as uncertain.
+/// Prior standard deviations of the errors of factors: what the model says, or what is usual. The stiffness matrix of an unknown has an error too.
+/// The data cannot tell it from the unknown, which is therefore as uncertain.
 fn priors(at: &ModelAt<'_>, sizes: ErrorSizes) -> Vec<FactorPrior> {
-    let is_known = |term: usize| !at.parameters.iter().any(|one| one.enters(term));
     let of_term = |term: usize| {
+        let is_known = !at.parameters.iter().any(|one| one.enters(term));
         let (given, one) = (at.model.factor_std(term), &at.model.terms()[term]);
         let factor = one.factor.at(at.frequency_hz).unwrap_or_default();
         let loss_factor = if factor.re == 0.0 { 0.0 } else { factor.im / factor.re };
@@ -356,14 +356,14 @@ fn priors(at: &ModelAt<'_>, sizes: ErrorSizes) -> Vec<FactorPrior> {
             part,
             std: std.unwrap_or(usual),
             is_given: std.is_some(),
-            is_known: is_known(term),
+            is_known,
         };
         let storage = prior(FactorPart::Storage, given.storage, FACTOR);
         let usual = LOSS_FACTOR.hypot(OF_LOSS_FACTOR * loss_factor);
         let loss = prior(FactorPart::LossFactor, given.loss_factor, usual);
         let is_stiffness = one.role == Role::Stiffness;
-        let has_error = is_known(term) || (is_stiffness && sizes.frequency.is_none());
-        has_error.then_some(storage).into_iter().chain((is_known(term) && is_stiffness).then_some(loss))
+        let has_error = is_known || (is_stiffness && sizes.frequency.is_none());
+        has_error.then_some(storage).into_iter().chain((is_known && is_stiffness).then_some(loss))
     };
     (0..at.model.terms().len()).flat_map(of_term).collect()
 }
@@ -678,28 +678,26 @@ impl<'a> Measured<'_, 'a> {
                 sizes.bend[part] = ((squares + PRIOR_MODES) / (told + PRIOR_MODES)).sqrt().clamp(least, most);
             }
             if !fitting.shapes().is_empty() {
-                let fresh = |range: std::ops::Range<usize>, size: f64, prior: f64| {
+                // The size that some errors show; what was known of it counts as so many errors.
+                let fresh = |range: std::ops::Range<usize>, size: f64, (prior, count): (f64, f64)| {
                     let squares: f64 = range.clone().map(|i| (place[i] / fitting.growth(i)).powi(2)).sum();
                     let share = |i: usize| variance(i) / (size * fitting.growth(i)).powi(2);
                     let told: f64 = range.map(|i| (1.0 - share(i)).clamp(0.0, 1.0)).sum();
-                    ((squares + PRIOR_MODES * prior * prior) / (told + PRIOR_MODES)).sqrt()
+                    ((squares + count * prior * prior) / (told + count)).sqrt()
                 };
                 let own = fitting.first_own()..fitting.first_factor();
                 if self.given_sizes.frequency.is_none() {
-                    sizes.frequency = fresh(own, sizes.frequency, FREQUENCY);
+                    sizes.frequency = fresh(own, sizes.frequency, (FREQUENCY, PRIOR_MODES));
                 }
                 if self.given_sizes.shape.is_none() {
-                    sizes.shape = fresh(fitting.shapes(), sizes.shape, SHAPE);
+                    sizes.shape = fresh(fitting.shapes(), sizes.shape, (SHAPE, PRIOR_MODES));
                 }
                 sizes = sizes.with_common(self.given_sizes);
                 if self.given_sizes.frequency.is_none() {
-                    // A trend over the frequency shows how large that is which no frequency can show.
+                    // No frequency shows a common error, but its trend over the band does.
                     let common = fitting.curves.count()..fitting.first_own();
-                    let squares: f64 = common.clone().map(|i| place[i] * place[i]).sum();
-                    let share = |i: usize| variance(i) / before.1.common.powi(2);
-                    let told: f64 = common.map(|i| (1.0 - share(i)).clamp(0.0, 1.0)).sum();
-                    let shown = (squares + PRIOR_COMMON * sizes.common.powi(2)) / (told + PRIOR_COMMON);
-                    sizes.common = sizes.common.max(shown.sqrt());
+                    let shown = fresh(common, before.1.common, (sizes.common, PRIOR_COMMON));
+                    sizes.common = sizes.common.max(shown);
                 }
             }
             let settled = |a: f64, b: f64| (a / b - 1.0).abs() < 0.03;

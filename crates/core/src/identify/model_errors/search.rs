@@ -149,8 +149,11 @@ impl Fitting<'_, '_> {
     }
 
     /// How much larger the error of a mode is than in the band: above it errors of meshes grow with the square of the frequency. Of the
-    /// coordinate of an own δ or of an a.
+    /// coordinate of an own δ or of an a; 1 of what modes have in common.
     pub(super) fn growth(&self, coordinate: usize) -> f64 {
+        if coordinate < self.first_own() {
+            return 1.0;
+        }
         let mode = match self.shapes().contains(&coordinate) {
             true => (coordinate - self.first_load()) % self.modes(),
             false => self.modes.of_error[coordinate - self.first_own()],
