@@ -240,6 +240,31 @@ fn sprung(elements: usize, factors: [c64; 3]) -> (DynamicStiffness, Experiment) 
     (model, Experiment::driven_at(dim, sensor(0.0), [0.8, 0.4, 0.2].map(sensor).to_vec()))
 }
 
+/// A beam hangs on soft springs, and the model has none: its lowest natural frequencies are off, and its rigid bodies are not free. Without errors of the model that goes into the modulus.
+#[test]
+fn a_suspension_that_the_model_lacks_is_found() {
+    let truth = Law::Constant(c64::new(7e10, 7e8));
+    let on_springs = |stiffness: f64| {
+        let density = c64::new(2700.0, 0.0);
+        let (model, experiment) = sprung(16, [c64::new(7e10, 7e8), c64::new(stiffness, 0.0), density]);
+        let parameter = Parameter::factor_of(&model, &["beam"]).unwrap();
+        Case { name: "suspended", model, experiment, parameter, band_hz: [5.0, 300.0], box_ratio: [0.5, 2.0] }
+    };
+    // Natural frequency on the springs: 3.4 Hz; first bending: 25 Hz.
+    let measured = Measured::on(&on_springs(30.0), &truth, linear_hz(5.0, 300.0, 120), 0.01, 4);
+    let free = on_springs(0.0);
+    let constant = || Variation::Law(vec![LawKind::Constant]);
+    let as_it_is = measured.identified(&free, constant(), ModelErrors::None);
+    let found = measured.identified(&free, constant(), ModelErrors::Estimated);
+    assert_eq!(measured.judged(&as_it_is).0, 0, "not explained by a free beam");
+    let (ok, error, within) = measured.judged(&found);
+    assert!(ok == 120 && error < 0.03 && within[0] == 1.0, "{ok} ok, {error}, {within:?}");
+    // Rigid bodies have no natural frequency that could be off.
+    let errors = found.model_errors.unwrap();
+    assert!(errors.modes.iter().all(|mode| mode.frequency_hz > 20.0), "{errors:?}");
+    assert!(errors.modes[0].error > 0.01, "{errors:?}");
+}
+
 /// A right model is left as it is, to the last bit.
 #[test]
 fn a_right_model_is_left_as_it_is() {

@@ -2,7 +2,8 @@
 //!
 //! With the real pencil (K, M) of the reduced model at some values and its modes y_i (yᵀMy = 1),
 //! $$ S_g \leftarrow S_g + \sum_i 2 \delta_i \\, (y_i^T S_g y_i) \\, (M y_i)(M y_i)^T $$
-//! for each stiffness S_g shifts the natural frequency of mode i by the relative δ_i with its damping kept;
+//! for each stiffness S_g shifts the natural frequency of mode i by the relative δ_i with its damping kept; a rigid body has no stiffness that could be in error,
+//! and $2 \delta_i \omega_1^2$ with the lowest other natural frequency ω_1 is that of a support or a suspension that the model does not have;
 //! $$ \ell_m \leftarrow \ell_m + \sum_i a_{mi} \\, (\ell_m^T y_i) \\, M y_i $$
 //! changes mode i at sensor m by the relative a_mi, the same with F where the force acts;
 //! $$ f_t \leftarrow (1 + \nu_t)(f_t + i \\, \Delta\eta_t \operatorname{Re} f_t) $$
@@ -42,7 +43,7 @@ pub(crate) struct Modes {
 /// Relative errors of modes and terms.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct ModalErrors {
-    /// δ of natural frequencies, by [`Modes::of_error`]: the model with it has ω_i(1 + δ).
+    /// δ of natural frequencies, by [`Modes::of_error`]: the model with it has ω_i(1 + δ); of a rigid body about ω_1 √(2δ).
     pub frequency: Vec<f64>,
     /// a_0i of mode i where the force acts.
     pub load: Vec<f64>,
@@ -89,6 +90,9 @@ pub(crate) struct ErrorSlopes {
 
 /// A shift of the pencil that makes rigid bodies definite: this part of the square of the highest frequency.
 const BELOW: f64 = 1e-4;
+
+/// Squares of natural frequencies below this part of that shift are those of rigid bodies.
+const RIGID: f64 = 1e-4;
 
 /// A share of a mode's strain energy below which an error there is none of the mode.
 const LEAST_SHARE: f64 = 0.02;
@@ -139,6 +143,16 @@ impl Projection {
         let between = congruent(&mass, &root, r);
         let (mu, w) = symmetric_eigen(r, &between)?;
         let greatest = mu.last().copied().unwrap_or(0.0);
+        let square = |k: usize| 1.0 / mu[k] - shift;
+        let is_rigid = |square: f64| square <= RIGID * shift;
+        // What a rigid body would have of a stiffness that holds it, as if it were a part of the first one.
+        let lowest = (0..r).rev().map(square).find(|square| !is_rigid(*square));
+        let lowest = lowest.unwrap_or(highest_rad_s * highest_rad_s);
+        let first = of_stiffness.iter().position(|(_, factor)| *factor != 0.0);
+        let ground = |(own, (_, factor)): (usize, &(usize, f64))| {
+            if Some(own) == first { lowest / factor } else { 0.0 }
+        };
+        let of_ground: Vec<f64> = of_stiffness.iter().enumerate().map(ground).collect();
         let mut modes = Modes {
             omega_rad_s: Vec::new(),
             shapes: Vec::new(),
@@ -154,7 +168,7 @@ impl Projection {
             if mu[k] <= MASSLESS * greatest {
                 break;
             }
-            let omega = (1.0 / mu[k] - shift).max(0.0).sqrt();
+            let omega = if is_rigid(square(k)) { 0.0 } else { square(k).sqrt() };
             if omega > highest_rad_s {
                 break;
             }
@@ -168,8 +182,12 @@ impl Projection {
             };
             modes.omega_rad_s.push(omega);
             modes.momenta.push(times(&mass));
-            let energies: Vec<f64> =
-                of_stiffness.iter().map(|&(g, _)| transpose_dot(&y, &times(&self.matrices[g]))).collect();
+            let energies: Vec<f64> = match omega > 0.0 {
+                true => {
+                    of_stiffness.iter().map(|&(g, _)| transpose_dot(&y, &times(&self.matrices[g]))).collect()
+                }
+                false => of_ground.clone(),
+            };
             let each = || of_stiffness.iter().zip(&energies);
             let whole: f64 = each().map(|((_, factor), energy)| factor * energy).sum();
             for wanted in 0..=at.parameters.len() {
@@ -318,6 +336,11 @@ impl Modes {
         }
     }
 
+    /// The lowest natural frequency that is not zero.
+    pub(crate) fn lowest_rad_s(&self) -> Option<f64> {
+        self.omega_rad_s.iter().copied().find(|omega| *omega > 0.0)
+    }
+
     /// The same modes in a basis to which vectors were added.
     pub(crate) fn in_larger(&self, model: &Projection) -> Self {
         let r = model.size;
@@ -342,13 +365,14 @@ mod tests {
     use crate::subspace::TrainOptions;
     use frfit_linalg::sparse::Triplets;
 
-    /// A chain of twelve masses: the springs of its first half are known, those of the other are not.
-    fn chain() -> DynamicStiffness {
+    /// A chain of twelve masses: the springs of its first half are known, those of the other are not. Its end is held, or it is free.
+    fn chain(is_held: bool) -> DynamicStiffness {
         let n = 12;
         let spring = |from: usize, to: usize| {
             let mut k = Triplets::new(n);
             (from..to).for_each(|i| match i {
-                0 => k.add(0, 0, 1.0),
+                0 if is_held => k.add(0, 0, 1.0),
+                0 => {}
                 _ => k.add_element(&[Some(i - 1), Some(i)], &[1.0, -1.0, -1.0, 1.0]),
             });
             k.assemble()
@@ -372,7 +396,11 @@ mod tests {
     /// Errors move natural frequencies by what they say, and slopes are those of finite differences.
     #[test]
     fn errors_move_natural_frequencies_and_slopes_are_right() {
-        let model = chain();
+        [true, false].into_iter().for_each(errors_move_natural_frequencies);
+    }
+
+    fn errors_move_natural_frequencies(is_held: bool) {
+        let model = chain(is_held);
         let parameter = Parameter::factor_of(&model, &["unknown"]).unwrap();
         let sensor = |row| Sensor { row, sign: 1.0 };
         let experiment = Experiment::driven_at(12, sensor(11), vec![sensor(4), sensor(9)]);
@@ -387,9 +415,11 @@ mod tests {
         let mut subspace = Subspace::new(&experiment, &at).unwrap();
         subspace.train(&points, &TrainOptions::default(), &sequential).unwrap();
         let whole = subspace.projection();
-        let highest = omega_rad_s(1e3);
+        let highest = omega_rad_s(100.0);
         let modes = whole.modes(&at, c64::default(), highest, 6).unwrap();
         assert_eq!(modes.omega_rad_s.len(), 6);
+        assert_eq!(modes.omega_rad_s[0] > 0.0, is_held, "{:?}", modes.omega_rad_s);
+        let lowest = modes.lowest_rad_s().unwrap();
         let of = |term, part| FactorError { term, part, error: 0.0 };
         let mut errors = ModalErrors {
             frequency: vec![0.0; modes.of_error.len()],
@@ -405,10 +435,14 @@ mod tests {
             errors.frequency[k] = 1e-4;
             let moved = whole.with_errors(&modes, &errors).modes(&at, c64::default(), highest, 6).unwrap();
             for i in 0..6 {
-                let expected = if modes.of_error[k] == i { 1e-4 } else { 0.0 };
-                let found = moved.omega_rad_s[i] / modes.omega_rad_s[i] - 1.0;
-                // (1 + 2δ)^½ = 1 + δ − δ²/2.
-                assert!((found - expected).abs() < 1e-8, "{k} {i}: {found:e}");
+                let before = modes.omega_rad_s[i];
+                // A rigid body gets a support.
+                let expected = match modes.of_error[k] == i {
+                    true => before.hypot(if before > 0.0 { before } else { lowest } * 2e-4_f64.sqrt()),
+                    false => before,
+                };
+                let found = moved.omega_rad_s[i];
+                assert!((found - expected).abs() < 1e-8 * lowest, "{k} {i}: {found:e} {expected:e}");
             }
             errors.frequency[k] = 0.0;
         }

@@ -12,7 +12,7 @@ pub struct ModelErrorsFound {
     pub frequency_std: f64,
     /// Standard deviation s_a of the errors of mode shapes at the sensors.
     pub shape_std: f64,
-    /// One for each mode of the nominal model up to the end of the band, and a little further.
+    /// One for each mode of the nominal model up to the end of the band, and a little further; none for a rigid body, which has no natural frequency.
     pub modes: Vec<ModeError>,
     /// Of the known matrices.
     pub factors: Vec<FactorError>,
@@ -67,7 +67,7 @@ impl Estimated {
             let std = covariance(of_factors + t, of_factors + t).max(0.0).sqrt();
             FactorError { term, part, error, std }
         };
-        let told = |omega: &f64| *omega <= ABOVE_BAND * self.highest_rad_s;
+        let told = |omega: &f64| *omega > 0.0 && *omega <= ABOVE_BAND * self.highest_rad_s;
         let [frequency_std, shape_std] = self.sizes;
         let errors_of_known =
             self.errors.factors.iter().enumerate().filter(|(t, _)| self.factors[*t].is_known);

@@ -7,7 +7,10 @@
 //! $$ \sum_{k,m} \frac{|u_m - x_m(\omega_k; \theta, \delta, a, \nu)|^2}{\sigma_m^2} + \frac{e^2 + \sum_i d_i^2}{s^2} + \frac{\sum a_{mi}^2}{s_a^2} + \frac{\sum \nu_t^2}{s_\nu^2} $$
 //! is made least on the reduced model, with the noise approached from above; s and s_a are those of largest evidence. Whether there are errors at all is decided by
 //! the evidence of three explanations: a smooth modulus and a right model, a modulus that scatters from line to line and a right model, a smooth modulus and errors.
-//! Of several unknowns each is a constant, a law or a spline.
+//! It is a right model only where it is better by some nats. Of several unknowns each is a constant, a law or a spline.
+//!
+//! The errors of a mesh grow with ω_i, those of a support fall with 1/ω_i²: e is a sum of such parts. A rigid body has no stiffness that could be in error; its δ is that of a
+//! support that the model does not have.
 //!
 //! # Source
 //! M. C. Kennedy, A. O'Hagan, J. R. Stat. Soc. B 63 (2001) 425–464 (errors of a model beside its parameters); D. J. C. MacKay, Neural Comput. 4 (1992) 415–447
@@ -16,6 +19,7 @@
 mod curve;
 mod found;
 mod leverage;
+mod scatter;
 mod search;
 
 use super::{ErrorSizes, Line, Noise};
@@ -292,7 +296,7 @@ fn explanation(search: &Search<'_, '_>, starts: &[Vec<f64>]) -> Option<Explanati
     let whole = search.fitting(&rough.0, &rough.1, &search.lines);
     let sized = data.given_sizes.any();
     let is_noise = || data.is_noise(&right, data.numbers(&search.lines), curves);
-    if !sized && is_noise() && data.promise(&whole, &right, &given)? < PROMISE {
+    if !sized && is_noise() && data.promise(&whole, &right, &given)? <= -RIGHT {
         return right_model();
     }
     let coarse = search.fitting(&rough.0, &rough.1, &search.some);
@@ -309,10 +313,10 @@ fn explanation(search: &Search<'_, '_>, starts: &[Vec<f64>]) -> Option<Explanati
     }
     let near = search.smaller(&search.points(&wrong.found.place), NEIGHBOURHOOD);
     let fine = search.fitting(&near.0, &near.1, &search.lines);
-    let scattered = data.scattered(&search.lines, curves, &starts[0], wrong.level);
+    let scattered = data.scattered(search, &right, wrong.level);
     let least = scattered.map_or(right.evidence, |scattered| scattered.min(right.evidence));
     let evidence = 0.5 * (least - wrong.evidence);
-    if !sized && evidence <= NATS {
+    if !sized && evidence <= -RIGHT {
         return right_model();
     }
     if !fine.are_small(&wrong.found.place, data.given_sizes) {
@@ -454,18 +458,15 @@ const POINTS: usize = 24;
 const NEIGHBOURHOOD: f64 = 1e-6;
 const ROUGH: f64 = 1e-4;
 
-/// Of the sizes before the data; and nats that errors of some such size must promise where noise seems to be all that is left.
+/// Of the sizes before the data, at which small errors are tried.
 const PARTS: [f64; 4] = [1.0, 0.3, 0.1, 0.03];
-const PROMISE: f64 = 3.0;
 
 /// What is left is noise up to so many standard deviations of χ².
 const CHANCE: f64 = 3.0;
 
-/// By how much a modulus may scatter from line to line.
-const SCATTER: [f64; 7] = [1e-4, 1e-3, 3e-3, 1e-2, 3e-2, 0.1, 0.3];
-
-/// Nats by which errors of the model have to explain a band better: sizes were fitted too.
-const NATS: f64 = 6.0;
+/// A right model is one only where it explains a band by so many nats better: before the data errors are a hundred times as likely as none, and where
+/// the data cannot tell, they are in the bars.
+const RIGHT: f64 = 5.0;
 
 impl<'a> Measured<'_, 'a> {
     /// The model at a line of some curves.
@@ -679,23 +680,23 @@ impl<'a> Measured<'_, 'a> {
             }
             if !fitting.shapes().is_empty() {
                 // The size that some errors show; what was known of it counts as so many errors.
-                let fresh = |range: std::ops::Range<usize>, size: f64, (prior, count): (f64, f64)| {
-                    let squares: f64 = range.clone().map(|i| (place[i] / fitting.growth(i)).powi(2)).sum();
+                let fresh = |of: Vec<usize>, size: f64, (prior, count): (f64, f64)| {
+                    let squares: f64 = of.iter().map(|&i| (place[i] / fitting.growth(i)).powi(2)).sum();
                     let share = |i: usize| variance(i) / (size * fitting.growth(i)).powi(2);
-                    let told: f64 = range.map(|i| (1.0 - share(i)).clamp(0.0, 1.0)).sum();
+                    let told: f64 = of.iter().map(|&i| (1.0 - share(i)).clamp(0.0, 1.0)).sum();
                     ((squares + count * prior * prior) / (told + count)).sqrt()
                 };
-                let own = fitting.first_own()..fitting.first_factor();
                 if self.given_sizes.frequency.is_none() {
-                    sizes.frequency = fresh(own, sizes.frequency, (FREQUENCY, PRIOR_MODES));
+                    sizes.frequency =
+                        fresh(fitting.elastic().collect(), sizes.frequency, (FREQUENCY, PRIOR_MODES));
                 }
                 if self.given_sizes.shape.is_none() {
-                    sizes.shape = fresh(fitting.shapes(), sizes.shape, (SHAPE, PRIOR_MODES));
+                    sizes.shape = fresh(fitting.shapes().collect(), sizes.shape, (SHAPE, PRIOR_MODES));
                 }
                 sizes = sizes.with_common(self.given_sizes);
                 if self.given_sizes.frequency.is_none() {
                     // No frequency shows a common error, but its trend over the band does.
-                    let common = fitting.curves.count()..fitting.first_own();
+                    let common = (fitting.curves.count()..fitting.first_own()).collect();
                     let shown = fresh(common, before.1.common, (sizes.common, PRIOR_COMMON));
                     sizes.common = sizes.common.max(shown);
                 }
@@ -710,62 +711,6 @@ impl<'a> Measured<'_, 'a> {
             }
         }
         last
-    }
-
-    /// −2 ln of the evidence of smooth unknowns that scatter from line to line, by what each frequency says; `None` where most say
-    /// nothing, or none has a value of its own. `level` is that of the noise where one sensor cannot show it.
-    fn scattered(&self, lines: &[usize], curves: &Curves, theta: &[f64], level: f64) -> Option<f64> {
-        struct Told {
-            misfit: f64,
-            /// Of each unknown: relative standard deviation at the noise of the lines by themselves, and the square of the way from the curve.
-            unknowns: Vec<[f64; 2]>,
-        }
-        if self.own.is_empty() {
-            return None;
-        }
-        let told = |&i: &usize| {
-            let line = &self.free[i];
-            let (values, _) = curves.values(theta, i, self.omegas[i])?;
-            let sigma = match self.known() {
-                true => self.sigma_at(&[i], 1.0, 0.0).concat(),
-                false => self.sigma[i].clone(),
-            };
-            let each = line.updated_response.iter().zip(&self.measured[i]).zip(&sigma);
-            let one = |&j: &usize| {
-                let value = line.values[j].value.filter(|value| line.on_path && value.re > 0.0)?;
-                let std = line.values[j].uncertainty?.storage_std / value.norm();
-                Some([std, (value / values[j]).ln().norm_sqr()])
-            };
-            Some(Told {
-                misfit: each.map(|((x, u), sigma)| (u - x).norm_sqr() / (sigma * sigma)).sum(),
-                unknowns: self.own.iter().map(one).collect::<Option<_>>()?,
-            })
-        };
-        let told: Vec<Told> = lines.iter().filter_map(told).collect();
-        if 2 * told.len() < lines.len() {
-            return None;
-        }
-        // Lines that say nothing are as good as those that do.
-        let share = lines.len() as f64 / told.len() as f64;
-        let misfit = share * told.iter().map(|one| one.misfit).sum::<f64>();
-        let free = self.numbers(lines) as f64 - 2.0 * (self.own.len() * lines.len()) as f64;
-        let own = match self.known() {
-            true => 1.0,
-            false if free > 0.0 => (misfit / free).sqrt().clamp(LEAST_LEVEL, level),
-            false => level,
-        };
-        let at_own = own / self.alone.unwrap_or(own);
-        let sigma = self.sigma_at(lines, own, 0.0);
-        let logs: f64 = sigma.iter().flatten().filter(|s| s.is_finite()).map(|s| 4.0 * s.ln()).sum();
-        let of_scatter = |tau: f64| -> f64 {
-            let one = |&[std, off]: &[f64; 2]| {
-                let (noise, whole) = ((std * at_own).powi(2), (std * at_own).powi(2) + tau * tau);
-                2.0 * (whole / noise).ln() + off / whole
-            };
-            share * told.iter().flat_map(|told| &told.unknowns).map(one).sum::<f64>()
-        };
-        let least = SCATTER.map(of_scatter).into_iter().fold(f64::INFINITY, f64::min);
-        Some(logs + misfit / (own * own) + least)
     }
 
     fn posterior(&self, fitting: &Fitting<'_, '_>, wrong: Explained, evidence: f64) -> Option<Estimated> {

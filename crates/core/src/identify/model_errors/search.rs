@@ -42,8 +42,12 @@ pub(super) struct FactorPrior {
     pub(super) is_known: bool,
 }
 
-/// Parts that the δ_i of a group have in common: the same for all modes, and with ω_i and its square, as the errors of meshes grow.
-const COMMON: usize = 3;
+/// Parts that the δ_i of a group have in common: the same for all modes, with ω_i and its square, as the errors of meshes grow, and with
+/// 1/ω_i², as those of supports fall.
+const COMMON: usize = 4;
+
+/// Standard deviation of δ of a rigid body: a usual suspension has natural frequencies below a third of the first other one.
+const GROUND: f64 = 0.05;
 
 /// Sizes of the errors: standard deviations.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -125,9 +129,17 @@ impl Fitting<'_, '_> {
 
     /// What δ_i has of each common part.
     pub(super) fn common(&self, i: usize) -> Vec<f64> {
-        let omega = self.modes.omega_rad_s[self.modes.of_error[i]] / self.highest_rad_s;
+        let own = self.modes.omega_rad_s[self.modes.of_error[i]];
         let mut parts = vec![0.0; self.common_errors()];
-        parts[COMMON * self.modes.group[i]..][..COMMON].copy_from_slice(&[1.0, omega, omega * omega]);
+        if let Some(lowest) = self.modes.lowest_rad_s().filter(|_| own > 0.0) {
+            let (omega, support) = (own / self.highest_rad_s, (lowest / own).powi(2));
+            parts[COMMON * self.modes.group[i]..][..COMMON].copy_from_slice(&[
+                1.0,
+                omega,
+                omega * omega,
+                support,
+            ]);
+        }
         parts
     }
 
@@ -159,6 +171,21 @@ impl Fitting<'_, '_> {
             false => self.modes.of_error[coordinate - self.first_own()],
         };
         (self.modes.omega_rad_s[mode] / self.highest_rad_s).powi(2).max(1.0)
+    }
+
+    /// Own parts of δ.
+    fn own(&self) -> std::ops::Range<usize> {
+        self.first_own()..self.first_factor()
+    }
+
+    /// Own parts of δ of modes that have a stiffness.
+    pub(super) fn elastic(&self) -> impl Iterator<Item = usize> {
+        self.own().filter(|&i| !self.is_rigid(i))
+    }
+
+    /// Whether an own δ is that of a rigid body.
+    fn is_rigid(&self, coordinate: usize) -> bool {
+        self.modes.omega_rad_s[self.modes.of_error[coordinate - self.first_own()]] == 0.0
     }
 
     /// No errors.
@@ -209,8 +236,11 @@ impl Fitting<'_, '_> {
     /// Whether the errors in the band are small ones of this model, or not much larger than was given, and it is no other.
     pub(super) fn are_small(&self, place: &[f64], given: ErrorSizes) -> bool {
         let errors = self.errors(place);
-        let in_band: Vec<usize> =
-            (0..self.modes()).filter(|&i| self.modes.omega_rad_s[i] <= self.highest_rad_s).collect();
+        let is_in_band = |&i: &usize| {
+            let omega = self.modes.omega_rad_s[i];
+            omega > 0.0 && omega <= self.highest_rad_s
+        };
+        let in_band: Vec<usize> = (0..self.modes()).filter(is_in_band).collect();
         let square = |of: &dyn Fn(usize) -> f64| {
             in_band.iter().map(|&i| of(i).powi(2)).sum::<f64>() / in_band.len().max(1) as f64
         };
@@ -314,7 +344,8 @@ impl Fitting<'_, '_> {
         }
         let mut set = |i: usize, std: f64| all[i * n + i] = std.powi(-2);
         (own..self.first_own()).for_each(|i| set(i, sizes.common));
-        (self.first_own()..self.first_factor()).for_each(|i| set(i, sizes.frequency * self.growth(i)));
+        self.own()
+            .for_each(|i| set(i, if self.is_rigid(i) { GROUND } else { sizes.frequency * self.growth(i) }));
         (self.first_factor()..).zip(self.factors).for_each(|(i, prior)| set(i, prior.std));
         self.shapes().for_each(|i| set(i, sizes.shape * self.growth(i)));
         all

@@ -1,0 +1,115 @@
+//! The evidence of a right model whose unknowns scatter from line to line about smooth curves.
+
+use super::{Explained, LEAST_LEVEL, Measured, Search};
+use crate::c64;
+use frfit_linalg::dense::Cholesky;
+
+/// By how much unknowns may scatter: standard deviations of ln p.
+const SCATTER: [f64; 7] = [1e-4, 1e-3, 3e-3, 1e-2, 3e-2, 0.1, 0.3];
+
+/// What a line says of the unknowns that have a value of their own there.
+struct Told {
+    line: usize,
+    /// What the best values leave of the sensors.
+    misfit: f64,
+    /// Of each unknown: its value, and the relative standard deviation of that.
+    unknowns: Vec<(c64, f64)>,
+}
+
+impl Measured<'_, '_> {
+    /// −2 ln of the evidence of smooth unknowns that scatter from line to line, as [`Explained::evidence`] counts it; `None` where most lines say nothing, or no
+    /// unknown has a value of its own. `level` is that of the noise where one sensor cannot show it.
+    ///
+    /// ln p of a line is the curve's with the variances of noise and scatter, v = s² + τ². With A = Σ Re(g gᴴ)/v + P, the precision P of the curves and the
+    /// residuals r at θ, linear least squares have
+    /// $$ \sum \ln \frac{v^2}{s^4} + \sum \frac{|r|^2}{v} - b^T A^{-1} b + \theta^T P \theta + \ln \det A - \ln \det P, \quad b = \sum \operatorname{Re} \frac{\bar g r}{v} - P \theta $$
+    /// beside the misfit of the lines by themselves. Without scatter that is a right model.
+    pub(super) fn scattered(&self, search: &Search<'_, '_>, right: &Explained, level: f64) -> Option<f64> {
+        let lines = &search.lines;
+        if self.own.is_empty() {
+            return None;
+        }
+        let told: Vec<Told> = lines.iter().filter_map(|&i| self.told(i)).collect();
+        if 2 * told.len() < lines.len() {
+            return None;
+        }
+        // Lines that say nothing are as good as those that do.
+        let share = lines.len() as f64 / told.len() as f64;
+        let misfit = share * told.iter().map(|one| one.misfit).sum::<f64>();
+        let free = self.numbers(lines) as f64 - 2.0 * (self.own.len() * lines.len()) as f64;
+        let own = match self.known() {
+            true => 1.0,
+            false if free > 0.0 => (misfit / free).sqrt().clamp(LEAST_LEVEL, level),
+            false => level,
+        };
+        let sigma = self.sigma_at(lines, own, 0.0);
+        let logs: f64 = sigma.iter().flatten().filter(|s| s.is_finite()).map(|s| 4.0 * s.ln()).sum();
+        let at_own = own / self.alone.unwrap_or(own);
+        let of = |scatter: f64| self.about_curves((search, right), &told, (share, at_own), scatter);
+        let least = SCATTER.into_iter().filter_map(of).fold(f64::INFINITY, f64::min);
+        Some(logs + misfit / (own * own) + least)
+    }
+
+    fn told(&self, line: usize) -> Option<Told> {
+        let own = &self.free[line];
+        let sigma = match self.known() {
+            true => self.sigma_at(&[line], 1.0, 0.0).concat(),
+            false => self.sigma[line].clone(),
+        };
+        let each = own.updated_response.iter().zip(&self.measured[line]).zip(&sigma);
+        let unknown = |&j: &usize| {
+            let value = own.values[j].value.filter(|value| own.on_path && value.re > 0.0)?;
+            Some((value, own.values[j].uncertainty?.storage_std / value.norm()))
+        };
+        Some(Told {
+            line,
+            misfit: each.map(|((x, u), sigma)| (u - x).norm_sqr() / (sigma * sigma)).sum(),
+            unknowns: self.own.iter().map(unknown).collect::<Option<_>>()?,
+        })
+    }
+
+    /// The part of the curves and of the scatter about them. Each line counts as `share` lines, its noise is `level` times what it says.
+    fn about_curves(
+        &self,
+        (search, right): (&Search<'_, '_>, &Explained),
+        told: &[Told],
+        (share, level): (f64, f64),
+        scatter: f64,
+    ) -> Option<f64> {
+        let Search { curves, centre, .. } = *search;
+        let n = curves.count();
+        let theta = &right.found.place[..n];
+        let prior = curves.precision(centre, right.sizes.bend);
+        let off: Vec<f64> = theta.iter().zip(centre).map(|(t, c)| t - c).collect();
+        let pull: Vec<f64> =
+            prior.chunks_exact(n).map(|row| row.iter().zip(&off).map(|(p, o)| p * o).sum()).collect();
+        let mut sum: f64 = pull.iter().zip(&off).map(|(p, o)| p * o).sum();
+        let mut gradient: Vec<f64> = pull.iter().map(|p| -p).collect();
+        let mut matrix = prior.clone();
+        for one in told {
+            let (values, slopes) = curves.values(theta, one.line, self.omegas[one.line])?;
+            for (&j, &(value, std)) in self.own.iter().zip(&one.unknowns) {
+                let noise = (std * level).powi(2);
+                let both = noise + scatter * scatter;
+                let rest = (value / values[j]).ln();
+                sum += share * (2.0 * (both / noise).ln() + rest.norm_sqr() / both);
+                // ∂ ln p/∂θ, where it is not zero.
+                let of_own = slopes.iter().enumerate().filter(|(_, (unknown, _))| *unknown == j);
+                let of_log: Vec<(usize, c64)> =
+                    of_own.map(|(a, (_, slope))| (a, slope / values[j])).collect();
+                for &(a, x) in &of_log {
+                    gradient[a] += share * (x.re * rest.re + x.im * rest.im) / both;
+                    for &(b, y) in &of_log {
+                        matrix[a * n + b] += share * (x.re * y.re + x.im * y.im) / both;
+                    }
+                }
+            }
+        }
+        let factor = Cholesky::new(n, &matrix).ok()?;
+        let mut step = gradient.clone();
+        factor.solve(&mut step);
+        let gained: f64 = gradient.iter().zip(&step).map(|(g, s)| g * s).sum();
+        let of_prior = Cholesky::new(n, &prior).ok()?.log_determinant();
+        Some(sum - gained + factor.log_determinant() - of_prior)
+    }
+}
