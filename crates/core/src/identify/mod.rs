@@ -30,7 +30,7 @@ pub use band::{
 };
 pub use choice::{Method, Reduction, Selection, UnknownChoice};
 pub use identification::{Identifiability, Identification, SearchReport};
-pub use model_errors::{FactorError, Leverage, ModeError, ModelErrorsFound};
+pub use model_errors::{FactorError, Leverage, ModeError, ModelErrorsFound, SensorMass};
 pub use one::{error_by_order, identify_at, relative_error};
 pub use options::{ErrorSizes, MAX_ORDER, ModelErrors, Options, OptionsError};
 pub use outcome::{Line, LineValue, Status};

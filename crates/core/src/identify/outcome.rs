@@ -250,6 +250,20 @@ impl Line {
         self.rivals.iter().any(|rival| rival[0] == factor)
     }
 
+    /// Makes all error bars longer; a value that they leave unknown is no longer `ok`.
+    pub(super) fn lengthen_bars(&mut self, by: f64) {
+        if by <= 1.0 {
+            return;
+        }
+        for value in &mut self.values {
+            let (Some(factor), Some(bars)) = (value.value, value.uncertainty.as_mut()) else { continue };
+            bars.lengthen(by);
+            if self.status == Status::Ok && !(bars.is_known(factor) && bars.is_linear()) {
+                self.status = Status::NotIdentifiable;
+            }
+        }
+    }
+
     /// Number of solutions that were found within the bounds.
     pub fn candidate_count(&self) -> usize {
         let admissible = self.roots.iter().filter(|root| root.refusal.is_none()).count();

@@ -65,6 +65,14 @@ impl Uncertainty {
         }
     }
 
+    /// Noise is so many times as large.
+    pub(crate) fn lengthen(&mut self, by: f64) {
+        self.correction_std *= by;
+        self.storage_std *= by;
+        self.loss_factor_std = self.loss_factor_std.map(|std| by * std);
+        self.nonlinearity *= by;
+    }
+
     /// Adds an error of the factor that is independent of the noise: variances of its real and imaginary part, and their covariance.
     pub(crate) fn widen(&mut self, factor: c64, [real, imaginary, both]: [f64; 3]) {
         let eta = loss_factor(factor);

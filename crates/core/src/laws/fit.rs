@@ -192,6 +192,17 @@ impl LawFit {
         self
     }
 
+    /// With noise that is so many times as large.
+    pub(crate) fn with_noise(self, times: f64) -> Self {
+        let scaled = |covariance: &Vec<Vec<f64>>| {
+            covariance.iter().map(|row| row.iter().map(|value| times * times * value).collect()).collect()
+        };
+        match self.covariance.as_ref().map(scaled) {
+            Some(covariance) if times > 1.0 => self.with_covariance(covariance),
+            _ => self,
+        }
+    }
+
     /// The moduli that other minima, which the data cannot exclude, have at a frequency.
     pub(crate) fn rivals_at(&self, frequency_hz: f64) -> Vec<c64> {
         let at = |theta: &Vec<f64>| self.parametrization.modulus(theta, omega_rad_s(frequency_hz));

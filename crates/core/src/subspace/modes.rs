@@ -2,10 +2,14 @@
 //!
 //! With the real pencil (K, M) of the reduced model at some values and its modes y_i (yᵀMy = 1),
 //! $$ S_g \leftarrow S_g + \sum_i 2 \delta_i \\, (y_i^T S_g y_i) \\, (M y_i)(M y_i)^T $$
-//! for each stiffness S_g shifts the natural frequency of mode i by the relative δ_i with its damping kept; a rigid body has no stiffness that could be in error,
+//! for each stiffness S_g shifts the natural frequency of mode i by the relative δ_i with its damping kept,
+//! $$ S_g \leftarrow S_g + \sum_i \frac{i \eta_i}{1 + i \eta_i} \epsilon_i \\, (y_i^T S_g y_i) \\, (M y_i)(M y_i)^T $$
+//! its loss factor η_i by the relative ε_i with its frequency kept; a rigid body has no stiffness that could be in error,
 //! and $2 \delta_i \omega_1^2$ with the lowest other natural frequency ω_1 is that of a support or a suspension that the model does not have;
 //! $$ \ell_m \leftarrow \ell_m + \sum_i a_{mi} \\, (\ell_m^T y_i) \\, M y_i $$
 //! changes mode i at sensor m by the relative a_mi, the same with F where the force acts;
+//! $$ M \leftarrow M + \sum_m \kappa_m M_m \, \ell_m \ell_m^T, \qquad M_m^{-1} = \overline{(\ell_m^T y_i)^2} $$
+//! is a mass at sensor m that the model does not have, as that of an accelerometer, over the apparent mass M_m of the modes there;
 //! $$ f_t \leftarrow (1 + \nu_t)(f_t + i \\, \Delta\eta_t \operatorname{Re} f_t) $$
 //! changes a known factor. What comes out is a reduced model like any other.
 
@@ -28,12 +32,20 @@ pub(crate) struct Modes {
     momenta: Vec<Vec<f64>>,
     /// M = Σ factor S_g.
     mass: Vec<(usize, f64)>,
-    /// The mode of each frequency error: a mode has one in the known stiffness, and one in that of each parameter.
+    /// The mode of each error of a stiffness: a mode has two in the known stiffness, and two in that of each parameter.
     pub(crate) of_error: Vec<usize>,
+    /// The same mode, or of a rigid body another one: which of their combinations are modes is not determined, and a support couples them.
+    partner: Vec<usize>,
     /// Where it is: 0 in the known stiffness, 1 + j in that of parameter j.
     pub(crate) group: Vec<usize>,
-    /// What of S_g goes with each frequency error, `[g][error]`; empty for parts that are no stiffness.
+    /// What of the stiffness an error of 1 is: 2 of δ_i, iη/(1 + iη) of ε_i.
+    share: Vec<c64>,
+    /// What of S_g goes with each error, `[g][error]`; empty for parts that are no stiffness.
     stiffness: Vec<Vec<f64>>,
+    /// ℓ_m, what of which S_g a mass there is, and the apparent mass M_m.
+    directions: Vec<Vec<f64>>,
+    mass_part: Option<(usize, f64)>,
+    pub(crate) apparent_mass: Vec<f64>,
     /// FᵀVy_i.
     load: Vec<c64>,
     /// ℓ_mᵀVy_i, `[m][i]`.
@@ -43,8 +55,10 @@ pub(crate) struct Modes {
 /// Relative errors of modes and terms.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct ModalErrors {
-    /// δ of natural frequencies, by [`Modes::of_error`]: the model with it has ω_i(1 + δ); of a rigid body about ω_1 √(2δ).
-    pub frequency: Vec<f64>,
+    /// δ of natural frequencies and ε of loss factors, by [`Modes::of_error`]: the model with them has ω_i(1 + δ) and η_i(1 + ε); a rigid body about ω_1 √(2δ).
+    pub stiffness: Vec<f64>,
+    /// κ_m of the mass at sensor m.
+    pub masses: Vec<f64>,
     /// a_0i of mode i where the force acts.
     pub load: Vec<f64>,
     /// a_mi of mode i at sensor m.
@@ -78,8 +92,10 @@ pub(crate) struct ErrorSlopes {
     pub(crate) response: Vec<c64>,
     /// ∂x_m/∂c_j, `[parameter][m]`.
     pub(crate) slopes: Vec<Vec<c64>>,
-    /// ∂x_m/∂δ_i, `[m][i]`.
-    pub(crate) frequency: Vec<Vec<c64>>,
+    /// ∂x_m/∂δ_i and ∂x_m/∂ε_i, `[m][error]`.
+    pub(crate) stiffness: Vec<Vec<c64>>,
+    /// ∂x_m/∂κ_n, `[m][n]`.
+    pub(crate) masses: Vec<Vec<c64>>,
     /// ∂x_m/∂a_0i, `[m][i]`.
     pub(crate) load: Vec<Vec<c64>>,
     /// ∂x_m/∂a_mi, `[m][i]`.
@@ -115,9 +131,9 @@ impl Projection {
         let r = self.size;
         let (theta, _) = weights(self, at, correction);
         let role = |g: usize| at.model.terms()[self.parts.term(g)].role;
+        let factor = |g: usize| theta[g] / at.model.weight(role(g), at.frequency_hz);
         let factors = |wanted: Role| -> Vec<(usize, f64)> {
-            let factor = |g: usize| (theta[g] / at.model.weight(wanted, at.frequency_hz)).re;
-            (0..theta.len()).filter(|&g| role(g) == wanted).map(|g| (g, factor(g))).collect()
+            (0..theta.len()).filter(|&g| role(g) == wanted).map(|g| (g, factor(g).re)).collect()
         };
         let of_mass = factors(Role::Mass);
         let mass = self.real_sum(&of_mass);
@@ -153,14 +169,20 @@ impl Projection {
             if Some(own) == first { lowest / factor } else { 0.0 }
         };
         let of_ground: Vec<f64> = of_stiffness.iter().enumerate().map(ground).collect();
+        let mass_part = of_mass.iter().copied().max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
         let mut modes = Modes {
             omega_rad_s: Vec::new(),
             shapes: Vec::new(),
             momenta: Vec::new(),
             mass: of_mass,
             of_error: Vec::new(),
+            partner: Vec::new(),
             group: Vec::new(),
+            share: Vec::new(),
             stiffness: (0..theta.len()).map(|_| Vec::new()).collect(),
+            directions: self.sensors.clone(),
+            mass_part,
+            apparent_mass: Vec::new(),
             load: Vec::new(),
             sensors: vec![Vec::new(); self.sensors.len()],
         };
@@ -192,14 +214,25 @@ impl Projection {
             let whole: f64 = each().map(|((_, factor), energy)| factor * energy).sum();
             for wanted in 0..=at.parameters.len() {
                 let of_group = each().filter(|((g, _), _)| group(*g) == wanted);
-                let own: f64 = of_group.map(|((_, factor), energy)| factor * energy).sum();
-                if own <= LEAST_SHARE * whole {
+                let own: c64 = of_group.map(|((g, _), energy)| factor(*g) * energy).sum();
+                if own.re <= LEAST_SHARE * whole {
                     continue;
                 }
-                modes.of_error.push(modes.omega_rad_s.len() - 1);
-                modes.group.push(wanted);
-                for ((g, _), energy) in each() {
-                    modes.stiffness[*g].push(if group(*g) == wanted { energy * whole / own } else { 0.0 });
+                let loss_factor = own.im / own.re;
+                let of_loss = c64::new(0.0, loss_factor) / c64::new(1.0, loss_factor);
+                let of_loss = Some(of_loss).filter(|_| loss_factor > 0.0);
+                let last = modes.omega_rad_s.len() - 1;
+                let first = if omega > 0.0 { last } else { 0 };
+                let shares = || std::iter::once(c64::new(2.0, 0.0)).chain(of_loss);
+                for (partner, share) in (first..=last).flat_map(|j| shares().map(move |share| (j, share))) {
+                    modes.of_error.push(last);
+                    modes.partner.push(partner);
+                    modes.group.push(wanted);
+                    modes.share.push(share);
+                    for ((g, _), energy) in each() {
+                        let has_it = group(*g) == wanted && (share.im == 0.0 || self.parts.is_real(*g));
+                        modes.stiffness[*g].push(if has_it { energy * whole / own.re } else { 0.0 });
+                    }
                 }
             }
             modes.load.push(self.load.iter().zip(&y).map(|(force, y)| force * y).sum());
@@ -208,6 +241,7 @@ impl Projection {
             }
             modes.shapes.push(y);
         }
+        modes.apparent_mass = modes.sensors.iter().map(|own| modes.apparent(own)).collect();
         Ok(modes)
     }
 
@@ -224,6 +258,7 @@ impl Projection {
         let mut of_local = modes.clone();
         of_local.shapes = modes.shapes.iter().map(along).collect();
         of_local.momenta = modes.momenta.iter().map(along).collect();
+        of_local.directions.clone_from(&local.sensors);
         Some((local, of_local))
     }
 
@@ -240,14 +275,26 @@ impl Projection {
     pub(crate) fn with_errors(&self, modes: &Modes, errors: &ModalErrors) -> Self {
         let r = self.size;
         let mut corrected = Self { parts: self.parts.with_errors(&errors.factors), ..self.clone() };
-        for (g, matrix) in corrected.matrices.iter_mut().enumerate() {
+        let damped: Vec<usize> = (0..self.matrices.len()).filter(|&g| modes.is_damped(g)).collect();
+        for &g in &damped {
+            corrected.parts.add_imaginary(g);
+            corrected.matrices.push(vec![0.0; r * r]);
+        }
+        for (place, matrix) in corrected.matrices.iter_mut().enumerate() {
+            let imaginary = place.checked_sub(self.matrices.len()).map(|k| damped[k]);
+            let g = imaginary.unwrap_or(place);
             for (error, by) in modes.stiffness[g].iter().enumerate().filter(|(_, by)| **by != 0.0) {
-                let by = 2.0 * errors.frequency[error] * by;
-                let momentum = &modes.momenta[modes.of_error[error]];
-                for (column, at) in matrix.chunks_exact_mut(r).zip(momentum) {
-                    let by = by * at;
-                    column.iter_mut().zip(momentum).for_each(|(entry, momentum)| *entry += by * momentum);
-                }
+                let share = modes.share[error];
+                let share = if imaginary.is_some() { share.im } else { share.re };
+                let pair = [modes.of_error[error], modes.partner[error]].map(|i| &modes.momenta[i][..]);
+                add_product(matrix, share * errors.stiffness[error] * by, pair);
+            }
+        }
+        if let Some((g, factor)) = modes.mass_part {
+            for ((direction, mass), error) in
+                modes.directions.iter().zip(&modes.apparent_mass).zip(&errors.masses)
+            {
+                add_product(&mut corrected.matrices[g], error * mass / factor, [direction; 2]);
             }
         }
         for (i, momentum) in modes.momenta.iter().enumerate() {
@@ -285,18 +332,28 @@ impl Projection {
         };
         let of_load = along(y);
         let by_sensor: Vec<Vec<c64>> = duals.iter().map(|z| along(z)).collect();
-        // The complex stiffness that goes with each frequency error.
+        // The complex stiffness that goes with each error.
         let stiffness = |error: usize| -> c64 {
             let parts = modes.stiffness.iter().enumerate().filter(|(_, own)| !own.is_empty());
-            parts.map(|(g, own)| solutions.theta[g] * own[error]).sum()
+            let own: c64 = parts.map(|(g, own)| solutions.theta[g] * own[error]).sum();
+            modes.share[error] * own
         };
         let stiffness: Vec<c64> = (0..modes.of_error.len()).map(stiffness).collect();
         let mut of_parameters = self.first_weights(at);
         of_parameters[0].clone_from(&solutions.slope_theta);
-        let frequency = |z: &Vec<c64>| {
-            let each = modes.of_error.iter().zip(&stiffness);
-            each.map(|(&i, stiffness)| -2.0 * stiffness * z[i] * of_load[i]).collect()
+        let of_stiffness = |z: &Vec<c64>| {
+            let each = modes.of_error.iter().zip(&modes.partner).zip(&stiffness);
+            each.map(|((&i, &j), k)| -0.5 * k * (z[i] * of_load[j] + z[j] * of_load[i])).collect()
         };
+        // −ω² M_n ℓ_nᵀy of each mass.
+        let at_sensor = |x: &[c64]| -> Vec<c64> {
+            modes.directions.iter().map(|l| l.iter().zip(x).map(|(l, x)| *l * x).sum()).collect()
+        };
+        let inertia = |(own, mass): (c64, &f64)| -> c64 {
+            modes.mass_part.map_or(c64::default(), |(g, factor)| solutions.theta[g] * own * (mass / factor))
+        };
+        let inertias: Vec<c64> = at_sensor(y).into_iter().zip(&modes.apparent_mass).map(inertia).collect();
+        let masses = |z: &Vec<c64>| at_sensor(z).iter().zip(&inertias).map(|(z, force)| -z * force).collect();
         let shape = |own: &Vec<f64>| own.iter().zip(&of_load).map(|(l, y)| *l * y).collect();
         let theta = |by: &FactorError| -> Vec<c64> {
             solutions.theta.iter().enumerate().map(|(g, &theta)| self.parts.slope(g, theta, by)).collect()
@@ -306,11 +363,20 @@ impl Projection {
         Ok(ErrorSlopes {
             response: solutions.response(self),
             slopes: solutions.slopes(self, &of_parameters),
-            frequency: by_sensor.iter().map(frequency).collect(),
+            stiffness: by_sensor.iter().map(of_stiffness).collect(),
+            masses: duals.iter().map(masses).collect(),
             load: by_sensor.iter().map(|z| z.iter().zip(&modes.load).map(|(z, f)| z * f).collect()).collect(),
             shape: modes.sensors.iter().map(shape).collect(),
             factors: (0..duals.len()).map(factors).collect(),
         })
+    }
+}
+
+/// A += by (u vᵀ + v uᵀ)/2 for an r × r matrix.
+fn add_product(matrix: &mut [f64], by: f64, [u, v]: [&[f64]; 2]) {
+    for (column, (u_column, v_column)) in matrix.chunks_exact_mut(u.len().max(1)).zip(u.iter().zip(v)) {
+        let each = column.iter_mut().zip(u.iter().zip(v));
+        each.for_each(|(entry, (u, v))| *entry += 0.5 * by * (u * v_column + v * u_column));
     }
 }
 
@@ -329,11 +395,40 @@ impl Modes {
             momenta: Vec::new(),
             mass: Vec::new(),
             of_error: Vec::new(),
+            partner: Vec::new(),
             group: Vec::new(),
+            share: Vec::new(),
             stiffness: vec![Vec::new(); model.matrices.len()],
+            directions: Vec::new(),
+            mass_part: None,
+            apparent_mass: Vec::new(),
             load: Vec::new(),
             sensors: vec![Vec::new(); model.sensors.len()],
         }
+    }
+
+    /// The errors of a mode's natural frequency.
+    pub(crate) fn frequency_errors(&self, mode: usize) -> impl Iterator<Item = usize> {
+        (0..self.of_error.len())
+            .filter(move |&error| self.of_error[error] == mode && self.is_of_frequency(error))
+    }
+
+    /// Whether an error of a stiffness is one of a natural frequency, and not of a loss factor.
+    pub(crate) fn is_of_frequency(&self, error: usize) -> bool {
+        self.share[error].im == 0.0
+    }
+
+    /// The mean mass that modes with a stiffness have at a sensor; none where none of them moves it.
+    fn apparent(&self, own: &[f64]) -> f64 {
+        let elastic = own.iter().zip(&self.omega_rad_s).filter(|(_, omega)| **omega > 0.0);
+        let squares: Vec<f64> = elastic.map(|(shape, _)| shape * shape).collect();
+        let mean = squares.iter().sum::<f64>() / squares.len() as f64;
+        if mean > 0.0 { 1.0 / mean } else { 0.0 }
+    }
+
+    /// Whether loss factors of S_g may be in error.
+    fn is_damped(&self, g: usize) -> bool {
+        self.stiffness[g].iter().zip(&self.share).any(|(by, share)| *by != 0.0 && share.im != 0.0)
     }
 
     /// The lowest natural frequency that is not zero.
@@ -346,6 +441,7 @@ impl Modes {
         let r = model.size;
         let mass = model.real_sum(&self.mass);
         let mut larger = self.clone();
+        larger.directions.clone_from(&model.sensors);
         for (shape, momentum) in larger.shapes.iter_mut().zip(&mut larger.momenta) {
             shape.resize(r, 0.0);
             *momentum = mass.chunks_exact(r.max(1)).map(|column| transpose_dot(column, shape)).collect();
@@ -361,6 +457,7 @@ mod tests {
     use crate::frequency::omega_rad_s;
     use crate::material::Law;
     use crate::model::{DynamicStiffness, Experiment, Parameter, Sensor, Term};
+    use crate::response::{FullModel, Response};
     use crate::subspace::Subspace;
     use crate::subspace::TrainOptions;
     use frfit_linalg::sparse::Triplets;
@@ -399,6 +496,44 @@ mod tests {
         [true, false].into_iter().for_each(errors_move_natural_frequencies);
     }
 
+    /// A mass at a sensor is that mass in the mass matrix.
+    #[test]
+    fn a_mass_at_a_sensor_is_in_the_mass_matrix() {
+        let (kilograms, row) = (0.07, 4);
+        let model = chain(true);
+        let mut at_sensor = Triplets::new(12);
+        at_sensor.add(row, row, kilograms);
+        let mut terms = model.terms().to_vec();
+        let factor = Law::Constant(c64::new(1.0, 0.0));
+        terms.push(Term { name: "sensor".into(), role: Role::Mass, matrix: at_sensor.assemble(), factor });
+        let truth = DynamicStiffness::new(terms).unwrap();
+        let sensor = |row| Sensor { row, sign: 1.0 };
+        let experiment = Experiment::driven_at(12, sensor(11), vec![sensor(row), sensor(9)]);
+        let parameter = Parameter::factor_of(&model, &["unknown"]).unwrap();
+        let at = model.at(9.0, std::slice::from_ref(&parameter)).unwrap();
+        let mut subspace = Subspace::new(&experiment, &at).unwrap();
+        let point = Point { at: at.clone(), correction: c64::default() };
+        subspace.train(&[point], &TrainOptions::default(), &sequential).unwrap();
+        let whole = subspace.projection();
+        let modes = whole.modes(&at, c64::default(), omega_rad_s(100.0), 6).unwrap();
+        let errors = ModalErrors {
+            stiffness: vec![0.0; modes.of_error.len()],
+            masses: vec![kilograms / modes.apparent_mass[0], 0.0],
+            load: vec![0.0; 6],
+            shape: vec![vec![0.0; 6]; 2],
+            factors: Vec::new(),
+        };
+        let found = whole
+            .with_errors(&modes, &errors)
+            .respond_with_error_slopes((&modes, &errors), &at, c64::default())
+            .unwrap();
+        let at = truth.at(9.0, std::slice::from_ref(&parameter)).unwrap();
+        let exact = FullModel::new(at, &experiment).unwrap().solve_at(&[c64::default()]).unwrap();
+        for (x, exact) in found.response.iter().zip(&exact) {
+            assert!((x - exact).norm() < 1e-6 * exact.norm(), "{x} {exact}");
+        }
+    }
+
     fn errors_move_natural_frequencies(is_held: bool) {
         let model = chain(is_held);
         let parameter = Parameter::factor_of(&model, &["unknown"]).unwrap();
@@ -422,7 +557,8 @@ mod tests {
         let lowest = modes.lowest_rad_s().unwrap();
         let of = |term, part| FactorError { term, part, error: 0.0 };
         let mut errors = ModalErrors {
-            frequency: vec![0.0; modes.of_error.len()],
+            stiffness: vec![0.0; modes.of_error.len()],
+            masses: vec![0.0; 2],
             load: vec![0.0; 6],
             shape: vec![vec![0.0; 6]; 2],
             factors: vec![
@@ -432,23 +568,24 @@ mod tests {
             ],
         };
         for k in 0..modes.of_error.len() {
-            errors.frequency[k] = 1e-4;
+            errors.stiffness[k] = 1e-4;
             let moved = whole.with_errors(&modes, &errors).modes(&at, c64::default(), highest, 6).unwrap();
             for i in 0..6 {
                 let before = modes.omega_rad_s[i];
                 // A rigid body gets a support.
-                let expected = match modes.of_error[k] == i {
+                let expected = match modes.of_error[k] == i && modes.is_of_frequency(k) {
                     true => before.hypot(if before > 0.0 { before } else { lowest } * 2e-4_f64.sqrt()),
                     false => before,
                 };
                 let found = moved.omega_rad_s[i];
                 assert!((found - expected).abs() < 1e-8 * lowest, "{k} {i}: {found:e} {expected:e}");
             }
-            errors.frequency[k] = 0.0;
+            errors.stiffness[k] = 0.0;
         }
         // Somewhere with errors of every kind.
-        errors.frequency.iter_mut().enumerate().for_each(|(k, error)| *error = 0.01 / (1.0 + k as f64));
+        errors.stiffness.iter_mut().enumerate().for_each(|(k, error)| *error = 0.01 / (1.0 + k as f64));
         errors.shape[1][2] = 0.05;
+        errors.masses[0] = 0.01;
         errors.load[3] = -0.04;
         errors.factors[1].error = 0.03;
         errors.factors[2].error = -0.02;
@@ -474,13 +611,18 @@ mod tests {
         };
         for k in 0..modes.of_error.len() {
             let mut moved = errors.clone();
-            moved.frequency[k] += step;
-            check(&moved, &|slopes, m| slopes.frequency[m][k]);
+            moved.stiffness[k] += step;
+            check(&moved, &|slopes, m| slopes.stiffness[m][k]);
         }
         for t in 0..3 {
             let mut moved = errors.clone();
             moved.factors[t].error += step;
             check(&moved, &|slopes, m| slopes.factors[m][t]);
+        }
+        for n in 0..2 {
+            let mut moved = errors.clone();
+            moved.masses[n] += step;
+            check(&moved, &|slopes, m| slopes.masses[m][n]);
         }
         for i in 0..6 {
             let mut moved = errors.clone();

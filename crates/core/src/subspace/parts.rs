@@ -27,6 +27,16 @@ impl Parts {
         Self { each: self.each.clone(), errors: errors.to_vec() }
     }
 
+    /// Whether a part is a term's real matrix.
+    pub(super) fn is_real(&self, g: usize) -> bool {
+        self.each[g].1 == Part::Re
+    }
+
+    /// One more part, i times what S_g is multiplied with.
+    pub(super) fn add_imaginary(&mut self, g: usize) {
+        self.each.push((self.each[g].0, Part::Im));
+    }
+
     pub(super) fn len(&self) -> usize {
         self.each.len()
     }

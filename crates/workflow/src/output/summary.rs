@@ -183,6 +183,7 @@ pub(super) fn model_errors_json(case: &Case, errors: &ModelErrorsFound) -> Value
     let matrix = |factor: &FactorError| json!({"matrix": case.model.terms()[factor.term].name, "part": part(factor.part), "error": factor.error, "std": factor.std});
     json!({
         "frequency_std": errors.frequency_std,
+        "loss_factor_std": errors.loss_factor_std,
         "shape_std": errors.shape_std,
         "evidence_nats": errors.evidence,
         "modes": errors.modes.iter().map(mode).collect::<Vec<_>>(),

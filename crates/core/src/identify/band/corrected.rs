@@ -118,8 +118,9 @@ fn widen(
     let moved = map(hooks.for_each, lines.len(), |i| -> Option<[f64; 3]> {
         let correction = lines[i].correction()?;
         let slopes = model.respond_with_error_slopes((modes, values), &at[i], correction).ok()?;
-        let (n, t) = (modes.omega_rad_s.len(), values.factors.len());
-        let first_load = modes.of_error.len() + t;
+        let n = modes.omega_rad_s.len();
+        let first_mass = modes.of_error.len() + values.factors.len();
+        let first_load = first_mass + values.masses.len();
         let first_shape = first_load + n;
         let count = first_shape + sigma[i].len() * n;
         let mut pulls = vec![c64::default(); count];
@@ -128,8 +129,9 @@ fn widen(
             let along = slopes.slopes[0][m].conj() / (sigma * sigma);
             weight += slopes.slopes[0][m].norm_sqr() / (sigma * sigma);
             let own = [
-                (0, &slopes.frequency[m]),
+                (0, &slopes.stiffness[m]),
                 (modes.of_error.len(), &slopes.factors[m]),
+                (first_mass, &slopes.masses[m]),
                 (first_load, &slopes.load[m]),
                 (first_shape + m * n, &slopes.shape[m]),
             ];

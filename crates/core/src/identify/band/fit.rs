@@ -3,7 +3,7 @@
 use super::noise::{NoiseLevel, NoiseSource};
 use super::{Band, Noise};
 use crate::c64;
-use crate::identify::Line;
+use crate::identify::{Line, Status};
 
 /// How well the answers explain the sensors over the band.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -22,6 +22,12 @@ impl GoodnessOfFit {
     /// The same, not explained where another model is needed for it.
     pub(in crate::identify) fn of_model(self, other: bool) -> Self {
         Self { verdict: if other { Explained::No } else { self.verdict }, ..self }
+    }
+
+    /// √(χ²/n) of a band that is nearly explained, by which bars of the given noise are too short; else 1.
+    pub(in crate::identify) fn excess(&self) -> f64 {
+        let is_nearly = self.verdict == Explained::Nearly;
+        if is_nearly { (self.chi_squared / self.freedom as f64).sqrt() } else { 1.0 }
     }
 }
 
@@ -88,7 +94,7 @@ pub(in crate::identify) fn judge(
         return None;
     }
     let n = freedom as f64;
-    let deviate = ((chi_squared / n).cbrt() - (1.0 - 2.0 / (9.0 * n))) / (2.0 / (9.0 * n)).sqrt();
+    let deviate = normal_deviate(chi_squared, n);
     let found = noise.of_sensors.unwrap_or(0.0);
     let verdict = match noise.source {
         NoiseSource::Given if deviate <= CHANCE => Explained::Yes,
@@ -104,6 +110,35 @@ pub(in crate::identify) fn judge(
         },
     };
     Some(GoodnessOfFit { chi_squared, freedom, deviate, verdict })
+}
+
+/// χ² of n degrees of freedom as a normal deviate, after Wilson and Hilferty.
+fn normal_deviate(chi_squared: f64, n: f64) -> f64 {
+    ((chi_squared / n).cbrt() - (1.0 - 2.0 / (9.0 * n))) / (2.0 / (9.0 * n)).sqrt()
+}
+
+/// Lines on each side that are looked at together with a line.
+const NEIGHBOURS: usize = 10;
+
+/// χ² per degree of freedom of each line and its neighbours, where that is more than noise leaves by chance; 1 elsewhere. Lines that are
+/// not explained by themselves do not count.
+pub(super) fn excess_of_neighbours(outcomes: &[Line], fit: &GoodnessOfFit) -> Vec<f64> {
+    let counts = |line: &&Line| line.on_path && line.chi_squared.is_some();
+    let each = fit.freedom as f64 / outcomes.iter().filter(counts).count().max(1) as f64;
+    let of = |i: usize| {
+        let near = &outcomes[i.saturating_sub(NEIGHBOURS)..outcomes.len().min(i + NEIGHBOURS + 1)];
+        let near = near.iter().filter(|line| line.on_path && line.status != Status::Unexplained);
+        let squares: Vec<f64> = near.filter_map(|line| line.chi_squared).collect();
+        let n = each * squares.len() as f64;
+        let chi_squared = each * squares.iter().sum::<f64>();
+        if n > 0.0 && normal_deviate(chi_squared, n) > CHANCE { chi_squared / n } else { 1.0 }
+    };
+    (0..outcomes.len()).map(of).collect()
+}
+
+/// Whether χ² per degree of freedom of a stretch, at a given noise, says that the model does not explain it.
+pub(super) fn is_unexplained_stretch(excess: f64, noise: &NoiseLevel) -> bool {
+    noise.source == NoiseSource::Given && excess > NEARLY
 }
 
 /// A thousandth of the response is as good as measured responses get: a smaller misfit is no reason to doubt anything.

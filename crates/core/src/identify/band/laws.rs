@@ -127,6 +127,9 @@ pub(in crate::identify) fn identify_laws(
         fits.extend(fitting.fit(family, &mut space, &free, best(&fits)));
     }
     fitting.with_errors(&mut fits, &mut space, &mut free);
+    if let Some((place, excess)) = fitting.excess(&fits, &free.noise) {
+        fits[place] = fits[place].clone().with_noise(excess);
+    }
     (hooks.progress)(Stage::Law, kinds.len(), kinds.len());
     let left = best(&fits).and_then(|law| fitting.calibrations_of(law, &space));
     let better: Vec<_> = match &left {
@@ -219,6 +222,14 @@ impl Fitting<'_, '_> {
         fits[place] = again.with_covariance(errors.of_theta());
         free.model_errors = Some(errors);
         Some(())
+    }
+
+    /// The best law, and by how much its bars are too short where the band is nearly explained.
+    fn excess(&self, fits: &[LawFit], alone: &NoiseLevel) -> Option<(usize, f64)> {
+        let law = best(fits)?;
+        let excess = self.goodness(law, alone).0?.excess();
+        let place = fits.iter().position(|fit| fit.family == law.family)?;
+        Some((place, excess))
     }
 
     fn evidence(&self) -> Evidence {

@@ -39,6 +39,7 @@ use reduced_band::ReducedBand;
 
 pub(super) use candidates::Fit;
 pub(super) use fit::judge;
+use fit::{excess_of_neighbours, is_unexplained_stretch};
 pub(super) use laws::{ROUNDS, UNEXPLAINED, nearest};
 pub(super) use noise::{deviations, level_of};
 pub(super) use outlier_sensor::without;
@@ -185,9 +186,18 @@ impl BandOutcome {
         self.outcomes.iter().filter(|outcome| outcome.on_path).count()
     }
 
-    /// With statuses that the fit of the band allows.
+    /// With bars and statuses that the fit of the band and of each stretch allows.
     fn judged_by_fit(mut self) -> Self {
         self.fit = self.fit.map(|fit| fit.of_model(self.other_model));
+        if let Some(fit) = &self.fit {
+            let of_neighbours = excess_of_neighbours(&self.outcomes, fit);
+            for (outcome, excess) in self.outcomes.iter_mut().zip(of_neighbours) {
+                outcome.lengthen_bars(excess.sqrt().max(fit.excess()));
+                if outcome.status == Status::Ok && is_unexplained_stretch(excess, &self.noise) {
+                    outcome.status = Status::Unexplained;
+                }
+            }
+        }
         for outcome in &mut self.outcomes {
             outcome.status = match outcome.status {
                 Status::Ok if self.other_model => Status::Unexplained,

@@ -10,12 +10,16 @@ use std::f64::consts::TAU;
 pub struct ModelErrorsFound {
     /// Standard deviation s of the errors of natural frequencies, each its own; zero where only factors are in error.
     pub frequency_std: f64,
+    /// Standard deviation s_η of the relative errors of their loss factors.
+    pub loss_factor_std: f64,
     /// Standard deviation s_a of the errors of mode shapes at the sensors.
     pub shape_std: f64,
     /// One for each mode of the nominal model up to the end of the band, and a little further; none for a rigid body, which has no natural frequency.
     pub modes: Vec<ModeError>,
     /// Of the known matrices.
     pub factors: Vec<FactorError>,
+    /// Masses at the sensors that the model does not have, one for each; empty where only factors are in error.
+    pub masses: Vec<SensorMass>,
     /// By how many nats these errors explain the band better than a right model does.
     pub evidence: f64,
 }
@@ -27,6 +31,15 @@ pub struct ModeError {
     pub frequency_hz: f64,
     /// Its relative error.
     pub error: f64,
+    /// The standard deviation of that.
+    pub std: f64,
+}
+
+/// A mass at a sensor that the model does not have, as that of an accelerometer.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SensorMass {
+    /// In the model's unit of mass.
+    pub mass: f64,
     /// The standard deviation of that.
     pub std: f64,
 }
@@ -53,12 +66,11 @@ impl Estimated {
         let (n, first) = (self.count(), self.curves.count());
         let covariance = |a: usize, b: usize| self.covariance[(first + a) * n + first + b];
         let mode = |(i, omega): (usize, &f64)| {
-            let own: Vec<usize> =
-                (0..self.modes.of_error.len()).filter(|&error| self.modes.of_error[error] == i).collect();
+            let own: Vec<usize> = self.modes.frequency_errors(i).collect();
             let variance: f64 = own.iter().flat_map(|&a| own.iter().map(move |&b| covariance(a, b))).sum();
             ModeError {
                 frequency_hz: omega / TAU,
-                error: own.iter().map(|&error| self.errors.frequency[error]).sum(),
+                error: own.iter().map(|&error| self.errors.stiffness[error]).sum(),
                 std: variance.max(0.0).sqrt(),
             }
         };
@@ -67,12 +79,18 @@ impl Estimated {
             let std = covariance(of_factors + t, of_factors + t).max(0.0).sqrt();
             FactorError { term, part, error, std }
         };
+        let first_mass = of_factors + self.factors.len();
+        let mass = |(m, (error, apparent)): (usize, (&f64, &f64))| {
+            let std = covariance(first_mass + m, first_mass + m).max(0.0).sqrt();
+            SensorMass { mass: error * apparent, std: std * apparent }
+        };
         let told = |omega: &f64| *omega > 0.0 && *omega <= ABOVE_BAND * self.highest_rad_s;
-        let [frequency_std, shape_std] = self.sizes;
+        let [frequency_std, loss_factor_std, shape_std] = self.sizes;
         let errors_of_known =
             self.errors.factors.iter().enumerate().filter(|(t, _)| self.factors[*t].is_known);
         ModelErrorsFound {
             frequency_std,
+            loss_factor_std,
             shape_std,
             modes: self
                 .modes
@@ -83,6 +101,7 @@ impl Estimated {
                 .map(mode)
                 .collect(),
             factors: errors_of_known.map(factor).collect(),
+            masses: self.errors.masses.iter().zip(&self.modes.apparent_mass).enumerate().map(mass).collect(),
             evidence: self.evidence,
         }
     }

@@ -30,11 +30,11 @@ use crate::median::median;
 use crate::model::{FactorPart, ModelAt, Role};
 use crate::subspace::{ModalErrors, Modes, Point, Projection};
 pub(super) use curve::{Curve, Curves, Spline};
-pub use found::{FactorError, ModeError, ModelErrorsFound};
+pub use found::{FactorError, ModeError, ModelErrorsFound, SensorMass};
 pub use leverage::Leverage;
 
 use frfit_linalg::dense::Cholesky;
-use search::{FactorPrior, Fitting, Found, Place, Sizes};
+use search::{FactorPrior, Fitting, Found, Kinds, Place, Sizes};
 
 /// What is known of the noise.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -82,9 +82,9 @@ pub(super) struct Measured<'t, 'a> {
 pub(super) struct Estimated {
     pub(super) modes: Modes,
     pub(super) errors: ModalErrors,
-    /// Of θ, δ (own and common together), ν and Δη, then a of the load and of each sensor: n × n.
+    /// Of θ, δ and ε (own and common together), ν and Δη, κ, then a of the load and of each sensor: n × n.
     pub(super) covariance: Vec<f64>,
-    pub(super) sizes: [f64; 2],
+    pub(super) sizes: [f64; 3],
     /// χ² at σ times `level`, and how many numbers it has.
     pub(super) chi_squared: f64,
     pub(super) numbers: usize,
@@ -148,9 +148,9 @@ impl Estimated {
 
     /// Coordinates: θ, and the errors.
     pub(super) fn count(&self) -> usize {
-        let ModalErrors { frequency, load, shape, factors } = &self.errors;
+        let ModalErrors { stiffness, masses, load, shape, factors } = &self.errors;
         let of_shapes: usize = shape.iter().map(Vec::len).sum();
-        self.curves.count() + frequency.len() + factors.len() + load.len() + of_shapes
+        self.curves.count() + stiffness.len() + factors.len() + masses.len() + load.len() + of_shapes
     }
 }
 
@@ -189,9 +189,10 @@ const LAST_STEPS: usize = 5;
 /// Rounds in which sizes and errors are found in turn.
 const ROUNDS: usize = 8;
 
-/// Before the data: natural frequencies are good to a half per cent, shapes and known factors to two, loss factors of known stiffnesses to a tenth of themselves
+/// Before the data: natural frequencies are good to a half per cent, loss factors of modes to one (a stiffness that is not there may have any), shapes and known factors to two, loss factors of known stiffnesses to a tenth of themselves
 /// or what bearings and air have.
 const FREQUENCY: f64 = 0.005;
+const OF_MODES: f64 = 0.01;
 const SHAPE: f64 = 0.02;
 const FACTOR: f64 = 0.02;
 const LOSS_FACTOR: f64 = 0.002;
@@ -199,6 +200,9 @@ const OF_LOSS_FACTOR: f64 = 0.1;
 
 /// What all modes have in common is larger than their scatter: a mesh errs in one sense.
 const COMMON_RATIO: f64 = 5.0;
+
+/// The same of loss factors: a support that has another damping than the structure changes all of them in one sense.
+const COMMON_LOSS_RATIO: f64 = 2.0;
 
 /// By how much bends of a smooth curve may be less or more than the usual ones.
 const BEND_RANGE: [f64; 2] = [0.01, 3.0];
@@ -222,14 +226,15 @@ impl Sizes {
     /// Before the data.
     fn prior(given: ErrorSizes) -> Self {
         let frequency = given.frequency.map_or(FREQUENCY, |size| OF_GIVEN * size);
-        Self { frequency, shape: given.shape.unwrap_or(SHAPE), bend: [1.0; 2], common: 0.0 }
+        let shape = given.shape.unwrap_or(SHAPE);
+        Self { frequency, loss_factor: OF_MODES, shape, bend: [1.0; 2], common: 0.0, common_loss: 0.0 }
             .with_common(given)
     }
 
     /// With what goes with the errors of natural frequencies.
     fn with_common(self, given: ErrorSizes) -> Self {
         let ratio = if given.frequency.is_some() { 1.0 } else { COMMON_RATIO };
-        Self { common: ratio * self.frequency, ..self }
+        Self { common: ratio * self.frequency, common_loss: COMMON_LOSS_RATIO * self.loss_factor, ..self }
     }
 }
 
@@ -300,17 +305,32 @@ fn explanation(search: &Search<'_, '_>, starts: &[Vec<f64>]) -> Option<Explanati
         return right_model();
     }
     let coarse = search.fitting(&rough.0, &rough.1, &search.some);
-    let fitted = |places: Vec<Place>| -> Option<Explained> {
+    let from = |place: Place, kinds: Kinds, from_above: &[f64]| -> Option<Explained> {
+        let near = search.smaller(&search.points(&place), NEIGHBOURHOOD);
+        let fitting = Fitting { kinds, ..search.fitting(&near.0, &near.1, &search.lines) };
+        data.explain(&fitting, place, from_above)
+    };
+    let fitted = |places: Vec<Place>, kinds: Kinds| -> Option<Explained> {
+        let coarse = Fitting { kinds, ..coarse };
         let ends = places.into_iter().filter_map(|place| data.approach(&coarse, place));
         let (_, place) = ends.min_by(|a, b| a.0.total_cmp(&b.0))?;
-        let near = search.smaller(&search.points(&place), NEIGHBOURHOOD);
-        data.explain(&search.fitting(&near.0, &near.1, &search.lines), place, &FROM_ABOVE[NEAR..])
+        from(place, kinds, &FROM_ABOVE[NEAR..])
     };
-    let mut wrong = fitted(starts.iter().map(|start| coarse.start(start)).collect())?;
+    let better = |a: Explained, b: Option<Explained>| match b {
+        Some(b) if b.evidence < a.evidence => b,
+        _ => a,
+    };
+    // Far from the answer damping and masses that are free only hide that a mode is at another frequency.
+    let at_starts = || starts.iter().map(|start| coarse.start(start)).collect::<Vec<Place>>();
+    let mut wrong = fitted(at_starts(), Kinds::STIFFNESS)?;
     if !data.is_explained(&wrong, &search.lines) {
-        let upwards = fitted(starts.iter().filter_map(|start| data.upwards(&whole, start)).collect());
-        wrong = upwards.into_iter().fold(wrong, |a, b| if b.evidence < a.evidence { b } else { a });
+        let stiffness = Fitting { kinds: Kinds::STIFFNESS, ..whole };
+        let upwards = starts.iter().filter_map(|start| data.upwards(&stiffness, start)).collect();
+        wrong = better(wrong, fitted(upwards, Kinds::STIFFNESS));
+        wrong = better(wrong, fitted(at_starts(), Kinds::MASSES));
     }
+    let place = wrong.found.place.clone();
+    wrong = better(wrong, from(place, Kinds::ALL, &FROM_ABOVE[LAST..]));
     let near = search.smaller(&search.points(&wrong.found.place), NEIGHBOURHOOD);
     let fine = search.fitting(&near.0, &near.1, &search.lines);
     let scattered = data.scattered(search, &right, wrong.level);
@@ -441,6 +461,7 @@ impl<'t, 'a> Search<'t, 'a> {
             centre: self.centre,
             highest_rad_s: self.data.omegas[self.data.omegas.len() - 1],
             factors: &self.factors,
+            kinds: Kinds::ALL,
             for_each: self.for_each,
         }
     }
@@ -450,8 +471,9 @@ impl<'t, 'a> Search<'t, 'a> {
 const FEW_LINES: usize = 60;
 const LINES: usize = 240;
 
-/// Levels of added noise until all lines are used.
+/// Levels of added noise until all lines are used, and until nothing but the last sizes is to be found.
 const NEAR: usize = 4;
+const LAST: usize = 5;
 
 /// Points of the band at which a model of the neighbourhood is made good, and to which error.
 const POINTS: usize = 24;
@@ -598,7 +620,9 @@ impl<'a> Measured<'_, 'a> {
             let usual = Sizes::prior(self.given_sizes);
             let sizes = Sizes {
                 frequency: part * usual.frequency,
+                loss_factor: part * usual.loss_factor,
                 common: part * usual.common,
+                common_loss: part * usual.common_loss,
                 shape: part * usual.shape,
                 bend: right.sizes.bend,
             };
@@ -687,16 +711,18 @@ impl<'a> Measured<'_, 'a> {
                     ((squares + count * prior * prior) / (told + count)).sqrt()
                 };
                 if self.given_sizes.frequency.is_none() {
-                    sizes.frequency =
-                        fresh(fitting.elastic().collect(), sizes.frequency, (FREQUENCY, PRIOR_MODES));
+                    let own = fitting.elastic(true).collect();
+                    sizes.frequency = fresh(own, sizes.frequency, (FREQUENCY, PRIOR_MODES));
                 }
+                let own = fitting.elastic(false).collect();
+                sizes.loss_factor = fresh(own, sizes.loss_factor, (OF_MODES, PRIOR_MODES));
                 if self.given_sizes.shape.is_none() {
                     sizes.shape = fresh(fitting.shapes().collect(), sizes.shape, (SHAPE, PRIOR_MODES));
                 }
                 sizes = sizes.with_common(self.given_sizes);
                 if self.given_sizes.frequency.is_none() {
                     // No frequency shows a common error, but its trend over the band does.
-                    let common = (fitting.curves.count()..fitting.first_own()).collect();
+                    let common = fitting.in_common(true).collect();
                     let shown = fresh(common, before.1.common, (sizes.common, PRIOR_COMMON));
                     sizes.common = sizes.common.max(shown);
                 }
@@ -704,6 +730,7 @@ impl<'a> Measured<'_, 'a> {
             let settled = |a: f64, b: f64| (a / b - 1.0).abs() < 0.03;
             if settled(level, before.0)
                 && settled(sizes.frequency, before.1.frequency)
+                && settled(sizes.loss_factor, before.1.loss_factor)
                 && settled(sizes.shape, before.1.shape)
                 && (0..2).all(|part| (sizes.bend[part] / before.1.bend[part] - 1.0).abs() < 0.2)
             {
@@ -722,7 +749,7 @@ impl<'a> Measured<'_, 'a> {
         let errors = fitting.errors(&found.place);
         // δ_i = e + d_i.
         let first = fitting.first_own();
-        let modes = errors.frequency.len();
+        let modes = errors.stiffness.len();
         let theta = fitting.curves.count();
         let kept = n - first + theta;
         let of = |a: usize, b: usize| inverse[a * n + b];
@@ -743,7 +770,7 @@ impl<'a> Measured<'_, 'a> {
             modes: fitting.modes.clone(),
             errors,
             covariance,
-            sizes: if modes == 0 { [0.0; 2] } else { [sizes.frequency, sizes.shape] },
+            sizes: if modes == 0 { [0.0; 3] } else { [sizes.frequency, sizes.loss_factor, sizes.shape] },
             chi_squared: found.normal.chi_squared,
             numbers: self.numbers(fitting.lines),
             level,

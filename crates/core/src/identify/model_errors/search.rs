@@ -27,8 +27,26 @@ pub(super) struct Fitting<'t, 'a> {
     pub(super) highest_rad_s: f64,
     /// Known factors that may be in error.
     pub(super) factors: &'t [FactorPrior],
+    /// Errors that are looked for beside those of stiffness, shapes and factors.
+    pub(super) kinds: Kinds,
     pub(super) for_each: ForEach<'t>,
 }
+
+/// Errors that are looked for beside those of stiffness, shapes and factors.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Kinds {
+    damping: bool,
+    masses: bool,
+}
+
+impl Kinds {
+    pub(super) const STIFFNESS: Self = Self { damping: false, masses: false };
+    pub(super) const MASSES: Self = Self { damping: false, masses: true };
+    pub(super) const ALL: Self = Self { damping: true, masses: true };
+}
+
+/// The standard deviation of an error that is not looked for: as good as none.
+const NEGLIGIBLE: f64 = 1e-7;
 
 /// What is known of the error of a known factor.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -43,8 +61,12 @@ pub(super) struct FactorPrior {
 }
 
 /// Parts that the δ_i of a group have in common: the same for all modes, with ω_i and its square, as the errors of meshes grow, and with
-/// 1/ω_i², as those of supports fall.
-const COMMON: usize = 4;
+/// 1/ω_i², as those of supports fall; and two of the ε_i, the same for all and with 1/ω_i².
+const COMMON: usize = 6;
+const COMMON_OF_FREQUENCY: usize = 4;
+
+/// Standard deviation of a mass at a sensor over the apparent mass there: accelerometers have some tenths of a per cent of what they are on.
+const SENSOR_MASS: f64 = 0.005;
 
 /// Standard deviation of δ of a rigid body: a usual suspension has natural frequencies below a third of the first other one.
 const GROUND: f64 = 0.05;
@@ -54,15 +76,18 @@ const GROUND: f64 = 0.05;
 pub(super) struct Sizes {
     /// Of δ_i, each its own.
     pub(super) frequency: f64,
-    /// Of what all δ_i have in common.
+    /// Of ε_i.
+    pub(super) loss_factor: f64,
+    /// Of what all δ_i have in common, and of what all ε_i have.
     pub(super) common: f64,
+    pub(super) common_loss: f64,
     /// Of a_mi.
     pub(super) shape: f64,
     /// Of bends of ln|E| and of the phase, over the usual ones.
     pub(super) bend: [f64; 2],
 }
 
-/// Where a search is: θ, the common part of δ, own parts of δ, ν and Δη, then a of the load and of each sensor.
+/// Where a search is: θ, the common part of δ, own parts of δ and ε, ν and Δη, κ, then a of the load and of each sensor.
 pub(super) type Place = Vec<f64>;
 
 /// The normal equations at a place: χ², ½ ∂χ²/∂p, JᵀJ (n × n).
@@ -104,11 +129,11 @@ impl Fitting<'_, '_> {
         self.modes.omega_rad_s.len()
     }
 
-    fn frequency_errors(&self) -> usize {
+    fn stiffness_errors(&self) -> usize {
         self.modes.of_error.len()
     }
 
-    /// θ, common and own δ, ν, a of the load: what every sensor hangs on.
+    /// θ, common and own δ, ε, ν, a of the load: what every sensor hangs on.
     fn shared(&self) -> usize {
         self.first_load() + self.modes()
     }
@@ -127,27 +152,39 @@ impl Fitting<'_, '_> {
         COMMON * self.modes.group.iter().max().map_or(0, |last| 1 + last)
     }
 
-    /// What δ_i has of each common part.
+    /// What δ_i or ε_i has of each common part.
     pub(super) fn common(&self, i: usize) -> Vec<f64> {
         let own = self.modes.omega_rad_s[self.modes.of_error[i]];
         let mut parts = vec![0.0; self.common_errors()];
         if let Some(lowest) = self.modes.lowest_rad_s().filter(|_| own > 0.0) {
             let (omega, support) = (own / self.highest_rad_s, (lowest / own).powi(2));
-            parts[COMMON * self.modes.group[i]..][..COMMON].copy_from_slice(&[
-                1.0,
-                omega,
-                omega * omega,
-                support,
-            ]);
+            let of_group = &mut parts[COMMON * self.modes.group[i]..][..COMMON];
+            match self.modes.is_of_frequency(i) {
+                true => {
+                    of_group[..COMMON_OF_FREQUENCY].copy_from_slice(&[1.0, omega, omega * omega, support])
+                }
+                false => of_group[COMMON_OF_FREQUENCY..].copy_from_slice(&[1.0, support]),
+            }
         }
         parts
     }
 
+    /// The common parts of δ, or of ε.
+    pub(super) fn in_common(&self, of_frequency: bool) -> impl Iterator<Item = usize> {
+        let first = self.curves.count();
+        let is_wanted = move |part: &usize| (part % COMMON < COMMON_OF_FREQUENCY) == of_frequency;
+        (0..self.common_errors()).filter(is_wanted).map(move |part| first + part)
+    }
+
     pub(super) fn first_factor(&self) -> usize {
-        self.first_own() + self.frequency_errors()
+        self.first_own() + self.stiffness_errors()
     }
 
     fn first_load(&self) -> usize {
+        self.first_mass() + if self.modes() > 0 { self.sensors() } else { 0 }
+    }
+
+    fn first_mass(&self) -> usize {
         self.first_factor() + self.factors.len()
     }
 
@@ -173,17 +210,22 @@ impl Fitting<'_, '_> {
         (self.modes.omega_rad_s[mode] / self.highest_rad_s).powi(2).max(1.0)
     }
 
-    /// Own parts of δ.
+    /// Own parts of δ and ε.
     fn own(&self) -> std::ops::Range<usize> {
         self.first_own()..self.first_factor()
     }
 
-    /// Own parts of δ of modes that have a stiffness.
-    pub(super) fn elastic(&self) -> impl Iterator<Item = usize> {
-        self.own().filter(|&i| !self.is_rigid(i))
+    /// Own parts of δ, or of ε, of modes that have a stiffness.
+    pub(super) fn elastic(&self, is_frequency: bool) -> impl Iterator<Item = usize> {
+        self.own().filter(move |&i| !self.is_rigid(i) && self.is_frequency(i) == is_frequency)
     }
 
-    /// Whether an own δ is that of a rigid body.
+    /// Whether it is a δ.
+    fn is_frequency(&self, coordinate: usize) -> bool {
+        self.modes.is_of_frequency(coordinate - self.first_own())
+    }
+
+    /// Whether it is of a rigid body.
     fn is_rigid(&self, coordinate: usize) -> bool {
         self.modes.omega_rad_s[self.modes.of_error[coordinate - self.first_own()]] == 0.0
     }
@@ -210,7 +252,8 @@ impl Fitting<'_, '_> {
         let factor =
             |(prior, &error): (&FactorPrior, &f64)| FactorError { term: prior.term, part: prior.part, error };
         ModalErrors {
-            frequency: (0..self.frequency_errors()).map(|i| common(i) + place[own + i]).collect(),
+            stiffness: (0..self.stiffness_errors()).map(|i| common(i) + place[own + i]).collect(),
+            masses: place[self.first_mass()..self.first_load()].to_vec(),
             load: place[self.first_load()..self.shared()].to_vec(),
             shape: (0..self.sensors()).map(shape).collect(),
             factors: self.factors.iter().zip(&place[self.first_factor()..]).map(factor).collect(),
@@ -244,10 +287,8 @@ impl Fitting<'_, '_> {
         let square = |of: &dyn Fn(usize) -> f64| {
             in_band.iter().map(|&i| of(i).powi(2)).sum::<f64>() / in_band.len().max(1) as f64
         };
-        let frequency = |i: usize| -> f64 {
-            let own = self.modes.of_error.iter().zip(&errors.frequency).filter(|(mode, _)| **mode == i);
-            own.map(|(_, error)| error).sum()
-        };
+        let frequency =
+            |i: usize| -> f64 { self.modes.frequency_errors(i).map(|error| errors.stiffness[error]).sum() };
         let largest = |usual: f64, given: Option<f64>| usual.max(OF_GIVEN * given.unwrap_or(0.0)).powi(2);
         let of_shapes = |shape: &Vec<f64>| square(&|i| shape[i]) <= largest(LARGEST_SHAPE, given.shape);
         square(&frequency) <= largest(LARGEST_FREQUENCY, given.frequency)
@@ -264,13 +305,14 @@ impl Fitting<'_, '_> {
         let mut shared: Vec<c64> = of_theta.iter().map(|(j, of)| slopes.slopes[*j][m] * of).collect();
         if self.modes() > 0 {
             let mut common = vec![c64::default(); self.common_errors()];
-            for (i, slope) in slopes.frequency[m].iter().enumerate() {
+            for (i, slope) in slopes.stiffness[m].iter().enumerate() {
                 common.iter_mut().zip(self.common(i)).for_each(|(sum, part)| *sum += part * slope);
             }
             shared.extend(common);
-            shared.extend(&slopes.frequency[m]);
+            shared.extend(&slopes.stiffness[m]);
         }
         shared.extend(&slopes.factors[m]);
+        shared.extend(&slopes.masses[m]);
         shared.extend(&slopes.load[m]);
         (shared, slopes.shape[m].clone())
     }
@@ -343,10 +385,20 @@ impl Fitting<'_, '_> {
             all[i * n..i * n + own].copy_from_slice(&curve[i * own..(i + 1) * own]);
         }
         let mut set = |i: usize, std: f64| all[i * n + i] = std.powi(-2);
-        (own..self.first_own()).for_each(|i| set(i, sizes.common));
-        self.own()
-            .for_each(|i| set(i, if self.is_rigid(i) { GROUND } else { sizes.frequency * self.growth(i) }));
+        self.in_common(true).for_each(|i| set(i, sizes.common));
+        let damping = |std: f64| if self.kinds.damping { std } else { NEGLIGIBLE };
+        let mass = if self.kinds.masses { SENSOR_MASS } else { NEGLIGIBLE };
+        self.in_common(false).for_each(|i| set(i, damping(sizes.common_loss)));
+        let own = |i: usize| match (self.is_frequency(i), self.is_rigid(i)) {
+            (true, false) => sizes.frequency * self.growth(i),
+            (false, false) => damping(sizes.loss_factor * self.growth(i)),
+            (true, true) => GROUND,
+            // Of a support without damping ε is −2δ.
+            (false, true) => damping(2.0 * GROUND),
+        };
+        self.own().for_each(|i| set(i, own(i)));
         (self.first_factor()..).zip(self.factors).for_each(|(i, prior)| set(i, prior.std));
+        (self.first_mass()..self.first_load()).for_each(|i| set(i, mass));
         self.shapes().for_each(|i| set(i, sizes.shape * self.growth(i)));
         all
     }

@@ -116,7 +116,8 @@ impl Task<'_, '_> {
             let one = |k: usize| column(&|m| if m == at { slopes.shape[m][k] } else { c64::default() });
             (0..modes.omega_rad_s.len()).flat_map(one).collect::<Vec<f64>>()
         };
-        let mut columns = [shared(&slopes.frequency), shared(&slopes.factors), shared(&slopes.load)].concat();
+        let of_all = [&slopes.stiffness, &slopes.factors, &slopes.masses, &slopes.load];
+        let mut columns: Vec<f64> = of_all.into_iter().flat_map(|of| shared(of)).collect();
         columns.extend((0..sensors).flat_map(shape));
         let contained = eliminate(&solution.of_own, &mut columns, 2 * sensors);
         Some(contained.into_iter().map(|x| x.into_iter().map(|x| -x).collect()).collect())
