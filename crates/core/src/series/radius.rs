@@ -1,6 +1,6 @@
 //! How far the series converges, P-14.
 
-use super::{next_term, scale};
+use super::recursion::{next_term, scale};
 use crate::c64;
 use crate::response::Response;
 use frfit_linalg::solve::Breakdown;
