@@ -87,6 +87,18 @@ impl Solutions {
 }
 
 impl Projection {
+    /// Response, sensitivity and estimated error with the correction c of the first parameter.
+    ///
+    /// # Errors
+    /// [`Breakdown`] where the reduced system is singular.
+    ///
+    /// # Limits
+    /// An estimate, not a bound: γ is the largest gain of S⁻¹ met in the last solves, and the residuals are those of a sketch. At a resonance of a mode that the basis has not
+    /// met the error can be some ten times the estimate.
+    pub fn assess(&self, at: &ModelAt<'_>, correction: c64) -> Result<Assessment, Breakdown> {
+        Ok(Solved::new(self, at, correction)?.assessment)
+    }
+
     /// x_m at the nominal values.
     ///
     /// # Errors

@@ -10,9 +10,9 @@
 //! changes a known factor. What comes out is a reduced model like any other.
 
 use super::assess::{Solutions, weights};
-use super::{Point, Projection};
+use super::{FactorError, Point, Projection};
 use crate::c64;
-use crate::model::{FactorPart, ModelAt, Role};
+use crate::model::{ModelAt, Role};
 use frfit_linalg::dense::{NoConvergence, symmetric_eigen};
 use frfit_linalg::solve::Breakdown;
 use frfit_linalg::vector::transpose_dot;
@@ -51,25 +51,6 @@ pub(crate) struct ModalErrors {
     pub shape: Vec<Vec<f64>>,
     /// Of known factors.
     pub factors: Vec<FactorError>,
-}
-
-/// The error of a known factor.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct FactorError {
-    pub(crate) term: usize,
-    pub(crate) part: FactorPart,
-    /// ν, relative, of the storage; Δη, absolute, of the loss factor.
-    pub(crate) error: f64,
-}
-
-impl FactorError {
-    /// f(1 + ν), or f + iΔη Re f.
-    pub(super) fn applied_to(&self, factor: c64) -> c64 {
-        match self.part {
-            FactorPart::Storage => factor * (1.0 + self.error),
-            FactorPart::LossFactor => factor + c64::I * self.error * factor.re,
-        }
-    }
 }
 
 /// Response and slopes of a model with errors at one frequency.
@@ -360,7 +341,7 @@ mod tests {
     use crate::for_each::sequential;
     use crate::frequency::omega_rad_s;
     use crate::material::Law;
-    use crate::model::{DynamicStiffness, Experiment, Parameter, Sensor, Term};
+    use crate::model::{DynamicStiffness, Experiment, FactorPart, Parameter, Sensor, Term};
     use crate::subspace::Subspace;
     use crate::subspace::TrainOptions;
     use frfit_linalg::sparse::Triplets;
