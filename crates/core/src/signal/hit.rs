@@ -1,8 +1,6 @@
-//! A hit and its verdict.
+//! A hit, with what was found of it.
 
-use super::baseline::{last_tenth, offset, peak, rms};
-use super::pulse::Contact;
-use super::{Channel, Fault, Options, Recording, fault};
+use super::{Channel, Fault};
 use std::ops::Range;
 
 /// A hit that was found.
@@ -32,7 +30,7 @@ pub struct Hit {
 const DECAYED: f64 = 0.01;
 
 /// Samples before the trigger that already belong to the contact.
-const FOOT: usize = 4;
+pub(super) const FOOT: usize = 4;
 
 impl Hit {
     /// Whether it is averaged.
@@ -62,24 +60,6 @@ impl Hit {
     pub(super) fn pulse_in_record(&self) -> Range<usize> {
         self.onset.saturating_sub(self.range.start)..(self.last + 1).saturating_sub(self.range.start)
     }
-}
-
-/// Judges a hit: its faults, and how far the responses have decayed.
-pub(super) fn examine(hit: &mut Hit, recording: &Recording, samples: usize, options: &Options) {
-    if hit.faults.is_empty() {
-        hit.faults = fault::faults(hit, recording, samples, &Contact::new(&recording.force), options);
-    }
-    let before = hit.before();
-    let records = recording.responses.iter().map(|response| response.get(hit.range.clone()).unwrap_or(&[]));
-    let share = |part: &[f64], record: &[f64]| {
-        let largest = peak(record, offset(record, before));
-        if largest > 0.0 { rms(part) / largest } else { 0.0 }
-    };
-    hit.residual =
-        records.clone().map(|r| if r.is_empty() { 0.0 } else { share(last_tenth(r), r) }).collect();
-    // Fewer samples are no noise level.
-    let is_told = before >= 2 * FOOT && records.clone().all(|record| record.len() > before);
-    hit.noise = is_told.then(|| records.map(|r| share(&r[..before], r)).collect());
 }
 
 impl Hit {

@@ -14,6 +14,7 @@ mod baseline;
 mod channel;
 mod cut;
 mod estimate;
+mod examine;
 mod fault;
 mod hit;
 mod options;
@@ -110,7 +111,7 @@ pub fn estimate_frf(recordings: &[Recording], options: &Options) -> Result<Measu
     let Some(first) = recordings.first() else { return Err(SignalError::NoHit(Vec::new())) };
     let cut::Cut { mut hits, samples } = cut::hits(recordings, options);
     for hit in &mut hits {
-        hit::examine(hit, &recordings[hit.recording], samples, options);
+        examine::examine(hit, &recordings[hit.recording], samples, options);
     }
     if let Some(&number) = options.keep.iter().find(|&&number| !(1..=hits.len()).contains(&number)) {
         return Err(SignalError::NoSuchHit(number, hits.len()));
