@@ -1,6 +1,22 @@
 //! What may be wrong with data, and what speaks for it.
 
 use crate::quantity::Quantity;
+use crate::response::Work;
+
+/// What came of looking at the data.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Diagnosis {
+    /// What is wrong, the mesh last; empty where nothing is.
+    pub findings: Vec<Finding>,
+    /// Robust deviation of ln(measured/model), real and imaginary part each, with the likeliest modulus and all findings; `None` where it was not judged.
+    pub misfit: Option<f64>,
+    /// Why the data were not judged, if they were not.
+    pub not_judged: Option<NotJudged>,
+    /// Frequencies that were looked at.
+    pub frequencies: usize,
+    /// Work of size N.
+    pub work: Work,
+}
 
 /// A number that has a name: what units and habits make of an FRF.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -8,8 +8,9 @@
 //! Of sensors that are wrong each in a way of its own, [`SUSPECTS`] are looked at: the worst.
 
 use super::data_hypothesis::{DataHypothesis, Edit};
+use super::few::{Agreed, look, written};
+use super::finding::Diagnosis;
 use super::misfit::{misfit, wrapped};
-use super::{Agreed, Diagnosis, look, written};
 use crate::c64;
 use crate::for_each::ForEach;
 use crate::identify::{Band, Options};
