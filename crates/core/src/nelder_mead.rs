@@ -4,8 +4,7 @@
 //! J. A. Nelder, R. Mead, Computer Journal 7 (1965) 308–313; iteration by the crate argmin.
 
 use crate::c64;
-use crate::identify::relative_error;
-use crate::response::Response;
+use crate::response::{Response, relative_error};
 use argmin::core::{CostFunction, Error, Executor, State};
 use argmin::solver::neldermead::NelderMead;
 

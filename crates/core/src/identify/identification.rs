@@ -1,7 +1,8 @@
 //! What came out of an identification.
 
-use super::band::{BandOutcome, Calibration, Explained, GoodnessOfFit, LawsOutcome, NoiseLevel, SensorFit};
-use super::band::{SmoothCurve, SmoothOutcome};
+use super::band::{BandOutcome, Calibration, LawsOutcome, SmoothCurve, SmoothOutcome};
+use super::goodness_of_fit::{Explained, GoodnessOfFit, SensorFit};
+use super::noise::NoiseLevel;
 use super::several::{BandValue, Direction, Number, Profile, SeveralOutcome};
 use super::uncertainty::{KNOWN, LEAST_LOSS};
 use super::{Leverage, Line, ModelErrorsFound, Status};

@@ -12,26 +12,34 @@
 
 mod band;
 mod choice;
+mod confirmation;
+mod context;
 mod form;
+mod goodness_of_fit;
 mod identification;
+mod measured;
 mod model_errors;
+mod noise;
 mod one;
 mod options;
 mod outcome;
 mod problem;
 mod rational;
 mod several;
+mod thinned;
 mod uncertainty;
 
-pub(crate) use band::{Band, MOST_PHASE, PHASE_STEP};
-pub use band::{
-    Calibrated, Calibration, ChannelUnknowns, Context, Explained, GoodnessOfFit, Noise, NoiseLevel,
-    NoiseSource, SensorFit, SmoothCurve, Stage,
-};
+pub use crate::response::relative_error;
+pub use band::{Calibrated, Calibration, ChannelUnknowns, SmoothCurve};
+pub(crate) use band::{MOST_PHASE, PHASE_STEP};
 pub use choice::{Method, Reduction, Selection, UnknownChoice};
+pub use context::{Context, Stage};
+pub use goodness_of_fit::{Explained, GoodnessOfFit, SensorFit};
 pub use identification::{Identifiability, Identification, SearchReport};
+pub(crate) use measured::Band;
 pub use model_errors::{FactorError, Leverage, ModeError, ModelErrorsFound};
-pub use one::{error_by_order, identify_at, relative_error};
+pub use noise::{Noise, NoiseLevel, NoiseSource};
+pub use one::{error_by_order, identify_at};
 pub use options::{ErrorSizes, MAX_ORDER, ModelErrors, Options, OptionsError};
 pub use outcome::{Line, LineValue, Status};
 pub use problem::{Frfs, Problem, ProblemError};

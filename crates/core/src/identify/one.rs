@@ -1,16 +1,14 @@
 //! One frequency.
 
+use super::confirmation::{SENSOR, choose, confirm};
 use super::rational::by_rational;
 use super::{Line, Method, Options, Status};
 use crate::c64;
 use crate::nelder_mead;
-use crate::response::Response;
-use crate::roots::{Candidate, candidates, least_admissible, refuse_diverged};
+use crate::response::{Response, relative_error};
+use crate::roots::{candidates, least_admissible, refuse_diverged};
 use crate::series::{NeumannSeries, convergence_radius};
 use frfit_linalg::solve::Breakdown;
-
-/// The sensor whose polynomial gives the roots; the others enter the error.
-pub(super) const SENSOR: usize = 0;
 
 /// Finds the correction of the model's first parameter that reproduces the measured receptances, one for each sensor.
 ///
@@ -68,28 +66,6 @@ fn by_series(
     Ok(())
 }
 
-/// Solves anew with the correction, records error and response, and says whether the sensor that gave the root is matched.
-pub(super) fn confirm(
-    system: &impl Response,
-    measured: &[c64],
-    options: &Options,
-    correction: c64,
-    outcome: &mut Line,
-) -> Result<bool, Breakdown> {
-    let updated = system.solve_at(&[correction])?;
-    let here = relative_error(&measured[SENSOR..=SENSOR], &updated[SENSOR..=SENSOR]);
-    outcome.set_correction(correction);
-    outcome.error = Some(relative_error(measured, &updated)).filter(|error| error.is_finite());
-    outcome.updated_response = updated;
-    // False for NaN too.
-    Ok(here <= options.error)
-}
-
-/// The admissible root of least |c|, or failing that the one of least |c| within the bounds, as evidence.
-pub(super) fn choose(roots: &[Candidate]) -> Option<Candidate> {
-    roots.iter().find(|root| root.refusal.is_none()).or_else(|| least_admissible(roots)).copied()
-}
-
 fn by_search(
     system: &impl Response,
     measured: &[c64],
@@ -104,13 +80,6 @@ fn by_search(
         outcome.forget_value(Status::NoRoot);
     }
     Ok(())
-}
-
-/// ε = ‖u − x‖ / ‖u‖ over the sensors, P-40.
-pub fn relative_error(measured: &[c64], response: &[c64]) -> f64 {
-    let misfit: f64 = measured.iter().zip(response).map(|(u, x)| (u - x).norm_sqr()).sum();
-    let size: f64 = measured.iter().map(|u| u.norm_sqr()).sum();
-    (misfit / size).sqrt()
 }
 
 /// ε at the first sensor (P-40, fresh direct solve) when the series is cut after each order from 1 to `order`: a column of

@@ -1,6 +1,8 @@
 //! What is to be identified, checked: a model, an experiment, unknowns, channels and measured FRFs.
 
-use super::band::{Band, ChannelUnknowns, Noise};
+use super::band::ChannelUnknowns;
+use super::measured::Band;
+use super::noise::Noise;
 use super::several::{Dependence, Unknown, Variation};
 use super::{Method, Options, OptionsError, Selection};
 use crate::c64;

@@ -1,10 +1,10 @@
 //! One frequency by the rational response: all solutions within the bounds, not only those of a convergent series.
 
-use super::one::{SENSOR, choose, confirm, relative_error};
+use super::confirmation::{SENSOR, choose, confirm};
 use super::{Line, Options, Status};
 use crate::c64;
 use crate::rational::{RationalResponse, RationalRoot};
-use crate::response::Response;
+use crate::response::{Response, relative_error};
 use crate::roots::{Candidate, Refusal, RootOptions};
 use crate::series::convergence_radius;
 use frfit_linalg::dense::NoConvergence;

@@ -11,6 +11,18 @@ use crate::subspace::{Assessment, Projection};
 use frfit_linalg::dense::NoConvergence;
 use frfit_linalg::solve::Breakdown;
 
+/// What was found at a frequency, and how.
+#[derive(Debug, Clone)]
+pub(super) struct LineCandidates {
+    /// The frequency (index).
+    pub(super) index: usize,
+    pub(super) explored: Candidates,
+    /// Corrections at which the model that found them is good enough for an answer.
+    pub(super) certain: Vec<(c64, Assessment)>,
+    /// Whether all solutions were looked for.
+    pub(super) whole: bool,
+}
+
 /// A correction that the measurement does not exclude at this frequency.
 #[derive(Debug, Clone, PartialEq)]
 pub(in crate::identify) struct Solution {

@@ -1,15 +1,18 @@
 //! Unknown scales and delays beside a law: eliminated from the least squares, and where they begin.
 
-use super::calibration::{Calibrated, Channel, ChannelUnknowns, Scaled, top, with_scales};
+use super::calibration::{Scaled, top, with_scales};
+use super::channel::{Calibrated, Channel, ChannelUnknowns};
 use super::initial_calibration::aligned;
 use super::joint;
-use super::laws::Fitting;
+use super::law_fitting::Fitting;
+use super::outcome::BandOutcome;
 use super::reduced_band::ReducedBand;
-use super::{Band, BandOutcome, Context};
 use crate::c64;
 use crate::for_each::map;
 use crate::frequency::omega_rad_s;
 use crate::identify::Options;
+use crate::identify::context::Context;
+use crate::identify::measured::Band;
 use crate::laws::{LawFit, Parametrization};
 use crate::median::median;
 use crate::model::ModelAt;
@@ -179,7 +182,7 @@ pub(super) fn at_scales<'a, 'o>(
     options: &'o Options,
     hooks: Context<'_>,
 ) -> (BandOutcome, Begin<'a, 'o>) {
-    let mut space = super::space(band, at, options, hooks);
+    let mut space = ReducedBand::if_wanted(band, at, options, hooks);
     let right = vec![Channel::RIGHT; unknown.len()];
     let is_known = |unknown: &ChannelUnknowns| !unknown.any();
     if unknown.iter().all(is_known) {

@@ -1,31 +1,20 @@
 //! Solutions between frequencies at which all of them are known: followed as long as nothing speaks against it.
 
-use super::candidates::{Candidates, Fit, Solution};
+use super::candidates::{Candidates, Fit, LineCandidates, Solution};
 use super::matching::{is_same, pairs};
 use super::path_model::{PathModel, fraction};
-use super::reduced_band::{ReducedBand, is_certain, thinned};
-use super::{Context, Stage};
+use super::reduced_band::{ReducedBand, is_certain};
 use crate::c64;
 use crate::for_each::map;
 use crate::frequency::omega_rad_s;
+use crate::identify::context::{Context, Stage};
+use crate::identify::thinned::thinned;
 use crate::model::ModelAt;
 use crate::rational::PolesBetween;
 use crate::roots::{Candidate, Refusal};
-use crate::subspace::{Assessment, Projection};
+use crate::subspace::Projection;
 use std::ops::RangeInclusive;
 use std::sync::atomic::{AtomicUsize, Ordering};
-
-/// What was found at a frequency, and how.
-#[derive(Debug, Clone)]
-pub(super) struct LineCandidates {
-    /// The frequency (index).
-    pub(super) index: usize,
-    pub(super) explored: Candidates,
-    /// Corrections at which the model that found them is good enough for an answer.
-    pub(super) certain: Vec<(c64, Assessment)>,
-    /// Whether all solutions were looked for.
-    pub(super) whole: bool,
-}
 
 /// What it takes to follow.
 pub(super) struct Follower<'a, F> {

@@ -1,14 +1,16 @@
 //! A band once more, with the errors of the model taken out and carried into every error bar (B-11).
 
-use super::noise::deviations;
-use super::outlier_sensor::without;
+use super::joint;
+use super::outcome::BandOutcome;
 use super::reduced_band::ReducedBand;
-use super::{Band, BandOutcome, Context, Noise, joint};
 use crate::c64;
 use crate::for_each::map;
 use crate::frequency::omega_rad_s;
+use crate::identify::context::Context;
+use crate::identify::measured::Band;
 use crate::identify::model_errors::{Curve, Curves, Deviations, Estimated, Measured, PointAt, Spline};
 use crate::identify::model_errors::{Explanation, covariance, estimate};
+use crate::identify::noise::{Noise, deviations, without};
 use crate::identify::{ModelErrors, Options, Status};
 use crate::model::ModelAt;
 use crate::subspace::{Corrected, Point};

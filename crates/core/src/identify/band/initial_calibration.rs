@@ -1,6 +1,6 @@
 //! Where the search for a channel's scale and delay begins.
 
-use super::calibration::{Channel, ChannelUnknowns};
+use super::channel::{Channel, ChannelUnknowns};
 use crate::c64;
 use crate::median::median;
 

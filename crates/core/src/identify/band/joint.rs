@@ -1,92 +1,23 @@
 //! All frequencies and all sensors together.
 
 use super::candidates::{Candidates, Fit};
-use super::fit::{SensorFit, goodness, sensor_misfit};
-use super::noise::{NoiseLevel, deviations, freedom, of_scatter, of_sensors};
-use super::on_reduced::on_space;
-use super::outlier_sensor::{contradicting, without};
+use super::fit::{goodness, sensor_misfit};
+use super::on_reduced::on_reduced;
+use super::outcome::BandOutcome;
+use super::outlier_sensor::contradicting;
 use super::reduced_band::ReducedBand;
+use super::task::{BandSolution, Task};
 use super::verdict::{Evidence, verdict};
-use super::{Band, BandOutcome, Context, Noise, Stage};
 use crate::c64;
 use crate::for_each::map;
+use crate::identify::context::{Context, Stage};
+use crate::identify::goodness_of_fit::SensorFit;
+use crate::identify::measured::Band;
+use crate::identify::noise::{deviations, without};
 use crate::identify::{Line, Options};
 use crate::model::ModelAt;
 use crate::response::{FullModel, Response, Work};
-use crate::select::{Choice, Node, SelectOptions, choose};
 use std::sync::atomic::{AtomicUsize, Ordering};
-
-/// What is to be done, and with what.
-pub(super) struct Task<'t, 'a> {
-    pub(super) band: &'t Band<'a>,
-    pub(super) at: &'t [ModelAt<'a>],
-    /// σ of real and imaginary part each, `[frequency][sensor]`; infinite for a sensor that is left out.
-    pub(super) sigma: &'t [Vec<f64>],
-    /// Sensors that are not left out.
-    pub(super) sensors: usize,
-    pub(super) options: &'t Options,
-    pub(super) hooks: Context<'t>,
-}
-
-/// The choice at each of some frequencies, and noise over σ.
-pub(super) type Selected = (Vec<Choice>, Option<f64>);
-
-/// What was found at every frequency, at how many of them all solutions were looked for, and what was chosen.
-pub(super) struct BandSolution {
-    pub(super) found: Vec<Candidates>,
-    pub(super) explored: usize,
-    pub(super) selected: Selected,
-}
-
-impl Task<'_, '_> {
-    /// Degrees of freedom of χ² at a frequency.
-    pub(super) fn freedom(&self) -> usize {
-        freedom(self.sensors, self.options.real)
-    }
-
-    /// What is to be explained at a frequency.
-    pub(super) fn fit(&self, i: usize) -> Fit<'_> {
-        let nominal = self.at[i].parameters[0].nominal;
-        Fit { measured: &self.band.measured[i], sigma: &self.sigma[i], nominal, options: self.options }
-    }
-
-    /// How large the noise is, by all answers.
-    fn noise_level(&self, found: &[Candidates], choices: &[Choice]) -> NoiseLevel {
-        let nominal = |i: usize| self.at[i].parameters[0].nominal;
-        let nodes: Vec<Vec<Node>> = (0..found.len()).map(|i| nodes(&found[i], nominal(i))).collect();
-        let chosen: Vec<Option<Node>> =
-            nodes.iter().zip(choices).map(|(nodes, choice)| choice.chosen.map(|k| nodes[k])).collect();
-        NoiseLevel::new(
-            self.band.noise,
-            of_sensors(&nodes, choices, self.freedom()),
-            of_scatter(self.band.frequency_hz, &chosen, self.options.real),
-        )
-    }
-
-    /// The choice among what was found at some frequencies.
-    pub(super) fn select<'e>(
-        &self,
-        which: &[usize],
-        found: impl Iterator<Item = &'e Candidates>,
-    ) -> Selected {
-        (self.hooks.progress)(Stage::Selection, 0, self.at.len());
-        let frequency_hz: Vec<f64> = which.iter().map(|&i| self.band.frequency_hz[i]).collect();
-        let nodes: Vec<Vec<Node>> = which
-            .iter()
-            .zip(found)
-            .map(|(&i, found)| nodes(found, self.at[i].parameters[0].nominal))
-            .collect();
-        let options = SelectOptions {
-            sensors: self.sensors,
-            sigma_known: matches!(self.band.noise, Noise::Known(_)),
-            ..SelectOptions::default()
-        };
-        let choices = choose(&frequency_hz, &nodes, &options);
-        let level = of_sensors(&nodes, &choices, self.freedom());
-        let level = level.map(|level| if options.sigma_known { 1.0 } else { level });
-        (choices, level)
-    }
-}
 
 /// Chooses at every frequency; of the `hidden` sensors nothing is asked.
 pub(super) fn identify<'a>(
@@ -105,7 +36,7 @@ pub(super) fn identify<'a>(
     let sigma = without(&assumed, &out);
     let task = Task { sigma: &sigma, sensors: sensors - out.len(), ..task };
     let (solved, mut work) = match space.as_deref_mut() {
-        Some(space) => (on_space(&task, space), Work::default()),
+        Some(space) => (on_reduced(&task, space), Work::default()),
         None => {
             let (found, work) = on_full_model(&task);
             let all: Vec<usize> = (0..at.len()).collect();
@@ -168,6 +99,17 @@ pub(super) fn identify<'a>(
     }
 }
 
+/// A joint selection, and the reduced model that it was made on.
+pub(super) fn identify_keeping_model<'a, 'o>(
+    band: &Band<'a>,
+    at: &'o [ModelAt<'a>],
+    options: &'o Options,
+    hooks: Context<'_>,
+) -> (BandOutcome, Option<ReducedBand<'a, 'o>>) {
+    let mut reduced = ReducedBand::if_wanted(band, at, options, hooks);
+    (identify(band, at, reduced.as_mut(), &[], options, hooks), reduced)
+}
+
 fn on_full_model(task: &Task<'_, '_>) -> (Vec<Candidates>, Work) {
     let Task { band, at, sigma, options, hooks, .. } = *task;
     let done = AtomicUsize::new(0);
@@ -212,13 +154,4 @@ fn likeliest(fit: &Fit<'_>, found: &Candidates, path: &[(usize, c64)], i: usize)
         misfit + (way / OFF_PATH).powi(2)
     };
     (0..found.solutions.len()).min_by(|a, b| cost(a).total_cmp(&cost(b)))
-}
-
-fn nodes(found: &Candidates, nominal: c64) -> Vec<Node> {
-    let node = |s: &super::candidates::Solution| Node {
-        factor: nominal + s.correction,
-        misfit: s.misfit,
-        std: s.std,
-    };
-    found.solutions.iter().map(node).collect()
 }

@@ -3,28 +3,30 @@
 //! Every frequency by itself comes first: it trains the subspace, and tells where to begin. Then Σ |u_m − x_m(E(ω; θ))|²/σ_m² over the band is made least in θ on the
 //! models of the neighbourhoods, ∂x_m/∂θ = (∂x_m/∂c)(∂E/∂θ). The subspace is trained further where it is not good enough at the law that came out.
 
-use super::calibration::{Calibrated, Calibration, ChannelUnknowns, Scaled};
+use super::calibration::Scaled;
 use super::candidates::misfit;
+use super::channel::{Calibrated, Calibration, ChannelUnknowns};
 use super::channels::{Begin, Responded, at_scales};
-use super::fit::{Explained, GoodnessOfFit, judge};
-use super::joint;
-use super::noise::{NoiseLevel, NoiseSource, deviations};
-use super::outlier_sensor::without;
+use super::law_fitting::Fitting;
+use super::outcome::BandOutcome;
 use super::reduced_band::{ReducedBand, reduction_error};
-use super::{Band, BandOutcome, Context, Noise, Stage, corrected, near_or_far, on_subspace};
+use super::search_box::{near_or_far, on_subspace};
+use super::{corrected, joint};
 use crate::c64;
 use crate::for_each::map;
-use crate::frequency::omega_rad_s;
+use crate::identify::context::{Context, Stage};
 use crate::identify::form::Form;
+use crate::identify::goodness_of_fit::{Explained, GoodnessOfFit, judge};
+use crate::identify::measured::Band;
 use crate::identify::model_errors::{Curve, Curves, estimate_with_laws};
-use crate::identify::{Line, Options, Status, Uncertainty, relative_error};
+use crate::identify::noise::{Noise, NoiseLevel, NoiseSource, deviations, without};
+use crate::identify::{Line, Options, Status, Uncertainty};
 use crate::laws::{
     Datum, Evidence, LawFit, LawKind, LineResidual, LocalMinima, Parametrization, Residuals, Search, best,
     minimise, starts,
 };
 use crate::material::OutsideTable;
-use crate::model::ModelAt;
-use crate::response::Work;
+use crate::response::{Work, relative_error};
 
 /// What came out.
 #[derive(Debug, Clone, PartialEq)]
@@ -175,26 +177,7 @@ pub(in crate::identify) fn identify_laws(
     Ok(LawsOutcome { outcomes, fits, channels: told_channels, fit, work, subspace_size, free })
 }
 
-/// What is to be explained, and with what.
-#[derive(Clone, Copy)]
-pub(super) struct Fitting<'t, 'a> {
-    pub(super) band: &'t Band<'a>,
-    pub(super) at: &'t [ModelAt<'a>],
-    /// Of real and imaginary part each.
-    pub(super) sigma: &'t [Vec<f64>],
-    /// What of each sensor's channel is to be found.
-    pub(super) unknown: &'t [ChannelUnknowns],
-    /// Of a factor over the nominal one that has the shape of what was measured.
-    ratio: f64,
-    options: &'t Options,
-    pub(super) hooks: Context<'t>,
-}
-
 impl Fitting<'_, '_> {
-    pub(super) fn omega(&self, i: usize) -> f64 {
-        omega_rad_s(self.band.frequency_hz[i])
-    }
-
     /// Finds the errors of the model once more with the law of least BIC, and that law with them; its error bars have both.
     fn with_errors(
         &self,

@@ -1,6 +1,6 @@
 //! Which solutions at two frequencies are one and the same.
 
-use super::continuation::LineCandidates;
+use super::candidates::LineCandidates;
 use crate::c64;
 use crate::model::ModelAt;
 

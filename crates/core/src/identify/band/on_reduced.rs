@@ -1,15 +1,15 @@
 //! A whole band on the subspace: everything at some frequencies, what is between them followed, and all answers certified.
 
-use super::candidates::Candidates;
-use super::continuation::{Follower, LineCandidates, follow};
+use super::candidates::{Candidates, LineCandidates};
+use super::continuation::{Follower, follow};
 use super::exploration_grid::anchors;
-use super::joint::{BandSolution, Selected, Task};
 use super::reduced_band::ReducedBand;
+use super::task::{BandSolution, Selected, Task};
 use crate::c64;
 use crate::select::Choice;
 use crate::subspace::Projection;
 
-pub(super) fn on_space(task: &Task<'_, '_>, space: &mut ReducedBand<'_, '_>) -> BandSolution {
+pub(super) fn on_reduced(task: &Task<'_, '_>, space: &mut ReducedBand<'_, '_>) -> BandSolution {
     let (at, hooks) = (task.at, task.hooks);
     let find = |i: usize, model: &Projection| task.fit(i).explore_reduced(model, &at[i]);
     let settle = |i: usize, model: &Projection, before: &Candidates| {

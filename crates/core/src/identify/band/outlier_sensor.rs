@@ -1,12 +1,13 @@
 //! A sensor that contradicts the others: found by leaving out each in turn.
 
 use super::candidates::Candidates;
-use super::fit::LEAST;
-use super::joint::Task;
-use super::noise::{freedom, level_of};
-use super::reduced_band::{ReducedBand, thinned};
-use super::{Context, Noise};
+use super::reduced_band::ReducedBand;
+use super::task::Task;
 use crate::for_each::map;
+use crate::identify::context::Context;
+use crate::identify::goodness_of_fit::LEAST;
+use crate::identify::noise::{Noise, freedom, level_of, without};
+use crate::identify::thinned::thinned;
 use crate::response::{FullModel, Response, Work};
 use crate::subspace::Projection;
 
@@ -95,11 +96,4 @@ impl Trial<'_, '_, '_, '_, '_> {
         let left = task.band.experiment.sensors.len() - out.len();
         level_of(misfits, freedom(left, task.options.real)).map_or(0.0, |level| level * level)
     }
-}
-
-/// The deviations with those of some sensors infinite: nothing is asked of them.
-pub(in crate::identify) fn without(sigma: &[Vec<f64>], out: &[usize]) -> Vec<Vec<f64>> {
-    let mut sigma = sigma.to_vec();
-    sigma.iter_mut().for_each(|row| out.iter().for_each(|&m| row[m] = f64::INFINITY));
-    sigma
 }

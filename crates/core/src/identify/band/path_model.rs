@@ -1,8 +1,9 @@
 //! A model for what is near one curve of factors over frequency: far fewer vectors than for a box.
 
 use super::candidates::Evaluated;
-use super::reduced_band::{TRAINED, is_certain, thinned};
+use super::reduced_band::{TRAINED, is_certain};
 use crate::c64;
+use crate::identify::thinned::thinned;
 use crate::model::ModelAt;
 use crate::subspace::{Assessment, Point, Projection};
 use frfit_linalg::dense::NoConvergence;

@@ -1,9 +1,11 @@
 //! Each frequency by itself, on the full model or on the subspace.
 
-use super::noise::NoiseLevel;
+use super::outcome::BandOutcome;
 use super::reduced_band::{ReducedBand, reduction_error};
-use super::{Band, BandOutcome, Context, Stage};
 use crate::for_each::map;
+use crate::identify::context::{Context, Stage};
+use crate::identify::measured::Band;
+use crate::identify::noise::NoiseLevel;
 use crate::identify::{Line, Options, Status, identify_at};
 use crate::model::ModelAt;
 use crate::response::{FullModel, Work};

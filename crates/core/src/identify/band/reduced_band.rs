@@ -1,9 +1,11 @@
 //! The subspace of a band: trained over the box in which the answer may be, then where answers were found.
 
-use super::{Band, Context, Stage};
 use crate::c64;
 use crate::for_each::{ForEach, map};
 use crate::identify::Options;
+use crate::identify::context::{Context, Stage};
+use crate::identify::measured::Band;
+use crate::identify::thinned::thinned;
 use crate::material::loss_factor;
 use crate::model::ModelAt;
 use crate::response::Work;
@@ -66,6 +68,18 @@ struct Block {
 }
 
 impl<'a, 'o> ReducedBand<'a, 'o> {
+    /// The reduced model where the options want one and it can be built.
+    pub(super) fn if_wanted(
+        band: &Band<'a>,
+        at: &'o [ModelAt<'a>],
+        options: &'o Options,
+        hooks: Context<'_>,
+    ) -> Option<Self> {
+        let wanted = options.reduction.is_subspace(options.method, band.model.dim(), at.len());
+        // A singular stand-in for D is no reason to give up: the full model says at which frequency what breaks down.
+        wanted.then(|| Self::new(band, at, options, hooks).ok()).flatten()
+    }
+
     /// Trains over the box.
     ///
     /// # Errors
@@ -327,12 +341,6 @@ impl<'a, 'o> ReducedBand<'a, 'o> {
 /// Whether an answer's error is what it may be.
 pub(in crate::identify) fn is_certain(at: &ModelAt<'_>, correction: c64, assessed: &Assessment) -> bool {
     assessed.relative_truncation(at.parameters[0].nominal + correction) <= ANSWER
-}
-
-/// At most so many of some things, evenly spaced, the ends among them.
-pub(in crate::identify) fn thinned<T>(all: &[T], most: usize) -> impl Iterator<Item = &T> {
-    let count = all.len().min(most);
-    (0..count).map(move |k| &all[k * (all.len() - 1) / (count - 1).max(1)])
 }
 
 /// What the subspace may have done to an answer.

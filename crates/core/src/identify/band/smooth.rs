@@ -8,21 +8,23 @@
 
 use super::candidates::{misfit, weighed};
 use super::corrected::correct;
-use super::fit::{judge, sensor_misfit};
+use super::fit::sensor_misfit;
+use super::joint::identify_keeping_model;
 use super::laws::{APART, MOVED, ROUNDS, UNEXPLAINED};
-use super::noise::{LEAST_LEVEL, deviations};
-use super::outlier_sensor::without;
+use super::outcome::BandOutcome;
 use super::reduced_band::{ReducedBand, reduction_error};
-use super::{
-    Band, BandOutcome, Context, Noise, NoiseLevel, NoiseSource, SensorFit, Stage, keeping_space, near_or_far,
-    on_subspace,
-};
+use super::search_box::{near_or_far, on_subspace};
 use crate::c64;
 use crate::for_each::map;
 use crate::frequency::omega_rad_s;
-use crate::identify::{Line, Options, Status, Uncertainty, relative_error};
+use crate::identify::context::{Context, Stage};
+use crate::identify::goodness_of_fit::{SensorFit, judge};
+use crate::identify::measured::Band;
+use crate::identify::noise::{LEAST_LEVEL, Noise, NoiseLevel, NoiseSource, deviations, without};
+use crate::identify::{Line, Options, Status, Uncertainty};
 use crate::material::OutsideTable;
 use crate::model::ModelAt;
+use crate::response::relative_error;
 use crate::smooth::{Evidence, Observation, Smoothed, State, roughness, smooth};
 
 /// What came out.
@@ -85,7 +87,8 @@ pub(in crate::identify) fn identify_smooth(
 ) -> Result<SmoothOutcome, OutsideTable> {
     let at = band.model.at_all(band.frequency_hz, std::slice::from_ref(band.parameter))?;
     let boxes = on_subspace(options);
-    let (mut free, mut space) = near_or_far(&boxes, |options| keeping_space(band, &at, options, hooks));
+    let (mut free, mut space) =
+        near_or_far(&boxes, |options| identify_keeping_model(band, &at, options, hooks));
     if let Some(space) = &mut space {
         free = correct(band, &at, free, space, &boxes[0], hooks);
     }

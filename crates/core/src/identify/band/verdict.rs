@@ -3,8 +3,9 @@
 use super::candidates::Candidates;
 use super::reduced_band::reduction_error;
 use crate::c64;
-use crate::identify::{Line, Options, Status, Uncertainty, relative_error};
+use crate::identify::{Line, Options, Status, Uncertainty};
 use crate::model::ModelAt;
+use crate::response::relative_error;
 use crate::roots::Candidate;
 use crate::select::Choice;
 use crate::series::ConvergenceRadius;

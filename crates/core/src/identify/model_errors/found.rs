@@ -1,6 +1,6 @@
 //! What was found of the errors of a model.
 
-use super::Estimated;
+use super::estimated::Estimated;
 use crate::model::FactorPart;
 use crate::subspace;
 use std::f64::consts::TAU;
@@ -42,6 +42,17 @@ pub struct FactorError {
     pub error: f64,
     /// The standard deviation of that.
     pub std: f64,
+}
+
+/// How far a relative error of a known factor moves an unknown.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Leverage {
+    /// The term with the known factor.
+    pub term: usize,
+    /// Number of the unknown.
+    pub unknown: usize,
+    /// |∂ln p/∂ln f| of the unknown p by the known factor f, with the measurements as they are: the median over the band.
+    pub change: f64,
 }
 
 /// Modes this far above the band are told of.

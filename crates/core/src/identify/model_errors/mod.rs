@@ -17,21 +17,23 @@
 //! (evidence, and the number of well-determined parameters).
 
 mod curve;
+mod estimated;
 mod found;
 mod leverage;
 mod scatter;
 mod search;
 
+use super::thinned::thinned;
 use super::{ErrorSizes, Line, Noise};
 use crate::c64;
 use crate::for_each::ForEach;
-use crate::frequency::omega_rad_s;
 use crate::median::median;
 use crate::model::{FactorPart, ModelAt, Role};
-use crate::subspace::{ModalErrors, Modes, Point, Projection};
+use crate::subspace::{Modes, Point, Projection};
 pub(super) use curve::{Curve, Curves, Spline};
-pub use found::{FactorError, ModeError, ModelErrorsFound};
-pub use leverage::Leverage;
+pub(super) use estimated::{Estimated, covariance};
+pub use found::{FactorError, Leverage, ModeError, ModelErrorsFound};
+pub(super) use search::PointAt;
 
 use frfit_linalg::dense::Cholesky;
 use search::{FactorPrior, Fitting, Found, Place, Sizes};
@@ -50,9 +52,6 @@ impl Deviations {
         if matches!(noise, Noise::Known(_)) { Self::Known } else { Self::Relative }
     }
 }
-
-/// The model at a line with these values of its unknowns.
-pub(super) type PointAt<'t, 'a> = &'t (dyn Fn(usize, &[c64]) -> Option<Point<'a>> + Sync);
 
 /// What was measured, and where to begin.
 pub(super) struct Measured<'t, 'a> {
@@ -75,96 +74,6 @@ pub(super) struct Measured<'t, 'a> {
     /// The unknowns that each frequency has a value of its own of.
     pub(super) own: &'t [usize],
     pub(super) alone: Option<f64>,
-}
-
-/// The errors of a model, and how well they are known.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Estimated {
-    pub(super) modes: Modes,
-    pub(super) errors: ModalErrors,
-    /// Of θ, δ (own and common together), ν and Δη, then a of the load and of each sensor: n × n.
-    pub(super) covariance: Vec<f64>,
-    pub(super) sizes: [f64; 2],
-    /// χ² at σ times `level`, and how many numbers it has.
-    pub(super) chi_squared: f64,
-    pub(super) numbers: usize,
-    pub(super) level: f64,
-    /// By how many nats errors of the model explain the band better than a right model does.
-    pub(super) evidence: f64,
-    highest_rad_s: f64,
-    curves: Curves,
-    factors: Vec<FactorPrior>,
-    /// θ, then the errors as the search has them.
-    place: Place,
-}
-
-impl Estimated {
-    pub(super) fn theta(&self) -> &[f64] {
-        &self.place[..self.curves.count()]
-    }
-
-    /// Variances of the real and the imaginary part of an unknown at a line, and their covariance.
-    pub(super) fn covariance_at(&self, unknown: usize, line: usize, frequency_hz: f64) -> Option<[f64; 3]> {
-        let slopes = self.curves.slopes(self.theta(), unknown, line, omega_rad_s(frequency_hz))?;
-        Some(covariance(&self.block(0..slopes.len()), &slopes))
-    }
-
-    /// The covariance of some coordinates, column after column.
-    pub(super) fn covariance_of(&self, coordinates: &[usize]) -> Vec<f64> {
-        let n = self.count();
-        let column = |&a: &usize| coordinates.iter().map(move |b| self.covariance[a * n + b]);
-        coordinates.iter().flat_map(column).collect()
-    }
-
-    fn block(&self, range: std::ops::Range<usize>) -> Vec<f64> {
-        self.covariance_of(&range.collect::<Vec<_>>())
-    }
-
-    /// The coordinates of an unknown.
-    pub(super) fn range(&self, unknown: usize) -> std::ops::Range<usize> {
-        self.curves.range(unknown)
-    }
-
-    /// The errors, as coordinates.
-    pub(super) fn error_range(&self) -> std::ops::Range<usize> {
-        self.curves.count()..self.count()
-    }
-
-    /// All unknowns at a line.
-    pub(super) fn values(&self, line: usize, frequency_hz: f64) -> Option<Vec<c64>> {
-        Some(self.curves.values(self.theta(), line, omega_rad_s(frequency_hz))?.0)
-    }
-
-    /// The covariance of θ, row after row.
-    pub(super) fn of_theta(&self) -> Vec<Vec<f64>> {
-        let n = self.curves.count();
-        self.block(0..n).chunks_exact(n.max(1)).map(<[f64]>::to_vec).collect()
-    }
-
-    /// The covariance of the errors.
-    pub(super) fn of_errors(&self) -> Vec<f64> {
-        self.block(self.error_range())
-    }
-
-    /// Coordinates: θ, and the errors.
-    pub(super) fn count(&self) -> usize {
-        let ModalErrors { frequency, load, shape, factors } = &self.errors;
-        let of_shapes: usize = shape.iter().map(Vec::len).sum();
-        self.curves.count() + frequency.len() + factors.len() + load.len() + of_shapes
-    }
-}
-
-/// Variances of the real and the imaginary part of Σ g_n ξ_n, and their covariance.
-pub(super) fn covariance(covariance: &[f64], g: &[c64]) -> [f64; 3] {
-    let n = g.len();
-    let mut sum = [0.0; 3];
-    for (column, g_column) in covariance.chunks_exact(n.max(1)).zip(g) {
-        let times: c64 = column.iter().zip(g).map(|(c, g)| *c * g).sum();
-        sum[0] += times.re * g_column.re;
-        sum[1] += times.im * g_column.im;
-        sum[2] += times.re * g_column.im;
-    }
-    sum
 }
 
 /// Modes up to this many times the highest frequency, and so many at most.
@@ -399,7 +308,7 @@ impl<'t, 'a> Search<'t, 'a> {
         for_each: ForEach<'t>,
     ) -> Option<Self> {
         let all: Vec<usize> = (0..data.omegas.len()).filter(|&i| data.omegas[i] > 0.0).collect();
-        let of = |most: usize| -> Vec<usize> { super::band::thinned(&all, most).copied().collect() };
+        let of = |most: usize| -> Vec<usize> { thinned(&all, most).copied().collect() };
         let lines = of(LINES);
         let Point { at, correction } = data.on(curves, theta, lines[lines.len() / 2])?;
         let highest = ABOVE * data.omegas.last()?;
@@ -556,7 +465,7 @@ impl<'a> Measured<'_, 'a> {
         let own = if self.known() { 1.0 } else { 0.0 };
         let mut place = whole.start(start);
         for below in whole.stages(STAGES) {
-            let lines: Vec<usize> = super::band::thinned(below, FEW_LINES).copied().collect();
+            let lines: Vec<usize> = thinned(below, FEW_LINES).copied().collect();
             let stage = Fitting { lines: &lines, ..*whole };
             for added in STAGE_LEVELS {
                 let sigma = self.sigma_at(&lines, own, added);

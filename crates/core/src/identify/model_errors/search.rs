@@ -1,13 +1,15 @@
 //! The least squares of a curve with the errors of the model: min over θ, δ, ν, a of χ² + their priors.
 
-use super::PointAt;
 use super::curve::Curves;
 use crate::c64;
 use crate::for_each::{ForEach, map};
 use crate::identify::ErrorSizes;
 use crate::model::FactorPart;
-use crate::subspace::{ErrorSlopes, FactorError, ModalErrors, Modes, Projection};
+use crate::subspace::{ErrorSlopes, FactorError, ModalErrors, Modes, Point, Projection};
 use frfit_linalg::dense::Cholesky;
+
+/// The model at a line with these values of its unknowns.
+pub(in crate::identify) type PointAt<'t, 'a> = &'t (dyn Fn(usize, &[c64]) -> Option<Point<'a>> + Sync);
 
 /// What is to be explained, and with what.
 #[derive(Clone, Copy)]

@@ -6,11 +6,11 @@ use super::reduced_band::ReducedBand;
 use super::search::BandSolution;
 use super::{Task, Unknown, Variation};
 use crate::c64;
-use crate::identify::band::{deviations, without};
+use crate::identify::ModelErrors;
 use crate::identify::model_errors::{
     Curve, Curves, Deviations, Explanation, Leverage, Measured, Spline, estimate, estimate_with_laws,
 };
-use crate::identify::{ModelErrors, Noise};
+use crate::identify::noise::{Noise, deviations, without};
 use crate::subspace::{Corrected, Point};
 
 impl Task<'_, '_> {

@@ -9,12 +9,14 @@ use super::search::{BandSolution, Place, Plane, Reach};
 use super::{Task, Unknown};
 use crate::c64;
 use crate::for_each::map;
-use crate::identify::band::{UNEXPLAINED, judge, reduction_error};
+use crate::identify::band::{UNEXPLAINED, reduction_error};
+use crate::identify::goodness_of_fit::judge;
 use crate::identify::model_errors::Estimated;
 use crate::identify::uncertainty::{KNOWN, LEAST_LOSS};
-use crate::identify::{GoodnessOfFit, Line, LineValue, NoiseLevel, Status, Uncertainty, relative_error};
+use crate::identify::{GoodnessOfFit, Line, LineValue, NoiseLevel, Status, Uncertainty};
 use crate::laws::LawKind;
 use crate::material::{Law, loss_factor};
+use crate::response::relative_error;
 
 /// Points of a profile to either side, and how far they reach in deviations.
 const PROFILE: usize = 5;

@@ -38,7 +38,7 @@ pub(super) use outcome::SeveralOutcome;
 pub use outcome::{BandValue, Direction, Number, Profile};
 pub use unknown::{Dependence, Unknown, Variation};
 
-use super::band::{NoiseLevel, deviations};
+use super::noise::{NoiseLevel, deviations};
 use super::{Context, Line, Options, Problem};
 use crate::c64;
 use crate::frequency::omega_rad_s;

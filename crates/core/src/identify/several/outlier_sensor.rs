@@ -3,8 +3,9 @@
 use super::reduced_band::ReducedBand;
 use super::search::BandSolution;
 use super::{Task, Unknown};
-use crate::identify::Noise;
-use crate::identify::band::{SensorFit, level_of, thinned, without};
+use crate::identify::goodness_of_fit::SensorFit;
+use crate::identify::noise::{Noise, level_of, without};
+use crate::identify::thinned::thinned;
 
 /// Frequencies at which it is tried.
 const FREQUENCIES: usize = 24;

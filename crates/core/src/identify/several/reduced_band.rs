@@ -3,7 +3,8 @@
 use super::unknown::Composite;
 use crate::c64;
 use crate::for_each::{ForEach, map};
-use crate::identify::band::{BOX, ROUNDS, TRAINED, is_certain, thinned};
+use crate::identify::band::{BOX, ROUNDS, TRAINED, is_certain};
+use crate::identify::thinned::thinned;
 use crate::identify::{Context, Stage};
 use crate::material::{OutsideTable, loss_factor};
 use crate::model::{Experiment, ModelAt};

@@ -9,7 +9,7 @@ use super::reduced_band::{ReducedBand, in_box};
 use super::unknown::Variation;
 use crate::c64;
 use crate::for_each::map;
-use crate::identify::band::thinned;
+use crate::identify::thinned::thinned;
 use crate::laws::{Search, minimise};
 
 /// Frequencies at most at which logarithms are compared.

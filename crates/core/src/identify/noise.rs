@@ -1,6 +1,5 @@
 //! How large the noise is: as told, or as the band tells it.
 
-use super::Noise;
 use crate::c64;
 use crate::frequency::omega_rad_s;
 use crate::median::median;
@@ -18,6 +17,17 @@ pub(super) const LEAST_LEVEL: f64 = 1e-6;
 
 /// Answers with two neighbours on either side that a scatter is told from: with fewer, a median is an accident.
 const LEAST_SCATTER: usize = 12;
+
+/// Standard deviations √E|δx|² of measured receptances, `[frequency][sensor]`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Noise<'a> {
+    /// Not known: in proportion to the responses, by a factor that several sensors tell.
+    Unknown,
+    /// Known up to a common factor, as from a coherence without the number of averages.
+    Relative(&'a [Vec<f64>]),
+    /// Known.
+    Known(&'a [Vec<f64>]),
+}
 
 /// What tells the level of the noise.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -62,11 +72,7 @@ pub struct NoiseLevel {
 }
 
 impl NoiseLevel {
-    pub(in crate::identify) fn new(
-        noise: Noise<'_>,
-        of_sensors: Option<f64>,
-        of_scatter: Option<f64>,
-    ) -> Self {
+    pub(super) fn new(noise: Noise<'_>, of_sensors: Option<f64>, of_scatter: Option<f64>) -> Self {
         let (level, source) = match (noise, of_sensors, of_scatter) {
             (Noise::Known(_), ..) => (Some(1.0), NoiseSource::Given),
             (_, Some(level), _) => (Some(level.max(LEAST_LEVEL)), NoiseSource::Sensors),
@@ -82,7 +88,7 @@ impl NoiseLevel {
 }
 
 /// σ of real and imaginary part each, `[frequency][sensor]`: as given, or in proportion to the response.
-pub(in crate::identify) fn deviations(measured: &[Vec<c64>], noise: Noise<'_>) -> Vec<Vec<f64>> {
+pub(super) fn deviations(measured: &[Vec<c64>], noise: Noise<'_>) -> Vec<Vec<f64>> {
     let sensors = 0..measured.first().map_or(0, Vec::len);
     let sorted = |m: usize| {
         let mut sizes: Vec<f64> = measured.iter().map(|u| u[m].norm()).collect();
@@ -102,13 +108,20 @@ pub(in crate::identify) fn deviations(measured: &[Vec<c64>], noise: Noise<'_>) -
     measured.iter().enumerate().map(row).collect()
 }
 
+/// The deviations with those of some sensors infinite: nothing is asked of them.
+pub(super) fn without(sigma: &[Vec<f64>], out: &[usize]) -> Vec<Vec<f64>> {
+    let mut sigma = sigma.to_vec();
+    sigma.iter_mut().for_each(|row| out.iter().for_each(|&m| row[m] = f64::INFINITY));
+    sigma
+}
+
 /// Degrees of freedom that χ² of so many sensors has once the factor is fitted to them.
 pub(super) fn freedom(sensors: usize, real: bool) -> usize {
     (2 * sensors).saturating_sub(if real { 1 } else { 2 })
 }
 
 /// Noise over σ by the median of the χ² that some frequencies have; `None` without a degree of freedom, or a frequency.
-pub(in crate::identify) fn level_of(misfits: Vec<f64>, freedom: usize) -> Option<f64> {
+pub(super) fn level_of(misfits: Vec<f64>, freedom: usize) -> Option<f64> {
     let median = median(misfits).filter(|_| freedom > 0)?;
     Some((median / median_chi_squared(freedom)).sqrt())
 }

@@ -1,0 +1,105 @@
+//! Whether the model explains the band: χ² and what it says.
+
+use super::noise::{Noise, NoiseLevel, NoiseSource};
+
+/// How well the answers explain the sensors over the band.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GoodnessOfFit {
+    /// χ² of all answers, noise at the level of [`NoiseLevel`].
+    pub chi_squared: f64,
+    /// Its degrees of freedom.
+    pub freedom: usize,
+    /// Normal deviate of that χ², by Wilson and Hilferty: how many standard deviations it is above what noise gives.
+    pub deviate: f64,
+    /// What that says.
+    pub verdict: Explained,
+}
+
+impl GoodnessOfFit {
+    /// The same, not explained where another model is needed for it.
+    pub(super) fn of_model(self, other: bool) -> Self {
+        Self { verdict: if other { Explained::No } else { self.verdict }, ..self }
+    }
+}
+
+/// Whether noise is all that is left.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Explained {
+    /// What is left is noise of the size that was given, or of the size that the scatter of the answers shows too.
+    Yes,
+    /// A little more is left than the given noise, by a factor of up to two in χ²: the noise is larger than told, or the model not quite right.
+    Nearly,
+    /// What is left is no noise: the model cannot explain these measurements.
+    No,
+    /// The level of the noise was found from what is left, and nothing else tells it.
+    Untested,
+}
+
+impl Explained {
+    /// The word that summaries use.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Yes => "explained",
+            Self::Nearly => "nearly explained",
+            Self::No => "not explained",
+            Self::Untested => "untested",
+        }
+    }
+}
+
+/// A normal deviate beyond which it is not chance: once in thirty thousand.
+const CHANCE: f64 = 4.0;
+
+/// χ² up to this many times its degrees of freedom is the noise told too small by less than half.
+const NEARLY: f64 = 2.0;
+
+/// Sensors that disagree by so many times what the answers scatter by do not disagree by noise, which shows in both alike: ten times in χ², where
+/// the two levels of some dozens of frequencies differ by a third.
+const CONTRADICTION: f64 = 3.0;
+
+/// No average leaves noise of this part of the response: then sensors contradict one another.
+const NO_NOISE: f64 = 0.3;
+
+/// A thousandth of the response is as good as measured responses get: a smaller misfit is no reason to doubt anything.
+pub(super) const LEAST: f64 = 1e-3;
+
+/// What a χ² over the band says; `None` without a degree of freedom.
+pub(super) fn judge(
+    chi_squared: f64,
+    freedom: usize,
+    noise: &NoiseLevel,
+    told: Noise<'_>,
+) -> Option<GoodnessOfFit> {
+    if freedom == 0 {
+        return None;
+    }
+    let n = freedom as f64;
+    let deviate = ((chi_squared / n).cbrt() - (1.0 - 2.0 / (9.0 * n))) / (2.0 / (9.0 * n)).sqrt();
+    let found = noise.of_sensors.unwrap_or(0.0);
+    let verdict = match noise.source {
+        NoiseSource::Given if deviate <= CHANCE => Explained::Yes,
+        NoiseSource::Given if chi_squared <= NEARLY * n => Explained::Nearly,
+        NoiseSource::Given => Explained::No,
+        _ if told == Noise::Unknown && found > NO_NOISE => Explained::No,
+        // Below what a test can show there is nothing to contradict.
+        _ if found <= LEAST => Explained::Yes,
+        _ => match noise.of_scatter {
+            Some(scatter) if found > CONTRADICTION * scatter => Explained::No,
+            Some(_) => Explained::Yes,
+            None => Explained::Untested,
+        },
+    };
+    Some(GoodnessOfFit { chi_squared, freedom, deviate, verdict })
+}
+
+/// A sensor over the band.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SensorFit {
+    /// Root mean square of its misfit over its assumed deviation and the level of the noise, over all answers; `None` where there is none. Noise
+    /// alone gives less than 1, the less the more of the answers it determines.
+    pub misfit: Option<f64>,
+    /// Whether it contradicts all others, which agree with one another without it.
+    pub contradicts: bool,
+    /// Whether it was left out for that.
+    pub left_out: bool,
+}
