@@ -1,6 +1,7 @@
 //! A root that is chosen, and confirmed by a fresh direct solve.
 
-use super::{Line, Options};
+use super::options::Options;
+use super::outcome::Line;
 use crate::c64;
 use crate::response::{Response, relative_error};
 use crate::roots::{Candidate, least_admissible};

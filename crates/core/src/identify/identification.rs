@@ -2,10 +2,11 @@
 
 use super::band::{BandOutcome, Calibration, LawsOutcome, SmoothCurve, SmoothOutcome};
 use super::goodness_of_fit::{Explained, GoodnessOfFit, SensorFit};
+use super::model_errors::{Leverage, ModelErrorsFound};
 use super::noise::NoiseLevel;
+use super::outcome::{Line, Status};
 use super::several::{BandValue, Direction, Number, Profile, SeveralOutcome};
 use super::uncertainty::{KNOWN, LEAST_LOSS};
-use super::{Leverage, Line, ModelErrorsFound, Status};
 use crate::laws::{Estimate, LawFit, best};
 use crate::response::Work;
 use frfit_linalg::solve::Breakdown;

@@ -1,6 +1,6 @@
 //! What was measured on what: a band with one unknown.
 
-use super::Noise;
+use super::noise::Noise;
 use crate::c64;
 use crate::model::{DynamicStiffness, Experiment, Parameter};
 

@@ -28,6 +28,7 @@ mod rational;
 mod several;
 mod thinned;
 mod uncertainty;
+mod unknown;
 
 pub use crate::response::relative_error;
 pub use band::{Calibrated, Calibration, ChannelUnknowns, SmoothCurve};
@@ -43,8 +44,9 @@ pub use one::{error_by_order, identify_at};
 pub use options::{ErrorSizes, MAX_ORDER, ModelErrors, Options, OptionsError};
 pub use outcome::{Line, LineValue, Status};
 pub use problem::{Frfs, Problem, ProblemError};
-pub use several::{BandValue, Dependence, Direction, Number, Profile, Unknown, Variation};
+pub use several::{BandValue, Direction, Number, Profile};
 pub use uncertainty::Uncertainty;
+pub use unknown::{Dependence, Unknown, Variation};
 
 use problem::Strategy;
 

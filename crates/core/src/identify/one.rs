@@ -1,8 +1,10 @@
 //! One frequency.
 
+use super::choice::Method;
 use super::confirmation::{SENSOR, choose, confirm};
+use super::options::Options;
+use super::outcome::{Line, Status};
 use super::rational::by_rational;
-use super::{Line, Method, Options, Status};
 use crate::c64;
 use crate::nelder_mead;
 use crate::response::{Response, relative_error};

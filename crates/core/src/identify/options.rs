@@ -1,6 +1,6 @@
 //! How to identify.
 
-use super::{Method, Reduction, Selection, UnknownChoice};
+use super::choice::{Method, Reduction, Selection, UnknownChoice};
 use crate::c64;
 use crate::roots::{Bounds, RootOptions};
 use std::fmt;

@@ -1,10 +1,11 @@
 //! What is to be identified, checked: a model, an experiment, unknowns, channels and measured FRFs.
 
 use super::band::ChannelUnknowns;
+use super::choice::{Method, Selection};
 use super::measured::Band;
 use super::noise::Noise;
-use super::several::{Dependence, Unknown, Variation};
-use super::{Method, Options, OptionsError, Selection};
+use super::options::{Options, OptionsError};
+use super::unknown::{Dependence, Unknown, Variation};
 use crate::c64;
 use crate::laws::LawKind;
 use crate::material::OutsideTable;

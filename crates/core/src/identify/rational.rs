@@ -1,7 +1,8 @@
 //! One frequency by the rational response: all solutions within the bounds, not only those of a convergent series.
 
 use super::confirmation::{SENSOR, choose, confirm};
-use super::{Line, Options, Status};
+use super::options::Options;
+use super::outcome::{Line, Status};
 use crate::c64;
 use crate::rational::{RationalResponse, RationalRoot};
 use crate::response::{Response, relative_error};

@@ -13,7 +13,9 @@ use crate::frequency::omega_rad_s;
 use crate::identify::context::Context;
 use crate::identify::measured::Band;
 use crate::identify::noise::{Noise, deviations, freedom, without};
-use crate::identify::{Options, Status};
+use crate::identify::options::Options;
+use crate::identify::outcome::Status;
+use crate::identify::uncertainty::Uncertainty;
 use crate::material::OutsideTable;
 use crate::model::ModelAt;
 use frfit_linalg::dense::symmetric_eigen;
@@ -148,7 +150,7 @@ impl Scaled {
 /// The frequencies whose answers are beyond doubt but for their size: (frequency, correction).
 fn answers(outcome: &BandOutcome) -> Vec<(usize, c64)> {
     let trusted = |status| matches!(status, Status::Ok | Status::NotIdentifiable | Status::Failed);
-    let linear = |bars: Option<crate::identify::Uncertainty>| bars.is_none_or(|bars| bars.is_linear());
+    let linear = |bars: Option<Uncertainty>| bars.is_none_or(|bars| bars.is_linear());
     let all = outcome.outcomes.iter().enumerate();
     all.filter(|(_, o)| trusted(o.status) && linear(o.uncertainty()))
         .filter_map(|(i, o)| Some((i, o.correction().filter(|_| o.on_path)?)))

@@ -1,7 +1,7 @@
 //! All solutions at one frequency, from every sensor, fitted to all sensors (B-2, B-5).
 
 use crate::c64;
-use crate::identify::Options;
+use crate::identify::options::Options;
 use crate::identify::rational::{MATCH, RESIDUAL};
 use crate::model::ModelAt;
 use crate::rational::{Poles, RationalResponse};

@@ -11,7 +11,8 @@ use crate::identify::measured::Band;
 use crate::identify::model_errors::{Curve, Curves, Deviations, Estimated, Measured, PointAt, Spline};
 use crate::identify::model_errors::{Explanation, covariance, estimate};
 use crate::identify::noise::{Noise, deviations, without};
-use crate::identify::{ModelErrors, Options, Status};
+use crate::identify::options::{ModelErrors, Options};
+use crate::identify::outcome::Status;
 use crate::model::ModelAt;
 use crate::subspace::{Corrected, Point};
 

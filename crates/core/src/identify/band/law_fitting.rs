@@ -2,9 +2,9 @@
 
 use super::channel::ChannelUnknowns;
 use crate::frequency::omega_rad_s;
-use crate::identify::Options;
 use crate::identify::context::Context;
 use crate::identify::measured::Band;
+use crate::identify::options::Options;
 use crate::model::ModelAt;
 
 /// What is to be explained, and with what.

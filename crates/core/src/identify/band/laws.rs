@@ -20,7 +20,9 @@ use crate::identify::goodness_of_fit::{Explained, GoodnessOfFit, judge};
 use crate::identify::measured::Band;
 use crate::identify::model_errors::{Curve, Curves, estimate_with_laws};
 use crate::identify::noise::{Noise, NoiseLevel, NoiseSource, deviations, without};
-use crate::identify::{Line, Options, Status, Uncertainty};
+use crate::identify::options::Options;
+use crate::identify::outcome::{Line, Status};
+use crate::identify::uncertainty::Uncertainty;
 use crate::laws::{
     Datum, Evidence, LawFit, LawKind, LineResidual, LocalMinima, Parametrization, Residuals, Search, best,
     minimise, starts,

@@ -34,9 +34,10 @@ pub(super) use reduced_band::{BOX, TRAINED, is_certain, reduction_error};
 pub use smooth::SmoothCurve;
 pub(super) use smooth::{SmoothOutcome, identify_smooth};
 
+use super::choice::{Reduction, Selection};
 use super::context::Context;
 use super::measured::Band;
-use super::{Options, Reduction, Selection};
+use super::options::Options;
 use crate::material::OutsideTable;
 use crate::model::ModelAt;
 use reduced_band::ReducedBand;

@@ -2,9 +2,9 @@
 
 use crate::c64;
 use crate::for_each::{ForEach, map};
-use crate::identify::Options;
 use crate::identify::context::{Context, Stage};
 use crate::identify::measured::Band;
+use crate::identify::options::Options;
 use crate::identify::thinned::thinned;
 use crate::material::loss_factor;
 use crate::model::ModelAt;

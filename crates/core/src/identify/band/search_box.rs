@@ -1,7 +1,8 @@
 //! Where solutions are looked for: near the nominal, and in the whole of the bounds.
 
 use super::outcome::BandOutcome;
-use crate::identify::{Options, Reduction, Selection};
+use crate::identify::choice::{Reduction, Selection};
+use crate::identify::options::Options;
 
 /// Options to look near the nominal, and in the whole of the bounds.
 pub(super) fn near_and_far(options: &Options) -> [Options; 2] {

@@ -3,7 +3,9 @@
 use super::candidates::Candidates;
 use super::reduced_band::reduction_error;
 use crate::c64;
-use crate::identify::{Line, Options, Status, Uncertainty};
+use crate::identify::options::Options;
+use crate::identify::outcome::{Line, Status};
+use crate::identify::uncertainty::Uncertainty;
 use crate::model::ModelAt;
 use crate::response::relative_error;
 use crate::roots::Candidate;

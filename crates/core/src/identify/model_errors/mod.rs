@@ -23,8 +23,10 @@ mod leverage;
 mod scatter;
 mod search;
 
+use super::noise::Noise;
+use super::options::ErrorSizes;
+use super::outcome::Line;
 use super::thinned::thinned;
-use super::{ErrorSizes, Line, Noise};
 use crate::c64;
 use crate::for_each::ForEach;
 use crate::median::median;

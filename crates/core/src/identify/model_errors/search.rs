@@ -3,7 +3,7 @@
 use super::curve::Curves;
 use crate::c64;
 use crate::for_each::{ForEach, map};
-use crate::identify::ErrorSizes;
+use crate::identify::options::ErrorSizes;
 use crate::model::FactorPart;
 use crate::subspace::{ErrorSlopes, FactorError, ModalErrors, Modes, Point, Projection};
 use frfit_linalg::dense::Cholesky;

@@ -1,8 +1,8 @@
 //! One frequency: what it has of its own, found for given values of what holds for the band.
 
-use super::Unknown;
 use super::reduced_band::Responded;
 use crate::c64;
+use crate::identify::unknown::Unknown;
 use crate::laws::{Minimum, Search, descend};
 use std::cell::RefCell;
 

@@ -1,8 +1,8 @@
 //! The numbers that hold for the whole band, as coordinates θ of a search.
 
-use super::unknown::{Unknown, Variation};
 use crate::c64;
 use crate::identify::form::Form;
+use crate::identify::unknown::{Unknown, Variation};
 use crate::laws::{LawKind, Parametrization};
 
 /// One unknown that holds for the band.

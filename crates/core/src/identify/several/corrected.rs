@@ -1,16 +1,17 @@
 //! A band once more, with the errors of the model taken out and carried into every error bar (B-11).
 
+use super::Task;
 use super::at_frequency::{Solution, eliminate};
 use super::outcome::SeveralOutcome;
 use super::reduced_band::ReducedBand;
 use super::search::BandSolution;
-use super::{Task, Unknown, Variation};
 use crate::c64;
-use crate::identify::ModelErrors;
 use crate::identify::model_errors::{
     Curve, Curves, Deviations, Explanation, Leverage, Measured, Spline, estimate, estimate_with_laws,
 };
 use crate::identify::noise::{Noise, deviations, without};
+use crate::identify::options::ModelErrors;
+use crate::identify::unknown::{Unknown, Variation};
 use crate::subspace::{Corrected, Point};
 
 impl Task<'_, '_> {

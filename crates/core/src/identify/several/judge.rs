@@ -1,19 +1,23 @@
 //! Error bars, what the measurements do not tell, and statuses.
 
+use super::Task;
 use super::at_frequency::Solution;
 use super::coordinates::Own;
 use super::information::Information;
 use super::outcome::{BandValue, Direction, Number, Profile, SeveralOutcome};
 use super::reduced_band::ReducedBand;
 use super::search::{BandSolution, Place, Plane, Reach};
-use super::{Task, Unknown};
 use crate::c64;
 use crate::for_each::map;
 use crate::identify::band::{UNEXPLAINED, reduction_error};
+use crate::identify::goodness_of_fit::GoodnessOfFit;
 use crate::identify::goodness_of_fit::judge;
 use crate::identify::model_errors::Estimated;
+use crate::identify::noise::NoiseLevel;
+use crate::identify::outcome::{Line, LineValue, Status};
+use crate::identify::uncertainty::Uncertainty;
 use crate::identify::uncertainty::{KNOWN, LEAST_LOSS};
-use crate::identify::{GoodnessOfFit, Line, LineValue, NoiseLevel, Status, Uncertainty};
+use crate::identify::unknown::Unknown;
 use crate::laws::LawKind;
 use crate::material::{Law, loss_factor};
 use crate::response::relative_error;

@@ -1,6 +1,9 @@
 //! What came out when several things were looked for.
 
-use crate::identify::{GoodnessOfFit, Leverage, Line, ModelErrorsFound, NoiseLevel, SensorFit, Status};
+use crate::identify::goodness_of_fit::{GoodnessOfFit, SensorFit};
+use crate::identify::model_errors::{Leverage, ModelErrorsFound};
+use crate::identify::noise::NoiseLevel;
+use crate::identify::outcome::{Line, Status};
 use crate::material::Law;
 use crate::response::Work;
 use frfit_linalg::solve::Breakdown;

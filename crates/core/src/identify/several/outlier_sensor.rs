@@ -1,11 +1,12 @@
 //! A sensor that contradicts the others: all unknowns are found without each in turn.
 
+use super::Task;
 use super::reduced_band::ReducedBand;
 use super::search::BandSolution;
-use super::{Task, Unknown};
 use crate::identify::goodness_of_fit::SensorFit;
 use crate::identify::noise::{Noise, level_of, without};
 use crate::identify::thinned::thinned;
+use crate::identify::unknown::Unknown;
 
 /// Frequencies at which it is tried.
 const FREQUENCIES: usize = 24;

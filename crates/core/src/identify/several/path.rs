@@ -1,8 +1,9 @@
 //! Which of several solutions at each frequency are one and the same structure over the band.
 
+use super::Task;
 use super::at_frequency::{Solution, Spot};
-use super::{Task, Unknown};
-use crate::identify::Noise;
+use crate::identify::noise::Noise;
+use crate::identify::unknown::Unknown;
 use crate::laws::inverse_information;
 use crate::select::{Choice, Node, SelectOptions, choose};
 

@@ -1,11 +1,11 @@
 //! The subspace of a band with several unknowns: good over the box of all of them, then where answers were found.
 
-use super::unknown::Composite;
 use crate::c64;
 use crate::for_each::{ForEach, map};
 use crate::identify::band::{BOX, ROUNDS, TRAINED, is_certain};
+use crate::identify::context::{Context, Stage};
 use crate::identify::thinned::thinned;
-use crate::identify::{Context, Stage};
+use crate::identify::unknown::{Composite, Unknown};
 use crate::material::{OutsideTable, loss_factor};
 use crate::model::{Experiment, ModelAt};
 use crate::response::Work;
@@ -222,7 +222,7 @@ impl<'a> ReducedBand<'a> {
 
 /// The k-th point of a sequence over the box of all unknowns, logarithmic where a range is positive: one dimension for each.
 pub(super) fn in_box(composite: &Composite<'_>, nominal: &[c64], k: usize) -> Vec<c64> {
-    let value = |(j, (one, &nominal)): (usize, (&super::Unknown, &c64))| {
+    let value = |(j, (one, &nominal)): (usize, (&Unknown, &c64))| {
         let real = between(one.range(nominal), radical_inverse(k, PRIMES[j % PRIMES.len()]));
         let eta = loss_factor(nominal);
         let eta = one.bounds.loss_factor.map_or(eta, |[low, high]| eta.clamp(low, high));

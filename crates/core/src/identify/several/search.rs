@@ -1,17 +1,19 @@
 //! The numbers that hold for the band, with what each frequency has of its own eliminated.
 
+use super::Task;
 use super::at_frequency::{Solution, eliminate};
 use super::coordinates::Coordinates;
 use super::information::Information;
 use super::path::Chosen;
 use super::reduced_band::{ReducedBand, between, in_box};
-use super::unknown::Dependence;
-use super::{Task, Unknown};
 use crate::c64;
 use crate::for_each::map;
 use crate::identify::band::{Fit, nearest};
+use crate::identify::context::Stage;
+use crate::identify::options::Options;
 use crate::identify::thinned::thinned;
-use crate::identify::{Options, Stage};
+use crate::identify::unknown::Dependence;
+use crate::identify::unknown::Unknown;
 use crate::laws::{Datum, Minimum, Parametrization, Search, descend};
 use crate::subspace::Projection;
 

@@ -6,10 +6,10 @@
 use super::Task;
 use super::coordinates::Coordinates;
 use super::reduced_band::{ReducedBand, in_box};
-use super::unknown::Variation;
 use crate::c64;
 use crate::for_each::map;
 use crate::identify::thinned::thinned;
+use crate::identify::unknown::Variation;
 use crate::laws::{Search, minimise};
 
 /// Frequencies at most at which logarithms are compared.

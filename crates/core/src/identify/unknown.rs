@@ -1,7 +1,7 @@
 //! What is looked for when several things are.
 
-use super::super::Options;
 use crate::c64;
+use crate::identify::options::Options;
 use crate::laws::LawKind;
 use crate::material::{Law, OutsideTable};
 use crate::model::{DynamicStiffness, Member, ModelAt, ModelError, Parameter, ParameterAt};
