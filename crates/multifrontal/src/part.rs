@@ -2,7 +2,7 @@
 
 use crate::factor::Node;
 use crate::scalar::Scalar;
-use crate::symbolic::{ROOT, Symbolic};
+use crate::symbolic::{NO_PARENT, Symbolic};
 use std::cmp::Reverse;
 use std::ops::Range;
 
@@ -50,7 +50,7 @@ impl Part {
             below_here.sort_by_key(|&part| Reverse(numbers[part]));
             // Behind the last part where it is below none.
             let above = match symbolic.fronts[nodes_here.end - 1].parent {
-                ROOT => runs.len(),
+                NO_PARENT => runs.len(),
                 parent => runs.partition_point(|(nodes, _)| nodes.end <= parent),
             };
             below[above].push(k);

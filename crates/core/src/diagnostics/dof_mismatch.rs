@@ -11,17 +11,17 @@ use crate::model::{Experiment, ModelAt, Sensor};
 use crate::subspace::Drive;
 
 /// Frequencies at which all rows are looked at.
-const FREQUENCIES: usize = 12;
+const ROW_FREQUENCIES: usize = 12;
 
 /// Moduli at which they are, at most; fewer on large models, so that all rows cost no more than this many products.
-const MODULI: usize = 60;
-const PRODUCTS: f64 = 4e8;
+const MAX_ROW_MODULI: usize = 60;
+const MAX_ROW_PRODUCTS: f64 = 4e8;
 
 /// Rows that are looked at more closely, for a sensor or the load.
-const KEPT: usize = 6;
+const MAX_CLOSE_ROWS: usize = 6;
 
 /// Scale at which rows are compared: away from the sensors the basis is good to some hundredths.
-const BROAD: f64 = 0.3;
+const ROW_SCALE: f64 = 0.3;
 
 /// A dof mismatch that was tried, with what came of it.
 pub(super) struct Tried {
@@ -100,8 +100,8 @@ pub(super) fn dof_mismatch<'a>(
 
 /// Moduli over the box at which rows are compared, as many as a model of this size allows.
 pub(super) fn sweep(responses: &Responses<'_>) -> Vec<Law> {
-    let products = (responses.subspace.size() * responses.rows * FREQUENCIES) as f64;
-    let count = ((PRODUCTS / products) as usize).clamp(5, MODULI);
+    let products = (responses.subspace.size() * responses.rows * ROW_FREQUENCIES) as f64;
+    let count = ((MAX_ROW_PRODUCTS / products) as usize).clamp(5, MAX_ROW_MODULI);
     let [low, high] = responses.parametrization.ln_size;
     let size = |k: usize| low + (high - low) * k as f64 / (count - 1) as f64;
     (0..count).map(|k| [size(k), responses.parametrization.usual_loss(), 0.0]).collect()
@@ -119,7 +119,7 @@ fn best_rows(
 ) -> Vec<Scored> {
     let responses = search.responses;
     let Written(written) = search.written;
-    let count = written.len().min(FREQUENCIES);
+    let count = written.len().min(ROW_FREQUENCIES);
     let picked: Vec<usize> = (0..count).map(|k| k * (written.len() - 1) / (count - 1).max(1)).collect();
     let force = experiment.load[experiment.load.iter().position(|f| *f != c64::default()).unwrap_or(0)];
     let scores = map(search.for_each, laws.len(), |l| {
@@ -135,7 +135,7 @@ fn best_rows(
                 };
                 let x = responses.subspace.everywhere(&responses.fractions[i].coordinates(drive, correction));
                 for (score, x) in scores.iter_mut().zip(x) {
-                    *score += misfit_at(std::iter::once(wrapped(read - (by * x).ln())), BROAD);
+                    *score += misfit_at(std::iter::once(wrapped(read - (by * x).ln())), ROW_SCALE);
                 }
             }
         }
@@ -150,6 +150,6 @@ fn best_rows(
         .filter(|(_, score, _)| score.is_finite())
         .collect();
     best.sort_by(|a, b| a.1.total_cmp(&b.1));
-    best.truncate(KEPT);
+    best.truncate(MAX_CLOSE_ROWS);
     best
 }

@@ -2,7 +2,9 @@
 
 use super::data_hypothesis::{Change, DataHypothesis, DofMismatch, Edit, ln_over_receptance};
 use super::dof_mismatch::{Tried, dof_mismatch, sweep};
-use super::finding::{Diagnosis, Evidence, Fault, Finding, KnownFactor, NAMED_WITHIN, NotJudged, OtherRow};
+use super::finding::{
+    Diagnosis, Evidence, Fault, Finding, KNOWN_FACTOR_RTOL, KnownFactor, NotJudged, OtherRow,
+};
 use super::responses::{self, NoModel, Responses};
 use super::search::{Fitted, Grid, Search, Written};
 use super::{mesh, misfit};
@@ -16,36 +18,36 @@ use crate::subspace::Drive;
 
 /// By how much a finding must be likelier, natural logarithm: some thirty changes are tried (e^3.4), and neighbouring residuals are not independent: what is left of a law
 /// that is no power may move several of them together.
-pub const MARGIN: f64 = 15.0;
+pub const FINDING_NATS: f64 = 15.0;
 
 /// The misfit with a finding over that without, at most. A factor, a delay or another row can fit a little of whatever is wrong; what they are the reason of falls to the noise.
-pub const FALL: f64 = 0.6;
+pub const MAX_MISFIT_RATIO: f64 = 0.6;
 
 /// A factor nearer to one than this is the calibration's or the model's mass, and no fault.
-const LEAST_FACTOR: f64 = 0.1;
+const MIN_LN_FACTOR: f64 = 0.1;
 
 /// A delay that turns the phase by less than this at the top of the band (rad) is a filter's, and no fault.
-const LEAST_PHASE: f64 = 0.2;
+const MIN_DELAY_PHASE_RAD: f64 = 0.2;
 
 /// A factor or delay of fewer deviations than this is none.
-const SIGNIFICANT: f64 = 5.0;
+const SIGNIFICANT_STD: f64 = 5.0;
 
 /// Misfit up to which data are explained: noise and a constant law leave as much, and the rows of a neighbourhood are not to be told by it.
-const EXPLAINED: f64 = 0.04;
+const EXPLAINED_MISFIT: f64 = 0.04;
 
 /// Readings as likely as the best within this: the one that is listed first is named.
-const AS_LIKELY: f64 = 3.0;
+const EQUAL_NATS: f64 = 3.0;
 
 /// Values at fewer than this explain nothing: three numbers of the modulus, two of a change, and as many again to judge by.
-const LEAST_VALUES: usize = 8;
+const MIN_VALUES: usize = 8;
 
 /// Frequencies that are looked at, and values at most (they are fewer where there are many sensors).
-const FREQUENCIES: usize = 40;
+const MAX_FREQUENCIES: usize = 40;
 
-const VALUES: usize = 240;
+const MAX_VALUES: usize = 240;
 
 /// Findings at most.
-const FINDINGS: usize = 2;
+const MAX_FINDINGS: usize = 2;
 
 /// What the sensors of a band agree on.
 pub(super) struct Agreed<'x, 'a> {
@@ -66,7 +68,7 @@ pub(super) fn look<T>(
     for_each: ForEach<'_>,
     agreed: &dyn Fn(Agreed<'_, '_>) -> T,
 ) -> Result<(Diagnosis, Option<T>), OutsideTable> {
-    let picked = looked_at(band, FREQUENCIES.min((VALUES / quantities.len().max(1)).max(12)));
+    let picked = looked_at(band, MAX_FREQUENCIES.min((MAX_VALUES / quantities.len().max(1)).max(12)));
     let frequency_hz: Vec<f64> = picked.iter().map(|&i| band.frequency_hz[i]).collect();
     let mut diagnosis = Diagnosis {
         findings: Vec::new(),
@@ -76,7 +78,7 @@ pub(super) fn look<T>(
         work: Work::default(),
     };
     let written = Written(picked.iter().map(|&i| written(band, quantities, i)).collect());
-    if written.0.iter().flatten().flatten().count() < LEAST_VALUES {
+    if written.0.iter().flatten().flatten().count() < MIN_VALUES {
         diagnosis.not_judged = Some(NotJudged::FewValues);
         return Ok((diagnosis, None));
     }
@@ -100,11 +102,11 @@ pub(super) fn look<T>(
     let mut data_hypothesis = DataHypothesis::as_told(quantities, band.model.decay_per_s());
     let mut current = search.fit(&data_hypothesis, &grid, None);
     let (mut common, mut elsewhere_found) = (Vec::new(), false);
-    while diagnosis.findings.len() < FINDINGS {
+    while diagnosis.findings.len() < MAX_FINDINGS {
         let values = best_change(&search, &grid, &data_hypothesis, &current);
         // Another row is looked for only where nothing simpler explains the data.
         let explained = values.as_ref().map_or(current.misfit.sigma, |(_, found)| found.misfit.sigma);
-        let rows = match explained <= EXPLAINED {
+        let rows = match explained <= EXPLAINED_MISFIT {
             true => Vec::new(),
             false => {
                 let laws = laws_elsewhere(&search, &grid, &data_hypothesis, &current);
@@ -191,7 +193,7 @@ fn evidence(before: &Fitted, after: &Fitted) -> Evidence {
 
 /// Whether a change explains what was not explained.
 fn is_better(before: &Fitted, after: &Fitted) -> bool {
-    before.nats - after.nats >= MARGIN && after.misfit.sigma <= FALL * before.misfit.sigma
+    before.nats - after.nats >= FINDING_NATS && after.misfit.sigma <= MAX_MISFIT_RATIO * before.misfit.sigma
 }
 
 /// The likeliest change of values that is a finding.
@@ -202,7 +204,7 @@ fn best_change(
     current: &Fitted,
 ) -> Option<(Edit, Fitted)> {
     // No misfit is taken to be smaller than that floor: from here nothing can fall far enough.
-    if FALL * current.misfit.sigma < misfit::FLOOR {
+    if MAX_MISFIT_RATIO * current.misfit.sigma < misfit::MIN_MISFIT {
         return None;
     }
     let edits = data_hypothesis.edits();
@@ -217,7 +219,7 @@ fn best_change(
         })
         .collect();
     let least = found.iter().map(|(_, fitted)| fitted.nats).fold(f64::INFINITY, f64::min);
-    let first = found.iter().position(|(_, fitted)| fitted.nats <= least + AS_LIKELY)?;
+    let first = found.iter().position(|(_, fitted)| fitted.nats <= least + EQUAL_NATS)?;
     Some(found.swap_remove(first))
 }
 
@@ -225,14 +227,14 @@ fn best_change(
 fn is_large(search: &Search<'_, '_>, data_hypothesis: &DataHypothesis, edit: &Edit, fitted: &Fitted) -> bool {
     let top = crate::frequency::omega_rad_s(search.responses.frequency_hz.last().copied().unwrap_or(0.0));
     let beyond = |value: f64, least: f64, std: Option<f64>| {
-        value.abs() >= least && std.is_some_and(|std| value.abs() >= SIGNIFICANT * std)
+        value.abs() >= least && std.is_some_and(|std| value.abs() >= SIGNIFICANT_STD * std)
     };
     match edit.change {
         Change::Factor => {
-            beyond(fitted.ln_factor, LEAST_FACTOR, search.deviations(data_hypothesis, fitted)[0])
+            beyond(fitted.ln_factor, MIN_LN_FACTOR, search.deviations(data_hypothesis, fitted)[0])
         }
         Change::Delay => {
-            beyond(fitted.delay_s, LEAST_PHASE / top, search.deviations(data_hypothesis, fitted)[1])
+            beyond(fitted.delay_s, MIN_DELAY_PHASE_RAD / top, search.deviations(data_hypothesis, fitted)[1])
         }
         _ => true,
     }
@@ -259,7 +261,7 @@ fn fault(
             let factor = found.ln_factor.exp();
             let relative_std = factor_std.unwrap_or(0.0);
             let off = |known: KnownFactor| (found.ln_factor - known.value().ln()).abs();
-            let near = |known: &KnownFactor| off(*known) <= NAMED_WITHIN + 3.0 * relative_std;
+            let near = |known: &KnownFactor| off(*known) <= KNOWN_FACTOR_RTOL + 3.0 * relative_std;
             let nearest = KnownFactor::ALL.into_iter().filter(near);
             let known = nearest.min_by(|&a, &b| off(a).total_cmp(&off(b)));
             Fault::Factor { factor, relative_std, known }
@@ -300,11 +302,11 @@ fn likeliest_row<'t>(rows: &'t [Tried], current: &Fitted, dim: usize) -> Option<
     // As many rows were tried as there are.
     let tried = (dim.max(1) as f64).ln();
     let gained = current.nats - best.fitted.nats - tried;
-    if gained < MARGIN || best.fitted.misfit.sigma > FALL * current.misfit.sigma {
+    if gained < FINDING_NATS || best.fitted.misfit.sigma > MAX_MISFIT_RATIO * current.misfit.sigma {
         return None;
     }
     let alike = |tried: &&Tried| {
-        tried.fitted.nats <= best.fitted.nats + AS_LIKELY && tried.edit.sensors == best.edit.sensors
+        tried.fitted.nats <= best.fitted.nats + EQUAL_NATS && tried.edit.sensors == best.edit.sensors
     };
     let mut same: Vec<&Tried> = rows.iter().filter(alike).collect();
     same.sort_by(|a, b| a.fitted.nats.total_cmp(&b.fitted.nats));

@@ -5,7 +5,7 @@
 //! frequencies its response is a sum over poles, x_m(c) = Σ_k ρ_mk/(1 + cλ_k). What is compared are residuals ln(measured/model), magnitude and phase together, by the
 //! likelihood of Student's distribution with a scale that is free (`misfit`), and by what BIC takes for each free number.
 //!
-//! A change is a finding where it is likelier than the data as they are by [`MARGIN`] and leaves a misfit that is smaller by [`FALL`]; then a second change is looked for with
+//! A change is a finding where it is likelier than the data as they are by [`FINDING_NATS`] and leaves a misfit that is smaller by [`MAX_MISFIT_RATIO`]; then a second change is looked for with
 //! the first in force, and a third is not: who finds three faults has the wrong model.
 //!
 //! # Limits
@@ -23,8 +23,8 @@ mod misfit;
 mod responses;
 mod search;
 
-pub use few::{FALL, MARGIN};
-pub use finding::{Diagnosis, Evidence, Fault, Finding, KnownFactor, NAMED_WITHIN, NotJudged, OtherRow};
+pub use few::{FINDING_NATS, MAX_MISFIT_RATIO};
+pub use finding::{Diagnosis, Evidence, Fault, Finding, KNOWN_FACTOR_RTOL, KnownFactor, NotJudged, OtherRow};
 
 use crate::for_each::ForEach;
 use crate::identify::{Options, Problem, ProblemError};
@@ -65,7 +65,7 @@ pub fn diagnose(
         let mut band = problem.band(&parameter);
         band.model = about.as_ref().unwrap_or(band.model);
         let options = Options { bounds: unknown.bounds, real: unknown.real, ..*options };
-        let mut found = match sensors > many::MOST_SENSORS {
+        let mut found = match sensors > many::MAX_FITTED_SENSORS {
             true => many::diagnose(&band, quantities, &options, for_each)?,
             false => few::look(&band, quantities, &options, for_each, &|_| ())?.0,
         };
@@ -80,7 +80,8 @@ pub fn diagnose(
         }
     }
     let several = problem.unknowns().len() > 1;
-    let open = |found: &Diagnosis| several && found.misfit.is_some_and(|misfit| misfit > EXPLAINED_BY_ONE);
+    let open =
+        |found: &Diagnosis| several && found.misfit.is_some_and(|misfit| misfit > MAX_MISFIT_OF_ONE_UNKNOWN);
     Ok(match best {
         Some(found) if !open(&found) => Diagnosis { work, ..found },
         found => Diagnosis {
@@ -94,4 +95,4 @@ pub fn diagnose(
 }
 
 /// A misfit up to which one free unknown beside others at their nominal values is believed: a factor of 1.3, or 17 degrees.
-const EXPLAINED_BY_ONE: f64 = 0.3;
+const MAX_MISFIT_OF_ONE_UNKNOWN: f64 = 0.3;

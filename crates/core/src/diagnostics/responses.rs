@@ -8,13 +8,13 @@ use crate::response::Work;
 use crate::subspace::{Point, PoleResidue, Subspace, TrainOptions};
 
 /// Error of the responses over the box: a tenth of what an FRF is measured to.
-const TRAINED: f64 = 1e-3;
+const RESPONSE_TOL: f64 = 1e-3;
 
 /// Storage moduli over the box at which the basis is made good, and its loss factor where the nominal has none.
-const STORAGES: usize = 5;
+const BOX_STORAGES: usize = 5;
 
 /// An angle of loss beyond this is that of a fluid.
-const MOST_ANGLE: f64 = 1.3;
+const MAX_LOSS_ANGLE: f64 = 1.3;
 
 /// The unknown modulus over the band: E(ω) = |Ē(ω)| a (ω/ω₀)^β exp(iδ(ω)) with δ = min(q δ̄(ω), 1.3).
 ///
@@ -75,7 +75,8 @@ impl Parametrization {
         if self.is_real {
             return c64::new(size, 0.0);
         }
-        let angle = (angle * ln_loss.exp()).clamp(self.loss[0].atan(), self.loss[1].atan()).min(MOST_ANGLE);
+        let angle =
+            (angle * ln_loss.exp()).clamp(self.loss[0].atan(), self.loss[1].atan()).min(MAX_LOSS_ANGLE);
         c64::from_polar(size, angle)
     }
 }
@@ -114,15 +115,15 @@ impl<'a> Responses<'a> {
         let last = at.last().ok_or(NoModel::Breakdown)?;
         let mut subspace = Subspace::new(experiment, last).map_err(|_| NoModel::Breakdown)?;
         let [low, high] = parametrization.ln_size;
-        let step = (high - low) / (STORAGES - 1) as f64;
+        let step = (high - low) / (BOX_STORAGES - 1) as f64;
         let points: Vec<Point<'a>> = (0..at.len())
-            .flat_map(|i| (0..STORAGES).map(move |k| (i, low + k as f64 * step)))
+            .flat_map(|i| (0..BOX_STORAGES).map(move |k| (i, low + k as f64 * step)))
             .map(|(i, ln_size)| {
                 let modulus = parametrization.modulus([ln_size, 0.0, 0.0], i);
                 Point { correction: modulus - at[i].parameters[0].nominal, at: at[i].clone() }
             })
             .collect();
-        let training = TrainOptions { tolerance: TRAINED, ..TrainOptions::default() };
+        let training = TrainOptions { tolerance: RESPONSE_TOL, ..TrainOptions::default() };
         subspace.train(&points, &training, for_each).map_err(|_| NoModel::Breakdown)?;
         let small = subspace.projection();
         let fractions = map(for_each, at.len(), |i| small.fractions(&at[i]).ok().flatten());

@@ -120,7 +120,11 @@ impl Reduction {
         match self {
             Self::Full => false,
             Self::Subspace => true,
-            Self::Auto => method == Method::Rational && dofs > TINY && frequencies >= HANDFUL,
+            Self::Auto => {
+                method == Method::Rational
+                    && dofs > MAX_TINY_MODEL_DOFS
+                    && frequencies >= MIN_SUBSPACE_FREQUENCIES
+            }
         }
     }
 }
@@ -141,7 +145,7 @@ impl FromStr for Reduction {
 }
 
 /// Degrees of freedom up to which a subspace is no smaller than the model.
-const TINY: usize = 64;
+const MAX_TINY_MODEL_DOFS: usize = 64;
 
 /// Frequencies from which on the subspace's solves (tens) cost less than theirs (two complex factorisations each).
-const HANDFUL: usize = 4;
+const MIN_SUBSPACE_FREQUENCIES: usize = 4;

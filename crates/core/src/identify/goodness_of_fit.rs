@@ -48,20 +48,23 @@ impl Explained {
 }
 
 /// A normal deviate beyond which it is not chance: once in thirty thousand.
-const CHANCE: f64 = 4.0;
+const CHANCE_DEVIATE: f64 = 4.0;
 
 /// χ² up to this many times its degrees of freedom is the noise told too small by less than half.
-const NEARLY: f64 = 2.0;
+const MAX_NEARLY_REDUCED_CHI_SQUARED: f64 = 2.0;
 
 /// Sensors that disagree by so many times what the answers scatter by do not disagree by noise, which shows in both alike: ten times in χ², where
 /// the two levels of some dozens of frequencies differ by a third.
-const CONTRADICTION: f64 = 3.0;
+const CONTRADICTION_RATIO: f64 = 3.0;
 
 /// No average leaves noise of this part of the response: then sensors contradict one another.
-const NO_NOISE: f64 = 0.3;
+const MAX_NOISE_OVER_RESPONSE: f64 = 0.3;
 
 /// A thousandth of the response is as good as measured responses get: a smaller misfit is no reason to doubt anything.
-pub(super) const LEAST: f64 = 1e-3;
+pub(super) const MIN_DOUBTFUL_MISFIT: f64 = 1e-3;
+
+/// A misfit of a line of more standard deviations than this, root mean square over the sensors, is not noise.
+pub(super) const MAX_RMS_MISFIT: f64 = 5.0;
 
 /// What a χ² over the band says; `None` without a degree of freedom.
 pub(super) fn judge(
@@ -77,14 +80,14 @@ pub(super) fn judge(
     let deviate = ((chi_squared / n).cbrt() - (1.0 - 2.0 / (9.0 * n))) / (2.0 / (9.0 * n)).sqrt();
     let found = noise.of_sensors.unwrap_or(0.0);
     let verdict = match noise.source {
-        NoiseSource::Given if deviate <= CHANCE => Explained::Yes,
-        NoiseSource::Given if chi_squared <= NEARLY * n => Explained::Nearly,
+        NoiseSource::Given if deviate <= CHANCE_DEVIATE => Explained::Yes,
+        NoiseSource::Given if chi_squared <= MAX_NEARLY_REDUCED_CHI_SQUARED * n => Explained::Nearly,
         NoiseSource::Given => Explained::No,
-        _ if told == Noise::Unknown && found > NO_NOISE => Explained::No,
+        _ if told == Noise::Unknown && found > MAX_NOISE_OVER_RESPONSE => Explained::No,
         // Below what a test can show there is nothing to contradict.
-        _ if found <= LEAST => Explained::Yes,
+        _ if found <= MIN_DOUBTFUL_MISFIT => Explained::Yes,
         _ => match noise.of_scatter {
-            Some(scatter) if found > CONTRADICTION * scatter => Explained::No,
+            Some(scatter) if found > CONTRADICTION_RATIO * scatter => Explained::No,
             Some(_) => Explained::Yes,
             None => Explained::Untested,
         },

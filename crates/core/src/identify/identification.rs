@@ -6,7 +6,7 @@ use super::model_errors::{Leverage, ModelErrorsFound};
 use super::noise::NoiseLevel;
 use super::outcome::{Line, Status};
 use super::several::{BandValue, Direction, Number, Profile, SeveralOutcome};
-use super::uncertainty::{KNOWN, LEAST_LOSS};
+use super::uncertainty::{KNOWN_RELATIVE_STD, MIN_KNOWN_LOSS_FACTOR};
 use crate::laws::{Estimate, LawFit, best};
 use crate::response::Work;
 use frfit_linalg::solve::Breakdown;
@@ -154,8 +154,8 @@ impl From<LawsOutcome> for Identification {
 fn of_law(fit: &LawFit, band: Option<GoodnessOfFit>) -> BandValue {
     let number = |one: &Estimate| Number { name: one.name.clone(), value: one.value, std: one.std };
     let is_known = |one: &Estimate| {
-        let least = if one.name == "loss_factor" { LEAST_LOSS } else { 0.0 };
-        one.std.is_some_and(|std| std <= KNOWN * one.value.abs().max(least))
+        let least = if one.name == "loss_factor" { MIN_KNOWN_LOSS_FACTOR } else { 0.0 };
+        one.std.is_some_and(|std| std <= KNOWN_RELATIVE_STD * one.value.abs().max(least))
     };
     let status = Status::of([
         (!fit.parameters.iter().all(is_known), Status::NotIdentifiable),

@@ -32,7 +32,7 @@ mod unknown;
 
 pub use crate::response::relative_error;
 pub use band::{Calibrated, Calibration, ChannelUnknowns, SmoothCurve};
-pub(crate) use band::{MOST_PHASE, PHASE_STEP};
+pub(crate) use band::{DELAY_PHASE_STEP_RAD, MAX_DELAY_PHASE_RAD};
 pub use choice::{Method, Reduction, Selection, UnknownChoice};
 pub use context::{Context, Stage};
 pub use goodness_of_fit::{Explained, GoodnessOfFit, SensorFit};

@@ -7,16 +7,16 @@ use crate::select::{Choice, Node};
 
 /// Where no deviation is given, sensors count by their own size, but not below this fraction of their median over the band: an antiresonance is
 /// not measured any better than the rest.
-const RELATIVE_FLOOR: f64 = 0.1;
+const MIN_SIZE_OVER_MEDIAN: f64 = 0.1;
 
 /// No instrument is better than this fraction of the largest response: a smaller deviation, or none at all, is not believed.
-const LEAST_STD: f64 = 1e-9;
+const MIN_STD_OVER_LARGEST: f64 = 1e-9;
 
 /// The least level that is believed of one that is not given: a millionth of the response is roundoff near a resonance.
-pub(super) const LEAST_LEVEL: f64 = 1e-6;
+pub(super) const MIN_NOISE_LEVEL: f64 = 1e-6;
 
 /// Answers with two neighbours on either side that a scatter is told from: with fewer, a median is an accident.
-const LEAST_SCATTER: usize = 12;
+const MIN_SCATTER_ANSWERS: usize = 12;
 
 /// Standard deviations √E|δx|² of measured receptances, `[frequency][sensor]`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -75,15 +75,15 @@ impl NoiseLevel {
     pub(super) fn new(noise: Noise<'_>, of_sensors: Option<f64>, of_scatter: Option<f64>) -> Self {
         let (level, source) = match (noise, of_sensors, of_scatter) {
             (Noise::Known(_), ..) => (Some(1.0), NoiseSource::Given),
-            (_, Some(level), _) => (Some(level.max(LEAST_LEVEL)), NoiseSource::Sensors),
-            (_, None, Some(level)) => (Some(level.max(LEAST_LEVEL)), NoiseSource::Scatter),
+            (_, Some(level), _) => (Some(level.max(MIN_NOISE_LEVEL)), NoiseSource::Sensors),
+            (_, None, Some(level)) => (Some(level.max(MIN_NOISE_LEVEL)), NoiseSource::Scatter),
             (_, None, None) => (None, NoiseSource::Nothing),
         };
         Self { level, source, of_sensors, of_scatter }
     }
 
     /// Nothing known, as where each frequency is answered by itself.
-    pub(super) const NONE: Self =
+    pub(super) const UNKNOWN: Self =
         Self { level: None, source: NoiseSource::Nothing, of_sensors: None, of_scatter: None };
 }
 
@@ -99,9 +99,9 @@ pub(super) fn deviations(measured: &[Vec<c64>], noise: Noise<'_>) -> Vec<Vec<f64
     let row = |(i, u): (usize, &Vec<c64>)| {
         let of = |(m, u): (usize, &c64)| match noise {
             Noise::Known(std) | Noise::Relative(std) => {
-                (std[i][m] / 2f64.sqrt()).max(LEAST_STD * sizes[m][sizes[m].len() - 1])
+                (std[i][m] / 2f64.sqrt()).max(MIN_STD_OVER_LARGEST * sizes[m][sizes[m].len() - 1])
             }
-            Noise::Unknown => u.norm().max(RELATIVE_FLOOR * sizes[m][sizes[m].len() / 2]),
+            Noise::Unknown => u.norm().max(MIN_SIZE_OVER_MEDIAN * sizes[m][sizes[m].len() / 2]),
         };
         u.iter().enumerate().map(of).collect()
     };
@@ -156,7 +156,7 @@ pub(super) fn of_scatter(frequency_hz: &[f64], answers: &[Option<Node>], real: b
         Some(off.norm_sqr() / variance).filter(|square| square.is_finite())
     };
     let squares: Vec<f64> = (2..answers.len().saturating_sub(2)).filter_map(square).collect();
-    if squares.len() < LEAST_SCATTER {
+    if squares.len() < MIN_SCATTER_ANSWERS {
         return None;
     }
     level_of(squares, if real { 1 } else { 2 })

@@ -7,10 +7,10 @@ use std::fmt;
 use std::str::FromStr;
 
 /// Nominal values further off are estimates of another kind: `whole_box`.
-const BOX_RATIO: f64 = 4.0;
+const NEAR_BOX_RATIO: f64 = 4.0;
 
 /// The whole of the bounds, but no farther than this factor to either side: a box without end has no grid.
-const WHOLE_RATIO: f64 = 1e6;
+const WHOLE_BOX_RATIO: f64 = 1e6;
 
 /// Options of an identification; all have defaults.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -86,7 +86,7 @@ pub struct ErrorSizes {
 }
 
 /// The largest error that a model may have and be a model of the structure.
-const LARGEST_SIZE: f64 = 0.5;
+const MAX_ERROR_SIZE: f64 = 0.5;
 
 impl ErrorSizes {
     /// Whether one is given.
@@ -96,7 +96,7 @@ impl ErrorSizes {
 
     fn validate(self) -> Result<(), OptionsError> {
         for (name, size) in [("frequency", self.frequency), ("shape", self.shape)] {
-            if let Some(size) = size.filter(|size| !(*size > 0.0 && *size <= LARGEST_SIZE)) {
+            if let Some(size) = size.filter(|size| !(*size > 0.0 && *size <= MAX_ERROR_SIZE)) {
                 return Err(OptionsError::ErrorSize(name, size));
             }
         }
@@ -153,7 +153,10 @@ impl fmt::Display for OptionsError {
             }
             Self::Error(error) => write!(f, "error: expected a positive number, found {error}"),
             Self::ErrorSize(name, size) => {
-                write!(f, "model_error.{name}: expected a number above 0 up to {LARGEST_SIZE}, found {size}")
+                write!(
+                    f,
+                    "model_error.{name}: expected a number above 0 up to {MAX_ERROR_SIZE}, found {size}"
+                )
             }
             Self::Selection(method) => {
                 let method = method.name();
@@ -203,7 +206,7 @@ impl Options {
             return self.bounds.storage;
         }
         let [low, high] = self.bounds.storage.unwrap_or([0.0, f64::INFINITY]);
-        let ratio = if self.whole_box { WHOLE_RATIO } else { BOX_RATIO };
+        let ratio = if self.whole_box { WHOLE_BOX_RATIO } else { NEAR_BOX_RATIO };
         // A nominal outside the bounds: the box is where they begin.
         let middle = nominal.re.clamp(low, high);
         Some([low.max(middle / ratio), high.min(middle * ratio)])

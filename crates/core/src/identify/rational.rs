@@ -12,15 +12,15 @@ use frfit_linalg::dense::NoConvergence;
 use frfit_linalg::solve::Breakdown;
 
 /// Vectors of the first attempt, and how many each further one adds.
-const STEP: usize = 8;
+const VECTORS_PER_ATTEMPT: usize = 8;
 
 /// A root whose true residual is below this solves the full system: what is left of a double precision solve with a
 /// condition of 1e6, as a structure near resonance has.
-pub(super) const RESIDUAL: f64 = 1e-9;
+pub(super) const ROOT_RESIDUAL_TOL: f64 = 1e-9;
 
 /// Stiffer contrasts leave larger residuals to roundoff alone. There a direct solve decides: a root whose response is the measured one to
 /// this is a solution, with a few digits to spare for what such a solve loses.
-pub(super) const MATCH: f64 = 1e-6;
+pub(super) const RESPONSE_MATCH_RTOL: f64 = 1e-6;
 
 /// Grows the basis until there is a root within the bounds and every one solves the full system, or the order is reached.
 ///
@@ -32,7 +32,7 @@ pub(super) fn by_rational(
     options: &Options,
     outcome: &mut Line,
 ) -> Result<(), Breakdown> {
-    let mut order = STEP.min(options.order);
+    let mut order = VECTORS_PER_ATTEMPT.min(options.order);
     let mut response = RationalResponse::new(system, 0, order)?;
     loop {
         let judged = judge(&response, measured[SENSOR], outcome.nominal(), &options.roots());
@@ -42,7 +42,7 @@ pub(super) fn by_rational(
         if settled || order == options.order || response.is_complete() {
             break;
         }
-        order = (order + STEP).min(options.order);
+        order = (order + VECTORS_PER_ATTEMPT).min(options.order);
         response = response.extended(system, 0, order)?;
     }
     decide(system, measured, &mut outcome.roots);
@@ -69,7 +69,7 @@ pub(super) fn by_rational(
 fn decide(system: &impl Response, measured: &[c64], roots: &mut [Candidate]) {
     for root in roots.iter_mut().filter(|root| root.refusal == Some(Refusal::Moves)) {
         let Ok(x) = system.solve_at(&[root.correction]) else { continue };
-        if relative_error(&measured[SENSOR..=SENSOR], &x[SENSOR..=SENSOR]) <= MATCH {
+        if relative_error(&measured[SENSOR..=SENSOR], &x[SENSOR..=SENSOR]) <= RESPONSE_MATCH_RTOL {
             root.refusal = None;
         }
     }
@@ -89,7 +89,7 @@ fn judge(
     let judged = |root: RationalRoot| {
         let refusal = options.refuse(nominal, root.correction).or({
             // False for NaN too.
-            let solves = root.residual <= RESIDUAL;
+            let solves = root.residual <= ROOT_RESIDUAL_TOL;
             (!solves).then_some(Refusal::Moves)
         });
         let is_real = options.real && refusal != Some(Refusal::NotReal);

@@ -128,7 +128,7 @@ impl Unknown {
             Dependence::Factor(_) => [low, high],
             // A dimension is known better than a modulus: by drawing.
             Dependence::Powers(_) if nominal.re > 0.0 => {
-                [low.max(nominal.re / DIMENSION), high.min(nominal.re * DIMENSION)]
+                [low.max(nominal.re / MAX_DIMENSION_RATIO), high.min(nominal.re * MAX_DIMENSION_RATIO)]
             }
             Dependence::Powers(_) => [low, high],
         }
@@ -136,7 +136,7 @@ impl Unknown {
 }
 
 /// By how much a dimension may be off.
-const DIMENSION: f64 = 2.0;
+const MAX_DIMENSION_RATIO: f64 = 2.0;
 
 /// A model with several unknowns in it.
 #[derive(Debug, Clone, Copy)]

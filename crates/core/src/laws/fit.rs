@@ -76,16 +76,16 @@ pub struct LawFit {
 }
 
 /// Sums of squares that differ by this share of a degree of freedom are one minimum.
-const SAME: f64 = 1e-3;
+const MINIMUM_MERGE_TOL: f64 = 1e-3;
 
 /// Residuals of this size squared are none: of data without noise every end is roundoff, each its own.
-const EXACT: f64 = 1e-20;
+const EXACT_SUM_OF_SQUARES: f64 = 1e-20;
 
 /// Starts that are followed, of those that there are.
-const FOLLOWED: usize = 5;
+const MODULUS_LAW_STARTS: usize = 5;
 
 /// Evaluations for each start and unknown: with branches too many, valleys are long.
-const PATIENCE: usize = 50;
+const EVALUATIONS_PER_START_AND_UNKNOWN: usize = 50;
 
 /// Weighted least squares of one law on data; `None` where there are fewer numbers than parameters, or no start has a finite misfit.
 ///
@@ -101,7 +101,8 @@ pub fn fit_modulus(data: &[Datum], family: LawKind, sigma_known: bool) -> Option
         return None;
     }
     let evaluate = |theta: &[f64]| parametrization.residuals(data, theta);
-    let search = Search { starts: FOLLOWED, patience: PATIENCE, same: 0.0 };
+    let search =
+        Search { starts: MODULUS_LAW_STARTS, patience: EVALUATIONS_PER_START_AND_UNKNOWN, same: 0.0 };
     let minima = minimise(&starts(&parametrization, data), &evaluate, &search)?;
     let fit = LawFit::new(parametrization, minima, evidence);
     let lines = fit.parametrization.lines(data, &fit.theta);
@@ -117,7 +118,7 @@ impl Parametrization {
 }
 
 /// Nats by which another minimum may be behind and still be the answer, as in the selection of solutions.
-const NATS: f64 = 7.0;
+const RIVAL_NATS: f64 = 7.0;
 
 impl LawFit {
     pub(crate) fn new(parametrization: Parametrization, minima: LocalMinima, evidence: Evidence) -> Self {
@@ -126,10 +127,10 @@ impl LawFit {
         let n = parametrization.family.count();
         let unit = scale(best.sum, residuals, n, sigma_known);
         // Ends that differ by less than a thousandth of what noise makes of χ² are one.
-        let same = SAME * unit + EXACT * residuals as f64;
+        let same = MINIMUM_MERGE_TOL * unit + EXACT_SUM_OF_SQUARES * residuals as f64;
         let near = others.iter().filter(|other| other.sum - best.sum <= same).count();
         let behind = |sum: f64| 0.5 * (sum - best.sum) / unit.max(f64::MIN_POSITIVE);
-        let rivals = others.iter().filter(|other| other.converged && behind(other.sum) <= NATS);
+        let rivals = others.iter().filter(|other| other.converged && behind(other.sum) <= RIVAL_NATS);
         let rivals = rivals.map(|other| other.theta.clone()).collect();
         let theta = parametrization.sorted(&best.theta);
         // The branches' order is that of θ, and so is the Jacobian's.
@@ -231,7 +232,7 @@ impl LawFit {
         match self.sigma_known {
             true => self.chi_squared,
             // Data without any noise: what is left is roundoff, and no law is better than another for having less of it.
-            false => n * (self.chi_squared / n).max(ROUNDOFF).ln(),
+            false => n * (self.chi_squared / n).max(EXACT_REDUCED_CHI_SQUARED).ln(),
         }
     }
 
@@ -289,7 +290,7 @@ fn told(parametrization: &Parametrization, theta: &[f64], covariance: Option<&Ve
 }
 
 /// χ² per number below which the rest is roundoff of numbers that are known to themselves.
-const ROUNDOFF: f64 = 1e-28;
+const EXACT_REDUCED_CHI_SQUARED: f64 = 1e-28;
 
 /// What χ² is in units of: one where the deviations are known, else χ² per degree of freedom.
 fn scale(sum: f64, residuals: usize, parameters: usize, sigma_known: bool) -> f64 {

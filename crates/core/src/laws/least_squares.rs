@@ -45,11 +45,11 @@ pub(crate) struct LocalMinima {
 }
 
 /// A point without finite residuals is that bad: the step there is refused and shortened.
-const REFUSED: f64 = 1e100;
+const REFUSED_RESIDUAL: f64 = 1e100;
 
 /// Relative reduction and relative step at which a search ends. Of a χ² of ten thousand that is a millionth: what is left to gain moves no parameter by more than a
 /// thousandth of its deviation.
-const TOLERANCE: f64 = 1e-10;
+const SEARCH_RTOL: f64 = 1e-10;
 
 struct Problem<'a> {
     evaluate: Evaluate<'a>,
@@ -70,7 +70,7 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Problem<'_> {
                 self.residuals.copy_from_slice(&residuals);
                 self.jacobian.copy_from_slice(&jacobian);
             }
-            None => self.residuals.fill(REFUSED),
+            None => self.residuals.fill(REFUSED_RESIDUAL),
         }
     }
 
@@ -126,7 +126,7 @@ pub(crate) fn descend(start: &[f64], evaluate: Evaluate<'_>, search: &Search) ->
         jacobian: DMatrix::from_vec(m, n, jacobian),
     };
     let method = LevenbergMarquardt::new().with_patience(search.patience);
-    let method = method.with_ftol(TOLERANCE).with_xtol(TOLERANCE).with_gtol(f64::EPSILON);
+    let method = method.with_ftol(SEARCH_RTOL).with_xtol(SEARCH_RTOL).with_gtol(f64::EPSILON);
     let (end, report) = method.minimize(problem);
     let theta = end.theta.as_slice().to_vec();
     let (residuals, jacobian) = evaluate(&theta)?;
@@ -144,7 +144,7 @@ pub(crate) fn inverse_information(jacobian: &[f64], n: usize) -> Option<Vec<Vec<
     let m = jacobian.len() / n.max(1);
     let norms: Vec<f64> =
         jacobian.chunks_exact(m).map(|c| c.iter().map(|x| x * x).sum::<f64>().sqrt()).collect();
-    let told: Vec<usize> = (0..n).filter(|&j| norms[j] > NOTHING).collect();
+    let told: Vec<usize> = (0..n).filter(|&j| norms[j] > INSENSITIVE_COORDINATE_TOL).collect();
     let k = told.len();
     let column = |j: usize| &jacobian[j * m..(j + 1) * m];
     let correlation = |(i, j): (usize, usize)| {
@@ -154,7 +154,7 @@ pub(crate) fn inverse_information(jacobian: &[f64], n: usize) -> Option<Vec<Vec<
     let scaled: Vec<f64> =
         told.iter().flat_map(|&i| told.iter().map(move |&j| (i, j))).map(correlation).collect();
     let (values, vectors) = symmetric_eigen(k, &scaled).ok()?;
-    if values.first().is_some_and(|&least| least < DEPENDENT) {
+    if values.first().is_some_and(|&least| least < DEPENDENT_COORDINATE_RTOL) {
         return None;
     }
     let mut inverse = vec![vec![f64::NAN; n]; n];
@@ -168,10 +168,10 @@ pub(crate) fn inverse_information(jacobian: &[f64], n: usize) -> Option<Vec<Vec<
 }
 
 /// A coordinate whose change by one moves Σ r² by less than the square of this is not told by the data.
-const NOTHING: f64 = 1e-8;
+const INSENSITIVE_COORDINATE_TOL: f64 = 1e-8;
 
 /// Eigenvalues of JᵀJ with columns of norm one are exact to some ε; below this they have no digit.
-const DEPENDENT: f64 = 1e-13;
+const DEPENDENT_COORDINATE_RTOL: f64 = 1e-13;
 
 #[cfg(test)]
 mod tests {

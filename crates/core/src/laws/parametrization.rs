@@ -27,7 +27,7 @@ pub(crate) struct Parametrization {
 }
 
 /// Logits beyond this leave no digit between α and 0 or 1.
-const MOST_LOGIT: f64 = 36.0;
+const MAX_LOGIT: f64 = 36.0;
 
 impl Parametrization {
     /// p, and ∂p_i/∂θ_j as row i, column j.
@@ -74,7 +74,7 @@ impl Parametrization {
     /// θ of parameters that satisfy the constraints; what is on their edge comes to stand just inside.
     pub(crate) fn coordinates(&self, p: &[f64]) -> Vec<f64> {
         let log = |x: f64| x.max(f64::MIN_POSITIVE).ln();
-        let logit = |x: f64| (log(x) - log(1.0 - x)).clamp(-MOST_LOGIT, MOST_LOGIT);
+        let logit = |x: f64| (log(x) - log(1.0 - x)).clamp(-MAX_LOGIT, MAX_LOGIT);
         let reference = self.reference_rad_s;
         match self.family {
             LawKind::Constant => vec![log(p[0]), p[1]],

@@ -7,13 +7,13 @@ use frfit_linalg::column_block::product;
 use frfit_linalg::dense::{NoConvergence, symmetric_eigen};
 
 /// Frequencies at which candidates are compared at most, evenly drawn from the band: the few best are to be looked at over all of it.
-const COMPARED: usize = 128;
+const MAX_COMPARED_FREQUENCIES: usize = 128;
 
 /// Candidates of one piece of work.
-const CHUNK: usize = 256;
+const CANDIDATES_PER_PIECE: usize = 256;
 
 /// Eigenvalues of the information below this part of the largest are roundoff, each variable in units of its own information.
-const ROUNDOFF: f64 = 1e-12;
+const EIGENVALUE_RTOL: f64 = 1e-12;
 
 /// How badly the worst variable is known.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -74,7 +74,7 @@ pub fn next_sensors(
     let count = band.variables.len();
     let drawn = Drawn::of(band, deviations);
     let base = drawn.present(band, deviations);
-    let chunks: Vec<&[usize]> = candidates.chunks(CHUNK).collect();
+    let chunks: Vec<&[usize]> = candidates.chunks(CANDIDATES_PER_PIECE).collect();
     let ranked = map(for_each, chunks.len(), |k| {
         let rows = chunks[k];
         let answers = product(&band.subspace.rows(rows), rows.len(), &drawn.coordinates);
@@ -175,7 +175,7 @@ struct Drawn {
 impl Drawn {
     fn of(band: &SensitivityBand<'_>, deviations: &Deviations) -> Self {
         let there: Vec<usize> = (0..band.at.len()).filter(|&i| band.at[i].is_some()).collect();
-        let drawn = there.len().min(COMPARED);
+        let drawn = there.len().min(MAX_COMPARED_FREQUENCIES);
         let pick = |k: usize| there[k * there.len() / drawn.max(1)];
         let mut this = Self {
             frequencies: Vec::new(),
@@ -237,7 +237,7 @@ fn bars(information: &[f64], count: usize) -> Vec<Option<f64>> {
         let mut variance = 0.0;
         for (value, v) in values.iter().zip(vectors.chunks_exact(count)) {
             // Vectors of what is not seen are good to the root of the roundoff of values.
-            match *value > ROUNDOFF * largest {
+            match *value > EIGENVALUE_RTOL * largest {
                 true => variance += v[p] * v[p] / value,
                 false if v[p].abs() < 1e-5 => {}
                 false => return None,

@@ -9,7 +9,7 @@ use frfit_linalg::dense::{NoConvergence, Singular, singular};
 pub type Deviations = Vec<Vec<f64>>;
 
 /// Components of a singular vector below this are roundoff: what is orthogonal to a direction that nobody sees does not suffer from it.
-const COMPONENT: f64 = 1e-6;
+const COMPONENT_TOL: f64 = 1e-6;
 
 /// The Jacobian J of real and imaginary parts of all x over their deviations by ln p, as singular values ς and right singular vectors.
 ///
@@ -97,7 +97,7 @@ impl Resolved {
             let part: f64 = v.iter().zip(combination).map(|(v, u)| v * u).sum();
             match std {
                 Some(std) => variance += (part * std).powi(2),
-                None if part.abs() <= COMPONENT * length => {}
+                None if part.abs() <= COMPONENT_TOL * length => {}
                 None => return None,
             }
         }

@@ -3,7 +3,7 @@
 use crate::median::median;
 
 /// Fewest samples of which a mean is a baseline.
-const FEWEST: usize = 8;
+const MIN_BASELINE_SAMPLES: usize = 8;
 
 /// Of a normal distribution, the standard deviation over the median of deviations from the median.
 const SIGMA_PER_MAD: f64 = 1.4826;
@@ -18,7 +18,7 @@ pub(super) fn quiet(samples: &[f64]) -> (f64, f64) {
 
 /// The mean before the hit, or, where a record has too little of that, over its last tenth, where the response has decayed.
 pub(super) fn offset(record: &[f64], before: usize) -> f64 {
-    mean(if before >= FEWEST { &record[..before] } else { last_tenth(record) })
+    mean(if before >= MIN_BASELINE_SAMPLES { &record[..before] } else { last_tenth(record) })
 }
 
 pub(super) fn last_tenth(record: &[f64]) -> &[f64] {

@@ -4,16 +4,16 @@ use super::pulse::{Contact, Pulse};
 use super::{Hit, Options, Recording};
 
 /// Time in s within which a second contact is a rebound: no hand hits twice on purpose in less.
-const REBOUND_S: f64 = 0.25;
+const MAX_REBOUND_S: f64 = 0.25;
 
 /// Force over its noise from which on a contact is one: of 10⁵ samples of normal noise the largest is at 4.4.
-const OVER_NOISE: f64 = 10.0;
+const MIN_CONTACT_OVER_NOISE: f64 = 10.0;
 
 /// Share of a recording's largest force that is the trigger by default.
-const TRIGGER: f64 = 0.1;
+const TRIGGER_SHARE: f64 = 0.1;
 
 /// Share of the time between hits that comes before the trigger by default.
-const BEFORE: f64 = 0.01;
+const PRE_TRIGGER_SHARE: f64 = 0.01;
 
 /// Hits, not yet judged, and how many samples a record has.
 pub(super) struct Cut {
@@ -48,23 +48,23 @@ fn count(seconds: f64, step_s: f64) -> usize {
 }
 
 /// Share of the usual room for a record that a hit needs to have its say in the length of all.
-const ENOUGH: f64 = 0.8;
+const MIN_ROOM_SHARE: f64 = 0.8;
 
 /// The longest length for which no hit has to be left out that has nearly as much room as at least half of them.
 fn usual(hits: &[Hit]) -> usize {
     let mut room: Vec<usize> = hits.iter().map(|hit| hit.range.len()).collect();
     room.sort_unstable_by(|a, b| b.cmp(a));
     let of_half = room.get(room.len().saturating_sub(1) / 2).copied().unwrap_or(0);
-    room.into_iter().filter(|&room| room as f64 >= ENOUGH * of_half as f64).min().unwrap_or(0)
+    room.into_iter().filter(|&room| room as f64 >= MIN_ROOM_SHARE * of_half as f64).min().unwrap_or(0)
 }
 
 /// The first contact of each hit: what follows too soon is a rebound, in a triggered capture all that follows.
 fn own(contact: &Contact, recording: &Recording, options: &Options, is_capture: bool) -> Vec<Pulse> {
-    let level = options.trigger_n.unwrap_or(TRIGGER * contact.largest());
-    if level <= 0.0 || contact.largest() < OVER_NOISE * contact.noise {
+    let level = options.trigger_n.unwrap_or(TRIGGER_SHARE * contact.largest());
+    if level <= 0.0 || contact.largest() < MIN_CONTACT_OVER_NOISE * contact.noise {
         return Vec::new();
     }
-    let apart = count(options.length_s.unwrap_or(REBOUND_S), recording.step_s);
+    let apart = count(options.length_s.unwrap_or(MAX_REBOUND_S), recording.step_s);
     let mut own: Vec<Pulse> = Vec::new();
     for pulse in contact.pulses(0..contact.force.len().min(recording.len()), level) {
         if own.last().is_none_or(|last| !is_capture && pulse.first - last.first >= apart) {
@@ -89,7 +89,7 @@ fn several(k: usize, recording: &Recording, pulses: &[Pulse], options: &Options)
     let mut gaps: Vec<usize> = pulses.windows(2).map(|pair| pair[1].first - pair[0].first).collect();
     gaps.sort_unstable();
     let usual = gaps[gaps.len() / 2];
-    let default = (usual as f64 * BEFORE) as usize;
+    let default = (usual as f64 * PRE_TRIGGER_SHARE) as usize;
     let before = options.pre_trigger_s.map_or(default, |seconds| count(seconds, recording.step_s));
     let starts = pulses.iter().map(|pulse| pulse.first.saturating_sub(before));
     let ends = starts.clone().skip(1).chain([recording.len()]);

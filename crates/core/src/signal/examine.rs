@@ -1,7 +1,7 @@
 //! How a hit is judged: what is wrong with it, and how far the responses have decayed.
 
 use super::baseline::{last_tenth, mean, offset, peak, rms};
-use super::hit::FOOT;
+use super::hit::FOOT_SAMPLES;
 use super::pulse::{Contact, Pulse};
 use super::{Channel, Fault, Hit, Options, Recording};
 use std::ops::Range;
@@ -20,7 +20,7 @@ pub(super) fn examine(hit: &mut Hit, recording: &Recording, samples: usize, opti
     hit.residual =
         records.clone().map(|r| if r.is_empty() { 0.0 } else { share(last_tenth(r), r) }).collect();
     // Fewer samples are no noise level.
-    let is_told = before >= 2 * FOOT && records.clone().all(|record| record.len() > before);
+    let is_told = before >= 2 * FOOT_SAMPLES && records.clone().all(|record| record.len() > before);
     hit.noise = is_told.then(|| records.map(|r| share(&r[..before], r)).collect());
 }
 
@@ -72,7 +72,7 @@ fn overlap(a: &Range<usize>, b: &Range<usize>) -> bool {
 }
 
 /// Samples after a contact in which the ringing of an anti-aliasing filter may look like another.
-const RINGING: usize = 4;
+const RINGING_SAMPLES: usize = 4;
 
 /// Contacts other than the hit's own.
 fn second_contacts(hit: &Hit, recording: &Recording, contact: &Contact, options: &Options) -> Vec<Fault> {
@@ -82,7 +82,8 @@ fn second_contacts(hit: &Hit, recording: &Recording, contact: &Contact, options:
         contact.pulses(0..contact.force.len(), level).into_iter().filter(in_record).collect();
     let Some(own) = pulses.iter().find(|pulse| pulse.last >= hit.onset) else { return Vec::new() };
     let width = contact.width(own);
-    let others = pulses.iter().filter(|other| other.first > own.last + RINGING || other.last < own.first);
+    let others =
+        pulses.iter().filter(|other| other.first > own.last + RINGING_SAMPLES || other.last < own.first);
     others
         .map(|other| {
             let samples = contact.width(other);
@@ -97,16 +98,16 @@ fn second_contacts(hit: &Hit, recording: &Recording, contact: &Contact, options:
 }
 
 /// A jump there and back within so many samples is a spike...
-const LONGEST_JUMP: usize = 3;
+const MAX_JUMP_SAMPLES: usize = 3;
 
 /// ... where it is so many times as high as any other. Signals behind an anti-aliasing filter do not jump like that.
-const JUMP: f64 = 10.0;
+const MIN_JUMP_RATIO: f64 = 10.0;
 
 /// A spike of a response away from the contact, where jumps are its own: how many samples, and how far it jumps.
 fn spike(record: &[f64], hit: &Hit) -> Option<(usize, f64)> {
     let jumps: Vec<f64> = record.windows(2).map(|pair| pair[1] - pair[0]).collect();
     let there = (0..jumps.len()).max_by(|&a, &b| jumps[a].abs().total_cmp(&jumps[b].abs()))?;
-    let near = there.saturating_sub(LONGEST_JUMP)..jumps.len().min(there + LONGEST_JUMP + 1);
+    let near = there.saturating_sub(MAX_JUMP_SAMPLES)..jumps.len().min(there + MAX_JUMP_SAMPLES + 1);
     let is_back = |&k: &usize| jumps[k] * jumps[there] < 0.0 && 2.0 * jumps[k].abs() >= jumps[there].abs();
     let back = near.filter(is_back).max_by(|&a, &b| jumps[a].abs().total_cmp(&jumps[b].abs()))?;
     let run = there.min(back)..=there.max(back);
@@ -114,14 +115,15 @@ fn spike(record: &[f64], hit: &Hit) -> Option<(usize, f64)> {
     let others = (0..jumps.len()).filter(outside).map(|k| jumps[k].abs()).fold(0.0, f64::max);
     let pulse = hit.pulse_in_record();
     let in_contact = *run.end() + 2 >= pulse.start && *run.start() <= pulse.end + pulse.len();
-    (jumps[there].abs() >= JUMP * others && !in_contact).then(|| (run.count() - 1, jumps[there].abs()))
+    (jumps[there].abs() >= MIN_JUMP_RATIO * others && !in_contact)
+        .then(|| (run.count() - 1, jumps[there].abs()))
 }
 
 /// Fewest equal samples of a flat top.
-const FLAT: usize = 3;
+const MIN_FLAT_SAMPLES: usize = 3;
 
 /// Share of a channel's span that has to be cut off: a smooth top that a converter of 12 bits makes flat lacks a tenth of that.
-const CUT_OFF: f64 = 0.005;
+const MIN_CUT_OFF_SHARE: f64 = 0.005;
 
 /// Samples that stand at the record's largest or smallest value between flanks so steep that a top is missing, and that value.
 ///
@@ -137,10 +139,10 @@ fn clipped(record: &[f64], offset: f64) -> Option<(usize, f64)> {
         let mut start = 0;
         for run in record.chunk_by(|a, b| a == b) {
             let end = start + run.len();
-            if run[0] == limit && run.len() >= FLAT && start >= 2 && end + 1 < record.len() {
+            if run[0] == limit && run.len() >= MIN_FLAT_SAMPLES && start >= 2 && end + 1 < record.len() {
                 let rise = (record[start - 1] - record[start - 2]).abs();
                 let fall = (record[end] - record[end + 1]).abs();
-                if rise.min(fall) * run.len() as f64 / 4.0 > CUT_OFF * (high - low) {
+                if rise.min(fall) * run.len() as f64 / 4.0 > MIN_CUT_OFF_SHARE * (high - low) {
                     samples += run.len();
                 }
             }

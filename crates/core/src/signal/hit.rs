@@ -27,10 +27,10 @@ pub struct Hit {
 }
 
 /// A response has decayed where less than this is left: with a residual q, the FRF at a resonance is wrong by about q.
-const DECAYED: f64 = 0.01;
+const DECAYED_RESIDUAL: f64 = 0.01;
 
 /// Samples before the trigger that already belong to the contact.
-pub(super) const FOOT: usize = 4;
+pub(super) const FOOT_SAMPLES: usize = 4;
 
 impl Hit {
     /// Whether it is averaged.
@@ -48,12 +48,12 @@ impl Hit {
     /// The rest wraps around: the transform takes the record for one period of a periodic response.
     pub fn undecayed(&self, response: usize) -> Option<f64> {
         let noise = self.noise.as_ref().and_then(|noise| noise.get(response)).copied().unwrap_or(0.0);
-        self.residual.get(response).copied().filter(|&rest| rest > DECAYED && rest > 3.0 * noise)
+        self.residual.get(response).copied().filter(|&rest| rest > DECAYED_RESIDUAL && rest > 3.0 * noise)
     }
 
     /// Samples of the record before the contact.
     pub(super) fn before(&self) -> usize {
-        self.onset.saturating_sub(self.range.start + FOOT)
+        self.onset.saturating_sub(self.range.start + FOOT_SAMPLES)
     }
 
     /// The contact in samples of the record.

@@ -2,7 +2,7 @@
 
 /// So many standard deviations of the best straight line is what the first state may be anywhere within: the process is then the smoothing spline, which asks nothing of level and slope,
 /// but for the inverse of its square, 1e-10. Its square is also what roundoff is multiplied by while nothing has been observed yet: 1e-6 in the bars.
-const DIFFUSE: f64 = 1e5;
+const DIFFUSE_STD: f64 = 1e5;
 
 /// A place on the curve, and what was observed there.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -87,7 +87,7 @@ impl<'o> Process<'o> {
         let x = self.observations[0].x;
         let value = [0, 1].map(|c| level[c] + slope[c] * (x - middle));
         let far = level_std.hypot(slope_std * (x - middle));
-        ([value, slope], [DIFFUSE * far, 0.0, DIFFUSE * slope_std])
+        ([value, slope], [DIFFUSE_STD * far, 0.0, DIFFUSE_STD * slope_std])
     }
 
     fn filter(&self, curvature: f64, mut keep: impl FnMut(Filtered)) -> Likelihood {

@@ -31,7 +31,7 @@ pub(super) struct Solved {
 }
 
 /// Units of roundoff that reduced matrices carry relative to the diagonal of the shifted stiffness.
-pub(super) const ROUNDOFF: f64 = 4.0 * f64::EPSILON;
+pub(super) const MATRIX_ROUNDOFF: f64 = 4.0 * f64::EPSILON;
 
 impl Assessment {
     /// The largest truncation error of any sensor relative to its response or to p ∂x_m/∂c, whichever is larger: relative error of the
@@ -186,7 +186,7 @@ impl Solved {
             response,
             slope,
             truncation: norms[1..].iter().map(|dual| small.gain * dual * norms[0]).collect(),
-            roundoff: solutions[1..].iter().map(|z| ROUNDOFF * norm(z) * size).collect(),
+            roundoff: solutions[1..].iter().map(|z| MATRIX_ROUNDOFF * norm(z) * size).collect(),
         };
         Ok(Self { assessment, solutions, residuals })
     }

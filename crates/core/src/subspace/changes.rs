@@ -7,7 +7,7 @@
 //! second order in r_x and r_z, where the others have one factor of these.
 
 use super::Projection;
-use super::assess::ROUNDOFF;
+use super::assess::MATRIX_ROUNDOFF;
 use super::reduced::SINGULAR;
 use crate::c64;
 use crate::model::{Combination, ModelAt};
@@ -91,7 +91,7 @@ impl Projection {
         let mut changed = Changed {
             response: observe(&solutions[0]),
             error: (sensors.clone())
-                .map(|m| self.gain * residuals[m] * residuals[0] + ROUNDOFF * norms[m] * norms[0])
+                .map(|m| self.gain * residuals[m] * residuals[0] + MATRIX_ROUNDOFF * norms[m] * norms[0])
                 .collect(),
             slopes: Vec::with_capacity(point.changes.len()),
             slope_truncation: Vec::new(),
@@ -119,7 +119,7 @@ impl Projection {
             // w_p − V y = D⁻¹(r_w − A_p e_x), where A_p acts on the error of x as it does on x.
             let inherited = self.gain * residuals[0] * norm(&change_image.multiply(&solutions[0])) / norms[0];
             let truncation = |m: usize| self.gain * (residuals[m] * rest[0] + residuals[0] * rest[m]);
-            let roundoff = |m: usize| ROUNDOFF * (norms[m] * length[0] + norms[0] * length[m]);
+            let roundoff = |m: usize| MATRIX_ROUNDOFF * (norms[m] * length[0] + norms[0] * length[m]);
             changed.slopes.push(observe(moved[0]));
             changed.slope_truncation.push(sensors.clone().map(truncation).collect());
             changed.slope_roundoff.push(sensors.clone().map(roundoff).collect());

@@ -13,7 +13,7 @@ pub struct Projection {
     pub(super) size: usize,
     /// `matrices[g]` is VᵀS_gV, r × r.
     pub(super) matrices: Vec<Vec<f64>>,
-    /// `images[g]` is Θ S_g V, SKETCH × r, column after column.
+    /// `images[g]` is Θ S_g V, SKETCH_SIZE × r, column after column.
     pub(super) images: Vec<Vec<f64>>,
     /// VᵀF.
     pub(super) load: Vec<c64>,

@@ -20,7 +20,7 @@ pub struct Subspace<'m> {
 }
 
 /// σ of the first shift over ω² at the reference frequency: below the band, where K + σM is positive definite for a free structure too.
-const BELOW: f64 = 0.01;
+const FIRST_SHIFT_RATIO: f64 = 0.01;
 
 impl<'m> Subspace<'m> {
     /// One real factorisation, of Re K + σ Re M with the nominal values at a reference frequency (best the highest of the band),
@@ -31,7 +31,7 @@ impl<'m> Subspace<'m> {
     pub fn new(experiment: &'m Experiment, reference: &ModelAt<'m>) -> Result<Self, Breakdown> {
         let model = reference.model;
         let omega_squared = omega_rad_s(reference.frequency_hz).powi(2);
-        let shift = Shift::new(reference, BELOW * omega_squared);
+        let shift = Shift::new(reference, FIRST_SHIFT_RATIO * omega_squared);
         let shift = shift.or_else(|_| Shift::new(reference, -omega_squared))?;
         let largest = shift.diagonal.iter().copied().fold(0.0, f64::max);
         // A row without any stiffness or mass of its own (a constraint) still needs a weight.

@@ -46,19 +46,19 @@ pub struct Trained {
 }
 
 /// Real right-hand sides of one round: enough to block the solves, few enough that each round learns from the one before.
-pub(super) const BLOCK: usize = 8;
+pub(super) const SOLVES_PER_ROUND: usize = 8;
 
 /// A residual of which less than this is new among those of its round is left for the next.
-const INDEPENDENT: f64 = 0.1;
+const MIN_NEW_SHARE: f64 = 0.1;
 
 /// Solves with the factors there are before another one is worth its price.
-const PATIENCE: usize = 64;
+const SOLVES_PER_SHIFT: usize = 64;
 
 /// Points whose errors are followed from round to round; all are looked at when these are good.
-const WATCHED: usize = 48;
+const MAX_WATCHED_POINTS: usize = 48;
 
 /// Rounds without progress (by a factor of two of the error) after which roundoff is what is left.
-pub(super) const STALLED: usize = 6;
+pub(super) const MAX_STALLED_ROUNDS: usize = 6;
 
 /// A residual that is wanted in full.
 struct Wanted<'p, 'm> {
@@ -99,7 +99,7 @@ impl<'m> Subspace<'m> {
             errors.sort_by(|a, b| b.0.total_cmp(&a.0));
             errors
         };
-        let (mut best, mut stalled, mut patience) = (f64::INFINITY, 0, self.work.solves + PATIENCE);
+        let (mut best, mut stalled, mut patience) = (f64::INFINITY, 0, self.work.solves + SOLVES_PER_SHIFT);
         let mut errors = assess(self, &all);
         loop {
             if errors.first().is_none_or(|&(worst, _)| worst <= options.tolerance) {
@@ -113,15 +113,15 @@ impl<'m> Subspace<'m> {
             let converged = worst <= options.tolerance;
             stalled = if worst < 0.5 * best { 0 } else { stalled + 1 };
             best = best.min(worst);
-            if converged || stalled > STALLED || self.work.solves >= options.solves {
+            if converged || stalled > MAX_STALLED_ROUNDS || self.work.solves >= options.solves {
                 return Ok(Trained { error: worst, converged });
             }
             if self.work.solves >= patience && self.work.factorisations < options.factorisations {
-                patience = self.work.solves + PATIENCE;
+                patience = self.work.solves + SOLVES_PER_SHIFT;
                 self.add_shift(&points[at].at);
             }
             errors.retain(|&(error, _)| error > options.tolerance);
-            errors.truncate(WATCHED);
+            errors.truncate(MAX_WATCHED_POINTS);
             let floor = 1e-3 * worst;
             let picked: Vec<&Point<'m>> =
                 errors.iter().filter(|(error, _)| *error > floor).map(|&(_, i)| &points[i]).collect();
@@ -158,7 +158,7 @@ impl<'m> Subspace<'m> {
     fn enrich(&mut self, points: &[&Point<'m>]) -> Result<usize, Breakdown> {
         let mut kept: Vec<Vec<f64>> = Vec::new();
         let (mut wanted, mut count) = (Vec::new(), 0);
-        for point in points.iter().take(2 * BLOCK) {
+        for point in points.iter().take(2 * SOLVES_PER_ROUND) {
             let Ok(solved) = Solved::new(self.projection(), &point.at, point.correction) else { continue };
             let Assessment { truncation, .. } = &solved.assessment;
             let worst = (0..truncation.len()).max_by(|&a, &b| truncation[a].total_cmp(&truncation[b]));
@@ -170,7 +170,7 @@ impl<'m> Subspace<'m> {
                     wanted.push(Wanted { point, which, y: solved.solutions[which].clone(), new });
                 }
             }
-            if count >= BLOCK {
+            if count >= SOLVES_PER_ROUND {
                 break;
             }
         }
@@ -248,7 +248,7 @@ pub(super) fn real_directions(complex: &[c64], dot: impl Fn(&[f64], &[f64]) -> f
     let turned = |part: fn(c64) -> f64| complex.iter().map(|&r| part(r * turn)).collect::<Vec<f64>>();
     let mut directions = vec![turned(|r| r.re), turned(|r| r.im)];
     let norms: Vec<f64> = directions.iter().map(|d| dot(d, d).sqrt()).collect();
-    directions.truncate(if norms[1] > INDEPENDENT * norms[0] { 2 } else { 1 });
+    directions.truncate(if norms[1] > MIN_NEW_SHARE * norms[0] { 2 } else { 1 });
     directions.retain_mut(|direction| {
         let norm = dot(direction, direction).sqrt();
         direction.iter_mut().for_each(|d| *d /= norm);
@@ -266,7 +266,7 @@ pub(super) fn keep(kept: &mut Vec<Vec<f64>>, vector: &[f64]) -> bool {
     }
     let rest = transpose_dot(&new, &new).sqrt();
     new.iter_mut().for_each(|n| *n /= rest);
-    let is_new = rest > INDEPENDENT;
+    let is_new = rest > MIN_NEW_SHARE;
     if is_new {
         kept.push(new);
     }

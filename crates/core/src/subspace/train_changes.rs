@@ -1,6 +1,6 @@
 //! A basis that is good for derivatives too: at the sensors, and where wanted everywhere.
 
-use super::train::{BLOCK, STALLED, keep, real_directions};
+use super::train::{MAX_STALLED_ROUNDS, SOLVES_PER_ROUND, keep, real_directions};
 use super::{ChangePoint, Changed, Point, Subspace, TrainOptions, Trained};
 use crate::c64;
 use crate::for_each::{ForEach, map};
@@ -26,7 +26,7 @@ impl Default for ChangeOptions {
 
 /// Errors of the response that are asked for in turn: those of derivatives are products of a residual of the response and one of its derivative, which
 /// the basis need not have.
-const RESPONSE: [f64; 4] = [1e-8, 1e-10, 1e-12, 1e-14];
+const RESPONSE_TOLS: [f64; 4] = [1e-8, 1e-10, 1e-12, 1e-14];
 
 impl<'m> Subspace<'m> {
     /// Grows the basis until response and derivatives are within the tolerance at all points; tells the largest estimated error of a derivative at a sensor.
@@ -42,7 +42,7 @@ impl<'m> Subspace<'m> {
         let plain: Vec<Point<'m>> =
             points.iter().map(|p| Point { at: p.at.clone(), correction: c64::default() }).collect();
         let mut trained = Trained { error: f64::INFINITY, converged: false };
-        for tolerance in RESPONSE {
+        for tolerance in RESPONSE_TOLS {
             let train = TrainOptions { tolerance, solves: options.solves, ..TrainOptions::default() };
             let response = self.train(&plain, &train, for_each)?;
             let error = self.worst(points, for_each, Changed::relative_truncation);
@@ -92,7 +92,10 @@ impl<'m> Subspace<'m> {
             let Some(&(worst, ..)) = errors.first() else { return Ok(()) };
             stalled = if worst < 0.5 * best { 0 } else { stalled + 1 };
             best = best.min(worst);
-            if stalled > STALLED || self.work().solves >= solves || self.grow(points, &errors)? == 0 {
+            if stalled > MAX_STALLED_ROUNDS
+                || self.work().solves >= solves
+                || self.grow(points, &errors)? == 0
+            {
                 return Ok(());
             }
         }
@@ -105,18 +108,18 @@ impl<'m> Subspace<'m> {
         errors: &[(f64, usize, usize)],
     ) -> Result<usize, Breakdown> {
         let (mut kept, mut forces) = (Vec::new(), Vec::new());
-        for &(_, i, which) in errors.iter().take(4 * BLOCK) {
+        for &(_, i, which) in errors.iter().take(4 * SOLVES_PER_ROUND) {
             let Ok(changed) = self.projection().changes(&points[i]) else { continue };
             let residual = self.residual_elsewhere(&points[i], &changed, which);
             let dot = |a: &[f64], b: &[f64]| self.basis.force_dot(a, b);
             for direction in real_directions(&residual, dot) {
                 // In coordinates in which the product of forces is the plain one.
                 let scaled = self.basis.plain_force(&direction);
-                if forces.len() < BLOCK && keep(&mut kept, &scaled) {
+                if forces.len() < SOLVES_PER_ROUND && keep(&mut kept, &scaled) {
                     forces.push((self.nearest_shift(points[i].at.frequency_hz), direction));
                 }
             }
-            if forces.len() >= BLOCK {
+            if forces.len() >= SOLVES_PER_ROUND {
                 break;
             }
         }

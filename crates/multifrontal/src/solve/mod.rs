@@ -7,7 +7,7 @@ mod many;
 mod one;
 
 use crate::factor::{Factor, Node};
-use crate::kernel::STRIP;
+use crate::kernel::STRIP_COLUMNS;
 use crate::memory::Memory;
 use crate::packed_lower::{PackedLower, top};
 use crate::part::Part;
@@ -18,22 +18,23 @@ use std::ops::Range;
 
 /// Numbers of a factor below which one thread solves alone: to have another one takes a tenth of a millisecond, and so
 /// does half of the solution with a million.
-const ALONE_BELOW: usize = 1_000_000;
+const MIN_SHARED_FACTOR_NUMBERS: usize = 1_000_000;
 
 /// Numbers of a node below which another thread costs more than it brings.
-const SHARE_FROM: usize = 40_000;
+const MIN_SHARED_NODE_NUMBERS: usize = 40_000;
 
 /// Columns of L that are met together: as many streams as a processor follows, complex ones having two.
-const BLOCK: usize = 8;
+const COLUMNS_PER_PASS: usize = 8;
 
 // Blocks begin at multiples of their size in spans.
-const _: () = assert!(STRIP.is_multiple_of(BLOCK) && SPAN.is_multiple_of(BLOCK));
+const _: () =
+    assert!(STRIP_COLUMNS.is_multiple_of(COLUMNS_PER_PASS) && PIVOTS_PER_MEETING.is_multiple_of(COLUMNS_PER_PASS));
 
 /// Pivots of a node after which the threads meet.
-const SPAN: usize = 256;
+const PIVOTS_PER_MEETING: usize = 256;
 
 /// The fewest rows that one thread takes at a time, so that columns are met in runs.
-const FEWEST: usize = 96;
+const MIN_ROWS_PER_THREAD: usize = 96;
 
 /// One node, and the numbers of its part: of each row the parts, of each part the right-hand sides.
 struct Step<'a, T: Scalar> {
@@ -96,7 +97,7 @@ impl<'a, T: Scalar> InStrip<'a, T> {
 }
 
 impl<'a, T: Scalar> Columns<'a, T> {
-    /// The columns of a strip from one on; [`BLOCK`]s are in one strip each.
+    /// The columns of a strip from one on; [`COLUMNS_PER_PASS`]s are in one strip each.
     #[inline(always)]
     fn in_strip(&self, first: usize) -> InStrip<'a, T> {
         let values = &self.values[self.packed_lower.start::<T>(first)..];
@@ -105,19 +106,19 @@ impl<'a, T: Scalar> Columns<'a, T> {
 
     /// The pivots in spans.
     fn spans(&self) -> impl DoubleEndedIterator<Item = Range<usize>> {
-        pieces(0..self.pivots(), SPAN)
+        pieces(0..self.pivots(), PIVOTS_PER_MEETING)
     }
 
     /// Where the rows end that the columns of a span are met in one after the other.
     fn inner(&self, span: &Range<usize>, shared: bool) -> usize {
-        if shared && span.len() * self.order() >= SHARE_FROM { span.end } else { self.order() }
+        if shared && span.len() * self.order() >= MIN_SHARED_NODE_NUMBERS { span.end } else { self.order() }
     }
 }
 
 /// Rows in pieces for so many threads, a few for each, and none longer than `most`.
 fn shares(rows: Range<usize>, threads: usize, most: usize) -> (usize, impl Iterator<Item = Range<usize>>) {
     let len = if threads < 2 { rows.len() } else { rows.len().div_ceil(2 * threads) };
-    let len = len.clamp(FEWEST, most);
+    let len = len.clamp(MIN_ROWS_PER_THREAD, most);
     (len, pieces(rows, len))
 }
 
@@ -290,7 +291,7 @@ pub(crate) fn solve<T: Scalar>(factor: &Factor<T>, rhs: &mut [T], threads: usize
     }
     assert_eq!(rhs.len() % dim, 0, "whole right-hand sides");
     let numbers: usize = factor.nodes.iter().map(Node::numbers).sum();
-    let threads = if numbers < ALONE_BELOW { 1 } else { threads.max(1) };
+    let threads = if numbers < MIN_SHARED_FACTOR_NUMBERS { 1 } else { threads.max(1) };
     let together = many::lanes::<T::Real>();
     with(threads, || {
         for some in rhs.chunks_mut(dim * together) {

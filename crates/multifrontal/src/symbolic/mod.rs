@@ -17,7 +17,7 @@ use crate::threads::with;
 use std::ops::Range;
 
 /// Marks a front without parent.
-pub(crate) const ROOT: usize = usize::MAX;
+pub(crate) const NO_PARENT: usize = usize::MAX;
 
 /// How rows are ordered for elimination.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -198,7 +198,7 @@ impl Symbolic {
 
     /// As many threads as are asked for, where another one brings more than it costs.
     pub(crate) fn threads(&self, options: &Options) -> usize {
-        if self.flops() < share::SHARE_FROM { 1 } else { options.threads.max(1) }
+        if self.flops() < share::MIN_SHARED_MULTIPLICATIONS { 1 } else { options.threads.max(1) }
     }
 
     /// Multiplications of each front and all below it.

@@ -36,17 +36,17 @@ fn free(unknown: &[ChannelUnknowns]) -> Vec<Free> {
 }
 
 /// Selections among all solutions, each at better scales; they change what is selected hardly ever after the first.
-const ROUNDS: usize = 6;
+const MAX_SELECTIONS: usize = 6;
 
 /// Steps of Gauss and Newton on moduli and scales together.
-const STEPS: usize = 30;
+const MAX_CALIBRATION_STEPS: usize = 30;
 
 /// A change of a scale by this part of its deviation, or of itself, is none.
-const SETTLED: f64 = 1e-3;
-const ROUNDOFF: f64 = 1e-10;
+const CALIBRATION_STEP_TOL: f64 = 1e-3;
+const CALIBRATION_ROUNDOFF: f64 = 1e-10;
 
 /// What of a scale the moduli leave, and what is left of it by the other scales, relative to the channel's size: below this there is no digit.
-const UNTOLD: f64 = 1e-12;
+const CALIBRATION_INFORMATION_RTOL: f64 = 1e-12;
 
 /// As [`super::identify_band`], with channels whose scale s_m, or delay τ_m, is unknown: u_m = s_m e^{iωτ_m} times what was measured.
 ///
@@ -90,13 +90,13 @@ pub(super) fn with_scales<'a>(
     else {
         return (first, None);
     };
-    for round in 0..ROUNDS {
+    for round in 0..MAX_SELECTIONS {
         let scaled = Scaled::new(band, &channels);
         let view = scaled.band(band);
         let mut outcome = joint::identify(&view, at, space.as_mut(), &[], options, hooks);
         let told = space.as_ref().and_then(|space| settle(&view, at, space, &outcome, unknown, hooks));
         let Some(told) = told else { return (first, None) };
-        if told.is_settled(top(band)) || round + 1 == ROUNDS {
+        if told.is_settled(top(band)) || round + 1 == MAX_SELECTIONS {
             told.widen(&mut outcome);
             let counted = outcome.sensors.iter().filter(|sensor| !sensor.left_out).count();
             let each = freedom(counted, options.real);
@@ -202,7 +202,7 @@ fn settle(
     let mut answers = answers(outcome);
     let mut left = vec![(1.0, 0.0); unknown.len()];
     let mut last = f64::INFINITY;
-    for _ in 0..STEPS {
+    for _ in 0..MAX_CALIBRATION_STEPS {
         let system = |k: usize| -> Option<Local> {
             let (i, correction) = answers[k];
             let omega = omega_rad_s(band.frequency_hz[i]);
@@ -238,7 +238,7 @@ fn settle(
         let size = free.iter().zip(&step).map(part).fold(0.0, f64::max);
         let moved = local.iter().map(|one| one.moved(&free)).collect::<Vec<_>>();
         // No more to gain: roundoff does not fall further.
-        if size <= 1e-13 || (size <= ROUNDOFF && size >= last) {
+        if size <= 1e-13 || (size <= CALIBRATION_ROUNDOFF && size >= last) {
             let moved = answers.iter().zip(moved).map(|(&(i, _), moved)| (i, moved)).collect();
             return Some(CalibrationEstimate { free, left, covariance, moved });
         }
@@ -307,7 +307,7 @@ fn inverse(normal: &[Vec<f64>], whole: &[f64]) -> Option<Vec<Vec<f64>>> {
         return None;
     }
     let (values, vectors) = symmetric_eigen(n, &scaled).ok()?;
-    if values.iter().any(|&value| value < UNTOLD) {
+    if values.iter().any(|&value| value < CALIBRATION_INFORMATION_RTOL) {
         return None;
     }
     let sum = |p: usize, q: usize| {
@@ -330,9 +330,11 @@ impl CalibrationEstimate {
     }
 
     fn is_settled(&self, top: f64) -> bool {
-        let least = |free: &Free| if free.is_delay { ROUNDOFF / top } else { ROUNDOFF };
-        let settled =
-            |(p, free): (usize, &Free)| self.off(p).abs() <= (SETTLED * self.std(p)).max(least(free));
+        let least =
+            |free: &Free| if free.is_delay { CALIBRATION_ROUNDOFF / top } else { CALIBRATION_ROUNDOFF };
+        let settled = |(p, free): (usize, &Free)| {
+            self.off(p).abs() <= (CALIBRATION_STEP_TOL * self.std(p)).max(least(free))
+        };
         self.free.iter().enumerate().all(settled)
     }
 

@@ -2,7 +2,7 @@
 
 use crate::c64;
 use crate::identify::options::Options;
-use crate::identify::rational::{MATCH, RESIDUAL};
+use crate::identify::rational::{RESPONSE_MATCH_RTOL, ROOT_RESIDUAL_TOL};
 use crate::model::ModelAt;
 use crate::rational::{Poles, RationalResponse};
 use crate::response::Response;
@@ -82,7 +82,7 @@ impl Candidates {
                 continue;
             };
             let moved: f64 = solution.response.iter().zip(&response).map(|(a, b)| (a - b).norm()).sum();
-            self.unsure |= moved > MATCH * response.iter().map(|x| x.norm()).sum::<f64>();
+            self.unsure |= moved > RESPONSE_MATCH_RTOL * response.iter().map(|x| x.norm()).sum::<f64>();
             let rest = measured.iter().zip(&response).zip(sigma);
             solution.misfit = rest.map(|((u, x), sigma)| (u - x).norm_sqr() / (sigma * sigma)).sum();
             solution.response = response;
@@ -91,28 +91,28 @@ impl Candidates {
 }
 
 /// Order of the first attempt; each further one doubles it, so that the last costs more than all before.
-const FIRST: usize = 16;
+const FIRST_ORDER: usize = 16;
 
 /// Sensors whose own solutions are starts: each is an eigenproblem, and the truth is a solution of every one.
-const SENSORS: usize = 2;
+const START_SENSORS: usize = 2;
 
 /// Steps of Gauss and Newton. From an eigenvalue a handful is enough; more show that it leads nowhere.
-const STEPS: usize = 30;
+const MAX_STEPS: usize = 30;
 
 /// Steps of a short way.
-const SHORT: usize = 6;
+const MAX_SHORT_STEPS: usize = 6;
 
 /// A step of this part of the factor is likely the last: Newton's next is the square of it.
-const NEAR: f64 = 1e-5;
+const LAST_STEP_RTOL: f64 = 1e-5;
 
 /// What is left after the last: beyond the digits that an answer has, whatever the noise.
-const SETTLED: f64 = 1e-11;
+const STEP_RTOL: f64 = 1e-11;
 
 /// Solutions nearer than this, relative to the factor, are one.
-const SAME: f64 = 1e-7;
+const SOLUTION_MERGE_RTOL: f64 = 1e-7;
 
 /// A start this far outside the box (relative to the factor) may still be pulled inside by the other sensors.
-const MARGIN: f64 = 0.2;
+const START_BOX_MARGIN: f64 = 0.2;
 
 /// x_m and ∂x_m/∂c.
 pub(super) type Evaluated = Result<(Vec<c64>, Vec<c64>), NoConvergence>;
@@ -133,15 +133,16 @@ impl Fit<'_> {
 
     fn try_explore(&self, system: &impl Response, order: usize) -> Result<Candidates, Breakdown> {
         let broken = |NoConvergence| Breakdown::NotFinite;
-        let mut reached = FIRST.min(order);
+        let mut reached = FIRST_ORDER.min(order);
         let mut response = RationalResponse::new(system, 0, reached)?;
         loop {
             let mut explored = self.solutions(&response).map_err(broken)?;
             for solution in explored.solutions.iter_mut().chain(&mut explored.beyond) {
                 solution.residual = response.residual(solution.correction).unwrap_or(f64::INFINITY);
             }
-            let unsure =
-                |solutions: &[Solution]| solutions.iter().any(|solution| solution.residual > RESIDUAL);
+            let unsure = |solutions: &[Solution]| {
+                solutions.iter().any(|solution| solution.residual > ROOT_RESIDUAL_TOL)
+            };
             // The whole space leaves nothing but roundoff.
             let whole = response.is_complete() || response.size() == system.dim();
             explored.unsure = !whole && unsure(&explored.solutions);
@@ -232,7 +233,7 @@ impl Fit<'_> {
         let mut sensors: Vec<usize> = (0..self.measured.len()).collect();
         let size = |&m: &usize| self.measured[m].norm() / self.sigma[m];
         sensors.sort_by(|a, b| size(b).total_cmp(&size(a)));
-        sensors.truncate(SENSORS);
+        sensors.truncate(START_SENSORS);
         sensors
     }
 
@@ -242,8 +243,8 @@ impl Fit<'_> {
             bound.is_none_or(|[low, high]| low - margin <= value && value <= high + margin)
         };
         factor.is_finite()
-            && wide(self.options.box_about(self.nominal), factor.re, MARGIN * factor.norm())
-            && wide(self.options.bounds.loss_factor, crate::material::loss_factor(factor), MARGIN)
+            && wide(self.options.box_about(self.nominal), factor.re, START_BOX_MARGIN * factor.norm())
+            && wide(self.options.bounds.loss_factor, crate::material::loss_factor(factor), START_BOX_MARGIN)
     }
 
     /// Explores a reduced model. What is certified is this model's response, not that of a Krylov space within: that is where the solutions settle.
@@ -269,7 +270,7 @@ impl Fit<'_> {
     pub(super) fn descend(&self, respond: impl Fn(c64) -> Evaluated, start: c64) -> Option<Solution> {
         let evaluated = |c: c64| self.solution_at(respond(c), c);
         let (mut best, mut step) = evaluated(self.admissible(start)).ok()?;
-        for _ in 0..STEPS {
+        for _ in 0..MAX_STEPS {
             let size = (self.nominal + best.correction).norm();
             let (next, further) = evaluated(self.admissible(best.correction + step)).ok()?;
             let better = next.misfit < best.misfit;
@@ -298,10 +299,10 @@ impl Fit<'_> {
         let size = (self.nominal + start).norm();
         let start = self.admissible(start);
         let (mut best, mut step) = self.solution_at(respond(start), start).map_err(|_| start)?;
-        for _ in 0..SHORT {
+        for _ in 0..MAX_SHORT_STEPS {
             let correction = self.admissible(best.correction + step);
             let stopped = best.correction;
-            if step.norm() > NEAR * size {
+            if step.norm() > LAST_STEP_RTOL * size {
                 let (next, further) =
                     self.solution_at(respond(correction), correction).map_err(|_| stopped)?;
                 (best, step) = if next.misfit < best.misfit { (next, further) } else { return Err(stopped) };
@@ -311,7 +312,7 @@ impl Fit<'_> {
             let evaluated = (assessed.response.clone(), assessed.slope.clone());
             let (last, further) = self.solution_at(Ok(evaluated), correction).map_err(|_| stopped)?;
             // What the step after the next would be, at the rate of these two.
-            let settled = further.norm_sqr() <= SETTLED * size * step.norm();
+            let settled = further.norm_sqr() <= STEP_RTOL * size * step.norm();
             let own = self.measured.len() > 1 || self.matched(&last);
             if settled && own {
                 return Ok((last, assessed));
@@ -370,7 +371,7 @@ pub(super) fn misfit(measured: &[c64], x: &[c64], sigma: &[f64]) -> f64 {
 /// Adds a solution, or takes the better of two that are one.
 fn merge(solutions: &mut Vec<Solution>, new: Solution, nominal: c64) {
     let near = |other: &Solution| {
-        (other.correction - new.correction).norm() <= SAME * (nominal + new.correction).norm()
+        (other.correction - new.correction).norm() <= SOLUTION_MERGE_RTOL * (nominal + new.correction).norm()
     };
     match solutions.iter_mut().find(|other| near(other)) {
         Some(other) if new.misfit < other.misfit => *other = new,

@@ -57,7 +57,7 @@ pub(super) struct Channel {
 }
 
 impl Channel {
-    pub(super) const RIGHT: Self = Self { scale: 1.0, delay_s: 0.0 };
+    pub(super) const CALIBRATED: Self = Self { scale: 1.0, delay_s: 0.0 };
 
     /// One and zero for what was not looked for.
     pub(super) fn of(found: &Calibration) -> Self {

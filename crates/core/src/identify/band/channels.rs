@@ -56,8 +56,8 @@ impl ChannelFit {
 }
 
 /// Newton's steps to the best delay, and the longest one in radians at the top of the band.
-const DELAY_STEPS: usize = 50;
-const DELAY_STEP: f64 = 0.5;
+const MAX_DELAY_STEPS: usize = 50;
+const MAX_DELAY_STEP_RAD: f64 = 0.5;
 
 /// The best delay for w = Σ-terms (ω, x*u/σ²), nearest to none: Σ Re(w e^{iωt}) is largest in size where the gain is free, and largest where it is one.
 fn best_delay(terms: &[(f64, c64)], gain_is_free: bool, top: f64) -> f64 {
@@ -69,9 +69,9 @@ fn best_delay(terms: &[(f64, c64)], gain_is_free: bool, top: f64) -> f64 {
     };
     let sense = if gain_is_free && derivatives(0.0)[0] < 0.0 { -1.0 } else { 1.0 };
     let mut t = 0.0;
-    for _ in 0..DELAY_STEPS {
+    for _ in 0..MAX_DELAY_STEPS {
         let [_, first, second] = derivatives(t).map(|value| sense * value);
-        let most = DELAY_STEP / top;
+        let most = MAX_DELAY_STEP_RAD / top;
         // Uphill where it is not yet bent like a summit.
         let step = if second < 0.0 { (-first / second).clamp(-most, most) } else { most.copysign(first) };
         t += step;
@@ -183,7 +183,7 @@ pub(super) fn at_scales<'a, 'o>(
     hooks: Context<'_>,
 ) -> (BandOutcome, Begin<'a, 'o>) {
     let mut space = ReducedBand::if_wanted(band, at, options, hooks);
-    let right = vec![Channel::RIGHT; unknown.len()];
+    let right = vec![Channel::CALIBRATED; unknown.len()];
     let is_known = |unknown: &ChannelUnknowns| !unknown.any();
     if unknown.iter().all(is_known) {
         let outcome = joint::identify(band, at, space.as_mut(), &[], options, hooks);
@@ -202,10 +202,10 @@ pub(super) fn at_scales<'a, 'o>(
 }
 
 /// Factors of the box that are tried: 2 % apart, as shapes are told by logarithms, which resonances that miss one another by their width do not spoil.
-const FACTORS: usize = 140;
+const SHAPE_FACTORS: usize = 140;
 
 /// Frequencies at which the shapes are compared.
-const FREQUENCIES: usize = 300;
+const SHAPE_FREQUENCIES: usize = 300;
 
 /// Calibrations at the factor whose response has the shape that was measured, and that factor over the nominal one.
 fn shaped(
@@ -220,8 +220,8 @@ fn shaped(
     let nominal = at[at.len() / 2].parameters[0].nominal;
     let [low, high] =
         options.box_about(nominal).filter(|[low, high]| 0.0 < *low && low < high && high.is_finite())?;
-    let ratio = |k: usize| low * (high / low).powf(k as f64 / (FACTORS - 1) as f64) / nominal.re;
-    let tried = map(hooks.for_each, FACTORS, |k| {
+    let ratio = |k: usize| low * (high / low).powf(k as f64 / (SHAPE_FACTORS - 1) as f64) / nominal.re;
+    let tried = map(hooks.for_each, SHAPE_FACTORS, |k| {
         let responses = which.iter().map(|&i| {
             let correction = at[i].parameters[0].nominal * (ratio(k) - 1.0);
             Some(space.model(i).respond_with_slope(&at[i], correction).ok()?.0)
@@ -254,7 +254,8 @@ fn shaped(
 /// Frequencies that are evenly spread over the band, wherever there are more of them: many at resonances, and shapes would have to meet there to their width.
 fn spread(frequency_hz: &[f64]) -> Vec<usize> {
     let (first, last) = (frequency_hz[0], frequency_hz[frequency_hz.len() - 1]);
-    let grid = (0..FREQUENCIES).map(|k| first + (last - first) * k as f64 / (FREQUENCIES - 1) as f64);
+    let grid =
+        (0..SHAPE_FREQUENCIES).map(|k| first + (last - first) * k as f64 / (SHAPE_FREQUENCIES - 1) as f64);
     let at_or_above = |f: f64| frequency_hz.partition_point(|&own| own < f).min(frequency_hz.len() - 1);
     let mut which: Vec<usize> = grid.map(at_or_above).collect();
     which.dedup();

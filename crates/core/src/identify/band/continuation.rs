@@ -26,13 +26,13 @@ pub(super) struct Follower<'a, F> {
 }
 
 /// A solution that explains the sensors so many times worse than at both of its neighbours may not be the one that there is.
-const WORSE: f64 = 4.0;
+const MAX_MISFIT_OVER_NEIGHBOURS: f64 = 4.0;
 
 /// Frequencies that are worth a model of their own.
-const WORTHWHILE: usize = 12;
+const MIN_MODEL_FREQUENCIES: usize = 12;
 
 /// Frequencies at which it is seen how far noise scatters solutions about their curve.
-const SAMPLE: usize = 16;
+const SCATTER_FREQUENCIES: usize = 16;
 
 /// The same solution at several frequencies (index).
 type Curve<'e> = Vec<(usize, &'e Solution)>;
@@ -147,7 +147,7 @@ impl<'a, F: Fn(usize) -> Fit<'a>> Follower<'a, F> {
         if last - first < stops.len() {
             return Vec::new();
         }
-        let own = last - first >= WORTHWHILE + stops.len();
+        let own = last - first >= MIN_MODEL_FREQUENCIES + stops.len();
         let nominal_at = |i: usize| self.at[i].parameters[0].nominal;
         let path_model = |curve: &Curve<'_>| {
             let points = curve.iter().map(|&(i, solution)| (i, nominal_at(i) + solution.correction));
@@ -158,7 +158,7 @@ impl<'a, F: Fn(usize) -> Fit<'a>> Follower<'a, F> {
                 Some((i, answer.correction))
             };
             let all: Vec<usize> = (first..=last).collect();
-            let answers: Vec<(usize, c64)> = thinned(&all, SAMPLE).filter_map(answer).collect();
+            let answers: Vec<(usize, c64)> = thinned(&all, SCATTER_FREQUENCIES).filter_map(answer).collect();
             path_model.widened(model, &answers)
         };
         let tubes: Vec<PathModel<'_, 'a>> = curves.iter().map(path_model).collect();
@@ -220,7 +220,9 @@ impl<'a, F: Fn(usize) -> Fit<'a>> Follower<'a, F> {
             }
             let factor = nominal + solution.correction;
             off[k].found(factor - starts[k]);
-            if !is_same(&starts, k, factor) || solution.misfit > self.usual.max(WORSE * segment.misfits[k]) {
+            if !is_same(&starts, k, factor)
+                || solution.misfit > self.usual.max(MAX_MISFIT_OVER_NEIGHBOURS * segment.misfits[k])
+            {
                 return None;
             }
             match fit.options.bounds.broken_by(factor) {
@@ -240,7 +242,7 @@ impl<'a, F: Fn(usize) -> Fit<'a>> Follower<'a, F> {
 }
 
 /// Frequencies that are followed together, about: a model for a curve takes as long as some dozens of them.
-const TOGETHER: usize = 200;
+const FREQUENCIES_PER_PIECE: usize = 200;
 
 /// The whole band (ascending) from anchors on the models of the space.
 pub(super) fn follow<'a, F: Fn(usize) -> Fit<'a> + Sync>(
@@ -283,7 +285,7 @@ fn groups(anchors: &[usize], neighbourhoods: impl Iterator<Item = [usize; 2]>) -
         let mut from = anchors.partition_point(|&i| i < first);
         let end = anchors.partition_point(|&i| i <= last);
         while from + 1 < end {
-            let reach = anchors.partition_point(|&i| i < anchors[from] + TOGETHER);
+            let reach = anchors.partition_point(|&i| i < anchors[from] + FREQUENCIES_PER_PIECE);
             let to = reach.clamp(from + 1, end - 1);
             groups.push(from..=to);
             from = to;

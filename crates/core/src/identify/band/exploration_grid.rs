@@ -1,15 +1,15 @@
 //! Frequencies at which all solutions are looked for.
 
 /// Bands of fewer frequencies are explored at each.
-const LEAST: usize = 300;
+const MIN_FOLLOWED_BAND: usize = 300;
 
 /// Largest step between anchors, relative. Solutions move by a few times that between them, and are to stay nearer to themselves than to one another;
 /// where they do not, the step is halved.
-const STEP: f64 = 0.02;
+const MAX_ANCHOR_STEP: f64 = 0.02;
 
 /// The ends of each neighbourhood (first and last frequency), and as many between them as keep the step.
 pub(super) fn anchors(frequency_hz: &[f64], neighbourhoods: impl Iterator<Item = [usize; 2]>) -> Vec<usize> {
-    if frequency_hz.len() < LEAST {
+    if frequency_hz.len() < MIN_FOLLOWED_BAND {
         return (0..frequency_hz.len()).collect();
     }
     let mut anchors = Vec::new();
@@ -17,7 +17,7 @@ pub(super) fn anchors(frequency_hz: &[f64], neighbourhoods: impl Iterator<Item =
         let mut next = first;
         anchors.push(first);
         while next < last {
-            let reach = frequency_hz[next] * (1.0 + STEP);
+            let reach = frequency_hz[next] * (1.0 + MAX_ANCHOR_STEP);
             let beyond = frequency_hz.partition_point(|&f| f <= reach);
             next = beyond.saturating_sub(1).clamp(next + 1, last);
             anchors.push(next);
@@ -38,7 +38,8 @@ mod tests {
         let counts = [3000, 30_000].map(|n| {
             let (f, anchors) = (band(n), anchors(&band(n), halves(n)));
             assert!([0, n / 2 - 1, n / 2, n - 1].iter().all(|end| anchors.binary_search(end).is_ok()));
-            let kept = |pair: &[usize]| pair[1] == pair[0] + 1 || f[pair[1]] <= (1.0 + STEP) * f[pair[0]];
+            let kept =
+                |pair: &[usize]| pair[1] == pair[0] + 1 || f[pair[1]] <= (1.0 + MAX_ANCHOR_STEP) * f[pair[0]];
             assert!(anchors.windows(2).all(kept) && anchors.is_sorted());
             anchors.len()
         });

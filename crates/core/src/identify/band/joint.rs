@@ -132,7 +132,7 @@ fn on_full_model(task: &Task<'_, '_>) -> (Vec<Candidates>, Work) {
 }
 
 /// Standard deviation of ln E between neighbouring lines by which solutions of a line off the path are compared.
-const OFF_PATH: f64 = 0.1;
+const OFF_PATH_LN_STD: f64 = 0.1;
 
 /// Of the solutions at a line that the path leaves out the likeliest: by the sensors' misfit, and by the way from the path between
 /// its neighbours.
@@ -152,7 +152,7 @@ fn likeliest(fit: &Fit<'_>, found: &Candidates, path: &[(usize, c64)], i: usize)
         let way = between.map_or(0.0, |log| ((fit.nominal + solution.correction).ln() - log).norm());
         // With one sensor every solution fits: the way alone tells.
         let misfit = if fit.measured.len() > 1 { solution.misfit / scale } else { 0.0 };
-        misfit + (way / OFF_PATH).powi(2)
+        misfit + (way / OFF_PATH_LN_STD).powi(2)
     };
     (0..found.solutions.len()).min_by(|a, b| cost(a).total_cmp(&cost(b)))
 }

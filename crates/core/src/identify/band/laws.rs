@@ -16,7 +16,7 @@ use crate::c64;
 use crate::for_each::map;
 use crate::identify::context::{Context, Stage};
 use crate::identify::form::Form;
-use crate::identify::goodness_of_fit::{Explained, GoodnessOfFit, judge};
+use crate::identify::goodness_of_fit::{Explained, GoodnessOfFit, MAX_RMS_MISFIT, judge};
 use crate::identify::measured::Band;
 use crate::identify::model_errors::{Curve, Curves, estimate_with_laws};
 use crate::identify::noise::{Noise, NoiseLevel, NoiseSource, deviations, without};
@@ -50,28 +50,25 @@ pub(in crate::identify) struct LawsOutcome {
 }
 
 /// Starts that are followed for each law: each costs some dozen responses of the whole band.
-const FOLLOWED: usize = 4;
+const BAND_LAW_STARTS: usize = 4;
 
 /// Evaluations for each start and unknown.
-const PATIENCE: usize = 15;
+const EVALUATIONS_PER_START_AND_PARAMETER: usize = 15;
 
 /// By how much all moduli of a start are moved: on a lightly damped structure the misfit has a valley for each coincidence of measured and computed resonances.
-pub(super) const MOVED: [f64; 8] = [-0.03, -0.01, -0.003, -0.001, 0.001, 0.003, 0.01, 0.03];
+pub(super) const START_SHIFTS: [f64; 8] = [-0.03, -0.01, -0.003, -0.001, 0.001, 0.003, 0.01, 0.03];
 
 /// Rounds of training at a law or a curve before what is left is called uncertain.
-pub(in crate::identify) const ROUNDS: usize = 4;
+pub(in crate::identify) const MAX_TRAINING_ROUNDS: usize = 4;
 
 /// No modulus from one frequency is better than this, relative: where the noise is none, no frequency shall rule alone.
-const LEAST_STD: f64 = 1e-6;
-
-/// A misfit of this many deviations (root mean square) at a frequency is not noise.
-pub(in crate::identify) const UNEXPLAINED: f64 = 5.0;
+const MIN_RELATIVE_MODULUS_STD: f64 = 1e-6;
 
 /// A modulus with a standard deviation of half of itself is not known.
-const UNKNOWN: f64 = 0.5;
+const MAX_RELATIVE_MODULUS_STD: f64 = 0.5;
 
 /// Another minimum, or another solution, this many deviations away is another answer.
-pub(super) const APART: f64 = 3.0;
+pub(super) const RIVAL_DISTANCE_STD: f64 = 3.0;
 
 /// Fits laws to a band, and takes the one of least BIC.
 ///
@@ -231,8 +228,9 @@ impl Fitting<'_, '_> {
         let mut begin = self.starts(&parametrization, space, free, so_far);
         let all: Vec<usize> = (0..self.at.len()).collect();
         let mut first: Option<LocalMinima> = None;
-        for round in 0..=ROUNDS {
-            let search = Search { starts: FOLLOWED, patience: PATIENCE, same: 0.0 };
+        for round in 0..=MAX_TRAINING_ROUNDS {
+            let search =
+                Search { starts: BAND_LAW_STARTS, patience: EVALUATIONS_PER_START_AND_PARAMETER, same: 0.0 };
             let found = minimise(&begin, &|theta| self.residuals(&parametrization, space, theta), &search)?;
             // What the starts said is said once; later rounds move the one that was best.
             let minima = match first.take() {
@@ -247,7 +245,10 @@ impl Fitting<'_, '_> {
                 Some(modulus - self.at[i].parameters[0].nominal)
             };
             let lacking = space.lacking(correction, self.hooks.for_each);
-            if lacking.is_empty() || round == ROUNDS || !space.refine(&lacking, self.hooks).unwrap_or(false) {
+            if lacking.is_empty()
+                || round == MAX_TRAINING_ROUNDS
+                || !space.refine(&lacking, self.hooks).unwrap_or(false)
+            {
                 break;
             }
             space.localise(&all, self.hooks.for_each);
@@ -340,7 +341,7 @@ impl Fitting<'_, '_> {
         {
             let Some(near) = nearest(parametrization, &data) else { continue };
             if moved || begin.is_empty() {
-                begin.extend(MOVED.map(|by| parametrization.scaled(&near.best.theta, by)));
+                begin.extend(START_SHIFTS.map(|by| parametrization.scaled(&near.best.theta, by)));
             }
             begin.push(near.best.theta);
             begin.extend(near.others.into_iter().map(|other| other.theta));
@@ -355,7 +356,7 @@ impl Fitting<'_, '_> {
         let (_, slope) = space.model(i).respond_with_slope(&self.at[i], correction).ok()?;
         let information: f64 =
             slope.iter().zip(&self.sigma[i]).map(|(slope, sigma)| slope.norm_sqr() / (sigma * sigma)).sum();
-        let std = information.powf(-0.5).max(LEAST_STD * modulus.norm());
+        let std = information.powf(-0.5).max(MIN_RELATIVE_MODULUS_STD * modulus.norm());
         (std.is_finite() && modulus.re > 0.0).then(|| Datum::circular(self.omega(i), modulus, std))
     }
 
@@ -417,11 +418,13 @@ impl Fitting<'_, '_> {
         outcome.spectral_radius = outcome.radius.map(|radius| radius.at(correction));
         outcome.reduction_error = Some(certified.response).filter(|c| c.is_finite());
         outcome.updated_response = assessed.response;
-        let apart = |rival: &c64| (rival - estimate.modulus).norm() > APART * std.unwrap_or(f64::INFINITY);
+        let apart = |rival: &c64| {
+            (rival - estimate.modulus).norm() > RIVAL_DISTANCE_STD * std.unwrap_or(f64::INFINITY)
+        };
         let rivals = law.rivals_at(self.band.frequency_hz[i]).into_iter().filter(apart);
         outcome.rivals = rivals.map(|rival| vec![rival]).collect();
-        let unexplained = error > self.options.error && rms > UNEXPLAINED * noise;
-        let known = std.is_some_and(|std| std <= UNKNOWN * size);
+        let unexplained = error > self.options.error && rms > MAX_RMS_MISFIT * noise;
+        let known = std.is_some_and(|std| std <= MAX_RELATIVE_MODULUS_STD * size);
         outcome.on_path = true;
         outcome.status = Status::of([
             (unexplained, Status::Unexplained),

@@ -27,10 +27,14 @@ mod verdict;
 pub(super) use calibration::identify_band_scaled;
 pub(super) use candidates::Fit;
 pub use channel::{Calibrated, Calibration, ChannelUnknowns};
-pub(crate) use initial_calibration::{MOST_PHASE, PHASE_STEP};
-pub(super) use laws::{LawsOutcome, ROUNDS, UNEXPLAINED, identify_laws, nearest};
+pub(crate) use initial_calibration::{DELAY_PHASE_STEP_RAD, MAX_DELAY_PHASE_RAD};
+pub(super) use laws::{LawsOutcome, MAX_TRAINING_ROUNDS, identify_laws, nearest};
 pub(super) use outcome::BandOutcome;
-pub(super) use reduced_band::{BOX, TRAINED, is_certain, reduction_error};
+pub(super) use outlier_sensor::{OUTLIER_FREQUENCIES, OUTLIER_RATIO};
+pub(super) use reduced_band::{
+    BOX_TOL, MAX_NEIGHBOURHOODS, MAX_TRAINING_FREQUENCIES, MIN_NEIGHBOURHOOD_LINES, TRAINED_TOL, is_certain,
+    reduction_error,
+};
 pub use smooth::SmoothCurve;
 pub(super) use smooth::{SmoothOutcome, identify_smooth};
 

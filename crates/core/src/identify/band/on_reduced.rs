@@ -64,13 +64,13 @@ pub(super) fn on_reduced(task: &Task<'_, '_>, space: &mut ReducedBand<'_, '_>) -
 }
 
 /// A misfit with this many nats more than noise has on average is not noise: one in a hundred thousand.
-const NATS: f64 = 12.0;
+const NOISE_NATS: f64 = 12.0;
 
 /// The misfit up to which all is noise of that level; a single sensor has none.
 fn usual(level: Option<f64>, freedom: usize) -> f64 {
     let freedom = freedom as f64;
     // As the selection does, a millionth of the response is taken for roundoff near a resonance.
-    level.map_or(f64::INFINITY, |level| (freedom + 2.0 * NATS) * level.max(1e-6).powi(2))
+    level.map_or(f64::INFINITY, |level| (freedom + 2.0 * NOISE_NATS) * level.max(1e-6).powi(2))
 }
 
 /// The corrections (k, c) that are chosen at the k-th frequency, or may have to be.

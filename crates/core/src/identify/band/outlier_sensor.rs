@@ -5,18 +5,18 @@ use super::reduced_band::ReducedBand;
 use super::task::Task;
 use crate::for_each::map;
 use crate::identify::context::Context;
-use crate::identify::goodness_of_fit::LEAST;
+use crate::identify::goodness_of_fit::MIN_DOUBTFUL_MISFIT;
 use crate::identify::noise::{Noise, freedom, level_of, without};
 use crate::identify::thinned::thinned;
 use crate::response::{FullModel, Response, Work};
 use crate::subspace::Projection;
 
 /// Frequencies at which it is tried: the median of their χ² is known to a third, where what is looked for is a factor of ten.
-const FREQUENCIES: usize = 24;
+pub(in crate::identify) const OUTLIER_FREQUENCIES: usize = 24;
 
 /// A sensor is at fault if χ² without it is so many times smaller than with it, and than without any other: its misfit is then more than
 /// three times what all others show.
-const TIMES: f64 = 10.0;
+pub(in crate::identify) const OUTLIER_RATIO: f64 = 10.0;
 
 /// The sensors that contradict the others, worst first, and the work of size N that it took to find them. Of two sensors
 /// neither can be told to be the wrong one. Those that are `hidden` are left out throughout.
@@ -33,9 +33,9 @@ pub(super) fn contradicting(
         let with_all = trial.misfit(&out);
         let floor = match task.band.noise {
             Noise::Known(_) => 1.0,
-            Noise::Unknown | Noise::Relative(_) => LEAST * LEAST,
+            Noise::Unknown | Noise::Relative(_) => MIN_DOUBTFUL_MISFIT * MIN_DOUBTFUL_MISFIT,
         };
-        if with_all <= TIMES * floor {
+        if with_all <= OUTLIER_RATIO * floor {
             break;
         }
         let mut without: Vec<(f64, usize)> = (0..sensors)
@@ -44,7 +44,7 @@ pub(super) fn contradicting(
             .collect();
         without.sort_by(|a, b| a.0.total_cmp(&b.0));
         let (least, worst) = without[0];
-        if TIMES * least.max(floor) < with_all.min(without[1].0) {
+        if OUTLIER_RATIO * least.max(floor) < with_all.min(without[1].0) {
             out.push(worst);
         } else {
             break;
@@ -64,7 +64,7 @@ impl Trial<'_, '_, '_, '_, '_> {
     fn misfit(&mut self, out: &[usize]) -> f64 {
         let task = self.task;
         let all: Vec<usize> = (0..task.at.len()).collect();
-        let which: Vec<usize> = thinned(&all, FREQUENCIES).copied().collect();
+        let which: Vec<usize> = thinned(&all, OUTLIER_FREQUENCIES).copied().collect();
         let sigma = without(task.sigma, out);
         let task = Task { sigma: &sigma, ..*task };
         let quiet = Context { progress: &|_, _, _| {}, ..task.hooks };

@@ -10,7 +10,7 @@ use super::candidates::{misfit, weighed};
 use super::corrected::correct;
 use super::fit::sensor_misfit;
 use super::joint::identify_keeping_model;
-use super::laws::{APART, MOVED, ROUNDS, UNEXPLAINED};
+use super::laws::{MAX_TRAINING_ROUNDS, RIVAL_DISTANCE_STD, START_SHIFTS};
 use super::outcome::BandOutcome;
 use super::reduced_band::{ReducedBand, reduction_error};
 use super::search_box::{near_or_far, on_subspace};
@@ -18,9 +18,9 @@ use crate::c64;
 use crate::for_each::map;
 use crate::frequency::omega_rad_s;
 use crate::identify::context::{Context, Stage};
-use crate::identify::goodness_of_fit::{SensorFit, judge};
+use crate::identify::goodness_of_fit::{MAX_RMS_MISFIT, SensorFit, judge};
 use crate::identify::measured::Band;
-use crate::identify::noise::{LEAST_LEVEL, Noise, NoiseLevel, NoiseSource, deviations, without};
+use crate::identify::noise::{MIN_NOISE_LEVEL, Noise, NoiseLevel, NoiseSource, deviations, without};
 use crate::identify::options::Options;
 use crate::identify::outcome::{Line, Status};
 use crate::identify::uncertainty::Uncertainty;
@@ -58,17 +58,17 @@ pub struct SmoothCurve {
 }
 
 /// Steps of Gauss and Newton for each training of the subspace.
-const STEPS: usize = 30;
+const MAX_CURVE_STEPS: usize = 30;
 
 /// Halvings of a step that makes things worse.
-const HALVINGS: usize = 8;
+const MAX_HALVINGS: usize = 8;
 
 /// A step of this part of the error bar, or of the modulus, is none.
-const SETTLED: f64 = 1e-3;
-const ROUNDOFF: f64 = 1e-11;
+const CURVE_STEP_TOL: f64 = 1e-3;
+const CURVE_ROUNDOFF: f64 = 1e-11;
 
 /// Frequencies that are not explained are left out, but not more than this part of the band: else it is the curve that is wrong.
-const OUTLIERS: f64 = 0.25;
+const MAX_OUTLIER_SHARE: f64 = 0.25;
 
 /// Identifies a modulus that is smooth over the band, and no smoother than the data say.
 ///
@@ -195,7 +195,10 @@ impl Smoothing<'_, '_> {
             states = smoothed.curve.states.clone();
             let correction = |i: usize| Some(modulus(&states[i]) - self.at[i].parameters[0].nominal);
             let lacking = space.lacking(correction, self.hooks.for_each);
-            if round < ROUNDS && !lacking.is_empty() && space.refine(&lacking, self.hooks).unwrap_or(false) {
+            if round < MAX_TRAINING_ROUNDS
+                && !lacking.is_empty()
+                && space.refine(&lacking, self.hooks).unwrap_or(false)
+            {
                 space.localise(&all, self.hooks.for_each);
                 round += 1;
                 continue;
@@ -206,7 +209,7 @@ impl Smoothing<'_, '_> {
                 .filter(|&i| used[i] && self.unexplained(space, &states, smoothed.level, i))
                 .collect();
             let unexplained = all.iter().filter(|&&i| !used[i] && self.log_omega(i).is_finite()).count();
-            let few = ((unexplained + odd.len()) as f64) < OUTLIERS * all.len() as f64;
+            let few = ((unexplained + odd.len()) as f64) < MAX_OUTLIER_SHARE * all.len() as f64;
             if odd.is_empty() || !few {
                 let Linearised { observations, evidence, .. } = linear;
                 return Some(Fitted { observations, evidence, smoothed, converged, unexplained, before });
@@ -237,7 +240,7 @@ impl Smoothing<'_, '_> {
         // Among them are wrong ones, so that what is known of the noise does not tell their scatter.
         let evidence = Evidence { numbers: self.numbers(), known: false, beside: (0.0, 0) };
         let states = smooth(&observations, evidence)?.curve.states;
-        let tried = std::iter::once(0.0).chain(MOVED).filter_map(|by: f64| {
+        let tried = std::iter::once(0.0).chain(START_SHIFTS).filter_map(|by: f64| {
             let moved: Vec<State> =
                 states.iter().map(|[value, slope]| [[value[0] + by.ln_1p(), value[1]], *slope]).collect();
             let used = vec![true; moved.len()];
@@ -323,23 +326,23 @@ impl Smoothing<'_, '_> {
                     let by = |c: usize| smoothed.curve.states[i][0][c] - states[i][0][c];
                     let size = by(0).hypot(by(1));
                     let bar = smoothed.level * smoothed.curve.variance[i].sqrt();
-                    (size / bar).min(size / ROUNDOFF * SETTLED)
+                    (size / bar).min(size / CURVE_ROUNDOFF * CURVE_STEP_TOL)
                 })
                 .fold(0.0, f64::max);
-            if largest <= SETTLED || step == STEPS {
-                return Some((linear, smoothed, largest <= SETTLED));
+            if largest <= CURVE_STEP_TOL || step == MAX_CURVE_STEPS {
+                return Some((linear, smoothed, largest <= CURVE_STEP_TOL));
             }
             let cost = |linear: &Linearised, states: &[State]| {
                 linear.misfit + roughness(&x, states, smoothed.curvature)
             };
             let before = cost(&linear, &states);
             let mut part = 1.0;
-            for halving in 0..=HALVINGS {
+            for halving in 0..=MAX_HALVINGS {
                 let moved = between(&states, &smoothed.curve.states, part);
                 let there = self.linearised(space, used, &moved);
                 // A step within the error bars is where everything is linear.
                 let good = largest * part < 1.0 || cost(&there, &moved) <= before;
-                if (good && there.misfit.is_finite()) || halving == HALVINGS {
+                if (good && there.misfit.is_finite()) || halving == MAX_HALVINGS {
                     (states, linear) = (moved, there);
                     break;
                 }
@@ -353,13 +356,13 @@ impl Smoothing<'_, '_> {
     fn unexplained(&self, space: &ReducedBand<'_, '_>, states: &[State], level: f64, i: usize) -> bool {
         let correction = modulus(&states[i]) - self.at[i].parameters[0].nominal;
         let Ok((x, _)) = space.model(i).respond_with_slope(&self.at[i], correction) else { return false };
-        self.is_unexplained(i, &x, level.max(LEAST_LEVEL))
+        self.is_unexplained(i, &x, level.max(MIN_NOISE_LEVEL))
     }
 
     fn is_unexplained(&self, i: usize, x: &[c64], level: f64) -> bool {
         let rms = (self.misfit(i, x) / (2 * self.sensors(i)).max(1) as f64).sqrt();
         relative_error(&self.kept(&self.band.measured[i]), &self.kept(x)) > self.options.error
-            && rms > UNEXPLAINED * level
+            && rms > MAX_RMS_MISFIT * level
     }
 
     /// Of the sensors that are not left out.
@@ -374,7 +377,7 @@ impl Smoothing<'_, '_> {
     fn noise(&self, free: &NoiseLevel, level: f64) -> NoiseLevel {
         match self.band.noise {
             Noise::Known(_) => *free,
-            _ => NoiseLevel { level: Some(level.max(LEAST_LEVEL)), source: NoiseSource::Curve, ..*free },
+            _ => NoiseLevel { level: Some(level.max(MIN_NOISE_LEVEL)), source: NoiseSource::Curve, ..*free },
         }
     }
 
@@ -422,7 +425,8 @@ impl Smoothing<'_, '_> {
         outcome.reduction_error = Some(certified.response).filter(|c| c.is_finite());
         let ambiguous = is_ambiguous(free, i);
         if ambiguous {
-            let apart = |other: &&Vec<c64>| (other[0] - factor).norm() > APART * bars.correction_std;
+            let apart =
+                |other: &&Vec<c64>| (other[0] - factor).norm() > RIVAL_DISTANCE_STD * bars.correction_std;
             outcome.rivals = own.rivals.iter().filter(apart).cloned().collect();
         }
         outcome.on_path = true;
@@ -477,7 +481,7 @@ impl SmoothCurve {
                     self.real,
                     part_std,
                     0.0,
-                    self.level.max(if self.evidence.known { 0.0 } else { LEAST_LEVEL }),
+                    self.level.max(if self.evidence.known { 0.0 } else { MIN_NOISE_LEVEL }),
                 ),
             )
         };

@@ -3,6 +3,7 @@
 use super::candidates::Candidates;
 use super::reduced_band::reduction_error;
 use crate::c64;
+use crate::identify::goodness_of_fit::MAX_RMS_MISFIT;
 use crate::identify::options::Options;
 use crate::identify::outcome::{Line, Status};
 use crate::identify::uncertainty::Uncertainty;
@@ -30,9 +31,6 @@ pub(super) struct Evidence<'a> {
     /// How good the subspace is at the chosen correction; `None` on the full model.
     pub(super) assessment: Option<Assessment>,
 }
-
-/// A misfit of this many deviations (root mean square) is not noise.
-const UNEXPLAINED: f64 = 5.0;
 
 pub(super) fn verdict(
     evidence: &Evidence<'_>,
@@ -72,14 +70,14 @@ pub(super) fn verdict(
     outcome.updated_response = chosen.response.clone();
     outcome.rivals = rivals.iter().map(|&k| vec![nominal + found.solutions[k].correction]).collect();
     outcome.required_order = found.poles.as_ref().and_then(|poles| {
-        let order = |m| poles.required_order(m, chosen.correction, SERIES_ERROR);
+        let order = |m| poles.required_order(m, chosen.correction, SERIES_ORDER_TOL);
         (0..evidence.measured.len()).map(order).try_fold(0, |most, n| Some(most.max(n?)))
     });
     let certified = evidence.assessment.as_ref().map(|a| reduction_error(a, factor, evidence.measured));
     outcome.reduction_error = certified.map(|certified| certified.response).filter(|c| c.is_finite());
     let noise = evidence.noise.unwrap_or(0.0);
     let square = chosen.misfit / evidence.freedom.max(1) as f64;
-    let unexplained = error > options.error && square.sqrt() > UNEXPLAINED * noise;
+    let unexplained = error > options.error && square.sqrt() > MAX_RMS_MISFIT * noise;
     let per_freedom = evidence.noise.filter(|_| evidence.freedom > 0).map(|noise| square / (noise * noise));
     outcome.chi_squared = per_freedom.filter(|chi_squared| chi_squared.is_finite());
     let bars = |level| Uncertainty::new(factor, options.real, chosen.std, evidence.second, level);
@@ -99,7 +97,7 @@ pub(super) fn verdict(
 }
 
 /// Error for which the order of the series is predicted: that to which the modulus is to be right.
-const SERIES_ERROR: f64 = 1e-6;
+const SERIES_ORDER_TOL: f64 = 1e-6;
 
 impl Candidates {
     /// Everything that was found, as candidates: solutions first.

@@ -56,7 +56,7 @@ pub struct Leverage {
 }
 
 /// Modes this far above the band are told of.
-const ABOVE_BAND: f64 = 1.2;
+const LISTED_ABOVE_BAND: f64 = 1.2;
 
 impl Estimated {
     /// What users are told.
@@ -78,7 +78,7 @@ impl Estimated {
             let std = covariance(of_factors + t, of_factors + t).max(0.0).sqrt();
             FactorError { term, part, error, std }
         };
-        let told = |omega: &f64| *omega > 0.0 && *omega <= ABOVE_BAND * self.highest_rad_s;
+        let told = |omega: &f64| *omega > 0.0 && *omega <= LISTED_ABOVE_BAND * self.highest_rad_s;
         let [frequency_std, shape_std] = self.sizes;
         let errors_of_known =
             self.errors.factors.iter().enumerate().filter(|(t, _)| self.factors[*t].is_known);

@@ -1,11 +1,11 @@
 //! The evidence of a right model whose unknowns scatter from line to line about smooth curves.
 
-use super::{Explained, LEAST_LEVEL, Measured, Search};
+use super::{Explained, MIN_NOISE_OVER_RESPONSE, Measured, Search};
 use crate::c64;
 use frfit_linalg::dense::Cholesky;
 
 /// By how much unknowns may scatter: standard deviations of ln p.
-const SCATTER: [f64; 7] = [1e-4, 1e-3, 3e-3, 1e-2, 3e-2, 0.1, 0.3];
+const SCATTER_STDS: [f64; 7] = [1e-4, 1e-3, 3e-3, 1e-2, 3e-2, 0.1, 0.3];
 
 /// What a line says of the unknowns that have a value of their own there.
 struct Told {
@@ -39,14 +39,14 @@ impl Measured<'_, '_> {
         let free = self.numbers(lines) as f64 - 2.0 * (self.own.len() * lines.len()) as f64;
         let own = match self.known() {
             true => 1.0,
-            false if free > 0.0 => (misfit / free).sqrt().clamp(LEAST_LEVEL, level),
+            false if free > 0.0 => (misfit / free).sqrt().clamp(MIN_NOISE_OVER_RESPONSE, level),
             false => level,
         };
         let sigma = self.sigma_at(lines, own, 0.0);
         let logs: f64 = sigma.iter().flatten().filter(|s| s.is_finite()).map(|s| 4.0 * s.ln()).sum();
         let at_own = own / self.alone.unwrap_or(own);
         let of = |scatter: f64| self.about_curves((search, right), &told, (share, at_own), scatter);
-        let least = SCATTER.into_iter().filter_map(of).fold(f64::INFINITY, f64::min);
+        let least = SCATTER_STDS.into_iter().filter_map(of).fold(f64::INFINITY, f64::min);
         Some(logs + misfit / (own * own) + least)
     }
 

@@ -46,10 +46,10 @@ pub(super) struct FactorPrior {
 
 /// Parts that the δ_i of a group have in common: the same for all modes, with ω_i and its square, as the errors of meshes grow, and with
 /// 1/ω_i², as those of supports fall.
-const COMMON: usize = 4;
+const COMMON_PARTS: usize = 4;
 
 /// Standard deviation of δ of a rigid body: a usual suspension has natural frequencies below a third of the first other one.
-const GROUND: f64 = 0.05;
+const RIGID_BODY_STD: f64 = 0.05;
 
 /// Sizes of the errors: standard deviations.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -82,20 +82,20 @@ pub(super) struct Found {
 }
 
 /// Steps that are refused before a search ends.
-const REFUSED: usize = 6;
+const MAX_REFUSED_STEPS: usize = 6;
 
 /// The largest step of a coordinate of θ.
-const LONGEST: f64 = 0.5;
+const MAX_THETA_STEP: f64 = 0.5;
 
 /// Errors larger than these, root mean squares over the modes of the band, are no small errors of this model: it is another one.
-const LARGEST_FREQUENCY: f64 = 0.05;
-const LARGEST_SHAPE: f64 = 0.3;
+const MAX_FREQUENCY_ERROR: f64 = 0.05;
+const MAX_SHAPE_ERROR: f64 = 0.3;
 
 /// The same over the sizes that were given.
-const OF_GIVEN: f64 = 3.0;
+const MAX_ERROR_OVER_GIVEN_SIZE: f64 = 3.0;
 
 /// A gain of this part of the cost is none.
-const SETTLED: f64 = 1e-5;
+const COST_RTOL: f64 = 1e-5;
 
 impl Fitting<'_, '_> {
     pub(super) fn sensors(&self) -> usize {
@@ -126,7 +126,7 @@ impl Fitting<'_, '_> {
 
     /// Coordinates of what the δ_i have in common.
     fn common_errors(&self) -> usize {
-        COMMON * self.modes.group.iter().max().map_or(0, |last| 1 + last)
+        COMMON_PARTS * self.modes.group.iter().max().map_or(0, |last| 1 + last)
     }
 
     /// What δ_i has of each common part.
@@ -135,7 +135,7 @@ impl Fitting<'_, '_> {
         let mut parts = vec![0.0; self.common_errors()];
         if let Some(lowest) = self.modes.lowest_rad_s().filter(|_| own > 0.0) {
             let (omega, support) = (own / self.highest_rad_s, (lowest / own).powi(2));
-            parts[COMMON * self.modes.group[i]..][..COMMON].copy_from_slice(&[
+            parts[COMMON_PARTS * self.modes.group[i]..][..COMMON_PARTS].copy_from_slice(&[
                 1.0,
                 omega,
                 omega * omega,
@@ -250,9 +250,11 @@ impl Fitting<'_, '_> {
             let own = self.modes.of_error.iter().zip(&errors.frequency).filter(|(mode, _)| **mode == i);
             own.map(|(_, error)| error).sum()
         };
-        let largest = |usual: f64, given: Option<f64>| usual.max(OF_GIVEN * given.unwrap_or(0.0)).powi(2);
-        let of_shapes = |shape: &Vec<f64>| square(&|i| shape[i]) <= largest(LARGEST_SHAPE, given.shape);
-        square(&frequency) <= largest(LARGEST_FREQUENCY, given.frequency)
+        let largest = |usual: f64, given: Option<f64>| {
+            usual.max(MAX_ERROR_OVER_GIVEN_SIZE * given.unwrap_or(0.0)).powi(2)
+        };
+        let of_shapes = |shape: &Vec<f64>| square(&|i| shape[i]) <= largest(MAX_SHAPE_ERROR, given.shape);
+        square(&frequency) <= largest(MAX_FREQUENCY_ERROR, given.frequency)
             && errors.shape.iter().chain([&errors.load]).all(of_shapes)
     }
 
@@ -282,7 +284,7 @@ impl Fitting<'_, '_> {
         let n = self.count();
         let errors = self.errors(place);
         let model = self.model.with_errors(self.modes, &errors);
-        let chunks = self.lines.len().min(CHUNKS);
+        let chunks = self.lines.len().min(LINE_CHUNKS);
         let part = |c: usize| -> Option<Normal> {
             let mut sum = Normal { chi_squared: 0.0, gradient: vec![0.0; n], information: vec![0.0; n * n] };
             for k in (c..self.lines.len()).step_by(chunks) {
@@ -346,8 +348,9 @@ impl Fitting<'_, '_> {
         }
         let mut set = |i: usize, std: f64| all[i * n + i] = std.powi(-2);
         (own..self.first_own()).for_each(|i| set(i, sizes.common));
-        self.own()
-            .for_each(|i| set(i, if self.is_rigid(i) { GROUND } else { sizes.frequency * self.growth(i) }));
+        self.own().for_each(|i| {
+            set(i, if self.is_rigid(i) { RIGID_BODY_STD } else { sizes.frequency * self.growth(i) })
+        });
         (self.first_factor()..).zip(self.factors).for_each(|(i, prior)| set(i, prior.std));
         self.shapes().for_each(|i| set(i, sizes.shape * self.growth(i)));
         all
@@ -383,7 +386,7 @@ impl Fitting<'_, '_> {
             };
             factor.solve(&mut step);
             let longest = step[..self.curves.count()].iter().fold(0.0f64, |most, s| most.max(s.abs()));
-            let part = (LONGEST / longest).min(1.0);
+            let part = (MAX_THETA_STEP / longest).min(1.0);
             let there: Place = place.iter().zip(&step).map(|(p, s)| p + part * s).collect();
             let (other_prior, other_pull) = prior(&there);
             let cost = normal.chi_squared + of_prior;
@@ -393,14 +396,14 @@ impl Fitting<'_, '_> {
                     (place, normal, of_prior, pull) = (there, other, other_prior, other_pull);
                     damping = (damping * 0.1).max(1e-9);
                     refused = 0;
-                    if gain <= SETTLED * cost && part == 1.0 {
+                    if gain <= COST_RTOL * cost && part == 1.0 {
                         break;
                     }
                 }
                 None => {
                     damping = (damping * 10.0).max(1e-6);
                     refused += 1;
-                    if refused == REFUSED {
+                    if refused == MAX_REFUSED_STEPS {
                         break;
                     }
                 }
@@ -411,4 +414,4 @@ impl Fitting<'_, '_> {
 }
 
 /// Parts in which the lines are summed.
-const CHUNKS: usize = 4;
+const LINE_CHUNKS: usize = 4;

@@ -25,7 +25,7 @@ pub(super) struct Coordinates {
 }
 
 /// A coordinate without bounds.
-const FREE: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
+const UNBOUNDED: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 
 /// ln of positive bounds, rounded so that e^θ lies within them.
 fn log_limits(bound: Option<[f64; 2]>) -> [f64; 2] {
@@ -66,12 +66,15 @@ impl Coordinates {
             match &form {
                 Form::Logarithm => limits.push(log_limits(one.bounds.storage)),
                 Form::Scaled(scale) => {
-                    limits.push(one.bounds.storage.unwrap_or(FREE).map(|bound| bound / scale))
+                    limits.push(one.bounds.storage.unwrap_or(UNBOUNDED).map(|bound| bound / scale))
                 }
                 Form::Law(law) if law.family == LawKind::Constant => {
-                    limits.extend([log_limits(one.bounds.storage), one.bounds.loss_factor.unwrap_or(FREE)]);
+                    limits.extend([
+                        log_limits(one.bounds.storage),
+                        one.bounds.loss_factor.unwrap_or(UNBOUNDED),
+                    ]);
                 }
-                Form::Law(law) => limits.extend(vec![FREE; law.family.count()]),
+                Form::Law(law) => limits.extend(vec![UNBOUNDED; law.family.count()]),
             }
             each.push(Own { unknowns: j, range: count..count + own, form });
             count += own;

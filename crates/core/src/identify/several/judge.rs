@@ -9,25 +9,24 @@ use super::reduced_band::ReducedBand;
 use super::search::{BandSolution, Place, Plane, Reach};
 use crate::c64;
 use crate::for_each::map;
-use crate::identify::band::{UNEXPLAINED, reduction_error};
-use crate::identify::goodness_of_fit::GoodnessOfFit;
-use crate::identify::goodness_of_fit::judge;
+use crate::identify::band::reduction_error;
+use crate::identify::goodness_of_fit::{GoodnessOfFit, MAX_RMS_MISFIT, judge};
 use crate::identify::model_errors::Estimated;
 use crate::identify::noise::NoiseLevel;
 use crate::identify::outcome::{Line, LineValue, Status};
 use crate::identify::uncertainty::Uncertainty;
-use crate::identify::uncertainty::{KNOWN, LEAST_LOSS};
+use crate::identify::uncertainty::{KNOWN_RELATIVE_STD, MIN_KNOWN_LOSS_FACTOR};
 use crate::identify::unknown::Unknown;
 use crate::laws::LawKind;
 use crate::material::{Law, loss_factor};
 use crate::response::relative_error;
 
 /// Points of a profile to either side, and how far they reach in deviations.
-const PROFILE: usize = 5;
-const REACH: f64 = 3.0;
+const PROFILE_POINTS: usize = 5;
+const PROFILE_REACH_STD: f64 = 3.0;
 
 /// Farther than this in logarithms a profile does not go, however little is told.
-const FARTHEST: f64 = 1.0;
+const MAX_PROFILE_REACH: f64 = 1.0;
 
 /// How well θ and what it hangs on are known, and what they do to a frequency's own coordinates.
 struct Known<'k> {
@@ -136,8 +135,8 @@ impl Task<'_, '_> {
             let at_bound = one.range.clone().any(|c| binding.contains(&c))
                 || law.at(middle).is_ok_and(|value| unknowns.bounds.broken_by(value).is_some());
             let is_known = |number: &Number| {
-                let least = if number.name == "loss_factor" { LEAST_LOSS } else { 0.0 };
-                number.std.is_some_and(|std| std <= KNOWN * number.value.abs().max(least))
+                let least = if number.name == "loss_factor" { MIN_KNOWN_LOSS_FACTOR } else { 0.0 };
+                number.std.is_some_and(|std| std <= KNOWN_RELATIVE_STD * number.value.abs().max(least))
             };
             // What is not identifiable has no value that could break a bound.
             let status = Status::of([
@@ -204,7 +203,7 @@ impl Task<'_, '_> {
         let own = |(one, value): (&Unknown, &LineValue)| one.per_frequency() == 0 || is_known(value);
         let known = self.problem.unknowns.iter().zip(&values).all(own);
         let unexplained =
-            error > self.options.error && chi_squared.is_none_or(|chi| chi.sqrt() > UNEXPLAINED);
+            error > self.options.error && chi_squared.is_none_or(|chi| chi.sqrt() > MAX_RMS_MISFIT);
         at.status = Status::of([
             (unexplained, Status::Unexplained),
             (!at.rivals.is_empty(), Status::Ambiguous),
@@ -283,11 +282,12 @@ impl Task<'_, '_> {
         worst.weights.iter().for_each(|&(c, weight)| along[c] = weight);
         // The worst is the first of the eigenvectors; what is told of the others is at right angles to it.
         let others = information.told_but_the_first();
-        let reach = (REACH * worst.std / PROFILE as f64).min(FARTHEST / PROFILE as f64);
+        let reach = (PROFILE_REACH_STD * worst.std / PROFILE_POINTS as f64)
+            .min(MAX_PROFILE_REACH / PROFILE_POINTS as f64);
         let mut points = Vec::new();
         for side in [-1.0, 1.0] {
             let (mut place, mut rest) = (best.clone(), vec![0.0; others.len()]);
-            for k in 1..=PROFILE {
+            for k in 1..=PROFILE_POINTS {
                 let t = side * k as f64 * reach;
                 let origin: Vec<f64> =
                     found.theta.iter().zip(&along).map(|(theta, v)| theta + t * v).collect();
@@ -312,8 +312,9 @@ impl Task<'_, '_> {
 /// Whether a value that a frequency has of its own is known.
 fn is_known(value: &LineValue) -> bool {
     let (Some(found), Some(bars)) = (value.value, value.uncertainty) else { return true };
-    let eta = loss_factor(found).abs().max(LEAST_LOSS);
-    bars.storage_std <= KNOWN * found.norm() && bars.loss_factor_std.is_none_or(|std| std <= KNOWN * eta)
+    let eta = loss_factor(found).abs().max(MIN_KNOWN_LOSS_FACTOR);
+    bars.storage_std <= KNOWN_RELATIVE_STD * found.norm()
+        && bars.loss_factor_std.is_none_or(|std| std <= KNOWN_RELATIVE_STD * eta)
 }
 
 /// A value with deviations from the covariance of its parts at σ and the level of the noise.

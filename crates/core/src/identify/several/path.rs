@@ -15,7 +15,7 @@ pub(super) struct Chosen {
 }
 
 /// Values nearer than this part of themselves are one.
-const SAME: f64 = 1e-6;
+const VALUE_MERGE_RTOL: f64 = 1e-6;
 
 impl Task<'_, '_> {
     /// The choice at each frequency. Every unknown that is per frequency chooses its own path by continuity and causality (B-4); one solution has to be on all of them.
@@ -60,7 +60,7 @@ impl Task<'_, '_> {
     fn agreed(&self, i: usize, found: &[Solution], own: &[usize], choices: &[Vec<Choice>]) -> Chosen {
         let same = |j: usize, a: usize, b: usize| {
             let (a, b) = (found[a].values[j], found[b].values[j]);
-            (a - b).norm() <= SAME * a.norm()
+            (a - b).norm() <= VALUE_MERGE_RTOL * a.norm()
         };
         let is_on = |k: usize, (&j, choices): (&usize, &Vec<Choice>)| {
             choices[i].chosen.is_some_and(|chosen| chosen == k || same(j, chosen, k))
