@@ -1,6 +1,6 @@
 //! From the elimination of a graph to fronts: supernodes, amalgamation, rows, and the places of all entries.
 
-use super::{Entry, Lower, NO_PARENT, Shape, Symbolic, share};
+use super::{Entry, Lower, NO_PARENT, Shape, Symbolic, costs};
 use crate::ordering::{Elimination, Graph, postorder};
 
 /// Vertices that are eliminated together.
@@ -18,7 +18,7 @@ pub(super) fn build(pattern: &Lower, graph: &Graph, elimination: &Elimination) -
     let (fronts, rows) = shapes(graph, &groups, &numbering);
     let relative = relative(&fronts, &rows);
     let (entry_start, entries) = entries(pattern, &fronts, &rows, &numbering.position)?;
-    let subtrees = share::subtrees(&fronts);
+    let subtrees = costs::subtrees(&fronts);
     let (child_start, children) = children(&fronts);
     let mut depth = vec![0; fronts.len()];
     for k in (0..fronts.len()).rev().filter(|&k| fronts[k].parent != NO_PARENT) {
@@ -85,7 +85,7 @@ fn supernodes(elimination: &Elimination) -> Vec<Group> {
 /// is read twice by every solution, and a front has an overhead of its own.
 fn cost(pivots: usize, below: usize) -> f64 {
     let order = (pivots + below) as f64;
-    share::multiplications(pivots, below) + 20.0 * order * order + 2e4
+    costs::multiplications(pivots, below) + 20.0 * order * order + 2e4
 }
 
 /// Merges groups into their parents where the zeros that it adds cost less than what it saves.

@@ -2,7 +2,7 @@
 
 use super::{NO_PARENT, Shape, Symbolic};
 use crate::front::PANEL_COLUMNS;
-use crate::kernel::{STRIP_COLUMNS, TILES_PER_RUN, MAX_TILE_ROWS};
+use crate::kernel::{MAX_TILE_ROWS, STRIP_COLUMNS, TILES_PER_RUN};
 use crate::packed_lower::PackedLower;
 use std::ops::Range;
 
@@ -93,5 +93,6 @@ pub(super) fn working_scalars(symbolic: &Symbolic) -> usize {
 /// The most numbers, for one real product, of the packed copies that one worker makes of a front's columns.
 pub(super) fn packed(symbolic: &Symbolic) -> usize {
     let left = |front: &Shape| (front.order() + MAX_TILE_ROWS) * front.pivots.min(PANEL_COLUMNS);
-    symbolic.fronts.iter().map(left).max().unwrap_or(0) + STRIP_COLUMNS * (PANEL_COLUMNS + TILES_PER_RUN * MAX_TILE_ROWS)
+    symbolic.fronts.iter().map(left).max().unwrap_or(0)
+        + STRIP_COLUMNS * (PANEL_COLUMNS + TILES_PER_RUN * MAX_TILE_ROWS)
 }
