@@ -137,7 +137,7 @@ fn the_core_of_a_sandwich_has_its_fractional_law() {
         let found = identify(&mut case, &truth, 1.4, &frequency_hz, &measured, Known::Known(&std), &kinds);
         let fit = best(&found.laws).unwrap();
         assert_eq!(
-            fit.family,
+            fit.kind,
             LawKind::Fractional,
             "seed {seed}: {:?}",
             found.laws.iter().map(LawFit::bic).collect::<Vec<_>>()

@@ -236,9 +236,9 @@ fn elsewhere_is_as_good_as_it_says() {
     for (case, frequency_hz) in [cases().remove(0), cases().remove(2)] {
         let variables = Variable::of_model(&case.model, &frequency_hz).unwrap();
         let points = change_points(&case.model, &variables, &frequency_hz).unwrap();
-        let trained = |elsewhere| {
+        let trained = |everywhere| {
             let mut subspace = Subspace::new(&case.experiment, &points[points.len() - 1].at).unwrap();
-            let options = ChangeOptions { elsewhere, ..ChangeOptions::default() };
+            let options = ChangeOptions { everywhere, ..ChangeOptions::default() };
             assert!(subspace.train_changes(&points, &options, &sequential).unwrap().converged);
             subspace
         };
@@ -250,7 +250,7 @@ fn elsewhere_is_as_good_as_it_says() {
         for (point, &f) in points.iter().zip(&frequency_hz) {
             let changed = subspace.projection().changes(point).unwrap();
             let exact = direct(&case.model, &case.experiment, &variables, f);
-            for ((y, exact), estimate) in changed.coordinates.iter().zip(&exact).zip(&changed.elsewhere) {
+            for ((y, exact), estimate) in changed.coordinates.iter().zip(&exact).zip(&changed.everywhere) {
                 assert!(*estimate <= 1e-6, "{} {f} Hz: {estimate:e}", case.name);
                 let found =
                     |i: usize| y.iter().enumerate().map(|(k, y)| y * v[i + k * rows.len()]).sum::<c64>();
@@ -333,7 +333,7 @@ fn the_next_sensor_is_the_best_of_all_rows() {
     let case = sandwich(6, 2);
     let frequency_hz = linear_hz(20.0, 1000.0, 40);
     let variables = Variable::of_model(&case.model, &frequency_hz).unwrap();
-    let options = ChangeOptions { elsewhere: Some(1e-3), ..ChangeOptions::default() };
+    let options = ChangeOptions { everywhere: Some(1e-3), ..ChangeOptions::default() };
     let band = band(&case.model, &case.experiment, &variables, &frequency_hz, options);
     let deviations = band.proportional(0.01);
     let rows: Vec<usize> = (0..case.model.dim()).collect();

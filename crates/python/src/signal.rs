@@ -50,7 +50,7 @@ pub(crate) fn frf<'py>(
         trigger_n: how.trigger_n,
         pre_trigger_s: how.pre_trigger_s,
         length_s: how.length_s,
-        double_hit: how.double_hit,
+        double_impact: how.double_hit,
         drift: how.drift,
         windows: Windows { force_s: how.force_window_s, exponential_s: how.exponential_window_s },
         keep: how.keep,
@@ -70,7 +70,7 @@ pub(crate) fn frf<'py>(
     let std = |variance: &Vec<f64>| variance.iter().map(|v| (2.0 * v).sqrt()).collect();
     found.set_item("std", column(&|frf| frf.variance.as_ref().map(std))?)?;
     let hits = PyList::empty(py);
-    for hit in &measured.hits {
+    for hit in &measured.impacts {
         let one = PyDict::new(py);
         one.set_item("recording", hit.recording)?;
         one.set_item("first", hit.range.start)?;

@@ -25,7 +25,7 @@ pub(crate) fn run(args: &Args, wanted: &Frf) -> Result<Outcome, Failure> {
         trigger_n: wanted.trigger,
         pre_trigger_s: wanted.pre_trigger,
         length_s: wanted.length,
-        double_hit: wanted.double_hit.unwrap_or(usual.double_hit),
+        double_impact: wanted.double_hit.unwrap_or(usual.double_impact),
         drift: wanted.drift.unwrap_or(usual.drift),
         windows: Windows { force_s: wanted.force_window, exponential_s: wanted.exponential_window },
         keep: wanted.keep.clone(),

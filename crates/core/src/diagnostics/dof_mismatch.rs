@@ -64,7 +64,7 @@ pub(super) fn dof_mismatch<'a>(
     };
     let Ok(mut responses) = Responses::new(&wider, at, options, search.for_each) else { return Vec::new() };
     for m in 0..sensors {
-        responses.add(|fractions| fractions.residues(m, Drive::Load));
+        responses.add(|poles| poles.residues(m, Drive::Load));
     }
     let force = driven.first().map_or(c64::default(), |&row| experiment.load[row]);
     let mut edits = Vec::with_capacity(wanted.len());
@@ -72,13 +72,13 @@ pub(super) fn dof_mismatch<'a>(
         let there = sensors + k;
         let (sensors, columns, what) = match m {
             Some(m) => {
-                let column = responses.add(|fractions| fractions.residues(there, Drive::Load));
+                let column = responses.add(|poles| poles.residues(there, Drive::Load));
                 (vec![m], vec![column], DofMismatch::Response(row))
             }
             None => {
                 let by = |m: usize| {
-                    responses.add(|fractions| {
-                        let unit = fractions.residues(m, Drive::Sensor(there));
+                    responses.add(|poles| {
+                        let unit = poles.residues(m, Drive::Sensor(there));
                         unit.into_iter().map(|rho| rho * force).collect()
                     })
                 };
@@ -133,7 +133,8 @@ fn best_rows(
                     true => (Drive::Sensor(m), force),
                     false => (Drive::Load, c64::new(experiment.sensors[m].sign, 0.0)),
                 };
-                let x = responses.subspace.everywhere(&responses.fractions[i].coordinates(drive, correction));
+                let x =
+                    responses.subspace.everywhere(&responses.pole_residues[i].coordinates(drive, correction));
                 for (score, x) in scores.iter_mut().zip(x) {
                     *score += misfit_at(std::iter::once(wrapped(read - (by * x).ln())), ROW_SCALE);
                 }

@@ -94,14 +94,14 @@ pub(super) fn look<T>(
         }
     };
     for m in 0..quantities.len() {
-        responses.add(|fractions| fractions.residues(m, Drive::Load));
+        responses.add(|poles| poles.residues(m, Drive::Load));
     }
     diagnosis.work = responses.work();
     let search = Search { responses: &responses, written: &written, for_each };
     let grid = search.grid(quantities.len());
-    let mut data_hypothesis = DataHypothesis::as_told(quantities, band.model.decay_per_s());
+    let mut data_hypothesis = DataHypothesis::as_given(quantities, band.model.decay_per_s());
     let mut current = search.fit(&data_hypothesis, &grid, None);
-    let (mut common, mut elsewhere_found) = (Vec::new(), false);
+    let (mut common, mut mismatch_found) = (Vec::new(), false);
     while diagnosis.findings.len() < MAX_FINDINGS {
         let values = best_change(&search, &grid, &data_hypothesis, &current);
         // Another row is looked for only where nothing simpler explains the data.
@@ -109,7 +109,7 @@ pub(super) fn look<T>(
         let rows = match explained <= EXPLAINED_MISFIT {
             true => Vec::new(),
             false => {
-                let laws = laws_elsewhere(&search, &grid, &data_hypothesis, &current);
+                let laws = laws_of_other_rows(&search, &grid, &data_hypothesis, &current);
                 dof_mismatch(&search, band.experiment, &at, options, &data_hypothesis, &laws)
             }
         };
@@ -120,7 +120,7 @@ pub(super) fn look<T>(
             let sensors = tried.edit.sensors.clone();
             diagnosis.findings.push(Finding { fault, sensors, evidence: Some(evidence) });
             current = tried.fitted.clone();
-            elsewhere_found = true;
+            mismatch_found = true;
             break;
         }
         let Some((edit, found)) = values else { break };
@@ -140,9 +140,9 @@ pub(super) fn look<T>(
         let sensors = (0..quantities.len()).collect();
         diagnosis.findings.push(Finding { fault, sensors, evidence: None });
     }
-    let told = (!elsewhere_found)
+    let own = (!mismatch_found)
         .then(|| agreed(Agreed { responses: &responses, picked: &picked, fitted: &current, edits: &common }));
-    Ok((diagnosis, told))
+    Ok((diagnosis, own))
 }
 
 /// Frequencies to look at: half of them where the response is largest among its neighbours (there it tells of damping), the others evenly spaced, ascending.
@@ -231,11 +231,13 @@ fn is_large(search: &Search<'_, '_>, data_hypothesis: &DataHypothesis, edit: &Ed
     };
     match edit.change {
         Change::Factor => {
-            beyond(fitted.ln_factor, MIN_LN_FACTOR, search.deviations(data_hypothesis, fitted)[0])
+            beyond(fitted.ln_factor, MIN_LN_FACTOR, search.standard_deviations(data_hypothesis, fitted)[0])
         }
-        Change::Delay => {
-            beyond(fitted.delay_s, MIN_DELAY_PHASE_RAD / top, search.deviations(data_hypothesis, fitted)[1])
-        }
+        Change::Delay => beyond(
+            fitted.delay_s,
+            MIN_DELAY_PHASE_RAD / top,
+            search.standard_deviations(data_hypothesis, fitted)[1],
+        ),
         _ => true,
     }
 }
@@ -248,7 +250,7 @@ fn fault(
     edit: &Edit,
     found: &Fitted,
 ) -> Fault {
-    let [factor_std, delay_std] = search.deviations(after, found);
+    let [factor_std, delay_std] = search.standard_deviations(after, found);
     match &edit.change {
         Change::Conjugated => Fault::Conjugated,
         Change::Quantity(is) => {
@@ -272,7 +274,7 @@ fn fault(
 }
 
 /// Moduli with which rows are compared, for each sensor and (last) for the load: that of the other sensors, and all of the box.
-fn laws_elsewhere(
+fn laws_of_other_rows(
     search: &Search<'_, '_>,
     grid: &Grid,
     data_hypothesis: &DataHypothesis,

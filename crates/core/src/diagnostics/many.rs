@@ -63,9 +63,9 @@ pub(super) fn diagnose(
         let mut few: Vec<usize> = order.iter().copied().take(SENSORS_BESIDE_SUSPECT).collect();
         few.push(suspect);
         let part = Part::of(band, quantities, &few);
-        let (alone, _) = look(&part.band(band), &part.quantities, options, for_each, &|_| ())?;
-        diagnosis.work += alone.work;
-        let of_it = alone.findings.into_iter().filter(|finding| finding.sensors == [SENSORS_BESIDE_SUSPECT]);
+        let (single, _) = look(&part.band(band), &part.quantities, options, for_each, &|_| ())?;
+        diagnosis.work += single.work;
+        let of_it = single.findings.into_iter().filter(|finding| finding.sensors == [SENSORS_BESIDE_SUSPECT]);
         found.extend(of_it.map(|mut finding| {
             finding.sensors = vec![suspect];
             finding
@@ -81,14 +81,15 @@ pub(super) fn diagnose(
 fn own_misfits(band: &Band<'_>, quantities: &[Quantity], agreed: &Agreed<'_, '_>) -> Vec<f64> {
     let Agreed { responses, picked, fitted, edits } = agreed;
     let all: Vec<usize> = (0..quantities.len()).collect();
-    let as_told = DataHypothesis::as_told(quantities, band.model.decay_per_s());
-    let data_hypothesis = edits.iter().fold(as_told, |data_hypothesis, edit| {
+    let as_given = DataHypothesis::as_given(quantities, band.model.decay_per_s());
+    let data_hypothesis = edits.iter().fold(as_given, |data_hypothesis, edit| {
         data_hypothesis.with(&Edit { change: edit.change.clone(), sensors: all.clone() })
     });
     let mut residuals: Vec<Vec<c64>> = vec![Vec::with_capacity(picked.len()); quantities.len()];
     for (k, &i) in picked.iter().enumerate() {
         let correction = responses.correction(fitted.law, k);
-        let x = responses.subspace.everywhere(&responses.fractions[k].coordinates(Drive::Load, correction));
+        let x =
+            responses.subspace.everywhere(&responses.pole_residues[k].coordinates(Drive::Load, correction));
         let values = written(band, quantities, i);
         for (m, (value, &Sensor { row, sign })) in
             values.into_iter().zip(&band.experiment.sensors).enumerate()
@@ -100,8 +101,8 @@ fn own_misfits(band: &Band<'_>, quantities: &[Quantity], agreed: &Agreed<'_, '_>
         }
     }
     // Of fewer than half of the values nothing is said.
-    let told = |rest: &Vec<c64>| 2 * rest.len() >= picked.len();
-    residuals.iter().map(|rest| if told(rest) { misfit(rest).sigma } else { f64::NAN }).collect()
+    let is_enough = |rest: &Vec<c64>| 2 * rest.len() >= picked.len();
+    residuals.iter().map(|rest| if is_enough(rest) { misfit(rest).sigma } else { f64::NAN }).collect()
 }
 
 /// Some sensors of a band.

@@ -86,7 +86,7 @@ pub(super) struct Responses<'a> {
     pub(super) parametrization: Parametrization,
     pub(super) frequency_hz: Vec<f64>,
     nominal: Vec<c64>,
-    pub(super) fractions: Vec<PoleResidue>,
+    pub(super) pole_residues: Vec<PoleResidue>,
     /// Residues `[column][frequency][pole]`: the sensors', then those of other places.
     columns: Vec<Vec<Vec<c64>>>,
     pub(super) subspace: Subspace<'a>,
@@ -126,14 +126,14 @@ impl<'a> Responses<'a> {
         let training = TrainOptions { tolerance: RESPONSE_TOL, ..TrainOptions::default() };
         subspace.train(&points, &training, for_each).map_err(|_| NoModel::Breakdown)?;
         let small = subspace.projection();
-        let fractions = map(for_each, at.len(), |i| small.fractions(&at[i]).ok().flatten());
-        let fractions: Vec<PoleResidue> =
-            fractions.into_iter().collect::<Option<_>>().ok_or(NoModel::Breakdown)?;
+        let pole_residues = map(for_each, at.len(), |i| small.pole_residue(&at[i]).ok().flatten());
+        let pole_residues: Vec<PoleResidue> =
+            pole_residues.into_iter().collect::<Option<_>>().ok_or(NoModel::Breakdown)?;
         Ok(Self {
             parametrization,
             frequency_hz: at.iter().map(|at| at.frequency_hz).collect(),
             nominal: at.iter().map(|at| at.parameters[0].nominal).collect(),
-            fractions,
+            pole_residues,
             columns: Vec::new(),
             subspace,
             rows: last.model.dim(),
@@ -142,7 +142,7 @@ impl<'a> Responses<'a> {
 
     /// Adds a column of responses, by its residues at each frequency, and returns its number.
     pub(super) fn add(&mut self, residues: impl Fn(&PoleResidue) -> Vec<c64>) -> usize {
-        self.columns.push(self.fractions.iter().map(residues).collect());
+        self.columns.push(self.pole_residues.iter().map(residues).collect());
         self.columns.len() - 1
     }
 
@@ -155,7 +155,7 @@ impl<'a> Responses<'a> {
     pub(super) fn ln(&self, law: Law, i: usize, columns: &[usize]) -> Vec<c64> {
         let c = self.correction(law, i);
         let inverse: Vec<c64> =
-            self.fractions[i].lambda().iter().map(|lambda| (1.0 + c * lambda).inv()).collect();
+            self.pole_residues[i].lambda().iter().map(|lambda| (1.0 + c * lambda).inv()).collect();
         let sum = |&column: &usize| {
             let terms = self.columns[column][i].iter().zip(&inverse).map(|(rho, d)| rho * d);
             terms.sum::<c64>().ln()

@@ -154,10 +154,10 @@ impl Search<'_, '_> {
             ln_factor = median(of.map(|(_, r)| r.re).collect()).unwrap_or(0.0);
         }
         // A phase that a delay may have turned tells nothing yet.
-        let told = |(m, r): (usize, c64)| {
+        let weighed = |(m, r): (usize, c64)| {
             if delay && data_hypothesis.concerned(m)[1] { c64::new(r.re, 0.0) } else { r }
         };
-        let score = misfit_at(self.residuals(data_hypothesis, ln, ln_factor, 0.0).map(told), START_SCALE);
+        let score = misfit_at(self.residuals(data_hypothesis, ln, ln_factor, 0.0).map(weighed), START_SCALE);
         (score, ln_factor)
     }
 
@@ -239,9 +239,9 @@ impl Search<'_, '_> {
         let length = |j: usize| if j < size { lengths[j] } else { 0.1 };
         let mut simplex = vec![begin.clone()];
         for j in 0..begin.len() {
-            let mut corner = begin.clone();
-            corner[j] += length(j);
-            simplex.push(corner);
+            let mut vertex = begin.clone();
+            vertex[j] += length(j);
+            simplex.push(vertex);
         }
         let cost = Cost { search: self, data_hypothesis };
         let fallback = self.at(data_hypothesis, &begin);
@@ -255,7 +255,11 @@ impl Search<'_, '_> {
     }
 
     /// Standard deviations of the factor's logarithm and of the delay, the modulus free beside them: weighted least squares about the answer.
-    pub(super) fn deviations(&self, data_hypothesis: &DataHypothesis, fitted: &Fitted) -> [Option<f64>; 2] {
+    pub(super) fn standard_deviations(
+        &self,
+        data_hypothesis: &DataHypothesis,
+        fitted: &Fitted,
+    ) -> [Option<f64>; 2] {
         let at = self.coordinates(data_hypothesis, (fitted.law, fitted.ln_factor, fitted.delay_s));
         let rest = |at: &[f64]| -> Vec<c64> {
             let (law, ln_factor, delay_s) = self.parts(data_hypothesis, at);

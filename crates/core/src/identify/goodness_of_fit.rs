@@ -71,7 +71,7 @@ pub(super) fn judge(
     chi_squared: f64,
     freedom: usize,
     noise: &NoiseLevel,
-    told: Noise<'_>,
+    given: Noise<'_>,
 ) -> Option<GoodnessOfFit> {
     if freedom == 0 {
         return None;
@@ -83,7 +83,7 @@ pub(super) fn judge(
         NoiseSource::Given if deviate <= CHANCE_DEVIATE => Explained::Yes,
         NoiseSource::Given if chi_squared <= MAX_NEARLY_REDUCED_CHI_SQUARED * n => Explained::Nearly,
         NoiseSource::Given => Explained::No,
-        _ if told == Noise::Unknown && found > MAX_NOISE_OVER_RESPONSE => Explained::No,
+        _ if given == Noise::Unknown && found > MAX_NOISE_OVER_RESPONSE => Explained::No,
         // Below what a test can show there is nothing to contradict.
         _ if found <= MIN_DOUBTFUL_MISFIT => Explained::Yes,
         _ => match noise.of_scatter {

@@ -143,10 +143,10 @@ impl From<LawsOutcome> for Identification {
     fn from(laws: LawsOutcome) -> Self {
         let LawsOutcome { free, fits, outcomes, channels, fit, work, subspace_size } = laws;
         // The noise and the sensors of the band, as each frequency by itself shows them.
-        let alone = free.outcomes.clone();
+        let per_frequency = free.outcomes.clone();
         let band = BandOutcome { outcomes, work, subspace_size, fit, ..free };
         let constants = best(&fits).map(|law| of_law(law, fit)).into_iter().collect();
-        Self { constants, laws: fits, free: alone, channels, ..band.into() }
+        Self { constants, laws: fits, free: per_frequency, channels, ..band.into() }
     }
 }
 

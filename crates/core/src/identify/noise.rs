@@ -88,7 +88,7 @@ impl NoiseLevel {
 }
 
 /// σ of real and imaginary part each, `[frequency][sensor]`: as given, or in proportion to the response.
-pub(super) fn deviations(measured: &[Vec<c64>], noise: Noise<'_>) -> Vec<Vec<f64>> {
+pub(super) fn standard_deviations(measured: &[Vec<c64>], noise: Noise<'_>) -> Vec<Vec<f64>> {
     let sensors = 0..measured.first().map_or(0, Vec::len);
     let sorted = |m: usize| {
         let mut sizes: Vec<f64> = measured.iter().map(|u| u[m].norm()).collect();
@@ -140,8 +140,8 @@ pub(super) fn of_sensors(nodes: &[Vec<Node>], choices: &[Choice], freedom: usize
 pub(super) fn of_scatter(frequency_hz: &[f64], answers: &[Option<Node>], real: bool) -> Option<f64> {
     let square = |k: usize| {
         let mut nodes = [None; 5];
-        for (node, answer) in nodes.iter_mut().zip(&answers[k - 2..=k + 2]) {
-            *node = Some((*answer)?);
+        for (node, estimate) in nodes.iter_mut().zip(&answers[k - 2..=k + 2]) {
+            *node = Some((*estimate)?);
         }
         let x: Vec<f64> = frequency_hz[k - 2..=k + 2].iter().map(|&f| omega_rad_s(f).ln()).collect();
         let (mut off, mut variance) = (c64::default(), 0.0);

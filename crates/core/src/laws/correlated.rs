@@ -53,25 +53,25 @@ const MIN_LINES: usize = 12;
 
 /// The likeliest correlation of what lines leave; `None` where noise of their own explains it as well.
 pub(super) fn correlation(lines: &[LineResidual]) -> Option<Process> {
-    let told: Vec<(usize, [f64; 2], [f64; 2])> = (lines.iter().enumerate())
+    let known: Vec<(usize, [f64; 2], [f64; 2])> = (lines.iter().enumerate())
         .filter(|(_, line)| line.weight.iter().all(|w| w.is_finite() && *w > 0.0))
         .filter(|(_, line)| line.rest.iter().all(|d| d.is_finite()))
         .map(|(k, line)| (k, line.weight, line.rest))
         .collect();
-    if told.len() < MIN_LINES {
+    if known.len() < MIN_LINES {
         return None;
     }
-    let mut variances: Vec<f64> = told.iter().map(|(_, weight, _)| 1.0 / weight[0]).collect();
+    let mut variances: Vec<f64> = known.iter().map(|(_, weight, _)| 1.0 / weight[0]).collect();
     variances.sort_by(f64::total_cmp);
     let usual = variances[variances.len() / 2];
-    let (without, _) = deviance(&told, 0.0, 0.0);
+    let (without, _) = deviance(&known, 0.0, 0.0);
     let mut best = (without - MIN_LOG_LIKELIHOOD_GAIN, None);
     let mut length = 1f64;
-    while length <= told.len() as f64 {
+    while length <= known.len() as f64 {
         let persistence = (-1.0 / length).exp();
         let mut ratio = MIN_VARIANCE_RATIO * usual;
         while ratio <= MAX_VARIANCE_RATIO * usual {
-            let (deviance, level) = deviance(&told, persistence, ratio);
+            let (deviance, level) = deviance(&known, persistence, ratio);
             if deviance < best.0 {
                 best = (deviance, Some(Process { persistence, variance: level * ratio }));
             }

@@ -46,7 +46,7 @@ pub(crate) struct Evidence {
 #[derive(Debug, Clone, PartialEq)]
 pub struct LawFit {
     /// Which law.
-    pub family: LawKind,
+    pub kind: LawKind,
     /// The law with its parameters.
     pub law: Law,
     /// The parameters.
@@ -93,11 +93,11 @@ const EVALUATIONS_PER_START_AND_UNKNOWN: usize = 50;
 ///
 /// # Limits
 /// Of a law that is itself at fault the error bars say how far its parameters would move if its fault came about again by chance, as large and over as many rows; not that there is none.
-pub fn fit_modulus(data: &[Datum], family: LawKind, sigma_known: bool) -> Option<LawFit> {
+pub fn fit_modulus(data: &[Datum], kind: LawKind, sigma_known: bool) -> Option<LawFit> {
     let omegas: Vec<f64> = data.iter().map(|datum| datum.omega_rad_s).collect();
-    let parametrization = Parametrization::about(family, &omegas);
+    let parametrization = Parametrization::about(kind, &omegas);
     let evidence = Evidence { residuals: 2 * data.len(), sigma_known };
-    if evidence.residuals < family.count() {
+    if evidence.residuals < kind.count() {
         return None;
     }
     let evaluate = |theta: &[f64]| parametrization.residuals(data, theta);
@@ -111,9 +111,9 @@ pub fn fit_modulus(data: &[Datum], family: LawKind, sigma_known: bool) -> Option
 
 impl Parametrization {
     /// About the middle of some frequencies, in the sense of ratios.
-    pub(crate) fn about(family: LawKind, omegas_rad_s: &[f64]) -> Self {
+    pub(crate) fn about(kind: LawKind, omegas_rad_s: &[f64]) -> Self {
         let logs: f64 = omegas_rad_s.iter().map(|omega| omega.ln()).sum();
-        Self { family, reference_rad_s: (logs / omegas_rad_s.len().max(1) as f64).exp() }
+        Self { kind, reference_rad_s: (logs / omegas_rad_s.len().max(1) as f64).exp() }
     }
 }
 
@@ -124,7 +124,7 @@ impl LawFit {
     pub(crate) fn new(parametrization: Parametrization, minima: LocalMinima, evidence: Evidence) -> Self {
         let LocalMinima { best, others, followed, agreeing } = minima;
         let Evidence { residuals, sigma_known } = evidence;
-        let n = parametrization.family.count();
+        let n = parametrization.kind.count();
         let unit = scale(best.sum, residuals, n, sigma_known);
         // Ends that differ by less than a thousandth of what noise makes of χ² are one.
         let same = MINIMUM_MERGE_TOL * unit + EXACT_SUM_OF_SQUARES * residuals as f64;
@@ -139,10 +139,10 @@ impl LawFit {
             inverse.iter_mut().flatten().for_each(|value| *value *= unit);
             inverse
         });
-        let Told { p, parameters, correlation } = told(&parametrization, &theta, covariance.as_ref());
+        let Reported { p, parameters, correlation } = reported(&parametrization, &theta, covariance.as_ref());
         Self {
-            family: parametrization.family,
-            law: parametrization.family.law(&p),
+            kind: parametrization.kind,
+            law: parametrization.kind.law(&p),
             parameters,
             correlation,
             chi_squared: best.sum,
@@ -173,7 +173,8 @@ impl LawFit {
             .zip(&shared)
             .map(|(own, shared)| own.iter().zip(shared).map(|(own, shared)| own + shared).collect())
             .collect();
-        let Told { parameters, correlation, .. } = told(&self.parametrization, &self.theta, Some(&wider));
+        let Reported { parameters, correlation, .. } =
+            reported(&self.parametrization, &self.theta, Some(&wider));
         let factor =
             |(wide, own): (&Estimate, &Estimate)| Some(wide.std? / own.std?).filter(|by| by.is_finite());
         self.correlated = Some(Correlated {
@@ -187,8 +188,8 @@ impl LawFit {
 
     /// With another covariance of θ, as that with errors of the model in it.
     pub(crate) fn with_covariance(mut self, covariance: Vec<Vec<f64>>) -> Self {
-        let Told { parameters, correlation, .. } =
-            told(&self.parametrization, &self.theta, Some(&covariance));
+        let Reported { parameters, correlation, .. } =
+            reported(&self.parametrization, &self.theta, Some(&covariance));
         (self.parameters, self.correlation, self.covariance) = (parameters, correlation, Some(covariance));
         self
     }
@@ -258,26 +259,30 @@ impl LawFit {
     /// gᵀ Cov h over the coordinates that are told.
     pub(crate) fn covariance_of(&self, g: &[f64], h: &[f64]) -> Option<f64> {
         let covariance = self.covariance.as_ref()?;
-        let told: Vec<usize> = (0..g.len()).filter(|&i| covariance[i][i].is_finite()).collect();
-        let row = |&i: &usize| told.iter().map(|&j| g[i] * covariance[i][j] * h[j]).sum::<f64>();
-        Some(told.iter().map(row).sum())
+        let known: Vec<usize> = (0..g.len()).filter(|&i| covariance[i][i].is_finite()).collect();
+        let row = |&i: &usize| known.iter().map(|&j| g[i] * covariance[i][j] * h[j]).sum::<f64>();
+        Some(known.iter().map(row).sum())
     }
 }
 
 /// Parameters as users know them.
-struct Told {
+struct Reported {
     p: Vec<f64>,
     parameters: Vec<Estimate>,
     correlation: Option<Vec<Vec<f64>>>,
 }
 
 /// From the coordinates and their covariance to the parameters and theirs, by the delta rule.
-fn told(parametrization: &Parametrization, theta: &[f64], covariance: Option<&Vec<Vec<f64>>>) -> Told {
+fn reported(
+    parametrization: &Parametrization,
+    theta: &[f64],
+    covariance: Option<&Vec<Vec<f64>>>,
+) -> Reported {
     let n = theta.len();
     let (p, chain) = parametrization.parameters(theta);
     let natural = covariance.map(|covariance| carried(&chain, covariance));
     let std = |i: usize| natural.as_ref().map(|c| c[i][i].sqrt()).filter(|std| std.is_finite());
-    let parameters = parametrization.family.parameters().into_iter().zip(&p).enumerate();
+    let parameters = parametrization.kind.parameters().into_iter().zip(&p).enumerate();
     let parameters = parameters
         .map(|(i, (named, &value))| Estimate { name: named.name, unit: named.unit, value, std: std(i) })
         .collect();
@@ -286,7 +291,7 @@ fn told(parametrization: &Parametrization, theta: &[f64], covariance: Option<&Ve
         (0..n).map(|i| (0..n).map(|j| entry(i, j)).collect::<Vec<f64>>()).collect::<Vec<_>>()
     });
     let correlation = correlation.filter(|rows| rows.iter().flatten().all(|value| value.is_finite()));
-    Told { p, parameters, correlation }
+    Reported { p, parameters, correlation }
 }
 
 /// χ² per number below which the rest is roundoff of numbers that are known to themselves.
@@ -313,7 +318,7 @@ fn carried(a: &[Vec<f64>], covariance: &[Vec<f64>]) -> Vec<Vec<f64>> {
 
 /// The columns of a Jacobian in the order in which its branches are sorted.
 fn reordered(parametrization: &Parametrization, before: &[f64], after: &[f64], jacobian: &[f64]) -> Vec<f64> {
-    let LawKind::Maxwell { .. } = parametrization.family else { return jacobian.to_vec() };
+    let LawKind::Maxwell { .. } = parametrization.kind else { return jacobian.to_vec() };
     let m = jacobian.len() / before.len();
     let column = |j: usize| &jacobian[j * m..(j + 1) * m];
     let mut free: Vec<usize> = (1..before.len()).step_by(2).collect();
@@ -338,7 +343,7 @@ mod tests {
     #[test]
     fn branches_and_their_jacobian_are_sorted_alike() {
         let parametrization =
-            Parametrization { family: LawKind::Maxwell { branches: 2 }, reference_rad_s: 1.0 };
+            Parametrization { kind: LawKind::Maxwell { branches: 2 }, reference_rad_s: 1.0 };
         let theta = [0.0, 1.0, 5.0, 2.0, 3.0];
         let sorted = parametrization.sorted(&theta);
         assert_eq!(sorted, [0.0, 2.0, 3.0, 1.0, 5.0]);

@@ -144,22 +144,22 @@ pub(crate) fn inverse_information(jacobian: &[f64], n: usize) -> Option<Vec<Vec<
     let m = jacobian.len() / n.max(1);
     let norms: Vec<f64> =
         jacobian.chunks_exact(m).map(|c| c.iter().map(|x| x * x).sum::<f64>().sqrt()).collect();
-    let told: Vec<usize> = (0..n).filter(|&j| norms[j] > INSENSITIVE_COORDINATE_TOL).collect();
-    let k = told.len();
+    let sensitive: Vec<usize> = (0..n).filter(|&j| norms[j] > INSENSITIVE_COORDINATE_TOL).collect();
+    let k = sensitive.len();
     let column = |j: usize| &jacobian[j * m..(j + 1) * m];
     let correlation = |(i, j): (usize, usize)| {
         let dot: f64 = column(i).iter().zip(column(j)).map(|(a, b)| a * b).sum();
         dot / (norms[i] * norms[j])
     };
     let scaled: Vec<f64> =
-        told.iter().flat_map(|&i| told.iter().map(move |&j| (i, j))).map(correlation).collect();
+        sensitive.iter().flat_map(|&i| sensitive.iter().map(move |&j| (i, j))).map(correlation).collect();
     let (values, vectors) = symmetric_eigen(k, &scaled).ok()?;
     if values.first().is_some_and(|&least| least < DEPENDENT_COORDINATE_RTOL) {
         return None;
     }
     let mut inverse = vec![vec![f64::NAN; n]; n];
-    for (a, &i) in told.iter().enumerate() {
-        for (b, &j) in told.iter().enumerate() {
+    for (a, &i) in sensitive.iter().enumerate() {
+        for (b, &j) in sensitive.iter().enumerate() {
             let sum: f64 = (0..k).map(|q| vectors[q * k + a] * vectors[q * k + b] / values[q]).sum();
             inverse[i][j] = sum / (norms[i] * norms[j]);
         }
@@ -187,7 +187,7 @@ mod tests {
     }
 
     #[test]
-    fn the_best_of_several_minima_is_kept_and_the_other_is_told() {
+    fn the_best_of_several_minima_is_kept_and_the_other_is_named() {
         let minima =
             minimise(&[vec![0.5, -2.0], vec![15.0, 4.0], vec![4.0, 3.0]], &freudenstein_roth, &SEARCH)
                 .unwrap();

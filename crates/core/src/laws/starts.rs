@@ -23,7 +23,7 @@ pub(crate) fn starts(parametrization: &Parametrization, data: &[Datum]) -> Vec<V
     let last = omegas().fold(0.0, f64::max);
     let one = |_: f64| c64::new(1.0, 0.0);
     let of = |p: Vec<f64>| parametrization.coordinates(&p);
-    match parametrization.family {
+    match parametrization.kind {
         LawKind::Constant => {
             let a = coefficients(data, &[&one, &|_| c64::I], false);
             // A storage modulus that is not positive is no start, but one there has to be.

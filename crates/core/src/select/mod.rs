@@ -97,7 +97,7 @@ pub fn choose(frequency_hz: &[f64], nodes: &[Vec<Node>], options: &SelectOptions
     let tracks = tracks(Band::likeliest(scatters.len(), nodes.len(), band), options.margin);
     let Some((best, rivals)) = tracks.split_first() else { return vec![nothing; nodes.len()] };
     let rivals: Vec<_> = rivals.iter().filter(|rival| rival.score < best.score + options.margin).collect();
-    let curvature = best.alone().curvature();
+    let curvature = best.restricted().curvature();
     let (mut path, costs) = best.band.through_each(curvature);
     bridge(&mut path, &best.chosen);
     let choose_at = |k: usize| {

@@ -29,7 +29,7 @@ impl Track {
     }
 
     /// The band with nothing but this path.
-    pub(super) fn alone(&self) -> Band {
+    pub(super) fn restricted(&self) -> Band {
         let points = (0..self.chosen.len()).map(|k| self.at(k).copied().into_iter().collect());
         Band { points: points.collect(), log_frequency: self.band.log_frequency.clone() }
     }

@@ -74,9 +74,9 @@ impl<'m> SensitivityBand<'m> {
         let mut at = evaluated(&subspace, points, for_each);
         // What is asked for is one.
         let excess = |changed: &Changed| {
-            let everywhere = changed.elsewhere.iter().copied().fold(0.0, f64::max);
+            let everywhere = changed.everywhere.iter().copied().fold(0.0, f64::max);
             let at_sensors = changed.relative_truncation() / options.tolerance;
-            options.elsewhere.map_or(at_sensors, |tolerance| at_sensors.max(everywhere / tolerance))
+            options.everywhere.map_or(at_sensors, |tolerance| at_sensors.max(everywhere / tolerance))
         };
         let mut missed: Vec<(f64, usize)> =
             at.iter().enumerate().filter_map(|(i, at)| Some((excess(at.as_ref()?), i))).collect();

@@ -47,12 +47,13 @@ pub fn inseparable(resolved: &Resolved) -> Vec<Inseparable> {
         groups = without;
         groups.push(with.into_iter().flatten().chain([p]).collect());
     }
-    let mut found: Vec<Inseparable> = groups.into_iter().map(|group| told(resolved, group, &weak)).collect();
+    let mut found: Vec<Inseparable> =
+        groups.into_iter().map(|group| described(resolved, group, &weak)).collect();
     found.sort_by_key(|group| group.variables[0]);
     found
 }
 
-fn told(resolved: &Resolved, mut group: Vec<usize>, weak: &[(&[f64], f64)]) -> Inseparable {
+fn described(resolved: &Resolved, mut group: Vec<usize>, weak: &[(&[f64], f64)]) -> Inseparable {
     group.sort_unstable();
     let share = |v: &[f64]| group.iter().map(|&p| v[p] * v[p]).sum::<f64>();
     // Directions of several groups with equal deviations may come mixed: their shares add up to whole numbers.

@@ -1,6 +1,6 @@
 //! Where another sensor would tell most.
 
-use super::{Deviations, Resolved, SensitivityBand};
+use super::{Resolved, SensitivityBand, StandardDeviations};
 use crate::c64;
 use crate::for_each::{ForEach, map};
 use frfit_linalg::column_block::product;
@@ -60,20 +60,20 @@ pub struct Ranked {
 /// hardly moves is no good place for proportional noise alone to say so. With V at the rows of candidates, x_i and ∂x_i/∂ln p = e_iᵀw_p need no solve.
 ///
 /// # Limits
-/// As good as the subspace is at rows that it was not trained for ([`crate::subspace::Changed::elsewhere`]), and compared at some hundred frequencies: the best ones are to be
+/// As good as the subspace is at rows that it was not trained for ([`crate::subspace::Changed::everywhere`]), and compared at some hundred frequencies: the best ones are to be
 /// looked at again as sensors of a subspace of their own.
 ///
 /// # Panics
 /// Where a deviation is missing at a frequency with a response, or there is no such row.
 pub fn next_sensors(
     band: &SensitivityBand<'_>,
-    deviations: &Deviations,
+    std: &StandardDeviations,
     candidates: &[usize],
     for_each: ForEach<'_>,
 ) -> Vec<Ranked> {
     let count = band.variables.len();
-    let drawn = Drawn::of(band, deviations);
-    let base = drawn.present(band, deviations);
+    let drawn = Drawn::of(band, std);
+    let base = drawn.present(band, std);
     let chunks: Vec<&[usize]> = candidates.chunks(CANDIDATES_PER_PIECE).collect();
     let ranked = map(for_each, chunks.len(), |k| {
         let rows = chunks[k];
@@ -86,9 +86,9 @@ pub fn next_sensors(
                     let column = 2 * (f * (count + 1) + k);
                     c64::new(at(column), at(column + 1))
                 };
-                let deviation = noise.at(complex(0));
+                let std = noise.at(complex(0));
                 let slopes: Vec<c64> = (1..=count).map(complex).collect();
-                add(&mut information, &slopes, drawn.step * 2.0 / (deviation * deviation));
+                add(&mut information, &slopes, drawn.step * 2.0 / (std * std));
             }
             Ranked { row, after: WorstBar::of(&bars(&information, count)) }
         };
@@ -109,17 +109,17 @@ pub fn next_sensors(
 /// Where the band has fewer sensors than `present`.
 pub fn with_each_added(
     band: &SensitivityBand<'_>,
-    deviations: &Deviations,
+    std: &StandardDeviations,
     present: usize,
 ) -> Result<Vec<WorstBar>, NoConvergence> {
     let mut sensors: Vec<usize> = (0..present).collect();
     let all = band.at.iter().flatten().next().map_or(present, |changed| changed.response.len());
-    let extended: Deviations = band
+    let extended: StandardDeviations = band
         .at
         .iter()
-        .zip(deviations)
-        .map(|(at, deviations)| {
-            let (Some(changed), Some(there)) = (at, deviations.get(..present)) else {
+        .zip(std)
+        .map(|(at, std)| {
+            let (Some(changed), Some(there)) = (at, std.get(..present)) else {
                 // No deviation, no say.
                 return vec![0.0; all];
             };
@@ -146,9 +146,9 @@ struct Noise {
 
 impl Noise {
     /// As of the sensors that are there; `None` where none of them has any.
-    fn of(deviations: &[f64], response: &[c64]) -> Option<Self> {
+    fn of(std: &[f64], response: &[c64]) -> Option<Self> {
         let usable = |(s, x): &(f64, f64)| *s > 0.0 && s.is_finite() && *x > 0.0;
-        let sensors = deviations.iter().copied().zip(response.iter().map(|x| x.norm()));
+        let sensors = std.iter().copied().zip(response.iter().map(|x| x.norm()));
         let sensors: Vec<(f64, f64)> = sensors.filter(usable).collect();
         let mut relative: Vec<f64> = sensors.iter().map(|(s, x)| s / x).collect();
         relative.sort_by(f64::total_cmp);
@@ -173,7 +173,7 @@ struct Drawn {
 }
 
 impl Drawn {
-    fn of(band: &SensitivityBand<'_>, deviations: &Deviations) -> Self {
+    fn of(band: &SensitivityBand<'_>, std: &StandardDeviations) -> Self {
         let there: Vec<usize> = (0..band.at.len()).filter(|&i| band.at[i].is_some()).collect();
         let drawn = there.len().min(MAX_COMPARED_FREQUENCIES);
         let pick = |k: usize| there[k * there.len() / drawn.max(1)];
@@ -185,7 +185,7 @@ impl Drawn {
         };
         for i in (0..drawn).map(pick) {
             let Some(changed) = &band.at[i] else { continue };
-            let Some(noise) = Noise::of(&deviations[i], &changed.response) else { continue };
+            let Some(noise) = Noise::of(&std[i], &changed.response) else { continue };
             this.frequencies.push(i);
             this.noise.push(noise);
             for y in &changed.coordinates {
@@ -197,13 +197,13 @@ impl Drawn {
     }
 
     /// Information of the sensors that are there, at the drawn frequencies.
-    fn present(&self, band: &SensitivityBand<'_>, deviations: &Deviations) -> Vec<f64> {
+    fn present(&self, band: &SensitivityBand<'_>, std: &StandardDeviations) -> Vec<f64> {
         let count = band.variables.len();
         let mut information = vec![0.0; count * count];
         for &i in &self.frequencies {
             let Some(changed) = &band.at[i] else { continue };
-            for (m, deviation) in deviations[i].iter().enumerate() {
-                let weight = self.step * 2.0 / (deviation * deviation);
+            for (m, std) in std[i].iter().enumerate() {
+                let weight = self.step * 2.0 / (std * std);
                 if weight.is_finite() {
                     let slopes: Vec<c64> = (0..count).map(|p| changed.slopes[p][m]).collect();
                     add(&mut information, &slopes, weight);

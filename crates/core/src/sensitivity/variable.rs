@@ -35,8 +35,8 @@ impl Variable {
     /// # Errors
     /// [`OutsideTable`] where a table does not reach a frequency.
     pub fn of_model(model: &DynamicStiffness, frequency_hz: &[f64]) -> Result<Vec<Self>, OutsideTable> {
-        let alone = model.terms().iter().enumerate().map(|(index, term)| (term.name.clone(), vec![index]));
-        Self::of_matrices(model, &alone.collect::<Vec<_>>(), frequency_hz)
+        let each = model.terms().iter().enumerate().map(|(index, term)| (term.name.clone(), vec![index]));
+        Self::of_matrices(model, &each.collect::<Vec<_>>(), frequency_hz)
     }
 
     /// The same where several terms are one matrix, with one factor: its name and its terms.

@@ -1,61 +1,62 @@
-//! How a hit is judged: what is wrong with it, and how far the responses have decayed.
+//! How an impact is judged: what is wrong with it, and how far the responses have decayed.
 
 use super::baseline::{last_tenth, mean, offset, peak, rms};
-use super::hit::FOOT_SAMPLES;
+use super::impact::FOOT_SAMPLES;
 use super::pulse::{Contact, Pulse};
-use super::{Channel, Fault, Hit, Options, Recording};
+use super::{Channel, Fault, Impact, Options, Recording};
 use std::ops::Range;
 
-/// Judges a hit: its faults, and how far the responses have decayed.
-pub(super) fn examine(hit: &mut Hit, recording: &Recording, samples: usize, options: &Options) {
-    if hit.faults.is_empty() {
-        hit.faults = faults(hit, recording, samples, &Contact::new(&recording.force), options);
+/// Judges an impact: its faults, and how far the responses have decayed.
+pub(super) fn examine(impact: &mut Impact, recording: &Recording, samples: usize, options: &Options) {
+    if impact.faults.is_empty() {
+        impact.faults = faults(impact, recording, samples, &Contact::new(&recording.force), options);
     }
-    let before = hit.before();
-    let records = recording.responses.iter().map(|response| response.get(hit.range.clone()).unwrap_or(&[]));
+    let before = impact.before();
+    let records =
+        recording.responses.iter().map(|response| response.get(impact.range.clone()).unwrap_or(&[]));
     let share = |part: &[f64], record: &[f64]| {
         let largest = peak(record, offset(record, before));
         if largest > 0.0 { rms(part) / largest } else { 0.0 }
     };
-    hit.residual =
+    impact.residual =
         records.clone().map(|r| if r.is_empty() { 0.0 } else { share(last_tenth(r), r) }).collect();
     // Fewer samples are no noise level.
-    let is_told = before >= 2 * FOOT_SAMPLES && records.clone().all(|record| record.len() > before);
-    hit.noise = is_told.then(|| records.map(|r| share(&r[..before], r)).collect());
+    let has_baseline = before >= 2 * FOOT_SAMPLES && records.clone().all(|record| record.len() > before);
+    impact.noise = has_baseline.then(|| records.map(|r| share(&r[..before], r)).collect());
 }
 
-/// Everything that is wrong with the record of a hit, the contacts of its recording given.
+/// Everything that is wrong with the record of an impact, the contacts of its recording given.
 fn faults(
-    hit: &Hit,
+    impact: &Impact,
     recording: &Recording,
     samples: usize,
     contact: &Contact,
     options: &Options,
 ) -> Vec<Fault> {
     let mut faults = Vec::new();
-    if hit.range.len() < samples {
-        faults.push(Fault::Incomplete { samples: hit.range.len(), of: samples });
+    if impact.range.len() < samples {
+        faults.push(Fault::Incomplete { samples: impact.range.len(), of: samples });
     }
-    for (range, height) in contact.spikes.iter().filter(|(range, _)| overlap(range, &hit.range)) {
+    for (range, height) in contact.spikes.iter().filter(|(range, _)| overlap(range, &impact.range)) {
         faults.push(Fault::Spike { channel: Channel::Force, samples: range.len(), height: *height });
     }
-    faults.extend(second_contacts(hit, recording, contact, options));
+    faults.extend(second_contacts(impact, recording, contact, options));
     for channel in recording.channels() {
         let Some(record) =
-            recording.channel(channel).get(hit.range.clone()).filter(|record| is_moving(record))
+            recording.channel(channel).get(impact.range.clone()).filter(|record| is_moving(record))
         else {
             faults.push(Fault::Missing { channel });
             continue;
         };
         if channel != Channel::Force
-            && let Some((samples, height)) = spike(record, hit)
+            && let Some((samples, height)) = spike(record, impact)
         {
             faults.push(Fault::Spike { channel, samples, height });
         }
-        if let Some((samples, level)) = clipped(record, offset(record, hit.before())) {
+        if let Some((samples, level)) = clipped(record, offset(record, impact.before())) {
             faults.push(Fault::Clipped { channel, samples, level });
         }
-        let share = drift(record, hit.before());
+        let share = drift(record, impact.before());
         if share > options.drift {
             faults.push(Fault::Drift { channel, share });
         }
@@ -74,13 +75,18 @@ fn overlap(a: &Range<usize>, b: &Range<usize>) -> bool {
 /// Samples after a contact in which the ringing of an anti-aliasing filter may look like another.
 const RINGING_SAMPLES: usize = 4;
 
-/// Contacts other than the hit's own.
-fn second_contacts(hit: &Hit, recording: &Recording, contact: &Contact, options: &Options) -> Vec<Fault> {
-    let in_record = |pulse: &Pulse| hit.range.contains(&pulse.at);
-    let level = (options.double_hit * hit.peak_n).max(6.0 * contact.noise);
+/// Contacts other than the impact's own.
+fn second_contacts(
+    impact: &Impact,
+    recording: &Recording,
+    contact: &Contact,
+    options: &Options,
+) -> Vec<Fault> {
+    let in_record = |pulse: &Pulse| impact.range.contains(&pulse.at);
+    let level = (options.double_impact * impact.peak_n).max(6.0 * contact.noise);
     let pulses: Vec<Pulse> =
         contact.pulses(0..contact.force.len(), level).into_iter().filter(in_record).collect();
-    let Some(own) = pulses.iter().find(|pulse| pulse.last >= hit.onset) else { return Vec::new() };
+    let Some(own) = pulses.iter().find(|pulse| pulse.last >= impact.onset) else { return Vec::new() };
     let width = contact.width(own);
     let others =
         pulses.iter().filter(|other| other.first > own.last + RINGING_SAMPLES || other.last < own.first);
@@ -92,7 +98,7 @@ fn second_contacts(hit: &Hit, recording: &Recording, contact: &Contact, options:
                 return Fault::Spike { channel: Channel::Force, samples, height: other.peak };
             }
             let share = (other.peak / own.peak).min(own.peak / other.peak);
-            Fault::DoubleHit { after_s: own.at.abs_diff(other.at) as f64 * recording.step_s, share }
+            Fault::DoubleImpact { after_s: own.at.abs_diff(other.at) as f64 * recording.step_s, share }
         })
         .collect()
 }
@@ -104,7 +110,7 @@ const MAX_JUMP_SAMPLES: usize = 3;
 const MIN_JUMP_RATIO: f64 = 10.0;
 
 /// A spike of a response away from the contact, where jumps are its own: how many samples, and how far it jumps.
-fn spike(record: &[f64], hit: &Hit) -> Option<(usize, f64)> {
+fn spike(record: &[f64], impact: &Impact) -> Option<(usize, f64)> {
     let jumps: Vec<f64> = record.windows(2).map(|pair| pair[1] - pair[0]).collect();
     let there = (0..jumps.len()).max_by(|&a, &b| jumps[a].abs().total_cmp(&jumps[b].abs()))?;
     let near = there.saturating_sub(MAX_JUMP_SAMPLES)..jumps.len().min(there + MAX_JUMP_SAMPLES + 1);
@@ -113,7 +119,7 @@ fn spike(record: &[f64], hit: &Hit) -> Option<(usize, f64)> {
     let run = there.min(back)..=there.max(back);
     let outside = |k: &usize| *k + 1 < *run.start() || *k > run.end() + 1;
     let others = (0..jumps.len()).filter(outside).map(|k| jumps[k].abs()).fold(0.0, f64::max);
-    let pulse = hit.pulse_in_record();
+    let pulse = impact.pulse_in_record();
     let in_contact = *run.end() + 2 >= pulse.start && *run.start() <= pulse.end + pulse.len();
     (jumps[there].abs() >= MIN_JUMP_RATIO * others && !in_contact)
         .then(|| (run.count() - 1, jumps[there].abs()))
@@ -153,7 +159,7 @@ fn clipped(record: &[f64], offset: f64) -> Option<(usize, f64)> {
     [at(low), at(high)].into_iter().max_by_key(|(samples, _)| *samples).filter(|(samples, _)| *samples > 0)
 }
 
-/// How far the mean moves from before the hit, or from the middle of the record, to its last tenth, over the largest value, beyond what noise or
+/// How far the mean moves from before the impact, or from the middle of the record, to its last tenth, over the largest value, beyond what noise or
 /// a response that has not decayed may move it.
 fn drift(record: &[f64], before: usize) -> f64 {
     let end = last_tenth(record);

@@ -1,9 +1,9 @@
-//! What can be wrong with a hit.
+//! What can be wrong with an impact.
 
 use super::Channel;
 use std::fmt;
 
-/// Why a hit is left out.
+/// Why an impact is left out.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Fault {
     /// A channel without samples, or with the same value all the time.
@@ -13,7 +13,7 @@ pub enum Fault {
     },
     /// The force never stands out of its own noise.
     Silent,
-    /// The record would reach beyond its recording or into the next hit.
+    /// The record would reach beyond its recording or into the next impact.
     Incomplete {
         /// Samples that are there.
         samples: usize,
@@ -39,7 +39,7 @@ pub enum Fault {
         level: f64,
     },
     /// The hammer touched again within the record.
-    DoubleHit {
+    DoubleImpact {
         /// How much later, in s.
         after_s: f64,
         /// The smaller of both contacts' largest forces over the larger.
@@ -55,7 +55,7 @@ pub enum Fault {
 }
 
 impl Fault {
-    /// One word: `missing`, `silent`, `incomplete`, `spike`, `clipped`, `double_hit`, `drift`.
+    /// One word: `missing`, `silent`, `incomplete`, `spike`, `clipped`, `double_impact`, `drift`.
     pub fn name(&self) -> &'static str {
         match self {
             Self::Missing { .. } => "missing",
@@ -63,7 +63,7 @@ impl Fault {
             Self::Incomplete { .. } => "incomplete",
             Self::Spike { .. } => "spike",
             Self::Clipped { .. } => "clipped",
-            Self::DoubleHit { .. } => "double_hit",
+            Self::DoubleImpact { .. } => "double_hit",
             Self::Drift { .. } => "drift",
         }
     }
@@ -75,7 +75,7 @@ impl Fault {
             | Self::Spike { channel, .. }
             | Self::Clipped { channel, .. }
             | Self::Drift { channel, .. } => Some(channel),
-            Self::Silent | Self::DoubleHit { .. } => Some(Channel::Force),
+            Self::Silent | Self::DoubleImpact { .. } => Some(Channel::Force),
             Self::Incomplete { .. } => None,
         }
     }
@@ -92,7 +92,7 @@ impl Fault {
             Self::Clipped { samples, level, .. } => {
                 format!("{channel} clipped, {samples} samples at {level:.4}")
             }
-            Self::DoubleHit { after_s, share } => {
+            Self::DoubleImpact { after_s, share } => {
                 format!("double hit, {:.1} % again after {:.2} ms", 100.0 * share, 1e3 * after_s)
             }
             Self::Drift { share, .. } => {

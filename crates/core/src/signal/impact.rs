@@ -1,11 +1,11 @@
-//! A hit, with what was found of it.
+//! An impact, with what was found of it.
 
 use super::{Channel, Fault};
 use std::ops::Range;
 
-/// A hit that was found.
+/// An impact that was found.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Hit {
+pub struct Impact {
     /// Which recording it is in, from 0.
     pub recording: usize,
     /// The first sample of the recording at or above the trigger.
@@ -22,7 +22,7 @@ pub struct Hit {
     pub kept_anyway: bool,
     /// What is left of each response over the last tenth of the record: rms about the mean, over its largest value.
     pub residual: Vec<f64>,
-    /// The same before the hit, where the record has enough of that: noise.
+    /// The same before the impact, where the record has enough of that: noise.
     pub noise: Option<Vec<f64>>,
 }
 
@@ -32,7 +32,7 @@ const DECAYED_RESIDUAL: f64 = 0.01;
 /// Samples before the trigger that already belong to the contact.
 pub(super) const FOOT_SAMPLES: usize = 4;
 
-impl Hit {
+impl Impact {
     /// Whether it is averaged.
     pub fn is_kept(&self) -> bool {
         self.faults.is_empty() || self.kept_anyway
@@ -62,8 +62,8 @@ impl Hit {
     }
 }
 
-impl Hit {
-    /// A recording without a hit.
+impl Impact {
+    /// A recording without an impact.
     pub(super) fn none(recording: usize, len: usize, force: &[f64]) -> Self {
         let fault = match force.iter().any(|x| *x != force[0]) {
             true => Fault::Silent,

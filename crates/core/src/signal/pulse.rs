@@ -14,7 +14,7 @@ pub(super) struct Pulse {
     pub(super) peak: f64,
 }
 
-/// A force channel with its offset removed, its hits positive, and its spikes bridged.
+/// A force channel with its offset removed, its impacts positive, and its spikes bridged.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Contact {
     pub(super) force: Vec<f64>,
@@ -117,17 +117,17 @@ fn spike(force: &[f64]) -> Option<(Range<usize>, f64)> {
     let on_a_pulse = height >= MIN_SPIKE_RATIO * below && left + right >= 3 && left.max(right) >= 2
         || height >= CERTAIN_SPIKE_RATIO * below && left.min(right) >= 1;
     let on_a_pulse = on_a_pulse && below > 0.0;
-    let elsewhere = |range: Range<usize>| range.max_by(|&a, &b| force[a].abs().total_cmp(&force[b].abs()));
+    let largest_in = |range: Range<usize>| range.max_by(|&a, &b| force[a].abs().total_cmp(&force[b].abs()));
     let others = [
-        elsewhere(0..run.start.saturating_sub(margin)),
-        elsewhere((run.end + margin).min(force.len())..force.len()),
+        largest_in(0..run.start.saturating_sub(margin)),
+        largest_in((run.end + margin).min(force.len())..force.len()),
     ];
     let narrower = others.into_iter().flatten().any(|other| {
         let size = force[other].abs();
         size >= height / 100.0 && above(force, other, size / 2.0).len() > 2 * run.len() + 1
     });
-    let alone = height >= MIN_SPIKE_RATIO * below;
-    (on_a_pulse || alone && narrower).then_some((run, height))
+    let stands_out = height >= MIN_SPIKE_RATIO * below;
+    (on_a_pulse || stands_out && narrower).then_some((run, height))
 }
 
 /// A straight line over the samples of a range.

@@ -58,11 +58,11 @@ const NEGLIGIBLE_POSTERIOR: f64 = 1e-4;
 impl Process<'_> {
     /// The curvatures among which the posterior is.
     fn curvatures(&self, observations: &[Observation]) -> Vec<f64> {
-        let told: Vec<&Observation> = observations.iter().filter(|o| o.weight > 0.0).collect();
+        let observed: Vec<&Observation> = observations.iter().filter(|o| o.weight > 0.0).collect();
         let middle = |values: Vec<f64>| median(values).unwrap_or_default();
-        let range = told[told.len() - 1].x - told[0].x;
-        let step = middle(told.windows(2).map(|pair| pair[1].x - pair[0].x).collect()).max(1e-6 * range);
-        let variance = middle(told.iter().map(|o| 1.0 / o.weight).collect());
+        let range = observed[observed.len() - 1].x - observed[0].x;
+        let step = middle(observed.windows(2).map(|pair| pair[1].x - pair[0].x).collect()).max(1e-6 * range);
+        let variance = middle(observed.iter().map(|o| 1.0 / o.weight).collect());
         let low = (STRAIGHT_CURVATURE * self.line_variance().0 / range.powi(3)).ln();
         let high = (3.0 * LARGEST_STEP_VARIANCE * variance / step.powi(3)).ln().max(low + LN_CURVATURE_STEP);
         (0..=((high - low) / LN_CURVATURE_STEP).ceil() as usize)

@@ -22,7 +22,7 @@ pub struct Assessment {
 }
 
 /// An assessment with the solutions behind it.
-pub(super) struct Solved {
+pub(super) struct AssessedSolution {
     pub(super) assessment: Assessment,
     /// y with VᵀDV y = VᵀF, then z_m with VᵀDV z_m = Vᵀℓ_m.
     pub(super) solutions: Vec<Vec<c64>>,
@@ -96,7 +96,7 @@ impl Projection {
     /// An estimate, not a bound: γ is the largest gain of S⁻¹ met in the last solves, and the residuals are those of a sketch. At a resonance of a mode that the basis has not
     /// met the error can be some ten times the estimate.
     pub fn assess(&self, at: &ModelAt<'_>, correction: c64) -> Result<Assessment, Breakdown> {
-        Ok(Solved::new(self, at, correction)?.assessment)
+        Ok(AssessedSolution::new(self, at, correction)?.assessment)
     }
 
     /// x_m at the nominal values.
@@ -174,7 +174,7 @@ impl Projection {
     }
 }
 
-impl Solved {
+impl AssessedSolution {
     pub(super) fn new(small: &Projection, at: &ModelAt<'_>, correction: c64) -> Result<Self, Breakdown> {
         let solved = Solutions::new(small, at, correction)?;
         let (response, slope) = (solved.response(small), solved.slope(small));

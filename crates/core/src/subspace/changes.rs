@@ -41,7 +41,7 @@ pub struct Changed {
     pub coordinates: Vec<Vec<c64>>,
     /// Estimated ‖x − V y‖/‖x‖ and the same of each w_p, in the norm of the basis: what a sensor at any other place can rely on. From one residual each, and without what a
     /// resonance makes of it: against direct solves some ten times too small.
-    pub elsewhere: Vec<f64>,
+    pub everywhere: Vec<f64>,
 }
 
 impl Changed {
@@ -97,7 +97,7 @@ impl Projection {
             slope_truncation: Vec::new(),
             slope_roundoff: Vec::new(),
             coordinates: vec![solutions[0].clone()],
-            elsewhere: vec![self.gain * residuals[0] / norms[0]],
+            everywhere: vec![self.gain * residuals[0] / norms[0]],
         };
         for change in &point.changes {
             let theta = self.parts.weights(change);
@@ -125,7 +125,7 @@ impl Projection {
             changed.slope_roundoff.push(sensors.clone().map(roundoff).collect());
             // A parameter that does nothing there has nothing to be wrong.
             let everywhere = self.gain * (rest[0] + inherited) / length[0];
-            changed.elsewhere.push(if length[0] > 0.0 { everywhere } else { 0.0 });
+            changed.everywhere.push(if length[0] > 0.0 { everywhere } else { 0.0 });
             changed.coordinates.push(moved[0].to_vec());
         }
         Ok(changed)

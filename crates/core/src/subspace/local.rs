@@ -1,6 +1,6 @@
 //! A smaller model for a few neighbouring frequencies, from the band's.
 
-use super::assess::Solved;
+use super::assess::AssessedSolution;
 use super::{Assessment, Point, Projection};
 use crate::c64;
 use crate::model::ModelAt;
@@ -46,7 +46,7 @@ impl Projection {
             for (i, error) in next.drain(..).filter(|&(i, _)| i < points.len()) {
                 let point = &points[i];
                 if !std::mem::replace(&mut done[i], true)
-                    && let Ok(solved) = Solved::new(self, &point.at, point.correction)
+                    && let Ok(solved) = AssessedSolution::new(self, &point.at, point.correction)
                     && error > MAX_LOCAL_ERROR_RATIO * relative(&solved.assessment, point)
                 {
                     solved.solutions.iter().for_each(|y| append(&mut directions, y));

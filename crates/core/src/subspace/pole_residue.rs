@@ -34,7 +34,7 @@ impl Projection {
     ///
     /// # Errors
     /// [`NoConvergence`] where the reduced system is singular at its nominal value, or its eigenvectors are nearly dependent.
-    pub fn fractions(&self, at: &ModelAt<'_>) -> Result<Option<PoleResidue>, NoConvergence> {
+    pub fn pole_residue(&self, at: &ModelAt<'_>) -> Result<Option<PoleResidue>, NoConvergence> {
         let Some([change]) = at.parameters.first().map(|p| p.coefficients.as_slice()) else {
             return Ok(None);
         };

@@ -1,6 +1,6 @@
 //! Where the basis grows: where the estimated error at the sensors is largest.
 
-use super::assess::{Solved, weights};
+use super::assess::{AssessedSolution, weights};
 use super::shift::Shift;
 use super::{Assessment, Subspace};
 use crate::c64;
@@ -159,7 +159,9 @@ impl<'m> Subspace<'m> {
         let mut kept: Vec<Vec<f64>> = Vec::new();
         let (mut wanted, mut count) = (Vec::new(), 0);
         for point in points.iter().take(2 * SOLVES_PER_ROUND) {
-            let Ok(solved) = Solved::new(self.projection(), &point.at, point.correction) else { continue };
+            let Ok(solved) = AssessedSolution::new(self.projection(), &point.at, point.correction) else {
+                continue;
+            };
             let Assessment { truncation, .. } = &solved.assessment;
             let worst = (0..truncation.len()).max_by(|&a, &b| truncation[a].total_cmp(&truncation[b]));
             for which in std::iter::once(0).chain(worst.map(|m| m + 1)) {

@@ -12,15 +12,15 @@ pub struct ChangeOptions {
     /// Largest estimated error of a derivative at a sensor ([`Changed::relative_truncation`]) to accept. Default 1e-6: error bars are read to two digits, and what
     /// parameters have in common is told from what they have not down to that.
     pub tolerance: f64,
-    /// Largest estimated error of response and derivatives everywhere ([`Changed::elsewhere`]) to accept; `None` (default): it does not matter.
-    pub elsewhere: Option<f64>,
+    /// Largest estimated error of response and derivatives everywhere ([`Changed::everywhere`]) to accept; `None` (default): it does not matter.
+    pub everywhere: Option<f64>,
     /// Solves after which to give up. Default 600.
     pub solves: usize,
 }
 
 impl Default for ChangeOptions {
     fn default() -> Self {
-        Self { tolerance: 1e-6, elsewhere: None, solves: 600 }
+        Self { tolerance: 1e-6, everywhere: None, solves: 600 }
     }
 }
 
@@ -51,8 +51,8 @@ impl<'m> Subspace<'m> {
                 break;
             }
         }
-        if let Some(elsewhere) = options.elsewhere {
-            self.train_elsewhere(points, elsewhere, options.solves, for_each)?;
+        if let Some(everywhere) = options.everywhere {
+            self.train_everywhere(points, everywhere, options.solves, for_each)?;
             let error = self.worst(points, for_each, Changed::relative_truncation);
             trained = Trained { error, converged: error <= options.tolerance };
         }
@@ -71,7 +71,7 @@ impl<'m> Subspace<'m> {
     }
 
     /// Adds S⁻¹ times the residuals of the response and of its derivatives, where these are largest.
-    fn train_elsewhere(
+    fn train_everywhere(
         &mut self,
         points: &[ChangePoint<'m>],
         tolerance: f64,
@@ -82,8 +82,8 @@ impl<'m> Subspace<'m> {
         loop {
             let of = |i: usize| -> Vec<(f64, usize, usize)> {
                 let changed = self.projection().changes(&points[i]);
-                let elsewhere = changed.map_or(Vec::new(), |changed| changed.elsewhere);
-                elsewhere.into_iter().enumerate().map(|(which, error)| (error, i, which)).collect()
+                let everywhere = changed.map_or(Vec::new(), |changed| changed.everywhere);
+                everywhere.into_iter().enumerate().map(|(which, error)| (error, i, which)).collect()
             };
             let mut errors: Vec<(f64, usize, usize)> =
                 map(for_each, points.len(), of).into_iter().flatten().collect();

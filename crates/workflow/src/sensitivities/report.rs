@@ -4,7 +4,7 @@ use super::words::{bar, inseparable as in_words};
 use super::{NextSensor, NoiseFrom, Place, SensitivityRun};
 use crate::load::Case;
 use crate::output::Words;
-use frfit::sensitivity::{KNOWN, WorstBar, inseparable};
+use frfit::sensitivity::{KNOWN_LN_STD, WorstBar, inseparable};
 use frfit_linalg::solve::Breakdown;
 
 /// Table, what is told apart, and the next sensor.
@@ -38,7 +38,11 @@ pub(super) fn text(case: &Case, run: &SensitivityRun) -> Words {
         Some(resolved) => {
             let groups = inseparable(resolved);
             if groups.is_empty() {
-                add(false, "told apart", format!("all parameters, each to {} or better", percent(KNOWN)));
+                add(
+                    false,
+                    "told apart",
+                    format!("all parameters, each to {} or better", percent(KNOWN_LN_STD)),
+                );
             }
             for group in &groups {
                 add(true, "inseparable", in_words(&case.model, &run.variables, resolved, group));

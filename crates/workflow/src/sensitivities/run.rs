@@ -8,8 +8,8 @@ use frfit::c64;
 use frfit::model::{Experiment, Sensor};
 use frfit::response::Work;
 use frfit::sensitivity::{
-    Change, Deviations, Ranked, Resolved, SensitivityBand, Variable, WorstBar, change_points, next_sensors,
-    with_each_added, worst_bar,
+    Change, Ranked, Resolved, SensitivityBand, StandardDeviations, Variable, WorstBar, change_points,
+    next_sensors, with_each_added, worst_bar,
 };
 use frfit::subspace::{ChangeOptions, ChangePoint, Trained};
 use frfit_linalg::dense::NoConvergence;
@@ -146,7 +146,7 @@ fn computed(
     candidates: &[usize],
 ) -> Result<SensitivityRun, Breakdown> {
     let train = ChangeOptions {
-        elsewhere: (!candidates.is_empty()).then_some(ELSEWHERE),
+        everywhere: (!candidates.is_empty()).then_some(ELSEWHERE),
         ..ChangeOptions::default()
     };
     let band = SensitivityBand::new(&case.experiment, variables, points, &train, &parallel)?;
@@ -219,7 +219,7 @@ fn shortlist(ranked: &[Ranked]) -> Vec<(usize, Vec<usize>)> {
 /// The short list with each really added, the best first.
 fn checked(
     again: &SensitivityBand<'_>,
-    deviations: &Deviations,
+    deviations: &StandardDeviations,
     present: usize,
     short: Vec<(usize, Vec<usize>)>,
 ) -> Result<Vec<Place>, NoConvergence> {

@@ -12,7 +12,7 @@ use crate::for_each::map;
 use crate::frequency::omega_rad_s;
 use crate::identify::context::Context;
 use crate::identify::measured::Band;
-use crate::identify::noise::{Noise, deviations, freedom, without};
+use crate::identify::noise::{Noise, freedom, standard_deviations, without};
 use crate::identify::options::Options;
 use crate::identify::outcome::Status;
 use crate::identify::uncertainty::Uncertainty;
@@ -67,8 +67,8 @@ pub(in crate::identify) fn identify_band_scaled(
 ) -> Result<(BandOutcome, Vec<Calibration>), OutsideTable> {
     let at = band.model.at_all(band.frequency_hz, std::slice::from_ref(band.parameter))?;
     let run = |options: &Options| {
-        let mut space = ReducedBand::if_wanted(band, &at, options, hooks);
-        let (outcome, found) = with_scales(band, &at, &mut space, unknown, options, hooks);
+        let mut reduced = ReducedBand::if_wanted(band, &at, options, hooks);
+        let (outcome, found) = with_scales(band, &at, &mut reduced, unknown, options, hooks);
         (outcome, found.unwrap_or_else(|| vec![Calibration::default(); unknown.len()]))
     };
     let (outcome, found) = near_or_far(&on_subspace(options), run);
@@ -79,32 +79,34 @@ pub(in crate::identify) fn identify_band_scaled(
 pub(super) fn with_scales<'a>(
     band: &Band<'a>,
     at: &[ModelAt<'a>],
-    space: &mut Option<ReducedBand<'a, '_>>,
+    reduced: &mut Option<ReducedBand<'a, '_>>,
     unknown: &[ChannelUnknowns],
     options: &Options,
     hooks: Context<'_>,
 ) -> (BandOutcome, Option<Vec<Calibration>>) {
     let hidden: Vec<usize> = (0..unknown.len()).filter(|&m| unknown[m].any()).collect();
-    let first = joint::identify(band, at, space.as_mut(), &hidden, options, hooks);
-    let Some(mut channels) = space.as_ref().and_then(|space| starting(band, at, space, &first, unknown))
+    let first = joint::identify(band, at, reduced.as_mut(), &hidden, options, hooks);
+    let Some(mut channels) =
+        reduced.as_ref().and_then(|reduced| starting(band, at, reduced, &first, unknown))
     else {
         return (first, None);
     };
     for round in 0..MAX_SELECTIONS {
         let scaled = Scaled::new(band, &channels);
         let view = scaled.band(band);
-        let mut outcome = joint::identify(&view, at, space.as_mut(), &[], options, hooks);
-        let told = space.as_ref().and_then(|space| settle(&view, at, space, &outcome, unknown, hooks));
-        let Some(told) = told else { return (first, None) };
-        if told.is_settled(top(band)) || round + 1 == MAX_SELECTIONS {
-            told.widen(&mut outcome);
+        let mut outcome = joint::identify(&view, at, reduced.as_mut(), &[], options, hooks);
+        let estimated =
+            reduced.as_ref().and_then(|reduced| settle(&view, at, reduced, &outcome, unknown, hooks));
+        let Some(estimated) = estimated else { return (first, None) };
+        if estimated.is_settled(top(band)) || round + 1 == MAX_SELECTIONS {
+            estimated.widen(&mut outcome);
             let counted = outcome.sensors.iter().filter(|sensor| !sensor.left_out).count();
             let each = freedom(counted, options.real);
-            outcome.fit = goodness(&outcome.outcomes, each, told.free.len(), &outcome.noise, &view);
-            let found = told.calibrations(&channels, outcome.noise.level);
+            outcome.fit = goodness(&outcome.outcomes, each, estimated.free.len(), &outcome.noise, &view);
+            let found = estimated.calibrations(&channels, outcome.noise.level);
             return (outcome, Some(found));
         }
-        channels = told.better(&channels);
+        channels = estimated.better(&channels);
     }
     (first, None)
 }
@@ -161,13 +163,13 @@ fn answers(outcome: &BandOutcome) -> Vec<(usize, c64)> {
 fn starting(
     band: &Band<'_>,
     at: &[ModelAt<'_>],
-    space: &ReducedBand<'_, '_>,
+    reduced: &ReducedBand<'_, '_>,
     outcome: &BandOutcome,
     unknown: &[ChannelUnknowns],
 ) -> Option<Vec<Channel>> {
     let mut ratios: Vec<Vec<(f64, c64)>> = vec![Vec::new(); unknown.len()];
     for (i, correction) in answers(outcome) {
-        let Ok((x, _)) = space.model(i).respond_with_slope(&at[i], correction) else { continue };
+        let Ok((x, _)) = reduced.model(i).respond_with_slope(&at[i], correction) else { continue };
         for (m, ratios) in ratios.iter_mut().enumerate() {
             ratios.push((omega_rad_s(band.frequency_hz[i]), x[m] / band.measured[i][m]));
         }
@@ -190,12 +192,12 @@ struct CalibrationEstimate {
 fn settle(
     band: &Band<'_>,
     at: &[ModelAt<'_>],
-    space: &ReducedBand<'_, '_>,
+    reduced: &ReducedBand<'_, '_>,
     outcome: &BandOutcome,
     unknown: &[ChannelUnknowns],
     hooks: Context<'_>,
 ) -> Option<CalibrationEstimate> {
-    let sigma = without(&deviations(band.measured, band.noise), &outcome.left_out());
+    let sigma = without(&standard_deviations(band.measured, band.noise), &outcome.left_out());
     let free = free(unknown);
     let n = free.len();
     let top = top(band);
@@ -206,7 +208,7 @@ fn settle(
         let system = |k: usize| -> Option<Local> {
             let (i, correction) = answers[k];
             let omega = omega_rad_s(band.frequency_hz[i]);
-            let (x, slope) = space.model(i).respond_with_slope(&at[i], correction).ok()?;
+            let (x, slope) = reduced.model(i).respond_with_slope(&at[i], correction).ok()?;
             let weighed = |m: usize, value: c64| value / sigma[i][m];
             let turn = |m: usize| c64::from_polar(1.0, -omega * left[m].1);
             let sensors = 0..x.len();
@@ -244,9 +246,9 @@ fn settle(
         }
         // A scale that jumps by half, or half a radian, is far from where the slopes hold.
         let shortened = (0.5 / size).min(1.0);
-        for ((answer, one), moved) in answers.iter_mut().zip(&local).zip(&moved) {
+        for ((estimate, one), moved) in answers.iter_mut().zip(&local).zip(&moved) {
             let other: c64 = moved.iter().zip(&step).map(|(v, d)| v * d).sum();
-            answer.1 += shortened * (one.own() + other);
+            estimate.1 += shortened * (one.own() + other);
         }
         for (free, step) in free.iter().zip(&step) {
             let (gain, late) = &mut left[free.channel];

@@ -37,8 +37,8 @@ pub(super) struct ChannelFit {
     /// −∂t/∂θ_j, what is along −iωγx. None where the delay is known.
     late_moved: Vec<f64>,
     /// Σ |x|²/σ² and Σ ω²|γx|²/σ²: what tells γ and t. Nothing tells them in common, as x and iωx are at right angles.
-    gain_told: f64,
-    late_told: f64,
+    gain_information: f64,
+    late_information: f64,
 }
 
 impl ChannelFit {
@@ -87,13 +87,13 @@ impl Fitting<'_, '_> {
     pub(super) fn channels(
         &self,
         parametrization: &Parametrization,
-        space: &ReducedBand<'_, '_>,
+        reduced: &ReducedBand<'_, '_>,
         theta: &[f64],
     ) -> Option<(Vec<Responded>, Vec<ChannelFit>)> {
         let one = |i: usize| -> Option<Responded> {
             let (modulus, of_theta) = parametrization.modulus(theta, self.omega(i))?;
             let correction = modulus - self.at[i].parameters[0].nominal;
-            let (x, slope) = space.model(i).respond_with_slope(&self.at[i], correction).ok()?;
+            let (x, slope) = reduced.model(i).respond_with_slope(&self.at[i], correction).ok()?;
             Some(Responded { x, slope, of_theta })
         };
         let responses: Vec<Responded> =
@@ -114,8 +114,8 @@ impl Fitting<'_, '_> {
             late_s: 0.0,
             gain_moved: Vec::new(),
             late_moved: Vec::new(),
-            gain_told: size,
-            late_told: 0.0,
+            gain_information: size,
+            late_information: 0.0,
         };
         if !unknown.any() || size == 0.0 {
             return fit;
@@ -131,14 +131,15 @@ impl Fitting<'_, '_> {
             fit.gain = weighed(&|i, one| (product(i, one) * turn(i)).re) / size;
         }
         let gain = fit.gain;
-        fit.late_told = weighed(&|i, one| (self.omega(i) * gain).powi(2) * one.x[m].norm_sqr());
+        fit.late_information = weighed(&|i, one| (self.omega(i) * gain).powi(2) * one.x[m].norm_sqr());
         let along = |j: usize, one: &Responded| one.x[m].conj() * gain * one.slope[m] * one.of_theta[j];
         if unknown.scale {
             fit.gain_moved = (0..n).map(|j| weighed(&|_, one| along(j, one).re) / size).collect();
         }
         if unknown.delay {
             // Re((−iωγx)* γ ∂x/∂θ).
-            let part = |j: usize| weighed(&|i, one| -self.omega(i) * gain * along(j, one).im) / fit.late_told;
+            let part =
+                |j: usize| weighed(&|i, one| -self.omega(i) * gain * along(j, one).im) / fit.late_information;
             fit.late_moved = (0..n).map(part).collect();
         }
         fit
@@ -148,19 +149,19 @@ impl Fitting<'_, '_> {
     pub(super) fn calibrations_of(
         &self,
         law: &LawFit,
-        space: &ReducedBand<'_, '_>,
+        reduced: &ReducedBand<'_, '_>,
     ) -> Option<Vec<[Calibrated; 2]>> {
         let (parametrization, theta) = law.coordinates();
-        let (_, fits) = self.channels(parametrization, space, theta)?;
+        let (_, fits) = self.channels(parametrization, reduced, theta)?;
         let level = if law.sigma_known { 1.0 } else { law.reduced_chi_squared()? };
-        let told = |value: f64, told: f64, moved: &[f64]| {
+        let calibrated = |value: f64, information: f64, moved: &[f64]| {
             let through = law.covariance_of(moved, moved);
-            let std = through.map(|through| (level / told + through).max(0.0).sqrt());
+            let std = through.map(|through| (level / information + through).max(0.0).sqrt());
             Calibrated { value, std: std.filter(|std| std.is_finite()) }
         };
         let both = |fit: &ChannelFit| {
-            let gain = told(fit.gain, fit.gain_told, &fit.gain_moved);
-            [gain, told(fit.late_s, fit.late_told, &fit.late_moved)]
+            let gain = calibrated(fit.gain, fit.gain_information, &fit.gain_moved);
+            [gain, calibrated(fit.late_s, fit.late_information, &fit.late_moved)]
         };
         let usable = |fit: &ChannelFit| fit.gain.is_finite() && fit.gain != 0.0 && fit.late_s.is_finite();
         fits.iter().all(usable).then(|| fits.iter().map(both).collect())
@@ -169,7 +170,7 @@ impl Fitting<'_, '_> {
 
 /// Where a fit begins: the subspace, calibrations, and the factor over the nominal one whose response has the shape that was measured.
 pub(super) struct Begin<'a, 'o> {
-    pub(super) space: Option<ReducedBand<'a, 'o>>,
+    pub(super) reduced: Option<ReducedBand<'a, 'o>>,
     pub(super) channels: Vec<Channel>,
     pub(super) ratio: f64,
 }
@@ -182,23 +183,23 @@ pub(super) fn at_scales<'a, 'o>(
     options: &'o Options,
     hooks: Context<'_>,
 ) -> (BandOutcome, Begin<'a, 'o>) {
-    let mut space = ReducedBand::if_wanted(band, at, options, hooks);
+    let mut reduced = ReducedBand::if_wanted(band, at, options, hooks);
     let right = vec![Channel::CALIBRATED; unknown.len()];
     let is_known = |unknown: &ChannelUnknowns| !unknown.any();
     if unknown.iter().all(is_known) {
-        let outcome = joint::identify(band, at, space.as_mut(), &[], options, hooks);
-        return (outcome, Begin { space, channels: right, ratio: 1.0 });
+        let outcome = joint::identify(band, at, reduced.as_mut(), &[], options, hooks);
+        return (outcome, Begin { reduced, channels: right, ratio: 1.0 });
     }
     if unknown.iter().any(is_known) {
-        let (outcome, found) = with_scales(band, at, &mut space, unknown, options, hooks);
+        let (outcome, found) = with_scales(band, at, &mut reduced, unknown, options, hooks);
         let channels = found.map_or(right, |found| found.iter().map(Channel::of).collect());
-        return (outcome, Begin { space, channels, ratio: 1.0 });
+        return (outcome, Begin { reduced, channels, ratio: 1.0 });
     }
-    let shaped = space.as_ref().and_then(|space| shaped(band, at, space, unknown, options, hooks));
+    let shaped = reduced.as_ref().and_then(|reduced| shaped(band, at, reduced, unknown, options, hooks));
     let (channels, ratio) = shaped.unwrap_or((right, 1.0));
     let scaled = Scaled::new(band, &channels);
-    let outcome = joint::identify(&scaled.band(band), at, space.as_mut(), &[], options, hooks);
-    (outcome, Begin { space, channels, ratio })
+    let outcome = joint::identify(&scaled.band(band), at, reduced.as_mut(), &[], options, hooks);
+    (outcome, Begin { reduced, channels, ratio })
 }
 
 /// Factors of the box that are tried: 2 % apart, as shapes are told by logarithms, which resonances that miss one another by their width do not spoil.
@@ -211,7 +212,7 @@ const SHAPE_FREQUENCIES: usize = 300;
 fn shaped(
     band: &Band<'_>,
     at: &[ModelAt<'_>],
-    space: &ReducedBand<'_, '_>,
+    reduced: &ReducedBand<'_, '_>,
     unknown: &[ChannelUnknowns],
     options: &Options,
     hooks: Context<'_>,
@@ -224,7 +225,7 @@ fn shaped(
     let tried = map(hooks.for_each, SHAPE_FACTORS, |k| {
         let responses = which.iter().map(|&i| {
             let correction = at[i].parameters[0].nominal * (ratio(k) - 1.0);
-            Some(space.model(i).respond_with_slope(&at[i], correction).ok()?.0)
+            Some(reduced.model(i).respond_with_slope(&at[i], correction).ok()?.0)
         });
         let responses: Vec<Vec<c64>> = responses.collect::<Option<_>>()?;
         let misfits =

@@ -55,16 +55,16 @@ pub(super) fn aligned(ratios: &[(f64, c64)], unknown: ChannelUnknowns, top: f64)
 fn best_delay(agreement: impl Fn(f64) -> f64, top: f64) -> f64 {
     let steps = (MAX_DELAY_PHASE_RAD / DELAY_PHASE_STEP_RAD) as i32;
     let step = DELAY_PHASE_STEP_RAD / top;
-    let told = |delay_s: f64| (agreement(delay_s), delay_s);
-    let grid: Vec<(f64, f64)> = (-steps..=steps).map(|k| told(f64::from(k) * step)).collect();
+    let at_delay = |delay_s: f64| (agreement(delay_s), delay_s);
+    let grid: Vec<(f64, f64)> = (-steps..=steps).map(|k| at_delay(f64::from(k) * step)).collect();
     let most = |all: &[(f64, f64)]| all.iter().map(|one| one.0).fold(f64::MIN, f64::max);
     let enough = most(&grid) - GRID_AGREEMENT_LOSS * most(&grid).abs();
     let closer = |&(_, delay_s): &(f64, f64)| {
-        let (mut best, mut step) = (told(delay_s), step);
+        let (mut best, mut step) = (at_delay(delay_s), step);
         for _ in 0..DELAY_REFINEMENTS {
             step /= 10.0;
             let middle = best.1;
-            let near = (-10..=10).map(|k| told(middle + f64::from(k) * step));
+            let near = (-10..=10).map(|k| at_delay(middle + f64::from(k) * step));
             best = near.fold(best, |best, one| if one.0 > best.0 { one } else { best });
         }
         best

@@ -6,14 +6,14 @@ use super::on_reduced::on_reduced;
 use super::outcome::BandOutcome;
 use super::outlier_sensor::contradicting;
 use super::reduced_band::ReducedBand;
-use super::task::{BandSolution, Task};
+use super::task::{BandSolution, PathSelection, Task};
 use super::verdict::{Evidence, verdict};
 use crate::c64;
 use crate::for_each::map;
 use crate::identify::context::{Context, Stage};
 use crate::identify::goodness_of_fit::SensorFit;
 use crate::identify::measured::Band;
-use crate::identify::noise::{deviations, without};
+use crate::identify::noise::{standard_deviations, without};
 use crate::identify::options::Options;
 use crate::identify::outcome::Line;
 use crate::model::ModelAt;
@@ -24,20 +24,20 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 pub(super) fn identify<'a>(
     band: &Band<'a>,
     at: &[ModelAt<'a>],
-    mut space: Option<&mut ReducedBand<'_, '_>>,
+    mut reduced: Option<&mut ReducedBand<'_, '_>>,
     hidden: &[usize],
     options: &Options,
     hooks: Context<'_>,
 ) -> BandOutcome {
-    let assumed = deviations(band.measured, band.noise);
+    let assumed = standard_deviations(band.measured, band.noise);
     let sensors = band.experiment.sensors.len();
     let task = Task { band, at, sigma: &assumed, sensors, options, hooks };
-    let (suspects, spent) = contradicting(&task, space.as_deref_mut(), hidden);
+    let (suspects, spent) = contradicting(&task, reduced.as_deref_mut(), hidden);
     let out = [hidden, if options.reject_outliers { &suspects[..] } else { &[] }].concat();
     let sigma = without(&assumed, &out);
     let task = Task { sigma: &sigma, sensors: sensors - out.len(), ..task };
-    let (solved, mut work) = match space.as_deref_mut() {
-        Some(space) => (on_reduced(&task, space), Work::default()),
+    let (solved, mut work) = match reduced.as_deref_mut() {
+        Some(reduced) => (on_reduced(&task, reduced), Work::default()),
         None => {
             let (found, work) = on_full_model(&task);
             let all: Vec<usize> = (0..at.len()).collect();
@@ -45,7 +45,7 @@ pub(super) fn identify<'a>(
         }
     };
     work += spent;
-    let BandSolution { found, explored, selected: (choices, _) } = solved;
+    let BandSolution { found, explored, selected: PathSelection { choices, .. } } = solved;
     let noise = task.noise_level(&found, &choices);
     let path: Vec<(usize, c64)> = (0..at.len())
         .filter_map(|i| {
@@ -55,12 +55,12 @@ pub(super) fn identify<'a>(
     let outcomes: Vec<Line> = map(hooks.for_each, at.len(), |i| {
         let solution = choices[i].chosen.or_else(|| likeliest(&task.fit(i), &found[i], &path, i));
         let chosen = solution.map(|k| &found[i].solutions[k]);
-        let on_space = space.as_deref().zip(chosen.map(|solution| solution.correction));
+        let on_space = reduced.as_deref().zip(chosen.map(|solution| solution.correction));
         let weighed = |second: Vec<c64>| task.fit(i).weighed(&second);
         // The poles have it without another factorisation; how nearly linear something is takes few digits.
         let second = match (found[i].poles.as_ref().zip(chosen), on_space) {
             (Some((poles, solution)), _) => Some(weighed(poles.second_derivative(solution.correction))),
-            (None, Some((space, c))) => space.second_derivative(i, c).map(weighed),
+            (None, Some((reduced, c))) => reduced.second_derivative(i, c).map(weighed),
             (None, None) => chosen.map(|solution| solution.second),
         };
         let evidence = Evidence {
@@ -70,14 +70,14 @@ pub(super) fn identify<'a>(
             left_out: &out,
             noise: noise.level,
             freedom: task.freedom(),
-            assessment: on_space.and_then(|(space, c)| space.assess(i, c)),
+            assessment: on_space.and_then(|(reduced, c)| reduced.assess(i, c)),
             // What cannot be told is not linear.
             second: second.unwrap_or(f64::INFINITY),
         };
         verdict(&evidence, &found[i], &choices[i], options)
     });
-    if let Some(space) = &space {
-        work += space.work();
+    if let Some(reduced) = &reduced {
+        work += reduced.work();
     }
     let fit = goodness(&outcomes, task.freedom(), 0, &noise, band);
     let sensor = |m: usize| SensorFit {
@@ -89,7 +89,7 @@ pub(super) fn identify<'a>(
     BandOutcome {
         outcomes,
         work,
-        subspace_size: space.as_ref().map(|space| space.size()),
+        subspace_size: reduced.as_ref().map(|reduced| reduced.size()),
         explored,
         noise,
         fit,

@@ -22,11 +22,11 @@ pub(in crate::identify) const OUTLIER_RATIO: f64 = 10.0;
 /// neither can be told to be the wrong one. Those that are `hidden` are left out throughout.
 pub(super) fn contradicting(
     task: &Task<'_, '_>,
-    space: Option<&mut ReducedBand<'_, '_>>,
+    reduced: Option<&mut ReducedBand<'_, '_>>,
     hidden: &[usize],
 ) -> (Vec<usize>, Work) {
     let sensors = task.band.experiment.sensors.len();
-    let mut trial = Trial { task, space, work: Work::default() };
+    let mut trial = Trial { task, reduced, work: Work::default() };
     let mut out: Vec<usize> = hidden.to_vec();
     // A single sensor beside those that are left out explains everything.
     while sensors - out.len() > 2 {
@@ -55,7 +55,7 @@ pub(super) fn contradicting(
 
 struct Trial<'t, 'a, 's, 'b, 'o> {
     task: &'t Task<'t, 'a>,
-    space: Option<&'s mut ReducedBand<'b, 'o>>,
+    reduced: Option<&'s mut ReducedBand<'b, 'o>>,
     work: Work,
 }
 
@@ -72,11 +72,11 @@ impl Trial<'_, '_, '_, '_, '_> {
             let misfits = explored.solutions.iter().map(|solution| solution.misfit);
             misfits.min_by(f64::total_cmp).unwrap_or(f64::INFINITY)
         };
-        let misfits = match &mut self.space {
-            Some(space) => {
+        let misfits = match &mut self.reduced {
+            Some(reduced) => {
                 let find =
                     |i: usize, model: &Projection| best(&task.fit(i).explore_reduced(model, &task.at[i]));
-                space.find(&which, quiet, find)
+                reduced.find(&which, quiet, find)
             }
             None => {
                 let find = |k: usize| {

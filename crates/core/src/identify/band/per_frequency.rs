@@ -18,15 +18,15 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 pub(super) fn identify<'a>(
     band: &Band<'a>,
     at: &[ModelAt<'a>],
-    space: Option<ReducedBand<'a, '_>>,
+    reduced: Option<ReducedBand<'a, '_>>,
     options: &Options,
     hooks: Context<'_>,
 ) -> BandOutcome {
     let broken = |i: usize, breakdown: Breakdown| {
         Line::broken(band.frequency_hz[i], &[at[i].parameters[0].nominal], options.order, breakdown)
     };
-    match space {
-        Some(mut space) => {
+    match reduced {
+        Some(mut reduced) => {
             let find = |i: usize, model: &Projection| match model.at(&at[i]) {
                 Ok(system) => identify_at(&system, &band.measured[i], options),
                 Err(breakdown) => broken(i, breakdown),
@@ -37,11 +37,11 @@ pub(super) fn identify<'a>(
                 corrections.collect()
             };
             let all: Vec<usize> = (0..at.len()).collect();
-            let found = space.find(&all, hooks, find);
-            let found = space.certify(&all, found, hooks, |i, model, _| find(i, model), answers);
+            let found = reduced.find(&all, hooks, find);
+            let found = reduced.certify(&all, found, hooks, |i, model, _| find(i, model), answers);
             let outcomes = found.into_iter().enumerate().map(|(i, mut outcome)| {
                 if let Some(correction) = outcome.correction() {
-                    let assessed = space.assess(i, correction);
+                    let assessed = reduced.assess(i, correction);
                     let certified = assessed
                         .map(|a| reduction_error(&a, outcome.nominal() + correction, &band.measured[i]));
                     outcome.reduction_error =
@@ -55,8 +55,8 @@ pub(super) fn identify<'a>(
             BandOutcome {
                 explored: at.len(),
                 outcomes: outcomes.collect(),
-                work: space.work(),
-                subspace_size: Some(space.size()),
+                work: reduced.work(),
+                subspace_size: Some(reduced.size()),
                 noise: NoiseLevel::UNKNOWN,
                 fit: None,
                 sensors: Vec::new(),

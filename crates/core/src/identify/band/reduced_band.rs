@@ -96,7 +96,7 @@ impl<'a, 'o> ReducedBand<'a, 'o> {
         let count = (n / MIN_NEIGHBOURHOOD_LINES).clamp(1, MAX_NEIGHBOURHOODS);
         let block = |b| Block { ends: [b * n / count, (b + 1) * n / count - 1], model: None };
         let blocks = (0..count).map(block).collect();
-        let mut space = Self {
+        let mut reduced = Self {
             subspace,
             at,
             options,
@@ -108,10 +108,10 @@ impl<'a, 'o> ReducedBand<'a, 'o> {
         };
         let all: Vec<usize> = (0..n).collect();
         let points: Vec<Point<'a>> =
-            thinned(&all, MAX_TRAINING_FREQUENCIES).flat_map(|&i| space.box_points(i)).collect();
+            thinned(&all, MAX_TRAINING_FREQUENCIES).flat_map(|&i| reduced.box_points(i)).collect();
         let training = TrainOptions { tolerance: BOX_TOL, ..TrainOptions::default() };
-        space.subspace.train(&points, &training, hooks.for_each)?;
-        Ok(space)
+        reduced.subspace.train(&points, &training, hooks.for_each)?;
+        Ok(reduced)
     }
 
     /// Some of the frequencies, over the whole band: once the subspace is good at their answers, it is at most of the others.
@@ -129,10 +129,10 @@ impl<'a, 'o> ReducedBand<'a, 'o> {
     ) -> Vec<T> {
         self.localise(which, hooks.for_each);
         let done = AtomicUsize::new(0);
-        let space = &*self;
+        let reduced = &*self;
         (hooks.progress)(Stage::Solutions, 0, which.len());
         map(hooks.for_each, which.len(), |k| {
-            let found = find(which[k], space.model(which[k]));
+            let found = find(which[k], reduced.model(which[k]));
             (hooks.progress)(Stage::Solutions, done.fetch_add(1, Ordering::Relaxed) + 1, which.len());
             found
         })
@@ -150,10 +150,10 @@ impl<'a, 'o> ReducedBand<'a, 'o> {
     ) -> Vec<T> {
         for round in 0..=MAX_REFINEMENT_ROUNDS {
             let answers = answers(&found);
-            let space = &*self;
+            let reduced = &*self;
             let assessed = map(hooks.for_each, answers.len(), |a| {
                 let (k, correction) = answers[a];
-                space.assess(which[k], correction)
+                reduced.assess(which[k], correction)
             });
             let mut uncertain: Vec<(usize, c64)> = Vec::new();
             for ((k, correction), assessed) in answers.into_iter().zip(assessed) {
@@ -264,8 +264,8 @@ impl<'a, 'o> ReducedBand<'a, 'o> {
         let wanted: Vec<usize> = (0..self.blocks.len())
             .filter(|&b| !members(self.blocks[b].ends).is_empty() && outgrown(&self.blocks[b]))
             .collect();
-        let space = &*self;
-        let models = map(for_each, wanted.len(), |k| Arc::new(space.local(space.blocks[wanted[k]].ends)));
+        let reduced = &*self;
+        let models = map(for_each, wanted.len(), |k| Arc::new(reduced.local(reduced.blocks[wanted[k]].ends)));
         wanted.into_iter().zip(models).for_each(|(b, model)| self.blocks[b].model = Some((training, model)));
         for block in &self.blocks {
             for &i in members(block.ends) {

@@ -20,7 +20,7 @@ use crate::frequency::omega_rad_s;
 use crate::identify::context::{Context, Stage};
 use crate::identify::goodness_of_fit::{MAX_RMS_MISFIT, SensorFit, judge};
 use crate::identify::measured::Band;
-use crate::identify::noise::{MIN_NOISE_LEVEL, Noise, NoiseLevel, NoiseSource, deviations, without};
+use crate::identify::noise::{MIN_NOISE_LEVEL, Noise, NoiseLevel, NoiseSource, standard_deviations, without};
 use crate::identify::options::Options;
 use crate::identify::outcome::{Line, Status};
 use crate::identify::uncertainty::Uncertainty;
@@ -89,19 +89,19 @@ pub(in crate::identify) fn identify_smooth(
 ) -> Result<SmoothOutcome, OutsideTable> {
     let at = band.model.at_all(band.frequency_hz, std::slice::from_ref(band.parameter))?;
     let boxes = on_subspace(options);
-    let (mut free, mut space) =
+    let (mut free, mut reduced) =
         near_or_far(&boxes, |options| identify_keeping_model(band, &at, options, hooks));
-    if let Some(space) = &mut space {
-        free = correct(band, &at, free, space, &boxes[0], hooks);
+    if let Some(reduced) = &mut reduced {
+        free = correct(band, &at, free, reduced, &boxes[0], hooks);
     }
-    let assumed = deviations(band.measured, band.noise);
+    let assumed = standard_deviations(band.measured, band.noise);
     let out = free.left_out();
     let sigma = without(&assumed, &out);
     let smoothing = Smoothing { band, at: &at, sigma: &sigma, out: &out, options, hooks };
     (hooks.progress)(Stage::Law, 0, 1);
-    let found = space.and_then(|mut space| Some((smoothing.fit(&mut space, &free)?, space)));
+    let found = reduced.and_then(|mut reduced| Some((smoothing.fit(&mut reduced, &free)?, reduced)));
     (hooks.progress)(Stage::Law, 1, 1);
-    let Some((fitted, space)) = found else {
+    let Some((fitted, reduced)) = found else {
         let outcomes = free.outcomes.iter().map(Line::unanswered).collect();
         return Ok(SmoothOutcome {
             band: BandOutcome { outcomes, fit: None, ..free.clone() },
@@ -111,7 +111,7 @@ pub(in crate::identify) fn identify_smooth(
     };
     let noise = smoothing.noise(&free.noise, fitted.smoothed.level);
     let judged: Vec<Judged> =
-        map(hooks.for_each, at.len(), |i| smoothing.judged(&fitted, &noise, &space, i, &free));
+        map(hooks.for_each, at.len(), |i| smoothing.judged(&fitted, &noise, &reduced, i, &free));
     let explained = || judged.iter().enumerate().filter(|(i, _)| fitted.observations[*i].weight > 0.0);
     let chi_squared = explained().map(|(_, judged)| judged.chi_squared).sum();
     let freedom = explained().map(|(_, judged)| judged.freedom).sum::<f64>().round() as usize;
@@ -123,8 +123,8 @@ pub(in crate::identify) fn identify_smooth(
     };
     let sensors = free.sensors.iter().enumerate().map(sensor).collect();
     let mut work = free.work;
-    work += space.work().since(fitted.before);
-    let subspace_size = Some(space.size());
+    work += reduced.work().since(fitted.before);
+    let subspace_size = Some(reduced.size());
     let smoothed = BandOutcome { outcomes, work, subspace_size, noise, fit, sensors, ..free.clone() };
     Ok(SmoothOutcome {
         free: free.judged_by_fit(),
@@ -183,30 +183,30 @@ impl Smoothing<'_, '_> {
         self.sigma[i].iter().filter(|sigma| sigma.is_finite()).count()
     }
 
-    fn fit(&self, space: &mut ReducedBand<'_, '_>, free: &BandOutcome) -> Option<Fitted> {
-        let before = space.work();
+    fn fit(&self, reduced: &mut ReducedBand<'_, '_>, free: &BandOutcome) -> Option<Fitted> {
+        let before = reduced.work();
         let all: Vec<usize> = (0..self.at.len()).collect();
-        space.localise(&all, self.hooks.for_each);
-        let mut states = self.start(space, free)?;
+        reduced.localise(&all, self.hooks.for_each);
+        let mut states = self.start(reduced, free)?;
         let mut used: Vec<bool> = all.iter().map(|&i| self.log_omega(i).is_finite()).collect();
         let mut round = 0;
         loop {
-            let (linear, smoothed, converged) = self.descend(space, &used, states)?;
+            let (linear, smoothed, converged) = self.descend(reduced, &used, states)?;
             states = smoothed.curve.states.clone();
             let correction = |i: usize| Some(modulus(&states[i]) - self.at[i].parameters[0].nominal);
-            let lacking = space.lacking(correction, self.hooks.for_each);
+            let lacking = reduced.lacking(correction, self.hooks.for_each);
             if round < MAX_TRAINING_ROUNDS
                 && !lacking.is_empty()
-                && space.refine(&lacking, self.hooks).unwrap_or(false)
+                && reduced.refine(&lacking, self.hooks).unwrap_or(false)
             {
-                space.localise(&all, self.hooks.for_each);
+                reduced.localise(&all, self.hooks.for_each);
                 round += 1;
                 continue;
             }
             let odd: Vec<usize> = all
                 .iter()
                 .copied()
-                .filter(|&i| used[i] && self.unexplained(space, &states, smoothed.level, i))
+                .filter(|&i| used[i] && self.unexplained(reduced, &states, smoothed.level, i))
                 .collect();
             let unexplained = all.iter().filter(|&&i| !used[i] && self.log_omega(i).is_finite()).count();
             let few = ((unexplained + odd.len()) as f64) < MAX_OUTLIER_SHARE * all.len() as f64;
@@ -219,22 +219,22 @@ impl Smoothing<'_, '_> {
     }
 
     /// The curve through what each frequency says by itself, moved to where the sensors like it best.
-    fn start(&self, space: &ReducedBand<'_, '_>, free: &BandOutcome) -> Option<Vec<State>> {
+    fn start(&self, reduced: &ReducedBand<'_, '_>, free: &BandOutcome) -> Option<Vec<State>> {
         let own = |i: usize| {
             let none = Observation { x: self.log_omega(i), value: [0.0; 2], weight: 0.0 };
             let outcome = &free.outcomes[i];
-            let answer = outcome
+            let estimate = outcome
                 .factor()
                 .filter(|factor| factor.re > 0.0 && outcome.on_path && outcome.status != Status::Unexplained);
-            let told = answer.and_then(|factor| {
+            let observed = estimate.and_then(|factor| {
                 let (_, slope) =
-                    space.model(i).respond_with_slope(&self.at[i], factor - outcome.nominal()).ok()?;
+                    reduced.model(i).respond_with_slope(&self.at[i], factor - outcome.nominal()).ok()?;
                 let weight =
                     slope.iter().zip(&self.sigma[i]).map(|(s, sigma)| (factor * s / *sigma).norm_sqr()).sum();
                 let log = factor.ln();
                 Some(Observation { value: [log.re, log.im], weight, ..none })
             });
-            told.filter(|o| o.weight.is_finite() && o.x.is_finite()).unwrap_or(none)
+            observed.filter(|o| o.weight.is_finite() && o.x.is_finite()).unwrap_or(none)
         };
         let observations = self.placed((0..self.at.len()).map(own).collect());
         // Among them are wrong ones, so that what is known of the noise does not tell their scatter.
@@ -244,7 +244,7 @@ impl Smoothing<'_, '_> {
             let moved: Vec<State> =
                 states.iter().map(|[value, slope]| [[value[0] + by.ln_1p(), value[1]], *slope]).collect();
             let used = vec![true; moved.len()];
-            let misfit = self.linearised(space, &used, &moved).misfit;
+            let misfit = self.linearised(reduced, &used, &moved).misfit;
             misfit.is_finite().then_some((misfit, moved))
         });
         tried.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, moved)| moved)
@@ -261,7 +261,7 @@ impl Smoothing<'_, '_> {
     }
 
     /// What the sensors say in linear terms about a curve.
-    fn linearised(&self, space: &ReducedBand<'_, '_>, used: &[bool], states: &[State]) -> Linearised {
+    fn linearised(&self, reduced: &ReducedBand<'_, '_>, used: &[bool], states: &[State]) -> Linearised {
         let one = |i: usize| -> (Observation, f64) {
             let log = c64::new(states[i][0][0], states[i][0][1]);
             let none = Observation { x: self.log_omega(i), value: states[i][0], weight: 0.0 };
@@ -269,7 +269,7 @@ impl Smoothing<'_, '_> {
             let correction = modulus - self.at[i].parameters[0].nominal;
             let Some((x, slope)) = Some(used[i])
                 .filter(|used| *used)
-                .and_then(|_| space.model(i).respond_with_slope(&self.at[i], correction).ok())
+                .and_then(|_| reduced.model(i).respond_with_slope(&self.at[i], correction).ok())
             else {
                 return (none, 0.0);
             };
@@ -313,11 +313,11 @@ impl Smoothing<'_, '_> {
     /// Gauss and Newton's steps to the smooth curve.
     fn descend(
         &self,
-        space: &ReducedBand<'_, '_>,
+        reduced: &ReducedBand<'_, '_>,
         used: &[bool],
         mut states: Vec<State>,
     ) -> Option<(Linearised, Smoothed, bool)> {
-        let mut linear = self.linearised(space, used, &states);
+        let mut linear = self.linearised(reduced, used, &states);
         let x: Vec<f64> = linear.observations.iter().map(|o| o.x).collect();
         for step in 0.. {
             let smoothed = smooth(&linear.observations, linear.evidence)?;
@@ -339,7 +339,7 @@ impl Smoothing<'_, '_> {
             let mut part = 1.0;
             for halving in 0..=MAX_HALVINGS {
                 let moved = between(&states, &smoothed.curve.states, part);
-                let there = self.linearised(space, used, &moved);
+                let there = self.linearised(reduced, used, &moved);
                 // A step within the error bars is where everything is linear.
                 let good = largest * part < 1.0 || cost(&there, &moved) <= before;
                 if (good && there.misfit.is_finite()) || halving == MAX_HALVINGS {
@@ -353,9 +353,9 @@ impl Smoothing<'_, '_> {
     }
 
     /// Whether a frequency leaves more than noise at the curve.
-    fn unexplained(&self, space: &ReducedBand<'_, '_>, states: &[State], level: f64, i: usize) -> bool {
+    fn unexplained(&self, reduced: &ReducedBand<'_, '_>, states: &[State], level: f64, i: usize) -> bool {
         let correction = modulus(&states[i]) - self.at[i].parameters[0].nominal;
-        let Ok((x, _)) = space.model(i).respond_with_slope(&self.at[i], correction) else { return false };
+        let Ok((x, _)) = reduced.model(i).respond_with_slope(&self.at[i], correction) else { return false };
         self.is_unexplained(i, &x, level.max(MIN_NOISE_LEVEL))
     }
 
@@ -385,26 +385,26 @@ impl Smoothing<'_, '_> {
         &self,
         fitted: &Fitted,
         noise: &NoiseLevel,
-        space: &ReducedBand<'_, '_>,
+        reduced: &ReducedBand<'_, '_>,
         i: usize,
-        alone: &BandOutcome,
+        per_frequency: &BandOutcome,
     ) -> Judged {
-        let free = &alone.outcomes;
+        let free = &per_frequency.outcomes;
         let (measured, own) = (&self.band.measured[i], &free[i]);
         let mut outcome = own.unanswered();
         let factor = modulus(&fitted.smoothed.curve.states[i]);
         let correction = factor - own.nominal();
-        let Some(assessed) = space.assess(i, correction).filter(|_| self.log_omega(i).is_finite()) else {
+        let Some(assessed) = reduced.assess(i, correction).filter(|_| self.log_omega(i).is_finite()) else {
             return Judged { outcome, chi_squared: 0.0, freedom: 0.0 };
         };
         let level = noise.level.unwrap_or(1.0);
         let certified = reduction_error(&assessed, factor, measured);
         let variance = fitted.smoothed.curve.variance[i];
-        let second = space.second_derivative(i, correction);
+        let second = reduced.second_derivative(i, correction);
         let second = second.map_or(f64::INFINITY, |second| weighed(&second, &self.sigma[i]));
         let part_std = factor.norm() * variance.sqrt();
         let mut bars = Uncertainty::new(factor, self.options.real, part_std, second, level);
-        let both = alone.model_errors.as_ref();
+        let both = per_frequency.model_errors.as_ref();
         if let Some([real, imaginary, both]) =
             both.and_then(|errors| errors.covariance_at(0, i, self.band.frequency_hz[i]))
         {

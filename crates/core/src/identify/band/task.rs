@@ -21,14 +21,19 @@ pub(super) struct Task<'t, 'a> {
     pub(super) hooks: Context<'t>,
 }
 
-/// The choice at each of some frequencies, and noise over σ.
-pub(super) type Selected = (Vec<Choice>, Option<f64>);
+/// One path through some frequencies.
+pub(super) struct PathSelection {
+    /// The choice at each.
+    pub(super) choices: Vec<Choice>,
+    /// Noise over σ.
+    pub(super) level: Option<f64>,
+}
 
 /// What was found at every frequency, at how many of them all solutions were looked for, and what was chosen.
 pub(super) struct BandSolution {
     pub(super) found: Vec<Candidates>,
     pub(super) explored: usize,
-    pub(super) selected: Selected,
+    pub(super) selected: PathSelection,
 }
 
 impl Task<'_, '_> {
@@ -61,7 +66,7 @@ impl Task<'_, '_> {
         &self,
         which: &[usize],
         found: impl Iterator<Item = &'e Candidates>,
-    ) -> Selected {
+    ) -> PathSelection {
         (self.hooks.progress)(Stage::Selection, 0, self.at.len());
         let frequency_hz: Vec<f64> = which.iter().map(|&i| self.band.frequency_hz[i]).collect();
         let nodes: Vec<Vec<Node>> = which
@@ -77,7 +82,7 @@ impl Task<'_, '_> {
         let choices = choose(&frequency_hz, &nodes, &options);
         let level = of_sensors(&nodes, &choices, self.freedom());
         let level = level.map(|level| if options.sigma_known { 1.0 } else { level });
-        (choices, level)
+        PathSelection { choices, level }
     }
 }
 

@@ -78,7 +78,7 @@ impl Estimated {
             let std = covariance(of_factors + t, of_factors + t).max(0.0).sqrt();
             FactorError { term, part, error, std }
         };
-        let told = |omega: &f64| *omega > 0.0 && *omega <= LISTED_ABOVE_BAND * self.highest_rad_s;
+        let is_listed = |omega: &f64| *omega > 0.0 && *omega <= LISTED_ABOVE_BAND * self.highest_rad_s;
         let [frequency_std, shape_std] = self.sizes;
         let errors_of_known =
             self.errors.factors.iter().enumerate().filter(|(t, _)| self.factors[*t].is_known);
@@ -90,7 +90,7 @@ impl Estimated {
                 .omega_rad_s
                 .iter()
                 .enumerate()
-                .filter(|(_, omega)| told(omega))
+                .filter(|(_, omega)| is_listed(omega))
                 .map(mode)
                 .collect(),
             factors: errors_of_known.map(factor).collect(),

@@ -38,18 +38,18 @@ pub use found::{FactorError, Leverage, ModeError, ModelErrorsFound};
 pub(super) use search::PointAt;
 
 use frfit_linalg::dense::Cholesky;
-use search::{FactorPrior, Fitting, Found, Place, Sizes};
+use search::{FactorPrior, Fitting, Minimum, Place, Sizes};
 
 /// What is known of the noise.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Deviations {
+pub(super) enum NoiseScale {
     /// σ is that of the noise.
     Known,
     /// σ is what the noise is in proportion to.
     Relative,
 }
 
-impl Deviations {
+impl NoiseScale {
     pub(super) fn of(noise: Noise<'_>) -> Self {
         if matches!(noise, Noise::Known(_)) { Self::Known } else { Self::Relative }
     }
@@ -68,14 +68,14 @@ pub(super) struct Measured<'t, 'a> {
     pub(super) sigma: &'t [Vec<f64>],
     /// The responses themselves, as deviations.
     pub(super) size: &'t [Vec<f64>],
-    pub(super) deviations: Deviations,
+    pub(super) noise_scale: NoiseScale,
     /// What the user says of the sizes of errors.
     pub(super) given_sizes: ErrorSizes,
     /// What each frequency says by itself, and noise over σ by that.
     pub(super) free: &'t [Line],
     /// The unknowns that each frequency has a value of its own of.
     pub(super) own: &'t [usize],
-    pub(super) alone: Option<f64>,
+    pub(super) level_per_frequency: Option<f64>,
 }
 
 /// Modes up to this many times the highest frequency, and so many at most.
@@ -146,7 +146,7 @@ impl Sizes {
 
 /// A fit at a level of the noise.
 struct Explained {
-    found: Found,
+    found: Minimum,
     sizes: Sizes,
     level: f64,
     /// −2 ln of the evidence, up to what all explanations share.
@@ -479,7 +479,7 @@ impl<'a> Measured<'_, 'a> {
     }
 
     fn known(&self) -> bool {
-        self.deviations == Deviations::Known
+        self.noise_scale == NoiseScale::Known
     }
 
     /// Whether noise is all that a smooth modulus leaves.
@@ -491,7 +491,9 @@ impl<'a> Measured<'_, 'a> {
                 let sensors = self.sigma[0].iter().filter(|sigma| sigma.is_finite()).count();
                 let contradicted = sensors > 1 || curves.smooth().is_empty();
                 let least = if contradicted { MIN_NOISE_OVER_RESPONSE } else { MIN_NOISE_OF_ONE_SENSOR };
-                let usual = self.alone.map_or(0.0, |alone| alone * (1.0 + NOISE_CHI_SQUARED_STD / n.sqrt()));
+                let usual = self.level_per_frequency.map_or(0.0, |level_per_frequency| {
+                    level_per_frequency * (1.0 + NOISE_CHI_SQUARED_STD / n.sqrt())
+                });
                 right.level <= least.max(usual)
             }
         }
@@ -570,14 +572,14 @@ impl<'a> Measured<'_, 'a> {
             let of_prior = Cholesky::new(n, &precision).ok()?.log_determinant();
             let evidence =
                 logs + found.normal.chi_squared + found.prior + factor.log_determinant() - of_prior;
-            let told: f64 =
+            let determined: f64 =
                 (0..n).map(|i| 1.0 - precision[i * n + i] * variance(i)).map(|t| t.clamp(0.0, 1.0)).sum();
             let chi_squared = found.normal.chi_squared;
             let before = (level, sizes);
             last = Some(Explained { found, sizes, level, evidence });
             if !known {
-                level =
-                    (level * (chi_squared / (numbers - told).max(1.0)).sqrt()).max(MIN_NOISE_OVER_RESPONSE);
+                level = (level * (chi_squared / (numbers - determined).max(1.0)).sqrt())
+                    .max(MIN_NOISE_OVER_RESPONSE);
             }
             for part in 0..2 {
                 let (bends, count) = fitting.curves.bends(part);
@@ -586,18 +588,19 @@ impl<'a> Measured<'_, 'a> {
                     (0..m * m).map(|k| bends[k] * of(k / m, k % m)).sum()
                 };
                 let squares = sum(&|i, j| place[i] * place[j]);
-                let untold = sum(&|i, j| inverse[i * n + j]) / sizes.bend[part].powi(2);
-                let told = (count as f64 - untold).clamp(0.0, count as f64);
+                let undetermined = sum(&|i, j| inverse[i * n + j]) / sizes.bend[part].powi(2);
+                let determined = (count as f64 - undetermined).clamp(0.0, count as f64);
                 let [least, most] = BEND_RANGE;
-                sizes.bend[part] = ((squares + PRIOR_MODES) / (told + PRIOR_MODES)).sqrt().clamp(least, most);
+                sizes.bend[part] =
+                    ((squares + PRIOR_MODES) / (determined + PRIOR_MODES)).sqrt().clamp(least, most);
             }
             if !fitting.shapes().is_empty() {
                 // The size that some errors show; what was known of it counts as so many errors.
                 let fresh = |of: Vec<usize>, size: f64, (prior, count): (f64, f64)| {
                     let squares: f64 = of.iter().map(|&i| (place[i] / fitting.growth(i)).powi(2)).sum();
                     let share = |i: usize| variance(i) / (size * fitting.growth(i)).powi(2);
-                    let told: f64 = of.iter().map(|&i| (1.0 - share(i)).clamp(0.0, 1.0)).sum();
-                    ((squares + count * prior * prior) / (told + count)).sqrt()
+                    let determined: f64 = of.iter().map(|&i| (1.0 - share(i)).clamp(0.0, 1.0)).sum();
+                    ((squares + count * prior * prior) / (determined + count)).sqrt()
                 };
                 if self.given_sizes.frequency.is_none() {
                     sizes.frequency = fresh(

@@ -75,7 +75,7 @@ pub(super) struct Normal {
 }
 
 /// A minimum.
-pub(super) struct Found {
+pub(super) struct Minimum {
     pub(super) place: Place,
     pub(super) normal: Normal,
     pub(super) prior: f64,
@@ -363,7 +363,7 @@ impl Fitting<'_, '_> {
         sigma: &[Vec<f64>],
         precision: &[f64],
         steps: usize,
-    ) -> Option<Found> {
+    ) -> Option<Minimum> {
         let n = self.count();
         let prior = |place: &[f64]| -> (f64, Vec<f64>) {
             let off = |i: usize| place[i] - self.centre.get(i).copied().unwrap_or(0.0);
@@ -409,7 +409,7 @@ impl Fitting<'_, '_> {
                 }
             }
         }
-        Some(Found { place, normal, prior: of_prior })
+        Some(Minimum { place, normal, prior: of_prior })
     }
 }
 

@@ -68,13 +68,13 @@ impl Coordinates {
                 Form::Scaled(scale) => {
                     limits.push(one.bounds.storage.unwrap_or(UNBOUNDED).map(|bound| bound / scale))
                 }
-                Form::Law(law) if law.family == LawKind::Constant => {
+                Form::Law(law) if law.kind == LawKind::Constant => {
                     limits.extend([
                         log_limits(one.bounds.storage),
                         one.bounds.loss_factor.unwrap_or(UNBOUNDED),
                     ]);
                 }
-                Form::Law(law) => limits.extend(vec![UNBOUNDED; law.family.count()]),
+                Form::Law(law) => limits.extend(vec![UNBOUNDED; law.kind.count()]),
             }
             each.push(Own { unknowns: j, range: count..count + own, form });
             count += own;
@@ -101,7 +101,7 @@ impl Coordinates {
         let of = |own: &Own| match &own.form {
             Form::Logarithm => vec![values[own.unknowns].re.ln()],
             Form::Scaled(scale) => vec![values[own.unknowns].re / scale],
-            Form::Law(parametrization) if parametrization.family == LawKind::Constant => {
+            Form::Law(parametrization) if parametrization.kind == LawKind::Constant => {
                 let value = values[own.unknowns];
                 parametrization.coordinates(&[value.re, crate::material::loss_factor(value)])
             }
@@ -130,7 +130,7 @@ impl Own {
     }
 
     /// Its law, where it has one: a complex constant is one too.
-    pub(super) fn family(&self) -> Option<LawKind> {
-        self.form.family()
+    pub(super) fn kind(&self) -> Option<LawKind> {
+        self.form.kind()
     }
 }

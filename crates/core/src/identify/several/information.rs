@@ -70,18 +70,18 @@ impl Information {
             free.iter().zip(v).for_each(|(&c, value)| all[c] = value);
             all
         };
-        Some(Self::new(&columns, free.len())?.told_from(0).into_iter().map(expanded).collect())
+        Some(Self::new(&columns, free.len())?.identifiable_from(0).into_iter().map(expanded).collect())
     }
 
     /// The same without the direction that is told worst.
-    pub(super) fn told_but_the_first(&self) -> Vec<Vec<f64>> {
-        self.told_from(1)
+    pub(super) fn identifiable_but_the_first(&self) -> Vec<Vec<f64>> {
+        self.identifiable_from(1)
     }
 
-    fn told_from(&self, first: usize) -> Vec<Vec<f64>> {
+    fn identifiable_from(&self, first: usize) -> Vec<Vec<f64>> {
         let n = self.values.len().max(1);
-        let told =
+        let identifiable =
             self.vectors.chunks_exact(n).zip(&self.values).skip(first).filter(|(_, value)| **value > 0.0);
-        told.map(|(v, _)| v.to_vec()).collect()
+        identifiable.map(|(v, _)| v.to_vec()).collect()
     }
 }

@@ -103,30 +103,30 @@ impl Task<'_, '_> {
             .coordinates
             .each
             .iter()
-            .flat_map(|one| names(one.family()).into_iter().map(move |name| (one.unknowns, name)))
+            .flat_map(|one| names(one.kind()).into_iter().map(move |name| (one.unknowns, name)))
             .collect();
         let (directions, correlation) = match &information {
             Some(information) if n > 0 => (directions(information, level), correlation(information, found)),
             _ => (Vec::new(), Vec::new()),
         };
-        let told = place.as_ref().zip(information.as_ref());
+        let informed = place.as_ref().zip(information.as_ref());
         let profile = directions
             .first()
             .filter(|_| n > 1)
-            .and_then(|worst| self.profile(space, found, told?, worst, level?));
+            .and_then(|worst| self.profile(space, found, informed?, worst, level?));
         let band = found.coordinates.each.iter().map(|one| {
             let (values, slopes) = one.numbers(&found.theta);
             let std = |row: &[f64]| {
                 let gradient = one.gradient(row.iter().copied(), n);
                 Some(level? * information.as_ref()?.covariance(&gradient, &gradient).sqrt())
             };
-            let numbers: Vec<Number> = names(one.family())
+            let numbers: Vec<Number> = names(one.kind())
                 .into_iter()
                 .zip(values.iter().zip(&slopes))
                 .map(|(name, (&value, row))| Number { name, value, std: std(row) })
                 .collect();
-            let law = match one.family() {
-                Some(family) => family.law(&values),
+            let law = match one.kind() {
+                Some(kind) => kind.law(&values),
                 None => Law::Constant(c64::new(values[0], 0.0)),
             };
             let unknowns = &self.problem.unknowns[one.unknowns];
@@ -234,7 +234,7 @@ impl Task<'_, '_> {
         known: Option<&Known<'_>>,
     ) -> Vec<LineValue> {
         let spot = self.spot(i);
-        let alone = spot.covariance(solution);
+        let own = spot.covariance(solution);
         let n = found.theta.len();
         // Gradient of one of its own coordinates by θ.
         let gradient = |a: usize| -> Vec<f64> {
@@ -251,7 +251,7 @@ impl Task<'_, '_> {
                 let b = first + unknowns.per_frequency() - 1;
                 first = b + 1;
                 let both =
-                    |a: usize, b: usize| size * size * (alone[a][b] + of_theta(&gradient(a), &gradient(b)));
+                    |a: usize, b: usize| size * size * (own[a][b] + of_theta(&gradient(a), &gradient(b)));
                 Some([both(a, a), both(a, b), both(b, b)])
             } else {
                 let own = found.coordinates.each.iter().find(|own| own.unknowns == j);
@@ -281,7 +281,7 @@ impl Task<'_, '_> {
         let mut along = vec![0.0; found.theta.len()];
         worst.weights.iter().for_each(|&(c, weight)| along[c] = weight);
         // The worst is the first of the eigenvectors; what is told of the others is at right angles to it.
-        let others = information.told_but_the_first();
+        let others = information.identifiable_but_the_first();
         let reach = (PROFILE_REACH_STD * worst.std / PROFILE_POINTS as f64)
             .min(MAX_PROFILE_REACH / PROFILE_POINTS as f64);
         let mut points = Vec::new();
@@ -339,9 +339,9 @@ fn bars(nominal: c64, value: c64, real: bool, covariance: Option<([f64; 3], f64)
     LineValue { uncertainty: Some(uncertainty), ..found }
 }
 
-fn names(family: Option<LawKind>) -> Vec<String> {
-    match family {
-        Some(family) => family.parameters().into_iter().map(|name| name.name).collect(),
+fn names(kind: Option<LawKind>) -> Vec<String> {
+    match kind {
+        Some(kind) => kind.parameters().into_iter().map(|name| name.name).collect(),
         None => vec!["value".to_owned()],
     }
 }

@@ -36,7 +36,7 @@ pub(super) use outcome::SeveralOutcome;
 pub use outcome::{BandValue, Direction, Number, Profile};
 
 use super::context::Context;
-use super::noise::{NoiseLevel, deviations};
+use super::noise::{NoiseLevel, standard_deviations};
 use super::options::Options;
 use super::outcome::Line;
 use super::problem::Problem;
@@ -85,7 +85,7 @@ pub(super) fn identify_several(
         problem,
         nominal: &nominal,
         omegas: frfs.frequency_hz.iter().map(|&f| omega_rad_s(f)).collect(),
-        sigma: deviations(frfs.receptance, frfs.noise),
+        sigma: standard_deviations(frfs.receptance, frfs.noise),
         left_out: Vec::new(),
         options,
         hooks,

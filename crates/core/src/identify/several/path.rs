@@ -113,11 +113,11 @@ impl Spot<'_> {
         if n == 0 {
             return Vec::new();
         }
-        let untold = |a: usize, b: usize| if a == b { f64::INFINITY } else { 0.0 };
+        let unknown = |a: usize, b: usize| if a == b { f64::INFINITY } else { 0.0 };
         let inverse = inverse_information(&solution.of_own, n);
         let entry = |a: usize, b: usize| {
-            let told = inverse.as_ref().map(|inverse| inverse[a][b]).filter(|value| value.is_finite());
-            told.unwrap_or_else(|| untold(a, b))
+            let finite = inverse.as_ref().map(|inverse| inverse[a][b]).filter(|value| value.is_finite());
+            finite.unwrap_or_else(|| unknown(a, b))
         };
         (0..n).map(|a| (0..n).map(|b| entry(a, b)).collect()).collect()
     }

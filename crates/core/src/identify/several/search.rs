@@ -53,8 +53,8 @@ const SCAN_VALUES: usize = 16;
 const WHOLE_MODEL_STARTS: usize = 4;
 
 /// Frequencies at which solutions are looked for all over the box: so many at least, and every so-many-th at least. Between them those of both sides are followed.
-const MIN_ANCHORS: usize = 12;
-const ANCHOR_STRIDE: usize = 8;
+const MIN_GRID_LINES: usize = 12;
+const MAX_GRID_STRIDE: usize = 8;
 
 /// Choices among the solutions, each at better θ; they change what is chosen hardly ever after the first.
 const MAX_CHOICE_ROUNDS: usize = 4;
@@ -173,7 +173,7 @@ impl Task<'_, '_> {
                 .map(|(&omega, nominal)| Datum::relative(omega, nominal[j] * ratio))
                 .collect();
             nearest(parametrization, &data)
-                .map_or_else(|| vec![0.0; parametrization.family.count()], |near| near.best.theta)
+                .map_or_else(|| vec![0.0; parametrization.kind.count()], |near| near.best.theta)
         };
         self.coordinates().of(values, law)
     }
@@ -239,13 +239,13 @@ impl Task<'_, '_> {
                 map(self.hooks.for_each, n, |k| self.settled(&at, which[k], &[Vec::new()], None))
             }
             Guess::Everywhere(values) => {
-                let anchors: Vec<usize> = (0..n).step_by((n / MIN_ANCHORS).clamp(1, ANCHOR_STRIDE)).collect();
-                let found = map(self.hooks.for_each, anchors.len(), |a| {
-                    self.everywhere(&at, which[anchors[a]], values)
-                });
+                let grid: Vec<usize> =
+                    (0..n).step_by((n / MIN_GRID_LINES).clamp(1, MAX_GRID_STRIDE)).collect();
+                let found =
+                    map(self.hooks.for_each, grid.len(), |a| self.everywhere(&at, which[grid[a]], values));
                 let beside = |k: usize| {
-                    let after = anchors.partition_point(|&anchor| anchor <= k);
-                    [after.saturating_sub(1), after.min(anchors.len() - 1)]
+                    let after = grid.partition_point(|&explored| explored <= k);
+                    [after.saturating_sub(1), after.min(grid.len() - 1)]
                 };
                 map(self.hooks.for_each, n, |k| from(&found, k, &beside(k)))
             }

@@ -79,7 +79,7 @@ fn all_solutions_of_two_unknowns_are_found() {
         problem: &problem,
         nominal: &nominal,
         omegas: frequency_hz.iter().map(|&f| omega_rad_s(f)).collect(),
-        sigma: deviations(&measured, Noise::Unknown),
+        sigma: standard_deviations(&measured, Noise::Unknown),
         left_out: Vec::new(),
         options: &options,
         hooks,
