@@ -4,13 +4,11 @@ use crate::common;
 use crate::noise;
 use crate::tier::{of_tier, scatter_of_95};
 
-use common::{Band, Case, bar, plate, sandwich};
+use common::{Band, Case, Setup, bar, plate, sandwich};
 use frfit::c64;
 use frfit::for_each::sequential;
 use frfit::frequency::linear_hz;
-use frfit::identify::{
-    Context, Explained, Identification, Noise as Known, Options, Stage, Status, Variation,
-};
+use frfit::identify::{Context, Explained, Identification, Noise as Known, Stage, Status, Variation};
 use frfit::laws::{LawFit, LawKind, best};
 use frfit::material::{Law, loss_factor};
 use frfit::roots::Bounds;
@@ -56,7 +54,7 @@ fn identify(
         noise,
     };
     let hooks = Context { for_each: &sequential, progress: &quiet };
-    band.identify(Variation::Law(kinds.to_vec()), &[], &Options { bounds, ..Options::default() }, hooks)
+    band.identify(Variation::Law(kinds.to_vec()), &[], &Setup::within(bounds), hooks)
 }
 
 fn parameter(fit: &LawFit, name: &str) -> (f64, f64) {

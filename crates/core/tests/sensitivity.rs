@@ -238,7 +238,7 @@ fn elsewhere_is_as_good_as_it_says() {
         let points = change_points(&case.model, &variables, &frequency_hz).unwrap();
         let trained = |everywhere| {
             let mut subspace = Subspace::new(&case.experiment, &points[points.len() - 1].at).unwrap();
-            let options = ChangeOptions { everywhere, ..ChangeOptions::default() };
+            let options = ChangeOptions::default().with_everywhere(everywhere);
             assert!(subspace.train_changes(&points, &options, &sequential).unwrap().converged);
             subspace
         };
@@ -333,7 +333,7 @@ fn the_next_sensor_is_the_best_of_all_rows() {
     let case = sandwich(6, 2);
     let frequency_hz = linear_hz(20.0, 1000.0, 40);
     let variables = Variable::of_model(&case.model, &frequency_hz).unwrap();
-    let options = ChangeOptions { everywhere: Some(1e-3), ..ChangeOptions::default() };
+    let options = ChangeOptions::default().with_everywhere(Some(1e-3));
     let band = band(&case.model, &case.experiment, &variables, &frequency_hz, options);
     let deviations = band.proportional(0.01);
     let rows: Vec<usize> = (0..case.model.dim()).collect();

@@ -84,7 +84,7 @@ fn largest_error(measured: &Measured, decay_per_s: f64) -> f64 {
 #[test]
 fn every_estimator_finds_the_transfer_function_of_clean_records() {
     for estimator in Estimator::ALL {
-        let options = Options { estimator, ..Options::default() };
+        let options = Options::default().with_estimator(estimator);
         let measured = estimate_frf(&[hit(100.0), hit(80.0)], &options).unwrap();
         assert_eq!((measured.samples, measured.averages()), (SAMPLES, 2));
         // 1 Hz apart, without 0 Hz and the Nyquist frequency.
@@ -105,8 +105,8 @@ fn one_hit_has_no_coherence() {
 #[test]
 fn the_exponential_window_shifts_the_line_on_which_the_frf_is_taken() {
     let tau_s = 0.1;
-    let windows = Windows { exponential_s: Some(tau_s), ..Windows::default() };
-    let options = Options { windows, ..Options::default() };
+    let windows = Windows::default().with_exponential_s(Some(tau_s));
+    let options = Options::default().with_windows(windows);
     let measured = estimate_frf(&[hit(100.0)], &options).unwrap();
     assert_eq!(measured.added_decay_per_s, Some(10.0));
     // Exact, as the response has decayed: see the clean records.
@@ -121,9 +121,9 @@ fn the_force_window_silences_what_comes_after_the_contact() {
     let mut noisy = hit(100.0);
     Noise(1).add_to(&mut noisy.force[120..], 2.0);
     // The noise would be taken for further contacts: the window is for what is below that.
-    let windows = Windows { force_s: Some(0.008), ..Windows::default() };
+    let windows = Windows::default().with_force_s(Some(0.008));
     let error = |windows| {
-        let options = Options { windows, ..Options::default() };
+        let options = Options::default().with_windows(windows);
         largest_error(&estimate_frf(std::slice::from_ref(&noisy), &options).unwrap(), 0.0)
     };
     assert!(error(windows) < LEFT, "{:e}", error(windows));
@@ -178,7 +178,7 @@ fn h1_is_too_small_where_the_force_is_noisy_and_h2_too_large_where_the_response_
     };
     // The mean of |H| over its truth at low frequencies.
     let gain = |hits: &[Recording], estimator| {
-        let options = Options { estimator, ..Options::default() };
+        let options = Options::default().with_estimator(estimator);
         let measured = estimate_frf(hits, &options).unwrap();
         let pairs = measured.frequency_hz.iter().zip(&measured.frfs[0].response).take(100);
         pairs.map(|(&f, h)| h.norm() / transfer(f, 0.0).norm()).sum::<f64>() / 100.0
@@ -212,7 +212,7 @@ fn hits_of_a_long_recording_are_cut_out() {
     assert_eq!(measured.samples, 1100);
     assert_eq!(measured.impacts[2].faults, [Fault::Incomplete { samples: 900, of: 1100 }]);
     assert!(largest_error(&measured, 0.0) < LEFT);
-    let options = Options { length_s: Some(0.9), pre_trigger_s: Some(0.02), ..Options::default() };
+    let options = Options::default().with_length_s(Some(0.9)).with_pre_trigger_s(Some(0.02));
     let measured = estimate_frf(&[recording], &options).unwrap();
     assert_eq!((measured.samples, measured.averages()), (900, 4));
     assert_eq!(measured.impacts[1].range, 1280..2180);
@@ -300,7 +300,7 @@ fn a_bad_hit_can_be_kept_and_none_is_an_answer_of_its_own() {
         panic!("a spike is no hit")
     };
     assert_eq!(hits.len(), 1);
-    let keep = |keep: Vec<usize>| Options { keep, ..Options::default() };
+    let keep = |keep: Vec<usize>| Options::default().with_keep(keep);
     let kept = estimate_frf(&[bad.clone(), hit(1.0)], &keep(vec![1])).unwrap();
     assert!(kept.averages() == 2 && kept.impacts[0].kept_anyway && kept.impacts[0].faults.len() == 1);
     assert_eq!(estimate_frf(&[bad], &keep(vec![2])), Err(SignalError::NoSuchImpact(2, 1)));
@@ -337,7 +337,7 @@ fn recordings_that_do_not_fit_together_and_options_that_cannot_be_are_refused() 
         refused(&|r| r.responses[0][3] = f64::INFINITY),
         "recording 2: expected finite samples, found others in channel response 1"
     );
-    let options = Options { length_s: Some(-1.0), ..Options::default() };
+    let options = Options::default().with_length_s(Some(-1.0));
     let error = estimate_frf(&[hit(1.0)], &options).unwrap_err();
     assert_eq!(error.to_string(), "length: expected a positive number, found -1");
 }
@@ -357,7 +357,7 @@ proptest! {
         // The record begins later: the same hit nearer to its beginning.
         changed.force.drain(..start);
         changed.responses[0].drain(..start);
-        let measured = estimate_frf(&[changed], &Options { drift: 1.0, ..Options::default() }).unwrap();
+        let measured = estimate_frf(&[changed], &Options::default().with_drift(1.0)).unwrap();
         for (&f, h) in measured.frequency_hz.iter().zip(&measured.frfs[0].response) {
             let truth = transfer(f, 0.0);
             // Roundoff of the offset, and 1e-8 of the response left at the end.
@@ -373,9 +373,7 @@ proptest! {
         count in 1..4_usize, length in proptest::option::of(1e-3..0.1_f64), before in proptest::option::of(0.0..0.1_f64),
     ) {
         let recording = Recording { step_s: STEP_S, force, responses: vec![response] };
-        let options = Options {
-            length_s: length, pre_trigger_s: before, keep: vec![1], ..Options::default()
-        };
+        let options = Options::default().with_length_s(length).with_pre_trigger_s(before).with_keep(vec![1]);
         if let Ok(measured) = estimate_frf(&vec![recording; count], &options) {
             let frf = &measured.frfs[0];
             prop_assert!(frf.response.iter().all(|h| h.is_finite()));

@@ -263,7 +263,7 @@ fn the_loss_factor_is_found_from_windowed_responses_in_every_way() {
     let exact = |value: c64, within: f64| {
         (value - c(1e7, 1e5)).norm() < within * 1e7 && (loss_factor(value) - 0.01).abs() < within
     };
-    let full = Options { reduction: Reduction::Full, ..Options::default() };
+    let full = Options::default().with_reduction(Reduction::Full);
     for (varies, options) in [
         (Variation::PerFrequency, Options::default()),
         (Variation::PerFrequency, full),

@@ -363,5 +363,6 @@ fn refusal(error: SignalError, records: &Records, files: &[PathBuf]) -> InputErr
             let told = hit_reasons(records, &hits);
             InputError::at(&Place::file(file(0)), "a hit without fault", format!("none: {told}"))
         }
+        other => InputError::at(&Place::file(file(0)), "records of a hammer test", other.to_string()),
     }
 }

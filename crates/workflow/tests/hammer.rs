@@ -110,9 +110,10 @@ fn pyfrf_estimates_the_same_needs_data_and_pyfrf_and_lvm_read() {
     let records = read_records(std::slice::from_ref(&file), &ChannelOptions::default()).unwrap();
     // The second contact of the third hit is 20 % of the first: with a limit above that four hits are averaged.
     for (double_hit, averages) in [(0.1, 3), (0.25, 4)] {
-        let options = Options { double_impact: double_hit, ..Options::default() };
-        let estimate =
-            |estimator| estimate_frf(&records.recordings, &Options { estimator, ..options.clone() }).unwrap();
+        let options = Options::default().with_double_impact(double_hit);
+        let estimate = |estimator| {
+            estimate_frf(&records.recordings, &options.clone().with_estimator(estimator)).unwrap()
+        };
         let (h1, h2) = (estimate(Estimator::H1), estimate(Estimator::H2));
         assert_eq!(h1.averages(), averages);
         let kept = h1.impacts.iter().filter(|hit| hit.is_kept());

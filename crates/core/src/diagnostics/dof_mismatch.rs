@@ -6,7 +6,7 @@ use super::responses::{Law, Responses};
 use super::search::{Fitted, Search, Written};
 use crate::c64;
 use crate::for_each::map;
-use crate::identify::Options;
+use crate::identify::{Band, Options};
 use crate::model::{Experiment, ModelAt, Sensor};
 use crate::subspace::Drive;
 
@@ -36,12 +36,13 @@ type Scored = (usize, f64, Law);
 /// The best rows for every sensor and for the load, each fitted on a model that was trained for it.
 pub(super) fn dof_mismatch<'a>(
     search: &Search<'_, 'a>,
-    experiment: &Experiment,
+    band: &Band<'_>,
     at: &[ModelAt<'a>],
     options: &Options,
     data_hypothesis: &DataHypothesis,
     laws: &[Vec<Law>],
 ) -> Vec<Tried> {
+    let experiment = band.experiment;
     let sensors = experiment.sensors.len();
     let driven: Vec<usize> =
         (0..experiment.load.len()).filter(|&row| experiment.load[row] != c64::default()).collect();
@@ -62,7 +63,9 @@ pub(super) fn dof_mismatch<'a>(
         load: experiment.load.clone(),
         sensors: experiment.sensors.iter().copied().chain(places).collect(),
     };
-    let Ok(mut responses) = Responses::new(&wider, at, options, search.for_each) else { return Vec::new() };
+    let Ok(mut responses) = Responses::new(&wider, band.unknown, at, options, search.for_each) else {
+        return Vec::new();
+    };
     for m in 0..sensors {
         responses.add(|poles| poles.residues(m, Drive::Load));
     }

@@ -83,7 +83,7 @@ pub(super) fn look<T>(
         return Ok((diagnosis, None));
     }
     let at = band.model.at_all(&frequency_hz, std::slice::from_ref(band.parameter))?;
-    let mut responses = match Responses::new(band.experiment, &at, options, for_each) {
+    let mut responses = match Responses::new(band.experiment, band.unknown, &at, options, for_each) {
         Ok(responses) => responses,
         Err(reason) => {
             diagnosis.not_judged = Some(match reason {
@@ -110,7 +110,7 @@ pub(super) fn look<T>(
             true => Vec::new(),
             false => {
                 let laws = laws_of_other_rows(&search, &grid, &data_hypothesis, &current);
-                dof_mismatch(&search, band.experiment, &at, options, &data_hypothesis, &laws)
+                dof_mismatch(&search, band, &at, options, &data_hypothesis, &laws)
             }
         };
         let best_row = likeliest_row(&rows, &current, band.model.dim());

@@ -62,12 +62,11 @@ pub fn diagnose(
     for (j, unknown) in problem.unknowns().iter().enumerate() {
         let Some(parameter) = unknown.parameter() else { continue };
         let about = problem.model_about(j)?;
-        let mut band = problem.band(&parameter);
+        let mut band = problem.band(j, &parameter);
         band.model = about.as_ref().unwrap_or(band.model);
-        let options = Options { bounds: unknown.bounds, real: unknown.real, ..*options };
         let mut found = match sensors > many::MAX_FITTED_SENSORS {
-            true => many::diagnose(&band, quantities, &options, for_each)?,
-            false => few::look(&band, quantities, &options, for_each, &|_| ())?.0,
+            true => many::diagnose(&band, quantities, options, for_each)?,
+            false => few::look(&band, quantities, options, for_each, &|_| ())?.0,
         };
         work += found.work;
         if problem.unknowns().len() > 1 {

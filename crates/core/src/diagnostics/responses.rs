@@ -2,7 +2,7 @@
 
 use crate::c64;
 use crate::for_each::{ForEach, map};
-use crate::identify::Options;
+use crate::identify::{Options, Unknown};
 use crate::model::{Experiment, ModelAt};
 use crate::response::Work;
 use crate::subspace::{Point, PoleResidue, Subspace, TrainOptions};
@@ -37,23 +37,23 @@ pub(super) struct Parametrization {
 
 impl Parametrization {
     /// `None` where the nominal has no positive real part, or nothing bounds it.
-    fn about(at: &[ModelAt<'_>], options: &Options) -> Option<Self> {
+    fn about(at: &[ModelAt<'_>], unknown: &Unknown, options: &Options) -> Option<Self> {
         let nominal: Vec<c64> = at.iter().map(|at| at.parameters[0].nominal).collect();
         if nominal.iter().any(|p| p.re <= 0.0) {
             return None;
         }
         let middle = at.len() / 2;
-        let [low, high] = options.box_about(nominal[middle])?;
+        let [low, high] = unknown.box_about(nominal[middle], options.box_ratio())?;
         let damps = nominal.iter().all(|p| p.arg() > 1e-9);
         let angle = |p: &c64| if damps { p.arg() } else { 1.0 };
-        let bounded = options.bounds.loss_factor.unwrap_or([0.0, f64::INFINITY]);
+        let bounded = unknown.bounds.loss_factor.unwrap_or([0.0, f64::INFINITY]);
         Some(Self {
             nominal: nominal.iter().map(|p| (p.norm(), angle(p))).collect(),
             ln_omega: at.iter().map(|a| (a.frequency_hz / at[middle].frequency_hz).ln()).collect(),
             ln_size: [low, high].map(|s| (s / nominal[middle].re).ln()),
             // Damping takes energy: a negative loss factor is a finding, not an answer.
             loss: bounded.map(|eta| eta.max(0.0)),
-            is_real: options.real,
+            is_real: unknown.real,
         })
     }
 
@@ -104,11 +104,12 @@ impl<'a> Responses<'a> {
     /// Trains a subspace over the box, and takes it apart into its poles at every frequency.
     pub(super) fn new(
         experiment: &'a Experiment,
+        unknown: &Unknown,
         at: &[ModelAt<'a>],
         options: &Options,
         for_each: ForEach<'_>,
     ) -> Result<Self, NoModel> {
-        let parametrization = Parametrization::about(at, options).ok_or(NoModel::Parameter)?;
+        let parametrization = Parametrization::about(at, unknown, options).ok_or(NoModel::Parameter)?;
         if at.iter().any(|at| at.parameters[0].coefficients.len() != 1) {
             return Err(NoModel::Parameter);
         }

@@ -4,6 +4,7 @@ use crate::for_each::ForEach;
 
 /// What is going on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Stage {
     /// The subspace is trained.
     Subspace,

@@ -24,6 +24,7 @@ impl GoodnessOfFit {
 
 /// Whether noise is all that is left.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Explained {
     /// What is left is noise of the size that was given, or of the size that the scatter of the answers shows too.
     Yes,

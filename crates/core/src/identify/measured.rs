@@ -1,6 +1,7 @@
 //! What was measured on what: a band with one unknown.
 
 use super::noise::Noise;
+use super::unknown::Unknown;
 use crate::c64;
 use crate::model::{DynamicStiffness, Experiment, Parameter};
 
@@ -11,7 +12,9 @@ pub(crate) struct Band<'a> {
     pub model: &'a DynamicStiffness,
     /// Load and sensors.
     pub experiment: &'a Experiment,
-    /// What is unknown.
+    /// What is unknown, with its bounds.
+    pub unknown: &'a Unknown,
+    /// It as the parameter of a polynomial.
     pub parameter: &'a Parameter,
     /// Frequencies, ascending.
     pub frequency_hz: &'a [f64],

@@ -70,12 +70,12 @@ pub fn identify(
     options: &Options,
     context: Context<'_>,
 ) -> Result<Identification, ProblemError> {
-    let options = &problem.checked(options)?;
+    problem.check_options(options)?;
     let channels = problem.channels();
     Ok(match problem.single() {
         None => several::identify_several(problem, options, context)?.into(),
         Some((strategy, parameter)) => {
-            let band = &problem.band(&parameter);
+            let band = &problem.band(0, &parameter);
             match strategy {
                 Strategy::PerFrequency if channels.is_empty() => {
                     band::identify_band(band, options, context)?.into()

@@ -31,6 +31,7 @@ pub enum Noise<'a> {
 
 /// What tells the level of the noise.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum NoiseSource {
     /// Standard deviations that were given.
     Given,

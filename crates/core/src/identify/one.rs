@@ -5,6 +5,7 @@ use super::confirmation::{SENSOR, choose, confirm};
 use super::options::Options;
 use super::outcome::{Line, Status};
 use super::rational::by_rational;
+use super::unknown::Unknown;
 use crate::c64;
 use crate::nelder_mead;
 use crate::response::{Response, relative_error};
@@ -24,12 +25,12 @@ use frfit_linalg::solve::Breakdown;
 /// # Limits
 /// `ok` says that one root is admissible *inside the circle of convergence* and reproduces the first sensor's response. Roots outside it are not seen:
 /// where the true one is outside, a wrong one inside can be `ok`. Another sensor's error tells.
-pub fn identify_at(system: &impl Response, measured: &[c64], options: &Options) -> Line {
+pub fn identify_at(system: &impl Response, measured: &[c64], unknown: &Unknown, options: &Options) -> Line {
     let mut outcome = Line::unknown(system.frequency_hz(), system.nominal(0), options.order);
     let result = match options.method {
-        Method::Series => by_series(system, measured, options, &mut outcome),
-        Method::Rational => by_rational(system, measured, options, &mut outcome),
-        Method::NelderMead => by_search(system, measured, options, &mut outcome),
+        Method::Series => by_series(system, measured, unknown, options, &mut outcome),
+        Method::Rational => by_rational(system, measured, unknown, options, &mut outcome),
+        Method::NelderMead => by_search(system, measured, unknown, options, &mut outcome),
     };
     if let Err(breakdown) = result {
         outcome.status = Status::Failed;
@@ -42,17 +43,18 @@ pub fn identify_at(system: &impl Response, measured: &[c64], options: &Options) 
 fn by_series(
     system: &impl Response,
     measured: &[c64],
+    unknown: &Unknown,
     options: &Options,
     outcome: &mut Line,
 ) -> Result<(), Breakdown> {
     let series = NeumannSeries::new(system, 0, options.order)?;
     outcome.nominal_response = series.respond(c64::default(), 0);
     outcome.roots =
-        candidates(&series, SENSOR, measured[SENSOR], outcome.nominal(), options.order, &options.roots());
+        candidates(&series, SENSOR, measured[SENSOR], outcome.nominal(), options.order, &unknown.roots());
     let radius = convergence_radius(system, 0)?;
     outcome.radius = Some(radius);
     let nominal = outcome.nominal();
-    refuse_diverged(&mut outcome.roots, &series, SENSOR, nominal, &radius, &options.roots());
+    refuse_diverged(&mut outcome.roots, &series, SENSOR, nominal, &radius, &unknown.roots());
     let Some(chosen) = choose(&outcome.roots) else {
         outcome.status = Status::NoRoot;
         return Ok(());
@@ -71,6 +73,7 @@ fn by_series(
 fn by_search(
     system: &impl Response,
     measured: &[c64],
+    unknown: &Unknown,
     options: &Options,
     outcome: &mut Line,
 ) -> Result<(), Breakdown> {
@@ -78,7 +81,7 @@ fn by_search(
     let found = nelder_mead::search(system, &measured[SENSOR..=SENSOR], options.order);
     let matched = confirm(system, measured, options, found.correction, outcome)?;
     outcome.status = if matched { Status::Ok } else { Status::Diverged };
-    if options.bounds.broken_by(outcome.nominal() + found.correction).is_some() {
+    if unknown.bounds.broken_by(outcome.nominal() + found.correction).is_some() {
         outcome.forget_value(Status::NoRoot);
     }
     Ok(())
@@ -92,11 +95,12 @@ fn by_search(
 pub fn error_by_order(
     system: &impl Response,
     measured: &[c64],
+    unknown: &Unknown,
     options: &Options,
 ) -> Result<Vec<Option<f64>>, Breakdown> {
     let series = NeumannSeries::new(system, 0, options.order)?;
     let at_order = |order| {
-        let roots = candidates(&series, SENSOR, measured[SENSOR], system.nominal(0), order, &options.roots());
+        let roots = candidates(&series, SENSOR, measured[SENSOR], system.nominal(0), order, &unknown.roots());
         let root = least_admissible(&roots)?;
         let updated = system.solve_at(&[root.correction]).ok()?;
         Some(relative_error(&measured[SENSOR..=SENSOR], &updated[SENSOR..=SENSOR]))

@@ -3,6 +3,7 @@
 use super::confirmation::{SENSOR, choose, confirm};
 use super::options::Options;
 use super::outcome::{Line, Status};
+use super::unknown::Unknown;
 use crate::c64;
 use crate::rational::{RationalResponse, RationalRoot};
 use crate::response::{Response, relative_error};
@@ -29,13 +30,14 @@ pub(super) const RESPONSE_MATCH_RTOL: f64 = 1e-6;
 pub(super) fn by_rational(
     system: &impl Response,
     measured: &[c64],
+    unknown: &Unknown,
     options: &Options,
     outcome: &mut Line,
 ) -> Result<(), Breakdown> {
     let mut order = VECTORS_PER_ATTEMPT.min(options.order);
     let mut response = RationalResponse::new(system, 0, order)?;
     loop {
-        let judged = judge(&response, measured[SENSOR], outcome.nominal(), &options.roots());
+        let judged = judge(&response, measured[SENSOR], outcome.nominal(), &unknown.roots());
         outcome.roots = judged.map_err(|NoConvergence| Breakdown::NotFinite)?;
         // No solution at a low order is no proof that there is none.
         let settled = !unsure(&outcome.roots) && outcome.candidate_count() > 0;

@@ -3,10 +3,12 @@
 use super::Bounds;
 use crate::c64;
 use crate::series::{ConvergenceRadius, NeumannSeries};
+use crate::with_fields::with_fields;
 use frfit_linalg::dense::{Root, evaluate, roots};
 
 /// How roots are accepted.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct RootOptions {
     /// Bounds on the updated factor.
     pub bounds: Bounds,
@@ -24,6 +26,12 @@ impl Default for RootOptions {
     }
 }
 
+with_fields!(RootOptions {
+    with_bounds: bounds as Bounds,
+    with_real: real as bool,
+    with_drift: drift as f64,
+});
+
 impl RootOptions {
     /// What the user knows that speaks against a correction: it is not real, or breaks a bound.
     pub fn refuse(&self, nominal: c64, correction: c64) -> Option<Refusal> {
@@ -38,6 +46,7 @@ impl RootOptions {
 
 /// Why a root is not believed.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub enum Refusal {
     /// It does not satisfy its polynomial.
     NotARoot,

@@ -20,6 +20,7 @@ mod trend;
 
 use crate::c64;
 use crate::frequency::omega_rad_s;
+use crate::with_fields::with_fields;
 use band::Band;
 use path::Point;
 use track::tracks;
@@ -50,6 +51,7 @@ pub struct Choice {
 
 /// How to choose.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct SelectOptions {
     /// Sensors in the misfit. Default 1.
     pub sensors: usize,
@@ -65,6 +67,12 @@ impl Default for SelectOptions {
         Self { sensors: 1, sigma_known: true, margin: 7.0 }
     }
 }
+
+with_fields!(SelectOptions {
+    with_sensors: sensors as usize,
+    with_sigma_known: sigma_known as bool,
+    with_margin: margin as f64,
+});
 
 /// Chooses a path through the candidates of a band; frequencies ascend, and each has any number of nodes, also none.
 ///

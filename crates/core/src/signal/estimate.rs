@@ -7,6 +7,7 @@ use std::str::FromStr;
 
 /// Which noise an estimator of H assumes. S is the mean over the impacts of products of transforms, S_fx that of F̄X.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub enum Estimator {
     /// $H_1 = S_{fx} / S_{ff}$: noise in the response alone; too small where there is noise in the force.
     #[default]

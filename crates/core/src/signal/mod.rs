@@ -64,6 +64,7 @@ impl Measured {
 
 /// Why there is no FRF.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub enum SignalError {
     /// No option can be like this.
     Options(OptionsError),

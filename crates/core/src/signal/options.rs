@@ -1,10 +1,12 @@
 //! How impacts are found, judged and averaged.
 
 use super::{Estimator, Windows};
+use crate::with_fields::with_fields;
 use std::fmt;
 
 /// How impacts are found, judged and averaged.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Options {
     /// Which estimator of the FRF.
     pub estimator: Estimator,
@@ -42,6 +44,17 @@ impl Default for Options {
         }
     }
 }
+
+with_fields!(Options {
+    with_estimator: estimator as Estimator,
+    with_trigger_n: trigger_n as Option<f64>,
+    with_pre_trigger_s: pre_trigger_s as Option<f64>,
+    with_length_s: length_s as Option<f64>,
+    with_double_impact: double_impact as f64,
+    with_drift: drift as f64,
+    with_windows: windows as Windows,
+    with_keep: keep as Vec<usize>,
+});
 
 /// An option that is not as it can be.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -16,6 +16,7 @@ pub struct Recording {
 
 /// What is wrong with a recording, so that nothing can be made of any.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub enum RecordingError {
     /// A sampling interval that is none, or not that of the first recording.
     Step(f64),

@@ -2,10 +2,12 @@
 
 use super::baseline::offset;
 use super::{Impact, Recording};
+use crate::with_fields::with_fields;
 use std::f64::consts::PI;
 
 /// Windows over the record of an impact; by default none.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
 pub struct Windows {
     /// Time in s after the trigger from which on the force is taken for zero, after a cosine of a tenth of that: silences the hammer's cable
     /// after the contact.
@@ -14,6 +16,11 @@ pub struct Windows {
     /// It adds damping, which the model is told of ([`added_decay`]).
     pub exponential_s: Option<f64>,
 }
+
+with_fields!(Windows {
+    with_force_s: force_s as Option<f64>,
+    with_exponential_s: exponential_s as Option<f64>,
+});
 
 /// β = 1/τ in 1/s, what the exponential window e^{−t/τ} adds to the decay rate of every mode.
 ///

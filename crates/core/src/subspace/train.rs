@@ -7,6 +7,7 @@ use crate::c64;
 use crate::for_each::{ForEach, map};
 use crate::frequency::omega_rad_s;
 use crate::model::ModelAt;
+use crate::with_fields::with_fields;
 use frfit_linalg::solve::Breakdown;
 use frfit_linalg::vector::transpose_dot;
 
@@ -21,6 +22,7 @@ pub struct Point<'m> {
 
 /// When to stop.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct TrainOptions {
     /// Largest estimated error ([`super::Assessment::relative_truncation`]) to accept. Default 1e-9.
     pub tolerance: f64,
@@ -35,6 +37,12 @@ impl Default for TrainOptions {
         Self { tolerance: 1e-9, solves: 400, factorisations: 4 }
     }
 }
+
+with_fields!(TrainOptions {
+    with_tolerance: tolerance as f64,
+    with_solves: solves as usize,
+    with_factorisations: factorisations as usize,
+});
 
 /// How a training ended.
 #[derive(Debug, Clone, Copy, PartialEq)]

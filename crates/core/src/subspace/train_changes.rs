@@ -4,10 +4,12 @@ use super::train::{MAX_STALLED_ROUNDS, SOLVES_PER_ROUND, keep, real_directions};
 use super::{ChangePoint, Changed, Point, Subspace, TrainOptions, Trained};
 use crate::c64;
 use crate::for_each::{ForEach, map};
+use crate::with_fields::with_fields;
 use frfit_linalg::solve::Breakdown;
 
 /// When to stop.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct ChangeOptions {
     /// Largest estimated error of a derivative at a sensor ([`Changed::relative_truncation`]) to accept. Default 1e-6: error bars are read to two digits, and what
     /// parameters have in common is told from what they have not down to that.
@@ -23,6 +25,12 @@ impl Default for ChangeOptions {
         Self { tolerance: 1e-6, everywhere: None, solves: 600 }
     }
 }
+
+with_fields!(ChangeOptions {
+    with_tolerance: tolerance as f64,
+    with_everywhere: everywhere as Option<f64>,
+    with_solves: solves as usize,
+});
 
 /// Errors of the response that are asked for in turn: those of derivatives are products of a residual of the response and one of its derivative, which
 /// the basis need not have.

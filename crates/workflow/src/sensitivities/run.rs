@@ -145,10 +145,7 @@ fn computed(
     points: &[ChangePoint<'_>],
     candidates: &[usize],
 ) -> Result<SensitivityRun, Breakdown> {
-    let train = ChangeOptions {
-        everywhere: (!candidates.is_empty()).then_some(ELSEWHERE),
-        ..ChangeOptions::default()
-    };
+    let train = ChangeOptions::default().with_everywhere((!candidates.is_empty()).then_some(ELSEWHERE));
     let band = SensitivityBand::new(&case.experiment, variables, points, &train, &parallel)?;
     let measured = case.sensitivities.as_ref().and_then(|wanted| wanted.std.clone());
     let (noise, deviations) = match (options.noise, measured) {

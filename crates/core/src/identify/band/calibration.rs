@@ -71,7 +71,7 @@ pub(in crate::identify) fn identify_band_scaled(
         let (outcome, found) = with_scales(band, &at, &mut reduced, unknown, options, hooks);
         (outcome, found.unwrap_or_else(|| vec![Calibration::default(); unknown.len()]))
     };
-    let (outcome, found) = near_or_far(&on_subspace(options), run);
+    let (outcome, found) = near_or_far(band, &on_subspace(options), run);
     Ok((outcome.judged_by_fit(), found))
 }
 
@@ -101,7 +101,7 @@ pub(super) fn with_scales<'a>(
         if estimated.is_settled(top(band)) || round + 1 == MAX_SELECTIONS {
             estimated.widen(&mut outcome);
             let counted = outcome.sensors.iter().filter(|sensor| !sensor.left_out).count();
-            let each = freedom(counted, options.real);
+            let each = freedom(counted, band.unknown.real);
             outcome.fit = goodness(&outcome.outcomes, each, estimated.free.len(), &outcome.noise, &view);
             let found = estimated.calibrations(&channels, outcome.noise.level);
             return (outcome, Some(found));

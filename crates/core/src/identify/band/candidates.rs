@@ -3,6 +3,7 @@
 use crate::c64;
 use crate::identify::options::Options;
 use crate::identify::rational::{RESPONSE_MATCH_RTOL, ROOT_RESIDUAL_TOL};
+use crate::identify::unknown::Unknown;
 use crate::model::ModelAt;
 use crate::rational::{Poles, RationalResponse};
 use crate::response::Response;
@@ -122,6 +123,7 @@ pub(in crate::identify) struct Fit<'a> {
     pub(in crate::identify) measured: &'a [c64],
     pub(in crate::identify) sigma: &'a [f64],
     pub(in crate::identify) nominal: c64,
+    pub(in crate::identify) unknown: &'a Unknown,
     pub(in crate::identify) options: &'a Options,
 }
 
@@ -186,7 +188,7 @@ impl Fit<'_> {
     fn solutions(&self, response: &RationalResponse) -> Result<Candidates, NoConvergence> {
         let poles = response.poles()?;
         let mut explored = Candidates::default();
-        let roots = self.options.roots();
+        let roots = self.unknown.roots();
         // The sum over the poles leads there, the matrices have the last digits.
         let last = |c: c64| response.respond_with_slope(c);
         let way = |c: c64| match &poles {
@@ -209,7 +211,7 @@ impl Fit<'_> {
         for rough in found {
             let Some(solution) = self.descend(last, rough.correction) else { continue };
             // Real where it has to be: the descent saw to that.
-            match self.options.bounds.broken_by(self.nominal + solution.correction) {
+            match self.unknown.bounds.broken_by(self.nominal + solution.correction) {
                 None => merge(&mut explored.solutions, solution, self.nominal),
                 Some(bound) => {
                     let (correction, refusal) = (solution.correction, Some(Refusal::OutOfBounds(bound)));
@@ -243,8 +245,12 @@ impl Fit<'_> {
             bound.is_none_or(|[low, high]| low - margin <= value && value <= high + margin)
         };
         factor.is_finite()
-            && wide(self.options.box_about(self.nominal), factor.re, START_BOX_MARGIN * factor.norm())
-            && wide(self.options.bounds.loss_factor, crate::material::loss_factor(factor), START_BOX_MARGIN)
+            && wide(
+                self.unknown.box_about(self.nominal, self.options.box_ratio()),
+                factor.re,
+                START_BOX_MARGIN * factor.norm(),
+            )
+            && wide(self.unknown.bounds.loss_factor, crate::material::loss_factor(factor), START_BOX_MARGIN)
     }
 
     /// Explores a reduced model. What is certified is this model's response, not that of a Krylov space within: that is where the solutions settle.
@@ -325,11 +331,11 @@ impl Fit<'_> {
     /// Whether a single sensor's response is the measured one: a solution is known to roundoff of a response, and where it sits on a flat
     /// segment, to the square root of that.
     fn matched(&self, solution: &Solution) -> bool {
-        self.options.real || solution.misfit.sqrt() * self.sigma[0] <= 1e-7 * self.measured[0].norm()
+        self.unknown.real || solution.misfit.sqrt() * self.sigma[0] <= 1e-7 * self.measured[0].norm()
     }
 
     fn admissible(&self, correction: c64) -> c64 {
-        if self.options.real {
+        if self.unknown.real {
             c64::new((self.nominal + correction).re, 0.0) - self.nominal
         } else {
             correction
@@ -348,7 +354,7 @@ impl Fit<'_> {
             gradient += weight * slope.conj() * rest;
         }
         let step = gradient / curvature;
-        let step = if self.options.real { c64::new(step.re, 0.0) } else { step };
+        let step = if self.unknown.real { c64::new(step.re, 0.0) } else { step };
         let finite = misfit.is_finite() && step.is_finite();
         let (std, response) = (curvature.powf(-0.5), values);
         let solution =

@@ -228,7 +228,7 @@ impl<'a, F: Fn(usize) -> Fit<'a>> Continuation<'a, F> {
             {
                 return None;
             }
-            match fit.options.bounds.broken_by(factor) {
+            match fit.unknown.bounds.broken_by(factor) {
                 None => explored.solutions.push(Solution { residual, ..solution }),
                 Some(bound) => {
                     let (correction, refusal) = (solution.correction, Some(Refusal::OutOfBounds(bound)));

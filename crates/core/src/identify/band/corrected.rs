@@ -29,9 +29,9 @@ pub(super) fn correct<'a>(
         return found;
     }
     let weights = Weights::new(band, at, &found.left_out());
-    let curves = Curves::new(vec![Curve::Spline(Spline::new(&weights.omegas, options.real))]);
+    let curves = Curves::new(vec![Curve::Spline(Spline::new(&weights.omegas, band.unknown.real))]);
     let point = point(at);
-    let measured = weights.of((band, options), &point, &found);
+    let measured = weights.of(band, options, &point, &found);
     let (explanation, leverage) = estimate(reduced.whole(), &measured, &curves, hooks.for_each);
     let found = BandOutcome { leverage, ..found };
     let errors = match explanation {
@@ -85,7 +85,8 @@ impl Weights {
 
     pub(super) fn of<'t, 'a>(
         &'t self,
-        (band, options): (&Band<'t>, &Options),
+        band: &Band<'t>,
+        options: &Options,
         point: PointAt<'t, 'a>,
         found: &'t BandOutcome,
     ) -> Measured<'t, 'a> {

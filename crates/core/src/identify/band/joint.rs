@@ -66,6 +66,7 @@ pub(super) fn identify<'a>(
         let evidence = Evidence {
             at: &at[i],
             measured: &band.measured[i],
+            is_real: band.unknown.real,
             solution,
             left_out: &out,
             noise: noise.level,

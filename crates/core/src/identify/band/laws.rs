@@ -96,7 +96,7 @@ pub(in crate::identify) fn identify_laws(
     let at = band.model.at_all(band.frequency_hz, std::slice::from_ref(band.parameter))?;
     let boxes = on_subspace(options);
     let (mut free, Begin { reduced, channels, ratio }) =
-        near_or_far(&boxes, |options| at_scales(band, &at, unknown, options, hooks));
+        near_or_far(band, &boxes, |options| at_scales(band, &at, unknown, options, hooks));
     let mut reduced = reduced;
     if let Some(reduced) = reduced.as_mut().filter(|_| !unknown.iter().any(|channel| channel.any())) {
         free = corrected::correct(band, &at, free, reduced, &boxes[0], hooks);
@@ -189,7 +189,7 @@ impl Fitting<'_, '_> {
         let place = fits.iter().position(|fit| fit.kind == kind)?;
         let weights = corrected::Weights::new(self.band, self.at, &free.left_out());
         let point = corrected::point(self.at);
-        let measured = weights.of((self.band, self.options), &point, free);
+        let measured = weights.of(self.band, self.options, &point, free);
         let (law, theta) = fits[place].coordinates();
         let curves = Curves::new(vec![Curve::Form(Form::Law(*law))]);
         let errors =
@@ -436,7 +436,7 @@ impl Fitting<'_, '_> {
             (!known, Status::NotIdentifiable),
             (certified.factor > self.options.certain, Status::Failed),
         ]);
-        if self.options.bounds.broken_by(estimate.modulus).is_some() {
+        if self.band.unknown.bounds.broken_by(estimate.modulus).is_some() {
             outcome.forget_value(Status::NoRoot);
         }
         outcome

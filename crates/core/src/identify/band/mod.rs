@@ -64,7 +64,7 @@ pub(super) fn identify_band(
     let at = band.model.at_all(band.frequency_hz, std::slice::from_ref(band.parameter))?;
     let boxes = near_and_far(options);
     let run = |options| identify_at_all(band, &at, options, hooks);
-    let (found, reduced) = near_or_far(&boxes, run);
+    let (found, reduced) = near_or_far(band, &boxes, run);
     // A model that is answered for as it is has no modes at hand: they are those of a reduced one.
     let wanted = options.selection == Selection::Joint && options.reduction == Reduction::Auto;
     let new = || ReducedBand::new(band, &at, &boxes[0], hooks).ok().filter(|_| wanted);

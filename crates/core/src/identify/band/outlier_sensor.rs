@@ -94,6 +94,6 @@ impl Trial<'_, '_, '_, '_, '_> {
             }
         };
         let left = task.band.experiment.sensors.len() - out.len();
-        level_of(misfits, freedom(left, task.options.real)).map_or(0.0, |level| level * level)
+        level_of(misfits, freedom(left, task.band.unknown.real)).map_or(0.0, |level| level * level)
     }
 }

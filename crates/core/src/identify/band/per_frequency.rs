@@ -28,7 +28,7 @@ pub(super) fn identify<'a>(
     match reduced {
         Some(mut reduced) => {
             let find = |i: usize, model: &Projection| match model.at(&at[i]) {
-                Ok(system) => identify_at(&system, &band.measured[i], options),
+                Ok(system) => identify_at(&system, &band.measured[i], band.unknown, options),
                 Err(breakdown) => broken(i, breakdown),
             };
             let answers = |found: &[Line]| {
@@ -69,7 +69,7 @@ pub(super) fn identify<'a>(
             let done = AtomicUsize::new(0);
             let outcomes = map(hooks.for_each, at.len(), |i| {
                 let outcome = match FullModel::new(at[i].clone(), band.experiment) {
-                    Ok(system) => identify_at(&system, &band.measured[i], options),
+                    Ok(system) => identify_at(&system, &band.measured[i], band.unknown, options),
                     Err(breakdown) => broken(i, breakdown),
                 };
                 (hooks.progress)(Stage::Solutions, done.fetch_add(1, Ordering::Relaxed) + 1, at.len());

@@ -6,6 +6,7 @@ use crate::identify::context::{Context, Stage};
 use crate::identify::measured::Band;
 use crate::identify::options::Options;
 use crate::identify::thinned::thinned;
+use crate::identify::unknown::Unknown;
 use crate::material::loss_factor;
 use crate::model::ModelAt;
 use crate::response::Work;
@@ -44,6 +45,7 @@ const MAX_REFINEMENT_ROUNDS: usize = 6;
 pub(super) struct ReducedBand<'a, 'o> {
     subspace: Subspace<'a>,
     at: &'o [ModelAt<'a>],
+    unknown: &'a Unknown,
     options: &'o Options,
     blocks: Vec<Block>,
     /// The model that answered at each frequency: that of its neighbourhood, when it was last asked.
@@ -99,6 +101,7 @@ impl<'a, 'o> ReducedBand<'a, 'o> {
         let mut reduced = Self {
             subspace,
             at,
+            unknown: band.unknown,
             options,
             blocks,
             models: vec![None; n],
@@ -327,12 +330,14 @@ impl<'a, 'o> ReducedBand<'a, 'o> {
         let nominal = at.parameters[0].nominal;
         let point = |factor: c64| Point { at: at.clone(), correction: factor - nominal };
         let mut points = vec![point(nominal)];
-        if let Some([low, high]) =
-            self.options.box_about(nominal).filter(|[low, high]| 0.0 < *low && high.is_finite())
+        if let Some([low, high]) = self
+            .unknown
+            .box_about(nominal, self.options.box_ratio())
+            .filter(|[low, high]| 0.0 < *low && high.is_finite())
         {
             let steps = ((BOX_STORAGES_PER_OCTAVE * (high / low).log2()).ceil() as usize).max(2);
             let eta = self
-                .options
+                .unknown
                 .bounds
                 .loss_factor
                 .map_or(loss_factor(nominal), |[low, high]| loss_factor(nominal).clamp(low, high));

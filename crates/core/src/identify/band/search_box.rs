@@ -2,6 +2,7 @@
 
 use super::outcome::BandOutcome;
 use crate::identify::choice::{Reduction, Selection};
+use crate::identify::measured::Band;
 use crate::identify::options::Options;
 
 /// Options to look near the nominal, and in the whole of the bounds.
@@ -17,11 +18,13 @@ pub(super) fn on_subspace(options: &Options) -> [Options; 2] {
 /// What is found near the nominal; where a path through that leaves out most of the band, the nominal is too far, and the bounds are all that is left:
 /// the one with more answers then, with the work of both.
 pub(super) fn near_or_far<'o, T>(
+    band: &Band<'_>,
     [near, far]: &'o [Options; 2],
     run: impl Fn(&'o Options) -> (BandOutcome, T),
 ) -> (BandOutcome, T) {
     let mut found = run(near);
-    let wider = near.selection == Selection::Joint && near.bounds.storage.is_some() && !near.whole_box;
+    let wider =
+        near.selection == Selection::Joint && band.unknown.bounds.storage.is_some() && !near.whole_box;
     if wider && 2 * found.0.answered() < found.0.outcomes.len() {
         let mut other = run(far);
         if other.0.answered() > found.0.answered() {

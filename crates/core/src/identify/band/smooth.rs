@@ -90,7 +90,7 @@ pub(in crate::identify) fn identify_smooth(
     let at = band.model.at_all(band.frequency_hz, std::slice::from_ref(band.parameter))?;
     let boxes = on_subspace(options);
     let (mut free, mut reduced) =
-        near_or_far(&boxes, |options| identify_keeping_model(band, &at, options, hooks));
+        near_or_far(band, &boxes, |options| identify_keeping_model(band, &at, options, hooks));
     if let Some(reduced) = &mut reduced {
         free = correct(band, &at, free, reduced, &boxes[0], hooks);
     }
@@ -172,7 +172,7 @@ struct Judged {
 
 impl Smoothing<'_, '_> {
     fn numbers(&self) -> usize {
-        if self.options.real { 1 } else { 2 }
+        if self.band.unknown.real { 1 } else { 2 }
     }
 
     fn log_omega(&self, i: usize) -> f64 {
@@ -286,7 +286,7 @@ impl Smoothing<'_, '_> {
                 return (none, 0.0);
             }
             let step = along / weight;
-            let value = match self.options.real {
+            let value = match self.band.unknown.real {
                 true => [log.re + step.re, 0.0],
                 false => [log.re + step.re, log.im + step.im],
             };
@@ -403,7 +403,7 @@ impl Smoothing<'_, '_> {
         let second = reduced.second_derivative(i, correction);
         let second = second.map_or(f64::INFINITY, |second| weighed(&second, &self.sigma[i]));
         let part_std = factor.norm() * variance.sqrt();
-        let mut bars = Uncertainty::new(factor, self.options.real, part_std, second, level);
+        let mut bars = Uncertainty::new(factor, self.band.unknown.real, part_std, second, level);
         let both = per_frequency.model_errors.as_ref();
         if let Some([real, imaginary, both]) =
             both.and_then(|errors| errors.covariance_at(0, i, self.band.frequency_hz[i]))
@@ -438,7 +438,7 @@ impl Smoothing<'_, '_> {
             (certified.factor > self.options.certain, Status::Failed),
         ]);
         outcome.updated_response = assessed.response;
-        if self.options.bounds.broken_by(factor).is_some() {
+        if self.band.unknown.bounds.broken_by(factor).is_some() {
             outcome.forget_value(Status::NoRoot);
         }
         Judged { outcome, chi_squared, freedom }
@@ -451,7 +451,7 @@ impl Smoothing<'_, '_> {
         let parameters: f64 = taken.sum();
         let range = observations[observations.len() - 1].x - observations[0].x;
         let width_octaves = range / parameters / std::f64::consts::LN_2;
-        let (level, real) = (smoothed.level, self.options.real);
+        let (level, real) = (smoothed.level, self.band.unknown.real);
         SmoothCurve { parameters, width_octaves, converged, unexplained, observations, evidence, level, real }
     }
 }

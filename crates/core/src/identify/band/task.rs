@@ -39,13 +39,14 @@ pub(super) struct BandSolution {
 impl Task<'_, '_> {
     /// Degrees of freedom of χ² at a frequency.
     pub(super) fn freedom(&self) -> usize {
-        freedom(self.sensors, self.options.real)
+        freedom(self.sensors, self.band.unknown.real)
     }
 
     /// What is to be explained at a frequency.
     pub(super) fn fit(&self, i: usize) -> Fit<'_> {
         let nominal = self.at[i].parameters[0].nominal;
-        Fit { measured: &self.band.measured[i], sigma: &self.sigma[i], nominal, options: self.options }
+        let Band { measured, unknown, .. } = *self.band;
+        Fit { measured: &measured[i], sigma: &self.sigma[i], nominal, unknown, options: self.options }
     }
 
     /// How large the noise is, by all answers.
@@ -57,7 +58,7 @@ impl Task<'_, '_> {
         NoiseLevel::new(
             self.band.noise,
             of_sensors(&nodes, choices, self.freedom()),
-            of_scatter(self.band.frequency_hz, &chosen, self.options.real),
+            of_scatter(self.band.frequency_hz, &chosen, self.band.unknown.real),
         )
     }
 

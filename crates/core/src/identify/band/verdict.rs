@@ -18,6 +18,7 @@ use crate::subspace::Assessment;
 pub(super) struct Evidence<'a> {
     pub(super) at: &'a ModelAt<'a>,
     pub(super) measured: &'a [c64],
+    pub(super) is_real: bool,
     /// The solution that is given: the chosen one, or the likeliest of a line that the path leaves out.
     pub(super) solution: Option<usize>,
     /// Sensors that count for nothing.
@@ -80,7 +81,7 @@ pub(super) fn verdict(
     let unexplained = error > options.error && square.sqrt() > MAX_RMS_MISFIT * noise;
     let per_freedom = evidence.noise.filter(|_| evidence.freedom > 0).map(|noise| square / (noise * noise));
     outcome.chi_squared = per_freedom.filter(|chi_squared| chi_squared.is_finite());
-    let bars = |level| Uncertainty::new(factor, options.real, chosen.std, evidence.second, level);
+    let bars = |level| Uncertainty::new(factor, evidence.is_real, chosen.std, evidence.second, level);
     let uncertainty = evidence.noise.map(bars);
     let unknown = uncertainty.is_some_and(|bars| !bars.is_known(factor) || !bars.is_linear());
     outcome.values[0].uncertainty = uncertainty.filter(|bars| bars.correction_std.is_finite());

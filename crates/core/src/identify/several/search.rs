@@ -10,7 +10,6 @@ use crate::c64;
 use crate::for_each::map;
 use crate::identify::band::{Fit, MAX_TRAINING_ROUNDS, nearest};
 use crate::identify::context::Stage;
-use crate::identify::options::Options;
 use crate::identify::thinned::thinned;
 use crate::identify::unknown::Dependence;
 use crate::identify::unknown::Unknown;
@@ -344,13 +343,12 @@ impl Task<'_, '_> {
         let Some(mut at) = space.at(i, given) else { return Vec::new() };
         at.parameters.swap(0, j);
         at.parameters.truncate(1);
-        let Unknown { bounds, real, .. } = self.problem.unknowns[j];
-        let options = Options { bounds, real, ..*self.options };
         let fit = Fit {
             measured: &self.problem.frfs.receptance[i],
             sigma: &self.sigma[i],
             nominal: given[j],
-            options: &options,
+            unknown: &self.problem.unknowns[j],
+            options: self.options,
         };
         let values = |correction: c64| {
             let mut values = given.to_vec();
