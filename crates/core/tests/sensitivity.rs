@@ -301,7 +301,7 @@ fn springs_in_parallel_are_inseparable_and_only_their_sum_is_seen() {
     let bars = resolved.bars();
     assert!(bars[0].is_none() && bars[1].is_none() && bars[2].unwrap() < 0.1 && bars[3].unwrap() < 0.01);
     let worst = worst_bar(&resolved);
-    assert_eq!((worst.unseen, worst.worst.unwrap().0), (2, 2));
+    assert_eq!((worst.unseen, worst.worst.unwrap().variable), (2, 2));
 }
 
 #[test]
@@ -362,16 +362,16 @@ fn the_next_sensor_is_the_best_of_all_rows() {
     let mut brute: Vec<f64> = Vec::new();
     for candidate in &ranked {
         let really = with(Some(candidate.row));
-        let (found, exact) = (candidate.after.worst.unwrap().1, really.worst.unwrap().1);
+        let (found, exact) = (candidate.after.worst.unwrap().std, really.worst.unwrap().std);
         assert_eq!(candidate.after.unseen, 0);
         // Three digits from a subspace that is good to that everywhere.
         assert!((found / exact - 1.0).abs() < 1e-2, "row {}: {found} against {exact}", candidate.row);
-        assert!(exact <= before.worst.unwrap().1 * (1.0 + 1e-9), "one more sensor never hurts");
+        assert!(exact <= before.worst.unwrap().std * (1.0 + 1e-9), "one more sensor never hurts");
         brute.push(exact);
     }
     let best = brute.iter().copied().fold(f64::INFINITY, f64::min);
     assert!(brute[0] <= best * 1.01, "{} against {best}", brute[0]);
-    assert!(best < 0.9 * before.worst.unwrap().1, "a place that helps: {best} from {before:?}");
+    assert!(best < 0.9 * before.worst.unwrap().std, "a place that helps: {best} from {before:?}");
 
     // And as a sensor of a subspace of its own.
     let mut experiment = case.experiment.clone();
@@ -380,7 +380,7 @@ fn the_next_sensor_is_the_best_of_all_rows() {
     let added =
         SensitivityBand::new(&experiment, &variables, &points, &ChangeOptions::default(), &sequential)
             .unwrap();
-    let bar = with_each_added(&added, &deviations, 2).unwrap()[0].worst.unwrap().1;
+    let bar = with_each_added(&added, &deviations, 2).unwrap()[0].worst.unwrap().std;
     assert!((bar / brute[0] - 1.0).abs() < 1e-4, "{bar} against {}", brute[0]);
 }
 

@@ -3,7 +3,7 @@
 use super::finding::Fault;
 use crate::c64;
 use crate::frequency::omega_rad_s;
-use crate::model::{ModelAt, Role};
+use crate::model::{ModelAt, Role, WeightedTerm};
 
 /// Part of the rows' own frequency up to which waves are resolved.
 ///
@@ -22,8 +22,8 @@ const SLOW_ROW_SHARE: f64 = 0.25;
 pub(super) fn beyond_mesh(top: &ModelAt<'_>, correction: c64) -> Option<Fault> {
     let n = top.model.dim();
     let (mut stiffness, mut mass) = (vec![0.0; n], vec![0.0; n]);
-    let mut add = |parts: &[(usize, c64)], by: c64| {
-        for &(term, coefficient) in parts {
+    let mut add = |parts: &[WeightedTerm], by: c64| {
+        for &WeightedTerm { term, weight: coefficient } in parts {
             let term = &top.model.terms()[term];
             let into = match term.role {
                 Role::Stiffness => &mut stiffness,

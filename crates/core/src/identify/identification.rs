@@ -5,7 +5,7 @@ use super::goodness_of_fit::{Explained, GoodnessOfFit, SensorFit};
 use super::model_errors::{Leverage, ModelErrorsFound};
 use super::noise::NoiseLevel;
 use super::outcome::{Line, Status};
-use super::several::{BandValue, Direction, Number, Profile, SeveralOutcome};
+use super::several::{BandCoordinate, BandValue, Direction, Number, Profile, SeveralOutcome};
 use super::uncertainty::{KNOWN_RELATIVE_STD, MIN_KNOWN_LOSS_FACTOR};
 use crate::laws::{Estimate, LawFit, best};
 use crate::response::Work;
@@ -46,8 +46,8 @@ pub struct Identification {
 /// Which combinations of the numbers that hold for the band are identifiable.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Identifiability {
-    /// What the coordinates below are: (unknown, name of the number).
-    pub coordinates: Vec<(usize, String)>,
+    /// What the coordinates below are.
+    pub coordinates: Vec<BandCoordinate>,
     /// Correlation of the numbers.
     pub correlation: Vec<Vec<f64>>,
     /// Combinations of them, the least identifiable first.

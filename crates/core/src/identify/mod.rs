@@ -44,7 +44,7 @@ pub use one::{error_by_order, identify_at};
 pub use options::{ErrorSizes, MAX_ORDER, ModelErrors, Options, OptionsError};
 pub use outcome::{Line, LineValue, Status};
 pub use problem::{Frfs, Problem, ProblemError};
-pub use several::{BandValue, Direction, Number, Profile};
+pub use several::{BandCoordinate, BandValue, Direction, Number, Profile};
 pub use uncertainty::Uncertainty;
 pub use unknown::{Dependence, Unknown, Variation};
 

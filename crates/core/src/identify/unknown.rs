@@ -4,7 +4,7 @@ use crate::c64;
 use crate::identify::options::NEAR_BOX_RATIO;
 use crate::laws::LawKind;
 use crate::material::{Law, OutsideTable};
-use crate::model::{DynamicStiffness, Member, ModelAt, ModelError, Parameter, ParameterAt};
+use crate::model::{DynamicStiffness, Member, ModelAt, ModelError, Parameter, ParameterAt, WeightedTerm};
 use crate::roots::{Bounds, RootOptions};
 
 /// How an unknown varies over the band.
@@ -210,13 +210,13 @@ impl<'a> Composite<'a> {
             for &(j, power) in &powers {
                 multiplied *= values[j].powi(power);
             }
-            at.nominal.parts.push((index, own * multiplied));
+            at.nominal.parts.push(WeightedTerm { term: index, weight: own * multiplied });
             if let Some(j) = replaced {
-                at.parameters[j].coefficients[0].parts.push((index, multiplied));
+                at.parameters[j].coefficients[0].parts.push(WeightedTerm { term: index, weight: multiplied });
             }
             for (j, power) in powers {
                 let slope = f64::from(power) * own * multiplied / values[j];
-                at.parameters[j].coefficients[0].parts.push((index, slope));
+                at.parameters[j].coefficients[0].parts.push(WeightedTerm { term: index, weight: slope });
             }
         }
         Ok(at)

@@ -15,27 +15,39 @@ const CANDIDATES_PER_PIECE: usize = 256;
 /// Eigenvalues of the information below this part of the largest are roundoff, each variable in units of its own information.
 const EIGENVALUE_RTOL: f64 = 1e-12;
 
+/// A variable with its error bar.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct VariableStd {
+    /// Its index.
+    pub variable: usize,
+    /// Standard deviation of its logarithm.
+    pub std: f64,
+}
+
 /// How badly the worst variable is known.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WorstBar {
     /// How many variables have no error bar, because something of them is not seen at all.
     pub unseen: usize,
-    /// Of the others the one with the largest error bar, and that; `None` without others.
-    pub worst: Option<(usize, f64)>,
+    /// Of the others the one with the largest error bar; `None` without others.
+    pub worst: Option<VariableStd>,
 }
 
 impl WorstBar {
     /// Fewer without a bar first, then the smaller worst bar.
     pub fn total_cmp(&self, other: &Self) -> std::cmp::Ordering {
-        let bar = |this: &Self| this.worst.map_or(0.0, |(_, bar)| bar);
+        let bar = |this: &Self| this.worst.map_or(0.0, |worst| worst.std);
         self.unseen.cmp(&other.unseen).then(bar(self).total_cmp(&bar(other)))
     }
 
     fn of(bars: &[Option<f64>]) -> Self {
-        let known = bars.iter().enumerate().filter_map(|(p, bar)| Some((p, (*bar)?)));
+        let known = bars
+            .iter()
+            .enumerate()
+            .filter_map(|(variable, bar)| Some(VariableStd { variable, std: (*bar)? }));
         Self {
             unseen: bars.iter().filter(|bar| bar.is_none()).count(),
-            worst: known.max_by(|a, b| a.1.total_cmp(&b.1)),
+            worst: known.max_by(|a, b| a.std.total_cmp(&b.std)),
         }
     }
 }

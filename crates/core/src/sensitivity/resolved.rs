@@ -17,7 +17,7 @@ const COMPONENT_TOL: f64 = 1e-6;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Resolved {
     singular: Singular,
-    /// Singular values below this cannot be told from zero.
+    /// Singular values below this cannot be distinguished from zero.
     floor: f64,
 }
 

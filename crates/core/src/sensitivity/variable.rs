@@ -2,7 +2,7 @@
 
 use crate::c64;
 use crate::material::OutsideTable;
-use crate::model::{Combination, DynamicStiffness};
+use crate::model::{Combination, DynamicStiffness, WeightedTerm};
 
 /// A real parameter of a model, by whose logarithm is differentiated.
 #[derive(Debug, Clone, PartialEq)]
@@ -82,20 +82,23 @@ impl Variable {
         };
         let parts = match &self.change {
             Change::Factor(terms) => {
-                let part = |&index: &usize| term(index).map(|(weight, factor)| (index, weight * factor));
+                let part = |&index: &usize| {
+                    let (weight, factor) = term(index)?;
+                    Ok(WeightedTerm { term: index, weight: weight * factor })
+                };
                 terms.iter().map(part).collect::<Result<_, OutsideTable>>()?
             }
             Change::Powers(terms) => {
                 let part = |&(index, power): &(usize, i32)| {
                     let (weight, factor) = term(index)?;
-                    Ok((index, f64::from(power) * weight * factor))
+                    Ok(WeightedTerm { term: index, weight: f64::from(power) * weight * factor })
                 };
                 terms.iter().map(part).collect::<Result<_, OutsideTable>>()?
             }
             Change::LossFactor(terms) => {
                 let part = |&index: &usize| {
                     let (weight, factor) = term(index)?;
-                    Ok((index, weight * c64::new(0.0, factor.im)))
+                    Ok(WeightedTerm { term: index, weight: weight * c64::new(0.0, factor.im) })
                 };
                 terms.iter().map(part).collect::<Result<_, OutsideTable>>()?
             }

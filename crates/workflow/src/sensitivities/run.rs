@@ -197,7 +197,7 @@ fn with_sensors(experiment: &Experiment, rows: &[usize]) -> Experiment {
 /// The best candidates, and for each those that are as good.
 fn shortlist(ranked: &[Ranked]) -> Vec<(usize, Vec<usize>)> {
     let mut short: Vec<(Ranked, Vec<usize>)> = Vec::new();
-    let bar = |ranked: &Ranked| ranked.after.worst.map_or(0.0, |(_, bar)| bar);
+    let bar = |ranked: &Ranked| ranked.after.worst.map_or(0.0, |worst| worst.std);
     for candidate in ranked {
         let full = short.len() == SHORTLIST;
         match short.last_mut() {

@@ -41,7 +41,7 @@ pub(in crate::identify) struct LawsOutcome {
     pub outcomes: Vec<Line>,
     /// What was unknown of each sensor's channel, by the law of least BIC.
     pub channels: Vec<Calibration>,
-    /// Whether noise is all that this law leaves: as large as was told, or where nothing was told, as what each frequency by itself leaves; `None` where there is no law.
+    /// Whether noise is all that this law leaves: as large as was given, or without that as large as each frequency by itself leaves; `None` where there is no law.
     pub fit: Option<GoodnessOfFit>,
     /// All work of size N.
     pub work: Work,
@@ -161,7 +161,7 @@ pub(in crate::identify) fn identify_laws(
     let (outcomes, fit) = match best(&fits) {
         Some(law) => {
             let (fit, noise) = judging.goodness(law, &free.noise);
-            let one = |i: usize| judging.outcome((law, noise), &reduced, i, &free.outcomes[i]);
+            let one = |i: usize| judging.outcome(law, noise, &reduced, i, &free.outcomes[i]);
             (map(hooks.for_each, at.len(), one), fit)
         }
         None => (free.outcomes.iter().map(|own| own.unanswered()).collect(), None),
@@ -382,13 +382,7 @@ impl Fitting<'_, '_> {
     }
 
     /// The law at one frequency, judged there; noise over the assumed deviations.
-    fn outcome(
-        &self,
-        (law, noise): (&LawFit, f64),
-        reduced: &ReducedBand<'_, '_>,
-        i: usize,
-        own: &Line,
-    ) -> Line {
+    fn outcome(&self, law: &LawFit, noise: f64, reduced: &ReducedBand<'_, '_>, i: usize, own: &Line) -> Line {
         let measured = &self.band.measured[i];
         let found = law.at(self.band.frequency_hz[i]).and_then(|estimate| {
             let correction = estimate.modulus - own.nominal();

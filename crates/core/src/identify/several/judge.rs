@@ -4,7 +4,7 @@ use super::Task;
 use super::at_frequency::Solution;
 use super::coordinates::Own;
 use super::information::Information;
-use super::outcome::{BandValue, Direction, Number, Profile, SeveralOutcome};
+use super::outcome::{BandCoordinate, BandValue, Direction, Number, Profile, SeveralOutcome};
 use super::reduced_band::ReducedBand;
 use super::search::{BandSolution, Place, Plane, Reach};
 use crate::c64;
@@ -99,11 +99,14 @@ impl Task<'_, '_> {
                 known.map(|moved| Known { covariance: &covariance, moved }),
             )
         });
-        let coordinates: Vec<(usize, String)> = found
+        let coordinates: Vec<BandCoordinate> = found
             .coordinates
             .each
             .iter()
-            .flat_map(|one| names(one.kind()).into_iter().map(move |name| (one.unknowns, name)))
+            .flat_map(|one| {
+                let of = |number| BandCoordinate { unknown: one.unknowns, number };
+                names(one.kind()).into_iter().map(of)
+            })
             .collect();
         let (directions, correlation) = match &information {
             Some(information) if n > 0 => (directions(information, level), correlation(information, found)),

@@ -33,7 +33,7 @@ mod starts;
 mod tests;
 
 pub(super) use outcome::SeveralOutcome;
-pub use outcome::{BandValue, Direction, Number, Profile};
+pub use outcome::{BandCoordinate, BandValue, Direction, Number, Profile};
 
 use super::context::Context;
 use super::noise::{NoiseLevel, standard_deviations};
