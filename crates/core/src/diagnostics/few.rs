@@ -32,7 +32,7 @@ const MIN_DELAY_PHASE_RAD: f64 = 0.2;
 /// A factor or delay of fewer deviations than this is none.
 const SIGNIFICANT_STD: f64 = 5.0;
 
-/// Misfit up to which data are explained: noise and a constant law leave as much, and the rows of a neighbourhood are not to be told by it.
+/// Misfit up to which data are explained: noise and a constant law leave as much, and the rows of a neighbourhood cannot be distinguished by it.
 const EXPLAINED_MISFIT: f64 = 0.04;
 
 /// Readings as likely as the best within this: the one that is listed first is named.
@@ -298,7 +298,7 @@ fn laws_of_other_rows(
     laws
 }
 
-/// The likeliest row for a dof mismatch that is a finding, with those that cannot be told from it.
+/// The likeliest row for a dof mismatch that is a finding, with those that cannot be distinguished from it.
 fn likeliest_row<'t>(rows: &'t [Tried], current: &Fitted, dim: usize) -> Option<(Fault, &'t Tried)> {
     let best = rows.iter().min_by(|a, b| a.fitted.nats.total_cmp(&b.fitted.nats))?;
     // As many rows were tried as there are.

@@ -113,12 +113,12 @@ pub enum Fault {
     },
     /// The response was measured on another row than the case says.
     ResponseDof {
-        /// Best first; those behind it cannot be told from it.
+        /// Best first; those behind it cannot be distinguished from it.
         rows: Vec<OtherRow>,
     },
     /// The structure was driven on another row than the case says.
     LoadDof {
-        /// Best first; those behind it cannot be told from it.
+        /// Best first; those behind it cannot be distinguished from it.
         rows: Vec<OtherRow>,
     },
     /// The band goes beyond what the mesh can carry.

@@ -10,7 +10,7 @@
 //!
 //! # Limits
 //! Load and response that are swapped give the same FRF (reciprocity), so that nobody can tell. A factor of all sensors and the modulus are one where nothing but stiffness
-//! answers (a clamped structure below its first resonance), and then nothing is said. A conjugated FRF is told by damping that shows; where it is less than the noise, nothing is said.
+//! answers (a clamped structure below its first resonance), and then nothing is said. Damping that shows gives a conjugated FRF away; where it is less than the noise, nothing is said.
 //! A dof is one of several where neighbours or mirror images answer alike: all of them are named. Faults that depend on frequency (a filter, a mounting resonance) are not looked for.
 
 mod data_hypothesis;

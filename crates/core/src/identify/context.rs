@@ -1,4 +1,4 @@
-//! What the caller lends to a search, and what is told to it on the way.
+//! What the caller lends to a search, and what it hears on the way.
 
 use crate::for_each::ForEach;
 

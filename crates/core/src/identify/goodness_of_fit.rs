@@ -28,7 +28,7 @@ impl GoodnessOfFit {
 pub enum Explained {
     /// What is left is noise of the size that was given, or of the size that the scatter of the answers shows too.
     Yes,
-    /// A little more is left than the given noise, by a factor of up to two in χ²: the noise is larger than told, or the model not quite right.
+    /// A little more is left than the given noise, by a factor of up to two in χ²: the noise is larger than given, or the model not quite right.
     Nearly,
     /// What is left is no noise: the model cannot explain these measurements.
     No,
@@ -51,7 +51,7 @@ impl Explained {
 /// A normal deviate beyond which it is not chance: once in thirty thousand.
 const CHANCE_DEVIATE: f64 = 4.0;
 
-/// χ² up to this many times its degrees of freedom is the noise told too small by less than half.
+/// χ² up to this many times its degrees of freedom is noise that was given too small by less than half.
 const MAX_NEARLY_REDUCED_CHI_SQUARED: f64 = 2.0;
 
 /// Sensors that disagree by so many times what the answers scatter by do not disagree by noise, which shows in both alike: ten times in χ², where

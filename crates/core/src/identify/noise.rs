@@ -1,4 +1,4 @@
-//! How large the noise is: as told, or as the band tells it.
+//! How large the noise is: as given, or as the band shows it.
 
 use crate::c64;
 use crate::frequency::omega_rad_s;
@@ -15,7 +15,7 @@ const MIN_STD_OVER_LARGEST: f64 = 1e-9;
 /// The least level that is believed of one that is not given: a millionth of the response is roundoff near a resonance.
 pub(super) const MIN_NOISE_LEVEL: f64 = 1e-6;
 
-/// Answers with two neighbours on either side that a scatter is told from: with fewer, a median is an accident.
+/// Answers with two neighbours on either side that a scatter is estimated from: with fewer, a median is an accident.
 const MIN_SCATTER_ANSWERS: usize = 12;
 
 /// Standard deviations √E|δx|² of measured receptances, `[frequency][sensor]`.

@@ -48,7 +48,7 @@ const MIN_LOG_LIKELIHOOD_GAIN: f64 = 10.0;
 const MIN_VARIANCE_RATIO: f64 = 1e-4;
 const MAX_VARIANCE_RATIO: f64 = 1e6;
 
-/// Lines from which on a correlation may be told.
+/// Lines from which on a correlation may be estimated.
 const MIN_LINES: usize = 12;
 
 /// The likeliest correlation of what lines leave; `None` where noise of their own explains it as well.

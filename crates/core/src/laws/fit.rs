@@ -51,7 +51,7 @@ pub struct LawFit {
     pub law: Law,
     /// The parameters.
     pub parameters: Vec<Estimate>,
-    /// Correlation of the parameters, by the delta rule; `None` where some are not told by the data.
+    /// Correlation of the parameters, by the delta rule; `None` where some are not identifiable.
     pub correlation: Option<Vec<Vec<f64>>>,
     /// χ² = Σ r²: with known deviations about as many as there are degrees of freedom. With unknown ones it is in units of what they are in proportion to.
     pub chi_squared: f64,
@@ -71,7 +71,7 @@ pub struct LawFit {
     theta: Vec<f64>,
     /// Other minima that the data cannot exclude.
     rivals: Vec<Vec<f64>>,
-    /// Of θ; NaN for coordinates that are not told.
+    /// Of θ; NaN for coordinates that are not identifiable.
     covariance: Option<Vec<Vec<f64>>>,
 }
 
@@ -256,7 +256,7 @@ impl LawFit {
         (&self.parametrization, &self.theta)
     }
 
-    /// gᵀ Cov h over the coordinates that are told.
+    /// gᵀ Cov h over the coordinates that are identifiable.
     pub(crate) fn covariance_of(&self, g: &[f64], h: &[f64]) -> Option<f64> {
         let covariance = self.covariance.as_ref()?;
         let known: Vec<usize> = (0..g.len()).filter(|&i| covariance[i][i].is_finite()).collect();

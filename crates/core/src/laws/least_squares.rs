@@ -139,7 +139,7 @@ pub(crate) fn descend(start: &[f64], evaluate: Evaluate<'_>, search: &Search) ->
 
 /// (JᵀJ)⁻¹, n × n, row after row.
 ///
-/// A column of zeros is a coordinate that nothing depends on: its rows are NaN, and the others are told without it. `None` where coordinates depend on each other to the last digit.
+/// A column of zeros is a coordinate that nothing depends on: its rows are NaN, and the others are those without it. `None` where coordinates depend on each other to the last digit.
 pub(crate) fn inverse_information(jacobian: &[f64], n: usize) -> Option<Vec<Vec<f64>>> {
     let m = jacobian.len() / n.max(1);
     let norms: Vec<f64> =
@@ -167,7 +167,7 @@ pub(crate) fn inverse_information(jacobian: &[f64], n: usize) -> Option<Vec<Vec<
     Some(inverse)
 }
 
-/// A coordinate whose change by one moves Σ r² by less than the square of this is not told by the data.
+/// A coordinate whose change by one moves Σ r² by less than the square of this is not identifiable.
 const INSENSITIVE_COORDINATE_TOL: f64 = 1e-8;
 
 /// Eigenvalues of JᵀJ with columns of norm one are exact to some ε; below this they have no digit.

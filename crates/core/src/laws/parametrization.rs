@@ -124,7 +124,7 @@ impl Parametrization {
         Some((residuals, columns.concat()))
     }
 
-    /// What a law leaves of each datum in ln E, and what that pulls; the real and the imaginary part of ln E as if the datum told them apart.
+    /// What a law leaves of each datum in ln E, and what that pulls; the real and the imaginary part of ln E as if they were two data.
     pub(crate) fn lines(&self, data: &[Datum], theta: &[f64]) -> Vec<LineResidual> {
         let line = |datum: &Datum| {
             let (modulus, slopes) = self.modulus(theta, datum.omega_rad_s)?;

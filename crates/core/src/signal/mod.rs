@@ -5,7 +5,7 @@
 //! ```
 //!
 //! [`estimate_frf`] finds the impacts of all recordings, cuts a record of equal length for each, names what is wrong with it, and averages
-//! over those with which nothing is. Every impact is told of in [`Measured::impacts`], with what spoke against it.
+//! over those with which nothing is. Every impact is listed in [`Measured::impacts`], with what spoke against it.
 //!
 //! The transform is periodic: an FRF from it is that of the structure only where the response has decayed within the record.
 //! What is left of it at the end is [`Impact::residual`].

@@ -19,7 +19,7 @@ pub struct Options {
     pub length_s: Option<f64>,
     /// Share of an impact's largest force that a second contact has to reach to be called a double impact.
     ///
-    /// A second contact of a share q ripples the force's spectrum by ±q; below a tenth it is hardly told from the ringing of filters.
+    /// A second contact of a share q ripples the force's spectrum by ±q; below a tenth it hardly differs from the ringing of filters.
     pub double_impact: f64,
     /// Share of a channel's largest value by which its mean may move within a record.
     pub drift: f64,

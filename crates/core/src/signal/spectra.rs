@@ -53,7 +53,7 @@ impl Spectra {
 
     /// The lines above 0 Hz and below the Nyquist frequency at which all channels have something.
     ///
-    /// At 0 Hz the offsets were removed, at the Nyquist frequency a phase cannot be told.
+    /// At 0 Hz the offsets were removed, at the Nyquist frequency no phase can be known.
     pub(super) fn lines(&self) -> impl Iterator<Item = usize> {
         let last = self.transform.len().saturating_sub(1) / 2;
         let there = |k: &usize| self.force[*k] > 0.0 && self.responses.iter().all(|sum| sum[*k] > 0.0);

@@ -13,7 +13,7 @@ pub struct Windows {
     /// after the contact.
     pub force_s: Option<f64>,
     /// Time constant τ in s of the factor e^{−t/τ} on force and response: forces a response to decay within the record.
-    /// It adds damping, which the model is told of ([`added_decay`]).
+    /// It adds damping, which the model has to have too ([`added_decay`]).
     pub exponential_s: Option<f64>,
 }
 

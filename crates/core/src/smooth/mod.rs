@@ -41,7 +41,7 @@ pub(crate) struct Smoothed {
 const LN_CURVATURE_STEP: f64 = 1.0;
 
 /// The least curvature moves the curve off a line, over the whole range, by a tenth of the line's own deviation (a Wiener process's bridge has
-/// T³/192 in its middle), so that it cannot be told from none.
+/// T³/192 in its middle), so that it is the same as none.
 const STRAIGHT_CURVATURE: f64 = 1.0;
 
 /// At the largest every observation stands alone: a step of the median length has a hundred times the variance of the median observation.

@@ -162,7 +162,7 @@ impl<'m> Subspace<'m> {
 
     /// Adds S⁻¹ times the residuals at the worst points, as far as they are independent; returns how many vectors were new.
     ///
-    /// Which are is told by their sketches; only those that are kept are formed in full.
+    /// Their sketches show which are; only those that are kept are formed in full.
     fn enrich(&mut self, points: &[&Point<'m>]) -> Result<usize, Breakdown> {
         let mut kept: Vec<Vec<f64>> = Vec::new();
         let (mut wanted, mut count) = (Vec::new(), 0);

@@ -12,7 +12,7 @@ use frfit_linalg::solve::Breakdown;
 #[non_exhaustive]
 pub struct ChangeOptions {
     /// Largest estimated error of a derivative at a sensor ([`Changed::relative_truncation`]) to accept. Default 1e-6: error bars are read to two digits, and what
-    /// parameters have in common is told from what they have not down to that.
+    /// parameters have in common differs from what they have not by as little.
     pub tolerance: f64,
     /// Largest estimated error of response and derivatives everywhere ([`Changed::everywhere`]) to accept; `None` (default): it does not matter.
     pub everywhere: Option<f64>,

@@ -54,7 +54,7 @@ const CALIBRATION_INFORMATION_RTOL: f64 = 1e-12;
 /// channels of which all is known alone give the first moduli; the first delays are those that turn most x_m/y_m to one phase, among the ones that the diagnostics tries too, the first
 /// scales the medians then. Every frequency is selected anew from all channels, and Gauss and Newton's steps with the moduli eliminated, frequency by
 /// frequency, move scales and delays. Error bars of the factor have what those of the scales and delays put into them, and χ² as many degrees of freedom less.
-/// The selection is joint, and what answers is the subspace, whatever the options say; nothing is told, and the channels are left out, where there is no
+/// The selection is joint, and what answers is the subspace, whatever the options say; no calibration is given, and the channels are left out, where there is no
 /// subspace, or where what was found does not tell them.
 ///
 /// # Errors

@@ -202,7 +202,7 @@ pub(super) fn at_scales<'a, 'o>(
     (outcome, Begin { reduced, channels, ratio })
 }
 
-/// Factors of the box that are tried: 2 % apart, as shapes are told by logarithms, which resonances that miss one another by their width do not spoil.
+/// Factors of the box that are tried: 2 % apart, as shapes are compared by logarithms, which resonances that miss one another by their width do not spoil.
 const SHAPE_FACTORS: usize = 140;
 
 /// Frequencies at which the shapes are compared.
@@ -242,7 +242,7 @@ fn shaped(
             .map(|(&i, x)| (omega_rad_s(band.frequency_hz[i]), x[m] / band.measured[i][m]))
             .collect();
         let found = aligned(&ratios, unknown, top(band))?;
-        // The size by logarithms, as the shape is told by them; its sense is that in which most of them move.
+        // The size by logarithms, as the shape is compared by them; its sense is that in which most of them move.
         let size =
             median(ratios.iter().map(|(_, ratio)| ratio.norm().ln()).filter(|ln| ln.is_finite()).collect())?;
         let same =

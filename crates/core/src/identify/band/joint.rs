@@ -72,7 +72,7 @@ pub(super) fn identify<'a>(
             noise: noise.level,
             freedom: task.freedom(),
             assessment: on_space.and_then(|(reduced, c)| reduced.assess(i, c)),
-            // What cannot be told is not linear.
+            // Where it is not known, the bar is not linear.
             second: second.unwrap_or(f64::INFINITY),
         };
         verdict(&evidence, &found[i], &choices[i], options)

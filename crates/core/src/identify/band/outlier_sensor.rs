@@ -19,7 +19,7 @@ pub(in crate::identify) const OUTLIER_FREQUENCIES: usize = 24;
 pub(in crate::identify) const OUTLIER_RATIO: f64 = 10.0;
 
 /// The sensors that contradict the others, worst first, and the work of size N that it took to find them. Of two sensors
-/// neither can be told to be the wrong one. Those that are `hidden` are left out throughout.
+/// it cannot be known which is wrong. Those that are `hidden` are left out throughout.
 pub(super) fn contradicting(
     task: &Task<'_, '_>,
     reduced: Option<&mut ReducedBand<'_, '_>>,
