@@ -61,7 +61,7 @@ pub fn by_subspace(structure: &Structure, checks: usize) -> Result<BySubspace, B
         let mut subspace = Subspace::new(experiment, &at[n - 1])?;
         let for_each = |n: usize, each: &(dyn Fn(usize) + Sync)| (0..n).into_par_iter().for_each(each);
         for tolerance in TOLERANCES {
-            subspace.train(&points, &TrainOptions { tolerance, ..TrainOptions::default() }, &for_each)?;
+            subspace.train(&points, &TrainOptions::default().with_tolerance(tolerance), &for_each)?;
         }
         let small = subspace.projection();
         let assessed = map(&for_each, n, |i| small.assess(&at[i], c64::default()));

@@ -50,7 +50,7 @@ impl StageClock {
             Some(Stage::Subspace) => stages.subspace += elapsed,
             Some(Stage::Solutions) => stages.solutions += elapsed,
             Some(Stage::Selection) => stages.selection += elapsed,
-            Some(Stage::Law) | None => {}
+            Some(_) | None => {}
         }
         (*current, *since) = (next, ProcessTime::now());
     }

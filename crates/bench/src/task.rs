@@ -159,14 +159,7 @@ impl Task<'_> {
         let sensors = self.experiment.sensors.len();
         let measured: Vec<Vec<c64>> =
             self.picked.iter().map(|&i| self.structure.measured[i][..sensors].to_vec()).collect();
-        let unknowns = [Unknown {
-            name: "factor".into(),
-            dependence: Dependence::Factor(self.nominal.members.iter().map(|member| member.term).collect()),
-            nominal: self.nominal.nominal.clone(),
-            varies: Variation::PerFrequency,
-            real: false,
-            bounds: self.structure.bounds()?,
-        }];
+        let unknowns = [Unknown { bounds: self.structure.bounds()?, ..Unknown::of_parameter(&self.nominal) }];
         let frfs = Frfs { frequency_hz: &frequency_hz, receptance: &measured, noise: Noise::Unknown };
         let problem = Problem::new(&self.structure.stiffness, &self.experiment, &unknowns, &[], frfs)?;
         let clock = Stages::clock();

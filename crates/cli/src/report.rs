@@ -196,7 +196,7 @@ fn doubts(job: &IdentifyJob) -> Vec<(bool, &'static str, String)> {
             NoiseSource::Curve => {
                 format!("{level:.1e} of what is assumed, from what the smooth curve leaves")
             }
-            NoiseSource::Nothing => "unknown".to_owned(),
+            other => other.name().to_owned(),
         };
         lines.push((false, "noise", format!("{source}{bar}")));
     }

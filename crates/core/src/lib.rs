@@ -106,6 +106,7 @@ pub mod series;
 pub mod signal;
 mod smooth;
 pub mod subspace;
+mod with_fields;
 
 pub use frfit_linalg as linalg;
 pub use frfit_linalg::c64;

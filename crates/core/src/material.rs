@@ -152,6 +152,7 @@ impl std::error::Error for OutsideTable {}
 
 /// What is wrong with a table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum TableError {
     /// No row, or different numbers of frequencies and values.
     Shape,

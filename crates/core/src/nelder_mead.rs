@@ -4,14 +4,13 @@
 //! J. A. Nelder, R. Mead, Computer Journal 7 (1965) 308–313; iteration by the crate argmin.
 
 use crate::c64;
-use crate::identify::relative_error;
-use crate::response::Response;
+use crate::response::{Response, relative_error};
 use argmin::core::{CostFunction, Error, Executor, State};
 use argmin::solver::neldermead::NelderMead;
 
 /// Where a search ended.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Found {
+pub struct Minimum {
     /// The correction c of least error.
     pub correction: c64,
     /// ε there, P-40.
@@ -27,20 +26,20 @@ pub struct Found {
 ///
 /// # Limits
 /// A local search: it ends in the valley that it starts in.
-pub fn search(system: &impl Response, measured: &[c64], iterations: usize) -> Found {
+pub fn search(system: &impl Response, measured: &[c64], iterations: usize) -> Minimum {
     let scale = match system.nominal(0).norm() {
         0.0 => 1.0,
         size => size,
     };
     let simplex = vec![vec![0.0, 0.0], vec![0.05, 0.0], vec![0.0, 0.05]];
     let problem = Misfit { system, measured, scale };
-    let fallback = Found { correction: c64::default(), error: f64::INFINITY, evaluations: 0 };
+    let fallback = Minimum { correction: c64::default(), error: f64::INFINITY, evaluations: 0 };
     let Ok(solver) = NelderMead::new(simplex).with_sd_tolerance(0.0) else { return fallback };
     let run = Executor::new(problem, solver).configure(|state| state.max_iters(iterations as u64)).run();
     let Ok(result) = run else { return fallback };
     let state = result.state();
     let best = state.get_best_param().map_or(c64::default(), |p| c64::new(p[0], p[1]) * scale);
-    Found {
+    Minimum {
         correction: best,
         error: state.get_best_cost(),
         evaluations: state.get_func_counts().values().sum::<u64>() as usize,

@@ -167,3 +167,10 @@ impl Response for FullModel<'_> {
         }
     }
 }
+
+/// ε = ‖u − x‖ / ‖u‖ over the sensors, P-40.
+pub fn relative_error(measured: &[c64], response: &[c64]) -> f64 {
+    let misfit: f64 = measured.iter().zip(response).map(|(u, x)| (u - x).norm_sqr()).sum();
+    let size: f64 = measured.iter().map(|u| u.norm_sqr()).sum();
+    (misfit / size).sqrt()
+}

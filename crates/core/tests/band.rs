@@ -3,12 +3,12 @@
 use crate::common;
 use crate::tier::of_tier;
 
-use common::{Band, Case, bar, beam, c, chain, plate, sandwich, term, thickness, tip_load};
+use common::{Band, Case, Setup, bar, beam, c, chain, plate, sandwich, term, thickness, tip_load};
 use frfit::c64;
 use frfit::for_each::{ForEach, sequential};
 use frfit::frequency::linear_hz;
 use frfit::identify::{Context, Identification, Line, Noise, Stage, Variation};
-use frfit::identify::{Method, Options, Reduction, Selection, Status, relative_error};
+use frfit::identify::{Method, Reduction, Selection, Status, relative_error};
 use frfit::material::Law;
 use frfit::model::{DynamicStiffness, Parameter, Role, Term};
 use frfit::response::Work;
@@ -35,9 +35,9 @@ fn case_band<'a>(case: &'a Case, frequency_hz: &'a [f64], measured: &'a [Vec<c64
     }
 }
 
-fn identify(case: &Case, frequency_hz: &[f64], measured: &[Vec<c64>], options: &Options) -> Identification {
+fn identify(case: &Case, frequency_hz: &[f64], measured: &[Vec<c64>], setup: &Setup) -> Identification {
     let hooks = Context { for_each: &sequential, progress: &quiet };
-    case_band(case, frequency_hz, measured).identify(Variation::PerFrequency, &[], options, hooks)
+    case_band(case, frequency_hz, measured).identify(Variation::PerFrequency, &[], setup, hooks)
 }
 
 /// Distance of the nearest admitted root from the truth, relative to it.
@@ -49,9 +49,9 @@ fn nearest(outcome: &Line, truth: c64) -> f64 {
 }
 
 /// Wide bounds about a real factor of this size, passive.
-fn within(size: f64, by: f64) -> Options {
+fn within(size: f64, by: f64) -> Setup {
     let bounds = Bounds { storage: Some([size / by, size * by]), loss_factor: Some([0.0, 2.0]) };
-    Options { bounds, ..Options::default() }
+    Setup::within(bounds)
 }
 
 /// Everything that an outcome says is a number.
@@ -70,8 +70,8 @@ fn assert_truth(mut case: Case, offs: &[f64], frequencies: usize, digits: f64) {
     let u = measured(&case, &frequency_hz);
     for &off in offs {
         case.parameter.nominal = truth.scaled(off);
-        let options = within(truth.at(case.band_hz[1]).unwrap().re, 10.0);
-        let band = identify(&case, &frequency_hz, &u, &options);
+        let setup = within(truth.at(case.band_hz[1]).unwrap().re, 10.0);
+        let band = identify(&case, &frequency_hz, &u, &setup);
         assert!(band.search.reduced_size.is_some_and(|size| size < 130), "{:?}", band.search.reduced_size);
         for outcome in &band.lines {
             let f = outcome.frequency_hz;
@@ -157,7 +157,7 @@ fn work(case: &Case, frequencies: usize, bounds: [f64; 2]) -> Work {
     let u = simulated(case, 0.8, &frequency_hz);
     let size = case.parameter.nominal.at(case.band_hz[1]).unwrap().re;
     let bounds = Bounds { storage: Some(bounds.map(|by| by * size)), loss_factor: Some([0.0, 2.0]) };
-    let band = identify(case, &frequency_hz, &u, &Options { bounds, ..Options::default() });
+    let band = identify(case, &frequency_hz, &u, &Setup::within(bounds));
     assert_eq!(band.search.work.solves, band.search.reduced_size.unwrap());
     band.search.work
 }
@@ -194,8 +194,8 @@ fn the_papers_way_is_the_same_on_the_subspace() {
         let u = measured(&case, &frequency_hz);
         case.parameter.nominal = truth.scaled(off);
         let wide = within(truth.at(case.band_hz[1]).unwrap().re, 10.0);
-        let paper = Options { bounds: wide.bounds, ..Options::paper() };
-        let on = |reduction| identify(&case, &frequency_hz, &u, &Options { reduction, ..paper });
+        let paper = Setup::paper(wide.bounds);
+        let on = |reduction| identify(&case, &frequency_hz, &u, &paper.with_reduction(reduction));
         let (full, small) = (on(Reduction::Full), on(Reduction::Subspace));
         assert_eq!((full.search.reduced_size, small.search.reduced_size.is_some()), (None, true));
         assert!(full.search.work.factorisations >= 2 * 24 && small.search.work.factorisations <= 4);
@@ -226,7 +226,7 @@ fn order_and_threads_of_the_work_do_not_change_a_bit() {
     let frequency_hz = linear_hz(20.0, 1000.0, 40);
     let u = measured(&case, &frequency_hz);
     case.parameter.nominal = truth.scaled(1.4);
-    let options = within(truth.at(1000.0).unwrap().re, 10.0);
+    let setup = within(truth.at(1000.0).unwrap().re, 10.0);
     let backwards = |n: usize, each: &(dyn Fn(usize) + Sync)| (0..n).rev().for_each(each);
     let threads = |n: usize, each: &(dyn Fn(usize) + Sync)| {
         let next = AtomicUsize::new(0);
@@ -239,15 +239,13 @@ fn order_and_threads_of_the_work_do_not_change_a_bit() {
             }
         });
     };
-    for options in
-        [options, Options { bounds: options.bounds, reduction: Reduction::Subspace, ..Options::paper() }]
-    {
+    for setup in [setup, Setup::paper(setup.bounds).with_reduction(Reduction::Subspace)] {
         let by = |for_each: ForEach<'_>| {
             let hooks = Context { for_each, progress: &quiet };
             // Every digit is written out: equal texts are equal bits.
             format!(
                 "{:?}",
-                case_band(&case, &frequency_hz, &u).identify(Variation::PerFrequency, &[], &options, hooks)
+                case_band(&case, &frequency_hz, &u).identify(Variation::PerFrequency, &[], &setup, hooks)
             )
         };
         let forwards = by(&sequential);
@@ -263,7 +261,7 @@ fn one_and_two_frequencies_are_bands() {
     case.parameter.nominal = truth.scaled(1.3);
     for reduction in [Reduction::Auto, Reduction::Full, Reduction::Subspace] {
         for (frequency_hz, u) in [(&[700.0][..], &u[..1]), (&[700.0, 1900.0], &u)] {
-            let band = identify(&case, frequency_hz, u, &Options { reduction, ..within(2e11, 10.0) });
+            let band = identify(&case, frequency_hz, u, &within(2e11, 10.0).with_reduction(reduction));
             assert_eq!(band.lines.len(), frequency_hz.len());
             assert_eq!(band.search.reduced_size.is_some(), reduction == Reduction::Subspace);
             for outcome in &band.lines {
@@ -282,7 +280,7 @@ fn a_band_may_begin_at_rest() {
         let u = measured(&case, frequency_hz);
         case.parameter.nominal = truth.scaled(1.3);
         for reduction in [Reduction::Full, Reduction::Subspace] {
-            let band = identify(&case, frequency_hz, &u, &Options { reduction, ..within(2e11, 10.0) });
+            let band = identify(&case, frequency_hz, &u, &within(2e11, 10.0).with_reduction(reduction));
             assert_eq!(band.search.reduced_size.is_some(), reduction == Reduction::Subspace);
             for outcome in &band.lines {
                 assert_no_nan(outcome);
@@ -302,7 +300,7 @@ fn a_free_structure_at_rest_has_no_answer_there() {
     let truth = case.parameter.nominal.clone();
     case.parameter.nominal = truth.scaled(1.3);
     for reduction in [Reduction::Full, Reduction::Subspace] {
-        let band = identify(&case, &frequency_hz, &u, &Options { reduction, ..within(5e6, 20.0) });
+        let band = identify(&case, &frequency_hz, &u, &within(5e6, 20.0).with_reduction(reduction));
         band.lines.iter().for_each(assert_no_nan);
         assert_ne!(band.lines[0].status, Status::Ok, "{reduction:?}");
         for outcome in &band.lines[1..] {
@@ -334,7 +332,7 @@ fn what_is_nominally_absent_is_found() {
     let frequency_hz = linear_hz(0.5, 10.0, 12);
     let u: Vec<Vec<c64>> = frequency_hz.iter().map(|&f| case.direct(f, truth).unwrap()).collect();
     for reduction in [Reduction::Full, Reduction::Subspace] {
-        let band = identify(&case, &frequency_hz, &u, &Options { reduction, ..Options::default() });
+        let band = identify(&case, &frequency_hz, &u, &Setup::default().with_reduction(reduction));
         for outcome in &band.lines {
             assert!(nearest(outcome, truth) < 1e-5, "{reduction:?}: {outcome:?}");
             assert!(!format!("{outcome:?}").contains("NaN"), "{reduction:?}: {outcome:?}");
@@ -352,9 +350,9 @@ fn a_sensor_that_measures_nothing_does_no_harm() {
     for m in [0, 1] {
         let kept = std::mem::take(&mut u[2][m]);
         for reduction in [Reduction::Full, Reduction::Subspace] {
-            let options = Options { reduction, ..within(2e11, 10.0) };
-            for options in [options, Options { selection: Selection::Smallest, ..options }] {
-                let band = identify(&case, &frequency_hz, &u, &options);
+            let setup = within(2e11, 10.0).with_reduction(reduction);
+            for setup in [setup, setup.with_selection(Selection::Smallest)] {
+                let band = identify(&case, &frequency_hz, &u, &setup);
                 band.lines.iter().for_each(assert_no_nan);
                 assert_ne!(band.lines[2].status, Status::Ok, "{:?}", band.lines[2]);
                 assert!(nearest(&band.lines[1], truth.at(0.0).unwrap()) < 1e-6);
@@ -366,8 +364,12 @@ fn a_sensor_that_measures_nothing_does_no_harm() {
     u[2].fill(c64::default());
     for reduction in [Reduction::Full, Reduction::Subspace] {
         for selection in [Selection::Joint, Selection::Smallest] {
-            let band =
-                identify(&case, &frequency_hz, &u, &Options { reduction, selection, ..within(2e11, 10.0) });
+            let band = identify(
+                &case,
+                &frequency_hz,
+                &u,
+                &within(2e11, 10.0).with_reduction(reduction).with_selection(selection),
+            );
             band.lines.iter().for_each(assert_no_nan);
             assert_ne!(band.lines[2].status, Status::Ok);
         }
@@ -404,8 +406,8 @@ fn a_singular_model_is_a_status() {
     let frequency_hz = linear_hz(1.0, 5.0, 6);
     let u = vec![vec![c(1e-4, 1e-5)]; 6];
     for reduction in [Reduction::Full, Reduction::Subspace, Reduction::Auto] {
-        for paper in [Options::default(), Options::paper()] {
-            let band = identify(&case, &frequency_hz, &u, &Options { reduction, ..paper });
+        for paper in [Setup::default(), Setup::paper(Bounds::default())] {
+            let band = identify(&case, &frequency_hz, &u, &paper.with_reduction(reduction));
             for outcome in &band.lines {
                 assert_eq!(outcome.status, Status::Failed, "{reduction:?}");
                 assert!(outcome.breakdown.is_some());
@@ -424,13 +426,13 @@ fn bounds_may_exclude_the_nominal() {
     for off in [0.2, 6.0] {
         case.parameter.nominal = truth.scaled(off);
         for reduction in [Reduction::Full, Reduction::Subspace] {
-            let options = Options { reduction, order: 60, ..within(2e11, 1.5) };
-            let band = identify(&case, &frequency_hz, &u, &options);
+            let setup = within(2e11, 1.5).with_reduction(reduction).with_order(60);
+            let band = identify(&case, &frequency_hz, &u, &setup);
             for outcome in &band.lines {
                 assert_no_nan(outcome);
                 assert!(nearest(outcome, truth.at(0.0).unwrap()) < 1e-6, "{off} {reduction:?}: {outcome:?}");
                 for root in outcome.roots.iter().filter(|root| root.refusal.is_none()) {
-                    assert_eq!(options.bounds.broken_by(outcome.nominal() + root.correction), None);
+                    assert_eq!(setup.bounds.broken_by(outcome.nominal() + root.correction), None);
                 }
             }
         }
@@ -452,8 +454,8 @@ fn odd_bounds_are_no_reason_to_panic() {
     ] {
         for whole_box in [false, true] {
             let bounds = Bounds { storage, loss_factor: None };
-            let options = Options { bounds, whole_box, reduction: Reduction::Subspace, ..Options::default() };
-            let band = identify(&case, &frequency_hz, &u, &options);
+            let setup = Setup::within(bounds).with_whole_box(whole_box).with_reduction(Reduction::Subspace);
+            let band = identify(&case, &frequency_hz, &u, &setup);
             band.lines.iter().for_each(assert_no_nan);
             // To bounds without width roundoff is outside.
             let wide = storage.is_none_or(|[low, high]| low < high);
@@ -475,15 +477,15 @@ fn a_real_factor_is_real() {
         let frequency_hz = linear_hz(0.5, 9.0, 10);
         let u: Vec<_> = frequency_hz.iter().map(|&f| case.direct(f, truth - nominal).unwrap()).collect();
         for reduction in [Reduction::Full, Reduction::Subspace] {
-            let options = Options { real: true, reduction, ..within(3.5e3, 3.0) };
-            let band = identify(&case, &frequency_hz, &u, &options);
+            let setup = Setup { real: true, ..within(3.5e3, 3.0).with_reduction(reduction) };
+            let band = identify(&case, &frequency_hz, &u, &setup);
             for outcome in &band.lines {
                 assert_no_nan(outcome);
                 assert!(nearest(outcome, truth) < 1e-6, "{reduction:?}: {outcome:?}");
                 for root in outcome.roots.iter().filter(|root| root.refusal.is_none()) {
                     let factor = nominal + root.correction;
                     assert!(factor.im.abs() < 1e-12 * factor.norm(), "{factor}");
-                    assert_eq!(options.bounds.broken_by(c(factor.re, 0.0)), None);
+                    assert_eq!(setup.bounds.broken_by(c(factor.re, 0.0)), None);
                 }
             }
         }
@@ -496,13 +498,13 @@ fn a_nominal_that_is_right_stays() {
     let frequency_hz = linear_hz(100.0, 3000.0, 10);
     let u = measured(&case, &frequency_hz);
     for reduction in [Reduction::Full, Reduction::Subspace] {
-        let joint = Options { reduction, ..within(2e11, 10.0) };
-        let rational = Options { selection: Selection::Smallest, ..joint };
-        for options in [joint, rational, Options { method: Method::Series, ..rational }] {
-            let band = identify(&case, &frequency_hz, &u, &options);
+        let joint = within(2e11, 10.0).with_reduction(reduction);
+        let rational = joint.with_selection(Selection::Smallest);
+        for setup in [joint, rational, rational.with_method(Method::Series)] {
+            let band = identify(&case, &frequency_hz, &u, &setup);
             for outcome in &band.lines {
                 assert_no_nan(outcome);
-                assert!(nearest(outcome, outcome.nominal()) < 1e-9, "{options:?}: {outcome:?}");
+                assert!(nearest(outcome, outcome.nominal()) < 1e-9, "{setup:?}: {outcome:?}");
             }
         }
     }
@@ -517,7 +519,7 @@ fn a_thickness_is_found_too() {
     for off in [0.8, 1.3] {
         case.parameter.nominal = truth.scaled(off);
         for reduction in [Reduction::Full, Reduction::Subspace] {
-            let band = identify(&case, &frequency_hz, &u, &Options { reduction, ..within(1.0, 2.0) });
+            let band = identify(&case, &frequency_hz, &u, &within(1.0, 2.0).with_reduction(reduction));
             for outcome in &band.lines {
                 assert_no_nan(outcome);
                 let missed = nearest(outcome, truth.at(0.0).unwrap());

@@ -4,13 +4,11 @@ use crate::common;
 use crate::noise;
 use crate::tier::{of_tier, scatter_of_95};
 
-use common::{Band, Case, bar, plate, sandwich};
+use common::{Band, Case, Setup, bar, plate, sandwich};
 use frfit::c64;
 use frfit::for_each::sequential;
 use frfit::frequency::linear_hz;
-use frfit::identify::{
-    Context, Explained, Identification, Noise as Known, Options, Stage, Status, Variation,
-};
+use frfit::identify::{Context, Explained, Identification, Noise as Known, Stage, Status, Variation};
 use frfit::laws::{LawFit, LawKind, best};
 use frfit::material::{Law, loss_factor};
 use frfit::roots::Bounds;
@@ -56,7 +54,7 @@ fn identify(
         noise,
     };
     let hooks = Context { for_each: &sequential, progress: &quiet };
-    band.identify(Variation::Law(kinds.to_vec()), &[], &Options { bounds, ..Options::default() }, hooks)
+    band.identify(Variation::Law(kinds.to_vec()), &[], &Setup::within(bounds), hooks)
 }
 
 fn parameter(fit: &LawFit, name: &str) -> (f64, f64) {
@@ -137,7 +135,7 @@ fn the_core_of_a_sandwich_has_its_fractional_law() {
         let found = identify(&mut case, &truth, 1.4, &frequency_hz, &measured, Known::Known(&std), &kinds);
         let fit = best(&found.laws).unwrap();
         assert_eq!(
-            fit.family,
+            fit.kind,
             LawKind::Fractional,
             "seed {seed}: {:?}",
             found.laws.iter().map(LawFit::bic).collect::<Vec<_>>()

@@ -4,13 +4,11 @@ use crate::common;
 use crate::noise;
 use crate::tier::of_tier;
 
-use common::{Band, Case, bar, c, plate};
+use common::{Band, Case, Setup, bar, c, plate};
 use frfit::c64;
 use frfit::for_each::sequential;
 use frfit::frequency::{linear_hz, omega_rad_s};
-use frfit::identify::{
-    Calibrated, Calibration, ChannelUnknowns, Context, Noise, Options, Stage, Status, Variation,
-};
+use frfit::identify::{Calibrated, Calibration, ChannelUnknowns, Context, Noise, Stage, Status, Variation};
 use frfit::laws::LawKind;
 use frfit::material::Law;
 use frfit::roots::Bounds;
@@ -73,9 +71,9 @@ impl Test {
         pulls
     }
 
-    fn options(&self) -> Options {
+    fn setup(&self) -> Setup {
         let bounds = Bounds { storage: Some([self.truth.re / 4.0, 4.0 * self.truth.re]), loss_factor: None };
-        Options { bounds, ..Options::default() }
+        Setup::within(bounds)
     }
 }
 
@@ -105,8 +103,7 @@ fn a_plate_beside_a_channel_that_is_known() {
     let draws = of_tier(1, 12);
     for _ in 0..draws {
         let values = test.drawn(&mut noise);
-        let outcome =
-            test.band(&values).identify(Variation::PerFrequency, &unknown, &test.options(), hooks());
+        let outcome = test.band(&values).identify(Variation::PerFrequency, &unknown, &test.setup(), hooks());
         let found = &outcome.channels;
         pulls.extend(test.pulls(found, &unknown));
         let fit = outcome.fit.unwrap();
@@ -140,7 +137,7 @@ fn a_bar_with_a_law_and_no_channel_that_is_known() {
     for _ in 0..draws {
         let values = test.drawn(&mut noise);
         let law = Variation::law(LawKind::Constant);
-        let found = test.band(&values).identify(law, &unknown, &test.options(), hooks());
+        let found = test.band(&values).identify(law, &unknown, &test.setup(), hooks());
         assert!(found.lines.iter().all(|one| one.status == Status::Ok), "{:?}", found.channels);
         let law = &found.laws[0];
         // All numbers of the measurement, less what was fitted.
@@ -167,8 +164,7 @@ fn delays_of_many_periods_have_the_right_minimum() {
         );
         let values = test.drawn(&mut noise::Noise::new(2));
         let unknown = [NEITHER, ChannelUnknowns { scale: false, delay: true }];
-        let outcome =
-            test.band(&values).identify(Variation::PerFrequency, &unknown, &test.options(), hooks());
+        let outcome = test.band(&values).identify(Variation::PerFrequency, &unknown, &test.setup(), hooks());
         let found = &outcome.channels;
         let Calibrated { value, std } = found[1].delay_s.unwrap();
         assert!(

@@ -3,11 +3,11 @@
 use crate::common;
 use crate::tier::is_long;
 
-use common::{Band, Case, plate, sandwich};
+use common::{Band, Case, Setup, plate, sandwich};
 use frfit::c64;
 use frfit::for_each::sequential;
 use frfit::frequency::linear_hz;
-use frfit::identify::{Context, Identification, Noise, Options, Status, Variation, relative_error};
+use frfit::identify::{Context, Identification, Noise, Status, Variation, relative_error};
 use frfit::roots::Bounds;
 
 /// Dense for a structure of a dozen modes.
@@ -56,12 +56,7 @@ fn both(mut case: Case, frequencies: usize, off: f64, noise: f64, sensors: usize
     };
     [false, true].map(|everywhere| {
         let hooks = Context { for_each: &sequential, progress: &|_, _, _| {} };
-        band.identify(
-            Variation::PerFrequency,
-            &[],
-            &Options { bounds, everywhere, ..Options::default() },
-            hooks,
-        )
+        band.identify(Variation::PerFrequency, &[], &Setup::within(bounds).with_everywhere(everywhere), hooks)
     })
 }
 

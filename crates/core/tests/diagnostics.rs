@@ -4,12 +4,12 @@ use crate::common;
 use crate::noise;
 use crate::tier::of_tier;
 
-use common::{Band, Case, bar, plate, sandwich};
+use common::{Band, Case, Setup, bar, plate, sandwich};
 use frfit::c64;
 use frfit::diagnostics::{Diagnosis, Fault, Finding, KnownFactor, NotJudged, diagnose};
 use frfit::for_each::{ForEach, sequential};
 use frfit::frequency::{linear_hz, omega_rad_s};
-use frfit::identify::{Noise as Known, Options, Problem, Variation};
+use frfit::identify::{Noise as Known, Problem, Variation};
 use frfit::material::Law;
 use frfit::model::{Experiment, Sensor};
 use frfit::quantity::Quantity;
@@ -74,10 +74,10 @@ impl Test {
             measured: &measured,
             noise: Known::Unknown,
         };
-        let options = Options { bounds: self.bounds, ..Options::default() };
-        let unknowns = [band.unknown(Variation::PerFrequency, &options)];
+        let setup = Setup::within(self.bounds);
+        let unknowns = [band.unknown(Variation::PerFrequency, &setup)];
         let problem = Problem::new(band.model, band.experiment, &unknowns, &[], band.frfs()).unwrap();
-        diagnose(&problem, &self.quantities, &options, for_each).unwrap()
+        diagnose(&problem, &self.quantities, &setup.options, for_each).unwrap()
     }
 }
 

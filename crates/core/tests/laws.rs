@@ -138,8 +138,8 @@ fn the_least_bic_is_that_of_the_law_that_made_the_data() {
                     .filter_map(|&family| fit_modulus(&data, family, sigma_known))
                     .collect();
                 assert_eq!(fits.len(), LawKind::ALL.len());
-                right += usize::from(best(&fits).unwrap().family == truth);
-                let own = fits.iter().find(|fit| fit.family == truth).unwrap();
+                right += usize::from(best(&fits).unwrap().kind == truth);
+                let own = fits.iter().find(|fit| fit.kind == truth).unwrap();
                 if sigma_known {
                     // χ²/ν of some 115 degrees of freedom is 1 ± 0.13; five times that never happens.
                     assert!((own.reduced_chi_squared().unwrap() - 1.0).abs() < 0.65);

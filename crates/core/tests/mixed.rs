@@ -301,7 +301,7 @@ fn full_and_reduced_model_agree_and_so_does_a_direct_solve() {
     let all = signs.into_iter().flat_map(|a| signs.into_iter().map(move |b| (a, b)));
     let points: Vec<Point<'_>> =
         all.flat_map(|(a, b)| signs.into_iter().map(move |c| [a, b, c])).map(corner).collect();
-    let options = TrainOptions { tolerance: 1e-10, ..TrainOptions::default() };
+    let options = TrainOptions::default().with_tolerance(1e-10);
     assert!(subspace.train(&points, &options, &sequential).unwrap().converged);
     let reduced = subspace.projection().at(&at).unwrap();
 

@@ -1,6 +1,6 @@
 //! Errors of the model (B-11): truths that come from another mesh, another neighbour or another mass, by direct solves.
 
-use crate::common::{Band, Case, sandwich};
+use crate::common::{Band, Case, Setup, sandwich};
 use crate::noise::Noise as Dice;
 use crate::tier::of_tier;
 use frfit::c64;
@@ -51,9 +51,9 @@ impl Measured {
             measured: &self.u,
             noise: Noise::Known(&self.std),
         };
-        let options = Options { model_errors, ..Options::default() };
+        let setup = Setup::default().with_model_errors(model_errors);
         let context = Context { for_each: &sequential, progress: &|_, _, _| {} };
-        band.identify(varies, &[], &options, context)
+        band.identify(varies, &[], &setup, context)
     }
 
     /// Of the lines that are ok: how many, median relative error of E′, and the parts with E′ and η within two deviations.
@@ -153,7 +153,7 @@ fn what_is_known_of_the_model_is_in_every_bar() {
         assert!((1.0..100.0).contains(&of_skins.change), "{at}: {of_skins:?}");
     }
     let right = sandwich(12, 1);
-    let given = ModelErrors::Given(ErrorSizes { frequency: Some(0.005), shape: None });
+    let given = ModelErrors::Given(ErrorSizes::default().with_frequency(Some(0.005)).with_shape(None));
     let found = measured.identified(&right, Variation::Law(vec![LawKind::Fractional]), given);
     let as_it_is = measured.identified(&right, Variation::Law(vec![LawKind::Fractional]), ModelErrors::None);
     let (ok, error, within) = measured.judged(&found);
@@ -191,7 +191,7 @@ fn constants_of_a_wrong_model_are_within_their_bars() {
         let problem = Problem::new(&model, &experiment, &unknowns, &[], frfs).unwrap();
         let context = Context { for_each: &sequential, progress: &|_, _, _| {} };
         let off = |model_errors: ModelErrors| {
-            let options = Options { model_errors, ..Options::default() };
+            let options = Options::default().with_model_errors(model_errors);
             let found = identify(&problem, &options, context).unwrap();
             let numbers = found.constants.iter().flat_map(|value| &value.numbers);
             let truths = [7e10, 0.01, 2e3];

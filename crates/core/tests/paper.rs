@@ -3,10 +3,10 @@
 use crate::common;
 use crate::shared_data;
 
-use common::{c, term};
+use common::{Setup, c, term};
 use frfit::c64;
 use frfit::frequency::linear_hz;
-use frfit::identify::{Line, Method, Options, Status, error_by_order, identify_at};
+use frfit::identify::{Line, Method, Options, Status, Unknown, error_by_order, identify_at};
 use frfit::material::Law;
 use frfit::model::{DynamicStiffness, Experiment, Parameter, Role, Sensor, Term};
 use frfit::rational::RationalResponse;
@@ -46,9 +46,13 @@ fn rubber_bar() -> (DynamicStiffness, Experiment) {
 }
 
 /// Wide bounds: a tenth to ten times the modulus, passive.
-fn bar_options(order: usize) -> Options {
+fn bar_setup(order: usize) -> Setup {
     let bounds = Bounds { storage: Some([1e5, 1e8]), loss_factor: Some([0.0, 3.0]) };
-    Options { order, bounds, ..Options::paper() }
+    Setup::paper(bounds).with_order(order)
+}
+
+fn bounded(model: &DynamicStiffness, name: &str, setup: &Setup) -> Unknown {
+    Unknown { bounds: setup.bounds, real: setup.real, ..Unknown::factor_of(model, &[name]).unwrap() }
 }
 
 /// The outcome when the measurement is the model's own response with the true factor.
@@ -57,12 +61,12 @@ fn identified(
     name: &str,
     truth: c64,
     frequency_hz: f64,
-    options: &Options,
+    setup: &Setup,
 ) -> Line {
     let parameter = Parameter::factor_of(model, &[name]).unwrap();
     let system = FullModel::new(model.at(frequency_hz, &[parameter]).unwrap(), experiment).unwrap();
     let measured = system.solve_at(&[truth - system.nominal(0)]).unwrap();
-    identify_at(&system, &measured, options)
+    identify_at(&system, &measured, &bounded(model, name, setup), &setup.options)
 }
 
 #[test]
@@ -73,7 +77,7 @@ fn rubber_bar_matches_the_response_everywhere_and_the_modulus_where_one_root_is_
     let mut unique = 0;
     for &frequency_hz in &frequencies {
         let truth = truth.at(frequency_hz).unwrap();
-        let outcome = identified(&bar, "rubber", truth, frequency_hz, &bar_options(30));
+        let outcome = identified(&bar, "rubber", truth, frequency_hz, &bar_setup(30));
         // The paper's figure for its Section 6.
         assert!(outcome.error.unwrap() < 2e-8, "{frequency_hz} Hz: {:?}", outcome.error);
         assert!(outcome.spectral_radius.unwrap() < 1.0);
@@ -92,7 +96,7 @@ fn rubber_bar_matches_the_response_everywhere_and_the_modulus_where_one_root_is_
 #[test]
 fn cost_at_a_frequency_is_one_factorisation_for_the_series_and_one_for_the_error() {
     let bar = rubber_bar();
-    let outcome = identified(&bar, "rubber", polybutadiene(1.0).at(700.0).unwrap(), 700.0, &bar_options(30));
+    let outcome = identified(&bar, "rubber", polybutadiene(1.0).at(700.0).unwrap(), 700.0, &bar_setup(30));
     // 31 solves of the series, one for the error, and another factorisation and solve that made the measurement; the rest
     // is the spectral radius, which the Krylov process gets within 24 applications here.
     let Work { factorisations, solves } = outcome.work;
@@ -107,7 +111,9 @@ fn error_falls_with_the_order() {
     let system = FullModel::new(model.at(1500.0, &[parameter]).unwrap(), &experiment).unwrap();
     let truth = polybutadiene(1.0).at(1500.0).unwrap();
     let measured = system.solve_at(&[truth - system.nominal(0)]).unwrap();
-    let errors = error_by_order(&system, &measured, &bar_options(30)).unwrap();
+    let setup = bar_setup(30);
+    let unknown = bounded(&model, "rubber", &setup);
+    let errors = error_by_order(&system, &measured, &unknown, &setup.options).unwrap();
     assert_eq!(errors.len(), 30);
     let at = |order: usize| errors[order - 1].unwrap();
     // Fig. 3: from percents to roundoff, each ten orders by more than the slowest ρ¹⁰ of this band, 0.6¹⁰ = 6e-3.
@@ -118,7 +124,7 @@ fn error_falls_with_the_order() {
 fn nelder_mead_finds_the_same_modulus_at_many_times_the_factorisations() {
     let bar = rubber_bar();
     let truth = polybutadiene(1.0).at(700.0).unwrap();
-    let search = Options { method: Method::NelderMead, order: 200, ..bar_options(30) };
+    let search = bar_setup(30).with_method(Method::NelderMead).with_order(200);
     let found = identified(&bar, "rubber", truth, 700.0, &search);
     assert_eq!(found.status, Status::Ok);
     // A simplex in double precision sees ε down to its square root of roundoff.
@@ -131,18 +137,15 @@ fn density_is_found_as_a_real_parameter() {
     let (model, mut experiment) = rubber_bar();
     experiment.load = vec![c64::default(); 101];
     experiment.load[0] = c(1.0, 0.0);
-    let options = Options {
-        real: true,
-        bounds: Bounds { storage: Some([500.0, 2000.0]), loss_factor: None },
-        ..Options::paper()
-    };
+    let bounds = Bounds { storage: Some([500.0, 2000.0]), loss_factor: None };
+    let setup = Setup { real: true, ..Setup::paper(bounds) };
     for frequency_hz in [60.0, 150.0, 300.0] {
         let outcome = identified(
             &(model_clone(&model), experiment.clone()),
             "mass",
             c(1040.0, 0.0),
             frequency_hz,
-            &options,
+            &setup,
         );
         let density = outcome.factor().unwrap();
         assert_eq!(density.im, 0.0);
@@ -164,7 +167,7 @@ fn bounds_exclude_and_say_so() {
     let bar = rubber_bar();
     let truth = polybutadiene(1.0).at(100.0).unwrap();
     let bounds = Bounds { storage: Some([1e10, 1e11]), loss_factor: None };
-    let outcome = identified(&bar, "rubber", truth, 100.0, &Options { bounds, ..Options::paper() });
+    let outcome = identified(&bar, "rubber", truth, 100.0, &Setup::paper(bounds));
     assert_eq!((outcome.status, outcome.correction(), outcome.error), (Status::NoRoot, None, None));
     assert!(outcome.roots.iter().any(|root| root.refusal == Some(Refusal::OutOfBounds("storage"))));
 }
@@ -178,7 +181,8 @@ fn a_resonance_without_damping_is_a_status() {
     let frequency_hz = 1.0 / std::f64::consts::TAU;
     let at = model.at(frequency_hz, &[parameter]).unwrap();
     if let Ok(system) = FullModel::new(at, &experiment) {
-        let outcome = identify_at(&system, &[c(2.0, 0.0)], &Options::paper());
+        let unknown = Unknown::factor_of(&model, &["springs"]).unwrap();
+        let outcome = identify_at(&system, &[c(2.0, 0.0)], &unknown, &Options::paper());
         assert_eq!(outcome.status, Status::Failed, "{outcome:?}");
         assert!(outcome.breakdown.is_some() && outcome.correction().is_none());
     }
@@ -227,8 +231,8 @@ fn the_plate_diverges_near_its_resonances_and_nowhere_else_needs_data() {
     let (model, experiment, truth) = plate(0.25);
     let plate = (model, experiment);
     let bounds = Bounds { storage: Some([0.2, 5.0]), loss_factor: Some([0.0, 1.0]) };
-    let options = Options { bounds, ..Options::paper() };
-    let at = |frequency_hz| identified(&plate, "plate", truth, frequency_hz, &options);
+    let setup = Setup::paper(bounds);
+    let at = |frequency_hz| identified(&plate, "plate", truth, frequency_hz, &setup);
     // Away from resonance (of the nominal plate too, √1.25 higher) the modulus is found.
     for frequency_hz in [100.0, 300.0, 500.0, 700.0, 1200.0, 1300.0, 1400.0, 2250.0, 2350.0] {
         let outcome = at(frequency_hz);
@@ -270,8 +274,8 @@ fn rational_roots_hold_the_plates_modulus_where_the_series_diverges_needs_data()
 #[ignore = "needs the data of ../shared/data"]
 fn the_rational_method_never_calls_a_wrong_modulus_of_the_plate_ok_needs_data() {
     let bounds = Bounds { storage: Some([0.2, 5.0]), loss_factor: Some([0.0, 1.0]) };
-    let rational = Options { method: Method::Rational, ..Options { bounds, ..Options::paper() } };
-    let series = Options { method: Method::Series, ..rational };
+    let rational = Setup::paper(bounds).with_method(Method::Rational);
+    let series = rational.with_method(Method::Series);
     for (delta, least_right) in [(0.25, 0.95), (-0.25, 0.6)] {
         let (model, experiment, truth) = plate(delta);
         let plate = (model, experiment);

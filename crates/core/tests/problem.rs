@@ -168,15 +168,15 @@ fn faults_are_refused_with_their_place() {
 #[test]
 fn options_that_do_not_belong_to_a_problem_are_refused() {
     let mut parts = Parts::new();
-    let wrong = Options { order: 0, ..Options::default() };
+    let wrong = Options::default().with_order(0);
     assert_eq!(parts.identify(&wrong).unwrap_err(), "order: expected 1 to 200, found 0");
     parts.unknowns[0].varies = Variation::law(LawKind::Constant);
-    for options in [Options::paper(), Options { selection: Selection::Smallest, ..Options::default() }] {
+    for options in [Options::paper(), Options::default().with_selection(Selection::Smallest)] {
         let error = parts.identify(&options).unwrap_err();
         assert!(error.starts_with("method and selection: expected \"rational\" and \"joint\""), "{error}");
     }
     parts.unknowns[0].varies = Variation::PerFrequency;
-    let paper = Options { method: Method::Series, selection: Selection::Smallest, ..Options::default() };
+    let paper = Options::default().with_method(Method::Series).with_selection(Selection::Smallest);
     assert_eq!(parts.identify(&paper).unwrap().len(), 4);
 }
 

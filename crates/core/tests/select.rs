@@ -159,7 +159,7 @@ fn one_frequency_tells_nothing_apart() {
     // Another sensor does: a thousand to one is 7 nats, χ² = 14.
     for (misfit, alternatives) in [(10.0, vec![1]), (20.0, vec![])] {
         let nodes = [vec![nodes[0][0], Node { misfit, ..nodes[0][1] }]];
-        let choice = &choose(&[100.0], &nodes, &SelectOptions { sensors: 2, ..SelectOptions::default() })[0];
+        let choice = &choose(&[100.0], &nodes, &SelectOptions::default().with_sensors(2))[0];
         assert_eq!((choice.chosen, &choice.alternatives), (Some(0), &alternatives));
         assert!((choice.margin - misfit / 2.0).abs() < 1e-12);
     }
@@ -198,7 +198,7 @@ fn another_sensor_counts_for_more_than_smoothness() {
         nodes[0].misfit = -2.0 * (1.0 - dice.uniform()).ln();
         nodes.push(Node { misfit: 40.0, std: 0.01, factor: constant.at(0.0) });
     }
-    let options = SelectOptions { sensors: 2, ..SelectOptions::default() };
+    let options = SelectOptions::default().with_sensors(2);
     assert_eq!(made.count(&choose(&made.frequency_hz, &made.nodes, &options)), (100, 0));
     // Without that sensor the wrong one cannot be excluded, for it could be a material as well.
     made.nodes.iter_mut().flatten().for_each(|node| node.misfit = 0.0);
@@ -220,7 +220,7 @@ fn an_assumed_noise_level_is_corrected() {
                 node.misfit = unit * if node.factor == *truth { usual } else { 100.0 + usual };
             }
         }
-        let options = SelectOptions { sensors: 2, sigma_known: false, ..SelectOptions::default() };
+        let options = SelectOptions::default().with_sensors(2).with_sigma_known(false);
         assert_eq!(made.count(&choose(&made.frequency_hz, &made.nodes, &options)), (80, 0), "{unit}");
     }
 }

@@ -236,9 +236,9 @@ fn elsewhere_is_as_good_as_it_says() {
     for (case, frequency_hz) in [cases().remove(0), cases().remove(2)] {
         let variables = Variable::of_model(&case.model, &frequency_hz).unwrap();
         let points = change_points(&case.model, &variables, &frequency_hz).unwrap();
-        let trained = |elsewhere| {
+        let trained = |everywhere| {
             let mut subspace = Subspace::new(&case.experiment, &points[points.len() - 1].at).unwrap();
-            let options = ChangeOptions { elsewhere, ..ChangeOptions::default() };
+            let options = ChangeOptions::default().with_everywhere(everywhere);
             assert!(subspace.train_changes(&points, &options, &sequential).unwrap().converged);
             subspace
         };
@@ -250,7 +250,7 @@ fn elsewhere_is_as_good_as_it_says() {
         for (point, &f) in points.iter().zip(&frequency_hz) {
             let changed = subspace.projection().changes(point).unwrap();
             let exact = direct(&case.model, &case.experiment, &variables, f);
-            for ((y, exact), estimate) in changed.coordinates.iter().zip(&exact).zip(&changed.elsewhere) {
+            for ((y, exact), estimate) in changed.coordinates.iter().zip(&exact).zip(&changed.everywhere) {
                 assert!(*estimate <= 1e-6, "{} {f} Hz: {estimate:e}", case.name);
                 let found =
                     |i: usize| y.iter().enumerate().map(|(k, y)| y * v[i + k * rows.len()]).sum::<c64>();
@@ -301,7 +301,7 @@ fn springs_in_parallel_are_inseparable_and_only_their_sum_is_seen() {
     let bars = resolved.bars();
     assert!(bars[0].is_none() && bars[1].is_none() && bars[2].unwrap() < 0.1 && bars[3].unwrap() < 0.01);
     let worst = worst_bar(&resolved);
-    assert_eq!((worst.unseen, worst.worst.unwrap().0), (2, 2));
+    assert_eq!((worst.unseen, worst.worst.unwrap().variable), (2, 2));
 }
 
 #[test]
@@ -333,7 +333,7 @@ fn the_next_sensor_is_the_best_of_all_rows() {
     let case = sandwich(6, 2);
     let frequency_hz = linear_hz(20.0, 1000.0, 40);
     let variables = Variable::of_model(&case.model, &frequency_hz).unwrap();
-    let options = ChangeOptions { elsewhere: Some(1e-3), ..ChangeOptions::default() };
+    let options = ChangeOptions::default().with_everywhere(Some(1e-3));
     let band = band(&case.model, &case.experiment, &variables, &frequency_hz, options);
     let deviations = band.proportional(0.01);
     let rows: Vec<usize> = (0..case.model.dim()).collect();
@@ -362,16 +362,16 @@ fn the_next_sensor_is_the_best_of_all_rows() {
     let mut brute: Vec<f64> = Vec::new();
     for candidate in &ranked {
         let really = with(Some(candidate.row));
-        let (found, exact) = (candidate.after.worst.unwrap().1, really.worst.unwrap().1);
+        let (found, exact) = (candidate.after.worst.unwrap().std, really.worst.unwrap().std);
         assert_eq!(candidate.after.unseen, 0);
         // Three digits from a subspace that is good to that everywhere.
         assert!((found / exact - 1.0).abs() < 1e-2, "row {}: {found} against {exact}", candidate.row);
-        assert!(exact <= before.worst.unwrap().1 * (1.0 + 1e-9), "one more sensor never hurts");
+        assert!(exact <= before.worst.unwrap().std * (1.0 + 1e-9), "one more sensor never hurts");
         brute.push(exact);
     }
     let best = brute.iter().copied().fold(f64::INFINITY, f64::min);
     assert!(brute[0] <= best * 1.01, "{} against {best}", brute[0]);
-    assert!(best < 0.9 * before.worst.unwrap().1, "a place that helps: {best} from {before:?}");
+    assert!(best < 0.9 * before.worst.unwrap().std, "a place that helps: {best} from {before:?}");
 
     // And as a sensor of a subspace of its own.
     let mut experiment = case.experiment.clone();
@@ -380,7 +380,7 @@ fn the_next_sensor_is_the_best_of_all_rows() {
     let added =
         SensitivityBand::new(&experiment, &variables, &points, &ChangeOptions::default(), &sequential)
             .unwrap();
-    let bar = with_each_added(&added, &deviations, 2).unwrap()[0].worst.unwrap().1;
+    let bar = with_each_added(&added, &deviations, 2).unwrap()[0].worst.unwrap().std;
     assert!((bar / brute[0] - 1.0).abs() < 1e-4, "{bar} against {}", brute[0]);
 }
 

@@ -385,7 +385,7 @@ fn a_sensor_that_contradicts_the_others_is_named_and_left_out() {
         let Setup { model, experiment, unknowns, frequency_hz, .. } = setup;
         let frfs = Frfs { frequency_hz, receptance: &faulty, noise };
         let problem = Problem::new(model, experiment, unknowns, &[], frfs).unwrap();
-        let options = Options { reject_outliers: false, ..Options::default() };
+        let options = Options::default().with_reject_outliers(false);
         let kept = identify(&problem, &options, HOOKS).unwrap();
         assert!(kept.sensors[2].contradicts && !kept.sensors[2].left_out);
         if noise != Noise::Unknown {

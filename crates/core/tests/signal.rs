@@ -84,7 +84,7 @@ fn largest_error(measured: &Measured, decay_per_s: f64) -> f64 {
 #[test]
 fn every_estimator_finds_the_transfer_function_of_clean_records() {
     for estimator in Estimator::ALL {
-        let options = Options { estimator, ..Options::default() };
+        let options = Options::default().with_estimator(estimator);
         let measured = estimate_frf(&[hit(100.0), hit(80.0)], &options).unwrap();
         assert_eq!((measured.samples, measured.averages()), (SAMPLES, 2));
         // 1 Hz apart, without 0 Hz and the Nyquist frequency.
@@ -92,7 +92,7 @@ fn every_estimator_finds_the_transfer_function_of_clean_records() {
         assert!(largest_error(&measured, 0.0) < LEFT, "{estimator}: {:e}", largest_error(&measured, 0.0));
         let frf = &measured.frfs[0];
         assert!(frf.coherence.as_ref().unwrap().iter().all(|c| (1.0 - c).abs() < 1e-12));
-        assert!(measured.hits.iter().all(|hit| hit.undecayed(0).is_none() && hit.onset == 100));
+        assert!(measured.impacts.iter().all(|hit| hit.undecayed(0).is_none() && hit.onset == 100));
     }
 }
 
@@ -105,8 +105,8 @@ fn one_hit_has_no_coherence() {
 #[test]
 fn the_exponential_window_shifts_the_line_on_which_the_frf_is_taken() {
     let tau_s = 0.1;
-    let windows = Windows { exponential_s: Some(tau_s), ..Windows::default() };
-    let options = Options { windows, ..Options::default() };
+    let windows = Windows::default().with_exponential_s(Some(tau_s));
+    let options = Options::default().with_windows(windows);
     let measured = estimate_frf(&[hit(100.0)], &options).unwrap();
     assert_eq!(measured.added_decay_per_s, Some(10.0));
     // Exact, as the response has decayed: see the clean records.
@@ -121,9 +121,9 @@ fn the_force_window_silences_what_comes_after_the_contact() {
     let mut noisy = hit(100.0);
     Noise(1).add_to(&mut noisy.force[120..], 2.0);
     // The noise would be taken for further contacts: the window is for what is below that.
-    let windows = Windows { force_s: Some(0.008), ..Windows::default() };
+    let windows = Windows::default().with_force_s(Some(0.008));
     let error = |windows| {
-        let options = Options { windows, ..Options::default() };
+        let options = Options::default().with_windows(windows);
         largest_error(&estimate_frf(std::slice::from_ref(&noisy), &options).unwrap(), 0.0)
     };
     assert!(error(windows) < LEFT, "{:e}", error(windows));
@@ -178,7 +178,7 @@ fn h1_is_too_small_where_the_force_is_noisy_and_h2_too_large_where_the_response_
     };
     // The mean of |H| over its truth at low frequencies.
     let gain = |hits: &[Recording], estimator| {
-        let options = Options { estimator, ..Options::default() };
+        let options = Options::default().with_estimator(estimator);
         let measured = estimate_frf(hits, &options).unwrap();
         let pairs = measured.frequency_hz.iter().zip(&measured.frfs[0].response).take(100);
         pairs.map(|(&f, h)| h.norm() / transfer(f, 0.0).norm()).sum::<f64>() / 100.0
@@ -206,16 +206,16 @@ fn in_one(peaks_and_lengths: &[(f64, usize)]) -> Recording {
 fn hits_of_a_long_recording_are_cut_out() {
     let recording = in_one(&[(100.0, 1200), (70.0, 1100), (120.0, 900), (90.0, 1300)]);
     let measured = estimate_frf(std::slice::from_ref(&recording), &Options::default()).unwrap();
-    let onsets: Vec<usize> = measured.hits.iter().map(|hit| hit.onset).collect();
+    let onsets: Vec<usize> = measured.impacts.iter().map(|hit| hit.onset).collect();
     assert_eq!((onsets, measured.averages()), (vec![100, 1300, 2400, 3300], 3));
     // The third is followed too soon; the others have room for about as many samples.
     assert_eq!(measured.samples, 1100);
-    assert_eq!(measured.hits[2].faults, [Fault::Incomplete { samples: 900, of: 1100 }]);
+    assert_eq!(measured.impacts[2].faults, [Fault::Incomplete { samples: 900, of: 1100 }]);
     assert!(largest_error(&measured, 0.0) < LEFT);
-    let options = Options { length_s: Some(0.9), pre_trigger_s: Some(0.02), ..Options::default() };
+    let options = Options::default().with_length_s(Some(0.9)).with_pre_trigger_s(Some(0.02));
     let measured = estimate_frf(&[recording], &options).unwrap();
     assert_eq!((measured.samples, measured.averages()), (900, 4));
-    assert_eq!(measured.hits[1].range, 1280..2180);
+    assert_eq!(measured.impacts[1].range, 1280..2180);
     assert!(largest_error(&measured, 0.0) < LEFT);
 }
 
@@ -227,9 +227,9 @@ fn a_rebound_in_a_long_recording_is_no_hit_of_its_own() {
     }
     recording.responses = vec![response(&recording.force)];
     let measured = estimate_frf(&[recording], &Options::default()).unwrap();
-    assert_eq!((measured.hits.len(), measured.averages()), (3, 2));
-    let [Fault::DoubleHit { after_s, share }] = measured.hits[1].faults[..] else {
-        panic!("{:?}", measured.hits[1])
+    assert_eq!((measured.impacts.len(), measured.averages()), (3, 2));
+    let [Fault::DoubleImpact { after_s, share }] = measured.impacts[1].faults[..] else {
+        panic!("{:?}", measured.impacts[1])
     };
     assert!((after_s - 0.04).abs() < 1e-12 && (share - 0.3).abs() < 1e-9);
 }
@@ -239,7 +239,7 @@ fn faults_of(bad: Recording) -> Vec<Fault> {
     let measured = estimate_frf(&[hit(100.0), bad, hit(90.0)], &Options::default()).unwrap();
     assert_eq!(measured.averages(), 2);
     assert!(largest_error(&measured, 0.0) < LEFT, "the bad hit is left out");
-    measured.hits[1].faults.clone()
+    measured.impacts[1].faults.clone()
 }
 
 #[test]
@@ -285,7 +285,7 @@ fn bad_hits_are_left_out_and_their_faults_named() {
         (0..6).for_each(|k| bad.force[150 + k] = 0.2 * bad.force[100 + k]);
         bad.responses[0] = response(&bad.force);
     });
-    assert!(matches!(double[..], [Fault::DoubleHit { .. }]), "{double:?}");
+    assert!(matches!(double[..], [Fault::DoubleImpact { .. }]), "{double:?}");
     // What is said of it names the channel.
     assert_eq!(silent[0].to_string(), "force shows no hit, only noise");
     assert_eq!(double[0].to_string(), "double hit, 20.0 % again after 50.00 ms");
@@ -295,15 +295,16 @@ fn bad_hits_are_left_out_and_their_faults_named() {
 fn a_bad_hit_can_be_kept_and_none_is_an_answer_of_its_own() {
     let mut bad = hit(100.0);
     bad.force[102..104].fill(2000.0);
-    let Err(SignalError::NoHit(hits)) = estimate_frf(std::slice::from_ref(&bad), &Options::default()) else {
+    let Err(SignalError::NoImpact(hits)) = estimate_frf(std::slice::from_ref(&bad), &Options::default())
+    else {
         panic!("a spike is no hit")
     };
     assert_eq!(hits.len(), 1);
-    let keep = |keep: Vec<usize>| Options { keep, ..Options::default() };
+    let keep = |keep: Vec<usize>| Options::default().with_keep(keep);
     let kept = estimate_frf(&[bad.clone(), hit(1.0)], &keep(vec![1])).unwrap();
-    assert!(kept.averages() == 2 && kept.hits[0].kept_anyway && kept.hits[0].faults.len() == 1);
-    assert_eq!(estimate_frf(&[bad], &keep(vec![2])), Err(SignalError::NoSuchHit(2, 1)));
-    assert_eq!(estimate_frf(&[], &Options::default()), Err(SignalError::NoHit(Vec::new())));
+    assert!(kept.averages() == 2 && kept.impacts[0].kept_anyway && kept.impacts[0].faults.len() == 1);
+    assert_eq!(estimate_frf(&[bad], &keep(vec![2])), Err(SignalError::NoSuchImpact(2, 1)));
+    assert_eq!(estimate_frf(&[], &Options::default()), Err(SignalError::NoImpact(Vec::new())));
 }
 
 #[test]
@@ -312,7 +313,7 @@ fn a_response_that_has_not_decayed_is_told() {
     short.force.truncate(250);
     short.responses[0].truncate(250);
     let measured = estimate_frf(&[short], &Options::default()).unwrap();
-    assert!(measured.hits[0].undecayed(0).unwrap() > 0.01);
+    assert!(measured.impacts[0].undecayed(0).unwrap() > 0.01);
     assert!(largest_error(&measured, 0.0) > 1e-3);
 }
 
@@ -336,7 +337,7 @@ fn recordings_that_do_not_fit_together_and_options_that_cannot_be_are_refused() 
         refused(&|r| r.responses[0][3] = f64::INFINITY),
         "recording 2: expected finite samples, found others in channel response 1"
     );
-    let options = Options { length_s: Some(-1.0), ..Options::default() };
+    let options = Options::default().with_length_s(Some(-1.0));
     let error = estimate_frf(&[hit(1.0)], &options).unwrap_err();
     assert_eq!(error.to_string(), "length: expected a positive number, found -1");
 }
@@ -356,7 +357,7 @@ proptest! {
         // The record begins later: the same hit nearer to its beginning.
         changed.force.drain(..start);
         changed.responses[0].drain(..start);
-        let measured = estimate_frf(&[changed], &Options { drift: 1.0, ..Options::default() }).unwrap();
+        let measured = estimate_frf(&[changed], &Options::default().with_drift(1.0)).unwrap();
         for (&f, h) in measured.frequency_hz.iter().zip(&measured.frfs[0].response) {
             let truth = transfer(f, 0.0);
             // Roundoff of the offset, and 1e-8 of the response left at the end.
@@ -372,14 +373,12 @@ proptest! {
         count in 1..4_usize, length in proptest::option::of(1e-3..0.1_f64), before in proptest::option::of(0.0..0.1_f64),
     ) {
         let recording = Recording { step_s: STEP_S, force, responses: vec![response] };
-        let options = Options {
-            length_s: length, pre_trigger_s: before, keep: vec![1], ..Options::default()
-        };
+        let options = Options::default().with_length_s(length).with_pre_trigger_s(before).with_keep(vec![1]);
         if let Ok(measured) = estimate_frf(&vec![recording; count], &options) {
             let frf = &measured.frfs[0];
             prop_assert!(frf.response.iter().all(|h| h.is_finite()));
             prop_assert!(frf.coherence.iter().flatten().all(|c| (0.0..=1.0).contains(c)));
-            prop_assert!(measured.hits.iter().all(|hit| hit.residual.iter().all(|r| r.is_finite())));
+            prop_assert!(measured.impacts.iter().all(|hit| hit.residual.iter().all(|r| r.is_finite())));
         }
     }
 }

@@ -4,13 +4,13 @@ use crate::common;
 use crate::noise;
 use crate::tier::{of_tier, scatter_of_95};
 
-use common::{Band, Case, bar, plate, sandwich};
+use common::{Band, Case, Setup, bar, plate, sandwich};
 use frfit::c64;
 use frfit::for_each::sequential;
 use frfit::frequency::linear_hz;
 use frfit::identify::{
-    Context, Explained, Identification, Line, ModelErrors, Noise as Known, NoiseSource, Options, Stage,
-    Status, Variation,
+    Context, Explained, Identification, Line, ModelErrors, Noise as Known, NoiseSource, Stage, Status,
+    Variation,
 };
 use frfit::material::{Law, loss_factor};
 use frfit::roots::Bounds;
@@ -46,14 +46,14 @@ impl Test {
     }
 
     /// The model is right, and these tests know it: few frequencies at 5 % noise do not.
-    fn options(&self) -> Options {
+    fn setup(&self) -> Setup {
         let ends = [self.frequency_hz[0], self.frequency_hz[self.frequency_hz.len() - 1]];
         let [low, high] = ends.map(|f| self.truth.at(f).unwrap().re);
         let bounds = Bounds { storage: Some([low / 3.0, high * 3.0]), loss_factor: Some([0.0, 3.0]) };
-        Options { bounds, model_errors: ModelErrors::None, ..Options::default() }
+        Setup::within(bounds).with_model_errors(ModelErrors::None)
     }
 
-    fn identify(&self, measured: &[Vec<c64>], noise: Known<'_>, options: &Options) -> Identification {
+    fn identify(&self, measured: &[Vec<c64>], noise: Known<'_>, setup: &Setup) -> Identification {
         let band = Band {
             model: &self.case.model,
             experiment: &self.case.experiment,
@@ -63,7 +63,7 @@ impl Test {
             noise,
         };
         let hooks = Context { for_each: &sequential, progress: &|_: Stage, _, _| {} };
-        band.identify(Variation::Smooth, &[], options, hooks)
+        band.identify(Variation::Smooth, &[], setup, hooks)
     }
 }
 
@@ -106,7 +106,7 @@ fn assert_coverage(test: &Test, seeds: u64, least_ok: [f64; 3], most: f64) {
         for seed in 0..seeds {
             let u = test.drawn(&std, &mut noise);
             let given = if known { Known::Known(&std) } else { Known::Relative(&std) };
-            let found = test.identify(&u, given, &test.options());
+            let found = test.identify(&u, given, &test.setup());
             let at = format!("{} {share} {known} {seed}", test.case.name);
             assert!(found.search.work.factorisations <= 4, "{at}: {:?}", found.search.work);
             let source = if known { NoiseSource::Given } else { NoiseSource::Curve };
@@ -164,7 +164,7 @@ fn light_damping_is_found_where_single_frequencies_are_marked() {
     let (mut within, mut ok) = ([0; 2], 0);
     for seed in 0..4 {
         let u = test.drawn(&std, &mut noise);
-        let found = test.identify(&u, Known::Known(&std), &test.options());
+        let found = test.identify(&u, Known::Known(&std), &test.setup());
         let (_, known) = errors(&found.free, &test.truth);
         let (smooth, all) = errors(&found.lines, &test.truth);
         // Of 80 a quarter at most has a loss factor of its own that is worth the name.
@@ -206,7 +206,7 @@ fn the_width_is_what_the_modulus_asks_for() {
         let test = Test::new(sandwich(6, 1), truth, band_hz, 40);
         let std = test.std(3e-3);
         let u = test.drawn(&std, &mut Noise::new(3));
-        let found = test.identify(&u, Known::Known(&std), &test.options());
+        let found = test.identify(&u, Known::Known(&std), &test.setup());
         let (smooth, ok) = errors(&found.lines, &test.truth);
         let (free, _) = errors(&found.free, &test.truth);
         assert!(
@@ -233,7 +233,7 @@ fn without_noise_it_is_the_answer_of_each_frequency() {
     let test = Test::new(case, truth, [40.0, 1000.0], 40);
     let std = test.std(1e-7);
     for noise in [Known::Unknown, Known::Known(&std)] {
-        let found = test.identify(&test.clean, noise, &test.options());
+        let found = test.identify(&test.clean, noise, &test.setup());
         for (own, smooth) in found.free.iter().zip(&found.lines) {
             let (own, smooth) = (own.factor().unwrap(), smooth.factor().unwrap());
             // The subspace answers to 1e-9, of which single frequencies lose some digits near their stationary points.
@@ -255,7 +255,7 @@ fn what_was_left_out_is_bridged_with_wider_bars() {
     test.clean.drain(10..18);
     let std = test.std(1e-2);
     let u = test.drawn(&std, &mut Noise::new(8));
-    let found = test.identify(&u, Known::Known(&std), &test.options());
+    let found = test.identify(&u, Known::Known(&std), &test.setup());
     let bridged = found.curve.unwrap().bridged(&out);
     let widths: Vec<f64> = bridged.iter().map(|(factor, bars)| bars.correction_std / factor.norm()).collect();
     let width = |o: &Line| o.uncertainty().unwrap().correction_std / o.factor().unwrap().norm();
@@ -277,7 +277,7 @@ fn a_line_that_nothing_explains_is_left_out_and_marked() {
     let std = test.std(1e-2);
     let mut u = test.drawn(&std, &mut Noise::new(5));
     u[20].iter_mut().zip([3.0, -2.0]).for_each(|(u, by)| *u *= by);
-    let found = test.identify(&u, Known::Known(&std), &test.options());
+    let found = test.identify(&u, Known::Known(&std), &test.setup());
     let outcomes = &found.lines;
     assert_eq!(outcomes[20].status, Status::Unexplained);
     assert_eq!(found.curve.unwrap().unexplained, 1);
@@ -294,7 +294,7 @@ fn a_real_factor_is_smooth_too() {
     let test = Test::new(case, constant(2e11, 0.0), [150.0, 900.0], 30);
     let std = test.std(1e-2);
     let u = test.drawn(&std, &mut Noise::new(6));
-    let found = test.identify(&u, Known::Known(&std), &Options { real: true, ..test.options() });
+    let found = test.identify(&u, Known::Known(&std), &Setup { real: true, ..test.setup() });
     let ok: Vec<&Line> = found.lines.iter().filter(|o| o.status == Status::Ok).collect();
     assert!(ok.len() > 25, "{}", ok.len());
     for outcome in ok {

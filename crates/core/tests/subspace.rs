@@ -244,7 +244,7 @@ proptest! {
     fn the_estimate_holds_for_any_small_structure(random in random()) {
         let case = random.case();
         let mut subspace = Subspace::new(&case.experiment, &case.at(case.band_hz[1])).unwrap();
-        let options = TrainOptions { tolerance: 1e-5, ..TrainOptions::default() };
+        let options = TrainOptions::default().with_tolerance(1e-5);
         let trained = subspace.train(&case.grid(15, 4), &options, &sequential).unwrap();
         prop_assert!(trained.converged || subspace.size() == random.n, "{trained:?}");
         // At a resonance that the basis has not met D⁻¹ amplifies by up to 1/η more than γ tells: there the estimate falls short, and what holds is

@@ -3,13 +3,13 @@
 use crate::common;
 use crate::tier::{of_tier, scatter_of_95};
 
-use common::{Band, Case, bar, c, chain, plate, sandwich, thickness, tip_load};
+use common::{Band, Case, Setup, bar, c, chain, plate, sandwich, thickness, tip_load};
 use frfit::c64;
 use frfit::for_each::sequential;
 use frfit::frequency::linear_hz;
 use frfit::identify::{
-    Context, Explained, Identification, Line, ModelErrors, Noise, NoiseSource, Options, Reduction, Stage,
-    Status, Uncertainty, Variation,
+    Context, Explained, Identification, Line, ModelErrors, Noise, NoiseSource, Reduction, Stage, Status,
+    Uncertainty, Variation,
 };
 use frfit::material::Law;
 use frfit::model::{DynamicStiffness, Parameter, Role, Sensor, Term};
@@ -60,13 +60,7 @@ impl Measured {
     }
 }
 
-fn identify(
-    case: &Case,
-    made: &Measured,
-    u: &[Vec<c64>],
-    noise: Noise<'_>,
-    options: &Options,
-) -> Identification {
+fn identify(case: &Case, made: &Measured, u: &[Vec<c64>], noise: Noise<'_>, setup: &Setup) -> Identification {
     let band = Band {
         model: &case.model,
         experiment: &case.experiment,
@@ -76,12 +70,12 @@ fn identify(
         noise,
     };
     let hooks = Context { for_each: &sequential, progress: &|_: Stage, _, _| {} };
-    band.identify(Variation::PerFrequency, &[], options, hooks)
+    band.identify(Variation::PerFrequency, &[], setup, hooks)
 }
 
-fn within(size: f64, by: f64) -> Options {
+fn within(size: f64, by: f64) -> Setup {
     let bounds = Bounds { storage: Some([size / by, size * by]), loss_factor: None };
-    Options { bounds, ..Options::default() }
+    Setup::within(bounds)
 }
 
 /// Eight masses on springs with a good deal of damping, measured at two of them.
@@ -110,10 +104,10 @@ fn deviations_and_correlation_are_those_of_many_draws() {
         }
         let truth = case.parameter.nominal.at(f).unwrap();
         let made = Measured::clean(&case, vec![f], 1.0, 0.01);
-        let options = Options { real, reduction: Reduction::Full, ..within(truth.re, 1.25) };
+        let setup = Setup { real, ..within(truth.re, 1.25).with_reduction(Reduction::Full) };
         let draws: Vec<Line> = (0..DRAWS)
             .map(|seed| {
-                let band = identify(&case, &made, &made.drawn(seed), Noise::Known(&made.std), &options);
+                let band = identify(&case, &made, &made.drawn(seed), Noise::Known(&made.std), &setup);
                 assert_eq!((band.noise.level, band.noise.source), (Some(1.0), NoiseSource::Given));
                 band.lines.into_iter().next().unwrap()
             })
@@ -217,12 +211,12 @@ impl Coverage {
     }
 }
 
-/// Bounds of a factor of three, and the options for them.
-fn bounded(case: &Case) -> Options {
+/// Bounds of a factor of three.
+fn bounded(case: &Case) -> Setup {
     let nominal = &case.parameter.nominal;
     let [low, high] = case.band_hz.map(|f| nominal.at(f).unwrap().re);
     let bounds = Bounds { storage: Some([low / 3.0, high * 3.0]), loss_factor: Some([0.0, 2.0]) };
-    Options { bounds, ..Options::default() }
+    Setup::within(bounds)
 }
 
 /// 20 seeds (of the daily tier: one) of a band at 0.1 %, 1 % and 5 % noise: what is called ok has the truth within two deviations 95 times of 100.
@@ -367,8 +361,8 @@ fn one_bad_sensor_of_three_is_named_and_left_out() {
                 assert!(5 * coverage.storage >= 4 * coverage.ok, "{at}: {coverage:?}");
                 assert!(5 * coverage.loss >= 4 * coverage.ok, "{at}: {coverage:?}");
                 // Kept, the answer cannot be explained.
-                let options = Options { reject_outliers: false, ..bounded(&case) };
-                let kept = identify(&case, &made, &u, noise, &options);
+                let setup = bounded(&case).with_reject_outliers(false);
+                let kept = identify(&case, &made, &u, noise, &setup);
                 assert!(kept.sensors[bad].contradicts && !kept.sensors[bad].left_out, "{at}");
                 assert_eq!(kept.fit.map(|fit| fit.verdict), Some(Explained::No), "{at}: {:?}", kept.noise);
             }
@@ -406,7 +400,7 @@ fn no_line_is_ok_where_the_band_is_not_explained() {
     };
     let made = Measured::clean(&heavy, linear_hz(100.0, 2500.0, 120), 1.0, 5e-3);
     let drawn = made.drawn(1);
-    let as_it_is = Options { model_errors: ModelErrors::None, ..bounded(&case) };
+    let as_it_is = bounded(&case).with_model_errors(ModelErrors::None);
     let band = identify(&case, &made, &drawn, Noise::Known(&made.std), &as_it_is);
     assert_eq!(band.fit.unwrap().verdict, Explained::No);
     assert!(band.lines.iter().all(|outcome| outcome.status != Status::Ok));

@@ -263,7 +263,7 @@ fn the_loss_factor_is_found_from_windowed_responses_in_every_way() {
     let exact = |value: c64, within: f64| {
         (value - c(1e7, 1e5)).norm() < within * 1e7 && (loss_factor(value) - 0.01).abs() < within
     };
-    let full = Options { reduction: Reduction::Full, ..Options::default() };
+    let full = Options::default().with_reduction(Reduction::Full);
     for (varies, options) in [
         (Variation::PerFrequency, Options::default()),
         (Variation::PerFrequency, full),
@@ -292,7 +292,7 @@ fn the_loss_factor_is_found_from_windowed_responses_in_every_way() {
     // And without the decay in the model: η = 0.01 becomes 0.01 + 2α/ω, 0.137 at 15 Hz.
     let without = model.clone().with_decay_per_s(0.0);
     // Errors of the damping of modes would take most of that up.
-    let as_it_is = Options { model_errors: ModelErrors::None, ..Options::default() };
+    let as_it_is = Options::default().with_model_errors(ModelErrors::None);
     let wrong = found(&without, &experiment, &[unknown(Variation::PerFrequency)], data, &as_it_is);
     let farthest = wrong.lines.iter().filter_map(|line| Some((line.frequency_hz, line.loss_factor()?)));
     let farthest = farthest.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap();

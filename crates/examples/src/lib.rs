@@ -22,10 +22,11 @@
 //! a test rig adds. The examples with constants have noise, whose standard deviation is known. Only `hammer-bar` is measured on an exact solution: what the mesh adds is in its answer.
 //!
 //! ```
-//! use frfit::identify::{Options, identify_at};
+//! use frfit::identify::{Options, Unknown, identify_at};
 //!
 //! let bar = frfit_examples::rubber_bar(100)?;
-//! let answer = identify_at(&bar.nominal_at(1500.0)?, &bar.measured_at(1500.0)?, &Options::default());
+//! let (nominal, measured) = (bar.nominal_at(1500.0)?, bar.measured_at(1500.0)?);
+//! let answer = identify_at(&nominal, &measured, &Unknown::of_parameter(&bar.parameter), &Options::default());
 //! let (found, truth) = (answer.factor().unwrap(), bar.truth.at(1500.0)?);
 //! assert!((found - truth).norm() < 1e-6 * truth.norm());
 //! # Ok::<(), frfit_examples::Error>(())

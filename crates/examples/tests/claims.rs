@@ -7,7 +7,7 @@ use crate::common;
 use common::{Answer, Folder, answers};
 use frfit::for_each::sequential;
 use frfit::identify::{
-    Context, Frfs, Method, Noise, Options, Problem, Selection, Status, Unknown, identify, identify_at,
+    Context, Frfs, Method, Noise, Options, Problem, Selection, Status, identify, identify_at,
 };
 use frfit::model::{Experiment, Sensor};
 use frfit_examples::{Model, clamped_plate, density, rubber_bar, rubber_bar_end, sandwich};
@@ -44,12 +44,13 @@ fn rubber_bar_is_right_and_ok_at_every_frequency() {
 fn rubber_bar_measured_at_its_end_is_ambiguous_over_half_of_the_band() {
     let (folder, mut model) = (Folder::new("rubber-bar"), rubber_bar(100).unwrap());
     model.experiment.sensors = vec![Sensor { row: 100, sign: 1.0 }];
+    let unknown = folder.unknown(&model.parameter);
     let (mut right, mut ambiguous) = (0, 0);
     let frequency_hz = model.frequency_hz();
     for &f in &frequency_hz {
         let truth = model.truth.at(f).unwrap();
         let measured = model.measured_at(f).unwrap();
-        let found = identify_at(&model.nominal_at(f).unwrap(), &measured, &folder.paper());
+        let found = identify_at(&model.nominal_at(f).unwrap(), &measured, &unknown, &Options::paper());
         let is_right = (found.factor().unwrap() - truth).norm() < RIGHT * truth.norm();
         assert!(found.error.unwrap() < 1e-10);
         assert!(is_right || found.status == Status::Ambiguous, "{f} Hz: wrong and {}", found.status.name());
@@ -89,9 +90,10 @@ fn the_second_sensor_tells_the_wrong_modulus_from_the_right_one() {
 fn the_middle_of_the_struck_bar_alone_is_enough() {
     let (folder, mut model) = (Folder::new("rubber-bar-end"), rubber_bar_end(100).unwrap());
     model.experiment.sensors.reverse();
+    let unknown = folder.unknown(&model.parameter);
     for f in model.frequency_hz() {
         let (truth, measured) = (model.truth.at(f).unwrap(), model.measured_at(f).unwrap());
-        let found = identify_at(&model.nominal_at(f).unwrap(), &measured, &folder.paper());
+        let found = identify_at(&model.nominal_at(f).unwrap(), &measured, &unknown, &Options::paper());
         assert_eq!(found.status, Status::Ok, "{f} Hz");
         assert!((found.factor().unwrap() - truth).norm() < RIGHT * truth.norm(), "{f} Hz");
     }
@@ -218,19 +220,8 @@ fn by_default_every_example_is_right_everywhere() {
     for (name, model) in models {
         let (folder, model) = (Folder::new(name), model.unwrap());
         let (frequency_hz, measured) = folder.measured();
-        let options = Options { method: Method::Rational, selection: Selection::Joint, ..folder.options() };
-        let names: Vec<&str> = model
-            .parameter
-            .members
-            .iter()
-            .map(|member| model.stiffness.terms()[member.term].name.as_str())
-            .collect();
-        let unknown = Unknown {
-            nominal: model.parameter.nominal.clone(),
-            real: options.real,
-            bounds: options.bounds,
-            ..Unknown::factor_of(&model.stiffness, &names).unwrap()
-        };
+        let options = folder.options().with_method(Method::Rational).with_selection(Selection::Joint);
+        let unknown = folder.unknown(&model.parameter);
         let frfs = Frfs { frequency_hz: &frequency_hz, receptance: &measured, noise: Noise::Unknown };
         let problem =
             Problem::new(&model.stiffness, &model.experiment, std::slice::from_ref(&unknown), &[], frfs)

@@ -19,7 +19,7 @@ fn recordings(hits: usize, noise: f64) -> Vec<Recording> {
 fn records_have_the_exact_frf_as_the_response_has_decayed() {
     let measured = estimate_frf(&recordings(1, 0.0), &Options::default()).unwrap();
     assert_eq!((measured.samples, measured.frequency_hz[0]), (1600, 2.0));
-    assert!(measured.hits[0].residual[0] < 1e-7);
+    assert!(measured.impacts[0].residual[0] < 1e-7);
     for (&f, h) in measured.frequency_hz.iter().zip(&measured.frfs[0].response).filter(|(f, _)| **f <= 1550.0)
     {
         let exact = hammer_accelerance(f);

@@ -72,7 +72,7 @@ impl From<Breakdown> for ModesError {
 }
 
 /// Largest residual that counts as converged: eigenvalue errors are its square.
-const RESIDUAL: f64 = 1e-8;
+const CONVERGED_RESIDUAL: f64 = 1e-8;
 
 /// The `count` modes of lowest |ω²|, fewer where M has a smaller rank.
 ///
@@ -132,11 +132,11 @@ pub fn lowest(k: &SymmetricMatrix, m: &SymmetricMatrix, count: usize) -> Result<
             space.images.push(image.clone());
         }
         modes = space.rayleigh_ritz(count, sigma, |x| times(m, x));
-        if modes.residuals.len() == count && modes.residuals.iter().all(|&r| r < RESIDUAL) {
+        if modes.residuals.len() == count && modes.residuals.iter().all(|&r| r < CONVERGED_RESIDUAL) {
             return Ok(modes);
         }
     }
-    let converged = modes.residuals.iter().filter(|&&r| r < RESIDUAL).count();
+    let converged = modes.residuals.iter().filter(|&&r| r < CONVERGED_RESIDUAL).count();
     // A mass matrix of small rank has fewer modes than were asked for: those there are, are all.
     if converged > 0 && converged == modes.residuals.len() && space.basis.len() < limit {
         return Ok(modes);

@@ -1,8 +1,8 @@
 //! The numeric factorisation from values to a factor; what is between is [`crate::run`]'s.
 
+use crate::branch::Branch;
 use crate::memory::Memory;
 use crate::packed_lower::PackedLower;
-use crate::part::Part;
 use crate::run::{Eliminated, Run};
 use crate::scalar::Scalar;
 use crate::symbolic::Symbolic;
@@ -44,8 +44,8 @@ pub struct Factor<T: Scalar> {
     pub(crate) nodes: Vec<Node<T>>,
     /// Columns of L of all nodes that came with no more of them than foreseen.
     values: Memory<T::Real>,
-    /// What can be solved with at the same time, parts below before those above.
-    pub(crate) parts: Vec<Part>,
+    /// What can be solved with at the same time, branches below before those above.
+    pub(crate) branches: Vec<Branch>,
     /// Parts that are below no other.
     pub(crate) roots: Vec<usize>,
     inertia: Inertia,
@@ -56,11 +56,11 @@ pub struct Factor<T: Scalar> {
 /// The columns of L and D that one front gave.
 #[derive(Debug)]
 pub(crate) struct Node<T: Scalar> {
-    /// Place of its first pivot in its part.
+    /// Place of its first pivot in its branch.
     pub(crate) first: usize,
     /// Inverse of D: diagonal, and what is below it in a block of two.
     pub(crate) inverse: Vec<[T; 2]>,
-    /// Places of its other rows in its part.
+    /// Places of its other rows in its branch.
     pub(crate) rows: Vec<u32>,
     /// Where its columns of L are in the factor's.
     columns: Range<usize>,
@@ -150,9 +150,9 @@ fn finish<T: Scalar>(
         nodes.push(Node { first: 0, inverse, rows, columns, more: front.more });
     }
     inertia.positive = dim - inertia.negative;
-    let (parts, roots) = Part::of(symbolic, &firsts, &mut nodes);
+    let (branches, roots) = Branch::of(symbolic, &firsts, &mut nodes);
     let order = order.iter().map(|&position| symbolic.order[position as usize]).collect();
-    Ok(Factor { order, scale, nodes, values, parts, roots, inertia, delayed, pairs })
+    Ok(Factor { order, scale, nodes, values, branches, roots, inertia, delayed, pairs })
 }
 
 impl<T: Scalar> Factor<T> {

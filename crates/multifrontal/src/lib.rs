@@ -25,6 +25,7 @@
 
 #![allow(clippy::needless_range_loop, reason = "rows, columns and parts are numbered as in the formulas")]
 
+mod branch;
 mod error;
 mod factor;
 mod front;
@@ -32,7 +33,6 @@ mod kernel;
 mod memory;
 mod ordering;
 mod packed_lower;
-mod part;
 mod run;
 mod scalar;
 mod scaling;

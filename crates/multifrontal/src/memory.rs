@@ -9,10 +9,10 @@ use pulp::bytemuck::{cast_slice, cast_slice_mut};
 use std::ops::{Deref, DerefMut};
 
 /// Bytes of a large page.
-const LARGE: usize = 2 << 20;
+const LARGE_PAGE_BYTES: usize = 2 << 20;
 
 /// Bytes that a processor fetches together, and of its widest registers: from its beginning on a register is in one.
-pub(crate) const LINE: usize = 64;
+pub(crate) const CACHE_LINE_BYTES: usize = 64;
 
 /// Numbers that are zero at first.
 #[derive(Debug)]
@@ -26,22 +26,25 @@ pub(crate) enum Memory<R> {
 impl<R: Real> Memory<R> {
     pub(crate) fn zeros(len: usize) -> Self {
         Self::pages(len).unwrap_or_else(|| {
-            let spare = LINE / size_of::<R>();
+            let spare = CACHE_LINE_BYTES / size_of::<R>();
             let values = vec![R::default(); len + spare];
-            let from = values.as_ptr().align_offset(LINE).min(spare);
+            let from = values.as_ptr().align_offset(CACHE_LINE_BYTES).min(spare);
             Self::Small { values, from, len }
         })
     }
 
     /// From a large page on, and to the end of one; `None` where that is not worth it, or not to be had.
     fn pages(len: usize) -> Option<Self> {
-        let bytes = len.checked_mul(size_of::<R>()).filter(|&bytes| bytes >= LARGE)?;
-        let pages = MmapMut::map_anon(bytes.checked_next_multiple_of(LARGE)?.checked_add(LARGE)?).ok()?;
+        let bytes = len.checked_mul(size_of::<R>()).filter(|&bytes| bytes >= LARGE_PAGE_BYTES)?;
+        let pages = MmapMut::map_anon(
+            bytes.checked_next_multiple_of(LARGE_PAGE_BYTES)?.checked_add(LARGE_PAGE_BYTES)?,
+        )
+        .ok()?;
         // A system without large pages has small ones.
         #[cfg(target_os = "linux")]
         let _ = pages.advise(memmap2::Advice::HugePage);
-        let from = pages.as_ptr().align_offset(LARGE);
-        (from <= LARGE).then_some(Self::Pages { pages, from, len })
+        let from = pages.as_ptr().align_offset(LARGE_PAGE_BYTES);
+        (from <= LARGE_PAGE_BYTES).then_some(Self::Pages { pages, from, len })
     }
 
     /// So many numbers, whatever they are.
@@ -90,23 +93,25 @@ mod tests {
     #[test]
     fn room_for_some_begins_at_a_line_and_grows() {
         let mut memory = Memory::<f32>::default();
-        for len in [0, 1, 100, 50, 1000, LARGE] {
+        for len in [0, 1, 100, 50, 1000, LARGE_PAGE_BYTES] {
             let some = memory.some(len);
             some.fill(1.0);
-            assert!(some.len() == len && (len == 0 || (some.as_ptr() as usize).is_multiple_of(LINE)));
+            assert!(
+                some.len() == len && (len == 0 || (some.as_ptr() as usize).is_multiple_of(CACHE_LINE_BYTES))
+            );
         }
     }
 
     #[test]
     fn all_is_zero_and_can_be_written_from_a_large_page_on() {
-        let whole = LARGE / size_of::<f64>();
+        let whole = LARGE_PAGE_BYTES / size_of::<f64>();
         for len in [0, 1, whole - 1, whole, whole + 1, 3 * whole] {
             let mut memory = Memory::<f64>::zeros(len);
             assert!(memory.len() == len && memory.iter().all(|&x| x == 0.0));
             memory.fill(1.0);
             assert!(memory.iter().all(|&x| x == 1.0));
             if let Memory::Pages { pages, from, .. } = &memory {
-                assert!(len >= whole && (pages.as_ptr() as usize + from).is_multiple_of(LARGE));
+                assert!(len >= whole && (pages.as_ptr() as usize + from).is_multiple_of(LARGE_PAGE_BYTES));
             }
         }
     }

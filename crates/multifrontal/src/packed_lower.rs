@@ -3,7 +3,7 @@
 //! Fronts, factors and what fronts leave are kept like this. What is above the diagonals of a strip is there too, and
 //! means nothing: some per cent of a large front, where whole columns would be twice what is needed.
 
-use crate::kernel::{STRIP, Strip};
+use crate::kernel::{STRIP_COLUMNS, Strip};
 use crate::scalar::Scalar;
 use std::ops::Range;
 
@@ -19,7 +19,7 @@ pub(crate) struct PackedLower {
 /// The first row that is kept of a column.
 #[inline(always)]
 pub(crate) fn top(col: usize) -> usize {
-    col / STRIP * STRIP
+    col / STRIP_COLUMNS * STRIP_COLUMNS
 }
 
 impl PackedLower {
@@ -44,9 +44,9 @@ impl PackedLower {
     /// Where a column begins, and how many numbers are before it.
     #[inline(always)]
     pub(crate) fn start<T: Scalar>(self, col: usize) -> usize {
-        let strips = col / STRIP;
-        let before = strips * self.stride - STRIP * (strips * strips.saturating_sub(1) / 2);
-        T::PARTS * (STRIP * before + (col - strips * STRIP) * self.stride(col))
+        let strips = col / STRIP_COLUMNS;
+        let before = strips * self.stride - STRIP_COLUMNS * (strips * strips.saturating_sub(1) / 2);
+        T::PARTS * (STRIP_COLUMNS * before + (col - strips * STRIP_COLUMNS) * self.stride(col))
     }
 
     /// Where an entry on the diagonal or below it is.
@@ -88,7 +88,7 @@ impl PackedLower {
     ) -> impl Iterator<Item = Strip<'_, T>> {
         let (mut rest, mut at) = (values, cols.start);
         std::iter::from_fn(move || {
-            let width = most.min(top(at) + STRIP - at).min(cols.end - at);
+            let width = most.min(top(at) + STRIP_COLUMNS - at).min(cols.end - at);
             let (first, stride) = (at - cols.start, self.stride(at));
             let (values, behind) = std::mem::take(&mut rest).split_at_mut(T::PARTS * width * stride);
             let values = values.get_mut(at - top(at)..).filter(|_| width > 0)?;
@@ -121,7 +121,15 @@ mod tests {
 
     #[test]
     fn places_parts_and_strips_show_the_same_entries() {
-        for rows in [1, 2, STRIP - 1, STRIP, STRIP + 1, 3 * STRIP, 3 * STRIP + 50] {
+        for rows in [
+            1,
+            2,
+            STRIP_COLUMNS - 1,
+            STRIP_COLUMNS,
+            STRIP_COLUMNS + 1,
+            3 * STRIP_COLUMNS,
+            3 * STRIP_COLUMNS + 50,
+        ] {
             for cols in [1, rows.div_ceil(2), rows] {
                 let packed_lower = PackedLower::new(rows);
                 let (mut values, from) = (filled(packed_lower, cols), cols / 3);
@@ -137,7 +145,7 @@ mod tests {
                     width += strip.width;
                 }
                 assert_eq!(width, cols - from);
-                let to = cols.min(top(from) + STRIP);
+                let to = cols.min(top(from) + STRIP_COLUMNS);
                 for (k, part) in
                     packed_lower.parts_mut::<c64>(&mut values[start..], from..to, to - 1).enumerate()
                 {

@@ -3,10 +3,10 @@
 use crate::front::{
     Child, Contribution, Elimination, Front, Stack, add_children, each_strip, eliminate, strip_width,
 };
-use crate::kernel::{STRIP, Strip};
+use crate::kernel::{STRIP_COLUMNS, Strip};
 use crate::packed_lower::PackedLower;
 use crate::scalar::Scalar;
-use crate::symbolic::{ROOT, Symbolic};
+use crate::symbolic::{NO_PARENT, Symbolic};
 use crate::threads::{Idle, awake, each};
 use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
@@ -115,8 +115,8 @@ impl<'a, T: Scalar> Run<'a, T> {
         if self.threads == 1 {
             self.run(0..fronts.len(), &done);
         } else {
-            let roots: Vec<usize> = (0..fronts.len()).filter(|&k| fronts[k].parent == ROOT).collect();
-            self.branches(ROOT, &roots, &Shared { work: self.symbolic.work(), done: &done });
+            let roots: Vec<usize> = (0..fronts.len()).filter(|&k| fronts[k].parent == NO_PARENT).collect();
+            self.branches(NO_PARENT, &roots, &Shared { work: self.symbolic.work(), done: &done });
         }
         done.into_iter().filter_map(OnceLock::into_inner).collect()
     }
@@ -152,7 +152,7 @@ impl<'a, T: Scalar> Run<'a, T> {
             now.busy = true;
             // Who arrives meanwhile does not wait: this thread goes on with what is there then.
             drop(now);
-            if above != ROOT {
+            if above != NO_PARENT {
                 self.add(above, &mut left, &mut stacks, self.threads);
             }
             now = lock();
@@ -322,7 +322,7 @@ impl<'a, T: Scalar> Run<'a, T> {
             children.iter().map(|(child, left)| Child::new(left, below, symbolic.relative_of(*child)));
         let (given, numbers): (Vec<_>, _) = (given.collect(), target.len());
         each_strip(
-            complement.strips::<T>(target, 0..others, STRIP, false),
+            complement.strips::<T>(target, 0..others, STRIP_COLUMNS, false),
             numbers,
             with.threads,
             |mut strip| {

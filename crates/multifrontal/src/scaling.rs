@@ -7,10 +7,10 @@ use crate::threads::map;
 use std::ops::Range;
 
 /// Passes: each halves the logarithm of what is left; three leave an eighth.
-const PASSES: usize = 3;
+const SCALING_PASSES: usize = 3;
 
 /// Entries below which another thread costs more than it brings.
-const SHARE_FROM: usize = 50_000;
+const MIN_SHARED_ENTRIES: usize = 50_000;
 
 /// The diagonal of S, in powers of two so that no digit is lost.
 ///
@@ -34,10 +34,10 @@ pub(crate) fn scaling<T: Scalar>(
     }
     let sizes: Vec<f64> = values.iter().map(|value| value.size()).collect();
     let mut scale = vec![1.0f64; pattern.dim];
-    let threads = if values.len() < SHARE_FROM { 1 } else { threads };
+    let threads = if values.len() < MIN_SHARED_ENTRIES { 1 } else { threads };
     let columns: Vec<_> =
         (0..threads).map(|k| k * pattern.dim / threads..(k + 1) * pattern.dim / threads).collect();
-    for _ in 0..PASSES {
+    for _ in 0..SCALING_PASSES {
         let largest = map(threads, columns.clone(), |columns| largest(pattern, columns, &sizes, &scale));
         for (row, scale) in scale.iter_mut().enumerate() {
             let largest = largest.iter().map(|of| of[row]).fold(0.0, larger);

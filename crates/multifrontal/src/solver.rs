@@ -5,11 +5,11 @@ use crate::{Factor, FactorError, Options, Symbolic, scaling};
 use std::sync::OnceLock;
 
 /// Refinement stops below this many units of roundoff: a residual itself has a few.
-const ENOUGH: f64 = 4.0;
+const REFINED_RESIDUAL_ROUNDOFFS: f64 = 4.0;
 
 /// Refinement steps at most: those of a double factor converge at once or never, those of a single one gain
 /// seven digits a step on a matrix that it suits.
-const STEPS: usize = 8;
+const MAX_REFINEMENT_STEPS: usize = 8;
 
 /// In which precision a matrix is factorised.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -108,7 +108,7 @@ impl<'a, T: Scalar> Solver<'a, T> {
         if let Some(single) = &self.single {
             let solve = |x: &mut [T]| single.solve_in_place(self.symbolic, x, self.options.threads);
             let solution = self.refined(&given, rhs, solve, Precision::Single);
-            if solution.backward_error <= ENOUGH * T::Real::ROUNDOFF {
+            if solution.backward_error <= REFINED_RESIDUAL_ROUNDOFFS * T::Real::ROUNDOFF {
                 return Ok(solution);
             }
             rhs.copy_from_slice(&given);
@@ -129,7 +129,7 @@ impl<'a, T: Scalar> Solver<'a, T> {
         for (b, x) in given.chunks_exact(n).zip(x.chunks_exact_mut(n)) {
             let (mut residual, mut error) = self.residual(b, x);
             let mut steps = 0;
-            while error > ENOUGH * T::Real::ROUNDOFF && steps < STEPS {
+            while error > REFINED_RESIDUAL_ROUNDOFFS * T::Real::ROUNDOFF && steps < MAX_REFINEMENT_STEPS {
                 solve(&mut residual);
                 let better: Vec<T> = x.iter().zip(&residual).map(|(&x, &dx)| x + dx).collect();
                 let (next, next_error) = self.residual(b, &better);

@@ -6,7 +6,7 @@ use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 /// How long an idle thread looks out for work before it may sleep.
-const PATIENCE: Duration = Duration::from_millis(1);
+const IDLE_TIME: Duration = Duration::from_millis(1);
 
 /// Room to work in that no thread uses at the moment.
 pub(crate) struct Idle<B>(Mutex<Vec<B>>);
@@ -51,7 +51,7 @@ fn at_work<O>(work: impl FnOnce() -> O) -> O {
 /// a piece takes, and the next call often follows at once.
 ///
 /// Only threads that are in no other piece of our work look out, so that nobody waits for one of them; and none for
-/// longer than [`PATIENCE`] in vain.
+/// longer than [`IDLE_TIME`] in vain.
 pub(crate) fn awake<O>(threads: usize, work: impl FnOnce() -> O) -> O {
     if threads < 2 {
         return work();
@@ -68,7 +68,7 @@ pub(crate) fn awake<O>(threads: usize, work: impl FnOnce() -> O) -> O {
 /// Does whatever piece of work there is until there has been none for a while.
 fn look_out() {
     let mut last = Instant::now();
-    while last.elapsed() < PATIENCE {
+    while last.elapsed() < IDLE_TIME {
         match rayon::yield_now() {
             Some(rayon::Yield::Executed) => last = Instant::now(),
             _ => std::hint::spin_loop(),

@@ -79,6 +79,7 @@ pub(crate) fn arrays(py: Python<'_>, error: &ArraysError) -> PyErr {
         ArraysError::Input(error) => input(py, error),
         ArraysError::Model(error) => raise(py, "ModelError", error),
         ArraysError::Options(error) => raise(py, "OptionsError", error),
+        ArraysError::Bounds(error) => raise(py, "OptionsError", error),
     }
 }
 

@@ -74,10 +74,10 @@ fn known_errors(py: Python<'_>, known: Option<KnownErrors>) -> PyResult<ModelErr
             let known = word.parse::<ModelErrors>();
             return known.map_err(|error| raise(py, "OptionsError", &refuse(error.expected)));
         }
-        Some(KnownErrors::Frequency(size)) => ErrorSizes { frequency: Some(size), shape: None },
+        Some(KnownErrors::Frequency(size)) => ErrorSizes::default().with_frequency(Some(size)),
         Some(KnownErrors::Sizes(sizes)) => {
             let of = |name: &str| sizes.get(name).copied();
-            ErrorSizes { frequency: of("frequency"), shape: of("shape") }
+            ErrorSizes::default().with_frequency(of("frequency")).with_shape(of("shape"))
         }
     };
     Ok(ModelErrors::Given(sizes))

@@ -45,16 +45,17 @@ pub(crate) fn frf<'py>(
     };
     let recordings: Vec<Recording> = recordings.into_iter().map(recording).collect();
     let estimator = how.estimator.parse();
-    let options = Options {
-        estimator: estimator.map_err(|error| raise(py, "OptionsError", &format!("estimator: {error}")))?,
-        trigger_n: how.trigger_n,
-        pre_trigger_s: how.pre_trigger_s,
-        length_s: how.length_s,
-        double_hit: how.double_hit,
-        drift: how.drift,
-        windows: Windows { force_s: how.force_window_s, exponential_s: how.exponential_window_s },
-        keep: how.keep,
-    };
+    let windows =
+        Windows::default().with_force_s(how.force_window_s).with_exponential_s(how.exponential_window_s);
+    let options = Options::default()
+        .with_estimator(estimator.map_err(|error| raise(py, "OptionsError", &format!("estimator: {error}")))?)
+        .with_trigger_n(how.trigger_n)
+        .with_pre_trigger_s(how.pre_trigger_s)
+        .with_length_s(how.length_s)
+        .with_double_impact(how.double_hit)
+        .with_drift(how.drift)
+        .with_windows(windows)
+        .with_keep(how.keep);
     let measured = in_background(py, None, move |_| estimate_frf(&recordings, &options))?;
     let measured = measured.map_err(|error| raise(py, "SignalError", &error))?;
     let found = PyDict::new(py);
@@ -70,7 +71,7 @@ pub(crate) fn frf<'py>(
     let std = |variance: &Vec<f64>| variance.iter().map(|v| (2.0 * v).sqrt()).collect();
     found.set_item("std", column(&|frf| frf.variance.as_ref().map(std))?)?;
     let hits = PyList::empty(py);
-    for hit in &measured.hits {
+    for hit in &measured.impacts {
         let one = PyDict::new(py);
         one.set_item("recording", hit.recording)?;
         one.set_item("first", hit.range.start)?;

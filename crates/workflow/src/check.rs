@@ -7,7 +7,7 @@ use crate::output::Words;
 use crate::run::{Used, problem_of};
 use crate::units::UnitSystem;
 use frfit::diagnostics::{
-    Diagnosis, Evidence, Fault, KnownFactor, NAMED_WITHIN, NotJudged, OtherRow, diagnose,
+    Diagnosis, Evidence, Fault, KNOWN_FACTOR_RTOL, KnownFactor, NotJudged, OtherRow, diagnose,
 };
 use frfit::identify::{ChannelUnknowns, ProblemError};
 use frfit::quantity::Quantity;
@@ -194,7 +194,8 @@ fn words(
 /// The key that says in which units the model is, with the system in which it would agree, where there is one.
 fn of_the_model(units: UnitSystem, factor: f64, relative_std: f64) -> String {
     let off = |system: UnitSystem| Some((factor / units.measured_over_model(system)?).ln().abs());
-    let near = |system: &UnitSystem| off(*system).is_some_and(|off| off <= NAMED_WITHIN + 3.0 * relative_std);
+    let near =
+        |system: &UnitSystem| off(*system).is_some_and(|off| off <= KNOWN_FACTOR_RTOL + 3.0 * relative_std);
     let others = UnitSystem::ALL.into_iter().filter(|system| *system != units).filter(near);
     let named: Vec<String> = others.map(|system| format!("{:?}", system.name())).collect();
     match named.as_slice() {

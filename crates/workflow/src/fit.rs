@@ -117,7 +117,7 @@ fn summary(
         "left_out": data.left_out,
         "range_hz": [data.frequency_hz.first(), data.frequency_hz.last()],
         "criterion": "bic",
-        "best": best(fits).map(|fit| fit.family.to_string()),
+        "best": best(fits).map(|fit| fit.kind.to_string()),
         "laws": laws.collect::<Vec<_>>(),
     })
 }

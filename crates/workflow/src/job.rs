@@ -356,12 +356,13 @@ fn refusal(error: SignalError, records: &Records, files: &[PathBuf]) -> InputErr
             let found = format!("in its recordings: {error}");
             InputError::at(&Place::file(file(k)), "recordings that fit together", found)
         }
-        SignalError::NoSuchHit(number, count) => {
+        SignalError::NoSuchImpact(number, count) => {
             InputError::at(&Place::option("--keep"), format!("hits from 1 to {count}"), number.to_string())
         }
-        SignalError::NoHit(hits) => {
+        SignalError::NoImpact(hits) => {
             let told = hit_reasons(records, &hits);
             InputError::at(&Place::file(file(0)), "a hit without fault", format!("none: {told}"))
         }
+        other => InputError::at(&Place::file(file(0)), "records of a hammer test", other.to_string()),
     }
 }

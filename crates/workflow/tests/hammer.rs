@@ -24,14 +24,16 @@ fn of_five_hits_a_spike_and_a_double_hit_are_left_out_needs_data() {
     let folder = tempfile::tempdir().unwrap();
     let FrfJob { measured, summary, text, .. } =
         job(&file, &Options::default(), &folder.path().join("frf.uff"));
-    assert_eq!((measured.hits.len(), measured.samples), (5, 51200));
-    let kept: Vec<bool> = measured.hits.iter().map(|hit| hit.is_kept()).collect();
+    assert_eq!((measured.impacts.len(), measured.samples), (5, 51200));
+    let kept: Vec<bool> = measured.impacts.iter().map(|hit| hit.is_kept()).collect();
     assert_eq!(kept, [false, true, false, true, true]);
     assert!(
-        matches!(measured.hits[0].faults[..], [Fault::Spike { samples: 3, height, .. }] if (height - 2000.0).abs() < 1.0)
+        matches!(measured.impacts[0].faults[..], [Fault::Spike { samples: 3, height, .. }] if (height - 2000.0).abs() < 1.0)
     );
     // 37.8 N at sample 1224 of the third segment, to which the response answers.
-    let [Fault::DoubleHit { after_s, share }] = measured.hits[2].faults[..] else { panic!("{}", text.all) };
+    let [Fault::DoubleImpact { after_s, share }] = measured.impacts[2].faults[..] else {
+        panic!("{}", text.all)
+    };
     assert!((after_s - 0.02283).abs() < 1e-4 && (share - 0.204).abs() < 2e-3, "{after_s} {share}");
     assert_eq!(summary["hits"][0]["faults"][0]["fault"], "spike");
     assert_eq!(summary["averages"], 3);
@@ -80,7 +82,7 @@ fn a_decimal_comma_and_an_acceleration_in_g_needs_data() {
     let folder = tempfile::tempdir().unwrap();
     let FrfJob { records, measured, .. } = job(&file, &Options::default(), &folder.path().join("frf.uff"));
     assert_eq!((records.force.name.as_str(), records.responses[0].scale), ("Force (Trigger)", 9.80665));
-    assert_eq!((measured.hits.len(), measured.averages()), (1, 1));
+    assert_eq!((measured.impacts.len(), measured.averages()), (1, 1));
     // −0.007387 g is the first sample of the file.
     assert_eq!(records.recordings[0].responses[0][0], -0.007387 * 9.80665);
 }
@@ -108,12 +110,13 @@ fn pyfrf_estimates_the_same_needs_data_and_pyfrf_and_lvm_read() {
     let records = read_records(std::slice::from_ref(&file), &ChannelOptions::default()).unwrap();
     // The second contact of the third hit is 20 % of the first: with a limit above that four hits are averaged.
     for (double_hit, averages) in [(0.1, 3), (0.25, 4)] {
-        let options = Options { double_hit, ..Options::default() };
-        let estimate =
-            |estimator| estimate_frf(&records.recordings, &Options { estimator, ..options.clone() }).unwrap();
+        let options = Options::default().with_double_impact(double_hit);
+        let estimate = |estimator| {
+            estimate_frf(&records.recordings, &options.clone().with_estimator(estimator)).unwrap()
+        };
         let (h1, h2) = (estimate(Estimator::H1), estimate(Estimator::H2));
         assert_eq!(h1.averages(), averages);
-        let kept = h1.hits.iter().filter(|hit| hit.is_kept());
+        let kept = h1.impacts.iter().filter(|hit| hit.is_kept());
         let cuts = kept.map(|hit| format!("{},{},{}", hit.recording, hit.range.start, hit.range.end));
         let output = Command::new(&python).args(["-c", SCRIPT]).arg(&file).args(cuts).output().unwrap();
         assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
@@ -187,7 +190,7 @@ fn time_functions_of_a_uff_file_are_paired_in_their_order_and_scaled() {
     let (file, out) = (folder.path().join("hits.uff"), folder.path().join("frf.uff"));
     std::fs::write(&file, bytes).unwrap();
     let FrfJob { records, measured, .. } = job(&file, &Options::default(), &out);
-    assert_eq!((measured.hits.len(), measured.averages(), records.responses.len()), (2, 2, 2));
+    assert_eq!((measured.impacts.len(), measured.averages(), records.responses.len()), (2, 2, 2));
     for frf in &measured.frfs {
         // The text of a function has 13 digits.
         assert!(frf.response.iter().all(|h| (h - c64::new(0.5, 0.0)).norm() < 1e-9));

@@ -20,16 +20,17 @@ pub(crate) fn run(args: &Args, wanted: &Frf) -> Result<Outcome, Failure> {
         response_dofs: wanted.response_dofs.clone(),
     };
     let usual = Options::default();
-    let options = Options {
-        estimator: wanted.estimator.unwrap_or(usual.estimator),
-        trigger_n: wanted.trigger,
-        pre_trigger_s: wanted.pre_trigger,
-        length_s: wanted.length,
-        double_hit: wanted.double_hit.unwrap_or(usual.double_hit),
-        drift: wanted.drift.unwrap_or(usual.drift),
-        windows: Windows { force_s: wanted.force_window, exponential_s: wanted.exponential_window },
-        keep: wanted.keep.clone(),
-    };
+    let windows =
+        Windows::default().with_force_s(wanted.force_window).with_exponential_s(wanted.exponential_window);
+    let options = Options::default()
+        .with_estimator(wanted.estimator.unwrap_or(usual.estimator))
+        .with_trigger_n(wanted.trigger)
+        .with_pre_trigger_s(wanted.pre_trigger)
+        .with_length_s(wanted.length)
+        .with_double_impact(wanted.double_hit.unwrap_or(usual.double_impact))
+        .with_drift(wanted.drift.unwrap_or(usual.drift))
+        .with_windows(windows)
+        .with_keep(wanted.keep.clone());
     one_on_standard_output(args, &wanted.out)?;
     let job = frf_of_records(&wanted.records, &channels, &options, &wanted.out, wanted.to.as_deref())?;
     if args.json {

@@ -51,7 +51,7 @@ pub(super) struct DataHypothesis {
 
 impl DataHypothesis {
     /// As the case says.
-    pub(super) fn as_told(quantities: &[Quantity], decay_per_s: f64) -> Self {
+    pub(super) fn as_given(quantities: &[Quantity], decay_per_s: f64) -> Self {
         let no = vec![false; quantities.len()];
         Self {
             quantity: quantities.to_vec(),
@@ -92,9 +92,9 @@ impl DataHypothesis {
     /// The changes of values that are still to be tried: of all sensors, and of each.
     pub(super) fn edits(&self) -> Vec<Edit> {
         let all: Vec<usize> = (0..self.sensors()).collect();
-        let alone = all.iter().map(|&m| vec![m]).filter(|alone| *alone != all);
+        let single = all.iter().map(|&m| vec![m]).filter(|single| *single != all);
         let mut edits = Vec::new();
-        for sensors in std::iter::once(all.clone()).chain(alone) {
+        for sensors in std::iter::once(all.clone()).chain(single) {
             let none = |which: &[bool]| sensors.iter().all(|&m| !which[m]);
             let mut push = |change| edits.push(Edit { change, sensors: sensors.clone() });
             if none(&self.conjugated) {

@@ -6,22 +6,22 @@ use super::responses::{Law, Responses};
 use super::search::{Fitted, Search, Written};
 use crate::c64;
 use crate::for_each::map;
-use crate::identify::Options;
+use crate::identify::{Band, Options};
 use crate::model::{Experiment, ModelAt, Sensor};
 use crate::subspace::Drive;
 
 /// Frequencies at which all rows are looked at.
-const FREQUENCIES: usize = 12;
+const ROW_FREQUENCIES: usize = 12;
 
 /// Moduli at which they are, at most; fewer on large models, so that all rows cost no more than this many products.
-const MODULI: usize = 60;
-const PRODUCTS: f64 = 4e8;
+const MAX_ROW_MODULI: usize = 60;
+const MAX_ROW_PRODUCTS: f64 = 4e8;
 
 /// Rows that are looked at more closely, for a sensor or the load.
-const KEPT: usize = 6;
+const MAX_CLOSE_ROWS: usize = 6;
 
 /// Scale at which rows are compared: away from the sensors the basis is good to some hundredths.
-const BROAD: f64 = 0.3;
+const ROW_SCALE: f64 = 0.3;
 
 /// A dof mismatch that was tried, with what came of it.
 pub(super) struct Tried {
@@ -36,12 +36,13 @@ type Scored = (usize, f64, Law);
 /// The best rows for every sensor and for the load, each fitted on a model that was trained for it.
 pub(super) fn dof_mismatch<'a>(
     search: &Search<'_, 'a>,
-    experiment: &Experiment,
+    band: &Band<'_>,
     at: &[ModelAt<'a>],
     options: &Options,
     data_hypothesis: &DataHypothesis,
     laws: &[Vec<Law>],
 ) -> Vec<Tried> {
+    let experiment = band.experiment;
     let sensors = experiment.sensors.len();
     let driven: Vec<usize> =
         (0..experiment.load.len()).filter(|&row| experiment.load[row] != c64::default()).collect();
@@ -62,9 +63,11 @@ pub(super) fn dof_mismatch<'a>(
         load: experiment.load.clone(),
         sensors: experiment.sensors.iter().copied().chain(places).collect(),
     };
-    let Ok(mut responses) = Responses::new(&wider, at, options, search.for_each) else { return Vec::new() };
+    let Ok(mut responses) = Responses::new(&wider, band.unknown, at, options, search.for_each) else {
+        return Vec::new();
+    };
     for m in 0..sensors {
-        responses.add(|fractions| fractions.residues(m, Drive::Load));
+        responses.add(|poles| poles.residues(m, Drive::Load));
     }
     let force = driven.first().map_or(c64::default(), |&row| experiment.load[row]);
     let mut edits = Vec::with_capacity(wanted.len());
@@ -72,13 +75,13 @@ pub(super) fn dof_mismatch<'a>(
         let there = sensors + k;
         let (sensors, columns, what) = match m {
             Some(m) => {
-                let column = responses.add(|fractions| fractions.residues(there, Drive::Load));
+                let column = responses.add(|poles| poles.residues(there, Drive::Load));
                 (vec![m], vec![column], DofMismatch::Response(row))
             }
             None => {
                 let by = |m: usize| {
-                    responses.add(|fractions| {
-                        let unit = fractions.residues(m, Drive::Sensor(there));
+                    responses.add(|poles| {
+                        let unit = poles.residues(m, Drive::Sensor(there));
                         unit.into_iter().map(|rho| rho * force).collect()
                     })
                 };
@@ -100,8 +103,8 @@ pub(super) fn dof_mismatch<'a>(
 
 /// Moduli over the box at which rows are compared, as many as a model of this size allows.
 pub(super) fn sweep(responses: &Responses<'_>) -> Vec<Law> {
-    let products = (responses.subspace.size() * responses.rows * FREQUENCIES) as f64;
-    let count = ((PRODUCTS / products) as usize).clamp(5, MODULI);
+    let products = (responses.subspace.size() * responses.rows * ROW_FREQUENCIES) as f64;
+    let count = ((MAX_ROW_PRODUCTS / products) as usize).clamp(5, MAX_ROW_MODULI);
     let [low, high] = responses.parametrization.ln_size;
     let size = |k: usize| low + (high - low) * k as f64 / (count - 1) as f64;
     (0..count).map(|k| [size(k), responses.parametrization.usual_loss(), 0.0]).collect()
@@ -119,7 +122,7 @@ fn best_rows(
 ) -> Vec<Scored> {
     let responses = search.responses;
     let Written(written) = search.written;
-    let count = written.len().min(FREQUENCIES);
+    let count = written.len().min(ROW_FREQUENCIES);
     let picked: Vec<usize> = (0..count).map(|k| k * (written.len() - 1) / (count - 1).max(1)).collect();
     let force = experiment.load[experiment.load.iter().position(|f| *f != c64::default()).unwrap_or(0)];
     let scores = map(search.for_each, laws.len(), |l| {
@@ -133,9 +136,10 @@ fn best_rows(
                     true => (Drive::Sensor(m), force),
                     false => (Drive::Load, c64::new(experiment.sensors[m].sign, 0.0)),
                 };
-                let x = responses.subspace.everywhere(&responses.fractions[i].coordinates(drive, correction));
+                let x =
+                    responses.subspace.everywhere(&responses.pole_residues[i].coordinates(drive, correction));
                 for (score, x) in scores.iter_mut().zip(x) {
-                    *score += misfit_at(std::iter::once(wrapped(read - (by * x).ln())), BROAD);
+                    *score += misfit_at(std::iter::once(wrapped(read - (by * x).ln())), ROW_SCALE);
                 }
             }
         }
@@ -150,6 +154,6 @@ fn best_rows(
         .filter(|(_, score, _)| score.is_finite())
         .collect();
     best.sort_by(|a, b| a.1.total_cmp(&b.1));
-    best.truncate(KEPT);
+    best.truncate(MAX_CLOSE_ROWS);
     best
 }

@@ -1,6 +1,22 @@
 //! What may be wrong with data, and what speaks for it.
 
 use crate::quantity::Quantity;
+use crate::response::Work;
+
+/// What came of looking at the data.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Diagnosis {
+    /// What is wrong, the mesh last; empty where nothing is.
+    pub findings: Vec<Finding>,
+    /// Robust deviation of ln(measured/model), real and imaginary part each, with the likeliest modulus and all findings; `None` where it was not judged.
+    pub misfit: Option<f64>,
+    /// Why the data were not judged, if they were not.
+    pub not_judged: Option<NotJudged>,
+    /// Frequencies that were looked at.
+    pub frequencies: usize,
+    /// Work of size N.
+    pub work: Work,
+}
 
 /// A number that has a name: what units and habits make of an FRF.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -38,16 +54,16 @@ impl KnownFactor {
 
     /// The number.
     pub fn value(self) -> f64 {
-        const G: f64 = 9.80665;
+        const STANDARD_GRAVITY: f64 = 9.80665;
         match self {
-            Self::StandardGravity => G,
-            Self::PerStandardGravity => 1.0 / G,
+            Self::StandardGravity => STANDARD_GRAVITY,
+            Self::PerStandardGravity => 1.0 / STANDARD_GRAVITY,
             Self::Thousand => 1e3,
             Self::Thousandth => 1e-3,
             Self::Million => 1e6,
             Self::Millionth => 1e-6,
-            Self::GravityInMillimetres => 1e3 * G,
-            Self::PerGravityInMillimetres => 1e-3 / G,
+            Self::GravityInMillimetres => 1e3 * STANDARD_GRAVITY,
+            Self::PerGravityInMillimetres => 1e-3 / STANDARD_GRAVITY,
         }
     }
 }
@@ -85,7 +101,7 @@ pub enum Fault {
         factor: f64,
         /// Standard deviation of its logarithm.
         relative_std: f64,
-        /// The number with a name that it is, within [`NAMED_WITHIN`] and five deviations.
+        /// The number with a name that it is, within [`KNOWN_FACTOR_RTOL`] and five deviations.
         known: Option<KnownFactor>,
     },
     /// The response is late: its phase falls in proportion to frequency.
@@ -97,12 +113,12 @@ pub enum Fault {
     },
     /// The response was measured on another row than the case says.
     ResponseDof {
-        /// Best first; those behind it cannot be told from it.
+        /// Best first; those behind it cannot be distinguished from it.
         rows: Vec<OtherRow>,
     },
     /// The structure was driven on another row than the case says.
     LoadDof {
-        /// Best first; those behind it cannot be told from it.
+        /// Best first; those behind it cannot be distinguished from it.
         rows: Vec<OtherRow>,
     },
     /// The band goes beyond what the mesh can carry.
@@ -115,7 +131,7 @@ pub enum Fault {
 }
 
 /// How near a factor must be to a number with a name, relative: what calibrations of hammer and sensor leave together.
-pub const NAMED_WITHIN: f64 = 0.05;
+pub const KNOWN_FACTOR_RTOL: f64 = 0.05;
 
 /// What speaks for a finding.
 #[derive(Debug, Clone, Copy, PartialEq)]

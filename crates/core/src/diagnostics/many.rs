@@ -1,15 +1,16 @@
 //! More sensors than can be fitted together at a price that grows with their number alone.
 //!
-//! A change of one sensor is fitted with all others beside it: of M sensors that is M fits to M sensors' values. So at most [`MOST_SENSORS`] are fitted together. What is wrong with
-//! all sensors is wrong with these. Then every sensor is compared with the modulus that they agree on, and each of those that differ most is looked at beside [`BESIDE`] of those that
+//! A change of one sensor is fitted with all others beside it: of M sensors that is M fits to M sensors' values. So at most [`MAX_FITTED_SENSORS`] are fitted together. What is wrong with
+//! all sensors is wrong with these. Then every sensor is compared with the modulus that they agree on, and each of those that differ most is looked at beside [`SENSORS_BESIDE_SUSPECT`] of those that
 //! differ least.
 //!
 //! # Limits
-//! Of sensors that are wrong each in a way of its own, [`SUSPECTS`] are looked at: the worst.
+//! Of sensors that are wrong each in a way of its own, [`MAX_SUSPECTS`] are looked at: the worst.
 
 use super::data_hypothesis::{DataHypothesis, Edit};
+use super::few::{Agreed, look, written};
+use super::finding::Diagnosis;
 use super::misfit::{misfit, wrapped};
-use super::{Agreed, Diagnosis, look, written};
 use crate::c64;
 use crate::for_each::ForEach;
 use crate::identify::{Band, Options};
@@ -20,18 +21,18 @@ use crate::quantity::Quantity;
 use crate::subspace::Drive;
 
 /// Sensors that are fitted together: with twelve frequencies of each there are 240 values.
-pub(super) const MOST_SENSORS: usize = 20;
+pub(super) const MAX_FITTED_SENSORS: usize = 20;
 
 /// Sensors that are looked at one by one.
-const SUSPECTS: usize = 3;
+const MAX_SUSPECTS: usize = 3;
 
 /// Sensors beside each of them: three others that agree are a majority.
-const BESIDE: usize = 3;
+const SENSORS_BESIDE_SUSPECT: usize = 3;
 
 /// Misfit of one sensor, over that of most, from which on it is looked at. Noise alone seldom doubles it with twelve values.
-const SUSPECT: f64 = 2.0;
+const SUSPECT_MISFIT_RATIO: f64 = 2.0;
 
-/// [`super::diagnose`] of more than [`MOST_SENSORS`] sensors.
+/// [`super::diagnose`] of more than [`MAX_FITTED_SENSORS`] sensors.
 pub(super) fn diagnose(
     band: &Band<'_>,
     quantities: &[Quantity],
@@ -39,7 +40,8 @@ pub(super) fn diagnose(
     for_each: ForEach<'_>,
 ) -> Result<Diagnosis, OutsideTable> {
     let count = quantities.len();
-    let panel: Vec<usize> = (0..MOST_SENSORS).map(|k| k * (count - 1) / (MOST_SENSORS - 1)).collect();
+    let panel: Vec<usize> =
+        (0..MAX_FITTED_SENSORS).map(|k| k * (count - 1) / (MAX_FITTED_SENSORS - 1)).collect();
     let own = |agreed: Agreed<'_, '_>| own_misfits(band, quantities, &agreed);
     let part = Part::of(band, quantities, &panel);
     let (mut diagnosis, own) = look(&part.band(band), &part.quantities, options, for_each, &own)?;
@@ -54,16 +56,16 @@ pub(super) fn diagnose(
     order.sort_by(|&a, &b| own[a].total_cmp(&own[b]));
     let usual = median(order.iter().map(|&m| own[m]).collect()).unwrap_or(0.0);
     let is_found = |m: usize| diagnosis.findings.iter().any(|finding| finding.sensors == [m]);
-    let suspects = order.iter().rev().take_while(|&&m| own[m] > SUSPECT * usual);
-    let suspects: Vec<usize> = suspects.copied().filter(|&m| !is_found(m)).take(SUSPECTS).collect();
+    let suspects = order.iter().rev().take_while(|&&m| own[m] > SUSPECT_MISFIT_RATIO * usual);
+    let suspects: Vec<usize> = suspects.copied().filter(|&m| !is_found(m)).take(MAX_SUSPECTS).collect();
     let mut found = Vec::new();
     for suspect in suspects {
-        let mut few: Vec<usize> = order.iter().copied().take(BESIDE).collect();
+        let mut few: Vec<usize> = order.iter().copied().take(SENSORS_BESIDE_SUSPECT).collect();
         few.push(suspect);
         let part = Part::of(band, quantities, &few);
-        let (alone, _) = look(&part.band(band), &part.quantities, options, for_each, &|_| ())?;
-        diagnosis.work += alone.work;
-        let of_it = alone.findings.into_iter().filter(|finding| finding.sensors == [BESIDE]);
+        let (single, _) = look(&part.band(band), &part.quantities, options, for_each, &|_| ())?;
+        diagnosis.work += single.work;
+        let of_it = single.findings.into_iter().filter(|finding| finding.sensors == [SENSORS_BESIDE_SUSPECT]);
         found.extend(of_it.map(|mut finding| {
             finding.sensors = vec![suspect];
             finding
@@ -79,14 +81,15 @@ pub(super) fn diagnose(
 fn own_misfits(band: &Band<'_>, quantities: &[Quantity], agreed: &Agreed<'_, '_>) -> Vec<f64> {
     let Agreed { responses, picked, fitted, edits } = agreed;
     let all: Vec<usize> = (0..quantities.len()).collect();
-    let as_told = DataHypothesis::as_told(quantities, band.model.decay_per_s());
-    let data_hypothesis = edits.iter().fold(as_told, |data_hypothesis, edit| {
+    let as_given = DataHypothesis::as_given(quantities, band.model.decay_per_s());
+    let data_hypothesis = edits.iter().fold(as_given, |data_hypothesis, edit| {
         data_hypothesis.with(&Edit { change: edit.change.clone(), sensors: all.clone() })
     });
     let mut residuals: Vec<Vec<c64>> = vec![Vec::with_capacity(picked.len()); quantities.len()];
     for (k, &i) in picked.iter().enumerate() {
         let correction = responses.correction(fitted.law, k);
-        let x = responses.subspace.everywhere(&responses.fractions[k].coordinates(Drive::Load, correction));
+        let x =
+            responses.subspace.everywhere(&responses.pole_residues[k].coordinates(Drive::Load, correction));
         let values = written(band, quantities, i);
         for (m, (value, &Sensor { row, sign })) in
             values.into_iter().zip(&band.experiment.sensors).enumerate()
@@ -98,8 +101,8 @@ fn own_misfits(band: &Band<'_>, quantities: &[Quantity], agreed: &Agreed<'_, '_>
         }
     }
     // Of fewer than half of the values nothing is said.
-    let told = |rest: &Vec<c64>| 2 * rest.len() >= picked.len();
-    residuals.iter().map(|rest| if told(rest) { misfit(rest).sigma } else { f64::NAN }).collect()
+    let is_enough = |rest: &Vec<c64>| 2 * rest.len() >= picked.len();
+    residuals.iter().map(|rest| if is_enough(rest) { misfit(rest).sigma } else { f64::NAN }).collect()
 }
 
 /// Some sensors of a band.

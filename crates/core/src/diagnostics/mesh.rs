@@ -3,16 +3,16 @@
 use super::finding::Fault;
 use crate::c64;
 use crate::frequency::omega_rad_s;
-use crate::model::{ModelAt, Role};
+use crate::model::{ModelAt, Role, WeightedTerm};
 
 /// Part of the rows' own frequency up to which waves are resolved.
 ///
 /// √(K_ii/M_ii) is the frequency of one row that moves alone. In a uniform mesh of linear bars (consistent mass) it is √3 c/h, in one of beams in bending 5.7 √(EI/ρA)/h²:
 /// half of it has seven bars or four beams in a wavelength, and natural frequencies are 3 % too high on bars.
-const CARRIED: f64 = 0.5;
+const RESOLVED_FREQUENCY_SHARE: f64 = 0.5;
 
 /// Which part of the rows must be as slow as that: heavy points on soft springs are few, and say nothing of waves.
-const SHARE: f64 = 0.25;
+const SLOW_ROW_SHARE: f64 = 0.25;
 
 /// Whether a band reaches beyond the mesh, with the factor so many times its nominal.
 ///
@@ -22,8 +22,8 @@ const SHARE: f64 = 0.25;
 pub(super) fn beyond_mesh(top: &ModelAt<'_>, correction: c64) -> Option<Fault> {
     let n = top.model.dim();
     let (mut stiffness, mut mass) = (vec![0.0; n], vec![0.0; n]);
-    let mut add = |parts: &[(usize, c64)], by: c64| {
-        for &(term, coefficient) in parts {
+    let mut add = |parts: &[WeightedTerm], by: c64| {
+        for &WeightedTerm { term, weight: coefficient } in parts {
             let term = &top.model.terms()[term];
             let into = match term.role {
                 Role::Stiffness => &mut stiffness,
@@ -41,8 +41,8 @@ pub(super) fn beyond_mesh(top: &ModelAt<'_>, correction: c64) -> Option<Fault> {
     let squares = stiffness.iter().zip(&mass).filter(|&(&k, &m)| m > 0.0 && k > 0.0).map(|(k, m)| k / m);
     let mut squares: Vec<f64> = squares.collect();
     squares.sort_by(f64::total_cmp);
-    let slow = squares.get((SHARE * squares.len() as f64) as usize)?.sqrt();
+    let slow = squares.get((SLOW_ROW_SHARE * squares.len() as f64) as usize)?.sqrt();
     let row_hz = slow / omega_rad_s(1.0);
     let top_hz = top.frequency_hz;
-    (top_hz > CARRIED * row_hz).then_some(Fault::Mesh { row_hz, top_hz })
+    (top_hz > RESOLVED_FREQUENCY_SHARE * row_hz).then_some(Fault::Mesh { row_hz, top_hz })
 }

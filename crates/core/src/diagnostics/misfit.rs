@@ -11,13 +11,13 @@ use crate::median::median;
 use std::f64::consts::{PI, TAU};
 
 /// Degrees of freedom of Student's distribution, as Lange, Little and Taylor recommend: three to four.
-const NU: f64 = 3.0;
+const STUDENT_FREEDOM: f64 = 3.0;
 
 /// No FRF agrees with a model better than this: a calibration is good to a per cent, and so is a constant law.
-pub(super) const FLOOR: f64 = 0.01;
+pub(super) const MIN_MISFIT: f64 = 0.01;
 
 /// Rounds of reweighing; each brings σ nearer by a factor of about two, and a per cent of it is enough.
-const ROUNDS: usize = 12;
+const REWEIGHING_ROUNDS: usize = 12;
 
 /// The phase of a residual within ±π.
 pub(super) fn wrapped(residual: c64) -> c64 {
@@ -36,17 +36,18 @@ pub(super) struct Misfit {
 pub(super) fn misfit(residuals: &[c64]) -> Misfit {
     let squares: Vec<f64> = residuals.iter().map(|r| r.norm_sqr()).collect();
     let n = squares.len().max(1) as f64;
-    let mut variance = (0.5 * median(squares.clone()).unwrap_or(0.0)).max(FLOOR * FLOOR);
-    for _ in 0..ROUNDS {
-        let weighed: f64 = squares.iter().map(|r| (NU + 2.0) / (NU + r / variance) * r).sum();
-        variance = (0.5 * weighed / n).max(FLOOR * FLOOR);
+    let mut variance = (0.5 * median(squares.clone()).unwrap_or(0.0)).max(MIN_MISFIT * MIN_MISFIT);
+    for _ in 0..REWEIGHING_ROUNDS {
+        let weighed: f64 =
+            squares.iter().map(|r| (STUDENT_FREEDOM + 2.0) / (STUDENT_FREEDOM + r / variance) * r).sum();
+        variance = (0.5 * weighed / n).max(MIN_MISFIT * MIN_MISFIT);
     }
     Misfit { nats: n * variance.ln() + tails(&squares, variance), sigma: variance.sqrt() }
 }
 
 /// The misfit at a scale that is given, up to a constant: for comparing starts from afar.
 pub(super) fn misfit_at(residuals: impl Iterator<Item = c64>, sigma: f64) -> f64 {
-    let squares = residuals.map(|r| r.norm_sqr() / (NU * sigma * sigma));
+    let squares = residuals.map(|r| r.norm_sqr() / (STUDENT_FREEDOM * sigma * sigma));
     // A sum of logarithms is the logarithm of products: one in sixteen is cheaper.
     let (mut sum, mut product, mut count) = (0.0, 1.0, 0);
     for square in squares {
@@ -57,16 +58,17 @@ pub(super) fn misfit_at(residuals: impl Iterator<Item = c64>, sigma: f64) -> f64
             (product, count) = (1.0, 0);
         }
     }
-    0.5 * (NU + 2.0) * (sum + product.ln())
+    0.5 * (STUDENT_FREEDOM + 2.0) * (sum + product.ln())
 }
 
 /// The weight of a residual at a scale.
 pub(super) fn weight(residual: c64, sigma: f64) -> f64 {
-    (NU + 2.0) / (NU + residual.norm_sqr() / (sigma * sigma))
+    (STUDENT_FREEDOM + 2.0) / (STUDENT_FREEDOM + residual.norm_sqr() / (sigma * sigma))
 }
 
 fn tails(squares: &[f64], variance: f64) -> f64 {
-    0.5 * (NU + 2.0) * squares.iter().map(|r| (r / (NU * variance)).ln_1p()).sum::<f64>()
+    0.5 * (STUDENT_FREEDOM + 2.0)
+        * squares.iter().map(|r| (r / (STUDENT_FREEDOM * variance)).ln_1p()).sum::<f64>()
 }
 
 /// Half a turn.
@@ -84,7 +86,7 @@ mod tests {
         residuals.extend([c64::new(5.0, 1.0); 2]);
         let with = misfit(&residuals).sigma;
         assert!(without > 0.05 && with < 2.0 * without, "{without} {with}");
-        assert_eq!(misfit(&[c64::default(); 4]).sigma, FLOOR);
+        assert_eq!(misfit(&[c64::default(); 4]).sigma, MIN_MISFIT);
         assert!(misfit(&[]).nats.is_finite());
     }
 

@@ -5,16 +5,17 @@
 //! frequencies its response is a sum over poles, x_m(c) = Σ_k ρ_mk/(1 + cλ_k). What is compared are residuals ln(measured/model), magnitude and phase together, by the
 //! likelihood of Student's distribution with a scale that is free (`misfit`), and by what BIC takes for each free number.
 //!
-//! A change is a finding where it is likelier than the data as they are by [`MARGIN`] and leaves a misfit that is smaller by [`FALL`]; then a second change is looked for with
+//! A change is a finding where it is likelier than the data as they are by [`FINDING_NATS`] and leaves a misfit that is smaller by [`MAX_MISFIT_RATIO`]; then a second change is looked for with
 //! the first in force, and a third is not: who finds three faults has the wrong model.
 //!
 //! # Limits
 //! Load and response that are swapped give the same FRF (reciprocity), so that nobody can tell. A factor of all sensors and the modulus are one where nothing but stiffness
-//! answers (a clamped structure below its first resonance), and then nothing is said. A conjugated FRF is told by damping that shows; where it is less than the noise, nothing is said.
+//! answers (a clamped structure below its first resonance), and then nothing is said. Damping that shows gives a conjugated FRF away; where it is less than the noise, nothing is said.
 //! A dof is one of several where neighbours or mirror images answer alike: all of them are named. Faults that depend on frequency (a filter, a mounting resonance) are not looked for.
 
 mod data_hypothesis;
 mod dof_mismatch;
+mod few;
 mod finding;
 mod many;
 mod mesh;
@@ -22,66 +23,13 @@ mod misfit;
 mod responses;
 mod search;
 
-pub use finding::{Evidence, Fault, Finding, KnownFactor, NAMED_WITHIN, NotJudged, OtherRow};
+pub use few::{FINDING_NATS, MAX_MISFIT_RATIO};
+pub use finding::{Diagnosis, Evidence, Fault, Finding, KNOWN_FACTOR_RTOL, KnownFactor, NotJudged, OtherRow};
 
-use crate::c64;
-use crate::for_each::{ForEach, map};
-use crate::identify::{Band, Options, Problem, ProblemError};
-use crate::material::OutsideTable;
+use crate::for_each::ForEach;
+use crate::identify::{Options, Problem, ProblemError};
 use crate::quantity::Quantity;
 use crate::response::Work;
-use crate::subspace::Drive;
-use data_hypothesis::{Change, DataHypothesis, DofMismatch, Edit, ln_over_receptance};
-use dof_mismatch::{Tried, dof_mismatch, sweep};
-use responses::{NoModel, Responses};
-use search::{Fitted, Grid, Search, Written};
-
-/// What came of looking at the data.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Diagnosis {
-    /// What is wrong, the mesh last; empty where nothing is.
-    pub findings: Vec<Finding>,
-    /// Robust deviation of ln(measured/model), real and imaginary part each, with the likeliest modulus and all findings; `None` where it was not judged.
-    pub misfit: Option<f64>,
-    /// Why the data were not judged, if they were not.
-    pub not_judged: Option<NotJudged>,
-    /// Frequencies that were looked at.
-    pub frequencies: usize,
-    /// Work of size N.
-    pub work: Work,
-}
-
-/// By how much a finding must be likelier, natural logarithm: some thirty changes are tried (e^3.4), and neighbouring residuals are not independent: what is left of a law
-/// that is no power may move several of them together.
-pub const MARGIN: f64 = 15.0;
-
-/// The misfit with a finding over that without, at most. A factor, a delay or another row can fit a little of whatever is wrong; what they are the reason of falls to the noise.
-pub const FALL: f64 = 0.6;
-
-/// A factor nearer to one than this is the calibration's or the model's mass, and no fault.
-const LEAST_FACTOR: f64 = 0.1;
-
-/// A delay that turns the phase by less than this at the top of the band (rad) is a filter's, and no fault.
-const LEAST_PHASE: f64 = 0.2;
-
-/// A factor or delay of fewer deviations than this is none.
-const SIGNIFICANT: f64 = 5.0;
-
-/// Misfit up to which data are explained: noise and a constant law leave as much, and the rows of a neighbourhood are not to be told by it.
-const EXPLAINED: f64 = 0.04;
-
-/// Readings as likely as the best within this: the one that is listed first is named.
-const AS_LIKELY: f64 = 3.0;
-
-/// Values at fewer than this explain nothing: three numbers of the modulus, two of a change, and as many again to judge by.
-const LEAST_VALUES: usize = 8;
-
-/// Frequencies that are looked at, and values at most (they are fewer where there are many sensors).
-const FREQUENCIES: usize = 40;
-const VALUES: usize = 240;
-
-/// Findings at most.
-const FINDINGS: usize = 2;
 
 /// Looks for what is wrong with a band's data against its model; `quantities` says what each sensor's values were before they were made receptances.
 ///
@@ -114,12 +62,11 @@ pub fn diagnose(
     for (j, unknown) in problem.unknowns().iter().enumerate() {
         let Some(parameter) = unknown.parameter() else { continue };
         let about = problem.model_about(j)?;
-        let mut band = problem.band(&parameter);
+        let mut band = problem.band(j, &parameter);
         band.model = about.as_ref().unwrap_or(band.model);
-        let options = Options { bounds: unknown.bounds, real: unknown.real, ..*options };
-        let mut found = match sensors > many::MOST_SENSORS {
-            true => many::diagnose(&band, quantities, &options, for_each)?,
-            false => look(&band, quantities, &options, for_each, &|_| ())?.0,
+        let mut found = match sensors > many::MAX_FITTED_SENSORS {
+            true => many::diagnose(&band, quantities, options, for_each)?,
+            false => few::look(&band, quantities, options, for_each, &|_| ())?.0,
         };
         work += found.work;
         if problem.unknowns().len() > 1 {
@@ -132,7 +79,8 @@ pub fn diagnose(
         }
     }
     let several = problem.unknowns().len() > 1;
-    let open = |found: &Diagnosis| several && found.misfit.is_some_and(|misfit| misfit > EXPLAINED_BY_ONE);
+    let open =
+        |found: &Diagnosis| several && found.misfit.is_some_and(|misfit| misfit > MAX_MISFIT_OF_ONE_UNKNOWN);
     Ok(match best {
         Some(found) if !open(&found) => Diagnosis { work, ..found },
         found => Diagnosis {
@@ -146,287 +94,4 @@ pub fn diagnose(
 }
 
 /// A misfit up to which one free unknown beside others at their nominal values is believed: a factor of 1.3, or 17 degrees.
-const EXPLAINED_BY_ONE: f64 = 0.3;
-
-/// What the sensors of a band agree on.
-struct Agreed<'x, 'a> {
-    responses: &'x Responses<'a>,
-    /// The frequencies of the band that are looked at.
-    picked: &'x [usize],
-    /// The modulus, the factor and the delay.
-    fitted: &'x Fitted,
-    /// The changes that were found, of all sensors.
-    edits: &'x [Edit],
-}
-
-/// [`diagnose`] of a few sensors. Where load and rows are those of the case, `agreed` is then asked about what was found.
-fn look<T>(
-    band: &Band<'_>,
-    quantities: &[Quantity],
-    options: &Options,
-    for_each: ForEach<'_>,
-    agreed: &dyn Fn(Agreed<'_, '_>) -> T,
-) -> Result<(Diagnosis, Option<T>), OutsideTable> {
-    let picked = looked_at(band, FREQUENCIES.min((VALUES / quantities.len().max(1)).max(12)));
-    let frequency_hz: Vec<f64> = picked.iter().map(|&i| band.frequency_hz[i]).collect();
-    let mut diagnosis = Diagnosis {
-        findings: Vec::new(),
-        misfit: None,
-        not_judged: None,
-        frequencies: picked.len(),
-        work: Work::default(),
-    };
-    let written = Written(picked.iter().map(|&i| written(band, quantities, i)).collect());
-    if written.0.iter().flatten().flatten().count() < LEAST_VALUES {
-        diagnosis.not_judged = Some(NotJudged::FewValues);
-        return Ok((diagnosis, None));
-    }
-    let at = band.model.at_all(&frequency_hz, std::slice::from_ref(band.parameter))?;
-    let mut responses = match Responses::new(band.experiment, &at, options, for_each) {
-        Ok(responses) => responses,
-        Err(reason) => {
-            diagnosis.not_judged = Some(match reason {
-                NoModel::Parameter => NotJudged::Parameter,
-                NoModel::Breakdown => NotJudged::Breakdown,
-            });
-            return Ok((diagnosis, None));
-        }
-    };
-    for m in 0..quantities.len() {
-        responses.add(|fractions| fractions.residues(m, Drive::Load));
-    }
-    diagnosis.work = responses.work();
-    let search = Search { responses: &responses, written: &written, for_each };
-    let grid = search.grid(quantities.len());
-    let mut data_hypothesis = DataHypothesis::as_told(quantities, band.model.decay_per_s());
-    let mut current = search.fit(&data_hypothesis, &grid, None);
-    let (mut common, mut elsewhere_found) = (Vec::new(), false);
-    while diagnosis.findings.len() < FINDINGS {
-        let values = best_change(&search, &grid, &data_hypothesis, &current);
-        // Another row is looked for only where nothing simpler explains the data.
-        let explained = values.as_ref().map_or(current.misfit.sigma, |(_, found)| found.misfit.sigma);
-        let rows = match explained <= EXPLAINED {
-            true => Vec::new(),
-            false => {
-                let laws = laws_elsewhere(&search, &grid, &data_hypothesis, &current);
-                dof_mismatch(&search, band.experiment, &at, options, &data_hypothesis, &laws)
-            }
-        };
-        let best_row = likeliest_row(&rows, &current, band.model.dim());
-        let likeliest = values.as_ref().map_or(f64::INFINITY, |(_, found)| found.nats);
-        if let Some((fault, tried)) = best_row.filter(|(_, tried)| tried.fitted.nats < likeliest) {
-            let evidence = evidence(&current, &tried.fitted);
-            let sensors = tried.edit.sensors.clone();
-            diagnosis.findings.push(Finding { fault, sensors, evidence: Some(evidence) });
-            current = tried.fitted.clone();
-            elsewhere_found = true;
-            break;
-        }
-        let Some((edit, found)) = values else { break };
-        let after = data_hypothesis.with(&edit);
-        let fault = fault(&search, &data_hypothesis, &after, &edit, &found);
-        let evidence = evidence(&current, &found);
-        if edit.sensors.len() == quantities.len() {
-            common.push(edit.clone());
-        }
-        diagnosis.findings.push(Finding { fault, sensors: edit.sensors, evidence: Some(evidence) });
-        (data_hypothesis, current) = (after, found);
-    }
-    diagnosis.misfit = Some(current.misfit.sigma);
-    if let Some(top) = at.last()
-        && let Some(fault) = mesh::beyond_mesh(top, responses.correction(current.law, at.len() - 1))
-    {
-        let sensors = (0..quantities.len()).collect();
-        diagnosis.findings.push(Finding { fault, sensors, evidence: None });
-    }
-    let told = (!elsewhere_found)
-        .then(|| agreed(Agreed { responses: &responses, picked: &picked, fitted: &current, edits: &common }));
-    Ok((diagnosis, told))
-}
-
-/// Frequencies to look at: half of them where the response is largest among its neighbours (there it tells of damping), the others evenly spaced, ascending.
-fn looked_at(band: &Band<'_>, most: usize) -> Vec<usize> {
-    let usable: Vec<usize> = (0..band.frequency_hz.len()).filter(|&i| band.frequency_hz[i] > 0.0).collect();
-    if usable.len() <= most {
-        return usable;
-    }
-    let size = |i: usize, m: usize| band.measured[i][m].norm();
-    let mut peaks: Vec<(f64, usize)> = Vec::new();
-    for m in 0..band.experiment.sensors.len() {
-        for around in usable.windows(3) {
-            let [a, b, c] = [0, 1, 2].map(|k| size(around[k], m));
-            if b > a && b > c {
-                peaks.push((b / (0.5 * (a + c)), around[1]));
-            }
-        }
-    }
-    peaks.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let mut picked: Vec<usize> = Vec::new();
-    for (_, i) in peaks {
-        if picked.len() < most / 2 && !picked.contains(&i) {
-            picked.push(i);
-        }
-    }
-    let even = most - picked.len();
-    picked.extend((0..even).map(|k| usable[k * (usable.len() - 1) / (even - 1).max(1)]));
-    picked.sort_unstable();
-    picked.dedup();
-    picked
-}
-
-/// ln of the values as they were written, at one frequency.
-fn written(band: &Band<'_>, quantities: &[Quantity], i: usize) -> Vec<Option<c64>> {
-    let values = band.measured[i].iter().zip(quantities);
-    values
-        .map(|(u, &quantity)| {
-            let ln = ln_over_receptance(quantity, band.frequency_hz[i], band.model.decay_per_s());
-            Some(u.ln() + ln)
-        })
-        .map(|ln| ln.filter(|ln| ln.is_finite()))
-        .collect()
-}
-
-fn evidence(before: &Fitted, after: &Fitted) -> Evidence {
-    Evidence { before: before.misfit.sigma, after: after.misfit.sigma, nats: before.nats - after.nats }
-}
-
-/// Whether a change explains what was not explained.
-fn is_better(before: &Fitted, after: &Fitted) -> bool {
-    before.nats - after.nats >= MARGIN && after.misfit.sigma <= FALL * before.misfit.sigma
-}
-
-/// The likeliest change of values that is a finding.
-fn best_change(
-    search: &Search<'_, '_>,
-    grid: &Grid,
-    data_hypothesis: &DataHypothesis,
-    current: &Fitted,
-) -> Option<(Edit, Fitted)> {
-    // No misfit is taken to be smaller than that floor: from here nothing can fall far enough.
-    if FALL * current.misfit.sigma < misfit::FLOOR {
-        return None;
-    }
-    let edits = data_hypothesis.edits();
-    let fitted = map(search.for_each, edits.len(), |k| {
-        search.fit(&data_hypothesis.with(&edits[k]), grid, Some(current))
-    });
-    let mut found: Vec<(Edit, Fitted)> = edits
-        .into_iter()
-        .zip(fitted)
-        .filter(|(edit, fitted)| {
-            is_better(current, fitted) && is_large(search, &data_hypothesis.with(edit), edit, fitted)
-        })
-        .collect();
-    let least = found.iter().map(|(_, fitted)| fitted.nats).fold(f64::INFINITY, f64::min);
-    let first = found.iter().position(|(_, fitted)| fitted.nats <= least + AS_LIKELY)?;
-    Some(found.swap_remove(first))
-}
-
-/// Whether a factor or a delay is large enough to be a fault.
-fn is_large(search: &Search<'_, '_>, data_hypothesis: &DataHypothesis, edit: &Edit, fitted: &Fitted) -> bool {
-    let top = crate::frequency::omega_rad_s(search.responses.frequency_hz.last().copied().unwrap_or(0.0));
-    let beyond = |value: f64, least: f64, std: Option<f64>| {
-        value.abs() >= least && std.is_some_and(|std| value.abs() >= SIGNIFICANT * std)
-    };
-    match edit.change {
-        Change::Factor => {
-            beyond(fitted.ln_factor, LEAST_FACTOR, search.deviations(data_hypothesis, fitted)[0])
-        }
-        Change::Delay => {
-            beyond(fitted.delay_s, LEAST_PHASE / top, search.deviations(data_hypothesis, fitted)[1])
-        }
-        _ => true,
-    }
-}
-
-/// What a change of values says.
-fn fault(
-    search: &Search<'_, '_>,
-    before: &DataHypothesis,
-    after: &DataHypothesis,
-    edit: &Edit,
-    found: &Fitted,
-) -> Fault {
-    let [factor_std, delay_std] = search.deviations(after, found);
-    match &edit.change {
-        Change::Conjugated => Fault::Conjugated,
-        Change::Quantity(is) => {
-            // As the case reads the values, with the modulus that came of reading them otherwise: a modulus with a slope of its own would hide part of it.
-            let (slope, slope_std) =
-                search.slope(before, found, &edit.sensors).unwrap_or((f64::NAN, f64::NAN));
-            Fault::Quantity { taken_for: before.quantity[edit.sensors[0]], is: *is, slope, slope_std }
-        }
-        Change::Factor => {
-            let factor = found.ln_factor.exp();
-            let relative_std = factor_std.unwrap_or(0.0);
-            let off = |known: KnownFactor| (found.ln_factor - known.value().ln()).abs();
-            let near = |known: &KnownFactor| off(*known) <= NAMED_WITHIN + 3.0 * relative_std;
-            let nearest = KnownFactor::ALL.into_iter().filter(near);
-            let known = nearest.min_by(|&a, &b| off(a).total_cmp(&off(b)));
-            Fault::Factor { factor, relative_std, known }
-        }
-        Change::Delay => Fault::Delay { seconds: found.delay_s, std: delay_std.unwrap_or(0.0) },
-        Change::Reversed | Change::Column(..) => Fault::Sign,
-    }
-}
-
-/// Moduli with which rows are compared, for each sensor and (last) for the load: that of the other sensors, and all of the box.
-fn laws_elsewhere(
-    search: &Search<'_, '_>,
-    grid: &Grid,
-    data_hypothesis: &DataHypothesis,
-    current: &Fitted,
-) -> Vec<Vec<responses::Law>> {
-    let all = sweep(search.responses);
-    let sensors = data_hypothesis.sensors();
-    let without = |m: usize| {
-        if sensors == 1 {
-            return all.clone();
-        }
-        let blanked = |values: &Vec<Option<c64>>| {
-            values.iter().enumerate().map(|(k, value)| value.filter(|_| k != m)).collect()
-        };
-        let others = Written(search.written.0.iter().map(blanked).collect());
-        let known = Search { written: &others, ..*search }.fit(data_hypothesis, grid, None).law;
-        vec![known, current.law]
-    };
-    let mut laws: Vec<Vec<responses::Law>> = (0..sensors).map(without).collect();
-    laws.push(all);
-    laws
-}
-
-/// The likeliest row for a dof mismatch that is a finding, with those that cannot be told from it.
-fn likeliest_row<'t>(rows: &'t [Tried], current: &Fitted, dim: usize) -> Option<(Fault, &'t Tried)> {
-    let best = rows.iter().min_by(|a, b| a.fitted.nats.total_cmp(&b.fitted.nats))?;
-    // As many rows were tried as there are.
-    let tried = (dim.max(1) as f64).ln();
-    let gained = current.nats - best.fitted.nats - tried;
-    if gained < MARGIN || best.fitted.misfit.sigma > FALL * current.misfit.sigma {
-        return None;
-    }
-    let alike = |tried: &&Tried| {
-        tried.fitted.nats <= best.fitted.nats + AS_LIKELY && tried.edit.sensors == best.edit.sensors
-    };
-    let mut same: Vec<&Tried> = rows.iter().filter(alike).collect();
-    same.sort_by(|a, b| a.fitted.nats.total_cmp(&b.fitted.nats));
-    let listed = |wanted: fn(DofMismatch) -> Option<usize>| -> Vec<OtherRow> {
-        let of =
-            |tried: &&Tried| Some(OtherRow { row: wanted(tried.what)?, misfit: tried.fitted.misfit.sigma });
-        same.iter().filter_map(of).collect()
-    };
-    let fault = match best.what {
-        DofMismatch::Response(_) => Fault::ResponseDof {
-            rows: listed(|what| match what {
-                DofMismatch::Response(row) => Some(row),
-                DofMismatch::Load(_) => None,
-            }),
-        },
-        DofMismatch::Load(_) => Fault::LoadDof {
-            rows: listed(|what| match what {
-                DofMismatch::Load(row) => Some(row),
-                DofMismatch::Response(_) => None,
-            }),
-        },
-    };
-    Some((fault, best))
-}
+const MAX_MISFIT_OF_ONE_UNKNOWN: f64 = 0.3;

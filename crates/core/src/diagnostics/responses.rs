@@ -2,19 +2,19 @@
 
 use crate::c64;
 use crate::for_each::{ForEach, map};
-use crate::identify::Options;
+use crate::identify::{Options, Unknown};
 use crate::model::{Experiment, ModelAt};
 use crate::response::Work;
 use crate::subspace::{Point, PoleResidue, Subspace, TrainOptions};
 
 /// Error of the responses over the box: a tenth of what an FRF is measured to.
-const TRAINED: f64 = 1e-3;
+const RESPONSE_TOL: f64 = 1e-3;
 
 /// Storage moduli over the box at which the basis is made good, and its loss factor where the nominal has none.
-const STORAGES: usize = 5;
+const BOX_STORAGES: usize = 5;
 
 /// An angle of loss beyond this is that of a fluid.
-const MOST_ANGLE: f64 = 1.3;
+const MAX_LOSS_ANGLE: f64 = 1.3;
 
 /// The unknown modulus over the band: E(ω) = |Ē(ω)| a (ω/ω₀)^β exp(iδ(ω)) with δ = min(q δ̄(ω), 1.3).
 ///
@@ -37,23 +37,23 @@ pub(super) struct Parametrization {
 
 impl Parametrization {
     /// `None` where the nominal has no positive real part, or nothing bounds it.
-    fn about(at: &[ModelAt<'_>], options: &Options) -> Option<Self> {
+    fn about(at: &[ModelAt<'_>], unknown: &Unknown, options: &Options) -> Option<Self> {
         let nominal: Vec<c64> = at.iter().map(|at| at.parameters[0].nominal).collect();
         if nominal.iter().any(|p| p.re <= 0.0) {
             return None;
         }
         let middle = at.len() / 2;
-        let [low, high] = options.box_about(nominal[middle])?;
+        let [low, high] = unknown.box_about(nominal[middle], options.box_ratio())?;
         let damps = nominal.iter().all(|p| p.arg() > 1e-9);
         let angle = |p: &c64| if damps { p.arg() } else { 1.0 };
-        let bounded = options.bounds.loss_factor.unwrap_or([0.0, f64::INFINITY]);
+        let bounded = unknown.bounds.loss_factor.unwrap_or([0.0, f64::INFINITY]);
         Some(Self {
             nominal: nominal.iter().map(|p| (p.norm(), angle(p))).collect(),
             ln_omega: at.iter().map(|a| (a.frequency_hz / at[middle].frequency_hz).ln()).collect(),
             ln_size: [low, high].map(|s| (s / nominal[middle].re).ln()),
             // Damping takes energy: a negative loss factor is a finding, not an answer.
             loss: bounded.map(|eta| eta.max(0.0)),
-            is_real: options.real,
+            is_real: unknown.real,
         })
     }
 
@@ -75,7 +75,8 @@ impl Parametrization {
         if self.is_real {
             return c64::new(size, 0.0);
         }
-        let angle = (angle * ln_loss.exp()).clamp(self.loss[0].atan(), self.loss[1].atan()).min(MOST_ANGLE);
+        let angle =
+            (angle * ln_loss.exp()).clamp(self.loss[0].atan(), self.loss[1].atan()).min(MAX_LOSS_ANGLE);
         c64::from_polar(size, angle)
     }
 }
@@ -85,7 +86,7 @@ pub(super) struct Responses<'a> {
     pub(super) parametrization: Parametrization,
     pub(super) frequency_hz: Vec<f64>,
     nominal: Vec<c64>,
-    pub(super) fractions: Vec<PoleResidue>,
+    pub(super) pole_residues: Vec<PoleResidue>,
     /// Residues `[column][frequency][pole]`: the sensors', then those of other places.
     columns: Vec<Vec<Vec<c64>>>,
     pub(super) subspace: Subspace<'a>,
@@ -103,36 +104,37 @@ impl<'a> Responses<'a> {
     /// Trains a subspace over the box, and takes it apart into its poles at every frequency.
     pub(super) fn new(
         experiment: &'a Experiment,
+        unknown: &Unknown,
         at: &[ModelAt<'a>],
         options: &Options,
         for_each: ForEach<'_>,
     ) -> Result<Self, NoModel> {
-        let parametrization = Parametrization::about(at, options).ok_or(NoModel::Parameter)?;
+        let parametrization = Parametrization::about(at, unknown, options).ok_or(NoModel::Parameter)?;
         if at.iter().any(|at| at.parameters[0].coefficients.len() != 1) {
             return Err(NoModel::Parameter);
         }
         let last = at.last().ok_or(NoModel::Breakdown)?;
         let mut subspace = Subspace::new(experiment, last).map_err(|_| NoModel::Breakdown)?;
         let [low, high] = parametrization.ln_size;
-        let step = (high - low) / (STORAGES - 1) as f64;
+        let step = (high - low) / (BOX_STORAGES - 1) as f64;
         let points: Vec<Point<'a>> = (0..at.len())
-            .flat_map(|i| (0..STORAGES).map(move |k| (i, low + k as f64 * step)))
+            .flat_map(|i| (0..BOX_STORAGES).map(move |k| (i, low + k as f64 * step)))
             .map(|(i, ln_size)| {
                 let modulus = parametrization.modulus([ln_size, 0.0, 0.0], i);
                 Point { correction: modulus - at[i].parameters[0].nominal, at: at[i].clone() }
             })
             .collect();
-        let training = TrainOptions { tolerance: TRAINED, ..TrainOptions::default() };
+        let training = TrainOptions { tolerance: RESPONSE_TOL, ..TrainOptions::default() };
         subspace.train(&points, &training, for_each).map_err(|_| NoModel::Breakdown)?;
         let small = subspace.projection();
-        let fractions = map(for_each, at.len(), |i| small.fractions(&at[i]).ok().flatten());
-        let fractions: Vec<PoleResidue> =
-            fractions.into_iter().collect::<Option<_>>().ok_or(NoModel::Breakdown)?;
+        let pole_residues = map(for_each, at.len(), |i| small.pole_residue(&at[i]).ok().flatten());
+        let pole_residues: Vec<PoleResidue> =
+            pole_residues.into_iter().collect::<Option<_>>().ok_or(NoModel::Breakdown)?;
         Ok(Self {
             parametrization,
             frequency_hz: at.iter().map(|at| at.frequency_hz).collect(),
             nominal: at.iter().map(|at| at.parameters[0].nominal).collect(),
-            fractions,
+            pole_residues,
             columns: Vec::new(),
             subspace,
             rows: last.model.dim(),
@@ -141,7 +143,7 @@ impl<'a> Responses<'a> {
 
     /// Adds a column of responses, by its residues at each frequency, and returns its number.
     pub(super) fn add(&mut self, residues: impl Fn(&PoleResidue) -> Vec<c64>) -> usize {
-        self.columns.push(self.fractions.iter().map(residues).collect());
+        self.columns.push(self.pole_residues.iter().map(residues).collect());
         self.columns.len() - 1
     }
 
@@ -154,7 +156,7 @@ impl<'a> Responses<'a> {
     pub(super) fn ln(&self, law: Law, i: usize, columns: &[usize]) -> Vec<c64> {
         let c = self.correction(law, i);
         let inverse: Vec<c64> =
-            self.fractions[i].lambda().iter().map(|lambda| (1.0 + c * lambda).inv()).collect();
+            self.pole_residues[i].lambda().iter().map(|lambda| (1.0 + c * lambda).inv()).collect();
         let sum = |&column: &usize| {
             let terms = self.columns[column][i].iter().zip(&inverse).map(|(rho, d)| rho * d);
             terms.sum::<c64>().ln()

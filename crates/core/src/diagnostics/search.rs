@@ -6,36 +6,36 @@ use super::responses::{Law, Responses};
 use crate::c64;
 use crate::for_each::{ForEach, map};
 use crate::frequency::omega_rad_s;
-use crate::identify::{MOST_PHASE, PHASE_STEP};
+use crate::identify::{DELAY_PHASE_STEP_RAD, MAX_DELAY_PHASE_RAD};
 use crate::median::median;
 use argmin::core::{CostFunction, Error, Executor, State};
 use argmin::solver::neldermead::NelderMead;
 use frfit_linalg::dense::{Matrix, solve};
 
 /// Step of ln a: a natural frequency moves by half of it, and the valley of a coincidence of twenty measured and computed resonances in log|H| is as wide as a twentieth.
-const SIZE_STEP: f64 = 0.025;
+const LN_SIZE_STEP: f64 = 0.025;
 
 /// Angles of loss in the middle of the band that are tried: of glass to that of rubber in transition.
-const ANGLES: [f64; 6] = [1e-5, 1e-3, 1e-2, 5e-2, 0.2, 0.8];
+const LOSS_ANGLES: [f64; 6] = [1e-5, 1e-3, 1e-2, 5e-2, 0.2, 0.8];
 
 /// Slopes β that are tried beside the nominal's: a modulus rises with frequency, if more slowly than the nominal may say.
-const SLOPES: [f64; 4] = [0.0, 0.2, 0.45, -0.2];
+const LOG_SLOPES: [f64; 4] = [0.0, 0.2, 0.45, -0.2];
 
 /// Slopes beyond this are none of a solid.
-const MOST_SLOPE: f64 = 0.8;
+const MAX_LOG_SLOPE: f64 = 0.8;
 
 /// Scale at which starts are compared: valleys of this width in ln H are wide enough to be found on the grid.
-const BROAD: f64 = 0.3;
+const START_SCALE: f64 = 0.3;
 
 /// Starts that are followed, and how far apart they are in ln a.
-const FOLLOWED: usize = 3;
-const APART: f64 = 0.04;
+const FOLLOWED_MODULI: usize = 3;
+const START_SEPARATION: f64 = 0.04;
 
 /// Steps of a simplex for each unknown.
-const STEPS: u64 = 45;
+const SIMPLEX_STEPS_PER_UNKNOWN: u64 = 45;
 
 /// Of a bound that is overstepped by one in ln a or β: enough to come back.
-const OVERSTEPPED: f64 = 1e4;
+const BOUND_PENALTY: f64 = 1e4;
 
 /// Values as they were written: ln of the complex value at `[frequency][sensor]`, `None` where it is zero or no number.
 pub(super) struct Written(pub(super) Vec<Vec<Option<c64>>>);
@@ -69,9 +69,12 @@ impl Search<'_, '_> {
     pub(super) fn grid(&self, sensors: usize) -> Grid {
         let parametrization = &self.responses.parametrization;
         let [low, high] = parametrization.ln_size;
-        let steps = ((high - low) / SIZE_STEP).ceil().max(1.0) as usize;
-        let (angles, slopes) =
-            if parametrization.is_real { (&ANGLES[..1], &SLOPES[..1]) } else { (&ANGLES[..], &SLOPES[..]) };
+        let steps = ((high - low) / LN_SIZE_STEP).ceil().max(1.0) as usize;
+        let (angles, slopes) = if parametrization.is_real {
+            (&LOSS_ANGLES[..1], &LOG_SLOPES[..1])
+        } else {
+            (&LOSS_ANGLES[..], &LOG_SLOPES[..])
+        };
         let mut laws = Vec::with_capacity((steps + 1) * angles.len() * slopes.len());
         for k in 0..=steps {
             let ln_size = low + (high - low) * k as f64 / steps as f64;
@@ -119,10 +122,10 @@ impl Search<'_, '_> {
         let first = starts.len();
         for &p in &order {
             let law = grid.laws[p];
-            if starts[first..].iter().all(|(other, ..)| (other[0] - law[0]).abs() > APART) {
+            if starts[first..].iter().all(|(other, ..)| (other[0] - law[0]).abs() > START_SEPARATION) {
                 starts.push((law, scored[p].1, 0.0));
             }
-            if starts.len() == first + FOLLOWED {
+            if starts.len() == first + FOLLOWED_MODULI {
                 break;
             }
         }
@@ -151,10 +154,10 @@ impl Search<'_, '_> {
             ln_factor = median(of.map(|(_, r)| r.re).collect()).unwrap_or(0.0);
         }
         // A phase that a delay may have turned tells nothing yet.
-        let told = |(m, r): (usize, c64)| {
+        let weighed = |(m, r): (usize, c64)| {
             if delay && data_hypothesis.concerned(m)[1] { c64::new(r.re, 0.0) } else { r }
         };
-        let score = misfit_at(self.residuals(data_hypothesis, ln, ln_factor, 0.0).map(told), BROAD);
+        let score = misfit_at(self.residuals(data_hypothesis, ln, ln_factor, 0.0).map(weighed), START_SCALE);
         (score, ln_factor)
     }
 
@@ -166,10 +169,11 @@ impl Search<'_, '_> {
     ) -> (Law, f64, f64) {
         let ln = self.ln(data_hypothesis, law);
         let top = self.top();
-        let steps = (MOST_PHASE / PHASE_STEP) as i64;
-        let delays = (-steps..=steps).map(|k| k as f64 * PHASE_STEP / top).chain(std::iter::once(delay_s));
+        let steps = (MAX_DELAY_PHASE_RAD / DELAY_PHASE_STEP_RAD) as i64;
+        let delays =
+            (-steps..=steps).map(|k| k as f64 * DELAY_PHASE_STEP_RAD / top).chain(std::iter::once(delay_s));
         let scored = delays.map(|tau| {
-            (misfit_at(self.residuals(data_hypothesis, &ln, ln_factor, tau).map(|r| r.1), BROAD), tau)
+            (misfit_at(self.residuals(data_hypothesis, &ln, ln_factor, tau).map(|r| r.1), START_SCALE), tau)
         });
         let best = scored.min_by(|a, b| a.0.total_cmp(&b.0)).map_or(0.0, |(_, tau)| tau);
         (law, ln_factor, best)
@@ -216,33 +220,33 @@ impl Search<'_, '_> {
         let rest: Vec<c64> = self.residuals(data_hypothesis, &ln, ln_factor, delay_s).map(|r| r.1).collect();
         let misfit = misfit(&rest);
         let [low, high] = self.responses.parametrization.ln_size;
-        let beyond = (low - law[0]).max(law[0] - high).max(law[2].abs() - MOST_SLOPE).max(0.0);
+        let beyond = (low - law[0]).max(law[0] - high).max(law[2].abs() - MAX_LOG_SLOPE).max(0.0);
         let penalty = 0.5 * at.len() as f64 * (2.0 * rest.len().max(1) as f64).ln();
         Fitted {
             law,
             ln_factor,
             delay_s,
             misfit,
-            nats: misfit.nats + penalty + OVERSTEPPED * beyond * beyond,
+            nats: misfit.nats + penalty + BOUND_PENALTY * beyond * beyond,
         }
     }
 
     fn polished(&self, data_hypothesis: &DataHypothesis, start: (Law, f64, f64)) -> Fitted {
         let begin = self.coordinates(data_hypothesis, start);
         // First lengths: half a step of the grid, a third of that of the angle, and so on.
-        let lengths = [0.5 * SIZE_STEP, 0.7, 0.07];
+        let lengths = [0.5 * LN_SIZE_STEP, 0.7, 0.07];
         let size = if self.responses.parametrization.is_real { 1 } else { 3 };
         let length = |j: usize| if j < size { lengths[j] } else { 0.1 };
         let mut simplex = vec![begin.clone()];
         for j in 0..begin.len() {
-            let mut corner = begin.clone();
-            corner[j] += length(j);
-            simplex.push(corner);
+            let mut vertex = begin.clone();
+            vertex[j] += length(j);
+            simplex.push(vertex);
         }
         let cost = Cost { search: self, data_hypothesis };
         let fallback = self.at(data_hypothesis, &begin);
         let Ok(solver) = NelderMead::new(simplex).with_sd_tolerance(1e-3) else { return fallback };
-        let steps = STEPS * begin.len() as u64;
+        let steps = SIMPLEX_STEPS_PER_UNKNOWN * begin.len() as u64;
         let run = Executor::new(cost, solver).configure(|state| state.max_iters(steps)).run();
         match run.ok().and_then(|run| run.state().get_best_param().cloned()) {
             Some(best) => self.at(data_hypothesis, &best),
@@ -251,7 +255,11 @@ impl Search<'_, '_> {
     }
 
     /// Standard deviations of the factor's logarithm and of the delay, the modulus free beside them: weighted least squares about the answer.
-    pub(super) fn deviations(&self, data_hypothesis: &DataHypothesis, fitted: &Fitted) -> [Option<f64>; 2] {
+    pub(super) fn standard_deviations(
+        &self,
+        data_hypothesis: &DataHypothesis,
+        fitted: &Fitted,
+    ) -> [Option<f64>; 2] {
         let at = self.coordinates(data_hypothesis, (fitted.law, fitted.ln_factor, fitted.delay_s));
         let rest = |at: &[f64]| -> Vec<c64> {
             let (law, ln_factor, delay_s) = self.parts(data_hypothesis, at);
@@ -259,12 +267,12 @@ impl Search<'_, '_> {
             self.residuals(data_hypothesis, &ln, ln_factor, delay_s).map(|r| r.1).collect()
         };
         let about = rest(&at);
-        const STEP: f64 = 1e-5;
+        const DIFFERENCE_STEP: f64 = 1e-5;
         let slopes: Vec<Vec<c64>> = (0..at.len())
             .map(|j| {
                 let mut moved = at.clone();
-                moved[j] += STEP;
-                rest(&moved).iter().zip(&about).map(|(b, a)| wrapped(b - a) / STEP).collect()
+                moved[j] += DIFFERENCE_STEP;
+                rest(&moved).iter().zip(&about).map(|(b, a)| wrapped(b - a) / DIFFERENCE_STEP).collect()
             })
             .collect();
         let sigma = fitted.misfit.sigma;

@@ -5,6 +5,7 @@ use std::str::FromStr;
 
 /// How the response's dependence on the parameter is represented.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub enum Method {
     /// The paper's: truncated Neumann series, roots of a polynomial.
     Series,
@@ -18,6 +19,7 @@ pub enum Method {
 
 /// How one of several admissible roots is chosen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub enum Selection {
     /// All sensors and all frequencies together (B-4, B-5).
     #[default]
@@ -28,6 +30,7 @@ pub enum Selection {
 
 /// What answers at a frequency.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub enum Reduction {
     /// The band's subspace where that is cheaper than the full model: for the rational method, a handful of frequencies or more, and more than a
     /// handful of degrees of freedom. The paper's series and Nelder–Mead run on the full model, as the paper has them.
@@ -120,7 +123,11 @@ impl Reduction {
         match self {
             Self::Full => false,
             Self::Subspace => true,
-            Self::Auto => method == Method::Rational && dofs > TINY && frequencies >= HANDFUL,
+            Self::Auto => {
+                method == Method::Rational
+                    && dofs > MAX_TINY_MODEL_DOFS
+                    && frequencies >= MIN_SUBSPACE_FREQUENCIES
+            }
         }
     }
 }
@@ -141,7 +148,7 @@ impl FromStr for Reduction {
 }
 
 /// Degrees of freedom up to which a subspace is no smaller than the model.
-const TINY: usize = 64;
+const MAX_TINY_MODEL_DOFS: usize = 64;
 
 /// Frequencies from which on the subspace's solves (tens) cost less than theirs (two complex factorisations each).
-const HANDFUL: usize = 4;
+const MIN_SUBSPACE_FREQUENCIES: usize = 4;

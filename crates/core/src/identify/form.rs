@@ -18,7 +18,7 @@ impl Form {
     /// How many coordinates.
     pub(super) fn count(&self) -> usize {
         match self {
-            Self::Law(parametrization) => parametrization.family.count(),
+            Self::Law(parametrization) => parametrization.kind.count(),
             Self::Logarithm | Self::Scaled(_) => 1,
         }
     }
@@ -44,9 +44,9 @@ impl Form {
     }
 
     /// Its law, where it has one: a complex constant is one too.
-    pub(super) fn family(&self) -> Option<LawKind> {
+    pub(super) fn kind(&self) -> Option<LawKind> {
         match self {
-            Self::Law(parametrization) => Some(parametrization.family),
+            Self::Law(parametrization) => Some(parametrization.kind),
             _ => None,
         }
     }

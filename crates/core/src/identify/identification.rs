@@ -1,10 +1,12 @@
 //! What came out of an identification.
 
-use super::band::{BandOutcome, Calibration, Explained, GoodnessOfFit, LawsOutcome, NoiseLevel, SensorFit};
-use super::band::{SmoothCurve, SmoothOutcome};
-use super::several::{BandValue, Direction, Number, Profile, SeveralOutcome};
-use super::uncertainty::{KNOWN, LEAST_LOSS};
-use super::{Leverage, Line, ModelErrorsFound, Status};
+use super::band::{BandOutcome, Calibration, LawsOutcome, SmoothCurve, SmoothOutcome};
+use super::goodness_of_fit::{Explained, GoodnessOfFit, SensorFit};
+use super::model_errors::{Leverage, ModelErrorsFound};
+use super::noise::NoiseLevel;
+use super::outcome::{Line, Status};
+use super::several::{BandCoordinate, BandValue, Direction, Number, Profile, SeveralOutcome};
+use super::uncertainty::{KNOWN_RELATIVE_STD, MIN_KNOWN_LOSS_FACTOR};
 use crate::laws::{Estimate, LawFit, best};
 use crate::response::Work;
 use frfit_linalg::solve::Breakdown;
@@ -44,8 +46,8 @@ pub struct Identification {
 /// Which combinations of the numbers that hold for the band are identifiable.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Identifiability {
-    /// What the coordinates below are: (unknown, name of the number).
-    pub coordinates: Vec<(usize, String)>,
+    /// What the coordinates below are.
+    pub coordinates: Vec<BandCoordinate>,
     /// Correlation of the numbers.
     pub correlation: Vec<Vec<f64>>,
     /// Combinations of them, the least identifiable first.
@@ -141,10 +143,10 @@ impl From<LawsOutcome> for Identification {
     fn from(laws: LawsOutcome) -> Self {
         let LawsOutcome { free, fits, outcomes, channels, fit, work, subspace_size } = laws;
         // The noise and the sensors of the band, as each frequency by itself shows them.
-        let alone = free.outcomes.clone();
+        let per_frequency = free.outcomes.clone();
         let band = BandOutcome { outcomes, work, subspace_size, fit, ..free };
         let constants = best(&fits).map(|law| of_law(law, fit)).into_iter().collect();
-        Self { constants, laws: fits, free: alone, channels, ..band.into() }
+        Self { constants, laws: fits, free: per_frequency, channels, ..band.into() }
     }
 }
 
@@ -152,8 +154,8 @@ impl From<LawsOutcome> for Identification {
 fn of_law(fit: &LawFit, band: Option<GoodnessOfFit>) -> BandValue {
     let number = |one: &Estimate| Number { name: one.name.clone(), value: one.value, std: one.std };
     let is_known = |one: &Estimate| {
-        let least = if one.name == "loss_factor" { LEAST_LOSS } else { 0.0 };
-        one.std.is_some_and(|std| std <= KNOWN * one.value.abs().max(least))
+        let least = if one.name == "loss_factor" { MIN_KNOWN_LOSS_FACTOR } else { 0.0 };
+        one.std.is_some_and(|std| std <= KNOWN_RELATIVE_STD * one.value.abs().max(least))
     };
     let status = Status::of([
         (!fit.parameters.iter().all(is_known), Status::NotIdentifiable),

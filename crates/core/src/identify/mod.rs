@@ -12,31 +12,41 @@
 
 mod band;
 mod choice;
+mod confirmation;
+mod context;
 mod form;
+mod goodness_of_fit;
 mod identification;
+mod measured;
 mod model_errors;
+mod noise;
 mod one;
 mod options;
 mod outcome;
 mod problem;
 mod rational;
 mod several;
+mod thinned;
 mod uncertainty;
+mod unknown;
 
-pub(crate) use band::{Band, MOST_PHASE, PHASE_STEP};
-pub use band::{
-    Calibrated, Calibration, ChannelUnknowns, Context, Explained, GoodnessOfFit, Noise, NoiseLevel,
-    NoiseSource, SensorFit, SmoothCurve, Stage,
-};
+pub use crate::response::relative_error;
+pub use band::{Calibrated, Calibration, ChannelUnknowns, SmoothCurve};
+pub(crate) use band::{DELAY_PHASE_STEP_RAD, MAX_DELAY_PHASE_RAD};
 pub use choice::{Method, Reduction, Selection, UnknownChoice};
+pub use context::{Context, Stage};
+pub use goodness_of_fit::{Explained, GoodnessOfFit, SensorFit};
 pub use identification::{Identifiability, Identification, SearchReport};
+pub(crate) use measured::Band;
 pub use model_errors::{FactorError, Leverage, ModeError, ModelErrorsFound, SensorMass};
-pub use one::{error_by_order, identify_at, relative_error};
+pub use noise::{Noise, NoiseLevel, NoiseSource};
+pub use one::{error_by_order, identify_at};
 pub use options::{ErrorSizes, MAX_ORDER, ModelErrors, Options, OptionsError};
 pub use outcome::{Line, LineValue, Status};
 pub use problem::{Frfs, Problem, ProblemError};
-pub use several::{BandValue, Dependence, Direction, Number, Profile, Unknown, Variation};
+pub use several::{BandCoordinate, BandValue, Direction, Number, Profile};
 pub use uncertainty::Uncertainty;
+pub use unknown::{Dependence, Unknown, Variation};
 
 use problem::Strategy;
 
@@ -60,12 +70,12 @@ pub fn identify(
     options: &Options,
     context: Context<'_>,
 ) -> Result<Identification, ProblemError> {
-    let options = &problem.checked(options)?;
+    problem.check_options(options)?;
     let channels = problem.channels();
     Ok(match problem.single() {
         None => several::identify_several(problem, options, context)?.into(),
         Some((strategy, parameter)) => {
-            let band = &problem.band(&parameter);
+            let band = &problem.band(0, &parameter);
             match strategy {
                 Strategy::PerFrequency if channels.is_empty() => {
                     band::identify_band(band, options, context)?.into()

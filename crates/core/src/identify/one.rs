@@ -1,16 +1,17 @@
 //! One frequency.
 
+use super::choice::Method;
+use super::confirmation::{SENSOR, choose, confirm};
+use super::options::Options;
+use super::outcome::{Line, Status};
 use super::rational::by_rational;
-use super::{Line, Method, Options, Status};
+use super::unknown::Unknown;
 use crate::c64;
 use crate::nelder_mead;
-use crate::response::Response;
-use crate::roots::{Candidate, candidates, least_admissible, refuse_diverged};
+use crate::response::{Response, relative_error};
+use crate::roots::{candidates, least_admissible, refuse_diverged};
 use crate::series::{NeumannSeries, convergence_radius};
 use frfit_linalg::solve::Breakdown;
-
-/// The sensor whose polynomial gives the roots; the others enter the error.
-pub(super) const SENSOR: usize = 0;
 
 /// Finds the correction of the model's first parameter that reproduces the measured receptances, one for each sensor.
 ///
@@ -24,12 +25,12 @@ pub(super) const SENSOR: usize = 0;
 /// # Limits
 /// `ok` says that one root is admissible *inside the circle of convergence* and reproduces the first sensor's response. Roots outside it are not seen:
 /// where the true one is outside, a wrong one inside can be `ok`. Another sensor's error tells.
-pub fn identify_at(system: &impl Response, measured: &[c64], options: &Options) -> Line {
+pub fn identify_at(system: &impl Response, measured: &[c64], unknown: &Unknown, options: &Options) -> Line {
     let mut outcome = Line::unknown(system.frequency_hz(), system.nominal(0), options.order);
     let result = match options.method {
-        Method::Series => by_series(system, measured, options, &mut outcome),
-        Method::Rational => by_rational(system, measured, options, &mut outcome),
-        Method::NelderMead => by_search(system, measured, options, &mut outcome),
+        Method::Series => by_series(system, measured, unknown, options, &mut outcome),
+        Method::Rational => by_rational(system, measured, unknown, options, &mut outcome),
+        Method::NelderMead => by_search(system, measured, unknown, options, &mut outcome),
     };
     if let Err(breakdown) = result {
         outcome.status = Status::Failed;
@@ -42,17 +43,18 @@ pub fn identify_at(system: &impl Response, measured: &[c64], options: &Options) 
 fn by_series(
     system: &impl Response,
     measured: &[c64],
+    unknown: &Unknown,
     options: &Options,
     outcome: &mut Line,
 ) -> Result<(), Breakdown> {
     let series = NeumannSeries::new(system, 0, options.order)?;
     outcome.nominal_response = series.respond(c64::default(), 0);
     outcome.roots =
-        candidates(&series, SENSOR, measured[SENSOR], outcome.nominal(), options.order, &options.roots());
+        candidates(&series, SENSOR, measured[SENSOR], outcome.nominal(), options.order, &unknown.roots());
     let radius = convergence_radius(system, 0)?;
     outcome.radius = Some(radius);
     let nominal = outcome.nominal();
-    refuse_diverged(&mut outcome.roots, &series, SENSOR, nominal, &radius, &options.roots());
+    refuse_diverged(&mut outcome.roots, &series, SENSOR, nominal, &radius, &unknown.roots());
     let Some(chosen) = choose(&outcome.roots) else {
         outcome.status = Status::NoRoot;
         return Ok(());
@@ -68,31 +70,10 @@ fn by_series(
     Ok(())
 }
 
-/// Solves anew with the correction, records error and response, and says whether the sensor that gave the root is matched.
-pub(super) fn confirm(
-    system: &impl Response,
-    measured: &[c64],
-    options: &Options,
-    correction: c64,
-    outcome: &mut Line,
-) -> Result<bool, Breakdown> {
-    let updated = system.solve_at(&[correction])?;
-    let here = relative_error(&measured[SENSOR..=SENSOR], &updated[SENSOR..=SENSOR]);
-    outcome.set_correction(correction);
-    outcome.error = Some(relative_error(measured, &updated)).filter(|error| error.is_finite());
-    outcome.updated_response = updated;
-    // False for NaN too.
-    Ok(here <= options.error)
-}
-
-/// The admissible root of least |c|, or failing that the one of least |c| within the bounds, as evidence.
-pub(super) fn choose(roots: &[Candidate]) -> Option<Candidate> {
-    roots.iter().find(|root| root.refusal.is_none()).or_else(|| least_admissible(roots)).copied()
-}
-
 fn by_search(
     system: &impl Response,
     measured: &[c64],
+    unknown: &Unknown,
     options: &Options,
     outcome: &mut Line,
 ) -> Result<(), Breakdown> {
@@ -100,17 +81,10 @@ fn by_search(
     let found = nelder_mead::search(system, &measured[SENSOR..=SENSOR], options.order);
     let matched = confirm(system, measured, options, found.correction, outcome)?;
     outcome.status = if matched { Status::Ok } else { Status::Diverged };
-    if options.bounds.broken_by(outcome.nominal() + found.correction).is_some() {
+    if unknown.bounds.broken_by(outcome.nominal() + found.correction).is_some() {
         outcome.forget_value(Status::NoRoot);
     }
     Ok(())
-}
-
-/// ε = ‖u − x‖ / ‖u‖ over the sensors, P-40.
-pub fn relative_error(measured: &[c64], response: &[c64]) -> f64 {
-    let misfit: f64 = measured.iter().zip(response).map(|(u, x)| (u - x).norm_sqr()).sum();
-    let size: f64 = measured.iter().map(|u| u.norm_sqr()).sum();
-    (misfit / size).sqrt()
 }
 
 /// ε at the first sensor (P-40, fresh direct solve) when the series is cut after each order from 1 to `order`: a column of
@@ -121,11 +95,12 @@ pub fn relative_error(measured: &[c64], response: &[c64]) -> f64 {
 pub fn error_by_order(
     system: &impl Response,
     measured: &[c64],
+    unknown: &Unknown,
     options: &Options,
 ) -> Result<Vec<Option<f64>>, Breakdown> {
     let series = NeumannSeries::new(system, 0, options.order)?;
     let at_order = |order| {
-        let roots = candidates(&series, SENSOR, measured[SENSOR], system.nominal(0), order, &options.roots());
+        let roots = candidates(&series, SENSOR, measured[SENSOR], system.nominal(0), order, &unknown.roots());
         let root = least_admissible(&roots)?;
         let updated = system.solve_at(&[root.correction]).ok()?;
         Some(relative_error(&measured[SENSOR..=SENSOR], &updated[SENSOR..=SENSOR]))

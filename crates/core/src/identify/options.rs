@@ -1,19 +1,19 @@
 //! How to identify.
 
-use super::{Method, Reduction, Selection, UnknownChoice};
-use crate::c64;
-use crate::roots::{Bounds, RootOptions};
+use super::choice::{Method, Reduction, Selection, UnknownChoice};
+use crate::with_fields::with_fields;
 use std::fmt;
 use std::str::FromStr;
 
 /// Nominal values further off are estimates of another kind: `whole_box`.
-const BOX_RATIO: f64 = 4.0;
+pub(super) const NEAR_BOX_RATIO: f64 = 4.0;
 
 /// The whole of the bounds, but no farther than this factor to either side: a box without end has no grid.
-const WHOLE_RATIO: f64 = 1e6;
+const WHOLE_BOX_RATIO: f64 = 1e6;
 
 /// Options of an identification; all have defaults.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Options {
     /// Rational (default), series or Nelder–Mead.
     pub method: Method,
@@ -23,10 +23,6 @@ pub struct Options {
     pub selection: Selection,
     /// What answers at a frequency. Default automatic.
     pub reduction: Reduction,
-    /// Bounds on the updated factor. Default none.
-    pub bounds: Bounds,
-    /// Whether the parameter is real. Default false.
-    pub real: bool,
     /// Largest ε (P-40) at the sensor that gave the root, from a fresh direct solve, for status `ok`. Default 1e-2, the error
     /// that the paper reports for a measurement at n = 30.
     pub error: f64,
@@ -52,8 +48,6 @@ impl Default for Options {
             order: 30,
             selection: Selection::default(),
             reduction: Reduction::default(),
-            bounds: Bounds::default(),
-            real: false,
             error: 1e-2,
             certain: 1e-5,
             whole_box: false,
@@ -63,6 +57,19 @@ impl Default for Options {
         }
     }
 }
+
+with_fields!(Options {
+    with_method: method as Method,
+    with_order: order as usize,
+    with_selection: selection as Selection,
+    with_reduction: reduction as Reduction,
+    with_error: error as f64,
+    with_certain: certain as f64,
+    with_whole_box: whole_box as bool,
+    with_reject_outliers: reject_outliers as bool,
+    with_model_errors: model_errors as ModelErrors,
+    with_everywhere: everywhere as bool,
+});
 
 /// What is known of the errors of the model: of its natural frequencies, mode shapes and known factors (B-11).
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -78,6 +85,7 @@ pub enum ModelErrors {
 
 /// How large errors of the model are: standard deviations, relative. `None` where that is to be estimated.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
 pub struct ErrorSizes {
     /// Of natural frequencies.
     pub frequency: Option<f64>,
@@ -85,8 +93,10 @@ pub struct ErrorSizes {
     pub shape: Option<f64>,
 }
 
+with_fields!(ErrorSizes { with_frequency: frequency as Option<f64>, with_shape: shape as Option<f64> });
+
 /// The largest error that a model may have and be a model of the structure.
-const LARGEST_SIZE: f64 = 0.5;
+const MAX_ERROR_SIZE: f64 = 0.5;
 
 impl ErrorSizes {
     /// Whether one is given.
@@ -96,7 +106,7 @@ impl ErrorSizes {
 
     fn validate(self) -> Result<(), OptionsError> {
         for (name, size) in [("frequency", self.frequency), ("shape", self.shape)] {
-            if let Some(size) = size.filter(|size| !(*size > 0.0 && *size <= LARGEST_SIZE)) {
+            if let Some(size) = size.filter(|size| !(*size > 0.0 && *size <= MAX_ERROR_SIZE)) {
                 return Err(OptionsError::ErrorSize(name, size));
             }
         }
@@ -131,11 +141,10 @@ pub const MAX_ORDER: usize = 200;
 
 /// What is wrong with options.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub enum OptionsError {
     /// Order 0, or above [`MAX_ORDER`].
     Order(usize),
-    /// A bound [low, high] of this name with low > high or a value that is not finite.
-    Bounds(&'static str, [f64; 2]),
     /// An error limit that is not positive.
     Error(f64),
     /// A standard deviation of errors of the model, by its name, that is not positive or is too large.
@@ -148,12 +157,12 @@ impl fmt::Display for OptionsError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Order(order) => write!(f, "order: expected 1 to {MAX_ORDER}, found {order}"),
-            Self::Bounds(name, [low, high]) => {
-                write!(f, "bounds.{name}: expected [low, high] with low <= high, found [{low}, {high}]")
-            }
             Self::Error(error) => write!(f, "error: expected a positive number, found {error}"),
             Self::ErrorSize(name, size) => {
-                write!(f, "model_error.{name}: expected a number above 0 up to {LARGEST_SIZE}, found {size}")
+                write!(
+                    f,
+                    "model_error.{name}: expected a number above 0 up to {MAX_ERROR_SIZE}, found {size}"
+                )
             }
             Self::Selection(method) => {
                 let method = method.name();
@@ -179,13 +188,6 @@ impl Options {
         if !(1..=MAX_ORDER).contains(&self.order) {
             return Err(OptionsError::Order(self.order));
         }
-        for (name, bound) in [("storage", self.bounds.storage), ("loss_factor", self.bounds.loss_factor)] {
-            if let Some([low, high]) = bound
-                && !(low <= high && low.is_finite() && high.is_finite())
-            {
-                return Err(OptionsError::Bounds(name, [low, high]));
-            }
-        }
         if self.error <= 0.0 || self.error.is_nan() {
             return Err(OptionsError::Error(self.error));
         }
@@ -196,22 +198,9 @@ impl Options {
         Ok(())
     }
 
-    /// [low, high] of the real part in which answers are looked for about a nominal factor: the bounds, as far as they are within a factor of four of it.
-    /// `None` where nothing bounds it.
-    pub fn box_about(&self, nominal: c64) -> Option<[f64; 2]> {
-        if nominal.re <= 0.0 {
-            return self.bounds.storage;
-        }
-        let [low, high] = self.bounds.storage.unwrap_or([0.0, f64::INFINITY]);
-        let ratio = if self.whole_box { WHOLE_RATIO } else { BOX_RATIO };
-        // A nominal outside the bounds: the box is where they begin.
-        let middle = nominal.re.clamp(low, high);
-        Some([low.max(middle / ratio), high.min(middle * ratio)])
-    }
-
-    /// The part that concerns roots.
-    pub fn roots(&self) -> RootOptions {
-        RootOptions { bounds: self.bounds, real: self.real, ..RootOptions::default() }
+    /// How many times larger or smaller than the nominal value answers are looked for, within the bounds.
+    pub(crate) fn box_ratio(&self) -> f64 {
+        if self.whole_box { WHOLE_BOX_RATIO } else { NEAR_BOX_RATIO }
     }
 }
 
@@ -236,11 +225,6 @@ mod tests {
     fn invalid_options_name_themselves() {
         let order = Options { order: 0, ..Options::default() };
         assert_eq!(order.validate().unwrap_err().to_string(), "order: expected 1 to 200, found 0");
-        let bounds = Bounds { loss_factor: Some([1.0, 0.0]), ..Bounds::default() };
-        assert_eq!(
-            Options { bounds, ..Options::default() }.validate().unwrap_err().to_string(),
-            "bounds.loss_factor: expected [low, high] with low <= high, found [1, 0]"
-        );
         let sizes = ErrorSizes { frequency: Some(0.0), shape: None };
         let model_errors = ModelErrors::Given(sizes);
         assert_eq!(

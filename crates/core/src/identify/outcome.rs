@@ -1,6 +1,7 @@
 //! What came out at one frequency, with its evidence.
 
-use super::{Explained, GoodnessOfFit, Uncertainty};
+use super::goodness_of_fit::{Explained, GoodnessOfFit};
+use super::uncertainty::Uncertainty;
 use crate::c64;
 use crate::material::loss_factor;
 use crate::response::Work;

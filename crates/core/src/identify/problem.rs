@@ -1,12 +1,16 @@
 //! What is to be identified, checked: a model, an experiment, unknowns, channels and measured FRFs.
 
-use super::band::{Band, ChannelUnknowns, Noise};
-use super::several::{Dependence, Unknown, Variation};
-use super::{Method, Options, OptionsError, Selection};
+use super::band::ChannelUnknowns;
+use super::choice::{Method, Selection};
+use super::measured::Band;
+use super::noise::Noise;
+use super::options::{Options, OptionsError};
+use super::unknown::{Dependence, Unknown, Variation};
 use crate::c64;
 use crate::laws::LawKind;
 use crate::material::OutsideTable;
 use crate::model::{DynamicStiffness, Experiment, Parameter};
+use crate::roots::BoundsError;
 use std::fmt;
 
 /// Measured frequency response functions.
@@ -204,13 +208,13 @@ impl<'a> Problem<'a> {
         Some((strategy, only.parameter()?))
     }
 
-    /// The band as the strategies of a single unknown take it.
-    pub(crate) fn band<'b>(&self, parameter: &'b Parameter) -> Band<'b>
+    /// The band as the strategies of a single unknown take it: of the j-th, and it as the parameter of a polynomial.
+    pub(crate) fn band<'b>(&self, j: usize, parameter: &'b Parameter) -> Band<'b>
     where
         'a: 'b,
     {
         let Self { model, experiment, frfs: Frfs { frequency_hz, receptance: measured, noise }, .. } = *self;
-        Band { model, experiment, parameter, frequency_hz, measured, noise }
+        Band { model, experiment, unknown: &self.unknowns[j], parameter, frequency_hz, measured, noise }
     }
 
     /// The model with all other unknowns than the j-th at their nominal values; `None` where its factors have them already.
@@ -236,12 +240,8 @@ impl<'a> Problem<'a> {
         Ok(if changed { about() } else { None })
     }
 
-    /// Options of this problem: a single unknown's bounds in them.
-    pub(super) fn checked(&self, options: &Options) -> Result<Options, ProblemError> {
-        let mut options = *options;
-        if let [only] = self.unknowns {
-            (options.bounds, options.real) = (only.bounds, only.real);
-        }
+    /// Checks the options, alone and with this problem.
+    pub(super) fn check_options(&self, options: &Options) -> Result<(), ProblemError> {
         options.validate()?;
         let per_frequency = self.single().is_some_and(|(strategy, _)| strategy == Strategy::PerFrequency);
         let paper = options.method != Method::Rational || options.selection != Selection::Joint;
@@ -251,7 +251,7 @@ impl<'a> Problem<'a> {
                 reason: "expected \"rational\" and \"joint\": the others find one factor at each frequency from calibrated channels",
             });
         }
-        Ok(options)
+        Ok(())
     }
 
     fn check_experiment(&self) -> Result<(), ProblemError> {
@@ -400,16 +400,9 @@ impl<'a> Problem<'a> {
                 return Err(wrong("a factor of its own", &found));
             }
         }
-        let bounds = [("storage", one.bounds.storage), ("loss_factor", one.bounds.loss_factor)];
-        for (name, bound) in bounds {
-            if let Some([low, high]) =
-                bound.filter(|[low, high]| !(low <= high && low.is_finite() && high.is_finite()))
-            {
-                return Err(wrong(
-                    &format!("bounds.{name} as [low, high] with low <= high"),
-                    &format_args!("[{low}, {high}]"),
-                ));
-            }
+        if let Err(BoundsError { name, found: [low, high], .. }) = one.bounds.validate() {
+            let expected = format!("bounds.{name} as {}", BoundsError::EXPECTED);
+            return Err(wrong(&expected, &format_args!("[{low}, {high}]")));
         }
         match &one.varies {
             Variation::Law(kinds) if kinds.is_empty() => return Err(wrong("at least one law", &"none")),

@@ -1,25 +1,27 @@
 //! One frequency by the rational response: all solutions within the bounds, not only those of a convergent series.
 
-use super::one::{SENSOR, choose, confirm, relative_error};
-use super::{Line, Options, Status};
+use super::confirmation::{SENSOR, choose, confirm};
+use super::options::Options;
+use super::outcome::{Line, Status};
+use super::unknown::Unknown;
 use crate::c64;
 use crate::rational::{RationalResponse, RationalRoot};
-use crate::response::Response;
+use crate::response::{Response, relative_error};
 use crate::roots::{Candidate, Refusal, RootOptions};
 use crate::series::convergence_radius;
 use frfit_linalg::dense::NoConvergence;
 use frfit_linalg::solve::Breakdown;
 
 /// Vectors of the first attempt, and how many each further one adds.
-const STEP: usize = 8;
+const VECTORS_PER_ATTEMPT: usize = 8;
 
 /// A root whose true residual is below this solves the full system: what is left of a double precision solve with a
 /// condition of 1e6, as a structure near resonance has.
-pub(super) const RESIDUAL: f64 = 1e-9;
+pub(super) const ROOT_RESIDUAL_TOL: f64 = 1e-9;
 
 /// Stiffer contrasts leave larger residuals to roundoff alone. There a direct solve decides: a root whose response is the measured one to
 /// this is a solution, with a few digits to spare for what such a solve loses.
-pub(super) const MATCH: f64 = 1e-6;
+pub(super) const RESPONSE_MATCH_RTOL: f64 = 1e-6;
 
 /// Grows the basis until there is a root within the bounds and every one solves the full system, or the order is reached.
 ///
@@ -28,20 +30,21 @@ pub(super) const MATCH: f64 = 1e-6;
 pub(super) fn by_rational(
     system: &impl Response,
     measured: &[c64],
+    unknown: &Unknown,
     options: &Options,
     outcome: &mut Line,
 ) -> Result<(), Breakdown> {
-    let mut order = STEP.min(options.order);
+    let mut order = VECTORS_PER_ATTEMPT.min(options.order);
     let mut response = RationalResponse::new(system, 0, order)?;
     loop {
-        let judged = judge(&response, measured[SENSOR], outcome.nominal(), &options.roots());
+        let judged = judge(&response, measured[SENSOR], outcome.nominal(), &unknown.roots());
         outcome.roots = judged.map_err(|NoConvergence| Breakdown::NotFinite)?;
         // No solution at a low order is no proof that there is none.
         let settled = !unsure(&outcome.roots) && outcome.candidate_count() > 0;
         if settled || order == options.order || response.is_complete() {
             break;
         }
-        order = (order + STEP).min(options.order);
+        order = (order + VECTORS_PER_ATTEMPT).min(options.order);
         response = response.extended(system, 0, order)?;
     }
     decide(system, measured, &mut outcome.roots);
@@ -68,7 +71,7 @@ pub(super) fn by_rational(
 fn decide(system: &impl Response, measured: &[c64], roots: &mut [Candidate]) {
     for root in roots.iter_mut().filter(|root| root.refusal == Some(Refusal::Moves)) {
         let Ok(x) = system.solve_at(&[root.correction]) else { continue };
-        if relative_error(&measured[SENSOR..=SENSOR], &x[SENSOR..=SENSOR]) <= MATCH {
+        if relative_error(&measured[SENSOR..=SENSOR], &x[SENSOR..=SENSOR]) <= RESPONSE_MATCH_RTOL {
             root.refusal = None;
         }
     }
@@ -88,7 +91,7 @@ fn judge(
     let judged = |root: RationalRoot| {
         let refusal = options.refuse(nominal, root.correction).or({
             // False for NaN too.
-            let solves = root.residual <= RESIDUAL;
+            let solves = root.residual <= ROOT_RESIDUAL_TOL;
             (!solves).then_some(Refusal::Moves)
         });
         let is_real = options.real && refusal != Some(Refusal::NotReal);

@@ -34,17 +34,17 @@ pub struct Uncertainty {
 
 /// Beyond this share of the quadratic term the linear error bar is not valid. For one sensor the mean of an error is off by √2 times
 /// this share in deviations of a part: at a quarter by a third of a deviation, which leaves 93 of 100 truths within two deviations, not 95.
-const NONLINEAR: f64 = 0.25;
+const MAX_NONLINEARITY: f64 = 0.25;
 
 /// A number is known when its standard deviation is below this part of it: it is then three deviations away from nothing, and better
 /// known than by a glance at a table of materials …
-pub(super) const KNOWN: f64 = 0.3;
+pub(super) const KNOWN_RELATIVE_STD: f64 = 0.3;
 
 /// … also if it is as many deviations smaller as the error bar allows: of many numbers that are not known, those that noise has made large would else pass.
-const SMALLER: f64 = 2.0;
+const KNOWN_LOWER_END_STD: f64 = 2.0;
 
 /// A loss factor below this is none that a vibration test tells from zero: supports, air and cables take more.
-pub(super) const LEAST_LOSS: f64 = 1e-4;
+pub(super) const MIN_KNOWN_LOSS_FACTOR: f64 = 1e-4;
 
 impl Uncertainty {
     /// From the standard deviation `part_std` of the correction's real part, as much of its imaginary part, and ‖∂²x/∂c²‖ weighed by
@@ -91,13 +91,15 @@ impl Uncertainty {
     /// Whether the linear error bar is valid.
     pub fn is_linear(&self) -> bool {
         // False for NaN too.
-        self.nonlinearity <= NONLINEAR
+        self.nonlinearity <= MAX_NONLINEARITY
     }
 
     /// Whether the measurement tells the factor: its modulus, and its loss factor where it may have one.
     pub fn is_known(&self, factor: c64) -> bool {
-        let is_known = |value: f64, std: f64, least: f64| std <= KNOWN * (value - SMALLER * std).max(least);
-        let loss = |std: f64| is_known(loss_factor(factor).abs(), std, LEAST_LOSS);
+        let is_known = |value: f64, std: f64, least: f64| {
+            std <= KNOWN_RELATIVE_STD * (value - KNOWN_LOWER_END_STD * std).max(least)
+        };
+        let loss = |std: f64| is_known(loss_factor(factor).abs(), std, MIN_KNOWN_LOSS_FACTOR);
         is_known(factor.norm(), self.correction_std, 0.0) && self.loss_factor_std.is_none_or(loss)
     }
 }

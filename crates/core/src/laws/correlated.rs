@@ -42,36 +42,36 @@ pub(super) struct Process {
 }
 
 /// Twice the logarithm of the likelihoods' ratio that two more numbers have to gain: noise alone does so once in a hundred times or less.
-const TOLD: f64 = 10.0;
+const MIN_LOG_LIKELIHOOD_GAIN: f64 = 10.0;
 
 /// τ² is looked for as far as this below and above the variance that lines have by themselves, in steps of a factor of two.
-const FAINT: f64 = 1e-4;
-const STRONG: f64 = 1e6;
+const MIN_VARIANCE_RATIO: f64 = 1e-4;
+const MAX_VARIANCE_RATIO: f64 = 1e6;
 
-/// Lines from which on a correlation may be told.
-const LEAST_LINES: usize = 12;
+/// Lines from which on a correlation may be estimated.
+const MIN_LINES: usize = 12;
 
 /// The likeliest correlation of what lines leave; `None` where noise of their own explains it as well.
 pub(super) fn correlation(lines: &[LineResidual]) -> Option<Process> {
-    let told: Vec<(usize, [f64; 2], [f64; 2])> = (lines.iter().enumerate())
+    let known: Vec<(usize, [f64; 2], [f64; 2])> = (lines.iter().enumerate())
         .filter(|(_, line)| line.weight.iter().all(|w| w.is_finite() && *w > 0.0))
         .filter(|(_, line)| line.rest.iter().all(|d| d.is_finite()))
         .map(|(k, line)| (k, line.weight, line.rest))
         .collect();
-    if told.len() < LEAST_LINES {
+    if known.len() < MIN_LINES {
         return None;
     }
-    let mut variances: Vec<f64> = told.iter().map(|(_, weight, _)| 1.0 / weight[0]).collect();
+    let mut variances: Vec<f64> = known.iter().map(|(_, weight, _)| 1.0 / weight[0]).collect();
     variances.sort_by(f64::total_cmp);
     let usual = variances[variances.len() / 2];
-    let (without, _) = deviance(&told, 0.0, 0.0);
-    let mut best = (without - TOLD, None);
+    let (without, _) = deviance(&known, 0.0, 0.0);
+    let mut best = (without - MIN_LOG_LIKELIHOOD_GAIN, None);
     let mut length = 1f64;
-    while length <= told.len() as f64 {
+    while length <= known.len() as f64 {
         let persistence = (-1.0 / length).exp();
-        let mut ratio = FAINT * usual;
-        while ratio <= STRONG * usual {
-            let (deviance, level) = deviance(&told, persistence, ratio);
+        let mut ratio = MIN_VARIANCE_RATIO * usual;
+        while ratio <= MAX_VARIANCE_RATIO * usual {
+            let (deviance, level) = deviance(&known, persistence, ratio);
             if deviance < best.0 {
                 best = (deviance, Some(Process { persistence, variance: level * ratio }));
             }
@@ -153,7 +153,7 @@ mod tests {
     #[test]
     fn noise_of_each_line_is_not_correlated_and_a_wave_is() {
         assert_eq!(correlation(&lines(|k| 0.5 * even(k), 200)), None);
-        assert_eq!(correlation(&lines(|k| 0.5 * even(k), LEAST_LINES - 1)), None);
+        assert_eq!(correlation(&lines(|k| 0.5 * even(k), MIN_LINES - 1)), None);
         let wave = lines(|k| 0.05 * even(k) + (k as f64 / 40.0).sin(), 200);
         let found = correlation(&wave).unwrap();
         let length = -1.0 / found.persistence.ln();

@@ -26,7 +26,7 @@ enum Measured {
 }
 
 impl Datum {
-    /// Known to a share of itself that is not told: the same for all data.
+    /// Known to a share of itself, unknown but the same for all data.
     pub fn relative(omega_rad_s: f64, modulus: c64) -> Self {
         Self::circular(omega_rad_s, modulus, modulus.norm())
     }

@@ -46,12 +46,12 @@ pub(crate) struct Evidence {
 #[derive(Debug, Clone, PartialEq)]
 pub struct LawFit {
     /// Which law.
-    pub family: LawKind,
+    pub kind: LawKind,
     /// The law with its parameters.
     pub law: Law,
     /// The parameters.
     pub parameters: Vec<Estimate>,
-    /// Correlation of the parameters, by the delta rule; `None` where some are not told by the data.
+    /// Correlation of the parameters, by the delta rule; `None` where some are not identifiable.
     pub correlation: Option<Vec<Vec<f64>>>,
     /// χ² = Σ r²: with known deviations about as many as there are degrees of freedom. With unknown ones it is in units of what they are in proportion to.
     pub chi_squared: f64,
@@ -71,21 +71,21 @@ pub struct LawFit {
     theta: Vec<f64>,
     /// Other minima that the data cannot exclude.
     rivals: Vec<Vec<f64>>,
-    /// Of θ; NaN for coordinates that are not told.
+    /// Of θ; NaN for coordinates that are not identifiable.
     covariance: Option<Vec<Vec<f64>>>,
 }
 
 /// Sums of squares that differ by this share of a degree of freedom are one minimum.
-const SAME: f64 = 1e-3;
+const MINIMUM_MERGE_TOL: f64 = 1e-3;
 
 /// Residuals of this size squared are none: of data without noise every end is roundoff, each its own.
-const EXACT: f64 = 1e-20;
+const EXACT_SUM_OF_SQUARES: f64 = 1e-20;
 
 /// Starts that are followed, of those that there are.
-const FOLLOWED: usize = 5;
+const MODULUS_LAW_STARTS: usize = 5;
 
 /// Evaluations for each start and unknown: with branches too many, valleys are long.
-const PATIENCE: usize = 50;
+const EVALUATIONS_PER_START_AND_UNKNOWN: usize = 50;
 
 /// Weighted least squares of one law on data; `None` where there are fewer numbers than parameters, or no start has a finite misfit.
 ///
@@ -93,15 +93,16 @@ const PATIENCE: usize = 50;
 ///
 /// # Limits
 /// Of a law that is itself at fault the error bars say how far its parameters would move if its fault came about again by chance, as large and over as many rows; not that there is none.
-pub fn fit_modulus(data: &[Datum], family: LawKind, sigma_known: bool) -> Option<LawFit> {
+pub fn fit_modulus(data: &[Datum], kind: LawKind, sigma_known: bool) -> Option<LawFit> {
     let omegas: Vec<f64> = data.iter().map(|datum| datum.omega_rad_s).collect();
-    let parametrization = Parametrization::about(family, &omegas);
+    let parametrization = Parametrization::about(kind, &omegas);
     let evidence = Evidence { residuals: 2 * data.len(), sigma_known };
-    if evidence.residuals < family.count() {
+    if evidence.residuals < kind.count() {
         return None;
     }
     let evaluate = |theta: &[f64]| parametrization.residuals(data, theta);
-    let search = Search { starts: FOLLOWED, patience: PATIENCE, same: 0.0 };
+    let search =
+        Search { starts: MODULUS_LAW_STARTS, patience: EVALUATIONS_PER_START_AND_UNKNOWN, same: 0.0 };
     let minima = minimise(&starts(&parametrization, data), &evaluate, &search)?;
     let fit = LawFit::new(parametrization, minima, evidence);
     let lines = fit.parametrization.lines(data, &fit.theta);
@@ -110,26 +111,26 @@ pub fn fit_modulus(data: &[Datum], family: LawKind, sigma_known: bool) -> Option
 
 impl Parametrization {
     /// About the middle of some frequencies, in the sense of ratios.
-    pub(crate) fn about(family: LawKind, omegas_rad_s: &[f64]) -> Self {
+    pub(crate) fn about(kind: LawKind, omegas_rad_s: &[f64]) -> Self {
         let logs: f64 = omegas_rad_s.iter().map(|omega| omega.ln()).sum();
-        Self { family, reference_rad_s: (logs / omegas_rad_s.len().max(1) as f64).exp() }
+        Self { kind, reference_rad_s: (logs / omegas_rad_s.len().max(1) as f64).exp() }
     }
 }
 
 /// Nats by which another minimum may be behind and still be the answer, as in the selection of solutions.
-const NATS: f64 = 7.0;
+const RIVAL_NATS: f64 = 7.0;
 
 impl LawFit {
     pub(crate) fn new(parametrization: Parametrization, minima: LocalMinima, evidence: Evidence) -> Self {
         let LocalMinima { best, others, followed, agreeing } = minima;
         let Evidence { residuals, sigma_known } = evidence;
-        let n = parametrization.family.count();
+        let n = parametrization.kind.count();
         let unit = scale(best.sum, residuals, n, sigma_known);
         // Ends that differ by less than a thousandth of what noise makes of χ² are one.
-        let same = SAME * unit + EXACT * residuals as f64;
+        let same = MINIMUM_MERGE_TOL * unit + EXACT_SUM_OF_SQUARES * residuals as f64;
         let near = others.iter().filter(|other| other.sum - best.sum <= same).count();
         let behind = |sum: f64| 0.5 * (sum - best.sum) / unit.max(f64::MIN_POSITIVE);
-        let rivals = others.iter().filter(|other| other.converged && behind(other.sum) <= NATS);
+        let rivals = others.iter().filter(|other| other.converged && behind(other.sum) <= RIVAL_NATS);
         let rivals = rivals.map(|other| other.theta.clone()).collect();
         let theta = parametrization.sorted(&best.theta);
         // The branches' order is that of θ, and so is the Jacobian's.
@@ -138,10 +139,10 @@ impl LawFit {
             inverse.iter_mut().flatten().for_each(|value| *value *= unit);
             inverse
         });
-        let Told { p, parameters, correlation } = told(&parametrization, &theta, covariance.as_ref());
+        let Reported { p, parameters, correlation } = reported(&parametrization, &theta, covariance.as_ref());
         Self {
-            family: parametrization.family,
-            law: parametrization.family.law(&p),
+            kind: parametrization.kind,
+            law: parametrization.kind.law(&p),
             parameters,
             correlation,
             chi_squared: best.sum,
@@ -172,7 +173,8 @@ impl LawFit {
             .zip(&shared)
             .map(|(own, shared)| own.iter().zip(shared).map(|(own, shared)| own + shared).collect())
             .collect();
-        let Told { parameters, correlation, .. } = told(&self.parametrization, &self.theta, Some(&wider));
+        let Reported { parameters, correlation, .. } =
+            reported(&self.parametrization, &self.theta, Some(&wider));
         let factor =
             |(wide, own): (&Estimate, &Estimate)| Some(wide.std? / own.std?).filter(|by| by.is_finite());
         self.correlated = Some(Correlated {
@@ -186,8 +188,8 @@ impl LawFit {
 
     /// With another covariance of θ, as that with errors of the model in it.
     pub(crate) fn with_covariance(mut self, covariance: Vec<Vec<f64>>) -> Self {
-        let Told { parameters, correlation, .. } =
-            told(&self.parametrization, &self.theta, Some(&covariance));
+        let Reported { parameters, correlation, .. } =
+            reported(&self.parametrization, &self.theta, Some(&covariance));
         (self.parameters, self.correlation, self.covariance) = (parameters, correlation, Some(covariance));
         self
     }
@@ -242,7 +244,7 @@ impl LawFit {
         match self.sigma_known {
             true => self.chi_squared,
             // Data without any noise: what is left is roundoff, and no law is better than another for having less of it.
-            false => n * (self.chi_squared / n).max(ROUNDOFF).ln(),
+            false => n * (self.chi_squared / n).max(EXACT_REDUCED_CHI_SQUARED).ln(),
         }
     }
 
@@ -265,29 +267,33 @@ impl LawFit {
         (&self.parametrization, &self.theta)
     }
 
-    /// gᵀ Cov h over the coordinates that are told.
+    /// gᵀ Cov h over the coordinates that are identifiable.
     pub(crate) fn covariance_of(&self, g: &[f64], h: &[f64]) -> Option<f64> {
         let covariance = self.covariance.as_ref()?;
-        let told: Vec<usize> = (0..g.len()).filter(|&i| covariance[i][i].is_finite()).collect();
-        let row = |&i: &usize| told.iter().map(|&j| g[i] * covariance[i][j] * h[j]).sum::<f64>();
-        Some(told.iter().map(row).sum())
+        let known: Vec<usize> = (0..g.len()).filter(|&i| covariance[i][i].is_finite()).collect();
+        let row = |&i: &usize| known.iter().map(|&j| g[i] * covariance[i][j] * h[j]).sum::<f64>();
+        Some(known.iter().map(row).sum())
     }
 }
 
 /// Parameters as users know them.
-struct Told {
+struct Reported {
     p: Vec<f64>,
     parameters: Vec<Estimate>,
     correlation: Option<Vec<Vec<f64>>>,
 }
 
 /// From the coordinates and their covariance to the parameters and theirs, by the delta rule.
-fn told(parametrization: &Parametrization, theta: &[f64], covariance: Option<&Vec<Vec<f64>>>) -> Told {
+fn reported(
+    parametrization: &Parametrization,
+    theta: &[f64],
+    covariance: Option<&Vec<Vec<f64>>>,
+) -> Reported {
     let n = theta.len();
     let (p, chain) = parametrization.parameters(theta);
     let natural = covariance.map(|covariance| carried(&chain, covariance));
     let std = |i: usize| natural.as_ref().map(|c| c[i][i].sqrt()).filter(|std| std.is_finite());
-    let parameters = parametrization.family.parameters().into_iter().zip(&p).enumerate();
+    let parameters = parametrization.kind.parameters().into_iter().zip(&p).enumerate();
     let parameters = parameters
         .map(|(i, (named, &value))| Estimate { name: named.name, unit: named.unit, value, std: std(i) })
         .collect();
@@ -296,11 +302,11 @@ fn told(parametrization: &Parametrization, theta: &[f64], covariance: Option<&Ve
         (0..n).map(|i| (0..n).map(|j| entry(i, j)).collect::<Vec<f64>>()).collect::<Vec<_>>()
     });
     let correlation = correlation.filter(|rows| rows.iter().flatten().all(|value| value.is_finite()));
-    Told { p, parameters, correlation }
+    Reported { p, parameters, correlation }
 }
 
 /// χ² per number below which the rest is roundoff of numbers that are known to themselves.
-const ROUNDOFF: f64 = 1e-28;
+const EXACT_REDUCED_CHI_SQUARED: f64 = 1e-28;
 
 /// What χ² is in units of: one where the deviations are known, else χ² per degree of freedom.
 fn scale(sum: f64, residuals: usize, parameters: usize, sigma_known: bool) -> f64 {
@@ -323,7 +329,7 @@ fn carried(a: &[Vec<f64>], covariance: &[Vec<f64>]) -> Vec<Vec<f64>> {
 
 /// The columns of a Jacobian in the order in which its branches are sorted.
 fn reordered(parametrization: &Parametrization, before: &[f64], after: &[f64], jacobian: &[f64]) -> Vec<f64> {
-    let LawKind::Maxwell { .. } = parametrization.family else { return jacobian.to_vec() };
+    let LawKind::Maxwell { .. } = parametrization.kind else { return jacobian.to_vec() };
     let m = jacobian.len() / before.len();
     let column = |j: usize| &jacobian[j * m..(j + 1) * m];
     let mut free: Vec<usize> = (1..before.len()).step_by(2).collect();
@@ -348,7 +354,7 @@ mod tests {
     #[test]
     fn branches_and_their_jacobian_are_sorted_alike() {
         let parametrization =
-            Parametrization { family: LawKind::Maxwell { branches: 2 }, reference_rad_s: 1.0 };
+            Parametrization { kind: LawKind::Maxwell { branches: 2 }, reference_rad_s: 1.0 };
         let theta = [0.0, 1.0, 5.0, 2.0, 3.0];
         let sorted = parametrization.sorted(&theta);
         assert_eq!(sorted, [0.0, 2.0, 3.0, 1.0, 5.0]);

@@ -215,8 +215,8 @@ mod tests {
     fn the_number_of_branches_named_is_the_one_allowed() {
         assert!(UnknownLawKind::EXPECTED.contains(&format!("1 to {MAX_BRANCHES}")));
         assert_eq!("maxwell".parse(), Ok(LawKind::Maxwell { branches: USUAL_BRANCHES }));
-        for family in LawKind::ALL {
-            assert_eq!(family.to_string().parse(), Ok(family));
+        for kind in LawKind::ALL {
+            assert_eq!(kind.to_string().parse(), Ok(kind));
         }
         for word in ["maxwell:0", "maxwell:21", "maxwell:", "maxwell:x", "Zener", ""] {
             assert!(word.parse::<LawKind>().is_err(), "{word}");

@@ -45,11 +45,11 @@ pub(crate) struct LocalMinima {
 }
 
 /// A point without finite residuals is that bad: the step there is refused and shortened.
-const REFUSED: f64 = 1e100;
+const REFUSED_RESIDUAL: f64 = 1e100;
 
 /// Relative reduction and relative step at which a search ends. Of a χ² of ten thousand that is a millionth: what is left to gain moves no parameter by more than a
 /// thousandth of its deviation.
-const TOLERANCE: f64 = 1e-10;
+const SEARCH_RTOL: f64 = 1e-10;
 
 struct Problem<'a> {
     evaluate: Evaluate<'a>,
@@ -70,7 +70,7 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Problem<'_> {
                 self.residuals.copy_from_slice(&residuals);
                 self.jacobian.copy_from_slice(&jacobian);
             }
-            None => self.residuals.fill(REFUSED),
+            None => self.residuals.fill(REFUSED_RESIDUAL),
         }
     }
 
@@ -126,7 +126,7 @@ pub(crate) fn descend(start: &[f64], evaluate: Evaluate<'_>, search: &Search) ->
         jacobian: DMatrix::from_vec(m, n, jacobian),
     };
     let method = LevenbergMarquardt::new().with_patience(search.patience);
-    let method = method.with_ftol(TOLERANCE).with_xtol(TOLERANCE).with_gtol(f64::EPSILON);
+    let method = method.with_ftol(SEARCH_RTOL).with_xtol(SEARCH_RTOL).with_gtol(f64::EPSILON);
     let (end, report) = method.minimize(problem);
     let theta = end.theta.as_slice().to_vec();
     let (residuals, jacobian) = evaluate(&theta)?;
@@ -139,27 +139,27 @@ pub(crate) fn descend(start: &[f64], evaluate: Evaluate<'_>, search: &Search) ->
 
 /// (JᵀJ)⁻¹, n × n, row after row.
 ///
-/// A column of zeros is a coordinate that nothing depends on: its rows are NaN, and the others are told without it. `None` where coordinates depend on each other to the last digit.
+/// A column of zeros is a coordinate that nothing depends on: its rows are NaN, and the others are those without it. `None` where coordinates depend on each other to the last digit.
 pub(crate) fn inverse_information(jacobian: &[f64], n: usize) -> Option<Vec<Vec<f64>>> {
     let m = jacobian.len() / n.max(1);
     let norms: Vec<f64> =
         jacobian.chunks_exact(m).map(|c| c.iter().map(|x| x * x).sum::<f64>().sqrt()).collect();
-    let told: Vec<usize> = (0..n).filter(|&j| norms[j] > NOTHING).collect();
-    let k = told.len();
+    let sensitive: Vec<usize> = (0..n).filter(|&j| norms[j] > INSENSITIVE_COORDINATE_TOL).collect();
+    let k = sensitive.len();
     let column = |j: usize| &jacobian[j * m..(j + 1) * m];
     let correlation = |(i, j): (usize, usize)| {
         let dot: f64 = column(i).iter().zip(column(j)).map(|(a, b)| a * b).sum();
         dot / (norms[i] * norms[j])
     };
     let scaled: Vec<f64> =
-        told.iter().flat_map(|&i| told.iter().map(move |&j| (i, j))).map(correlation).collect();
+        sensitive.iter().flat_map(|&i| sensitive.iter().map(move |&j| (i, j))).map(correlation).collect();
     let (values, vectors) = symmetric_eigen(k, &scaled).ok()?;
-    if values.first().is_some_and(|&least| least < DEPENDENT) {
+    if values.first().is_some_and(|&least| least < DEPENDENT_COORDINATE_RTOL) {
         return None;
     }
     let mut inverse = vec![vec![f64::NAN; n]; n];
-    for (a, &i) in told.iter().enumerate() {
-        for (b, &j) in told.iter().enumerate() {
+    for (a, &i) in sensitive.iter().enumerate() {
+        for (b, &j) in sensitive.iter().enumerate() {
             let sum: f64 = (0..k).map(|q| vectors[q * k + a] * vectors[q * k + b] / values[q]).sum();
             inverse[i][j] = sum / (norms[i] * norms[j]);
         }
@@ -167,11 +167,11 @@ pub(crate) fn inverse_information(jacobian: &[f64], n: usize) -> Option<Vec<Vec<
     Some(inverse)
 }
 
-/// A coordinate whose change by one moves Σ r² by less than the square of this is not told by the data.
-const NOTHING: f64 = 1e-8;
+/// A coordinate whose change by one moves Σ r² by less than the square of this is not identifiable.
+const INSENSITIVE_COORDINATE_TOL: f64 = 1e-8;
 
 /// Eigenvalues of JᵀJ with columns of norm one are exact to some ε; below this they have no digit.
-const DEPENDENT: f64 = 1e-13;
+const DEPENDENT_COORDINATE_RTOL: f64 = 1e-13;
 
 #[cfg(test)]
 mod tests {
@@ -187,7 +187,7 @@ mod tests {
     }
 
     #[test]
-    fn the_best_of_several_minima_is_kept_and_the_other_is_told() {
+    fn the_best_of_several_minima_is_kept_and_the_other_is_named() {
         let minima =
             minimise(&[vec![0.5, -2.0], vec![15.0, 4.0], vec![4.0, 3.0]], &freudenstein_roth, &SEARCH)
                 .unwrap();

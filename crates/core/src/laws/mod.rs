@@ -1,7 +1,7 @@
 //! Laws of the complex modulus with few parameters, fitted to moduli or straight to the FRFs (B-7).
 //!
 //! A law says at all frequencies together what the data say at each: the fewer its parameters, the narrower its error bars, if it is the right law.
-//! That is told by χ² per degree of freedom, and between laws by BIC.
+//! χ² per degree of freedom shows that, and BIC decides between laws.
 //!
 //! [`fit_modulus`] fits to a table of moduli, [`crate::identify::identify`] to what was measured on a structure.
 

@@ -21,18 +21,18 @@ use crate::c64;
 /// hides the damping, and is not to be forced away.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Parametrization {
-    pub(crate) family: LawKind,
+    pub(crate) kind: LawKind,
     /// ω₀, rad/s.
     pub(crate) reference_rad_s: f64,
 }
 
 /// Logits beyond this leave no digit between α and 0 or 1.
-const MOST_LOGIT: f64 = 36.0;
+const MAX_LOGIT: f64 = 36.0;
 
 impl Parametrization {
     /// p, and ∂p_i/∂θ_j as row i, column j.
     pub(crate) fn parameters(&self, theta: &[f64]) -> (Vec<f64>, Vec<Vec<f64>>) {
-        let n = self.family.count();
+        let n = self.kind.count();
         let mut slopes = vec![vec![0.0; n]; n];
         let mut p: Vec<f64> = theta.iter().map(|t| t.exp()).collect();
         for i in 0..n {
@@ -43,7 +43,7 @@ impl Parametrization {
             // α(1 − α) without cancellation at either end.
             slopes[i][i] = p[i] / (1.0 + theta[i].exp());
         };
-        match self.family {
+        match self.kind {
             LawKind::Constant => {
                 p[1] = theta[1];
                 slopes[1][1] = 1.0;
@@ -74,9 +74,9 @@ impl Parametrization {
     /// θ of parameters that satisfy the constraints; what is on their edge comes to stand just inside.
     pub(crate) fn coordinates(&self, p: &[f64]) -> Vec<f64> {
         let log = |x: f64| x.max(f64::MIN_POSITIVE).ln();
-        let logit = |x: f64| (log(x) - log(1.0 - x)).clamp(-MOST_LOGIT, MOST_LOGIT);
+        let logit = |x: f64| (log(x) - log(1.0 - x)).clamp(-MAX_LOGIT, MAX_LOGIT);
         let reference = self.reference_rad_s;
-        match self.family {
+        match self.kind {
             LawKind::Constant => vec![log(p[0]), p[1]],
             LawKind::Fractional => vec![log(p[0]), log(p[1]) + p[2] * reference.ln(), logit(p[2])],
             LawKind::FractionalZener => {
@@ -92,7 +92,7 @@ impl Parametrization {
     /// E(ω) and ∂E/∂θ; `None` where a number is not finite.
     pub(crate) fn modulus(&self, theta: &[f64], omega_rad_s: f64) -> Option<(c64, Vec<c64>)> {
         let (p, chain) = self.parameters(theta);
-        let (modulus, of_p) = self.family.with_slopes(&p, omega_rad_s);
+        let (modulus, of_p) = self.kind.with_slopes(&p, omega_rad_s);
         let of_theta: Vec<c64> = (0..theta.len())
             .map(|j| of_p.iter().zip(&chain).map(|(slope, row)| slope * row[j]).sum())
             .collect();
@@ -102,7 +102,7 @@ impl Parametrization {
 
     /// The law with all its moduli multiplied by e^`by`.
     pub(crate) fn scaled(&self, theta: &[f64], by: f64) -> Vec<f64> {
-        let is_modulus = |i: usize| match self.family {
+        let is_modulus = |i: usize| match self.kind {
             LawKind::Constant => i == 0,
             LawKind::Fractional | LawKind::FractionalZener => i < 2,
             LawKind::Maxwell { .. } => i == 0 || i % 2 == 1,
@@ -124,7 +124,7 @@ impl Parametrization {
         Some((residuals, columns.concat()))
     }
 
-    /// What a law leaves of each datum in ln E, and what that pulls; the real and the imaginary part of ln E as if the datum told them apart.
+    /// What a law leaves of each datum in ln E, and what that pulls; the real and the imaginary part of ln E as if they were two data.
     pub(crate) fn lines(&self, data: &[Datum], theta: &[f64]) -> Vec<LineResidual> {
         let line = |datum: &Datum| {
             let (modulus, slopes) = self.modulus(theta, datum.omega_rad_s)?;
@@ -146,7 +146,7 @@ impl Parametrization {
     /// The same law with its branches in the order of their times.
     pub(crate) fn sorted(&self, theta: &[f64]) -> Vec<f64> {
         let mut sorted = theta.to_vec();
-        if let LawKind::Maxwell { .. } = self.family {
+        if let LawKind::Maxwell { .. } = self.kind {
             let mut branches: Vec<&[f64]> = theta[1..].chunks_exact(2).collect();
             branches.sort_by(|a, b| a[1].total_cmp(&b[1]));
             sorted[1..].copy_from_slice(&branches.concat());
@@ -161,11 +161,11 @@ mod tests {
     use proptest::prelude::*;
 
     fn any_chart() -> impl Strategy<Value = (Parametrization, Vec<f64>)> {
-        let family = proptest::sample::select(LawKind::ALL.to_vec());
-        (family, 0.1f64..1e4).prop_flat_map(|(family, reference_rad_s)| {
+        let kind = proptest::sample::select(LawKind::ALL.to_vec());
+        (kind, 0.1f64..1e4).prop_flat_map(|(kind, reference_rad_s)| {
             // Moduli over 14 decades, exponents from 0.002 to 0.998, times within e^6 of the reference.
-            let theta = proptest::collection::vec(-6.0f64..6.0, family.count());
-            theta.prop_map(move |theta| (Parametrization { family, reference_rad_s }, theta))
+            let theta = proptest::collection::vec(-6.0f64..6.0, kind.count());
+            theta.prop_map(move |theta| (Parametrization { kind, reference_rad_s }, theta))
         })
     }
 
@@ -185,16 +185,16 @@ mod tests {
             let omega = parametrization.reference_rad_s * at.exp();
             let (e, _) = parametrization.modulus(&theta, omega).unwrap();
             prop_assert!(e.re > 0.0);
-            if parametrization.family != LawKind::Constant {
+            if parametrization.kind != LawKind::Constant {
                 prop_assert!(e.im >= 0.0, "{e}");
                 // What is lost at some frequency is a gain of stiffness above it.
                 let (above, _) = parametrization.modulus(&theta, 1.5 * omega).unwrap();
                 prop_assert!(above.re >= e.re * (1.0 - 1e-14));
             }
             let (p, _) = parametrization.parameters(&theta);
-            prop_assert!(parametrization.family == LawKind::Constant || p.iter().all(|&p| p > 0.0));
+            prop_assert!(parametrization.kind == LawKind::Constant || p.iter().all(|&p| p > 0.0));
             // The law that is written out is the law that was fitted.
-            let law = parametrization.family.law(&p).at(omega / std::f64::consts::TAU).unwrap();
+            let law = parametrization.kind.law(&p).at(omega / std::f64::consts::TAU).unwrap();
             prop_assert!((law - e).norm() <= 1e-13 * e.norm());
         }
 
@@ -219,14 +219,14 @@ mod tests {
         fn slopes_of_natural_parameters_are_those_of_differences((parametrization, theta) in any_chart(), at in -5.0f64..5.0) {
             let omega = parametrization.reference_rad_s * at.exp();
             let (p, _) = parametrization.parameters(&theta);
-            let (e, slopes) = parametrization.family.with_slopes(&p, omega);
+            let (e, slopes) = parametrization.kind.with_slopes(&p, omega);
             for (j, slope) in slopes.iter().enumerate() {
                 // Relative steps: h ∂E/∂p is up to 1e-4 E, and what differences leave of it h³∂³E/∂p³/6 of up to 1e3 times the cube of 1e-4.
                 let h = 1e-4 * p[j].abs().max(1e-12);
                 let moved = |by: f64| {
                     let mut p = p.clone();
                     p[j] += by;
-                    parametrization.family.with_slopes(&p, omega).0
+                    parametrization.kind.with_slopes(&p, omega).0
                 };
                 let difference = (moved(h) - moved(-h)) / (2.0 * h);
                 prop_assert!((difference - slope).norm() * h <= 1e-8 * e.norm(), "{j}: {difference} {slope}");
@@ -242,10 +242,10 @@ mod tests {
         }
 
         #[test]
-        fn branches_are_told_in_the_order_of_their_times((parametrization, theta) in any_chart()) {
+        fn branches_are_in_the_order_of_their_times((parametrization, theta) in any_chart()) {
             let sorted = parametrization.sorted(&theta);
             let (p, _) = parametrization.parameters(&sorted);
-            if let LawKind::Maxwell { .. } = parametrization.family {
+            if let LawKind::Maxwell { .. } = parametrization.kind {
                 prop_assert!(p[1..].chunks_exact(2).map(|b| b[1]).is_sorted());
             }
             let at = |theta: &[f64]| parametrization.modulus(theta, parametrization.reference_rad_s).unwrap().0;

@@ -5,16 +5,16 @@ use crate::c64;
 use crate::material::{fractional_power, saturation};
 
 /// Times of a fractional Zener's start, over the band and a decade to either side.
-const TIMES: usize = 6;
+const RELAXATION_TIMES: usize = 6;
 
 /// Exponents of the starts.
-const EXPONENTS: [f64; 4] = [0.2, 0.4, 0.6, 0.85];
+const START_EXPONENTS: [f64; 4] = [0.2, 0.4, 0.6, 0.85];
 
 /// Coefficients at least, as a share of the modulus: their logarithm is to be finite, and their slope to be felt.
-const LEAST: f64 = 1e-3;
+const MIN_COEFFICIENT_SHARE: f64 = 1e-3;
 
 /// Sweeps over the coefficients. A start need not be exact.
-const SWEEPS: usize = 200;
+const COEFFICIENT_SWEEPS: usize = 200;
 
 /// θ of all starts for these data, which are not empty.
 pub(crate) fn starts(parametrization: &Parametrization, data: &[Datum]) -> Vec<Vec<f64>> {
@@ -23,7 +23,7 @@ pub(crate) fn starts(parametrization: &Parametrization, data: &[Datum]) -> Vec<V
     let last = omegas().fold(0.0, f64::max);
     let one = |_: f64| c64::new(1.0, 0.0);
     let of = |p: Vec<f64>| parametrization.coordinates(&p);
-    match parametrization.family {
+    match parametrization.kind {
         LawKind::Constant => {
             let a = coefficients(data, &[&one, &|_| c64::I], false);
             // A storage modulus that is not positive is no start, but one there has to be.
@@ -36,16 +36,16 @@ pub(crate) fn starts(parametrization: &Parametrization, data: &[Datum]) -> Vec<V
                 let a = coefficients(data, &[&one, &|omega| fractional_power(omega, alpha)], true);
                 of(vec![a[0], a[1], alpha])
             };
-            EXPONENTS.iter().map(start).collect()
+            START_EXPONENTS.iter().map(start).collect()
         }
         LawKind::FractionalZener => {
-            let times = spread(0.1 / last, 10.0 / first, TIMES);
+            let times = spread(0.1 / last, 10.0 / first, RELAXATION_TIMES);
             let start = |(tau, alpha): (f64, f64)| {
                 let turn = |omega: f64| saturation(fractional_power(omega * tau, alpha));
                 let a = coefficients(data, &[&one, &turn], true);
                 of(vec![a[0], a[0] + a[1], tau, alpha])
             };
-            times.iter().flat_map(|&tau| EXPONENTS.map(|alpha| (tau, alpha))).map(start).collect()
+            times.iter().flat_map(|&tau| START_EXPONENTS.map(|alpha| (tau, alpha))).map(start).collect()
         }
         LawKind::Maxwell { branches } => {
             // Times over the band, beyond it, and over either half.
@@ -92,10 +92,12 @@ fn coefficients(data: &[Datum], functions: &[&dyn Fn(f64) -> c64], positive: boo
     let size: f64 = data.iter().map(|datum| datum.modulus.norm()).sum();
     let least: Vec<f64> = functions
         .iter()
-        .map(|b| LEAST * size / data.iter().map(|datum| b(datum.omega_rad_s).norm()).sum::<f64>())
+        .map(|b| {
+            MIN_COEFFICIENT_SHARE * size / data.iter().map(|datum| b(datum.omega_rad_s).norm()).sum::<f64>()
+        })
         .collect();
     let (mut a, mut rest) = (vec![0.0; columns.len()], wanted);
-    for _ in 0..SWEEPS {
+    for _ in 0..COEFFICIENT_SWEEPS {
         for (j, column) in columns.iter().enumerate() {
             let step = dot(column, &rest) / dot(column, column);
             let next = if positive { (a[j] + step).max(least[j]) } else { a[j] + step };

@@ -4,25 +4,34 @@ use super::{DynamicStiffness, Parameter};
 use crate::c64;
 use crate::material::OutsideTable;
 
-/// Σ coefficient · matrix over some terms of a model.
+/// A term of a model with a weight.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WeightedTerm {
+    /// Its index.
+    pub term: usize,
+    /// What its matrix is multiplied by.
+    pub weight: c64,
+}
+
+/// Σ weight · matrix over some terms of a model.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Combination {
-    /// (index of the term, its coefficient).
-    pub parts: Vec<(usize, c64)>,
+    /// The terms.
+    pub parts: Vec<WeightedTerm>,
 }
 
 impl Combination {
     /// out += (this combination) x.
     pub fn multiply_add(&self, model: &DynamicStiffness, factor: c64, x: &[c64], out: &mut [c64]) {
-        for &(term, coefficient) in &self.parts {
-            model.terms()[term].matrix.multiply_add(factor * coefficient, x, out);
+        for &WeightedTerm { term, weight } in &self.parts {
+            model.terms()[term].matrix.multiply_add(factor * weight, x, out);
         }
     }
 
     /// values += factor · (this combination's entries on the model's pattern).
     pub fn accumulate_into(&self, model: &DynamicStiffness, factor: c64, values: &mut [c64]) {
-        for &(term, coefficient) in &self.parts {
-            model.terms()[term].matrix.accumulate_into(factor * coefficient, values);
+        for &WeightedTerm { term, weight } in &self.parts {
+            model.terms()[term].matrix.accumulate_into(factor * weight, values);
         }
     }
 }
@@ -39,7 +48,7 @@ pub struct ParameterAt {
 impl ParameterAt {
     /// Whether it enters a term of the model.
     pub(crate) fn enters(&self, term: usize) -> bool {
-        self.coefficients.iter().flat_map(|c| &c.parts).any(|(own, _)| *own == term)
+        self.coefficients.iter().flat_map(|c| &c.parts).any(|own| own.term == term)
     }
 }
 
@@ -69,7 +78,8 @@ impl DynamicStiffness {
         let mut nominal = Combination::default();
         let unknown = |term| parameters.iter().any(|p| p.members.iter().any(|member| member.term == term));
         for (index, term) in self.terms().iter().enumerate().filter(|&(index, _)| !unknown(index)) {
-            nominal.parts.push((index, self.weight(term.role, frequency_hz) * term.factor.at(frequency_hz)?));
+            let weight = self.weight(term.role, frequency_hz) * term.factor.at(frequency_hz)?;
+            nominal.parts.push(WeightedTerm { term: index, weight });
         }
         let mut expanded = Vec::with_capacity(parameters.len());
         for parameter in parameters {
@@ -83,12 +93,15 @@ impl DynamicStiffness {
                     weight *= term.factor.at(frequency_hz)?;
                 }
                 // (p̄ + c)^d = Σ_q binomial(d, q) p̄^{d−q} c^q
-                nominal.parts.push((member.term, weight * value.powu(member.power as u32)));
+                let of_nominal = weight * value.powu(member.power as u32);
+                nominal.parts.push(WeightedTerm { term: member.term, weight: of_nominal });
                 let mut binomial = 1.0;
                 for q in 1..=member.power {
                     binomial *= (member.power + 1 - q) as f64 / q as f64;
                     let coefficient = binomial * value.powu((member.power - q) as u32);
-                    coefficients[q - 1].parts.push((member.term, weight * coefficient));
+                    coefficients[q - 1]
+                        .parts
+                        .push(WeightedTerm { term: member.term, weight: weight * coefficient });
                 }
             }
             expanded.push(ParameterAt { nominal: value, coefficients });

@@ -5,7 +5,7 @@ mod experiment;
 mod parameter;
 mod stiffness;
 
-pub use at::{Combination, ModelAt, ParameterAt};
+pub use at::{Combination, ModelAt, ParameterAt, WeightedTerm};
 pub use experiment::{Experiment, Sensor};
 pub use parameter::{Member, Parameter};
 pub use stiffness::{DynamicStiffness, FactorPart, FactorStd, ModelError, Role, Term};

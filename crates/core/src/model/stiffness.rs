@@ -45,6 +45,7 @@ pub struct Term {
 
 /// What is wrong with a set of terms.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub enum ModelError {
     /// There is no term.
     Empty,

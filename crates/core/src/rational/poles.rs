@@ -119,8 +119,8 @@ impl Poles {
 }
 
 /// A residue of less than this part of the largest is roundoff: the mode is not driven, or not seen.
-const TAKES_PART: f64 = 1e-12;
+const RESIDUE_RTOL: f64 = 1e-12;
 
 fn least(residues: &[c64]) -> f64 {
-    TAKES_PART * residues.iter().map(|rho| rho.norm()).fold(0.0, f64::max)
+    RESIDUE_RTOL * residues.iter().map(|rho| rho.norm()).fold(0.0, f64::max)
 }

@@ -17,10 +17,10 @@ pub struct RationalRoot {
 }
 
 /// Newton steps of a polish; from an eigenvalue two are enough, more show that it was none.
-const POLISH: usize = 8;
+const MAX_POLISH_STEPS: usize = 8;
 
 /// Two roots nearer than this, relative to the larger, are one.
-const SAME: f64 = 1e-9;
+const ROOT_MERGE_RTOL: f64 = 1e-9;
 
 impl RationalResponse {
     /// All finite solutions at a sensor, least |c| first: [`Self::starts`] polished by Newton's method, duplicates merged. Those that Newton's
@@ -42,7 +42,7 @@ impl RationalResponse {
         for root in roots {
             let same = |other: &RationalRoot| {
                 (other.correction - root.correction).norm()
-                    <= SAME * root.correction.norm().max(SAME * self.scale)
+                    <= ROOT_MERGE_RTOL * root.correction.norm().max(ROOT_MERGE_RTOL * self.scale)
             };
             if !distinct.iter().any(same) {
                 distinct.push(root);
@@ -91,7 +91,7 @@ impl RationalResponse {
     fn polish(&self, sensor: usize, measured: c64, start: c64) -> Option<RationalRoot> {
         let mut z = start;
         let mut best: Option<(f64, c64)> = None;
-        for _ in 0..POLISH {
+        for _ in 0..MAX_POLISH_STEPS {
             let (values, slopes) = self.respond_with_slope(z * self.scale).ok()?;
             let mismatch = (values[sensor] - measured).norm() / measured.norm();
             if best.is_none_or(|(least, _)| mismatch < least) {

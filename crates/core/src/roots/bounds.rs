@@ -2,6 +2,7 @@
 
 use crate::c64;
 use crate::material::loss_factor;
+use std::fmt;
 
 /// Closed intervals for the updated factor p̄ + c; `None` is no bound.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -12,7 +13,46 @@ pub struct Bounds {
     pub loss_factor: Option<[f64; 2]>,
 }
 
+/// A bound [low, high] with low > high, or with a value that is not finite.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct BoundsError {
+    /// Which: `storage` or `loss_factor`.
+    pub name: &'static str,
+    /// What it is.
+    pub found: [f64; 2],
+}
+
+impl BoundsError {
+    /// What a bound has to be.
+    pub const EXPECTED: &'static str = "[low, high] with low <= high";
+}
+
+impl fmt::Display for BoundsError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { name, found: [low, high] } = self;
+        write!(f, "bounds.{name}: expected {}, found [{low}, {high}]", Self::EXPECTED)
+    }
+}
+
+impl std::error::Error for BoundsError {}
+
 impl Bounds {
+    /// Checks what types cannot.
+    ///
+    /// # Errors
+    /// [`BoundsError`], the first of them.
+    pub fn validate(&self) -> Result<(), BoundsError> {
+        for (name, bound) in [("storage", self.storage), ("loss_factor", self.loss_factor)] {
+            if let Some(found) = bound
+                && !(found[0] <= found[1] && found.iter().all(|value| value.is_finite()))
+            {
+                return Err(BoundsError { name, found });
+            }
+        }
+        Ok(())
+    }
+
     /// Which bound a factor breaks, in words; `None` if it breaks none.
     pub fn broken_by(&self, factor: c64) -> Option<&'static str> {
         let outside = |value: f64, bound: Option<[f64; 2]>| {
@@ -32,6 +72,19 @@ impl Bounds {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_bound_that_bounds_nothing_is_refused() {
+        let of = |loss_factor| Bounds { storage: None, loss_factor };
+        assert_eq!(of(Some([0.0, 0.0])).validate(), Ok(()));
+        assert_eq!(
+            of(Some([1.0, 0.0])).validate().unwrap_err().to_string(),
+            "bounds.loss_factor: expected [low, high] with low <= high, found [1, 0]"
+        );
+        assert!(
+            of(Some([0.0, f64::INFINITY])).validate().is_err() && of(Some([f64::NAN; 2])).validate().is_err()
+        );
+    }
 
     #[test]
     fn names_the_bound_that_is_broken() {

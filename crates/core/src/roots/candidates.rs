@@ -3,10 +3,12 @@
 use super::Bounds;
 use crate::c64;
 use crate::series::{ConvergenceRadius, NeumannSeries};
+use crate::with_fields::with_fields;
 use frfit_linalg::dense::{Root, evaluate, roots};
 
 /// How roots are accepted.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct RootOptions {
     /// Bounds on the updated factor.
     pub bounds: Bounds,
@@ -24,11 +26,17 @@ impl Default for RootOptions {
     }
 }
 
+with_fields!(RootOptions {
+    with_bounds: bounds as Bounds,
+    with_real: real as bool,
+    with_drift: drift as f64,
+});
+
 impl RootOptions {
     /// What the user knows that speaks against a correction: it is not real, or breaks a bound.
     pub fn refuse(&self, nominal: c64, correction: c64) -> Option<Refusal> {
         let factor = nominal + correction;
-        if self.real && correction.im.abs() > REAL_TOLERANCE * factor.norm() {
+        if self.real && correction.im.abs() > REAL_RTOL * factor.norm() {
             return Some(Refusal::NotReal);
         }
         let tested = if self.real { c64::new(factor.re, 0.0) } else { factor };
@@ -38,6 +46,7 @@ impl RootOptions {
 
 /// Why a root is not believed.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub enum Refusal {
     /// It does not satisfy its polynomial.
     NotARoot,
@@ -66,13 +75,13 @@ pub struct Candidate {
 
 /// Orders below n in which a root must reappear. Ghosts on the circle of convergence lie 2π/n apart and move by
 /// about 2π/n² an order: over four orders that is more than the tolerance where over one it is not.
-const LOOK_BACK: usize = 4;
+const LOOK_BACK_ORDERS: usize = 4;
 
 /// Roots are double-precision numbers of a polynomial known to roundoff: beyond this it is no root.
-const BACKWARD_ERROR: f64 = 1e-10;
+const MAX_BACKWARD_ERROR: f64 = 1e-10;
 
 /// An imaginary part up to this fraction of the factor counts as the roundoff, or noise, of a real answer.
-const REAL_TOLERANCE: f64 = 1e-3;
+const REAL_RTOL: f64 = 1e-3;
 
 /// All roots of P-30 at a sensor for the orders up to n, those of order n as candidates, least |c| first.
 ///
@@ -90,7 +99,8 @@ pub fn candidates(
     options: &RootOptions,
 ) -> Vec<Candidate> {
     let at_order = |order| roots_of_order(series, sensor, measured, order);
-    let earlier: Vec<Vec<Root>> = (order.saturating_sub(LOOK_BACK).max(1)..order).map(at_order).collect();
+    let earlier: Vec<Vec<Root>> =
+        (order.saturating_sub(LOOK_BACK_ORDERS).max(1)..order).map(at_order).collect();
     let mut candidates: Vec<Candidate> = at_order(order)
         .into_iter()
         .map(|root| {
@@ -124,7 +134,7 @@ pub fn refuse_diverged(
 ) {
     let t = series.coefficients(sensor);
     let slope: Vec<c64> = t.iter().enumerate().skip(1).map(|(k, &t)| t * k as f64).collect();
-    let last = t.len().saturating_sub(LOOK_BACK)..t.len();
+    let last = t.len().saturating_sub(LOOK_BACK_ORDERS)..t.len();
     for candidate in candidates.iter_mut().filter(|candidate| candidate.refusal.is_none()) {
         let rho = radius.at(candidate.correction);
         let z = candidate.correction / series.scale();
@@ -163,7 +173,7 @@ fn drift(root: Root, earlier: &[Vec<Root>]) -> f64 {
 
 fn refuse(root: Root, candidate: &Candidate, nominal: c64, options: &RootOptions) -> Option<Refusal> {
     // Comparisons that are false for NaN, so that NaN is refused.
-    let is_root = root.backward_error <= BACKWARD_ERROR;
+    let is_root = root.backward_error <= MAX_BACKWARD_ERROR;
     if !is_root {
         return Some(Refusal::NotARoot);
     }

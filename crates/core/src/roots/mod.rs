@@ -3,5 +3,5 @@
 mod bounds;
 mod candidates;
 
-pub use bounds::Bounds;
+pub use bounds::{Bounds, BoundsError};
 pub use candidates::{Candidate, Refusal, RootOptions, candidates, least_admissible, refuse_diverged};

@@ -6,7 +6,7 @@ use super::path::{Path, Point, Rule, Search};
 const CURVATURES: [f64; 7] = [1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01];
 
 /// Before anything is known of a path's curvature. Not taken from the straightest path there is: that may well be a wrong one.
-pub(super) const CURVATURE: f64 = 0.5;
+pub(super) const DEFAULT_CURVATURE: f64 = 0.5;
 
 /// Points over a band.
 #[derive(Debug, Clone)]
@@ -21,7 +21,7 @@ impl Band {
     /// That of several bands(b, every) of every so-many-th frequency which makes its cheapest path likeliest: the same candidates, with more or less scatter
     /// allowed, least first.
     pub(super) fn likeliest(count: usize, frequencies: usize, band: impl Fn(usize, usize) -> Self) -> Self {
-        band(lowest(count, frequencies, |b, every| band(b, every).likelihood(CURVATURE, 1)), 1)
+        band(lowest(count, frequencies, |b, every| band(b, every).likelihood(DEFAULT_CURVATURE, 1)), 1)
     }
 
     /// κ of largest likelihood, and one size more: what is too stiff for the right path skips it. For a band of one path.
@@ -105,10 +105,10 @@ impl Band {
 }
 
 /// So many frequencies tell sizes of scatter and curvature, which are tried in steps of two and more: of longer bands not every frequency is looked at.
-const MANY: usize = 2000;
+const MAX_SIZE_FREQUENCIES: usize = 2000;
 
 /// … first at so many of them: what holds for them holds for more, or on a neighbouring size.
-const PART: usize = 500;
+const FIRST_SIZE_FREQUENCIES: usize = 500;
 
 /// The place of the lowest of some costs(k, every) over every so-many-th frequency, k = 0 … count − 1, that fall towards one and rise from there on: of a
 /// long band first that on a small part, from which it goes downhill on a larger one.
@@ -117,12 +117,12 @@ fn lowest(count: usize, frequencies: usize, cost: impl Fn(usize, usize) -> f64) 
         let costs: Vec<f64> = (0..count).map(|k| cost(k, every)).collect();
         (0..count).min_by(|&a, &b| costs[a].total_cmp(&costs[b])).unwrap_or(0)
     };
-    if frequencies <= MANY {
+    if frequencies <= MAX_SIZE_FREQUENCIES {
         return least(1);
     }
-    let mut best = least(frequencies / PART);
+    let mut best = least(frequencies / FIRST_SIZE_FREQUENCIES);
     let mut costs = vec![None; count];
-    let mut larger = |k: usize| *costs[k].get_or_insert_with(|| cost(k, frequencies / MANY));
+    let mut larger = |k: usize| *costs[k].get_or_insert_with(|| cost(k, frequencies / MAX_SIZE_FREQUENCIES));
     loop {
         let beside = [best.checked_sub(1), Some(best + 1).filter(|&k| k < count)];
         match beside.into_iter().flatten().find(|&k| larger(k) < larger(best)) {
@@ -157,8 +157,8 @@ mod tests {
             log_frequency: (0..60).map(|k| 0.02 * k as f64).collect(),
             points: (0..60).map(at).collect(),
         };
-        let (path, chosen) = band.cheapest(CURVATURE).unwrap();
-        let (again, costs) = band.through_each(CURVATURE);
+        let (path, chosen) = band.cheapest(DEFAULT_CURVATURE).unwrap();
+        let (again, costs) = band.through_each(DEFAULT_CURVATURE);
         assert_eq!(again, chosen);
         for k in 0..30 {
             assert_eq!(chosen[k], Some(19), "{k}");
@@ -190,7 +190,8 @@ mod tests {
             };
             let lowest =
                 |costs: Vec<f64>| (0..costs.len()).min_by(|&a, &b| costs[a].total_cmp(&costs[b])).unwrap();
-            let best = lowest((0..sizes.len()).map(|s| band(s, 1).likelihood(CURVATURE, 1)).collect());
+            let best =
+                lowest((0..sizes.len()).map(|s| band(s, 1).likelihood(DEFAULT_CURVATURE, 1)).collect());
             let found = Band::likeliest(sizes.len(), n, band);
             assert_eq!(found.points[0][0].variance, sizes[best].powi(2), "{scatter}");
             let costs = CURVATURES.iter().map(|&curvature| found.likelihood(curvature, 1));

@@ -20,6 +20,7 @@ mod trend;
 
 use crate::c64;
 use crate::frequency::omega_rad_s;
+use crate::with_fields::with_fields;
 use band::Band;
 use path::Point;
 use track::tracks;
@@ -50,6 +51,7 @@ pub struct Choice {
 
 /// How to choose.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct SelectOptions {
     /// Sensors in the misfit. Default 1.
     pub sensors: usize,
@@ -65,6 +67,12 @@ impl Default for SelectOptions {
         Self { sensors: 1, sigma_known: true, margin: 7.0 }
     }
 }
+
+with_fields!(SelectOptions {
+    with_sensors: sensors as usize,
+    with_sigma_known: sigma_known as bool,
+    with_margin: margin as f64,
+});
 
 /// Chooses a path through the candidates of a band; frequencies ascend, and each has any number of nodes, also none.
 ///
@@ -97,7 +105,7 @@ pub fn choose(frequency_hz: &[f64], nodes: &[Vec<Node>], options: &SelectOptions
     let tracks = tracks(Band::likeliest(scatters.len(), nodes.len(), band), options.margin);
     let Some((best, rivals)) = tracks.split_first() else { return vec![nothing; nodes.len()] };
     let rivals: Vec<_> = rivals.iter().filter(|rival| rival.score < best.score + options.margin).collect();
-    let curvature = best.alone().curvature();
+    let curvature = best.restricted().curvature();
     let (mut path, costs) = best.band.through_each(curvature);
     bridge(&mut path, &best.chosen);
     let choose_at = |k: usize| {
@@ -123,7 +131,7 @@ pub fn choose(frequency_hz: &[f64], nodes: &[Vec<Node>], options: &SelectOptions
 }
 
 /// Nodes side by side that are no accident: what noise or a stray makes of one frequency does not join on to both sides through several.
-const STRETCH: usize = 3;
+const MIN_SEGMENT_NODES: usize = 3;
 
 /// Goes through a stretch that a path of the band's own curvature leaves out where the track of a larger curvature goes through it without a gap and meets the path at
 /// both ends: the curve bends there more than elsewhere, as by an error of the measurement that is smooth over frequency. A shorter one stays left out.
@@ -134,7 +142,13 @@ fn bridge(path: &mut [Option<usize>], track: &[Option<usize>]) {
         let end = first + length;
         let joined = |k: usize| path[k].is_some() && path[k] == track[k];
         let whole = track[first..end].iter().all(Option::is_some);
-        if length >= STRETCH && whole && first > 0 && end < path.len() && joined(first - 1) && joined(end) {
+        if length >= MIN_SEGMENT_NODES
+            && whole
+            && first > 0
+            && end < path.len()
+            && joined(first - 1)
+            && joined(end)
+        {
             path[first..end].copy_from_slice(&track[first..end]);
         }
         first = end + 1;
@@ -142,16 +156,16 @@ fn bridge(path: &mut [Option<usize>], track: &[Option<usize>]) {
 }
 
 /// Standard deviation of ln E that is left to a root without noise: half the digits, as a nearly double root has.
-const ROUNDOFF: f64 = 1e-7;
+const ROOT_LN_STD: f64 = 1e-7;
 
 /// Least factor on a variance that is not known: a millionth of the response is roundoff near a resonance.
-const LEAST: f64 = 1e-12;
+const MIN_VARIANCE_FACTOR: f64 = 1e-12;
 
 /// Scatters that are tried: of ln E, beside what is given, or in units of the given standard deviation if that is of unknown size.
 const SCATTERS: [f64; 14] = [0.0, 1e-6, 3e-6, 1e-5, 3e-5, 1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 0.1, 0.3, 1.0];
 
 /// The largest scatter of ln E that is not given: with more, any node would fit any path.
-const MOST: f64 = 1e-2;
+const MAX_SCATTER: f64 = 1e-2;
 
 /// How far points may lie off their curve.
 #[derive(Debug, Clone, Copy)]
@@ -183,7 +197,7 @@ impl Noise {
         let quartile =
             freedom * (1.0 - 2.0 / (9.0 * freedom) - 0.6745 * (2.0 / (9.0 * freedom)).sqrt()).powi(3);
         let found = best.get(best.len() / 4).map_or(0.0, |misfit| misfit / quartile);
-        let least = if options.sigma_known { 1.0 } else { LEAST };
+        let least = if options.sigma_known { 1.0 } else { MIN_VARIANCE_FACTOR };
         // Without other sensors, or noise, there is no misfit to expect.
         let usual = if found > least / 4.0 { freedom / 2.0 } else { 0.0 };
         Self { factor: found.max(least), usual, known: options.sigma_known }
@@ -193,7 +207,7 @@ impl Noise {
     fn scatters(&self, nodes: &[Vec<Node>]) -> impl Iterator<Item = Scatter> {
         let known = self.known || nodes.iter().flatten().all(|node| node.std == 0.0);
         let given = self.factor.sqrt();
-        SCATTERS.into_iter().filter(move |&size| !known || size <= MOST).map(move |size| {
+        SCATTERS.into_iter().filter(move |&size| !known || size <= MAX_SCATTER).map(move |size| {
             if known { Scatter { given, more: size } } else { Scatter { given: size, more: 0.0 } }
         })
     }
@@ -204,7 +218,7 @@ impl Noise {
             Point {
                 node,
                 log: factor.ln(),
-                variance: given * given + scatter.more * scatter.more + ROUNDOFF * ROUNDOFF,
+                variance: given * given + scatter.more * scatter.more + ROOT_LN_STD * ROOT_LN_STD,
                 misfit: misfit / (2.0 * self.factor) - self.usual,
             }
         };

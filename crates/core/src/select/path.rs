@@ -110,24 +110,24 @@ impl Path {
     fn past(&self, empty: bool) -> Self {
         let cost = match (empty, self.gap) {
             (true, _) => 0.0,
-            (false, false) => GAP,
-            (false, true) => SKIP,
+            (false, false) => GAP_NATS,
+            (false, true) => SKIP_NATS,
         };
         Self { cost: self.cost + cost, chosen: None, gap: self.gap || !empty, ..*self }
     }
 }
 
 /// Cost of choosing nothing where there are candidates: one solution in 400 is not found …
-const GAP: f64 = 6.0;
+const GAP_NATS: f64 = 6.0;
 
 /// … and if one is not, the next is likely not to be either. A right point costs one nat on average and must be cheaper than none.
-const SKIP: f64 = 4.0;
+const SKIP_NATS: f64 = 4.0;
 
 /// Paths kept that end in one point, each by way of another.
-const KEPT: usize = 4;
+const PATHS_PER_POINT: usize = 4;
 
 /// Paths kept that choose nothing at a frequency, each with another last point; through a gap all histories are such.
-const KEPT_IN_GAP: usize = 16;
+const PATHS_IN_GAP: usize = 16;
 
 /// The best paths up to and including a frequency, one frequency after the other.
 #[derive(Debug, Clone)]
@@ -159,12 +159,12 @@ impl Search {
         }
         self.now.clear();
         for (index, point) in points.iter().enumerate() {
-            keep_best(&self.before, KEPT, &mut self.now, |path, limit| {
+            keep_best(&self.before, PATHS_PER_POINT, &mut self.now, |path, limit| {
                 let cost = path.cost_with(point, self.rule);
                 (cost < limit).then(|| path.through(index, point, cost, step, self.at))
             });
         }
-        keep_best(&self.before, KEPT_IN_GAP, &mut self.now, |path, _| Some(path.past(points.is_empty())));
+        keep_best(&self.before, PATHS_IN_GAP, &mut self.now, |path, _| Some(path.past(points.is_empty())));
         self.at += 1;
     }
 

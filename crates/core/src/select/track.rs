@@ -1,15 +1,15 @@
 //! Whole paths that compete with one another.
 
-use super::band::{Band, CURVATURE};
+use super::band::{Band, DEFAULT_CURVATURE};
 use super::path::{Path, Point};
 
 /// Paths that are compared: a band has no more smooth branches that reach through most of it.
-const RIVALS: usize = 6;
+const MAX_RIVAL_PATHS: usize = 6;
 
 /// Nats by which a path that is nowhere is worse than one that is everywhere, all else being equal: one that misses a fifth of what
 /// another has is just about excluded. Not the cost of skipping point by point: a wrong branch may well reach further than the
 /// part of the right one that was found.
-const COVERAGE: f64 = 40.0;
+const COVERAGE_NATS: f64 = 40.0;
 
 /// A path through a band.
 #[derive(Debug, Clone)]
@@ -29,7 +29,7 @@ impl Track {
     }
 
     /// The band with nothing but this path.
-    pub(super) fn alone(&self) -> Band {
+    pub(super) fn restricted(&self) -> Band {
         let points = (0..self.chosen.len()).map(|k| self.at(k).copied().into_iter().collect());
         Band { points: points.collect(), log_frequency: self.band.log_frequency.clone() }
     }
@@ -40,16 +40,16 @@ impl Track {
 pub(super) fn tracks(mut band: Band, margin: f64) -> Vec<Track> {
     let mut tracks = Vec::new();
     let occupied = band.points.iter().filter(|points| !points.is_empty()).count() as f64;
-    for _ in 0..RIVALS {
+    for _ in 0..MAX_RIVAL_PATHS {
         if band.points.iter().all(Vec::is_empty) {
             break;
         }
-        let Some((path, chosen)) = band.cheapest(CURVATURE) else { break };
+        let Some((path, chosen)) = band.cheapest(DEFAULT_CURVATURE) else { break };
         let Path { material, misfit, count, .. } = path;
         if count == 0 {
             break;
         }
-        let missing = COVERAGE * (1.0 - count as f64 / occupied);
+        let missing = COVERAGE_NATS * (1.0 - count as f64 / occupied);
         let track = Track { score: material + misfit + missing, band: band.clone(), chosen };
         for (k, points) in band.points.iter_mut().enumerate() {
             if let Some(taken) = track.at(k) {
@@ -57,7 +57,7 @@ pub(super) fn tracks(mut band: Band, margin: f64) -> Vec<Track> {
             }
         }
         // Not the misfit, which where the model has errors of its own is larger than usual for the right path too.
-        if material + missing < COVERAGE - margin {
+        if material + missing < COVERAGE_NATS - margin {
             tracks.push(track);
         }
     }

@@ -4,10 +4,10 @@ use crate::c64;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// Area of the plane of ln E in which solutions lie: passive, so arg E within π/2, and E′ within a range of a factor of 25.
-const AREA: f64 = 3.2 * FRAC_PI_2;
+const LN_MODULUS_AREA: f64 = 3.2 * FRAC_PI_2;
 
 /// Standard deviation of d ln E/d ln ω before anything is known: glass transitions reach 0.6.
-const SLOPE: f64 = 0.5;
+const LOG_SLOPE_STD: f64 = 0.5;
 
 /// How far the slope may lie outside what the loss factor allows. The local relation is exact for a power law and misses by less
 /// than this for the fractional laws of damping materials.
@@ -28,7 +28,11 @@ pub(super) struct Trend {
 impl Trend {
     /// From one point.
     pub(super) fn start(point: c64, variance: f64) -> Self {
-        Self { level: point, slope: c64::default(), covariance: [variance, 0.0, SLOPE * SLOPE] }
+        Self {
+            level: point,
+            slope: c64::default(),
+            covariance: [variance, 0.0, LOG_SLOPE_STD * LOG_SLOPE_STD],
+        }
     }
 
     /// A step h in ln ω further, or back; meanwhile the curvature is some constant of the size of κ.
@@ -53,7 +57,7 @@ impl Trend {
 
     /// −ln of the density that is expected at a point's distance, relative to a point that may be anywhere.
     pub(super) fn spread(&self, variance: f64) -> f64 {
-        (TAU * (self.covariance[0] + variance) / AREA).ln()
+        (TAU * (self.covariance[0] + variance) / LN_MODULUS_AREA).ln()
     }
 
     /// With one more point.

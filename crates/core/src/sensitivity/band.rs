@@ -30,7 +30,7 @@ pub fn change_points<'m>(
 }
 
 /// Frequencies of a band that a subspace is trained at; then as many of those where it is not good enough yet, the worst.
-const DRAWN: usize = 256;
+const FREQUENCIES_PER_TRAINING: usize = 256;
 
 fn evaluated(
     subspace: &Subspace<'_>,
@@ -68,15 +68,15 @@ impl<'m> SensitivityBand<'m> {
         assert!(points.iter().all(|point| point.changes.len() == variables.len()));
         let highest = points.iter().max_by(|a, b| a.at.frequency_hz.total_cmp(&b.at.frequency_hz));
         let mut subspace = Subspace::new(experiment, &highest.expect("a band has a frequency").at)?;
-        let step = points.len().div_ceil(DRAWN);
+        let step = points.len().div_ceil(FREQUENCIES_PER_TRAINING);
         let drawn: Vec<ChangePoint<'m>> = points.iter().step_by(step).cloned().collect();
         subspace.train_changes(&drawn, options, for_each)?;
         let mut at = evaluated(&subspace, points, for_each);
         // What is asked for is one.
         let excess = |changed: &Changed| {
-            let everywhere = changed.elsewhere.iter().copied().fold(0.0, f64::max);
+            let everywhere = changed.everywhere.iter().copied().fold(0.0, f64::max);
             let at_sensors = changed.relative_truncation() / options.tolerance;
-            options.elsewhere.map_or(at_sensors, |tolerance| at_sensors.max(everywhere / tolerance))
+            options.everywhere.map_or(at_sensors, |tolerance| at_sensors.max(everywhere / tolerance))
         };
         let mut missed: Vec<(f64, usize)> =
             at.iter().enumerate().filter_map(|(i, at)| Some((excess(at.as_ref()?), i))).collect();
@@ -84,7 +84,7 @@ impl<'m> SensitivityBand<'m> {
         if step > 1 && !missed.is_empty() {
             missed.sort_by(|a, b| b.0.total_cmp(&a.0));
             let missed: Vec<ChangePoint<'m>> =
-                missed.iter().take(DRAWN).map(|&(_, i)| points[i].clone()).collect();
+                missed.iter().take(FREQUENCIES_PER_TRAINING).map(|&(_, i)| points[i].clone()).collect();
             subspace.train_changes(&missed, options, for_each)?;
             at = evaluated(&subspace, points, for_each);
         }

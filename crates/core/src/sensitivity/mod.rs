@@ -18,7 +18,7 @@ mod resolved;
 mod variable;
 
 pub use band::{SensitivityBand, change_points};
-pub use inseparable::{Inseparable, KNOWN, inseparable};
-pub use next_sensor::{Ranked, WorstBar, next_sensors, with_each_added, worst_bar};
-pub use resolved::{Deviations, Resolved};
+pub use inseparable::{Inseparable, KNOWN_LN_STD, inseparable};
+pub use next_sensor::{Ranked, VariableStd, WorstBar, next_sensors, with_each_added, worst_bar};
+pub use resolved::{Resolved, StandardDeviations};
 pub use variable::{Change, Variable};

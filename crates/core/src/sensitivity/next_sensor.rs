@@ -1,41 +1,53 @@
 //! Where another sensor would tell most.
 
-use super::{Deviations, Resolved, SensitivityBand};
+use super::{Resolved, SensitivityBand, StandardDeviations};
 use crate::c64;
 use crate::for_each::{ForEach, map};
 use frfit_linalg::column_block::product;
 use frfit_linalg::dense::{NoConvergence, symmetric_eigen};
 
 /// Frequencies at which candidates are compared at most, evenly drawn from the band: the few best are to be looked at over all of it.
-const COMPARED: usize = 128;
+const MAX_COMPARED_FREQUENCIES: usize = 128;
 
 /// Candidates of one piece of work.
-const CHUNK: usize = 256;
+const CANDIDATES_PER_PIECE: usize = 256;
 
 /// Eigenvalues of the information below this part of the largest are roundoff, each variable in units of its own information.
-const ROUNDOFF: f64 = 1e-12;
+const EIGENVALUE_RTOL: f64 = 1e-12;
+
+/// A variable with its error bar.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct VariableStd {
+    /// Its index.
+    pub variable: usize,
+    /// Standard deviation of its logarithm.
+    pub std: f64,
+}
 
 /// How badly the worst variable is known.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WorstBar {
     /// How many variables have no error bar, because something of them is not seen at all.
     pub unseen: usize,
-    /// Of the others the one with the largest error bar, and that; `None` without others.
-    pub worst: Option<(usize, f64)>,
+    /// Of the others the one with the largest error bar; `None` without others.
+    pub worst: Option<VariableStd>,
 }
 
 impl WorstBar {
     /// Fewer without a bar first, then the smaller worst bar.
     pub fn total_cmp(&self, other: &Self) -> std::cmp::Ordering {
-        let bar = |this: &Self| this.worst.map_or(0.0, |(_, bar)| bar);
+        let bar = |this: &Self| this.worst.map_or(0.0, |worst| worst.std);
         self.unseen.cmp(&other.unseen).then(bar(self).total_cmp(&bar(other)))
     }
 
     fn of(bars: &[Option<f64>]) -> Self {
-        let known = bars.iter().enumerate().filter_map(|(p, bar)| Some((p, (*bar)?)));
+        let known = bars
+            .iter()
+            .enumerate()
+            .filter_map(|(variable, bar)| Some(VariableStd { variable, std: (*bar)? }));
         Self {
             unseen: bars.iter().filter(|bar| bar.is_none()).count(),
-            worst: known.max_by(|a, b| a.1.total_cmp(&b.1)),
+            worst: known.max_by(|a, b| a.std.total_cmp(&b.std)),
         }
     }
 }
@@ -60,21 +72,21 @@ pub struct Ranked {
 /// hardly moves is no good place for proportional noise alone to say so. With V at the rows of candidates, x_i and ∂x_i/∂ln p = e_iᵀw_p need no solve.
 ///
 /// # Limits
-/// As good as the subspace is at rows that it was not trained for ([`crate::subspace::Changed::elsewhere`]), and compared at some hundred frequencies: the best ones are to be
+/// As good as the subspace is at rows that it was not trained for ([`crate::subspace::Changed::everywhere`]), and compared at some hundred frequencies: the best ones are to be
 /// looked at again as sensors of a subspace of their own.
 ///
 /// # Panics
 /// Where a deviation is missing at a frequency with a response, or there is no such row.
 pub fn next_sensors(
     band: &SensitivityBand<'_>,
-    deviations: &Deviations,
+    std: &StandardDeviations,
     candidates: &[usize],
     for_each: ForEach<'_>,
 ) -> Vec<Ranked> {
     let count = band.variables.len();
-    let drawn = Drawn::of(band, deviations);
-    let base = drawn.present(band, deviations);
-    let chunks: Vec<&[usize]> = candidates.chunks(CHUNK).collect();
+    let drawn = Drawn::of(band, std);
+    let base = drawn.present(band, std);
+    let chunks: Vec<&[usize]> = candidates.chunks(CANDIDATES_PER_PIECE).collect();
     let ranked = map(for_each, chunks.len(), |k| {
         let rows = chunks[k];
         let answers = product(&band.subspace.rows(rows), rows.len(), &drawn.coordinates);
@@ -86,9 +98,9 @@ pub fn next_sensors(
                     let column = 2 * (f * (count + 1) + k);
                     c64::new(at(column), at(column + 1))
                 };
-                let deviation = noise.at(complex(0));
+                let std = noise.at(complex(0));
                 let slopes: Vec<c64> = (1..=count).map(complex).collect();
-                add(&mut information, &slopes, drawn.step * 2.0 / (deviation * deviation));
+                add(&mut information, &slopes, drawn.step * 2.0 / (std * std));
             }
             Ranked { row, after: WorstBar::of(&bars(&information, count)) }
         };
@@ -109,17 +121,17 @@ pub fn next_sensors(
 /// Where the band has fewer sensors than `present`.
 pub fn with_each_added(
     band: &SensitivityBand<'_>,
-    deviations: &Deviations,
+    std: &StandardDeviations,
     present: usize,
 ) -> Result<Vec<WorstBar>, NoConvergence> {
     let mut sensors: Vec<usize> = (0..present).collect();
     let all = band.at.iter().flatten().next().map_or(present, |changed| changed.response.len());
-    let extended: Deviations = band
+    let extended: StandardDeviations = band
         .at
         .iter()
-        .zip(deviations)
-        .map(|(at, deviations)| {
-            let (Some(changed), Some(there)) = (at, deviations.get(..present)) else {
+        .zip(std)
+        .map(|(at, std)| {
+            let (Some(changed), Some(there)) = (at, std.get(..present)) else {
                 // No deviation, no say.
                 return vec![0.0; all];
             };
@@ -146,9 +158,9 @@ struct Noise {
 
 impl Noise {
     /// As of the sensors that are there; `None` where none of them has any.
-    fn of(deviations: &[f64], response: &[c64]) -> Option<Self> {
+    fn of(std: &[f64], response: &[c64]) -> Option<Self> {
         let usable = |(s, x): &(f64, f64)| *s > 0.0 && s.is_finite() && *x > 0.0;
-        let sensors = deviations.iter().copied().zip(response.iter().map(|x| x.norm()));
+        let sensors = std.iter().copied().zip(response.iter().map(|x| x.norm()));
         let sensors: Vec<(f64, f64)> = sensors.filter(usable).collect();
         let mut relative: Vec<f64> = sensors.iter().map(|(s, x)| s / x).collect();
         relative.sort_by(f64::total_cmp);
@@ -173,9 +185,9 @@ struct Drawn {
 }
 
 impl Drawn {
-    fn of(band: &SensitivityBand<'_>, deviations: &Deviations) -> Self {
+    fn of(band: &SensitivityBand<'_>, std: &StandardDeviations) -> Self {
         let there: Vec<usize> = (0..band.at.len()).filter(|&i| band.at[i].is_some()).collect();
-        let drawn = there.len().min(COMPARED);
+        let drawn = there.len().min(MAX_COMPARED_FREQUENCIES);
         let pick = |k: usize| there[k * there.len() / drawn.max(1)];
         let mut this = Self {
             frequencies: Vec::new(),
@@ -185,7 +197,7 @@ impl Drawn {
         };
         for i in (0..drawn).map(pick) {
             let Some(changed) = &band.at[i] else { continue };
-            let Some(noise) = Noise::of(&deviations[i], &changed.response) else { continue };
+            let Some(noise) = Noise::of(&std[i], &changed.response) else { continue };
             this.frequencies.push(i);
             this.noise.push(noise);
             for y in &changed.coordinates {
@@ -197,13 +209,13 @@ impl Drawn {
     }
 
     /// Information of the sensors that are there, at the drawn frequencies.
-    fn present(&self, band: &SensitivityBand<'_>, deviations: &Deviations) -> Vec<f64> {
+    fn present(&self, band: &SensitivityBand<'_>, std: &StandardDeviations) -> Vec<f64> {
         let count = band.variables.len();
         let mut information = vec![0.0; count * count];
         for &i in &self.frequencies {
             let Some(changed) = &band.at[i] else { continue };
-            for (m, deviation) in deviations[i].iter().enumerate() {
-                let weight = self.step * 2.0 / (deviation * deviation);
+            for (m, std) in std[i].iter().enumerate() {
+                let weight = self.step * 2.0 / (std * std);
                 if weight.is_finite() {
                     let slopes: Vec<c64> = (0..count).map(|p| changed.slopes[p][m]).collect();
                     add(&mut information, &slopes, weight);
@@ -237,7 +249,7 @@ fn bars(information: &[f64], count: usize) -> Vec<Option<f64>> {
         let mut variance = 0.0;
         for (value, v) in values.iter().zip(vectors.chunks_exact(count)) {
             // Vectors of what is not seen are good to the root of the roundoff of values.
-            match *value > ROUNDOFF * largest {
+            match *value > EIGENVALUE_RTOL * largest {
                 true => variance += v[p] * v[p] / value,
                 false if v[p].abs() < 1e-5 => {}
                 false => return None,

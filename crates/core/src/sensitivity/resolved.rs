@@ -6,10 +6,10 @@ use crate::subspace::Changed;
 use frfit_linalg::dense::{NoConvergence, Singular, singular};
 
 /// Standard deviations √E|δx|² of the receptance, `[frequency][sensor]`; the real and the imaginary part have 1/√2 of it each.
-pub type Deviations = Vec<Vec<f64>>;
+pub type StandardDeviations = Vec<Vec<f64>>;
 
 /// Components of a singular vector below this are roundoff: what is orthogonal to a direction that nobody sees does not suffer from it.
-const COMPONENT: f64 = 1e-6;
+const COMPONENT_TOL: f64 = 1e-6;
 
 /// The Jacobian J of real and imaginary parts of all x over their deviations by ln p, as singular values ς and right singular vectors.
 ///
@@ -17,16 +17,16 @@ const COMPONENT: f64 = 1e-6;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Resolved {
     singular: Singular,
-    /// Singular values below this cannot be told from zero.
+    /// Singular values below this cannot be distinguished from zero.
     floor: f64,
 }
 
 impl SensitivityBand<'_> {
-    /// Deviations in proportion to the response: `relative` of |x| at every sensor.
-    pub fn proportional(&self, relative: f64) -> Deviations {
-        let deviation = |x: &c64| relative * x.norm();
+    /// StandardDeviations in proportion to the response: `relative` of |x| at every sensor.
+    pub fn proportional(&self, relative: f64) -> StandardDeviations {
+        let std = |x: &c64| relative * x.norm();
         let row = |at: &Option<Changed>| -> Vec<f64> {
-            at.iter().flat_map(|changed| changed.response.iter().map(deviation)).collect()
+            at.iter().flat_map(|changed| changed.response.iter().map(std)).collect()
         };
         self.at.iter().map(row).collect()
     }
@@ -38,14 +38,14 @@ impl SensitivityBand<'_> {
     ///
     /// # Panics
     /// Where a deviation is missing at a frequency with a response, or there is no such sensor.
-    pub fn resolved(&self, deviations: &Deviations, sensors: &[usize]) -> Result<Resolved, NoConvergence> {
+    pub fn resolved(&self, std: &StandardDeviations, sensors: &[usize]) -> Result<Resolved, NoConvergence> {
         let count = self.variables.len();
         let mut columns = vec![Vec::new(); count];
         let mut error = 0.0f64;
-        for (at, deviations) in self.at.iter().zip(deviations) {
+        for (at, std) in self.at.iter().zip(std) {
             let Some(changed) = at else { continue };
             for &m in sensors {
-                let weight = 2f64.sqrt() / deviations[m];
+                let weight = 2f64.sqrt() / std[m];
                 if !(weight.is_finite() && weight > 0.0) {
                     continue;
                 }
@@ -97,7 +97,7 @@ impl Resolved {
             let part: f64 = v.iter().zip(combination).map(|(v, u)| v * u).sum();
             match std {
                 Some(std) => variance += (part * std).powi(2),
-                None if part.abs() <= COMPONENT * length => {}
+                None if part.abs() <= COMPONENT_TOL * length => {}
                 None => return None,
             }
         }

@@ -2,7 +2,7 @@
 
 use crate::c64;
 use crate::material::OutsideTable;
-use crate::model::{Combination, DynamicStiffness};
+use crate::model::{Combination, DynamicStiffness, WeightedTerm};
 
 /// A real parameter of a model, by whose logarithm is differentiated.
 #[derive(Debug, Clone, PartialEq)]
@@ -35,8 +35,8 @@ impl Variable {
     /// # Errors
     /// [`OutsideTable`] where a table does not reach a frequency.
     pub fn of_model(model: &DynamicStiffness, frequency_hz: &[f64]) -> Result<Vec<Self>, OutsideTable> {
-        let alone = model.terms().iter().enumerate().map(|(index, term)| (term.name.clone(), vec![index]));
-        Self::of_matrices(model, &alone.collect::<Vec<_>>(), frequency_hz)
+        let each = model.terms().iter().enumerate().map(|(index, term)| (term.name.clone(), vec![index]));
+        Self::of_matrices(model, &each.collect::<Vec<_>>(), frequency_hz)
     }
 
     /// The same where several terms are one matrix, with one factor: its name and its terms.
@@ -82,20 +82,23 @@ impl Variable {
         };
         let parts = match &self.change {
             Change::Factor(terms) => {
-                let part = |&index: &usize| term(index).map(|(weight, factor)| (index, weight * factor));
+                let part = |&index: &usize| {
+                    let (weight, factor) = term(index)?;
+                    Ok(WeightedTerm { term: index, weight: weight * factor })
+                };
                 terms.iter().map(part).collect::<Result<_, OutsideTable>>()?
             }
             Change::Powers(terms) => {
                 let part = |&(index, power): &(usize, i32)| {
                     let (weight, factor) = term(index)?;
-                    Ok((index, f64::from(power) * weight * factor))
+                    Ok(WeightedTerm { term: index, weight: f64::from(power) * weight * factor })
                 };
                 terms.iter().map(part).collect::<Result<_, OutsideTable>>()?
             }
             Change::LossFactor(terms) => {
                 let part = |&index: &usize| {
                     let (weight, factor) = term(index)?;
-                    Ok((index, weight * c64::new(0.0, factor.im)))
+                    Ok(WeightedTerm { term: index, weight: weight * c64::new(0.0, factor.im) })
                 };
                 terms.iter().map(part).collect::<Result<_, OutsideTable>>()?
             }

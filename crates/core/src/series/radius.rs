@@ -1,6 +1,6 @@
 //! How far the series converges, P-14.
 
-use super::{next_term, scale};
+use super::recursion::{next_term, scale};
 use crate::c64;
 use crate::response::Response;
 use frfit_linalg::solve::Breakdown;
@@ -9,7 +9,7 @@ use std::collections::VecDeque;
 
 /// Relative residual of the eigenpair. The operator is symmetric in the bilinear form of A₁, so the eigenvalue's error is of
 /// the order of its square: more digits than a spectral radius is read to.
-const RESIDUAL: f64 = 1e-4;
+const EIGENPAIR_RTOL: f64 = 1e-4;
 
 /// The largest |c| for which the series converges, with its evidence.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -50,7 +50,7 @@ pub fn convergence_radius(system: &impl Response, parameter: usize) -> Result<Co
         out[n..].copy_from_slice(&stacked[..n * (degree - 1)]);
         Ok(())
     };
-    let options = SpectralOptions { tolerance: RESIDUAL, ..SpectralOptions::default() };
+    let options = SpectralOptions { tolerance: EIGENPAIR_RTOL, ..SpectralOptions::default() };
     let found = spectral_radius(n * degree, companion, &options)?;
     Ok(ConvergenceRadius {
         per_unit: found.radius / scale,

@@ -8,7 +8,7 @@
 //! else, so each product is formed once: Σ_j Σ_{q ≤ d_j} C(n − q + J, J) of them.
 
 use super::MultiIndices;
-use super::scale;
+use super::recursion::scale;
 use crate::c64;
 use crate::response::Response;
 use frfit_linalg::solve::Breakdown;

@@ -3,22 +3,22 @@
 use crate::median::median;
 
 /// Fewest samples of which a mean is a baseline.
-const FEWEST: usize = 8;
+const MIN_BASELINE_SAMPLES: usize = 8;
 
 /// Of a normal distribution, the standard deviation over the median of deviations from the median.
 const SIGMA_PER_MAD: f64 = 1.4826;
 
-/// The median of all samples and their standard deviation by the median of deviations: what a hit, which is short,
+/// The median of all samples and their standard deviation by the median of deviations: what an impact, which is short,
 /// cannot move.
 pub(super) fn quiet(samples: &[f64]) -> (f64, f64) {
     let middle = median(samples.to_vec()).unwrap_or(0.0);
-    let deviations = samples.iter().map(|x| (x - middle).abs()).collect();
-    (middle, SIGMA_PER_MAD * median(deviations).unwrap_or(0.0))
+    let distances = samples.iter().map(|x| (x - middle).abs()).collect();
+    (middle, SIGMA_PER_MAD * median(distances).unwrap_or(0.0))
 }
 
-/// The mean before the hit, or, where a record has too little of that, over its last tenth, where the response has decayed.
+/// The mean before the impact, or, where a record has too little of that, over its last tenth, where the response has decayed.
 pub(super) fn offset(record: &[f64], before: usize) -> f64 {
-    mean(if before >= FEWEST { &record[..before] } else { last_tenth(record) })
+    mean(if before >= MIN_BASELINE_SAMPLES { &record[..before] } else { last_tenth(record) })
 }
 
 pub(super) fn last_tenth(record: &[f64]) -> &[f64] {

@@ -5,8 +5,9 @@ use crate::c64;
 use std::fmt;
 use std::str::FromStr;
 
-/// Which noise an estimator of H assumes. S is the mean over the hits of products of transforms, S_fx that of F̄X.
+/// Which noise an estimator of H assumes. S is the mean over the impacts of products of transforms, S_fx that of F̄X.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub enum Estimator {
     /// $H_1 = S_{fx} / S_{ff}$: noise in the response alone; too small where there is noise in the force.
     #[default]
@@ -63,7 +64,7 @@ impl FromStr for Estimator {
 pub struct Frf {
     /// Response over force in SI units.
     pub response: Vec<c64>,
-    /// Coherence γ² = |S_fx|²/(S_ff S_xx). `None` of a single hit, of which it is 1 whatever was measured.
+    /// Coherence γ² = |S_fx|²/(S_ff S_xx). `None` of a single impact, of which it is 1 whatever was measured.
     pub coherence: Option<Vec<f64>>,
     /// Variance of the real and of the imaginary part, B-6 ([`variance`]); `None` without a coherence.
     pub variance: Option<Vec<f64>>,
@@ -77,7 +78,7 @@ pub struct Frf {
 ///
 /// # Limits
 /// Noise in the response that does not depend on the force, circular. γ² itself is estimated: with n averages the mean of (1 − γ²)/γ² is
-/// (n − 1)/n times what it should be, so that σ² of three hits is a third too small.
+/// (n − 1)/n times what it should be, so that σ² of three impacts is a third too small.
 ///
 /// # Source
 /// J. S. Bendat, A. G. Piersol, *Random Data*, 4th ed., Wiley 2010, section 9.2.

@@ -1,21 +1,22 @@
 //! From the hammer to the frequency response function: force and response over time in, FRF with its uncertainty out.
 //!
 //! ```text
-//! recordings → hits → faults → windows → spectra → estimate
+//! recordings → impacts → faults → windows → spectra → estimate
 //! ```
 //!
-//! [`estimate_frf`] finds the hits of all recordings, cuts a record of equal length for each, names what is wrong with it, and averages
-//! over those with which nothing is. Every hit is told of in [`Measured::hits`], with what spoke against it.
+//! [`estimate_frf`] finds the impacts of all recordings, cuts a record of equal length for each, names what is wrong with it, and averages
+//! over those with which nothing is. Every impact is listed in [`Measured::impacts`], with what spoke against it.
 //!
 //! The transform is periodic: an FRF from it is that of the structure only where the response has decayed within the record.
-//! What is left of it at the end is [`Hit::residual`].
+//! What is left of it at the end is [`Impact::residual`].
 
 mod baseline;
 mod channel;
 mod cut;
 mod estimate;
+mod examine;
 mod fault;
-mod hit;
+mod impact;
 mod options;
 mod pulse;
 mod recording;
@@ -26,7 +27,7 @@ mod window;
 pub use channel::Channel;
 pub use estimate::{Estimator, Frf, UnknownEstimator, variance};
 pub use fault::Fault;
-pub use hit::Hit;
+pub use impact::Impact;
 pub use options::{Options, OptionsError};
 pub use recording::{Recording, RecordingError};
 pub use unit::{Kind, Sensitivity, SensitivityError, Unit, UnknownUnit};
@@ -38,11 +39,11 @@ use std::fmt;
 /// What a hammer test gave.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Measured {
-    /// Every hit that was found, in the order of time; those with [`Hit::is_kept`] make up the FRF.
-    pub hits: Vec<Hit>,
+    /// Every impact that was found, in the order of time; those with [`Impact::is_kept`] make up the FRF.
+    pub impacts: Vec<Impact>,
     /// Sampling interval.
     pub step_s: f64,
-    /// Samples of the record of a hit, the length of the transform.
+    /// Samples of the record of an impact, the length of the transform.
     pub samples: usize,
     /// k/T for k from 1 to below the Nyquist frequency, T the length of a record.
     pub frequency_hz: Vec<f64>,
@@ -55,23 +56,24 @@ pub struct Measured {
 }
 
 impl Measured {
-    /// How many hits are averaged.
+    /// How many impacts are averaged.
     pub fn averages(&self) -> usize {
-        self.hits.iter().filter(|hit| hit.is_kept()).count()
+        self.impacts.iter().filter(|impact| impact.is_kept()).count()
     }
 }
 
 /// Why there is no FRF.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub enum SignalError {
     /// No option can be like this.
     Options(OptionsError),
     /// Recording k (from 0) does not fit.
     Recording(usize, RecordingError),
-    /// No hit is fit to be averaged: every one that was found, with its faults; none where the force never stands out of its noise.
-    NoHit(Vec<Hit>),
-    /// A hit that is to be kept whatever is wrong with it, by its number from 1, and how many there are.
-    NoSuchHit(usize, usize),
+    /// No impact is fit to be averaged: every one that was found, with its faults; none where the force never stands out of its noise.
+    NoImpact(Vec<Impact>),
+    /// An impact that is to be kept whatever is wrong with it, by its number from 1, and how many there are.
+    NoSuchImpact(usize, usize),
 }
 
 impl fmt::Display for SignalError {
@@ -79,54 +81,56 @@ impl fmt::Display for SignalError {
         match self {
             Self::Options(error) => write!(f, "{error}"),
             Self::Recording(k, error) => write!(f, "recording {}: {error}", k + 1),
-            Self::NoHit(hits) if hits.is_empty() => write!(f, "expected a hit, found no recording"),
-            Self::NoHit(hits) => {
-                write!(f, "expected a hit without fault, found none among {}", hits.len())?;
-                for (k, hit) in hits.iter().enumerate() {
-                    let faults: Vec<String> = hit.faults.iter().map(Fault::to_string).collect();
+            Self::NoImpact(impacts) if impacts.is_empty() => write!(f, "expected a hit, found no recording"),
+            Self::NoImpact(impacts) => {
+                write!(f, "expected a hit without fault, found none among {}", impacts.len())?;
+                for (k, impact) in impacts.iter().enumerate() {
+                    let faults: Vec<String> = impact.faults.iter().map(Fault::to_string).collect();
                     write!(f, "; hit {}: {}", k + 1, faults.join(", "))?;
                 }
                 Ok(())
             }
-            Self::NoSuchHit(number, count) => write!(f, "expected a hit from 1 to {count}, found {number}"),
+            Self::NoSuchImpact(number, count) => {
+                write!(f, "expected a hit from 1 to {count}, found {number}")
+            }
         }
     }
 }
 
 impl std::error::Error for SignalError {}
 
-/// Hits, FRF and uncertainty from recordings of one hammer and the same sensors.
+/// Impacts, FRF and uncertainty from recordings of one hammer and the same sensors.
 ///
-/// Several recordings are taken as triggered captures, one hit and one record each; a single one may hold many hits and is cut.
+/// Several recordings are taken as triggered captures, one impact and one record each; a single one may hold many impacts and is cut.
 ///
 /// # Errors
 /// [`SignalError`].
 ///
 /// # Limits
-/// One force. All hits count alike. The force has to be quiet most of the time: a shaker's records have no hits.
+/// One force. All impacts count alike. The force has to be quiet most of the time: a shaker's records have no impacts.
 pub fn estimate_frf(recordings: &[Recording], options: &Options) -> Result<Measured, SignalError> {
     options.validate().map_err(SignalError::Options)?;
     recording::check(recordings).map_err(|(k, error)| SignalError::Recording(k, error))?;
-    let Some(first) = recordings.first() else { return Err(SignalError::NoHit(Vec::new())) };
-    let cut::Cut { mut hits, samples } = cut::hits(recordings, options);
-    for hit in &mut hits {
-        hit::examine(hit, &recordings[hit.recording], samples, options);
+    let Some(first) = recordings.first() else { return Err(SignalError::NoImpact(Vec::new())) };
+    let cut::Cut { mut impacts, samples } = cut::impacts(recordings, options);
+    for impact in &mut impacts {
+        examine::examine(impact, &recordings[impact.recording], samples, options);
     }
-    if let Some(&number) = options.keep.iter().find(|&&number| !(1..=hits.len()).contains(&number)) {
-        return Err(SignalError::NoSuchHit(number, hits.len()));
+    if let Some(&number) = options.keep.iter().find(|&&number| !(1..=impacts.len()).contains(&number)) {
+        return Err(SignalError::NoSuchImpact(number, impacts.len()));
     }
     for &number in &options.keep {
-        let hit = &mut hits[number - 1];
+        let impact = &mut impacts[number - 1];
         let is_there = |fault: &Fault| !matches!(fault, Fault::Missing { .. } | Fault::Silent);
-        hit.kept_anyway = hit.range.len() == samples && hit.faults.iter().all(is_there);
+        impact.kept_anyway = impact.range.len() == samples && impact.faults.iter().all(is_there);
     }
-    let kept: Vec<&Hit> = hits.iter().filter(|hit| hit.is_kept()).collect();
+    let kept: Vec<&Impact> = impacts.iter().filter(|impact| impact.is_kept()).collect();
     if kept.is_empty() {
-        return Err(SignalError::NoHit(hits));
+        return Err(SignalError::NoImpact(impacts));
     }
     let mut spectra = Spectra::new(samples, first.responses.len());
-    for hit in &kept {
-        spectra.add(&window::records(&recordings[hit.recording], hit, &options.windows));
+    for impact in &kept {
+        spectra.add(&window::records(&recordings[impact.recording], impact, &options.windows));
     }
     let averages = kept.len();
     let (lines, frequency_hz): (Vec<usize>, Vec<f64>) =
@@ -139,6 +143,6 @@ pub fn estimate_frf(recordings: &[Recording], options: &Options) -> Result<Measu
         frfs: (0..first.responses.len()).map(frf).collect(),
         frequency_hz,
         added_decay_per_s: options.windows.exponential_s.map(added_decay),
-        hits,
+        impacts,
     })
 }

@@ -1,29 +1,31 @@
-//! How hits are found, judged and averaged.
+//! How impacts are found, judged and averaged.
 
 use super::{Estimator, Windows};
+use crate::with_fields::with_fields;
 use std::fmt;
 
-/// How hits are found, judged and averaged.
+/// How impacts are found, judged and averaged.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Options {
     /// Which estimator of the FRF.
     pub estimator: Estimator,
-    /// Force in N from which on there is a hit; `None`: a tenth of each recording's largest, spikes aside.
+    /// Force in N from which on there is an impact; `None`: a tenth of each recording's largest, spikes aside.
     pub trigger_n: Option<f64>,
     /// Time before the trigger that belongs to a record; `None`: all of a triggered capture, a hundredth of the
-    /// time between hits in a recording of several.
+    /// time between impacts in a recording of several.
     pub pre_trigger_s: Option<f64>,
-    /// Length of a record; `None`: that of a triggered capture, up to the next hit in a recording of several.
+    /// Length of a record; `None`: that of a triggered capture, up to the next impact in a recording of several.
     pub length_s: Option<f64>,
-    /// Share of a hit's largest force that a second contact has to reach to be called a double hit.
+    /// Share of an impact's largest force that a second contact has to reach to be called a double impact.
     ///
-    /// A second contact of a share q ripples the force's spectrum by ±q; below a tenth it is hardly told from the ringing of filters.
-    pub double_hit: f64,
+    /// A second contact of a share q ripples the force's spectrum by ±q; below a tenth it hardly differs from the ringing of filters.
+    pub double_impact: f64,
     /// Share of a channel's largest value by which its mean may move within a record.
     pub drift: f64,
     /// Windows.
     pub windows: Windows,
-    /// Hits, by their number from 1, that are averaged whatever is wrong with them, as long as their record is complete
+    /// Impacts, by their number from 1, that are averaged whatever is wrong with them, as long as their record is complete
     /// and no channel is missing.
     pub keep: Vec<usize>,
 }
@@ -35,13 +37,24 @@ impl Default for Options {
             trigger_n: None,
             pre_trigger_s: None,
             length_s: None,
-            double_hit: 0.1,
+            double_impact: 0.1,
             drift: 0.05,
             windows: Windows::default(),
             keep: Vec::new(),
         }
     }
 }
+
+with_fields!(Options {
+    with_estimator: estimator as Estimator,
+    with_trigger_n: trigger_n as Option<f64>,
+    with_pre_trigger_s: pre_trigger_s as Option<f64>,
+    with_length_s: length_s as Option<f64>,
+    with_double_impact: double_impact as f64,
+    with_drift: drift as f64,
+    with_windows: windows as Windows,
+    with_keep: keep as Vec<usize>,
+});
 
 /// An option that is not as it can be.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -75,7 +88,7 @@ impl Options {
             positive("trigger", self.trigger_n),
             ("pre_trigger", "a number from 0 on", self.pre_trigger_s, 0.0, f64::MAX),
             positive("length", self.length_s),
-            share("double_hit", self.double_hit),
+            share("double_hit", self.double_impact),
             share("drift", self.drift),
             positive("force_window", self.windows.force_s),
             positive("exponential_window", self.windows.exponential_s),

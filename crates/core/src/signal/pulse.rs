@@ -14,7 +14,7 @@ pub(super) struct Pulse {
     pub(super) peak: f64,
 }
 
-/// A force channel with its offset removed, its hits positive, and its spikes bridged.
+/// A force channel with its offset removed, its impacts positive, and its spikes bridged.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Contact {
     pub(super) force: Vec<f64>,
@@ -25,24 +25,24 @@ pub(super) struct Contact {
 }
 
 /// Longest spike in samples: a glitch of a converter or a plug; a contact of that length cannot be sampled anyway.
-const LONGEST_SPIKE: usize = 5;
+const MAX_SPIKE_SAMPLES: usize = 5;
 
 /// Most spikes that are bridged in one recording; one with more is beyond help.
-const MOST_SPIKES: usize = 8;
+const MAX_SPIKES: usize = 8;
 
 /// A spike is at least so many times as high as the pulse it sits on: pulses, even of few samples, lose less than that without
 /// their upper half.
-const SPIKE_HEIGHT: f64 = 3.0;
+const MIN_SPIKE_RATIO: f64 = 3.0;
 
 /// So many times as high, whatever it sits on: the samples beside a contact of a single sample have a fifth of it behind a filter.
-const SPIKE_FAR_ABOVE: f64 = 10.0;
+const CERTAIN_SPIKE_RATIO: f64 = 10.0;
 
 impl Contact {
     pub(super) fn new(samples: &[f64]) -> Self {
         let (offset, noise) = quiet(samples);
         let mut force: Vec<f64> = samples.iter().map(|x| x - offset).collect();
         let mut spikes = Vec::new();
-        while let Some((range, height)) = spike(&force).filter(|_| spikes.len() < MOST_SPIKES) {
+        while let Some((range, height)) = spike(&force).filter(|_| spikes.len() < MAX_SPIKES) {
             bridge(&mut force, range.clone());
             spikes.push((range, height));
         }
@@ -102,10 +102,10 @@ fn spike(force: &[f64]) -> Option<(Range<usize>, f64)> {
     let at = (0..force.len()).max_by(|&a, &b| force[a].abs().total_cmp(&force[b].abs()))?;
     let height = force[at].abs();
     let run = above(force, at, height / 2.0);
-    if height == 0.0 || run.len() > LONGEST_SPIKE {
+    if height == 0.0 || run.len() > MAX_SPIKE_SAMPLES {
         return None;
     }
-    let margin = 3 * LONGEST_SPIKE;
+    let margin = 3 * MAX_SPIKE_SAMPLES;
     let left = &force[run.start.saturating_sub(margin)..run.start];
     let right = &force[run.end..force.len().min(run.end + margin)];
     let below = left.iter().chain(right).map(|x| x.abs()).fold(0.0, f64::max);
@@ -114,20 +114,20 @@ fn spike(force: &[f64]) -> Option<(Range<usize>, f64)> {
         [left.iter().rev().take_while(shoulder).count(), right.iter().take_while(shoulder).count()];
     // A short pulse has one sample on either shoulder, and they are not that low; what a spike sits on has more, or is far lower.
     let [left, right] = shoulders;
-    let on_a_pulse = height >= SPIKE_HEIGHT * below && left + right >= 3 && left.max(right) >= 2
-        || height >= SPIKE_FAR_ABOVE * below && left.min(right) >= 1;
+    let on_a_pulse = height >= MIN_SPIKE_RATIO * below && left + right >= 3 && left.max(right) >= 2
+        || height >= CERTAIN_SPIKE_RATIO * below && left.min(right) >= 1;
     let on_a_pulse = on_a_pulse && below > 0.0;
-    let elsewhere = |range: Range<usize>| range.max_by(|&a, &b| force[a].abs().total_cmp(&force[b].abs()));
+    let largest_in = |range: Range<usize>| range.max_by(|&a, &b| force[a].abs().total_cmp(&force[b].abs()));
     let others = [
-        elsewhere(0..run.start.saturating_sub(margin)),
-        elsewhere((run.end + margin).min(force.len())..force.len()),
+        largest_in(0..run.start.saturating_sub(margin)),
+        largest_in((run.end + margin).min(force.len())..force.len()),
     ];
     let narrower = others.into_iter().flatten().any(|other| {
         let size = force[other].abs();
         size >= height / 100.0 && above(force, other, size / 2.0).len() > 2 * run.len() + 1
     });
-    let alone = height >= SPIKE_HEIGHT * below;
-    (on_a_pulse || alone && narrower).then_some((run, height))
+    let stands_out = height >= MIN_SPIKE_RATIO * below;
+    (on_a_pulse || stands_out && narrower).then_some((run, height))
 }
 
 /// A straight line over the samples of a range.

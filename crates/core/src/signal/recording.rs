@@ -16,6 +16,7 @@ pub struct Recording {
 
 /// What is wrong with a recording, so that nothing can be made of any.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub enum RecordingError {
     /// A sampling interval that is none, or not that of the first recording.
     Step(f64),
@@ -44,7 +45,7 @@ impl fmt::Display for RecordingError {
 impl std::error::Error for RecordingError {}
 
 /// How far sampling intervals may differ and be the same: a file's six digits of them.
-const SAME_STEP: f64 = 1e-6;
+const STEP_MATCH_RTOL: f64 = 1e-6;
 
 impl Recording {
     /// The samples of a channel.
@@ -75,7 +76,7 @@ pub(super) fn check(recordings: &[Recording]) -> Result<(), (usize, RecordingErr
     for (k, recording) in recordings.iter().enumerate() {
         let step_s = recording.step_s;
         // Written so that NaN fails too.
-        if !(step_s > 0.0 && (step_s - first.step_s).abs() <= SAME_STEP * first.step_s) {
+        if !(step_s > 0.0 && (step_s - first.step_s).abs() <= STEP_MATCH_RTOL * first.step_s) {
             return Err((k, RecordingError::Step(step_s)));
         }
         if recording.responses.len() != first.responses.len() {

@@ -1,10 +1,10 @@
-//! Transforms of the records, and their products summed over the hits.
+//! Transforms of the records, and their products summed over the impacts.
 
 use crate::c64;
 use realfft::{RealFftPlanner, RealToComplex};
 use std::sync::Arc;
 
-/// Σ over the hits of the products of X(ω) = Σₖ xₖ e^{−iωkΔ}, at k/T for k from 0 to N/2.
+/// Σ over the impacts of the products of X(ω) = Σₖ xₖ e^{−iωkΔ}, at k/T for k from 0 to N/2.
 pub(super) struct Spectra {
     transform: Arc<dyn RealToComplex<f64>>,
     /// Σ|F|²
@@ -28,7 +28,7 @@ impl Spectra {
         }
     }
 
-    /// Adds a hit: force, then responses, each of as many samples as were said.
+    /// Adds an impact: force, then responses, each of as many samples as were said.
     pub(super) fn add(&mut self, records: &[Vec<f64>]) {
         let mut transforms = records.iter().map(|record| self.of(record));
         let Some(force) = transforms.next() else { return };
@@ -53,7 +53,7 @@ impl Spectra {
 
     /// The lines above 0 Hz and below the Nyquist frequency at which all channels have something.
     ///
-    /// At 0 Hz the offsets were removed, at the Nyquist frequency a phase cannot be told.
+    /// At 0 Hz the offsets were removed, at the Nyquist frequency no phase can be known.
     pub(super) fn lines(&self) -> impl Iterator<Item = usize> {
         let last = self.transform.len().saturating_sub(1) / 2;
         let there = |k: &usize| self.force[*k] > 0.0 && self.responses.iter().all(|sum| sum[*k] > 0.0);

@@ -52,10 +52,10 @@ pub struct Unit {
 }
 
 /// Standard acceleration of free fall in m/s² (exact).
-const GRAVITY: f64 = 9.80665;
+const STANDARD_GRAVITY: f64 = 9.80665;
 
 /// The avoirdupois pound in kg (exact).
-const POUND: f64 = 0.453_592_37;
+const POUND_KG: f64 = 0.453_592_37;
 
 /// Every word for a unit. Case counts: mN is not MN.
 const UNITS: [(&str, Kind, f64); 36] = [
@@ -66,8 +66,8 @@ const UNITS: [(&str, Kind, f64); 36] = [
     ("newtons", Kind::Force, 1.0),
     ("mN", Kind::Force, 1e-3),
     ("kN", Kind::Force, 1e3),
-    ("lbf", Kind::Force, POUND * GRAVITY),
-    ("kgf", Kind::Force, GRAVITY),
+    ("lbf", Kind::Force, POUND_KG * STANDARD_GRAVITY),
+    ("kgf", Kind::Force, STANDARD_GRAVITY),
     ("m/s^2", Kind::Acceleration, 1.0),
     ("m/s²", Kind::Acceleration, 1.0),
     ("m/s2", Kind::Acceleration, 1.0),
@@ -75,10 +75,10 @@ const UNITS: [(&str, Kind, f64); 36] = [
     ("mm/s^2", Kind::Acceleration, 1e-3),
     ("mm/s²", Kind::Acceleration, 1e-3),
     ("in/s^2", Kind::Acceleration, 0.0254),
-    ("g", Kind::Acceleration, GRAVITY),
-    ("gn", Kind::Acceleration, GRAVITY),
-    ("g_n", Kind::Acceleration, GRAVITY),
-    ("mg", Kind::Acceleration, 1e-3 * GRAVITY),
+    ("g", Kind::Acceleration, STANDARD_GRAVITY),
+    ("gn", Kind::Acceleration, STANDARD_GRAVITY),
+    ("g_n", Kind::Acceleration, STANDARD_GRAVITY),
+    ("mg", Kind::Acceleration, 1e-3 * STANDARD_GRAVITY),
     ("m/s", Kind::Velocity, 1.0),
     ("mm/s", Kind::Velocity, 1e-3),
     ("um/s", Kind::Velocity, 1e-6),

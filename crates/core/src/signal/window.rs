@@ -1,19 +1,26 @@
 //! Windows of force and response, and the damping that one of them adds.
 
 use super::baseline::offset;
-use super::{Hit, Recording};
+use super::{Impact, Recording};
+use crate::with_fields::with_fields;
 use std::f64::consts::PI;
 
-/// Windows over the record of a hit; by default none.
+/// Windows over the record of an impact; by default none.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
 pub struct Windows {
     /// Time in s after the trigger from which on the force is taken for zero, after a cosine of a tenth of that: silences the hammer's cable
     /// after the contact.
     pub force_s: Option<f64>,
     /// Time constant τ in s of the factor e^{−t/τ} on force and response: forces a response to decay within the record.
-    /// It adds damping, which the model is told of ([`added_decay`]).
+    /// It adds damping, which the model has to have too ([`added_decay`]).
     pub exponential_s: Option<f64>,
 }
+
+with_fields!(Windows {
+    with_force_s: force_s as Option<f64>,
+    with_exponential_s: exponential_s as Option<f64>,
+});
 
 /// β = 1/τ in 1/s, what the exponential window e^{−t/τ} adds to the decay rate of every mode.
 ///
@@ -30,12 +37,12 @@ pub fn added_loss_factor(decay_per_s: f64, frequency_hz: f64) -> f64 {
     decay_per_s / (PI * frequency_hz)
 }
 
-/// The record of a hit without its offsets, windowed: the force, then every response.
-pub(super) fn records(recording: &Recording, hit: &Hit, windows: &Windows) -> Vec<Vec<f64>> {
-    let before = hit.before();
-    let onset = hit.pulse_in_record().start;
+/// The record of an impact without its offsets, windowed: the force, then every response.
+pub(super) fn records(recording: &Recording, impact: &Impact, windows: &Windows) -> Vec<Vec<f64>> {
+    let before = impact.before();
+    let onset = impact.pulse_in_record().start;
     let record = |samples: &[f64]| -> Vec<f64> {
-        let record = &samples[hit.range.clone()];
+        let record = &samples[impact.range.clone()];
         let offset = offset(record, before);
         record.iter().map(|x| x - offset).collect()
     };

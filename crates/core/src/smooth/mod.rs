@@ -38,34 +38,36 @@ pub(crate) struct Smoothed {
 }
 
 /// Curvatures are a factor of e apart: their likelihood changes little over that.
-const STEP: f64 = 1.0;
+const LN_CURVATURE_STEP: f64 = 1.0;
 
 /// The least curvature moves the curve off a line, over the whole range, by a tenth of the line's own deviation (a Wiener process's bridge has
-/// T³/192 in its middle), so that it cannot be told from none.
-const STRAIGHT: f64 = 1.0;
+/// T³/192 in its middle), so that it is the same as none.
+const STRAIGHT_CURVATURE: f64 = 1.0;
 
 /// At the largest every observation stands alone: a step of the median length has a hundred times the variance of the median observation.
-const ALONE: f64 = 1e2;
+const LARGEST_STEP_VARIANCE: f64 = 1e2;
 
 /// The prior of the curvature grows with its eighth root (with κ^¼), which is between one that is flat over ln κ and one that is flat over κ. With the first, curves so little
 /// curved that a straight line is nearly as likely have the truth outside their bars too often (91 of 100 within two deviations for a sandwich at 5 % noise); with the second, straight
 /// lines have bars that are too wide (all of 100, for a plate of which a few frequencies know all).
-const PRIOR: f64 = 0.125;
+const CURVATURE_PRIOR_POWER: f64 = 0.125;
 
 /// Posterior below this part of the largest changes no digit that counts.
-const NEGLIGIBLE: f64 = 1e-4;
+const NEGLIGIBLE_POSTERIOR: f64 = 1e-4;
 
 impl Process<'_> {
     /// The curvatures among which the posterior is.
     fn curvatures(&self, observations: &[Observation]) -> Vec<f64> {
-        let told: Vec<&Observation> = observations.iter().filter(|o| o.weight > 0.0).collect();
+        let observed: Vec<&Observation> = observations.iter().filter(|o| o.weight > 0.0).collect();
         let middle = |values: Vec<f64>| median(values).unwrap_or_default();
-        let range = told[told.len() - 1].x - told[0].x;
-        let step = middle(told.windows(2).map(|pair| pair[1].x - pair[0].x).collect()).max(1e-6 * range);
-        let variance = middle(told.iter().map(|o| 1.0 / o.weight).collect());
-        let low = (STRAIGHT * self.line_variance().0 / range.powi(3)).ln();
-        let high = (3.0 * ALONE * variance / step.powi(3)).ln().max(low + STEP);
-        (0..=((high - low) / STEP).ceil() as usize).map(|k| (low + k as f64 * STEP).exp()).collect()
+        let range = observed[observed.len() - 1].x - observed[0].x;
+        let step = middle(observed.windows(2).map(|pair| pair[1].x - pair[0].x).collect()).max(1e-6 * range);
+        let variance = middle(observed.iter().map(|o| 1.0 / o.weight).collect());
+        let low = (STRAIGHT_CURVATURE * self.line_variance().0 / range.powi(3)).ln();
+        let high = (3.0 * LARGEST_STEP_VARIANCE * variance / step.powi(3)).ln().max(low + LN_CURVATURE_STEP);
+        (0..=((high - low) / LN_CURVATURE_STEP).ceil() as usize)
+            .map(|k| (low + k as f64 * LN_CURVATURE_STEP).exp())
+            .collect()
     }
 }
 
@@ -82,11 +84,14 @@ pub(crate) fn smooth(observations: &[Observation], evidence: Evidence) -> Option
         let rest = if evidence.known { l.squares } else { 2.0 * freedom * level(l).ln() };
         -0.5 * (evidence.numbers as f64 * l.log_determinant + rest)
     };
-    let logs: Vec<f64> =
-        likelihoods.iter().zip(&curvatures).map(|(l, curvature)| log(l) + PRIOR * curvature.ln()).collect();
+    let logs: Vec<f64> = likelihoods
+        .iter()
+        .zip(&curvatures)
+        .map(|(l, curvature)| log(l) + CURVATURE_PRIOR_POWER * curvature.ln())
+        .collect();
     let best = (0..logs.len()).max_by(|&a, &b| logs[a].total_cmp(&logs[b]))?;
     let shares: Vec<f64> = logs.iter().map(|log| (log - logs[best]).exp()).collect();
-    let kept: Vec<usize> = (0..shares.len()).filter(|&k| shares[k] > NEGLIGIBLE).collect();
+    let kept: Vec<usize> = (0..shares.len()).filter(|&k| shares[k] > NEGLIGIBLE_POSTERIOR).collect();
     let total: f64 = kept.iter().map(|&k| shares[k]).sum();
     let squared = |k: usize| if evidence.known { 1.0 } else { level(&likelihoods[k]).powi(2) };
     let curves: Vec<(f64, f64, Curve)> =

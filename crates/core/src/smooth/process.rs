@@ -2,7 +2,7 @@
 
 /// So many standard deviations of the best straight line is what the first state may be anywhere within: the process is then the smoothing spline, which asks nothing of level and slope,
 /// but for the inverse of its square, 1e-10. Its square is also what roundoff is multiplied by while nothing has been observed yet: 1e-6 in the bars.
-const DIFFUSE: f64 = 1e5;
+const DIFFUSE_STD: f64 = 1e5;
 
 /// A place on the curve, and what was observed there.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -70,11 +70,12 @@ impl<'o> Process<'o> {
         let weight = sum(&|_| 1.0);
         let middle = sum(&|o| o.x) / weight;
         let spread = sum(&|o| (o.x - middle).powi(2));
-        let told = [weight, spread].iter().all(|value| value.is_finite() && *value > 0.0);
+        let is_determined = [weight, spread].iter().all(|value| value.is_finite() && *value > 0.0);
         let level = [0, 1].map(|c| sum(&|o| o.value[c]) / weight);
         let slope = [0, 1].map(|c| sum(&|o| (o.x - middle) * (o.value[c] - level[c])) / spread);
         let (level_std, slope_std) = (weight.powf(-0.5), spread.powf(-0.5));
-        told.then_some(Self { observations, line: Line { middle, level, slope, level_std, slope_std } })
+        is_determined
+            .then_some(Self { observations, line: Line { middle, level, slope, level_std, slope_std } })
     }
 
     /// Variances of level and slope of the best straight line.
@@ -87,7 +88,7 @@ impl<'o> Process<'o> {
         let x = self.observations[0].x;
         let value = [0, 1].map(|c| level[c] + slope[c] * (x - middle));
         let far = level_std.hypot(slope_std * (x - middle));
-        ([value, slope], [DIFFUSE * far, 0.0, DIFFUSE * slope_std])
+        ([value, slope], [DIFFUSE_STD * far, 0.0, DIFFUSE_STD * slope_std])
     }
 
     fn filter(&self, curvature: f64, mut keep: impl FnMut(Filtered)) -> Likelihood {
@@ -155,7 +156,7 @@ impl<'o> Process<'o> {
                 times([root[0], root[1]]),
                 times([0.0, root[2]]),
             ];
-            root = triangle(&columns);
+            root = triangular_root(&columns);
             curve.states[k] = state;
             curve.variance[k] = root[0] * root[0];
         }
@@ -188,11 +189,11 @@ fn noise_root(h: f64, curvature: f64) -> Root {
 fn predict(state: State, [s11, s21, s22]: Root, h: f64, curvature: f64) -> (State, Root) {
     let ahead = [[0, 1].map(|c| state[0][c] + h * state[1][c]), state[1]];
     let [a, b, d] = noise_root(h, curvature);
-    (ahead, triangle(&[[s11 + h * s21, s21], [h * s22, s22], [a, b], [0.0, d]]))
+    (ahead, triangular_root(&[[s11 + h * s21, s21], [h * s22, s22], [a, b], [0.0, d]]))
 }
 
 /// The lower triangle S with S Sᵀ = Σ v vᵀ, by Gram and Schmidt.
-fn triangle(columns: &[[f64; 2]]) -> Root {
+fn triangular_root(columns: &[[f64; 2]]) -> Root {
     let s11 = columns.iter().map(|v| v[0] * v[0]).sum::<f64>().sqrt();
     if s11 == 0.0 {
         return [0.0, 0.0, columns.iter().map(|v| v[1] * v[1]).sum::<f64>().sqrt()];

@@ -22,7 +22,7 @@ pub struct Assessment {
 }
 
 /// An assessment with the solutions behind it.
-pub(super) struct Solved {
+pub(super) struct AssessedSolution {
     pub(super) assessment: Assessment,
     /// y with VᵀDV y = VᵀF, then z_m with VᵀDV z_m = Vᵀℓ_m.
     pub(super) solutions: Vec<Vec<c64>>,
@@ -31,7 +31,7 @@ pub(super) struct Solved {
 }
 
 /// Units of roundoff that reduced matrices carry relative to the diagonal of the shifted stiffness.
-pub(super) const ROUNDOFF: f64 = 4.0 * f64::EPSILON;
+pub(super) const MATRIX_ROUNDOFF: f64 = 4.0 * f64::EPSILON;
 
 impl Assessment {
     /// The largest truncation error of any sensor relative to its response or to p ∂x_m/∂c, whichever is larger: relative error of the
@@ -87,6 +87,18 @@ impl Solutions {
 }
 
 impl Projection {
+    /// Response, sensitivity and estimated error with the correction c of the first parameter.
+    ///
+    /// # Errors
+    /// [`Breakdown`] where the reduced system is singular.
+    ///
+    /// # Limits
+    /// An estimate, not a bound: γ is the largest gain of S⁻¹ met in the last solves, and the residuals are those of a sketch. At a resonance of a mode that the basis has not
+    /// met the error can be some ten times the estimate.
+    pub fn assess(&self, at: &ModelAt<'_>, correction: c64) -> Result<Assessment, Breakdown> {
+        Ok(AssessedSolution::new(self, at, correction)?.assessment)
+    }
+
     /// x_m at the nominal values.
     ///
     /// # Errors
@@ -162,7 +174,7 @@ impl Projection {
     }
 }
 
-impl Solved {
+impl AssessedSolution {
     pub(super) fn new(small: &Projection, at: &ModelAt<'_>, correction: c64) -> Result<Self, Breakdown> {
         let solved = Solutions::new(small, at, correction)?;
         let (response, slope) = (solved.response(small), solved.slope(small));
@@ -174,7 +186,7 @@ impl Solved {
             response,
             slope,
             truncation: norms[1..].iter().map(|dual| small.gain * dual * norms[0]).collect(),
-            roundoff: solutions[1..].iter().map(|z| ROUNDOFF * norm(z) * size).collect(),
+            roundoff: solutions[1..].iter().map(|z| MATRIX_ROUNDOFF * norm(z) * size).collect(),
         };
         Ok(Self { assessment, solutions, residuals })
     }

@@ -18,7 +18,7 @@ pub(super) struct Basis {
 }
 
 /// A vector of which less than this is new (in the d-norm) adds roundoff, not a direction.
-const NEW: f64 = 1e-8;
+const NEW_DIRECTION_RTOL: f64 = 1e-8;
 
 impl Basis {
     pub(super) fn new(weight: Vec<f64>, parts: Parts, experiment: &Experiment) -> Self {
@@ -86,7 +86,7 @@ impl Basis {
                 }
             }
             let rest = self.norm(x);
-            if rest > NEW * before {
+            if rest > NEW_DIRECTION_RTOL * before {
                 x.iter_mut().for_each(|x| *x /= rest);
                 self.vectors.push(x);
             }

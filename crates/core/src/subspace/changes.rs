@@ -7,7 +7,7 @@
 //! second order in r_x and r_z, where the others have one factor of these.
 
 use super::Projection;
-use super::assess::ROUNDOFF;
+use super::assess::MATRIX_ROUNDOFF;
 use super::reduced::SINGULAR;
 use crate::c64;
 use crate::model::{Combination, ModelAt};
@@ -41,7 +41,7 @@ pub struct Changed {
     pub coordinates: Vec<Vec<c64>>,
     /// Estimated ‖x − V y‖/‖x‖ and the same of each w_p, in the norm of the basis: what a sensor at any other place can rely on. From one residual each, and without what a
     /// resonance makes of it: against direct solves some ten times too small.
-    pub elsewhere: Vec<f64>,
+    pub everywhere: Vec<f64>,
 }
 
 impl Changed {
@@ -91,13 +91,13 @@ impl Projection {
         let mut changed = Changed {
             response: observe(&solutions[0]),
             error: (sensors.clone())
-                .map(|m| self.gain * residuals[m] * residuals[0] + ROUNDOFF * norms[m] * norms[0])
+                .map(|m| self.gain * residuals[m] * residuals[0] + MATRIX_ROUNDOFF * norms[m] * norms[0])
                 .collect(),
             slopes: Vec::with_capacity(point.changes.len()),
             slope_truncation: Vec::new(),
             slope_roundoff: Vec::new(),
             coordinates: vec![solutions[0].clone()],
-            elsewhere: vec![self.gain * residuals[0] / norms[0]],
+            everywhere: vec![self.gain * residuals[0] / norms[0]],
         };
         for change in &point.changes {
             let theta = self.parts.weights(change);
@@ -119,13 +119,13 @@ impl Projection {
             // w_p − V y = D⁻¹(r_w − A_p e_x), where A_p acts on the error of x as it does on x.
             let inherited = self.gain * residuals[0] * norm(&change_image.multiply(&solutions[0])) / norms[0];
             let truncation = |m: usize| self.gain * (residuals[m] * rest[0] + residuals[0] * rest[m]);
-            let roundoff = |m: usize| ROUNDOFF * (norms[m] * length[0] + norms[0] * length[m]);
+            let roundoff = |m: usize| MATRIX_ROUNDOFF * (norms[m] * length[0] + norms[0] * length[m]);
             changed.slopes.push(observe(moved[0]));
             changed.slope_truncation.push(sensors.clone().map(truncation).collect());
             changed.slope_roundoff.push(sensors.clone().map(roundoff).collect());
             // A parameter that does nothing there has nothing to be wrong.
             let everywhere = self.gain * (rest[0] + inherited) / length[0];
-            changed.elsewhere.push(if length[0] > 0.0 { everywhere } else { 0.0 });
+            changed.everywhere.push(if length[0] > 0.0 { everywhere } else { 0.0 });
             changed.coordinates.push(moved[0].to_vec());
         }
         Ok(changed)

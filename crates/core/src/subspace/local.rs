@@ -1,19 +1,19 @@
 //! A smaller model for a few neighbouring frequencies, from the band's.
 
-use super::assess::Solved;
+use super::assess::AssessedSolution;
 use super::{Assessment, Point, Projection};
 use crate::c64;
 use crate::model::ModelAt;
 use frfit_linalg::vector::transpose_dot;
 
 /// Below this part of itself a direction is roundoff of those there are.
-const NEW: f64 = 1e-12;
+const LOCAL_DIRECTION_RTOL: f64 = 1e-12;
 
 /// A compressed model of more than this fraction of the size saves nothing.
-const WORTHWHILE: f64 = 0.6;
+const MAX_COMPRESSED_SHARE: f64 = 0.6;
 
 /// A local error of this many times the band's own is the band's.
-const AS_GOOD: f64 = 3.0;
+const MAX_LOCAL_ERROR_RATIO: f64 = 3.0;
 
 impl Projection {
     /// This model on the span of its own solutions at some of the points, as many as bring the estimated error at all of them under the tolerance, or
@@ -46,13 +46,13 @@ impl Projection {
             for (i, error) in next.drain(..).filter(|&(i, _)| i < points.len()) {
                 let point = &points[i];
                 if !std::mem::replace(&mut done[i], true)
-                    && let Ok(solved) = Solved::new(self, &point.at, point.correction)
-                    && error > AS_GOOD * relative(&solved.assessment, point)
+                    && let Ok(solved) = AssessedSolution::new(self, &point.at, point.correction)
+                    && error > MAX_LOCAL_ERROR_RATIO * relative(&solved.assessment, point)
                 {
                     solved.solutions.iter().for_each(|y| append(&mut directions, y));
                 }
             }
-            if directions.is_empty() || directions.len() as f64 > WORTHWHILE * self.size as f64 {
+            if directions.is_empty() || directions.len() as f64 > MAX_COMPRESSED_SHARE * self.size as f64 {
                 return None;
             }
             let basis = directions.concat();
@@ -78,7 +78,7 @@ impl Projection {
         let mut directions = Vec::new();
         for y in &solutions {
             append(&mut directions, y);
-            if directions.len() as f64 > WORTHWHILE * self.size as f64 {
+            if directions.len() as f64 > MAX_COMPRESSED_SHARE * self.size as f64 {
                 return None;
             }
         }
@@ -103,7 +103,7 @@ fn append_real(directions: &mut Vec<Vec<f64>>, mut x: Vec<f64>) {
         }
     }
     let rest = length(&x);
-    if rest > NEW * before {
+    if rest > LOCAL_DIRECTION_RTOL * before {
         x.iter_mut().for_each(|x| *x /= rest);
         directions.push(x);
     }

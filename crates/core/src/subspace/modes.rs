@@ -14,9 +14,9 @@
 //! changes a known factor. What comes out is a reduced model like any other.
 
 use super::assess::{Solutions, weights};
-use super::{Point, Projection};
+use super::{FactorError, Point, Projection};
 use crate::c64;
-use crate::model::{FactorPart, ModelAt, Role};
+use crate::model::{ModelAt, Role};
 use frfit_linalg::dense::{NoConvergence, symmetric_eigen};
 use frfit_linalg::solve::Breakdown;
 use frfit_linalg::vector::transpose_dot;
@@ -67,25 +67,6 @@ pub(crate) struct ModalErrors {
     pub factors: Vec<FactorError>,
 }
 
-/// The error of a known factor.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct FactorError {
-    pub(crate) term: usize,
-    pub(crate) part: FactorPart,
-    /// ν, relative, of the storage; Δη, absolute, of the loss factor.
-    pub(crate) error: f64,
-}
-
-impl FactorError {
-    /// f(1 + ν), or f + iΔη Re f.
-    pub(super) fn applied_to(&self, factor: c64) -> c64 {
-        match self.part {
-            FactorPart::Storage => factor * (1.0 + self.error),
-            FactorPart::LossFactor => factor + c64::I * self.error * factor.re,
-        }
-    }
-}
-
 /// Response and slopes of a model with errors at one frequency.
 pub(crate) struct ErrorSlopes {
     /// x_m.
@@ -105,16 +86,16 @@ pub(crate) struct ErrorSlopes {
 }
 
 /// A shift of the pencil that makes rigid bodies definite: this part of the square of the highest frequency.
-const BELOW: f64 = 1e-4;
+const PENCIL_SHIFT_RATIO: f64 = 1e-4;
 
 /// Squares of natural frequencies below this part of that shift are those of rigid bodies.
-const RIGID: f64 = 1e-4;
+const RIGID_BODY_RATIO: f64 = 1e-4;
 
 /// A share of a mode's strain energy below which an error there is none of the mode.
-const LEAST_SHARE: f64 = 0.02;
+const MIN_ENERGY_SHARE: f64 = 0.02;
 
 /// μ = 1/(λ + σ) below this part of the largest is a direction without mass.
-const MASSLESS: f64 = 1e-12;
+const MASSLESS_RATIO: f64 = 1e-12;
 
 impl Projection {
     /// The modes up to some frequency at the correction c of the first parameter.
@@ -137,7 +118,7 @@ impl Projection {
         };
         let of_mass = factors(Role::Mass);
         let mass = self.real_sum(&of_mass);
-        let shift = BELOW * highest_rad_s * highest_rad_s;
+        let shift = PENCIL_SHIFT_RATIO * highest_rad_s * highest_rad_s;
         let of_stiffness = factors(Role::Stiffness);
         let stiffness = self.real_sum(&of_stiffness);
         let group = |g: usize| {
@@ -148,7 +129,7 @@ impl Projection {
         // (K + σM)^{−1/2}, and M between it: μ = 1/(λ + σ).
         let (values, vectors) = symmetric_eigen(r, &shifted)?;
         let largest = values.last().copied().unwrap_or(0.0);
-        if values.iter().any(|&value| value <= MASSLESS * MASSLESS * largest) {
+        if values.iter().any(|&value| value <= MASSLESS_RATIO * MASSLESS_RATIO * largest) {
             return Err(NoConvergence);
         }
         let root: Vec<f64> = vectors
@@ -160,7 +141,7 @@ impl Projection {
         let (mu, w) = symmetric_eigen(r, &between)?;
         let greatest = mu.last().copied().unwrap_or(0.0);
         let square = |k: usize| 1.0 / mu[k] - shift;
-        let is_rigid = |square: f64| square <= RIGID * shift;
+        let is_rigid = |square: f64| square <= RIGID_BODY_RATIO * shift;
         // What a rigid body would have of a stiffness that holds it, as if it were a part of the first one.
         let lowest = (0..r).rev().map(square).find(|square| !is_rigid(*square));
         let lowest = lowest.unwrap_or(highest_rad_s * highest_rad_s);
@@ -187,7 +168,7 @@ impl Projection {
             sensors: vec![Vec::new(); self.sensors.len()],
         };
         for k in (0..r).rev().take(most) {
-            if mu[k] <= MASSLESS * greatest {
+            if mu[k] <= MASSLESS_RATIO * greatest {
                 break;
             }
             let omega = if is_rigid(square(k)) { 0.0 } else { square(k).sqrt() };
@@ -215,7 +196,7 @@ impl Projection {
             for wanted in 0..=at.parameters.len() {
                 let of_group = each().filter(|((g, _), _)| group(*g) == wanted);
                 let own: c64 = of_group.map(|((g, _), energy)| factor(*g) * energy).sum();
-                if own.re <= LEAST_SHARE * whole {
+                if own.re <= MIN_ENERGY_SHARE * whole {
                     continue;
                 }
                 let loss_factor = own.im / own.re;
@@ -456,7 +437,7 @@ mod tests {
     use crate::for_each::sequential;
     use crate::frequency::omega_rad_s;
     use crate::material::Law;
-    use crate::model::{DynamicStiffness, Experiment, Parameter, Sensor, Term};
+    use crate::model::{DynamicStiffness, Experiment, FactorPart, Parameter, Sensor, Term};
     use crate::response::{FullModel, Response};
     use crate::subspace::Subspace;
     use crate::subspace::TrainOptions;

@@ -2,7 +2,7 @@
 
 use super::FactorError;
 use crate::c64;
-use crate::model::{Combination, DynamicStiffness, FactorPart};
+use crate::model::{Combination, DynamicStiffness, FactorPart, WeightedTerm};
 use frfit_linalg::sparse::Part;
 
 /// The real matrices S_g of a model: D = Σ_g θ_g S_g with complex θ_g.
@@ -55,7 +55,7 @@ impl Parts {
     /// θ_g of a combination of terms: a complex matrix is S_re + i S_im.
     pub(super) fn weights(&self, combination: &Combination) -> Vec<c64> {
         let mut weights = vec![c64::default(); self.len()];
-        for &(term, coefficient) in &combination.parts {
+        for &WeightedTerm { term, weight: coefficient } in &combination.parts {
             let of_term = self.errors.iter().filter(|error| error.term == term);
             let coefficient = of_term.fold(coefficient, |value, error| error.applied_to(value));
             for (weight, &(own, part)) in weights.iter_mut().zip(&self.each) {

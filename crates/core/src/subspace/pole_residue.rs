@@ -27,14 +27,14 @@ pub enum Drive {
 }
 
 /// The solution at the nominal value may be off by this, relative, before the eigenvectors are too nearly dependent to be of use: far below what an FRF is measured to.
-const USEFUL: f64 = 1e-4;
+const NOMINAL_SOLUTION_RTOL: f64 = 1e-4;
 
 impl Projection {
     /// The poles and their vectors at one frequency; `None` where the first parameter does not enter linearly.
     ///
     /// # Errors
     /// [`NoConvergence`] where the reduced system is singular at its nominal value, or its eigenvectors are nearly dependent.
-    pub fn fractions(&self, at: &ModelAt<'_>) -> Result<Option<PoleResidue>, NoConvergence> {
+    pub fn pole_residue(&self, at: &ModelAt<'_>) -> Result<Option<PoleResidue>, NoConvergence> {
         let Some([change]) = at.parameters.first().map(|p| p.coefficients.as_slice()) else {
             return Ok(None);
         };
@@ -57,7 +57,7 @@ impl Projection {
         // The load's solution put together again from the poles, in the norm of the coordinates: at a sensor on a nodal line nothing is left but roundoff.
         let again = vectors.multiply(&inputs[0]);
         let off: Vec<c64> = again.iter().zip(&direct).map(|(a, b)| a - b).collect();
-        let good = norm(&off) <= USEFUL * norm(&direct[..n]);
+        let good = norm(&off) <= NOMINAL_SOLUTION_RTOL * norm(&direct[..n]);
         if good { Ok(Some(PoleResidue { lambda, vectors, inputs, outputs })) } else { Err(NoConvergence) }
     }
 }

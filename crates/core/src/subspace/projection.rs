@@ -1,13 +1,9 @@
 //! Everything small that belongs to a basis: the reduced matrices, loads, sensors, and the sketches that tell residuals.
 
-use super::assess::Solved;
 use super::parts::Parts;
-use super::{Assessment, ReducedModel};
 use crate::c64;
-use crate::model::ModelAt;
 use frfit_linalg::column_block::{product, transpose_product};
 use frfit_linalg::dense::{self, Matrix, multiply};
-use frfit_linalg::solve::Breakdown;
 use frfit_linalg::vector::transpose_dot;
 
 /// VᵀS_gV, VᵀF, ℓ_mᵀV and Θ S_gV for a basis V of r vectors: a model for a band, without anything of size N.
@@ -17,7 +13,7 @@ pub struct Projection {
     pub(super) size: usize,
     /// `matrices[g]` is VᵀS_gV, r × r.
     pub(super) matrices: Vec<Vec<f64>>,
-    /// `images[g]` is Θ S_g V, SKETCH × r, column after column.
+    /// `images[g]` is Θ S_g V, SKETCH_SIZE × r, column after column.
     pub(super) images: Vec<Vec<f64>>,
     /// VᵀF.
     pub(super) load: Vec<c64>,
@@ -33,26 +29,6 @@ impl Projection {
     /// Number of basis vectors r.
     pub fn size(&self) -> usize {
         self.size
-    }
-
-    /// The model at one frequency.
-    ///
-    /// # Errors
-    /// [`Breakdown`] where a value is not finite.
-    pub fn at(&self, at: &ModelAt<'_>) -> Result<ReducedModel<'_>, Breakdown> {
-        ReducedModel::new(self, at)
-    }
-
-    /// Response, sensitivity and estimated error with the correction c of the first parameter.
-    ///
-    /// # Errors
-    /// [`Breakdown`] where the reduced system is singular.
-    ///
-    /// # Limits
-    /// An estimate, not a bound: γ is the largest gain of S⁻¹ met in the last solves, and the residuals are those of a sketch. At a resonance of a mode that the basis has not
-    /// met the error can be some ten times the estimate.
-    pub fn assess(&self, at: &ModelAt<'_>, correction: c64) -> Result<Assessment, Breakdown> {
-        Ok(Solved::new(self, at, correction)?.assessment)
     }
 
     /// Σ θ_g VᵀS_gV.

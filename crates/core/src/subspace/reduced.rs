@@ -22,8 +22,18 @@ pub struct ReducedModel<'a> {
 
 pub(super) const SINGULAR: Breakdown = Breakdown::Singular { condition_at_least: f64::INFINITY };
 
+impl Projection {
+    /// The model at one frequency.
+    ///
+    /// # Errors
+    /// [`Breakdown`] where a value is not finite.
+    pub fn at(&self, at: &ModelAt<'_>) -> Result<ReducedModel<'_>, Breakdown> {
+        ReducedModel::new(self, at)
+    }
+}
+
 impl<'a> ReducedModel<'a> {
-    pub(super) fn new(small: &'a Projection, at: &ModelAt<'_>) -> Result<Self, Breakdown> {
+    fn new(small: &'a Projection, at: &ModelAt<'_>) -> Result<Self, Breakdown> {
         let reduced = |combination: &Combination| small.combine(&small.parts.weights(combination));
         let nominal = reduced(&at.nominal);
         let factor = Lu::new(&nominal).map_err(|NoConvergence| Breakdown::NotFinite)?;

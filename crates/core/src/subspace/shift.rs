@@ -2,7 +2,7 @@
 
 use crate::c64;
 use crate::frequency::omega_rad_s;
-use crate::model::{DynamicStiffness, ModelAt, Role};
+use crate::model::{DynamicStiffness, ModelAt, Role, WeightedTerm};
 use frfit_linalg::solve::{Breakdown, CheckedFactor};
 
 /// Re K + σ Re M at the nominal values, factorised. σ > 0: positive definite, free structure or not; σ = −ω²: Re D(ω) without its
@@ -22,7 +22,7 @@ impl Shift {
         let model: &DynamicStiffness = at.model;
         let pattern = model.analysis().pattern();
         let mut values = vec![0.0; pattern.stored()];
-        for &(term, coefficient) in &at.nominal.parts {
+        for &WeightedTerm { term, weight: coefficient } in &at.nominal.parts {
             let term = &model.terms()[term];
             if sigma == 0.0 && term.role != Role::Stiffness {
                 continue; // at 0 Hz, where the weight does not tell the factor

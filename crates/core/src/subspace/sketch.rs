@@ -5,9 +5,9 @@
 //! D. P. Woodruff, J. ACM 63 (2017) 54 (the embedding with one entry in a column).
 
 /// Entries of a sketch. The square of a length comes out with a standard deviation of √(2/k) = 18 %: an error estimate needs no more.
-pub(super) const SKETCH: usize = 64;
+pub(super) const SKETCH_SIZE: usize = 64;
 
-/// Θ: each of N entries goes, with a sign, to one of [`SKETCH`] sums.
+/// Θ: each of N entries goes, with a sign, to one of [`SKETCH_SIZE`] sums.
 #[derive(Debug, Clone)]
 pub(super) struct Sketch(Vec<(u8, f64)>);
 
@@ -25,7 +25,7 @@ impl Sketch {
         let entry = |weight: f64| {
             let bits = next();
             let sign = if bits >> 63 == 0 { 1.0 } else { -1.0 };
-            ((bits % SKETCH as u64) as u8, sign * weight.sqrt())
+            ((bits % SKETCH_SIZE as u64) as u8, sign * weight.sqrt())
         };
         Self(weights.into_iter().map(entry).collect())
     }
@@ -35,7 +35,7 @@ impl Sketch {
         &self,
         x: &[T],
     ) -> Vec<T> {
-        let mut sums = vec![T::default(); SKETCH];
+        let mut sums = vec![T::default(); SKETCH_SIZE];
         for (&x, &(bucket, weight)) in x.iter().zip(&self.0) {
             sums[usize::from(bucket)] += x * weight;
         }

@@ -1,12 +1,13 @@
 //! Where the basis grows: where the estimated error at the sensors is largest.
 
-use super::assess::{Solved, weights};
+use super::assess::{AssessedSolution, weights};
 use super::shift::Shift;
 use super::{Assessment, Subspace};
 use crate::c64;
 use crate::for_each::{ForEach, map};
 use crate::frequency::omega_rad_s;
 use crate::model::ModelAt;
+use crate::with_fields::with_fields;
 use frfit_linalg::solve::Breakdown;
 use frfit_linalg::vector::transpose_dot;
 
@@ -21,6 +22,7 @@ pub struct Point<'m> {
 
 /// When to stop.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct TrainOptions {
     /// Largest estimated error ([`super::Assessment::relative_truncation`]) to accept. Default 1e-9.
     pub tolerance: f64,
@@ -36,6 +38,12 @@ impl Default for TrainOptions {
     }
 }
 
+with_fields!(TrainOptions {
+    with_tolerance: tolerance as f64,
+    with_solves: solves as usize,
+    with_factorisations: factorisations as usize,
+});
+
 /// How a training ended.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Trained {
@@ -46,19 +54,19 @@ pub struct Trained {
 }
 
 /// Real right-hand sides of one round: enough to block the solves, few enough that each round learns from the one before.
-pub(super) const BLOCK: usize = 8;
+pub(super) const SOLVES_PER_ROUND: usize = 8;
 
 /// A residual of which less than this is new among those of its round is left for the next.
-const INDEPENDENT: f64 = 0.1;
+const MIN_NEW_SHARE: f64 = 0.1;
 
 /// Solves with the factors there are before another one is worth its price.
-const PATIENCE: usize = 64;
+const SOLVES_PER_SHIFT: usize = 64;
 
 /// Points whose errors are followed from round to round; all are looked at when these are good.
-const WATCHED: usize = 48;
+const MAX_WATCHED_POINTS: usize = 48;
 
 /// Rounds without progress (by a factor of two of the error) after which roundoff is what is left.
-pub(super) const STALLED: usize = 6;
+pub(super) const MAX_STALLED_ROUNDS: usize = 6;
 
 /// A residual that is wanted in full.
 struct Wanted<'p, 'm> {
@@ -99,7 +107,7 @@ impl<'m> Subspace<'m> {
             errors.sort_by(|a, b| b.0.total_cmp(&a.0));
             errors
         };
-        let (mut best, mut stalled, mut patience) = (f64::INFINITY, 0, self.work.solves + PATIENCE);
+        let (mut best, mut stalled, mut patience) = (f64::INFINITY, 0, self.work.solves + SOLVES_PER_SHIFT);
         let mut errors = assess(self, &all);
         loop {
             if errors.first().is_none_or(|&(worst, _)| worst <= options.tolerance) {
@@ -113,15 +121,15 @@ impl<'m> Subspace<'m> {
             let converged = worst <= options.tolerance;
             stalled = if worst < 0.5 * best { 0 } else { stalled + 1 };
             best = best.min(worst);
-            if converged || stalled > STALLED || self.work.solves >= options.solves {
+            if converged || stalled > MAX_STALLED_ROUNDS || self.work.solves >= options.solves {
                 return Ok(Trained { error: worst, converged });
             }
             if self.work.solves >= patience && self.work.factorisations < options.factorisations {
-                patience = self.work.solves + PATIENCE;
+                patience = self.work.solves + SOLVES_PER_SHIFT;
                 self.add_shift(&points[at].at);
             }
             errors.retain(|&(error, _)| error > options.tolerance);
-            errors.truncate(WATCHED);
+            errors.truncate(MAX_WATCHED_POINTS);
             let floor = 1e-3 * worst;
             let picked: Vec<&Point<'m>> =
                 errors.iter().filter(|(error, _)| *error > floor).map(|&(_, i)| &points[i]).collect();
@@ -154,12 +162,14 @@ impl<'m> Subspace<'m> {
 
     /// Adds S⁻¹ times the residuals at the worst points, as far as they are independent; returns how many vectors were new.
     ///
-    /// Which are is told by their sketches; only those that are kept are formed in full.
+    /// Their sketches show which are; only those that are kept are formed in full.
     fn enrich(&mut self, points: &[&Point<'m>]) -> Result<usize, Breakdown> {
         let mut kept: Vec<Vec<f64>> = Vec::new();
         let (mut wanted, mut count) = (Vec::new(), 0);
-        for point in points.iter().take(2 * BLOCK) {
-            let Ok(solved) = Solved::new(self.projection(), &point.at, point.correction) else { continue };
+        for point in points.iter().take(2 * SOLVES_PER_ROUND) {
+            let Ok(solved) = AssessedSolution::new(self.projection(), &point.at, point.correction) else {
+                continue;
+            };
             let Assessment { truncation, .. } = &solved.assessment;
             let worst = (0..truncation.len()).max_by(|&a, &b| truncation[a].total_cmp(&truncation[b]));
             for which in std::iter::once(0).chain(worst.map(|m| m + 1)) {
@@ -170,7 +180,7 @@ impl<'m> Subspace<'m> {
                     wanted.push(Wanted { point, which, y: solved.solutions[which].clone(), new });
                 }
             }
-            if count >= BLOCK {
+            if count >= SOLVES_PER_ROUND {
                 break;
             }
         }
@@ -248,7 +258,7 @@ pub(super) fn real_directions(complex: &[c64], dot: impl Fn(&[f64], &[f64]) -> f
     let turned = |part: fn(c64) -> f64| complex.iter().map(|&r| part(r * turn)).collect::<Vec<f64>>();
     let mut directions = vec![turned(|r| r.re), turned(|r| r.im)];
     let norms: Vec<f64> = directions.iter().map(|d| dot(d, d).sqrt()).collect();
-    directions.truncate(if norms[1] > INDEPENDENT * norms[0] { 2 } else { 1 });
+    directions.truncate(if norms[1] > MIN_NEW_SHARE * norms[0] { 2 } else { 1 });
     directions.retain_mut(|direction| {
         let norm = dot(direction, direction).sqrt();
         direction.iter_mut().for_each(|d| *d /= norm);
@@ -266,7 +276,7 @@ pub(super) fn keep(kept: &mut Vec<Vec<f64>>, vector: &[f64]) -> bool {
     }
     let rest = transpose_dot(&new, &new).sqrt();
     new.iter_mut().for_each(|n| *n /= rest);
-    let is_new = rest > INDEPENDENT;
+    let is_new = rest > MIN_NEW_SHARE;
     if is_new {
         kept.push(new);
     }

@@ -1,32 +1,40 @@
 //! A basis that is good for derivatives too: at the sensors, and where wanted everywhere.
 
-use super::train::{BLOCK, STALLED, keep, real_directions};
+use super::train::{MAX_STALLED_ROUNDS, SOLVES_PER_ROUND, keep, real_directions};
 use super::{ChangePoint, Changed, Point, Subspace, TrainOptions, Trained};
 use crate::c64;
 use crate::for_each::{ForEach, map};
+use crate::with_fields::with_fields;
 use frfit_linalg::solve::Breakdown;
 
 /// When to stop.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct ChangeOptions {
     /// Largest estimated error of a derivative at a sensor ([`Changed::relative_truncation`]) to accept. Default 1e-6: error bars are read to two digits, and what
-    /// parameters have in common is told from what they have not down to that.
+    /// parameters have in common differs from what they have not by as little.
     pub tolerance: f64,
-    /// Largest estimated error of response and derivatives everywhere ([`Changed::elsewhere`]) to accept; `None` (default): it does not matter.
-    pub elsewhere: Option<f64>,
+    /// Largest estimated error of response and derivatives everywhere ([`Changed::everywhere`]) to accept; `None` (default): it does not matter.
+    pub everywhere: Option<f64>,
     /// Solves after which to give up. Default 600.
     pub solves: usize,
 }
 
 impl Default for ChangeOptions {
     fn default() -> Self {
-        Self { tolerance: 1e-6, elsewhere: None, solves: 600 }
+        Self { tolerance: 1e-6, everywhere: None, solves: 600 }
     }
 }
 
+with_fields!(ChangeOptions {
+    with_tolerance: tolerance as f64,
+    with_everywhere: everywhere as Option<f64>,
+    with_solves: solves as usize,
+});
+
 /// Errors of the response that are asked for in turn: those of derivatives are products of a residual of the response and one of its derivative, which
 /// the basis need not have.
-const RESPONSE: [f64; 4] = [1e-8, 1e-10, 1e-12, 1e-14];
+const RESPONSE_TOLS: [f64; 4] = [1e-8, 1e-10, 1e-12, 1e-14];
 
 impl<'m> Subspace<'m> {
     /// Grows the basis until response and derivatives are within the tolerance at all points; tells the largest estimated error of a derivative at a sensor.
@@ -42,7 +50,7 @@ impl<'m> Subspace<'m> {
         let plain: Vec<Point<'m>> =
             points.iter().map(|p| Point { at: p.at.clone(), correction: c64::default() }).collect();
         let mut trained = Trained { error: f64::INFINITY, converged: false };
-        for tolerance in RESPONSE {
+        for tolerance in RESPONSE_TOLS {
             let train = TrainOptions { tolerance, solves: options.solves, ..TrainOptions::default() };
             let response = self.train(&plain, &train, for_each)?;
             let error = self.worst(points, for_each, Changed::relative_truncation);
@@ -51,8 +59,8 @@ impl<'m> Subspace<'m> {
                 break;
             }
         }
-        if let Some(elsewhere) = options.elsewhere {
-            self.train_elsewhere(points, elsewhere, options.solves, for_each)?;
+        if let Some(everywhere) = options.everywhere {
+            self.train_everywhere(points, everywhere, options.solves, for_each)?;
             let error = self.worst(points, for_each, Changed::relative_truncation);
             trained = Trained { error, converged: error <= options.tolerance };
         }
@@ -71,7 +79,7 @@ impl<'m> Subspace<'m> {
     }
 
     /// Adds S⁻¹ times the residuals of the response and of its derivatives, where these are largest.
-    fn train_elsewhere(
+    fn train_everywhere(
         &mut self,
         points: &[ChangePoint<'m>],
         tolerance: f64,
@@ -82,8 +90,8 @@ impl<'m> Subspace<'m> {
         loop {
             let of = |i: usize| -> Vec<(f64, usize, usize)> {
                 let changed = self.projection().changes(&points[i]);
-                let elsewhere = changed.map_or(Vec::new(), |changed| changed.elsewhere);
-                elsewhere.into_iter().enumerate().map(|(which, error)| (error, i, which)).collect()
+                let everywhere = changed.map_or(Vec::new(), |changed| changed.everywhere);
+                everywhere.into_iter().enumerate().map(|(which, error)| (error, i, which)).collect()
             };
             let mut errors: Vec<(f64, usize, usize)> =
                 map(for_each, points.len(), of).into_iter().flatten().collect();
@@ -92,7 +100,10 @@ impl<'m> Subspace<'m> {
             let Some(&(worst, ..)) = errors.first() else { return Ok(()) };
             stalled = if worst < 0.5 * best { 0 } else { stalled + 1 };
             best = best.min(worst);
-            if stalled > STALLED || self.work().solves >= solves || self.grow(points, &errors)? == 0 {
+            if stalled > MAX_STALLED_ROUNDS
+                || self.work().solves >= solves
+                || self.grow(points, &errors)? == 0
+            {
                 return Ok(());
             }
         }
@@ -105,18 +116,18 @@ impl<'m> Subspace<'m> {
         errors: &[(f64, usize, usize)],
     ) -> Result<usize, Breakdown> {
         let (mut kept, mut forces) = (Vec::new(), Vec::new());
-        for &(_, i, which) in errors.iter().take(4 * BLOCK) {
+        for &(_, i, which) in errors.iter().take(4 * SOLVES_PER_ROUND) {
             let Ok(changed) = self.projection().changes(&points[i]) else { continue };
             let residual = self.residual_elsewhere(&points[i], &changed, which);
             let dot = |a: &[f64], b: &[f64]| self.basis.force_dot(a, b);
             for direction in real_directions(&residual, dot) {
                 // In coordinates in which the product of forces is the plain one.
                 let scaled = self.basis.plain_force(&direction);
-                if forces.len() < BLOCK && keep(&mut kept, &scaled) {
+                if forces.len() < SOLVES_PER_ROUND && keep(&mut kept, &scaled) {
                     forces.push((self.nearest_shift(points[i].at.frequency_hz), direction));
                 }
             }
-            if forces.len() >= BLOCK {
+            if forces.len() >= SOLVES_PER_ROUND {
                 break;
             }
         }

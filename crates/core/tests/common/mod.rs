@@ -5,12 +5,13 @@ use frfit::c64;
 use frfit::for_each::sequential;
 use frfit::frequency::linear_hz;
 use frfit::identify::{
-    ChannelUnknowns, Context, Dependence, Frfs, Identification, Noise, Options, Problem, Unknown, Variation,
-    identify,
+    ChannelUnknowns, Context, Frfs, Identification, Method, ModelErrors, Noise, Options, Problem, Reduction,
+    Selection, Unknown, Variation, identify,
 };
 use frfit::material::Law;
 use frfit::model::{DynamicStiffness, Experiment, Member, ModelAt, Parameter, Role, Sensor, Term};
 use frfit::response::{FullModel, Response};
+use frfit::roots::Bounds;
 use frfit::subspace::{Point, Subspace, TrainOptions, Trained};
 use frfit_fem::brick::{Face, Layer};
 use frfit_fem::{Assembled, Bar, Beam, Brick, Direction, Mass, Plate, Support};
@@ -123,7 +124,7 @@ impl Case {
     /// A subspace for the whole box, trained to this error.
     pub(crate) fn trained(&self, tolerance: f64) -> (Subspace<'_>, Trained) {
         let mut subspace = Subspace::new(&self.experiment, &self.at(self.band_hz[1])).unwrap();
-        let options = TrainOptions { tolerance, ..TrainOptions::default() };
+        let options = TrainOptions::default().with_tolerance(tolerance);
         let trained = subspace.train(&self.grid(40, 5), &options, &sequential).unwrap();
         (subspace, trained)
     }
@@ -246,6 +247,45 @@ pub(crate) fn thickness() -> Case {
     Case { name: "thickness", model, parameter, box_ratio: [0.7, 1.4], ..case }
 }
 
+/// How a single unknown is identified, and what is known of it.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Setup {
+    pub(crate) bounds: Bounds,
+    pub(crate) real: bool,
+    pub(crate) options: Options,
+}
+
+macro_rules! passed_on {
+    ($($with:ident: $type:ty),* $(,)?) => {
+        $(
+            pub(crate) fn $with(self, value: $type) -> Self {
+                Self { options: self.options.$with(value), ..self }
+            }
+        )*
+    };
+}
+
+impl Setup {
+    pub(crate) fn within(bounds: Bounds) -> Self {
+        Self { bounds, ..Self::default() }
+    }
+
+    pub(crate) fn paper(bounds: Bounds) -> Self {
+        Self { options: Options::paper(), ..Self::within(bounds) }
+    }
+
+    passed_on! {
+        with_method: Method,
+        with_order: usize,
+        with_selection: Selection,
+        with_reduction: Reduction,
+        with_whole_box: bool,
+        with_reject_outliers: bool,
+        with_model_errors: ModelErrors,
+        with_everywhere: bool,
+    }
+}
+
 /// A single unknown, measured over a band.
 #[derive(Clone, Copy)]
 pub(crate) struct Band<'a> {
@@ -258,33 +298,25 @@ pub(crate) struct Band<'a> {
 }
 
 impl Band<'_> {
-    /// The parameter as an unknown with the bounds of some options.
-    pub(crate) fn unknown(&self, varies: Variation, options: &Options) -> Unknown {
-        let members = &self.parameter.members;
-        let dependence = match self.parameter.multiplies {
-            false => Dependence::Factor(members.iter().map(|member| member.term).collect()),
-            true => {
-                Dependence::Powers(members.iter().map(|member| (member.term, member.power as i32)).collect())
-            }
-        };
-        let nominal = self.parameter.nominal.clone();
-        Unknown { name: "p".into(), dependence, nominal, varies, real: options.real, bounds: options.bounds }
+    /// The parameter as an unknown.
+    pub(crate) fn unknown(&self, varies: Variation, setup: &Setup) -> Unknown {
+        Unknown { varies, real: setup.real, bounds: setup.bounds, ..Unknown::of_parameter(self.parameter) }
     }
 
     pub(crate) fn frfs(&self) -> Frfs<'_> {
         Frfs { frequency_hz: self.frequency_hz, receptance: self.measured, noise: self.noise }
     }
 
-    /// Identifies the parameter as it varies, with the bounds of the options.
+    /// Identifies the parameter as it varies.
     pub(crate) fn identify(
         &self,
         varies: Variation,
         channels: &[ChannelUnknowns],
-        options: &Options,
+        setup: &Setup,
         context: Context<'_>,
     ) -> Identification {
-        let unknowns = [self.unknown(varies, options)];
+        let unknowns = [self.unknown(varies, setup)];
         let problem = Problem::new(self.model, self.experiment, &unknowns, channels, self.frfs()).unwrap();
-        identify(&problem, options, context).unwrap()
+        identify(&problem, &setup.options, context).unwrap()
     }
 }

@@ -2,7 +2,8 @@
 #![allow(dead_code, reason = "each test file uses its own part")]
 
 use frfit::c64;
-use frfit::identify::{Line, Method, Options, Selection, identify_at};
+use frfit::identify::{Line, Method, Options, Selection, Unknown, identify_at};
+use frfit::model::Parameter;
 use frfit::quantity::Quantity;
 use frfit::roots::Bounds;
 use frfit_examples::{File, Model, generate};
@@ -33,30 +34,29 @@ impl Folder {
         }
     }
 
-    /// The case's bounds, with everything else as the paper has it.
-    pub(crate) fn paper(&self) -> Options {
-        let Options { bounds, real, .. } = self.options();
-        Options { bounds, real, ..Options::paper() }
-    }
-
     /// The case's options, of one unknown.
     pub(crate) fn options(&self) -> Options {
+        let identify = &self.identify()[0];
+        let method =
+            identify.get("method").map_or(Method::default(), |word| word.as_str().unwrap().parse().unwrap());
+        let order = identify.get("order").map_or(30, |order| order.as_integer().unwrap() as usize);
+        let selection = identify
+            .get("selection")
+            .map_or(Selection::default(), |word| word.as_str().unwrap().parse().unwrap());
+        Options::default().with_method(method).with_order(order).with_selection(selection)
+    }
+
+    /// A parameter as the case's only unknown, with its bounds.
+    pub(crate) fn unknown(&self, parameter: &Parameter) -> Unknown {
         let identify = &self.identify()[0];
         let bound = |name| {
             let pair = identify["bounds"].get(name)?.as_array().unwrap();
             Some([0, 1].map(|k| pair[k].as_float().unwrap()))
         };
-        Options {
-            method: identify
-                .get("method")
-                .map_or(Method::default(), |word| word.as_str().unwrap().parse().unwrap()),
-            order: identify.get("order").map_or(30, |order| order.as_integer().unwrap() as usize),
-            selection: identify
-                .get("selection")
-                .map_or(Selection::default(), |word| word.as_str().unwrap().parse().unwrap()),
+        Unknown {
             bounds: Bounds { storage: bound("storage"), loss_factor: bound("loss_factor") },
             real: identify.get("real").is_some_and(|real| real.as_bool().unwrap()),
-            ..Options::default()
+            ..Unknown::of_parameter(parameter)
         }
     }
 
@@ -117,10 +117,10 @@ pub(crate) struct Answer {
 /// Identifies every `step`-th frequency in the paper's way, with the bounds of the case.
 pub(crate) fn answers(folder: &Folder, model: &Model, step: usize) -> Vec<Answer> {
     let (frequency_hz, measured) = folder.measured();
-    let options = folder.paper();
+    let unknown = folder.unknown(&model.parameter);
     let at = |(&f, measured): (&f64, &Vec<c64>)| {
         let truth = model.truth.at(f).unwrap();
-        let found = identify_at(&model.nominal_at(f).unwrap(), measured, &options);
+        let found = identify_at(&model.nominal_at(f).unwrap(), measured, &unknown, &Options::paper());
         Answer {
             frequency_hz: f,
             deviation: found.factor().map_or(f64::INFINITY, |factor| (factor - truth).norm() / truth.norm()),

@@ -28,7 +28,7 @@ fn count(band: &Band, sensors: usize, sigma_known: bool) -> Count {
     let choices = choose(
         &band.frequency_hz,
         &band.nodes,
-        &SelectOptions { sensors, sigma_known, ..SelectOptions::default() },
+        &SelectOptions::default().with_sensors(sensors).with_sigma_known(sigma_known),
     );
     let mut count = Count { present: 0, right: 0, ambiguous: 0, wrong: 0 };
     for ((choice, nodes), truth) in choices.iter().zip(&band.nodes).zip(&band.truth) {

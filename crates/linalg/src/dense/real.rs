@@ -5,7 +5,7 @@ use crate::c64;
 use pulp::{Arch, NullaryFnOnce};
 
 /// Entries of a sum that stay in the nearest cache while its parts go by.
-const PIECE: usize = 1024;
+const ENTRIES_PER_PIECE: usize = 1024;
 
 /// Σ θ_g S_g of real nrows × ncols matrices, column after column.
 ///
@@ -39,9 +39,9 @@ impl NullaryFnOnce for Combination<'_> {
 
     #[inline(always)]
     fn call(self) {
-        for (k, piece) in self.sum.chunks_mut(PIECE).enumerate() {
+        for (k, piece) in self.sum.chunks_mut(ENTRIES_PER_PIECE).enumerate() {
             for (theta, matrix) in self.parts {
-                let own = &matrix[k * PIECE..];
+                let own = &matrix[k * ENTRIES_PER_PIECE..];
                 piece.iter_mut().zip(own).for_each(|(sum, s)| *sum += theta * s);
             }
         }

@@ -8,7 +8,7 @@ use crate::c64;
 use pulp::{Arch, Simd, WithSimd};
 
 /// Numbers of the widest register; rows are filled up to a multiple of it.
-const REGISTER: usize = 8;
+const REGISTER_NUMBERS: usize = 8;
 
 /// P A = L U, L with a diagonal of ones.
 #[derive(Debug, Clone)]
@@ -28,9 +28,9 @@ impl PlanarLu {
     /// By columns, with the largest entry of each column as its pivot (|re| + |im|). A pivot of zero makes values that are not finite.
     pub(super) fn new(a: &Matrix) -> Self {
         let dim = a.nrows();
-        let rows = dim.next_multiple_of(REGISTER);
-        let mut columns = vec![0.0; 4 * rows * dim + REGISTER];
-        let start = columns.as_ptr().align_offset(REGISTER * size_of::<f64>()).min(REGISTER);
+        let rows = dim.next_multiple_of(REGISTER_NUMBERS);
+        let mut columns = vec![0.0; 4 * rows * dim + REGISTER_NUMBERS];
+        let start = columns.as_ptr().align_offset(REGISTER_NUMBERS * size_of::<f64>()).min(REGISTER_NUMBERS);
         for (j, column) in columns[start..].chunks_exact_mut((2 * rows).max(1)).take(dim).enumerate() {
             let (re, im) = column.split_at_mut(rows);
             for ((re, im), a) in re.iter_mut().zip(im).zip(a.column(j)) {

@@ -8,7 +8,7 @@ use crate::threads::each;
 use pulp::{Simd, WithSimd};
 
 /// Numbers of a front below which another thread costs more than it brings.
-const SHARE_FROM: usize = 50_000;
+const MIN_SHARED_FRONT_NUMBERS: usize = 50_000;
 
 /// What the elimination of a front leaves to its parent: the columns of the candidates that could not be eliminated,
 /// and those of its other rows.
@@ -147,7 +147,7 @@ pub(crate) fn each_strip<'a, T: Scalar>(
     threads: usize,
     work: impl Fn(Strip<'a, T>) + Sync + Send,
 ) {
-    each(if numbers < SHARE_FROM { 1 } else { threads }, strips.collect(), work);
+    each(if numbers < MIN_SHARED_FRONT_NUMBERS { 1 } else { threads }, strips.collect(), work);
 }
 
 /// Adds the rows from `first` on of a child's column to a column that begins at row `start` of the front.

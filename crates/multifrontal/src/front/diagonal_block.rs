@@ -6,9 +6,9 @@ use crate::scalar::{Real, Scalar};
 use pulp::{Simd, WithSimd};
 
 /// Columns of a diagonal_block: their rows fill whole registers of every instruction set.
-pub(super) const CORNER: usize = 32;
+pub(super) const DIAGONAL_BLOCK_COLUMNS: usize = 32;
 
-type Columns<R> = [[R; CORNER]; CORNER];
+type Columns<R> = [[R; DIAGONAL_BLOCK_COLUMNS]; DIAGONAL_BLOCK_COLUMNS];
 
 /// L and D of a diagonal block, in parts so that registers hold real numbers.
 pub(super) struct DiagonalBlock<T: Scalar> {
@@ -22,7 +22,7 @@ pub(super) struct DiagonalBlock<T: Scalar> {
 
 impl<T: Scalar> DiagonalBlock<T> {
     pub(super) fn new() -> Box<Self> {
-        let parts = [[[T::Real::default(); CORNER]; CORNER]; 2];
+        let parts = [[[T::Real::default(); DIAGONAL_BLOCK_COLUMNS]; DIAGONAL_BLOCK_COLUMNS]; 2];
         Box::new(Self { parts, exchanges: Vec::new(), d: Vec::new(), width: 0 })
     }
 
@@ -158,7 +158,7 @@ impl<T: Scalar> DiagonalBlock<T> {
 
     /// Column −= l·w; what stands above the diagonal is changed too, and means nothing.
     #[inline(always)]
-    fn subtract<S: Simd>(&mut self, simd: S, col: usize, l: &[[T::Real; CORNER]; 2], w: T) {
+    fn subtract<S: Simd>(&mut self, simd: S, col: usize, l: &[[T::Real; DIAGONAL_BLOCK_COLUMNS]; 2], w: T) {
         let minus = (-w).parts();
         let [re, im] = minus.map(|part| T::Real::splat(simd, part));
         let minus_im = T::Real::splat(simd, w.parts()[1]);

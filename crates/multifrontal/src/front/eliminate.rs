@@ -7,26 +7,26 @@
 //!
 //! I. S. Duff, J. Hogg, F. Lopez, SIAM J. Sci. Comput. 42 (2020) C23–C42.
 
-use super::diagonal_block::{CORNER, DiagonalBlock, invert_pair};
+use super::diagonal_block::{DIAGONAL_BLOCK_COLUMNS, DiagonalBlock, invert_pair};
 use super::panel_trsm::{Limits, Tile, solve_rows};
 use super::rook::{largest, rook};
 use super::{Front, strip_width};
-use crate::kernel::{Buffers, Left, Pivots, STRIP, downdate};
+use crate::kernel::{Buffers, Left, Pivots, STRIP_COLUMNS, downdate};
 use crate::packed_lower::PackedLower;
 use crate::scalar::{Real, Scalar};
 use crate::threads::Idle;
 use std::ops::Range;
 
 /// Columns whose elimination is carried to the rest of the front in one product.
-pub(crate) const BLOCK: usize = 256;
+pub(crate) const PANEL_COLUMNS: usize = 256;
 
 /// Growth |l²d| by one pivot after which it is chosen among all candidates: definite matrices, scaled to entries of 1,
 /// stay below it. Of undamped blocks of 3,000 to 51,000 unknowns at eight frequencies, backward errors were twice as
 /// large with 8, and up to twenty times without.
-const GROWTH: f64 = 2.0;
+const MAX_PIVOT_GROWTH: f64 = 2.0;
 
 /// Searches of all candidates of a front: these, and one for so many columns. Each ends a block before it is full.
-const SEARCHES: (usize, usize) = (4, 64);
+const MAX_PIVOT_SEARCHES: (usize, usize) = (4, 64);
 
 /// Buffers of one worker, and how it works.
 pub(crate) struct Elimination<T: Scalar> {
@@ -64,14 +64,14 @@ pub(crate) fn eliminate<T: Scalar>(
     with: &mut Elimination<T>,
 ) -> Vec<[T; 2]> {
     let mut d = Vec::with_capacity(front.candidates);
-    let mut searches = SEARCHES.0 + front.candidates / SEARCHES.1;
+    let mut searches = MAX_PIVOT_SEARCHES.0 + front.candidates / MAX_PIVOT_SEARCHES.1;
     loop {
         let before = d.len();
         let mut untried = front.candidates;
         let mut chosen = 0;
         while d.len() < untried {
-            let (from, to) = (d.len(), untried.min(d.len() + BLOCK));
-            let growth = if searches > 0 { GROWTH } else { f64::INFINITY };
+            let (from, to) = (d.len(), untried.min(d.len() + PANEL_COLUMNS));
+            let growth = if searches > 0 { MAX_PIVOT_GROWTH } else { f64::INFINITY };
             let grows = eliminate_block(front, from..to, chosen, growth, &mut d, with);
             carry(front, from, to, schur, &d, with);
             chosen = 0;
@@ -115,7 +115,7 @@ fn eliminate_block<T: Scalar>(
         let limits = Limits { l: 1.0 / with.threshold, growth: if search { growth } else { f64::INFINITY } };
         let width = match std::mem::take(&mut chosen) {
             0 => {
-                let width = CORNER.min(end - at);
+                let width = DIAGONAL_BLOCK_COLUMNS.min(end - at);
                 with.diagonal_block.factor(front, at, width);
                 width
             }
@@ -215,7 +215,7 @@ fn carry<T: Scalar>(
     let mut all: Vec<_> = packed_lower.strips(rest, to..candidates, width, false).collect();
     // The first pivots of all find nothing there.
     let fresh = from == 0;
-    all.extend(PackedLower::new(others).strips(schur, 0..others, STRIP, fresh).map(|mut strip| {
+    all.extend(PackedLower::new(others).strips(schur, 0..others, STRIP_COLUMNS, fresh).map(|mut strip| {
         strip.first += candidates - to;
         strip
     }));

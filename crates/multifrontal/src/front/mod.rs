@@ -12,10 +12,10 @@ mod stack;
 
 pub(crate) use assemble::{Child, Contribution, add_children, each_strip};
 pub(crate) use diagonal_block::invert_pair;
-pub(crate) use eliminate::{BLOCK, Elimination, eliminate};
+pub(crate) use eliminate::{Elimination, PANEL_COLUMNS, eliminate};
 pub(crate) use stack::{Kept, Stack};
 
-use crate::kernel::STRIP;
+use crate::kernel::STRIP_COLUMNS;
 use crate::packed_lower::PackedLower;
 use crate::scalar::Scalar;
 
@@ -84,6 +84,6 @@ impl<T: Scalar> Front<'_, T> {
 
 /// The most columns of a panel in one strip, a few strips for each thread so that none waits long for the last.
 pub(crate) fn strip_width(columns: usize, threads: usize) -> usize {
-    let share = columns.div_ceil(4 * threads).next_multiple_of(STRIP / 4);
-    if threads > 1 { share.clamp(STRIP / 4, STRIP / 2) } else { STRIP }
+    let share = columns.div_ceil(4 * threads).next_multiple_of(STRIP_COLUMNS / 4);
+    if threads > 1 { share.clamp(STRIP_COLUMNS / 4, STRIP_COLUMNS / 2) } else { STRIP_COLUMNS }
 }

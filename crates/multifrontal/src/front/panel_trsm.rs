@@ -1,17 +1,17 @@
 //! The rows below a diagonal_block: L₂₁ = A₂₁ L₁₁⁻ᵀ D⁻¹, and whether it stayed small.
 
 use super::Front;
-use super::diagonal_block::{CORNER, DiagonalBlock, invert_pair};
-use crate::kernel::{FEW, MANY, WIDE, copy, many, tile_rows};
+use super::diagonal_block::{DIAGONAL_BLOCK_COLUMNS, DiagonalBlock, invert_pair};
+use crate::kernel::{MAX_TILE_ROWS, TILE_OF_16_REGISTERS, TILE_OF_32_REGISTERS, copy, many, tile_rows};
 use crate::scalar::{Real, Scalar, add_product};
 use crate::threads::{Idle, map};
 use pulp::{Simd, WithSimd};
 
 /// Rows that one thread takes at a time.
-const CHUNK: usize = 192;
+const ROWS_PER_PIECE: usize = 192;
 
 /// Numbers below which another thread costs more than it brings.
-const SHARE_FROM: usize = 15_000;
+const MIN_SHARED_PANEL_NUMBERS: usize = 15_000;
 
 /// What the rows below a diagonal_block are held to.
 #[derive(Clone, Copy)]
@@ -42,8 +42,8 @@ pub(super) fn solve_rows<T: Scalar>(
     // D⁻¹ by columns: what takes part, and with which factors.
     let inverse: Vec<[(usize, T); 2]> = (0..count).map(|j| inverse_column(&diagonal_block.d, j)).collect();
     let below = rows - at - count;
-    let threads = if below * count < SHARE_FROM { 1 } else { threads };
-    let chunk = if threads == 1 { below.max(1) } else { CHUNK };
+    let threads = if below * count < MIN_SHARED_PANEL_NUMBERS { 1 } else { threads };
+    let chunk = if threads == 1 { below.max(1) } else { ROWS_PER_PIECE };
     let mut tasks: Vec<SolveRows<'_, T>> = Vec::new();
     let limits = [limits.l, limits.growth].map(T::Real::from_f64);
     tasks.resize_with(below.div_ceil(chunk), || SolveRows {
@@ -82,10 +82,10 @@ struct SolveRows<'a, T: Scalar> {
 }
 
 /// L D of the rows of a tile: `w[part][column][row]`.
-pub(super) type Tile<R> = [[[R; WIDE]; CORNER]; 2];
+pub(super) type Tile<R> = [[[R; MAX_TILE_ROWS]; DIAGONAL_BLOCK_COLUMNS]; 2];
 
 fn new_tile<R: Real>() -> Box<Tile<R>> {
-    Box::new([[[R::default(); WIDE]; CORNER]; 2])
+    Box::new([[[R::default(); MAX_TILE_ROWS]; DIAGONAL_BLOCK_COLUMNS]; 2])
 }
 
 /// Some rows, and a tile to work in.
@@ -96,15 +96,15 @@ struct InTile<'a, 'b, T: Scalar> {
 
 impl<T: Scalar> WithSimd for InTile<'_, '_, T> {
     /// Whether all entries of each column keep to the limits, the sizes of their parts added.
-    type Output = [bool; CORNER];
+    type Output = [bool; DIAGONAL_BLOCK_COLUMNS];
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> [bool; CORNER] {
+    fn with_simd<S: Simd>(self, simd: S) -> [bool; DIAGONAL_BLOCK_COLUMNS] {
         let Self { rows: SolveRows { mut columns, diagonal_block, inverse, limits }, tile: w } = self;
         let height = tile_rows::<T::Real, S>();
         let rows = columns.first().map_or(0, |column| column.len());
-        let mut fine = [true; CORNER];
-        let mut l = [[T::Real::default(); WIDE]; 2];
+        let mut fine = [true; DIAGONAL_BLOCK_COLUMNS];
+        let mut l = [[T::Real::default(); MAX_TILE_ROWS]; 2];
         for from in (0..rows).step_by(height) {
             let len = height.min(rows - from);
             for (j, parts) in columns.chunks_exact(T::PARTS).enumerate() {
@@ -133,12 +133,12 @@ impl<T: Scalar> WithSimd for InTile<'_, '_, T> {
 /// Whether a column of L, and its products with that of L D, keep to the limits; what is no number does not.
 #[inline(always)]
 fn within<T: Scalar>(
-    l: &[[T::Real; WIDE]; 2],
-    w: [&[T::Real; WIDE]; 2],
+    l: &[[T::Real; MAX_TILE_ROWS]; 2],
+    w: [&[T::Real; MAX_TILE_ROWS]; 2],
     height: usize,
     [most, growth]: [T::Real; 2],
 ) -> bool {
-    let size = |parts: [&[T::Real; WIDE]; 2], i: usize| {
+    let size = |parts: [&[T::Real; MAX_TILE_ROWS]; 2], i: usize| {
         let re = parts[0][i].absolute();
         if T::PARTS == 2 { re + parts[1][i].absolute() } else { re }
     };
@@ -154,7 +154,7 @@ fn times_inverse<T: Scalar>(
     w: &Tile<T::Real>,
     factors: &[(usize, T); 2],
     height: usize,
-    l: &mut [[T::Real; WIDE]; 2],
+    l: &mut [[T::Real; MAX_TILE_ROWS]; 2],
 ) {
     let [l_re, l_im] = l;
     for (term, &(k, factor)) in factors.iter().take(1 + usize::from(factors[1].1 != T::default())).enumerate()
@@ -191,10 +191,10 @@ fn inverse_column<T: Scalar>(d: &[[T; 2]], j: usize) -> [(usize, T); 2] {
 fn substitute<T: Scalar, S: Simd>(simd: S, w: &mut Tile<T::Real>, diagonal_block: &DiagonalBlock<T>) {
     // Constant, so that only one of them is compiled.
     match const { (many::<S>(), T::PARTS) } {
-        (true, 1) => substitute_together::<T, S, { MANY.0 }, 4>(simd, w, diagonal_block),
-        (true, _) => substitute_together::<T, S, { MANY.0 }, 2>(simd, w, diagonal_block),
-        (false, 1) => substitute_together::<T, S, { FEW.0 }, 4>(simd, w, diagonal_block),
-        (false, _) => substitute_together::<T, S, { FEW.0 }, 2>(simd, w, diagonal_block),
+        (true, 1) => substitute_together::<T, S, { TILE_OF_32_REGISTERS.0 }, 4>(simd, w, diagonal_block),
+        (true, _) => substitute_together::<T, S, { TILE_OF_32_REGISTERS.0 }, 2>(simd, w, diagonal_block),
+        (false, 1) => substitute_together::<T, S, { TILE_OF_16_REGISTERS.0 }, 4>(simd, w, diagonal_block),
+        (false, _) => substitute_together::<T, S, { TILE_OF_16_REGISTERS.0 }, 2>(simd, w, diagonal_block),
     }
 }
 

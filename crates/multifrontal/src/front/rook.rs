@@ -5,7 +5,7 @@
 use std::ops::Range;
 
 /// Growth-optimal threshold of Bunch and Kaufman, (1 + √17)/8.
-const ALPHA: f64 = 0.640_388_203_202_208_4;
+const BUNCH_KAUFMAN_ALPHA: f64 = 0.640_388_203_202_208_4;
 
 /// Where the largest other entry of a row and column is, and its size; `size` is that of an entry on the diagonal or
 /// below it.
@@ -31,12 +31,12 @@ pub(super) fn rook(
     size: impl Fn(usize, usize) -> f64 + Copy,
 ) -> (usize, Option<usize>) {
     let (mut at, (mut next, mut most)) = (among.start, found);
-    if next == at || size(at, at) >= ALPHA * most {
+    if next == at || size(at, at) >= BUNCH_KAUFMAN_ALPHA * most {
         return (at, None);
     }
     loop {
         let (after, across) = largest(next, among.clone(), size);
-        if size(next, next) >= ALPHA * across {
+        if size(next, next) >= BUNCH_KAUFMAN_ALPHA * across {
             return (next, None);
         }
         // The largest of its row and of its column; `across` grows from turn to turn, so there is an end.
@@ -49,7 +49,7 @@ pub(super) fn rook(
 
 #[cfg(test)]
 mod tests {
-    use super::{ALPHA, largest, rook};
+    use super::{BUNCH_KAUFMAN_ALPHA, largest, rook};
     use proptest::prelude::*;
 
     /// What a rook finds in a symmetric matrix, row after row.
@@ -72,7 +72,7 @@ mod tests {
             let matrix: Vec<f64> =
                 (0..n * n).map(|k| numbers[(k / n).min(k % n) * 7 + (k / n).max(k % n)]).collect();
             let at = |i: usize, j: usize| matrix[i * n + j];
-            let bound = (1.0 + 1e-12) / (1.0 - ALPHA);
+            let bound = (1.0 + 1e-12) / (1.0 - BUNCH_KAUFMAN_ALPHA);
             match chosen(&matrix, n) {
                 (j, None) => (0..n).filter(|&i| i != j).for_each(|i| assert!(at(i, j).abs() <= bound * at(j, j).abs())),
                 (j, Some(k)) => {

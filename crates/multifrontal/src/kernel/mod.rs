@@ -7,7 +7,7 @@ mod pack;
 mod tile;
 
 pub(crate) use pack::{Left, Pivots};
-pub(crate) use tile::{FEW, MANY, WIDE, copy, many, tile_rows};
+pub(crate) use tile::{MAX_TILE_ROWS, TILE_OF_16_REGISTERS, TILE_OF_32_REGISTERS, copy, many, tile_rows};
 
 use crate::memory::Memory;
 use crate::scalar::{Real, Scalar};
@@ -16,13 +16,13 @@ use pulp::{Simd, WithSimd};
 use tile::{store, tile};
 
 /// Columns of a strip: whole tiles for every instruction set, and its packed copy stays in the second cache.
-pub(crate) const STRIP: usize = 96;
+pub(crate) const STRIP_COLUMNS: usize = 96;
 
 /// Tiles above each other whose sums are collected: a column of C is then met in runs that are worth fetching.
-pub(crate) const TOGETHER: usize = 4;
+pub(crate) const TILES_PER_RUN: usize = 4;
 
 /// Products below which another thread costs more than it brings: some tens of microseconds.
-const SHARE_FROM: usize = 1_000_000;
+const MIN_SHARED_KERNEL_PRODUCTS: usize = 1_000_000;
 
 /// Neighbouring columns of a lower packed_lower, from the diagonal of the first downwards.
 pub(crate) struct Strip<'a, T: Scalar> {
@@ -45,7 +45,7 @@ pub(crate) fn downdate<T: Scalar>(
     threads: usize,
 ) {
     let work: usize = strips.iter().map(|strip| strip.width * strip.stride * pivots.count()).sum();
-    let threads = if work < SHARE_FROM { 1 } else { threads };
+    let threads = if work < MIN_SHARED_KERNEL_PRODUCTS { 1 } else { threads };
     each(threads, strips, |strip| {
         let run = |buffers: &mut _| crate::arch().dispatch(StripDowndate { strip, pivots, left, buffers });
         idle.lend(Buffers::default, run);
@@ -80,9 +80,9 @@ impl<T: Scalar> WithSimd for StripDowndate<'_, '_, T> {
     fn with_simd<S: Simd>(self, simd: S) {
         // Constant, so that only one of them is compiled.
         if const { many::<S>() } {
-            self.by_tiles::<S, { MANY.0 }, { MANY.1 }>(simd);
+            self.by_tiles::<S, { TILE_OF_32_REGISTERS.0 }, { TILE_OF_32_REGISTERS.1 }>(simd);
         } else {
-            self.by_tiles::<S, { FEW.0 }, { FEW.1 }>(simd);
+            self.by_tiles::<S, { TILE_OF_16_REGISTERS.0 }, { TILE_OF_16_REGISTERS.1 }>(simd);
         }
     }
 }
@@ -97,11 +97,11 @@ impl<T: Scalar> StripDowndate<'_, '_, T> {
         let right = right.some(strip.width.next_multiple_of(N) * T::PRODUCTS * count);
         pivots.pack_right::<N>(strip.first, strip.width, right);
         // From one column of the products to the next, and from one plane to the next.
-        let (step, size) = (TOGETHER * height, strip.width.next_multiple_of(N) * TOGETHER * height);
+        let (step, size) = (TILES_PER_RUN * height, strip.width.next_multiple_of(N) * TILES_PER_RUN * height);
         let products = products.some(size * T::PRODUCTS);
         let panels = left.panels(height);
-        for first in (strip.first / height..panels).step_by(TOGETHER) {
-            for panel in first..panels.min(first + TOGETHER) {
+        for first in (strip.first / height..panels).step_by(TILES_PER_RUN) {
+            for panel in first..panels.min(first + TILES_PER_RUN) {
                 let rows = left.panel::<T>(panel, height, count);
                 // Columns that reach down to these rows.
                 let width = strip.width.min((panel + 1) * height - strip.first);
@@ -116,7 +116,7 @@ impl<T: Scalar> StripDowndate<'_, '_, T> {
                     }
                 }
             }
-            let (from, to) = (first * height, left.rows().min((first + TOGETHER) * height));
+            let (from, to) = (first * height, left.rows().min((first + TILES_PER_RUN) * height));
             for j in 0..strip.width.min(to - strip.first) {
                 let top = from.max(strip.first + j);
                 strip.subtract(strip.first + j, top..to, products, size, j * step + top - from);

@@ -1,6 +1,6 @@
 //! Packed copies of L and of L D, tile after tile, a plane for each real product.
 
-use super::TOGETHER;
+use super::TILES_PER_RUN;
 use super::tile::{copy, tile_rows};
 use crate::memory::Memory;
 use crate::packed_lower::PackedLower;
@@ -10,7 +10,7 @@ use pulp::{Simd, WithSimd};
 use std::marker::PhantomData;
 
 /// Numbers of a packed copy below which another thread costs more than it brings.
-const PACK_FROM: usize = 50_000;
+const MIN_SHARED_PACKED_NUMBERS: usize = 50_000;
 
 /// Eliminated columns of a front, and their pivots.
 pub(crate) struct Pivots<'a, T: Scalar> {
@@ -113,8 +113,8 @@ impl<R: Real> Left<R> {
         let size = self.rows.div_ceil(height) * panel;
         // What is behind the last row is cleared on the way.
         let packed = self.packed.some(size);
-        let threads = if size < PACK_FROM { 1 } else { threads };
-        let panels = if threads > 1 { TOGETHER } else { size.div_ceil(panel.max(1)) };
+        let threads = if size < MIN_SHARED_PACKED_NUMBERS { 1 } else { threads };
+        let panels = if threads > 1 { TILES_PER_RUN } else { size.div_ceil(panel.max(1)) };
         let tasks = packed.chunks_mut((panels * panel).max(1)).enumerate();
         let tasks = tasks.map(|(k, packed)| PackLeft { pivots, first: k * panels * height, packed });
         each(threads, tasks.collect(), |task| crate::arch().dispatch(task));

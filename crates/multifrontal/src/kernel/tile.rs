@@ -5,20 +5,20 @@ use pulp::Simd;
 
 /// Registers of rows and columns of a tile on a processor with so many registers: its sums stay in them, beside the
 /// rows and one number of the other factor.
-pub(crate) const MANY: (usize, usize) = (3, 8);
+pub(crate) const TILE_OF_32_REGISTERS: (usize, usize) = (3, 8);
 /// The same for the sixteen registers of AVX2.
-pub(crate) const FEW: (usize, usize) = (2, 6);
+pub(crate) const TILE_OF_16_REGISTERS: (usize, usize) = (2, 6);
 /// The most rows of a tile: three registers of sixteen single-precision numbers.
-pub(crate) const WIDE: usize = 48;
+pub(crate) const MAX_TILE_ROWS: usize = 48;
 
-/// Whether a tile has the shape [`MANY`], not [`FEW`].
+/// Whether a tile has the shape [`TILE_OF_32_REGISTERS`], not [`TILE_OF_16_REGISTERS`].
 pub(crate) const fn many<S: Simd>() -> bool {
     S::REGISTER_COUNT >= 32
 }
 
 /// Registers of rows and columns of a tile.
 pub(super) const fn shape<S: Simd>() -> (usize, usize) {
-    if many::<S>() { MANY } else { FEW }
+    if many::<S>() { TILE_OF_32_REGISTERS } else { TILE_OF_16_REGISTERS }
 }
 
 /// Rows of a tile.

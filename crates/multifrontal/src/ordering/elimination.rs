@@ -2,7 +2,7 @@
 
 use super::Graph;
 
-const NONE: u32 = u32::MAX;
+const NO_STEP: u32 = u32::MAX;
 
 /// The elimination of a graph's vertices in some order; a vertex stands for one or several rows.
 pub(crate) struct Elimination {
@@ -28,10 +28,10 @@ impl Elimination {
     pub(super) fn new(order: Vec<u32>, graph: &Graph) -> Self {
         let mut position = vec![0u32; order.len()];
         order.iter().enumerate().for_each(|(k, &vertex)| position[vertex as usize] = k as u32);
-        let mut reached = vec![NONE; order.len()];
+        let mut reached = vec![NO_STEP; order.len()];
         let step = |vertex| {
             let rows = graph.rows(vertex as usize).len() as u32;
-            Step { vertex, rows, below: 0, parent: NONE }
+            Step { vertex, rows, below: 0, parent: NO_STEP }
         };
         let mut steps: Vec<Step> = order.into_iter().map(step).collect();
         for k in 0..steps.len() {
@@ -43,7 +43,7 @@ impl Elimination {
                     reached[at] = k as u32;
                     let step = &mut steps[at];
                     step.below += own;
-                    if step.parent == NONE {
+                    if step.parent == NO_STEP {
                         step.parent = k as u32;
                     }
                     at = step.parent as usize;
@@ -65,7 +65,7 @@ impl Elimination {
 
     /// The step's parent in the elimination tree.
     pub(crate) fn parent(&self, step: usize) -> Option<usize> {
-        Some(self.steps[step].parent).filter(|&parent| parent != NONE).map(|parent| parent as usize)
+        Some(self.steps[step].parent).filter(|&parent| parent != NO_STEP).map(|parent| parent as usize)
     }
 
     /// The same elimination with every subtree in one piece: only then are supernodes runs of columns.
@@ -77,11 +77,11 @@ impl Elimination {
         ascending.sort_by_key(|&k| self.steps[k].below);
         let mut order = Vec::with_capacity(n);
         postorder(n, |k| self.parent(k), ascending.into_iter(), |k| order.push(k));
-        let mut new = vec![NONE; n];
+        let mut new = vec![NO_STEP; n];
         order.iter().enumerate().for_each(|(to, &from)| new[from] = to as u32);
         let renumber = |&from: &usize| {
             let step = self.steps[from];
-            Step { parent: if step.parent == NONE { NONE } else { new[step.parent as usize] }, ..step }
+            Step { parent: if step.parent == NO_STEP { NO_STEP } else { new[step.parent as usize] }, ..step }
         };
         Self { steps: order.iter().map(renumber).collect() }
     }
@@ -94,9 +94,9 @@ pub(crate) fn postorder(
     listed: impl DoubleEndedIterator<Item = usize>,
     mut visit: impl FnMut(usize),
 ) {
-    const END: usize = usize::MAX;
+    const NO_CHILD: usize = usize::MAX;
     // Lists of children; the one put in last comes first.
-    let (mut first_child, mut sibling) = (vec![END; n + 1], vec![END; n]);
+    let (mut first_child, mut sibling) = (vec![NO_CHILD; n + 1], vec![NO_CHILD; n]);
     for k in listed.rev() {
         let parent = parent(k).unwrap_or(n);
         sibling[k] = first_child[parent];
@@ -105,7 +105,7 @@ pub(crate) fn postorder(
     let mut path = vec![n];
     while let Some(&at) = path.last() {
         let child = first_child[at];
-        if child == END {
+        if child == NO_CHILD {
             path.pop();
             if at != n {
                 visit(at);

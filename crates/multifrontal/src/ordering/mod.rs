@@ -9,17 +9,17 @@ pub(crate) use graph::Graph;
 
 use crate::symbolic::{Lower, Ordering};
 use crate::threads::both;
-use dissection::{Begun, SHARE_FROM};
+use dissection::{Begun, MIN_SHARED_VERTICES};
 use feral_amd::{CscPattern, amd_order};
 
 /// From this many operations an edge on an order is compared with the other one. Both take about as long as
 /// so many operations: where a factorisation takes less, as in small and thin structures, little can be
 /// gained.
-const COMPARE: f64 = 1e4;
+const MIN_COMPARED_OPERATIONS_PER_EDGE: f64 = 1e4;
 
 /// A graph of this many vertices and neighbours of each may be a solid, whose dissection comes first: of a
 /// solid, minimum degree costs two to four times the operations.
-const SOLID: (usize, f64) = (8000, 16.0);
+const SOLID_VERTICES_AND_NEIGHBOURS: (usize, f64) = (8000, 16.0);
 
 /// The graph that is ordered, and its elimination with every subtree in one piece.
 ///
@@ -39,10 +39,12 @@ pub(crate) fn order(pattern: &Lower, ordering: &Ordering, threads: usize) -> (Gr
     let best = match ordering {
         Ordering::MinimumDegree => minimum_degree(&graph, threads),
         Ordering::NestedDissection => dissected(Begun::new(&graph, threads)),
-        _ if graph.vertices() >= SOLID.0 && graph.edges() >= SOLID.1 * graph.vertices() as f64 => {
+        _ if graph.vertices() >= SOLID_VERTICES_AND_NEIGHBOURS.0
+            && graph.edges() >= SOLID_VERTICES_AND_NEIGHBOURS.1 * graph.vertices() as f64 =>
+        {
             // Few operations for a solid: it is a beam or a shell, for which minimum degree may do with less.
             let first = dissected(Begun::new(&graph, threads));
-            if first.flops() > COMPARE * graph.edges() {
+            if first.flops() > MIN_COMPARED_OPERATIONS_PER_EDGE * graph.edges() {
                 first
             } else {
                 better(minimum_degree(&graph, threads), first)
@@ -51,9 +53,9 @@ pub(crate) fn order(pattern: &Lower, ordering: &Ordering, threads: usize) -> (Gr
         _ => {
             // Another thread may find the first cut in the meantime.
             let begin = || Begun::new(&graph, threads);
-            let share = threads > 1 && graph.vertices() >= SHARE_FROM;
+            let share = threads > 1 && graph.vertices() >= MIN_SHARED_VERTICES;
             let (first, begun) = both(threads, || minimum_degree(&graph, threads), || share.then(begin));
-            if first.flops() > COMPARE * graph.edges() {
+            if first.flops() > MIN_COMPARED_OPERATIONS_PER_EDGE * graph.edges() {
                 better(first, dissected(begun.unwrap_or_else(begin)))
             } else {
                 first

@@ -1,6 +1,6 @@
 //! Right-hand sides side by side: a register holds those of one row, so that every number of L is met once.
 
-use super::{BLOCK, Columns, InStrip, Step, pieces, shares};
+use super::{COLUMNS_PER_PASS, Columns, InStrip, Step, pieces, shares};
 use crate::scalar::{Real, Scalar};
 use crate::threads::each;
 use pulp::{Simd, WithSimd};
@@ -8,11 +8,11 @@ use std::marker::PhantomData;
 use std::ops::Range;
 
 /// The most rows at a time: what belongs to them stays in the first caches while all columns pass.
-const CHUNK: usize = 512;
+const MAX_ROWS_PER_PASS: usize = 512;
 
 /// Rows whose products are summed before they are added to what the others gave. An error grows with the root of how
 /// often something was added: one sum over all rows made nine tenths of the backward error of a block of 51,000 unknowns.
-const SUMMED: usize = 64;
+const ROWS_PER_SUM: usize = 64;
 
 /// Right-hand sides that are side by side.
 pub(super) fn lanes<R: Real>() -> usize {
@@ -88,13 +88,13 @@ impl<T: Scalar> Shaped for Forward<'_, T> {
         for span in node.spans() {
             let inner = node.inner(&span, true);
             let (own, below) = y.split_at_mut(inner * row);
-            for cols in pieces(span.clone(), BLOCK) {
+            for cols in pieces(span.clone(), COLUMNS_PER_PASS) {
                 let (block, rest) = own[cols.start * row..].split_at_mut(cols.len() * row);
                 packed_lower::<T, S, V>(simd, node, &cols, block);
                 multiply::<T, S, V, G>(simd, node, &cols, block, cols.end..inner, rest);
             }
             let own = &own[span.start * row..span.end * row];
-            let (len, shares) = shares(inner..rows, threads, CHUNK);
+            let (len, shares) = shares(inner..rows, threads, MAX_ROWS_PER_PASS);
             let tasks = shares.zip(below.chunks_mut(len * row));
             let tasks = tasks.map(|(rows, y)| Multiply { node, span: span.clone(), own, rows, y });
             each(threads, tasks.collect(), Shaped::dispatch);
@@ -128,11 +128,12 @@ impl<T: Scalar> Shaped for Backward<'_, T> {
             let (own, below) = y.split_at_mut(inner * row);
             let (own, below) = (&mut own[span.start * row..], &*below);
             if inner < rows {
-                let tasks = pieces(span.clone(), BLOCK).zip(own[..span.len() * row].chunks_mut(BLOCK * row));
+                let tasks = pieces(span.clone(), COLUMNS_PER_PASS)
+                    .zip(own[..span.len() * row].chunks_mut(COLUMNS_PER_PASS * row));
                 let tasks = tasks.map(|(cols, block)| Dot { node, cols, block, rows: inner..rows, y: below });
                 each(threads, tasks.collect(), Shaped::dispatch);
             }
-            for cols in pieces(span.clone(), BLOCK).rev() {
+            for cols in pieces(span.clone(), COLUMNS_PER_PASS).rev() {
                 let (block, rest) = own[(cols.start - span.start) * row..].split_at_mut(cols.len() * row);
                 subtract_dot::<T, S, V, G>(simd, node, cols.clone(), block, cols.end..inner, rest);
                 transposed_triangle::<T, S, V>(simd, node, &cols, block);
@@ -158,7 +159,7 @@ impl<T: Scalar> Shaped for Multiply<'_, T> {
     fn run<S: Simd, const V: usize, const G: usize>(self, simd: S) {
         let Self { node, span, own, rows, y } = self;
         let row = row_len::<T, S, V>();
-        for (cols, block) in pieces(span, BLOCK).zip(own.chunks(BLOCK * row)) {
+        for (cols, block) in pieces(span, COLUMNS_PER_PASS).zip(own.chunks(COLUMNS_PER_PASS * row)) {
             multiply::<T, S, V, G>(simd, node, &cols, block, rows.clone(), &mut *y);
         }
     }
@@ -350,7 +351,7 @@ fn subtract_dot<T: Scalar, S: Simd, const V: usize, const G: usize>(
         let column = |g: usize, part: usize| l.part((some.start + g).min(some.end - 1), part, rows.clone());
         let columns: [[&[T::Real]; 2]; G] = std::array::from_fn(|g| [column(g, 0), column(g, T::PARTS - 1)]);
         let mut less = [[[zero; V]; 2]; G];
-        for piece in pieces(0..rows.len(), SUMMED) {
+        for piece in pieces(0..rows.len(), ROWS_PER_SUM) {
             let mut sums = [[[zero; V]; 2]; G];
             for at in piece {
                 let x = load::<T, S, V>(y, at);

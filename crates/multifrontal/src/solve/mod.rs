@@ -1,16 +1,16 @@
 //! Solutions: forward from the subtrees to the roots of the tree, and back.
 //!
-//! Every part works on numbers of its own, so that parts can be shared out to threads; the sums are the same
+//! Every branch works on numbers of its own, so that branches can be shared out to threads; the sums are the same
 //! whoever makes them. A few right-hand sides are worked on at the same time, side by side.
 
 mod many;
 mod one;
 
+use crate::branch::Branch;
 use crate::factor::{Factor, Node};
-use crate::kernel::STRIP;
+use crate::kernel::STRIP_COLUMNS;
 use crate::memory::Memory;
 use crate::packed_lower::{PackedLower, top};
-use crate::part::Part;
 use crate::scalar::Scalar;
 use crate::threads::{each, map, with};
 use many::Shaped;
@@ -18,24 +18,26 @@ use std::ops::Range;
 
 /// Numbers of a factor below which one thread solves alone: to have another one takes a tenth of a millisecond, and so
 /// does half of the solution with a million.
-const ALONE_BELOW: usize = 1_000_000;
+const MIN_SHARED_FACTOR_NUMBERS: usize = 1_000_000;
 
 /// Numbers of a node below which another thread costs more than it brings.
-const SHARE_FROM: usize = 40_000;
+const MIN_SHARED_NODE_NUMBERS: usize = 40_000;
 
 /// Columns of L that are met together: as many streams as a processor follows, complex ones having two.
-const BLOCK: usize = 8;
+const COLUMNS_PER_PASS: usize = 8;
 
 // Blocks begin at multiples of their size in spans.
-const _: () = assert!(STRIP.is_multiple_of(BLOCK) && SPAN.is_multiple_of(BLOCK));
+const _: () = assert!(
+    STRIP_COLUMNS.is_multiple_of(COLUMNS_PER_PASS) && PIVOTS_PER_MEETING.is_multiple_of(COLUMNS_PER_PASS)
+);
 
 /// Pivots of a node after which the threads meet.
-const SPAN: usize = 256;
+const PIVOTS_PER_MEETING: usize = 256;
 
 /// The fewest rows that one thread takes at a time, so that columns are met in runs.
-const FEWEST: usize = 96;
+const MIN_ROWS_PER_THREAD: usize = 96;
 
-/// One node, and the numbers of its part: of each row the parts, of each part the right-hand sides.
+/// One node, and the numbers of its branch: of each row the parts, of each part the right-hand sides.
 struct Step<'a, T: Scalar> {
     node: Columns<'a, T>,
     local: &'a mut [T::Real],
@@ -96,7 +98,7 @@ impl<'a, T: Scalar> InStrip<'a, T> {
 }
 
 impl<'a, T: Scalar> Columns<'a, T> {
-    /// The columns of a strip from one on; [`BLOCK`]s are in one strip each.
+    /// The columns of a strip from one on; [`COLUMNS_PER_PASS`]s are in one strip each.
     #[inline(always)]
     fn in_strip(&self, first: usize) -> InStrip<'a, T> {
         let values = &self.values[self.packed_lower.start::<T>(first)..];
@@ -105,19 +107,19 @@ impl<'a, T: Scalar> Columns<'a, T> {
 
     /// The pivots in spans.
     fn spans(&self) -> impl DoubleEndedIterator<Item = Range<usize>> {
-        pieces(0..self.pivots(), SPAN)
+        pieces(0..self.pivots(), PIVOTS_PER_MEETING)
     }
 
     /// Where the rows end that the columns of a span are met in one after the other.
     fn inner(&self, span: &Range<usize>, shared: bool) -> usize {
-        if shared && span.len() * self.order() >= SHARE_FROM { span.end } else { self.order() }
+        if shared && span.len() * self.order() >= MIN_SHARED_NODE_NUMBERS { span.end } else { self.order() }
     }
 }
 
 /// Rows in pieces for so many threads, a few for each, and none longer than `most`.
 fn shares(rows: Range<usize>, threads: usize, most: usize) -> (usize, impl Iterator<Item = Range<usize>>) {
     let len = if threads < 2 { rows.len() } else { rows.len().div_ceil(2 * threads) };
-    let len = len.clamp(FEWEST, most);
+    let len = len.clamp(MIN_ROWS_PER_THREAD, most);
     (len, pieces(rows, len))
 }
 
@@ -157,7 +159,7 @@ impl<T: Scalar> Factor<T> {
     }
 }
 
-/// The numbers of a part, of each position the parts, of each part the right-hand sides; and those of the parts below.
+/// The numbers of a branch, of each position the parts, of each part the right-hand sides; and those of the branches below.
 struct Local<R> {
     values: Memory<R>,
     below: Vec<Local<R>>,
@@ -176,42 +178,42 @@ impl<T: Scalar> Together<'_, T> {
         T::PARTS * self.lanes
     }
 
-    /// y = L⁻¹ S b of a part and of those below it; numbers outside are what it adds there.
-    fn up(&self, part: usize, rhs: &[T]) -> Local<T::Real> {
-        let (part, row) = (&self.factor.parts[part], self.row());
-        let below = map(self.threads, part.below.clone(), |below| self.up(below, rhs));
-        let mut values = self.gather(part, rhs);
-        for (&from, local) in part.below.iter().zip(&below) {
-            let from = &self.factor.parts[from];
+    /// y = L⁻¹ S b of a branch and of those below it; numbers outside are what it adds there.
+    fn up(&self, branch: usize, rhs: &[T]) -> Local<T::Real> {
+        let (branch, row) = (&self.factor.branches[branch], self.row());
+        let below = map(self.threads, branch.below.clone(), |below| self.up(below, rhs));
+        let mut values = self.gather(branch, rhs);
+        for (&from, local) in branch.below.iter().zip(&below) {
+            let from = &self.factor.branches[from];
             let changes = local.values[from.own.len() * row..].chunks_exact(row);
             for (&place, changes) in from.outside.iter().zip(changes) {
                 let values = &mut values[place as usize * row..][..row];
                 values.iter_mut().zip(changes).for_each(|(value, &change)| *value += change);
             }
         }
-        self.forward(part, &mut values);
+        self.forward(branch, &mut values);
         Local { values, below }
     }
 
     /// x = L⁻ᵀ D⁻¹ y likewise, once what is above is known.
-    fn down(&self, part: usize, mut local: Local<T::Real>, above: &[T::Real]) -> Local<T::Real> {
-        let (part, row) = (&self.factor.parts[part], self.row());
-        let outside = local.values[part.own.len() * row..].chunks_exact_mut(row);
-        for (&place, values) in part.outside.iter().zip(outside) {
+    fn down(&self, branch: usize, mut local: Local<T::Real>, above: &[T::Real]) -> Local<T::Real> {
+        let (branch, row) = (&self.factor.branches[branch], self.row());
+        let outside = local.values[branch.own.len() * row..].chunks_exact_mut(row);
+        for (&place, values) in branch.outside.iter().zip(outside) {
             values.copy_from_slice(&above[place as usize * row..][..row]);
         }
-        self.backward(part, &mut local.values);
-        let below = part.below.iter().zip(local.below).collect();
-        let below = map(self.threads, below, |(&part, below)| self.down(part, below, &local.values));
+        self.backward(branch, &mut local.values);
+        let below = branch.below.iter().zip(local.below).collect();
+        let below = map(self.threads, below, |(&branch, below)| self.down(branch, below, &local.values));
         Local { values: local.values, below }
     }
 
-    /// S b in the order of a part's positions, zeros for those outside of it.
-    fn gather(&self, part: &Part, rhs: &[T]) -> Memory<T::Real> {
+    /// S b in the order of a branch's positions, zeros for those outside of it.
+    fn gather(&self, branch: &Branch, rhs: &[T]) -> Memory<T::Real> {
         let (row, lanes) = (self.row(), self.lanes);
-        let mut local = Memory::zeros(part.size() * row);
+        let mut local = Memory::zeros(branch.size() * row);
         for (lane, b) in rhs.chunks_exact(self.factor.dim()).enumerate() {
-            for (local, (from, scale)) in local.chunks_exact_mut(row).zip(self.rows_of(part)) {
+            for (local, (from, scale)) in local.chunks_exact_mut(row).zip(self.rows_of(branch)) {
                 let parts = b[from].scale(scale).parts();
                 for p in 0..T::PARTS {
                     local[p * lanes + lane] = parts[p];
@@ -221,33 +223,37 @@ impl<T: Scalar> Together<'_, T> {
         local
     }
 
-    /// The solutions S x from one on, of a part and of those below it.
-    fn scatter(&self, part: usize, local: &Local<T::Real>, into: &mut [T], first: usize) {
-        let part = &self.factor.parts[part];
+    /// The solutions S x from one on, of a branch and of those below it.
+    fn scatter(&self, branch: usize, local: &Local<T::Real>, into: &mut [T], first: usize) {
+        let branch = &self.factor.branches[branch];
         for (lane, x) in (first..).zip(into.chunks_exact_mut(self.factor.dim())) {
-            for (local, (to, scale)) in local.values.chunks_exact(self.row()).zip(self.rows_of(part)) {
+            for (local, (to, scale)) in local.values.chunks_exact(self.row()).zip(self.rows_of(branch)) {
                 let parts = [local[lane], local[(T::PARTS - 1) * self.lanes + lane]];
                 x[to] = T::from_parts(parts).scale(scale);
             }
         }
-        part.below.iter().zip(&local.below).for_each(|(&part, local)| self.scatter(part, local, into, first));
+        branch
+            .below
+            .iter()
+            .zip(&local.below)
+            .for_each(|(&branch, local)| self.scatter(branch, local, into, first));
     }
 
-    /// Rows of the matrix, and their scales, of what is eliminated in a part.
-    fn rows_of(&self, part: &Part) -> impl Iterator<Item = (usize, T::Real)> {
-        let (rows, scales) = (&self.factor.order[part.own.clone()], &self.factor.scale[part.own.clone()]);
+    /// Rows of the matrix, and their scales, of what is eliminated in a branch.
+    fn rows_of(&self, branch: &Branch) -> impl Iterator<Item = (usize, T::Real)> {
+        let (rows, scales) = (&self.factor.order[branch.own.clone()], &self.factor.scale[branch.own.clone()]);
         rows.iter().zip(scales).map(|(&row, &scale)| (row as usize, scale))
     }
 
-    /// y = L⁻¹ b over the nodes of a part; places outside receive what they have to add.
-    fn forward(&self, part: &Part, local: &mut [T::Real]) {
+    /// y = L⁻¹ b over the nodes of a branch; places outside receive what they have to add.
+    fn forward(&self, branch: &Branch, local: &mut [T::Real]) {
         let (buffer, row) = (&mut Memory::default(), self.row());
-        for node in &self.factor.nodes[part.nodes.clone()] {
+        for node in &self.factor.nodes[branch.nodes.clone()] {
             let own = &local[node.first * row..][..node.pivots() * row];
             if own.iter().all(|&x| x == T::Real::default()) {
                 continue;
             }
-            let step = self.step(node, part, local, buffer);
+            let step = self.step(node, branch, local, buffer);
             if self.lanes == 1 {
                 crate::arch().dispatch(one::Forward(step));
             } else {
@@ -256,11 +262,11 @@ impl<T: Scalar> Together<'_, T> {
         }
     }
 
-    /// x = L⁻ᵀ D⁻¹ y over the nodes of a part.
-    fn backward(&self, part: &Part, local: &mut [T::Real]) {
+    /// x = L⁻ᵀ D⁻¹ y over the nodes of a branch.
+    fn backward(&self, branch: &Branch, local: &mut [T::Real]) {
         let buffer = &mut Memory::default();
-        for node in self.factor.nodes[part.nodes.clone()].iter().rev() {
-            let step = self.step(node, part, local, buffer);
+        for node in self.factor.nodes[branch.nodes.clone()].iter().rev() {
+            let step = self.step(node, branch, local, buffer);
             if self.lanes == 1 {
                 crate::arch().dispatch(one::Backward(step));
             } else {
@@ -272,14 +278,14 @@ impl<T: Scalar> Together<'_, T> {
     fn step<'a>(
         &'a self,
         node: &'a Node<T>,
-        part: &Part,
+        branch: &Branch,
         local: &'a mut [T::Real],
         buffer: &'a mut Memory<T::Real>,
     ) -> Step<'a, T> {
-        let threads = if part.top { self.threads } else { 1 };
+        let threads = if branch.top { self.threads } else { 1 };
         let (values, packed_lower) = (self.factor.columns_of(node), PackedLower::new(node.order()));
         let node = Columns { node, values, packed_lower };
-        Step { node, local, buffer, threads, shared: part.top }
+        Step { node, local, buffer, threads, shared: branch.top }
     }
 }
 
@@ -290,7 +296,7 @@ pub(crate) fn solve<T: Scalar>(factor: &Factor<T>, rhs: &mut [T], threads: usize
     }
     assert_eq!(rhs.len() % dim, 0, "whole right-hand sides");
     let numbers: usize = factor.nodes.iter().map(Node::numbers).sum();
-    let threads = if numbers < ALONE_BELOW { 1 } else { threads.max(1) };
+    let threads = if numbers < MIN_SHARED_FACTOR_NUMBERS { 1 } else { threads.max(1) };
     let together = many::lanes::<T::Real>();
     with(threads, || {
         for some in rhs.chunks_mut(dim * together) {

@@ -1,7 +1,7 @@
 //! One right-hand side: registers hold rows, at the speed at which L comes from memory.
 
-use super::{BLOCK, Columns, Step, pieces, shares};
-use crate::memory::{LINE, Memory};
+use super::{COLUMNS_PER_PASS, Columns, Step, pieces, shares};
+use crate::memory::{CACHE_LINE_BYTES, Memory};
 use crate::scalar::{Real, Scalar, add_product};
 use crate::threads::each;
 use pulp::{Simd, WithSimd};
@@ -24,7 +24,7 @@ impl<T: Scalar> WithSimd for Forward<'_, T> {
         }
         for span in node.spans() {
             let inner = node.inner(&span, shared);
-            for cols in pieces(span.clone(), BLOCK) {
+            for cols in pieces(span.clone(), COLUMNS_PER_PASS) {
                 packed_lower(node, &cols, re, im);
                 let (x, below) = (factors(&cols, re, im), cols.end..inner);
                 multiply(simd, node, cols, &x, below.clone(), (&mut re[below.clone()], &mut im[below]));
@@ -65,18 +65,18 @@ impl<T: Scalar> WithSimd for Backward<'_, T> {
             (re[k], im[k]) = (x, y);
         }
         times_inverse(&node.inverse, re, im);
-        let mut sums = [[T::default(); BLOCK]; super::SPAN / BLOCK];
+        let mut sums = [[T::default(); COLUMNS_PER_PASS]; super::PIVOTS_PER_MEETING / COLUMNS_PER_PASS];
         for span in node.spans().rev() {
             let inner = node.inner(&span, shared);
             let below = inner..rows;
-            sums.fill([T::default(); BLOCK]);
+            sums.fill([T::default(); COLUMNS_PER_PASS]);
             if !below.is_empty() {
                 let x = (&re[below.clone()], &im[below.clone()]);
-                let tasks = pieces(span.clone(), BLOCK).zip(&mut sums);
+                let tasks = pieces(span.clone(), COLUMNS_PER_PASS).zip(&mut sums);
                 let tasks = tasks.map(|(cols, sums)| Dot { node, cols, rows: below.clone(), x, sums });
                 each(threads, tasks.collect(), |task| crate::arch().dispatch(task));
             }
-            for (cols, sums) in pieces(span.clone(), BLOCK).zip(&mut sums).rev() {
+            for (cols, sums) in pieces(span.clone(), COLUMNS_PER_PASS).zip(&mut sums).rev() {
                 let inside = cols.end..inner;
                 dot(simd, node, cols.clone(), inside.clone(), (&re[inside.clone()], &im[inside]), sums);
                 transposed_triangle(node, &cols, sums, re, im);
@@ -103,7 +103,7 @@ impl<T: Scalar> WithSimd for Multiply<'_, T> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
         let Self { node, span, own, rows, y } = self;
-        for cols in pieces(span, BLOCK) {
+        for cols in pieces(span, COLUMNS_PER_PASS) {
             let x = factors(&cols, own.0, own.1);
             multiply(simd, node, cols, &x, rows.clone(), (&mut *y.0, &mut *y.1));
         }
@@ -116,7 +116,7 @@ struct Dot<'a, T: Scalar> {
     cols: Range<usize>,
     rows: Range<usize>,
     x: (&'a [T::Real], &'a [T::Real]),
-    sums: &'a mut [T; BLOCK],
+    sums: &'a mut [T; COLUMNS_PER_PASS],
 }
 
 impl<T: Scalar> WithSimd for Dot<'_, T> {
@@ -131,7 +131,7 @@ impl<T: Scalar> WithSimd for Dot<'_, T> {
 
 /// Zeros for the real and the imaginary parts of some rows.
 fn planes<R: Real>(buffer: &mut Memory<R>, rows: usize) -> (&mut [R], &mut [R]) {
-    let plane = rows.next_multiple_of(LINE / size_of::<R>());
+    let plane = rows.next_multiple_of(CACHE_LINE_BYTES / size_of::<R>());
     let planes = buffer.some(2 * plane);
     planes.fill(R::default());
     let (re, im) = planes.split_at_mut(plane);
@@ -172,7 +172,7 @@ fn packed_lower<T: Scalar>(
 fn transposed_triangle<T: Scalar>(
     node: Columns<'_, T>,
     cols: &Range<usize>,
-    sums: &[T; BLOCK],
+    sums: &[T; COLUMNS_PER_PASS],
     re: &mut [T::Real],
     im: &mut [T::Real],
 ) {
@@ -189,8 +189,8 @@ fn transposed_triangle<T: Scalar>(
 
 /// What the rows below a block are to be multiplied with, its sign changed.
 #[inline(always)]
-fn factors<R: Real>(cols: &Range<usize>, re: &[R], im: &[R]) -> [[R; 2]; BLOCK] {
-    let mut factors = [[R::default(); 2]; BLOCK];
+fn factors<R: Real>(cols: &Range<usize>, re: &[R], im: &[R]) -> [[R; 2]; COLUMNS_PER_PASS] {
+    let mut factors = [[R::default(); 2]; COLUMNS_PER_PASS];
     factors.iter_mut().zip(cols.clone()).for_each(|(x, k)| *x = [-re[k], -im[k]]);
     factors
 }
@@ -201,12 +201,12 @@ fn multiply<T: Scalar, S: Simd>(
     simd: S,
     node: Columns<'_, T>,
     cols: Range<usize>,
-    factors: &[[T::Real; 2]; BLOCK],
+    factors: &[[T::Real; 2]; COLUMNS_PER_PASS],
     rows: Range<usize>,
     (re, im): (&mut [T::Real], &mut [T::Real]),
 ) {
     let none: &[T::Real] = &[];
-    let (l, mut columns) = (node.in_strip(cols.start), [[none; 2]; BLOCK]);
+    let (l, mut columns) = (node.in_strip(cols.start), [[none; 2]; COLUMNS_PER_PASS]);
     for (column, col) in columns.iter_mut().zip(cols.clone()) {
         *column = [0, T::PARTS - 1].map(|part| l.part(col, part, rows.clone()));
     }
@@ -244,22 +244,23 @@ fn dot<T: Scalar, S: Simd>(
     cols: Range<usize>,
     rows: Range<usize>,
     (re, im): (&[T::Real], &[T::Real]),
-    sums: &mut [T; BLOCK],
+    sums: &mut [T; COLUMNS_PER_PASS],
 ) {
-    const C: usize = 4;
+    const COLUMNS_PER_SUM: usize = 4;
     let zero = T::Real::splat(simd, T::Real::default());
     let l = node.in_strip(cols.start);
     let (re, re_end) = T::Real::vectors::<S>(re);
     let (im, im_end) = T::Real::vectors::<S>(im);
-    for (some, sums) in pieces(cols, C).zip(sums.chunks_mut(C)) {
+    for (some, sums) in pieces(cols, COLUMNS_PER_SUM).zip(sums.chunks_mut(COLUMNS_PER_SUM)) {
         // The last column again where there are fewer: those sums are not looked at.
         let column = |c: usize, part: usize| l.part((some.start + c).min(some.end - 1), part, rows.clone());
-        let columns: [[&[T::Real]; 2]; C] = std::array::from_fn(|c| [column(c, 0), column(c, T::PARTS - 1)]);
+        let columns: [[&[T::Real]; 2]; COLUMNS_PER_SUM] =
+            std::array::from_fn(|c| [column(c, 0), column(c, T::PARTS - 1)]);
         // Σ l re, Σ m im, which is to be taken from it, and Σ l im + m re.
-        let mut totals = [[zero; 3]; C];
+        let mut totals = [[zero; 3]; COLUMNS_PER_SUM];
         for at in 0..re.len() {
             let x = [re[at], if T::PARTS == 2 { im[at] } else { re[at] }];
-            for c in 0..C {
+            for c in 0..COLUMNS_PER_SUM {
                 let [l, m] = columns[c];
                 let l = [T::Real::vectors::<S>(l).0[at], T::Real::vectors::<S>(m).0[at]];
                 totals[c] = dot_term::<T, S>(simd, l, x, totals[c]);
@@ -267,7 +268,7 @@ fn dot<T: Scalar, S: Simd>(
         }
         if !re_end.is_empty() {
             let x = [T::Real::load_part(simd, re_end), T::Real::load_part(simd, im_end)];
-            for c in 0..C {
+            for c in 0..COLUMNS_PER_SUM {
                 let [l, m] = columns[c].map(|column| T::Real::vectors::<S>(column).1);
                 let l = [T::Real::load_part(simd, l), T::Real::load_part(simd, m)];
                 totals[c] = dot_term::<T, S>(simd, l, x, totals[c]);

@@ -1,6 +1,6 @@
 //! From the elimination of a graph to fronts: supernodes, amalgamation, rows, and the places of all entries.
 
-use super::{Entry, Lower, ROOT, Shape, Symbolic, share};
+use super::{Entry, Lower, NO_PARENT, Shape, Symbolic, costs};
 use crate::ordering::{Elimination, Graph, postorder};
 
 /// Vertices that are eliminated together.
@@ -18,10 +18,10 @@ pub(super) fn build(pattern: &Lower, graph: &Graph, elimination: &Elimination) -
     let (fronts, rows) = shapes(graph, &groups, &numbering);
     let relative = relative(&fronts, &rows);
     let (entry_start, entries) = entries(pattern, &fronts, &rows, &numbering.position)?;
-    let subtrees = share::subtrees(&fronts);
+    let subtrees = costs::subtrees(&fronts);
     let (child_start, children) = children(&fronts);
     let mut depth = vec![0; fronts.len()];
-    for k in (0..fronts.len()).rev().filter(|&k| fronts[k].parent != ROOT) {
+    for k in (0..fronts.len()).rev().filter(|&k| fronts[k].parent != NO_PARENT) {
         depth[k] = depth[fronts[k].parent] + 1;
     }
     let (pattern, order) = (pattern.clone(), numbering.order);
@@ -41,7 +41,7 @@ pub(super) fn build(pattern: &Lower, graph: &Graph, elimination: &Elimination) -
 }
 
 fn children(fronts: &[Shape]) -> (Vec<usize>, Vec<u32>) {
-    let with_parent = || fronts.iter().enumerate().filter(|(_, front)| front.parent != ROOT);
+    let with_parent = || fronts.iter().enumerate().filter(|(_, front)| front.parent != NO_PARENT);
     let mut start = vec![0; fronts.len() + 1];
     with_parent().for_each(|(_, front)| start[front.parent + 1] += 1);
     (0..fronts.len()).for_each(|k| start[k + 1] += start[k]);
@@ -63,7 +63,7 @@ fn supernodes(elimination: &Elimination) -> Vec<Group> {
         let joins =
             k > 0 && elimination.parent(k - 1) == Some(k) && steps[k - 1].below == step.rows + step.below;
         if !joins {
-            groups.push(Group { vertices: Vec::new(), pivots: 0, below: 0, parent: ROOT });
+            groups.push(Group { vertices: Vec::new(), pivots: 0, below: 0, parent: NO_PARENT });
         }
         group_of[k] = groups.len() - 1;
         if let Some(group) = groups.last_mut() {
@@ -71,7 +71,7 @@ fn supernodes(elimination: &Elimination) -> Vec<Group> {
             group.pivots += step.rows as usize;
             group.below = step.below as usize;
             // The step's parent for now: the group of it is not known yet.
-            group.parent = elimination.parent(k).unwrap_or(ROOT);
+            group.parent = elimination.parent(k).unwrap_or(NO_PARENT);
         }
     }
     for group in &mut groups {
@@ -85,7 +85,7 @@ fn supernodes(elimination: &Elimination) -> Vec<Group> {
 /// is read twice by every solution, and a front has an overhead of its own.
 fn cost(pivots: usize, below: usize) -> f64 {
     let order = (pivots + below) as f64;
-    share::multiplications(pivots, below) + 20.0 * order * order + 2e4
+    costs::multiplications(pivots, below) + 20.0 * order * order + 2e4
 }
 
 /// Merges groups into their parents where the zeros that it adds cost less than what it saves.
@@ -116,11 +116,11 @@ fn amalgamate(mut groups: Vec<Group>) -> Vec<Group> {
             }
         }
         children[k] = kept;
-        if groups[k].parent != ROOT {
+        if groups[k].parent != NO_PARENT {
             children[groups[k].parent].push(k);
         }
     }
-    let mut new = vec![ROOT; groups.len()];
+    let mut new = vec![NO_PARENT; groups.len()];
     let kept = (0..groups.len()).filter(|&k| !merged[k]);
     kept.enumerate().for_each(|(to, from)| new[from] = to);
     let mut groups: Vec<Group> =
@@ -136,7 +136,7 @@ fn amalgamate(mut groups: Vec<Group>) -> Vec<Group> {
 ///
 /// J. W. H. Liu, ACM Trans. Math. Softw. 12 (1986) 249–264.
 fn in_postorder(groups: Vec<Group>) -> Vec<Group> {
-    let parent = |k: usize| Some(groups[k].parent).filter(|&parent| parent != ROOT);
+    let parent = |k: usize| Some(groups[k].parent).filter(|&parent| parent != NO_PARENT);
     let mut children: Vec<Vec<usize>> = vec![Vec::new(); groups.len()];
     let leaves = |k: usize| groups[k].below * groups[k].below / 2;
     // What a group needs beyond what it leaves.
@@ -158,7 +158,7 @@ fn in_postorder(groups: Vec<Group>) -> Vec<Group> {
     listed.sort_by_key(|&k| std::cmp::Reverse(excess[k]));
     let mut order = Vec::with_capacity(groups.len());
     postorder(groups.len(), parent, listed.into_iter(), |k| order.push(k));
-    let mut new = vec![ROOT; groups.len()];
+    let mut new = vec![NO_PARENT; groups.len()];
     order.iter().enumerate().for_each(|(to, &from)| new[from] = to);
     let mut groups: Vec<Option<Group>> = groups.into_iter().map(Some).collect();
     let ordered = order.iter().filter_map(|&k| groups[k].take());
@@ -167,7 +167,7 @@ fn in_postorder(groups: Vec<Group>) -> Vec<Group> {
 
 /// The new number of a parent, if there is one.
 fn renumbered(parent: usize, new: &[usize]) -> usize {
-    if parent == ROOT { ROOT } else { new[parent] }
+    if parent == NO_PARENT { NO_PARENT } else { new[parent] }
 }
 
 /// Where vertices and rows come in the elimination.
@@ -197,7 +197,7 @@ impl Numbering {
 /// Fronts and the positions of their rows.
 fn shapes(graph: &Graph, groups: &[Group], numbering: &Numbering) -> (Vec<Shape>, Vec<u32>) {
     let mut children: Vec<Vec<usize>> = vec![Vec::new(); groups.len()];
-    let mut reached = vec![ROOT; graph.vertices()];
+    let mut reached = vec![NO_PARENT; graph.vertices()];
     // Vertices below each group, ascending in position.
     let mut below: Vec<Vec<u32>> = Vec::with_capacity(groups.len());
     let (mut fronts, mut rows, mut first) = (Vec::with_capacity(groups.len()), Vec::new(), 0);
@@ -221,7 +221,7 @@ fn shapes(graph: &Graph, groups: &[Group], numbering: &Numbering) -> (Vec<Shape>
         fronts.push(Shape { first, pivots: group.pivots, rows: from..rows.len(), parent: group.parent });
         children[k].drain(..).for_each(|child| below[child] = Vec::new());
         below.push(own);
-        if group.parent != ROOT {
+        if group.parent != NO_PARENT {
             children[group.parent].push(k);
         }
         first = end;
@@ -270,7 +270,7 @@ fn entries(
         entries[next[col]] = Entry { value: value as u32, row };
         next[col] += 1;
     }
-    let mut local = vec![(ROOT, 0u32); pattern.dim];
+    let mut local = vec![(NO_PARENT, 0u32); pattern.dim];
     for (k, front) in fronts.iter().enumerate() {
         for (place, row) in
             front.own().chain(rows[front.rows.clone()].iter().map(|&row| row as usize)).enumerate()

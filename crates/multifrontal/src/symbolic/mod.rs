@@ -1,23 +1,23 @@
 //! Everything about a pattern that no number changes: ordering, fronts, and what a factorisation will cost.
 
+mod costs;
 mod fronts;
 mod pattern;
-mod share;
 
 pub(crate) use pattern::Lower;
 pub use pattern::PatternError;
 
 use crate::Options;
+use crate::branch::Branch;
 use crate::factor::Node;
 use crate::ordering;
 use crate::packed_lower::PackedLower;
-use crate::part::Part;
 use crate::scalar::Scalar;
 use crate::threads::with;
 use std::ops::Range;
 
 /// Marks a front without parent.
-pub(crate) const ROOT: usize = usize::MAX;
+pub(crate) const NO_PARENT: usize = usize::MAX;
 
 /// How rows are ordered for elimination.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -142,7 +142,7 @@ impl Symbolic {
     /// Multiplications and additions of the factorisation, complex or real ones as the matrix is: Σ over columns
     /// of (entries below)².
     pub fn flops(&self) -> f64 {
-        self.fronts.iter().map(share::flops).sum()
+        self.fronts.iter().map(costs::flops).sum()
     }
 
     /// Where the columns of L of each front are among those of all, if no pivot is delayed.
@@ -161,7 +161,7 @@ impl Symbolic {
         let scalars: usize = self.fronts.iter().map(Shape::panel).sum();
         let row = size_of::<[T; 2]>() + size_of::<T::Real>() + size_of::<u32>();
         // At most one for each subtree and for each front above them: what it is above, and what it changes there.
-        let part = |root: usize| size_of::<Part>() + size_of::<usize>() + size_of_val(self.rows_of(root));
+        let branch = |root: usize| size_of::<Branch>() + size_of::<usize>() + size_of_val(self.rows_of(root));
         let in_subtrees = |front: usize| {
             let at = self.subtrees.partition_point(|subtree| subtree.end <= front);
             self.subtrees.get(at).is_some_and(|subtree| subtree.contains(&front))
@@ -172,15 +172,15 @@ impl Symbolic {
             + self.rows.len() * size_of::<u32>()
             + self.fronts.len() * size_of::<Node<T>>()
             + self.dim() * row
-            + roots.chain(above).map(part).sum::<usize>()
+            + roots.chain(above).map(branch).sum::<usize>()
     }
 
     /// Bytes that a factorisation by one worker needs beyond the factor, at most, if no pivot is delayed.
     pub fn working_bytes<T: Scalar>(&self) -> usize {
         // The pivots, their blocks and rows a second time, and the scaling by rows.
         let row = size_of::<[T; 2]>() + 2 * size_of::<f64>() + 4 * size_of::<u32>();
-        share::working_scalars(self) * size_of::<T>()
-            + share::packed(self) * T::PRODUCTS * size_of::<T::Real>()
+        costs::working_scalars(self) * size_of::<T>()
+            + costs::packed(self) * T::PRODUCTS * size_of::<T::Real>()
             + self.rows.len() * size_of::<u32>()
             // What a front gave, what it left, and the node that comes of it.
             + self.fronts.len() * 4 * size_of::<Node<T>>()
@@ -198,12 +198,12 @@ impl Symbolic {
 
     /// As many threads as are asked for, where another one brings more than it costs.
     pub(crate) fn threads(&self, options: &Options) -> usize {
-        if self.flops() < share::SHARE_FROM { 1 } else { options.threads.max(1) }
+        if self.flops() < costs::MIN_SHARED_MULTIPLICATIONS { 1 } else { options.threads.max(1) }
     }
 
     /// Multiplications of each front and all below it.
     pub(crate) fn work(&self) -> Vec<f64> {
-        share::work(&self.fronts)
+        costs::work(&self.fronts)
     }
 
     pub(crate) fn children_of(&self, front: usize) -> &[u32] {
@@ -225,9 +225,9 @@ impl Symbolic {
     /// all fronts, or one of several through any subtree.
     pub(crate) fn stacks(&self, threads: usize) -> [usize; 2] {
         if threads == 1 {
-            return share::stacks(self, 0..self.fronts.len());
+            return costs::stacks(self, 0..self.fronts.len());
         }
-        let each = self.subtrees.iter().map(|subtree| share::stacks(self, subtree.clone()));
+        let each = self.subtrees.iter().map(|subtree| costs::stacks(self, subtree.clone()));
         each.fold([0; 2], |most, it| [most[0].max(it[0]), most[1].max(it[1])])
     }
 

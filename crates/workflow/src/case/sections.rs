@@ -451,7 +451,7 @@ pub(super) fn model_error(field: &Field<'_>) -> Result<ModelErrors, InputError> 
     };
     if !field.is_table() {
         let word = field.text().ok().and_then(|word| word.value.parse::<ModelErrors>().ok());
-        let sized = |size| ModelErrors::Given(ErrorSizes { frequency: Some(size), shape: None });
+        let sized = |size| ModelErrors::Given(ErrorSizes::default().with_frequency(Some(size)));
         return word.map_or_else(|| size(field, EXPECTED).map(sized), Ok);
     }
     let table = field.table(&[&keys::MODEL_ERROR])?;
@@ -459,7 +459,8 @@ pub(super) fn model_error(field: &Field<'_>) -> Result<ModelErrors, InputError> 
         let expected = format!("a number above 0 up to 0.5, or a text as {example:?}");
         table.find(key).map(|field| size(&field, &expected)).transpose()
     };
-    let sizes = ErrorSizes { frequency: of("frequency", "0.5 %")?, shape: of("shape", "3 %")? };
+    let sizes =
+        ErrorSizes::default().with_frequency(of("frequency", "0.5 %")?).with_shape(of("shape", "3 %")?);
     match sizes.any() {
         true => Ok(ModelErrors::Given(sizes)),
         false => Err(InputError::at(&field.place, "one of the keys frequency and shape", "none")),

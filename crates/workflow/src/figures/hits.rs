@@ -2,7 +2,7 @@
 
 use super::measured::thinned;
 use crate::records::{Records, Sensor};
-use frfit::signal::{Channel, Fault, Hit, Measured};
+use frfit::signal::{Channel, Fault, Impact, Measured};
 use frfit_figures::{Axis, Color, Dash, Figure, Panel, Series};
 
 /// Of hits that are averaged, in turn.
@@ -11,7 +11,7 @@ const COLORS: [Color; 6] =
 
 /// The contacts, from one contact before the trigger to three after it.
 pub(super) fn force(records: &Records, measured: &Measured) -> Figure {
-    let longest = measured.hits.iter().map(|hit| hit.contact_s(measured.step_s)).fold(0.0, f64::max);
+    let longest = measured.impacts.iter().map(|hit| hit.contact_s(measured.step_s)).fold(0.0, f64::max);
     // At a coarse sampling a contact has few samples; the lines between them would be all there is.
     let shown_s = longest.max(8.0 * measured.step_s);
     let range_ms = (-1e3 * shown_s, 3e3 * shown_s);
@@ -44,10 +44,11 @@ fn panel(
     let kind = sensor.kind;
     let mut name = kind.name().to_owned();
     name[..1].make_ascii_uppercase();
-    let series =
-        (1..).zip(&measured.hits).map(|(number, hit)| one(records, measured, channel, range_ms, number, hit));
+    let series = (1..)
+        .zip(&measured.impacts)
+        .map(|(number, hit)| one(records, measured, channel, range_ms, number, hit));
     // A spike is told of in the legend: on its own scale the hits would not be seen.
-    let peaks = measured.hits.iter().map(|hit| hit.peak_n).fold(0.0, f64::max);
+    let peaks = measured.impacts.iter().map(|hit| hit.peak_n).fold(0.0, f64::max);
     let range = (channel == Channel::Force && peaks > 0.0).then_some((-0.1 * peaks, 1.2 * peaks));
     Panel {
         y: Axis { range, ..Axis::linear(format!("{name} ({})", kind.unit())) },
@@ -62,7 +63,7 @@ fn one(
     channel: Channel,
     range_ms: Option<(f64, f64)>,
     number: usize,
-    hit: &Hit,
+    hit: &Impact,
 ) -> Series {
     let samples =
         records.recordings.get(hit.recording).map_or(&[][..], |recording| recording.channel(channel));

@@ -64,7 +64,7 @@ pub fn law_figures(
                 line: Some(dash),
                 ..Series::default()
             };
-            series.push(line(fit.family.to_string(), curve(0.0), dash));
+            series.push(line(fit.kind.to_string(), curve(0.0), dash));
             if k == 0 {
                 series.push(line("± 2 deviations".into(), curve(2.0), Dash::Dotted));
                 series.push(line(String::new(), curve(-2.0), Dash::Dotted));
@@ -97,7 +97,7 @@ pub(super) fn of_band(
 ) -> Figure {
     let curve = Drawn {
         what: "law",
-        label: law.family.to_string(),
+        label: law.kind.to_string(),
         at: &|i, part, by| part_of(law, run.found.lines[i].frequency_hz, part, by),
     };
     curve_of_band(case, identify, run, free, &curve)

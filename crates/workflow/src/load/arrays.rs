@@ -10,11 +10,13 @@ use crate::case::{Exclusion, Located, VariesEntry as Varies, checked_band};
 use crate::error::{InputError, Place};
 use crate::units::{FactorUnit, UnitSystem};
 use frfit::c64;
-use frfit::identify::{ChannelUnknowns, Method, ModelErrors, Options, OptionsError, Reduction, Selection};
+use frfit::identify::{
+    ChannelUnknowns, Method, ModelErrors, Options, OptionsError, Reduction, Selection, Unknown,
+};
 use frfit::laws::LawKind;
 use frfit::model::{DynamicStiffness, Experiment, ModelError, Parameter, Role, Sensor};
 use frfit::quantity::Quantity;
-use frfit::roots::Bounds;
+use frfit::roots::{Bounds, BoundsError};
 use frfit_formats::FormatError;
 use std::collections::BTreeMap;
 use std::fmt;
@@ -113,6 +115,8 @@ pub enum ArraysError {
     Model(ModelError),
     /// No option can be like this.
     Options(OptionsError),
+    /// No bounds can be like this.
+    Bounds(BoundsError),
 }
 
 impl fmt::Display for ArraysError {
@@ -121,6 +125,7 @@ impl fmt::Display for ArraysError {
             Self::Input(error) => write!(f, "{error}"),
             Self::Model(error) => write!(f, "{error}"),
             Self::Options(error) => write!(f, "{error}"),
+            Self::Bounds(error) => write!(f, "{error}"),
         }
     }
 }
@@ -163,8 +168,8 @@ pub fn case_of_arrays(
     let mut options = options(wanted)?;
     let varies = varies(wanted)?;
     let place = argument(if wanted.varies.is_some() { "varies" } else { "law" });
-    fit_for_band(&mut options, &varies, &place)?;
-    let parameter = parameter(&model, &wanted.matrices, wanted, &options)?;
+    fit_for_band(&mut options, &varies, wanted.real, &place)?;
+    let parameter = parameter(&model, &wanted.matrices, wanted)?;
     if let Some(first) = unknown.iter().position(|unknown| unknown.any()) {
         let key = if unknown[first].scale { "scale" } else { "delay_s" };
         let place = argument(&format!("measurement {}", first + 1)).below(key);
@@ -182,7 +187,11 @@ pub fn case_of_arrays(
     let role = parameter.members.first().map_or(Role::Stiffness, |member| model.terms()[member.term].role);
     let unit = FactorUnit::of(role, None, &parameter.nominal, &data.frequency_hz, UnitSystem::Si);
     let identify = IdentifyCase {
-        unknowns: vec![factor_of(&parameter, &model, &options, &varies)],
+        unknowns: vec![Unknown {
+            bounds: wanted.bounds,
+            real: wanted.real,
+            ..factor_of(&parameter, &model, &varies)
+        }],
         units: vec![unit],
         reference: vec![None],
         layout: Layout::Single,
@@ -352,12 +361,7 @@ fn covers(model: &DynamicStiffness, frequency_hz: &[f64]) -> Result<(), InputErr
     Ok(())
 }
 
-fn parameter(
-    model: &DynamicStiffness,
-    names: &[String],
-    wanted: &Wanted,
-    options: &Options,
-) -> Result<Parameter, ArraysError> {
+fn parameter(model: &DynamicStiffness, names: &[String], wanted: &Wanted) -> Result<Parameter, ArraysError> {
     let words: Vec<&str> = names.iter().map(String::as_str).collect();
     let mut parameter = Parameter::factor_of(model, &words).map_err(ArraysError::Model)?;
     let place = argument("matrix");
@@ -368,7 +372,7 @@ fn parameter(
         shared(model, &parameter, k, names, &place)?;
     }
     if wanted.start_at_bounds {
-        parameter.nominal = middle_of(&options.bounds, &argument("nominal"))?;
+        parameter.nominal = middle_of(&wanted.bounds, &argument("nominal"))?;
     }
     Ok(parameter)
 }
@@ -413,18 +417,15 @@ fn options(wanted: &Wanted) -> Result<Options, ArraysError> {
         Some(word) => word.parse::<Reduction>().map_err(|error| refuse("reduction", word, error.expected))?,
         None => defaults.reduction,
     };
-    let options = Options {
-        model_errors: wanted.model_errors,
-        method,
-        selection,
-        reduction,
-        order: wanted.order.unwrap_or(defaults.order),
-        bounds: wanted.bounds,
-        real: wanted.real,
-        reject_outliers: wanted.reject_outliers.unwrap_or(defaults.reject_outliers),
-        whole_box: wanted.start_at_bounds,
-        ..defaults
-    };
+    let options = defaults
+        .with_model_errors(wanted.model_errors)
+        .with_method(method)
+        .with_selection(selection)
+        .with_reduction(reduction)
+        .with_order(wanted.order.unwrap_or(defaults.order))
+        .with_reject_outliers(wanted.reject_outliers.unwrap_or(defaults.reject_outliers))
+        .with_whole_box(wanted.start_at_bounds);
+    wanted.bounds.validate().map_err(ArraysError::Bounds)?;
     options.validate().map_err(ArraysError::Options)?;
     Ok(options)
 }

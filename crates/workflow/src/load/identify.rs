@@ -14,11 +14,11 @@ use crate::nearest::nearest;
 use crate::units::FactorUnit;
 use frfit::c64;
 use frfit::identify::{
-    ChannelUnknowns, Dependence, Method, Options, OptionsError, Reduction, Selection, Unknown, Variation,
+    ChannelUnknowns, Method, Options, OptionsError, Reduction, Selection, Unknown, Variation,
 };
 use frfit::material::Law;
 use frfit::model::{DynamicStiffness, Parameter, Role};
-use frfit::roots::Bounds;
+use frfit::roots::{Bounds, BoundsError};
 
 /// An identification, everything checked.
 #[derive(Debug)]
@@ -97,11 +97,12 @@ pub(super) fn identify(
     options.model_errors = case.model_error;
     let varies = entry.varies.as_ref().map(|varies| varies.value.clone()).unwrap_or_default();
     if let Some(Located { place, .. }) = &entry.varies {
-        fit_for_band(&mut options, &varies, place)?;
+        fit_for_band(&mut options, &varies, entry.real, place)?;
     }
+    let bounds = bounds(entry)?;
     let mut parameter = shared_factor(&entry.matrices, model, &entry.place)?;
     if let Some(place) = &entry.start {
-        parameter.nominal = middle_of(&options.bounds, place)?;
+        parameter.nominal = middle_of(&bounds, place)?;
     }
     let (band_hz, place) = band_of(entry.band_hz.as_ref(), &entry.place, overrides)?;
     let reference = entry.reference.as_ref().map(|reference| law(reference, files)).transpose()?;
@@ -110,7 +111,7 @@ pub(super) fn identify(
     let most = entry.max_lines.as_ref();
     let left_out = unused(&data, &entry.exclude, most, &entry.place.below("exclude_hz"))?;
     let unit = factor_unit(case, &entry.matrices, &parameter.nominal, &data.frequency_hz);
-    let unknowns = vec![factor_of(&parameter, model, &options, &varies)];
+    let unknowns = vec![Unknown { bounds, real: entry.real, ..factor_of(&parameter, model, &varies) }];
     known_have_std(case, model, &unknowns)?;
     Ok(IdentifyCase {
         unknowns,
@@ -129,26 +130,30 @@ pub(super) fn identify(
 }
 
 /// The common factor of a parameter's matrices as an unknown.
-pub(super) fn factor_of(
-    parameter: &Parameter,
-    model: &DynamicStiffness,
-    options: &Options,
-    varies: &Varies,
-) -> Unknown {
-    let terms: Vec<usize> = parameter.members.iter().map(|member| member.term).collect();
-    let names: Vec<&str> = terms.iter().map(|&term| model.terms()[term].name.as_str()).collect();
+pub(super) fn factor_of(parameter: &Parameter, model: &DynamicStiffness, varies: &Varies) -> Unknown {
+    let members = parameter.members.iter();
+    let names: Vec<&str> = members.map(|member| model.terms()[member.term].name.as_str()).collect();
     Unknown {
         name: names.join(", "),
-        dependence: Dependence::Factor(terms),
-        nominal: parameter.nominal.clone(),
         varies: match varies {
             Varies::Freely => Variation::PerFrequency,
             Varies::Smoothly => Variation::Smooth,
             Varies::ByLaw(kinds) => Variation::Law(kinds.clone()),
         },
-        real: options.real,
-        bounds: options.bounds,
+        ..Unknown::of_parameter(parameter)
     }
+}
+
+/// What the case says of the factor beforehand.
+fn bounds(entry: &IdentifyEntry) -> Result<Bounds, InputError> {
+    let of = |bound: &Option<Located<[f64; 2]>>| bound.as_ref().map(|bound| bound.value);
+    let bounds = Bounds { storage: of(&entry.storage), loss_factor: of(&entry.loss_factor) };
+    bounds.validate().map_err(|BoundsError { name, found: [low, high], .. }| {
+        let bound = if name == "storage" { &entry.storage } else { &entry.loss_factor };
+        let place = bound.as_ref().map_or(entry.place.below("bounds"), |bound| bound.place.clone());
+        InputError::at(&place, BoundsError::EXPECTED, format!("[{low}, {high}]"))
+    })?;
+    Ok(bounds)
 }
 
 /// What the factor of some matrices is a number of.
@@ -257,13 +262,11 @@ const SMALL_LOSS: f64 = 0.01;
 
 /// The case's options, those of the command line in their place.
 fn options(entry: &IdentifyEntry, overrides: &Overrides) -> Result<Options, InputError> {
-    let mut options = Options { real: entry.real, ..Options::default() };
+    let mut options = Options::default();
     options.method = entry.method.unwrap_or(options.method);
     options.reduction = entry.reduction.unwrap_or(options.reduction);
     options.reject_outliers = entry.reject_outliers.unwrap_or(options.reject_outliers);
     options.whole_box = entry.start.is_some();
-    options.bounds.storage = entry.storage.as_ref().map(|bound| bound.value);
-    options.bounds.loss_factor = entry.loss_factor.as_ref().map(|bound| bound.value);
     if let Some(order) = &entry.order {
         let negative = |_| InputError::at(&order.place, ORDERS, order.value.to_string());
         options.order = usize::try_from(order.value).map_err(negative)?;
@@ -296,13 +299,18 @@ fn options(entry: &IdentifyEntry, overrides: &Overrides) -> Result<Options, Inpu
 const ORDERS: &str = "1 to 200";
 
 /// Laws and smooth moduli are fitted on the subspace of a joint selection, and laws are laws of a complex modulus.
-pub(super) fn fit_for_band(options: &mut Options, varies: &Varies, place: &Place) -> Result<(), InputError> {
+pub(super) fn fit_for_band(
+    options: &mut Options,
+    varies: &Varies,
+    is_real: bool,
+    place: &Place,
+) -> Result<(), InputError> {
     match varies {
         Varies::Freely => {}
         Varies::Smoothly => options.reduction = reduction_of_band(options, "smooth", place)?,
         Varies::ByLaw(_) => {
             options.reduction = reduction_of_band(options, "law", place)?;
-            if options.real {
+            if is_real {
                 let found = "\"law\" with real = true";
                 return Err(InputError::at(place, "\"frequency\" or \"smooth\" for a real factor", found));
             }
@@ -335,11 +343,6 @@ fn invalid(error: &OptionsError, entry: &IdentifyEntry, overrides: &Overrides) -
             let place = overrides.order.map_or(written, |_| Place::option("--order"));
             InputError::at(&place, ORDERS, order.to_string())
         }
-        OptionsError::Bounds(name, [low, high]) => {
-            let bound = if *name == "storage" { &entry.storage } else { &entry.loss_factor };
-            let place = bound.as_ref().map_or(of_key("bounds"), |bound| bound.place.clone());
-            InputError::at(&place, "[low, high] with low <= high", format!("[{low}, {high}]"))
-        }
         OptionsError::Selection(method) => {
             let written = entry.selection.as_ref().map_or(of_key("selection"), |s| s.place.clone());
             let place = overrides.selection.as_ref().map_or(written, |_| Place::option("--selection"));
@@ -351,6 +354,7 @@ fn invalid(error: &OptionsError, entry: &IdentifyEntry, overrides: &Overrides) -
         OptionsError::Error(limit) => {
             InputError::at(&of_key("error"), "a positive number", limit.to_string())
         }
+        other => InputError::at(&entry.place, "other options", other.to_string()),
     }
 }
 

@@ -74,11 +74,9 @@ pub(super) fn several(
         units,
         reference,
         layout: Layout::Named,
-        options: Options {
-            reject_outliers: entry.reject_outliers.unwrap_or(true),
-            model_errors: case.model_error,
-            ..Options::default()
-        },
+        options: Options::default()
+            .with_reject_outliers(entry.reject_outliers.unwrap_or(true))
+            .with_model_errors(case.model_error),
         band_hz,
         frequency_hz,
         measured: data.measured,

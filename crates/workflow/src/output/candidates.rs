@@ -39,5 +39,6 @@ fn verdict(outcome: &Line, root: &Candidate) -> &'static str {
         Some(Refusal::Far) => "far",
         Some(Refusal::Moves) => "moves",
         Some(Refusal::NotARoot) => "not_a_root",
+        Some(_) => "refused",
     }
 }

@@ -36,7 +36,7 @@ pub fn law_json(fit: &LawFit, of: FactorUnit) -> Value {
         fit.parameters.iter().zip(&correlated.widened).map(|(p, by)| (p.name.clone(), json!(by))).collect()
     });
     json!({
-        "law": fit.family.to_string(),
+        "law": fit.kind.to_string(),
         "parameters": parameters,
         "correlation": fit.correlation,
         "chi_squared": fit.chi_squared,
@@ -81,7 +81,7 @@ pub fn laws_json(laws: &[LawFit], of: FactorUnit, units: UnitSystem) -> Value {
         "units": units.json(),
         "factor_unit": of.word(),
         "criterion": "bic",
-        "best": best(laws).map(|fit| fit.family.to_string()),
+        "best": best(laws).map(|fit| fit.kind.to_string()),
         "laws": laws.iter().map(|fit| law_json(fit, of)).collect::<Vec<_>>(),
     })
 }
@@ -139,7 +139,7 @@ pub fn laws_text(fits: &[LawFit], misfits: &[Option<Misfit>], of: FactorUnit) ->
             None => [String::new(), String::new()],
         };
         let note = if fit.converged { "" } else { ", not settled" };
-        let (behind, law) = (fit.bic() - chosen.bic(), fit.family.to_string());
+        let (behind, law) = (fit.bic() - chosen.bic(), fit.kind.to_string());
         let _ = writeln!(
             text,
             "  {law:<12}{:>10}  {left:>9}  {worst:>8}  {median:>8}  {} of {} agree{note}",
@@ -151,7 +151,7 @@ pub fn laws_text(fits: &[LawFit], misfits: &[Option<Misfit>], of: FactorUnit) ->
     if chosen.sigma_known && chosen.reduced_chi_squared().is_some_and(|chi| chi > UNEXPLAINED) {
         text += "  no law explains the data within their deviations: those hold noise only, and so do the parameters'\n";
     }
-    let _ = writeln!(text, "  {}", chosen.family);
+    let _ = writeln!(text, "  {}", chosen.kind);
     for parameter in &chosen.parameters {
         let _ = writeln!(text, "    {:<12}{}", parameter.name, with_std(parameter, of));
     }

@@ -5,7 +5,7 @@ use crate::convert::{companion, frf_dataset, windowed};
 use crate::load::decay_line;
 use crate::records::{Records, Sensor};
 use frfit::dof::DofName;
-use frfit::signal::{Channel, Fault, Frf, Hit, Measured, Options, added_loss_factor};
+use frfit::signal::{Channel, Fault, Frf, Impact, Measured, Options, added_loss_factor};
 use frfit_formats::FormatError;
 use frfit_formats::csv::{Cell, write};
 use frfit_formats::uff::{Dof, Form, FunctionHeader, FunctionType, Units, write as uff};
@@ -101,8 +101,8 @@ fn reason(records: &Records, fault: &Fault) -> String {
 }
 
 /// Every hit with what speaks against it, in one line.
-pub fn hit_reasons(records: &Records, hits: &[Hit]) -> String {
-    let of = |(k, hit): (usize, &Hit)| {
+pub fn hit_reasons(records: &Records, hits: &[Impact]) -> String {
+    let of = |(k, hit): (usize, &Impact)| {
         let reasons: Vec<String> = hit.faults.iter().map(|fault| reason(records, fault)).collect();
         format!("hit {}: {}", k + 1, reasons.join(", "))
     };
@@ -113,7 +113,7 @@ pub fn hit_reasons(records: &Records, hits: &[Hit]) -> String {
 fn warnings(records: &Records, measured: &Measured) -> Vec<String> {
     let mut warnings = Vec::new();
     for (k, sensor) in records.responses.iter().enumerate() {
-        let kept = measured.hits.iter().filter(|hit| hit.is_kept());
+        let kept = measured.impacts.iter().filter(|hit| hit.is_kept());
         let rest = kept.filter_map(|hit| hit.undecayed(k)).reduce(f64::max);
         if let Some(rest) = rest.filter(|_| measured.added_decay_per_s.is_none()) {
             warnings.push(format!(
@@ -159,7 +159,7 @@ pub fn measured_summary(records: &Records, measured: &Measured, options: &Option
         .iter()
         .map(|input| json!({"file": input.path.display().to_string(), "bytes": input.bytes, "sha256": input.sha256}))
         .collect();
-    let hit = |(k, hit): (usize, &Hit)| hit_json(k + 1, hit, records, measured);
+    let hit = |(k, hit): (usize, &Impact)| hit_json(k + 1, hit, records, measured);
     let coherence = |frf: &Frf| {
         let excited = excited_to_hz(measured).unwrap_or(0.0);
         let mut values: Vec<f64> = (measured.frequency_hz.iter())
@@ -190,8 +190,8 @@ pub fn measured_summary(records: &Records, measured: &Measured, options: &Option
             "exponential_s": options.windows.exponential_s,
             "added_decay_per_s": measured.added_decay_per_s,
         },
-        "hits": measured.hits.iter().enumerate().map(hit).collect::<Vec<_>>(),
-        "found": measured.hits.len(),
+        "hits": measured.impacts.iter().enumerate().map(hit).collect::<Vec<_>>(),
+        "found": measured.impacts.len(),
         "averages": measured.averages(),
         "frequencies": measured.frequency_hz.len(),
         "range_hz": [measured.frequency_hz.first(), measured.frequency_hz.last()],
@@ -200,7 +200,7 @@ pub fn measured_summary(records: &Records, measured: &Measured, options: &Option
     })
 }
 
-fn hit_json(number: usize, hit: &Hit, records: &Records, measured: &Measured) -> Value {
+fn hit_json(number: usize, hit: &Impact, records: &Records, measured: &Measured) -> Value {
     let fault = |fault: &Fault| {
         json!({
             "fault": fault.name(),
@@ -238,13 +238,13 @@ pub fn measured_text(records: &Records, measured: &Measured, options: &Options) 
     let mut words = Words::default();
     words.say(&format!(
         "{} found, {} averaged, {} samples each ({} s at {} Hz)\n",
-        plural(measured.hits.len(), "hit"),
+        plural(measured.impacts.len(), "hit"),
         measured.averages(),
         measured.samples,
         short(length_s(measured)),
         short(1.0 / measured.step_s),
     ));
-    for (number, hit) in (1..).zip(&measured.hits) {
+    for (number, hit) in (1..).zip(&measured.impacts) {
         let reasons: Vec<String> = hit.faults.iter().map(|fault| reason(records, fault)).collect();
         let (verdict, reasons) = match (hit.is_kept(), reasons.is_empty()) {
             (true, true) => ("averaged", String::new()),

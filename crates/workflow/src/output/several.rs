@@ -6,7 +6,8 @@ use crate::load::{Case, IdentifyCase, MeasuredNoise};
 use crate::run::IdentifyRun;
 use frfit::c64;
 use frfit::identify::{
-    Dependence, Direction, Explained, Identification, LineValue, Status, Uncertainty, Unknown, Variation,
+    BandCoordinate, Dependence, Direction, Explained, Identification, LineValue, Status, Uncertainty,
+    Unknown, Variation,
 };
 use frfit::material::{Law, loss_factor};
 use frfit_formats::csv::{Cell, write};
@@ -232,8 +233,8 @@ fn reference_json(wanted: &IdentifyCase, run: &IdentifyRun, j: usize) -> Value {
 
 /// What a coordinate of correlation and directions stands for: `core`, `core loss_factor`, `skins e0`.
 pub fn coordinate(wanted: &IdentifyCase, outcome: &Identification, c: usize) -> String {
-    let (j, number) = &outcome.identifiability.coordinates[c];
-    let name = &wanted.unknowns[*j].name;
+    let BandCoordinate { unknown, number } = &outcome.identifiability.coordinates[c];
+    let name = &wanted.unknowns[*unknown].name;
     if number == "value" { name.clone() } else { format!("{name} {number}") }
 }
 

@@ -210,7 +210,7 @@ impl StageClock {
             Some(Stage::Solutions) => seconds.solutions += elapsed,
             Some(Stage::Selection) => seconds.selection += elapsed,
             Some(Stage::Law) => seconds.laws += elapsed,
-            None => {}
+            Some(_) | None => {}
         }
         (*current, *since) = (next, now);
     }
@@ -249,7 +249,8 @@ fn error_map(
             let at = case.model.at(identify.frequency_hz[i], std::slice::from_ref(&parameter))?;
             let none = || vec![None; identify.options.order];
             let Ok(system) = FullModel::new(at, &case.experiment) else { return Ok(none()) };
-            let by_order = error_by_order(&system, &identify.measured[i], &identify.options);
+            let by_order =
+                error_by_order(&system, &identify.measured[i], &identify.unknowns[0], &identify.options);
             Ok(by_order.unwrap_or_else(|_| none()))
         })
         .collect::<Result<Vec<_>, OutsideTable>>()?;

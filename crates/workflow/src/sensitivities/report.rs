@@ -4,7 +4,7 @@ use super::words::{bar, inseparable as in_words};
 use super::{NextSensor, NoiseFrom, Place, SensitivityRun};
 use crate::load::Case;
 use crate::output::Words;
-use frfit::sensitivity::{KNOWN, WorstBar, inseparable};
+use frfit::sensitivity::{KNOWN_LN_STD, VariableStd, WorstBar, inseparable};
 use frfit_linalg::solve::Breakdown;
 
 /// Table, what is told apart, and the next sensor.
@@ -38,7 +38,11 @@ pub(super) fn text(case: &Case, run: &SensitivityRun) -> Words {
         Some(resolved) => {
             let groups = inseparable(resolved);
             if groups.is_empty() {
-                add(false, "told apart", format!("all parameters, each to {} or better", percent(KNOWN)));
+                add(
+                    false,
+                    "told apart",
+                    format!("all parameters, each to {} or better", percent(KNOWN_LN_STD)),
+                );
             }
             for group in &groups {
                 add(true, "inseparable", in_words(&case.model, &run.variables, resolved, group));
@@ -126,15 +130,15 @@ fn next_in_words(case: &Case, run: &SensitivityRun, next: &NextSensor) -> Vec<St
         return vec![format!("none of {} candidates lowers the worst error bar", next.compared)];
     }
     let of = |bar: &WorstBar| {
-        let worst = bar.worst.map_or(String::new(), |(p, std)| {
-            format!("{} ({})", self::bar(Some(std)), run.variables[p].name)
+        let worst = bar.worst.map_or(String::new(), |VariableStd { variable, std }| {
+            format!("{} ({})", self::bar(Some(std)), run.variables[variable].name)
         });
         match bar.unseen {
             0 => worst,
             unseen => format!("{worst}, with {unseen} not seen"),
         }
     };
-    let parameter = |bar: &WorstBar| bar.worst.map(|(p, _)| p);
+    let parameter = |bar: &WorstBar| bar.worst.map(|worst| worst.variable);
     let mut lines = vec![format!(
         "{}: the worst error bar goes from {} to {}",
         case.row_name(best.row),
@@ -152,7 +156,7 @@ fn next_in_words(case: &Case, run: &SensitivityRun, next: &NextSensor) -> Vec<St
         let named =
             |bar: &WorstBar| bar.unseen == best.after.unseen && parameter(bar) == parameter(&best.after);
         let other = |place: &Place| match place.after.worst.filter(|_| named(&place.after)) {
-            Some((_, std)) => format!("{} {}", case.row_name(place.row), self::bar(Some(std))),
+            Some(worst) => format!("{} {}", case.row_name(place.row), self::bar(Some(worst.std))),
             None => format!("{} {}", case.row_name(place.row), of(&place.after)),
         };
         lines.push(format!("then {}", others.iter().map(other).collect::<Vec<_>>().join(", ")));

@@ -8,8 +8,8 @@ use frfit::c64;
 use frfit::model::{Experiment, Sensor};
 use frfit::response::Work;
 use frfit::sensitivity::{
-    Change, Deviations, Ranked, Resolved, SensitivityBand, Variable, WorstBar, change_points, next_sensors,
-    with_each_added, worst_bar,
+    Change, Ranked, Resolved, SensitivityBand, StandardDeviations, Variable, WorstBar, change_points,
+    next_sensors, with_each_added, worst_bar,
 };
 use frfit::subspace::{ChangeOptions, ChangePoint, Trained};
 use frfit_linalg::dense::NoConvergence;
@@ -145,10 +145,7 @@ fn computed(
     points: &[ChangePoint<'_>],
     candidates: &[usize],
 ) -> Result<SensitivityRun, Breakdown> {
-    let train = ChangeOptions {
-        elsewhere: (!candidates.is_empty()).then_some(ELSEWHERE),
-        ..ChangeOptions::default()
-    };
+    let train = ChangeOptions::default().with_everywhere((!candidates.is_empty()).then_some(ELSEWHERE));
     let band = SensitivityBand::new(&case.experiment, variables, points, &train, &parallel)?;
     let measured = case.sensitivities.as_ref().and_then(|wanted| wanted.std.clone());
     let (noise, deviations) = match (options.noise, measured) {
@@ -200,7 +197,7 @@ fn with_sensors(experiment: &Experiment, rows: &[usize]) -> Experiment {
 /// The best candidates, and for each those that are as good.
 fn shortlist(ranked: &[Ranked]) -> Vec<(usize, Vec<usize>)> {
     let mut short: Vec<(Ranked, Vec<usize>)> = Vec::new();
-    let bar = |ranked: &Ranked| ranked.after.worst.map_or(0.0, |(_, bar)| bar);
+    let bar = |ranked: &Ranked| ranked.after.worst.map_or(0.0, |worst| worst.std);
     for candidate in ranked {
         let full = short.len() == SHORTLIST;
         match short.last_mut() {
@@ -219,7 +216,7 @@ fn shortlist(ranked: &[Ranked]) -> Vec<(usize, Vec<usize>)> {
 /// The short list with each really added, the best first.
 fn checked(
     again: &SensitivityBand<'_>,
-    deviations: &Deviations,
+    deviations: &StandardDeviations,
     present: usize,
     short: Vec<(usize, Vec<usize>)>,
 ) -> Result<Vec<Place>, NoConvergence> {

@@ -53,8 +53,8 @@ pub(super) fn json(case: &Case, run: &SensitivityRun) -> Value {
     let worst = |bar: &WorstBar| {
         json!({
             "unseen": bar.unseen,
-            "parameter": bar.worst.map(|(p, _)| names[p]),
-            "std": bar.worst.map(|(_, std)| std),
+            "parameter": bar.worst.map(|worst| names[worst.variable]),
+            "std": bar.worst.map(|worst| worst.std),
         })
     };
     let next = run.next.as_ref().map(|next| {

@@ -76,12 +76,10 @@ fn main() -> Result<(), Box<dyn Error>> {
         band.task(sensors, DELTA)?.sample(sample).run(&options, 1).map(Some)
     };
     let series = sampled(Options::paper())?;
-    let search = Options {
-        method: Method::NelderMead,
-        order: ITERATIONS,
-        selection: Selection::Smallest,
-        ..Options::default()
-    };
+    let search = Options::default()
+        .with_method(Method::NelderMead)
+        .with_order(ITERATIONS)
+        .with_selection(Selection::Smallest);
     let search = sampled(search)?;
 
     let heading = [

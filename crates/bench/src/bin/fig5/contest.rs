@@ -58,7 +58,7 @@ fn by_series(model: &Model, frequency_hz: f64, measured: c64, order: usize) -> R
     let system = model.nominal_at(frequency_hz)?;
     let series = NeumannSeries::new(&system, 0, order)?;
     let passive = Bounds { storage: Some([0.0, f64::MAX]), loss_factor: Some([0.0, f64::MAX]) };
-    let options = RootOptions { bounds: passive, ..RootOptions::default() };
+    let options = RootOptions::default().with_bounds(passive);
     let roots = candidates(&series, 0, measured, system.nominal(0), order, &options);
     Ok(least_admissible(&roots).map_or(c64::default(), |root| root.correction))
 }

@@ -70,8 +70,7 @@ fn add(
     delta: f64,
     sample: usize,
 ) -> Result<(), Box<dyn Error>> {
-    let smallest =
-        Options { selection: Selection::Smallest, reduction: Reduction::Full, ..Options::default() };
+    let smallest = Options::default().with_selection(Selection::Smallest).with_reduction(Reduction::Full);
     let alone = |options: &Options| structure.task(1, delta)?.sample(sample).run(options, THREADS);
     let (series, smallest) = (alone(&Options::paper())?, alone(&smallest)?);
     for sensors in 1..=structure.experiment.sensors.len() {

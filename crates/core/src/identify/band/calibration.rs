@@ -1,91 +1,24 @@
 //! Channels whose calibration nobody knows: one real scale, one delay or both for the whole band, found together with the moduli.
 
+use super::channel::{Calibrated, Calibration, Channel, ChannelUnknowns};
 use super::fit::goodness;
 use super::initial_calibration::aligned;
 use super::joint;
-use super::noise::{deviations, freedom};
-use super::outlier_sensor::without;
+use super::outcome::BandOutcome;
 use super::reduced_band::ReducedBand;
-use super::{Band, BandOutcome, Context, Noise, near_or_far, on_subspace};
+use super::search_box::{near_or_far, on_subspace};
 use crate::c64;
 use crate::for_each::map;
 use crate::frequency::omega_rad_s;
-use crate::identify::{Options, Status};
+use crate::identify::context::Context;
+use crate::identify::measured::Band;
+use crate::identify::noise::{Noise, freedom, standard_deviations, without};
+use crate::identify::options::Options;
+use crate::identify::outcome::Status;
+use crate::identify::uncertainty::Uncertainty;
 use crate::material::OutsideTable;
 use crate::model::ModelAt;
 use frfit_linalg::dense::symmetric_eigen;
-
-/// What of a channel is to be found.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct ChannelUnknowns {
-    /// The factor by which its values have to be multiplied.
-    pub scale: bool,
-    /// By how much it is late.
-    pub delay: bool,
-}
-
-impl ChannelUnknowns {
-    /// Whether anything is.
-    pub fn any(self) -> bool {
-        self.scale || self.delay
-    }
-
-    /// How many real numbers are.
-    pub fn count(self) -> usize {
-        usize::from(self.scale) + usize::from(self.delay)
-    }
-}
-
-/// A number that was found, and how well.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Calibrated {
-    /// Its value; of a scale negative where the channel's sense is reversed.
-    pub value: f64,
-    /// Its standard deviation; `None` where nothing tells the noise.
-    pub std: Option<f64>,
-}
-
-/// What was found of a channel: its receptance is s e^{iωτ} times what was measured.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Calibration {
-    /// s; `None` where it was known, or the data do not tell it.
-    pub scale: Option<Calibrated>,
-    /// τ, s: by how much the channel is late; `None` as above.
-    pub delay_s: Option<Calibrated>,
-}
-
-impl Calibration {
-    /// s e^{iωτ}, with one and zero for what was not looked for.
-    pub fn factor(&self, frequency_hz: f64) -> c64 {
-        Channel::of(self).factor(frequency_hz)
-    }
-}
-
-/// A calibration as a search has it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Channel {
-    pub(super) scale: f64,
-    pub(super) delay_s: f64,
-}
-
-impl Channel {
-    pub(super) const RIGHT: Self = Self { scale: 1.0, delay_s: 0.0 };
-
-    /// One and zero for what was not looked for.
-    pub(super) fn of(found: &Calibration) -> Self {
-        let value = |found: Option<Calibrated>, none: f64| found.map_or(none, |found| found.value);
-        Self { scale: value(found.scale, 1.0), delay_s: value(found.delay_s, 0.0) }
-    }
-
-    fn factor(&self, frequency_hz: f64) -> c64 {
-        self.scale * c64::from_polar(1.0, omega_rad_s(frequency_hz) * self.delay_s)
-    }
-
-    /// Where u = γ e^{−iωt} x is what is left of this calibration.
-    pub(super) fn better(&self, gain: f64, late_s: f64) -> Self {
-        Self { scale: self.scale / gain, delay_s: self.delay_s + late_s }
-    }
-}
 
 /// Which number of which channel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -103,17 +36,17 @@ fn free(unknown: &[ChannelUnknowns]) -> Vec<Free> {
 }
 
 /// Selections among all solutions, each at better scales; they change what is selected hardly ever after the first.
-const ROUNDS: usize = 6;
+const MAX_SELECTIONS: usize = 6;
 
 /// Steps of Gauss and Newton on moduli and scales together.
-const STEPS: usize = 30;
+const MAX_CALIBRATION_STEPS: usize = 30;
 
 /// A change of a scale by this part of its deviation, or of itself, is none.
-const SETTLED: f64 = 1e-3;
-const ROUNDOFF: f64 = 1e-10;
+const CALIBRATION_STEP_TOL: f64 = 1e-3;
+const CALIBRATION_ROUNDOFF: f64 = 1e-10;
 
 /// What of a scale the moduli leave, and what is left of it by the other scales, relative to the channel's size: below this there is no digit.
-const UNTOLD: f64 = 1e-12;
+const CALIBRATION_INFORMATION_RTOL: f64 = 1e-12;
 
 /// As [`super::identify_band`], with channels whose scale s_m, or delay τ_m, is unknown: u_m = s_m e^{iωτ_m} times what was measured.
 ///
@@ -121,7 +54,7 @@ const UNTOLD: f64 = 1e-12;
 /// channels of which all is known alone give the first moduli; the first delays are those that turn most x_m/y_m to one phase, among the ones that the diagnostics tries too, the first
 /// scales the medians then. Every frequency is selected anew from all channels, and Gauss and Newton's steps with the moduli eliminated, frequency by
 /// frequency, move scales and delays. Error bars of the factor have what those of the scales and delays put into them, and χ² as many degrees of freedom less.
-/// The selection is joint, and what answers is the subspace, whatever the options say; nothing is told, and the channels are left out, where there is no
+/// The selection is joint, and what answers is the subspace, whatever the options say; no calibration is given, and the channels are left out, where there is no
 /// subspace, or where what was found does not tell them.
 ///
 /// # Errors
@@ -134,11 +67,11 @@ pub(in crate::identify) fn identify_band_scaled(
 ) -> Result<(BandOutcome, Vec<Calibration>), OutsideTable> {
     let at = band.model.at_all(band.frequency_hz, std::slice::from_ref(band.parameter))?;
     let run = |options: &Options| {
-        let mut space = super::space(band, &at, options, hooks);
-        let (outcome, found) = with_scales(band, &at, &mut space, unknown, options, hooks);
+        let mut reduced = ReducedBand::if_wanted(band, &at, options, hooks);
+        let (outcome, found) = with_scales(band, &at, &mut reduced, unknown, options, hooks);
         (outcome, found.unwrap_or_else(|| vec![Calibration::default(); unknown.len()]))
     };
-    let (outcome, found) = near_or_far(&on_subspace(options), run);
+    let (outcome, found) = near_or_far(band, &on_subspace(options), run);
     Ok((outcome.judged_by_fit(), found))
 }
 
@@ -146,32 +79,34 @@ pub(in crate::identify) fn identify_band_scaled(
 pub(super) fn with_scales<'a>(
     band: &Band<'a>,
     at: &[ModelAt<'a>],
-    space: &mut Option<ReducedBand<'a, '_>>,
+    reduced: &mut Option<ReducedBand<'a, '_>>,
     unknown: &[ChannelUnknowns],
     options: &Options,
     hooks: Context<'_>,
 ) -> (BandOutcome, Option<Vec<Calibration>>) {
     let hidden: Vec<usize> = (0..unknown.len()).filter(|&m| unknown[m].any()).collect();
-    let first = joint::identify(band, at, space.as_mut(), &hidden, options, hooks);
-    let Some(mut channels) = space.as_ref().and_then(|space| starting(band, at, space, &first, unknown))
+    let first = joint::identify(band, at, reduced.as_mut(), &hidden, options, hooks);
+    let Some(mut channels) =
+        reduced.as_ref().and_then(|reduced| starting(band, at, reduced, &first, unknown))
     else {
         return (first, None);
     };
-    for round in 0..ROUNDS {
+    for round in 0..MAX_SELECTIONS {
         let scaled = Scaled::new(band, &channels);
         let view = scaled.band(band);
-        let mut outcome = joint::identify(&view, at, space.as_mut(), &[], options, hooks);
-        let told = space.as_ref().and_then(|space| settle(&view, at, space, &outcome, unknown, hooks));
-        let Some(told) = told else { return (first, None) };
-        if told.is_settled(top(band)) || round + 1 == ROUNDS {
-            told.widen(&mut outcome);
+        let mut outcome = joint::identify(&view, at, reduced.as_mut(), &[], options, hooks);
+        let estimated =
+            reduced.as_ref().and_then(|reduced| settle(&view, at, reduced, &outcome, unknown, hooks));
+        let Some(estimated) = estimated else { return (first, None) };
+        if estimated.is_settled(top(band)) || round + 1 == MAX_SELECTIONS {
+            estimated.widen(&mut outcome);
             let counted = outcome.sensors.iter().filter(|sensor| !sensor.left_out).count();
-            let each = freedom(counted, options.real);
-            outcome.fit = goodness(&outcome.outcomes, each, told.free.len(), &outcome.noise, &view);
-            let found = told.calibrations(&channels, outcome.noise.level);
+            let each = freedom(counted, band.unknown.real);
+            outcome.fit = goodness(&outcome.outcomes, each, estimated.free.len(), &outcome.noise, &view);
+            let found = estimated.calibrations(&channels, outcome.noise.level);
             return (outcome, Some(found));
         }
-        channels = told.better(&channels);
+        channels = estimated.better(&channels);
     }
     (first, None)
 }
@@ -217,7 +152,7 @@ impl Scaled {
 /// The frequencies whose answers are beyond doubt but for their size: (frequency, correction).
 fn answers(outcome: &BandOutcome) -> Vec<(usize, c64)> {
     let trusted = |status| matches!(status, Status::Ok | Status::NotIdentifiable | Status::Failed);
-    let linear = |bars: Option<crate::identify::Uncertainty>| bars.is_none_or(|bars| bars.is_linear());
+    let linear = |bars: Option<Uncertainty>| bars.is_none_or(|bars| bars.is_linear());
     let all = outcome.outcomes.iter().enumerate();
     all.filter(|(_, o)| trusted(o.status) && linear(o.uncertainty()))
         .filter_map(|(i, o)| Some((i, o.correction().filter(|_| o.on_path)?)))
@@ -228,13 +163,13 @@ fn answers(outcome: &BandOutcome) -> Vec<(usize, c64)> {
 fn starting(
     band: &Band<'_>,
     at: &[ModelAt<'_>],
-    space: &ReducedBand<'_, '_>,
+    reduced: &ReducedBand<'_, '_>,
     outcome: &BandOutcome,
     unknown: &[ChannelUnknowns],
 ) -> Option<Vec<Channel>> {
     let mut ratios: Vec<Vec<(f64, c64)>> = vec![Vec::new(); unknown.len()];
     for (i, correction) in answers(outcome) {
-        let Ok((x, _)) = space.model(i).respond_with_slope(&at[i], correction) else { continue };
+        let Ok((x, _)) = reduced.model(i).respond_with_slope(&at[i], correction) else { continue };
         for (m, ratios) in ratios.iter_mut().enumerate() {
             ratios.push((omega_rad_s(band.frequency_hz[i]), x[m] / band.measured[i][m]));
         }
@@ -257,23 +192,23 @@ struct CalibrationEstimate {
 fn settle(
     band: &Band<'_>,
     at: &[ModelAt<'_>],
-    space: &ReducedBand<'_, '_>,
+    reduced: &ReducedBand<'_, '_>,
     outcome: &BandOutcome,
     unknown: &[ChannelUnknowns],
     hooks: Context<'_>,
 ) -> Option<CalibrationEstimate> {
-    let sigma = without(&deviations(band.measured, band.noise), &outcome.left_out());
+    let sigma = without(&standard_deviations(band.measured, band.noise), &outcome.left_out());
     let free = free(unknown);
     let n = free.len();
     let top = top(band);
     let mut answers = answers(outcome);
     let mut left = vec![(1.0, 0.0); unknown.len()];
     let mut last = f64::INFINITY;
-    for _ in 0..STEPS {
+    for _ in 0..MAX_CALIBRATION_STEPS {
         let system = |k: usize| -> Option<Local> {
             let (i, correction) = answers[k];
             let omega = omega_rad_s(band.frequency_hz[i]);
-            let (x, slope) = space.model(i).respond_with_slope(&at[i], correction).ok()?;
+            let (x, slope) = reduced.model(i).respond_with_slope(&at[i], correction).ok()?;
             let weighed = |m: usize, value: c64| value / sigma[i][m];
             let turn = |m: usize| c64::from_polar(1.0, -omega * left[m].1);
             let sensors = 0..x.len();
@@ -305,15 +240,15 @@ fn settle(
         let size = free.iter().zip(&step).map(part).fold(0.0, f64::max);
         let moved = local.iter().map(|one| one.moved(&free)).collect::<Vec<_>>();
         // No more to gain: roundoff does not fall further.
-        if size <= 1e-13 || (size <= ROUNDOFF && size >= last) {
+        if size <= 1e-13 || (size <= CALIBRATION_ROUNDOFF && size >= last) {
             let moved = answers.iter().zip(moved).map(|(&(i, _), moved)| (i, moved)).collect();
             return Some(CalibrationEstimate { free, left, covariance, moved });
         }
         // A scale that jumps by half, or half a radian, is far from where the slopes hold.
         let shortened = (0.5 / size).min(1.0);
-        for ((answer, one), moved) in answers.iter_mut().zip(&local).zip(&moved) {
+        for ((estimate, one), moved) in answers.iter_mut().zip(&local).zip(&moved) {
             let other: c64 = moved.iter().zip(&step).map(|(v, d)| v * d).sum();
-            answer.1 += shortened * (one.own() + other);
+            estimate.1 += shortened * (one.own() + other);
         }
         for (free, step) in free.iter().zip(&step) {
             let (gain, late) = &mut left[free.channel];
@@ -374,7 +309,7 @@ fn inverse(normal: &[Vec<f64>], whole: &[f64]) -> Option<Vec<Vec<f64>>> {
         return None;
     }
     let (values, vectors) = symmetric_eigen(n, &scaled).ok()?;
-    if values.iter().any(|&value| value < UNTOLD) {
+    if values.iter().any(|&value| value < CALIBRATION_INFORMATION_RTOL) {
         return None;
     }
     let sum = |p: usize, q: usize| {
@@ -397,9 +332,11 @@ impl CalibrationEstimate {
     }
 
     fn is_settled(&self, top: f64) -> bool {
-        let least = |free: &Free| if free.is_delay { ROUNDOFF / top } else { ROUNDOFF };
-        let settled =
-            |(p, free): (usize, &Free)| self.off(p).abs() <= (SETTLED * self.std(p)).max(least(free));
+        let least =
+            |free: &Free| if free.is_delay { CALIBRATION_ROUNDOFF / top } else { CALIBRATION_ROUNDOFF };
+        let settled = |(p, free): (usize, &Free)| {
+            self.off(p).abs() <= (CALIBRATION_STEP_TOL * self.std(p)).max(least(free))
+        };
         self.free.iter().enumerate().all(settled)
     }
 

@@ -1,8 +1,9 @@
 //! All solutions at one frequency, from every sensor, fitted to all sensors (B-2, B-5).
 
 use crate::c64;
-use crate::identify::Options;
-use crate::identify::rational::{MATCH, RESIDUAL};
+use crate::identify::options::Options;
+use crate::identify::rational::{RESPONSE_MATCH_RTOL, ROOT_RESIDUAL_TOL};
+use crate::identify::unknown::Unknown;
 use crate::model::ModelAt;
 use crate::rational::{Poles, RationalResponse};
 use crate::response::Response;
@@ -10,6 +11,18 @@ use crate::roots::{Candidate, Refusal};
 use crate::subspace::{Assessment, Projection};
 use frfit_linalg::dense::NoConvergence;
 use frfit_linalg::solve::Breakdown;
+
+/// What was found at a frequency, and how.
+#[derive(Debug, Clone)]
+pub(super) struct LineCandidates {
+    /// The frequency (index).
+    pub(super) index: usize,
+    pub(super) explored: Candidates,
+    /// Corrections at which the model that found them is good enough for an answer.
+    pub(super) certain: Vec<(c64, Assessment)>,
+    /// Whether all solutions were looked for.
+    pub(super) whole: bool,
+}
 
 /// A correction that the measurement does not exclude at this frequency.
 #[derive(Debug, Clone, PartialEq)]
@@ -70,7 +83,7 @@ impl Candidates {
                 continue;
             };
             let moved: f64 = solution.response.iter().zip(&response).map(|(a, b)| (a - b).norm()).sum();
-            self.unsure |= moved > MATCH * response.iter().map(|x| x.norm()).sum::<f64>();
+            self.unsure |= moved > RESPONSE_MATCH_RTOL * response.iter().map(|x| x.norm()).sum::<f64>();
             let rest = measured.iter().zip(&response).zip(sigma);
             solution.misfit = rest.map(|((u, x), sigma)| (u - x).norm_sqr() / (sigma * sigma)).sum();
             solution.response = response;
@@ -79,28 +92,28 @@ impl Candidates {
 }
 
 /// Order of the first attempt; each further one doubles it, so that the last costs more than all before.
-const FIRST: usize = 16;
+const FIRST_ORDER: usize = 16;
 
 /// Sensors whose own solutions are starts: each is an eigenproblem, and the truth is a solution of every one.
-const SENSORS: usize = 2;
+const START_SENSORS: usize = 2;
 
 /// Steps of Gauss and Newton. From an eigenvalue a handful is enough; more show that it leads nowhere.
-const STEPS: usize = 30;
+const MAX_STEPS: usize = 30;
 
 /// Steps of a short way.
-const SHORT: usize = 6;
+const MAX_SHORT_STEPS: usize = 6;
 
 /// A step of this part of the factor is likely the last: Newton's next is the square of it.
-const NEAR: f64 = 1e-5;
+const LAST_STEP_RTOL: f64 = 1e-5;
 
 /// What is left after the last: beyond the digits that an answer has, whatever the noise.
-const SETTLED: f64 = 1e-11;
+const STEP_RTOL: f64 = 1e-11;
 
 /// Solutions nearer than this, relative to the factor, are one.
-const SAME: f64 = 1e-7;
+const SOLUTION_MERGE_RTOL: f64 = 1e-7;
 
 /// A start this far outside the box (relative to the factor) may still be pulled inside by the other sensors.
-const MARGIN: f64 = 0.2;
+const START_BOX_MARGIN: f64 = 0.2;
 
 /// x_m and ∂x_m/∂c.
 pub(super) type Evaluated = Result<(Vec<c64>, Vec<c64>), NoConvergence>;
@@ -110,6 +123,7 @@ pub(in crate::identify) struct Fit<'a> {
     pub(in crate::identify) measured: &'a [c64],
     pub(in crate::identify) sigma: &'a [f64],
     pub(in crate::identify) nominal: c64,
+    pub(in crate::identify) unknown: &'a Unknown,
     pub(in crate::identify) options: &'a Options,
 }
 
@@ -121,15 +135,16 @@ impl Fit<'_> {
 
     fn try_explore(&self, system: &impl Response, order: usize) -> Result<Candidates, Breakdown> {
         let broken = |NoConvergence| Breakdown::NotFinite;
-        let mut reached = FIRST.min(order);
+        let mut reached = FIRST_ORDER.min(order);
         let mut response = RationalResponse::new(system, 0, reached)?;
         loop {
             let mut explored = self.solutions(&response).map_err(broken)?;
             for solution in explored.solutions.iter_mut().chain(&mut explored.beyond) {
                 solution.residual = response.residual(solution.correction).unwrap_or(f64::INFINITY);
             }
-            let unsure =
-                |solutions: &[Solution]| solutions.iter().any(|solution| solution.residual > RESIDUAL);
+            let unsure = |solutions: &[Solution]| {
+                solutions.iter().any(|solution| solution.residual > ROOT_RESIDUAL_TOL)
+            };
             // The whole space leaves nothing but roundoff.
             let whole = response.is_complete() || response.size() == system.dim();
             explored.unsure = !whole && unsure(&explored.solutions);
@@ -173,7 +188,7 @@ impl Fit<'_> {
     fn solutions(&self, response: &RationalResponse) -> Result<Candidates, NoConvergence> {
         let poles = response.poles()?;
         let mut explored = Candidates::default();
-        let roots = self.options.roots();
+        let roots = self.unknown.roots();
         // The sum over the poles leads there, the matrices have the last digits.
         let last = |c: c64| response.respond_with_slope(c);
         let way = |c: c64| match &poles {
@@ -196,7 +211,7 @@ impl Fit<'_> {
         for rough in found {
             let Some(solution) = self.descend(last, rough.correction) else { continue };
             // Real where it has to be: the descent saw to that.
-            match self.options.bounds.broken_by(self.nominal + solution.correction) {
+            match self.unknown.bounds.broken_by(self.nominal + solution.correction) {
                 None => merge(&mut explored.solutions, solution, self.nominal),
                 Some(bound) => {
                     let (correction, refusal) = (solution.correction, Some(Refusal::OutOfBounds(bound)));
@@ -220,7 +235,7 @@ impl Fit<'_> {
         let mut sensors: Vec<usize> = (0..self.measured.len()).collect();
         let size = |&m: &usize| self.measured[m].norm() / self.sigma[m];
         sensors.sort_by(|a, b| size(b).total_cmp(&size(a)));
-        sensors.truncate(SENSORS);
+        sensors.truncate(START_SENSORS);
         sensors
     }
 
@@ -230,8 +245,12 @@ impl Fit<'_> {
             bound.is_none_or(|[low, high]| low - margin <= value && value <= high + margin)
         };
         factor.is_finite()
-            && wide(self.options.box_about(self.nominal), factor.re, MARGIN * factor.norm())
-            && wide(self.options.bounds.loss_factor, crate::material::loss_factor(factor), MARGIN)
+            && wide(
+                self.unknown.box_about(self.nominal, self.options.box_ratio()),
+                factor.re,
+                START_BOX_MARGIN * factor.norm(),
+            )
+            && wide(self.unknown.bounds.loss_factor, crate::material::loss_factor(factor), START_BOX_MARGIN)
     }
 
     /// Explores a reduced model. What is certified is this model's response, not that of a Krylov space within: that is where the solutions settle.
@@ -257,7 +276,7 @@ impl Fit<'_> {
     pub(super) fn descend(&self, respond: impl Fn(c64) -> Evaluated, start: c64) -> Option<Solution> {
         let evaluated = |c: c64| self.solution_at(respond(c), c);
         let (mut best, mut step) = evaluated(self.admissible(start)).ok()?;
-        for _ in 0..STEPS {
+        for _ in 0..MAX_STEPS {
             let size = (self.nominal + best.correction).norm();
             let (next, further) = evaluated(self.admissible(best.correction + step)).ok()?;
             let better = next.misfit < best.misfit;
@@ -286,10 +305,10 @@ impl Fit<'_> {
         let size = (self.nominal + start).norm();
         let start = self.admissible(start);
         let (mut best, mut step) = self.solution_at(respond(start), start).map_err(|_| start)?;
-        for _ in 0..SHORT {
+        for _ in 0..MAX_SHORT_STEPS {
             let correction = self.admissible(best.correction + step);
             let stopped = best.correction;
-            if step.norm() > NEAR * size {
+            if step.norm() > LAST_STEP_RTOL * size {
                 let (next, further) =
                     self.solution_at(respond(correction), correction).map_err(|_| stopped)?;
                 (best, step) = if next.misfit < best.misfit { (next, further) } else { return Err(stopped) };
@@ -299,7 +318,7 @@ impl Fit<'_> {
             let evaluated = (assessed.response.clone(), assessed.slope.clone());
             let (last, further) = self.solution_at(Ok(evaluated), correction).map_err(|_| stopped)?;
             // What the step after the next would be, at the rate of these two.
-            let settled = further.norm_sqr() <= SETTLED * size * step.norm();
+            let settled = further.norm_sqr() <= STEP_RTOL * size * step.norm();
             let own = self.measured.len() > 1 || self.matched(&last);
             if settled && own {
                 return Ok((last, assessed));
@@ -312,11 +331,11 @@ impl Fit<'_> {
     /// Whether a single sensor's response is the measured one: a solution is known to roundoff of a response, and where it sits on a flat
     /// segment, to the square root of that.
     fn matched(&self, solution: &Solution) -> bool {
-        self.options.real || solution.misfit.sqrt() * self.sigma[0] <= 1e-7 * self.measured[0].norm()
+        self.unknown.real || solution.misfit.sqrt() * self.sigma[0] <= 1e-7 * self.measured[0].norm()
     }
 
     fn admissible(&self, correction: c64) -> c64 {
-        if self.options.real {
+        if self.unknown.real {
             c64::new((self.nominal + correction).re, 0.0) - self.nominal
         } else {
             correction
@@ -335,7 +354,7 @@ impl Fit<'_> {
             gradient += weight * slope.conj() * rest;
         }
         let step = gradient / curvature;
-        let step = if self.options.real { c64::new(step.re, 0.0) } else { step };
+        let step = if self.unknown.real { c64::new(step.re, 0.0) } else { step };
         let finite = misfit.is_finite() && step.is_finite();
         let (std, response) = (curvature.powf(-0.5), values);
         let solution =
@@ -358,7 +377,7 @@ pub(super) fn misfit(measured: &[c64], x: &[c64], sigma: &[f64]) -> f64 {
 /// Adds a solution, or takes the better of two that are one.
 fn merge(solutions: &mut Vec<Solution>, new: Solution, nominal: c64) {
     let near = |other: &Solution| {
-        (other.correction - new.correction).norm() <= SAME * (nominal + new.correction).norm()
+        (other.correction - new.correction).norm() <= SOLUTION_MERGE_RTOL * (nominal + new.correction).norm()
     };
     match solutions.iter_mut().find(|other| near(other)) {
         Some(other) if new.misfit < other.misfit => *other = new,

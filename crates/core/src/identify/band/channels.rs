@@ -1,15 +1,18 @@
 //! Unknown scales and delays beside a law: eliminated from the least squares, and where they begin.
 
-use super::calibration::{Calibrated, Channel, ChannelUnknowns, Scaled, top, with_scales};
+use super::calibration::{Scaled, top, with_scales};
+use super::channel::{Calibrated, Channel, ChannelUnknowns};
 use super::initial_calibration::aligned;
 use super::joint;
-use super::laws::Fitting;
+use super::law_fitting::Fitting;
+use super::outcome::BandOutcome;
 use super::reduced_band::ReducedBand;
-use super::{Band, BandOutcome, Context};
 use crate::c64;
 use crate::for_each::map;
 use crate::frequency::omega_rad_s;
-use crate::identify::Options;
+use crate::identify::context::Context;
+use crate::identify::measured::Band;
+use crate::identify::options::Options;
 use crate::laws::{LawFit, Parametrization};
 use crate::median::median;
 use crate::model::ModelAt;
@@ -34,8 +37,8 @@ pub(super) struct ChannelFit {
     /// −∂t/∂θ_j, what is along −iωγx. None where the delay is known.
     late_moved: Vec<f64>,
     /// Σ |x|²/σ² and Σ ω²|γx|²/σ²: what tells γ and t. Nothing tells them in common, as x and iωx are at right angles.
-    gain_told: f64,
-    late_told: f64,
+    gain_information: f64,
+    late_information: f64,
 }
 
 impl ChannelFit {
@@ -53,8 +56,8 @@ impl ChannelFit {
 }
 
 /// Newton's steps to the best delay, and the longest one in radians at the top of the band.
-const DELAY_STEPS: usize = 50;
-const DELAY_STEP: f64 = 0.5;
+const MAX_DELAY_STEPS: usize = 50;
+const MAX_DELAY_STEP_RAD: f64 = 0.5;
 
 /// The best delay for w = Σ-terms (ω, x*u/σ²), nearest to none: Σ Re(w e^{iωt}) is largest in size where the gain is free, and largest where it is one.
 fn best_delay(terms: &[(f64, c64)], gain_is_free: bool, top: f64) -> f64 {
@@ -66,9 +69,9 @@ fn best_delay(terms: &[(f64, c64)], gain_is_free: bool, top: f64) -> f64 {
     };
     let sense = if gain_is_free && derivatives(0.0)[0] < 0.0 { -1.0 } else { 1.0 };
     let mut t = 0.0;
-    for _ in 0..DELAY_STEPS {
+    for _ in 0..MAX_DELAY_STEPS {
         let [_, first, second] = derivatives(t).map(|value| sense * value);
-        let most = DELAY_STEP / top;
+        let most = MAX_DELAY_STEP_RAD / top;
         // Uphill where it is not yet bent like a summit.
         let step = if second < 0.0 { (-first / second).clamp(-most, most) } else { most.copysign(first) };
         t += step;
@@ -84,13 +87,13 @@ impl Fitting<'_, '_> {
     pub(super) fn channels(
         &self,
         parametrization: &Parametrization,
-        space: &ReducedBand<'_, '_>,
+        reduced: &ReducedBand<'_, '_>,
         theta: &[f64],
     ) -> Option<(Vec<Responded>, Vec<ChannelFit>)> {
         let one = |i: usize| -> Option<Responded> {
             let (modulus, of_theta) = parametrization.modulus(theta, self.omega(i))?;
             let correction = modulus - self.at[i].parameters[0].nominal;
-            let (x, slope) = space.model(i).respond_with_slope(&self.at[i], correction).ok()?;
+            let (x, slope) = reduced.model(i).respond_with_slope(&self.at[i], correction).ok()?;
             Some(Responded { x, slope, of_theta })
         };
         let responses: Vec<Responded> =
@@ -111,8 +114,8 @@ impl Fitting<'_, '_> {
             late_s: 0.0,
             gain_moved: Vec::new(),
             late_moved: Vec::new(),
-            gain_told: size,
-            late_told: 0.0,
+            gain_information: size,
+            late_information: 0.0,
         };
         if !unknown.any() || size == 0.0 {
             return fit;
@@ -128,14 +131,15 @@ impl Fitting<'_, '_> {
             fit.gain = weighed(&|i, one| (product(i, one) * turn(i)).re) / size;
         }
         let gain = fit.gain;
-        fit.late_told = weighed(&|i, one| (self.omega(i) * gain).powi(2) * one.x[m].norm_sqr());
+        fit.late_information = weighed(&|i, one| (self.omega(i) * gain).powi(2) * one.x[m].norm_sqr());
         let along = |j: usize, one: &Responded| one.x[m].conj() * gain * one.slope[m] * one.of_theta[j];
         if unknown.scale {
             fit.gain_moved = (0..n).map(|j| weighed(&|_, one| along(j, one).re) / size).collect();
         }
         if unknown.delay {
             // Re((−iωγx)* γ ∂x/∂θ).
-            let part = |j: usize| weighed(&|i, one| -self.omega(i) * gain * along(j, one).im) / fit.late_told;
+            let part =
+                |j: usize| weighed(&|i, one| -self.omega(i) * gain * along(j, one).im) / fit.late_information;
             fit.late_moved = (0..n).map(part).collect();
         }
         fit
@@ -145,19 +149,19 @@ impl Fitting<'_, '_> {
     pub(super) fn calibrations_of(
         &self,
         law: &LawFit,
-        space: &ReducedBand<'_, '_>,
+        reduced: &ReducedBand<'_, '_>,
     ) -> Option<Vec<[Calibrated; 2]>> {
         let (parametrization, theta) = law.coordinates();
-        let (_, fits) = self.channels(parametrization, space, theta)?;
+        let (_, fits) = self.channels(parametrization, reduced, theta)?;
         let level = if law.sigma_known { 1.0 } else { law.reduced_chi_squared()? };
-        let told = |value: f64, told: f64, moved: &[f64]| {
+        let calibrated = |value: f64, information: f64, moved: &[f64]| {
             let through = law.covariance_of(moved, moved);
-            let std = through.map(|through| (level / told + through).max(0.0).sqrt());
+            let std = through.map(|through| (level / information + through).max(0.0).sqrt());
             Calibrated { value, std: std.filter(|std| std.is_finite()) }
         };
         let both = |fit: &ChannelFit| {
-            let gain = told(fit.gain, fit.gain_told, &fit.gain_moved);
-            [gain, told(fit.late_s, fit.late_told, &fit.late_moved)]
+            let gain = calibrated(fit.gain, fit.gain_information, &fit.gain_moved);
+            [gain, calibrated(fit.late_s, fit.late_information, &fit.late_moved)]
         };
         let usable = |fit: &ChannelFit| fit.gain.is_finite() && fit.gain != 0.0 && fit.late_s.is_finite();
         fits.iter().all(usable).then(|| fits.iter().map(both).collect())
@@ -166,7 +170,7 @@ impl Fitting<'_, '_> {
 
 /// Where a fit begins: the subspace, calibrations, and the factor over the nominal one whose response has the shape that was measured.
 pub(super) struct Begin<'a, 'o> {
-    pub(super) space: Option<ReducedBand<'a, 'o>>,
+    pub(super) reduced: Option<ReducedBand<'a, 'o>>,
     pub(super) channels: Vec<Channel>,
     pub(super) ratio: f64,
 }
@@ -179,49 +183,51 @@ pub(super) fn at_scales<'a, 'o>(
     options: &'o Options,
     hooks: Context<'_>,
 ) -> (BandOutcome, Begin<'a, 'o>) {
-    let mut space = super::space(band, at, options, hooks);
-    let right = vec![Channel::RIGHT; unknown.len()];
+    let mut reduced = ReducedBand::if_wanted(band, at, options, hooks);
+    let right = vec![Channel::CALIBRATED; unknown.len()];
     let is_known = |unknown: &ChannelUnknowns| !unknown.any();
     if unknown.iter().all(is_known) {
-        let outcome = joint::identify(band, at, space.as_mut(), &[], options, hooks);
-        return (outcome, Begin { space, channels: right, ratio: 1.0 });
+        let outcome = joint::identify(band, at, reduced.as_mut(), &[], options, hooks);
+        return (outcome, Begin { reduced, channels: right, ratio: 1.0 });
     }
     if unknown.iter().any(is_known) {
-        let (outcome, found) = with_scales(band, at, &mut space, unknown, options, hooks);
+        let (outcome, found) = with_scales(band, at, &mut reduced, unknown, options, hooks);
         let channels = found.map_or(right, |found| found.iter().map(Channel::of).collect());
-        return (outcome, Begin { space, channels, ratio: 1.0 });
+        return (outcome, Begin { reduced, channels, ratio: 1.0 });
     }
-    let shaped = space.as_ref().and_then(|space| shaped(band, at, space, unknown, options, hooks));
+    let shaped = reduced.as_ref().and_then(|reduced| shaped(band, at, reduced, unknown, options, hooks));
     let (channels, ratio) = shaped.unwrap_or((right, 1.0));
     let scaled = Scaled::new(band, &channels);
-    let outcome = joint::identify(&scaled.band(band), at, space.as_mut(), &[], options, hooks);
-    (outcome, Begin { space, channels, ratio })
+    let outcome = joint::identify(&scaled.band(band), at, reduced.as_mut(), &[], options, hooks);
+    (outcome, Begin { reduced, channels, ratio })
 }
 
-/// Factors of the box that are tried: 2 % apart, as shapes are told by logarithms, which resonances that miss one another by their width do not spoil.
-const FACTORS: usize = 140;
+/// Factors of the box that are tried: 2 % apart, as shapes are compared by logarithms, which resonances that miss one another by their width do not spoil.
+const SHAPE_FACTORS: usize = 140;
 
 /// Frequencies at which the shapes are compared.
-const FREQUENCIES: usize = 300;
+const SHAPE_FREQUENCIES: usize = 300;
 
 /// Calibrations at the factor whose response has the shape that was measured, and that factor over the nominal one.
 fn shaped(
     band: &Band<'_>,
     at: &[ModelAt<'_>],
-    space: &ReducedBand<'_, '_>,
+    reduced: &ReducedBand<'_, '_>,
     unknown: &[ChannelUnknowns],
     options: &Options,
     hooks: Context<'_>,
 ) -> Option<(Vec<Channel>, f64)> {
     let which = spread(band.frequency_hz);
     let nominal = at[at.len() / 2].parameters[0].nominal;
-    let [low, high] =
-        options.box_about(nominal).filter(|[low, high]| 0.0 < *low && low < high && high.is_finite())?;
-    let ratio = |k: usize| low * (high / low).powf(k as f64 / (FACTORS - 1) as f64) / nominal.re;
-    let tried = map(hooks.for_each, FACTORS, |k| {
+    let [low, high] = band
+        .unknown
+        .box_about(nominal, options.box_ratio())
+        .filter(|[low, high]| 0.0 < *low && low < high && high.is_finite())?;
+    let ratio = |k: usize| low * (high / low).powf(k as f64 / (SHAPE_FACTORS - 1) as f64) / nominal.re;
+    let tried = map(hooks.for_each, SHAPE_FACTORS, |k| {
         let responses = which.iter().map(|&i| {
             let correction = at[i].parameters[0].nominal * (ratio(k) - 1.0);
-            Some(space.model(i).respond_with_slope(&at[i], correction).ok()?.0)
+            Some(reduced.model(i).respond_with_slope(&at[i], correction).ok()?.0)
         });
         let responses: Vec<Vec<c64>> = responses.collect::<Option<_>>()?;
         let misfits =
@@ -236,7 +242,7 @@ fn shaped(
             .map(|(&i, x)| (omega_rad_s(band.frequency_hz[i]), x[m] / band.measured[i][m]))
             .collect();
         let found = aligned(&ratios, unknown, top(band))?;
-        // The size by logarithms, as the shape is told by them; its sense is that in which most of them move.
+        // The size by logarithms, as the shape is compared by them; its sense is that in which most of them move.
         let size =
             median(ratios.iter().map(|(_, ratio)| ratio.norm().ln()).filter(|ln| ln.is_finite()).collect())?;
         let same =
@@ -251,7 +257,8 @@ fn shaped(
 /// Frequencies that are evenly spread over the band, wherever there are more of them: many at resonances, and shapes would have to meet there to their width.
 fn spread(frequency_hz: &[f64]) -> Vec<usize> {
     let (first, last) = (frequency_hz[0], frequency_hz[frequency_hz.len() - 1]);
-    let grid = (0..FREQUENCIES).map(|k| first + (last - first) * k as f64 / (FREQUENCIES - 1) as f64);
+    let grid =
+        (0..SHAPE_FREQUENCIES).map(|k| first + (last - first) * k as f64 / (SHAPE_FREQUENCIES - 1) as f64);
     let at_or_above = |f: f64| frequency_hz.partition_point(|&own| own < f).min(frequency_hz.len() - 1);
     let mut which: Vec<usize> = grid.map(at_or_above).collect();
     which.dedup();

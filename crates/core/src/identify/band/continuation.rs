@@ -1,34 +1,23 @@
 //! Solutions between frequencies at which all of them are known: followed as long as nothing speaks against it.
 
-use super::candidates::{Candidates, Fit, Solution};
+use super::candidates::{Candidates, Fit, LineCandidates, Solution};
 use super::matching::{is_same, pairs};
 use super::path_model::{PathModel, fraction};
-use super::reduced_band::{ReducedBand, is_certain, thinned};
-use super::{Context, Stage};
+use super::reduced_band::{ReducedBand, is_certain};
 use crate::c64;
 use crate::for_each::map;
 use crate::frequency::omega_rad_s;
+use crate::identify::context::{Context, Stage};
+use crate::identify::thinned::thinned;
 use crate::model::ModelAt;
 use crate::rational::PolesBetween;
 use crate::roots::{Candidate, Refusal};
-use crate::subspace::{Assessment, Projection};
+use crate::subspace::Projection;
 use std::ops::RangeInclusive;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// What was found at a frequency, and how.
-#[derive(Debug, Clone)]
-pub(super) struct LineCandidates {
-    /// The frequency (index).
-    pub(super) index: usize,
-    pub(super) explored: Candidates,
-    /// Corrections at which the model that found them is good enough for an answer.
-    pub(super) certain: Vec<(c64, Assessment)>,
-    /// Whether all solutions were looked for.
-    pub(super) whole: bool,
-}
-
 /// What it takes to follow.
-pub(super) struct Follower<'a, F> {
+pub(super) struct Continuation<'a, F> {
     pub(super) at: &'a [ModelAt<'a>],
     /// What is to be explained at a frequency.
     pub(super) fit: F,
@@ -37,13 +26,13 @@ pub(super) struct Follower<'a, F> {
 }
 
 /// A solution that explains the sensors so many times worse than at both of its neighbours may not be the one that there is.
-const WORSE: f64 = 4.0;
+const MAX_MISFIT_OVER_NEIGHBOURS: f64 = 4.0;
 
 /// Frequencies that are worth a model of their own.
-const WORTHWHILE: usize = 12;
+const MIN_MODEL_FREQUENCIES: usize = 12;
 
 /// Frequencies at which it is seen how far noise scatters solutions about their curve.
-const SAMPLE: usize = 16;
+const SCATTER_FREQUENCIES: usize = 16;
 
 /// The same solution at several frequencies (index).
 type Curve<'e> = Vec<(usize, &'e Solution)>;
@@ -55,7 +44,7 @@ struct Segment<'e, 'a> {
     right: &'e LineCandidates,
     /// Each solution's misfit at the worse of the stops.
     misfits: Vec<f64>,
-    tubes: &'e [PathModel<'e, 'a>],
+    path_models: &'e [PathModel<'e, 'a>],
     nominal: &'e PathModel<'e, 'a>,
     poles: Option<PolesBetween>,
 }
@@ -84,7 +73,7 @@ impl Predictor {
     }
 }
 
-impl<'a, F: Fn(usize) -> Fit<'a>> Follower<'a, F> {
+impl<'a, F: Fn(usize) -> Fit<'a>> Continuation<'a, F> {
     /// Everything between frequencies (ascending, of one neighbourhood) that were explored on its model.
     pub(super) fn between(&self, model: &Projection, known: &[(usize, &Candidates)]) -> Vec<LineCandidates> {
         let mut stops: Vec<LineCandidates> = Vec::new();
@@ -158,21 +147,22 @@ impl<'a, F: Fn(usize) -> Fit<'a>> Follower<'a, F> {
         if last - first < stops.len() {
             return Vec::new();
         }
-        let own = last - first >= WORTHWHILE + stops.len();
+        let own = last - first >= MIN_MODEL_FREQUENCIES + stops.len();
         let nominal_at = |i: usize| self.at[i].parameters[0].nominal;
         let path_model = |curve: &Curve<'_>| {
             let points = curve.iter().map(|&(i, solution)| (i, nominal_at(i) + solution.correction));
             let path_model = PathModel::along(self.at, points.collect(), model, own);
-            let answer = |&i: &usize| {
+            let estimate = |&i: &usize| {
                 let start = path_model.factor(i) - nominal_at(i);
-                let answer = (self.fit)(i).descend(|c| path_model.respond_with_slope(i, c), start)?;
-                Some((i, answer.correction))
+                let estimate = (self.fit)(i).descend(|c| path_model.respond_with_slope(i, c), start)?;
+                Some((i, estimate.correction))
             };
             let all: Vec<usize> = (first..=last).collect();
-            let answers: Vec<(usize, c64)> = thinned(&all, SAMPLE).filter_map(answer).collect();
+            let answers: Vec<(usize, c64)> =
+                thinned(&all, SCATTER_FREQUENCIES).filter_map(estimate).collect();
             path_model.widened(model, &answers)
         };
-        let tubes: Vec<PathModel<'_, 'a>> = curves.iter().map(path_model).collect();
+        let path_models: Vec<PathModel<'_, 'a>> = curves.iter().map(path_model).collect();
         let nominal =
             PathModel::along(self.at, (first..=last).map(|i| (i, nominal_at(i))).collect(), model, own);
         let mut found = Vec::with_capacity(last - first);
@@ -188,8 +178,9 @@ impl<'a, F: Fn(usize) -> Fit<'a>> Follower<'a, F> {
                 PolesBetween::new([a, b], both.map(nominal_at), both.map(omega_squared))
             });
             let misfits = curves.iter().map(|curve| curve[k].1.misfit.max(curve[k + 1].1.misfit)).collect();
-            let segment = Segment { model, left, right, misfits, tubes: &tubes, nominal: &nominal, poles };
-            let mut off = vec![Predictor::default(); tubes.len()];
+            let segment =
+                Segment { model, left, right, misfits, path_models: &path_models, nominal: &nominal, poles };
+            let mut off = vec![Predictor::default(); path_models.len()];
             for i in left.index + 1..right.index {
                 found.push(self.follow(&segment, i, &mut off).unwrap_or_else(|| self.explore(model, i)));
             }
@@ -206,13 +197,14 @@ impl<'a, F: Fn(usize) -> Fit<'a>> Follower<'a, F> {
     ) -> Option<LineCandidates> {
         let (fit, at) = ((self.fit)(index), &self.at[index]);
         let nominal = at.parameters[0].nominal;
-        let starts: Vec<c64> = segment.tubes.iter().map(|path_model| path_model.factor(index)).collect();
+        let starts: Vec<c64> =
+            segment.path_models.iter().map(|path_model| path_model.factor(index)).collect();
         let (left, right) = (&segment.left.explored, &segment.right.explored);
         let mut explored = Candidates { order: left.order.max(right.order), ..Candidates::default() };
         let mut certain = Vec::new();
         let residuals = [left, right].into_iter().flat_map(|end| &end.solutions).map(|s| s.residual);
         let residual = residuals.fold(0.0, f64::max);
-        for (k, path_model) in segment.tubes.iter().enumerate() {
+        for (k, path_model) in segment.path_models.iter().enumerate() {
             let start = starts[k] + off[k].expected() - nominal;
             let (respond, assess) =
                 (|c| path_model.respond_with_slope(index, c), |c| path_model.assess(index, c));
@@ -231,10 +223,12 @@ impl<'a, F: Fn(usize) -> Fit<'a>> Follower<'a, F> {
             }
             let factor = nominal + solution.correction;
             off[k].found(factor - starts[k]);
-            if !is_same(&starts, k, factor) || solution.misfit > self.usual.max(WORSE * segment.misfits[k]) {
+            if !is_same(&starts, k, factor)
+                || solution.misfit > self.usual.max(MAX_MISFIT_OVER_NEIGHBOURS * segment.misfits[k])
+            {
                 return None;
             }
-            match fit.options.bounds.broken_by(factor) {
+            match fit.unknown.bounds.broken_by(factor) {
                 None => explored.solutions.push(Solution { residual, ..solution }),
                 Some(bound) => {
                     let (correction, refusal) = (solution.correction, Some(Refusal::OutOfBounds(bound)));
@@ -251,29 +245,29 @@ impl<'a, F: Fn(usize) -> Fit<'a>> Follower<'a, F> {
 }
 
 /// Frequencies that are followed together, about: a model for a curve takes as long as some dozens of them.
-const TOGETHER: usize = 200;
+const FREQUENCIES_PER_PIECE: usize = 200;
 
 /// The whole band (ascending) from anchors on the models of the space.
-pub(super) fn follow<'a, F: Fn(usize) -> Fit<'a> + Sync>(
-    space: &mut ReducedBand<'_, '_>,
-    follower: &Follower<'a, F>,
-    anchors: &[usize],
+pub(super) fn continued<'a, F: Fn(usize) -> Fit<'a> + Sync>(
+    reduced: &mut ReducedBand<'_, '_>,
+    continuation: &Continuation<'a, F>,
+    explored_lines: &[usize],
     explored: Vec<Candidates>,
     hooks: Context<'_>,
 ) -> Vec<LineCandidates> {
-    let n = follower.at.len();
-    space.localise(&(0..n).collect::<Vec<_>>(), hooks.for_each);
-    let groups = groups(anchors, space.neighbourhoods());
-    let done = AtomicUsize::new(anchors.len());
-    let lent = &*space;
+    let n = continuation.at.len();
+    reduced.localise(&(0..n).collect::<Vec<_>>(), hooks.for_each);
+    let groups = groups(explored_lines, reduced.neighbourhoods());
+    let done = AtomicUsize::new(explored_lines.len());
+    let lent = &*reduced;
     let between = map(hooks.for_each, groups.len(), |g| {
         let known: Vec<(usize, &Candidates)> =
-            groups[g].clone().map(|k| (anchors[k], &explored[k])).collect();
-        let found = follower.between(lent.model(known[0].0), &known);
+            groups[g].clone().map(|k| (explored_lines[k], &explored[k])).collect();
+        let found = continuation.between(lent.model(known[0].0), &known);
         (hooks.progress)(Stage::Solutions, done.fetch_add(found.len(), Ordering::Relaxed) + found.len(), n);
         found
     });
-    let known = anchors.iter().zip(explored);
+    let known = explored_lines.iter().zip(explored);
     let known =
         known.map(|(&index, explored)| LineCandidates { index, explored, certain: Vec::new(), whole: true });
     let mut all: Vec<LineCandidates> = between.into_iter().flatten().chain(known).collect();
@@ -282,19 +276,22 @@ pub(super) fn follow<'a, F: Fn(usize) -> Fit<'a> + Sync>(
         found
             .certain
             .drain(..)
-            .for_each(|(correction, assessed)| space.remember(found.index, correction, assessed));
+            .for_each(|(correction, assessed)| reduced.remember(found.index, correction, assessed));
     }
     all
 }
 
 /// Anchors (by their place among all) that are followed together: neighbours, of one neighbourhood.
-fn groups(anchors: &[usize], neighbourhoods: impl Iterator<Item = [usize; 2]>) -> Vec<RangeInclusive<usize>> {
+fn groups(
+    explored_lines: &[usize],
+    neighbourhoods: impl Iterator<Item = [usize; 2]>,
+) -> Vec<RangeInclusive<usize>> {
     let mut groups = Vec::new();
     for [first, last] in neighbourhoods {
-        let mut from = anchors.partition_point(|&i| i < first);
-        let end = anchors.partition_point(|&i| i <= last);
+        let mut from = explored_lines.partition_point(|&i| i < first);
+        let end = explored_lines.partition_point(|&i| i <= last);
         while from + 1 < end {
-            let reach = anchors.partition_point(|&i| i < anchors[from] + TOGETHER);
+            let reach = explored_lines.partition_point(|&i| i < explored_lines[from] + FREQUENCIES_PER_PIECE);
             let to = reach.clamp(from + 1, end - 1);
             groups.push(from..=to);
             from = to;

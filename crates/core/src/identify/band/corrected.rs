@@ -1,15 +1,18 @@
 //! A band once more, with the errors of the model taken out and carried into every error bar (B-11).
 
-use super::noise::deviations;
-use super::outlier_sensor::without;
+use super::joint;
+use super::outcome::BandOutcome;
 use super::reduced_band::ReducedBand;
-use super::{Band, BandOutcome, Context, Noise, joint};
 use crate::c64;
 use crate::for_each::map;
 use crate::frequency::omega_rad_s;
-use crate::identify::model_errors::{Curve, Curves, Deviations, Estimated, Measured, PointAt, Spline};
+use crate::identify::context::Context;
+use crate::identify::measured::Band;
+use crate::identify::model_errors::{Curve, Curves, Estimated, Measured, NoiseScale, PointAt, Spline};
 use crate::identify::model_errors::{Explanation, covariance, estimate};
-use crate::identify::{ModelErrors, Options, Status};
+use crate::identify::noise::{Noise, standard_deviations, without};
+use crate::identify::options::{ModelErrors, Options};
+use crate::identify::outcome::Status;
 use crate::model::ModelAt;
 use crate::subspace::{Corrected, Point};
 
@@ -18,7 +21,7 @@ pub(super) fn correct<'a>(
     band: &Band<'a>,
     at: &[ModelAt<'a>],
     found: BandOutcome,
-    space: &mut ReducedBand<'a, '_>,
+    reduced: &mut ReducedBand<'a, '_>,
     options: &Options,
     hooks: Context<'_>,
 ) -> BandOutcome {
@@ -26,27 +29,27 @@ pub(super) fn correct<'a>(
         return found;
     }
     let weights = Weights::new(band, at, &found.left_out());
-    let curves = Curves::new(vec![Curve::Spline(Spline::new(&weights.omegas, options.real))]);
+    let curves = Curves::new(vec![Curve::Spline(Spline::new(&weights.omegas, band.unknown.real))]);
     let point = point(at);
-    let measured = weights.of((band, options), &point, &found);
-    let (explanation, leverage) = estimate(space.whole(), &measured, &curves, hooks.for_each);
+    let measured = weights.of(band, options, &point, &found);
+    let (explanation, leverage) = estimate(reduced.whole(), &measured, &curves, hooks.for_each);
     let found = BandOutcome { leverage, ..found };
     let errors = match explanation {
         Explanation::RightModel => return found,
         Explanation::OtherModel => return BandOutcome { other_model: true, ..found },
         Explanation::Errors(errors) => *errors,
     };
-    let before = space.work();
-    space.correct(&errors.modes, &errors.errors);
-    let mut outcome = joint::identify(band, at, Some(space), &found.left_out(), options, hooks);
+    let before = reduced.work();
+    reduced.correct(&errors.modes, &errors.errors);
+    let mut outcome = joint::identify(band, at, Some(reduced), &found.left_out(), options, hooks);
     outcome.leverage.clone_from(&found.leverage);
     outcome.work = found.work;
-    outcome.work += space.work().since(before);
+    outcome.work += reduced.work().since(before);
     for (sensor, before) in outcome.sensors.iter_mut().zip(&found.sensors) {
         sensor.contradicts |= before.contradicts;
         sensor.left_out |= before.left_out;
     }
-    widen(&mut outcome, &errors, at, space, &weights.sigma, hooks);
+    widen(&mut outcome, &errors, at, reduced, &weights.sigma, hooks);
     outcome.model_errors = Some(errors);
     outcome
 }
@@ -71,7 +74,7 @@ pub(super) struct Weights {
 
 impl Weights {
     pub(super) fn new(band: &Band<'_>, at: &[ModelAt<'_>], left_out: &[usize]) -> Self {
-        let of = |noise: Noise<'_>| without(&deviations(band.measured, noise), left_out);
+        let of = |noise: Noise<'_>| without(&standard_deviations(band.measured, noise), left_out);
         Self {
             sigma: of(band.noise),
             size: of(Noise::Unknown),
@@ -82,7 +85,8 @@ impl Weights {
 
     pub(super) fn of<'t, 'a>(
         &'t self,
-        (band, options): (&Band<'t>, &Options),
+        band: &Band<'t>,
+        options: &Options,
         point: PointAt<'t, 'a>,
         found: &'t BandOutcome,
     ) -> Measured<'t, 'a> {
@@ -95,10 +99,10 @@ impl Weights {
             measured: band.measured,
             sigma: &self.sigma,
             size: &self.size,
-            deviations: Deviations::of(band.noise),
+            noise_scale: NoiseScale::of(band.noise),
             free: &found.outcomes,
             own: &[0],
-            alone: found.noise.level,
+            level_per_frequency: found.noise.level,
         }
     }
 }
@@ -108,11 +112,11 @@ fn widen(
     outcome: &mut BandOutcome,
     errors: &Estimated,
     at: &[ModelAt<'_>],
-    space: &ReducedBand<'_, '_>,
+    reduced: &ReducedBand<'_, '_>,
     sigma: &[Vec<f64>],
     hooks: Context<'_>,
 ) {
-    let Some(Corrected { modes, errors: values, model }) = space.corrected() else { return };
+    let Some(Corrected { modes, errors: values, model }) = reduced.corrected() else { return };
     let of_errors = errors.of_errors();
     let lines = &outcome.outcomes;
     let moved = map(hooks.for_each, lines.len(), |i| -> Option<[f64; 3]> {

@@ -1,23 +1,23 @@
 //! Where the search for a channel's scale and delay begins.
 
-use super::calibration::{Channel, ChannelUnknowns};
+use super::channel::{Channel, ChannelUnknowns};
 use crate::c64;
 use crate::median::median;
 
 /// Delays that are tried go up to this many radians of phase at the top of a band, either way: one of sixteen periods is another recording.
-pub(crate) const MOST_PHASE: f64 = 100.0;
+pub(crate) const MAX_DELAY_PHASE_RAD: f64 = 100.0;
 
 /// And are so many radians apart.
-pub(crate) const PHASE_STEP: f64 = 0.5;
+pub(crate) const DELAY_PHASE_STEP_RAD: f64 = 0.5;
 
 /// On the grid a delay in the middle of two agrees to 1 − cos ¼ less; others may agree to less than this less and be better between.
-const GRID: f64 = 0.1;
+const GRID_AGREEMENT_LOSS: f64 = 0.1;
 
 /// How often the distance is divided by ten about a delay.
-const CLOSER: usize = 2;
+const DELAY_REFINEMENTS: usize = 2;
 
 /// Agreements that differ by this part are alike: more than the finest distance leaves, 1 − cos 0.0025.
-const ALIKE: f64 = 1e-4;
+const AGREEMENT_RTOL: f64 = 1e-4;
 
 /// The calibration with which most of some ratios (ω, x/y) of a channel are one; `None` where there is none.
 ///
@@ -27,7 +27,7 @@ pub(super) fn aligned(ratios: &[(f64, c64)], unknown: ChannelUnknowns, top: f64)
     let usable: Vec<(f64, c64)> =
         ratios.iter().copied().filter(|(_, ratio)| ratio.is_finite() && ratio.norm() > 0.0).collect();
     if !unknown.any() {
-        return Some(Channel::RIGHT);
+        return Some(Channel::CALIBRATED);
     }
     if usable.is_empty() {
         return None;
@@ -53,24 +53,24 @@ pub(super) fn aligned(ratios: &[(f64, c64)], unknown: ChannelUnknowns, top: f64)
 
 /// The delay of most agreement, nearest to none of those that agree alike.
 fn best_delay(agreement: impl Fn(f64) -> f64, top: f64) -> f64 {
-    let steps = (MOST_PHASE / PHASE_STEP) as i32;
-    let step = PHASE_STEP / top;
-    let told = |delay_s: f64| (agreement(delay_s), delay_s);
-    let grid: Vec<(f64, f64)> = (-steps..=steps).map(|k| told(f64::from(k) * step)).collect();
+    let steps = (MAX_DELAY_PHASE_RAD / DELAY_PHASE_STEP_RAD) as i32;
+    let step = DELAY_PHASE_STEP_RAD / top;
+    let at_delay = |delay_s: f64| (agreement(delay_s), delay_s);
+    let grid: Vec<(f64, f64)> = (-steps..=steps).map(|k| at_delay(f64::from(k) * step)).collect();
     let most = |all: &[(f64, f64)]| all.iter().map(|one| one.0).fold(f64::MIN, f64::max);
-    let enough = most(&grid) - GRID * most(&grid).abs();
+    let enough = most(&grid) - GRID_AGREEMENT_LOSS * most(&grid).abs();
     let closer = |&(_, delay_s): &(f64, f64)| {
-        let (mut best, mut step) = (told(delay_s), step);
-        for _ in 0..CLOSER {
+        let (mut best, mut step) = (at_delay(delay_s), step);
+        for _ in 0..DELAY_REFINEMENTS {
             step /= 10.0;
             let middle = best.1;
-            let near = (-10..=10).map(|k| told(middle + f64::from(k) * step));
+            let near = (-10..=10).map(|k| at_delay(middle + f64::from(k) * step));
             best = near.fold(best, |best, one| if one.0 > best.0 { one } else { best });
         }
         best
     };
     let found: Vec<(f64, f64)> = grid.iter().filter(|one| one.0 >= enough).map(closer).collect();
-    let alike = most(&found) - ALIKE * most(&found).abs();
+    let alike = most(&found) - AGREEMENT_RTOL * most(&found).abs();
     let nearest = found.iter().filter(|one| one.0 >= alike).map(|one| one.1);
     nearest.min_by(|a, b| a.abs().total_cmp(&b.abs())).unwrap_or(0.0)
 }
@@ -101,7 +101,7 @@ mod tests {
     #[test]
     fn what_is_known_stays() {
         let ratios = [(1.0, c64::new(0.5, 0.5))];
-        assert_eq!(aligned(&ratios, ChannelUnknowns::default(), 1.0), Some(Channel::RIGHT));
+        assert_eq!(aligned(&ratios, ChannelUnknowns::default(), 1.0), Some(Channel::CALIBRATED));
         let known = aligned(&ratios, ChannelUnknowns { scale: false, delay: true }, 1.0).unwrap();
         // Among phases of a hundred radians the one that is nearest to none.
         assert!(

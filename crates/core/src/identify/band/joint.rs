@@ -1,111 +1,43 @@
 //! All frequencies and all sensors together.
 
 use super::candidates::{Candidates, Fit};
-use super::fit::{SensorFit, goodness, sensor_misfit};
-use super::noise::{NoiseLevel, deviations, freedom, of_scatter, of_sensors};
-use super::on_reduced::on_space;
-use super::outlier_sensor::{contradicting, without};
+use super::fit::{goodness, sensor_misfit};
+use super::on_reduced::on_reduced;
+use super::outcome::BandOutcome;
+use super::outlier_sensor::contradicting;
 use super::reduced_band::ReducedBand;
+use super::task::{BandSolution, PathSelection, Task};
 use super::verdict::{Evidence, verdict};
-use super::{Band, BandOutcome, Context, Noise, Stage};
 use crate::c64;
 use crate::for_each::map;
-use crate::identify::{Line, Options};
+use crate::identify::context::{Context, Stage};
+use crate::identify::goodness_of_fit::SensorFit;
+use crate::identify::measured::Band;
+use crate::identify::noise::{standard_deviations, without};
+use crate::identify::options::Options;
+use crate::identify::outcome::Line;
 use crate::model::ModelAt;
 use crate::response::{FullModel, Response, Work};
-use crate::select::{Choice, Node, SelectOptions, choose};
 use std::sync::atomic::{AtomicUsize, Ordering};
-
-/// What is to be done, and with what.
-pub(super) struct Task<'t, 'a> {
-    pub(super) band: &'t Band<'a>,
-    pub(super) at: &'t [ModelAt<'a>],
-    /// σ of real and imaginary part each, `[frequency][sensor]`; infinite for a sensor that is left out.
-    pub(super) sigma: &'t [Vec<f64>],
-    /// Sensors that are not left out.
-    pub(super) sensors: usize,
-    pub(super) options: &'t Options,
-    pub(super) hooks: Context<'t>,
-}
-
-/// The choice at each of some frequencies, and noise over σ.
-pub(super) type Selected = (Vec<Choice>, Option<f64>);
-
-/// What was found at every frequency, at how many of them all solutions were looked for, and what was chosen.
-pub(super) struct BandSolution {
-    pub(super) found: Vec<Candidates>,
-    pub(super) explored: usize,
-    pub(super) selected: Selected,
-}
-
-impl Task<'_, '_> {
-    /// Degrees of freedom of χ² at a frequency.
-    pub(super) fn freedom(&self) -> usize {
-        freedom(self.sensors, self.options.real)
-    }
-
-    /// What is to be explained at a frequency.
-    pub(super) fn fit(&self, i: usize) -> Fit<'_> {
-        let nominal = self.at[i].parameters[0].nominal;
-        Fit { measured: &self.band.measured[i], sigma: &self.sigma[i], nominal, options: self.options }
-    }
-
-    /// How large the noise is, by all answers.
-    fn noise_level(&self, found: &[Candidates], choices: &[Choice]) -> NoiseLevel {
-        let nominal = |i: usize| self.at[i].parameters[0].nominal;
-        let nodes: Vec<Vec<Node>> = (0..found.len()).map(|i| nodes(&found[i], nominal(i))).collect();
-        let chosen: Vec<Option<Node>> =
-            nodes.iter().zip(choices).map(|(nodes, choice)| choice.chosen.map(|k| nodes[k])).collect();
-        NoiseLevel::new(
-            self.band.noise,
-            of_sensors(&nodes, choices, self.freedom()),
-            of_scatter(self.band.frequency_hz, &chosen, self.options.real),
-        )
-    }
-
-    /// The choice among what was found at some frequencies.
-    pub(super) fn select<'e>(
-        &self,
-        which: &[usize],
-        found: impl Iterator<Item = &'e Candidates>,
-    ) -> Selected {
-        (self.hooks.progress)(Stage::Selection, 0, self.at.len());
-        let frequency_hz: Vec<f64> = which.iter().map(|&i| self.band.frequency_hz[i]).collect();
-        let nodes: Vec<Vec<Node>> = which
-            .iter()
-            .zip(found)
-            .map(|(&i, found)| nodes(found, self.at[i].parameters[0].nominal))
-            .collect();
-        let options = SelectOptions {
-            sensors: self.sensors,
-            sigma_known: matches!(self.band.noise, Noise::Known(_)),
-            ..SelectOptions::default()
-        };
-        let choices = choose(&frequency_hz, &nodes, &options);
-        let level = of_sensors(&nodes, &choices, self.freedom());
-        let level = level.map(|level| if options.sigma_known { 1.0 } else { level });
-        (choices, level)
-    }
-}
 
 /// Chooses at every frequency; of the `hidden` sensors nothing is asked.
 pub(super) fn identify<'a>(
     band: &Band<'a>,
     at: &[ModelAt<'a>],
-    mut space: Option<&mut ReducedBand<'_, '_>>,
+    mut reduced: Option<&mut ReducedBand<'_, '_>>,
     hidden: &[usize],
     options: &Options,
     hooks: Context<'_>,
 ) -> BandOutcome {
-    let assumed = deviations(band.measured, band.noise);
+    let assumed = standard_deviations(band.measured, band.noise);
     let sensors = band.experiment.sensors.len();
     let task = Task { band, at, sigma: &assumed, sensors, options, hooks };
-    let (suspects, spent) = contradicting(&task, space.as_deref_mut(), hidden);
+    let (suspects, spent) = contradicting(&task, reduced.as_deref_mut(), hidden);
     let out = [hidden, if options.reject_outliers { &suspects[..] } else { &[] }].concat();
     let sigma = without(&assumed, &out);
     let task = Task { sigma: &sigma, sensors: sensors - out.len(), ..task };
-    let (solved, mut work) = match space.as_deref_mut() {
-        Some(space) => (on_space(&task, space), Work::default()),
+    let (solved, mut work) = match reduced.as_deref_mut() {
+        Some(reduced) => (on_reduced(&task, reduced), Work::default()),
         None => {
             let (found, work) = on_full_model(&task);
             let all: Vec<usize> = (0..at.len()).collect();
@@ -113,7 +45,7 @@ pub(super) fn identify<'a>(
         }
     };
     work += spent;
-    let BandSolution { found, explored, selected: (choices, _) } = solved;
+    let BandSolution { found, explored, selected: PathSelection { choices, .. } } = solved;
     let noise = task.noise_level(&found, &choices);
     let path: Vec<(usize, c64)> = (0..at.len())
         .filter_map(|i| {
@@ -123,29 +55,30 @@ pub(super) fn identify<'a>(
     let outcomes: Vec<Line> = map(hooks.for_each, at.len(), |i| {
         let solution = choices[i].chosen.or_else(|| likeliest(&task.fit(i), &found[i], &path, i));
         let chosen = solution.map(|k| &found[i].solutions[k]);
-        let on_space = space.as_deref().zip(chosen.map(|solution| solution.correction));
+        let on_space = reduced.as_deref().zip(chosen.map(|solution| solution.correction));
         let weighed = |second: Vec<c64>| task.fit(i).weighed(&second);
         // The poles have it without another factorisation; how nearly linear something is takes few digits.
         let second = match (found[i].poles.as_ref().zip(chosen), on_space) {
             (Some((poles, solution)), _) => Some(weighed(poles.second_derivative(solution.correction))),
-            (None, Some((space, c))) => space.second_derivative(i, c).map(weighed),
+            (None, Some((reduced, c))) => reduced.second_derivative(i, c).map(weighed),
             (None, None) => chosen.map(|solution| solution.second),
         };
         let evidence = Evidence {
             at: &at[i],
             measured: &band.measured[i],
+            is_real: band.unknown.real,
             solution,
             left_out: &out,
             noise: noise.level,
             freedom: task.freedom(),
-            assessment: on_space.and_then(|(space, c)| space.assess(i, c)),
-            // What cannot be told is not linear.
+            assessment: on_space.and_then(|(reduced, c)| reduced.assess(i, c)),
+            // Where it is not known, the bar is not linear.
             second: second.unwrap_or(f64::INFINITY),
         };
         verdict(&evidence, &found[i], &choices[i], options)
     });
-    if let Some(space) = &space {
-        work += space.work();
+    if let Some(reduced) = &reduced {
+        work += reduced.work();
     }
     let fit = goodness(&outcomes, task.freedom(), 0, &noise, band);
     let sensor = |m: usize| SensorFit {
@@ -157,7 +90,7 @@ pub(super) fn identify<'a>(
     BandOutcome {
         outcomes,
         work,
-        subspace_size: space.as_ref().map(|space| space.size()),
+        subspace_size: reduced.as_ref().map(|reduced| reduced.size()),
         explored,
         noise,
         fit,
@@ -166,6 +99,17 @@ pub(super) fn identify<'a>(
         leverage: Vec::new(),
         other_model: false,
     }
+}
+
+/// A joint selection, and the reduced model that it was made on.
+pub(super) fn identify_keeping_model<'a, 'o>(
+    band: &Band<'a>,
+    at: &'o [ModelAt<'a>],
+    options: &'o Options,
+    hooks: Context<'_>,
+) -> (BandOutcome, Option<ReducedBand<'a, 'o>>) {
+    let mut reduced = ReducedBand::if_wanted(band, at, options, hooks);
+    (identify(band, at, reduced.as_mut(), &[], options, hooks), reduced)
 }
 
 fn on_full_model(task: &Task<'_, '_>) -> (Vec<Candidates>, Work) {
@@ -189,7 +133,7 @@ fn on_full_model(task: &Task<'_, '_>) -> (Vec<Candidates>, Work) {
 }
 
 /// Standard deviation of ln E between neighbouring lines by which solutions of a line off the path are compared.
-const OFF_PATH: f64 = 0.1;
+const OFF_PATH_LN_STD: f64 = 0.1;
 
 /// Of the solutions at a line that the path leaves out the likeliest: by the sensors' misfit, and by the way from the path between
 /// its neighbours.
@@ -209,16 +153,7 @@ fn likeliest(fit: &Fit<'_>, found: &Candidates, path: &[(usize, c64)], i: usize)
         let way = between.map_or(0.0, |log| ((fit.nominal + solution.correction).ln() - log).norm());
         // With one sensor every solution fits: the way alone tells.
         let misfit = if fit.measured.len() > 1 { solution.misfit / scale } else { 0.0 };
-        misfit + (way / OFF_PATH).powi(2)
+        misfit + (way / OFF_PATH_LN_STD).powi(2)
     };
     (0..found.solutions.len()).min_by(|a, b| cost(a).total_cmp(&cost(b)))
-}
-
-fn nodes(found: &Candidates, nominal: c64) -> Vec<Node> {
-    let node = |s: &super::candidates::Solution| Node {
-        factor: nominal + s.correction,
-        misfit: s.misfit,
-        std: s.std,
-    };
-    found.solutions.iter().map(node).collect()
 }

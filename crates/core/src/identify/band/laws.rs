@@ -3,28 +3,32 @@
 //! Every frequency by itself comes first: it trains the subspace, and tells where to begin. Then Σ |u_m − x_m(E(ω; θ))|²/σ_m² over the band is made least in θ on the
 //! models of the neighbourhoods, ∂x_m/∂θ = (∂x_m/∂c)(∂E/∂θ). The subspace is trained further where it is not good enough at the law that came out.
 
-use super::calibration::{Calibrated, Calibration, ChannelUnknowns, Scaled};
+use super::calibration::Scaled;
 use super::candidates::misfit;
+use super::channel::{Calibrated, Calibration, ChannelUnknowns};
 use super::channels::{Begin, Responded, at_scales};
-use super::fit::{Explained, GoodnessOfFit, judge};
-use super::joint;
-use super::noise::{NoiseLevel, NoiseSource, deviations};
-use super::outlier_sensor::without;
+use super::law_fitting::Fitting;
+use super::outcome::BandOutcome;
 use super::reduced_band::{ReducedBand, reduction_error};
-use super::{Band, BandOutcome, Context, Noise, Stage, corrected, near_or_far, on_subspace};
+use super::search_box::{near_or_far, on_subspace};
+use super::{corrected, joint};
 use crate::c64;
 use crate::for_each::map;
-use crate::frequency::omega_rad_s;
+use crate::identify::context::{Context, Stage};
 use crate::identify::form::Form;
+use crate::identify::goodness_of_fit::{Explained, GoodnessOfFit, MAX_RMS_MISFIT, judge};
+use crate::identify::measured::Band;
 use crate::identify::model_errors::{Curve, Curves, estimate_with_laws};
-use crate::identify::{Line, Options, Status, Uncertainty, relative_error};
+use crate::identify::noise::{Noise, NoiseLevel, NoiseSource, standard_deviations, without};
+use crate::identify::options::Options;
+use crate::identify::outcome::{Line, Status};
+use crate::identify::uncertainty::Uncertainty;
 use crate::laws::{
     Datum, Evidence, LawFit, LawKind, LineResidual, LocalMinima, Parametrization, Residuals, Search, best,
     minimise, starts,
 };
 use crate::material::OutsideTable;
-use crate::model::ModelAt;
-use crate::response::Work;
+use crate::response::{Work, relative_error};
 
 /// What came out.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,7 +41,7 @@ pub(in crate::identify) struct LawsOutcome {
     pub outcomes: Vec<Line>,
     /// What was unknown of each sensor's channel, by the law of least BIC.
     pub channels: Vec<Calibration>,
-    /// Whether noise is all that this law leaves: as large as was told, or where nothing was told, as what each frequency by itself leaves; `None` where there is no law.
+    /// Whether noise is all that this law leaves: as large as was given, or without that as large as each frequency by itself leaves; `None` where there is no law.
     pub fit: Option<GoodnessOfFit>,
     /// All work of size N.
     pub work: Work,
@@ -46,28 +50,25 @@ pub(in crate::identify) struct LawsOutcome {
 }
 
 /// Starts that are followed for each law: each costs some dozen responses of the whole band.
-const FOLLOWED: usize = 4;
+const BAND_LAW_STARTS: usize = 4;
 
 /// Evaluations for each start and unknown.
-const PATIENCE: usize = 15;
+const EVALUATIONS_PER_START_AND_PARAMETER: usize = 15;
 
 /// By how much all moduli of a start are moved: on a lightly damped structure the misfit has a valley for each coincidence of measured and computed resonances.
-pub(super) const MOVED: [f64; 8] = [-0.03, -0.01, -0.003, -0.001, 0.001, 0.003, 0.01, 0.03];
+pub(super) const START_SHIFTS: [f64; 8] = [-0.03, -0.01, -0.003, -0.001, 0.001, 0.003, 0.01, 0.03];
 
 /// Rounds of training at a law or a curve before what is left is called uncertain.
-pub(in crate::identify) const ROUNDS: usize = 4;
+pub(in crate::identify) const MAX_TRAINING_ROUNDS: usize = 4;
 
 /// No modulus from one frequency is better than this, relative: where the noise is none, no frequency shall rule alone.
-const LEAST_STD: f64 = 1e-6;
-
-/// A misfit of this many deviations (root mean square) at a frequency is not noise.
-pub(in crate::identify) const UNEXPLAINED: f64 = 5.0;
+const MIN_RELATIVE_MODULUS_STD: f64 = 1e-6;
 
 /// A modulus with a standard deviation of half of itself is not known.
-const UNKNOWN: f64 = 0.5;
+const MAX_RELATIVE_MODULUS_STD: f64 = 0.5;
 
 /// Another minimum, or another solution, this many deviations away is another answer.
-pub(super) const APART: f64 = 3.0;
+pub(super) const RIVAL_DISTANCE_STD: f64 = 3.0;
 
 /// Fits laws to a band, and takes the one of least BIC.
 ///
@@ -94,18 +95,18 @@ pub(in crate::identify) fn identify_laws(
     let unknown = if unknown.is_empty() { &calibrated } else { unknown };
     let at = band.model.at_all(band.frequency_hz, std::slice::from_ref(band.parameter))?;
     let boxes = on_subspace(options);
-    let (mut free, Begin { space, channels, ratio }) =
-        near_or_far(&boxes, |options| at_scales(band, &at, unknown, options, hooks));
-    let mut space = space;
-    if let Some(space) = space.as_mut().filter(|_| !unknown.iter().any(|channel| channel.any())) {
-        free = corrected::correct(band, &at, free, space, &boxes[0], hooks);
+    let (mut free, Begin { reduced, channels, ratio }) =
+        near_or_far(band, &boxes, |options| at_scales(band, &at, unknown, options, hooks));
+    let mut reduced = reduced;
+    if let Some(reduced) = reduced.as_mut().filter(|_| !unknown.iter().any(|channel| channel.any())) {
+        free = corrected::correct(band, &at, free, reduced, &boxes[0], hooks);
     }
     let scaled = Scaled::new(band, &channels);
     let view = scaled.band(band);
     let out = free.left_out();
-    let sigma = without(&deviations(view.measured, view.noise), &out);
+    let sigma = without(&standard_deviations(view.measured, view.noise), &out);
     let fitting = Fitting { band: &view, at: &at, sigma: &sigma, unknown, ratio, options, hooks };
-    let Some(mut space) = space else {
+    let Some(mut reduced) = reduced else {
         let outcomes = free.outcomes.iter().map(|own| own.unanswered()).collect();
         let channels = vec![Calibration::default(); unknown.len()];
         return Ok(LawsOutcome {
@@ -118,107 +119,88 @@ pub(in crate::identify) fn identify_laws(
             free,
         });
     };
-    let before = space.work();
+    let before = reduced.work();
     let all: Vec<usize> = (0..at.len()).collect();
-    space.localise(&all, hooks.for_each);
+    reduced.localise(&all, hooks.for_each);
     let mut fits: Vec<LawFit> = Vec::new();
-    for &family in kinds {
+    for &kind in kinds {
         (hooks.progress)(Stage::Law, fits.len(), kinds.len());
-        fits.extend(fitting.fit(family, &mut space, &free, best(&fits)));
+        fits.extend(fitting.fit(kind, &mut reduced, &free, best(&fits)));
     }
-    fitting.with_errors(&mut fits, &mut space, &mut free);
+    fitting.with_errors(&mut fits, &mut reduced, &mut free);
     if let Some((place, excess)) = fitting.excess(&fits, &free.noise) {
         fits[place] = fits[place].clone().with_noise(excess);
     }
     (hooks.progress)(Stage::Law, kinds.len(), kinds.len());
-    let left = best(&fits).and_then(|law| fitting.calibrations_of(law, &space));
+    let left = best(&fits).and_then(|law| fitting.calibrations_of(law, &reduced));
     let better: Vec<_> = match &left {
         Some(left) => {
             channels.iter().zip(left).map(|(own, [gain, late])| own.better(gain.value, late.value)).collect()
         }
         None => channels.clone(),
     };
-    let told = |m: usize| {
+    let calibration = |m: usize| {
         let Some([gain, late]) = left.as_ref().map(|left| left[m]) else { return Calibration::default() };
         let relative = |std: f64| (std * better[m].scale / gain.value).abs();
         let scale = Calibrated { value: better[m].scale, std: gain.std.map(relative) };
         let delay = Calibrated { value: better[m].delay_s, std: late.std };
         Calibration { scale: unknown[m].scale.then_some(scale), delay_s: unknown[m].delay.then_some(delay) }
     };
-    let told_channels = (0..unknown.len()).map(told).collect();
+    let calibrations = (0..unknown.len()).map(calibration).collect();
     let scaled = Scaled::new(band, &better);
     let view = scaled.band(band);
-    let sigma = without(&deviations(view.measured, view.noise), &out);
+    let sigma = without(&standard_deviations(view.measured, view.noise), &out);
     let judging = Fitting { band: &view, sigma: &sigma, ..fitting };
     if better != channels {
         // What each frequency says by itself, at the calibrations that came out.
-        let mut whole = Some(space);
+        let mut whole = Some(reduced);
         let spent = free.work;
         free = joint::identify(&view, &at, whole.as_mut(), &[], &boxes[0], hooks);
         free.work += spent;
         let Some(again) = whole else { unreachable!("a space that was there stays") };
-        space = again;
-        space.localise(&all, hooks.for_each);
+        reduced = again;
+        reduced.localise(&all, hooks.for_each);
     }
     let (outcomes, fit) = match best(&fits) {
         Some(law) => {
             let (fit, noise) = judging.goodness(law, &free.noise);
-            let one = |i: usize| judging.outcome((law, noise), &space, i, &free.outcomes[i]);
+            let one = |i: usize| judging.outcome(law, noise, &reduced, i, &free.outcomes[i]);
             (map(hooks.for_each, at.len(), one), fit)
         }
         None => (free.outcomes.iter().map(|own| own.unanswered()).collect(), None),
     };
     let fit = fit.map(|fit| fit.of_model(free.other_model));
     let mut work = free.work;
-    work += space.work().since(before);
-    let subspace_size = Some(space.size());
+    work += reduced.work().since(before);
+    let subspace_size = Some(reduced.size());
     let within = |outcome: Line| Line { status: outcome.status.within(fit), ..outcome };
     let outcomes = outcomes.into_iter().map(within).collect();
     let free = free.judged_by_fit();
-    Ok(LawsOutcome { outcomes, fits, channels: told_channels, fit, work, subspace_size, free })
-}
-
-/// What is to be explained, and with what.
-#[derive(Clone, Copy)]
-pub(super) struct Fitting<'t, 'a> {
-    pub(super) band: &'t Band<'a>,
-    pub(super) at: &'t [ModelAt<'a>],
-    /// Of real and imaginary part each.
-    pub(super) sigma: &'t [Vec<f64>],
-    /// What of each sensor's channel is to be found.
-    pub(super) unknown: &'t [ChannelUnknowns],
-    /// Of a factor over the nominal one that has the shape of what was measured.
-    ratio: f64,
-    options: &'t Options,
-    pub(super) hooks: Context<'t>,
+    Ok(LawsOutcome { outcomes, fits, channels: calibrations, fit, work, subspace_size, free })
 }
 
 impl Fitting<'_, '_> {
-    pub(super) fn omega(&self, i: usize) -> f64 {
-        omega_rad_s(self.band.frequency_hz[i])
-    }
-
     /// Finds the errors of the model once more with the law of least BIC, and that law with them; its error bars have both.
     fn with_errors(
         &self,
         fits: &mut [LawFit],
-        space: &mut ReducedBand<'_, '_>,
+        reduced: &mut ReducedBand<'_, '_>,
         free: &mut BandOutcome,
     ) -> Option<()> {
         let errors = free.model_errors.as_ref()?;
-        let family = best(fits)?.family;
-        let place = fits.iter().position(|fit| fit.family == family)?;
+        let kind = best(fits)?.kind;
+        let place = fits.iter().position(|fit| fit.kind == kind)?;
         let weights = corrected::Weights::new(self.band, self.at, &free.left_out());
         let point = corrected::point(self.at);
-        let measured = weights.of((self.band, self.options), &point, free);
+        let measured = weights.of(self.band, self.options, &point, free);
         let (law, theta) = fits[place].coordinates();
         let curves = Curves::new(vec![Curve::Form(Form::Law(*law))]);
         let errors =
-            estimate_with_laws(space.whole(), &measured, errors, (&curves, theta), self.hooks.for_each)?;
-        space.correct(&errors.modes, &errors.errors);
+            estimate_with_laws(reduced.whole(), &measured, errors, (&curves, theta), self.hooks.for_each)?;
+        reduced.correct(&errors.modes, &errors.errors);
         let all: Vec<usize> = (0..self.at.len()).collect();
-        space.localise(&all, self.hooks.for_each);
-        let again = self.fit(family, space, free, Some(&fits[place]))?;
+        reduced.localise(&all, self.hooks.for_each);
+        let again = self.fit(kind, reduced, free, Some(&fits[place]))?;
         fits[place] = again.with_covariance(errors.of_theta());
         free.model_errors = Some(errors);
         Some(())
@@ -228,7 +210,7 @@ impl Fitting<'_, '_> {
     fn excess(&self, fits: &[LawFit], alone: &NoiseLevel) -> Option<(usize, f64)> {
         let law = best(fits)?;
         let excess = self.goodness(law, alone).0?.excess();
-        let place = fits.iter().position(|fit| fit.family == law.family)?;
+        let place = fits.iter().position(|fit| fit.kind == law.kind)?;
         Some((place, excess))
     }
 
@@ -244,22 +226,23 @@ impl Fitting<'_, '_> {
     /// Fits one law, and trains the subspace at it; `None` where there are fewer numbers than parameters, or nowhere a finite misfit.
     fn fit(
         &self,
-        family: LawKind,
-        space: &mut ReducedBand<'_, '_>,
+        kind: LawKind,
+        reduced: &mut ReducedBand<'_, '_>,
         free: &BandOutcome,
         so_far: Option<&LawFit>,
     ) -> Option<LawFit> {
-        if self.evidence().residuals < family.count() {
+        if self.evidence().residuals < kind.count() {
             return None;
         }
         let omegas: Vec<f64> = (0..self.at.len()).map(|i| self.omega(i)).collect();
-        let parametrization = Parametrization::about(family, &omegas);
-        let mut begin = self.starts(&parametrization, space, free, so_far);
+        let parametrization = Parametrization::about(kind, &omegas);
+        let mut begin = self.starts(&parametrization, reduced, free, so_far);
         let all: Vec<usize> = (0..self.at.len()).collect();
         let mut first: Option<LocalMinima> = None;
-        for round in 0..=ROUNDS {
-            let search = Search { starts: FOLLOWED, patience: PATIENCE, same: 0.0 };
-            let found = minimise(&begin, &|theta| self.residuals(&parametrization, space, theta), &search)?;
+        for round in 0..=MAX_TRAINING_ROUNDS {
+            let search =
+                Search { starts: BAND_LAW_STARTS, patience: EVALUATIONS_PER_START_AND_PARAMETER, same: 0.0 };
+            let found = minimise(&begin, &|theta| self.residuals(&parametrization, reduced, theta), &search)?;
             // What the starts said is said once; later rounds move the one that was best.
             let minima = match first.take() {
                 Some(before) => LocalMinima { best: found.best, ..before },
@@ -272,21 +255,26 @@ impl Fitting<'_, '_> {
                 let (modulus, _) = parametrization.modulus(&theta, self.omega(i))?;
                 Some(modulus - self.at[i].parameters[0].nominal)
             };
-            let lacking = space.lacking(correction, self.hooks.for_each);
-            if lacking.is_empty() || round == ROUNDS || !space.refine(&lacking, self.hooks).unwrap_or(false) {
+            let lacking = reduced.lacking(correction, self.hooks.for_each);
+            if lacking.is_empty()
+                || round == MAX_TRAINING_ROUNDS
+                || !reduced.refine(&lacking, self.hooks).unwrap_or(false)
+            {
                 break;
             }
-            space.localise(&all, self.hooks.for_each);
+            reduced.localise(&all, self.hooks.for_each);
         }
         let fit = LawFit::new(parametrization, first?, self.evidence());
-        let lines = self.lines(&fit, space);
+        let lines = self.lines(&fit, reduced);
         Some(fit.widened(&lines))
     }
 
     /// What a law leaves of ln E at each frequency, by all sensors, and what that pulls.
-    fn lines(&self, law: &LawFit, space: &ReducedBand<'_, '_>) -> Vec<LineResidual> {
+    fn lines(&self, law: &LawFit, reduced: &ReducedBand<'_, '_>) -> Vec<LineResidual> {
         let (parametrization, theta) = law.coordinates();
-        let Some((responses, fits)) = self.channels(parametrization, space, theta) else { return Vec::new() };
+        let Some((responses, fits)) = self.channels(parametrization, reduced, theta) else {
+            return Vec::new();
+        };
         let line = |(i, one): (usize, &Responded)| {
             let modulus =
                 parametrization.modulus(theta, self.omega(i)).map_or(c64::default(), |(modulus, _)| modulus);
@@ -318,10 +306,10 @@ impl Fitting<'_, '_> {
     fn residuals(
         &self,
         parametrization: &Parametrization,
-        space: &ReducedBand<'_, '_>,
+        reduced: &ReducedBand<'_, '_>,
         theta: &[f64],
     ) -> Option<Residuals> {
-        let (responses, fits) = self.channels(parametrization, space, theta)?;
+        let (responses, fits) = self.channels(parametrization, reduced, theta)?;
         let (sensors, n) = (self.unknown.len(), theta.len());
         let each = || (0..responses.len()).flat_map(|i| (0..sensors).map(move |m| (i, m)));
         let parts = |value: c64| [value.re, value.im];
@@ -346,13 +334,13 @@ impl Fitting<'_, '_> {
     fn starts(
         &self,
         parametrization: &Parametrization,
-        space: &ReducedBand<'_, '_>,
+        reduced: &ReducedBand<'_, '_>,
         free: &BandOutcome,
         so_far: Option<&LawFit>,
     ) -> Vec<Vec<f64>> {
         let all = 0..self.at.len();
         let answered: Vec<Datum> =
-            all.clone().filter_map(|i| self.datum(space, i, &free.outcomes[i])).collect();
+            all.clone().filter_map(|i| self.datum(reduced, i, &free.outcomes[i])).collect();
         let relative =
             |i: usize, modulus: c64| (modulus.re > 0.0).then(|| Datum::relative(self.omega(i), modulus));
         let nominal = |ratio: f64| -> Vec<Datum> {
@@ -366,7 +354,7 @@ impl Fitting<'_, '_> {
         {
             let Some(near) = nearest(parametrization, &data) else { continue };
             if moved || begin.is_empty() {
-                begin.extend(MOVED.map(|by| parametrization.scaled(&near.best.theta, by)));
+                begin.extend(START_SHIFTS.map(|by| parametrization.scaled(&near.best.theta, by)));
             }
             begin.push(near.best.theta);
             begin.extend(near.others.into_iter().map(|other| other.theta));
@@ -375,46 +363,41 @@ impl Fitting<'_, '_> {
     }
 
     /// What a frequency says by itself, with its deviation: σ carried by the slope of the response.
-    fn datum(&self, space: &ReducedBand<'_, '_>, i: usize, own: &Line) -> Option<Datum> {
+    fn datum(&self, reduced: &ReducedBand<'_, '_>, i: usize, own: &Line) -> Option<Datum> {
         let correction = own.correction().filter(|_| own.status == Status::Ok)?;
         let modulus = own.nominal() + correction;
-        let (_, slope) = space.model(i).respond_with_slope(&self.at[i], correction).ok()?;
+        let (_, slope) = reduced.model(i).respond_with_slope(&self.at[i], correction).ok()?;
         let information: f64 =
             slope.iter().zip(&self.sigma[i]).map(|(slope, sigma)| slope.norm_sqr() / (sigma * sigma)).sum();
-        let std = information.powf(-0.5).max(LEAST_STD * modulus.norm());
+        let std = information.powf(-0.5).max(MIN_RELATIVE_MODULUS_STD * modulus.norm());
         (std.is_finite() && modulus.re > 0.0).then(|| Datum::circular(self.omega(i), modulus, std))
     }
 
     /// Whether what a law leaves is noise, and noise over the assumed deviations: what the law leaves where that is noise, otherwise the least that sensors or scatter of the frequencies by
     /// themselves show.
-    fn goodness(&self, law: &LawFit, alone: &NoiseLevel) -> (Option<GoodnessOfFit>, f64) {
+    fn goodness(&self, law: &LawFit, per_frequency: &NoiseLevel) -> (Option<GoodnessOfFit>, f64) {
         let left = law.reduced_chi_squared().unwrap_or(0.0).sqrt();
         if law.sigma_known {
-            let given = NoiseLevel { source: NoiseSource::Given, ..*alone };
+            let given = NoiseLevel { source: NoiseSource::Given, ..*per_frequency };
             return (judge(law.chi_squared, law.degrees_of_freedom(), &given, self.band.noise), 1.0);
         }
         // Of one kind of evidence the law's, of the other that without it.
-        let noise = NoiseLevel { of_sensors: Some(left), of_scatter: alone.level, ..*alone };
-        let level = alone.level.unwrap_or(left);
+        let noise = NoiseLevel { of_sensors: Some(left), of_scatter: per_frequency.level, ..*per_frequency };
+        let level = per_frequency.level.unwrap_or(left);
         let chi_squared = law.chi_squared / (level * level);
         let fit = judge(chi_squared, law.degrees_of_freedom(), &noise, self.band.noise);
         let is_noise = fit.is_none_or(|fit| fit.verdict != Explained::No);
-        let shown = [alone.of_sensors, alone.of_scatter].into_iter().flatten().reduce(f64::min);
+        let shown =
+            [per_frequency.of_sensors, per_frequency.of_scatter].into_iter().flatten().reduce(f64::min);
         (fit, if is_noise { left } else { shown.unwrap_or(0.0).min(left) })
     }
 
     /// The law at one frequency, judged there; noise over the assumed deviations.
-    fn outcome(
-        &self,
-        (law, noise): (&LawFit, f64),
-        space: &ReducedBand<'_, '_>,
-        i: usize,
-        own: &Line,
-    ) -> Line {
+    fn outcome(&self, law: &LawFit, noise: f64, reduced: &ReducedBand<'_, '_>, i: usize, own: &Line) -> Line {
         let measured = &self.band.measured[i];
         let found = law.at(self.band.frequency_hz[i]).and_then(|estimate| {
             let correction = estimate.modulus - own.nominal();
-            Some((estimate, correction, space.assess(i, correction)?))
+            Some((estimate, correction, reduced.assess(i, correction)?))
         });
         let Some((estimate, correction, assessed)) = found else { return own.unanswered() };
         let mut outcome = own.unanswered();
@@ -443,11 +426,13 @@ impl Fitting<'_, '_> {
         outcome.spectral_radius = outcome.radius.map(|radius| radius.at(correction));
         outcome.reduction_error = Some(certified.response).filter(|c| c.is_finite());
         outcome.updated_response = assessed.response;
-        let apart = |rival: &c64| (rival - estimate.modulus).norm() > APART * std.unwrap_or(f64::INFINITY);
+        let apart = |rival: &c64| {
+            (rival - estimate.modulus).norm() > RIVAL_DISTANCE_STD * std.unwrap_or(f64::INFINITY)
+        };
         let rivals = law.rivals_at(self.band.frequency_hz[i]).into_iter().filter(apart);
         outcome.rivals = rivals.map(|rival| vec![rival]).collect();
-        let unexplained = error > self.options.error && rms > UNEXPLAINED * noise;
-        let known = std.is_some_and(|std| std <= UNKNOWN * size);
+        let unexplained = error > self.options.error && rms > MAX_RMS_MISFIT * noise;
+        let known = std.is_some_and(|std| std <= MAX_RELATIVE_MODULUS_STD * size);
         outcome.on_path = true;
         outcome.status = Status::of([
             (unexplained, Status::Unexplained),
@@ -456,7 +441,7 @@ impl Fitting<'_, '_> {
             (!known, Status::NotIdentifiable),
             (certified.factor > self.options.certain, Status::Failed),
         ]);
-        if self.options.bounds.broken_by(estimate.modulus).is_some() {
+        if self.band.unknown.bounds.broken_by(estimate.modulus).is_some() {
             outcome.forget_value(Status::NoRoot);
         }
         outcome
@@ -465,7 +450,7 @@ impl Fitting<'_, '_> {
 
 /// The law nearest to some moduli; `None` where there are too few.
 pub(in crate::identify) fn nearest(parametrization: &Parametrization, data: &[Datum]) -> Option<LocalMinima> {
-    let enough = 2 * data.len() >= parametrization.family.count();
+    let enough = 2 * data.len() >= parametrization.kind.count();
     let search = Search { starts: 3, patience: 30, same: 0.0 };
     let evaluate = |theta: &[f64]| parametrization.residuals(data, theta);
     if enough { minimise(&starts(parametrization, data), &evaluate, &search) } else { None }

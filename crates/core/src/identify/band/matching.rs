@@ -1,14 +1,14 @@
 //! Which solutions at two frequencies are one and the same.
 
-use super::continuation::LineCandidates;
+use super::candidates::LineCandidates;
 use crate::c64;
 use crate::model::ModelAt;
 
 /// One and the same solution at two frequencies is nearer to itself than this part of the distance to any other …
-const NEARER: f64 = 1.0 / 3.0;
+const PAIR_DISTANCE_RATIO: f64 = 1.0 / 3.0;
 
 /// … and differs by no more than this part of itself: solutions move by a few times the step in frequency, and scatter by what noise does to them.
-const CHANGE: f64 = 0.2;
+const PAIR_CHANGE_RTOL: f64 = 0.2;
 
 /// Pairs (left, right) of what is the same solution, in the order of the left ones; `None` where that is not beyond doubt for all within the bounds on both
 /// sides.
@@ -32,7 +32,7 @@ pub(super) fn pairs(
         let other = nearest(&b, a[k], None)?;
         let near = (b[other] - a[k]).norm();
         let apart = apart(&a, k).min(apart(&b, other));
-        let same = near <= NEARER * apart && near <= CHANGE * a[k].norm();
+        let same = near <= PAIR_DISTANCE_RATIO * apart && near <= PAIR_CHANGE_RTOL * a[k].norm();
         (same && nearest(&a, b[other], None) == Some(k)).then_some((k, other))
     };
     let pairs: Vec<(usize, usize)> = (0..a.len()).filter_map(same).collect();
@@ -46,7 +46,7 @@ pub(super) fn pairs(
 /// Whether a factor is that of several which was expected to be there.
 pub(super) fn is_same(expected: &[c64], k: usize, factor: c64) -> bool {
     let moved = (factor - expected[k]).norm();
-    moved <= NEARER * apart(expected, k) && moved <= CHANGE * expected[k].norm()
+    moved <= PAIR_DISTANCE_RATIO * apart(expected, k) && moved <= PAIR_CHANGE_RTOL * expected[k].norm()
 }
 
 /// The nearest of several to a value, one of them left out.

@@ -1,52 +1,54 @@
 //! A whole band on the subspace: everything at some frequencies, what is between them followed, and all answers certified.
 
-use super::candidates::Candidates;
-use super::continuation::{Follower, LineCandidates, follow};
-use super::exploration_grid::anchors;
-use super::joint::{BandSolution, Selected, Task};
+use super::candidates::{Candidates, LineCandidates};
+use super::continuation::{Continuation, continued};
+use super::exploration_grid::exploration_grid;
 use super::reduced_band::ReducedBand;
+use super::task::{BandSolution, PathSelection, Task};
 use crate::c64;
 use crate::select::Choice;
 use crate::subspace::Projection;
 
-pub(super) fn on_space(task: &Task<'_, '_>, space: &mut ReducedBand<'_, '_>) -> BandSolution {
+pub(super) fn on_reduced(task: &Task<'_, '_>, reduced: &mut ReducedBand<'_, '_>) -> BandSolution {
     let (at, hooks) = (task.at, task.hooks);
     let find = |i: usize, model: &Projection| task.fit(i).explore_reduced(model, &at[i]);
     let settle = |i: usize, model: &Projection, before: &Candidates| {
         let fit = task.fit(i);
         fit.settle(before.clone(), fit.on(model, &at[i]))
     };
-    let pilots = space.pilots();
-    let found = space.find(&pilots, hooks, find);
-    space.certify(&pilots, found, hooks, settle, |found| taken(&task.select(&pilots, found.iter()).0, found));
+    let pilots = reduced.pilots();
+    let found = reduced.find(&pilots, hooks, find);
+    reduced.certify(&pilots, found, hooks, settle, |found| {
+        taken(&task.select(&pilots, found.iter()).choices, found)
+    });
     let all: Vec<usize> = (0..at.len()).collect();
-    let anchors = if task.options.everywhere {
+    let grid = if task.options.everywhere {
         all.clone()
     } else {
-        anchors(task.band.frequency_hz, space.neighbourhoods())
+        exploration_grid(task.band.frequency_hz, reduced.neighbourhoods())
     };
     // The choice that the last answers were taken by.
-    let mut selected: Option<Selected> = None;
-    let found = space.find(&anchors, hooks, find);
-    let found = space.certify(&anchors, found, hooks, settle, |found| {
-        let (choices, _) = selected.insert(task.select(&anchors, found.iter()));
+    let mut selected: Option<PathSelection> = None;
+    let found = reduced.find(&grid, hooks, find);
+    let found = reduced.certify(&grid, found, hooks, settle, |found| {
+        let PathSelection { choices, .. } = selected.insert(task.select(&grid, found.iter()));
         taken(choices, found)
     });
-    if anchors.len() == all.len() {
+    if grid.len() == all.len() {
         let selected = selected.unwrap_or_else(|| task.select(&all, found.iter()));
         return BandSolution { explored: all.len(), found, selected };
     }
 
-    let level = selected.and_then(|(_, level)| level);
+    let level = selected.and_then(|selected| selected.level);
     let usual = usual(level, task.freedom());
-    let follower = Follower { at, fit: |i| task.fit(i), usual };
-    let mut found = follow(space, &follower, &anchors, found, hooks);
+    let continuation = Continuation { at, fit: |i| task.fit(i), usual };
+    let mut found = continued(reduced, &continuation, &grid, found, hooks);
     let mut ready = Some(task.select(&all, found.iter().map(|found| &found.explored)));
     // Where there is nothing to choose, something may have been lost on the way.
-    let nothing = |i: usize| ready.as_ref().is_some_and(|(choices, _)| choices[i].chosen.is_none());
+    let nothing = |i: usize| ready.as_ref().is_some_and(|selected| selected.choices[i].chosen.is_none());
     let lost: Vec<usize> = all.iter().copied().filter(|&i| !found[i].whole && nothing(i)).collect();
     if !lost.is_empty() {
-        for (&index, explored) in lost.iter().zip(space.find(&lost, hooks, find)) {
+        for (&index, explored) in lost.iter().zip(reduced.find(&lost, hooks, find)) {
             found[index] = LineCandidates { index, explored, certain: Vec::new(), whole: true };
         }
         ready = None;
@@ -54,9 +56,9 @@ pub(super) fn on_space(task: &Task<'_, '_>, space: &mut ReducedBand<'_, '_>) -> 
     let explored = found.iter().filter(|found| found.whole).count();
     let found = found.into_iter().map(|found| found.explored).collect();
     let mut selected = None;
-    let found = space.certify(&all, found, hooks, settle, |found| {
+    let found = reduced.certify(&all, found, hooks, settle, |found| {
         let again = || task.select(&all, found.iter());
-        let (choices, _) = selected.insert(ready.take().unwrap_or_else(again));
+        let PathSelection { choices, .. } = selected.insert(ready.take().unwrap_or_else(again));
         taken(choices, found)
     });
     let selected = selected.unwrap_or_else(|| task.select(&all, found.iter()));
@@ -64,13 +66,13 @@ pub(super) fn on_space(task: &Task<'_, '_>, space: &mut ReducedBand<'_, '_>) -> 
 }
 
 /// A misfit with this many nats more than noise has on average is not noise: one in a hundred thousand.
-const NATS: f64 = 12.0;
+const NOISE_NATS: f64 = 12.0;
 
 /// The misfit up to which all is noise of that level; a single sensor has none.
 fn usual(level: Option<f64>, freedom: usize) -> f64 {
     let freedom = freedom as f64;
     // As the selection does, a millionth of the response is taken for roundoff near a resonance.
-    level.map_or(f64::INFINITY, |level| (freedom + 2.0 * NATS) * level.max(1e-6).powi(2))
+    level.map_or(f64::INFINITY, |level| (freedom + 2.0 * NOISE_NATS) * level.max(1e-6).powi(2))
 }
 
 /// The corrections (k, c) that are chosen at the k-th frequency, or may have to be.

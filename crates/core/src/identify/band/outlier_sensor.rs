@@ -1,40 +1,41 @@
 //! A sensor that contradicts the others: found by leaving out each in turn.
 
 use super::candidates::Candidates;
-use super::fit::LEAST;
-use super::joint::Task;
-use super::noise::{freedom, level_of};
-use super::reduced_band::{ReducedBand, thinned};
-use super::{Context, Noise};
+use super::reduced_band::ReducedBand;
+use super::task::Task;
 use crate::for_each::map;
+use crate::identify::context::Context;
+use crate::identify::goodness_of_fit::MIN_DOUBTFUL_MISFIT;
+use crate::identify::noise::{Noise, freedom, level_of, without};
+use crate::identify::thinned::thinned;
 use crate::response::{FullModel, Response, Work};
 use crate::subspace::Projection;
 
 /// Frequencies at which it is tried: the median of their χ² is known to a third, where what is looked for is a factor of ten.
-const FREQUENCIES: usize = 24;
+pub(in crate::identify) const OUTLIER_FREQUENCIES: usize = 24;
 
 /// A sensor is at fault if χ² without it is so many times smaller than with it, and than without any other: its misfit is then more than
 /// three times what all others show.
-const TIMES: f64 = 10.0;
+pub(in crate::identify) const OUTLIER_RATIO: f64 = 10.0;
 
 /// The sensors that contradict the others, worst first, and the work of size N that it took to find them. Of two sensors
-/// neither can be told to be the wrong one. Those that are `hidden` are left out throughout.
+/// it cannot be known which is wrong. Those that are `hidden` are left out throughout.
 pub(super) fn contradicting(
     task: &Task<'_, '_>,
-    space: Option<&mut ReducedBand<'_, '_>>,
+    reduced: Option<&mut ReducedBand<'_, '_>>,
     hidden: &[usize],
 ) -> (Vec<usize>, Work) {
     let sensors = task.band.experiment.sensors.len();
-    let mut trial = Trial { task, space, work: Work::default() };
+    let mut trial = Trial { task, reduced, work: Work::default() };
     let mut out: Vec<usize> = hidden.to_vec();
     // A single sensor beside those that are left out explains everything.
     while sensors - out.len() > 2 {
         let with_all = trial.misfit(&out);
         let floor = match task.band.noise {
             Noise::Known(_) => 1.0,
-            Noise::Unknown | Noise::Relative(_) => LEAST * LEAST,
+            Noise::Unknown | Noise::Relative(_) => MIN_DOUBTFUL_MISFIT * MIN_DOUBTFUL_MISFIT,
         };
-        if with_all <= TIMES * floor {
+        if with_all <= OUTLIER_RATIO * floor {
             break;
         }
         let mut without: Vec<(f64, usize)> = (0..sensors)
@@ -43,7 +44,7 @@ pub(super) fn contradicting(
             .collect();
         without.sort_by(|a, b| a.0.total_cmp(&b.0));
         let (least, worst) = without[0];
-        if TIMES * least.max(floor) < with_all.min(without[1].0) {
+        if OUTLIER_RATIO * least.max(floor) < with_all.min(without[1].0) {
             out.push(worst);
         } else {
             break;
@@ -54,7 +55,7 @@ pub(super) fn contradicting(
 
 struct Trial<'t, 'a, 's, 'b, 'o> {
     task: &'t Task<'t, 'a>,
-    space: Option<&'s mut ReducedBand<'b, 'o>>,
+    reduced: Option<&'s mut ReducedBand<'b, 'o>>,
     work: Work,
 }
 
@@ -63,7 +64,7 @@ impl Trial<'_, '_, '_, '_, '_> {
     fn misfit(&mut self, out: &[usize]) -> f64 {
         let task = self.task;
         let all: Vec<usize> = (0..task.at.len()).collect();
-        let which: Vec<usize> = thinned(&all, FREQUENCIES).copied().collect();
+        let which: Vec<usize> = thinned(&all, OUTLIER_FREQUENCIES).copied().collect();
         let sigma = without(task.sigma, out);
         let task = Task { sigma: &sigma, ..*task };
         let quiet = Context { progress: &|_, _, _| {}, ..task.hooks };
@@ -71,11 +72,11 @@ impl Trial<'_, '_, '_, '_, '_> {
             let misfits = explored.solutions.iter().map(|solution| solution.misfit);
             misfits.min_by(f64::total_cmp).unwrap_or(f64::INFINITY)
         };
-        let misfits = match &mut self.space {
-            Some(space) => {
+        let misfits = match &mut self.reduced {
+            Some(reduced) => {
                 let find =
                     |i: usize, model: &Projection| best(&task.fit(i).explore_reduced(model, &task.at[i]));
-                space.find(&which, quiet, find)
+                reduced.find(&which, quiet, find)
             }
             None => {
                 let find = |k: usize| {
@@ -93,13 +94,6 @@ impl Trial<'_, '_, '_, '_, '_> {
             }
         };
         let left = task.band.experiment.sensors.len() - out.len();
-        level_of(misfits, freedom(left, task.options.real)).map_or(0.0, |level| level * level)
+        level_of(misfits, freedom(left, task.band.unknown.real)).map_or(0.0, |level| level * level)
     }
-}
-
-/// The deviations with those of some sensors infinite: nothing is asked of them.
-pub(in crate::identify) fn without(sigma: &[Vec<f64>], out: &[usize]) -> Vec<Vec<f64>> {
-    let mut sigma = sigma.to_vec();
-    sigma.iter_mut().for_each(|row| out.iter().for_each(|&m| row[m] = f64::INFINITY));
-    sigma
 }

@@ -1,15 +1,16 @@
 //! A model for what is near one curve of factors over frequency: far fewer vectors than for a box.
 
 use super::candidates::Evaluated;
-use super::reduced_band::{TRAINED, is_certain, thinned};
+use super::reduced_band::{TRAINED_TOL, is_certain};
 use crate::c64;
+use crate::identify::thinned::thinned;
 use crate::model::ModelAt;
 use crate::subspace::{Assessment, Point, Projection};
 use frfit_linalg::dense::NoConvergence;
 use std::borrow::Cow;
 
 /// Points of a curve at which its model is made good.
-const POINTS: usize = 9;
+const CURVE_POINTS: usize = 9;
 
 /// A curve, and the model for it.
 pub(super) struct PathModel<'e, 'a> {
@@ -29,7 +30,7 @@ impl<'e, 'a> PathModel<'e, 'a> {
     ) -> Self {
         let path_model = Self { at, curve, model: Cow::Borrowed(model) };
         if own {
-            Self { model: Cow::Owned(model.localised(&path_model.points(), TRAINED)), ..path_model }
+            Self { model: Cow::Owned(model.localised(&path_model.points(), TRAINED_TOL)), ..path_model }
         } else {
             path_model
         }
@@ -45,7 +46,7 @@ impl<'e, 'a> PathModel<'e, 'a> {
         }
         let mut points = self.points();
         points.extend(answers.iter().map(|&(i, correction)| Point { at: self.at[i].clone(), correction }));
-        Self { model: Cow::Owned(model.localised(&points, TRAINED)), ..self }
+        Self { model: Cow::Owned(model.localised(&points, TRAINED_TOL)), ..self }
     }
 
     fn points(&self) -> Vec<Point<'a>> {
@@ -55,7 +56,7 @@ impl<'e, 'a> PathModel<'e, 'a> {
             let correction = self.factor(i) - at.parameters[0].nominal;
             Point { at, correction }
         };
-        thinned(&all, POINTS).map(point).collect()
+        thinned(&all, CURVE_POINTS).map(point).collect()
     }
 
     /// The factor on the curve.

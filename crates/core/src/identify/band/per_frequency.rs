@@ -1,10 +1,14 @@
 //! Each frequency by itself, on the full model or on the subspace.
 
-use super::noise::NoiseLevel;
+use super::outcome::BandOutcome;
 use super::reduced_band::{ReducedBand, reduction_error};
-use super::{Band, BandOutcome, Context, Stage};
 use crate::for_each::map;
-use crate::identify::{Line, Options, Status, identify_at};
+use crate::identify::context::{Context, Stage};
+use crate::identify::measured::Band;
+use crate::identify::noise::NoiseLevel;
+use crate::identify::one::identify_at;
+use crate::identify::options::Options;
+use crate::identify::outcome::{Line, Status};
 use crate::model::ModelAt;
 use crate::response::{FullModel, Work};
 use crate::subspace::Projection;
@@ -14,17 +18,17 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 pub(super) fn identify<'a>(
     band: &Band<'a>,
     at: &[ModelAt<'a>],
-    space: Option<ReducedBand<'a, '_>>,
+    reduced: Option<ReducedBand<'a, '_>>,
     options: &Options,
     hooks: Context<'_>,
 ) -> BandOutcome {
     let broken = |i: usize, breakdown: Breakdown| {
         Line::broken(band.frequency_hz[i], &[at[i].parameters[0].nominal], options.order, breakdown)
     };
-    match space {
-        Some(mut space) => {
+    match reduced {
+        Some(mut reduced) => {
             let find = |i: usize, model: &Projection| match model.at(&at[i]) {
-                Ok(system) => identify_at(&system, &band.measured[i], options),
+                Ok(system) => identify_at(&system, &band.measured[i], band.unknown, options),
                 Err(breakdown) => broken(i, breakdown),
             };
             let answers = |found: &[Line]| {
@@ -33,11 +37,11 @@ pub(super) fn identify<'a>(
                 corrections.collect()
             };
             let all: Vec<usize> = (0..at.len()).collect();
-            let found = space.find(&all, hooks, find);
-            let found = space.certify(&all, found, hooks, |i, model, _| find(i, model), answers);
+            let found = reduced.find(&all, hooks, find);
+            let found = reduced.certify(&all, found, hooks, |i, model, _| find(i, model), answers);
             let outcomes = found.into_iter().enumerate().map(|(i, mut outcome)| {
                 if let Some(correction) = outcome.correction() {
-                    let assessed = space.assess(i, correction);
+                    let assessed = reduced.assess(i, correction);
                     let certified = assessed
                         .map(|a| reduction_error(&a, outcome.nominal() + correction, &band.measured[i]));
                     outcome.reduction_error =
@@ -51,9 +55,9 @@ pub(super) fn identify<'a>(
             BandOutcome {
                 explored: at.len(),
                 outcomes: outcomes.collect(),
-                work: space.work(),
-                subspace_size: Some(space.size()),
-                noise: NoiseLevel::NONE,
+                work: reduced.work(),
+                subspace_size: Some(reduced.size()),
+                noise: NoiseLevel::UNKNOWN,
                 fit: None,
                 sensors: Vec::new(),
                 model_errors: None,
@@ -65,7 +69,7 @@ pub(super) fn identify<'a>(
             let done = AtomicUsize::new(0);
             let outcomes = map(hooks.for_each, at.len(), |i| {
                 let outcome = match FullModel::new(at[i].clone(), band.experiment) {
-                    Ok(system) => identify_at(&system, &band.measured[i], options),
+                    Ok(system) => identify_at(&system, &band.measured[i], band.unknown, options),
                     Err(breakdown) => broken(i, breakdown),
                 };
                 (hooks.progress)(Stage::Solutions, done.fetch_add(1, Ordering::Relaxed) + 1, at.len());
@@ -78,7 +82,7 @@ pub(super) fn identify<'a>(
                 work,
                 subspace_size: None,
                 explored: at.len(),
-                noise: NoiseLevel::NONE,
+                noise: NoiseLevel::UNKNOWN,
                 fit: None,
                 sensors: Vec::new(),
                 model_errors: None,

@@ -1,9 +1,12 @@
 //! The subspace of a band: trained over the box in which the answer may be, then where answers were found.
 
-use super::{Band, Context, Stage};
 use crate::c64;
 use crate::for_each::{ForEach, map};
-use crate::identify::Options;
+use crate::identify::context::{Context, Stage};
+use crate::identify::measured::Band;
+use crate::identify::options::Options;
+use crate::identify::thinned::thinned;
+use crate::identify::unknown::Unknown;
 use crate::material::loss_factor;
 use crate::model::ModelAt;
 use crate::response::Work;
@@ -14,34 +17,35 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Error over the box of frequencies and factors: enough to find every root, which is then looked at more closely.
-pub(in crate::identify) const BOX: f64 = 1e-6;
+pub(in crate::identify) const BOX_TOL: f64 = 1e-6;
 
 /// Error at the answers. The factor is read from the response with a loss of some digits near its stationary points, and is to be right to 1e-6.
-const ANSWER: f64 = 1e-9;
+const ANSWER_TOL: f64 = 1e-9;
 
 /// Error at the answers that were looked at, so that those between them are within what an answer's may be.
-pub(in crate::identify) const TRAINED: f64 = 0.25 * ANSWER;
+pub(in crate::identify) const TRAINED_TOL: f64 = 0.25 * ANSWER_TOL;
 
 /// Frequencies of the training at most; neighbours share what they need.
-const FREQUENCIES: usize = 60;
+pub(in crate::identify) const MAX_TRAINING_FREQUENCIES: usize = 60;
 
 /// Neighbourhoods at most, and the least frequencies that are worth one.
-const BLOCKS: usize = 24;
-const BLOCK_LEAST: usize = 8;
+pub(in crate::identify) const MAX_NEIGHBOURHOODS: usize = 24;
+pub(in crate::identify) const MIN_NEIGHBOURHOOD_LINES: usize = 8;
 
 /// Frequencies of a neighbourhood at which its model is made good, at least; more where the neighbourhoods are few, to the resolution of the
 /// training: in a sparse band neighbours have little in common, and where a model is bad nothing is found and nothing says so.
-const BLOCK_POINTS: usize = 3;
+const MIN_NEIGHBOURHOOD_POINTS: usize = 3;
 
 /// Storage values of the box per octave, and the least.
-const PER_OCTAVE: f64 = 1.0;
+const BOX_STORAGES_PER_OCTAVE: f64 = 1.0;
 
 /// Rounds of refinement at the answers before what is left is called uncertain.
-const ROUNDS: usize = 6;
+const MAX_REFINEMENT_ROUNDS: usize = 6;
 
 pub(super) struct ReducedBand<'a, 'o> {
     subspace: Subspace<'a>,
     at: &'o [ModelAt<'a>],
+    unknown: &'a Unknown,
     options: &'o Options,
     blocks: Vec<Block>,
     /// The model that answered at each frequency: that of its neighbourhood, when it was last asked.
@@ -66,6 +70,18 @@ struct Block {
 }
 
 impl<'a, 'o> ReducedBand<'a, 'o> {
+    /// The reduced model where the options want one and it can be built.
+    pub(super) fn if_wanted(
+        band: &Band<'a>,
+        at: &'o [ModelAt<'a>],
+        options: &'o Options,
+        hooks: Context<'_>,
+    ) -> Option<Self> {
+        let wanted = options.reduction.is_subspace(options.method, band.model.dim(), at.len());
+        // A singular stand-in for D is no reason to give up: the full model says at which frequency what breaks down.
+        wanted.then(|| Self::new(band, at, options, hooks).ok()).flatten()
+    }
+
     /// Trains over the box.
     ///
     /// # Errors
@@ -79,12 +95,13 @@ impl<'a, 'o> ReducedBand<'a, 'o> {
         let n = at.len();
         (hooks.progress)(Stage::Subspace, 0, n);
         let subspace = Subspace::new(band.experiment, &at[n - 1])?;
-        let count = (n / BLOCK_LEAST).clamp(1, BLOCKS);
+        let count = (n / MIN_NEIGHBOURHOOD_LINES).clamp(1, MAX_NEIGHBOURHOODS);
         let block = |b| Block { ends: [b * n / count, (b + 1) * n / count - 1], model: None };
         let blocks = (0..count).map(block).collect();
-        let mut space = Self {
+        let mut reduced = Self {
             subspace,
             at,
+            unknown: band.unknown,
             options,
             blocks,
             models: vec![None; n],
@@ -93,16 +110,17 @@ impl<'a, 'o> ReducedBand<'a, 'o> {
             corrected: None,
         };
         let all: Vec<usize> = (0..n).collect();
-        let points: Vec<Point<'a>> = thinned(&all, FREQUENCIES).flat_map(|&i| space.box_points(i)).collect();
-        let training = TrainOptions { tolerance: BOX, ..TrainOptions::default() };
-        space.subspace.train(&points, &training, hooks.for_each)?;
-        Ok(space)
+        let points: Vec<Point<'a>> =
+            thinned(&all, MAX_TRAINING_FREQUENCIES).flat_map(|&i| reduced.box_points(i)).collect();
+        let training = TrainOptions { tolerance: BOX_TOL, ..TrainOptions::default() };
+        reduced.subspace.train(&points, &training, hooks.for_each)?;
+        Ok(reduced)
     }
 
     /// Some of the frequencies, over the whole band: once the subspace is good at their answers, it is at most of the others.
     pub(super) fn pilots(&self) -> Vec<usize> {
         let all: Vec<usize> = (0..self.at.len()).collect();
-        thinned(&all, FREQUENCIES).copied().collect()
+        thinned(&all, MAX_TRAINING_FREQUENCIES).copied().collect()
     }
 
     /// Finds what there is at some frequencies (ascending), each on the model of its neighbourhood.
@@ -114,10 +132,10 @@ impl<'a, 'o> ReducedBand<'a, 'o> {
     ) -> Vec<T> {
         self.localise(which, hooks.for_each);
         let done = AtomicUsize::new(0);
-        let space = &*self;
+        let reduced = &*self;
         (hooks.progress)(Stage::Solutions, 0, which.len());
         map(hooks.for_each, which.len(), |k| {
-            let found = find(which[k], space.model(which[k]));
+            let found = find(which[k], reduced.model(which[k]));
             (hooks.progress)(Stage::Solutions, done.fetch_add(1, Ordering::Relaxed) + 1, which.len());
             found
         })
@@ -133,12 +151,12 @@ impl<'a, 'o> ReducedBand<'a, 'o> {
         again: impl Fn(usize, &Projection, &T) -> T + Sync,
         mut answers: impl FnMut(&[T]) -> Vec<(usize, c64)>,
     ) -> Vec<T> {
-        for round in 0..=ROUNDS {
+        for round in 0..=MAX_REFINEMENT_ROUNDS {
             let answers = answers(&found);
-            let space = &*self;
+            let reduced = &*self;
             let assessed = map(hooks.for_each, answers.len(), |a| {
                 let (k, correction) = answers[a];
-                space.assess(which[k], correction)
+                reduced.assess(which[k], correction)
             });
             let mut uncertain: Vec<(usize, c64)> = Vec::new();
             for ((k, correction), assessed) in answers.into_iter().zip(assessed) {
@@ -149,7 +167,10 @@ impl<'a, 'o> ReducedBand<'a, 'o> {
                 self.remember(which[k], correction, assessed);
             }
             let lacking: Vec<(usize, c64)> = uncertain.iter().map(|&(k, c)| (which[k], c)).collect();
-            if lacking.is_empty() || round == ROUNDS || !self.refine(&lacking, hooks).unwrap_or(false) {
+            if lacking.is_empty()
+                || round == MAX_REFINEMENT_ROUNDS
+                || !self.refine(&lacking, hooks).unwrap_or(false)
+            {
                 break;
             }
             let mut pending: Vec<usize> = uncertain.into_iter().map(|(k, _)| k).collect();
@@ -222,11 +243,11 @@ impl<'a, 'o> ReducedBand<'a, 'o> {
     pub(super) fn refine(&mut self, answers: &[(usize, c64)], hooks: Context<'_>) -> Result<bool, Breakdown> {
         (hooks.progress)(Stage::Subspace, 0, self.at.len());
         // Neighbours lack the same: those that this leaves uncertain are looked at in the next round.
-        let answers: Vec<(usize, c64)> = thinned(answers, FREQUENCIES).copied().collect();
+        let answers: Vec<(usize, c64)> = thinned(answers, MAX_TRAINING_FREQUENCIES).copied().collect();
         let points: Vec<Point<'a>> =
             answers.iter().map(|&(i, correction)| Point { at: self.at[i].clone(), correction }).collect();
         let before = self.subspace.size();
-        let training = TrainOptions { tolerance: TRAINED, ..TrainOptions::default() };
+        let training = TrainOptions { tolerance: TRAINED_TOL, ..TrainOptions::default() };
         self.subspace.train(&points, &training, hooks.for_each)?;
         self.answers.extend(answers);
         if self.subspace.size() > before {
@@ -246,8 +267,8 @@ impl<'a, 'o> ReducedBand<'a, 'o> {
         let wanted: Vec<usize> = (0..self.blocks.len())
             .filter(|&b| !members(self.blocks[b].ends).is_empty() && outgrown(&self.blocks[b]))
             .collect();
-        let space = &*self;
-        let models = map(for_each, wanted.len(), |k| Arc::new(space.local(space.blocks[wanted[k]].ends)));
+        let reduced = &*self;
+        let models = map(for_each, wanted.len(), |k| Arc::new(reduced.local(reduced.blocks[wanted[k]].ends)));
         wanted.into_iter().zip(models).for_each(|(b, model)| self.blocks[b].model = Some((training, model)));
         for block in &self.blocks {
             for &i in members(block.ends) {
@@ -264,15 +285,16 @@ impl<'a, 'o> ReducedBand<'a, 'o> {
 
     /// The model of a neighbourhood.
     fn local(&self, [first, last]: [usize; 2]) -> Local {
-        let steps = (last - first).min(BLOCK_POINTS.max(FREQUENCIES / self.blocks.len()) - 1);
+        let steps = (last - first)
+            .min(MIN_NEIGHBOURHOOD_POINTS.max(MAX_TRAINING_FREQUENCIES / self.blocks.len()) - 1);
         let picked = (0..=steps).map(|k| first + k * (last - first) / steps.max(1));
         let box_points = picked.flat_map(|i| self.box_points(i));
         let answers = self.answers.iter().filter(|(i, _)| (first..=last).contains(i));
         let answers: Vec<(usize, c64)> = answers.copied().collect();
-        let answers = thinned(&answers, BLOCK_LEAST);
+        let answers = thinned(&answers, MIN_NEIGHBOURHOOD_LINES);
         let answers = answers.map(|&(i, correction)| Point { at: self.at[i].clone(), correction });
         let points: Vec<Point<'_>> = box_points.chain(answers).collect();
-        Local::new(self.whole(), self.corrected.as_ref(), &points, TRAINED)
+        Local::new(self.whole(), self.corrected.as_ref(), &points, TRAINED_TOL)
     }
 
     /// First and last frequency of each neighbourhood.
@@ -308,12 +330,14 @@ impl<'a, 'o> ReducedBand<'a, 'o> {
         let nominal = at.parameters[0].nominal;
         let point = |factor: c64| Point { at: at.clone(), correction: factor - nominal };
         let mut points = vec![point(nominal)];
-        if let Some([low, high]) =
-            self.options.box_about(nominal).filter(|[low, high]| 0.0 < *low && high.is_finite())
+        if let Some([low, high]) = self
+            .unknown
+            .box_about(nominal, self.options.box_ratio())
+            .filter(|[low, high]| 0.0 < *low && high.is_finite())
         {
-            let steps = ((PER_OCTAVE * (high / low).log2()).ceil() as usize).max(2);
+            let steps = ((BOX_STORAGES_PER_OCTAVE * (high / low).log2()).ceil() as usize).max(2);
             let eta = self
-                .options
+                .unknown
                 .bounds
                 .loss_factor
                 .map_or(loss_factor(nominal), |[low, high]| loss_factor(nominal).clamp(low, high));
@@ -326,13 +350,7 @@ impl<'a, 'o> ReducedBand<'a, 'o> {
 
 /// Whether an answer's error is what it may be.
 pub(in crate::identify) fn is_certain(at: &ModelAt<'_>, correction: c64, assessed: &Assessment) -> bool {
-    assessed.relative_truncation(at.parameters[0].nominal + correction) <= ANSWER
-}
-
-/// At most so many of some things, evenly spaced, the ends among them.
-pub(in crate::identify) fn thinned<T>(all: &[T], most: usize) -> impl Iterator<Item = &T> {
-    let count = all.len().min(most);
-    (0..count).map(move |k| &all[k * (all.len() - 1) / (count - 1).max(1)])
+    assessed.relative_truncation(at.parameters[0].nominal + correction) <= ANSWER_TOL
 }
 
 /// What the subspace may have done to an answer.

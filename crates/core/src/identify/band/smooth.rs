@@ -8,21 +8,25 @@
 
 use super::candidates::{misfit, weighed};
 use super::corrected::correct;
-use super::fit::{judge, sensor_misfit};
-use super::laws::{APART, MOVED, ROUNDS, UNEXPLAINED};
-use super::noise::{LEAST_LEVEL, deviations};
-use super::outlier_sensor::without;
+use super::fit::sensor_misfit;
+use super::joint::identify_keeping_model;
+use super::laws::{MAX_TRAINING_ROUNDS, RIVAL_DISTANCE_STD, START_SHIFTS};
+use super::outcome::BandOutcome;
 use super::reduced_band::{ReducedBand, reduction_error};
-use super::{
-    Band, BandOutcome, Context, Noise, NoiseLevel, NoiseSource, SensorFit, Stage, keeping_space, near_or_far,
-    on_subspace,
-};
+use super::search_box::{near_or_far, on_subspace};
 use crate::c64;
 use crate::for_each::map;
 use crate::frequency::omega_rad_s;
-use crate::identify::{Line, Options, Status, Uncertainty, relative_error};
+use crate::identify::context::{Context, Stage};
+use crate::identify::goodness_of_fit::{MAX_RMS_MISFIT, SensorFit, judge};
+use crate::identify::measured::Band;
+use crate::identify::noise::{MIN_NOISE_LEVEL, Noise, NoiseLevel, NoiseSource, standard_deviations, without};
+use crate::identify::options::Options;
+use crate::identify::outcome::{Line, Status};
+use crate::identify::uncertainty::Uncertainty;
 use crate::material::OutsideTable;
 use crate::model::ModelAt;
+use crate::response::relative_error;
 use crate::smooth::{Evidence, Observation, Smoothed, State, roughness, smooth};
 
 /// What came out.
@@ -54,17 +58,17 @@ pub struct SmoothCurve {
 }
 
 /// Steps of Gauss and Newton for each training of the subspace.
-const STEPS: usize = 30;
+const MAX_CURVE_STEPS: usize = 30;
 
 /// Halvings of a step that makes things worse.
-const HALVINGS: usize = 8;
+const MAX_HALVINGS: usize = 8;
 
 /// A step of this part of the error bar, or of the modulus, is none.
-const SETTLED: f64 = 1e-3;
-const ROUNDOFF: f64 = 1e-11;
+const CURVE_STEP_TOL: f64 = 1e-3;
+const CURVE_ROUNDOFF: f64 = 1e-11;
 
 /// Frequencies that are not explained are left out, but not more than this part of the band: else it is the curve that is wrong.
-const OUTLIERS: f64 = 0.25;
+const MAX_OUTLIER_SHARE: f64 = 0.25;
 
 /// Identifies a modulus that is smooth over the band, and no smoother than the data say.
 ///
@@ -85,18 +89,19 @@ pub(in crate::identify) fn identify_smooth(
 ) -> Result<SmoothOutcome, OutsideTable> {
     let at = band.model.at_all(band.frequency_hz, std::slice::from_ref(band.parameter))?;
     let boxes = on_subspace(options);
-    let (mut free, mut space) = near_or_far(&boxes, |options| keeping_space(band, &at, options, hooks));
-    if let Some(space) = &mut space {
-        free = correct(band, &at, free, space, &boxes[0], hooks);
+    let (mut free, mut reduced) =
+        near_or_far(band, &boxes, |options| identify_keeping_model(band, &at, options, hooks));
+    if let Some(reduced) = &mut reduced {
+        free = correct(band, &at, free, reduced, &boxes[0], hooks);
     }
-    let assumed = deviations(band.measured, band.noise);
+    let assumed = standard_deviations(band.measured, band.noise);
     let out = free.left_out();
     let sigma = without(&assumed, &out);
     let smoothing = Smoothing { band, at: &at, sigma: &sigma, out: &out, options, hooks };
     (hooks.progress)(Stage::Law, 0, 1);
-    let found = space.and_then(|mut space| Some((smoothing.fit(&mut space, &free)?, space)));
+    let found = reduced.and_then(|mut reduced| Some((smoothing.fit(&mut reduced, &free)?, reduced)));
     (hooks.progress)(Stage::Law, 1, 1);
-    let Some((fitted, space)) = found else {
+    let Some((fitted, reduced)) = found else {
         let outcomes = free.outcomes.iter().map(Line::unanswered).collect();
         return Ok(SmoothOutcome {
             band: BandOutcome { outcomes, fit: None, ..free.clone() },
@@ -106,7 +111,7 @@ pub(in crate::identify) fn identify_smooth(
     };
     let noise = smoothing.noise(&free.noise, fitted.smoothed.level);
     let judged: Vec<Judged> =
-        map(hooks.for_each, at.len(), |i| smoothing.judged(&fitted, &noise, &space, i, &free));
+        map(hooks.for_each, at.len(), |i| smoothing.judged(&fitted, &noise, &reduced, i, &free));
     let explained = || judged.iter().enumerate().filter(|(i, _)| fitted.observations[*i].weight > 0.0);
     let chi_squared = explained().map(|(_, judged)| judged.chi_squared).sum();
     let freedom = explained().map(|(_, judged)| judged.freedom).sum::<f64>().round() as usize;
@@ -118,8 +123,8 @@ pub(in crate::identify) fn identify_smooth(
     };
     let sensors = free.sensors.iter().enumerate().map(sensor).collect();
     let mut work = free.work;
-    work += space.work().since(fitted.before);
-    let subspace_size = Some(space.size());
+    work += reduced.work().since(fitted.before);
+    let subspace_size = Some(reduced.size());
     let smoothed = BandOutcome { outcomes, work, subspace_size, noise, fit, sensors, ..free.clone() };
     Ok(SmoothOutcome {
         free: free.judged_by_fit(),
@@ -167,7 +172,7 @@ struct Judged {
 
 impl Smoothing<'_, '_> {
     fn numbers(&self) -> usize {
-        if self.options.real { 1 } else { 2 }
+        if self.band.unknown.real { 1 } else { 2 }
     }
 
     fn log_omega(&self, i: usize) -> f64 {
@@ -178,30 +183,33 @@ impl Smoothing<'_, '_> {
         self.sigma[i].iter().filter(|sigma| sigma.is_finite()).count()
     }
 
-    fn fit(&self, space: &mut ReducedBand<'_, '_>, free: &BandOutcome) -> Option<Fitted> {
-        let before = space.work();
+    fn fit(&self, reduced: &mut ReducedBand<'_, '_>, free: &BandOutcome) -> Option<Fitted> {
+        let before = reduced.work();
         let all: Vec<usize> = (0..self.at.len()).collect();
-        space.localise(&all, self.hooks.for_each);
-        let mut states = self.start(space, free)?;
+        reduced.localise(&all, self.hooks.for_each);
+        let mut states = self.start(reduced, free)?;
         let mut used: Vec<bool> = all.iter().map(|&i| self.log_omega(i).is_finite()).collect();
         let mut round = 0;
         loop {
-            let (linear, smoothed, converged) = self.descend(space, &used, states)?;
+            let (linear, smoothed, converged) = self.descend(reduced, &used, states)?;
             states = smoothed.curve.states.clone();
             let correction = |i: usize| Some(modulus(&states[i]) - self.at[i].parameters[0].nominal);
-            let lacking = space.lacking(correction, self.hooks.for_each);
-            if round < ROUNDS && !lacking.is_empty() && space.refine(&lacking, self.hooks).unwrap_or(false) {
-                space.localise(&all, self.hooks.for_each);
+            let lacking = reduced.lacking(correction, self.hooks.for_each);
+            if round < MAX_TRAINING_ROUNDS
+                && !lacking.is_empty()
+                && reduced.refine(&lacking, self.hooks).unwrap_or(false)
+            {
+                reduced.localise(&all, self.hooks.for_each);
                 round += 1;
                 continue;
             }
             let odd: Vec<usize> = all
                 .iter()
                 .copied()
-                .filter(|&i| used[i] && self.unexplained(space, &states, smoothed.level, i))
+                .filter(|&i| used[i] && self.unexplained(reduced, &states, smoothed.level, i))
                 .collect();
             let unexplained = all.iter().filter(|&&i| !used[i] && self.log_omega(i).is_finite()).count();
-            let few = ((unexplained + odd.len()) as f64) < OUTLIERS * all.len() as f64;
+            let few = ((unexplained + odd.len()) as f64) < MAX_OUTLIER_SHARE * all.len() as f64;
             if odd.is_empty() || !few {
                 let Linearised { observations, evidence, .. } = linear;
                 return Some(Fitted { observations, evidence, smoothed, converged, unexplained, before });
@@ -211,32 +219,32 @@ impl Smoothing<'_, '_> {
     }
 
     /// The curve through what each frequency says by itself, moved to where the sensors like it best.
-    fn start(&self, space: &ReducedBand<'_, '_>, free: &BandOutcome) -> Option<Vec<State>> {
+    fn start(&self, reduced: &ReducedBand<'_, '_>, free: &BandOutcome) -> Option<Vec<State>> {
         let own = |i: usize| {
             let none = Observation { x: self.log_omega(i), value: [0.0; 2], weight: 0.0 };
             let outcome = &free.outcomes[i];
-            let answer = outcome
+            let estimate = outcome
                 .factor()
                 .filter(|factor| factor.re > 0.0 && outcome.on_path && outcome.status != Status::Unexplained);
-            let told = answer.and_then(|factor| {
+            let observed = estimate.and_then(|factor| {
                 let (_, slope) =
-                    space.model(i).respond_with_slope(&self.at[i], factor - outcome.nominal()).ok()?;
+                    reduced.model(i).respond_with_slope(&self.at[i], factor - outcome.nominal()).ok()?;
                 let weight =
                     slope.iter().zip(&self.sigma[i]).map(|(s, sigma)| (factor * s / *sigma).norm_sqr()).sum();
                 let log = factor.ln();
                 Some(Observation { value: [log.re, log.im], weight, ..none })
             });
-            told.filter(|o| o.weight.is_finite() && o.x.is_finite()).unwrap_or(none)
+            observed.filter(|o| o.weight.is_finite() && o.x.is_finite()).unwrap_or(none)
         };
         let observations = self.placed((0..self.at.len()).map(own).collect());
         // Among them are wrong ones, so that what is known of the noise does not tell their scatter.
         let evidence = Evidence { numbers: self.numbers(), known: false, beside: (0.0, 0) };
         let states = smooth(&observations, evidence)?.curve.states;
-        let tried = std::iter::once(0.0).chain(MOVED).filter_map(|by: f64| {
+        let tried = std::iter::once(0.0).chain(START_SHIFTS).filter_map(|by: f64| {
             let moved: Vec<State> =
                 states.iter().map(|[value, slope]| [[value[0] + by.ln_1p(), value[1]], *slope]).collect();
             let used = vec![true; moved.len()];
-            let misfit = self.linearised(space, &used, &moved).misfit;
+            let misfit = self.linearised(reduced, &used, &moved).misfit;
             misfit.is_finite().then_some((misfit, moved))
         });
         tried.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, moved)| moved)
@@ -253,7 +261,7 @@ impl Smoothing<'_, '_> {
     }
 
     /// What the sensors say in linear terms about a curve.
-    fn linearised(&self, space: &ReducedBand<'_, '_>, used: &[bool], states: &[State]) -> Linearised {
+    fn linearised(&self, reduced: &ReducedBand<'_, '_>, used: &[bool], states: &[State]) -> Linearised {
         let one = |i: usize| -> (Observation, f64) {
             let log = c64::new(states[i][0][0], states[i][0][1]);
             let none = Observation { x: self.log_omega(i), value: states[i][0], weight: 0.0 };
@@ -261,7 +269,7 @@ impl Smoothing<'_, '_> {
             let correction = modulus - self.at[i].parameters[0].nominal;
             let Some((x, slope)) = Some(used[i])
                 .filter(|used| *used)
-                .and_then(|_| space.model(i).respond_with_slope(&self.at[i], correction).ok())
+                .and_then(|_| reduced.model(i).respond_with_slope(&self.at[i], correction).ok())
             else {
                 return (none, 0.0);
             };
@@ -278,7 +286,7 @@ impl Smoothing<'_, '_> {
                 return (none, 0.0);
             }
             let step = along / weight;
-            let value = match self.options.real {
+            let value = match self.band.unknown.real {
                 true => [log.re + step.re, 0.0],
                 false => [log.re + step.re, log.im + step.im],
             };
@@ -305,11 +313,11 @@ impl Smoothing<'_, '_> {
     /// Gauss and Newton's steps to the smooth curve.
     fn descend(
         &self,
-        space: &ReducedBand<'_, '_>,
+        reduced: &ReducedBand<'_, '_>,
         used: &[bool],
         mut states: Vec<State>,
     ) -> Option<(Linearised, Smoothed, bool)> {
-        let mut linear = self.linearised(space, used, &states);
+        let mut linear = self.linearised(reduced, used, &states);
         let x: Vec<f64> = linear.observations.iter().map(|o| o.x).collect();
         for step in 0.. {
             let smoothed = smooth(&linear.observations, linear.evidence)?;
@@ -318,23 +326,23 @@ impl Smoothing<'_, '_> {
                     let by = |c: usize| smoothed.curve.states[i][0][c] - states[i][0][c];
                     let size = by(0).hypot(by(1));
                     let bar = smoothed.level * smoothed.curve.variance[i].sqrt();
-                    (size / bar).min(size / ROUNDOFF * SETTLED)
+                    (size / bar).min(size / CURVE_ROUNDOFF * CURVE_STEP_TOL)
                 })
                 .fold(0.0, f64::max);
-            if largest <= SETTLED || step == STEPS {
-                return Some((linear, smoothed, largest <= SETTLED));
+            if largest <= CURVE_STEP_TOL || step == MAX_CURVE_STEPS {
+                return Some((linear, smoothed, largest <= CURVE_STEP_TOL));
             }
             let cost = |linear: &Linearised, states: &[State]| {
                 linear.misfit + roughness(&x, states, smoothed.curvature)
             };
             let before = cost(&linear, &states);
             let mut part = 1.0;
-            for halving in 0..=HALVINGS {
+            for halving in 0..=MAX_HALVINGS {
                 let moved = between(&states, &smoothed.curve.states, part);
-                let there = self.linearised(space, used, &moved);
+                let there = self.linearised(reduced, used, &moved);
                 // A step within the error bars is where everything is linear.
                 let good = largest * part < 1.0 || cost(&there, &moved) <= before;
-                if (good && there.misfit.is_finite()) || halving == HALVINGS {
+                if (good && there.misfit.is_finite()) || halving == MAX_HALVINGS {
                     (states, linear) = (moved, there);
                     break;
                 }
@@ -345,16 +353,16 @@ impl Smoothing<'_, '_> {
     }
 
     /// Whether a frequency leaves more than noise at the curve.
-    fn unexplained(&self, space: &ReducedBand<'_, '_>, states: &[State], level: f64, i: usize) -> bool {
+    fn unexplained(&self, reduced: &ReducedBand<'_, '_>, states: &[State], level: f64, i: usize) -> bool {
         let correction = modulus(&states[i]) - self.at[i].parameters[0].nominal;
-        let Ok((x, _)) = space.model(i).respond_with_slope(&self.at[i], correction) else { return false };
-        self.is_unexplained(i, &x, level.max(LEAST_LEVEL))
+        let Ok((x, _)) = reduced.model(i).respond_with_slope(&self.at[i], correction) else { return false };
+        self.is_unexplained(i, &x, level.max(MIN_NOISE_LEVEL))
     }
 
     fn is_unexplained(&self, i: usize, x: &[c64], level: f64) -> bool {
         let rms = (self.misfit(i, x) / (2 * self.sensors(i)).max(1) as f64).sqrt();
         relative_error(&self.kept(&self.band.measured[i]), &self.kept(x)) > self.options.error
-            && rms > UNEXPLAINED * level
+            && rms > MAX_RMS_MISFIT * level
     }
 
     /// Of the sensors that are not left out.
@@ -369,7 +377,7 @@ impl Smoothing<'_, '_> {
     fn noise(&self, free: &NoiseLevel, level: f64) -> NoiseLevel {
         match self.band.noise {
             Noise::Known(_) => *free,
-            _ => NoiseLevel { level: Some(level.max(LEAST_LEVEL)), source: NoiseSource::Curve, ..*free },
+            _ => NoiseLevel { level: Some(level.max(MIN_NOISE_LEVEL)), source: NoiseSource::Curve, ..*free },
         }
     }
 
@@ -377,26 +385,26 @@ impl Smoothing<'_, '_> {
         &self,
         fitted: &Fitted,
         noise: &NoiseLevel,
-        space: &ReducedBand<'_, '_>,
+        reduced: &ReducedBand<'_, '_>,
         i: usize,
-        alone: &BandOutcome,
+        per_frequency: &BandOutcome,
     ) -> Judged {
-        let free = &alone.outcomes;
+        let free = &per_frequency.outcomes;
         let (measured, own) = (&self.band.measured[i], &free[i]);
         let mut outcome = own.unanswered();
         let factor = modulus(&fitted.smoothed.curve.states[i]);
         let correction = factor - own.nominal();
-        let Some(assessed) = space.assess(i, correction).filter(|_| self.log_omega(i).is_finite()) else {
+        let Some(assessed) = reduced.assess(i, correction).filter(|_| self.log_omega(i).is_finite()) else {
             return Judged { outcome, chi_squared: 0.0, freedom: 0.0 };
         };
         let level = noise.level.unwrap_or(1.0);
         let certified = reduction_error(&assessed, factor, measured);
         let variance = fitted.smoothed.curve.variance[i];
-        let second = space.second_derivative(i, correction);
+        let second = reduced.second_derivative(i, correction);
         let second = second.map_or(f64::INFINITY, |second| weighed(&second, &self.sigma[i]));
         let part_std = factor.norm() * variance.sqrt();
-        let mut bars = Uncertainty::new(factor, self.options.real, part_std, second, level);
-        let both = alone.model_errors.as_ref();
+        let mut bars = Uncertainty::new(factor, self.band.unknown.real, part_std, second, level);
+        let both = per_frequency.model_errors.as_ref();
         if let Some([real, imaginary, both]) =
             both.and_then(|errors| errors.covariance_at(0, i, self.band.frequency_hz[i]))
         {
@@ -417,7 +425,8 @@ impl Smoothing<'_, '_> {
         outcome.reduction_error = Some(certified.response).filter(|c| c.is_finite());
         let ambiguous = is_ambiguous(free, i);
         if ambiguous {
-            let apart = |other: &&Vec<c64>| (other[0] - factor).norm() > APART * bars.correction_std;
+            let apart =
+                |other: &&Vec<c64>| (other[0] - factor).norm() > RIVAL_DISTANCE_STD * bars.correction_std;
             outcome.rivals = own.rivals.iter().filter(apart).cloned().collect();
         }
         outcome.on_path = true;
@@ -429,7 +438,7 @@ impl Smoothing<'_, '_> {
             (certified.factor > self.options.certain, Status::Failed),
         ]);
         outcome.updated_response = assessed.response;
-        if self.options.bounds.broken_by(factor).is_some() {
+        if self.band.unknown.bounds.broken_by(factor).is_some() {
             outcome.forget_value(Status::NoRoot);
         }
         Judged { outcome, chi_squared, freedom }
@@ -442,7 +451,7 @@ impl Smoothing<'_, '_> {
         let parameters: f64 = taken.sum();
         let range = observations[observations.len() - 1].x - observations[0].x;
         let width_octaves = range / parameters / std::f64::consts::LN_2;
-        let (level, real) = (smoothed.level, self.options.real);
+        let (level, real) = (smoothed.level, self.band.unknown.real);
         SmoothCurve { parameters, width_octaves, converged, unexplained, observations, evidence, level, real }
     }
 }
@@ -472,7 +481,7 @@ impl SmoothCurve {
                     self.real,
                     part_std,
                     0.0,
-                    self.level.max(if self.evidence.known { 0.0 } else { LEAST_LEVEL }),
+                    self.level.max(if self.evidence.known { 0.0 } else { MIN_NOISE_LEVEL }),
                 ),
             )
         };

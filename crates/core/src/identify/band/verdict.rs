@@ -3,8 +3,12 @@
 use super::candidates::Candidates;
 use super::reduced_band::reduction_error;
 use crate::c64;
-use crate::identify::{Line, Options, Status, Uncertainty, relative_error};
+use crate::identify::goodness_of_fit::MAX_RMS_MISFIT;
+use crate::identify::options::Options;
+use crate::identify::outcome::{Line, Status};
+use crate::identify::uncertainty::Uncertainty;
 use crate::model::ModelAt;
+use crate::response::relative_error;
 use crate::roots::Candidate;
 use crate::select::Choice;
 use crate::series::ConvergenceRadius;
@@ -14,6 +18,7 @@ use crate::subspace::Assessment;
 pub(super) struct Evidence<'a> {
     pub(super) at: &'a ModelAt<'a>,
     pub(super) measured: &'a [c64],
+    pub(super) is_real: bool,
     /// The solution that is given: the chosen one, or the likeliest of a line that the path leaves out.
     pub(super) solution: Option<usize>,
     /// Sensors that count for nothing.
@@ -27,9 +32,6 @@ pub(super) struct Evidence<'a> {
     /// How good the subspace is at the chosen correction; `None` on the full model.
     pub(super) assessment: Option<Assessment>,
 }
-
-/// A misfit of this many deviations (root mean square) is not noise.
-const UNEXPLAINED: f64 = 5.0;
 
 pub(super) fn verdict(
     evidence: &Evidence<'_>,
@@ -69,17 +71,17 @@ pub(super) fn verdict(
     outcome.updated_response = chosen.response.clone();
     outcome.rivals = rivals.iter().map(|&k| vec![nominal + found.solutions[k].correction]).collect();
     outcome.required_order = found.poles.as_ref().and_then(|poles| {
-        let order = |m| poles.required_order(m, chosen.correction, SERIES_ERROR);
+        let order = |m| poles.required_order(m, chosen.correction, SERIES_ORDER_TOL);
         (0..evidence.measured.len()).map(order).try_fold(0, |most, n| Some(most.max(n?)))
     });
     let certified = evidence.assessment.as_ref().map(|a| reduction_error(a, factor, evidence.measured));
     outcome.reduction_error = certified.map(|certified| certified.response).filter(|c| c.is_finite());
     let noise = evidence.noise.unwrap_or(0.0);
     let square = chosen.misfit / evidence.freedom.max(1) as f64;
-    let unexplained = error > options.error && square.sqrt() > UNEXPLAINED * noise;
+    let unexplained = error > options.error && square.sqrt() > MAX_RMS_MISFIT * noise;
     let per_freedom = evidence.noise.filter(|_| evidence.freedom > 0).map(|noise| square / (noise * noise));
     outcome.chi_squared = per_freedom.filter(|chi_squared| chi_squared.is_finite());
-    let bars = |level| Uncertainty::new(factor, options.real, chosen.std, evidence.second, level);
+    let bars = |level| Uncertainty::new(factor, evidence.is_real, chosen.std, evidence.second, level);
     let uncertainty = evidence.noise.map(bars);
     let unknown = uncertainty.is_some_and(|bars| !bars.is_known(factor) || !bars.is_linear());
     outcome.values[0].uncertainty = uncertainty.filter(|bars| bars.correction_std.is_finite());
@@ -96,7 +98,7 @@ pub(super) fn verdict(
 }
 
 /// Error for which the order of the series is predicted: that to which the modulus is to be right.
-const SERIES_ERROR: f64 = 1e-6;
+const SERIES_ORDER_TOL: f64 = 1e-6;
 
 impl Candidates {
     /// Everything that was found, as candidates: solutions first.

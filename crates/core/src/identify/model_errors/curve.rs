@@ -30,25 +30,25 @@ pub(in crate::identify) struct Spline {
 }
 
 /// Knots at most this far apart, in ln ω, and so many at least.
-const KNOT_DISTANCE: f64 = 0.5;
-const LEAST_KNOTS: usize = 8;
+const MAX_KNOT_DISTANCE: f64 = 0.5;
+const MIN_KNOTS: usize = 8;
 
-/// Second differences of ln|E| and of the phase over knots that are `KNOT_DISTANCE` apart: a viscoelastic transition
+/// Second differences of ln|E| and of the phase over knots that are `MAX_KNOT_DISTANCE` apart: a viscoelastic transition
 /// changes its slope by that over half an octave.
-const BEND: [f64; 2] = [0.3, 0.15];
+const BEND_PRIOR_STD: [f64; 2] = [0.3, 0.15];
 
 /// What is known of ln|E| and of the phase before anything is measured.
-const WIDTH: [f64; 2] = [3.0, 1.0];
+const LN_MODULUS_PRIOR_STD: [f64; 2] = [3.0, 1.0];
 
 /// d ln|E|/d ln ω over arg E.
-const BODE: f64 = std::f64::consts::FRAC_2_PI;
+const BODE_SLOPE_OVER_PHASE: f64 = std::f64::consts::FRAC_2_PI;
 
 /// The mean slope of a band is that to this part of it, and to a slope for which no loss is needed that can be measured.
-const SLOPE: f64 = 0.5;
-const LEAST_SLOPE: f64 = 0.001;
+const MEAN_SLOPE_RTOL: f64 = 0.5;
+const MIN_SLOPE_STD: f64 = 0.001;
 
 /// What is known of the coordinates of constants and laws, logarithms and logits, before anything is measured.
-const FORM_WIDTH: f64 = 10.0;
+const FORM_PRIOR_STD: f64 = 10.0;
 
 impl Spline {
     pub(in crate::identify) fn new(omegas: &[f64], real: bool) -> Self {
@@ -57,7 +57,7 @@ impl Spline {
             omegas.iter().map(|omega| omega.max(least).ln()).collect()
         };
         let (first, last) = (x[0], x[x.len() - 1].max(x[0] + 1e-6));
-        let knots = (1 + ((last - first) / KNOT_DISTANCE).ceil() as usize).max(LEAST_KNOTS);
+        let knots = (1 + ((last - first) / MAX_KNOT_DISTANCE).ceil() as usize).max(MIN_KNOTS);
         let step = (last - first) / (knots - 1) as f64;
         let bends = (0..knots).map(|k| bends(knots, k)).collect::<Vec<_>>();
         let at = |x: &f64| {
@@ -135,13 +135,14 @@ impl Curve {
         let n = self.count();
         let mut precision = vec![0.0; n * n];
         let Self::Spline(spline) = self else {
-            (0..n).for_each(|i| precision[i * n + i] = FORM_WIDTH.powi(-2));
+            (0..n).for_each(|i| precision[i * n + i] = FORM_PRIOR_STD.powi(-2));
             return precision;
         };
         let knots = spline.knots();
         for (part, bend) in bend.into_iter().enumerate().take(n / knots) {
             let first = part * knots;
-            (first..first + knots).for_each(|i| precision[i * n + i] += WIDTH[part].powi(-2) / knots as f64);
+            (first..first + knots)
+                .for_each(|i| precision[i * n + i] += LN_MODULUS_PRIOR_STD[part].powi(-2) / knots as f64);
             precision.iter_mut().zip(self.bends(part)).for_each(|(sum, own)| *sum += own / (bend * bend));
         }
         if !spline.real {
@@ -149,17 +150,17 @@ impl Curve {
             let row = |i: usize| match i {
                 0 => -1.0 / range,
                 i if i + 1 == knots => 1.0 / range,
-                i if i >= knots => -BODE / knots as f64,
+                i if i >= knots => -BODE_SLOPE_OVER_PHASE / knots as f64,
                 _ => 0.0,
             };
-            let std = SLOPE * BODE * centre[knots].abs() + LEAST_SLOPE;
+            let std = MEAN_SLOPE_RTOL * BODE_SLOPE_OVER_PHASE * centre[knots].abs() + MIN_SLOPE_STD;
             (0..n * n).for_each(|k| precision[k] += row(k / n) * row(k % n) / (std * std));
             // The slope between two knots, beside that of the band: the relation holds at each frequency.
             for k in 0..knots - 1 {
                 let own = |i: usize| match i {
                     _ if i == k => -1.0 / spline.step,
                     _ if i == k + 1 => 1.0 / spline.step,
-                    _ if i == knots + k || i == knots + k + 1 => -0.5 * BODE,
+                    _ if i == knots + k || i == knots + k + 1 => -0.5 * BODE_SLOPE_OVER_PHASE,
                     _ => 0.0,
                 };
                 let off: Vec<f64> = (0..n).map(|i| own(i) - row(i)).collect();
@@ -179,12 +180,12 @@ impl Curve {
         if first >= n {
             return precision;
         }
-        let scale = (spline.step / KNOT_DISTANCE).powf(1.5);
+        let scale = (spline.step / MAX_KNOT_DISTANCE).powf(1.5);
         for k in first + 1..first + knots - 1 {
             let bend = [(k - 1, 1.0), (k, -2.0), (k + 1, 1.0)];
             for (i, a) in bend {
                 for (j, b) in bend {
-                    precision[i * n + j] += a * b / (scale * BEND[part]).powi(2);
+                    precision[i * n + j] += a * b / (scale * BEND_PRIOR_STD[part]).powi(2);
                 }
             }
         }
@@ -206,7 +207,9 @@ impl Curve {
         let mean = |part: &[f64]| part.iter().sum::<f64>() / knots as f64;
         let size = mean(&theta[..knots]);
         let phase = if spline.real { 0.0 } else { mean(&theta[knots..]) };
-        let at = |k: usize| size + BODE * phase * spline.step * (k as f64 - 0.5 * (knots - 1) as f64);
+        let at = |k: usize| {
+            size + BODE_SLOPE_OVER_PHASE * phase * spline.step * (k as f64 - 0.5 * (knots - 1) as f64)
+        };
         (0..knots).map(at).chain(theta[knots..].iter().map(|_| phase)).collect()
     }
 

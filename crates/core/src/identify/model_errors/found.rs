@@ -1,6 +1,6 @@
 //! What was found of the errors of a model.
 
-use super::Estimated;
+use super::estimated::Estimated;
 use crate::model::FactorPart;
 use crate::subspace;
 use std::f64::consts::TAU;
@@ -57,8 +57,19 @@ pub struct FactorError {
     pub std: f64,
 }
 
+/// How far a relative error of a known factor moves an unknown.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Leverage {
+    /// The term with the known factor.
+    pub term: usize,
+    /// Number of the unknown.
+    pub unknown: usize,
+    /// |∂ln p/∂ln f| of the unknown p by the known factor f, with the measurements as they are: the median over the band.
+    pub change: f64,
+}
+
 /// Modes this far above the band are told of.
-const ABOVE_BAND: f64 = 1.2;
+const LISTED_ABOVE_BAND: f64 = 1.2;
 
 impl Estimated {
     /// What users are told.
@@ -84,7 +95,7 @@ impl Estimated {
             let std = covariance(first_mass + m, first_mass + m).max(0.0).sqrt();
             SensorMass { mass: error * apparent, std: std * apparent }
         };
-        let told = |omega: &f64| *omega > 0.0 && *omega <= ABOVE_BAND * self.highest_rad_s;
+        let is_listed = |omega: &f64| *omega > 0.0 && *omega <= LISTED_ABOVE_BAND * self.highest_rad_s;
         let [frequency_std, loss_factor_std, shape_std] = self.sizes;
         let errors_of_known =
             self.errors.factors.iter().enumerate().filter(|(t, _)| self.factors[*t].is_known);
@@ -97,7 +108,7 @@ impl Estimated {
                 .omega_rad_s
                 .iter()
                 .enumerate()
-                .filter(|(_, omega)| told(omega))
+                .filter(|(_, omega)| is_listed(omega))
                 .map(mode)
                 .collect(),
             factors: errors_of_known.map(factor).collect(),

@@ -1,24 +1,13 @@
 //! How far an error of a known factor moves the unknowns.
 
 use super::search::{FactorPrior, Fitting, Sizes};
-use super::{Search, USUAL_NOISE};
+use super::{Leverage, Search, USUAL_NOISE};
 use crate::c64;
 use crate::for_each::map;
 use crate::median::median;
 use crate::model::FactorPart;
 use crate::subspace::Modes;
 use frfit_linalg::dense::Cholesky;
-
-/// How far a relative error of a known factor moves an unknown.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Leverage {
-    /// The term with the known factor.
-    pub term: usize,
-    /// Number of the unknown.
-    pub unknown: usize,
-    /// |∂ln p/∂ln f| of the unknown p by the known factor f, with the measurements as they are: the median over the band.
-    pub change: f64,
-}
 
 /// ∂ln p/∂ν, `[factor][unknown]`.
 type Moved = Vec<Vec<c64>>;

@@ -17,42 +17,43 @@
 //! (evidence, and the number of well-determined parameters).
 
 mod curve;
+mod estimated;
 mod found;
 mod leverage;
 mod scatter;
 mod search;
 
-use super::{ErrorSizes, Line, Noise};
+use super::noise::Noise;
+use super::options::ErrorSizes;
+use super::outcome::Line;
+use super::thinned::thinned;
 use crate::c64;
 use crate::for_each::ForEach;
-use crate::frequency::omega_rad_s;
 use crate::median::median;
 use crate::model::{FactorPart, ModelAt, Role};
-use crate::subspace::{ModalErrors, Modes, Point, Projection};
+use crate::subspace::{Modes, Point, Projection};
 pub(super) use curve::{Curve, Curves, Spline};
-pub use found::{FactorError, ModeError, ModelErrorsFound, SensorMass};
-pub use leverage::Leverage;
+pub(super) use estimated::{Estimated, covariance};
+pub use found::{FactorError, Leverage, ModeError, ModelErrorsFound, SensorMass};
+pub(super) use search::PointAt;
 
 use frfit_linalg::dense::Cholesky;
-use search::{FactorPrior, Fitting, Found, Kinds, Place, Sizes};
+use search::{FactorPrior, Fitting, Kinds, Minimum, Place, Sizes};
 
 /// What is known of the noise.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Deviations {
+pub(super) enum NoiseScale {
     /// σ is that of the noise.
     Known,
     /// σ is what the noise is in proportion to.
     Relative,
 }
 
-impl Deviations {
+impl NoiseScale {
     pub(super) fn of(noise: Noise<'_>) -> Self {
         if matches!(noise, Noise::Known(_)) { Self::Known } else { Self::Relative }
     }
 }
-
-/// The model at a line with these values of its unknowns.
-pub(super) type PointAt<'t, 'a> = &'t (dyn Fn(usize, &[c64]) -> Option<Point<'a>> + Sync);
 
 /// What was measured, and where to begin.
 pub(super) struct Measured<'t, 'a> {
@@ -67,136 +68,46 @@ pub(super) struct Measured<'t, 'a> {
     pub(super) sigma: &'t [Vec<f64>],
     /// The responses themselves, as deviations.
     pub(super) size: &'t [Vec<f64>],
-    pub(super) deviations: Deviations,
+    pub(super) noise_scale: NoiseScale,
     /// What the user says of the sizes of errors.
     pub(super) given_sizes: ErrorSizes,
     /// What each frequency says by itself, and noise over σ by that.
     pub(super) free: &'t [Line],
     /// The unknowns that each frequency has a value of its own of.
     pub(super) own: &'t [usize],
-    pub(super) alone: Option<f64>,
-}
-
-/// The errors of a model, and how well they are known.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Estimated {
-    pub(super) modes: Modes,
-    pub(super) errors: ModalErrors,
-    /// Of θ, δ and ε (own and common together), ν and Δη, κ, then a of the load and of each sensor: n × n.
-    pub(super) covariance: Vec<f64>,
-    pub(super) sizes: [f64; 3],
-    /// χ² at σ times `level`, and how many numbers it has.
-    pub(super) chi_squared: f64,
-    pub(super) numbers: usize,
-    pub(super) level: f64,
-    /// By how many nats errors of the model explain the band better than a right model does.
-    pub(super) evidence: f64,
-    highest_rad_s: f64,
-    curves: Curves,
-    factors: Vec<FactorPrior>,
-    /// θ, then the errors as the search has them.
-    place: Place,
-}
-
-impl Estimated {
-    pub(super) fn theta(&self) -> &[f64] {
-        &self.place[..self.curves.count()]
-    }
-
-    /// Variances of the real and the imaginary part of an unknown at a line, and their covariance.
-    pub(super) fn covariance_at(&self, unknown: usize, line: usize, frequency_hz: f64) -> Option<[f64; 3]> {
-        let slopes = self.curves.slopes(self.theta(), unknown, line, omega_rad_s(frequency_hz))?;
-        Some(covariance(&self.block(0..slopes.len()), &slopes))
-    }
-
-    /// The covariance of some coordinates, column after column.
-    pub(super) fn covariance_of(&self, coordinates: &[usize]) -> Vec<f64> {
-        let n = self.count();
-        let column = |&a: &usize| coordinates.iter().map(move |b| self.covariance[a * n + b]);
-        coordinates.iter().flat_map(column).collect()
-    }
-
-    fn block(&self, range: std::ops::Range<usize>) -> Vec<f64> {
-        self.covariance_of(&range.collect::<Vec<_>>())
-    }
-
-    /// The coordinates of an unknown.
-    pub(super) fn range(&self, unknown: usize) -> std::ops::Range<usize> {
-        self.curves.range(unknown)
-    }
-
-    /// The errors, as coordinates.
-    pub(super) fn error_range(&self) -> std::ops::Range<usize> {
-        self.curves.count()..self.count()
-    }
-
-    /// All unknowns at a line.
-    pub(super) fn values(&self, line: usize, frequency_hz: f64) -> Option<Vec<c64>> {
-        Some(self.curves.values(self.theta(), line, omega_rad_s(frequency_hz))?.0)
-    }
-
-    /// The covariance of θ, row after row.
-    pub(super) fn of_theta(&self) -> Vec<Vec<f64>> {
-        let n = self.curves.count();
-        self.block(0..n).chunks_exact(n.max(1)).map(<[f64]>::to_vec).collect()
-    }
-
-    /// The covariance of the errors.
-    pub(super) fn of_errors(&self) -> Vec<f64> {
-        self.block(self.error_range())
-    }
-
-    /// Coordinates: θ, and the errors.
-    pub(super) fn count(&self) -> usize {
-        let ModalErrors { stiffness, masses, load, shape, factors } = &self.errors;
-        let of_shapes: usize = shape.iter().map(Vec::len).sum();
-        self.curves.count() + stiffness.len() + factors.len() + masses.len() + load.len() + of_shapes
-    }
-}
-
-/// Variances of the real and the imaginary part of Σ g_n ξ_n, and their covariance.
-pub(super) fn covariance(covariance: &[f64], g: &[c64]) -> [f64; 3] {
-    let n = g.len();
-    let mut sum = [0.0; 3];
-    for (column, g_column) in covariance.chunks_exact(n.max(1)).zip(g) {
-        let times: c64 = column.iter().zip(g).map(|(c, g)| *c * g).sum();
-        sum[0] += times.re * g_column.re;
-        sum[1] += times.im * g_column.im;
-        sum[2] += times.re * g_column.im;
-    }
-    sum
+    pub(super) level_per_frequency: Option<f64>,
 }
 
 /// Modes up to this many times the highest frequency, and so many at most.
-const ABOVE: f64 = 4.0;
-const MOST_MODES: usize = 30;
+const MODES_ABOVE_BAND: f64 = 4.0;
+const MAX_MODES: usize = 30;
 
 /// Noise that is added to begin with, relative to the response.
-const FROM_ABOVE: [f64; 6] = [1.0, 0.3, 0.1, 0.03, 0.01, 0.003];
+const ADDED_NOISE: [f64; 6] = [1.0, 0.3, 0.1, 0.03, 0.01, 0.003];
 
 /// Stages in which a band is gone through upwards, noise that is added at each, and steps.
-const STAGES: usize = 8;
-const STAGE_LEVELS: [f64; 2] = [1.0, 0.2];
+const MAX_STAGES: usize = 8;
+const ADDED_STAGE_NOISE: [f64; 2] = [1.0, 0.2];
 const STAGE_STEPS: usize = 3;
 
 /// Noise over response above which a fit is looked for from other starts too.
 const USUAL_NOISE: f64 = 0.01;
 
 /// Steps at each level of the noise, and at the last.
-const STEPS: usize = 5;
-const LAST_STEPS: usize = 5;
+const STEPS_PER_LEVEL: usize = 5;
+const STEPS_AT_LAST_LEVEL: usize = 5;
 
 /// Rounds in which sizes and errors are found in turn.
-const ROUNDS: usize = 8;
+const MAX_SIZE_ROUNDS: usize = 8;
 
 /// Before the data: natural frequencies are good to a half per cent, loss factors of modes to one (a stiffness that is not there may have any), shapes and known factors to two, loss factors of known stiffnesses to a tenth of themselves
 /// or what bearings and air have.
-const FREQUENCY: f64 = 0.005;
-const OF_MODES: f64 = 0.01;
-const SHAPE: f64 = 0.02;
-const FACTOR: f64 = 0.02;
-const LOSS_FACTOR: f64 = 0.002;
-const OF_LOSS_FACTOR: f64 = 0.1;
+const FREQUENCY_PRIOR_STD: f64 = 0.005;
+const MODAL_LOSS_FACTOR_PRIOR_STD: f64 = 0.01;
+const SHAPE_PRIOR_STD: f64 = 0.02;
+const FACTOR_PRIOR_STD: f64 = 0.02;
+const LOSS_FACTOR_PRIOR_STD: f64 = 0.002;
+const LOSS_FACTOR_PRIOR_RATIO: f64 = 0.1;
 
 /// What all modes have in common is larger than their scatter: a mesh errs in one sense.
 const COMMON_RATIO: f64 = 5.0;
@@ -214,20 +125,20 @@ const PRIOR_MODES: f64 = 0.05;
 const PRIOR_COMMON: f64 = 0.5;
 
 /// No measured response is better than this part of itself: what is smaller is no reason to doubt a model.
-const LEAST_LEVEL: f64 = 5e-4;
+const MIN_NOISE_OVER_RESPONSE: f64 = 5e-4;
 
 /// The same of a single sensor, whose noise nobody told: it cannot contradict itself.
-const OF_ONE_SENSOR: f64 = 5e-3;
+const MIN_NOISE_OF_ONE_SENSOR: f64 = 5e-3;
 
 /// The share of a given size that is each mode's own, and that each of three common parts has: together they are as large as was said.
-const OF_GIVEN: f64 = 0.5;
+const OWN_SHARE_OF_GIVEN_SIZE: f64 = 0.5;
 
 impl Sizes {
     /// Before the data.
     fn prior(given: ErrorSizes) -> Self {
-        let frequency = given.frequency.map_or(FREQUENCY, |size| OF_GIVEN * size);
-        let shape = given.shape.unwrap_or(SHAPE);
-        Self { frequency, loss_factor: OF_MODES, shape, bend: [1.0; 2], common: 0.0, common_loss: 0.0 }
+        let frequency = given.frequency.map_or(FREQUENCY_PRIOR_STD, |size| OWN_SHARE_OF_GIVEN_SIZE * size);
+        let (shape, loss_factor) = (given.shape.unwrap_or(SHAPE_PRIOR_STD), MODAL_LOSS_FACTOR_PRIOR_STD);
+        Self { frequency, loss_factor, shape, bend: [1.0; 2], common: 0.0, common_loss: 0.0 }
             .with_common(given)
     }
 
@@ -240,7 +151,7 @@ impl Sizes {
 
 /// A fit at a level of the noise.
 struct Explained {
-    found: Found,
+    found: Minimum,
     sizes: Sizes,
     level: f64,
     /// −2 ln of the evidence, up to what all explanations share.
@@ -278,18 +189,18 @@ fn explanation(search: &Search<'_, '_>, starts: &[Vec<f64>]) -> Option<Explanati
     let Search { model, data, curves, .. } = *search;
     // Far from the answer a rough model is as good.
     let points: Vec<Point<'_>> = starts.iter().flat_map(|start| search.points(start)).collect();
-    let rough = search.smaller(&points, ROUGH);
+    let rough = search.smaller(&points, ROUGH_NEIGHBOURHOOD_TOL);
     let given: Vec<FactorPrior> = search.factors.iter().filter(|factor| factor.is_given).copied().collect();
     let right_of = |model: &Projection, start: Place| -> Option<Explained> {
         let none = Modes::none(model);
         let fitting = Fitting { factors: &given, ..search.fitting(model, &none, &search.lines) };
-        data.explain(&fitting, start, &FROM_ABOVE[2..])
+        data.explain(&fitting, start, &ADDED_NOISE[2..])
     };
     let start = starts[0].iter().copied().chain(given.iter().map(|_| 0.0)).collect();
     let right = right_of(&rough.0, start)?;
     // What is said of known factors is in the error bars of a right model too.
     let right_model = || -> Option<Explanation> {
-        let near = search.smaller(&search.points(&right.found.place), NEIGHBOURHOOD);
+        let near = search.smaller(&search.points(&right.found.place), NEIGHBOURHOOD_TOL);
         let right = right_of(&near.0, right.found.place.clone())?;
         let none = Modes::none(&near.0);
         let fitting = Fitting { factors: &given, ..search.fitting(&near.0, &none, &search.lines) };
@@ -301,12 +212,12 @@ fn explanation(search: &Search<'_, '_>, starts: &[Vec<f64>]) -> Option<Explanati
     let whole = search.fitting(&rough.0, &rough.1, &search.lines);
     let sized = data.given_sizes.any();
     let is_noise = || data.is_noise(&right, data.numbers(&search.lines), curves);
-    if !sized && is_noise() && data.promise(&whole, &right, &given)? <= -RIGHT {
+    if !sized && is_noise() && data.promise(&whole, &right, &given)? <= -RIGHT_MODEL_NATS {
         return right_model();
     }
     let coarse = search.fitting(&rough.0, &rough.1, &search.some);
     let from = |place: Place, kinds: Kinds, from_above: &[f64]| -> Option<Explained> {
-        let near = search.smaller(&search.points(&place), NEIGHBOURHOOD);
+        let near = search.smaller(&search.points(&place), NEIGHBOURHOOD_TOL);
         let fitting = Fitting { kinds, ..search.fitting(&near.0, &near.1, &search.lines) };
         data.explain(&fitting, place, from_above)
     };
@@ -314,7 +225,7 @@ fn explanation(search: &Search<'_, '_>, starts: &[Vec<f64>]) -> Option<Explanati
         let coarse = Fitting { kinds, ..coarse };
         let ends = places.into_iter().filter_map(|place| data.approach(&coarse, place));
         let (_, place) = ends.min_by(|a, b| a.0.total_cmp(&b.0))?;
-        from(place, kinds, &FROM_ABOVE[NEAR..])
+        from(place, kinds, &ADDED_NOISE[FIRST_LEVELS..])
     };
     let better = |a: Explained, b: Option<Explained>| match b {
         Some(b) if b.evidence < a.evidence => b,
@@ -330,13 +241,13 @@ fn explanation(search: &Search<'_, '_>, starts: &[Vec<f64>]) -> Option<Explanati
         wrong = better(wrong, fitted(at_starts(), Kinds::MASSES));
     }
     let place = wrong.found.place.clone();
-    wrong = better(wrong, from(place, Kinds::ALL, &FROM_ABOVE[LAST..]));
-    let near = search.smaller(&search.points(&wrong.found.place), NEIGHBOURHOOD);
+    wrong = better(wrong, from(place, Kinds::ALL, &ADDED_NOISE[LAST_LEVELS..]));
+    let near = search.smaller(&search.points(&wrong.found.place), NEIGHBOURHOOD_TOL);
     let fine = search.fitting(&near.0, &near.1, &search.lines);
     let scattered = data.scattered(search, &right, wrong.level);
     let least = scattered.map_or(right.evidence, |scattered| scattered.min(right.evidence));
     let evidence = 0.5 * (least - wrong.evidence);
-    if !sized && evidence <= -RIGHT {
+    if !sized && evidence <= -RIGHT_MODEL_NATS {
         return right_model();
     }
     if !fine.are_small(&wrong.found.place, data.given_sizes) {
@@ -359,10 +270,10 @@ pub(super) fn estimate_with_laws(
         factors: before.factors.clone(),
         ..Search::new(model, data, (curves, theta), theta, for_each)?
     };
-    let near = search.smaller(&search.points(theta), NEIGHBOURHOOD);
+    let near = search.smaller(&search.points(theta), NEIGHBOURHOOD_TOL);
     let fitting = search.fitting(&near.0, &near.1, &search.lines);
     let place: Place = theta.iter().chain(&before.place[before.curves.count()..]).copied().collect();
-    let found = data.explain(&fitting, place, &FROM_ABOVE[NEAR..])?;
+    let found = data.explain(&fitting, place, &ADDED_NOISE[FIRST_LEVELS..])?;
     let estimated = data.posterior(&fitting, found, before.evidence)?;
     Some(Estimated { modes: search.modes, ..estimated })
 }
@@ -382,8 +293,8 @@ fn priors(at: &ModelAt<'_>, sizes: ErrorSizes) -> Vec<FactorPrior> {
             is_given: std.is_some(),
             is_known,
         };
-        let storage = prior(FactorPart::Storage, given.storage, FACTOR);
-        let usual = LOSS_FACTOR.hypot(OF_LOSS_FACTOR * loss_factor);
+        let storage = prior(FactorPart::Storage, given.storage, FACTOR_PRIOR_STD);
+        let usual = LOSS_FACTOR_PRIOR_STD.hypot(LOSS_FACTOR_PRIOR_RATIO * loss_factor);
         let loss = prior(FactorPart::LossFactor, given.loss_factor, usual);
         let is_stiffness = one.role == Role::Stiffness;
         let has_error = is_known || (is_stiffness && sizes.frequency.is_none());
@@ -419,11 +330,11 @@ impl<'t, 'a> Search<'t, 'a> {
         for_each: ForEach<'t>,
     ) -> Option<Self> {
         let all: Vec<usize> = (0..data.omegas.len()).filter(|&i| data.omegas[i] > 0.0).collect();
-        let of = |most: usize| -> Vec<usize> { super::band::thinned(&all, most).copied().collect() };
-        let lines = of(LINES);
+        let of = |most: usize| -> Vec<usize> { thinned(&all, most).copied().collect() };
+        let lines = of(MAX_LINES);
         let Point { at, correction } = data.on(curves, theta, lines[lines.len() / 2])?;
-        let highest = ABOVE * data.omegas.last()?;
-        let modes = model.modes(&at, correction, highest, MOST_MODES).ok()?;
+        let highest = MODES_ABOVE_BAND * data.omegas.last()?;
+        let modes = model.modes(&at, correction, highest, MAX_MODES).ok()?;
         Some(Self {
             model,
             data,
@@ -431,8 +342,8 @@ impl<'t, 'a> Search<'t, 'a> {
             centre,
             for_each,
             lines,
-            some: of(FEW_LINES),
-            about: of(POINTS),
+            some: of(FIRST_LINES),
+            about: of(NEIGHBOURHOOD_POINTS),
             modes,
             factors: priors(&at, data.given_sizes),
         })
@@ -468,27 +379,27 @@ impl<'t, 'a> Search<'t, 'a> {
 }
 
 /// Lines on which the search begins, and at most.
-const FEW_LINES: usize = 60;
-const LINES: usize = 240;
+const FIRST_LINES: usize = 60;
+const MAX_LINES: usize = 240;
 
-/// Levels of added noise until all lines are used, and until nothing but the last sizes is to be found.
-const NEAR: usize = 4;
-const LAST: usize = 5;
+/// Levels of added noise until all lines are used, and until only errors of damping and masses are to be found.
+const FIRST_LEVELS: usize = 4;
+const LAST_LEVELS: usize = 5;
 
 /// Points of the band at which a model of the neighbourhood is made good, and to which error.
-const POINTS: usize = 24;
-const NEIGHBOURHOOD: f64 = 1e-6;
-const ROUGH: f64 = 1e-4;
+const NEIGHBOURHOOD_POINTS: usize = 24;
+const NEIGHBOURHOOD_TOL: f64 = 1e-6;
+const ROUGH_NEIGHBOURHOOD_TOL: f64 = 1e-4;
 
 /// Of the sizes before the data, at which small errors are tried.
-const PARTS: [f64; 4] = [1.0, 0.3, 0.1, 0.03];
+const TRIED_SIZE_PARTS: [f64; 4] = [1.0, 0.3, 0.1, 0.03];
 
 /// What is left is noise up to so many standard deviations of χ².
-const CHANCE: f64 = 3.0;
+const NOISE_CHI_SQUARED_STD: f64 = 3.0;
 
 /// A right model is one only where it explains a band by so many nats better: before the data errors are a hundred times as likely as none, and where
 /// the data cannot tell, they are in the bars.
-const RIGHT: f64 = 5.0;
+const RIGHT_MODEL_NATS: f64 = 5.0;
 
 impl<'a> Measured<'_, 'a> {
     /// The model at a line of some curves.
@@ -544,7 +455,8 @@ impl<'a> Measured<'_, 'a> {
     fn sigma_at(&self, lines: &[usize], level: f64, added: f64) -> Vec<Vec<f64>> {
         let one = |&i: &usize| {
             let each = self.sigma[i].iter().zip(&self.size[i]);
-            each.map(|(sigma, size)| (level * sigma).hypot(added.max(LEAST_LEVEL) * size)).collect()
+            each.map(|(sigma, size)| (level * sigma).hypot(added.max(MIN_NOISE_OVER_RESPONSE) * size))
+                .collect()
         };
         lines.iter().map(one).collect()
     }
@@ -554,9 +466,9 @@ impl<'a> Measured<'_, 'a> {
         let precision = coarse.precision(&Sizes::prior(self.given_sizes));
         let own = if self.known() { 1.0 } else { 0.0 };
         let mut end = (f64::INFINITY, place);
-        for added in &FROM_ABOVE[..NEAR] {
+        for added in &ADDED_NOISE[..FIRST_LEVELS] {
             let sigma = self.sigma_at(coarse.lines, own, *added);
-            let found = coarse.descend(end.1, &sigma, &precision, STEPS)?;
+            let found = coarse.descend(end.1, &sigma, &precision, STEPS_PER_LEVEL)?;
             end = (found.normal.chi_squared + found.prior, found.place);
         }
         Some(end)
@@ -566,7 +478,7 @@ impl<'a> Measured<'_, 'a> {
     fn is_explained(&self, wrong: &Explained, lines: &[usize]) -> bool {
         let n = self.numbers(lines) as f64;
         match self.known() {
-            true => wrong.found.normal.chi_squared <= n + CHANCE * (2.0 * n).sqrt(),
+            true => wrong.found.normal.chi_squared <= n + NOISE_CHI_SQUARED_STD * (2.0 * n).sqrt(),
             false => wrong.level <= USUAL_NOISE,
         }
     }
@@ -577,10 +489,10 @@ impl<'a> Measured<'_, 'a> {
         let precision = whole.precision(&Sizes::prior(self.given_sizes));
         let own = if self.known() { 1.0 } else { 0.0 };
         let mut place = whole.start(start);
-        for below in whole.stages(STAGES) {
-            let lines: Vec<usize> = super::band::thinned(below, FEW_LINES).copied().collect();
+        for below in whole.stages(MAX_STAGES) {
+            let lines: Vec<usize> = thinned(below, FIRST_LINES).copied().collect();
             let stage = Fitting { lines: &lines, ..*whole };
-            for added in STAGE_LEVELS {
+            for added in ADDED_STAGE_NOISE {
                 let sigma = self.sigma_at(&lines, own, added);
                 place = stage.descend(place, &sigma, &precision, STAGE_STEPS)?.place;
             }
@@ -589,19 +501,21 @@ impl<'a> Measured<'_, 'a> {
     }
 
     fn known(&self) -> bool {
-        self.deviations == Deviations::Known
+        self.noise_scale == NoiseScale::Known
     }
 
     /// Whether noise is all that a smooth modulus leaves.
     fn is_noise(&self, right: &Explained, numbers: usize, curves: &Curves) -> bool {
         let n = numbers as f64;
         match self.known() {
-            true => right.found.normal.chi_squared <= n + CHANCE * (2.0 * n).sqrt(),
+            true => right.found.normal.chi_squared <= n + NOISE_CHI_SQUARED_STD * (2.0 * n).sqrt(),
             false => {
                 let sensors = self.sigma[0].iter().filter(|sigma| sigma.is_finite()).count();
                 let contradicted = sensors > 1 || curves.smooth().is_empty();
-                let least = if contradicted { LEAST_LEVEL } else { OF_ONE_SENSOR };
-                let usual = self.alone.map_or(0.0, |alone| alone * (1.0 + CHANCE / n.sqrt()));
+                let least = if contradicted { MIN_NOISE_OVER_RESPONSE } else { MIN_NOISE_OF_ONE_SENSOR };
+                let usual = self.level_per_frequency.map_or(0.0, |level_per_frequency| {
+                    level_per_frequency * (1.0 + NOISE_CHI_SQUARED_STD / n.sqrt())
+                });
                 right.level <= least.max(usual)
             }
         }
@@ -645,7 +559,7 @@ impl<'a> Measured<'_, 'a> {
             let of_curves = volume(&sum, &of_right)? - volume(&precision, &of_right)?;
             Some(0.5 * (gained - of_errors + of_curves))
         };
-        PARTS.into_iter().filter_map(gain).reduce(f64::max)
+        TRIED_SIZE_PARTS.into_iter().filter_map(gain).reduce(f64::max)
     }
 
     /// The least squares with the noise approached from above, and the sizes of largest evidence.
@@ -656,7 +570,7 @@ impl<'a> Measured<'_, 'a> {
         let mut level = 1.0;
         for &added in from_above {
             let sigma = self.sigma_at(fitting.lines, if known { 1.0 } else { 0.0 }, added);
-            let found = fitting.descend(place, &sigma, &fitting.precision(&sizes), STEPS)?;
+            let found = fitting.descend(place, &sigma, &fitting.precision(&sizes), STEPS_PER_LEVEL)?;
             place = found.place;
             if !known {
                 level = added;
@@ -667,10 +581,10 @@ impl<'a> Measured<'_, 'a> {
             }
         }
         let mut last = None;
-        for _ in 0..ROUNDS {
+        for _ in 0..MAX_SIZE_ROUNDS {
             let sigma = self.sigma_at(fitting.lines, level, 0.0);
             let precision = fitting.precision(&sizes);
-            let found = fitting.descend(place, &sigma, &precision, LAST_STEPS)?;
+            let found = fitting.descend(place, &sigma, &precision, STEPS_AT_LAST_LEVEL)?;
             place = found.place.clone();
             let n = fitting.count();
             let whole: Vec<f64> =
@@ -682,13 +596,14 @@ impl<'a> Measured<'_, 'a> {
             let of_prior = Cholesky::new(n, &precision).ok()?.log_determinant();
             let evidence =
                 logs + found.normal.chi_squared + found.prior + factor.log_determinant() - of_prior;
-            let told: f64 =
+            let determined: f64 =
                 (0..n).map(|i| 1.0 - precision[i * n + i] * variance(i)).map(|t| t.clamp(0.0, 1.0)).sum();
             let chi_squared = found.normal.chi_squared;
             let before = (level, sizes);
             last = Some(Explained { found, sizes, level, evidence });
             if !known {
-                level = (level * (chi_squared / (numbers - told).max(1.0)).sqrt()).max(LEAST_LEVEL);
+                level = (level * (chi_squared / (numbers - determined).max(1.0)).sqrt())
+                    .max(MIN_NOISE_OVER_RESPONSE);
             }
             for part in 0..2 {
                 let (bends, count) = fitting.curves.bends(part);
@@ -697,27 +612,29 @@ impl<'a> Measured<'_, 'a> {
                     (0..m * m).map(|k| bends[k] * of(k / m, k % m)).sum()
                 };
                 let squares = sum(&|i, j| place[i] * place[j]);
-                let untold = sum(&|i, j| inverse[i * n + j]) / sizes.bend[part].powi(2);
-                let told = (count as f64 - untold).clamp(0.0, count as f64);
+                let undetermined = sum(&|i, j| inverse[i * n + j]) / sizes.bend[part].powi(2);
+                let determined = (count as f64 - undetermined).clamp(0.0, count as f64);
                 let [least, most] = BEND_RANGE;
-                sizes.bend[part] = ((squares + PRIOR_MODES) / (told + PRIOR_MODES)).sqrt().clamp(least, most);
+                sizes.bend[part] =
+                    ((squares + PRIOR_MODES) / (determined + PRIOR_MODES)).sqrt().clamp(least, most);
             }
             if !fitting.shapes().is_empty() {
                 // The size that some errors show; what was known of it counts as so many errors.
                 let fresh = |of: Vec<usize>, size: f64, (prior, count): (f64, f64)| {
                     let squares: f64 = of.iter().map(|&i| (place[i] / fitting.growth(i)).powi(2)).sum();
                     let share = |i: usize| variance(i) / (size * fitting.growth(i)).powi(2);
-                    let told: f64 = of.iter().map(|&i| (1.0 - share(i)).clamp(0.0, 1.0)).sum();
-                    ((squares + count * prior * prior) / (told + count)).sqrt()
+                    let determined: f64 = of.iter().map(|&i| (1.0 - share(i)).clamp(0.0, 1.0)).sum();
+                    ((squares + count * prior * prior) / (determined + count)).sqrt()
                 };
                 if self.given_sizes.frequency.is_none() {
                     let own = fitting.elastic(true).collect();
-                    sizes.frequency = fresh(own, sizes.frequency, (FREQUENCY, PRIOR_MODES));
+                    sizes.frequency = fresh(own, sizes.frequency, (FREQUENCY_PRIOR_STD, PRIOR_MODES));
                 }
                 let own = fitting.elastic(false).collect();
-                sizes.loss_factor = fresh(own, sizes.loss_factor, (OF_MODES, PRIOR_MODES));
+                sizes.loss_factor = fresh(own, sizes.loss_factor, (MODAL_LOSS_FACTOR_PRIOR_STD, PRIOR_MODES));
                 if self.given_sizes.shape.is_none() {
-                    sizes.shape = fresh(fitting.shapes().collect(), sizes.shape, (SHAPE, PRIOR_MODES));
+                    sizes.shape =
+                        fresh(fitting.shapes().collect(), sizes.shape, (SHAPE_PRIOR_STD, PRIOR_MODES));
                 }
                 sizes = sizes.with_common(self.given_sizes);
                 if self.given_sizes.frequency.is_none() {

@@ -1,14 +1,14 @@
 //! The evidence of a right model whose unknowns scatter from line to line about smooth curves.
 
-use super::{Explained, LEAST_LEVEL, Measured, Search};
+use super::{Explained, MIN_NOISE_OVER_RESPONSE, Measured, Search};
 use crate::c64;
 use frfit_linalg::dense::Cholesky;
 
 /// By how much unknowns may scatter: standard deviations of ln p.
-const SCATTER: [f64; 7] = [1e-4, 1e-3, 3e-3, 1e-2, 3e-2, 0.1, 0.3];
+const SCATTER_STDS: [f64; 7] = [1e-4, 1e-3, 3e-3, 1e-2, 3e-2, 0.1, 0.3];
 
 /// What a line says of the unknowns that have a value of their own there.
-struct Told {
+struct LineEstimate {
     line: usize,
     /// What the best values leave of the sensors.
     misfit: f64,
@@ -29,28 +29,28 @@ impl Measured<'_, '_> {
         if self.own.is_empty() {
             return None;
         }
-        let told: Vec<Told> = lines.iter().filter_map(|&i| self.told(i)).collect();
-        if 2 * told.len() < lines.len() {
+        let estimates: Vec<LineEstimate> = lines.iter().filter_map(|&i| self.line_estimate(i)).collect();
+        if 2 * estimates.len() < lines.len() {
             return None;
         }
         // Lines that say nothing are as good as those that do.
-        let share = lines.len() as f64 / told.len() as f64;
-        let misfit = share * told.iter().map(|one| one.misfit).sum::<f64>();
+        let share = lines.len() as f64 / estimates.len() as f64;
+        let misfit = share * estimates.iter().map(|one| one.misfit).sum::<f64>();
         let free = self.numbers(lines) as f64 - 2.0 * (self.own.len() * lines.len()) as f64;
         let own = match self.known() {
             true => 1.0,
-            false if free > 0.0 => (misfit / free).sqrt().clamp(LEAST_LEVEL, level),
+            false if free > 0.0 => (misfit / free).sqrt().clamp(MIN_NOISE_OVER_RESPONSE, level),
             false => level,
         };
         let sigma = self.sigma_at(lines, own, 0.0);
         let logs: f64 = sigma.iter().flatten().filter(|s| s.is_finite()).map(|s| 4.0 * s.ln()).sum();
-        let at_own = own / self.alone.unwrap_or(own);
-        let of = |scatter: f64| self.about_curves((search, right), &told, (share, at_own), scatter);
-        let least = SCATTER.into_iter().filter_map(of).fold(f64::INFINITY, f64::min);
+        let at_own = own / self.level_per_frequency.unwrap_or(own);
+        let of = |scatter: f64| self.about_curves((search, right), &estimates, (share, at_own), scatter);
+        let least = SCATTER_STDS.into_iter().filter_map(of).fold(f64::INFINITY, f64::min);
         Some(logs + misfit / (own * own) + least)
     }
 
-    fn told(&self, line: usize) -> Option<Told> {
+    fn line_estimate(&self, line: usize) -> Option<LineEstimate> {
         let own = &self.free[line];
         let sigma = match self.known() {
             true => self.sigma_at(&[line], 1.0, 0.0).concat(),
@@ -61,7 +61,7 @@ impl Measured<'_, '_> {
             let value = own.values[j].value.filter(|value| own.on_path && value.re > 0.0)?;
             Some((value, own.values[j].uncertainty?.storage_std / value.norm()))
         };
-        Some(Told {
+        Some(LineEstimate {
             line,
             misfit: each.map(|((x, u), sigma)| (u - x).norm_sqr() / (sigma * sigma)).sum(),
             unknowns: self.own.iter().map(unknown).collect::<Option<_>>()?,
@@ -72,7 +72,7 @@ impl Measured<'_, '_> {
     fn about_curves(
         &self,
         (search, right): (&Search<'_, '_>, &Explained),
-        told: &[Told],
+        estimates: &[LineEstimate],
         (share, level): (f64, f64),
         scatter: f64,
     ) -> Option<f64> {
@@ -86,7 +86,7 @@ impl Measured<'_, '_> {
         let mut sum: f64 = pull.iter().zip(&off).map(|(p, o)| p * o).sum();
         let mut gradient: Vec<f64> = pull.iter().map(|p| -p).collect();
         let mut matrix = prior.clone();
-        for one in told {
+        for one in estimates {
             let (values, slopes) = curves.values(theta, one.line, self.omegas[one.line])?;
             for (&j, &(value, std)) in self.own.iter().zip(&one.unknowns) {
                 let noise = (std * level).powi(2);

@@ -1,13 +1,15 @@
 //! The least squares of a curve with the errors of the model: min over θ, δ, ν, a of χ² + their priors.
 
-use super::PointAt;
 use super::curve::Curves;
 use crate::c64;
 use crate::for_each::{ForEach, map};
-use crate::identify::ErrorSizes;
+use crate::identify::options::ErrorSizes;
 use crate::model::FactorPart;
-use crate::subspace::{ErrorSlopes, FactorError, ModalErrors, Modes, Projection};
+use crate::subspace::{ErrorSlopes, FactorError, ModalErrors, Modes, Point, Projection};
 use frfit_linalg::dense::Cholesky;
+
+/// The model at a line with these values of its unknowns.
+pub(in crate::identify) type PointAt<'t, 'a> = &'t (dyn Fn(usize, &[c64]) -> Option<Point<'a>> + Sync);
 
 /// What is to be explained, and with what.
 #[derive(Clone, Copy)]
@@ -46,7 +48,7 @@ impl Kinds {
 }
 
 /// The standard deviation of an error that is not looked for: as good as none.
-const NEGLIGIBLE: f64 = 1e-7;
+const NEGLIGIBLE_STD: f64 = 1e-7;
 
 /// What is known of the error of a known factor.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -62,14 +64,14 @@ pub(super) struct FactorPrior {
 
 /// Parts that the δ_i of a group have in common: the same for all modes, with ω_i and its square, as the errors of meshes grow, and with
 /// 1/ω_i², as those of supports fall; and two of the ε_i, the same for all and with 1/ω_i².
-const COMMON: usize = 6;
-const COMMON_OF_FREQUENCY: usize = 4;
+const COMMON_PARTS: usize = 6;
+const COMMON_FREQUENCY_PARTS: usize = 4;
 
 /// Standard deviation of a mass at a sensor over the apparent mass there: accelerometers have some tenths of a per cent of what they are on.
-const SENSOR_MASS: f64 = 0.005;
+const SENSOR_MASS_STD: f64 = 0.005;
 
 /// Standard deviation of δ of a rigid body: a usual suspension has natural frequencies below a third of the first other one.
-const GROUND: f64 = 0.05;
+const RIGID_BODY_STD: f64 = 0.05;
 
 /// Sizes of the errors: standard deviations.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -98,27 +100,27 @@ pub(super) struct Normal {
 }
 
 /// A minimum.
-pub(super) struct Found {
+pub(super) struct Minimum {
     pub(super) place: Place,
     pub(super) normal: Normal,
     pub(super) prior: f64,
 }
 
 /// Steps that are refused before a search ends.
-const REFUSED: usize = 6;
+const MAX_REFUSED_STEPS: usize = 6;
 
 /// The largest step of a coordinate of θ.
-const LONGEST: f64 = 0.5;
+const MAX_THETA_STEP: f64 = 0.5;
 
 /// Errors larger than these, root mean squares over the modes of the band, are no small errors of this model: it is another one.
-const LARGEST_FREQUENCY: f64 = 0.05;
-const LARGEST_SHAPE: f64 = 0.3;
+const MAX_FREQUENCY_ERROR: f64 = 0.05;
+const MAX_SHAPE_ERROR: f64 = 0.3;
 
 /// The same over the sizes that were given.
-const OF_GIVEN: f64 = 3.0;
+const MAX_ERROR_OVER_GIVEN_SIZE: f64 = 3.0;
 
 /// A gain of this part of the cost is none.
-const SETTLED: f64 = 1e-5;
+const COST_RTOL: f64 = 1e-5;
 
 impl Fitting<'_, '_> {
     pub(super) fn sensors(&self) -> usize {
@@ -149,7 +151,7 @@ impl Fitting<'_, '_> {
 
     /// Coordinates of what the δ_i have in common.
     fn common_errors(&self) -> usize {
-        COMMON * self.modes.group.iter().max().map_or(0, |last| 1 + last)
+        COMMON_PARTS * self.modes.group.iter().max().map_or(0, |last| 1 + last)
     }
 
     /// What δ_i or ε_i has of each common part.
@@ -158,12 +160,11 @@ impl Fitting<'_, '_> {
         let mut parts = vec![0.0; self.common_errors()];
         if let Some(lowest) = self.modes.lowest_rad_s().filter(|_| own > 0.0) {
             let (omega, support) = (own / self.highest_rad_s, (lowest / own).powi(2));
-            let of_group = &mut parts[COMMON * self.modes.group[i]..][..COMMON];
+            let of_group = &mut parts[COMMON_PARTS * self.modes.group[i]..][..COMMON_PARTS];
+            let (of_frequency, of_loss) = of_group.split_at_mut(COMMON_FREQUENCY_PARTS);
             match self.modes.is_of_frequency(i) {
-                true => {
-                    of_group[..COMMON_OF_FREQUENCY].copy_from_slice(&[1.0, omega, omega * omega, support])
-                }
-                false => of_group[COMMON_OF_FREQUENCY..].copy_from_slice(&[1.0, support]),
+                true => of_frequency.copy_from_slice(&[1.0, omega, omega * omega, support]),
+                false => of_loss.copy_from_slice(&[1.0, support]),
             }
         }
         parts
@@ -172,7 +173,7 @@ impl Fitting<'_, '_> {
     /// The common parts of δ, or of ε.
     pub(super) fn in_common(&self, of_frequency: bool) -> impl Iterator<Item = usize> {
         let first = self.curves.count();
-        let is_wanted = move |part: &usize| (part % COMMON < COMMON_OF_FREQUENCY) == of_frequency;
+        let is_wanted = move |part: &usize| (part % COMMON_PARTS < COMMON_FREQUENCY_PARTS) == of_frequency;
         (0..self.common_errors()).filter(is_wanted).map(move |part| first + part)
     }
 
@@ -289,9 +290,11 @@ impl Fitting<'_, '_> {
         };
         let frequency =
             |i: usize| -> f64 { self.modes.frequency_errors(i).map(|error| errors.stiffness[error]).sum() };
-        let largest = |usual: f64, given: Option<f64>| usual.max(OF_GIVEN * given.unwrap_or(0.0)).powi(2);
-        let of_shapes = |shape: &Vec<f64>| square(&|i| shape[i]) <= largest(LARGEST_SHAPE, given.shape);
-        square(&frequency) <= largest(LARGEST_FREQUENCY, given.frequency)
+        let largest = |usual: f64, given: Option<f64>| {
+            usual.max(MAX_ERROR_OVER_GIVEN_SIZE * given.unwrap_or(0.0)).powi(2)
+        };
+        let of_shapes = |shape: &Vec<f64>| square(&|i| shape[i]) <= largest(MAX_SHAPE_ERROR, given.shape);
+        square(&frequency) <= largest(MAX_FREQUENCY_ERROR, given.frequency)
             && errors.shape.iter().chain([&errors.load]).all(of_shapes)
     }
 
@@ -322,7 +325,7 @@ impl Fitting<'_, '_> {
         let n = self.count();
         let errors = self.errors(place);
         let model = self.model.with_errors(self.modes, &errors);
-        let chunks = self.lines.len().min(CHUNKS);
+        let chunks = self.lines.len().min(LINE_CHUNKS);
         let part = |c: usize| -> Option<Normal> {
             let mut sum = Normal { chi_squared: 0.0, gradient: vec![0.0; n], information: vec![0.0; n * n] };
             for k in (c..self.lines.len()).step_by(chunks) {
@@ -386,15 +389,15 @@ impl Fitting<'_, '_> {
         }
         let mut set = |i: usize, std: f64| all[i * n + i] = std.powi(-2);
         self.in_common(true).for_each(|i| set(i, sizes.common));
-        let damping = |std: f64| if self.kinds.damping { std } else { NEGLIGIBLE };
-        let mass = if self.kinds.masses { SENSOR_MASS } else { NEGLIGIBLE };
+        let damping = |std: f64| if self.kinds.damping { std } else { NEGLIGIBLE_STD };
+        let mass = if self.kinds.masses { SENSOR_MASS_STD } else { NEGLIGIBLE_STD };
         self.in_common(false).for_each(|i| set(i, damping(sizes.common_loss)));
         let own = |i: usize| match (self.is_frequency(i), self.is_rigid(i)) {
             (true, false) => sizes.frequency * self.growth(i),
             (false, false) => damping(sizes.loss_factor * self.growth(i)),
-            (true, true) => GROUND,
+            (true, true) => RIGID_BODY_STD,
             // Of a support without damping ε is −2δ.
-            (false, true) => damping(2.0 * GROUND),
+            (false, true) => damping(2.0 * RIGID_BODY_STD),
         };
         self.own().for_each(|i| set(i, own(i)));
         (self.first_factor()..).zip(self.factors).for_each(|(i, prior)| set(i, prior.std));
@@ -410,7 +413,7 @@ impl Fitting<'_, '_> {
         sigma: &[Vec<f64>],
         precision: &[f64],
         steps: usize,
-    ) -> Option<Found> {
+    ) -> Option<Minimum> {
         let n = self.count();
         let prior = |place: &[f64]| -> (f64, Vec<f64>) {
             let off = |i: usize| place[i] - self.centre.get(i).copied().unwrap_or(0.0);
@@ -433,7 +436,7 @@ impl Fitting<'_, '_> {
             };
             factor.solve(&mut step);
             let longest = step[..self.curves.count()].iter().fold(0.0f64, |most, s| most.max(s.abs()));
-            let part = (LONGEST / longest).min(1.0);
+            let part = (MAX_THETA_STEP / longest).min(1.0);
             let there: Place = place.iter().zip(&step).map(|(p, s)| p + part * s).collect();
             let (other_prior, other_pull) = prior(&there);
             let cost = normal.chi_squared + of_prior;
@@ -443,22 +446,22 @@ impl Fitting<'_, '_> {
                     (place, normal, of_prior, pull) = (there, other, other_prior, other_pull);
                     damping = (damping * 0.1).max(1e-9);
                     refused = 0;
-                    if gain <= SETTLED * cost && part == 1.0 {
+                    if gain <= COST_RTOL * cost && part == 1.0 {
                         break;
                     }
                 }
                 None => {
                     damping = (damping * 10.0).max(1e-6);
                     refused += 1;
-                    if refused == REFUSED {
+                    if refused == MAX_REFUSED_STEPS {
                         break;
                     }
                 }
             }
         }
-        Some(Found { place, normal, prior: of_prior })
+        Some(Minimum { place, normal, prior: of_prior })
     }
 }
 
 /// Parts in which the lines are summed.
-const CHUNKS: usize = 4;
+const LINE_CHUNKS: usize = 4;

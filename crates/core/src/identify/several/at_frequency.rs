@@ -1,8 +1,8 @@
 //! One frequency: what it has of its own, found for given values of what holds for the band.
 
-use super::Unknown;
 use super::reduced_band::Responded;
 use crate::c64;
+use crate::identify::unknown::Unknown;
 use crate::laws::{Minimum, Search, descend};
 use std::cell::RefCell;
 
@@ -35,19 +35,19 @@ pub(super) struct Solution {
 }
 
 /// Evaluations for each start and coordinate: from where it leads somewhere a dozen are enough for four coordinates.
-const PATIENCE: usize = 8;
+const EVALUATIONS_PER_START_AND_COORDINATE: usize = 8;
 
 /// A least misfit of so many times the best is no rival of it, whatever the noise …
-const RIVAL: f64 = 1e4;
+const MAX_RIVAL_MISFIT_RATIO: f64 = 1e4;
 
 /// … where the best leaves more than roundoff: this part of Σ |u_m|²/σ_m².
-const EXACT: f64 = 1e-20;
+const EXACT_MISFIT_RATIO: f64 = 1e-20;
 
 /// Solutions of a frequency that are kept at most: as many equations as unknowns may have a dozen of them.
-const MOST: usize = 16;
+const MAX_SOLUTIONS: usize = 16;
 
 /// Solutions nearer than this, in coordinates of size one, are one.
-const SAME: f64 = 1e-7;
+const SOLUTION_MERGE_TOL: f64 = 1e-7;
 
 impl Spot<'_> {
     /// Real numbers that the frequency has of its own.
@@ -140,7 +140,7 @@ impl Spot<'_> {
             })
         };
         let evaluate = |own: &[f64]| at(own).map(|here| (here.residuals, here.of_own));
-        let search = Search { starts: 1, patience: PATIENCE, same: 0.0 };
+        let search = Search { starts: 1, patience: EVALUATIONS_PER_START_AND_COORDINATE, same: 0.0 };
         let Minimum { theta, converged, .. } = descend(start, &evaluate, &search)?;
         at(&theta).filter(|_| converged)
     }
@@ -161,17 +161,18 @@ impl Spot<'_> {
             if !self.unknowns.iter().zip(&new.values).all(within) {
                 continue;
             }
-            match found.iter_mut().find(|old| distance(&old.own, &new.own) <= SAME) {
+            match found.iter_mut().find(|old| distance(&old.own, &new.own) <= SOLUTION_MERGE_TOL) {
                 Some(old) if new.misfit < old.misfit => *old = new,
                 Some(_) => {}
                 None => found.push(new),
             }
         }
         found.sort_by(|a, b| a.misfit.total_cmp(&b.misfit));
-        let worst =
-            found.first().map_or(0.0, |best| RIVAL * best.misfit.max(EXACT * self.size_of_measured()));
+        let worst = found.first().map_or(0.0, |best| {
+            MAX_RIVAL_MISFIT_RATIO * best.misfit.max(EXACT_MISFIT_RATIO * self.size_of_measured())
+        });
         found.retain(|solution| solution.misfit <= worst);
-        found.truncate(MOST);
+        found.truncate(MAX_SOLUTIONS);
         found
     }
 }

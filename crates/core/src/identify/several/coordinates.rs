@@ -1,8 +1,8 @@
 //! The numbers that hold for the whole band, as coordinates θ of a search.
 
-use super::unknown::{Unknown, Variation};
 use crate::c64;
 use crate::identify::form::Form;
+use crate::identify::unknown::{Unknown, Variation};
 use crate::laws::{LawKind, Parametrization};
 
 /// One unknown that holds for the band.
@@ -25,7 +25,7 @@ pub(super) struct Coordinates {
 }
 
 /// A coordinate without bounds.
-const FREE: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
+const UNBOUNDED: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 
 /// ln of positive bounds, rounded so that e^θ lies within them.
 fn log_limits(bound: Option<[f64; 2]>) -> [f64; 2] {
@@ -66,12 +66,15 @@ impl Coordinates {
             match &form {
                 Form::Logarithm => limits.push(log_limits(one.bounds.storage)),
                 Form::Scaled(scale) => {
-                    limits.push(one.bounds.storage.unwrap_or(FREE).map(|bound| bound / scale))
+                    limits.push(one.bounds.storage.unwrap_or(UNBOUNDED).map(|bound| bound / scale))
                 }
-                Form::Law(law) if law.family == LawKind::Constant => {
-                    limits.extend([log_limits(one.bounds.storage), one.bounds.loss_factor.unwrap_or(FREE)]);
+                Form::Law(law) if law.kind == LawKind::Constant => {
+                    limits.extend([
+                        log_limits(one.bounds.storage),
+                        one.bounds.loss_factor.unwrap_or(UNBOUNDED),
+                    ]);
                 }
-                Form::Law(law) => limits.extend(vec![FREE; law.family.count()]),
+                Form::Law(law) => limits.extend(vec![UNBOUNDED; law.kind.count()]),
             }
             each.push(Own { unknowns: j, range: count..count + own, form });
             count += own;
@@ -98,7 +101,7 @@ impl Coordinates {
         let of = |own: &Own| match &own.form {
             Form::Logarithm => vec![values[own.unknowns].re.ln()],
             Form::Scaled(scale) => vec![values[own.unknowns].re / scale],
-            Form::Law(parametrization) if parametrization.family == LawKind::Constant => {
+            Form::Law(parametrization) if parametrization.kind == LawKind::Constant => {
                 let value = values[own.unknowns];
                 parametrization.coordinates(&[value.re, crate::material::loss_factor(value)])
             }
@@ -127,7 +130,7 @@ impl Own {
     }
 
     /// Its law, where it has one: a complex constant is one too.
-    pub(super) fn family(&self) -> Option<LawKind> {
-        self.form.family()
+    pub(super) fn kind(&self) -> Option<LawKind> {
+        self.form.kind()
     }
 }

@@ -1,16 +1,17 @@
 //! A band once more, with the errors of the model taken out and carried into every error bar (B-11).
 
+use super::Task;
 use super::at_frequency::{Solution, eliminate};
 use super::outcome::SeveralOutcome;
 use super::reduced_band::ReducedBand;
 use super::search::BandSolution;
-use super::{Task, Unknown, Variation};
 use crate::c64;
-use crate::identify::band::{deviations, without};
 use crate::identify::model_errors::{
-    Curve, Curves, Deviations, Explanation, Leverage, Measured, Spline, estimate, estimate_with_laws,
+    Curve, Curves, Explanation, Leverage, Measured, NoiseScale, Spline, estimate, estimate_with_laws,
 };
-use crate::identify::{ModelErrors, Noise};
+use crate::identify::noise::{Noise, standard_deviations, without};
+use crate::identify::options::ModelErrors;
+use crate::identify::unknown::{Unknown, Variation};
 use crate::subspace::{Corrected, Point};
 
 impl Task<'_, '_> {
@@ -74,12 +75,15 @@ impl Task<'_, '_> {
             given_sizes: self.options.model_errors.sizes(),
             measured: self.problem.frfs.receptance,
             sigma: &self.sigma,
-            size: &without(&deviations(self.problem.frfs.receptance, Noise::Unknown), &self.left_out),
-            deviations: Deviations::of(self.problem.frfs.noise),
+            size: &without(
+                &standard_deviations(self.problem.frfs.receptance, Noise::Unknown),
+                &self.left_out,
+            ),
+            noise_scale: NoiseScale::of(self.problem.frfs.noise),
             free: &found.at,
             own: &own,
             // What holds for the band cannot show the noise: it is part of what is to be explained.
-            alone: found.noise.level.filter(|_| !own.is_empty()),
+            level_per_frequency: found.noise.level.filter(|_| !own.is_empty()),
         };
         let (explanation, leverage) = estimate(space.whole(), &measured, &curves(false), self.hooks.for_each);
         let errors = match explanation {

@@ -11,10 +11,10 @@ pub(super) struct Information {
 }
 
 /// Information below this part of the largest tells nothing: a direction that is known a hundred thousand times worse than another one, by slopes of a reduced model.
-const UNTOLD: f64 = 1e-10;
+const INFORMATION_RTOL: f64 = 1e-10;
 
 /// A part of a direction that is none.
-const NO_PART: f64 = 1e-4;
+const DIRECTION_PART_TOL: f64 = 1e-4;
 
 impl Information {
     /// From slopes of residuals, column after column; `None` without a coordinate or a finite number.
@@ -24,7 +24,7 @@ impl Information {
         let dot = |a: usize, b: usize| column(a).iter().zip(column(b)).map(|(x, y)| x * y).sum::<f64>();
         let normal: Vec<f64> = (0..n * n).map(|k| dot(k / n, k % n)).collect();
         let (mut values, vectors) = symmetric_eigen(n, &normal).ok()?;
-        let least = UNTOLD * values.last().copied().unwrap_or(0.0);
+        let least = INFORMATION_RTOL * values.last().copied().unwrap_or(0.0);
         values.iter_mut().filter(|value| **value <= least).for_each(|value| *value = 0.0);
         Some(Self { values, vectors })
     }
@@ -40,7 +40,7 @@ impl Information {
     /// gᵀ N⁻¹ h; infinite where both have a part that nothing tells.
     pub(super) fn covariance(&self, g: &[f64], h: &[f64]) -> f64 {
         let size = |g: &[f64]| g.iter().map(|g| g * g).sum::<f64>().sqrt();
-        let least = NO_PART * size(g) * NO_PART * size(h);
+        let least = DIRECTION_PART_TOL * size(g) * DIRECTION_PART_TOL * size(h);
         let along = |v: &[f64], g: &[f64]| v.iter().zip(g).map(|(v, g)| v * g).sum::<f64>();
         let each = self.vectors.chunks_exact(g.len().max(1)).zip(&self.values);
         let part = |(v, &value): (&[f64], &f64)| {
@@ -70,18 +70,18 @@ impl Information {
             free.iter().zip(v).for_each(|(&c, value)| all[c] = value);
             all
         };
-        Some(Self::new(&columns, free.len())?.told_from(0).into_iter().map(expanded).collect())
+        Some(Self::new(&columns, free.len())?.identifiable_from(0).into_iter().map(expanded).collect())
     }
 
     /// The same without the direction that is told worst.
-    pub(super) fn told_but_the_first(&self) -> Vec<Vec<f64>> {
-        self.told_from(1)
+    pub(super) fn identifiable_but_the_first(&self) -> Vec<Vec<f64>> {
+        self.identifiable_from(1)
     }
 
-    fn told_from(&self, first: usize) -> Vec<Vec<f64>> {
+    fn identifiable_from(&self, first: usize) -> Vec<Vec<f64>> {
         let n = self.values.len().max(1);
-        let told =
+        let identifiable =
             self.vectors.chunks_exact(n).zip(&self.values).skip(first).filter(|(_, value)| **value > 0.0);
-        told.map(|(v, _)| v.to_vec()).collect()
+        identifiable.map(|(v, _)| v.to_vec()).collect()
     }
 }

@@ -1,27 +1,32 @@
 //! Error bars, what the measurements do not tell, and statuses.
 
+use super::Task;
 use super::at_frequency::Solution;
 use super::coordinates::Own;
 use super::information::Information;
-use super::outcome::{BandValue, Direction, Number, Profile, SeveralOutcome};
+use super::outcome::{BandCoordinate, BandValue, Direction, Number, Profile, SeveralOutcome};
 use super::reduced_band::ReducedBand;
 use super::search::{BandSolution, Place, Plane, Reach};
-use super::{Task, Unknown};
 use crate::c64;
 use crate::for_each::map;
-use crate::identify::band::{UNEXPLAINED, judge, reduction_error};
+use crate::identify::band::reduction_error;
+use crate::identify::goodness_of_fit::{GoodnessOfFit, MAX_RMS_MISFIT, judge};
 use crate::identify::model_errors::Estimated;
-use crate::identify::uncertainty::{KNOWN, LEAST_LOSS};
-use crate::identify::{GoodnessOfFit, Line, LineValue, NoiseLevel, Status, Uncertainty, relative_error};
+use crate::identify::noise::NoiseLevel;
+use crate::identify::outcome::{Line, LineValue, Status};
+use crate::identify::uncertainty::Uncertainty;
+use crate::identify::uncertainty::{KNOWN_RELATIVE_STD, MIN_KNOWN_LOSS_FACTOR};
+use crate::identify::unknown::Unknown;
 use crate::laws::LawKind;
 use crate::material::{Law, loss_factor};
+use crate::response::relative_error;
 
 /// Points of a profile to either side, and how far they reach in deviations.
-const PROFILE: usize = 5;
-const REACH: f64 = 3.0;
+const PROFILE_POINTS: usize = 5;
+const PROFILE_REACH_STD: f64 = 3.0;
 
 /// Farther than this in logarithms a profile does not go, however little is told.
-const FARTHEST: f64 = 1.0;
+const MAX_PROFILE_REACH: f64 = 1.0;
 
 /// How well θ and what it hangs on are known, and what they do to a frequency's own coordinates.
 struct Known<'k> {
@@ -94,34 +99,37 @@ impl Task<'_, '_> {
                 known.map(|moved| Known { covariance: &covariance, moved }),
             )
         });
-        let coordinates: Vec<(usize, String)> = found
+        let coordinates: Vec<BandCoordinate> = found
             .coordinates
             .each
             .iter()
-            .flat_map(|one| names(one.family()).into_iter().map(move |name| (one.unknowns, name)))
+            .flat_map(|one| {
+                let of = |number| BandCoordinate { unknown: one.unknowns, number };
+                names(one.kind()).into_iter().map(of)
+            })
             .collect();
         let (directions, correlation) = match &information {
             Some(information) if n > 0 => (directions(information, level), correlation(information, found)),
             _ => (Vec::new(), Vec::new()),
         };
-        let told = place.as_ref().zip(information.as_ref());
+        let informed = place.as_ref().zip(information.as_ref());
         let profile = directions
             .first()
             .filter(|_| n > 1)
-            .and_then(|worst| self.profile(space, found, told?, worst, level?));
+            .and_then(|worst| self.profile(space, found, informed?, worst, level?));
         let band = found.coordinates.each.iter().map(|one| {
             let (values, slopes) = one.numbers(&found.theta);
             let std = |row: &[f64]| {
                 let gradient = one.gradient(row.iter().copied(), n);
                 Some(level? * information.as_ref()?.covariance(&gradient, &gradient).sqrt())
             };
-            let numbers: Vec<Number> = names(one.family())
+            let numbers: Vec<Number> = names(one.kind())
                 .into_iter()
                 .zip(values.iter().zip(&slopes))
                 .map(|(name, (&value, row))| Number { name, value, std: std(row) })
                 .collect();
-            let law = match one.family() {
-                Some(family) => family.law(&values),
+            let law = match one.kind() {
+                Some(kind) => kind.law(&values),
                 None => Law::Constant(c64::new(values[0], 0.0)),
             };
             let unknowns = &self.problem.unknowns[one.unknowns];
@@ -130,8 +138,8 @@ impl Task<'_, '_> {
             let at_bound = one.range.clone().any(|c| binding.contains(&c))
                 || law.at(middle).is_ok_and(|value| unknowns.bounds.broken_by(value).is_some());
             let is_known = |number: &Number| {
-                let least = if number.name == "loss_factor" { LEAST_LOSS } else { 0.0 };
-                number.std.is_some_and(|std| std <= KNOWN * number.value.abs().max(least))
+                let least = if number.name == "loss_factor" { MIN_KNOWN_LOSS_FACTOR } else { 0.0 };
+                number.std.is_some_and(|std| std <= KNOWN_RELATIVE_STD * number.value.abs().max(least))
             };
             // What is not identifiable has no value that could break a bound.
             let status = Status::of([
@@ -198,7 +206,7 @@ impl Task<'_, '_> {
         let own = |(one, value): (&Unknown, &LineValue)| one.per_frequency() == 0 || is_known(value);
         let known = self.problem.unknowns.iter().zip(&values).all(own);
         let unexplained =
-            error > self.options.error && chi_squared.is_none_or(|chi| chi.sqrt() > UNEXPLAINED);
+            error > self.options.error && chi_squared.is_none_or(|chi| chi.sqrt() > MAX_RMS_MISFIT);
         at.status = Status::of([
             (unexplained, Status::Unexplained),
             (!at.rivals.is_empty(), Status::Ambiguous),
@@ -229,7 +237,7 @@ impl Task<'_, '_> {
         known: Option<&Known<'_>>,
     ) -> Vec<LineValue> {
         let spot = self.spot(i);
-        let alone = spot.covariance(solution);
+        let own = spot.covariance(solution);
         let n = found.theta.len();
         // Gradient of one of its own coordinates by θ.
         let gradient = |a: usize| -> Vec<f64> {
@@ -246,7 +254,7 @@ impl Task<'_, '_> {
                 let b = first + unknowns.per_frequency() - 1;
                 first = b + 1;
                 let both =
-                    |a: usize, b: usize| size * size * (alone[a][b] + of_theta(&gradient(a), &gradient(b)));
+                    |a: usize, b: usize| size * size * (own[a][b] + of_theta(&gradient(a), &gradient(b)));
                 Some([both(a, a), both(a, b), both(b, b)])
             } else {
                 let own = found.coordinates.each.iter().find(|own| own.unknowns == j);
@@ -276,12 +284,13 @@ impl Task<'_, '_> {
         let mut along = vec![0.0; found.theta.len()];
         worst.weights.iter().for_each(|&(c, weight)| along[c] = weight);
         // The worst is the first of the eigenvectors; what is told of the others is at right angles to it.
-        let others = information.told_but_the_first();
-        let reach = (REACH * worst.std / PROFILE as f64).min(FARTHEST / PROFILE as f64);
+        let others = information.identifiable_but_the_first();
+        let reach = (PROFILE_REACH_STD * worst.std / PROFILE_POINTS as f64)
+            .min(MAX_PROFILE_REACH / PROFILE_POINTS as f64);
         let mut points = Vec::new();
         for side in [-1.0, 1.0] {
             let (mut place, mut rest) = (best.clone(), vec![0.0; others.len()]);
-            for k in 1..=PROFILE {
+            for k in 1..=PROFILE_POINTS {
                 let t = side * k as f64 * reach;
                 let origin: Vec<f64> =
                     found.theta.iter().zip(&along).map(|(theta, v)| theta + t * v).collect();
@@ -306,8 +315,9 @@ impl Task<'_, '_> {
 /// Whether a value that a frequency has of its own is known.
 fn is_known(value: &LineValue) -> bool {
     let (Some(found), Some(bars)) = (value.value, value.uncertainty) else { return true };
-    let eta = loss_factor(found).abs().max(LEAST_LOSS);
-    bars.storage_std <= KNOWN * found.norm() && bars.loss_factor_std.is_none_or(|std| std <= KNOWN * eta)
+    let eta = loss_factor(found).abs().max(MIN_KNOWN_LOSS_FACTOR);
+    bars.storage_std <= KNOWN_RELATIVE_STD * found.norm()
+        && bars.loss_factor_std.is_none_or(|std| std <= KNOWN_RELATIVE_STD * eta)
 }
 
 /// A value with deviations from the covariance of its parts at σ and the level of the noise.
@@ -332,9 +342,9 @@ fn bars(nominal: c64, value: c64, real: bool, covariance: Option<([f64; 3], f64)
     LineValue { uncertainty: Some(uncertainty), ..found }
 }
 
-fn names(family: Option<LawKind>) -> Vec<String> {
-    match family {
-        Some(family) => family.parameters().into_iter().map(|name| name.name).collect(),
+fn names(kind: Option<LawKind>) -> Vec<String> {
+    match kind {
+        Some(kind) => kind.parameters().into_iter().map(|name| name.name).collect(),
         None => vec!["value".to_owned()],
     }
 }

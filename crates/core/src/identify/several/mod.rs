@@ -8,15 +8,14 @@
 //!
 //! | file | what is in it |
 //! |---|---|
-//! | `unknowns` | the unknowns, and the model at their values |
 //! | `coordinates` | θ ↔ what holds for the band |
-//! | `space` | the subspace over the box of all unknowns |
+//! | `reduced_band` | the reduced model over the box of all unknowns |
 //! | `starts` | where to begin |
-//! | `spot` | one frequency |
+//! | `at_frequency` | one frequency |
 //! | `path` | which of several solutions belong together |
 //! | `search` | θ |
-//! | `information` | which directions of θ are told |
-//! | `judge` | error bars, what is not told, statuses |
+//! | `information` | which directions of θ are identifiable |
+//! | `judge` | error bars, what is not identifiable, statuses |
 //! | `corrected` | errors of the model |
 
 mod at_frequency;
@@ -32,21 +31,22 @@ mod search;
 mod starts;
 #[cfg(test)]
 mod tests;
-mod unknown;
 
 pub(super) use outcome::SeveralOutcome;
-pub use outcome::{BandValue, Direction, Number, Profile};
-pub use unknown::{Dependence, Unknown, Variation};
+pub use outcome::{BandCoordinate, BandValue, Direction, Number, Profile};
 
-use super::band::{NoiseLevel, deviations};
-use super::{Context, Line, Options, Problem};
+use super::context::Context;
+use super::noise::{NoiseLevel, standard_deviations};
+use super::options::Options;
+use super::outcome::Line;
+use super::problem::Problem;
+use super::unknown::Composite;
 use crate::c64;
 use crate::frequency::omega_rad_s;
 use crate::material::OutsideTable;
 use crate::response::Work;
 use frfit_linalg::solve::Breakdown;
 use reduced_band::ReducedBand;
-use unknown::Composite;
 
 /// What there is to work with.
 struct Task<'t, 'a> {
@@ -85,7 +85,7 @@ pub(super) fn identify_several(
         problem,
         nominal: &nominal,
         omegas: frfs.frequency_hz.iter().map(|&f| omega_rad_s(f)).collect(),
-        sigma: deviations(frfs.receptance, frfs.noise),
+        sigma: standard_deviations(frfs.receptance, frfs.noise),
         left_out: Vec::new(),
         options,
         hooks,

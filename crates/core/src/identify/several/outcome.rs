@@ -1,6 +1,9 @@
 //! What came out when several things were looked for.
 
-use crate::identify::{GoodnessOfFit, Leverage, Line, ModelErrorsFound, NoiseLevel, SensorFit, Status};
+use crate::identify::goodness_of_fit::{GoodnessOfFit, SensorFit};
+use crate::identify::model_errors::{Leverage, ModelErrorsFound};
+use crate::identify::noise::NoiseLevel;
+use crate::identify::outcome::{Line, Status};
 use crate::material::Law;
 use crate::response::Work;
 use frfit_linalg::solve::Breakdown;
@@ -32,6 +35,15 @@ pub struct BandValue {
     pub status: Status,
 }
 
+/// A number that holds for the band, as a coordinate of the directions below.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BandCoordinate {
+    /// Index of the unknown.
+    pub unknown: usize,
+    /// Name of its number: `value`, `storage`, `loss_factor`, or that of a law.
+    pub number: String,
+}
+
 /// A direction in the logarithms of the numbers that hold for the band.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Direction {
@@ -55,8 +67,8 @@ pub(in crate::identify) struct SeveralOutcome {
     pub(in crate::identify) band: Vec<BandValue>,
     /// One for each frequency.
     pub(in crate::identify) at: Vec<Line>,
-    /// What the coordinates of [`Self::correlation`] and [`Self::directions`] are: (unknown, name of the number).
-    pub(in crate::identify) coordinates: Vec<(usize, String)>,
+    /// What the coordinates of [`Self::correlation`] and [`Self::directions`] are.
+    pub(in crate::identify) coordinates: Vec<BandCoordinate>,
     /// Correlation of the numbers that hold for the band.
     pub(in crate::identify) correlation: Vec<Vec<f64>>,
     /// Combinations of them, the one that is told worst first.

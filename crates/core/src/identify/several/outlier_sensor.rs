@@ -1,19 +1,16 @@
 //! A sensor that contradicts the others: all unknowns are found without each in turn.
 
+use super::Task;
 use super::reduced_band::ReducedBand;
 use super::search::BandSolution;
-use super::{Task, Unknown};
-use crate::identify::Noise;
-use crate::identify::band::{SensorFit, level_of, thinned, without};
-
-/// Frequencies at which it is tried.
-const FREQUENCIES: usize = 24;
-
-/// A sensor is at fault if χ² without it is so many times smaller than with it, and than without any other.
-const TIMES: f64 = 10.0;
+use crate::identify::band::{OUTLIER_FREQUENCIES, OUTLIER_RATIO};
+use crate::identify::goodness_of_fit::SensorFit;
+use crate::identify::noise::{Noise, level_of, without};
+use crate::identify::thinned::thinned;
+use crate::identify::unknown::Unknown;
 
 /// Where no deviation is given: one per cent of the response is usual noise, and no reason to doubt a sensor.
-const USUAL_NOISE: f64 = 1e-2;
+const USUAL_NOISE_OVER_RESPONSE: f64 = 1e-2;
 
 impl Task<'_, '_> {
     /// The sensors that contradict the others, worst first. Of two sensors neither can be told to be the wrong one.
@@ -23,20 +20,20 @@ impl Task<'_, '_> {
         let sensors = self.problem.experiment.sensors.len();
         let floor = match self.problem.frfs.noise {
             Noise::Known(_) => 1.0,
-            Noise::Unknown | Noise::Relative(_) => USUAL_NOISE * USUAL_NOISE,
+            Noise::Unknown | Noise::Relative(_) => USUAL_NOISE_OVER_RESPONSE * USUAL_NOISE_OVER_RESPONSE,
         };
         let all: Vec<usize> = (0..self.omegas.len()).collect();
         let of_band = all.iter().map(|&k| found.at(k).map_or(f64::INFINITY, |solution| solution.misfit));
         let mut with_all = self.chi_squared(of_band.collect(), sensors);
         let mut out: Vec<usize> = Vec::new();
-        while with_all > TIMES * floor && self.is_determined(sensors - out.len()) {
+        while with_all > OUTLIER_RATIO * floor && self.is_determined(sensors - out.len()) {
             let mut trials: Vec<(f64, usize)> = (0..sensors)
                 .filter(|m| !out.contains(m))
                 .map(|m| (self.chi_squared_without(space, &[&out[..], &[m]].concat()), m))
                 .collect();
             trials.sort_by(|a, b| a.0.total_cmp(&b.0));
             let (least, worst) = trials[0];
-            if TIMES * least.max(floor) >= with_all.min(trials[1].0) {
+            if OUTLIER_RATIO * least.max(floor) >= with_all.min(trials[1].0) {
                 break;
             }
             out.push(worst);
@@ -63,7 +60,7 @@ impl Task<'_, '_> {
     fn chi_squared_without(&self, space: &ReducedBand<'_>, out: &[usize]) -> f64 {
         let task = self.leaving_out(out);
         let all: Vec<usize> = (0..self.omegas.len()).collect();
-        let which: Vec<usize> = thinned(&all, FREQUENCIES).copied().collect();
+        let which: Vec<usize> = thinned(&all, OUTLIER_FREQUENCIES).copied().collect();
         let tried = task.tried(space, &which);
         let best = &tried[0].1;
         let misfit = |k: usize| best.at(k).or(best.solutions[k].first()).map_or(f64::INFINITY, |s| s.misfit);

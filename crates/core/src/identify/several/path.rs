@@ -1,8 +1,9 @@
 //! Which of several solutions at each frequency are one and the same structure over the band.
 
+use super::Task;
 use super::at_frequency::{Solution, Spot};
-use super::{Task, Unknown};
-use crate::identify::Noise;
+use crate::identify::noise::Noise;
+use crate::identify::unknown::Unknown;
 use crate::laws::inverse_information;
 use crate::select::{Choice, Node, SelectOptions, choose};
 
@@ -14,7 +15,7 @@ pub(super) struct Chosen {
 }
 
 /// Values nearer than this part of themselves are one.
-const SAME: f64 = 1e-6;
+const VALUE_MERGE_RTOL: f64 = 1e-6;
 
 impl Task<'_, '_> {
     /// The choice at each frequency. Every unknown that is per frequency chooses its own path by continuity and causality (B-4); one solution has to be on all of them.
@@ -59,7 +60,7 @@ impl Task<'_, '_> {
     fn agreed(&self, i: usize, found: &[Solution], own: &[usize], choices: &[Vec<Choice>]) -> Chosen {
         let same = |j: usize, a: usize, b: usize| {
             let (a, b) = (found[a].values[j], found[b].values[j]);
-            (a - b).norm() <= SAME * a.norm()
+            (a - b).norm() <= VALUE_MERGE_RTOL * a.norm()
         };
         let is_on = |k: usize, (&j, choices): (&usize, &Vec<Choice>)| {
             choices[i].chosen.is_some_and(|chosen| chosen == k || same(j, chosen, k))
@@ -112,11 +113,11 @@ impl Spot<'_> {
         if n == 0 {
             return Vec::new();
         }
-        let untold = |a: usize, b: usize| if a == b { f64::INFINITY } else { 0.0 };
+        let unknown = |a: usize, b: usize| if a == b { f64::INFINITY } else { 0.0 };
         let inverse = inverse_information(&solution.of_own, n);
         let entry = |a: usize, b: usize| {
-            let told = inverse.as_ref().map(|inverse| inverse[a][b]).filter(|value| value.is_finite());
-            told.unwrap_or_else(|| untold(a, b))
+            let finite = inverse.as_ref().map(|inverse| inverse[a][b]).filter(|value| value.is_finite());
+            finite.unwrap_or_else(|| unknown(a, b))
         };
         (0..n).map(|a| (0..n).map(|b| entry(a, b)).collect()).collect()
     }

@@ -1,10 +1,13 @@
 //! The subspace of a band with several unknowns: good over the box of all of them, then where answers were found.
 
-use super::unknown::Composite;
 use crate::c64;
 use crate::for_each::{ForEach, map};
-use crate::identify::band::{BOX, ROUNDS, TRAINED, is_certain, thinned};
-use crate::identify::{Context, Stage};
+use crate::identify::band::{
+    BOX_TOL, MAX_NEIGHBOURHOODS, MAX_TRAINING_FREQUENCIES, MIN_NEIGHBOURHOOD_LINES, TRAINED_TOL, is_certain,
+};
+use crate::identify::context::{Context, Stage};
+use crate::identify::thinned::thinned;
+use crate::identify::unknown::{Composite, Unknown};
 use crate::material::{OutsideTable, loss_factor};
 use crate::model::{Experiment, ModelAt};
 use crate::response::Work;
@@ -12,25 +15,20 @@ use crate::subspace::{Assessment, Corrected, Local, ModalErrors, Modes};
 use crate::subspace::{Point, Projection, Subspace, TrainOptions};
 use frfit_linalg::solve::Breakdown;
 
-/// Frequencies of the training at most.
-const FREQUENCIES: usize = 60;
-
 /// Real factorisations at most: a second unknown wants more vectors, which cost solves.
-const FACTORISATIONS: usize = 3;
+const MAX_FACTORISATIONS: usize = 3;
 
 /// Points of the box at each of them, for each unknown: neighbouring frequencies have other points of the same sequence, so that together they fill the box.
-const PER_UNKNOWN: usize = 3;
+const TRAINING_POINTS_PER_UNKNOWN: usize = 3;
 
-/// Neighbourhoods at most, the least frequencies that are worth one, and the frequencies at which its model is made good.
-const BLOCKS: usize = 24;
-const BLOCK_LEAST: usize = 8;
-const BLOCK_POINTS: usize = 4;
+/// Frequencies at which the model of a neighbourhood is made good.
+const NEIGHBOURHOOD_FREQUENCIES: usize = 4;
 
 /// Answers of a neighbourhood that its model is made good at, at most.
-const BLOCK_ANSWERS: usize = 8;
+const MAX_NEIGHBOURHOOD_ANSWERS: usize = 8;
 
 /// Error of a model that only has to lead there.
-const ROUGH: f64 = 1e-4;
+const ROUGH_MODEL_TOL: f64 = 1e-4;
 
 /// A reduced model for a band and a box of several unknowns.
 pub(super) struct ReducedBand<'a> {
@@ -68,18 +66,21 @@ impl<'a> ReducedBand<'a> {
             Ok(subspace) => subspace,
             Err(breakdown) => return Ok(Err(breakdown)),
         };
-        let count = (n / BLOCK_LEAST).clamp(1, BLOCKS);
+        let count = (n / MIN_NEIGHBOURHOOD_LINES).clamp(1, MAX_NEIGHBOURHOODS);
         let ends = (0..count).map(|b| [b * n / count, (b + 1) * n / count - 1]);
         let blocks = ends.map(|ends| (ends, None)).collect();
         let (answers, corrected) = (Vec::new(), None);
         let mut space = Self { composite, frequency_hz, nominal, subspace, blocks, answers, corrected };
         let all: Vec<usize> = (0..n).collect();
         let mut points = Vec::new();
-        for (k, &i) in thinned(&all, FREQUENCIES).enumerate() {
+        for (k, &i) in thinned(&all, MAX_TRAINING_FREQUENCIES).enumerate() {
             points.extend(space.box_points(i, k)?);
         }
-        let training =
-            TrainOptions { tolerance: BOX, factorisations: FACTORISATIONS, ..TrainOptions::default() };
+        let training = TrainOptions {
+            tolerance: BOX_TOL,
+            factorisations: MAX_FACTORISATIONS,
+            ..TrainOptions::default()
+        };
         if let Err(breakdown) = space.subspace.train(&points, &training, hooks.for_each) {
             return Ok(Err(breakdown));
         }
@@ -89,7 +90,7 @@ impl<'a> ReducedBand<'a> {
 
     /// Everything at its nominal value, and points of a sequence over the box.
     fn box_points(&self, i: usize, k: usize) -> Result<Vec<Point<'a>>, OutsideTable> {
-        let count = PER_UNKNOWN * self.nominal[i].len();
+        let count = TRAINING_POINTS_PER_UNKNOWN * self.nominal[i].len();
         let values = std::iter::once(self.nominal[i].clone());
         let values =
             values.chain((0..count).map(|p| in_box(&self.composite, &self.nominal[i], 1 + k * count + p)));
@@ -148,7 +149,7 @@ impl<'a> ReducedBand<'a> {
     /// A model of one frequency with few vectors, to tell starts from one another.
     pub(super) fn rough(&self, i: usize) -> Projection {
         let points = self.box_points(i, i).unwrap_or_default();
-        self.model(i).localised(&points, ROUGH)
+        self.model(i).localised(&points, ROUGH_MODEL_TOL)
     }
 
     /// A model of one frequency that is good near some values.
@@ -178,20 +179,20 @@ impl<'a> ReducedBand<'a> {
         }
         (hooks.progress)(Stage::Subspace, 0, self.frequency_hz.len());
         let (mut points, before) = (Vec::new(), self.subspace.size());
-        for (k, point) in thinned(&lacking, FREQUENCIES) {
+        for (k, point) in thinned(&lacking, MAX_TRAINING_FREQUENCIES) {
             self.answers.push(answers[*k].clone());
             points.push(point.clone());
         }
-        let training =
-            TrainOptions { tolerance: TRAINED, factorisations: FACTORISATIONS, ..TrainOptions::default() };
+        let training = TrainOptions {
+            tolerance: TRAINED_TOL,
+            factorisations: MAX_FACTORISATIONS,
+            ..TrainOptions::default()
+        };
         let trained = self.subspace.train(&points, &training, hooks.for_each);
         self.corrected = self.corrected.as_ref().map(|corrected| corrected.in_larger(self.whole()));
         self.localise(hooks.for_each);
         trained.is_ok() && self.subspace.size() > before
     }
-
-    /// Rounds of training at answers.
-    pub(super) const ROUNDS: usize = ROUNDS;
 
     fn localise(&mut self, for_each: ForEach<'_>) {
         let space = &*self;
@@ -200,14 +201,15 @@ impl<'a> ReducedBand<'a> {
     }
 
     fn about_block(&self, [first, last]: [usize; 2]) -> Local {
-        let steps = (last - first).min(BLOCK_POINTS - 1);
+        let steps = (last - first).min(NEIGHBOURHOOD_FREQUENCIES - 1);
         let picked = (0..=steps).map(|k| first + k * (last - first) / steps.max(1));
         let boxes = picked.filter_map(|i| self.box_points(i, i).ok()).flatten();
         let own: Vec<&(usize, Vec<c64>)> =
             self.answers.iter().filter(|(i, _)| (first..=last).contains(i)).collect();
-        let own = thinned(&own, BLOCK_ANSWERS).filter_map(|(i, values)| self.point(*i, values).ok());
+        let own =
+            thinned(&own, MAX_NEIGHBOURHOOD_ANSWERS).filter_map(|(i, values)| self.point(*i, values).ok());
         let points: Vec<Point<'_>> = boxes.chain(own).collect();
-        Local::new(self.whole(), self.corrected.as_ref(), &points, TRAINED)
+        Local::new(self.whole(), self.corrected.as_ref(), &points, TRAINED_TOL)
     }
 
     pub(super) fn size(&self) -> usize {
@@ -221,7 +223,7 @@ impl<'a> ReducedBand<'a> {
 
 /// The k-th point of a sequence over the box of all unknowns, logarithmic where a range is positive: one dimension for each.
 pub(super) fn in_box(composite: &Composite<'_>, nominal: &[c64], k: usize) -> Vec<c64> {
-    let value = |(j, (one, &nominal)): (usize, (&super::Unknown, &c64))| {
+    let value = |(j, (one, &nominal)): (usize, (&Unknown, &c64))| {
         let real = between(one.range(nominal), radical_inverse(k, PRIMES[j % PRIMES.len()]));
         let eta = loss_factor(nominal);
         let eta = one.bounds.loss_factor.map_or(eta, |[low, high]| eta.clamp(low, high));

@@ -1,16 +1,18 @@
 //! The numbers that hold for the band, with what each frequency has of its own eliminated.
 
+use super::Task;
 use super::at_frequency::{Solution, eliminate};
 use super::coordinates::Coordinates;
 use super::information::Information;
 use super::path::Chosen;
 use super::reduced_band::{ReducedBand, between, in_box};
-use super::unknown::Dependence;
-use super::{Task, Unknown};
 use crate::c64;
 use crate::for_each::map;
-use crate::identify::band::{Fit, nearest, thinned};
-use crate::identify::{Options, Stage};
+use crate::identify::band::{Fit, MAX_TRAINING_ROUNDS, nearest};
+use crate::identify::context::Stage;
+use crate::identify::thinned::thinned;
+use crate::identify::unknown::Dependence;
+use crate::identify::unknown::Unknown;
 use crate::laws::{Datum, Minimum, Parametrization, Search, descend};
 use crate::subspace::Projection;
 
@@ -37,36 +39,36 @@ pub(super) struct BandSolution {
 }
 
 /// Frequencies at which starts are compared.
-const PART: usize = 48;
+const START_FREQUENCIES: usize = 48;
 
 /// Points of the box for each unknown that a frequency has of its own.
-const PER_UNKNOWN: usize = 8;
+const BOX_POINTS_PER_UNKNOWN: usize = 8;
 
 /// Values of one of two unknowns of a frequency at which all of the other are looked for: to an octave, or in all where the range is not positive.
-const STEPS_PER_OCTAVE: f64 = 8.0;
-const STEPS: usize = 16;
+const SCAN_VALUES_PER_OCTAVE: f64 = 8.0;
+const SCAN_VALUES: usize = 16;
 
 /// Starts that are followed on the whole model at once.
-const MANY: usize = 4;
+const WHOLE_MODEL_STARTS: usize = 4;
 
 /// Frequencies at which solutions are looked for all over the box: so many at least, and every so-many-th at least. Between them those of both sides are followed.
-const ANCHORS: usize = 12;
-const APART: usize = 8;
+const MIN_GRID_LINES: usize = 12;
+const MAX_GRID_STRIDE: usize = 8;
 
 /// Choices among the solutions, each at better θ; they change what is chosen hardly ever after the first.
-const CHOICES: usize = 4;
+const MAX_CHOICE_ROUNDS: usize = 4;
 
 /// A change of θ, whose coordinates are of size one, that changes no choice.
-const SETTLED: f64 = 1e-7;
+const THETA_STEP_TOL: f64 = 1e-7;
 
 /// Evaluations for each coordinate.
-const PATIENCE: usize = 25;
+const EVALUATIONS_PER_COORDINATE: usize = 25;
 
 /// Starts whose misfits agree to this part are one.
-const AGREE: f64 = 1e-3;
+const AGREEING_MISFIT_RTOL: f64 = 1e-3;
 
 /// Searches for θ, each about where the one before ended.
-const SEARCHES: usize = 8;
+const MAX_THETA_SEARCHES: usize = 8;
 
 /// How far a search may lead.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -89,11 +91,12 @@ impl Task<'_, '_> {
     /// Everything, on a subspace that is good where it ends.
     pub(super) fn search(&self, space: &mut ReducedBand<'_>) -> BandSolution {
         let all: Vec<usize> = (0..self.omegas.len()).collect();
-        let part: Vec<usize> = thinned(&all, PART).copied().collect();
+        let part: Vec<usize> = thinned(&all, START_FREQUENCIES).copied().collect();
         (self.hooks.progress)(Stage::Solutions, 0, all.len());
         let mut tried = self.tried(space, &part);
         let (least, first, values) = tried.swap_remove(0);
-        let agreeing = 1 + tried.iter().filter(|other| other.0 <= least * (1.0 + AGREE)).count();
+        let agreeing =
+            1 + tried.iter().filter(|other| other.0 <= least * (1.0 + AGREEING_MISFIT_RTOL)).count();
         let found = match part.len() == all.len() {
             true => first,
             false => self.follow(space, &all, first.theta, &Guess::Everywhere(&values)),
@@ -118,7 +121,7 @@ impl Task<'_, '_> {
     /// The same on a subspace that is good at its answers.
     fn refined(&self, space: &mut ReducedBand<'_>, mut found: BandSolution) -> BandSolution {
         let all: Vec<usize> = (0..self.omegas.len()).collect();
-        for _ in 0..ReducedBand::ROUNDS {
+        for _ in 0..MAX_TRAINING_ROUNDS {
             let answers: Vec<(usize, Vec<c64>)> =
                 all.iter().filter_map(|&i| Some((i, found.at(i)?.values.clone()))).collect();
             if !space.refine(&answers, self.hooks) {
@@ -169,7 +172,7 @@ impl Task<'_, '_> {
                 .map(|(&omega, nominal)| Datum::relative(omega, nominal[j] * ratio))
                 .collect();
             nearest(parametrization, &data)
-                .map_or_else(|| vec![0.0; parametrization.family.count()], |near| near.best.theta)
+                .map_or_else(|| vec![0.0; parametrization.kind.count()], |near| near.best.theta)
         };
         self.coordinates().of(values, law)
     }
@@ -196,7 +199,7 @@ impl Task<'_, '_> {
     ) -> BandSolution {
         let coordinates = self.coordinates();
         let mut found = self.found(space, which, coordinates, theta, guess);
-        for _ in 0..CHOICES {
+        for _ in 0..MAX_CHOICE_ROUNDS {
             if found.theta.is_empty() {
                 break;
             }
@@ -206,7 +209,7 @@ impl Task<'_, '_> {
             let known = std::mem::take(&mut found.solutions);
             found = self.found(space, which, found.coordinates, theta, &Guess::Known(&known));
             found.converged = converged;
-            if moved <= SETTLED {
+            if moved <= THETA_STEP_TOL {
                 break;
             }
         }
@@ -235,13 +238,13 @@ impl Task<'_, '_> {
                 map(self.hooks.for_each, n, |k| self.settled(&at, which[k], &[Vec::new()], None))
             }
             Guess::Everywhere(values) => {
-                let anchors: Vec<usize> = (0..n).step_by((n / ANCHORS).clamp(1, APART)).collect();
-                let found = map(self.hooks.for_each, anchors.len(), |a| {
-                    self.everywhere(&at, which[anchors[a]], values)
-                });
+                let grid: Vec<usize> =
+                    (0..n).step_by((n / MIN_GRID_LINES).clamp(1, MAX_GRID_STRIDE)).collect();
+                let found =
+                    map(self.hooks.for_each, grid.len(), |a| self.everywhere(&at, which[grid[a]], values));
                 let beside = |k: usize| {
-                    let after = anchors.partition_point(|&anchor| anchor <= k);
-                    [after.saturating_sub(1), after.min(anchors.len() - 1)]
+                    let after = grid.partition_point(|&explored| explored <= k);
+                    [after.saturating_sub(1), after.min(grid.len() - 1)]
                 };
                 map(self.hooks.for_each, n, |k| from(&found, k, &beside(k)))
             }
@@ -293,7 +296,7 @@ impl Task<'_, '_> {
                 };
                 [along(a, b), along(b, a)].concat()
             }
-            (_, others) => (1..=PER_UNKNOWN * (factors.len() + others))
+            (_, others) => (1..=BOX_POINTS_PER_UNKNOWN * (factors.len() + others))
                 .map(|k| in_box(&at.space.composite, &self.nominal[i], k))
                 .collect(),
         };
@@ -316,7 +319,7 @@ impl Task<'_, '_> {
         let on = |model: &Projection, starts: &[Vec<f64>]| {
             self.spot(i).solutions(starts, &given, |values| at.space.respond_on(model, i, values))
         };
-        if starts.len() <= MANY {
+        if starts.len() <= WHOLE_MODEL_STARTS {
             return on(at.space.model(i), starts);
         }
         let rough = on(&rough.unwrap_or_else(|| at.space.rough(i)), starts);
@@ -340,13 +343,12 @@ impl Task<'_, '_> {
         let Some(mut at) = space.at(i, given) else { return Vec::new() };
         at.parameters.swap(0, j);
         at.parameters.truncate(1);
-        let Unknown { bounds, real, .. } = self.problem.unknowns[j];
-        let options = Options { bounds, real, ..*self.options };
         let fit = Fit {
             measured: &self.problem.frfs.receptance[i],
             sigma: &self.sigma[i],
             nominal: given[j],
-            options: &options,
+            unknown: &self.problem.unknowns[j],
+            options: self.options,
         };
         let values = |correction: c64| {
             let mut values = given.to_vec();
@@ -403,21 +405,21 @@ impl Task<'_, '_> {
             return Some((place, true));
         }
         let rest = vec![0.0; basis.len()];
-        for _ in 0..SEARCHES {
+        for _ in 0..MAX_THETA_SEARCHES {
             let plane = Plane { origin: &place.theta.clone(), basis: &basis };
             let near = self.search_in(space, which, (found, &place), &plane, &rest, Reach::Near)?;
             let end = plane.at(&near.theta);
             let moved = super::at_frequency::distance(&end, plane.origin);
             match self.moved_to(space, which, (found, &place), end) {
                 Some(next) if next.eliminated.sum() <= place.eliminated.sum() => place = next,
-                _ if moved <= SETTLED => {}
+                _ if moved <= THETA_STEP_TOL => {}
                 _ => {
                     let end = self.search_in(space, which, (found, &place), &plane, &rest, Reach::Far)?;
                     let next = self.moved_to(space, which, (found, &place), plane.at(&end.theta))?;
                     return Some((next, end.converged));
                 }
             }
-            if moved <= SETTLED {
+            if moved <= THETA_STEP_TOL {
                 return Some((place, near.converged));
             }
         }
@@ -454,7 +456,7 @@ impl Task<'_, '_> {
             let jacobian = plane.basis.iter().flat_map(along).collect();
             Some((here.residuals, jacobian))
         };
-        let search = Search { starts: 1, patience: PATIENCE, same: 0.0 };
+        let search = Search { starts: 1, patience: EVALUATIONS_PER_COORDINATE, same: 0.0 };
         descend(from, &evaluate, &search)
     }
 
@@ -540,7 +542,8 @@ impl Task<'_, '_> {
 /// Values through the range of an unknown, with the loss factor of a given one.
 fn in_turn(one: &Unknown, given: c64) -> Vec<c64> {
     let [low, high] = one.range(given);
-    let steps = if low > 0.0 { (STEPS_PER_OCTAVE * (high / low).log2()).ceil() as usize } else { STEPS };
+    let steps =
+        if low > 0.0 { (SCAN_VALUES_PER_OCTAVE * (high / low).log2()).ceil() as usize } else { SCAN_VALUES };
     let eta = if given.re == 0.0 { 0.0 } else { given.im / given.re };
     let value = |k: usize| {
         let real = between([low, high], k as f64 / steps.max(1) as f64);

@@ -5,19 +5,21 @@ use super::reduced_band::in_box;
 use super::search::At;
 use super::*;
 use crate::for_each::sequential;
-use crate::identify::{Frfs, Noise};
+use crate::identify::noise::Noise;
+use crate::identify::problem::Frfs;
+use crate::identify::unknown::{Dependence, Unknown, Variation};
 use crate::material::Law;
 use crate::model::{DynamicStiffness, Experiment, Role, Sensor, Term};
 use crate::roots::Bounds;
 use frfit_linalg::sparse::Triplets;
 
 /// Springs of a chain: the first half has one factor, the second another.
-const N: usize = 24;
-const LOSS: c64 = c64::new(1.0, 0.03);
+const SPRINGS: usize = 24;
+const LOSSY: c64 = c64::new(1.0, 0.03);
 
 fn chain() -> DynamicStiffness {
     let half = |first: usize, last: usize| {
-        let mut k = Triplets::new(N);
+        let mut k = Triplets::new(SPRINGS);
         for i in first..last {
             // clamped at its beginning
             match i.checked_sub(1) {
@@ -27,8 +29,8 @@ fn chain() -> DynamicStiffness {
         }
         k.assemble()
     };
-    let mut m = Triplets::new(N);
-    (0..N).for_each(|i| m.add(i, i, 1.0));
+    let mut m = Triplets::new(SPRINGS);
+    (0..SPRINGS).for_each(|i| m.add(i, i, 1.0));
     let term = |name: &str, role, matrix, factor: c64| Term {
         name: name.to_owned(),
         role,
@@ -36,8 +38,8 @@ fn chain() -> DynamicStiffness {
         factor: Law::Constant(factor),
     };
     DynamicStiffness::new(vec![
-        term("first", Role::Stiffness, half(0, N / 2), 1.2 * LOSS),
-        term("second", Role::Stiffness, half(N / 2, N), 0.8 * LOSS),
+        term("first", Role::Stiffness, half(0, SPRINGS / 2), 1.2 * LOSSY),
+        term("second", Role::Stiffness, half(SPRINGS / 2, SPRINGS), 0.8 * LOSSY),
         term("masses", Role::Mass, m.assemble(), c64::new(1.0, 0.0)),
     ])
     .unwrap()
@@ -48,7 +50,8 @@ fn chain() -> DynamicStiffness {
 fn all_solutions_of_two_unknowns_are_found() {
     let model = chain();
     let sensor = |row| Sensor { row, sign: 1.0 };
-    let experiment = Experiment::driven_at(N, sensor(N - 1), vec![sensor(N - 1), sensor(N / 2)]);
+    let experiment =
+        Experiment::driven_at(SPRINGS, sensor(SPRINGS - 1), vec![sensor(SPRINGS - 1), sensor(SPRINGS / 2)]);
     let frequency_hz = [0.1, 0.12, 0.14, 0.16, 0.18];
     let solve = |&f: &f64| {
         let factor = model.analysis().factor(&model.at(f, &[]).unwrap().assemble(&[])).unwrap();
@@ -60,14 +63,14 @@ fn all_solutions_of_two_unknowns_are_found() {
     let unknowns = [0, 1].map(|term| Unknown {
         name: model.terms()[term].name.clone(),
         dependence: Dependence::Factor(vec![term]),
-        nominal: Law::Constant(LOSS),
+        nominal: Law::Constant(LOSSY),
         varies: Variation::PerFrequency,
         real: false,
         bounds: Bounds { storage: Some([0.4, 2.5]), loss_factor: Some([0.0, 0.3]) },
     });
     let frfs = Frfs { frequency_hz: &frequency_hz, receptance: &measured, noise: Noise::Unknown };
     let problem = Problem::new(&model, &experiment, &unknowns, &[], frfs).unwrap();
-    let nominal = vec![vec![LOSS; 2]; frequency_hz.len()];
+    let nominal = vec![vec![LOSSY; 2]; frequency_hz.len()];
     let hooks = Context { for_each: &sequential, progress: &|_, _, _| {} };
     let composite = Composite { model: &model, unknowns: &unknowns };
     let space = ReducedBand::new(composite, &experiment, &frequency_hz, &nominal, hooks).unwrap().unwrap();
@@ -76,7 +79,7 @@ fn all_solutions_of_two_unknowns_are_found() {
         problem: &problem,
         nominal: &nominal,
         omegas: frequency_hz.iter().map(|&f| omega_rad_s(f)).collect(),
-        sigma: deviations(&measured, Noise::Unknown),
+        sigma: standard_deviations(&measured, Noise::Unknown),
         left_out: Vec::new(),
         options: &options,
         hooks,
@@ -90,7 +93,7 @@ fn all_solutions_of_two_unknowns_are_found() {
             let points = (1..=count).map(|k| spot.coordinates(&in_box(&composite, nominal, k)));
             spot.solutions(&points.collect::<Vec<_>>(), nominal, |values| space.respond(i, values))
         };
-        let (many, few) = (from(STARTS), from(FEW));
+        let (many, few) = (from(MANY_STARTS), from(FEW_STARTS));
         let found = task.everywhere(&at, i, nominal);
         for solution in &many {
             // Newton's last step is exact to far less than this
@@ -102,9 +105,9 @@ fn all_solutions_of_two_unknowns_are_found() {
         several += many.len();
     }
     assert!(several > frequency_hz.len(), "a case in which the truth is alone shows nothing");
-    assert!(by_few < several, "a case that {FEW} starts solve shows little");
+    assert!(by_few < several, "a case that {FEW_STARTS} starts solve shows little");
 }
 
 /// Starts of the comparison, and as many as were thought enough before.
-const STARTS: usize = 1500;
-const FEW: usize = 16;
+const MANY_STARTS: usize = 1500;
+const FEW_STARTS: usize = 16;

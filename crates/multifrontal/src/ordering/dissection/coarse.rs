@@ -5,7 +5,7 @@
 use super::random::Random;
 use super::weighted::Weighted;
 
-const NONE: u32 = u32::MAX;
+const NO_VERTEX: u32 = u32::MAX;
 
 /// A coarser graph and the coarse vertex of each vertex.
 pub(super) struct Coarse {
@@ -15,10 +15,10 @@ pub(super) struct Coarse {
 
 pub(super) fn coarsen(graph: &Weighted, heaviest: u64, random: &mut Random) -> Coarse {
     let mate = matching(graph, heaviest, random);
-    let mut of = vec![NONE; graph.vertices()];
+    let mut of = vec![NO_VERTEX; graph.vertices()];
     let mut pairs = Vec::with_capacity(graph.vertices());
     for (vertex, &other) in mate.iter().enumerate() {
-        if of[vertex] == NONE {
+        if of[vertex] == NO_VERTEX {
             (of[vertex], of[other as usize]) = (pairs.len() as u32, pairs.len() as u32);
             pairs.push((vertex as u32, other));
         }
@@ -32,22 +32,23 @@ pub(super) fn coarsen(graph: &Weighted, heaviest: u64, random: &mut Random) -> C
 /// pairs.
 fn matching(graph: &Weighted, heaviest: u64, random: &mut Random) -> Vec<u32> {
     let weight = |vertex: u32| u64::from(graph.weight[vertex as usize]);
-    let mut mate = vec![NONE; graph.vertices()];
-    let mut waiting = vec![NONE; graph.vertices()];
+    let mut mate = vec![NO_VERTEX; graph.vertices()];
+    let mut waiting = vec![NO_VERTEX; graph.vertices()];
     for vertex in random.order(graph.vertices()) {
-        if mate[vertex as usize] != NONE {
+        if mate[vertex as usize] != NO_VERTEX {
             continue;
         }
         let light = |other: u32| weight(vertex) + weight(other) <= heaviest;
-        let free = graph.edges(vertex).filter(|&(other, _)| mate[other as usize] == NONE && light(other));
+        let free =
+            graph.edges(vertex).filter(|&(other, _)| mate[other as usize] == NO_VERTEX && light(other));
         let mut other =
             free.max_by_key(|&(other, edge)| (edge, std::cmp::Reverse(weight(other)))).map(|it| it.0);
         if other.is_none()
             && let Some(&hub) = graph.neighbours(vertex).first()
         {
             let place = &mut waiting[hub as usize];
-            if *place != NONE && mate[*place as usize] == *place && light(*place) {
-                other = Some(std::mem::replace(place, NONE));
+            if *place != NO_VERTEX && mate[*place as usize] == *place && light(*place) {
+                other = Some(std::mem::replace(place, NO_VERTEX));
             } else {
                 *place = vertex;
             }

@@ -2,7 +2,7 @@
 
 use crate::ordering::Graph;
 
-const NONE: u32 = u32::MAX;
+const NO_COLUMN: u32 = u32::MAX;
 
 /// Orders small parts of a graph.
 pub(super) struct Leaves<'a> {
@@ -13,7 +13,7 @@ pub(super) struct Leaves<'a> {
 
 impl<'a> Leaves<'a> {
     pub(super) fn new(graph: &'a Graph) -> Self {
-        Self { graph, column: vec![NONE; graph.vertices()] }
+        Self { graph, column: vec![NO_COLUMN; graph.vertices()] }
     }
 
     /// The vertices of a part in the order of least degree, counted in rows of the factor with those outside.
@@ -24,7 +24,7 @@ impl<'a> Leaves<'a> {
         members.iter().enumerate().for_each(|(k, &vertex)| self.column[vertex as usize] = k as u32);
         for &vertex in vertices {
             for &other in self.graph.neighbours(vertex as usize) {
-                if self.column[other as usize] == NONE {
+                if self.column[other as usize] == NO_COLUMN {
                     self.column[other as usize] = members.len() as u32;
                     members.push(other);
                 }
@@ -41,7 +41,7 @@ impl<'a> Leaves<'a> {
                 degree[k] += weight[column];
             }
         }
-        members.iter().for_each(|&vertex| self.column[vertex as usize] = NONE);
+        members.iter().for_each(|&vertex| self.column[vertex as usize] = NO_COLUMN);
 
         let mut left: Vec<usize> = (0..own).collect();
         let mut order = Vec::with_capacity(own);

@@ -22,26 +22,26 @@ use weighted::{Part, Weighted};
 
 /// Parts of at most so many vertices are not dissected: with 120, as others have it, sandwiches and small
 /// blocks cost some per cent more, with 20 hardly less.
-const LEAF: usize = 40;
+const MAX_LEAF_VERTICES: usize = 40;
 
 /// Graphs of at most so many vertices are not made coarser.
-const COARSEST: usize = 50;
+const MAX_COARSEST_VERTICES: usize = 50;
 
 /// Separators of the coarsest graph that are grown and refined, for the best of them.
-const GROWN: usize = 4;
+const GROWN_SEPARATORS: usize = 4;
 
 /// Coarser graphs with more than this part of the vertices are no help.
-const COARSER: f64 = 0.9;
+const MAX_COARSER_SHARE: f64 = 0.9;
 
 /// Vertices with more neighbours than this multiple of √n would be in most separators: they come last at
 /// once.
-const DENSE: f64 = 10.0;
+const DENSE_ROW_MULTIPLE: f64 = 10.0;
 
 /// How often a graph is cut before one thread goes on with what is left: some parts for each of a few threads.
 const SHARED_CUTS: usize = 4;
 
 /// Parts of fewer vertices are not worth another thread.
-pub(super) const SHARE_FROM: usize = 1000;
+pub(super) const MIN_SHARED_VERTICES: usize = 1000;
 
 /// A dissection after its first cuts.
 pub(super) struct Begun<'a> {
@@ -55,7 +55,7 @@ pub(super) struct Begun<'a> {
 impl<'a> Begun<'a> {
     pub(super) fn new(graph: &'a Graph, threads: usize) -> Self {
         let vertices = 0..graph.vertices() as u32;
-        let dense = DENSE * (graph.vertices() as f64).sqrt();
+        let dense = DENSE_ROW_MULTIPLE * (graph.vertices() as f64).sqrt();
         let is_dense = |&vertex: &u32| graph.neighbours(vertex as usize).len() as f64 > dense;
         let (dense, sparse): (Vec<u32>, Vec<u32>) = vertices.partition(is_dense);
         let level = Level::of(Part::of(graph, sparse).pieces(|_| false), SHARED_CUTS, threads);
@@ -84,7 +84,7 @@ struct Level {
 impl Level {
     fn of(parts: Vec<Part>, cuts: usize, threads: usize) -> Self {
         let (large, small): (Vec<Part>, Vec<Part>) =
-            parts.into_iter().partition(|part| cuts > 0 && part.vertices.len() >= SHARE_FROM);
+            parts.into_iter().partition(|part| cuts > 0 && part.vertices.len() >= MIN_SHARED_VERTICES);
         let large = map(threads, large, |part| cut(part, &mut Random::new()));
         Self { small, large, cuts: cuts.saturating_sub(1) }
     }
@@ -107,7 +107,7 @@ fn one_by_one(graph: &Graph, mut parts: Vec<Part>) -> Vec<u32> {
     let mut random = Random::new();
     let mut leaves = Leaves::new(graph);
     while let Some(part) = parts.pop() {
-        if part.vertices.len() <= LEAF {
+        if part.vertices.len() <= MAX_LEAF_VERTICES {
             reversed.extend(leaves.order(&part.vertices).iter().rev());
         } else {
             let (between, sides) = cut(part, &mut random);
@@ -131,9 +131,9 @@ fn cut(part: Part, random: &mut Random) -> (Vec<u32>, Vec<Part>) {
 
 /// Of a graph in one piece.
 fn separator(graph: &Weighted, random: &mut Random) -> Separator {
-    if graph.vertices() > COARSEST {
-        let coarse = coarsen(graph, 3 * graph.total() / (2 * COARSEST as u64), random);
-        if (coarse.graph.vertices() as f64) < COARSER * graph.vertices() as f64 {
+    if graph.vertices() > MAX_COARSEST_VERTICES {
+        let coarse = coarsen(graph, 3 * graph.total() / (2 * MAX_COARSEST_VERTICES as u64), random);
+        if (coarse.graph.vertices() as f64) < MAX_COARSER_SHARE * graph.vertices() as f64 {
             let separator = separator(&coarse.graph, random);
             let side = coarse.of.iter().map(|&coarse| separator.side[coarse as usize]).collect();
             return Separator::new(graph, side).refined(graph);
@@ -141,5 +141,7 @@ fn separator(graph: &Weighted, random: &mut Random) -> Separator {
     }
     let mut grown = || Separator::grown(graph, random.below(graph.vertices()) as u32).refined(graph);
     let first = grown();
-    (1..GROWN).map(|_| grown()).fold(first, |best, it| if it.cost() < best.cost() { it } else { best })
+    (1..GROWN_SEPARATORS)
+        .map(|_| grown())
+        .fold(first, |best, it| if it.cost() < best.cost() { it } else { best })
 }

@@ -5,20 +5,20 @@
 //! steps: it is swept over many layers, and each costs as much as it has vertices. With moves to both sides
 //! steps stay, and a cube costs 1.5 to 1.8 times as much.
 
-use super::separator::{BETWEEN, Separator};
+use super::separator::{SEPARATOR_SIDE, Separator};
 use super::weighted::Weighted;
 use std::collections::BinaryHeap;
 
 /// A pass ends where the separator costs this many times what it did at best: with 1.15 structures cost some
 /// per mille more, with any the analysis takes a fifth longer.
-const WORSE: f64 = 1.2;
+const MAX_COST_RATIO: f64 = 1.2;
 
 /// A pass ends where so many times the separator's vertices were moved in vain: with one layer structures
 /// cost a per cent more, with five no less.
-const LAYERS: usize = 2;
+const MAX_VAIN_LAYERS: usize = 2;
 
 /// The side that grows is let grow up to this part of the whole, so that parts of parts soon are small.
-const LARGEST: f64 = 0.8;
+const MAX_SIDE_SHARE: f64 = 0.8;
 
 /// A separator on its way to one side: its vertices join that side, and what these touch on the far side
 /// comes between.
@@ -53,8 +53,8 @@ impl<'a> Moves<'a> {
 
     /// Goes on while it gets worse, up to a point, and back to where it was best.
     pub(super) fn pass(mut self) -> Separator {
-        let largest = (LARGEST * self.graph.total() as f64) as u64;
-        let vain = LAYERS * self.queue.len();
+        let largest = (MAX_SIDE_SHARE * self.graph.total() as f64) as u64;
+        let vain = MAX_VAIN_LAYERS * self.queue.len();
         let (mut best, mut cost) = (0, self.separator.cost());
         while self.log.len() <= best + vain
             && self.separator.weight[usize::from(self.to)] < largest
@@ -63,7 +63,7 @@ impl<'a> Moves<'a> {
             let now = self.separator.cost();
             if now < cost {
                 (best, cost) = (self.log.len(), now);
-            } else if now > WORSE * cost {
+            } else if now > MAX_COST_RATIO * cost {
                 break;
             }
         }
@@ -90,7 +90,7 @@ impl<'a> Moves<'a> {
 
     /// A vertex of the far side comes between.
     fn pull(&mut self, vertex: u32) {
-        self.separator.set(self.graph, vertex, BETWEEN);
+        self.separator.set(self.graph, vertex, SEPARATOR_SIDE);
         self.pulled.push(vertex);
         let weight = self.graph.weight[vertex as usize];
         let mut far = 0;
@@ -119,7 +119,7 @@ impl<'a> Moves<'a> {
     /// The separator as it was after so many moves.
     fn undone(mut self, moves: usize) -> Separator {
         for (vertex, pulled) in self.log.drain(moves..).rev() {
-            self.separator.set(self.graph, vertex, BETWEEN);
+            self.separator.set(self.graph, vertex, SEPARATOR_SIDE);
             for other in self.pulled.drain(self.pulled.len() - pulled..) {
                 self.separator.set(self.graph, other, 1 - self.to);
             }

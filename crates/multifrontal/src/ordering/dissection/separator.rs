@@ -4,9 +4,9 @@ use super::moves::Moves;
 use super::weighted::Weighted;
 
 /// The side of a separator's own vertices.
-pub(super) const BETWEEN: u8 = 2;
+pub(super) const SEPARATOR_SIDE: u8 = 2;
 
-/// Sides 0 and 1 of a graph without an edge between them, and the vertices [`BETWEEN`].
+/// Sides 0 and 1 of a graph without an edge between them, and the vertices [`SEPARATOR_SIDE`].
 pub(super) struct Separator {
     pub(super) side: Vec<u8>,
     /// Weights of the sides and of what is between them.
@@ -30,7 +30,7 @@ impl Separator {
     }
 
     pub(super) fn is_between(&self, vertex: u32) -> bool {
-        self.side[vertex as usize] == BETWEEN
+        self.side[vertex as usize] == SEPARATOR_SIDE
     }
 
     pub(super) fn set(&mut self, graph: &Weighted, vertex: u32, side: u8) {
@@ -43,7 +43,7 @@ impl Separator {
     /// From a vertex on, the best next vertex at a time, until the sides are even.
     pub(super) fn grown(graph: &Weighted, seed: u32) -> Self {
         let mut side = vec![1; graph.vertices()];
-        side[seed as usize] = BETWEEN;
+        side[seed as usize] = SEPARATOR_SIDE;
         let mut moves = Moves::new(graph, Self::new(graph, side), 0);
         while moves.separator.weight[0] < moves.separator.weight[1] && moves.next() {}
         moves.separator

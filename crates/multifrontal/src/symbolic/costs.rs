@@ -1,16 +1,16 @@
 //! Costs of fronts, and which subtrees are worth a thread.
 
-use super::{ROOT, Shape, Symbolic};
-use crate::front::BLOCK;
-use crate::kernel::{STRIP, TOGETHER, WIDE};
+use super::{NO_PARENT, Shape, Symbolic};
+use crate::front::PANEL_COLUMNS;
+use crate::kernel::{MAX_TILE_ROWS, STRIP_COLUMNS, TILES_PER_RUN};
 use crate::packed_lower::PackedLower;
 use std::ops::Range;
 
 /// Subtrees that are looked for: enough to keep some threads busy, few enough to leave work to each.
-const SUBTREES: usize = 32;
+const MIN_SUBTREES: usize = 32;
 
 /// Multiplications below which nothing is shared: a factorisation of less takes a millisecond.
-pub(super) const SHARE_FROM: f64 = 1e7;
+pub(super) const MIN_SHARED_MULTIPLICATIONS: f64 = 1e7;
 
 /// Σ over the pivots of (entries of their columns)².
 pub(super) fn multiplications(pivots: usize, below: usize) -> f64 {
@@ -26,7 +26,7 @@ pub(super) fn flops(front: &Shape) -> f64 {
 /// Multiplications of each front and all below it.
 pub(super) fn work(fronts: &[Shape]) -> Vec<f64> {
     let mut work: Vec<f64> = fronts.iter().map(flops).collect();
-    for (k, front) in fronts.iter().enumerate().filter(|(_, front)| front.parent != ROOT) {
+    for (k, front) in fronts.iter().enumerate().filter(|(_, front)| front.parent != NO_PARENT) {
         work[front.parent] += work[k];
     }
     work
@@ -39,7 +39,7 @@ pub(super) fn subtrees(fronts: &[Shape]) -> Vec<Range<usize>> {
     let mut children: Vec<Vec<usize>> = vec![Vec::new(); fronts.len()];
     let mut open: Vec<usize> = Vec::new();
     for (k, front) in fronts.iter().enumerate() {
-        if front.parent == ROOT {
+        if front.parent == NO_PARENT {
             open.push(k);
         } else {
             first[front.parent] = first[front.parent].min(first[k]);
@@ -47,15 +47,15 @@ pub(super) fn subtrees(fronts: &[Shape]) -> Vec<Range<usize>> {
         }
     }
     let total: f64 = open.iter().map(|&k| work[k]).sum();
-    if total < SHARE_FROM {
+    if total < MIN_SHARED_MULTIPLICATIONS {
         return Vec::new();
     }
     // Split the heaviest until none is more than its share.
-    while open.len() < SUBTREES {
+    while open.len() < MIN_SUBTREES {
         let Some(heaviest) = (0..open.len()).max_by(|&a, &b| work[open[a]].total_cmp(&work[open[b]])) else {
             break;
         };
-        if work[open[heaviest]] * (SUBTREES as f64) < 2.0 * total {
+        if work[open[heaviest]] * (MIN_SUBTREES as f64) < 2.0 * total {
             break;
         }
         let front = open.swap_remove(heaviest);
@@ -92,6 +92,7 @@ pub(super) fn working_scalars(symbolic: &Symbolic) -> usize {
 
 /// The most numbers, for one real product, of the packed copies that one worker makes of a front's columns.
 pub(super) fn packed(symbolic: &Symbolic) -> usize {
-    let left = |front: &Shape| (front.order() + WIDE) * front.pivots.min(BLOCK);
-    symbolic.fronts.iter().map(left).max().unwrap_or(0) + STRIP * (BLOCK + TOGETHER * WIDE)
+    let left = |front: &Shape| (front.order() + MAX_TILE_ROWS) * front.pivots.min(PANEL_COLUMNS);
+    symbolic.fronts.iter().map(left).max().unwrap_or(0)
+        + STRIP_COLUMNS * (PANEL_COLUMNS + TILES_PER_RUN * MAX_TILE_ROWS)
 }

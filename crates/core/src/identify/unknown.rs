@@ -1,11 +1,11 @@
 //! What is looked for when several things are.
 
-use super::super::Options;
 use crate::c64;
+use crate::identify::options::NEAR_BOX_RATIO;
 use crate::laws::LawKind;
 use crate::material::{Law, OutsideTable};
-use crate::model::{DynamicStiffness, Member, ModelAt, ModelError, Parameter, ParameterAt};
-use crate::roots::Bounds;
+use crate::model::{DynamicStiffness, Member, ModelAt, ModelError, Parameter, ParameterAt, WeightedTerm};
+use crate::roots::{Bounds, RootOptions};
 
 /// How an unknown varies over the band.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -107,6 +107,25 @@ impl Unknown {
         })
     }
 
+    /// A parameter as an unknown without bounds, with a value at each frequency.
+    pub fn of_parameter(parameter: &Parameter) -> Self {
+        let members = &parameter.members;
+        let dependence = match parameter.multiplies {
+            false => Dependence::Factor(members.iter().map(|member| member.term).collect()),
+            true => {
+                Dependence::Powers(members.iter().map(|member| (member.term, member.power as i32)).collect())
+            }
+        };
+        Self {
+            name: String::from("p"),
+            dependence,
+            nominal: parameter.nominal.clone(),
+            varies: Variation::PerFrequency,
+            real: false,
+            bounds: Bounds::default(),
+        }
+    }
+
     /// It as the parameter of a polynomial, P-10 and B-8; `None` of one with a negative power.
     pub fn parameter(&self) -> Option<Parameter> {
         let member = |(term, power): (usize, i32)| Some(Member { term, power: usize::try_from(power).ok()? });
@@ -118,17 +137,33 @@ impl Unknown {
         Some(Parameter { members: members?, nominal: self.nominal.clone(), multiplies })
     }
 
-    /// [low, high] of the real part in which it is looked for about a nominal value.
+    /// [low, high] of the real part in which it is looked for about a nominal value: the bounds, as far as they are within a ratio of it. `None` where nothing
+    /// bounds it.
+    pub(crate) fn box_about(&self, nominal: c64, ratio: f64) -> Option<[f64; 2]> {
+        if nominal.re <= 0.0 {
+            return self.bounds.storage;
+        }
+        let [low, high] = self.bounds.storage.unwrap_or([0.0, f64::INFINITY]);
+        // A nominal outside the bounds: the box is where they begin.
+        let middle = nominal.re.clamp(low, high);
+        Some([low.max(middle / ratio), high.min(middle * ratio)])
+    }
+
+    /// How its roots are accepted.
+    pub(super) fn roots(&self) -> RootOptions {
+        RootOptions { bounds: self.bounds, real: self.real, ..RootOptions::default() }
+    }
+
+    /// [low, high] of the real part in which it is looked for about a nominal value, beside other unknowns.
     pub(super) fn range(&self, nominal: c64) -> [f64; 2] {
-        let options = Options { bounds: self.bounds, ..Options::default() };
-        let about = options.box_about(nominal);
+        let about = self.box_about(nominal, NEAR_BOX_RATIO);
         // A value of zero has no neighbourhood of its own, and nothing bounds it: the caller's nominal is then all there is.
         let [low, high] = about.unwrap_or([nominal.re, nominal.re]);
         match self.dependence {
             Dependence::Factor(_) => [low, high],
             // A dimension is known better than a modulus: by drawing.
             Dependence::Powers(_) if nominal.re > 0.0 => {
-                [low.max(nominal.re / DIMENSION), high.min(nominal.re * DIMENSION)]
+                [low.max(nominal.re / MAX_DIMENSION_RATIO), high.min(nominal.re * MAX_DIMENSION_RATIO)]
             }
             Dependence::Powers(_) => [low, high],
         }
@@ -136,7 +171,7 @@ impl Unknown {
 }
 
 /// By how much a dimension may be off.
-const DIMENSION: f64 = 2.0;
+const MAX_DIMENSION_RATIO: f64 = 2.0;
 
 /// A model with several unknowns in it.
 #[derive(Debug, Clone, Copy)]
@@ -175,13 +210,13 @@ impl<'a> Composite<'a> {
             for &(j, power) in &powers {
                 multiplied *= values[j].powi(power);
             }
-            at.nominal.parts.push((index, own * multiplied));
+            at.nominal.parts.push(WeightedTerm { term: index, weight: own * multiplied });
             if let Some(j) = replaced {
-                at.parameters[j].coefficients[0].parts.push((index, multiplied));
+                at.parameters[j].coefficients[0].parts.push(WeightedTerm { term: index, weight: multiplied });
             }
             for (j, power) in powers {
                 let slope = f64::from(power) * own * multiplied / values[j];
-                at.parameters[j].coefficients[0].parts.push((index, slope));
+                at.parameters[j].coefficients[0].parts.push(WeightedTerm { term: index, weight: slope });
             }
         }
         Ok(at)

@@ -1,28 +1,28 @@
-//! Parts of a factor that can be solved with at the same time.
+//! Branches of a factor that can be solved with at the same time.
 
 use crate::factor::Node;
 use crate::scalar::Scalar;
-use crate::symbolic::{ROOT, Symbolic};
+use crate::symbolic::{NO_PARENT, Symbolic};
 use std::cmp::Reverse;
 use std::ops::Range;
 
 /// Neighbouring nodes, and the positions that they see: their own, then those above that they change.
 #[derive(Debug)]
-pub(crate) struct Part {
+pub(crate) struct Branch {
     pub(crate) nodes: Range<usize>,
     /// Positions that are eliminated here.
     pub(crate) own: Range<usize>,
-    /// Places in the part above of the positions that are changed here.
+    /// Places in the branch above of the positions that are changed here.
     pub(crate) outside: Vec<u32>,
-    /// The parts right below, the one with most numbers first.
+    /// The branches right below, the one with most numbers first.
     pub(crate) below: Vec<usize>,
     /// Whether it is above subtrees: its nodes are large, and few others stand beside them.
     pub(crate) top: bool,
 }
 
-impl Part {
-    /// Subtrees, and what is above them, as long as no two branches meet, in one part each; gives the rows of nodes
-    /// (positions so far) their places in their parts. Last the parts below no other.
+impl Branch {
+    /// Subtrees, and what is above them, as long as no two subtrees meet, in one branch each; gives the rows of nodes
+    /// (positions so far) their places in their branches. Last the branches below no other.
     pub(crate) fn of<T: Scalar>(
         symbolic: &Symbolic,
         firsts: &[usize],
@@ -33,7 +33,7 @@ impl Part {
         let mut below = vec![Vec::new(); runs.len() + 1];
         let mut numbers = vec![0; runs.len() + 1];
         let mut place = vec![0u32; symbolic.dim()];
-        let mut parts: Vec<Self> = Vec::with_capacity(runs.len());
+        let mut branches: Vec<Self> = Vec::with_capacity(runs.len());
         for (k, (nodes_here, top)) in runs.iter().enumerate() {
             let own = position(nodes_here.start)..position(nodes_here.end);
             let outside = nodes[nodes_here.end - 1].rows.clone();
@@ -46,18 +46,18 @@ impl Part {
                 numbers[k] += nodes[node].numbers();
             }
             let mut below_here: Vec<usize> = std::mem::take(&mut below[k]);
-            below_here.iter().for_each(|&part| parts[part].outside.iter_mut().for_each(to_place));
-            below_here.sort_by_key(|&part| Reverse(numbers[part]));
-            // Behind the last part where it is below none.
+            below_here.iter().for_each(|&branch| branches[branch].outside.iter_mut().for_each(to_place));
+            below_here.sort_by_key(|&branch| Reverse(numbers[branch]));
+            // Behind the last branch where it is below none.
             let above = match symbolic.fronts[nodes_here.end - 1].parent {
-                ROOT => runs.len(),
+                NO_PARENT => runs.len(),
                 parent => runs.partition_point(|(nodes, _)| nodes.end <= parent),
             };
             below[above].push(k);
             numbers[above] += numbers[k];
-            parts.push(Self { nodes: nodes_here.clone(), own, outside, below: below_here, top: *top });
+            branches.push(Self { nodes: nodes_here.clone(), own, outside, below: below_here, top: *top });
         }
-        (parts, below.pop().unwrap_or_default())
+        (branches, below.pop().unwrap_or_default())
     }
 
     /// Positions that are seen here.
@@ -66,7 +66,7 @@ impl Part {
     }
 }
 
-/// The nodes of each part, and whether it is above subtrees.
+/// The nodes of each branch, and whether it is above subtrees.
 fn runs(symbolic: &Symbolic) -> Vec<(Range<usize>, bool)> {
     let count = symbolic.fronts.len();
     if symbolic.subtrees.is_empty() {

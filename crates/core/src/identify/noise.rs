@@ -1,6 +1,5 @@
-//! How large the noise is: as told, or as the band tells it.
+//! How large the noise is: as given, or as the band shows it.
 
-use super::Noise;
 use crate::c64;
 use crate::frequency::omega_rad_s;
 use crate::median::median;
@@ -8,19 +7,31 @@ use crate::select::{Choice, Node};
 
 /// Where no deviation is given, sensors count by their own size, but not below this fraction of their median over the band: an antiresonance is
 /// not measured any better than the rest.
-const RELATIVE_FLOOR: f64 = 0.1;
+const MIN_SIZE_OVER_MEDIAN: f64 = 0.1;
 
 /// No instrument is better than this fraction of the largest response: a smaller deviation, or none at all, is not believed.
-const LEAST_STD: f64 = 1e-9;
+const MIN_STD_OVER_LARGEST: f64 = 1e-9;
 
 /// The least level that is believed of one that is not given: a millionth of the response is roundoff near a resonance.
-pub(super) const LEAST_LEVEL: f64 = 1e-6;
+pub(super) const MIN_NOISE_LEVEL: f64 = 1e-6;
 
-/// Answers with two neighbours on either side that a scatter is told from: with fewer, a median is an accident.
-const LEAST_SCATTER: usize = 12;
+/// Answers with two neighbours on either side that a scatter is estimated from: with fewer, a median is an accident.
+const MIN_SCATTER_ANSWERS: usize = 12;
+
+/// Standard deviations √E|δx|² of measured receptances, `[frequency][sensor]`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Noise<'a> {
+    /// Not known: in proportion to the responses, by a factor that several sensors tell.
+    Unknown,
+    /// Known up to a common factor, as from a coherence without the number of averages.
+    Relative(&'a [Vec<f64>]),
+    /// Known.
+    Known(&'a [Vec<f64>]),
+}
 
 /// What tells the level of the noise.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum NoiseSource {
     /// Standard deviations that were given.
     Given,
@@ -62,27 +73,23 @@ pub struct NoiseLevel {
 }
 
 impl NoiseLevel {
-    pub(in crate::identify) fn new(
-        noise: Noise<'_>,
-        of_sensors: Option<f64>,
-        of_scatter: Option<f64>,
-    ) -> Self {
+    pub(super) fn new(noise: Noise<'_>, of_sensors: Option<f64>, of_scatter: Option<f64>) -> Self {
         let (level, source) = match (noise, of_sensors, of_scatter) {
             (Noise::Known(_), ..) => (Some(1.0), NoiseSource::Given),
-            (_, Some(level), _) => (Some(level.max(LEAST_LEVEL)), NoiseSource::Sensors),
-            (_, None, Some(level)) => (Some(level.max(LEAST_LEVEL)), NoiseSource::Scatter),
+            (_, Some(level), _) => (Some(level.max(MIN_NOISE_LEVEL)), NoiseSource::Sensors),
+            (_, None, Some(level)) => (Some(level.max(MIN_NOISE_LEVEL)), NoiseSource::Scatter),
             (_, None, None) => (None, NoiseSource::Nothing),
         };
         Self { level, source, of_sensors, of_scatter }
     }
 
     /// Nothing known, as where each frequency is answered by itself.
-    pub(super) const NONE: Self =
+    pub(super) const UNKNOWN: Self =
         Self { level: None, source: NoiseSource::Nothing, of_sensors: None, of_scatter: None };
 }
 
 /// σ of real and imaginary part each, `[frequency][sensor]`: as given, or in proportion to the response.
-pub(in crate::identify) fn deviations(measured: &[Vec<c64>], noise: Noise<'_>) -> Vec<Vec<f64>> {
+pub(super) fn standard_deviations(measured: &[Vec<c64>], noise: Noise<'_>) -> Vec<Vec<f64>> {
     let sensors = 0..measured.first().map_or(0, Vec::len);
     let sorted = |m: usize| {
         let mut sizes: Vec<f64> = measured.iter().map(|u| u[m].norm()).collect();
@@ -93,13 +100,20 @@ pub(in crate::identify) fn deviations(measured: &[Vec<c64>], noise: Noise<'_>) -
     let row = |(i, u): (usize, &Vec<c64>)| {
         let of = |(m, u): (usize, &c64)| match noise {
             Noise::Known(std) | Noise::Relative(std) => {
-                (std[i][m] / 2f64.sqrt()).max(LEAST_STD * sizes[m][sizes[m].len() - 1])
+                (std[i][m] / 2f64.sqrt()).max(MIN_STD_OVER_LARGEST * sizes[m][sizes[m].len() - 1])
             }
-            Noise::Unknown => u.norm().max(RELATIVE_FLOOR * sizes[m][sizes[m].len() / 2]),
+            Noise::Unknown => u.norm().max(MIN_SIZE_OVER_MEDIAN * sizes[m][sizes[m].len() / 2]),
         };
         u.iter().enumerate().map(of).collect()
     };
     measured.iter().enumerate().map(row).collect()
+}
+
+/// The deviations with those of some sensors infinite: nothing is asked of them.
+pub(super) fn without(sigma: &[Vec<f64>], out: &[usize]) -> Vec<Vec<f64>> {
+    let mut sigma = sigma.to_vec();
+    sigma.iter_mut().for_each(|row| out.iter().for_each(|&m| row[m] = f64::INFINITY));
+    sigma
 }
 
 /// Degrees of freedom that χ² of so many sensors has once the factor is fitted to them.
@@ -108,7 +122,7 @@ pub(super) fn freedom(sensors: usize, real: bool) -> usize {
 }
 
 /// Noise over σ by the median of the χ² that some frequencies have; `None` without a degree of freedom, or a frequency.
-pub(in crate::identify) fn level_of(misfits: Vec<f64>, freedom: usize) -> Option<f64> {
+pub(super) fn level_of(misfits: Vec<f64>, freedom: usize) -> Option<f64> {
     let median = median(misfits).filter(|_| freedom > 0)?;
     Some((median / median_chi_squared(freedom)).sqrt())
 }
@@ -127,8 +141,8 @@ pub(super) fn of_sensors(nodes: &[Vec<Node>], choices: &[Choice], freedom: usize
 pub(super) fn of_scatter(frequency_hz: &[f64], answers: &[Option<Node>], real: bool) -> Option<f64> {
     let square = |k: usize| {
         let mut nodes = [None; 5];
-        for (node, answer) in nodes.iter_mut().zip(&answers[k - 2..=k + 2]) {
-            *node = Some((*answer)?);
+        for (node, estimate) in nodes.iter_mut().zip(&answers[k - 2..=k + 2]) {
+            *node = Some((*estimate)?);
         }
         let x: Vec<f64> = frequency_hz[k - 2..=k + 2].iter().map(|&f| omega_rad_s(f).ln()).collect();
         let (mut off, mut variance) = (c64::default(), 0.0);
@@ -143,7 +157,7 @@ pub(super) fn of_scatter(frequency_hz: &[f64], answers: &[Option<Node>], real: b
         Some(off.norm_sqr() / variance).filter(|square| square.is_finite())
     };
     let squares: Vec<f64> = (2..answers.len().saturating_sub(2)).filter_map(square).collect();
-    if squares.len() < LEAST_SCATTER {
+    if squares.len() < MIN_SCATTER_ANSWERS {
         return None;
     }
     level_of(squares, if real { 1 } else { 2 })

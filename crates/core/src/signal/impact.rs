@@ -1,13 +1,11 @@
-//! A hit and its verdict.
+//! An impact, with what was found of it.
 
-use super::baseline::{last_tenth, offset, peak, rms};
-use super::pulse::Contact;
-use super::{Channel, Fault, Options, Recording, fault};
+use super::{Channel, Fault};
 use std::ops::Range;
 
-/// A hit that was found.
+/// An impact that was found.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Hit {
+pub struct Impact {
     /// Which recording it is in, from 0.
     pub recording: usize,
     /// The first sample of the recording at or above the trigger.
@@ -24,17 +22,17 @@ pub struct Hit {
     pub kept_anyway: bool,
     /// What is left of each response over the last tenth of the record: rms about the mean, over its largest value.
     pub residual: Vec<f64>,
-    /// The same before the hit, where the record has enough of that: noise.
+    /// The same before the impact, where the record has enough of that: noise.
     pub noise: Option<Vec<f64>>,
 }
 
 /// A response has decayed where less than this is left: with a residual q, the FRF at a resonance is wrong by about q.
-const DECAYED: f64 = 0.01;
+const DECAYED_RESIDUAL: f64 = 0.01;
 
 /// Samples before the trigger that already belong to the contact.
-const FOOT: usize = 4;
+pub(super) const FOOT_SAMPLES: usize = 4;
 
-impl Hit {
+impl Impact {
     /// Whether it is averaged.
     pub fn is_kept(&self) -> bool {
         self.faults.is_empty() || self.kept_anyway
@@ -50,12 +48,12 @@ impl Hit {
     /// The rest wraps around: the transform takes the record for one period of a periodic response.
     pub fn undecayed(&self, response: usize) -> Option<f64> {
         let noise = self.noise.as_ref().and_then(|noise| noise.get(response)).copied().unwrap_or(0.0);
-        self.residual.get(response).copied().filter(|&rest| rest > DECAYED && rest > 3.0 * noise)
+        self.residual.get(response).copied().filter(|&rest| rest > DECAYED_RESIDUAL && rest > 3.0 * noise)
     }
 
     /// Samples of the record before the contact.
     pub(super) fn before(&self) -> usize {
-        self.onset.saturating_sub(self.range.start + FOOT)
+        self.onset.saturating_sub(self.range.start + FOOT_SAMPLES)
     }
 
     /// The contact in samples of the record.
@@ -64,26 +62,8 @@ impl Hit {
     }
 }
 
-/// Judges a hit: its faults, and how far the responses have decayed.
-pub(super) fn examine(hit: &mut Hit, recording: &Recording, samples: usize, options: &Options) {
-    if hit.faults.is_empty() {
-        hit.faults = fault::faults(hit, recording, samples, &Contact::new(&recording.force), options);
-    }
-    let before = hit.before();
-    let records = recording.responses.iter().map(|response| response.get(hit.range.clone()).unwrap_or(&[]));
-    let share = |part: &[f64], record: &[f64]| {
-        let largest = peak(record, offset(record, before));
-        if largest > 0.0 { rms(part) / largest } else { 0.0 }
-    };
-    hit.residual =
-        records.clone().map(|r| if r.is_empty() { 0.0 } else { share(last_tenth(r), r) }).collect();
-    // Fewer samples are no noise level.
-    let is_told = before >= 2 * FOOT && records.clone().all(|record| record.len() > before);
-    hit.noise = is_told.then(|| records.map(|r| share(&r[..before], r)).collect());
-}
-
-impl Hit {
-    /// A recording without a hit.
+impl Impact {
+    /// A recording without an impact.
     pub(super) fn none(recording: usize, len: usize, force: &[f64]) -> Self {
         let fault = match force.iter().any(|x| *x != force[0]) {
             true => Fault::Silent,

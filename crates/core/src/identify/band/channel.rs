@@ -1,0 +1,76 @@
+//! A channel whose calibration is not known, and what was found of it.
+
+use crate::c64;
+use crate::frequency::omega_rad_s;
+
+/// What of a channel is to be found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct ChannelUnknowns {
+    /// The factor by which its values have to be multiplied.
+    pub scale: bool,
+    /// By how much it is late.
+    pub delay: bool,
+}
+
+impl ChannelUnknowns {
+    /// Whether anything is.
+    pub fn any(self) -> bool {
+        self.scale || self.delay
+    }
+
+    /// How many real numbers are.
+    pub fn count(self) -> usize {
+        usize::from(self.scale) + usize::from(self.delay)
+    }
+}
+
+/// A number that was found, and how well.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Calibrated {
+    /// Its value; of a scale negative where the channel's sense is reversed.
+    pub value: f64,
+    /// Its standard deviation; `None` where nothing tells the noise.
+    pub std: Option<f64>,
+}
+
+/// What was found of a channel: its receptance is s e^{iωτ} times what was measured.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Calibration {
+    /// s; `None` where it was known, or the data do not tell it.
+    pub scale: Option<Calibrated>,
+    /// τ, s: by how much the channel is late; `None` as above.
+    pub delay_s: Option<Calibrated>,
+}
+
+impl Calibration {
+    /// s e^{iωτ}, with one and zero for what was not looked for.
+    pub fn factor(&self, frequency_hz: f64) -> c64 {
+        Channel::of(self).factor(frequency_hz)
+    }
+}
+
+/// A calibration as a search has it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Channel {
+    pub(super) scale: f64,
+    pub(super) delay_s: f64,
+}
+
+impl Channel {
+    pub(super) const CALIBRATED: Self = Self { scale: 1.0, delay_s: 0.0 };
+
+    /// One and zero for what was not looked for.
+    pub(super) fn of(found: &Calibration) -> Self {
+        let value = |found: Option<Calibrated>, none: f64| found.map_or(none, |found| found.value);
+        Self { scale: value(found.scale, 1.0), delay_s: value(found.delay_s, 0.0) }
+    }
+
+    pub(super) fn factor(&self, frequency_hz: f64) -> c64 {
+        self.scale * c64::from_polar(1.0, omega_rad_s(frequency_hz) * self.delay_s)
+    }
+
+    /// Where u = γ e^{−iωt} x is what is left of this calibration.
+    pub(super) fn better(&self, gain: f64, late_s: f64) -> Self {
+        Self { scale: self.scale / gain, delay_s: self.delay_s + late_s }
+    }
+}

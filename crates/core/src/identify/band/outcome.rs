@@ -1,0 +1,66 @@
+//! What came out of a band with one unknown.
+
+use super::fit::excess_of_neighbours;
+use crate::identify::goodness_of_fit::{GoodnessOfFit, SensorFit, is_unexplained_stretch};
+use crate::identify::model_errors::{Estimated, Leverage};
+use crate::identify::noise::NoiseLevel;
+use crate::identify::outcome::{Line, Status};
+use crate::response::Work;
+
+/// What came out.
+#[derive(Debug, Clone, PartialEq)]
+pub(in crate::identify) struct BandOutcome {
+    /// One for each frequency.
+    pub outcomes: Vec<Line>,
+    /// Work of size N.
+    pub work: Work,
+    /// Vectors of the subspace; `None` where the full model answered.
+    pub subspace_size: Option<usize>,
+    /// Frequencies at which all solutions were looked for; at the others those of their neighbours were followed.
+    pub explored: usize,
+    /// How large the noise is, and what tells it. Nothing is known where each frequency is answered by itself.
+    pub noise: NoiseLevel,
+    /// Whether noise is all that the answers leave unexplained; `None` where nothing can tell.
+    pub fit: Option<GoodnessOfFit>,
+    /// One for each sensor; empty where each frequency is answered by itself.
+    pub sensors: Vec<SensorFit>,
+    /// Errors of the model that were taken out; `None` where none were found.
+    pub model_errors: Option<Estimated>,
+    /// How far errors of known factors move the unknown.
+    pub leverage: Vec<Leverage>,
+    /// Whether a model with large errors explains the band far better: it is another one.
+    pub other_model: bool,
+}
+
+impl BandOutcome {
+    /// How many frequencies have an answer.
+    pub(super) fn answered(&self) -> usize {
+        self.outcomes.iter().filter(|outcome| outcome.on_path).count()
+    }
+
+    /// With bars and statuses that the fit of the band and of each stretch allows.
+    pub(super) fn judged_by_fit(mut self) -> Self {
+        self.fit = self.fit.map(|fit| fit.of_model(self.other_model));
+        if let Some(fit) = &self.fit {
+            let of_neighbours = excess_of_neighbours(&self.outcomes, fit);
+            for (outcome, excess) in self.outcomes.iter_mut().zip(of_neighbours) {
+                outcome.lengthen_bars(excess.sqrt().max(fit.excess()));
+                if outcome.status == Status::Ok && is_unexplained_stretch(excess, &self.noise) {
+                    outcome.status = Status::Unexplained;
+                }
+            }
+        }
+        for outcome in &mut self.outcomes {
+            outcome.status = match outcome.status {
+                Status::Ok if self.other_model => Status::Unexplained,
+                status => status.within(self.fit),
+            };
+        }
+        self
+    }
+
+    /// The sensors that are left out.
+    pub(super) fn left_out(&self) -> Vec<usize> {
+        (0..self.sensors.len()).filter(|&m| self.sensors[m].left_out).collect()
+    }
+}

@@ -1,0 +1,102 @@
+//! The errors of a model as a search has them, with their covariance.
+
+use super::curve::Curves;
+use super::search::{FactorPrior, Place};
+use crate::c64;
+use crate::frequency::omega_rad_s;
+use crate::subspace::{ModalErrors, Modes};
+
+/// The errors of a model, and how well they are known.
+#[derive(Debug, Clone, PartialEq)]
+pub(in crate::identify) struct Estimated {
+    pub(in crate::identify) modes: Modes,
+    pub(in crate::identify) errors: ModalErrors,
+    /// Of θ, δ and ε (own and common together), ν and Δη, κ, then a of the load and of each sensor: n × n.
+    pub(in crate::identify) covariance: Vec<f64>,
+    pub(in crate::identify) sizes: [f64; 3],
+    /// χ² at σ times `level`, and how many numbers it has.
+    pub(in crate::identify) chi_squared: f64,
+    pub(in crate::identify) numbers: usize,
+    pub(in crate::identify) level: f64,
+    /// By how many nats errors of the model explain the band better than a right model does.
+    pub(in crate::identify) evidence: f64,
+    pub(super) highest_rad_s: f64,
+    pub(super) curves: Curves,
+    pub(super) factors: Vec<FactorPrior>,
+    /// θ, then the errors as the search has them.
+    pub(super) place: Place,
+}
+
+impl Estimated {
+    pub(in crate::identify) fn theta(&self) -> &[f64] {
+        &self.place[..self.curves.count()]
+    }
+
+    /// Variances of the real and the imaginary part of an unknown at a line, and their covariance.
+    pub(in crate::identify) fn covariance_at(
+        &self,
+        unknown: usize,
+        line: usize,
+        frequency_hz: f64,
+    ) -> Option<[f64; 3]> {
+        let slopes = self.curves.slopes(self.theta(), unknown, line, omega_rad_s(frequency_hz))?;
+        Some(covariance(&self.block(0..slopes.len()), &slopes))
+    }
+
+    /// The covariance of some coordinates, column after column.
+    pub(in crate::identify) fn covariance_of(&self, coordinates: &[usize]) -> Vec<f64> {
+        let n = self.count();
+        let column = |&a: &usize| coordinates.iter().map(move |b| self.covariance[a * n + b]);
+        coordinates.iter().flat_map(column).collect()
+    }
+
+    fn block(&self, range: std::ops::Range<usize>) -> Vec<f64> {
+        self.covariance_of(&range.collect::<Vec<_>>())
+    }
+
+    /// The coordinates of an unknown.
+    pub(in crate::identify) fn range(&self, unknown: usize) -> std::ops::Range<usize> {
+        self.curves.range(unknown)
+    }
+
+    /// The errors, as coordinates.
+    pub(in crate::identify) fn error_range(&self) -> std::ops::Range<usize> {
+        self.curves.count()..self.count()
+    }
+
+    /// All unknowns at a line.
+    pub(in crate::identify) fn values(&self, line: usize, frequency_hz: f64) -> Option<Vec<c64>> {
+        Some(self.curves.values(self.theta(), line, omega_rad_s(frequency_hz))?.0)
+    }
+
+    /// The covariance of θ, row after row.
+    pub(in crate::identify) fn of_theta(&self) -> Vec<Vec<f64>> {
+        let n = self.curves.count();
+        self.block(0..n).chunks_exact(n.max(1)).map(<[f64]>::to_vec).collect()
+    }
+
+    /// The covariance of the errors.
+    pub(in crate::identify) fn of_errors(&self) -> Vec<f64> {
+        self.block(self.error_range())
+    }
+
+    /// Coordinates: θ, and the errors.
+    pub(in crate::identify) fn count(&self) -> usize {
+        let ModalErrors { stiffness, masses, load, shape, factors } = &self.errors;
+        let of_shapes: usize = shape.iter().map(Vec::len).sum();
+        self.curves.count() + stiffness.len() + factors.len() + masses.len() + load.len() + of_shapes
+    }
+}
+
+/// Variances of the real and the imaginary part of Σ g_n ξ_n, and their covariance.
+pub(in crate::identify) fn covariance(covariance: &[f64], g: &[c64]) -> [f64; 3] {
+    let n = g.len();
+    let mut sum = [0.0; 3];
+    for (column, g_column) in covariance.chunks_exact(n.max(1)).zip(g) {
+        let times: c64 = column.iter().zip(g).map(|(c, g)| *c * g).sum();
+        sum[0] += times.re * g_column.re;
+        sum[1] += times.im * g_column.im;
+        sum[2] += times.re * g_column.im;
+    }
+    sum
+}

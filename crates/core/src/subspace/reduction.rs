@@ -1,0 +1,60 @@
+//! The reduction of a model for a band: its basis, the factorisations behind it, and the work so far.
+
+use super::Projection;
+use super::basis::Basis;
+use super::parts::Parts;
+use super::shift::Shift;
+use crate::frequency::omega_rad_s;
+use crate::model::{DynamicStiffness, Experiment, ModelAt};
+use crate::response::Work;
+use frfit_linalg::solve::Breakdown;
+
+/// A reduced model for a band of frequencies and a range of the parameters.
+#[derive(Debug)]
+pub struct Subspace<'m> {
+    pub(super) model: &'m DynamicStiffness,
+    pub(super) experiment: &'m Experiment,
+    pub(super) basis: Basis,
+    pub(super) shifts: Vec<Shift>,
+    pub(super) work: Work,
+}
+
+/// σ of the first shift over ω² at the reference frequency: below the band, where K + σM is positive definite for a free structure too.
+const FIRST_SHIFT_RATIO: f64 = 0.01;
+
+impl<'m> Subspace<'m> {
+    /// One real factorisation, of Re K + σ Re M with the nominal values at a reference frequency (best the highest of the band),
+    /// and one solve for the load and for each sensor.
+    ///
+    /// # Errors
+    /// [`Breakdown`] where neither that matrix nor Re D at the reference frequency can be factorised.
+    pub fn new(experiment: &'m Experiment, reference: &ModelAt<'m>) -> Result<Self, Breakdown> {
+        let model = reference.model;
+        let omega_squared = omega_rad_s(reference.frequency_hz).powi(2);
+        let shift = Shift::new(reference, FIRST_SHIFT_RATIO * omega_squared);
+        let shift = shift.or_else(|_| Shift::new(reference, -omega_squared))?;
+        let largest = shift.diagonal.iter().copied().fold(0.0, f64::max);
+        // A row without any stiffness or mass of its own (a constraint) still needs a weight.
+        let weight = shift.diagonal.iter().map(|&d| d.max(1e-12 * largest)).collect();
+        let basis = Basis::new(weight, Parts::of(model), experiment);
+        let work = Work { factorisations: 1, solves: 0 };
+        let mut subspace = Self { model, experiment, basis, shifts: vec![shift], work };
+        subspace.start()?;
+        Ok(subspace)
+    }
+
+    /// Everything small: what answers at any frequency of the band.
+    pub fn projection(&self) -> &Projection {
+        &self.basis.projection
+    }
+
+    /// Number of basis vectors r.
+    pub fn size(&self) -> usize {
+        self.projection().size()
+    }
+
+    /// Real factorisations and solves so far: all the work of size N but products and projections.
+    pub fn work(&self) -> Work {
+        self.work
+    }
+}
