@@ -1,242 +1,324 @@
 //! What came out, in the few lines that a person reads first.
 
 use frfit::identify::{
-    Calibrated, Explained, Leverage, Line, ModeError, ModelErrorsFound, NoiseSource, SmoothCurve, Status,
-    Variation,
+    BandValue, Calibrated, Dependence, Explained, Leverage, Line, ModeError, ModelErrorsFound, NoiseSource,
+    Number, SmoothCurve, Status, Unknown, Variation,
 };
 use frfit::model::FactorPart;
 use frfit_workflow::check::findings_text;
 use frfit_workflow::job::IdentifyJob;
-use frfit_workflow::load::Layout;
-use frfit_workflow::output::{Words, laws_text, several_text};
+use frfit_workflow::load::IdentifyCase;
+use frfit_workflow::output::{Words, laws_text, not_identifiable};
+use serde_json::Value;
 use std::path::Path;
-
-/// That the model is the one behind an exponential window.
-fn window(job: &IdentifyJob) -> Option<String> {
-    let decay_per_s = job.case.model.decay_per_s();
-    (decay_per_s > 0.0).then(|| format!("decay_per_s = {decay_per_s}, taken into the model"))
-}
 
 /// The verdict of an identification and where its files are.
 pub(crate) fn identified(job: &IdentifyJob, out: &Path) -> Words {
-    let mut words = Words::default();
-    let Some(identify) = job.identify() else { return words };
-    let run = &job.run;
-    if identify.layout == Layout::Named {
-        words = several_text(identify, run);
-        words.warn(&job.diagnosis.as_ref().map_or(String::new(), |found| findings_text(&job.case, found)));
-        if let Some(errors) = &run.found.model_errors {
-            words.warn(&format!("  {:<18}{}\n", "model errors", model_errors(job, errors)));
-        }
-        leverage(job).iter().for_each(|sentence| words.say(&format!("  {:<18}{sentence}\n", "leverage")));
-        contradictions(job).for_each(|sentence| words.warn(&format!("  {:<18}{sentence}\n", "sensor")));
-        window(job).iter().for_each(|sentence| words.say(&format!("  {:<18}{sentence}\n", "window")));
-        words.say(&format!(
-            "  {:<18}{}: identified.csv, response.csv, updated.uff, summary.json, figures/, report.html\n",
-            "wrote",
-            out.display()
-        ));
-        return words;
+    let Some(identify) = job.identify() else { return Words::default() };
+    let mut text = Text(Words::default());
+    text.0.say(&head(job, identify));
+    // What is wrong with the data comes before what was made of them.
+    text.0.warn(&job.diagnosis.as_ref().map_or(String::new(), |found| findings_text(&job.case, found)));
+    statuses(&mut text, job);
+    for j in 0..identify.unknowns.len() {
+        value(&mut text, job, identify, j);
     }
-    let band = match (run.found.lines.first(), run.found.lines.last()) {
+    for sentence in not_identifiable(identify, &job.run.found) {
+        text.warn("not identifiable", &sentence);
+    }
+    error(&mut text, job);
+    doubts(&mut text, job, identify);
+    bands(&mut text, job);
+    for j in 0..identify.unknowns.len() {
+        reference(&mut text, job, identify, j);
+    }
+    work(&mut text, job);
+    wrote(&mut text, job, identify, out);
+    let laws = &job.run.found.laws;
+    if !laws.is_empty() {
+        text.0.say(&laws_text(laws, &vec![None; laws.len()], identify.units[0]));
+    }
+    text.0
+}
+
+/// Lines of a label and a sentence.
+struct Text(Words);
+
+impl Text {
+    fn say(&mut self, label: &str, sentence: &str) {
+        self.add(false, label, sentence);
+    }
+
+    /// What must not be missed.
+    fn warn(&mut self, label: &str, sentence: &str) {
+        self.add(true, label, sentence);
+    }
+
+    fn add(&mut self, is_warning: bool, label: &str, sentence: &str) {
+        self.0.add(is_warning, &format!("  {label:<17} {sentence}\n"));
+    }
+}
+
+/// What was identified, and where.
+fn head(job: &IdentifyJob, identify: &IdentifyCase) -> String {
+    let lines = &job.run.found.lines;
+    let band = match (lines.first(), lines.last()) {
         (Some(first), Some(last)) => format!("{} to {} Hz", first.frequency_hz, last.frequency_hz),
         _ => String::new(),
     };
-    words.say(&format!(
-        "{}: factor of {} at {} frequencies, {band}\n",
-        job.case.title,
-        identify.unknowns[0].name,
-        run.found.lines.len()
-    ));
-    // What is wrong with the data comes before what was made of them.
-    words.warn(&job.diagnosis.as_ref().map_or(String::new(), |found| findings_text(&job.case, found)));
-    let mut add = |is_warning: bool, label: &str, value: String| {
-        words.add(is_warning, &format!("  {label:<18}{value}\n"));
+    let names: Vec<&str> = identify.unknowns.iter().map(|one| one.name.as_str()).collect();
+    let what = match &identify.unknowns[..] {
+        [Unknown { dependence: Dependence::Factor(_), name, .. }] => format!("factor of {name}"),
+        _ => names.join(", "),
     };
-    let statuses = Status::ALL.into_iter().filter(|&status| run.count(status) > 0);
-    add(
-        false,
-        "status",
-        statuses
-            .map(|status| format!("{} {}", run.count(status), status.name()))
-            .collect::<Vec<_>>()
-            .join(", "),
-    );
-    if let Some(sentence) = window(job) {
-        add(false, "window", sentence);
-    }
-    let ok = |outcome: &&Line| outcome.status == Status::Ok;
-    let range = |number: &dyn Fn(&Line) -> Option<f64>| {
-        let values = run.found.lines.iter().filter(ok).filter_map(number);
-        values.fold(None, |range: Option<(f64, f64)>, v| {
-            Some(range.map_or((v, v), |(low, high)| (low.min(v), high.max(v))))
-        })
-    };
-    let real = identify.unknowns[0].real;
-    if let Some((low, high)) = range(&|outcome| outcome.storage()) {
-        let (label, unit) = if real { ("factor", "") } else { ("storage modulus", identify.units[0].unit()) };
-        let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
-        add(false, label, format!("{low:.6e} to {high:.6e}{unit} (where ok)"));
-    }
-    if let (Some((low, high)), false) = (range(&|outcome| outcome.loss_factor()), real) {
-        add(false, "loss factor", format!("{low:.6} to {high:.6} (where ok)"));
-    }
-    if let Some((_, high)) = range(&|outcome| outcome.error) {
-        add(false, "error", format!("at most {high:.1e} (where ok)"));
-    }
-    for (is_warning, label, sentence) in doubts(job) {
-        add(is_warning, label, sentence);
-    }
-    let largest = run.found.lines.iter().filter_map(|outcome| outcome.spectral_radius).reduce(f64::max);
-    if let Some(radius) = largest {
-        add(false, "spectral radius", format!("up to {radius:.4}"));
-    }
-    for status in Status::ALL.into_iter().filter(|&status| status != Status::Ok) {
-        let bands = run.bands_hz(status);
-        if !bands.is_empty() {
-            // What the user left out is no surprise.
-            add(status != Status::OutOfBand, status.name(), bands_hz(&bands));
-        }
-    }
-    let reference = &job.summary["reference"];
-    if let Some(all) = reference["fraction_right"].as_f64() {
-        let of_ok = reference["fraction_right_of_ok"]
-            .as_f64()
-            .map_or(String::new(), |f| format!(", {} of ok", percent(f)));
-        let off = match reference["deviation"]["max_ok"].as_f64() {
-            Some(off) if all < 1.0 => format!("; off by at most {off:.1e} where ok"),
-            _ => String::new(),
-        };
-        add(
-            false,
-            "right",
-            format!(
-                "{} of all{of_ok} (the reference is known; within {}{off})",
-                percent(all),
-                reference["within"]
-            ),
-        );
-    }
-    add(
-        false,
-        "work",
-        format!(
-            "{} factorisations, {} solves, {:.2} s",
-            run.found.search.work.factorisations,
-            run.found.search.work.solves,
-            run.seconds.identify()
-        ),
-    );
-    if let (Some(size), Some(error)) = (run.found.search.reduced_size, run.found.reduction_error()) {
-        add(
-            false,
-            "subspace",
-            format!("{size} vectors, error of the response at most {error:.1e} (estimated)"),
-        );
-    }
-    if let Some(curve) = &run.found.curve {
-        let settled = if curve.converged { "" } else { ", not settled" };
-        let odd = match curve.unexplained {
-            0 => String::new(),
-            count => format!("; {count} frequencies that it does not explain have no say in it"),
-        };
-        let SmoothCurve { parameters, width_octaves, .. } = curve;
-        add(
-            !curve.converged || curve.unexplained > 0,
-            "smooth",
-            format!("{parameters:.1} parameters, one for {width_octaves:.2} octaves{settled}{odd}"),
-        );
-    }
-    let more = match &identify.unknowns[0].varies {
-        Variation::Law(_) => "free.csv, law.json, ",
-        Variation::Smooth => "free.csv, ",
-        _ => "",
-    };
-    add(
-        false,
-        "wrote",
-        format!(
-            "{}: identified.csv, {more}candidates.csv, response.csv, updated.uff, summary.json, figures/, report.html",
-            out.display()
-        ),
-    );
-    if !run.found.laws.is_empty() {
-        words.say(&laws_text(&run.found.laws, &vec![None; run.found.laws.len()], identify.units[0]));
-    }
-    words
+    format!("{}: {what} at {} frequencies, {band}\n", job.case.title, lines.len())
 }
 
-/// The sensors that contradict all others, and what was done with them.
-fn contradictions(job: &IdentifyJob) -> impl Iterator<Item = String> {
-    let fits = job.case.sensors.iter().zip(&job.run.found.sensors).filter(|(_, fit)| fit.contradicts);
-    fits.map(|(sensor, fit)| {
-        let done = if fit.left_out { "left out" } else { "kept, as reject_outliers = false says" };
-        format!("{} contradicts all others: {done}", sensor.label)
+fn statuses(text: &mut Text, job: &IdentifyJob) {
+    let run = &job.run;
+    if let Some(breakdown) = &run.found.search.breakdown {
+        let sentence = format!("the model has no real stand-in that can be factorised: {breakdown}");
+        text.warn("no answer", &sentence);
+    }
+    let there = Status::ALL.into_iter().filter(|&status| run.count(status) > 0);
+    let counts: Vec<String> =
+        there.map(|status| format!("{} {}", run.count(status), status.name())).collect();
+    text.say("status", &counts.join(", "));
+    let decay_per_s = job.case.model.decay_per_s();
+    if decay_per_s > 0.0 {
+        text.say("window", &format!("decay_per_s = {decay_per_s}, taken into the model"));
+    }
+}
+
+/// The numbers of a constant, or the range of what varies.
+fn value(text: &mut Text, job: &IdentifyJob, identify: &IdentifyCase, j: usize) {
+    let one = &identify.unknowns[j];
+    let only = identify.unknowns.len() == 1;
+    if let Some(band) = job.run.found.constants.iter().find(|band| band.unknowns == j)
+        && !(only && identify.is_law())
+    {
+        let doubt = doubt_of(band);
+        let numbers: Vec<String> = band.numbers.iter().map(number).collect();
+        text.add(!doubt.is_empty(), &one.name, &format!("{}{doubt}", numbers.join(", ")));
+    }
+    if one.varies == Variation::Constant {
+        return;
+    }
+    let unit = match identify.units[j].unit() {
+        "" => String::new(),
+        _ if one.real => String::new(),
+        unit => format!(" {unit}"),
+    };
+    let Some((low, high)) = range(job, &|line| line.values[j].storage()) else { return };
+    let storage = format!("{low:.6e} to {high:.6e}{unit}");
+    let loss = range(job, &|line| line.values[j].loss_factor()).filter(|_| !one.real);
+    let loss = loss.map(|(low, high)| format!("{low:.6} to {high:.6}"));
+    if only {
+        let label = if one.real { "factor" } else { "storage modulus" };
+        text.say(label, &format!("{storage} (where ok)"));
+        loss.iter().for_each(|loss| text.say("loss factor", &format!("{loss} (where ok)")));
+    } else {
+        let loss = loss.map_or(String::new(), |loss| format!(", loss factor {loss}"));
+        text.say(&one.name, &format!("{storage}{loss} (where ok)"));
+    }
+}
+
+/// Least and greatest of a number where ok.
+fn range(job: &IdentifyJob, number: &dyn Fn(&Line) -> Option<f64>) -> Option<(f64, f64)> {
+    let ok = job.run.found.lines.iter().filter(|line| line.status == Status::Ok);
+    ok.filter_map(number).fold(None, |range, v| {
+        Some(range.map_or((v, v), |(low, high): (f64, f64)| (low.min(v), high.max(v))))
     })
 }
 
-/// What is known of the noise, and what speaks against sensors or model: whether it must not be missed, what it is about, and a sentence.
-fn doubts(job: &IdentifyJob) -> Vec<(bool, &'static str, String)> {
-    let run = &job.run;
-    let mut lines = Vec::new();
-    if let Some(level) = run.found.noise.level {
-        let known = run.found.lines.iter().filter(|outcome| outcome.status == Status::Ok);
-        let relative = known.filter_map(|o| Some(o.uncertainty()?.correction_std / o.factor()?.norm()));
-        let mut relative: Vec<f64> = relative.collect();
-        relative.sort_by(f64::total_cmp);
-        let bar = relative.get(relative.len() / 2).map_or(String::new(), |median| {
-            format!("; standard deviation of the factor {} (median where ok)", percent_of(*median))
-        });
-        let source = match run.found.noise.source {
-            NoiseSource::Given => "as given".to_owned(),
-            NoiseSource::Sensors => format!("{level:.1e} of what is assumed, from the misfit of the sensors"),
-            NoiseSource::Scatter => {
-                format!("{level:.1e} of what is assumed, from the scatter of the answers")
-            }
-            NoiseSource::Curve => {
-                format!("{level:.1e} of what is assumed, from what the smooth curve leaves")
-            }
-            other => other.name().to_owned(),
-        };
-        lines.push((false, "noise", format!("{source}{bar}")));
+/// A number that holds for the band, with its standard deviation.
+fn number(number: &Number) -> String {
+    let name = if number.name == "value" { String::new() } else { format!("{} ", number.name) };
+    match number.std.filter(|std| std.is_finite()) {
+        Some(std) if std < number.value.abs() => format!("{name}{:.6e} ± {std:.1e}", number.value),
+        Some(_) => format!("{name}{:.2e}, not identifiable", number.value),
+        None => format!("{name}{:.6e}", number.value),
     }
-    if let Some(errors) = &run.found.model_errors {
-        lines.push((true, "model errors", model_errors(job, errors)));
+}
+
+/// Why what holds for the band is not trusted.
+fn doubt_of(band: &BandValue) -> &'static str {
+    match band.status {
+        Status::Ok => "",
+        _ if band.at_bound => " (at its bounds: the measurements ask for a value beyond them)",
+        Status::NoRoot => " (no value within the bounds solves the equations)",
+        Status::Unexplained => " (the model does not explain the measurements)",
+        Status::Failed => " (the search did not converge)",
+        _ => " (not identifiable from these measurements)",
     }
-    if let Some(sentence) = leverage(job) {
-        lines.push((false, "leverage", sentence));
+}
+
+fn error(text: &mut Text, job: &IdentifyJob) {
+    if let Some((_, high)) = range(job, &|line| line.error) {
+        text.say("error", &format!("at most {high:.1e} (where ok)"));
     }
-    lines.extend(contradictions(job).map(|sentence| (true, "sensor", sentence)));
-    lines.extend(channels(job));
-    match run.found.fit {
-        Some(fit) if fit.verdict == Explained::No => {
-            let left = run.found.sensors.iter().filter(|sensor| !sensor.left_out).count();
+}
+
+/// What is known of the noise, and what speaks against sensors or model.
+fn doubts(text: &mut Text, job: &IdentifyJob, identify: &IdentifyCase) {
+    let found = &job.run.found;
+    noise(text, job);
+    if let Some(errors) = &found.model_errors {
+        text.warn("model errors", &model_errors(job, errors));
+    }
+    leverage(job).iter().for_each(|sentence| text.say("leverage", sentence));
+    contradictions(text, job);
+    channels(text, job, identify);
+    fit(text, job);
+    if !found.search.converged {
+        text.warn("search", "did not settle: more frequencies, sensors or narrower bounds may help");
+    }
+    let largest = found.lines.iter().filter_map(|line| line.spectral_radius).reduce(f64::max);
+    if let Some(radius) = largest {
+        text.say("spectral radius", &format!("up to {radius:.4}"));
+    }
+}
+
+fn noise(text: &mut Text, job: &IdentifyJob) {
+    let found = &job.run.found;
+    let Some(level) = found.noise.level else { return };
+    let of_the_only = |line: &Line| match line.values[..] {
+        [value] => Some(value.uncertainty?.correction_std / value.value?.norm()),
+        _ => None,
+    };
+    let ok = found.lines.iter().filter(|line| line.status == Status::Ok);
+    let mut relative: Vec<f64> = ok.filter_map(of_the_only).collect();
+    relative.sort_by(f64::total_cmp);
+    let bar = relative.get(relative.len() / 2).map_or(String::new(), |median| {
+        format!("; standard deviation of the factor {} (median where ok)", percent_of(*median))
+    });
+    let source = match found.noise.source {
+        NoiseSource::Given => "as given".to_owned(),
+        NoiseSource::Sensors => format!("{level:.1e} of what is assumed, from the misfit of the sensors"),
+        NoiseSource::Scatter => format!("{level:.1e} of what is assumed, from the scatter of the answers"),
+        NoiseSource::Curve => {
+            format!("{level:.1e} of what is assumed, from what the smooth curve leaves")
+        }
+        _ => "unknown".to_owned(),
+    };
+    text.say("noise", &format!("{source}{bar}"));
+}
+
+/// The sensors that contradict all others, and what was done with them.
+fn contradictions(text: &mut Text, job: &IdentifyJob) {
+    let fits = job.case.sensors.iter().zip(&job.run.found.sensors).filter(|(_, fit)| fit.contradicts);
+    for (sensor, fit) in fits {
+        let done = if fit.left_out { "left out" } else { "kept, as reject_outliers = false says" };
+        text.warn("sensor", &format!("{} contradicts all others: {done}", sensor.label));
+    }
+}
+
+/// Whether noise is all that the model leaves.
+fn fit(text: &mut Text, job: &IdentifyJob) {
+    let found = &job.run.found;
+    let Some(fit) = found.fit else { return };
+    let per_freedom = fit.chi_squared / fit.freedom as f64;
+    match fit.verdict {
+        Explained::No => {
+            let left = found.sensors.iter().filter(|sensor| !sensor.left_out).count();
             let who = match left {
-                _ if !run.found.laws.is_empty() => "the law, or the model, cannot explain the measurements",
+                _ if !found.laws.is_empty() => "the law, or the model, cannot explain the measurements",
                 2 => {
                     "the two sensors contradict one another, or the model cannot explain them; two cannot tell which"
                 }
                 _ => "the model cannot explain the measurements",
             };
-            let told = match run.found.noise.source {
-                NoiseSource::Given => {
-                    format!(" (χ² is {:.1} times what noise gives)", fit.chi_squared / fit.freedom as f64)
-                }
-                _ => " (what is left over is no noise)".to_owned(),
+            let by = match found.noise.source {
+                NoiseSource::Given => format!("χ² is {per_freedom:.1} times what noise gives"),
+                _ => "what is left over is no noise".to_owned(),
             };
-            lines.push((true, "not explained", format!("{who}{told}")));
+            text.warn("not explained", &format!("{who} ({by})"));
         }
-        Some(fit) if fit.verdict == Explained::Nearly => {
-            let times = (fit.chi_squared / fit.freedom as f64).sqrt();
-            lines.push((
-                true,
-                "fit",
-                format!("misfit {times:.2} times the given noise: error bars may be too short by that"),
-            ));
+        Explained::Nearly => {
+            let times = per_freedom.sqrt();
+            let sentence =
+                format!("misfit {times:.2} times the given noise: error bars may be too short by that");
+            text.warn("fit", &sentence);
+        }
+        Explained::Yes => {
+            let sentence =
+                format!("explained (χ² {:.4e} with {} degrees of freedom)", fit.chi_squared, fit.freedom);
+            text.say("fit", &sentence);
         }
         _ => {}
     }
-    lines
+}
+
+/// Where values are not ok.
+fn bands(text: &mut Text, job: &IdentifyJob) {
+    for status in Status::ALL.into_iter().filter(|&status| status != Status::Ok) {
+        let bands = job.run.bands_hz(status);
+        if !bands.is_empty() {
+            // What the user left out is no surprise.
+            text.add(status != Status::OutOfBand, status.name(), &bands_hz(&bands));
+        }
+    }
+}
+
+/// How near an unknown is to what a simulated measurement was made with.
+fn reference(text: &mut Text, job: &IdentifyJob, identify: &IdentifyCase, j: usize) {
+    let reference = &job.summary["unknowns"][j]["reference"];
+    let number = |pointer: &str| reference.pointer(pointer).and_then(Value::as_f64);
+    let one = &identify.unknowns[j];
+    if one.varies == Variation::Constant {
+        let Some(off) = number("/relative") else { return };
+        let deviations =
+            number("/deviations").map_or(String::new(), |d| format!(", {d:.1} of its deviations"));
+        text.say("reference", &format!("{}: {off:.1e} off{deviations}", one.name));
+        return;
+    }
+    let Some(all) = number("/fraction_right") else { return };
+    let of_ok = number("/fraction_right_of_ok").map_or(String::new(), |f| format!(", {} of ok", percent(f)));
+    let off = match number("/deviation/max_ok") {
+        Some(off) if all < 1.0 => format!("; off by at most {off:.1e} where ok"),
+        _ => String::new(),
+    };
+    let who = if identify.unknowns.len() == 1 { String::new() } else { format!("{}: ", one.name) };
+    let within = number("/within").map_or(String::new(), |within| format!("; within {within:e}"));
+    let sentence = format!("{who}{} of all{of_ok} (the reference is known{within}{off})", percent(all));
+    text.say("right", &sentence);
+}
+
+fn work(text: &mut Text, job: &IdentifyJob) {
+    let found = &job.run.found;
+    let (work, seconds) = (&found.search.work, job.run.seconds.identify());
+    text.say(
+        "work",
+        &format!("{} factorisations, {} solves, {seconds:.2} s", work.factorisations, work.solves),
+    );
+    if let (Some(size), Some(error)) = (found.search.reduced_size, found.reduction_error()) {
+        let sentence = format!("{size} vectors, error of the response at most {error:.1e} (estimated)");
+        text.say("subspace", &sentence);
+    }
+    if let Some(curve) = &found.curve {
+        smooth(text, curve);
+    }
+}
+
+fn smooth(text: &mut Text, curve: &SmoothCurve) {
+    let SmoothCurve { parameters, width_octaves, .. } = curve;
+    let settled = if curve.converged { "" } else { ", not settled" };
+    let odd = match curve.unexplained {
+        0 => String::new(),
+        count => format!("; {count} frequencies that it does not explain have no say in it"),
+    };
+    let sentence = format!("{parameters:.1} parameters, one for {width_octaves:.2} octaves{settled}{odd}");
+    text.add(!curve.converged || curve.unexplained > 0, "smooth", &sentence);
+}
+
+fn wrote(text: &mut Text, job: &IdentifyJob, identify: &IdentifyCase, out: &Path) {
+    let free = if job.run.found.free.is_empty() { "" } else { "free.csv, " };
+    let law = if identify.is_law() { "law.json, " } else { "" };
+    let sentence = format!(
+        "{}: identified.csv, {free}{law}candidates.csv, response.csv, updated.uff, summary.json, figures/, report.html",
+        out.display()
+    );
+    text.say("wrote", &sentence);
 }
 
 /// The errors of the model that are taken out of the values, and are in their error bars.
@@ -266,7 +348,11 @@ fn model_errors(job: &IdentifyJob, errors: &ModelErrorsFound) -> String {
         true => "known factors are".to_owned(),
         false => format!("natural frequencies {frequency:.2} %, mode shapes {shape:.1} %:"),
     };
-    let known = known.collect::<String>();
+    let masses = job.case.sensors.iter().zip(&errors.masses).filter(|(_, one)| one.mass > 2.0 * one.std);
+    let masses = masses.map(|(sensor, one)| {
+        format!("; {} carries {:.1e} ± {:.1e} kg that the model lacks", sensor.label, one.mass, one.std)
+    });
+    let known = known.chain(masses).collect::<String>();
     format!("{sizes} taken out, and in the error bars{}{known}", worst.unwrap_or_default())
 }
 
@@ -285,28 +371,23 @@ fn leverage(job: &IdentifyJob) -> Option<String> {
 }
 
 /// What was found of channels whose scale or delay was unknown.
-fn channels(job: &IdentifyJob) -> Vec<(bool, &'static str, String)> {
-    let unknown = job.identify().map_or(&[][..], |identify| identify.channels.as_slice());
-    let mut lines = Vec::new();
-    for ((sensor, unknown), found) in job.case.sensors.iter().zip(unknown).zip(&job.run.found.channels) {
-        let mut tell = |label, found: Option<Calibrated>, what: &str| {
-            let told = match found {
-                Some(Calibrated { value, std }) => {
-                    let std = std.map_or(String::new(), |std| format!(" ± {std:.1e}"));
-                    format!("{value:.6e}{std} {what}, at {}", sensor.label)
-                }
-                None => format!("not identifiable, at {}: left out", sensor.label),
-            };
-            lines.push((found.is_none(), label, told));
+fn channels(text: &mut Text, job: &IdentifyJob, identify: &IdentifyCase) {
+    let all = job.case.sensors.iter().zip(&identify.channels).zip(&job.run.found.channels);
+    for ((sensor, unknown), found) in all {
+        let mut add = |label, found: Option<Calibrated>, what: &str| match found {
+            Some(Calibrated { value, std }) => {
+                let std = std.map_or(String::new(), |std| format!(" ± {std:.1e}"));
+                text.say(label, &format!("{value:.6e}{std} {what}, at {}", sensor.label));
+            }
+            None => text.warn(label, &format!("not identifiable, at {}: left out", sensor.label)),
         };
         if unknown.scale {
-            tell("scale", found.scale, "times what the file says");
+            add("scale", found.scale, "times what the file says");
         }
         if unknown.delay {
-            tell("delay", found.delay_s, "s late");
+            add("delay", found.delay_s, "s late");
         }
     }
-    lines
 }
 
 /// With as many digits as an error bar deserves.

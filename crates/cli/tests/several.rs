@@ -61,11 +61,11 @@ fn modulus_and_density_of_a_plate() {
         assert!((found / exact - 1.0).abs() < 1e-6, "{found} for {exact}");
     }
     assert_eq!(summary["trusted"], true);
-    assert_eq!(summary["not_told"], serde_json::json!([]));
+    assert_eq!(summary["not_identifiable"], serde_json::json!([]));
     assert!(summary["counts"]["factorisations"].as_u64().unwrap() <= 2, "{}", summary["counts"]);
     let table = std::fs::read_to_string(folder.path().join("out/identified.csv")).unwrap();
     assert!(column(&table, "status").iter().all(|status| status == "ok"));
-    assert_eq!(column(&table, "density.value").len(), column(&table, "plate.storage").len());
+    assert_eq!(column(&table, "density.storage").len(), column(&table, "plate.storage").len());
     for file in ["response.csv", "updated.uff", "figures/accelerance.svg"] {
         assert!(folder.path().join("out").join(file).exists(), "{file}");
     }

@@ -19,7 +19,10 @@ fn identify_writes_what_report_makes_of_the_folder() {
     assert!(said.contains("report.html"), "{said}");
     let out = folder.path().join("out");
     let summary: Value = serde_json::from_str(&read(&out, "summary.json")).unwrap();
-    assert_eq!(summary["tables"], serde_json::json!(["identified.csv", "reference.csv", "response.csv"]));
+    assert_eq!(
+        summary["tables"],
+        serde_json::json!(["identified.csv", "candidates.csv", "reference.csv", "response.csv"])
+    );
     let page = read(&out, "report.html");
     for told in [
         "Can be used",
@@ -31,7 +34,7 @@ fn identify_writes_what_report_makes_of_the_folder() {
     }
     std::fs::remove_file(out.join("report.html")).unwrap();
     // Tables of another run in the same folder are none of this one.
-    std::fs::write(out.join("candidates.csv"), "no table").unwrap();
+    std::fs::write(out.join("free.csv"), "no table").unwrap();
     let said = done(folder.path(), &["report", "out"]);
     assert!(said.contains("wrote out/report.html"), "{said}");
     assert!(read(&out, "report.html") == page, "the page of the folder is another");

@@ -3,15 +3,14 @@
 use crate::background::in_background;
 use crate::columns::identification;
 use crate::errors::job;
-use crate::several::several;
 use frfit_workflow::job::{Computed, IdentifyJob, compute_case, identify_case};
-use frfit_workflow::load::{Layout, Overrides};
+use frfit_workflow::load::Overrides;
 use frfit_workflow::run::RunOptions;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::path::PathBuf;
 
-/// What `frfit.Identification` is made of, or with a key `unknowns` `frfit.SeveralIdentification`; with `out` the files of `frfit identify` too.
+/// What `frfit.Identification` is made of; with `out` the files of `frfit identify` too.
 #[pyfunction]
 #[expect(clippy::too_many_arguments, reason = "those of the command line")]
 pub(crate) fn run_case<'py>(
@@ -42,8 +41,5 @@ pub(crate) fn run_case<'py>(
         Ok(computed)
     })?;
     let computed = ran.map_err(|error| job(py, &error))?;
-    match computed.case.identify.as_ref().map(|identify| identify.layout) {
-        Some(Layout::Named) => several(py, &computed),
-        _ => identification(py, &computed),
-    }
+    identification(py, &computed)
 }

@@ -1,11 +1,11 @@
 //! What came out, as arrays: the columns of `identified.csv`, NaN where a cell is empty.
 
 use frfit::c64;
-use frfit::identify::{Calibrated, Calibration, Line, Variation};
+use frfit::identify::{Calibration, Direction, Identifiability, Line, LineValue, Variation};
 use frfit_workflow::job::Computed;
-use frfit_workflow::output::{laws_json, smooth_json};
-use frfit_workflow::units::FactorUnit;
-use numpy::{Complex64, Element, IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
+use frfit_workflow::load::IdentifyCase;
+use frfit_workflow::output::{coordinate, laws_json, not_identifiable, smooth_json};
+use numpy::{Element, IntoPyArray, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 
@@ -26,110 +26,174 @@ pub(crate) fn table<T: Element + Clone>(
 /// Everything that `frfit.Identification` is made of.
 pub(crate) fn identification<'py>(py: Python<'py>, computed: &Computed) -> PyResult<Bound<'py, PyDict>> {
     let (case, run) = (&computed.case, &computed.run);
-    let found = outcomes(py, &run.found.lines)?;
-    let sensors = case.sensors.len();
+    let identify = case.identify.as_ref().expect("what was computed has something to identify");
+    let found = lines(py, &run.found.lines)?;
+    let unknowns = (0..identify.unknowns.len()).map(|j| estimate(py, computed, identify, j));
+    found.set_item("unknowns", PyList::new(py, unknowns.collect::<PyResult<Vec<_>>>()?)?)?;
+    responses(&found, computed, identify)?;
+    sensors(&found, computed)?;
+    search(&found, computed)?;
+    identifiability(&found, computed, identify)?;
+    found.set_item("title", &case.title)?;
+    found.set_item("findings", findings(py, computed)?)?;
+    let parsed = |json: Option<serde_json::Value>| {
+        json.map(|json| py.import("json")?.call_method1("loads", (json.to_string(),))).transpose()
+    };
+    let laws = identify.is_law().then(|| laws_json(&run.found.laws, identify.units[0], case.units));
+    found.set_item("laws", parsed(laws)?)?;
+    found.set_item("smooth", parsed(run.found.curve.as_ref().map(smooth_json))?)?;
+    Ok(found)
+}
+
+/// A column of real numbers.
+fn reals<'py>(
+    found: &Bound<'py, PyDict>,
+    name: &str,
+    column: impl Iterator<Item = Option<f64>>,
+) -> PyResult<()> {
+    let column: Vec<f64> = column.map(|value| value.unwrap_or(f64::NAN)).collect();
+    found.set_item(name, column.into_pyarray(found.py()))
+}
+
+/// What a frequency has.
+fn lines<'py>(py: Python<'py>, lines: &[Line]) -> PyResult<Bound<'py, PyDict>> {
+    let found = PyDict::new(py);
+    let real = |name: &str, of: fn(&Line) -> Option<f64>| reals(&found, name, lines.iter().map(of));
+    real("frequency_hz", |line| Some(line.frequency_hz))?;
+    real("error", |line| line.error)?;
+    real("spectral_radius", |line| line.spectral_radius)?;
+    real("convergence_radius", |line| line.convergence_radius())?;
+    real("required_order", |line| line.required_order.map(|order| order as f64))?;
+    real("reduction_error", |line| line.reduction_error)?;
+    real("chi2", |line| line.chi_squared)?;
+    let count = |of: fn(&Line) -> usize| {
+        let column: Result<Vec<i64>, _> = lines.iter().map(|line| i64::try_from(of(line))).collect();
+        column.map(|column| column.into_pyarray(py))
+    };
+    found.set_item("order", count(|line| line.order)?)?;
+    found.set_item("candidate_count", count(Line::candidate_count)?)?;
+    found.set_item("status", lines.iter().map(|line| line.status.name()).collect::<Vec<_>>())?;
+    Ok(found)
+}
+
+/// Everything that `frfit.Estimate` is made of: what was found of the j-th unknown.
+fn estimate<'py>(
+    py: Python<'py>,
+    computed: &Computed,
+    identify: &IdentifyCase,
+    j: usize,
+) -> PyResult<Bound<'py, PyDict>> {
+    let (one, run) = (&identify.unknowns[j], &computed.run.found);
+    let found = PyDict::new(py);
+    let laws = match &one.varies {
+        Variation::Law(laws) => laws.as_slice(),
+        _ => &[],
+    };
+    found.set_item("name", &one.name)?;
+    found.set_item("matrices", identify.matrices(&computed.case.model, j))?;
+    found.set_item("varies", identify.varies(j))?;
+    found.set_item("law", laws.iter().map(ToString::to_string).collect::<Vec<_>>())?;
+    found.set_item("real", one.real)?;
+    let values = || run.lines.iter().map(|line| &line.values[j]);
+    let complex = |name: &str, of: fn(&LineValue) -> Option<c64>| {
+        let column: Vec<c64> = values().map(|value| of(value).unwrap_or(NOTHING)).collect();
+        found.set_item(name, column.into_pyarray(py))
+    };
+    complex("factor", |value| value.value)?;
+    complex("nominal", |value| Some(value.nominal))?;
+    complex("correction", |value| value.correction)?;
+    let real = |name: &str, of: fn(&LineValue) -> Option<f64>| reals(&found, name, values().map(of));
+    real("storage", LineValue::storage)?;
+    real("loss_factor", LineValue::loss_factor)?;
+    real("storage_std", |value| Some(value.uncertainty?.storage_std))?;
+    real("loss_factor_std", |value| value.uncertainty?.loss_factor_std)?;
+    real("storage_loss_correlation", |value| value.uncertainty?.correlation)?;
+    let rivals =
+        |line: &Line| line.rivals.iter().map(|rival| rival[j]).collect::<Vec<c64>>().into_pyarray(py);
+    found.set_item("alternatives", run.lines.iter().map(rivals).collect::<Vec<_>>())?;
+    let band = run.constants.iter().find(|value| value.unknowns == j);
+    let numbers: Vec<(&str, f64, f64)> = (band.into_iter().flat_map(|band| &band.numbers))
+        .map(|number| (number.name.as_str(), number.value, number.std.unwrap_or(f64::NAN)))
+        .collect();
+    found.set_item("numbers", numbers)?;
+    found.set_item("status", band.map(|band| band.status.name()))?;
+    Ok(found)
+}
+
+fn responses(found: &Bound<'_, PyDict>, computed: &Computed, identify: &IdentifyCase) -> PyResult<()> {
+    let (py, run, sensors) = (found.py(), &computed.run, computed.case.sensors.len());
     let response = |of: fn(&Line) -> &Vec<c64>| {
-        let rows = run.found.lines.iter().map(|outcome| match of(outcome) {
+        let rows = run.found.lines.iter().map(|line| match of(line) {
             values if values.len() == sensors => values.clone(),
             _ => vec![NOTHING; sensors],
         });
         table(py, rows, sensors)
     };
-    found.set_item("nominal_response", response(|outcome| &outcome.nominal_response)?)?;
-    found.set_item("updated_response", response(|outcome| &outcome.updated_response)?)?;
-    if let Some(identify) = &case.identify {
-        let rows = identify.frequency_hz.iter().zip(&identify.measured);
-        let measured = rows.map(|(&frequency_hz, row)| run.measured(frequency_hz, row));
-        found.set_item("measured_response", table(py, measured, sensors)?)?;
-        found.set_item("matrices", identify.matrices(&case.model))?;
-    }
-    let labels: Vec<&str> = case.sensors.iter().map(|sensor| sensor.label.as_str()).collect();
+    found.set_item("nominal_response", response(|line| &line.nominal_response)?)?;
+    found.set_item("updated_response", response(|line| &line.updated_response)?)?;
+    let rows = identify.frequency_hz.iter().zip(&identify.measured);
+    let measured = rows.map(|(&frequency_hz, row)| run.measured(frequency_hz, row));
+    found.set_item("measured_response", table(py, measured, sensors)?)
+}
+
+fn sensors(found: &Bound<'_, PyDict>, computed: &Computed) -> PyResult<()> {
+    let run = &computed.run.found;
+    let labels: Vec<&str> = computed.case.sensors.iter().map(|sensor| sensor.label.as_str()).collect();
     found.set_item("sensors", labels)?;
-    found.set_item("title", &case.title)?;
-    found.set_item("noise", run.found.noise.level)?;
-    found.set_item("noise_source", run.found.noise.source.name())?;
-    found.set_item("explored", run.found.search.explored)?;
-    found.set_item("subspace_size", run.found.search.reduced_size)?;
-    found.set_item("factorisations", run.found.search.work.factorisations)?;
-    found.set_item("solves", run.found.search.work.solves)?;
-    found.set_item("seconds", run.seconds.identify())?;
-    found.set_item("explained", run.found.fit.map(|fit| fit.verdict.name()))?;
-    let misfit: Vec<f64> = run.found.sensors.iter().map(|fit| fit.misfit.unwrap_or(f64::NAN)).collect();
-    found.set_item("sensor_misfit", misfit.into_pyarray(py))?;
-    let left_out: Vec<bool> = run.found.sensors.iter().map(|fit| fit.left_out).collect();
-    found.set_item("sensor_left_out", left_out.into_pyarray(py))?;
-    let calibrated = |name: &str, of: &dyn Fn(&Calibration) -> Option<f64>| {
-        let column: Vec<f64> =
-            run.found.channels.iter().map(|channel| of(channel).unwrap_or(f64::NAN)).collect();
-        found.set_item(name, column.into_pyarray(py))
+    reals(found, "sensor_misfit", run.sensors.iter().map(|fit| fit.misfit))?;
+    let left_out: Vec<bool> = run.sensors.iter().map(|fit| fit.left_out).collect();
+    found.set_item("sensor_left_out", left_out.into_pyarray(found.py()))?;
+    let calibrated =
+        |name: &str, of: fn(&Calibration) -> Option<f64>| reals(found, name, run.channels.iter().map(of));
+    calibrated("sensor_scale", |channel| Some(channel.scale?.value))?;
+    calibrated("sensor_scale_std", |channel| channel.scale?.std)?;
+    calibrated("sensor_delay_s", |channel| Some(channel.delay_s?.value))?;
+    calibrated("sensor_delay_s_std", |channel| channel.delay_s?.std)
+}
+
+fn search(found: &Bound<'_, PyDict>, computed: &Computed) -> PyResult<()> {
+    let run = &computed.run.found;
+    found.set_item("noise", run.noise.level)?;
+    found.set_item("noise_source", run.noise.source.name())?;
+    found.set_item("explained", run.fit.map(|fit| fit.verdict.name()))?;
+    found.set_item("is_trusted", run.is_trusted())?;
+    found.set_item("converged", run.search.converged)?;
+    found.set_item("starts", run.search.starts)?;
+    found.set_item("agreeing", run.search.agreeing)?;
+    found.set_item("explored", run.search.explored)?;
+    found.set_item("subspace_size", run.search.reduced_size)?;
+    found.set_item("factorisations", run.search.work.factorisations)?;
+    found.set_item("solves", run.search.work.solves)?;
+    found.set_item("seconds", computed.run.seconds.identify())
+}
+
+fn identifiability(found: &Bound<'_, PyDict>, computed: &Computed, identify: &IdentifyCase) -> PyResult<()> {
+    let (py, run) = (found.py(), &computed.run.found);
+    let Identifiability { coordinates, correlation, directions, profile } = &run.identifiability;
+    let name = |c: usize| coordinate(identify, run, c);
+    found.set_item("coordinates", (0..coordinates.len()).map(name).collect::<Vec<_>>())?;
+    found.set_item("correlation", table(py, correlation.iter().cloned(), coordinates.len())?)?;
+    let direction = |one: &Direction| {
+        let weights: Vec<(String, f64)> = one.weights.iter().map(|&(c, weight)| (name(c), weight)).collect();
+        (one.std, weights)
     };
-    let value = |found: Calibrated| found.value;
-    calibrated("sensor_scale", &|channel| channel.scale.map(value))?;
-    calibrated("sensor_scale_std", &|channel| channel.scale?.std)?;
-    calibrated("sensor_delay_s", &|channel| channel.delay_s.map(value))?;
-    calibrated("sensor_delay_s_std", &|channel| channel.delay_s?.std)?;
-    let told = PyList::empty(py);
+    found.set_item("directions", directions.iter().map(direction).collect::<Vec<_>>())?;
+    found.set_item("not_identifiable", not_identifiable(identify, run))?;
+    let profile = profile.as_ref().map_or(&[][..], |profile| &profile.points);
+    found.set_item("profile", table(py, profile.iter().map(|&(x, y)| vec![x, y]), 2)?)
+}
+
+fn findings<'py>(py: Python<'py>, computed: &Computed) -> PyResult<Bound<'py, PyList>> {
+    let findings = PyList::empty(py);
     let diagnosis = computed.diagnosis.as_ref();
-    for finding in diagnosis.map(|d| frfit_workflow::check::told(case, d)).unwrap_or_default() {
+    for finding in diagnosis.map(|d| frfit_workflow::check::told(&computed.case, d)).unwrap_or_default() {
         let one = PyDict::new(py);
         one.set_item("kind", finding.kind)?;
         one.set_item("sensors", finding.sensors)?;
         one.set_item("what", finding.what)?;
         one.set_item("evidence", finding.evidence)?;
         one.set_item("change", finding.change)?;
-        told.append(one)?;
+        findings.append(one)?;
     }
-    found.set_item("findings", told)?;
-    let parsed = |json: Option<serde_json::Value>| {
-        json.map(|json| py.import("json")?.call_method1("loads", (json.to_string(),))).transpose()
-    };
-    let unit = case.identify.as_ref().map_or(FactorUnit::Other, |identify| identify.units[0]);
-    let by_law = case
-        .identify
-        .as_ref()
-        .is_some_and(|identify| matches!(identify.unknowns[0].varies, Variation::Law(_)));
-    found.set_item("laws", parsed(by_law.then(|| laws_json(&run.found.laws, unit, case.units)))?)?;
-    found.set_item("smooth", parsed(run.found.curve.as_ref().map(smooth_json))?)?;
-    Ok(found)
-}
-
-fn outcomes<'py>(py: Python<'py>, outcomes: &[Line]) -> PyResult<Bound<'py, PyDict>> {
-    let found = PyDict::new(py);
-    let real = |name: &str, of: &dyn Fn(&Line) -> Option<f64>| {
-        let column: Vec<f64> = outcomes.iter().map(|outcome| of(outcome).unwrap_or(f64::NAN)).collect();
-        found.set_item(name, column.into_pyarray(py))
-    };
-    let complex = |of: &dyn Fn(&Line) -> Option<c64>| -> Bound<'py, PyArray1<Complex64>> {
-        let column: Vec<c64> = outcomes.iter().map(|outcome| of(outcome).unwrap_or(NOTHING)).collect();
-        column.into_pyarray(py)
-    };
-    real("frequency_hz", &|o| Some(o.frequency_hz))?;
-    real("storage", &|o| o.storage())?;
-    real("loss_factor", &|o| o.loss_factor())?;
-    found.set_item("factor", complex(&|o| o.factor()))?;
-    found.set_item("nominal", complex(&|o| Some(o.nominal())))?;
-    found.set_item("correction", complex(&|o| o.correction()))?;
-    real("error", &|o| o.error)?;
-    real("spectral_radius", &|o| o.spectral_radius)?;
-    real("convergence_radius", &|o| o.convergence_radius())?;
-    real("required_order", &|o| o.required_order.map(|order| order as f64))?;
-    real("reduction_error", &|o| o.reduction_error)?;
-    real("storage_std", &|o| o.uncertainty().map(|bars| bars.storage_std))?;
-    real("loss_factor_std", &|o| o.uncertainty().and_then(|bars| bars.loss_factor_std))?;
-    real("storage_loss_correlation", &|o| o.uncertainty().and_then(|bars| bars.correlation))?;
-    real("chi2", &|o| o.chi_squared)?;
-    let count = |of: &dyn Fn(&Line) -> usize| {
-        let column: Result<Vec<i64>, _> = outcomes.iter().map(|o| i64::try_from(of(o))).collect();
-        column.map(|column| column.into_pyarray(py))
-    };
-    found.set_item("order", count(&|o| o.order)?)?;
-    found.set_item("candidate_count", count(&|o| o.candidate_count())?)?;
-    let status: Vec<&str> = outcomes.iter().map(|outcome| outcome.status.name()).collect();
-    found.set_item("status", status)?;
-    let alternatives: Vec<_> = outcomes
-        .iter()
-        .map(|o| o.rivals.iter().map(|rival| rival[0]).collect::<Vec<c64>>().into_pyarray(py))
-        .collect();
-    found.set_item("alternatives", alternatives)?;
-    Ok(found)
+    Ok(findings)
 }

@@ -10,7 +10,7 @@ use frfit::model::Sensor;
 use frfit::quantity::Quantity;
 use frfit::roots::Bounds;
 use frfit_workflow::job::compute;
-use frfit_workflow::load::{Frf, MeasuredFrf, Wanted, case_of_arrays};
+use frfit_workflow::load::{Frf, MeasuredFrf, Wanted, WantedUnknown, case_of_arrays};
 use frfit_workflow::run::RunOptions;
 use numpy::{Complex64, PyReadonlyArray1};
 use pyo3::prelude::*;
@@ -38,7 +38,7 @@ pub(crate) struct Measured<'py> {
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 pub(crate) struct Options {
-    matrices: Vec<String>,
+    unknowns: Vec<Unknown>,
     band_hz: Option<[f64; 2]>,
     exclude_hz: Vec<[f64; 2]>,
     max_lines: Option<i64>,
@@ -46,16 +46,42 @@ pub(crate) struct Options {
     selection: Option<String>,
     reduction: Option<String>,
     order: Option<usize>,
-    storage: Option<[f64; 2]>,
-    loss_factor: Option<[f64; 2]>,
-    real: bool,
     start_at_bounds: bool,
     reject_outliers: Option<bool>,
     model_error: Option<KnownErrors>,
-    varies: Option<String>,
-    laws: Vec<String>,
     check: bool,
     memory_bytes: Option<u64>,
+}
+
+/// The fields of `frfit.Unknown`, by their names.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+struct Unknown {
+    name: Option<String>,
+    matrices: Vec<String>,
+    powers: Vec<(String, i32)>,
+    nominal: Option<f64>,
+    varies: Option<String>,
+    laws: Vec<String>,
+    storage: Option<[f64; 2]>,
+    loss_factor: Option<[f64; 2]>,
+    real: bool,
+}
+
+impl Unknown {
+    fn wanted(self, py: Python<'_>) -> PyResult<WantedUnknown> {
+        let laws = self.laws.iter().map(|word| word.parse::<LawKind>()).collect::<Result<Vec<_>, _>>();
+        Ok(WantedUnknown {
+            name: self.name,
+            matrices: self.matrices,
+            powers: self.powers,
+            nominal: self.nominal,
+            varies: self.varies,
+            laws: laws.map_err(|error| raise(py, "OptionsError", &format!("law: {error}")))?,
+            bounds: Bounds { storage: self.storage, loss_factor: self.loss_factor },
+            real: self.real,
+        })
+    }
 }
 
 /// `"estimated"`, `"none"`, the size of the errors of natural frequencies, or sizes by their names.
@@ -126,9 +152,9 @@ pub(crate) fn identify<'py>(
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let measured = measurements.into_iter().map(|one| one.frf(py)).collect::<PyResult<Vec<_>>>()?;
-    let laws = options.laws.iter().map(|word| word.parse::<LawKind>()).collect::<Result<Vec<_>, _>>();
+    let unknowns = options.unknowns.into_iter().map(|one| one.wanted(py)).collect::<PyResult<Vec<_>>>()?;
     let wanted = Wanted {
-        matrices: options.matrices,
+        unknowns,
         band_hz: options.band_hz,
         exclude_hz: options.exclude_hz,
         max_lines: options.max_lines,
@@ -136,13 +162,9 @@ pub(crate) fn identify<'py>(
         selection: options.selection,
         reduction: options.reduction,
         order: options.order,
-        bounds: Bounds { storage: options.storage, loss_factor: options.loss_factor },
-        real: options.real,
         start_at_bounds: options.start_at_bounds,
         reject_outliers: options.reject_outliers,
         model_errors: known_errors(py, options.model_error)?,
-        varies: options.varies,
-        laws: laws.map_err(|error| raise(py, "OptionsError", &format!("law: {error}")))?,
         check: options.check,
     };
     let case = case_of_arrays(Arc::clone(&model.0), load.as_array().to_vec(), measured, &wanted);

@@ -12,7 +12,6 @@ mod pool;
 mod report;
 mod respond;
 mod series;
-mod several;
 mod signal;
 mod uff;
 

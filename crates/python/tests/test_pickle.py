@@ -127,9 +127,11 @@ def test_results(chain, again, tmp_path):
 @every_way
 def test_results_of_a_case_with_several_unknowns(again):
     # As `run_case` makes one: what it is made of is plain, and none of it is left behind.
-    one = frfit.Unknown("E", "constant", False, *[F * (1 + 1j)] * 2, *[F] * 3, (frfit.Number("storage", 1.0, 0.1),), "ok")
-    values = {field.name: F for field in dataclasses.fields(frfit.SeveralIdentification)}
-    found = frfit.SeveralIdentification(**{**values, "unknowns": (one,), "directions": (frfit.Direction(1.0, {"E": 1.0}),)})
+    number = frfit.Number("storage", 1.0, 0.1)
+    one = {field.name: F for field in dataclasses.fields(frfit.Estimate)}
+    one = frfit.Estimate(**{**one, "name": "E", "varies": "constant", "numbers": (number,), "status": "ok"})
+    values = {field.name: F for field in dataclasses.fields(frfit.Identification)}
+    found = frfit.Identification(**{**values, "unknowns": (one,), "directions": (frfit.Direction(1.0, {"E": 1.0}),)})
     same(again(found), found)
 
 

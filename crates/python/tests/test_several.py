@@ -29,7 +29,6 @@ def test_numbers_are_those_of_the_command_line_bit_by_bit(cli, added_mass, found
     subprocess.run([cli, "identify", added_mass, "--out", out], check=True, capture_output=True)
     rows = table(out / "identified.csv")
     columns = found.columns()
-    assert isinstance(found, frfit.SeveralIdentification)
     assert len(rows) == len(found) > 100
     assert list(rows[0]) == list(columns)
     for name, column in columns.items():
@@ -45,15 +44,17 @@ def test_numbers_are_those_of_the_command_line_bit_by_bit(cli, added_mass, found
 def test_the_values_are_within_their_bars(found):
     mass, beam = found["component"], found["beam"]
     assert found.is_trusted and found.converged and found.ok.all() and found.explained == "explained"
-    assert found.not_told == ()
+    assert found.not_identifiable == ()
     for one, exact in [(mass, [0.065]), (beam, [6.9e10, 0.003])]:
         assert one.status == "ok" and len(one.numbers) == len(exact)
         for number, truth in zip(one.numbers, exact, strict=True):
             # The noise of the example is the same each time; beyond three deviations are 3 of 1000.
             assert abs(number.value - truth) < 3 * number.std < 0.02 * truth, number
-    assert mass.is_real and np.all(mass.value.imag == 0) and np.isnan(mass.loss_factor_std).all()
+    assert mass.real and np.all(mass.factor.imag == 0) and np.isnan(mass.loss_factor_std).all()
     with pytest.raises(KeyError, match="component, beam"):
         found["bean"]
+    with pytest.raises(AttributeError, match=r"expected found\[name\] with one of 'component', 'beam'"):
+        found.storage
 
 
 def test_correlation_and_directions_belong_to_the_coordinates(found):
@@ -83,7 +84,7 @@ def test_table_and_picture(found):
     assert isinstance(frame, pandas.DataFrame) and list(frame) == list(found.columns())
     matplotlib = pytest.importorskip("matplotlib")
     matplotlib.use("Agg")
-    assert len(found.plot()) == 2
+    assert len(found.plot()) == 3
     assert "component" in repr(found) and "component" in repr(found["component"])
 
 

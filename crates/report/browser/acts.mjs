@@ -40,8 +40,8 @@ export async function hover(page) {
     await page.locator(`#${id} .drawing`).scrollIntoViewIfNeeded();
     const told = await pointed(page, id);
     if (!/\d/.test(told)) wrong.push(`${id}: the pointer shows nothing`);
-    if (/plot-(accelerance|modulus(-\d+)?|candidates|error|error-map|radius|nyquist|cole-cole|wicket)$/.test(id) && !/Hz/.test(told)) wrong.push(`${id}: no Hz in ${JSON.stringify(told)}`);
-    if (/plot-(modulus|cole-cole)$/.test(id) && (await page.evaluate(() => JSON.parse(document.getElementById("data").textContent).names.unit)) && !/Pa/.test(told)) {
+    if (/plot-(accelerance|modulus(-\d+)?|candidates(-\d+)?|error|error-map|radius|nyquist|(cole-cole|wicket)(-\d+)?)$/.test(id) && !/Hz/.test(told)) wrong.push(`${id}: no Hz in ${JSON.stringify(told)}`);
+    if (/plot-(modulus|cole-cole)$/.test(id) && (await page.evaluate(() => JSON.parse(document.getElementById("data").textContent).unknowns[0].unit)) && !/Pa/.test(told)) {
       wrong.push(`${id}: no Pa in ${JSON.stringify(told)}`);
     }
   }

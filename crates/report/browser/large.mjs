@@ -42,7 +42,9 @@ frequencies.forEach((f, k) => {
 const summary = {
   frfit: "0.1.0", title: "Large: 10,000 frequencies and 8 sensors <script>alert(1)</script>", inputs: [], model: { dofs: 100000, nonzeros: 7000000, matrices: [{ name: "K", role: "stiffness" }] },
   sensors: Array.from({ length: SENSORS }, (_, m) => ({ label: `S${m + 1}`, quantity: "receptance", contradicts: false, left_out: false, misfit: 1 })),
-  identify: { matrix: ["K"], varies: "frequency", method: "rational", selection: "joint", real: false, band_hz: [10, 1010] },
+  identify: { method: "rational", selection: "joint", band_hz: [10, 1010] },
+  unknowns: [{ name: "K", matrices: ["K"], unit: "Pa", varies: "frequency", real: false, numbers: null, status: null, reference: null }],
+  coordinates: [], correlation: [], directions: [], not_identifiable: [], profile: null, search: { converged: true },
   status: statuses, frequencies: COUNT, findings: [], fit: { verdict: "explained", chi2_per_freedom: 1.01, freedom: 1000 }, noise: { source: "given" },
   counts: { subspace_size: 40 }, seconds: { identify: 3 }, tables: ["identified.csv", "candidates.csv", "response.csv", "reference.csv"],
 };

@@ -1,9 +1,7 @@
 //! What the plots and the table show, as JSON: numbers rounded to what can be seen, fewer of them where there are many.
 
-mod several;
-
 use crate::number::rounded;
-use crate::results::{Candidates, ErrorMap, Results, Sensor, Verdict as Kind};
+use crate::results::{Candidates, ErrorMap, Results, Sensor, Unknown, Verdict as Kind};
 use crate::thin::{every, rows};
 use crate::verdict::{Verdict, label};
 use frfit::c64;
@@ -55,44 +53,84 @@ pub(crate) fn data(results: &Results, verdict: &Verdict) -> Data {
     }
     let pick =
         |values: &[Option<f64>]| table.iter().map(|&row| rounded(values[row], DIGITS)).collect::<Vec<_>>();
+    let of_real = |name: &str| {
+        results.unknowns.iter().any(|one| one.real && name.starts_with(&one.column("loss_factor")))
+    };
     let columns: serde_json::Map<String, Value> = band
         .names()
-        .filter(|name| band.has(name) && !(verdict.names.real && name.starts_with("loss_factor")))
+        .filter(|name| band.has(name) && !of_real(name))
         .map(|name| (name.to_owned(), json!(pick(band.column(name)))))
         .collect();
-    let factor = |values: &[Option<c64>]| modulus(values, &table);
     // Positions in the table.
     let drawn: Vec<usize> = drawn.iter().filter_map(|row| table.binary_search(row).ok()).collect();
     let sensors = sensors(results, &mut notes);
-    let mut json = json!({
-        "names": {
-            "storage": verdict.names.storage, "unit": verdict.names.unit, "real": verdict.names.real,
-            "matrix": results.summary.names(),
-        },
-        "method": results.summary.word("/identify/method"),
-        "varies": results.summary.word("/identify/varies"),
+    let curves = results.curves();
+    let unknowns: Vec<Value> =
+        curves.map(|(suffix, j, one)| unknown(results, (&suffix, j, one), &table, &mut notes)).collect();
+    let json = json!({
+        "unknowns": unknowns,
+        "together": together(results),
         "statuses": Status::ALL.map(|status| json!({"name": status.name(), "label": label(status, verdict.own)})),
         "frequency_hz": table.iter().map(|&row| rounded(Some(band.frequency_hz[row]), FREQUENCY_DIGITS)).collect::<Vec<_>>(),
         "status": table.iter().map(|&row| band.class(row)).collect::<Vec<_>>(),
         "columns": columns,
         "nominal_error": pick(&verdict.nominal_error),
-        "nominal": factor(&results.reference.nominal),
-        "reference": factor(&results.reference.reference),
-        "free": results.free.as_ref().filter(|free| free.len() == band.len()).map(|free| json!({
-            "storage": pick(free.column("storage")),
-            "loss_factor": pick(free.column("loss_factor")),
-            "status": table.iter().map(|&row| free.class(row)).collect::<Vec<_>>(),
-        })),
         "drawn": drawn,
         "sensors": sensors,
-        "candidates": candidates(&results.candidates, &mut notes),
         "error_map": results.error_map.as_ref().map(error_map),
     });
-    if let Some(several) = &results.several {
-        json["unknowns"] = several::unknowns(several, &table).into();
-        json["together"] = several::together(results);
-    }
     Data { json, notes }
+}
+
+/// An unknown that is a curve over frequency: where its numbers are, and what they are compared with.
+fn unknown(
+    results: &Results,
+    (suffix, j, one): (&str, usize, &Unknown),
+    table: &[usize],
+    notes: &mut Vec<String>,
+) -> Value {
+    let parts =
+        ["storage", "storage_std", "loss_factor", "loss_factor_std", "correction_re", "correction_im"];
+    let columns: serde_json::Map<String, Value> =
+        parts.iter().map(|part| ((*part).to_owned(), one.column(part).into())).collect();
+    let free = results.free.as_ref().filter(|free| free.len() == results.band.len()).map(|free| {
+        let pick = |part: &str| {
+            let column = free.column(&one.column(part));
+            table.iter().map(|&row| rounded(column[row], DIGITS)).collect::<Vec<_>>()
+        };
+        json!({
+            "storage": pick("storage"),
+            "loss_factor": pick("loss_factor"),
+            "status": table.iter().map(|&row| free.class(row)).collect::<Vec<_>>(),
+        })
+    });
+    json!({
+        "suffix": suffix, "label": if one.prefix.is_empty() { "" } else { &one.name },
+        "real": one.real, "unit": one.unit(), "varies": one.varies, "columns": columns,
+        "nominal": modulus(&one.nominal, table), "reference": modulus(&one.reference, table),
+        "free": free, "candidates": candidates(&results.candidates, j, notes),
+    })
+}
+
+/// Correlation, and the misfit along the least identifiable direction beside what its error bar makes of it; null where no number holds for the band.
+fn together(results: &Results) -> Value {
+    let found = &results.identifiability;
+    if found.coordinates.is_empty() {
+        return Value::Null;
+    }
+    let std = found.least.as_ref().and_then(|least| least.std);
+    let numbers = |values: &mut dyn Iterator<Item = Option<f64>>| -> Vec<Value> {
+        values.map(|value| rounded(value, DIGITS)).collect()
+    };
+    json!({
+        "coordinates": found.coordinates,
+        "correlation": found.correlation.iter().map(|row| numbers(&mut row.iter().copied())).collect::<Vec<_>>(),
+        "profile": {
+            "distance": numbers(&mut found.profile.iter().map(|point| Some(point.0))),
+            "chi2": numbers(&mut found.profile.iter().map(|point| Some(point.1))),
+            "linear": numbers(&mut found.profile.iter().map(|point| Some((point.0 / std?).powi(2)))),
+        },
+    })
 }
 
 /// Storage modulus and loss factor at some rows; null where no row has any.
@@ -121,7 +159,7 @@ fn thinned(results: &Results, among: &[usize], most: usize) -> Vec<usize> {
 /// Whether a column is a value that was identified: `storage`, or `core.storage` of several unknowns.
 fn is_value(name: &str) -> bool {
     let part = name.rsplit('.').next().unwrap_or(name);
-    ["storage", "loss_factor", "value"].contains(&part)
+    ["storage", "loss_factor"].contains(&part)
 }
 
 fn sensors(results: &Results, notes: &mut Vec<String>) -> Vec<Value> {
@@ -176,23 +214,27 @@ fn one_sensor(sensor: &Sensor, frequency_hz: &[f64], most: usize) -> Value {
     })
 }
 
-/// The solutions of each kind but the chosen ones, which the table has.
-fn candidates(candidates: &Candidates, notes: &mut Vec<String>) -> Value {
+/// The solutions of each kind of the j-th unknown but the chosen ones, which the table has.
+fn candidates(candidates: &Candidates, j: usize, notes: &mut Vec<String>) -> Value {
+    let [storage, loss_factor] = &candidates.values[j];
     let mut of_kind = |kind: Kind, word: &str| {
         let all: Vec<usize> =
             (0..candidates.verdict.len()).filter(|&row| candidates.verdict[row] == kind).collect();
         let kept: Vec<usize> = every(all.len(), SOLUTIONS).map(|k| all[k]).collect();
         if kept.len() < all.len() {
-            notes.push(format!(
+            let note = format!(
                 "Of {} {word} solutions {} are drawn, at even steps; candidates.csv has all.",
                 all.len(),
                 kept.len()
-            ));
+            );
+            if !notes.contains(&note) {
+                notes.push(note);
+            }
         }
         json!({
             "frequency_hz": kept.iter().map(|&row| rounded(Some(candidates.frequency_hz[row]), FREQUENCY_DIGITS)).collect::<Vec<_>>(),
-            "storage": kept.iter().map(|&row| rounded(candidates.storage[row], DIGITS)).collect::<Vec<_>>(),
-            "loss_factor": kept.iter().map(|&row| rounded(candidates.loss_factor[row], DIGITS)).collect::<Vec<_>>(),
+            "storage": kept.iter().map(|&row| rounded(storage[row], DIGITS)).collect::<Vec<_>>(),
+            "loss_factor": kept.iter().map(|&row| rounded(loss_factor[row], DIGITS)).collect::<Vec<_>>(),
         })
     };
     json!({

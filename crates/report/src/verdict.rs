@@ -1,10 +1,7 @@
 //! What the results say, in words: can the answer be used, how sure is it, and why not elsewhere.
 
-mod several;
-
 use crate::number::{hertz, percent, significant, with_bar};
-use crate::results::{Band, Results, Sensor};
-use frfit::c64;
+use crate::results::{Band, Number, Results, Sensor, Unknown};
 use frfit::frequency::bands_hz;
 use frfit::identify::Status;
 
@@ -49,64 +46,24 @@ pub(crate) struct Verdict {
     pub(crate) shares: Vec<Share>,
     /// What a reader has to know before the numbers are used.
     pub(crate) cautions: Vec<String>,
-    pub(crate) names: Names,
     /// Whether a frequency has values of its own; else it is explained by those that hold for the band, or not.
     pub(crate) own: bool,
-    /// Frequency, value with bar, loss factor with bar, nominal value: at the lowest, the middle and the highest trusted frequency.
-    pub(crate) rows: Vec<[String; 4]>,
     /// ‖x − u‖/‖u‖ of the nominal model over the sensors that count, by frequency.
     pub(crate) nominal_error: Vec<Option<f64>>,
 }
 
-/// What the factor is called.
-#[derive(Debug, Clone)]
-pub(crate) struct Names {
-    /// `Storage modulus E′`, or what a real factor is.
-    pub(crate) storage: String,
-    /// The same in running text.
-    pub(crate) thing: String,
-    /// `Pa` or another unit of stress, or nothing where the factor is relative.
-    pub(crate) unit: String,
-    pub(crate) real: bool,
-}
-
-impl Names {
-    fn of(results: &Results) -> Self {
-        let summary = &results.summary;
-        // "1" is a number relative to the modulus that the matrix was made with; a factor of a mass or a damping has no unit that is known.
-        let unit = summary.word("/factor_unit");
-        let real = summary.real();
-        let (storage, thing, unit) = match (summary.role(), real, unit == "1") {
-            ("stiffness", false, false) => ("Storage modulus E′", "storage modulus", unit),
-            ("stiffness", false, true) => {
-                ("Storage modulus E′ (relative to the matrix)", "relative storage modulus", "")
-            }
-            ("stiffness", true, false) => ("Modulus E", "modulus", unit),
-            (_, false, _) => ("Real part of the factor", "factor", ""),
-            (_, true, _) => ("Factor", "factor", ""),
-        };
-        Self { storage: storage.into(), thing: thing.into(), unit: unit.into(), real }
-    }
-}
-
 impl Verdict {
     pub(crate) fn of(results: &Results) -> Self {
-        if let Some(several) = &results.several {
-            return several::verdict(results, several);
-        }
-        let names = Names::of(results);
         let nominal_error = nominal_error(results);
-        let shares = shares(&results.band, true);
-        let (level, headline) = level(results, &names);
+        let own = results.unknowns.iter().any(Unknown::is_free);
+        let (level, headline) = level(results);
         Self {
             level,
             headline,
-            tiles: tiles(results, &names, &nominal_error),
-            shares,
+            tiles: tiles(results, &nominal_error, own),
+            shares: shares(&results.band, own),
             cautions: cautions(results),
-            rows: rows(results, &names),
-            names,
-            own: true,
+            own,
             nominal_error,
         }
     }
@@ -117,50 +74,119 @@ fn trusted(band: &Band) -> (usize, usize) {
     (band.len() - band.count(Status::OutOfBand), band.count(Status::Ok))
 }
 
-fn level(results: &Results, names: &Names) -> (Level, String) {
+fn level(results: &Results) -> (Level, String) {
+    if let Some(why) = unusable(results) {
+        return (Level::Bad, why);
+    }
+    let claim = claim(results);
+    match doubt(results) {
+        Some(doubt) => (Level::Care, format!("{claim}{doubt}")),
+        None => (Level::Good, format!("{claim}, and all sensors are explained to the noise.")),
+    }
+}
+
+/// The unknowns of a kind, by their names.
+fn names(results: &Results, kind: impl Fn(&Unknown) -> bool) -> Vec<&str> {
+    results.unknowns.iter().filter(|one| kind(one)).map(|one| one.name.as_str()).collect()
+}
+
+fn is_known(one: &Unknown) -> bool {
+    !one.is_free() && one.status == Some(Status::Ok)
+}
+
+fn is_unknown(one: &Unknown) -> bool {
+    !one.is_free() && !is_known(one)
+}
+
+/// What was looked for: `storage modulus of core`, `values of core and skins`.
+fn what(results: &Results) -> String {
+    match &results.unknowns[..] {
+        [only] => format!("{} of {}", only.what()[1], only.name),
+        _ => format!("values of {}", listed(&names(results, |_| true))),
+    }
+}
+
+/// Why no value can be used.
+fn unusable(results: &Results) -> Option<String> {
+    let what = what(results);
+    if results.summary.word("/fit/verdict") == "not explained" {
+        return Some(format!("Do not use the {what} yet: the model cannot explain the measurements."));
+    }
+    let is_free = results.unknowns.iter().any(Unknown::is_free);
+    let (_, ok) = trusted(&results.band);
+    if results.unknowns.iter().any(is_known) || (is_free && ok > 0) {
+        return None;
+    }
+    let most = Status::ALL.into_iter().max_by_key(|&status| results.band.count(status));
+    let why = why_not(most.filter(|_| is_free).unwrap_or(Status::NotIdentifiable));
+    Some(match &results.unknowns[..] {
+        [only] if only.is_free() => format!("No frequency has a trusted {what}: {why}."),
+        _ => format!("No value of {} is trusted: {why}.", listed(&names(results, |_| true))),
+    })
+}
+
+/// What is known, and of how much of the band.
+fn claim(results: &Results) -> String {
     let (asked, ok) = trusted(&results.band);
-    let who = results.summary.names();
-    let fit = results.summary.word("/fit/verdict");
-    let part = percent(ok as f64 / asked.max(1) as f64);
-    if fit == "not explained" {
-        return (
-            Level::Bad,
-            format!(
-                "Do not use the {} of {who} yet: the model cannot explain the measurements.",
-                names.thing
-            ),
-        );
-    }
-    if ok == 0 {
-        let most = Status::ALL.into_iter().max_by_key(|&status| results.band.count(status));
-        let why = most.map_or("", why_not);
-        return (Level::Bad, format!("No frequency has a trusted {} of {who}: {why}.", names.thing));
-    }
-    let doubted = !results.summary.array("/findings").is_empty();
-    let told = format!("The {} of {who} is known at {ok} of {asked} frequencies ({part})", names.thing);
-    let most = ok as f64 >= MOST_OF_IT * asked as f64;
-    if doubted {
-        return (
-            Level::Care,
-            format!("{told}, but something is wrong with the data: see the findings first."),
-        );
-    }
-    if results.summary.word("/identify/selection") == "smallest" {
-        return (
-            Level::Care,
-            format!("{told} by the rule of the smallest correction, which no second look confirms."),
-        );
-    }
-    if contradicting(results) {
-        return (Level::Care, format!("{told}; a sensor contradicts the others."));
-    }
-    match (fit, most) {
-        ("explained", true) => (Level::Good, format!("{told} and explains all sensors to the noise.")),
-        ("explained", false) => (Level::Care, format!("{told}; elsewhere the measurement does not tell it.")),
-        ("nearly explained", _) => {
-            (Level::Care, format!("{told}; a little more than the given noise is left."))
+    let share = percent(ok as f64 / asked.max(1) as f64);
+    let part = format!("known at {ok} of {asked} frequencies ({share})");
+    match &results.unknowns[..] {
+        [only] if only.is_free() => format!("The {} is {part}", what(results)),
+        [_] => format!("The {} is known for the whole band", what(results)),
+        _ => {
+            let groups = [
+                (names(results, is_known), "known for the whole band"),
+                (names(results, is_unknown), "not"),
+                (names(results, Unknown::is_free), part.as_str()),
+            ];
+            let claim = |(names, how): &(Vec<&str>, &str)| {
+                format!("{} {} {how}", listed(names), if names.len() == 1 { "is" } else { "are" })
+            };
+            let there = groups.iter().filter(|(names, _)| !names.is_empty());
+            there.map(claim).collect::<Vec<_>>().join("; ")
         }
-        _ => (Level::Care, format!("{told}, but nothing independent tests the fit.")),
+    }
+}
+
+/// What speaks against some of it, or that nothing independent speaks for it.
+fn doubt(results: &Results) -> Option<&'static str> {
+    let (asked, ok) = trusted(&results.band);
+    let not_identifiable = !results.identifiability.not_identifiable.is_empty();
+    let doubts = [
+        (
+            !results.summary.array("/findings").is_empty(),
+            ", but something is wrong with the data: see the findings first.",
+        ),
+        (
+            results.summary.word("/identify/selection") == "smallest",
+            " by the rule of the smallest correction, which no second look confirms.",
+        ),
+        (contradicting(results), "; a sensor contradicts the others."),
+        (
+            not_identifiable || results.unknowns.iter().any(is_unknown),
+            ". Not everything is identifiable from the measurements: see below.",
+        ),
+        (!results.converged(), ", but the search for it did not settle."),
+    ];
+    if let Some((_, doubt)) = doubts.into_iter().find(|(holds, _)| *holds) {
+        return Some(doubt);
+    }
+    match (results.summary.word("/fit/verdict"), ok as f64 >= MOST_OF_IT * asked as f64) {
+        ("explained", true) => None,
+        ("explained", false) => {
+            Some("; elsewhere the value is not identifiable, or the measurements are not explained.")
+        }
+        ("nearly explained", _) => Some("; a little more than the given noise is left."),
+        _ => Some(", but nothing independent tests the fit."),
+    }
+}
+
+/// `a`, `a and b`, `a, b and c`.
+fn listed(names: &[&str]) -> String {
+    match names {
+        [] => String::new(),
+        [one] => (*one).to_owned(),
+        [first @ .., last] => format!("{} and {last}", first.join(", ")),
     }
 }
 
@@ -264,8 +290,14 @@ fn where_(bands: &[[f64; 2]]) -> String {
 
 fn cautions(results: &Results) -> Vec<String> {
     let summary = &results.summary;
-    let mut told = Vec::new();
-    let mut say = |text: String| told.push(text);
+    let mut cautions: Vec<String> = (results.identifiability.not_identifiable.iter())
+        .map(|sentence| format!("Not identifiable from these measurements: {sentence}."))
+        .collect();
+    if !results.converged() {
+        cautions
+            .push("The search did not settle. More frequencies, sensors or narrower bounds may help.".into());
+    }
+    let mut say = |text: String| cautions.push(text);
     for sensor in summary.array("/sensors") {
         let label = sensor.get("label").and_then(serde_json::Value::as_str).unwrap_or("");
         let flag = |key| sensor.get(key).and_then(serde_json::Value::as_bool) == Some(true);
@@ -287,16 +319,16 @@ fn cautions(results: &Results) -> Vec<String> {
                     with_bar(value, std, "")
                 ),
                 None => format!(
-                    "The {what} of sensor {label} was unknown, and the data do not tell it: it was left out."
+                    "The {what} of sensor {label} was unknown, and is not identifiable from the data: it was left out."
                 ),
             });
         }
     }
-    told.extend(doubt_of_fit(results));
+    cautions.extend(doubt_of_fit(results));
     if summary.word("/identify/selection") == "smallest" {
-        told.push("Of several solutions the one with the smallest correction was taken (selection = \"smallest\", the rule of the paper). It can be the wrong one, has no error bars, and selection = \"joint\" tells more.".into());
+        cautions.push("Of several solutions the one with the smallest correction was taken (selection = \"smallest\", the rule of the paper). It can be the wrong one, has no error bars, and selection = \"joint\" tells more.".into());
     }
-    told
+    cautions
 }
 
 /// What is to be said where noise is not all that is left, or nothing tells whether it is.
@@ -313,7 +345,7 @@ fn doubt_of_fit(results: &Results) -> Option<String> {
         }
         "explained" => return None,
         // What holds for the band has other frequencies to agree with.
-        _ if results.sensors.len() == 1 && results.several.is_none() => {
+        _ if results.sensors.len() == 1 && results.unknowns.iter().all(Unknown::is_free) => {
             "One sensor alone is reproduced by every solution: a response that matches proves little. A second sensor would test the answer."
                 .into()
         }
@@ -329,56 +361,85 @@ fn bars(value: f64, std: Option<f64>) -> String {
     }
 }
 
-fn tiles(results: &Results, names: &Names, nominal_error: &[Option<f64>]) -> Vec<Tile> {
-    let (band, summary) = (&results.band, &results.summary);
-    let mut tiles = Vec::new();
-    let rows: Vec<usize> = band.rows(Status::Ok).filter(|&row| band.at("storage", row).is_some()).collect();
-    let ends = |name: &str, unit: &str| {
-        let (&first, &last) = rows.first().zip(rows.last())?;
-        let at = |row: usize| band.at(name, row).map(|value| with_bar(value, None, unit));
-        Some(format!(
-            "{} at {} to {} at {}",
-            at(first)?,
-            hertz(band.frequency_hz[first]),
-            at(last)?,
-            hertz(band.frequency_hz[last])
-        ))
-    };
-    if let Some(&middle) = rows.get(rows.len() / 2) {
-        let at = hertz(band.frequency_hz[middle]);
-        for (name, std, label, unit) in [
-            ("storage", "storage_std", names.storage.as_str(), names.unit.as_str()),
-            ("loss_factor", "loss_factor_std", "Loss factor η", ""),
-        ] {
-            let Some(value) = band.at(name, middle).filter(|_| !(names.real && name == "loss_factor")) else {
-                continue;
-            };
-            let std = band.at(std, middle);
-            tiles.push(Tile {
-                label: format!("{label} at {at}"),
-                value: with_bar(value, None, unit),
-                detail: format!("{}; {}", bars(value, std), ends(name, unit).unwrap_or_default()),
-            });
-        }
-    }
-    tiles.extend(shared_tiles(results, &rows, nominal_error, true));
-    if let (Some(median), Some(most)) =
-        (summary.number("/reference/deviation/median_ok"), summary.number("/reference/deviation/max_ok"))
-    {
-        tiles.push(Tile {
-            label: "Known answer".into(),
-            value: format!("{} off", percent(median)),
-            detail: format!(
-                "median where trusted, at most {}: this case was made with a known value",
-                percent(most)
-            ),
-        });
-    }
+fn tiles(results: &Results, nominal_error: &[Option<f64>], own: bool) -> Vec<Tile> {
+    let mut tiles: Vec<Tile> = results.unknowns.iter().flat_map(|one| tiles_of(results, one)).collect();
+    tiles.extend(tiles_of_band(results, nominal_error, own));
+    tiles.extend(known_answer(results));
     tiles
 }
 
-/// How much of the band is trusted, how well the model fits, and whether the sensors agree; `rows` are those with an answer, `own` as in [`Verdict::own`].
-fn shared_tiles(results: &Results, rows: &[usize], nominal_error: &[Option<f64>], own: bool) -> Vec<Tile> {
+/// The numbers of a constant; of a curve value and loss factor in the middle of the band.
+fn tiles_of(results: &Results, one: &Unknown) -> Vec<Tile> {
+    if !one.is_curve() {
+        return one.numbers.iter().map(|number| tile(one, number)).collect();
+    }
+    let band = &results.band;
+    let of = if one.prefix.is_empty() { String::new() } else { format!("{}: ", one.name) };
+    let tile = |(part, label, unit): (&str, &str, &str)| {
+        let name = one.column(part);
+        let rows: Vec<usize> = band.rows(Status::Ok).filter(|&row| band.at(&name, row).is_some()).collect();
+        let (first, middle, last) = (*rows.first()?, *rows.get(rows.len() / 2)?, *rows.last()?);
+        let value = |row: usize| Some(with_bar(band.at(&name, row)?, None, unit));
+        let end = |row: usize| Some(format!("{} at {}", value(row)?, hertz(band.frequency_hz[row])));
+        let std = band.at(&one.column(&format!("{part}_std")), middle);
+        Some(Tile {
+            label: format!("{of}{label} at {}", hertz(band.frequency_hz[middle])),
+            value: value(middle)?,
+            detail: format!("{}; {} to {}", bars(band.at(&name, middle)?, std), end(first)?, end(last)?),
+        })
+    };
+    let parts = [("storage", one.what()[0], one.unit()), ("loss_factor", "Loss factor η", "")];
+    parts.into_iter().filter(|(part, ..)| !(one.real && *part == "loss_factor")).filter_map(tile).collect()
+}
+
+fn tile(one: &Unknown, number: &Number) -> Tile {
+    let label =
+        if number.name == "value" { one.name.clone() } else { format!("{} {}", one.name, number.name) };
+    let label = label.replace('_', " ");
+    if !one.is_known(number) {
+        let detail = "the measurements leave any value of this size possible".into();
+        return Tile { label, value: "not identifiable".into(), detail };
+    }
+    Tile { label, value: one.shown(number, None), detail: bars(number.value, number.std) }
+}
+
+/// Where the measurement was made with known values.
+fn known_answer(results: &Results) -> Option<Tile> {
+    // What is not identifiable is not compared.
+    let compared = || {
+        let ok = |one: &&Unknown| one.is_free() || one.status == Some(Status::Ok);
+        results.unknowns.iter().filter(ok)
+    };
+    let number = |one: &Unknown, pointer: &str| one.off.pointer(pointer).and_then(serde_json::Value::as_f64);
+    let of_one = |one: &Unknown| {
+        if let Some(relative) = number(one, "/relative") {
+            let deviations = number(one, "/deviations")
+                .map_or(String::new(), |d| format!(" ({d:.1} of its standard deviations)"));
+            return Some(format!("{}: {} off{deviations}", one.name, percent(relative)));
+        }
+        let (median, most) = (number(one, "/deviation/median_ok")?, number(one, "/deviation/max_ok")?);
+        Some(format!(
+            "{}: {} off (median), at most {} off where trusted",
+            one.name,
+            percent(median),
+            percent(most)
+        ))
+    };
+    let each: Vec<String> = compared().filter_map(of_one).collect();
+    let most = |pointer: &str| compared().filter_map(|one| number(one, pointer)).reduce(f64::max);
+    let value = match most("/deviations") {
+        Some(deviations) => format!("within {} deviations", significant(deviations, 2)),
+        None => {
+            let off = most("/relative").into_iter().chain(most("/deviation/max_ok")).reduce(f64::max)?;
+            format!("{} off at most", percent(off))
+        }
+    };
+    let detail = format!("{}. This case was made with known values.", each.join("; "));
+    Some(Tile { label: "Known answer".into(), value, detail })
+}
+
+/// How much of the band is trusted, how well the model fits, and whether the sensors agree; `own` as in [`Verdict::own`].
+fn tiles_of_band(results: &Results, nominal_error: &[Option<f64>], own: bool) -> Vec<Tile> {
     let (band, summary) = (&results.band, &results.summary);
     let (asked, ok) = trusted(band);
     let mut tiles = Vec::new();
@@ -396,8 +457,8 @@ fn shared_tiles(results: &Results, rows: &[usize], nominal_error: &[Option<f64>]
         values.sort_by(f64::total_cmp);
         values.get(values.len() / 2).copied()
     };
-    if let Some(after) = median(&mut rows.iter().map(|&row| band.at("error", row))) {
-        let before = median(&mut rows.iter().map(|&row| nominal_error[row]));
+    if let Some(after) = median(&mut band.rows(Status::Ok).map(|row| band.at("error", row))) {
+        let before = median(&mut band.rows(Status::Ok).map(|row| nominal_error[row]));
         tiles.push(Tile {
             label: "Model against measurement".into(),
             value: format!("{} off", percent(after)),
@@ -437,9 +498,9 @@ fn shared_tiles(results: &Results, rows: &[usize], nominal_error: &[Option<f64>]
 
 /// Why no χ² over the band tells whether noise is all that is left.
 fn untested(results: &Results) -> &'static str {
-    match (results.sensors.len(), results.summary.word("/identify/varies")) {
-        (1, _) => "one sensor has nothing to agree with",
-        (_, "law") => "the table of laws has the χ² of each",
+    match results.sensors.len() {
+        1 => "one sensor has nothing to agree with",
+        _ if !results.summary.array("/laws/laws").is_empty() => "the table of laws has the χ² of each",
         _ => "nothing tells the noise but the misfit itself",
     }
 }
@@ -453,36 +514,6 @@ fn noise(results: &Results) -> &'static str {
         "curve" => "taken from what the smooth curve leaves",
         _ => "unknown",
     }
-}
-
-fn rows(results: &Results, names: &Names) -> Vec<[String; 4]> {
-    let band = &results.band;
-    let rows: Vec<usize> = band.rows(Status::Ok).filter(|&row| band.at("storage", row).is_some()).collect();
-    let mut picked: Vec<usize> = [0, rows.len() / 2, rows.len().saturating_sub(1)]
-        .iter()
-        .filter_map(|&k| rows.get(k).copied())
-        .collect();
-    picked.dedup();
-    let one = |row: usize| {
-        let cell = |name: &str, std: &str, unit| {
-            band.at(name, row).map_or("–".into(), |value| with_bar(value, band.at(std, row), unit))
-        };
-        let nominal = results.reference.nominal[row].map_or("–".into(), |factor: c64| {
-            let eta = if names.real {
-                String::new()
-            } else {
-                format!(", η {}", significant(frfit::material::loss_factor(factor), 4))
-            };
-            format!("{}{eta}", with_bar(factor.re, None, &names.unit))
-        });
-        [
-            hertz(band.frequency_hz[row]),
-            cell("storage", "storage_std", &names.unit),
-            cell("loss_factor", "loss_factor_std", ""),
-            nominal,
-        ]
-    };
-    picked.into_iter().map(one).collect()
 }
 
 /// P-40 with the nominal response. Accelerance and receptance differ by one number at a frequency, so that the quotient is the same of either.

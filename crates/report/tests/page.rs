@@ -83,11 +83,11 @@ fn every_curve_is_as_long_as_its_axis() {
     }
     for pointer in [
         "/nominal_error",
-        "/nominal/storage",
-        "/nominal/loss_factor",
-        "/reference/storage",
-        "/free/storage",
-        "/free/loss_factor",
+        "/unknowns/0/nominal/storage",
+        "/unknowns/0/nominal/loss_factor",
+        "/unknowns/0/reference/storage",
+        "/unknowns/0/free/storage",
+        "/unknowns/0/free/loss_factor",
         "/status",
     ] {
         assert!(is_curve(data.pointer(pointer).unwrap(), rows), "{pointer}");
@@ -117,7 +117,7 @@ fn every_curve_is_as_long_as_its_axis() {
         map["log_error"].as_array().unwrap().iter().all(|row| is_curve(row, length(&map["frequency_hz"])))
     );
     for kind in ["alternative", "admissible", "refused"] {
-        let found = &data["candidates"][kind];
+        let found = &data["unknowns"][0]["candidates"][kind];
         let rows = length(&found["frequency_hz"]);
         assert!(is_curve(&found["storage"], rows) && is_curve(&found["loss_factor"], rows), "{kind}");
         assert!(rows > 0, "{kind}");
@@ -182,7 +182,7 @@ fn doubts_about_sensors_are_told_before_the_numbers() {
         "Use with care",
         "Sensor S1 contradicts all others. It was left out.",
         "The scale of sensor S1 was unknown and found: 9.8066 ± 0.0020 times what the file says.",
-        "The delay of sensor S1 was unknown, and the data do not tell it: it was left out.",
+        "The delay of sensor S1 was unknown, and is not identifiable from the data: it was left out.",
     ] {
         assert!(text(&page).contains(told), "{told}");
     }
@@ -198,7 +198,7 @@ fn a_solution_at_infinity_is_no_fault() {
     lines[line] = "20.0,,,0.0,0.0,far";
     files.insert("candidates.csv", (lines.join("\n") + "\n").into_bytes());
     assert!(
-        data(&page(&files).unwrap())["candidates"]["refused"]["storage"]
+        data(&page(&files).unwrap())["unknowns"][0]["candidates"]["refused"]["storage"]
             .as_array()
             .unwrap()
             .iter()

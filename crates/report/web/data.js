@@ -1,7 +1,8 @@
 // What the page shows, and how numbers are written.
 
 const data = JSON.parse(document.getElementById("data").textContent);
-const { names } = data;
+/** The unknowns that are curves over frequency, each with its columns. */
+const { unknowns } = data;
 const column = (name) => data.columns[name] ?? null;
 const statusOf = (row) => data.statuses[data.status[row]];
 
@@ -27,7 +28,7 @@ function digits(value, count = 5) {
 const takesPrefix = (unit) => unit === "Pa";
 
 /** A value in a unit, with a prefix where it takes one. */
-function inUnit(value, count = 5, unit = names.unit) {
+function inUnit(value, count = 5, unit = "") {
   if (value === null || value === undefined) return "–";
   if (!unit) return digits(value, count);
   if (!takesPrefix(unit)) return `${digits(value, count)} ${unit}`;
@@ -37,7 +38,7 @@ function inUnit(value, count = 5, unit = names.unit) {
 }
 
 /** The same with two standard deviations, in one unit. */
-function withBar(value, std, unit = names.unit) {
+function withBar(value, std, unit = "") {
   if (std === null || value === 0) return inUnit(value, 5, unit);
   if (!takesPrefix(unit)) return `${digits(value)} ± ${digits(2 * std, 2)}${unit && ` ${unit}`}`;
   const [shown, prefix] = inUnit(value, 5, unit).split(" ");

@@ -1,20 +1,14 @@
 // The identified value: over frequency, and among the candidates.
 
-/** What is identified over frequency: one unknown in plain columns, or several in columns of their own. */
-const unknowns = data.unknowns ?? [{
-  ...names, id: "modulus", label: "", varies: data.varies, nominal: data.nominal, reference: data.reference, free: data.free,
-  columns: { storage: "storage", storage_std: "storage_std", loss_factor: "loss_factor", loss_factor_std: "loss_factor_std" },
-}];
-const isCurve = data.varies !== "frequency";
 const partsOf = ({ real }) => (real ? ["storage"] : ["storage", "loss_factor"]);
-const factorAxis = ({ real, unit } = names) => ({ title: real ? "Value" : "Storage modulus E′", ...(takesPrefix(unit) ? { tickformat: "~s", ticksuffix: unit } : unit && { title: `${real ? "Value" : "Storage modulus E′"} (${unit})` }) });
-const formatOf = (part, { unit } = names) => (part === "storage" && unit ? withUnit("y", unit) : "%{y:.5~g}");
+const factorAxis = ({ real, unit }) => ({ title: real ? "Value" : "Storage modulus E′", ...(takesPrefix(unit) ? { tickformat: "~s", ticksuffix: unit } : unit && { title: `${real ? "Value" : "Storage modulus E′"} (${unit})` }) });
+const formatOf = (part, { unit }) => (part === "storage" && unit ? withUnit("y", unit) : "%{y:.5~g}");
 /** A coordinate in a unit, as a plot writes it. */
 const withUnit = (axis, unit) => (takesPrefix(unit) ? `%{${axis}:.4s}${unit}` : `%{${axis}:.5~g}${unit && ` ${unit}`}`);
 const AT = "<br>%{x:.6~g} Hz";
 
 /** A part of an unknown, by row. */
-const partOf = (one, part) => (one.columns[part] === null ? null : column(one.columns[part]));
+const partOf = (one, part) => column(one.columns[part]);
 
 /** Values at drawn rows with one of some statuses. */
 function withStatus(values, wanted, status = data.status) {
@@ -69,7 +63,7 @@ const withBars = (one, part) => {
 
 /** Value and loss factor of an unknown over frequency. */
 const addFactor = (one) => addPlot({
-  id: one.id,
+  id: `modulus${one.suffix}`,
   height: one.real ? 360 : 560,
   frequency: true,
   logs: one.real ? { yaxis: ["value", false] } : { yaxis: ["E′", false], yaxis2: ["η", false] },
@@ -107,33 +101,36 @@ const addFactor = (one) => addPlot({
     };
   },
 });
-unknowns.forEach(addFactor);
 
-addPlot({
-  id: "candidates",
-  height: names.real ? 360 : 560,
+/** Value and loss factor of all solutions of an unknown. */
+const addCandidates = (one) => addPlot({
+  id: `candidates${one.suffix}`,
+  height: one.real ? 360 : 560,
   frequency: true,
-  logs: names.real ? { yaxis: ["value", false] } : { yaxis: ["E′", true], yaxis2: ["η", false] },
-  extra: data.candidates?.refused.frequency_hz.length ? "refused" : null,
+  logs: one.real ? { yaxis: ["value", false] } : { yaxis: ["E′", true], yaxis2: ["η", false] },
+  extra: one.candidates.refused.frequency_hz.length ? "refused" : null,
   traces() {
     const made = [];
-    partsOf(names).forEach((part, k) => {
+    partsOf(one).forEach((part, k) => {
+      const format = formatOf(part, one) + AT;
       const push = (trace) => made.push({ ...trace, yaxis: k === 0 ? "y" : "y2", legendgroup: trace.name, showlegend: k === 0 });
       for (const [kind, name, shade, more] of [
         ...(this.shows ? [["refused", "refused", "no_root", { symbol: "x-thin-open" }]] : []),
         ["admissible", "other solutions", "evidence", {}],
         ["alternative", "cannot be excluded", "alternative", { symbol: "triangle-up", size: 6 }],
       ]) {
-        const found = data.candidates[kind];
-        if (found.frequency_hz.length) push(dots(name, found.frequency_hz, found[part], shade, formatOf(part) + AT, { size: 4, ...more }));
+        const found = one.candidates[kind];
+        if (found.frequency_hz.length) push(dots(name, found.frequency_hz, found[part], shade, format, { size: 4, ...more }));
       }
-      push({ ...line("chosen", drawn(data.frequency_hz), withStatus(column(part), ["ok", "ambiguous"]), "updated", formatOf(part) + AT), mode: "lines+markers", marker: { color: color("updated"), size: 4 } });
+      push({ ...line("chosen", drawn(data.frequency_hz), withStatus(partOf(one, part), ["ok", "ambiguous"]), "updated", format), mode: "lines+markers", marker: { color: color("updated"), size: 4 } });
     });
     return made;
   },
   layout() {
-    const first = { hovermode: "closest", xaxis: overFrequency(names.real ? {} : { anchor: "y2" }) };
-    if (names.real) return { ...first, yaxis: factorAxis() };
-    return { ...first, yaxis: { ...factorAxis(), domain: [0.53, 1] }, yaxis2: { title: "Loss factor η", domain: [0, 0.47] } };
+    const first = { hovermode: "closest", xaxis: overFrequency(one.real ? {} : { anchor: "y2" }) };
+    if (one.real) return { ...first, yaxis: factorAxis(one) };
+    return { ...first, yaxis: { ...factorAxis(one), domain: [0.53, 1] }, yaxis2: { title: "Loss factor η", domain: [0, 0.47] } };
   },
 });
+unknowns.forEach(addFactor);
+unknowns.forEach(addCandidates);

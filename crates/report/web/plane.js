@@ -23,45 +23,47 @@ addPlot({
   },
 });
 
-/** Storage modulus and another quantity made of it and the loss factor, at drawn rows with an answer. */
-function along(other) {
+/** Storage modulus of an unknown and another quantity made of it and the loss factor, at drawn rows with an answer. */
+function along(one, other) {
   const made = [];
   const points = (name, storage, loss, rows, shade, draw, more) => {
     const there = rows.filter((row) => storage[row] !== null && loss[row] !== null);
     if (!there.length) return;
-    const format = `E′ ${withUnit("x", names.unit)}, ${other.told}${HERTZ}`;
+    const format = `E′ ${withUnit("x", one.unit)}, ${other.told(one)}${HERTZ}`;
     made.push(draw(name, there.map((row) => storage[row]), there.map((row) => other.of(storage[row], loss[row])), shade, format, { customdata: there.map((row) => data.frequency_hz[row]), ...more }));
   };
-  const [storage, loss] = [column("storage"), column("loss_factor")];
-  if (data.nominal) points("nominal", data.nominal.storage, data.nominal.loss_factor, data.drawn, "nominal", line, { dash: "dash" });
-  if (data.reference) points("true", data.reference.storage, data.reference.loss_factor, data.drawn, "reference", line);
+  const [storage, loss] = [partOf(one, "storage"), partOf(one, "loss_factor")];
+  if (one.nominal) points("nominal", one.nominal.storage, one.nominal.loss_factor, data.drawn, "nominal", line, { dash: "dash" });
+  if (one.reference) points("true", one.reference.storage, one.reference.loss_factor, data.drawn, "reference", line);
   const trusted = data.drawn.filter((row) => statusOf(row).name === "ok");
+  const isCurve = one.varies !== "frequency";
   if (storage && loss) points(isCurve ? "law or curve" : "identified", storage, loss, trusted, "updated", isCurve ? line : dots);
   return made;
 }
 
-const onFactor = (other) => (_, row) => {
-  const [e, eta] = [column("storage")?.[row], column("loss_factor")?.[row]];
+const onFactor = (one, other) => (_, row) => {
+  const [e, eta] = [partOf(one, "storage")?.[row], partOf(one, "loss_factor")?.[row]];
   return Number.isFinite(e) && Number.isFinite(eta) ? { x: e, y: other.of(e, eta) } : null;
 };
 
-const LOSS_MODULUS = { of: (e, eta) => e * eta, told: `E″ ${withUnit("y", names.unit)}` };
-const LOSS_FACTOR = { of: (_, eta) => eta, told: "η %{y:.4~g}" };
+const LOSS_MODULUS = { of: (e, eta) => e * eta, told: ({ unit }) => `E″ ${withUnit("y", unit)}` };
+const LOSS_FACTOR = { of: (_, eta) => eta, told: () => "η %{y:.4~g}" };
 
-addPlot({
-  id: "cole-cole",
-  height: 420,
-  logs: { xaxis: ["E′", false], yaxis: ["E″", false] },
-  traces: () => along(LOSS_MODULUS),
-  layout: () => ({ xaxis: factorAxis(), yaxis: { ...factorAxis(), title: `Loss modulus E″${names.unit && !takesPrefix(names.unit) ? ` (${names.unit})` : ""}` } }),
-  at: onFactor(LOSS_MODULUS),
-});
-
-addPlot({
-  id: "wicket",
-  height: 420,
-  logs: { xaxis: ["E′", true], yaxis: ["η", true] },
-  traces: () => along(LOSS_FACTOR),
-  layout: () => ({ xaxis: factorAxis(), yaxis: { title: "Loss factor η" } }),
-  at: onFactor(LOSS_FACTOR),
-});
+for (const one of unknowns) {
+  addPlot({
+    id: `cole-cole${one.suffix}`,
+    height: 420,
+    logs: { xaxis: ["E′", false], yaxis: ["E″", false] },
+    traces: () => along(one, LOSS_MODULUS),
+    layout: () => ({ xaxis: factorAxis(one), yaxis: { ...factorAxis(one), title: `Loss modulus E″${one.unit && !takesPrefix(one.unit) ? ` (${one.unit})` : ""}` } }),
+    at: onFactor(one, LOSS_MODULUS),
+  });
+  addPlot({
+    id: `wicket${one.suffix}`,
+    height: 420,
+    logs: { xaxis: ["E′", true], yaxis: ["η", true] },
+    traces: () => along(one, LOSS_FACTOR),
+    layout: () => ({ xaxis: factorAxis(one), yaxis: { title: "Loss factor η" } }),
+    at: onFactor(one, LOSS_FACTOR),
+  });
+}

@@ -38,10 +38,10 @@ function setLogTicks(plot) {
     const room = (name[0] === "x" ? 64 : 22) / Math.max(60, axis._length);
     const values = logTicks(Math.min(low, high), Math.max(low, high), room);
     if (JSON.stringify(values) === JSON.stringify(axis.tickvals)) continue;
-    const isFactor = axis.ticksuffix && axis.ticksuffix === names.unit;
+    const unit = axis.ticksuffix ?? "";
     change[`${name}.tickvals`] = values;
-    change[`${name}.ticktext`] = values.map((value) => (isFactor ? inUnit(value, 4).replace(" ", "") : digits(value, 4).replace(/^1·10/, "10")));
-    if (isFactor) change[`${name}.ticksuffix`] = names.unit;
+    change[`${name}.ticktext`] = values.map((value) => (unit ? inUnit(value, 4, unit).replace(" ", "") : digits(value, 4).replace(/^1·10/, "10")));
+    if (unit) change[`${name}.ticksuffix`] = unit;
   }
   if (!Object.keys(change).length) return false;
   Plotly.relayout(plot.canvas, change);

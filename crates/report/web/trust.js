@@ -36,11 +36,12 @@ addPlot({
 const largestRadius = (column("spectral_radius") ?? []).reduce((most, value) => Math.max(most, value ?? 0), 0);
 addColumns("radius", "Spectral radius ρ", () => [["spectral radius", column("spectral_radius"), "updated", "%{y:.4~g}"]], "ρ", largestRadius > 10, 1);
 
-/** |c| over the nominal factor's size. */
+/** |c| of the only unknown over the nominal factor's size. */
 function relativeChange() {
-  const [re, im] = [column("correction_re"), column("correction_im")];
-  if (!re || !data.nominal) return null;
-  const { storage, loss_factor: loss } = data.nominal;
+  const [one] = unknowns;
+  const [re, im] = [partOf(one, "correction_re"), partOf(one, "correction_im")];
+  if (!re || !one.nominal) return null;
+  const { storage, loss_factor: loss } = one.nominal;
   return re.map((value, row) => value === null || storage[row] === null ? null : Math.hypot(value, im?.[row] ?? 0) / Math.abs(storage[row] * Math.hypot(1, loss[row] ?? 0)));
 }
 

@@ -3,20 +3,19 @@
 use crate::check::{check, findings_json};
 use crate::convert::{OR_TO, ending_of};
 use crate::error::{InputError, Place};
-use crate::figures::{identify_figures, measured_figures, respond_figures, several_figures};
-use crate::load::{Case, IdentifyCase, Layout, Overrides, Purpose, load};
+use crate::figures::{identify_figures, measured_figures, respond_figures};
+use crate::load::{Case, Check, IdentifyCase, Overrides, Purpose, load};
 use crate::memory::{MemoryError, check_full, check_identify};
 use crate::output::{
     File, Words, WriteError, candidates_csv, check_file, check_folder, error_map_csv, hit_reasons,
-    identified_csv, is_stream, laws_json, measured_csv, measured_summary, measured_text, measured_uff,
-    reference_csv, respond_csv, respond_uff, response_csv, several_csv, several_json, several_reference_csv,
-    summary_json, updated_uff, write_one, write_result,
+    identified_csv, is_stream, measured_csv, measured_summary, measured_text, measured_uff, reference_csv,
+    respond_csv, respond_uff, response_csv, summary_json, updated_uff, write_one, write_result,
 };
 use crate::records::{ChannelOptions, Records, read_records};
 use crate::report::report_of;
 use crate::run::{IdentifyRun, Progress, RespondRun, RunOptions, identify, respond};
 use frfit::diagnostics::Diagnosis;
-use frfit::identify::{Explained, ProblemError, Variation};
+use frfit::identify::{Explained, ProblemError};
 use frfit::material::OutsideTable;
 use frfit::signal::{self, Measured, SignalError, estimate_frf};
 use frfit_figures::PngError;
@@ -136,40 +135,26 @@ pub fn identify_case(
     let Computed { case, diagnosis, run, seconds_load, seconds_check } =
         compute(case, options, seconds_load, progress)?;
     let wanted = case.identify.as_ref().expect("a case loaded to identify has something to identify");
-    let (mut tables, mut files, mut summary) = match wanted.layout {
-        Layout::Single => {
-            let start = Instant::now();
-            let figures = identify_figures(&case, wanted, &run)?;
-            let summary = summary_json(&case, wanted, &run, seconds_load, start.elapsed().as_secs_f64());
-            let lines = &run.found.lines;
-            let tables = vec![
-                File::new("identified.csv", identified_csv(lines)),
-                File::new("candidates.csv", candidates_csv(lines)),
-                File::new("reference.csv", reference_csv(wanted, lines)),
-            ];
-            (tables, figures, summary)
-        }
-        Layout::Named => {
-            let tables = vec![
-                File::new("identified.csv", several_csv(wanted, &run)),
-                File::new("reference.csv", several_reference_csv(wanted, &run)),
-            ];
-            let summary = several_json(&case, wanted, &run, seconds_load);
-            (tables, several_figures(&case, wanted, &run)?, summary)
-        }
-    };
-    tables.push(File::new("response.csv", response_csv(&case, wanted, &run)));
+    let found = &run.found;
+    let start = Instant::now();
+    let mut files = identify_figures(&case, wanted, &run)?;
+    let mut summary = summary_json(&case, wanted, &run, seconds_load, start.elapsed().as_secs_f64());
     summary["findings"] = diagnosis.as_ref().map_or(serde_json::Value::Null, |d| findings_json(&case, d));
     summary["seconds"]["check"] = seconds_check.into();
-    if wanted.layout == Layout::Single && !run.found.free.is_empty() {
-        tables.push(File::new("free.csv", identified_csv(&run.found.free)));
-    }
-    if wanted.layout == Layout::Single && matches!(wanted.unknowns[0].varies, Variation::Law(_)) {
-        let laws = laws_json(&run.found.laws, wanted.units[0], case.units);
-        files.push(File::new("law.json", format!("{laws:#}\n")));
+    let mut tables = vec![
+        File::new("identified.csv", identified_csv(wanted, &found.lines)),
+        File::new("candidates.csv", candidates_csv(wanted, &found.lines)),
+        File::new("reference.csv", reference_csv(wanted, &found.lines)),
+        File::new("response.csv", response_csv(&case, wanted, &run)),
+    ];
+    if !found.free.is_empty() {
+        tables.push(File::new("free.csv", identified_csv(wanted, &found.free)));
     }
     if let Some(map) = &run.error_map {
         tables.push(File::new("error_map.csv", error_map_csv(map)));
+    }
+    if wanted.is_law() {
+        files.push(File::new("law.json", format!("{:#}\n", summary["laws"])));
     }
     // Beside them a folder may have tables of other runs.
     summary["tables"] = tables.iter().map(|table| table.path.display().to_string()).collect();
@@ -230,12 +215,14 @@ pub fn compute(
     };
     check_identify(&case, wanted, options.memory_bytes)?;
     let start = Instant::now();
-    let mut diagnosis = wanted.check.then(|| check(&case, wanted)).transpose()?;
+    let mut diagnosis = match wanted.check {
+        Check::First => Some(check(&case, wanted)?),
+        Check::IfUnexplained | Check::Never => None,
+    };
     let mut seconds_check = start.elapsed().as_secs_f64();
     let run = identify(&case, wanted, options, progress)?;
     let unexplained = run.found.fit.is_some_and(|fit| fit.verdict == Explained::No);
-    if wanted.layout == Layout::Named && unexplained {
-        // A model for each unknown is trained to look for faults: only where there is something to explain.
+    if wanted.check == Check::IfUnexplained && unexplained {
         let start = Instant::now();
         diagnosis = Some(check(&case, wanted)?);
         seconds_check += start.elapsed().as_secs_f64();

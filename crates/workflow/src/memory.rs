@@ -1,6 +1,6 @@
 //! Whether a model fits into memory, told before any of it is factorised.
 
-use crate::load::{Case, IdentifyCase, Layout};
+use crate::load::{Case, IdentifyCase};
 use frfit_linalg::c64;
 use frfit_linalg::solve::{Breakdown, FactorMemory};
 use std::fmt;
@@ -60,11 +60,7 @@ pub fn check_identify(case: &Case, identify: &IdentifyCase, limit: Option<u64>) 
     let dofs = case.model.dim();
     let options = &identify.options;
     let reduced = options.reduction.is_subspace(options.method, dofs, identify.frequency_hz.len());
-    if reduced || identify.layout == Layout::Named {
-        check_subspace(case, limit)
-    } else {
-        check_full(case, limit)
-    }
+    if reduced || !identify.is_single() { check_subspace(case, limit) } else { check_full(case, limit) }
 }
 
 /// The same for the subspace of a band.

@@ -28,17 +28,17 @@ from ._errors import (
     WriteError,
 )
 from ._frfit import Law, Series, __version__
-from ._identify import Measurement, identify, run_case
+from ._identify import Measurement, Unknown, identify, run_case
 from ._matrix import read_matrix
 from ._model import Model, Term, respond, series
 from ._report import Report
-from ._result import Finding, Identification
-from ._several import Direction, Number, SeveralIdentification, Unknown
+from ._result import Direction, Estimate, Finding, Identification, Number
 from ._signal import Hit, MeasuredFrf, Recording, frf
 from ._uff import Uff, UffAxis, UffDof, UffFunction, UffSummary, read_uff, write_uff
 
 __all__ = [
     "Direction",
+    "Estimate",
     "Finding",
     "FrfitError",
     "Hit",
@@ -58,7 +58,6 @@ __all__ = [
     "Recording",
     "Report",
     "Series",
-    "SeveralIdentification",
     "SignalError",
     "SolveError",
     "TableError",

@@ -18,6 +18,7 @@ from ._arrays import (
     flag,
     load_vector,
     number,
+    optional_number,
     optional_whole,
     pair,
     real,
@@ -32,7 +33,6 @@ from ._arrays import (
 )
 from ._model import Model, Progress, model_of
 from ._result import Identification
-from ._several import SeveralIdentification
 
 
 @dataclass(frozen=True, eq=False)
@@ -129,20 +129,128 @@ def _model_error(value: Any) -> str | float | dict[str, float] | None:
     return number(value, "model_error", expected)
 
 
+@dataclass(frozen=True, eq=False)
+class Unknown:
+    """Something to identify: the keys of one ``[[identify]]`` of a case file.
+
+    Parameters
+    ----------
+    name
+        What it is called in the result.
+    matrix
+        The name of the term whose factor is unknown, or of several that share it.
+    powers
+        In place of ``matrix``: a dimension, ``{"bending": 3, "mass": 1}``; the factors of these terms are multiplied by its
+        powers.
+    nominal
+        The value of a dimension to begin with.
+    varies
+        ``"frequency"``: a value of its own at each; ``"constant"``: one for the band, as is usual of a dimension; ``"law"``: by
+        ``law``; ``"smooth"`` of a single unknown.
+    law
+        ``"constant"``, ``"fractional"``, ``"zener"``, ``"maxwell:N"``; of a single unknown several to compare.
+    bounds
+        ``{"storage": (low, high), "loss_factor": (low, high)}``, or ``(low, high)`` of a real one.
+    real
+        Whether it is real; a dimension is.
+    """
+
+    name: str | None = None
+    matrix: str | Sequence[str] = ()
+    powers: Mapping[str, int] | None = None
+    nominal: float | None = None
+    varies: Literal["frequency", "smooth", "constant", "law"] | None = None
+    law: str | Sequence[str] = ()
+    bounds: Mapping[str, tuple[float, float]] | tuple[float, float] | None = None
+    real: bool | None = None
+
+    def __post_init__(self) -> None:
+        _plain_unknown(self)
+
+
+def _plain_unknown(one: Unknown) -> dict[str, Any]:
+    """The unknown as the compiled part takes it."""
+    powers = one.powers
+    if powers is not None and not (isinstance(powers, Mapping) and powers):
+        raise refuse("powers", "a dictionary of matrices and powers", shown(powers))
+    powers = {word(name, "powers"): whole(power, f"powers.{name}") for name, power in (powers or {}).items()}
+    for name, power in powers.items():
+        if power == 0 or abs(power) > 12:
+            raise refuse(f"powers.{name}", "a whole number from -12 to 12 other than 0", str(power))
+    matrices = words(one.matrix, "matrix")
+    if bool(matrices) == bool(powers):
+        raise refuse("matrix", "one of matrix and powers", "both" if matrices else "none")
+    if powers and one.name is None:
+        raise refuse("name", "the name of a dimension", "none")
+    if one.nominal is not None and not powers:
+        raise refuse("nominal", "None: it is the factor of the matrix", shown(one.nominal))
+    if powers and one.nominal is None:
+        raise refuse("nominal", "the value of a dimension to begin with", "none")
+    is_real = bool(powers) if one.real is None else flag(one.real, "real")
+    storage, loss_factor = _bounds(one.bounds, is_real)
+    return {
+        "name": None if one.name is None else word(one.name, "name"),
+        "matrices": matrices,
+        "powers": list(powers.items()),
+        "nominal": optional_number(one.nominal, "nominal"),
+        "varies": _optional_word(one.varies, "varies"),
+        "laws": words(one.law, "law"),
+        "storage": storage,
+        "loss_factor": loss_factor,
+        "real": is_real,
+    }
+
+
+def _bounds(bounds: Any, is_real: bool) -> tuple[tuple[float, float] | None, tuple[float, float] | None]:
+    """Those of storage modulus and loss factor."""
+    if bounds is not None and not isinstance(bounds, Mapping):
+        if not is_real:
+            raise refuse("bounds", "a dictionary of storage and loss_factor", shown(bounds))
+        return pair(bounds, "bounds"), None
+    bounds = dict(bounds or {})
+    if unknown := set(bounds) - {"storage", "loss_factor"}:
+        raise refuse("bounds", "storage or loss_factor", shown(sorted(map(str, unknown))[0]))
+
+    def bound(key: str) -> tuple[float, float] | None:
+        return pair(bounds[key], f"bounds.{key}") if bounds.get(key) is not None else None
+
+    return bound("storage"), bound("loss_factor")
+
+
+def _unknowns(unknowns: Any, of_one: dict[str, Any]) -> list[Unknown]:
+    """The unknowns, or the one that the arguments of a single one say."""
+    if unknowns is None:
+        if not words(of_one["matrix"], "matrix"):
+            raise refuse("matrix", "the name of a term, or unknowns", "none")
+        return [Unknown(**of_one)]
+    for name, value in of_one.items():
+        if value not in (None, (), False):
+            raise refuse(name, "None beside unknowns, each of which has its own", shown(value))
+    expected = "an Unknown or several"
+    listed = [unknowns] if isinstance(unknowns, Unknown) else several(unknowns, "unknowns", expected)
+    for one in listed:
+        if not isinstance(one, Unknown):
+            raise refuse("unknowns", expected, shown(one))
+    if not listed:
+        raise refuse("unknowns", expected, "none")
+    return listed
+
+
 def identify(
     model: Model,
     measurements: Measurement | Sequence[Measurement],
     *,
     load: ArrayLike,
-    matrix: str | Sequence[str],
+    matrix: str | Sequence[str] = (),
+    unknowns: Unknown | Sequence[Unknown] | None = None,
     band_hz: tuple[float, float] | None = None,
-    bounds: dict[str, tuple[float, float]] | None = None,
+    bounds: Mapping[str, tuple[float, float]] | tuple[float, float] | None = None,
     start: Literal["bounds"] | None = None,
     method: Literal["rational", "series", "nelder-mead"] | None = None,
     order: int | None = None,
     selection: Literal["joint", "smallest"] | None = None,
     reduction: Literal["auto", "full", "subspace"] | None = None,
-    varies: Literal["frequency", "smooth", "law"] | None = None,
+    varies: Literal["frequency", "smooth", "constant", "law"] | None = None,
     law: str | Sequence[str] = (),
     real: bool = False,
     reject_outliers: bool | None = None,
@@ -153,7 +261,7 @@ def identify(
     memory_bytes: int | None = None,
     progress: Progress | None = None,
 ) -> Identification:
-    """The unknown factor of ``matrix`` at every measured frequency of the band, and how far to trust it.
+    """The unknown factor of ``matrix``, or ``unknowns``, from measured FRFs, and how far to trust them.
 
     The arguments are the keys of ``[identify]`` in a case file. Ctrl-C is answered at once.
 
@@ -163,11 +271,14 @@ def identify(
         A row (unit force), or the force vector (n,), N.
     matrix
         The name of the term whose factor is unknown, or of several that share it.
+    unknowns
+        In place of ``matrix``, ``bounds``, ``varies``, ``law`` and ``real``: several unknowns, each with its own. There is one way to
+        find them: no ``method``, ``order``, ``selection``, ``reduction`` or ``start``.
     bounds
         ``{"storage": (low, high), "loss_factor": (low, high)}``, storage in the unit of the factor.
     varies
-        ``"frequency"``: a factor of its own at each; ``"smooth"``: neighbours help each other; ``"law"``, which is what
-        ``law`` alone means too: by a law, the best of ``law`` or without it of all.
+        ``"frequency"``: a factor of its own at each; ``"smooth"``: neighbours help each other; ``"constant"``: one for the band;
+        ``"law"``, which is what ``law`` alone means too: by a law, the best of ``law`` or without it of all.
     model_error
         ``"estimated"``: errors of the model are taken out where the band shows them; ``"none"``: there are none; a number,
         or ``{"frequency": 0.005, "shape": 0.02}``: natural frequencies (mode shapes) are good to that, in every error bar.
@@ -203,19 +314,11 @@ def identify(
     for measurement in measured:
         if not isinstance(measurement, Measurement):
             raise refuse("measurements", expected, shown(measurement))
-    if bounds is not None and not isinstance(bounds, Mapping):
-        raise refuse("bounds", "a dictionary of storage and loss_factor", shown(bounds))
-    bounds = dict(bounds or {})
-    if unknown := set(bounds) - {"storage", "loss_factor"}:
-        raise refuse("bounds", "storage or loss_factor", shown(sorted(map(str, unknown))[0]))
     if start not in (None, "bounds"):
         raise refuse("start", '"bounds" or None', shown(start))
-
-    def bound(key: str) -> tuple[float, float] | None:
-        return pair(bounds[key], f"bounds.{key}") if bounds.get(key) is not None else None
-
+    of_one = {"matrix": matrix, "varies": varies, "law": law, "bounds": bounds, "real": flag(real, "real")}
     options = {
-        "matrices": words(matrix, "matrix"),
+        "unknowns": [_plain_unknown(one) for one in _unknowns(unknowns, of_one)],
         "band_hz": None if band_hz is None else pair(band_hz, "band_hz"),
         "exclude_hz": [_band(entry) for entry in several(exclude_hz, "exclude_hz", "lines and bands")],
         "max_lines": None if max_lines is None else whole(max_lines, "max_lines"),
@@ -223,14 +326,9 @@ def identify(
         "selection": _optional_word(selection, "selection"),
         "reduction": _optional_word(reduction, "reduction"),
         "order": optional_whole(order, "order", 0),
-        "storage": bound("storage"),
-        "loss_factor": bound("loss_factor"),
-        "real": flag(real, "real"),
         "start_at_bounds": start == "bounds",
         "model_error": _model_error(model_error),
         "reject_outliers": None if reject_outliers is None else flag(reject_outliers, "reject_outliers"),
-        "varies": _optional_word(varies, "varies"),
-        "laws": words(law, "law"),
         "check": flag(check, "check"),
         "memory_bytes": optional_whole(memory_bytes, "memory_bytes", 0),
     }
@@ -250,11 +348,8 @@ def run_case(
     reduction: str | None = None,
     memory_bytes: int | None = None,
     progress: Progress | None = None,
-) -> Identification | SeveralIdentification:
+) -> Identification:
     """What ``frfit identify CASE`` computes: the same numbers, bit for bit.
-
-    A case with ``[[identify]]``, or with one unknown that is constant or a dimension, gives a
-    :class:`SeveralIdentification`.
 
     With ``out`` the files of the command line are written there too, all of them or none. The other arguments stand in
     place of the case file's.
@@ -275,6 +370,6 @@ def run_case(
         optional_whole(memory_bytes, "memory_bytes", 0),
         callable_(progress),
     )
-    return SeveralIdentification._of(found) if "unknowns" in found else Identification._of(found)
+    return Identification._of(found)
 
 

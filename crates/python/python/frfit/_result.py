@@ -22,16 +22,43 @@ class Finding:
     change: str
 
 
-@dataclass(frozen=True, eq=False, repr=False)
-class Identification:
-    """One answer a frequency, with its evidence: the columns of ``identified.csv`` and more.
+@dataclass(frozen=True)
+class Number:
+    """A number that holds for the whole band."""
 
-    Arrays have f rows, one a frequency, ascending. What does not exist is NaN; ``status`` says why. Storage moduli, factors and
+    name: str
+    """``storage``, ``loss_factor``, a parameter of a law; ``value`` of a real constant."""
+    value: float
+    std: float
+    """Its standard deviation, all other unknowns free; NaN where the noise is not known, infinite where it is not identifiable."""
+
+
+@dataclass(frozen=True)
+class Direction:
+    """A combination of the numbers that hold for the band, in their logarithms."""
+
+    std: float
+    """Standard deviation along it: 0.01 is one per cent; infinite where it is not identifiable."""
+    weights: dict[str, float]
+    """Weights of the coordinates, squares summing to one, the largest first."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Estimate:
+    """What was found of one unknown.
+
+    Arrays have f rows, one a frequency; an unknown that holds for the band has a value in each. Storage moduli, factors and
     corrections are in the unit of the factor (Pa, or 1).
     """
 
-    frequency_hz: Real
-    """(f,), Hz."""
+    name: str
+    matrices: tuple[str, ...]
+    """The terms that it enters."""
+    varies: str
+    """``frequency``, ``smooth``, ``constant`` or ``law``."""
+    law: tuple[str, ...]
+    """The laws that were fitted."""
+    real: bool
     factor: Complex
     """(f,), the identified factor E' (1 + i eta)."""
     nominal: Complex
@@ -48,6 +75,38 @@ class Identification:
     """(f,), standard deviation of ``loss_factor``."""
     storage_loss_correlation: Real
     """(f,), their correlation."""
+    alternatives: tuple[Complex, ...]
+    """f arrays: factors that the data cannot exclude beside the one that is given."""
+    numbers: tuple[Number, ...]
+    """What holds for the whole band; empty where each frequency has a value of its own."""
+    status: str | None
+    """Of what holds for the band: ``ok``, ``no_root`` (at its bounds), ``not_identifiable``, ``unexplained`` or ``failed``."""
+
+    @classmethod
+    def _of(cls, found: dict[str, Any]) -> Estimate:
+        """From what the compiled part gives."""
+        for name in ("matrices", "law", "alternatives"):
+            found[name] = tuple(found[name])
+        found["numbers"] = tuple(Number(*number) for number in found["numbers"])
+        return cls(**found)
+
+    def __repr__(self) -> str:
+        said = ", ".join(f"{number.name} {number.value:.6g} ± {number.std:.1g}" for number in self.numbers)
+        return f"<frfit.Estimate of {self.name}: {said or self.varies}>"
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Identification:
+    """What was found at each frequency, with its evidence: the columns of ``identified.csv`` and more.
+
+    Arrays have f rows, one a frequency, ascending. What does not exist is NaN; ``status`` says why. ``found["core"]`` is the
+    estimate of the unknown of that name; of a single unknown its arrays are here too: ``found.storage``.
+    """
+
+    unknowns: tuple[Estimate, ...]
+    """In the order in which they were asked for."""
+    frequency_hz: Real
+    """(f,), Hz."""
     chi2: Real
     """(f,), what the sensors leave unexplained over what noise leaves: about 1."""
     error: Real
@@ -67,16 +126,12 @@ class Identification:
     status: NDArray[np.str_]
     """(f,), ``ok``, ``ambiguous``, ``no_root``, ``not_identifiable``, ``unexplained``, ``diverged``, ``failed`` or
     ``out_of_band``."""
-    alternatives: tuple[Complex, ...]
-    """f arrays: factors that the data cannot exclude beside the one that is given."""
     measured_response: Complex
     """(f, sensors), receptance, m/N; scales and delays that were found included."""
     nominal_response: Complex
     """(f, sensors), receptance of the nominal model."""
     updated_response: Complex
     """(f, sensors), receptance of the updated model."""
-    matrices: tuple[str, ...]
-    """The terms that share the factor."""
     sensors: tuple[str, ...]
     """Labels of the sensors."""
     sensor_misfit: Real
@@ -105,6 +160,24 @@ class Identification:
     """``given``, ``sensors``, ``scatter`` or ``unknown``."""
     explained: str | None
     """Whether noise is all that is left: ``explained``, ``nearly explained``, ``not explained``, ``untested``."""
+    is_trusted: bool
+    """Whether all that holds for the band is trusted and the measurements are not contradicted."""
+    coordinates: tuple[str, ...]
+    """What the rows of ``correlation`` stand for."""
+    correlation: Real
+    """(k, k), correlation of the k numbers that hold for the band."""
+    directions: tuple[Direction, ...]
+    """Combinations of them, the least identifiable first."""
+    not_identifiable: tuple[str, ...]
+    """The combinations that the measurements leave open, in words."""
+    profile: Real
+    """(points, 2): distance along the least identifiable combination, and how much larger chi squared is there."""
+    converged: bool
+    """Whether the search settled."""
+    starts: int
+    """Starts that were followed for several unknowns."""
+    agreeing: int
+    """How many of them ended at the result."""
     explored: int
     """Frequencies at which all solutions were looked for."""
     subspace_size: int | None
@@ -122,12 +195,79 @@ class Identification:
     def _of(cls, found: dict[str, Any]) -> Identification:
         """From what the compiled part gives."""
         found["status"] = np.array(found["status"], dtype=np.str_)
-        for name in ("alternatives", "matrices", "sensors"):
+        for name in ("sensors", "coordinates", "not_identifiable"):
             found[name] = tuple(found[name])
+        found["unknowns"] = tuple(Estimate._of(one) for one in found["unknowns"])
+        found["directions"] = tuple(Direction(std, dict(weights)) for std, weights in found["directions"])
         found["findings"] = tuple(
             Finding(**{**finding, "sensors": tuple(finding["sensors"])}) for finding in found["findings"]
         )
         return cls(**found)
+
+    def __getitem__(self, name: str) -> Estimate:
+        """The estimate of the unknown of this name."""
+        for one in self.unknowns:
+            if one.name == name:
+                return one
+        raise KeyError(f"expected one of {', '.join(one.name for one in self.unknowns)}, found {name!r}")
+
+    @property
+    def _only(self) -> Estimate:
+        """The only unknown."""
+        if len(self.unknowns) > 1:
+            names = ", ".join(repr(one.name) for one in self.unknowns)
+            raise AttributeError(f"there are several unknowns: expected found[name] with one of {names}")
+        return self.unknowns[0]
+
+    @property
+    def factor(self) -> Complex:
+        """(f,), that of the only unknown, as are the arrays below."""
+        return self._only.factor
+
+    @property
+    def nominal(self) -> Complex:
+        """(f,), see :class:`Estimate`."""
+        return self._only.nominal
+
+    @property
+    def correction(self) -> Complex:
+        """(f,), see :class:`Estimate`."""
+        return self._only.correction
+
+    @property
+    def storage(self) -> Real:
+        """(f,), see :class:`Estimate`."""
+        return self._only.storage
+
+    @property
+    def loss_factor(self) -> Real:
+        """(f,), see :class:`Estimate`."""
+        return self._only.loss_factor
+
+    @property
+    def storage_std(self) -> Real:
+        """(f,), see :class:`Estimate`."""
+        return self._only.storage_std
+
+    @property
+    def loss_factor_std(self) -> Real:
+        """(f,), see :class:`Estimate`."""
+        return self._only.loss_factor_std
+
+    @property
+    def storage_loss_correlation(self) -> Real:
+        """(f,), see :class:`Estimate`."""
+        return self._only.storage_loss_correlation
+
+    @property
+    def alternatives(self) -> tuple[Complex, ...]:
+        """F arrays, see :class:`Estimate`."""
+        return self._only.alternatives
+
+    @property
+    def matrices(self) -> tuple[str, ...]:
+        """The terms that the only unknown enters."""
+        return self._only.matrices
 
     @property
     def ok(self) -> Flags:
@@ -147,31 +287,40 @@ class Identification:
     def __repr__(self) -> str:
         words, counts = np.unique(self.status, return_counts=True)
         told = ", ".join(f"{count} {word}" for word, count in zip(words, counts, strict=True))
-        return f"<frfit.Identification of {', '.join(self.matrices)} at {len(self)} frequencies: {told}>"
+        names = ", ".join(one.name for one in self.unknowns)
+        return f"<frfit.Identification of {names} at {len(self)} frequencies: {told}>"
 
     def columns(self) -> dict[str, Any]:
         """The columns of ``identified.csv``, in their order."""
-        return {
-            "frequency_hz": self.frequency_hz,
-            "storage": self.storage,
-            "loss_factor": self.loss_factor,
-            "factor_re": self.factor.real,
-            "factor_im": self.factor.imag,
-            "correction_re": self.correction.real,
-            "correction_im": self.correction.imag,
-            "error": self.error,
-            "spectral_radius": self.spectral_radius,
-            "order": self.order,
-            "candidate_count": self.candidate_count,
-            "status": self.status,
-            "convergence_radius": self.convergence_radius,
-            "required_order": self.required_order,
-            "reduction_error": self.reduction_error,
-            "storage_std": self.storage_std,
-            "loss_factor_std": self.loss_factor_std,
-            "storage_loss_correlation": self.storage_loss_correlation,
-            "chi2": self.chi2,
-        }
+        columns: dict[str, Any] = {"frequency_hz": self.frequency_hz}
+        for prefix, one in self._prefixed():
+            columns[f"{prefix}storage"] = one.storage
+            columns[f"{prefix}loss_factor"] = one.loss_factor
+            columns[f"{prefix}factor_re"] = one.factor.real
+            columns[f"{prefix}factor_im"] = one.factor.imag
+            columns[f"{prefix}correction_re"] = one.correction.real
+            columns[f"{prefix}correction_im"] = one.correction.imag
+        for name in (
+            "error",
+            "spectral_radius",
+            "order",
+            "candidate_count",
+            "status",
+            "convergence_radius",
+            "required_order",
+            "reduction_error",
+        ):
+            columns[name] = getattr(self, name)
+        for prefix, one in self._prefixed():
+            columns[f"{prefix}storage_std"] = one.storage_std
+            columns[f"{prefix}loss_factor_std"] = one.loss_factor_std
+            columns[f"{prefix}storage_loss_correlation"] = one.storage_loss_correlation
+        columns["chi2"] = self.chi2
+        return columns
+
+    def _prefixed(self) -> list[tuple[str, Estimate]]:
+        """Each unknown with what its columns begin with: its name and a point where there are several."""
+        return [("" if len(self.unknowns) == 1 else f"{one.name}.", one) for one in self.unknowns]
 
     def to_dataframe(self) -> Any:
         """:meth:`columns` as a ``pandas.DataFrame``; needs pandas."""
@@ -180,21 +329,25 @@ class Identification:
         return pandas.DataFrame(self.columns())
 
     def plot(self, axes: Any = None) -> Any:
-        """Storage modulus and loss factor over frequency with bars of two standard deviations; needs matplotlib.
+        """Storage modulus and loss factor of each unknown over frequency with bars of two standard deviations; needs matplotlib.
 
-        Trusted answers are filled, others hollow and grey. ``axes``: two to draw on. Returns both.
+        Trusted answers are filled, others hollow and grey. ``axes``: two to draw on for each complex unknown, one for each real
+        one. Returns them.
         """
         import matplotlib.pyplot as plt
 
+        panels = []
+        for prefix, one in self._prefixed():
+            panels.append((one.storage, one.storage_std, one.nominal.real, f"{prefix}storage"))
+            if not one.real:
+                loss_factor = one.nominal.imag / one.nominal.real
+                panels.append((one.loss_factor, one.loss_factor_std, loss_factor, f"{prefix}loss factor"))
         if axes is None:
-            _, axes = plt.subplots(2, 1, sharex=True, layout="constrained")
-        columns = (
-            (self.storage, self.storage_std, self.nominal.real, "storage"),
-            (self.loss_factor, self.loss_factor_std, self.nominal.imag / self.nominal.real, "loss factor"),
-        )
-        for axis, (values, std, nominal, label) in zip(axes, columns, strict=True):
-            bars = 2 * np.nan_to_num(std)
-            ok = self.ok
+            _, grid = plt.subplots(len(panels), 1, sharex=True, squeeze=False, layout="constrained")
+            axes = grid[:, 0]
+        ok = self.ok
+        for axis, (values, std, nominal, label) in zip(axes, panels, strict=True):
+            bars = np.where(np.isfinite(std), 2 * std, 0.0)
             axis.plot(self.frequency_hz, nominal, "--", color="0.6", label="nominal")
             axis.errorbar(self.frequency_hz[ok], values[ok], bars[ok], fmt=".", color="C0", label="identified")
             axis.plot(self.frequency_hz[~ok], values[~ok], ".", color="0.7", mfc="none", label="not trusted")
@@ -202,5 +355,3 @@ class Identification:
         axes[-1].set_xlabel("frequency (Hz)")
         axes[0].legend()
         return axes
-
-

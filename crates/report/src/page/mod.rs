@@ -1,8 +1,8 @@
 //! The page: one file, its style, its scripts and its data inside.
 
 mod plots;
-mod several;
 mod text;
+mod together;
 
 use crate::data::data;
 use crate::escape::{escape, script_json};
@@ -46,10 +46,7 @@ pub(crate) fn page(results: &Results, verdict: &Verdict) -> String {
         "<main>".to_owned(),
         text::verdict(results, verdict),
         plots::cursor(),
-        match &results.several {
-            Some(several) => several::sections(results, several),
-            None => plots::sections(results, verdict),
-        },
+        plots::sections(results),
         plots::table(&data.notes, verdict),
         text::provenance(results, verdict.own),
         "</main>".to_owned(),

@@ -1,8 +1,9 @@
 //! The places of plots and table: what each shows, or why it is not there.
 
+use super::together::together;
 use crate::data::SENSORS;
 use crate::escape::escape;
-use crate::results::{Band, Results};
+use crate::results::{Band, Results, Unknown};
 use crate::verdict::Verdict;
 use frfit::identify::Status;
 use std::fmt::Write;
@@ -29,29 +30,32 @@ pub(super) fn absent(title: &str, why: &str) -> String {
 }
 
 /// All plots, in the order in which they are read.
-pub(super) fn sections(results: &Results, verdict: &Verdict) -> String {
-    write_sections(vec![
-        ("response", "Response", response(results)),
-        ("factor", "Identified value", factor(results, verdict)),
-        ("choice", "Choice", choice(results)),
-        ("trust", "Error and convergence", trust(results)),
-        ("plane", "In the complex plane", plane(results, verdict)),
-    ])
-}
-
-/// Sections of (id, title, content).
-pub(super) fn write_sections(sections: Vec<(&str, &str, String)>) -> String {
+pub(super) fn sections(results: &Results) -> String {
     let mut html = String::new();
-    for (id, title, content) in sections {
-        let _ = write!(
-            html,
-            "<section id=\"{id}\" aria-labelledby=\"{id}-title\"><h2 id=\"{id}-title\">{title}</h2>\n{content}</section>\n"
-        );
+    for (id, title, content) in [
+        ("response", "Response", response(results)),
+        ("factor", "Identified values", factor(results)),
+        ("choice", "Choice", choice(results)),
+        ("together", "How the values hang together", together(results)),
+        ("trust", "Error and convergence", trust(results)),
+        ("plane", "In the complex plane", plane(results)),
+    ] {
+        if !content.is_empty() {
+            let _ = write!(
+                html,
+                "<section id=\"{id}\" aria-labelledby=\"{id}-title\"><h2 id=\"{id}-title\">{title}</h2>\n{content}</section>\n"
+            );
+        }
     }
     html
 }
 
-pub(super) fn response(results: &Results) -> String {
+/// The title of a plot, with the name of one of several unknowns.
+fn titled(title: &str, one: &Unknown) -> String {
+    if one.prefix.is_empty() { title.to_owned() } else { format!("{title}: {}", escape(&one.name)) }
+}
+
+fn response(results: &Results) -> String {
     let mut html = String::new();
     if results.sensors.len() > 1 {
         html += "<p class=\"screen\"><label for=\"sensor\">Sensor </label><select id=\"sensor\">";
@@ -72,27 +76,32 @@ pub(super) fn response(results: &Results) -> String {
     )
 }
 
-fn factor(results: &Results, verdict: &Verdict) -> String {
-    let title = if verdict.names.real { "Identified value" } else { "Storage modulus and loss factor" };
-    let bars = match results.band.has("storage_std") {
-        true => {
-            "Bars and bands are two standard deviations of what noise does: 95 of 100 true values lie within, if the model is right. Errors of the model (mesh, supports) are not in them."
-        }
-        false => "There are no error bars: the noise is unknown, or the selection has none.",
+fn factor(results: &Results) -> String {
+    let of_one = |(suffix, _, one): (String, usize, &Unknown)| {
+        let title = if one.real { "Identified value" } else { "Storage modulus and loss factor" };
+        let others = if results.unknowns.len() == 1 { "" } else { ", all other unknowns free" };
+        let bars = match results.band.has(&one.column("storage_std")) {
+            true => format!(
+                "Bars and bands are two standard deviations of what noise does{others}: 95 of 100 true values lie within, if the model is right. Errors of the model (mesh, supports) are not in them."
+            ),
+            false => "There are no error bars: the noise is unknown, or the selection has none.".to_owned(),
+        };
+        let reading = format!("{bars} Grey crosses are evidence only, not answers.");
+        plot(&format!("modulus{suffix}"), &titled(title, one), &reading)
     };
-    plot("modulus", title, &format!("{bars} Grey crosses are evidence only, not answers."))
+    results.curves().map(of_one).collect()
 }
 
 fn choice(results: &Results) -> String {
-    let title = "Candidates and chosen path";
-    if results.candidates.verdict.is_empty() {
-        return absent(title, "for no solution was found at any frequency.");
+    const TITLE: &str = "Candidates and chosen path";
+    let free = || results.curves().filter(|(.., one)| one.is_free() || results.unknowns.len() == 1);
+    if free().next().is_some() && results.candidates.verdict.is_empty() {
+        return absent(TITLE, "for no solution was found at any frequency.");
     }
-    plot(
-        "candidates",
-        title,
-        "Every dot reproduces the first measurement. The path through them is the one that the other sensors and frequencies agree with. Refused ones are shown by a switch.",
-    )
+    let reading = "Every dot reproduces the first measurement. The path through them is the one that the other sensors and frequencies agree with. Refused ones are shown by a switch.";
+    free()
+        .map(|(suffix, _, one)| plot(&format!("candidates{suffix}"), &titled(TITLE, one), reading))
+        .collect()
 }
 
 fn trust(results: &Results) -> String {
@@ -155,11 +164,6 @@ fn trust(results: &Results) -> String {
     html + "</div>\n" + &missing
 }
 
-/// Error and reduction error, which any identification may have.
-pub(super) fn trust_of_band(results: &Results) -> String {
-    error(&results.band).1 + &reduction_error(results)
-}
-
 /// The error of the response, or why it is not there.
 fn error(band: &Band) -> (bool, String) {
     const TITLE: &str = "Error of the response";
@@ -185,32 +189,39 @@ fn reduction_error(results: &Results) -> String {
     plot("reduction-error", TITLE, &reading)
 }
 
-fn plane(results: &Results, verdict: &Verdict) -> String {
-    let mut html = plot(
+fn plane(results: &Results) -> String {
+    const PLOTS: [(&str, &str, &str); 2] = [
+        (
+            "cole-cole",
+            "Cole–Cole plot",
+            "Loss modulus over storage modulus at trusted frequencies. One material gives one curve.",
+        ),
+        (
+            "wicket",
+            "Wicket plot",
+            "Loss factor over storage modulus, both logarithmic. Points beside the curve are wrong in frequency, temperature or branch.",
+        ),
+    ];
+    let nyquist = plot(
         "nyquist",
         "Nyquist plot",
         "Imaginary over real part of the accelerance. Resonances are loops; measured and updated loops should be the same.",
     );
-    if verdict.names.real {
-        let why = "for the factor is real (real = true).";
-        return html + &absent("Cole–Cole plot", why) + &absent("Wicket plot", why);
-    }
-    if results.band.rows(Status::Ok).next().is_none() {
-        let why = "for no frequency is trusted.";
-        return html + &absent("Cole–Cole plot", why) + &absent("Wicket plot", why);
-    }
-    html += "<div class=\"pair\">";
-    html += &plot(
-        "cole-cole",
-        "Cole–Cole plot",
-        "Loss modulus over storage modulus at trusted frequencies. One material gives one curve.",
-    );
-    html += &plot(
-        "wicket",
-        "Wicket plot",
-        "Loss factor over storage modulus, both logarithmic. Points beside the curve are wrong in frequency, temperature or branch.",
-    );
-    html + "</div>\n"
+    let why = match (results.curves().any(|(.., one)| !one.real), results.band.count(Status::Ok)) {
+        (true, 1..) => {
+            let complex = results.curves().filter(|(.., one)| !one.real);
+            let of_one = |(suffix, _, one): (String, usize, &Unknown)| {
+                let both = PLOTS
+                    .map(|(id, title, reading)| plot(&format!("{id}{suffix}"), &titled(title, one), reading));
+                format!("<div class=\"pair\">{}</div>\n", both.concat())
+            };
+            return nyquist + &complex.map(of_one).collect::<String>();
+        }
+        (true, 0) => "for no frequency is trusted.",
+        (false, _) if results.curves().next().is_some() => "for the factor is real (real = true).",
+        (false, _) => "for no factor varies over the band.",
+    };
+    nyquist + &PLOTS.map(|(_, title, _)| absent(title, why)).concat()
 }
 
 /// The table with its filter.

@@ -1,27 +1,27 @@
 //! What is read: head, verdict, and where everything comes from.
 
-use super::several;
+use super::together::constants;
 use crate::escape::escape;
-use crate::number::{hertz, significant};
-use crate::results::Results;
+use crate::number::{hertz, significant, with_bar};
+use crate::results::{Results, Unknown};
 use crate::verdict::{Level, Verdict, label};
+use frfit::c64;
 use frfit::identify::Status;
+use frfit::material::loss_factor;
 use serde_json::Value;
 use std::fmt::Write;
 
 pub(super) fn header(title: &str, results: &Results) -> String {
-    let summary = &results.summary;
-    let how = match (&results.several, summary.word("/identify/varies")) {
-        (Some(several), _) => several::how(several),
-        (None, varies) => {
-            let how = match varies {
-                "law" => "a law over the band",
-                "smooth" => "a smooth curve over the band",
-                _ => "a value at every frequency",
-            };
-            format!("Factor of {}, {how}", summary.names())
-        }
+    let one = |one: &Unknown| {
+        let how = match one.varies.as_str() {
+            "law" => "a law over the band",
+            "smooth" => "a smooth curve over the band",
+            "constant" => "one value for the band",
+            _ => "a value at every frequency",
+        };
+        format!("{}: {how}", one.name)
     };
+    let how = results.unknowns.iter().map(one).collect::<Vec<_>>().join("; ");
     format!(
         "<header class=\"page\"><div><p class=\"kicker\">Finite element model against measurement</p><h1>{}</h1>\
          <p class=\"sub\">{}, {} sensor{}</p></div>\
@@ -64,14 +64,11 @@ pub(super) fn verdict(results: &Results, verdict: &Verdict) -> String {
         }
         html += "</ul>\n";
     }
-    match &results.several {
-        Some(several) => html += &several::constants(several),
-        None => {
-            html += &three_rows(verdict);
-            html += &laws(results);
-        }
+    html += &constants(results);
+    for one in results.unknowns.iter().filter(|one| one.is_curve()) {
+        html += &three_rows(results, one);
     }
-    html + "</section>\n"
+    html + &laws(results) + "</section>\n"
 }
 
 /// The statuses over frequency as a strip, and in words.
@@ -134,16 +131,13 @@ fn findings(results: &Results) -> String {
     let findings = results.summary.array("/findings");
     let checked = results.summary.0.get("findings").is_some_and(|found| !found.is_null());
     if findings.is_empty() {
-        let told = match (checked, results.several.is_some()) {
-            (_, true) => {
-                "The measurements were not compared with the model beforehand: frfit check looks at one unknown."
+        let said = match checked {
+            true => {
+                "The measurements were compared with the model (sign, quantity, units, delay, position of sensors and load, mesh): nothing was found wrong."
             }
-            (true, _) => {
-                "The measurements were compared with the model first (sign, quantity, units, delay, position of sensors and load, mesh): nothing was found wrong."
-            }
-            (false, _) => "The measurements were not looked at for mistakes (check = false).",
+            false => "The measurements were not looked at for mistakes: frfit check does.",
         };
-        return format!("<p>{told}</p>\n");
+        return format!("<p>{said}</p>\n");
     }
     let text = |value: &Value, key: &str| escape(value.get(key).and_then(Value::as_str).unwrap_or(""));
     let mut html = "<h3>What seems wrong with the data</h3><ul class=\"findings\">".to_owned();
@@ -176,30 +170,46 @@ fn findings(results: &Results) -> String {
     html + "</ul>\n"
 }
 
-fn three_rows(verdict: &Verdict) -> String {
-    if verdict.rows.is_empty() {
-        return String::new();
-    }
-    let real = verdict.names.real;
-    let bars = if verdict.rows.iter().any(|row| row[1].contains('±')) {
-        ", ± two standard deviations"
-    } else {
-        ""
+/// The lowest, the middle and the highest trusted frequency of an unknown.
+fn three_rows(results: &Results, one: &Unknown) -> String {
+    let band = &results.band;
+    let at = |part: &str, row: usize| band.at(&one.column(part), row);
+    let rows: Vec<usize> = band.rows(Status::Ok).filter(|&row| at("storage", row).is_some()).collect();
+    let (Some(first), Some(last)) = (rows.first(), rows.last()) else { return String::new() };
+    let mut picked = vec![*first, rows[rows.len() / 2], *last];
+    picked.dedup();
+    let has_bars = picked.iter().any(|&row| at("storage_std", row).is_some());
+    let (title, of) = match one.prefix.as_str() {
+        "" => (one.what()[0].to_owned(), String::new()),
+        _ => (format!("{}: {}", one.name, one.what()[0]), format!(" of {}", one.name)),
     };
     let mut html = format!(
-        "<h3>Lowest, middle and highest trusted frequency</h3><div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Values at three frequencies\"><table class=\"plain\">\
-         <thead><tr><th>Frequency</th><th>{}{bars}</th>{}<th>Nominal</th></tr></thead><tbody>",
-        escape(&verdict.names.storage),
-        if real { "" } else { "<th>Loss factor η</th>" }
+        "<h3>Lowest, middle and highest trusted frequency{}</h3><div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Values at three frequencies{0}\"><table class=\"plain\">\
+         <thead><tr><th>Frequency</th><th>{}{}</th>{}<th>Nominal</th></tr></thead><tbody>",
+        escape(&of),
+        escape(&title),
+        if has_bars { ", ± two standard deviations" } else { "" },
+        if one.real { "" } else { "<th>Loss factor η</th>" }
     );
-    for [frequency, storage, loss, nominal] in &verdict.rows {
-        let loss = if real { String::new() } else { format!("<td>{}</td>", escape(loss)) };
+    for row in picked {
+        let cell = |part: &str, std: &str, unit| {
+            at(part, row).map_or("–".into(), |value| with_bar(value, at(std, row), unit))
+        };
+        let eta = |factor: c64| format!(", η {}", significant(loss_factor(factor), 4));
+        let nominal = one.nominal[row].map_or("–".into(), |factor| {
+            let eta = if one.real { String::new() } else { eta(factor) };
+            format!("{}{eta}", with_bar(factor.re, None, one.unit()))
+        });
+        let loss = match one.real {
+            true => String::new(),
+            false => format!("<td>{}</td>", escape(&cell("loss_factor", "loss_factor_std", ""))),
+        };
         let _ = write!(
             html,
             "<tr><td>{}</td><td>{}</td>{loss}<td>{}</td></tr>",
-            escape(frequency),
-            escape(storage),
-            escape(nominal)
+            escape(&hertz(band.frequency_hz[row])),
+            escape(&cell("storage", "storage_std", one.unit())),
+            escape(&nominal)
         );
     }
     html + "</tbody></table></div>\n"
@@ -225,10 +235,7 @@ fn laws(results: &Results) -> String {
                     let number = |key: &str| told.get(key).and_then(Value::as_f64);
                     let unit = told.get("unit").and_then(Value::as_str).unwrap_or("");
                     let unit = if unit == "1" { "" } else { unit };
-                    Some(format!(
-                        "{name} = {}",
-                        crate::number::with_bar(number("value")?, number("std"), unit)
-                    ))
+                    Some(format!("{name} = {}", with_bar(number("value")?, number("std"), unit)))
                 })
                 .collect();
             let number =

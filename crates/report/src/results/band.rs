@@ -4,12 +4,8 @@ use super::columns::Columns;
 use frfit::identify::Status;
 use frfit_formats::FormatError;
 
-/// The columns of numbers beside the frequency that a page of one unknown shows or offers.
-pub(super) const COLUMNS: [&str; 14] = [
-    "storage",
-    "storage_std",
-    "loss_factor",
-    "loss_factor_std",
+/// The columns of numbers of a frequency; beside them stand those of each unknown.
+pub(super) const COLUMNS: [&str; 7] = [
     "error",
     "chi2",
     "candidate_count",
@@ -17,9 +13,6 @@ pub(super) const COLUMNS: [&str; 14] = [
     "convergence_radius",
     "required_order",
     "reduction_error",
-    "correction_re",
-    "correction_im",
-    "storage_loss_correlation",
 ];
 
 /// One row a frequency.

@@ -1,6 +1,7 @@
 //! `candidates.csv`: every solution, and why one was not taken.
 
 use super::columns::Columns;
+use super::unknown::Unknown;
 use frfit_formats::FormatError;
 
 /// What became of a solution, as far as a page tells it apart.
@@ -28,24 +29,25 @@ const WORDS: [(&str, Verdict); 9] = [
 ];
 
 /// One row a solution, by frequency.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(crate) struct Candidates {
     pub(crate) frequency_hz: Vec<f64>,
-    /// `None` where it is infinite.
-    pub(crate) storage: Vec<Option<f64>>,
-    pub(crate) loss_factor: Vec<Option<f64>>,
     pub(crate) verdict: Vec<Verdict>,
+    /// Storage modulus and loss factor of each unknown; `None` where it is infinite.
+    pub(crate) values: Vec<[Vec<Option<f64>>; 2]>,
 }
 
 impl Candidates {
-    pub(crate) fn read(table: &Columns) -> Result<Self, FormatError> {
+    pub(crate) fn read(table: &Columns, unknowns: &[Unknown]) -> Result<Self, FormatError> {
         let column = table.column("verdict")?;
+        let values = |one: &Unknown| {
+            Ok([table.numbers(&one.column("storage"))?, table.numbers(&one.column("loss_factor"))?])
+        };
         let verdict = (0..table.rows()).map(|row| table.word(row, column, &WORDS));
         Ok(Self {
             verdict: verdict.collect::<Result<_, _>>()?,
             frequency_hz: table.all_numbers("frequency_hz")?,
-            storage: table.numbers("storage")?,
-            loss_factor: table.numbers("loss_factor")?,
+            values: unknowns.iter().map(values).collect::<Result<_, _>>()?,
         })
     }
 }

@@ -7,18 +7,25 @@ use frfit_formats::csv::Table;
 #[derive(Debug)]
 pub(crate) struct Columns(Table);
 
-/// Columns that had another name: (old, new).
-const RENAMED: [(&str, &str); 4] = [
+/// Columns, or those of an unknown, that had another name: (old, new).
+const RENAMED: [(&str, &str); 6] = [
+    (".value", ".storage"),
+    (".std", ".storage_std"),
     ("candidates", "candidate_count"),
     ("pole_distance", "convergence_radius"),
     ("series_order", "required_order"),
     ("certificate", "reduction_error"),
 ];
 
+/// Whether a column has a name, or where that begins with a point, ends in it.
+fn is_called(column: &str, name: &str) -> bool {
+    column == name || (name.starts_with('.') && column.ends_with(name))
+}
+
 impl Columns {
     pub(crate) fn read(bytes: &[u8]) -> Result<Self, FormatError> {
         let table = Table::read(bytes)?;
-        match RENAMED.iter().find(|(old, _)| table.names().any(|name| name == *old)) {
+        match RENAMED.iter().find(|(old, _)| table.names().any(|name| is_called(name, old))) {
             Some((old, new)) => {
                 let expected = format!("a column {new}, as {old} is called now: run frfit identify again");
                 Err(FormatError::line(table.names_line(), expected, *old))

@@ -4,20 +4,20 @@ mod band;
 mod candidates;
 mod columns;
 mod error_map;
-mod reference;
+mod identifiability;
 mod sensors;
-mod several;
 mod summary;
+mod unknown;
 
 pub(crate) use band::Band;
 pub(crate) use candidates::{Candidates, Verdict};
 pub(crate) use error_map::ErrorMap;
-pub(crate) use reference::Reference;
+pub(crate) use identifiability::Identifiability;
 pub(crate) use sensors::Sensor;
-pub(crate) use several::{Number, Several, Unknown};
 pub(crate) use summary::Summary;
+pub(crate) use unknown::{Number, Unknown};
 
-use frfit_formats::{FormatError, Position};
+use frfit_formats::FormatError;
 use std::path::Path;
 
 pub(crate) const SUMMARY: &str = "summary.json";
@@ -32,16 +32,16 @@ pub(crate) const ERROR_MAP: &str = "error_map.csv";
 #[derive(Debug)]
 pub(crate) struct Results {
     pub(crate) summary: Summary,
+    /// At least one.
+    pub(crate) unknowns: Vec<Unknown>,
+    pub(crate) identifiability: Identifiability,
     pub(crate) band: Band,
     pub(crate) sensors: Vec<Sensor>,
     pub(crate) candidates: Candidates,
-    pub(crate) reference: Reference,
     /// What each frequency says by itself, where a law or a smooth curve answers.
     pub(crate) free: Option<Band>,
     /// ε over frequency and order, of the series.
     pub(crate) error_map: Option<ErrorMap>,
-    /// Where several things were unknown, or one that does not vary: then there are no candidates, and the reference is each unknown's own.
-    pub(crate) several: Option<Several>,
 }
 
 impl Results {
@@ -53,46 +53,41 @@ impl Results {
             |name: &'static str| of(name, bytes(file, name).and_then(|bytes| columns::Columns::read(&bytes)));
         let named =
             |name: &'static str| tables.iter().any(|table| table == name).then(|| table(name)).transpose();
-        let identified = table(IDENTIFIED)?;
-        let is_several = summary.is_several();
-        let columns = match is_several {
-            true => Several::columns(&summary),
-            false => band::COLUMNS.map(str::to_owned).to_vec(),
-        };
-        let band = of(IDENTIFIED, Band::read(&identified, &columns))?;
+        let mut unknowns = of(SUMMARY, Unknown::read(&summary))?;
+        let columns = band::COLUMNS.map(str::to_owned).into_iter();
+        let columns: Vec<String> = columns.chain(unknowns.iter().flat_map(Unknown::columns)).collect();
+        let band = of(IDENTIFIED, Band::read(&table(IDENTIFIED)?, &columns))?;
         let sensors = of(SUMMARY, summary.sensors())?;
-        let response = table(RESPONSE)?;
-        let sensors = of(RESPONSE, Sensor::read(&response, &sensors, &band.frequency_hz))?;
-        if is_several {
-            let reference = table(REFERENCE)?;
-            of(REFERENCE, reference.at_frequencies(&band.frequency_hz))?;
-            let several = Several::read(&summary, &reference).map_err(|error| match error.position {
-                // What is wrong with the table has a place in it.
-                Position::File => error.in_file(Path::new(SUMMARY)),
-                _ => error.in_file(Path::new(REFERENCE)),
-            })?;
-            return Ok(Self {
-                candidates: Candidates::default(),
-                reference: Reference::none(band.len()),
-                free: None,
-                error_map: None,
-                several: Some(several),
-                summary,
-                band,
-                sensors,
-            });
-        }
-        let candidates = of(CANDIDATES, Candidates::read(&table(CANDIDATES)?))?;
-        let reference = of(REFERENCE, Reference::read(&table(REFERENCE)?, &band.frequency_hz))?;
-        let free = match named(FREE)? {
-            Some(table) => Some(of(FREE, Band::read(&table, &columns))?),
-            None => None,
-        };
-        let error_map = match named(ERROR_MAP)? {
-            Some(table) => Some(of(ERROR_MAP, ErrorMap::read(&table))?),
-            None => None,
-        };
-        Ok(Self { summary, band, sensors, candidates, reference, free, error_map, several: None })
+        let sensors = of(RESPONSE, Sensor::read(&table(RESPONSE)?, &sensors, &band.frequency_hz))?;
+        let reference = table(REFERENCE)?;
+        of(REFERENCE, reference.at_frequencies(&band.frequency_hz))?;
+        of(REFERENCE, unknowns.iter_mut().try_for_each(|one| one.compare(&reference)))?;
+        let read_free = |table| of(FREE, Band::read(&table, &columns));
+        let read_map = |table| of(ERROR_MAP, ErrorMap::read(&table));
+        Ok(Self {
+            identifiability: of(SUMMARY, Identifiability::read(&summary))?,
+            candidates: of(CANDIDATES, Candidates::read(&table(CANDIDATES)?, &unknowns))?,
+            free: named(FREE)?.map(read_free).transpose()?,
+            error_map: named(ERROR_MAP)?.map(read_map).transpose()?,
+            summary,
+            unknowns,
+            band,
+            sensors,
+        })
+    }
+
+    /// Whether the search settled.
+    pub(crate) fn converged(&self) -> bool {
+        self.summary.0.pointer("/search/converged") != Some(&serde_json::Value::Bool(false))
+    }
+
+    /// The curves over frequency, and what is behind their plots' names.
+    pub(crate) fn curves(&self) -> impl Iterator<Item = (String, usize, &Unknown)> {
+        let all = self.unknowns.iter().enumerate().filter(|(_, one)| one.is_curve()).enumerate();
+        all.map(|(k, (j, one))| {
+            let suffix = if self.unknowns.len() == 1 { String::new() } else { format!("-{}", k + 1) };
+            (suffix, j, one)
+        })
     }
 }
 

@@ -17,17 +17,9 @@ impl Summary {
         // What every page needs: the rest may be null or missing.
         summary.text("/title")?;
         summary.text("/frfit")?;
-        if !summary.is_several() {
-            summary.text("/identify/method")?;
-            summary.text("/identify/selection")?;
-            summary.text("/identify/varies")?;
-        }
+        summary.text("/identify/method")?;
+        summary.text("/identify/selection")?;
         Ok(summary)
-    }
-
-    /// Whether several things were unknown, or one that does not vary.
-    pub(crate) fn is_several(&self) -> bool {
-        self.0.get("unknowns").is_some_and(Value::is_array)
     }
 
     /// Text at a JSON pointer.
@@ -60,28 +52,17 @@ impl Summary {
         self.texts("/sensors", |value| value.get("label")?.as_str())
     }
 
-    /// Whether the factor is real.
-    pub(crate) fn real(&self) -> bool {
-        self.0.pointer("/identify/real").and_then(Value::as_bool).unwrap_or(false)
+    /// `stiffness`, `mass` or `viscous`: what a matrix is.
+    pub(crate) fn role(&self, matrix: &str) -> String {
+        let mut matrices = self.array("/model/matrices").iter();
+        let role = matrices.find(|one| one["name"] == matrix).and_then(|one| one["role"].as_str());
+        role.unwrap_or("stiffness").to_owned()
     }
 
-    /// The names of the matrices that share the factor, or of the unknowns.
-    pub(crate) fn names(&self) -> String {
-        if self.is_several() {
-            let name = |one: &Value| Some(one.get("name")?.as_str()?.to_owned());
-            return self.array("/unknowns").iter().filter_map(name).collect::<Vec<_>>().join(", ");
-        }
-        self.array("/identify/matrix").iter().filter_map(Value::as_str).collect::<Vec<_>>().join(", ")
-    }
-
-    /// `stiffness`, `mass` or `viscous`: what the first of them is.
-    pub(crate) fn role(&self) -> &str {
-        let first = self.0.pointer("/identify/matrix/0");
-        let matrices = self.array("/model/matrices").iter();
-        let role = matrices
-            .filter(|matrix| matrix.get("name") == first)
-            .find_map(|matrix| matrix.get("role")?.as_str());
-        role.unwrap_or("stiffness")
+    /// Elements of an array.
+    pub(super) fn list(&self, pointer: &str) -> Result<&[Value], FormatError> {
+        let list = self.0.pointer(pointer).and_then(Value::as_array);
+        list.map(Vec::as_slice).ok_or_else(|| self.missing(pointer, "a list"))
     }
 
     pub(super) fn texts<'v>(
@@ -89,13 +70,8 @@ impl Summary {
         pointer: &str,
         text: impl Fn(&'v Value) -> Option<&'v str>,
     ) -> Result<Vec<String>, FormatError> {
-        let all = self
-            .0
-            .pointer(pointer)
-            .and_then(Value::as_array)
-            .ok_or_else(|| self.missing(pointer, "a list"))?;
         let one = |value| text(value).map(str::to_owned).ok_or_else(|| self.missing(pointer, "text"));
-        all.iter().map(one).collect()
+        self.list(pointer)?.iter().map(one).collect()
     }
 
     pub(super) fn missing(&self, pointer: &str, what: &str) -> FormatError {

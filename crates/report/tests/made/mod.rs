@@ -142,11 +142,15 @@ pub(crate) fn results(made: &Made) -> BTreeMap<&'static str, Vec<u8>> {
     let summary = json!({
         "frfit": "0.1.0", "title": made.title, "tables": tables, "findings": findings, "sensors": sensors,
         "inputs": [{"file": made.file, "bytes": 1000, "sha256": "00".repeat(32)}],
-        "units": {"system": "SI"}, "factor_unit": "Pa",
+        "units": {"system": "SI"},
         "model": {"dofs": 10, "nonzeros": 28, "matrices": [{"name": "core", "role": "stiffness"}]},
-        "identify": {
-            "matrix": ["core"], "varies": if made.free { "smooth" } else { "frequency" }, "method": "rational", "selection": "joint", "real": made.real,
-        },
+        "identify": {"method": "rational", "selection": "joint"},
+        "unknowns": [{
+            "name": "core", "matrices": ["core"], "unit": "Pa", "varies": if made.free { "smooth" } else { "frequency" }, "real": made.real,
+            "numbers": null, "status": null, "reference": null,
+        }],
+        "coordinates": [], "correlation": [], "directions": [], "not_identifiable": [], "profile": null,
+        "search": {"converged": true, "starts": 0, "agreeing": 0},
         "fit": {"chi2": 100.0, "freedom": 98, "chi2_per_freedom": 1.02, "deviate": 0.1, "verdict": made.fit},
         "noise": {"source": "given", "level": 1.0},
         "counts": {"subspace_size": 12, "solves": 40},

@@ -16,7 +16,7 @@ pub(crate) use sections::checked_band;
 use crate::error::Place;
 use crate::units::{Amount, UnitSystem};
 use frfit::dof::{Axis, DofName};
-use frfit::identify::{Method, ModelErrors, Reduction, Selection};
+use frfit::identify::{Method, ModelErrors, Reduction, Selection, Variation};
 use frfit::laws::LawKind;
 use frfit::material::Law;
 use frfit::model::{FactorStd, Role};
@@ -218,6 +218,16 @@ pub enum VariesEntry {
     Smoothly,
     /// By one of these laws, which are to be compared.
     ByLaw(Vec<LawKind>),
+}
+
+impl From<VariesEntry> for Variation {
+    fn from(varies: VariesEntry) -> Self {
+        match varies {
+            VariesEntry::Freely => Self::PerFrequency,
+            VariesEntry::Smoothly => Self::Smooth,
+            VariesEntry::ByLaw(kinds) => Self::Law(kinds),
+        }
+    }
 }
 
 impl VariesEntry {

@@ -8,6 +8,9 @@ use std::path::Path;
 const COLUMNS: [&str; 6] =
     ["frequency_hz", "status", "storage", "loss_factor", "storage_std", "loss_factor_std"];
 
+/// Those of them that belong to the frequency.
+const SHARED: [&str; 2] = ["frequency_hz", "status"];
+
 /// The table of the unknown `name` alone; the bytes as they are where the table has no unknown with a name, and none is asked for.
 ///
 /// # Errors
@@ -15,10 +18,7 @@ const COLUMNS: [&str; 6] =
 pub(super) fn of_unknown(bytes: Vec<u8>, name: Option<&str>, file: &Path) -> Result<Vec<u8>, InputError> {
     let table = Table::read(&bytes).map_err(|error| InputError::in_file(file, error))?;
     let column = |wanted: &str| table.names().position(|other| other == wanted);
-    let unknowns: Vec<&str> = table
-        .names()
-        .filter_map(|column| column.strip_suffix(".storage").or(column.strip_suffix(".value")))
-        .collect();
+    let unknowns: Vec<&str> = table.names().filter_map(|column| column.strip_suffix(".storage")).collect();
     let place = Place::option("--unknown");
     let listed = || unknowns.iter().map(|one| format!("{one:?}")).collect::<Vec<_>>().join(", ");
     let name = match name {
@@ -34,20 +34,11 @@ pub(super) fn of_unknown(bytes: Vec<u8>, name: Option<&str>, file: &Path) -> Res
         }
     };
     let own = |part: &str| column(&format!("{name}.{part}"));
-    let real = own("value").is_some();
-    let parts = match real {
-        true => [own("value"), None, None, None],
-        false => ["storage", "loss_factor", "storage_std", "loss_factor_std"].map(own),
-    };
-    let fixed = ["frequency_hz", "status"].map(column);
+    let columns: Vec<Option<usize>> =
+        COLUMNS.iter().map(|name| if SHARED.contains(name) { column(name) } else { own(name) }).collect();
     let rows = (0..table.rows()).map(|row| {
-        let cell = |at: Option<usize>| Cell::Text(at.map_or("", |at| table.text(row, at)));
-        let mut cells: Vec<Cell<'_>> = fixed.into_iter().chain(parts).map(cell).collect();
-        if real && !table.is_empty(row, parts[0].unwrap_or(0)) {
-            // A real modulus has no loss.
-            cells[3] = Cell::Text("0");
-        }
-        cells
+        let cell = |at: &Option<usize>| Cell::Text(at.map_or("", |at| table.text(row, at)));
+        columns.iter().map(cell).collect::<Vec<_>>()
     });
     let text = write(&COLUMNS, rows).map_err(|error| InputError::in_file(file, error))?;
     Ok(text.into_bytes())

@@ -5,7 +5,7 @@ use crate::load::{Case, IdentifyCase};
 use crate::run::{IdentifyRun, RespondRun};
 use frfit::c64;
 use frfit::quantity::Quantity;
-use frfit_figures::{Axis, Color, Dash, Figure, Marker, Panel, Series, Strip};
+use frfit_figures::{Axis, Color, Dash, Figure, Marker, Panel, Series};
 
 pub(super) fn identified(case: &Case, identify: &IdentifyCase, run: &IdentifyRun, sensor: usize) -> Figure {
     let frequency_hz = &identify.frequency_hz;
@@ -13,17 +13,6 @@ pub(super) fn identified(case: &Case, identify: &IdentifyCase, run: &IdentifyRun
     let updated = run.found.lines.iter().map(|o| o.updated_response.get(sensor).copied()).collect();
     let measured = frequency_hz.iter().zip(&identify.measured);
     let measured = measured.map(|(&f, u)| Some(run.measured_by(sensor, f, *u.get(sensor)?))).collect();
-    compared(case, sensor, frequency_hz, [nominal, measured, updated], status_strip(run))
-}
-
-/// Nominal, measured and updated receptance of a sensor as accelerance.
-pub(super) fn compared(
-    case: &Case,
-    sensor: usize,
-    frequency_hz: &[f64],
-    [nominal, measured, updated]: [Vec<Option<c64>>; 3],
-    strip: Strip,
-) -> Figure {
     let series = |label, responses, color, line, marker| {
         curve(label, frequency_hz, modulus(case, frequency_hz, responses), color, line, marker)
     };
@@ -37,7 +26,7 @@ pub(super) fn compared(
                 series("measured", measured, Color::Black, None, Some(Marker::Circle)),
                 series("updated", updated, Color::Vermilion, Some(Dash::Solid), None),
             ],
-            strip: Some(strip),
+            strip: Some(status_strip(run)),
             ..Panel::default()
         }],
         ..Figure::default()

@@ -1,42 +1,38 @@
 //! Every solution over frequency, and the path that was chosen through them.
 
-use super::{status_strip, title};
+use super::{curve, status_strip, title};
 use crate::load::{Case, IdentifyCase};
+use crate::output::{Solution, solutions};
 use crate::run::IdentifyRun;
 use frfit::c64;
-use frfit::identify::Line;
 use frfit::material::loss_factor;
-use frfit::roots::Candidate;
-use frfit_figures::{Axis, Color, Figure, Marker, Panel, Series};
+use frfit_figures::{Axis, Color, Dash, Figure, Marker, Panel, Series};
 
-pub(super) fn figure(case: &Case, identify: &IdentifyCase, run: &IdentifyRun) -> Figure {
-    let panel = |y: Axis, part: fn(c64) -> f64| Panel {
-        y,
-        series: vec![
-            scatter("other solutions", run, Color::Grey, part, |outcome, root| {
-                outcome.correction() != Some(root.correction) && !outcome.is_rival(root)
-            }),
-            scatter("alternatives", run, Color::Orange, part, |outcome, root| outcome.is_rival(root)),
-            Series {
-                label: "chosen".into(),
-                x: run.found.lines.iter().map(|outcome| outcome.frequency_hz).collect(),
-                y: run.found.lines.iter().map(|outcome| outcome.factor().map_or(f64::NAN, part)).collect(),
-                color: Color::Blue,
-                ..Series::default()
-            },
-        ]
-        .into_iter()
-        .filter(|series| !series.x.is_empty())
-        .collect(),
-        ..Panel::default()
+/// Solutions of the j-th unknown.
+pub(super) fn figure(case: &Case, identify: &IdentifyCase, run: &IdentifyRun, j: usize) -> Figure {
+    let lines = &run.found.lines;
+    let x: Vec<f64> = lines.iter().map(|line| line.frequency_hz).collect();
+    let panel = |y: Axis, part: fn(c64) -> f64| {
+        let chosen = lines.iter().map(|line| line.values[j].value.map_or(f64::NAN, part)).collect();
+        let series = [
+            scatter("other solutions", run, Color::Grey, j, part, |of| of.verdict == "admissible"),
+            scatter("alternatives", run, Color::Orange, j, part, |of| of.verdict == "alternative"),
+            curve("chosen", &x, chosen, Color::Blue, Some(Dash::Solid), None),
+        ];
+        Panel { y, series: series.into_iter().filter(|one| !one.x.is_empty()).collect(), ..Panel::default() }
+    };
+    let of = if identify.unknowns.len() == 1 {
+        String::new()
+    } else {
+        format!(" of {}", identify.unknowns[j].name)
     };
     Figure {
-        title: title(case, "all solutions, and the one that was chosen"),
+        title: title(case, &format!("all solutions{of}, and the one that was chosen")),
         x: Axis::linear("Frequency (Hz)"),
         panels: vec![
             Panel {
                 strip: Some(status_strip(run)),
-                ..panel(Axis::log(identify.units[0].storage_label()), |factor| factor.re)
+                ..panel(Axis::log(identify.units[j].storage_label()), |factor| factor.re)
             },
             panel(Axis::linear("Loss factor η"), loss_factor),
         ],
@@ -44,21 +40,19 @@ pub(super) fn figure(case: &Case, identify: &IdentifyCase, run: &IdentifyRun) ->
     }
 }
 
-/// The admissible candidates of a kind.
+/// The solutions of a kind.
 fn scatter(
     label: &str,
     run: &IdentifyRun,
     color: Color,
+    j: usize,
     part: fn(c64) -> f64,
-    kind: impl Fn(&Line, &Candidate) -> bool,
+    kind: impl Fn(&Solution) -> bool,
 ) -> Series {
-    let points = run.found.lines.iter().flat_map(|outcome| {
-        let admitted = outcome.roots.iter().filter(|root| root.refusal.is_none());
-        let wanted = admitted.filter(|root| kind(outcome, root));
-        wanted
-            .map(|root| (outcome.frequency_hz, part(outcome.nominal() + root.correction)))
-            .collect::<Vec<_>>()
+    let points = run.found.lines.iter().flat_map(|line| {
+        let wanted = solutions(line).into_iter().filter(|solution| kind(solution));
+        wanted.map(|solution| (line.frequency_hz, part(solution.value(line, j)))).collect::<Vec<_>>()
     });
-    let (x, y) = points.unzip();
-    Series { label: label.into(), x, y, color, line: None, marker: Some(Marker::Circle), ..Series::default() }
+    let (x, y) = points.unzip::<f64, f64, Vec<f64>, Vec<f64>>();
+    curve(label, &x, y, color, None, Some(Marker::Circle))
 }

@@ -1,12 +1,8 @@
 //! Moduli and the laws that were fitted to them.
 
-use super::{draw, status_strip, title};
-use crate::load::{Case, IdentifyCase};
+use super::draw;
 use crate::output::File;
-use crate::run::IdentifyRun;
 use crate::units::FactorUnit;
-use frfit::c64;
-use frfit::identify::{Line, Status};
 use frfit::laws::LawFit;
 use frfit::material::loss_factor;
 use frfit_figures::{Axis, Color, Dash, Figure, Marker, Panel, PngError, Series};
@@ -85,93 +81,6 @@ pub fn law_figures(
         size: (720.0, 620.0),
     };
     draw(vec![("laws".to_owned(), figure)])
-}
-
-/// The best law of a band, two deviations about it, and what each frequency says by itself.
-pub(super) fn of_band(
-    case: &Case,
-    identify: &IdentifyCase,
-    run: &IdentifyRun,
-    free: &[Line],
-    law: &LawFit,
-) -> Figure {
-    let curve = Drawn {
-        what: "law",
-        label: law.kind.to_string(),
-        at: &|i, part, by| part_of(law, run.found.lines[i].frequency_hz, part, by),
-    };
-    curve_of_band(case, identify, run, free, &curve)
-}
-
-/// The smooth modulus of a band in the same way.
-pub(super) fn smooth_of_band(
-    case: &Case,
-    identify: &IdentifyCase,
-    run: &IdentifyRun,
-    free: &[Line],
-) -> Figure {
-    let at = |i: usize, part: usize, by: f64| {
-        let outcome = &run.found.lines[i];
-        let Some((factor, bars)) = outcome.factor().zip(outcome.uncertainty()) else { return f64::NAN };
-        match part {
-            0 => factor.re + by * bars.storage_std,
-            _ => loss_factor(factor) + by * bars.loss_factor_std.unwrap_or(f64::NAN),
-        }
-    };
-    let curve = Drawn { what: "smooth modulus", label: "smooth".into(), at: &at };
-    curve_of_band(case, identify, run, free, &curve)
-}
-
-/// A curve through a band.
-struct Drawn<'d> {
-    /// What the figure shows of the factor.
-    what: &'d str,
-    label: String,
-    /// E′ (0) or η (1) at a frequency, so many deviations off; NaN where there is none.
-    at: &'d dyn Fn(usize, usize, f64) -> f64,
-}
-
-fn curve_of_band(
-    case: &Case,
-    identify: &IdentifyCase,
-    run: &IdentifyRun,
-    free: &[Line],
-    drawn: &Drawn<'_>,
-) -> Figure {
-    let x: Vec<f64> = run.found.lines.iter().map(|outcome| outcome.frequency_hz).collect();
-    let parts: [fn(c64) -> f64; 2] = [|e| e.re, loss_factor];
-    let panel = |label: &str, part: usize| {
-        let of = |factor: Option<c64>| factor.map_or(f64::NAN, parts[part]);
-        let series = |label, y, color, line, marker| super::curve(label, &x, y, color, line, marker);
-        let own = |outcome: &Line| outcome.factor().filter(|_| outcome.status == Status::Ok);
-        let own = free.iter().map(|outcome| of(own(outcome))).collect();
-        let nominal = run.found.lines.iter().map(|outcome| of(Some(outcome.nominal()))).collect();
-        let curve = |by: f64| (0..x.len()).map(|i| (drawn.at)(i, part, by)).collect();
-        let mut all = vec![
-            series("nominal", nominal, Color::Blue, Some(Dash::Dashed), None),
-            series("each frequency by itself", own, Color::Grey, None, Some(Marker::Circle)),
-        ];
-        if let Some(reference) = &identify.reference[0] {
-            let reference = x.iter().map(|&f| of(reference.at(f).ok())).collect();
-            all.push(series("true", reference, Color::Black, Some(Dash::Solid), None));
-        }
-        all.push(series(&drawn.label, curve(0.0), Color::Vermilion, Some(Dash::Solid), None));
-        all.push(series("± 2 deviations", curve(2.0), Color::Vermilion, Some(Dash::Dotted), None));
-        all.push(series("", curve(-2.0), Color::Vermilion, Some(Dash::Dotted), None));
-        Panel { y: Axis::linear(label), series: all, ..Panel::default() }
-    };
-    let real = identify.unknowns[0].real;
-    let first = if real { "Real part of the factor".to_owned() } else { identify.units[0].storage_label() };
-    let mut panels = vec![Panel { strip: Some(status_strip(run)), ..panel(&first, 0) }];
-    if !real {
-        panels.push(panel("Loss factor η", 1));
-    }
-    Figure {
-        title: title(case, &format!("{} of the factor of {}", drawn.what, identify.unknowns[0].name)),
-        x: Axis::linear("Frequency (Hz)"),
-        panels,
-        size: if real { (720.0, 460.0) } else { (720.0, 620.0) },
-    }
 }
 
 /// E′ or η of a law at a frequency, so many deviations off; NaN where it has none.

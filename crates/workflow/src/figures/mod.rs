@@ -4,31 +4,29 @@ mod accelerance;
 mod candidates;
 mod error_map;
 mod hits;
+mod identifiability;
 mod laws;
 mod measured;
 mod modulus;
 mod reduction_error;
 mod sensitivities;
-mod several;
 mod spectral_radius;
 
 pub use laws::law_figures;
 pub use sensitivities::sensitivity_figure;
-pub use several::several_figures;
 
 use crate::load::{Case, IdentifyCase};
 use crate::output::File;
 use crate::records::Records;
 use crate::run::{IdentifyRun, RespondRun};
-use frfit::identify::{Selection, Status};
-use frfit::laws::best;
+use frfit::identify::{Line, Selection, Status, Unknown, Variation};
 use frfit::signal::Measured;
 use frfit_figures::{Class, Color, Dash, Figure, Marker, PngError, Series, Strip};
 
 /// Pixels per SVG unit: 720 units wide become 1080 pixels.
 const PIXELS_PER_UNIT: f64 = 1.5;
 
-/// All figures of an identification as `figures/*.svg` and `figures/*.png`.
+/// All figures of an identification as `figures/*.svg` and `figures/*.png`; those of one of several unknowns have its name in theirs.
 ///
 /// # Errors
 /// [`PngError`] where a figure cannot be rasterised.
@@ -37,6 +35,7 @@ pub fn identify_figures(
     identify: &IdentifyCase,
     run: &IdentifyRun,
 ) -> Result<Vec<File>, PngError> {
+    let found = &run.found;
     let mut figures = Vec::new();
     for sensor in 0..case.sensors.len() {
         let name = match case.sensors.len() {
@@ -45,25 +44,47 @@ pub fn identify_figures(
         };
         figures.push((name, accelerance::identified(case, identify, run, sensor)));
     }
-    let modulus = match (best(&run.found.laws), &run.found.curve) {
-        (Some(best), _) => laws::of_band(case, identify, run, &run.found.free, best),
-        (None, Some(_)) => laws::smooth_of_band(case, identify, run, &run.found.free),
-        (None, None) => modulus::figure(case, identify, run),
-    };
-    figures.push(("modulus".to_owned(), modulus));
-    if run.found.lines.iter().any(|outcome| outcome.spectral_radius.is_some()) {
+    for (j, one) in identify.unknowns.iter().enumerate() {
+        let (name, of) = match identify.unknowns.len() {
+            1 => ("modulus".to_owned(), String::new()),
+            _ => (file_name(&one.name), format!("-{}", file_name(&one.name))),
+        };
+        // A constant over frequency is a number, not a curve.
+        if one.varies != Variation::Constant {
+            figures.push((name, modulus::figure(case, identify, run, j)));
+        }
+        if identify.options.selection == Selection::Joint && has_solutions(run, one) {
+            figures.push((format!("candidates{of}"), candidates::figure(case, identify, run, j)));
+        }
+    }
+    if found.lines.iter().any(|line| line.spectral_radius.is_some()) {
         figures.push(("spectral_radius".to_owned(), spectral_radius::figure(case, run)));
     }
-    if identify.options.selection == Selection::Joint {
-        figures.push(("candidates".to_owned(), candidates::figure(case, identify, run)));
-    }
-    if run.found.reduction_error().is_some() {
+    if found.reduction_error().is_some() {
         figures.push(("reduction-error".to_owned(), reduction_error::figure(case, run)));
     }
     if let Some(map) = &run.error_map {
         figures.push(("error".to_owned(), error_map::figure(case, map)));
     }
+    if found.identifiability.correlation.len() > 1 {
+        figures.push(("correlation".to_owned(), identifiability::correlation(case, identify, run)));
+    }
+    if let Some(profile) = &found.identifiability.profile {
+        figures.push(("profile".to_owned(), identifiability::profile(case, run, profile)));
+    }
     draw(figures)
+}
+
+/// Whether an unknown can have several solutions at a frequency: one that varies alone, or one with rivals.
+fn has_solutions(run: &IdentifyRun, one: &Unknown) -> bool {
+    let free = one.varies == Variation::PerFrequency;
+    let found = |line: &Line| !line.roots.is_empty() || (free && !line.rivals.is_empty());
+    run.found.lines.iter().any(found)
+}
+
+/// A name as a part of a file's name: letters, digits, - and _ stay.
+fn file_name(name: &str) -> String {
+    name.chars().map(|c| if c.is_alphanumeric() || c == '-' || c == '_' { c } else { '_' }).collect()
 }
 
 /// The figures of a forward response: accelerance at every sensor.
@@ -121,10 +142,6 @@ fn curve(
 
 /// The status of every frequency, as a strip of colours.
 fn status_strip(run: &IdentifyRun) -> Strip {
-    strip_of(run.found.lines.iter().map(|outcome| (outcome.frequency_hz, outcome.status)))
-}
-
-fn strip_of(statuses: impl Iterator<Item = (f64, Status)>) -> Strip {
     let color = |status| match status {
         Status::Ok => Color::Green,
         Status::Ambiguous => Color::Yellow,
@@ -136,7 +153,8 @@ fn strip_of(statuses: impl Iterator<Item = (f64, Status)>) -> Strip {
         _ => Color::Blue,
     };
     let place = |status: Status| Status::ALL.iter().position(|&other| other == status).unwrap_or(0);
-    let (x, class) = statuses.map(|(frequency_hz, status)| (frequency_hz, place(status))).unzip();
+    let statuses = run.found.lines.iter().map(|line| (line.frequency_hz, place(line.status)));
+    let (x, class) = statuses.unzip();
     Strip {
         x,
         class,

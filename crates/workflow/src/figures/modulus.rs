@@ -1,61 +1,110 @@
-//! Storage modulus and loss factor over frequency: Figs 4 and 10.
+//! Storage modulus and loss factor of an unknown over frequency: Figs 4 and 10.
 
 use super::{status_strip, title};
 use crate::load::{Case, IdentifyCase};
 use crate::run::IdentifyRun;
 use frfit::c64;
-use frfit::identify::{Status, Uncertainty};
+use frfit::identify::{Line, Status, Uncertainty, Variation};
+use frfit::laws::best;
 use frfit::material::loss_factor;
 use frfit_figures::{Axis, Color, Dash, Figure, Marker, Panel, Series};
 
 /// Half-length of an error bar in standard deviations: 95 of 100 truths are within.
-pub(super) const DEVIATIONS: f64 = 2.0;
+const DEVIATIONS: f64 = 2.0;
 
-pub(super) fn figure(case: &Case, identify: &IdentifyCase, run: &IdentifyRun) -> Figure {
-    let names = identify.unknowns[0].name.clone();
-    let real = identify.unknowns[0].real;
-    let mut panels = vec![Panel {
-        strip: Some(status_strip(run)),
-        ..panel(identify, run, "Real part of the factor", |e| e.re, |bars| Some(bars.storage_std))
-    }];
-    if !real {
-        panels[0].y.label =
-            panels[0].y.label.replace("Real part of the factor", &identify.units[0].storage_label());
-        panels.push(panel(identify, run, "Loss factor η", loss_factor, |bars| bars.loss_factor_std));
+/// The j-th unknown over frequency: points where each frequency has a value of its own, else a curve.
+pub(super) fn figure(case: &Case, identify: &IdentifyCase, run: &IdentifyRun, j: usize) -> Figure {
+    let one = &identify.unknowns[j];
+    let panel = |label: &str, part: Part| match one.varies {
+        Variation::PerFrequency => points(identify, run, j, label, part),
+        _ => curve_of_band(identify, run, j, label, part),
+    };
+    let first =
+        if one.real { "Real part of the factor".to_owned() } else { identify.units[j].storage_label() };
+    let mut panels = vec![Panel { strip: Some(status_strip(run)), ..panel(&first, STORAGE) }];
+    if !one.real {
+        panels.push(panel("Loss factor η", LOSS_FACTOR));
     }
+    let what = match one.varies {
+        Variation::PerFrequency => "identified factor",
+        Variation::Smooth => "smooth modulus of the factor",
+        _ => "law of the factor",
+    };
     Figure {
-        title: title(case, &format!("identified factor of {names}")),
+        title: title(case, &format!("{what} of {}", one.name)),
         x: Axis::linear("Frequency (Hz)"),
         panels,
-        size: if real { (720.0, 460.0) } else { (720.0, 620.0) },
+        size: if one.real { (720.0, 460.0) } else { (720.0, 620.0) },
     }
 }
 
-fn panel(
-    identify: &IdentifyCase,
-    run: &IdentifyRun,
-    label: &str,
-    part: fn(c64) -> f64,
+/// A part of a factor, and its standard deviation.
+#[derive(Clone, Copy)]
+struct Part {
+    of: fn(c64) -> f64,
     std: fn(Uncertainty) -> Option<f64>,
-) -> Panel {
-    let x: Vec<f64> = run.found.lines.iter().map(|outcome| outcome.frequency_hz).collect();
-    let of = |values: Vec<Option<c64>>| values.into_iter().map(|e| e.map_or(f64::NAN, part)).collect();
-    let with = |status: &[Status]| {
-        of(run.found.lines.iter().map(|o| status.contains(&o.status).then(|| o.factor()).flatten()).collect())
+}
+
+const STORAGE: Part = Part { of: |factor| factor.re, std: |bars| Some(bars.storage_std) };
+const LOSS_FACTOR: Part = Part { of: loss_factor, std: |bars| bars.loss_factor_std };
+
+impl Part {
+    /// NaN where there is no factor.
+    fn each(self, factors: impl Iterator<Item = Option<c64>>) -> Vec<f64> {
+        factors.map(|factor| factor.map_or(f64::NAN, self.of)).collect()
+    }
+
+    /// Half-lengths of the error bars of the j-th unknown; NaN where it has none.
+    fn bars(self, run: &IdentifyRun, j: usize) -> Vec<f64> {
+        let of = |line: &Line| line.values[j].uncertainty.and_then(self.std);
+        run.found.lines.iter().map(|line| of(line).map_or(f64::NAN, |std| DEVIATIONS * std)).collect()
+    }
+}
+
+/// A law or a smooth curve through the band, two standard deviations about it, and what each frequency says by itself.
+fn curve_of_band(identify: &IdentifyCase, run: &IdentifyRun, j: usize, label: &str, part: Part) -> Panel {
+    let found = &run.found;
+    let x: Vec<f64> = found.lines.iter().map(|line| line.frequency_hz).collect();
+    let series = |label, y, color, line, marker| super::curve(label, &x, y, color, line, marker);
+    // A law has a value at frequencies that were left out too.
+    let law = found.constants.iter().find(|value| value.unknowns == j).map(|value| &value.law);
+    let value = |line: &Line| law.and_then(|law| law.at(line.frequency_hz).ok()).or(line.values[j].value);
+    let curve = part.each(found.lines.iter().map(value));
+    let bars = part.bars(run, j);
+    let edge = |by: f64| curve.iter().zip(&bars).map(|(y, bar)| y + by * bar).collect();
+    let own = |line: &Line| line.values[j].value.filter(|_| line.status == Status::Ok);
+    let nominal = part.each(found.lines.iter().map(|line| Some(line.values[j].nominal)));
+    let mut all = vec![series("nominal", nominal, Color::Blue, Some(Dash::Dashed), None)];
+    if !found.free.is_empty() {
+        let own = part.each(found.free.iter().map(own));
+        all.push(series("each frequency by itself", own, Color::Grey, None, Some(Marker::Circle)));
+    }
+    if let Some(reference) = &identify.reference[j] {
+        let reference = part.each(x.iter().map(|&f| reference.at(f).ok()));
+        all.push(series("true", reference, Color::Black, Some(Dash::Solid), None));
+    }
+    let name = best(&found.laws).map_or(identify.varies(j).to_owned(), |law| law.kind.to_string());
+    all.push(series(&name, curve.clone(), Color::Vermilion, Some(Dash::Solid), None));
+    all.push(series("± 2 deviations", edge(1.0), Color::Vermilion, Some(Dash::Dotted), None));
+    all.push(series("", edge(-1.0), Color::Vermilion, Some(Dash::Dotted), None));
+    Panel { y: Axis::linear(label), series: all, ..Panel::default() }
+}
+
+/// The value at each frequency with its bar, by status.
+fn points(identify: &IdentifyCase, run: &IdentifyRun, j: usize, label: &str, part: Part) -> Panel {
+    let lines = &run.found.lines;
+    let x: Vec<f64> = lines.iter().map(|line| line.frequency_hz).collect();
+    let with = |statuses: &[Status]| {
+        part.each(lines.iter().map(|line| line.values[j].value.filter(|_| statuses.contains(&line.status))))
     };
     let mut series = vec![Series {
         label: "nominal".into(),
-        y: of(run.found.lines.iter().map(|outcome| Some(outcome.nominal())).collect()),
+        y: part.each(lines.iter().map(|line| Some(line.values[j].nominal))),
         color: Color::Blue,
         line: Some(Dash::Dashed),
         ..Series::default()
     }];
-    let bars: Vec<f64> = run
-        .found
-        .lines
-        .iter()
-        .map(|o| o.uncertainty().and_then(std).map_or(f64::NAN, |s| DEVIATIONS * s))
-        .collect();
+    let bars = part.bars(run, j);
     // A diverged frequency has no answer: what its series ended on belongs into the table, not into a curve.
     let evidence = [Status::NotIdentifiable, Status::Unexplained, Status::Failed];
     for (label, statuses, color, marker) in [
@@ -63,7 +112,7 @@ fn panel(
         ("updated, ambiguous", &[Status::Ambiguous], Color::Orange, Marker::Triangle),
         ("updated", &[Status::Ok], Color::Vermilion, Marker::Circle),
     ] {
-        let y: Vec<f64> = with(statuses);
+        let y = with(statuses);
         if y.iter().any(|y| y.is_finite()) {
             // The bars of what is not known would hide what is, and stretch the axis with it.
             let y_error = if color == Color::Grey { Vec::new() } else { bars.clone() };
@@ -72,10 +121,10 @@ fn panel(
         }
     }
     // Above the others: a line shows among many markers, and would not below them.
-    if let Some(reference) = &identify.reference[0] {
+    if let Some(reference) = &identify.reference[j] {
         series.push(Series {
             label: "true".into(),
-            y: of(x.iter().map(|&f| reference.at(f).ok()).collect()),
+            y: part.each(x.iter().map(|&f| reference.at(f).ok())),
             color: Color::Black,
             ..Series::default()
         });
@@ -83,7 +132,7 @@ fn panel(
     for one in &mut series {
         one.x = x.clone();
     }
-    let shown = run.found.lines.iter().any(|o| o.status == Status::Ok && o.uncertainty().is_some());
+    let shown = lines.iter().any(|line| line.status == Status::Ok && line.values[j].uncertainty.is_some());
     let label = if shown { format!("{label}, ±2 std") } else { label.to_owned() };
     Panel { y: Axis { range: range_of_answers(&series), ..Axis::linear(label) }, series, ..Panel::default() }
 }

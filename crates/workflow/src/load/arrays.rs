@@ -2,18 +2,21 @@
 
 use super::band::band;
 use super::files::NamedFile;
-use super::identify::{Layout, can_be_found, factor_of, fit_for_band, middle_of, shared};
+use super::identify::{Check, can_be_found, factor_of, fit_for_band, is_single, middle_of, shared};
 use super::lines::unused;
 use super::measurement::{Curve, Decay, Measurement, common_decay};
+use super::several::enough;
 use super::{Case, Frf, IdentifyCase, SensorInfo};
 use crate::case::{Exclusion, Located, VariesEntry as Varies, checked_band};
 use crate::error::{InputError, Place};
 use crate::units::{FactorUnit, UnitSystem};
 use frfit::c64;
 use frfit::identify::{
-    ChannelUnknowns, Method, ModelErrors, Options, OptionsError, Reduction, Selection, Unknown,
+    ChannelUnknowns, Dependence, Method, ModelErrors, Options, OptionsError, Reduction, Selection, Unknown,
+    Variation,
 };
 use frfit::laws::LawKind;
+use frfit::material::Law;
 use frfit::model::{DynamicStiffness, Experiment, ModelError, Parameter, Role, Sensor};
 use frfit::quantity::Quantity;
 use frfit::roots::{Bounds, BoundsError};
@@ -69,11 +72,32 @@ impl MeasuredFrf {
     }
 }
 
+/// What is unknown: the keys of one `[[identify]]`.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct WantedUnknown {
+    /// Its name; `None`: that of its matrices.
+    pub name: Option<String>,
+    /// Names of the matrices that share the unknown factor; none of a dimension.
+    pub matrices: Vec<String>,
+    /// Matrices that a dimension multiplies, each with its power.
+    pub powers: Vec<(String, i32)>,
+    /// Value of a dimension to begin with.
+    pub nominal: Option<f64>,
+    /// `frequency`, `smooth`, `constant` or `law`; `None`: `law` where there are laws, otherwise the default.
+    pub varies: Option<String>,
+    /// Laws to fit to the whole band; none beside `law`: all.
+    pub laws: Vec<LawKind>,
+    /// Bounds on the updated value.
+    pub bounds: Bounds,
+    /// Whether it is real.
+    pub real: bool,
+}
+
 /// What to identify, and how: the keys of `[identify]`.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Wanted {
-    /// Names of the matrices that share the unknown factor.
-    pub matrices: Vec<String>,
+    /// What is unknown.
+    pub unknowns: Vec<WantedUnknown>,
     /// First and last frequency; `None`: all that were measured.
     pub band_hz: Option<[f64; 2]>,
     /// Bands that are left out; one of no width is the line next to it.
@@ -88,21 +112,13 @@ pub struct Wanted {
     pub reduction: Option<String>,
     /// Order of the series, or upper bound of it; `None`: the default.
     pub order: Option<usize>,
-    /// Bounds on the updated factor.
-    pub bounds: Bounds,
-    /// Whether the factor is real.
-    pub real: bool,
     /// Whether the nominal is no more than the middle of the bounds.
     pub start_at_bounds: bool,
     /// Whether a sensor that contradicts all others is left out; `None`: the default.
     pub reject_outliers: Option<bool>,
     /// What is known of the errors of the model.
     pub model_errors: ModelErrors,
-    /// `frequency`, `smooth` or `law`; `None`: `law` where there are laws, otherwise the default.
-    pub varies: Option<String>,
-    /// Laws to fit to the whole band; none beside `law`: all.
-    pub laws: Vec<LawKind>,
-    /// Whether to look for what is wrong with the data first.
+    /// Whether to look for what is wrong with the data first; of several unknowns where the band is not explained.
     pub check: bool,
 }
 
@@ -165,15 +181,18 @@ pub fn case_of_arrays(
     };
     let sensors = measurements.iter().map(|measurement| measurement.sensor).collect();
     let experiment = experiment(&model, load, sensors)?;
-    let mut options = options(wanted)?;
-    let varies = varies(wanted)?;
-    let place = argument(if wanted.varies.is_some() { "varies" } else { "law" });
-    fit_for_band(&mut options, &varies, wanted.real, &place)?;
-    let parameter = parameter(&model, &wanted.matrices, wanted)?;
+    let (options, unknowns) = unknowns_of(&model, wanted)?;
     if let Some(first) = unknown.iter().position(|unknown| unknown.any()) {
         let key = if unknown[first].scale { "scale" } else { "delay_s" };
         let place = argument(&format!("measurement {}", first + 1)).below(key);
-        can_be_found(&unknown, &place, &varies, &options)?;
+        match &unknowns[..] {
+            [only] if is_single(&unknowns) => can_be_found(&unknown, &place, &only.varies, &options)?,
+            _ => {
+                let expected =
+                    "a number: channels are found beside one unknown that varies, not beside several";
+                return Err(InputError::at(&place, expected, "\"unknown\"").into());
+            }
+        }
     }
     let place = argument("band_hz");
     let band_hz = wanted.band_hz.unwrap_or([0.0, f64::MAX]);
@@ -184,17 +203,26 @@ pub fn case_of_arrays(
     let left_out = unused(&data, &out, most.as_ref(), &argument("exclude_hz"))?;
     covers(&model, &data.frequency_hz)?;
     let first_and_last = [data.frequency_hz.first(), data.frequency_hz.last()].map(|f| f.copied());
-    let role = parameter.members.first().map_or(Role::Stiffness, |member| model.terms()[member.term].role);
-    let unit = FactorUnit::of(role, None, &parameter.nominal, &data.frequency_hz, UnitSystem::Si);
+    let check = match &unknowns[..] {
+        _ if !wanted.check => Check::Never,
+        _ if is_single(&unknowns) => Check::First,
+        _ => {
+            let used = left_out.iter().filter(|&&out| !out).count();
+            enough(&argument("unknowns"), &unknowns, used, measurements.len())?;
+            Check::IfUnexplained
+        }
+    };
+    let unit = |one: &Unknown| match &one.dependence {
+        Dependence::Factor(terms) => {
+            let role = terms.first().map_or(Role::Stiffness, |&term| model.terms()[term].role);
+            FactorUnit::of(role, None, &one.nominal, &data.frequency_hz, UnitSystem::Si)
+        }
+        Dependence::Powers(_) => FactorUnit::Other,
+    };
     let identify = IdentifyCase {
-        unknowns: vec![Unknown {
-            bounds: wanted.bounds,
-            real: wanted.real,
-            ..factor_of(&parameter, &model, &varies)
-        }],
-        units: vec![unit],
-        reference: vec![None],
-        layout: Layout::Single,
+        units: unknowns.iter().map(unit).collect(),
+        reference: vec![None; unknowns.len()],
+        unknowns,
         options,
         band_hz: wanted.band_hz.unwrap_or(first_and_last.map(|f| f.unwrap_or(0.0))),
         frequency_hz: data.frequency_hz,
@@ -202,7 +230,7 @@ pub fn case_of_arrays(
         left_out,
         channels: unknown,
         noise: data.noise,
-        check: wanted.check,
+        check,
     };
     let respond_hz = identify.frequency_hz.clone();
     let sensors = measurements.into_iter().map(|measurement| measurement.info).collect();
@@ -361,9 +389,82 @@ fn covers(model: &DynamicStiffness, frequency_hz: &[f64]) -> Result<(), InputErr
     Ok(())
 }
 
-fn parameter(model: &DynamicStiffness, names: &[String], wanted: &Wanted) -> Result<Parameter, ArraysError> {
-    let words: Vec<&str> = names.iter().map(String::as_str).collect();
-    let mut parameter = Parameter::factor_of(model, &words).map_err(ArraysError::Model)?;
+/// The unknowns, and how to find them.
+fn unknowns_of(model: &DynamicStiffness, wanted: &Wanted) -> Result<(Options, Vec<Unknown>), ArraysError> {
+    if let [only] = &wanted.unknowns[..]
+        && only.powers.is_empty()
+        && variation(only)? != Variation::Constant
+    {
+        let (mut options, varies) = (options(wanted, only)?, variation(only)?);
+        let place = argument(if only.varies.is_some() { "varies" } else { "law" });
+        fit_for_band(&mut options, &varies, only.real, &place)?;
+        let mut parameter = parameter(model, &only.matrices)?;
+        if wanted.start_at_bounds {
+            parameter.nominal = middle_of(&only.bounds, &argument("nominal"))?;
+        }
+        let unknown = factor_of(&parameter, model, &varies);
+        let name = only.name.clone().unwrap_or_else(|| unknown.name.clone());
+        return Ok((options, vec![Unknown { name, real: only.real, bounds: only.bounds, ..unknown }]));
+    }
+    for (name, given) in [
+        ("method", wanted.method.is_some()),
+        ("order", wanted.order.is_some()),
+        ("selection", wanted.selection.is_some()),
+        ("reduction", wanted.reduction.is_some()),
+        ("start", wanted.start_at_bounds),
+    ] {
+        if given {
+            let expected =
+                "None with several unknowns, or one that does not vary: there is one way to find them";
+            return Err(InputError::at(&argument(name), expected, "one").into());
+        }
+    }
+    let options = Options::default()
+        .with_model_errors(wanted.model_errors)
+        .with_reject_outliers(wanted.reject_outliers.unwrap_or(true));
+    let unknowns = wanted.unknowns.iter().map(|one| one_of_several(model, one));
+    Ok((options, unknowns.collect::<Result<_, _>>()?))
+}
+
+/// One of several unknowns, or one that does not vary.
+fn one_of_several(model: &DynamicStiffness, wanted: &WantedUnknown) -> Result<Unknown, ArraysError> {
+    let (dependence, nominal) = match wanted.powers.as_slice() {
+        [] => {
+            let parameter = parameter(model, &wanted.matrices)?;
+            (
+                Dependence::Factor(parameter.members.iter().map(|member| member.term).collect()),
+                parameter.nominal,
+            )
+        }
+        powers => {
+            let names: Vec<String> = powers.iter().map(|(name, _)| name.clone()).collect();
+            let parameter = Parameter::factor_of(model, &words(&names)).map_err(ArraysError::Model)?;
+            let terms = parameter.members.iter().map(|member| member.term);
+            let nominal = wanted.nominal.filter(|nominal| nominal.is_finite() && *nominal != 0.0);
+            let place = argument("unknowns").below("nominal");
+            let found = wanted.nominal.map_or("none".to_owned(), |nominal| nominal.to_string());
+            let nominal = nominal.ok_or_else(|| InputError::at(&place, "a dimension other than 0", found))?;
+            let powers = terms.zip(powers.iter().map(|(_, power)| *power)).collect();
+            (Dependence::Powers(powers), Law::Constant(c64::new(nominal, 0.0)))
+        }
+    };
+    Ok(Unknown {
+        name: wanted.name.clone().unwrap_or_else(|| wanted.matrices.join(", ")),
+        dependence,
+        nominal,
+        varies: variation(wanted)?,
+        real: wanted.real,
+        bounds: wanted.bounds,
+    })
+}
+
+fn words(names: &[String]) -> Vec<&str> {
+    names.iter().map(String::as_str).collect()
+}
+
+/// The factor that matrices share.
+fn parameter(model: &DynamicStiffness, names: &[String]) -> Result<Parameter, ArraysError> {
+    let parameter = Parameter::factor_of(model, &words(names)).map_err(ArraysError::Model)?;
     let place = argument("matrix");
     for (k, name) in names.iter().enumerate() {
         if names[..k].contains(name) {
@@ -371,24 +472,26 @@ fn parameter(model: &DynamicStiffness, names: &[String], wanted: &Wanted) -> Res
         }
         shared(model, &parameter, k, names, &place)?;
     }
-    if wanted.start_at_bounds {
-        parameter.nominal = middle_of(&wanted.bounds, &argument("nominal"))?;
-    }
     Ok(parameter)
 }
 
 /// What `varies` and the laws say together.
-fn varies(wanted: &Wanted) -> Result<Varies, InputError> {
-    let asked = wanted.varies.as_deref().map(|word| {
-        Varies::of_word(word)
-            .map_err(|expected| InputError::at(&argument("varies"), expected, format!("{word:?}")))
+fn variation(wanted: &WantedUnknown) -> Result<Variation, InputError> {
+    let asked = wanted.varies.as_deref().map(|word| match word {
+        "constant" => Ok(Variation::Constant),
+        _ => Varies::of_word(word)
+            .map(Variation::from)
+            .map_err(|expected| InputError::at(&argument("varies"), expected, format!("{word:?}"))),
     });
     let asked = asked.transpose()?;
     if wanted.laws.is_empty() {
-        return Ok(asked.unwrap_or_default());
+        let usual = if wanted.powers.is_empty() { Variation::PerFrequency } else { Variation::Constant };
+        return Ok(asked.unwrap_or(usual));
     }
     let place = argument("law");
-    if let (Some(Varies::Freely | Varies::Smoothly), Some(word)) = (asked, &wanted.varies) {
+    if let (Some(Variation::PerFrequency | Variation::Smooth | Variation::Constant), Some(word)) =
+        (asked, &wanted.varies)
+    {
         return Err(InputError::at(&place, "varies = \"law\" beside it", format!("varies = {word:?}")));
     }
     let twice = |(k, family): &(usize, &LawKind)| wanted.laws[..*k].contains(family);
@@ -396,10 +499,10 @@ fn varies(wanted: &Wanted) -> Result<Varies, InputError> {
         let found = format!("{:?} a second time", family.to_string());
         return Err(InputError::at(&place, "each law once", found));
     }
-    Ok(Varies::ByLaw(wanted.laws.clone()))
+    Ok(Variation::Law(wanted.laws.clone()))
 }
 
-fn options(wanted: &Wanted) -> Result<Options, ArraysError> {
+fn options(wanted: &Wanted, only: &WantedUnknown) -> Result<Options, ArraysError> {
     let defaults = Options::default();
     let refuse = |name: &str, word: &str, expected: &str| {
         InputError::at(&argument(name), expected, format!("{word:?}"))
@@ -425,7 +528,7 @@ fn options(wanted: &Wanted) -> Result<Options, ArraysError> {
         .with_order(wanted.order.unwrap_or(defaults.order))
         .with_reject_outliers(wanted.reject_outliers.unwrap_or(defaults.reject_outliers))
         .with_whole_box(wanted.start_at_bounds);
-    wanted.bounds.validate().map_err(ArraysError::Bounds)?;
+    only.bounds.validate().map_err(ArraysError::Bounds)?;
     options.validate().map_err(ArraysError::Options)?;
     Ok(options)
 }

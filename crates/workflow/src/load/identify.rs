@@ -6,9 +6,7 @@ use super::factor::law;
 use super::files::Files;
 use super::lines::unused;
 use super::measurement::Measurement;
-use crate::case::{
-    Calibration, CaseFile, IdentifyEntry, Located, MatrixEntry, VariesEntry as Varies, checked_band,
-};
+use crate::case::{Calibration, CaseFile, IdentifyEntry, Located, MatrixEntry, checked_band};
 use crate::error::{InputError, Place};
 use crate::nearest::nearest;
 use crate::units::FactorUnit;
@@ -29,8 +27,6 @@ pub struct IdentifyCase {
     pub units: Vec<FactorUnit>,
     /// What a simulated measurement was made with, for each.
     pub reference: Vec<Option<Law>>,
-    /// How results are laid out.
-    pub layout: Layout,
     /// How to find them.
     pub options: Options,
     /// First and last frequency of the band as it was asked for.
@@ -45,29 +41,66 @@ pub struct IdentifyCase {
     pub channels: Vec<ChannelUnknowns>,
     /// How well the receptances were measured.
     pub noise: MeasuredNoise,
-    /// Whether to look for what is wrong with the data first.
-    pub check: bool,
+    /// When to look for what is wrong with the data.
+    pub check: Check,
 }
 
-/// How the results of an identification are laid out.
+/// When to look for what is wrong with the data.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Layout {
-    /// The columns of the only unknown that varies: `[identify]`.
-    Single,
-    /// Columns with the name of each unknown: `[[identify]]`, a constant or a dimension.
-    Named,
+pub enum Check {
+    /// Before anything is identified.
+    First,
+    /// Where the band is not explained: several unknowns need a reduced model each to look for faults.
+    IfUnexplained,
+    /// Not at all.
+    Never,
 }
 
 impl IdentifyCase {
-    /// Names of the matrices that the first unknown enters.
-    pub fn matrices<'m>(&self, model: &'m DynamicStiffness) -> Vec<&'m str> {
-        self.unknowns[0].dependence.terms().map(|term| model.terms()[term].name.as_str()).collect()
+    /// Names of the matrices that the j-th unknown enters.
+    pub fn matrices<'m>(&self, model: &'m DynamicStiffness, j: usize) -> Vec<&'m str> {
+        self.unknowns[j].dependence.terms().map(|term| model.terms()[term].name.as_str()).collect()
+    }
+
+    /// What columns of the j-th unknown begin with: its name and a point, or nothing where it is the only one.
+    pub fn prefix(&self, j: usize) -> String {
+        if self.unknowns.len() == 1 { String::new() } else { format!("{}.", self.unknowns[j].name) }
+    }
+
+    /// The word of the case file for how the j-th unknown varies.
+    pub fn varies(&self, j: usize) -> &'static str {
+        match self.unknowns[j].varies {
+            Variation::Smooth => "smooth",
+            Variation::Constant => "constant",
+            Variation::Law(_) => "law",
+            _ => "frequency",
+        }
+    }
+
+    /// Whether numbers of the j-th unknown hold for the whole band: a constant or a law.
+    pub fn holds_for_band(&self, j: usize) -> bool {
+        matches!(self.unknowns[j].varies, Variation::Constant | Variation::Law(_))
+    }
+
+    /// Whether a factor that varies is the only unknown: it is found with all its solutions.
+    pub fn is_single(&self) -> bool {
+        is_single(&self.unknowns)
+    }
+
+    /// Whether laws are fitted to a single unknown.
+    pub fn is_law(&self) -> bool {
+        matches!(self.unknowns[..], [Unknown { varies: Variation::Law(_), .. }])
     }
 
     /// Lines that are used.
     pub fn used(&self) -> usize {
         self.left_out.iter().filter(|&&out| !out).count()
     }
+}
+
+/// See [`IdentifyCase::is_single`].
+pub(super) fn is_single(unknowns: &[Unknown]) -> bool {
+    matches!(unknowns, [only] if only.varies != Variation::Constant && only.parameter().is_some())
 }
 
 /// Standard deviations √E|δx|² of the measured receptances, `[frequency][sensor]`, as far as files and case tell.
@@ -96,6 +129,7 @@ pub(super) fn identify(
     let mut options = options(entry, overrides)?;
     options.model_errors = case.model_error;
     let varies = entry.varies.as_ref().map(|varies| varies.value.clone()).unwrap_or_default();
+    let varies = Variation::from(varies);
     if let Some(Located { place, .. }) = &entry.varies {
         fit_for_band(&mut options, &varies, entry.real, place)?;
     }
@@ -117,7 +151,6 @@ pub(super) fn identify(
         unknowns,
         units: vec![unit],
         reference: vec![reference],
-        layout: Layout::Single,
         options,
         band_hz,
         frequency_hz: data.frequency_hz,
@@ -125,23 +158,15 @@ pub(super) fn identify(
         left_out,
         channels,
         noise: data.noise,
-        check: entry.check,
+        check: if entry.check { Check::First } else { Check::Never },
     })
 }
 
 /// The common factor of a parameter's matrices as an unknown.
-pub(super) fn factor_of(parameter: &Parameter, model: &DynamicStiffness, varies: &Varies) -> Unknown {
+pub(super) fn factor_of(parameter: &Parameter, model: &DynamicStiffness, varies: &Variation) -> Unknown {
     let members = parameter.members.iter();
     let names: Vec<&str> = members.map(|member| model.terms()[member.term].name.as_str()).collect();
-    Unknown {
-        name: names.join(", "),
-        varies: match varies {
-            Varies::Freely => Variation::PerFrequency,
-            Varies::Smoothly => Variation::Smooth,
-            Varies::ByLaw(kinds) => Variation::Law(kinds.clone()),
-        },
-        ..Unknown::of_parameter(parameter)
-    }
+    Unknown { name: names.join(", "), varies: varies.clone(), ..Unknown::of_parameter(parameter) }
 }
 
 /// What the case says of the factor beforehand.
@@ -301,20 +326,20 @@ const ORDERS: &str = "1 to 200";
 /// Laws and smooth moduli are fitted on the subspace of a joint selection, and laws are laws of a complex modulus.
 pub(super) fn fit_for_band(
     options: &mut Options,
-    varies: &Varies,
+    varies: &Variation,
     is_real: bool,
     place: &Place,
 ) -> Result<(), InputError> {
     match varies {
-        Varies::Freely => {}
-        Varies::Smoothly => options.reduction = reduction_of_band(options, "smooth", place)?,
-        Varies::ByLaw(_) => {
+        Variation::Smooth => options.reduction = reduction_of_band(options, "smooth", place)?,
+        Variation::Law(_) => {
             options.reduction = reduction_of_band(options, "law", place)?;
             if is_real {
                 let found = "\"law\" with real = true";
                 return Err(InputError::at(place, "\"frequency\" or \"smooth\" for a real factor", found));
             }
         }
+        _ => {}
     }
     Ok(())
 }
@@ -359,7 +384,11 @@ fn invalid(error: &OptionsError, entry: &IdentifyEntry, overrides: &Overrides) -
 }
 
 /// What of each sensor's channel is unknown, where that can be found.
-fn unknown(case: &CaseFile, varies: &Varies, options: &Options) -> Result<Vec<ChannelUnknowns>, InputError> {
+fn unknown(
+    case: &CaseFile,
+    varies: &Variation,
+    options: &Options,
+) -> Result<Vec<ChannelUnknowns>, InputError> {
     let looked_for = |entry: &Option<Located<Calibration>>| {
         entry.as_ref().filter(|entry| entry.value == Calibration::Unknown).map(|entry| entry.place.clone())
     };
@@ -380,7 +409,7 @@ fn unknown(case: &CaseFile, varies: &Varies, options: &Options) -> Result<Vec<Ch
 pub(super) fn can_be_found(
     unknown: &[ChannelUnknowns],
     first: &Place,
-    varies: &Varies,
+    varies: &Variation,
     options: &Options,
 ) -> Result<(), InputError> {
     let refuse = |expected: &str, found: &str| Err(InputError::at(first, expected, found));
@@ -391,13 +420,13 @@ pub(super) fn can_be_found(
     if options.reduction == Reduction::Full {
         return refuse("a number, or the reduction \"subspace\"", "\"unknown\" with reduction \"full\"");
     }
-    if *varies == Varies::Smoothly {
+    if *varies == Variation::Smooth {
         return refuse(
             "a number, or varies = \"frequency\" or \"law\"",
             "\"unknown\" with varies \"smooth\"",
         );
     }
-    if *varies == Varies::Freely && unknown.iter().all(|unknown| unknown.any()) {
+    if *varies == Variation::PerFrequency && unknown.iter().all(|unknown| unknown.any()) {
         let expected = "a number here, another [[measurement]] whose scale and delay are known, or varies = \"law\" \
                         (a factor of its own at each frequency explains one sensor whatever its scale and delay)";
         return refuse(expected, "\"unknown\" for all sensors");

@@ -19,11 +19,11 @@ mod sensitivities;
 mod several;
 mod uff;
 
-pub use arrays::{ArraysError, MeasuredFrf, Wanted, case_of_arrays, response_of_arrays};
+pub use arrays::{ArraysError, MeasuredFrf, Wanted, WantedUnknown, case_of_arrays, response_of_arrays};
 pub use files::InputFile;
 pub(crate) use frf::decay_line;
 pub use frf::{Choice, Frf, read_frf};
-pub use identify::{IdentifyCase, Layout, MeasuredNoise};
+pub use identify::{Check, IdentifyCase, MeasuredNoise};
 pub(crate) use labels::{Member, load_one, matrices_of, one_order};
 pub(crate) use matrix::{asymmetry, complex};
 pub use matrix::{check_symmetric, symmetric_matrix};

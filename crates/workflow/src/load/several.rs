@@ -6,7 +6,7 @@ use super::dimension::{PartOf, each_has_a_value, powers_of};
 use super::factor::{covers, law};
 use super::files::Files;
 use super::identify::{
-    IdentifyCase, Layout, band_of, factor_unit, known_have_std, known_names, shared_factor,
+    Check, IdentifyCase, band_of, factor_unit, known_have_std, known_names, shared_factor,
 };
 use super::lines::unused;
 use super::measurement::Measurement;
@@ -63,7 +63,7 @@ pub(super) fn several(
         }
     }
     let used = out.iter().filter(|&&out| !out).count();
-    enough(entry, &unknowns, used, measurements.len())?;
+    enough(&entry.place, &unknowns, used, measurements.len())?;
     let unit = |(one, unknowns): (&SoughtEntry, &Unknown)| match one.matrices.as_slice() {
         [] => FactorUnit::Other,
         named => factor_unit(case, named, &unknowns.nominal, &frequency_hz),
@@ -73,7 +73,6 @@ pub(super) fn several(
         unknowns,
         units,
         reference,
-        layout: Layout::Named,
         options: Options::default()
             .with_reject_outliers(entry.reject_outliers.unwrap_or(true))
             .with_model_errors(case.model_error),
@@ -83,7 +82,7 @@ pub(super) fn several(
         left_out: out,
         channels: Vec::new(),
         noise: data.noise,
-        check: false,
+        check: Check::IfUnexplained,
     })
 }
 
@@ -183,28 +182,28 @@ fn refuse_unknown_channels(case: &CaseFile) -> Result<(), InputError> {
 }
 
 /// Refuses fewer measured than unknown numbers.
-fn enough(
-    entry: &SeveralEntry,
+pub(super) fn enough(
+    place: &Place,
     unknowns: &[Unknown],
     frequencies: usize,
     sensors: usize,
 ) -> Result<(), InputError> {
     let own: usize = unknowns.iter().map(Unknown::per_frequency).sum();
     let band: usize = unknowns.iter().map(Unknown::for_band).sum();
-    let told = |what: String| InputError::at(&entry.place, "no more unknown than measured numbers", what);
+    let refuse = |what: String| InputError::at(place, "no more unknown than measured numbers", what);
     if own > 2 * sensors {
         let found = format!(
             "{own} unknown real numbers at each frequency, {} measured ones ({sensors} complex)",
             2 * sensors
         );
-        return Err(told(found));
+        return Err(refuse(found));
     }
     let (unknown, measured) = (own * frequencies + band, 2 * sensors * frequencies);
     if unknown > measured {
         let found = format!(
             "{unknown} unknown real numbers ({own} at each of {frequencies} frequencies, {band} for the band), {measured} measured ones"
         );
-        return Err(told(found));
+        return Err(refuse(found));
     }
     Ok(())
 }

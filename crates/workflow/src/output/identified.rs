@@ -1,16 +1,16 @@
 //! `identified.csv`: one row a frequency.
 
-use frfit::identify::Line;
-use frfit_formats::csv::{Cell, write};
+use super::columns::{named, table};
+use crate::load::IdentifyCase;
+use frfit::identify::{Line, LineValue};
+use frfit_formats::csv::Cell;
 
-const COLUMNS: [&str; 19] = [
-    "frequency_hz",
-    "storage",
-    "loss_factor",
-    "factor_re",
-    "factor_im",
-    "correction_re",
-    "correction_im",
+/// Of each unknown: its value.
+const VALUE: [&str; 6] =
+    ["storage", "loss_factor", "factor_re", "factor_im", "correction_re", "correction_im"];
+
+/// Of the frequency.
+const LINE: [&str; 8] = [
     "error",
     "spectral_radius",
     "order",
@@ -19,37 +19,58 @@ const COLUMNS: [&str; 19] = [
     "convergence_radius",
     "required_order",
     "reduction_error",
-    "storage_std",
-    "loss_factor_std",
-    "storage_loss_correlation",
-    "chi2",
 ];
 
-/// The table; what does not exist is an empty cell.
-pub fn identified_csv(outcomes: &[Line]) -> String {
-    let rows = outcomes.iter().map(|outcome| {
-        let (factor, bars) = (outcome.factor(), outcome.uncertainty());
-        [
-            Cell::Number(outcome.frequency_hz),
-            outcome.storage().into(),
-            outcome.loss_factor().into(),
-            factor.map(|f| f.re).into(),
-            factor.map(|f| f.im).into(),
-            outcome.correction().map(|c| c.re).into(),
-            outcome.correction().map(|c| c.im).into(),
-            outcome.error.into(),
-            outcome.spectral_radius.into(),
-            Cell::Count(outcome.order),
-            Cell::Count(outcome.candidate_count()),
-            Cell::Text(outcome.status.name()),
-            outcome.convergence_radius().into(),
-            outcome.required_order.map_or(Cell::Empty, Cell::Count),
-            outcome.reduction_error.into(),
-            bars.map(|bars| bars.storage_std).into(),
-            bars.and_then(|bars| bars.loss_factor_std).into(),
-            bars.and_then(|bars| bars.correlation).into(),
-            outcome.chi_squared.into(),
-        ]
+/// Of each unknown: its error bars.
+const BARS: [&str; 3] = ["storage_std", "loss_factor_std", "storage_loss_correlation"];
+
+/// The table; what does not exist is an empty cell. Columns of an unknown begin with [`IdentifyCase::prefix`].
+pub fn identified_csv(identify: &IdentifyCase, lines: &[Line]) -> String {
+    let mut columns = vec!["frequency_hz".to_owned()];
+    columns.extend(named(identify, &VALUE));
+    columns.extend(LINE.map(str::to_owned));
+    columns.extend(named(identify, &BARS));
+    columns.push("chi2".to_owned());
+    let rows = lines.iter().map(|line| {
+        let mut row = vec![Cell::Number(line.frequency_hz)];
+        row.extend(line.values.iter().flat_map(value));
+        row.extend(of_line(line));
+        row.extend(line.values.iter().flat_map(bars));
+        row.push(line.chi_squared.into());
+        row
     });
-    write(&COLUMNS, rows).expect("every row has the columns, and no text a line break")
+    table(&columns, rows)
+}
+
+fn value<'a>(of: &LineValue) -> [Cell<'a>; 6] {
+    [
+        of.storage().into(),
+        of.loss_factor().into(),
+        of.value.map(|factor| factor.re).into(),
+        of.value.map(|factor| factor.im).into(),
+        of.correction.map(|correction| correction.re).into(),
+        of.correction.map(|correction| correction.im).into(),
+    ]
+}
+
+fn of_line<'a>(line: &Line) -> [Cell<'a>; 8] {
+    [
+        line.error.into(),
+        line.spectral_radius.into(),
+        Cell::Count(line.order),
+        Cell::Count(line.candidate_count()),
+        Cell::Text(line.status.name()),
+        line.convergence_radius().into(),
+        line.required_order.map_or(Cell::Empty, Cell::Count),
+        line.reduction_error.into(),
+    ]
+}
+
+fn bars<'a>(of: &LineValue) -> [Cell<'a>; 3] {
+    let bars = of.uncertainty;
+    [
+        bars.map(|bars| bars.storage_std).into(),
+        bars.and_then(|bars| bars.loss_factor_std).into(),
+        bars.and_then(|bars| bars.correlation).into(),
+    ]
 }

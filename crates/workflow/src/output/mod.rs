@@ -1,35 +1,34 @@
 //! What a run leaves behind: tables, summary and figures, written whole or not at all.
 
 mod candidates;
+mod columns;
 mod error_map;
 mod files;
 mod frf;
+mod identifiability;
 mod identified;
 mod laws;
 mod manifest;
 mod measured;
 mod reference;
 mod response;
-mod several;
 mod staging;
 mod summary;
 mod target;
 mod words;
 
 pub use candidates::candidates_csv;
+pub(crate) use candidates::{Solution, solutions};
 pub use error_map::error_map_csv;
 pub use files::{File, WriteError, check_file, check_folder, write_all, write_one, write_result};
 pub use frf::{respond_uff, updated_uff};
+pub use identifiability::{coordinate, not_identifiable};
 pub use identified::identified_csv;
 pub use laws::{Misfit, law_json, laws_json, laws_text, smooth_json, snippet};
 pub(crate) use manifest::{read_result, sha256};
 pub use measured::{hit_reasons, measured_csv, measured_summary, measured_text, measured_uff};
 pub use reference::reference_csv;
 pub use response::{respond_csv, response_csv};
-pub(crate) use several::file_name;
-pub use several::{
-    coordinate, not_told, several_csv, several_json, several_reference_csv, several_text, varies,
-};
-pub use summary::{RIGHT_WITHIN, summary_json};
+pub use summary::summary_json;
 pub use target::{is_standard_output, is_stream};
 pub use words::Words;

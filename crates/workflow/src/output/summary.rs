@@ -1,21 +1,26 @@
 //! `summary.json`: what went in, what was done, what came out, in a form that programs read.
 
+use super::identifiability::{coordinate, not_identifiable};
 use super::{laws_json, smooth_json};
-use crate::load::{Case, IdentifyCase, MeasuredNoise};
+use crate::load::{Case, IdentifyCase, MeasuredNoise, SensorInfo};
 use crate::run::IdentifyRun;
 use frfit::c64;
 use frfit::identify::{
-    FactorError, GoodnessOfFit, Identification, Leverage, ModeError, ModelErrors, ModelErrorsFound,
-    NoiseLevel, Status, Variation,
+    Dependence, Direction, FactorError, GoodnessOfFit, Identifiability, Identification, Leverage, Line,
+    ModeError, ModelErrors, ModelErrorsFound, NoiseLevel, Number, SensorMass, Status, Unknown, Variation,
 };
 use frfit::material::loss_factor;
 use frfit::model::{FactorPart, Term};
 use serde_json::{Map, Value, json};
 
-/// A modulus within this of the reference counts as right.
-pub const RIGHT_WITHIN: f64 = 1e-6;
+/// A value within this of the reference counts as right: the search for several unknowns ends earlier than roots of one do.
+fn right_within(unknowns: usize) -> f64 {
+    if unknowns == 1 { 1e-6 } else { 1e-5 }
+}
 
 /// The summary of an identification. `seconds_load` and `seconds_figures` are the stages outside the run.
+///
+/// What belongs to one unknown stands in `unknowns`; what belongs to a single one stands also beside what belongs to the band.
 pub fn summary_json(
     case: &Case,
     identify: &IdentifyCase,
@@ -23,18 +28,10 @@ pub fn summary_json(
     seconds_load: f64,
     seconds_figures: f64,
 ) -> Value {
-    let mut statuses = Map::new();
-    let mut bands = Map::new();
-    for status in Status::ALL.into_iter().filter(|&status| run.count(status) > 0) {
-        statuses.insert(status.name().into(), json!(run.count(status)));
-        bands.insert(status.name().into(), json!(run.bands_hz(status)));
-    }
-    let options = &identify.options;
-    let unknown = &identify.unknowns[0];
-    let (varies, laws) = match &unknown.varies {
-        Variation::Smooth => ("smooth", &[][..]),
-        Variation::Law(laws) => ("law", laws.as_slice()),
-        _ => ("frequency", &[][..]),
+    let (found, options) = (&run.found, &identify.options);
+    let statuses = || Status::ALL.into_iter().filter(|&status| run.count(status) > 0);
+    let by_status = |of: &dyn Fn(Status) -> Value| -> Map<String, Value> {
+        statuses().map(|status| (status.name().to_owned(), of(status))).collect()
     };
     let mut summary = json!({
         "frfit": env!("CARGO_PKG_VERSION"),
@@ -42,42 +39,39 @@ pub fn summary_json(
         "inputs": inputs_json(case),
         "units": case.units.json(),
         "decay_per_s": case.model.decay_per_s(),
-        "factor_unit": identify.units[0].word(),
         "model": model_json(case),
         "sensors": (0..case.sensors.len()).map(|m| sensor(case, run, m)).collect::<Vec<_>>(),
         "identify": {
-            "matrix": identify.matrices(&case.model),
-            "varies": varies,
-            "law": laws.iter().map(|family| family.to_string()).collect::<Vec<_>>(),
             "band_hz": identify.band_hz,
             "left_out": identify.left_out.iter().filter(|&&out| out).count(),
             "method": options.method.name(),
             "order": options.order,
             "selection": options.selection.name(),
             "reduction": options.reduction.name(),
-            "bounds": {"storage": unknown.bounds.storage, "loss_factor": unknown.bounds.loss_factor},
-            "real": unknown.real,
             "reject_outliers": options.reject_outliers,
             "model_error": model_error_json(options.model_errors),
         },
-        "frequencies": run.found.lines.len(),
-        "status": statuses,
-        "bands_hz": bands,
+        "unknowns": (0..identify.unknowns.len()).map(|j| unknown_json(case, identify, run, j)).collect::<Vec<_>>(),
+        "frequencies": found.lines.len(),
+        "status": by_status(&|status| json!(run.count(status))),
+        "bands_hz": by_status(&|status| json!(run.bands_hz(status))),
+        "trusted": found.is_trusted(),
         "noise": noise(identify, run),
-        "fit": fit_json(run.found.fit.as_ref()),
-        "model_errors": run.found.model_errors.as_ref().map(|errors| model_errors_json(case, errors)),
-        "leverage": leverage_json(case, &run.found),
-        "error": spread(run, |outcome| outcome.error),
-        "storage_std": spread(run, |outcome| Some(outcome.uncertainty()?.storage_std)),
-        "loss_factor_std": spread(run, |outcome| outcome.uncertainty()?.loss_factor_std),
+        "fit": fit_json(found.fit.as_ref()),
+        "model_errors": found.model_errors.as_ref().map(|errors| model_errors_json(case, errors)),
+        "leverage": leverage_json(case, found),
+        "error": spread(run, |line| line.error),
         "required_order": required_order(run),
-        "spectral_radius": spread(run, |outcome| outcome.spectral_radius),
+        "spectral_radius": spread(run, |line| line.spectral_radius),
+        "search": {
+            "converged": found.search.converged, "starts": found.search.starts, "agreeing": found.search.agreeing,
+        },
         "counts": {
-            "factorisations": run.found.search.work.factorisations,
-            "solves": run.found.search.work.solves,
-            "subspace_size": run.found.search.reduced_size,
-            "explored": run.found.search.explored,
-            "reduction_error": run.found.reduction_error(),
+            "factorisations": found.search.work.factorisations,
+            "solves": found.search.work.solves,
+            "subspace_size": found.search.reduced_size,
+            "explored": found.search.explored,
+            "reduction_error": found.reduction_error(),
         },
         "seconds": {
             "load": seconds_load,
@@ -90,19 +84,99 @@ pub fn summary_json(
             "figures": seconds_figures,
         },
     });
-    match &unknown.varies {
-        Variation::Smooth => summary["smooth"] = run.found.curve.as_ref().map_or(Value::Null, smooth_json),
-        Variation::Law(_) => summary["laws"] = laws_json(&run.found.laws, identify.units[0], case.units),
-        _ => {}
+    add(&mut summary, identifiability_json(identify, found));
+    if identify.is_law() {
+        summary["laws"] = laws_json(&found.laws, identify.units[0], case.units);
     }
-    if let Some(reference) = reference(identify, run) {
-        summary["reference"] = reference;
+    if identify.varies(0) == "smooth" {
+        summary["smooth"] = found.curve.as_ref().map_or(Value::Null, smooth_json);
+    }
+    if let [_] = identify.unknowns[..] {
+        of_the_only(&mut summary);
     }
     summary
 }
 
+/// The keys of the only unknown, where a program expects them that knows of no other.
+fn of_the_only(summary: &mut Value) {
+    let only = summary["unknowns"][0].clone();
+    summary["factor_unit"] = only["unit"].clone();
+    for key in ["storage_std", "loss_factor_std", "reference"] {
+        summary[key] = only[key].clone();
+    }
+    summary["identify"]["matrix"] = only["matrices"].clone();
+    for key in ["varies", "law", "bounds", "real"] {
+        summary["identify"][key] = only[key].clone();
+    }
+}
+
+/// The members of an object, added to another.
+fn add(object: &mut Value, more: Value) {
+    if let (Some(object), Value::Object(more)) = (object.as_object_mut(), more) {
+        object.extend(more);
+    }
+}
+
+/// An unknown, and what was found of it.
+fn unknown_json(case: &Case, identify: &IdentifyCase, run: &IdentifyRun, j: usize) -> Value {
+    let one = &identify.unknowns[j];
+    let band = run.found.constants.iter().find(|value| value.unknowns == j);
+    let number = |n: &Number| json!({"name": n.name, "value": n.value, "std": finite(n.std)});
+    let laws = match &one.varies {
+        Variation::Law(laws) => laws.as_slice(),
+        _ => &[],
+    };
+    json!({
+        "name": one.name,
+        "matrices": matrices(case, one),
+        "unit": identify.units[j].word(),
+        "varies": identify.varies(j),
+        "law": laws.iter().map(|kind| kind.to_string()).collect::<Vec<_>>(),
+        "real": one.real,
+        "bounds": {"storage": one.bounds.storage, "loss_factor": one.bounds.loss_factor},
+        "numbers": band.map(|band| band.numbers.iter().map(number).collect::<Vec<_>>()),
+        "status": band.map(|band| band.status.name()),
+        "storage_std": spread(run, |line| Some(line.values[j].uncertainty?.storage_std)),
+        "loss_factor_std": spread(run, |line| line.values[j].uncertainty?.loss_factor_std),
+        "reference": reference(identify, run, j),
+    })
+}
+
+/// The matrices that an unknown multiplies; of a dimension each with its power.
+fn matrices(case: &Case, one: &Unknown) -> Value {
+    let name = |term: &usize| case.model.terms()[*term].name.clone();
+    match &one.dependence {
+        Dependence::Factor(terms) => json!(terms.iter().map(name).collect::<Vec<_>>()),
+        Dependence::Powers(powers) => {
+            json!(powers.iter().map(|(term, power)| (name(term), json!(power))).collect::<Map<_, _>>())
+        }
+    }
+}
+
+/// Correlation and directions of the numbers that hold for the band.
+fn identifiability_json(identify: &IdentifyCase, found: &Identification) -> Value {
+    let Identifiability { coordinates, correlation, directions, profile } = &found.identifiability;
+    let names: Vec<String> = (0..coordinates.len()).map(|c| coordinate(identify, found, c)).collect();
+    let direction = |direction: &Direction| {
+        let weight = |&(c, weight): &(usize, f64)| json!({"of": names[c], "weight": weight});
+        let weights: Vec<Value> = direction.weights.iter().map(weight).collect();
+        json!({"std": finite(Some(direction.std)), "weights": weights})
+    };
+    json!({
+        "coordinates": names,
+        "correlation": correlation,
+        "directions": directions.iter().map(direction).collect::<Vec<_>>(),
+        "not_identifiable": not_identifiable(identify, found),
+        "profile": profile.as_ref().map(|profile| &profile.points),
+    })
+}
+
+fn finite(value: Option<f64>) -> Option<f64> {
+    value.filter(|value| value.is_finite())
+}
+
 /// How large the model is, and what its matrices are.
-pub(super) fn model_json(case: &Case) -> Value {
+fn model_json(case: &Case) -> Value {
     let matrix = |term: &Term| json!({"name": term.name, "role": format!("{:?}", term.role).to_lowercase()});
     json!({
         "dofs": case.model.dim(),
@@ -112,7 +186,7 @@ pub(super) fn model_json(case: &Case) -> Value {
 }
 
 /// Every file that was read.
-pub(super) fn inputs_json(case: &Case) -> Vec<Value> {
+fn inputs_json(case: &Case) -> Vec<Value> {
     case.inputs
         .iter()
         .map(|input| json!({"file": input.path.display().to_string(), "bytes": input.bytes, "sha256": input.sha256}))
@@ -120,7 +194,7 @@ pub(super) fn inputs_json(case: &Case) -> Vec<Value> {
 }
 
 /// A sensor, and what it says of the answers: its misfit over its deviation (root mean square).
-pub(super) fn sensor(case: &Case, run: &IdentifyRun, m: usize) -> Value {
+fn sensor(case: &Case, run: &IdentifyRun, m: usize) -> Value {
     let sensor = &case.sensors[m];
     let mut told = json!({"label": sensor.label, "quantity": sensor.quantity.name()});
     let channels = case.identify.as_ref().map_or(&[][..], |identify| &identify.channels);
@@ -163,7 +237,7 @@ fn model_error_json(known: ModelErrors) -> Value {
 }
 
 /// How far 1 % of each known factor moves each unknown, in per cent.
-pub(super) fn leverage_json(case: &Case, found: &Identification) -> Vec<Value> {
+fn leverage_json(case: &Case, found: &Identification) -> Vec<Value> {
     let names = case.identify.as_ref().map_or(&[][..], |identify| identify.unknowns.as_slice());
     let one = |one: &Leverage| {
         let unknown = names.get(one.unknown).map(|unknown| unknown.name.as_str());
@@ -173,13 +247,14 @@ pub(super) fn leverage_json(case: &Case, found: &Identification) -> Vec<Value> {
 }
 
 /// The errors of the model that were taken out.
-pub(super) fn model_errors_json(case: &Case, errors: &ModelErrorsFound) -> Value {
+fn model_errors_json(case: &Case, errors: &ModelErrorsFound) -> Value {
     let mode =
         |mode: &ModeError| json!({"frequency_hz": mode.frequency_hz, "error": mode.error, "std": mode.std});
     let part = |part: FactorPart| match part {
         FactorPart::Storage => "storage",
         FactorPart::LossFactor => "loss_factor",
     };
+    let mass = |(sensor, one): (&SensorInfo, &SensorMass)| json!({"sensor": sensor.label, "mass_kg": one.mass, "std_kg": one.std});
     let matrix = |factor: &FactorError| json!({"matrix": case.model.terms()[factor.term].name, "part": part(factor.part), "error": factor.error, "std": factor.std});
     json!({
         "frequency_std": errors.frequency_std,
@@ -188,11 +263,12 @@ pub(super) fn model_errors_json(case: &Case, errors: &ModelErrorsFound) -> Value
         "evidence_nats": errors.evidence,
         "modes": errors.modes.iter().map(mode).collect::<Vec<_>>(),
         "matrices": errors.factors.iter().map(matrix).collect::<Vec<_>>(),
+        "sensor_masses": case.sensors.iter().zip(&errors.masses).map(mass).collect::<Vec<_>>(),
     })
 }
 
 /// χ² over the band and what it says; null where nothing can tell.
-pub(super) fn fit_json(fit: Option<&GoodnessOfFit>) -> Value {
+fn fit_json(fit: Option<&GoodnessOfFit>) -> Value {
     let Some(fit) = fit else { return Value::Null };
     json!({
         "chi2": fit.chi_squared, "freedom": fit.freedom, "chi2_per_freedom": fit.chi_squared / fit.freedom as f64,
@@ -217,51 +293,68 @@ fn required_order(run: &IdentifyRun) -> Value {
 }
 
 /// Median and largest of a number over the frequencies with status `ok`; null where there is none.
-fn spread(run: &IdentifyRun, number: impl Fn(&frfit::identify::Line) -> Option<f64>) -> Value {
+fn spread(run: &IdentifyRun, number: impl Fn(&Line) -> Option<f64>) -> Value {
     let ok = run.found.lines.iter().filter(|outcome| outcome.status == Status::Ok);
     let mut values: Vec<f64> = ok.filter_map(number).collect();
     values.sort_by(f64::total_cmp);
     json!({"median_ok": values.get(values.len() / 2), "max_ok": values.last()})
 }
 
-/// Where the reference is known: the fraction of frequencies with the right factor, of all and of those called `ok`.
-fn reference(identify: &IdentifyCase, run: &IdentifyRun) -> Option<Value> {
-    let law = identify.reference[0].as_ref()?;
-    let right = run.right(|frequency_hz| law.at(frequency_hz).ok(), RIGHT_WITHIN)?;
-    let ok: Vec<bool> = run
-        .found
-        .lines
-        .iter()
-        .zip(&right)
-        .filter(|(outcome, _)| outcome.status == Status::Ok)
-        .map(|(_, &right)| right)
-        .collect();
-    let fraction = |flags: &[bool]| {
-        let count = flags.iter().filter(|&&flag| flag).count();
-        (!flags.is_empty()).then(|| count as f64 / flags.len() as f64)
+/// How near an unknown is to what a simulated measurement was made with; null where that is not known.
+///
+/// `relative` and `deviations` (in its standard deviations) of what holds for the band are those in the middle of the lines with a value.
+fn reference(identify: &IdentifyCase, run: &IdentifyRun, j: usize) -> Value {
+    let Some(law) = &identify.reference[j] else { return Value::Null };
+    let within = right_within(identify.unknowns.len());
+    let exact = |line: &Line| law.at(line.frequency_hz).ok();
+    let off = |line: &Line| {
+        let exact = exact(line)?;
+        Some((line.values[j].value? - exact).norm() / exact.norm())
     };
-    // Where the measurement is not one of the model itself, the mesh decides how near the reference an answer can be.
-    let deviation = |outcome: &frfit::identify::Line| {
-        let reference = law.at(outcome.frequency_hz).ok()?;
-        Some((outcome.factor()? - reference).norm() / reference.norm())
+    let is_ok = |line: &&Line| line.status == Status::Ok;
+    let is_right = |line: &Line| off(line).is_some_and(|off| off <= within);
+    let lines = || run.found.lines.iter();
+    // Of the values with error bars that are ok, those that have the reference within two standard deviations: 0.95 is right.
+    let covered = |part: usize| {
+        let within = |line: &Line| Some(deviations(line, j, exact(line)?)[part]? <= 2.0);
+        fraction(lines().filter(is_ok).filter_map(within))
     };
-    // Of the answers with error bars that are called ok, those that have the reference within two standard deviations: 0.95 is right.
-    let covered = |off: &dyn Fn(&frfit::identify::Line, c64) -> Option<f64>| {
-        let ok = run.found.lines.iter().filter(|outcome| outcome.status == Status::Ok);
-        let within: Vec<bool> =
-            ok.filter_map(|o| Some(off(o, law.at(o.frequency_hz).ok()?)? <= 2.0)).collect();
-        fraction(&within)
-    };
-    Some(json!({
+    // Where the measurement is not one of the model itself, the mesh decides how near the reference a value can be.
+    let mut reference = json!({
         "covered": {
-            "storage": covered(&|o, reference| Some((o.storage()? - reference.re).abs() / o.uncertainty()?.storage_std)),
-            "loss_factor": covered(&|o, reference| {
-                Some((o.loss_factor()? - loss_factor(reference)).abs() / o.uncertainty()?.loss_factor_std?)
-            }),
+            "storage": covered(0),
+            "loss_factor": covered(1),
         },
-        "deviation": spread(run, deviation),
-        "within": RIGHT_WITHIN,
-        "fraction_right": fraction(&right),
-        "fraction_right_of_ok": fraction(&ok),
-    }))
+        "deviation": spread(run, off),
+        "within": within,
+        "fraction_right": fraction(lines().map(is_right)),
+        "fraction_right_of_ok": fraction(lines().filter(is_ok).map(is_right)),
+        "wrong_and_ok": lines().filter(is_ok).filter(|line| !is_right(line)).count(),
+    });
+    let answered: Vec<&Line> = lines().filter(|line| off(line).is_some()).collect();
+    if let (true, Some(middle)) = (identify.holds_for_band(j), answered.get(answered.len() / 2))
+        && let Some(exact) = exact(middle)
+    {
+        reference["relative"] = json!(off(middle));
+        let largest = deviations(middle, j, exact).into_iter().flatten().reduce(f64::max);
+        reference["deviations"] = json!(finite(largest));
+    }
+    reference
+}
+
+/// How many standard deviations the storage modulus and the loss factor of an unknown are off.
+fn deviations(line: &Line, j: usize, exact: c64) -> [Option<f64>; 2] {
+    let value = &line.values[j];
+    let off = |found: Option<f64>, exact: f64, std: Option<f64>| Some(((found? - exact) / std?).abs());
+    let bars = value.uncertainty;
+    [
+        off(value.storage(), exact.re, bars.map(|bars| bars.storage_std)),
+        off(value.loss_factor(), loss_factor(exact), bars.and_then(|bars| bars.loss_factor_std)),
+    ]
+}
+
+fn fraction(flags: impl Iterator<Item = bool>) -> Option<f64> {
+    let flags: Vec<bool> = flags.collect();
+    let count = flags.iter().filter(|&&flag| flag).count();
+    (!flags.is_empty()).then(|| count as f64 / flags.len() as f64)
 }

@@ -281,17 +281,4 @@ impl IdentifyRun {
     pub fn bands_hz(&self, status: Status) -> Vec<[f64; 2]> {
         bands_hz(self.found.lines.iter().map(|outcome| (outcome.frequency_hz, outcome.status == status)))
     }
-
-    /// Whether each frequency's updated factor is the reference to a relative tolerance; `None` where no reference is known.
-    pub fn right(&self, reference: impl Fn(f64) -> Option<c64>, tolerance: f64) -> Option<Vec<bool>> {
-        self.found
-            .lines
-            .iter()
-            .map(|outcome| {
-                let reference = reference(outcome.frequency_hz)?;
-                let close = |factor: c64| (factor - reference).norm() <= tolerance * reference.norm();
-                Some(outcome.factor().is_some_and(close))
-            })
-            .collect()
-    }
 }

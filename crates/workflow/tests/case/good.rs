@@ -33,7 +33,7 @@ fn everything_that_a_case_says_is_there() {
     assert_eq!(case.sensors[1].file.as_deref(), Some(Path::new("b.csv")));
 
     let identify = case.identify.as_ref().unwrap();
-    assert_eq!(identify.matrices(&case.model), ["springs"]);
+    assert_eq!(identify.matrices(&case.model, 0), ["springs"]);
     assert_eq!(identify.unknowns[0].nominal, Law::Constant(c64::new(2e5, 2e4)));
     let bounds = Bounds { storage: Some([1e5, 1e6]), loss_factor: Some([0.0, 1.0]) };
     assert_eq!(identify.unknowns[0].bounds, bounds);
@@ -232,7 +232,7 @@ fn matrices_with_equal_factors_share_one() {
         .replace("matrix = \"springs\"", "matrix = [\"springs\", \"core\"]");
     let case = with("case.toml", text.as_bytes(), &Overrides::default(), Purpose::Identify).unwrap();
     let identify = case.identify.as_ref().unwrap();
-    assert_eq!(identify.matrices(&case.model), ["springs", "core"]);
+    assert_eq!(identify.matrices(&case.model, 0), ["springs", "core"]);
 }
 
 #[test]

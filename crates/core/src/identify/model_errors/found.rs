@@ -38,7 +38,7 @@ pub struct ModeError {
 /// A mass at a sensor that the model does not have, as that of an accelerometer.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SensorMass {
-    /// In the model's unit of mass.
+    /// In the unit of the mass matrix.
     pub mass: f64,
     /// The standard deviation of that.
     pub std: f64,
