@@ -14,7 +14,7 @@
 //! use frfit::material::Law;
 //! use frfit::model::{DynamicStiffness, Experiment, Role, Sensor, Term};
 //!
-//! // Three masses of 1 kg on springs, clamped at one end, and struck and measured at the other.
+//! // Three masses of 1 kg on springs, clamped at one end, struck at the other, and measured at both moving ends.
 //! let (mut springs, mut masses) = (Triplets::new(3), Triplets::new(3));
 //! springs.add(0, 0, 1.0);
 //! for i in 0..3 {
@@ -32,14 +32,14 @@
 //!     ])
 //! };
 //! let tip = Sensor { row: 2, sign: 1.0 };
-//! let experiment = Experiment::driven_at(3, tip, vec![tip]);
+//! let experiment = Experiment::driven_at(3, tip, vec![tip, Sensor { row: 0, sign: 1.0 }]);
 //!
 //! // What is measured: the springs have 1200 N/m, and a loss factor of 0.05.
 //! let truth = c64::new(1200.0, 60.0);
 //! let measured_chain = chain(truth)?;
-//! let frequency_hz = [2.0, 3.0, 4.0, 5.0, 6.0];
+//! let frequency_hz: Vec<f64> = (4..48).map(|k| 0.25 * f64::from(k)).collect();
 //! let mut receptance = Vec::new();
-//! for f in frequency_hz {
+//! for &f in &frequency_hz {
 //!     let factor = measured_chain.analysis().factor(&measured_chain.at(f, &[])?.assemble(&[]))?;
 //!     let mut x = experiment.load.clone();
 //!     factor.solve(&mut x)?;
