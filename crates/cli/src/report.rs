@@ -236,8 +236,7 @@ fn fit(text: &mut Text, job: &IdentifyJob) {
         }
         Explained::Nearly => {
             let times = per_freedom.sqrt();
-            let sentence =
-                format!("misfit {times:.2} times the given noise: error bars may be too short by that");
+            let sentence = format!("misfit {times:.2} times the given noise: error bars are longer by that");
             text.warn("fit", &sentence);
         }
         Explained::Yes => {

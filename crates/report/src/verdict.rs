@@ -341,7 +341,7 @@ fn doubt_of_fit(results: &Results) -> Option<String> {
         }
         "nearly explained" => {
             let times = significant(summary.number("/fit/chi2_per_freedom").map_or(1.0, f64::sqrt), 3);
-            format!("The misfit is {times} times the given noise: error bars may be too short by that.")
+            format!("The misfit is {times} times the given noise: error bars are longer by that.")
         }
         "explained" => return None,
         // What holds for the band has other frequencies to agree with.
