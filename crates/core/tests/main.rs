@@ -21,6 +21,7 @@ mod select;
 mod sensitivity;
 mod series;
 mod several;
+mod several_channels;
 mod shared_data;
 mod signal;
 mod smooth;

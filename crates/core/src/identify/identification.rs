@@ -2,7 +2,7 @@
 
 use super::band::{BandOutcome, Calibration, Explained, GoodnessOfFit, LawsOutcome, NoiseLevel, SensorFit};
 use super::band::{SmoothCurve, SmoothOutcome};
-use super::several::{BandValue, Direction, Number, Profile, SeveralOutcome};
+use super::several::{BandValue, Direction, Number, NumberOf, Profile, SeveralOutcome};
 use super::uncertainty::{KNOWN, LEAST_LOSS};
 use super::{Leverage, Line, ModelErrorsFound, Status};
 use crate::laws::{Estimate, LawFit, best};
@@ -44,8 +44,8 @@ pub struct Identification {
 /// Which combinations of the numbers that hold for the band are identifiable.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Identifiability {
-    /// What the coordinates below are: (unknown, name of the number).
-    pub coordinates: Vec<(usize, String)>,
+    /// What the coordinates below are, with the name of the number.
+    pub coordinates: Vec<(NumberOf, String)>,
     /// Correlation of the numbers.
     pub correlation: Vec<Vec<f64>>,
     /// Combinations of them, the least identifiable first.
@@ -176,6 +176,7 @@ impl From<SeveralOutcome> for Identification {
             coordinates,
             correlation,
             directions,
+            channels,
             profile,
             noise,
             fit,
@@ -200,7 +201,7 @@ impl From<SeveralOutcome> for Identification {
             laws: Vec::new(),
             curve: None,
             free: Vec::new(),
-            channels: Vec::new(),
+            channels,
             sensors,
             noise,
             fit,

@@ -35,7 +35,7 @@ pub use one::{error_by_order, identify_at, relative_error};
 pub use options::{ErrorSizes, MAX_ORDER, ModelErrors, Options, OptionsError};
 pub use outcome::{Line, LineValue, Status};
 pub use problem::{Frfs, Problem, ProblemError};
-pub use several::{BandValue, Dependence, Direction, Number, Profile, Unknown, Variation};
+pub use several::{BandValue, Dependence, Direction, Number, NumberOf, Profile, Unknown, Variation};
 pub use uncertainty::Uncertainty;
 
 use problem::Strategy;
@@ -46,7 +46,7 @@ use problem::Strategy;
 /// full model answers. A single factor is found with all its solutions at each frequency (B-2), fitted to all sensors (B-5), and one
 /// path is chosen through the band (B-4); a law (B-7) or a smooth curve (B-9) begins there. Several unknowns, constants and
 /// dimensions are found in one least squares in which what each frequency has of its own is eliminated (B-8). Channels of unknown
-/// scale or delay are found together with a single unknown.
+/// scale or delay are found together with the unknowns.
 ///
 /// # Errors
 /// [`ProblemError`] for options that do not belong to the problem. Numerical trouble is a [`Status`] with its evidence, never an

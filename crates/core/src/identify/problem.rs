@@ -128,6 +128,9 @@ pub(super) enum Strategy<'a> {
     Law(&'a [LawKind]),
 }
 
+/// What roundoff leaves of degrees, which are whole numbers, where they cancel.
+const NO_DEGREE: f64 = 1e-9;
+
 /// Powers of an unknown beyond these leave no digit.
 const MAX_POWER: i32 = 12;
 
@@ -444,18 +447,52 @@ impl<'a> Problem<'a> {
             let what = "a channel of unknown scale or delay";
             Err(ProblemError::Unsupported { what, reason })
         };
-        let free = self.channels.iter().all(|channel| channel.any());
-        match self.single() {
-            _ if channels == 0 => Ok(()),
-            Some((Strategy::PerFrequency, _)) if free => unsupported(
-                "a free value at each frequency explains every scale: expected one calibrated channel, or a law",
-            ),
-            Some((Strategy::PerFrequency | Strategy::Law(_), _)) => Ok(()),
-            Some((Strategy::Smooth, _)) => {
-                unsupported("expected a law or a value at each frequency, found a smooth factor")
-            }
-            None => unsupported("expected a single unknown"),
+        if channels == 0 {
+            return Ok(());
         }
+        if self.unknowns.iter().any(|one| one.varies == Variation::Smooth) {
+            return unsupported("expected a law or a value at each frequency, found a smooth factor");
+        }
+        let all_vary = self.unknowns.iter().all(|one| one.per_frequency() > 0);
+        if all_vary && self.channels.iter().all(|channel| channel.any()) {
+            return unsupported(
+                "a free value at each frequency explains every scale: expected one calibrated channel, or a law",
+            );
+        }
+        if self.channels.iter().all(|channel| channel.scale) && self.has_common_scale() {
+            return unsupported(
+                "the unknowns scale the whole model, and with it every response: expected one channel of known scale, or one known factor",
+            );
+        }
+        Ok(())
+    }
+
+    /// Whether some powers of the unknowns multiply every term of the model alike: Σ_j d_tj α_j = 1 for each term t, with d_tj the degree of unknown j in it.
+    fn has_common_scale(&self) -> bool {
+        let degree = |term: usize, one: &Unknown| match &one.dependence {
+            Dependence::Factor(terms) => f64::from(u8::from(terms.contains(&term))),
+            Dependence::Powers(powers) => {
+                powers.iter().find(|(other, _)| *other == term).map_or(0.0, |(_, d)| f64::from(*d))
+            }
+        };
+        let row = |term| self.unknowns.iter().map(|one| degree(term, one)).chain([1.0]).collect();
+        let mut rows: Vec<Vec<f64>> = (0..self.model.terms().len()).map(row).collect();
+        // Gauss's elimination: a row that ends as 0 = 1 has no solution.
+        for j in 0..self.unknowns.len() {
+            let Some(k) = (0..rows.len()).max_by(|&a, &b| rows[a][j].abs().total_cmp(&rows[b][j].abs()))
+            else {
+                break;
+            };
+            if rows[k][j].abs() <= NO_DEGREE {
+                continue;
+            }
+            let pivot = rows.swap_remove(k);
+            for row in &mut rows {
+                let by = row[j] / pivot[j];
+                row.iter_mut().zip(&pivot).for_each(|(value, own)| *value -= by * own);
+            }
+        }
+        rows.iter().all(|row| row.last().is_none_or(|rest| rest.abs() <= NO_DEGREE))
     }
 }
 

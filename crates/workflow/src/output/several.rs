@@ -6,7 +6,8 @@ use crate::load::{Case, IdentifyCase, MeasuredNoise};
 use crate::run::IdentifyRun;
 use frfit::c64;
 use frfit::identify::{
-    Dependence, Direction, Explained, Identification, LineValue, Status, Uncertainty, Unknown, Variation,
+    Dependence, Direction, Explained, Identification, LineValue, NumberOf, Status, Uncertainty, Unknown,
+    Variation,
 };
 use frfit::material::{Law, loss_factor};
 use frfit_formats::csv::{Cell, write};
@@ -232,9 +233,12 @@ fn reference_json(wanted: &IdentifyCase, run: &IdentifyRun, j: usize) -> Value {
 
 /// What a coordinate of correlation and directions stands for: `core`, `core loss_factor`, `skins e0`.
 pub fn coordinate(wanted: &IdentifyCase, outcome: &Identification, c: usize) -> String {
-    let (j, number) = &outcome.identifiability.coordinates[c];
-    let name = &wanted.unknowns[*j].name;
-    if number == "value" { name.clone() } else { format!("{name} {number}") }
+    let (of, number) = &outcome.identifiability.coordinates[c];
+    match *of {
+        NumberOf::Unknown(j) if number == "value" => wanted.unknowns[j].name.clone(),
+        NumberOf::Unknown(j) => format!("{} {number}", wanted.unknowns[j].name),
+        NumberOf::Channel(m) => format!("{number} of measurement {}", m + 1),
+    }
 }
 
 /// The combinations that the measurements do not tell, in words.

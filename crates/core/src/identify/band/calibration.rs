@@ -63,13 +63,13 @@ impl Calibration {
 
 /// A calibration as a search has it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Channel {
-    pub(super) scale: f64,
-    pub(super) delay_s: f64,
+pub(in crate::identify) struct Channel {
+    pub(in crate::identify) scale: f64,
+    pub(in crate::identify) delay_s: f64,
 }
 
 impl Channel {
-    pub(super) const RIGHT: Self = Self { scale: 1.0, delay_s: 0.0 };
+    pub(in crate::identify) const RIGHT: Self = Self { scale: 1.0, delay_s: 0.0 };
 
     /// One and zero for what was not looked for.
     pub(super) fn of(found: &Calibration) -> Self {
@@ -77,7 +77,7 @@ impl Channel {
         Self { scale: value(found.scale, 1.0), delay_s: value(found.delay_s, 0.0) }
     }
 
-    fn factor(&self, frequency_hz: f64) -> c64 {
+    pub(in crate::identify) fn factor(&self, frequency_hz: f64) -> c64 {
         self.scale * c64::from_polar(1.0, omega_rad_s(frequency_hz) * self.delay_s)
     }
 
@@ -87,17 +87,18 @@ impl Channel {
     }
 }
 
-/// Which number of which channel.
+/// An unknown number of a channel: its scale or its delay.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct Free {
-    channel: usize,
-    is_delay: bool,
+pub(in crate::identify) struct ChannelNumber {
+    pub(in crate::identify) channel: usize,
+    pub(in crate::identify) is_delay: bool,
 }
 
-fn free(unknown: &[ChannelUnknowns]) -> Vec<Free> {
+/// The numbers that are unknown, channel by channel.
+pub(in crate::identify) fn numbers_of(unknown: &[ChannelUnknowns]) -> Vec<ChannelNumber> {
     let of = |(channel, unknown): (usize, &ChannelUnknowns)| {
         let all = [(unknown.scale, false), (unknown.delay, true)].into_iter();
-        all.filter(|(wanted, _)| *wanted).map(move |(_, is_delay)| Free { channel, is_delay })
+        all.filter(|(wanted, _)| *wanted).map(move |(_, is_delay)| ChannelNumber { channel, is_delay })
     };
     unknown.iter().enumerate().flat_map(of).collect()
 }
@@ -244,7 +245,7 @@ fn starting(
 
 /// Calibrations at the least misfit about given answers.
 struct CalibrationEstimate {
-    free: Vec<Free>,
+    free: Vec<ChannelNumber>,
     /// γ_m and t_m of what is left: u_m = γ_m e^{−iωt_m} x_m.
     left: Vec<(f64, f64)>,
     /// Covariance of the free ones of them, in units of the noise's level squared.
@@ -263,7 +264,7 @@ fn settle(
     hooks: Context<'_>,
 ) -> Option<CalibrationEstimate> {
     let sigma = without(&deviations(band.measured, band.noise), &outcome.left_out());
-    let free = free(unknown);
+    let free = numbers_of(unknown);
     let n = free.len();
     let top = top(band);
     let mut answers = answers(outcome);
@@ -279,7 +280,7 @@ fn settle(
             let sensors = 0..x.len();
             let a: Vec<c64> = sensors.clone().map(|m| weighed(m, left[m].0 * turn(m) * slope[m])).collect();
             let rest = |m: usize| weighed(m, band.measured[i][m] - left[m].0 * turn(m) * x[m]);
-            let of = |&Free { channel: m, is_delay }: &Free| {
+            let of = |&ChannelNumber { channel: m, is_delay }: &ChannelNumber| {
                 let by = if is_delay { c64::new(0.0, -omega * left[m].0) } else { c64::new(1.0, 0.0) };
                 weighed(m, by * turn(m) * x[m])
             };
@@ -298,7 +299,7 @@ fn settle(
             return None;
         }
         // A part of the scale, or radians at the top of the band.
-        let part = |(free, step): (&Free, &f64)| match free.is_delay {
+        let part = |(free, step): (&ChannelNumber, &f64)| match free.is_delay {
             true => (step * top).abs(),
             false => (step / left[free.channel].0).abs(),
         };
@@ -345,15 +346,21 @@ impl Local {
     }
 
     /// ∂c/∂p.
-    fn moved(&self, free: &[Free]) -> Vec<c64> {
-        let of = |(free, b): (&Free, &c64)| -self.a[free.channel].conj() * b / self.information();
+    fn moved(&self, free: &[ChannelNumber]) -> Vec<c64> {
+        let of = |(free, b): (&ChannelNumber, &c64)| -self.a[free.channel].conj() * b / self.information();
         free.iter().zip(&self.b).map(of).collect()
     }
 
     /// Normal equations with the correction eliminated: b_pᴴ P b_q and b_pᴴ P r, P = I − aaᴴ/aᴴa.
-    fn accumulate(&self, free: &[Free], normal: &mut [Vec<f64>], right: &mut [f64], whole: &mut [f64]) {
+    fn accumulate(
+        &self,
+        free: &[ChannelNumber],
+        normal: &mut [Vec<f64>],
+        right: &mut [f64],
+        whole: &mut [f64],
+    ) {
         let (own, moved) = (self.own(), self.moved(free));
-        for (p, (&Free { channel: m, .. }, b)) in free.iter().zip(&self.b).enumerate() {
+        for (p, (&ChannelNumber { channel: m, .. }, b)) in free.iter().zip(&self.b).enumerate() {
             whole[p] += b.norm_sqr();
             right[p] += (b.conj() * (self.rest[m] - self.a[m] * own)).re;
             for (q, moved) in moved.iter().enumerate() {
@@ -397,9 +404,10 @@ impl CalibrationEstimate {
     }
 
     fn is_settled(&self, top: f64) -> bool {
-        let least = |free: &Free| if free.is_delay { ROUNDOFF / top } else { ROUNDOFF };
-        let settled =
-            |(p, free): (usize, &Free)| self.off(p).abs() <= (SETTLED * self.std(p)).max(least(free));
+        let least = |free: &ChannelNumber| if free.is_delay { ROUNDOFF / top } else { ROUNDOFF };
+        let settled = |(p, free): (usize, &ChannelNumber)| {
+            self.off(p).abs() <= (SETTLED * self.std(p)).max(least(free))
+        };
         self.free.iter().enumerate().all(settled)
     }
 
@@ -411,7 +419,7 @@ impl CalibrationEstimate {
     fn calibrations(&self, channels: &[Channel], level: Option<f64>) -> Vec<Calibration> {
         let better = self.better(channels);
         let mut found = vec![Calibration::default(); channels.len()];
-        for (p, &Free { channel: m, is_delay }) in self.free.iter().enumerate() {
+        for (p, &ChannelNumber { channel: m, is_delay }) in self.free.iter().enumerate() {
             let std = level.map(|level| level * self.std(p));
             let relative = |std: f64| std * (better[m].scale / self.left[m].0).abs();
             match is_delay {

@@ -1,7 +1,7 @@
 //! Unknown scales and delays beside a law: eliminated from the least squares, and where they begin.
 
 use super::calibration::{Calibrated, Channel, ChannelUnknowns, Scaled, top, with_scales};
-use super::initial_calibration::aligned;
+use super::initial_calibration::by_shape;
 use super::joint;
 use super::laws::Fitting;
 use super::reduced_band::ReducedBand;
@@ -235,14 +235,7 @@ fn shaped(
             .zip(&responses)
             .map(|(&i, x)| (omega_rad_s(band.frequency_hz[i]), x[m] / band.measured[i][m]))
             .collect();
-        let found = aligned(&ratios, unknown, top(band))?;
-        // The size by logarithms, as the shape is told by them; its sense is that in which most of them move.
-        let size =
-            median(ratios.iter().map(|(_, ratio)| ratio.norm().ln()).filter(|ln| ln.is_finite()).collect())?;
-        let same =
-            |(omega, ratio): &&(f64, c64)| (ratio * c64::from_polar(1.0, -omega * found.delay_s)).re > 0.0;
-        let sense = if 2 * ratios.iter().filter(same).count() >= ratios.len() { 1.0 } else { -1.0 };
-        Some(if unknown.scale { Channel { scale: sense * size.exp(), ..found } } else { found })
+        by_shape(&ratios, unknown, top(band))
     };
     let channels: Option<Vec<Channel>> = unknown.iter().enumerate().map(calibration).collect();
     Some((channels?, ratio))

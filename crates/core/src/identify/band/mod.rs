@@ -20,8 +20,9 @@ mod reduced_band;
 mod smooth;
 mod verdict;
 
-pub(super) use calibration::identify_band_scaled;
 pub use calibration::{Calibrated, Calibration, ChannelUnknowns};
+pub(super) use calibration::{Channel, ChannelNumber, identify_band_scaled, numbers_of};
+pub(super) use initial_calibration::by_shape;
 pub(crate) use initial_calibration::{MOST_PHASE, PHASE_STEP};
 pub(super) use laws::{LawsOutcome, identify_laws};
 pub use smooth::SmoothCurve;

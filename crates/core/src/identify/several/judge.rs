@@ -3,7 +3,7 @@
 use super::at_frequency::Solution;
 use super::coordinates::Own;
 use super::information::Information;
-use super::outcome::{BandValue, Direction, Number, Profile, SeveralOutcome};
+use super::outcome::{BandValue, Direction, Number, NumberOf, Profile, SeveralOutcome};
 use super::reduced_band::ReducedBand;
 use super::search::{BandSolution, Place, Plane, Reach};
 use super::{Task, Unknown};
@@ -94,12 +94,22 @@ impl Task<'_, '_> {
                 known.map(|moved| Known { covariance: &covariance, moved }),
             )
         });
-        let coordinates: Vec<(usize, String)> = found
+        let numbers_of = |one: &Own| {
+            let of = NumberOf::Unknown(one.unknowns);
+            names(one.family()).into_iter().map(move |name| (of, name))
+        };
+        let coordinates: Vec<(NumberOf, String)> = found
             .coordinates
             .each
             .iter()
-            .flat_map(|one| names(one.family()).into_iter().map(move |name| (one.unknowns, name)))
+            .flat_map(numbers_of)
+            .chain(found.coordinates.channels.names())
             .collect();
+        let channels = found.coordinates.channels.found(&found.theta, |c| {
+            let mut gradient = vec![0.0; n];
+            gradient[c] = 1.0;
+            Some(level? * information.as_ref()?.covariance(&gradient, &gradient).sqrt())
+        });
         let (directions, correlation) = match &information {
             Some(information) if n > 0 => (directions(information, level), correlation(information, found)),
             _ => (Vec::new(), Vec::new()),
@@ -148,6 +158,7 @@ impl Task<'_, '_> {
             coordinates,
             correlation,
             directions,
+            channels,
             profile,
             noise,
             fit,
@@ -183,7 +194,9 @@ impl Task<'_, '_> {
         if chosen.is_none() {
             at.rivals = found.solutions[i][1..].iter().map(|other| other.values.clone()).collect();
         }
-        let measured = &self.problem.frfs.receptance[i];
+        let calibration = (&found.coordinates, found.theta.as_slice());
+        let measured = &self.calibrated(calibration, i, &self.problem.frfs.receptance[i]);
+        let response = self.calibrated(calibration, i, &solution.response);
         let values = self.with_bars(found, i, solution, level, known.as_ref());
         let count = 2 * (measured.len() - self.left_out.len());
         let kept = |values: &[c64]| -> Vec<c64> {
@@ -191,7 +204,7 @@ impl Task<'_, '_> {
             kept.map(|(_, value)| *value).collect()
         };
         let chi_squared = level.map(|level| solution.misfit / (level * level * count as f64));
-        let error = relative_error(&kept(measured), &kept(&solution.response));
+        let error = relative_error(&kept(measured), &kept(&response));
         let assessed = space.assess(i, &solution.values);
         let reduction_error =
             assessed.map(|assessed| reduction_error(&assessed, solution.values[0], measured).response);
@@ -215,7 +228,7 @@ impl Task<'_, '_> {
         at.error = Some(error).filter(|error| error.is_finite());
         at.chi_squared = chi_squared;
         at.reduction_error = reduction_error;
-        at.updated_response = solution.response.clone();
+        at.updated_response = response;
         at
     }
 
@@ -359,7 +372,10 @@ fn correlation(information: &Information, found: &BandSolution) -> Vec<Vec<f64>>
         let (_, slopes) = one.numbers(&found.theta);
         slopes.into_iter().map(|row| one.gradient(row, n)).collect()
     };
-    let gradients: Vec<Vec<f64>> = found.coordinates.each.iter().flat_map(of_one).collect();
+    let mut gradients: Vec<Vec<f64>> = found.coordinates.each.iter().flat_map(of_one).collect();
+    // Of channels each number hangs on its own coordinate alone.
+    let first = gradients.len();
+    gradients.extend((first..n).map(|c| (0..n).map(|k| if k == c { 1.0 } else { 0.0 }).collect()));
     let entry = |a: usize, b: usize| {
         let of = |a: usize, b: usize| information.covariance(&gradients[a], &gradients[b]);
         of(a, b) / (of(a, a) * of(b, b)).sqrt()

@@ -10,6 +10,7 @@
 //! |---|---|
 //! | `unknowns` | the unknowns, and the model at their values |
 //! | `coordinates` | θ ↔ what holds for the band |
+//! | `channels` | scales and delays among it |
 //! | `space` | the subspace over the box of all unknowns |
 //! | `starts` | where to begin |
 //! | `spot` | one frequency |
@@ -20,6 +21,7 @@
 //! | `corrected` | errors of the model |
 
 mod at_frequency;
+mod channels;
 mod coordinates;
 mod corrected;
 mod information;
@@ -35,10 +37,10 @@ mod tests;
 mod unknown;
 
 pub(super) use outcome::SeveralOutcome;
-pub use outcome::{BandValue, Direction, Number, Profile};
+pub use outcome::{BandValue, Direction, Number, NumberOf, Profile};
 pub use unknown::{Dependence, Unknown, Variation};
 
-use super::band::{NoiseLevel, deviations};
+use super::band::{Calibration, NoiseLevel, deviations};
 use super::{Context, Line, Options, Problem};
 use crate::c64;
 use crate::frequency::omega_rad_s;
@@ -102,9 +104,7 @@ pub(super) fn identify_several(
             }
             let right = kept.judge(&space, &found, None);
             let mut outcome = kept.correct(&mut space, &found, right);
-            let responses: Vec<&[c64]> =
-                outcome.at.iter().map(|line| line.updated_response.as_slice()).collect();
-            outcome.sensors = kept.sensor_fits(&task.sigma, &contradicting, &responses, outcome.noise.level);
+            outcome.sensors = kept.sensor_fits(&task.sigma, &contradicting, &outcome);
             outcome
         }
         Err(breakdown) => task.broken(breakdown),
@@ -122,6 +122,7 @@ impl Task<'_, '_> {
             coordinates: Vec::new(),
             correlation: Vec::new(),
             directions: Vec::new(),
+            channels: vec![Calibration::default(); self.problem.channels.len()],
             profile: None,
             noise: NoiseLevel::new(self.problem.frfs.noise, None, None),
             fit: None,

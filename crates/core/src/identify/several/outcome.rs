@@ -1,6 +1,8 @@
 //! What came out when several things were looked for.
 
-use crate::identify::{GoodnessOfFit, Leverage, Line, ModelErrorsFound, NoiseLevel, SensorFit, Status};
+use crate::identify::{
+    Calibration, GoodnessOfFit, Leverage, Line, ModelErrorsFound, NoiseLevel, SensorFit, Status,
+};
 use crate::material::Law;
 use crate::response::Work;
 use frfit_linalg::solve::Breakdown;
@@ -32,7 +34,16 @@ pub struct BandValue {
     pub status: Status,
 }
 
-/// A direction in the logarithms of the numbers that hold for the band.
+/// What a number that holds for the band belongs to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum NumberOf {
+    /// An unknown, by its index.
+    Unknown(usize),
+    /// The channel of a sensor, by its index.
+    Channel(usize),
+}
+
+/// A direction in the logarithms of the numbers that hold for the band; of a delay in radians at the top of the band.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Direction {
     /// (index of the coordinate, its weight), the weights' squares summing to one, largest first.
@@ -55,12 +66,14 @@ pub(in crate::identify) struct SeveralOutcome {
     pub(in crate::identify) band: Vec<BandValue>,
     /// One for each frequency.
     pub(in crate::identify) at: Vec<Line>,
-    /// What the coordinates of [`Self::correlation`] and [`Self::directions`] are: (unknown, name of the number).
-    pub(in crate::identify) coordinates: Vec<(usize, String)>,
+    /// What the coordinates of [`Self::correlation`] and [`Self::directions`] are, with the name of the number.
+    pub(in crate::identify) coordinates: Vec<(NumberOf, String)>,
     /// Correlation of the numbers that hold for the band.
     pub(in crate::identify) correlation: Vec<Vec<f64>>,
     /// Combinations of them, the one that is told worst first.
     pub(in crate::identify) directions: Vec<Direction>,
+    /// One for each sensor; empty where all channels are calibrated.
+    pub(in crate::identify) channels: Vec<Calibration>,
     /// χ² along the first of them.
     pub(in crate::identify) profile: Option<Profile>,
     /// How large the noise is.

@@ -1,0 +1,201 @@
+//! Channels of unknown scale or delay, as coordinates of the search: sensor m shows z_m = x_m e^{−iωτ_m}/s_m.
+//!
+//! Residuals are z_m − u_m over the deviations of u_m as it was measured, so that no scale gains by being small.
+
+use super::Task;
+use super::coordinates::Coordinates;
+use super::outcome::NumberOf;
+use super::reduced_band::{ReducedBand, Responded};
+use super::search::{Begin, Guess};
+use crate::c64;
+use crate::identify::band::{Calibrated, Calibration, Channel, ChannelNumber, ChannelUnknowns};
+use crate::identify::band::{by_shape, numbers_of};
+
+/// The scales and delays that are unknown, as coordinates after those of the unknowns: s = ±e^θ and τ = θ/ω at the top of the band.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct ChannelCoordinates {
+    free: Vec<ChannelNumber>,
+    /// The first coordinate.
+    first: usize,
+    /// ±1 of each channel.
+    senses: Vec<f64>,
+    top_rad_s: f64,
+}
+
+impl ChannelCoordinates {
+    /// Coordinates of some channels from the `first` on.
+    pub(super) fn new(channels: &[ChannelUnknowns], first: usize, omegas: &[f64]) -> Self {
+        let top_rad_s = omegas.last().copied().filter(|&omega| omega > 0.0).unwrap_or(1.0);
+        Self { free: numbers_of(channels), first, senses: vec![1.0; channels.len()], top_rad_s }
+    }
+
+    /// How many there are.
+    pub(super) fn count(&self) -> usize {
+        self.free.len()
+    }
+
+    /// What the numbers are called.
+    pub(super) fn names(&self) -> impl Iterator<Item = (NumberOf, String)> {
+        let name = |number: &ChannelNumber| if number.is_delay { "delay_s" } else { "scale" };
+        self.free.iter().map(move |number| (NumberOf::Channel(number.channel), name(number).to_owned()))
+    }
+
+    /// Each coordinate and the number that it stands for.
+    fn each(&self) -> impl Iterator<Item = (usize, &ChannelNumber)> {
+        (self.first..).zip(&self.free)
+    }
+
+    /// The channels at θ.
+    pub(super) fn at(&self, theta: &[f64]) -> Vec<Channel> {
+        let known = |&sense: &f64| Channel { scale: sense, delay_s: 0.0 };
+        let mut channels: Vec<Channel> = self.senses.iter().map(known).collect();
+        for (c, number) in self.each() {
+            let channel = &mut channels[number.channel];
+            match number.is_delay {
+                true => channel.delay_s = theta[c] / self.top_rad_s,
+                false => channel.scale *= theta[c].exp(),
+            }
+        }
+        channels
+    }
+
+    /// Lets θ begin at some channels.
+    fn begin_at(&mut self, channels: &[Channel], theta: &mut [f64]) {
+        self.senses = channels.iter().map(|channel| channel.scale.signum()).collect();
+        for (c, number) in self.each() {
+            let channel = channels[number.channel];
+            theta[c] = match number.is_delay {
+                true => channel.delay_s * self.top_rad_s,
+                false => channel.scale.abs().ln(),
+            };
+        }
+    }
+
+    /// Slopes of the residuals by the coordinates where the channels show z: −z for ln s, −iω/ω_top z for a delay.
+    pub(super) fn columns(&self, z: &[c64], omega_rad_s: f64, sigma: &[f64]) -> Vec<f64> {
+        let mut columns = Vec::with_capacity(2 * z.len() * self.free.len());
+        for number in &self.free {
+            let m = number.channel;
+            let by = if number.is_delay { c64::new(0.0, omega_rad_s / self.top_rad_s) } else { c64::ONE };
+            let slope = -by * z[m] / sigma[m];
+            let of = |k: usize| if k == m { slope } else { c64::default() };
+            columns.extend((0..z.len()).map(of).flat_map(|v| [v.re, v.im]));
+        }
+        columns
+    }
+
+    /// What was found of each channel, with the standard deviation of each coordinate.
+    pub(super) fn found(&self, theta: &[f64], std: impl Fn(usize) -> Option<f64>) -> Vec<Calibration> {
+        let channels = self.at(theta);
+        let mut found = vec![Calibration::default(); channels.len()];
+        for (c, number) in self.each() {
+            let channel = channels[number.channel];
+            let own = &mut found[number.channel];
+            match number.is_delay {
+                true => {
+                    let std = std(c).map(|std| std / self.top_rad_s);
+                    own.delay_s = Some(Calibrated { value: channel.delay_s, std });
+                }
+                false => {
+                    let std = std(c).map(|std| std * channel.scale.abs());
+                    own.scale = Some(Calibrated { value: channel.scale, std });
+                }
+            }
+        }
+        found
+    }
+}
+
+impl Task<'_, '_> {
+    /// What the channels show of a response and its slopes at the i-th frequency.
+    pub(super) fn shown(
+        &self,
+        (coordinates, theta): (&Coordinates, &[f64]),
+        i: usize,
+        (mut x, mut slopes): Responded,
+    ) -> Responded {
+        let channels = coordinates.channels.at(theta);
+        let f = self.problem.frfs.frequency_hz[i];
+        for (m, channel) in channels.iter().enumerate() {
+            let factor = channel.factor(f);
+            x[m] /= factor;
+            slopes.iter_mut().for_each(|slope| slope[m] /= factor);
+        }
+        (x, slopes)
+    }
+
+    /// Some values of the channels at the i-th frequency as receptances, by the calibration that θ has.
+    pub(super) fn calibrated(
+        &self,
+        (coordinates, theta): (&Coordinates, &[f64]),
+        i: usize,
+        values: &[c64],
+    ) -> Vec<c64> {
+        let channels = coordinates.channels.at(theta);
+        let f = self.problem.frfs.frequency_hz[i];
+        let factor = |m: usize| channels.get(m).map_or(c64::ONE, |channel| channel.factor(f));
+        values.iter().enumerate().map(|(m, value)| factor(m) * value).collect()
+    }
+
+    /// σ of these receptances.
+    pub(super) fn calibrated_sigma(
+        &self,
+        (coordinates, theta): (&Coordinates, &[f64]),
+        i: usize,
+    ) -> Vec<f64> {
+        let channels = coordinates.channels.at(theta);
+        let scale = |m: usize| channels.get(m).map_or(1.0, |channel| channel.scale.abs());
+        self.sigma[i].iter().enumerate().map(|(m, sigma)| scale(m) * sigma).collect()
+    }
+
+    /// θ that begins with these constants, and channels that begin where most ratios of the responses to what was measured agree: the responses of these constants, or of what the
+    /// calibrated channels alone give where they are enough for it.
+    pub(super) fn begin(&self, space: &ReducedBand<'_>, which: &[usize], values: &[c64]) -> Begin {
+        let coordinates = self.coordinates();
+        let theta = self.theta(&coordinates, values);
+        let mut begin = Begin { coordinates, theta };
+        if begin.coordinates.channels.count() == 0 {
+            return begin;
+        }
+        let responses: Vec<Option<Vec<c64>>> = match self.of_calibrated_channels() {
+            Some(task) => {
+                let found = task.follow(space, which, begin.clone(), &Guess::Everywhere(values));
+                begin.theta.clone_from(&found.theta);
+                (0..which.len())
+                    .map(|k| Some(found.at(k).or(found.solutions[k].first())?.response.clone()))
+                    .collect()
+            }
+            None => {
+                let respond = |&i: &usize| {
+                    let (values, _) = self.given(&begin.coordinates, &begin.theta, i, values)?;
+                    Some(space.respond(i, &values)?.0)
+                };
+                which.iter().map(respond).collect()
+            }
+        };
+        let channels = self.matching(which, &responses, begin.coordinates.channels.top_rad_s);
+        begin.coordinates.channels.begin_at(&channels, &mut begin.theta);
+        begin
+    }
+
+    /// The calibration of each channel with which these responses are what was measured.
+    fn matching(&self, which: &[usize], responses: &[Option<Vec<c64>>], top_rad_s: f64) -> Vec<Channel> {
+        let one = |(m, &unknown)| {
+            let ratio = |(&i, x): (&usize, &Option<Vec<c64>>)| {
+                Some((self.omegas[i], x.as_ref()?[m] / self.problem.frfs.receptance[i][m]))
+            };
+            let ratios: Vec<(f64, c64)> = which.iter().zip(responses).filter_map(ratio).collect();
+            by_shape(&ratios, unknown, top_rad_s).unwrap_or(Channel::RIGHT)
+        };
+        self.problem.channels.iter().enumerate().map(one).collect()
+    }
+
+    /// The same task of the calibrated channels alone; `None` where they measure fewer numbers at a frequency than it has of its own.
+    fn of_calibrated_channels(&self) -> Option<Self> {
+        let is_free = |m: &usize| self.problem.channels.get(*m).is_some_and(|channel| channel.any());
+        let sensors = self.problem.experiment.sensors.len();
+        let out: Vec<usize> = (0..sensors).filter(|m| self.left_out.contains(m) || is_free(m)).collect();
+        let left = sensors - out.len();
+        (left > 0 && 2 * left >= self.own()).then(|| self.leaving_out(&out))
+    }
+}
