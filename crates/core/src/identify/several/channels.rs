@@ -2,14 +2,11 @@
 //!
 //! Residuals are z_m − u_m over the deviations of u_m as it was measured, so that no scale gains by being small.
 
-use super::Task;
-use super::coordinates::Coordinates;
 use super::outcome::NumberOf;
-use super::reduced_band::{ReducedBand, Responded};
-use super::search::{Begin, Guess};
+use super::reduced_band::Responded;
 use crate::c64;
+use crate::identify::band::numbers_of;
 use crate::identify::band::{Calibrated, Calibration, Channel, ChannelNumber, ChannelUnknowns};
-use crate::identify::band::{by_shape, numbers_of};
 
 /// The scales and delays that are unknown, as coordinates after those of the unknowns: s = ±e^θ and τ = θ/ω at the top of the band.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -59,8 +56,13 @@ impl ChannelCoordinates {
         channels
     }
 
+    /// ω at the top of the band.
+    pub(super) fn top_rad_s(&self) -> f64 {
+        self.top_rad_s
+    }
+
     /// Lets θ begin at some channels.
-    fn begin_at(&mut self, channels: &[Channel], theta: &mut [f64]) {
+    pub(super) fn begin_at(&mut self, channels: &[Channel], theta: &mut [f64]) {
         self.senses = channels.iter().map(|channel| channel.scale.signum()).collect();
         for (c, number) in self.each() {
             let channel = channels[number.channel];
@@ -104,98 +106,33 @@ impl ChannelCoordinates {
         }
         found
     }
-}
 
-impl Task<'_, '_> {
-    /// What the channels show of a response and its slopes at the i-th frequency.
+    /// What the channels show of a response and its slopes.
     pub(super) fn shown(
         &self,
-        (coordinates, theta): (&Coordinates, &[f64]),
-        i: usize,
+        theta: &[f64],
+        frequency_hz: f64,
         (mut x, mut slopes): Responded,
     ) -> Responded {
-        let channels = coordinates.channels.at(theta);
-        let f = self.problem.frfs.frequency_hz[i];
-        for (m, channel) in channels.iter().enumerate() {
-            let factor = channel.factor(f);
+        for (m, channel) in self.at(theta).iter().enumerate() {
+            let factor = channel.factor(frequency_hz);
             x[m] /= factor;
             slopes.iter_mut().for_each(|slope| slope[m] /= factor);
         }
         (x, slopes)
     }
 
-    /// Some values of the channels at the i-th frequency as receptances, by the calibration that θ has.
-    pub(super) fn calibrated(
-        &self,
-        (coordinates, theta): (&Coordinates, &[f64]),
-        i: usize,
-        values: &[c64],
-    ) -> Vec<c64> {
-        let channels = coordinates.channels.at(theta);
-        let f = self.problem.frfs.frequency_hz[i];
-        let factor = |m: usize| channels.get(m).map_or(c64::ONE, |channel| channel.factor(f));
+    /// Values of the channels as receptances.
+    pub(super) fn calibrated(&self, theta: &[f64], frequency_hz: f64, values: &[c64]) -> Vec<c64> {
+        let channels = self.at(theta);
+        let factor = |m: usize| channels.get(m).map_or(c64::ONE, |channel| channel.factor(frequency_hz));
         values.iter().enumerate().map(|(m, value)| factor(m) * value).collect()
     }
 
     /// σ of these receptances.
-    pub(super) fn calibrated_sigma(
-        &self,
-        (coordinates, theta): (&Coordinates, &[f64]),
-        i: usize,
-    ) -> Vec<f64> {
-        let channels = coordinates.channels.at(theta);
+    pub(super) fn calibrated_sigma(&self, theta: &[f64], sigma: &[f64]) -> Vec<f64> {
+        let channels = self.at(theta);
         let scale = |m: usize| channels.get(m).map_or(1.0, |channel| channel.scale.abs());
-        self.sigma[i].iter().enumerate().map(|(m, sigma)| scale(m) * sigma).collect()
-    }
-
-    /// θ that begins with these constants, and channels that begin where most ratios of the responses to what was measured agree: the responses of these constants, or of what the
-    /// calibrated channels alone give where they are enough for it.
-    pub(super) fn begin(&self, space: &ReducedBand<'_>, which: &[usize], values: &[c64]) -> Begin {
-        let coordinates = self.coordinates();
-        let theta = self.theta(&coordinates, values);
-        let mut begin = Begin { coordinates, theta };
-        if begin.coordinates.channels.count() == 0 {
-            return begin;
-        }
-        let responses: Vec<Option<Vec<c64>>> = match self.of_calibrated_channels() {
-            Some(task) => {
-                let found = task.follow(space, which, begin.clone(), &Guess::Everywhere(values));
-                begin.theta.clone_from(&found.theta);
-                (0..which.len())
-                    .map(|k| Some(found.at(k).or(found.solutions[k].first())?.response.clone()))
-                    .collect()
-            }
-            None => {
-                let respond = |&i: &usize| {
-                    let (values, _) = self.given(&begin.coordinates, &begin.theta, i, values)?;
-                    Some(space.respond(i, &values)?.0)
-                };
-                which.iter().map(respond).collect()
-            }
-        };
-        let channels = self.matching(which, &responses, begin.coordinates.channels.top_rad_s);
-        begin.coordinates.channels.begin_at(&channels, &mut begin.theta);
-        begin
-    }
-
-    /// The calibration of each channel with which these responses are what was measured.
-    fn matching(&self, which: &[usize], responses: &[Option<Vec<c64>>], top_rad_s: f64) -> Vec<Channel> {
-        let one = |(m, &unknown)| {
-            let ratio = |(&i, x): (&usize, &Option<Vec<c64>>)| {
-                Some((self.omegas[i], x.as_ref()?[m] / self.problem.frfs.receptance[i][m]))
-            };
-            let ratios: Vec<(f64, c64)> = which.iter().zip(responses).filter_map(ratio).collect();
-            by_shape(&ratios, unknown, top_rad_s).unwrap_or(Channel::RIGHT)
-        };
-        self.problem.channels.iter().enumerate().map(one).collect()
-    }
-
-    /// The same task of the calibrated channels alone; `None` where they measure fewer numbers at a frequency than it has of its own.
-    fn of_calibrated_channels(&self) -> Option<Self> {
-        let is_free = |m: &usize| self.problem.channels.get(*m).is_some_and(|channel| channel.any());
-        let sensors = self.problem.experiment.sensors.len();
-        let out: Vec<usize> = (0..sensors).filter(|m| self.left_out.contains(m) || is_free(m)).collect();
-        let left = sensors - out.len();
-        (left > 0 && 2 * left >= self.own()).then(|| self.leaving_out(&out))
+        sigma.iter().enumerate().map(|(m, sigma)| scale(m) * sigma).collect()
     }
 }

@@ -194,9 +194,11 @@ impl Task<'_, '_> {
         if chosen.is_none() {
             at.rivals = found.solutions[i][1..].iter().map(|other| other.values.clone()).collect();
         }
-        let calibration = (&found.coordinates, found.theta.as_slice());
-        let measured = &self.calibrated(calibration, i, &self.problem.frfs.receptance[i]);
-        let response = self.calibrated(calibration, i, &solution.response);
+        let calibrated = |values: &[c64]| {
+            found.coordinates.channels.calibrated(&found.theta, self.problem.frfs.frequency_hz[i], values)
+        };
+        let measured = &calibrated(&self.problem.frfs.receptance[i]);
+        let response = calibrated(&solution.response);
         let values = self.with_bars(found, i, solution, level, known.as_ref());
         let count = 2 * (measured.len() - self.left_out.len());
         let kept = |values: &[c64]| -> Vec<c64> {

@@ -329,7 +329,7 @@ impl Task<'_, '_> {
             return Vec::new();
         };
         let on = |model: &Projection, starts: &[Vec<f64>]| {
-            let shown = |x| self.shown((at.coordinates, at.theta), i, x);
+            let shown = |x| at.coordinates.channels.shown(at.theta, self.problem.frfs.frequency_hz[i], x);
             self.spot(i).solutions(starts, &given, |values| at.space.respond_on(model, i, values).map(shown))
         };
         if starts.len() <= MANY {
@@ -353,12 +353,11 @@ impl Task<'_, '_> {
         (i, j): (usize, usize),
         given: &[c64],
     ) -> Vec<Vec<c64>> {
-        let calibration = (at.coordinates, at.theta);
-        let measured = self.calibrated(calibration, i, &self.problem.frfs.receptance[i]);
-        let sigma = self.calibrated_sigma(calibration, i);
-        let Some(mut at) = at.space.at(i, given) else { return Vec::new() };
-        at.parameters.swap(0, j);
-        at.parameters.truncate(1);
+        let frequency_hz = self.problem.frfs.frequency_hz[i];
+        let channels = &at.coordinates.channels;
+        let measured = channels.calibrated(at.theta, frequency_hz, &self.problem.frfs.receptance[i]);
+        let sigma = channels.calibrated_sigma(at.theta, &self.sigma[i]);
+        let Ok(at) = at.space.composite.about_one(frequency_hz, given, j) else { return Vec::new() };
         let Unknown { bounds, real, .. } = self.problem.unknowns[j];
         let options = Options { bounds, real, ..*self.options };
         let fit = Fit { measured: &measured, sigma: &sigma, nominal: given[j], options: &options };
@@ -511,11 +510,12 @@ impl Task<'_, '_> {
             let i = which[k];
             let (given, slopes) = self.given(&found.coordinates, theta, i, &solution.values)?;
             let spot = self.spot(i);
+            let channels = &found.coordinates.channels;
             let here = match on {
                 None => solution.clone(),
                 Some(on) => spot.settle(&(on.start)(k)?, &given, |values| {
                     let responded = on.space.respond_on((on.model)(k), i, values)?;
-                    Some(self.shown((&found.coordinates, theta), i, responded))
+                    Some(channels.shown(theta, self.problem.frfs.frequency_hz[i], responded))
                 })?,
             };
             let m = here.residuals.len();
@@ -529,7 +529,6 @@ impl Task<'_, '_> {
                     .collect::<Vec<f64>>()
             };
             let mut columns: Vec<f64> = slopes.iter().flat_map(column).collect();
-            let channels = &found.coordinates.channels;
             columns.extend(channels.columns(&here.response, self.omegas[i], &self.sigma[i]));
             let contained = eliminate(&here.of_own, &mut columns, m);
             let moved = contained.into_iter().map(|x| x.into_iter().map(|x| -x).collect()).collect();

@@ -6,10 +6,11 @@
 use super::Task;
 use super::coordinates::Coordinates;
 use super::reduced_band::{ReducedBand, in_box};
+use super::search::{Begin, Guess};
 use super::unknown::Variation;
 use crate::c64;
 use crate::for_each::map;
-use crate::identify::band::{ChannelUnknowns, thinned};
+use crate::identify::band::{Channel, ChannelUnknowns, by_shape, thinned};
 use crate::laws::{Search, minimise};
 
 /// Frequencies at most at which logarithms are compared.
@@ -85,6 +86,57 @@ impl Task<'_, '_> {
         };
         ends.filter_map(|end| values(&end.theta)).collect()
     }
+    /// θ that begins with these constants, and channels that begin where most ratios of the responses to what was measured agree: the responses of these constants, or of what the
+    /// calibrated channels alone give where they are enough for it.
+    pub(super) fn begin(&self, space: &ReducedBand<'_>, which: &[usize], values: &[c64]) -> Begin {
+        let coordinates = self.coordinates();
+        let theta = self.theta(&coordinates, values);
+        let mut begin = Begin { coordinates, theta };
+        if begin.coordinates.channels.count() == 0 {
+            return begin;
+        }
+        let responses: Vec<Option<Vec<c64>>> = match self.of_calibrated_channels() {
+            Some(task) => {
+                let found = task.follow(space, which, begin.clone(), &Guess::Everywhere(values));
+                begin.theta.clone_from(&found.theta);
+                (0..which.len())
+                    .map(|k| Some(found.at(k).or(found.solutions[k].first())?.response.clone()))
+                    .collect()
+            }
+            None => {
+                let respond = |&i: &usize| {
+                    let (values, _) = self.given(&begin.coordinates, &begin.theta, i, values)?;
+                    Some(space.respond(i, &values)?.0)
+                };
+                which.iter().map(respond).collect()
+            }
+        };
+        let channels = self.matching(which, &responses, begin.coordinates.channels.top_rad_s());
+        begin.coordinates.channels.begin_at(&channels, &mut begin.theta);
+        begin
+    }
+
+    /// The calibration of each channel with which these responses are what was measured.
+    fn matching(&self, which: &[usize], responses: &[Option<Vec<c64>>], top_rad_s: f64) -> Vec<Channel> {
+        let one = |(m, &unknown)| {
+            let ratio = |(&i, x): (&usize, &Option<Vec<c64>>)| {
+                Some((self.omegas[i], x.as_ref()?[m] / self.problem.frfs.receptance[i][m]))
+            };
+            let ratios: Vec<(f64, c64)> = which.iter().zip(responses).filter_map(ratio).collect();
+            by_shape(&ratios, unknown, top_rad_s).unwrap_or(Channel::RIGHT)
+        };
+        self.problem.channels.iter().enumerate().map(one).collect()
+    }
+
+    /// The same task of the calibrated channels alone; `None` where they measure fewer numbers at a frequency than it has of its own.
+    fn of_calibrated_channels(&self) -> Option<Self> {
+        let is_free = |m: &usize| self.problem.channels.get(*m).is_some_and(|channel| channel.any());
+        let sensors = self.problem.experiment.sensors.len();
+        let out: Vec<usize> = (0..sensors).filter(|m| self.left_out.contains(m) || is_free(m)).collect();
+        let left = sensors - out.len();
+        (left > 0 && 2 * left >= self.own()).then(|| self.leaving_out(&out))
+    }
+
     /// ln(x/u) as far as the channel lets it be known: where its scale is unknown the sense is too, and where its delay is unknown the phase.
     fn ln_ratio(&self, m: usize, ratio: c64) -> c64 {
         let unknown = self.channel(m);

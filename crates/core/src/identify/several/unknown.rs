@@ -140,9 +140,9 @@ const DIMENSION: f64 = 2.0;
 
 /// A model with several unknowns in it.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Composite<'a> {
-    pub(super) model: &'a DynamicStiffness,
-    pub(super) unknowns: &'a [Unknown],
+pub(in crate::identify) struct Composite<'a> {
+    pub(in crate::identify) model: &'a DynamicStiffness,
+    pub(in crate::identify) unknowns: &'a [Unknown],
 }
 
 impl<'a> Composite<'a> {
@@ -187,8 +187,21 @@ impl<'a> Composite<'a> {
         Ok(at)
     }
 
+    /// The same with the j-th unknown alone as its parameter.
+    pub(in crate::identify) fn about_one(
+        &self,
+        frequency_hz: f64,
+        values: &[c64],
+        j: usize,
+    ) -> Result<ModelAt<'a>, OutsideTable> {
+        let mut at = self.at(frequency_hz, values)?;
+        at.parameters.swap(0, j);
+        at.parameters.truncate(1);
+        Ok(at)
+    }
+
     /// The nominal values at a frequency.
-    pub(super) fn nominal(&self, frequency_hz: f64) -> Result<Vec<c64>, OutsideTable> {
+    pub(in crate::identify) fn nominal(&self, frequency_hz: f64) -> Result<Vec<c64>, OutsideTable> {
         self.unknowns.iter().map(|one| one.nominal.at(frequency_hz)).collect()
     }
 }
