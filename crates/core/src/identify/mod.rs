@@ -33,7 +33,7 @@ pub use identification::{Identifiability, Identification, SearchReport};
 pub use model_errors::{FactorError, Leverage, ModeError, ModelErrorsFound};
 pub use one::{error_by_order, identify_at, relative_error};
 pub use options::{ErrorSizes, MAX_ORDER, ModelErrors, Options, OptionsError};
-pub use outcome::{Line, LineValue, Status};
+pub use outcome::{Line, LineSolution, LineValue, Standing, Status};
 pub use problem::{Frfs, Problem, ProblemError};
 pub use several::{BandValue, Dependence, Direction, Number, NumberOf, Profile, Unknown, Variation};
 pub use uncertainty::Uncertainty;

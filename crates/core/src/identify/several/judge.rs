@@ -12,7 +12,8 @@ use crate::for_each::map;
 use crate::identify::band::{UNEXPLAINED, judge, reduction_error};
 use crate::identify::model_errors::Estimated;
 use crate::identify::uncertainty::{KNOWN, LEAST_LOSS};
-use crate::identify::{GoodnessOfFit, Line, LineValue, NoiseLevel, Status, Uncertainty, relative_error};
+use crate::identify::{GoodnessOfFit, Line, LineSolution, LineValue, NoiseLevel, Standing, Status};
+use crate::identify::{Uncertainty, relative_error};
 use crate::laws::LawKind;
 use crate::material::{Law, loss_factor};
 
@@ -186,14 +187,10 @@ impl Task<'_, '_> {
         let values = nominal.iter().map(|&nominal| LineValue::unknown(nominal)).collect();
         let mut at = Line::of_values(self.problem.frfs.frequency_hz[i], values);
         at.nominal_response = space.respond(i, nominal).map(|(x, _)| x).unwrap_or_default();
-        at.rivals =
-            found.chosen[i].alternatives.iter().map(|&k| found.solutions[i][k].values.clone()).collect();
+        let solutions = &found.solutions[i];
         let chosen = found.at(i);
         // Of solutions none of which is on the path of every unknown, that of least misfit.
-        let Some(solution) = chosen.or_else(|| found.solutions[i].first()) else { return at };
-        if chosen.is_none() {
-            at.rivals = found.solutions[i][1..].iter().map(|other| other.values.clone()).collect();
-        }
+        let Some(solution) = chosen.or_else(|| solutions.first()) else { return at };
         let calibrated = |values: &[c64]| {
             found.coordinates.channels.calibrated(&found.theta, self.problem.frfs.frequency_hz[i], values)
         };
@@ -205,7 +202,22 @@ impl Task<'_, '_> {
             let kept = values.iter().enumerate().filter(|(m, _)| !self.left_out.contains(m));
             kept.map(|(_, value)| *value).collect()
         };
-        let chi_squared = level.map(|level| solution.misfit / (level * level * count as f64));
+        let per_freedom = |misfit: f64| level.map(|level| misfit / (level * level * count as f64));
+        let chi_squared = per_freedom(solution.misfit);
+        let standing = |k: usize| match found.chosen[i].solution {
+            Some(best) if k == best => Standing::Chosen,
+            None if k == 0 => Standing::Chosen,
+            Some(_) if !found.chosen[i].alternatives.contains(&k) => Standing::Excluded,
+            _ => Standing::Rival,
+        };
+        let of_line = |(k, one): (usize, &Solution)| LineSolution {
+            values: one.values.clone(),
+            chi_squared: per_freedom(one.misfit),
+            standing: standing(k),
+        };
+        at.solutions = solutions.iter().enumerate().map(of_line).collect();
+        let rivals = at.solutions.iter().filter(|one| one.standing == Standing::Rival);
+        at.rivals = rivals.map(|one| one.values.clone()).collect();
         let error = relative_error(&kept(measured), &kept(&response));
         let assessed = space.assess(i, &solution.values);
         let reduction_error =
