@@ -23,6 +23,7 @@ mod series;
 mod several;
 mod several_channels;
 mod shared_data;
+mod shared_model;
 mod signal;
 mod smooth;
 mod subspace;

@@ -9,7 +9,7 @@
 
 use super::data_hypothesis::{DataHypothesis, Edit};
 use super::misfit::{misfit, wrapped};
-use super::{Agreed, Diagnosis, look, written};
+use super::{Agreed, Diagnosis, Model, look, written};
 use crate::c64;
 use crate::for_each::ForEach;
 use crate::identify::{Band, Options};
@@ -33,6 +33,7 @@ const SUSPECT: f64 = 2.0;
 
 /// [`super::diagnose`] of more than [`MOST_SENSORS`] sensors.
 pub(super) fn diagnose(
+    model: &Model<'_>,
     band: &Band<'_>,
     quantities: &[Quantity],
     options: &Options,
@@ -42,7 +43,9 @@ pub(super) fn diagnose(
     let panel: Vec<usize> = (0..MOST_SENSORS).map(|k| k * (count - 1) / (MOST_SENSORS - 1)).collect();
     let own = |agreed: Agreed<'_, '_>| own_misfits(band, quantities, &agreed);
     let part = Part::of(band, quantities, &panel);
-    let (mut diagnosis, own) = look(&part.band(band), &part.quantities, options, for_each, &own)?;
+    let of = |sensors: &[usize]| Model { sensors: sensors.to_vec(), ..model.clone() };
+    let (mut diagnosis, own) =
+        look(&of(&panel), &part.band(band), &part.quantities, options, for_each, &own)?;
     for finding in &mut diagnosis.findings {
         finding.sensors = match finding.sensors.len() == panel.len() {
             true => (0..count).collect(),
@@ -61,7 +64,7 @@ pub(super) fn diagnose(
         let mut few: Vec<usize> = order.iter().copied().take(BESIDE).collect();
         few.push(suspect);
         let part = Part::of(band, quantities, &few);
-        let (alone, _) = look(&part.band(band), &part.quantities, options, for_each, &|_| ())?;
+        let (alone, _) = look(&of(&few), &part.band(band), &part.quantities, options, for_each, &|_| ())?;
         diagnosis.work += alone.work;
         let of_it = alone.findings.into_iter().filter(|finding| finding.sensors == [BESIDE]);
         found.extend(of_it.map(|mut finding| {

@@ -26,14 +26,14 @@ pub use finding::{Evidence, Fault, Finding, KnownFactor, NAMED_WITHIN, NotJudged
 
 use crate::c64;
 use crate::for_each::{ForEach, map};
-use crate::identify::{Band, Options, Problem, ProblemError};
+use crate::identify::{Band, Context, Options, Problem, ProblemError, ReducedBand};
 use crate::material::OutsideTable;
 use crate::quantity::Quantity;
 use crate::response::Work;
-use crate::subspace::Drive;
+use crate::subspace::Subspace;
 use data_hypothesis::{Change, DataHypothesis, DofMismatch, Edit, ln_over_receptance};
 use dof_mismatch::{Tried, dof_mismatch, sweep};
-use responses::{NoModel, Responses};
+use responses::{Parametrization, Responses, trained};
 use search::{Fitted, Grid, Search, Written};
 
 /// What came of looking at the data.
@@ -85,6 +85,8 @@ const FINDINGS: usize = 2;
 
 /// Looks for what is wrong with a band's data against its model; `quantities` says what each sensor's values were before they were made receptances.
 ///
+/// Where the band is identified too, [`diagnose_on`] shares its reduced model.
+///
 /// Costs one real factorisation and some dozens of solves; two more where another row is looked for. Of more than twenty sensors that many are looked at
 /// together, all others are compared with the modulus that they have, and those that differ most are looked at one by one: the cost beyond that of
 /// twenty sensors is one product with the basis at each frequency, and one residual a sensor and frequency.
@@ -104,6 +106,36 @@ pub fn diagnose(
     options: &Options,
     for_each: ForEach<'_>,
 ) -> Result<Diagnosis, ProblemError> {
+    diagnose_by(None, problem, quantities, options, for_each)
+}
+
+/// The same on a reduced model that is shared with [`identify_on`](crate::identify::identify_on), and trained now where it is not
+/// yet: for all unknowns and sensors one, and no factorisation but where another row is looked for.
+///
+/// # Errors
+/// As [`diagnose`].
+pub fn diagnose_on<'a>(
+    reduced: &mut ReducedBand<'a>,
+    problem: &'a Problem<'a>,
+    quantities: &[Quantity],
+    options: &Options,
+    for_each: ForEach<'_>,
+) -> Result<Diagnosis, ProblemError> {
+    let before = reduced.work();
+    let context = Context { for_each, progress: &|_, _, _| {} };
+    let trained = reduced.trained(problem, options, context)?;
+    let mut found = diagnose_by(trained, problem, quantities, options, for_each)?;
+    found.work += reduced.work().since(before);
+    Ok(found)
+}
+
+fn diagnose_by(
+    trained: Option<&Subspace<'_>>,
+    problem: &Problem<'_>,
+    quantities: &[Quantity],
+    options: &Options,
+    for_each: ForEach<'_>,
+) -> Result<Diagnosis, ProblemError> {
     let sensors = problem.experiment().sensors.len();
     if quantities.len() != sensors {
         let (what, expected) = ("quantities".to_owned(), format!("{sensors}, one for each sensor"));
@@ -113,13 +145,12 @@ pub fn diagnose(
     let mut work = Work::default();
     for (j, unknown) in problem.unknowns().iter().enumerate() {
         let Some(parameter) = unknown.parameter() else { continue };
-        let about = problem.model_about(j)?;
-        let mut band = problem.band(&parameter);
-        band.model = about.as_ref().unwrap_or(band.model);
+        let band = problem.band(&parameter);
+        let model = Model { problem, unknown: j, trained, sensors: (0..sensors).collect() };
         let options = Options { bounds: unknown.bounds, real: unknown.real, ..*options };
         let mut found = match sensors > many::MOST_SENSORS {
-            true => many::diagnose(&band, quantities, &options, for_each)?,
-            false => look(&band, quantities, &options, for_each, &|_| ())?.0,
+            true => many::diagnose(&model, &band, quantities, &options, for_each)?,
+            false => look(&model, &band, quantities, &options, for_each, &|_| ())?.0,
         };
         work += found.work;
         if problem.unknowns().len() > 1 {
@@ -148,6 +179,18 @@ pub fn diagnose(
 /// A misfit up to which one free unknown beside others at their nominal values is believed: a factor of 1.3, or 17 degrees.
 const EXPLAINED_BY_ONE: f64 = 0.3;
 
+/// What answers for the sensors of a band.
+#[derive(Clone)]
+struct Model<'x> {
+    problem: &'x Problem<'x>,
+    /// Which unknown is free, with the others at their nominal values.
+    unknown: usize,
+    /// A reduced model of the whole problem; without one, one is trained for the sensors.
+    trained: Option<&'x Subspace<'x>>,
+    /// Which of the problem's sensors they are.
+    sensors: Vec<usize>,
+}
+
 /// What the sensors of a band agree on.
 struct Agreed<'x, 'a> {
     responses: &'x Responses<'a>,
@@ -161,6 +204,7 @@ struct Agreed<'x, 'a> {
 
 /// [`diagnose`] of a few sensors. Where load and rows are those of the case, `agreed` is then asked about what was found.
 fn look<T>(
+    model: &Model<'_>,
     band: &Band<'_>,
     quantities: &[Quantity],
     options: &Options,
@@ -181,21 +225,29 @@ fn look<T>(
         diagnosis.not_judged = Some(NotJudged::FewValues);
         return Ok((diagnosis, None));
     }
-    let at = band.model.at_all(&frequency_hz, std::slice::from_ref(band.parameter))?;
-    let mut responses = match Responses::new(band.experiment, &at, options, for_each) {
-        Ok(responses) => responses,
-        Err(reason) => {
-            diagnosis.not_judged = Some(match reason {
-                NoModel::Parameter => NotJudged::Parameter,
-                NoModel::Breakdown => NotJudged::Breakdown,
-            });
-            return Ok((diagnosis, None));
-        }
+    let at = model.problem.about(model.unknown, &frequency_hz)?;
+    let is_linear = band.parameter.members.iter().all(|member| member.power == 1);
+    let Some(parametrization) = Parametrization::about(&at, options).filter(|_| is_linear) else {
+        diagnosis.not_judged = Some(NotJudged::Parameter);
+        return Ok((diagnosis, None));
     };
-    for m in 0..quantities.len() {
-        responses.add(|fractions| fractions.residues(m, Drive::Load));
-    }
-    diagnosis.work = responses.work();
+    let own = match model.trained {
+        None => trained(band.experiment, &at, &parametrization, for_each),
+        Some(_) => None,
+    };
+    diagnosis.work = own.as_ref().map_or(Work::default(), Subspace::work);
+    let sensors = match model.trained {
+        None => (0..quantities.len()).collect(),
+        Some(_) => model.sensors.clone(),
+    };
+    let responses = model
+        .trained
+        .or(own.as_ref())
+        .and_then(|subspace| Responses::new(subspace, sensors, parametrization, &at, for_each));
+    let Some(responses) = responses else {
+        diagnosis.not_judged = Some(NotJudged::Breakdown);
+        return Ok((diagnosis, None));
+    };
     let search = Search { responses: &responses, written: &written, for_each };
     let grid = search.grid(quantities.len());
     let mut data_hypothesis = DataHypothesis::as_told(quantities, band.model.decay_per_s());

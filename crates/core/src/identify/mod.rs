@@ -5,6 +5,7 @@
 //! | file | what is in it |
 //! |---|---|
 //! | `problem` | what is to be identified, checked |
+//! | `reduced_band` | one reduced model, shared with the diagnostics |
 //! | `band` | a single unknown: all solutions at each frequency, one path through the band, laws, a smooth curve |
 //! | `several` | any number of unknowns in one least squares |
 //! | `one` | a single frequency, as the paper has it |
@@ -20,6 +21,7 @@ mod options;
 mod outcome;
 mod problem;
 mod rational;
+mod reduced_band;
 mod several;
 mod uncertainty;
 
@@ -35,6 +37,7 @@ pub use one::{error_by_order, identify_at, relative_error};
 pub use options::{ErrorSizes, MAX_ORDER, ModelErrors, Options, OptionsError};
 pub use outcome::{Line, LineSolution, LineValue, Standing, Status};
 pub use problem::{Frfs, Problem, ProblemError};
+pub use reduced_band::ReducedBand;
 pub use several::{BandValue, Dependence, Direction, Number, NumberOf, Profile, Unknown, Variation};
 pub use uncertainty::Uncertainty;
 
@@ -60,22 +63,41 @@ pub fn identify(
     options: &Options,
     context: Context<'_>,
 ) -> Result<Identification, ProblemError> {
+    identify_on(&mut ReducedBand::default(), problem, options, context)
+}
+
+/// The same on a reduced model that is shared with [`diagnose_on`](crate::diagnostics::diagnose_on): one that is trained already
+/// is trained further only at the answers.
+///
+/// # Errors
+/// As [`identify`].
+pub fn identify_on<'a>(
+    reduced: &mut ReducedBand<'a>,
+    problem: &'a Problem<'a>,
+    options: &Options,
+    context: Context<'_>,
+) -> Result<Identification, ProblemError> {
     let options = &problem.checked(options)?;
     let channels = problem.channels();
+    reduced.begin(problem);
+    let trained = &mut reduced.subspace;
     Ok(match problem.single() {
-        None => several::identify_several(problem, options, context)?.into(),
+        None => several::identify_several(problem, trained, options, context)?.into(),
         Some((strategy, parameter)) => {
-            let band = &problem.band(&parameter);
+            let band = &problem.band(parameter);
             match strategy {
                 Strategy::PerFrequency if channels.is_empty() => {
-                    band::identify_band(band, options, context)?.into()
+                    band::identify_band(band, trained, options, context)?.into()
                 }
                 Strategy::PerFrequency => {
-                    let (found, channels) = band::identify_band_scaled(band, channels, options, context)?;
+                    let (found, channels) =
+                        band::identify_band_scaled(band, trained, channels, options, context)?;
                     Identification { channels, ..found.into() }
                 }
-                Strategy::Smooth => band::identify_smooth(band, options, context)?.into(),
-                Strategy::Law(kinds) => band::identify_laws(band, channels, kinds, options, context)?.into(),
+                Strategy::Smooth => band::identify_smooth(band, trained, options, context)?.into(),
+                Strategy::Law(kinds) => {
+                    band::identify_laws(band, trained, (channels, kinds), options, context)?.into()
+                }
             }
         }
     })

@@ -1,12 +1,12 @@
 //! What is to be identified, checked: a model, an experiment, unknowns, channels and measured FRFs.
 
 use super::band::{Band, ChannelUnknowns, Noise};
-use super::several::{Dependence, Unknown, Variation};
+use super::several::{Composite, Dependence, Unknown, Variation};
 use super::{Method, Options, OptionsError, Selection};
 use crate::c64;
 use crate::laws::LawKind;
 use crate::material::OutsideTable;
-use crate::model::{DynamicStiffness, Experiment, Parameter};
+use crate::model::{DynamicStiffness, Experiment, ModelAt, Parameter};
 use std::fmt;
 
 /// Measured frequency response functions.
@@ -22,13 +22,15 @@ pub struct Frfs<'a> {
 }
 
 /// A problem without a fault that could be seen before it is solved.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub struct Problem<'a> {
     pub(super) model: &'a DynamicStiffness,
     pub(super) experiment: &'a Experiment,
     pub(super) unknowns: &'a [Unknown],
     pub(super) channels: &'a [ChannelUnknowns],
     pub(super) frfs: Frfs<'a>,
+    /// The only unknown as the parameter of a polynomial, where it can be one.
+    parameter: Option<Parameter>,
 }
 
 /// What is wrong with a problem, and where.
@@ -151,7 +153,8 @@ impl<'a> Problem<'a> {
         let known =
             channels.len() == experiment.sensors.len() && !channels.iter().any(|channel| channel.any());
         let channels = if known { &[] } else { channels };
-        let problem = Self { model, experiment, unknowns, channels, frfs };
+        let parameter = if let [only] = unknowns { only.parameter() } else { None };
+        let problem = Self { model, experiment, unknowns, channels, frfs, parameter };
         problem.check_experiment()?;
         problem.check_frfs()?;
         problem.check_noise()?;
@@ -196,7 +199,7 @@ impl<'a> Problem<'a> {
 
     /// How the only unknown is found, and it as the parameter of a polynomial; `None` where all unknowns are found in one least squares
     /// (B-8): several, a constant, or one with a negative power.
-    pub(super) fn single(&self) -> Option<(Strategy<'a>, Parameter)> {
+    pub(super) fn single(&self) -> Option<(Strategy<'a>, &Parameter)> {
         let [only] = self.unknowns else { return None };
         let strategy = match &only.varies {
             Variation::PerFrequency => Strategy::PerFrequency,
@@ -204,7 +207,7 @@ impl<'a> Problem<'a> {
             Variation::Law(kinds) => Strategy::Law(kinds),
             Variation::Constant => return None,
         };
-        Some((strategy, only.parameter()?))
+        Some((strategy, self.parameter.as_ref()?))
     }
 
     /// The band as the strategies of a single unknown take it.
@@ -216,27 +219,10 @@ impl<'a> Problem<'a> {
         Band { model, experiment, parameter, frequency_hz, measured, noise }
     }
 
-    /// The model with all other unknowns than the j-th at their nominal values; `None` where its factors have them already.
-    pub(crate) fn model_about(&self, j: usize) -> Result<Option<DynamicStiffness>, ProblemError> {
-        let mut terms = self.model.terms().to_vec();
-        for other in self.unknowns.iter().enumerate().filter(|(k, _)| *k != j).map(|(_, other)| other) {
-            let nominal = other.nominal.at(self.frfs.frequency_hz[0])?;
-            match &other.dependence {
-                Dependence::Factor(all) => {
-                    all.iter().for_each(|&term| terms[term].factor = other.nominal.clone())
-                }
-                Dependence::Powers(all) => {
-                    for &(term, power) in all {
-                        terms[term].factor = terms[term].factor.scaled(nominal.re.powi(power));
-                    }
-                }
-            }
-        }
-        let changed = terms.iter().zip(self.model.terms()).any(|(new, old)| new.factor != old.factor);
-        // The same matrices as those of a model that is there.
-        let decay_per_s = self.model.decay_per_s();
-        let about = || DynamicStiffness::new(terms).ok().map(|model| model.with_decay_per_s(decay_per_s));
-        Ok(if changed { about() } else { None })
+    /// The model as a function of the j-th unknown, to first order, with all others at their nominal values.
+    pub(crate) fn about(&self, j: usize, frequency_hz: &[f64]) -> Result<Vec<ModelAt<'a>>, OutsideTable> {
+        let composite = Composite { model: self.model, unknowns: self.unknowns };
+        frequency_hz.iter().map(|&f| composite.about_one(f, &composite.nominal(f)?, j)).collect()
     }
 
     /// Options of this problem: a single unknown's bounds in them.

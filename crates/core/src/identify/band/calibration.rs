@@ -6,13 +6,14 @@ use super::joint;
 use super::noise::{deviations, freedom};
 use super::outlier_sensor::without;
 use super::reduced_band::ReducedBand;
-use super::{Band, BandOutcome, Context, Noise, near_or_far, on_subspace};
+use super::{Band, BandOutcome, Context, Noise, hand_back, near_or_far, on_subspace};
 use crate::c64;
 use crate::for_each::map;
 use crate::frequency::omega_rad_s;
 use crate::identify::{Options, Status};
 use crate::material::OutsideTable;
 use crate::model::ModelAt;
+use crate::subspace::Subspace;
 use frfit_linalg::dense::symmetric_eigen;
 
 /// What of a channel is to be found.
@@ -127,19 +128,21 @@ const UNTOLD: f64 = 1e-12;
 ///
 /// # Errors
 /// [`OutsideTable`] where a table does not reach a frequency.
-pub(in crate::identify) fn identify_band_scaled(
-    band: &Band<'_>,
+pub(in crate::identify) fn identify_band_scaled<'a>(
+    band: &Band<'a>,
+    trained: &mut Option<Subspace<'a>>,
     unknown: &[ChannelUnknowns],
     options: &Options,
     hooks: Context<'_>,
 ) -> Result<(BandOutcome, Vec<Calibration>), OutsideTable> {
     let at = band.model.at_all(band.frequency_hz, std::slice::from_ref(band.parameter))?;
-    let run = |options: &Options| {
-        let mut space = super::space(band, &at, options, hooks);
+    let boxes = on_subspace(options);
+    let (outcome, (found, space)) = near_or_far(&boxes, |options| {
+        let mut space = super::space(band, &at, trained, options, hooks);
         let (outcome, found) = with_scales(band, &at, &mut space, unknown, options, hooks);
-        (outcome, found.unwrap_or_else(|| vec![Calibration::default(); unknown.len()]))
-    };
-    let (outcome, found) = near_or_far(&on_subspace(options), run);
+        (outcome, (found.unwrap_or_else(|| vec![Calibration::default(); unknown.len()]), space))
+    });
+    hand_back(trained, space);
     Ok((outcome.judged_by_fit(), found))
 }
 

@@ -13,6 +13,7 @@ use crate::identify::Options;
 use crate::laws::{LawFit, Parametrization};
 use crate::median::median;
 use crate::model::ModelAt;
+use crate::subspace::Subspace;
 
 /// The response of a law at one frequency.
 pub(super) struct Responded {
@@ -175,11 +176,12 @@ pub(super) struct Begin<'a, 'o> {
 pub(super) fn at_scales<'a, 'o>(
     band: &Band<'a>,
     at: &'o [ModelAt<'a>],
+    trained: &mut Option<Subspace<'a>>,
     unknown: &[ChannelUnknowns],
     options: &'o Options,
     hooks: Context<'_>,
 ) -> (BandOutcome, Begin<'a, 'o>) {
-    let mut space = super::space(band, at, options, hooks);
+    let mut space = super::space(band, at, trained, options, hooks);
     let right = vec![Channel::RIGHT; unknown.len()];
     let is_known = |unknown: &ChannelUnknowns| !unknown.any();
     if unknown.iter().all(is_known) {

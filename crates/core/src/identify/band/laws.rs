@@ -11,7 +11,7 @@ use super::joint;
 use super::noise::{NoiseLevel, NoiseSource, deviations};
 use super::outlier_sensor::without;
 use super::reduced_band::{ReducedBand, reduction_error};
-use super::{Band, BandOutcome, Context, Noise, Stage, corrected, near_or_far, on_subspace};
+use super::{Band, BandOutcome, Context, Noise, Stage, corrected, hand_back, near_or_far, on_subspace};
 use crate::c64;
 use crate::for_each::map;
 use crate::frequency::omega_rad_s;
@@ -25,6 +25,7 @@ use crate::laws::{
 use crate::material::OutsideTable;
 use crate::model::ModelAt;
 use crate::response::Work;
+use crate::subspace::Subspace;
 
 /// What came out.
 #[derive(Debug, Clone, PartialEq)]
@@ -83,10 +84,10 @@ pub(super) const APART: f64 = 3.0;
 ///
 /// # Errors
 /// [`OutsideTable`] where a table does not reach a frequency.
-pub(in crate::identify) fn identify_laws(
-    band: &Band<'_>,
-    unknown: &[ChannelUnknowns],
-    kinds: &[LawKind],
+pub(in crate::identify) fn identify_laws<'a>(
+    band: &Band<'a>,
+    trained: &mut Option<Subspace<'a>>,
+    (unknown, kinds): (&[ChannelUnknowns], &[LawKind]),
     options: &Options,
     hooks: Context<'_>,
 ) -> Result<LawsOutcome, OutsideTable> {
@@ -95,7 +96,7 @@ pub(in crate::identify) fn identify_laws(
     let at = band.model.at_all(band.frequency_hz, std::slice::from_ref(band.parameter))?;
     let boxes = on_subspace(options);
     let (mut free, Begin { space, channels, ratio }) =
-        near_or_far(&boxes, |options| at_scales(band, &at, unknown, options, hooks));
+        near_or_far(&boxes, |options| at_scales(band, &at, trained, unknown, options, hooks));
     let mut space = space;
     if let Some(space) = space.as_mut().filter(|_| !unknown.iter().any(|channel| channel.any())) {
         free = corrected::correct(band, &at, free, space, &boxes[0], hooks);
@@ -172,6 +173,7 @@ pub(in crate::identify) fn identify_laws(
     let within = |outcome: Line| Line { status: outcome.status.within(fit), ..outcome };
     let outcomes = outcomes.into_iter().map(within).collect();
     let free = free.judged_by_fit();
+    hand_back(trained, Some(space));
     Ok(LawsOutcome { outcomes, fits, channels: told_channels, fit, work, subspace_size, free })
 }
 

@@ -36,6 +36,7 @@ use crate::for_each::ForEach;
 use crate::material::OutsideTable;
 use crate::model::{DynamicStiffness, Experiment, ModelAt, Parameter};
 use crate::response::Work;
+use crate::subspace::Subspace;
 use reduced_band::ReducedBand;
 
 pub(super) use candidates::Fit;
@@ -43,7 +44,7 @@ pub(super) use fit::judge;
 pub(super) use laws::{ROUNDS, UNEXPLAINED, nearest};
 pub(super) use noise::{deviations, level_of};
 pub(super) use outlier_sensor::without;
-pub(super) use reduced_band::{BOX, TRAINED, is_certain, reduction_error, thinned};
+pub(super) use reduced_band::{BOX, TRAINED, is_certain, reduction_error, thinned, train};
 
 pub use fit::{Explained, GoodnessOfFit, SensorFit};
 pub use noise::{NoiseLevel, NoiseSource};
@@ -133,22 +134,24 @@ pub(super) struct BandOutcome {
 /// # Errors
 /// [`OutsideTable`] where a table does not reach a frequency.
 ///
-pub(super) fn identify_band(
-    band: &Band<'_>,
+pub(super) fn identify_band<'a>(
+    band: &Band<'a>,
+    trained: &mut Option<Subspace<'a>>,
     options: &Options,
     hooks: Context<'_>,
 ) -> Result<BandOutcome, OutsideTable> {
     let at = band.model.at_all(band.frequency_hz, std::slice::from_ref(band.parameter))?;
     let boxes = near_and_far(options);
-    let run = |options| identify_at_all(band, &at, options, hooks);
-    let (found, space) = near_or_far(&boxes, run);
+    let (found, space) = near_or_far(&boxes, |options| identify_at_all(band, &at, trained, options, hooks));
     // A model that is answered for as it is has no modes at hand: they are those of a reduced one.
     let wanted = options.selection == Selection::Joint && options.reduction == Reduction::Auto;
-    let reduced = || ReducedBand::new(band, &at, &boxes[0], hooks).ok().filter(|_| wanted);
-    let found = match space.or_else(reduced).filter(|_| options.selection == Selection::Joint) {
-        Some(mut space) => corrected::correct(band, &at, found, &mut space, &boxes[0], hooks),
+    let reduced = || wanted.then(|| reduced_band(band, &at, trained, &boxes[0], hooks)).flatten();
+    let mut space = space.or_else(reduced);
+    let found = match space.as_mut().filter(|_| options.selection == Selection::Joint) {
+        Some(space) => corrected::correct(band, &at, found, space, &boxes[0], hooks),
         None => found,
     };
+    hand_back(trained, space);
     Ok(found.judged_by_fit())
 }
 
@@ -166,7 +169,7 @@ fn on_subspace(options: &Options) -> [Options; 2] {
 /// the one with more answers then, with the work of both.
 fn near_or_far<'o, T>(
     [near, far]: &'o [Options; 2],
-    run: impl Fn(&'o Options) -> (BandOutcome, T),
+    mut run: impl FnMut(&'o Options) -> (BandOutcome, T),
 ) -> (BandOutcome, T) {
     let mut found = run(near);
     let wider = near.selection == Selection::Joint && near.bounds.storage.is_some() && !near.whole_box;
@@ -207,13 +210,15 @@ impl BandOutcome {
 fn identify_at_all<'a, 'o>(
     band: &Band<'a>,
     at: &'o [ModelAt<'a>],
+    trained: &mut Option<Subspace<'a>>,
     options: &'o Options,
     hooks: Context<'_>,
 ) -> (BandOutcome, Option<ReducedBand<'a, 'o>>) {
     match options.selection {
-        Selection::Joint => keeping_space(band, at, options, hooks),
+        Selection::Joint => keeping_space(band, at, trained, options, hooks),
         Selection::Smallest => {
-            (per_frequency::identify(band, at, space(band, at, options, hooks), options, hooks), None)
+            let space = space(band, at, trained, options, hooks);
+            (per_frequency::identify(band, at, space, options, hooks), None)
         }
     }
 }
@@ -222,20 +227,41 @@ fn identify_at_all<'a, 'o>(
 fn keeping_space<'a, 'o>(
     band: &Band<'a>,
     at: &'o [ModelAt<'a>],
+    trained: &mut Option<Subspace<'a>>,
     options: &'o Options,
     hooks: Context<'_>,
 ) -> (BandOutcome, Option<ReducedBand<'a, 'o>>) {
-    let mut space = space(band, at, options, hooks);
+    let mut space = space(band, at, trained, options, hooks);
     (joint::identify(band, at, space.as_mut(), &[], options, hooks), space)
 }
 
 fn space<'a, 'o>(
     band: &Band<'a>,
     at: &'o [ModelAt<'a>],
+    trained: &mut Option<Subspace<'a>>,
     options: &'o Options,
     hooks: Context<'_>,
 ) -> Option<ReducedBand<'a, 'o>> {
     let wanted = options.reduction.is_subspace(options.method, band.model.dim(), at.len());
     // A singular stand-in for D is no reason to give up: the full model says at which frequency what breaks down.
-    wanted.then(|| ReducedBand::new(band, at, options, hooks).ok()).flatten()
+    wanted.then(|| reduced_band(band, at, trained, options, hooks)).flatten()
+}
+
+/// The reduced model of a band on what was trained for it already, or else is now.
+fn reduced_band<'a, 'o>(
+    band: &Band<'a>,
+    at: &'o [ModelAt<'a>],
+    trained: &mut Option<Subspace<'a>>,
+    options: &'o Options,
+    hooks: Context<'_>,
+) -> Option<ReducedBand<'a, 'o>> {
+    let subspace = trained.take().map_or_else(|| train(band, at, options, hooks), Ok).ok()?;
+    Some(ReducedBand::new(subspace, at, options))
+}
+
+/// Leaves what was trained to the next one.
+fn hand_back<'a>(trained: &mut Option<Subspace<'a>>, space: Option<ReducedBand<'a, '_>>) {
+    if let Some(space) = space {
+        *trained = Some(space.into_subspace());
+    }
 }

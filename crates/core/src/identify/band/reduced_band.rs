@@ -66,37 +66,26 @@ struct Block {
 }
 
 impl<'a, 'o> ReducedBand<'a, 'o> {
-    /// Trains over the box.
-    ///
-    /// # Errors
-    /// [`Breakdown`] where no real stand-in for D can be factorised.
-    pub(super) fn new(
-        band: &Band<'a>,
-        at: &'o [ModelAt<'a>],
-        options: &'o Options,
-        hooks: Context<'_>,
-    ) -> Result<Self, Breakdown> {
+    /// The neighbourhoods of a band on a subspace that was trained for it.
+    pub(super) fn new(subspace: Subspace<'a>, at: &'o [ModelAt<'a>], options: &'o Options) -> Self {
         let n = at.len();
-        (hooks.progress)(Stage::Subspace, 0, n);
-        let subspace = Subspace::new(band.experiment, &at[n - 1])?;
         let count = (n / BLOCK_LEAST).clamp(1, BLOCKS);
         let block = |b| Block { ends: [b * n / count, (b + 1) * n / count - 1], model: None };
-        let blocks = (0..count).map(block).collect();
-        let mut space = Self {
+        Self {
             subspace,
             at,
             options,
-            blocks,
+            blocks: (0..count).map(block).collect(),
             models: vec![None; n],
             assessed: vec![Vec::new(); n],
             answers: Vec::new(),
             corrected: None,
-        };
-        let all: Vec<usize> = (0..n).collect();
-        let points: Vec<Point<'a>> = thinned(&all, FREQUENCIES).flat_map(|&i| space.box_points(i)).collect();
-        let training = TrainOptions { tolerance: BOX, ..TrainOptions::default() };
-        space.subspace.train(&points, &training, hooks.for_each)?;
-        Ok(space)
+        }
+    }
+
+    /// What the next one may train further.
+    pub(super) fn into_subspace(self) -> Subspace<'a> {
+        self.subspace
     }
 
     /// Some of the frequencies, over the whole band: once the subspace is good at their answers, it is at most of the others.
@@ -302,26 +291,45 @@ impl<'a, 'o> ReducedBand<'a, 'o> {
         self.subspace.work()
     }
 
-    /// The nominal factor and a grid over the box at a frequency.
     fn box_points(&self, i: usize) -> Vec<Point<'a>> {
-        let at = &self.at[i];
-        let nominal = at.parameters[0].nominal;
-        let point = |factor: c64| Point { at: at.clone(), correction: factor - nominal };
-        let mut points = vec![point(nominal)];
-        if let Some([low, high]) =
-            self.options.box_about(nominal).filter(|[low, high]| 0.0 < *low && high.is_finite())
-        {
-            let steps = ((PER_OCTAVE * (high / low).log2()).ceil() as usize).max(2);
-            let eta = self
-                .options
-                .bounds
-                .loss_factor
-                .map_or(loss_factor(nominal), |[low, high]| loss_factor(nominal).clamp(low, high));
-            let storage = |k: usize| low * (high / low).powf(k as f64 / steps as f64);
-            points.extend((0..=steps).map(|k| point(c64::new(1.0, eta) * storage(k))));
-        }
-        points
+        box_points(&self.at[i], self.options)
     }
+}
+
+/// Trains over the box.
+///
+/// # Errors
+/// [`Breakdown`] where no real stand-in for D can be factorised.
+pub(in crate::identify) fn train<'a>(
+    band: &Band<'a>,
+    at: &[ModelAt<'a>],
+    options: &Options,
+    hooks: Context<'_>,
+) -> Result<Subspace<'a>, Breakdown> {
+    (hooks.progress)(Stage::Subspace, 0, at.len());
+    let mut subspace = Subspace::new(band.experiment, &at[at.len() - 1])?;
+    let points: Vec<Point<'a>> = thinned(at, FREQUENCIES).flat_map(|at| box_points(at, options)).collect();
+    let training = TrainOptions { tolerance: BOX, ..TrainOptions::default() };
+    subspace.train(&points, &training, hooks.for_each)?;
+    Ok(subspace)
+}
+
+/// The nominal factor and a grid over the box at a frequency.
+fn box_points<'a>(at: &ModelAt<'a>, options: &Options) -> Vec<Point<'a>> {
+    let nominal = at.parameters[0].nominal;
+    let point = |factor: c64| Point { at: at.clone(), correction: factor - nominal };
+    let mut points = vec![point(nominal)];
+    if let Some([low, high]) = options.box_about(nominal).filter(|[low, high]| 0.0 < *low && high.is_finite())
+    {
+        let steps = ((PER_OCTAVE * (high / low).log2()).ceil() as usize).max(2);
+        let eta = options
+            .bounds
+            .loss_factor
+            .map_or(loss_factor(nominal), |[low, high]| loss_factor(nominal).clamp(low, high));
+        let storage = |k: usize| low * (high / low).powf(k as f64 / steps as f64);
+        points.extend((0..=steps).map(|k| point(c64::new(1.0, eta) * storage(k))));
+    }
+    points
 }
 
 /// Whether an answer's error is what it may be.

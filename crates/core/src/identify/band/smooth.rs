@@ -14,8 +14,8 @@ use super::noise::{LEAST_LEVEL, deviations};
 use super::outlier_sensor::without;
 use super::reduced_band::{ReducedBand, reduction_error};
 use super::{
-    Band, BandOutcome, Context, Noise, NoiseLevel, NoiseSource, SensorFit, Stage, keeping_space, near_or_far,
-    on_subspace,
+    Band, BandOutcome, Context, Noise, NoiseLevel, NoiseSource, SensorFit, Stage, hand_back, keeping_space,
+    near_or_far, on_subspace,
 };
 use crate::c64;
 use crate::for_each::map;
@@ -24,6 +24,7 @@ use crate::identify::{Line, Options, Status, Uncertainty, relative_error};
 use crate::material::OutsideTable;
 use crate::model::ModelAt;
 use crate::smooth::{Evidence, Observation, Smoothed, State, roughness, smooth};
+use crate::subspace::Subspace;
 
 /// What came out.
 #[derive(Debug, Clone, PartialEq)]
@@ -78,14 +79,16 @@ const OUTLIERS: f64 = 0.25;
 /// # Limits
 /// One κ for the whole band: a modulus that is a straight line in one half and has a narrow feature in the other is smoothed less than it could be in the first. Error bars are linear in the noise,
 /// and hold the scatter of answers that belong together: neighbours have nearly the same error. The factor must not be zero; at 0 Hz there is none.
-pub(in crate::identify) fn identify_smooth(
-    band: &Band<'_>,
+pub(in crate::identify) fn identify_smooth<'a>(
+    band: &Band<'a>,
+    trained: &mut Option<Subspace<'a>>,
     options: &Options,
     hooks: Context<'_>,
 ) -> Result<SmoothOutcome, OutsideTable> {
     let at = band.model.at_all(band.frequency_hz, std::slice::from_ref(band.parameter))?;
     let boxes = on_subspace(options);
-    let (mut free, mut space) = near_or_far(&boxes, |options| keeping_space(band, &at, options, hooks));
+    let (mut free, mut space) =
+        near_or_far(&boxes, |options| keeping_space(band, &at, trained, options, hooks));
     if let Some(space) = &mut space {
         free = correct(band, &at, free, space, &boxes[0], hooks);
     }
@@ -120,6 +123,7 @@ pub(in crate::identify) fn identify_smooth(
     let mut work = free.work;
     work += space.work().since(fitted.before);
     let subspace_size = Some(space.size());
+    hand_back(trained, Some(space));
     let smoothed = BandOutcome { outcomes, work, subspace_size, noise, fit, sensors, ..free.clone() };
     Ok(SmoothOutcome {
         free: free.judged_by_fit(),

@@ -38,6 +38,7 @@ mod unknown;
 
 pub(super) use outcome::SeveralOutcome;
 pub use outcome::{BandValue, Direction, Number, NumberOf, Profile};
+pub(super) use unknown::Composite;
 pub use unknown::{Dependence, Unknown, Variation};
 
 use super::band::{Calibration, NoiseLevel, deviations};
@@ -46,9 +47,9 @@ use crate::c64;
 use crate::frequency::omega_rad_s;
 use crate::material::OutsideTable;
 use crate::response::Work;
+use crate::subspace::Subspace;
 use frfit_linalg::solve::Breakdown;
 use reduced_band::ReducedBand;
-use unknown::Composite;
 
 /// What there is to work with.
 struct Task<'t, 'a> {
@@ -74,15 +75,14 @@ struct Task<'t, 'a> {
 ///
 /// # Limits
 /// Of several per-frequency unknowns solutions are those that several starts lead to, not provably all; a single one that stands for a factor has all of them (B-2).
-pub(super) fn identify_several(
-    problem: &Problem<'_>,
+pub(super) fn identify_several<'a>(
+    problem: &Problem<'a>,
+    trained: &mut Option<Subspace<'a>>,
     options: &Options,
     hooks: Context<'_>,
 ) -> Result<SeveralOutcome, OutsideTable> {
-    let Problem { model, experiment, unknowns, frfs, .. } = *problem;
-    let composite = Composite { model, unknowns };
-    let nominal: Vec<Vec<c64>> =
-        frfs.frequency_hz.iter().map(|&f| composite.nominal(f)).collect::<Result<_, _>>()?;
+    let frfs = problem.frfs;
+    let nominal = nominal_of(problem)?;
     let task = Task {
         problem,
         nominal: &nominal,
@@ -92,9 +92,13 @@ pub(super) fn identify_several(
         options,
         hooks,
     };
-    let space = ReducedBand::new(composite, experiment, frfs.frequency_hz, &nominal, hooks)?;
-    Ok(match space {
-        Ok(mut space) => {
+    let subspace = match trained.take() {
+        Some(subspace) => Ok(subspace),
+        None => train(problem, hooks)?,
+    };
+    Ok(match subspace {
+        Ok(subspace) => {
+            let mut space = ReducedBand::new(subspace, problem, &nominal, hooks);
             let mut found = task.search(&mut space);
             let contradicting = task.contradicting(&space, &found);
             let rejected = if options.reject_outliers { contradicting.as_slice() } else { &[] };
@@ -105,10 +109,25 @@ pub(super) fn identify_several(
             let right = kept.judge(&space, &found, None);
             let mut outcome = kept.correct(&mut space, &found, right);
             outcome.sensors = kept.sensor_fits(&task.sigma, &contradicting, &outcome);
+            *trained = Some(space.into_subspace());
             outcome
         }
         Err(breakdown) => task.broken(breakdown),
     })
+}
+
+/// The nominal values, `[frequency][unknown]`.
+fn nominal_of(problem: &Problem<'_>) -> Result<Vec<Vec<c64>>, OutsideTable> {
+    let composite = Composite { model: problem.model, unknowns: problem.unknowns };
+    problem.frfs.frequency_hz.iter().map(|&f| composite.nominal(f)).collect()
+}
+
+/// A subspace that is good over the box of all unknowns.
+pub(super) fn train<'a>(
+    problem: &Problem<'a>,
+    hooks: Context<'_>,
+) -> Result<Result<Subspace<'a>, Breakdown>, OutsideTable> {
+    reduced_band::train(problem, &nominal_of(problem)?, hooks)
 }
 
 impl Task<'_, '_> {
