@@ -1,6 +1,6 @@
 //! Whole jobs: from the path of a case to files in a folder. What the command line and other front ends share.
 
-use crate::check::{check, findings_json};
+use crate::check::{check_on, findings_json};
 use crate::convert::{OR_TO, ending_of};
 use crate::error::{InputError, Place};
 use crate::figures::{identify_figures, measured_figures, respond_figures, several_figures};
@@ -14,9 +14,9 @@ use crate::output::{
 };
 use crate::records::{ChannelOptions, Records, read_records};
 use crate::report::report_of;
-use crate::run::{IdentifyRun, Progress, RespondRun, RunOptions, identify, respond};
+use crate::run::{IdentifyRun, Progress, RespondRun, RunOptions, Used, identify_with, problem_of, respond};
 use frfit::diagnostics::Diagnosis;
-use frfit::identify::{Explained, ProblemError, Variation};
+use frfit::identify::{Explained, ProblemError, ReducedBand, Variation};
 use frfit::material::OutsideTable;
 use frfit::signal::{self, Measured, SignalError, estimate_frf};
 use frfit_figures::PngError;
@@ -229,16 +229,22 @@ pub fn compute(
         return Err(InputError::at(&Place::option("case"), "something to identify", "none").into());
     };
     check_identify(&case, wanted, options.memory_bytes)?;
-    let start = Instant::now();
-    let mut diagnosis = wanted.check.then(|| check(&case, wanted)).transpose()?;
-    let mut seconds_check = start.elapsed().as_secs_f64();
-    let run = identify(&case, wanted, options, progress)?;
+    let used = Used::of(wanted);
+    let problem = problem_of(&case, wanted, &used)?;
+    // One reduced model answers for the check and the identification.
+    let mut reduced = ReducedBand::default();
+    let mut seconds_check = 0.0;
+    let mut check = |reduced: &mut _| {
+        let start = Instant::now();
+        let diagnosis = check_on(reduced, &problem, &case, wanted);
+        seconds_check += start.elapsed().as_secs_f64();
+        diagnosis
+    };
+    let mut diagnosis = wanted.check.then(|| check(&mut reduced)).transpose()?;
+    let run = identify_with(&mut reduced, &problem, &case, wanted, (options, progress))?;
     let unexplained = run.found.fit.is_some_and(|fit| fit.verdict == Explained::No);
     if wanted.layout == Layout::Named && unexplained {
-        // A model for each unknown is trained to look for faults: only where there is something to explain.
-        let start = Instant::now();
-        diagnosis = Some(check(&case, wanted)?);
-        seconds_check += start.elapsed().as_secs_f64();
+        diagnosis = Some(check(&mut reduced)?);
     }
     Ok(Computed { case, diagnosis, run, seconds_load, seconds_check })
 }
