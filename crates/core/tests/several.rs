@@ -3,12 +3,13 @@
 use crate::common;
 use crate::tier::of_tier;
 
-use common::{bar, c, plate, sandwich, term};
+use common::{bar, c, plate, sandwich, term, two_part_chain};
 use frfit::c64;
 use frfit::for_each::sequential;
 use frfit::frequency::linear_hz;
 use frfit::identify::{
-    Context, Dependence, Frfs, Identification, Noise, Options, Problem, Status, Unknown, Variation, identify,
+    Context, Dependence, Frfs, Identification, ModelErrors, Noise, Options, Problem, Standing, Status,
+    Unknown, Variation, identify,
 };
 use frfit::material::Law;
 use frfit::model::{DynamicStiffness, Experiment, Role, Sensor, Term};
@@ -228,6 +229,40 @@ fn two_moduli(sensors: usize, frequencies: usize) -> (usize, usize) {
         outcome.search.work
     );
     (right, wrong_and_ok)
+}
+
+/// As many equations as unknowns at three frequencies: no path tells all solutions apart, and an ambiguous line has them all.
+#[test]
+fn an_ambiguous_line_has_its_likeliest_values_and_its_rivals() {
+    let mut case = two_part_chain(24);
+    case.experiment.sensors.truncate(2);
+    let truth = [c(1.2, 0.036), c(0.8, 0.024)];
+    let frequency_hz = [0.1, 0.14, 0.18];
+    let factors = [truth[0], truth[1], c(1.0, 0.0)].map(Law::Constant);
+    let exact = direct(&case.model, &case.experiment, &factors, &frequency_hz);
+    let unknowns = [0, 1].map(|term| Unknown {
+        bounds: Bounds { storage: Some([0.4, 2.5]), loss_factor: Some([0.0, 0.3]) },
+        ..Unknown::factor_of(&case.model, &[case.model.terms()[term].name.as_str()]).unwrap()
+    });
+    let frfs = Frfs { frequency_hz: &frequency_hz, receptance: &exact, noise: Noise::Unknown };
+    let problem = Problem::new(&case.model, &case.experiment, &unknowns, &[], frfs).unwrap();
+    // Three lines cannot exclude errors of the model of some per cent.
+    for (model_errors, within) in [(ModelErrors::None, 1e-5), (ModelErrors::Estimated, 0.05)] {
+        let options = Options::default().with_model_errors(model_errors);
+        let found = identify(&problem, &options, HOOKS).unwrap();
+        for line in &found.lines {
+            let values: Vec<c64> = line.values.iter().filter_map(|value| value.value).collect();
+            let of = |standing| line.solutions.iter().filter(move |one| one.standing == standing);
+            assert_eq!(of(Standing::Chosen).map(|one| &one.values).collect::<Vec<_>>(), [&values]);
+            assert!(of(Standing::Rival).map(|one| &one.values).eq(&line.rivals), "{line:?}");
+            assert_eq!(line.candidate_count(), line.solutions.len());
+            // The truth is the answer, or a rival of it.
+            let is_true = |values: &Vec<c64>| values.iter().zip(truth).all(|(v, t)| (v - t).norm() < within);
+            assert!(is_true(&values) || line.rivals.iter().any(is_true), "{line:?}");
+        }
+        let mut ambiguous = found.lines.iter().filter(|line| line.status == Status::Ambiguous).peekable();
+        assert!(ambiguous.peek().is_some() && ambiguous.all(|line| !line.rivals.is_empty()));
+    }
 }
 
 #[test]

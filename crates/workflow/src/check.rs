@@ -7,9 +7,9 @@ use crate::output::Words;
 use crate::run::{Used, problem_of};
 use crate::units::UnitSystem;
 use frfit::diagnostics::{
-    Diagnosis, Evidence, Fault, KNOWN_FACTOR_RTOL, KnownFactor, NotJudged, OtherRow, diagnose,
+    Diagnosis, Evidence, Fault, KNOWN_FACTOR_RTOL, KnownFactor, NotJudged, OtherRow, diagnose, diagnose_on,
 };
-use frfit::identify::{ChannelUnknowns, ProblemError};
+use frfit::identify::{ChannelUnknowns, Problem, ProblemError, ReducedBand};
 use frfit::quantity::Quantity;
 use rayon::prelude::*;
 use serde_json::{Value, json};
@@ -60,11 +60,32 @@ pub fn check_case(
 /// # Errors
 /// [`ProblemError`] where the case has a fault that was not seen when it was loaded.
 pub fn check(case: &Case, identify: &IdentifyCase) -> Result<Diagnosis, ProblemError> {
-    let quantities: Vec<Quantity> = case.sensors.iter().map(|sensor| sensor.quantity).collect();
-    let for_each = |n: usize, each: &(dyn Fn(usize) + Sync)| (0..n).into_par_iter().for_each(each);
     let used = Used::of(identify);
     let problem = problem_of(case, identify, &used)?;
-    let mut diagnosis = diagnose(&problem, &quantities, &identify.options, &for_each)?;
+    let diagnosis = diagnose(&problem, &quantities(case), &identify.options, &in_parallel)?;
+    Ok(without_looked_for(identify, diagnosis))
+}
+
+/// The same on the reduced model with which the case is identified.
+pub(crate) fn check_on<'a>(
+    reduced: &mut ReducedBand<'a>,
+    problem: &'a Problem<'a>,
+    case: &Case,
+    identify: &IdentifyCase,
+) -> Result<Diagnosis, ProblemError> {
+    let diagnosis = diagnose_on(reduced, problem, &quantities(case), &identify.options, &in_parallel)?;
+    Ok(without_looked_for(identify, diagnosis))
+}
+
+fn quantities(case: &Case) -> Vec<Quantity> {
+    case.sensors.iter().map(|sensor| sensor.quantity).collect()
+}
+
+fn in_parallel(n: usize, each: &(dyn Fn(usize) + Sync)) {
+    (0..n).into_par_iter().for_each(each);
+}
+
+fn without_looked_for(identify: &IdentifyCase, mut diagnosis: Diagnosis) -> Diagnosis {
     // A real factor or a delay is no finding where it is looked for.
     diagnosis.findings.retain(|finding| {
         let real = matches!(finding.fault, Fault::Factor { .. } | Fault::Sign);
@@ -73,7 +94,7 @@ pub fn check(case: &Case, identify: &IdentifyCase) -> Result<Diagnosis, ProblemE
         let channel = |&m: &usize| identify.channels.get(m).copied().unwrap_or_default();
         !finding.sensors.iter().map(channel).all(looked_for)
     });
-    Ok(diagnosis)
+    diagnosis
 }
 
 /// The findings in words.

@@ -1,6 +1,6 @@
 //! Whole jobs: from the path of a case to files in a folder. What the command line and other front ends share.
 
-use crate::check::{check, findings_json};
+use crate::check::{check_on, findings_json};
 use crate::convert::{OR_TO, ending_of};
 use crate::error::{InputError, Place};
 use crate::figures::{identify_figures, measured_figures, respond_figures};
@@ -13,9 +13,9 @@ use crate::output::{
 };
 use crate::records::{ChannelOptions, Records, read_records};
 use crate::report::report_of;
-use crate::run::{IdentifyRun, Progress, RespondRun, RunOptions, identify, respond};
+use crate::run::{IdentifyRun, Progress, RespondRun, RunOptions, Used, identify_with, problem_of, respond};
 use frfit::diagnostics::Diagnosis;
-use frfit::identify::{Explained, ProblemError};
+use frfit::identify::{Explained, ProblemError, ReducedBand};
 use frfit::material::OutsideTable;
 use frfit::signal::{self, Measured, SignalError, estimate_frf};
 use frfit_figures::PngError;
@@ -214,18 +214,25 @@ pub fn compute(
         return Err(InputError::at(&Place::option("case"), "something to identify", "none").into());
     };
     check_identify(&case, wanted, options.memory_bytes)?;
-    let start = Instant::now();
+    let used = Used::of(wanted);
+    let problem = problem_of(&case, wanted, &used)?;
+    // One reduced model answers for the check and the identification.
+    let mut reduced = ReducedBand::default();
+    let mut seconds_check = 0.0;
+    let mut check = |reduced: &mut _| {
+        let start = Instant::now();
+        let diagnosis = check_on(reduced, &problem, &case, wanted);
+        seconds_check += start.elapsed().as_secs_f64();
+        diagnosis
+    };
     let mut diagnosis = match wanted.check {
-        Check::First => Some(check(&case, wanted)?),
+        Check::First => Some(check(&mut reduced)?),
         Check::IfUnexplained | Check::Never => None,
     };
-    let mut seconds_check = start.elapsed().as_secs_f64();
-    let run = identify(&case, wanted, options, progress)?;
+    let run = identify_with(&mut reduced, &problem, &case, wanted, (options, progress))?;
     let unexplained = run.found.fit.is_some_and(|fit| fit.verdict == Explained::No);
     if wanted.check == Check::IfUnexplained && unexplained {
-        let start = Instant::now();
-        diagnosis = Some(check(&case, wanted)?);
-        seconds_check += start.elapsed().as_secs_f64();
+        diagnosis = Some(check(&mut reduced)?);
     }
     Ok(Computed { case, diagnosis, run, seconds_load, seconds_check })
 }

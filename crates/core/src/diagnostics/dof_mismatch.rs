@@ -2,7 +2,7 @@
 
 use super::data_hypothesis::{Change, DataHypothesis, DofMismatch, Edit};
 use super::misfit::{misfit_at, wrapped};
-use super::responses::{Law, Responses};
+use super::responses::{Law, Parametrization, Responses, trained};
 use super::search::{Fitted, Search, Written};
 use crate::c64;
 use crate::for_each::map;
@@ -35,7 +35,7 @@ type Scored = (usize, f64, Law);
 
 /// The best rows for every sensor and for the load, each fitted on a model that was trained for it.
 pub(super) fn dof_mismatch<'a>(
-    search: &Search<'_, 'a>,
+    search: &Search<'_, '_>,
     band: &Band<'_>,
     at: &[ModelAt<'a>],
     options: &Options,
@@ -63,21 +63,19 @@ pub(super) fn dof_mismatch<'a>(
         load: experiment.load.clone(),
         sensors: experiment.sensors.iter().copied().chain(places).collect(),
     };
-    let Ok(mut responses) = Responses::new(&wider, band.unknown, at, options, search.for_each) else {
-        return Vec::new();
-    };
-    for m in 0..sensors {
-        responses.add(|poles| poles.residues(m, Drive::Load));
-    }
+    let Some(parametrization) = Parametrization::about(at, band.unknown, options) else { return Vec::new() };
+    let subspace = trained(&wider, at, &parametrization, search.for_each);
+    let responses = subspace.as_ref().and_then(|subspace| {
+        let all = (0..wider.sensors.len()).collect();
+        Responses::new(subspace, all, parametrization, at, search.for_each)
+    });
+    let Some(mut responses) = responses else { return Vec::new() };
     let force = driven.first().map_or(c64::default(), |&row| experiment.load[row]);
     let mut edits = Vec::with_capacity(wanted.len());
     for (k, &(m, row, law)) in wanted.iter().enumerate() {
         let there = sensors + k;
         let (sensors, columns, what) = match m {
-            Some(m) => {
-                let column = responses.add(|poles| poles.residues(there, Drive::Load));
-                (vec![m], vec![column], DofMismatch::Response(row))
-            }
+            Some(m) => (vec![m], vec![there], DofMismatch::Response(row)),
             None => {
                 let by = |m: usize| {
                     responses.add(|poles| {
@@ -133,7 +131,7 @@ fn best_rows(
                 let Some(value) = written[i][m] else { continue };
                 let read = data_hypothesis.receptance(m, responses.frequency_hz[i], value, 0.0, 0.0);
                 let (drive, by) = match is_load {
-                    true => (Drive::Sensor(m), force),
+                    true => (Drive::Sensor(responses.sensors[m]), force),
                     false => (Drive::Load, c64::new(experiment.sensors[m].sign, 0.0)),
                 };
                 let x =

@@ -5,16 +5,16 @@ use super::dof_mismatch::{Tried, dof_mismatch, sweep};
 use super::finding::{
     Diagnosis, Evidence, Fault, Finding, KNOWN_FACTOR_RTOL, KnownFactor, NotJudged, OtherRow,
 };
-use super::responses::{self, NoModel, Responses};
+use super::responses::{self, Parametrization, Responses, trained};
 use super::search::{Fitted, Grid, Search, Written};
 use super::{mesh, misfit};
 use crate::c64;
 use crate::for_each::{ForEach, map};
-use crate::identify::{Band, Options};
+use crate::identify::{Band, Options, Problem};
 use crate::material::OutsideTable;
 use crate::quantity::Quantity;
 use crate::response::Work;
-use crate::subspace::Drive;
+use crate::subspace::Subspace;
 
 /// By how much a finding must be likelier, natural logarithm: some thirty changes are tried (e^3.4), and neighbouring residuals are not independent: what is left of a law
 /// that is no power may move several of them together.
@@ -49,6 +49,18 @@ const MAX_VALUES: usize = 240;
 /// Findings at most.
 const MAX_FINDINGS: usize = 2;
 
+/// What answers for the sensors of a band.
+#[derive(Clone)]
+pub(super) struct Model<'x> {
+    pub(super) problem: &'x Problem<'x>,
+    /// Which unknown is free, with the others at their nominal values.
+    pub(super) unknown: usize,
+    /// A reduced model of the whole problem; without one, one is trained for the sensors.
+    pub(super) trained: Option<&'x Subspace<'x>>,
+    /// Which of the problem's sensors they are.
+    pub(super) sensors: Vec<usize>,
+}
+
 /// What the sensors of a band agree on.
 pub(super) struct Agreed<'x, 'a> {
     pub(super) responses: &'x Responses<'a>,
@@ -62,6 +74,7 @@ pub(super) struct Agreed<'x, 'a> {
 
 /// [`super::diagnose`] of a few sensors. Where load and rows are those of the case, `agreed` is then asked about what was found.
 pub(super) fn look<T>(
+    model: &Model<'_>,
     band: &Band<'_>,
     quantities: &[Quantity],
     options: &Options,
@@ -82,21 +95,30 @@ pub(super) fn look<T>(
         diagnosis.not_judged = Some(NotJudged::FewValues);
         return Ok((diagnosis, None));
     }
-    let at = band.model.at_all(&frequency_hz, std::slice::from_ref(band.parameter))?;
-    let mut responses = match Responses::new(band.experiment, band.unknown, &at, options, for_each) {
-        Ok(responses) => responses,
-        Err(reason) => {
-            diagnosis.not_judged = Some(match reason {
-                NoModel::Parameter => NotJudged::Parameter,
-                NoModel::Breakdown => NotJudged::Breakdown,
-            });
-            return Ok((diagnosis, None));
-        }
+    let at = model.problem.about(model.unknown, &frequency_hz)?;
+    let is_linear = band.parameter.members.iter().all(|member| member.power == 1);
+    let parametrization = Parametrization::about(&at, band.unknown, options).filter(|_| is_linear);
+    let Some(parametrization) = parametrization else {
+        diagnosis.not_judged = Some(NotJudged::Parameter);
+        return Ok((diagnosis, None));
     };
-    for m in 0..quantities.len() {
-        responses.add(|poles| poles.residues(m, Drive::Load));
-    }
-    diagnosis.work = responses.work();
+    let own = match model.trained {
+        None => trained(band.experiment, &at, &parametrization, for_each),
+        Some(_) => None,
+    };
+    diagnosis.work = own.as_ref().map_or(Work::default(), Subspace::work);
+    let sensors = match model.trained {
+        None => (0..quantities.len()).collect(),
+        Some(_) => model.sensors.clone(),
+    };
+    let responses = model
+        .trained
+        .or(own.as_ref())
+        .and_then(|subspace| Responses::new(subspace, sensors, parametrization, &at, for_each));
+    let Some(responses) = responses else {
+        diagnosis.not_judged = Some(NotJudged::Breakdown);
+        return Ok((diagnosis, None));
+    };
     let search = Search { responses: &responses, written: &written, for_each };
     let grid = search.grid(quantities.len());
     let mut data_hypothesis = DataHypothesis::as_given(quantities, band.model.decay_per_s());

@@ -8,7 +8,7 @@
 //! Of sensors that are wrong each in a way of its own, [`MAX_SUSPECTS`] are looked at: the worst.
 
 use super::data_hypothesis::{DataHypothesis, Edit};
-use super::few::{Agreed, look, written};
+use super::few::{Agreed, Model, look, written};
 use super::finding::Diagnosis;
 use super::misfit::{misfit, wrapped};
 use crate::c64;
@@ -34,6 +34,7 @@ const SUSPECT_MISFIT_RATIO: f64 = 2.0;
 
 /// [`super::diagnose`] of more than [`MAX_FITTED_SENSORS`] sensors.
 pub(super) fn diagnose(
+    model: &Model<'_>,
     band: &Band<'_>,
     quantities: &[Quantity],
     options: &Options,
@@ -44,7 +45,9 @@ pub(super) fn diagnose(
         (0..MAX_FITTED_SENSORS).map(|k| k * (count - 1) / (MAX_FITTED_SENSORS - 1)).collect();
     let own = |agreed: Agreed<'_, '_>| own_misfits(band, quantities, &agreed);
     let part = Part::of(band, quantities, &panel);
-    let (mut diagnosis, own) = look(&part.band(band), &part.quantities, options, for_each, &own)?;
+    let of = |sensors: &[usize]| Model { sensors: sensors.to_vec(), ..model.clone() };
+    let (mut diagnosis, own) =
+        look(&of(&panel), &part.band(band), &part.quantities, options, for_each, &own)?;
     for finding in &mut diagnosis.findings {
         finding.sensors = match finding.sensors.len() == panel.len() {
             true => (0..count).collect(),
@@ -63,7 +66,7 @@ pub(super) fn diagnose(
         let mut few: Vec<usize> = order.iter().copied().take(SENSORS_BESIDE_SUSPECT).collect();
         few.push(suspect);
         let part = Part::of(band, quantities, &few);
-        let (single, _) = look(&part.band(band), &part.quantities, options, for_each, &|_| ())?;
+        let (single, _) = look(&of(&few), &part.band(band), &part.quantities, options, for_each, &|_| ())?;
         diagnosis.work += single.work;
         let of_it = single.findings.into_iter().filter(|finding| finding.sensors == [SENSORS_BESIDE_SUSPECT]);
         found.extend(of_it.map(|mut finding| {

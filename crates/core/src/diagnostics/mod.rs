@@ -27,11 +27,15 @@ pub use few::{FINDING_NATS, MAX_MISFIT_RATIO};
 pub use finding::{Diagnosis, Evidence, Fault, Finding, KNOWN_FACTOR_RTOL, KnownFactor, NotJudged, OtherRow};
 
 use crate::for_each::ForEach;
-use crate::identify::{Options, Problem, ProblemError};
+use crate::identify::{Context, Options, Problem, ProblemError, ReducedBand};
 use crate::quantity::Quantity;
 use crate::response::Work;
+use crate::subspace::Subspace;
+use few::Model;
 
 /// Looks for what is wrong with a band's data against its model; `quantities` says what each sensor's values were before they were made receptances.
+///
+/// Where the band is identified too, [`diagnose_on`] shares its reduced model.
 ///
 /// Costs one real factorisation and some dozens of solves; two more where another row is looked for. Of more than twenty sensors that many are looked at
 /// together, all others are compared with the modulus that they have, and those that differ most are looked at one by one: the cost beyond that of
@@ -52,6 +56,36 @@ pub fn diagnose(
     options: &Options,
     for_each: ForEach<'_>,
 ) -> Result<Diagnosis, ProblemError> {
+    diagnose_by(None, problem, quantities, options, for_each)
+}
+
+/// The same on a reduced model that is shared with [`identify_on`](crate::identify::identify_on), and trained now where it is not
+/// yet: for all unknowns and sensors one, and no factorisation but where another row is looked for.
+///
+/// # Errors
+/// As [`diagnose`].
+pub fn diagnose_on<'a>(
+    reduced: &mut ReducedBand<'a>,
+    problem: &'a Problem<'a>,
+    quantities: &[Quantity],
+    options: &Options,
+    for_each: ForEach<'_>,
+) -> Result<Diagnosis, ProblemError> {
+    let before = reduced.work();
+    let context = Context { for_each, progress: &|_, _, _| {} };
+    let trained = reduced.trained(problem, options, context)?;
+    let mut found = diagnose_by(trained, problem, quantities, options, for_each)?;
+    found.work += reduced.work().since(before);
+    Ok(found)
+}
+
+fn diagnose_by(
+    trained: Option<&Subspace<'_>>,
+    problem: &Problem<'_>,
+    quantities: &[Quantity],
+    options: &Options,
+    for_each: ForEach<'_>,
+) -> Result<Diagnosis, ProblemError> {
     let sensors = problem.experiment().sensors.len();
     if quantities.len() != sensors {
         let (what, expected) = ("quantities".to_owned(), format!("{sensors}, one for each sensor"));
@@ -61,12 +95,11 @@ pub fn diagnose(
     let mut work = Work::default();
     for (j, unknown) in problem.unknowns().iter().enumerate() {
         let Some(parameter) = unknown.parameter() else { continue };
-        let about = problem.model_about(j)?;
-        let mut band = problem.band(j, &parameter);
-        band.model = about.as_ref().unwrap_or(band.model);
+        let band = problem.band(j, &parameter);
+        let model = Model { problem, unknown: j, trained, sensors: (0..sensors).collect() };
         let mut found = match sensors > many::MAX_FITTED_SENSORS {
-            true => many::diagnose(&band, quantities, options, for_each)?,
-            false => few::look(&band, quantities, options, for_each, &|_| ())?.0,
+            true => many::diagnose(&model, &band, quantities, options, for_each)?,
+            false => few::look(&model, &band, quantities, options, for_each, &|_| ())?.0,
         };
         work += found.work;
         if problem.unknowns().len() > 1 {

@@ -4,8 +4,7 @@ use crate::c64;
 use crate::for_each::{ForEach, map};
 use crate::identify::{Options, Unknown};
 use crate::model::{Experiment, ModelAt};
-use crate::response::Work;
-use crate::subspace::{Point, PoleResidue, Subspace, TrainOptions};
+use crate::subspace::{Drive, Point, PoleResidue, Subspace, TrainOptions};
 
 /// Error of the responses over the box: a tenth of what an FRF is measured to.
 const RESPONSE_TOL: f64 = 1e-3;
@@ -37,7 +36,7 @@ pub(super) struct Parametrization {
 
 impl Parametrization {
     /// `None` where the nominal has no positive real part, or nothing bounds it.
-    fn about(at: &[ModelAt<'_>], unknown: &Unknown, options: &Options) -> Option<Self> {
+    pub(super) fn about(at: &[ModelAt<'_>], unknown: &Unknown, options: &Options) -> Option<Self> {
         let nominal: Vec<c64> = at.iter().map(|at| at.parameters[0].nominal).collect();
         if nominal.iter().any(|p| p.re <= 0.0) {
             return None;
@@ -89,56 +88,62 @@ pub(super) struct Responses<'a> {
     pub(super) pole_residues: Vec<PoleResidue>,
     /// Residues `[column][frequency][pole]`: the sensors', then those of other places.
     columns: Vec<Vec<Vec<c64>>>,
-    pub(super) subspace: Subspace<'a>,
+    pub(super) subspace: &'a Subspace<'a>,
+    /// Which of its sensors are looked at.
+    pub(super) sensors: Vec<usize>,
     /// Rows of the full model.
     pub(super) rows: usize,
 }
 
-/// Why there is no model.
-pub(super) enum NoModel {
-    Parameter,
-    Breakdown,
+/// A subspace trained over the box; `None` where no real stand-in for D can be factorised.
+pub(super) fn trained<'a>(
+    experiment: &'a Experiment,
+    at: &[ModelAt<'a>],
+    parametrization: &Parametrization,
+    for_each: ForEach<'_>,
+) -> Option<Subspace<'a>> {
+    let mut subspace = Subspace::new(experiment, at.last()?).ok()?;
+    let [low, high] = parametrization.ln_size;
+    let step = (high - low) / (BOX_STORAGES - 1) as f64;
+    let points: Vec<Point<'a>> = (0..at.len())
+        .flat_map(|i| (0..BOX_STORAGES).map(move |k| (i, low + k as f64 * step)))
+        .map(|(i, ln_size)| {
+            let modulus = parametrization.modulus([ln_size, 0.0, 0.0], i);
+            Point { correction: modulus - at[i].parameters[0].nominal, at: at[i].clone() }
+        })
+        .collect();
+    let training = TrainOptions { tolerance: RESPONSE_TOL, ..TrainOptions::default() };
+    subspace.train(&points, &training, for_each).ok()?;
+    Some(subspace)
 }
 
 impl<'a> Responses<'a> {
-    /// Trains a subspace over the box, and takes it apart into its poles at every frequency.
+    /// Takes a subspace apart into its poles at every frequency; `sensors` says which of its sensors are looked at, each a column. `None` where there are no poles.
     pub(super) fn new(
-        experiment: &'a Experiment,
-        unknown: &Unknown,
-        at: &[ModelAt<'a>],
-        options: &Options,
+        subspace: &'a Subspace<'a>,
+        sensors: Vec<usize>,
+        parametrization: Parametrization,
+        at: &[ModelAt<'_>],
         for_each: ForEach<'_>,
-    ) -> Result<Self, NoModel> {
-        let parametrization = Parametrization::about(at, unknown, options).ok_or(NoModel::Parameter)?;
-        if at.iter().any(|at| at.parameters[0].coefficients.len() != 1) {
-            return Err(NoModel::Parameter);
-        }
-        let last = at.last().ok_or(NoModel::Breakdown)?;
-        let mut subspace = Subspace::new(experiment, last).map_err(|_| NoModel::Breakdown)?;
-        let [low, high] = parametrization.ln_size;
-        let step = (high - low) / (BOX_STORAGES - 1) as f64;
-        let points: Vec<Point<'a>> = (0..at.len())
-            .flat_map(|i| (0..BOX_STORAGES).map(move |k| (i, low + k as f64 * step)))
-            .map(|(i, ln_size)| {
-                let modulus = parametrization.modulus([ln_size, 0.0, 0.0], i);
-                Point { correction: modulus - at[i].parameters[0].nominal, at: at[i].clone() }
-            })
-            .collect();
-        let training = TrainOptions { tolerance: RESPONSE_TOL, ..TrainOptions::default() };
-        subspace.train(&points, &training, for_each).map_err(|_| NoModel::Breakdown)?;
+    ) -> Option<Self> {
         let small = subspace.projection();
         let pole_residues = map(for_each, at.len(), |i| small.pole_residue(&at[i]).ok().flatten());
-        let pole_residues: Vec<PoleResidue> =
-            pole_residues.into_iter().collect::<Option<_>>().ok_or(NoModel::Breakdown)?;
-        Ok(Self {
+        let pole_residues: Vec<PoleResidue> = pole_residues.into_iter().collect::<Option<_>>()?;
+        let mut responses = Self {
             parametrization,
             frequency_hz: at.iter().map(|at| at.frequency_hz).collect(),
             nominal: at.iter().map(|at| at.parameters[0].nominal).collect(),
             pole_residues,
             columns: Vec::new(),
+            rows: subspace.model().dim(),
             subspace,
-            rows: last.model.dim(),
-        })
+            sensors,
+        };
+        for k in 0..responses.sensors.len() {
+            let sensor = responses.sensors[k];
+            responses.add(|poles| poles.residues(sensor, Drive::Load));
+        }
+        Some(responses)
     }
 
     /// Adds a column of responses, by its residues at each frequency, and returns its number.
@@ -162,9 +167,5 @@ impl<'a> Responses<'a> {
             terms.sum::<c64>().ln()
         };
         columns.iter().map(sum).collect()
-    }
-
-    pub(super) fn work(&self) -> Work {
-        self.subspace.work()
     }
 }

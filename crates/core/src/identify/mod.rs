@@ -5,6 +5,7 @@
 //! | file | what is in it |
 //! |---|---|
 //! | `problem` | what is to be identified, checked |
+//! | `reduced_band` | one reduced model, shared with the diagnostics |
 //! | `band` | a single unknown: all solutions at each frequency, one path through the band, laws, a smooth curve |
 //! | `several` | any number of unknowns in one least squares |
 //! | `one` | a single frequency, as the paper has it |
@@ -25,6 +26,7 @@ mod options;
 mod outcome;
 mod problem;
 mod rational;
+mod reduced_band;
 mod several;
 mod thinned;
 mod uncertainty;
@@ -42,9 +44,10 @@ pub use model_errors::{FactorError, Leverage, ModeError, ModelErrorsFound, Senso
 pub use noise::{Noise, NoiseLevel, NoiseSource};
 pub use one::{error_by_order, identify_at};
 pub use options::{ErrorSizes, MAX_ORDER, ModelErrors, Options, OptionsError};
-pub use outcome::{Line, LineValue, Status};
+pub use outcome::{Line, LineSolution, LineValue, Standing, Status};
 pub use problem::{Frfs, Problem, ProblemError};
-pub use several::{BandCoordinate, BandValue, Direction, Number, Profile};
+pub use reduced_band::ReducedBand;
+pub use several::{BandCoordinate, BandValue, Direction, Number, NumberOf, Profile};
 pub use uncertainty::Uncertainty;
 pub use unknown::{Dependence, Unknown, Variation};
 
@@ -56,7 +59,7 @@ use problem::Strategy;
 /// full model answers. A single factor is found with all its solutions at each frequency (B-2), fitted to all sensors (B-5), and one
 /// path is chosen through the band (B-4); a law (B-7) or a smooth curve (B-9) begins there. Several unknowns, constants and
 /// dimensions are found in one least squares in which what each frequency has of its own is eliminated (B-8). Channels of unknown
-/// scale or delay are found together with a single unknown.
+/// scale or delay are found together with the unknowns.
 ///
 /// # Errors
 /// [`ProblemError`] for options that do not belong to the problem. Numerical trouble is a [`Status`] with its evidence, never an
@@ -70,22 +73,41 @@ pub fn identify(
     options: &Options,
     context: Context<'_>,
 ) -> Result<Identification, ProblemError> {
+    identify_on(&mut ReducedBand::default(), problem, options, context)
+}
+
+/// The same on a reduced model that is shared with [`diagnose_on`](crate::diagnostics::diagnose_on): one that is trained already
+/// is trained further only at the answers.
+///
+/// # Errors
+/// As [`identify`].
+pub fn identify_on<'a>(
+    reduced: &mut ReducedBand<'a>,
+    problem: &'a Problem<'a>,
+    options: &Options,
+    context: Context<'_>,
+) -> Result<Identification, ProblemError> {
     problem.check_options(options)?;
     let channels = problem.channels();
+    reduced.begin(problem);
+    let trained = &mut reduced.subspace;
     Ok(match problem.single() {
-        None => several::identify_several(problem, options, context)?.into(),
+        None => several::identify_several(problem, trained, options, context)?.into(),
         Some((strategy, parameter)) => {
-            let band = &problem.band(0, &parameter);
+            let band = &problem.band(0, parameter);
             match strategy {
                 Strategy::PerFrequency if channels.is_empty() => {
-                    band::identify_band(band, options, context)?.into()
+                    band::identify_band(band, trained, options, context)?.into()
                 }
                 Strategy::PerFrequency => {
-                    let (found, channels) = band::identify_band_scaled(band, channels, options, context)?;
+                    let (found, channels) =
+                        band::identify_band_scaled(band, trained, channels, options, context)?;
                     Identification { channels, ..found.into() }
                 }
-                Strategy::Smooth => band::identify_smooth(band, options, context)?.into(),
-                Strategy::Law(kinds) => band::identify_laws(band, channels, kinds, options, context)?.into(),
+                Strategy::Smooth => band::identify_smooth(band, trained, options, context)?.into(),
+                Strategy::Law(kinds) => {
+                    band::identify_laws(band, trained, (channels, kinds), options, context)?.into()
+                }
             }
         }
     })

@@ -102,6 +102,28 @@ impl LineValue {
     }
 }
 
+/// What the data say of one of several solutions.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Standing {
+    /// Its values are those of the line.
+    Chosen,
+    /// The data cannot exclude it.
+    Rival,
+    /// The other frequencies exclude it.
+    Excluded,
+}
+
+/// A solution of a line with several unknowns.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LineSolution {
+    /// One value for each unknown of the problem, those that hold for the band too.
+    pub values: Vec<c64>,
+    /// χ² of the sensors per degree of freedom; `None` as in [`Line::chi_squared`].
+    pub chi_squared: Option<f64>,
+    /// What the data say of it.
+    pub standing: Standing,
+}
+
 /// What was found at one frequency. What does not exist is `None`, never zero.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Line {
@@ -116,6 +138,9 @@ pub struct Line {
     pub on_path: bool,
     /// Other values of all unknowns that the data cannot exclude.
     pub rivals: Vec<Vec<c64>>,
+    /// All solutions that were found with several unknowns, the least misfit first; empty of a single unknown, which has
+    /// [`Self::roots`].
+    pub solutions: Vec<LineSolution>,
     /// ε over all sensors but those that were left out, P-40; `None` where nothing but zeros was measured.
     pub error: Option<f64>,
     /// χ² of the sensors per degree of freedom; `None` where there is no degree of freedom, as for the complex factor of one
@@ -154,6 +179,7 @@ impl Line {
             status: Status::NoRoot,
             on_path: false,
             rivals: Vec::new(),
+            solutions: Vec::new(),
             error: None,
             chi_squared: None,
             reduction_error: None,
@@ -267,6 +293,9 @@ impl Line {
 
     /// Number of solutions that were found within the bounds.
     pub fn candidate_count(&self) -> usize {
+        if !self.solutions.is_empty() {
+            return self.solutions.len();
+        }
         let admissible = self.roots.iter().filter(|root| root.refusal.is_none()).count();
         let known = usize::from(self.values.iter().any(|value| value.value.is_some())) + self.rivals.len();
         if self.roots.is_empty() { known } else { admissible }

@@ -5,11 +5,11 @@ use super::choice::{Method, Selection};
 use super::measured::Band;
 use super::noise::Noise;
 use super::options::{Options, OptionsError};
-use super::unknown::{Dependence, Unknown, Variation};
+use super::unknown::{Composite, Dependence, Unknown, Variation};
 use crate::c64;
 use crate::laws::LawKind;
 use crate::material::OutsideTable;
-use crate::model::{DynamicStiffness, Experiment, Parameter};
+use crate::model::{DynamicStiffness, Experiment, ModelAt, Parameter};
 use crate::roots::BoundsError;
 use std::fmt;
 
@@ -26,13 +26,15 @@ pub struct Frfs<'a> {
 }
 
 /// A problem without a fault that could be seen before it is solved.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub struct Problem<'a> {
     pub(super) model: &'a DynamicStiffness,
     pub(super) experiment: &'a Experiment,
     pub(super) unknowns: &'a [Unknown],
     pub(super) channels: &'a [ChannelUnknowns],
     pub(super) frfs: Frfs<'a>,
+    /// The only unknown as the parameter of a polynomial, where it can be one.
+    parameter: Option<Parameter>,
 }
 
 /// What is wrong with a problem, and where.
@@ -132,6 +134,9 @@ pub(super) enum Strategy<'a> {
     Law(&'a [LawKind]),
 }
 
+/// What roundoff leaves of degrees, which are whole numbers, where they cancel.
+const NO_DEGREE: f64 = 1e-9;
+
 /// Powers of an unknown beyond these leave no digit.
 const MAX_POWER: i32 = 12;
 
@@ -152,7 +157,8 @@ impl<'a> Problem<'a> {
         let known =
             channels.len() == experiment.sensors.len() && !channels.iter().any(|channel| channel.any());
         let channels = if known { &[] } else { channels };
-        let problem = Self { model, experiment, unknowns, channels, frfs };
+        let parameter = if let [only] = unknowns { only.parameter() } else { None };
+        let problem = Self { model, experiment, unknowns, channels, frfs, parameter };
         problem.check_experiment()?;
         problem.check_frfs()?;
         problem.check_noise()?;
@@ -197,7 +203,7 @@ impl<'a> Problem<'a> {
 
     /// How the only unknown is found, and it as the parameter of a polynomial; `None` where all unknowns are found in one least squares
     /// (B-8): several, a constant, or one with a negative power.
-    pub(super) fn single(&self) -> Option<(Strategy<'a>, Parameter)> {
+    pub(super) fn single(&self) -> Option<(Strategy<'a>, &Parameter)> {
         let [only] = self.unknowns else { return None };
         let strategy = match &only.varies {
             Variation::PerFrequency => Strategy::PerFrequency,
@@ -205,7 +211,7 @@ impl<'a> Problem<'a> {
             Variation::Law(kinds) => Strategy::Law(kinds),
             Variation::Constant => return None,
         };
-        Some((strategy, only.parameter()?))
+        Some((strategy, self.parameter.as_ref()?))
     }
 
     /// The band as the strategies of a single unknown take it: of the j-th, and it as the parameter of a polynomial.
@@ -217,27 +223,10 @@ impl<'a> Problem<'a> {
         Band { model, experiment, unknown: &self.unknowns[j], parameter, frequency_hz, measured, noise }
     }
 
-    /// The model with all other unknowns than the j-th at their nominal values; `None` where its factors have them already.
-    pub(crate) fn model_about(&self, j: usize) -> Result<Option<DynamicStiffness>, ProblemError> {
-        let mut terms = self.model.terms().to_vec();
-        for other in self.unknowns.iter().enumerate().filter(|(k, _)| *k != j).map(|(_, other)| other) {
-            let nominal = other.nominal.at(self.frfs.frequency_hz[0])?;
-            match &other.dependence {
-                Dependence::Factor(all) => {
-                    all.iter().for_each(|&term| terms[term].factor = other.nominal.clone())
-                }
-                Dependence::Powers(all) => {
-                    for &(term, power) in all {
-                        terms[term].factor = terms[term].factor.scaled(nominal.re.powi(power));
-                    }
-                }
-            }
-        }
-        let changed = terms.iter().zip(self.model.terms()).any(|(new, old)| new.factor != old.factor);
-        // The same matrices as those of a model that is there.
-        let decay_per_s = self.model.decay_per_s();
-        let about = || DynamicStiffness::new(terms).ok().map(|model| model.with_decay_per_s(decay_per_s));
-        Ok(if changed { about() } else { None })
+    /// The model as a function of the j-th unknown, to first order, with all others at their nominal values.
+    pub(crate) fn about(&self, j: usize, frequency_hz: &[f64]) -> Result<Vec<ModelAt<'a>>, OutsideTable> {
+        let composite = Composite { model: self.model, unknowns: self.unknowns };
+        frequency_hz.iter().map(|&f| composite.about_one(f, &composite.nominal(f)?, j)).collect()
     }
 
     /// Checks the options, alone and with this problem.
@@ -437,18 +426,52 @@ impl<'a> Problem<'a> {
             let what = "a channel of unknown scale or delay";
             Err(ProblemError::Unsupported { what, reason })
         };
-        let free = self.channels.iter().all(|channel| channel.any());
-        match self.single() {
-            _ if channels == 0 => Ok(()),
-            Some((Strategy::PerFrequency, _)) if free => unsupported(
-                "a free value at each frequency explains every scale: expected one calibrated channel, or a law",
-            ),
-            Some((Strategy::PerFrequency | Strategy::Law(_), _)) => Ok(()),
-            Some((Strategy::Smooth, _)) => {
-                unsupported("expected a law or a value at each frequency, found a smooth factor")
-            }
-            None => unsupported("expected a single unknown"),
+        if channels == 0 {
+            return Ok(());
         }
+        if self.unknowns.iter().any(|one| one.varies == Variation::Smooth) {
+            return unsupported("expected a law or a value at each frequency, found a smooth factor");
+        }
+        let all_vary = self.unknowns.iter().all(|one| one.per_frequency() > 0);
+        if all_vary && self.channels.iter().all(|channel| channel.any()) {
+            return unsupported(
+                "a free value at each frequency explains every scale: expected one calibrated channel, or a law",
+            );
+        }
+        if self.channels.iter().all(|channel| channel.scale) && self.has_common_scale() {
+            return unsupported(
+                "the unknowns scale the whole model, and with it every response: expected one channel of known scale, or one known factor",
+            );
+        }
+        Ok(())
+    }
+
+    /// Whether some powers of the unknowns multiply every term of the model alike: Σ_j d_tj α_j = 1 for each term t, with d_tj the degree of unknown j in it.
+    fn has_common_scale(&self) -> bool {
+        let degree = |term: usize, one: &Unknown| match &one.dependence {
+            Dependence::Factor(terms) => f64::from(u8::from(terms.contains(&term))),
+            Dependence::Powers(powers) => {
+                powers.iter().find(|(other, _)| *other == term).map_or(0.0, |(_, d)| f64::from(*d))
+            }
+        };
+        let row = |term| self.unknowns.iter().map(|one| degree(term, one)).chain([1.0]).collect();
+        let mut rows: Vec<Vec<f64>> = (0..self.model.terms().len()).map(row).collect();
+        // Gauss's elimination: a row that ends as 0 = 1 has no solution.
+        for j in 0..self.unknowns.len() {
+            let Some(k) = (0..rows.len()).max_by(|&a, &b| rows[a][j].abs().total_cmp(&rows[b][j].abs()))
+            else {
+                break;
+            };
+            if rows[k][j].abs() <= NO_DEGREE {
+                continue;
+            }
+            let pivot = rows.swap_remove(k);
+            for row in &mut rows {
+                let by = row[j] / pivot[j];
+                row.iter_mut().zip(&pivot).for_each(|(value, own)| *value -= by * own);
+            }
+        }
+        rows.iter().all(|row| row.last().is_none_or(|rest| rest.abs() <= NO_DEGREE))
     }
 }
 

@@ -222,6 +222,19 @@ impl<'a> Composite<'a> {
         Ok(at)
     }
 
+    /// The same with the j-th unknown alone as its parameter.
+    pub(super) fn about_one(
+        &self,
+        frequency_hz: f64,
+        values: &[c64],
+        j: usize,
+    ) -> Result<ModelAt<'a>, OutsideTable> {
+        let mut at = self.at(frequency_hz, values)?;
+        at.parameters.swap(0, j);
+        at.parameters.truncate(1);
+        Ok(at)
+    }
+
     /// The nominal values at a frequency.
     pub(super) fn nominal(&self, frequency_hz: f64) -> Result<Vec<c64>, OutsideTable> {
         self.unknowns.iter().map(|one| one.nominal.at(frequency_hz)).collect()

@@ -43,6 +43,11 @@ impl<'m> Subspace<'m> {
         Ok(subspace)
     }
 
+    /// The model.
+    pub(crate) fn model(&self) -> &'m DynamicStiffness {
+        self.model
+    }
+
     /// Everything small: what answers at any frequency of the band.
     pub fn projection(&self) -> &Projection {
         &self.basis.projection

@@ -226,6 +226,33 @@ pub(crate) fn sandwich(nx: usize, ny: usize) -> Case {
     Case { name, model, experiment, parameter, band_hz: [20.0, 1000.0], box_ratio: [0.5, 2.0] }
 }
 
+/// A chain of unit masses on unit springs, clamped at its beginning: one factor for the springs of each half, driven at its end and measured at three places.
+pub(crate) fn two_part_chain(masses: usize) -> Case {
+    let springs = |range: std::ops::Range<usize>| {
+        let mut k = Triplets::new(masses);
+        for i in range {
+            match i.checked_sub(1) {
+                None => k.add(0, 0, 1.0),
+                Some(before) => k.add_element(&[Some(before), Some(i)], &[1.0, -1.0, -1.0, 1.0]),
+            }
+        }
+        k.assemble()
+    };
+    let mut m = Triplets::new(masses);
+    (0..masses).for_each(|i| m.add(i, i, 1.0));
+    let model = DynamicStiffness::new(vec![
+        term("first", Role::Stiffness, springs(0..masses / 2), c(1.0, 0.03)),
+        term("second", Role::Stiffness, springs(masses / 2..masses), c(1.0, 0.03)),
+        term("masses", Role::Mass, m.assemble(), c(1.0, 0.0)),
+    ])
+    .unwrap();
+    let sensor = |row| Sensor { row, sign: 1.0 };
+    let sensors = vec![sensor(masses - 1), sensor(masses / 2), sensor(masses / 4)];
+    let experiment = Experiment::driven_at(masses, sensor(masses - 1), sensors);
+    let parameter = Parameter::factor_of(&model, &["first"]).unwrap();
+    Case { name: "two-part chain", model, experiment, parameter, band_hz: [0.1, 0.18], box_ratio: [0.5, 2.0] }
+}
+
 /// The plate's thickness, relative: cubed in bending, once in the mass (B-8).
 pub(crate) fn thickness() -> Case {
     let case = plate(8, 0.32, 1e-2);

@@ -70,6 +70,9 @@ pub fn symmetric_eigen(n: usize, a: &[f64]) -> Result<(Vec<f64>, Vec<f64>), NoCo
     if !a.iter().all(|value| value.is_finite()) {
         return Err(NoConvergence);
     }
+    if n == 0 {
+        return Ok((Vec::new(), Vec::new()));
+    }
     let matrix = MatRef::from_column_major_slice(a, n, n);
     let decomposition = matrix.self_adjoint_eigen(Side::Lower).map_err(|_| NoConvergence)?;
     let (values, vectors) = (decomposition.S(), decomposition.U());

@@ -472,7 +472,7 @@ pub(super) static MEASUREMENT: Section = Section {
             "scale",
             "number other than 0, or \"unknown\"",
             "1",
-            "What the values are to be multiplied by (9.81 for g). Unknown: it is found, beside a known channel or with a law.",
+            "What the values are to be multiplied by (9.81 for g). Unknown: it is found, beside a known channel, a law or a constant.",
         ),
         key(
             "delay_s",

@@ -2,7 +2,9 @@
 
 use super::band::band;
 use super::files::NamedFile;
-use super::identify::{Check, can_be_found, factor_of, fit_for_band, is_single, middle_of, shared};
+use super::identify::{
+    Check, can_be_found, factor_of, fit_for_band, is_single, middle_of, one_is_calibrated, shared,
+};
 use super::lines::unused;
 use super::measurement::{Curve, Decay, Measurement, common_decay};
 use super::several::enough;
@@ -187,11 +189,10 @@ pub fn case_of_arrays(
         let place = argument(&format!("measurement {}", first + 1)).below(key);
         match &unknowns[..] {
             [only] if is_single(&unknowns) => can_be_found(&unknown, &place, &only.varies, &options)?,
-            _ => {
-                let expected =
-                    "a number: channels are found beside one unknown that varies, not beside several";
-                return Err(InputError::at(&place, expected, "\"unknown\"").into());
+            all if all.iter().all(|one| one.varies == Variation::PerFrequency) => {
+                one_is_calibrated(&unknown, &place)?
             }
+            _ => {}
         }
     }
     let place = argument("band_hz");
@@ -208,7 +209,7 @@ pub fn case_of_arrays(
         _ if is_single(&unknowns) => Check::First,
         _ => {
             let used = left_out.iter().filter(|&&out| !out).count();
-            enough(&argument("unknowns"), &unknowns, used, measurements.len())?;
+            enough(&argument("unknowns"), &unknowns, &unknown, (used, measurements.len()))?;
             Check::IfUnexplained
         }
     };

@@ -389,6 +389,15 @@ fn unknown(
     varies: &Variation,
     options: &Options,
 ) -> Result<Vec<ChannelUnknowns>, InputError> {
+    let (unknown, first) = channels_of(case);
+    if let Some(first) = first {
+        can_be_found(&unknown, &first, varies, options)?;
+    }
+    Ok(unknown)
+}
+
+/// What of each sensor's channel is unknown, and where the case first says so.
+pub(super) fn channels_of(case: &CaseFile) -> (Vec<ChannelUnknowns>, Option<Place>) {
     let looked_for = |entry: &Option<Located<Calibration>>| {
         entry.as_ref().filter(|entry| entry.value == Calibration::Unknown).map(|entry| entry.place.clone())
     };
@@ -399,10 +408,7 @@ fn unknown(
         unknown.push(ChannelUnknowns { scale: scale.is_some(), delay: delay.is_some() });
         places.extend(scale.into_iter().chain(delay));
     }
-    if let Some(first) = places.first() {
-        can_be_found(&unknown, first, varies, options)?;
-    }
-    Ok(unknown)
+    (unknown, places.into_iter().next())
 }
 
 /// Refuses unknown scales and delays (the first of them at `first`) where they cannot be found.
@@ -426,10 +432,15 @@ pub(super) fn can_be_found(
             "\"unknown\" with varies \"smooth\"",
         );
     }
-    if *varies == Variation::PerFrequency && unknown.iter().all(|unknown| unknown.any()) {
+    if *varies == Variation::PerFrequency { one_is_calibrated(unknown, first) } else { Ok(()) }
+}
+
+/// Refuses unknown scales or delays of all sensors (the first of them at `first`), beside factors that each frequency has of its own.
+pub(super) fn one_is_calibrated(unknown: &[ChannelUnknowns], first: &Place) -> Result<(), InputError> {
+    if unknown.iter().all(|unknown| unknown.any()) {
         let expected = "a number here, another [[measurement]] whose scale and delay are known, or varies = \"law\" \
                         (a factor of its own at each frequency explains one sensor whatever its scale and delay)";
-        return refuse(expected, "\"unknown\" for all sensors");
+        return Err(InputError::at(first, expected, "\"unknown\" for all sensors"));
     }
     Ok(())
 }

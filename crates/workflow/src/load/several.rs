@@ -6,7 +6,8 @@ use super::dimension::{PartOf, each_has_a_value, powers_of};
 use super::factor::{covers, law};
 use super::files::Files;
 use super::identify::{
-    Check, IdentifyCase, band_of, factor_unit, known_have_std, known_names, shared_factor,
+    Check, IdentifyCase, band_of, channels_of, factor_unit, known_have_std, known_names, one_is_calibrated,
+    shared_factor,
 };
 use super::lines::unused;
 use super::measurement::Measurement;
@@ -14,7 +15,7 @@ use crate::case::{CaseFile, Located, SeveralEntry, SoughtEntry, SoughtVaries};
 use crate::error::{InputError, Place};
 use crate::units::FactorUnit;
 use frfit::c64;
-use frfit::identify::{Dependence, Options, Unknown, Variation};
+use frfit::identify::{ChannelUnknowns, Dependence, Options, Unknown, Variation};
 use frfit::material::Law;
 use frfit::model::{DynamicStiffness, Term};
 use frfit::roots::Bounds;
@@ -41,7 +42,12 @@ pub(super) fn several(
             return Err(InputError::at(&Place::option(option), expected, "one"));
         }
     }
-    refuse_unknown_channels(case)?;
+    let (channels, first_unknown) = channels_of(case);
+    if let Some(first) =
+        first_unknown.filter(|_| entry.unknowns.iter().all(|one| one.varies == SoughtVaries::Freely))
+    {
+        one_is_calibrated(&channels, &first)?;
+    }
     each_has_a_value(case)?;
     let unknowns = entry.unknowns.iter().map(|one| unknowns(case, one, (model, of)));
     let unknowns = unknowns.collect::<Result<Vec<_>, _>>()?;
@@ -63,7 +69,7 @@ pub(super) fn several(
         }
     }
     let used = out.iter().filter(|&&out| !out).count();
-    enough(&entry.place, &unknowns, used, measurements.len())?;
+    enough(&entry.place, &unknowns, &channels, (used, measurements.len()))?;
     let unit = |(one, unknowns): (&SoughtEntry, &Unknown)| match one.matrices.as_slice() {
         [] => FactorUnit::Other,
         named => factor_unit(case, named, &unknowns.nominal, &frequency_hz),
@@ -80,7 +86,7 @@ pub(super) fn several(
         frequency_hz,
         measured: data.measured,
         left_out: out,
-        channels: Vec::new(),
+        channels,
         noise: data.noise,
         check: Check::IfUnexplained,
     })
@@ -168,28 +174,16 @@ fn refuse_twice(entry: &SeveralEntry) -> Result<(), InputError> {
     Ok(())
 }
 
-fn refuse_unknown_channels(case: &CaseFile) -> Result<(), InputError> {
-    use crate::case::Calibration;
-    let is_unknown = |entry: &&Located<Calibration>| entry.value == Calibration::Unknown;
-    let mut channels = case.measurements.iter().flat_map(|m| m.scale.iter().chain(&m.delay_s));
-    match channels.find(is_unknown) {
-        Some(entry) => {
-            let expected = "a number: channels are found beside one unknown that varies, not beside several";
-            Err(InputError::at(&entry.place, expected, "\"unknown\""))
-        }
-        None => Ok(()),
-    }
-}
-
 /// Refuses fewer measured than unknown numbers.
 pub(super) fn enough(
     place: &Place,
     unknowns: &[Unknown],
-    frequencies: usize,
-    sensors: usize,
+    channels: &[ChannelUnknowns],
+    (frequencies, sensors): (usize, usize),
 ) -> Result<(), InputError> {
     let own: usize = unknowns.iter().map(Unknown::per_frequency).sum();
-    let band: usize = unknowns.iter().map(Unknown::for_band).sum();
+    let of_channels: usize = channels.iter().map(|channel| channel.count()).sum();
+    let band = unknowns.iter().map(Unknown::for_band).sum::<usize>() + of_channels;
     let refuse = |what: String| InputError::at(place, "no more unknown than measured numbers", what);
     if own > 2 * sensors {
         let found = format!(

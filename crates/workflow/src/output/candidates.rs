@@ -3,7 +3,7 @@
 use super::columns::{named, table};
 use crate::load::IdentifyCase;
 use frfit::c64;
-use frfit::identify::Line;
+use frfit::identify::{Line, LineSolution, Standing};
 use frfit::material::loss_factor;
 use frfit::roots::{Candidate, Refusal};
 use frfit_formats::csv::Cell;
@@ -25,7 +25,7 @@ impl Solution {
     }
 }
 
-/// One row a frequency and candidate, in the order in which they were found. Columns of an unknown begin with [`IdentifyCase::prefix`].
+/// One row a frequency and candidate, in the order in which they were found; of several unknowns the one of least misfit first. Columns of an unknown begin with [`IdentifyCase::prefix`].
 ///
 /// The verdict is `chosen`, `alternative` (the data cannot exclude it), `admissible` (the other frequencies or sensors exclude it), or the
 /// reason of a refusal: `storage` or `loss_factor` (that bound is broken), `not_real`, `far` (from the nominal), `moves`, `not_a_root`.
@@ -48,20 +48,22 @@ pub fn candidates_csv(identify: &IdentifyCase, lines: &[Line]) -> String {
     table(&columns, rows)
 }
 
-/// The roots of a single unknown; of several the values that were found, then their rivals.
+/// The roots of a single unknown; all solutions of several.
 pub(crate) fn solutions(line: &Line) -> Vec<Solution> {
     if let [_] = line.values[..] {
         let of_root =
             |root: &Candidate| Solution { corrections: vec![root.correction], verdict: verdict(line, root) };
         return line.roots.iter().map(of_root).collect();
     }
-    let chosen: Option<Vec<c64>> = line.values.iter().map(|value| value.correction).collect();
-    let chosen = chosen.map(|corrections| Solution { corrections, verdict: "chosen" });
-    let rival = |rival: &Vec<c64>| Solution {
-        corrections: rival.iter().zip(&line.values).map(|(other, value)| other - value.nominal).collect(),
-        verdict: "alternative",
+    let of_solution = |solution: &LineSolution| Solution {
+        corrections: solution.values.iter().zip(&line.values).map(|(own, of)| own - of.nominal).collect(),
+        verdict: match solution.standing {
+            Standing::Chosen => "chosen",
+            Standing::Rival => "alternative",
+            Standing::Excluded => "admissible",
+        },
     };
-    chosen.into_iter().chain(line.rivals.iter().map(rival)).collect()
+    line.solutions.iter().map(of_solution).collect()
 }
 
 fn verdict(line: &Line, root: &Candidate) -> &'static str {

@@ -1,7 +1,7 @@
 //! Which combinations of the numbers that hold for the band are identifiable, in words.
 
 use crate::load::IdentifyCase;
-use frfit::identify::{BandCoordinate, Direction, Identification};
+use frfit::identify::{BandCoordinate, Direction, Identification, NumberOf};
 
 /// A direction whose standard deviation is larger is not identifiable.
 const UNKNOWN: f64 = 0.3;
@@ -9,11 +9,15 @@ const UNKNOWN: f64 = 0.3;
 /// A weight below this part of the largest is left out of a sentence.
 const SMALL: f64 = 0.05;
 
-/// What a coordinate of correlation and directions stands for: `core`, `core loss_factor`, `skins e0`.
+/// What a coordinate of correlation and directions stands for: `core`, `core loss_factor`, `skins e0`,
+/// `scale of measurement 2`.
 pub fn coordinate(identify: &IdentifyCase, found: &Identification, c: usize) -> String {
-    let BandCoordinate { unknown, number } = &found.identifiability.coordinates[c];
-    let name = &identify.unknowns[*unknown].name;
-    if number == "value" { name.clone() } else { format!("{name} {number}") }
+    let BandCoordinate { of, number } = &found.identifiability.coordinates[c];
+    match *of {
+        NumberOf::Unknown(j) if number == "value" => identify.unknowns[j].name.clone(),
+        NumberOf::Unknown(j) => format!("{} {number}", identify.unknowns[j].name),
+        NumberOf::Channel(m) => format!("{number} of measurement {}", m + 1),
+    }
 }
 
 /// The combinations that are not identifiable from the measurements, in words.

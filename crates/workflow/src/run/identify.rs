@@ -5,8 +5,8 @@ use crate::load::{Case, IdentifyCase, MeasuredNoise};
 use frfit::c64;
 use frfit::frequency::bands_hz;
 use frfit::identify::{
-    Context, Frfs, Identification, Line, Method, Noise, Problem, ProblemError, SmoothCurve, Stage, Status,
-    error_by_order,
+    Context, Frfs, Identification, Line, Method, Noise, Problem, ProblemError, ReducedBand, SmoothCurve,
+    Stage, Status, error_by_order, identify_on,
 };
 use frfit::material::OutsideTable;
 use frfit::response::FullModel;
@@ -79,10 +79,21 @@ pub fn identify(
     options: RunOptions,
     progress: Progress<'_>,
 ) -> Result<IdentifyRun, ProblemError> {
-    let clock = StageClock::default();
     let used = Used::of(identify);
     let problem = problem_of(case, identify, &used)?;
-    let last = (AtomicUsize::new(0), AtomicUsize::new(used.frequency_hz.len()));
+    identify_with(&mut ReducedBand::default(), &problem, case, identify, (options, progress))
+}
+
+/// The same on a reduced model that is shared with the check of the case.
+pub(crate) fn identify_with<'a>(
+    reduced: &mut ReducedBand<'a>,
+    problem: &'a Problem<'a>,
+    case: &Case,
+    identify: &IdentifyCase,
+    (options, progress): (RunOptions, Progress<'_>),
+) -> Result<IdentifyRun, ProblemError> {
+    let clock = StageClock::default();
+    let last = (AtomicUsize::new(0), AtomicUsize::new(problem.frfs().frequency_hz.len()));
     let hooks = Context {
         for_each: &|n, each| {
             (0..n).into_par_iter().for_each(|i| {
@@ -98,7 +109,7 @@ pub fn identify(
             progress(done, total);
         },
     };
-    let mut found = frfit::identify::identify(&problem, &identify.options, hooks)?;
+    let mut found = identify_on(reduced, problem, &identify.options, hooks)?;
     found.lines = Used::among_all(identify, found.lines)?;
     found.free = if found.free.is_empty() { found.free } else { Used::among_all(identify, found.free)? };
     if let Some(curve) = &found.curve {

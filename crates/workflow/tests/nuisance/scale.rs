@@ -123,6 +123,36 @@ fn an_unknown_delay_is_found_beside_an_unknown_scale() {
     assert!(findings.iter().all(|finding| finding.sensors != [0]), "{findings:?}");
 }
 
+/// Springs and mass, both constant, beside one calibrated channel; without one nothing says how large the response is.
+#[test]
+fn scales_and_delays_are_found_beside_several_unknowns() {
+    let several = "[[identify]]\nmatrix = \"springs\"\nvaries = \"constant\"\nband_hz = [12.0, 112.0]\n\
+                   bounds = { storage = [1e5, 5e5], loss_factor = [0.0, 0.5] }\n\
+                   [[identify]]\nmatrix = \"mass\"\nvaries = \"constant\"\nreal = true\nbounds = [0.7, 1.4]\n";
+    let keys = |first: &str, second: &str| {
+        let single = keys(first, second, "");
+        let (measurements, _) = single.split_once("[identify]").unwrap();
+        format!("{measurements}{several}")
+    };
+    let both = "scale = \"unknown\"\ndelay_s = \"unknown\"";
+    let values = tables([-1.0 / 0.37, 1.0], -19e-3, None);
+    let job = run(&folder(&values, &keys(both, ""))).unwrap();
+    let told = &job.summary["sensors"][0];
+    let [scale, late] = ["scale", "delay_s"].map(|key| told[key].as_f64().unwrap());
+    // Exact data.
+    assert!((scale + 0.37).abs() < 1e-6 && (late + 19e-3).abs() < 1e-8, "{told}");
+    let [springs, mass] = [0, 1].map(|j| job.run.found.constants[j].law.at(50.0).unwrap());
+    assert!(
+        (springs - TRUTH).norm() < 1e-5 * TRUTH.norm() && (mass.re - 1.0).abs() < 1e-5,
+        "{springs} {mass}"
+    );
+    let names = job.summary["coordinates"].as_array().unwrap();
+    assert!(names.iter().any(|name| name == "scale of measurement 1"), "{names:?}");
+
+    let refused = refusal(&folder(&values, &keys(both, both)));
+    assert!(refused.contains("the unknowns scale the whole model"), "{refused}");
+}
+
 #[test]
 fn what_cannot_be_found_is_refused() {
     let unknown = "scale = \"unknown\"";

@@ -1,6 +1,6 @@
 //! Channels whose calibration nobody knows: one real scale, one delay or both for the whole band, found together with the moduli.
 
-use super::channel::{Calibrated, Calibration, Channel, ChannelUnknowns};
+use super::channel::{Calibrated, Calibration, Channel, ChannelNumber, ChannelUnknowns, numbers_of};
 use super::fit::goodness;
 use super::initial_calibration::aligned;
 use super::joint;
@@ -18,22 +18,8 @@ use crate::identify::outcome::Status;
 use crate::identify::uncertainty::Uncertainty;
 use crate::material::OutsideTable;
 use crate::model::ModelAt;
+use crate::subspace::Subspace;
 use frfit_linalg::dense::symmetric_eigen;
-
-/// Which number of which channel.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct Free {
-    channel: usize,
-    is_delay: bool,
-}
-
-fn free(unknown: &[ChannelUnknowns]) -> Vec<Free> {
-    let of = |(channel, unknown): (usize, &ChannelUnknowns)| {
-        let all = [(unknown.scale, false), (unknown.delay, true)].into_iter();
-        all.filter(|(wanted, _)| *wanted).map(move |(_, is_delay)| Free { channel, is_delay })
-    };
-    unknown.iter().enumerate().flat_map(of).collect()
-}
 
 /// Selections among all solutions, each at better scales; they change what is selected hardly ever after the first.
 const MAX_SELECTIONS: usize = 6;
@@ -59,19 +45,21 @@ const CALIBRATION_INFORMATION_RTOL: f64 = 1e-12;
 ///
 /// # Errors
 /// [`OutsideTable`] where a table does not reach a frequency.
-pub(in crate::identify) fn identify_band_scaled(
-    band: &Band<'_>,
+pub(in crate::identify) fn identify_band_scaled<'a>(
+    band: &Band<'a>,
+    trained: &mut Option<Subspace<'a>>,
     unknown: &[ChannelUnknowns],
     options: &Options,
     hooks: Context<'_>,
 ) -> Result<(BandOutcome, Vec<Calibration>), OutsideTable> {
     let at = band.model.at_all(band.frequency_hz, std::slice::from_ref(band.parameter))?;
-    let run = |options: &Options| {
-        let mut reduced = ReducedBand::if_wanted(band, &at, options, hooks);
+    let boxes = on_subspace(options);
+    let (outcome, (found, reduced)) = near_or_far(band, &boxes, |options| {
+        let mut reduced = ReducedBand::if_wanted(band, &at, trained, options, hooks);
         let (outcome, found) = with_scales(band, &at, &mut reduced, unknown, options, hooks);
-        (outcome, found.unwrap_or_else(|| vec![Calibration::default(); unknown.len()]))
-    };
-    let (outcome, found) = near_or_far(band, &on_subspace(options), run);
+        (outcome, (found.unwrap_or_else(|| vec![Calibration::default(); unknown.len()]), reduced))
+    });
+    ReducedBand::hand_back(reduced, trained);
     Ok((outcome.judged_by_fit(), found))
 }
 
@@ -179,7 +167,7 @@ fn starting(
 
 /// Calibrations at the least misfit about given answers.
 struct CalibrationEstimate {
-    free: Vec<Free>,
+    free: Vec<ChannelNumber>,
     /// γ_m and t_m of what is left: u_m = γ_m e^{−iωt_m} x_m.
     left: Vec<(f64, f64)>,
     /// Covariance of the free ones of them, in units of the noise's level squared.
@@ -198,7 +186,7 @@ fn settle(
     hooks: Context<'_>,
 ) -> Option<CalibrationEstimate> {
     let sigma = without(&standard_deviations(band.measured, band.noise), &outcome.left_out());
-    let free = free(unknown);
+    let free = numbers_of(unknown);
     let n = free.len();
     let top = top(band);
     let mut answers = answers(outcome);
@@ -214,7 +202,7 @@ fn settle(
             let sensors = 0..x.len();
             let a: Vec<c64> = sensors.clone().map(|m| weighed(m, left[m].0 * turn(m) * slope[m])).collect();
             let rest = |m: usize| weighed(m, band.measured[i][m] - left[m].0 * turn(m) * x[m]);
-            let of = |&Free { channel: m, is_delay }: &Free| {
+            let of = |&ChannelNumber { channel: m, is_delay }: &ChannelNumber| {
                 let by = if is_delay { c64::new(0.0, -omega * left[m].0) } else { c64::new(1.0, 0.0) };
                 weighed(m, by * turn(m) * x[m])
             };
@@ -233,7 +221,7 @@ fn settle(
             return None;
         }
         // A part of the scale, or radians at the top of the band.
-        let part = |(free, step): (&Free, &f64)| match free.is_delay {
+        let part = |(free, step): (&ChannelNumber, &f64)| match free.is_delay {
             true => (step * top).abs(),
             false => (step / left[free.channel].0).abs(),
         };
@@ -280,15 +268,21 @@ impl Local {
     }
 
     /// ∂c/∂p.
-    fn moved(&self, free: &[Free]) -> Vec<c64> {
-        let of = |(free, b): (&Free, &c64)| -self.a[free.channel].conj() * b / self.information();
+    fn moved(&self, free: &[ChannelNumber]) -> Vec<c64> {
+        let of = |(free, b): (&ChannelNumber, &c64)| -self.a[free.channel].conj() * b / self.information();
         free.iter().zip(&self.b).map(of).collect()
     }
 
     /// Normal equations with the correction eliminated: b_pᴴ P b_q and b_pᴴ P r, P = I − aaᴴ/aᴴa.
-    fn accumulate(&self, free: &[Free], normal: &mut [Vec<f64>], right: &mut [f64], whole: &mut [f64]) {
+    fn accumulate(
+        &self,
+        free: &[ChannelNumber],
+        normal: &mut [Vec<f64>],
+        right: &mut [f64],
+        whole: &mut [f64],
+    ) {
         let (own, moved) = (self.own(), self.moved(free));
-        for (p, (&Free { channel: m, .. }, b)) in free.iter().zip(&self.b).enumerate() {
+        for (p, (&ChannelNumber { channel: m, .. }, b)) in free.iter().zip(&self.b).enumerate() {
             whole[p] += b.norm_sqr();
             right[p] += (b.conj() * (self.rest[m] - self.a[m] * own)).re;
             for (q, moved) in moved.iter().enumerate() {
@@ -332,9 +326,10 @@ impl CalibrationEstimate {
     }
 
     fn is_settled(&self, top: f64) -> bool {
-        let least =
-            |free: &Free| if free.is_delay { CALIBRATION_ROUNDOFF / top } else { CALIBRATION_ROUNDOFF };
-        let settled = |(p, free): (usize, &Free)| {
+        let least = |free: &ChannelNumber| {
+            if free.is_delay { CALIBRATION_ROUNDOFF / top } else { CALIBRATION_ROUNDOFF }
+        };
+        let settled = |(p, free): (usize, &ChannelNumber)| {
             self.off(p).abs() <= (CALIBRATION_STEP_TOL * self.std(p)).max(least(free))
         };
         self.free.iter().enumerate().all(settled)
@@ -348,7 +343,7 @@ impl CalibrationEstimate {
     fn calibrations(&self, channels: &[Channel], level: Option<f64>) -> Vec<Calibration> {
         let better = self.better(channels);
         let mut found = vec![Calibration::default(); channels.len()];
-        for (p, &Free { channel: m, is_delay }) in self.free.iter().enumerate() {
+        for (p, &ChannelNumber { channel: m, is_delay }) in self.free.iter().enumerate() {
             let std = level.map(|level| level * self.std(p));
             let relative = |std: f64| std * (better[m].scale / self.left[m].0).abs();
             match is_delay {

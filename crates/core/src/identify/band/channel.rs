@@ -51,13 +51,13 @@ impl Calibration {
 
 /// A calibration as a search has it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Channel {
-    pub(super) scale: f64,
-    pub(super) delay_s: f64,
+pub(in crate::identify) struct Channel {
+    pub(in crate::identify) scale: f64,
+    pub(in crate::identify) delay_s: f64,
 }
 
 impl Channel {
-    pub(super) const CALIBRATED: Self = Self { scale: 1.0, delay_s: 0.0 };
+    pub(in crate::identify) const CALIBRATED: Self = Self { scale: 1.0, delay_s: 0.0 };
 
     /// One and zero for what was not looked for.
     pub(super) fn of(found: &Calibration) -> Self {
@@ -65,7 +65,7 @@ impl Channel {
         Self { scale: value(found.scale, 1.0), delay_s: value(found.delay_s, 0.0) }
     }
 
-    pub(super) fn factor(&self, frequency_hz: f64) -> c64 {
+    pub(in crate::identify) fn factor(&self, frequency_hz: f64) -> c64 {
         self.scale * c64::from_polar(1.0, omega_rad_s(frequency_hz) * self.delay_s)
     }
 
@@ -73,4 +73,20 @@ impl Channel {
     pub(super) fn better(&self, gain: f64, late_s: f64) -> Self {
         Self { scale: self.scale / gain, delay_s: self.delay_s + late_s }
     }
+}
+
+/// An unknown number of a channel: its scale or its delay.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::identify) struct ChannelNumber {
+    pub(in crate::identify) channel: usize,
+    pub(in crate::identify) is_delay: bool,
+}
+
+/// The numbers that are unknown, channel by channel.
+pub(in crate::identify) fn numbers_of(unknown: &[ChannelUnknowns]) -> Vec<ChannelNumber> {
+    let of = |(channel, unknown): (usize, &ChannelUnknowns)| {
+        let all = [(unknown.scale, false), (unknown.delay, true)].into_iter();
+        all.filter(|(wanted, _)| *wanted).map(move |(_, is_delay)| ChannelNumber { channel, is_delay })
+    };
+    unknown.iter().enumerate().flat_map(of).collect()
 }

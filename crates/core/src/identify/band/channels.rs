@@ -2,7 +2,7 @@
 
 use super::calibration::{Scaled, top, with_scales};
 use super::channel::{Calibrated, Channel, ChannelUnknowns};
-use super::initial_calibration::aligned;
+use super::initial_calibration::by_shape;
 use super::joint;
 use super::law_fitting::Fitting;
 use super::outcome::BandOutcome;
@@ -16,6 +16,7 @@ use crate::identify::options::Options;
 use crate::laws::{LawFit, Parametrization};
 use crate::median::median;
 use crate::model::ModelAt;
+use crate::subspace::Subspace;
 
 /// The response of a law at one frequency.
 pub(super) struct Responded {
@@ -179,11 +180,12 @@ pub(super) struct Begin<'a, 'o> {
 pub(super) fn at_scales<'a, 'o>(
     band: &Band<'a>,
     at: &'o [ModelAt<'a>],
+    trained: &mut Option<Subspace<'a>>,
     unknown: &[ChannelUnknowns],
     options: &'o Options,
     hooks: Context<'_>,
 ) -> (BandOutcome, Begin<'a, 'o>) {
-    let mut reduced = ReducedBand::if_wanted(band, at, options, hooks);
+    let mut reduced = ReducedBand::if_wanted(band, at, trained, options, hooks);
     let right = vec![Channel::CALIBRATED; unknown.len()];
     let is_known = |unknown: &ChannelUnknowns| !unknown.any();
     if unknown.iter().all(is_known) {
@@ -241,14 +243,7 @@ fn shaped(
             .zip(&responses)
             .map(|(&i, x)| (omega_rad_s(band.frequency_hz[i]), x[m] / band.measured[i][m]))
             .collect();
-        let found = aligned(&ratios, unknown, top(band))?;
-        // The size by logarithms, as the shape is compared by them; its sense is that in which most of them move.
-        let size =
-            median(ratios.iter().map(|(_, ratio)| ratio.norm().ln()).filter(|ln| ln.is_finite()).collect())?;
-        let same =
-            |(omega, ratio): &&(f64, c64)| (ratio * c64::from_polar(1.0, -omega * found.delay_s)).re > 0.0;
-        let sense = if 2 * ratios.iter().filter(same).count() >= ratios.len() { 1.0 } else { -1.0 };
-        Some(if unknown.scale { Channel { scale: sense * size.exp(), ..found } } else { found })
+        by_shape(&ratios, unknown, top(band))
     };
     let channels: Option<Vec<Channel>> = unknown.iter().enumerate().map(calibration).collect();
     Some((channels?, ratio))

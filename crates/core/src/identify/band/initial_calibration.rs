@@ -51,6 +51,20 @@ pub(super) fn aligned(ratios: &[(f64, c64)], unknown: ChannelUnknowns, top: f64)
     Some(Channel { scale, delay_s })
 }
 
+/// The same of responses of which the shape alone is right: the size of the scale is the median of logarithms, as they tell shapes, and its sense that of most ratios.
+pub(in crate::identify) fn by_shape(
+    ratios: &[(f64, c64)],
+    unknown: ChannelUnknowns,
+    top: f64,
+) -> Option<Channel> {
+    let found = aligned(ratios, unknown, top)?;
+    let size =
+        median(ratios.iter().map(|(_, ratio)| ratio.norm().ln()).filter(|ln| ln.is_finite()).collect())?;
+    let same = |(omega, ratio): &&(f64, c64)| (ratio * c64::from_polar(1.0, -omega * found.delay_s)).re > 0.0;
+    let sense = if 2 * ratios.iter().filter(same).count() >= ratios.len() { 1.0 } else { -1.0 };
+    Some(if unknown.scale { Channel { scale: sense * size.exp(), ..found } } else { found })
+}
+
 /// The delay of most agreement, nearest to none of those that agree alike.
 fn best_delay(agreement: impl Fn(f64) -> f64, top: f64) -> f64 {
     let steps = (MAX_DELAY_PHASE_RAD / DELAY_PHASE_STEP_RAD) as i32;

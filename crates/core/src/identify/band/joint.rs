@@ -18,6 +18,7 @@ use crate::identify::options::Options;
 use crate::identify::outcome::Line;
 use crate::model::ModelAt;
 use crate::response::{FullModel, Response, Work};
+use crate::subspace::Subspace;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Chooses at every frequency; of the `hidden` sensors nothing is asked.
@@ -105,10 +106,11 @@ pub(super) fn identify<'a>(
 pub(super) fn identify_keeping_model<'a, 'o>(
     band: &Band<'a>,
     at: &'o [ModelAt<'a>],
+    trained: &mut Option<Subspace<'a>>,
     options: &'o Options,
     hooks: Context<'_>,
 ) -> (BandOutcome, Option<ReducedBand<'a, 'o>>) {
-    let mut reduced = ReducedBand::if_wanted(band, at, options, hooks);
+    let mut reduced = ReducedBand::if_wanted(band, at, trained, options, hooks);
     (identify(band, at, reduced.as_mut(), &[], options, hooks), reduced)
 }
 

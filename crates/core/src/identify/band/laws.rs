@@ -29,6 +29,7 @@ use crate::laws::{
 };
 use crate::material::OutsideTable;
 use crate::response::{Work, relative_error};
+use crate::subspace::Subspace;
 
 /// What came out.
 #[derive(Debug, Clone, PartialEq)]
@@ -84,10 +85,10 @@ pub(super) const RIVAL_DISTANCE_STD: f64 = 3.0;
 ///
 /// # Errors
 /// [`OutsideTable`] where a table does not reach a frequency.
-pub(in crate::identify) fn identify_laws(
-    band: &Band<'_>,
-    unknown: &[ChannelUnknowns],
-    kinds: &[LawKind],
+pub(in crate::identify) fn identify_laws<'a>(
+    band: &Band<'a>,
+    trained: &mut Option<Subspace<'a>>,
+    (unknown, kinds): (&[ChannelUnknowns], &[LawKind]),
     options: &Options,
     hooks: Context<'_>,
 ) -> Result<LawsOutcome, OutsideTable> {
@@ -96,7 +97,7 @@ pub(in crate::identify) fn identify_laws(
     let at = band.model.at_all(band.frequency_hz, std::slice::from_ref(band.parameter))?;
     let boxes = on_subspace(options);
     let (mut free, Begin { reduced, channels, ratio }) =
-        near_or_far(band, &boxes, |options| at_scales(band, &at, unknown, options, hooks));
+        near_or_far(band, &boxes, |options| at_scales(band, &at, trained, unknown, options, hooks));
     let mut reduced = reduced;
     if let Some(reduced) = reduced.as_mut().filter(|_| !unknown.iter().any(|channel| channel.any())) {
         free = corrected::correct(band, &at, free, reduced, &boxes[0], hooks);
@@ -176,6 +177,7 @@ pub(in crate::identify) fn identify_laws(
     let within = |outcome: Line| Line { status: outcome.status.within(fit), ..outcome };
     let outcomes = outcomes.into_iter().map(within).collect();
     let free = free.judged_by_fit();
+    ReducedBand::hand_back(Some(reduced), trained);
     Ok(LawsOutcome { outcomes, fits, channels: calibrations, fit, work, subspace_size, free })
 }
 

@@ -27,13 +27,15 @@ mod verdict;
 pub(super) use calibration::identify_band_scaled;
 pub(super) use candidates::Fit;
 pub use channel::{Calibrated, Calibration, ChannelUnknowns};
+pub(super) use channel::{Channel, ChannelNumber, numbers_of};
+pub(super) use initial_calibration::by_shape;
 pub(crate) use initial_calibration::{DELAY_PHASE_STEP_RAD, MAX_DELAY_PHASE_RAD};
 pub(super) use laws::{LawsOutcome, MAX_TRAINING_ROUNDS, identify_laws, nearest};
 pub(super) use outcome::BandOutcome;
 pub(super) use outlier_sensor::{OUTLIER_FREQUENCIES, OUTLIER_RATIO};
 pub(super) use reduced_band::{
     BOX_TOL, MAX_NEIGHBOURHOODS, MAX_TRAINING_FREQUENCIES, MIN_NEIGHBOURHOOD_LINES, TRAINED_TOL, is_certain,
-    reduction_error,
+    reduction_error, train,
 };
 pub use smooth::SmoothCurve;
 pub(super) use smooth::{SmoothOutcome, identify_smooth};
@@ -44,6 +46,7 @@ use super::measured::Band;
 use super::options::Options;
 use crate::material::OutsideTable;
 use crate::model::ModelAt;
+use crate::subspace::Subspace;
 use reduced_band::ReducedBand;
 use search_box::{near_and_far, near_or_far};
 
@@ -56,35 +59,39 @@ use search_box::{near_and_far, near_or_far};
 ///
 /// # Errors
 /// [`OutsideTable`] where a table does not reach a frequency.
-pub(super) fn identify_band(
-    band: &Band<'_>,
+pub(super) fn identify_band<'a>(
+    band: &Band<'a>,
+    trained: &mut Option<Subspace<'a>>,
     options: &Options,
     hooks: Context<'_>,
 ) -> Result<BandOutcome, OutsideTable> {
     let at = band.model.at_all(band.frequency_hz, std::slice::from_ref(band.parameter))?;
     let boxes = near_and_far(options);
-    let run = |options| identify_at_all(band, &at, options, hooks);
-    let (found, reduced) = near_or_far(band, &boxes, run);
+    let (found, reduced) =
+        near_or_far(band, &boxes, |options| identify_at_all(band, &at, trained, options, hooks));
     // A model that is answered for as it is has no modes at hand: they are those of a reduced one.
     let wanted = options.selection == Selection::Joint && options.reduction == Reduction::Auto;
-    let new = || ReducedBand::new(band, &at, &boxes[0], hooks).ok().filter(|_| wanted);
-    let found = match reduced.or_else(new).filter(|_| options.selection == Selection::Joint) {
-        Some(mut reduced) => corrected::correct(band, &at, found, &mut reduced, &boxes[0], hooks),
+    let new = || wanted.then(|| ReducedBand::on_trained(band, &at, trained, &boxes[0], hooks)).flatten();
+    let mut reduced = reduced.or_else(new);
+    let found = match reduced.as_mut().filter(|_| options.selection == Selection::Joint) {
+        Some(reduced) => corrected::correct(band, &at, found, reduced, &boxes[0], hooks),
         None => found,
     };
+    ReducedBand::hand_back(reduced, trained);
     Ok(found.judged_by_fit())
 }
 
 fn identify_at_all<'a, 'o>(
     band: &Band<'a>,
     at: &'o [ModelAt<'a>],
+    trained: &mut Option<Subspace<'a>>,
     options: &'o Options,
     hooks: Context<'_>,
 ) -> (BandOutcome, Option<ReducedBand<'a, 'o>>) {
     match options.selection {
-        Selection::Joint => joint::identify_keeping_model(band, at, options, hooks),
+        Selection::Joint => joint::identify_keeping_model(band, at, trained, options, hooks),
         Selection::Smallest => {
-            let model = ReducedBand::if_wanted(band, at, options, hooks);
+            let model = ReducedBand::if_wanted(band, at, trained, options, hooks);
             (per_frequency::identify(band, at, model, options, hooks), None)
         }
     }

@@ -74,47 +74,45 @@ impl<'a, 'o> ReducedBand<'a, 'o> {
     pub(super) fn if_wanted(
         band: &Band<'a>,
         at: &'o [ModelAt<'a>],
+        trained: &mut Option<Subspace<'a>>,
         options: &'o Options,
         hooks: Context<'_>,
     ) -> Option<Self> {
         let wanted = options.reduction.is_subspace(options.method, band.model.dim(), at.len());
         // A singular stand-in for D is no reason to give up: the full model says at which frequency what breaks down.
-        wanted.then(|| Self::new(band, at, options, hooks).ok()).flatten()
+        wanted.then(|| Self::on_trained(band, at, trained, options, hooks)).flatten()
     }
 
-    /// Trains over the box.
-    ///
-    /// # Errors
-    /// [`Breakdown`] where no real stand-in for D can be factorised.
-    pub(super) fn new(
+    /// On the subspace that was trained for the band already, or else is now; `None` where it cannot be built.
+    pub(super) fn on_trained(
         band: &Band<'a>,
         at: &'o [ModelAt<'a>],
+        trained: &mut Option<Subspace<'a>>,
         options: &'o Options,
         hooks: Context<'_>,
-    ) -> Result<Self, Breakdown> {
+    ) -> Option<Self> {
+        let subspace = trained.take().map_or_else(|| train(band, at, options, hooks), Ok).ok()?;
         let n = at.len();
-        (hooks.progress)(Stage::Subspace, 0, n);
-        let subspace = Subspace::new(band.experiment, &at[n - 1])?;
         let count = (n / MIN_NEIGHBOURHOOD_LINES).clamp(1, MAX_NEIGHBOURHOODS);
         let block = |b| Block { ends: [b * n / count, (b + 1) * n / count - 1], model: None };
-        let blocks = (0..count).map(block).collect();
-        let mut reduced = Self {
+        Some(Self {
             subspace,
             at,
             unknown: band.unknown,
             options,
-            blocks,
+            blocks: (0..count).map(block).collect(),
             models: vec![None; n],
             assessed: vec![Vec::new(); n],
             answers: Vec::new(),
             corrected: None,
-        };
-        let all: Vec<usize> = (0..n).collect();
-        let points: Vec<Point<'a>> =
-            thinned(&all, MAX_TRAINING_FREQUENCIES).flat_map(|&i| reduced.box_points(i)).collect();
-        let training = TrainOptions { tolerance: BOX_TOL, ..TrainOptions::default() };
-        reduced.subspace.train(&points, &training, hooks.for_each)?;
-        Ok(reduced)
+        })
+    }
+
+    /// Leaves what was trained to the next one.
+    pub(super) fn hand_back(reduced: Option<Self>, trained: &mut Option<Subspace<'a>>) {
+        if let Some(reduced) = reduced {
+            *trained = Some(reduced.subspace);
+        }
     }
 
     /// Some of the frequencies, over the whole band: once the subspace is good at their answers, it is at most of the others.
@@ -324,28 +322,44 @@ impl<'a, 'o> ReducedBand<'a, 'o> {
         self.subspace.work()
     }
 
-    /// The nominal factor and a grid over the box at a frequency.
     fn box_points(&self, i: usize) -> Vec<Point<'a>> {
-        let at = &self.at[i];
-        let nominal = at.parameters[0].nominal;
-        let point = |factor: c64| Point { at: at.clone(), correction: factor - nominal };
-        let mut points = vec![point(nominal)];
-        if let Some([low, high]) = self
-            .unknown
-            .box_about(nominal, self.options.box_ratio())
-            .filter(|[low, high]| 0.0 < *low && high.is_finite())
-        {
-            let steps = ((BOX_STORAGES_PER_OCTAVE * (high / low).log2()).ceil() as usize).max(2);
-            let eta = self
-                .unknown
-                .bounds
-                .loss_factor
-                .map_or(loss_factor(nominal), |[low, high]| loss_factor(nominal).clamp(low, high));
-            let storage = |k: usize| low * (high / low).powf(k as f64 / steps as f64);
-            points.extend((0..=steps).map(|k| point(c64::new(1.0, eta) * storage(k))));
-        }
-        points
+        box_points(&self.at[i], self.unknown, self.options)
     }
+}
+
+/// Trains over the box.
+///
+/// # Errors
+/// [`Breakdown`] where no real stand-in for D can be factorised.
+pub(in crate::identify) fn train<'a>(
+    band: &Band<'a>,
+    at: &[ModelAt<'a>],
+    options: &Options,
+    hooks: Context<'_>,
+) -> Result<Subspace<'a>, Breakdown> {
+    (hooks.progress)(Stage::Subspace, 0, at.len());
+    let mut subspace = Subspace::new(band.experiment, &at[at.len() - 1])?;
+    let points: Vec<Point<'a>> =
+        thinned(at, MAX_TRAINING_FREQUENCIES).flat_map(|at| box_points(at, band.unknown, options)).collect();
+    let training = TrainOptions { tolerance: BOX_TOL, ..TrainOptions::default() };
+    subspace.train(&points, &training, hooks.for_each)?;
+    Ok(subspace)
+}
+
+/// The nominal factor and a grid over the box at a frequency.
+fn box_points<'a>(at: &ModelAt<'a>, unknown: &Unknown, options: &Options) -> Vec<Point<'a>> {
+    let nominal = at.parameters[0].nominal;
+    let point = |factor: c64| Point { at: at.clone(), correction: factor - nominal };
+    let mut points = vec![point(nominal)];
+    let about = unknown.box_about(nominal, options.box_ratio());
+    if let Some([low, high]) = about.filter(|[low, high]| 0.0 < *low && high.is_finite()) {
+        let steps = ((BOX_STORAGES_PER_OCTAVE * (high / low).log2()).ceil() as usize).max(2);
+        let eta = loss_factor(nominal);
+        let eta = unknown.bounds.loss_factor.map_or(eta, |[low, high]| eta.clamp(low, high));
+        let storage = |k: usize| low * (high / low).powf(k as f64 / steps as f64);
+        points.extend((0..=steps).map(|k| point(c64::new(1.0, eta) * storage(k))));
+    }
+    points
 }
 
 /// Whether an answer's error is what it may be.

@@ -20,7 +20,7 @@ pub(super) fn on_subspace(options: &Options) -> [Options; 2] {
 pub(super) fn near_or_far<'o, T>(
     band: &Band<'_>,
     [near, far]: &'o [Options; 2],
-    run: impl Fn(&'o Options) -> (BandOutcome, T),
+    mut run: impl FnMut(&'o Options) -> (BandOutcome, T),
 ) -> (BandOutcome, T) {
     let mut found = run(near);
     let wider =

@@ -28,6 +28,7 @@ use crate::material::OutsideTable;
 use crate::model::ModelAt;
 use crate::response::relative_error;
 use crate::smooth::{Evidence, Observation, Smoothed, State, roughness, smooth};
+use crate::subspace::Subspace;
 
 /// What came out.
 #[derive(Debug, Clone, PartialEq)]
@@ -82,15 +83,16 @@ const MAX_OUTLIER_SHARE: f64 = 0.25;
 /// # Limits
 /// One κ for the whole band: a modulus that is a straight line in one half and has a narrow feature in the other is smoothed less than it could be in the first. Error bars are linear in the noise,
 /// and hold the scatter of answers that belong together: neighbours have nearly the same error. The factor must not be zero; at 0 Hz there is none.
-pub(in crate::identify) fn identify_smooth(
-    band: &Band<'_>,
+pub(in crate::identify) fn identify_smooth<'a>(
+    band: &Band<'a>,
+    trained: &mut Option<Subspace<'a>>,
     options: &Options,
     hooks: Context<'_>,
 ) -> Result<SmoothOutcome, OutsideTable> {
     let at = band.model.at_all(band.frequency_hz, std::slice::from_ref(band.parameter))?;
     let boxes = on_subspace(options);
     let (mut free, mut reduced) =
-        near_or_far(band, &boxes, |options| identify_keeping_model(band, &at, options, hooks));
+        near_or_far(band, &boxes, |options| identify_keeping_model(band, &at, trained, options, hooks));
     if let Some(reduced) = &mut reduced {
         free = correct(band, &at, free, reduced, &boxes[0], hooks);
     }
@@ -125,6 +127,7 @@ pub(in crate::identify) fn identify_smooth(
     let mut work = free.work;
     work += reduced.work().since(fitted.before);
     let subspace_size = Some(reduced.size());
+    ReducedBand::hand_back(Some(reduced), trained);
     let smoothed = BandOutcome { outcomes, work, subspace_size, noise, fit, sensors, ..free.clone() };
     Ok(SmoothOutcome {
         free: free.judged_by_fit(),

@@ -315,7 +315,10 @@ impl Fitting<'_, '_> {
             shared.extend(&slopes.stiffness[m]);
         }
         shared.extend(&slopes.factors[m]);
-        shared.extend(&slopes.masses[m]);
+        // Without modes masses are no coordinates.
+        if self.modes() > 0 {
+            shared.extend(&slopes.masses[m]);
+        }
         shared.extend(&slopes.load[m]);
         (shared, slopes.shape[m].clone())
     }

@@ -1,6 +1,8 @@
 //! The numbers that hold for the whole band, as coordinates θ of a search.
 
+use super::channels::ChannelCoordinates;
 use crate::c64;
+use crate::identify::band::ChannelUnknowns;
 use crate::identify::form::Form;
 use crate::identify::unknown::{Unknown, Variation};
 use crate::laws::{LawKind, Parametrization};
@@ -19,6 +21,8 @@ pub(super) struct Own {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Coordinates {
     pub(super) each: Vec<Own>,
+    /// Those of the channels come after those of the unknowns.
+    pub(super) channels: ChannelCoordinates,
     pub(super) count: usize,
     /// [low, high] of each coordinate: the bounds of constants. Those of a law are on its modulus, not on its coordinates.
     pub(super) limits: Vec<[f64; 2]>,
@@ -79,7 +83,15 @@ impl Coordinates {
             each.push(Own { unknowns: j, range: count..count + own, form });
             count += own;
         }
-        Self { each, count, limits }
+        Self { each, channels: ChannelCoordinates::default(), count, limits }
+    }
+
+    /// The same with the scales and delays of channels.
+    pub(super) fn with_channels(mut self, channels: &[ChannelUnknowns], omegas: &[f64]) -> Self {
+        self.channels = ChannelCoordinates::new(channels, self.count, omegas);
+        self.count += self.channels.count();
+        self.limits.resize(self.count, UNBOUNDED);
+        self
     }
 
     /// θ with every coordinate within its bounds.
@@ -96,7 +108,7 @@ impl Coordinates {
         (0..self.count).filter(is_binding).collect()
     }
 
-    /// θ of constants with these values; for laws `law` says where to begin.
+    /// θ of constants with these values, and of calibrated channels; for laws `law` says where to begin.
     pub(super) fn of(&self, values: &[c64], law: impl Fn(&Parametrization, usize) -> Vec<f64>) -> Vec<f64> {
         let of = |own: &Own| match &own.form {
             Form::Logarithm => vec![values[own.unknowns].re.ln()],
@@ -107,7 +119,8 @@ impl Coordinates {
             }
             Form::Law(parametrization) => law(parametrization, own.unknowns),
         };
-        self.each.iter().flat_map(of).collect()
+        let calibrated = std::iter::repeat_n(0.0, self.channels.count());
+        self.each.iter().flat_map(of).chain(calibrated).collect()
     }
 }
 

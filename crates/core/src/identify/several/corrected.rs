@@ -15,14 +15,15 @@ use crate::identify::unknown::{Unknown, Variation};
 use crate::subspace::{Corrected, Point};
 
 impl Task<'_, '_> {
-    /// What is found when the errors of the model are estimated and taken out; the same where a right model explains the band as well.
+    /// What is found when the errors of the model are estimated and taken out; the same where a right model explains the band as well,
+    /// and beside channels of unknown scale or delay, which would take up a part of the errors.
     pub(super) fn correct(
         &self,
         space: &mut ReducedBand<'_>,
         solution: &BandSolution,
         mut found: SeveralOutcome,
     ) -> SeveralOutcome {
-        if self.options.model_errors == ModelErrors::None {
+        if self.options.model_errors == ModelErrors::None || !self.problem.channels.is_empty() {
             return found;
         }
         let (explanation, leverage) = self.errors(space, solution, &found);

@@ -4,7 +4,7 @@ use super::Task;
 use super::at_frequency::Solution;
 use super::coordinates::Own;
 use super::information::Information;
-use super::outcome::{BandCoordinate, BandValue, Direction, Number, Profile, SeveralOutcome};
+use super::outcome::{BandCoordinate, BandValue, Direction, Number, NumberOf, Profile, SeveralOutcome};
 use super::reduced_band::ReducedBand;
 use super::search::{BandSolution, Place, Plane, Reach};
 use crate::c64;
@@ -13,7 +13,7 @@ use crate::identify::band::reduction_error;
 use crate::identify::goodness_of_fit::{GoodnessOfFit, MAX_RMS_MISFIT, judge};
 use crate::identify::model_errors::Estimated;
 use crate::identify::noise::NoiseLevel;
-use crate::identify::outcome::{Line, LineValue, Status};
+use crate::identify::outcome::{Line, LineSolution, LineValue, Standing, Status};
 use crate::identify::uncertainty::Uncertainty;
 use crate::identify::uncertainty::{KNOWN_RELATIVE_STD, MIN_KNOWN_LOSS_FACTOR};
 use crate::identify::unknown::Unknown;
@@ -99,15 +99,22 @@ impl Task<'_, '_> {
                 known.map(|moved| Known { covariance: &covariance, moved }),
             )
         });
+        let numbers_of = |one: &Own| {
+            let of = NumberOf::Unknown(one.unknowns);
+            names(one.kind()).into_iter().map(move |number| BandCoordinate { of, number })
+        };
         let coordinates: Vec<BandCoordinate> = found
             .coordinates
             .each
             .iter()
-            .flat_map(|one| {
-                let of = |number| BandCoordinate { unknown: one.unknowns, number };
-                names(one.kind()).into_iter().map(of)
-            })
+            .flat_map(numbers_of)
+            .chain(found.coordinates.channels.names())
             .collect();
+        let channels = found.coordinates.channels.found(&found.theta, |c| {
+            let mut gradient = vec![0.0; n];
+            gradient[c] = 1.0;
+            Some(level? * information.as_ref()?.covariance(&gradient, &gradient).sqrt())
+        });
         let (directions, correlation) = match &information {
             Some(information) if n > 0 => (directions(information, level), correlation(information, found)),
             _ => (Vec::new(), Vec::new()),
@@ -156,6 +163,7 @@ impl Task<'_, '_> {
             coordinates,
             correlation,
             directions,
+            channels,
             profile,
             noise,
             fit,
@@ -183,23 +191,38 @@ impl Task<'_, '_> {
         let values = nominal.iter().map(|&nominal| LineValue::unknown(nominal)).collect();
         let mut at = Line::of_values(self.problem.frfs.frequency_hz[i], values);
         at.nominal_response = space.respond(i, nominal).map(|(x, _)| x).unwrap_or_default();
-        at.rivals =
-            found.chosen[i].alternatives.iter().map(|&k| found.solutions[i][k].values.clone()).collect();
+        let solutions = &found.solutions[i];
         let chosen = found.at(i);
         // Of solutions none of which is on the path of every unknown, that of least misfit.
-        let Some(solution) = chosen.or_else(|| found.solutions[i].first()) else { return at };
-        if chosen.is_none() {
-            at.rivals = found.solutions[i][1..].iter().map(|other| other.values.clone()).collect();
-        }
-        let measured = &self.problem.frfs.receptance[i];
+        let Some(solution) = chosen.or_else(|| solutions.first()) else { return at };
+        let calibrated = |values: &[c64]| {
+            found.coordinates.channels.calibrated(&found.theta, self.problem.frfs.frequency_hz[i], values)
+        };
+        let measured = &calibrated(&self.problem.frfs.receptance[i]);
+        let response = calibrated(&solution.response);
         let values = self.with_bars(found, i, solution, level, known.as_ref());
         let count = 2 * (measured.len() - self.left_out.len());
         let kept = |values: &[c64]| -> Vec<c64> {
             let kept = values.iter().enumerate().filter(|(m, _)| !self.left_out.contains(m));
             kept.map(|(_, value)| *value).collect()
         };
-        let chi_squared = level.map(|level| solution.misfit / (level * level * count as f64));
-        let error = relative_error(&kept(measured), &kept(&solution.response));
+        let per_freedom = |misfit: f64| level.map(|level| misfit / (level * level * count as f64));
+        let chi_squared = per_freedom(solution.misfit);
+        let standing = |k: usize| match found.chosen[i].solution {
+            Some(best) if k == best => Standing::Chosen,
+            None if k == 0 => Standing::Chosen,
+            Some(_) if !found.chosen[i].alternatives.contains(&k) => Standing::Excluded,
+            _ => Standing::Rival,
+        };
+        let of_line = |(k, one): (usize, &Solution)| LineSolution {
+            values: one.values.clone(),
+            chi_squared: per_freedom(one.misfit),
+            standing: standing(k),
+        };
+        at.solutions = solutions.iter().enumerate().map(of_line).collect();
+        let rivals = at.solutions.iter().filter(|one| one.standing == Standing::Rival);
+        at.rivals = rivals.map(|one| one.values.clone()).collect();
+        let error = relative_error(&kept(measured), &kept(&response));
         let assessed = space.assess(i, &solution.values);
         let reduction_error =
             assessed.map(|assessed| reduction_error(&assessed, solution.values[0], measured).response);
@@ -223,7 +246,7 @@ impl Task<'_, '_> {
         at.error = Some(error).filter(|error| error.is_finite());
         at.chi_squared = chi_squared;
         at.reduction_error = reduction_error;
-        at.updated_response = solution.response.clone();
+        at.updated_response = response;
         at
     }
 
@@ -369,7 +392,10 @@ fn correlation(information: &Information, found: &BandSolution) -> Vec<Vec<f64>>
         let (_, slopes) = one.numbers(&found.theta);
         slopes.into_iter().map(|row| one.gradient(row, n)).collect()
     };
-    let gradients: Vec<Vec<f64>> = found.coordinates.each.iter().flat_map(of_one).collect();
+    let mut gradients: Vec<Vec<f64>> = found.coordinates.each.iter().flat_map(of_one).collect();
+    // Of channels each number hangs on its own coordinate alone.
+    let first = gradients.len();
+    gradients.extend((first..n).map(|c| (0..n).map(|k| if k == c { 1.0 } else { 0.0 }).collect()));
     let entry = |a: usize, b: usize| {
         let of = |a: usize, b: usize| information.covariance(&gradients[a], &gradients[b]);
         of(a, b) / (of(a, a) * of(b, b)).sqrt()

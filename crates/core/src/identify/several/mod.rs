@@ -9,6 +9,7 @@
 //! | file | what is in it |
 //! |---|---|
 //! | `coordinates` | θ ↔ what holds for the band |
+//! | `channels` | scales and delays among it |
 //! | `reduced_band` | the reduced model over the box of all unknowns |
 //! | `starts` | where to begin |
 //! | `at_frequency` | one frequency |
@@ -19,6 +20,7 @@
 //! | `corrected` | errors of the model |
 
 mod at_frequency;
+mod channels;
 mod coordinates;
 mod corrected;
 mod information;
@@ -33,8 +35,9 @@ mod starts;
 mod tests;
 
 pub(super) use outcome::SeveralOutcome;
-pub use outcome::{BandCoordinate, BandValue, Direction, Number, Profile};
+pub use outcome::{BandCoordinate, BandValue, Direction, Number, NumberOf, Profile};
 
+use super::band::Calibration;
 use super::context::Context;
 use super::noise::{NoiseLevel, standard_deviations};
 use super::options::Options;
@@ -45,6 +48,7 @@ use crate::c64;
 use crate::frequency::omega_rad_s;
 use crate::material::OutsideTable;
 use crate::response::Work;
+use crate::subspace::Subspace;
 use frfit_linalg::solve::Breakdown;
 use reduced_band::ReducedBand;
 
@@ -72,15 +76,14 @@ struct Task<'t, 'a> {
 ///
 /// # Limits
 /// Of several per-frequency unknowns solutions are those that several starts lead to, not provably all; a single one that stands for a factor has all of them (B-2).
-pub(super) fn identify_several(
-    problem: &Problem<'_>,
+pub(super) fn identify_several<'a>(
+    problem: &Problem<'a>,
+    trained: &mut Option<Subspace<'a>>,
     options: &Options,
     hooks: Context<'_>,
 ) -> Result<SeveralOutcome, OutsideTable> {
-    let Problem { model, experiment, unknowns, frfs, .. } = *problem;
-    let composite = Composite { model, unknowns };
-    let nominal: Vec<Vec<c64>> =
-        frfs.frequency_hz.iter().map(|&f| composite.nominal(f)).collect::<Result<_, _>>()?;
+    let frfs = problem.frfs;
+    let nominal = nominal_of(problem)?;
     let task = Task {
         problem,
         nominal: &nominal,
@@ -90,9 +93,13 @@ pub(super) fn identify_several(
         options,
         hooks,
     };
-    let space = ReducedBand::new(composite, experiment, frfs.frequency_hz, &nominal, hooks)?;
-    Ok(match space {
-        Ok(mut space) => {
+    let subspace = match trained.take() {
+        Some(subspace) => Ok(subspace),
+        None => train(problem, hooks)?,
+    };
+    Ok(match subspace {
+        Ok(subspace) => {
+            let mut space = ReducedBand::new(subspace, problem, &nominal, hooks);
             let mut found = task.search(&mut space);
             let contradicting = task.contradicting(&space, &found);
             let rejected = if options.reject_outliers { contradicting.as_slice() } else { &[] };
@@ -102,13 +109,26 @@ pub(super) fn identify_several(
             }
             let right = kept.judge(&space, &found, None);
             let mut outcome = kept.correct(&mut space, &found, right);
-            let responses: Vec<&[c64]> =
-                outcome.at.iter().map(|line| line.updated_response.as_slice()).collect();
-            outcome.sensors = kept.sensor_fits(&task.sigma, &contradicting, &responses, outcome.noise.level);
+            outcome.sensors = kept.sensor_fits(&task.sigma, &contradicting, &outcome);
+            *trained = Some(space.into_subspace());
             outcome
         }
         Err(breakdown) => task.broken(breakdown),
     })
+}
+
+/// The nominal values, `[frequency][unknown]`.
+fn nominal_of(problem: &Problem<'_>) -> Result<Vec<Vec<c64>>, OutsideTable> {
+    let composite = Composite { model: problem.model, unknowns: problem.unknowns };
+    problem.frfs.frequency_hz.iter().map(|&f| composite.nominal(f)).collect()
+}
+
+/// A subspace that is good over the box of all unknowns.
+pub(super) fn train<'a>(
+    problem: &Problem<'a>,
+    hooks: Context<'_>,
+) -> Result<Result<Subspace<'a>, Breakdown>, OutsideTable> {
+    reduced_band::train(problem, &nominal_of(problem)?, hooks)
 }
 
 impl Task<'_, '_> {
@@ -122,6 +142,7 @@ impl Task<'_, '_> {
             coordinates: Vec::new(),
             correlation: Vec::new(),
             directions: Vec::new(),
+            channels: vec![Calibration::default(); self.problem.channels.len()],
             profile: None,
             noise: NoiseLevel::new(self.problem.frfs.noise, None, None),
             fit: None,

@@ -1,5 +1,6 @@
 //! What came out when several things were looked for.
 
+use crate::identify::band::Calibration;
 use crate::identify::goodness_of_fit::{GoodnessOfFit, SensorFit};
 use crate::identify::model_errors::{Leverage, ModelErrorsFound};
 use crate::identify::noise::NoiseLevel;
@@ -35,16 +36,25 @@ pub struct BandValue {
     pub status: Status,
 }
 
+/// What a number that holds for the band belongs to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum NumberOf {
+    /// An unknown, by its index.
+    Unknown(usize),
+    /// The channel of a sensor, by its index.
+    Channel(usize),
+}
+
 /// A number that holds for the band, as a coordinate of the directions below.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BandCoordinate {
-    /// Index of the unknown.
-    pub unknown: usize,
-    /// Name of its number: `value`, `storage`, `loss_factor`, or that of a law.
+    /// What it belongs to.
+    pub of: NumberOf,
+    /// Name of the number: `value`, `storage`, `loss_factor`, or that of a law; of a channel `scale` or `delay_s`.
     pub number: String,
 }
 
-/// A direction in the logarithms of the numbers that hold for the band.
+/// A direction in the logarithms of the numbers that hold for the band; of a delay in radians at the top of the band.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Direction {
     /// (index of the coordinate, its weight), the weights' squares summing to one, largest first.
@@ -73,6 +83,8 @@ pub(in crate::identify) struct SeveralOutcome {
     pub(in crate::identify) correlation: Vec<Vec<f64>>,
     /// Combinations of them, the one that is told worst first.
     pub(in crate::identify) directions: Vec<Direction>,
+    /// One for each sensor; empty where all channels are calibrated.
+    pub(in crate::identify) channels: Vec<Calibration>,
     /// χ² along the first of them.
     pub(in crate::identify) profile: Option<Profile>,
     /// How large the noise is.

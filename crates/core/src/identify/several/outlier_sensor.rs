@@ -1,11 +1,13 @@
 //! A sensor that contradicts the others: all unknowns are found without each in turn.
 
 use super::Task;
+use super::outcome::SeveralOutcome;
 use super::reduced_band::ReducedBand;
 use super::search::BandSolution;
 use crate::identify::band::{OUTLIER_FREQUENCIES, OUTLIER_RATIO};
 use crate::identify::goodness_of_fit::SensorFit;
 use crate::identify::noise::{Noise, level_of, without};
+use crate::identify::outcome::Line;
 use crate::identify::thinned::thinned;
 use crate::identify::unknown::Unknown;
 
@@ -28,12 +30,12 @@ impl Task<'_, '_> {
         let mut out: Vec<usize> = Vec::new();
         while with_all > OUTLIER_RATIO * floor && self.is_determined(sensors - out.len()) {
             let mut trials: Vec<(f64, usize)> = (0..sensors)
-                .filter(|m| !out.contains(m))
+                .filter(|m| !out.contains(m) && self.is_calibrated_without(&[&out[..], &[*m]].concat()))
                 .map(|m| (self.chi_squared_without(space, &[&out[..], &[m]].concat()), m))
                 .collect();
             trials.sort_by(|a, b| a.0.total_cmp(&b.0));
-            let (least, worst) = trials[0];
-            if OUTLIER_RATIO * least.max(floor) >= with_all.min(trials[1].0) {
+            let (Some(&(least, worst)), second) = (trials.first(), trials.get(1)) else { break };
+            if OUTLIER_RATIO * least.max(floor) >= second.map_or(with_all, |second| with_all.min(second.0)) {
                 break;
             }
             out.push(worst);
@@ -47,8 +49,15 @@ impl Task<'_, '_> {
         sensors > 2 && 2 * (sensors - 1) > self.own()
     }
 
+    /// Whether a calibrated channel is left without some, if there is any: what tells sizes is never left out.
+    fn is_calibrated_without(&self, out: &[usize]) -> bool {
+        let is_calibrated = |m: &usize| self.problem.channels.get(*m).is_none_or(|channel| !channel.any());
+        let mut calibrated = (0..self.problem.experiment.sensors.len()).filter(is_calibrated).peekable();
+        calibrated.peek().is_none() || calibrated.any(|m| !out.contains(&m))
+    }
+
     /// Real numbers that a frequency has of its own.
-    fn own(&self) -> usize {
+    pub(super) fn own(&self) -> usize {
         self.problem.unknowns.iter().map(Unknown::per_frequency).sum()
     }
 
@@ -83,15 +92,17 @@ impl Task<'_, '_> {
         &self,
         assumed: &[Vec<f64>],
         contradicting: &[usize],
-        responses: &[&[crate::c64]],
-        level: Option<f64>,
+        outcome: &SeveralOutcome,
     ) -> Vec<SensorFit> {
+        let level = outcome.noise.level;
         let one = |m: usize| {
-            let square = |(i, x): (usize, &&[crate::c64])| {
-                let off = (self.problem.frfs.receptance[i][m] - x.get(m)?).norm_sqr();
+            let channel = outcome.channels.get(m).copied().unwrap_or_default();
+            let square = |(i, line): (usize, &Line)| {
+                let shown = line.updated_response.get(m)? / channel.factor(line.frequency_hz);
+                let off = (self.problem.frfs.receptance[i][m] - shown).norm_sqr();
                 Some(off / (2.0 * (level? * assumed[i][m]).powi(2))).filter(|square| square.is_finite())
             };
-            let squares: Vec<f64> = responses.iter().enumerate().filter_map(square).collect();
+            let squares: Vec<f64> = outcome.at.iter().enumerate().filter_map(square).collect();
             let misfit = (squares.iter().sum::<f64>() / squares.len() as f64).sqrt();
             SensorFit {
                 misfit: Some(misfit).filter(|misfit| misfit.is_finite()),

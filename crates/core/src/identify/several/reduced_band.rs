@@ -6,10 +6,11 @@ use crate::identify::band::{
     BOX_TOL, MAX_NEIGHBOURHOODS, MAX_TRAINING_FREQUENCIES, MIN_NEIGHBOURHOOD_LINES, TRAINED_TOL, is_certain,
 };
 use crate::identify::context::{Context, Stage};
+use crate::identify::problem::Problem;
 use crate::identify::thinned::thinned;
 use crate::identify::unknown::{Composite, Unknown};
 use crate::material::{OutsideTable, loss_factor};
-use crate::model::{Experiment, ModelAt};
+use crate::model::ModelAt;
 use crate::response::Work;
 use crate::subspace::{Assessment, Corrected, Local, ModalErrors, Modes};
 use crate::subspace::{Point, Projection, Subspace, TrainOptions};
@@ -35,7 +36,7 @@ pub(super) struct ReducedBand<'a> {
     pub(super) composite: Composite<'a>,
     frequency_hz: &'a [f64],
     /// `[frequency][unknown]`.
-    nominal: &'a [Vec<c64>],
+    nominal: Vec<Vec<c64>>,
     subspace: Subspace<'a>,
     /// First and last frequency of each neighbourhood, and its model.
     blocks: Vec<([usize; 2], Option<Local>)>,
@@ -47,54 +48,76 @@ pub(super) struct ReducedBand<'a> {
 /// A response and its slopes: x_m, and ∂x_m/∂p_j as `[unknown][sensor]`.
 pub(super) type Responded = (Vec<c64>, Vec<Vec<c64>>);
 
+/// Trains over the box.
+///
+/// # Errors
+/// [`Breakdown`] where no real stand-in for D can be factorised, [`OutsideTable`] where a table ends within the band.
+pub(super) fn train<'a>(
+    problem: &Problem<'a>,
+    nominal: &[Vec<c64>],
+    hooks: Context<'_>,
+) -> Result<Result<Subspace<'a>, Breakdown>, OutsideTable> {
+    let composite = Composite { model: problem.model, unknowns: problem.unknowns };
+    let frequency_hz = problem.frfs.frequency_hz;
+    let n = frequency_hz.len();
+    (hooks.progress)(Stage::Subspace, 0, n);
+    let reference = composite.at(frequency_hz[n - 1], &nominal[n - 1])?;
+    let mut subspace = match Subspace::new(problem.experiment, &reference) {
+        Ok(subspace) => subspace,
+        Err(breakdown) => return Ok(Err(breakdown)),
+    };
+    let all: Vec<usize> = (0..n).collect();
+    let mut points = Vec::new();
+    for (k, &i) in thinned(&all, MAX_TRAINING_FREQUENCIES).enumerate() {
+        points.extend(box_points(&composite, frequency_hz[i], &nominal[i], k)?);
+    }
+    let training =
+        TrainOptions { tolerance: BOX_TOL, factorisations: MAX_FACTORISATIONS, ..TrainOptions::default() };
+    Ok(subspace.train(&points, &training, hooks.for_each).map(|_| subspace))
+}
+
+/// Everything at its nominal value, and points of a sequence over the box.
+fn box_points<'a>(
+    composite: &Composite<'a>,
+    frequency_hz: f64,
+    nominal: &[c64],
+    k: usize,
+) -> Result<Vec<Point<'a>>, OutsideTable> {
+    let count = TRAINING_POINTS_PER_UNKNOWN * nominal.len();
+    let values = std::iter::once(nominal.to_vec());
+    let values = values.chain((0..count).map(|p| in_box(composite, nominal, 1 + k * count + p)));
+    let point =
+        |values: Vec<c64>| Ok(Point { at: composite.at(frequency_hz, &values)?, correction: c64::default() });
+    values.map(point).collect()
+}
+
 impl<'a> ReducedBand<'a> {
-    /// Trains over the box.
-    ///
-    /// # Errors
-    /// [`Breakdown`] where no real stand-in for D can be factorised, [`OutsideTable`] where a table ends within the band.
+    /// The models of the neighbourhoods of a band on a subspace that was trained for it.
     pub(super) fn new(
-        composite: Composite<'a>,
-        experiment: &'a Experiment,
-        frequency_hz: &'a [f64],
-        nominal: &'a [Vec<c64>],
+        subspace: Subspace<'a>,
+        problem: &Problem<'a>,
+        nominal: &[Vec<c64>],
         hooks: Context<'_>,
-    ) -> Result<Result<Self, Breakdown>, OutsideTable> {
+    ) -> Self {
+        let composite = Composite { model: problem.model, unknowns: problem.unknowns };
+        let frequency_hz = problem.frfs.frequency_hz;
         let n = frequency_hz.len();
-        (hooks.progress)(Stage::Subspace, 0, n);
-        let reference = composite.at(frequency_hz[n - 1], &nominal[n - 1])?;
-        let subspace = match Subspace::new(experiment, &reference) {
-            Ok(subspace) => subspace,
-            Err(breakdown) => return Ok(Err(breakdown)),
-        };
         let count = (n / MIN_NEIGHBOURHOOD_LINES).clamp(1, MAX_NEIGHBOURHOODS);
         let ends = (0..count).map(|b| [b * n / count, (b + 1) * n / count - 1]);
         let blocks = ends.map(|ends| (ends, None)).collect();
-        let (answers, corrected) = (Vec::new(), None);
+        let (answers, corrected, nominal) = (Vec::new(), None, nominal.to_vec());
         let mut space = Self { composite, frequency_hz, nominal, subspace, blocks, answers, corrected };
-        let all: Vec<usize> = (0..n).collect();
-        let mut points = Vec::new();
-        for (k, &i) in thinned(&all, MAX_TRAINING_FREQUENCIES).enumerate() {
-            points.extend(space.box_points(i, k)?);
-        }
-        let training = TrainOptions {
-            tolerance: BOX_TOL,
-            factorisations: MAX_FACTORISATIONS,
-            ..TrainOptions::default()
-        };
-        if let Err(breakdown) = space.subspace.train(&points, &training, hooks.for_each) {
-            return Ok(Err(breakdown));
-        }
         space.localise(hooks.for_each);
-        Ok(Ok(space))
+        space
     }
 
-    /// Everything at its nominal value, and points of a sequence over the box.
+    /// What the next one may train further.
+    pub(super) fn into_subspace(self) -> Subspace<'a> {
+        self.subspace
+    }
+
     fn box_points(&self, i: usize, k: usize) -> Result<Vec<Point<'a>>, OutsideTable> {
-        let count = TRAINING_POINTS_PER_UNKNOWN * self.nominal[i].len();
-        let values = std::iter::once(self.nominal[i].clone());
-        let values =
-            values.chain((0..count).map(|p| in_box(&self.composite, &self.nominal[i], 1 + k * count + p)));
-        values.map(|values| self.point(i, &values)).collect()
+        box_points(&self.composite, self.frequency_hz[i], &self.nominal[i], k)
     }
 
     fn point(&self, i: usize, values: &[c64]) -> Result<Point<'a>, OutsideTable> {

@@ -79,8 +79,15 @@ pub(super) enum Reach {
     Far,
 }
 
+/// Where a search begins.
+#[derive(Debug, Clone)]
+pub(super) struct Begin {
+    pub(super) coordinates: Coordinates,
+    pub(super) theta: Vec<f64>,
+}
+
 /// Where solutions are looked for at a frequency.
-enum Guess<'g> {
+pub(super) enum Guess<'g> {
     /// Near some values, and all over the box.
     Everywhere(&'g [c64]),
     /// Where they were.
@@ -99,7 +106,7 @@ impl Task<'_, '_> {
             1 + tried.iter().filter(|other| other.0 <= least * (1.0 + AGREEING_MISFIT_RTOL)).count();
         let found = match part.len() == all.len() {
             true => first,
-            false => self.follow(space, &all, first.theta, &Guess::Everywhere(&values)),
+            false => self.follow(space, &all, first.begin(), &Guess::Everywhere(&values)),
         };
         let found = self.refined(space, found);
         (self.hooks.progress)(Stage::Solutions, all.len(), all.len());
@@ -114,7 +121,8 @@ impl Task<'_, '_> {
         values: &[c64],
     ) -> BandSolution {
         let all: Vec<usize> = (0..self.omegas.len()).collect();
-        let found = self.follow(space, &all, theta, &Guess::Everywhere(values));
+        let begin = Begin { coordinates: self.coordinates(), theta };
+        let found = self.follow(space, &all, begin, &Guess::Everywhere(values));
         self.refined(space, found)
     }
 
@@ -128,7 +136,7 @@ impl Task<'_, '_> {
                 break;
             }
             let known = std::mem::take(&mut found.solutions);
-            found = self.follow(space, &all, found.theta, &Guess::Known(&known));
+            found = self.follow(space, &all, found.begin(), &Guess::Known(&known));
         }
         found
     }
@@ -146,7 +154,8 @@ impl Task<'_, '_> {
         }
         let mut tried = Vec::with_capacity(begin.len());
         for values in begin {
-            let found = self.follow(space, which, self.theta(&values), &Guess::Everywhere(&values));
+            let begin = self.begin(space, which, &values);
+            let found = self.follow(space, which, begin, &Guess::Everywhere(&values));
             tried.push((found.misfit(), found, values));
         }
         tried.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -157,10 +166,11 @@ impl Task<'_, '_> {
     pub(super) fn coordinates(&self) -> Coordinates {
         let middle = &self.nominal[self.nominal.len() / 2];
         Coordinates::new(self.problem.unknowns, |one| one.varies.clone(), middle, &self.omegas)
+            .with_channels(self.problem.channels, &self.omegas)
     }
 
-    /// θ that begins with these constants; a law with the shape of its nominal.
-    fn theta(&self, values: &[c64]) -> Vec<f64> {
+    /// θ that begins with these constants and calibrated channels; a law with the shape of its nominal.
+    pub(super) fn theta(&self, coordinates: &Coordinates, values: &[c64]) -> Vec<f64> {
         let middle = &self.nominal[self.nominal.len() / 2];
         let law = |parametrization: &Parametrization, j: usize| {
             let ratio = values[j] / middle[j];
@@ -174,11 +184,17 @@ impl Task<'_, '_> {
             nearest(parametrization, &data)
                 .map_or_else(|| vec![0.0; parametrization.kind.count()], |near| near.best.theta)
         };
-        self.coordinates().of(values, law)
+        coordinates.of(values, law)
     }
 
     /// All unknowns at a frequency, those that it has of its own at some given values; and ∂p/∂θ: (unknown, coordinate, slope).
-    fn given(&self, coordinates: &Coordinates, theta: &[f64], i: usize, own: &[c64]) -> Option<Given> {
+    pub(super) fn given(
+        &self,
+        coordinates: &Coordinates,
+        theta: &[f64],
+        i: usize,
+        own: &[c64],
+    ) -> Option<Given> {
         let mut values = own.to_vec();
         let mut slopes = Vec::with_capacity(theta.len());
         for one in &coordinates.each {
@@ -190,15 +206,14 @@ impl Task<'_, '_> {
     }
 
     /// Solutions, the choice among them and θ in turn, until the choice stays.
-    fn follow(
+    pub(super) fn follow(
         &self,
         space: &ReducedBand<'_>,
         which: &[usize],
-        theta: Vec<f64>,
+        begin: Begin,
         guess: &Guess<'_>,
     ) -> BandSolution {
-        let coordinates = self.coordinates();
-        let mut found = self.found(space, which, coordinates, theta, guess);
+        let mut found = self.found(space, which, begin, guess);
         for _ in 0..MAX_CHOICE_ROUNDS {
             if found.theta.is_empty() {
                 break;
@@ -207,7 +222,8 @@ impl Task<'_, '_> {
             let Some((theta, converged)) = self.descend(space, which, &found) else { break };
             let moved = super::at_frequency::distance(&before, &theta);
             let known = std::mem::take(&mut found.solutions);
-            found = self.found(space, which, found.coordinates, theta, &Guess::Known(&known));
+            let begin = Begin { theta, ..found.begin() };
+            found = self.found(space, which, begin, &Guess::Known(&known));
             found.converged = converged;
             if moved <= THETA_STEP_TOL {
                 break;
@@ -220,8 +236,7 @@ impl Task<'_, '_> {
         &self,
         space: &ReducedBand<'_>,
         which: &[usize],
-        coordinates: Coordinates,
-        theta: Vec<f64>,
+        Begin { coordinates, theta }: Begin,
         guess: &Guess<'_>,
     ) -> BandSolution {
         let at = At { space, coordinates: &coordinates, theta: &theta };
@@ -282,7 +297,7 @@ impl Task<'_, '_> {
         let others =
             self.problem.unknowns.iter().filter(|one| one.per_frequency() > 0).count() - factors.len();
         let found = match (factors.as_slice(), others) {
-            (&[j], 0) => self.all_of((at.space, at.space.model(i)), i, j, &given),
+            (&[j], 0) => self.all_of(at, at.space.model(i), (i, j), &given),
             (&[a, b], 0) => {
                 let rough = rough.insert(at.space.rough(i));
                 let along = |a: usize, b: usize| {
@@ -290,7 +305,7 @@ impl Task<'_, '_> {
                     let with = |value: c64| {
                         let mut values = given.clone();
                         values[b] = value;
-                        self.all_of((at.space, rough), i, a, &values)
+                        self.all_of(at, rough, (i, a), &values)
                     };
                     grid.flat_map(with).collect::<Vec<_>>()
                 };
@@ -317,7 +332,8 @@ impl Task<'_, '_> {
             return Vec::new();
         };
         let on = |model: &Projection, starts: &[Vec<f64>]| {
-            self.spot(i).solutions(starts, &given, |values| at.space.respond_on(model, i, values))
+            let shown = |x| at.coordinates.channels.shown(at.theta, self.problem.frfs.frequency_hz[i], x);
+            self.spot(i).solutions(starts, &given, |values| at.space.respond_on(model, i, values).map(shown))
         };
         if starts.len() <= WHOLE_MODEL_STARTS {
             return on(at.space.model(i), starts);
@@ -335,21 +351,19 @@ impl Task<'_, '_> {
     /// All values of one unknown that stands for a factor (B-2), the others as given: where all sensors' misfit is least.
     fn all_of(
         &self,
-        (space, model): (&ReducedBand<'_>, &Projection),
-        i: usize,
-        j: usize,
+        at: &At<'_, '_>,
+        model: &Projection,
+        (i, j): (usize, usize),
         given: &[c64],
     ) -> Vec<Vec<c64>> {
-        let Some(mut at) = space.at(i, given) else { return Vec::new() };
-        at.parameters.swap(0, j);
-        at.parameters.truncate(1);
-        let fit = Fit {
-            measured: &self.problem.frfs.receptance[i],
-            sigma: &self.sigma[i],
-            nominal: given[j],
-            unknown: &self.problem.unknowns[j],
-            options: self.options,
-        };
+        let frequency_hz = self.problem.frfs.frequency_hz[i];
+        let channels = &at.coordinates.channels;
+        let measured = channels.calibrated(at.theta, frequency_hz, &self.problem.frfs.receptance[i]);
+        let sigma = channels.calibrated_sigma(at.theta, &self.sigma[i]);
+        let Ok(at) = at.space.composite.about_one(frequency_hz, given, j) else { return Vec::new() };
+        let unknown = &self.problem.unknowns[j];
+        let fit =
+            Fit { measured: &measured, sigma: &sigma, nominal: given[j], unknown, options: self.options };
         let values = |correction: c64| {
             let mut values = given.to_vec();
             values[j] += correction;
@@ -499,10 +513,12 @@ impl Task<'_, '_> {
             let i = which[k];
             let (given, slopes) = self.given(&found.coordinates, theta, i, &solution.values)?;
             let spot = self.spot(i);
+            let channels = &found.coordinates.channels;
             let here = match on {
                 None => solution.clone(),
                 Some(on) => spot.settle(&(on.start)(k)?, &given, |values| {
-                    on.space.respond_on((on.model)(k), i, values)
+                    let responded = on.space.respond_on((on.model)(k), i, values)?;
+                    Some(channels.shown(theta, self.problem.frfs.frequency_hz[i], responded))
                 })?,
             };
             let m = here.residuals.len();
@@ -516,6 +532,7 @@ impl Task<'_, '_> {
                     .collect::<Vec<f64>>()
             };
             let mut columns: Vec<f64> = slopes.iter().flat_map(column).collect();
+            columns.extend(channels.columns(&here.response, self.omegas[i], &self.sigma[i]));
             let contained = eliminate(&here.of_own, &mut columns, m);
             let moved = contained.into_iter().map(|x| x.into_iter().map(|x| -x).collect()).collect();
             Some(Some(Part { residuals: here.residuals, columns, own: here.own, moved }))
@@ -591,7 +608,7 @@ pub(super) struct On<'o, 'a> {
 }
 
 /// Values of all unknowns at a frequency, and (unknown, ∂p/∂θ) for each coordinate of θ.
-type Given = (Vec<c64>, Vec<(usize, c64)>);
+pub(super) type Given = (Vec<c64>, Vec<(usize, c64)>);
 
 /// A frequency's own coordinates y, and ∂y/∂θ as `[coordinate of θ][own]`.
 pub(super) type Moving = (Vec<f64>, Vec<Vec<f64>>);
@@ -628,6 +645,11 @@ impl Eliminated {
 }
 
 impl BandSolution {
+    /// Another search from where this one ended.
+    fn begin(&self) -> Begin {
+        Begin { coordinates: self.coordinates.clone(), theta: self.theta.clone() }
+    }
+
     /// The chosen solution at the k-th frequency.
     pub(super) fn at(&self, k: usize) -> Option<&Solution> {
         self.solutions[k].get(self.chosen[k].solution?)

@@ -6,8 +6,10 @@
 use super::Task;
 use super::coordinates::Coordinates;
 use super::reduced_band::{ReducedBand, in_box};
+use super::search::{Begin, Guess};
 use crate::c64;
 use crate::for_each::map;
+use crate::identify::band::{Channel, ChannelUnknowns, by_shape};
 use crate::identify::thinned::thinned;
 use crate::identify::unknown::Variation;
 use crate::laws::{Search, minimise};
@@ -52,23 +54,25 @@ impl Task<'_, '_> {
                 // A zero has no logarithm, and a sensor that is left out no say.
                 let kept: Vec<usize> =
                     (0..u.len()).filter(|&m| self.sigma[i][m].is_finite() && u[m].norm() > 0.0).collect();
-                let rest: Vec<c64> = kept.iter().map(|&m| (x[m] / u[m]).ln()).collect();
+                let rest: Vec<c64> = kept.iter().map(|&m| self.ln_ratio(m, x[m] / u[m])).collect();
                 let column = |(j, slope): (usize, c64)| -> Vec<c64> {
-                    kept.iter().map(|&m| of_values[j][m] * slope / x[m]).collect()
+                    kept.iter().map(|&m| self.of_known_phase(m, of_values[j][m] * slope / x[m])).collect()
                 };
                 let all =
                     slopes.iter().enumerate().flat_map(|(j, own)| own.iter().map(move |&slope| (j, slope)));
-                Some((rest, all.map(column).collect::<Vec<_>>()))
+                Some(Row { columns: std::iter::once(rest).chain(all.map(column)).collect(), kept })
             };
             let rows = map(self.hooks.for_each, which.len(), one).into_iter().collect::<Option<Vec<_>>>()?;
+            let rows = self.without_scales(rows);
             let parts = |values: &[c64]| values.iter().flat_map(|v| [v.re, v.im]).collect::<Vec<f64>>();
             let count = constants.count;
             // What nothing tells stays where it was.
             let stay = theta.iter().zip(&begin[0]).map(|(t, t0)| NOMINAL_WEIGHT * (t - t0));
-            let residuals: Vec<f64> = rows.iter().flat_map(|(rest, _)| parts(rest)).chain(stay).collect();
+            let residuals: Vec<f64> =
+                rows.iter().flat_map(|row| parts(&row.columns[0])).chain(stay).collect();
             let jacobian: Vec<f64> = (0..count)
                 .flat_map(|c| {
-                    let measured = rows.iter().flat_map(move |(_, columns)| parts(&columns[c]));
+                    let measured = rows.iter().flat_map(move |row| parts(&row.columns[1 + c]));
                     measured.chain((0..count).map(move |other| if other == c { NOMINAL_WEIGHT } else { 0.0 }))
                 })
                 .collect();
@@ -84,5 +88,98 @@ impl Task<'_, '_> {
             own.collect::<Option<Vec<c64>>>()
         };
         ends.filter_map(|end| values(&end.theta)).collect()
+    }
+
+    /// θ that begins with these constants, and channels that begin where most ratios of the responses to what was measured agree: the responses of these constants, or of what the
+    /// calibrated channels alone give where they are enough for it.
+    pub(super) fn begin(&self, space: &ReducedBand<'_>, which: &[usize], values: &[c64]) -> Begin {
+        let coordinates = self.coordinates();
+        let theta = self.theta(&coordinates, values);
+        let mut begin = Begin { coordinates, theta };
+        if begin.coordinates.channels.count() == 0 {
+            return begin;
+        }
+        let responses: Vec<Option<Vec<c64>>> = match self.of_calibrated_channels() {
+            Some(task) => {
+                let found = task.follow(space, which, begin.clone(), &Guess::Everywhere(values));
+                begin.theta.clone_from(&found.theta);
+                (0..which.len())
+                    .map(|k| Some(found.at(k).or(found.solutions[k].first())?.response.clone()))
+                    .collect()
+            }
+            None => {
+                let respond = |&i: &usize| {
+                    let (values, _) = self.given(&begin.coordinates, &begin.theta, i, values)?;
+                    Some(space.respond(i, &values)?.0)
+                };
+                which.iter().map(respond).collect()
+            }
+        };
+        let channels = self.matching(which, &responses, begin.coordinates.channels.top_rad_s());
+        begin.coordinates.channels.begin_at(&channels, &mut begin.theta);
+        begin
+    }
+
+    /// The calibration of each channel with which these responses are what was measured.
+    fn matching(&self, which: &[usize], responses: &[Option<Vec<c64>>], top_rad_s: f64) -> Vec<Channel> {
+        let one = |(m, &unknown)| {
+            let ratio = |(&i, x): (&usize, &Option<Vec<c64>>)| {
+                Some((self.omegas[i], x.as_ref()?[m] / self.problem.frfs.receptance[i][m]))
+            };
+            let ratios: Vec<(f64, c64)> = which.iter().zip(responses).filter_map(ratio).collect();
+            by_shape(&ratios, unknown, top_rad_s).unwrap_or(Channel::CALIBRATED)
+        };
+        self.problem.channels.iter().enumerate().map(one).collect()
+    }
+
+    /// The same task of the calibrated channels alone; `None` where they measure fewer numbers at a frequency than it has of its own.
+    fn of_calibrated_channels(&self) -> Option<Self> {
+        let is_free = |m: &usize| self.problem.channels.get(*m).is_some_and(|channel| channel.any());
+        let sensors = self.problem.experiment.sensors.len();
+        let out: Vec<usize> = (0..sensors).filter(|m| self.left_out.contains(m) || is_free(m)).collect();
+        let left = sensors - out.len();
+        (left > 0 && 2 * left >= self.own()).then(|| self.leaving_out(&out))
+    }
+
+    /// ln(x/u) as far as the channel lets it be known: where its scale is unknown the sense is too, and where its delay is unknown the phase.
+    fn ln_ratio(&self, m: usize, ratio: c64) -> c64 {
+        let unknown = self.channel(m);
+        self.of_known_phase(m, if unknown.scale { 0.5 * (ratio * ratio).ln() } else { ratio.ln() })
+    }
+
+    /// Without the imaginary part where the delay is unknown.
+    fn of_known_phase(&self, m: usize, ln: c64) -> c64 {
+        if self.channel(m).delay { c64::new(ln.re, 0.0) } else { ln }
+    }
+
+    /// Logarithms without what unknown scales add to them: their mean over the band.
+    fn without_scales(&self, mut rows: Vec<Row>) -> Vec<Row> {
+        let columns = rows.first().map_or(0, |row| row.columns.len());
+        for (m, _) in self.problem.channels.iter().enumerate().filter(|(_, channel)| channel.scale) {
+            for c in 0..columns {
+                let mut logs: Vec<&mut c64> = rows.iter_mut().filter_map(|row| row.at(m, c)).collect();
+                let mean = logs.iter().map(|ln| ln.re).sum::<f64>() / logs.len().max(1) as f64;
+                logs.iter_mut().for_each(|ln| ln.re -= mean);
+            }
+        }
+        rows
+    }
+
+    fn channel(&self, m: usize) -> ChannelUnknowns {
+        self.problem.channels.get(m).copied().unwrap_or_default()
+    }
+}
+
+/// The logarithms of one frequency.
+struct Row {
+    /// Residuals, then their slopes by each coordinate, of the sensors that are kept.
+    columns: Vec<Vec<c64>>,
+    kept: Vec<usize>,
+}
+
+impl Row {
+    fn at(&mut self, sensor: usize, column: usize) -> Option<&mut c64> {
+        let k = self.kept.iter().position(|&m| m == sensor)?;
+        Some(&mut self.columns[column][k])
     }
 }

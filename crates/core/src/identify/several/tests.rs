@@ -73,7 +73,8 @@ fn all_solutions_of_two_unknowns_are_found() {
     let nominal = vec![vec![LOSSY; 2]; frequency_hz.len()];
     let hooks = Context { for_each: &sequential, progress: &|_, _, _| {} };
     let composite = Composite { model: &model, unknowns: &unknowns };
-    let space = ReducedBand::new(composite, &experiment, &frequency_hz, &nominal, hooks).unwrap().unwrap();
+    let subspace = train(&problem, hooks).unwrap().unwrap();
+    let space = ReducedBand::new(subspace, &problem, &nominal, hooks);
     let options = Options::default();
     let task = Task {
         problem: &problem,

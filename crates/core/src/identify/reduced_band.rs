@@ -1,0 +1,57 @@
+//! One reduced model of a band, shared by diagnostics and identification.
+
+use super::band;
+use super::context::Context;
+use super::options::Options;
+use super::problem::{Problem, ProblemError};
+use super::several;
+use crate::response::Work;
+use crate::subspace::Subspace;
+use std::ptr;
+
+/// One reduced model of a band (B-3), for [`diagnose_on`](crate::diagnostics::diagnose_on) and
+/// [`identify_on`](super::identify_on): whoever needs it first trains it over the box of all unknowns, and the next one
+/// trains it further where answers need that. Of another problem it begins anew.
+#[derive(Debug, Default)]
+pub struct ReducedBand<'a> {
+    /// What it was trained for.
+    problem: Option<&'a Problem<'a>>,
+    pub(super) subspace: Option<Subspace<'a>>,
+}
+
+impl<'a> ReducedBand<'a> {
+    /// All work of size N of its training so far.
+    pub fn work(&self) -> Work {
+        self.subspace.as_ref().map_or(Work::default(), Subspace::work)
+    }
+
+    /// The subspace, trained where it is not there yet; `None` where no real stand-in for D can be factorised.
+    pub(crate) fn trained(
+        &mut self,
+        problem: &'a Problem<'a>,
+        options: &Options,
+        context: Context<'_>,
+    ) -> Result<Option<&Subspace<'a>>, ProblemError> {
+        self.begin(problem);
+        if self.subspace.is_none() {
+            problem.check_options(options)?;
+            let trained = match problem.single() {
+                Some((_, parameter)) => {
+                    let band = problem.band(0, parameter);
+                    let at = band.model.at_all(band.frequency_hz, std::slice::from_ref(parameter))?;
+                    band::train(&band, &at, options, context)
+                }
+                None => several::train(problem, context)?,
+            };
+            self.subspace = trained.ok();
+        }
+        Ok(self.subspace.as_ref())
+    }
+
+    /// Forgets the model of another problem.
+    pub(super) fn begin(&mut self, problem: &'a Problem<'a>) {
+        if !self.problem.is_some_and(|before| ptr::eq(before, problem)) {
+            *self = Self { problem: Some(problem), subspace: None };
+        }
+    }
+}
