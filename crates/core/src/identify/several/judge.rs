@@ -60,6 +60,7 @@ impl Task<'_, '_> {
         let level = noise.level;
         let fit = level
             .and_then(|level| judge(chi_squared / (level * level), freedom, &noise, self.problem.frfs.noise));
+        let of_bars = level_of_bars(level, fit);
         // Of θ, and of the errors of the model that it hangs on.
         let joint = errors.map(|errors| {
             let of_band = found.coordinates.each.iter().flat_map(|own| errors.range(own.unknowns));
@@ -113,10 +114,10 @@ impl Task<'_, '_> {
         let channels = found.coordinates.channels.found(&found.theta, |c| {
             let mut gradient = vec![0.0; n];
             gradient[c] = 1.0;
-            Some(level? * information.as_ref()?.covariance(&gradient, &gradient).sqrt())
+            Some(of_bars? * information.as_ref()?.covariance(&gradient, &gradient).sqrt())
         });
         let (directions, correlation) = match &information {
-            Some(information) if n > 0 => (directions(information, level), correlation(information, found)),
+            Some(information) if n > 0 => (directions(information, of_bars), correlation(information, found)),
             _ => (Vec::new(), Vec::new()),
         };
         let informed = place.as_ref().zip(information.as_ref());
@@ -128,7 +129,7 @@ impl Task<'_, '_> {
             let (values, slopes) = one.numbers(&found.theta);
             let std = |row: &[f64]| {
                 let gradient = one.gradient(row.iter().copied(), n);
-                Some(level? * information.as_ref()?.covariance(&gradient, &gradient).sqrt())
+                Some(of_bars? * information.as_ref()?.covariance(&gradient, &gradient).sqrt())
             };
             let numbers: Vec<Number> = names(one.kind())
                 .into_iter()
@@ -200,7 +201,7 @@ impl Task<'_, '_> {
         };
         let measured = &calibrated(&self.problem.frfs.receptance[i]);
         let response = calibrated(&solution.response);
-        let values = self.with_bars(found, i, solution, level, known.as_ref());
+        let values = self.with_bars(found, i, solution, level_of_bars(level, fit), known.as_ref());
         let count = 2 * (measured.len() - self.left_out.len());
         let kept = |values: &[c64]| -> Vec<c64> {
             let kept = values.iter().enumerate().filter(|(m, _)| !self.left_out.contains(m));
@@ -341,6 +342,11 @@ fn is_known(value: &LineValue) -> bool {
     let eta = loss_factor(found).abs().max(MIN_KNOWN_LOSS_FACTOR);
     bars.storage_std <= KNOWN_RELATIVE_STD * found.norm()
         && bars.loss_factor_std.is_none_or(|std| std <= KNOWN_RELATIVE_STD * eta)
+}
+
+/// Noise over σ in error bars: what is left of a band that is nearly explained makes them longer.
+fn level_of_bars(level: Option<f64>, fit: Option<GoodnessOfFit>) -> Option<f64> {
+    level.map(|level| level * fit.map_or(1.0, |fit| fit.excess()))
 }
 
 /// A value with deviations from the covariance of its parts at σ and the level of the noise.
