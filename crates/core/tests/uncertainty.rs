@@ -91,6 +91,35 @@ fn mean(values: impl Iterator<Item = f64>) -> f64 {
     sum / f64::from(count)
 }
 
+/// Noise that is larger than was said makes bars as long as if its size had been said, and a stretch where it is far larger is not explained.
+#[test]
+fn bars_are_longer_where_more_than_the_given_noise_is_left() {
+    const TIMES: f64 = 1.3;
+    let case = springs();
+    let nominal = case.parameter.nominal.at(5.0).unwrap().re;
+    let setup = within(nominal, 1.25).with_model_errors(ModelErrors::None);
+    let made = Measured::clean(&case, linear_hz(2.0, 12.0, 200), 1.0, 0.01);
+    let u = made.drawn(7);
+    let found = |std: &[Vec<f64>]| identify(&case, &made, &u, Noise::Known(std), &setup);
+    let said = |times: &dyn Fn(usize) -> f64| -> Vec<Vec<f64>> {
+        let row = |(i, row): (usize, &Vec<f64>)| row.iter().map(|std| std / times(i)).collect();
+        made.std.iter().enumerate().map(row).collect()
+    };
+    let [right, short] = [1.0, TIMES].map(|times| found(&said(&|_| times)));
+    assert_eq!(right.fit.unwrap().verdict, Explained::Yes);
+    assert_eq!(short.fit.unwrap().verdict, Explained::Nearly);
+    for (right, short) in right.lines.iter().zip(&short.lines) {
+        let [right, short] = [right, short].map(|line| line.uncertainty().unwrap().storage_std);
+        // χ² of 400 degrees of freedom is known to 7 %, its root to 3.5 %; of a stretch of 42 the root may be 1.4 times as large.
+        assert!(short > 0.9 * right && short < 1.6 * right, "{short} {right}");
+    }
+    // Two and a half times too small in an eighth of the band.
+    let of_part = found(&said(&|i| if (100..125).contains(&i) { 2.5 } else { 1.0 }));
+    assert!(of_part.lines[105..120].iter().all(|line| line.status != Status::Ok));
+    let elsewhere = of_part.lines[..85].iter().chain(&of_part.lines[140..]);
+    assert!(elsewhere.filter(|line| line.status == Status::Ok).count() > 120);
+}
+
 /// Formula against Monte Carlo: 1500 draws, on the full model, a frequency at a time.
 #[test]
 fn deviations_and_correlation_are_those_of_many_draws() {

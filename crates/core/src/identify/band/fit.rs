@@ -23,15 +23,21 @@ pub(super) fn goodness(
 /// Lines on each side that are looked at together with a line.
 const NEIGHBOURS: usize = 10;
 
+/// More lines than this share that are not explained are no outliers.
+const MAX_OUTLIER_SHARE: f64 = 0.25;
+
 /// χ² per degree of freedom of each line and its neighbours, where that is more than noise leaves by chance; 1 elsewhere. Lines that are
-/// not explained by themselves do not count.
+/// not explained by themselves count only where they are many: single ones are outliers, as hum is.
 pub(super) fn excess_of_neighbours(outcomes: &[Line], fit: &GoodnessOfFit) -> Vec<f64> {
     let counts = |line: &&Line| line.on_path && line.chi_squared.is_some();
     let each = fit.freedom as f64 / outcomes.iter().filter(counts).count().max(1) as f64;
     let of = |i: usize| {
         let near = &outcomes[i.saturating_sub(NEIGHBOURS)..outcomes.len().min(i + NEIGHBOURS + 1)];
-        let near = near.iter().filter(|line| line.on_path && line.status != Status::Unexplained);
-        let squares: Vec<f64> = near.filter_map(|line| line.chi_squared).collect();
+        let is_explained = |line: &&Line| line.on_path && line.status != Status::Unexplained;
+        let explained = near.iter().filter(is_explained).count();
+        let is_stretch = (near.len() - explained) as f64 > MAX_OUTLIER_SHARE * near.len() as f64;
+        let counted = near.iter().filter(|line| is_stretch || is_explained(line));
+        let squares: Vec<f64> = counted.filter_map(|line| line.chi_squared).collect();
         excess(each * squares.iter().sum::<f64>(), each * squares.len() as f64)
     };
     (0..outcomes.len()).map(of).collect()
