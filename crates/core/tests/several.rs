@@ -231,7 +231,7 @@ fn two_moduli(sensors: usize, frequencies: usize) -> (usize, usize) {
     (right, wrong_and_ok)
 }
 
-/// As many equations as unknowns at three frequencies: no path tells all solutions apart, and an ambiguous line has them all.
+/// As many equations as unknowns at three frequencies: no path distinguishes all solutions, and an ambiguous line has them all.
 #[test]
 fn an_ambiguous_line_has_its_likeliest_values_and_its_rivals() {
     let mut case = two_part_chain(24);

@@ -65,7 +65,7 @@ fn one_training_for_a_check_and_an_identification() {
             let [apart, shared] = apart_and_shared(&case, &unknowns, &frequency_hz, wrong);
             assert_eq!(shared.0.findings.len(), findings, "{:?}", shared.0);
             assert_eq!(kinds(&apart.0), kinds(&shared.0));
-            // Numbers that nothing tells are not equal to themselves.
+            // Numbers that are not identifiable are NaN, which is not equal to itself.
             assert_eq!(format!("{:?}", apart.1), format!("{:?}", shared.1), "{varies:?}");
             assert!(apart.0.work.factorisations > 0);
         }

@@ -29,7 +29,7 @@ const MIN_LN_FACTOR: f64 = 0.1;
 /// A delay that turns the phase by less than this at the top of the band (rad) is a filter's, and no fault.
 const MIN_DELAY_PHASE_RAD: f64 = 0.2;
 
-/// A factor or delay of fewer deviations than this is none.
+/// A factor or delay of fewer standard deviations than this is not distinguished from zero.
 const SIGNIFICANT_STD: f64 = 5.0;
 
 /// Misfit up to which data are explained: noise and a constant law leave as much, and the rows of a neighbourhood cannot be distinguished by it.
@@ -167,7 +167,7 @@ pub(super) fn look<T>(
     Ok((diagnosis, own))
 }
 
-/// Frequencies to look at: half of them where the response is largest among its neighbours (there it tells of damping), the others evenly spaced, ascending.
+/// Frequencies to look at: half of them where the response is largest among its neighbours (there it depends on damping), the others evenly spaced, ascending.
 fn looked_at(band: &Band<'_>, most: usize) -> Vec<usize> {
     let usable: Vec<usize> = (0..band.frequency_hz.len()).filter(|&i| band.frequency_hz[i] > 0.0).collect();
     if usable.len() <= most {

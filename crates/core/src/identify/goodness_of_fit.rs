@@ -38,7 +38,7 @@ pub enum Explained {
     Nearly,
     /// What is left is no noise: the model cannot explain these measurements.
     No,
-    /// The level of the noise was found from what is left, and nothing else tells it.
+    /// The level of the noise was found from what is left, and there is no other evidence of it.
     Untested,
 }
 
@@ -120,7 +120,7 @@ pub(super) fn is_unexplained_stretch(excess: f64, noise: &NoiseLevel) -> bool {
 /// A sensor over the band.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SensorFit {
-    /// Root mean square of its misfit over its assumed deviation and the level of the noise, over all answers; `None` where there is none. Noise
+    /// Root mean square of its misfit over its assumed deviation and the level of the noise, over all answers; `None` without answers. Noise
     /// alone gives less than 1, the less the more of the answers it determines.
     pub misfit: Option<f64>,
     /// Whether it contradicts all others, which agree with one another without it.

@@ -21,7 +21,7 @@ const MIN_SCATTER_ANSWERS: usize = 12;
 /// Standard deviations √E|δx|² of measured receptances, `[frequency][sensor]`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Noise<'a> {
-    /// Not known: in proportion to the responses, by a factor that several sensors tell.
+    /// Not known: in proportion to the responses, by a factor that is estimated from several sensors.
     Unknown,
     /// Known up to a common factor, as from a coherence without the number of averages.
     Relative(&'a [Vec<f64>]),

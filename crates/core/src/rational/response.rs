@@ -8,7 +8,7 @@ use frfit_linalg::dense::{Matrix, NoConvergence, solve};
 use frfit_linalg::solve::Breakdown;
 use frfit_linalg::vector::{norm, transpose_dot};
 
-/// A reduced model of one parameter at one frequency, with the residual that tells how good it is.
+/// A reduced model of one parameter at one frequency, with the residual that measures its error.
 #[derive(Debug, Clone)]
 pub struct RationalResponse {
     /// s in z = c/s, as in the series.

@@ -29,14 +29,14 @@ impl ChannelUnknowns {
 pub struct Calibrated {
     /// Its value; of a scale negative where the channel's sense is reversed.
     pub value: f64,
-    /// Its standard deviation; `None` where nothing tells the noise.
+    /// Its standard deviation; `None` where the noise is unknown.
     pub std: Option<f64>,
 }
 
 /// What was found of a channel: its receptance is s e^{iωτ} times what was measured.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Calibration {
-    /// s; `None` where it was known, or the data do not tell it.
+    /// s; `None` where it was known, or is not identifiable.
     pub scale: Option<Calibrated>,
     /// τ, s: by how much the channel is late; `None` as above.
     pub delay_s: Option<Calibrated>,

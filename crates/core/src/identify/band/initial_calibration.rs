@@ -51,7 +51,7 @@ pub(super) fn aligned(ratios: &[(f64, c64)], unknown: ChannelUnknowns, top: f64)
     Some(Channel { scale, delay_s })
 }
 
-/// The same of responses of which the shape alone is right: the size of the scale is the median of logarithms, as they tell shapes, and its sense that of most ratios.
+/// The same of responses of which the shape alone is right: the size of the scale is the median of logarithms, as shapes are compared in them, and its sense that of most ratios.
 pub(in crate::identify) fn by_shape(
     ratios: &[(f64, c64)],
     unknown: ChannelUnknowns,

@@ -18,9 +18,9 @@ pub(in crate::identify) struct BandOutcome {
     pub subspace_size: Option<usize>,
     /// Frequencies at which all solutions were looked for; at the others those of their neighbours were followed.
     pub explored: usize,
-    /// How large the noise is, and what tells it. Nothing is known where each frequency is answered by itself.
+    /// How large the noise is, and the source of that. Unknown where each frequency is answered by itself.
     pub noise: NoiseLevel,
-    /// Whether noise is all that the answers leave unexplained; `None` where nothing can tell.
+    /// Whether noise is all that the answers leave unexplained; `None` where that cannot be tested.
     pub fit: Option<GoodnessOfFit>,
     /// One for each sensor; empty where each frequency is answered by itself.
     pub sensors: Vec<SensorFit>,

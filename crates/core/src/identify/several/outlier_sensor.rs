@@ -49,7 +49,7 @@ impl Task<'_, '_> {
         sensors > 2 && 2 * (sensors - 1) > self.own()
     }
 
-    /// Whether a calibrated channel is left without some, if there is any: what tells sizes is never left out.
+    /// Whether a calibrated channel is left without some, if there is any: the reference of sizes is never left out.
     fn is_calibrated_without(&self, out: &[usize]) -> bool {
         let is_calibrated = |m: &usize| self.problem.channels.get(*m).is_none_or(|channel| !channel.any());
         let mut calibrated = (0..self.problem.experiment.sensors.len()).filter(is_calibrated).peekable();
