@@ -99,6 +99,22 @@ pub fn transpose_product(a: &[f64], m: usize, b: &[f64]) -> Vec<f64> {
     product
 }
 
+/// A Aᵀ, m × m, for A m × r column after column.
+pub fn times_transpose(a: &[f64], m: usize) -> Vec<f64> {
+    let r = a.len() / m.max(1);
+    let mut product = vec![0.0; m * m];
+    let a = MatRef::from_column_major_slice(a, m, r);
+    matmul(
+        MatMut::from_column_major_slice_mut(&mut product, m, m),
+        Accum::Replace,
+        a,
+        a.transpose(),
+        1.0,
+        Par::Seq,
+    );
+    product
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -116,5 +132,6 @@ mod tests {
         let y = [c64::new(1.0, 1.0), c64::new(0.0, 2.0)];
         assert_eq!(v.combine(&y), [c64::new(1.0, -1.0), c64::new(2.0, 2.0), c64::new(3.0, 5.0)]);
         assert_eq!(v.times(&[1.0, 0.0, 1.0, 2.0]), [1.0, 2.0, 3.0, -1.0, 2.0, 5.0]);
+        assert_eq!(times_transpose(&[1.0, 2.0, 3.0, -1.0, 0.0, 1.0], 2), [10.0, -1.0, -1.0, 6.0]);
     }
 }

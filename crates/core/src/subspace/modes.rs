@@ -256,7 +256,8 @@ impl Projection {
     pub(crate) fn with_errors(&self, modes: &Modes, errors: &ModalErrors) -> Self {
         let r = self.size;
         let mut corrected = Self { parts: self.parts.with_errors(&errors.factors), ..self.clone() };
-        let damped: Vec<usize> = (0..self.matrices.len()).filter(|&g| modes.is_damped(g)).collect();
+        let is_damped = |&g: &usize| modes.has_damping(g, &errors.stiffness);
+        let damped: Vec<usize> = (0..self.matrices.len()).filter(is_damped).collect();
         for &g in &damped {
             corrected.parts.add_imaginary(g);
             corrected.matrices.push(vec![0.0; r * r]);
@@ -407,9 +408,10 @@ impl Modes {
         if mean > 0.0 { 1.0 / mean } else { 0.0 }
     }
 
-    /// Whether loss factors of S_g may be in error.
-    fn is_damped(&self, g: usize) -> bool {
-        self.stiffness[g].iter().zip(&self.share).any(|(by, share)| *by != 0.0 && share.im != 0.0)
+    /// Whether loss factors of S_g are in error.
+    fn has_damping(&self, g: usize, errors: &[f64]) -> bool {
+        let each = self.stiffness[g].iter().zip(&self.share).zip(errors);
+        each.into_iter().any(|((by, share), error)| by * share.im * error != 0.0)
     }
 
     /// The lowest natural frequency that is not zero.

@@ -1,7 +1,7 @@
 //! The errors of a model as a search has them, with their covariance.
 
 use super::curve::Curves;
-use super::search::{FactorPrior, Place};
+use super::search::{FactorPrior, Kinds, Place};
 use crate::c64;
 use crate::frequency::omega_rad_s;
 use crate::subspace::{ModalErrors, Modes};
@@ -20,6 +20,8 @@ pub(in crate::identify) struct Estimated {
     pub(in crate::identify) level: f64,
     /// By how many nats errors of the model explain the band better than a right model does.
     pub(in crate::identify) evidence: f64,
+    /// Errors that are in the covariance.
+    pub(super) kinds: Kinds,
     pub(super) highest_rad_s: f64,
     pub(super) curves: Curves,
     pub(super) factors: Vec<FactorPrior>,

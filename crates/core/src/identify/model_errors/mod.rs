@@ -153,6 +153,7 @@ impl Sizes {
 struct Explained {
     found: Minimum,
     sizes: Sizes,
+    kinds: Kinds,
     level: f64,
     /// −2 ln of the evidence, up to what all explanations share.
     evidence: f64,
@@ -240,10 +241,11 @@ fn explanation(search: &Search<'_, '_>, starts: &[Vec<f64>]) -> Option<Explanati
         wrong = better(wrong, fitted(upwards, Kinds::STIFFNESS));
         wrong = better(wrong, fitted(at_starts(), Kinds::MASSES));
     }
-    let place = wrong.found.place.clone();
-    wrong = better(wrong, from(place, Kinds::ALL, &ADDED_NOISE[LAST_LEVELS..]));
+    // Damping and masses are never exactly right: they are left out only where that is clearly better.
+    let all = from(wrong.found.place.clone(), Kinds::ALL, &ADDED_NOISE[LAST_LEVELS..]);
+    wrong = all.filter(|all| all.evidence < wrong.evidence + 2.0 * RIGHT_MODEL_NATS).unwrap_or(wrong);
     let near = search.smaller(&search.points(&wrong.found.place), NEIGHBOURHOOD_TOL);
-    let fine = search.fitting(&near.0, &near.1, &search.lines);
+    let fine = Fitting { kinds: wrong.kinds, ..search.fitting(&near.0, &near.1, &search.lines) };
     let scattered = data.scattered(search, &right, wrong.level);
     let least = scattered.map_or(right.evidence, |scattered| scattered.min(right.evidence));
     let evidence = 0.5 * (least - wrong.evidence);
@@ -271,7 +273,7 @@ pub(super) fn estimate_with_laws(
         ..Search::new(model, data, (curves, theta), theta, for_each)?
     };
     let near = search.smaller(&search.points(theta), NEIGHBOURHOOD_TOL);
-    let fitting = search.fitting(&near.0, &near.1, &search.lines);
+    let fitting = Fitting { kinds: before.kinds, ..search.fitting(&near.0, &near.1, &search.lines) };
     let place: Place = theta.iter().chain(&before.place[before.curves.count()..]).copied().collect();
     let found = data.explain(&fitting, place, &ADDED_NOISE[FIRST_LEVELS..])?;
     let estimated = data.posterior(&fitting, found, before.evidence)?;
@@ -600,7 +602,7 @@ impl<'a> Measured<'_, 'a> {
                 (0..n).map(|i| 1.0 - precision[i * n + i] * variance(i)).map(|t| t.clamp(0.0, 1.0)).sum();
             let chi_squared = found.normal.chi_squared;
             let before = (level, sizes);
-            last = Some(Explained { found, sizes, level, evidence });
+            last = Some(Explained { found, sizes, kinds: fitting.kinds, level, evidence });
             if !known {
                 level = (level * (chi_squared / (numbers - determined).max(1.0)).sqrt())
                     .max(MIN_NOISE_OVER_RESPONSE);
@@ -630,8 +632,11 @@ impl<'a> Measured<'_, 'a> {
                     let own = fitting.elastic(true).collect();
                     sizes.frequency = fresh(own, sizes.frequency, (FREQUENCY_PRIOR_STD, PRIOR_MODES));
                 }
-                let own = fitting.elastic(false).collect();
-                sizes.loss_factor = fresh(own, sizes.loss_factor, (MODAL_LOSS_FACTOR_PRIOR_STD, PRIOR_MODES));
+                if fitting.kinds.damping {
+                    let own = fitting.elastic(false).collect();
+                    sizes.loss_factor =
+                        fresh(own, sizes.loss_factor, (MODAL_LOSS_FACTOR_PRIOR_STD, PRIOR_MODES));
+                }
                 if self.given_sizes.shape.is_none() {
                     sizes.shape =
                         fresh(fitting.shapes().collect(), sizes.shape, (SHAPE_PRIOR_STD, PRIOR_MODES));
@@ -682,16 +687,18 @@ impl<'a> Measured<'_, 'a> {
             let row = |&(i, x): &(usize, f64)| parts[b].iter().map(|&(j, y)| x * y * of(i, j)).sum::<f64>();
             parts[a].iter().map(row).sum::<f64>()
         };
+        let loss_factor = if fitting.kinds.damping { sizes.loss_factor } else { 0.0 };
         let covariance = (0..kept * kept).map(|k| entry(k % kept, k / kept)).collect();
         Some(Estimated {
             modes: fitting.modes.clone(),
             errors,
             covariance,
-            sizes: if modes == 0 { [0.0; 3] } else { [sizes.frequency, sizes.loss_factor, sizes.shape] },
+            sizes: if modes == 0 { [0.0; 3] } else { [sizes.frequency, loss_factor, sizes.shape] },
             chi_squared: found.normal.chi_squared,
             numbers: self.numbers(fitting.lines),
             level,
             evidence,
+            kinds: fitting.kinds,
             highest_rad_s: fitting.highest_rad_s,
             curves: fitting.curves.clone(),
             factors: fitting.factors.to_vec(),

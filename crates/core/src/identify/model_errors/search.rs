@@ -6,6 +6,7 @@ use crate::for_each::{ForEach, map};
 use crate::identify::options::ErrorSizes;
 use crate::model::FactorPart;
 use crate::subspace::{ErrorSlopes, FactorError, ModalErrors, Modes, Point, Projection};
+use frfit_linalg::column_block::times_transpose;
 use frfit_linalg::dense::Cholesky;
 
 /// The model at a line with these values of its unknowns.
@@ -37,7 +38,7 @@ pub(super) struct Fitting<'t, 'a> {
 /// Errors that are looked for beside those of stiffness, shapes and factors.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Kinds {
-    damping: bool,
+    pub(super) damping: bool,
     masses: bool,
 }
 
@@ -66,6 +67,11 @@ pub(super) struct FactorPrior {
 /// 1/ω_i², as those of supports fall; and two of the ε_i, the same for all and with 1/ω_i².
 const COMMON_PARTS: usize = 6;
 const COMMON_FREQUENCY_PARTS: usize = 4;
+
+/// Whether a common part is one of the δ_i, and not of the ε_i.
+fn is_frequency_part(part: usize) -> bool {
+    part % COMMON_PARTS < COMMON_FREQUENCY_PARTS
+}
 
 /// Standard deviation of a mass at a sensor over the apparent mass there: accelerometers have some tenths of a per cent of what they are on.
 const SENSOR_MASS_STD: f64 = 0.005;
@@ -173,7 +179,7 @@ impl Fitting<'_, '_> {
     /// The common parts of δ, or of ε.
     pub(super) fn in_common(&self, of_frequency: bool) -> impl Iterator<Item = usize> {
         let first = self.curves.count();
-        let is_wanted = move |part: &usize| (part % COMMON_PARTS < COMMON_FREQUENCY_PARTS) == of_frequency;
+        let is_wanted = move |&part: &usize| is_frequency_part(part) == of_frequency;
         (0..self.common_errors()).filter(is_wanted).map(move |part| first + part)
     }
 
@@ -298,29 +304,40 @@ impl Fitting<'_, '_> {
             && errors.shape.iter().chain([&errors.load]).all(of_shapes)
     }
 
-    /// Slopes of x_m by the shared coordinates, and by the shapes at the sensor.
-    pub(super) fn row(
+    /// Coordinates that the search moves.
+    fn moves(&self, coordinate: usize) -> bool {
+        let is_mass = (self.first_mass()..self.first_load()).contains(&coordinate);
+        let is_own_damping = self.own().contains(&coordinate) && !self.is_frequency(coordinate);
+        let shared = coordinate.checked_sub(self.curves.count()).filter(|_| coordinate < self.first_own());
+        let is_damping = is_own_damping || shared.is_some_and(|part| !is_frequency_part(part));
+        (self.kinds.masses || !is_mass) && (self.kinds.damping || !is_damping)
+    }
+
+    /// Slopes of x_m by the shared coordinates, then by the shapes at the sensor. `common` is [`Self::common`] of each error.
+    fn row(
         &self,
         slopes: &ErrorSlopes,
         of_theta: &[(usize, c64)],
+        common: &[Vec<f64>],
         m: usize,
-    ) -> (Vec<c64>, Vec<c64>) {
-        let mut shared: Vec<c64> = of_theta.iter().map(|(j, of)| slopes.slopes[*j][m] * of).collect();
+    ) -> Vec<c64> {
+        let mut row: Vec<c64> = of_theta.iter().map(|(j, of)| slopes.slopes[*j][m] * of).collect();
         if self.modes() > 0 {
-            let mut common = vec![c64::default(); self.common_errors()];
-            for (i, slope) in slopes.stiffness[m].iter().enumerate() {
-                common.iter_mut().zip(self.common(i)).for_each(|(sum, part)| *sum += part * slope);
+            let mut of_common = vec![c64::default(); self.common_errors()];
+            for (parts, slope) in common.iter().zip(&slopes.stiffness[m]) {
+                of_common.iter_mut().zip(parts).for_each(|(sum, part)| *sum += part * slope);
             }
-            shared.extend(common);
-            shared.extend(&slopes.stiffness[m]);
+            row.extend(of_common);
+            row.extend(&slopes.stiffness[m]);
         }
-        shared.extend(&slopes.factors[m]);
+        row.extend(&slopes.factors[m]);
         // Without modes masses are no coordinates.
         if self.modes() > 0 {
-            shared.extend(&slopes.masses[m]);
+            row.extend(&slopes.masses[m]);
         }
-        shared.extend(&slopes.load[m]);
-        (shared, slopes.shape[m].clone())
+        row.extend(&slopes.load[m]);
+        row.extend(&slopes.shape[m]);
+        row
     }
 
     /// The normal equations; `None` where the response is not finite. σ is that of real and imaginary part each, for each of the lines.
@@ -328,58 +345,58 @@ impl Fitting<'_, '_> {
         let n = self.count();
         let errors = self.errors(place);
         let model = self.model.with_errors(self.modes, &errors);
-        let chunks = self.lines.len().min(LINE_CHUNKS);
-        let part = |c: usize| -> Option<Normal> {
-            let mut sum = Normal { chi_squared: 0.0, gradient: vec![0.0; n], information: vec![0.0; n * n] };
-            for k in (c..self.lines.len()).step_by(chunks) {
-                self.add_line(place, (&model, &errors), k, &sigma[k], &mut sum)?;
-            }
-            Some(sum)
+        let common: Vec<Vec<f64>> = (0..self.stiffness_errors()).map(|i| self.common(i)).collect();
+        // The coordinates on which the response at each sensor hangs.
+        let moving: Vec<usize> = (0..self.shared()).filter(|&i| self.moves(i)).collect();
+        let coordinates = |m: usize| -> Vec<usize> {
+            let shapes = self.first_shape(m)..self.first_shape(m) + self.modes();
+            moving.iter().copied().chain(shapes).collect()
         };
-        let parts: Option<Vec<Normal>> = map(self.for_each, chunks, part).into_iter().collect();
-        let sum = parts?.into_iter().reduce(|mut sum, other| {
-            sum.chi_squared += other.chi_squared;
-            sum.gradient.iter_mut().zip(other.gradient).for_each(|(a, b)| *a += b);
-            sum.information.iter_mut().zip(other.information).for_each(|(a, b)| *a += b);
-            sum
-        });
-        let mut sum = sum.filter(|sum| sum.chi_squared.is_finite())?;
-        // Only the lower triangle was added to.
-        for j in 0..n {
-            (j + 1..n).for_each(|i| sum.information[i * n + j] = sum.information[j * n + i]);
-        }
-        Some(sum)
-    }
-
-    fn add_line(
-        &self,
-        place: &[f64],
-        (model, errors): (&Projection, &ModalErrors),
-        k: usize,
-        sigma: &[f64],
-        sum: &mut Normal,
-    ) -> Option<()> {
-        let i = self.lines[k];
-        let (values, of_theta) = self.curves.values(&place[..self.curves.count()], i, self.omegas[i])?;
-        let point = (self.point)(i, &values)?;
-        let slopes =
-            model.respond_with_error_slopes((self.modes, errors), &point.at, point.correction).ok()?;
-        let n = self.count();
-        for m in (0..self.sensors()).filter(|&m| sigma[m].is_finite()) {
-            let (shared, shape) = self.row(&slopes, &of_theta, m);
-            let rest = (self.measured[i][m] - slopes.response[m]) / sigma[m];
-            sum.chi_squared += rest.norm_sqr();
-            let index = |a: usize| if a < shared.len() { a } else { self.first_shape(m) + a - shared.len() };
-            let row: Vec<c64> = shared.iter().chain(&shape).map(|slope| slope / sigma[m]).collect();
-            for (a, x) in row.iter().enumerate() {
-                sum.gradient[index(a)] += x.re * rest.re + x.im * rest.im;
-                let column = &mut sum.information[index(a) * n..][..n];
-                for (b, y) in row.iter().enumerate().skip(a) {
-                    column[index(b)] += x.re * y.re + x.im * y.im;
+        let coordinates: Vec<Vec<usize>> = (0..self.sensors()).map(coordinates).collect();
+        // In a row shapes at a sensor follow what is shared.
+        let places: Vec<usize> =
+            moving.iter().copied().chain(self.shared()..self.shared() + self.modes()).collect();
+        let rows = |k: usize| -> Option<Vec<Option<[Vec<f64>; 2]>>> {
+            let i = self.lines[k];
+            let (values, of_theta) = self.curves.values(&place[..self.curves.count()], i, self.omegas[i])?;
+            let point = (self.point)(i, &values)?;
+            let slopes =
+                model.respond_with_error_slopes((self.modes, &errors), &point.at, point.correction).ok()?;
+            let at_sensor = |m: usize| {
+                let sigma = Some(sigma[k][m]).filter(|sigma| sigma.is_finite())?;
+                let row = self.row(&slopes, &of_theta, &common, m);
+                let rest = self.measured[i][m] - slopes.response[m];
+                let each = || places.iter().map(|&place| row[place]).chain([rest]).map(move |x| x / sigma);
+                Some([each().map(|x| x.re).collect(), each().map(|x| x.im).collect()])
+            };
+            Some((0..self.sensors()).map(at_sensor).collect())
+        };
+        let chunks = self.lines.len().min(LINE_CHUNKS);
+        // Of each sensor all products of the columns of [J r].
+        let part = |c: usize| -> Option<Vec<Vec<f64>>> {
+            let mut stacked = vec![Vec::new(); self.sensors()];
+            for k in (c..self.lines.len()).step_by(chunks) {
+                for (all, of_line) in stacked.iter_mut().zip(rows(k)?) {
+                    of_line.into_iter().flatten().for_each(|row| all.extend(row));
                 }
             }
+            let width = places.len() + 1;
+            Some(stacked.iter().map(|all| times_transpose(all, width)).collect())
+        };
+        let mut sum = Normal { chi_squared: 0.0, gradient: vec![0.0; n], information: vec![0.0; n * n] };
+        for products in map(self.for_each, chunks, part) {
+            for (of_sensor, coordinates) in products?.iter().zip(&coordinates) {
+                let mut columns = of_sensor.chunks_exact(coordinates.len() + 1);
+                for (&a, column) in coordinates.iter().zip(&mut columns) {
+                    let information = &mut sum.information[a * n..][..n];
+                    coordinates.iter().zip(column).for_each(|(&b, product)| information[b] += product);
+                }
+                let rest = columns.next().unwrap_or_default();
+                coordinates.iter().zip(rest).for_each(|(&a, product)| sum.gradient[a] += product);
+                sum.chi_squared += rest.last().unwrap_or(&0.0);
+            }
         }
-        Some(())
+        Some(sum).filter(|sum| sum.chi_squared.is_finite())
     }
 
     /// The prior's precision, n × n: curve and errors.
