@@ -275,7 +275,7 @@ fn crowd(count: usize) -> Test {
 
 #[test]
 fn of_many_sensors_the_one_that_is_wrong_is_named() {
-    let clean = crowd(120).diagnose();
+    let clean = crowd(of_tier(60, 120)).diagnose();
     assert_eq!(clean.findings, [], "{clean:#?}");
     // Neither is among the twenty that are fitted together: those are number 0, 6, 12, 18, 25, ...
     let two = crowd(120).change(&[71], |_, v| -v).change(&[3], |_, v| 9.80665 * v).diagnose();
@@ -289,8 +289,9 @@ fn of_many_sensors_the_one_that_is_wrong_is_named() {
     // One that is among them: beside nineteen others it would not be seen.
     let of_one = crowd(120).change(&[6], |_, v| -v).diagnose();
     assert_eq!(alone("sign of a sensor that is fitted", &of_one).sensors, [6]);
-    let all: Vec<usize> = (0..120).collect();
-    let of_all = crowd(120).change(&all, |_, v| v.conj()).diagnose();
+    let count = of_tier(60, 120);
+    let all: Vec<usize> = (0..count).collect();
+    let of_all = crowd(count).change(&all, |_, v| v.conj()).diagnose();
     let finding = alone("conjugated", &of_all);
     assert_eq!((finding.fault, finding.sensors), (Fault::Conjugated, all));
 }

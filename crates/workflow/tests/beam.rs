@@ -9,6 +9,7 @@
 #![allow(clippy::print_stdout, reason = "what was measured is worth a look with --no-capture")]
 
 use crate::shared_data;
+use crate::tier::of_tier;
 
 use frfit::identify::Status;
 use frfit_fem::{Assembled, Beam};
@@ -42,7 +43,9 @@ const POLES: [(f64, f64); 8] = [
 const MODULUS: f64 = 2610.5;
 
 /// Of the lines of the whole band so many.
-const LINES: usize = 1600;
+fn lines() -> usize {
+    of_tier(400, 1600)
+}
 
 /// The eighth of these poles is not that of its peak: it leaves six times what the best one of a resonance and a straight line leaves of the lines within 3 Hz, which is this one, known to
 /// half a percent; in bands about it sdypy-EMA has 0.00027 to 0.00039. The other seven leave 1.2 to 2.1 times what the best ones do.
@@ -154,15 +157,15 @@ fn unit_frequencies() -> Vec<f64> {
 fn one_modulus_has_all_natural_frequencies_to_2_khz_needs_data() {
     let frfs = measured();
     // Of 19,800 lines those that tell most; a nominal that is off by 2.6, and bounds of three decades.
-    let (_folder, job) = run(&frfs, 1000.0, [1e2, 1e5], [20.0, 2000.0], LINES);
+    let (_folder, job) = run(&frfs, 1000.0, [1e2, 1e5], [20.0, 2000.0], lines());
     let [[storage, std], [eta, _]] = modulus(&job);
     println!("E/rho (h/L^2)^2 = {storage} ± {std} 1/s², η = {eta}");
     // What single modes say of it, below.
-    assert!((storage - MODULUS).abs() < std && std < 0.01 * storage, "{storage} ± {std}");
+    assert!((storage - MODULUS).abs() < std && std < of_tier(0.02, 0.01) * storage, "{storage} ± {std}");
     // One loss factor for all modes leaves a quarter of the response where they are: no noise, and said so.
     assert_eq!(job.summary["fit"]["verdict"], "not explained");
-    assert!(job.run.count(Status::Ok) < LINES / 2, "{}", job.summary["status"]);
-    assert_eq!(job.run.count(Status::OutOfBand), job.run.found.lines.len() - LINES);
+    assert!(job.run.count(Status::Ok) < lines() / 2, "{}", job.summary["status"]);
+    assert_eq!(job.run.count(Status::OutOfBand), job.run.found.lines.len() - lines());
     for (unit, (pole, _)) in unit_frequencies().iter().zip(POLES) {
         let off = unit * storage.sqrt() / pole - 1.0;
         println!("{pole} Hz: off by {:.3} %", 100.0 * off);
@@ -180,7 +183,7 @@ fn each_mode_has_the_damping_of_a_modal_fit_needs_data() {
     let frfs = measured();
     let unit = unit_frequencies();
     let mut moduli = Vec::new();
-    for (k, (pole, zeta)) in POLES.into_iter().enumerate() {
+    for (k, (pole, zeta)) in POLES.into_iter().enumerate().step_by(of_tier(3, 1)) {
         let (_folder, job) = run(&frfs, 2600.0, [2400.0, 2800.0], [pole - 3.0, pole + 3.0], 60);
         let [[storage, _], [eta, eta_std]] = modulus(&job);
         let frequency_hz = unit[k] * storage.sqrt();
