@@ -206,13 +206,13 @@ fn constants_of_a_wrong_model_are_within_their_bars() {
             assert!(after.lines == before.lines && after.constants == before.constants);
         } else {
             assert!(as_it_is > 20.0, "{what}: {as_it_is}");
-            assert!(after.model_errors.unwrap().evidence > 100.0, "{what}");
-            // 2 % for the stiffness of the unknown, and what the band leaves.
+            assert!(after.model_errors.as_ref().unwrap().evidence > 100.0, "{what}");
+            // 2 % for the stiffness of the unknown, as much for the mass, and what the band leaves.
             assert!(
                 after
                     .constants
                     .iter()
-                    .all(|value| value.numbers[0].std.unwrap() < 0.03 * value.numbers[0].value)
+                    .all(|value| value.numbers[0].std.unwrap() < 0.035 * value.numbers[0].value)
             );
         }
     }

@@ -38,7 +38,7 @@ pub use found::{FactorError, Leverage, ModeError, ModelErrorsFound, SensorMass};
 pub(super) use search::PointAt;
 
 use frfit_linalg::dense::Cholesky;
-use search::{FactorPrior, Fitting, Kinds, Minimum, Place, Sizes};
+use search::{Damping, FactorPrior, Fitting, Kinds, Minimum, Place, Sizes};
 
 /// What is known of the noise.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -115,6 +115,9 @@ const COMMON_RATIO: f64 = 5.0;
 /// The same of loss factors: a support that has another damping than the structure changes all of them in one sense.
 const COMMON_LOSS_RATIO: f64 = 2.0;
 
+/// A stiffness that is not in the model and changes ω by δ has 2δ of the strain energy. Where it has no damping, that is how far the loss factor is off.
+const UNDAMPED_SHARE_RATIO: f64 = 2.0;
+
 /// By how much bends of a smooth curve may be less or more than the usual ones.
 const BEND_RANGE: [f64; 2] = [0.01, 3.0];
 
@@ -145,7 +148,17 @@ impl Sizes {
     /// With what goes with the errors of natural frequencies.
     fn with_common(self, given: ErrorSizes) -> Self {
         let ratio = if given.frequency.is_some() { 1.0 } else { COMMON_RATIO };
-        Self { common: ratio * self.frequency, common_loss: COMMON_LOSS_RATIO * self.loss_factor, ..self }
+        let common = ratio * self.frequency;
+        let of_own = COMMON_LOSS_RATIO * self.loss_factor;
+        Self { common, common_loss: of_own.max(UNDAMPED_SHARE_RATIO * common), ..self }
+    }
+
+    /// Where modes have no damping errors of their own.
+    fn only(self, kinds: Kinds, given: ErrorSizes) -> Self {
+        match kinds.damping {
+            Damping::Own => self,
+            _ => Self { loss_factor: 0.0, ..self }.with_common(given),
+        }
     }
 }
 
@@ -232,18 +245,29 @@ fn explanation(search: &Search<'_, '_>, starts: &[Vec<f64>]) -> Option<Explanati
         Some(b) if b.evidence < a.evidence => b,
         _ => a,
     };
-    // Far from the answer damping and masses that are free only hide that a mode is at another frequency.
+    // Far from the answer damping that is free only hides that a mode is at another frequency, and masses may.
     let at_starts = || starts.iter().map(|start| coarse.start(start)).collect::<Vec<Place>>();
     let mut wrong = fitted(at_starts(), Kinds::STIFFNESS)?;
+    wrong = better(wrong, fitted(at_starts(), Kinds::MASSES));
     if !data.is_explained(&wrong, &search.lines) {
         let stiffness = Fitting { kinds: Kinds::STIFFNESS, ..whole };
         let upwards = starts.iter().filter_map(|start| data.upwards(&stiffness, start)).collect();
         wrong = better(wrong, fitted(upwards, Kinds::STIFFNESS));
-        wrong = better(wrong, fitted(at_starts(), Kinds::MASSES));
     }
-    // Damping and masses are never exactly right: they are left out only where that is clearly better.
-    let all = from(wrong.found.place.clone(), Kinds::ALL, &ADDED_NOISE[LAST_LEVELS..]);
-    wrong = all.filter(|all| all.evidence < wrong.evidence + 2.0 * RIGHT_MODEL_NATS).unwrap_or(wrong);
+    // What the data cannot tell is in the bars: masses and common damping are left out only where they are clearly worse. Own damping of modes stands in for
+    // a loss factor that varies with frequency, and has to be better.
+    let further: [(fn(Kinds) -> Kinds, f64); 3] = [
+        (Kinds::with_masses, RIGHT_MODEL_NATS),
+        (Kinds::with_common_damping, RIGHT_MODEL_NATS),
+        (Kinds::with_own_damping, 0.0),
+    ];
+    for (with, nats) in further {
+        let kinds = with(wrong.kinds);
+        if kinds != wrong.kinds {
+            let more = from(wrong.found.place.clone(), kinds, &ADDED_NOISE[LAST_LEVELS..]);
+            wrong = more.filter(|more| more.evidence < wrong.evidence + 2.0 * nats).unwrap_or(wrong);
+        }
+    }
     let near = search.smaller(&search.points(&wrong.found.place), NEIGHBOURHOOD_TOL);
     let fine = Fitting { kinds: wrong.kinds, ..search.fitting(&near.0, &near.1, &search.lines) };
     let scattered = data.scattered(search, &right, wrong.level);
@@ -567,7 +591,7 @@ impl<'a> Measured<'_, 'a> {
     /// The least squares with the noise approached from above, and the sizes of largest evidence.
     fn explain(&self, fitting: &Fitting<'_, '_>, mut place: Place, from_above: &[f64]) -> Option<Explained> {
         let known = self.known();
-        let mut sizes = Sizes::prior(self.given_sizes);
+        let mut sizes = Sizes::prior(self.given_sizes).only(fitting.kinds, self.given_sizes);
         let numbers = self.numbers(fitting.lines) as f64;
         let mut level = 1.0;
         for &added in from_above {
@@ -632,7 +656,7 @@ impl<'a> Measured<'_, 'a> {
                     let own = fitting.elastic(true).collect();
                     sizes.frequency = fresh(own, sizes.frequency, (FREQUENCY_PRIOR_STD, PRIOR_MODES));
                 }
-                if fitting.kinds.damping {
+                if fitting.kinds.damping == Damping::Own {
                     let own = fitting.elastic(false).collect();
                     sizes.loss_factor =
                         fresh(own, sizes.loss_factor, (MODAL_LOSS_FACTOR_PRIOR_STD, PRIOR_MODES));
@@ -649,7 +673,7 @@ impl<'a> Measured<'_, 'a> {
                     sizes.common = sizes.common.max(shown);
                 }
             }
-            let settled = |a: f64, b: f64| (a / b - 1.0).abs() < 0.03;
+            let settled = |a: f64, b: f64| (a - b).abs() <= 0.03 * b;
             if settled(level, before.0)
                 && settled(sizes.frequency, before.1.frequency)
                 && settled(sizes.loss_factor, before.1.loss_factor)
@@ -687,13 +711,12 @@ impl<'a> Measured<'_, 'a> {
             let row = |&(i, x): &(usize, f64)| parts[b].iter().map(|&(j, y)| x * y * of(i, j)).sum::<f64>();
             parts[a].iter().map(row).sum::<f64>()
         };
-        let loss_factor = if fitting.kinds.damping { sizes.loss_factor } else { 0.0 };
         let covariance = (0..kept * kept).map(|k| entry(k % kept, k / kept)).collect();
         Some(Estimated {
             modes: fitting.modes.clone(),
             errors,
             covariance,
-            sizes: if modes == 0 { [0.0; 3] } else { [sizes.frequency, loss_factor, sizes.shape] },
+            sizes: if modes == 0 { [0.0; 3] } else { [sizes.frequency, sizes.loss_factor, sizes.shape] },
             chi_squared: found.normal.chi_squared,
             numbers: self.numbers(fitting.lines),
             level,

@@ -38,14 +38,36 @@ pub(super) struct Fitting<'t, 'a> {
 /// Errors that are looked for beside those of stiffness, shapes and factors.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Kinds {
-    pub(super) damping: bool,
+    pub(super) damping: Damping,
     masses: bool,
 }
 
+/// Errors of damping that are looked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Damping {
+    None,
+    /// What all modes have in common.
+    Common,
+    /// Of each mode too.
+    Own,
+}
+
 impl Kinds {
-    pub(super) const STIFFNESS: Self = Self { damping: false, masses: false };
-    pub(super) const MASSES: Self = Self { damping: false, masses: true };
-    pub(super) const ALL: Self = Self { damping: true, masses: true };
+    pub(super) const STIFFNESS: Self = Self { damping: Damping::None, masses: false };
+    pub(super) const MASSES: Self = Self { masses: true, ..Self::STIFFNESS };
+    pub(super) const ALL: Self = Self { damping: Damping::Own, masses: true };
+
+    pub(super) fn with_masses(self) -> Self {
+        Self { masses: true, ..self }
+    }
+
+    pub(super) fn with_common_damping(self) -> Self {
+        Self { damping: Damping::Common, ..self }
+    }
+
+    pub(super) fn with_own_damping(self) -> Self {
+        Self { damping: Damping::Own, ..self }
+    }
 }
 
 /// The standard deviation of an error that is not looked for: as good as none.
@@ -309,8 +331,11 @@ impl Fitting<'_, '_> {
         let is_mass = (self.first_mass()..self.first_load()).contains(&coordinate);
         let is_own_damping = self.own().contains(&coordinate) && !self.is_frequency(coordinate);
         let shared = coordinate.checked_sub(self.curves.count()).filter(|_| coordinate < self.first_own());
-        let is_damping = is_own_damping || shared.is_some_and(|part| !is_frequency_part(part));
-        (self.kinds.masses || !is_mass) && (self.kinds.damping || !is_damping)
+        let is_common_damping = shared.is_some_and(|part| !is_frequency_part(part));
+        let is_left_out = (is_mass && !self.kinds.masses)
+            || (is_common_damping && self.kinds.damping == Damping::None)
+            || (is_own_damping && self.kinds.damping != Damping::Own);
+        !is_left_out
     }
 
     /// Slopes of x_m by the shared coordinates, then by the shapes at the sensor. `common` is [`Self::common`] of each error.
@@ -409,9 +434,11 @@ impl Fitting<'_, '_> {
         }
         let mut set = |i: usize, std: f64| all[i * n + i] = std.powi(-2);
         self.in_common(true).for_each(|i| set(i, sizes.common));
-        let damping = |std: f64| if self.kinds.damping { std } else { NEGLIGIBLE_STD };
-        let mass = if self.kinds.masses { SENSOR_MASS_STD } else { NEGLIGIBLE_STD };
-        self.in_common(false).for_each(|i| set(i, damping(sizes.common_loss)));
+        let only_if = |is_looked_for: bool, std: f64| if is_looked_for { std } else { NEGLIGIBLE_STD };
+        let damping = |std: f64| only_if(self.kinds.damping == Damping::Own, std);
+        let common_loss = only_if(self.kinds.damping != Damping::None, sizes.common_loss);
+        let mass = only_if(self.kinds.masses, SENSOR_MASS_STD);
+        self.in_common(false).for_each(|i| set(i, common_loss));
         let own = |i: usize| match (self.is_frequency(i), self.is_rigid(i)) {
             (true, false) => sizes.frequency * self.growth(i),
             (false, false) => damping(sizes.loss_factor * self.growth(i)),
