@@ -142,7 +142,7 @@ def entry(name: str) -> str:
 
 
 # What a call returns: nobody makes one, so that its signature tells nothing.
-RESULTS = {"Identification", "Estimate", "Finding", "Hit", "MeasuredFrf", "Uff", "UffSummary"}
+RESULTS = {"Identification", "Estimate", "Finding", "Impact", "MeasuredFrf", "Uff", "UffSummary"}
 
 
 def page() -> str:

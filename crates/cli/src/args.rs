@@ -39,9 +39,9 @@ pub(crate) enum Command {
     Example(Example),
     /// Make a frequency response function of the records of a hammer test
     #[command(after_help = "Examples: frfit frf records.lvm -o frf.uff\n          \
-                      frfit frf hits.csv -o frf.csv --force-sensitivity 22.4mV/N --response-sensitivity 100mV/g\n\n\
+                      frfit frf impacts.csv -o frf.csv --force-sensitivity 22.4mV/N --response-sensitivity 100mV/g\n\n\
                       Records: UFF time functions, LabVIEW measurement files (.lvm), tables with a column time_s and units in the \
-                      names of the others, such as \"Force (N)\". Hits with a fault are left out, with the reason.")]
+                      names of the others, such as \"Force (N)\". Impacts with a fault are left out, with the reason.")]
     Frf(Frf),
     /// Say what is wrong with measurements against the model
     #[command(after_help = "Example: frfit check case.toml\n\n\
@@ -112,7 +112,7 @@ pub(crate) struct Example {
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct Frf {
-    /// Files with the records; several recordings are taken as one hit each
+    /// Files with the records; several recordings are taken as one impact each
     #[arg(required = true)]
     pub(crate) records: Vec<PathBuf>,
     /// File to write; .uff or .csv says the format. A summary and figures are written beside it. - for standard output
@@ -148,18 +148,18 @@ pub(crate) struct Frf {
     /// h1 (noise in the response), h2 (in the force) or hv (in both)
     #[arg(long)]
     pub(crate) estimator: Option<frfit::signal::Estimator>,
-    /// Force from which on there is a hit (default: a tenth of the largest)
+    /// Force from which on there is an impact (default: a tenth of the largest)
     #[arg(long, value_name = "NEWTON")]
     pub(crate) trigger: Option<f64>,
     /// Time before the trigger that belongs to a record
     #[arg(long, value_name = "SECONDS")]
     pub(crate) pre_trigger: Option<f64>,
-    /// Length of a record (default: that of a recording with one hit, else up to the next hit)
+    /// Length of a record (default: that of a recording with one impact, else up to the next impact)
     #[arg(long, value_name = "SECONDS")]
     pub(crate) length: Option<f64>,
-    /// Share of a hit that a second contact must reach to be called a double hit
+    /// Share of an impact that a second contact must reach to be called a double impact
     #[arg(long, value_name = "SHARE")]
-    pub(crate) double_hit: Option<f64>,
+    pub(crate) double_impact: Option<f64>,
     /// Share of a channel's largest value by which its mean may move
     #[arg(long, value_name = "SHARE")]
     pub(crate) drift: Option<f64>,
@@ -169,8 +169,8 @@ pub(crate) struct Frf {
     /// Exponential window: time constant of the decay that is put on both channels; `frfit identify` takes it into the model
     #[arg(long, value_name = "SECONDS")]
     pub(crate) exponential_window: Option<f64>,
-    /// Hits to average whatever is wrong with them, such as 1,3
-    #[arg(long, value_name = "HITS", value_delimiter = ',')]
+    /// Impacts to average whatever is wrong with them, such as 1,3
+    #[arg(long, value_name = "IMPACTS", value_delimiter = ',')]
     pub(crate) keep: Vec<usize>,
 }
 

@@ -79,7 +79,7 @@ fn by_default_the_modulus_is_the_truth_up_to_the_mesh() {
     let found = deviations(folder.path(), &table);
     assert_eq!(summary["status"]["ok"], 676, "{}", summary["status"]);
     assert_eq!(found.len(), 676);
-    // One sensor, one hit: nothing but the scatter of the answers tells the noise.
+    // One sensor, one impact: nothing but the scatter of the answers tells the noise.
     assert_eq!(summary["noise"]["source"], "scatter");
     assert!(numbers(&table, "storage_std").iter().all(|std| *std > 0.0));
     assert!(numbers(&table, "chi2").iter().all(|chi2| chi2.is_nan()));
@@ -198,14 +198,14 @@ fn records_at_fault_and_options_that_fit_nothing_are_refused() {
         ),
         (&["t.csv", "-o", "x.uff", "--force", "3"], "--force: expected the name or the number of a channel"),
         (&["uneven.csv", "-o", "x.uff"], "uneven.csv: expected equally spaced instants"),
-        (&["bar/records.lvm", "-o", "x.uff", "--keep", "2"], "--keep: expected hits from 1 to 1, found 2"),
+        (&["bar/records.lvm", "-o", "x.uff", "--keep", "2"], "--keep: expected impacts from 1 to 1, found 2"),
         (
             &["bar/records.lvm", "-o", "x.uff", "--length", "0"],
             "--length: expected a positive number, found 0",
         ),
         (
             &["bar/records.lvm", "-o", "x.uff", "--length", "9"],
-            "bar/records.lvm: expected a hit without fault, found none: hit 1: record incomplete, 1600 of 28800 samples",
+            "bar/records.lvm: expected an impact without fault, found none: impact 1: record incomplete, 1600 of 28800 samples",
         ),
         (
             &["bar/records.lvm", "-o", "x.uff", "--force-sensitivity", "2mV/N"],

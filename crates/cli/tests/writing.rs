@@ -402,7 +402,7 @@ fn quiet_says_nothing_where_all_is_well() {
             String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr);
         assert_eq!(said, "", "{arguments:?}");
     }
-    // Hits that are left out of an FRF are said.
+    // Impacts that are left out of an FRF are said.
     done(at.path(), &["--quiet", "example", "hammer-bar", "h"]);
     let loud = done(at.path(), &["frf", "h/records.lvm", "-o", "frf.uff"]);
     let quiet = done(at.path(), &["frf", "h/records.lvm", "-o", "frf.uff", "--quiet"]);

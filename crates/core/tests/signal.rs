@@ -1,4 +1,4 @@
-//! Hammer tests with known answers: hits of a half-sine on a structure whose impulse response is known sample by sample.
+//! Hammer tests with known answers: impacts of a half-sine on a structure whose impulse response is known sample by sample.
 
 use frfit::c64;
 use frfit::signal::{
@@ -50,7 +50,7 @@ fn response(force: &[f64]) -> Vec<f64> {
     response
 }
 
-fn hit(peak: f64) -> Recording {
+fn impact(peak: f64) -> Recording {
     let force = half_sine(peak);
     Recording { step_s: STEP_S, responses: vec![response(&force)], force }
 }
@@ -85,20 +85,20 @@ fn largest_error(measured: &Measured, decay_per_s: f64) -> f64 {
 fn every_estimator_finds_the_transfer_function_of_clean_records() {
     for estimator in Estimator::ALL {
         let options = Options::default().with_estimator(estimator);
-        let measured = estimate_frf(&[hit(100.0), hit(80.0)], &options).unwrap();
+        let measured = estimate_frf(&[impact(100.0), impact(80.0)], &options).unwrap();
         assert_eq!((measured.samples, measured.averages()), (SAMPLES, 2));
         // 1 Hz apart, without 0 Hz and the Nyquist frequency.
         assert_eq!((measured.frequency_hz[0], measured.frequency_hz.len()), (1.0, 499));
         assert!(largest_error(&measured, 0.0) < LEFT, "{estimator}: {:e}", largest_error(&measured, 0.0));
         let frf = &measured.frfs[0];
         assert!(frf.coherence.as_ref().unwrap().iter().all(|c| (1.0 - c).abs() < 1e-12));
-        assert!(measured.impacts.iter().all(|hit| hit.undecayed(0).is_none() && hit.onset == 100));
+        assert!(measured.impacts.iter().all(|impact| impact.undecayed(0).is_none() && impact.onset == 100));
     }
 }
 
 #[test]
 fn one_hit_has_no_coherence() {
-    let measured = estimate_frf(&[hit(100.0)], &Options::default()).unwrap();
+    let measured = estimate_frf(&[impact(100.0)], &Options::default()).unwrap();
     assert_eq!((&measured.frfs[0].coherence, &measured.frfs[0].variance), (&None, &None));
 }
 
@@ -107,7 +107,7 @@ fn the_exponential_window_shifts_the_line_on_which_the_frf_is_taken() {
     let tau_s = 0.1;
     let windows = Windows::default().with_exponential_s(Some(tau_s));
     let options = Options::default().with_windows(windows);
-    let measured = estimate_frf(&[hit(100.0)], &options).unwrap();
+    let measured = estimate_frf(&[impact(100.0)], &options).unwrap();
     assert_eq!(measured.added_decay_per_s, Some(10.0));
     // Exact, as the response has decayed: see the clean records.
     assert!(largest_error(&measured, 10.0) < LEFT);
@@ -118,7 +118,7 @@ fn the_exponential_window_shifts_the_line_on_which_the_frf_is_taken() {
 
 #[test]
 fn the_force_window_silences_what_comes_after_the_contact() {
-    let mut noisy = hit(100.0);
+    let mut noisy = impact(100.0);
     Noise(1).add_to(&mut noisy.force[120..], 2.0);
     // The noise would be taken for further contacts: the window is for what is below that.
     let windows = Windows::default().with_force_s(Some(0.008));
@@ -130,7 +130,7 @@ fn the_force_window_silences_what_comes_after_the_contact() {
     assert!(error(Windows::default()) > 1e-2);
 }
 
-/// 400 hits in fours, noise in the response alone: B-6 tells how far H₁ is off.
+/// 400 impacts in fours, noise in the response alone: B-6 tells how far H₁ is off.
 #[test]
 fn the_variance_is_that_of_either_part() {
     let mut noise = Noise(7);
@@ -139,14 +139,14 @@ fn the_variance_is_that_of_either_part() {
     let (mut ratio, mut lines) = (0.0, 0.0);
     let mut bias = c64::new(0.0, 0.0);
     for _ in 0..groups {
-        let hits: Vec<Recording> = (0..averages)
+        let impacts: Vec<Recording> = (0..averages)
             .map(|_| {
-                let mut hit = hit(100.0);
-                noise.add_to(&mut hit.responses[0], 3.0);
-                hit
+                let mut impact = impact(100.0);
+                noise.add_to(&mut impact.responses[0], 3.0);
+                impact
             })
             .collect();
-        let measured = estimate_frf(&hits, &Options::default()).unwrap();
+        let measured = estimate_frf(&impacts, &Options::default()).unwrap();
         assert_eq!(measured.averages(), averages);
         let frf = &measured.frfs[0];
         for (k, &f) in measured.frequency_hz.iter().enumerate().filter(|(_, f)| **f < 100.0) {
@@ -166,32 +166,32 @@ fn the_variance_is_that_of_either_part() {
 #[test]
 fn h1_is_too_small_where_the_force_is_noisy_and_h2_too_large_where_the_response_is() {
     let mut noise = Noise(3);
-    let hits = |of_force: f64, of_response: f64, noise: &mut Noise| -> Vec<Recording> {
+    let impacts = |of_force: f64, of_response: f64, noise: &mut Noise| -> Vec<Recording> {
         (0..60)
             .map(|_| {
-                let mut hit = hit(100.0);
-                noise.add_to(&mut hit.force, of_force);
-                noise.add_to(&mut hit.responses[0], of_response);
-                hit
+                let mut impact = impact(100.0);
+                noise.add_to(&mut impact.force, of_force);
+                noise.add_to(&mut impact.responses[0], of_response);
+                impact
             })
             .collect()
     };
     // The mean of |H| over its truth at low frequencies.
-    let gain = |hits: &[Recording], estimator| {
+    let gain = |impacts: &[Recording], estimator| {
         let options = Options::default().with_estimator(estimator);
-        let measured = estimate_frf(hits, &options).unwrap();
+        let measured = estimate_frf(impacts, &options).unwrap();
         let pairs = measured.frequency_hz.iter().zip(&measured.frfs[0].response).take(100);
         pairs.map(|(&f, h)| h.norm() / transfer(f, 0.0).norm()).sum::<f64>() / 100.0
     };
-    let force = hits(2.0, 0.0, &mut noise);
+    let force = impacts(2.0, 0.0, &mut noise);
     assert!(gain(&force, Estimator::H1) < 0.99 && (gain(&force, Estimator::H2) - 1.0).abs() < 0.01);
-    let response = hits(0.0, 10.0, &mut noise);
+    let response = impacts(0.0, 10.0, &mut noise);
     assert!(gain(&response, Estimator::H2) > 1.01 && (gain(&response, Estimator::H1) - 1.0).abs() < 0.01);
     let between = gain(&response, Estimator::Hv);
     assert!(between > gain(&response, Estimator::H1) && between < gain(&response, Estimator::H2));
 }
 
-/// Hits one after the other in one recording, with silence behind the last.
+/// Impacts one after the other in one recording, with silence behind the last.
 fn in_one(peaks_and_lengths: &[(f64, usize)]) -> Recording {
     let mut force: Vec<f64> = Vec::new();
     for &(peak, length) in peaks_and_lengths {
@@ -206,7 +206,7 @@ fn in_one(peaks_and_lengths: &[(f64, usize)]) -> Recording {
 fn hits_of_a_long_recording_are_cut_out() {
     let recording = in_one(&[(100.0, 1200), (70.0, 1100), (120.0, 900), (90.0, 1300)]);
     let measured = estimate_frf(std::slice::from_ref(&recording), &Options::default()).unwrap();
-    let onsets: Vec<usize> = measured.impacts.iter().map(|hit| hit.onset).collect();
+    let onsets: Vec<usize> = measured.impacts.iter().map(|impact| impact.onset).collect();
     assert_eq!((onsets, measured.averages()), (vec![100, 1300, 2400, 3300], 3));
     // The third is followed too soon; the others have room for about as many samples.
     assert_eq!(measured.samples, 1100);
@@ -234,18 +234,18 @@ fn a_rebound_in_a_long_recording_is_no_hit_of_its_own() {
     assert!((after_s - 0.04).abs() < 1e-12 && (share - 0.3).abs() < 1e-9);
 }
 
-/// The faults of one bad hit among two good ones.
+/// The faults of one bad impact among two good ones.
 fn faults_of(bad: Recording) -> Vec<Fault> {
-    let measured = estimate_frf(&[hit(100.0), bad, hit(90.0)], &Options::default()).unwrap();
+    let measured = estimate_frf(&[impact(100.0), bad, impact(90.0)], &Options::default()).unwrap();
     assert_eq!(measured.averages(), 2);
-    assert!(largest_error(&measured, 0.0) < LEFT, "the bad hit is left out");
+    assert!(largest_error(&measured, 0.0) < LEFT, "the bad impact is left out");
     measured.impacts[1].faults.clone()
 }
 
 #[test]
 fn bad_hits_are_left_out_and_their_faults_named() {
     let changed = |change: &dyn Fn(&mut Recording)| {
-        let mut bad = hit(100.0);
+        let mut bad = impact(100.0);
         change(&mut bad);
         faults_of(bad)
     };
@@ -287,21 +287,21 @@ fn bad_hits_are_left_out_and_their_faults_named() {
     });
     assert!(matches!(double[..], [Fault::DoubleImpact { .. }]), "{double:?}");
     // What is said of it names the channel.
-    assert_eq!(silent[0].to_string(), "force shows no hit, only noise");
-    assert_eq!(double[0].to_string(), "double hit, 20.0 % again after 50.00 ms");
+    assert_eq!(silent[0].to_string(), "force shows no impact, only noise");
+    assert_eq!(double[0].to_string(), "double impact, 20.0 % again after 50.00 ms");
 }
 
 #[test]
 fn a_bad_hit_can_be_kept_and_none_is_an_answer_of_its_own() {
-    let mut bad = hit(100.0);
+    let mut bad = impact(100.0);
     bad.force[102..104].fill(2000.0);
-    let Err(SignalError::NoImpact(hits)) = estimate_frf(std::slice::from_ref(&bad), &Options::default())
+    let Err(SignalError::NoImpact(impacts)) = estimate_frf(std::slice::from_ref(&bad), &Options::default())
     else {
-        panic!("a spike is no hit")
+        panic!("a spike is no impact")
     };
-    assert_eq!(hits.len(), 1);
+    assert_eq!(impacts.len(), 1);
     let keep = |keep: Vec<usize>| Options::default().with_keep(keep);
-    let kept = estimate_frf(&[bad.clone(), hit(1.0)], &keep(vec![1])).unwrap();
+    let kept = estimate_frf(&[bad.clone(), impact(1.0)], &keep(vec![1])).unwrap();
     assert!(kept.averages() == 2 && kept.impacts[0].kept_anyway && kept.impacts[0].faults.len() == 1);
     assert_eq!(estimate_frf(&[bad], &keep(vec![2])), Err(SignalError::NoSuchImpact(2, 1)));
     assert_eq!(estimate_frf(&[], &Options::default()), Err(SignalError::NoImpact(Vec::new())));
@@ -309,7 +309,7 @@ fn a_bad_hit_can_be_kept_and_none_is_an_answer_of_its_own() {
 
 #[test]
 fn a_response_that_has_not_decayed_is_told() {
-    let mut short = hit(100.0);
+    let mut short = impact(100.0);
     short.force.truncate(250);
     short.responses[0].truncate(250);
     let measured = estimate_frf(&[short], &Options::default()).unwrap();
@@ -320,9 +320,9 @@ fn a_response_that_has_not_decayed_is_told() {
 #[test]
 fn recordings_that_do_not_fit_together_and_options_that_cannot_be_are_refused() {
     let refused = |change: &dyn Fn(&mut Recording)| {
-        let mut other = hit(100.0);
+        let mut other = impact(100.0);
         change(&mut other);
-        estimate_frf(&[hit(100.0), other], &Options::default()).unwrap_err().to_string()
+        estimate_frf(&[impact(100.0), other], &Options::default()).unwrap_err().to_string()
     };
     assert_eq!(
         refused(&|r| r.step_s = 2e-3),
@@ -338,7 +338,7 @@ fn recordings_that_do_not_fit_together_and_options_that_cannot_be_are_refused() 
         "recording 2: expected finite samples, found others in channel response 1"
     );
     let options = Options::default().with_length_s(Some(-1.0));
-    let error = estimate_frf(&[hit(1.0)], &options).unwrap_err();
+    let error = estimate_frf(&[impact(1.0)], &options).unwrap_err();
     assert_eq!(error.to_string(), "length: expected a positive number, found -1");
 }
 
@@ -346,15 +346,15 @@ proptest! {
     // Each takes 500 sums of 1000 terms.
     #![proptest_config(ProptestConfig::with_cases(40))]
 
-    /// Offsets, the sensor's polarity and the size of the hit change nothing in the FRF but its sign.
+    /// Offsets, the sensor's polarity and the size of the impact change nothing in the FRF but its sign.
     #[test]
     fn the_frf_does_not_depend_on_offsets_polarity_and_size(
         size in 1e-3..1e6_f64, scale in prop_oneof![Just(1.0), Just(-1.0)], offset in -0.02..0.02_f64, start in 0..80_usize,
     ) {
-        let mut changed = hit(100.0);
+        let mut changed = impact(100.0);
         changed.force.iter_mut().for_each(|f| *f = scale * size * (*f / 100.0 + offset));
         changed.responses[0].iter_mut().for_each(|x| *x = size * (*x / 100.0 - offset));
-        // The record begins later: the same hit nearer to its beginning.
+        // The record begins later: the same impact nearer to its beginning.
         changed.force.drain(..start);
         changed.responses[0].drain(..start);
         let measured = estimate_frf(&[changed], &Options::default().with_drift(1.0)).unwrap();
@@ -378,7 +378,7 @@ proptest! {
             let frf = &measured.frfs[0];
             prop_assert!(frf.response.iter().all(|h| h.is_finite()));
             prop_assert!(frf.coherence.iter().flatten().all(|c| (0.0..=1.0).contains(c)));
-            prop_assert!(measured.impacts.iter().all(|hit| hit.residual.iter().all(|r| r.is_finite())));
+            prop_assert!(measured.impacts.iter().all(|impact| impact.residual.iter().all(|r| r.is_finite())));
         }
     }
 }

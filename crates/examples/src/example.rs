@@ -92,7 +92,7 @@ static EXAMPLES: [Example; 10] = [
     },
     Example {
         name: "hammer-bar",
-        summary: "free-free polyurethane bar, records of a hammer test: from the hit to the modulus",
+        summary: "free-free polyurethane bar, records of a hammer test: from the impact to the modulus",
         case: include_str!("../cases/hammer-bar/case.toml"),
         readme: include_str!("../cases/hammer-bar/README.md"),
         unknown: One(|| hammer_bar(400)),

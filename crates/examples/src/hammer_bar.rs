@@ -111,7 +111,7 @@ fn truth() -> Table {
     Table::new(frequency_hz, values).expect("ascending frequencies and finite values")
 }
 
-/// Records of force (N) and acceleration (m/s²) of some hits, one a segment, computed from the exact solution.
+/// Records of force (N) and acceleration (m/s²) of some impacts, one a segment, computed from the exact solution.
 ///
 /// Both channels pass the same anti-aliasing filter, without phase, which so cancels in their quotient; what the bar does
 /// above the Nyquist frequency does not fold back. Noise is the standard deviation of what is added to every sample, as a
@@ -124,7 +124,7 @@ fn truth() -> Table {
 ///
 /// # Errors
 /// [`Error::Format`] where a number cannot be written, as with noise that is not finite.
-pub fn hammer_records(hits: usize, noise: f64) -> Result<Vec<u8>, Error> {
+pub fn hammer_records(impacts: usize, noise: f64) -> Result<Vec<u8>, Error> {
     let [force, acceleration] = signals();
     let mut random = Random(1);
     let mut channel = |name: &str, unit: &str, clean: &[f64], size: f64| {
@@ -137,18 +137,18 @@ pub fn hammer_records(hits: usize, noise: f64) -> Result<Vec<u8>, Error> {
             values: clean.iter().map(sample).collect(),
         }
     };
-    // No two hits are alike: sizes between 0.8 and 1.2.
-    let mut segment = |hit: usize| {
-        let size = 1.0 + 0.2 * (2.4 * hit as f64).sin();
+    // No two impacts are alike: sizes between 0.8 and 1.2.
+    let mut segment = |impact: usize| {
+        let size = 1.0 + 0.2 * (2.4 * impact as f64).sin();
         let channels =
             vec![channel("Force", "N", &force, size), channel("Acceleration", "m/s^2", &acceleration, size)];
         Segment { channels, ..Segment::default() }
     };
-    let file = Lvm { segments: (0..hits).map(&mut segment).collect(), ..Lvm::default() };
+    let file = Lvm { segments: (0..impacts).map(&mut segment).collect(), ..Lvm::default() };
     Ok(lvm::write(&file)?.into_bytes())
 }
 
-/// Force and acceleration of a hit at the instants of a record.
+/// Force and acceleration of an impact at the instants of a record.
 fn signals() -> [Vec<f64>; 2] {
     let points = PERIODS * SAMPLES;
     let step_hz = 1.0 / (points as f64 * STEP_S);

@@ -6,8 +6,8 @@ use frfit_examples::{hammer_accelerance, hammer_bar, hammer_records, hammer_rod,
 use frfit_formats::lvm;
 use std::f64::consts::TAU;
 
-fn recordings(hits: usize, noise: f64) -> Vec<Recording> {
-    let file = lvm::read(&hammer_records(hits, noise).unwrap()).unwrap();
+fn recordings(impacts: usize, noise: f64) -> Vec<Recording> {
+    let file = lvm::read(&hammer_records(impacts, noise).unwrap()).unwrap();
     let recording = |segment: &lvm::Segment| {
         let [force, acceleration] = [0, 1].map(|k| segment.channels[k].values.clone());
         Recording { step_s: 0.3125e-3, force, responses: vec![acceleration] }

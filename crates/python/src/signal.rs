@@ -24,7 +24,7 @@ pub(crate) struct How {
     trigger_n: Option<f64>,
     pre_trigger_s: Option<f64>,
     length_s: Option<f64>,
-    double_hit: f64,
+    double_impact: f64,
     drift: f64,
     force_window_s: Option<f64>,
     exponential_window_s: Option<f64>,
@@ -52,7 +52,7 @@ pub(crate) fn frf<'py>(
         .with_trigger_n(how.trigger_n)
         .with_pre_trigger_s(how.pre_trigger_s)
         .with_length_s(how.length_s)
-        .with_double_impact(how.double_hit)
+        .with_double_impact(how.double_impact)
         .with_drift(how.drift)
         .with_windows(windows)
         .with_keep(how.keep);
@@ -70,19 +70,19 @@ pub(crate) fn frf<'py>(
     // Of real and imaginary part each; a measurement's deviation is that of the complex value.
     let std = |variance: &Vec<f64>| variance.iter().map(|v| (2.0 * v).sqrt()).collect();
     found.set_item("std", column(&|frf| frf.variance.as_ref().map(std))?)?;
-    let hits = PyList::empty(py);
-    for hit in &measured.impacts {
+    let impacts = PyList::empty(py);
+    for impact in &measured.impacts {
         let one = PyDict::new(py);
-        one.set_item("recording", hit.recording)?;
-        one.set_item("first", hit.range.start)?;
-        one.set_item("end", hit.range.end)?;
-        one.set_item("peak_n", hit.peak_n)?;
-        one.set_item("contact_s", hit.contact_s(measured.step_s))?;
-        one.set_item("kept", hit.is_kept())?;
-        one.set_item("faults", hit.faults.iter().map(ToString::to_string).collect::<Vec<_>>())?;
-        hits.append(one)?;
+        one.set_item("recording", impact.recording)?;
+        one.set_item("first", impact.range.start)?;
+        one.set_item("end", impact.range.end)?;
+        one.set_item("peak_n", impact.peak_n)?;
+        one.set_item("contact_s", impact.contact_s(measured.step_s))?;
+        one.set_item("kept", impact.is_kept())?;
+        one.set_item("faults", impact.faults.iter().map(ToString::to_string).collect::<Vec<_>>())?;
+        impacts.append(one)?;
     }
-    found.set_item("hits", hits)?;
+    found.set_item("impacts", impacts)?;
     found.set_item("response", table(py, measured.frfs.into_iter().map(|frf| frf.response), points)?)?;
     found.set_item("frequency_hz", measured.frequency_hz.into_pyarray(py))?;
     found.set_item("force", measured.force.into_pyarray(py))?;

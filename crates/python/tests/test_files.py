@@ -123,7 +123,7 @@ def test_hammer_records_give_the_frf_of_the_oscillator():
         force = np.where((t > 0.05) & (t < 0.054), amplitude * np.sin(np.pi * (t - 0.05) / 0.004), 0.0)
         records.append(frfit.Recording(1 / rate, force, np.convolve(force, h)[: len(t)] / rate))
     found = frfit.frf(records)
-    assert found.averages == averages and all(hit.kept for hit in found.hits)
+    assert found.averages == averages and all(impact.kept for impact in found.impacts)
     band = (found.frequency_hz > 10) & (found.frequency_hz < 100)
     w = 2 * np.pi * found.frequency_hz[band]
     exact = 1 / (m * (w0**2 - w**2 + 2j * zeta * w0 * w))

@@ -7,7 +7,7 @@ use crate::figures::{identify_figures, measured_figures, respond_figures};
 use crate::load::{Case, Check, IdentifyCase, Overrides, Purpose, load};
 use crate::memory::{MemoryError, check_full, check_identify};
 use crate::output::{
-    File, Words, WriteError, candidates_csv, check_file, check_folder, error_map_csv, hit_reasons,
+    File, Words, WriteError, candidates_csv, check_file, check_folder, error_map_csv, impact_reasons,
     identified_csv, is_stream, measured_csv, measured_summary, measured_text, measured_uff, reference_csv,
     respond_csv, respond_uff, response_csv, summary_json, updated_uff, write_one, write_result,
 };
@@ -278,7 +278,7 @@ pub struct FrfJob {
 /// pipe) there is nothing.
 ///
 /// # Errors
-/// [`JobError`]: what [`read_records`] refuses, no hit without fault, an ending that is neither, several responses for a table.
+/// [`JobError`]: what [`read_records`] refuses, no impact without fault, an ending that is neither, several responses for a table.
 pub fn frf_of_records(
     files: &[PathBuf],
     channels: &ChannelOptions,
@@ -351,11 +351,11 @@ fn refusal(error: SignalError, records: &Records, files: &[PathBuf]) -> InputErr
             InputError::at(&Place::file(file(k)), "recordings that fit together", found)
         }
         SignalError::NoSuchImpact(number, count) => {
-            InputError::at(&Place::option("--keep"), format!("hits from 1 to {count}"), number.to_string())
+            InputError::at(&Place::option("--keep"), format!("impacts from 1 to {count}"), number.to_string())
         }
-        SignalError::NoImpact(hits) => {
-            let told = hit_reasons(records, &hits);
-            InputError::at(&Place::file(file(0)), "a hit without fault", format!("none: {told}"))
+        SignalError::NoImpact(impacts) => {
+            let told = impact_reasons(records, &impacts);
+            InputError::at(&Place::file(file(0)), "an impact without fault", format!("none: {told}"))
         }
         other => InputError::at(&Place::file(file(0)), "records of a hammer test", other.to_string()),
     }

@@ -19,13 +19,13 @@ fn job(file: &Path, options: &Options, out: &Path) -> FrfJob {
 
 #[test]
 #[ignore = "needs the data of ../shared/data"]
-fn of_five_hits_a_spike_and_a_double_hit_are_left_out_needs_data() {
+fn of_five_hits_a_spike_and_a_double_impact_are_left_out_needs_data() {
     let file = shared("hammer/impact2_response0.lvm");
     let folder = tempfile::tempdir().unwrap();
     let FrfJob { measured, summary, text, .. } =
         job(&file, &Options::default(), &folder.path().join("frf.uff"));
     assert_eq!((measured.impacts.len(), measured.samples), (5, 51200));
-    let kept: Vec<bool> = measured.impacts.iter().map(|hit| hit.is_kept()).collect();
+    let kept: Vec<bool> = measured.impacts.iter().map(|impact| impact.is_kept()).collect();
     assert_eq!(kept, [false, true, false, true, true]);
     assert!(
         matches!(measured.impacts[0].faults[..], [Fault::Spike { samples: 3, height, .. }] if (height - 2000.0).abs() < 1.0)
@@ -35,11 +35,11 @@ fn of_five_hits_a_spike_and_a_double_hit_are_left_out_needs_data() {
         panic!("{}", text.all)
     };
     assert!((after_s - 0.02283).abs() < 1e-4 && (share - 0.204).abs() < 2e-3, "{after_s} {share}");
-    assert_eq!(summary["hits"][0]["faults"][0]["fault"], "spike");
+    assert_eq!(summary["impacts"][0]["faults"][0]["fault"], "spike");
     assert_eq!(summary["averages"], 3);
     assert!(
         text.all.contains(
-            "hit 1   left out     172.2 N    0.27 ms  spike of 3 samples in Force (Trigger), up to 2000"
+            "impact 1   left out     172.2 N    0.27 ms  spike of 3 samples in Force (Trigger), up to 2000"
         ),
         "{}",
         text.all
@@ -108,16 +108,16 @@ fn pyfrf_estimates_the_same_needs_data_and_pyfrf_and_lvm_read() {
     let python = python_with("pyFRF, lvm_read");
     let file = shared("hammer/impact2_response0.lvm");
     let records = read_records(std::slice::from_ref(&file), &ChannelOptions::default()).unwrap();
-    // The second contact of the third hit is 20 % of the first: with a limit above that four hits are averaged.
-    for (double_hit, averages) in [(0.1, 3), (0.25, 4)] {
-        let options = Options::default().with_double_impact(double_hit);
+    // The second contact of the third impact is 20 % of the first: with a limit above that four impacts are averaged.
+    for (double_impact, averages) in [(0.1, 3), (0.25, 4)] {
+        let options = Options::default().with_double_impact(double_impact);
         let estimate = |estimator| {
             estimate_frf(&records.recordings, &options.clone().with_estimator(estimator)).unwrap()
         };
         let (h1, h2) = (estimate(Estimator::H1), estimate(Estimator::H2));
         assert_eq!(h1.averages(), averages);
-        let kept = h1.impacts.iter().filter(|hit| hit.is_kept());
-        let cuts = kept.map(|hit| format!("{},{},{}", hit.recording, hit.range.start, hit.range.end));
+        let kept = h1.impacts.iter().filter(|impact| impact.is_kept());
+        let cuts = kept.map(|impact| format!("{},{},{}", impact.recording, impact.range.start, impact.range.end));
         let output = Command::new(&python).args(["-c", SCRIPT]).arg(&file).args(cuts).output().unwrap();
         assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
         let theirs = String::from_utf8(output.stdout).unwrap();
@@ -147,7 +147,7 @@ fn hexadecimal(text: &str) -> f64 {
     sign * all as f64 * 2f64.powi(exponent.parse::<i32>().unwrap() - 4 * fraction.len() as i32)
 }
 
-/// A UFF file in mm and N: two hits of force and acceleration, a spectrum that is not meant.
+/// A UFF file in mm and N: two impacts of force and acceleration, a spectrum that is not meant.
 #[test]
 fn time_functions_of_a_uff_file_are_paired_in_their_order_and_scaled() {
     use frfit_formats::uff::{
@@ -187,7 +187,7 @@ fn time_functions_of_a_uff_file_are_paired_in_their_order_and_scaled() {
         ));
     }
     let folder = tempfile::tempdir().unwrap();
-    let (file, out) = (folder.path().join("hits.uff"), folder.path().join("frf.uff"));
+    let (file, out) = (folder.path().join("impacts.uff"), folder.path().join("frf.uff"));
     std::fs::write(&file, bytes).unwrap();
     let FrfJob { records, measured, .. } = job(&file, &Options::default(), &out);
     assert_eq!((measured.impacts.len(), measured.averages(), records.responses.len()), (2, 2, 2));
@@ -212,7 +212,7 @@ fn time_functions_of_a_uff_file_are_paired_in_their_order_and_scaled() {
 
 #[test]
 fn a_channel_that_one_recording_lacks_is_named() {
-    let hit = |channels: &str, rows: &str| {
+    let impact = |channels: &str, rows: &str| {
         format!(
             "\nChannels\t{}\n***End_of_Header***\nX_Value\t{channels}\n{rows}",
             channels.split('\t').count()
@@ -232,17 +232,17 @@ fn a_channel_that_one_recording_lacks_is_named() {
     };
     let text = format!(
         "LabVIEW Measurement\nX_Columns\tOne\n***End_of_Header***\n{}{}{}",
-        units(hit("F\ta", &rows(2))),
-        hit("F", &rows(1)),
-        units(hit("F\ta", &rows(2))),
+        units(impact("F\ta", &rows(2))),
+        impact("F", &rows(1)),
+        units(impact("F\ta", &rows(2))),
     );
     let folder = tempfile::tempdir().unwrap();
-    let (file, out) = (folder.path().join("hits.lvm"), folder.path().join("frf.uff"));
+    let (file, out) = (folder.path().join("impacts.lvm"), folder.path().join("frf.uff"));
     std::fs::write(&file, text).unwrap();
     let FrfJob { measured, text, .. } = job(&file, &Options::default(), &out);
     assert_eq!(measured.averages(), 2);
     assert!(
-        text.all.contains("hit 2   left out") && text.all.contains("a is missing or does not move"),
+        text.all.contains("impact 2   left out") && text.all.contains("a is missing or does not move"),
         "{}",
         text.all
     );

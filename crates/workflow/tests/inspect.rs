@@ -247,7 +247,7 @@ fn uff(edit: impl Fn(String) -> String) -> String {
         reference: Dof { node: 1, direction: -3, ..Dof::default() },
         ..FunctionHeader::default()
     };
-    header.id[0] = "hit 1".into();
+    header.id[0] = "impact 1".into();
     header.abscissa.unit = "Hz".into();
     header.ordinate.quantity = Quantity::Acceleration;
     header.denominator.quantity = Quantity::ExcitationForce;
@@ -270,7 +270,7 @@ fn a_broken_dataset_is_listed_with_its_error() {
     assert_eq!(
         json["records"][2],
         json!({
-            "dataset": 58, "binary": false, "line": 22, "record": 1, "id": "hit 1",
+            "dataset": 58, "binary": false, "line": 22, "record": 1, "id": "impact 1",
             "function_type": "frequency response function", "response": "34+Z", "reference": "1-Z",
             "points": 2, "range": [10.0, 10.5], "even": true, "data_type": "complex, double precision",
             "quantities": {"abscissa": "frequency", "ordinate": "acceleration", "denominator": "excitation force"},

@@ -85,8 +85,8 @@ impl Summary {
     /// Of some lines.
     pub fn of<'a>(lines: impl Iterator<Item = &'a Judged> + Clone) -> Self {
         let share = |flags: Vec<bool>| {
-            let hits = flags.iter().filter(|flag| **flag).count();
-            (!flags.is_empty()).then(|| hits as f64 / flags.len() as f64)
+            let yes = flags.iter().filter(|flag| **flag).count();
+            (!flags.is_empty()).then(|| yes as f64 / flags.len() as f64)
         };
         let each = |part: usize| lines.clone().map(move |line| line.parts[part]);
         let covered = |part| share(each(part).filter_map(|one| Some(one.deviations()? <= COVERED)).collect());

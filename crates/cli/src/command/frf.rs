@@ -27,7 +27,7 @@ pub(crate) fn run(args: &Args, wanted: &Frf) -> Result<Outcome, Failure> {
         .with_trigger_n(wanted.trigger)
         .with_pre_trigger_s(wanted.pre_trigger)
         .with_length_s(wanted.length)
-        .with_double_impact(wanted.double_hit.unwrap_or(usual.double_impact))
+        .with_double_impact(wanted.double_impact.unwrap_or(usual.double_impact))
         .with_drift(wanted.drift.unwrap_or(usual.drift))
         .with_windows(windows)
         .with_keep(wanted.keep.clone());

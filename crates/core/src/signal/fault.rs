@@ -63,7 +63,7 @@ impl Fault {
             Self::Incomplete { .. } => "incomplete",
             Self::Spike { .. } => "spike",
             Self::Clipped { .. } => "clipped",
-            Self::DoubleImpact { .. } => "double_hit",
+            Self::DoubleImpact { .. } => "double_impact",
             Self::Drift { .. } => "drift",
         }
     }
@@ -84,7 +84,7 @@ impl Fault {
     pub fn describe(&self, channel: &str) -> String {
         match self {
             Self::Missing { .. } => format!("{channel} is missing or does not move"),
-            Self::Silent => format!("{channel} shows no hit, only noise"),
+            Self::Silent => format!("{channel} shows no impact, only noise"),
             Self::Incomplete { samples, of } => format!("record incomplete, {samples} of {of} samples"),
             Self::Spike { samples, height, .. } => {
                 format!("spike of {samples} samples in {channel}, up to {height:.4}")
@@ -93,7 +93,7 @@ impl Fault {
                 format!("{channel} clipped, {samples} samples at {level:.4}")
             }
             Self::DoubleImpact { after_s, share } => {
-                format!("double hit, {:.1} % again after {:.2} ms", 100.0 * share, 1e3 * after_s)
+                format!("double impact, {:.1} % again after {:.2} ms", 100.0 * share, 1e3 * after_s)
             }
             Self::Drift { share, .. } => {
                 format!("{channel} drifts by {:.1} % of its largest value", 100.0 * share)

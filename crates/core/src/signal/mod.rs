@@ -81,17 +81,17 @@ impl fmt::Display for SignalError {
         match self {
             Self::Options(error) => write!(f, "{error}"),
             Self::Recording(k, error) => write!(f, "recording {}: {error}", k + 1),
-            Self::NoImpact(impacts) if impacts.is_empty() => write!(f, "expected a hit, found no recording"),
+            Self::NoImpact(impacts) if impacts.is_empty() => write!(f, "expected an impact, found no recording"),
             Self::NoImpact(impacts) => {
-                write!(f, "expected a hit without fault, found none among {}", impacts.len())?;
+                write!(f, "expected an impact without fault, found none among {}", impacts.len())?;
                 for (k, impact) in impacts.iter().enumerate() {
                     let faults: Vec<String> = impact.faults.iter().map(Fault::to_string).collect();
-                    write!(f, "; hit {}: {}", k + 1, faults.join(", "))?;
+                    write!(f, "; impact {}: {}", k + 1, faults.join(", "))?;
                 }
                 Ok(())
             }
             Self::NoSuchImpact(number, count) => {
-                write!(f, "expected a hit from 1 to {count}, found {number}")
+                write!(f, "expected an impact from 1 to {count}, found {number}")
             }
         }
     }

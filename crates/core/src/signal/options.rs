@@ -88,7 +88,7 @@ impl Options {
             positive("trigger", self.trigger_n),
             ("pre_trigger", "a number from 0 on", self.pre_trigger_s, 0.0, f64::MAX),
             positive("length", self.length_s),
-            share("double_hit", self.double_impact),
+            share("double_impact", self.double_impact),
             share("drift", self.drift),
             positive("force_window", self.windows.force_s),
             positive("exponential_window", self.windows.exponential_s),

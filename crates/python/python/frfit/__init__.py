@@ -33,7 +33,7 @@ from ._matrix import read_matrix
 from ._model import Model, Term, respond, series
 from ._report import Report
 from ._result import Direction, Estimate, Finding, Identification, Number
-from ._signal import Hit, MeasuredFrf, Recording, frf
+from ._signal import Impact, MeasuredFrf, Recording, frf
 from ._uff import Uff, UffAxis, UffDof, UffFunction, UffSummary, read_uff, write_uff
 
 __all__ = [
@@ -41,7 +41,7 @@ __all__ = [
     "Estimate",
     "Finding",
     "FrfitError",
-    "Hit",
+    "Impact",
     "Identification",
     "InputError",
     "InternalError",

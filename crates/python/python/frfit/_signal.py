@@ -47,16 +47,16 @@ def _plain(one: Any) -> SimpleNamespace:
     return SimpleNamespace(step_s=step_s, force=force, responses=responses)
 
 
-def _hit(value: Any) -> int:
-    found = whole(value, "keep", "numbers of hits, from 1")
+def _impact(value: Any) -> int:
+    found = whole(value, "keep", "numbers of impacts, from 1")
     if found < 1:
-        raise refuse("keep", "numbers of hits, from 1", str(found))
+        raise refuse("keep", "numbers of impacts, from 1", str(found))
     return found
 
 
 @dataclass(frozen=True)
-class Hit:
-    """A hit that was found: samples ``first`` to ``end`` of a recording, and what speaks against it."""
+class Impact:
+    """An impact that was found: samples ``first`` to ``end`` of a recording, and what speaks against it."""
 
     recording: int
     first: int
@@ -72,7 +72,7 @@ class MeasuredFrf:
     """The FRF of every sensor, with how sure it is.
 
     ``frequency_hz`` (f,); ``response`` (sensors, f), response over force; ``coherence`` and ``std`` (sensors, f), ``None`` for a
-    single hit, ``std`` that of the complex value; ``force`` (f,), rms of the force's transform, N s; ``decay_per_s``, 1/s, that of
+    single impact, ``std`` that of the complex value; ``force`` (f,), rms of the force's transform, N s; ``decay_per_s``, 1/s, that of
     the exponential window, for ``Measurement``.
     """
 
@@ -82,7 +82,7 @@ class MeasuredFrf:
     std: Real | None
     force: Real
     averages: int
-    hits: tuple[Hit, ...]
+    impacts: tuple[Impact, ...]
     decay_per_s: float = 0.0
 
 
@@ -93,21 +93,21 @@ def frf(
     trigger_n: float | None = None,
     pre_trigger_s: float | None = None,
     length_s: float | None = None,
-    double_hit: float = 0.1,
+    double_impact: float = 0.1,
     drift: float = 0.05,
     force_window_s: float | None = None,
     exponential_window_s: float | None = None,
     keep: Sequence[int] = (),
 ) -> MeasuredFrf:
-    """Hits, FRF, coherence and standard deviation from the records of one hammer.
+    """Impacts, FRF, coherence and standard deviation from the records of one hammer.
 
-    Several recordings are triggered captures of one hit each; a single one may hold many. ``keep`` names hits (from 1)
+    Several recordings are triggered captures of one impact each; a single one may hold many. ``keep`` names impacts (from 1)
     that are averaged whatever is wrong with them.
 
     Raises
     ------
     SignalError
-        No hit without fault, recordings that do not fit together.
+        No impact without fault, recordings that do not fit together.
 
     Examples
     --------
@@ -126,12 +126,12 @@ def frf(
         "trigger_n": optional_number(trigger_n, "trigger_n"),
         "pre_trigger_s": optional_number(pre_trigger_s, "pre_trigger_s"),
         "length_s": optional_number(length_s, "length_s"),
-        "double_hit": number(double_hit, "double_hit"),
+        "double_impact": number(double_impact, "double_impact"),
         "drift": number(drift, "drift"),
         "force_window_s": optional_number(force_window_s, "force_window_s"),
         "exponential_window_s": optional_number(exponential_window_s, "exponential_window_s"),
-        "keep": [_hit(hit) for hit in several(keep, "keep", "numbers of hits, from 1")],
+        "keep": [_impact(impact) for impact in several(keep, "keep", "numbers of impacts, from 1")],
     }
     found = _frfit.frf(plain, how)
-    hits = tuple(Hit(**{**hit, "faults": tuple(hit["faults"])}) for hit in found.pop("hits"))
-    return MeasuredFrf(hits=hits, **found)
+    impacts = tuple(Impact(**{**impact, "faults": tuple(impact["faults"])}) for impact in found.pop("impacts"))
+    return MeasuredFrf(impacts=impacts, **found)

@@ -31,7 +31,7 @@ fn curve(label: &str, measured: &Measured, y: Vec<f64>, color: Color) -> Series 
     Series { label: label.into(), x, y, color, ..Series::default() }
 }
 
-/// Root mean squares over the hits of the transforms of force and responses.
+/// Root mean squares over the impacts of the transforms of force and responses.
 pub(super) fn spectra(records: &Records, measured: &Measured) -> Figure {
     let force = curve("", measured, measured.force.clone(), Color::Black);
     let mut panels = vec![Panel { y: Axis::log("Force (N·s)"), series: vec![force], ..Panel::default() }];

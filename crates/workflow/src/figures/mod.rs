@@ -3,7 +3,7 @@
 mod accelerance;
 mod candidates;
 mod error_map;
-mod hits;
+mod impacts;
 mod identifiability;
 mod laws;
 mod measured;
@@ -101,7 +101,7 @@ pub fn respond_figures(case: &Case, run: &RespondRun) -> Result<Vec<File>, PngEr
 /// [`PngError`] where a figure cannot be rasterised.
 pub fn measured_figures(records: &Records, measured: &Measured, folder: &str) -> Result<Vec<File>, PngError> {
     let mut figures = vec![
-        ("force".to_owned(), hits::force(records, measured)),
+        ("force".to_owned(), impacts::force(records, measured)),
         ("spectra".to_owned(), measured::spectra(records, measured)),
     ];
     for sensor in 0..records.responses.len() {
@@ -109,7 +109,7 @@ pub fn measured_figures(records: &Records, measured: &Measured, folder: &str) ->
             1 => name.to_owned(),
             _ => format!("{name}-{}", sensor + 1),
         };
-        figures.push((numbered("response"), hits::response(records, measured, sensor)));
+        figures.push((numbered("response"), impacts::response(records, measured, sensor)));
         figures.push((numbered("frf"), measured::frf(records, measured, sensor)));
     }
     draw_into(folder, figures)

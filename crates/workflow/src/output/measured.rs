@@ -25,7 +25,7 @@ pub fn measured_uff(records: &Records, measured: &Measured, title: &str) -> Resu
         let header = FunctionHeader {
             id: [
                 title.chars().filter(|c| !c.is_control()).take(80).collect(),
-                format!("Hammer test, {averages} hits averaged, {:.6} s each", length_s(measured)),
+                format!("Hammer test, {averages} impacts averaged, {:.6} s each", length_s(measured)),
                 measured.added_decay_per_s.map(decay_line).unwrap_or_default(),
                 String::new(),
                 String::new(),
@@ -49,7 +49,7 @@ pub fn measured_uff(records: &Records, measured: &Measured, title: &str) -> Resu
     Ok(bytes)
 }
 
-/// Columns frequency_hz, re, im, and of more than one hit coherence and std, of the first sensor: a table has one FRF. A comment line before them has the
+/// Columns frequency_hz, re, im, and of more than one impact coherence and std, of the first sensor: a table has one FRF. A comment line before them has the
 /// decay rate of an exponential window, `# decay_per_s = 6`, in 1/s.
 ///
 /// `std` is √E|δH|² of the complex value, √2 times that of its real and imaginary parts (B-6).
@@ -100,21 +100,21 @@ fn reason(records: &Records, fault: &Fault) -> String {
     fault.describe(fault.channel().map_or("", |channel| channel_name(records, channel)))
 }
 
-/// Every hit with what speaks against it, in one line.
-pub fn hit_reasons(records: &Records, hits: &[Impact]) -> String {
-    let of = |(k, hit): (usize, &Impact)| {
-        let reasons: Vec<String> = hit.faults.iter().map(|fault| reason(records, fault)).collect();
-        format!("hit {}: {}", k + 1, reasons.join(", "))
+/// Every impact with what speaks against it, in one line.
+pub fn impact_reasons(records: &Records, impacts: &[Impact]) -> String {
+    let of = |(k, impact): (usize, &Impact)| {
+        let reasons: Vec<String> = impact.faults.iter().map(|fault| reason(records, fault)).collect();
+        format!("impact {}: {}", k + 1, reasons.join(", "))
     };
-    hits.iter().enumerate().map(of).collect::<Vec<_>>().join("; ")
+    impacts.iter().enumerate().map(of).collect::<Vec<_>>().join("; ")
 }
 
-/// What the user ought to know that is no fault of a single hit.
+/// What the user ought to know that is no fault of a single impact.
 fn warnings(records: &Records, measured: &Measured) -> Vec<String> {
     let mut warnings = Vec::new();
     for (k, sensor) in records.responses.iter().enumerate() {
-        let kept = measured.impacts.iter().filter(|hit| hit.is_kept());
-        let rest = kept.filter_map(|hit| hit.undecayed(k)).reduce(f64::max);
+        let kept = measured.impacts.iter().filter(|impact| impact.is_kept());
+        let rest = kept.filter_map(|impact| impact.undecayed(k)).reduce(f64::max);
         if let Some(rest) = rest.filter(|_| measured.added_decay_per_s.is_none()) {
             warnings.push(format!(
                 "{} has not decayed: {:.1} % of its largest value is left at the end of the record and wraps around \
@@ -125,7 +125,7 @@ fn warnings(records: &Records, measured: &Measured) -> Vec<String> {
         }
     }
     if measured.averages() == 1 {
-        warnings.push("a single hit: no coherence, and no word about the noise".to_owned());
+        warnings.push("a single impact: no coherence, and no word about the noise".to_owned());
     }
     let excited = excited_to_hz(measured);
     if let (Some(excited), Some(last)) = (excited, measured.frequency_hz.last())
@@ -152,14 +152,14 @@ fn excited_to_hz(measured: &Measured) -> Option<f64> {
     past.map_or(measured.frequency_hz.last(), |k| measured.frequency_hz.get(k)).copied()
 }
 
-/// Everything about the hits and the FRF but its values.
+/// Everything about the impacts and the FRF but its values.
 pub fn measured_summary(records: &Records, measured: &Measured, options: &Options) -> Value {
     let inputs: Vec<Value> = records
         .inputs
         .iter()
         .map(|input| json!({"file": input.path.display().to_string(), "bytes": input.bytes, "sha256": input.sha256}))
         .collect();
-    let hit = |(k, hit): (usize, &Impact)| hit_json(k + 1, hit, records, measured);
+    let impact = |(k, impact): (usize, &Impact)| impact_json(k + 1, impact, records, measured);
     let coherence = |frf: &Frf| {
         let excited = excited_to_hz(measured).unwrap_or(0.0);
         let mut values: Vec<f64> = (measured.frequency_hz.iter())
@@ -190,7 +190,7 @@ pub fn measured_summary(records: &Records, measured: &Measured, options: &Option
             "exponential_s": options.windows.exponential_s,
             "added_decay_per_s": measured.added_decay_per_s,
         },
-        "hits": measured.impacts.iter().enumerate().map(hit).collect::<Vec<_>>(),
+        "impacts": measured.impacts.iter().enumerate().map(impact).collect::<Vec<_>>(),
         "found": measured.impacts.len(),
         "averages": measured.averages(),
         "frequencies": measured.frequency_hz.len(),
@@ -200,7 +200,7 @@ pub fn measured_summary(records: &Records, measured: &Measured, options: &Option
     })
 }
 
-fn hit_json(number: usize, hit: &Impact, records: &Records, measured: &Measured) -> Value {
+fn impact_json(number: usize, impact: &Impact, records: &Records, measured: &Measured) -> Value {
     let fault = |fault: &Fault| {
         json!({
             "fault": fault.name(),
@@ -209,18 +209,18 @@ fn hit_json(number: usize, hit: &Impact, records: &Records, measured: &Measured)
         })
     };
     json!({
-        "hit": number,
-        "file": records.origins.get(hit.recording).map(|path| path.display().to_string()),
-        "recording": hit.recording + 1,
-        "first_sample": hit.range.start,
-        "samples": hit.range.len(),
-        "time_s": hit.onset as f64 * measured.step_s,
-        "peak_n": hit.peak_n,
-        "contact_s": hit.contact_s(measured.step_s),
-        "kept": hit.is_kept(),
-        "faults": hit.faults.iter().map(fault).collect::<Vec<_>>(),
-        "residual": hit.residual,
-        "noise": hit.noise,
+        "impact": number,
+        "file": records.origins.get(impact.recording).map(|path| path.display().to_string()),
+        "recording": impact.recording + 1,
+        "first_sample": impact.range.start,
+        "samples": impact.range.len(),
+        "time_s": impact.onset as f64 * measured.step_s,
+        "peak_n": impact.peak_n,
+        "contact_s": impact.contact_s(measured.step_s),
+        "kept": impact.is_kept(),
+        "faults": impact.faults.iter().map(fault).collect::<Vec<_>>(),
+        "residual": impact.residual,
+        "noise": impact.noise,
     })
 }
 
@@ -233,27 +233,27 @@ fn sensor_json(sensor: &Sensor) -> Value {
     })
 }
 
-/// The hits, the FRF and the warnings in a few lines.
+/// The impacts, the FRF and the warnings in a few lines.
 pub fn measured_text(records: &Records, measured: &Measured, options: &Options) -> Words {
     let mut words = Words::default();
     words.say(&format!(
         "{} found, {} averaged, {} samples each ({} s at {} Hz)\n",
-        plural(measured.impacts.len(), "hit"),
+        plural(measured.impacts.len(), "impact"),
         measured.averages(),
         measured.samples,
         short(length_s(measured)),
         short(1.0 / measured.step_s),
     ));
-    for (number, hit) in (1..).zip(&measured.impacts) {
-        let reasons: Vec<String> = hit.faults.iter().map(|fault| reason(records, fault)).collect();
-        let (verdict, reasons) = match (hit.is_kept(), reasons.is_empty()) {
+    for (number, impact) in (1..).zip(&measured.impacts) {
+        let reasons: Vec<String> = impact.faults.iter().map(|fault| reason(records, fault)).collect();
+        let (verdict, reasons) = match (impact.is_kept(), reasons.is_empty()) {
             (true, true) => ("averaged", String::new()),
             (true, false) => ("averaged", format!("  as asked, although: {}", reasons.join("; "))),
             (false, _) => ("left out", format!("  {}", reasons.join("; "))),
         };
-        let contact_ms = 1e3 * hit.contact_s(measured.step_s);
+        let contact_ms = 1e3 * impact.contact_s(measured.step_s);
         let line =
-            format!("  hit {number:<3} {verdict}  {:>8.1} N  {contact_ms:>6.2} ms{reasons}\n", hit.peak_n);
+            format!("  impact {number:<3} {verdict}  {:>8.1} N  {contact_ms:>6.2} ms{reasons}\n", impact.peak_n);
         words.add(!reasons.is_empty(), &line);
     }
     let (first, last) = (measured.frequency_hz.first(), measured.frequency_hz.last());

@@ -26,7 +26,7 @@ pub use identifiability::{coordinate, not_identifiable};
 pub use identified::identified_csv;
 pub use laws::{Misfit, law_json, laws_json, laws_text, smooth_json, snippet};
 pub(crate) use manifest::{read_result, sha256};
-pub use measured::{hit_reasons, measured_csv, measured_summary, measured_text, measured_uff};
+pub use measured::{impact_reasons, measured_csv, measured_summary, measured_text, measured_uff};
 pub use reference::reference_csv;
 pub use response::{respond_csv, response_csv};
 pub use summary::summary_json;
