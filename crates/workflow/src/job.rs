@@ -7,8 +7,8 @@ use crate::figures::{identify_figures, measured_figures, respond_figures};
 use crate::load::{Case, Check, IdentifyCase, Overrides, Purpose, load};
 use crate::memory::{MemoryError, check_full, check_identify};
 use crate::output::{
-    File, Words, WriteError, candidates_csv, check_file, check_folder, error_map_csv, impact_reasons,
-    identified_csv, is_stream, measured_csv, measured_summary, measured_text, measured_uff, reference_csv,
+    File, Words, WriteError, candidates_csv, check_file, check_folder, error_map_csv, identified_csv,
+    impact_reasons, is_stream, measured_csv, measured_summary, measured_text, measured_uff, reference_csv,
     respond_csv, respond_uff, response_csv, summary_json, updated_uff, write_one, write_result,
 };
 use crate::records::{ChannelOptions, Records, read_records};

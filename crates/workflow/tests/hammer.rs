@@ -117,7 +117,8 @@ fn pyfrf_estimates_the_same_needs_data_and_pyfrf_and_lvm_read() {
         let (h1, h2) = (estimate(Estimator::H1), estimate(Estimator::H2));
         assert_eq!(h1.averages(), averages);
         let kept = h1.impacts.iter().filter(|impact| impact.is_kept());
-        let cuts = kept.map(|impact| format!("{},{},{}", impact.recording, impact.range.start, impact.range.end));
+        let cuts =
+            kept.map(|impact| format!("{},{},{}", impact.recording, impact.range.start, impact.range.end));
         let output = Command::new(&python).args(["-c", SCRIPT]).arg(&file).args(cuts).output().unwrap();
         assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
         let theirs = String::from_utf8(output.stdout).unwrap();

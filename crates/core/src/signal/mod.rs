@@ -81,7 +81,9 @@ impl fmt::Display for SignalError {
         match self {
             Self::Options(error) => write!(f, "{error}"),
             Self::Recording(k, error) => write!(f, "recording {}: {error}", k + 1),
-            Self::NoImpact(impacts) if impacts.is_empty() => write!(f, "expected an impact, found no recording"),
+            Self::NoImpact(impacts) if impacts.is_empty() => {
+                write!(f, "expected an impact, found no recording")
+            }
             Self::NoImpact(impacts) => {
                 write!(f, "expected an impact without fault, found none among {}", impacts.len())?;
                 for (k, impact) in impacts.iter().enumerate() {

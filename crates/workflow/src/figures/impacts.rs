@@ -73,7 +73,8 @@ fn one(
     let is_shown = |x: f64| range_ms.is_none_or(|(low, high)| (low..=high).contains(&x));
     let (x, y): (Vec<f64>, Vec<f64>) = points.filter(|(x, _)| is_shown(*x)).unzip();
     let (x, y) = thinned(&x, &y);
-    let faults: Vec<String> = impact.faults.iter().map(|fault: &Fault| fault.name().replace('_', " ")).collect();
+    let faults: Vec<String> =
+        impact.faults.iter().map(|fault: &Fault| fault.name().replace('_', " ")).collect();
     let label = match faults.is_empty() {
         true => format!("impact {number}"),
         false => format!("impact {number}: {}", faults.join(", ")),

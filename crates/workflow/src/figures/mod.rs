@@ -3,8 +3,8 @@
 mod accelerance;
 mod candidates;
 mod error_map;
-mod impacts;
 mod identifiability;
+mod impacts;
 mod laws;
 mod measured;
 mod modulus;

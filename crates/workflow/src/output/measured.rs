@@ -252,8 +252,10 @@ pub fn measured_text(records: &Records, measured: &Measured, options: &Options) 
             (false, _) => ("left out", format!("  {}", reasons.join("; "))),
         };
         let contact_ms = 1e3 * impact.contact_s(measured.step_s);
-        let line =
-            format!("  impact {number:<3} {verdict}  {:>8.1} N  {contact_ms:>6.2} ms{reasons}\n", impact.peak_n);
+        let line = format!(
+            "  impact {number:<3} {verdict}  {:>8.1} N  {contact_ms:>6.2} ms{reasons}\n",
+            impact.peak_n
+        );
         words.add(!reasons.is_empty(), &line);
     }
     let (first, last) = (measured.frequency_hz.first(), measured.frequency_hz.last());

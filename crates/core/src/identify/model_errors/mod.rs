@@ -261,10 +261,13 @@ fn explanation(search: &Search<'_, '_>, starts: &[Vec<f64>]) -> Option<Explanati
         (Kinds::with_common_damping, RIGHT_MODEL_NATS),
         (Kinds::with_own_damping, 0.0),
     ];
+    // Whether there are errors is asked of the kinds that explain the band best.
+    let mut best = wrong.evidence;
     for (with, nats) in further {
         let kinds = with(wrong.kinds);
         if kinds != wrong.kinds {
             let more = from(wrong.found.place.clone(), kinds, &ADDED_NOISE[LAST_LEVELS..]);
+            best = more.as_ref().map_or(best, |more| best.min(more.evidence));
             wrong = more.filter(|more| more.evidence < wrong.evidence + 2.0 * nats).unwrap_or(wrong);
         }
     }
@@ -272,7 +275,7 @@ fn explanation(search: &Search<'_, '_>, starts: &[Vec<f64>]) -> Option<Explanati
     let fine = Fitting { kinds: wrong.kinds, ..search.fitting(&near.0, &near.1, &search.lines) };
     let scattered = data.scattered(search, &right, wrong.level);
     let least = scattered.map_or(right.evidence, |scattered| scattered.min(right.evidence));
-    let evidence = 0.5 * (least - wrong.evidence);
+    let evidence = 0.5 * (least - best);
     if !sized && evidence <= -RIGHT_MODEL_NATS {
         return right_model();
     }
