@@ -41,3 +41,36 @@ pub(crate) fn typeset(pages: &Path) -> Vec<Step> {
     typeset.arg(workspace().join("xtask/typeset.cjs")).arg(package).arg(pages);
     vec![run("formulas", typeset.current_dir(workspace()))]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// All files below a folder.
+    fn files(folder: &Path, found: &mut Vec<String>) {
+        for entry in std::fs::read_dir(folder).unwrap().flatten() {
+            let path = entry.path();
+            match path.is_dir() {
+                true => files(&path, found),
+                false => found.push(path.to_string_lossy().replace('\\', "/")),
+            }
+        }
+    }
+
+    #[test]
+    fn source_files_that_the_architecture_names_are_there() {
+        let mut found = Vec::new();
+        ["crates", "xtask"].into_iter().for_each(|folder| files(&workspace().join(folder), &mut found));
+        for page in ["docs/architecture.md", "docs/equations.md"] {
+            let text = std::fs::read_to_string(workspace().join(page)).unwrap();
+            let code = text.split('`').skip(1).step_by(2);
+            let is_file = |name: &&str| name.ends_with(".rs") && !name.contains([' ', '{', '*']);
+            let names: Vec<&str> = code.filter(is_file).collect();
+            assert!(
+                names.iter().all(|name| found.iter().any(|file| file.ends_with(&format!("/{name}")))),
+                "{page}: {names:?}"
+            );
+            assert!(!names.is_empty());
+        }
+    }
+}

@@ -533,3 +533,22 @@ fn nominal_error(results: &Results) -> Vec<Option<f64>> {
     };
     (0..results.band.len()).map(at).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+
+    /// A new status of the library would have the words of `failed`.
+    #[test]
+    fn every_status_has_words_of_its_own() {
+        let of = |words: &dyn Fn(Status) -> &'static str| {
+            Status::ALL.into_iter().map(words).collect::<BTreeSet<_>>().len()
+        };
+        for own in [true, false] {
+            assert_eq!(of(&|status| meaning(status, own)), Status::ALL.len());
+            assert_eq!(of(&|status| label(status, own)), Status::ALL.len());
+        }
+        assert_eq!(of(&why_not), Status::ALL.len());
+    }
+}

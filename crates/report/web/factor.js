@@ -85,7 +85,7 @@ const addFactor = (one) => addPlot({
         if (y) push(line(one.varies === "law" ? "law" : "smooth curve", x, y, "updated", format));
         return;
       }
-      values("evidence only", withStatus(own, ["not_identifiable", "unexplained", "failed", "diverged"]), "evidence", { symbol: "x-thin-open", size: 5 });
+      values("evidence only", withStatus(own, ["not_identifiable", "unexplained", "failed"]), "evidence", { symbol: "x-thin-open", size: 5 });
       values("ambiguous", withStatus(own, ["ambiguous"]), "alternative", { symbol: "triangle-up", size: 6, ...withBars(one, part) });
       values("identified", withStatus(own, ["ok"]), "updated", withBars(one, part));
       if (one.reference) push(line("true", x, drawn(one.reference[part]), "reference", format));

@@ -212,7 +212,7 @@ impl Line {
         }
     }
 
-    /// No value is given beyond its bounds.
+    /// Drops the value and keeps the evidence: for a value outside its bounds.
     pub(super) fn forget_value(&mut self, status: Status) {
         *self = Self { status, ..self.unanswered() };
     }

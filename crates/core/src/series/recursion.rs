@@ -6,7 +6,7 @@ use frfit_linalg::solve::Breakdown;
 use frfit_linalg::vector::norm;
 use std::collections::VecDeque;
 
-/// −A₀⁻¹ Σ_q s^q A_q v_{k−q}; `recent[q − 1]` is v_{k−q}.
+/// P-26 over k!/s^k, B-8: −A₀⁻¹ Σ_q s^q A_q v_{k−q}; `recent[q − 1]` is v_{k−q}.
 pub(super) fn next_term(
     system: &impl Response,
     parameter: usize,

@@ -140,9 +140,9 @@ fn curve(
     Series { label: label.into(), x: x.to_vec(), y, color, line, marker, ..Series::default() }
 }
 
-/// The status of every frequency, as a strip of colours.
-fn status_strip(run: &IdentifyRun) -> Strip {
-    let color = |status| match status {
+/// The colour of a status.
+fn status_color(status: Status) -> Color {
+    match status {
         Status::Ok => Color::Green,
         Status::Ambiguous => Color::Yellow,
         Status::Diverged => Color::Vermilion,
@@ -151,7 +151,11 @@ fn status_strip(run: &IdentifyRun) -> Strip {
         Status::Unexplained => Color::Orange,
         Status::OutOfBand => Color::Black,
         _ => Color::Blue,
-    };
+    }
+}
+
+/// The status of every frequency, as a strip of colours.
+fn status_strip(run: &IdentifyRun) -> Strip {
     let place = |status: Status| Status::ALL.iter().position(|&other| other == status).unwrap_or(0);
     let statuses = run.found.lines.iter().map(|line| (line.frequency_hz, place(line.status)));
     let (x, class) = statuses.unzip();
@@ -160,7 +164,7 @@ fn status_strip(run: &IdentifyRun) -> Strip {
         class,
         classes: Status::ALL
             .iter()
-            .map(|&status| Class { label: status.name().replace('_', " "), color: color(status) })
+            .map(|&status| Class { label: status.name().replace('_', " "), color: status_color(status) })
             .collect(),
     }
 }
@@ -168,4 +172,16 @@ fn status_strip(run: &IdentifyRun) -> Strip {
 /// Title of the case and what this figure shows.
 fn title(case: &Case, what: &str) -> String {
     if case.title.is_empty() { what.to_owned() } else { format!("{}: {what}", case.title) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A new status of the library would have the colour of `failed`.
+    #[test]
+    fn every_status_has_a_colour_of_its_own() {
+        let all = Status::ALL.map(status_color);
+        assert!((1..all.len()).all(|i| !all[..i].contains(&all[i])), "{all:?}");
+    }
 }
