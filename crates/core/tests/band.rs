@@ -36,8 +36,8 @@ fn case_band<'a>(case: &'a Case, frequency_hz: &'a [f64], measured: &'a [Vec<c64
 }
 
 fn identify(case: &Case, frequency_hz: &[f64], measured: &[Vec<c64>], setup: &Setup) -> Identification {
-    let hooks = Context { for_each: &sequential, progress: &quiet };
-    case_band(case, frequency_hz, measured).identify(Variation::PerFrequency, &[], setup, hooks)
+    let context = Context { for_each: &sequential, progress: &quiet };
+    case_band(case, frequency_hz, measured).identify(Variation::PerFrequency, &[], setup, context)
 }
 
 /// Distance of the nearest admitted root from the truth, relative to it.
@@ -241,11 +241,11 @@ fn order_and_threads_of_the_work_do_not_change_a_bit() {
     };
     for setup in [setup, Setup::paper(setup.bounds).with_reduction(Reduction::Subspace)] {
         let by = |for_each: ForEach<'_>| {
-            let hooks = Context { for_each, progress: &quiet };
+            let context = Context { for_each, progress: &quiet };
             // Every digit is written out: equal texts are equal bits.
             format!(
                 "{:?}",
-                case_band(&case, &frequency_hz, &u).identify(Variation::PerFrequency, &[], &setup, hooks)
+                case_band(&case, &frequency_hz, &u).identify(Variation::PerFrequency, &[], &setup, context)
             )
         };
         let forwards = by(&sequential);

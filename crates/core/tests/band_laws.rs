@@ -53,8 +53,8 @@ fn identify(
         measured,
         noise,
     };
-    let hooks = Context { for_each: &sequential, progress: &quiet };
-    band.identify(Variation::Law(kinds.to_vec()), &[], &Setup::within(bounds), hooks)
+    let context = Context { for_each: &sequential, progress: &quiet };
+    band.identify(Variation::Law(kinds.to_vec()), &[], &Setup::within(bounds), context)
 }
 
 fn parameter(fit: &LawFit, name: &str) -> (f64, f64) {

@@ -77,7 +77,7 @@ impl Test {
     }
 }
 
-fn hooks() -> Context<'static> {
+fn context() -> Context<'static> {
     Context { for_each: &sequential, progress: &|_: Stage, _, _| {} }
 }
 
@@ -103,7 +103,8 @@ fn a_plate_beside_a_channel_that_is_known() {
     let draws = of_tier(1, 12);
     for _ in 0..draws {
         let values = test.drawn(&mut noise);
-        let outcome = test.band(&values).identify(Variation::PerFrequency, &unknown, &test.setup(), hooks());
+        let outcome =
+            test.band(&values).identify(Variation::PerFrequency, &unknown, &test.setup(), context());
         let found = &outcome.channels;
         pulls.extend(test.pulls(found, &unknown));
         let fit = outcome.fit.unwrap();
@@ -137,7 +138,7 @@ fn a_bar_with_a_law_and_no_channel_that_is_known() {
     for _ in 0..draws {
         let values = test.drawn(&mut noise);
         let law = Variation::law(LawKind::Constant);
-        let found = test.band(&values).identify(law, &unknown, &test.setup(), hooks());
+        let found = test.band(&values).identify(law, &unknown, &test.setup(), context());
         assert!(found.lines.iter().all(|one| one.status == Status::Ok), "{:?}", found.channels);
         let law = &found.laws[0];
         // All numbers of the measurement, less what was fitted.
@@ -164,7 +165,8 @@ fn delays_of_many_periods_have_the_right_minimum() {
         );
         let values = test.drawn(&mut noise::Noise::new(2));
         let unknown = [NEITHER, ChannelUnknowns { scale: false, delay: true }];
-        let outcome = test.band(&values).identify(Variation::PerFrequency, &unknown, &test.setup(), hooks());
+        let outcome =
+            test.band(&values).identify(Variation::PerFrequency, &unknown, &test.setup(), context());
         let found = &outcome.channels;
         let Calibrated { value, std } = found[1].delay_s.unwrap();
         assert!(

@@ -55,8 +55,13 @@ fn both(mut case: Case, frequencies: usize, off: f64, noise: f64, sensors: usize
         noise: if noise > 0.0 { Noise::Known(&std) } else { Noise::Unknown },
     };
     [false, true].map(|everywhere| {
-        let hooks = Context { for_each: &sequential, progress: &|_, _, _| {} };
-        band.identify(Variation::PerFrequency, &[], &Setup::within(bounds).with_everywhere(everywhere), hooks)
+        let context = Context { for_each: &sequential, progress: &|_, _, _| {} };
+        band.identify(
+            Variation::PerFrequency,
+            &[],
+            &Setup::within(bounds).with_everywhere(everywhere),
+            context,
+        )
     })
 }
 

@@ -62,8 +62,8 @@ impl Test {
             measured,
             noise,
         };
-        let hooks = Context { for_each: &sequential, progress: &|_: Stage, _, _| {} };
-        band.identify(Variation::Smooth, &[], setup, hooks)
+        let context = Context { for_each: &sequential, progress: &|_: Stage, _, _| {} };
+        band.identify(Variation::Smooth, &[], setup, context)
     }
 }
 

@@ -69,8 +69,8 @@ fn identify(case: &Case, made: &Measured, u: &[Vec<c64>], noise: Noise<'_>, setu
         measured: u,
         noise,
     };
-    let hooks = Context { for_each: &sequential, progress: &|_: Stage, _, _| {} };
-    band.identify(Variation::PerFrequency, &[], setup, hooks)
+    let context = Context { for_each: &sequential, progress: &|_: Stage, _, _| {} };
+    band.identify(Variation::PerFrequency, &[], setup, context)
 }
 
 fn within(size: f64, by: f64) -> Setup {

@@ -21,10 +21,13 @@ impl GoodnessOfFit {
         Self { verdict: if other { Explained::No } else { self.verdict }, ..self }
     }
 
+    pub(super) fn is_nearly_explained(&self) -> bool {
+        self.verdict == Explained::Nearly
+    }
+
     /// √(χ²/n) of a band that is nearly explained, by which bars of the given noise are too short; else 1.
     pub(super) fn excess(&self) -> f64 {
-        let is_nearly = self.verdict == Explained::Nearly;
-        if is_nearly { (self.chi_squared / self.freedom as f64).sqrt() } else { 1.0 }
+        if self.is_nearly_explained() { (self.chi_squared / self.freedom as f64).sqrt() } else { 1.0 }
     }
 }
 

@@ -160,7 +160,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    fn any_chart() -> impl Strategy<Value = (Parametrization, Vec<f64>)> {
+    fn any_coordinates() -> impl Strategy<Value = (Parametrization, Vec<f64>)> {
         let kind = proptest::sample::select(LawKind::ALL.to_vec());
         (kind, 0.1f64..1e4).prop_flat_map(|(kind, reference_rad_s)| {
             // Moduli over 14 decades, exponents from 0.002 to 0.998, times within e^6 of the reference.
@@ -171,7 +171,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn coordinates_come_back((parametrization, theta) in any_chart()) {
+        fn coordinates_come_back((parametrization, theta) in any_coordinates()) {
             let (p, _) = parametrization.parameters(&theta);
             let back = parametrization.coordinates(&p);
             for (a, b) in theta.iter().zip(&back) {
@@ -181,7 +181,7 @@ mod tests {
         }
 
         #[test]
-        fn every_law_is_passive_and_causal_in_its_limits((parametrization, theta) in any_chart(), at in -7.0f64..7.0) {
+        fn every_law_is_passive_and_causal_in_its_limits((parametrization, theta) in any_coordinates(), at in -7.0f64..7.0) {
             let omega = parametrization.reference_rad_s * at.exp();
             let (e, _) = parametrization.modulus(&theta, omega).unwrap();
             prop_assert!(e.re > 0.0);
@@ -199,7 +199,7 @@ mod tests {
         }
 
         #[test]
-        fn slopes_are_those_of_differences((parametrization, theta) in any_chart(), at in -5.0f64..5.0) {
+        fn slopes_are_those_of_differences((parametrization, theta) in any_coordinates(), at in -5.0f64..5.0) {
             let omega = parametrization.reference_rad_s * at.exp();
             let (e, slopes) = parametrization.modulus(&theta, omega).unwrap();
             // Central differences: h² of truncation times a third derivative (up to (ln ωτ)³ ≈ 1e3 E), and ε/h of roundoff.
@@ -216,7 +216,7 @@ mod tests {
         }
 
         #[test]
-        fn slopes_of_natural_parameters_are_those_of_differences((parametrization, theta) in any_chart(), at in -5.0f64..5.0) {
+        fn slopes_of_natural_parameters_are_those_of_differences((parametrization, theta) in any_coordinates(), at in -5.0f64..5.0) {
             let omega = parametrization.reference_rad_s * at.exp();
             let (p, _) = parametrization.parameters(&theta);
             let (e, slopes) = parametrization.kind.with_slopes(&p, omega);
@@ -234,7 +234,7 @@ mod tests {
         }
 
         #[test]
-        fn scaling_multiplies_the_modulus((parametrization, theta) in any_chart(), by in -1.0f64..1.0) {
+        fn scaling_multiplies_the_modulus((parametrization, theta) in any_coordinates(), by in -1.0f64..1.0) {
             let at = |theta: &[f64]| parametrization.modulus(theta, parametrization.reference_rad_s).unwrap().0;
             let (before, after) = (at(&theta), at(&parametrization.scaled(&theta, by)));
             // exp(θ + by) and exp(θ)·exp(by) differ by some ε.
@@ -242,7 +242,7 @@ mod tests {
         }
 
         #[test]
-        fn branches_are_in_the_order_of_their_times((parametrization, theta) in any_chart()) {
+        fn branches_are_in_the_order_of_their_times((parametrization, theta) in any_coordinates()) {
             let sorted = parametrization.sorted(&theta);
             let (p, _) = parametrization.parameters(&sorted);
             if let LawKind::Maxwell { .. } = parametrization.kind {

@@ -213,7 +213,7 @@ pub struct IdentifyEntry {
 pub enum VariesEntry {
     /// Anyhow: one of its own at each frequency.
     #[default]
-    Freely,
+    PerFrequency,
     /// Smoothly.
     Smoothly,
     /// By one of these laws, which are to be compared.
@@ -251,7 +251,7 @@ pub struct SeveralEntry {
     /// Where the first begins.
     pub place: Place,
     /// Each of them, at least one, names distinct.
-    pub unknowns: Vec<SoughtEntry>,
+    pub unknowns: Vec<UnknownEntry>,
     /// First and last frequency.
     pub band_hz: Option<Located<[f64; 2]>>,
     /// Frequencies and bands that are left out.
@@ -264,7 +264,7 @@ pub struct SeveralEntry {
 
 /// One `[[identify]]`.
 #[derive(Debug, Clone, PartialEq)]
-pub struct SoughtEntry {
+pub struct UnknownEntry {
     /// Where it begins.
     pub place: Place,
     /// Its name; that of its matrices where none is given.
@@ -274,7 +274,7 @@ pub struct SoughtEntry {
     /// Matrices that a dimension multiplies, each with its power.
     pub powers: Vec<(Located<String>, i32)>,
     /// How it varies.
-    pub varies: SoughtVaries,
+    pub varies: UnknownVaries,
     /// Whether it is real.
     pub real: bool,
     /// Value of a dimension to begin with.
@@ -289,9 +289,9 @@ pub struct SoughtEntry {
 
 /// How one of several unknowns varies.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum SoughtVaries {
+pub enum UnknownVaries {
     /// A value of its own at each frequency.
-    Freely,
+    PerFrequency,
     /// One value for the band.
     Constant,
     /// By a law.

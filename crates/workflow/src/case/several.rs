@@ -3,7 +3,7 @@
 use super::field::{Field, Table};
 use super::keys;
 use super::sections::{MOST_POWER, band, exclude, factor};
-use super::{Located, SeveralEntry, SoughtEntry, SoughtVaries};
+use super::{Located, SeveralEntry, UnknownEntry, UnknownVaries};
 use crate::error::InputError;
 use frfit::laws::{LawKind, UnknownLawKind};
 
@@ -51,7 +51,7 @@ pub(super) fn several(field: &Field<'_>) -> Result<SeveralEntry, InputError> {
     })
 }
 
-fn unknowns(table: &Table<'_>) -> Result<SoughtEntry, InputError> {
+fn unknowns(table: &Table<'_>) -> Result<UnknownEntry, InputError> {
     let powers = table.find("powers").map(|field| powers(&field)).transpose()?.unwrap_or_default();
     let matrices = match (table.find("matrix"), powers.is_empty()) {
         (Some(matrix), true) => matrix.texts()?,
@@ -114,7 +114,7 @@ fn unknowns(table: &Table<'_>) -> Result<SoughtEntry, InputError> {
             ));
         }
     }
-    Ok(SoughtEntry {
+    Ok(UnknownEntry {
         place: table.place.clone(),
         name,
         matrices,
@@ -144,7 +144,7 @@ fn powers(field: &Field<'_>) -> Result<Vec<(Located<String>, i32)>, InputError> 
     if powers.is_empty() { Err(field.refuse(EXPECTED)) } else { Ok(powers) }
 }
 
-fn varies(table: &Table<'_>, is_dimension: bool, real: bool) -> Result<SoughtVaries, InputError> {
+fn varies(table: &Table<'_>, is_dimension: bool, real: bool) -> Result<UnknownVaries, InputError> {
     const EXPECTED: &str = "\"frequency\" (a value of its own at each), \"constant\" or \"law\"";
     enum Word {
         Frequency,
@@ -179,17 +179,17 @@ fn varies(table: &Table<'_>, is_dimension: bool, real: bool) -> Result<SoughtVar
                     _ => return Err(InputError::at(&key.place, "law = \"maxwell\" beside it", "none")),
                 }
             }
-            Ok(SoughtVaries::ByLaw(family))
+            Ok(UnknownVaries::ByLaw(family))
         }
         other => {
             if let Some(key) = law.or(branches) {
                 return Err(InputError::at(&key.place, "varies = \"law\" beside it", "none"));
             }
             Ok(match other {
-                Some(Located { value: Word::Constant, .. }) => SoughtVaries::Constant,
-                Some(_) => SoughtVaries::Freely,
-                None if is_dimension => SoughtVaries::Constant,
-                None => SoughtVaries::Freely,
+                Some(Located { value: Word::Constant, .. }) => UnknownVaries::Constant,
+                Some(_) => UnknownVaries::PerFrequency,
+                None if is_dimension => UnknownVaries::Constant,
+                None => UnknownVaries::PerFrequency,
             })
         }
     }

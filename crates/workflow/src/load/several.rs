@@ -11,7 +11,7 @@ use super::identify::{
 };
 use super::lines::unused;
 use super::measurement::Measurement;
-use crate::case::{CaseFile, Located, SeveralEntry, SoughtEntry, SoughtVaries};
+use crate::case::{CaseFile, Located, SeveralEntry, UnknownEntry, UnknownVaries};
 use crate::error::{InputError, Place};
 use crate::units::FactorUnit;
 use frfit::c64;
@@ -44,7 +44,7 @@ pub(super) fn several(
     }
     let (channels, first_unknown) = channels_of(case);
     if let Some(first) =
-        first_unknown.filter(|_| entry.unknowns.iter().all(|one| one.varies == SoughtVaries::Freely))
+        first_unknown.filter(|_| entry.unknowns.iter().all(|one| one.varies == UnknownVaries::PerFrequency))
     {
         one_is_calibrated(&channels, &first)?;
     }
@@ -70,7 +70,7 @@ pub(super) fn several(
     }
     let used = out.iter().filter(|&&out| !out).count();
     enough(&entry.place, &unknowns, &channels, (used, measurements.len()))?;
-    let unit = |(one, unknowns): (&SoughtEntry, &Unknown)| match one.matrices.as_slice() {
+    let unit = |(one, unknowns): (&UnknownEntry, &Unknown)| match one.matrices.as_slice() {
         [] => FactorUnit::Other,
         named => factor_unit(case, named, &unknowns.nominal, &frequency_hz),
     };
@@ -94,13 +94,13 @@ pub(super) fn several(
 
 fn unknowns(
     case: &CaseFile,
-    entry: &SoughtEntry,
+    entry: &UnknownEntry,
     (model, of): (&DynamicStiffness, &[PartOf]),
 ) -> Result<Unknown, InputError> {
     let varies = match entry.varies {
-        SoughtVaries::Freely => Variation::PerFrequency,
-        SoughtVaries::Constant => Variation::Constant,
-        SoughtVaries::ByLaw(family) => Variation::law(family),
+        UnknownVaries::PerFrequency => Variation::PerFrequency,
+        UnknownVaries::Constant => Variation::Constant,
+        UnknownVaries::ByLaw(family) => Variation::law(family),
     };
     let bounds = Bounds {
         storage: entry.storage.as_ref().map(|bound| bound.value),

@@ -94,7 +94,7 @@ pub(crate) fn identify_with<'a>(
 ) -> Result<IdentifyRun, ProblemError> {
     let clock = StageClock::default();
     let last = (AtomicUsize::new(0), AtomicUsize::new(problem.frfs().frequency_hz.len()));
-    let hooks = Context {
+    let context = Context {
         for_each: &|n, each| {
             (0..n).into_par_iter().for_each(|i| {
                 // Who cancels by unwinding from here is not to wait for what has not begun.
@@ -109,7 +109,7 @@ pub(crate) fn identify_with<'a>(
             progress(done, total);
         },
     };
-    let mut found = identify_on(reduced, problem, &identify.options, hooks)?;
+    let mut found = identify_on(reduced, problem, &identify.options, context)?;
     found.lines = Used::among_all(identify, found.lines)?;
     found.free = if found.free.is_empty() { found.free } else { Used::among_all(identify, found.free)? };
     if let Some(curve) = &found.curve {

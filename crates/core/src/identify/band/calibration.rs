@@ -50,13 +50,13 @@ pub(in crate::identify) fn identify_band_scaled<'a>(
     trained: &mut Option<Subspace<'a>>,
     unknown: &[ChannelUnknowns],
     options: &Options,
-    hooks: Context<'_>,
+    context: Context<'_>,
 ) -> Result<(BandOutcome, Vec<Calibration>), OutsideTable> {
     let at = band.model.at_all(band.frequency_hz, std::slice::from_ref(band.parameter))?;
     let boxes = on_subspace(options);
     let (outcome, (found, reduced)) = near_or_far(band, &boxes, |options| {
-        let mut reduced = ReducedBand::if_wanted(band, &at, trained, options, hooks);
-        let (outcome, found) = with_scales(band, &at, &mut reduced, unknown, options, hooks);
+        let mut reduced = ReducedBand::if_wanted(band, &at, trained, options, context);
+        let (outcome, found) = with_scales(band, &at, &mut reduced, unknown, options, context);
         (outcome, (found.unwrap_or_else(|| vec![Calibration::default(); unknown.len()]), reduced))
     });
     ReducedBand::hand_back(reduced, trained);
@@ -70,10 +70,10 @@ pub(super) fn with_scales<'a>(
     reduced: &mut Option<ReducedBand<'a, '_>>,
     unknown: &[ChannelUnknowns],
     options: &Options,
-    hooks: Context<'_>,
+    context: Context<'_>,
 ) -> (BandOutcome, Option<Vec<Calibration>>) {
     let hidden: Vec<usize> = (0..unknown.len()).filter(|&m| unknown[m].any()).collect();
-    let first = joint::identify(band, at, reduced.as_mut(), &hidden, options, hooks);
+    let first = joint::identify(band, at, reduced.as_mut(), &hidden, options, context);
     let Some(mut channels) =
         reduced.as_ref().and_then(|reduced| starting(band, at, reduced, &first, unknown))
     else {
@@ -82,9 +82,9 @@ pub(super) fn with_scales<'a>(
     for round in 0..MAX_SELECTIONS {
         let scaled = Scaled::new(band, &channels);
         let view = scaled.band(band);
-        let mut outcome = joint::identify(&view, at, reduced.as_mut(), &[], options, hooks);
+        let mut outcome = joint::identify(&view, at, reduced.as_mut(), &[], options, context);
         let estimated =
-            reduced.as_ref().and_then(|reduced| settle(&view, at, reduced, &outcome, unknown, hooks));
+            reduced.as_ref().and_then(|reduced| settle(&view, at, reduced, &outcome, unknown, context));
         let Some(estimated) = estimated else { return (first, None) };
         if estimated.is_settled(top(band)) || round + 1 == MAX_SELECTIONS {
             estimated.widen(&mut outcome);
@@ -183,7 +183,7 @@ fn settle(
     reduced: &ReducedBand<'_, '_>,
     outcome: &BandOutcome,
     unknown: &[ChannelUnknowns],
-    hooks: Context<'_>,
+    context: Context<'_>,
 ) -> Option<CalibrationEstimate> {
     let sigma = without(&standard_deviations(band.measured, band.noise), &outcome.left_out());
     let free = numbers_of(unknown);
@@ -209,7 +209,7 @@ fn settle(
             Some(Local { a, rest: sensors.map(rest).collect(), b: free.iter().map(of).collect() })
         };
         let local: Vec<Local> =
-            map(hooks.for_each, answers.len(), system).into_iter().collect::<Option<_>>()?;
+            map(context.for_each, answers.len(), system).into_iter().collect::<Option<_>>()?;
         let (mut normal, mut right, mut whole) = (vec![vec![0.0; n]; n], vec![0.0; n], vec![0.0; n]);
         for one in &local {
             one.accumulate(&free, &mut normal, &mut right, &mut whole);

@@ -98,7 +98,7 @@ impl Fitting<'_, '_> {
             Some(Responded { x, slope, of_theta })
         };
         let responses: Vec<Responded> =
-            map(self.hooks.for_each, self.at.len(), one).into_iter().collect::<Option<_>>()?;
+            map(self.context.for_each, self.at.len(), one).into_iter().collect::<Option<_>>()?;
         let fits = (0..self.unknown.len()).map(|m| self.channel(&responses, m, theta.len())).collect();
         Some((responses, fits))
     }
@@ -183,24 +183,24 @@ pub(super) fn at_scales<'a, 'o>(
     trained: &mut Option<Subspace<'a>>,
     unknown: &[ChannelUnknowns],
     options: &'o Options,
-    hooks: Context<'_>,
+    context: Context<'_>,
 ) -> (BandOutcome, Begin<'a, 'o>) {
-    let mut reduced = ReducedBand::if_wanted(band, at, trained, options, hooks);
+    let mut reduced = ReducedBand::if_wanted(band, at, trained, options, context);
     let right = vec![Channel::CALIBRATED; unknown.len()];
     let is_known = |unknown: &ChannelUnknowns| !unknown.any();
     if unknown.iter().all(is_known) {
-        let outcome = joint::identify(band, at, reduced.as_mut(), &[], options, hooks);
+        let outcome = joint::identify(band, at, reduced.as_mut(), &[], options, context);
         return (outcome, Begin { reduced, channels: right, ratio: 1.0 });
     }
     if unknown.iter().any(is_known) {
-        let (outcome, found) = with_scales(band, at, &mut reduced, unknown, options, hooks);
+        let (outcome, found) = with_scales(band, at, &mut reduced, unknown, options, context);
         let channels = found.map_or(right, |found| found.iter().map(Channel::of).collect());
         return (outcome, Begin { reduced, channels, ratio: 1.0 });
     }
-    let shaped = reduced.as_ref().and_then(|reduced| shaped(band, at, reduced, unknown, options, hooks));
+    let shaped = reduced.as_ref().and_then(|reduced| shaped(band, at, reduced, unknown, options, context));
     let (channels, ratio) = shaped.unwrap_or((right, 1.0));
     let scaled = Scaled::new(band, &channels);
-    let outcome = joint::identify(&scaled.band(band), at, reduced.as_mut(), &[], options, hooks);
+    let outcome = joint::identify(&scaled.band(band), at, reduced.as_mut(), &[], options, context);
     (outcome, Begin { reduced, channels, ratio })
 }
 
@@ -217,7 +217,7 @@ fn shaped(
     reduced: &ReducedBand<'_, '_>,
     unknown: &[ChannelUnknowns],
     options: &Options,
-    hooks: Context<'_>,
+    context: Context<'_>,
 ) -> Option<(Vec<Channel>, f64)> {
     let which = spread(band.frequency_hz);
     let nominal = at[at.len() / 2].parameters[0].nominal;
@@ -226,7 +226,7 @@ fn shaped(
         .box_about(nominal, options.box_ratio())
         .filter(|[low, high]| 0.0 < *low && low < high && high.is_finite())?;
     let ratio = |k: usize| low * (high / low).powf(k as f64 / (SHAPE_FACTORS - 1) as f64) / nominal.re;
-    let tried = map(hooks.for_each, SHAPE_FACTORS, |k| {
+    let tried = map(context.for_each, SHAPE_FACTORS, |k| {
         let responses = which.iter().map(|&i| {
             let correction = at[i].parameters[0].nominal * (ratio(k) - 1.0);
             Some(reduced.model(i).respond_with_slope(&at[i], correction).ok()?.0)

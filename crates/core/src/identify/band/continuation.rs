@@ -253,18 +253,18 @@ pub(super) fn continued<'a, F: Fn(usize) -> Fit<'a> + Sync>(
     continuation: &Continuation<'a, F>,
     explored_lines: &[usize],
     explored: Vec<Candidates>,
-    hooks: Context<'_>,
+    context: Context<'_>,
 ) -> Vec<LineCandidates> {
     let n = continuation.at.len();
-    reduced.localise(&(0..n).collect::<Vec<_>>(), hooks.for_each);
+    reduced.localise(&(0..n).collect::<Vec<_>>(), context.for_each);
     let groups = groups(explored_lines, reduced.neighbourhoods());
     let done = AtomicUsize::new(explored_lines.len());
     let lent = &*reduced;
-    let between = map(hooks.for_each, groups.len(), |g| {
+    let between = map(context.for_each, groups.len(), |g| {
         let known: Vec<(usize, &Candidates)> =
             groups[g].clone().map(|k| (explored_lines[k], &explored[k])).collect();
         let found = continuation.between(lent.model(known[0].0), &known);
-        (hooks.progress)(Stage::Solutions, done.fetch_add(found.len(), Ordering::Relaxed) + found.len(), n);
+        (context.progress)(Stage::Solutions, done.fetch_add(found.len(), Ordering::Relaxed) + found.len(), n);
         found
     });
     let known = explored_lines.iter().zip(explored);

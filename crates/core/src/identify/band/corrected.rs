@@ -23,7 +23,7 @@ pub(super) fn correct<'a>(
     found: BandOutcome,
     reduced: &mut ReducedBand<'a, '_>,
     options: &Options,
-    hooks: Context<'_>,
+    context: Context<'_>,
 ) -> BandOutcome {
     if options.model_errors == ModelErrors::None {
         return found;
@@ -32,7 +32,7 @@ pub(super) fn correct<'a>(
     let curves = Curves::new(vec![Curve::Spline(Spline::new(&weights.omegas, band.unknown.real))]);
     let point = point(at);
     let measured = weights.of(band, options, &point, &found);
-    let (explanation, leverage) = estimate(reduced.whole(), &measured, &curves, hooks.for_each);
+    let (explanation, leverage) = estimate(reduced.whole(), &measured, &curves, context.for_each);
     let found = BandOutcome { leverage, ..found };
     let errors = match explanation {
         Explanation::RightModel => return found,
@@ -41,7 +41,7 @@ pub(super) fn correct<'a>(
     };
     let before = reduced.work();
     reduced.correct(&errors.modes, &errors.errors);
-    let mut outcome = joint::identify(band, at, Some(reduced), &found.left_out(), options, hooks);
+    let mut outcome = joint::identify(band, at, Some(reduced), &found.left_out(), options, context);
     outcome.leverage.clone_from(&found.leverage);
     outcome.work = found.work;
     outcome.work += reduced.work().since(before);
@@ -49,7 +49,7 @@ pub(super) fn correct<'a>(
         sensor.contradicts |= before.contradicts;
         sensor.left_out |= before.left_out;
     }
-    widen(&mut outcome, &errors, at, reduced, &weights.sigma, hooks);
+    widen(&mut outcome, &errors, at, reduced, &weights.sigma, context);
     outcome.model_errors = Some(errors);
     outcome
 }
@@ -103,6 +103,7 @@ impl Weights {
             free: &found.outcomes,
             own: &[0],
             level_per_frequency: found.noise.level,
+            fit: found.fit,
         }
     }
 }
@@ -114,12 +115,12 @@ fn widen(
     at: &[ModelAt<'_>],
     reduced: &ReducedBand<'_, '_>,
     sigma: &[Vec<f64>],
-    hooks: Context<'_>,
+    context: Context<'_>,
 ) {
     let Some(Corrected { modes, errors: values, model }) = reduced.corrected() else { return };
     let of_errors = errors.of_errors();
     let lines = &outcome.outcomes;
-    let moved = map(hooks.for_each, lines.len(), |i| -> Option<[f64; 3]> {
+    let moved = map(context.for_each, lines.len(), |i| -> Option<[f64; 3]> {
         let correction = lines[i].correction()?;
         let slopes = model.respond_with_error_slopes((modes, values), &at[i], correction).ok()?;
         let n = modes.omega_rad_s.len();

@@ -28,11 +28,11 @@ pub(super) fn identify<'a>(
     mut reduced: Option<&mut ReducedBand<'_, '_>>,
     hidden: &[usize],
     options: &Options,
-    hooks: Context<'_>,
+    context: Context<'_>,
 ) -> BandOutcome {
     let assumed = standard_deviations(band.measured, band.noise);
     let sensors = band.experiment.sensors.len();
-    let task = Task { band, at, sigma: &assumed, sensors, options, hooks };
+    let task = Task { band, at, sigma: &assumed, sensors, options, context };
     let (suspects, spent) = contradicting(&task, reduced.as_deref_mut(), hidden);
     let out = [hidden, if options.reject_outliers { &suspects[..] } else { &[] }].concat();
     let sigma = without(&assumed, &out);
@@ -53,7 +53,7 @@ pub(super) fn identify<'a>(
             Some((i, at[i].parameters[0].nominal + found[i].solutions[choices[i].chosen?].correction))
         })
         .collect();
-    let outcomes: Vec<Line> = map(hooks.for_each, at.len(), |i| {
+    let outcomes: Vec<Line> = map(context.for_each, at.len(), |i| {
         let solution = choices[i].chosen.or_else(|| likeliest(&task.fit(i), &found[i], &path, i));
         let chosen = solution.map(|k| &found[i].solutions[k]);
         let on_space = reduced.as_deref().zip(chosen.map(|solution| solution.correction));
@@ -108,16 +108,16 @@ pub(super) fn identify_keeping_model<'a, 'o>(
     at: &'o [ModelAt<'a>],
     trained: &mut Option<Subspace<'a>>,
     options: &'o Options,
-    hooks: Context<'_>,
+    context: Context<'_>,
 ) -> (BandOutcome, Option<ReducedBand<'a, 'o>>) {
-    let mut reduced = ReducedBand::if_wanted(band, at, trained, options, hooks);
-    (identify(band, at, reduced.as_mut(), &[], options, hooks), reduced)
+    let mut reduced = ReducedBand::if_wanted(band, at, trained, options, context);
+    (identify(band, at, reduced.as_mut(), &[], options, context), reduced)
 }
 
 fn on_full_model(task: &Task<'_, '_>) -> (Vec<Candidates>, Work) {
-    let Task { band, at, sigma, options, hooks, .. } = *task;
+    let Task { band, at, sigma, options, context, .. } = *task;
     let done = AtomicUsize::new(0);
-    let found = map(hooks.for_each, at.len(), |i| {
+    let found = map(context.for_each, at.len(), |i| {
         let explored = match FullModel::new(at[i].clone(), band.experiment) {
             Ok(system) => {
                 let mut explored = task.fit(i).explore(&system, options.order);
@@ -126,7 +126,7 @@ fn on_full_model(task: &Task<'_, '_>) -> (Vec<Candidates>, Work) {
             }
             Err(breakdown) => (Candidates::broken(breakdown), Work { factorisations: 1, solves: 0 }),
         };
-        (hooks.progress)(Stage::Solutions, done.fetch_add(1, Ordering::Relaxed) + 1, at.len());
+        (context.progress)(Stage::Solutions, done.fetch_add(1, Ordering::Relaxed) + 1, at.len());
         explored
     });
     let mut work = Work::default();

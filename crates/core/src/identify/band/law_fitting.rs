@@ -19,7 +19,7 @@ pub(super) struct Fitting<'t, 'a> {
     /// Of a factor over the nominal one that has the shape of what was measured.
     pub(super) ratio: f64,
     pub(super) options: &'t Options,
-    pub(super) hooks: Context<'t>,
+    pub(super) context: Context<'t>,
 }
 
 impl Fitting<'_, '_> {

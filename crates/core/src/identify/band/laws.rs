@@ -90,23 +90,23 @@ pub(in crate::identify) fn identify_laws<'a>(
     trained: &mut Option<Subspace<'a>>,
     (unknown, kinds): (&[ChannelUnknowns], &[LawKind]),
     options: &Options,
-    hooks: Context<'_>,
+    context: Context<'_>,
 ) -> Result<LawsOutcome, OutsideTable> {
     let calibrated = vec![ChannelUnknowns::default(); band.experiment.sensors.len()];
     let unknown = if unknown.is_empty() { &calibrated } else { unknown };
     let at = band.model.at_all(band.frequency_hz, std::slice::from_ref(band.parameter))?;
     let boxes = on_subspace(options);
     let (mut free, Begin { reduced, channels, ratio }) =
-        near_or_far(band, &boxes, |options| at_scales(band, &at, trained, unknown, options, hooks));
+        near_or_far(band, &boxes, |options| at_scales(band, &at, trained, unknown, options, context));
     let mut reduced = reduced;
     if let Some(reduced) = reduced.as_mut().filter(|_| !unknown.iter().any(|channel| channel.any())) {
-        free = corrected::correct(band, &at, free, reduced, &boxes[0], hooks);
+        free = corrected::correct(band, &at, free, reduced, &boxes[0], context);
     }
     let scaled = Scaled::new(band, &channels);
     let view = scaled.band(band);
     let out = free.left_out();
     let sigma = without(&standard_deviations(view.measured, view.noise), &out);
-    let fitting = Fitting { band: &view, at: &at, sigma: &sigma, unknown, ratio, options, hooks };
+    let fitting = Fitting { band: &view, at: &at, sigma: &sigma, unknown, ratio, options, context };
     let Some(mut reduced) = reduced else {
         let outcomes = free.outcomes.iter().map(|own| own.unanswered()).collect();
         let channels = vec![Calibration::default(); unknown.len()];
@@ -122,17 +122,17 @@ pub(in crate::identify) fn identify_laws<'a>(
     };
     let before = reduced.work();
     let all: Vec<usize> = (0..at.len()).collect();
-    reduced.localise(&all, hooks.for_each);
+    reduced.localise(&all, context.for_each);
     let mut fits: Vec<LawFit> = Vec::new();
     for &kind in kinds {
-        (hooks.progress)(Stage::Law, fits.len(), kinds.len());
+        (context.progress)(Stage::Law, fits.len(), kinds.len());
         fits.extend(fitting.fit(kind, &mut reduced, &free, best(&fits)));
     }
     fitting.with_errors(&mut fits, &mut reduced, &mut free);
     if let Some((place, excess)) = fitting.excess(&fits, &free.noise) {
         fits[place] = fits[place].clone().with_noise(excess);
     }
-    (hooks.progress)(Stage::Law, kinds.len(), kinds.len());
+    (context.progress)(Stage::Law, kinds.len(), kinds.len());
     let left = best(&fits).and_then(|law| fitting.calibrations_of(law, &reduced));
     let better: Vec<_> = match &left {
         Some(left) => {
@@ -156,17 +156,17 @@ pub(in crate::identify) fn identify_laws<'a>(
         // What each frequency says by itself, at the calibrations that came out.
         let mut whole = Some(reduced);
         let spent = free.work;
-        free = joint::identify(&view, &at, whole.as_mut(), &[], &boxes[0], hooks);
+        free = joint::identify(&view, &at, whole.as_mut(), &[], &boxes[0], context);
         free.work += spent;
         let Some(again) = whole else { unreachable!("a space that was there stays") };
         reduced = again;
-        reduced.localise(&all, hooks.for_each);
+        reduced.localise(&all, context.for_each);
     }
     let (outcomes, fit) = match best(&fits) {
         Some(law) => {
             let (fit, noise) = judging.goodness(law, &free.noise);
             let one = |i: usize| judging.outcome(law, noise, &reduced, i, &free.outcomes[i]);
-            (map(hooks.for_each, at.len(), one), fit)
+            (map(context.for_each, at.len(), one), fit)
         }
         None => (free.outcomes.iter().map(|own| own.unanswered()).collect(), None),
     };
@@ -198,10 +198,10 @@ impl Fitting<'_, '_> {
         let (law, theta) = fits[place].coordinates();
         let curves = Curves::new(vec![Curve::Form(Form::Law(*law))]);
         let errors =
-            estimate_with_laws(reduced.whole(), &measured, errors, (&curves, theta), self.hooks.for_each)?;
+            estimate_with_laws(reduced.whole(), &measured, errors, (&curves, theta), self.context.for_each)?;
         reduced.correct(&errors.modes, &errors.errors);
         let all: Vec<usize> = (0..self.at.len()).collect();
-        reduced.localise(&all, self.hooks.for_each);
+        reduced.localise(&all, self.context.for_each);
         let again = self.fit(kind, reduced, free, Some(&fits[place]))?;
         fits[place] = again.with_covariance(errors.of_theta());
         free.model_errors = Some(errors);
@@ -257,14 +257,14 @@ impl Fitting<'_, '_> {
                 let (modulus, _) = parametrization.modulus(&theta, self.omega(i))?;
                 Some(modulus - self.at[i].parameters[0].nominal)
             };
-            let lacking = reduced.lacking(correction, self.hooks.for_each);
+            let lacking = reduced.lacking(correction, self.context.for_each);
             if lacking.is_empty()
                 || round == MAX_TRAINING_ROUNDS
-                || !reduced.refine(&lacking, self.hooks).unwrap_or(false)
+                || !reduced.refine(&lacking, self.context).unwrap_or(false)
             {
                 break;
             }
-            reduced.localise(&all, self.hooks.for_each);
+            reduced.localise(&all, self.context.for_each);
         }
         let fit = LawFit::new(parametrization, first?, self.evidence());
         let lines = self.lines(&fit, reduced);

@@ -63,18 +63,18 @@ pub(super) fn identify_band<'a>(
     band: &Band<'a>,
     trained: &mut Option<Subspace<'a>>,
     options: &Options,
-    hooks: Context<'_>,
+    context: Context<'_>,
 ) -> Result<BandOutcome, OutsideTable> {
     let at = band.model.at_all(band.frequency_hz, std::slice::from_ref(band.parameter))?;
     let boxes = near_and_far(options);
     let (found, reduced) =
-        near_or_far(band, &boxes, |options| identify_at_all(band, &at, trained, options, hooks));
+        near_or_far(band, &boxes, |options| identify_at_all(band, &at, trained, options, context));
     // A model that is answered for as it is has no modes at hand: they are those of a reduced one.
     let wanted = options.selection == Selection::Joint && options.reduction == Reduction::Auto;
-    let new = || wanted.then(|| ReducedBand::on_trained(band, &at, trained, &boxes[0], hooks)).flatten();
+    let new = || wanted.then(|| ReducedBand::on_trained(band, &at, trained, &boxes[0], context)).flatten();
     let mut reduced = reduced.or_else(new);
     let found = match reduced.as_mut().filter(|_| options.selection == Selection::Joint) {
-        Some(reduced) => corrected::correct(band, &at, found, reduced, &boxes[0], hooks),
+        Some(reduced) => corrected::correct(band, &at, found, reduced, &boxes[0], context),
         None => found,
     };
     ReducedBand::hand_back(reduced, trained);
@@ -86,13 +86,13 @@ fn identify_at_all<'a, 'o>(
     at: &'o [ModelAt<'a>],
     trained: &mut Option<Subspace<'a>>,
     options: &'o Options,
-    hooks: Context<'_>,
+    context: Context<'_>,
 ) -> (BandOutcome, Option<ReducedBand<'a, 'o>>) {
     match options.selection {
-        Selection::Joint => joint::identify_keeping_model(band, at, trained, options, hooks),
+        Selection::Joint => joint::identify_keeping_model(band, at, trained, options, context),
         Selection::Smallest => {
-            let model = ReducedBand::if_wanted(band, at, trained, options, hooks);
-            (per_frequency::identify(band, at, model, options, hooks), None)
+            let model = ReducedBand::if_wanted(band, at, trained, options, context);
+            (per_frequency::identify(band, at, model, options, context), None)
         }
     }
 }

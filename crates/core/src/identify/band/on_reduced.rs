@@ -10,15 +10,15 @@ use crate::select::Choice;
 use crate::subspace::Projection;
 
 pub(super) fn on_reduced(task: &Task<'_, '_>, reduced: &mut ReducedBand<'_, '_>) -> BandSolution {
-    let (at, hooks) = (task.at, task.hooks);
+    let (at, context) = (task.at, task.context);
     let find = |i: usize, model: &Projection| task.fit(i).explore_reduced(model, &at[i]);
     let settle = |i: usize, model: &Projection, before: &Candidates| {
         let fit = task.fit(i);
         fit.settle(before.clone(), fit.on(model, &at[i]))
     };
     let pilots = reduced.pilots();
-    let found = reduced.find(&pilots, hooks, find);
-    reduced.certify(&pilots, found, hooks, settle, |found| {
+    let found = reduced.find(&pilots, context, find);
+    reduced.certify(&pilots, found, context, settle, |found| {
         taken(&task.select(&pilots, found.iter()).choices, found)
     });
     let all: Vec<usize> = (0..at.len()).collect();
@@ -29,8 +29,8 @@ pub(super) fn on_reduced(task: &Task<'_, '_>, reduced: &mut ReducedBand<'_, '_>)
     };
     // The choice that the last answers were taken by.
     let mut selected: Option<PathSelection> = None;
-    let found = reduced.find(&grid, hooks, find);
-    let found = reduced.certify(&grid, found, hooks, settle, |found| {
+    let found = reduced.find(&grid, context, find);
+    let found = reduced.certify(&grid, found, context, settle, |found| {
         let PathSelection { choices, .. } = selected.insert(task.select(&grid, found.iter()));
         taken(choices, found)
     });
@@ -42,13 +42,13 @@ pub(super) fn on_reduced(task: &Task<'_, '_>, reduced: &mut ReducedBand<'_, '_>)
     let level = selected.and_then(|selected| selected.level);
     let usual = usual(level, task.freedom());
     let continuation = Continuation { at, fit: |i| task.fit(i), usual };
-    let mut found = continued(reduced, &continuation, &grid, found, hooks);
+    let mut found = continued(reduced, &continuation, &grid, found, context);
     let mut ready = Some(task.select(&all, found.iter().map(|found| &found.explored)));
     // Where there is nothing to choose, something may have been lost on the way.
     let nothing = |i: usize| ready.as_ref().is_some_and(|selected| selected.choices[i].chosen.is_none());
     let lost: Vec<usize> = all.iter().copied().filter(|&i| !found[i].whole && nothing(i)).collect();
     if !lost.is_empty() {
-        for (&index, explored) in lost.iter().zip(reduced.find(&lost, hooks, find)) {
+        for (&index, explored) in lost.iter().zip(reduced.find(&lost, context, find)) {
             found[index] = LineCandidates { index, explored, certain: Vec::new(), whole: true };
         }
         ready = None;
@@ -56,7 +56,7 @@ pub(super) fn on_reduced(task: &Task<'_, '_>, reduced: &mut ReducedBand<'_, '_>)
     let explored = found.iter().filter(|found| found.whole).count();
     let found = found.into_iter().map(|found| found.explored).collect();
     let mut selected = None;
-    let found = reduced.certify(&all, found, hooks, settle, |found| {
+    let found = reduced.certify(&all, found, context, settle, |found| {
         let again = || task.select(&all, found.iter());
         let PathSelection { choices, .. } = selected.insert(ready.take().unwrap_or_else(again));
         taken(choices, found)

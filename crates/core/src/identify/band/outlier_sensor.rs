@@ -67,7 +67,7 @@ impl Trial<'_, '_, '_, '_, '_> {
         let which: Vec<usize> = thinned(&all, OUTLIER_FREQUENCIES).copied().collect();
         let sigma = without(task.sigma, out);
         let task = Task { sigma: &sigma, ..*task };
-        let quiet = Context { progress: &|_, _, _| {}, ..task.hooks };
+        let quiet = Context { progress: &|_, _, _| {}, ..task.context };
         let best = |explored: &Candidates| {
             let misfits = explored.solutions.iter().map(|solution| solution.misfit);
             misfits.min_by(f64::total_cmp).unwrap_or(f64::INFINITY)
@@ -88,7 +88,7 @@ impl Trial<'_, '_, '_, '_, '_> {
                         Err(_) => (f64::INFINITY, Work { factorisations: 1, solves: 0 }),
                     }
                 };
-                let found = map(task.hooks.for_each, which.len(), find);
+                let found = map(task.context.for_each, which.len(), find);
                 found.iter().for_each(|(_, own)| self.work += *own);
                 found.into_iter().map(|(misfit, _)| misfit).collect()
             }

@@ -20,7 +20,7 @@ pub(super) fn identify<'a>(
     at: &[ModelAt<'a>],
     reduced: Option<ReducedBand<'a, '_>>,
     options: &Options,
-    hooks: Context<'_>,
+    context: Context<'_>,
 ) -> BandOutcome {
     let broken = |i: usize, breakdown: Breakdown| {
         Line::broken(band.frequency_hz[i], &[at[i].parameters[0].nominal], options.order, breakdown)
@@ -37,8 +37,8 @@ pub(super) fn identify<'a>(
                 corrections.collect()
             };
             let all: Vec<usize> = (0..at.len()).collect();
-            let found = reduced.find(&all, hooks, find);
-            let found = reduced.certify(&all, found, hooks, |i, model, _| find(i, model), answers);
+            let found = reduced.find(&all, context, find);
+            let found = reduced.certify(&all, found, context, |i, model, _| find(i, model), answers);
             let outcomes = found.into_iter().enumerate().map(|(i, mut outcome)| {
                 if let Some(correction) = outcome.correction() {
                     let assessed = reduced.assess(i, correction);
@@ -67,12 +67,12 @@ pub(super) fn identify<'a>(
         }
         None => {
             let done = AtomicUsize::new(0);
-            let outcomes = map(hooks.for_each, at.len(), |i| {
+            let outcomes = map(context.for_each, at.len(), |i| {
                 let outcome = match FullModel::new(at[i].clone(), band.experiment) {
                     Ok(system) => identify_at(&system, &band.measured[i], band.unknown, options),
                     Err(breakdown) => broken(i, breakdown),
                 };
-                (hooks.progress)(Stage::Solutions, done.fetch_add(1, Ordering::Relaxed) + 1, at.len());
+                (context.progress)(Stage::Solutions, done.fetch_add(1, Ordering::Relaxed) + 1, at.len());
                 outcome
             });
             let mut work = Work::default();

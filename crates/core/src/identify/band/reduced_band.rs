@@ -76,11 +76,11 @@ impl<'a, 'o> ReducedBand<'a, 'o> {
         at: &'o [ModelAt<'a>],
         trained: &mut Option<Subspace<'a>>,
         options: &'o Options,
-        hooks: Context<'_>,
+        context: Context<'_>,
     ) -> Option<Self> {
         let wanted = options.reduction.is_subspace(options.method, band.model.dim(), at.len());
         // A singular stand-in for D is no reason to give up: the full model says at which frequency what breaks down.
-        wanted.then(|| Self::on_trained(band, at, trained, options, hooks)).flatten()
+        wanted.then(|| Self::on_trained(band, at, trained, options, context)).flatten()
     }
 
     /// On the subspace that was trained for the band already, or else is now; `None` where it cannot be built.
@@ -89,9 +89,9 @@ impl<'a, 'o> ReducedBand<'a, 'o> {
         at: &'o [ModelAt<'a>],
         trained: &mut Option<Subspace<'a>>,
         options: &'o Options,
-        hooks: Context<'_>,
+        context: Context<'_>,
     ) -> Option<Self> {
-        let subspace = trained.take().map_or_else(|| train(band, at, options, hooks), Ok).ok()?;
+        let subspace = trained.take().map_or_else(|| train(band, at, options, context), Ok).ok()?;
         let n = at.len();
         let count = (n / MIN_NEIGHBOURHOOD_LINES).clamp(1, MAX_NEIGHBOURHOODS);
         let block = |b| Block { ends: [b * n / count, (b + 1) * n / count - 1], model: None };
@@ -125,16 +125,16 @@ impl<'a, 'o> ReducedBand<'a, 'o> {
     pub(super) fn find<T: Send + Sync>(
         &mut self,
         which: &[usize],
-        hooks: Context<'_>,
+        context: Context<'_>,
         find: impl Fn(usize, &Projection) -> T + Sync,
     ) -> Vec<T> {
-        self.localise(which, hooks.for_each);
+        self.localise(which, context.for_each);
         let done = AtomicUsize::new(0);
         let reduced = &*self;
-        (hooks.progress)(Stage::Solutions, 0, which.len());
-        map(hooks.for_each, which.len(), |k| {
+        (context.progress)(Stage::Solutions, 0, which.len());
+        map(context.for_each, which.len(), |k| {
             let found = find(which[k], reduced.model(which[k]));
-            (hooks.progress)(Stage::Solutions, done.fetch_add(1, Ordering::Relaxed) + 1, which.len());
+            (context.progress)(Stage::Solutions, done.fetch_add(1, Ordering::Relaxed) + 1, which.len());
             found
         })
     }
@@ -145,14 +145,14 @@ impl<'a, 'o> ReducedBand<'a, 'o> {
         &mut self,
         which: &[usize],
         mut found: Vec<T>,
-        hooks: Context<'_>,
+        context: Context<'_>,
         again: impl Fn(usize, &Projection, &T) -> T + Sync,
         mut answers: impl FnMut(&[T]) -> Vec<(usize, c64)>,
     ) -> Vec<T> {
         for round in 0..=MAX_REFINEMENT_ROUNDS {
             let answers = answers(&found);
             let reduced = &*self;
-            let assessed = map(hooks.for_each, answers.len(), |a| {
+            let assessed = map(context.for_each, answers.len(), |a| {
                 let (k, correction) = answers[a];
                 reduced.assess(which[k], correction)
             });
@@ -167,7 +167,7 @@ impl<'a, 'o> ReducedBand<'a, 'o> {
             let lacking: Vec<(usize, c64)> = uncertain.iter().map(|&(k, c)| (which[k], c)).collect();
             if lacking.is_empty()
                 || round == MAX_REFINEMENT_ROUNDS
-                || !self.refine(&lacking, hooks).unwrap_or(false)
+                || !self.refine(&lacking, context).unwrap_or(false)
             {
                 break;
             }
@@ -175,7 +175,7 @@ impl<'a, 'o> ReducedBand<'a, 'o> {
             pending.dedup();
             let frequencies: Vec<usize> = pending.iter().map(|&k| which[k]).collect();
             let before = &found;
-            let better = self.find(&frequencies, hooks, |i, model| {
+            let better = self.find(&frequencies, context, |i, model| {
                 let k = which.binary_search(&i).unwrap_or_default();
                 again(i, model, &before[k])
             });
@@ -238,15 +238,19 @@ impl<'a, 'o> ReducedBand<'a, 'o> {
     }
 
     /// Trains at answers (frequency, correction); false where nothing was gained.
-    pub(super) fn refine(&mut self, answers: &[(usize, c64)], hooks: Context<'_>) -> Result<bool, Breakdown> {
-        (hooks.progress)(Stage::Subspace, 0, self.at.len());
+    pub(super) fn refine(
+        &mut self,
+        answers: &[(usize, c64)],
+        context: Context<'_>,
+    ) -> Result<bool, Breakdown> {
+        (context.progress)(Stage::Subspace, 0, self.at.len());
         // Neighbours lack the same: those that this leaves uncertain are looked at in the next round.
         let answers: Vec<(usize, c64)> = thinned(answers, MAX_TRAINING_FREQUENCIES).copied().collect();
         let points: Vec<Point<'a>> =
             answers.iter().map(|&(i, correction)| Point { at: self.at[i].clone(), correction }).collect();
         let before = self.subspace.size();
         let training = TrainOptions { tolerance: TRAINED_TOL, ..TrainOptions::default() };
-        self.subspace.train(&points, &training, hooks.for_each)?;
+        self.subspace.train(&points, &training, context.for_each)?;
         self.answers.extend(answers);
         if self.subspace.size() > before {
             self.corrected = self.corrected.as_ref().map(|corrected| corrected.in_larger(self.whole()));
@@ -335,14 +339,14 @@ pub(in crate::identify) fn train<'a>(
     band: &Band<'a>,
     at: &[ModelAt<'a>],
     options: &Options,
-    hooks: Context<'_>,
+    context: Context<'_>,
 ) -> Result<Subspace<'a>, Breakdown> {
-    (hooks.progress)(Stage::Subspace, 0, at.len());
+    (context.progress)(Stage::Subspace, 0, at.len());
     let mut subspace = Subspace::new(band.experiment, &at[at.len() - 1])?;
     let points: Vec<Point<'a>> =
         thinned(at, MAX_TRAINING_FREQUENCIES).flat_map(|at| box_points(at, band.unknown, options)).collect();
     let training = TrainOptions { tolerance: BOX_TOL, ..TrainOptions::default() };
-    subspace.train(&points, &training, hooks.for_each)?;
+    subspace.train(&points, &training, context.for_each)?;
     Ok(subspace)
 }
 

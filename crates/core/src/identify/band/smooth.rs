@@ -87,22 +87,22 @@ pub(in crate::identify) fn identify_smooth<'a>(
     band: &Band<'a>,
     trained: &mut Option<Subspace<'a>>,
     options: &Options,
-    hooks: Context<'_>,
+    context: Context<'_>,
 ) -> Result<SmoothOutcome, OutsideTable> {
     let at = band.model.at_all(band.frequency_hz, std::slice::from_ref(band.parameter))?;
     let boxes = on_subspace(options);
     let (mut free, mut reduced) =
-        near_or_far(band, &boxes, |options| identify_keeping_model(band, &at, trained, options, hooks));
+        near_or_far(band, &boxes, |options| identify_keeping_model(band, &at, trained, options, context));
     if let Some(reduced) = &mut reduced {
-        free = correct(band, &at, free, reduced, &boxes[0], hooks);
+        free = correct(band, &at, free, reduced, &boxes[0], context);
     }
     let assumed = standard_deviations(band.measured, band.noise);
     let out = free.left_out();
     let sigma = without(&assumed, &out);
-    let smoothing = Smoothing { band, at: &at, sigma: &sigma, out: &out, options, hooks };
-    (hooks.progress)(Stage::Law, 0, 1);
+    let smoothing = Smoothing { band, at: &at, sigma: &sigma, out: &out, options, context };
+    (context.progress)(Stage::Law, 0, 1);
     let found = reduced.and_then(|mut reduced| Some((smoothing.fit(&mut reduced, &free)?, reduced)));
-    (hooks.progress)(Stage::Law, 1, 1);
+    (context.progress)(Stage::Law, 1, 1);
     let Some((fitted, reduced)) = found else {
         let outcomes = free.outcomes.iter().map(Line::unanswered).collect();
         return Ok(SmoothOutcome {
@@ -113,7 +113,7 @@ pub(in crate::identify) fn identify_smooth<'a>(
     };
     let noise = smoothing.noise(&free.noise, fitted.smoothed.level);
     let judged: Vec<Judged> =
-        map(hooks.for_each, at.len(), |i| smoothing.judged(&fitted, &noise, &reduced, i, &free));
+        map(context.for_each, at.len(), |i| smoothing.judged(&fitted, &noise, &reduced, i, &free));
     let explained = || judged.iter().enumerate().filter(|(i, _)| fitted.observations[*i].weight > 0.0);
     let chi_squared = explained().map(|(_, judged)| judged.chi_squared).sum();
     let freedom = explained().map(|(_, judged)| judged.freedom).sum::<f64>().round() as usize;
@@ -145,7 +145,7 @@ struct Smoothing<'t, 'a> {
     /// Sensors that are left out.
     out: &'t [usize],
     options: &'t Options,
-    hooks: Context<'t>,
+    context: Context<'t>,
 }
 
 /// A curve that was found.
@@ -189,7 +189,7 @@ impl Smoothing<'_, '_> {
     fn fit(&self, reduced: &mut ReducedBand<'_, '_>, free: &BandOutcome) -> Option<Fitted> {
         let before = reduced.work();
         let all: Vec<usize> = (0..self.at.len()).collect();
-        reduced.localise(&all, self.hooks.for_each);
+        reduced.localise(&all, self.context.for_each);
         let mut states = self.start(reduced, free)?;
         let mut used: Vec<bool> = all.iter().map(|&i| self.log_omega(i).is_finite()).collect();
         let mut round = 0;
@@ -197,12 +197,12 @@ impl Smoothing<'_, '_> {
             let (linear, smoothed, converged) = self.descend(reduced, &used, states)?;
             states = smoothed.curve.states.clone();
             let correction = |i: usize| Some(modulus(&states[i]) - self.at[i].parameters[0].nominal);
-            let lacking = reduced.lacking(correction, self.hooks.for_each);
+            let lacking = reduced.lacking(correction, self.context.for_each);
             if round < MAX_TRAINING_ROUNDS
                 && !lacking.is_empty()
-                && reduced.refine(&lacking, self.hooks).unwrap_or(false)
+                && reduced.refine(&lacking, self.context).unwrap_or(false)
             {
-                reduced.localise(&all, self.hooks.for_each);
+                reduced.localise(&all, self.context.for_each);
                 round += 1;
                 continue;
             }
@@ -295,7 +295,7 @@ impl Smoothing<'_, '_> {
             };
             (Observation { value, weight, ..none }, misfit)
         };
-        let each = map(self.hooks.for_each, states.len(), one);
+        let each = map(self.context.for_each, states.len(), one);
         let mut beside = (0.0, 0);
         let mut total = 0.0;
         for (i, (o, misfit)) in each.iter().enumerate().filter(|(_, (o, _))| o.weight > 0.0) {

@@ -18,7 +18,7 @@ pub(super) struct Task<'t, 'a> {
     /// Sensors that are not left out.
     pub(super) sensors: usize,
     pub(super) options: &'t Options,
-    pub(super) hooks: Context<'t>,
+    pub(super) context: Context<'t>,
 }
 
 /// One path through some frequencies.
@@ -68,7 +68,7 @@ impl Task<'_, '_> {
         which: &[usize],
         found: impl Iterator<Item = &'e Candidates>,
     ) -> PathSelection {
-        (self.hooks.progress)(Stage::Selection, 0, self.at.len());
+        (self.context.progress)(Stage::Selection, 0, self.at.len());
         let frequency_hz: Vec<f64> = which.iter().map(|&i| self.band.frequency_hz[i]).collect();
         let nodes: Vec<Vec<Node>> = which
             .iter()

@@ -23,6 +23,7 @@ mod leverage;
 mod scatter;
 mod search;
 
+use super::goodness_of_fit::GoodnessOfFit;
 use super::noise::Noise;
 use super::options::ErrorSizes;
 use super::outcome::Line;
@@ -76,6 +77,8 @@ pub(super) struct Measured<'t, 'a> {
     /// The unknowns that each frequency has a value of its own of.
     pub(super) own: &'t [usize],
     pub(super) level_per_frequency: Option<f64>,
+    /// What the values of the lines say of the band.
+    pub(super) fit: Option<GoodnessOfFit>,
 }
 
 /// Modes up to this many times the highest frequency, and so many at most.
@@ -277,7 +280,10 @@ fn explanation(search: &Search<'_, '_>, starts: &[Vec<f64>]) -> Option<Explanati
     let least = scattered.map_or(right.evidence, |scattered| scattered.min(right.evidence));
     let evidence = 0.5 * (least - best);
     if !sized && evidence <= -RIGHT_MODEL_NATS {
-        return right_model();
+        // No material scatters from line to line. Where only that explains the band, and not all of it, it is another model.
+        let scatters = least < right.evidence - 2.0 * RIGHT_MODEL_NATS;
+        let rest = data.fit.is_some_and(|fit| fit.is_nearly_explained());
+        return if scatters && rest { Some(Explanation::OtherModel) } else { right_model() };
     }
     if !fine.are_small(&wrong.found.place, data.given_sizes) {
         return Some(Explanation::OtherModel);

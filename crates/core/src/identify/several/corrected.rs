@@ -33,7 +33,7 @@ impl Task<'_, '_> {
             Explanation::OtherModel => return found.of_other_model(),
             Explanation::Errors(errors) => *errors,
         };
-        space.correct(&errors.modes, &errors.errors, self.hooks.for_each);
+        space.correct(&errors.modes, &errors.errors, self.context.for_each);
         let middle = self.omegas.len() / 2;
         let Some(values) = errors.values(middle, self.problem.frfs.frequency_hz[middle]) else {
             return found;
@@ -85,8 +85,10 @@ impl Task<'_, '_> {
             own: &own,
             // What holds for the band cannot show the noise: it is part of what is to be explained.
             level_per_frequency: found.noise.level.filter(|_| !own.is_empty()),
+            fit: found.fit,
         };
-        let (explanation, leverage) = estimate(space.whole(), &measured, &curves(false), self.hooks.for_each);
+        let (explanation, leverage) =
+            estimate(space.whole(), &measured, &curves(false), self.context.for_each);
         let errors = match explanation {
             Explanation::Errors(errors) if (0..unknowns.len()).any(is_law) => errors,
             explanation => return (explanation, leverage),
@@ -97,7 +99,7 @@ impl Task<'_, '_> {
         };
         let theta: Vec<f64> = (0..unknowns.len()).flat_map(theta).copied().collect();
         let laws = (&curves(true), theta.as_slice());
-        let with_laws = estimate_with_laws(space.whole(), &measured, &errors, laws, self.hooks.for_each);
+        let with_laws = estimate_with_laws(space.whole(), &measured, &errors, laws, self.context.for_each);
         (Explanation::Errors(with_laws.map_or(errors, Box::new)), leverage)
     }
 

@@ -85,7 +85,7 @@ impl Task<'_, '_> {
             (None, Some(information)) => information.covariance(g, h),
             (None, None) => 0.0,
         };
-        let at: Vec<Line> = map(self.hooks.for_each, all.len(), |i| {
+        let at: Vec<Line> = map(self.context.for_each, all.len(), |i| {
             let own = place.as_ref().and_then(|p| p.eliminated.own[i].as_ref());
             let mut moved = own.map(|(_, moved)| moved.clone());
             if let (Some(moved), Some(solution), Some(_)) = (&mut moved, found.at(i), errors) {

@@ -62,7 +62,7 @@ struct Task<'t, 'a> {
     sigma: Vec<Vec<f64>>,
     left_out: Vec<usize>,
     options: &'t Options,
-    hooks: Context<'t>,
+    context: Context<'t>,
 }
 
 /// Identifies several unknowns over a band.
@@ -80,7 +80,7 @@ pub(super) fn identify_several<'a>(
     problem: &Problem<'a>,
     trained: &mut Option<Subspace<'a>>,
     options: &Options,
-    hooks: Context<'_>,
+    context: Context<'_>,
 ) -> Result<SeveralOutcome, OutsideTable> {
     let frfs = problem.frfs;
     let nominal = nominal_of(problem)?;
@@ -91,15 +91,15 @@ pub(super) fn identify_several<'a>(
         sigma: standard_deviations(frfs.receptance, frfs.noise),
         left_out: Vec::new(),
         options,
-        hooks,
+        context,
     };
     let subspace = match trained.take() {
         Some(subspace) => Ok(subspace),
-        None => train(problem, hooks)?,
+        None => train(problem, context)?,
     };
     Ok(match subspace {
         Ok(subspace) => {
-            let mut space = ReducedBand::new(subspace, problem, &nominal, hooks);
+            let mut space = ReducedBand::new(subspace, problem, &nominal, context);
             let mut found = task.search(&mut space);
             let contradicting = task.contradicting(&space, &found);
             let rejected = if options.reject_outliers { contradicting.as_slice() } else { &[] };
@@ -126,9 +126,9 @@ fn nominal_of(problem: &Problem<'_>) -> Result<Vec<Vec<c64>>, OutsideTable> {
 /// A subspace that is good over the box of all unknowns.
 pub(super) fn train<'a>(
     problem: &Problem<'a>,
-    hooks: Context<'_>,
+    context: Context<'_>,
 ) -> Result<Result<Subspace<'a>, Breakdown>, OutsideTable> {
-    reduced_band::train(problem, &nominal_of(problem)?, hooks)
+    reduced_band::train(problem, &nominal_of(problem)?, context)
 }
 
 impl Task<'_, '_> {

@@ -55,12 +55,12 @@ pub(super) type Responded = (Vec<c64>, Vec<Vec<c64>>);
 pub(super) fn train<'a>(
     problem: &Problem<'a>,
     nominal: &[Vec<c64>],
-    hooks: Context<'_>,
+    context: Context<'_>,
 ) -> Result<Result<Subspace<'a>, Breakdown>, OutsideTable> {
     let composite = Composite { model: problem.model, unknowns: problem.unknowns };
     let frequency_hz = problem.frfs.frequency_hz;
     let n = frequency_hz.len();
-    (hooks.progress)(Stage::Subspace, 0, n);
+    (context.progress)(Stage::Subspace, 0, n);
     let reference = composite.at(frequency_hz[n - 1], &nominal[n - 1])?;
     let mut subspace = match Subspace::new(problem.experiment, &reference) {
         Ok(subspace) => subspace,
@@ -73,7 +73,7 @@ pub(super) fn train<'a>(
     }
     let training =
         TrainOptions { tolerance: BOX_TOL, factorisations: MAX_FACTORISATIONS, ..TrainOptions::default() };
-    Ok(subspace.train(&points, &training, hooks.for_each).map(|_| subspace))
+    Ok(subspace.train(&points, &training, context.for_each).map(|_| subspace))
 }
 
 /// Everything at its nominal value, and points of a sequence over the box.
@@ -97,7 +97,7 @@ impl<'a> ReducedBand<'a> {
         subspace: Subspace<'a>,
         problem: &Problem<'a>,
         nominal: &[Vec<c64>],
-        hooks: Context<'_>,
+        context: Context<'_>,
     ) -> Self {
         let composite = Composite { model: problem.model, unknowns: problem.unknowns };
         let frequency_hz = problem.frfs.frequency_hz;
@@ -107,7 +107,7 @@ impl<'a> ReducedBand<'a> {
         let blocks = ends.map(|ends| (ends, None)).collect();
         let (answers, corrected, nominal) = (Vec::new(), None, nominal.to_vec());
         let mut space = Self { composite, frequency_hz, nominal, subspace, blocks, answers, corrected };
-        space.localise(hooks.for_each);
+        space.localise(context.for_each);
         space
     }
 
@@ -186,21 +186,21 @@ impl<'a> ReducedBand<'a> {
     }
 
     /// Trains at the answers where the subspace is not good enough; whether anything was gained.
-    pub(super) fn refine(&mut self, answers: &[(usize, Vec<c64>)], hooks: Context<'_>) -> bool {
+    pub(super) fn refine(&mut self, answers: &[(usize, Vec<c64>)], context: Context<'_>) -> bool {
         let lacking = |(i, values): &(usize, Vec<c64>)| {
             let at = self.at(*i, values)?;
             let assessed = self.assess(*i, values)?;
             (!is_certain(&at, c64::default(), &assessed)).then(|| Point { at, correction: c64::default() })
         };
         let lacking: Vec<(usize, Point<'a>)> =
-            map(hooks.for_each, answers.len(), |k| Some((k, lacking(&answers[k])?)))
+            map(context.for_each, answers.len(), |k| Some((k, lacking(&answers[k])?)))
                 .into_iter()
                 .flatten()
                 .collect();
         if lacking.is_empty() {
             return false;
         }
-        (hooks.progress)(Stage::Subspace, 0, self.frequency_hz.len());
+        (context.progress)(Stage::Subspace, 0, self.frequency_hz.len());
         let (mut points, before) = (Vec::new(), self.subspace.size());
         for (k, point) in thinned(&lacking, MAX_TRAINING_FREQUENCIES) {
             self.answers.push(answers[*k].clone());
@@ -211,9 +211,9 @@ impl<'a> ReducedBand<'a> {
             factorisations: MAX_FACTORISATIONS,
             ..TrainOptions::default()
         };
-        let trained = self.subspace.train(&points, &training, hooks.for_each);
+        let trained = self.subspace.train(&points, &training, context.for_each);
         self.corrected = self.corrected.as_ref().map(|corrected| corrected.in_larger(self.whole()));
-        self.localise(hooks.for_each);
+        self.localise(context.for_each);
         trained.is_ok() && self.subspace.size() > before
     }
 

@@ -99,7 +99,7 @@ impl Task<'_, '_> {
     pub(super) fn search(&self, space: &mut ReducedBand<'_>) -> BandSolution {
         let all: Vec<usize> = (0..self.omegas.len()).collect();
         let part: Vec<usize> = thinned(&all, START_FREQUENCIES).copied().collect();
-        (self.hooks.progress)(Stage::Solutions, 0, all.len());
+        (self.context.progress)(Stage::Solutions, 0, all.len());
         let mut tried = self.tried(space, &part);
         let (least, first, values) = tried.swap_remove(0);
         let agreeing =
@@ -109,7 +109,7 @@ impl Task<'_, '_> {
             false => self.follow(space, &all, first.begin(), &Guess::Everywhere(&values)),
         };
         let found = self.refined(space, found);
-        (self.hooks.progress)(Stage::Solutions, all.len(), all.len());
+        (self.context.progress)(Stage::Solutions, all.len(), all.len());
         BandSolution { starts: 1 + tried.len(), agreeing, ..found }
     }
 
@@ -132,7 +132,7 @@ impl Task<'_, '_> {
         for _ in 0..MAX_TRAINING_ROUNDS {
             let answers: Vec<(usize, Vec<c64>)> =
                 all.iter().filter_map(|&i| Some((i, found.at(i)?.values.clone()))).collect();
-            if !space.refine(&answers, self.hooks) {
+            if !space.refine(&answers, self.context) {
                 break;
             }
             let known = std::mem::take(&mut found.solutions);
@@ -248,27 +248,27 @@ impl Task<'_, '_> {
             self.settled(&at, which[k], &starts.collect::<Vec<_>>(), None)
         };
         let mut solutions = match guess {
-            Guess::Known(known) => map(self.hooks.for_each, n, |k| from(known, k, &[k])),
+            Guess::Known(known) => map(self.context.for_each, n, |k| from(known, k, &[k])),
             Guess::Everywhere(_) if !per_frequency => {
-                map(self.hooks.for_each, n, |k| self.settled(&at, which[k], &[Vec::new()], None))
+                map(self.context.for_each, n, |k| self.settled(&at, which[k], &[Vec::new()], None))
             }
             Guess::Everywhere(values) => {
                 let grid: Vec<usize> =
                     (0..n).step_by((n / MIN_GRID_LINES).clamp(1, MAX_GRID_STRIDE)).collect();
                 let found =
-                    map(self.hooks.for_each, grid.len(), |a| self.everywhere(&at, which[grid[a]], values));
+                    map(self.context.for_each, grid.len(), |a| self.everywhere(&at, which[grid[a]], values));
                 let beside = |k: usize| {
                     let after = grid.partition_point(|&explored| explored <= k);
                     [after.saturating_sub(1), after.min(grid.len() - 1)]
                 };
-                map(self.hooks.for_each, n, |k| from(&found, k, &beside(k)))
+                map(self.context.for_each, n, |k| from(&found, k, &beside(k)))
             }
         };
         if per_frequency && matches!(guess, Guess::Everywhere(_)) {
             // What one frequency has, its neighbours may have too.
             let before = solutions;
             let beside = |k: usize| [k.saturating_sub(1), k, (k + 1).min(n - 1)];
-            solutions = map(self.hooks.for_each, n, |k| from(&before, k, &beside(k)));
+            solutions = map(self.context.for_each, n, |k| from(&before, k, &beside(k)));
         }
         let mut chosen = self.choose(which, &solutions);
         if let Guess::Everywhere(values) = guess {
@@ -276,7 +276,7 @@ impl Task<'_, '_> {
                 (0..n).filter(|&k| per_frequency && chosen[k].solution.is_none()).collect();
             if !lost.is_empty() {
                 let again =
-                    map(self.hooks.for_each, lost.len(), |l| self.everywhere(&at, which[lost[l]], values));
+                    map(self.context.for_each, lost.len(), |l| self.everywhere(&at, which[lost[l]], values));
                 lost.into_iter().zip(again).for_each(|(k, again)| solutions[k] = again);
                 chosen = self.choose(which, &solutions);
             }
@@ -452,7 +452,7 @@ impl Task<'_, '_> {
     ) -> Option<Minimum> {
         let n = found.theta.len();
         let models = match reach {
-            Reach::Near => map(self.hooks.for_each, which.len(), |k| {
+            Reach::Near => map(self.context.for_each, which.len(), |k| {
                 self.model_about(space, which[k], k, (found, place))
             }),
             Reach::Far => vec![None; which.len()],
@@ -537,7 +537,7 @@ impl Task<'_, '_> {
             let moved = contained.into_iter().map(|x| x.into_iter().map(|x| -x).collect()).collect();
             Some(Some(Part { residuals: here.residuals, columns, own: here.own, moved }))
         };
-        let parts = map(self.hooks.for_each, which.len(), one).into_iter().collect::<Option<Vec<_>>>()?;
+        let parts = map(self.context.for_each, which.len(), one).into_iter().collect::<Option<Vec<_>>>()?;
         let n = theta.len();
         let mut residuals: Vec<f64> = Vec::new();
         let mut jacobian: Vec<f64> = Vec::new();

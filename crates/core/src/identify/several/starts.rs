@@ -35,7 +35,7 @@ impl Task<'_, '_> {
     pub(super) fn starts(&self, space: &ReducedBand<'_>) -> Vec<Vec<c64>> {
         let all: Vec<usize> = (0..self.omegas.len()).collect();
         let which: Vec<usize> = thinned(&all, LOG_RESPONSE_FREQUENCIES).copied().collect();
-        let rough = map(self.hooks.for_each, which.len(), |k| space.rough(which[k]));
+        let rough = map(self.context.for_each, which.len(), |k| space.rough(which[k]));
         let middle = &self.nominal[all.len() / 2];
         let constants =
             Coordinates::new(self.problem.unknowns, |_| Variation::Constant, middle, &self.omegas);
@@ -62,7 +62,8 @@ impl Task<'_, '_> {
                     slopes.iter().enumerate().flat_map(|(j, own)| own.iter().map(move |&slope| (j, slope)));
                 Some(Row { columns: std::iter::once(rest).chain(all.map(column)).collect(), kept })
             };
-            let rows = map(self.hooks.for_each, which.len(), one).into_iter().collect::<Option<Vec<_>>>()?;
+            let rows =
+                map(self.context.for_each, which.len(), one).into_iter().collect::<Option<Vec<_>>>()?;
             let rows = self.without_scales(rows);
             let parts = |values: &[c64]| values.iter().flat_map(|v| [v.re, v.im]).collect::<Vec<f64>>();
             let count = constants.count;

@@ -71,10 +71,10 @@ fn all_solutions_of_two_unknowns_are_found() {
     let frfs = Frfs { frequency_hz: &frequency_hz, receptance: &measured, noise: Noise::Unknown };
     let problem = Problem::new(&model, &experiment, &unknowns, &[], frfs).unwrap();
     let nominal = vec![vec![LOSSY; 2]; frequency_hz.len()];
-    let hooks = Context { for_each: &sequential, progress: &|_, _, _| {} };
+    let context = Context { for_each: &sequential, progress: &|_, _, _| {} };
     let composite = Composite { model: &model, unknowns: &unknowns };
-    let subspace = train(&problem, hooks).unwrap().unwrap();
-    let space = ReducedBand::new(subspace, &problem, &nominal, hooks);
+    let subspace = train(&problem, context).unwrap().unwrap();
+    let space = ReducedBand::new(subspace, &problem, &nominal, context);
     let options = Options::default();
     let task = Task {
         problem: &problem,
@@ -83,7 +83,7 @@ fn all_solutions_of_two_unknowns_are_found() {
         sigma: standard_deviations(&measured, Noise::Unknown),
         left_out: Vec::new(),
         options: &options,
-        hooks,
+        context,
     };
     let coordinates = task.coordinates();
     let at = At { space: &space, coordinates: &coordinates, theta: &[] };
