@@ -223,7 +223,7 @@ pub enum VariesEntry {
 impl From<VariesEntry> for Variation {
     fn from(varies: VariesEntry) -> Self {
         match varies {
-            VariesEntry::Freely => Self::PerFrequency,
+            VariesEntry::PerFrequency => Self::PerFrequency,
             VariesEntry::Smoothly => Self::Smooth,
             VariesEntry::ByLaw(kinds) => Self::Law(kinds),
         }
@@ -237,7 +237,7 @@ impl VariesEntry {
     /// The words that there are.
     pub(crate) fn of_word(word: &str) -> Result<Self, String> {
         match word {
-            "frequency" => Ok(Self::Freely),
+            "frequency" => Ok(Self::PerFrequency),
             "smooth" => Ok(Self::Smoothly),
             "law" => Ok(Self::ByLaw(LawKind::ALL.to_vec())),
             _ => Err("\"frequency\" (a factor of its own at each), \"smooth\" or \"law\"".into()),
