@@ -259,7 +259,8 @@ fn explanation(search: &Search<'_, '_>, starts: &[Vec<f64>]) -> Option<Explanati
     }
     // What the data cannot tell is in the bars: masses and common damping are left out only where they are clearly worse. Own damping of modes stands in for
     // a loss factor that varies with frequency, and has to be better.
-    let further: [(fn(Kinds) -> Kinds, f64); 3] = [
+    type With = fn(Kinds) -> Kinds;
+    let further: [(With, f64); 3] = [
         (Kinds::with_masses, RIGHT_MODEL_NATS),
         (Kinds::with_common_damping, RIGHT_MODEL_NATS),
         (Kinds::with_own_damping, 0.0),
