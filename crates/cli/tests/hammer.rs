@@ -79,7 +79,7 @@ fn by_default_the_modulus_is_the_truth_up_to_the_mesh() {
     let found = deviations(folder.path(), &table);
     assert_eq!(summary["status"]["ok"], 676, "{}", summary["status"]);
     assert_eq!(found.len(), 676);
-    // One sensor, one impact: nothing but the scatter of the answers tells the noise.
+    // One sensor, one impact: only the scatter of the estimates shows the noise.
     assert_eq!(summary["noise"]["source"], "scatter");
     assert!(numbers(&table, "storage_std").iter().all(|std| *std > 0.0));
     assert!(numbers(&table, "chi2").iter().all(|chi2| chi2.is_nan()));

@@ -3,7 +3,7 @@
 use crate::common;
 use crate::tier::of_tier;
 
-use common::{bar, c, plate, sandwich, term, two_part_chain};
+use common::{bar, c, constant, plate, sandwich, term, two_part_chain};
 use frfit::c64;
 use frfit::for_each::sequential;
 use frfit::frequency::linear_hz;
@@ -15,7 +15,7 @@ use frfit::material::Law;
 use frfit::model::{DynamicStiffness, Experiment, Role, Sensor, Term};
 use frfit::roots::Bounds;
 
-const HOOKS: Context<'static> = Context { for_each: &sequential, progress: &|_, _, _| {} };
+const CONTEXT: Context<'static> = Context { for_each: &sequential, progress: &|_, _, _| {} };
 
 /// x at the sensors, by direct solves with these factors in place of the terms' own: the oracle.
 fn direct(
@@ -57,17 +57,6 @@ fn noisy(exact: &[Vec<c64>], part: f64, seed: u64) -> (Vec<Vec<c64>>, Vec<Vec<f6
     (measured.collect(), std)
 }
 
-fn constant(name: &str, dependence: Dependence, nominal: f64, bounds: [f64; 2]) -> Unknown {
-    Unknown {
-        name: name.into(),
-        dependence,
-        nominal: Law::Constant(c(nominal, 0.0)),
-        varies: Variation::Constant,
-        real: true,
-        bounds: Bounds { storage: Some(bounds), loss_factor: None },
-    }
-}
-
 /// What was measured on what, and what is unknown.
 #[derive(Clone, Copy)]
 struct Setup<'a> {
@@ -83,7 +72,7 @@ fn run(setup: &Setup<'_>) -> Identification {
     let Setup { model, experiment, unknowns, frequency_hz, measured, noise } = *setup;
     let frfs = Frfs { frequency_hz, receptance: measured, noise };
     let problem = Problem::new(model, experiment, unknowns, &[], frfs).unwrap();
-    identify(&problem, &Options::default(), HOOKS).unwrap()
+    identify(&problem, &Options::default(), CONTEXT).unwrap()
 }
 
 /// A plate whose thickness is 10 % off: h³ in bending, h in the mass.
@@ -249,7 +238,7 @@ fn an_ambiguous_line_has_its_likeliest_values_and_its_rivals() {
     // Three lines cannot exclude errors of the model of some per cent.
     for (model_errors, within) in [(ModelErrors::None, 1e-5), (ModelErrors::Estimated, 0.05)] {
         let options = Options::default().with_model_errors(model_errors);
-        let found = identify(&problem, &options, HOOKS).unwrap();
+        let found = identify(&problem, &options, CONTEXT).unwrap();
         for line in &found.lines {
             let values: Vec<c64> = line.values.iter().filter_map(|value| value.value).collect();
             let of = |standing| line.solutions.iter().filter(move |one| one.standing == standing);
@@ -421,7 +410,7 @@ fn a_sensor_that_contradicts_the_others_is_named_and_left_out() {
         let frfs = Frfs { frequency_hz, receptance: &faulty, noise };
         let problem = Problem::new(model, experiment, unknowns, &[], frfs).unwrap();
         let options = Options::default().with_reject_outliers(false);
-        let kept = identify(&problem, &options, HOOKS).unwrap();
+        let kept = identify(&problem, &options, CONTEXT).unwrap();
         assert!(kept.sensors[2].contradicts && !kept.sensors[2].left_out);
         if noise != Noise::Unknown {
             assert!(kept.lines.iter().all(|line| line.status != Status::Ok), "{:?}", kept.fit);

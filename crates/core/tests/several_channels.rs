@@ -4,7 +4,7 @@ use crate::common;
 use crate::noise;
 use crate::tier::of_tier;
 
-use common::{Case, c, plate, sandwich, term, two_part_chain};
+use common::{Case, c, constant, plate, sandwich, term, two_part_chain};
 use frfit::c64;
 use frfit::for_each::sequential;
 use frfit::frequency::{linear_hz, omega_rad_s};
@@ -17,7 +17,7 @@ use frfit::material::{Law, Table};
 use frfit::model::{DynamicStiffness, Experiment, Role, Sensor, Term};
 use frfit::roots::Bounds;
 
-const HOOKS: Context<'static> = Context { for_each: &sequential, progress: &|_, _, _| {} };
+const CONTEXT: Context<'static> = Context { for_each: &sequential, progress: &|_, _, _| {} };
 const KNOWN: ChannelUnknowns = ChannelUnknowns { scale: false, delay: false };
 const SCALE: ChannelUnknowns = ChannelUnknowns { scale: true, delay: false };
 const BOTH: ChannelUnknowns = ChannelUnknowns { scale: true, delay: true };
@@ -79,7 +79,7 @@ impl Test {
     /// From measurements without noise.
     fn exactly(&self, unknown: &[ChannelUnknowns]) -> Identification {
         let (measured, _) = self.drawn(0.0, &mut noise::Noise::new(1));
-        identify(&self.problem(unknown, &measured, Noise::Unknown).unwrap(), &Options::default(), HOOKS)
+        identify(&self.problem(unknown, &measured, Noise::Unknown).unwrap(), &Options::default(), CONTEXT)
             .unwrap()
     }
 
@@ -89,17 +89,6 @@ impl Test {
         let top = omega_rad_s(*self.frequency_hz.last().unwrap());
         let scale = found[m].scale.map_or(0.0, |found| found.value / scale - 1.0);
         [scale, found[m].delay_s.map_or(0.0, |found| (found.value - late) * top)].map(f64::abs)
-    }
-}
-
-fn constant(name: &str, dependence: Dependence, nominal: f64, bounds: [f64; 2]) -> Unknown {
-    Unknown {
-        name: name.into(),
-        dependence,
-        nominal: Law::Constant(c(nominal, 0.0)),
-        varies: Variation::Constant,
-        real: true,
-        bounds: Bounds { storage: Some(bounds), loss_factor: None },
     }
 }
 
@@ -181,7 +170,7 @@ fn a_scale_beside_a_free_stiffness_and_mass_is_not_identifiable() {
     let (measured, std) = test.drawn(0.01, &mut noise::Noise::new(3));
     let unknown = [SCALE, SCALE];
     let problem = test.problem(&unknown, &measured, Noise::Known(&std)).unwrap();
-    let found = identify(&problem, &Options::default(), HOOKS).unwrap();
+    let found = identify(&problem, &Options::default(), CONTEXT).unwrap();
     assert!(
         found.constants.iter().all(|value| value.status == Status::NotIdentifiable),
         "{:?}",
@@ -268,7 +257,7 @@ fn error_bars_of_channels_and_three_unknowns_cover_the_truth() {
     for _ in 0..draws {
         let (measured, std) = test.drawn(0.01, &mut noise);
         let problem = test.problem(&unknown, &measured, Noise::Known(&std)).unwrap();
-        let found = identify(&problem, &Options::default(), HOOKS).unwrap();
+        let found = identify(&problem, &Options::default(), CONTEXT).unwrap();
         let fit = found.fit.unwrap();
         assert_eq!(fit.freedom, 2 * 3 * 40 - 6 - 5);
         assert!(fit.deviate.abs() < 4.0, "{fit:?}");

@@ -15,7 +15,7 @@ use frfit::identify::{
 use frfit::laws::LawKind;
 use frfit::quantity::Quantity;
 
-const HOOKS: Context<'static> = Context { for_each: &sequential, progress: &|_, _, _| {} };
+const CONTEXT: Context<'static> = Context { for_each: &sequential, progress: &|_, _, _| {} };
 
 /// What is found of a problem apart, and on one reduced model, which is diagnosed once more at the end.
 fn apart_and_shared(
@@ -33,12 +33,12 @@ fn apart_and_shared(
         (Options::default(), vec![Quantity::Receptance; case.experiment.sensors.len()]);
     let apart = (
         diagnose(&problem, &quantities, &options, &sequential).unwrap(),
-        identify(&problem, &options, HOOKS).unwrap(),
+        identify(&problem, &options, CONTEXT).unwrap(),
     );
     let mut reduced = ReducedBand::default();
     let shared = (
         diagnose_on(&mut reduced, &problem, &quantities, &options, &sequential).unwrap(),
-        identify_on(&mut reduced, &problem, &options, HOOKS).unwrap(),
+        identify_on(&mut reduced, &problem, &options, CONTEXT).unwrap(),
     );
     // The work of the model is that of diagnosis and identification together, of which the latter knows all.
     assert_eq!(reduced.work(), shared.1.search.work);

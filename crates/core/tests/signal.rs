@@ -130,7 +130,7 @@ fn the_force_window_silences_what_comes_after_the_contact() {
     assert!(error(Windows::default()) > 1e-2);
 }
 
-/// 400 impacts in fours, noise in the response alone: B-6 tells how far H₁ is off.
+/// 400 impacts in fours, noise in the response alone: B-6 gives the standard deviation of H₁.
 #[test]
 fn the_variance_is_that_of_either_part() {
     let mut noise = Noise(7);

@@ -23,7 +23,7 @@ use frfit_linalg::sparse::Triplets;
 use proptest::prelude::*;
 use std::f64::consts::PI;
 
-const HOOKS: Context<'static> = Context { for_each: &sequential, progress: &|_, _, _| {} };
+const CONTEXT: Context<'static> = Context { for_each: &sequential, progress: &|_, _, _| {} };
 
 /// A mode: what it adds to the receptance is residue · e^{−δt} sin(ω_d t)/ω_d.
 #[derive(Clone, Copy)]
@@ -240,7 +240,7 @@ fn found(
     options: &Options,
 ) -> Identification {
     let frfs = Frfs { frequency_hz, receptance: measured, noise: Noise::Unknown };
-    identify(&Problem::new(model, experiment, unknowns, &[], frfs).unwrap(), options, HOOKS).unwrap()
+    identify(&Problem::new(model, experiment, unknowns, &[], frfs).unwrap(), options, CONTEXT).unwrap()
 }
 
 /// Windowed responses say η if the model knows of the window, and far more if it does not. Every way to find it is tried.

@@ -354,8 +354,8 @@ fn refusal(error: SignalError, records: &Records, files: &[PathBuf]) -> InputErr
             InputError::at(&Place::option("--keep"), format!("impacts from 1 to {count}"), number.to_string())
         }
         SignalError::NoImpact(impacts) => {
-            let told = impact_reasons(records, &impacts);
-            InputError::at(&Place::file(file(0)), "an impact without fault", format!("none: {told}"))
+            let reasons = impact_reasons(records, &impacts);
+            InputError::at(&Place::file(file(0)), "an impact without fault", format!("none: {reasons}"))
         }
         other => InputError::at(&Place::file(file(0)), "records of a hammer test", other.to_string()),
     }

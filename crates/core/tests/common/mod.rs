@@ -5,8 +5,8 @@ use frfit::c64;
 use frfit::for_each::sequential;
 use frfit::frequency::linear_hz;
 use frfit::identify::{
-    ChannelUnknowns, Context, Frfs, Identification, Method, ModelErrors, Noise, Options, Problem, Reduction,
-    Selection, Unknown, Variation, identify,
+    ChannelUnknowns, Context, Dependence, Frfs, Identification, Method, ModelErrors, Noise, Options, Problem,
+    Reduction, Selection, Unknown, Variation, identify,
 };
 use frfit::material::Law;
 use frfit::model::{DynamicStiffness, Experiment, Member, ModelAt, Parameter, Role, Sensor, Term};
@@ -345,5 +345,17 @@ impl Band<'_> {
         let unknowns = [self.unknown(varies, setup)];
         let problem = Problem::new(self.model, self.experiment, &unknowns, channels, self.frfs()).unwrap();
         identify(&problem, &setup.options, context).unwrap()
+    }
+}
+
+/// A real unknown that holds for the band.
+pub(crate) fn constant(name: &str, dependence: Dependence, nominal: f64, bounds: [f64; 2]) -> Unknown {
+    Unknown {
+        name: name.into(),
+        dependence,
+        nominal: Law::Constant(c(nominal, 0.0)),
+        varies: Variation::Constant,
+        real: true,
+        bounds: Bounds { storage: Some(bounds), loss_factor: None },
     }
 }

@@ -47,7 +47,7 @@ fn panel(
     let series = (1..)
         .zip(&measured.impacts)
         .map(|(number, impact)| one(records, measured, channel, range_ms, number, impact));
-    // A spike is told of in the legend: on its own scale the impacts would not be seen.
+    // A spike is named in the legend and not drawn: on its scale the impacts would not be seen.
     let peaks = measured.impacts.iter().map(|impact| impact.peak_n).fold(0.0, f64::max);
     let range = (channel == Channel::Force && peaks > 0.0).then_some((-0.1 * peaks, 1.2 * peaks));
     Panel {

@@ -55,9 +55,9 @@ fn an_unknown_scale_is_found_beside_a_known_one() {
     for _ in 0..draws {
         let tables = tables([1.0, -1.0 / 0.37], 0.0, Some((0.02, &mut noise)));
         let job = run(&folder(&tables, &keys("", "scale = \"unknown\"", ""))).unwrap();
-        let told = &job.summary["sensors"][1];
-        let [value, std] = ["scale", "scale_std"].map(|key| told[key].as_f64().unwrap());
-        assert!(std < 0.02 * 0.37, "{told}");
+        let sensor = &job.summary["sensors"][1];
+        let [value, std] = ["scale", "scale_std"].map(|key| sensor[key].as_f64().unwrap());
+        assert!(std < 0.02 * 0.37, "{sensor}");
         pulls.push((value + 0.37) / std);
         let ok = job.run.found.lines.iter().filter(|o| o.status == Status::Ok);
         covered.extend(
@@ -79,13 +79,13 @@ fn a_law_needs_no_channel_of_known_scale() {
         let tables = tables([-0.4, 1.0 / 0.37], 0.0, Some((0.02, &mut noise)));
         let job = run(&folder(&tables, &keys("scale = \"unknown\"", "scale = \"unknown\"", LAW))).unwrap();
         for (m, truth) in [(0, -2.5), (1, 0.37)] {
-            let told = &job.summary["sensors"][m];
-            let [value, std] = ["scale", "scale_std"].map(|key| told[key].as_f64().unwrap());
+            let sensor = &job.summary["sensors"][m];
+            let [value, std] = ["scale", "scale_std"].map(|key| sensor[key].as_f64().unwrap());
             pulls.push((value - truth) / std);
         }
         let parameter = |name: &str| {
-            let told = &job.summary["laws"]["laws"][0]["parameters"][name];
-            ["value", "std"].map(|key| told[key].as_f64().unwrap())
+            let sensor = &job.summary["laws"]["laws"][0]["parameters"][name];
+            ["value", "std"].map(|key| sensor[key].as_f64().unwrap())
         };
         let [[storage, storage_std], [eta, eta_std]] = [parameter("storage"), parameter("loss_factor")];
         pulls.push((storage - TRUTH.re) / storage_std);
@@ -107,12 +107,12 @@ fn an_unknown_delay_is_found_beside_an_unknown_scale() {
     let both = "scale = \"unknown\"\ndelay_s = \"unknown\"";
     let job = run(&folder(&tables([-1.0 / 0.37, 1.0], late, Some((0.02, &mut noise))), &keys(both, "", "")))
         .unwrap();
-    let told = &job.summary["sensors"][0];
-    let number = |key: &str| told[key].as_f64().unwrap();
+    let sensor = &job.summary["sensors"][0];
+    let number = |key: &str| sensor[key].as_f64().unwrap();
     // A hundredth of a radian at the top of the band, from eighty values of two per cent.
-    assert!(number("delay_s_std") < 1.5e-5, "{told}");
-    assert!((number("delay_s") - late).abs() < 4.0 * number("delay_s_std"), "{told}");
-    assert!((number("scale") + 0.37).abs() < 4.0 * number("scale_std"), "{told}");
+    assert!(number("delay_s_std") < 1.5e-5, "{sensor}");
+    assert!((number("delay_s") - late).abs() < 4.0 * number("delay_s_std"), "{sensor}");
+    assert!((number("scale") + 0.37).abs() < 4.0 * number("scale_std"), "{sensor}");
     assert!(job.summary["sensors"][1].get("delay_s").is_none());
     // The response that is written is that of no delay.
     let exact = receptance(&[], &[5], &[12.0])[0][0];
@@ -137,10 +137,10 @@ fn scales_and_delays_are_found_beside_several_unknowns() {
     let both = "scale = \"unknown\"\ndelay_s = \"unknown\"";
     let values = tables([-1.0 / 0.37, 1.0], -19e-3, None);
     let job = run(&folder(&values, &keys(both, ""))).unwrap();
-    let told = &job.summary["sensors"][0];
-    let [scale, late] = ["scale", "delay_s"].map(|key| told[key].as_f64().unwrap());
+    let sensor = &job.summary["sensors"][0];
+    let [scale, late] = ["scale", "delay_s"].map(|key| sensor[key].as_f64().unwrap());
     // Exact data.
-    assert!((scale + 0.37).abs() < 1e-6 && (late + 19e-3).abs() < 1e-8, "{told}");
+    assert!((scale + 0.37).abs() < 1e-6 && (late + 19e-3).abs() < 1e-8, "{sensor}");
     let [springs, mass] = [0, 1].map(|j| job.run.found.constants[j].law.at(50.0).unwrap());
     assert!(
         (springs - TRUTH).norm() < 1e-5 * TRUTH.norm() && (mass.re - 1.0).abs() < 1e-5,

@@ -156,8 +156,8 @@ impl Sizes {
         Self { common, common_loss: of_own.max(UNDAMPED_SHARE_RATIO * common), ..self }
     }
 
-    /// Where modes have no damping errors of their own.
-    fn only(self, kinds: Kinds, given: ErrorSizes) -> Self {
+    /// Without damping errors of single modes where those are not looked for.
+    fn of_kinds(self, kinds: Kinds, given: ErrorSizes) -> Self {
         match kinds.damping {
             Damping::Own => self,
             _ => Self { loss_factor: 0.0, ..self }.with_common(given),
@@ -257,8 +257,8 @@ fn explanation(search: &Search<'_, '_>, starts: &[Vec<f64>]) -> Option<Explanati
         let upwards = starts.iter().filter_map(|start| data.upwards(&stiffness, start)).collect();
         wrong = better(wrong, fitted(upwards, Kinds::STIFFNESS));
     }
-    // What the data cannot tell is in the bars: masses and common damping are left out only where they are clearly worse. Own damping of modes stands in for
-    // a loss factor that varies with frequency, and has to be better.
+    // Errors that the data do not determine stay in the bars: masses and common damping are left out only where they are clearly worse.
+    // Damping of single modes can stand in for a loss factor that varies with frequency, so it has to explain the band better.
     type With = fn(Kinds) -> Kinds;
     let further: [(With, f64); 3] = [
         (Kinds::with_masses, RIGHT_MODEL_NATS),
@@ -601,7 +601,7 @@ impl<'a> Measured<'_, 'a> {
     /// The least squares with the noise approached from above, and the sizes of largest evidence.
     fn explain(&self, fitting: &Fitting<'_, '_>, mut place: Place, from_above: &[f64]) -> Option<Explained> {
         let known = self.known();
-        let mut sizes = Sizes::prior(self.given_sizes).only(fitting.kinds, self.given_sizes);
+        let mut sizes = Sizes::prior(self.given_sizes).of_kinds(fitting.kinds, self.given_sizes);
         let numbers = self.numbers(fitting.lines) as f64;
         let mut level = 1.0;
         for &added in from_above {
