@@ -351,7 +351,13 @@ fn model_errors(job: &IdentifyJob, errors: &ModelErrorsFound) -> String {
     let masses = masses.map(|(sensor, one)| {
         format!("; {} carries {:.1e} ± {:.1e} kg that the model lacks", sensor.label, one.mass, one.std)
     });
-    let known = known.chain(masses).collect::<String>();
+    let mesh = errors.mesh.map(|mesh| {
+        format!(
+            "; {} modes are paired with the coarser mesh, and this one has {:.2} ± {:.2} of what lies between",
+            mesh.paired, mesh.remainder, mesh.std
+        )
+    });
+    let known = mesh.into_iter().chain(known).chain(masses).collect::<String>();
     format!("{sizes} taken out, and in the error bars{}{known}", worst.unwrap_or_default())
 }
 

@@ -4,9 +4,9 @@ use crate::background::in_background;
 use crate::columns::identification;
 use crate::errors::{arrays, input, job, raise};
 use crate::model::Model;
-use frfit::identify::{ErrorSizes, ModelErrors};
+use frfit::identify::{CoarserMesh, ErrorSizes, ModelErrors};
 use frfit::laws::LawKind;
-use frfit::model::Sensor;
+use frfit::model::{DynamicStiffness, Experiment, Sensor};
 use frfit::quantity::Quantity;
 use frfit::roots::Bounds;
 use frfit_workflow::job::compute;
@@ -37,7 +37,7 @@ pub(crate) struct Measured<'py> {
 /// The options of `frfit.identify`, by their names.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
-pub(crate) struct Options {
+pub(crate) struct Options<'py> {
     unknowns: Vec<Unknown>,
     band_hz: Option<[f64; 2]>,
     exclude_hz: Vec<[f64; 2]>,
@@ -49,8 +49,32 @@ pub(crate) struct Options {
     start_at_bounds: bool,
     reject_outliers: Option<bool>,
     model_error: Option<KnownErrors>,
+    coarser_mesh: Option<Coarser<'py>>,
     check: bool,
     memory_bytes: Option<u64>,
+}
+
+/// The fields of `frfit.CoarserMesh`, by their names.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+struct Coarser<'py> {
+    model: PyRef<'py, Model>,
+    load: PyReadonlyArray1<'py, Complex64>,
+    sensors: Vec<(usize, f64)>,
+    element_ratio: f64,
+    order: f64,
+}
+
+impl Coarser<'_> {
+    fn mesh(self) -> CoarserMesh {
+        let sensors = self.sensors.into_iter().map(|(row, sign)| Sensor { row, sign }).collect();
+        CoarserMesh {
+            model: DynamicStiffness::clone(&self.model.0),
+            experiment: Experiment { load: self.load.as_array().to_vec(), sensors },
+            element_ratio: self.element_ratio,
+            order: self.order,
+        }
+    }
 }
 
 /// The fields of `frfit.Unknown`, by their names.
@@ -148,7 +172,7 @@ pub(crate) fn identify<'py>(
     model: &Model,
     load: PyReadonlyArray1<'py, Complex64>,
     measurements: Vec<Measured<'py>>,
-    options: Options,
+    options: Options<'py>,
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let measured = measurements.into_iter().map(|one| one.frf(py)).collect::<PyResult<Vec<_>>>()?;
@@ -168,7 +192,8 @@ pub(crate) fn identify<'py>(
         check: options.check,
     };
     let case = case_of_arrays(Arc::clone(&model.0), load.as_array().to_vec(), measured, &wanted);
-    let case = case.map_err(|error| arrays(py, &error))?;
+    let mut case = case.map_err(|error| arrays(py, &error))?;
+    case.coarser_mesh = options.coarser_mesh.map(Coarser::mesh);
     // A map of the error over the orders is for figures of files.
     let run = RunOptions { error_map: Some(0), memory_bytes: options.memory_bytes };
     let computed = in_background(py, progress, move |watch| {

@@ -48,6 +48,11 @@ impl Reads {
         Ok(bytes)
     }
 
+    /// Those of another command too.
+    pub(crate) fn extend(&mut self, other: Self) {
+        self.0.extend(other.0);
+    }
+
     /// Refuses a file that was read, by whatever name: another path, a link.
     ///
     /// # Errors

@@ -10,7 +10,9 @@ use cpu_time::ThreadTime;
 use frfit::c64;
 use frfit::for_each::sequential;
 use frfit::frequency::linear_hz;
-use frfit::identify::{Context, Frfs, Identification, Noise, Options, Problem, Unknown, Variation, identify};
+use frfit::identify::{
+    CoarserMesh, Context, Frfs, Identification, Noise, Options, Problem, Unknown, Variation, identify,
+};
 use frfit::laws::LawKind;
 use frfit::material::{Law, loss_factor};
 use frfit::model::{DynamicStiffness, Experiment, Sensor};
@@ -71,6 +73,8 @@ pub struct Case {
     pub model: DynamicStiffness,
     /// Load and sensors on the model.
     pub experiment: Experiment,
+    /// The same on a coarser mesh, of two meshes.
+    pub coarser: Option<CoarserMesh>,
     /// The true law of the unknown factor.
     pub truth: Law,
     /// Nominal over true factor.
@@ -95,6 +99,18 @@ pub struct Case {
     pub truth_rows: usize,
 }
 
+/// How many meshes the user of a model has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Meshes {
+    /// The model's.
+    One,
+    /// The model's and a coarser one.
+    Two,
+}
+
+/// Elements of the model for one of the coarser mesh, along each side.
+const FINER: usize = 2;
+
 /// Rows of the true model at most.
 const TRUTH_ROWS: usize = 8_000;
 
@@ -116,9 +132,12 @@ const ATTEMPTS: usize = 10;
 impl Case {
     /// Draws a case of a seed, and measures it by direct solves of the true model at every line.
     ///
+    /// With two meshes the model has elements of half the size, and what would be the model is the coarser one beside it; the truth is the same,
+    /// or as fine as the model where it was as coarse.
+    ///
     /// # Errors
     /// Where a model cannot be made or solved: a fault of this benchmark.
-    pub fn draw(seed: u64, index: u64) -> Result<Self, Failure> {
+    pub fn draw(seed: u64, index: u64, meshes: Meshes) -> Result<Self, Failure> {
         let class = Class::ALL[(index % Class::ALL.len() as u64) as usize];
         let mut dice = Dice::new(seed, index);
         let kind = class.kind_of(index);
@@ -158,13 +177,32 @@ impl Case {
             }
             _ => {}
         }
-        let nominal = Realised::new(&structure, &truth.scaled(ratio), &Change::default())?;
+        let start = truth.scaled(ratio);
+        let coarse = || Realised::new(&structure, &start, &Change::default());
+        let nominal = match meshes {
+            Meshes::One => coarse()?,
+            Meshes::Two => {
+                change.plan = change.plan.max(FINER);
+                let layers = if structure.kind == Kind::Sandwich { FINER } else { 1 };
+                change.layers = change.layers.max(layers);
+                Realised::new(&structure, &start, &Change { plan: FINER, layers, ..Change::default() })?
+            }
+        };
         let real = Realised::new(&structure, &truth, &change)?;
         let in_band = errors(&about.modes, &about.of_truth(&real, modes)?);
         let experiment = |of: &Realised| {
             let row = |&station: &[f64; 3]| Ok(Sensor { row: of.row(station)?, sign: 1.0 });
             let sensors = sensors.iter().map(row).collect::<Result<Vec<_>, Failure>>()?;
             Ok::<_, Failure>(Experiment::driven_at(of.model.dim(), row(&driven)?, sensors))
+        };
+        let coarser = match meshes {
+            Meshes::One => None,
+            Meshes::Two => {
+                let coarse = coarse()?;
+                let experiment = experiment(&coarse)?;
+                let (element_ratio, order) = (FINER as f64, CoarserMesh::ORDER);
+                Some(CoarserMesh { model: coarse.model, experiment, element_ratio, order })
+            }
         };
         let frequency_hz = about.lines;
         let exact = solve(&real.model, &experiment(&real)?, &frequency_hz)?;
@@ -177,6 +215,7 @@ impl Case {
             kind,
             experiment: experiment(&nominal)?,
             model: nominal.model,
+            coarser,
             truth,
             ratio,
             measured: exact.iter().map(|row| row.iter().map(&mut drawn).collect()).collect(),
@@ -208,7 +247,10 @@ impl Case {
         let unknowns = [Unknown { varies, ..Unknown::factor_of(&self.model, &[UNKNOWN])? }];
         let noise = if self.noise_known { Noise::Known(&self.std) } else { Noise::Unknown };
         let frfs = Frfs { frequency_hz: &self.frequency_hz, receptance: &self.measured, noise };
-        let problem = Problem::new(&self.model, &self.experiment, &unknowns, &[], frfs)?;
+        let mut problem = Problem::new(&self.model, &self.experiment, &unknowns, &[], frfs)?;
+        if let Some(coarser) = &self.coarser {
+            problem = problem.with_coarser_mesh(coarser)?;
+        }
         let start = ThreadTime::now();
         let context = Context { for_each: &sequential, progress: &|_, _, _| {} };
         let found = identify(&problem, options, context)?;

@@ -23,7 +23,7 @@ pub mod structure;
 /// Why a case could not be made: a fault of the benchmark, never a result.
 pub type Failure = Box<dyn std::error::Error + Send + Sync>;
 
-use case::{Case, Way};
+use case::{Case, Meshes, Way};
 use frfit::identify::Options;
 use report::{Run, Tried};
 
@@ -31,9 +31,15 @@ use report::{Run, Tried};
 ///
 /// # Errors
 /// [`Failure`], with the number of the case.
-pub fn tried(seed: u64, index: u64, ways: &[Way], options: &Options) -> Result<Tried, Failure> {
+pub fn tried(
+    seed: u64,
+    index: u64,
+    ways: &[Way],
+    meshes: Meshes,
+    options: &Options,
+) -> Result<Tried, Failure> {
     let run = || {
-        let case = Case::draw(seed, index)?;
+        let case = Case::draw(seed, index, meshes)?;
         let identified = |&way: &Way| {
             let (found, seconds) = case.identify(way, options)?;
             Ok(Run::new(way, &found, score::judged(&case, &found)?, seconds))

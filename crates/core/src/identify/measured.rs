@@ -1,5 +1,6 @@
 //! What was measured on what: a band with one unknown.
 
+use super::coarser_mesh::CoarserMesh;
 use super::noise::Noise;
 use super::unknown::Unknown;
 use crate::c64;
@@ -22,4 +23,6 @@ pub(crate) struct Band<'a> {
     pub measured: &'a [Vec<c64>],
     /// How well each was measured.
     pub noise: Noise<'a>,
+    /// The same structure on a coarser mesh.
+    pub coarser: Option<&'a CoarserMesh>,
 }

@@ -13,6 +13,7 @@
 
 mod band;
 mod choice;
+mod coarser_mesh;
 mod confirmation;
 mod context;
 mod form;
@@ -36,11 +37,12 @@ pub use crate::response::relative_error;
 pub use band::{Calibrated, Calibration, ChannelUnknowns, SmoothCurve};
 pub(crate) use band::{DELAY_PHASE_STEP_RAD, MAX_DELAY_PHASE_RAD};
 pub use choice::{Method, Reduction, Selection, UnknownChoice};
+pub use coarser_mesh::CoarserMesh;
 pub use context::{Context, Stage};
 pub use goodness_of_fit::{Explained, GoodnessOfFit, SensorFit};
 pub use identification::{Identifiability, Identification, SearchReport};
 pub(crate) use measured::Band;
-pub use model_errors::{FactorError, Leverage, ModeError, ModelErrorsFound, SensorMass};
+pub use model_errors::{FactorError, Leverage, MeshError, ModeError, ModelErrorsFound, SensorMass};
 pub use noise::{Noise, NoiseLevel, NoiseSource};
 pub use one::{error_by_order, identify_at};
 pub use options::{ErrorSizes, MAX_ORDER, ModelErrors, Options, OptionsError};

@@ -1,10 +1,11 @@
 //! What is to be identified, checked: a model, an experiment, unknowns, channels and measured FRFs.
 
 use super::band::ChannelUnknowns;
-use super::choice::{Method, Selection};
+use super::choice::{Method, Reduction, Selection};
+use super::coarser_mesh::CoarserMesh;
 use super::measured::Band;
 use super::noise::Noise;
-use super::options::{Options, OptionsError};
+use super::options::{ModelErrors, Options, OptionsError};
 use super::unknown::{Composite, Dependence, Unknown, Variation};
 use crate::c64;
 use crate::laws::LawKind;
@@ -33,6 +34,7 @@ pub struct Problem<'a> {
     pub(super) unknowns: &'a [Unknown],
     pub(super) channels: &'a [ChannelUnknowns],
     pub(super) frfs: Frfs<'a>,
+    pub(super) coarser: Option<&'a CoarserMesh>,
     /// The only unknown as the parameter of a polynomial, where it can be one.
     parameter: Option<Parameter>,
 }
@@ -75,6 +77,15 @@ pub enum ProblemError {
         /// Unknown real numbers.
         unknown: usize,
     },
+    /// A coarser mesh of another structure.
+    Mesh {
+        /// What differs.
+        what: String,
+        /// What it should be.
+        expected: String,
+        /// What it is.
+        found: String,
+    },
     /// A combination that has no method.
     Unsupported {
         /// What.
@@ -93,6 +104,7 @@ impl fmt::Display for ProblemError {
         match self {
             Self::Count { what, expected, found } => write!(f, "{what}: expected {expected}, found {found}"),
             Self::Value { what, expected, found } => write!(f, "{what}: expected {expected}, found {found}"),
+            Self::Mesh { what, expected, found } => write!(f, "{what}: expected {expected}, found {found}"),
             Self::Unknown { name, expected, found } => {
                 write!(f, "unknown {name:?}: expected {expected}, found {found}")
             }
@@ -158,13 +170,30 @@ impl<'a> Problem<'a> {
             channels.len() == experiment.sensors.len() && !channels.iter().any(|channel| channel.any());
         let channels = if known { &[] } else { channels };
         let parameter = if let [only] = unknowns { only.parameter() } else { None };
-        let problem = Self { model, experiment, unknowns, channels, frfs, parameter };
+        let problem = Self { model, experiment, unknowns, channels, frfs, coarser: None, parameter };
         problem.check_experiment()?;
         problem.check_frfs()?;
         problem.check_noise()?;
         problem.check_unknowns()?;
         problem.check_channels()?;
         Ok(problem)
+    }
+
+    /// With the same structure on a coarser mesh, by which the error of this one is measured.
+    ///
+    /// # Errors
+    /// [`ProblemError`] where it is not the same structure, or something stands in the way of estimating errors of the model: channels of unknown scale or delay.
+    pub fn with_coarser_mesh(self, mesh: &'a CoarserMesh) -> Result<Self, ProblemError> {
+        let is_unknown = |term| self.unknowns.iter().any(|one| one.dependence.terms().any(|own| own == term));
+        mesh.validate(self.model, self.experiment, is_unknown, self.frfs.frequency_hz)
+            .map_err(|[what, expected, found]| ProblemError::Mesh { what, expected, found })?;
+        if !self.channels.is_empty() {
+            return Err(ProblemError::Unsupported {
+                what: "a coarser mesh",
+                reason: "expected calibrated channels: errors of the model are not told from channels of unknown scale or delay",
+            });
+        }
+        Ok(Self { coarser: Some(mesh), ..self })
     }
 
     /// The model.
@@ -219,8 +248,18 @@ impl<'a> Problem<'a> {
     where
         'a: 'b,
     {
-        let Self { model, experiment, frfs: Frfs { frequency_hz, receptance: measured, noise }, .. } = *self;
-        Band { model, experiment, unknown: &self.unknowns[j], parameter, frequency_hz, measured, noise }
+        let Self { model, experiment, frfs, coarser, .. } = *self;
+        let Frfs { frequency_hz, receptance: measured, noise } = frfs;
+        Band {
+            model,
+            experiment,
+            unknown: &self.unknowns[j],
+            parameter,
+            frequency_hz,
+            measured,
+            noise,
+            coarser,
+        }
     }
 
     /// The model as a function of the j-th unknown, to first order, with all others at their nominal values.
@@ -239,6 +278,17 @@ impl<'a> Problem<'a> {
                 what: "method and selection",
                 reason: "expected \"rational\" and \"joint\": the others find one factor at each frequency from calibrated channels",
             });
+        }
+        if self.coarser.is_some() {
+            let needs = |reason| Err(ProblemError::Unsupported { what: "a coarser mesh", reason });
+            if options.model_errors == ModelErrors::None {
+                return needs("expected errors of the model to be estimated, found model_error = \"none\"");
+            }
+            if paper || options.reduction == Reduction::Full {
+                return needs(
+                    "expected method \"rational\", selection \"joint\" and a reduced model, on which errors of the model are estimated",
+                );
+            }
         }
         Ok(())
     }

@@ -38,6 +38,8 @@ pub(crate) struct Modes {
     partner: Vec<usize>,
     /// Where it is: 0 in the known stiffness, 1 + j in that of parameter j.
     pub(crate) group: Vec<usize>,
+    /// What of the mode's strain energy is there.
+    energy_share: Vec<f64>,
     /// What of the stiffness an error of 1 is: 2 of δ_i, iη/(1 + iη) of ε_i.
     share: Vec<c64>,
     /// What of S_g goes with each error, `[g][error]`; empty for parts that are no stiffness.
@@ -47,9 +49,9 @@ pub(crate) struct Modes {
     mass_part: Option<(usize, f64)>,
     pub(crate) apparent_mass: Vec<f64>,
     /// FᵀVy_i.
-    load: Vec<c64>,
+    pub(crate) load: Vec<c64>,
     /// ℓ_mᵀVy_i, `[m][i]`.
-    sensors: Vec<Vec<f64>>,
+    pub(crate) sensors: Vec<Vec<f64>>,
 }
 
 /// Relative errors of modes and terms.
@@ -159,6 +161,7 @@ impl Projection {
             of_error: Vec::new(),
             partner: Vec::new(),
             group: Vec::new(),
+            energy_share: Vec::new(),
             share: Vec::new(),
             stiffness: (0..theta.len()).map(|_| Vec::new()).collect(),
             directions: self.sensors.clone(),
@@ -209,6 +212,7 @@ impl Projection {
                     modes.of_error.push(last);
                     modes.partner.push(partner);
                     modes.group.push(wanted);
+                    modes.energy_share.push(own.re / whole);
                     modes.share.push(share);
                     for ((g, _), energy) in each() {
                         let has_it = group(*g) == wanted && (share.im == 0.0 || self.parts.is_real(*g));
@@ -379,6 +383,7 @@ impl Modes {
             of_error: Vec::new(),
             partner: Vec::new(),
             group: Vec::new(),
+            energy_share: Vec::new(),
             share: Vec::new(),
             stiffness: vec![Vec::new(); model.matrices.len()],
             directions: Vec::new(),
@@ -393,6 +398,12 @@ impl Modes {
     pub(crate) fn frequency_errors(&self, mode: usize) -> impl Iterator<Item = usize> {
         (0..self.of_error.len())
             .filter(move |&error| self.of_error[error] == mode && self.is_of_frequency(error))
+    }
+
+    /// What of the strain energy of a mode is in a group.
+    pub(crate) fn energy_share_of(&self, mode: usize, group: usize) -> f64 {
+        let own = self.frequency_errors(mode).find(|&error| self.group[error] == group);
+        own.map_or(0.0, |error| self.energy_share[error])
     }
 
     /// Whether an error of a stiffness is one of a natural frequency, and not of a loss factor.

@@ -28,7 +28,7 @@ from ._errors import (
     WriteError,
 )
 from ._frfit import Law, Series, __version__
-from ._identify import Measurement, Unknown, identify, run_case
+from ._identify import CoarserMesh, Measurement, Unknown, identify, run_case
 from ._matrix import read_matrix
 from ._model import Model, Term, respond, series
 from ._report import Report
@@ -37,6 +37,7 @@ from ._signal import Impact, MeasuredFrf, Recording, frf
 from ._uff import Uff, UffAxis, UffDof, UffFunction, UffSummary, read_uff, write_uff
 
 __all__ = [
+    "CoarserMesh",
     "Direction",
     "Estimate",
     "Finding",

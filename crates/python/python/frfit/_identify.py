@@ -31,7 +31,7 @@ from ._arrays import (
     word,
     words,
 )
-from ._model import Model, Progress, model_of
+from ._model import Model, Progress, model_of, sensors_of
 from ._result import Identification
 
 
@@ -127,6 +127,48 @@ def _model_error(value: Any) -> str | float | dict[str, float] | None:
             raise refuse("model_error", expected, shown(dict(value)))
         return {key: number(size, f"model_error.{key}") for key, size in value.items()}
     return number(value, "model_error", expected)
+
+
+@dataclass(frozen=True, eq=False)
+class CoarserMesh:
+    """The same structure on a coarser mesh, which says how far the natural frequencies of the model are off.
+
+    What the model still has of the difference between the meshes is taken out of it, and is in every error bar.
+
+    Parameters
+    ----------
+    model
+        The same terms in the same order, with the same known factors.
+    load, sensors, signs
+        As of ``respond``: the same force, and one sensor for each measurement.
+    element_ratio
+        Length of its elements over that of the model's.
+    order
+        Errors of natural frequencies go with this power of the length of elements.
+    """
+
+    model: Model
+    load: ArrayLike
+    sensors: Sequence[int]
+    signs: Sequence[float] | None = None
+    element_ratio: float = 2.0
+    order: float = 2.0
+
+
+def _coarser_mesh(mesh: Any) -> dict[str, Any] | None:
+    if mesh is None:
+        return None
+    if not isinstance(mesh, CoarserMesh):
+        raise refuse("coarser_mesh", "a CoarserMesh", shown(mesh))
+    compiled = model_of(mesh.model)
+    rows, senses = sensors_of(mesh.sensors, mesh.signs, compiled.dim)
+    return {
+        "model": compiled,
+        "load": load_vector(mesh.load, compiled.dim),
+        "sensors": list(zip(rows, senses, strict=True)),
+        "element_ratio": number(mesh.element_ratio, "coarser_mesh.element_ratio"),
+        "order": number(mesh.order, "coarser_mesh.order"),
+    }
 
 
 @dataclass(frozen=True, eq=False)
@@ -255,6 +297,7 @@ def identify(
     real: bool = False,
     reject_outliers: bool | None = None,
     model_error: Literal["estimated", "none"] | float | Mapping[str, float] | None = None,
+    coarser_mesh: CoarserMesh | None = None,
     exclude_hz: Sequence[float | tuple[float, float]] = (),
     max_lines: int | None = None,
     check: bool = True,
@@ -282,6 +325,8 @@ def identify(
     model_error
         ``"estimated"``: errors of the model are taken out where the band shows them; ``"none"``: there are none; a number,
         or ``{"frequency": 0.005, "shape": 0.02}``: natural frequencies (mode shapes) are good to that, in every error bar.
+    coarser_mesh
+        The same structure on a coarser mesh, by which the error of this one is measured.
     max_lines
         Of more measured frequencies than this those that tell most; the others are ``out_of_band``.
     law
@@ -328,6 +373,7 @@ def identify(
         "order": optional_whole(order, "order", 0),
         "start_at_bounds": start == "bounds",
         "model_error": _model_error(model_error),
+        "coarser_mesh": _coarser_mesh(coarser_mesh),
         "reject_outliers": None if reject_outliers is None else flag(reject_outliers, "reject_outliers"),
         "check": flag(check, "check"),
         "memory_bytes": optional_whole(memory_bytes, "memory_bytes", 0),

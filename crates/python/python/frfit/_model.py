@@ -109,7 +109,7 @@ def model_of(model: Any) -> _frfit.Model:
     return model._model
 
 
-def _sensors(sensors: Any, signs: Any, dim: int) -> tuple[list[int], list[float]]:
+def sensors_of(sensors: Any, signs: Any, dim: int) -> tuple[list[int], list[float]]:
     rows = [row(one, "sensors", dim) for one in several(sensors, "sensors", "a sequence of rows")]
     if not rows:
         raise refuse("sensors", "at least one row", "none")
@@ -156,7 +156,7 @@ def respond(
     True
     """
     compiled = model_of(model)
-    rows, senses = _sensors(sensors, signs, model.dim)
+    rows, senses = sensors_of(sensors, signs, model.dim)
     force = load_vector(load, model.dim)
     return _frfit.respond(compiled, force, rows, senses, real(frequency_hz, "frequency_hz"), callable_(progress))
 
@@ -190,7 +190,7 @@ def series(
     0.5
     """
     compiled = model_of(model)
-    rows, senses = _sensors(sensors, signs, model.dim)
+    rows, senses = sensors_of(sensors, signs, model.dim)
     force = load_vector(load, model.dim)
     hz = number(frequency_hz, "frequency_hz")
     most = max(whole(order, "order"), 0)

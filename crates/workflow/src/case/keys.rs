@@ -36,7 +36,7 @@ const fn key(name: &'static str, value: &'static str, otherwise: &'static str, a
 }
 
 /// All sections, in the order of the reference.
-pub(super) static SECTIONS: [&Section; 21] = [
+pub(super) static SECTIONS: [&Section; 22] = [
     &CASE,
     &MATRIX,
     &MATRIX_FILE,
@@ -52,6 +52,7 @@ pub(super) static SECTIONS: [&Section; 21] = [
     &ATTACHED,
     &MEASUREMENT,
     &MODEL_ERROR,
+    &COARSER_MESH,
     &IDENTIFY,
     &BOUNDS,
     &SEVERAL,
@@ -93,6 +94,12 @@ pub(super) static CASE: Section = Section {
             "\"estimated\", \"none\", a number, a text as \"0.5 %\", or table `[model_error]`",
             "\"estimated\"",
             "Errors of the model's natural frequencies, mode shapes and known matrices: estimated from the band and taken out where they explain it better than a right model, or none, where error bars hold the noise alone, or as large as you know them to be, and in every error bar.",
+        ),
+        key(
+            "coarser_mesh",
+            "text, or table `[coarser_mesh]`",
+            "one mesh",
+            "The case file of the same structure on a coarser mesh: both together say how far the natural frequencies of this one are off.",
         ),
         key(
             "identify",
@@ -524,6 +531,27 @@ pub(super) static MODEL_ERROR: Section = Section {
     examples: &["[model_error]
 frequency = 0.005
 shape = \"2 %\"
+"],
+};
+
+pub(super) static COARSER_MESH: Section = Section {
+    path: "coarser_mesh",
+    title: "`[coarser_mesh]`",
+    about: "The same structure on a coarser mesh, as a case file of its own: `coarser_mesh = \"coarse.toml\"` is short for a table with `file` alone. Its matrices, `[load]`, `[dofs]`, what is attached, and where it is measured are used, and its measurements are not; matrices and measurements have the order of this file. The modes of both meshes are paired, and what this mesh still has of their difference is taken out of the model and is in every error bar; see [Meshes](meshes.md).",
+    keys: &[
+        key("file", "text", NEEDED, "The case file."),
+        key("element_ratio", "number above 1", "2", "Length of its elements over that of this mesh."),
+        key(
+            "order",
+            "number above 0",
+            "2",
+            "Errors of natural frequencies go with this power of the length of elements: 2 of linear solids, shells and beams with shear, 4 of cubic beams and of quadratic solids.",
+        ),
+    ],
+    examples: &["[coarser_mesh]
+file = \"coarse.toml\"
+element_ratio = 1.5
+order = 2
 "],
 };
 

@@ -53,6 +53,8 @@ pub struct CaseFile {
     pub measurements: Vec<MeasurementEntry>,
     /// `model_error`: what is known of the errors of the model.
     pub model_error: ModelErrors,
+    /// `[coarser_mesh]`.
+    pub coarser_mesh: Option<CoarserMeshEntry>,
     /// `[identify]`, of one unknown that varies.
     pub identify: Option<IdentifyEntry>,
     /// `[[identify]]`: several unknowns, or one that does not vary.
@@ -167,6 +169,17 @@ pub enum Calibration {
     Known(f64),
     /// To be found.
     Unknown,
+}
+
+/// `[coarser_mesh]`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CoarserMeshEntry {
+    /// The case file of the same structure on a coarser mesh.
+    pub file: Located<String>,
+    /// How much longer its elements are; `None`: twice.
+    pub element_ratio: Option<f64>,
+    /// The order of the error of natural frequencies in the length of elements; `None`: 2.
+    pub order: Option<f64>,
 }
 
 /// `[identify]`.

@@ -3,7 +3,9 @@
 use super::document::Document;
 use super::field::{Table, shown};
 use super::keys::{ATTACHED, CASE, DOFS, LOAD, MATRIX, MEASUREMENT, Section};
-use super::sections::{attached, factor, identify, load, matrix, measurement, model_error, respond, units};
+use super::sections::{
+    attached, coarser_mesh, factor, identify, load, matrix, measurement, model_error, respond, units,
+};
 use super::several::{is_several, several};
 use super::{CaseFile, FactorEntry, MatrixEntry};
 use crate::error::{InputError, Place};
@@ -51,6 +53,7 @@ pub fn parse(file: &Path, bytes: &[u8]) -> Result<CaseFile, InputError> {
             .map(|field| model_error(&field))
             .transpose()?
             .unwrap_or_default(),
+        coarser_mesh: case.find("coarser_mesh").map(|field| coarser_mesh(&field)).transpose()?,
         identify: case
             .find("identify")
             .filter(|f| !is_several(f))

@@ -3,14 +3,14 @@
 use super::field::{Field, Table};
 use super::keys;
 use super::{
-    AtValues, AttachedEntry, Calibration, Exclusion, FactorEntry, IdentifyEntry, LoadEntry, Located,
-    MatrixEntry, MeasurementEntry, RespondEntry, Spot, VariesEntry,
+    AtValues, AttachedEntry, Calibration, CoarserMeshEntry, Exclusion, FactorEntry, IdentifyEntry, LoadEntry,
+    Located, MatrixEntry, MeasurementEntry, RespondEntry, Spot, VariesEntry,
 };
 use crate::error::{InputError, Place};
 use crate::units::{Amount, AmountOf, UnitSystem, UnknownSystem, amount};
 use frfit::c64;
 use frfit::dof::{Axis, DofName};
-use frfit::identify::{ErrorSizes, Method, ModelErrors, Reduction, Selection};
+use frfit::identify::{CoarserMesh, ErrorSizes, Method, ModelErrors, Reduction, Selection};
 use frfit::laws::{LawKind, MAX_BRANCHES, UnknownLawKind};
 use frfit::material::{Branch, Law};
 use frfit::model::{FactorStd, Role};
@@ -465,6 +465,31 @@ pub(super) fn model_error(field: &Field<'_>) -> Result<ModelErrors, InputError> 
         true => Ok(ModelErrors::Given(sizes)),
         false => Err(InputError::at(&field.place, "one of the keys frequency and shape", "none")),
     }
+}
+
+/// `coarser_mesh = "coarse.toml"`, or `[coarser_mesh]`.
+pub(super) fn coarser_mesh(field: &Field<'_>) -> Result<CoarserMeshEntry, InputError> {
+    if field.is_text() {
+        return Ok(CoarserMeshEntry { file: field.text()?, element_ratio: None, order: None });
+    }
+    if !field.is_table() {
+        return Err(field.refuse("a text in quotes or { file = \"...\", element_ratio = ..., order = ... }"));
+    }
+    let table = field.table(&[&keys::COARSER_MESH])?;
+    let above = |key: &str, least: f64| {
+        let number = |field: Field<'_>| {
+            let number = field.number()?;
+            let is_usual = number > least && number <= CoarserMesh::MAX_RATIO;
+            let expected = format!("a number above {least} up to {}", CoarserMesh::MAX_RATIO);
+            if is_usual { Ok(number) } else { Err(field.refuse(&expected)) }
+        };
+        table.find(key).map(number).transpose()
+    };
+    Ok(CoarserMeshEntry {
+        file: table.need("file")?.text()?,
+        element_ratio: above("element_ratio", 1.0)?,
+        order: above("order", 0.0)?,
+    })
 }
 
 /// `[identify]`.

@@ -276,6 +276,7 @@ fn case(
         title,
         model,
         experiment,
+        coarser_mesh: None,
         sensors,
         row_names,
         inputs,

@@ -103,12 +103,17 @@ impl Files {
         Ok((files, bytes))
     }
 
+    /// Where a file is that a key of the case names.
+    pub(super) fn beside(&self, name: &Located<String>) -> Result<PathBuf, InputError> {
+        match name.value.is_empty() {
+            true => Err(InputError::at(&name.place, "the path of a file", "an empty text")),
+            false => Ok(self.folder.join(&name.value)),
+        }
+    }
+
     /// Reads a file that a key of the case names.
     pub(super) fn read(&mut self, name: &Located<String>) -> Result<NamedFile, InputError> {
-        if name.value.is_empty() {
-            return Err(InputError::at(&name.place, "the path of a file", "an empty text"));
-        }
-        let path = self.folder.join(&name.value);
+        let path = self.beside(name)?;
         let (bytes, index) = match &self.last {
             Some((last, bytes, index)) if *last == path => (Rc::clone(bytes), Rc::clone(index)),
             _ => {

@@ -3,6 +3,7 @@
 mod arrays;
 mod attached;
 mod band;
+mod coarser;
 mod dimension;
 mod dofs;
 mod factor;
@@ -36,11 +37,13 @@ use crate::error::{InputError, Place};
 use crate::reads::Reads;
 use crate::terminal::one_line;
 use crate::units::UnitSystem;
+use dimension::PartOf;
 use dofs::Dofs;
 use files::Files;
 use frfit::c64;
 use frfit::frequency::linear_hz;
-use frfit::model::{DynamicStiffness, Experiment};
+use frfit::identify::CoarserMesh;
+use frfit::model::{DynamicStiffness, Experiment, Term};
 use frfit_formats::{CoordinateMatrix, read_matrices, take_matrix};
 use measurement::{Measurement, common_decay, measurement};
 use model::Terms;
@@ -59,6 +62,8 @@ pub struct Case {
     pub model: Arc<DynamicStiffness>,
     /// Load and sensors.
     pub experiment: Experiment,
+    /// The same structure on a coarser mesh, where the case names one and the purpose is to identify.
+    pub coarser_mesh: Option<CoarserMesh>,
     /// The sensors' labels, quantities and files, in the order of the measurements.
     pub sensors: Vec<SensorInfo>,
     /// The names of rows (from 0), as `34+Z`; empty without `[dofs]` where the matrices' files name none either.
@@ -121,14 +126,15 @@ pub enum Purpose {
 pub fn load(case_file: &Path, overrides: &Overrides, purpose: Purpose) -> Result<Case, InputError> {
     let (mut files, bytes) = Files::of_case(case_file)?;
     let case = case::parse(case_file, &bytes)?;
-    let Terms { terms, of, labels } = model::terms(&case, &mut files)?;
-    let mut terms = match purpose {
-        Purpose::Identify if case.several.is_some() => terms,
-        _ => dimension::at_nominal(&case, terms, &of)?,
+    let keeps_dimensions = purpose == Purpose::Identify && case.several.is_some();
+    let structure = structure(&case, keeps_dimensions, &mut files)?;
+    let coarser_mesh = match &case.coarser_mesh {
+        Some(entry) if purpose == Purpose::Identify => {
+            Some(coarser::coarser_mesh(entry, (&structure, keeps_dimensions), &mut files)?)
+        }
+        _ => None,
     };
-    let dim = terms.first().map_or(0, |term| term.matrix.dim());
-    let dofs = Dofs::read(case.dofs.as_ref(), dim, &labels, case.units, &mut files)?;
-    terms.extend(attached::terms(&case.attached, case.units, dim, &dofs)?);
+    let Structure { terms, of, dofs } = structure;
     let model = model::model(&case, terms)?;
     let load = force::load(&case.load, model.dim(), &dofs, &mut files)?;
     let measurements = measurements(&case, purpose, &dofs, &mut files)?;
@@ -168,6 +174,7 @@ pub fn load(case_file: &Path, overrides: &Overrides, purpose: Purpose) -> Result
         units: case.units,
         title: one_line(&case.title.unwrap_or_else(|| stem(case_file))).into_owned(),
         experiment: Experiment { load, sensors },
+        coarser_mesh,
         sensors: measurements.into_iter().map(|measurement| measurement.info).collect(),
         row_names: dofs.names(),
         inputs: files.inputs,
@@ -177,6 +184,25 @@ pub fn load(case_file: &Path, overrides: &Overrides, purpose: Purpose) -> Result
         sensitivities,
         respond_hz,
     })
+}
+
+/// The terms of a model, and the names of its rows.
+struct Structure {
+    terms: Vec<Term>,
+    /// The matrix of the case that each is, or is part of; what is attached follows them.
+    of: Vec<PartOf>,
+    dofs: Dofs,
+}
+
+/// Reads matrices, factors, names of rows and what is attached. `keeps_dimensions`: a matrix that is given at several values of a dimension is one term for each
+/// power of it, and else the matrix at its nominal value.
+fn structure(case: &CaseFile, keeps_dimensions: bool, files: &mut Files) -> Result<Structure, InputError> {
+    let Terms { terms, of, labels } = model::terms(case, files)?;
+    let mut terms = if keeps_dimensions { terms } else { dimension::at_nominal(case, terms, &of)? };
+    let dim = terms.first().map_or(0, |term| term.matrix.dim());
+    let dofs = Dofs::read(case.dofs.as_ref(), dim, &labels, case.units, files)?;
+    terms.extend(attached::terms(&case.attached, case.units, dim, &dofs)?);
+    Ok(Structure { terms, of, dofs })
 }
 
 /// Reads the matrix of this name from a file, or without a name its only one. For a term of a model it still has to pass

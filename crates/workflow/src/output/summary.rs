@@ -7,7 +7,8 @@ use crate::run::IdentifyRun;
 use frfit::c64;
 use frfit::identify::{
     Dependence, Direction, FactorError, GoodnessOfFit, Identifiability, Identification, Leverage, Line,
-    ModeError, ModelErrors, ModelErrorsFound, NoiseLevel, Number, SensorMass, Status, Unknown, Variation,
+    MeshError, ModeError, ModelErrors, ModelErrorsFound, NoiseLevel, Number, SensorMass, Status, Unknown,
+    Variation,
 };
 use frfit::material::loss_factor;
 use frfit::model::{FactorPart, Term};
@@ -248,8 +249,14 @@ fn leverage_json(case: &Case, found: &Identification) -> Vec<Value> {
 
 /// The errors of the model that were taken out.
 fn model_errors_json(case: &Case, errors: &ModelErrorsFound) -> Value {
-    let mode =
-        |mode: &ModeError| json!({"frequency_hz": mode.frequency_hz, "error": mode.error, "std": mode.std});
+    let mode = |mode: &ModeError| {
+        let mut json = json!({"frequency_hz": mode.frequency_hz, "error": mode.error, "std": mode.std});
+        if let Some(coarser_hz) = mode.coarser_hz {
+            json["coarser_mesh_hz"] = coarser_hz.into();
+        }
+        json
+    };
+    let mesh = |mesh: MeshError| json!({"paired": mesh.paired, "expected": mesh.expected, "remainder": mesh.remainder, "std": mesh.std});
     let part = |part: FactorPart| match part {
         FactorPart::Storage => "storage",
         FactorPart::LossFactor => "loss_factor",
@@ -261,6 +268,7 @@ fn model_errors_json(case: &Case, errors: &ModelErrorsFound) -> Value {
         "loss_factor_std": errors.loss_factor_std,
         "shape_std": errors.shape_std,
         "evidence_nats": errors.evidence,
+        "mesh": errors.mesh.map(mesh),
         "modes": errors.modes.iter().map(mode).collect::<Vec<_>>(),
         "matrices": errors.factors.iter().map(matrix).collect::<Vec<_>>(),
         "sensor_masses": case.sensors.iter().zip(&errors.masses).map(mass).collect::<Vec<_>>(),

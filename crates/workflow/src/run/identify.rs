@@ -185,7 +185,11 @@ pub(crate) fn problem_of<'a>(
 ) -> Result<Problem<'a>, ProblemError> {
     let frfs =
         Frfs { frequency_hz: &used.frequency_hz, receptance: &used.measured, noise: noise_of(&used.noise) };
-    Problem::new(&case.model, &case.experiment, &identify.unknowns, &identify.channels, frfs)
+    let problem = Problem::new(&case.model, &case.experiment, &identify.unknowns, &identify.channels, frfs)?;
+    match &case.coarser_mesh {
+        Some(mesh) => problem.with_coarser_mesh(mesh),
+        None => Ok(problem),
+    }
 }
 
 /// How well it was measured, as core takes it.

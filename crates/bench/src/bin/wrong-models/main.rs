@@ -1,13 +1,13 @@
 //! A zoo of wrong models: how far the modulus is off where the model is not the structure that was measured, and whether error bars and statuses say so.
 //!
-//! `wrong-models [CASES] [SEED] [--class CLASS] [--way WAY] [--csv FILE] [--case K]`: so many cases (default 40) of a seed (default 1), of all classes
-//! and ways or of one; with `--case` the case K alone, line by line. Case K of a seed is always the same, and its class is the K-th, counted round.
+//! `wrong-models [CASES] [SEED] [--class CLASS] [--way WAY] [--csv FILE] [--case K] [--meshes two]`: so many cases (default 40) of a seed (default 1), of all classes
+//! and ways or of one; with `--case` the case K alone, line by line. With `--meshes two` the model has elements of half the size, and a coarser mesh beside it. Case K of a seed is always the same, and its class is the K-th, counted round.
 //!
 //! Each case draws a structure, its material, load, sensors and noise, and measures the truth, which is another model by class, with direct solves.
 #![allow(clippy::print_stdout, clippy::print_stderr)] // tables are what a benchmark is for
 
 use frfit::identify::Options;
-use frfit_bench::wrong_models::case::Way;
+use frfit_bench::wrong_models::case::{Meshes, Way};
 use frfit_bench::wrong_models::fault::Class;
 use frfit_bench::wrong_models::report::{LEGEND, Tried, csv, described, errors, lines, markdown};
 use frfit_bench::wrong_models::{Failure, tried};
@@ -25,12 +25,14 @@ struct Arguments {
     ways: Vec<Way>,
     csv: Option<String>,
     case: Option<u64>,
+    meshes: Meshes,
 }
 
 impl Arguments {
     fn read(mut words: impl Iterator<Item = String>) -> Result<Self, Failure> {
         let ways = Way::ALL.to_vec();
-        let mut read = Self { cases: 40, seed: 1, class: None, ways, csv: None, case: None };
+        let mut read =
+            Self { cases: 40, seed: 1, class: None, ways, csv: None, case: None, meshes: Meshes::One };
         let mut positions = 0;
         while let Some(word) = words.next() {
             if !word.starts_with("--") {
@@ -48,7 +50,17 @@ impl Arguments {
                 "--way" => read.ways = vec![value.parse()?],
                 "--csv" => read.csv = Some(value),
                 "--case" => read.case = Some(number(&value)?),
-                _ => return Err(format!("expected --class, --way, --csv or --case, found {word}").into()),
+                "--meshes" => {
+                    read.meshes = match value.as_str() {
+                        "one" => Meshes::One,
+                        "two" => Meshes::Two,
+                        _ => return Err(format!("--meshes: expected one or two, found {value}").into()),
+                    }
+                }
+                _ => {
+                    let expected = "--class, --way, --csv, --case or --meshes";
+                    return Err(format!("expected {expected}, found {word}").into());
+                }
             }
         }
         Ok(read)
@@ -71,7 +83,7 @@ fn main() -> Result<(), Failure> {
     };
     let indices: Vec<u64> = (first..).filter(is_asked).take(count).collect();
     let one = |&index: &u64| {
-        let done = tried(seed.to_owned(), index, ways, &options);
+        let done = tried(seed.to_owned(), index, ways, arguments.meshes, &options);
         done.as_ref().map_or_else(|why| eprintln!("{why}"), |done| eprintln!("{}", described(done)));
         done
     };

@@ -8,7 +8,9 @@ use crate::for_each::map;
 use crate::frequency::omega_rad_s;
 use crate::identify::context::Context;
 use crate::identify::measured::Band;
-use crate::identify::model_errors::{Curve, Curves, Estimated, Measured, NoiseScale, PointAt, Spline};
+use crate::identify::model_errors::{
+    Coarser, Curve, Curves, Estimated, Measured, NoiseScale, PointAt, Spline,
+};
 use crate::identify::model_errors::{Explanation, covariance, estimate};
 use crate::identify::noise::{Noise, standard_deviations, without};
 use crate::identify::options::{ModelErrors, Options};
@@ -96,6 +98,7 @@ impl Weights {
             nominal: &self.nominal,
             given: &[],
             given_sizes: options.model_errors.sizes(),
+            coarser: band.coarser.map(|mesh| Coarser { mesh, unknowns: std::slice::from_ref(band.unknown) }),
             measured: band.measured,
             sigma: &self.sigma,
             size: &self.size,

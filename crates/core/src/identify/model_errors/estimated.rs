@@ -1,6 +1,8 @@
 //! The errors of a model as a search has them, with their covariance.
 
 use super::curve::Curves;
+use super::found::MeshError;
+use super::mesh::BetweenMeshes;
 use super::search::{FactorPrior, Kinds, Place};
 use crate::c64;
 use crate::frequency::omega_rad_s;
@@ -25,6 +27,8 @@ pub(in crate::identify) struct Estimated {
     pub(super) highest_rad_s: f64,
     pub(super) curves: Curves,
     pub(super) factors: Vec<FactorPrior>,
+    pub(super) mesh: Option<BetweenMeshes>,
+    pub(super) mesh_error: Option<MeshError>,
     /// θ, then the errors as the search has them.
     pub(super) place: Place,
 }

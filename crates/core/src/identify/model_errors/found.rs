@@ -20,6 +20,8 @@ pub struct ModelErrorsFound {
     pub factors: Vec<FactorError>,
     /// Masses at the sensors that the model does not have, one for each; empty where only factors are in error.
     pub masses: Vec<SensorMass>,
+    /// What a coarser mesh says of this one; `None` where there is none, or none of its modes is paired.
+    pub mesh: Option<MeshError>,
     /// By how many nats these errors explain the band better than a right model does.
     pub evidence: f64,
 }
@@ -31,6 +33,21 @@ pub struct ModeError {
     pub frequency_hz: f64,
     /// Its relative error.
     pub error: f64,
+    /// The standard deviation of that.
+    pub std: f64,
+    /// The natural frequency of the same mode on the coarser mesh, where there is one and the modes are paired.
+    pub coarser_hz: Option<f64>,
+}
+
+/// The error of a mesh by a coarser one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MeshError {
+    /// Modes of the band that are paired.
+    pub paired: usize,
+    /// The part of what lies between the meshes that the finer one still has, as expected of ratio and order of the elements: 1/(r^p − 1).
+    pub expected: f64,
+    /// The same as found.
+    pub remainder: f64,
     /// The standard deviation of that.
     pub std: f64,
 }
@@ -83,6 +100,11 @@ impl Estimated {
                 frequency_hz: omega / TAU,
                 error: own.iter().map(|&error| self.errors.stiffness[error]).sum(),
                 std: variance.max(0.0).sqrt(),
+                coarser_hz: self
+                    .mesh
+                    .as_ref()
+                    .and_then(|mesh| mesh.partner_rad_s[i])
+                    .map(|omega| omega / TAU),
             }
         };
         let of_factors = self.modes.of_error.len();
@@ -112,6 +134,7 @@ impl Estimated {
                 .map(mode)
                 .collect(),
             factors: errors_of_known.map(factor).collect(),
+            mesh: self.mesh_error,
             masses: self.errors.masses.iter().zip(&self.modes.apparent_mass).enumerate().map(mass).collect(),
             evidence: self.evidence,
         }

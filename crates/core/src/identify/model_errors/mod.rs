@@ -20,6 +20,7 @@ mod curve;
 mod estimated;
 mod found;
 mod leverage;
+mod mesh;
 mod scatter;
 mod search;
 
@@ -35,10 +36,13 @@ use crate::model::{FactorPart, ModelAt, Role};
 use crate::subspace::{Modes, Point, Projection};
 pub(super) use curve::{Curve, Curves, Spline};
 pub(super) use estimated::{Estimated, covariance};
-pub use found::{FactorError, Leverage, ModeError, ModelErrorsFound, SensorMass};
+pub use found::{FactorError, Leverage, MeshError, ModeError, ModelErrorsFound, SensorMass};
+pub(super) use mesh::Coarser;
 pub(super) use search::PointAt;
+use std::f64::consts::TAU;
 
 use frfit_linalg::dense::Cholesky;
+use mesh::BetweenMeshes;
 use search::{Damping, FactorPrior, Fitting, Kinds, Minimum, Place, Sizes};
 
 /// What is known of the noise.
@@ -72,6 +76,8 @@ pub(super) struct Measured<'t, 'a> {
     pub(super) noise_scale: NoiseScale,
     /// What the user says of the sizes of errors.
     pub(super) given_sizes: ErrorSizes,
+    /// A coarser mesh, which says what the mesh has of them.
+    pub(super) coarser: Option<Coarser<'t>>,
     /// What each frequency says by itself, and noise over σ by that.
     pub(super) free: &'t [Line],
     /// The unknowns that each frequency has a value of its own of.
@@ -197,6 +203,7 @@ pub(super) fn estimate(
     let Some(start) = starts.first() else { return nothing() };
     let centre = curves.straight(start);
     let Some(search) = Search::new(model, data, (curves, &centre), start, for_each) else { return nothing() };
+    let search = search.with_meshes(start);
     let explanation = explanation(&search, &starts).unwrap_or(Explanation::RightModel);
     (explanation, search.leverage(start))
 }
@@ -227,7 +234,7 @@ fn explanation(search: &Search<'_, '_>, starts: &[Vec<f64>]) -> Option<Explanati
     };
     let right_model = || if given.is_empty() { None } else { right_model() };
     let whole = search.fitting(&rough.0, &rough.1, &search.lines);
-    let sized = data.given_sizes.any();
+    let sized = data.given_sizes.any() || search.mesh.is_some();
     let is_noise = || data.is_noise(&right, data.numbers(&search.lines), curves);
     if !sized && is_noise() && data.promise(&whole, &right, &given)? <= -RIGHT_MODEL_NATS {
         return right_model();
@@ -304,6 +311,7 @@ pub(super) fn estimate_with_laws(
     let search = Search {
         modes: before.modes.in_larger(model),
         factors: before.factors.clone(),
+        mesh: before.mesh.clone(),
         ..Search::new(model, data, (curves, theta), theta, for_each)?
     };
     let near = search.smaller(&search.points(theta), NEIGHBOURHOOD_TOL);
@@ -354,6 +362,8 @@ struct Search<'t, 'a> {
     modes: Modes,
     /// Known factors that may be in error.
     factors: Vec<FactorPrior>,
+    /// What lies between the meshes, where there are two.
+    mesh: Option<BetweenMeshes>,
 }
 
 impl<'t, 'a> Search<'t, 'a> {
@@ -368,9 +378,9 @@ impl<'t, 'a> Search<'t, 'a> {
         let all: Vec<usize> = (0..data.omegas.len()).filter(|&i| data.omegas[i] > 0.0).collect();
         let of = |most: usize| -> Vec<usize> { thinned(&all, most).copied().collect() };
         let lines = of(MAX_LINES);
-        let Point { at, correction } = data.on(curves, theta, lines[lines.len() / 2])?;
-        let highest = MODES_ABOVE_BAND * data.omegas.last()?;
-        let modes = model.modes(&at, correction, highest, MAX_MODES).ok()?;
+        let Point { at, correction } = data.on(curves, theta, middle(&lines))?;
+        let highest = *data.omegas.last()?;
+        let modes = model.modes(&at, correction, MODES_ABOVE_BAND * highest, MAX_MODES).ok()?;
         Some(Self {
             model,
             data,
@@ -382,7 +392,28 @@ impl<'t, 'a> Search<'t, 'a> {
             about: of(NEIGHBOURHOOD_POINTS),
             modes,
             factors: priors(&at, data.given_sizes),
+            mesh: None,
         })
+    }
+
+    /// With what lies between this mesh and a coarser one, where there is one. The stiffness of an unknown then has no error of a usual size: the meshes
+    /// say how large it is.
+    fn with_meshes(mut self, theta: &[f64]) -> Self {
+        let between = |coarser: Coarser<'t>| {
+            let on = |&line: &usize| -> Option<Point<'t>> {
+                let omega = self.data.omegas[line];
+                coarser.point(omega / TAU, &self.curves.values(theta, line, omega)?.0)
+            };
+            let points: Vec<Point<'t>> = self.about.iter().filter_map(on).collect();
+            let middle = on(&middle(&self.lines))?;
+            let modes = (&self.modes, *self.data.omegas.last()?);
+            BetweenMeshes::new(coarser.mesh, &points, &middle, modes, self.for_each)
+        };
+        self.mesh = self.data.coarser.and_then(between);
+        if self.mesh.is_some() {
+            self.factors.retain(|factor| factor.is_known);
+        }
+        self
     }
 
     /// Points along some curves.
@@ -409,9 +440,15 @@ impl<'t, 'a> Search<'t, 'a> {
             highest_rad_s: self.data.omegas[self.data.omegas.len() - 1],
             factors: &self.factors,
             kinds: Kinds::ALL,
+            mesh: self.mesh.as_ref().filter(|_| !modes.omega_rad_s.is_empty()),
             for_each: self.for_each,
         }
     }
+}
+
+/// The line at whose modulus the modes are those of the model.
+fn middle(lines: &[usize]) -> usize {
+    lines[lines.len() / 2]
 }
 
 /// Lines on which the search begins, and at most.
@@ -578,7 +615,7 @@ impl<'a> Measured<'_, 'a> {
             };
             let precision = whole.precision(&sizes);
             let sum: Vec<f64> = normal.information.iter().zip(&precision).map(|(a, b)| a + b).collect();
-            let off = |j: usize| place[j] - whole.centre.get(j).copied().unwrap_or(0.0);
+            let off = |j: usize| place[j] - whole.expected(j);
             let pull = |i: usize| -> f64 { of_right.iter().map(|&j| precision[i * n + j] * off(j)).sum() };
             let slope: Vec<f64> = (0..n).map(|i| normal.gradient[i] - pull(i)).collect();
             let factor = Cholesky::new(n, &sum).ok()?;
@@ -714,7 +751,9 @@ impl<'a> Measured<'_, 'a> {
             let Some(error) = a.checked_sub(theta) else { return vec![(a, 1.0)] };
             let own = std::iter::once((first + error, 1.0));
             let shared = (theta..first).filter(|_| error < modes);
-            own.chain(shared.map(|p| (p, fitting.common(error)[p - theta]))).collect()
+            let of_mesh = fitting.of_mesh().filter(|_| error >= modes);
+            let of_mesh = of_mesh.map(|(p, _)| (p, fitting.between_meshes(first + error)));
+            own.chain(shared.map(|p| (p, fitting.common(error)[p - theta]))).chain(of_mesh).collect()
         };
         let parts: Vec<Vec<(usize, f64)>> = (0..kept).map(parts).collect();
         let entry = |a: usize, b: usize| {
@@ -735,6 +774,13 @@ impl<'a> Measured<'_, 'a> {
             highest_rad_s: fitting.highest_rad_s,
             curves: fitting.curves.clone(),
             factors: fitting.factors.to_vec(),
+            mesh: fitting.mesh.cloned(),
+            mesh_error: fitting.of_mesh().map(|(p, mesh)| MeshError {
+                paired: mesh.partner_rad_s.iter().flatten().count(),
+                expected: mesh.remainder,
+                remainder: found.place[p],
+                std: of(p, p).max(0.0).sqrt(),
+            }),
             place: found.place,
         })
     }

@@ -1,6 +1,7 @@
 //! The least squares of a curve with the errors of the model: min over θ, δ, ν, a of χ² + their priors.
 
 use super::curve::Curves;
+use super::mesh::BetweenMeshes;
 use crate::c64;
 use crate::for_each::{ForEach, map};
 use crate::identify::options::ErrorSizes;
@@ -32,6 +33,8 @@ pub(super) struct Fitting<'t, 'a> {
     pub(super) factors: &'t [FactorPrior],
     /// Errors that are looked for beside those of stiffness, shapes and factors.
     pub(super) kinds: Kinds,
+    /// What lies between the meshes, where there are two; none without modes.
+    pub(super) mesh: Option<&'t BetweenMeshes>,
     pub(super) for_each: ForEach<'t>,
 }
 
@@ -117,7 +120,8 @@ pub(super) struct Sizes {
     pub(super) bend: [f64; 2],
 }
 
-/// Where a search is: θ, the common part of δ, own parts of δ and ε, ν and Δη, κ, then a of the load and of each sensor.
+/// Where a search is: θ, the common parts of δ and ε, the amplitude of the mesh's error where there are two meshes, own parts of δ and ε, ν and Δη, κ, then a
+/// of the load and of each sensor.
 pub(super) type Place = Vec<f64>;
 
 /// The normal equations at a place: χ², ½ ∂χ²/∂p, JᵀJ (n × n).
@@ -155,7 +159,7 @@ impl Fitting<'_, '_> {
         self.measured[0].len()
     }
 
-    fn modes(&self) -> usize {
+    pub(super) fn modes(&self) -> usize {
         self.modes.omega_rad_s.len()
     }
 
@@ -179,7 +183,25 @@ impl Fitting<'_, '_> {
 
     /// Coordinates of what the δ_i have in common.
     fn common_errors(&self) -> usize {
+        self.common_parts() + usize::from(self.mesh.is_some())
+    }
+
+    /// Those of all groups.
+    fn common_parts(&self) -> usize {
         COMMON_PARTS * self.modes.group.iter().max().map_or(0, |last| 1 + last)
+    }
+
+    /// The place of the amplitude of the mesh's error.
+    pub(super) fn of_mesh(&self) -> Option<(usize, &BetweenMeshes)> {
+        Some((self.curves.count() + self.common_parts(), self.mesh?))
+    }
+
+    /// Before the data.
+    pub(super) fn expected(&self, coordinate: usize) -> f64 {
+        match self.of_mesh().filter(|(place, _)| *place == coordinate) {
+            Some((_, mesh)) => mesh.remainder,
+            None => self.centre.get(coordinate).copied().unwrap_or(0.0),
+        }
     }
 
     /// What δ_i or ε_i has of each common part.
@@ -195,6 +217,9 @@ impl Fitting<'_, '_> {
                 false => of_loss.copy_from_slice(&[1.0, support]),
             }
         }
+        if let (Some(mesh), Some(last)) = (self.mesh, parts.last_mut()) {
+            *last = mesh.stiffness[i];
+        }
         parts
     }
 
@@ -202,7 +227,7 @@ impl Fitting<'_, '_> {
     pub(super) fn in_common(&self, of_frequency: bool) -> impl Iterator<Item = usize> {
         let first = self.curves.count();
         let is_wanted = move |&part: &usize| is_frequency_part(part) == of_frequency;
-        (0..self.common_errors()).filter(is_wanted).map(move |part| first + part)
+        (0..self.common_parts()).filter(is_wanted).map(move |part| first + part)
     }
 
     pub(super) fn first_factor(&self) -> usize {
@@ -240,7 +265,7 @@ impl Fitting<'_, '_> {
     }
 
     /// Own parts of δ and ε.
-    fn own(&self) -> std::ops::Range<usize> {
+    pub(super) fn own(&self) -> std::ops::Range<usize> {
         self.first_own()..self.first_factor()
     }
 
@@ -259,10 +284,13 @@ impl Fitting<'_, '_> {
         self.modes.omega_rad_s[self.modes.of_error[coordinate - self.first_own()]] == 0.0
     }
 
-    /// No errors.
+    /// No errors but those that the mesh is expected to have.
     pub(super) fn start(&self, theta: &[f64]) -> Place {
         let mut place = theta.to_vec();
         place.resize(self.count(), 0.0);
+        if let Some((of_mesh, mesh)) = self.of_mesh() {
+            place[of_mesh] = mesh.remainder;
+        }
         place
     }
 
@@ -277,13 +305,17 @@ impl Fitting<'_, '_> {
         let (own, n) = (self.first_own(), self.modes());
         let first = self.curves.count();
         let common = |i: usize| self.common(i).iter().zip(&place[first..]).map(|(w, e)| w * e).sum::<f64>();
-        let shape = |m: usize| place[self.first_shape(m)..self.first_shape(m) + n].to_vec();
+        let by_mesh = self.of_mesh().map_or(0.0, |(of_mesh, _)| place[of_mesh]);
+        let with_mesh = |range: std::ops::Range<usize>| -> Vec<f64> {
+            range.map(|i| place[i] + by_mesh * self.between_meshes(i)).collect()
+        };
+        let shape = |m: usize| with_mesh(self.first_shape(m)..self.first_shape(m) + n);
         let factor =
             |(prior, &error): (&FactorPrior, &f64)| FactorError { term: prior.term, part: prior.part, error };
         ModalErrors {
             stiffness: (0..self.stiffness_errors()).map(|i| common(i) + place[own + i]).collect(),
             masses: place[self.first_mass()..self.first_load()].to_vec(),
-            load: place[self.first_load()..self.shared()].to_vec(),
+            load: with_mesh(self.first_load()..self.shared()),
             shape: (0..self.sensors()).map(shape).collect(),
             factors: self.factors.iter().zip(&place[self.first_factor()..]).map(factor).collect(),
         }
@@ -351,6 +383,12 @@ impl Fitting<'_, '_> {
             let mut of_common = vec![c64::default(); self.common_errors()];
             for (parts, slope) in common.iter().zip(&slopes.stiffness[m]) {
                 of_common.iter_mut().zip(parts).for_each(|(sum, part)| *sum += part * slope);
+            }
+            if let (Some(mesh), Some(last)) = (self.mesh, of_common.last_mut()) {
+                let at = |by: &[f64], slopes: &[c64]| -> c64 {
+                    by.iter().zip(slopes).map(|(by, slope)| *by * slope).sum()
+                };
+                *last += at(&mesh.load, &slopes.load[m]) + at(&mesh.shape[m], &slopes.shape[m]);
             }
             row.extend(of_common);
             row.extend(&slopes.stiffness[m]);
@@ -439,8 +477,11 @@ impl Fitting<'_, '_> {
         let common_loss = only_if(self.kinds.damping != Damping::None, sizes.common_loss);
         let mass = only_if(self.kinds.masses, SENSOR_MASS_STD);
         self.in_common(false).for_each(|i| set(i, common_loss));
+        if let Some((place, mesh)) = self.of_mesh() {
+            set(place, mesh.remainder);
+        }
         let own = |i: usize| match (self.is_frequency(i), self.is_rigid(i)) {
-            (true, false) => sizes.frequency * self.growth(i),
+            (true, false) => (sizes.frequency * self.growth(i)).hypot(self.scatter_of_mesh(i)),
             (false, false) => damping(sizes.loss_factor * self.growth(i)),
             (true, true) => RIGID_BODY_STD,
             // Of a support without damping ε is −2δ.
@@ -449,7 +490,7 @@ impl Fitting<'_, '_> {
         self.own().for_each(|i| set(i, own(i)));
         (self.first_factor()..).zip(self.factors).for_each(|(i, prior)| set(i, prior.std));
         (self.first_mass()..self.first_load()).for_each(|i| set(i, mass));
-        self.shapes().for_each(|i| set(i, sizes.shape * self.growth(i)));
+        self.shapes().for_each(|i| set(i, (sizes.shape * self.growth(i)).hypot(self.scatter_of_mesh(i))));
         all
     }
 
@@ -463,8 +504,7 @@ impl Fitting<'_, '_> {
     ) -> Option<Minimum> {
         let n = self.count();
         let prior = |place: &[f64]| -> (f64, Vec<f64>) {
-            let off = |i: usize| place[i] - self.centre.get(i).copied().unwrap_or(0.0);
-            let off: Vec<f64> = (0..n).map(off).collect();
+            let off: Vec<f64> = (0..n).map(|i| place[i] - self.expected(i)).collect();
             let times: Vec<f64> =
                 precision.chunks_exact(n).map(|row| row.iter().zip(&off).map(|(p, o)| p * o).sum()).collect();
             (times.iter().zip(&off).map(|(p, o)| p * o).sum(), times)

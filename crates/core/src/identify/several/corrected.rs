@@ -7,7 +7,7 @@ use super::reduced_band::ReducedBand;
 use super::search::BandSolution;
 use crate::c64;
 use crate::identify::model_errors::{
-    Curve, Curves, Explanation, Leverage, Measured, NoiseScale, Spline, estimate, estimate_with_laws,
+    Coarser, Curve, Curves, Explanation, Leverage, Measured, NoiseScale, Spline, estimate, estimate_with_laws,
 };
 use crate::identify::noise::{Noise, standard_deviations, without};
 use crate::identify::options::ModelErrors;
@@ -74,6 +74,7 @@ impl Task<'_, '_> {
             nominal: self.nominal,
             given: &given,
             given_sizes: self.options.model_errors.sizes(),
+            coarser: self.problem.coarser.map(|mesh| Coarser { mesh, unknowns }),
             measured: self.problem.frfs.receptance,
             sigma: &self.sigma,
             size: &without(
