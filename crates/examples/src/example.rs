@@ -4,7 +4,7 @@ use crate::file::{Frf, csv_frf, dofs, force, matrix, several_truth, truth, uff_f
 use crate::several::Measured;
 use crate::{
     Error, File, Model, Rig, SeveralModel, added_mass, clamped_plate, density, hammer_bar, hammer_records,
-    joint_stiffness, plate_thickness, rubber_bar, rubber_bar_end, sandwich, two_materials,
+    joint_stiffness, plate_thickness, rubber_bar, rubber_bar_end, sandwich, two_materials, two_meshes,
 };
 use frfit::c64;
 use frfit::material::Law;
@@ -34,6 +34,16 @@ enum Unknown {
     One(fn() -> Result<Model, Error>),
     /// Several things, or one that does not vary.
     Several(fn() -> Result<SeveralModel, Error>),
+    /// One that is measured on a finer mesh, with a coarser one beside it, by their elements a side.
+    Meshes(fn(usize) -> Result<SeveralModel, Error>, Meshes),
+}
+
+/// Elements a side.
+#[derive(Debug)]
+struct Meshes {
+    measured: usize,
+    model: usize,
+    coarser: usize,
 }
 
 use Unknown::{One, Several};
@@ -49,7 +59,7 @@ enum Measurement {
     Records(&'static str, fn() -> Result<Vec<u8>, Error>),
 }
 
-static EXAMPLES: [Example; 10] = [
+static EXAMPLES: [Example; 11] = [
     Example {
         name: "rubber-bar",
         summary: "free-free rubber bar, the same force on every node: its modulus over frequency",
@@ -150,7 +160,21 @@ static EXAMPLES: [Example; 10] = [
         measurement: Measurement::Tables(&["frf-1.csv", "frf-2.csv"], Quantity::Accelerance),
         names_dofs: true,
     },
+    Example {
+        name: "two-meshes",
+        summary: "clamped nylon plate on a coarse mesh: a coarser one says how far it is off",
+        case: include_str!("../cases/two-meshes/case.toml"),
+        readme: include_str!("../cases/two-meshes/README.md"),
+        unknown: Unknown::Meshes(two_meshes, Meshes { measured: 36, model: 12, coarser: 6 }),
+        matrices: &["K.mtx", "M.mtx"],
+        measurement: Measurement::Tables(&["frf-1.csv", "frf-2.csv", "frf-3.csv"], Quantity::Accelerance),
+        names_dofs: true,
+    },
 ];
+
+/// The case of a coarser mesh, and what its files are called before those of the model.
+const COARSER_CASE: &str = include_str!("../cases/two-meshes/coarse.toml");
+const COARSER: &str = "coarse-";
 
 /// The examples there are.
 pub fn list() -> &'static [Example] {
@@ -235,6 +259,7 @@ impl Example {
         files.extend(match &self.unknown {
             One(model) => self.files_of_one(&model()?),
             Several(model) => self.files_of_several(&model()?),
+            Unknown::Meshes(model, meshes) => self.files_of_meshes(*model, meshes),
         }?);
         Ok(files)
     }
@@ -267,6 +292,25 @@ impl Example {
         let Measured { receptance, std } = &measured;
         files.extend(self.measurement_files(model.rig(), &frequency_hz, receptance, std)?);
         files.push(File::new("truth.csv", several_truth(model, &frequency_hz)?));
+        Ok(files)
+    }
+
+    fn files_of_meshes(
+        &self,
+        on_mesh: fn(usize) -> Result<SeveralModel, Error>,
+        meshes: &Meshes,
+    ) -> Result<Vec<File>, Error> {
+        let [truth, model, coarser] =
+            [meshes.measured, meshes.model, meshes.coarser].map(|elements| on_mesh(elements));
+        let (truth, model, coarser) = (truth?, model?, coarser?);
+        let mut files = self.model_files(model.rig())?;
+        files.push(File::new("coarse.toml", COARSER_CASE));
+        let of_coarser = self.model_files(coarser.rig())?.into_iter();
+        files.extend(of_coarser.map(|file| File { path: format!("{COARSER}{}", file.path), ..file }));
+        let frequency_hz = model.rig().frequency_hz();
+        let Measured { receptance, std } = truth.measured(&frequency_hz)?;
+        files.extend(self.measurement_files(model.rig(), &frequency_hz, &receptance, &std)?);
+        files.push(File::new("truth.csv", several_truth(&model, &frequency_hz)?));
         Ok(files)
     }
 

@@ -16,10 +16,11 @@
 //! | `two-materials` | [`two_materials`] | two complex moduli at every frequency from three sensors |
 //! | `joint-stiffness` | [`joint_stiffness`] | a spring between two parts: a matrix of rank one, a complex constant |
 //! | `added-mass` | [`added_mass`] | a mass that sits on the structure and the modulus below it, and how they hang together |
+//! | `two-meshes` | [`two_meshes`] | a mesh that is too coarse, and a coarser one that says so |
 //!
 //! The functions in the second column take the size of the mesh, for tests and benchmarks. The measurement is a direct
 //! solution of the same model with the true parameter, as in the paper: it shows what the method recovers, not what
-//! a test rig adds. The examples with constants have noise, whose standard deviation is known. Only `hammer-bar` is measured on an exact solution: what the mesh adds is in its answer.
+//! a test rig adds. The examples with constants have noise, whose standard deviation is known. `hammer-bar` is measured on an exact solution and `two-meshes` on a finer mesh: what the mesh adds is in their answers.
 //!
 //! ```
 //! use frfit::identify::{Options, Unknown, identify_at};
@@ -48,6 +49,7 @@ mod rubber_bar;
 mod sandwich;
 mod several;
 mod two_materials;
+mod two_meshes;
 
 pub use added_mass::added_mass;
 pub use clamped_plate::clamped_plate;
@@ -64,6 +66,7 @@ pub use rubber_bar::{POLYBUTADIENE, rubber_bar, rubber_bar_end};
 pub use sandwich::sandwich;
 pub use several::{Measured, SeveralModel};
 pub use two_materials::two_materials;
+pub use two_meshes::two_meshes;
 
 /// The program of the documentation site's page on the library, as a doc test: it uses the crates that this one does.
 #[cfg(doctest)]

@@ -9,7 +9,7 @@ use frfit::material::{Law, Table};
 use frfit::model::Role;
 use frfit_examples::{
     Model, Rig, SeveralModel, added_mass, clamped_plate, density, generate, hammer_bar, joint_stiffness,
-    list, plate_thickness, rubber_bar, rubber_bar_end, sandwich, two_materials,
+    list, plate_thickness, rubber_bar, rubber_bar_end, sandwich, two_materials, two_meshes,
 };
 use frfit_formats::{Entries, FileKind, csv, detect, read_matrix, uff};
 use std::collections::BTreeSet;
@@ -20,13 +20,15 @@ use toml::Value;
 enum Known {
     One(Model),
     Several(SeveralModel),
+    /// On its own mesh, and measured on another.
+    Meshes(SeveralModel, SeveralModel),
 }
 
 impl Known {
     fn rig(&self) -> Rig<'_> {
         match self {
             Self::One(model) => model.rig(),
-            Self::Several(model) => model.rig(),
+            Self::Several(model) | Self::Meshes(model, _) => model.rig(),
         }
     }
 
@@ -34,7 +36,9 @@ impl Known {
     fn measured(&self, frequency_hz: &[f64]) -> (Vec<Vec<c64>>, f64) {
         match self {
             Self::One(model) => (frequency_hz.iter().map(|&f| model.measured_at(f).unwrap()).collect(), 0.0),
-            Self::Several(model) => (model.exact(frequency_hz).unwrap(), model.noise),
+            Self::Several(model) | Self::Meshes(_, model) => {
+                (model.exact(frequency_hz).unwrap(), model.noise)
+            }
         }
     }
 }
@@ -53,6 +57,7 @@ fn model(name: &str) -> Known {
         "two-materials" => several(two_materials(30, 1, 1)),
         "joint-stiffness" => several(joint_stiffness(20)),
         "added-mass" => several(added_mass(40)),
+        "two-meshes" => Known::Meshes(two_meshes(12).unwrap(), two_meshes(36).unwrap()),
         other => panic!("a model for {other}"),
     }
 }
@@ -92,7 +97,7 @@ fn an_unknown_example_is_refused_with_the_names_there_are() {
     assert_eq!(
         generate("rubberbar").unwrap_err().to_string(),
         "expected the name of an example (rubber-bar, rubber-bar-end, clamped-plate, density, hammer-bar, \
-         sandwich, plate-thickness, two-materials, joint-stiffness, added-mass), found \"rubberbar\""
+         sandwich, plate-thickness, two-materials, joint-stiffness, added-mass, two-meshes), found \"rubberbar\""
     );
 }
 
@@ -113,6 +118,10 @@ fn the_case_names_exactly_the_files_that_there_are() {
     each(|name, folder, _| {
         let mut named = BTreeSet::from(["README.md", "case.toml", "truth.csv"].map(str::to_owned));
         named_files(&Value::Table(folder.case()), &mut named);
+        if let Some(coarser) = folder.case().get("coarser_mesh").and_then(Value::as_str) {
+            named.insert(coarser.to_owned());
+            named_files(&Value::Table(folder.toml(coarser)), &mut named);
+        }
         let example = list().iter().find(|example| example.name == name).unwrap();
         if let Some(records) = example.records() {
             // The measurement is made of these first.
@@ -300,6 +309,30 @@ fn cases_drive_and_measure_where_the_models_do() {
             }
         }
     });
+}
+
+/// The coarser mesh is driven and measured at the same points.
+#[test]
+fn a_coarser_mesh_is_of_the_same_plate() {
+    let (_, folder, _) = ALL.iter().find(|(name, ..)| *name == "two-meshes").unwrap();
+    let [coarse, fine] = [6, 12].map(|elements| two_meshes(elements).unwrap());
+    let case = folder.toml("coarse.toml");
+    let measured = case["measurement"].as_array().unwrap().iter();
+    let named = measured.chain([&case["load"]]).map(|entry| entry["dof"].as_str().unwrap().to_owned());
+    let rig = coarse.rig();
+    let of_mesh = (0..3).map(|sensor| rig.measured_dof(sensor)).chain(rig.driven_at());
+    assert_eq!(named.collect::<Vec<_>>(), of_mesh.map(|dof| dof.to_string()).collect::<Vec<_>>());
+    // Nodes are counted along the length first: the same parts of the sides.
+    let place = |model: &SeveralModel, elements: u64, sensor: usize| {
+        let node = model.rig().measured_dof(sensor).node - 1;
+        [node % (elements + 1), node / (elements + 1)].map(|k| k as f64 / elements as f64)
+    };
+    (0..3).for_each(|sensor| assert_eq!(place(&coarse, 6, sensor), place(&fine, 12, sensor)));
+    for (term, entry) in rig.stiffness.terms().iter().zip(case["matrix"].as_array().unwrap()) {
+        assert!(same_law(&law(&entry["factor"]), &term.factor), "{}", term.name);
+        let read = read_matrix(folder.bytes(entry["file"].as_str().unwrap())).unwrap();
+        assert_eq!(read.nrows, rig.dofs.len(), "{}", term.name);
+    }
 }
 
 #[test]

@@ -23,7 +23,11 @@ impl Folder {
     }
 
     pub(crate) fn case(&self) -> Table {
-        std::str::from_utf8(self.bytes("case.toml")).unwrap().parse().unwrap()
+        self.toml("case.toml")
+    }
+
+    pub(crate) fn toml(&self, path: &str) -> Table {
+        std::str::from_utf8(self.bytes(path)).unwrap().parse().unwrap()
     }
 
     /// The tables `[[identify]]`, or the one `[identify]`.

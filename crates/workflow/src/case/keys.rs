@@ -117,6 +117,7 @@ pub(super) static CASE: Section = Section {
     examples: &["title = \"Bar\"
 units = \"SI\"
 model_error = \"0.5 %\"
+coarser_mesh = \"coarse.toml\"
 [[matrix]]
 name = \"bar\"
 role = \"stiffness\"

@@ -258,3 +258,44 @@ fn a_title_is_optional_and_a_byte_order_mark_is_passed_over() {
     let case = with("case.toml", text.as_bytes(), &Overrides::default(), Purpose::Identify).unwrap();
     assert_eq!(case.title, "case");
 }
+
+/// Of a coarser mesh matrices, load and places of the sensors are read, and its files are inputs; its measurements are not opened.
+#[test]
+fn a_coarser_mesh_is_read_from_its_own_case() {
+    let folder = folder("", None);
+    let case_file = folder.path().join("case.toml");
+    let sub = folder.path().join("coarse");
+    fs::create_dir(&sub).unwrap();
+    let is_record = |name: &str| name == "a.csv" || name == "b.csv";
+    for entry in fs::read_dir(folder.path()).unwrap().map(Result::unwrap).filter(|one| one.path().is_file()) {
+        let name = entry.file_name().into_string().unwrap();
+        if !is_record(&name) {
+            fs::copy(entry.path(), sub.join(name)).unwrap();
+        }
+    }
+    let with = |line: &str| {
+        fs::write(&case_file, format!("{line}\n{CASE}")).unwrap();
+        load(&case_file, &Overrides::default(), Purpose::Identify)
+    };
+    let coarse = fs::read_to_string(sub.join("case.toml")).unwrap();
+    let case =
+        with("coarser_mesh = { file = \"coarse/case.toml\", element_ratio = 1.5, order = 4 }").unwrap();
+    let mesh = case.coarser_mesh.unwrap();
+    assert_eq!((mesh.element_ratio, mesh.order, mesh.model.dim()), (1.5, 4.0, 3));
+    assert_eq!(mesh.experiment, case.experiment);
+    let inputs: Vec<_> = case.inputs.iter().map(|input| input.path.display().to_string()).collect();
+    let of_coarse = inputs.iter().filter(|path| path.contains("coarse")).count();
+    assert!(of_coarse >= 4 && !inputs.iter().any(|path| path.contains("coarse/a.csv")), "{inputs:?}");
+
+    let refused = |line: &str, expected: &str| {
+        let error = with(line).unwrap_err().to_string();
+        assert!(error.contains(expected), "{error}");
+    };
+    refused("coarser_mesh = \"none.toml\"", "expected a case file, found none");
+    let renamed = coarse.replace("\"core\"", "\"kern\"");
+    fs::write(sub.join("case.toml"), renamed).unwrap();
+    refused(
+        "coarser_mesh = \"coarse/case.toml\"",
+        "the same matrices in the same order, springs, core, mass",
+    );
+}

@@ -118,7 +118,7 @@ const FACTOR_PRIOR_STD: f64 = 0.02;
 const LOSS_FACTOR_PRIOR_STD: f64 = 0.002;
 const LOSS_FACTOR_PRIOR_RATIO: f64 = 0.1;
 
-/// What all modes have in common is larger than their scatter: a mesh errs in one sense.
+/// What all modes have in common is larger than their scatter: a mesh errs in one sense. Where a coarser mesh shows that, what is left has no such reason.
 const COMMON_RATIO: f64 = 5.0;
 
 /// The same of loss factors: a support that has another damping than the structure changes all of them in one sense.
@@ -145,28 +145,44 @@ const MIN_NOISE_OF_ONE_SENSOR: f64 = 5e-3;
 /// The share of a given size that is each mode's own, and that each of three common parts has: together they are as large as was said.
 const OWN_SHARE_OF_GIVEN_SIZE: f64 = 0.5;
 
+/// What is known of the sizes of errors before the data.
+#[derive(Debug, Clone, Copy)]
+struct KnownSizes {
+    given: ErrorSizes,
+    /// What all modes have in common, over what each has of its own.
+    common_ratio: f64,
+}
+
+impl KnownSizes {
+    /// What the user says, and whether a coarser mesh shows what the mesh has in common.
+    fn new(given: ErrorSizes, mesh: Option<&BetweenMeshes>) -> Self {
+        let is_known = given.frequency.is_some() || mesh.is_some();
+        Self { given, common_ratio: if is_known { 1.0 } else { COMMON_RATIO } }
+    }
+}
+
 impl Sizes {
     /// Before the data.
-    fn prior(given: ErrorSizes) -> Self {
+    fn prior(known: KnownSizes) -> Self {
+        let KnownSizes { given, .. } = known;
         let frequency = given.frequency.map_or(FREQUENCY_PRIOR_STD, |size| OWN_SHARE_OF_GIVEN_SIZE * size);
         let (shape, loss_factor) = (given.shape.unwrap_or(SHAPE_PRIOR_STD), MODAL_LOSS_FACTOR_PRIOR_STD);
         Self { frequency, loss_factor, shape, bend: [1.0; 2], common: 0.0, common_loss: 0.0 }
-            .with_common(given)
+            .with_common(known)
     }
 
     /// With what goes with the errors of natural frequencies.
-    fn with_common(self, given: ErrorSizes) -> Self {
-        let ratio = if given.frequency.is_some() { 1.0 } else { COMMON_RATIO };
-        let common = ratio * self.frequency;
+    fn with_common(self, known: KnownSizes) -> Self {
+        let common = known.common_ratio * self.frequency;
         let of_own = COMMON_LOSS_RATIO * self.loss_factor;
         Self { common, common_loss: of_own.max(UNDAMPED_SHARE_RATIO * common), ..self }
     }
 
     /// Without damping errors of single modes where those are not looked for.
-    fn of_kinds(self, kinds: Kinds, given: ErrorSizes) -> Self {
+    fn of_kinds(self, kinds: Kinds, known: KnownSizes) -> Self {
         match kinds.damping {
             Damping::Own => self,
-            _ => Self { loss_factor: 0.0, ..self }.with_common(given),
+            _ => Self { loss_factor: 0.0, ..self }.with_common(known),
         }
     }
 }
@@ -441,6 +457,7 @@ impl<'t, 'a> Search<'t, 'a> {
             factors: &self.factors,
             kinds: Kinds::ALL,
             mesh: self.mesh.as_ref().filter(|_| !modes.omega_rad_s.is_empty()),
+            known: KnownSizes::new(self.data.given_sizes, self.mesh.as_ref()),
             for_each: self.for_each,
         }
     }
@@ -536,7 +553,7 @@ impl<'a> Measured<'_, 'a> {
 
     /// From a start to where all lines are used: the cost and the place.
     fn approach(&self, coarse: &Fitting<'_, '_>, place: Place) -> Option<(f64, Place)> {
-        let precision = coarse.precision(&Sizes::prior(self.given_sizes));
+        let precision = coarse.precision(&Sizes::prior(coarse.known));
         let own = if self.known() { 1.0 } else { 0.0 };
         let mut end = (f64::INFINITY, place);
         for added in &ADDED_NOISE[..FIRST_LEVELS] {
@@ -559,7 +576,7 @@ impl<'a> Measured<'_, 'a> {
     /// From a start to where lines are used from the lowest on, mode after mode: where a mode is off by many half-widths it has no slope towards
     /// its place, and the modes below it say where that is.
     fn upwards(&self, whole: &Fitting<'_, '_>, start: &[f64]) -> Option<Place> {
-        let precision = whole.precision(&Sizes::prior(self.given_sizes));
+        let precision = whole.precision(&Sizes::prior(whole.known));
         let own = if self.known() { 1.0 } else { 0.0 };
         let mut place = whole.start(start);
         for below in whole.stages(MAX_STAGES) {
@@ -604,7 +621,7 @@ impl<'a> Measured<'_, 'a> {
         of_right.iter().zip(&right.found.place).for_each(|(&i, value)| place[i] = *value);
         let normal = whole.normal(&place, &self.sigma_at(whole.lines, right.level, 0.0))?;
         let gain = |part: f64| -> Option<f64> {
-            let usual = Sizes::prior(self.given_sizes);
+            let usual = Sizes::prior(whole.known);
             let sizes = Sizes {
                 frequency: part * usual.frequency,
                 loss_factor: part * usual.loss_factor,
@@ -638,7 +655,7 @@ impl<'a> Measured<'_, 'a> {
     /// The least squares with the noise approached from above, and the sizes of largest evidence.
     fn explain(&self, fitting: &Fitting<'_, '_>, mut place: Place, from_above: &[f64]) -> Option<Explained> {
         let known = self.known();
-        let mut sizes = Sizes::prior(self.given_sizes).of_kinds(fitting.kinds, self.given_sizes);
+        let mut sizes = Sizes::prior(fitting.known).of_kinds(fitting.kinds, fitting.known);
         let numbers = self.numbers(fitting.lines) as f64;
         let mut level = 1.0;
         for &added in from_above {
@@ -712,7 +729,7 @@ impl<'a> Measured<'_, 'a> {
                     sizes.shape =
                         fresh(fitting.shapes().collect(), sizes.shape, (SHAPE_PRIOR_STD, PRIOR_MODES));
                 }
-                sizes = sizes.with_common(self.given_sizes);
+                sizes = sizes.with_common(fitting.known);
                 if self.given_sizes.frequency.is_none() {
                     // No frequency shows a common error, but its trend over the band does.
                     let common = fitting.in_common(true).collect();

@@ -1,5 +1,6 @@
 //! The least squares of a curve with the errors of the model: min over θ, δ, ν, a of χ² + their priors.
 
+use super::KnownSizes;
 use super::curve::Curves;
 use super::mesh::BetweenMeshes;
 use crate::c64;
@@ -35,6 +36,8 @@ pub(super) struct Fitting<'t, 'a> {
     pub(super) kinds: Kinds,
     /// What lies between the meshes, where there are two; none without modes.
     pub(super) mesh: Option<&'t BetweenMeshes>,
+    /// What is known of the sizes of errors.
+    pub(super) known: KnownSizes,
     pub(super) for_each: ForEach<'t>,
 }
 
