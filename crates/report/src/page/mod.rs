@@ -1,5 +1,6 @@
 //! The page: one file, its style, its scripts and its data inside.
 
+mod model_errors;
 mod plots;
 mod text;
 mod together;
@@ -47,6 +48,7 @@ pub(crate) fn page(results: &Results, verdict: &Verdict) -> String {
         text::verdict(results, verdict),
         plots::cursor(),
         plots::sections(results),
+        model_errors::model_errors(results),
         plots::table(&data.notes, verdict),
         text::provenance(results, verdict.own),
         "</main>".to_owned(),

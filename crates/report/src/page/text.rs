@@ -133,7 +133,7 @@ fn findings(results: &Results) -> String {
     if findings.is_empty() {
         let said = match checked {
             true => {
-                "The measurements were compared with the model (sign, quantity, units, delay, position of sensors and load, mesh): nothing was found wrong."
+                "The measurements were compared with the model (sign, quantity, units, delay, position of sensors and load): nothing was found wrong with them. Errors of the model are another matter, and stand below."
             }
             false => "The measurements were not looked at for mistakes: frfit check does.",
         };

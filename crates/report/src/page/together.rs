@@ -41,8 +41,7 @@ pub(super) fn constants(results: &Results) -> String {
             );
         }
     }
-    html + "</tbody></table></div><p class=\"note\">Values have the units of the case. A bar holds with all other unknowns free; errors of the model (mesh, supports, \
-            what was taken for known) are not in it.</p>\n"
+    html + "</tbody></table></div><p class=\"note\">Values have the units of the case. A bar holds with all other unknowns free, and with the errors of the model that stand below.</p>\n"
 }
 
 fn value(one: &Unknown, number: &Number) -> String {

@@ -15,6 +15,7 @@ use crate::identify::model_errors::{Explanation, covariance, estimate};
 use crate::identify::noise::{Noise, standard_deviations, without};
 use crate::identify::options::{ModelErrors, Options};
 use crate::identify::outcome::Status;
+use crate::median::median;
 use crate::model::ModelAt;
 use crate::subspace::{Corrected, Point};
 
@@ -36,7 +37,7 @@ pub(super) fn correct<'a>(
     let measured = weights.of(band, options, &point, &found);
     let (explanation, leverage) = estimate(reduced.whole(), &measured, &curves, context.for_each);
     let found = BandOutcome { leverage, ..found };
-    let errors = match explanation {
+    let mut errors = match explanation {
         Explanation::RightModel => return found,
         Explanation::OtherModel => return BandOutcome { other_model: true, ..found },
         Explanation::Errors(errors) => *errors,
@@ -51,7 +52,7 @@ pub(super) fn correct<'a>(
         sensor.contradicts |= before.contradicts;
         sensor.left_out |= before.left_out;
     }
-    widen(&mut outcome, &errors, at, reduced, &weights.sigma, context);
+    errors.bars_over_noise = widen(&mut outcome, &errors, at, reduced, &weights.sigma, context);
     outcome.model_errors = Some(errors);
     outcome
 }
@@ -111,7 +112,7 @@ impl Weights {
     }
 }
 
-/// Adds to the error bars what those of the errors of the model make of the factor.
+/// Adds to the error bars what those of the errors of the model make of the factor: how much longer they become, the median of the lines that are `ok`.
 fn widen(
     outcome: &mut BandOutcome,
     errors: &Estimated,
@@ -119,8 +120,8 @@ fn widen(
     reduced: &ReducedBand<'_, '_>,
     sigma: &[Vec<f64>],
     context: Context<'_>,
-) {
-    let Some(Corrected { modes, errors: values, model }) = reduced.corrected() else { return };
+) -> Option<f64> {
+    let Corrected { modes, errors: values, model } = reduced.corrected()?;
     let of_errors = errors.of_errors();
     let lines = &outcome.outcomes;
     let moved = map(context.for_each, lines.len(), |i| -> Option<[f64; 3]> {
@@ -150,12 +151,18 @@ fn widen(
         pulls.iter_mut().for_each(|pull| *pull /= weight);
         Some(covariance(&of_errors, &pulls))
     });
+    let mut longer = Vec::new();
     for (line, moved) in outcome.outcomes.iter_mut().zip(moved) {
         let (Some(moved), Some(factor)) = (moved, line.factor()) else { continue };
         let Some(bars) = line.values[0].uncertainty.as_mut() else { continue };
+        let of_noise = bars.storage_std;
         bars.widen(factor, moved);
+        if line.status == Status::Ok {
+            longer.push(bars.storage_std / of_noise);
+        }
         if line.status == Status::Ok && !(bars.is_known(factor) && bars.is_linear()) {
             line.status = Status::NotIdentifiable;
         }
     }
+    median(longer)
 }

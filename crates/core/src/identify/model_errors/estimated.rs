@@ -29,6 +29,8 @@ pub(in crate::identify) struct Estimated {
     pub(super) factors: Vec<FactorPrior>,
     pub(super) mesh: Option<BetweenMeshes>,
     pub(super) mesh_error: Option<MeshError>,
+    /// Error bars over those of noise alone, once they are known.
+    pub(in crate::identify) bars_over_noise: Option<f64>,
     /// θ, then the errors as the search has them.
     pub(super) place: Place,
 }

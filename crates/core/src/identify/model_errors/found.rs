@@ -22,6 +22,8 @@ pub struct ModelErrorsFound {
     pub masses: Vec<SensorMass>,
     /// What a coarser mesh says of this one; `None` where there is none, or none of its modes is paired.
     pub mesh: Option<MeshError>,
+    /// Error bars of the real part over those of noise alone, the median of the lines that are `ok`: of a single unknown that each frequency has a value of its own of.
+    pub bars_over_noise: Option<f64>,
     /// By how many nats these errors explain the band better than a right model does.
     pub evidence: f64,
 }
@@ -135,6 +137,7 @@ impl Estimated {
                 .collect(),
             factors: errors_of_known.map(factor).collect(),
             mesh: self.mesh_error,
+            bars_over_noise: self.bars_over_noise,
             masses: self.errors.masses.iter().zip(&self.modes.apparent_mass).enumerate().map(mass).collect(),
             evidence: self.evidence,
         }

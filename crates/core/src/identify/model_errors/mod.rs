@@ -792,6 +792,7 @@ impl<'a> Measured<'_, 'a> {
             curves: fitting.curves.clone(),
             factors: fitting.factors.to_vec(),
             mesh: fitting.mesh.cloned(),
+            bars_over_noise: None,
             mesh_error: fitting.of_mesh().map(|(p, mesh)| MeshError {
                 paired: mesh.partner_rad_s.iter().flatten().count(),
                 expected: mesh.remainder,

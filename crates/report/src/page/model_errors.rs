@@ -1,0 +1,195 @@
+//! What is said of the errors of the model: whether there are any, of which modes and matrices, and what an error of a known factor would do.
+
+use crate::escape::escape;
+use crate::number::{percent, significant};
+use crate::results::Results;
+use serde_json::Value;
+use std::fmt::Write;
+
+/// Known factors of which 1 % moves an unknown by more than this are named, in per cent.
+const LARGE_LEVERAGE: f64 = 1.5;
+
+/// The section; nothing where the summary says nothing of them.
+pub(super) fn model_errors(results: &Results) -> String {
+    let summary = &results.summary;
+    let known = summary.0.pointer("/identify/model_error").unwrap_or(&Value::Null);
+    if known.is_null() {
+        return String::new();
+    }
+    let found = summary.0.get("model_errors").filter(|found| !found.is_null());
+    let body = match found {
+        Some(found) => sizes(found) + &modes(found) + &others(found),
+        None if known == "none" => {
+            "<p>The case says that there are none (<code>model_error = \"none\"</code>): error bars hold the noise of the measurement alone.</p>\n"
+                .to_owned()
+        }
+        None => {
+            "<p>None were taken out: a model without errors explains the band as well as one with errors, or nothing could be compared. \
+             Error bars hold the noise of the measurement alone. An error that all modes have in common with an unknown, as of a thickness, does not show in a measurement.</p>\n"
+                .to_owned()
+        }
+    };
+    format!(
+        "<section id=\"model-errors\" aria-labelledby=\"model-errors-title\"><h2 id=\"model-errors-title\">Errors of the model</h2>\n{body}{}</section>\n",
+        leverage(results)
+    )
+}
+
+fn number(of: &Value, key: &str) -> Option<f64> {
+    of.get(key).and_then(Value::as_f64)
+}
+
+/// How large they are, and what they do to the error bars.
+fn sizes(found: &Value) -> String {
+    let size = |key: &str| number(found, key).map_or("–".into(), percent);
+    let mut html = format!(
+        "<p>They were taken out of the model, and are in every error bar. Standard deviations: natural frequencies {}, each by itself; mode shapes at the sensors {}; \
+         damping of modes {}.",
+        size("frequency_std"),
+        size("shape_std"),
+        size("loss_factor_std")
+    );
+    // Writing to a string does not fail.
+    if let Some(ratio) = number(found, "bars_over_noise") {
+        let _ = write!(
+            html,
+            " Error bars of the storage are {} times as long as the noise alone would make them (median).",
+            significant(ratio, 2)
+        );
+    }
+    if let Some(nats) = number(found, "evidence_nats") {
+        let _ = match nats > 0.0 {
+            true => write!(
+                html,
+                " They explain the band better than a model without errors by {} nats.",
+                significant(nats, 3)
+            ),
+            false => write!(
+                html,
+                " A model without errors explains the band as well: they are in the bars because of what the case says of the model."
+            ),
+        };
+    }
+    html += "</p>\n";
+    if let Some(mesh) = found.get("mesh").filter(|mesh| !mesh.is_null()) {
+        let of = |key: &str| number(mesh, key).map_or("–".into(), |value| significant(value, 2));
+        let _ = write!(
+            html,
+            "<p>{} modes are paired with those of the coarser mesh. Of what lies between the meshes this one still has {} ± {} (one standard deviation); {} is expected of the size \
+             of the elements.</p>\n",
+            mesh.get("paired").and_then(Value::as_u64).unwrap_or(0),
+            of("remainder"),
+            of("std"),
+            of("expected")
+        );
+    }
+    html
+}
+
+/// The modes, each with its error.
+fn modes(found: &Value) -> String {
+    let all = found.get("modes").and_then(Value::as_array).map_or(&[][..], Vec::as_slice);
+    if all.is_empty() {
+        return String::new();
+    }
+    let has_coarser = all.iter().any(|mode| mode.get("coarser_mesh_hz").is_some());
+    let mut rows = Vec::with_capacity(all.len());
+    for mode in all {
+        let hz = |key: &str| number(mode, key).map_or("–".into(), |f| significant(f, 5));
+        let mut row = vec![hz("frequency_hz")];
+        row.extend(has_coarser.then(|| hz("coarser_mesh_hz")));
+        row.push(with_std(mode));
+        rows.push(row);
+    }
+    let mut heads = vec!["Natural frequency of the model, Hz"];
+    heads.extend(has_coarser.then_some("On the coarser mesh, Hz"));
+    heads.push("Error, ± two standard deviations");
+    table("Natural frequencies", &heads, &rows)
+}
+
+/// Known matrices and masses at sensors.
+fn others(found: &Value) -> String {
+    let list = |key: &str| found.get(key).and_then(Value::as_array).cloned().unwrap_or_default();
+    let text = |of: &Value, key: &str| escape(of.get(key).and_then(Value::as_str).unwrap_or(""));
+    let matrices = list("matrices");
+    let rows = matrices.iter().map(|one| {
+        let part = text(one, "part").replace('_', " ");
+        let error = match number(one, "error").zip(number(one, "std")) {
+            Some((error, std)) if part == "loss factor" => {
+                format!("{} ± {}", significant(error, 2), significant(2.0 * std, 2))
+            }
+            _ => with_std(one),
+        };
+        vec![text(one, "matrix"), part, error]
+    });
+    let rows: Vec<Vec<String>> = rows.collect();
+    let heads = ["Known matrix", "Part of its factor", "Error, ± two standard deviations"];
+    let mut html = if rows.is_empty() { String::new() } else { table("Known matrices", &heads, &rows) };
+    let clear =
+        |one: &&Value| number(one, "mass_kg").zip(number(one, "std_kg")).is_some_and(|(m, s)| m > 2.0 * s);
+    for one in list("sensor_masses").iter().filter(clear) {
+        let of = |key: &str, times: f64| {
+            number(one, key).map_or("–".into(), |mass| significant(times * mass, 2))
+        };
+        let _ = writeln!(
+            html,
+            "<p>At {} there is a mass of {} ± {} kg that the model does not have.</p>",
+            text(one, "sensor"),
+            of("mass_kg", 1.0),
+            of("std_kg", 2.0)
+        );
+    }
+    html
+}
+
+/// A relative error in per cent.
+fn with_std(of: &Value) -> String {
+    match number(of, "error").zip(number(of, "std")) {
+        Some((error, std)) => {
+            // Adding zero takes the sign from a zero.
+            let rounded = (1e4 * error).round() / 100.0 + 0.0;
+            format!("{rounded:+.2} ± {:.2} %", 200.0 * std).replace('-', "−")
+        }
+        None => "–".into(),
+    }
+}
+
+fn table(title: &str, heads: &[&str], rows: &[Vec<String>]) -> String {
+    let heads: String = heads.iter().map(|head| format!("<th>{head}</th>")).collect();
+    let mut html = format!(
+        "<h3>{title}</h3><div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{title}\"><table class=\"plain\"><thead><tr>{heads}</tr></thead><tbody>"
+    );
+    for row in rows {
+        html += "<tr>";
+        row.iter().for_each(|cell| {
+            let _ = write!(html, "<td>{cell}</td>");
+        });
+        html += "</tr>";
+    }
+    html + "</tbody></table></div>\n"
+}
+
+/// What 1 % of known factors does to the unknowns, where that is much.
+fn leverage(results: &Results) -> String {
+    let large =
+        |one: &&Value| number(one, "percent_by_percent").is_some_and(|change| change > LARGE_LEVERAGE);
+    let mut all: Vec<&Value> = results.summary.array("/leverage").iter().filter(large).collect();
+    let change = |one: &Value| number(one, "percent_by_percent").unwrap_or(0.0);
+    all.sort_by(|a, b| change(b).total_cmp(&change(a)));
+    if all.is_empty() {
+        return String::new();
+    }
+    let sentence = |one: &&Value| {
+        let text = |key: &str| escape(one.get(key).and_then(Value::as_str).unwrap_or(""));
+        format!(
+            "<li>1 % in {} moves {} by {} %.</li>",
+            text("matrix"),
+            text("unknown"),
+            significant(change(one), 2)
+        )
+    };
+    let items: String = all.iter().map(sentence).collect();
+    format!(
+        "<h3>What is taken for known</h3><ul>{items}</ul><p class=\"note\">How well a factor is known can be said beside it, as <code>storage_std = \"2 %\"</code>.</p>\n"
+    )
+}
