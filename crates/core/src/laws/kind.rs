@@ -219,10 +219,19 @@ impl LawKind {
 
     /// The parameters in their order.
     pub fn parameters(self) -> Vec<Parameter> {
-        let branch = |k: usize| {
-            BRANCH.map(|parameter| Parameter { name: format!("{}_{k}", parameter.name).into(), ..parameter })
+        // Times a decade apart, as far as data tell them.
+        let example = |parameter: &Parameter, k: usize| match parameter.kind {
+            ParameterKind::Time => parameter.example / 10_f64.powi(k as i32),
+            _ => parameter.example,
         };
-        self.own().iter().cloned().chain((1..=self.branches()).flat_map(branch)).collect()
+        let branch = |k: usize| {
+            BRANCH.map(|parameter| Parameter {
+                name: format!("{}_{}", parameter.name, k + 1).into(),
+                example: example(&parameter, k),
+                ..parameter
+            })
+        };
+        self.own().iter().cloned().chain((0..self.branches()).flat_map(branch)).collect()
     }
 
     /// The law with these parameters.
