@@ -2,7 +2,7 @@
 
 use frfit::identify::{
     BandValue, Calibrated, Dependence, Explained, Leverage, Line, ModeError, ModelErrorsFound, NoiseSource,
-    Number, SmoothCurve, Status, Unknown, Variation,
+    Number, SmoothCurve, Status, Trust, Unknown, Variation,
 };
 use frfit::model::FactorPart;
 use frfit_workflow::check::findings_text;
@@ -142,14 +142,11 @@ fn number(number: &Number) -> String {
 }
 
 /// Why what holds for the band is not trusted.
-fn doubt_of(band: &BandValue) -> &'static str {
+fn doubt_of(band: &BandValue) -> String {
     match band.status {
-        Status::Ok => "",
-        _ if band.at_bound => " (at its bounds: the measurements ask for a value beyond them)",
-        Status::NoRoot => " (no value within the bounds solves the equations)",
-        Status::Unexplained => " (the model does not explain the measurements)",
-        Status::Failed => " (the search did not converge)",
-        _ => " (not identifiable from these measurements)",
+        Status::Ok => String::new(),
+        _ if band.at_bound => " (at its bounds: the measurements ask for a value beyond them)".into(),
+        status => format!(" ({})", status.meaning()),
     }
 }
 
@@ -254,7 +251,7 @@ fn bands(text: &mut Text, job: &IdentifyJob) {
         let bands = job.run.bands_hz(status);
         if !bands.is_empty() {
             // What the user left out is no surprise.
-            text.add(status != Status::OutOfBand, status.name(), &bands_hz(&bands));
+            text.add(status.trust() != Trust::NotAsked, status.name(), &bands_hz(&bands));
         }
     }
 }

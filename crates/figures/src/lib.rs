@@ -54,7 +54,7 @@ mod text;
 mod ticks;
 
 pub use axis::{Axis, Scale};
-pub use color::Color;
+pub use color::{Color, Shades};
 pub use figure::{Bands, Figure, Level, Panel};
 pub use heat::{Class, HeatMap, Strip};
 pub use png::PngError;

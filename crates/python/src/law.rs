@@ -2,8 +2,10 @@
 
 use crate::errors::{argument, outside_table, raise};
 use frfit::c64;
+use frfit::laws::{LawKind, Parameter, ParameterKind, UnknownLawKind};
 use frfit::material::{self, Branch, Table};
 use numpy::{Complex64, IntoPyArray, PyArray1, PyReadonlyArray1};
+use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
@@ -34,20 +36,13 @@ impl Law {
     /// E0 + E1 (i omega)^alpha: `e0` in Pa, `e1` in Pa s^alpha, `alpha` from 0 to 1.
     #[staticmethod]
     fn fractional(py: Python<'_>, e0: f64, e1: f64, alpha: f64) -> PyResult<Self> {
-        finite(py, "e0", e0)?;
-        finite(py, "e1", e1)?;
-        exponent(py, alpha)?;
-        Ok(Self(material::Law::Fractional { e0, e1, alpha }))
+        made(py, LawKind::Fractional, &[e0, e1, alpha])
     }
 
     /// (E0 + Einf (i omega tau)^alpha) / (1 + (i omega tau)^alpha): moduli in Pa, `tau_s` in s.
     #[staticmethod]
     fn zener(py: Python<'_>, e0: f64, e_infinity: f64, tau_s: f64, alpha: f64) -> PyResult<Self> {
-        finite(py, "e0", e0)?;
-        finite(py, "e_infinity", e_infinity)?;
-        time(py, "tau_s", tau_s)?;
-        exponent(py, alpha)?;
-        Ok(Self(material::Law::FractionalZener { e0, e_infinity, tau_s, alpha }))
+        made(py, LawKind::FractionalZener, &[e0, e_infinity, tau_s, alpha])
     }
 
     /// E0 + sum Ek i omega tauk / (1 + i omega tauk): `branches` are pairs (Ek in Pa, tauk in s).
@@ -56,10 +51,31 @@ impl Law {
         finite(py, "e0", e0)?;
         for &(modulus, tau_s) in &branches {
             finite(py, "branches", modulus)?;
-            time(py, "branches", tau_s)?;
+            allowed(py, "branches", ParameterKind::Time, tau_s)?;
         }
         let branches = branches.into_iter().map(|(modulus, tau_s)| Branch { modulus, tau_s }).collect();
         Ok(Self(material::Law::Maxwell { e0, branches }))
+    }
+
+    /// Any law by its word in a case file, `"zener"`, and its parameters in their order.
+    #[staticmethod]
+    #[pyo3(signature = (law, *parameters))]
+    fn named(py: Python<'_>, law: &str, parameters: Vec<f64>) -> PyResult<Self> {
+        let kind = law.parse::<LawKind>();
+        let kind = kind.map_err(|unknown| argument(py, "law", UnknownLawKind::EXPECTED, &unknown.found))?;
+        if let (LawKind::Constant, &[storage, loss_factor]) = (kind, &parameters[..]) {
+            return Self::complex_modulus(py, storage, loss_factor);
+        }
+        if parameters.len() != kind.count() {
+            let names: Vec<String> = kind.parameters().iter().map(name_of).collect();
+            return Err(argument(
+                py,
+                "parameters",
+                &names.join(", "),
+                &format!("{} numbers", parameters.len()),
+            ));
+        }
+        made(py, kind, &parameters)
     }
 
     /// Values (f,), complex, at frequencies (f,) in Hz, ascending; linear over log frequency in between, never beyond.
@@ -86,12 +102,6 @@ impl Law {
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
         let parts = match &self.0 {
             material::Law::Constant(value) => ("constant", *value).into_pyobject(py)?,
-            material::Law::Fractional { e0, e1, alpha } => {
-                ("fractional", *e0, *e1, *alpha).into_pyobject(py)?
-            }
-            material::Law::FractionalZener { e0, e_infinity, tau_s, alpha } => {
-                ("zener", *e0, *e_infinity, *tau_s, *alpha).into_pyobject(py)?
-            }
             material::Law::Maxwell { e0, branches } => {
                 let pairs: Vec<(f64, f64)> = branches.iter().map(|b| (b.modulus, b.tau_s)).collect();
                 ("maxwell", *e0, pairs).into_pyobject(py)?
@@ -99,6 +109,12 @@ impl Law {
             material::Law::Table(table) => {
                 let hz = table.frequency_hz().to_vec().into_pyarray(py);
                 ("table", hz, table.values().to_vec().into_pyarray(py)).into_pyobject(py)?
+            }
+            law => {
+                let (word, p) = LawKind::of(law).map(|(kind, p)| (kind.word(), p)).unwrap_or_default();
+                let words = ["named", word].into_iter().map(|word| word.into_py_any(py));
+                let numbers = p.into_iter().map(|value| value.into_py_any(py));
+                PyTuple::new(py, words.chain(numbers).collect::<PyResult<Vec<_>>>()?)?
             }
         };
         Ok((py.import("frfit._restore")?.getattr("law")?, parts))
@@ -116,18 +132,18 @@ impl Law {
     fn __repr__(&self) -> String {
         match &self.0 {
             material::Law::Constant(value) => format!("Law.constant({} + {}j)", value.re, value.im),
-            material::Law::Fractional { e0, e1, alpha } => {
-                format!("Law.fractional(e0={e0}, e1={e1}, alpha={alpha})")
-            }
-            material::Law::FractionalZener { e0, e_infinity, tau_s, alpha } => {
-                format!("Law.zener(e0={e0}, e_infinity={e_infinity}, tau_s={tau_s}, alpha={alpha})")
-            }
             material::Law::Maxwell { e0, branches } => {
                 let pairs: Vec<String> =
                     branches.iter().map(|b| format!("({}, {})", b.modulus, b.tau_s)).collect();
                 format!("Law.maxwell(e0={e0}, branches=[{}])", pairs.join(", "))
             }
             material::Law::Table(table) => format!("<Law.table of {} rows>", table.frequency_hz().len()),
+            law => {
+                let Some((kind, p)) = LawKind::of(law) else { return String::new() };
+                let parameters = kind.parameters();
+                let named = parameters.iter().zip(&p).map(|(of, value)| format!("{}={value}", name_of(of)));
+                format!("Law.{}({})", kind.word(), named.collect::<Vec<_>>().join(", "))
+            }
         }
     }
 }
@@ -146,16 +162,23 @@ fn finite(py: Python<'_>, name: &str, value: impl Into<Complex64>) -> PyResult<(
     }
 }
 
-fn exponent(py: Python<'_>, alpha: f64) -> PyResult<()> {
-    match (0.0..=1.0).contains(&alpha) {
+/// The name of a parameter as an argument: a time says that it is in seconds.
+fn name_of(parameter: &Parameter) -> String {
+    let unit = if parameter.kind == ParameterKind::Time { "_s" } else { "" };
+    format!("{}{unit}", parameter.name)
+}
+
+fn allowed(py: Python<'_>, name: &str, kind: ParameterKind, value: f64) -> PyResult<()> {
+    match kind.allows(value) {
         true => Ok(()),
-        false => Err(argument(py, "alpha", "a number from 0 (elastic) to 1 (viscous)", &alpha)),
+        false => Err(argument(py, name, kind.expected(), &value)),
     }
 }
 
-fn time(py: Python<'_>, name: &str, tau_s: f64) -> PyResult<()> {
-    match tau_s > 0.0 && tau_s.is_finite() {
-        true => Ok(()),
-        false => Err(argument(py, name, "a finite time above 0 s", &tau_s)),
+/// A law of parameters that it allows.
+fn made(py: Python<'_>, kind: LawKind, p: &[f64]) -> PyResult<Law> {
+    for (parameter, &value) in kind.parameters().iter().zip(p) {
+        allowed(py, &name_of(parameter), parameter.kind, value)?;
     }
+    Ok(Law(kind.law(p)))
 }

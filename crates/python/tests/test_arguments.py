@@ -197,6 +197,9 @@ def test_other_things_than_models_measurements_and_terms_are_refused(chain):
         ("alpha", lambda: frfit.Law.zener(1.0, 2.0, 1.0, np.nan)),
         ("tau_s", lambda: frfit.Law.zener(1.0, 2.0, 0.0, 0.5)),
         ("branches", lambda: frfit.Law.maxwell(1.0, [(1.0, -1.0)])),
+        ("tau_s", lambda: frfit.Law.named("zener", 1.0, 2.0, 0.0, 0.5)),
+        ("law", lambda: frfit.Law.named("fractal", 1.0)),
+        ("parameters", lambda: frfit.Law.named("zener", 1.0)),
     ],
 )
 def test_laws_are_checked_as_they_are_made(key, law):

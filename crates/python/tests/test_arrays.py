@@ -55,6 +55,7 @@ def test_laws_are_what_their_formulas_say():
     w = 2j * np.pi * F
     np.testing.assert_allclose(frfit.Law.fractional(8.14e5, 7.31e4, 0.528).at(F), 8.14e5 + 7.31e4 * w**0.528)
     z = (w * 1e-3) ** 0.6
+    assert frfit.Law.named("zener", 1e5, 1e7, 1e-3, 0.6) == frfit.Law.zener(1e5, 1e7, 1e-3, 0.6)
     np.testing.assert_allclose(frfit.Law.zener(1e5, 1e7, 1e-3, 0.6).at(F), (1e5 + 1e7 * z) / (1 + z))
     np.testing.assert_allclose(
         frfit.Law.maxwell(1e5, [(2e5, 1e-2)]).at(F), 1e5 + 2e5 * w * 1e-2 / (1 + w * 1e-2)

@@ -2,8 +2,9 @@
 
 use crate::number::rounded;
 use crate::results::{Candidates, ErrorMap, Results, Sensor, Unknown, Verdict as Kind};
+use crate::status::label;
 use crate::thin::{every, rows};
-use crate::verdict::{Verdict, label};
+use crate::verdict::Verdict;
 use frfit::c64;
 use frfit::identify::Status;
 use serde_json::{Value, json};
@@ -70,7 +71,9 @@ pub(crate) fn data(results: &Results, verdict: &Verdict) -> Data {
     let json = json!({
         "unknowns": unknowns,
         "together": together(results),
-        "statuses": Status::ALL.map(|status| json!({"name": status.name(), "label": label(status, verdict.own)})),
+        "statuses": Status::ALL.map(|status| json!({
+            "name": status.name(), "label": label(status, verdict.own), "trust": status.trust().name(),
+        })),
         "frequency_hz": table.iter().map(|&row| rounded(Some(band.frequency_hz[row]), FREQUENCY_DIGITS)).collect::<Vec<_>>(),
         "status": table.iter().map(|&row| band.class(row)).collect::<Vec<_>>(),
         "columns": columns,

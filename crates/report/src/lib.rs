@@ -6,6 +6,7 @@
 //! |---|---|
 //! | `results` | the files read and checked |
 //! | `verdict` | what they say, in words: can the answer be used, how sure is it, why not elsewhere |
+//! | `status` | how a status looks: its colour and its words |
 //! | `thin` | fewer points for curves of many, extremes kept |
 //! | `data` | what the plots and the table show, as JSON |
 //! | `page` | the page: text is made here, so that it is there without scripts and in print |
@@ -20,8 +21,11 @@ mod escape;
 mod number;
 mod page;
 mod results;
+mod status;
 mod thin;
 mod verdict;
+
+pub use status::status_color;
 
 use frfit_formats::FormatError;
 

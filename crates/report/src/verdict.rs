@@ -2,8 +2,9 @@
 
 use crate::number::{hertz, percent, significant, with_bar};
 use crate::results::{Band, Number, Results, Sensor, Unknown};
+use crate::status::{label, meaning};
 use frfit::frequency::bands_hz;
-use frfit::identify::Status;
+use frfit::identify::{Status, Trust};
 
 /// Above this share of trusted frequencies a band is called usable as a whole.
 const MOST_OF_IT: f64 = 0.9;
@@ -71,7 +72,7 @@ impl Verdict {
 
 /// Frequencies that were to be answered, and those that are trusted.
 fn trusted(band: &Band) -> (usize, usize) {
-    (band.len() - band.count(Status::OutOfBand), band.count(Status::Ok))
+    (band.status.iter().filter(|status| status.trust() != Trust::NotAsked).count(), band.count(Status::Ok))
 }
 
 fn level(results: &Results) -> (Level, String) {
@@ -118,7 +119,7 @@ fn unusable(results: &Results) -> Option<String> {
         return None;
     }
     let most = Status::ALL.into_iter().max_by_key(|&status| results.band.count(status));
-    let why = why_not(most.filter(|_| is_free).unwrap_or(Status::NotIdentifiable));
+    let why = most.filter(|_| is_free).unwrap_or(Status::NotIdentifiable).meaning();
     Some(match &results.unknowns[..] {
         [only] if only.is_free() => format!("No frequency has a trusted {what}: {why}."),
         _ => format!("No value of {} is trusted: {why}.", listed(&names(results, |_| true))),
@@ -204,65 +205,10 @@ fn shares(band: &Band, own: bool) -> Vec<Share> {
                 status,
                 count: band.count(status),
                 label: label(status, own),
-                words: format!("{} {}", meaning(status, own), where_(&bands)),
+                words: format!("{}: {}", meaning(status, own), where_(&bands)),
             }
         })
         .collect()
-}
-
-/// A status in words; `own` as in [`Verdict::own`].
-fn meaning(status: Status, own: bool) -> &'static str {
-    match status {
-        Status::Ok if !own => "the values that hold for the band explain all sensors there:",
-        Status::Ok => "one answer, and nothing known speaks against it:",
-        Status::Ambiguous => {
-            "several values explain the measurement; the likeliest is shown, the others are among the candidates:"
-        }
-        Status::Diverged => {
-            "the paper’s series does not converge, as near resonances of lightly damped structures; the value shown is evidence, not a result:"
-        }
-        Status::NoRoot => "no value within the bounds solves the equations:",
-        Status::NotIdentifiable => {
-            "the response hardly depends on the parameter, so that noise leaves it unknown; the value shown is evidence, not a result:"
-        }
-        Status::Unexplained => {
-            "the model does not explain the measurement within its errors; the value shown is evidence, not a result:"
-        }
-        Status::OutOfBand => "left out, as the case says:",
-        // The library may have a new one before this page has words for it.
-        _ => {
-            "a system could not be solved accurately, or a search did not converge; the value shown is evidence, not a result:"
-        }
-    }
-}
-
-/// The same in a few words, where nothing else came out.
-fn why_not(status: Status) -> &'static str {
-    match status {
-        Status::Ok => "nothing speaks against it",
-        Status::Ambiguous => "several values explain the measurement",
-        Status::Diverged => "the paper’s series does not converge",
-        Status::NoRoot => "no value within the bounds solves the equations",
-        Status::NotIdentifiable => "noise leaves it unknown",
-        Status::Unexplained => "the model does not explain the measurement within its errors",
-        Status::OutOfBand => "all of them are left out",
-        _ => "a system could not be solved accurately, or a search did not converge",
-    }
-}
-
-/// A status as a label; `own` as in [`Verdict::own`].
-pub(crate) fn label(status: Status, own: bool) -> &'static str {
-    match status {
-        Status::Ok if !own => "explained",
-        Status::Ok => "trusted",
-        Status::Ambiguous => "ambiguous",
-        Status::Diverged => "diverged",
-        Status::NoRoot => "no solution",
-        Status::NotIdentifiable => "not identifiable",
-        Status::Unexplained => "not explained",
-        Status::OutOfBand => "left out",
-        _ => "failed",
-    }
 }
 
 /// The widest bands, and how many more.
@@ -532,23 +478,4 @@ fn nominal_error(results: &Results) -> Vec<Option<f64>> {
         Some((sums.0 / sums.1).sqrt()).filter(|error| error.is_finite())
     };
     (0..results.band.len()).map(at).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use std::collections::BTreeSet;
-
-    /// A new status of the library would have the words of `failed`.
-    #[test]
-    fn every_status_has_words_of_its_own() {
-        let of = |words: &dyn Fn(Status) -> &'static str| {
-            Status::ALL.into_iter().map(words).collect::<BTreeSet<_>>().len()
-        };
-        for own in [true, false] {
-            assert_eq!(of(&|status| meaning(status, own)), Status::ALL.len());
-            assert_eq!(of(&|status| label(status, own)), Status::ALL.len());
-        }
-        assert_eq!(of(&why_not), Status::ALL.len());
-    }
 }

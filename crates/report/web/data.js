@@ -5,6 +5,7 @@ const data = JSON.parse(document.getElementById("data").textContent);
 const { unknowns } = data;
 const column = (name) => data.columns[name] ?? null;
 const statusOf = (row) => data.statuses[data.status[row]];
+const isTrusted = (row) => statusOf(row).trust === "trusted";
 
 /** Values at the rows that are drawn. */
 const drawn = (values) => values && data.drawn.map((row) => values[row]);

@@ -10,9 +10,9 @@ const AT = "<br>%{x:.6~g} Hz";
 /** A part of an unknown, by row. */
 const partOf = (one, part) => column(one.columns[part]);
 
-/** Values at drawn rows with one of some statuses. */
-function withStatus(values, wanted, status = data.status) {
-  return data.drawn.map((row) => (wanted.includes(data.statuses[status[row]].name) ? (values?.[row] ?? null) : null));
+/** Values at drawn rows that are good for one of some things. */
+function withTrust(values, wanted, status = data.status) {
+  return data.drawn.map((row) => (wanted.includes(data.statuses[status[row]].trust) ? (values?.[row] ?? null) : null));
 }
 
 const hasAny = (values) => values.some((value) => value !== null);
@@ -42,7 +42,7 @@ function rangeOf(one, part, log) {
   const std = partOf(one, `${part}_std`);
   const values = [];
   const own = partOf(one, part) ?? [];
-  const trusted = own.map((value, row) => (one.varies !== "frequency" || statusOf(row).name === "ok" ? value : null));
+  const trusted = own.map((value, row) => (one.varies !== "frequency" || isTrusted(row) ? value : null));
   (hasAny(trusted) ? trusted : own).forEach((value, row) => {
     if (value === null) return;
     const half = 2 * (std?.[row] ?? 0);
@@ -78,16 +78,16 @@ const addFactor = (one) => addPlot({
       const values = (name, y, shade, more) => hasAny(y) && push(dots(name, x, y, shade, format, more));
       if (one.nominal) push(line("nominal", x, drawn(one.nominal[part]), "nominal", format, { dash: "dash" }));
       if (one.varies !== "frequency") {
-        if (one.free) values("each frequency by itself", withStatus(one.free[part], ["ok"], one.free.status), "free", { size: 4, opacity: 0.7 });
+        if (one.free) values("each frequency by itself", withTrust(one.free[part], ["trusted"], one.free.status), "free", { size: 4, opacity: 0.7 });
         const [y, std] = [drawn(own), drawn(partOf(one, `${part}_std`))];
         if (y && std) made.push(band(x, y, std.map((value) => value === null ? null : 2 * value), "band", axis));
         if (one.reference) push(line("true", x, drawn(one.reference[part]), "reference", format));
         if (y) push(line(one.varies === "law" ? "law" : "smooth curve", x, y, "updated", format));
         return;
       }
-      values("evidence only", withStatus(own, ["not_identifiable", "unexplained", "failed"]), "evidence", { symbol: "x-thin-open", size: 5 });
-      values("ambiguous", withStatus(own, ["ambiguous"]), "alternative", { symbol: "triangle-up", size: 6, ...withBars(one, part) });
-      values("identified", withStatus(own, ["ok"]), "updated", withBars(one, part));
+      values("evidence only", withTrust(own, ["evidence only"]), "evidence", { symbol: "x-thin-open", size: 5 });
+      values("ambiguous", withTrust(own, ["ambiguous"]), "alternative", { symbol: "triangle-up", size: 6, ...withBars(one, part) });
+      values("identified", withTrust(own, ["trusted"]), "updated", withBars(one, part));
       if (one.reference) push(line("true", x, drawn(one.reference[part]), "reference", format));
     });
     return made;
@@ -115,14 +115,14 @@ const addCandidates = (one) => addPlot({
       const format = formatOf(part, one) + AT;
       const push = (trace) => made.push({ ...trace, yaxis: k === 0 ? "y" : "y2", legendgroup: trace.name, showlegend: k === 0 });
       for (const [kind, name, shade, more] of [
-        ...(this.shows ? [["refused", "refused", "no_root", { symbol: "x-thin-open" }]] : []),
+        ...(this.shows ? [["refused", "refused", "refused", { symbol: "x-thin-open" }]] : []),
         ["admissible", "other solutions", "evidence", {}],
         ["alternative", "cannot be excluded", "alternative", { symbol: "triangle-up", size: 6 }],
       ]) {
         const found = one.candidates[kind];
         if (found.frequency_hz.length) push(dots(name, found.frequency_hz, found[part], shade, format, { size: 4, ...more }));
       }
-      push({ ...line("chosen", drawn(data.frequency_hz), withStatus(partOf(one, part), ["ok", "ambiguous"]), "updated", format), mode: "lines+markers", marker: { color: color("updated"), size: 4 } });
+      push({ ...line("chosen", drawn(data.frequency_hz), withTrust(partOf(one, part), ["trusted", "ambiguous"]), "updated", format), mode: "lines+markers", marker: { color: color("updated"), size: 4 } });
     });
     return made;
   },

@@ -2,6 +2,6 @@
 
 nameSensor();
 filterRows();
-const trusted = data.frequency_hz.map((_, row) => row).filter((row) => statusOf(row).name === "ok");
+const trusted = data.frequency_hz.map((_, row) => row).filter(isTrusted);
 setCursor(trusted[Math.floor(trusted.length / 2)] ?? Math.floor(data.frequency_hz.length / 2));
 drawAll();

@@ -35,7 +35,7 @@ function along(one, other) {
   const [storage, loss] = [partOf(one, "storage"), partOf(one, "loss_factor")];
   if (one.nominal) points("nominal", one.nominal.storage, one.nominal.loss_factor, data.drawn, "nominal", line, { dash: "dash" });
   if (one.reference) points("true", one.reference.storage, one.reference.loss_factor, data.drawn, "reference", line);
-  const trusted = data.drawn.filter((row) => statusOf(row).name === "ok");
+  const trusted = data.drawn.filter(isTrusted);
   const isCurve = one.varies !== "frequency";
   if (storage && loss) points(isCurve ? "law or curve" : "identified", storage, loss, trusted, "updated", isCurve ? line : dots);
   return made;

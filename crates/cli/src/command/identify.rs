@@ -5,7 +5,7 @@ use crate::args::{Args, Identify};
 use crate::outcome::{Failure, Outcome};
 use crate::progress::Progress;
 use crate::report;
-use frfit::identify::Status;
+use frfit::identify::{Line, Trust};
 use frfit_workflow::job::{IdentifyJob, identify_case};
 use frfit_workflow::load::Overrides;
 use frfit_workflow::run::RunOptions;
@@ -23,8 +23,8 @@ pub(crate) fn run(args: &Args, identify: &Identify) -> Result<Outcome, Failure> 
     let job = carry_out(args, &identify.case, &overrides, options, &identify.out)?;
     let found = &job.run.found;
     // What the user left out needs no value.
-    let trusted = found.count(Status::Ok) + found.count(Status::OutOfBand) == found.lines.len();
-    let trusted = trusted && found.is_trusted();
+    let is_fine = |line: &Line| matches!(line.status.trust(), Trust::Trusted | Trust::NotAsked);
+    let trusted = found.lines.iter().all(is_fine) && found.is_trusted();
     Ok(if identify.strict && !trusted { Outcome::NotTrusted } else { Outcome::Done })
 }
 

@@ -46,7 +46,7 @@ pub use model_errors::{FactorError, Leverage, MeshError, ModeError, ModelErrorsF
 pub use noise::{Noise, NoiseLevel, NoiseSource};
 pub use one::{error_by_order, identify_at};
 pub use options::{ErrorSizes, MAX_ORDER, ModelErrors, Options, OptionsError};
-pub use outcome::{Line, LineSolution, LineValue, Standing, Status};
+pub use outcome::{Line, LineSolution, LineValue, Standing, Status, Trust};
 pub use problem::{Frfs, Problem, ProblemError};
 pub use reduced_band::ReducedBand;
 pub use several::{BandCoordinate, BandValue, Direction, Number, NumberOf, Profile};

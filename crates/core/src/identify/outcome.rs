@@ -9,6 +9,34 @@ use crate::roots::Candidate;
 use crate::series::ConvergenceRadius;
 use frfit_linalg::solve::Breakdown;
 
+/// What a value is good for: the rank of a [`Status`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Trust {
+    /// A result.
+    Trusted,
+    /// The likeliest of several values.
+    Ambiguous,
+    /// Evidence, not a result: a curve shows it apart from the others.
+    EvidenceOnly,
+    /// No value, or only the last one of a series that diverges: for tables, not for curves.
+    NoAnswer,
+    /// No value was asked for.
+    NotAsked,
+}
+
+impl Trust {
+    /// In a word or two.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Trusted => "trusted",
+            Self::Ambiguous => "ambiguous",
+            Self::EvidenceOnly => "evidence only",
+            Self::NoAnswer => "no answer",
+            Self::NotAsked => "not asked",
+        }
+    }
+}
+
 /// How far a value can be trusted. A value that exists is given whatever the status.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
@@ -32,9 +60,17 @@ pub enum Status {
     OutOfBand,
 }
 
+/// What is said of a status wherever it is shown.
+struct About {
+    name: &'static str,
+    label: &'static str,
+    trust: Trust,
+    meaning: &'static str,
+}
+
 impl Status {
-    /// All of them.
-    pub const ALL: [Self; 8] = [
+    /// All of them, in the order in which they are listed.
+    pub const ALL: [Self; Self::OutOfBand as usize + 1] = [
         Self::Ok,
         Self::Ambiguous,
         Self::NoRoot,
@@ -45,18 +81,84 @@ impl Status {
         Self::OutOfBand,
     ];
 
+    /// The only place that says what a status is called and what it means.
+    fn about(self) -> About {
+        match self {
+            Self::Ok => About {
+                name: "ok",
+                label: "trusted",
+                trust: Trust::Trusted,
+                meaning: "one value, and nothing known speaks against it",
+            },
+            Self::Ambiguous => About {
+                name: "ambiguous",
+                label: "ambiguous",
+                trust: Trust::Ambiguous,
+                meaning: "several values explain the measurement",
+            },
+            Self::NoRoot => About {
+                name: "no_root",
+                label: "no solution",
+                trust: Trust::NoAnswer,
+                meaning: "no value within the bounds solves the equations",
+            },
+            Self::NotIdentifiable => About {
+                name: "not_identifiable",
+                label: "not identifiable",
+                trust: Trust::EvidenceOnly,
+                meaning: "noise leaves the value unknown",
+            },
+            Self::Unexplained => About {
+                name: "unexplained",
+                label: "not explained",
+                trust: Trust::EvidenceOnly,
+                meaning: "the model does not explain the measurement within its errors",
+            },
+            Self::Diverged => About {
+                name: "diverged",
+                label: "diverged",
+                trust: Trust::NoAnswer,
+                meaning: "the series does not converge, as near resonances of lightly damped structures; \
+                          its root of least correction is evidence, not a result",
+            },
+            Self::Failed => About {
+                name: "failed",
+                label: "failed",
+                trust: Trust::EvidenceOnly,
+                meaning: "a system could not be solved accurately, or a search did not converge",
+            },
+            Self::OutOfBand => About {
+                name: "out_of_band",
+                label: "left out",
+                trust: Trust::NotAsked,
+                meaning: "outside the band, left out, or without data",
+            },
+        }
+    }
+
     /// The word that tables use.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Ok => "ok",
-            Self::Ambiguous => "ambiguous",
-            Self::NoRoot => "no_root",
-            Self::NotIdentifiable => "not_identifiable",
-            Self::Unexplained => "unexplained",
-            Self::Diverged => "diverged",
-            Self::Failed => "failed",
-            Self::OutOfBand => "out_of_band",
-        }
+        self.about().name
+    }
+
+    /// The status with this [name](Self::name).
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|status| status.name() == name)
+    }
+
+    /// The word or two that a reader sees in place of the name.
+    pub fn label(self) -> &'static str {
+        self.about().label
+    }
+
+    /// A clause that says what it means: `noise leaves the value unknown`.
+    pub fn meaning(self) -> &'static str {
+        self.about().meaning
+    }
+
+    /// What a value with this status is good for.
+    pub fn trust(self) -> Trust {
+        self.about().trust
     }
 
     /// The status of the first doubt that holds.
@@ -299,5 +401,21 @@ impl Line {
         let admissible = self.roots.iter().filter(|root| root.refusal.is_none()).count();
         let known = usize::from(self.values.iter().any(|value| value.value.is_some())) + self.rivals.len();
         if self.roots.is_empty() { known } else { admissible }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+
+    #[test]
+    fn every_status_has_words_of_its_own() {
+        for words in [Status::name, Status::label, Status::meaning] {
+            let all: BTreeSet<&str> = Status::ALL.map(words).into();
+            assert_eq!(all.len(), Status::ALL.len(), "{all:?}");
+        }
+        assert!(Status::ALL.into_iter().all(|status| Status::named(status.name()) == Some(status)));
+        assert_eq!(Status::named("fine"), None);
     }
 }

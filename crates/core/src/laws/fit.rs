@@ -295,7 +295,12 @@ fn reported(
     let std = |i: usize| natural.as_ref().map(|c| c[i][i].sqrt()).filter(|std| std.is_finite());
     let parameters = parametrization.kind.parameters().into_iter().zip(&p).enumerate();
     let parameters = parameters
-        .map(|(i, (named, &value))| Estimate { name: named.name, unit: named.unit, value, std: std(i) })
+        .map(|(i, (named, &value))| Estimate {
+            name: named.name.into_owned(),
+            unit: named.kind.unit(),
+            value,
+            std: std(i),
+        })
         .collect();
     let correlation = natural.map(|c| {
         let entry = |i: usize, j: usize| if i == j { 1.0 } else { c[i][j] / (c[i][i] * c[j][j]).sqrt() };

@@ -1,7 +1,8 @@
 //! Which laws there are, their parameters, and how the modulus depends on them.
 
 use crate::c64;
-use crate::material::{Branch, Law, fractional_power, saturation};
+use crate::material::{Branch, Law, fractional_power, loss_factor, saturation};
+use std::borrow::Cow;
 use std::f64::consts::FRAC_PI_2;
 use std::fmt;
 use std::str::FromStr;
@@ -39,14 +40,103 @@ pub const MAX_BRANCHES: usize = 20;
 /// Branches where no number is given.
 pub const USUAL_BRANCHES: usize = 3;
 
-/// A parameter's name, as case files write it, and its unit; `E` stands for the unit of the modulus.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct ParameterName {
-    /// Such as `e0`, `tau_1`.
-    pub name: String,
-    /// Such as `Pa`, `s`; empty without one.
-    pub unit: &'static str,
+/// What a parameter is: its unit, its range, and the coordinate in which it is looked for; ω₀ is in the middle of the data.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum ParameterKind {
+    /// A modulus in Pa, by its logarithm.
+    Modulus,
+    /// A modulus in Pa above E₀, the first parameter, by the logarithm of what it is above.
+    ModulusAboveFirst,
+    /// A modulus times s^α in Pa s^α, α being the exponent of the law, by ln(E₁ ω₀^α).
+    ModulusTimesPower,
+    /// A time in s, above 0, by ln(τ ω₀).
+    Time,
+    /// An exponent from 0 to 1, by its logit.
+    Exponent,
+    /// A loss factor, of any sign, as it is.
+    LossFactor,
 }
+
+impl ParameterKind {
+    /// Such as `Pa`, `s`; empty without one. `Pa` stands for the unit of the modulus.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::Modulus | Self::ModulusAboveFirst => "Pa",
+            Self::ModulusTimesPower => "Pa s^alpha",
+            Self::Time => "s",
+            Self::Exponent | Self::LossFactor => "",
+        }
+    }
+
+    /// Whether the law's modulus is in proportion to all parameters of such kinds.
+    pub fn is_modulus(self) -> bool {
+        matches!(self, Self::Modulus | Self::ModulusAboveFirst | Self::ModulusTimesPower)
+    }
+
+    /// Whether a law may have this value. What a fit ends in is narrower: its moduli are positive.
+    pub fn allows(self, value: f64) -> bool {
+        value.is_finite()
+            && match self {
+                Self::Time => value > 0.0,
+                Self::Exponent => (0.0..=1.0).contains(&value),
+                _ => true,
+            }
+    }
+
+    /// The values that it [allows](Self::allows), in words.
+    pub fn expected(self) -> &'static str {
+        match self {
+            Self::Time => "a time above 0 s",
+            Self::Exponent => "a number from 0 (elastic) to 1 (viscous)",
+            _ => "a finite number",
+        }
+    }
+}
+
+/// A parameter of a law.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Parameter {
+    /// As case files write it: `e0`, `tau_1`.
+    pub name: Cow<'static, str>,
+    /// What it is.
+    pub kind: ParameterKind,
+    /// A value that rubber may have, for examples.
+    pub example: f64,
+    /// What it means, as a sentence.
+    pub about: &'static str,
+}
+
+const fn parameter(name: &'static str, kind: ParameterKind, example: f64, about: &'static str) -> Parameter {
+    Parameter { name: Cow::Borrowed(name), kind, example, about }
+}
+
+const CONSTANT: &[Parameter] = &[
+    parameter("storage", ParameterKind::Modulus, 2.1e11, "E′."),
+    parameter("loss_factor", ParameterKind::LossFactor, 1e-3, "η."),
+];
+
+const FRACTIONAL: &[Parameter] = &[
+    parameter("e0", ParameterKind::Modulus, 8.14e5, "Modulus at rest."),
+    parameter("e1", ParameterKind::ModulusTimesPower, 7.31e4, "Modulus times s^alpha."),
+    parameter("alpha", ParameterKind::Exponent, 0.528, "From elastic to viscous."),
+];
+
+const FRACTIONAL_ZENER: &[Parameter] = &[
+    parameter("e0", ParameterKind::Modulus, 1e6, "Modulus at rest."),
+    parameter("e_infinity", ParameterKind::ModulusAboveFirst, 2e8, "Modulus at infinite frequency."),
+    parameter("tau", ParameterKind::Time, 1e-5, "Relaxation time."),
+    parameter("alpha", ParameterKind::Exponent, 0.6, "Width of the transition: 1 is Zener's model."),
+];
+
+/// Without the branches.
+const MAXWELL: &[Parameter] = &[parameter("e0", ParameterKind::Modulus, 1e6, "Modulus at rest.")];
+
+/// Modulus and time of each branch of Maxwell's law.
+const BRANCH: [Parameter; 2] = [
+    parameter("e", ParameterKind::Modulus, 2e6, "Modulus of the branch."),
+    parameter("tau", ParameterKind::Time, 1e-2, "Relaxation time of the branch."),
+];
 
 impl LawKind {
     /// The kinds that are compared where none is named.
@@ -60,14 +150,55 @@ impl LawKind {
         Self::Maxwell { branches: 4 },
     ];
 
+    /// One of each kind, in the order in which they are listed.
+    pub const FAMILIES: [Self; 4] =
+        [Self::Constant, Self::Fractional, Self::FractionalZener, Self::Maxwell { branches: USUAL_BRANCHES }];
+
+    /// The kind and the parameters of a law; `None` of a table.
+    pub fn of(law: &Law) -> Option<(Self, Vec<f64>)> {
+        Some(match law {
+            Law::Constant(e) => (Self::Constant, vec![e.re, loss_factor(*e)]),
+            Law::Fractional { e0, e1, alpha } => (Self::Fractional, vec![*e0, *e1, *alpha]),
+            Law::FractionalZener { e0, e_infinity, tau_s, alpha } => {
+                (Self::FractionalZener, vec![*e0, *e_infinity, *tau_s, *alpha])
+            }
+            Law::Maxwell { e0, branches } => {
+                let pairs = branches.iter().flat_map(|branch| [branch.modulus, branch.tau_s]);
+                (Self::Maxwell { branches: branches.len() }, std::iter::once(*e0).chain(pairs).collect())
+            }
+            Law::Table(_) => return None,
+        })
+    }
+
+    /// The formula with the names of the parameters, as a sentence in Markdown.
+    pub fn formula(self) -> &'static str {
+        match self {
+            Self::Constant => "E = storage (1 + i loss_factor), P-31.",
+            Self::Fractional => "E = e0 + e1 (iω)^alpha (P-36).",
+            Self::FractionalZener => "E = (e0 + e_infinity (iω tau)^alpha) / (1 + (iω tau)^alpha).",
+            Self::Maxwell { .. } => {
+                "E = e0 + Σ modulus · iω time / (1 + iω time) over the branches (generalised Maxwell, Prony)."
+            }
+        }
+    }
+
+    /// The parameters that are not those of branches.
+    fn own(self) -> &'static [Parameter] {
+        match self {
+            Self::Constant => CONSTANT,
+            Self::Fractional => FRACTIONAL,
+            Self::FractionalZener => FRACTIONAL_ZENER,
+            Self::Maxwell { .. } => MAXWELL,
+        }
+    }
+
+    fn branches(self) -> usize {
+        if let Self::Maxwell { branches } = self { branches } else { 0 }
+    }
+
     /// Number of parameters.
     pub fn count(self) -> usize {
-        match self {
-            Self::Constant => 2,
-            Self::Fractional => 3,
-            Self::FractionalZener => 4,
-            Self::Maxwell { branches } => 1 + 2 * branches,
-        }
+        self.own().len() + BRANCH.len() * self.branches()
     }
 
     /// The word that case files use; the number of branches is not in it.
@@ -80,20 +211,27 @@ impl LawKind {
         }
     }
 
-    /// Names and units of the parameters, in their order.
-    pub fn parameters(self) -> Vec<ParameterName> {
-        let named = |name: &str, unit| ParameterName { name: name.to_owned(), unit };
-        match self {
-            Self::Constant => vec![named("storage", "Pa"), named("loss_factor", "")],
-            Self::Fractional => vec![named("e0", "Pa"), named("e1", "Pa s^alpha"), named("alpha", "")],
-            Self::FractionalZener => {
-                vec![named("e0", "Pa"), named("e_infinity", "Pa"), named("tau", "s"), named("alpha", "")]
-            }
-            Self::Maxwell { branches } => {
-                let branch = |k: usize| [named(&format!("e_{k}"), "Pa"), named(&format!("tau_{k}"), "s")];
-                std::iter::once(named("e0", "Pa")).chain((1..=branches).flat_map(branch)).collect()
-            }
-        }
+    /// What the parameter `i` is.
+    pub(crate) fn parameter_kind(self, i: usize) -> ParameterKind {
+        let own = self.own();
+        own.get(i).map_or_else(|| BRANCH[(i - own.len()) % BRANCH.len()].kind, |parameter| parameter.kind)
+    }
+
+    /// The parameters in their order.
+    pub fn parameters(self) -> Vec<Parameter> {
+        // Times a decade apart, as far as data tell them.
+        let example = |parameter: &Parameter, k: usize| match parameter.kind {
+            ParameterKind::Time => parameter.example / 10_f64.powi(k as i32),
+            _ => parameter.example,
+        };
+        let branch = |k: usize| {
+            BRANCH.map(|parameter| Parameter {
+                name: format!("{}_{}", parameter.name, k + 1).into(),
+                example: example(&parameter, k),
+                ..parameter
+            })
+        };
+        self.own().iter().cloned().chain((0..self.branches()).flat_map(branch)).collect()
     }
 
     /// The law with these parameters.
@@ -193,23 +331,36 @@ impl FromStr for LawKind {
 
     fn from_str(text: &str) -> Result<Self, UnknownLawKind> {
         let unknown = || UnknownLawKind { found: text.to_owned() };
-        match text {
-            "constant" => Ok(Self::Constant),
-            "fractional" => Ok(Self::Fractional),
-            "zener" => Ok(Self::FractionalZener),
-            "maxwell" => Ok(Self::Maxwell { branches: USUAL_BRANCHES }),
-            _ => {
-                let number = text.strip_prefix("maxwell:").ok_or_else(unknown)?;
-                let branches = number.parse().ok().filter(|n| (1..=MAX_BRANCHES).contains(n));
-                branches.map(|branches| Self::Maxwell { branches }).ok_or_else(unknown)
-            }
+        if let Some(kind) = Self::FAMILIES.into_iter().find(|kind| kind.word() == text) {
+            return Ok(kind);
         }
+        let number = text.strip_prefix("maxwell:").ok_or_else(unknown)?;
+        let branches = number.parse().ok().filter(|n| (1..=MAX_BRANCHES).contains(n));
+        branches.map(|branches| Self::Maxwell { branches }).ok_or_else(unknown)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn parameters_are_those_of_the_law() {
+        for kind in LawKind::ALL {
+            let parameters = kind.parameters();
+            assert_eq!(parameters.len(), kind.count());
+            for (i, parameter) in parameters.iter().enumerate() {
+                assert!(parameter.kind.allows(parameter.example), "{parameter:?}");
+                assert_eq!(parameter.kind, kind.parameter_kind(i));
+            }
+            let p: Vec<f64> = parameters.iter().map(|parameter| parameter.example).collect();
+            let (same, back) = LawKind::of(&kind.law(&p)).unwrap();
+            assert_eq!(same, kind);
+            // The loss factor is a quotient of a product.
+            assert!(p.iter().zip(&back).all(|(a, b)| (a - b).abs() <= 1e-15 * a), "{p:?} {back:?}");
+            assert!(UnknownLawKind::EXPECTED.contains(&format!("{:?}", kind.word())), "{kind}");
+        }
+    }
 
     #[test]
     fn the_number_of_branches_named_is_the_one_allowed() {

@@ -16,7 +16,7 @@ mod starts;
 pub use correlated::Correlated;
 pub use datum::Datum;
 pub use fit::{Estimate, LawFit, ModulusEstimate, best, fit_modulus};
-pub use kind::{LawKind, MAX_BRANCHES, ParameterName, USUAL_BRANCHES, UnknownLawKind};
+pub use kind::{LawKind, MAX_BRANCHES, Parameter, ParameterKind, USUAL_BRANCHES, UnknownLawKind};
 
 pub(crate) use correlated::LineResidual;
 pub(crate) use fit::Evidence;

@@ -2,12 +2,12 @@
 
 use super::LineResidual;
 use super::least_squares::Residuals;
-use super::{Datum, LawKind};
+use super::{Datum, LawKind, ParameterKind};
 use crate::c64;
 
 /// θ ↔ p about a reference frequency.
 ///
-/// Moduli and times are logarithms, exponents are logits, and E∞ − E₀ stands for E∞:
+/// Moduli and times are logarithms, exponents are logits, and E∞ − E₀ stands for E∞, as [`ParameterKind`] says:
 ///
 /// | family | θ |
 /// |---|---|
@@ -34,41 +34,38 @@ impl Parametrization {
     pub(crate) fn parameters(&self, theta: &[f64]) -> (Vec<f64>, Vec<Vec<f64>>) {
         let n = self.kind.count();
         let mut slopes = vec![vec![0.0; n]; n];
-        let mut p: Vec<f64> = theta.iter().map(|t| t.exp()).collect();
-        for i in 0..n {
-            slopes[i][i] = p[i];
-        }
-        let mut logistic = |i: usize, p: &mut [f64]| {
-            p[i] = 1.0 / (1.0 + (-theta[i]).exp());
-            // α(1 − α) without cancellation at either end.
-            slopes[i][i] = p[i] / (1.0 + theta[i].exp());
+        let reference = self.reference_rad_s;
+        // α(1 − α) without cancellation at either end.
+        let logistic = |t: f64| {
+            let alpha = 1.0 / (1.0 + (-t).exp());
+            (alpha, alpha / (1.0 + t.exp()))
         };
-        match self.kind {
-            LawKind::Constant => {
-                p[1] = theta[1];
-                slopes[1][1] = 1.0;
-            }
-            LawKind::Fractional => {
-                logistic(2, &mut p);
-                p[1] = (theta[1] - p[2] * self.reference_rad_s.ln()).exp();
-                slopes[1][1] = p[1];
-                slopes[1][2] = -p[1] * self.reference_rad_s.ln() * slopes[2][2];
-            }
-            LawKind::FractionalZener => {
-                logistic(3, &mut p);
-                p[1] += p[0];
-                slopes[1][0] = p[0];
-                p[2] /= self.reference_rad_s;
-                slopes[2][2] = p[2];
-            }
-            LawKind::Maxwell { .. } => {
-                for i in (2..n).step_by(2) {
-                    p[i] /= self.reference_rad_s;
-                    slopes[i][i] = p[i];
+        let exponent = self.exponent().map(|k| (k, logistic(theta[k])));
+        let mut p = vec![0.0; n];
+        for i in 0..n {
+            (p[i], slopes[i][i]) = match self.kind.parameter_kind(i) {
+                ParameterKind::Modulus => (theta[i].exp(), theta[i].exp()),
+                ParameterKind::ModulusAboveFirst => {
+                    slopes[i][0] = p[0];
+                    (p[0] + theta[i].exp(), theta[i].exp())
                 }
-            }
+                ParameterKind::ModulusTimesPower => {
+                    let (k, (alpha, slope)) = exponent.unwrap_or_default();
+                    let modulus = (theta[i] - alpha * reference.ln()).exp();
+                    slopes[i][k] = -modulus * reference.ln() * slope;
+                    (modulus, modulus)
+                }
+                ParameterKind::Time => (theta[i].exp() / reference, theta[i].exp() / reference),
+                ParameterKind::Exponent => logistic(theta[i]),
+                ParameterKind::LossFactor => (theta[i], 1.0),
+            };
         }
         (p, slopes)
+    }
+
+    /// Which parameter is the exponent.
+    fn exponent(&self) -> Option<usize> {
+        (0..self.kind.count()).find(|&i| self.kind.parameter_kind(i) == ParameterKind::Exponent)
     }
 
     /// θ of parameters that satisfy the constraints; what is on their edge comes to stand just inside.
@@ -76,17 +73,16 @@ impl Parametrization {
         let log = |x: f64| x.max(f64::MIN_POSITIVE).ln();
         let logit = |x: f64| (log(x) - log(1.0 - x)).clamp(-MAX_LOGIT, MAX_LOGIT);
         let reference = self.reference_rad_s;
-        match self.kind {
-            LawKind::Constant => vec![log(p[0]), p[1]],
-            LawKind::Fractional => vec![log(p[0]), log(p[1]) + p[2] * reference.ln(), logit(p[2])],
-            LawKind::FractionalZener => {
-                vec![log(p[0]), log(p[1] - p[0]), log(p[2] * reference), logit(p[3])]
-            }
-            LawKind::Maxwell { .. } => {
-                let branch = |b: &[f64]| [log(b[0]), log(b[1] * reference)];
-                std::iter::once(log(p[0])).chain(p[1..].chunks_exact(2).flat_map(branch)).collect()
-            }
-        }
+        let alpha = self.exponent().map_or(0.0, |k| p[k]);
+        let coordinate = |i: usize| match self.kind.parameter_kind(i) {
+            ParameterKind::Modulus => log(p[i]),
+            ParameterKind::ModulusAboveFirst => log(p[i] - p[0]),
+            ParameterKind::ModulusTimesPower => log(p[i]) + alpha * reference.ln(),
+            ParameterKind::Time => log(p[i] * reference),
+            ParameterKind::Exponent => logit(p[i]),
+            ParameterKind::LossFactor => p[i],
+        };
+        (0..p.len()).map(coordinate).collect()
     }
 
     /// E(ω) and ∂E/∂θ; `None` where a number is not finite.
@@ -102,11 +98,7 @@ impl Parametrization {
 
     /// The law with all its moduli multiplied by e^`by`.
     pub(crate) fn scaled(&self, theta: &[f64], by: f64) -> Vec<f64> {
-        let is_modulus = |i: usize| match self.kind {
-            LawKind::Constant => i == 0,
-            LawKind::Fractional | LawKind::FractionalZener => i < 2,
-            LawKind::Maxwell { .. } => i == 0 || i % 2 == 1,
-        };
+        let is_modulus = |i: usize| self.kind.parameter_kind(i).is_modulus();
         theta.iter().enumerate().map(|(i, t)| if is_modulus(i) { t + by } else { *t }).collect()
     }
 

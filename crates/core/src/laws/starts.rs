@@ -1,10 +1,10 @@
 //! Where a fit begins: for given times and exponents every law is a sum with coefficients that are positive.
 
-use super::{Datum, LawKind, Parametrization};
+use super::{Datum, LawKind, ParameterKind, Parametrization};
 use crate::c64;
-use crate::material::{fractional_power, saturation};
+use crate::material::saturation;
 
-/// Times of a fractional Zener's start, over the band and a decade to either side.
+/// Times of the starts of a law with one, over the band and a decade to either side.
 const RELAXATION_TIMES: usize = 6;
 
 /// Exponents of the starts.
@@ -31,22 +31,6 @@ pub(crate) fn starts(parametrization: &Parametrization, data: &[Datum]) -> Vec<V
             let storage = if a[0] > 0.0 { a[0] } else { size };
             vec![of(vec![storage, a[1] / storage])]
         }
-        LawKind::Fractional => {
-            let start = |&alpha: &f64| {
-                let a = coefficients(data, &[&one, &|omega| fractional_power(omega, alpha)], true);
-                of(vec![a[0], a[1], alpha])
-            };
-            START_EXPONENTS.iter().map(start).collect()
-        }
-        LawKind::FractionalZener => {
-            let times = spread(0.1 / last, 10.0 / first, RELAXATION_TIMES);
-            let start = |(tau, alpha): (f64, f64)| {
-                let turn = |omega: f64| saturation(fractional_power(omega * tau, alpha));
-                let a = coefficients(data, &[&one, &turn], true);
-                of(vec![a[0], a[0] + a[1], tau, alpha])
-            };
-            times.iter().flat_map(|&tau| START_EXPONENTS.map(|alpha| (tau, alpha))).map(start).collect()
-        }
         LawKind::Maxwell { branches } => {
             // Times over the band, beyond it, and over either half.
             let middle = (first * last).sqrt();
@@ -71,7 +55,40 @@ pub(crate) fn starts(parametrization: &Parametrization, data: &[Datum]) -> Vec<V
             };
             ranges.into_iter().map(start).collect()
         }
+        kind => {
+            let has = |wanted| (0..kind.count()).any(|i| kind.parameter_kind(i) == wanted);
+            let times = match has(ParameterKind::Time) {
+                true => spread(0.1 / last, 10.0 / first, RELAXATION_TIMES),
+                false => vec![1.0],
+            };
+            let exponents = if has(ParameterKind::Exponent) { &START_EXPONENTS[..] } else { &[1.0] };
+            let pairs = times.iter().flat_map(|&tau| exponents.iter().map(move |&alpha| (tau, alpha)));
+            pairs.map(|(tau, alpha)| of(with_moduli_of(kind, tau, alpha, data))).collect()
+        }
     }
+}
+
+/// The parameters of a law with this time and this exponent whose moduli fit the data.
+fn with_moduli_of(kind: LawKind, tau: f64, alpha: f64, data: &[Datum]) -> Vec<f64> {
+    let of_moduli = |moduli: &[f64]| -> Vec<f64> {
+        let mut left = moduli.iter().copied();
+        let value = |i| match kind.parameter_kind(i) {
+            ParameterKind::Modulus | ParameterKind::ModulusTimesPower => left.next().unwrap_or(0.0),
+            ParameterKind::ModulusAboveFirst => moduli[0] + left.next().unwrap_or(0.0),
+            ParameterKind::Time => tau,
+            ParameterKind::Exponent => alpha,
+            ParameterKind::LossFactor => 0.0,
+        };
+        (0..kind.count()).map(value).collect()
+    };
+    let count = (0..kind.count()).filter(|&i| kind.parameter_kind(i).is_modulus()).count();
+    let units: Vec<Vec<f64>> = (0..count)
+        .map(|j| of_moduli(&(0..count).map(|k| f64::from(u8::from(j == k))).collect::<Vec<_>>()))
+        .collect();
+    // The modulus is linear in them.
+    let functions: Vec<_> = units.iter().map(|p| move |omega: f64| kind.with_slopes(p, omega).0).collect();
+    let functions: Vec<&dyn Fn(f64) -> c64> = functions.iter().map(|f| f as &dyn Fn(f64) -> c64).collect();
+    of_moduli(&coefficients(data, &functions, true))
 }
 
 /// So many times from the first to the last, in equal ratios; their middle where there is one.

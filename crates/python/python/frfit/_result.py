@@ -80,7 +80,7 @@ class Estimate:
     numbers: tuple[Number, ...]
     """What holds for the whole band; empty where each frequency has a value of its own."""
     status: str | None
-    """Of what holds for the band: ``ok``, ``no_root`` (at its bounds), ``not_identifiable``, ``unexplained`` or ``failed``."""
+    """Of what holds for the band, in the words of ``identified.csv``; at its bounds it is ``no_root``."""
 
     @classmethod
     def _of(cls, found: dict[str, Any]) -> Estimate:
@@ -124,8 +124,7 @@ class Identification:
     candidate_count: Whole
     """(f,), admissible solutions."""
     status: NDArray[np.str_]
-    """(f,), ``ok``, ``ambiguous``, ``no_root``, ``not_identifiable``, ``unexplained``, ``diverged``, ``failed`` or
-    ``out_of_band``."""
+    """(f,), ``ok`` where the value is trusted, else why it is not: the words of ``identified.csv``."""
     measured_response: Complex
     """(f, sensors), receptance, m/N; scales and delays that were found included."""
     nominal_response: Complex

@@ -8,6 +8,7 @@ mod together;
 use crate::data::data;
 use crate::escape::{escape, script_json};
 use crate::results::Results;
+use crate::status;
 use crate::verdict::Verdict;
 
 const STYLE: &str = concat!(include_str!("../../web/page.css"), include_str!("../../web/print.css"));
@@ -55,13 +56,14 @@ pub(crate) fn page(results: &Results, verdict: &Verdict) -> String {
     ]
     .concat();
     let title = escape(&title);
+    let statuses = status::style();
     let json = script_json(&data.json);
     format!(
         "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
          <meta name=\"color-scheme\" content=\"light dark\">\n\
-         <title>{title} – frfit</title>\n<link rel=\"icon\" href=\"data:,\">\n<style>\n{STYLE}</style>\n</head>\n<body>\n{body}\n\
+         <title>{title} – frfit</title>\n<link rel=\"icon\" href=\"data:,\">\n<style>\n{STYLE}{statuses}</style>\n</head>\n<body>\n{body}\n\
          <script type=\"application/json\" id=\"data\">{json}</script>\n<script>{PLOTLY}</script>\n\
          <script>\n(() => {{\n\"use strict\";\n{scripts}}})();\n</script>\n</body>\n</html>\n"
     )

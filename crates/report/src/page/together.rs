@@ -4,7 +4,7 @@ use super::plots::{absent, plot};
 use crate::escape::escape;
 use crate::number::{percent, significant};
 use crate::results::{Identifiability, Number, Results, Unknown};
-use crate::verdict::label;
+use crate::status::label;
 use frfit::material::loss_factor;
 use std::fmt::Write;
 

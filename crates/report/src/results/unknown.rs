@@ -139,8 +139,7 @@ fn unknown(summary: &Summary, one: &Value, is_only: bool) -> Result<Unknown, For
     let status = match text("status") {
         None => None,
         Some(word) => {
-            let found = Status::ALL.into_iter().find(|status| status.name() == word);
-            Some(found.ok_or_else(|| summary.missing("/unknowns", "a status of each"))?)
+            Some(Status::named(&word).ok_or_else(|| summary.missing("/unknowns", "a status of each"))?)
         }
     };
     let name = needed("name")?;

@@ -1,5 +1,9 @@
 //! Every key of a case file, once: the reader takes no other, and the reference is made of these.
 
+use super::snippet::snippet;
+use frfit::laws::{LawKind, Parameter, ParameterKind, UnknownLawKind};
+use std::sync::LazyLock;
+
 /// A kind of table, and the keys that it may have.
 #[derive(Debug)]
 pub(super) struct Section {
@@ -36,30 +40,70 @@ const fn key(name: &'static str, value: &'static str, otherwise: &'static str, a
 }
 
 /// All sections, in the order of the reference.
-pub(super) static SECTIONS: [&Section; 22] = [
-    &CASE,
-    &MATRIX,
-    &MATRIX_FILE,
-    &MATRIX_AT,
-    &COMPLEX_MODULUS,
-    &FRACTIONAL,
-    &ZENER,
-    &MAXWELL,
-    &TABLE,
-    &FACTOR_STD,
-    &DOFS,
-    &LOAD,
-    &ATTACHED,
-    &MEASUREMENT,
-    &MODEL_ERROR,
-    &COARSER_MESH,
-    &IDENTIFY,
-    &BOUNDS,
-    &SEVERAL,
-    &SEVERAL_FIRST,
-    &SEVERAL_BOUNDS,
-    &RESPOND,
-];
+pub(super) static SECTIONS: LazyLock<Vec<&'static Section>> = LazyLock::new(|| {
+    let before = [&CASE, &MATRIX, &MATRIX_FILE, &MATRIX_AT, &COMPLEX_MODULUS];
+    let after = [
+        &TABLE,
+        &FACTOR_STD,
+        &DOFS,
+        &LOAD,
+        &ATTACHED,
+        &MEASUREMENT,
+        &MODEL_ERROR,
+        &COARSER_MESH,
+        &IDENTIFY,
+        &BOUNDS,
+        &SEVERAL,
+        &SEVERAL_FIRST,
+        &SEVERAL_BOUNDS,
+        &RESPOND,
+    ];
+    before.into_iter().chain(LAWS.iter().map(|(_, section)| section)).chain(after).collect()
+});
+
+/// The laws of a factor over frequency, each with its section, made of its parameters.
+pub(super) static LAWS: LazyLock<Vec<(LawKind, Section)>> = LazyLock::new(|| {
+    let laws = LawKind::FAMILIES.into_iter().filter(|kind| *kind != LawKind::Constant);
+    laws.map(|kind| (kind, section_of(kind))).collect()
+});
+
+/// The words of these laws: `"fractional", "zener" or "maxwell"`.
+pub(super) fn law_words() -> String {
+    let words = LawKind::FAMILIES.into_iter().filter(|kind| *kind != LawKind::Constant);
+    let words: Vec<String> = words.map(|kind| format!("{:?}", kind.word())).collect();
+    let (last, others) = words.split_last().expect("there are laws");
+    format!("{} or {last}", others.join(", "))
+}
+
+/// The section of a law. It is made once, for as long as the program runs.
+fn section_of(kind: LawKind) -> Section {
+    let of = |parameter: &Parameter| {
+        let value = match parameter.kind {
+            ParameterKind::Time => "number above 0, s",
+            ParameterKind::Exponent => "number from 0 to 1",
+            _ => "number",
+        };
+        key(parameter.name.clone().into_owned().leak(), value, NEEDED, parameter.about)
+    };
+    let mut keys = vec![key("law", law_words().leak(), NEEDED, "Which law.")];
+    if let LawKind::Maxwell { .. } = kind {
+        keys.extend(kind.parameters().iter().take(1).map(of));
+        keys.push(key("branches", "list of [modulus, time in s]", NEEDED, "At least one; times above 0."));
+    } else {
+        keys.extend(kind.parameters().iter().map(of));
+    }
+    let p: Vec<f64> = kind.parameters().iter().map(|parameter| parameter.example).collect();
+    let factor = snippet(&kind.law(&p));
+    let example =
+        format!("[[matrix]]\nname = \"rubber\"\nrole = \"stiffness\"\nfile = \"K.mtx\"\n{factor}\n");
+    Section {
+        path: "matrix.factor",
+        title: format!("`factor = {{ law = {:?}, … }}`", kind.word()).leak(),
+        about: kind.formula(),
+        keys: keys.leak(),
+        examples: vec![&*example.leak()].leak(),
+    }
+}
 
 pub(super) static CASE: Section = Section {
     path: "",
@@ -259,60 +303,6 @@ name = \"plate\"
 role = \"stiffness\"
 file = \"K.mtx\"
 factor = { storage = 2.1e11, loss_factor = 0.001 }
-"],
-};
-
-pub(super) static FRACTIONAL: Section = Section {
-    path: "matrix.factor",
-    title: "`factor = { law = \"fractional\", … }`",
-    about: "E = e0 + e1 (iω)^alpha (P-36).",
-    keys: &[
-        key("law", "\"fractional\", \"zener\" or \"maxwell\"", NEEDED, "Which law."),
-        key("e0", "number", NEEDED, "Modulus at rest."),
-        key("e1", "number", NEEDED, "Modulus times s^alpha."),
-        key("alpha", "number from 0 to 1", NEEDED, "From elastic to viscous."),
-    ],
-    examples: &["[[matrix]]
-name = \"rubber\"
-role = \"stiffness\"
-file = \"K.mtx\"
-factor = { law = \"fractional\", e0 = 8.14e5, e1 = 7.31e4, alpha = 0.528 }
-"],
-};
-
-pub(super) static ZENER: Section = Section {
-    path: "matrix.factor",
-    title: "`factor = { law = \"zener\", … }`",
-    about: "E = (e0 + e_infinity (iω tau)^alpha) / (1 + (iω tau)^alpha).",
-    keys: &[
-        key("law", "\"fractional\", \"zener\" or \"maxwell\"", NEEDED, "Which law."),
-        key("e0", "number", NEEDED, "Modulus at rest."),
-        key("e_infinity", "number", NEEDED, "Modulus at infinite frequency."),
-        key("tau", "number above 0, s", NEEDED, "Relaxation time."),
-        key("alpha", "number from 0 to 1", NEEDED, "Width of the transition: 1 is Zener's model."),
-    ],
-    examples: &["[[matrix]]
-name = \"rubber\"
-role = \"stiffness\"
-file = \"K.mtx\"
-factor = { law = \"zener\", e0 = 1.0e6, e_infinity = 2.0e8, tau = 1.0e-5, alpha = 0.6 }
-"],
-};
-
-pub(super) static MAXWELL: Section = Section {
-    path: "matrix.factor",
-    title: "`factor = { law = \"maxwell\", … }`",
-    about: "E = e0 + Σ modulus · iω time / (1 + iω time) over the branches (generalised Maxwell, Prony).",
-    keys: &[
-        key("law", "\"fractional\", \"zener\" or \"maxwell\"", NEEDED, "Which law."),
-        key("e0", "number", NEEDED, "Modulus at rest."),
-        key("branches", "list of [modulus, time in s]", NEEDED, "At least one; times above 0."),
-    ],
-    examples: &["[[matrix]]
-name = \"rubber\"
-role = \"stiffness\"
-file = \"K.mtx\"
-factor = { law = \"maxwell\", e0 = 1.0e6, branches = [[2.0e6, 1.0e-2], [5.0e6, 1.0e-4]] }
 "],
 };
 
@@ -583,9 +573,9 @@ pub(super) static IDENTIFY: Section = Section {
         ),
         key(
             "law",
-            "\"constant\", \"fractional\", \"zener\" or \"maxwell\" (\"maxwell:N\"), or a list of them",
+            UnknownLawKind::EXPECTED,
             "all of them",
-            "Beside `varies = \"law\"`: the laws that are fitted and compared.",
+            "Beside `varies = \"law\"`: the law, or a list of laws, that are fitted and compared.",
         ),
         key("branches", "whole number from 1 to 20", "3", "Of `law = \"maxwell\"`."),
         key(
@@ -709,12 +699,7 @@ pub(super) static SEVERAL: Section = Section {
             "frequency; of `powers` constant",
             "A value of its own at each frequency, one for the band, or a law.",
         ),
-        key(
-            "law",
-            "\"constant\", \"fractional\", \"zener\" or \"maxwell\" (\"maxwell:N\")",
-            "needed beside `varies = \"law\"`",
-            "Which law.",
-        ),
+        key("law", UnknownLawKind::EXPECTED, "needed beside `varies = \"law\"`", "Which law."),
         key("branches", "whole number from 1 to 20", "3", "Of `law = \"maxwell\"`."),
         key(
             "nominal",

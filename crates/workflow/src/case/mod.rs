@@ -7,11 +7,13 @@ mod parse;
 mod reference;
 mod sections;
 mod several;
+mod snippet;
 
 pub(crate) use parse::law_of_snippet;
 pub use parse::parse;
 pub use reference::reference;
 pub(crate) use sections::checked_band;
+pub use snippet::snippet;
 
 use crate::error::Place;
 use crate::units::{Amount, UnitSystem};

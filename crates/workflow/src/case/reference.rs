@@ -6,7 +6,7 @@ use std::fmt::Write;
 /// The reference as Markdown: each table, its keys, and an example.
 pub fn reference() -> String {
     let mut page = String::from(HEAD);
-    for section in SECTIONS {
+    for section in SECTIONS.iter() {
         // Writing into a String cannot fail.
         let _ = writeln!(page, "\n## {}\n\n{}\n", section.title, section.about);
         let _ = writeln!(page, "| key | value | if it is not there | what it says |\n|---|---|---|---|");
@@ -92,7 +92,7 @@ mod tests {
 
     #[test]
     fn every_key_stands_in_an_example_that_is_read() {
-        for section in SECTIONS {
+        for section in SECTIONS.iter() {
             for example in section.examples {
                 read(example).unwrap_or_else(|error| panic!("{error}\n{example}"));
             }
@@ -145,7 +145,7 @@ mod tests {
         let quoted = |text: &str| -> BTreeSet<String> {
             text.split('"').skip(1).step_by(2).map(|word| word.replace(":N", "")).collect()
         };
-        for section in SECTIONS {
+        for section in SECTIONS.iter() {
             for key in section.keys.iter().filter(|key| key.value.contains('"')) {
                 let (example, at) = shown(section).into_iter().find(|(_, at)| at.name == key.name).unwrap();
                 let broken = format!("{}\"?\"{}", &example[..at.value.start], &example[at.value.end..]);

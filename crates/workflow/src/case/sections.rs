@@ -11,7 +11,7 @@ use crate::units::{Amount, AmountOf, UnitSystem, UnknownSystem, amount};
 use frfit::c64;
 use frfit::dof::{Axis, DofName};
 use frfit::identify::{CoarserMesh, ErrorSizes, Method, ModelErrors, Reduction, Selection};
-use frfit::laws::{LawKind, MAX_BRANCHES, UnknownLawKind};
+use frfit::laws::{LawKind, MAX_BRANCHES, Parameter, ParameterKind, UnknownLawKind};
 use frfit::material::{Branch, Law};
 use frfit::model::{FactorStd, Role};
 use frfit::quantity::Quantity;
@@ -159,12 +159,12 @@ fn read_factor(field: &Field<'_>, more: More) -> Result<Located<FactorEntry>, In
         return Ok(located(FactorEntry::Law(Law::Constant(c64::new(number, 0.0)))));
     }
     if !field.is_table() {
-        let expected = "a finite number, { storage = ..., loss_factor = ... }, \
-                        { law = \"fractional\", e0 = ..., e1 = ..., alpha = ... }, { law = \"zener\", ... }, \
-                        { law = \"maxwell\", ... } or { table = \"file\" }";
-        return Err(field.refuse(expected));
+        return Err(field.refuse(&format!(
+            "a finite number, {{ storage = ..., loss_factor = ... }}, {} or {{ table = \"file\" }}",
+            laws_written()
+        )));
     }
-    let any = field.table(&[&FORMS[..], more].concat())?;
+    let any = field.table(&[&forms(), more].concat())?;
     if any.find("table").is_some() {
         let file = field.table(&[&[&keys::TABLE], more].concat())?.need("table")?.text()?;
         return Ok(located(FactorEntry::Table(file)));
@@ -179,7 +179,7 @@ fn factor_of_matrix(
 ) -> Result<(Located<FactorEntry>, Option<Located<FactorStd>>), InputError> {
     let entry = read_factor(field, STD)?;
     let find = |key: &str| -> Result<Option<Field<'_>>, InputError> {
-        Ok(if field.is_table() { field.table(&[&FORMS[..], STD].concat())?.find(key) } else { None })
+        Ok(if field.is_table() { field.table(&[&forms(), STD].concat())?.find(key) } else { None })
     };
     let (storage, loss_factor) = (find("storage_std")?, find("loss_factor_std")?);
     let Some(place) = storage.as_ref().or(loss_factor.as_ref()).map(|field| field.place.clone()) else {
@@ -219,8 +219,20 @@ type More = &'static [&'static keys::Section];
 static STD: More = &[&keys::FACTOR_STD];
 
 /// All keys of factors.
-static FORMS: [&keys::Section; 5] =
-    [&keys::COMPLEX_MODULUS, &keys::FRACTIONAL, &keys::ZENER, &keys::MAXWELL, &keys::TABLE];
+fn forms() -> Vec<&'static keys::Section> {
+    let laws = keys::LAWS.iter().map(|(_, section)| section);
+    std::iter::once(&keys::COMPLEX_MODULUS).chain(laws).chain([&keys::TABLE]).collect()
+}
+
+/// How laws are written, the first with all its parameters.
+fn laws_written() -> String {
+    let written = |(k, (kind, _)): (usize, &(LawKind, keys::Section))| {
+        let names = kind.parameters().into_iter().map(|parameter| format!("{} = ...", parameter.name));
+        let rest = if k == 0 { names.collect::<Vec<_>>().join(", ") } else { "...".into() };
+        format!("{{ law = {:?}, {rest} }}", kind.word())
+    };
+    keys::LAWS.iter().enumerate().map(written).collect::<Vec<_>>().join(", ")
+}
 
 fn complex_modulus(field: &Field<'_>, more: More) -> Result<Law, InputError> {
     let table = field.table(&[&[&keys::COMPLEX_MODULUS], more].concat())?;
@@ -232,56 +244,36 @@ fn complex_modulus(field: &Field<'_>, more: More) -> Result<Law, InputError> {
     Ok(Law::complex_modulus(storage, loss_factor))
 }
 
-const LAWS: &str = "\"fractional\", \"zener\" or \"maxwell\"";
-
 /// A law by its name; `any` is its table with all keys that some law has.
 fn law(field: &Field<'_>, any: &Table<'_>, more: More) -> Result<Law, InputError> {
-    type Read = fn(&Field<'_>, More) -> Result<Law, InputError>;
-    let read = any.need("law")?.word(|word| match word {
-        "fractional" => Ok(fractional as Read),
-        "zener" => Ok(zener as Read),
-        "maxwell" => Ok(maxwell as Read),
-        _ => Err(LAWS.into()),
-    })?;
-    (read.value)(field, more)
-}
-
-fn fractional(field: &Field<'_>, more: More) -> Result<Law, InputError> {
-    let table = field.table(&[&[&keys::FRACTIONAL], more].concat())?;
-    let (e0, e1) = (table.need("e0")?.number()?, table.need("e1")?.number()?);
-    Ok(Law::Fractional { e0, e1, alpha: exponent(&table)? })
-}
-
-fn zener(field: &Field<'_>, more: More) -> Result<Law, InputError> {
-    let table = field.table(&[&[&keys::ZENER], more].concat())?;
-    let (e0, e_infinity) = (table.need("e0")?.number()?, table.need("e_infinity")?.number()?);
-    let time = table.need("tau")?;
-    let tau_s = time.number()?;
-    match tau_s > 0.0 {
-        true => Ok(Law::FractionalZener { e0, e_infinity, tau_s, alpha: exponent(&table)? }),
-        false => Err(time.refuse("a time above 0 s")),
+    let named = |word: &str| keys::LAWS.iter().find(|(kind, _)| kind.word() == word);
+    let found = any.need("law")?.word(|word| named(word).ok_or_else(keys::law_words))?;
+    let (kind, section) = found.value;
+    let table = field.table(&[&[section], more].concat())?;
+    if let LawKind::Maxwell { .. } = kind {
+        return maxwell(&table);
     }
+    let value = |parameter: Parameter| {
+        let found = table.need(&parameter.name)?;
+        let value = found.number()?;
+        match parameter.kind.allows(value) {
+            true => Ok(value),
+            false => Err(found.refuse(parameter.kind.expected())),
+        }
+    };
+    let p = kind.parameters().into_iter().map(value).collect::<Result<Vec<f64>, InputError>>()?;
+    Ok(kind.law(&p))
 }
 
-fn maxwell(field: &Field<'_>, more: More) -> Result<Law, InputError> {
-    let table = field.table(&[&[&keys::MAXWELL], more].concat())?;
+fn maxwell(table: &Table<'_>) -> Result<Law, InputError> {
     let e0 = table.need("e0")?.number()?;
     let list = table.need("branches")?;
     let branches: Vec<Branch> = (list.pairs("at least one branch [modulus, time]")?.into_iter())
         .map(|[modulus, tau_s]| Branch { modulus, tau_s })
         .collect();
-    match branches.iter().all(|branch| branch.tau_s > 0.0) {
+    match branches.iter().all(|branch| ParameterKind::Time.allows(branch.tau_s)) {
         true => Ok(Law::Maxwell { e0, branches }),
         false => Err(list.refuse("branches [modulus, time] with times above 0 s")),
-    }
-}
-
-fn exponent(table: &Table<'_>) -> Result<f64, InputError> {
-    let exponent = table.need("alpha")?;
-    let alpha = exponent.number()?;
-    match (0.0..=1.0).contains(&alpha) {
-        true => Ok(alpha),
-        false => Err(exponent.refuse("a number from 0 (elastic) to 1 (viscous)")),
     }
 }
 

@@ -8,6 +8,7 @@ use crate::load::load_bytes;
 use crate::reads::Reads;
 use crate::units::{FactorUnit, TableUnits, UnitSystem};
 use frfit::c64;
+use frfit::identify::Status;
 use frfit::material::loss_factor;
 use frfit_formats::csv::{ModulusRow, ModulusRows, read_modulus_rows};
 use serde_json::Value;
@@ -135,7 +136,7 @@ fn of_table(rows: ModulusRows, all: bool) -> Modulus {
     let mut kept = Vec::new();
     for row in rows.answered {
         // A table of an instrument has no statuses: all of it was measured.
-        if all || row.status == "ok" || row.status.is_empty() {
+        if all || row.status == Status::Ok.name() || row.status.is_empty() {
             kept.push(row);
         } else {
             leave_out(&row.status);

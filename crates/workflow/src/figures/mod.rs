@@ -22,6 +22,7 @@ use crate::run::{IdentifyRun, RespondRun};
 use frfit::identify::{Line, Selection, Status, Unknown, Variation};
 use frfit::signal::Measured;
 use frfit_figures::{Class, Color, Dash, Figure, Marker, PngError, Series, Strip};
+use frfit_report::status_color;
 
 /// Pixels per SVG unit: 720 units wide become 1080 pixels.
 const PIXELS_PER_UNIT: f64 = 1.5;
@@ -140,20 +141,6 @@ fn curve(
     Series { label: label.into(), x: x.to_vec(), y, color, line, marker, ..Series::default() }
 }
 
-/// The colour of a status.
-fn status_color(status: Status) -> Color {
-    match status {
-        Status::Ok => Color::Green,
-        Status::Ambiguous => Color::Yellow,
-        Status::Diverged => Color::Vermilion,
-        Status::NoRoot => Color::Purple,
-        Status::NotIdentifiable => Color::Grey,
-        Status::Unexplained => Color::Orange,
-        Status::OutOfBand => Color::Black,
-        _ => Color::Blue,
-    }
-}
-
 /// The status of every frequency, as a strip of colours.
 fn status_strip(run: &IdentifyRun) -> Strip {
     let place = |status: Status| Status::ALL.iter().position(|&other| other == status).unwrap_or(0);
@@ -172,16 +159,4 @@ fn status_strip(run: &IdentifyRun) -> Strip {
 /// Title of the case and what this figure shows.
 fn title(case: &Case, what: &str) -> String {
     if case.title.is_empty() { what.to_owned() } else { format!("{}: {what}", case.title) }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// A new status of the library would have the colour of `failed`.
-    #[test]
-    fn every_status_has_a_colour_of_its_own() {
-        let all = Status::ALL.map(status_color);
-        assert!((1..all.len()).all(|i| !all[..i].contains(&all[i])), "{all:?}");
-    }
 }

@@ -4,7 +4,7 @@ use super::{status_strip, title};
 use crate::load::{Case, IdentifyCase};
 use crate::run::IdentifyRun;
 use frfit::c64;
-use frfit::identify::{Line, Status, Uncertainty, Variation};
+use frfit::identify::{Line, Status, Trust, Uncertainty, Variation};
 use frfit::laws::best;
 use frfit::material::loss_factor;
 use frfit_figures::{Axis, Color, Dash, Figure, Marker, Panel, Series};
@@ -90,12 +90,12 @@ fn curve_of_band(identify: &IdentifyCase, run: &IdentifyRun, j: usize, label: &s
     Panel { y: Axis::linear(label), series: all, ..Panel::default() }
 }
 
-/// The value at each frequency with its bar, by status.
+/// The value at each frequency with its bar, by what it is good for.
 fn points(identify: &IdentifyCase, run: &IdentifyRun, j: usize, label: &str, part: Part) -> Panel {
     let lines = &run.found.lines;
     let x: Vec<f64> = lines.iter().map(|line| line.frequency_hz).collect();
-    let with = |statuses: &[Status]| {
-        part.each(lines.iter().map(|line| line.values[j].value.filter(|_| statuses.contains(&line.status))))
+    let with = |trust: Trust| {
+        part.each(lines.iter().map(|line| line.values[j].value.filter(|_| line.status.trust() == trust)))
     };
     let mut series = vec![Series {
         label: "nominal".into(),
@@ -105,14 +105,12 @@ fn points(identify: &IdentifyCase, run: &IdentifyRun, j: usize, label: &str, par
         ..Series::default()
     }];
     let bars = part.bars(run, j);
-    // A diverged frequency has no answer: what its series ended on belongs into the table, not into a curve.
-    let evidence = [Status::NotIdentifiable, Status::Unexplained, Status::Failed];
-    for (label, statuses, color, marker) in [
-        ("evidence only", &evidence[..], Color::Grey, Marker::Cross),
-        ("updated, ambiguous", &[Status::Ambiguous], Color::Orange, Marker::Triangle),
-        ("updated", &[Status::Ok], Color::Vermilion, Marker::Circle),
+    for (label, trust, color, marker) in [
+        ("evidence only", Trust::EvidenceOnly, Color::Grey, Marker::Cross),
+        ("updated, ambiguous", Trust::Ambiguous, Color::Orange, Marker::Triangle),
+        ("updated", Trust::Trusted, Color::Vermilion, Marker::Circle),
     ] {
-        let y = with(statuses);
+        let y = with(trust);
         if y.iter().any(|y| y.is_finite()) {
             // The bars of what is not known would hide what is, and stretch the axis with it.
             let y_error = if color == Color::Grey { Vec::new() } else { bars.clone() };

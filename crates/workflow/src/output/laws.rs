@@ -1,9 +1,9 @@
 //! Fitted laws: for programs, for people, and for the next case file.
 
+use crate::case::snippet;
 use crate::units::{FactorUnit, UnitSystem};
 use frfit::identify::SmoothCurve;
 use frfit::laws::{Correlated, Estimate, LawFit, best};
-use frfit::material::Law;
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
 
@@ -86,32 +86,6 @@ pub fn laws_json(laws: &[LawFit], of: FactorUnit, units: UnitSystem) -> Value {
     })
 }
 
-/// The law as a case file has it: `factor = { … }`.
-pub fn snippet(law: &Law) -> String {
-    match law {
-        Law::Constant(e) => {
-            format!(
-                "factor = {{ storage = {:e}, loss_factor = {:e} }}",
-                e.re,
-                frfit::material::loss_factor(*e)
-            )
-        }
-        Law::Fractional { e0, e1, alpha } => {
-            format!("factor = {{ law = \"fractional\", e0 = {e0:e}, e1 = {e1:e}, alpha = {alpha} }}")
-        }
-        Law::FractionalZener { e0, e_infinity, tau_s, alpha } => format!(
-            "factor = {{ law = \"zener\", e0 = {e0:e}, e_infinity = {e_infinity:e}, tau = {tau_s:e}, alpha = {alpha} }}"
-        ),
-        Law::Maxwell { e0, branches } => {
-            let branch = |b: &frfit::material::Branch| format!("[{:e}, {:e}]", b.modulus, b.tau_s);
-            let branches: Vec<String> = branches.iter().map(branch).collect();
-            format!("factor = {{ law = \"maxwell\", e0 = {e0:e}, branches = [{}] }}", branches.join(", "))
-        }
-        // No fit ends in a table.
-        Law::Table(_) => String::new(),
-    }
-}
-
 /// The laws, best first: what they leave, by how much each is behind the best, and their parameters. `misfits` are those of the fits.
 pub fn laws_text(fits: &[LawFit], misfits: &[Option<Misfit>], of: FactorUnit) -> String {
     let mut text = String::new();
@@ -176,33 +150,4 @@ fn with_std(Estimate { value, std, unit, .. }: &Estimate, of: FactorUnit) -> Str
     let std = std.map_or("not identifiable".into(), |std| format!("{std:.1e}"));
     let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
     format!("{value:.6e} ± {std}{unit}")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use frfit::material::Branch;
-
-    #[test]
-    fn snippets_read_back_to_the_last_bit() {
-        let laws = [
-            Law::Fractional { e0: 814_000.1, e1: 7.31e4 / 3.0, alpha: 0.528 },
-            Law::FractionalZener { e0: 1.0 / 3.0, e_infinity: 2e9, tau_s: 8.23e-9, alpha: 1.0 / 7.0 },
-            Law::Maxwell {
-                e0: 1e6,
-                branches: vec![
-                    Branch { modulus: 2e6 / 3.0, tau_s: 1e-4 },
-                    Branch { modulus: 5.0, tau_s: 0.1 },
-                ],
-            },
-        ];
-        for law in laws {
-            let case = format!(
-                "[[matrix]]\nname = \"K\"\nrole = \"stiffness\"\nfile = \"K.mtx\"\n{}\n[load]\nrow = 1\n[[measurement]]\nrow = 1\n",
-                snippet(&law)
-            );
-            let case = crate::case::parse(std::path::Path::new("case.toml"), case.as_bytes()).unwrap();
-            assert_eq!(case.matrices[0].factor.value, crate::case::FactorEntry::Law(law));
-        }
-    }
 }

@@ -17,6 +17,7 @@ mod summary;
 mod target;
 mod words;
 
+pub use crate::case::snippet;
 pub use candidates::candidates_csv;
 pub(crate) use candidates::{Solution, solutions};
 pub use error_map::error_map_csv;
@@ -24,7 +25,7 @@ pub use files::{File, WriteError, check_file, check_folder, write_all, write_one
 pub use frf::{respond_uff, updated_uff};
 pub use identifiability::{coordinate, not_identifiable};
 pub use identified::identified_csv;
-pub use laws::{Misfit, law_json, laws_json, laws_text, smooth_json, snippet};
+pub use laws::{Misfit, law_json, laws_json, laws_text, smooth_json};
 pub(crate) use manifest::{read_result, sha256};
 pub use measured::{impact_reasons, measured_csv, measured_summary, measured_text, measured_uff};
 pub use reference::reference_csv;

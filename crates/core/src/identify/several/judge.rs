@@ -373,7 +373,7 @@ fn bars(nominal: c64, value: c64, real: bool, covariance: Option<([f64; 3], f64)
 
 fn names(kind: Option<LawKind>) -> Vec<String> {
     match kind {
-        Some(kind) => kind.parameters().into_iter().map(|name| name.name).collect(),
+        Some(kind) => kind.parameters().into_iter().map(|parameter| parameter.name.into_owned()).collect(),
         None => vec!["value".to_owned()],
     }
 }
