@@ -300,8 +300,7 @@ impl Example {
         on_mesh: fn(usize) -> Result<SeveralModel, Error>,
         meshes: &Meshes,
     ) -> Result<Vec<File>, Error> {
-        let [truth, model, coarser] =
-            [meshes.measured, meshes.model, meshes.coarser].map(|elements| on_mesh(elements));
+        let [truth, model, coarser] = [meshes.measured, meshes.model, meshes.coarser].map(on_mesh);
         let (truth, model, coarser) = (truth?, model?, coarser?);
         let mut files = self.model_files(model.rig())?;
         files.push(File::new("coarse.toml", COARSER_CASE));

@@ -475,7 +475,7 @@ mod tests {
         let is_beam =
             |index: &u64| matches!(Class::ALL[class].kind_of(*index), Kind::Beam | Kind::SprungBeam);
         let index = indices.find(is_beam).unwrap();
-        Case::draw(1, index).unwrap()
+        Case::draw(1, index, Meshes::One).unwrap()
     }
 
     #[test]

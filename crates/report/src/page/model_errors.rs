@@ -73,10 +73,10 @@ fn sizes(found: &Value) -> String {
     html += "</p>\n";
     if let Some(mesh) = found.get("mesh").filter(|mesh| !mesh.is_null()) {
         let of = |key: &str| number(mesh, key).map_or("–".into(), |value| significant(value, 2));
-        let _ = write!(
+        let _ = writeln!(
             html,
             "<p>{} modes are paired with those of the coarser mesh. Of what lies between the meshes this one still has {} ± {} (one standard deviation); {} is expected of the size \
-             of the elements.</p>\n",
+             of the elements.</p>",
             mesh.get("paired").and_then(Value::as_u64).unwrap_or(0),
             of("remainder"),
             of("std"),
