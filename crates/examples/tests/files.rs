@@ -170,7 +170,7 @@ fn law(factor: &Value) -> Law {
         }
         let get = |key| table.get(key).map(number);
         return match (get("storage"), get("e0")) {
-            (Some(storage), _) => Law::complex_modulus(storage, get("loss_factor").unwrap()),
+            (Some(storage), _) => Law::complex_modulus(storage, get("loss_factor").unwrap_or(0.0)),
             (_, Some(e0)) => Law::Fractional { e0, e1: get("e1").unwrap(), alpha: get("alpha").unwrap() },
             _ => panic!("{factor:?}"),
         };

@@ -4,7 +4,7 @@ use crate::background::in_background;
 use crate::errors::raise;
 use crate::law::Law;
 use crate::matrix::{Data, Indices, symmetric};
-use frfit::model::{DynamicStiffness, ModelError, Role, Term};
+use frfit::model::{DynamicStiffness, FactorStd, ModelError, Role, Term};
 use frfit_formats::Symmetry;
 use frfit_linalg::sparse::Values;
 use numpy::IntoPyArray;
@@ -16,18 +16,24 @@ use std::sync::Arc;
 #[pyclass(frozen, module = "frfit._frfit")]
 pub(crate) struct Model(pub(crate) Arc<DynamicStiffness>);
 
-/// Name, role, factor, shape, data, indices, column pointers.
-type TermOf<'py> = (String, String, Law, [usize; 2], Data<'py>, Indices<'py>, Indices<'py>);
+/// Name, role, factor, standard deviations of it (relative of the storage, absolute of the loss factor), shape, data, indices, column pointers.
+type TermOf<'py> = (String, String, Law, StdOf, [usize; 2], Data<'py>, Indices<'py>, Indices<'py>);
+
+type StdOf = (Option<f64>, Option<f64>);
 
 /// Terms as one model, its pattern analysed: so that no two threads, nor a forked child, find that half done.
 fn model(py: Python<'_>, terms: Vec<TermOf<'_>>, symmetry: Symmetry) -> PyResult<Model> {
-    let term = |(name, role, Law(factor), shape, data, indices, indptr): TermOf<'_>| {
+    let known: Vec<FactorStd> =
+        terms.iter().map(|term| FactorStd { storage: term.3.0, loss_factor: term.3.1 }).collect();
+    let term = |(name, role, Law(factor), _, shape, data, indices, indptr): TermOf<'_>| {
         let matrix = symmetric(py, &name, symmetry, shape, &data, &indices, &indptr)?;
         Ok(Term { role: role_of(py, &name, &role)?, name, matrix, factor })
     };
     let terms = terms.into_iter().map(term).collect::<PyResult<Vec<Term>>>()?;
     let model = in_background(py, None, move |_| {
         let model = DynamicStiffness::new(terms)?.with_threads(rayon::current_num_threads());
+        let with_std = |model: DynamicStiffness, (term, std)| model.with_factor_std(term, std);
+        let model = known.into_iter().enumerate().fold(model, with_std);
         // Too large for this computer is said where it is asked for something.
         let _ = model.analysis().factor_memory::<f64>();
         Ok(model)
@@ -39,13 +45,13 @@ fn model(py: Python<'_>, terms: Vec<TermOf<'_>>, symmetry: Symmetry) -> PyResult
 #[pyfunction]
 pub(crate) fn restored_model<'py>(
     py: Python<'py>,
-    terms: Vec<(String, String, Law, Data<'py>)>,
+    terms: Vec<(String, String, Law, StdOf, Data<'py>)>,
     indices: Bound<'py, PyAny>,
     indptr: Bound<'py, PyAny>,
 ) -> PyResult<Model> {
     let dim = indptr.len()?.saturating_sub(1);
-    let term = |(name, role, law, data)| -> PyResult<TermOf<'py>> {
-        Ok((name, role, law, [dim, dim], data, indices.extract()?, indptr.extract()?))
+    let term = |(name, role, law, std, data)| -> PyResult<TermOf<'py>> {
+        Ok((name, role, law, std, [dim, dim], data, indices.extract()?, indptr.extract()?))
     };
     let terms = terms.into_iter().map(term).collect::<PyResult<Vec<_>>>()?;
     model(py, terms, Symmetry::Symmetric)
@@ -70,7 +76,8 @@ impl Model {
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
         let terms = PyList::empty(py);
-        for term in self.0.terms() {
+        for (k, term) in self.0.terms().iter().enumerate() {
+            let FactorStd { storage, loss_factor } = self.0.factor_std(k);
             let values = match term.matrix.values() {
                 Values::Real(values) => values.clone().into_pyarray(py).into_any(),
                 Values::Complex(values) => values.clone().into_pyarray(py).into_any(),
@@ -80,7 +87,7 @@ impl Model {
                 Role::Viscous => "viscous",
                 Role::Mass => "mass",
             };
-            terms.append((&term.name, role, Law(term.factor.clone()), values))?;
+            terms.append((&term.name, role, Law(term.factor.clone()), (storage, loss_factor), values))?;
         }
         // All terms are on one pattern, and a model has one at least.
         let pattern = self.0.terms()[0].matrix.pattern();

@@ -48,12 +48,17 @@ class Term:
         ``"stiffness"``, ``"viscous"`` or ``"mass"``.
     factor
         A number, a complex number E (1 + i eta), or a :class:`Law` of frequency; nominal where it is unknown.
+    storage_std, loss_factor_std
+        How well a known factor is known, carried into every error bar: a number in the unit of the factor, of the loss factor
+        a number; or a text as ``"2 %"`` of either.
     """
 
     name: str
     matrix: Any
     role: Role = "stiffness"
     factor: complex | Law = 1.0
+    storage_std: float | str | None = None
+    loss_factor_std: float | str | None = None
 
 
 class Model:
@@ -74,7 +79,8 @@ class Model:
                 raise refuse("terms", "a sequence of Term", shown(term))
             name = word(term.name, "name")
             role = word(term.role, f"matrix {name!r}.role")
-            plain.append((name, role, _law(term.factor, f"matrix {name!r}.factor"), *compressed(term.matrix, name)))
+            law = _law(term.factor, f"matrix {name!r}.factor")
+            plain.append((name, role, law, _std(term, name), *compressed(term.matrix, name)))
         self._model = _frfit.Model(plain)
 
     @property
@@ -100,6 +106,35 @@ def _law(factor: Any, name: str) -> Law:
     if array.size != 1 or not np.isfinite(array).all():
         raise refuse(name, f"{expected}, finite", shown(factor))
     return Law.constant(complex(array.reshape(())))
+
+
+def _std(term: Term, name: str) -> tuple[float | None, float | None]:
+    """Standard deviations of a factor: relative of the storage, absolute of the loss factor."""
+    factor = None if isinstance(term.factor, Law) else complex(term.factor)
+    loss_factor = None if factor is None or factor.real == 0 else abs(factor.imag / factor.real)
+
+    def known(value: Any, key: str, *, of_number: float | None, of_share: float | None) -> float | None:
+        if value is None:
+            return None
+        is_text = isinstance(value, str)
+        digits = value.removesuffix("%").strip() if is_text else value
+        try:
+            std = float(digits)
+        except (TypeError, ValueError):
+            std = float("nan")
+        times = of_share if is_text else of_number
+        std = float("nan") if times is None else std * times * (0.01 if is_text and value.endswith("%") else 1.0)
+        if isinstance(value, bool) or not 0 < std < float("inf"):
+            expected = 'a number above 0, or a text as "2 %"'
+            of_law = ', which a factor that varies needs' if factor is None else ""
+            raise refuse(f"matrix {name!r}.{key}", expected + of_law, shown(value))
+        return std
+
+    relative = None if factor is None or factor.real == 0 else 1 / abs(factor.real)
+    return (
+        known(term.storage_std, "storage_std", of_number=relative, of_share=1.0),
+        known(term.loss_factor_std, "loss_factor_std", of_number=1.0, of_share=loss_factor),
+    )
 
 
 def model_of(model: Any) -> _frfit.Model:

@@ -296,7 +296,7 @@ pub(super) static COMPLEX_MODULUS: Section = Section {
             NEEDED,
             "E′, in the unit of the factor: that of a modulus in the case's `units` (Pa, MPa …) for a matrix made with modulus one.",
         ),
-        key("loss_factor", "number", NEEDED, "η."),
+        key("loss_factor", "number", "0", "η."),
     ],
     examples: &["[[matrix]]
 name = \"plate\"

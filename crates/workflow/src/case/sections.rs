@@ -236,7 +236,8 @@ fn laws_written() -> String {
 
 fn complex_modulus(field: &Field<'_>, more: More) -> Result<Law, InputError> {
     let table = field.table(&[&[&keys::COMPLEX_MODULUS], more].concat())?;
-    let (storage, loss_factor) = (table.need("storage")?.number()?, table.need("loss_factor")?.number()?);
+    let storage = table.need("storage")?.number()?;
+    let loss_factor = table.find("loss_factor").map(|field| field.number()).transpose()?.unwrap_or(0.0);
     if !(storage * loss_factor).is_finite() {
         let found = format!("{storage:?} * {loss_factor:?}");
         return Err(InputError::at(&field.place, "a finite storage * loss_factor", found));

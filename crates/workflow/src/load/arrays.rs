@@ -19,7 +19,7 @@ use frfit::identify::{
 };
 use frfit::laws::LawKind;
 use frfit::material::Law;
-use frfit::model::{DynamicStiffness, Experiment, ModelError, Parameter, Role, Sensor};
+use frfit::model::{DynamicStiffness, Experiment, FactorStd, ModelError, Parameter, Role, Sensor};
 use frfit::quantity::Quantity;
 use frfit::roots::{Bounds, BoundsError};
 use frfit_formats::FormatError;
@@ -184,6 +184,7 @@ pub fn case_of_arrays(
     let sensors = measurements.iter().map(|measurement| measurement.sensor).collect();
     let experiment = experiment(&model, load, sensors)?;
     let (options, unknowns) = unknowns_of(&model, wanted)?;
+    known_have_std(&model, &unknowns)?;
     if let Some(first) = unknown.iter().position(|unknown| unknown.any()) {
         let key = if unknown[first].scale { "scale" } else { "delay_s" };
         let place = argument(&format!("measurement {}", first + 1)).below(key);
@@ -392,6 +393,19 @@ fn covers(model: &DynamicStiffness, frequency_hz: &[f64]) -> Result<(), InputErr
 }
 
 /// The unknowns, and how to find them.
+/// Refuses a standard deviation of a factor that is unknown.
+fn known_have_std(model: &DynamicStiffness, unknowns: &[Unknown]) -> Result<(), InputError> {
+    let has_std = |&term: &usize| model.factor_std(term) != FactorStd::default();
+    match unknowns.iter().flat_map(|one| one.dependence.terms()).find(has_std) {
+        None => Ok(()),
+        Some(term) => {
+            let name = &model.terms()[term].name;
+            let found = format!("one of {name:?}, which is unknown");
+            Err(InputError::at(&argument("storage_std"), "a standard deviation of a known factor", found))
+        }
+    }
+}
+
 fn unknowns_of(model: &DynamicStiffness, wanted: &Wanted) -> Result<(Options, Vec<Unknown>), ArraysError> {
     if let [only] = &wanted.unknowns[..]
         && only.powers.is_empty()

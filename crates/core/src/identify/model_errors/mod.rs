@@ -118,8 +118,10 @@ const FACTOR_PRIOR_STD: f64 = 0.02;
 const LOSS_FACTOR_PRIOR_STD: f64 = 0.002;
 const LOSS_FACTOR_PRIOR_RATIO: f64 = 0.1;
 
-/// What all modes have in common is larger than their scatter: a mesh errs in one sense. Where a coarser mesh shows that, what is left has no such reason.
+/// What all modes have in common is larger than their scatter: a mesh errs in one sense. Where a coarser mesh shows that, what is left does so less:
+/// shear that the elements lack, a thickness.
 const COMMON_RATIO: f64 = 5.0;
+const COMMON_RATIO_BESIDE_MESH: f64 = 2.5;
 
 /// The same of loss factors: a support that has another damping than the structure changes all of them in one sense.
 const COMMON_LOSS_RATIO: f64 = 2.0;
@@ -156,8 +158,12 @@ struct KnownSizes {
 impl KnownSizes {
     /// What the user says, and whether a coarser mesh shows what the mesh has in common.
     fn new(given: ErrorSizes, mesh: Option<&BetweenMeshes>) -> Self {
-        let is_known = given.frequency.is_some() || mesh.is_some();
-        Self { given, common_ratio: if is_known { 1.0 } else { COMMON_RATIO } }
+        let common_ratio = match (given.frequency, mesh) {
+            (Some(_), _) => 1.0,
+            (None, Some(_)) => COMMON_RATIO_BESIDE_MESH,
+            (None, None) => COMMON_RATIO,
+        };
+        Self { given, common_ratio }
     }
 }
 
