@@ -99,12 +99,14 @@ pub struct Case {
     pub truth_rows: usize,
 }
 
-/// How many meshes the user of a model has.
+/// Which meshes the user of a model has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Meshes {
-    /// The model's.
+    /// The one that is drawn.
     One,
-    /// The model's and a coarser one.
+    /// One with elements of half the size.
+    Finer,
+    /// That one, and the one that is drawn beside it.
     Two,
 }
 
@@ -181,7 +183,7 @@ impl Case {
         let coarse = || Realised::new(&structure, &start, &Change::default());
         let nominal = match meshes {
             Meshes::One => coarse()?,
-            Meshes::Two => {
+            Meshes::Finer | Meshes::Two => {
                 change.plan = change.plan.max(FINER);
                 let layers = if structure.kind == Kind::Sandwich { FINER } else { 1 };
                 change.layers = change.layers.max(layers);
@@ -196,7 +198,7 @@ impl Case {
             Ok::<_, Failure>(Experiment::driven_at(of.model.dim(), row(&driven)?, sensors))
         };
         let coarser = match meshes {
-            Meshes::One => None,
+            Meshes::One | Meshes::Finer => None,
             Meshes::Two => {
                 let coarse = coarse()?;
                 let experiment = experiment(&coarse)?;

@@ -1,7 +1,8 @@
 //! A zoo of wrong models: how far the modulus is off where the model is not the structure that was measured, and whether error bars and statuses say so.
 //!
-//! `wrong-models [CASES] [SEED] [--class CLASS] [--way WAY] [--csv FILE] [--case K] [--meshes two]`: so many cases (default 40) of a seed (default 1), of all classes
-//! and ways or of one; with `--case` the case K alone, line by line. With `--meshes two` the model has elements of half the size, and a coarser mesh beside it. Case K of a seed is always the same, and its class is the K-th, counted round.
+//! `wrong-models [CASES] [SEED] [--class CLASS] [--way WAY] [--csv FILE] [--case K] [--meshes one|finer|two]`: so many cases (default 40) of a seed (default 1), of all classes
+//! and ways or of one; with `--case` the case K alone, line by line. With `--meshes finer` the model has elements of half the size, with
+//! `two` also what would be the model as a coarser mesh beside it. Case K of a seed is always the same, and its class is the K-th, counted round.
 //!
 //! Each case draws a structure, its material, load, sensors and noise, and measures the truth, which is another model by class, with direct solves.
 #![allow(clippy::print_stdout, clippy::print_stderr)] // tables are what a benchmark is for
@@ -53,8 +54,11 @@ impl Arguments {
                 "--meshes" => {
                     read.meshes = match value.as_str() {
                         "one" => Meshes::One,
+                        "finer" => Meshes::Finer,
                         "two" => Meshes::Two,
-                        _ => return Err(format!("--meshes: expected one or two, found {value}").into()),
+                        _ => {
+                            return Err(format!("--meshes: expected one, finer or two, found {value}").into());
+                        }
                     }
                 }
                 _ => {
