@@ -163,6 +163,10 @@ fn doubts(text: &mut Text, job: &IdentifyJob, identify: &IdentifyCase) {
     if let Some(errors) = &found.model_errors {
         text.warn("model errors", &model_errors(job, errors));
     }
+    let mesh = found.model_errors.as_ref().and_then(|errors| errors.mesh);
+    if job.case.coarser_mesh.is_some() && mesh.is_none() {
+        text.warn("coarser mesh", UNPAIRED);
+    }
     leverage(job).iter().for_each(|sentence| text.say("leverage", sentence));
     contradictions(text, job);
     channels(text, job, identify);
@@ -175,6 +179,9 @@ fn doubts(text: &mut Text, job: &IdentifyJob, identify: &IdentifyCase) {
         text.say("spectral radius", &format!("up to {radius:.4}"));
     }
 }
+
+/// A coarser mesh that says nothing.
+const UNPAIRED: &str = "not used: fewer than half of the modes of the band could be paired (is it the same structure, driven and measured at the same points?)";
 
 fn noise(text: &mut Text, job: &IdentifyJob) {
     let found = &job.run.found;

@@ -312,6 +312,32 @@ fn a_coarser_mesh_says_how_far_this_one_is_off() {
     }
 }
 
+/// A coarser mesh that is measured elsewhere has other shapes: it is not used, and what comes out is as if it were not there.
+#[test]
+fn a_coarser_mesh_that_is_measured_elsewhere_is_not_used() {
+    let frequency_hz = linear_hz(5.0, 560.0, 60);
+    let truth = [c64::new(7e10, 7e8), c64::new(2e3, 0.0), c64::new(2700.0, 0.0)];
+    let (right, experiment) = sprung(24, truth, &[0.8, 0.4]);
+    let exact = |&f: &f64| {
+        let at = right.at(f, &[]).unwrap();
+        FullModel::new(at, &experiment).unwrap().solve_at(&[]).unwrap()
+    };
+    let u: Vec<Vec<c64>> = frequency_hz.iter().map(exact).collect();
+    let (model, experiment) = sprung(8, truth, &[0.8, 0.4]);
+    let (coarse, elsewhere) = sprung(8, truth, &[0.1, 0.3]);
+    let mesh = CoarserMesh { model: coarse, experiment: elsewhere, element_ratio: 2.0, order: 4.0 };
+    let unknowns =
+        [Unknown { varies: Variation::Constant, ..Unknown::factor_of(&model, &["beam"]).unwrap() }];
+    let frfs = Frfs { frequency_hz: &frequency_hz, receptance: &u, noise: Noise::Unknown };
+    let alone = Problem::new(&model, &experiment, &unknowns, &[], frfs).unwrap();
+    let beside = alone.clone().with_coarser_mesh(&mesh).unwrap();
+    let context = Context { for_each: &sequential, progress: &|_, _, _| {} };
+    let [alone, beside] =
+        [alone, beside].map(|problem| identify(&problem, &Options::default(), context).unwrap());
+    assert!(beside.model_errors.as_ref().unwrap().mesh.is_none());
+    assert_eq!(alone.constants, beside.constants);
+}
+
 /// What is no coarser mesh of this structure, or cannot be used, is refused with what was expected.
 #[test]
 fn a_coarser_mesh_of_another_structure_is_refused() {

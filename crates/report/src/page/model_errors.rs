@@ -29,11 +29,16 @@ pub(super) fn model_errors(results: &Results) -> String {
                 .to_owned()
         }
     };
+    let is_unused = summary.0.pointer("/identify/coarser_mesh") == Some(&Value::Bool(true))
+        && found.and_then(|found| found.get("mesh")).is_none_or(Value::is_null);
+    let body = body + if is_unused { UNPAIRED } else { "" };
     format!(
         "<section id=\"model-errors\" aria-labelledby=\"model-errors-title\"><h2 id=\"model-errors-title\">Errors of the model</h2>\n{body}{}</section>\n",
         leverage(results)
     )
 }
+
+const UNPAIRED: &str = "<p>The coarser mesh was not used: fewer than half of the modes of the band could be paired with its modes.</p>\n";
 
 fn number(of: &Value, key: &str) -> Option<f64> {
     of.get(key).and_then(Value::as_f64)

@@ -51,6 +51,7 @@ pub fn summary_json(
             "reduction": options.reduction.name(),
             "reject_outliers": options.reject_outliers,
             "model_error": model_error_json(options.model_errors),
+            "coarser_mesh": case.coarser_mesh.is_some(),
         },
         "unknowns": (0..identify.unknowns.len()).map(|j| unknown_json(case, identify, run, j)).collect::<Vec<_>>(),
         "frequencies": found.lines.len(),

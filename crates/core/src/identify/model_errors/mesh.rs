@@ -62,11 +62,14 @@ const MAX_DIFFERENCE: f64 = 3.0;
 /// Above this part of the highest frequency of the band modes of a reduced model need not be those of the structure.
 const PAIRED_UP_TO: f64 = 1.05;
 
+/// Part of the modes of a band that are paired at least, or it is not the same structure, or is driven and measured elsewhere.
+const MIN_PAIRED: f64 = 0.5;
+
 /// An error of a shape beyond this belongs to a node, where it says nothing.
 const MAX_SHAPE_DIFFERENCE: f64 = 0.5;
 
 impl BetweenMeshes {
-    /// At some points of the coarser mesh, of which one is where the finer one's modes are; `None` where nothing is paired.
+    /// At some points of the coarser mesh, of which one is where the finer one's modes are; `None` where too few modes are paired.
     pub(super) fn new(
         mesh: &CoarserMesh,
         points: &[Point<'_>],
@@ -86,6 +89,12 @@ impl BetweenMeshes {
     /// Of two sets of modes.
     fn of(modes: &Modes, coarser: &Modes, remainder: f64, highest_rad_s: f64) -> Option<Self> {
         let partners = paired(modes, coarser, PAIRED_UP_TO * highest_rad_s);
+        let is_in_band = |omega: &f64| *omega > 0.0 && *omega <= highest_rad_s;
+        let in_band = modes.omega_rad_s.iter().zip(&partners).filter(|(omega, _)| is_in_band(omega));
+        let [all, known] = [in_band.clone().count(), in_band.filter(|(_, j)| j.is_some()).count()];
+        if (known as f64) < MIN_PAIRED * all as f64 {
+            return None;
+        }
         let n = modes.omega_rad_s.len();
         let mut stiffness = vec![0.0; modes.of_error.len()];
         let mut load = vec![0.0; n];
