@@ -23,13 +23,14 @@ type StdOf = (Option<f64>, Option<f64>);
 
 /// Terms as one model, its pattern analysed: so that no two threads, nor a forked child, find that half done.
 fn model(py: Python<'_>, terms: Vec<TermOf<'_>>, symmetry: Symmetry) -> PyResult<Model> {
-    let known: Vec<FactorStd> =
-        terms.iter().map(|term| FactorStd { storage: term.3.0, loss_factor: term.3.1 }).collect();
-    let term = |(name, role, Law(factor), _, shape, data, indices, indptr): TermOf<'_>| {
-        let matrix = symmetric(py, &name, symmetry, shape, &data, &indices, &indptr)?;
-        Ok(Term { role: role_of(py, &name, &role)?, name, matrix, factor })
-    };
-    let terms = terms.into_iter().map(term).collect::<PyResult<Vec<Term>>>()?;
+    let term =
+        |(name, role, Law(factor), (storage, loss_factor), shape, data, indices, indptr): TermOf<'_>| {
+            let matrix = symmetric(py, &name, symmetry, shape, &data, &indices, &indptr)?;
+            let term = Term { role: role_of(py, &name, &role)?, name, matrix, factor };
+            Ok((term, FactorStd { storage, loss_factor }))
+        };
+    let terms = terms.into_iter().map(term).collect::<PyResult<Vec<_>>>()?;
+    let (terms, known): (Vec<Term>, Vec<FactorStd>) = terms.into_iter().unzip();
     let model = in_background(py, None, move |_| {
         let model = DynamicStiffness::new(terms)?.with_threads(rayon::current_num_threads());
         let with_std = |model: DynamicStiffness, (term, std)| model.with_factor_std(term, std);

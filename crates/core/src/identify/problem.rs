@@ -12,6 +12,7 @@ use crate::laws::LawKind;
 use crate::material::OutsideTable;
 use crate::model::{DynamicStiffness, Experiment, ModelAt, Parameter};
 use crate::roots::BoundsError;
+use std::borrow::Cow;
 use std::fmt;
 
 /// Measured frequency response functions.
@@ -57,7 +58,7 @@ pub enum ProblemError {
         /// Which, and where.
         what: String,
         /// What it should be.
-        expected: &'static str,
+        expected: Cow<'static, str>,
         /// What it is.
         found: String,
     },
@@ -77,15 +78,6 @@ pub enum ProblemError {
         /// Unknown real numbers.
         unknown: usize,
     },
-    /// A coarser mesh of another structure.
-    Mesh {
-        /// What differs.
-        what: String,
-        /// What it should be.
-        expected: String,
-        /// What it is.
-        found: String,
-    },
     /// A combination that has no method.
     Unsupported {
         /// What.
@@ -104,7 +96,6 @@ impl fmt::Display for ProblemError {
         match self {
             Self::Count { what, expected, found } => write!(f, "{what}: expected {expected}, found {found}"),
             Self::Value { what, expected, found } => write!(f, "{what}: expected {expected}, found {found}"),
-            Self::Mesh { what, expected, found } => write!(f, "{what}: expected {expected}, found {found}"),
             Self::Unknown { name, expected, found } => {
                 write!(f, "unknown {name:?}: expected {expected}, found {found}")
             }
@@ -171,7 +162,7 @@ impl<'a> Problem<'a> {
         let channels = if known { &[] } else { channels };
         let parameter = if let [only] = unknowns { only.parameter() } else { None };
         let problem = Self { model, experiment, unknowns, channels, frfs, coarser: None, parameter };
-        problem.check_experiment()?;
+        check_experiment("", model, experiment)?;
         problem.check_frfs()?;
         problem.check_noise()?;
         problem.check_unknowns()?;
@@ -185,12 +176,12 @@ impl<'a> Problem<'a> {
     /// [`ProblemError`] where it is not the same structure, or something stands in the way of estimating errors of the model: channels of unknown scale or delay.
     pub fn with_coarser_mesh(self, mesh: &'a CoarserMesh) -> Result<Self, ProblemError> {
         let is_unknown = |term| self.unknowns.iter().any(|one| one.dependence.terms().any(|own| own == term));
-        mesh.validate(self.model, self.experiment, is_unknown, self.frfs.frequency_hz)
-            .map_err(|[what, expected, found]| ProblemError::Mesh { what, expected, found })?;
+        check_experiment("coarser mesh: ", &mesh.model, &mesh.experiment)?;
+        mesh.validate(self.model, self.experiment, is_unknown, self.frfs.frequency_hz)?;
         if !self.channels.is_empty() {
             return Err(ProblemError::Unsupported {
                 what: "a coarser mesh",
-                reason: "expected calibrated channels: errors of the model are not told from channels of unknown scale or delay",
+                reason: "expected calibrated channels: errors of the model cannot be separated from an unknown scale or delay",
             });
         }
         Ok(Self { coarser: Some(mesh), ..self })
@@ -291,40 +282,6 @@ impl<'a> Problem<'a> {
             }
         }
         Ok(())
-    }
-
-    fn check_experiment(&self) -> Result<(), ProblemError> {
-        let dim = self.model.dim();
-        let decay_per_s = self.model.decay_per_s();
-        if !(decay_per_s.is_finite() && decay_per_s >= 0.0) {
-            let expected = "a finite number of 1/s that is not negative: that of a window e^(-decay t)";
-            return Err(value("decay_per_s of the model", expected, decay_per_s));
-        }
-        let Experiment { load, sensors } = self.experiment;
-        if load.len() != dim {
-            let expected = format!("{dim} entries, as the model has degrees of freedom");
-            return Err(ProblemError::Count { what: "load".into(), expected, found: load.len() });
-        }
-        if let Some(row) = load.iter().position(|force| !force.is_finite()) {
-            return Err(value(format!("load at row {row}"), "a finite number", load[row]));
-        }
-        if load.iter().all(|force| force.norm() == 0.0) {
-            return Err(value("load", "at least one entry that is not zero", "none"));
-        }
-        if sensors.is_empty() {
-            return Err(ProblemError::Count {
-                what: "sensors".into(),
-                expected: "at least one".into(),
-                found: 0,
-            });
-        }
-        match sensors.iter().enumerate().find(|(_, sensor)| sensor.row >= dim || !sensor.sign.is_finite()) {
-            None => Ok(()),
-            Some((m, sensor)) if sensor.row >= dim => {
-                Err(value(format!("row of sensor {m}"), "a row of the model", sensor.row))
-            }
-            Some((m, sensor)) => Err(value(format!("sign of sensor {m}"), "1 or -1", sensor.sign)),
-        }
     }
 
     fn check_frfs(&self) -> Result<(), ProblemError> {
@@ -525,6 +482,46 @@ impl<'a> Problem<'a> {
     }
 }
 
-fn value(what: impl Into<String>, expected: &'static str, found: impl ToString) -> ProblemError {
-    ProblemError::Value { what: what.into(), expected, found: found.to_string() }
+/// Refuses a load or sensors that a model cannot have; `of` stands before what is wrong.
+fn check_experiment(of: &str, model: &DynamicStiffness, experiment: &Experiment) -> Result<(), ProblemError> {
+    let dim = model.dim();
+    let decay_per_s = model.decay_per_s();
+    if !(decay_per_s.is_finite() && decay_per_s >= 0.0) {
+        let expected = "a finite number of 1/s that is not negative: that of a window e^(-decay t)";
+        return Err(value(format!("{of}decay_per_s of the model"), expected, decay_per_s));
+    }
+    let Experiment { load, sensors } = experiment;
+    if load.len() != dim {
+        let expected = format!("{dim} entries, as the model has degrees of freedom");
+        return Err(ProblemError::Count { what: format!("{of}load"), expected, found: load.len() });
+    }
+    if let Some(row) = load.iter().position(|force| !force.is_finite()) {
+        return Err(value(format!("{of}load at row {row}"), "a finite number", load[row]));
+    }
+    if load.iter().all(|force| force.norm() == 0.0) {
+        return Err(value(format!("{of}load"), "at least one entry that is not zero", "none"));
+    }
+    if sensors.is_empty() {
+        return Err(ProblemError::Count {
+            what: format!("{of}sensors"),
+            expected: "at least one".into(),
+            found: 0,
+        });
+    }
+    match sensors.iter().enumerate().find(|(_, sensor)| sensor.row >= dim || !sensor.sign.is_finite()) {
+        None => Ok(()),
+        Some((m, sensor)) if sensor.row >= dim => {
+            Err(value(format!("{of}row of sensor {m}"), "a row of the model", sensor.row))
+        }
+        Some((m, sensor)) => Err(value(format!("{of}sign of sensor {m}"), "1 or -1", sensor.sign)),
+    }
+}
+
+/// A wrong value.
+pub(super) fn value(
+    what: impl Into<String>,
+    expected: impl Into<Cow<'static, str>>,
+    found: impl ToString,
+) -> ProblemError {
+    ProblemError::Value { what: what.into(), expected: expected.into(), found: found.to_string() }
 }

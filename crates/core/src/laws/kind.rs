@@ -219,7 +219,7 @@ impl LawKind {
 
     /// The parameters in their order.
     pub fn parameters(self) -> Vec<Parameter> {
-        // Times a decade apart, as far as data tell them.
+        // Times a decade apart: data resolve no closer ones.
         let example = |parameter: &Parameter, k: usize| match parameter.kind {
             ParameterKind::Time => parameter.example / 10_f64.powi(k as i32),
             _ => parameter.example,

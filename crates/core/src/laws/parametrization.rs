@@ -43,11 +43,12 @@ impl Parametrization {
         let exponent = self.exponent().map(|k| (k, logistic(theta[k])));
         let mut p = vec![0.0; n];
         for i in 0..n {
+            let exponential = theta[i].exp();
             (p[i], slopes[i][i]) = match self.kind.parameter_kind(i) {
-                ParameterKind::Modulus => (theta[i].exp(), theta[i].exp()),
+                ParameterKind::Modulus => (exponential, exponential),
                 ParameterKind::ModulusAboveFirst => {
                     slopes[i][0] = p[0];
-                    (p[0] + theta[i].exp(), theta[i].exp())
+                    (p[0] + exponential, exponential)
                 }
                 ParameterKind::ModulusTimesPower => {
                     let (k, (alpha, slope)) = exponent.unwrap_or_default();
@@ -55,7 +56,7 @@ impl Parametrization {
                     slopes[i][k] = -modulus * reference.ln() * slope;
                     (modulus, modulus)
                 }
-                ParameterKind::Time => (theta[i].exp() / reference, theta[i].exp() / reference),
+                ParameterKind::Time => (exponential / reference, exponential / reference),
                 ParameterKind::Exponent => logistic(theta[i]),
                 ParameterKind::LossFactor => (theta[i], 1.0),
             };

@@ -110,31 +110,33 @@ def _law(factor: Any, name: str) -> Law:
 
 def _std(term: Term, name: str) -> tuple[float | None, float | None]:
     """Standard deviations of a factor: relative of the storage, absolute of the loss factor."""
-    factor = None if isinstance(term.factor, Law) else complex(term.factor)
-    loss_factor = None if factor is None or factor.real == 0 else abs(factor.imag / factor.real)
-
-    def known(value: Any, key: str, *, of_number: float | None, of_share: float | None) -> float | None:
-        if value is None:
-            return None
-        is_text = isinstance(value, str)
-        digits = value.removesuffix("%").strip() if is_text else value
-        try:
-            std = float(digits)
-        except (TypeError, ValueError):
-            std = float("nan")
-        times = of_share if is_text else of_number
-        std = float("nan") if times is None else std * times * (0.01 if is_text and value.endswith("%") else 1.0)
-        if isinstance(value, bool) or not 0 < std < float("inf"):
-            expected = 'a number above 0, or a text as "2 %"'
-            of_law = ', which a factor that varies needs' if factor is None else ""
-            raise refuse(f"matrix {name!r}.{key}", expected + of_law, shown(value))
-        return std
-
-    relative = None if factor is None or factor.real == 0 else 1 / abs(factor.real)
+    unit = loss_factor = np.nan
+    if not isinstance(term.factor, Law):
+        factor = complex(term.factor)
+        unit, loss_factor = (1 / abs(factor.real), abs(factor.imag / factor.real)) if factor.real else (np.nan, np.nan)
     return (
-        known(term.storage_std, "storage_std", of_number=relative, of_share=1.0),
-        known(term.loss_factor_std, "loss_factor_std", of_number=1.0, of_share=loss_factor),
+        _deviation(term.storage_std, f"matrix {name!r}.storage_std", unit=unit, share_of=1.0),
+        _deviation(term.loss_factor_std, f"matrix {name!r}.loss_factor_std", unit=1.0, share_of=loss_factor),
     )
+
+
+def _deviation(value: Any, name: str, *, unit: float, share_of: float) -> float | None:
+    """A number times ``unit``, or a text in per cent of ``share_of``; NaN stands for a form that is not possible."""
+    if value is None:
+        return None
+    forms = [(unit, "a number above 0"), (share_of, 'a text as "2 %"')]
+    expected = " or ".join(form for times, form in forms if np.isfinite(times))
+    if isinstance(value, str):
+        digits, percent, rest = value.partition("%")
+        try:
+            std = share_of * float(digits) / 100 if percent and not rest.strip() else np.nan
+        except ValueError:
+            std = np.nan
+    else:
+        std = unit * number(value, name, expected)
+    if not 0 < std < np.inf:
+        raise refuse(name, expected, shown(value))
+    return std
 
 
 def model_of(model: Any) -> _frfit.Model:

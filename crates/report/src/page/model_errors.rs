@@ -20,7 +20,7 @@ pub(super) fn model_errors(results: &Results) -> String {
     let body = match found {
         Some(found) => sizes(found) + &modes(found) + &others(found),
         None if known == "none" => {
-            "<p>The case says that there are none (<code>model_error = \"none\"</code>): error bars hold the noise of the measurement alone.</p>\n"
+            "<p>The case says that the model has no errors (<code>model_error = \"none\"</code>): error bars hold the noise of the measurement alone.</p>\n"
                 .to_owned()
         }
         None => {
@@ -39,6 +39,10 @@ pub(super) fn model_errors(results: &Results) -> String {
 }
 
 const UNPAIRED: &str = "<p>The coarser mesh was not used: fewer than half of the modes of the band could be paired with its modes.</p>\n";
+
+fn list<'v>(of: &'v Value, key: &str) -> &'v [Value] {
+    of.get(key).and_then(Value::as_array).map_or(&[], Vec::as_slice)
+}
 
 fn number(of: &Value, key: &str) -> Option<f64> {
     of.get(key).and_then(Value::as_f64)
@@ -93,7 +97,7 @@ fn sizes(found: &Value) -> String {
 
 /// The modes, each with its error.
 fn modes(found: &Value) -> String {
-    let all = found.get("modes").and_then(Value::as_array).map_or(&[][..], Vec::as_slice);
+    let all = list(found, "modes");
     if all.is_empty() {
         return String::new();
     }
@@ -114,10 +118,8 @@ fn modes(found: &Value) -> String {
 
 /// Known matrices and masses at sensors.
 fn others(found: &Value) -> String {
-    let list = |key: &str| found.get(key).and_then(Value::as_array).cloned().unwrap_or_default();
     let text = |of: &Value, key: &str| escape(of.get(key).and_then(Value::as_str).unwrap_or(""));
-    let matrices = list("matrices");
-    let rows = matrices.iter().map(|one| {
+    let rows = list(found, "matrices").iter().map(|one| {
         let part = text(one, "part").replace('_', " ");
         let error = match number(one, "error").zip(number(one, "std")) {
             Some((error, std)) if part == "loss factor" => {
@@ -132,7 +134,7 @@ fn others(found: &Value) -> String {
     let mut html = if rows.is_empty() { String::new() } else { table("Known matrices", &heads, &rows) };
     let clear =
         |one: &&Value| number(one, "mass_kg").zip(number(one, "std_kg")).is_some_and(|(m, s)| m > 2.0 * s);
-    for one in list("sensor_masses").iter().filter(clear) {
+    for one in list(found, "sensor_masses").iter().filter(clear) {
         let of = |key: &str, times: f64| {
             number(one, key).map_or("–".into(), |mass| significant(times * mass, 2))
         };

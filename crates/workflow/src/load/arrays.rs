@@ -3,7 +3,8 @@
 use super::band::band;
 use super::files::NamedFile;
 use super::identify::{
-    Check, can_be_found, factor_of, fit_for_band, is_single, middle_of, one_is_calibrated, shared,
+    Check, can_be_found, factor_of, fit_for_band, is_single, known_have_std, middle_of, one_is_calibrated,
+    shared,
 };
 use super::lines::unused;
 use super::measurement::{Curve, Decay, Measurement, common_decay};
@@ -19,7 +20,7 @@ use frfit::identify::{
 };
 use frfit::laws::LawKind;
 use frfit::material::Law;
-use frfit::model::{DynamicStiffness, Experiment, FactorStd, ModelError, Parameter, Role, Sensor};
+use frfit::model::{DynamicStiffness, Experiment, ModelError, Parameter, Role, Sensor};
 use frfit::quantity::Quantity;
 use frfit::roots::{Bounds, BoundsError};
 use frfit_formats::FormatError;
@@ -184,7 +185,7 @@ pub fn case_of_arrays(
     let sensors = measurements.iter().map(|measurement| measurement.sensor).collect();
     let experiment = experiment(&model, load, sensors)?;
     let (options, unknowns) = unknowns_of(&model, wanted)?;
-    known_have_std(&model, &unknowns)?;
+    known_have_std(&model, &unknowns, |_| argument("storage_std"))?;
     if let Some(first) = unknown.iter().position(|unknown| unknown.any()) {
         let key = if unknown[first].scale { "scale" } else { "delay_s" };
         let place = argument(&format!("measurement {}", first + 1)).below(key);
@@ -393,19 +394,6 @@ fn covers(model: &DynamicStiffness, frequency_hz: &[f64]) -> Result<(), InputErr
 }
 
 /// The unknowns, and how to find them.
-/// Refuses a standard deviation of a factor that is unknown.
-fn known_have_std(model: &DynamicStiffness, unknowns: &[Unknown]) -> Result<(), InputError> {
-    let has_std = |&term: &usize| model.factor_std(term) != FactorStd::default();
-    match unknowns.iter().flat_map(|one| one.dependence.terms()).find(has_std) {
-        None => Ok(()),
-        Some(term) => {
-            let name = &model.terms()[term].name;
-            let found = format!("one of {name:?}, which is unknown");
-            Err(InputError::at(&argument("storage_std"), "a standard deviation of a known factor", found))
-        }
-    }
-}
-
 fn unknowns_of(model: &DynamicStiffness, wanted: &Wanted) -> Result<(Options, Vec<Unknown>), ArraysError> {
     if let [only] = &wanted.unknowns[..]
         && only.powers.is_empty()

@@ -14,27 +14,16 @@ pub(super) fn coarser_mesh(
     (fine, keeps_dimensions): (&Structure, bool),
     files: &mut Files,
 ) -> Result<CoarserMesh, InputError> {
-    let refuse = |expected: String, found: String| Err(InputError::at(&entry.file.place, expected, found));
     let path = files.beside(&entry.file)?;
     let (mut own, bytes) = Files::of_case(&path).map_err(|error| error.named_by(&entry.file.place))?;
     let case = case::parse(&path, &bytes)?;
-    let Structure { terms, of, dofs } = structure(&case, keeps_dimensions, &mut own)?;
-    let names = |structure: &[super::dimension::PartOf]| {
-        let mut names: Vec<String> = structure.iter().map(|part| part.matrix.clone()).collect();
-        names.dedup();
-        names.join(", ")
-    };
-    let [wanted, found] = [names(&fine.of), names(&of)];
-    if wanted != found || fine.terms.len() != terms.len() {
-        let more = |of: &Structure| of.terms.len() - of.of.len();
-        let count = |matrices: &str, more: usize| match more {
-            0 => matrices.to_owned(),
-            more => format!("{matrices} and {more} attached"),
-        };
-        let expected = count(&wanted, more(fine));
-        let found = count(&found, terms.len() - of.len());
-        return refuse(format!("a case with the same matrices in the same order, {expected}"), found);
+    let coarse = structure(&case, keeps_dimensions, &mut own)?;
+    let [wanted, found] = [described(fine), described(&coarse)];
+    if wanted != found {
+        let expected = format!("a case with the same matrices in the same order, {wanted}");
+        return Err(InputError::at(&entry.file.place, expected, found));
     }
+    let Structure { terms, dofs, .. } = coarse;
     let model = model::model(&case, terms)?;
     let load = force::load(&case.load, model.dim(), &dofs, &mut own)?;
     let mut sensors = Vec::with_capacity(case.measurements.len());
@@ -54,4 +43,15 @@ pub(super) fn coarser_mesh(
         element_ratio: entry.element_ratio.unwrap_or(CoarserMesh::ELEMENT_RATIO),
         order: entry.order.unwrap_or(CoarserMesh::ORDER),
     })
+}
+
+/// Its matrices, each once however many powers of a dimension it has, and how many terms are attached.
+fn described(structure: &Structure) -> String {
+    let mut names: Vec<&str> = structure.of.iter().map(|part| part.matrix.as_str()).collect();
+    names.dedup();
+    let attached = match structure.terms.len() - structure.of.len() {
+        0 => String::new(),
+        count => format!(" and {count} attached"),
+    };
+    names.join(", ") + &attached
 }

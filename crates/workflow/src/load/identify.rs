@@ -15,7 +15,7 @@ use frfit::identify::{
     ChannelUnknowns, Method, Options, OptionsError, Reduction, Selection, Unknown, Variation,
 };
 use frfit::material::Law;
-use frfit::model::{DynamicStiffness, Parameter, Role};
+use frfit::model::{DynamicStiffness, FactorStd, Parameter, Role};
 use frfit::roots::{Bounds, BoundsError};
 
 /// An identification, everything checked.
@@ -146,7 +146,7 @@ pub(super) fn identify(
     let left_out = unused(&data, &entry.exclude, most, &entry.place.below("exclude_hz"))?;
     let unit = factor_unit(case, &entry.matrices, &parameter.nominal, &data.frequency_hz);
     let unknowns = vec![Unknown { bounds, real: entry.real, ..factor_of(&parameter, model, &varies) }];
-    known_have_std(case, model, &unknowns)?;
+    known_have_std(model, &unknowns, place_of_std(case))?;
     Ok(IdentifyCase {
         unknowns,
         units: vec![unit],
@@ -195,23 +195,30 @@ pub(super) fn factor_unit(
     FactorUnit::of(role, is_modulus, nominal, frequency_hz, case.units)
 }
 
-/// Refuses a standard deviation of a factor that is unknown: bounds limit it.
+/// Refuses a standard deviation of a factor that is unknown: bounds limit it. `place` is where that of a matrix stands.
 pub(super) fn known_have_std(
-    case: &CaseFile,
     model: &DynamicStiffness,
     unknowns: &[Unknown],
+    place: impl Fn(&str) -> Place,
 ) -> Result<(), InputError> {
-    let is_unknown = |name: &str| {
-        let mut terms = unknowns.iter().flat_map(|one| one.dependence.terms());
-        terms.any(|term| model.terms()[term].name == name)
-    };
-    for entry in case.matrices.iter().filter(|entry| is_unknown(&entry.name.value)) {
-        if let Some(std) = &entry.factor_std {
-            let found = format!("one of {:?}, which is unknown", entry.name.value);
-            return Err(InputError::at(&std.place, "a standard deviation of a known factor", found));
+    let has_std = |&term: &usize| model.factor_std(term) != FactorStd::default();
+    match unknowns.iter().flat_map(|one| one.dependence.terms()).find(has_std) {
+        None => Ok(()),
+        Some(term) => {
+            let name = &model.terms()[term].name;
+            let found = format!("one of {name:?}, which is unknown");
+            Err(InputError::at(&place(name), "a standard deviation of a known factor", found))
         }
     }
-    Ok(())
+}
+
+/// Where the standard deviation of a matrix stands in a case.
+pub(super) fn place_of_std<'c>(case: &'c CaseFile) -> impl Fn(&str) -> Place + 'c {
+    |name| {
+        let entry = case.matrices.iter().find(|entry| entry.name.value == name);
+        let std = entry.and_then(|entry| entry.factor_std.as_ref());
+        std.map_or_else(|| Place::file(&case.file), |std| std.place.clone())
+    }
 }
 
 /// The names, each of them a matrix's, each once.

@@ -7,7 +7,7 @@ use super::factor::{covers, law};
 use super::files::Files;
 use super::identify::{
     Check, IdentifyCase, band_of, channels_of, factor_unit, known_have_std, known_names, one_is_calibrated,
-    shared_factor,
+    place_of_std, shared_factor,
 };
 use super::lines::unused;
 use super::measurement::Measurement;
@@ -52,7 +52,7 @@ pub(super) fn several(
     let unknowns = entry.unknowns.iter().map(|one| unknowns(case, one, (model, of)));
     let unknowns = unknowns.collect::<Result<Vec<_>, _>>()?;
     refuse_twice(entry)?;
-    known_have_std(case, model, &unknowns)?;
+    known_have_std(model, &unknowns, place_of_std(case))?;
     let reference = entry
         .unknowns
         .iter()

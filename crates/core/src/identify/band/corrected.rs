@@ -112,7 +112,7 @@ impl Weights {
     }
 }
 
-/// Adds to the error bars what those of the errors of the model make of the factor: how much longer they become, the median of the lines that are `ok`.
+/// Adds to the error bars what the errors of the model make of the factor. Returns how much longer the bars become: the median of the lines that are `ok`.
 fn widen(
     outcome: &mut BandOutcome,
     errors: &Estimated,
@@ -159,9 +159,9 @@ fn widen(
         bars.widen(factor, moved);
         if line.status == Status::Ok {
             longer.push(bars.storage_std / of_noise);
-        }
-        if line.status == Status::Ok && !(bars.is_known(factor) && bars.is_linear()) {
-            line.status = Status::NotIdentifiable;
+            if !(bars.is_known(factor) && bars.is_linear()) {
+                line.status = Status::NotIdentifiable;
+            }
         }
     }
     median(longer)

@@ -20,7 +20,7 @@ pub struct ModelErrorsFound {
     pub factors: Vec<FactorError>,
     /// Masses at the sensors that the model does not have, one for each; empty where only factors are in error.
     pub masses: Vec<SensorMass>,
-    /// What a coarser mesh says of this one; `None` where there is none, or fewer than half of the modes of the band are paired.
+    /// The error of the mesh, estimated with a coarser one; `None` without one, or where fewer than half of the modes of the band are paired.
     pub mesh: Option<MeshError>,
     /// Error bars of the real part over those of noise alone, the median of the lines that are `ok`: of a single unknown that each frequency has a value of its own of.
     pub bars_over_noise: Option<f64>,

@@ -28,7 +28,7 @@ impl<'t> Coarser<'t> {
     }
 }
 
-/// What lies between two meshes, mode by mode of the finer one; zero of modes that have no partner.
+/// The differences Δ between two meshes, mode by mode of the finer one; zero for modes that have no partner.
 #[derive(Debug, Clone, PartialEq)]
 pub(in crate::identify) struct BetweenMeshes {
     /// δ over Δ: the part of it that the finer mesh still has.
@@ -135,12 +135,9 @@ impl BetweenMeshes {
 }
 
 impl Fitting<'_, '_> {
-    /// What of the amplitude of the mesh's error an error of the search has: by its place among δ and ε, factors, masses, load and shapes.
-    pub(super) fn between_meshes(&self, coordinate: usize) -> f64 {
+    /// Δ_mi of the coordinate of an a, zero of any other: what of the amplitude of the mesh's error it has.
+    pub(super) fn between_shapes(&self, coordinate: usize) -> f64 {
         let Some(mesh) = self.mesh else { return 0.0 };
-        if self.own().contains(&coordinate) {
-            return mesh.stiffness[coordinate - self.first_own()];
-        }
         match coordinate.checked_sub(self.shapes().start) {
             Some(place) => {
                 let (at, mode) = (place / self.modes(), place % self.modes());
@@ -150,7 +147,7 @@ impl Fitting<'_, '_> {
         }
     }
 
-    /// By how much modes converge by another order than is said, or of a mode without partner may: the standard deviation of an own δ or a.
+    /// The standard deviation that the mesh adds to an own δ or a: modes converge by somewhat different orders, and those without a partner by an unknown one.
     pub(super) fn scatter_of_mesh(&self, coordinate: usize) -> f64 {
         let Some(mesh) = self.mesh else { return 0.0 };
         let mode = match self.own().contains(&coordinate) {
@@ -159,7 +156,7 @@ impl Fitting<'_, '_> {
         };
         let between = match mesh.is_paired(mode) {
             true if self.own().contains(&coordinate) => mesh.largest_below[mode],
-            true => self.between_meshes(coordinate).abs(),
+            true => self.between_shapes(coordinate).abs(),
             false => mesh.usual * self.growth(coordinate),
         };
         ORDER_SCATTER * mesh.remainder * between

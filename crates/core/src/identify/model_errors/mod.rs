@@ -775,7 +775,7 @@ impl<'a> Measured<'_, 'a> {
             let own = std::iter::once((first + error, 1.0));
             let shared = (theta..first).filter(|_| error < modes);
             let of_mesh = fitting.of_mesh().filter(|_| error >= modes);
-            let of_mesh = of_mesh.map(|(p, _)| (p, fitting.between_meshes(first + error)));
+            let of_mesh = of_mesh.map(|(p, _)| (p, fitting.between_shapes(first + error)));
             own.chain(shared.map(|p| (p, fitting.common(error)[p - theta]))).chain(of_mesh).collect()
         };
         let parts: Vec<Vec<(usize, f64)>> = (0..kept).map(parts).collect();

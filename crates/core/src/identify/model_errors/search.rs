@@ -310,7 +310,7 @@ impl Fitting<'_, '_> {
         let common = |i: usize| self.common(i).iter().zip(&place[first..]).map(|(w, e)| w * e).sum::<f64>();
         let by_mesh = self.of_mesh().map_or(0.0, |(of_mesh, _)| place[of_mesh]);
         let with_mesh = |range: std::ops::Range<usize>| -> Vec<f64> {
-            range.map(|i| place[i] + by_mesh * self.between_meshes(i)).collect()
+            range.map(|i| place[i] + by_mesh * self.between_shapes(i)).collect()
         };
         let shape = |m: usize| with_mesh(self.first_shape(m)..self.first_shape(m) + n);
         let factor =
