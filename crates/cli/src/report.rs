@@ -239,8 +239,17 @@ fn fit(text: &mut Text, job: &IdentifyJob) {
             text.warn("not explained", &format!("{who} ({by})"));
         }
         Explained::Nearly => {
-            let times = per_freedom.sqrt();
-            let sentence = format!("misfit {times:.2} times the given noise: error bars are longer by that");
+            let rest = found.model_errors.as_ref().map_or(0.0, |errors| errors.response_std);
+            let sentence = match rest > 0.0 {
+                true => format!(
+                    "{:.1} % of the response is left beside noise and errors of the model, and in the error bars",
+                    100.0 * rest
+                ),
+                false => {
+                    let times = per_freedom.sqrt();
+                    format!("misfit {times:.2} times the given noise: error bars are longer by that")
+                }
+            };
             text.warn("fit", &sentence);
         }
         Explained::Yes => {

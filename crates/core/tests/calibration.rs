@@ -8,7 +8,9 @@ use common::{Band, Case, Setup, bar, c, plate};
 use frfit::c64;
 use frfit::for_each::sequential;
 use frfit::frequency::{linear_hz, omega_rad_s};
-use frfit::identify::{Calibrated, Calibration, ChannelUnknowns, Context, Noise, Stage, Status, Variation};
+use frfit::identify::{
+    Calibrated, Calibration, ChannelUnknowns, Context, ModelErrors, Noise, Stage, Status, Variation,
+};
 use frfit::laws::LawKind;
 use frfit::material::Law;
 use frfit::roots::Bounds;
@@ -73,7 +75,8 @@ impl Test {
 
     fn setup(&self) -> Setup {
         let bounds = Bounds { storage: Some([self.truth.re / 4.0, 4.0 * self.truth.re]), loss_factor: None };
-        Setup::within(bounds)
+        // What noise does where the model is right.
+        Setup::within(bounds).with_model_errors(ModelErrors::None)
     }
 }
 

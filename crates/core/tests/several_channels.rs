@@ -9,8 +9,8 @@ use frfit::c64;
 use frfit::for_each::sequential;
 use frfit::frequency::{linear_hz, omega_rad_s};
 use frfit::identify::{
-    Calibrated, Calibration, ChannelUnknowns, Context, Dependence, Frfs, Identification, Noise, NumberOf,
-    Options, Problem, ProblemError, Status, Unknown, Variation, identify,
+    Calibrated, Calibration, ChannelUnknowns, Context, Dependence, Frfs, Identification, ModelErrors, Noise,
+    NumberOf, Options, Problem, ProblemError, Status, Unknown, Variation, identify,
 };
 use frfit::laws::LawKind;
 use frfit::material::{Law, Table};
@@ -79,8 +79,7 @@ impl Test {
     /// From measurements without noise.
     fn exactly(&self, unknown: &[ChannelUnknowns]) -> Identification {
         let (measured, _) = self.drawn(0.0, &mut noise::Noise::new(1));
-        identify(&self.problem(unknown, &measured, Noise::Unknown).unwrap(), &Options::default(), CONTEXT)
-            .unwrap()
+        identify(&self.problem(unknown, &measured, Noise::Unknown).unwrap(), &right_model(), CONTEXT).unwrap()
     }
 
     /// How far a calibration is off: of its scale relatively, and in radians at the top of the band.
@@ -160,6 +159,11 @@ fn a_constant_without_a_calibrated_channel() {
     }
 }
 
+/// What noise does where the model is right.
+fn right_model() -> Options {
+    Options::default().with_model_errors(ModelErrors::None)
+}
+
 /// A mass of a millionth of the structure's is all that is known of its size: scales, thickness and modulus are not identifiable.
 #[test]
 fn a_scale_beside_a_free_stiffness_and_mass_is_not_identifiable() {
@@ -170,7 +174,7 @@ fn a_scale_beside_a_free_stiffness_and_mass_is_not_identifiable() {
     let (measured, std) = test.drawn(0.01, &mut noise::Noise::new(3));
     let unknown = [SCALE, SCALE];
     let problem = test.problem(&unknown, &measured, Noise::Known(&std)).unwrap();
-    let found = identify(&problem, &Options::default(), CONTEXT).unwrap();
+    let found = identify(&problem, &right_model(), CONTEXT).unwrap();
     assert!(
         found.constants.iter().all(|value| value.status == Status::NotIdentifiable),
         "{:?}",
@@ -257,7 +261,7 @@ fn error_bars_of_channels_and_three_unknowns_cover_the_truth() {
     for _ in 0..draws {
         let (measured, std) = test.drawn(0.01, &mut noise);
         let problem = test.problem(&unknown, &measured, Noise::Known(&std)).unwrap();
-        let found = identify(&problem, &Options::default(), CONTEXT).unwrap();
+        let found = identify(&problem, &right_model(), CONTEXT).unwrap();
         let fit = found.fit.unwrap();
         assert_eq!(fit.freedom, 2 * 3 * 40 - 6 - 5);
         assert!(fit.deviate.abs() < 4.0, "{fit:?}");

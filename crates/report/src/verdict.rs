@@ -286,8 +286,16 @@ fn doubt_of_fit(results: &Results) -> Option<String> {
                 .into()
         }
         "nearly explained" => {
-            let times = significant(summary.number("/fit/chi2_per_freedom").map_or(1.0, f64::sqrt), 3);
-            format!("The misfit is {times} times the given noise: error bars are longer by that.")
+            match summary.number("/model_errors/response_std").filter(|rest| *rest > 0.0) {
+                Some(rest) => format!(
+                    "Beside noise and errors of the model, {} of the response is left that nothing explains. The error bars contain it.",
+                    percent(rest)
+                ),
+                None => {
+                    let times = significant(summary.number("/fit/chi2_per_freedom").map_or(1.0, f64::sqrt), 3);
+                    format!("The misfit is {times} times the given noise: error bars are longer by that.")
+                }
+            }
         }
         "explained" => return None,
         // What holds for the band has other frequencies to agree with.

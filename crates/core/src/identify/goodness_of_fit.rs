@@ -25,9 +25,16 @@ impl GoodnessOfFit {
         self.verdict == Explained::Nearly
     }
 
+    /// The same, at best nearly explained where the response has a rest that neither noise nor errors of the model explain.
+    pub(super) fn beside(self, rest: f64) -> Self {
+        let nearly = rest > 0.0 && self.verdict == Explained::Yes;
+        Self { verdict: if nearly { Explained::Nearly } else { self.verdict }, ..self }
+    }
+
     /// √(χ²/n) of a band that is nearly explained, by which bars of the given noise are too short; else 1.
     pub(super) fn excess(&self) -> f64 {
-        if self.is_nearly_explained() { (self.chi_squared / self.freedom as f64).sqrt() } else { 1.0 }
+        let ratio = (self.chi_squared / self.freedom as f64).sqrt();
+        if self.is_nearly_explained() { ratio.max(1.0) } else { 1.0 }
     }
 }
 
@@ -37,7 +44,8 @@ impl GoodnessOfFit {
 pub enum Explained {
     /// What is left is noise of the size that was given, or of the size that the scatter of the answers shows too.
     Yes,
-    /// A little more is left than the given noise, by a factor of up to two in χ²: the noise is larger than given, or the model not quite right.
+    /// A little more is left than the given noise, by a factor of up to two in χ², or by a few per cent of the response beside errors of the model: the
+    /// noise is larger than given, or the model not quite right.
     Nearly,
     /// What is left is no noise: the model cannot explain these measurements.
     No,

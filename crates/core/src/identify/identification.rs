@@ -1,6 +1,7 @@
 //! What came out of an identification.
 
-use super::band::{BandOutcome, Calibration, LawsOutcome, SmoothCurve, SmoothOutcome};
+use super::band::{BandOutcome, LawsOutcome, SmoothCurve, SmoothOutcome};
+use super::channel::Calibration;
 use super::goodness_of_fit::{Explained, GoodnessOfFit, SensorFit};
 use super::model_errors::{Leverage, ModelErrorsFound};
 use super::noise::NoiseLevel;

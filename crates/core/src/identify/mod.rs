@@ -12,6 +12,8 @@
 //! | `outcome`, `identification` | what came out of a line, and of a band |
 
 mod band;
+mod channel;
+mod channel_coordinates;
 mod choice;
 mod coarser_mesh;
 mod confirmation;
@@ -34,8 +36,9 @@ mod uncertainty;
 mod unknown;
 
 pub use crate::response::relative_error;
-pub use band::{Calibrated, Calibration, ChannelUnknowns, SmoothCurve};
+pub use band::SmoothCurve;
 pub(crate) use band::{DELAY_PHASE_STEP_RAD, MAX_DELAY_PHASE_RAD};
+pub use channel::{Calibrated, Calibration, ChannelUnknowns};
 pub use choice::{Method, Reduction, Selection, UnknownChoice};
 pub use coarser_mesh::CoarserMesh;
 pub use context::{Context, Stage};

@@ -1,5 +1,6 @@
 //! How large the noise is: as given, or as the band shows it.
 
+use super::thinned::thinned;
 use crate::c64;
 use crate::frequency::omega_rad_s;
 use crate::median::median;
@@ -107,6 +108,36 @@ pub(super) fn standard_deviations(measured: &[Vec<c64>], noise: Noise<'_>) -> Ve
         u.iter().enumerate().map(of).collect()
     };
     measured.iter().enumerate().map(row).collect()
+}
+
+/// Half the width of the neighbourhood that has the level of a response, in ln ω: a third of an octave in all.
+const LEVEL_HALF_WIDTH: f64 = std::f64::consts::LN_2 / 6.0;
+
+/// Lines of a neighbourhood that are looked at, at most.
+const MAX_LEVEL_LINES: usize = 41;
+
+/// The level of each response, `[frequency][sensor]`: itself, or the median of its neighbourhood where that is larger. Near an antiresonance what modes add up to is small, and what
+/// is wrong with each is not.
+pub(super) fn levels(measured: &[Vec<c64>], omegas: &[f64]) -> Vec<Vec<f64>> {
+    let of = |i: usize| {
+        let from = omegas.partition_point(|&omega| omega < omegas[i] * (-LEVEL_HALF_WIDTH).exp());
+        let to = omegas.partition_point(|&omega| omega <= omegas[i] * LEVEL_HALF_WIDTH.exp());
+        let near: Vec<usize> = (from..to).collect();
+        let level = |m: usize| {
+            let near = thinned(&near, MAX_LEVEL_LINES).map(|&k| measured[k][m].norm());
+            median(near.collect()).unwrap_or(0.0).max(measured[i][m].norm())
+        };
+        (0..measured[i].len()).map(level).collect()
+    };
+    (0..measured.len()).map(of).collect()
+}
+
+/// The deviations with what the response has beside the noise: this part of its level, for real and imaginary part each.
+pub(super) fn beside(sigma: &[Vec<f64>], rest: f64, levels: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let wider = |(row, levels): (&Vec<f64>, &Vec<f64>)| {
+        row.iter().zip(levels).map(|(sigma, level)| sigma.hypot(rest * level)).collect()
+    };
+    sigma.iter().zip(levels).map(wider).collect()
 }
 
 /// The deviations with those of some sensors infinite: nothing is asked of them.

@@ -1,6 +1,6 @@
 //! What is to be identified, checked: a model, an experiment, unknowns, channels and measured FRFs.
 
-use super::band::ChannelUnknowns;
+use super::channel::ChannelUnknowns;
 use super::choice::{Method, Reduction, Selection};
 use super::coarser_mesh::CoarserMesh;
 use super::measured::Band;

@@ -1,10 +1,11 @@
 //! Natural frequencies and mode shapes of a reduced model, and the same model with errors in them (B-11).
 //!
 //! With the real pencil (K, M) of the reduced model at some values and its modes y_i (yᵀMy = 1),
-//! $$ S_g \leftarrow S_g + \sum_i 2 \delta_i \\, (y_i^T S_g y_i) \\, (M y_i)(M y_i)^T $$
-//! for each stiffness S_g shifts the natural frequency of mode i by the relative δ_i with its damping kept,
+//! $$ S_g \leftarrow S_g + \sum_i (e^{2 \delta_i} - 1) \\, (y_i^T S_g y_i) \\, (M y_i)(M y_i)^T $$
+//! for the known or the unknown stiffnesses S_g multiplies the natural frequency of mode i by exp(δ_i) with their damping kept (where a part e of the mode's strain energy is in them,
+//! e (exp(2δ_i/e) − 1)),
 //! $$ S_g \leftarrow S_g + \sum_i \frac{i \eta_i}{1 + i \eta_i} \epsilon_i \\, (y_i^T S_g y_i) \\, (M y_i)(M y_i)^T $$
-//! its loss factor η_i by the relative ε_i with its frequency kept; a rigid body has no stiffness that could be in error,
+//! its loss factor η_i by the relative ε_i with its frequency kept; $S_g \leftarrow e^{2e} S_g$ multiplies all natural frequencies by exp(e); a rigid body has no stiffness that could be in error,
 //! and $2 \delta_i \omega_1^2$ with the lowest other natural frequency ω_1 is that of a support or a suspension that the model does not have;
 //! $$ \ell_m \leftarrow \ell_m + \sum_i a_{mi} \\, (\ell_m^T y_i) \\, M y_i $$
 //! changes mode i at sensor m by the relative a_mi, the same with F where the force acts;
@@ -32,15 +33,16 @@ pub(crate) struct Modes {
     momenta: Vec<Vec<f64>>,
     /// M = Σ factor S_g.
     mass: Vec<(usize, f64)>,
-    /// The mode of each error of a stiffness: a mode has two in the known stiffness, and two in that of each parameter.
+    /// The mode of each error of a stiffness: a mode has one of its natural frequency, and one of its loss factor where it has damping, in the known stiffness, and as many
+    /// in that of all unknowns.
     pub(crate) of_error: Vec<usize>,
     /// The same mode, or of a rigid body another one: which of their combinations are modes is not determined, and a support couples them.
     partner: Vec<usize>,
-    /// Where it is: 0 in the known stiffness, 1 + j in that of parameter j.
+    /// Where it is: 0 and 1 where there is known and unknown stiffness, 0 where there is one of them.
     pub(crate) group: Vec<usize>,
-    /// What of the mode's strain energy is there.
-    energy_share: Vec<f64>,
-    /// What of the stiffness an error of 1 is: 2 of δ_i, iη/(1 + iη) of ε_i.
+    /// What of the strain energy of each mode is in each group.
+    pub(crate) energy_shares: Vec<Vec<f64>>,
+    /// What of the stiffness a small error is: 2 of δ_i, iη/(1 + iη) of ε_i.
     share: Vec<c64>,
     /// What of S_g goes with each error, `[g][error]`; empty for parts that are no stiffness.
     stiffness: Vec<Vec<f64>>,
@@ -57,7 +59,9 @@ pub(crate) struct Modes {
 /// Relative errors of modes and terms.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct ModalErrors {
-    /// δ of natural frequencies and ε of loss factors, by [`Modes::of_error`]: the model with them has ω_i(1 + δ) and η_i(1 + ε); a rigid body about ω_1 √(2δ).
+    /// e of all natural frequencies: every stiffness is multiplied by exp(2e).
+    pub scale: f64,
+    /// δ of natural frequencies and ε of loss factors, by [`Modes::of_error`]: the model with them has ω_i exp(δ) and η_i(1 + ε); a rigid body about ω_1 √(2δ).
     pub stiffness: Vec<f64>,
     /// κ_m of the mass at sensor m.
     pub masses: Vec<f64>,
@@ -75,6 +79,8 @@ pub(crate) struct ErrorSlopes {
     pub(crate) response: Vec<c64>,
     /// ∂x_m/∂c_j, `[parameter][m]`.
     pub(crate) slopes: Vec<Vec<c64>>,
+    /// ∂x_m/∂e.
+    pub(crate) scale: Vec<c64>,
     /// ∂x_m/∂δ_i and ∂x_m/∂ε_i, `[m][error]`.
     pub(crate) stiffness: Vec<Vec<c64>>,
     /// ∂x_m/∂κ_n, `[m][n]`.
@@ -87,6 +93,23 @@ pub(crate) struct ErrorSlopes {
     pub(crate) factors: Vec<Vec<c64>>,
 }
 
+impl ErrorSlopes {
+    /// Those of what sensors show that have a share of the response each; all of it without shares.
+    pub(crate) fn shown(mut self, shares: &[c64]) -> Self {
+        for (m, &share) in shares.iter().enumerate() {
+            self.response[m] *= share;
+            self.scale[m] *= share;
+            self.slopes.iter_mut().for_each(|of_parameter| of_parameter[m] *= share);
+            for of_sensors in
+                [&mut self.stiffness, &mut self.masses, &mut self.load, &mut self.shape, &mut self.factors]
+            {
+                of_sensors[m].iter_mut().for_each(|slope| *slope *= share);
+            }
+        }
+        self
+    }
+}
+
 /// A shift of the pencil that makes rigid bodies definite: this part of the square of the highest frequency.
 const PENCIL_SHIFT_RATIO: f64 = 1e-4;
 
@@ -95,6 +118,9 @@ const RIGID_BODY_RATIO: f64 = 1e-4;
 
 /// A share of a mode's strain energy below which an error there is none of the mode.
 const MIN_ENERGY_SHARE: f64 = 0.02;
+
+/// A stiffness is stretched exponentially up to this exponent, and in proportion beyond.
+const MAX_EXPONENT: f64 = 1.0;
 
 /// μ = 1/(λ + σ) below this part of the largest is a direction without mass.
 const MASSLESS_RATIO: f64 = 1e-12;
@@ -123,10 +149,9 @@ impl Projection {
         let shift = PENCIL_SHIFT_RATIO * highest_rad_s * highest_rad_s;
         let of_stiffness = factors(Role::Stiffness);
         let stiffness = self.real_sum(&of_stiffness);
-        let group = |g: usize| {
-            let of_term = at.parameters.iter().position(|one| one.enters(self.parts.term(g)));
-            of_term.map_or(0, |j| 1 + j)
-        };
+        let is_unknown = |g: usize| at.parameters.iter().any(|one| one.enters(self.parts.term(g)));
+        let is_there = |wanted: &bool| of_stiffness.iter().any(|(g, _)| is_unknown(*g) == *wanted);
+        let groups: Vec<bool> = [false, true].into_iter().filter(is_there).collect();
         let shifted: Vec<f64> = stiffness.iter().zip(&mass).map(|(k, m)| k + shift * m).collect();
         // (K + σM)^{−1/2}, and M between it: μ = 1/(λ + σ).
         let (values, vectors) = symmetric_eigen(r, &shifted)?;
@@ -161,7 +186,7 @@ impl Projection {
             of_error: Vec::new(),
             partner: Vec::new(),
             group: Vec::new(),
-            energy_share: Vec::new(),
+            energy_shares: Vec::new(),
             share: Vec::new(),
             stiffness: (0..theta.len()).map(|_| Vec::new()).collect(),
             directions: self.sensors.clone(),
@@ -196,8 +221,9 @@ impl Projection {
             };
             let each = || of_stiffness.iter().zip(&energies);
             let whole: f64 = each().map(|((_, factor), energy)| factor * energy).sum();
-            for wanted in 0..=at.parameters.len() {
-                let of_group = each().filter(|((g, _), _)| group(*g) == wanted);
+            modes.energy_shares.push(vec![0.0; groups.len()]);
+            for (place, &wanted) in groups.iter().enumerate() {
+                let of_group = each().filter(|((g, _), _)| is_unknown(*g) == wanted);
                 let own: c64 = of_group.map(|((g, _), energy)| factor(*g) * energy).sum();
                 if own.re <= MIN_ENERGY_SHARE * whole {
                     continue;
@@ -206,16 +232,16 @@ impl Projection {
                 let of_loss = c64::new(0.0, loss_factor) / c64::new(1.0, loss_factor);
                 let of_loss = Some(of_loss).filter(|_| loss_factor > 0.0);
                 let last = modes.omega_rad_s.len() - 1;
+                modes.energy_shares[last][place] = own.re / whole;
                 let first = if omega > 0.0 { last } else { 0 };
                 let shares = || std::iter::once(c64::new(2.0, 0.0)).chain(of_loss);
                 for (partner, share) in (first..=last).flat_map(|j| shares().map(move |share| (j, share))) {
                     modes.of_error.push(last);
                     modes.partner.push(partner);
-                    modes.group.push(wanted);
-                    modes.energy_share.push(own.re / whole);
+                    modes.group.push(place);
                     modes.share.push(share);
                     for ((g, _), energy) in each() {
-                        let has_it = group(*g) == wanted && (share.im == 0.0 || self.parts.is_real(*g));
+                        let has_it = is_unknown(*g) == wanted && (share.im == 0.0 || self.parts.is_real(*g));
                         modes.stiffness[*g].push(if has_it { energy * whole / own.re } else { 0.0 });
                     }
                 }
@@ -270,10 +296,14 @@ impl Projection {
             let imaginary = place.checked_sub(self.matrices.len()).map(|k| damped[k]);
             let g = imaginary.unwrap_or(place);
             for (error, by) in modes.stiffness[g].iter().enumerate().filter(|(_, by)| **by != 0.0) {
-                let share = modes.share[error];
-                let share = if imaginary.is_some() { share.im } else { share.re };
+                let [change, _] = modes.change(error, errors.stiffness[error]);
+                let change = if imaginary.is_some() { change.im } else { change.re };
                 let pair = [modes.of_error[error], modes.partner[error]].map(|i| &modes.momenta[i][..]);
-                add_product(matrix, share * errors.stiffness[error] * by, pair);
+                add_product(matrix, change * by, pair);
+            }
+            if modes.is_stiffness(g) {
+                let scale = (2.0 * errors.scale).exp();
+                matrix.iter_mut().for_each(|entry| *entry *= scale);
             }
         }
         if let Some((g, factor)) = modes.mass_part {
@@ -319,10 +349,11 @@ impl Projection {
         let of_load = along(y);
         let by_sensor: Vec<Vec<c64>> = duals.iter().map(|z| along(z)).collect();
         // The complex stiffness that goes with each error.
+        let scale = (2.0 * errors.scale).exp();
         let stiffness = |error: usize| -> c64 {
             let parts = modes.stiffness.iter().enumerate().filter(|(_, own)| !own.is_empty());
             let own: c64 = parts.map(|(g, own)| solutions.theta[g] * own[error]).sum();
-            modes.share[error] * own
+            scale * modes.change(error, errors.stiffness[error])[1] * own
         };
         let stiffness: Vec<c64> = (0..modes.of_error.len()).map(stiffness).collect();
         let mut of_parameters = self.first_weights(at);
@@ -344,10 +375,14 @@ impl Projection {
         let theta = |by: &FactorError| -> Vec<c64> {
             solutions.theta.iter().enumerate().map(|(g, &theta)| self.parts.slope(g, theta, by)).collect()
         };
+        let is_stiffness = |g: usize| g >= modes.stiffness.len() || modes.is_stiffness(g);
+        let of_scale = |(g, theta): (usize, &c64)| if is_stiffness(g) { 2.0 * theta } else { c64::default() };
+        let of_scale = solutions.theta.iter().enumerate().map(of_scale).collect();
         let of_terms = solutions.slopes(self, &errors.factors.iter().map(theta).collect::<Vec<_>>());
         let factors = |m: usize| of_terms.iter().map(|of_term| of_term[m]).collect();
         Ok(ErrorSlopes {
             response: solutions.response(self),
+            scale: solutions.slopes(self, &[of_scale]).concat(),
             slopes: solutions.slopes(self, &of_parameters),
             stiffness: by_sensor.iter().map(of_stiffness).collect(),
             masses: duals.iter().map(masses).collect(),
@@ -383,7 +418,7 @@ impl Modes {
             of_error: Vec::new(),
             partner: Vec::new(),
             group: Vec::new(),
-            energy_share: Vec::new(),
+            energy_shares: Vec::new(),
             share: Vec::new(),
             stiffness: vec![Vec::new(); model.matrices.len()],
             directions: Vec::new(),
@@ -394,16 +429,25 @@ impl Modes {
         }
     }
 
+    /// What of the stiffness of a mode an error changes, and the slope of that. Of a natural frequency it is e (exp(2δ/e) − 1) with the strain energy's share e: a factor exp(t)
+    /// of a stiffness and δ = −et/2 of all modes cancel on a straight line, along which a search makes long steps.
+    fn change(&self, error: usize, by: f64) -> [c64; 2] {
+        let share = self.share[error];
+        if share.im != 0.0 || self.omega_rad_s[self.of_error[error]] == 0.0 {
+            return [share * by, share];
+        }
+        let own = self.energy_shares[self.of_error[error]][self.group[error]];
+        let exponent = share.re * by / own;
+        let within = exponent.min(MAX_EXPONENT);
+        let slope = within.exp();
+        let value = within.exp_m1() + slope * (exponent - within);
+        [c64::new(own * value, 0.0), c64::new(share.re * slope, 0.0)]
+    }
+
     /// The errors of a mode's natural frequency.
     pub(crate) fn frequency_errors(&self, mode: usize) -> impl Iterator<Item = usize> {
         (0..self.of_error.len())
             .filter(move |&error| self.of_error[error] == mode && self.is_of_frequency(error))
-    }
-
-    /// What of the strain energy of a mode is in a group.
-    pub(crate) fn energy_share_of(&self, mode: usize, group: usize) -> f64 {
-        let own = self.frequency_errors(mode).find(|&error| self.group[error] == group);
-        own.map_or(0.0, |error| self.energy_share[error])
     }
 
     /// Whether an error of a stiffness is one of a natural frequency, and not of a loss factor.
@@ -417,6 +461,16 @@ impl Modes {
         let squares: Vec<f64> = elastic.map(|(shape, _)| shape * shape).collect();
         let mean = squares.iter().sum::<f64>() / squares.len() as f64;
         if mean > 0.0 { 1.0 / mean } else { 0.0 }
+    }
+
+    /// How many groups of stiffness have errors.
+    pub(crate) fn groups(&self) -> usize {
+        self.energy_shares.first().map_or(0, Vec::len)
+    }
+
+    /// Whether S_g is a stiffness.
+    fn is_stiffness(&self, g: usize) -> bool {
+        !self.stiffness[g].is_empty()
     }
 
     /// Whether loss factors of S_g are in error.
@@ -511,6 +565,7 @@ mod tests {
         let whole = subspace.projection();
         let modes = whole.modes(&at, c64::default(), omega_rad_s(100.0), 6).unwrap();
         let errors = ModalErrors {
+            scale: 0.0,
             stiffness: vec![0.0; modes.of_error.len()],
             masses: vec![kilograms / modes.apparent_mass[0], 0.0],
             load: vec![0.0; 6],
@@ -551,6 +606,7 @@ mod tests {
         let lowest = modes.lowest_rad_s().unwrap();
         let of = |term, part| FactorError { term, part, error: 0.0 };
         let mut errors = ModalErrors {
+            scale: 0.0,
             stiffness: vec![0.0; modes.of_error.len()],
             masses: vec![0.0; 2],
             load: vec![0.0; 6],
@@ -568,7 +624,12 @@ mod tests {
                 let before = modes.omega_rad_s[i];
                 // A rigid body gets a support.
                 let expected = match modes.of_error[k] == i && modes.is_of_frequency(k) {
-                    true => before.hypot(if before > 0.0 { before } else { lowest } * 2e-4_f64.sqrt()),
+                    true if before > 0.0 => {
+                        // Of a part of the strain energy.
+                        let share = modes.energy_shares[i][modes.group[k]];
+                        before * (1.0 + share * (2e-4 / share).exp_m1()).sqrt()
+                    }
+                    true => before.hypot(lowest * 2e-4_f64.sqrt()),
                     false => before,
                 };
                 let found = moved.omega_rad_s[i];
@@ -578,6 +639,7 @@ mod tests {
         }
         // Somewhere with errors of every kind.
         errors.stiffness.iter_mut().enumerate().for_each(|(k, error)| *error = 0.01 / (1.0 + k as f64));
+        errors.scale = 0.03;
         errors.shape[1][2] = 0.05;
         errors.masses[0] = 0.01;
         errors.load[3] = -0.04;
@@ -608,6 +670,9 @@ mod tests {
             moved.stiffness[k] += step;
             check(&moved, &|slopes, m| slopes.stiffness[m][k]);
         }
+        let mut moved = errors.clone();
+        moved.scale += step;
+        check(&moved, &|slopes, m| slopes.scale[m]);
         for t in 0..3 {
             let mut moved = errors.clone();
             moved.factors[t].error += step;

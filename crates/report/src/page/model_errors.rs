@@ -59,6 +59,13 @@ fn sizes(found: &Value) -> String {
         size("loss_factor_std")
     );
     // Writing to a string does not fail.
+    if let Some(rest) = number(found, "response_std").filter(|rest| *rest > 0.0) {
+        let _ = write!(
+            html,
+            " Beside these and the given noise, {} of the response is left that nothing explains.",
+            percent(rest)
+        );
+    }
     if let Some(ratio) = number(found, "bars_over_noise") {
         let _ = write!(
             html,

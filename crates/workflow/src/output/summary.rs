@@ -268,6 +268,7 @@ fn model_errors_json(case: &Case, errors: &ModelErrorsFound) -> Value {
         "frequency_std": errors.frequency_std,
         "loss_factor_std": errors.loss_factor_std,
         "shape_std": errors.shape_std,
+        "response_std": errors.response_std,
         "bars_over_noise": errors.bars_over_noise,
         "evidence_nats": errors.evidence,
         "mesh": errors.mesh.map(mesh),

@@ -1,18 +1,22 @@
 //! Channels whose calibration nobody knows: one real scale, one delay or both for the whole band, found together with the moduli.
 
-use super::channel::{Calibrated, Calibration, Channel, ChannelNumber, ChannelUnknowns, numbers_of};
+use super::corrected::correct;
 use super::fit::goodness;
 use super::initial_calibration::aligned;
 use super::joint;
 use super::outcome::BandOutcome;
 use super::reduced_band::ReducedBand;
+use super::scaled::Scaled;
 use super::search_box::{near_or_far, on_subspace};
 use crate::c64;
 use crate::for_each::map;
 use crate::frequency::omega_rad_s;
+use crate::identify::channel::{
+    Calibrated, Calibration, Channel, ChannelNumber, ChannelUnknowns, numbers_of,
+};
 use crate::identify::context::Context;
 use crate::identify::measured::Band;
-use crate::identify::noise::{Noise, freedom, standard_deviations, without};
+use crate::identify::noise::{freedom, standard_deviations, without};
 use crate::identify::options::Options;
 use crate::identify::outcome::Status;
 use crate::identify::uncertainty::Uncertainty;
@@ -57,8 +61,21 @@ pub(in crate::identify) fn identify_band_scaled<'a>(
     let (outcome, (found, reduced)) = near_or_far(band, &boxes, |options| {
         let mut reduced = ReducedBand::if_wanted(band, &at, trained, options, context);
         let (outcome, found) = with_scales(band, &at, &mut reduced, unknown, options, context);
-        (outcome, (found.unwrap_or_else(|| vec![Calibration::default(); unknown.len()]), reduced))
+        (outcome, (found, reduced))
     });
+    let mut reduced = reduced;
+    let (outcome, found) = match (reduced.as_mut(), found) {
+        (Some(reduced), Some(found)) => {
+            let first: Vec<Channel> = found.iter().map(Channel::of).collect();
+            let scaled = Scaled::new(band, &first);
+            let outcome = correct((&scaled.band(band), unknown), &at, outcome, reduced, &boxes[0], context);
+            let errors = outcome.model_errors.as_ref();
+            let left = errors.map(|errors| errors.calibrations().into_iter().zip(&first));
+            let better = left.map(|left| left.map(|(left, first)| left.after(first)).collect());
+            (outcome, better.unwrap_or(found))
+        }
+        (_, found) => (outcome, found.unwrap_or_else(|| vec![Calibration::default(); unknown.len()])),
+    };
     ReducedBand::hand_back(reduced, trained);
     Ok((outcome.judged_by_fit(), found))
 }
@@ -102,39 +119,6 @@ pub(super) fn with_scales<'a>(
 /// ω at the top of the band.
 pub(super) fn top(band: &Band<'_>) -> f64 {
     band.frequency_hz.last().map_or(1.0, |&f| omega_rad_s(f))
-}
-
-/// What was measured with each channel's calibration, and its deviations with it.
-pub(super) struct Scaled {
-    measured: Vec<Vec<c64>>,
-    std: Vec<Vec<f64>>,
-}
-
-impl Scaled {
-    pub(super) fn new(band: &Band<'_>, channels: &[Channel]) -> Self {
-        let row =
-            |(u, &f): (&Vec<c64>, &f64)| u.iter().zip(channels).map(|(u, own)| own.factor(f) * u).collect();
-        let measured = band.measured.iter().zip(band.frequency_hz).map(row);
-        let scaled = |rows: &[Vec<f64>]| {
-            let row =
-                |row: &Vec<f64>| row.iter().zip(channels).map(|(std, own)| std * own.scale.abs()).collect();
-            rows.iter().map(row).collect()
-        };
-        let std = match band.noise {
-            Noise::Unknown => Vec::new(),
-            Noise::Relative(std) | Noise::Known(std) => scaled(std),
-        };
-        Self { measured: measured.collect(), std }
-    }
-
-    pub(super) fn band<'s>(&'s self, band: &Band<'s>) -> Band<'s> {
-        let noise = match band.noise {
-            Noise::Unknown => Noise::Unknown,
-            Noise::Relative(_) => Noise::Relative(&self.std),
-            Noise::Known(_) => Noise::Known(&self.std),
-        };
-        Band { measured: &self.measured, noise, ..*band }
-    }
 }
 
 /// The frequencies whose answers are beyond doubt but for their size: (frequency, correction).

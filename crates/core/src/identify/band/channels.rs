@@ -1,15 +1,16 @@
 //! Unknown scales and delays beside a law: eliminated from the least squares, and where they begin.
 
-use super::calibration::{Scaled, top, with_scales};
-use super::channel::{Calibrated, Channel, ChannelUnknowns};
+use super::calibration::{top, with_scales};
 use super::initial_calibration::by_shape;
 use super::joint;
 use super::law_fitting::Fitting;
 use super::outcome::BandOutcome;
 use super::reduced_band::ReducedBand;
+use super::scaled::Scaled;
 use crate::c64;
 use crate::for_each::map;
 use crate::frequency::omega_rad_s;
+use crate::identify::channel::{Calibrated, Channel, ChannelUnknowns};
 use crate::identify::context::Context;
 use crate::identify::measured::Band;
 use crate::identify::options::Options;

@@ -1,27 +1,32 @@
 //! A band once more, with the errors of the model taken out and carried into every error bar (B-11).
 
+use super::fit::goodness;
 use super::joint;
 use super::outcome::BandOutcome;
 use super::reduced_band::ReducedBand;
+use super::scaled::Scaled;
 use crate::c64;
 use crate::for_each::map;
 use crate::frequency::omega_rad_s;
+use crate::identify::channel::ChannelUnknowns;
+use crate::identify::channel_coordinates::ChannelCoordinates;
 use crate::identify::context::Context;
 use crate::identify::measured::Band;
 use crate::identify::model_errors::{
     Coarser, Curve, Curves, Estimated, Measured, NoiseScale, PointAt, Spline,
 };
 use crate::identify::model_errors::{Explanation, covariance, estimate};
-use crate::identify::noise::{Noise, standard_deviations, without};
+use crate::identify::noise::{Noise, freedom, levels, standard_deviations, without};
 use crate::identify::options::{ModelErrors, Options};
 use crate::identify::outcome::Status;
 use crate::median::median;
 use crate::model::ModelAt;
 use crate::subspace::{Corrected, Point};
 
-/// What is found when the errors of the model are estimated and taken out; the same where a right model explains the band as well.
+/// What is found when the errors of the model are estimated and taken out; the same where a right model explains the band as well. Scales and delays of
+/// channels that are unknown are estimated with them, as what is left of those that the band has.
 pub(super) fn correct<'a>(
-    band: &Band<'a>,
+    (band, unknown): (&Band<'_>, &[ChannelUnknowns]),
     at: &[ModelAt<'a>],
     found: BandOutcome,
     reduced: &mut ReducedBand<'a, '_>,
@@ -31,28 +36,52 @@ pub(super) fn correct<'a>(
     if options.model_errors == ModelErrors::None {
         return found;
     }
-    let weights = Weights::new(band, at, &found.left_out());
+    let weights = Weights::new((band, unknown), at, &found.left_out());
     let curves = Curves::new(vec![Curve::Spline(Spline::new(&weights.omegas, band.unknown.real))]);
+    let curves = curves.with_channels(ChannelCoordinates::new(unknown, 0, &weights.omegas));
     let point = point(at);
     let measured = weights.of(band, options, &point, &found);
     let (explanation, leverage) = estimate(reduced.whole(), &measured, &curves, context.for_each);
     let found = BandOutcome { leverage, ..found };
-    let mut errors = match explanation {
+    let errors = match explanation {
         Explanation::RightModel => return found,
         Explanation::OtherModel => return BandOutcome { other_model: true, ..found },
         Explanation::Errors(errors) => *errors,
     };
     let before = reduced.work();
     reduced.correct(&errors.modes, &errors.errors);
-    let mut outcome = joint::identify(band, at, Some(reduced), &found.left_out(), options, context);
+    let scaled =
+        Scaled::new(band, &errors.channels().at(errors.theta())).with_rest(errors.rest, &weights.omegas);
+    let outcome = on_corrected(&scaled.band(band), at, reduced, (errors, &found), options, context);
+    let mut work = found.work;
+    work += reduced.work().since(before);
+    BandOutcome { work, ..outcome }
+}
+
+/// The band on a model whose errors are taken out, with what they do to its bars; what was found before says of which sensors nothing is asked.
+pub(super) fn on_corrected<'a>(
+    band: &Band<'_>,
+    at: &[ModelAt<'a>],
+    reduced: &mut ReducedBand<'a, '_>,
+    (mut errors, found): (Estimated, &BandOutcome),
+    options: &Options,
+    context: Context<'_>,
+) -> BandOutcome {
+    let left_out = found.left_out();
+    let mut outcome = joint::identify(band, at, Some(&mut *reduced), &left_out, options, context);
     outcome.leverage.clone_from(&found.leverage);
-    outcome.work = found.work;
-    outcome.work += reduced.work().since(before);
     for (sensor, before) in outcome.sensors.iter_mut().zip(&found.sensors) {
         sensor.contradicts |= before.contradicts;
         sensor.left_out |= before.left_out;
     }
-    errors.bars_over_noise = widen(&mut outcome, &errors, at, reduced, &weights.sigma, context);
+    let fitted = errors.channels().count();
+    if fitted > 0 {
+        let counted = outcome.sensors.iter().filter(|sensor| !sensor.left_out).count();
+        let each = freedom(counted, band.unknown.real);
+        outcome.fit = goodness(&outcome.outcomes, each, fitted, &outcome.noise, band);
+    }
+    let sigma = without(&standard_deviations(band.measured, band.noise), &left_out);
+    errors.bars_over_noise = widen(&mut outcome, &errors, at, reduced, &sigma, context);
     outcome.model_errors = Some(errors);
     outcome
 }
@@ -71,19 +100,33 @@ pub(super) fn point<'t, 'a>(
 pub(super) struct Weights {
     sigma: Vec<Vec<f64>>,
     size: Vec<Vec<f64>>,
+    levels: Vec<Vec<f64>>,
     omegas: Vec<f64>,
     nominal: Vec<Vec<c64>>,
+    /// θ of the channels: as they are.
+    given: [Vec<f64>; 1],
 }
 
 impl Weights {
-    pub(super) fn new(band: &Band<'_>, at: &[ModelAt<'_>], left_out: &[usize]) -> Self {
+    pub(super) fn new(
+        (band, unknown): (&Band<'_>, &[ChannelUnknowns]),
+        at: &[ModelAt<'_>],
+        left_out: &[usize],
+    ) -> Self {
+        let omegas: Vec<f64> = at.iter().map(|at| omega_rad_s(at.frequency_hz)).collect();
         let of = |noise: Noise<'_>| without(&standard_deviations(band.measured, noise), left_out);
         Self {
             sigma: of(band.noise),
             size: of(Noise::Unknown),
-            omegas: at.iter().map(|at| omega_rad_s(at.frequency_hz)).collect(),
+            levels: levels(band.measured, &omegas),
+            omegas,
             nominal: at.iter().map(|at| vec![at.parameters[0].nominal]).collect(),
+            given: [vec![0.0; unknown.iter().map(|one| one.count()).sum()]],
         }
+    }
+
+    pub(super) fn omegas(&self) -> &[f64] {
+        &self.omegas
     }
 
     pub(super) fn of<'t, 'a>(
@@ -97,12 +140,13 @@ impl Weights {
             point,
             omegas: &self.omegas,
             nominal: &self.nominal,
-            given: &[],
+            given: &self.given,
             given_sizes: options.model_errors.sizes(),
             coarser: band.coarser.map(|mesh| Coarser { mesh, unknowns: std::slice::from_ref(band.unknown) }),
             measured: band.measured,
             sigma: &self.sigma,
             size: &self.size,
+            levels: &self.levels,
             noise_scale: NoiseScale::of(band.noise),
             free: &found.outcomes,
             own: &[0],
@@ -122,13 +166,16 @@ fn widen(
     context: Context<'_>,
 ) -> Option<f64> {
     let Corrected { modes, errors: values, model } = reduced.corrected()?;
-    let of_errors = errors.of_errors();
+    let covariances = errors.of_channels_and_errors();
+    let channels = errors.channels();
     let lines = &outcome.outcomes;
     let moved = map(context.for_each, lines.len(), |i| -> Option<[f64; 3]> {
         let correction = lines[i].correction()?;
         let slopes = model.respond_with_error_slopes((modes, values), &at[i], correction).ok()?;
         let n = modes.omega_rad_s.len();
-        let first_mass = modes.of_error.len() + values.factors.len();
+        let first_error = channels.count() + usize::from(errors.of_scale().is_some());
+        let first_factor = first_error + modes.of_error.len();
+        let first_mass = first_factor + values.factors.len();
         let first_load = first_mass + values.masses.len();
         let first_shape = first_load + n;
         let count = first_shape + sigma[i].len() * n;
@@ -137,9 +184,14 @@ fn widen(
         for (m, sigma) in sigma[i].iter().enumerate().filter(|(_, sigma)| sigma.is_finite()) {
             let along = slopes.slopes[0][m].conj() / (sigma * sigma);
             weight += slopes.slopes[0][m].norm_sqr() / (sigma * sigma);
+            let of_channels: Vec<c64> =
+                channels.slopes(slopes.response[m], m, omega_rad_s(at[i].frequency_hz)).collect();
+            let scale = if errors.of_scale().is_some() { &slopes.scale[m..=m] } else { &[] };
+            let before_errors = [of_channels.as_slice(), scale].concat();
             let own = [
-                (0, &slopes.stiffness[m]),
-                (modes.of_error.len(), &slopes.factors[m]),
+                (0, &before_errors),
+                (first_error, &slopes.stiffness[m]),
+                (first_factor, &slopes.factors[m]),
                 (first_mass, &slopes.masses[m]),
                 (first_load, &slopes.load[m]),
                 (first_shape + m * n, &slopes.shape[m]),
@@ -149,7 +201,7 @@ fn widen(
             }
         }
         pulls.iter_mut().for_each(|pull| *pull /= weight);
-        Some(covariance(&of_errors, &pulls))
+        Some(covariance(&covariances, &pulls))
     });
     let mut longer = Vec::new();
     for (line, moved) in outcome.outcomes.iter_mut().zip(moved) {

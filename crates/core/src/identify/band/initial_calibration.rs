@@ -1,7 +1,7 @@
 //! Where the search for a channel's scale and delay begins.
 
-use super::channel::{Channel, ChannelUnknowns};
 use crate::c64;
+use crate::identify::channel::{Channel, ChannelUnknowns};
 use crate::median::median;
 
 /// Delays that are tried go up to this many radians of phase at the top of a band, either way: one of sixteen periods is another recording.

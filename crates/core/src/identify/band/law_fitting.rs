@@ -1,7 +1,7 @@
 //! What a law is fitted to: a band, its sensors, and what of their channels is to be found.
 
-use super::channel::ChannelUnknowns;
 use crate::frequency::omega_rad_s;
+use crate::identify::channel::ChannelUnknowns;
 use crate::identify::context::Context;
 use crate::identify::measured::Band;
 use crate::identify::options::Options;

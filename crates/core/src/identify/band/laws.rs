@@ -3,22 +3,25 @@
 //! Every frequency by itself comes first: it trains the subspace, and tells where to begin. Then Σ |u_m − x_m(E(ω; θ))|²/σ_m² over the band is made least in θ on the
 //! models of the neighbourhoods, ∂x_m/∂θ = (∂x_m/∂c)(∂E/∂θ). The subspace is trained further where it is not good enough at the law that came out.
 
-use super::calibration::Scaled;
 use super::candidates::misfit;
-use super::channel::{Calibrated, Calibration, ChannelUnknowns};
 use super::channels::{Begin, Responded, at_scales};
+use super::corrected::{Weights, correct, on_corrected, point};
+use super::joint;
 use super::law_fitting::Fitting;
 use super::outcome::BandOutcome;
 use super::reduced_band::{ReducedBand, reduction_error};
+use super::scaled::Scaled;
 use super::search_box::{near_or_far, on_subspace};
-use super::{corrected, joint};
 use crate::c64;
 use crate::for_each::map;
+use crate::frequency::omega_rad_s;
+use crate::identify::channel::{Calibrated, Calibration, Channel, ChannelUnknowns};
+use crate::identify::channel_coordinates::ChannelCoordinates;
 use crate::identify::context::{Context, Stage};
 use crate::identify::form::Form;
 use crate::identify::goodness_of_fit::{Explained, GoodnessOfFit, MAX_RMS_MISFIT, judge};
 use crate::identify::measured::Band;
-use crate::identify::model_errors::{Curve, Curves, estimate_with_laws};
+use crate::identify::model_errors::{Curve, Curves, Estimated, estimate_with_laws};
 use crate::identify::noise::{Noise, NoiseLevel, NoiseSource, standard_deviations, without};
 use crate::identify::options::Options;
 use crate::identify::outcome::{Line, Status};
@@ -79,7 +82,7 @@ pub(super) const RIVAL_DISTANCE_STD: f64 = 3.0;
 /// modulus; `failed` where the search did not converge or the reduced model is not good enough.
 ///
 /// Channels may have an unknown scale or delay, all of them too (`unknown`, one for each sensor, or empty).
-/// Both are eliminated: for given θ the best real gain of a channel is linear least squares over the band, the best delay near the first one Newton's, and the slopes
+/// Where all have one, errors of the model are not looked for. Both are eliminated: for given θ the best real gain of a channel is linear least squares over the band, the best delay near the first one Newton's, and the slopes
 /// are those of what they leave, so that the error bars of the law have theirs in them. Where no channel is known, the first ones are those with which the nominal law,
 /// times some factor of the box, has the shape that was measured: Σ |ln|u_m| − ln|x_m|| about its median, phases as far as a line over ω takes them.
 ///
@@ -99,10 +102,20 @@ pub(in crate::identify) fn identify_laws<'a>(
     let (mut free, Begin { reduced, channels, ratio }) =
         near_or_far(band, &boxes, |options| at_scales(band, &at, trained, unknown, options, context));
     let mut reduced = reduced;
-    if let Some(reduced) = reduced.as_mut().filter(|_| !unknown.iter().any(|channel| channel.any())) {
-        free = corrected::correct(band, &at, free, reduced, &boxes[0], context);
+    let mut channels = channels;
+    let omegas: Vec<f64> = at.iter().map(|at| omega_rad_s(at.frequency_hz)).collect();
+    // Where no channel says how large the response is, errors and scales stand in for one another.
+    let is_calibrated = unknown.iter().any(|channel| !channel.any());
+    if let Some(reduced) = reduced.as_mut().filter(|_| is_calibrated) {
+        let scaled = Scaled::new(band, &channels);
+        free = correct((&scaled.band(band), unknown), &at, free, reduced, &boxes[0], context);
+        if let Some(errors) = &free.model_errors {
+            let left = errors.calibrations();
+            channels =
+                left.iter().zip(&channels).map(|(left, first)| Channel::of(&left.after(first))).collect();
+        }
     }
-    let scaled = Scaled::new(band, &channels);
+    let scaled = Scaled::new(band, &channels).with_rest(free.rest(), &omegas);
     let view = scaled.band(band);
     let out = free.left_out();
     let sigma = without(&standard_deviations(view.measured, view.noise), &out);
@@ -140,15 +153,21 @@ pub(in crate::identify) fn identify_laws<'a>(
         }
         None => channels.clone(),
     };
+    let of_errors = free.model_errors.as_ref().map(Estimated::calibrations);
     let calibration = |m: usize| {
         let Some([gain, late]) = left.as_ref().map(|left| left[m]) else { return Calibration::default() };
         let relative = |std: f64| (std * better[m].scale / gain.value).abs();
-        let scale = Calibrated { value: better[m].scale, std: gain.std.map(relative) };
-        let delay = Calibrated { value: better[m].delay_s, std: late.std };
+        // Errors of the model are in the deviations that were found with them.
+        let with_errors = of_errors.as_ref().map(|found| found[m]).unwrap_or_default();
+        let std_of = |found: Option<Calibrated>, size: f64| Some(found?.std? * size.abs());
+        let scale_std = std_of(with_errors.scale, channels[m].scale).or(gain.std.map(relative));
+        let delay_std = std_of(with_errors.delay_s, 1.0).or(late.std);
+        let scale = Calibrated { value: better[m].scale, std: scale_std };
+        let delay = Calibrated { value: better[m].delay_s, std: delay_std };
         Calibration { scale: unknown[m].scale.then_some(scale), delay_s: unknown[m].delay.then_some(delay) }
     };
     let calibrations = (0..unknown.len()).map(calibration).collect();
-    let scaled = Scaled::new(band, &better);
+    let scaled = Scaled::new(band, &better).with_rest(free.rest(), &omegas);
     let view = scaled.band(band);
     let sigma = without(&standard_deviations(view.measured, view.noise), &out);
     let judging = Fitting { band: &view, sigma: &sigma, ..fitting };
@@ -156,7 +175,15 @@ pub(in crate::identify) fn identify_laws<'a>(
         // What each frequency says by itself, at the calibrations that came out.
         let mut whole = Some(reduced);
         let spent = free.work;
-        free = joint::identify(&view, &at, whole.as_mut(), &[], &boxes[0], context);
+        let errors = free.model_errors.take().zip(whole.as_mut());
+        free = match errors {
+            Some((errors, whole)) => on_corrected(&view, &at, whole, (errors, &free), &boxes[0], context),
+            None => BandOutcome {
+                leverage: free.leverage,
+                other_model: free.other_model,
+                ..joint::identify(&view, &at, whole.as_mut(), &[], &boxes[0], context)
+            },
+        };
         free.work += spent;
         let Some(again) = whole else { unreachable!("a space that was there stays") };
         reduced = again;
@@ -170,7 +197,7 @@ pub(in crate::identify) fn identify_laws<'a>(
         }
         None => (free.outcomes.iter().map(|own| own.unanswered()).collect(), None),
     };
-    let fit = fit.map(|fit| fit.of_model(free.other_model));
+    let fit = fit.map(|fit| fit.of_model(free.other_model).beside(free.rest()));
     let mut work = free.work;
     work += reduced.work().since(before);
     let subspace_size = Some(reduced.size());
@@ -190,15 +217,25 @@ impl Fitting<'_, '_> {
         free: &mut BandOutcome,
     ) -> Option<()> {
         let errors = free.model_errors.as_ref()?;
+        let rest = errors.rest;
         let kind = best(fits)?.kind;
         let place = fits.iter().position(|fit| fit.kind == kind)?;
-        let weights = corrected::Weights::new(self.band, self.at, &free.left_out());
-        let point = corrected::point(self.at);
+        let weights = Weights::new((self.band, self.unknown), self.at, &free.left_out());
+        let point = point(self.at);
         let measured = weights.of(self.band, self.options, &point, free);
         let (law, theta) = fits[place].coordinates();
-        let curves = Curves::new(vec![Curve::Form(Form::Law(*law))]);
-        let errors =
-            estimate_with_laws(reduced.whole(), &measured, errors, (&curves, theta), self.context.for_each)?;
+        let mut channels = ChannelCoordinates::new(self.unknown, theta.len(), weights.omegas());
+        let mut theta = theta.to_vec();
+        theta.resize(theta.len() + channels.count(), 0.0);
+        let (_, left) = self.channels(law, reduced, fits[place].coordinates().1)?;
+        let left: Vec<Channel> =
+            left.iter().map(|left| Channel::CALIBRATED.better(left.gain, left.late_s)).collect();
+        channels.begin_at(&left, &mut theta);
+        let curves = Curves::new(vec![Curve::Form(Form::Law(*law))]).with_channels(channels);
+        let with_law = (&curves, theta.as_slice());
+        let errors = estimate_with_laws(reduced.whole(), &measured, errors, with_law, self.context.for_each)?;
+        // What was beside the noise is in the deviations already.
+        let errors = errors.beside(rest);
         reduced.correct(&errors.modes, &errors.errors);
         let all: Vec<usize> = (0..self.at.len()).collect();
         reduced.localise(&all, self.context.for_each);

@@ -2,7 +2,6 @@
 
 mod calibration;
 mod candidates;
-mod channel;
 mod channels;
 mod continuation;
 mod corrected;
@@ -19,6 +18,7 @@ mod outlier_sensor;
 mod path_model;
 mod per_frequency;
 mod reduced_band;
+mod scaled;
 mod search_box;
 mod smooth;
 mod task;
@@ -26,8 +26,6 @@ mod verdict;
 
 pub(super) use calibration::identify_band_scaled;
 pub(super) use candidates::Fit;
-pub use channel::{Calibrated, Calibration, ChannelUnknowns};
-pub(super) use channel::{Channel, ChannelNumber, numbers_of};
 pub(super) use initial_calibration::by_shape;
 pub(crate) use initial_calibration::{DELAY_PHASE_STEP_RAD, MAX_DELAY_PHASE_RAD};
 pub(super) use laws::{LawsOutcome, MAX_TRAINING_ROUNDS, identify_laws, nearest};
@@ -74,7 +72,7 @@ pub(super) fn identify_band<'a>(
     let new = || wanted.then(|| ReducedBand::on_trained(band, &at, trained, &boxes[0], context)).flatten();
     let mut reduced = reduced.or_else(new);
     let found = match reduced.as_mut().filter(|_| options.selection == Selection::Joint) {
-        Some(reduced) => corrected::correct(band, &at, found, reduced, &boxes[0], context),
+        Some(reduced) => corrected::correct((band, &[]), &at, found, reduced, &boxes[0], context),
         None => found,
     };
     ReducedBand::hand_back(reduced, trained);

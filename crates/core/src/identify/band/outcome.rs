@@ -40,7 +40,8 @@ impl BandOutcome {
 
     /// With bars and statuses that the fit of the band and of each stretch allows.
     pub(super) fn judged_by_fit(mut self) -> Self {
-        self.fit = self.fit.map(|fit| fit.of_model(self.other_model));
+        let rest = self.rest();
+        self.fit = self.fit.map(|fit| fit.of_model(self.other_model).beside(rest));
         if let Some(fit) = &self.fit {
             let of_neighbours = excess_of_neighbours(&self.outcomes, fit);
             for (outcome, excess) in self.outcomes.iter_mut().zip(of_neighbours) {
@@ -57,6 +58,11 @@ impl BandOutcome {
             };
         }
         self
+    }
+
+    /// What the response has beside noise and errors of the model, relative to itself.
+    pub(super) fn rest(&self) -> f64 {
+        self.model_errors.as_ref().map_or(0.0, |errors| errors.rest)
     }
 
     /// The sensors that are left out.

@@ -13,6 +13,7 @@ use super::joint::identify_keeping_model;
 use super::laws::{MAX_TRAINING_ROUNDS, RIVAL_DISTANCE_STD, START_SHIFTS};
 use super::outcome::BandOutcome;
 use super::reduced_band::{ReducedBand, reduction_error};
+use super::scaled::Scaled;
 use super::search_box::{near_or_far, on_subspace};
 use crate::c64;
 use crate::for_each::map;
@@ -94,8 +95,11 @@ pub(in crate::identify) fn identify_smooth<'a>(
     let (mut free, mut reduced) =
         near_or_far(band, &boxes, |options| identify_keeping_model(band, &at, trained, options, context));
     if let Some(reduced) = &mut reduced {
-        free = correct(band, &at, free, reduced, &boxes[0], context);
+        free = correct((band, &[]), &at, free, reduced, &boxes[0], context);
     }
+    let omegas: Vec<f64> = at.iter().map(|at| omega_rad_s(at.frequency_hz)).collect();
+    let wider = Scaled::new(band, &[]).with_rest(free.rest(), &omegas);
+    let band = &wider.band(band);
     let assumed = standard_deviations(band.measured, band.noise);
     let out = free.left_out();
     let sigma = without(&assumed, &out);

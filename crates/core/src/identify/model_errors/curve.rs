@@ -1,7 +1,9 @@
 //! Unknowns over the band with few numbers: constants, laws, smooth curves.
 
 use crate::c64;
+use crate::identify::channel_coordinates::ChannelCoordinates;
 use crate::identify::form::Form;
+use std::f64::consts::TAU;
 use std::ops::Range;
 
 /// p(ω; θ) of one unknown.
@@ -13,10 +15,13 @@ pub(in crate::identify) enum Curve {
     Spline(Spline),
 }
 
-/// All unknowns, θ one after the other.
+/// All unknowns, θ one after the other, then scales and delays of channels.
 #[derive(Debug, Clone, PartialEq)]
 pub(in crate::identify) struct Curves {
     each: Vec<(Curve, Range<usize>)>,
+    channels: ChannelCoordinates,
+    /// [low, high] of coordinates that have bounds.
+    limits: Vec<(usize, [f64; 2])>,
 }
 
 /// A natural cubic spline of ln E over ln ω by its values at knots: θ is ln|E| at the knots, then the phase at the knots unless E is real.
@@ -47,7 +52,10 @@ const BODE_SLOPE_OVER_PHASE: f64 = std::f64::consts::FRAC_2_PI;
 const MEAN_SLOPE_RTOL: f64 = 0.5;
 const MIN_SLOPE_STD: f64 = 0.001;
 
-/// What is known of the coordinates of constants and laws, logarithms and logits, before anything is measured.
+/// A bound that is overstepped by so little is kept: roundoff.
+const BOUND_RTOL: f64 = 1e-12;
+
+/// What is known of the coordinates of constants, laws and channels, logarithms and logits, before anything is measured.
 const FORM_PRIOR_STD: f64 = 10.0;
 
 impl Spline {
@@ -256,12 +264,53 @@ impl Curves {
             first = range.end;
             (curve, range)
         };
-        Self { each: each.into_iter().map(place).collect() }
+        Self {
+            each: each.into_iter().map(place).collect(),
+            channels: ChannelCoordinates::default(),
+            limits: Vec::new(),
+        }
+    }
+
+    /// With bounds of the coordinates of an unknown.
+    pub(in crate::identify) fn within(mut self, unknown: usize, limits: &[[f64; 2]]) -> Self {
+        self.limits.extend(self.range(unknown).zip(limits.iter().copied()));
+        self
+    }
+
+    /// The coordinates that a step would move beyond a bound, and the step that ends there.
+    pub(super) fn stopped(&self, theta: &[f64], step: &[f64]) -> Vec<(usize, f64)> {
+        let stopped = |&(i, [low, high]): &(usize, [f64; 2])| {
+            let there = theta[i] + step[i];
+            let least = BOUND_RTOL * (1.0 + theta[i].abs());
+            (there < low - least || there > high + least).then(|| (i, there.clamp(low, high) - theta[i]))
+        };
+        self.limits.iter().filter_map(stopped).collect()
+    }
+
+    /// Moves θ into its bounds.
+    pub(super) fn keep_within_bounds(&self, theta: &mut [f64]) {
+        self.limits.iter().for_each(|&(i, [low, high])| theta[i] = theta[i].clamp(low, high));
+    }
+
+    /// With scales and delays of channels.
+    pub(in crate::identify) fn with_channels(self, channels: ChannelCoordinates) -> Self {
+        let channels = channels.after(self.of_unknowns());
+        Self { channels, ..self }
     }
 
     /// How many numbers.
     pub(in crate::identify) fn count(&self) -> usize {
+        self.of_unknowns() + self.channels.count()
+    }
+
+    /// How many of them are those of the unknowns.
+    pub(in crate::identify) fn of_unknowns(&self) -> usize {
         self.each.last().map_or(0, |(_, range)| range.end)
+    }
+
+    /// Scales and delays of channels.
+    pub(in crate::identify) fn channels(&self) -> &ChannelCoordinates {
+        &self.channels
     }
 
     /// The coordinates of an unknown.
@@ -292,9 +341,17 @@ impl Curves {
         Some(slopes.into_iter().map(own).collect())
     }
 
+    /// What each sensor shows of a response at θ.
+    pub(super) fn shares(&self, theta: &[f64], omega_rad_s: f64) -> Vec<c64> {
+        self.channels.shares(theta, omega_rad_s / TAU)
+    }
+
     /// The precision of what is known beforehand about a centre, n × n; see [`Curve::precision`].
     pub(super) fn precision(&self, centre: &[f64], bend: [f64; 2]) -> Vec<f64> {
-        self.blocks(|curve, range| curve.precision(&centre[range], bend))
+        let mut all = self.blocks(|curve, range| curve.precision(&centre[range], bend));
+        let n = self.count();
+        self.channels.range().for_each(|i| all[i * n + i] = FORM_PRIOR_STD.powi(-2));
+        all
     }
 
     /// That of the bends of a part alone, and how many there are.
@@ -317,10 +374,11 @@ impl Curves {
 
     /// Smooth curves without bends, as causal materials have them; constants and laws as they are.
     pub(super) fn straight(&self, theta: &[f64]) -> Vec<f64> {
-        self.each.iter().flat_map(|(curve, range)| curve.straight(&theta[range.clone()])).collect()
+        let of_unknowns = self.each.iter().flat_map(|(curve, range)| curve.straight(&theta[range.clone()]));
+        of_unknowns.chain(theta[self.of_unknowns()..].iter().copied()).collect()
     }
 
-    /// θ with given coordinates of constants and laws, and smooth curves nearest to some values with weights (inverse variances
+    /// θ with given coordinates of constants, laws and channels, and smooth curves nearest to some values with weights (inverse variances
     /// of ln p) at some lines; `None` where one of them has none.
     pub(super) fn through(
         &self,
@@ -337,6 +395,7 @@ impl Curves {
                 }
             }
         }
+        theta.extend(given);
         Some(theta)
     }
 }

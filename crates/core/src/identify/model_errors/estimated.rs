@@ -6,6 +6,8 @@ use super::mesh::BetweenMeshes;
 use super::search::{FactorPrior, Kinds, Place};
 use crate::c64;
 use crate::frequency::omega_rad_s;
+use crate::identify::channel::Calibration;
+use crate::identify::channel_coordinates::ChannelCoordinates;
 use crate::subspace::{ModalErrors, Modes};
 
 /// The errors of a model, and how well they are known.
@@ -13,13 +15,15 @@ use crate::subspace::{ModalErrors, Modes};
 pub(in crate::identify) struct Estimated {
     pub(in crate::identify) modes: Modes,
     pub(in crate::identify) errors: ModalErrors,
-    /// Of θ, δ and ε (own and common together), ν and Δη, κ, then a of the load and of each sensor: n × n.
+    /// Of θ, e, δ and ε (own and common together), ν and Δη, κ, then a of the load and of each sensor: n × n.
     pub(in crate::identify) covariance: Vec<f64>,
     pub(in crate::identify) sizes: [f64; 3],
     /// χ² at σ times `level`, and how many numbers it has.
     pub(in crate::identify) chi_squared: f64,
     pub(in crate::identify) numbers: usize,
     pub(in crate::identify) level: f64,
+    /// What the response has beside noise and errors, relative to itself: a standard deviation of real and imaginary part each.
+    pub(in crate::identify) rest: f64,
     /// By how many nats errors of the model explain the band better than a right model does.
     pub(in crate::identify) evidence: f64,
     /// Errors that are in the covariance.
@@ -62,6 +66,23 @@ impl Estimated {
         self.covariance_of(&range.collect::<Vec<_>>())
     }
 
+    /// Where this rest was in the deviations already.
+    pub(in crate::identify) fn beside(self, rest: f64) -> Self {
+        Self { rest: self.rest.hypot(rest), ..self }
+    }
+
+    /// Scales and delays of channels, as coordinates.
+    pub(in crate::identify) fn channels(&self) -> &ChannelCoordinates {
+        self.curves.channels()
+    }
+
+    /// Scales and delays of channels, with their deviations.
+    pub(in crate::identify) fn calibrations(&self) -> Vec<Calibration> {
+        let n = self.count();
+        let std = |c: usize| Some(self.covariance[c * n + c].max(0.0).sqrt());
+        self.channels().found(self.theta(), std)
+    }
+
     /// The coordinates of an unknown.
     pub(in crate::identify) fn range(&self, unknown: usize) -> std::ops::Range<usize> {
         self.curves.range(unknown)
@@ -77,22 +98,32 @@ impl Estimated {
         Some(self.curves.values(self.theta(), line, omega_rad_s(frequency_hz))?.0)
     }
 
-    /// The covariance of θ, row after row.
+    /// The covariance of the unknowns' θ, row after row.
     pub(in crate::identify) fn of_theta(&self) -> Vec<Vec<f64>> {
-        let n = self.curves.count();
+        let n = self.curves.of_unknowns();
         self.block(0..n).chunks_exact(n.max(1)).map(<[f64]>::to_vec).collect()
     }
 
-    /// The covariance of the errors.
-    pub(in crate::identify) fn of_errors(&self) -> Vec<f64> {
-        self.block(self.error_range())
+    /// The covariance of channels and errors.
+    pub(in crate::identify) fn of_channels_and_errors(&self) -> Vec<f64> {
+        self.block(self.curves.of_unknowns()..self.count())
+    }
+
+    /// The coordinate of e, the scale of all stiffness, where there are modes.
+    pub(in crate::identify) fn of_scale(&self) -> Option<usize> {
+        (!self.modes.omega_rad_s.is_empty()).then(|| self.curves.count())
+    }
+
+    /// The first coordinate of the errors of single modes.
+    pub(super) fn first_of_modes(&self) -> usize {
+        self.curves.count() + usize::from(self.of_scale().is_some())
     }
 
     /// Coordinates: θ, and the errors.
     pub(in crate::identify) fn count(&self) -> usize {
-        let ModalErrors { stiffness, masses, load, shape, factors } = &self.errors;
+        let ModalErrors { stiffness, masses, load, shape, factors, .. } = &self.errors;
         let of_shapes: usize = shape.iter().map(Vec::len).sum();
-        self.curves.count() + stiffness.len() + factors.len() + masses.len() + load.len() + of_shapes
+        self.first_of_modes() + stiffness.len() + factors.len() + masses.len() + load.len() + of_shapes
     }
 }
 

@@ -14,6 +14,9 @@ pub struct ModelErrorsFound {
     pub loss_factor_std: f64,
     /// Standard deviation s_a of the errors of mode shapes at the sensors.
     pub shape_std: f64,
+    /// What the response has beside noise and errors, relative to itself (√E|δx|²/|x|): zero where noise and errors explain the band, or the level of the
+    /// noise was not given and holds it.
+    pub response_std: f64,
     /// One for each mode of the nominal model up to the end of the band, and a little further; none for a rigid body, which has no natural frequency.
     pub modes: Vec<ModeError>,
     /// Of the known matrices.
@@ -93,14 +96,17 @@ const LISTED_ABOVE_BAND: f64 = 1.2;
 impl Estimated {
     /// What users are told.
     pub(in crate::identify) fn found(&self) -> ModelErrorsFound {
-        let (n, first) = (self.count(), self.curves.count());
+        let (n, first) = (self.count(), self.first_of_modes());
         let covariance = |a: usize, b: usize| self.covariance[(first + a) * n + first + b];
         let mode = |(i, omega): (usize, &f64)| {
-            let own: Vec<usize> = self.modes.frequency_errors(i).collect();
-            let variance: f64 = own.iter().flat_map(|&a| own.iter().map(move |&b| covariance(a, b))).sum();
+            let own = self.modes.frequency_errors(i).map(|error| first + error);
+            let all: Vec<usize> = own.chain(self.of_scale()).collect();
+            let variance: f64 =
+                all.iter().flat_map(|&a| all.iter().map(move |&b| self.covariance[a * n + b])).sum();
+            let own: f64 = self.modes.frequency_errors(i).map(|error| self.errors.stiffness[error]).sum();
             ModeError {
                 frequency_hz: omega / TAU,
-                error: own.iter().map(|&error| self.errors.stiffness[error]).sum(),
+                error: own + self.errors.scale,
                 std: variance.max(0.0).sqrt(),
                 coarser_hz: self
                     .mesh
@@ -127,6 +133,7 @@ impl Estimated {
             frequency_std,
             loss_factor_std,
             shape_std,
+            response_std: 2f64.sqrt() * self.rest,
             modes: self
                 .modes
                 .omega_rad_s

@@ -25,7 +25,8 @@ impl Search<'_, '_> {
         let fitting = Fitting { factors: &factors, ..self.fitting(self.model, &none, &self.lines) };
         let unknowns = self.data.nominal[0].len();
         let by_line = unknowns == 1 && self.data.own.len() == 1;
-        let moved = if by_line { self.moved_by_line(&fitting) } else { self.moved_by_band(&fitting, theta) };
+        let moved =
+            if by_line { self.moved_by_line(&fitting, theta) } else { self.moved_by_band(&fitting, theta) };
         let of = |t: usize, unknown: usize| {
             let change = median(moved.iter().map(|moved| moved[t][unknown].norm()).collect());
             change.map(|change| Leverage { term: factors[t].term, unknown, change })
@@ -35,13 +36,14 @@ impl Search<'_, '_> {
     }
 
     /// At the lines that have an answer.
-    fn moved_by_line(&self, fitting: &Fitting<'_, '_>) -> Vec<Moved> {
+    fn moved_by_line(&self, fitting: &Fitting<'_, '_>, theta: &[f64]) -> Vec<Moved> {
         let errors = fitting.errors(&fitting.start(&vec![0.0; self.curves.count()]));
         let at_line = |&i: &usize| -> Option<Moved> {
             let value = self.data.free[i].values[0].value.filter(|_| self.data.free[i].on_path)?;
             let point = (self.data.point)(i, &[value])?;
             let at = (fitting.modes, &errors);
             let slopes = self.model.respond_with_error_slopes(at, &point.at, point.correction).ok()?;
+            let slopes = slopes.shown(&self.curves.shares(theta, self.data.omegas[i]));
             let own = &slopes.slopes[0];
             let weight = |m: usize| 1.0 / self.data.sigma[i][m].powi(2);
             let all = || (0..own.len()).filter(|&m| self.data.sigma[i][m].is_finite());

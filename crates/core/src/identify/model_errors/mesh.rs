@@ -1,7 +1,7 @@
 //! What a mesh does to the modes of a model, by those of a coarser one (B-11).
 //!
 //! Modes of both meshes are paired by their frequencies, their residues between load and sensors, and where their strain energy is. With the strain energies
-//! $e_g = y^T K_g y$ of the known stiffness and of that of each unknown,
+//! $e_g = y^T K_g y$ of the known stiffness and of that of the unknowns,
 //! $$ \Delta_{g,i} = \frac{e_{g,i} - e^c_{g,i}}{2 \lambda_i}, \qquad \Delta_{mi} = \frac{\ell_m^T y_i - \ell_m^T y^c_i}{\ell_m^T y_i} $$
 //! lie between the meshes. They are in the frequency and in the shape, and by Hellmann and Feynman in the slopes of the frequency by the unknowns too.
 
@@ -102,10 +102,10 @@ impl BetweenMeshes {
         let mut sizes = vec![None; n];
         for (i, j) in partners.iter().enumerate().filter_map(|(i, j)| Some((i, (*j)?))) {
             let square = (coarser.omega_rad_s[j] / modes.omega_rad_s[i]).powi(2);
+            let [own, other] = [&modes.energy_shares[i], &coarser.energy_shares[j]];
             for error in modes.frequency_errors(i) {
                 let group = modes.group[error];
-                let difference = modes.energy_share_of(i, group) - square * coarser.energy_share_of(j, group);
-                stiffness[error] = 0.5 * difference;
+                stiffness[error] = 0.5 * (own[group] - square * other.get(group).unwrap_or(&0.0));
             }
             sizes[i] = Some(modes.frequency_errors(i).map(|error| stiffness[error]).sum::<f64>().abs());
             // The sign of a mode is arbitrary.
@@ -170,7 +170,6 @@ const ORDER_SCATTER: f64 = 0.3;
 fn paired(modes: &Modes, coarser: &Modes, highest_rad_s: f64) -> Vec<Option<usize>> {
     let own = residues(modes);
     let other = residues(coarser);
-    let groups = modes.group.iter().max().map_or(0, |last| 1 + last);
     let difference = |i: usize, j: usize| -> f64 {
         let frequency = (modes.omega_rad_s[i] / coarser.omega_rad_s[j]).ln() / LOG_FREQUENCY_STD;
         let [mut apart, mut size] = [0.0; 2];
@@ -179,8 +178,8 @@ fn paired(modes: &Modes, coarser: &Modes, highest_rad_s: f64) -> Vec<Option<usiz
             size += 0.5 * (a.norm_sqr() + b.norm_sqr());
         }
         let residue = if size > 0.0 { (apart / size).sqrt() / RESIDUE_STD } else { 0.0 };
-        let share = |group: usize| modes.energy_share_of(i, group) - coarser.energy_share_of(j, group);
-        let energy = (0..groups).map(|group| share(group).powi(2)).sum::<f64>().sqrt() / ENERGY_SHARE_STD;
+        let shares = modes.energy_shares[i].iter().zip(&coarser.energy_shares[j]);
+        let energy = shares.map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt() / ENERGY_SHARE_STD;
         frequency.hypot(residue).hypot(energy)
     };
     let is_elastic = |omega: &f64| *omega > 0.0;

@@ -25,7 +25,7 @@ mod scatter;
 mod search;
 
 use super::goodness_of_fit::GoodnessOfFit;
-use super::noise::Noise;
+use super::noise::{Noise, beside};
 use super::options::ErrorSizes;
 use super::outcome::Line;
 use super::thinned::thinned;
@@ -66,13 +66,15 @@ pub(super) struct Measured<'t, 'a> {
     pub(super) omegas: &'t [f64],
     /// `[frequency][unknown]`.
     pub(super) nominal: &'t [Vec<c64>],
-    /// θ of the unknowns that hold for the band, as a right model has it.
-    pub(super) given: &'t [f64],
+    /// θ of what holds for the band: as a right model has it, then where else to begin.
+    pub(super) given: &'t [Vec<f64>],
     pub(super) measured: &'t [Vec<c64>],
     /// Of real and imaginary part each, `[frequency][sensor]`; infinite of a sensor that is left out.
     pub(super) sigma: &'t [Vec<f64>],
     /// The responses themselves, as deviations.
     pub(super) size: &'t [Vec<f64>],
+    /// The levels of the responses, of which a rest beside the noise is a part.
+    pub(super) levels: &'t [Vec<f64>],
     pub(super) noise_scale: NoiseScale,
     /// What the user says of the sizes of errors.
     pub(super) given_sizes: ErrorSizes,
@@ -123,6 +125,9 @@ const LOSS_FACTOR_PRIOR_RATIO: f64 = 0.1;
 const COMMON_RATIO: f64 = 5.0;
 const COMMON_RATIO_BESIDE_MESH: f64 = 2.5;
 
+/// A few modes may be far off; all of them are not, by more than this, unless their scatter is larger.
+const MAX_COMMON_STD: f64 = 0.025;
+
 /// The same of loss factors: a support that has another damping than the structure changes all of them in one sense.
 const COMMON_LOSS_RATIO: f64 = 2.0;
 
@@ -140,6 +145,10 @@ const PRIOR_COMMON: f64 = 0.5;
 
 /// No measured response is better than this part of itself: what is smaller is no reason to doubt a model.
 const MIN_NOISE_OVER_RESPONSE: f64 = 5e-4;
+
+/// Beside a given noise and the errors of modes, shapes and factors a response may be off by this part of itself: no model is
+/// better between resonances. What is more is not explained.
+const MAX_REST: f64 = 0.05;
 
 /// The same of a single sensor, whose noise nobody told: it cannot contradict itself.
 const MIN_NOISE_OF_ONE_SENSOR: f64 = 5e-3;
@@ -179,7 +188,7 @@ impl Sizes {
 
     /// With what goes with the errors of natural frequencies.
     fn with_common(self, known: KnownSizes) -> Self {
-        let common = known.common_ratio * self.frequency;
+        let common = (known.common_ratio * self.frequency).min(MAX_COMMON_STD.max(self.frequency));
         let of_own = COMMON_LOSS_RATIO * self.loss_factor;
         Self { common, common_loss: of_own.max(UNDAMPED_SHARE_RATIO * common), ..self }
     }
@@ -199,6 +208,8 @@ struct Explained {
     sizes: Sizes,
     kinds: Kinds,
     level: f64,
+    /// What the response has beside noise and errors, relative to itself.
+    rest: f64,
     /// −2 ln of the evidence, up to what all explanations share.
     evidence: f64,
 }
@@ -474,6 +485,13 @@ fn middle(lines: &[usize]) -> usize {
     lines[lines.len() / 2]
 }
 
+/// Starts no farther apart than this, in logarithms, are one.
+const SAME_START: f64 = 0.01;
+
+fn distance(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+}
+
 /// Lines on which the search begins, and at most.
 const FIRST_LINES: usize = 60;
 const MAX_LINES: usize = 240;
@@ -481,6 +499,9 @@ const MAX_LINES: usize = 240;
 /// Levels of added noise until all lines are used, and until only errors of damping and masses are to be found.
 const FIRST_LEVELS: usize = 4;
 const LAST_LEVELS: usize = 5;
+
+/// Halvings to what is beside noise and errors: to a ten-thousandth of the most.
+const REST_HALVINGS: usize = 13;
 
 /// Points of the band at which a model of the neighbourhood is made good, and to which error.
 const NEIGHBOURHOOD_POINTS: usize = 24;
@@ -492,6 +513,11 @@ const TRIED_SIZE_PARTS: [f64; 4] = [1.0, 0.3, 0.1, 0.03];
 
 /// What is left is noise up to so many standard deviations of χ².
 const NOISE_CHI_SQUARED_STD: f64 = 3.0;
+
+/// Whether noise leaves such a χ² of n numbers.
+fn is_chance(chi_squared: f64, n: f64) -> bool {
+    chi_squared <= n + NOISE_CHI_SQUARED_STD * (2.0 * n).sqrt()
+}
 
 /// A right model is one only where it explains a band by so many nats better: before the data errors are a hundred times as likely as none, and where
 /// the data cannot tell, they are in the bars.
@@ -521,29 +547,36 @@ impl<'a> Measured<'_, 'a> {
             self.free.iter().enumerate().filter_map(one).collect()
         };
         // Where modes are narrow most lines are right and some are far off.
-        let usual = |j: usize| -> Vec<(usize, c64, f64)> {
+        type Values = Vec<(usize, c64, f64)>;
+        let usual: &dyn Fn(usize) -> Values = &|j| {
             let all = answered(j);
             let middle = |part: &dyn Fn(c64) -> f64| median(all.iter().map(|one| part(one.1.ln())).collect());
             let value = middle(&|log| log.re).zip(middle(&|log| log.im));
             let value = value.map(|(size, phase)| c64::new(size, phase).exp());
             value.map_or(Vec::new(), |value| all.iter().map(|one| (one.0, value, 1e4)).collect())
         };
-        let nominal = |j: usize| -> Vec<(usize, c64, f64)> {
+        let nominal: &dyn Fn(usize) -> Values = &|j| {
             let positive = (0..self.omegas.len()).filter(|&i| self.nominal[i][j].re > 0.0);
             positive.map(|i| (i, self.nominal[i][j], 1e4)).collect()
         };
         let smooth = curves.smooth();
         let few = smooth.iter().any(|&j| answered(j).len() <= 2);
-        let mut starts = Vec::new();
+        let mut starts: Vec<Vec<f64>> = Vec::new();
+        let mut add = |start: Option<Vec<f64>>| {
+            let is_new = |start: &Vec<f64>| starts.iter().all(|other| distance(start, other) > SAME_START);
+            let start = start.filter(is_new);
+            starts.extend(start);
+        };
+        let Some((right, elsewhere)) = self.given.split_first() else { return starts };
         if !few {
-            starts.extend(curves.through(self.given, answered));
+            add(curves.through(right, answered));
+            add(curves.through(right, usual));
         }
-        if !few && !smooth.is_empty() {
-            starts.extend(curves.through(self.given, usual));
+        add(curves.through(right, nominal));
+        for given in elsewhere {
+            add(curves.through(given, if few { nominal } else { usual }));
         }
-        if !smooth.is_empty() {
-            starts.extend(curves.through(self.given, nominal));
-        }
+        starts.iter_mut().for_each(|start| curves.keep_within_bounds(start));
         starts
     }
 
@@ -555,6 +588,12 @@ impl<'a> Measured<'_, 'a> {
                 .collect()
         };
         lines.iter().map(one).collect()
+    }
+
+    /// σ of the noise at a level, with what the response has beside it.
+    fn sigma_beside(&self, lines: &[usize], level: f64, rest: f64) -> Vec<Vec<f64>> {
+        let levels: Vec<Vec<f64>> = lines.iter().map(|&i| self.levels[i].clone()).collect();
+        beside(&self.sigma_at(lines, level, 0.0), rest, &levels)
     }
 
     /// From a start to where all lines are used: the cost and the place.
@@ -574,7 +613,7 @@ impl<'a> Measured<'_, 'a> {
     fn is_explained(&self, wrong: &Explained, lines: &[usize]) -> bool {
         let n = self.numbers(lines) as f64;
         match self.known() {
-            true => wrong.found.normal.chi_squared <= n + NOISE_CHI_SQUARED_STD * (2.0 * n).sqrt(),
+            true => wrong.rest == 0.0 && is_chance(wrong.found.normal.chi_squared, n),
             false => wrong.level <= USUAL_NOISE,
         }
     }
@@ -604,7 +643,7 @@ impl<'a> Measured<'_, 'a> {
     fn is_noise(&self, right: &Explained, numbers: usize, curves: &Curves) -> bool {
         let n = numbers as f64;
         match self.known() {
-            true => right.found.normal.chi_squared <= n + NOISE_CHI_SQUARED_STD * (2.0 * n).sqrt(),
+            true => is_chance(right.found.normal.chi_squared, n),
             false => {
                 let sensors = self.sigma[0].iter().filter(|sigma| sigma.is_finite()).count();
                 let contradicted = sensors > 1 || curves.smooth().is_empty();
@@ -663,7 +702,7 @@ impl<'a> Measured<'_, 'a> {
         let known = self.known();
         let mut sizes = Sizes::prior(fitting.known).of_kinds(fitting.kinds, fitting.known);
         let numbers = self.numbers(fitting.lines) as f64;
-        let mut level = 1.0;
+        let (mut level, mut rest) = (1.0, 0.0);
         for &added in from_above {
             let sigma = self.sigma_at(fitting.lines, if known { 1.0 } else { 0.0 }, added);
             let found = fitting.descend(place, &sigma, &fitting.precision(&sizes), STEPS_PER_LEVEL)?;
@@ -678,7 +717,7 @@ impl<'a> Measured<'_, 'a> {
         }
         let mut last = None;
         for _ in 0..MAX_SIZE_ROUNDS {
-            let sigma = self.sigma_at(fitting.lines, level, 0.0);
+            let sigma = self.sigma_beside(fitting.lines, level, rest);
             let precision = fitting.precision(&sizes);
             let found = fitting.descend(place, &sigma, &precision, STEPS_AT_LAST_LEVEL)?;
             place = found.place.clone();
@@ -695,8 +734,11 @@ impl<'a> Measured<'_, 'a> {
             let determined: f64 =
                 (0..n).map(|i| 1.0 - precision[i * n + i] * variance(i)).map(|t| t.clamp(0.0, 1.0)).sum();
             let chi_squared = found.normal.chi_squared;
-            let before = (level, sizes);
-            last = Some(Explained { found, sizes, kinds: fitting.kinds, level, evidence });
+            let before = (level, sizes, rest);
+            if known && !fitting.shapes().is_empty() {
+                rest = self.rest(fitting, &place, (numbers - determined).max(1.0))?;
+            }
+            last = Some(Explained { found, sizes, kinds: fitting.kinds, level, rest: before.2, evidence });
             if !known {
                 level = (level * (chi_squared / (numbers - determined).max(1.0)).sqrt())
                     .max(MIN_NOISE_OVER_RESPONSE);
@@ -745,6 +787,7 @@ impl<'a> Measured<'_, 'a> {
             }
             let settled = |a: f64, b: f64| (a - b).abs() <= 0.03 * b;
             if settled(level, before.0)
+                && (rest - before.2).abs() <= 0.03 * rest
                 && settled(sizes.frequency, before.1.frequency)
                 && settled(sizes.loss_factor, before.1.loss_factor)
                 && settled(sizes.shape, before.1.shape)
@@ -756,22 +799,42 @@ impl<'a> Measured<'_, 'a> {
         last
     }
 
+    /// What the response has beside a given noise, relative to itself, so that χ² is what n numbers have: none where noise leaves as much.
+    fn rest(&self, fitting: &Fitting<'_, '_>, place: &[f64], n: f64) -> Option<f64> {
+        let squares = fitting.squares(place)?;
+        let chi_squared = |rest: f64| -> f64 {
+            let sigma = self.sigma_beside(fitting.lines, 1.0, rest);
+            squares.iter().flatten().zip(sigma.iter().flatten()).map(|(r, sigma)| r / (sigma * sigma)).sum()
+        };
+        if is_chance(chi_squared(0.0), n) {
+            return Some(0.0);
+        }
+        let (mut low, mut high) = (0.0, MAX_REST);
+        for _ in 0..REST_HALVINGS {
+            let middle = 0.5 * (low + high);
+            *(if chi_squared(middle) > n { &mut low } else { &mut high }) = middle;
+        }
+        Some(high)
+    }
+
     fn posterior(&self, fitting: &Fitting<'_, '_>, wrong: Explained, evidence: f64) -> Option<Estimated> {
-        let Explained { found, sizes, level, .. } = wrong;
+        let Explained { found, sizes, level, rest, .. } = wrong;
         let n = fitting.count();
         let precision = fitting.precision(&sizes);
         let whole: Vec<f64> = found.normal.information.iter().zip(&precision).map(|(a, b)| a + b).collect();
         let inverse = Cholesky::new(n, &whole).ok()?.inverse();
         let errors = fitting.errors(&found.place);
-        // δ_i = e + d_i.
         let first = fitting.first_own();
         let modes = errors.stiffness.len();
         let theta = fitting.curves.count();
-        let kept = n - first + theta;
+        // θ, e, then the errors of single modes and what follows them.
+        let scale = fitting.of_scale();
+        let before_errors = theta + usize::from(scale.is_some());
+        let kept = n - first + before_errors;
         let of = |a: usize, b: usize| inverse[a * n + b];
-        // What of each of the search's coordinates is in θ, δ_i, ν_t, a_mi.
+        // What of each of the search's coordinates is in θ, e, δ_i, ν_t, a_mi.
         let parts = |a: usize| -> Vec<(usize, f64)> {
-            let Some(error) = a.checked_sub(theta) else { return vec![(a, 1.0)] };
+            let Some(error) = a.checked_sub(before_errors) else { return vec![(a, 1.0)] };
             let own = std::iter::once((first + error, 1.0));
             let shared = (theta..first).filter(|_| error < modes);
             let of_mesh = fitting.of_mesh().filter(|_| error >= modes);
@@ -792,6 +855,7 @@ impl<'a> Measured<'_, 'a> {
             chi_squared: found.normal.chi_squared,
             numbers: self.numbers(fitting.lines),
             level,
+            rest,
             evidence,
             kinds: fitting.kinds,
             highest_rad_s: fitting.highest_rad_s,

@@ -29,7 +29,8 @@ impl Measured<'_, '_> {
         if self.own.is_empty() {
             return None;
         }
-        let estimates: Vec<LineEstimate> = lines.iter().filter_map(|&i| self.line_estimate(i)).collect();
+        let estimates: Vec<LineEstimate> =
+            lines.iter().filter_map(|&i| self.line_estimate(search, i)).collect();
         if 2 * estimates.len() < lines.len() {
             return None;
         }
@@ -50,13 +51,16 @@ impl Measured<'_, '_> {
         Some(logs + misfit / (own * own) + least)
     }
 
-    fn line_estimate(&self, line: usize) -> Option<LineEstimate> {
+    fn line_estimate(&self, search: &Search<'_, '_>, line: usize) -> Option<LineEstimate> {
         let own = &self.free[line];
         let sigma = match self.known() {
             true => self.sigma_at(&[line], 1.0, 0.0).concat(),
             false => self.sigma[line].clone(),
         };
-        let each = own.updated_response.iter().zip(&self.measured[line]).zip(&sigma);
+        let shares = search.curves.shares(search.centre, self.omegas[line]);
+        let shown = |(m, x): (usize, &c64)| shares.get(m).map_or(*x, |share| share * x);
+        let shown = own.updated_response.iter().enumerate().map(shown);
+        let each = shown.zip(&self.measured[line]).zip(&sigma);
         let unknown = |&j: &usize| {
             let value = own.values[j].value.filter(|value| own.on_path && value.re > 0.0)?;
             Some((value, own.values[j].uncertainty?.storage_std / value.norm()))
@@ -110,6 +114,20 @@ impl Measured<'_, '_> {
         factor.solve(&mut step);
         let gained: f64 = gradient.iter().zip(&step).map(|(g, s)| g * s).sum();
         let of_prior = Cholesky::new(n, &prior).ok()?.log_determinant();
-        Some(sum - gained + factor.log_determinant() - of_prior)
+        let of_channels = self.channel_volume(search, right, &prior)?;
+        Some(sum - gained + factor.log_determinant() - of_prior + of_channels)
+    }
+
+    /// What scales and delays of channels cost, by how well a right model has them: lines that scatter know them no better.
+    fn channel_volume(&self, search: &Search<'_, '_>, right: &Explained, prior: &[f64]) -> Option<f64> {
+        let (n, of_unknowns) = (search.curves.count(), search.curves.of_unknowns());
+        let all = right.found.place.len();
+        let whole = |i: usize, j: usize| right.found.normal.information[i * all + j] + prior[i * n + j];
+        let volume = |m: usize| -> Option<f64> {
+            let block: Vec<f64> = (0..m * m).map(|k| whole(k / m, k % m)).collect();
+            Some(Cholesky::new(m, &block).ok()?.log_determinant())
+        };
+        let of_prior: f64 = (of_unknowns..n).map(|i| prior[i * n + i].ln()).sum();
+        Some(volume(n)? - volume(of_unknowns)? - of_prior)
     }
 }

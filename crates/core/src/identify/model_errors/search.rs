@@ -91,7 +91,7 @@ pub(super) struct FactorPrior {
     pub(super) is_known: bool,
 }
 
-/// Parts that the δ_i of a group have in common: the same for all modes, with ω_i and its square, as the errors of meshes grow, and with
+/// Parts that the δ_i of a group have in common: the same for all modes, of the first group as a scale of all stiffness, with ω_i and its square, as the errors of meshes grow, and with
 /// 1/ω_i², as those of supports fall; and two of the ε_i, the same for all and with 1/ω_i².
 const COMMON_PARTS: usize = 6;
 const COMMON_FREQUENCY_PARTS: usize = 4;
@@ -191,7 +191,7 @@ impl Fitting<'_, '_> {
 
     /// Those of all groups.
     fn common_parts(&self) -> usize {
-        COMMON_PARTS * self.modes.group.iter().max().map_or(0, |last| 1 + last)
+        COMMON_PARTS * self.modes.groups()
     }
 
     /// The place of the amplitude of the mesh's error.
@@ -207,16 +207,23 @@ impl Fitting<'_, '_> {
         }
     }
 
-    /// What δ_i or ε_i has of each common part.
+    /// The place of the scale of all stiffness.
+    pub(super) fn of_scale(&self) -> Option<usize> {
+        (self.modes() > 0).then(|| self.curves.count())
+    }
+
+    /// What δ_i or ε_i has of each common part; nothing of the scale of all stiffness, which is no error of single modes.
     pub(super) fn common(&self, i: usize) -> Vec<f64> {
         let own = self.modes.omega_rad_s[self.modes.of_error[i]];
         let mut parts = vec![0.0; self.common_errors()];
         if let Some(lowest) = self.modes.lowest_rad_s().filter(|_| own > 0.0) {
             let (omega, support) = (own / self.highest_rad_s, (lowest / own).powi(2));
-            let of_group = &mut parts[COMMON_PARTS * self.modes.group[i]..][..COMMON_PARTS];
+            let group = self.modes.group[i];
+            let of_group = &mut parts[COMMON_PARTS * group..][..COMMON_PARTS];
             let (of_frequency, of_loss) = of_group.split_at_mut(COMMON_FREQUENCY_PARTS);
+            let constant = if group == 0 { 0.0 } else { 1.0 };
             match self.modes.is_of_frequency(i) {
-                true => of_frequency.copy_from_slice(&[1.0, omega, omega * omega, support]),
+                true => of_frequency.copy_from_slice(&[constant, omega, omega * omega, support]),
                 false => of_loss.copy_from_slice(&[1.0, support]),
             }
         }
@@ -316,6 +323,7 @@ impl Fitting<'_, '_> {
         let factor =
             |(prior, &error): (&FactorPrior, &f64)| FactorError { term: prior.term, part: prior.part, error };
         ModalErrors {
+            scale: self.of_scale().map_or(0.0, |scale| place[scale]),
             stiffness: (0..self.stiffness_errors()).map(|i| common(i) + place[own + i]).collect(),
             masses: place[self.first_mass()..self.first_load()].to_vec(),
             load: with_mesh(self.first_load()..self.shared()),
@@ -351,8 +359,9 @@ impl Fitting<'_, '_> {
         let square = |of: &dyn Fn(usize) -> f64| {
             in_band.iter().map(|&i| of(i).powi(2)).sum::<f64>() / in_band.len().max(1) as f64
         };
-        let frequency =
-            |i: usize| -> f64 { self.modes.frequency_errors(i).map(|error| errors.stiffness[error]).sum() };
+        let frequency = |i: usize| -> f64 {
+            errors.scale + self.modes.frequency_errors(i).map(|error| errors.stiffness[error]).sum::<f64>()
+        };
         let largest = |usual: f64, given: Option<f64>| {
             usual.max(MAX_ERROR_OVER_GIVEN_SIZE * given.unwrap_or(0.0)).powi(2)
         };
@@ -377,16 +386,18 @@ impl Fitting<'_, '_> {
     fn row(
         &self,
         slopes: &ErrorSlopes,
-        of_theta: &[(usize, c64)],
+        (of_theta, omega_rad_s): (&[(usize, c64)], f64),
         common: &[Vec<f64>],
         m: usize,
     ) -> Vec<c64> {
         let mut row: Vec<c64> = of_theta.iter().map(|(j, of)| slopes.slopes[*j][m] * of).collect();
+        row.extend(self.curves.channels().slopes(slopes.response[m], m, omega_rad_s));
         if self.modes() > 0 {
             let mut of_common = vec![c64::default(); self.common_errors()];
             for (parts, slope) in common.iter().zip(&slopes.stiffness[m]) {
                 of_common.iter_mut().zip(parts).for_each(|(sum, part)| *sum += part * slope);
             }
+            of_common[0] = slopes.scale[m];
             if let (Some(mesh), Some(last)) = (self.mesh, of_common.last_mut()) {
                 let at = |by: &[f64], slopes: &[c64]| -> c64 {
                     by.iter().zip(slopes).map(|(by, slope)| *by * slope).sum()
@@ -424,13 +435,14 @@ impl Fitting<'_, '_> {
             moving.iter().copied().chain(self.shared()..self.shared() + self.modes()).collect();
         let rows = |k: usize| -> Option<Vec<Option<[Vec<f64>; 2]>>> {
             let i = self.lines[k];
-            let (values, of_theta) = self.curves.values(&place[..self.curves.count()], i, self.omegas[i])?;
+            let (values, of_theta) = self.curves.values(place, i, self.omegas[i])?;
             let point = (self.point)(i, &values)?;
             let slopes =
                 model.respond_with_error_slopes((self.modes, &errors), &point.at, point.correction).ok()?;
+            let slopes = slopes.shown(&self.curves.shares(place, self.omegas[i]));
             let at_sensor = |m: usize| {
                 let sigma = Some(sigma[k][m]).filter(|sigma| sigma.is_finite())?;
-                let row = self.row(&slopes, &of_theta, &common, m);
+                let row = self.row(&slopes, (&of_theta, self.omegas[i]), &common, m);
                 let rest = self.measured[i][m] - slopes.response[m];
                 let each = || places.iter().map(|&place| row[place]).chain([rest]).map(move |x| x / sigma);
                 Some([each().map(|x| x.re).collect(), each().map(|x| x.im).collect()])
@@ -465,6 +477,22 @@ impl Fitting<'_, '_> {
         Some(sum).filter(|sum| sum.chi_squared.is_finite())
     }
 
+    /// |u_m − x_m|² at each of the lines; `None` where the response is not finite.
+    pub(super) fn squares(&self, place: &[f64]) -> Option<Vec<Vec<f64>>> {
+        let errors = self.errors(place);
+        let model = self.model.with_errors(self.modes, &errors);
+        let at_line = |k: usize| -> Option<Vec<f64>> {
+            let i = self.lines[k];
+            let (values, _) = self.curves.values(place, i, self.omegas[i])?;
+            let point = (self.point)(i, &values)?;
+            let slopes =
+                model.respond_with_error_slopes((self.modes, &errors), &point.at, point.correction).ok()?;
+            let shown = slopes.shown(&self.curves.shares(place, self.omegas[i])).response;
+            Some(self.measured[i].iter().zip(shown).map(|(u, x)| (u - x).norm_sqr()).collect())
+        };
+        map(self.for_each, self.lines.len(), at_line).into_iter().collect()
+    }
+
     /// The prior's precision, n × n: curve and errors.
     pub(super) fn precision(&self, sizes: &Sizes) -> Vec<f64> {
         let (n, own) = (self.count(), self.curves.count());
@@ -497,6 +525,27 @@ impl Fitting<'_, '_> {
         all
     }
 
+    /// The step to where a quadratic form is least within the bounds: coordinates that would leave them stop there. Both are used up.
+    fn step(&self, place: &[f64], matrix: &mut [f64], slope: &mut [f64]) -> Option<Vec<f64>> {
+        let n = slope.len();
+        loop {
+            let mut step = slope.to_vec();
+            Cholesky::new(n, matrix).ok()?.solve(&mut step);
+            // Bounds are those of a few coordinates, and each stops once.
+            let stopped = self.curves.stopped(place, &step);
+            if stopped.is_empty() {
+                return Some(step);
+            }
+            for (i, by) in stopped {
+                for j in (0..n).filter(|&j| j != i) {
+                    slope[j] -= matrix[i * n + j] * by;
+                    (matrix[i * n + j], matrix[j * n + i]) = (0.0, 0.0);
+                }
+                (matrix[i * n + i], slope[i]) = (1.0, by);
+            }
+        }
+    }
+
     /// Levenberg and Marquardt's method from a place
     pub(super) fn descend(
         &self,
@@ -519,15 +568,16 @@ impl Fitting<'_, '_> {
         for _ in 0..steps {
             let mut matrix: Vec<f64> = normal.information.iter().zip(precision).map(|(a, b)| a + b).collect();
             (0..n).for_each(|i| matrix[i * n + i] *= 1.0 + damping);
-            let mut step: Vec<f64> = normal.gradient.iter().zip(&pull).map(|(g, p)| g - p).collect();
-            let Ok(factor) = Cholesky::new(n, &matrix) else {
+            let mut slope: Vec<f64> = normal.gradient.iter().zip(&pull).map(|(g, p)| g - p).collect();
+            let Some(step) = self.step(&place, &mut matrix, &mut slope) else {
                 damping *= 10.0;
                 continue;
             };
-            factor.solve(&mut step);
             let longest = step[..self.curves.count()].iter().fold(0.0f64, |most, s| most.max(s.abs()));
             let part = (MAX_THETA_STEP / longest).min(1.0);
-            let there: Place = place.iter().zip(&step).map(|(p, s)| p + part * s).collect();
+            let mut there: Place = place.iter().zip(&step).map(|(p, s)| p + part * s).collect();
+            // Roundoff.
+            self.curves.keep_within_bounds(&mut there);
             let (other_prior, other_pull) = prior(&there);
             let cost = normal.chi_squared + of_prior;
             match self.normal(&there, sigma).filter(|other| other.chi_squared + other_prior <= cost) {

@@ -1,8 +1,8 @@
 //! The numbers that hold for the whole band, as coordinates θ of a search.
 
-use super::channels::ChannelCoordinates;
 use crate::c64;
-use crate::identify::band::ChannelUnknowns;
+use crate::identify::channel::ChannelUnknowns;
+use crate::identify::channel_coordinates::ChannelCoordinates;
 use crate::identify::form::Form;
 use crate::identify::unknown::{Unknown, Variation};
 use crate::laws::{LawKind, Parametrization};

@@ -4,26 +4,25 @@ use super::Task;
 use super::at_frequency::{Solution, eliminate};
 use super::outcome::SeveralOutcome;
 use super::reduced_band::ReducedBand;
-use super::search::BandSolution;
+use super::search::{BandSolution, Begin};
 use crate::c64;
 use crate::identify::model_errors::{
     Coarser, Curve, Curves, Explanation, Leverage, Measured, NoiseScale, Spline, estimate, estimate_with_laws,
 };
-use crate::identify::noise::{Noise, standard_deviations, without};
+use crate::identify::noise::{Noise, beside, levels, standard_deviations, without};
 use crate::identify::options::ModelErrors;
 use crate::identify::unknown::{Unknown, Variation};
 use crate::subspace::{Corrected, Point};
 
 impl Task<'_, '_> {
-    /// What is found when the errors of the model are estimated and taken out; the same where a right model explains the band as well,
-    /// and beside channels of unknown scale or delay, which would take up a part of the errors.
+    /// What is found when the errors of the model are estimated and taken out; the same where a right model explains the band as well.
     pub(super) fn correct(
         &self,
         space: &mut ReducedBand<'_>,
         solution: &BandSolution,
         mut found: SeveralOutcome,
     ) -> SeveralOutcome {
-        if self.options.model_errors == ModelErrors::None || !self.problem.channels.is_empty() {
+        if self.options.model_errors == ModelErrors::None {
             return found;
         }
         let (explanation, leverage) = self.errors(space, solution, &found);
@@ -39,11 +38,24 @@ impl Task<'_, '_> {
             return found;
         };
         let of_band = solution.coordinates.each.iter().flat_map(|own| errors.range(own.unknowns));
-        let theta = of_band.map(|c| errors.theta()[c]).collect();
-        let again = self.search_from(space, theta, &values);
-        let again = BandSolution { starts: solution.starts, agreeing: solution.agreeing, ..again };
-        let judged = self.judge(space, &again, Some(&errors));
+        let theta = of_band.chain(errors.channels().range()).map(|c| errors.theta()[c]).collect();
+        let begin = Begin { coordinates: solution.coordinates.clone(), theta };
+        let task = self.with_rest(errors.rest);
+        let again = task.search_from(space, begin, &values);
+        let again = BandSolution { starts: solution.starts.clone(), agreeing: solution.agreeing, ..again };
+        let judged = task.judge(space, &again, Some(&errors));
         SeveralOutcome { model_errors: Some(errors.found()), leverage: found.leverage, ..judged }
+    }
+
+    /// The same task, in which the response has this part of itself beside the noise.
+    fn with_rest(&self, rest: f64) -> Self {
+        let levels = levels(self.problem.frfs.receptance, &self.omegas);
+        Self {
+            omegas: self.omegas.clone(),
+            sigma: beside(&self.sigma, rest, &levels),
+            left_out: self.left_out.clone(),
+            ..*self
+        }
     }
 
     fn errors(
@@ -61,10 +73,23 @@ impl Task<'_, '_> {
                 Some(own) => Curve::Form(own.form.clone()),
                 None => Curve::Spline(Spline::new(&self.omegas, one.real)),
             };
-            Curves::new(unknowns.iter().enumerate().map(curve).collect())
+            let curves = Curves::new(unknowns.iter().enumerate().map(curve).collect());
+            let curves = curves.with_channels(solution.coordinates.channels.clone());
+            let bounded = solution.coordinates.each.iter().filter(|own| !is_law(own.unknowns));
+            bounded.fold(curves, |curves, own| {
+                curves.within(own.unknowns, &solution.coordinates.limits[own.range.clone()])
+            })
         };
         let constants = solution.coordinates.each.iter().filter(|own| !is_law(own.unknowns));
-        let given: Vec<f64> = constants.flat_map(|own| &solution.theta[own.range.clone()]).copied().collect();
+        let constants: Vec<_> = constants.map(|own| own.range.clone()).collect();
+        let given = |theta: &Vec<f64>| -> Vec<f64> {
+            let ranges = constants.iter().cloned().chain([solution.coordinates.channels.range()]);
+            ranges.flat_map(|range| &theta[range]).copied().collect()
+        };
+        // A search that knows of no errors may have ended far from the start that was right.
+        let others = solution.starts.iter().filter(|start| start.coordinates == solution.coordinates);
+        let given: Vec<Vec<f64>> =
+            [&solution.theta].into_iter().chain(others.map(|start| &start.theta)).map(given).collect();
         let own: Vec<usize> = (0..unknowns.len()).filter(|&j| unknowns[j].per_frequency() > 0).collect();
         let point =
             |i: usize, values: &[c64]| Some(Point { at: space.at(i, values)?, correction: c64::default() });
@@ -81,6 +106,7 @@ impl Task<'_, '_> {
                 &standard_deviations(self.problem.frfs.receptance, Noise::Unknown),
                 &self.left_out,
             ),
+            levels: &levels(self.problem.frfs.receptance, &self.omegas),
             noise_scale: NoiseScale::of(self.problem.frfs.noise),
             free: &found.at,
             own: &own,
@@ -98,7 +124,8 @@ impl Task<'_, '_> {
             Some(own) => &solution.theta[own.range.clone()],
             None => &errors.theta()[errors.range(j)],
         };
-        let theta: Vec<f64> = (0..unknowns.len()).flat_map(theta).copied().collect();
+        let of_channels = &errors.theta()[errors.channels().range()];
+        let theta: Vec<f64> = (0..unknowns.len()).flat_map(theta).chain(of_channels).copied().collect();
         let laws = (&curves(true), theta.as_slice());
         let with_laws = estimate_with_laws(space.whole(), &measured, &errors, laws, self.context.for_each);
         (Explanation::Errors(with_laws.map_or(errors, Box::new)), leverage)
@@ -109,11 +136,14 @@ impl Task<'_, '_> {
         &self,
         space: &ReducedBand<'_>,
         i: usize,
+        found: &BandSolution,
         solution: &Solution,
     ) -> Option<Vec<Vec<f64>>> {
         let Corrected { modes, errors, model } = space.corrected()?;
         let at = space.at(i, &solution.values)?;
         let slopes = model.respond_with_error_slopes((modes, errors), &at, c64::default()).ok()?;
+        let channels = &found.coordinates.channels;
+        let slopes = slopes.shown(&channels.shares(&found.theta, self.problem.frfs.frequency_hz[i]));
         let sensors = self.sigma[i].len();
         let column = |of: &dyn Fn(usize) -> c64| -> Vec<f64> {
             (0..sensors).map(|m| of(m) / self.sigma[i][m]).flat_map(|v| [v.re, v.im]).collect()
@@ -125,7 +155,9 @@ impl Task<'_, '_> {
             (0..modes.omega_rad_s.len()).flat_map(one).collect::<Vec<f64>>()
         };
         let of_all = [&slopes.stiffness, &slopes.factors, &slopes.masses, &slopes.load];
-        let mut columns: Vec<f64> = of_all.into_iter().flat_map(|of| shared(of)).collect();
+        let mut columns =
+            if modes.omega_rad_s.is_empty() { Vec::new() } else { column(&|m| slopes.scale[m]) };
+        columns.extend(of_all.into_iter().flat_map(|of| shared(of)));
         columns.extend((0..sensors).flat_map(shape));
         let contained = eliminate(&solution.of_own, &mut columns, 2 * sensors);
         Some(contained.into_iter().map(|x| x.into_iter().map(|x| -x).collect()).collect())

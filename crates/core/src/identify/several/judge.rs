@@ -10,6 +10,7 @@ use super::search::{BandSolution, Place, Plane, Reach};
 use crate::c64;
 use crate::for_each::map;
 use crate::identify::band::reduction_error;
+use crate::identify::channel::ChannelNumber;
 use crate::identify::goodness_of_fit::{GoodnessOfFit, MAX_RMS_MISFIT, judge};
 use crate::identify::model_errors::Estimated;
 use crate::identify::noise::NoiseLevel;
@@ -59,12 +60,14 @@ impl Task<'_, '_> {
         let noise = NoiseLevel::new(self.problem.frfs.noise, of_sensors, None);
         let level = noise.level;
         let fit = level
-            .and_then(|level| judge(chi_squared / (level * level), freedom, &noise, self.problem.frfs.noise));
+            .and_then(|level| judge(chi_squared / (level * level), freedom, &noise, self.problem.frfs.noise))
+            .map(|fit| fit.beside(errors.map_or(0.0, |errors| errors.rest)));
         let of_bars = level_of_bars(level, fit);
         // Of θ, and of the errors of the model that it hangs on.
         let joint = errors.map(|errors| {
             let of_band = found.coordinates.each.iter().flat_map(|own| errors.range(own.unknowns));
-            errors.covariance_of(&of_band.chain(errors.error_range()).collect::<Vec<_>>())
+            let of_channels = errors.channels().range();
+            errors.covariance_of(&of_band.chain(of_channels).chain(errors.error_range()).collect::<Vec<_>>())
         });
         let information = match &joint {
             Some(joint) => {
@@ -89,7 +92,7 @@ impl Task<'_, '_> {
             let own = place.as_ref().and_then(|p| p.eliminated.own[i].as_ref());
             let mut moved = own.map(|(_, moved)| moved.clone());
             if let (Some(moved), Some(solution), Some(_)) = (&mut moved, found.at(i), errors) {
-                moved.extend(self.moved_by_errors(space, i, solution).into_iter().flatten());
+                moved.extend(self.moved_by_errors(space, i, found, solution).into_iter().flatten());
             }
             let known = information.as_ref().and(moved);
             self.judge_at(
@@ -109,7 +112,7 @@ impl Task<'_, '_> {
             .each
             .iter()
             .flat_map(numbers_of)
-            .chain(found.coordinates.channels.names())
+            .chain(found.coordinates.channels.numbers().iter().map(of_channel))
             .collect();
         let channels = found.coordinates.channels.found(&found.theta, |c| {
             let mut gradient = vec![0.0; n];
@@ -172,7 +175,7 @@ impl Task<'_, '_> {
             model_errors: None,
             leverage: Vec::new(),
             converged: found.converged,
-            starts: found.starts,
+            starts: found.starts.len(),
             agreeing: found.agreeing,
             work: space.work(),
             subspace_size: space.size(),
@@ -369,6 +372,11 @@ fn bars(nominal: c64, value: c64, real: bool, covariance: Option<([f64; 3], f64)
         nonlinearity: 0.0,
     };
     LineValue { uncertainty: Some(uncertainty), ..found }
+}
+
+fn of_channel(number: &ChannelNumber) -> BandCoordinate {
+    let name = if number.is_delay { "delay_s" } else { "scale" };
+    BandCoordinate { of: NumberOf::Channel(number.channel), number: name.to_owned() }
 }
 
 fn names(kind: Option<LawKind>) -> Vec<String> {

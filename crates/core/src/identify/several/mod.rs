@@ -9,7 +9,6 @@
 //! | file | what is in it |
 //! |---|---|
 //! | `coordinates` | θ ↔ what holds for the band |
-//! | `channels` | scales and delays among it |
 //! | `reduced_band` | the reduced model over the box of all unknowns |
 //! | `starts` | where to begin |
 //! | `at_frequency` | one frequency |
@@ -20,7 +19,6 @@
 //! | `corrected` | errors of the model |
 
 mod at_frequency;
-mod channels;
 mod coordinates;
 mod corrected;
 mod information;
@@ -37,7 +35,7 @@ mod tests;
 pub(super) use outcome::SeveralOutcome;
 pub use outcome::{BandCoordinate, BandValue, Direction, Number, NumberOf, Profile};
 
-use super::band::Calibration;
+use super::channel::Calibration;
 use super::context::Context;
 use super::noise::{NoiseLevel, standard_deviations};
 use super::options::Options;

@@ -1,6 +1,6 @@
 //! What came out when several things were looked for.
 
-use crate::identify::band::Calibration;
+use crate::identify::channel::Calibration;
 use crate::identify::goodness_of_fit::{GoodnessOfFit, SensorFit};
 use crate::identify::model_errors::{Leverage, ModelErrorsFound};
 use crate::identify::noise::NoiseLevel;

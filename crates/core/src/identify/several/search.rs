@@ -33,8 +33,8 @@ pub(super) struct BandSolution {
     pub(super) chosen: Vec<Chosen>,
     /// Whether the search ended because there was nothing more to gain.
     pub(super) converged: bool,
-    /// Starts that were compared, and how many ended at the best.
-    pub(super) starts: usize,
+    /// Starts that were compared, the one that was taken first, and how many ended where it did.
+    pub(super) starts: Vec<Begin>,
     pub(super) agreeing: usize,
 }
 
@@ -80,7 +80,7 @@ pub(super) enum Reach {
 }
 
 /// Where a search begins.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub(super) struct Begin {
     pub(super) coordinates: Coordinates,
     pub(super) theta: Vec<f64>,
@@ -101,6 +101,7 @@ impl Task<'_, '_> {
         let part: Vec<usize> = thinned(&all, START_FREQUENCIES).copied().collect();
         (self.context.progress)(Stage::Solutions, 0, all.len());
         let mut tried = self.tried(space, &part);
+        let starts = tried.iter().flat_map(|(_, found, _)| found.starts.clone()).collect();
         let (least, first, values) = tried.swap_remove(0);
         let agreeing =
             1 + tried.iter().filter(|other| other.0 <= least * (1.0 + AGREEING_MISFIT_RTOL)).count();
@@ -110,18 +111,17 @@ impl Task<'_, '_> {
         };
         let found = self.refined(space, found);
         (self.context.progress)(Stage::Solutions, all.len(), all.len());
-        BandSolution { starts: 1 + tried.len(), agreeing, ..found }
+        BandSolution { starts, agreeing, ..found }
     }
 
-    /// The same from one start: θ, and values of all unknowns.
+    /// The same from one start, and values of all unknowns there.
     pub(super) fn search_from(
         &self,
         space: &mut ReducedBand<'_>,
-        theta: Vec<f64>,
+        begin: Begin,
         values: &[c64],
     ) -> BandSolution {
         let all: Vec<usize> = (0..self.omegas.len()).collect();
-        let begin = Begin { coordinates: self.coordinates(), theta };
         let found = self.follow(space, &all, begin, &Guess::Everywhere(values));
         self.refined(space, found)
     }
@@ -155,8 +155,9 @@ impl Task<'_, '_> {
         let mut tried = Vec::with_capacity(begin.len());
         for values in begin {
             let begin = self.begin(space, which, &values);
+            let starts = vec![begin.clone()];
             let found = self.follow(space, which, begin, &Guess::Everywhere(&values));
-            tried.push((found.misfit(), found, values));
+            tried.push((found.misfit(), BandSolution { starts, ..found }, values));
         }
         tried.sort_by(|a, b| a.0.total_cmp(&b.0));
         tried
@@ -281,7 +282,15 @@ impl Task<'_, '_> {
                 chosen = self.choose(which, &solutions);
             }
         }
-        BandSolution { coordinates, theta, solutions, chosen, converged: true, starts: 1, agreeing: 1 }
+        BandSolution {
+            coordinates,
+            theta,
+            solutions,
+            chosen,
+            converged: true,
+            starts: Vec::new(),
+            agreeing: 1,
+        }
     }
 
     /// The solutions at a frequency that some values, the nominal ones and points all over the box lead to. Of one unknown that stands for a factor, all there are; of two, those that

@@ -9,13 +9,14 @@ use super::reduced_band::{ReducedBand, in_box};
 use super::search::{Begin, Guess};
 use crate::c64;
 use crate::for_each::map;
-use crate::identify::band::{Channel, ChannelUnknowns, by_shape};
+use crate::identify::band::by_shape;
+use crate::identify::channel::{Channel, ChannelUnknowns};
 use crate::identify::thinned::thinned;
 use crate::identify::unknown::Variation;
 use crate::laws::{Search, minimise};
 
 /// Frequencies at most at which logarithms are compared.
-const LOG_RESPONSE_FREQUENCIES: usize = 48;
+const LOG_RESPONSE_FREQUENCIES: usize = 160;
 
 /// Points of the box for each number, and how many of the best are followed.
 const POINTS_PER_NUMBER: usize = 24;

@@ -43,6 +43,16 @@ pub struct Calibration {
 }
 
 impl Calibration {
+    /// What it is of what another calibration left.
+    pub(super) fn after(self, first: &Channel) -> Self {
+        let of_scale = |found: Calibrated| Calibrated {
+            value: found.value * first.scale,
+            std: found.std.map(|std| std * first.scale.abs()),
+        };
+        let of_delay = |found: Calibrated| Calibrated { value: found.value + first.delay_s, ..found };
+        Self { scale: self.scale.map(of_scale), delay_s: self.delay_s.map(of_delay) }
+    }
+
     /// s e^{iωτ}, with one and zero for what was not looked for.
     pub fn factor(&self, frequency_hz: f64) -> c64 {
         Channel::of(self).factor(frequency_hz)
@@ -60,7 +70,7 @@ impl Channel {
     pub(in crate::identify) const CALIBRATED: Self = Self { scale: 1.0, delay_s: 0.0 };
 
     /// One and zero for what was not looked for.
-    pub(super) fn of(found: &Calibration) -> Self {
+    pub(in crate::identify) fn of(found: &Calibration) -> Self {
         let value = |found: Option<Calibrated>, none: f64| found.map_or(none, |found| found.value);
         Self { scale: value(found.scale, 1.0), delay_s: value(found.delay_s, 0.0) }
     }
@@ -70,7 +80,7 @@ impl Channel {
     }
 
     /// Where u = γ e^{−iωt} x is what is left of this calibration.
-    pub(super) fn better(&self, gain: f64, late_s: f64) -> Self {
+    pub(in crate::identify) fn better(&self, gain: f64, late_s: f64) -> Self {
         Self { scale: self.scale / gain, delay_s: self.delay_s + late_s }
     }
 }
