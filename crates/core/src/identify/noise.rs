@@ -118,10 +118,10 @@ const MAX_LEVEL_LINES: usize = 41;
 
 /// The level of each response, `[frequency][sensor]`: itself, or the median of its neighbourhood where that is larger. Near an antiresonance what modes add up to is small, and what
 /// is wrong with each is not.
-pub(super) fn levels(measured: &[Vec<c64>], omegas: &[f64]) -> Vec<Vec<f64>> {
+pub(super) fn levels(measured: &[Vec<c64>], frequency_hz: &[f64]) -> Vec<Vec<f64>> {
     let of = |i: usize| {
-        let from = omegas.partition_point(|&omega| omega < omegas[i] * (-LEVEL_HALF_WIDTH).exp());
-        let to = omegas.partition_point(|&omega| omega <= omegas[i] * LEVEL_HALF_WIDTH.exp());
+        let from = frequency_hz.partition_point(|&f| f < frequency_hz[i] * (-LEVEL_HALF_WIDTH).exp());
+        let to = frequency_hz.partition_point(|&f| f <= frequency_hz[i] * LEVEL_HALF_WIDTH.exp());
         let near: Vec<usize> = (from..to).collect();
         let level = |m: usize| {
             let near = thinned(&near, MAX_LEVEL_LINES).map(|&k| measured[k][m].norm());

@@ -1,7 +1,6 @@
 //! Channels whose calibration nobody knows: one real scale, one delay or both for the whole band, found together with the moduli.
 
 use super::corrected::correct;
-use super::fit::goodness;
 use super::initial_calibration::aligned;
 use super::joint;
 use super::outcome::BandOutcome;
@@ -16,7 +15,7 @@ use crate::identify::channel::{
 };
 use crate::identify::context::Context;
 use crate::identify::measured::Band;
-use crate::identify::noise::{freedom, standard_deviations, without};
+use crate::identify::noise::{standard_deviations, without};
 use crate::identify::options::Options;
 use crate::identify::outcome::Status;
 use crate::identify::uncertainty::Uncertainty;
@@ -105,9 +104,7 @@ pub(super) fn with_scales<'a>(
         let Some(estimated) = estimated else { return (first, None) };
         if estimated.is_settled(top(band)) || round + 1 == MAX_SELECTIONS {
             estimated.widen(&mut outcome);
-            let counted = outcome.sensors.iter().filter(|sensor| !sensor.left_out).count();
-            let each = freedom(counted, band.unknown.real);
-            outcome.fit = goodness(&outcome.outcomes, each, estimated.free.len(), &outcome.noise, &view);
+            let outcome = outcome.with_fitted(estimated.free.len(), &view);
             let found = estimated.calibrations(&channels, outcome.noise.level);
             return (outcome, Some(found));
         }

@@ -1,6 +1,5 @@
 //! A band once more, with the errors of the model taken out and carried into every error bar (B-11).
 
-use super::fit::goodness;
 use super::joint;
 use super::outcome::BandOutcome;
 use super::reduced_band::ReducedBand;
@@ -16,7 +15,7 @@ use crate::identify::model_errors::{
     Coarser, Curve, Curves, Estimated, Measured, NoiseScale, PointAt, Spline,
 };
 use crate::identify::model_errors::{Explanation, covariance, estimate};
-use crate::identify::noise::{Noise, freedom, levels, standard_deviations, without};
+use crate::identify::noise::{Noise, levels, standard_deviations, without};
 use crate::identify::options::{ModelErrors, Options};
 use crate::identify::outcome::Status;
 use crate::median::median;
@@ -51,7 +50,7 @@ pub(super) fn correct<'a>(
     let before = reduced.work();
     reduced.correct(&errors.modes, &errors.errors);
     let scaled =
-        Scaled::new(band, &errors.channels().at(errors.theta())).with_rest(errors.rest, &weights.omegas);
+        Scaled::new(band, &errors.channels().at(errors.theta())).with_rest(errors.rest, band.frequency_hz);
     let outcome = on_corrected(&scaled.band(band), at, reduced, (errors, &found), options, context);
     let mut work = found.work;
     work += reduced.work().since(before);
@@ -76,9 +75,7 @@ pub(super) fn on_corrected<'a>(
     }
     let fitted = errors.channels().count();
     if fitted > 0 {
-        let counted = outcome.sensors.iter().filter(|sensor| !sensor.left_out).count();
-        let each = freedom(counted, band.unknown.real);
-        outcome.fit = goodness(&outcome.outcomes, each, fitted, &outcome.noise, band);
+        outcome = outcome.with_fitted(fitted, band);
     }
     let sigma = without(&standard_deviations(band.measured, band.noise), &left_out);
     errors.bars_over_noise = widen(&mut outcome, &errors, at, reduced, &sigma, context);
@@ -113,13 +110,12 @@ impl Weights {
         at: &[ModelAt<'_>],
         left_out: &[usize],
     ) -> Self {
-        let omegas: Vec<f64> = at.iter().map(|at| omega_rad_s(at.frequency_hz)).collect();
         let of = |noise: Noise<'_>| without(&standard_deviations(band.measured, noise), left_out);
         Self {
             sigma: of(band.noise),
             size: of(Noise::Unknown),
-            levels: levels(band.measured, &omegas),
-            omegas,
+            levels: levels(band.measured, band.frequency_hz),
+            omegas: at.iter().map(|at| omega_rad_s(at.frequency_hz)).collect(),
             nominal: at.iter().map(|at| vec![at.parameters[0].nominal]).collect(),
             given: [vec![0.0; unknown.iter().map(|one| one.count()).sum()]],
         }

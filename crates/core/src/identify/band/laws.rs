@@ -14,7 +14,6 @@ use super::scaled::Scaled;
 use super::search_box::{near_or_far, on_subspace};
 use crate::c64;
 use crate::for_each::map;
-use crate::frequency::omega_rad_s;
 use crate::identify::channel::{Calibrated, Calibration, Channel, ChannelUnknowns};
 use crate::identify::channel_coordinates::ChannelCoordinates;
 use crate::identify::context::{Context, Stage};
@@ -103,7 +102,6 @@ pub(in crate::identify) fn identify_laws<'a>(
         near_or_far(band, &boxes, |options| at_scales(band, &at, trained, unknown, options, context));
     let mut reduced = reduced;
     let mut channels = channels;
-    let omegas: Vec<f64> = at.iter().map(|at| omega_rad_s(at.frequency_hz)).collect();
     // Where no channel says how large the response is, errors and scales stand in for one another.
     let is_calibrated = unknown.iter().any(|channel| !channel.any());
     if let Some(reduced) = reduced.as_mut().filter(|_| is_calibrated) {
@@ -115,7 +113,7 @@ pub(in crate::identify) fn identify_laws<'a>(
                 left.iter().zip(&channels).map(|(left, first)| Channel::of(&left.after(first))).collect();
         }
     }
-    let scaled = Scaled::new(band, &channels).with_rest(free.rest(), &omegas);
+    let scaled = Scaled::new(band, &channels).with_rest(free.rest(), band.frequency_hz);
     let view = scaled.band(band);
     let out = free.left_out();
     let sigma = without(&standard_deviations(view.measured, view.noise), &out);
@@ -167,7 +165,7 @@ pub(in crate::identify) fn identify_laws<'a>(
         Calibration { scale: unknown[m].scale.then_some(scale), delay_s: unknown[m].delay.then_some(delay) }
     };
     let calibrations = (0..unknown.len()).map(calibration).collect();
-    let scaled = Scaled::new(band, &better).with_rest(free.rest(), &omegas);
+    let scaled = Scaled::new(band, &better).with_rest(free.rest(), band.frequency_hz);
     let view = scaled.band(band);
     let sigma = without(&standard_deviations(view.measured, view.noise), &out);
     let judging = Fitting { band: &view, sigma: &sigma, ..fitting };

@@ -1,9 +1,10 @@
 //! What came out of a band with one unknown.
 
-use super::fit::excess_of_neighbours;
+use super::fit::{excess_of_neighbours, goodness};
 use crate::identify::goodness_of_fit::{GoodnessOfFit, SensorFit, is_unexplained_stretch};
+use crate::identify::measured::Band;
 use crate::identify::model_errors::{Estimated, Leverage};
-use crate::identify::noise::NoiseLevel;
+use crate::identify::noise::{NoiseLevel, freedom};
 use crate::identify::outcome::{Line, Status};
 use crate::response::Work;
 
@@ -57,6 +58,14 @@ impl BandOutcome {
                 status => status.within(self.fit),
             };
         }
+        self
+    }
+
+    /// With the fit of answers where so many numbers were fitted to the whole band too.
+    pub(super) fn with_fitted(mut self, fitted: usize, band: &Band<'_>) -> Self {
+        let counted = self.sensors.iter().filter(|sensor| !sensor.left_out).count();
+        let each = freedom(counted, band.unknown.real);
+        self.fit = goodness(&self.outcomes, each, fitted, &self.noise, band);
         self
     }
 

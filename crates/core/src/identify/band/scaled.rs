@@ -33,11 +33,11 @@ impl Scaled {
     }
 
     /// The same with what the response has beside a given noise: this part of its level, for real and imaginary part each.
-    pub(super) fn with_rest(self, rest: f64, omegas: &[f64]) -> Self {
+    pub(super) fn with_rest(self, rest: f64, frequency_hz: &[f64]) -> Self {
         if rest == 0.0 {
             return self;
         }
-        let levels = levels(&self.measured, omegas);
+        let levels = levels(&self.measured, frequency_hz);
         Self { std: beside(&self.std, 2f64.sqrt() * rest, &levels), ..self }
     }
 

@@ -97,8 +97,7 @@ pub(in crate::identify) fn identify_smooth<'a>(
     if let Some(reduced) = &mut reduced {
         free = correct((band, &[]), &at, free, reduced, &boxes[0], context);
     }
-    let omegas: Vec<f64> = at.iter().map(|at| omega_rad_s(at.frequency_hz)).collect();
-    let wider = Scaled::new(band, &[]).with_rest(free.rest(), &omegas);
+    let wider = Scaled::new(band, &[]).with_rest(free.rest(), band.frequency_hz);
     let band = &wider.band(band);
     let assumed = standard_deviations(band.measured, band.noise);
     let out = free.left_out();

@@ -435,11 +435,7 @@ impl Fitting<'_, '_> {
             moving.iter().copied().chain(self.shared()..self.shared() + self.modes()).collect();
         let rows = |k: usize| -> Option<Vec<Option<[Vec<f64>; 2]>>> {
             let i = self.lines[k];
-            let (values, of_theta) = self.curves.values(place, i, self.omegas[i])?;
-            let point = (self.point)(i, &values)?;
-            let slopes =
-                model.respond_with_error_slopes((self.modes, &errors), &point.at, point.correction).ok()?;
-            let slopes = slopes.shown(&self.curves.shares(place, self.omegas[i]));
+            let (slopes, of_theta) = self.shown(&model, &errors, place, i)?;
             let at_sensor = |m: usize| {
                 let sigma = Some(sigma[k][m]).filter(|sigma| sigma.is_finite())?;
                 let row = self.row(&slopes, (&of_theta, self.omegas[i]), &common, m);
@@ -477,18 +473,29 @@ impl Fitting<'_, '_> {
         Some(sum).filter(|sum| sum.chi_squared.is_finite())
     }
 
+    /// What the sensors show at a line, with its slopes, and (unknown, ∂p/∂θ).
+    fn shown(
+        &self,
+        model: &Projection,
+        errors: &ModalErrors,
+        place: &[f64],
+        line: usize,
+    ) -> Option<(ErrorSlopes, Vec<(usize, c64)>)> {
+        let (values, of_theta) = self.curves.values(place, line, self.omegas[line])?;
+        let point = (self.point)(line, &values)?;
+        let slopes =
+            model.respond_with_error_slopes((self.modes, errors), &point.at, point.correction).ok()?;
+        Some((slopes.shown(&self.curves.shares(place, self.omegas[line])), of_theta))
+    }
+
     /// |u_m − x_m|² at each of the lines; `None` where the response is not finite.
     pub(super) fn squares(&self, place: &[f64]) -> Option<Vec<Vec<f64>>> {
         let errors = self.errors(place);
         let model = self.model.with_errors(self.modes, &errors);
         let at_line = |k: usize| -> Option<Vec<f64>> {
             let i = self.lines[k];
-            let (values, _) = self.curves.values(place, i, self.omegas[i])?;
-            let point = (self.point)(i, &values)?;
-            let slopes =
-                model.respond_with_error_slopes((self.modes, &errors), &point.at, point.correction).ok()?;
-            let shown = slopes.shown(&self.curves.shares(place, self.omegas[i])).response;
-            Some(self.measured[i].iter().zip(shown).map(|(u, x)| (u - x).norm_sqr()).collect())
+            let (shown, _) = self.shown(&model, &errors, place, i)?;
+            Some(self.measured[i].iter().zip(shown.response).map(|(u, x)| (u - x).norm_sqr()).collect())
         };
         map(self.for_each, self.lines.len(), at_line).into_iter().collect()
     }

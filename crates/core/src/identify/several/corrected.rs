@@ -49,7 +49,7 @@ impl Task<'_, '_> {
 
     /// The same task, in which the response has this part of itself beside the noise.
     fn with_rest(&self, rest: f64) -> Self {
-        let levels = levels(self.problem.frfs.receptance, &self.omegas);
+        let levels = levels(self.problem.frfs.receptance, self.problem.frfs.frequency_hz);
         Self {
             omegas: self.omegas.clone(),
             sigma: beside(&self.sigma, rest, &levels),
@@ -106,7 +106,7 @@ impl Task<'_, '_> {
                 &standard_deviations(self.problem.frfs.receptance, Noise::Unknown),
                 &self.left_out,
             ),
-            levels: &levels(self.problem.frfs.receptance, &self.omegas),
+            levels: &levels(self.problem.frfs.receptance, self.problem.frfs.frequency_hz),
             noise_scale: NoiseScale::of(self.problem.frfs.noise),
             free: &found.at,
             own: &own,
