@@ -22,7 +22,8 @@ fn demo_runs_the_papers_rubber_bar() {
         table.lines().next().unwrap(),
         "frequency_hz,storage,loss_factor,factor_re,factor_im,correction_re,correction_im,error,spectral_radius,\
          order,candidate_count,status,convergence_radius,required_order,reduction_error,\
-         storage_std,loss_factor_std,storage_loss_correlation,chi2"
+         storage_std,loss_factor_std,storage_loss_correlation,\
+         storage_std_noise,storage_std_model,storage_std_known_factors,chi2"
     );
     let errors = column(&table, "error");
     // The paper: at least a hundred frequencies, all with ε < 2e-8.

@@ -127,6 +127,16 @@ fn a_wrong_neighbour_and_a_wrong_mass_are_found() {
             assert!(within.iter().all(|within| *within > 0.88), "{at}: {within:?}");
             let errors = found.model_errors.expect(&at);
             assert!(errors.evidence > 20.0, "{at}: {errors:?}");
+            for line in found.lines.iter().filter(|line| line.status == Status::Ok) {
+                let bars = line.uncertainty().unwrap();
+                let parts = bars.contributions;
+                assert!((parts.whole() / bars.storage_std - 1.0).abs() < 1e-9, "{at}: {bars:?}");
+                // The core hangs on skins and mass, which are known to 2 % only.
+                assert!(
+                    [parts.noise, parts.model, parts.known_factors].iter().all(|part| *part > 0.0),
+                    "{at}"
+                );
+            }
         }
     }
 }

@@ -108,6 +108,9 @@ fn estimate<'py>(
     real("storage_std", |value| Some(value.uncertainty?.storage_std))?;
     real("loss_factor_std", |value| value.uncertainty?.loss_factor_std)?;
     real("storage_loss_correlation", |value| value.uncertainty?.correlation)?;
+    real("storage_std_noise", |value| Some(value.uncertainty?.contributions.noise))?;
+    real("storage_std_model", |value| Some(value.uncertainty?.contributions.model))?;
+    real("storage_std_known_factors", |value| Some(value.uncertainty?.contributions.known_factors))?;
     let rivals =
         |line: &Line| line.rivals.iter().map(|rival| rival[j]).collect::<Vec<c64>>().into_pyarray(py);
     found.set_item("alternatives", run.lines.iter().map(rivals).collect::<Vec<_>>())?;

@@ -19,7 +19,7 @@ function receptance(frequency, s, loss, sensor) {
   return [re, im];
 }
 
-const identified = ["frequency_hz,storage,loss_factor,factor_re,factor_im,correction_re,correction_im,error,spectral_radius,order,candidate_count,status,convergence_radius,required_order,reduction_error,storage_std,loss_factor_std,storage_loss_correlation,chi2"];
+const identified = ["frequency_hz,storage,loss_factor,factor_re,factor_im,correction_re,correction_im,error,spectral_radius,order,candidate_count,status,convergence_radius,required_order,reduction_error,storage_std,loss_factor_std,storage_loss_correlation,storage_std_noise,storage_std_model,storage_std_known_factors,chi2"];
 const reference = ["frequency_hz,nominal_re,nominal_im,true_re,true_im"];
 const response = ["frequency_hz,sensor,quantity,nominal_re,nominal_im,measured_re,measured_im,updated_re,updated_im,measured_std"];
 const candidates = ["frequency_hz,storage,loss_factor,correction_re,correction_im,verdict"];
@@ -30,7 +30,7 @@ frequencies.forEach((f, k) => {
   statuses[status] += 1;
   const noise = 1e-3 * Math.sin(k * k);
   const answer = status === "no_root" ? ",,,,,," : [storage * (1 + noise), loss * (1 - noise), storage, storage * loss, storage - 2e6, storage * loss - 2e5, Math.abs(noise)].join(",");
-  identified.push(`${f},${answer},${0.5 + 0.4 * Math.sin(f / 50)},30,3,${status},0.8,${10 + (k % 40)},1e-8,${1e-3 * storage},${1e-3 * loss},0.1,${1 + noise}`);
+  identified.push(`${f},${answer},${0.5 + 0.4 * Math.sin(f / 50)},30,3,${status},0.8,${10 + (k % 40)},1e-8,${1e-3 * storage},${1e-3 * loss},0.1,${1e-3 * storage},0,0,${1 + noise}`);
   reference.push(`${f},2000000.0,200000.0,${storage},${storage * loss}`);
   for (let m = 0; m < SENSORS; m++) {
     const [nominal, updated] = [receptance(f, 0.5, 0.1, m), receptance(f, 1, loss, m)];

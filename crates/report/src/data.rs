@@ -92,8 +92,17 @@ fn unknown(
     table: &[usize],
     notes: &mut Vec<String>,
 ) -> Value {
-    let parts =
-        ["storage", "storage_std", "loss_factor", "loss_factor_std", "correction_re", "correction_im"];
+    let parts = [
+        "storage",
+        "storage_std",
+        "loss_factor",
+        "loss_factor_std",
+        "correction_re",
+        "correction_im",
+        "storage_std_noise",
+        "storage_std_model",
+        "storage_std_known_factors",
+    ];
     let columns: serde_json::Map<String, Value> =
         parts.iter().map(|part| ((*part).to_owned(), one.column(part).into())).collect();
     let free = results.free.as_ref().filter(|free| free.len() == results.band.len()).map(|free| {

@@ -288,7 +288,7 @@ fn doubt_of_fit(results: &Results) -> Option<String> {
         "nearly explained" => {
             match summary.number("/model_errors/response_std").filter(|rest| *rest > 0.0) {
                 Some(rest) => format!(
-                    "Beside noise and errors of the model, {} of the response is left that nothing explains. The error bars contain it.",
+                    "Beside noise and errors of the model, {} of the response remains unexplained. The error bars contain it.",
                     percent(rest)
                 ),
                 None => {

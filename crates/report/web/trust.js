@@ -36,6 +36,15 @@ addPlot({
 const largestRadius = (column("spectral_radius") ?? []).reduce((most, value) => Math.max(most, value ?? 0), 0);
 addColumns("radius", "Spectral radius ρ", () => [["spectral radius", column("spectral_radius"), "updated", "%{y:.4~g}"]], "ρ", largestRadius > 10, 1);
 
+/** A standard deviation of an unknown over its value. */
+const relative = (one, part) => partOf(one, part)?.map((std, row) => { const value = partOf(one, "storage")[row]; return std === null || !value ? null : std / Math.abs(value); });
+unknowns.forEach((one) => addColumns(`contributions${one.suffix}`, "Standard deviation, relative", () => [
+  ["whole", relative(one, "storage_std"), "measured", "%{y:.3~g}", { line: { color: color("measured"), width: 1 } }],
+  ["noise", relative(one, "storage_std_noise"), "nominal", "%{y:.3~g}"],
+  ["errors of the model", relative(one, "storage_std_model"), "updated", "%{y:.3~g}"],
+  ["known factors", relative(one, "storage_std_known_factors"), "reference", "%{y:.3~g}"],
+], "σ"));
+
 /** |c| of the only unknown over the nominal factor's size. */
 function relativeChange() {
   const [one] = unknowns;

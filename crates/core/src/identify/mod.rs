@@ -53,7 +53,7 @@ pub use outcome::{Line, LineSolution, LineValue, Standing, Status, Trust};
 pub use problem::{Frfs, Problem, ProblemError};
 pub use reduced_band::ReducedBand;
 pub use several::{BandCoordinate, BandValue, Direction, Number, NumberOf, Profile};
-pub use uncertainty::Uncertainty;
+pub use uncertainty::{Contributions, Uncertainty};
 pub use unknown::{Dependence, Unknown, Variation};
 
 use problem::Strategy;

@@ -28,8 +28,45 @@ pub struct Uncertainty {
     pub loss_factor_std: Option<f64>,
     /// Correlation of E′ and η; `None` where there is no deviation of η.
     pub correlation: Option<f64>,
+    /// What the standard deviation of E′ consists of.
+    pub contributions: Contributions,
     /// ½ ‖∂²x/∂c²‖ σ_c / ‖∂x/∂c‖, weighed by the sensors' deviations: what is quadratic in the error bar over what is linear.
     pub nonlinearity: f64,
+}
+
+/// What the standard deviation of E′ consists of: standard deviations, whose squares add up to its square.
+///
+/// What known factors and errors of the model contribute is by how much the variance falls when they are held (B-11), first the known factors, then all errors.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Contributions {
+    /// Noise of the measurement, with that of unknown scales and delays.
+    pub noise: f64,
+    /// Errors of the model's natural frequencies, damping, mode shapes and masses, and of the matrix of the unknown itself.
+    pub model: f64,
+    /// Errors of the factors of known matrices.
+    pub known_factors: f64,
+}
+
+impl Contributions {
+    /// The standard deviation that they add up to.
+    pub fn whole(&self) -> f64 {
+        self.noise.hypot(self.model).hypot(self.known_factors)
+    }
+
+    /// Noise alone.
+    pub(crate) fn of_noise(noise: f64) -> Self {
+        Self { noise, model: 0.0, known_factors: 0.0 }
+    }
+
+    /// A standard deviation in the ratio of some variances.
+    pub(crate) fn in_ratio(std: f64, [noise, model, known_factors]: [f64; 3]) -> Self {
+        let whole = noise + model + known_factors;
+        let part = |variance: f64| std * (variance / whole).max(0.0).sqrt();
+        match whole > 0.0 {
+            true => Self { noise: part(noise), model: part(model), known_factors: part(known_factors) },
+            false => Self::of_noise(std),
+        }
+    }
 }
 
 /// Beyond this share of the quadratic term the linear error bar is not valid. For one sensor the mean of an error is off by √2 times
@@ -60,6 +97,7 @@ impl Uncertainty {
             storage_std: part,
             loss_factor_std,
             correlation: loss_factor_std.map(|_| -eta / (1.0 + eta * eta).sqrt()),
+            contributions: Contributions::of_noise(part),
             // ‖∂x/∂c‖ = 1/part_std, in the same weights.
             nonlinearity: 0.5 * second * part_std * correction_std,
         }
@@ -69,16 +107,20 @@ impl Uncertainty {
     pub(crate) fn lengthen(&mut self, by: f64) {
         self.correction_std *= by;
         self.storage_std *= by;
+        let Contributions { noise, model, known_factors } = &mut self.contributions;
+        [noise, model, known_factors].into_iter().for_each(|part| *part *= by);
         self.loss_factor_std = self.loss_factor_std.map(|std| by * std);
         self.nonlinearity *= by;
     }
 
-    /// Adds an error of the factor that is independent of the noise: variances of its real and imaginary part, and their covariance.
+    /// Adds an error of the factor that is independent of the noise: variances of its real and imaginary part, and their covariance. It counts as noise until
+    /// [`Self::divide`] says otherwise.
     pub(crate) fn widen(&mut self, factor: c64, [real, imaginary, both]: [f64; 3]) {
         let eta = loss_factor(factor);
         let before = *self;
         self.correction_std = (before.correction_std.powi(2) + real + imaginary).max(0.0).sqrt();
         self.storage_std = (before.storage_std.powi(2) + real).max(0.0).sqrt();
+        self.contributions.noise = self.contributions.noise.hypot(real.max(0.0).sqrt());
         if let (Some(std), Some(correlation)) = (before.loss_factor_std, before.correlation) {
             let of_loss = (imaginary - 2.0 * eta * both + eta * eta * real) / factor.re.powi(2);
             let wider = (std * std + of_loss).max(0.0).sqrt();
@@ -86,6 +128,11 @@ impl Uncertainty {
             self.loss_factor_std = Some(wider);
             self.correlation = Some(common / (self.storage_std * wider)).filter(|c| c.is_finite());
         }
+    }
+
+    /// Divides the deviation of E′ in the ratio of variances by noise, errors of the model, and known factors.
+    pub(crate) fn divide(&mut self, variances: [f64; 3]) {
+        self.contributions = Contributions::in_ratio(self.storage_std, variances);
     }
 
     /// Whether the linear error bar is valid.

@@ -262,6 +262,12 @@ impl LawFit {
         Some(ModulusEstimate { modulus, storage_std, loss_factor_std, correlation })
     }
 
+    /// ∂E′/∂θ at a frequency.
+    pub(crate) fn real_slopes(&self, frequency_hz: f64) -> Option<Vec<f64>> {
+        let (_, slopes) = self.parametrization.modulus(&self.theta, omega_rad_s(frequency_hz))?;
+        Some(slopes.iter().map(|slope| slope.re).collect())
+    }
+
     /// θ.
     pub(crate) fn coordinates(&self) -> (&Parametrization, &[f64]) {
         (&self.parametrization, &self.theta)

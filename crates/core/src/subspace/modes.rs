@@ -436,12 +436,17 @@ impl Modes {
         if share.im != 0.0 || self.omega_rad_s[self.of_error[error]] == 0.0 {
             return [share * by, share];
         }
-        let own = self.energy_shares[self.of_error[error]][self.group[error]];
+        let own = self.share_of(error);
         let exponent = share.re * by / own;
         let within = exponent.min(MAX_EXPONENT);
         let slope = within.exp();
         let value = within.exp_m1() + slope * (exponent - within);
         [c64::new(own * value, 0.0), c64::new(share.re * slope, 0.0)]
+    }
+
+    /// What of the strain energy of its mode is in the group of an error.
+    pub(crate) fn share_of(&self, error: usize) -> f64 {
+        self.energy_shares[self.of_error[error]][self.group[error]]
     }
 
     /// The errors of a mode's natural frequency.

@@ -70,11 +70,17 @@ class Estimate:
     loss_factor: Real
     """(f,), eta."""
     storage_std: Real
-    """(f,), standard deviation of ``storage`` from the noise of the measurement."""
+    """(f,), standard deviation of ``storage``."""
     loss_factor_std: Real
     """(f,), standard deviation of ``loss_factor``."""
     storage_loss_correlation: Real
     """(f,), their correlation."""
+    storage_std_noise: Real
+    """(f,), what noise contributes to ``storage_std``; the squares of the three contributions add up to its square."""
+    storage_std_model: Real
+    """(f,), what errors of the model contribute."""
+    storage_std_known_factors: Real
+    """(f,), what errors of the factors of known matrices contribute."""
     alternatives: tuple[Complex, ...]
     """f arrays: factors that the data cannot exclude beside the one that is given."""
     numbers: tuple[Number, ...]
@@ -259,6 +265,21 @@ class Identification:
         return self._only.storage_loss_correlation
 
     @property
+    def storage_std_noise(self) -> Real:
+        """(f,), see :class:`Estimate`."""
+        return self._only.storage_std_noise
+
+    @property
+    def storage_std_model(self) -> Real:
+        """(f,), see :class:`Estimate`."""
+        return self._only.storage_std_model
+
+    @property
+    def storage_std_known_factors(self) -> Real:
+        """(f,), see :class:`Estimate`."""
+        return self._only.storage_std_known_factors
+
+    @property
     def alternatives(self) -> tuple[Complex, ...]:
         """F arrays, see :class:`Estimate`."""
         return self._only.alternatives
@@ -314,6 +335,9 @@ class Identification:
             columns[f"{prefix}storage_std"] = one.storage_std
             columns[f"{prefix}loss_factor_std"] = one.loss_factor_std
             columns[f"{prefix}storage_loss_correlation"] = one.storage_loss_correlation
+            columns[f"{prefix}storage_std_noise"] = one.storage_std_noise
+            columns[f"{prefix}storage_std_model"] = one.storage_std_model
+            columns[f"{prefix}storage_std_known_factors"] = one.storage_std_known_factors
         columns["chi2"] = self.chi2
         return columns
 

@@ -62,7 +62,7 @@ fn sizes(found: &Value) -> String {
     if let Some(rest) = number(found, "response_std").filter(|rest| *rest > 0.0) {
         let _ = write!(
             html,
-            " Beside these and the given noise, {} of the response is left that nothing explains.",
+            " Beside these and the given noise, {} of the response remains unexplained.",
             percent(rest)
         );
     }

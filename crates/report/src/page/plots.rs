@@ -77,20 +77,39 @@ fn response(results: &Results) -> String {
 }
 
 fn factor(results: &Results) -> String {
+    let has_errors = results.summary.0.get("model_errors").is_some_and(|found| !found.is_null());
     let of_one = |(suffix, _, one): (String, usize, &Unknown)| {
         let title = if one.real { "Identified value" } else { "Storage modulus and loss factor" };
         let others = if results.unknowns.len() == 1 { "" } else { ", all other unknowns free" };
         let bars = match results.band.has(&one.column("storage_std")) {
+            true if has_errors => format!(
+                "Bars and bands are two standard deviations{others}. They hold the noise, the errors of the model that were found, and what is not known of factors that are given."
+            ),
             true => format!(
                 "Bars and bands are two standard deviations of what noise does{others}: 95 of 100 true values lie within, if the model is right. Errors of the model (mesh, supports) are not in them."
             ),
             false => "There are no error bars: the noise is unknown, or the selection has none.".to_owned(),
         };
         let reading = format!("{bars} Grey crosses are evidence only, not answers.");
-        plot(&format!("modulus{suffix}"), &titled(title, one), &reading)
+        let modulus = plot(&format!("modulus{suffix}"), &titled(title, one), &reading);
+        match has_errors && results.band.has(&one.column("storage_std_model")) {
+            true => {
+                modulus
+                    + &plot(
+                        &format!("contributions{suffix}"),
+                        &titled(CONTRIBUTIONS, one),
+                        CONTRIBUTIONS_READING,
+                    )
+            }
+            false => modulus,
+        }
     };
     results.curves().map(of_one).collect()
 }
+
+const CONTRIBUTIONS: &str = "What the error bars consist of";
+const CONTRIBUTIONS_READING: &str = "One standard deviation over the storage modulus or value. The squares of the three contributions add up to the square of the whole. \
+     Where noise is the largest, measure longer; where the model is, refine the mesh or look at supports; where known factors are, say how well they are known.";
 
 fn choice(results: &Results) -> String {
     const TITLE: &str = "Candidates and chosen path";

@@ -9,7 +9,7 @@ use frfit_formats::FormatError;
 use serde_json::Value;
 
 /// Columns of `identified.csv` that an unknown has.
-const COLUMNS: [&str; 7] = [
+const COLUMNS: [&str; 10] = [
     "storage",
     "storage_std",
     "loss_factor",
@@ -17,6 +17,9 @@ const COLUMNS: [&str; 7] = [
     "correction_re",
     "correction_im",
     "storage_loss_correlation",
+    "storage_std_noise",
+    "storage_std_model",
+    "storage_std_known_factors",
 ];
 
 /// A number that holds for the band.

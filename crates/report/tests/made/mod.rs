@@ -68,7 +68,7 @@ impl Made {
 /// The files.
 pub(crate) fn results(made: &Made) -> BTreeMap<&'static str, Vec<u8>> {
     let columns = "frequency_hz,storage,loss_factor,factor_re,factor_im,correction_re,correction_im,error,spectral_radius,order,candidate_count,status,\
-                   convergence_radius,required_order,reduction_error,storage_std,loss_factor_std,storage_loss_correlation,chi2\n";
+                   convergence_radius,required_order,reduction_error,storage_std,loss_factor_std,storage_loss_correlation,storage_std_noise,storage_std_model,storage_std_known_factors,chi2\n";
     let (mut identified, mut reference) =
         (columns.to_owned(), "frequency_hz,nominal_re,nominal_im,true_re,true_im\n".to_owned());
     let mut response =
@@ -84,9 +84,10 @@ pub(crate) fn results(made: &Made) -> BTreeMap<&'static str, Vec<u8>> {
         // Writing to a string does not fail.
         let _ = writeln!(
             identified,
-            "{f:?},{e:?},0.2,{e:?},{:?},{:?},1e5,1e-5,0.7,16,2,{status},0.9,12,{reduction_error},{:?},0.001,0.1,1.02",
+            "{f:?},{e:?},0.2,{e:?},{:?},{:?},1e5,1e-5,0.7,16,2,{status},0.9,12,{reduction_error},{:?},0.001,0.1,{:?},0.0,0.0,1.02",
             0.2 * e,
             e - 1e6,
+            1e-3 * e,
             1e-3 * e
         );
         let _ = writeln!(reference, "{f:?},1e6,2e5,{e:?},{:?}", 0.2 * e);

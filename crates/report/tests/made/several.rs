@@ -45,7 +45,14 @@ pub(crate) fn several(made: &MadeSeveral) -> BTreeMap<&'static str, Vec<u8>> {
     let is_only = usize::from(made.varies) + made.constants == 1;
     let mut add = |name: &str| {
         let value = ["storage", "loss_factor", "correction_re", "correction_im"];
-        let bars = ["storage_std", "loss_factor_std", "storage_loss_correlation"];
+        let bars = [
+            "storage_std",
+            "loss_factor_std",
+            "storage_loss_correlation",
+            "storage_std_noise",
+            "storage_std_model",
+            "storage_std_known_factors",
+        ];
         let reference = ["nominal_re", "nominal_im", "true_re", "true_im"];
         let prefix = if is_only { String::new() } else { format!("{name}.") };
         let named = |part: &&str| quoted(&format!("{prefix}{part}"));
@@ -74,13 +81,13 @@ pub(crate) fn several(made: &MadeSeveral) -> BTreeMap<&'static str, Vec<u8>> {
             let _ = write!(rival, ",{:?},{loss_factor:?},{re:?},{im:?}", 2.0 * storage);
         };
         if made.varies {
-            add([1e6 + 1e4 * i as f64, 0.4, -1e6, 0.0], "1e3,1e-3,0.1", "2e6,1e5,1e6,4e5");
+            add([1e6 + 1e4 * i as f64, 0.4, -1e6, 0.0], "1e3,1e-3,0.1,6e2,8e2,0", "2e6,1e5,1e6,4e5");
         }
         if made.constants > 0 {
-            add([0.065, 0.0, 0.025, 0.0], "1e-5,,", "0.04,0.0,0.065,0.0");
+            add([0.065, 0.0, 0.025, 0.0], "1e-5,,,1e-5,0,0", "0.04,0.0,0.065,0.0");
         }
         if made.constants > 1 {
-            add([6.9e10, 0.003, -4e9, 0.0], "9e5,1e-5,0.0", "7.3e10,7.3e7,6.9e10,2.07e8");
+            add([6.9e10, 0.003, -4e9, 0.0], "9e5,1e-5,0.0,9e5,0,0", "7.3e10,7.3e7,6.9e10,2.07e8");
         }
         identified += "\n";
         reference += "\n";

@@ -2,6 +2,7 @@
 
 mod accelerance;
 mod candidates;
+mod error_bars;
 mod error_map;
 mod identifiability;
 mod impacts;
@@ -53,6 +54,9 @@ pub fn identify_figures(
         // A constant over frequency is a number, not a curve.
         if one.varies != Variation::Constant {
             figures.push((name, modulus::figure(case, identify, run, j)));
+            if found.model_errors.is_some() {
+                figures.push((format!("error-bars{of}"), error_bars::figure(case, identify, run, j)));
+            }
         }
         if identify.options.selection == Selection::Joint && has_solutions(run, one) {
             figures.push((format!("candidates{of}"), candidates::figure(case, identify, run, j)));

@@ -22,7 +22,14 @@ const LINE: [&str; 8] = [
 ];
 
 /// Of each unknown: its error bars.
-const BARS: [&str; 3] = ["storage_std", "loss_factor_std", "storage_loss_correlation"];
+const BARS: [&str; 6] = [
+    "storage_std",
+    "loss_factor_std",
+    "storage_loss_correlation",
+    "storage_std_noise",
+    "storage_std_model",
+    "storage_std_known_factors",
+];
 
 /// The table; what does not exist is an empty cell. Columns of an unknown begin with [`IdentifyCase::prefix`].
 pub fn identified_csv(identify: &IdentifyCase, lines: &[Line]) -> String {
@@ -66,11 +73,15 @@ fn of_line<'a>(line: &Line) -> [Cell<'a>; 8] {
     ]
 }
 
-fn bars<'a>(of: &LineValue) -> [Cell<'a>; 3] {
+fn bars<'a>(of: &LineValue) -> [Cell<'a>; 6] {
     let bars = of.uncertainty;
+    let contributions = bars.map(|bars| bars.contributions);
     [
         bars.map(|bars| bars.storage_std).into(),
         bars.and_then(|bars| bars.loss_factor_std).into(),
         bars.and_then(|bars| bars.correlation).into(),
+        contributions.map(|parts| parts.noise).into(),
+        contributions.map(|parts| parts.model).into(),
+        contributions.map(|parts| parts.known_factors).into(),
     ]
 }

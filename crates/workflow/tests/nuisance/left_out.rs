@@ -47,7 +47,7 @@ fn hum_is_left_out_and_its_rows_are_marked() {
         let identified = fs::read_to_string(folder.path().join("out/identified.csv")).unwrap();
         let rows: Vec<&str> = identified.lines().filter(|line| line.contains("out_of_band")).collect();
         assert_eq!(rows.len(), 5);
-        assert!(rows.iter().all(|row| row.ends_with(",,,,,,,,,0,0,out_of_band,,,,,,,")), "{rows:?}");
+        assert!(rows.iter().all(|row| row.ends_with(",,,,,,,,,0,0,out_of_band,,,,,,,,,,")), "{rows:?}");
         // What was measured there is told all the same.
         let response = fs::read_to_string(folder.path().join("out/response.csv")).unwrap();
         assert_eq!(

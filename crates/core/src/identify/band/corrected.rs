@@ -165,7 +165,8 @@ fn widen(
     let covariances = errors.of_channels_and_errors();
     let channels = errors.channels();
     let lines = &outcome.outcomes;
-    let moved = map(context.for_each, lines.len(), |i| -> Option<[f64; 3]> {
+    let split = errors.split();
+    let moved = map(context.for_each, lines.len(), |i| -> Option<([f64; 3], Option<[f64; 3]>)> {
         let correction = lines[i].correction()?;
         let slopes = model.respond_with_error_slopes((modes, values), &at[i], correction).ok()?;
         let n = modes.omega_rad_s.len();
@@ -197,14 +198,20 @@ fn widen(
             }
         }
         pulls.iter_mut().for_each(|pull| *pull /= weight);
-        Some(covariance(&covariances, &pulls))
+        // No curve is pulled: a frequency has a value of its own.
+        let of_curves = std::iter::repeat_n(0.0, errors.count() - count);
+        let gradient: Vec<f64> = of_curves.chain(pulls.iter().map(|pull| pull.re)).collect();
+        Some((covariance(&covariances, &pulls), split.as_ref().map(|split| split.of(&gradient))))
     });
     let mut longer = Vec::new();
     for (line, moved) in outcome.outcomes.iter_mut().zip(moved) {
-        let (Some(moved), Some(factor)) = (moved, line.factor()) else { continue };
+        let (Some((moved, parts)), Some(factor)) = (moved, line.factor()) else { continue };
         let Some(bars) = line.values[0].uncertainty.as_mut() else { continue };
         let of_noise = bars.storage_std;
         bars.widen(factor, moved);
+        if let Some([of_channels, model, known_factors]) = parts {
+            bars.divide([of_noise * of_noise + of_channels, model, known_factors]);
+        }
         if line.status == Status::Ok {
             longer.push(bars.storage_std / of_noise);
             if !(bars.is_known(factor) && bars.is_linear()) {

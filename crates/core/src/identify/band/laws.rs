@@ -20,11 +20,11 @@ use crate::identify::context::{Context, Stage};
 use crate::identify::form::Form;
 use crate::identify::goodness_of_fit::{Explained, GoodnessOfFit, MAX_RMS_MISFIT, judge};
 use crate::identify::measured::Band;
-use crate::identify::model_errors::{Curve, Curves, Estimated, estimate_with_laws};
+use crate::identify::model_errors::{Curve, Curves, Estimated, Split, estimate_with_laws};
 use crate::identify::noise::{Noise, NoiseLevel, NoiseSource, standard_deviations, without};
 use crate::identify::options::Options;
 use crate::identify::outcome::{Line, Status};
-use crate::identify::uncertainty::Uncertainty;
+use crate::identify::uncertainty::{Contributions, Uncertainty};
 use crate::laws::{
     Datum, Evidence, LawFit, LawKind, LineResidual, LocalMinima, Parametrization, Residuals, Search, best,
     minimise, starts,
@@ -139,7 +139,7 @@ pub(in crate::identify) fn identify_laws<'a>(
         (context.progress)(Stage::Law, fits.len(), kinds.len());
         fits.extend(fitting.fit(kind, &mut reduced, &free, best(&fits)));
     }
-    fitting.with_errors(&mut fits, &mut reduced, &mut free);
+    let has_errors = fitting.with_errors(&mut fits, &mut reduced, &mut free).is_some();
     if let Some((place, excess)) = fitting.excess(&fits, &free.noise) {
         fits[place] = fits[place].clone().with_noise(excess);
     }
@@ -187,10 +187,12 @@ pub(in crate::identify) fn identify_laws<'a>(
         reduced = again;
         reduced.localise(&all, context.for_each);
     }
+    let split = free.model_errors.as_ref().filter(|_| has_errors).and_then(Estimated::split);
     let (outcomes, fit) = match best(&fits) {
         Some(law) => {
             let (fit, noise) = judging.goodness(law, &free.noise);
-            let one = |i: usize| judging.outcome(law, noise, &reduced, i, &free.outcomes[i]);
+            let one =
+                |i: usize| judging.outcome((law, split.as_ref()), noise, &reduced, i, &free.outcomes[i]);
             (map(context.for_each, at.len(), one), fit)
         }
         None => (free.outcomes.iter().map(|own| own.unanswered()).collect(), None),
@@ -430,7 +432,14 @@ impl Fitting<'_, '_> {
     }
 
     /// The law at one frequency, judged there; noise over the assumed deviations.
-    fn outcome(&self, law: &LawFit, noise: f64, reduced: &ReducedBand<'_, '_>, i: usize, own: &Line) -> Line {
+    fn outcome(
+        &self,
+        (law, split): (&LawFit, Option<&Split>),
+        noise: f64,
+        reduced: &ReducedBand<'_, '_>,
+        i: usize,
+        own: &Line,
+    ) -> Line {
         let measured = &self.band.measured[i];
         let found = law.at(self.band.frequency_hz[i]).and_then(|estimate| {
             let correction = estimate.modulus - own.nominal();
@@ -449,6 +458,13 @@ impl Fitting<'_, '_> {
             .storage_std
             .zip(estimate.loss_factor_std)
             .map(|(storage, eta)| storage.hypot(eta * size));
+        let parts = |storage_std: f64| {
+            let slopes = split.and(law.real_slopes(self.band.frequency_hz[i]));
+            let both = split.zip(slopes);
+            both.map_or(Contributions::of_noise(storage_std), |(split, slopes)| {
+                Contributions::in_ratio(storage_std, split.of(&slopes))
+            })
+        };
         outcome.set_correction(correction);
         outcome.values[0].uncertainty =
             std.zip(estimate.storage_std).map(|(correction_std, storage_std)| Uncertainty {
@@ -456,6 +472,7 @@ impl Fitting<'_, '_> {
                 storage_std,
                 loss_factor_std: estimate.loss_factor_std,
                 correlation: estimate.correlation,
+                contributions: parts(storage_std),
                 // That the law is not linear in its parameters is for its fit to tell.
                 nonlinearity: 0.0,
             });

@@ -21,6 +21,7 @@ use crate::frequency::omega_rad_s;
 use crate::identify::context::{Context, Stage};
 use crate::identify::goodness_of_fit::{MAX_RMS_MISFIT, SensorFit, judge};
 use crate::identify::measured::Band;
+use crate::identify::model_errors::{Estimated, Split};
 use crate::identify::noise::{MIN_NOISE_LEVEL, Noise, NoiseLevel, NoiseSource, standard_deviations, without};
 use crate::identify::options::Options;
 use crate::identify::outcome::{Line, Status};
@@ -115,8 +116,10 @@ pub(in crate::identify) fn identify_smooth<'a>(
         });
     };
     let noise = smoothing.noise(&free.noise, fitted.smoothed.level);
-    let judged: Vec<Judged> =
-        map(context.for_each, at.len(), |i| smoothing.judged(&fitted, &noise, &reduced, i, &free));
+    let split = free.model_errors.as_ref().and_then(Estimated::split);
+    let judged: Vec<Judged> = map(context.for_each, at.len(), |i| {
+        smoothing.judged(&fitted, &noise, &reduced, i, (&free, split.as_ref()))
+    });
     let explained = || judged.iter().enumerate().filter(|(i, _)| fitted.observations[*i].weight > 0.0);
     let chi_squared = explained().map(|(_, judged)| judged.chi_squared).sum();
     let freedom = explained().map(|(_, judged)| judged.freedom).sum::<f64>().round() as usize;
@@ -393,7 +396,7 @@ impl Smoothing<'_, '_> {
         noise: &NoiseLevel,
         reduced: &ReducedBand<'_, '_>,
         i: usize,
-        per_frequency: &BandOutcome,
+        (per_frequency, split): (&BandOutcome, Option<&Split>),
     ) -> Judged {
         let free = &per_frequency.outcomes;
         let (measured, own) = (&self.band.measured[i], &free[i]);
@@ -410,13 +413,18 @@ impl Smoothing<'_, '_> {
         let second = second.map_or(f64::INFINITY, |second| weighed(&second, &self.sigma[i]));
         let part_std = factor.norm() * variance.sqrt();
         let mut bars = Uncertainty::new(factor, self.band.unknown.real, part_std, second, level);
-        let both = per_frequency.model_errors.as_ref();
+        let (errors, frequency_hz) = (per_frequency.model_errors.as_ref(), self.band.frequency_hz[i]);
         if let Some([real, imaginary, both]) =
-            both.and_then(|errors| errors.covariance_at(0, i, self.band.frequency_hz[i]))
+            errors.and_then(|errors| errors.covariance_at(0, i, frequency_hz))
         {
             // What the errors of the model add to the noise that is in the bars already.
             let noise = bars.storage_std.powi(2);
             bars.widen(factor, [(real - noise).max(0.0), (imaginary - noise).max(0.0), both]);
+        }
+        if let Some((errors, split)) = errors.zip(split)
+            && let Some(slopes) = errors.real_slopes(0, i, frequency_hz)
+        {
+            bars.divide(split.of(&slopes));
         }
         let error = relative_error(&self.kept(measured), &self.kept(&assessed.response));
         // Of 2M numbers, what the curve took from this frequency.

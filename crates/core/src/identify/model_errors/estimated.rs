@@ -93,6 +93,17 @@ impl Estimated {
         self.curves.count()..self.count()
     }
 
+    /// ∂ Re p/∂θ of an unknown at a line.
+    pub(in crate::identify) fn real_slopes(
+        &self,
+        unknown: usize,
+        line: usize,
+        frequency_hz: f64,
+    ) -> Option<Vec<f64>> {
+        let slopes = self.curves.slopes(self.theta(), unknown, line, omega_rad_s(frequency_hz))?;
+        Some(slopes.iter().map(|slope| slope.re).collect())
+    }
+
     /// All unknowns at a line.
     pub(in crate::identify) fn values(&self, line: usize, frequency_hz: f64) -> Option<Vec<c64>> {
         Some(self.curves.values(self.theta(), line, omega_rad_s(frequency_hz))?.0)

@@ -23,6 +23,7 @@ mod leverage;
 mod mesh;
 mod scatter;
 mod search;
+mod split;
 
 use super::goodness_of_fit::GoodnessOfFit;
 use super::noise::{Noise, beside};
@@ -39,6 +40,7 @@ pub(super) use estimated::{Estimated, covariance};
 pub use found::{FactorError, Leverage, MeshError, ModeError, ModelErrorsFound, SensorMass};
 pub(super) use mesh::Coarser;
 pub(super) use search::PointAt;
+pub(super) use split::Split;
 use std::f64::consts::TAU;
 
 use frfit_linalg::dense::Cholesky;

@@ -91,10 +91,12 @@ pub(super) struct FactorPrior {
     pub(super) is_known: bool,
 }
 
-/// Parts that the δ_i of a group have in common: the same for all modes, of the first group as a scale of all stiffness, with ω_i and its square, as the errors of meshes grow, and with
-/// 1/ω_i², as those of supports fall; and two of the ε_i, the same for all and with 1/ω_i².
+/// Parts that the δ_i have in common: of the first group a scale of all stiffness; of each group what grows with ω_i and with its square, as the errors of meshes do, in
+/// proportion to the strain energy there; of the first group what falls with 1/ω_i², as the errors of supports do. Then two of the ε_i of each group, the same for all modes and with 1/ω_i².
 const COMMON_PARTS: usize = 6;
 const COMMON_FREQUENCY_PARTS: usize = 4;
+const OF_MESH: usize = 1;
+const OF_SUPPORT: usize = 3;
 
 /// Whether a common part is one of the δ_i, and not of the ε_i.
 fn is_frequency_part(part: usize) -> bool {
@@ -218,13 +220,15 @@ impl Fitting<'_, '_> {
         let mut parts = vec![0.0; self.common_errors()];
         if let Some(lowest) = self.modes.lowest_rad_s().filter(|_| own > 0.0) {
             let (omega, support) = (own / self.highest_rad_s, (lowest / own).powi(2));
-            let group = self.modes.group[i];
-            let of_group = &mut parts[COMMON_PARTS * group..][..COMMON_PARTS];
-            let (of_frequency, of_loss) = of_group.split_at_mut(COMMON_FREQUENCY_PARTS);
-            let constant = if group == 0 { 0.0 } else { 1.0 };
+            let (first, share) = (COMMON_PARTS * self.modes.group[i], self.modes.share_of(i));
             match self.modes.is_of_frequency(i) {
-                true => of_frequency.copy_from_slice(&[constant, omega, omega * omega, support]),
-                false => of_loss.copy_from_slice(&[1.0, support]),
+                true => {
+                    let of_mesh = [share * omega, share * omega * omega];
+                    parts[first + OF_MESH..][..of_mesh.len()].copy_from_slice(&of_mesh);
+                    // A support is no part of either stiffness.
+                    parts[OF_SUPPORT] = share * support;
+                }
+                false => parts[first + COMMON_FREQUENCY_PARTS..][..2].copy_from_slice(&[1.0, support]),
             }
         }
         if let (Some(mesh), Some(last)) = (self.mesh, parts.last_mut()) {

@@ -12,10 +12,10 @@ use crate::for_each::map;
 use crate::identify::band::reduction_error;
 use crate::identify::channel::ChannelNumber;
 use crate::identify::goodness_of_fit::{GoodnessOfFit, MAX_RMS_MISFIT, judge};
-use crate::identify::model_errors::Estimated;
+use crate::identify::model_errors::{Estimated, Split};
 use crate::identify::noise::NoiseLevel;
 use crate::identify::outcome::{Line, LineSolution, LineValue, Standing, Status};
-use crate::identify::uncertainty::Uncertainty;
+use crate::identify::uncertainty::{Contributions, Uncertainty};
 use crate::identify::uncertainty::{KNOWN_RELATIVE_STD, MIN_KNOWN_LOSS_FACTOR};
 use crate::identify::unknown::Unknown;
 use crate::laws::LawKind;
@@ -33,6 +33,8 @@ const MAX_PROFILE_REACH: f64 = 1.0;
 struct Known<'k> {
     /// gᵀ C h at σ.
     covariance: &'k (dyn Fn(&[f64], &[f64]) -> f64 + Sync),
+    /// What it consists of, where there are errors of the model.
+    split: Option<&'k Split>,
     /// ∂y/∂θ, then by the errors of the model, `[coordinate][own]`.
     moved: Vec<Vec<f64>>,
 }
@@ -64,11 +66,12 @@ impl Task<'_, '_> {
             .map(|fit| fit.beside(errors.map_or(0.0, |errors| errors.rest)));
         let of_bars = level_of_bars(level, fit);
         // Of θ, and of the errors of the model that it hangs on.
-        let joint = errors.map(|errors| {
+        let coordinates = |errors: &Estimated| -> Vec<usize> {
             let of_band = found.coordinates.each.iter().flat_map(|own| errors.range(own.unknowns));
-            let of_channels = errors.channels().range();
-            errors.covariance_of(&of_band.chain(of_channels).chain(errors.error_range()).collect::<Vec<_>>())
-        });
+            of_band.chain(errors.channels().range()).chain(errors.error_range()).collect()
+        };
+        let joint = errors.map(|errors| errors.covariance_of(&coordinates(errors)));
+        let split = errors.and_then(|errors| errors.split_of(&coordinates(errors)));
         let information = match &joint {
             Some(joint) => {
                 let size = joint.len().isqrt();
@@ -100,7 +103,7 @@ impl Task<'_, '_> {
                 found,
                 i,
                 (level, fit),
-                known.map(|moved| Known { covariance: &covariance, moved }),
+                known.map(|moved| Known { covariance: &covariance, split: split.as_ref(), moved }),
             )
         });
         let numbers_of = |one: &Own| {
@@ -271,17 +274,27 @@ impl Task<'_, '_> {
             known.map_or(vec![0.0; n], |known| known.moved.iter().map(|of_theta| of_theta[a]).collect())
         };
         let of_theta = |g: &[f64], h: &[f64]| known.map_or(0.0, |known| (known.covariance)(g, h));
+        // Over σ².
+        let contributed = |g: &[f64]| -> [f64; 3] {
+            match known.and_then(|known| known.split).zip(level) {
+                Some((split, level)) => split.of(g).map(|variance| variance / (level * level)),
+                None => [of_theta(g, g), 0.0, 0.0],
+            }
+        };
         let mut first = 0;
         let mut one = |(j, unknowns): (usize, &Unknown)| {
             let value = solution.values[j];
             let size = spot.size[j];
             // Covariance of real and imaginary part at σ.
+            let mut contributions = None;
             let parts: Option<[f64; 3]> = if unknowns.per_frequency() > 0 {
                 let a = first;
                 let b = first + unknowns.per_frequency() - 1;
                 first = b + 1;
                 let both =
                     |a: usize, b: usize| size * size * (own[a][b] + of_theta(&gradient(a), &gradient(b)));
+                let [of_theta, model, known_factors] = contributed(&gradient(a));
+                contributions = Some([own[a][a] + of_theta, model, known_factors]);
                 Some([both(a, a), both(a, b), both(b, b)])
             } else {
                 let own = found.coordinates.each.iter().find(|own| own.unknowns == j);
@@ -290,10 +303,11 @@ impl Task<'_, '_> {
                     let part = |of: fn(&c64) -> f64| own.gradient(slopes.iter().map(of), n);
                     let (re, im) = (part(|s| s.re), part(|s| s.im));
                     known?;
+                    contributions = Some(contributed(&re));
                     Some([of_theta(&re, &re), of_theta(&re, &im), of_theta(&im, &im)])
                 })
             };
-            bars(self.nominal[i][j], value, unknowns.real, parts.zip(level))
+            bars(self.nominal[i][j], value, unknowns.real, parts.zip(level), contributions)
         };
         self.problem.unknowns.iter().enumerate().map(&mut one).collect()
     }
@@ -353,7 +367,13 @@ fn level_of_bars(level: Option<f64>, fit: Option<GoodnessOfFit>) -> Option<f64> 
 }
 
 /// A value with deviations from the covariance of its parts at σ and the level of the noise.
-fn bars(nominal: c64, value: c64, real: bool, covariance: Option<([f64; 3], f64)>) -> LineValue {
+fn bars(
+    nominal: c64,
+    value: c64,
+    real: bool,
+    covariance: Option<([f64; 3], f64)>,
+    contributions: Option<[f64; 3]>,
+) -> LineValue {
     let found =
         LineValue { value: Some(value), correction: Some(value - nominal), ..LineValue::unknown(nominal) };
     let Some(([a, b, c], level)) = covariance else { return found };
@@ -368,6 +388,10 @@ fn bars(nominal: c64, value: c64, real: bool, covariance: Option<([f64; 3], f64)
         storage_std: level * storage,
         loss_factor_std,
         correlation: loss_factor_std.map(|_| common / (storage * of_eta)).filter(|c| c.is_finite()),
+        contributions: match contributions {
+            Some(variances) => Contributions::in_ratio(level * storage, variances),
+            None => Contributions::of_noise(level * storage),
+        },
         // Linear in θ: how far that holds is for the profile to show.
         nonlinearity: 0.0,
     };
