@@ -212,14 +212,21 @@ impl Noise {
         })
     }
 
+    /// Nats that a frequency holds against its best node. They scatter by √usual: of one sensor beside the first by one nat, and so of any number, else noise alone would
+    /// exclude a frequency of many sensors.
+    fn surprise(&self, least: f64) -> f64 {
+        (least / (2.0 * self.factor) - self.usual) / self.usual.sqrt().max(1.0)
+    }
+
     fn points(&self, nodes: &[Node], scatter: Scatter) -> Vec<Point> {
+        let least = nodes.iter().map(|node| node.misfit).fold(f64::INFINITY, f64::min);
         let point = |(node, Node { factor, misfit, std }): (usize, &Node)| {
             let given = scatter.given * std / factor.norm();
             Point {
                 node,
                 log: factor.ln(),
                 variance: given * given + scatter.more * scatter.more + ROOT_LN_STD * ROOT_LN_STD,
-                misfit: misfit / (2.0 * self.factor) - self.usual,
+                misfit: self.surprise(least) + (misfit - least) / (2.0 * self.factor),
             }
         };
         let is_number =
