@@ -208,10 +208,13 @@ fn noise(text: &mut Text, job: &IdentifyJob) {
     text.say("noise", &format!("{source}{bar}"));
 }
 
-/// The sensors that contradict all others, and what was done with them.
+/// The sensors that contradict all others or show nothing, and what was done with them.
 fn contradictions(text: &mut Text, job: &IdentifyJob) {
-    let fits = job.case.sensors.iter().zip(&job.run.found.sensors).filter(|(_, fit)| fit.contradicts);
-    for (sensor, fit) in fits {
+    let all = || job.case.sensors.iter().zip(&job.run.found.sensors);
+    for (sensor, _) in all().filter(|(_, fit)| fit.dead) {
+        text.warn("sensor", &format!("{} shows nothing beside the others: left out", sensor.label));
+    }
+    for (sensor, fit) in all().filter(|(_, fit)| fit.contradicts) {
         let done = if fit.left_out { "left out" } else { "kept, as reject_outliers = false says" };
         text.warn("sensor", &format!("{} contradicts all others: {done}", sensor.label));
     }

@@ -406,6 +406,17 @@ fn a_sensor_that_contradicts_the_others_is_named_and_left_out() {
         let right = run(&Setup { measured: &measured, ..setup });
         assert!(right.sensors.iter().all(|sensor| !sensor.contradicts), "{:?}", right.sensors);
 
+        // A dead one beside it.
+        let dead = |(m, u): (usize, &c64)| if m == 4 { c64::default() } else { *u };
+        let with_dead: Vec<Vec<c64>> =
+            faulty.iter().map(|row| row.iter().enumerate().map(dead).collect()).collect();
+        let found = run(&Setup { measured: &with_dead, ..setup });
+        let named: Vec<[bool; 3]> =
+            (found.sensors.iter()).map(|sensor| [sensor.contradicts, sensor.dead, sensor.left_out]).collect();
+        assert_eq!(named[2..], [[true, false, true], [false; 3], [false, true, true]], "{:?}", found.sensors);
+        let number = &found.constants[0].numbers[0];
+        assert!((number.value - h).abs() < 4.0 * number.std.unwrap() && number.std.unwrap() < 1e-3);
+
         let Setup { model, experiment, unknowns, frequency_hz, .. } = setup;
         let frfs = Frfs { frequency_hz, receptance: &faulty, noise };
         let problem = Problem::new(model, experiment, unknowns, &[], frfs).unwrap();

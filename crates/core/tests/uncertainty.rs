@@ -417,6 +417,47 @@ fn of_two_sensors_neither_is_named() {
     }
 }
 
+/// A channel that is dead is named, and changes nothing: zeros, the noise of an input without a sensor, a 10¹³th of the response.
+#[test]
+fn a_dead_channel_is_as_if_it_were_not_there() {
+    let (case, mut alone) = (springs(), springs());
+    alone.experiment.sensors.truncate(1);
+    let made = Measured::clean(&case, linear_hz(2.0, 12.0, 60), 1.1, 3e-3);
+    let u = made.drawn(7);
+    let first: Vec<Vec<c64>> = u.iter().map(|row| vec![row[0]]).collect();
+    let setup = within(case.parameter.nominal.at(5.0).unwrap().re, 1.25);
+    let expected = identify(&alone, &made, &first, Noise::Unknown, &setup);
+    assert!(expected.lines.iter().filter(|line| line.status == Status::Ok).count() > 50);
+    let mut dice = Dice(9);
+    let noise: Vec<c64> = u.iter().map(|row| 1e-13 * row[0].norm() * dice.circular()).collect();
+    let dead: [&dyn Fn(usize) -> c64; 3] = [&|_| c64::default(), &|i| noise[i], &|i| 1e-13 * u[i][1]];
+    for (k, dead) in dead.into_iter().enumerate() {
+        let u: Vec<Vec<c64>> = (0..u.len()).map(|i| vec![u[i][0], dead(i)]).collect();
+        let found = identify(&case, &made, &u, Noise::Unknown, &setup);
+        let named: Vec<bool> = found.sensors.iter().map(|sensor| sensor.dead && sensor.left_out).collect();
+        assert_eq!(named, [false, true], "{k}: {:?}", found.sensors);
+        for (own, other) in found.lines.iter().zip(&expected.lines) {
+            let [value, expected] = [own, other].map(|line| line.factor().unwrap());
+            assert_eq!(own.status, other.status, "{k}: {} Hz", own.frequency_hz);
+            assert!((value - expected).norm() < 1e-8 * expected.norm(), "{k}: {value} {expected}");
+        }
+    }
+}
+
+/// Twenty sensors say more than two: noise alone excludes no frequency.
+#[test]
+fn noise_of_many_sensors_excludes_no_frequency() {
+    let mut case = springs();
+    case.experiment = tip_load(&case.model, &[7, 6, 5, 4, 3, 2, 1, 0].repeat(2));
+    let made = Measured::clean(&case, linear_hz(2.0, 12.0, 200), 1.1, 0.01);
+    let setup = within(case.parameter.nominal.at(5.0).unwrap().re, 1.25).with_model_errors(ModelErrors::None);
+    for noise in [Noise::Known(&made.std), Noise::Unknown] {
+        let found = identify(&case, &made, &made.drawn(3), noise, &setup);
+        let ok = found.lines.iter().filter(|line| line.status == Status::Ok).count();
+        assert!(ok >= 196, "{ok}: {noise:?}");
+    }
+}
+
 /// A model whose mass is 3 % short does not explain three sensors with 0.5 % of noise: no line of the band is ok, whatever
 /// its own misfit, and every value that was found is given.
 #[test]

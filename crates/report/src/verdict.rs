@@ -247,6 +247,9 @@ fn cautions(results: &Results) -> Vec<String> {
     for sensor in summary.array("/sensors") {
         let label = sensor.get("label").and_then(serde_json::Value::as_str).unwrap_or("");
         let flag = |key| sensor.get(key).and_then(serde_json::Value::as_bool) == Some(true);
+        if flag("dead") {
+            say(format!("Sensor {label} shows nothing beside the others. It was left out."));
+        }
         if flag("contradicts") {
             let done = if flag("left_out") {
                 "It was left out."

@@ -18,6 +18,7 @@ mod choice;
 mod coarser_mesh;
 mod confirmation;
 mod context;
+mod dead_channel;
 mod form;
 mod goodness_of_fit;
 mod identification;

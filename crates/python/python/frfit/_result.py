@@ -142,7 +142,7 @@ class Identification:
     sensor_misfit: Real
     """(sensors,), misfit over what noise leaves; empty where each frequency is answered by itself."""
     sensor_left_out: Flags
-    """(sensors,), whether it contradicts all others and was left out."""
+    """(sensors,), whether it was left out: it contradicts all others, or shows nothing beside them."""
     sensor_scale: Real
     """(sensors,), the scale that was found; NaN where it was known, or the data do not tell it."""
     sensor_scale_std: Real

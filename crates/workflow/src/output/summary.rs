@@ -210,6 +210,7 @@ fn sensor(case: &Case, run: &IdentifyRun, m: usize) -> Value {
     if let Some(fit) = run.found.sensors.get(m) {
         told["misfit"] = json!(fit.misfit);
         told["contradicts"] = json!(fit.contradicts);
+        told["dead"] = json!(fit.dead);
         told["left_out"] = json!(fit.left_out);
     }
     told

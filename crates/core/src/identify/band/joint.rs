@@ -11,6 +11,7 @@ use super::verdict::{Evidence, verdict};
 use crate::c64;
 use crate::for_each::map;
 use crate::identify::context::{Context, Stage};
+use crate::identify::dead_channel::dead_channels;
 use crate::identify::goodness_of_fit::SensorFit;
 use crate::identify::measured::Band;
 use crate::identify::noise::{standard_deviations, without};
@@ -21,7 +22,7 @@ use crate::response::{FullModel, Response, Work};
 use crate::subspace::Subspace;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Chooses at every frequency; of the `hidden` sensors nothing is asked.
+/// Chooses at every frequency; of the `hidden` sensors nothing is asked, nor of dead ones.
 pub(super) fn identify<'a>(
     band: &Band<'a>,
     at: &[ModelAt<'a>],
@@ -32,9 +33,12 @@ pub(super) fn identify<'a>(
 ) -> BandOutcome {
     let assumed = standard_deviations(band.measured, band.noise);
     let sensors = band.experiment.sensors.len();
+    let dead = dead_channels(band.measured);
+    let more: Vec<usize> = dead.iter().copied().filter(|m| !hidden.contains(m)).collect();
+    let hidden = &[hidden, &more].concat();
     let task = Task { band, at, sigma: &assumed, sensors, options, context };
     let (suspects, spent) = contradicting(&task, reduced.as_deref_mut(), hidden);
-    let out = [hidden, if options.reject_outliers { &suspects[..] } else { &[] }].concat();
+    let out = [hidden.as_slice(), if options.reject_outliers { &suspects[..] } else { &[] }].concat();
     let sigma = without(&assumed, &out);
     let task = Task { sigma: &sigma, sensors: sensors - out.len(), ..task };
     let (solved, mut work) = match reduced.as_deref_mut() {
@@ -85,6 +89,7 @@ pub(super) fn identify<'a>(
     let sensor = |m: usize| SensorFit {
         misfit: sensor_misfit(&outcomes, band.measured, &assumed, m, noise.level),
         contradicts: suspects.contains(&m),
+        dead: dead.contains(&m),
         left_out: out.contains(&m),
     };
     let sensors = (0..sensors).map(sensor).collect();

@@ -37,7 +37,8 @@ pub use outcome::{BandCoordinate, BandValue, Direction, Number, NumberOf, Profil
 
 use super::channel::Calibration;
 use super::context::Context;
-use super::noise::{NoiseLevel, standard_deviations};
+use super::dead_channel::dead_channels;
+use super::noise::{NoiseLevel, standard_deviations, without};
 use super::options::Options;
 use super::outcome::Line;
 use super::problem::Problem;
@@ -82,12 +83,13 @@ pub(super) fn identify_several<'a>(
 ) -> Result<SeveralOutcome, OutsideTable> {
     let frfs = problem.frfs;
     let nominal = nominal_of(problem)?;
+    let dead = dead_channels(frfs.receptance);
     let task = Task {
         problem,
         nominal: &nominal,
         omegas: frfs.frequency_hz.iter().map(|&f| omega_rad_s(f)).collect(),
-        sigma: standard_deviations(frfs.receptance, frfs.noise),
-        left_out: Vec::new(),
+        sigma: without(&standard_deviations(frfs.receptance, frfs.noise), &dead),
+        left_out: dead,
         options,
         context,
     };
@@ -101,7 +103,7 @@ pub(super) fn identify_several<'a>(
             let mut found = task.search(&mut space);
             let contradicting = task.contradicting(&space, &found);
             let rejected = if options.reject_outliers { contradicting.as_slice() } else { &[] };
-            let kept = task.leaving_out(rejected);
+            let kept = task.leaving_out(&[task.left_out.as_slice(), rejected].concat());
             if !rejected.is_empty() {
                 found = kept.search(&mut space);
             }

@@ -5,6 +5,7 @@ use super::outcome::SeveralOutcome;
 use super::reduced_band::ReducedBand;
 use super::search::BandSolution;
 use crate::identify::band::{OUTLIER_FREQUENCIES, OUTLIER_RATIO};
+use crate::identify::dead_channel::dead_channels;
 use crate::identify::goodness_of_fit::SensorFit;
 use crate::identify::noise::{Noise, level_of, without};
 use crate::identify::outcome::Line;
@@ -27,7 +28,7 @@ impl Task<'_, '_> {
         let all: Vec<usize> = (0..self.omegas.len()).collect();
         let of_band = all.iter().map(|&k| found.at(k).map_or(f64::INFINITY, |solution| solution.misfit));
         let mut with_all = self.chi_squared(of_band.collect(), sensors);
-        let mut out: Vec<usize> = Vec::new();
+        let mut out: Vec<usize> = self.left_out.clone();
         while with_all > OUTLIER_RATIO * floor && self.is_determined(sensors - out.len()) {
             let mut trials: Vec<(f64, usize)> = (0..sensors)
                 .filter(|m| !out.contains(m) && self.is_calibrated_without(&[&out[..], &[*m]].concat()))
@@ -41,7 +42,7 @@ impl Task<'_, '_> {
             out.push(worst);
             with_all = least;
         }
-        out
+        out.split_off(self.left_out.len())
     }
 
     /// Whether two sensors and more are left without one of so many, with more numbers at a frequency than it has of its own.
@@ -77,7 +78,7 @@ impl Task<'_, '_> {
         self.chi_squared((0..which.len()).map(misfit).collect(), sensors)
     }
 
-    /// The same task, in which some sensors count for nothing.
+    /// The same task, in which some more sensors count for nothing.
     pub(super) fn leaving_out(&self, out: &[usize]) -> Self {
         Self {
             omegas: self.omegas.clone(),
@@ -95,6 +96,7 @@ impl Task<'_, '_> {
         outcome: &SeveralOutcome,
     ) -> Vec<SensorFit> {
         let level = outcome.noise.level;
+        let dead = dead_channels(self.problem.frfs.receptance);
         let one = |m: usize| {
             let channel = outcome.channels.get(m).copied().unwrap_or_default();
             let square = |(i, line): (usize, &Line)| {
@@ -107,6 +109,7 @@ impl Task<'_, '_> {
             SensorFit {
                 misfit: Some(misfit).filter(|misfit| misfit.is_finite()),
                 contradicts: contradicting.contains(&m),
+                dead: dead.contains(&m),
                 left_out: self.left_out.contains(&m),
             }
         };
