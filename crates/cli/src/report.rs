@@ -1,8 +1,8 @@
 //! What came out, in the few lines that a person reads first.
 
 use frfit::identify::{
-    BandValue, Calibrated, Dependence, Explained, Leverage, Line, ModeError, ModelErrorsFound, NoiseSource,
-    Number, SmoothCurve, Status, Trust, Unknown, Variation,
+    BandValue, Calibrated, CausalityBreach, Dependence, Explained, Leverage, Line, ModeError,
+    ModelErrorsFound, NoiseSource, Number, SmoothCurve, Status, Trust, Unknown, Variation,
 };
 use frfit::model::FactorPart;
 use frfit_workflow::check::findings_text;
@@ -168,6 +168,7 @@ fn doubts(text: &mut Text, job: &IdentifyJob, identify: &IdentifyCase) {
         text.warn("coarser mesh", UNPAIRED);
     }
     leverage(job).iter().for_each(|sentence| text.say("leverage", sentence));
+    breaches(job).iter().for_each(|sentence| text.warn("causality", sentence));
     contradictions(text, job);
     channels(text, job, identify);
     fit(text, job);
@@ -389,6 +390,19 @@ fn leverage(job: &IdentifyJob) -> Option<String> {
     };
     let said: Vec<String> = large.iter().take(SHOWN).map(one).collect();
     (!said.is_empty()).then(|| said.join("; "))
+}
+
+/// Where moduli are those of no causal material.
+fn breaches(job: &IdentifyJob) -> Vec<String> {
+    let unknowns = job.identify().map_or(&[][..], |identify| identify.unknowns.as_slice());
+    let one = |breach: &CausalityBreach| {
+        let unknown = unknowns.get(breach.unknown).map_or("the modulus", |unknown| unknown.name.as_str());
+        let [from, to] = breach.range_hz;
+        format!(
+            "no material is like {unknown} about {from:.0} to {to:.0} Hz: it falls, or rises faster than its loss factor allows"
+        )
+    };
+    job.run.found.causality_breaches.iter().map(one).collect()
 }
 
 /// What was found of channels whose scale or delay was unknown.

@@ -444,6 +444,41 @@ fn a_dead_channel_is_as_if_it_were_not_there() {
     }
 }
 
+/// What two sensors agree on stands, and is said to be no material's: a loss factor that jumps, a modulus that falls. Of one sensor it does not stand.
+#[test]
+fn sensors_that_agree_overrule_what_materials_do() {
+    let case = plate(8, 0.24, 0.02);
+    let frequency_hz = linear_hz(60.0, 2500.0, 180);
+    let nominal = case.parameter.nominal.at(60.0).unwrap();
+    let jumps = |f: f64| c(2.2e11, if f < 900.0 { 4e9 } else { 4e10 });
+    let falls = |f: f64| c(1.0, 0.05) * 2e11 * (f / 800.0).powf(-0.5);
+    for (name, modulus) in [("jumps", &jumps as &dyn Fn(f64) -> c64), ("falls", &falls)] {
+        let u: Vec<Vec<c64>> =
+            frequency_hz.iter().map(|&f| case.direct(f, modulus(f) - nominal).unwrap()).collect();
+        let made = Measured { frequency_hz: frequency_hz.clone(), std: Vec::new(), u };
+        let setup = within(nominal.re, 5.0);
+        let found = identify(&case, &made, &made.u, Noise::Unknown, &setup);
+        let ok: Vec<&Line> = found.lines.iter().filter(|line| line.status == Status::Ok).collect();
+        assert!(ok.len() > 153, "{name}: {} ok", ok.len());
+        for line in ok {
+            let (value, truth) = (line.factor().unwrap(), modulus(line.frequency_hz));
+            assert!((value / truth - 1.0).norm() < 1e-6, "{name}: {} Hz: {value} {truth}", line.frequency_hz);
+        }
+        assert!(!found.causality_breaches.is_empty(), "{name}");
+        let mut alone = plate(8, 0.24, 0.02);
+        alone.experiment.sensors.truncate(1);
+        let first: Vec<Vec<c64>> = made.u.iter().map(|row| vec![row[0]]).collect();
+        let found = identify(&alone, &made, &first, Noise::Unknown, &setup);
+        let wrong = |line: &&Line| (line.factor().unwrap() / modulus(line.frequency_hz) - 1.0).norm() > 1e-3;
+        let ok = found.lines.iter().filter(|line| line.status == Status::Ok);
+        assert_eq!(ok.filter(wrong).count(), 0, "{name}");
+    }
+    // A material is no breach.
+    let made = Measured::clean(&case, frequency_hz, 1.1, 0.0);
+    let found = identify(&case, &made, &made.u, Noise::Unknown, &within(nominal.re, 1.25));
+    assert!(found.causality_breaches.is_empty() && found.count(Status::Ok) == 180);
+}
+
 /// Twenty sensors say more than two: noise alone excludes no frequency.
 #[test]
 fn noise_of_many_sensors_excludes_no_frequency() {

@@ -244,6 +244,17 @@ fn cautions(results: &Results) -> Vec<String> {
             .push("The search did not settle. More frequencies, sensors or narrower bounds may help.".into());
     }
     let mut say = |text: String| cautions.push(text);
+    for breach in summary.array("/causality_breaches") {
+        let unknown = breach.get("unknown").and_then(serde_json::Value::as_str).unwrap_or("modulus");
+        let hz = |k: usize| breach.pointer(&format!("/range_hz/{k}")).and_then(serde_json::Value::as_f64);
+        let [Some(from), Some(to)] = [hz(0), hz(1)] else { continue };
+        say(format!(
+            "No causal material is like {unknown} about {} to {} Hz: its storage part falls there, or rises faster than its loss factor allows. \
+             Something else than the material may have been identified: a joint, a missing part of the model.",
+            significant(from, 3),
+            significant(to, 3)
+        ));
+    }
     for sensor in summary.array("/sensors") {
         let label = sensor.get("label").and_then(serde_json::Value::as_str).unwrap_or("");
         let flag = |key| sensor.get(key).and_then(serde_json::Value::as_bool) == Some(true);

@@ -1,6 +1,7 @@
 //! What came out of an identification.
 
 use super::band::{BandOutcome, LawsOutcome, SmoothCurve, SmoothOutcome};
+use super::causality_breach::CausalityBreach;
 use super::channel::Calibration;
 use super::goodness_of_fit::{Explained, GoodnessOfFit, SensorFit};
 use super::model_errors::{Leverage, ModelErrorsFound};
@@ -40,6 +41,8 @@ pub struct Identification {
     pub model_errors: Option<ModelErrorsFound>,
     /// How far an error of each known factor moves each unknown; empty where that was not looked for.
     pub leverage: Vec<Leverage>,
+    /// Where a modulus is that of no causal material.
+    pub causality_breaches: Vec<CausalityBreach>,
     /// What the search did.
     pub search: SearchReport,
 }
@@ -129,6 +132,7 @@ impl From<BandOutcome> for Identification {
             identifiability: Identifiability::default(),
             model_errors: model_errors.map(|errors| errors.found()),
             leverage,
+            causality_breaches: Vec::new(),
             search,
         }
     }
@@ -211,6 +215,7 @@ impl From<SeveralOutcome> for Identification {
             identifiability: Identifiability { coordinates, correlation, directions, profile },
             model_errors,
             leverage,
+            causality_breaches: Vec::new(),
             search,
         }
     }

@@ -12,6 +12,7 @@
 //! | `outcome`, `identification` | what came out of a line, and of a band |
 
 mod band;
+mod causality_breach;
 mod channel;
 mod channel_coordinates;
 mod choice;
@@ -39,6 +40,7 @@ mod unknown;
 pub use crate::response::relative_error;
 pub use band::SmoothCurve;
 pub(crate) use band::{DELAY_PHASE_STEP_RAD, MAX_DELAY_PHASE_RAD};
+pub use causality_breach::CausalityBreach;
 pub use channel::{Calibrated, Calibration, ChannelUnknowns};
 pub use choice::{Method, Reduction, Selection, UnknownChoice};
 pub use coarser_mesh::CoarserMesh;
@@ -57,6 +59,7 @@ pub use several::{BandCoordinate, BandValue, Direction, Number, NumberOf, Profil
 pub use uncertainty::{Contributions, Uncertainty};
 pub use unknown::{Dependence, Unknown, Variation};
 
+use causality_breach::causality_breaches;
 use problem::Strategy;
 
 /// Identifies the unknowns of a problem.
@@ -97,7 +100,7 @@ pub fn identify_on<'a>(
     let channels = problem.channels();
     reduced.begin(problem);
     let trained = &mut reduced.subspace;
-    Ok(match problem.single() {
+    let mut found: Identification = match problem.single() {
         None => several::identify_several(problem, trained, options, context)?.into(),
         Some((strategy, parameter)) => {
             let band = &problem.band(0, parameter);
@@ -116,5 +119,7 @@ pub fn identify_on<'a>(
                 }
             }
         }
-    })
+    };
+    found.causality_breaches = causality_breaches(problem.model(), problem.unknowns(), &found.lines);
+    Ok(found)
 }

@@ -8,6 +8,9 @@ const CURVATURES: [f64; 7] = [1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01];
 /// Before anything is known of a path's curvature. Not taken from the straightest path there is: that may well be a wrong one.
 pub(super) const DEFAULT_CURVATURE: f64 = 0.5;
 
+/// The share of a band that is most of it.
+const MOST: f64 = 0.85;
+
 /// Points over a band.
 #[derive(Debug, Clone)]
 pub(super) struct Band {
@@ -28,6 +31,17 @@ impl Band {
     pub(super) fn curvature(&self) -> f64 {
         let cost = |k: usize, every: usize| self.likelihood(CURVATURES[k], every);
         CURVATURES[lowest(CURVATURES.len(), self.points.len(), cost).saturating_sub(1)]
+    }
+
+    /// Whether a path has a point at most of the frequencies that have any.
+    pub(super) fn is_covered<T>(&self, path: &[Option<T>]) -> bool {
+        let count = path.iter().flatten().count() as f64;
+        count >= MOST * self.occupied() as f64
+    }
+
+    /// Frequencies that have any points.
+    pub(super) fn occupied(&self) -> usize {
+        self.points.iter().filter(|points| !points.is_empty()).count()
     }
 
     /// The cheapest path, and the point that it chooses at each frequency.

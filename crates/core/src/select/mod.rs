@@ -8,11 +8,13 @@
 //!
 //! | file | what is in it |
 //! |---|---|
+//! | `agreement` | what several sensors agree on, where no material explains it |
 //! | `trend` | what a path knows of its curve, and what it expects next |
 //! | `path` | the search in one direction (dynamic programming over the last point, with gaps) |
 //! | `band` | both directions together: the best path through each candidate |
 //! | `track` | whole paths that compete: not the longest wins, but the one that is a material |
 
+mod agreement;
 mod band;
 mod path;
 mod track;
@@ -21,9 +23,11 @@ mod trend;
 use crate::c64;
 use crate::frequency::omega_rad_s;
 use crate::with_fields::with_fields;
+use agreement::agreement;
 use band::Band;
 use path::Point;
 use track::tracks;
+pub(crate) use trend::{SLOPE_TOLERANCE, slope_of_material};
 
 /// A solution at one frequency.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -77,7 +81,8 @@ with_fields!(SelectOptions {
 /// Chooses a path through the candidates of a band; frequencies ascend, and each has any number of nodes, also none.
 ///
 /// Nodes that differ by less than twice their standard deviation, or 2e-7 of their value, are one. Nothing is chosen where no node fits the
-/// path, where a rival path that cannot be excluded has no node, or anywhere if no path is a material's or covers a sixth of the band.
+/// path, where a rival path that cannot be excluded has no node, or anywhere if no path is a material's or covers a sixth of the band:
+/// unless several sensors agree on one solution at most of the frequencies and leave no more than a noise that is known, or roundoff. That is chosen then, material or not.
 ///
 /// # Limits
 /// - The factor is that of a stiffness, E′ > 0 and η ≥ 0, or a constant; bounds are applied before.
@@ -102,12 +107,24 @@ pub fn choose(frequency_hz: &[f64], nodes: &[Vec<Node>], options: &SelectOptions
         Band { points: points.collect(), log_frequency }
     };
     let nothing = Choice { chosen: None, alternatives: Vec::new(), margin: f64::INFINITY };
-    let tracks = tracks(Band::likeliest(scatters.len(), nodes.len(), band), options.margin);
-    let Some((best, rivals)) = tracks.split_first() else { return vec![nothing; nodes.len()] };
+    let band = Band::likeliest(scatters.len(), nodes.len(), band);
+    let agreed = agreement(&band, options.margin).filter(|_| options.sensors > 1 && noise.is_all());
+    let by_agreement = |k: usize| {
+        let (index, margin) = agreed.as_ref()?[k]?;
+        Some(Choice { chosen: Some(band.points[k][index].node), alternatives: Vec::new(), margin })
+    };
+    let all_by_agreement =
+        || (0..nodes.len()).map(|k| by_agreement(k).unwrap_or_else(|| nothing.clone())).collect();
+    let tracks = tracks(band.clone(), options.margin);
+    let Some((best, rivals)) = tracks.split_first() else { return all_by_agreement() };
     let rivals: Vec<_> = rivals.iter().filter(|rival| rival.score < best.score + options.margin).collect();
     let curvature = best.restricted().curvature();
     let (mut path, costs) = best.band.through_each(curvature);
     bridge(&mut path, &best.chosen);
+    // A material on which most of the band lies needs no sensors to overrule it.
+    if agreed.is_some() && !band.is_covered(&path) {
+        return all_by_agreement();
+    }
     let choose_at = |k: usize| {
         let mut choice = nothing.clone();
         let points = &best.band.points[k];
@@ -161,6 +178,10 @@ const ROOT_LN_STD: f64 = 1e-7;
 /// Least factor on a variance that is not known: a millionth of the response is roundoff near a resonance.
 const MIN_VARIANCE_FACTOR: f64 = 1e-12;
 
+/// The variance over a given one up to which nothing but noise is to be seen, and the part of the response that roundoff is at most.
+const MAX_USUAL_FACTOR: f64 = 1.5;
+const MAX_ROUNDOFF: f64 = 1e-4;
+
 /// Scatters that are tried: of ln E, beside what is given, or in units of the given standard deviation if that is of unknown size.
 const SCATTERS: [f64; 14] = [0.0, 1e-6, 3e-6, 1e-5, 3e-5, 1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 0.1, 0.3, 1.0];
 
@@ -187,6 +208,11 @@ struct Noise {
 }
 
 impl Noise {
+    /// Whether the best misfits are those of noise, of a model without errors: of noise that is known, or of none.
+    fn is_all(&self) -> bool {
+        self.factor <= if self.known { MAX_USUAL_FACTOR } else { MAX_ROUNDOFF * MAX_ROUNDOFF }
+    }
+
     /// From the lower quartile of the best misfits, which stands even where most frequencies have lost the right node.
     fn of(nodes: &[Vec<Node>], options: &SelectOptions) -> Self {
         let least = |nodes: &Vec<Node>| nodes.iter().map(|node| node.misfit).min_by(f64::total_cmp);

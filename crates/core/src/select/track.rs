@@ -39,7 +39,7 @@ impl Track {
 /// some nats.
 pub(super) fn tracks(mut band: Band, margin: f64) -> Vec<Track> {
     let mut tracks = Vec::new();
-    let occupied = band.points.iter().filter(|points| !points.is_empty()).count() as f64;
+    let occupied = band.occupied() as f64;
     for _ in 0..MAX_RIVAL_PATHS {
         if band.points.iter().all(Vec::is_empty) {
             break;

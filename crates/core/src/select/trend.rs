@@ -11,10 +11,17 @@ const LOG_SLOPE_STD: f64 = 0.5;
 
 /// How far the slope may lie outside what the loss factor allows. The local relation is exact for a power law and misses by less
 /// than this for the fractional laws of damping materials.
-const SLOPE_TOLERANCE: f64 = 0.1;
+pub(crate) const SLOPE_TOLERANCE: f64 = 0.1;
 
 /// Distance in ln ω over which two slopes of one curve are independent evidence: a third of a unit, as transitions take several units.
 const SLOPE_LENGTH: f64 = 0.3;
+
+/// The slope d ln E/d ln ω of a causal material nearest to some slope, at a level of ln E; see [`Trend::as_material`].
+pub(crate) fn slope_of_material(level: c64, slope: c64) -> c64 {
+    let steepest = (level.im / FRAC_PI_2).max(0.0);
+    // The loss itself moves no faster than the storage in the transitions that there are.
+    c64::new(slope.re.clamp(0.0, steepest), slope.im.clamp(-steepest, steepest))
+}
 
 /// Level and slope at one frequency. Real and imaginary part are known equally well, so one real covariance serves both.
 #[derive(Debug, Clone, Copy)]
@@ -83,9 +90,7 @@ impl Trend {
         if step == 0.0 {
             return (0.0, self);
         }
-        let steepest = (self.level.im / FRAC_PI_2).max(0.0);
-        // The loss itself moves no faster than the storage in the transitions that there are.
-        let target = c64::new(self.slope.re.clamp(0.0, steepest), self.slope.im.clamp(-steepest, steepest));
+        let target = slope_of_material(self.level, self.slope);
         let [a, b, c] = self.covariance;
         let variance = SLOPE_TOLERANCE * SLOPE_TOLERANCE * SLOPE_LENGTH / step.abs();
         let expected = c + variance;

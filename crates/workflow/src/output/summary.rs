@@ -6,9 +6,9 @@ use crate::load::{Case, IdentifyCase, MeasuredNoise, SensorInfo};
 use crate::run::IdentifyRun;
 use frfit::c64;
 use frfit::identify::{
-    Dependence, Direction, FactorError, GoodnessOfFit, Identifiability, Identification, Leverage, Line,
-    MeshError, ModeError, ModelErrors, ModelErrorsFound, NoiseLevel, Number, SensorMass, Status, Unknown,
-    Variation,
+    CausalityBreach, Dependence, Direction, FactorError, GoodnessOfFit, Identifiability, Identification,
+    Leverage, Line, MeshError, ModeError, ModelErrors, ModelErrorsFound, NoiseLevel, Number, SensorMass,
+    Status, Unknown, Variation,
 };
 use frfit::material::loss_factor;
 use frfit::model::{FactorPart, Term};
@@ -62,6 +62,7 @@ pub fn summary_json(
         "fit": fit_json(found.fit.as_ref()),
         "model_errors": found.model_errors.as_ref().map(|errors| model_errors_json(case, errors)),
         "leverage": leverage_json(case, found),
+        "causality_breaches": breaches_json(case, found),
         "error": spread(run, |line| line.error),
         "required_order": required_order(run),
         "spectral_radius": spread(run, |line| line.spectral_radius),
@@ -247,6 +248,16 @@ fn leverage_json(case: &Case, found: &Identification) -> Vec<Value> {
         json!({"matrix": case.model.terms()[one.term].name, "unknown": unknown, "percent_by_percent": one.change})
     };
     found.leverage.iter().map(one).collect()
+}
+
+/// Where a modulus is that of no causal material.
+fn breaches_json(case: &Case, found: &Identification) -> Vec<Value> {
+    let names = case.identify.as_ref().map_or(&[][..], |identify| identify.unknowns.as_slice());
+    let one = |breach: &CausalityBreach| {
+        let unknown = names.get(breach.unknown).map(|unknown| unknown.name.as_str());
+        json!({"unknown": unknown, "range_hz": breach.range_hz})
+    };
+    found.causality_breaches.iter().map(one).collect()
 }
 
 /// The errors of the model that were taken out.
