@@ -449,6 +449,15 @@ impl Modes {
         self.energy_shares[self.of_error[error]][self.group[error]]
     }
 
+    /// What of the strain energy is in the stiffness of unknowns: a root mean square over the elastic modes up to some frequency; 1 where no other stiffness is known.
+    pub(crate) fn share_of_unknowns(&self, highest_rad_s: f64) -> f64 {
+        let is_in_band = |omega: &f64| *omega > 0.0 && *omega <= highest_rad_s;
+        let each = self.omega_rad_s.iter().zip(&self.energy_shares).filter(|(omega, _)| is_in_band(omega));
+        let squares: Vec<f64> =
+            each.filter_map(|(_, shares)| shares.get(1)).map(|share| share * share).collect();
+        if squares.is_empty() { 1.0 } else { (squares.iter().sum::<f64>() / squares.len() as f64).sqrt() }
+    }
+
     /// The errors of a mode's natural frequency.
     pub(crate) fn frequency_errors(&self, mode: usize) -> impl Iterator<Item = usize> {
         (0..self.of_error.len())

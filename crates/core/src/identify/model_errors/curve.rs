@@ -1,5 +1,6 @@
 //! Unknowns over the band with few numbers: constants, laws, smooth curves.
 
+use super::causality::Causality;
 use crate::c64;
 use crate::identify::channel_coordinates::ChannelCoordinates;
 use crate::identify::form::Form;
@@ -31,7 +32,8 @@ pub(in crate::identify) struct Spline {
     weights: Vec<Vec<f64>>,
     /// Distance of the knots in ln ω.
     step: f64,
-    real: bool,
+    /// What ties the phase to ln|E|, unless E is real.
+    causality: Option<Causality>,
 }
 
 /// Knots at most this far apart, in ln ω, and so many at least.
@@ -47,10 +49,6 @@ const LN_MODULUS_PRIOR_STD: [f64; 2] = [3.0, 1.0];
 
 /// d ln|E|/d ln ω over arg E.
 const BODE_SLOPE_OVER_PHASE: f64 = std::f64::consts::FRAC_2_PI;
-
-/// The mean slope of a band is that to this part of it, and to a slope for which no loss is needed that can be measured.
-const MEAN_SLOPE_RTOL: f64 = 0.5;
-const MIN_SLOPE_STD: f64 = 0.001;
 
 /// A bound that is overstepped by so little is kept: roundoff.
 const BOUND_RTOL: f64 = 1e-12;
@@ -79,18 +77,31 @@ impl Spline {
             };
             (0..knots).map(value).collect()
         };
-        Self { weights: x.iter().map(at).collect(), step, real }
+        Self {
+            weights: x.iter().map(at).collect(),
+            step,
+            causality: (!real).then(|| Causality::new(step, &bends)),
+        }
     }
 
     fn knots(&self) -> usize {
         self.weights[0].len()
     }
 
+    fn is_real(&self) -> bool {
+        self.causality.is_none()
+    }
+
+    #[cfg(test)]
+    pub(super) fn causality(&self) -> Option<&Causality> {
+        self.causality.as_ref()
+    }
+
     /// ln E at a line.
     fn log(&self, theta: &[f64], line: usize) -> c64 {
         let sum = |part: &[f64]| self.weights[line].iter().zip(part).map(|(w, t)| w * t).sum::<f64>();
         let n = self.knots();
-        c64::new(sum(&theta[..n]), if self.real { 0.0 } else { sum(&theta[n..]) })
+        c64::new(sum(&theta[..n]), if self.is_real() { 0.0 } else { sum(&theta[n..]) })
     }
 }
 
@@ -116,7 +127,7 @@ impl Curve {
     fn count(&self) -> usize {
         match self {
             Self::Form(form) => form.count(),
-            Self::Spline(spline) => spline.knots() * if spline.real { 1 } else { 2 },
+            Self::Spline(spline) => spline.knots() * if spline.is_real() { 1 } else { 2 },
         }
     }
 
@@ -128,7 +139,7 @@ impl Curve {
                 let value = spline.log(theta, line).exp();
                 let of = |unit: c64| spline.weights[line].iter().map(move |&w| value * unit * w);
                 let mut slopes: Vec<c64> = of(c64::new(1.0, 0.0)).collect();
-                if !spline.real {
+                if !spline.is_real() {
                     slopes.extend(of(c64::I));
                 }
                 value.is_finite().then_some((value, slopes))
@@ -138,7 +149,7 @@ impl Curve {
 
     /// The precision of what is known beforehand, n × n, about a centre: of a smooth curve its size, its slope and, `bend` times what is usual, its bends.
     ///
-    /// A causal modulus has a slope d ln|E|/d ln ω near (2/π) arg E (Bode's relation), over the band and at each frequency; where the loss is small so is the slope.
+    /// A causal modulus has the phase of its slope; where the loss is small so is the slope.
     fn precision(&self, centre: &[f64], bend: [f64; 2]) -> Vec<f64> {
         let n = self.count();
         let mut precision = vec![0.0; n * n];
@@ -153,27 +164,9 @@ impl Curve {
                 .for_each(|i| precision[i * n + i] += LN_MODULUS_PRIOR_STD[part].powi(-2) / knots as f64);
             precision.iter_mut().zip(self.bends(part)).for_each(|(sum, own)| *sum += own / (bend * bend));
         }
-        if !spline.real {
-            let range = spline.step * (knots - 1) as f64;
-            let row = |i: usize| match i {
-                0 => -1.0 / range,
-                i if i + 1 == knots => 1.0 / range,
-                i if i >= knots => -BODE_SLOPE_OVER_PHASE / knots as f64,
-                _ => 0.0,
-            };
-            let std = MEAN_SLOPE_RTOL * BODE_SLOPE_OVER_PHASE * centre[knots].abs() + MIN_SLOPE_STD;
-            (0..n * n).for_each(|k| precision[k] += row(k / n) * row(k % n) / (std * std));
-            // The slope between two knots, beside that of the band: the relation holds at each frequency.
-            for k in 0..knots - 1 {
-                let own = |i: usize| match i {
-                    _ if i == k => -1.0 / spline.step,
-                    _ if i == k + 1 => 1.0 / spline.step,
-                    _ if i == knots + k || i == knots + k + 1 => -0.5 * BODE_SLOPE_OVER_PHASE,
-                    _ => 0.0,
-                };
-                let off: Vec<f64> = (0..n).map(|i| own(i) - row(i)).collect();
-                (0..n * n).for_each(|k| precision[k] += off[k / n] * off[k % n] / (std * std));
-            }
+        let of_causality = spline.causality.as_ref().and_then(|causality| causality.precision(centre[knots]));
+        if let Some(own) = of_causality {
+            precision.iter_mut().zip(own).for_each(|(sum, own)| *sum += own);
         }
         precision
     }
@@ -203,7 +196,7 @@ impl Curve {
     /// How many second differences a part has.
     fn bend_count(&self, part: usize) -> usize {
         match self {
-            Self::Spline(spline) if part == 0 || !spline.real => spline.knots() - 2,
+            Self::Spline(spline) if part == 0 || !spline.is_real() => spline.knots() - 2,
             _ => 0,
         }
     }
@@ -214,7 +207,7 @@ impl Curve {
         let knots = spline.knots();
         let mean = |part: &[f64]| part.iter().sum::<f64>() / knots as f64;
         let size = mean(&theta[..knots]);
-        let phase = if spline.real { 0.0 } else { mean(&theta[knots..]) };
+        let phase = if spline.is_real() { 0.0 } else { mean(&theta[knots..]) };
         let at = |k: usize| {
             size + BODE_SLOPE_OVER_PHASE * phase * spline.step * (k as f64 - 0.5 * (knots - 1) as f64)
         };

@@ -16,6 +16,7 @@
 //! M. C. Kennedy, A. O'Hagan, J. R. Stat. Soc. B 63 (2001) 425–464 (errors of a model beside its parameters); D. J. C. MacKay, Neural Comput. 4 (1992) 415–447
 //! (evidence, and the number of well-determined parameters).
 
+mod causality;
 mod curve;
 mod estimated;
 mod found;
@@ -122,6 +123,12 @@ const FACTOR_PRIOR_STD: f64 = 0.02;
 const LOSS_FACTOR_PRIOR_STD: f64 = 0.002;
 const LOSS_FACTOR_PRIOR_RATIO: f64 = 0.1;
 
+/// What the stiffness of an unknown is known to at least, however little of the strain energy it has: no natural frequency shows it.
+const MAX_FACTOR_PRIOR_STD: f64 = 0.25;
+
+/// A shape differs from the model's in about so many independent ways, whatever the number of sensors: a support that gives moves all of them.
+const INDEPENDENT_ERRORS_OF_A_SHAPE: f64 = 2.0;
+
 /// What all modes have in common is larger than their scatter: a mesh errs in one sense. Where a coarser mesh shows that, what is left does so less:
 /// shear that the elements lack, a thickness.
 const COMMON_RATIO: f64 = 5.0;
@@ -193,6 +200,12 @@ impl Sizes {
         let common = (known.common_ratio * self.frequency).min(MAX_COMMON_STD.max(self.frequency));
         let of_own = COMMON_LOSS_RATIO * self.loss_factor;
         Self { common, common_loss: of_own.max(UNDAMPED_SHARE_RATIO * common), ..self }
+    }
+
+    /// For what θ is then: errors of one shape at several sensors and at the load are no independent ones, and as a prior count as so many.
+    fn with_dependent_shapes(self, sensors: usize) -> Self {
+        let dependent = ((1 + sensors) as f64 / INDEPENDENT_ERRORS_OF_A_SHAPE).max(1.0);
+        Self { shape: dependent.sqrt() * self.shape, ..self }
     }
 
     /// Without damping errors of single modes where those are not looked for.
@@ -358,8 +371,11 @@ pub(super) fn estimate_with_laws(
 }
 
 /// Prior standard deviations of the errors of factors: what the model says, or what is usual. The stiffness matrix of an unknown has an error too.
-/// The data cannot tell it from the unknown, which is therefore as uncertain.
-fn priors(at: &ModelAt<'_>, sizes: ErrorSizes) -> Vec<FactorPrior> {
+/// The data cannot tell it from the unknown, which is therefore as uncertain. Natural frequencies that are good to s leave a stiffness with the share p of the
+/// strain energy 2s/p.
+fn priors(at: &ModelAt<'_>, sizes: ErrorSizes, share_of_unknowns: f64) -> Vec<FactorPrior> {
+    let of_unknown = 2.0 * FREQUENCY_PRIOR_STD / share_of_unknowns;
+    let of_unknown = of_unknown.clamp(FACTOR_PRIOR_STD, MAX_FACTOR_PRIOR_STD);
     let of_term = |term: usize| {
         let is_known = !at.parameters.iter().any(|one| one.enters(term));
         let (given, one) = (at.model.factor_std(term), &at.model.terms()[term]);
@@ -372,7 +388,8 @@ fn priors(at: &ModelAt<'_>, sizes: ErrorSizes) -> Vec<FactorPrior> {
             is_given: std.is_some(),
             is_known,
         };
-        let storage = prior(FactorPart::Storage, given.storage, FACTOR_PRIOR_STD);
+        let usual = if is_known { FACTOR_PRIOR_STD } else { of_unknown };
+        let storage = prior(FactorPart::Storage, given.storage, usual);
         let usual = LOSS_FACTOR_PRIOR_STD.hypot(LOSS_FACTOR_PRIOR_RATIO * loss_factor);
         let loss = prior(FactorPart::LossFactor, given.loss_factor, usual);
         let is_stiffness = one.role == Role::Stiffness;
@@ -425,8 +442,8 @@ impl<'t, 'a> Search<'t, 'a> {
             lines,
             some: of(FIRST_LINES),
             about: of(NEIGHBOURHOOD_POINTS),
+            factors: priors(&at, data.given_sizes, modes.share_of_unknowns(highest)),
             modes,
-            factors: priors(&at, data.given_sizes),
             mesh: None,
         })
     }
@@ -822,7 +839,9 @@ impl<'a> Measured<'_, 'a> {
     fn posterior(&self, fitting: &Fitting<'_, '_>, wrong: Explained, evidence: f64) -> Option<Estimated> {
         let Explained { found, sizes, level, rest, .. } = wrong;
         let n = fitting.count();
-        let precision = fitting.precision(&sizes);
+        let precision = fitting.precision(&sizes.with_dependent_shapes(fitting.sensors()));
+        let sigma = self.sigma_beside(fitting.lines, level, rest);
+        let found = fitting.descend(found.place, &sigma, &precision, STEPS_AT_LAST_LEVEL)?;
         let whole: Vec<f64> = found.normal.information.iter().zip(&precision).map(|(a, b)| a + b).collect();
         let inverse = Cholesky::new(n, &whole).ok()?.inverse();
         let errors = fitting.errors(&found.place);
