@@ -399,7 +399,7 @@ fn breaches(job: &IdentifyJob) -> Vec<String> {
         let unknown = unknowns.get(breach.unknown).map_or("the modulus", |unknown| unknown.name.as_str());
         let [from, to] = breach.range_hz;
         format!(
-            "no material is like {unknown} about {from:.0} to {to:.0} Hz: it falls, or rises faster than its loss factor allows"
+            "{unknown} is not the modulus of a causal material at {from:.0} to {to:.0} Hz: it falls, or rises faster than its loss factor allows"
         )
     };
     job.run.found.causality_breaches.iter().map(one).collect()

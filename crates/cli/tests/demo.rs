@@ -218,6 +218,54 @@ fn the_rational_method_is_never_wrong_and_ok() {
 }
 
 /// The sandwich with a third sensor, whose FRF was measured elsewhere.
+/// A modulus that falls with frequency, E = s E₀ with s = √(f₀/f): its response at f is that of E₀ at g = f/√s, over s.
+#[test]
+fn a_modulus_that_no_causal_material_has_is_said_to_be_one() {
+    const F0: f64 = 800.0;
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    done(at, &["--quiet", "example", "clamped-plate", "plate"]);
+    let case = std::fs::read_to_string(at.join("plate/case.toml")).unwrap();
+    let model = case.split("[[measurement]]").next().unwrap();
+    let truth =
+        model.replace("storage = 2.5e11, loss_factor = 0.001", "storage = 2.0e11, loss_factor = 0.02");
+    assert_ne!(truth, model);
+    let sensors = ["58+Z", "77+Z"];
+    let places = sensors.map(|dof| format!("[[measurement]]\ndof = \"{dof}\"\n")).concat();
+    let grid = "[respond]\nband_hz = [100.0, 3000.0]\npoints = 150\n";
+    std::fs::write(at.join("plate/truth.toml"), format!("{truth}{places}{grid}")).unwrap();
+    done(at, &["respond", "plate/truth.toml", "--out", "response"]);
+    let table = std::fs::read_to_string(at.join("response/response.csv")).unwrap();
+    let mut files = String::new();
+    for (k, dof) in sensors.into_iter().enumerate() {
+        let mut own = "frequency_hz,re,im\n".to_owned();
+        for line in table.lines().filter(|line| line.contains(dof)) {
+            let number = |place: usize| line.split(',').nth(place).unwrap().parse::<f64>().unwrap();
+            let hz = number(0).powf(0.8) * F0.powf(0.2);
+            let s = (F0 / hz).sqrt();
+            own += &format!("{hz},{},{}\n", number(3) / s, number(4) / s);
+        }
+        std::fs::write(at.join(format!("plate/fall-{k}.csv")), own).unwrap();
+        files += &format!(
+            "[[measurement]]\nfile = \"fall-{k}.csv\"\nquantity = \"receptance\"\ndof = \"{dof}\"\n"
+        );
+    }
+    let identify = "[identify]\nmatrix = \"plate\"\nband_hz = [100.0, 3000.0]\nbounds = { storage = [5e10, 1e12], loss_factor = [0.0, 0.5] }\n";
+    std::fs::write(at.join("plate/fall.toml"), format!("{model}{files}{identify}")).unwrap();
+    let said = done(at, &["identify", "plate/fall.toml", "--out", "out"]);
+    assert!(said.contains("causality         plate is not the modulus of a causal material at "), "{said}");
+    let table = std::fs::read_to_string(at.join("out/identified.csv")).unwrap();
+    let [hz, storage] = ["frequency_hz", "storage"].map(|name| column(&table, name));
+    let status = column(&table, "status");
+    assert!(status.iter().filter(|status| *status == "ok").count() > 140, "{said}");
+    for ((hz, storage), _) in hz.iter().zip(&storage).zip(&status).filter(|(_, status)| *status == "ok") {
+        let [hz, storage] = [hz, storage].map(|text| text.parse::<f64>().unwrap());
+        assert!((storage / (2e11 * (F0 / hz).sqrt()) - 1.0).abs() < 1e-6, "{hz} {storage}");
+    }
+    let report = std::fs::read_to_string(at.join("out/report.html")).unwrap();
+    assert!(report.contains("plate is not the modulus of a causal material"));
+}
+
 #[test]
 fn a_sensor_that_contradicts_the_others_is_named_and_left_out() {
     let folder = tempfile::tempdir().unwrap();

@@ -249,7 +249,7 @@ fn cautions(results: &Results) -> Vec<String> {
         let hz = |k: usize| breach.pointer(&format!("/range_hz/{k}")).and_then(serde_json::Value::as_f64);
         let [Some(from), Some(to)] = [hz(0), hz(1)] else { continue };
         say(format!(
-            "No causal material is like {unknown} about {} to {} Hz: its storage part falls there, or rises faster than its loss factor allows. \
+            "{unknown} is not the modulus of a causal material at {} to {} Hz: it falls there, or rises faster than its loss factor allows. \
              Something else than the material may have been identified: a joint, a missing part of the model.",
             significant(from, 3),
             significant(to, 3)

@@ -155,6 +155,9 @@ const PRIOR_COMMON: f64 = 0.5;
 /// No measured response is better than this part of itself: what is smaller is no reason to doubt a model.
 const MIN_NOISE_OVER_RESPONSE: f64 = 5e-4;
 
+/// What roundoff leaves of a response at most: no error of a model is as small.
+const MAX_ROUNDOFF_OVER_RESPONSE: f64 = 1e-5;
+
 /// Beside a given noise and the errors of modes, shapes and factors a response may be off by this part of itself: no model is
 /// better between resonances. What is more is not explained.
 const MAX_REST: f64 = 0.05;
@@ -283,6 +286,9 @@ fn explanation(search: &Search<'_, '_>, starts: &[Vec<f64>]) -> Option<Explanati
     let right_model = || if given.is_empty() { None } else { right_model() };
     let whole = search.fitting(&rough.0, &rough.1, &search.lines);
     let sized = data.given_sizes.any() || search.mesh.is_some();
+    if !sized && data.is_exact() {
+        return right_model();
+    }
     let is_noise = || data.is_noise(&right, data.numbers(&search.lines), curves);
     if !sized && is_noise() && data.promise(&whole, &right, &given)? <= -RIGHT_MODEL_NATS {
         return right_model();
@@ -658,14 +664,24 @@ impl<'a> Measured<'_, 'a> {
         self.noise_scale == NoiseScale::Known
     }
 
+    /// Whether several sensors agree at each frequency to roundoff: the model is right then, whatever the modulus does.
+    fn is_exact(&self) -> bool {
+        let level = self.level_per_frequency.filter(|_| !self.known() && self.counted_sensors() > 1);
+        level.is_some_and(|level| level <= MAX_ROUNDOFF_OVER_RESPONSE)
+    }
+
+    /// Sensors that are not left out.
+    fn counted_sensors(&self) -> usize {
+        self.sigma[0].iter().filter(|sigma| sigma.is_finite()).count()
+    }
+
     /// Whether noise is all that a smooth modulus leaves.
     fn is_noise(&self, right: &Explained, numbers: usize, curves: &Curves) -> bool {
         let n = numbers as f64;
         match self.known() {
             true => is_chance(right.found.normal.chi_squared, n),
             false => {
-                let sensors = self.sigma[0].iter().filter(|sigma| sigma.is_finite()).count();
-                let contradicted = sensors > 1 || curves.smooth().is_empty();
+                let contradicted = self.counted_sensors() > 1 || curves.smooth().is_empty();
                 let least = if contradicted { MIN_NOISE_OVER_RESPONSE } else { MIN_NOISE_OF_ONE_SENSOR };
                 let usual = self.level_per_frequency.map_or(0.0, |level_per_frequency| {
                     level_per_frequency * (1.0 + NOISE_CHI_SQUARED_STD / n.sqrt())
