@@ -378,14 +378,18 @@ fn model_errors(job: &IdentifyJob, errors: &ModelErrorsFound) -> String {
     format!("{sizes} taken out, and in the error bars{}{known}", worst.unwrap_or_default())
 }
 
+/// What an unknown is called.
+fn unknown_name(job: &IdentifyJob, unknown: usize) -> Option<&str> {
+    Some(job.identify()?.unknowns.get(unknown)?.name.as_str())
+}
+
 /// The known factors of which an error moves an unknown by more than itself, the worst first.
 fn leverage(job: &IdentifyJob) -> Option<String> {
     const SHOWN: usize = 2;
     let mut large: Vec<&Leverage> = job.run.found.leverage.iter().filter(|one| one.change > 1.0).collect();
     large.sort_by(|a, b| b.change.total_cmp(&a.change));
-    let unknowns = job.identify().map_or(&[][..], |identify| identify.unknowns.as_slice());
     let one = |one: &&Leverage| {
-        let unknown = unknowns.get(one.unknown).map_or("the factor", |unknown| unknown.name.as_str());
+        let unknown = unknown_name(job, one.unknown).unwrap_or("the factor");
         format!("1 % in {} moves {unknown} by {:.1} %", job.case.model.terms()[one.term].name, one.change)
     };
     let said: Vec<String> = large.iter().take(SHOWN).map(one).collect();
@@ -394,9 +398,8 @@ fn leverage(job: &IdentifyJob) -> Option<String> {
 
 /// Where moduli are those of no causal material.
 fn breaches(job: &IdentifyJob) -> Vec<String> {
-    let unknowns = job.identify().map_or(&[][..], |identify| identify.unknowns.as_slice());
     let one = |breach: &CausalityBreach| {
-        let unknown = unknowns.get(breach.unknown).map_or("the modulus", |unknown| unknown.name.as_str());
+        let unknown = unknown_name(job, breach.unknown).unwrap_or("the modulus");
         let [from, to] = breach.range_hz;
         format!(
             "{unknown} is not the modulus of a causal material at {from:.0} to {to:.0} Hz: it falls, or rises faster than its loss factor allows"

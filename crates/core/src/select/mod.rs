@@ -108,22 +108,28 @@ pub fn choose(frequency_hz: &[f64], nodes: &[Vec<Node>], options: &SelectOptions
     };
     let nothing = Choice { chosen: None, alternatives: Vec::new(), margin: f64::INFINITY };
     let band = Band::likeliest(scatters.len(), nodes.len(), band);
-    let agreed = agreement(&band, options.margin).filter(|_| options.sensors > 1 && noise.is_all());
-    let by_agreement = |k: usize| {
-        let (index, margin) = agreed.as_ref()?[k]?;
-        Some(Choice { chosen: Some(band.points[k][index].node), alternatives: Vec::new(), margin })
-    };
-    let all_by_agreement =
-        || (0..nodes.len()).map(|k| by_agreement(k).unwrap_or_else(|| nothing.clone())).collect();
+    let can_agree = options.sensors > 1 && noise.is_all();
+    let agreed = if can_agree { agreement(&band, options.margin) } else { None };
+    let agreed = agreed.map(|agreed| -> Vec<Choice> {
+        let of = |points: &[Point], (index, margin): (usize, f64)| Choice {
+            chosen: Some(points[index].node),
+            margin,
+            ..nothing.clone()
+        };
+        let each = band.points.iter().zip(agreed);
+        each.map(|(points, one)| one.map_or_else(|| nothing.clone(), |one| of(points, one))).collect()
+    });
     let tracks = tracks(band.clone(), options.margin);
-    let Some((best, rivals)) = tracks.split_first() else { return all_by_agreement() };
+    let Some((best, rivals)) = tracks.split_first() else {
+        return agreed.unwrap_or_else(|| vec![nothing; nodes.len()]);
+    };
     let rivals: Vec<_> = rivals.iter().filter(|rival| rival.score < best.score + options.margin).collect();
     let curvature = best.restricted().curvature();
     let (mut path, costs) = best.band.through_each(curvature);
     bridge(&mut path, &best.chosen);
     // A material on which most of the band lies needs no sensors to overrule it.
-    if agreed.is_some() && !band.is_covered(&path) {
-        return all_by_agreement();
+    if let Some(agreed) = agreed.filter(|_| !band.is_covered(&path)) {
+        return agreed;
     }
     let choose_at = |k: usize| {
         let mut choice = nothing.clone();

@@ -199,22 +199,22 @@ fn inputs_json(case: &Case) -> Vec<Value> {
 /// A sensor, and what it says of the answers: its misfit over its deviation (root mean square).
 fn sensor(case: &Case, run: &IdentifyRun, m: usize) -> Value {
     let sensor = &case.sensors[m];
-    let mut told = json!({"label": sensor.label, "quantity": sensor.quantity.name()});
+    let mut of_sensor = json!({"label": sensor.label, "quantity": sensor.quantity.name()});
     let channels = case.identify.as_ref().map_or(&[][..], |identify| &identify.channels);
     let unknown = channels.get(m).copied().unwrap_or_default();
     let found = run.found.channels.get(m).copied().unwrap_or_default();
     let asked = [("scale", unknown.scale, found.scale), ("delay_s", unknown.delay, found.delay_s)];
     for (key, _, found) in asked.into_iter().filter(|(_, asked, _)| *asked) {
-        told[key] = json!(found.map(|found| found.value));
-        told[format!("{key}_std")] = json!(found.and_then(|found| found.std));
+        of_sensor[key] = json!(found.map(|found| found.value));
+        of_sensor[format!("{key}_std")] = json!(found.and_then(|found| found.std));
     }
     if let Some(fit) = run.found.sensors.get(m) {
-        told["misfit"] = json!(fit.misfit);
-        told["contradicts"] = json!(fit.contradicts);
-        told["dead"] = json!(fit.dead);
-        told["left_out"] = json!(fit.left_out);
+        of_sensor["misfit"] = json!(fit.misfit);
+        of_sensor["contradicts"] = json!(fit.contradicts);
+        of_sensor["dead"] = json!(fit.dead);
+        of_sensor["left_out"] = json!(fit.left_out);
     }
-    told
+    of_sensor
 }
 
 /// How large the noise is, and what tells it: `level` is in units of what `deviation` names.
@@ -240,11 +240,15 @@ fn model_error_json(known: ModelErrors) -> Value {
     }
 }
 
+/// What an unknown is called.
+fn unknown_name(case: &Case, unknown: usize) -> Option<&str> {
+    Some(case.identify.as_ref()?.unknowns.get(unknown)?.name.as_str())
+}
+
 /// How far 1 % of each known factor moves each unknown, in per cent.
 fn leverage_json(case: &Case, found: &Identification) -> Vec<Value> {
-    let names = case.identify.as_ref().map_or(&[][..], |identify| identify.unknowns.as_slice());
     let one = |one: &Leverage| {
-        let unknown = names.get(one.unknown).map(|unknown| unknown.name.as_str());
+        let unknown = unknown_name(case, one.unknown);
         json!({"matrix": case.model.terms()[one.term].name, "unknown": unknown, "percent_by_percent": one.change})
     };
     found.leverage.iter().map(one).collect()
@@ -252,11 +256,7 @@ fn leverage_json(case: &Case, found: &Identification) -> Vec<Value> {
 
 /// Where a modulus is that of no causal material.
 fn breaches_json(case: &Case, found: &Identification) -> Vec<Value> {
-    let names = case.identify.as_ref().map_or(&[][..], |identify| identify.unknowns.as_slice());
-    let one = |breach: &CausalityBreach| {
-        let unknown = names.get(breach.unknown).map(|unknown| unknown.name.as_str());
-        json!({"unknown": unknown, "range_hz": breach.range_hz})
-    };
+    let one = |breach: &CausalityBreach| json!({"unknown": unknown_name(case, breach.unknown), "range_hz": breach.range_hz});
     found.causality_breaches.iter().map(one).collect()
 }
 

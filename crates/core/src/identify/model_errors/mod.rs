@@ -377,8 +377,8 @@ pub(super) fn estimate_with_laws(
 }
 
 /// Prior standard deviations of the errors of factors: what the model says, or what is usual. The stiffness matrix of an unknown has an error too.
-/// The data cannot tell it from the unknown, which is therefore as uncertain. Natural frequencies that are good to s leave a stiffness with the share p of the
-/// strain energy 2s/p.
+/// The data cannot separate it from the unknown, which is therefore as uncertain. Where natural frequencies are good to s, a stiffness with the share p of the
+/// strain energy is good to 2s/p.
 fn priors(at: &ModelAt<'_>, sizes: ErrorSizes, share_of_unknowns: f64) -> Vec<FactorPrior> {
     let of_unknown = 2.0 * FREQUENCY_PRIOR_STD / share_of_unknowns;
     let of_unknown = of_unknown.clamp(FACTOR_PRIOR_STD, MAX_FACTOR_PRIOR_STD);
