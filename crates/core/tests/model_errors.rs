@@ -16,7 +16,7 @@ use frfit::linalg::sparse::{SymmetricMatrix, Triplets, Values};
 use frfit::material::{Law, loss_factor};
 use frfit::model::{DynamicStiffness, Experiment, FactorStd, Parameter, Role, Sensor, Term};
 use frfit::response::{FullModel, Response};
-use frfit_fem::{Beam, Direction};
+use frfit_fem::{Beam, Direction, Plate, Support};
 use std::f64::consts::TAU;
 
 /// What was measured on a truth.
@@ -347,7 +347,7 @@ fn natural_hz(model: &DynamicStiffness, highest: f64) -> Vec<f64> {
         }
         SymmetricMatrix::new(pattern.clone(), Values::Real(values.iter().map(|value| value.re).collect()))
     };
-    let all = lowest(&sum(Role::Stiffness), &sum(Role::Mass), 8).unwrap().frequencies_hz();
+    let all = lowest(&sum(Role::Stiffness), &sum(Role::Mass), 16).unwrap().frequencies_hz();
     all.into_iter().filter(|&f| f < highest).collect()
 }
 
@@ -505,6 +505,72 @@ fn a_right_model_is_left_as_it_is() {
             let estimated = measured.identified(&sandwich(12, 1), varies.clone(), ModelErrors::Estimated);
             assert_eq!(estimated.model_errors, None);
             assert!(estimated.lines == as_it_is.lines);
+        }
+    }
+}
+
+/// A plate with thirteen modes that are narrower than its mesh is off, on lines that lie farther apart than that, and one sensor. The nearest minimum has modes at wrong
+/// places; each is tried at all of them, and the answer does not depend on the start.
+#[test]
+fn a_lightly_damped_plate_on_a_coarse_mesh_is_found() {
+    let truth = c64::new(7e10, 1.2e8);
+    let on_mesh = |elements: usize| -> (DynamicStiffness, Experiment) {
+        let edges = [Support::Clamped, Support::Free, Support::Free, Support::Free];
+        let (sides, elements) = ([0.5, 0.4], [elements; 2]);
+        let plate =
+            Plate { sides, thickness: 0.003, elements, edges, ..Plate::default() }.assemble().unwrap();
+        let at = |at: [f64; 3]| {
+            let row = plate.row(plate.nearest(at).unwrap(), Direction::Z).unwrap();
+            Sensor { row, sign: 1.0 }
+        };
+        let term = |name: &str, role, matrix: &SymmetricMatrix, factor| Term {
+            name: name.into(),
+            role,
+            matrix: matrix.clone(),
+            factor: Law::Constant(factor),
+        };
+        let stiffness = term("plate", Role::Stiffness, &plate.stiffness[0], truth);
+        let mass = term("mass", Role::Mass, &plate.mass[0], c64::new(2700.0, 0.0));
+        let model = DynamicStiffness::new(vec![stiffness, mass]).unwrap();
+        let dim = model.dim();
+        // Nodes of all three meshes.
+        (model, Experiment::driven_at(dim, at([0.375, 0.1, 0.0]), vec![at([0.5, 0.3, 0.0])]))
+    };
+    let (right, experiment) = on_mesh(24);
+    let frequency_hz = linear_hz(8.0, 400.0, 200);
+    let mut dice = Dice::new(11);
+    let measured = |&f: &f64| -> Vec<c64> {
+        let x = FullModel::new(right.at(f, &[]).unwrap(), &experiment).unwrap().solve_at(&[]).unwrap();
+        x.iter().map(|x| x * (1.0 + 0.008 * dice.complex() / 2f64.sqrt())).collect()
+    };
+    let u: Vec<Vec<c64>> = frequency_hz.iter().map(measured).collect();
+    let (model, experiment) = on_mesh(8);
+    let off: Vec<f64> =
+        natural_hz(&right, 400.0).iter().zip(natural_hz(&model, 400.0)).map(|(a, b)| a / b - 1.0).collect();
+    for nominal in
+        [1.2].into_iter().chain(of_tier(None, Some([0.6, 0.75, 0.85, 1.1, 1.5])).into_iter().flatten())
+    {
+        let frfs = Frfs { frequency_hz: &frequency_hz, receptance: &u, noise: Noise::Unknown };
+        let unknown =
+            Unknown { varies: Variation::Smooth, ..Unknown::factor_of(&model, &["plate"]).unwrap() };
+        let unknowns = [Unknown { nominal: Law::Constant(nominal * truth), ..unknown }];
+        let problem = Problem::new(&model, &experiment, &unknowns, &[], frfs).unwrap();
+        let context = Context { for_each: &sequential, progress: &|_, _, _| {} };
+        let found = identify(&problem, &Options::default(), context).unwrap();
+        let is_within = |line: &&frfit::identify::Line| {
+            let bar = line.uncertainty().unwrap().storage_std;
+            (line.factor().unwrap().re - truth.re).abs() < 2.0 * bar
+        };
+        let ok: Vec<_> = found.lines.iter().filter(|line| line.status == Status::Ok).collect();
+        let within = ok.iter().copied().filter(is_within).count();
+        assert!(ok.len() > 160 && within == ok.len(), "{nominal}: {} ok, {within} within 2σ", ok.len());
+        for (k, (mode, off)) in found.model_errors.unwrap().modes.iter().zip(&off).enumerate() {
+            assert!(
+                (mode.error - off).abs() < 3.0 * mode.std,
+                "{nominal}: mode {k}, {} ± {}, {off}",
+                mode.error,
+                mode.std
+            );
         }
     }
 }

@@ -119,6 +119,9 @@ const RIGID_BODY_RATIO: f64 = 1e-4;
 /// A share of a mode's strain energy below which an error there is none of the mode.
 const MIN_ENERGY_SHARE: f64 = 0.02;
 
+/// What a mode has at a place counts as at least this part of what modes usually have there: beneath it is a node.
+const MAX_USUAL_OVER_OWN: f64 = 30.0;
+
 /// A stiffness is stretched exponentially up to this exponent, and in proportion beyond.
 const MAX_EXPONENT: f64 = 1.0;
 
@@ -456,6 +459,17 @@ impl Modes {
         let squares: Vec<f64> =
             each.filter_map(|(_, shares)| shares.get(1)).map(|share| share * share).collect();
         if squares.is_empty() { 1.0 } else { (squares.iter().sum::<f64>() / squares.len() as f64).sqrt() }
+    }
+
+    /// What modes usually have at the load (0) or at a sensor (m + 1), a root mean square, over what one has, and 1 at least.
+    pub(crate) fn usual_over_own(&self, place: usize, mode: usize) -> f64 {
+        let at: Vec<f64> = match place.checked_sub(1) {
+            None => self.load.iter().map(|own| own.norm()).collect(),
+            Some(m) => self.sensors[m].iter().map(|own| own.abs()).collect(),
+        };
+        let usual = (at.iter().map(|own| own * own).sum::<f64>() / at.len() as f64).sqrt();
+        let ratio = usual / at[mode];
+        if ratio > 1.0 { ratio.min(MAX_USUAL_OVER_OWN) } else { 1.0 }
     }
 
     /// The errors of a mode's natural frequency.

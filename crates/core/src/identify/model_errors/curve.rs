@@ -316,6 +316,13 @@ impl Curves {
         (0..self.each.len()).filter(|&j| matches!(self.each[j].0, Curve::Spline(_))).collect()
     }
 
+    /// Multiplies a smooth unknown by exp(by).
+    pub(super) fn scale(&self, theta: &mut [f64], unknown: usize, by: f64) {
+        if let (Curve::Spline(spline), range) = &self.each[unknown] {
+            theta[range.clone()].iter_mut().take(spline.knots()).for_each(|log| *log += by);
+        }
+    }
+
     /// Everything at a line; `None` where a number is not finite.
     pub(super) fn values(&self, theta: &[f64], line: usize, omega: f64) -> Option<Values> {
         let (mut values, mut slopes) = (Vec::with_capacity(self.each.len()), Vec::with_capacity(theta.len()));
@@ -334,9 +341,16 @@ impl Curves {
         Some(slopes.into_iter().map(own).collect())
     }
 
-    /// What each sensor shows of a response at θ.
+    /// The share of a response that each sensor shows at θ; none where all show all of it.
     pub(super) fn shares(&self, theta: &[f64], omega_rad_s: f64) -> Vec<c64> {
         self.channels.shares(theta, omega_rad_s / TAU)
+    }
+
+    /// What the sensors show of a response at θ.
+    pub(super) fn shown(&self, theta: &[f64], omega_rad_s: f64, response: &[c64]) -> Vec<c64> {
+        let shares = self.shares(theta, omega_rad_s);
+        let one = |(m, x): (usize, &c64)| shares.get(m).map_or(*x, |share| share * x);
+        response.iter().enumerate().map(one).collect()
     }
 
     /// The precision of what is known beforehand about a centre, n × n; see [`Curve::precision`].

@@ -25,6 +25,7 @@ mod mesh;
 mod scatter;
 mod search;
 mod split;
+mod tuned;
 
 use super::goodness_of_fit::GoodnessOfFit;
 use super::noise::{Noise, beside};
@@ -103,6 +104,10 @@ const ADDED_NOISE: [f64; 6] = [1.0, 0.3, 0.1, 0.03, 0.01, 0.003];
 const MAX_STAGES: usize = 8;
 const ADDED_STAGE_NOISE: [f64; 2] = [1.0, 0.2];
 const STAGE_STEPS: usize = 3;
+
+/// How often a start is tuned, and the first of the levels of added noise then: more would let go what was found.
+const MAX_TUNINGS: usize = 2;
+const TUNED_LEVELS: usize = 2;
 
 /// Noise over response above which a fit is looked for from other starts too.
 const USUAL_NOISE: f64 = 0.01;
@@ -293,7 +298,7 @@ fn explanation(search: &Search<'_, '_>, starts: &[Vec<f64>]) -> Option<Explanati
     if !sized && is_noise() && data.promise(&whole, &right, &given)? <= -RIGHT_MODEL_NATS {
         return right_model();
     }
-    let coarse = search.fitting(&rough.0, &rough.1, &search.some);
+    let coarse = Fitting { free_nodes: false, ..search.fitting(&rough.0, &rough.1, &search.some) };
     let from = |place: Place, kinds: Kinds, from_above: &[f64]| -> Option<Explained> {
         let near = search.smaller(&search.points(&place), NEIGHBOURHOOD_TOL);
         let fitting = Fitting { kinds, ..search.fitting(&near.0, &near.1, &search.lines) };
@@ -314,9 +319,21 @@ fn explanation(search: &Search<'_, '_>, starts: &[Vec<f64>]) -> Option<Explanati
     let mut wrong = fitted(at_starts(), Kinds::STIFFNESS)?;
     wrong = better(wrong, fitted(at_starts(), Kinds::MASSES));
     if !data.is_explained(&wrong, &search.lines) {
-        let stiffness = Fitting { kinds: Kinds::STIFFNESS, ..whole };
+        let stiffness = Fitting { kinds: Kinds::STIFFNESS, free_nodes: false, ..whole };
         let upwards = starts.iter().filter_map(|start| data.upwards(&stiffness, start)).collect();
         wrong = better(wrong, fitted(upwards, Kinds::STIFFNESS));
+    }
+    let used = |line: usize, sensor: usize| data.sigma[line][sensor].is_finite();
+    for start in starts {
+        let mut place = whole.start(&curves.straight(start));
+        for _ in 0..MAX_TUNINGS {
+            if data.is_explained(&wrong, &search.lines) {
+                break;
+            }
+            let tuned = from(whole.tuned(place, &used)?, Kinds::STIFFNESS, &ADDED_NOISE[TUNED_LEVELS..])?;
+            place = tuned.found.place.clone();
+            wrong = better(wrong, Some(tuned));
+        }
     }
     // Errors that the data do not determine stay in the bars: masses and common damping are left out only where they are clearly worse.
     // Damping of single modes can stand in for a loss factor that varies with frequency, so it has to explain the band better.
@@ -344,7 +361,7 @@ fn explanation(search: &Search<'_, '_>, starts: &[Vec<f64>]) -> Option<Explanati
     if !sized && evidence <= -RIGHT_MODEL_NATS {
         // No material scatters from line to line. Where only that explains the band, and not all of it, it is another model.
         let scatters = least < right.evidence - 2.0 * RIGHT_MODEL_NATS;
-        let rest = data.fit.is_some_and(|fit| fit.is_nearly_explained());
+        let rest = data.fit.is_none_or(|fit| fit.is_nearly_explained());
         return if scatters && rest { Some(Explanation::OtherModel) } else { right_model() };
     }
     if !fine.are_small(&wrong.found.place, data.given_sizes) {
@@ -500,6 +517,7 @@ impl<'t, 'a> Search<'t, 'a> {
             kinds: Kinds::ALL,
             mesh: self.mesh.as_ref().filter(|_| !modes.omega_rad_s.is_empty()),
             known: KnownSizes::new(self.data.given_sizes, self.mesh.as_ref()),
+            free_nodes: true,
             for_each: self.for_each,
         }
     }

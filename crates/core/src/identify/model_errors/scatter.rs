@@ -57,10 +57,8 @@ impl Measured<'_, '_> {
             true => self.sigma_at(&[line], 1.0, 0.0).concat(),
             false => self.sigma[line].clone(),
         };
-        let shares = search.curves.shares(search.centre, self.omegas[line]);
-        let shown = |(m, x): (usize, &c64)| shares.get(m).map_or(*x, |share| share * x);
-        let shown = own.updated_response.iter().enumerate().map(shown);
-        let each = shown.zip(&self.measured[line]).zip(&sigma);
+        let shown = search.curves.shown(search.centre, self.omegas[line], &own.updated_response);
+        let each = shown.iter().zip(&self.measured[line]).zip(&sigma);
         let unknown = |&j: &usize| {
             let value = own.values[j].value.filter(|value| own.on_path && value.re > 0.0)?;
             Some((value, own.values[j].uncertainty?.storage_std / value.norm()))

@@ -38,6 +38,8 @@ pub(super) struct Fitting<'t, 'a> {
     pub(super) mesh: Option<&'t BetweenMeshes>,
     /// What is known of the sizes of errors.
     pub(super) known: KnownSizes,
+    /// Whether shapes near nodes may have any value: far from the answer that only lets a mode vanish that is at another frequency.
+    pub(super) free_nodes: bool,
     pub(super) for_each: ForEach<'t>,
 }
 
@@ -248,7 +250,7 @@ impl Fitting<'_, '_> {
         self.first_own() + self.stiffness_errors()
     }
 
-    fn first_load(&self) -> usize {
+    pub(super) fn first_load(&self) -> usize {
         self.first_mass() + if self.modes() > 0 { self.sensors() } else { 0 }
     }
 
@@ -256,7 +258,7 @@ impl Fitting<'_, '_> {
         self.first_factor() + self.factors.len()
     }
 
-    fn first_shape(&self, sensor: usize) -> usize {
+    pub(super) fn first_shape(&self, sensor: usize) -> usize {
         self.shared() + sensor * self.modes()
     }
 
@@ -265,17 +267,21 @@ impl Fitting<'_, '_> {
         self.first_load()..self.count()
     }
 
-    /// How much larger the error of a mode is than in the band: above it errors of meshes grow with the square of the frequency. Of the
-    /// coordinate of an own δ or of an a; 1 of what modes have in common.
+    /// How much larger the error of a mode is than usual, of the coordinate of an own δ or of an a; 1 of what modes have in common. Above the band errors of
+    /// meshes grow with the square of the frequency. Near a node of its shape the error of that is a part of what modes usually have there.
     pub(super) fn growth(&self, coordinate: usize) -> f64 {
         if coordinate < self.first_own() {
             return 1.0;
         }
-        let mode = match self.shapes().contains(&coordinate) {
-            true => (coordinate - self.first_load()) % self.modes(),
-            false => self.modes.of_error[coordinate - self.first_own()],
+        let of_shape =
+            coordinate.checked_sub(self.first_load()).filter(|_| self.shapes().contains(&coordinate));
+        let mode = match of_shape {
+            Some(k) => k % self.modes(),
+            None => self.modes.of_error[coordinate - self.first_own()],
         };
-        (self.modes.omega_rad_s[mode] / self.highest_rad_s).powi(2).max(1.0)
+        let above_band = (self.modes.omega_rad_s[mode] / self.highest_rad_s).powi(2).max(1.0);
+        let at_node = |k: usize| self.modes.usual_over_own(k / self.modes(), mode);
+        above_band * of_shape.filter(|_| self.free_nodes).map_or(1.0, at_node)
     }
 
     /// Own parts of δ and ε.
@@ -369,9 +375,12 @@ impl Fitting<'_, '_> {
         let largest = |usual: f64, given: Option<f64>| {
             usual.max(MAX_ERROR_OVER_GIVEN_SIZE * given.unwrap_or(0.0)).powi(2)
         };
-        let of_shapes = |shape: &Vec<f64>| square(&|i| shape[i]) <= largest(MAX_SHAPE_ERROR, given.shape);
+        let of_shapes = |(place, shape): (usize, &Vec<f64>)| {
+            let error = |i: usize| shape[i] / self.modes.usual_over_own(place, i);
+            square(&error) <= largest(MAX_SHAPE_ERROR, given.shape)
+        };
         square(&frequency) <= largest(MAX_FREQUENCY_ERROR, given.frequency)
-            && errors.shape.iter().chain([&errors.load]).all(of_shapes)
+            && std::iter::once(&errors.load).chain(&errors.shape).enumerate().all(of_shapes)
     }
 
     /// Coordinates that the search moves.
@@ -494,12 +503,21 @@ impl Fitting<'_, '_> {
 
     /// |u_m − x_m|² at each of the lines; `None` where the response is not finite.
     pub(super) fn squares(&self, place: &[f64]) -> Option<Vec<Vec<f64>>> {
-        let errors = self.errors(place);
-        let model = self.model.with_errors(self.modes, &errors);
-        let at_line = |k: usize| -> Option<Vec<f64>> {
+        let squares = |(&i, x): (&usize, Vec<c64>)| {
+            self.measured[i].iter().zip(x).map(|(u, x)| (u - x).norm_sqr()).collect()
+        };
+        Some(self.lines.iter().zip(self.responses(place)?).map(squares).collect())
+    }
+
+    /// x_m at each of the lines; `None` where it is not finite.
+    pub(super) fn responses(&self, place: &[f64]) -> Option<Vec<Vec<c64>>> {
+        let model = self.model.with_errors(self.modes, &self.errors(place));
+        let at_line = |k: usize| -> Option<Vec<c64>> {
             let i = self.lines[k];
-            let (shown, _) = self.shown(&model, &errors, place, i)?;
-            Some(self.measured[i].iter().zip(shown.response).map(|(u, x)| (u - x).norm_sqr()).collect())
+            let (values, _) = self.curves.values(place, i, self.omegas[i])?;
+            let point = (self.point)(i, &values)?;
+            let (response, _) = model.respond_with_slope(&point.at, point.correction).ok()?;
+            Some(self.curves.shown(place, self.omegas[i], &response))
         };
         map(self.for_each, self.lines.len(), at_line).into_iter().collect()
     }
