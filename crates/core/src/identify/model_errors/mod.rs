@@ -105,8 +105,7 @@ const MAX_STAGES: usize = 8;
 const ADDED_STAGE_NOISE: [f64; 2] = [1.0, 0.2];
 const STAGE_STEPS: usize = 3;
 
-/// How often a start is tuned, and the first of the levels of added noise then: more would let go what was found.
-const MAX_TUNINGS: usize = 2;
+/// The first level of added noise where coordinates were tried one by one: more would let go what was found.
 const TUNED_LEVELS: usize = 2;
 
 /// Noise over response above which a fit is looked for from other starts too.
@@ -326,13 +325,13 @@ fn explanation(search: &Search<'_, '_>, starts: &[Vec<f64>]) -> Option<Explanati
     let used = |line: usize, sensor: usize| data.sigma[line][sensor].is_finite();
     for start in starts {
         let mut place = whole.start(&curves.straight(start));
-        for _ in 0..MAX_TUNINGS {
-            if data.is_explained(&wrong, &search.lines) {
+        while !data.is_explained(&wrong, &search.lines) {
+            let tuned = from(whole.tuned(place, &used)?, Kinds::STIFFNESS, &ADDED_NOISE[TUNED_LEVELS..])?;
+            if tuned.evidence > wrong.evidence - 2.0 * RIGHT_MODEL_NATS {
                 break;
             }
-            let tuned = from(whole.tuned(place, &used)?, Kinds::STIFFNESS, &ADDED_NOISE[TUNED_LEVELS..])?;
             place = tuned.found.place.clone();
-            wrong = better(wrong, Some(tuned));
+            wrong = tuned;
         }
     }
     // Errors that the data do not determine stay in the bars: masses and common damping are left out only where they are clearly worse.
