@@ -26,7 +26,7 @@ const SWEEPS: usize = 3;
 const MAX_SHARE: f64 = 3.0;
 
 impl Fitting<'_, '_> {
-    /// From a place to where the response is least unlike the measured one, coordinate after coordinate: each smooth unknown as a whole, then each natural
+    /// From a place to the least mismatch with the measured response, coordinate after coordinate: each smooth unknown as a whole, then each natural
     /// frequency of the band by the lines about it, with the shapes that suit best there. `used` says which (line, sensor) count.
     pub(super) fn tuned(&self, mut place: Place, used: &dyn Fn(usize, usize) -> bool) -> Option<Place> {
         for _ in 0..SWEEPS {
@@ -42,7 +42,7 @@ impl Fitting<'_, '_> {
                 let mut there = place.clone();
                 self.curves.scale(&mut there, unknown, part(k, SCALE_STEPS) * SCALE_RANGE);
                 let shown = self.responses(&there)?;
-                Some(((0..self.sensors()).map(|m| self.unlikeness(&shown, m, used)).sum(), there))
+                Some(((0..self.sensors()).map(|m| self.mismatch(&shown, m, used)).sum(), there))
             };
             place = least((-SCALE_STEPS..=SCALE_STEPS).filter_map(scaled))?;
         }
@@ -67,15 +67,15 @@ impl Fitting<'_, '_> {
                 let mut there = place.clone();
                 there[coordinate] += part(k, FREQUENCY_STEPS) * FREQUENCY_RANGE;
                 let unusual = (there[coordinate] / UNUSUAL_ERROR).powi(2);
-                let (unlikeness, there) = about.with_best_shapes(there, mode, used)?;
-                Some((unlikeness + unusual, there))
+                let (mismatch, there) = about.with_best_shapes(there, mode, used)?;
+                Some((mismatch + unusual, there))
             };
             place = least((-FREQUENCY_STEPS..=FREQUENCY_STEPS).filter_map(moved))?;
         }
         Some(place)
     }
 
-    /// A place with the shapes of a mode at the sensors that leave least of the measured response, relative to that, and how unlike they are then.
+    /// A place with the shapes of a mode at the sensors that leave least of the measured response, relative to that, and their mismatch then.
     fn with_best_shapes(
         &self,
         mut place: Place,
@@ -88,7 +88,7 @@ impl Fitting<'_, '_> {
             self.responses(&place)
         };
         let (without, with) = (with_share(0.0)?, with_share(1.0)?);
-        let mut unlikeness = 0.0;
+        let mut mismatch = 0.0;
         for m in 0..self.sensors() {
             let (mut of_mode, mut square) = (0.0, 0.0);
             let lines = self.lines.iter().zip(without.iter().zip(&with));
@@ -103,17 +103,17 @@ impl Fitting<'_, '_> {
                 x.iter().zip(y).map(|(x, y)| x + share * (y - x)).collect()
             };
             let shown: Vec<Vec<c64>> = without.iter().zip(&with).map(between).collect();
-            unlikeness += self.unlikeness(&shown, m, used);
+            mismatch += self.mismatch(&shown, m, used);
             place[self.first_shape(m) + mode] = share - 1.0;
         }
-        Some((unlikeness, place))
+        Some((mismatch, place))
     }
 
-    /// How unlike a sensor's response at the lines is to the measured one: of each line 0 where they are the same, and 2 at most.
-    fn unlikeness(&self, shown: &[Vec<c64>], m: usize, used: &dyn Fn(usize, usize) -> bool) -> f64 {
+    /// The mismatch of a sensor's response at the lines and the measured one: of each line 0 where they are the same, and 2 at most.
+    fn mismatch(&self, shown: &[Vec<c64>], m: usize, used: &dyn Fn(usize, usize) -> bool) -> f64 {
         let bounded = |u: c64, x: c64| (u - x).norm_sqr() / (u.norm_sqr() + x.norm_sqr());
         let lines = self.lines.iter().zip(shown).filter(|(i, _)| used(**i, m));
-        lines.map(|(&i, x)| bounded(self.measured[i][m], x[m])).filter(|unlike| unlike.is_finite()).sum()
+        lines.map(|(&i, x)| bounded(self.measured[i][m], x[m])).filter(|mismatch| mismatch.is_finite()).sum()
     }
 }
 
