@@ -4,7 +4,7 @@ use super::Projection;
 use super::reduced::SINGULAR;
 use crate::c64;
 use crate::model::{ModelAt, ParameterAt};
-use frfit_linalg::dense::{Lu, NoConvergence};
+use frfit_linalg::dense::{Lu, Matrix, NoConvergence};
 use frfit_linalg::solve::Breakdown;
 use frfit_linalg::vector::{norm, transpose_dot};
 
@@ -104,15 +104,21 @@ impl Projection {
     /// # Errors
     /// [`Breakdown`] where the reduced system is singular.
     pub fn respond(&self, at: &ModelAt<'_>) -> Result<Vec<c64>, Breakdown> {
+        self.respond_at(at, c64::default())
+    }
+
+    /// x_m with the correction c of the first parameter.
+    ///
+    /// # Errors
+    /// [`Breakdown`] where the reduced system is singular.
+    pub fn respond_at(&self, at: &ModelAt<'_>, correction: c64) -> Result<Vec<c64>, Breakdown> {
         let mut y = self.load.clone();
-        let factor = Lu::new(&self.combine(&self.parts.weights(&at.nominal)));
-        let factor = factor.map_err(|NoConvergence| Breakdown::NotFinite)?;
-        factor.solve(&mut y).map_err(|NoConvergence| SINGULAR)?;
+        solve(&self.combine(&weights(self, at, correction).0), &mut y)?;
         Ok(self.observe(&y))
     }
 
     /// ℓ_mᵀV y.
-    fn observe(&self, y: &[c64]) -> Vec<c64> {
+    pub(super) fn observe(&self, y: &[c64]) -> Vec<c64> {
         self.sensors.iter().map(|l| l.iter().zip(y).map(|(l, y)| y * l).sum()).collect()
     }
 
@@ -172,6 +178,12 @@ impl Projection {
         let total: Vec<c64> = twice.iter().zip(&bend).map(|(a, b)| 2.0 * a - b).collect();
         Ok(duals.iter().map(|z| transpose_dot(z, &total)).collect())
     }
+}
+
+/// x ← D⁻¹x of a reduced D, for as many columns as there are.
+pub(super) fn solve(dynamic_stiffness: &Matrix, x: &mut [c64]) -> Result<(), Breakdown> {
+    let factor = Lu::new(dynamic_stiffness).map_err(|NoConvergence| Breakdown::NotFinite)?;
+    factor.solve(x).map_err(|NoConvergence| SINGULAR)
 }
 
 impl AssessedSolution {

@@ -32,7 +32,7 @@ pub use assess::Assessment;
 pub use changes::{ChangePoint, Changed};
 pub(crate) use corrected::{Corrected, Local};
 pub(crate) use factor_error::FactorError;
-pub(crate) use modes::{ErrorSlopes, ModalErrors, Modes};
+pub(crate) use modes::{AlongMode, ErrorSlopes, ModalErrors, Modes};
 pub use pole_residue::{Drive, PoleResidue};
 pub use projection::Projection;
 pub use reduced::ReducedModel;

@@ -14,7 +14,7 @@
 //! $$ f_t \leftarrow (1 + \nu_t)(f_t + i \\, \Delta\eta_t \operatorname{Re} f_t) $$
 //! changes a known factor. What comes out is a reduced model like any other.
 
-use super::assess::{Solutions, weights};
+use super::assess::{Solutions, solve, weights};
 use super::{FactorError, Point, Projection};
 use crate::c64;
 use crate::model::{ModelAt, Role};
@@ -396,6 +396,63 @@ impl Projection {
     }
 }
 
+/// The response of a model at one frequency over the natural frequency of one mode and its shapes, everything else as it is.
+///
+/// With w = D⁻¹My_i and κ = k (t − t₀), where t is what [`Modes::change`] makes of δ_i and k the complex stiffness that goes with it,
+/// $$ x_m = \ell_m^T y - \frac{\kappa}{1 + \kappa s} p \, \ell_m^T w, \qquad s = (M y_i)^T w, \quad p = (M y_i)^T y. $$
+pub(crate) struct AlongMode {
+    /// ℓ_mᵀy and ℓ_mᵀw without the mode's share of ℓ_m.
+    without: Vec<[c64; 2]>,
+    /// (ℓ_mᵀy_i) of a right model.
+    own: Vec<f64>,
+    p: c64,
+    s: c64,
+    k: c64,
+    /// t₀.
+    change: f64,
+}
+
+impl AlongMode {
+    /// x_m without what sensor m shows of the mode, and what it shows of it where its shape is right there.
+    pub(crate) fn at(&self, change: f64) -> impl Iterator<Item = [c64; 2]> {
+        let kappa = self.k * (change - self.change);
+        let rest = (1.0 + kappa * self.s).inv();
+        let without = self.without.iter().map(move |[y, w]| y - kappa * rest * self.p * w);
+        without.zip(&self.own).map(move |(without, own)| [without, rest * self.p * own])
+    }
+}
+
+impl Projection {
+    /// Of a model that [`Self::with_errors`] gave, over an error of a natural frequency.
+    ///
+    /// # Errors
+    /// [`Breakdown`] where the system is singular.
+    pub(crate) fn along_mode(
+        &self,
+        (modes, errors): (&Modes, &ModalErrors),
+        error: usize,
+        at: &ModelAt<'_>,
+        correction: c64,
+    ) -> Result<AlongMode, Breakdown> {
+        let mode = modes.of_error[error];
+        let momentum: Vec<c64> = modes.momenta[mode].iter().map(|&m| m.into()).collect();
+        let theta = weights(self, at, correction).0;
+        let mut block = [self.load.as_slice(), &momentum].concat();
+        solve(&self.combine(&theta), &mut block)?;
+        let (y, w) = block.split_at(self.size);
+        let [p, s] = [y, w].map(|x| transpose_dot(&momentum, x));
+        let own: Vec<f64> = modes.sensors.iter().map(|sensor| sensor[mode]).collect();
+        let shown = self.observe(y).into_iter().zip(self.observe(w));
+        // The errors' ℓ_m has (1 + a) of the mode.
+        let share = |m: usize| (1.0 + errors.shape[m][mode]) * own[m];
+        let without = shown.enumerate().map(|(m, (y, w))| [y - share(m) * p, w - share(m) * s]).collect();
+        let parts = modes.stiffness.iter().enumerate().filter(|(_, of_error)| !of_error.is_empty());
+        let k: c64 = parts.map(|(g, of_error)| theta[g] * of_error[error]).sum();
+        let change = modes.change(error, errors.stiffness[error])[0].re;
+        Ok(AlongMode { without, own, p, s, k: (2.0 * errors.scale).exp() * k, change })
+    }
+}
+
 /// A += by (u vᵀ + v uᵀ)/2 for an r × r matrix.
 fn add_product(matrix: &mut [f64], by: f64, [u, v]: [&[f64]; 2]) {
     for (column, (u_column, v_column)) in matrix.chunks_exact_mut(u.len().max(1)).zip(u.iter().zip(v)) {
@@ -434,7 +491,7 @@ impl Modes {
 
     /// What of the stiffness of a mode an error changes, and the slope of that. Of a natural frequency it is e (exp(2δ/e) − 1) with the strain energy's share e: a factor exp(t)
     /// of a stiffness and δ = −et/2 of all modes cancel on a straight line, along which a search makes long steps.
-    fn change(&self, error: usize, by: f64) -> [c64; 2] {
+    pub(crate) fn change(&self, error: usize, by: f64) -> [c64; 2] {
         let share = self.share[error];
         if share.im != 0.0 || self.omega_rad_s[self.of_error[error]] == 0.0 {
             return [share * by, share];
@@ -720,6 +777,21 @@ mod tests {
             let mut moved = errors.clone();
             moved.shape[sensor][i] += step;
             check(&moved, &|slopes, m| if m == sensor { slopes.shape[m][i] } else { c64::default() });
+        }
+        // Far along one mode, with another share of it at the sensors.
+        let (far, share) = (0.02, 0.7);
+        for error in (0..modes.of_error.len()).filter(|&error| modes.is_of_frequency(error)) {
+            let along =
+                whole.with_errors(&modes, &errors).along_mode((&modes, &errors), error, &at, correction);
+            let change = modes.change(error, errors.stiffness[error] + far)[0].re;
+            let mut moved = errors.clone();
+            moved.stiffness[error] += far;
+            moved.shape.iter_mut().for_each(|shape| shape[modes.of_error[error]] = share - 1.0);
+            let expected = slopes(&moved).response;
+            for ([without, own], expected) in along.unwrap().at(change).zip(expected) {
+                let found = without + share * own;
+                assert!((found - expected).norm() < 1e-9 * expected.norm(), "{error}: {found} {expected}");
+            }
         }
     }
 }

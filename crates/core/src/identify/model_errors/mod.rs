@@ -323,8 +323,15 @@ fn explanation(search: &Search<'_, '_>, starts: &[Vec<f64>]) -> Option<Explanati
         wrong = better(wrong, fitted(upwards, Kinds::STIFFNESS));
     }
     let used = |line: usize, sensor: usize| data.sigma[line][sensor].is_finite();
-    for start in starts {
-        let mut place = whole.start(&curves.straight(start));
+    let mut scaled: Vec<(f64, Place)> = if data.is_explained(&wrong, &search.lines) {
+        Vec::new()
+    } else {
+        starts.iter().filter_map(|start| whole.scaled(whole.start(&curves.straight(start)), &used)).collect()
+    };
+    scaled.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let most = scaled.first().map_or(0.0, |(least, _)| MAX_MISMATCH_OVER_LEAST * least);
+    scaled.dedup_by(|a, b| distance(&a.1, &b.1) <= SAME_START);
+    for (_, mut place) in scaled.into_iter().filter(|(mismatch, _)| *mismatch <= most) {
         while !data.is_explained(&wrong, &search.lines) {
             let tuned = from(whole.tuned(place, &used)?, Kinds::STIFFNESS, &ADDED_NOISE[TUNED_LEVELS..])?;
             if tuned.evidence > wrong.evidence - 2.0 * RIGHT_MODEL_NATS {
@@ -564,6 +571,9 @@ fn is_chance(chi_squared: f64, n: f64) -> bool {
 /// A right model is one only where it explains a band by so many nats better: before the data errors are a hundred times as likely as none, and where
 /// the data cannot tell, they are in the bars.
 const RIGHT_MODEL_NATS: f64 = 5.0;
+
+/// Starts with more mismatch over the least of all are far from the answer.
+const MAX_MISMATCH_OVER_LEAST: f64 = 1.2;
 
 impl<'a> Measured<'_, 'a> {
     /// The model at a line of some curves.

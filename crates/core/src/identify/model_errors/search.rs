@@ -516,7 +516,7 @@ impl Fitting<'_, '_> {
             let i = self.lines[k];
             let (values, _) = self.curves.values(place, i, self.omegas[i])?;
             let point = (self.point)(i, &values)?;
-            let (response, _) = model.respond_with_slope(&point.at, point.correction).ok()?;
+            let response = model.respond_at(&point.at, point.correction).ok()?;
             Some(self.curves.shown(place, self.omegas[i], &response))
         };
         map(self.for_each, self.lines.len(), at_line).into_iter().collect()

@@ -7,10 +7,19 @@
 
 use super::search::{Fitting, Place};
 use crate::c64;
+use crate::for_each::map;
+use crate::identify::thinned::thinned;
+use crate::subspace::AlongMode;
 
 /// By how much an unknown as a whole is changed, in its logarithm, and in how many steps to either side.
 const SCALE_RANGE: f64 = 0.3;
 const SCALE_STEPS: i32 = 100;
+
+/// The steps that are tried where it is about right: 3 %.
+const NEAR_SCALE_STEPS: i32 = 32;
+
+/// Lines that are looked at where an unknown is tried all over its range: the measure is bounded, and no single one of them rules.
+const MAX_SCALE_LINES: usize = 150;
 
 /// How far off a natural frequency is looked for, and in how many steps to either side: up to 1 % each is a half-width of a loss factor of 0.2 %.
 const FREQUENCY_RANGE: f64 = 0.03;
@@ -20,33 +29,50 @@ const FREQUENCY_STEPS: i32 = 30;
 const UNUSUAL_ERROR: f64 = 0.05;
 
 /// How often all of them are gone through: where one is at a wrong place its neighbours have other shapes.
-const SWEEPS: usize = 3;
+const SWEEPS: usize = 2;
 
 /// What a sensor shows of a mode, over what it should: near a node of its shape that may be anything.
 const MAX_SHARE: f64 = 3.0;
 
 impl Fitting<'_, '_> {
-    /// From a place to the least mismatch with the measured response, coordinate after coordinate: each smooth unknown as a whole, then each natural
+    /// From a place to the least mismatch with the measured response, coordinate after coordinate: each smooth unknown as a whole near where it is, then each natural
     /// frequency of the band by the lines about it, with the shapes that suit best there. `used` says which (line, sensor) count.
     pub(super) fn tuned(&self, mut place: Place, used: &dyn Fn(usize, usize) -> bool) -> Option<Place> {
         for _ in 0..SWEEPS {
-            place = self.with_best_scales(place, used)?;
             place = self.with_best_frequencies(place, used)?;
+            place = self.with_best_scales(place, NEAR_SCALE_STEPS, used)?.1;
         }
-        Some(place)
+        self.with_best_frequencies(place, used)
     }
 
-    fn with_best_scales(&self, mut place: Place, used: &dyn Fn(usize, usize) -> bool) -> Option<Place> {
+    /// With each smooth unknown as a whole where it leaves least mismatch, all over its range; and how much that is, of each line and sensor.
+    pub(super) fn scaled(&self, place: Place, used: &dyn Fn(usize, usize) -> bool) -> Option<(f64, Place)> {
+        let lines: Vec<usize> = thinned(self.lines, MAX_SCALE_LINES).copied().collect();
+        let (mismatch, place) =
+            Fitting { lines: &lines, ..*self }.with_best_scales(place, SCALE_STEPS, used)?;
+        Some((mismatch / (lines.len() * self.sensors()) as f64, place))
+    }
+
+    /// The mismatch of all sensors with each smooth unknown where that is least, and the place.
+    fn with_best_scales(
+        &self,
+        mut place: Place,
+        most: i32,
+        used: &dyn Fn(usize, usize) -> bool,
+    ) -> Option<(f64, Place)> {
+        let mut mismatch = 0.0;
         for unknown in self.curves.smooth() {
             let scaled = |k: i32| -> Option<(f64, Place)> {
                 let mut there = place.clone();
                 self.curves.scale(&mut there, unknown, part(k, SCALE_STEPS) * SCALE_RANGE);
                 let shown = self.responses(&there)?;
-                Some(((0..self.sensors()).map(|m| self.mismatch(&shown, m, used)).sum(), there))
+                let of_sensor = |m: usize| self.mismatch(shown.iter().map(|x| x[m]), m, used);
+                Some(((0..self.sensors()).map(of_sensor).sum(), there))
             };
-            place = least((-SCALE_STEPS..=SCALE_STEPS).filter_map(scaled))?;
+            let each = (-most..=most).filter_map(scaled);
+            (mismatch, place) = each.min_by(|a, b| a.0.total_cmp(&b.0))?;
         }
-        Some(place)
+        Some((mismatch, place))
     }
 
     fn with_best_frequencies(&self, mut place: Place, used: &dyn Fn(usize, usize) -> bool) -> Option<Place> {
@@ -60,60 +86,88 @@ impl Fitting<'_, '_> {
             let near =
                 |&line: &usize| (self.omegas[line] / omega[mode] - 1.0).abs() <= gap.max(FREQUENCY_RANGE);
             let lines: Vec<usize> = self.lines.iter().copied().filter(near).collect();
-            let about = Fitting { lines: &lines, ..*self };
-            let Some(error) = self.modes.frequency_errors(mode).next() else { continue };
-            let coordinate = self.first_own() + error;
-            let moved = |k: i32| -> Option<(f64, Place)> {
-                let mut there = place.clone();
-                there[coordinate] += part(k, FREQUENCY_STEPS) * FREQUENCY_RANGE;
-                let unusual = (there[coordinate] / UNUSUAL_ERROR).powi(2);
-                let (mismatch, there) = about.with_best_shapes(there, mode, used)?;
-                Some((mismatch + unusual, there))
-            };
-            place = least((-FREQUENCY_STEPS..=FREQUENCY_STEPS).filter_map(moved))?;
+            place = Fitting { lines: &lines, ..*self }.with_best_frequency(place, mode, used)?;
         }
         Some(place)
     }
 
-    /// A place with the shapes of a mode at the sensors that leave least of the measured response, relative to that, and their mismatch then.
-    fn with_best_shapes(
+    fn with_best_frequency(
         &self,
         mut place: Place,
         mode: usize,
         used: &dyn Fn(usize, usize) -> bool,
-    ) -> Option<(f64, Place)> {
+    ) -> Option<Place> {
+        let Some(error) = self.modes.frequency_errors(mode).next() else { return Some(place) };
+        let coordinate = self.first_own() + error;
         place[self.first_load() + mode] = 0.0;
-        let mut with_share = |share: f64| {
-            (0..self.sensors()).for_each(|m| place[self.first_shape(m) + mode] = share - 1.0);
-            self.responses(&place)
+        let errors = self.errors(&place);
+        let model = self.model.with_errors(self.modes, &errors);
+        let along = |k: usize| -> Option<AlongMode> {
+            let i = self.lines[k];
+            let (values, _) = self.curves.values(&place, i, self.omegas[i])?;
+            let point = (self.point)(i, &values)?;
+            model.along_mode((self.modes, &errors), error, &point.at, point.correction).ok()
         };
-        let (without, with) = (with_share(0.0)?, with_share(1.0)?);
+        let along: Vec<AlongMode> =
+            map(self.for_each, self.lines.len(), along).into_iter().collect::<Option<_>>()?;
+        let moved = |k: i32| -> (f64, f64, Vec<f64>) {
+            let by = part(k, FREQUENCY_STEPS) * FREQUENCY_RANGE;
+            let change = self.modes.change(error, errors.stiffness[error] + by)[0].re;
+            let (mismatch, shares) = self.with_best_shapes(&place, &along, change, used);
+            (mismatch + ((place[coordinate] + by) / UNUSUAL_ERROR).powi(2), by, shares)
+        };
+        let each = (-FREQUENCY_STEPS..=FREQUENCY_STEPS).map(moved);
+        let (_, by, shares) = each.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        place[coordinate] += by;
+        for (m, share) in shares.iter().enumerate() {
+            place[self.first_shape(m) + mode] += share - 1.0 - errors.shape[m][mode];
+        }
+        Some(place)
+    }
+
+    /// What sensors show of a mode whose natural frequency is elsewhere, over what they should, so that least of the measured response is left, relative to
+    /// that; and the mismatch then.
+    fn with_best_shapes(
+        &self,
+        place: &[f64],
+        along: &[AlongMode],
+        change: f64,
+        used: &dyn Fn(usize, usize) -> bool,
+    ) -> (f64, Vec<f64>) {
+        let shown = |(&i, along): (&usize, &AlongMode)| -> [Vec<c64>; 2] {
+            let (without, own): (Vec<c64>, Vec<c64>) =
+                along.at(change).map(|[without, own]| (without, own)).unzip();
+            [without, own].map(|x| self.curves.shown(place, self.omegas[i], &x))
+        };
+        let shown: Vec<[Vec<c64>; 2]> = self.lines.iter().zip(along).map(shown).collect();
         let mut mismatch = 0.0;
-        for m in 0..self.sensors() {
+        let best = |m: usize| {
             let (mut of_mode, mut square) = (0.0, 0.0);
-            let lines = self.lines.iter().zip(without.iter().zip(&with));
-            for (&i, (without, with)) in lines.filter(|(i, _)| used(**i, m)) {
-                let (u, own) = (self.measured[i][m], with[m] - without[m]);
-                of_mode += (own.conj() * (u - without[m])).re / u.norm_sqr();
-                square += own.norm_sqr() / u.norm_sqr();
+            for (&i, [without, own]) in self.lines.iter().zip(&shown).filter(|(i, _)| used(**i, m)) {
+                let u = self.measured[i][m];
+                of_mode += (own[m].conj() * (u - without[m])).re / u.norm_sqr();
+                square += own[m].norm_sqr() / u.norm_sqr();
             }
             let share = Some(of_mode / square).filter(|share| share.is_finite()).unwrap_or(1.0);
             let share = share.clamp(-MAX_SHARE, MAX_SHARE);
-            let between = |(x, y): (&Vec<c64>, &Vec<c64>)| -> Vec<c64> {
-                x.iter().zip(y).map(|(x, y)| x + share * (y - x)).collect()
-            };
-            let shown: Vec<Vec<c64>> = without.iter().zip(&with).map(between).collect();
-            mismatch += self.mismatch(&shown, m, used);
-            place[self.first_shape(m) + mode] = share - 1.0;
-        }
-        Some((mismatch, place))
+            mismatch +=
+                self.mismatch(shown.iter().map(|[without, own]| without[m] + share * own[m]), m, used);
+            share
+        };
+        let shares = (0..self.sensors()).map(best).collect();
+        (mismatch, shares)
     }
 
     /// The mismatch of a sensor's response at the lines and the measured one: of each line 0 where they are the same, and 2 at most.
-    fn mismatch(&self, shown: &[Vec<c64>], m: usize, used: &dyn Fn(usize, usize) -> bool) -> f64 {
+    fn mismatch(
+        &self,
+        shown: impl Iterator<Item = c64>,
+        m: usize,
+        used: &dyn Fn(usize, usize) -> bool,
+    ) -> f64 {
         let bounded = |u: c64, x: c64| (u - x).norm_sqr() / (u.norm_sqr() + x.norm_sqr());
         let lines = self.lines.iter().zip(shown).filter(|(i, _)| used(**i, m));
-        lines.map(|(&i, x)| bounded(self.measured[i][m], x[m])).filter(|mismatch| mismatch.is_finite()).sum()
+        lines.map(|(&i, x)| bounded(self.measured[i][m], x)).filter(|mismatch| mismatch.is_finite()).sum()
     }
 }
 
@@ -121,8 +175,4 @@ impl Fitting<'_, '_> {
 fn part(step: i32, steps: i32) -> f64 {
     let part = f64::from(step) / f64::from(steps);
     part * part.abs()
-}
-
-fn least(each: impl Iterator<Item = (f64, Place)>) -> Option<Place> {
-    Some(each.min_by(|a, b| a.0.total_cmp(&b.0))?.1)
 }
