@@ -465,6 +465,19 @@ fn sensors_that_agree_overrule_what_materials_do() {
             assert!((value / truth - 1.0).norm() < 1e-6, "{name}: {} Hz: {value} {truth}", line.frequency_hz);
         }
         assert!(!found.causality_breaches.is_empty(), "{name}");
+        // With noise of a size that nobody knows, they agree within what the lines show of it.
+        let std = made.u.iter().map(|u| u.iter().map(|u| 0.01 * u.norm()).collect()).collect();
+        let noisy = Measured { std, frequency_hz: frequency_hz.clone(), u: made.u.clone() };
+        let found = identify(&case, &noisy, &noisy.drawn(2), Noise::Unknown, &setup);
+        let ok: Vec<&Line> = found.lines.iter().filter(|line| line.status == Status::Ok).collect();
+        // At the lowest lines noise hides the loss factor.
+        let hidden = found.count(Status::NotIdentifiable);
+        assert!(ok.len() > 100 && ok.len() + hidden > 153, "{name}, noise: {} ok, {hidden}", ok.len());
+        let far = |line: &&&Line| {
+            let (value, truth) = (line.factor().unwrap(), modulus(line.frequency_hz));
+            (value.re - truth.re).abs() > 5.0 * line.uncertainty().unwrap().storage_std
+        };
+        assert_eq!(ok.iter().filter(far).count(), 0, "{name}, noise");
         let mut alone = plate(8, 0.24, 0.02);
         alone.experiment.sensors.truncate(1);
         let first: Vec<Vec<c64>> = made.u.iter().map(|row| vec![row[0]]).collect();

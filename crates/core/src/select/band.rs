@@ -1,6 +1,6 @@
 //! The candidates of a whole band, paths through it in both directions, and what they say about each candidate.
 
-use super::path::{Path, Point, Rule, Search};
+use super::path::{Path, Point, Search};
 
 /// Sizes of curvature that are tried. Fractional laws stay below 0.2, a sharp relaxation reaches 1; below the last all is straight.
 const CURVATURES: [f64; 7] = [1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01];
@@ -10,6 +10,10 @@ pub(super) const DEFAULT_CURVATURE: f64 = 0.5;
 
 /// The share of a band that is most of it.
 const MOST: f64 = 0.85;
+
+/// In the likelihood of sizes, that a path is no material's counts once for so many frequencies, and not once: solutions beside a pole lie on branches that no noise
+/// moves, and win some ten nats at each frequency where no scatter is allowed.
+const FREQUENCIES_PER_MATERIAL: f64 = 30.0;
 
 /// Points over a band.
 #[derive(Debug, Clone)]
@@ -48,7 +52,7 @@ impl Band {
     pub(super) fn cheapest(&self, curvature: f64) -> Option<(Path, Vec<Option<usize>>)> {
         // Of the ways that lead to each path no more than this is kept: a band has thousands of frequencies.
         let mut ways: Vec<Vec<(Option<usize>, usize)>> = Vec::with_capacity(self.points.len());
-        let search = self.forward(Rule { curvature, spread: false }, |paths| {
+        let search = self.forward(curvature, |paths| {
             ways.push(paths.iter().map(|path| (path.chosen, path.parent)).collect());
         });
         let mut at = search.cheapest()?;
@@ -66,14 +70,13 @@ impl Band {
     /// # Limits
     /// Of the paths that were kept; a candidate that none of them meets has its cost from the nearest.
     pub(super) fn through_each(&self, curvature: f64) -> (Vec<Option<usize>>, Vec<Vec<f64>>) {
-        let rule = Rule { curvature, spread: false };
         let mut forward: Vec<Vec<Path>> = Vec::with_capacity(self.points.len());
-        let search = self.forward(rule, |paths| forward.push(paths.to_vec()));
+        let search = self.forward(curvature, |paths| forward.push(paths.to_vec()));
         let mut chosen = vec![None; forward.len()];
         let mut at = search.cheapest();
         let mut costs: Vec<Vec<f64>> =
             self.points.iter().map(|points| vec![f64::INFINITY; points.len()]).collect();
-        let mut backward = Search::new(rule);
+        let mut backward = Search::new(curvature);
         // What is beyond the last frequency starts there.
         let mut step = 0.0;
         for (k, before) in forward.iter().enumerate().rev() {
@@ -99,17 +102,21 @@ impl Band {
 
     /// −ln likelihood of the cheapest path through every so-many-th frequency.
     fn likelihood(&self, curvature: f64, every: usize) -> f64 {
-        let mut search = Search::new(Rule { curvature, spread: true });
+        let mut search = Search::new(curvature);
         for k in (0..self.points.len()).step_by(every) {
             let step = if k == 0 { 0.0 } else { self.log_frequency[k] - self.log_frequency[k - every] };
             search.advance(step, &self.points[k]);
         }
-        search.cheapest().map_or(0.0, |cheapest| search.paths()[cheapest].cost)
+        search.cheapest().map_or(0.0, |cheapest| {
+            let path = &search.paths()[cheapest];
+            let more = ((self.points.len() / every) as f64 / FREQUENCIES_PER_MATERIAL - 1.0).max(0.0);
+            path.cost + path.spread + more * path.material
+        })
     }
 
     /// From the first frequency to the last, with a look at the paths after each.
-    fn forward(&self, rule: Rule, mut after_each: impl FnMut(&[Path])) -> Search {
-        let mut search = Search::new(rule);
+    fn forward(&self, curvature: f64, mut after_each: impl FnMut(&[Path])) -> Search {
+        let mut search = Search::new(curvature);
         for (k, points) in self.points.iter().enumerate() {
             search.advance(self.step(k), points);
             after_each(search.paths());

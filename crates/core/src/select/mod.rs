@@ -82,7 +82,8 @@ with_fields!(SelectOptions {
 ///
 /// Nodes that differ by less than twice their standard deviation, or 2e-7 of their value, are one. Nothing is chosen where no node fits the
 /// path, where a rival path that cannot be excluded has no node, or anywhere if no path is a material's or covers a sixth of the band:
-/// unless several sensors agree on one solution at most of the frequencies and leave no more than a noise that is known, or roundoff. That is chosen then, material or not.
+/// unless several sensors agree on one solution at most of the frequencies and leave no more than a noise that is known, or 5 % of the response. That is chosen then, material or
+/// not, and where the path of a material has a gap too.
 ///
 /// # Limits
 /// - The factor is that of a stiffness, E′ > 0 and η ≥ 0, or a constant; bounds are applied before.
@@ -127,14 +128,17 @@ pub fn choose(frequency_hz: &[f64], nodes: &[Vec<Node>], options: &SelectOptions
     let curvature = best.restricted().curvature();
     let (mut path, costs) = best.band.through_each(curvature);
     bridge(&mut path, &best.chosen);
-    // A material on which most of the band lies needs no sensors to overrule it.
-    if let Some(agreed) = agreed.filter(|_| !band.is_covered(&path)) {
-        return agreed;
-    }
+    // A material on which most of the band lies needs no sensors to overrule it; where it has a gap they may know what is there.
+    let node = |k: usize| path[k].map(|index| best.band.points[k][index].node);
+    let agreed = match agreed {
+        Some(agreed) if !band.is_covered(&path) => return agreed,
+        Some(agreed) if is_same(&agreed, node) => agreed,
+        _ => vec![nothing.clone(); nodes.len()],
+    };
     let choose_at = |k: usize| {
         let mut choice = nothing.clone();
         let points = &best.band.points[k];
-        let Some(index) = path[k] else { return choice };
+        let Some(index) = path[k] else { return agreed[k].clone() };
         // Where one of the paths that cannot be excluded has nothing, the right solution may be missing.
         if rivals.iter().any(|rival| rival.chosen[k].is_none()) {
             return choice;
@@ -151,6 +155,16 @@ pub fn choose(frequency_hz: &[f64], nodes: &[Vec<Node>], options: &SelectOptions
         choice
     };
     (0..nodes.len()).map(choose_at).collect()
+}
+
+/// Of the frequencies at which two ways of choosing have a node, the share at which it may be another one.
+const MAX_OTHER_SHARE: f64 = 0.05;
+
+/// Whether what sensors agree on is what a path has, where both have something.
+fn is_same(agreed: &[Choice], node: impl Fn(usize) -> Option<usize>) -> bool {
+    let both = agreed.iter().enumerate().filter_map(|(k, one)| one.chosen.zip(node(k)));
+    let (all, other) = both.fold((0, 0), |(all, other), (a, b)| (all + 1, other + usize::from(a != b)));
+    other as f64 <= MAX_OTHER_SHARE * f64::from(all)
 }
 
 /// Nodes side by side that are no accident: what noise or a stray makes of one frequency does not join on to both sides through several.
@@ -184,9 +198,9 @@ const ROOT_LN_STD: f64 = 1e-7;
 /// Least factor on a variance that is not known: a millionth of the response is roundoff near a resonance.
 const MIN_VARIANCE_FACTOR: f64 = 1e-12;
 
-/// The variance over a given one up to which nothing but noise is to be seen, and the part of the response that roundoff is at most.
+/// The variance over a given one up to which nothing but noise is to be seen, and the part of the response that noise of unknown size may be.
 const MAX_USUAL_FACTOR: f64 = 1.5;
-const MAX_ROUNDOFF: f64 = 1e-4;
+const MAX_UNKNOWN_NOISE: f64 = 0.05;
 
 /// Scatters that are tried: of ln E, beside what is given, or in units of the given standard deviation if that is of unknown size.
 const SCATTERS: [f64; 14] = [0.0, 1e-6, 3e-6, 1e-5, 3e-5, 1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 0.1, 0.3, 1.0];
@@ -214,9 +228,9 @@ struct Noise {
 }
 
 impl Noise {
-    /// Whether the best misfits are those of noise, of a model without errors: of noise that is known, or of none.
+    /// Whether the best misfits may be those of noise, of a model without errors.
     fn is_all(&self) -> bool {
-        self.factor <= if self.known { MAX_USUAL_FACTOR } else { MAX_ROUNDOFF * MAX_ROUNDOFF }
+        self.factor <= if self.known { MAX_USUAL_FACTOR } else { MAX_UNKNOWN_NOISE * MAX_UNKNOWN_NOISE }
     }
 
     /// From the lower quartile of the best misfits, which stands even where most frequencies have lost the right node.

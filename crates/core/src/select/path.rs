@@ -23,15 +23,6 @@ impl Point {
     }
 }
 
-/// What paths are judged by.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Rule {
-    /// κ: size of the curvature d² ln E/d(ln ω)².
-    pub(super) curvature: f64,
-    /// Whether a point is compared with one that could be anywhere, not only with the curve: the likelihood that tells κ.
-    pub(super) spread: bool,
-}
-
 /// A path as far as one frequency.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Path {
@@ -41,6 +32,9 @@ pub(super) struct Path {
     pub(super) material: f64,
     /// The part of it that the other sensors have.
     pub(super) misfit: f64,
+    /// Beside it: what says how well its points were expected, relative to points that may be anywhere. With the cost it is the likelihood of the
+    /// sizes of scatter and curvature. Not a part of the cost: solutions next to a pole lie on smooth branches that no noise moves.
+    pub(super) spread: f64,
     /// What is known of the curve here; `None` where nothing has been chosen yet.
     pub(super) trend: Option<Trend>,
     /// The point chosen at this frequency.
@@ -61,6 +55,7 @@ impl Path {
         cost: 0.0,
         material: 0.0,
         misfit: 0.0,
+        spread: 0.0,
         trend: None,
         chosen: None,
         last: None,
@@ -80,12 +75,9 @@ impl Path {
     }
 
     /// What this path costs with a point, but for what says that it is no material: not more than it does cost.
-    fn cost_with(&self, point: &Point, rule: Rule) -> f64 {
-        let trend = self.trend.map_or(0.0, |trend| {
-            let surprise = trend.surprise(point.log, point.variance);
-            if rule.spread { surprise + trend.spread(point.variance) } else { surprise }
-        });
-        self.cost + point.misfit + trend
+    fn cost_with(&self, point: &Point) -> f64 {
+        let surprise = self.trend.map_or(0.0, |trend| trend.surprise(point.log, point.variance));
+        self.cost + point.misfit + surprise
     }
 
     /// With a point, which [`Self::cost_with`] has the cost of.
@@ -98,6 +90,7 @@ impl Path {
             cost: cost + material,
             material: self.material + material,
             misfit: self.misfit + point.misfit,
+            spread: self.spread + self.trend.map_or(0.0, |trend| trend.spread(point.variance)),
             trend: Some(trend),
             chosen: Some(index),
             last: Some((at, index)),
@@ -132,7 +125,8 @@ const PATHS_IN_GAP: usize = 16;
 /// The best paths up to and including a frequency, one frequency after the other.
 #[derive(Debug, Clone)]
 pub(super) struct Search {
-    rule: Rule,
+    /// κ: size of the curvature d² ln E/d(ln ω)².
+    curvature: f64,
     /// Frequencies so far.
     at: usize,
     now: Vec<Path>,
@@ -142,8 +136,8 @@ pub(super) struct Search {
 
 impl Search {
     /// Before the first frequency.
-    pub(super) fn new(rule: Rule) -> Self {
-        Self { rule, at: 0, now: vec![Path::START], before: Vec::new() }
+    pub(super) fn new(curvature: f64) -> Self {
+        Self { curvature, at: 0, now: vec![Path::START], before: Vec::new() }
     }
 
     /// The best paths so far.
@@ -155,12 +149,12 @@ impl Search {
     pub(super) fn advance(&mut self, step: f64, points: &[Point]) {
         std::mem::swap(&mut self.now, &mut self.before);
         for (parent, path) in self.before.iter_mut().enumerate() {
-            *path = Path { parent, ..path.advanced(step, self.rule.curvature) };
+            *path = Path { parent, ..path.advanced(step, self.curvature) };
         }
         self.now.clear();
         for (index, point) in points.iter().enumerate() {
             keep_best(&self.before, PATHS_PER_POINT, &mut self.now, |path, limit| {
-                let cost = path.cost_with(point, self.rule);
+                let cost = path.cost_with(point);
                 (cost < limit).then(|| path.through(index, point, cost, step, self.at))
             });
         }

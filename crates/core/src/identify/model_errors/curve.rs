@@ -151,6 +151,17 @@ impl Curve {
     ///
     /// A causal modulus has the phase of its slope; where the loss is small so is the slope.
     fn precision(&self, centre: &[f64], bend: [f64; 2]) -> Vec<f64> {
+        let mut precision = self.smoothness(bend);
+        let Self::Spline(spline) = self else { return precision };
+        let phase = || centre[spline.knots()];
+        if let Some(own) = spline.causality.as_ref().and_then(|causality| causality.precision(phase())) {
+            precision.iter_mut().zip(own).for_each(|(sum, own)| *sum += own);
+        }
+        precision
+    }
+
+    /// The same of a modulus that need not be causal.
+    fn smoothness(&self, bend: [f64; 2]) -> Vec<f64> {
         let n = self.count();
         let mut precision = vec![0.0; n * n];
         let Self::Spline(spline) = self else {
@@ -163,10 +174,6 @@ impl Curve {
             (first..first + knots)
                 .for_each(|i| precision[i * n + i] += LN_MODULUS_PRIOR_STD[part].powi(-2) / knots as f64);
             precision.iter_mut().zip(self.bends(part)).for_each(|(sum, own)| *sum += own / (bend * bend));
-        }
-        let of_causality = spline.causality.as_ref().and_then(|causality| causality.precision(centre[knots]));
-        if let Some(own) = of_causality {
-            precision.iter_mut().zip(own).for_each(|(sum, own)| *sum += own);
         }
         precision
     }
@@ -355,10 +362,18 @@ impl Curves {
 
     /// The precision of what is known beforehand about a centre, n × n; see [`Curve::precision`].
     pub(super) fn precision(&self, centre: &[f64], bend: [f64; 2]) -> Vec<f64> {
-        let mut all = self.blocks(|curve, range| curve.precision(&centre[range], bend));
+        self.with_channels_known(self.blocks(|curve, range| curve.precision(&centre[range], bend)))
+    }
+
+    /// The same of unknowns that need not be causal.
+    pub(super) fn smoothness(&self, bend: [f64; 2]) -> Vec<f64> {
+        self.with_channels_known(self.blocks(|curve, _| curve.smoothness(bend)))
+    }
+
+    fn with_channels_known(&self, mut precision: Vec<f64>) -> Vec<f64> {
         let n = self.count();
-        self.channels.range().for_each(|i| all[i * n + i] = FORM_PRIOR_STD.powi(-2));
-        all
+        self.channels.range().for_each(|i| precision[i * n + i] = FORM_PRIOR_STD.powi(-2));
+        precision
     }
 
     /// That of the bends of a part alone, and how many there are.

@@ -7,6 +7,9 @@ use frfit_linalg::dense::Cholesky;
 /// By how much unknowns may scatter: standard deviations of ln p.
 const SCATTER_STDS: [f64; 7] = [1e-4, 1e-3, 3e-3, 1e-2, 3e-2, 0.1, 0.3];
 
+/// By how much a modulus that is not causal has to explain a band better than a causal one or errors of the model, which are far more common.
+const ACAUSAL_NATS: f64 = 50.0;
+
 /// What a line says of the unknowns that have a value of their own there.
 struct LineEstimate {
     line: usize,
@@ -23,7 +26,7 @@ impl Measured<'_, '_> {
     /// ln p of a line is the curve's with the variances of noise and scatter, v = s² + τ². With A = Σ Re(g gᴴ)/v + P, the precision P of the curves and the
     /// residuals r at θ, linear least squares have
     /// $$ \sum \ln \frac{v^2}{s^4} + \sum \frac{|r|^2}{v} - b^T A^{-1} b + \theta^T P \theta + \ln \det A - \ln \det P, \quad b = \sum \operatorname{Re} \frac{\bar g r}{v} - P \theta $$
-    /// beside the misfit of the lines by themselves. Without scatter that is a right model.
+    /// beside the misfit of the lines by themselves. Without scatter that is a right model. Where several sensors speak the curves need not be causal.
     pub(super) fn scattered(&self, search: &Search<'_, '_>, right: &Explained, level: f64) -> Option<f64> {
         let lines = &search.lines;
         if self.own.is_empty() {
@@ -46,9 +49,16 @@ impl Measured<'_, '_> {
         let sigma = self.sigma_at(lines, own, 0.0);
         let logs: f64 = sigma.iter().flatten().filter(|s| s.is_finite()).map(|s| 4.0 * s.ln()).sum();
         let at_own = own / self.level_per_frequency.unwrap_or(own);
-        let of = |scatter: f64| self.about_curves((search, right), &estimates, (share, at_own), scatter);
-        let least = SCATTER_STDS.into_iter().filter_map(of).fold(f64::INFINITY, f64::min);
-        Some(logs + misfit / (own * own) + least)
+        let least = |prior: Vec<f64>| {
+            let of = |s: f64| self.about_curves((search, right), &estimates, (share, at_own), &prior, s);
+            SCATTER_STDS.into_iter().filter_map(of).fold(f64::INFINITY, f64::min)
+        };
+        let mut least_of_all = least(search.curves.precision(search.centre, right.sizes.bend));
+        if free > 0.0 {
+            let acausal = least(search.curves.smoothness(right.sizes.bend));
+            least_of_all = least_of_all.min(acausal + 2.0 * ACAUSAL_NATS);
+        }
+        Some(logs + misfit / (own * own) + least_of_all)
     }
 
     fn line_estimate(&self, search: &Search<'_, '_>, line: usize) -> Option<LineEstimate> {
@@ -76,18 +86,18 @@ impl Measured<'_, '_> {
         (search, right): (&Search<'_, '_>, &Explained),
         estimates: &[LineEstimate],
         (share, level): (f64, f64),
+        prior: &[f64],
         scatter: f64,
     ) -> Option<f64> {
         let Search { curves, centre, .. } = *search;
         let n = curves.count();
         let theta = &right.found.place[..n];
-        let prior = curves.precision(centre, right.sizes.bend);
         let off: Vec<f64> = theta.iter().zip(centre).map(|(t, c)| t - c).collect();
         let pull: Vec<f64> =
             prior.chunks_exact(n).map(|row| row.iter().zip(&off).map(|(p, o)| p * o).sum()).collect();
         let mut sum: f64 = pull.iter().zip(&off).map(|(p, o)| p * o).sum();
         let mut gradient: Vec<f64> = pull.iter().map(|p| -p).collect();
-        let mut matrix = prior.clone();
+        let mut matrix = prior.to_vec();
         for one in estimates {
             let (values, slopes) = curves.values(theta, one.line, self.omegas[one.line])?;
             for (&j, &(value, std)) in self.own.iter().zip(&one.unknowns) {
@@ -111,8 +121,8 @@ impl Measured<'_, '_> {
         let mut step = gradient.clone();
         factor.solve(&mut step);
         let gained: f64 = gradient.iter().zip(&step).map(|(g, s)| g * s).sum();
-        let of_prior = Cholesky::new(n, &prior).ok()?.log_determinant();
-        let of_channels = self.channel_volume(search, right, &prior)?;
+        let of_prior = Cholesky::new(n, prior).ok()?.log_determinant();
+        let of_channels = self.channel_volume(search, right, prior)?;
         Some(sum - gained + factor.log_determinant() - of_prior + of_channels)
     }
 
