@@ -148,7 +148,7 @@ impl FromStr for Reduction {
 }
 
 /// Degrees of freedom up to which a subspace is no smaller than the model.
-const MAX_TINY_MODEL_DOFS: usize = 64;
+pub(super) const MAX_TINY_MODEL_DOFS: usize = 64;
 
 /// Frequencies from which on the subspace's solves (tens) cost less than theirs (two complex factorisations each).
 const MIN_SUBSPACE_FREQUENCIES: usize = 4;

@@ -34,7 +34,7 @@ pub(in crate::identify) struct Solution {
     pub(super) std: f64,
     /// x_m.
     pub(super) response: Vec<c64>,
-    /// ‖F − D(c)x‖/‖F‖ of the rational response.
+    /// ‖F − D(c)x‖/‖F‖ of the rational response; infinite where the full model has another response.
     pub(super) residual: f64,
     /// (Σ |∂²x_m/∂c²|²/σ_m²)^{1/2} of a rational response without poles; infinite where none did find the solution.
     pub(super) second: f64,
@@ -54,14 +54,24 @@ pub(in crate::identify) struct Candidates {
     pub(super) poles: Option<Poles>,
     /// Order of the rational response.
     pub(super) order: usize,
-    /// Whether a solution is left that may be none.
-    pub(super) unsure: bool,
     pub(super) breakdown: Option<Breakdown>,
+}
+
+impl Solution {
+    /// Whether it may be none.
+    pub(super) fn is_unsure(&self) -> bool {
+        self.residual > ROOT_RESIDUAL_TOL
+    }
 }
 
 impl Candidates {
     pub(super) fn broken(breakdown: Breakdown) -> Self {
         Self { breakdown: Some(breakdown), ..Self::default() }
+    }
+
+    /// Whether a solution is left that may be none.
+    pub(super) fn is_unsure(&self) -> bool {
+        self.solutions.iter().any(Solution::is_unsure)
     }
 
     /// All solutions, those within the bounds first.
@@ -76,14 +86,13 @@ impl Candidates {
 
     /// Solves the system anew at each solution: its response is then beyond doubt, and so is whether it is a solution.
     pub(super) fn confirm(&mut self, system: &impl Response, measured: &[c64], sigma: &[f64]) {
-        self.unsure = false;
         for solution in &mut self.solutions {
-            let Ok(response) = system.solve_at(&[solution.correction]) else {
-                self.unsure = true;
-                continue;
-            };
+            solution.residual = f64::INFINITY;
+            let Ok(response) = system.solve_at(&[solution.correction]) else { continue };
             let moved: f64 = solution.response.iter().zip(&response).map(|(a, b)| (a - b).norm()).sum();
-            self.unsure |= moved > RESPONSE_MATCH_RTOL * response.iter().map(|x| x.norm()).sum::<f64>();
+            if moved <= RESPONSE_MATCH_RTOL * response.iter().map(|x| x.norm()).sum::<f64>() {
+                solution.residual = 0.0;
+            }
             let rest = measured.iter().zip(&response).zip(sigma);
             solution.misfit = rest.map(|((u, x), sigma)| (u - x).norm_sqr() / (sigma * sigma)).sum();
             solution.response = response;
@@ -139,18 +148,15 @@ impl Fit<'_> {
         let mut response = RationalResponse::new(system, 0, reached)?;
         loop {
             let mut explored = self.solutions(&response).map_err(broken)?;
-            for solution in explored.solutions.iter_mut().chain(&mut explored.beyond) {
-                solution.residual = response.residual(solution.correction).unwrap_or(f64::INFINITY);
-            }
-            let unsure = |solutions: &[Solution]| {
-                solutions.iter().any(|solution| solution.residual > ROOT_RESIDUAL_TOL)
-            };
             // The whole space leaves nothing but roundoff.
             let whole = response.is_complete() || response.size() == system.dim();
-            explored.unsure = !whole && unsure(&explored.solutions);
+            for solution in explored.solutions.iter_mut().chain(&mut explored.beyond) {
+                let residual = || response.residual(solution.correction).unwrap_or(f64::INFINITY);
+                solution.residual = if whole { 0.0 } else { residual() };
+            }
             // At a low order no solution is no proof that there is none, and what is beyond the bounds may be within them.
-            let open = !whole && (explored.solutions.is_empty() || unsure(&explored.beyond));
-            let settled = !explored.unsure && !open;
+            let open = explored.solutions.is_empty() || explored.beyond.iter().any(Solution::is_unsure);
+            let settled = !explored.is_unsure() && (whole || !open);
             if settled || reached >= order {
                 let powers = explored.poles.is_none();
                 for solution in explored.solutions.iter_mut().filter(|_| powers) {

@@ -10,6 +10,7 @@ use super::task::{BandSolution, PathSelection, Task};
 use super::verdict::{Evidence, verdict};
 use crate::c64;
 use crate::for_each::map;
+use crate::identify::choice::MAX_TINY_MODEL_DOFS;
 use crate::identify::context::{Context, Stage};
 use crate::identify::dead_channel::dead_channels;
 use crate::identify::goodness_of_fit::SensorFit;
@@ -125,7 +126,9 @@ fn on_full_model(task: &Task<'_, '_>) -> (Vec<Candidates>, Work) {
     let found = map(context.for_each, at.len(), |i| {
         let explored = match FullModel::new(at[i].clone(), band.experiment) {
             Ok(system) => {
-                let mut explored = task.fit(i).explore(&system, options.order);
+                // Of a tiny model the whole space costs nothing, and nothing is left out then.
+                let order = options.order.max(system.dim().min(MAX_TINY_MODEL_DOFS));
+                let mut explored = task.fit(i).explore(&system, order);
                 explored.confirm(&system, &band.measured[i], &sigma[i]);
                 (explored, system.work())
             }

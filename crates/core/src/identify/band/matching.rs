@@ -22,7 +22,9 @@ pub(super) fn pairs(
         found.explored.all_near().map(|s| nominal + s.correction).collect::<Vec<c64>>()
     };
     let doubtful = |found: &LineCandidates| {
-        found.explored.unsure || found.explored.breakdown.is_some() || found.explored.solutions.is_empty()
+        found.explored.is_unsure()
+            || found.explored.breakdown.is_some()
+            || found.explored.solutions.is_empty()
     };
     if doubtful(left) || doubtful(right) {
         return None;

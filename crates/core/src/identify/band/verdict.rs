@@ -92,7 +92,7 @@ pub(super) fn verdict(
         // The only solution, and it contradicts those of the other lines.
         (!outcome.on_path, Status::Unexplained),
         (unknown, Status::NotIdentifiable),
-        (uncertain || found.unsure, Status::Failed),
+        (uncertain || chosen.is_unsure(), Status::Failed),
     ]);
     outcome
 }
