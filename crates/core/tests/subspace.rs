@@ -415,3 +415,53 @@ fn rational_roots_in_the_box_are_those_of_the_full_model() {
     }
     assert!(compared >= 20, "{compared}");
 }
+
+/// Modes of a chain of n unit masses, held at one end, below a frequency: ω_k = 2√k sin((2k − 1)π/(4n + 2)).
+fn modes_of_chain(n: usize, stiffness: f64, below_hz: f64) -> usize {
+    let omega = |k: usize| {
+        2.0 * stiffness.sqrt() * ((2 * k - 1) as f64 * std::f64::consts::PI / (4 * n + 2) as f64).sin()
+    };
+    (1..=n).filter(|&k| omega(k) < std::f64::consts::TAU * below_hz).count()
+}
+
+/// Modes below the corner of a box are as many as the closed form says; those that the basis has not are brought, and the response at their resonances is then
+/// that of the full model.
+#[test]
+fn modes_that_the_basis_lacks_are_counted_and_brought() {
+    let (n, corner_hz) = (200, 4.0);
+    let case = springs(n, 1e-4, &[n - 1, 71]);
+    let at = case.at(corner_hz);
+    let mut subspace = Subspace::new(&case.experiment, &at).unwrap();
+    let corner = Point { at: at.clone(), correction: case.correction(corner_hz, 0.7) };
+    let box_points = [corner, Point { at, correction: c64::default() }];
+    let count = subspace.bring_missing_modes(&box_points).unwrap().unwrap();
+    assert_eq!(count.model, modes_of_chain(n, 0.7e4, corner_hz));
+    assert!(count.missing > 10 && count.brought == count.missing, "{count:?}");
+    let again = subspace.bring_missing_modes(&box_points).unwrap().unwrap();
+    assert_eq!((again.model, again.missing), (count.model, 0));
+}
+
+/// What neither load nor sensors see is counted, and not brought: the antisymmetric modes of a chain that is driven and measured in its middle.
+#[test]
+fn modes_that_nothing_sees_are_not_brought() {
+    let n = 61;
+    let mut case = springs(n, 1e-3, &[n / 2]);
+    let mut stiffness = Triplets::new(n);
+    for i in 0..n - 1 {
+        stiffness.add_element(&[Some(i), Some(i + 1)], &[1.0, -1.0, -1.0, 1.0]);
+    }
+    [0, n - 1].into_iter().for_each(|end| stiffness.add(end, end, 1.0));
+    let mut terms = case.model.terms().to_vec();
+    terms[0].matrix = stiffness.assemble();
+    case.model = DynamicStiffness::new(terms).unwrap();
+    case.parameter = Parameter::factor_of(&case.model, &["springs"]).unwrap();
+    case.experiment = Experiment::driven_at(n, Sensor { row: n / 2, sign: 1.0 }, case.experiment.sensors);
+    let at = case.at(12.0);
+    let mut subspace = Subspace::new(&case.experiment, &at).unwrap();
+    let corner = Point { at, correction: c64::default() };
+    let count = subspace.bring_missing_modes(&[corner]).unwrap().unwrap();
+    // 2·100·sin(kπ/124) < 2π·12: 15 modes, every other one of which has a node in the middle.
+    assert_eq!(count.model, 15);
+    // Roundoff may have a little of one that nothing sees.
+    assert!((7..=8).contains(&count.brought) && count.missing == 14, "{count:?}");
+}

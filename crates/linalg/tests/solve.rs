@@ -183,3 +183,24 @@ fn double_modes_come_out_twice() {
         assert!((found / exact - 1.0).abs() < 1e-10, "mode {j}: {found} against {exact}");
     }
 }
+
+/// A chain has as many negative eigenvalues of K − ω²M as it has modes below ω, whichever back-end counts them.
+#[test]
+fn negative_eigenvalues_are_the_modes_below() {
+    for n in [5, 60] {
+        let (k, m) = chain(n);
+        let pattern = Pattern::union(&[k.pattern(), m.pattern()]);
+        let (k, m) = (k.on_pattern(&pattern), m.on_pattern(&pattern));
+        for omega in [0.1_f64, 0.9, 1.7] {
+            let shifted = |(k, m): (&f64, &f64)| k - omega * omega * m;
+            let values: Vec<f64> =
+                k.real_values().unwrap().iter().zip(m.real_values().unwrap()).map(shifted).collect();
+            // Free–free: ω_j = 2 sin(jπ/2n), j = 0 … n − 1.
+            let own = |j: usize| 2.0 * (j as f64 * std::f64::consts::PI / (2 * n) as f64).sin();
+            let expected = (0..n).filter(|&j| own(j) < omega).count();
+            for analysis in [Analysis::dense(&pattern), Analysis::sparse(&pattern)] {
+                assert_eq!(analysis.factor(&values).unwrap().negative_eigenvalues(), expected, "{n} {omega}");
+            }
+        }
+    }
+}

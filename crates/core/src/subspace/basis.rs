@@ -18,7 +18,7 @@ pub(super) struct Basis {
 }
 
 /// A vector of which less than this is new (in the d-norm) adds roundoff, not a direction.
-const NEW_DIRECTION_RTOL: f64 = 1e-8;
+pub(super) const NEW_DIRECTION_RTOL: f64 = 1e-8;
 
 impl Basis {
     pub(super) fn new(weight: Vec<f64>, parts: Parts, experiment: &Experiment) -> Self {
@@ -59,6 +59,21 @@ impl Basis {
         self.weight.iter().zip(force).map(|(d, f)| f / d.sqrt()).collect()
     }
 
+    /// diag(d) X, N × k column after column.
+    pub(super) fn weighted(&self, block: &[f64]) -> Vec<f64> {
+        let n = self.weight.len();
+        block.chunks_exact(n).flat_map(|x| x.iter().zip(&self.weight).map(|(x, d)| x * d)).collect()
+    }
+
+    /// Takes out of some vectors (N × k, column after column) what V has of them.
+    pub(super) fn take_out(&self, block: &mut [f64]) {
+        // Twice is enough (Kahan, Parlett).
+        for _ in 0..2 {
+            let overlap = self.vectors.transpose_times(&self.weighted(block));
+            self.vectors.subtract_times(&overlap, block);
+        }
+    }
+
     /// Adds what is new of some vectors (N × k, column after column); returns how many were.
     pub(super) fn append(
         &mut self,
@@ -69,30 +84,17 @@ impl Basis {
         let n = self.weight.len();
         let before: Vec<f64> = block.chunks_exact(n).map(|x| self.norm(x)).collect();
         let first = self.vectors.ncols();
-        // Twice is enough (Kahan, Parlett).
-        for _ in 0..2 {
-            let weighted: Vec<f64> =
-                block.chunks_exact(n).flat_map(|x| x.iter().zip(&self.weight).map(|(x, d)| x * d)).collect();
-            let overlap = self.vectors.transpose_times(&weighted);
-            self.vectors.subtract_times(&overlap, &mut block);
-        }
+        self.take_out(&mut block);
         for (x, before) in block.chunks_exact_mut(n).zip(before) {
-            for _ in 0..2 {
-                for j in first..self.vectors.ncols() {
-                    let v = self.vectors.column(j);
-                    let overlap: f64 =
-                        self.weight.iter().zip(v.iter().zip(&*x)).map(|(d, (v, x))| d * v * x).sum();
-                    x.iter_mut().zip(v).for_each(|(x, v)| *x -= overlap * v);
-                }
-            }
-            let rest = self.norm(x);
-            if rest > NEW_DIRECTION_RTOL * before {
-                x.iter_mut().for_each(|x| *x /= rest);
-                self.vectors.push(x);
-            }
+            append_new(&self.weight, (&mut self.vectors, first), x, NEW_DIRECTION_RTOL * before);
         }
         self.project(model, experiment, first);
         self.vectors.ncols() - first
+    }
+
+    /// Adds to other vectors, orthonormal in diag(d), what a vector has beyond them, where that is longer than `least`.
+    pub(super) fn append_to(&self, vectors: &mut ColumnBlock, x: &mut [f64], least: f64) {
+        append_new(&self.weight, (vectors, 0), x, least);
     }
 
     /// Everything small that belongs to the vectors from `first` on.
@@ -118,6 +120,25 @@ impl Basis {
             }
         }
         small.size = r;
+    }
+}
+
+/// Adds to vectors that are orthonormal in diag(d) what a vector has beyond those from `first` on, where that is longer than `least`.
+fn append_new(weight: &[f64], (vectors, first): (&mut ColumnBlock, usize), x: &mut [f64], least: f64) {
+    let dot = |a: &[f64], b: &[f64]| -> f64 {
+        weight.iter().zip(a.iter().zip(b)).map(|(d, (a, b))| d * a * b).sum()
+    };
+    for _ in 0..2 {
+        for j in first..vectors.ncols() {
+            let v = vectors.column(j);
+            let overlap = dot(v, x);
+            x.iter_mut().zip(v).for_each(|(x, v)| *x -= overlap * v);
+        }
+    }
+    let rest = dot(x, x).sqrt();
+    if rest > least {
+        x.iter_mut().for_each(|x| *x /= rest);
+        vectors.push(x);
     }
 }
 

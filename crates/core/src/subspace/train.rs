@@ -65,6 +65,9 @@ const SOLVES_PER_SHIFT: usize = 64;
 /// Points whose errors are followed from round to round; all are looked at when these are good.
 const MAX_WATCHED_POINTS: usize = 48;
 
+/// Relative errors above this are those of a model that has not yet what the band needs.
+const MEANINGLESS_ERROR: f64 = 0.1;
+
 /// Rounds without progress (by a factor of two of the error) after which roundoff is what is left.
 pub(super) const MAX_STALLED_ROUNDS: usize = 6;
 
@@ -119,7 +122,8 @@ impl<'m> Subspace<'m> {
                 return Ok(Trained { error: 0.0, converged: true });
             };
             let converged = worst <= options.tolerance;
-            stalled = if worst < 0.5 * best { 0 } else { stalled + 1 };
+            // As long as nothing is right, errors of one round say nothing of the next.
+            stalled = if worst < 0.5 * best || worst > MEANINGLESS_ERROR { 0 } else { stalled + 1 };
             best = best.min(worst);
             if converged || stalled > MAX_STALLED_ROUNDS || self.work.solves >= options.solves {
                 return Ok(Trained { error: worst, converged });

@@ -2,6 +2,7 @@
 
 use super::{Factor, Symbolic};
 use crate::Scalar;
+use crate::dense::symmetric_eigen;
 use crate::scalar::max_modulus;
 use crate::sparse::Pattern;
 use std::fmt;
@@ -173,6 +174,24 @@ impl<T: Scalar> CheckedFactor<T> {
         };
         let errors = columns.map(relative).collect::<Result<_, _>>()?;
         Ok((residuals, errors))
+    }
+}
+
+impl CheckedFactor<f64> {
+    /// Eigenvalues of the matrix below zero: by Sylvester's law the negative pivots of its LDLᵀ, or by an eigenvalue decomposition where it is small.
+    ///
+    /// # Limits
+    /// An eigenvalue within roundoff of zero may be counted on either side.
+    pub fn negative_eigenvalues(&self) -> usize {
+        self.factor.negative_eigenvalues().unwrap_or_else(|| {
+            let n = self.dim();
+            let mut full = vec![0.0; n * n];
+            for ((row, col), &value) in self.pattern.positions().zip(&self.values) {
+                full[row + col * n] = value;
+            }
+            let values = symmetric_eigen(n, &full).map_or(Vec::new(), |(values, _)| values);
+            values.iter().filter(|value| **value < 0.0).count()
+        })
     }
 }
 

@@ -44,4 +44,8 @@ impl<T: Scalar> Factor<T> for DenseFactor<T> {
         let columns = rhs.len() / n;
         self.0.solve_in_place_with_conj(Conj::No, MatMut::from_column_major_slice_mut(rhs, n, columns));
     }
+
+    fn negative_eigenvalues(&self) -> Option<usize> {
+        None // LU is no congruence
+    }
 }

@@ -47,6 +47,8 @@ trait Symbolic<T>: Send + Sync {
 trait Factor<T>: Send + Sync {
     /// Overwrites k right-hand sides (n × k, column after column) with the solutions, unchecked.
     fn solve_in_place(&self, rhs: &mut [T], threads: usize);
+    /// Eigenvalues below zero, where the back-end counts them.
+    fn negative_eigenvalues(&self) -> Option<usize>;
 }
 
 /// Everything about a pattern that no number changes: ordering and symbolic factorisations, done once

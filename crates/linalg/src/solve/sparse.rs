@@ -51,4 +51,8 @@ impl<T: Scalar> Factor<T> for multifrontal::Factor<T> {
     fn solve_in_place(&self, rhs: &mut [T], threads: usize) {
         multifrontal::Factor::solve_in_place(self, rhs, threads);
     }
+
+    fn negative_eigenvalues(&self) -> Option<usize> {
+        Some(self.inertia().negative)
+    }
 }

@@ -346,7 +346,8 @@ pub(in crate::identify) fn train<'a>(
     let points: Vec<Point<'a>> =
         thinned(at, MAX_TRAINING_FREQUENCIES).flat_map(|at| box_points(at, band.unknown, options)).collect();
     let training = TrainOptions { tolerance: BOX_TOL, ..TrainOptions::default() };
-    subspace.train(&points, &training, context.for_each)?;
+    let corners = box_points(&at[at.len() - 1], band.unknown, options);
+    subspace.train_box(&points, &corners, &training, context.for_each)?;
     Ok(subspace)
 }
 

@@ -73,7 +73,25 @@ pub(super) fn train<'a>(
     }
     let training =
         TrainOptions { tolerance: BOX_TOL, factorisations: MAX_FACTORISATIONS, ..TrainOptions::default() };
-    Ok(subspace.train(&points, &training, context.for_each).map(|_| subspace))
+    let corners = corners(&composite, frequency_hz[n - 1], &nominal[n - 1])?;
+    Ok(subspace.train_box(&points, &corners, &training, context.for_each).map(|()| subspace))
+}
+
+/// Unknowns whose ends are combined.
+const MAX_CORNER_UNKNOWNS: usize = 4;
+
+/// The corners of the box at a frequency.
+fn corners<'a>(
+    composite: &Composite<'a>,
+    frequency_hz: f64,
+    nominal: &[c64],
+) -> Result<Vec<Point<'a>>, OutsideTable> {
+    let corner = |k: usize| {
+        let ends = (0..nominal.len()).map(|j| f64::from(u8::from(k >> j.min(MAX_CORNER_UNKNOWNS) & 1 == 1)));
+        let at = composite.at(frequency_hz, &at_parts(composite, nominal, ends))?;
+        Ok(Point { at, correction: c64::default() })
+    };
+    (0..1 << nominal.len().min(MAX_CORNER_UNKNOWNS)).map(corner).collect()
 }
 
 /// Everything at its nominal value, and points of a sequence over the box.
@@ -246,13 +264,18 @@ impl<'a> ReducedBand<'a> {
 
 /// The k-th point of a sequence over the box of all unknowns, logarithmic where a range is positive: one dimension for each.
 pub(super) fn in_box(composite: &Composite<'_>, nominal: &[c64], k: usize) -> Vec<c64> {
-    let value = |(j, (one, &nominal)): (usize, (&Unknown, &c64))| {
-        let real = between(one.range(nominal), radical_inverse(k, PRIMES[j % PRIMES.len()]));
+    at_parts(composite, nominal, (0..nominal.len()).map(|j| radical_inverse(k, PRIMES[j % PRIMES.len()])))
+}
+
+/// Values that divide the range of each unknown in some parts, with the loss factor of the nominal one.
+fn at_parts(composite: &Composite<'_>, nominal: &[c64], parts: impl Iterator<Item = f64>) -> Vec<c64> {
+    let value = |((one, &nominal), part): ((&Unknown, &c64), f64)| {
+        let real = between(one.range(nominal), part);
         let eta = loss_factor(nominal);
         let eta = one.bounds.loss_factor.map_or(eta, |[low, high]| eta.clamp(low, high));
         if one.real || !eta.is_finite() { c64::new(real, 0.0) } else { c64::new(1.0, eta) * real }
     };
-    composite.unknowns.iter().zip(nominal).enumerate().map(value).collect()
+    composite.unknowns.iter().zip(nominal).zip(parts).map(value).collect()
 }
 
 /// The value that divides a range in this part: of its logarithm where it is positive.
