@@ -15,6 +15,7 @@ mod stages;
 mod table;
 mod task;
 pub mod wrong_models;
+pub mod zoo;
 
 pub use exponent::exponent;
 pub use machine::machine;

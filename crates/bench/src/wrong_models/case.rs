@@ -452,7 +452,7 @@ const THICKER: f64 = 1.2;
 const MOST_PLAN: usize = 4;
 
 /// Receptances by a direct solve at each line.
-fn solve(
+pub(crate) fn solve(
     model: &DynamicStiffness,
     experiment: &Experiment,
     frequency_hz: &[f64],

@@ -47,7 +47,7 @@ pub fn modes(
 }
 
 /// The real part of all terms of a role.
-fn sum(model: &DynamicStiffness, role: Role, at_hz: f64) -> Result<SymmetricMatrix, Failure> {
+pub(crate) fn sum(model: &DynamicStiffness, role: Role, at_hz: f64) -> Result<SymmetricMatrix, Failure> {
     let pattern = model.analysis().pattern();
     let mut values = vec![c64::default(); pattern.stored()];
     for term in model.terms().iter().filter(|term| term.role == role) {
