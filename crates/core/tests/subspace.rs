@@ -465,3 +465,27 @@ fn modes_that_nothing_sees_are_not_brought() {
     // Roundoff may have a little of one that nothing sees.
     assert!((7..=8).contains(&count.brought) && count.missing == 14, "{count:?}");
 }
+
+/// A corner whose Re D is singular (a free chain at 0 Hz) is no reason to do without what was trained.
+#[test]
+fn a_corner_that_breaks_down_spoils_no_training() {
+    let n = 60;
+    let mut case = springs(n, 1e-3, &[n - 1]);
+    let mut stiffness = Triplets::new(n);
+    for i in 0..n - 1 {
+        stiffness.add_element(&[Some(i), Some(i + 1)], &[1.0, -1.0, -1.0, 1.0]);
+    }
+    let mut terms = case.model.terms().to_vec();
+    terms[0].matrix = stiffness.assemble();
+    case.model = DynamicStiffness::new(terms).unwrap();
+    let point = |f: f64| Point { at: case.at(f), correction: c64::default() };
+    let mut subspace = Subspace::new(&case.experiment, &case.at(8.0)).unwrap();
+    let corner = [point(0.0)];
+    assert!(subspace.bring_missing_modes(&corner).is_err());
+    let points = [point(2.0), point(8.0)];
+    subspace.train_box(&points, &corner, &TrainOptions::default(), &sequential).unwrap();
+    let exact = case.direct(8.0, c64::default()).unwrap();
+    let found = subspace.projection().respond(&case.at(8.0)).unwrap();
+    // The tolerance is of p ∂x/∂p where that is larger than x.
+    assert!((found[0] - exact[0]).norm() < 1e-6 * exact[0].norm(), "{} {}", found[0], exact[0]);
+}
