@@ -11,8 +11,8 @@ pub(super) const DEFAULT_CURVATURE: f64 = 0.5;
 /// The share of a band that is most of it.
 const MOST: f64 = 0.85;
 
-/// In the likelihood of sizes, that a path is no material's counts once for so many frequencies, and not once: solutions beside a pole lie on branches that no noise
-/// moves, and win some ten nats at each frequency where no scatter is allowed.
+/// In the likelihood of sizes the cost of not being a material counts once for so many frequencies. Counted once for the band it would lose against solutions beside
+/// poles: noise does not move their branches, so they win some ten nats at each frequency where no scatter is allowed.
 const FREQUENCIES_PER_MATERIAL: f64 = 30.0;
 
 /// Points over a band.

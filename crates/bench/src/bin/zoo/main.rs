@@ -1,4 +1,4 @@
-//! A zoo of right models: what of that which is identifiable is refused, and what is `ok` and wrong.
+//! A zoo of right models: how many identifiable lines are refused, and how many `ok` values are wrong.
 //!
 //! `zoo [CASES] [SEED] [--case K]`: so many cases (default 40) of a seed (default 1), or the case K alone. Case K of a seed is always the same.
 //!
