@@ -4,7 +4,7 @@ use super::Failure;
 use super::realised::Realised;
 use frfit::c64;
 use frfit::model::{DynamicStiffness, Role};
-use frfit_linalg::modes::{ModesError, lowest};
+use frfit_linalg::modes::{Modes, ModesError, lowest};
 use frfit_linalg::sparse::{SymmetricMatrix, Values};
 
 /// An elastic mode.
@@ -30,24 +30,36 @@ pub fn modes(
     at_hz: f64,
     count: usize,
 ) -> Result<Vec<Mode>, Failure> {
-    let model = &realised.model;
+    let found = undamped(&realised.model, at_hz, count)?;
+    let rows = stations.iter().map(|&station| realised.row(station)).collect::<Result<Vec<_>, _>>()?;
+    let elastic = elastic(&found);
+    Ok(elastic.map(|(hz, shape)| Mode { hz, shape: rows.iter().map(|&row| shape[row]).collect() }).collect())
+}
+
+/// The lowest modes of a model without its losses, its factors at the storage moduli that they have at a frequency; fewer where the last of them do not converge.
+///
+/// # Errors
+/// Where they do not converge.
+pub fn undamped(model: &DynamicStiffness, at_hz: f64, count: usize) -> Result<Modes, Failure> {
     let (stiffness, mass) = (sum(model, Role::Stiffness, at_hz)?, sum(model, Role::Mass, at_hz)?);
-    let found = match lowest(&stiffness, &mass, count) {
+    Ok(match lowest(&stiffness, &mass, count) {
         // The highest of them are the last to converge, and the least needed.
         Err(ModesError::NotConverged { converged }) if converged > 1 => {
             lowest(&stiffness, &mass, converged - 1)?
         }
         found => found?,
-    };
-    let rows = stations.iter().map(|&station| realised.row(station)).collect::<Result<Vec<_>, _>>()?;
-    let frequencies = found.frequencies_hz();
+    })
+}
+
+/// Natural frequencies in Hz and shapes of all modes but those of rigid bodies.
+pub fn elastic(modes: &Modes) -> impl Iterator<Item = (f64, &Vec<f64>)> {
+    let frequencies = modes.frequencies_hz();
     let least = RIGID * frequencies.last().copied().unwrap_or(0.0);
-    let elastic = frequencies.into_iter().zip(&found.shapes).filter(|(hz, _)| *hz > least);
-    Ok(elastic.map(|(hz, shape)| Mode { hz, shape: rows.iter().map(|&row| shape[row]).collect() }).collect())
+    frequencies.into_iter().zip(&modes.shapes).filter(move |(hz, _)| *hz > least)
 }
 
 /// The real part of all terms of a role.
-pub(crate) fn sum(model: &DynamicStiffness, role: Role, at_hz: f64) -> Result<SymmetricMatrix, Failure> {
+fn sum(model: &DynamicStiffness, role: Role, at_hz: f64) -> Result<SymmetricMatrix, Failure> {
     let pattern = model.analysis().pattern();
     let mut values = vec![c64::default(); pattern.stored()];
     for term in model.terms().iter().filter(|term| term.role == role) {

@@ -4,7 +4,7 @@ use crate::wrong_models::Failure;
 use crate::wrong_models::case::solve;
 use crate::wrong_models::dice::Dice;
 use crate::wrong_models::fault::Change;
-use crate::wrong_models::natural::sum;
+use crate::wrong_models::natural::{elastic, undamped};
 use crate::wrong_models::realised::{Realised, UNKNOWN};
 use crate::wrong_models::structure::{Kind as Shape, Structure};
 use cpu_time::ThreadTime;
@@ -15,7 +15,6 @@ use frfit::identify::{Context, Frfs, Identification, Noise, Options, Problem, Un
 use frfit::material::{Law, loss_factor};
 use frfit::model::{DynamicStiffness, Experiment, Role, Sensor, Term};
 use frfit::roots::Bounds;
-use frfit_linalg::modes::{ModesError, lowest};
 use frfit_linalg::sparse::Triplets;
 use std::fmt;
 
@@ -85,7 +84,7 @@ pub struct Case {
     pub at_best: Vec<f64>,
     /// Noise over response.
     pub noise: f64,
-    /// Whether the identification is told the standard deviations.
+    /// Whether the identification knows the standard deviations.
     pub noise_known: bool,
     /// Modes in the band.
     pub modes: usize,
@@ -247,18 +246,8 @@ impl Drawn {
 
     /// The lowest natural frequencies but those of rigid bodies.
     fn natural_hz(&self, count: usize) -> Result<Vec<f64>, Failure> {
-        let [stiffness, mass] = [Role::Stiffness, Role::Mass].map(|role| sum(&self.model, role, 1.0));
-        let (stiffness, mass) = (stiffness?, mass?);
-        let count = count.min(self.model.dim());
-        let found = match lowest(&stiffness, &mass, count) {
-            Err(ModesError::NotConverged { converged }) if converged > 1 => {
-                lowest(&stiffness, &mass, converged - 1)?
-            }
-            found => found?,
-        };
-        let all = found.frequencies_hz();
-        let least = 1e-3 * all.last().copied().unwrap_or(0.0);
-        Ok(all.into_iter().filter(|hz| *hz > least).collect())
+        let found = undamped(&self.model, 1.0, count.min(self.model.dim()))?;
+        Ok(elastic(&found).map(|(hz, _)| hz).collect())
     }
 
     fn law(&self, middle_hz: f64, eta: f64, dice: &mut Dice) -> Law {

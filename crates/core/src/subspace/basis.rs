@@ -18,7 +18,7 @@ pub(super) struct Basis {
 }
 
 /// A vector of which less than this is new (in the d-norm) adds roundoff, not a direction.
-pub(super) const NEW_DIRECTION_RTOL: f64 = 1e-8;
+const NEW_DIRECTION_RTOL: f64 = 1e-8;
 
 impl Basis {
     pub(super) fn new(weight: Vec<f64>, parts: Parts, experiment: &Experiment) -> Self {
@@ -92,9 +92,14 @@ impl Basis {
         self.vectors.ncols() - first
     }
 
-    /// Adds to other vectors, orthonormal in diag(d), what a vector has beyond them, where that is longer than `least`.
-    pub(super) fn append_to(&self, vectors: &mut ColumnBlock, x: &mut [f64], least: f64) {
-        append_new(&self.weight, (vectors, 0), x, least);
+    /// Adds to other vectors, orthonormal in diag(d), what is new of some (N × k, column after column): beyond them, and beyond V.
+    pub(super) fn append_outside(&self, vectors: &mut ColumnBlock, mut block: Vec<f64>) {
+        let n = self.weight.len();
+        let before: Vec<f64> = block.chunks_exact(n).map(|x| self.norm(x)).collect();
+        self.take_out(&mut block);
+        for (x, before) in block.chunks_exact_mut(n).zip(before) {
+            append_new(&self.weight, (vectors, 0), x, NEW_DIRECTION_RTOL * before);
+        }
     }
 
     /// Everything small that belongs to the vectors from `first` on.

@@ -11,7 +11,7 @@
 //! J. J. Sylvester, Phil. Mag. 4 (1852) 138–142; R. G. Grimes, J. G. Lewis, H. D. Simon, SIAM J. Matrix Anal. Appl. 15 (1994) 228–272.
 
 use super::assess::weights;
-use super::basis::{Basis, NEW_DIRECTION_RTOL};
+use super::basis::Basis;
 use super::train::real_directions;
 use super::{Point, Projection, Subspace, TrainOptions};
 use crate::c64;
@@ -81,7 +81,7 @@ impl<'m> Subspace<'m> {
         if self.model.dim() > MAX_COUNTED_DOFS {
             return Ok(());
         }
-        // A corner on a resonance without damping tells nothing; what was trained stands.
+        // At a corner on an undamped resonance modes cannot be counted. The training is valid without it.
         let count = self.bring_missing_modes(corners).ok().flatten();
         if count.is_some_and(|count| count.brought > 0) {
             self.train(points, options, for_each)?;
@@ -98,13 +98,13 @@ impl<'m> Subspace<'m> {
     /// # Limits
     /// Modes that neither load nor sensors see are counted and not brought.
     pub fn bring_missing_modes(&mut self, corners: &[Point<'m>]) -> Result<Option<ModeCount>, Breakdown> {
+        if self.shifts[0].factor.negative_eigenvalues() > 0 {
+            return Ok(None);
+        }
         let counted = corners.iter().map(|point| (self.projection().modes_below(point), point));
         // A basis that lacks modes may have as many at all of them: the smallest Re D decides then.
         let most = counted.max_by(|((a, of_a), _), ((b, of_b), _)| a.cmp(b).then(of_b.total_cmp(of_a)));
         let Some(((basis, _), corner)) = most else { return Ok(None) };
-        if self.shifts[0].factor.negative_eigenvalues() > 0 {
-            return Ok(None);
-        }
         let mut corrections = vec![c64::default(); corner.at.parameters.len()];
         corrections.first_mut().into_iter().for_each(|first| *first = corner.correction);
         let values: Vec<f64> = corner.at.assemble(&corrections).iter().map(|value| value.re).collect();
@@ -128,7 +128,7 @@ impl<'m> Subspace<'m> {
         let mut forces: Vec<f64> =
             seen.flat_map(|force| real_directions(&force, dot)).take(BLOCK).flatten().collect();
         let mut lanczos = Lanczos::new(self.model.dim());
-        let (mut found, mut idle) = (0, 0);
+        let (mut found, mut idle): (Vec<Ritz>, usize) = (Vec::new(), 0);
         factor.solve(&mut forces)?;
         self.work.solves += forces.len() / self.model.dim();
         let mut next = forces;
@@ -138,18 +138,14 @@ impl<'m> Subspace<'m> {
             self.work.solves += images.len() / self.model.dim();
             next = lanczos.add_images(&self.basis, images);
             let negative = lanczos.negative();
-            idle = if negative.len() > found { 0 } else { idle + 1 };
-            found = negative.len();
-            let good = negative.iter().all(|ritz| lanczos.residual(&self.basis, ritz) < RITZ_RTOL);
-            if good && (found >= missing || idle >= MAX_IDLE_BLOCKS) {
+            idle = if negative.len() > found.len() { 0 } else { idle + 1 };
+            found = negative;
+            let good = found.iter().all(|ritz| lanczos.residual(&self.basis, ritz) < RITZ_RTOL);
+            if good && (found.len() >= missing || idle >= MAX_IDLE_BLOCKS) {
                 break;
             }
         }
-        Ok(lanczos
-            .negative()
-            .iter()
-            .flat_map(|ritz| product(&lanczos.images, self.model.dim(), &ritz.y))
-            .collect())
+        Ok(found.iter().flat_map(|ritz| product(&lanczos.images, self.model.dim(), &ritz.y)).collect())
     }
 }
 
@@ -177,13 +173,9 @@ impl Lanczos {
     }
 
     /// Adds what some vectors have beyond V and U; whether there is any.
-    fn append(&mut self, basis: &Basis, mut block: Vec<f64>) -> bool {
-        let (n, before) = (self.vectors.nrows(), self.vectors.ncols());
-        let norms: Vec<f64> = block.chunks_exact(n).map(|x| basis.norm(x)).collect();
-        basis.take_out(&mut block);
-        for (x, norm) in block.chunks_exact_mut(n).zip(norms) {
-            basis.append_to(&mut self.vectors, x, NEW_DIRECTION_RTOL * norm);
-        }
+    fn append(&mut self, basis: &Basis, block: Vec<f64>) -> bool {
+        let before = self.vectors.ncols();
+        basis.append_outside(&mut self.vectors, block);
         self.vectors.ncols() > before
     }
 
