@@ -1,10 +1,11 @@
 //! How good a reduced model is at one frequency and one value of the parameter, at the sensors.
 
 use super::Projection;
+use super::projection::weighed;
 use super::reduced::SINGULAR;
 use crate::c64;
 use crate::model::{ModelAt, ParameterAt};
-use frfit_linalg::dense::{Lu, Matrix, NoConvergence};
+use frfit_linalg::dense::{Lu, NoConvergence};
 use frfit_linalg::solve::Breakdown;
 use frfit_linalg::vector::{norm, transpose_dot};
 
@@ -62,7 +63,7 @@ impl Solutions {
         let (theta, slope_theta) = weights(small, at, correction);
         let mut block = small.load.clone();
         block.extend(small.sensors.iter().flatten().map(|&l| c64::new(l, 0.0)));
-        let factor = Lu::new(&small.combine(&theta)).map_err(|NoConvergence| Breakdown::NotFinite)?;
+        let factor = small.factor(&theta)?;
         factor.solve(&mut block).map_err(|NoConvergence| SINGULAR)?;
         let all = block.chunks_exact(small.size).map(<[c64]>::to_vec).collect();
         Ok(Self { theta, slope_theta, factor, all })
@@ -113,8 +114,19 @@ impl Projection {
     /// [`Breakdown`] where the reduced system is singular.
     pub fn respond_at(&self, at: &ModelAt<'_>, correction: c64) -> Result<Vec<c64>, Breakdown> {
         let mut y = self.load.clone();
-        solve(&self.combine(&weights(self, at, correction).0), &mut y)?;
+        self.solve(&weights(self, at, correction).0, &mut y)?;
         Ok(self.observe(&y))
+    }
+
+    /// Σ θ_g VᵀS_gV, factorised.
+    pub(super) fn factor(&self, theta: &[c64]) -> Result<Lu, Breakdown> {
+        Lu::of_combination(self.size, &weighed(theta, &self.matrices))
+            .map_err(|NoConvergence| Breakdown::NotFinite)
+    }
+
+    /// x ← (Σ θ_g VᵀS_gV)⁻¹x, for as many columns as there are.
+    pub(super) fn solve(&self, theta: &[c64], x: &mut [c64]) -> Result<(), Breakdown> {
+        self.factor(theta)?.solve(x).map_err(|NoConvergence| SINGULAR)
     }
 
     /// ℓ_mᵀV y.
@@ -178,12 +190,6 @@ impl Projection {
         let total: Vec<c64> = twice.iter().zip(&bend).map(|(a, b)| 2.0 * a - b).collect();
         Ok(duals.iter().map(|z| transpose_dot(z, &total)).collect())
     }
-}
-
-/// x ← D⁻¹x of a reduced D, for as many columns as there are.
-pub(super) fn solve(dynamic_stiffness: &Matrix, x: &mut [c64]) -> Result<(), Breakdown> {
-    let factor = Lu::new(dynamic_stiffness).map_err(|NoConvergence| Breakdown::NotFinite)?;
-    factor.solve(x).map_err(|NoConvergence| SINGULAR)
 }
 
 impl AssessedSolution {

@@ -11,7 +11,7 @@ use super::assess::MATRIX_ROUNDOFF;
 use super::reduced::SINGULAR;
 use crate::c64;
 use crate::model::{Combination, ModelAt};
-use frfit_linalg::dense::{Lu, NoConvergence};
+use frfit_linalg::dense::NoConvergence;
 use frfit_linalg::solve::Breakdown;
 use frfit_linalg::vector::norm;
 
@@ -71,7 +71,7 @@ impl Projection {
     pub fn changes(&self, point: &ChangePoint<'_>) -> Result<Changed, Breakdown> {
         let n = self.size;
         let theta = self.parts.weights(&point.at.nominal);
-        let factor = Lu::new(&self.combine(&theta)).map_err(|NoConvergence| Breakdown::NotFinite)?;
+        let factor = self.factor(&theta)?;
         let mut given = self.load.clone();
         given.extend(self.sensors.iter().flatten().map(|&l| c64::new(l, 0.0)));
         factor.solve(&mut given).map_err(|NoConvergence| SINGULAR)?;

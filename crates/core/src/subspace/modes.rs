@@ -14,7 +14,7 @@
 //! $$ f_t \leftarrow (1 + \nu_t)(f_t + i \\, \Delta\eta_t \operatorname{Re} f_t) $$
 //! changes a known factor. What comes out is a reduced model like any other.
 
-use super::assess::{Solutions, solve, weights};
+use super::assess::{Solutions, weights};
 use super::{FactorError, Point, Projection};
 use crate::c64;
 use crate::model::{ModelAt, Role};
@@ -359,8 +359,8 @@ impl Projection {
             scale * modes.change(error, errors.stiffness[error])[1] * own
         };
         let stiffness: Vec<c64> = (0..modes.of_error.len()).map(stiffness).collect();
-        let mut of_parameters = self.first_weights(at);
-        of_parameters[0].clone_from(&solutions.slope_theta);
+        let mut of_changes = self.first_weights(at);
+        of_changes[0].clone_from(&solutions.slope_theta);
         let of_stiffness = |z: &Vec<c64>| {
             let each = modes.of_error.iter().zip(&modes.partner).zip(&stiffness);
             each.map(|((&i, &j), k)| -0.5 * k * (z[i] * of_load[j] + z[j] * of_load[i])).collect()
@@ -380,13 +380,17 @@ impl Projection {
         };
         let is_stiffness = |g: usize| g >= modes.stiffness.len() || modes.is_stiffness(g);
         let of_scale = |(g, theta): (usize, &c64)| if is_stiffness(g) { 2.0 * theta } else { c64::default() };
-        let of_scale = solutions.theta.iter().enumerate().map(of_scale).collect();
-        let of_terms = solutions.slopes(self, &errors.factors.iter().map(theta).collect::<Vec<_>>());
-        let factors = |m: usize| of_terms.iter().map(|of_term| of_term[m]).collect();
+        of_changes.push(solutions.theta.iter().enumerate().map(of_scale).collect());
+        of_changes.extend(errors.factors.iter().map(theta));
+        // Parameters, the scale, factors: every matrix is met once for all of them.
+        let mut slopes = solutions.slopes(self, &of_changes);
+        let of_factors = slopes.split_off(at.parameters.len() + 1);
+        let scale = slopes.pop().unwrap_or_default();
+        let factors = |m: usize| of_factors.iter().map(|of_factor| of_factor[m]).collect();
         Ok(ErrorSlopes {
             response: solutions.response(self),
-            scale: solutions.slopes(self, &[of_scale]).concat(),
-            slopes: solutions.slopes(self, &of_parameters),
+            scale,
+            slopes,
             stiffness: by_sensor.iter().map(of_stiffness).collect(),
             masses: duals.iter().map(masses).collect(),
             load: by_sensor.iter().map(|z| z.iter().zip(&modes.load).map(|(z, f)| z * f).collect()).collect(),
@@ -438,7 +442,7 @@ impl Projection {
         let momentum: Vec<c64> = modes.momenta[mode].iter().map(|&m| m.into()).collect();
         let theta = weights(self, at, correction).0;
         let mut block = [self.load.as_slice(), &momentum].concat();
-        solve(&self.combine(&theta), &mut block)?;
+        self.solve(&theta, &mut block)?;
         let (y, w) = block.split_at(self.size);
         let [p, s] = [y, w].map(|x| transpose_dot(&momentum, x));
         let own: Vec<f64> = modes.sensors.iter().map(|sensor| sensor[mode]).collect();

@@ -39,7 +39,7 @@ impl Projection {
             return Ok(None);
         };
         let n = self.size;
-        let factor = Lu::new(&self.combine(&self.parts.weights(&at.nominal)))?;
+        let factor = self.factor(&self.parts.weights(&at.nominal)).map_err(|_| NoConvergence)?;
         let change = self.combine(&self.parts.weights(change));
         let forces = self.sensors.iter().map(|l| l.iter().map(|&l| c64::new(l, 0.0)).collect::<Vec<_>>());
         let mut block: Vec<c64> = (0..n).flat_map(|j| change.column(j)).copied().collect();

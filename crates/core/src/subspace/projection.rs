@@ -97,7 +97,11 @@ impl Projection {
 
 /// Σ θ_g S_g of those that have any weight.
 fn combination([nrows, ncols]: [usize; 2], theta: &[c64], matrices: &[Vec<f64>]) -> Matrix {
+    dense::combination(nrows, ncols, &weighed(theta, matrices))
+}
+
+/// Matrices that have any weight, with it.
+pub(super) fn weighed<'m>(theta: &[c64], matrices: &'m [Vec<f64>]) -> Vec<(c64, &'m [f64])> {
     let weighed = theta.iter().zip(matrices).filter(|(theta, _)| **theta != c64::default());
-    let parts: Vec<(c64, &[f64])> = weighed.map(|(&theta, matrix)| (theta, matrix.as_slice())).collect();
-    dense::combination(nrows, ncols, &parts)
+    weighed.map(|(&theta, matrix)| (theta, matrix.as_slice())).collect()
 }
