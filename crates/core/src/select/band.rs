@@ -52,9 +52,11 @@ impl Band {
     pub(super) fn cheapest(&self, curvature: f64) -> Option<(Path, Vec<Option<usize>>)> {
         // Of the ways that lead to each path no more than this is kept: a band has thousands of frequencies.
         let mut ways: Vec<Vec<(Option<usize>, usize)>> = Vec::with_capacity(self.points.len());
-        let search = self.forward(curvature, |paths| {
-            ways.push(paths.iter().map(|path| (path.chosen, path.parent)).collect());
-        });
+        let mut search = Search::new(curvature);
+        for (k, points) in self.points.iter().enumerate() {
+            search.advance(self.step(k), points);
+            ways.push(search.paths().iter().map(|path| (path.chosen, path.parent)).collect());
+        }
         let mut at = search.cheapest()?;
         let whole = search.paths()[at];
         let mut chosen = vec![None; ways.len()];
@@ -65,32 +67,49 @@ impl Band {
     }
 
     /// The point that the cheapest path chooses at each frequency, and for each candidate the cost of the best path through it (min-marginals, by a pass from
-    /// either end).
+    /// either end). Of the pass from the first frequency so many are kept at a time as there are such stretches: a band may have a hundred thousand.
     ///
     /// # Limits
     /// Of the paths that were kept; a candidate that none of them meets has its cost from the nearest.
     pub(super) fn through_each(&self, curvature: f64) -> (Vec<Option<usize>>, Vec<Vec<f64>>) {
-        let mut forward: Vec<Vec<Path>> = Vec::with_capacity(self.points.len());
-        let search = self.forward(curvature, |paths| forward.push(paths.to_vec()));
-        let mut chosen = vec![None; forward.len()];
+        let n = self.points.len();
+        let stretch = (n as f64).sqrt().ceil().max(1.0) as usize;
+        let mut search = Search::new(curvature);
+        // Before the first frequency of each stretch.
+        let mut starts: Vec<Search> = Vec::with_capacity(n.div_ceil(stretch));
+        for k in 0..n {
+            if k % stretch == 0 {
+                starts.push(search.clone());
+            }
+            search.advance(self.step(k), &self.points[k]);
+        }
+        let mut chosen = vec![None; n];
         let mut at = search.cheapest();
         let mut costs: Vec<Vec<f64>> =
             self.points.iter().map(|points| vec![f64::INFINITY; points.len()]).collect();
         let mut backward = Search::new(curvature);
         // What is beyond the last frequency starts there.
         let mut step = 0.0;
-        for (k, before) in forward.iter().enumerate().rev() {
-            let way = at.map(|at| before[at]);
-            (chosen[k], at) = (way.and_then(|way| way.chosen), way.map(|way| way.parent));
-            let after: Vec<Path> =
-                backward.paths().iter().map(|path| path.advanced(step, curvature)).collect();
-            for (path, chosen) in before.iter().filter_map(|path| Some((path, path.chosen?))) {
-                for other in &after {
-                    costs[k][chosen] = costs[k][chosen].min(path.with(other));
-                }
+        for (s, mut search) in starts.into_iter().enumerate().rev() {
+            let first = s * stretch;
+            let mut forward: Vec<Vec<Path>> = Vec::with_capacity(stretch);
+            for k in first..(first + stretch).min(n) {
+                search.advance(self.step(k), &self.points[k]);
+                forward.push(search.paths().to_vec());
             }
-            backward.advance(step, &self.points[k]);
-            step = -self.step(k);
+            for (k, before) in forward.iter().enumerate().map(|(k, before)| (first + k, before)).rev() {
+                let way = at.map(|at| before[at]);
+                (chosen[k], at) = (way.and_then(|way| way.chosen), way.map(|way| way.parent));
+                let after: Vec<Path> =
+                    backward.paths().iter().map(|path| path.advanced(step, curvature)).collect();
+                for (path, chosen) in before.iter().filter_map(|path| Some((path, path.chosen?))) {
+                    for other in &after {
+                        costs[k][chosen] = costs[k][chosen].min(path.with(other));
+                    }
+                }
+                backward.advance(step, &self.points[k]);
+                step = -self.step(k);
+            }
         }
         (chosen, costs)
     }
@@ -112,16 +131,6 @@ impl Band {
             let more = ((self.points.len() / every) as f64 / FREQUENCIES_PER_MATERIAL - 1.0).max(0.0);
             path.cost + path.spread + more * path.material
         })
-    }
-
-    /// From the first frequency to the last, with a look at the paths after each.
-    fn forward(&self, curvature: f64, mut after_each: impl FnMut(&[Path])) -> Search {
-        let mut search = Search::new(curvature);
-        for (k, points) in self.points.iter().enumerate() {
-            search.advance(self.step(k), points);
-            after_each(search.paths());
-        }
-        search
     }
 }
 
