@@ -91,7 +91,7 @@ impl Task<'_, '_> {
             (None, Some(information)) => information.covariance(g, h),
             (None, None) => 0.0,
         };
-        let at: Vec<Line> = map(self.context.for_each, all.len(), |i| {
+        let mut at: Vec<Line> = map(self.context.for_each, all.len(), |i| {
             let own = place.as_ref().and_then(|p| p.eliminated.own[i].as_ref());
             let mut moved = own.map(|(_, moved)| moved.clone());
             if let (Some(moved), Some(solution), Some(_)) = (&mut moved, found.at(i), errors) {
@@ -164,8 +164,15 @@ impl Task<'_, '_> {
             ]);
             BandValue { unknowns: one.unknowns, numbers, law, at_bound, status: status.within(fit) }
         });
+        let band: Vec<BandValue> = band.collect();
+        // With a value that stops at its bounds no line has what it needs within them.
+        if band.iter().any(|one| one.at_bound) {
+            at.iter_mut()
+                .filter(|line| line.status == Status::Ok)
+                .for_each(|line| line.status = Status::NoRoot);
+        }
         SeveralOutcome {
-            band: band.collect(),
+            band,
             at,
             coordinates,
             correlation,
