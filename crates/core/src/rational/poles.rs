@@ -43,6 +43,14 @@ impl RationalResponse {
 }
 
 impl Poles {
+    /// x_m(c) at all sensors.
+    pub fn respond(&self, correction: c64) -> Vec<c64> {
+        let z = correction / self.scale;
+        let inverse: Vec<c64> = self.lambda.iter().map(|lambda| (1.0 + z * lambda).inv()).collect();
+        let value = |residues: &Vec<c64>| residues.iter().zip(&inverse).map(|(rho, d)| rho * d).sum();
+        self.residues.iter().map(value).collect()
+    }
+
     /// x_m(c) and ∂x_m/∂c at all sensors.
     pub fn respond_with_slope(&self, correction: c64) -> (Vec<c64>, Vec<c64>) {
         let z = correction / self.scale;

@@ -17,10 +17,11 @@ use crate::identify::model_errors::{
 use crate::identify::model_errors::{Explanation, covariance, estimate};
 use crate::identify::noise::{Noise, levels, standard_deviations, without};
 use crate::identify::options::{ModelErrors, Options};
-use crate::identify::outcome::Status;
+use crate::identify::outcome::{Line, Status};
+use crate::identify::thinned::thinned;
 use crate::median::median;
 use crate::model::ModelAt;
-use crate::subspace::{Corrected, Point};
+use crate::subspace::{Corrected, ModalErrors, Modes, Point, Projection};
 
 /// What is found when the errors of the model are estimated and taken out; the same where a right model explains the band as well. Scales and delays of
 /// channels that are unknown are estimated with them, as what is left of those that the band has.
@@ -152,6 +153,24 @@ impl Weights {
     }
 }
 
+/// Answers along the path about which a smaller model is made, and to which error: of error bars three digits are more than enough.
+const PATH_POINTS: usize = 24;
+const PATH_TOL: f64 = 1e-6;
+
+/// A smaller model with the errors, good near the answers on the path, with its modes; `None` where it would be no smaller.
+fn near_path(
+    (whole, modes, errors): (&Projection, &Modes, &ModalErrors),
+    at: &[ModelAt<'_>],
+    lines: &[Line],
+) -> Option<(Modes, Projection)> {
+    let on_path: Vec<usize> = (0..lines.len()).filter(|&i| lines[i].on_path).collect();
+    let point = |&i: &usize| Some(Point { at: at[i].clone(), correction: lines[i].correction()? });
+    let points: Vec<Point<'_>> = thinned(&on_path, PATH_POINTS).filter_map(point).collect();
+    let (small, modes) = whole.about_modes(modes, &points, PATH_TOL)?;
+    let small = small.with_errors(&modes, errors);
+    Some((modes, small))
+}
+
 /// Adds to the error bars what the errors of the model make of the factor. Returns how much longer the bars become: the median of the lines that are `ok`.
 fn widen(
     outcome: &mut BandOutcome,
@@ -162,12 +181,17 @@ fn widen(
     context: Context<'_>,
 ) -> Option<f64> {
     let Corrected { modes, errors: values, model } = reduced.corrected()?;
+    let near_path = near_path((reduced.whole(), modes, values), at, &outcome.outcomes);
     let covariances = errors.of_channels_and_errors();
     let channels = errors.channels();
     let lines = &outcome.outcomes;
     let split = errors.split();
     let moved = map(context.for_each, lines.len(), |i| -> Option<([f64; 3], Option<[f64; 3]>)> {
         let correction = lines[i].correction()?;
+        let (modes, model) = match &near_path {
+            Some((modes, model)) if lines[i].on_path => (modes, model),
+            _ => (modes, model),
+        };
         let slopes = model.respond_with_error_slopes((modes, values), &at[i], correction).ok()?;
         let n = modes.omega_rad_s.len();
         let first_error = channels.count() + usize::from(errors.of_scale().is_some());

@@ -115,8 +115,9 @@ const USUAL_NOISE: f64 = 0.01;
 const STEPS_PER_LEVEL: usize = 5;
 const STEPS_AT_LAST_LEVEL: usize = 5;
 
-/// Rounds in which sizes and errors are found in turn.
+/// Rounds in which sizes and errors are found in turn, and a change of −2 ln of the evidence from one to the next that is none.
 const MAX_SIZE_ROUNDS: usize = 8;
+const SAME_EVIDENCE: f64 = 0.2;
 
 /// Before the data: natural frequencies are good to a half per cent, loss factors of modes to one (a stiffness that is not there may have any), shapes and known factors to two, loss factors of known stiffnesses to a tenth of themselves
 /// or what bearings and air have.
@@ -213,6 +214,13 @@ impl Sizes {
     fn with_dependent_shapes(self, sensors: usize) -> Self {
         let dependent = ((1 + sensors) as f64 / INDEPENDENT_ERRORS_OF_A_SHAPE).max(1.0);
         Self { shape: dependent.sqrt() * self.shape, ..self }
+    }
+
+    /// The same where errors of other kinds are looked for too: of those there is nothing but what is usual.
+    fn with_kinds(self, kinds: Kinds, known: KnownSizes) -> Self {
+        let is_new = kinds.damping == Damping::Own && self.loss_factor == 0.0;
+        let loss_factor = if is_new { MODAL_LOSS_FACTOR_PRIOR_STD } else { self.loss_factor };
+        Self { loss_factor, ..self }.of_kinds(kinds, known)
     }
 
     /// Without damping errors of single modes where those are not looked for.
@@ -316,7 +324,9 @@ fn explanation(search: &Search<'_, '_>, starts: &[Vec<f64>]) -> Option<Explanati
     // Far from the answer damping that is free only hides that a mode is at another frequency, and masses may.
     let at_starts = || starts.iter().map(|start| coarse.start(start)).collect::<Vec<Place>>();
     let mut wrong = fitted(at_starts(), Kinds::STIFFNESS)?;
-    wrong = better(wrong, fitted(at_starts(), Kinds::MASSES));
+    if !data.is_explained(&wrong, &search.lines) {
+        wrong = better(wrong, fitted(at_starts(), Kinds::MASSES));
+    }
     if !data.is_explained(&wrong, &search.lines) {
         let stiffness = Fitting { kinds: Kinds::STIFFNESS, free_nodes: false, ..whole };
         let upwards = starts.iter().filter_map(|start| data.upwards(&stiffness, start)).collect();
@@ -349,18 +359,25 @@ fn explanation(search: &Search<'_, '_>, starts: &[Vec<f64>]) -> Option<Explanati
         (Kinds::with_common_damping, RIGHT_MODEL_NATS),
         (Kinds::with_own_damping, 0.0),
     ];
+    let near = search.smaller(&search.points(&wrong.found.place), NEIGHBOURHOOD_TOL);
+    let fine = search.fitting(&near.0, &near.1, &search.lines);
     // Whether there are errors is asked of the kinds that explain the band best.
     let mut best = wrong.evidence;
     for (with, nats) in further {
         let kinds = with(wrong.kinds);
         if kinds != wrong.kinds {
-            let more = from(wrong.found.place.clone(), kinds, &ADDED_NOISE[LAST_LEVELS..]);
+            let (place, fitting) = (wrong.found.place.clone(), Fitting { kinds, ..fine });
+            // From a minimum that explains the band it is not far; from another one noise that is added leads away.
+            let more = if data.is_explained(&wrong, &search.lines) {
+                data.settled(&fitting, place, wrong.sizes.with_kinds(kinds, fine.known), wrong.level)
+            } else {
+                data.explain(&fitting, place, &ADDED_NOISE[LAST_LEVELS..])
+            };
             best = more.as_ref().map_or(best, |more| best.min(more.evidence));
             wrong = more.filter(|more| more.evidence < wrong.evidence + 2.0 * nats).unwrap_or(wrong);
         }
     }
-    let near = search.smaller(&search.points(&wrong.found.place), NEIGHBOURHOOD_TOL);
-    let fine = Fitting { kinds: wrong.kinds, ..search.fitting(&near.0, &near.1, &search.lines) };
+    let fine = Fitting { kinds: wrong.kinds, ..fine };
     let scattered = data.scattered(search, &right, wrong.level);
     let least = scattered.map_or(right.evidence, |scattered| scattered.min(right.evidence));
     let evidence = 0.5 * (least - best);
@@ -762,9 +779,9 @@ impl<'a> Measured<'_, 'a> {
     /// The least squares with the noise approached from above, and the sizes of largest evidence.
     fn explain(&self, fitting: &Fitting<'_, '_>, mut place: Place, from_above: &[f64]) -> Option<Explained> {
         let known = self.known();
-        let mut sizes = Sizes::prior(fitting.known).of_kinds(fitting.kinds, fitting.known);
+        let sizes = Sizes::prior(fitting.known).of_kinds(fitting.kinds, fitting.known);
         let numbers = self.numbers(fitting.lines) as f64;
-        let (mut level, mut rest) = (1.0, 0.0);
+        let mut level = 1.0;
         for &added in from_above {
             let sigma = self.sigma_at(fitting.lines, if known { 1.0 } else { 0.0 }, added);
             let found = fitting.descend(place, &sigma, &fitting.precision(&sizes), STEPS_PER_LEVEL)?;
@@ -777,6 +794,20 @@ impl<'a> Measured<'_, 'a> {
                 }
             }
         }
+        self.settled(fitting, place, sizes, level)
+    }
+
+    /// The least squares near a place, with the noise and the sizes of largest evidence: those to begin with are nearly right.
+    fn settled(
+        &self,
+        fitting: &Fitting<'_, '_>,
+        mut place: Place,
+        mut sizes: Sizes,
+        mut level: f64,
+    ) -> Option<Explained> {
+        let known = self.known();
+        let numbers = self.numbers(fitting.lines) as f64;
+        let mut rest = 0.0;
         let mut last = None;
         for _ in 0..MAX_SIZE_ROUNDS {
             let sigma = self.sigma_beside(fitting.lines, level, rest);
@@ -800,7 +831,13 @@ impl<'a> Measured<'_, 'a> {
             if known && !fitting.shapes().is_empty() {
                 rest = self.rest(fitting, &place, (numbers - determined).max(1.0))?;
             }
+            let same = last
+                .as_ref()
+                .is_some_and(|last: &Explained| (last.evidence - evidence).abs() <= SAME_EVIDENCE);
             last = Some(Explained { found, sizes, kinds: fitting.kinds, level, rest: before.2, evidence });
+            if same {
+                break;
+            }
             if !known {
                 level = (level * (chi_squared / (numbers - determined).max(1.0)).sqrt())
                     .max(MIN_NOISE_OVER_RESPONSE);

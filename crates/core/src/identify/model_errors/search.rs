@@ -158,8 +158,9 @@ const MAX_SHAPE_ERROR: f64 = 0.3;
 /// The same over the sizes that were given.
 const MAX_ERROR_OVER_GIVEN_SIZE: f64 = 3.0;
 
-/// A gain of this part of the cost is none.
+/// A gain of this part of the cost is none, nor is one of this much: the cost is −2 ln of a probability.
 const COST_RTOL: f64 = 1e-5;
+const COST_ATOL: f64 = 0.01;
 
 impl Fitting<'_, '_> {
     pub(super) fn sensors(&self) -> usize {
@@ -575,7 +576,7 @@ impl Fitting<'_, '_> {
         }
     }
 
-    /// Levenberg and Marquardt's method from a place
+    /// Levenberg and Marquardt's method from a place.
     pub(super) fn descend(
         &self,
         start: Place,
@@ -615,7 +616,7 @@ impl Fitting<'_, '_> {
                     (place, normal, of_prior, pull) = (there, other, other_prior, other_pull);
                     damping = (damping * 0.1).max(1e-9);
                     refused = 0;
-                    if gain <= COST_RTOL * cost && part == 1.0 {
+                    if gain <= (COST_RTOL * cost).max(COST_ATOL) && part == 1.0 {
                         break;
                     }
                 }

@@ -9,7 +9,9 @@ use super::search::{Fitting, Place};
 use crate::c64;
 use crate::for_each::map;
 use crate::identify::thinned::thinned;
-use crate::subspace::AlongMode;
+use crate::rational::{Poles, RationalResponse};
+use crate::response::Response;
+use crate::subspace::{AlongMode, Point, Projection};
 
 /// By how much an unknown as a whole is changed, in its logarithm, and in how many steps to either side.
 const SCALE_RANGE: f64 = 0.3;
@@ -20,6 +22,10 @@ const NEAR_SCALE_STEPS: i32 = 32;
 
 /// Lines that are looked at where an unknown is tried all over its range: the measure is bounded, and no single one of them rules.
 const MAX_SCALE_LINES: usize = 150;
+
+/// Order of the response along an unknown to begin with, and the residual with which it is good enough for a measure that is bounded.
+const FIRST_ORDER: usize = 16;
+const MAX_RESIDUAL: f64 = 1e-3;
 
 /// How far off a natural frequency is looked for, and in how many steps to either side: up to 1 % each is a half-width of a loss factor of 0.2 %.
 const FREQUENCY_RANGE: f64 = 0.03;
@@ -62,15 +68,25 @@ impl Fitting<'_, '_> {
     ) -> Option<(f64, Place)> {
         let mut mismatch = 0.0;
         for unknown in self.curves.smooth() {
-            let scaled = |k: i32| -> Option<(f64, Place)> {
-                let mut there = place.clone();
-                self.curves.scale(&mut there, unknown, part(k, SCALE_STEPS) * SCALE_RANGE);
-                let shown = self.responses(&there)?;
+            let by = |k: i32| part(k, SCALE_STEPS) * SCALE_RANGE;
+            let model = self.model.with_errors(self.modes, &self.errors(&place));
+            let of_line =
+                |k: usize| AlongUnknown::new(self, (&model, &place), self.lines[k], (unknown, by(most)));
+            let along: Vec<AlongUnknown> =
+                map(self.for_each, self.lines.len(), of_line).into_iter().collect::<Option<_>>()?;
+            let scaled = |k: i32| -> Option<f64> {
+                let respond = |(&i, along): (&usize, &AlongUnknown)| {
+                    Some(self.curves.shown(&place, self.omegas[i], &along.respond(by(k))?))
+                };
+                let shown: Vec<Vec<c64>> =
+                    self.lines.iter().zip(&along).map(respond).collect::<Option<_>>()?;
                 let of_sensor = |m: usize| self.mismatch(shown.iter().map(|x| x[m]), m, used);
-                Some(((0..self.sensors()).map(of_sensor).sum(), there))
+                Some((0..self.sensors()).map(of_sensor).sum())
             };
-            let each = (-most..=most).filter_map(scaled);
-            (mismatch, place) = each.min_by(|a, b| a.0.total_cmp(&b.0))?;
+            let each = (-most..=most).filter_map(|k| Some((scaled(k)?, k)));
+            let (least, k) = each.min_by(|a, b| a.0.total_cmp(&b.0))?;
+            mismatch = least;
+            self.curves.scale(&mut place, unknown, by(k));
         }
         Some((mismatch, place))
     }
@@ -168,6 +184,55 @@ impl Fitting<'_, '_> {
         let bounded = |u: c64, x: c64| (u - x).norm_sqr() / (u.norm_sqr() + x.norm_sqr());
         let lines = self.lines.iter().zip(shown).filter(|(i, _)| used(**i, m));
         lines.map(|(&i, x)| bounded(self.measured[i][m], x)).filter(|mismatch| mismatch.is_finite()).sum()
+    }
+}
+
+/// The response at a line along the values of one unknown, on its Krylov space: each value costs some divisions.
+struct AlongUnknown {
+    response: RationalResponse,
+    poles: Option<Poles>,
+    /// The value, and the correction that it is.
+    value: c64,
+    correction: c64,
+}
+
+impl AlongUnknown {
+    /// Good for values up to exp(±range) times the one that there is; `None` where the reduced system is singular.
+    fn new(
+        fitting: &Fitting<'_, '_>,
+        (model, place): (&Projection, &[f64]),
+        line: usize,
+        (unknown, range): (usize, f64),
+    ) -> Option<Self> {
+        let (values, _) = fitting.curves.values(place, line, fitting.omegas[line])?;
+        let Point { at, correction } = (fitting.point)(line, &values)?;
+        at.parameters.get(unknown)?;
+        let system = model.at(&at).ok()?;
+        // Other unknowns than the first have their values as nominal ones.
+        let correction = if unknown == 0 { correction } else { c64::default() };
+        let mut order = FIRST_ORDER;
+        let mut response = RationalResponse::new(&system, unknown, order).ok()?;
+        let far = [range, -range].map(|by| correction + values[unknown] * by.exp_m1());
+        let is_good =
+            |response: &RationalResponse, c| response.residual(c).is_ok_and(|rest| rest <= MAX_RESIDUAL);
+        while !response.is_complete() && !far.iter().all(|&c| is_good(&response, c)) {
+            if order >= system.dim() {
+                break;
+            }
+            order *= 2;
+            response = response.extended(&system, unknown, order).ok()?;
+        }
+        let poles = response.poles().ok()?;
+        Some(Self { response, poles, value: values[unknown], correction })
+    }
+
+    /// x_m with exp(by) times the value.
+    fn respond(&self, by: f64) -> Option<Vec<c64>> {
+        let correction = self.correction + self.value * by.exp_m1();
+        match &self.poles {
+            Some(poles) => Some(poles.respond(correction)),
+            None => self.response.respond(correction).ok(),
+        }
     }
 }
 
