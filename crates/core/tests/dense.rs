@@ -7,7 +7,7 @@ use common::{Band, Case, Setup, plate, sandwich};
 use frfit::c64;
 use frfit::for_each::sequential;
 use frfit::frequency::linear_hz;
-use frfit::identify::{Context, Identification, Noise, Status, Variation, relative_error};
+use frfit::identify::{Context, Identification, ModelErrors, Noise, Status, Variation, relative_error};
 use frfit::roots::Bounds;
 
 /// Dense for a structure of a dozen modes.
@@ -109,6 +109,70 @@ fn a_dense_plate_is_followed_where_that_is_beyond_doubt() {
         let little_damping = both(plate(8, 0.32, 1e-3), FREQUENCIES, 0.75, 0.0, 2);
         assert_same("two sensors, little damping", &little_damping, 0.6);
     }
+}
+
+/// Of several sensors only solutions that could be chosen are followed: how many lines are explored does not grow with the band.
+#[test]
+fn explored_lines_do_not_grow_with_the_band() {
+    let explored = [1000, 4000].map(|frequencies| {
+        let case = plate(8, 0.32, 1e-3);
+        let measured = exact(&case, &linear_hz(case.band_hz[0], case.band_hz[1], frequencies));
+        let found = near(case, frequencies, &measured);
+        assert_eq!(found.count(Status::Ok), frequencies);
+        found.search.explored
+    });
+    assert!(4 * explored[1] < 5 * explored[0] && explored[0] < 500, "{explored:?}");
+}
+
+/// Only every eighth line is right, the others are on straight lines between: no modulus explains two sensors there. Both boxes are searched
+/// on one reduced model, and no line that is off is `ok`.
+#[test]
+fn data_that_no_modulus_explains_cost_no_second_training() {
+    let case = sandwich(12, 1);
+    let frequency_hz = linear_hz(case.band_hz[0], case.band_hz[1], 800);
+    let right = exact(&case, &frequency_hz);
+    let between = |i: usize| {
+        let (left, t) = (i / 8 * 8, (i % 8) as f64 / 8.0);
+        let pairs = right[left].iter().zip(&right[(left + 8).min(799)]);
+        pairs.map(|(a, b)| a * (1.0 - t) + b * t).collect()
+    };
+    let measured: Vec<Vec<c64>> = (0..800).map(between).collect();
+    let truth = case.parameter.nominal.clone();
+    let found = near(case, 800, &measured);
+    let work = found.search.work;
+    assert!(work.factorisations <= 4, "{work:?}");
+    for line in found.lines.iter().filter(|line| line.status == Status::Ok) {
+        let truth = truth.at(line.frequency_hz).unwrap();
+        assert!((line.factor().unwrap() - truth).norm() < 0.05 * truth.norm(), "{line:?}");
+    }
+}
+
+/// What two sensors show with the nominal factor.
+fn exact(case: &Case, frequency_hz: &[f64]) -> Vec<Vec<c64>> {
+    let (model, trained) = case.trained(1e-10);
+    assert!(trained.converged);
+    let exact = |&f: &f64| model.projection().assess(&case.at(f), c64::default()).unwrap().response;
+    frequency_hz.iter().map(exact).map(|row| row[..2].to_vec()).collect()
+}
+
+/// Two sensors identified from a nominal that is a quarter too small, with wide bounds; errors of the model are not looked for.
+fn near(mut case: Case, frequencies: usize, measured: &[Vec<c64>]) -> Identification {
+    let frequency_hz = linear_hz(case.band_hz[0], case.band_hz[1], frequencies);
+    case.experiment.sensors.truncate(2);
+    let size = case.parameter.nominal.at(case.band_hz[1]).unwrap().re;
+    case.parameter.nominal = case.parameter.nominal.scaled(0.75);
+    let bounds = Bounds { storage: Some([size / 10.0, size * 10.0]), loss_factor: Some([0.0, 2.0]) };
+    let band = Band {
+        model: &case.model,
+        experiment: &case.experiment,
+        parameter: &case.parameter,
+        frequency_hz: &frequency_hz,
+        measured,
+        noise: Noise::Unknown,
+    };
+    let context = Context { for_each: &sequential, progress: &|_, _, _| {} };
+    let options = Setup::within(bounds).with_model_errors(ModelErrors::None);
+    band.identify(Variation::PerFrequency, &[], &options, context)
 }
 
 #[test]

@@ -4,6 +4,7 @@ use super::{Assessment, ModalErrors, Modes, Point, Projection};
 use crate::c64;
 use crate::model::ModelAt;
 use frfit_linalg::solve::Breakdown;
+use std::sync::Arc;
 
 /// A whole reduced model with errors in it.
 #[derive(Debug, Clone)]
@@ -29,20 +30,25 @@ impl Corrected {
 #[derive(Debug, Clone)]
 pub(crate) struct Local {
     /// As the full model is.
-    own: Projection,
+    own: Arc<Projection>,
     /// With the errors of the model taken out, where there are any.
     corrected: Option<Projection>,
 }
 
 impl Local {
+    /// The full model's, and beside it that of the corrected model, good at some points.
     pub(crate) fn new(
-        whole: &Projection,
+        own: Arc<Projection>,
         corrected: Option<&Corrected>,
         points: &[Point<'_>],
         tolerance: f64,
     ) -> Self {
-        let corrected = corrected.map(|corrected| corrected.model.localised(points, tolerance));
-        Self { own: whole.localised(points, tolerance), corrected }
+        Self { corrected: corrected.map(|corrected| corrected.model.localised(points, tolerance)), own }
+    }
+
+    /// The full model's.
+    pub(crate) fn own(&self) -> &Arc<Projection> {
+        &self.own
     }
 
     /// What answers there.

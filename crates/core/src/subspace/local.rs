@@ -39,6 +39,8 @@ impl Projection {
         let mut directions = Vec::new();
         vectors.iter().for_each(|vector| append_real(&mut directions, vector.clone()));
         let mut done = vec![false; points.len()];
+        let all: Vec<usize> = (0..points.len()).collect();
+        let mut watched = all.clone();
         // Ends and middle first; then where it is worst.
         let mut next: Vec<(usize, f64)> =
             [0, points.len() / 2, points.len().saturating_sub(1)].map(|i| (i, f64::INFINITY)).into();
@@ -61,11 +63,20 @@ impl Projection {
                 let assessed = local.assess(&points[i].at, points[i].correction);
                 assessed.map_or(f64::INFINITY, |assessed| relative(&assessed, &points[i]))
             };
-            let rest = (0..points.len()).filter(|&i| !done[i]).map(|i| (i, error(i)));
-            match rest.max_by(|a, b| a.1.total_cmp(&b.1)) {
-                Some((i, worst)) if worst > tolerance => next.push((i, worst)),
-                _ => return Some((local, basis)),
+            let lacking = |of: &[usize]| -> Vec<(usize, f64)> {
+                let rest = of.iter().filter(|&&i| !done[i]).map(|&i| (i, error(i)));
+                rest.filter(|(_, error)| *error > tolerance).collect()
+            };
+            // Those that were good are, most of them: all are looked at when no other is left.
+            let mut bad = lacking(&watched);
+            if bad.is_empty() {
+                bad = lacking(&all);
             }
+            match bad.iter().max_by(|a, b| a.1.total_cmp(&b.1)) {
+                Some(&worst) => next.push(worst),
+                None => return Some((local, basis)),
+            }
+            watched = bad.into_iter().map(|(i, _)| i).collect();
         }
     }
 }

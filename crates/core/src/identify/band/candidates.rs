@@ -5,12 +5,14 @@ use crate::identify::options::Options;
 use crate::identify::rational::{RESPONSE_MATCH_RTOL, ROOT_RESIDUAL_TOL};
 use crate::identify::unknown::Unknown;
 use crate::model::ModelAt;
-use crate::rational::{Poles, RationalResponse};
+use crate::rational::{Poles, PolesBetween, RationalResponse};
 use crate::response::Response;
 use crate::roots::{Candidate, Refusal};
 use crate::subspace::{Assessment, Projection};
 use frfit_linalg::dense::NoConvergence;
 use frfit_linalg::solve::Breakdown;
+use std::borrow::Cow;
+use std::sync::Arc;
 
 /// What was found at a frequency, and how.
 #[derive(Debug, Clone)]
@@ -51,10 +53,31 @@ pub(in crate::identify) struct Candidates {
     /// x_m with the nominal factor.
     pub(super) nominal_response: Vec<c64>,
     /// `None` for a parameter with powers.
-    pub(super) poles: Option<Poles>,
+    pub(super) poles: Option<LinePoles>,
     /// Order of the rational response.
     pub(super) order: usize,
     pub(super) breakdown: Option<Breakdown>,
+}
+
+/// The poles of a line: its own, or those between its neighbours', which are as many as a long band has no room for at each of its lines.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum LinePoles {
+    Own(Poles),
+    Between {
+        stops: Arc<PolesBetween>,
+        /// The part of the way from one stop to the other, in ω².
+        t: f64,
+        nominal: c64,
+    },
+}
+
+impl LinePoles {
+    pub(super) fn get(&self) -> Cow<'_, Poles> {
+        match self {
+            Self::Own(poles) => Cow::Borrowed(poles),
+            Self::Between { stops, t, nominal } => Cow::Owned(stops.at(*t, *nominal)),
+        }
+    }
 }
 
 impl Solution {
@@ -226,7 +249,7 @@ impl Fit<'_> {
                 }
             }
         }
-        explored.poles = poles;
+        explored.poles = poles.map(LinePoles::Own);
         explored.solutions.sort_by(|a, b| a.correction.norm().total_cmp(&b.correction.norm()));
         Ok(explored)
     }

@@ -17,7 +17,6 @@ use crate::identify::options::Options;
 use crate::laws::{LawFit, Parametrization};
 use crate::median::median;
 use crate::model::ModelAt;
-use crate::subspace::Subspace;
 
 /// The response of a law at one frequency.
 pub(super) struct Responded {
@@ -170,39 +169,37 @@ impl Fitting<'_, '_> {
     }
 }
 
-/// Where a fit begins: the subspace, calibrations, and the factor over the nominal one whose response has the shape that was measured.
-pub(super) struct Begin<'a, 'o> {
-    pub(super) reduced: Option<ReducedBand<'a, 'o>>,
+/// Where a fit begins: calibrations, and the factor over the nominal one whose response has the shape that was measured.
+pub(super) struct Begin {
     pub(super) channels: Vec<Channel>,
     pub(super) ratio: f64,
 }
 
 /// Each frequency by itself, at calibrations to begin with: right ones where they are known.
-pub(super) fn at_scales<'a, 'o>(
+pub(super) fn at_scales<'a>(
     band: &Band<'a>,
-    at: &'o [ModelAt<'a>],
-    trained: &mut Option<Subspace<'a>>,
+    at: &[ModelAt<'a>],
+    reduced: &mut Option<ReducedBand<'a, '_>>,
     unknown: &[ChannelUnknowns],
-    options: &'o Options,
+    options: &Options,
     context: Context<'_>,
-) -> (BandOutcome, Begin<'a, 'o>) {
-    let mut reduced = ReducedBand::if_wanted(band, at, trained, options, context);
+) -> (BandOutcome, Begin) {
     let right = vec![Channel::CALIBRATED; unknown.len()];
     let is_known = |unknown: &ChannelUnknowns| !unknown.any();
     if unknown.iter().all(is_known) {
         let outcome = joint::identify(band, at, reduced.as_mut(), &[], options, context);
-        return (outcome, Begin { reduced, channels: right, ratio: 1.0 });
+        return (outcome, Begin { channels: right, ratio: 1.0 });
     }
     if unknown.iter().any(is_known) {
-        let (outcome, found) = with_scales(band, at, &mut reduced, unknown, options, context);
+        let (outcome, found) = with_scales(band, at, reduced, unknown, options, context);
         let channels = found.map_or(right, |found| found.iter().map(Channel::of).collect());
-        return (outcome, Begin { reduced, channels, ratio: 1.0 });
+        return (outcome, Begin { channels, ratio: 1.0 });
     }
     let shaped = reduced.as_ref().and_then(|reduced| shaped(band, at, reduced, unknown, options, context));
     let (channels, ratio) = shaped.unwrap_or((right, 1.0));
     let scaled = Scaled::new(band, &channels);
     let outcome = joint::identify(&scaled.band(band), at, reduced.as_mut(), &[], options, context);
-    (outcome, Begin { reduced, channels, ratio })
+    (outcome, Begin { channels, ratio })
 }
 
 /// Factors of the box that are tried: 2 % apart, as shapes are compared by logarithms, which resonances that miss one another by their width do not spoil.

@@ -1,6 +1,6 @@
 //! Solutions between frequencies at which all of them are known: followed as long as nothing speaks against it.
 
-use super::candidates::{Candidates, Fit, LineCandidates, Solution};
+use super::candidates::{Candidates, Fit, LineCandidates, LinePoles, Solution};
 use super::matching::{is_same, pairs};
 use super::path_model::{PathModel, fraction};
 use super::reduced_band::{ReducedBand, is_certain};
@@ -14,6 +14,7 @@ use crate::rational::PolesBetween;
 use crate::roots::{Candidate, Refusal};
 use crate::subspace::Projection;
 use std::ops::RangeInclusive;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// What it takes to follow.
@@ -46,7 +47,7 @@ struct Segment<'e, 'a> {
     misfits: Vec<f64>,
     path_models: &'e [PathModel<'e, 'a>],
     nominal: &'e PathModel<'e, 'a>,
-    poles: Option<PolesBetween>,
+    poles: Option<Arc<PolesBetween>>,
 }
 
 /// How far a solution was off its curve at the last frequency and at the one before. Where the line through both led to the last one better than the curve did, it goes on: to nearly where the
@@ -90,7 +91,9 @@ impl<'a, F: Fn(usize) -> Fit<'a>> Continuation<'a, F> {
             // As far as the same solutions go on.
             let (mut curves, mut own): (Vec<Curve<'_>>, Vec<usize>) = (Vec::new(), Vec::new());
             let mut end = 0;
-            while let Some(pairs) = rest.get(end + 1).and_then(|next| pairs(self.at, &rest[end], next)) {
+            while let Some(pairs) =
+                rest.get(end + 1).and_then(|next| pairs(self.at, &rest[end], next, self.usual))
+            {
                 if end == 0 {
                     own = pairs.iter().map(|&(left, _)| left).collect();
                     curves =
@@ -127,7 +130,7 @@ impl<'a, F: Fn(usize) -> Fit<'a>> Continuation<'a, F> {
         right: &LineCandidates,
         stops: &mut Vec<LineCandidates>,
     ) {
-        if right.index - left.index < 2 || pairs(self.at, left, right).is_some() {
+        if right.index - left.index < 2 || pairs(self.at, left, right, self.usual).is_some() {
             return;
         }
         let middle = self.explore(model, left.index.midpoint(right.index));
@@ -175,7 +178,8 @@ impl<'a, F: Fn(usize) -> Fit<'a>> Continuation<'a, F> {
             let poles = ends.map(|(a, b)| {
                 let omega_squared = |i: usize| omega_rad_s(self.at[i].frequency_hz).powi(2);
                 let both = [left.index, right.index];
-                PolesBetween::new([a, b], both.map(nominal_at), both.map(omega_squared))
+                let ends = [&*a.get(), &*b.get()];
+                Arc::new(PolesBetween::new(ends, both.map(nominal_at), both.map(omega_squared)))
             });
             let misfits = curves.iter().map(|curve| curve[k].1.misfit.max(curve[k + 1].1.misfit)).collect();
             let segment =
@@ -211,7 +215,8 @@ impl<'a, F: Fn(usize) -> Fit<'a>> Continuation<'a, F> {
             let (mut solution, assessed) = match fit.arrive(respond, assess, start) {
                 Ok((solution, assessed)) => (solution, Some(assessed)),
                 Err(stopped) => {
-                    let solution = fit.descend(respond, stopped)?;
+                    let solution = fit.descend(respond, stopped);
+                    let solution = solution?;
                     let assessed = assess(solution.correction);
                     (solution, assessed)
                 }
@@ -239,7 +244,8 @@ impl<'a, F: Fn(usize) -> Fit<'a>> Continuation<'a, F> {
         explored.solutions.sort_by(|a, b| a.correction.norm().total_cmp(&b.correction.norm()));
         explored.nominal_response = segment.nominal.respond(index).ok()?;
         let t = fraction(self.at, segment.left.index, index, segment.right.index);
-        explored.poles = segment.poles.as_ref().map(|poles| poles.at(t, nominal));
+        let between = |stops: &Arc<PolesBetween>| LinePoles::Between { stops: Arc::clone(stops), t, nominal };
+        explored.poles = segment.poles.as_ref().map(between);
         Some(LineCandidates { index, explored, certain, whole: false })
     }
 }

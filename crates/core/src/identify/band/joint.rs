@@ -1,8 +1,8 @@
 //! All frequencies and all sensors together.
 
-use super::candidates::{Candidates, Fit};
+use super::candidates::{Candidates, Fit, LinePoles};
 use super::fit::{goodness, sensor_misfit};
-use super::on_reduced::on_reduced;
+use super::on_reduced::{explored, on_reduced};
 use super::outcome::BandOutcome;
 use super::outlier_sensor::contradicting;
 use super::reduced_band::ReducedBand;
@@ -20,7 +20,6 @@ use crate::identify::options::Options;
 use crate::identify::outcome::Line;
 use crate::model::ModelAt;
 use crate::response::{FullModel, Response, Work};
-use crate::subspace::Subspace;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Chooses at every frequency; of the `hidden` sensors nothing is asked, nor of dead ones.
@@ -64,7 +63,8 @@ pub(super) fn identify<'a>(
         let on_space = reduced.as_deref().zip(chosen.map(|solution| solution.correction));
         let weighed = |second: Vec<c64>| task.fit(i).weighed(&second);
         // The poles have it without another factorisation; how nearly linear something is takes few digits.
-        let second = match (found[i].poles.as_ref().zip(chosen), on_space) {
+        let poles = found[i].poles.as_ref().map(LinePoles::get);
+        let second = match (poles.as_ref().zip(chosen), on_space) {
             (Some((poles, solution)), _) => Some(weighed(poles.second_derivative(solution.correction))),
             (None, Some((reduced, c))) => reduced.second_derivative(i, c).map(weighed),
             (None, None) => chosen.map(|solution| solution.second),
@@ -80,6 +80,7 @@ pub(super) fn identify<'a>(
             assessment: on_space.and_then(|(reduced, c)| reduced.assess(i, c)),
             // Where it is not known, the bar is not linear.
             second: second.unwrap_or(f64::INFINITY),
+            poles: poles.as_deref(),
         };
         verdict(&evidence, &found[i], &choices[i], options)
     });
@@ -108,16 +109,21 @@ pub(super) fn identify<'a>(
     }
 }
 
-/// A joint selection, and the reduced model that it was made on.
-pub(super) fn identify_keeping_model<'a, 'o>(
-    band: &Band<'a>,
-    at: &'o [ModelAt<'a>],
-    trained: &mut Option<Subspace<'a>>,
-    options: &'o Options,
+/// At how many of some frequencies over the whole band one of the solutions is chosen.
+pub(super) fn answered_pilots(
+    band: &Band<'_>,
+    at: &[ModelAt<'_>],
+    reduced: &mut ReducedBand<'_, '_>,
+    options: &Options,
     context: Context<'_>,
-) -> (BandOutcome, Option<ReducedBand<'a, 'o>>) {
-    let mut reduced = ReducedBand::if_wanted(band, at, trained, options, context);
-    (identify(band, at, reduced.as_mut(), &[], options, context), reduced)
+) -> usize {
+    let dead = dead_channels(band.measured);
+    let sigma = without(&standard_deviations(band.measured, band.noise), &dead);
+    let sensors = band.experiment.sensors.len() - dead.len();
+    let task = Task { band, at, sigma: &sigma, sensors, options, context };
+    let pilots = reduced.pilots();
+    let (_, selected) = explored(&task, reduced, &pilots);
+    selected.choices.iter().filter(|choice| choice.chosen.is_some()).count()
 }
 
 fn on_full_model(task: &Task<'_, '_>) -> (Vec<Candidates>, Work) {

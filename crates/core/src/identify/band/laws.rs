@@ -6,7 +6,7 @@
 use super::candidates::misfit;
 use super::channels::{Begin, Responded, at_scales};
 use super::corrected::{Weights, correct, on_corrected, point};
-use super::joint;
+use super::joint::{self, answered_pilots};
 use super::law_fitting::Fitting;
 use super::outcome::BandOutcome;
 use super::reduced_band::{ReducedBand, reduction_error};
@@ -98,10 +98,16 @@ pub(in crate::identify) fn identify_laws<'a>(
     let unknown = if unknown.is_empty() { &calibrated } else { unknown };
     let at = band.model.at_all(band.frequency_hz, std::slice::from_ref(band.parameter))?;
     let boxes = on_subspace(options);
-    let (mut free, Begin { reduced, channels, ratio }) =
-        near_or_far(band, &boxes, |options| at_scales(band, &at, trained, unknown, options, context));
-    let mut reduced = reduced;
-    let mut channels = channels;
+    let mut reduced = ReducedBand::if_wanted(band, &at, trained, &boxes[0], context);
+    // Without calibrations pilots say nothing.
+    let are_calibrated = unknown.iter().all(|channel| !channel.any());
+    let pilots = |options: &Options, reduced: &mut ReducedBand<'_, '_>| {
+        if are_calibrated { answered_pilots(band, &at, reduced, options, context) } else { 0 }
+    };
+    let (mut free, Begin { mut channels, ratio }) =
+        near_or_far(band, &boxes, &mut reduced, context, pilots, |options, reduced| {
+            at_scales(band, &at, reduced, unknown, options, context)
+        });
     // Where no channel says how large the response is, errors and scales stand in for one another.
     let is_calibrated = unknown.iter().any(|channel| !channel.any());
     if let Some(reduced) = reduced.as_mut().filter(|_| is_calibrated) {

@@ -65,8 +65,15 @@ pub(super) fn identify_band<'a>(
 ) -> Result<BandOutcome, OutsideTable> {
     let at = band.model.at_all(band.frequency_hz, std::slice::from_ref(band.parameter))?;
     let boxes = near_and_far(options);
-    let (found, reduced) =
-        near_or_far(band, &boxes, |options| identify_at_all(band, &at, trained, options, context));
+    let mut reduced = ReducedBand::if_wanted(band, &at, trained, options, context);
+    let (found, ()) = near_or_far(
+        band,
+        &boxes,
+        &mut reduced,
+        context,
+        |options, reduced| joint::answered_pilots(band, &at, reduced, options, context),
+        |options, reduced| (identify_at_all(band, &at, reduced.as_mut(), options, context), ()),
+    );
     // A model that is answered for as it is has no modes at hand: they are those of a reduced one.
     let wanted = options.selection == Selection::Joint && options.reduction == Reduction::Auto;
     let new = || wanted.then(|| ReducedBand::on_trained(band, &at, trained, &boxes[0], context)).flatten();
@@ -79,18 +86,15 @@ pub(super) fn identify_band<'a>(
     Ok(found.judged_by_fit())
 }
 
-fn identify_at_all<'a, 'o>(
-    band: &Band<'a>,
-    at: &'o [ModelAt<'a>],
-    trained: &mut Option<Subspace<'a>>,
-    options: &'o Options,
+fn identify_at_all(
+    band: &Band<'_>,
+    at: &[ModelAt<'_>],
+    reduced: Option<&mut ReducedBand<'_, '_>>,
+    options: &Options,
     context: Context<'_>,
-) -> (BandOutcome, Option<ReducedBand<'a, 'o>>) {
+) -> BandOutcome {
     match options.selection {
-        Selection::Joint => joint::identify_keeping_model(band, at, trained, options, context),
-        Selection::Smallest => {
-            let model = ReducedBand::if_wanted(band, at, trained, options, context);
-            (per_frequency::identify(band, at, model, options, context), None)
-        }
+        Selection::Joint => joint::identify(band, at, reduced, &[], options, context),
+        Selection::Smallest => per_frequency::identify(band, at, reduced, options, context),
     }
 }

@@ -12,35 +12,24 @@ use crate::subspace::Projection;
 pub(super) fn on_reduced(task: &Task<'_, '_>, reduced: &mut ReducedBand<'_, '_>) -> BandSolution {
     let (at, context) = (task.at, task.context);
     let find = |i: usize, model: &Projection| task.fit(i).explore_reduced(model, &at[i]);
-    let settle = |i: usize, model: &Projection, before: &Candidates| {
-        let fit = task.fit(i);
-        fit.settle(before.clone(), fit.on(model, &at[i]))
-    };
-    let pilots = reduced.pilots();
-    let found = reduced.find(&pilots, context, find);
-    reduced.certify(&pilots, found, context, settle, |found| {
-        taken(&task.select(&pilots, found.iter()).choices, found)
-    });
+    let settle = |i: usize, model: &Projection, before: &Candidates| settled(task, i, model, before);
+    // A subspace that was trained at answers is good at most others.
+    if !reduced.has_answers() {
+        let pilots = reduced.pilots();
+        explored(task, reduced, &pilots);
+    }
     let all: Vec<usize> = (0..at.len()).collect();
     let grid = if task.options.everywhere {
         all.clone()
     } else {
         exploration_grid(task.band.frequency_hz, reduced.neighbourhoods())
     };
-    // The choice that the last answers were taken by.
-    let mut selected: Option<PathSelection> = None;
-    let found = reduced.find(&grid, context, find);
-    let found = reduced.certify(&grid, found, context, settle, |found| {
-        let PathSelection { choices, .. } = selected.insert(task.select(&grid, found.iter()));
-        taken(choices, found)
-    });
+    let (found, selected) = explored(task, reduced, &grid);
     if grid.len() == all.len() {
-        let selected = selected.unwrap_or_else(|| task.select(&all, found.iter()));
         return BandSolution { explored: all.len(), found, selected };
     }
 
-    let level = selected.and_then(|selected| selected.level);
-    let usual = usual(level, task.freedom());
+    let usual = usual(selected.level, task.freedom());
     let continuation = Continuation { at, fit: |i| task.fit(i), usual };
     let mut found = continued(reduced, &continuation, &grid, found, context);
     let mut ready = Some(task.select(&all, found.iter().map(|found| &found.explored)));
@@ -63,6 +52,30 @@ pub(super) fn on_reduced(task: &Task<'_, '_>, reduced: &mut ReducedBand<'_, '_>)
     });
     let selected = selected.unwrap_or_else(|| task.select(&all, found.iter()));
     BandSolution { found, explored, selected }
+}
+
+/// What there is at some frequencies (ascending), certified, and the choice among that.
+pub(super) fn explored(
+    task: &Task<'_, '_>,
+    reduced: &mut ReducedBand<'_, '_>,
+    which: &[usize],
+) -> (Vec<Candidates>, PathSelection) {
+    let find = |i: usize, model: &Projection| task.fit(i).explore_reduced(model, &task.at[i]);
+    let settle = |i: usize, model: &Projection, before: &Candidates| settled(task, i, model, before);
+    let found = reduced.find(which, task.context, find);
+    // The choice that the last answers were taken by.
+    let mut selected = None;
+    let found = reduced.certify(which, found, task.context, settle, |found| {
+        let PathSelection { choices, .. } = selected.insert(task.select(which, found.iter()));
+        taken(choices, found)
+    });
+    let selected = selected.unwrap_or_else(|| task.select(which, found.iter()));
+    (found, selected)
+}
+
+fn settled(task: &Task<'_, '_>, i: usize, model: &Projection, before: &Candidates) -> Candidates {
+    let fit = task.fit(i);
+    fit.settle(before.clone(), fit.on(model, &task.at[i]))
 }
 
 /// A misfit with this many nats more than noise has on average is not noise: one in a hundred thousand.

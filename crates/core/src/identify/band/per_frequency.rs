@@ -15,10 +15,10 @@ use crate::subspace::Projection;
 use frfit_linalg::solve::Breakdown;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-pub(super) fn identify<'a>(
-    band: &Band<'a>,
-    at: &[ModelAt<'a>],
-    reduced: Option<ReducedBand<'a, '_>>,
+pub(super) fn identify(
+    band: &Band<'_>,
+    at: &[ModelAt<'_>],
+    reduced: Option<&mut ReducedBand<'_, '_>>,
     options: &Options,
     context: Context<'_>,
 ) -> BandOutcome {
@@ -26,7 +26,7 @@ pub(super) fn identify<'a>(
         Line::broken(band.frequency_hz[i], &[at[i].parameters[0].nominal], options.order, breakdown)
     };
     match reduced {
-        Some(mut reduced) => {
+        Some(reduced) => {
             let find = |i: usize, model: &Projection| match model.at(&at[i]) {
                 Ok(system) => identify_at(&system, &band.measured[i], band.unknown, options),
                 Err(breakdown) => broken(i, breakdown),

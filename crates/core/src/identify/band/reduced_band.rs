@@ -46,7 +46,7 @@ pub(super) struct ReducedBand<'a, 'o> {
     subspace: Subspace<'a>,
     at: &'o [ModelAt<'a>],
     unknown: &'a Unknown,
-    options: &'o Options,
+    options: Options,
     blocks: Vec<Block>,
     /// The model that answered at each frequency: that of its neighbourhood, when it was last asked.
     models: Vec<Option<Arc<Local>>>,
@@ -58,15 +58,27 @@ pub(super) struct ReducedBand<'a, 'o> {
     answers: Vec<(usize, c64)>,
 }
 
-/// How far the training had come: vectors, and answers that it looked at.
+/// How far the training had come: vectors, and answers in a neighbourhood that it looked at.
 type Training = (usize, usize);
 
 /// A neighbourhood.
 struct Block {
     /// First and last frequency (index).
     ends: [usize; 2],
-    /// Its model, and what it was made from.
-    model: Option<(Training, Arc<Local>)>,
+    /// Its model.
+    model: Option<Arc<Local>>,
+    /// Its model without corrections, and what that was made from.
+    own: Option<(Training, Arc<Projection>)>,
+}
+
+impl Block {
+    fn has(&self, i: usize) -> bool {
+        (self.ends[0]..=self.ends[1]).contains(&i)
+    }
+
+    fn forget(&mut self) {
+        (self.model, self.own) = (None, None);
+    }
 }
 
 impl<'a, 'o> ReducedBand<'a, 'o> {
@@ -75,7 +87,7 @@ impl<'a, 'o> ReducedBand<'a, 'o> {
         band: &Band<'a>,
         at: &'o [ModelAt<'a>],
         trained: &mut Option<Subspace<'a>>,
-        options: &'o Options,
+        options: &Options,
         context: Context<'_>,
     ) -> Option<Self> {
         let wanted = options.reduction.is_subspace(options.method, band.model.dim(), at.len());
@@ -88,24 +100,41 @@ impl<'a, 'o> ReducedBand<'a, 'o> {
         band: &Band<'a>,
         at: &'o [ModelAt<'a>],
         trained: &mut Option<Subspace<'a>>,
-        options: &'o Options,
+        options: &Options,
         context: Context<'_>,
     ) -> Option<Self> {
         let subspace = trained.take().map_or_else(|| train(band, at, options, context), Ok).ok()?;
         let n = at.len();
         let count = (n / MIN_NEIGHBOURHOOD_LINES).clamp(1, MAX_NEIGHBOURHOODS);
-        let block = |b| Block { ends: [b * n / count, (b + 1) * n / count - 1], model: None };
+        let block = |b| Block { ends: [b * n / count, (b + 1) * n / count - 1], model: None, own: None };
         Some(Self {
             subspace,
             at,
             unknown: band.unknown,
-            options,
+            options: *options,
             blocks: (0..count).map(block).collect(),
             models: vec![None; n],
             assessed: vec![Vec::new(); n],
             answers: Vec::new(),
             corrected: None,
         })
+    }
+
+    /// Makes the subspace good in another box too, in which answers are looked for from now on.
+    ///
+    /// # Errors
+    /// [`Breakdown`] where a solve of the training fails.
+    pub(super) fn widen(&mut self, options: &Options, context: Context<'_>) -> Result<(), Breakdown> {
+        self.look_in(options);
+        self.blocks.iter_mut().for_each(Block::forget);
+        self.models.iter_mut().for_each(|model| *model = None);
+        self.assessed.iter_mut().for_each(Vec::clear);
+        train_in_box(&mut self.subspace, self.at, self.unknown, options, context)
+    }
+
+    /// Answers are looked for in this box from now on, of which the subspace is good already.
+    pub(super) fn look_in(&mut self, options: &Options) {
+        self.options = *options;
     }
 
     /// Leaves what was trained to the next one.
@@ -119,6 +148,11 @@ impl<'a, 'o> ReducedBand<'a, 'o> {
     pub(super) fn pilots(&self) -> Vec<usize> {
         let all: Vec<usize> = (0..self.at.len()).collect();
         thinned(&all, MAX_TRAINING_FREQUENCIES).copied().collect()
+    }
+
+    /// Whether it was trained at answers.
+    pub(super) fn has_answers(&self) -> bool {
+        !self.answers.is_empty()
     }
 
     /// Finds what there is at some frequencies (ascending), each on the model of its neighbourhood.
@@ -237,15 +271,15 @@ impl<'a, 'o> ReducedBand<'a, 'o> {
         }
     }
 
-    /// Trains at answers (frequency, correction); false where nothing was gained.
+    /// Trains at answers (frequency, correction), and lets the models of their neighbourhoods be made anew; false where nothing was gained.
     pub(super) fn refine(
         &mut self,
-        answers: &[(usize, c64)],
+        lacking: &[(usize, c64)],
         context: Context<'_>,
     ) -> Result<bool, Breakdown> {
         (context.progress)(Stage::Subspace, 0, self.at.len());
         // Neighbours lack the same: those that this leaves uncertain are looked at in the next round.
-        let answers: Vec<(usize, c64)> = thinned(answers, MAX_TRAINING_FREQUENCIES).copied().collect();
+        let answers: Vec<(usize, c64)> = thinned(lacking, MAX_TRAINING_FREQUENCIES).copied().collect();
         let points: Vec<Point<'a>> =
             answers.iter().map(|&(i, correction)| Point { at: self.at[i].clone(), correction }).collect();
         let before = self.subspace.size();
@@ -255,26 +289,40 @@ impl<'a, 'o> ReducedBand<'a, 'o> {
         if self.subspace.size() > before {
             self.corrected = self.corrected.as_ref().map(|corrected| corrected.in_larger(self.whole()));
         }
-        Ok(self.subspace.size() > before)
+        let lacks = |block: &Block| lacking.iter().any(|&(i, _)| block.has(i));
+        let is_outgrown = |block: &Block| {
+            let now = (self.size(), self.answers_in(block));
+            block.own.as_ref().is_some_and(|(training, _)| *training != now)
+        };
+        let gained = self.size() > before || self.blocks.iter().filter(|block| lacks(block)).any(is_outgrown);
+        if gained {
+            self.blocks.iter_mut().filter(|block| lacks(block)).for_each(Block::forget);
+        }
+        Ok(gained)
     }
 
-    /// Makes the models of the neighbourhoods in which these frequencies (ascending) are, for them; one that no training has outgrown stays.
+    /// Makes the models of the neighbourhoods in which these frequencies (ascending) are, for them; where there is one it stays: what it says of its answers
+    /// holds, however many vectors have been added elsewhere.
     pub(super) fn localise(&mut self, frequencies: &[usize], for_each: ForEach<'_>) {
-        let training = (self.size(), self.answers.len());
         let members = |[first, last]: [usize; 2]| {
             let from = frequencies.partition_point(|&i| i < first);
             &frequencies[from..frequencies.partition_point(|&i| i <= last)]
         };
-        let outgrown = |block: &Block| block.model.as_ref().is_none_or(|&(before, _)| before != training);
         let wanted: Vec<usize> = (0..self.blocks.len())
-            .filter(|&b| !members(self.blocks[b].ends).is_empty() && outgrown(&self.blocks[b]))
+            .filter(|&b| !members(self.blocks[b].ends).is_empty() && self.blocks[b].model.is_none())
             .collect();
         let reduced = &*self;
-        let models = map(for_each, wanted.len(), |k| Arc::new(reduced.local(reduced.blocks[wanted[k]].ends)));
-        wanted.into_iter().zip(models).for_each(|(b, model)| self.blocks[b].model = Some((training, model)));
+        let models = map(for_each, wanted.len(), |k| reduced.local(&reduced.blocks[wanted[k]]));
+        let size = self.size();
+        let answers: Vec<usize> = wanted.iter().map(|&b| self.answers_in(&self.blocks[b])).collect();
+        for ((b, model), answers) in wanted.into_iter().zip(models).zip(answers) {
+            let block = &mut self.blocks[b];
+            block.own.get_or_insert_with(|| ((size, answers), Arc::clone(model.own())));
+            block.model = Some(Arc::new(model));
+        }
         for block in &self.blocks {
             for &i in members(block.ends) {
-                let model = block.model.as_ref().map(|(_, model)| Arc::clone(model));
+                let model = block.model.as_ref().map(Arc::clone);
                 let same =
                     self.models[i].as_ref().zip(model.as_ref()).is_some_and(|(a, b)| Arc::ptr_eq(a, b));
                 if !same {
@@ -285,8 +333,14 @@ impl<'a, 'o> ReducedBand<'a, 'o> {
         }
     }
 
+    /// Answers in a neighbourhood that the training looked at.
+    fn answers_in(&self, block: &Block) -> usize {
+        self.answers.iter().filter(|(i, _)| block.has(*i)).count()
+    }
+
     /// The model of a neighbourhood.
-    fn local(&self, [first, last]: [usize; 2]) -> Local {
+    fn local(&self, block: &Block) -> Local {
+        let [first, last] = block.ends;
         let steps = (last - first)
             .min(MIN_NEIGHBOURHOOD_POINTS.max(MAX_TRAINING_FREQUENCIES / self.blocks.len()) - 1);
         let picked = (0..=steps).map(|k| first + k * (last - first) / steps.max(1));
@@ -296,7 +350,9 @@ impl<'a, 'o> ReducedBand<'a, 'o> {
         let answers = thinned(&answers, MIN_NEIGHBOURHOOD_LINES);
         let answers = answers.map(|&(i, correction)| Point { at: self.at[i].clone(), correction });
         let points: Vec<Point<'_>> = box_points.chain(answers).collect();
-        Local::new(self.whole(), self.corrected.as_ref(), &points, TRAINED_TOL)
+        let own = block.own.as_ref().map(|(_, own)| Arc::clone(own));
+        let own = own.unwrap_or_else(|| Arc::new(self.whole().localised(&points, TRAINED_TOL)));
+        Local::new(own, self.corrected.as_ref(), &points, TRAINED_TOL)
     }
 
     /// First and last frequency of each neighbourhood.
@@ -327,7 +383,7 @@ impl<'a, 'o> ReducedBand<'a, 'o> {
     }
 
     fn box_points(&self, i: usize) -> Vec<Point<'a>> {
-        box_points(&self.at[i], self.unknown, self.options)
+        box_points(&self.at[i], self.unknown, &self.options)
     }
 }
 
@@ -341,14 +397,24 @@ pub(in crate::identify) fn train<'a>(
     options: &Options,
     context: Context<'_>,
 ) -> Result<Subspace<'a>, Breakdown> {
-    (context.progress)(Stage::Subspace, 0, at.len());
     let mut subspace = Subspace::new(band.experiment, &at[at.len() - 1])?;
-    let points: Vec<Point<'a>> =
-        thinned(at, MAX_TRAINING_FREQUENCIES).flat_map(|at| box_points(at, band.unknown, options)).collect();
-    let training = TrainOptions { tolerance: BOX_TOL, ..TrainOptions::default() };
-    let corners = box_points(&at[at.len() - 1], band.unknown, options);
-    subspace.train_box(&points, &corners, &training, context.for_each)?;
+    train_in_box(&mut subspace, at, band.unknown, options, context)?;
     Ok(subspace)
+}
+
+fn train_in_box<'a>(
+    subspace: &mut Subspace<'a>,
+    at: &[ModelAt<'a>],
+    unknown: &Unknown,
+    options: &Options,
+    context: Context<'_>,
+) -> Result<(), Breakdown> {
+    (context.progress)(Stage::Subspace, 0, at.len());
+    let points: Vec<Point<'a>> =
+        thinned(at, MAX_TRAINING_FREQUENCIES).flat_map(|at| box_points(at, unknown, options)).collect();
+    let training = TrainOptions { tolerance: BOX_TOL, ..TrainOptions::default() };
+    let corners = box_points(&at[at.len() - 1], unknown, options);
+    subspace.train_box(&points, &corners, &training, context.for_each)
 }
 
 /// The nominal factor and a grid over the box at a frequency.

@@ -9,7 +9,7 @@
 use super::candidates::{misfit, weighed};
 use super::corrected::correct;
 use super::fit::sensor_misfit;
-use super::joint::identify_keeping_model;
+use super::joint;
 use super::laws::{MAX_TRAINING_ROUNDS, RIVAL_DISTANCE_STD, START_SHIFTS};
 use super::outcome::BandOutcome;
 use super::reduced_band::{ReducedBand, reduction_error};
@@ -93,8 +93,15 @@ pub(in crate::identify) fn identify_smooth<'a>(
 ) -> Result<SmoothOutcome, OutsideTable> {
     let at = band.model.at_all(band.frequency_hz, std::slice::from_ref(band.parameter))?;
     let boxes = on_subspace(options);
-    let (mut free, mut reduced) =
-        near_or_far(band, &boxes, |options| identify_keeping_model(band, &at, trained, options, context));
+    let mut reduced = ReducedBand::if_wanted(band, &at, trained, &boxes[0], context);
+    let (mut free, ()) = near_or_far(
+        band,
+        &boxes,
+        &mut reduced,
+        context,
+        |options, reduced| joint::answered_pilots(band, &at, reduced, options, context),
+        |options, reduced| (joint::identify(band, &at, reduced.as_mut(), &[], options, context), ()),
+    );
     if let Some(reduced) = &mut reduced {
         free = correct((band, &[]), &at, free, reduced, &boxes[0], context);
     }

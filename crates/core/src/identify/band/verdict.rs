@@ -8,6 +8,7 @@ use crate::identify::options::Options;
 use crate::identify::outcome::{Line, Status};
 use crate::identify::uncertainty::Uncertainty;
 use crate::model::ModelAt;
+use crate::rational::Poles;
 use crate::response::relative_error;
 use crate::roots::Candidate;
 use crate::select::Choice;
@@ -29,6 +30,8 @@ pub(super) struct Evidence<'a> {
     pub(super) freedom: usize,
     /// ‖∂²x/∂c²‖ at the chosen correction, weighed by the deviations.
     pub(super) second: f64,
+    /// `None` for a parameter with powers.
+    pub(super) poles: Option<&'a Poles>,
     /// How good the subspace is at the chosen correction; `None` on the full model.
     pub(super) assessment: Option<Assessment>,
 }
@@ -43,7 +46,7 @@ pub(super) fn verdict(
     let mut outcome = Line::unknown(evidence.at.frequency_hz, nominal, found.order);
     outcome.nominal_response = found.nominal_response.clone();
     outcome.roots = found.candidates();
-    outcome.radius = found.poles.as_ref().map(|poles| ConvergenceRadius {
+    outcome.radius = evidence.poles.map(|poles| ConvergenceRadius {
         per_unit: poles.radius_per_unit(),
         residual: 0.0,
         converged: true,
@@ -70,7 +73,7 @@ pub(super) fn verdict(
     outcome.spectral_radius = outcome.radius.map(|radius| radius.at(chosen.correction));
     outcome.updated_response = chosen.response.clone();
     outcome.rivals = rivals.iter().map(|&k| vec![nominal + found.solutions[k].correction]).collect();
-    outcome.required_order = found.poles.as_ref().and_then(|poles| {
+    outcome.required_order = evidence.poles.and_then(|poles| {
         let order = |m| poles.required_order(m, chosen.correction, SERIES_ORDER_TOL);
         (0..evidence.measured.len()).map(order).try_fold(0, |most, n| Some(most.max(n?)))
     });

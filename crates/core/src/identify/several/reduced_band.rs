@@ -15,6 +15,7 @@ use crate::response::Work;
 use crate::subspace::{Assessment, Corrected, Local, ModalErrors, Modes};
 use crate::subspace::{Point, Projection, Subspace, TrainOptions};
 use frfit_linalg::solve::Breakdown;
+use std::sync::Arc;
 
 /// Real factorisations at most: a second unknown wants more vectors, which cost solves.
 const MAX_FACTORISATIONS: usize = 3;
@@ -250,7 +251,8 @@ impl<'a> ReducedBand<'a> {
         let own =
             thinned(&own, MAX_NEIGHBOURHOOD_ANSWERS).filter_map(|(i, values)| self.point(*i, values).ok());
         let points: Vec<Point<'_>> = boxes.chain(own).collect();
-        Local::new(self.whole(), self.corrected.as_ref(), &points, TRAINED_TOL)
+        let own = Arc::new(self.whole().localised(&points, TRAINED_TOL));
+        Local::new(own, self.corrected.as_ref(), &points, TRAINED_TOL)
     }
 
     pub(super) fn size(&self) -> usize {
