@@ -53,10 +53,8 @@ impl Projection {
     /// Negative eigenvalues of VᵀRe D V, the modes that the basis has below a point, and its trace.
     fn modes_below(&self, point: &Point<'_>) -> (usize, f64) {
         let theta = weights(self, &point.at, point.correction).0;
-        let mut real = vec![0.0; self.size * self.size];
-        for (theta, matrix) in theta.iter().zip(&self.matrices) {
-            real.iter_mut().zip(matrix).for_each(|(sum, s)| *sum += theta.re * s);
-        }
+        let real: Vec<(usize, f64)> = theta.iter().map(|theta| theta.re).enumerate().collect();
+        let real = self.real_sum(&real);
         let values = symmetric_eigen(self.size, &real).map_or(Vec::new(), |(values, _)| values);
         (values.iter().filter(|value| **value < 0.0).count(), values.iter().sum())
     }

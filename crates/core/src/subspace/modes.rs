@@ -277,7 +277,7 @@ impl Projection {
     }
 
     /// Σ factor S_g.
-    fn real_sum(&self, factors: &[(usize, f64)]) -> Vec<f64> {
+    pub(super) fn real_sum(&self, factors: &[(usize, f64)]) -> Vec<f64> {
         let mut sum = vec![0.0; self.size * self.size];
         for &(g, factor) in factors {
             sum.iter_mut().zip(&self.matrices[g]).for_each(|(sum, s)| *sum += factor * s);

@@ -48,9 +48,7 @@ impl PlanarLu {
         let mut lu = Self::room(dim);
         let rows = lu.rows;
         let sum = lu.upper_mut();
-        Arch::new().dispatch(PlanarCombination { dim, rows, parts, sum });
-        let sum = lu.upper_mut();
-        Arch::new().dispatch(AreFinite(sum)).then(|| lu.factorised())
+        Arch::new().dispatch(PlanarCombination { dim, rows, parts, sum }).then(|| lu.factorised())
     }
 
     /// Zeros in place of U, and room for L.
@@ -110,8 +108,7 @@ fn planes_mut<S: Simd>(column: &mut [f64]) -> (&mut [S::f64s], &mut [S::f64s]) {
 fn subtract<S: Simd>(simd: S, column: &mut [f64], other: &[f64], factor: c64) {
     let (re, im) = planes_mut::<S>(column);
     let (other_re, other_im) = planes::<S>(other);
-    let (a, b) = (simd.splat_f64s(-factor.re), simd.splat_f64s(-factor.im));
-    let minus_b = simd.splat_f64s(factor.im);
+    let (a, b, minus_b) = splat(simd, factor);
     for (((re, im), &x), &y) in re.iter_mut().zip(im).zip(other_re).zip(other_im) {
         *re = simd.mul_add_e_f64s(x, a, simd.mul_add_e_f64s(y, minus_b, *re));
         *im = simd.mul_add_e_f64s(x, b, simd.mul_add_e_f64s(y, a, *im));
@@ -156,7 +153,7 @@ fn splat<S: Simd>(simd: S, factor: c64) -> (S::f64s, S::f64s, S::f64s) {
     (simd.splat_f64s(-factor.re), simd.splat_f64s(-factor.im), simd.splat_f64s(factor.im))
 }
 
-/// Σ θ_g S_g, real and imaginary parts apart.
+/// Σ θ_g S_g, real and imaginary parts apart; whether all of it is finite.
 struct PlanarCombination<'a> {
     dim: usize,
     rows: usize,
@@ -165,11 +162,12 @@ struct PlanarCombination<'a> {
 }
 
 impl NullaryFnOnce for PlanarCombination<'_> {
-    type Output = ();
+    type Output = bool;
 
     #[inline(always)]
-    fn call(self) {
+    fn call(self) -> bool {
         let Self { dim, rows, parts, sum } = self;
+        let mut finite = true;
         for (j, column) in sum.chunks_exact_mut((2 * rows).max(1)).enumerate() {
             let (re, im) = column.split_at_mut(rows);
             for (theta, matrix) in parts {
@@ -179,21 +177,10 @@ impl NullaryFnOnce for PlanarCombination<'_> {
                     *im += theta.im * s;
                 }
             }
-        }
-    }
-}
-
-struct AreFinite<'a>(&'a [f64]);
-
-impl NullaryFnOnce for AreFinite<'_> {
-    type Output = bool;
-
-    #[inline(always)]
-    fn call(self) -> bool {
-        // All of them are looked at: a loop without a way out goes by registers.
-        let mut finite = true;
-        for x in self.0 {
-            finite &= x.is_finite();
+            // All of them are looked at: a loop without a way out goes by registers.
+            for x in column {
+                finite &= x.is_finite();
+            }
         }
         finite
     }
@@ -234,8 +221,7 @@ impl Factorise<'_> {
         own[self.lu.rows + row] = 0.0;
         let (re, im) = planes_mut::<S>(own);
         let (lower_re, lower_im) = planes_mut::<S>(multipliers);
-        let (a, b, minus_b) =
-            (simd.splat_f64s(inverse.re), simd.splat_f64s(inverse.im), simd.splat_f64s(-inverse.im));
+        let (a, b, minus_b) = splat(simd, -inverse);
         let left = S::as_simd_f64s(self.left).0;
         for ((((re, im), lower_re), lower_im), &left) in
             re.iter_mut().zip(im).zip(lower_re).zip(lower_im).zip(left)
@@ -273,12 +259,7 @@ impl WithSimd for Factorise<'_> {
                 break;
             }
             let others = &lower[first * step..end * step];
-            let (r0, r1, r2, r3) = (
-                self.lu.pivots[first].0,
-                self.lu.pivots[first + 1].0,
-                self.lu.pivots[first + 2].0,
-                self.lu.pivots[first + 3].0,
-            );
+            let [r0, r1, r2, r3] = [first, first + 1, first + 2, first + 3].map(|k| self.lu.pivots[k].0);
             // What the earlier pivots of the panel leave in the rows of the later ones.
             let (l0, l1, l2) = (&others[..step], &others[step..2 * step], &others[2 * step..3 * step]);
             let (l10, l20, l30) = (entry(l0, r1), entry(l0, r2), entry(l0, r3));
