@@ -45,22 +45,29 @@ impl RationalResponse {
 impl Poles {
     /// x_m(c) at all sensors.
     pub fn respond(&self, correction: c64) -> Vec<c64> {
+        self.values(&self.inverses(correction))
+    }
+
+    /// 1/(1 + zλ_k).
+    fn inverses(&self, correction: c64) -> Vec<c64> {
         let z = correction / self.scale;
-        let inverse: Vec<c64> = self.lambda.iter().map(|lambda| (1.0 + z * lambda).inv()).collect();
-        let value = |residues: &Vec<c64>| residues.iter().zip(&inverse).map(|(rho, d)| rho * d).sum();
+        self.lambda.iter().map(|lambda| (1.0 + z * lambda).inv()).collect()
+    }
+
+    /// Σ_k ρ_mk/(1 + zλ_k) at all sensors.
+    fn values(&self, inverse: &[c64]) -> Vec<c64> {
+        let value = |residues: &Vec<c64>| residues.iter().zip(inverse).map(|(rho, d)| rho * d).sum();
         self.residues.iter().map(value).collect()
     }
 
     /// x_m(c) and ∂x_m/∂c at all sensors.
     pub fn respond_with_slope(&self, correction: c64) -> (Vec<c64>, Vec<c64>) {
-        let z = correction / self.scale;
-        let inverse: Vec<c64> = self.lambda.iter().map(|lambda| (1.0 + z * lambda).inv()).collect();
-        let value = |residues: &Vec<c64>| residues.iter().zip(&inverse).map(|(rho, d)| rho * d).sum::<c64>();
+        let inverse = self.inverses(correction);
         let slope = |residues: &Vec<c64>| {
             let terms = residues.iter().zip(&inverse).zip(&self.lambda);
             -terms.map(|((rho, d), lambda)| rho * lambda * d * d).sum::<c64>() / self.scale
         };
-        (self.residues.iter().map(value).collect(), self.residues.iter().map(slope).collect())
+        (self.values(&inverse), self.residues.iter().map(slope).collect())
     }
 
     /// ∂²x_m/∂c² at all sensors: Σ_k 2 ρ_mk λ_k² / (1 + zλ_k)³ s⁻².

@@ -67,7 +67,8 @@ impl Band {
     }
 
     /// The point that the cheapest path chooses at each frequency, and for each candidate the cost of the best path through it (min-marginals, by a pass from
-    /// either end). Of the pass from the first frequency so many are kept at a time as there are such stretches: a band may have a hundred thousand.
+    /// either end). The pass from the first frequency keeps where it was before each stretch, and makes the paths of one stretch at a time again: those of a hundred
+    /// thousand frequencies would not fit.
     ///
     /// # Limits
     /// Of the paths that were kept; a candidate that none of them meets has its cost from the nearest.
@@ -91,13 +92,13 @@ impl Band {
         // What is beyond the last frequency starts there.
         let mut step = 0.0;
         for (s, mut search) in starts.into_iter().enumerate().rev() {
-            let first = s * stretch;
-            let mut forward: Vec<Vec<Path>> = Vec::with_capacity(stretch);
-            for k in first..(first + stretch).min(n) {
+            let own = s * stretch..((s + 1) * stretch).min(n);
+            let paths_after = |k: usize| {
                 search.advance(self.step(k), &self.points[k]);
-                forward.push(search.paths().to_vec());
-            }
-            for (k, before) in forward.iter().enumerate().map(|(k, before)| (first + k, before)).rev() {
+                search.paths().to_vec()
+            };
+            let forward: Vec<Vec<Path>> = own.clone().map(paths_after).collect();
+            for (k, before) in own.zip(&forward).rev() {
                 let way = at.map(|at| before[at]);
                 (chosen[k], at) = (way.and_then(|way| way.chosen), way.map(|way| way.parent));
                 let after: Vec<Path> =
