@@ -8,6 +8,7 @@ use frfit::c64;
 use frfit::for_each::sequential;
 use frfit::frequency::linear_hz;
 use frfit::identify::{Context, Identification, ModelErrors, Noise, Status, Variation, relative_error};
+use frfit::model::Parameter;
 use frfit::roots::Bounds;
 
 /// Dense for a structure of a dozen modes.
@@ -31,38 +32,49 @@ impl Gauss {
 
 /// A measurement with this much relative noise, identified from a nominal off by this factor, both ways: followed, and everywhere.
 fn both(mut case: Case, frequencies: usize, off: f64, noise: f64, sensors: usize) -> [Identification; 2] {
-    let truth = case.parameter.nominal.clone();
     let frequency_hz = linear_hz(case.band_hz[0], case.band_hz[1], frequencies);
     case.experiment.sensors.truncate(sensors);
     let mut gauss = Gauss(7);
-    let measured: Vec<Vec<c64>> = {
-        let (model, trained) = case.trained(1e-10);
-        assert!(trained.converged);
-        let exact = |f: f64| model.projection().assess(&case.at(f), c64::default()).unwrap().response;
-        let noisy = |x: c64, gauss: &mut Gauss| x * (1.0 + noise * gauss.next());
-        frequency_hz.iter().map(|&f| exact(f).iter().map(|&x| noisy(x, &mut gauss)).collect()).collect()
-    };
-    case.parameter.nominal = truth.scaled(off);
+    let mut noisy = |x: &c64| x * (1.0 + noise * gauss.next());
+    let measured: Vec<Vec<c64>> =
+        exact(&case, &frequency_hz).iter().map(|row| row.iter().map(&mut noisy).collect()).collect();
+    let std: Vec<Vec<f64>> = measured.iter().map(|u| u.iter().map(|u| noise * u.norm()).collect()).collect();
+    let noise = if noise > 0.0 { Noise::Known(&std) } else { Noise::Unknown };
+    [false, true].map(|everywhere| {
+        let data = (frequency_hz.as_slice(), measured.as_slice(), noise);
+        identified(&case, off, data, |setup| setup.with_everywhere(everywhere))
+    })
+}
+
+/// What the sensors show with the nominal factor.
+fn exact(case: &Case, frequency_hz: &[f64]) -> Vec<Vec<c64>> {
+    let (model, trained) = case.trained(1e-10);
+    assert!(trained.converged);
+    let exact = |&f: &f64| model.projection().assess(&case.at(f), c64::default()).unwrap().response;
+    frequency_hz.iter().map(exact).collect()
+}
+
+/// Identified from a nominal that is off by this factor, with wide bounds.
+fn identified(
+    case: &Case,
+    off: f64,
+    (frequency_hz, measured, noise): (&[f64], &[Vec<c64>], Noise<'_>),
+    with: impl FnOnce(Setup) -> Setup,
+) -> Identification {
+    let truth = &case.parameter.nominal;
     let size = truth.at(case.band_hz[1]).unwrap().re;
     let bounds = Bounds { storage: Some([size / 10.0, size * 10.0]), loss_factor: Some([0.0, 2.0]) };
-    let std: Vec<Vec<f64>> = measured.iter().map(|u| u.iter().map(|u| noise * u.norm()).collect()).collect();
+    let parameter = Parameter { nominal: truth.scaled(off), ..case.parameter.clone() };
     let band = Band {
         model: &case.model,
         experiment: &case.experiment,
-        parameter: &case.parameter,
-        frequency_hz: &frequency_hz,
-        measured: &measured,
-        noise: if noise > 0.0 { Noise::Known(&std) } else { Noise::Unknown },
+        parameter: &parameter,
+        frequency_hz,
+        measured,
+        noise,
     };
-    [false, true].map(|everywhere| {
-        let context = Context { for_each: &sequential, progress: &|_, _, _| {} };
-        band.identify(
-            Variation::PerFrequency,
-            &[],
-            &Setup::within(bounds).with_everywhere(everywhere),
-            context,
-        )
-    })
+    let context = Context { for_each: &sequential, progress: &|_, _, _| {} };
+    band.identify(Variation::PerFrequency, &[], &with(Setup::within(bounds)), context)
 }
 
 /// The same statuses and answers, and no more than this part of the band explored.
@@ -115,9 +127,11 @@ fn a_dense_plate_is_followed_where_that_is_beyond_doubt() {
 #[test]
 fn explored_lines_do_not_grow_with_the_band() {
     let explored = [1000, 4000].map(|frequencies| {
-        let case = plate(8, 0.32, 1e-3);
-        let measured = exact(&case, &linear_hz(case.band_hz[0], case.band_hz[1], frequencies));
-        let found = near(case, frequencies, &measured);
+        let mut case = plate(8, 0.32, 1e-3);
+        case.experiment.sensors.truncate(2);
+        let frequency_hz = linear_hz(case.band_hz[0], case.band_hz[1], frequencies);
+        let measured = exact(&case, &frequency_hz);
+        let found = identified(&case, 0.75, (&frequency_hz, &measured, Noise::Unknown), right_model);
         assert_eq!(found.count(Status::Ok), frequencies);
         found.search.explored
     });
@@ -128,7 +142,8 @@ fn explored_lines_do_not_grow_with_the_band() {
 /// on one reduced model, and no line that is off is `ok`.
 #[test]
 fn data_that_no_modulus_explains_cost_no_second_training() {
-    let case = sandwich(12, 1);
+    let mut case = sandwich(12, 1);
+    case.experiment.sensors.truncate(2);
     let frequency_hz = linear_hz(case.band_hz[0], case.band_hz[1], 800);
     let right = exact(&case, &frequency_hz);
     let between = |i: usize| {
@@ -137,42 +152,18 @@ fn data_that_no_modulus_explains_cost_no_second_training() {
         pairs.map(|(a, b)| a * (1.0 - t) + b * t).collect()
     };
     let measured: Vec<Vec<c64>> = (0..800).map(between).collect();
-    let truth = case.parameter.nominal.clone();
-    let found = near(case, 800, &measured);
+    let found = identified(&case, 0.75, (&frequency_hz, &measured, Noise::Unknown), right_model);
     let work = found.search.work;
     assert!(work.factorisations <= 4, "{work:?}");
     for line in found.lines.iter().filter(|line| line.status == Status::Ok) {
-        let truth = truth.at(line.frequency_hz).unwrap();
+        let truth = case.parameter.nominal.at(line.frequency_hz).unwrap();
         assert!((line.factor().unwrap() - truth).norm() < 0.05 * truth.norm(), "{line:?}");
     }
 }
 
-/// What two sensors show with the nominal factor.
-fn exact(case: &Case, frequency_hz: &[f64]) -> Vec<Vec<c64>> {
-    let (model, trained) = case.trained(1e-10);
-    assert!(trained.converged);
-    let exact = |&f: &f64| model.projection().assess(&case.at(f), c64::default()).unwrap().response;
-    frequency_hz.iter().map(exact).map(|row| row[..2].to_vec()).collect()
-}
-
-/// Two sensors identified from a nominal that is a quarter too small, with wide bounds; errors of the model are not looked for.
-fn near(mut case: Case, frequencies: usize, measured: &[Vec<c64>]) -> Identification {
-    let frequency_hz = linear_hz(case.band_hz[0], case.band_hz[1], frequencies);
-    case.experiment.sensors.truncate(2);
-    let size = case.parameter.nominal.at(case.band_hz[1]).unwrap().re;
-    case.parameter.nominal = case.parameter.nominal.scaled(0.75);
-    let bounds = Bounds { storage: Some([size / 10.0, size * 10.0]), loss_factor: Some([0.0, 2.0]) };
-    let band = Band {
-        model: &case.model,
-        experiment: &case.experiment,
-        parameter: &case.parameter,
-        frequency_hz: &frequency_hz,
-        measured,
-        noise: Noise::Unknown,
-    };
-    let context = Context { for_each: &sequential, progress: &|_, _, _| {} };
-    let options = Setup::within(bounds).with_model_errors(ModelErrors::None);
-    band.identify(Variation::PerFrequency, &[], &options, context)
+/// Errors of the model are not looked for.
+fn right_model(setup: Setup) -> Setup {
+    setup.with_model_errors(ModelErrors::None)
 }
 
 #[test]

@@ -58,15 +58,10 @@ pub(in crate::identify) fn identify_band_scaled<'a>(
     let at = band.model.at_all(band.frequency_hz, std::slice::from_ref(band.parameter))?;
     let boxes = on_subspace(options);
     let mut reduced = ReducedBand::if_wanted(band, &at, trained, &boxes[0], context);
-    // Without calibrations pilots say nothing.
-    let (outcome, found) = near_or_far(
-        band,
-        &boxes,
-        &mut reduced,
-        context,
-        |_, _| 0,
-        |options, reduced| with_scales(band, &at, reduced, unknown, options, context),
-    );
+    let (outcome, found) =
+        near_or_far((band, &at), &boxes, &mut reduced, false, context, |options, reduced| {
+            with_scales(band, &at, reduced, unknown, options, context)
+        });
     let (outcome, found) = match (reduced.as_mut(), found) {
         (Some(reduced), Some(found)) => {
             let first: Vec<Channel> = found.iter().map(Channel::of).collect();

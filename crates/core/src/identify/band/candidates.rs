@@ -59,11 +59,12 @@ pub(in crate::identify) struct Candidates {
     pub(super) breakdown: Option<Breakdown>,
 }
 
-/// The poles of a line: its own, or those between its neighbours', which are as many as a long band has no room for at each of its lines.
+/// The poles of a line. Of a line that was followed they are made where they are asked for: a long band has no room for all of them.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum LinePoles {
     Own(Poles),
     Between {
+        /// The poles at the lines on either side that were explored.
         stops: Arc<PolesBetween>,
         /// The part of the way from one stop to the other, in ω².
         t: f64,

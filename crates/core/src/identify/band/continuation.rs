@@ -215,8 +215,7 @@ impl<'a, F: Fn(usize) -> Fit<'a>> Continuation<'a, F> {
             let (mut solution, assessed) = match fit.arrive(respond, assess, start) {
                 Ok((solution, assessed)) => (solution, Some(assessed)),
                 Err(stopped) => {
-                    let solution = fit.descend(respond, stopped);
-                    let solution = solution?;
+                    let solution = fit.descend(respond, stopped)?;
                     let assessed = assess(solution.correction);
                     (solution, assessed)
                 }

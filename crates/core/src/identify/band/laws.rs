@@ -6,7 +6,7 @@
 use super::candidates::misfit;
 use super::channels::{Begin, Responded, at_scales};
 use super::corrected::{Weights, correct, on_corrected, point};
-use super::joint::{self, answered_pilots};
+use super::joint;
 use super::law_fitting::Fitting;
 use super::outcome::BandOutcome;
 use super::reduced_band::{ReducedBand, reduction_error};
@@ -99,18 +99,15 @@ pub(in crate::identify) fn identify_laws<'a>(
     let at = band.model.at_all(band.frequency_hz, std::slice::from_ref(band.parameter))?;
     let boxes = on_subspace(options);
     let mut reduced = ReducedBand::if_wanted(band, &at, trained, &boxes[0], context);
-    // Without calibrations pilots say nothing.
-    let are_calibrated = unknown.iter().all(|channel| !channel.any());
-    let pilots = |options: &Options, reduced: &mut ReducedBand<'_, '_>| {
-        if are_calibrated { answered_pilots(band, &at, reduced, options, context) } else { 0 }
-    };
+    let is_calibrated = |channel: &ChannelUnknowns| !channel.any();
+    let all_calibrated = unknown.iter().all(is_calibrated);
     let (mut free, Begin { mut channels, ratio }) =
-        near_or_far(band, &boxes, &mut reduced, context, pilots, |options, reduced| {
+        near_or_far((band, &at), &boxes, &mut reduced, all_calibrated, context, |options, reduced| {
             at_scales(band, &at, reduced, unknown, options, context)
         });
     // Where no channel says how large the response is, errors and scales stand in for one another.
-    let is_calibrated = unknown.iter().any(|channel| !channel.any());
-    if let Some(reduced) = reduced.as_mut().filter(|_| is_calibrated) {
+    let any_calibrated = unknown.iter().any(is_calibrated);
+    if let Some(reduced) = reduced.as_mut().filter(|_| any_calibrated) {
         let scaled = Scaled::new(band, &channels);
         free = correct((&scaled.band(band), unknown), &at, free, reduced, &boxes[0], context);
         if let Some(errors) = &free.model_errors {

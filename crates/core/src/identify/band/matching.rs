@@ -10,11 +10,11 @@ const PAIR_DISTANCE_RATIO: f64 = 1.0 / 3.0;
 /// … and differs by no more than this part of itself: solutions move by a few times the step in frequency, and scatter by what noise does to them.
 const PAIR_CHANGE_RTOL: f64 = 0.2;
 
-/// A solution that leaves so many times what noise does, and what the best one leaves, of several sensors is none that could be chosen.
+/// Largest misfit of a solution that could be chosen, over the larger of what noise leaves and of what the best solution leaves.
 const MAX_MISFIT_OVER_USUAL: f64 = 100.0;
 
 /// Pairs (left, right) of what is the same solution, in the order of the left ones; `None` where that is not beyond doubt for all within the bounds on both
-/// sides that could be chosen. A misfit up to the usual one is noise; those that could be chosen on neither side are left out.
+/// sides that could be chosen. A misfit up to `usual` is noise. Solutions that could be chosen on neither side are left out.
 pub(super) fn pairs(
     at: &[ModelAt<'_>],
     left: &LineCandidates,
@@ -41,21 +41,21 @@ pub(super) fn pairs(
         let same = near <= PAIR_DISTANCE_RATIO * apart && near <= PAIR_CHANGE_RTOL * a[k].norm();
         (same && nearest(&a, b[other], None) == Some(k)).then_some((k, other))
     };
-    let [could_be_chosen, could_be_after] = [left, right].map(|found| possible(found, usual));
-    let matters = |&(own, other): &(usize, usize)| could_be_chosen[own] || could_be_after[other];
+    let [possible_left, possible_right] = [left, right].map(|found| possible(found, usual));
+    let matters = |&(own, other): &(usize, usize)| possible_left[own] || possible_right[other];
     let pairs: Vec<(usize, usize)> = (0..a.len()).filter_map(same).filter(matters).collect();
     // Those within the bounds come first.
     let within = |found: &LineCandidates| 0..found.explored.solutions.len();
-    let all = within(left).all(|k| !could_be_chosen[k] || pairs.iter().any(|&(own, _)| own == k))
-        && within(right).all(|k| !could_be_after[k] || pairs.iter().any(|&(_, own)| own == k));
+    let all = within(left).all(|k| !possible_left[k] || pairs.iter().any(|&(own, _)| own == k))
+        && within(right).all(|k| !possible_right[k] || pairs.iter().any(|&(_, own)| own == k));
     all.then_some(pairs)
 }
 
 /// Whether each solution, those within the bounds first, explains the sensors well enough to be chosen.
 fn possible(found: &LineCandidates, usual: f64) -> Vec<bool> {
-    let misfits = || found.explored.all_near().map(|solution| solution.misfit);
     let least = found.explored.solutions.iter().map(|solution| solution.misfit).fold(f64::INFINITY, f64::min);
-    misfits().map(|misfit| misfit <= MAX_MISFIT_OVER_USUAL * usual.max(least)).collect()
+    let most = MAX_MISFIT_OVER_USUAL * usual.max(least);
+    found.explored.all_near().map(|solution| solution.misfit <= most).collect()
 }
 
 /// Whether a factor is that of several which was expected to be there.

@@ -66,14 +66,9 @@ pub(super) fn identify_band<'a>(
     let at = band.model.at_all(band.frequency_hz, std::slice::from_ref(band.parameter))?;
     let boxes = near_and_far(options);
     let mut reduced = ReducedBand::if_wanted(band, &at, trained, options, context);
-    let (found, ()) = near_or_far(
-        band,
-        &boxes,
-        &mut reduced,
-        context,
-        |options, reduced| joint::answered_pilots(band, &at, reduced, options, context),
-        |options, reduced| (identify_at_all(band, &at, reduced.as_mut(), options, context), ()),
-    );
+    let (found, ()) = near_or_far((band, &at), &boxes, &mut reduced, true, context, |options, reduced| {
+        (identify_at_all(band, &at, reduced.as_mut(), options, context), ())
+    });
     // A model that is answered for as it is has no modes at hand: they are those of a reduced one.
     let wanted = options.selection == Selection::Joint && options.reduction == Reduction::Auto;
     let new = || wanted.then(|| ReducedBand::on_trained(band, &at, trained, &boxes[0], context)).flatten();

@@ -11,8 +11,6 @@ use crate::subspace::Projection;
 
 pub(super) fn on_reduced(task: &Task<'_, '_>, reduced: &mut ReducedBand<'_, '_>) -> BandSolution {
     let (at, context) = (task.at, task.context);
-    let find = |i: usize, model: &Projection| task.fit(i).explore_reduced(model, &at[i]);
-    let settle = |i: usize, model: &Projection, before: &Candidates| settled(task, i, model, before);
     // A subspace that was trained at answers is good at most others.
     if !reduced.has_answers() {
         let pilots = reduced.pilots();
@@ -37,20 +35,14 @@ pub(super) fn on_reduced(task: &Task<'_, '_>, reduced: &mut ReducedBand<'_, '_>)
     let nothing = |i: usize| ready.as_ref().is_some_and(|selected| selected.choices[i].chosen.is_none());
     let lost: Vec<usize> = all.iter().copied().filter(|&i| !found[i].whole && nothing(i)).collect();
     if !lost.is_empty() {
-        for (&index, explored) in lost.iter().zip(reduced.find(&lost, context, find)) {
+        for (&index, explored) in lost.iter().zip(found_at(task, reduced, &lost)) {
             found[index] = LineCandidates { index, explored, certain: Vec::new(), whole: true };
         }
         ready = None;
     }
     let explored = found.iter().filter(|found| found.whole).count();
     let found = found.into_iter().map(|found| found.explored).collect();
-    let mut selected = None;
-    let found = reduced.certify(&all, found, context, settle, |found| {
-        let again = || task.select(&all, found.iter());
-        let PathSelection { choices, .. } = selected.insert(ready.take().unwrap_or_else(again));
-        taken(choices, found)
-    });
-    let selected = selected.unwrap_or_else(|| task.select(&all, found.iter()));
+    let (found, selected) = certified(task, reduced, &all, found, ready);
     BandSolution { found, explored, selected }
 }
 
@@ -60,22 +52,37 @@ pub(super) fn explored(
     reduced: &mut ReducedBand<'_, '_>,
     which: &[usize],
 ) -> (Vec<Candidates>, PathSelection) {
+    let found = found_at(task, reduced, which);
+    certified(task, reduced, which, found, None)
+}
+
+/// What there is at some frequencies (ascending).
+fn found_at(task: &Task<'_, '_>, reduced: &mut ReducedBand<'_, '_>, which: &[usize]) -> Vec<Candidates> {
     let find = |i: usize, model: &Projection| task.fit(i).explore_reduced(model, &task.at[i]);
-    let settle = |i: usize, model: &Projection, before: &Candidates| settled(task, i, model, before);
-    let found = reduced.find(which, task.context, find);
+    reduced.find(which, task.context, find)
+}
+
+/// What was found at some frequencies (ascending), certified, and the choice among that; `ready` is the choice among what was found, where it was made already.
+fn certified(
+    task: &Task<'_, '_>,
+    reduced: &mut ReducedBand<'_, '_>,
+    which: &[usize],
+    found: Vec<Candidates>,
+    mut ready: Option<PathSelection>,
+) -> (Vec<Candidates>, PathSelection) {
+    let settle = |i: usize, model: &Projection, before: &Candidates| {
+        let fit = task.fit(i);
+        fit.settle(before.clone(), fit.on(model, &task.at[i]))
+    };
     // The choice that the last answers were taken by.
     let mut selected = None;
     let found = reduced.certify(which, found, task.context, settle, |found| {
-        let PathSelection { choices, .. } = selected.insert(task.select(which, found.iter()));
+        let again = || task.select(which, found.iter());
+        let PathSelection { choices, .. } = selected.insert(ready.take().unwrap_or_else(again));
         taken(choices, found)
     });
     let selected = selected.unwrap_or_else(|| task.select(which, found.iter()));
     (found, selected)
-}
-
-fn settled(task: &Task<'_, '_>, i: usize, model: &Projection, before: &Candidates) -> Candidates {
-    let fit = task.fit(i);
-    fit.settle(before.clone(), fit.on(model, &task.at[i]))
 }
 
 /// A misfit with this many nats more than noise has on average is not noise: one in a hundred thousand.

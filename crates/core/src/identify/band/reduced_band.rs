@@ -127,14 +127,19 @@ impl<'a, 'o> ReducedBand<'a, 'o> {
     pub(super) fn widen(&mut self, options: &Options, context: Context<'_>) -> Result<(), Breakdown> {
         self.look_in(options);
         self.blocks.iter_mut().for_each(Block::forget);
-        self.models.iter_mut().for_each(|model| *model = None);
-        self.assessed.iter_mut().for_each(Vec::clear);
+        self.forget_answers();
         train_in_box(&mut self.subspace, self.at, self.unknown, options, context)
     }
 
     /// Answers are looked for in this box from now on, of which the subspace is good already.
     pub(super) fn look_in(&mut self, options: &Options) {
         self.options = *options;
+    }
+
+    /// No model has answered yet at any frequency.
+    fn forget_answers(&mut self) {
+        self.models.fill(None);
+        self.assessed.iter_mut().for_each(Vec::clear);
     }
 
     /// Leaves what was trained to the next one.
@@ -241,8 +246,7 @@ impl<'a, 'o> ReducedBand<'a, 'o> {
     pub(super) fn correct(&mut self, modes: &Modes, errors: &ModalErrors) {
         self.corrected = Some(Corrected::new(self.whole(), modes, errors));
         self.blocks.iter_mut().for_each(|block| block.model = None);
-        self.models.iter_mut().for_each(|model| *model = None);
-        self.assessed.iter_mut().for_each(Vec::clear);
+        self.forget_answers();
     }
 
     /// Corrections, one at each frequency that has any, at which the subspace is not good enough: (frequency, correction).
@@ -290,10 +294,8 @@ impl<'a, 'o> ReducedBand<'a, 'o> {
             self.corrected = self.corrected.as_ref().map(|corrected| corrected.in_larger(self.whole()));
         }
         let lacks = |block: &Block| lacking.iter().any(|&(i, _)| block.has(i));
-        let is_outgrown = |block: &Block| {
-            let now = (self.size(), self.answers_in(block));
-            block.own.as_ref().is_some_and(|(training, _)| *training != now)
-        };
+        let is_outgrown =
+            |block: &Block| block.own.as_ref().is_some_and(|(training, _)| *training != self.training(block));
         let gained = self.size() > before || self.blocks.iter().filter(|block| lacks(block)).any(is_outgrown);
         if gained {
             self.blocks.iter_mut().filter(|block| lacks(block)).for_each(Block::forget);
@@ -301,8 +303,8 @@ impl<'a, 'o> ReducedBand<'a, 'o> {
         Ok(gained)
     }
 
-    /// Makes the models of the neighbourhoods in which these frequencies (ascending) are, for them; where there is one it stays: what it says of its answers
-    /// holds, however many vectors have been added elsewhere.
+    /// Makes the models of the neighbourhoods in which these frequencies (ascending) are, for them. A model that there is stays: its assessments hold, however
+    /// many vectors the subspace has gained since.
     pub(super) fn localise(&mut self, frequencies: &[usize], for_each: ForEach<'_>) {
         let members = |[first, last]: [usize; 2]| {
             let from = frequencies.partition_point(|&i| i < first);
@@ -312,17 +314,18 @@ impl<'a, 'o> ReducedBand<'a, 'o> {
             .filter(|&b| !members(self.blocks[b].ends).is_empty() && self.blocks[b].model.is_none())
             .collect();
         let reduced = &*self;
-        let models = map(for_each, wanted.len(), |k| reduced.local(&reduced.blocks[wanted[k]]));
-        let size = self.size();
-        let answers: Vec<usize> = wanted.iter().map(|&b| self.answers_in(&self.blocks[b])).collect();
-        for ((b, model), answers) in wanted.into_iter().zip(models).zip(answers) {
+        let models = map(for_each, wanted.len(), |k| {
+            let block = &reduced.blocks[wanted[k]];
+            (reduced.training(block), reduced.local(block))
+        });
+        for (b, (training, model)) in wanted.into_iter().zip(models) {
             let block = &mut self.blocks[b];
-            block.own.get_or_insert_with(|| ((size, answers), Arc::clone(model.own())));
+            block.own.get_or_insert_with(|| (training, Arc::clone(model.own())));
             block.model = Some(Arc::new(model));
         }
         for block in &self.blocks {
             for &i in members(block.ends) {
-                let model = block.model.as_ref().map(Arc::clone);
+                let model = block.model.clone();
                 let same =
                     self.models[i].as_ref().zip(model.as_ref()).is_some_and(|(a, b)| Arc::ptr_eq(a, b));
                 if !same {
@@ -333,9 +336,9 @@ impl<'a, 'o> ReducedBand<'a, 'o> {
         }
     }
 
-    /// Answers in a neighbourhood that the training looked at.
-    fn answers_in(&self, block: &Block) -> usize {
-        self.answers.iter().filter(|(i, _)| block.has(*i)).count()
+    /// How far the training has come for a neighbourhood.
+    fn training(&self, block: &Block) -> Training {
+        (self.size(), self.answers.iter().filter(|(i, _)| block.has(*i)).count())
     }
 
     /// The model of a neighbourhood.
@@ -350,8 +353,10 @@ impl<'a, 'o> ReducedBand<'a, 'o> {
         let answers = thinned(&answers, MIN_NEIGHBOURHOOD_LINES);
         let answers = answers.map(|&(i, correction)| Point { at: self.at[i].clone(), correction });
         let points: Vec<Point<'_>> = box_points.chain(answers).collect();
-        let own = block.own.as_ref().map(|(_, own)| Arc::clone(own));
-        let own = own.unwrap_or_else(|| Arc::new(self.whole().localised(&points, TRAINED_TOL)));
+        let own = match &block.own {
+            Some((_, own)) => Arc::clone(own),
+            None => Arc::new(self.whole().localised(&points, TRAINED_TOL)),
+        };
         Local::new(own, self.corrected.as_ref(), &points, TRAINED_TOL)
     }
 

@@ -1,11 +1,13 @@
 //! Where solutions are looked for: near the nominal, and in the whole of the bounds.
 
+use super::joint::answered_pilots;
 use super::outcome::BandOutcome;
 use super::reduced_band::ReducedBand;
 use crate::identify::choice::{Reduction, Selection};
 use crate::identify::context::Context;
 use crate::identify::measured::Band;
 use crate::identify::options::Options;
+use crate::model::ModelAt;
 use crate::response::Work;
 
 /// Options to look near the nominal, and in the whole of the bounds.
@@ -18,15 +20,17 @@ pub(super) fn on_subspace(options: &Options) -> [Options; 2] {
     near_and_far(&Options { reduction: Reduction::Subspace, selection: Selection::Joint, ..*options })
 }
 
-/// What is found near the nominal; where a path through that leaves out most of the band, the nominal is too far, and the bounds are all that is left:
-/// the one with more answers then, with the work of both. The reduced model has the whole of the bounds then, and first some frequencies say whether
-/// more is to be expected there: `pilots` is how many of them have an answer, or none where that is not known.
+/// What is found near the nominal. Where a path through that leaves out most of the band, the nominal is too far and the whole of the bounds is searched too:
+/// the one with more answers is taken then, with the work of both.
+///
+/// The reduced model is made good in the wide box as well. Where channels are calibrated, some frequencies over the band are tried there first, and the rest is
+/// left out where no more of them have an answer than near the nominal.
 pub(super) fn near_or_far<'a, 'o, T>(
-    band: &Band<'_>,
+    (band, at): (&Band<'_>, &[ModelAt<'_>]),
     [near, far]: &[Options; 2],
     reduced: &mut Option<ReducedBand<'a, 'o>>,
+    are_calibrated: bool,
     context: Context<'_>,
-    pilots: impl Fn(&Options, &mut ReducedBand<'a, 'o>) -> usize,
     mut run: impl FnMut(&Options, &mut Option<ReducedBand<'a, 'o>>) -> (BandOutcome, T),
 ) -> (BandOutcome, T) {
     let mut found = run(near, reduced);
@@ -35,30 +39,29 @@ pub(super) fn near_or_far<'a, 'o, T>(
     if !wider || 2 * found.0.answered() >= found.0.outcomes.len() {
         return found;
     }
-    let mut before = Work::default();
-    let is_worth_it = match reduced {
-        Some(reduced) => {
-            let near_pilots = pilots(near, reduced);
-            before = reduced.work();
-            let trained = reduced.widen(far, context);
-            trained.is_ok() && (near_pilots == 0 || pilots(far, reduced) > near_pilots)
-        }
-        None => true,
+    let work = |reduced: &Option<ReducedBand<'_, '_>>| {
+        reduced.as_ref().map_or_else(Work::default, |reduced| reduced.work())
     };
-    let mut is_far = false;
-    if is_worth_it {
-        let mut other = run(far, reduced);
-        is_far = other.0.answered() > found.0.answered();
-        other.0.work = other.0.work.since(before);
-        if is_far {
-            std::mem::swap(&mut found, &mut other);
+    let before = work(reduced);
+    let promises_more = reduced.as_mut().is_none_or(|reduced| {
+        let pilots = |options: &Options, reduced: &mut ReducedBand<'_, '_>| {
+            answered_pilots(band, at, reduced, options, context)
+        };
+        let near_pilots = if are_calibrated { pilots(near, reduced) } else { 0 };
+        let is_trained = reduced.widen(far, context).is_ok();
+        // Where none of them has an answer, they say nothing.
+        is_trained && (near_pilots == 0 || pilots(far, reduced) > near_pilots)
+    });
+    let other = promises_more.then(|| run(far, reduced));
+    let spent = other.as_ref().map_or_else(|| work(reduced), |other| other.0.work).since(before);
+    let better = other.filter(|other| other.0.answered() > found.0.answered());
+    match better {
+        Some(better) => {
+            let own = std::mem::replace(&mut found, better).0.work;
+            found.0.work = own;
         }
-        found.0.work += other.0.work;
-    } else if let Some(reduced) = reduced {
-        found.0.work += reduced.work().since(before);
+        None => reduced.iter_mut().for_each(|reduced| reduced.look_in(near)),
     }
-    if let Some(reduced) = reduced.as_mut().filter(|_| !is_far) {
-        reduced.look_in(near);
-    }
+    found.0.work += spent;
     found
 }

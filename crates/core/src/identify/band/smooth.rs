@@ -94,14 +94,9 @@ pub(in crate::identify) fn identify_smooth<'a>(
     let at = band.model.at_all(band.frequency_hz, std::slice::from_ref(band.parameter))?;
     let boxes = on_subspace(options);
     let mut reduced = ReducedBand::if_wanted(band, &at, trained, &boxes[0], context);
-    let (mut free, ()) = near_or_far(
-        band,
-        &boxes,
-        &mut reduced,
-        context,
-        |options, reduced| joint::answered_pilots(band, &at, reduced, options, context),
-        |options, reduced| (joint::identify(band, &at, reduced.as_mut(), &[], options, context), ()),
-    );
+    let (mut free, ()) = near_or_far((band, &at), &boxes, &mut reduced, true, context, |options, reduced| {
+        (joint::identify(band, &at, reduced.as_mut(), &[], options, context), ())
+    });
     if let Some(reduced) = &mut reduced {
         free = correct((band, &[]), &at, free, reduced, &boxes[0], context);
     }

@@ -115,9 +115,9 @@ const USUAL_NOISE: f64 = 0.01;
 const STEPS_PER_LEVEL: usize = 5;
 const STEPS_AT_LAST_LEVEL: usize = 5;
 
-/// Rounds in which sizes and errors are found in turn, and a change of −2 ln of the evidence from one to the next that is none.
+/// Rounds at most in which sizes and errors are estimated in turn. They end earlier where −2 ln of the evidence changes by less than this from one to the next.
 const MAX_SIZE_ROUNDS: usize = 8;
-const SAME_EVIDENCE: f64 = 0.2;
+const EVIDENCE_TOL: f64 = 0.2;
 
 /// Before the data: natural frequencies are good to a half per cent, loss factors of modes to one (a stiffness that is not there may have any), shapes and known factors to two, loss factors of known stiffnesses to a tenth of themselves
 /// or what bearings and air have.
@@ -216,7 +216,7 @@ impl Sizes {
         Self { shape: dependent.sqrt() * self.shape, ..self }
     }
 
-    /// The same where errors of other kinds are looked for too: of those there is nothing but what is usual.
+    /// The same where errors of other kinds are looked for too. Own errors of damping that are new have the size that is usual.
     fn with_kinds(self, kinds: Kinds, known: KnownSizes) -> Self {
         let is_new = kinds.damping == Damping::Own && self.loss_factor == 0.0;
         let loss_factor = if is_new { MODAL_LOSS_FACTOR_PRIOR_STD } else { self.loss_factor };
@@ -367,7 +367,7 @@ fn explanation(search: &Search<'_, '_>, starts: &[Vec<f64>]) -> Option<Explanati
         let kinds = with(wrong.kinds);
         if kinds != wrong.kinds {
             let (place, fitting) = (wrong.found.place.clone(), Fitting { kinds, ..fine });
-            // From a minimum that explains the band it is not far; from another one noise that is added leads away.
+            // A minimum that explains the band is near. From any other one added noise leads away.
             let more = if data.is_explained(&wrong, &search.lines) {
                 data.settled(&fitting, place, wrong.sizes.with_kinds(kinds, fine.known), wrong.level)
             } else {
@@ -833,7 +833,7 @@ impl<'a> Measured<'_, 'a> {
             }
             let same = last
                 .as_ref()
-                .is_some_and(|last: &Explained| (last.evidence - evidence).abs() <= SAME_EVIDENCE);
+                .is_some_and(|last: &Explained| (last.evidence - evidence).abs() <= EVIDENCE_TOL);
             last = Some(Explained { found, sizes, kinds: fitting.kinds, level, rest: before.2, evidence });
             if same {
                 break;

@@ -158,7 +158,7 @@ const MAX_SHAPE_ERROR: f64 = 0.3;
 /// The same over the sizes that were given.
 const MAX_ERROR_OVER_GIVEN_SIZE: f64 = 3.0;
 
-/// A gain of this part of the cost is none, nor is one of this much: the cost is −2 ln of a probability.
+/// A descent ends where a step lowers the cost, −2 ln of a probability, by less than this part of it or by less than this.
 const COST_RTOL: f64 = 1e-5;
 const COST_ATOL: f64 = 0.01;
 

@@ -215,10 +215,8 @@ impl AlongUnknown {
         let far = [range, -range].map(|by| correction + values[unknown] * by.exp_m1());
         let is_good =
             |response: &RationalResponse, c| response.residual(c).is_ok_and(|rest| rest <= MAX_RESIDUAL);
-        while !response.is_complete() && !far.iter().all(|&c| is_good(&response, c)) {
-            if order >= system.dim() {
-                break;
-            }
+        let is_whole = |response: &RationalResponse, order| response.is_complete() || order >= system.dim();
+        while !is_whole(&response, order) && !far.iter().all(|&c| is_good(&response, c)) {
             order *= 2;
             response = response.extended(&system, unknown, order).ok()?;
         }
