@@ -4,6 +4,7 @@
 //! machine disturbs them little; what is claimed are ratios of times from one run, never the times themselves.
 #![allow(clippy::print_stdout)] // tables are what a benchmark is for
 
+pub mod cases;
 pub mod clock;
 mod exponent;
 mod machine;

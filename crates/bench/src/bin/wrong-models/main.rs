@@ -5,18 +5,15 @@
 //! `two` also what would be the model as a coarser mesh beside it. Case K of a seed is always the same, and its class is the K-th, counted round.
 //!
 //! Each case draws a structure, its material, load, sensors and noise, and measures the truth, which is another model by class, with direct solves.
-#![allow(clippy::print_stdout, clippy::print_stderr)] // tables are what a benchmark is for
+#![allow(clippy::print_stdout)] // tables are what a benchmark is for
 
 use frfit::identify::Options;
+use frfit_bench::cases::{Cases, number};
+use frfit_bench::machine;
 use frfit_bench::wrong_models::case::{Meshes, Way};
 use frfit_bench::wrong_models::fault::Class;
-use frfit_bench::wrong_models::report::{LEGEND, Tried, csv, described, errors, lines, markdown};
+use frfit_bench::wrong_models::report::{LEGEND, csv, described, errors, lines, markdown};
 use frfit_bench::wrong_models::{Failure, tried};
-use frfit_bench::{in_pool, machine};
-use rayon::prelude::*;
-
-/// Threads, each with a case of its own.
-const THREADS: usize = 2;
 
 /// What was asked for.
 struct Arguments {
@@ -71,10 +68,6 @@ impl Arguments {
     }
 }
 
-fn number<T: std::str::FromStr>(text: &str) -> Result<T, Failure> {
-    text.parse().map_err(|_| format!("expected a number, found {text:?}").into())
-}
-
 fn main() -> Result<(), Failure> {
     let arguments = Arguments::read(std::env::args().skip(1))?;
     let Arguments { cases, seed, class, ways, .. } = &arguments;
@@ -86,29 +79,17 @@ fn main() -> Result<(), Failure> {
         arguments.case.is_some() || class.is_none_or(|class| Class::ALL[(index % classes) as usize] == class)
     };
     let indices: Vec<u64> = (first..).filter(is_asked).take(count).collect();
-    let one = |&index: &u64| {
-        let done = tried(seed.to_owned(), index, ways, arguments.meshes, &options);
-        done.as_ref().map_or_else(|why| eprintln!("{why}"), |done| eprintln!("{}", described(done)));
-        done
-    };
-    let all: Vec<Result<Tried, Failure>> =
-        in_pool(THREADS, || indices.par_iter().with_max_len(1).map(one).collect())?;
-    let failed = all.iter().filter_map(|one| one.as_ref().err()).map(ToString::to_string);
-    let failed: Vec<String> = failed.collect();
-    let all: Vec<Tried> = all.into_iter().flatten().collect();
+    let one = |index| tried(*seed, index, ways, arguments.meshes, &options);
+    let all = Cases::try_all(&indices, one, described)?;
     if let Some(file) = &arguments.csv {
-        std::fs::write(file, csv(&all))?;
+        std::fs::write(file, csv(&all.tried))?;
     }
     if arguments.case.is_some() {
-        for case in &all {
+        for case in &all.tried {
             println!("{}\n", described(case));
             case.runs.iter().for_each(|run| println!("{}\n{}", lines(run), errors(case, run)));
         }
     }
-    println!("{} cases of seed {seed}\n\n{}\n{LEGEND}", all.len(), markdown(&all));
-    match failed.len() {
-        0 => Ok(()),
-        // The table is there without them, but a fault of this program is not a result.
-        count => Err(format!("{count} cases could not be made: {}", failed.join("; ")).into()),
-    }
+    println!("{} cases of seed {seed}\n\n{}\n{LEGEND}", all.tried.len(), markdown(&all.tried));
+    all.all_made()
 }
