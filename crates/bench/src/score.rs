@@ -24,15 +24,15 @@ impl Score {
     /// # Errors
     /// [`OutsideTable`] where the truth is not known.
     pub fn of(
-        outcomes: &[Line],
+        lines: &[Line],
         truth: impl Fn(f64) -> Result<c64, OutsideTable>,
         tolerance: f64,
     ) -> Result<Self, OutsideTable> {
-        let mut score = Self { count: outcomes.len(), ..Self::default() };
-        for outcome in outcomes {
-            let truth = truth(outcome.frequency_hz)?;
-            let right = outcome.factor().is_some_and(|p| (p - truth).norm() <= tolerance * truth.norm());
-            let ok = outcome.status == Status::Ok;
+        let mut score = Self { count: lines.len(), ..Self::default() };
+        for line in lines {
+            let truth = truth(line.frequency_hz)?;
+            let right = line.factor().is_some_and(|p| (p - truth).norm() <= tolerance * truth.norm());
+            let ok = line.status == Status::Ok;
             score.right += usize::from(right);
             score.right_ok += usize::from(right && ok);
             score.wrong_ok += usize::from(!right && ok);
@@ -61,13 +61,13 @@ mod tests {
             line.values[0].value = Some(nominal + correction);
             line
         };
-        let outcomes = [
+        let lines = [
             answer(c64::new(1e-7, 0.0), Status::Ok),
             answer(c64::default(), Status::Ambiguous),
             answer(c64::new(1e-3, 0.0), Status::Ok),
             missing.clone(),
         ];
-        let score = Score::of(&outcomes, |_| Ok(nominal), 1e-6).unwrap();
+        let score = Score::of(&lines, |_| Ok(nominal), 1e-6).unwrap();
         assert_eq!(score, Score { right: 2, wrong_ok: 1, right_ok: 1, count: 4 });
         assert_eq!(score.to_string(), "0.500 (1)");
     }

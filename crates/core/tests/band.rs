@@ -41,10 +41,10 @@ fn identify(case: &Case, frequency_hz: &[f64], measured: &[Vec<c64>], setup: &Se
 }
 
 /// Distance of the nearest admitted root from the truth, relative to it.
-fn nearest(outcome: &Line, truth: c64) -> f64 {
-    let admitted = outcome.roots.iter().filter(|root| root.refusal.is_none());
+fn nearest(line: &Line, truth: c64) -> f64 {
+    let admitted = line.roots.iter().filter(|root| root.refusal.is_none());
     admitted
-        .map(|root| (outcome.nominal() + root.correction - truth).norm() / truth.norm())
+        .map(|root| (line.nominal() + root.correction - truth).norm() / truth.norm())
         .fold(f64::INFINITY, f64::min)
 }
 
@@ -54,12 +54,11 @@ fn within(size: f64, by: f64) -> Setup {
     Setup::within(bounds)
 }
 
-/// Everything that an outcome says is a number.
-fn assert_no_nan(outcome: &Line) {
-    let text = format!("{outcome:?}");
+/// Everything that an line says is a number.
+fn assert_no_nan(line: &Line) {
+    let text = format!("{line:?}");
     assert!(!text.contains("NaN"), "{text}");
-    let shown =
-        [outcome.error, outcome.spectral_radius, outcome.reduction_error, outcome.convergence_radius()];
+    let shown = [line.error, line.spectral_radius, line.reduction_error, line.convergence_radius()];
     assert!(shown.iter().flatten().all(|value| value.is_finite()), "{text}");
 }
 
@@ -73,15 +72,15 @@ fn assert_truth(mut case: Case, offs: &[f64], frequencies: usize, digits: f64) {
         let setup = within(truth.at(case.band_hz[1]).unwrap().re, 10.0);
         let band = identify(&case, &frequency_hz, &u, &setup);
         assert!(band.search.reduced_size.is_some_and(|size| size < 130), "{:?}", band.search.reduced_size);
-        for outcome in &band.lines {
-            let f = outcome.frequency_hz;
-            let missed = nearest(outcome, truth.at(f).unwrap());
+        for line in &band.lines {
+            let f = line.frequency_hz;
+            let missed = nearest(line, truth.at(f).unwrap());
             assert!(missed < digits, "{} × {off} at {f} Hz: {missed:e}", case.name);
-            assert_no_nan(outcome);
-            let correction = outcome.correction().unwrap();
+            assert_no_nan(line);
+            let correction = line.correction().unwrap();
             let exact = case.direct(f, correction).unwrap();
-            let error = relative_error(&exact, &outcome.updated_response);
-            let reduction_error = outcome.reduction_error.unwrap();
+            let error = relative_error(&exact, &line.updated_response);
+            let reduction_error = line.reduction_error.unwrap();
             assert!(
                 error <= 5.0 * reduction_error,
                 "{} × {off} at {f} Hz: {error:e} {reduction_error:e}",
@@ -129,9 +128,9 @@ fn the_truth_is_admitted_on_antiresonances_and_resonances() {
         for off in [0.75, 1.5] {
             case.parameter.nominal = truth.scaled(off);
             let band = identify(&case, &found, &u, &within(truth.at(last).unwrap().re, 10.0));
-            for outcome in &band.lines {
-                let missed = nearest(outcome, truth.at(outcome.frequency_hz).unwrap());
-                assert!(missed < 1e-6, "{} at {} Hz: {missed:e}", case.name, outcome.frequency_hz);
+            for line in &band.lines {
+                let missed = nearest(line, truth.at(line.frequency_hz).unwrap());
+                assert!(missed < 1e-6, "{} at {} Hz: {missed:e}", case.name, line.frequency_hz);
             }
         }
     }
@@ -212,7 +211,7 @@ fn the_papers_way_is_the_same_on_the_subspace() {
             let (x, y) = (a.correction().unwrap(), b.correction().unwrap());
             assert!((x - y).norm() < 1e-5 * a.factor().unwrap().norm(), "{at}");
             // Where the nearest pole is far outside the box, the subspace does not know it well.
-            let [r, s] = [a, b].map(|outcome| outcome.spectral_radius.unwrap());
+            let [r, s] = [a, b].map(|line| line.spectral_radius.unwrap());
             assert!((r - s).abs() < 0.05 * r, "{at}");
             settled += 1;
         }
@@ -265,9 +264,9 @@ fn one_and_two_frequencies_are_bands() {
             let band = identify(&case, frequency_hz, u, &within(2e11, 10.0).with_reduction(reduction));
             assert_eq!(band.lines.len(), frequency_hz.len());
             assert_eq!(band.search.reduced_size.is_some(), reduction == Reduction::Subspace);
-            for outcome in &band.lines {
-                assert_no_nan(outcome);
-                assert!(nearest(outcome, truth.at(700.0).unwrap()) < 1e-6, "{reduction:?}: {outcome:?}");
+            for line in &band.lines {
+                assert_no_nan(line);
+                assert!(nearest(line, truth.at(700.0).unwrap()) < 1e-6, "{reduction:?}: {line:?}");
             }
         }
     }
@@ -283,9 +282,9 @@ fn a_band_may_begin_at_rest() {
         for reduction in [Reduction::Full, Reduction::Subspace] {
             let band = identify(&case, frequency_hz, &u, &within(2e11, 10.0).with_reduction(reduction));
             assert_eq!(band.search.reduced_size.is_some(), reduction == Reduction::Subspace);
-            for outcome in &band.lines {
-                assert_no_nan(outcome);
-                assert!(nearest(outcome, truth.at(0.0).unwrap()) < 1e-6, "{reduction:?}: {outcome:?}");
+            for line in &band.lines {
+                assert_no_nan(line);
+                assert!(nearest(line, truth.at(0.0).unwrap()) < 1e-6, "{reduction:?}: {line:?}");
             }
         }
         case.parameter.nominal = truth.clone();
@@ -304,11 +303,8 @@ fn a_free_structure_at_rest_has_no_answer_there() {
         let band = identify(&case, &frequency_hz, &u, &within(5e6, 20.0).with_reduction(reduction));
         band.lines.iter().for_each(assert_no_nan);
         assert_ne!(band.lines[0].status, Status::Ok, "{reduction:?}");
-        for outcome in &band.lines[1..] {
-            assert!(
-                nearest(outcome, truth.at(outcome.frequency_hz).unwrap()) < 1e-6,
-                "{reduction:?}: {outcome:?}"
-            );
+        for line in &band.lines[1..] {
+            assert!(nearest(line, truth.at(line.frequency_hz).unwrap()) < 1e-6, "{reduction:?}: {line:?}");
         }
     }
 }
@@ -334,9 +330,9 @@ fn what_is_nominally_absent_is_found() {
     let u: Vec<Vec<c64>> = frequency_hz.iter().map(|&f| case.direct(f, truth).unwrap()).collect();
     for reduction in [Reduction::Full, Reduction::Subspace] {
         let band = identify(&case, &frequency_hz, &u, &Setup::default().with_reduction(reduction));
-        for outcome in &band.lines {
-            assert!(nearest(outcome, truth) < 1e-5, "{reduction:?}: {outcome:?}");
-            assert!(!format!("{outcome:?}").contains("NaN"), "{reduction:?}: {outcome:?}");
+        for line in &band.lines {
+            assert!(nearest(line, truth) < 1e-5, "{reduction:?}: {line:?}");
+            assert!(!format!("{line:?}").contains("NaN"), "{reduction:?}: {line:?}");
         }
     }
 }
@@ -409,10 +405,10 @@ fn a_singular_model_is_a_status() {
     for reduction in [Reduction::Full, Reduction::Subspace, Reduction::Auto] {
         for paper in [Setup::default(), Setup::paper(Bounds::default())] {
             let band = identify(&case, &frequency_hz, &u, &paper.with_reduction(reduction));
-            for outcome in &band.lines {
-                assert_eq!(outcome.status, Status::Failed, "{reduction:?}");
-                assert!(outcome.breakdown.is_some());
-                assert_no_nan(outcome);
+            for line in &band.lines {
+                assert_eq!(line.status, Status::Failed, "{reduction:?}");
+                assert!(line.breakdown.is_some());
+                assert_no_nan(line);
             }
         }
     }
@@ -429,11 +425,11 @@ fn bounds_may_exclude_the_nominal() {
         for reduction in [Reduction::Full, Reduction::Subspace] {
             let setup = within(2e11, 1.5).with_reduction(reduction).with_order(60);
             let band = identify(&case, &frequency_hz, &u, &setup);
-            for outcome in &band.lines {
-                assert_no_nan(outcome);
-                assert!(nearest(outcome, truth.at(0.0).unwrap()) < 1e-6, "{off} {reduction:?}: {outcome:?}");
-                for root in outcome.roots.iter().filter(|root| root.refusal.is_none()) {
-                    assert_eq!(setup.bounds.broken_by(outcome.nominal() + root.correction), None);
+            for line in &band.lines {
+                assert_no_nan(line);
+                assert!(nearest(line, truth.at(0.0).unwrap()) < 1e-6, "{off} {reduction:?}: {line:?}");
+                for root in line.roots.iter().filter(|root| root.refusal.is_none()) {
+                    assert_eq!(setup.bounds.broken_by(line.nominal() + root.correction), None);
                 }
             }
         }
@@ -480,10 +476,10 @@ fn a_real_factor_is_real() {
         for reduction in [Reduction::Full, Reduction::Subspace] {
             let setup = Setup { real: true, ..within(3.5e3, 3.0).with_reduction(reduction) };
             let band = identify(&case, &frequency_hz, &u, &setup);
-            for outcome in &band.lines {
-                assert_no_nan(outcome);
-                assert!(nearest(outcome, truth) < 1e-6, "{reduction:?}: {outcome:?}");
-                for root in outcome.roots.iter().filter(|root| root.refusal.is_none()) {
+            for line in &band.lines {
+                assert_no_nan(line);
+                assert!(nearest(line, truth) < 1e-6, "{reduction:?}: {line:?}");
+                for root in line.roots.iter().filter(|root| root.refusal.is_none()) {
                     let factor = nominal + root.correction;
                     assert!(factor.im.abs() < 1e-12 * factor.norm(), "{factor}");
                     assert_eq!(setup.bounds.broken_by(c(factor.re, 0.0)), None);
@@ -503,9 +499,9 @@ fn a_nominal_that_is_right_stays() {
         let rational = joint.with_selection(Selection::Smallest);
         for setup in [joint, rational, rational.with_method(Method::Series)] {
             let band = identify(&case, &frequency_hz, &u, &setup);
-            for outcome in &band.lines {
-                assert_no_nan(outcome);
-                assert!(nearest(outcome, outcome.nominal()) < 1e-9, "{setup:?}: {outcome:?}");
+            for line in &band.lines {
+                assert_no_nan(line);
+                assert!(nearest(line, line.nominal()) < 1e-9, "{setup:?}: {line:?}");
             }
         }
     }
@@ -521,10 +517,10 @@ fn a_thickness_is_found_too() {
         case.parameter.nominal = truth.scaled(off);
         for reduction in [Reduction::Full, Reduction::Subspace] {
             let band = identify(&case, &frequency_hz, &u, &within(1.0, 2.0).with_reduction(reduction));
-            for outcome in &band.lines {
-                assert_no_nan(outcome);
-                let missed = nearest(outcome, truth.at(0.0).unwrap());
-                assert!(missed < 1e-6, "× {off} at {} Hz, {reduction:?}: {missed:e}", outcome.frequency_hz);
+            for line in &band.lines {
+                assert_no_nan(line);
+                let missed = nearest(line, truth.at(0.0).unwrap());
+                assert!(missed < 1e-6, "× {off} at {} Hz, {reduction:?}: {missed:e}", line.frequency_hz);
             }
         }
     }

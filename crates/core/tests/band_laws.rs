@@ -89,7 +89,7 @@ fn light_damping_is_found_from_one_percent_of_noise() {
         pulls.push([(storage - 2e11) / storage_std, (eta - 1e-3) / eta_std]);
         // χ²/ν of 598 degrees of freedom is 1 ± 0.058; five times that.
         assert!((fit.reduced_chi_squared().unwrap() - 1.0).abs() < 0.29, "{:?}", fit.reduced_chi_squared());
-        assert!(found.lines.iter().all(|outcome| outcome.status == Status::Ok));
+        assert!(found.lines.iter().all(|line| line.status == Status::Ok));
     }
     for k in 0..2 {
         // All of eight within 4 deviations but for one in 2000; the mean square is 1 ± 0.5.
@@ -169,20 +169,16 @@ fn a_law_of_exact_data_is_exact_and_certified() {
     let measured = exact(&case, &frequency_hz);
     let found =
         identify(&mut case, &truth, 1.5, &frequency_hz, &measured, Known::Unknown, &[LawKind::Fractional]);
-    for outcome in &found.lines {
-        let exact = truth.at(outcome.frequency_hz).unwrap();
-        let factor = outcome.factor().unwrap();
+    for line in &found.lines {
+        let exact = truth.at(line.frequency_hz).unwrap();
+        let factor = line.factor().unwrap();
         // The subspace answers to 1e-9, of which an inverse problem of three numbers loses a few digits.
-        assert!(
-            (factor - exact).norm() < 1e-6 * exact.norm(),
-            "{} Hz: {factor} {exact}",
-            outcome.frequency_hz
-        );
-        assert_eq!(outcome.status, Status::Ok);
+        assert!((factor - exact).norm() < 1e-6 * exact.norm(), "{} Hz: {factor} {exact}", line.frequency_hz);
+        assert_eq!(line.status, Status::Ok);
         // The reduction error is that of the full model at the law.
-        let direct = case.direct(outcome.frequency_hz, factor - outcome.nominal()).unwrap();
-        let error = frfit::identify::relative_error(&direct, &outcome.updated_response);
-        assert!(error <= 5.0 * outcome.reduction_error.unwrap(), "{error:e} {:?}", outcome.reduction_error);
+        let direct = case.direct(line.frequency_hz, factor - line.nominal()).unwrap();
+        let error = frfit::identify::relative_error(&direct, &line.updated_response);
+        assert!(error <= 5.0 * line.reduction_error.unwrap(), "{error:e} {:?}", line.reduction_error);
     }
 }
 
@@ -199,8 +195,8 @@ fn a_law_that_is_wrong_is_called_so() {
     assert!(fit.reduced_chi_squared().unwrap() > 20.0);
     // The law's band is not explained: no line of it is ok, and every line has the law's value.
     assert_eq!(found.fit.unwrap().verdict, Explained::No);
-    assert!(found.lines.iter().all(|outcome| outcome.status == Status::Unexplained), "{:?}", found.fit);
-    assert!(found.lines.iter().all(|outcome| outcome.correction().is_some()));
+    assert!(found.lines.iter().all(|line| line.status == Status::Unexplained), "{:?}", found.fit);
+    assert!(found.lines.iter().all(|line| line.correction().is_some()));
     assert_eq!(found.free.len(), frequency_hz.len());
 }
 

@@ -55,7 +55,7 @@ fn bounded(model: &DynamicStiffness, name: &str, setup: &Setup) -> Unknown {
     Unknown { bounds: setup.bounds, real: setup.real, ..Unknown::factor_of(model, &[name]).unwrap() }
 }
 
-/// The outcome when the measurement is the model's own response with the true factor.
+/// The line when the measurement is the model's own response with the true factor.
 fn identified(
     (model, experiment): &(DynamicStiffness, Experiment),
     name: &str,
@@ -77,14 +77,14 @@ fn rubber_bar_matches_the_response_everywhere_and_the_modulus_where_one_root_is_
     let mut unique = 0;
     for &frequency_hz in &frequencies {
         let truth = truth.at(frequency_hz).unwrap();
-        let outcome = identified(&bar, "rubber", truth, frequency_hz, &bar_setup(30));
+        let line = identified(&bar, "rubber", truth, frequency_hz, &bar_setup(30));
         // The paper's figure for its Section 6.
-        assert!(outcome.error.unwrap() < 2e-8, "{frequency_hz} Hz: {:?}", outcome.error);
-        assert!(outcome.spectral_radius.unwrap() < 1.0);
-        assert!(matches!(outcome.status, Status::Ok | Status::Ambiguous), "{frequency_hz} Hz");
-        if outcome.candidate_count() == 1 {
+        assert!(line.error.unwrap() < 2e-8, "{frequency_hz} Hz: {:?}", line.error);
+        assert!(line.spectral_radius.unwrap() < 1.0);
+        assert!(matches!(line.status, Status::Ok | Status::Ambiguous), "{frequency_hz} Hz");
+        if line.candidate_count() == 1 {
             unique += 1;
-            let wrong = (outcome.factor().unwrap() - truth).norm() / truth.norm();
+            let wrong = (line.factor().unwrap() - truth).norm() / truth.norm();
             // ρ³¹ < 1e-7 for ρ < 0.6, which holds over the band.
             assert!(wrong < 1e-6, "{frequency_hz} Hz: {wrong:e}");
         }
@@ -96,10 +96,10 @@ fn rubber_bar_matches_the_response_everywhere_and_the_modulus_where_one_root_is_
 #[test]
 fn cost_at_a_frequency_is_one_factorisation_for_the_series_and_one_for_the_error() {
     let bar = rubber_bar();
-    let outcome = identified(&bar, "rubber", polybutadiene(1.0).at(700.0).unwrap(), 700.0, &bar_setup(30));
+    let line = identified(&bar, "rubber", polybutadiene(1.0).at(700.0).unwrap(), 700.0, &bar_setup(30));
     // 31 solves of the series, one for the error, and another factorisation and solve that made the measurement; the rest
     // is the spectral radius, which the Krylov process gets within 24 applications here.
-    let Work { factorisations, solves } = outcome.work;
+    let Work { factorisations, solves } = line.work;
     assert_eq!(factorisations, 3);
     assert!(solves <= 31 + 1 + 1 + 24, "{solves}");
 }
@@ -140,21 +140,17 @@ fn density_is_found_as_a_real_parameter() {
     let bounds = Bounds { storage: Some([500.0, 2000.0]), loss_factor: None };
     let setup = Setup { real: true, ..Setup::paper(bounds) };
     for frequency_hz in [60.0, 150.0, 300.0] {
-        let outcome = identified(
+        let line = identified(
             &(model_clone(&model), experiment.clone()),
             "mass",
             c(1040.0, 0.0),
             frequency_hz,
             &setup,
         );
-        let density = outcome.factor().unwrap();
+        let density = line.factor().unwrap();
         assert_eq!(density.im, 0.0);
-        assert!(
-            (density.re / 1040.0 - 1.0).abs() < 1e-9,
-            "{frequency_hz} Hz: {density} {:?}",
-            outcome.status
-        );
-        assert_eq!(outcome.status, Status::Ok);
+        assert!((density.re / 1040.0 - 1.0).abs() < 1e-9, "{frequency_hz} Hz: {density} {:?}", line.status);
+        assert_eq!(line.status, Status::Ok);
     }
 }
 
@@ -167,9 +163,9 @@ fn bounds_exclude_and_say_so() {
     let bar = rubber_bar();
     let truth = polybutadiene(1.0).at(100.0).unwrap();
     let bounds = Bounds { storage: Some([1e10, 1e11]), loss_factor: None };
-    let outcome = identified(&bar, "rubber", truth, 100.0, &Setup::paper(bounds));
-    assert_eq!((outcome.status, outcome.correction(), outcome.error), (Status::NoRoot, None, None));
-    assert!(outcome.roots.iter().any(|root| root.refusal == Some(Refusal::OutOfBounds("storage"))));
+    let line = identified(&bar, "rubber", truth, 100.0, &Setup::paper(bounds));
+    assert_eq!((line.status, line.correction(), line.error), (Status::NoRoot, None, None));
+    assert!(line.roots.iter().any(|root| root.refusal == Some(Refusal::OutOfBounds("storage"))));
 }
 
 #[test]
@@ -182,9 +178,9 @@ fn a_resonance_without_damping_is_a_status() {
     let at = model.at(frequency_hz, &[parameter]).unwrap();
     if let Ok(system) = FullModel::new(at, &experiment) {
         let unknown = Unknown::factor_of(&model, &["springs"]).unwrap();
-        let outcome = identify_at(&system, &[c(2.0, 0.0)], &unknown, &Options::paper());
-        assert_eq!(outcome.status, Status::Failed, "{outcome:?}");
-        assert!(outcome.breakdown.is_some() && outcome.correction().is_none());
+        let line = identify_at(&system, &[c(2.0, 0.0)], &unknown, &Options::paper());
+        assert_eq!(line.status, Status::Failed, "{line:?}");
+        assert!(line.breakdown.is_some() && line.correction().is_none());
     }
 }
 
@@ -235,16 +231,16 @@ fn the_plate_diverges_near_its_resonances_and_nowhere_else_needs_data() {
     let at = |frequency_hz| identified(&plate, "plate", truth, frequency_hz, &setup);
     // Away from resonance (of the nominal plate too, √1.25 higher) the modulus is found.
     for frequency_hz in [100.0, 300.0, 500.0, 700.0, 1200.0, 1300.0, 1400.0, 2250.0, 2350.0] {
-        let outcome = at(frequency_hz);
-        assert_eq!(outcome.status, Status::Ok, "{frequency_hz} Hz: {outcome:?}");
-        let wrong = (outcome.factor().unwrap() - truth).norm();
+        let line = at(frequency_hz);
+        assert_eq!(line.status, Status::Ok, "{frequency_hz} Hz: {line:?}");
+        let wrong = (line.factor().unwrap() - truth).norm();
         assert!(wrong < 1e-6, "{frequency_hz} Hz: {wrong:e}"); // ρ³¹ for ρ < 0.62
     }
     // In the middle of the paper's three bands the series diverges at the correction, and the status says so.
     for frequency_hz in [940.0, 1910.0, 2777.0] {
-        let outcome = at(frequency_hz);
-        assert_eq!(outcome.status, Status::Diverged, "{frequency_hz} Hz");
-        assert!(outcome.spectral_radius.unwrap() > 1.0, "{frequency_hz} Hz: {:?}", outcome.spectral_radius);
+        let line = at(frequency_hz);
+        assert_eq!(line.status, Status::Diverged, "{frequency_hz} Hz");
+        assert!(line.spectral_radius.unwrap() > 1.0, "{frequency_hz} Hz: {:?}", line.spectral_radius);
     }
 }
 
@@ -282,22 +278,16 @@ fn the_rational_method_never_calls_a_wrong_modulus_of_the_plate_ok_needs_data() 
         let frequencies = linear_hz(50.0, 3500.0, 36);
         let (mut right, mut right_by_series, mut directly_decided) = (0, 0, 0);
         for &frequency_hz in &frequencies {
-            let is_right = |outcome: &Line| outcome.factor().is_some_and(|e| (e - truth).norm() < 1e-6);
-            let outcome = identified(&plate, "plate", truth, frequency_hz, &rational);
-            assert!(
-                matches!(outcome.status, Status::Ok | Status::Ambiguous),
-                "{frequency_hz} Hz: {outcome:?}"
-            );
-            assert!(
-                outcome.status != Status::Ok || is_right(&outcome),
-                "δ = {delta}, {frequency_hz} Hz: {outcome:?}"
-            );
-            right += usize::from(is_right(&outcome));
+            let is_right = |line: &Line| line.factor().is_some_and(|e| (e - truth).norm() < 1e-6);
+            let line = identified(&plate, "plate", truth, frequency_hz, &rational);
+            assert!(matches!(line.status, Status::Ok | Status::Ambiguous), "{frequency_hz} Hz: {line:?}");
+            assert!(line.status != Status::Ok || is_right(&line), "δ = {delta}, {frequency_hz} Hz: {line:?}");
+            right += usize::from(is_right(&line));
             let by_series = identified(&plate, "plate", truth, frequency_hz, &series);
             // An adaptive order: never more solves than the series of order 30 with its radius and its error, but for the roots
             // that a direct solve has to decide.
-            let decided = outcome.work.factorisations - 3;
-            assert!(outcome.work.solves <= by_series.work.solves + decided);
+            let decided = line.work.factorisations - 3;
+            assert!(line.work.solves <= by_series.work.solves + decided);
             directly_decided += decided;
             right_by_series += usize::from(is_right(&by_series));
         }

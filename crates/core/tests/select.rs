@@ -128,7 +128,7 @@ impl Made {
         for (k, choice) in choices.iter().enumerate() {
             match choice.chosen {
                 Some(index) if self.is_right(k, index) => right += 1,
-                Some(_) if choice.alternatives.is_empty() => wrong += 1,
+                Some(_) if choice.rivals.is_empty() => wrong += 1,
                 _ => {}
             }
         }
@@ -142,7 +142,7 @@ impl Made {
 
 #[test]
 fn nothing_comes_of_nothing() {
-    let none = Choice { chosen: None, alternatives: Vec::new(), margin: f64::INFINITY };
+    let none = Choice { chosen: None, rivals: Vec::new(), margin: f64::INFINITY };
     let options = SelectOptions::default();
     assert_eq!(choose(&[], &[], &options), []);
     assert_eq!(choose(&[1.0, 2.0], &[vec![], vec![]], &options), [none.clone(), none.clone()]);
@@ -155,12 +155,12 @@ fn nothing_comes_of_nothing() {
 fn one_frequency_tells_nothing_apart() {
     let nodes = [vec![node(c(1.0, 0.1)), node(c(2.0, 0.1))]];
     let choice = &choose(&[100.0], &nodes, &SelectOptions::default())[0];
-    assert_eq!((choice.chosen, &choice.alternatives[..], choice.margin), (Some(0), &[1][..], 0.0));
+    assert_eq!((choice.chosen, &choice.rivals[..], choice.margin), (Some(0), &[1][..], 0.0));
     // Another sensor does: a thousand to one is 7 nats, χ² = 14.
-    for (misfit, alternatives) in [(10.0, vec![1]), (20.0, vec![])] {
+    for (misfit, rivals) in [(10.0, vec![1]), (20.0, vec![])] {
         let nodes = [vec![nodes[0][0], Node { misfit, ..nodes[0][1] }]];
         let choice = &choose(&[100.0], &nodes, &SelectOptions::default().with_sensors(2))[0];
-        assert_eq!((choice.chosen, &choice.alternatives), (Some(0), &alternatives));
+        assert_eq!((choice.chosen, &choice.rivals), (Some(0), &rivals));
         assert!((choice.margin - misfit / 2.0).abs() < 1e-12);
     }
 }
@@ -170,7 +170,7 @@ fn two_materials_in_one_band_are_both_reported() {
     let frequency_hz = linear_hz(100.0, 1000.0, 50);
     let nodes = vec![vec![node(c(1.0, 0.1)), node(c(2.0, 0.1))]; 50];
     for choice in choose(&frequency_hz, &nodes, &SelectOptions::default()) {
-        let mut both = choice.alternatives.clone();
+        let mut both = choice.rivals.clone();
         both.extend(choice.chosen);
         both.sort_unstable();
         assert_eq!(both, [0, 1]);
@@ -182,7 +182,7 @@ fn nodes_that_are_one_are_no_alternatives() {
     let frequency_hz = linear_hz(100.0, 1000.0, 20);
     let twice = vec![node(c(1.0, 0.1)), node(c(1.0 + 1e-8, 0.1))];
     for choice in choose(&frequency_hz, &vec![twice; 20], &SelectOptions::default()) {
-        assert!(choice.chosen.is_some() && choice.alternatives.is_empty(), "{choice:?}");
+        assert!(choice.chosen.is_some() && choice.rivals.is_empty(), "{choice:?}");
     }
 }
 

@@ -72,10 +72,10 @@ fn constant(modulus: f64, eta: f64) -> Law {
 }
 
 /// Root mean square errors of E′ and η, relative, of the answers that are `ok`, and how many these are.
-fn errors<'o>(outcomes: impl IntoIterator<Item = &'o Line>, truth: &Law) -> ([f64; 2], usize) {
+fn errors<'o>(lines: impl IntoIterator<Item = &'o Line>, truth: &Law) -> ([f64; 2], usize) {
     let (mut squares, mut ok) = ([0.0; 2], 0);
-    for outcome in outcomes.into_iter().filter(|outcome| outcome.status == Status::Ok) {
-        let (factor, truth) = (outcome.factor().unwrap(), truth.at(outcome.frequency_hz).unwrap());
+    for line in lines.into_iter().filter(|line| line.status == Status::Ok) {
+        let (factor, truth) = (line.factor().unwrap(), truth.at(line.frequency_hz).unwrap());
         squares[0] += (factor.re / truth.re - 1.0).powi(2);
         squares[1] += (loss_factor(factor) / loss_factor(truth) - 1.0).powi(2);
         ok += 1;
@@ -86,9 +86,9 @@ fn errors<'o>(outcomes: impl IntoIterator<Item = &'o Line>, truth: &Law) -> ([f6
 /// How many answers that are `ok` have the truth within two deviations, of E′ and of η.
 fn covered(band: &Identification, truth: &Law) -> [usize; 2] {
     let mut within = [0; 2];
-    for outcome in band.lines.iter().filter(|outcome| outcome.status == Status::Ok) {
-        let (factor, truth) = (outcome.factor().unwrap(), truth.at(outcome.frequency_hz).unwrap());
-        let bars = outcome.uncertainty().unwrap();
+    for line in band.lines.iter().filter(|line| line.status == Status::Ok) {
+        let (factor, truth) = (line.factor().unwrap(), truth.at(line.frequency_hz).unwrap());
+        let bars = line.uncertainty().unwrap();
         let off = [factor.re - truth.re, loss_factor(factor) - loss_factor(truth)];
         for (k, std) in [bars.storage_std, bars.loss_factor_std.unwrap()].into_iter().enumerate() {
             within[k] += usize::from(off[k].abs() <= 2.0 * std);
@@ -278,12 +278,12 @@ fn a_line_that_nothing_explains_is_left_out_and_marked() {
     let mut u = test.drawn(&std, &mut Noise::new(5));
     u[20].iter_mut().zip([3.0, -2.0]).for_each(|(u, by)| *u *= by);
     let found = test.identify(&u, Known::Known(&std), &test.setup());
-    let outcomes = &found.lines;
-    assert_eq!(outcomes[20].status, Status::Unexplained);
+    let lines = &found.lines;
+    assert_eq!(lines[20].status, Status::Unexplained);
     assert_eq!(found.curve.unwrap().unexplained, 1);
-    assert!(outcomes.iter().enumerate().all(|(k, o)| k == 20 || o.status == Status::Ok));
-    let off = (outcomes[20].factor().unwrap() - test.truth.at(outcomes[20].frequency_hz).unwrap()).norm();
-    assert!(off < 3.0 * outcomes[20].uncertainty().unwrap().correction_std);
+    assert!(lines.iter().enumerate().all(|(k, o)| k == 20 || o.status == Status::Ok));
+    let off = (lines[20].factor().unwrap() - test.truth.at(lines[20].frequency_hz).unwrap()).norm();
+    assert!(off < 3.0 * lines[20].uncertainty().unwrap().correction_std);
 }
 
 /// A real factor has no loss factor, and one number at each frequency.
@@ -297,9 +297,9 @@ fn a_real_factor_is_smooth_too() {
     let found = test.identify(&u, Known::Known(&std), &Setup { real: true, ..test.setup() });
     let ok: Vec<&Line> = found.lines.iter().filter(|o| o.status == Status::Ok).collect();
     assert!(ok.len() > 25, "{}", ok.len());
-    for outcome in ok {
-        let bars = outcome.uncertainty().unwrap();
-        assert!(bars.loss_factor_std.is_none() && outcome.factor().unwrap().im == 0.0);
-        assert!((outcome.storage().unwrap() - 2e11).abs() < 4.0 * bars.storage_std, "{outcome:?}");
+    for line in ok {
+        let bars = line.uncertainty().unwrap();
+        assert!(bars.loss_factor_std.is_none() && line.factor().unwrap().im == 0.0);
+        assert!((line.storage().unwrap() - 2e11).abs() < 4.0 * bars.storage_std, "{line:?}");
     }
 }

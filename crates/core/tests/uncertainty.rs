@@ -141,14 +141,14 @@ fn deviations_and_correlation_are_those_of_many_draws() {
                 band.lines.into_iter().next().unwrap()
             })
             .collect();
-        let bars: Vec<Uncertainty> = draws.iter().map(|outcome| outcome.uncertainty().unwrap()).collect();
+        let bars: Vec<Uncertainty> = draws.iter().map(|line| line.uncertainty().unwrap()).collect();
         // A standard deviation of n draws is known to 1/√(2n): 1.8 %; four of those, and a little for what is not linear.
         let near =
             |drawn: f64, told: f64| assert!((drawn / told - 1.0).abs() < 0.08, "{f} Hz: {drawn} {told}");
-        let storage: Vec<f64> = draws.iter().map(|outcome| outcome.storage().unwrap() - truth.re).collect();
+        let storage: Vec<f64> = draws.iter().map(|line| line.storage().unwrap() - truth.re).collect();
         let std = |values: &[f64]| mean(values.iter().map(|v| v * v)).sqrt();
         near(std(&storage), mean(bars.iter().map(|b| b.storage_std)));
-        let chi: Vec<f64> = draws.iter().map(|outcome| outcome.chi_squared.unwrap()).collect();
+        let chi: Vec<f64> = draws.iter().map(|line| line.chi_squared.unwrap()).collect();
         let freedom = if real { 3.0 } else { 2.0 };
         // Variance of a mean of χ²/ν.
         assert!((mean(chi.into_iter()) - 1.0).abs() < 4.0 * (2.0 / freedom / DRAWS as f64).sqrt(), "{f} Hz");
@@ -158,7 +158,7 @@ fn deviations_and_correlation_are_those_of_many_draws() {
             continue;
         }
         let loss: Vec<f64> =
-            draws.iter().map(|outcome| outcome.loss_factor().unwrap() - truth.im / truth.re).collect();
+            draws.iter().map(|line| line.loss_factor().unwrap() - truth.im / truth.re).collect();
         near(std(&loss), mean(bars.iter().map(|b| b.loss_factor_std.unwrap())));
         near(std(&storage) * 2f64.sqrt(), mean(bars.iter().map(|b| b.correction_std)));
         let product = mean(storage.iter().zip(&loss).map(|(a, b)| a * b));
@@ -225,17 +225,17 @@ struct Coverage {
 
 impl Coverage {
     fn count(&mut self, band: &Identification, truth: impl Fn(f64) -> c64) {
-        for outcome in &band.lines {
+        for line in &band.lines {
             self.all += 1;
-            if outcome.status != Status::Ok {
+            if line.status != Status::Ok {
                 continue;
             }
-            let (truth, bars) = (truth(outcome.frequency_hz), outcome.uncertainty().unwrap());
+            let (truth, bars) = (truth(line.frequency_hz), line.uncertainty().unwrap());
             self.ok += 1;
             let within = |value: f64, truth: f64, std: f64| usize::from((value - truth).abs() <= 2.0 * std);
-            self.storage += within(outcome.storage().unwrap(), truth.re, bars.storage_std);
+            self.storage += within(line.storage().unwrap(), truth.re, bars.storage_std);
             self.loss +=
-                within(outcome.loss_factor().unwrap(), truth.im / truth.re, bars.loss_factor_std.unwrap());
+                within(line.loss_factor().unwrap(), truth.im / truth.re, bars.loss_factor_std.unwrap());
         }
     }
 }
@@ -338,15 +338,15 @@ fn loss_factors_that_noise_has_made_up_are_marked() {
     for seed in 0..of_tier(1, 4) {
         let u = made.drawn(seed);
         let band = identify(&case, &made, &u, Noise::Known(&made.std), &bounded(&case));
-        for outcome in band.lines.iter().filter(|outcome| outcome.correction().is_some()) {
-            let eta = outcome.loss_factor().unwrap();
-            let std = outcome.uncertainty().unwrap().loss_factor_std.unwrap();
-            if outcome.status == Status::Ok {
+        for line in band.lines.iter().filter(|line| line.correction().is_some()) {
+            let eta = line.loss_factor().unwrap();
+            let std = line.uncertainty().unwrap().loss_factor_std.unwrap();
+            if line.status == Status::Ok {
                 // Three deviations: of two dozen answers one in fifteen such tests is that far off by chance.
-                assert!((eta - 1e-3).abs() < 3.0 * std, "{} Hz: {eta} {std}", outcome.frequency_hz);
-                assert!(std <= 0.2 * eta, "{} Hz: {eta} {std}", outcome.frequency_hz);
+                assert!((eta - 1e-3).abs() < 3.0 * std, "{} Hz: {eta} {std}", line.frequency_hz);
+                assert!(std <= 0.2 * eta, "{} Hz: {eta} {std}", line.frequency_hz);
                 known += 1;
-            } else if outcome.status == Status::NotIdentifiable {
+            } else if line.status == Status::NotIdentifiable {
                 marked += 1;
             }
             useless += usize::from((eta - 1e-3).abs() > 1e-3);
@@ -412,7 +412,7 @@ fn of_two_sensors_neither_is_named() {
     for noise in [Noise::Known(&made.std), Noise::Unknown] {
         let band = identify(&case, &made, &u, noise, &bounded(&case));
         assert!(band.sensors.iter().all(|sensor| !sensor.contradicts && !sensor.left_out));
-        assert!(band.lines.iter().all(|outcome| outcome.status != Status::Ok));
+        assert!(band.lines.iter().all(|line| line.status != Status::Ok));
         assert!(band.fit.is_none_or(|fit| fit.verdict == Explained::No), "{:?}", band.fit);
     }
 }
@@ -521,7 +521,7 @@ fn no_line_is_ok_where_the_band_is_not_explained() {
     let as_it_is = bounded(&case).with_model_errors(ModelErrors::None);
     let band = identify(&case, &made, &drawn, Noise::Known(&made.std), &as_it_is);
     assert_eq!(band.fit.unwrap().verdict, Explained::No);
-    assert!(band.lines.iter().all(|outcome| outcome.status != Status::Ok));
+    assert!(band.lines.iter().all(|line| line.status != Status::Ok));
     // With its errors estimated the mass is found, and the factor with it.
     let corrected = identify(&case, &made, &drawn, Noise::Known(&made.std), &bounded(&case));
     let errors = corrected.model_errors.as_ref().unwrap();
@@ -531,12 +531,12 @@ fn no_line_is_ok_where_the_band_is_not_explained() {
     coverage.count(&corrected, |f| case.parameter.nominal.at(f).unwrap());
     assert!(coverage.ok >= 60 && 10 * coverage.storage >= 9 * coverage.ok, "{coverage:?}");
     assert!(10 * coverage.loss >= 9 * coverage.ok, "{coverage:?}");
-    let unexplained = band.lines.iter().filter(|outcome| outcome.status == Status::Unexplained);
+    let unexplained = band.lines.iter().filter(|line| line.status == Status::Unexplained);
     assert!(unexplained.clone().count() > 40, "{}", unexplained.count());
-    assert!(unexplained.clone().all(|outcome| outcome.correction().is_some()));
+    assert!(unexplained.clone().all(|line| line.correction().is_some()));
     // A line off the path has its likeliest value and the others as rivals.
-    for outcome in band.lines.iter().filter(|outcome| !outcome.on_path && outcome.candidate_count() > 0) {
-        assert!(outcome.correction().is_some(), "{outcome:?}");
-        assert_eq!(outcome.rivals.len() + 1, outcome.candidate_count(), "{outcome:?}");
+    for line in band.lines.iter().filter(|line| !line.on_path && line.candidate_count() > 0) {
+        assert!(line.correction().is_some(), "{line:?}");
+        assert_eq!(line.rivals.len() + 1, line.candidate_count(), "{line:?}");
     }
 }

@@ -237,12 +237,12 @@ fn the_loss_factor_of_a_bar_is_found_from_the_files_of_calculix_alone_needs_data
     // a rigid body and the modulus hardly matters: 2.2 % with a standard deviation of 6 %.
     let shape_std = done.run.found.model_errors.as_ref().unwrap().shape_std;
     assert!((1e-3..1e-2).contains(&shape_std), "{shape_std}");
-    let ok = done.run.found.lines.iter().filter(|outcome| outcome.status == Status::Ok);
+    let ok = done.run.found.lines.iter().filter(|line| line.status == Status::Ok);
     assert!(ok.clone().count() >= 119, "{} ok", ok.count());
-    for outcome in ok {
-        let at = format!("{} Hz: {outcome:?}", outcome.frequency_hz);
-        let factor = outcome.nominal() + outcome.correction().unwrap();
-        let uncertainty = outcome.values[0].uncertainty.as_ref().unwrap();
+    for line in ok {
+        let at = format!("{} Hz: {line:?}", line.frequency_hz);
+        let factor = line.nominal() + line.correction().unwrap();
+        let uncertainty = line.values[0].uncertainty.as_ref().unwrap();
         let loss_factor = factor.im / factor.re;
         assert!((factor.re - 1.0).abs() < (2.0 * uncertainty.storage_std).min(0.025), "{at}");
         assert!((loss_factor - 0.2).abs() < (2.0 * uncertainty.loss_factor_std.unwrap()).min(0.005), "{at}");

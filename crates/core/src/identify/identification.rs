@@ -101,7 +101,7 @@ impl Identification {
 impl From<BandOutcome> for Identification {
     fn from(band: BandOutcome) -> Self {
         let BandOutcome {
-            outcomes,
+            lines,
             work,
             subspace_size,
             explored,
@@ -120,7 +120,7 @@ impl From<BandOutcome> for Identification {
             ..SearchReport::default()
         };
         Self {
-            lines: outcomes,
+            lines: lines,
             constants: Vec::new(),
             laws: Vec::new(),
             curve: None,
@@ -140,16 +140,16 @@ impl From<BandOutcome> for Identification {
 
 impl From<SmoothOutcome> for Identification {
     fn from(smooth: SmoothOutcome) -> Self {
-        Self { curve: smooth.curve, free: smooth.free.outcomes, ..smooth.band.into() }
+        Self { curve: smooth.curve, free: smooth.free.lines, ..smooth.band.into() }
     }
 }
 
 impl From<LawsOutcome> for Identification {
     fn from(laws: LawsOutcome) -> Self {
-        let LawsOutcome { free, fits, outcomes, channels, fit, work, subspace_size } = laws;
+        let LawsOutcome { free, fits, lines, channels, fit, work, subspace_size } = laws;
         // The noise and the sensors of the band, as each frequency by itself shows them.
-        let per_frequency = free.outcomes.clone();
-        let band = BandOutcome { outcomes, work, subspace_size, fit, ..free };
+        let per_frequency = free.lines.clone();
+        let band = BandOutcome { lines, work, subspace_size, fit, ..free };
         let constants = best(&fits).map(|law| of_law(law, fit)).into_iter().collect();
         Self { constants, laws: fits, free: per_frequency, channels, ..band.into() }
     }
@@ -179,7 +179,7 @@ impl From<SeveralOutcome> for Identification {
     fn from(several: SeveralOutcome) -> Self {
         let SeveralOutcome {
             band,
-            at,
+            lines,
             coordinates,
             correlation,
             directions,
@@ -203,7 +203,7 @@ impl From<SeveralOutcome> for Identification {
             breakdown,
         };
         Self {
-            lines: at,
+            lines,
             constants: band,
             laws: Vec::new(),
             curve: None,

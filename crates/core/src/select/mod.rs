@@ -48,7 +48,7 @@ pub struct Choice {
     /// The node that belongs to the path; `None` where none does.
     pub chosen: Option<usize>,
     /// Other nodes that the data cannot exclude: where there are any, the frequency is ambiguous.
-    pub alternatives: Vec<usize>,
+    pub rivals: Vec<usize>,
     /// By how much the best path through another node costs more, in nats; infinite where there is none.
     pub margin: f64,
 }
@@ -107,7 +107,7 @@ pub fn choose(frequency_hz: &[f64], nodes: &[Vec<Node>], options: &SelectOptions
         let log_frequency = log_frequency.iter().step_by(every).copied().collect();
         Band { points: points.collect(), log_frequency }
     };
-    let nothing = Choice { chosen: None, alternatives: Vec::new(), margin: f64::INFINITY };
+    let nothing = Choice { chosen: None, rivals: Vec::new(), margin: f64::INFINITY };
     let band = Band::likeliest(scatters.len(), nodes.len(), band);
     let can_agree = options.sensors > 1 && noise.is_all();
     let agreed = if can_agree { agreement(&band, options.margin) } else { None };
@@ -148,8 +148,8 @@ pub fn choose(frequency_hz: &[f64], nodes: &[Vec<Node>], options: &SelectOptions
         let rivals = rivals.iter().filter_map(|rival| Some((rival.at(k)?, rival.score - best.score)));
         for (other, margin) in others.chain(rivals).filter(|(other, _)| !other.is(&points[index])) {
             choice.margin = choice.margin.min(margin);
-            if margin < options.margin && !choice.alternatives.contains(&other.node) {
-                choice.alternatives.push(other.node);
+            if margin < options.margin && !choice.rivals.contains(&other.node) {
+                choice.rivals.push(other.node);
             }
         }
         choice

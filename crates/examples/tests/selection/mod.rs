@@ -39,8 +39,8 @@ fn count(band: &Band, sensors: usize, sigma_known: bool) -> Count {
         };
         count.present += usize::from((0..nodes.len()).any(is_right));
         match choice.chosen {
-            Some(index) if !is_right(index) => count.wrong += usize::from(choice.alternatives.is_empty()),
-            Some(_) if choice.alternatives.is_empty() => count.right += 1,
+            Some(index) if !is_right(index) => count.wrong += usize::from(choice.rivals.is_empty()),
+            Some(_) if choice.rivals.is_empty() => count.right += 1,
             Some(_) => count.ambiguous += 1,
             None => {}
         }

@@ -12,13 +12,8 @@ pub(super) fn figure(case: &Case, run: &IdentifyRun) -> Figure {
         panels: vec![Panel {
             y: Axis::log("Error of the response at the sensors, relative"),
             series: vec![Series {
-                x: run.found.lines.iter().map(|outcome| outcome.frequency_hz).collect(),
-                y: run
-                    .found
-                    .lines
-                    .iter()
-                    .map(|outcome| outcome.reduction_error.unwrap_or(f64::NAN))
-                    .collect(),
+                x: run.found.lines.iter().map(|line| line.frequency_hz).collect(),
+                y: run.found.lines.iter().map(|line| line.reduction_error.unwrap_or(f64::NAN)).collect(),
                 color: Color::Blue,
                 ..Series::default()
             }],

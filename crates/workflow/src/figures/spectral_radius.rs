@@ -7,18 +7,18 @@ use frfit::frequency::bands_hz;
 use frfit_figures::{Axis, Bands, Color, Figure, Level, Panel, Series};
 
 pub(super) fn figure(case: &Case, run: &IdentifyRun) -> Figure {
-    let at = |outcome: &frfit::identify::Line| outcome.spectral_radius.unwrap_or(f64::NAN);
+    let at = |line: &frfit::identify::Line| line.spectral_radius.unwrap_or(f64::NAN);
     // Beside the nearest pole ρ is in the hundreds: on a linear axis nothing else would be seen.
     let largest = run.found.lines.iter().map(at).fold(0.0, f64::max);
     let axis = if largest > 10.0 { Axis::log } else { Axis::linear };
-    let above = bands_hz(run.found.lines.iter().map(|outcome| (outcome.frequency_hz, at(outcome) >= 1.0)));
+    let above = bands_hz(run.found.lines.iter().map(|line| (line.frequency_hz, at(line) >= 1.0)));
     Figure {
         title: title(case, "spectral radius at the correction"),
         x: Axis::linear("Frequency (Hz)"),
         panels: vec![Panel {
             y: axis("Spectral radius ρ(−c A₀⁻¹A₁)"),
             series: vec![Series {
-                x: run.found.lines.iter().map(|outcome| outcome.frequency_hz).collect(),
+                x: run.found.lines.iter().map(|line| line.frequency_hz).collect(),
                 y: run.found.lines.iter().map(at).collect(),
                 color: Color::Blue,
                 ..Series::default()

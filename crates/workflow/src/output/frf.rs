@@ -24,7 +24,7 @@ pub fn respond_uff(case: &Case, run: &RespondRun) -> Result<Vec<u8>, FormatError
 /// # Errors
 /// As [`respond_uff`].
 pub fn updated_uff(case: &Case, run: &IdentifyRun) -> Result<Vec<u8>, FormatError> {
-    let frequency_hz: Vec<f64> = run.found.lines.iter().map(|outcome| outcome.frequency_hz).collect();
+    let frequency_hz: Vec<f64> = run.found.lines.iter().map(|line| line.frequency_hz).collect();
     let receptance = |row: usize, m: usize| run.found.lines[row].updated_response.get(m).copied();
     responses(case, &frequency_hz, &receptance, "updated")
 }

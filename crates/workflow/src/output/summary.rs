@@ -302,12 +302,9 @@ fn fit_json(fit: Option<&GoodnessOfFit>) -> Value {
 /// The order that the paper's series would need for a truncation error of 1e-6, and at how many answers no order is enough; null where that was not
 /// asked of any.
 fn required_order(run: &IdentifyRun) -> Value {
-    let asked = run
-        .found
-        .lines
-        .iter()
-        .filter(|outcome| outcome.reduction_error.is_some() && outcome.correction().is_some());
-    let orders: Vec<Option<usize>> = asked.map(|outcome| outcome.required_order).collect();
+    let asked =
+        run.found.lines.iter().filter(|line| line.reduction_error.is_some() && line.correction().is_some());
+    let orders: Vec<Option<usize>> = asked.map(|line| line.required_order).collect();
     if orders.is_empty() {
         return Value::Null;
     }
@@ -317,7 +314,7 @@ fn required_order(run: &IdentifyRun) -> Value {
 
 /// Median and largest of a number over the frequencies with status `ok`; null where there is none.
 fn spread(run: &IdentifyRun, number: impl Fn(&Line) -> Option<f64>) -> Value {
-    let ok = run.found.lines.iter().filter(|outcome| outcome.status == Status::Ok);
+    let ok = run.found.lines.iter().filter(|line| line.status == Status::Ok);
     let mut values: Vec<f64> = ok.filter_map(number).collect();
     values.sort_by(f64::total_cmp);
     json!({"median_ok": values.get(values.len() / 2), "max_ok": values.last()})

@@ -1,4 +1,4 @@
-//! From a case to the outcome at every frequency of its band.
+//! From a case to the line at every frequency of its band.
 
 use super::Progress;
 use crate::load::{Case, IdentifyCase, MeasuredNoise};
@@ -123,12 +123,12 @@ pub(crate) fn identify_with<'a>(
 }
 
 /// The smooth modulus at the frequencies that were left out: their status stays, as nothing was measured there that counts.
-fn bridge(outcomes: &mut [Line], curve: &SmoothCurve, identify: &IdentifyCase) {
+fn bridge(lines: &mut [Line], curve: &SmoothCurve, identify: &IdentifyCase) {
     let out = |i: &usize| identify.left_out[*i] && identify.frequency_hz[*i] > 0.0;
-    let out: Vec<usize> = (0..outcomes.len()).filter(out).collect();
+    let out: Vec<usize> = (0..lines.len()).filter(out).collect();
     let frequency_hz: Vec<f64> = out.iter().map(|&i| identify.frequency_hz[i]).collect();
     for (&i, (factor, bars)) in out.iter().zip(curve.bridged(&frequency_hz)) {
-        let value = &mut outcomes[i].values[0];
+        let value = &mut lines[i].values[0];
         (value.value, value.correction) = (Some(factor), Some(factor - value.nominal));
         value.uncertainty = Some(bars);
     }
@@ -155,9 +155,9 @@ impl Used {
         }
     }
 
-    /// One outcome for each measured frequency of the band, `out_of_band` where it is left out.
-    fn among_all(identify: &IdentifyCase, outcomes: Vec<Line>) -> Result<Vec<Line>, OutsideTable> {
-        let mut outcomes = outcomes.into_iter();
+    /// One line for each measured frequency of the band, `out_of_band` where it is left out.
+    fn among_all(identify: &IdentifyCase, lines: Vec<Line>) -> Result<Vec<Line>, OutsideTable> {
+        let mut lines = lines.into_iter();
         let all = identify.frequency_hz.iter().zip(&identify.left_out);
         let mut whole = Vec::with_capacity(identify.frequency_hz.len());
         for (&frequency_hz, &out) in all {
@@ -165,7 +165,7 @@ impl Used {
                 let nominal = identify.unknowns.iter().map(|unknown| unknown.nominal.at(frequency_hz));
                 whole.push(Line::out_of_band(frequency_hz, &nominal.collect::<Result<Vec<_>, _>>()?));
             } else {
-                whole.extend(outcomes.next());
+                whole.extend(lines.next());
             }
         }
         Ok(whole)
@@ -294,6 +294,6 @@ impl IdentifyRun {
 
     /// The bands [first, last] in Hz of neighbouring frequencies with this status.
     pub fn bands_hz(&self, status: Status) -> Vec<[f64; 2]> {
-        bands_hz(self.found.lines.iter().map(|outcome| (outcome.frequency_hz, outcome.status == status)))
+        bands_hz(self.found.lines.iter().map(|line| (line.frequency_hz, line.status == status)))
     }
 }

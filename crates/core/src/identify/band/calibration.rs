@@ -3,8 +3,8 @@
 use super::corrected::correct;
 use super::initial_calibration::aligned;
 use super::joint;
+use super::neighbourhoods::Neighbourhoods;
 use super::outcome::BandOutcome;
-use super::reduced_band::ReducedBand;
 use super::scaled::Scaled;
 use super::search_box::{near_or_far, on_subspace};
 use crate::c64;
@@ -57,7 +57,7 @@ pub(in crate::identify) fn identify_band_scaled<'a>(
 ) -> Result<(BandOutcome, Vec<Calibration>), OutsideTable> {
     let at = band.model.at_all(band.frequency_hz, std::slice::from_ref(band.parameter))?;
     let boxes = on_subspace(options);
-    let mut reduced = ReducedBand::if_wanted(band, &at, trained, &boxes[0], context);
+    let mut reduced = Neighbourhoods::if_wanted(band, &at, trained, &boxes[0], context);
     let (outcome, found) =
         near_or_far((band, &at), &boxes, &mut reduced, false, context, |options, reduced| {
             with_scales(band, &at, reduced, unknown, options, context)
@@ -74,7 +74,7 @@ pub(in crate::identify) fn identify_band_scaled<'a>(
         }
         (_, found) => (outcome, found.unwrap_or_else(|| vec![Calibration::default(); unknown.len()])),
     };
-    ReducedBand::hand_back(reduced, trained);
+    Neighbourhoods::hand_back(reduced, trained);
     Ok((outcome.judged_by_fit(), found))
 }
 
@@ -82,7 +82,7 @@ pub(in crate::identify) fn identify_band_scaled<'a>(
 pub(super) fn with_scales<'a>(
     band: &Band<'a>,
     at: &[ModelAt<'a>],
-    reduced: &mut Option<ReducedBand<'a, '_>>,
+    reduced: &mut Option<Neighbourhoods<'a, '_>>,
     unknown: &[ChannelUnknowns],
     options: &Options,
     context: Context<'_>,
@@ -121,7 +121,7 @@ pub(super) fn top(band: &Band<'_>) -> f64 {
 fn answers(outcome: &BandOutcome) -> Vec<(usize, c64)> {
     let trusted = |status| matches!(status, Status::Ok | Status::NotIdentifiable | Status::Failed);
     let linear = |bars: Option<Uncertainty>| bars.is_none_or(|bars| bars.is_linear());
-    let all = outcome.outcomes.iter().enumerate();
+    let all = outcome.lines.iter().enumerate();
     all.filter(|(_, o)| trusted(o.status) && linear(o.uncertainty()))
         .filter_map(|(i, o)| Some((i, o.correction().filter(|_| o.on_path)?)))
         .collect()
@@ -131,7 +131,7 @@ fn answers(outcome: &BandOutcome) -> Vec<(usize, c64)> {
 fn starting(
     band: &Band<'_>,
     at: &[ModelAt<'_>],
-    reduced: &ReducedBand<'_, '_>,
+    reduced: &Neighbourhoods<'_, '_>,
     outcome: &BandOutcome,
     unknown: &[ChannelUnknowns],
 ) -> Option<Vec<Channel>> {
@@ -160,7 +160,7 @@ struct CalibrationEstimate {
 fn settle(
     band: &Band<'_>,
     at: &[ModelAt<'_>],
-    reduced: &ReducedBand<'_, '_>,
+    reduced: &Neighbourhoods<'_, '_>,
     outcome: &BandOutcome,
     unknown: &[ChannelUnknowns],
     context: Context<'_>,
@@ -338,7 +338,7 @@ impl CalibrationEstimate {
     fn widen(&self, outcome: &mut BandOutcome) {
         let Some(level) = outcome.noise.level else { return };
         for (i, moved) in &self.moved {
-            let own = &mut outcome.outcomes[*i];
+            let own = &mut outcome.lines[*i];
             let (Some(factor), Some(bars)) = (own.factor(), own.values[0].uncertainty.as_mut()) else {
                 continue;
             };

@@ -305,10 +305,10 @@ impl Fit<'_> {
     /// Gauss–Newton on Σ |u_m − x_m(c)|²/σ_m², B-5: for one sensor Newton's method on x(c) = u. `None` where it does not settle.
     pub(super) fn descend(&self, respond: impl Fn(c64) -> Evaluated, start: c64) -> Option<Solution> {
         let evaluated = |c: c64| self.solution_at(respond(c), c);
-        let (mut best, mut step) = evaluated(self.admissible(start)).ok()?;
+        let (mut best, mut step) = evaluated(self.within_bounds(start)).ok()?;
         for _ in 0..MAX_STEPS {
             let size = (self.nominal + best.correction).norm();
-            let (next, further) = evaluated(self.admissible(best.correction + step)).ok()?;
+            let (next, further) = evaluated(self.within_bounds(best.correction + step)).ok()?;
             let better = next.misfit < best.misfit;
             // A step of roundoff, or no better point though not far from one: this is it.
             let done = step.norm() <= f64::EPSILON * size || (!better && step.norm() <= 1e-6 * size);
@@ -333,10 +333,10 @@ impl Fit<'_> {
         start: c64,
     ) -> Result<(Solution, Assessment), c64> {
         let size = (self.nominal + start).norm();
-        let start = self.admissible(start);
+        let start = self.within_bounds(start);
         let (mut best, mut step) = self.solution_at(respond(start), start).map_err(|_| start)?;
         for _ in 0..MAX_SHORT_STEPS {
-            let correction = self.admissible(best.correction + step);
+            let correction = self.within_bounds(best.correction + step);
             let stopped = best.correction;
             if step.norm() > LAST_STEP_RTOL * size {
                 let (next, further) =
@@ -364,7 +364,7 @@ impl Fit<'_> {
         self.unknown.real || solution.misfit.sqrt() * self.sigma[0] <= 1e-7 * self.measured[0].norm()
     }
 
-    fn admissible(&self, correction: c64) -> c64 {
+    fn within_bounds(&self, correction: c64) -> c64 {
         if self.unknown.real {
             c64::new((self.nominal + correction).re, 0.0) - self.nominal
         } else {

@@ -4,8 +4,8 @@ use super::calibration::{top, with_scales};
 use super::initial_calibration::by_shape;
 use super::joint;
 use super::law_fitting::Fitting;
+use super::neighbourhoods::Neighbourhoods;
 use super::outcome::BandOutcome;
-use super::reduced_band::ReducedBand;
 use super::scaled::Scaled;
 use crate::c64;
 use crate::for_each::map;
@@ -88,7 +88,7 @@ impl Fitting<'_, '_> {
     pub(super) fn channels(
         &self,
         parametrization: &Parametrization,
-        reduced: &ReducedBand<'_, '_>,
+        reduced: &Neighbourhoods<'_, '_>,
         theta: &[f64],
     ) -> Option<(Vec<Responded>, Vec<ChannelFit>)> {
         let one = |i: usize| -> Option<Responded> {
@@ -150,7 +150,7 @@ impl Fitting<'_, '_> {
     pub(super) fn calibrations_of(
         &self,
         law: &LawFit,
-        reduced: &ReducedBand<'_, '_>,
+        reduced: &Neighbourhoods<'_, '_>,
     ) -> Option<Vec<[Calibrated; 2]>> {
         let (parametrization, theta) = law.coordinates();
         let (_, fits) = self.channels(parametrization, reduced, theta)?;
@@ -179,7 +179,7 @@ pub(super) struct Begin {
 pub(super) fn at_scales<'a>(
     band: &Band<'a>,
     at: &[ModelAt<'a>],
-    reduced: &mut Option<ReducedBand<'a, '_>>,
+    reduced: &mut Option<Neighbourhoods<'a, '_>>,
     unknown: &[ChannelUnknowns],
     options: &Options,
     context: Context<'_>,
@@ -212,7 +212,7 @@ const SHAPE_FREQUENCIES: usize = 300;
 fn shaped(
     band: &Band<'_>,
     at: &[ModelAt<'_>],
-    reduced: &ReducedBand<'_, '_>,
+    reduced: &Neighbourhoods<'_, '_>,
     unknown: &[ChannelUnknowns],
     options: &Options,
     context: Context<'_>,

@@ -2,8 +2,8 @@
 
 use super::candidates::{Candidates, Fit, LineCandidates, LinePoles, Solution};
 use super::matching::{is_same, pairs};
+use super::neighbourhoods::{Neighbourhoods, is_certain};
 use super::path_model::{PathModel, fraction};
-use super::reduced_band::{ReducedBand, is_certain};
 use crate::c64;
 use crate::for_each::map;
 use crate::frequency::omega_rad_s;
@@ -254,7 +254,7 @@ const FREQUENCIES_PER_PIECE: usize = 200;
 
 /// The whole band (ascending) from anchors on the models of the space.
 pub(super) fn continued<'a, F: Fn(usize) -> Fit<'a> + Sync>(
-    reduced: &mut ReducedBand<'_, '_>,
+    reduced: &mut Neighbourhoods<'_, '_>,
     continuation: &Continuation<'a, F>,
     explored_lines: &[usize],
     explored: Vec<Candidates>,

@@ -1,8 +1,8 @@
 //! A band once more, with the errors of the model taken out and carried into every error bar (B-11).
 
 use super::joint;
+use super::neighbourhoods::Neighbourhoods;
 use super::outcome::BandOutcome;
-use super::reduced_band::ReducedBand;
 use super::scaled::Scaled;
 use crate::c64;
 use crate::for_each::map;
@@ -29,7 +29,7 @@ pub(super) fn correct<'a>(
     (band, unknown): (&Band<'_>, &[ChannelUnknowns]),
     at: &[ModelAt<'a>],
     found: BandOutcome,
-    reduced: &mut ReducedBand<'a, '_>,
+    reduced: &mut Neighbourhoods<'a, '_>,
     options: &Options,
     context: Context<'_>,
 ) -> BandOutcome {
@@ -62,7 +62,7 @@ pub(super) fn correct<'a>(
 pub(super) fn on_corrected<'a>(
     band: &Band<'_>,
     at: &[ModelAt<'a>],
-    reduced: &mut ReducedBand<'a, '_>,
+    reduced: &mut Neighbourhoods<'a, '_>,
     (mut errors, found): (Estimated, &BandOutcome),
     options: &Options,
     context: Context<'_>,
@@ -145,7 +145,7 @@ impl Weights {
             size: &self.size,
             levels: &self.levels,
             noise_scale: NoiseScale::of(band.noise),
-            free: &found.outcomes,
+            free: &found.lines,
             own: &[0],
             level_per_frequency: found.noise.level,
             fit: found.fit,
@@ -176,15 +176,15 @@ fn widen(
     outcome: &mut BandOutcome,
     errors: &Estimated,
     at: &[ModelAt<'_>],
-    reduced: &ReducedBand<'_, '_>,
+    reduced: &Neighbourhoods<'_, '_>,
     sigma: &[Vec<f64>],
     context: Context<'_>,
 ) -> Option<f64> {
     let Corrected { modes, errors: values, model } = reduced.corrected()?;
-    let near_path = near_path((reduced.whole(), modes, values), at, &outcome.outcomes);
+    let near_path = near_path((reduced.whole(), modes, values), at, &outcome.lines);
     let covariances = errors.of_channels_and_errors();
     let channels = errors.channels();
-    let lines = &outcome.outcomes;
+    let lines = &outcome.lines;
     let split = errors.split();
     let moved = map(context.for_each, lines.len(), |i| -> Option<([f64; 3], Option<[f64; 3]>)> {
         let correction = lines[i].correction()?;
@@ -228,7 +228,7 @@ fn widen(
         Some((covariance(&covariances, &pulls), split.as_ref().map(|split| split.of(&gradient))))
     });
     let mut longer = Vec::new();
-    for (line, moved) in outcome.outcomes.iter_mut().zip(moved) {
+    for (line, moved) in outcome.lines.iter_mut().zip(moved) {
         let (Some((moved, parts)), Some(factor)) = (moved, line.factor()) else { continue };
         let Some(bars) = line.values[0].uncertainty.as_mut() else { continue };
         let of_noise = bars.storage_std;

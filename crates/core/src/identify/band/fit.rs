@@ -8,14 +8,14 @@ use crate::identify::outcome::{Line, Status};
 
 /// The fit of answers that have χ² per degree of freedom, where so many numbers were fitted to the whole band too; `None` where nothing is left to tell.
 pub(super) fn goodness(
-    outcomes: &[Line],
+    lines: &[Line],
     freedom: usize,
     fitted: usize,
     noise: &NoiseLevel,
     band: &Band<'_>,
 ) -> Option<GoodnessOfFit> {
-    let on_path = outcomes.iter().filter(|outcome| outcome.on_path);
-    let each: Vec<f64> = on_path.filter_map(|outcome| outcome.chi_squared).collect();
+    let on_path = lines.iter().filter(|line| line.on_path);
+    let each: Vec<f64> = on_path.filter_map(|line| line.chi_squared).collect();
     let chi_squared = freedom as f64 * each.iter().sum::<f64>();
     judge(chi_squared, (freedom * each.len()).saturating_sub(fitted), noise, band.noise)
 }
@@ -28,11 +28,11 @@ const MAX_OUTLIER_SHARE: f64 = 0.25;
 
 /// χ² per degree of freedom of each line and its neighbours, where that is more than noise leaves by chance; 1 elsewhere. Lines that are
 /// not explained by themselves count only where they are many: single ones are outliers, as hum is.
-pub(super) fn excess_of_neighbours(outcomes: &[Line], fit: &GoodnessOfFit) -> Vec<f64> {
+pub(super) fn excess_of_neighbours(lines: &[Line], fit: &GoodnessOfFit) -> Vec<f64> {
     let counts = |line: &&Line| line.on_path && line.chi_squared.is_some();
-    let each = fit.freedom as f64 / outcomes.iter().filter(counts).count().max(1) as f64;
+    let each = fit.freedom as f64 / lines.iter().filter(counts).count().max(1) as f64;
     let of = |i: usize| {
-        let near = &outcomes[i.saturating_sub(NEIGHBOURS)..outcomes.len().min(i + NEIGHBOURS + 1)];
+        let near = &lines[i.saturating_sub(NEIGHBOURS)..lines.len().min(i + NEIGHBOURS + 1)];
         let is_explained = |line: &&Line| line.on_path && line.status != Status::Unexplained;
         let explained = near.iter().filter(is_explained).count();
         let is_stretch = (near.len() - explained) as f64 > MAX_OUTLIER_SHARE * near.len() as f64;
@@ -40,21 +40,21 @@ pub(super) fn excess_of_neighbours(outcomes: &[Line], fit: &GoodnessOfFit) -> Ve
         let squares: Vec<f64> = counted.filter_map(|line| line.chi_squared).collect();
         excess(each * squares.iter().sum::<f64>(), each * squares.len() as f64)
     };
-    (0..outcomes.len()).map(of).collect()
+    (0..lines.len()).map(of).collect()
 }
 
 /// What each sensor says of the answers.
 pub(super) fn sensor_misfit(
-    outcomes: &[Line],
+    lines: &[Line],
     measured: &[Vec<c64>],
     sigma: &[Vec<f64>],
     sensor: usize,
     level: Option<f64>,
 ) -> Option<f64> {
     let square = |k: usize| {
-        let x = outcomes[k].updated_response.get(sensor).filter(|_| outcomes[k].on_path)?;
+        let x = lines[k].updated_response.get(sensor).filter(|_| lines[k].on_path)?;
         Some((measured[k][sensor] - x).norm_sqr() / (2.0 * (level? * sigma[k][sensor]).powi(2)))
     };
-    let squares: Vec<f64> = (0..outcomes.len()).filter_map(square).filter(|s| s.is_finite()).collect();
+    let squares: Vec<f64> = (0..lines.len()).filter_map(square).filter(|s| s.is_finite()).collect();
     (!squares.is_empty()).then(|| (squares.iter().sum::<f64>() / squares.len() as f64).sqrt())
 }

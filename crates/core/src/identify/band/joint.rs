@@ -2,10 +2,10 @@
 
 use super::candidates::{Candidates, Fit, LinePoles};
 use super::fit::{goodness, sensor_misfit};
+use super::neighbourhoods::Neighbourhoods;
 use super::on_reduced::{explored, on_reduced};
 use super::outcome::BandOutcome;
 use super::outlier_sensor::contradicting;
-use super::reduced_band::ReducedBand;
 use super::task::{BandSolution, PathSelection, Task};
 use super::verdict::{Evidence, verdict};
 use crate::c64;
@@ -26,7 +26,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 pub(super) fn identify<'a>(
     band: &Band<'a>,
     at: &[ModelAt<'a>],
-    mut reduced: Option<&mut ReducedBand<'_, '_>>,
+    mut reduced: Option<&mut Neighbourhoods<'_, '_>>,
     hidden: &[usize],
     options: &Options,
     context: Context<'_>,
@@ -57,7 +57,7 @@ pub(super) fn identify<'a>(
             Some((i, at[i].parameters[0].nominal + found[i].solutions[choices[i].chosen?].correction))
         })
         .collect();
-    let outcomes: Vec<Line> = map(context.for_each, at.len(), |i| {
+    let lines: Vec<Line> = map(context.for_each, at.len(), |i| {
         let solution = choices[i].chosen.or_else(|| likeliest(&task.fit(i), &found[i], &path, i));
         let chosen = solution.map(|k| &found[i].solutions[k]);
         let on_space = reduced.as_deref().zip(chosen.map(|solution| solution.correction));
@@ -87,16 +87,16 @@ pub(super) fn identify<'a>(
     if let Some(reduced) = &reduced {
         work += reduced.work();
     }
-    let fit = goodness(&outcomes, task.freedom(), 0, &noise, band);
+    let fit = goodness(&lines, task.freedom(), 0, &noise, band);
     let sensor = |m: usize| SensorFit {
-        misfit: sensor_misfit(&outcomes, band.measured, &assumed, m, noise.level),
+        misfit: sensor_misfit(&lines, band.measured, &assumed, m, noise.level),
         contradicts: suspects.contains(&m),
         dead: dead.contains(&m),
         left_out: out.contains(&m),
     };
     let sensors = (0..sensors).map(sensor).collect();
     BandOutcome {
-        outcomes,
+        lines,
         work,
         subspace_size: reduced.as_ref().map(|reduced| reduced.size()),
         explored,
@@ -113,7 +113,7 @@ pub(super) fn identify<'a>(
 pub(super) fn answered_pilots(
     band: &Band<'_>,
     at: &[ModelAt<'_>],
-    reduced: &mut ReducedBand<'_, '_>,
+    reduced: &mut Neighbourhoods<'_, '_>,
     options: &Options,
     context: Context<'_>,
 ) -> usize {

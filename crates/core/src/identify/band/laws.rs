@@ -8,8 +8,8 @@ use super::channels::{Begin, Responded, at_scales};
 use super::corrected::{Weights, correct, on_corrected, point};
 use super::joint;
 use super::law_fitting::Fitting;
+use super::neighbourhoods::{Neighbourhoods, reduction_error};
 use super::outcome::BandOutcome;
-use super::reduced_band::{ReducedBand, reduction_error};
 use super::scaled::Scaled;
 use super::search_box::{near_or_far, on_subspace};
 use crate::c64;
@@ -41,7 +41,7 @@ pub(in crate::identify) struct LawsOutcome {
     /// One for each law with a finite misfit, in the order in which they were asked for; none where there is no subspace to fit on.
     pub fits: Vec<LawFit>,
     /// The law of least BIC at each frequency.
-    pub outcomes: Vec<Line>,
+    pub lines: Vec<Line>,
     /// What was unknown of each sensor's channel, by the law of least BIC.
     pub channels: Vec<Calibration>,
     /// Whether noise is all that this law leaves: as large as was given, or without that as large as each frequency by itself leaves; `None` where there is no law.
@@ -98,7 +98,7 @@ pub(in crate::identify) fn identify_laws<'a>(
     let unknown = if unknown.is_empty() { &calibrated } else { unknown };
     let at = band.model.at_all(band.frequency_hz, std::slice::from_ref(band.parameter))?;
     let boxes = on_subspace(options);
-    let mut reduced = ReducedBand::if_wanted(band, &at, trained, &boxes[0], context);
+    let mut reduced = Neighbourhoods::if_wanted(band, &at, trained, &boxes[0], context);
     let is_calibrated = |channel: &ChannelUnknowns| !channel.any();
     let all_calibrated = unknown.iter().all(is_calibrated);
     let (mut free, Begin { mut channels, ratio }) =
@@ -122,13 +122,13 @@ pub(in crate::identify) fn identify_laws<'a>(
     let sigma = without(&standard_deviations(view.measured, view.noise), &out);
     let fitting = Fitting { band: &view, at: &at, sigma: &sigma, unknown, ratio, options, context };
     let Some(mut reduced) = reduced else {
-        let outcomes = free.outcomes.iter().map(|own| own.unanswered()).collect();
+        let lines = free.lines.iter().map(|own| own.unanswered()).collect();
         let channels = vec![Calibration::default(); unknown.len()];
         return Ok(LawsOutcome {
             work: free.work,
             subspace_size: None,
             fits: Vec::new(),
-            outcomes,
+            lines,
             channels,
             fit: None,
             free,
@@ -191,24 +191,23 @@ pub(in crate::identify) fn identify_laws<'a>(
         reduced.localise(&all, context.for_each);
     }
     let split = free.model_errors.as_ref().filter(|_| has_errors).and_then(Estimated::split);
-    let (outcomes, fit) = match best(&fits) {
+    let (lines, fit) = match best(&fits) {
         Some(law) => {
             let (fit, noise) = judging.goodness(law, &free.noise);
-            let one =
-                |i: usize| judging.outcome((law, split.as_ref()), noise, &reduced, i, &free.outcomes[i]);
+            let one = |i: usize| judging.outcome((law, split.as_ref()), noise, &reduced, i, &free.lines[i]);
             (map(context.for_each, at.len(), one), fit)
         }
-        None => (free.outcomes.iter().map(|own| own.unanswered()).collect(), None),
+        None => (free.lines.iter().map(|own| own.unanswered()).collect(), None),
     };
     let fit = fit.map(|fit| fit.of_model(free.other_model).beside(free.rest()));
     let mut work = free.work;
     work += reduced.work().since(before);
     let subspace_size = Some(reduced.size());
-    let within = |outcome: Line| Line { status: outcome.status.within(fit), ..outcome };
-    let outcomes = outcomes.into_iter().map(within).collect();
+    let within = |line: Line| Line { status: line.status.within(fit), ..line };
+    let lines = lines.into_iter().map(within).collect();
     let free = free.judged_by_fit();
-    ReducedBand::hand_back(Some(reduced), trained);
-    Ok(LawsOutcome { outcomes, fits, channels: calibrations, fit, work, subspace_size, free })
+    Neighbourhoods::hand_back(Some(reduced), trained);
+    Ok(LawsOutcome { lines, fits, channels: calibrations, fit, work, subspace_size, free })
 }
 
 impl Fitting<'_, '_> {
@@ -216,7 +215,7 @@ impl Fitting<'_, '_> {
     fn with_errors(
         &self,
         fits: &mut [LawFit],
-        reduced: &mut ReducedBand<'_, '_>,
+        reduced: &mut Neighbourhoods<'_, '_>,
         free: &mut BandOutcome,
     ) -> Option<()> {
         let errors = free.model_errors.as_ref()?;
@@ -269,7 +268,7 @@ impl Fitting<'_, '_> {
     fn fit(
         &self,
         kind: LawKind,
-        reduced: &mut ReducedBand<'_, '_>,
+        reduced: &mut Neighbourhoods<'_, '_>,
         free: &BandOutcome,
         so_far: Option<&LawFit>,
     ) -> Option<LawFit> {
@@ -312,7 +311,7 @@ impl Fitting<'_, '_> {
     }
 
     /// What a law leaves of ln E at each frequency, by all sensors, and what that pulls.
-    fn lines(&self, law: &LawFit, reduced: &ReducedBand<'_, '_>) -> Vec<LineResidual> {
+    fn lines(&self, law: &LawFit, reduced: &Neighbourhoods<'_, '_>) -> Vec<LineResidual> {
         let (parametrization, theta) = law.coordinates();
         let Some((responses, fits)) = self.channels(parametrization, reduced, theta) else {
             return Vec::new();
@@ -348,7 +347,7 @@ impl Fitting<'_, '_> {
     fn residuals(
         &self,
         parametrization: &Parametrization,
-        reduced: &ReducedBand<'_, '_>,
+        reduced: &Neighbourhoods<'_, '_>,
         theta: &[f64],
     ) -> Option<Residuals> {
         let (responses, fits) = self.channels(parametrization, reduced, theta)?;
@@ -376,13 +375,13 @@ impl Fitting<'_, '_> {
     fn starts(
         &self,
         parametrization: &Parametrization,
-        reduced: &ReducedBand<'_, '_>,
+        reduced: &Neighbourhoods<'_, '_>,
         free: &BandOutcome,
         so_far: Option<&LawFit>,
     ) -> Vec<Vec<f64>> {
         let all = 0..self.at.len();
         let answered: Vec<Datum> =
-            all.clone().filter_map(|i| self.datum(reduced, i, &free.outcomes[i])).collect();
+            all.clone().filter_map(|i| self.datum(reduced, i, &free.lines[i])).collect();
         let relative =
             |i: usize, modulus: c64| (modulus.re > 0.0).then(|| Datum::relative(self.omega(i), modulus));
         let nominal = |ratio: f64| -> Vec<Datum> {
@@ -405,7 +404,7 @@ impl Fitting<'_, '_> {
     }
 
     /// What a frequency says by itself, with its deviation: σ carried by the slope of the response.
-    fn datum(&self, reduced: &ReducedBand<'_, '_>, i: usize, own: &Line) -> Option<Datum> {
+    fn datum(&self, reduced: &Neighbourhoods<'_, '_>, i: usize, own: &Line) -> Option<Datum> {
         let correction = own.correction().filter(|_| own.status == Status::Ok)?;
         let modulus = own.nominal() + correction;
         let (_, slope) = reduced.model(i).respond_with_slope(&self.at[i], correction).ok()?;
@@ -439,7 +438,7 @@ impl Fitting<'_, '_> {
         &self,
         (law, split): (&LawFit, Option<&Split>),
         noise: f64,
-        reduced: &ReducedBand<'_, '_>,
+        reduced: &Neighbourhoods<'_, '_>,
         i: usize,
         own: &Line,
     ) -> Line {
@@ -449,7 +448,7 @@ impl Fitting<'_, '_> {
             Some((estimate, correction, reduced.assess(i, correction)?))
         });
         let Some((estimate, correction, assessed)) = found else { return own.unanswered() };
-        let mut outcome = own.unanswered();
+        let mut line = own.unanswered();
         let certified = reduction_error(&assessed, estimate.modulus, measured);
         let error = relative_error(measured, &assessed.response);
         let misfit = misfit(measured, &assessed.response, &self.sigma[i]);
@@ -468,8 +467,8 @@ impl Fitting<'_, '_> {
                 Contributions::in_ratio(storage_std, split.of(&slopes))
             })
         };
-        outcome.set_correction(correction);
-        outcome.values[0].uncertainty =
+        line.set_correction(correction);
+        line.values[0].uncertainty =
             std.zip(estimate.storage_std).map(|(correction_std, storage_std)| Uncertainty {
                 correction_std,
                 storage_std,
@@ -479,29 +478,29 @@ impl Fitting<'_, '_> {
                 // That the law is not linear in its parameters is for its fit to tell.
                 nonlinearity: 0.0,
             });
-        outcome.error = Some(error).filter(|error| error.is_finite());
-        outcome.spectral_radius = outcome.radius.map(|radius| radius.at(correction));
-        outcome.reduction_error = Some(certified.response).filter(|c| c.is_finite());
-        outcome.updated_response = assessed.response;
+        line.error = Some(error).filter(|error| error.is_finite());
+        line.spectral_radius = line.radius.map(|radius| radius.at(correction));
+        line.reduction_error = Some(certified.response).filter(|c| c.is_finite());
+        line.updated_response = assessed.response;
         let apart = |rival: &c64| {
             (rival - estimate.modulus).norm() > RIVAL_DISTANCE_STD * std.unwrap_or(f64::INFINITY)
         };
         let rivals = law.rivals_at(self.band.frequency_hz[i]).into_iter().filter(apart);
-        outcome.rivals = rivals.map(|rival| vec![rival]).collect();
+        line.rivals = rivals.map(|rival| vec![rival]).collect();
         let unexplained = error > self.options.error && rms > MAX_RMS_MISFIT * noise;
         let known = std.is_some_and(|std| std <= MAX_RELATIVE_MODULUS_STD * size);
-        outcome.on_path = true;
-        outcome.status = Status::of([
+        line.on_path = true;
+        line.status = Status::of([
             (unexplained, Status::Unexplained),
-            (!outcome.rivals.is_empty(), Status::Ambiguous),
+            (!line.rivals.is_empty(), Status::Ambiguous),
             (!law.converged, Status::Failed),
             (!known, Status::NotIdentifiable),
             (certified.factor > self.options.certain, Status::Failed),
         ]);
         if self.band.unknown.bounds.broken_by(estimate.modulus).is_some() {
-            outcome.forget_value(Status::NoRoot);
+            line.forget_value(Status::NoRoot);
         }
-        outcome
+        line
     }
 }
 

@@ -12,12 +12,12 @@ mod joint;
 mod law_fitting;
 mod laws;
 mod matching;
+mod neighbourhoods;
 mod on_reduced;
 mod outcome;
 mod outlier_sensor;
 mod path_model;
 mod per_frequency;
-mod reduced_band;
 mod scaled;
 mod search_box;
 mod smooth;
@@ -29,12 +29,12 @@ pub(super) use candidates::Fit;
 pub(super) use initial_calibration::by_shape;
 pub(crate) use initial_calibration::{DELAY_PHASE_STEP_RAD, MAX_DELAY_PHASE_RAD};
 pub(super) use laws::{LawsOutcome, MAX_TRAINING_ROUNDS, identify_laws, nearest};
-pub(super) use outcome::BandOutcome;
-pub(super) use outlier_sensor::{OUTLIER_FREQUENCIES, OUTLIER_RATIO};
-pub(super) use reduced_band::{
+pub(super) use neighbourhoods::{
     BOX_TOL, MAX_NEIGHBOURHOODS, MAX_TRAINING_FREQUENCIES, MIN_NEIGHBOURHOOD_LINES, TRAINED_TOL, is_certain,
     reduction_error, train,
 };
+pub(super) use outcome::BandOutcome;
+pub(super) use outlier_sensor::{OUTLIER_FREQUENCIES, OUTLIER_RATIO};
 pub use smooth::SmoothCurve;
 pub(super) use smooth::{SmoothOutcome, identify_smooth};
 
@@ -45,7 +45,7 @@ use super::options::Options;
 use crate::material::OutsideTable;
 use crate::model::ModelAt;
 use crate::subspace::Subspace;
-use reduced_band::ReducedBand;
+use neighbourhoods::Neighbourhoods;
 use search_box::{near_and_far, near_or_far};
 
 /// Identifies the first parameter at every frequency of a band.
@@ -65,26 +65,26 @@ pub(super) fn identify_band<'a>(
 ) -> Result<BandOutcome, OutsideTable> {
     let at = band.model.at_all(band.frequency_hz, std::slice::from_ref(band.parameter))?;
     let boxes = near_and_far(options);
-    let mut reduced = ReducedBand::if_wanted(band, &at, trained, options, context);
+    let mut reduced = Neighbourhoods::if_wanted(band, &at, trained, options, context);
     let (found, ()) = near_or_far((band, &at), &boxes, &mut reduced, true, context, |options, reduced| {
         (identify_at_all(band, &at, reduced.as_mut(), options, context), ())
     });
     // A model that is answered for as it is has no modes at hand: they are those of a reduced one.
     let wanted = options.selection == Selection::Joint && options.reduction == Reduction::Auto;
-    let new = || wanted.then(|| ReducedBand::on_trained(band, &at, trained, &boxes[0], context)).flatten();
+    let new = || wanted.then(|| Neighbourhoods::on_trained(band, &at, trained, &boxes[0], context)).flatten();
     let mut reduced = reduced.or_else(new);
     let found = match reduced.as_mut().filter(|_| options.selection == Selection::Joint) {
         Some(reduced) => corrected::correct((band, &[]), &at, found, reduced, &boxes[0], context),
         None => found,
     };
-    ReducedBand::hand_back(reduced, trained);
+    Neighbourhoods::hand_back(reduced, trained);
     Ok(found.judged_by_fit())
 }
 
 fn identify_at_all(
     band: &Band<'_>,
     at: &[ModelAt<'_>],
-    reduced: Option<&mut ReducedBand<'_, '_>>,
+    reduced: Option<&mut Neighbourhoods<'_, '_>>,
     options: &Options,
     context: Context<'_>,
 ) -> BandOutcome {

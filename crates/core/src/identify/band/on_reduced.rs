@@ -3,13 +3,13 @@
 use super::candidates::{Candidates, LineCandidates};
 use super::continuation::{Continuation, continued};
 use super::exploration_grid::exploration_grid;
-use super::reduced_band::ReducedBand;
+use super::neighbourhoods::Neighbourhoods;
 use super::task::{BandSolution, PathSelection, Task};
 use crate::c64;
 use crate::select::Choice;
 use crate::subspace::Projection;
 
-pub(super) fn on_reduced(task: &Task<'_, '_>, reduced: &mut ReducedBand<'_, '_>) -> BandSolution {
+pub(super) fn on_reduced(task: &Task<'_, '_>, reduced: &mut Neighbourhoods<'_, '_>) -> BandSolution {
     let (at, context) = (task.at, task.context);
     // A subspace that was trained at answers is good at most others.
     if !reduced.has_answers() {
@@ -49,7 +49,7 @@ pub(super) fn on_reduced(task: &Task<'_, '_>, reduced: &mut ReducedBand<'_, '_>)
 /// What there is at some frequencies (ascending), certified, and the choice among that.
 pub(super) fn explored(
     task: &Task<'_, '_>,
-    reduced: &mut ReducedBand<'_, '_>,
+    reduced: &mut Neighbourhoods<'_, '_>,
     which: &[usize],
 ) -> (Vec<Candidates>, PathSelection) {
     let found = found_at(task, reduced, which);
@@ -57,7 +57,7 @@ pub(super) fn explored(
 }
 
 /// What there is at some frequencies (ascending).
-fn found_at(task: &Task<'_, '_>, reduced: &mut ReducedBand<'_, '_>, which: &[usize]) -> Vec<Candidates> {
+fn found_at(task: &Task<'_, '_>, reduced: &mut Neighbourhoods<'_, '_>, which: &[usize]) -> Vec<Candidates> {
     let find = |i: usize, model: &Projection| task.fit(i).explore_reduced(model, &task.at[i]);
     reduced.find(which, task.context, find)
 }
@@ -65,7 +65,7 @@ fn found_at(task: &Task<'_, '_>, reduced: &mut ReducedBand<'_, '_>, which: &[usi
 /// What was found at some frequencies (ascending), certified, and the choice among that; `ready` is the choice among what was found, where it was made already.
 fn certified(
     task: &Task<'_, '_>,
-    reduced: &mut ReducedBand<'_, '_>,
+    reduced: &mut Neighbourhoods<'_, '_>,
     which: &[usize],
     found: Vec<Candidates>,
     mut ready: Option<PathSelection>,
@@ -98,7 +98,7 @@ fn usual(level: Option<f64>, freedom: usize) -> f64 {
 /// The corrections (k, c) that are chosen at the k-th frequency, or may have to be.
 fn taken(choices: &[Choice], found: &[Candidates]) -> Vec<(usize, c64)> {
     let of = |(k, choice): (usize, &Choice)| {
-        let taken = choice.chosen.into_iter().chain(choice.alternatives.iter().copied());
+        let taken = choice.chosen.into_iter().chain(choice.rivals.iter().copied());
         taken.map(|s| (k, found[k].solutions[s].correction)).collect::<Vec<_>>()
     };
     choices.iter().enumerate().flat_map(of).collect()

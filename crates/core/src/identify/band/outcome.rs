@@ -12,7 +12,7 @@ use crate::response::Work;
 #[derive(Debug, Clone, PartialEq)]
 pub(in crate::identify) struct BandOutcome {
     /// One for each frequency.
-    pub outcomes: Vec<Line>,
+    pub lines: Vec<Line>,
     /// Work of size N.
     pub work: Work,
     /// Vectors of the subspace; `None` where the full model answered.
@@ -36,7 +36,7 @@ pub(in crate::identify) struct BandOutcome {
 impl BandOutcome {
     /// How many frequencies have an answer.
     pub(super) fn answered(&self) -> usize {
-        self.outcomes.iter().filter(|outcome| outcome.on_path).count()
+        self.lines.iter().filter(|line| line.on_path).count()
     }
 
     /// With bars and statuses that the fit of the band and of each stretch allows.
@@ -44,16 +44,16 @@ impl BandOutcome {
         let rest = self.rest();
         self.fit = self.fit.map(|fit| fit.of_model(self.other_model).beside(rest));
         if let Some(fit) = &self.fit {
-            let of_neighbours = excess_of_neighbours(&self.outcomes, fit);
-            for (outcome, excess) in self.outcomes.iter_mut().zip(of_neighbours) {
-                outcome.lengthen_bars(excess.sqrt().max(fit.excess()));
-                if outcome.status == Status::Ok && is_unexplained_stretch(excess, &self.noise) {
-                    outcome.status = Status::Unexplained;
+            let of_neighbours = excess_of_neighbours(&self.lines, fit);
+            for (line, excess) in self.lines.iter_mut().zip(of_neighbours) {
+                line.lengthen_bars(excess.sqrt().max(fit.excess()));
+                if line.status == Status::Ok && is_unexplained_stretch(excess, &self.noise) {
+                    line.status = Status::Unexplained;
                 }
             }
         }
-        for outcome in &mut self.outcomes {
-            outcome.status = match outcome.status {
+        for line in &mut self.lines {
+            line.status = match line.status {
                 Status::Ok if self.other_model => Status::Unexplained,
                 status => status.within(self.fit),
             };
@@ -65,7 +65,7 @@ impl BandOutcome {
     pub(super) fn with_fitted(mut self, fitted: usize, band: &Band<'_>) -> Self {
         let counted = self.sensors.iter().filter(|sensor| !sensor.left_out).count();
         let each = freedom(counted, band.unknown.real);
-        self.fit = goodness(&self.outcomes, each, fitted, &self.noise, band);
+        self.fit = goodness(&self.lines, each, fitted, &self.noise, band);
         self
     }
 

@@ -1,7 +1,7 @@
 //! A sensor that contradicts the others: found by leaving out each in turn.
 
 use super::candidates::Candidates;
-use super::reduced_band::ReducedBand;
+use super::neighbourhoods::Neighbourhoods;
 use super::task::Task;
 use crate::for_each::map;
 use crate::identify::context::Context;
@@ -22,7 +22,7 @@ pub(in crate::identify) const OUTLIER_RATIO: f64 = 10.0;
 /// it cannot be known which is wrong. Those that are `hidden` are left out throughout.
 pub(super) fn contradicting(
     task: &Task<'_, '_>,
-    reduced: Option<&mut ReducedBand<'_, '_>>,
+    reduced: Option<&mut Neighbourhoods<'_, '_>>,
     hidden: &[usize],
 ) -> (Vec<usize>, Work) {
     let sensors = task.band.experiment.sensors.len();
@@ -55,7 +55,7 @@ pub(super) fn contradicting(
 
 struct Trial<'t, 'a, 's, 'b, 'o> {
     task: &'t Task<'t, 'a>,
-    reduced: Option<&'s mut ReducedBand<'b, 'o>>,
+    reduced: Option<&'s mut Neighbourhoods<'b, 'o>>,
     work: Work,
 }
 

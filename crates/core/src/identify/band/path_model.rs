@@ -1,7 +1,7 @@
 //! A model for what is near one curve of factors over frequency: far fewer vectors than for a box.
 
 use super::candidates::Evaluated;
-use super::reduced_band::{TRAINED_TOL, is_certain};
+use super::neighbourhoods::{TRAINED_TOL, is_certain};
 use crate::c64;
 use crate::identify::thinned::thinned;
 use crate::model::ModelAt;

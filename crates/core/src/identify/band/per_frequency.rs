@@ -1,7 +1,7 @@
 //! Each frequency by itself, on the full model or on the subspace.
 
+use super::neighbourhoods::{Neighbourhoods, reduction_error};
 use super::outcome::BandOutcome;
-use super::reduced_band::{ReducedBand, reduction_error};
 use crate::for_each::map;
 use crate::identify::context::{Context, Stage};
 use crate::identify::measured::Band;
@@ -18,7 +18,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 pub(super) fn identify(
     band: &Band<'_>,
     at: &[ModelAt<'_>],
-    reduced: Option<&mut ReducedBand<'_, '_>>,
+    reduced: Option<&mut Neighbourhoods<'_, '_>>,
     options: &Options,
     context: Context<'_>,
 ) -> BandOutcome {
@@ -33,28 +33,28 @@ pub(super) fn identify(
             };
             let answers = |found: &[Line]| {
                 let corrections =
-                    found.iter().enumerate().filter_map(|(i, outcome)| Some((i, outcome.correction()?)));
+                    found.iter().enumerate().filter_map(|(i, line)| Some((i, line.correction()?)));
                 corrections.collect()
             };
             let all: Vec<usize> = (0..at.len()).collect();
             let found = reduced.find(&all, context, find);
             let found = reduced.certify(&all, found, context, |i, model, _| find(i, model), answers);
-            let outcomes = found.into_iter().enumerate().map(|(i, mut outcome)| {
-                if let Some(correction) = outcome.correction() {
+            let lines = found.into_iter().enumerate().map(|(i, mut line)| {
+                if let Some(correction) = line.correction() {
                     let assessed = reduced.assess(i, correction);
-                    let certified = assessed
-                        .map(|a| reduction_error(&a, outcome.nominal() + correction, &band.measured[i]));
-                    outcome.reduction_error =
+                    let certified =
+                        assessed.map(|a| reduction_error(&a, line.nominal() + correction, &band.measured[i]));
+                    line.reduction_error =
                         certified.map(|certified| certified.response).filter(|c| c.is_finite());
-                    if outcome.status == Status::Ok && certified.is_none_or(|c| c.factor > options.certain) {
-                        outcome.status = Status::Failed;
+                    if line.status == Status::Ok && certified.is_none_or(|c| c.factor > options.certain) {
+                        line.status = Status::Failed;
                     }
                 }
-                outcome
+                line
             });
             BandOutcome {
                 explored: at.len(),
-                outcomes: outcomes.collect(),
+                lines: lines.collect(),
                 work: reduced.work(),
                 subspace_size: Some(reduced.size()),
                 noise: NoiseLevel::UNKNOWN,
@@ -67,18 +67,18 @@ pub(super) fn identify(
         }
         None => {
             let done = AtomicUsize::new(0);
-            let outcomes = map(context.for_each, at.len(), |i| {
-                let outcome = match FullModel::new(at[i].clone(), band.experiment) {
+            let lines = map(context.for_each, at.len(), |i| {
+                let line = match FullModel::new(at[i].clone(), band.experiment) {
                     Ok(system) => identify_at(&system, &band.measured[i], band.unknown, options),
                     Err(breakdown) => broken(i, breakdown),
                 };
                 (context.progress)(Stage::Solutions, done.fetch_add(1, Ordering::Relaxed) + 1, at.len());
-                outcome
+                line
             });
             let mut work = Work::default();
-            outcomes.iter().for_each(|outcome| work += outcome.work);
+            lines.iter().for_each(|line| work += line.work);
             BandOutcome {
-                outcomes,
+                lines,
                 work,
                 subspace_size: None,
                 explored: at.len(),

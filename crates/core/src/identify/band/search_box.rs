@@ -1,8 +1,8 @@
 //! Where solutions are looked for: near the nominal, and in the whole of the bounds.
 
 use super::joint::answered_pilots;
+use super::neighbourhoods::Neighbourhoods;
 use super::outcome::BandOutcome;
-use super::reduced_band::ReducedBand;
 use crate::identify::choice::{Reduction, Selection};
 use crate::identify::context::Context;
 use crate::identify::measured::Band;
@@ -28,23 +28,23 @@ pub(super) fn on_subspace(options: &Options) -> [Options; 2] {
 pub(super) fn near_or_far<'a, 'o, T>(
     (band, at): (&Band<'_>, &[ModelAt<'_>]),
     [near, far]: &[Options; 2],
-    reduced: &mut Option<ReducedBand<'a, 'o>>,
+    reduced: &mut Option<Neighbourhoods<'a, 'o>>,
     are_calibrated: bool,
     context: Context<'_>,
-    mut run: impl FnMut(&Options, &mut Option<ReducedBand<'a, 'o>>) -> (BandOutcome, T),
+    mut run: impl FnMut(&Options, &mut Option<Neighbourhoods<'a, 'o>>) -> (BandOutcome, T),
 ) -> (BandOutcome, T) {
     let mut found = run(near, reduced);
     let wider =
         near.selection == Selection::Joint && band.unknown.bounds.storage.is_some() && !near.whole_box;
-    if !wider || 2 * found.0.answered() >= found.0.outcomes.len() {
+    if !wider || 2 * found.0.answered() >= found.0.lines.len() {
         return found;
     }
-    let work = |reduced: &Option<ReducedBand<'_, '_>>| {
+    let work = |reduced: &Option<Neighbourhoods<'_, '_>>| {
         reduced.as_ref().map_or_else(Work::default, |reduced| reduced.work())
     };
     let before = work(reduced);
     let promises_more = reduced.as_mut().is_none_or(|reduced| {
-        let pilots = |options: &Options, reduced: &mut ReducedBand<'_, '_>| {
+        let pilots = |options: &Options, reduced: &mut Neighbourhoods<'_, '_>| {
             answered_pilots(band, at, reduced, options, context)
         };
         let near_pilots = if are_calibrated { pilots(near, reduced) } else { 0 };

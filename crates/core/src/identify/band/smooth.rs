@@ -11,8 +11,8 @@ use super::corrected::correct;
 use super::fit::sensor_misfit;
 use super::joint;
 use super::laws::{MAX_TRAINING_ROUNDS, RIVAL_DISTANCE_STD, START_SHIFTS};
+use super::neighbourhoods::{Neighbourhoods, reduction_error};
 use super::outcome::BandOutcome;
-use super::reduced_band::{ReducedBand, reduction_error};
 use super::scaled::Scaled;
 use super::search_box::{near_or_far, on_subspace};
 use crate::c64;
@@ -93,7 +93,7 @@ pub(in crate::identify) fn identify_smooth<'a>(
 ) -> Result<SmoothOutcome, OutsideTable> {
     let at = band.model.at_all(band.frequency_hz, std::slice::from_ref(band.parameter))?;
     let boxes = on_subspace(options);
-    let mut reduced = ReducedBand::if_wanted(band, &at, trained, &boxes[0], context);
+    let mut reduced = Neighbourhoods::if_wanted(band, &at, trained, &boxes[0], context);
     let (mut free, ()) = near_or_far((band, &at), &boxes, &mut reduced, true, context, |options, reduced| {
         (joint::identify(band, &at, reduced.as_mut(), &[], options, context), ())
     });
@@ -110,9 +110,9 @@ pub(in crate::identify) fn identify_smooth<'a>(
     let found = reduced.and_then(|mut reduced| Some((smoothing.fit(&mut reduced, &free)?, reduced)));
     (context.progress)(Stage::Law, 1, 1);
     let Some((fitted, reduced)) = found else {
-        let outcomes = free.outcomes.iter().map(Line::unanswered).collect();
+        let lines = free.lines.iter().map(Line::unanswered).collect();
         return Ok(SmoothOutcome {
-            band: BandOutcome { outcomes, fit: None, ..free.clone() },
+            band: BandOutcome { lines, fit: None, ..free.clone() },
             free,
             curve: None,
         });
@@ -126,17 +126,17 @@ pub(in crate::identify) fn identify_smooth<'a>(
     let chi_squared = explained().map(|(_, judged)| judged.chi_squared).sum();
     let freedom = explained().map(|(_, judged)| judged.freedom).sum::<f64>().round() as usize;
     let fit = judge(chi_squared, freedom, &noise, band.noise);
-    let outcomes: Vec<Line> = judged.into_iter().map(|judged| judged.outcome).collect();
+    let lines: Vec<Line> = judged.into_iter().map(|judged| judged.line).collect();
     let sensor = |(m, own): (usize, &SensorFit)| SensorFit {
-        misfit: sensor_misfit(&outcomes, band.measured, &assumed, m, noise.level),
+        misfit: sensor_misfit(&lines, band.measured, &assumed, m, noise.level),
         ..*own
     };
     let sensors = free.sensors.iter().enumerate().map(sensor).collect();
     let mut work = free.work;
     work += reduced.work().since(fitted.before);
     let subspace_size = Some(reduced.size());
-    ReducedBand::hand_back(Some(reduced), trained);
-    let smoothed = BandOutcome { outcomes, work, subspace_size, noise, fit, sensors, ..free.clone() };
+    Neighbourhoods::hand_back(Some(reduced), trained);
+    let smoothed = BandOutcome { lines, work, subspace_size, noise, fit, sensors, ..free.clone() };
     Ok(SmoothOutcome {
         free: free.judged_by_fit(),
         band: smoothed.judged_by_fit(),
@@ -176,7 +176,7 @@ struct Linearised {
 
 /// One frequency at the curve.
 struct Judged {
-    outcome: Line,
+    line: Line,
     chi_squared: f64,
     freedom: f64,
 }
@@ -194,7 +194,7 @@ impl Smoothing<'_, '_> {
         self.sigma[i].iter().filter(|sigma| sigma.is_finite()).count()
     }
 
-    fn fit(&self, reduced: &mut ReducedBand<'_, '_>, free: &BandOutcome) -> Option<Fitted> {
+    fn fit(&self, reduced: &mut Neighbourhoods<'_, '_>, free: &BandOutcome) -> Option<Fitted> {
         let before = reduced.work();
         let all: Vec<usize> = (0..self.at.len()).collect();
         reduced.localise(&all, self.context.for_each);
@@ -230,16 +230,16 @@ impl Smoothing<'_, '_> {
     }
 
     /// The curve through what each frequency says by itself, moved to where the sensors like it best.
-    fn start(&self, reduced: &ReducedBand<'_, '_>, free: &BandOutcome) -> Option<Vec<State>> {
+    fn start(&self, reduced: &Neighbourhoods<'_, '_>, free: &BandOutcome) -> Option<Vec<State>> {
         let own = |i: usize| {
             let none = Observation { x: self.log_omega(i), value: [0.0; 2], weight: 0.0 };
-            let outcome = &free.outcomes[i];
-            let estimate = outcome
+            let line = &free.lines[i];
+            let estimate = line
                 .factor()
-                .filter(|factor| factor.re > 0.0 && outcome.on_path && outcome.status != Status::Unexplained);
+                .filter(|factor| factor.re > 0.0 && line.on_path && line.status != Status::Unexplained);
             let observed = estimate.and_then(|factor| {
                 let (_, slope) =
-                    reduced.model(i).respond_with_slope(&self.at[i], factor - outcome.nominal()).ok()?;
+                    reduced.model(i).respond_with_slope(&self.at[i], factor - line.nominal()).ok()?;
                 let weight =
                     slope.iter().zip(&self.sigma[i]).map(|(s, sigma)| (factor * s / *sigma).norm_sqr()).sum();
                 let log = factor.ln();
@@ -272,7 +272,7 @@ impl Smoothing<'_, '_> {
     }
 
     /// What the sensors say in linear terms about a curve.
-    fn linearised(&self, reduced: &ReducedBand<'_, '_>, used: &[bool], states: &[State]) -> Linearised {
+    fn linearised(&self, reduced: &Neighbourhoods<'_, '_>, used: &[bool], states: &[State]) -> Linearised {
         let one = |i: usize| -> (Observation, f64) {
             let log = c64::new(states[i][0][0], states[i][0][1]);
             let none = Observation { x: self.log_omega(i), value: states[i][0], weight: 0.0 };
@@ -324,7 +324,7 @@ impl Smoothing<'_, '_> {
     /// Gauss and Newton's steps to the smooth curve.
     fn descend(
         &self,
-        reduced: &ReducedBand<'_, '_>,
+        reduced: &Neighbourhoods<'_, '_>,
         used: &[bool],
         mut states: Vec<State>,
     ) -> Option<(Linearised, Smoothed, bool)> {
@@ -364,7 +364,7 @@ impl Smoothing<'_, '_> {
     }
 
     /// Whether a frequency leaves more than noise at the curve.
-    fn unexplained(&self, reduced: &ReducedBand<'_, '_>, states: &[State], level: f64, i: usize) -> bool {
+    fn unexplained(&self, reduced: &Neighbourhoods<'_, '_>, states: &[State], level: f64, i: usize) -> bool {
         let correction = modulus(&states[i]) - self.at[i].parameters[0].nominal;
         let Ok((x, _)) = reduced.model(i).respond_with_slope(&self.at[i], correction) else { return false };
         self.is_unexplained(i, &x, level.max(MIN_NOISE_LEVEL))
@@ -396,17 +396,17 @@ impl Smoothing<'_, '_> {
         &self,
         fitted: &Fitted,
         noise: &NoiseLevel,
-        reduced: &ReducedBand<'_, '_>,
+        reduced: &Neighbourhoods<'_, '_>,
         i: usize,
         (per_frequency, split): (&BandOutcome, Option<&Split>),
     ) -> Judged {
-        let free = &per_frequency.outcomes;
+        let free = &per_frequency.lines;
         let (measured, own) = (&self.band.measured[i], &free[i]);
-        let mut outcome = own.unanswered();
+        let mut line = own.unanswered();
         let factor = modulus(&fitted.smoothed.curve.states[i]);
         let correction = factor - own.nominal();
         let Some(assessed) = reduced.assess(i, correction).filter(|_| self.log_omega(i).is_finite()) else {
-            return Judged { outcome, chi_squared: 0.0, freedom: 0.0 };
+            return Judged { line, chi_squared: 0.0, freedom: 0.0 };
         };
         let level = noise.level.unwrap_or(1.0);
         let certified = reduction_error(&assessed, factor, measured);
@@ -433,31 +433,31 @@ impl Smoothing<'_, '_> {
         let taken = (fitted.observations[i].weight * variance).min(1.0);
         let freedom = (2 * self.sensors(i)) as f64 - self.numbers() as f64 * taken;
         let chi_squared = self.misfit(i, &assessed.response) / (level * level);
-        outcome.set_correction(correction);
-        outcome.error = Some(error).filter(|error| error.is_finite());
-        outcome.values[0].uncertainty = Some(bars).filter(|bars| bars.correction_std.is_finite());
-        outcome.chi_squared = Some(chi_squared / freedom).filter(|chi_squared| chi_squared.is_finite());
-        outcome.spectral_radius = outcome.radius.map(|radius| radius.at(correction));
-        outcome.reduction_error = Some(certified.response).filter(|c| c.is_finite());
+        line.set_correction(correction);
+        line.error = Some(error).filter(|error| error.is_finite());
+        line.values[0].uncertainty = Some(bars).filter(|bars| bars.correction_std.is_finite());
+        line.chi_squared = Some(chi_squared / freedom).filter(|chi_squared| chi_squared.is_finite());
+        line.spectral_radius = line.radius.map(|radius| radius.at(correction));
+        line.reduction_error = Some(certified.response).filter(|c| c.is_finite());
         let ambiguous = is_ambiguous(free, i);
         if ambiguous {
             let apart =
                 |other: &&Vec<c64>| (other[0] - factor).norm() > RIVAL_DISTANCE_STD * bars.correction_std;
-            outcome.rivals = own.rivals.iter().filter(apart).cloned().collect();
+            line.rivals = own.rivals.iter().filter(apart).cloned().collect();
         }
-        outcome.on_path = true;
-        outcome.status = Status::of([
+        line.on_path = true;
+        line.status = Status::of([
             (self.is_unexplained(i, &assessed.response, level), Status::Unexplained),
             (ambiguous, Status::Ambiguous),
             (!fitted.converged, Status::Failed),
             (!bars.is_known(factor) || !bars.is_linear(), Status::NotIdentifiable),
             (certified.factor > self.options.certain, Status::Failed),
         ]);
-        outcome.updated_response = assessed.response;
+        line.updated_response = assessed.response;
         if self.band.unknown.bounds.broken_by(factor).is_some() {
-            outcome.forget_value(Status::NoRoot);
+            line.forget_value(Status::NoRoot);
         }
-        Judged { outcome, chi_squared, freedom }
+        Judged { line, chi_squared, freedom }
     }
 
     fn curve(&self, fitted: Fitted) -> SmoothCurve {

@@ -1,7 +1,7 @@
-//! From the choice at a frequency to its outcome.
+//! From the choice at a frequency to its line.
 
 use super::candidates::Candidates;
-use super::reduced_band::reduction_error;
+use super::neighbourhoods::reduction_error;
 use crate::c64;
 use crate::identify::goodness_of_fit::MAX_RMS_MISFIT;
 use crate::identify::options::Options;
@@ -43,22 +43,22 @@ pub(super) fn verdict(
     options: &Options,
 ) -> Line {
     let nominal = evidence.at.parameters[0].nominal;
-    let mut outcome = Line::unknown(evidence.at.frequency_hz, nominal, found.order);
-    outcome.nominal_response = found.nominal_response.clone();
-    outcome.roots = found.candidates();
-    outcome.radius = evidence.poles.map(|poles| ConvergenceRadius {
+    let mut line = Line::unknown(evidence.at.frequency_hz, nominal, found.order);
+    line.nominal_response = found.nominal_response.clone();
+    line.roots = found.candidates();
+    line.radius = evidence.poles.map(|poles| ConvergenceRadius {
         per_unit: poles.radius_per_unit(),
         residual: 0.0,
         converged: true,
     });
-    outcome.breakdown = found.breakdown.clone();
+    line.breakdown = found.breakdown.clone();
     let Some(chosen) = evidence.solution.map(|k| &found.solutions[k]) else {
-        outcome.status = if found.breakdown.is_some() { Status::Failed } else { Status::NoRoot };
-        return outcome;
+        line.status = if found.breakdown.is_some() { Status::Failed } else { Status::NoRoot };
+        return line;
     };
-    outcome.on_path = choice.chosen.is_some();
-    let mut rivals = choice.alternatives.clone();
-    if !outcome.on_path {
+    line.on_path = choice.chosen.is_some();
+    let mut rivals = choice.rivals.clone();
+    if !line.on_path {
         // Solutions, but none that belongs to those of the other lines: more than one is possible, or none is right.
         rivals = (0..found.solutions.len()).filter(|&k| evidence.solution != Some(k)).collect();
     }
@@ -68,36 +68,36 @@ pub(super) fn verdict(
         kept.map(|(_, value)| *value).collect()
     };
     let error = relative_error(&kept(evidence.measured), &kept(&chosen.response));
-    outcome.set_correction(chosen.correction);
-    outcome.error = Some(error).filter(|error| error.is_finite());
-    outcome.spectral_radius = outcome.radius.map(|radius| radius.at(chosen.correction));
-    outcome.updated_response = chosen.response.clone();
-    outcome.rivals = rivals.iter().map(|&k| vec![nominal + found.solutions[k].correction]).collect();
-    outcome.required_order = evidence.poles.and_then(|poles| {
+    line.set_correction(chosen.correction);
+    line.error = Some(error).filter(|error| error.is_finite());
+    line.spectral_radius = line.radius.map(|radius| radius.at(chosen.correction));
+    line.updated_response = chosen.response.clone();
+    line.rivals = rivals.iter().map(|&k| vec![nominal + found.solutions[k].correction]).collect();
+    line.required_order = evidence.poles.and_then(|poles| {
         let order = |m| poles.required_order(m, chosen.correction, SERIES_ORDER_TOL);
         (0..evidence.measured.len()).map(order).try_fold(0, |most, n| Some(most.max(n?)))
     });
     let certified = evidence.assessment.as_ref().map(|a| reduction_error(a, factor, evidence.measured));
-    outcome.reduction_error = certified.map(|certified| certified.response).filter(|c| c.is_finite());
+    line.reduction_error = certified.map(|certified| certified.response).filter(|c| c.is_finite());
     let noise = evidence.noise.unwrap_or(0.0);
     let square = chosen.misfit / evidence.freedom.max(1) as f64;
     let unexplained = error > options.error && square.sqrt() > MAX_RMS_MISFIT * noise;
     let per_freedom = evidence.noise.filter(|_| evidence.freedom > 0).map(|noise| square / (noise * noise));
-    outcome.chi_squared = per_freedom.filter(|chi_squared| chi_squared.is_finite());
+    line.chi_squared = per_freedom.filter(|chi_squared| chi_squared.is_finite());
     let bars = |level| Uncertainty::new(factor, evidence.is_real, chosen.std, evidence.second, level);
     let uncertainty = evidence.noise.map(bars);
     let unknown = uncertainty.is_some_and(|bars| !bars.is_known(factor) || !bars.is_linear());
-    outcome.values[0].uncertainty = uncertainty.filter(|bars| bars.correction_std.is_finite());
+    line.values[0].uncertainty = uncertainty.filter(|bars| bars.correction_std.is_finite());
     let uncertain = certified.is_some_and(|certified| certified.factor > options.certain);
-    outcome.status = Status::of([
+    line.status = Status::of([
         (unexplained, Status::Unexplained),
-        (!outcome.rivals.is_empty(), Status::Ambiguous),
+        (!line.rivals.is_empty(), Status::Ambiguous),
         // The only solution, and it contradicts those of the other lines.
-        (!outcome.on_path, Status::Unexplained),
+        (!line.on_path, Status::Unexplained),
         (unknown, Status::NotIdentifiable),
         (uncertain || chosen.is_unsure(), Status::Failed),
     ]);
-    outcome
+    line
 }
 
 /// Error for which the order of the series is predicted: that to which the modulus is to be right.

@@ -90,11 +90,11 @@ pub struct Leverage {
     pub change: f64,
 }
 
-/// Modes this far above the band are told of.
+/// Modes up to this far above the band are reported.
 const LISTED_ABOVE_BAND: f64 = 1.2;
 
 impl Estimated {
-    /// What users are told.
+    /// What is reported to users.
     pub(in crate::identify) fn found(&self) -> ModelErrorsFound {
         let (n, first) = (self.count(), self.first_of_modes());
         let covariance = |a: usize, b: usize| self.covariance[(first + a) * n + first + b];

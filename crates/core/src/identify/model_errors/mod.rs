@@ -1,7 +1,7 @@
 //! Errors of the model, estimated with the factor (B-11).
 //!
 //! A model's natural frequencies are some tenths of a per cent off, its mode shapes and the factors of its known parts some per cent. A factor that is
-//! fitted to each frequency by itself swallows all of that. Over a band the two are told apart: each mode has one real error over its whole resonance,
+//! fitted to each frequency by itself swallows all of that. A band separates the two: each mode has one real error over its whole resonance,
 //! a material has one smooth complex modulus. With a smooth ln E(ω; θ) (a law, or a spline), relative errors δ_i = e + d_i of natural frequencies, a_mi of mode shapes at
 //! the sensors, ν_t of known factors (and Δη_t of their loss factors),
 //! $$ \sum_{k,m} \frac{|u_m - x_m(\omega_k; \theta, \delta, a, \nu)|^2}{\sigma_m^2} + \frac{e^2 + \sum_i d_i^2}{s^2} + \frac{\sum a_{mi}^2}{s_a^2} + \frac{\sum \nu_t^2}{s_\nu^2} $$
@@ -167,7 +167,7 @@ const MAX_ROUNDOFF_OVER_RESPONSE: f64 = 1e-5;
 /// better between resonances. What is more is not explained.
 const MAX_REST: f64 = 0.05;
 
-/// The same of a single sensor, whose noise nobody told: it cannot contradict itself.
+/// The same of a single sensor, whose noise is not given: it cannot contradict itself.
 const MIN_NOISE_OF_ONE_SENSOR: f64 = 5e-3;
 
 /// The share of a given size that is each mode's own, and that each of three common parts has: together they are as large as was said.

@@ -1,6 +1,6 @@
 //! One frequency: what it has of its own, found for given values of what holds for the band.
 
-use super::reduced_band::Responded;
+use super::neighbourhoods::Responded;
 use crate::c64;
 use crate::identify::unknown::Unknown;
 use crate::laws::{Minimum, Search, descend};

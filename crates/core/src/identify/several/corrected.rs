@@ -2,8 +2,8 @@
 
 use super::Task;
 use super::at_frequency::{Solution, eliminate};
+use super::neighbourhoods::Neighbourhoods;
 use super::outcome::SeveralOutcome;
-use super::reduced_band::ReducedBand;
 use super::search::{BandSolution, Begin};
 use crate::c64;
 use crate::identify::model_errors::{
@@ -18,21 +18,21 @@ impl Task<'_, '_> {
     /// What is found when the errors of the model are estimated and taken out; the same where a right model explains the band as well.
     pub(super) fn correct(
         &self,
-        space: &mut ReducedBand<'_>,
+        reduced: &mut Neighbourhoods<'_>,
         solution: &BandSolution,
         mut found: SeveralOutcome,
     ) -> SeveralOutcome {
         if self.options.model_errors == ModelErrors::None {
             return found;
         }
-        let (explanation, leverage) = self.errors(space, solution, &found);
+        let (explanation, leverage) = self.errors(reduced, solution, &found);
         found.leverage = leverage;
         let errors = match explanation {
             Explanation::RightModel => return found,
             Explanation::OtherModel => return found.of_other_model(),
             Explanation::Errors(errors) => *errors,
         };
-        space.correct(&errors.modes, &errors.errors, self.context.for_each);
+        reduced.correct(&errors.modes, &errors.errors, self.context.for_each);
         let middle = self.omegas.len() / 2;
         let Some(values) = errors.values(middle, self.problem.frfs.frequency_hz[middle]) else {
             return found;
@@ -41,9 +41,9 @@ impl Task<'_, '_> {
         let theta = of_band.chain(errors.channels().range()).map(|c| errors.theta()[c]).collect();
         let begin = Begin { coordinates: solution.coordinates.clone(), theta };
         let task = self.with_rest(errors.rest);
-        let again = task.search_from(space, begin, &values);
+        let again = task.search_from(reduced, begin, &values);
         let again = BandSolution { starts: solution.starts.clone(), agreeing: solution.agreeing, ..again };
-        let judged = task.judge(space, &again, Some(&errors));
+        let judged = task.judge(reduced, &again, Some(&errors));
         SeveralOutcome { model_errors: Some(errors.found()), leverage: found.leverage, ..judged }
     }
 
@@ -60,7 +60,7 @@ impl Task<'_, '_> {
 
     fn errors(
         &self,
-        space: &ReducedBand<'_>,
+        reduced: &Neighbourhoods<'_>,
         solution: &BandSolution,
         found: &SeveralOutcome,
     ) -> (Explanation, Vec<Leverage>) {
@@ -92,7 +92,7 @@ impl Task<'_, '_> {
             [&solution.theta].into_iter().chain(others.map(|start| &start.theta)).map(given).collect();
         let own: Vec<usize> = (0..unknowns.len()).filter(|&j| unknowns[j].per_frequency() > 0).collect();
         let point =
-            |i: usize, values: &[c64]| Some(Point { at: space.at(i, values)?, correction: c64::default() });
+            |i: usize, values: &[c64]| Some(Point { at: reduced.at(i, values)?, correction: c64::default() });
         let measured = Measured {
             point: &point,
             omegas: &self.omegas,
@@ -108,14 +108,14 @@ impl Task<'_, '_> {
             ),
             levels: &levels(self.problem.frfs.receptance, self.problem.frfs.frequency_hz),
             noise_scale: NoiseScale::of(self.problem.frfs.noise),
-            free: &found.at,
+            free: &found.lines,
             own: &own,
             // What holds for the band cannot show the noise: it is part of what is to be explained.
             level_per_frequency: found.noise.level.filter(|_| !own.is_empty()),
             fit: found.fit,
         };
         let (explanation, leverage) =
-            estimate(space.whole(), &measured, &curves(false), self.context.for_each);
+            estimate(reduced.whole(), &measured, &curves(false), self.context.for_each);
         let errors = match explanation {
             Explanation::Errors(errors) if (0..unknowns.len()).any(is_law) => errors,
             explanation => return (explanation, leverage),
@@ -127,20 +127,20 @@ impl Task<'_, '_> {
         let of_channels = &errors.theta()[errors.channels().range()];
         let theta: Vec<f64> = (0..unknowns.len()).flat_map(theta).chain(of_channels).copied().collect();
         let laws = (&curves(true), theta.as_slice());
-        let with_laws = estimate_with_laws(space.whole(), &measured, &errors, laws, self.context.for_each);
+        let with_laws = estimate_with_laws(reduced.whole(), &measured, &errors, laws, self.context.for_each);
         (Explanation::Errors(with_laws.map_or(errors, Box::new)), leverage)
     }
 
     /// ∂y/∂(error) of a frequency's own coordinates, `[error][own]`.
     pub(super) fn moved_by_errors(
         &self,
-        space: &ReducedBand<'_>,
+        reduced: &Neighbourhoods<'_>,
         i: usize,
         found: &BandSolution,
         solution: &Solution,
     ) -> Option<Vec<Vec<f64>>> {
-        let Corrected { modes, errors, model } = space.corrected()?;
-        let at = space.at(i, &solution.values)?;
+        let Corrected { modes, errors, model } = reduced.corrected()?;
+        let at = reduced.at(i, &solution.values)?;
         let slopes = model.respond_with_error_slopes((modes, errors), &at, c64::default()).ok()?;
         let channels = &found.coordinates.channels;
         let slopes = slopes.shown(&channels.shares(&found.theta, self.problem.frfs.frequency_hz[i]));

@@ -4,7 +4,7 @@ use frfit_linalg::dense::symmetric_eigen;
 
 /// The sum of squares of the slopes at σ, by its eigenvectors.
 pub(super) struct Information {
-    /// Eigenvalues, ascending; zero where nothing is told.
+    /// Eigenvalues, ascending; zero where a direction is not identifiable.
     pub(super) values: Vec<f64>,
     /// Eigenvectors, one after the other.
     pub(super) vectors: Vec<f64>,
@@ -73,7 +73,7 @@ impl Information {
         Some(Self::new(&columns, free.len())?.identifiable_from(0).into_iter().map(expanded).collect())
     }
 
-    /// The same without the direction that is told worst.
+    /// The same without the least identifiable direction.
     pub(super) fn identifiable_but_the_first(&self) -> Vec<Vec<f64>> {
         self.identifiable_from(1)
     }

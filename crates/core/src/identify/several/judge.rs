@@ -4,8 +4,8 @@ use super::Task;
 use super::at_frequency::Solution;
 use super::coordinates::Own;
 use super::information::Information;
+use super::neighbourhoods::Neighbourhoods;
 use super::outcome::{BandCoordinate, BandValue, Direction, Number, NumberOf, Profile, SeveralOutcome};
-use super::reduced_band::ReducedBand;
 use super::search::{BandSolution, Place, Plane, Reach};
 use crate::c64;
 use crate::for_each::map;
@@ -26,7 +26,7 @@ use crate::response::relative_error;
 const PROFILE_POINTS: usize = 5;
 const PROFILE_REACH_STD: f64 = 3.0;
 
-/// Farther than this in logarithms a profile does not go, however little is told.
+/// Farther than this in logarithms a profile does not go, however little the data show.
 const MAX_PROFILE_REACH: f64 = 1.0;
 
 /// How well θ and what it hangs on are known, and what they do to a frequency's own coordinates.
@@ -42,7 +42,7 @@ struct Known<'k> {
 impl Task<'_, '_> {
     pub(super) fn judge(
         &self,
-        space: &ReducedBand<'_>,
+        reduced: &Neighbourhoods<'_>,
         found: &BandSolution,
         errors: Option<&Estimated>,
     ) -> SeveralOutcome {
@@ -91,15 +91,15 @@ impl Task<'_, '_> {
             (None, Some(information)) => information.covariance(g, h),
             (None, None) => 0.0,
         };
-        let mut at: Vec<Line> = map(self.context.for_each, all.len(), |i| {
+        let mut lines: Vec<Line> = map(self.context.for_each, all.len(), |i| {
             let own = place.as_ref().and_then(|p| p.eliminated.own[i].as_ref());
             let mut moved = own.map(|(_, moved)| moved.clone());
             if let (Some(moved), Some(solution), Some(_)) = (&mut moved, found.at(i), errors) {
-                moved.extend(self.moved_by_errors(space, i, found, solution).into_iter().flatten());
+                moved.extend(self.moved_by_errors(reduced, i, found, solution).into_iter().flatten());
             }
             let known = information.as_ref().and(moved);
             self.judge_at(
-                space,
+                reduced,
                 found,
                 i,
                 (level, fit),
@@ -130,7 +130,7 @@ impl Task<'_, '_> {
         let profile = directions
             .first()
             .filter(|_| n > 1)
-            .and_then(|worst| self.profile(space, found, informed?, worst, level?));
+            .and_then(|worst| self.profile(reduced, found, informed?, worst, level?));
         let band = found.coordinates.each.iter().map(|one| {
             let (values, slopes) = one.numbers(&found.theta);
             let std = |row: &[f64]| {
@@ -167,13 +167,14 @@ impl Task<'_, '_> {
         let band: Vec<BandValue> = band.collect();
         // With a value that stops at its bounds no line has what it needs within them.
         if band.iter().any(|one| one.at_bound) {
-            at.iter_mut()
+            lines
+                .iter_mut()
                 .filter(|line| line.status == Status::Ok)
                 .for_each(|line| line.status = Status::NoRoot);
         }
         SeveralOutcome {
             band,
-            at,
+            lines,
             coordinates,
             correlation,
             directions,
@@ -187,15 +188,15 @@ impl Task<'_, '_> {
             converged: found.converged,
             starts: found.starts.len(),
             agreeing: found.agreeing,
-            work: space.work(),
-            subspace_size: space.size(),
+            work: reduced.work(),
+            subspace_size: reduced.size(),
             breakdown: None,
         }
     }
 
     fn judge_at(
         &self,
-        space: &ReducedBand<'_>,
+        reduced: &Neighbourhoods<'_>,
         found: &BandSolution,
         i: usize,
         (level, fit): (Option<f64>, Option<GoodnessOfFit>),
@@ -203,12 +204,12 @@ impl Task<'_, '_> {
     ) -> Line {
         let nominal = &self.nominal[i];
         let values = nominal.iter().map(|&nominal| LineValue::unknown(nominal)).collect();
-        let mut at = Line::of_values(self.problem.frfs.frequency_hz[i], values);
-        at.nominal_response = space.respond(i, nominal).map(|(x, _)| x).unwrap_or_default();
+        let mut line = Line::of_values(self.problem.frfs.frequency_hz[i], values);
+        line.nominal_response = reduced.respond(i, nominal).map(|(x, _)| x).unwrap_or_default();
         let solutions = &found.solutions[i];
         let chosen = found.at(i);
         // Of solutions none of which is on the path of every unknown, that of least misfit.
-        let Some(solution) = chosen.or_else(|| solutions.first()) else { return at };
+        let Some(solution) = chosen.or_else(|| solutions.first()) else { return line };
         let calibrated = |values: &[c64]| {
             found.coordinates.channels.calibrated(&found.theta, self.problem.frfs.frequency_hz[i], values)
         };
@@ -225,28 +226,28 @@ impl Task<'_, '_> {
         let standing = |k: usize| match found.chosen[i].solution {
             Some(best) if k == best => Standing::Chosen,
             None if k == 0 => Standing::Chosen,
-            Some(_) if !found.chosen[i].alternatives.contains(&k) => Standing::Excluded,
+            Some(_) if !found.chosen[i].rivals.contains(&k) => Standing::Excluded,
             _ => Standing::Rival,
         };
-        let of_line = |(k, one): (usize, &Solution)| LineSolution {
+        let of_solution = |(k, one): (usize, &Solution)| LineSolution {
             values: one.values.clone(),
             chi_squared: per_freedom(one.misfit),
             standing: standing(k),
         };
-        at.solutions = solutions.iter().enumerate().map(of_line).collect();
-        let rivals = at.solutions.iter().filter(|one| one.standing == Standing::Rival);
-        at.rivals = rivals.map(|one| one.values.clone()).collect();
+        line.solutions = solutions.iter().enumerate().map(of_solution).collect();
+        let rivals = line.solutions.iter().filter(|one| one.standing == Standing::Rival);
+        line.rivals = rivals.map(|one| one.values.clone()).collect();
         let error = relative_error(&kept(measured), &kept(&response));
-        let assessed = space.assess(i, &solution.values);
+        let assessed = reduced.assess(i, &solution.values);
         let reduction_error =
             assessed.map(|assessed| reduction_error(&assessed, solution.values[0], measured).response);
         let own = |(one, value): (&Unknown, &LineValue)| one.per_frequency() == 0 || is_known(value);
         let known = self.problem.unknowns.iter().zip(&values).all(own);
         let unexplained =
             error > self.options.error && chi_squared.is_none_or(|chi| chi.sqrt() > MAX_RMS_MISFIT);
-        at.status = Status::of([
+        line.status = Status::of([
             (unexplained, Status::Unexplained),
-            (!at.rivals.is_empty(), Status::Ambiguous),
+            (!line.rivals.is_empty(), Status::Ambiguous),
             (chosen.is_none(), Status::Unexplained),
             (!known, Status::NotIdentifiable),
             (
@@ -255,13 +256,13 @@ impl Task<'_, '_> {
             ),
         ])
         .within(fit);
-        at.values = values;
-        at.on_path = chosen.is_some();
-        at.error = Some(error).filter(|error| error.is_finite());
-        at.chi_squared = chi_squared;
-        at.reduction_error = reduction_error;
-        at.updated_response = response;
-        at
+        line.values = values;
+        line.on_path = chosen.is_some();
+        line.error = Some(error).filter(|error| error.is_finite());
+        line.chi_squared = chi_squared;
+        line.reduction_error = reduction_error;
+        line.updated_response = response;
+        line
     }
 
     /// All values at a frequency with their error bars: of its own coordinates (JᵀJ)⁻¹ + (∂y/∂θ) Cov θ (∂y/∂θ)ᵀ.
@@ -319,10 +320,10 @@ impl Task<'_, '_> {
         self.problem.unknowns.iter().enumerate().map(&mut one).collect()
     }
 
-    /// χ² along a direction of θ, with the directions at right angles to it that are told at their best.
+    /// χ² along a direction of θ, with the identifiable directions at right angles to it at their best.
     fn profile(
         &self,
-        space: &ReducedBand<'_>,
+        reduced: &Neighbourhoods<'_>,
         found: &BandSolution,
         (best, information): (&Place, &Information),
         worst: &Direction,
@@ -331,7 +332,7 @@ impl Task<'_, '_> {
         let all: Vec<usize> = (0..self.omegas.len()).collect();
         let mut along = vec![0.0; found.theta.len()];
         worst.weights.iter().for_each(|&(c, weight)| along[c] = weight);
-        // The worst is the first of the eigenvectors; what is told of the others is at right angles to it.
+        // The worst is the first of the eigenvectors; the identifiable ones of the others are at right angles to it.
         let others = information.identifiable_but_the_first();
         let reach = (PROFILE_REACH_STD * worst.std / PROFILE_POINTS as f64)
             .min(MAX_PROFILE_REACH / PROFILE_POINTS as f64);
@@ -343,10 +344,10 @@ impl Task<'_, '_> {
                 let origin: Vec<f64> =
                     found.theta.iter().zip(&along).map(|(theta, v)| theta + t * v).collect();
                 let plane = Plane { origin: &origin, basis: &others };
-                // Where the least is may be told by the models about the point before: what it is, not.
-                let near = self.search_in(space, &all, (found, &place), &plane, &rest, Reach::Near);
+                // Models about the point before may show where the minimum is, but not its value.
+                let near = self.search_in(reduced, &all, (found, &place), &plane, &rest, Reach::Near);
                 let next = near.and_then(|near| {
-                    let next = self.moved_to(space, &all, (found, &place), plane.at(&near.theta))?;
+                    let next = self.moved_to(reduced, &all, (found, &place), plane.at(&near.theta))?;
                     Some((next, near.theta))
                 });
                 let Some((next, end)) = next else { break };
@@ -417,7 +418,7 @@ fn names(kind: Option<LawKind>) -> Vec<String> {
     }
 }
 
-/// Directions of θ, the one that is told worst first.
+/// Directions of θ, the least identifiable first.
 fn directions(information: &Information, level: Option<f64>) -> Vec<Direction> {
     let n = information.values.len();
     let one = |(v, value): (&[f64], &f64)| {

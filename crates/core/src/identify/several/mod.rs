@@ -9,7 +9,7 @@
 //! | file | what is in it |
 //! |---|---|
 //! | `coordinates` | θ ↔ what holds for the band |
-//! | `reduced_band` | the reduced model over the box of all unknowns |
+//! | `neighbourhoods` | the reduced model over the box of all unknowns |
 //! | `starts` | where to begin |
 //! | `at_frequency` | one frequency |
 //! | `path` | which of several solutions belong together |
@@ -23,10 +23,10 @@ mod coordinates;
 mod corrected;
 mod information;
 mod judge;
+mod neighbourhoods;
 mod outcome;
 mod outlier_sensor;
 mod path;
-mod reduced_band;
 mod search;
 mod starts;
 #[cfg(test)]
@@ -49,7 +49,7 @@ use crate::material::OutsideTable;
 use crate::response::Work;
 use crate::subspace::Subspace;
 use frfit_linalg::solve::Breakdown;
-use reduced_band::ReducedBand;
+use neighbourhoods::Neighbourhoods;
 
 /// What there is to work with.
 struct Task<'t, 'a> {
@@ -99,18 +99,18 @@ pub(super) fn identify_several<'a>(
     };
     Ok(match subspace {
         Ok(subspace) => {
-            let mut space = ReducedBand::new(subspace, problem, &nominal, context);
-            let mut found = task.search(&mut space);
-            let contradicting = task.contradicting(&space, &found);
+            let mut reduced = Neighbourhoods::new(subspace, problem, &nominal, context);
+            let mut found = task.search(&mut reduced);
+            let contradicting = task.contradicting(&reduced, &found);
             let rejected = if options.reject_outliers { contradicting.as_slice() } else { &[] };
             let kept = task.leaving_out(&[task.left_out.as_slice(), rejected].concat());
             if !rejected.is_empty() {
-                found = kept.search(&mut space);
+                found = kept.search(&mut reduced);
             }
-            let right = kept.judge(&space, &found, None);
-            let mut outcome = kept.correct(&mut space, &found, right);
+            let right = kept.judge(&reduced, &found, None);
+            let mut outcome = kept.correct(&mut reduced, &found, right);
             outcome.sensors = kept.sensor_fits(&task.sigma, &contradicting, &outcome);
-            *trained = Some(space.into_subspace());
+            *trained = Some(reduced.into_subspace());
             outcome
         }
         Err(breakdown) => task.broken(breakdown),
@@ -128,7 +128,7 @@ pub(super) fn train<'a>(
     problem: &Problem<'a>,
     context: Context<'_>,
 ) -> Result<Result<Subspace<'a>, Breakdown>, OutsideTable> {
-    reduced_band::train(problem, &nominal_of(problem)?, context)
+    neighbourhoods::train(problem, &nominal_of(problem)?, context)
 }
 
 impl Task<'_, '_> {
@@ -138,7 +138,7 @@ impl Task<'_, '_> {
         };
         SeveralOutcome {
             band: Vec::new(),
-            at: self.nominal.iter().zip(self.problem.frfs.frequency_hz).map(at).collect(),
+            lines: self.nominal.iter().zip(self.problem.frfs.frequency_hz).map(at).collect(),
             coordinates: Vec::new(),
             correlation: Vec::new(),
             directions: Vec::new(),

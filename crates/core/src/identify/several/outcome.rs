@@ -63,7 +63,7 @@ pub struct Direction {
     pub std: f64,
 }
 
-/// The misfit along the direction that is told worst, all else at its best.
+/// The misfit along the least identifiable direction, all else at its best.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Profile {
     /// How far from the answer along the least identifiable direction, and by how much χ² is larger there.
@@ -76,12 +76,12 @@ pub(in crate::identify) struct SeveralOutcome {
     /// The unknowns that hold for the band.
     pub(in crate::identify) band: Vec<BandValue>,
     /// One for each frequency.
-    pub(in crate::identify) at: Vec<Line>,
+    pub(in crate::identify) lines: Vec<Line>,
     /// What the coordinates of [`Self::correlation`] and [`Self::directions`] are.
     pub(in crate::identify) coordinates: Vec<BandCoordinate>,
     /// Correlation of the numbers that hold for the band.
     pub(in crate::identify) correlation: Vec<Vec<f64>>,
-    /// Combinations of them, the one that is told worst first.
+    /// Combinations of them, the least identifiable first.
     pub(in crate::identify) directions: Vec<Direction>,
     /// One for each sensor; empty where all channels are calibrated.
     pub(in crate::identify) channels: Vec<Calibration>,
@@ -114,7 +114,7 @@ impl SeveralOutcome {
     /// The same where a model with large errors explains the band far better: nothing is ok.
     pub(super) fn of_other_model(mut self) -> Self {
         self.fit = self.fit.map(|fit| fit.of_model(true));
-        let statuses = self.at.iter_mut().map(|line| &mut line.status);
+        let statuses = self.lines.iter_mut().map(|line| &mut line.status);
         let statuses = statuses.chain(self.band.iter_mut().map(|value| &mut value.status));
         statuses.filter(|status| **status == Status::Ok).for_each(|status| *status = Status::Unexplained);
         self

@@ -1,8 +1,8 @@
 //! A sensor that contradicts the others: all unknowns are found without each in turn.
 
 use super::Task;
+use super::neighbourhoods::Neighbourhoods;
 use super::outcome::SeveralOutcome;
-use super::reduced_band::ReducedBand;
 use super::search::BandSolution;
 use crate::identify::band::{OUTLIER_FREQUENCIES, OUTLIER_RATIO};
 use crate::identify::dead_channel::dead_channels;
@@ -16,10 +16,10 @@ use crate::identify::unknown::Unknown;
 const USUAL_NOISE_OVER_RESPONSE: f64 = 1e-2;
 
 impl Task<'_, '_> {
-    /// The sensors that contradict the others, worst first. Of two sensors neither can be told to be the wrong one.
+    /// The sensors that contradict the others, worst first. Of two sensors nothing shows which one is wrong.
     ///
     /// Each trial is a search on a few frequencies, so that there is none where what was found explains the sensors.
-    pub(super) fn contradicting(&self, space: &ReducedBand<'_>, found: &BandSolution) -> Vec<usize> {
+    pub(super) fn contradicting(&self, reduced: &Neighbourhoods<'_>, found: &BandSolution) -> Vec<usize> {
         let sensors = self.problem.experiment.sensors.len();
         let floor = match self.problem.frfs.noise {
             Noise::Known(_) => 1.0,
@@ -32,7 +32,7 @@ impl Task<'_, '_> {
         while with_all > OUTLIER_RATIO * floor && self.is_determined(sensors - out.len()) {
             let mut trials: Vec<(f64, usize)> = (0..sensors)
                 .filter(|m| !out.contains(m) && self.is_calibrated_without(&[&out[..], &[*m]].concat()))
-                .map(|m| (self.chi_squared_without(space, &[&out[..], &[m]].concat()), m))
+                .map(|m| (self.chi_squared_without(reduced, &[&out[..], &[m]].concat()), m))
                 .collect();
             trials.sort_by(|a, b| a.0.total_cmp(&b.0));
             let (Some(&(least, worst)), second) = (trials.first(), trials.get(1)) else { break };
@@ -67,11 +67,11 @@ impl Task<'_, '_> {
         level_of(misfits, (2 * sensors).saturating_sub(self.own())).map_or(0.0, |level| level * level)
     }
 
-    fn chi_squared_without(&self, space: &ReducedBand<'_>, out: &[usize]) -> f64 {
+    fn chi_squared_without(&self, reduced: &Neighbourhoods<'_>, out: &[usize]) -> f64 {
         let task = self.leaving_out(out);
         let all: Vec<usize> = (0..self.omegas.len()).collect();
         let which: Vec<usize> = thinned(&all, OUTLIER_FREQUENCIES).copied().collect();
-        let tried = task.tried(space, &which);
+        let tried = task.tried(reduced, &which);
         let best = &tried[0].1;
         let misfit = |k: usize| best.at(k).or(best.solutions[k].first()).map_or(f64::INFINITY, |s| s.misfit);
         let sensors = self.problem.experiment.sensors.len() - out.len();
@@ -104,7 +104,7 @@ impl Task<'_, '_> {
                 let off = (self.problem.frfs.receptance[i][m] - shown).norm_sqr();
                 Some(off / (2.0 * (level? * assumed[i][m]).powi(2))).filter(|square| square.is_finite())
             };
-            let squares: Vec<f64> = outcome.at.iter().enumerate().filter_map(square).collect();
+            let squares: Vec<f64> = outcome.lines.iter().enumerate().filter_map(square).collect();
             let misfit = (squares.iter().sum::<f64>() / squares.len() as f64).sqrt();
             SensorFit {
                 misfit: Some(misfit).filter(|misfit| misfit.is_finite()),

@@ -11,7 +11,7 @@ use crate::select::{Choice, Node, SelectOptions, choose};
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Chosen {
     pub(super) solution: Option<usize>,
-    pub(super) alternatives: Vec<usize>,
+    pub(super) rivals: Vec<usize>,
 }
 
 /// Values nearer than this part of themselves are one.
@@ -56,7 +56,7 @@ impl Task<'_, '_> {
         (0..solutions.len()).map(|i| self.agreed(i, &solutions[i], &own, &choices)).collect()
     }
 
-    /// The solution that every unknown's path goes through; those that some path cannot exclude are its alternatives.
+    /// The solution that every unknown's path goes through; those that some path cannot exclude are its rivals.
     fn agreed(&self, i: usize, found: &[Solution], own: &[usize], choices: &[Vec<Choice>]) -> Chosen {
         let same = |j: usize, a: usize, b: usize| {
             let (a, b) = (found[a].values[j], found[b].values[j]);
@@ -67,8 +67,7 @@ impl Task<'_, '_> {
         };
         let on_all: Vec<usize> =
             (0..found.len()).filter(|&k| own.iter().zip(choices).all(|both| is_on(k, both))).collect();
-        let mut others: Vec<usize> =
-            choices.iter().flat_map(|choices| choices[i].alternatives.clone()).collect();
+        let mut others: Vec<usize> = choices.iter().flat_map(|choices| choices[i].rivals.clone()).collect();
         others.sort_unstable();
         others.dedup();
         match on_all.first() {
@@ -79,18 +78,17 @@ impl Task<'_, '_> {
                 let possible = |k: usize| {
                     own.iter().zip(choices).all(|(&j, choices)| {
                         let near = |other: usize| other == k || same(j, other, k);
-                        choices[i].chosen.is_some_and(near)
-                            || choices[i].alternatives.iter().copied().any(near)
+                        choices[i].chosen.is_some_and(near) || choices[i].rivals.iter().copied().any(near)
                     })
                 };
                 others.retain(|&k| possible(k));
-                Chosen { solution: Some(best), alternatives: others }
+                Chosen { solution: Some(best), rivals: others }
             }
             None => {
                 others.extend(choices.iter().filter_map(|choices| choices[i].chosen));
                 others.sort_unstable();
                 others.dedup();
-                Chosen { solution: None, alternatives: others }
+                Chosen { solution: None, rivals: others }
             }
         }
     }
@@ -107,7 +105,7 @@ impl Task<'_, '_> {
 }
 
 impl Spot<'_> {
-    /// Covariance of a frequency's own coordinates for given θ, (JᵀJ)⁻¹ row by row; infinite deviations where nothing is told.
+    /// Covariance of a frequency's own coordinates for given θ, (JᵀJ)⁻¹ row by row; infinite where they are not identifiable.
     pub(super) fn covariance(&self, solution: &Solution) -> Vec<Vec<f64>> {
         let n = self.count();
         if n == 0 {

@@ -4,8 +4,8 @@ use super::Task;
 use super::at_frequency::{Solution, eliminate};
 use super::coordinates::Coordinates;
 use super::information::Information;
+use super::neighbourhoods::{Neighbourhoods, between, in_box};
 use super::path::Chosen;
-use super::reduced_band::{ReducedBand, between, in_box};
 use crate::c64;
 use crate::for_each::map;
 use crate::identify::band::{Fit, MAX_TRAINING_ROUNDS, nearest};
@@ -18,7 +18,7 @@ use crate::subspace::Projection;
 
 /// On which model, and for which θ, a frequency is looked at.
 pub(super) struct At<'t, 'a> {
-    pub(super) space: &'t ReducedBand<'a>,
+    pub(super) reduced: &'t Neighbourhoods<'a>,
     pub(super) coordinates: &'t Coordinates,
     pub(super) theta: &'t [f64],
 }
@@ -96,20 +96,20 @@ pub(super) enum Guess<'g> {
 
 impl Task<'_, '_> {
     /// Everything, on a subspace that is good where it ends.
-    pub(super) fn search(&self, space: &mut ReducedBand<'_>) -> BandSolution {
+    pub(super) fn search(&self, reduced: &mut Neighbourhoods<'_>) -> BandSolution {
         let all: Vec<usize> = (0..self.omegas.len()).collect();
         let part: Vec<usize> = thinned(&all, START_FREQUENCIES).copied().collect();
         (self.context.progress)(Stage::Solutions, 0, all.len());
-        let mut tried = self.tried(space, &part);
+        let mut tried = self.tried(reduced, &part);
         let starts = tried.iter().flat_map(|(_, found, _)| found.starts.clone()).collect();
         let (least, first, values) = tried.swap_remove(0);
         let agreeing =
             1 + tried.iter().filter(|other| other.0 <= least * (1.0 + AGREEING_MISFIT_RTOL)).count();
         let found = match part.len() == all.len() {
             true => first,
-            false => self.follow(space, &all, first.begin(), &Guess::Everywhere(&values)),
+            false => self.follow(reduced, &all, first.begin(), &Guess::Everywhere(&values)),
         };
-        let found = self.refined(space, found);
+        let found = self.refined(reduced, found);
         (self.context.progress)(Stage::Solutions, all.len(), all.len());
         BandSolution { starts, agreeing, ..found }
     }
@@ -117,26 +117,26 @@ impl Task<'_, '_> {
     /// The same from one start, and values of all unknowns there.
     pub(super) fn search_from(
         &self,
-        space: &mut ReducedBand<'_>,
+        reduced: &mut Neighbourhoods<'_>,
         begin: Begin,
         values: &[c64],
     ) -> BandSolution {
         let all: Vec<usize> = (0..self.omegas.len()).collect();
-        let found = self.follow(space, &all, begin, &Guess::Everywhere(values));
-        self.refined(space, found)
+        let found = self.follow(reduced, &all, begin, &Guess::Everywhere(values));
+        self.refined(reduced, found)
     }
 
     /// The same on a subspace that is good at its answers.
-    fn refined(&self, space: &mut ReducedBand<'_>, mut found: BandSolution) -> BandSolution {
+    fn refined(&self, reduced: &mut Neighbourhoods<'_>, mut found: BandSolution) -> BandSolution {
         let all: Vec<usize> = (0..self.omegas.len()).collect();
         for _ in 0..MAX_TRAINING_ROUNDS {
             let answers: Vec<(usize, Vec<c64>)> =
                 all.iter().filter_map(|&i| Some((i, found.at(i)?.values.clone()))).collect();
-            if !space.refine(&answers, self.context) {
+            if !reduced.refine(&answers, self.context) {
                 break;
             }
             let known = std::mem::take(&mut found.solutions);
-            found = self.follow(space, &all, found.begin(), &Guess::Known(&known));
+            found = self.follow(reduced, &all, found.begin(), &Guess::Known(&known));
         }
         found
     }
@@ -144,19 +144,19 @@ impl Task<'_, '_> {
     /// Where each start leads at some frequencies, least misfit first: (misfit, solution, start); at least one.
     pub(super) fn tried(
         &self,
-        space: &ReducedBand<'_>,
+        reduced: &Neighbourhoods<'_>,
         which: &[usize],
     ) -> Vec<(f64, BandSolution, Vec<c64>)> {
-        let mut begin = self.starts(space);
+        let mut begin = self.starts(reduced);
         if self.coordinates().count == 0 {
             // Nothing holds for the band: every frequency is searched for itself, wherever it begins.
             begin.truncate(1);
         }
         let mut tried = Vec::with_capacity(begin.len());
         for values in begin {
-            let begin = self.begin(space, which, &values);
+            let begin = self.begin(reduced, which, &values);
             let starts = vec![begin.clone()];
-            let found = self.follow(space, which, begin, &Guess::Everywhere(&values));
+            let found = self.follow(reduced, which, begin, &Guess::Everywhere(&values));
             tried.push((found.misfit(), BandSolution { starts, ..found }, values));
         }
         tried.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -209,22 +209,22 @@ impl Task<'_, '_> {
     /// Solutions, the choice among them and θ in turn, until the choice stays.
     pub(super) fn follow(
         &self,
-        space: &ReducedBand<'_>,
+        reduced: &Neighbourhoods<'_>,
         which: &[usize],
         begin: Begin,
         guess: &Guess<'_>,
     ) -> BandSolution {
-        let mut found = self.found(space, which, begin, guess);
+        let mut found = self.found(reduced, which, begin, guess);
         for _ in 0..MAX_CHOICE_ROUNDS {
             if found.theta.is_empty() {
                 break;
             }
             let before = found.theta.clone();
-            let Some((theta, converged)) = self.descend(space, which, &found) else { break };
+            let Some((theta, converged)) = self.descend(reduced, which, &found) else { break };
             let moved = super::at_frequency::distance(&before, &theta);
             let known = std::mem::take(&mut found.solutions);
             let begin = Begin { theta, ..found.begin() };
-            found = self.found(space, which, begin, &Guess::Known(&known));
+            found = self.found(reduced, which, begin, &Guess::Known(&known));
             found.converged = converged;
             if moved <= THETA_STEP_TOL {
                 break;
@@ -235,12 +235,12 @@ impl Task<'_, '_> {
 
     fn found(
         &self,
-        space: &ReducedBand<'_>,
+        reduced: &Neighbourhoods<'_>,
         which: &[usize],
         Begin { coordinates, theta }: Begin,
         guess: &Guess<'_>,
     ) -> BandSolution {
-        let at = At { space, coordinates: &coordinates, theta: &theta };
+        let at = At { reduced, coordinates: &coordinates, theta: &theta };
         let n = which.len();
         let per_frequency = self.problem.unknowns.iter().any(|one| one.per_frequency() > 0);
         let from = |solutions: &[Vec<Solution>], k: usize, beside: &[usize]| -> Vec<Solution> {
@@ -306,9 +306,9 @@ impl Task<'_, '_> {
         let others =
             self.problem.unknowns.iter().filter(|one| one.per_frequency() > 0).count() - factors.len();
         let found = match (factors.as_slice(), others) {
-            (&[j], 0) => self.all_of(at, at.space.model(i), (i, j), &given),
+            (&[j], 0) => self.all_of(at, at.reduced.model(i), (i, j), &given),
             (&[a, b], 0) => {
-                let rough = rough.insert(at.space.rough(i));
+                let rough = rough.insert(at.reduced.rough(i));
                 let along = |a: usize, b: usize| {
                     let grid = in_turn(&self.problem.unknowns[b], given[b]).into_iter();
                     let with = |value: c64| {
@@ -321,7 +321,7 @@ impl Task<'_, '_> {
                 [along(a, b), along(b, a)].concat()
             }
             (_, others) => (1..=BOX_POINTS_PER_UNKNOWN * (factors.len() + others))
-                .map(|k| in_box(&at.space.composite, &self.nominal[i], k))
+                .map(|k| in_box(&at.reduced.composite, &self.nominal[i], k))
                 .collect(),
         };
         let starts = [values, &self.nominal[i]].into_iter().chain(found.iter().map(Vec::as_slice));
@@ -329,7 +329,7 @@ impl Task<'_, '_> {
         self.settled(at, i, &starts, rough)
     }
 
-    /// The solutions that some starts lead to. Most of many lead nowhere, or where another one does: that is told on a model of few vectors, which may be there already.
+    /// The solutions that some starts lead to. Most of many lead nowhere, or where another one does: a model of few vectors, which may be there already, shows which.
     fn settled(
         &self,
         at: &At<'_, '_>,
@@ -342,13 +342,14 @@ impl Task<'_, '_> {
         };
         let on = |model: &Projection, starts: &[Vec<f64>]| {
             let shown = |x| at.coordinates.channels.shown(at.theta, self.problem.frfs.frequency_hz[i], x);
-            self.spot(i).solutions(starts, &given, |values| at.space.respond_on(model, i, values).map(shown))
+            self.spot(i)
+                .solutions(starts, &given, |values| at.reduced.respond_on(model, i, values).map(shown))
         };
         if starts.len() <= WHOLE_MODEL_STARTS {
-            return on(at.space.model(i), starts);
+            return on(at.reduced.model(i), starts);
         }
-        let rough = on(&rough.unwrap_or_else(|| at.space.rough(i)), starts);
-        on(at.space.model(i), &rough.into_iter().map(|solution| solution.own).collect::<Vec<_>>())
+        let rough = on(&rough.unwrap_or_else(|| at.reduced.rough(i)), starts);
+        on(at.reduced.model(i), &rough.into_iter().map(|solution| solution.own).collect::<Vec<_>>())
     }
 
     /// Whether a frequency has a value of its own of this unknown, in place of a factor.
@@ -369,7 +370,7 @@ impl Task<'_, '_> {
         let channels = &at.coordinates.channels;
         let measured = channels.calibrated(at.theta, frequency_hz, &self.problem.frfs.receptance[i]);
         let sigma = channels.calibrated_sigma(at.theta, &self.sigma[i]);
-        let Ok(at) = at.space.composite.about_one(frequency_hz, given, j) else { return Vec::new() };
+        let Ok(at) = at.reduced.composite.about_one(frequency_hz, given, j) else { return Vec::new() };
         let unknown = &self.problem.unknowns[j];
         let fit =
             Fit { measured: &measured, sigma: &sigma, nominal: given[j], unknown, options: self.options };
@@ -388,7 +389,7 @@ impl Task<'_, '_> {
     /// Each search is on models of a few vectors about where it begins, which are made anew where it ends; one that gains nothing there is made on the whole ones.
     fn descend(
         &self,
-        space: &ReducedBand<'_>,
+        reduced: &Neighbourhoods<'_>,
         which: &[usize],
         found: &BandSolution,
     ) -> Option<(Vec<f64>, bool)> {
@@ -399,26 +400,26 @@ impl Task<'_, '_> {
             false => {
                 let eliminated = self.eliminated(which, found, &found.theta, None)?;
                 let beyond = Place { theta: found.theta.clone(), eliminated };
-                self.moved_to(space, which, (found, &beyond), theta)?
+                self.moved_to(reduced, which, (found, &beyond), theta)?
             }
         };
         let mut held = found.coordinates.binding(&place.theta, &place.eliminated.gradient());
         loop {
-            let (end, converged) = self.descend_free(space, which, (found, place), &held)?;
+            let (end, converged) = self.descend_free(reduced, which, (found, place), &held)?;
             let theta = found.coordinates.within_bounds(&end.theta);
             if theta == end.theta {
                 return Some((end.theta, converged));
             }
             // A coordinate that leaves its bounds is held at them, and the others are searched anew.
             held.extend((0..theta.len()).filter(|&c| theta[c] != end.theta[c]));
-            place = self.moved_to(space, which, (found, &end), theta)?;
+            place = self.moved_to(reduced, which, (found, &end), theta)?;
         }
     }
 
     /// The same with some coordinates held, and no regard to bounds.
     fn descend_free(
         &self,
-        space: &ReducedBand<'_>,
+        reduced: &Neighbourhoods<'_>,
         which: &[usize],
         (found, mut place): (&BandSolution, Place),
         held: &[usize],
@@ -430,15 +431,15 @@ impl Task<'_, '_> {
         let rest = vec![0.0; basis.len()];
         for _ in 0..MAX_THETA_SEARCHES {
             let plane = Plane { origin: &place.theta.clone(), basis: &basis };
-            let near = self.search_in(space, which, (found, &place), &plane, &rest, Reach::Near)?;
+            let near = self.search_in(reduced, which, (found, &place), &plane, &rest, Reach::Near)?;
             let end = plane.at(&near.theta);
             let moved = super::at_frequency::distance(&end, plane.origin);
-            match self.moved_to(space, which, (found, &place), end) {
+            match self.moved_to(reduced, which, (found, &place), end) {
                 Some(next) if next.eliminated.sum() <= place.eliminated.sum() => place = next,
                 _ if moved <= THETA_STEP_TOL => {}
                 _ => {
-                    let end = self.search_in(space, which, (found, &place), &plane, &rest, Reach::Far)?;
-                    let next = self.moved_to(space, which, (found, &place), plane.at(&end.theta))?;
+                    let end = self.search_in(reduced, which, (found, &place), &plane, &rest, Reach::Far)?;
+                    let next = self.moved_to(reduced, which, (found, &place), plane.at(&end.theta))?;
                     return Some((next, end.converged));
                 }
             }
@@ -452,7 +453,7 @@ impl Task<'_, '_> {
     /// The least misfit with θ on a plane, its own coordinates the search's.
     pub(super) fn search_in(
         &self,
-        space: &ReducedBand<'_>,
+        reduced: &Neighbourhoods<'_>,
         which: &[usize],
         (found, place): (&BandSolution, &Place),
         plane: &Plane<'_>,
@@ -462,15 +463,15 @@ impl Task<'_, '_> {
         let n = found.theta.len();
         let models = match reach {
             Reach::Near => map(self.context.for_each, which.len(), |k| {
-                self.model_about(space, which[k], k, (found, place))
+                self.model_about(reduced, which[k], k, (found, place))
             }),
             Reach::Far => vec![None; which.len()],
         };
         let evaluate = |t: &[f64]| {
             let theta = plane.at(t);
-            let model = |k: usize| models[k].as_ref().unwrap_or(space.model(which[k]));
+            let model = |k: usize| models[k].as_ref().unwrap_or(reduced.model(which[k]));
             let start = |k: usize| place.own_at(k, &theta);
-            let on = On { space, model: &model, start: &start };
+            let on = On { reduced, model: &model, start: &start };
             let here = self.eliminated(which, found, &theta, Some(&on))?;
             let m = here.residuals.len();
             let along = |v: &Vec<f64>| -> Vec<f64> {
@@ -486,25 +487,25 @@ impl Task<'_, '_> {
     /// A model of a few vectors about the k-th solution.
     fn model_about(
         &self,
-        space: &ReducedBand<'_>,
+        reduced: &Neighbourhoods<'_>,
         i: usize,
         k: usize,
         (found, place): (&BandSolution, &Place),
     ) -> Option<Projection> {
         let (own, _) = place.eliminated.own[k].as_ref()?;
         let (given, _) = self.given(&found.coordinates, &place.theta, i, &found.at(k)?.values)?;
-        space.about(i, &self.spot(i).values(own, &given))
+        reduced.about(i, &self.spot(i).values(own, &given))
     }
 
     /// The place at another θ, on the whole models.
     pub(super) fn moved_to(
         &self,
-        space: &ReducedBand<'_>,
+        reduced: &Neighbourhoods<'_>,
         which: &[usize],
         (found, place): (&BandSolution, &Place),
         theta: Vec<f64>,
     ) -> Option<Place> {
-        let on = On { space, model: &|k| space.model(which[k]), start: &|k| place.own_at(k, &theta) };
+        let on = On { reduced, model: &|k| reduced.model(which[k]), start: &|k| place.own_at(k, &theta) };
         let eliminated = self.eliminated(which, found, &theta, Some(&on))?;
         Some(Place { theta, eliminated })
     }
@@ -526,7 +527,7 @@ impl Task<'_, '_> {
             let here = match on {
                 None => solution.clone(),
                 Some(on) => spot.settle(&(on.start)(k)?, &given, |values| {
-                    let responded = on.space.respond_on((on.model)(k), i, values)?;
+                    let responded = on.reduced.respond_on((on.model)(k), i, values)?;
                     Some(channels.shown(theta, self.problem.frfs.frequency_hz[i], responded))
                 })?,
             };
@@ -611,7 +612,7 @@ impl Place {
 
 /// On which models solutions are settled, and where they begin.
 pub(super) struct On<'o, 'a> {
-    space: &'o ReducedBand<'a>,
+    reduced: &'o Neighbourhoods<'a>,
     model: &'o (dyn Fn(usize) -> &'o Projection + Sync),
     start: &'o (dyn Fn(usize) -> Option<Vec<f64>> + Sync),
 }

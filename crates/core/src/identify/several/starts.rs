@@ -5,7 +5,7 @@
 
 use super::Task;
 use super::coordinates::Coordinates;
-use super::reduced_band::{ReducedBand, in_box};
+use super::neighbourhoods::{Neighbourhoods, in_box};
 use super::search::{Begin, Guess};
 use crate::c64;
 use crate::for_each::map;
@@ -25,7 +25,7 @@ const FOLLOWED_POINTS: usize = 8;
 /// Evaluations for each start and number.
 const EVALUATIONS_PER_START_AND_NUMBER: usize = 12;
 
-/// Weight of a coordinate's way from the nominal one, beside logarithms of responses: a millionth of what a coordinate that is told moves.
+/// Weight of a coordinate's way from the nominal one, beside logarithms of responses: a millionth of what an identifiable coordinate moves.
 const NOMINAL_WEIGHT: f64 = 1e-3;
 
 /// Ends that are kept: later steps tell which is right.
@@ -33,16 +33,16 @@ const MAX_KEPT_ENDS: usize = 4;
 
 impl Task<'_, '_> {
     /// Values of all unknowns, constant over the band, the likeliest first.
-    pub(super) fn starts(&self, space: &ReducedBand<'_>) -> Vec<Vec<c64>> {
+    pub(super) fn starts(&self, reduced: &Neighbourhoods<'_>) -> Vec<Vec<c64>> {
         let all: Vec<usize> = (0..self.omegas.len()).collect();
         let which: Vec<usize> = thinned(&all, LOG_RESPONSE_FREQUENCIES).copied().collect();
-        let rough = map(self.context.for_each, which.len(), |k| space.rough(which[k]));
+        let rough = map(self.context.for_each, which.len(), |k| reduced.rough(which[k]));
         let middle = &self.nominal[all.len() / 2];
         let constants =
             Coordinates::new(self.problem.unknowns, |_| Variation::Constant, middle, &self.omegas);
         let of = |values: &[c64]| constants.of(values, |_, _| Vec::new());
         let points =
-            (1..=POINTS_PER_NUMBER * constants.count).map(|k| of(&in_box(&space.composite, middle, k)));
+            (1..=POINTS_PER_NUMBER * constants.count).map(|k| of(&in_box(&reduced.composite, middle, k)));
         let begin: Vec<Vec<f64>> = std::iter::once(of(middle)).chain(points).collect();
         let evaluate = |theta: &[f64]| {
             let one = |k: usize| {
@@ -50,7 +50,7 @@ impl Task<'_, '_> {
                 let own = constants.each.iter().map(|own| own.value(theta, self.omegas[i]));
                 let (values, slopes): (Vec<c64>, Vec<Vec<c64>>) =
                     own.collect::<Option<Vec<_>>>()?.into_iter().unzip();
-                let (x, of_values) = space.respond_on(&rough[k], i, &values)?;
+                let (x, of_values) = reduced.respond_on(&rough[k], i, &values)?;
                 let u = &self.problem.frfs.receptance[i];
                 // A zero has no logarithm, and a sensor that is left out no say.
                 let kept: Vec<usize> =
@@ -94,7 +94,7 @@ impl Task<'_, '_> {
 
     /// θ that begins with these constants, and channels that begin where most ratios of the responses to what was measured agree: the responses of these constants, or of what the
     /// calibrated channels alone give where they are enough for it.
-    pub(super) fn begin(&self, space: &ReducedBand<'_>, which: &[usize], values: &[c64]) -> Begin {
+    pub(super) fn begin(&self, reduced: &Neighbourhoods<'_>, which: &[usize], values: &[c64]) -> Begin {
         let coordinates = self.coordinates();
         let theta = self.theta(&coordinates, values);
         let mut begin = Begin { coordinates, theta };
@@ -103,7 +103,7 @@ impl Task<'_, '_> {
         }
         let responses: Vec<Option<Vec<c64>>> = match self.of_calibrated_channels() {
             Some(task) => {
-                let found = task.follow(space, which, begin.clone(), &Guess::Everywhere(values));
+                let found = task.follow(reduced, which, begin.clone(), &Guess::Everywhere(values));
                 begin.theta.clone_from(&found.theta);
                 (0..which.len())
                     .map(|k| Some(found.at(k).or(found.solutions[k].first())?.response.clone()))
@@ -112,7 +112,7 @@ impl Task<'_, '_> {
             None => {
                 let respond = |&i: &usize| {
                     let (values, _) = self.given(&begin.coordinates, &begin.theta, i, values)?;
-                    Some(space.respond(i, &values)?.0)
+                    Some(reduced.respond(i, &values)?.0)
                 };
                 which.iter().map(respond).collect()
             }

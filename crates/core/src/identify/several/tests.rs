@@ -1,7 +1,7 @@
 //! All solutions of two unknowns at a frequency, against many starts.
 
 use super::at_frequency::distance;
-use super::reduced_band::in_box;
+use super::neighbourhoods::in_box;
 use super::search::At;
 use super::*;
 use crate::for_each::sequential;
@@ -74,7 +74,7 @@ fn all_solutions_of_two_unknowns_are_found() {
     let context = Context { for_each: &sequential, progress: &|_, _, _| {} };
     let composite = Composite { model: &model, unknowns: &unknowns };
     let subspace = train(&problem, context).unwrap().unwrap();
-    let space = ReducedBand::new(subspace, &problem, &nominal, context);
+    let reduced = Neighbourhoods::new(subspace, &problem, &nominal, context);
     let options = Options::default();
     let task = Task {
         problem: &problem,
@@ -86,13 +86,13 @@ fn all_solutions_of_two_unknowns_are_found() {
         context,
     };
     let coordinates = task.coordinates();
-    let at = At { space: &space, coordinates: &coordinates, theta: &[] };
+    let at = At { reduced: &reduced, coordinates: &coordinates, theta: &[] };
     let (mut several, mut by_few) = (0, 0);
     for (i, nominal) in nominal.iter().enumerate() {
         let spot = task.spot(i);
         let from = |count: usize| {
             let points = (1..=count).map(|k| spot.coordinates(&in_box(&composite, nominal, k)));
-            spot.solutions(&points.collect::<Vec<_>>(), nominal, |values| space.respond(i, values))
+            spot.solutions(&points.collect::<Vec<_>>(), nominal, |values| reduced.respond(i, values))
         };
         let (many, few) = (from(MANY_STARTS), from(FEW_STARTS));
         let found = task.everywhere(&at, i, nominal);

@@ -42,7 +42,7 @@ const BOX_STORAGES_PER_OCTAVE: f64 = 1.0;
 /// Rounds of refinement at the answers before what is left is called uncertain.
 const MAX_REFINEMENT_ROUNDS: usize = 6;
 
-pub(super) struct ReducedBand<'a, 'o> {
+pub(super) struct Neighbourhoods<'a, 'o> {
     subspace: Subspace<'a>,
     at: &'o [ModelAt<'a>],
     unknown: &'a Unknown,
@@ -81,7 +81,7 @@ impl Block {
     }
 }
 
-impl<'a, 'o> ReducedBand<'a, 'o> {
+impl<'a, 'o> Neighbourhoods<'a, 'o> {
     /// The reduced model where the options want one and it can be built.
     pub(super) fn if_wanted(
         band: &Band<'a>,

@@ -33,7 +33,7 @@ const MAX_NEIGHBOURHOOD_ANSWERS: usize = 8;
 const ROUGH_MODEL_TOL: f64 = 1e-4;
 
 /// A reduced model for a band and a box of several unknowns.
-pub(super) struct ReducedBand<'a> {
+pub(super) struct Neighbourhoods<'a> {
     pub(super) composite: Composite<'a>,
     frequency_hz: &'a [f64],
     /// `[frequency][unknown]`.
@@ -110,7 +110,7 @@ fn box_points<'a>(
     values.map(point).collect()
 }
 
-impl<'a> ReducedBand<'a> {
+impl<'a> Neighbourhoods<'a> {
     /// The models of the neighbourhoods of a band on a subspace that was trained for it.
     pub(super) fn new(
         subspace: Subspace<'a>,
@@ -125,9 +125,9 @@ impl<'a> ReducedBand<'a> {
         let ends = (0..count).map(|b| [b * n / count, (b + 1) * n / count - 1]);
         let blocks = ends.map(|ends| (ends, None)).collect();
         let (answers, corrected, nominal) = (Vec::new(), None, nominal.to_vec());
-        let mut space = Self { composite, frequency_hz, nominal, subspace, blocks, answers, corrected };
-        space.localise(context.for_each);
-        space
+        let mut reduced = Self { composite, frequency_hz, nominal, subspace, blocks, answers, corrected };
+        reduced.localise(context.for_each);
+        reduced
     }
 
     /// What the next one may train further.
@@ -237,8 +237,8 @@ impl<'a> ReducedBand<'a> {
     }
 
     fn localise(&mut self, for_each: ForEach<'_>) {
-        let space = &*self;
-        let models = map(for_each, space.blocks.len(), |b| space.about_block(space.blocks[b].0));
+        let reduced = &*self;
+        let models = map(for_each, reduced.blocks.len(), |b| reduced.about_block(reduced.blocks[b].0));
         self.blocks.iter_mut().zip(models).for_each(|(block, model)| block.1 = Some(model));
     }
 
