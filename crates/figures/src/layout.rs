@@ -23,7 +23,7 @@ const STRIP: (f64, f64) = (12.0, 5.0);
 /// Distance between panels.
 const BETWEEN: f64 = 14.0;
 /// Smallest plot that can be read.
-const LEAST: (f64, f64) = (160.0, 70.0);
+const MIN_PLOT_SIZE: (f64, f64) = (160.0, 70.0);
 /// Rounds after which a page is taken as it is; each lets in another set of tick labels, of which an axis has few.
 const ROUNDS: usize = 20;
 
@@ -86,7 +86,7 @@ impl Layout {
     /// The layout with given margins.
     fn within(figure: &Figure, ranges: &Ranges, margins: Margins) -> Self {
         let side = |length: f64, usual: f64| if length.is_finite() { length.min(1e4) } else { usual };
-        let plot_width = (side(figure.size.0, 720.0) - margins.left - margins.right).max(LEAST.0);
+        let plot_width = (side(figure.size.0, 720.0) - margins.left - margins.right).max(MIN_PLOT_SIZE.0);
         let legends = figure.legends(plot_width);
         let above: Vec<f64> = (0..legends.len()).map(|i| figure.room_above(i, &legends[i], ranges)).collect();
         let below: Vec<f64> =
@@ -105,7 +105,7 @@ impl Layout {
                 x: margins.left,
                 y: top + above[i],
                 width: plot_width,
-                height: (unit * weight(panel)).max(LEAST.1),
+                height: (unit * weight(panel)).max(MIN_PLOT_SIZE.1),
             };
             frames.push(Frame::new(panel, &ranges.panels[i], plot, legend));
             top = plot.bottom() + below[i];

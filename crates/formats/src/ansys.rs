@@ -10,8 +10,8 @@
 //! # Source
 //! Ansys Mechanical APDL Command Reference, HBMAT.
 
-use crate::assemble::MOST_ROWS;
-use crate::label::{MOST_NODES, distinct};
+use crate::assemble::MAX_ROWS;
+use crate::label::{MAX_NODE, distinct};
 use crate::text::{Line, Lines, Tokens, quoted};
 use crate::{DofLabel, FormatError};
 
@@ -37,8 +37,8 @@ pub fn read_mapping(bytes: &[u8]) -> Result<Vec<DofLabel>, FormatError> {
     for line in lines {
         let mut tokens = Tokens::new(line);
         let due = labels.len() as u64 + 1;
-        tokens.whole("the number of the next row", due, due.min(MOST_ROWS))?;
-        let node = tokens.whole("a node", 1, MOST_NODES)? as i64;
+        tokens.whole("the number of the next row", due, due.min(MAX_ROWS))?;
+        let node = tokens.whole("a node", 1, MAX_NODE)? as i64;
         let (start, word) = tokens.take();
         let direction = DIRECTIONS.iter().position(|name| name.as_bytes().eq_ignore_ascii_case(word));
         let component =

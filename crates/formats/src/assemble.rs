@@ -5,10 +5,10 @@ use num_complex::Complex64 as c64;
 use crate::{CoordinateMatrix, Entries, Symmetry};
 
 /// The largest number of rows or columns: what a signed 32-bit index counts.
-pub(crate) const MOST_ROWS: u64 = i32::MAX as u64;
+pub(crate) const MAX_ROWS: u64 = i32::MAX as u64;
 
 /// The largest number of entries: what a signed 32-bit pointer counts.
-pub(crate) const MOST_ENTRIES: u64 = i32::MAX as u64;
+pub(crate) const MAX_ENTRIES: u64 = i32::MAX as u64;
 
 /// A stored value: none (pattern), real or complex.
 pub(crate) trait Value: Copy {
@@ -106,7 +106,7 @@ impl<V: Value> Assembly<V> {
         Self { symmetry, keys: Vec::with_capacity(capacity), values: Vec::with_capacity(capacity) }
     }
 
-    /// Adds an entry (row and column from 0, below [`MOST_ROWS`]), mirrored into the lower triangle.
+    /// Adds an entry (row and column from 0, below [`MAX_ROWS`]), mirrored into the lower triangle.
     ///
     /// # Errors
     /// What the symmetry asks of a diagonal entry and what this one is instead.

@@ -2,7 +2,7 @@
 
 use num_complex::Complex64 as c64;
 
-use crate::assemble::{Assembly, Duplicates, MOST_ROWS, Value};
+use crate::assemble::{Assembly, Duplicates, MAX_ROWS, Value};
 use crate::text::FINITE;
 use crate::{CoordinateMatrix, Entries, FormatError, Position, Symmetry};
 
@@ -15,8 +15,8 @@ pub(crate) struct Gather<V> {
 
 impl<V: Value> Gather<V> {
     pub(crate) fn new(nrows: u64, ncols: u64) -> Self {
-        let refused = (nrows > MOST_ROWS || ncols > MOST_ROWS).then(|| {
-            let expected = format!("at most {MOST_ROWS} rows and columns");
+        let refused = (nrows > MAX_ROWS || ncols > MAX_ROWS).then(|| {
+            let expected = format!("at most {MAX_ROWS} rows and columns");
             FormatError::whole(expected, format!("{nrows} by {ncols}"))
         });
         Self { size: [nrows, ncols], assembly: Assembly::new(Symmetry::General, 0), refused }

@@ -18,7 +18,7 @@ pub struct DofLabel {
 }
 
 /// The largest node number.
-pub(crate) const MOST_NODES: u64 = i32::MAX as u64;
+pub(crate) const MAX_NODE: u64 = i32::MAX as u64;
 
 impl DofLabel {
     /// The direction in which it moves; `None` for what is none.
@@ -69,9 +69,9 @@ impl Labels {
 /// Up to three labels and how many more there are, as an error lists them.
 #[must_use]
 pub fn listed_labels(labels: &[DofLabel]) -> String {
-    const MOST: usize = 3;
-    let shown: Vec<_> = labels.iter().take(MOST).map(DofLabel::to_string).collect();
-    match labels.len().saturating_sub(MOST) {
+    const MAX_SHOWN: usize = 3;
+    let shown: Vec<_> = labels.iter().take(MAX_SHOWN).map(DofLabel::to_string).collect();
+    match labels.len().saturating_sub(MAX_SHOWN) {
         0 => shown.join(", "),
         more => format!("{} and {more} more", shown.join(", ")),
     }

@@ -3,7 +3,7 @@
 use num_complex::Complex64 as c64;
 
 use crate::FormatError;
-use crate::assemble::{Assembly, Duplicates, HERMITIAN_DIAGONAL, MOST_ROWS, SKEW_DIAGONAL, Value};
+use crate::assemble::{Assembly, Duplicates, HERMITIAN_DIAGONAL, MAX_ROWS, SKEW_DIAGONAL, Value};
 use crate::text::FINITE;
 
 /// What the file declares about A and its transpose.
@@ -108,8 +108,8 @@ impl CoordinateMatrix {
             let expected = format!("a square matrix of {} rows, a place for each", to.len());
             return Err(FormatError::whole(expected, format!("{} by {}", self.nrows, self.ncols)));
         }
-        if size as u64 > MOST_ROWS {
-            return Err(FormatError::whole(format!("a size up to {MOST_ROWS}"), size.to_string()));
+        if size as u64 > MAX_ROWS {
+            return Err(FormatError::whole(format!("a size up to {MAX_ROWS}"), size.to_string()));
         }
         let mut places: Vec<usize> = to.iter().flatten().copied().collect();
         places.sort_unstable();

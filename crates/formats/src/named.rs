@@ -71,13 +71,16 @@ fn chosen(matrices: &[NamedMatrix], name: Option<&str>) -> Result<usize, FormatE
 
 /// What a file holds, as an error lists it.
 fn listed(matrices: &[NamedMatrix]) -> String {
-    const MOST: usize = 12;
+    const MAX_SHOWN: usize = 12;
     if matrices.is_empty() {
         return "none".into();
     }
-    let shown: Vec<_> = matrices.iter().take(MOST).map(NamedMatrix::described).collect();
-    let more =
-        if matrices.len() > MOST { format!(" and {} more", matrices.len() - MOST) } else { String::new() };
+    let shown: Vec<_> = matrices.iter().take(MAX_SHOWN).map(NamedMatrix::described).collect();
+    let more = if matrices.len() > MAX_SHOWN {
+        format!(" and {} more", matrices.len() - MAX_SHOWN)
+    } else {
+        String::new()
+    };
     format!("{}{more}", shown.join(", "))
 }
 

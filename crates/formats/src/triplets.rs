@@ -18,8 +18,8 @@
 //! G. Dhondt: CalculiX CrunchiX User's Manual, keywords \*FREQUENCY and \*MODAL DYNAMIC: `SOLVER=MATRIXSTORAGE`.
 //! Abaqus Analysis User's Guide, "Generating matrices", `*MATRIX OUTPUT, FORMAT=COORDINATE`.
 
-use crate::assemble::MOST_ROWS;
-use crate::label::{MOST_NODES, distinct};
+use crate::assemble::MAX_ROWS;
+use crate::label::{MAX_NODE, distinct};
 use crate::labelled::Labelled;
 use crate::text::{Decimal, FINITE, Line, Lines, Tokens, quoted, whole};
 use crate::{CoordinateMatrix, DofLabel, FormatError};
@@ -33,8 +33,8 @@ pub fn read(bytes: &[u8]) -> Result<CoordinateMatrix, FormatError> {
     let mut entries = Labelled::<u32>::new();
     let title = each_entry(bytes, |line| {
         let fields = Fields::split(line);
-        let row = fields.whole(0, "a row", MOST_ROWS)?;
-        let col = fields.whole(1, "a column", MOST_ROWS)?;
+        let row = fields.whole(0, "a row", MAX_ROWS)?;
+        let col = fields.whole(1, "a column", MAX_ROWS)?;
         let value = fields.value(2)?;
         fields.end(3)?;
         entries.push(line.number, row as u32, col as u32, value);
@@ -52,7 +52,7 @@ pub fn read(bytes: &[u8]) -> Result<CoordinateMatrix, FormatError> {
 /// Whether a line is an entry of such a list.
 pub(crate) fn is_entry(line: Line<'_>) -> bool {
     let fields = Fields::split(line);
-    let indices = (0..2).all(|k| fields.whole(k, "", MOST_ROWS).is_ok());
+    let indices = (0..2).all(|k| fields.whole(k, "", MAX_ROWS).is_ok());
     indices && fields.value(2).is_ok() && fields.end(3).is_ok()
 }
 
@@ -80,7 +80,7 @@ pub fn read_dofs(bytes: &[u8]) -> Result<Vec<DofLabel>, FormatError> {
 
 fn dof(token: &[u8]) -> Option<DofLabel> {
     let point = token.iter().position(|&b| b == b'.')?;
-    let node = whole(&token[..point]).filter(|node| (1..=MOST_NODES).contains(node))?;
+    let node = whole(&token[..point]).filter(|node| (1..=MAX_NODE).contains(node))?;
     match token[point + 1..] {
         [digit @ b'0'..=b'9'] => Some(DofLabel { node: node as i64, component: digit - b'0' }),
         _ => None,
@@ -118,19 +118,19 @@ pub(crate) fn each_entry<'a>(
 pub(crate) struct Fields<'a> {
     line: Line<'a>,
     /// Where each starts, and what it is.
-    fields: [(usize, &'a [u8]); Fields::MOST],
+    fields: [(usize, &'a [u8]); Fields::MAX_COUNT],
     count: usize,
 }
 
 impl<'a> Fields<'a> {
     /// One more than the longest line that is read has.
-    pub(crate) const MOST: usize = 7;
+    pub(crate) const MAX_COUNT: usize = 7;
 
     pub(crate) fn split(line: Line<'a>) -> Self {
-        let mut fields = [(line.bytes.len(), &[][..]); Self::MOST];
+        let mut fields = [(line.bytes.len(), &[][..]); Self::MAX_COUNT];
         let (mut count, mut at) = (0, 0);
         let is_between = |b: u8| b == b',' || b.is_ascii_whitespace();
-        while count < Self::MOST {
+        while count < Self::MAX_COUNT {
             let Some(skip) = line.bytes[at..].iter().position(|&b| !is_between(b)) else { break };
             let start = at + skip;
             let length = line.bytes[start..].iter().position(|&b| is_between(b));
@@ -162,7 +162,7 @@ impl<'a> Fields<'a> {
             None => (1, field),
         };
         match whole(digits) {
-            Some(n) if (1..=MOST_NODES).contains(&n) => Ok(sign * n as i64),
+            Some(n) if (1..=MAX_NODE).contains(&n) => Ok(sign * n as i64),
             _ => Err(self.line.error(start, "a node number other than 0, below 2^31", quoted(field))),
         }
     }

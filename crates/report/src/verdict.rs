@@ -7,7 +7,7 @@ use frfit::frequency::bands_hz;
 use frfit::identify::{Status, Trust};
 
 /// Above this share of trusted frequencies a band is called usable as a whole.
-const MOST_OF_IT: f64 = 0.9;
+const MIN_TRUSTED_SHARE: f64 = 0.9;
 
 /// How far the answer as a whole can be trusted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -172,7 +172,7 @@ fn doubt(results: &Results) -> Option<&'static str> {
     if let Some((_, doubt)) = doubts.into_iter().find(|(holds, _)| *holds) {
         return Some(doubt);
     }
-    match (results.summary.word("/fit/verdict"), ok as f64 >= MOST_OF_IT * asked as f64) {
+    match (results.summary.word("/fit/verdict"), ok as f64 >= MIN_TRUSTED_SHARE * asked as f64) {
         ("explained", true) => None,
         ("explained", false) => {
             Some("; elsewhere the value is not identifiable, or the measurements are not explained.")

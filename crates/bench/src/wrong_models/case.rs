@@ -429,7 +429,7 @@ fn thicken(structure: &mut Structure, wanted: &mut Range, dice: &mut Dice) -> Re
         let by = match size(&errors) {
             Some(error) if error < WRONG[0] => THICKER,
             Some(error) if error <= WRONG[1] => break,
-            _ if rows(structure, &finer) <= TRUTH_ROWS && finer.plan <= MOST_PLAN => {
+            _ if rows(structure, &finer) <= TRUTH_ROWS && finer.plan <= MAX_PLAN_REFINEMENT => {
                 change = finer;
                 continue;
             }
@@ -449,7 +449,7 @@ fn thicken(structure: &mut Structure, wanted: &mut Range, dice: &mut Dice) -> Re
 const THICKER: f64 = 1.2;
 
 /// Elements in plan for one of the model, at most.
-const MOST_PLAN: usize = 4;
+const MAX_PLAN_REFINEMENT: usize = 4;
 
 /// Receptances by a direct solve at each line.
 pub(crate) fn solve(

@@ -8,8 +8,8 @@ const CURVATURES: [f64; 7] = [1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01];
 /// Before anything is known of a path's curvature. Not taken from the straightest path there is: that may well be a wrong one.
 pub(super) const DEFAULT_CURVATURE: f64 = 0.5;
 
-/// The share of a band that is most of it.
-const MOST: f64 = 0.85;
+/// A path that covers at least this share of the frequencies with points covers the band.
+const MIN_COVERED_SHARE: f64 = 0.85;
 
 /// In the likelihood of sizes the cost of not being a material counts once for so many frequencies. Counted once for the band it would lose against solutions beside
 /// poles: noise does not move their branches, so they win some ten nats at each frequency where no scatter is allowed.
@@ -40,7 +40,7 @@ impl Band {
     /// Whether a path has a point at most of the frequencies that have any.
     pub(super) fn is_covered<T>(&self, path: &[Option<T>]) -> bool {
         let count = path.iter().flatten().count() as f64;
-        count >= MOST * self.occupied() as f64
+        count >= MIN_COVERED_SHARE * self.occupied() as f64
     }
 
     /// Frequencies that have any points.

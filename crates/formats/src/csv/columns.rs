@@ -55,12 +55,14 @@ impl Table {
 
     /// The first few names, for an error.
     pub(super) fn listed(&self) -> String {
-        const MOST: usize = 8;
+        const MAX_SHOWN: usize = 8;
         let names = || self.names().filter(|name| !name.is_empty());
-        let shown: Vec<_> = names().take(MOST).map(|name| quoted(name.as_bytes())).collect();
+        let shown: Vec<_> = names().take(MAX_SHOWN).map(|name| quoted(name.as_bytes())).collect();
         match shown.as_slice() {
             [] => "columns without names".into(),
-            _ => format!("{}{}", shown.join(", "), if names().nth(MOST).is_some() { ", ..." } else { "" }),
+            _ => {
+                format!("{}{}", shown.join(", "), if names().nth(MAX_SHOWN).is_some() { ", ..." } else { "" })
+            }
         }
     }
 

@@ -2,8 +2,8 @@
 
 use super::card::Field;
 use crate::FormatError;
-use crate::assemble::MOST_ROWS;
-use crate::label::{DofLabel, MOST_NODES};
+use crate::assemble::MAX_ROWS;
+use crate::label::{DofLabel, MAX_NODE};
 use crate::text::{Decimal, whole};
 
 /// What the header of a matrix says.
@@ -46,7 +46,7 @@ impl Header {
             true => Ok(None),
             false => number(field, name, 0, most).map(Some),
         };
-        let columns = optional(ncol, "NCOL", MOST_ROWS)?.filter(|&n| n > 0);
+        let columns = optional(ncol, "NCOL", MAX_ROWS)?.filter(|&n| n > 0);
         let form = match number(ifo, "IFO", 1, 9)? {
             1 => Form::Square,
             6 => Form::Symmetric,
@@ -56,7 +56,7 @@ impl Header {
         };
         let is_complex = number(tin, "TIN", 1, 4)? > 2;
         optional(tout, "TOUT", 4)?;
-        let is_polar = optional(polar, "POLAR", MOST_NODES)?.is_some_and(|polar| polar > 0);
+        let is_polar = optional(polar, "POLAR", MAX_NODE)?.is_some_and(|polar| polar > 0);
         if !blank.is_blank() {
             return Err(blank.refuse("a blank field between POLAR and NCOL"));
         }
@@ -72,7 +72,7 @@ fn number(field: &Field<'_>, name: &str, least: u64, most: u64) -> Result<u64, F
 
 /// Grid and component.
 pub(super) fn label(grid: &Field<'_>, component: &Field<'_>) -> Result<DofLabel, FormatError> {
-    let node = number(grid, "a grid", 1, MOST_NODES)? as i64;
+    let node = number(grid, "a grid", 1, MAX_NODE)? as i64;
     let component = match component.is_blank() {
         true => 0,
         false => number(component, "a component", 0, 6)? as u8,

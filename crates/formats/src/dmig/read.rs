@@ -41,7 +41,7 @@ pub fn read(bytes: &[u8]) -> Result<Vec<NamedMatrix>, FormatError> {
 }
 
 /// More are in no file that is meant; each takes room before its first entry.
-const MOST_MATRICES: usize = 1000;
+const MAX_MATRICES: usize = 1000;
 
 fn headers(bytes: &[u8]) -> Result<Vec<Header>, FormatError> {
     let mut headers: Vec<Header> = Vec::new();
@@ -55,8 +55,8 @@ fn headers(bytes: &[u8]) -> Result<Vec<Header>, FormatError> {
                 let found = format!("{} again, first in line {first}", header.name);
                 return Err(FormatError::line(header.line, "one header for each matrix", found));
             }
-            if headers.len() == MOST_MATRICES {
-                let expected = format!("at most {MOST_MATRICES} matrices in a file");
+            if headers.len() == MAX_MATRICES {
+                let expected = format!("at most {MAX_MATRICES} matrices in a file");
                 return Err(FormatError::line(header.line, expected, "one more"));
             }
             headers.push(header);

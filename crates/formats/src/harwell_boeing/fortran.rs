@@ -34,7 +34,7 @@ impl Field {
 }
 
 /// More fields than this in one line are no file of this world.
-const MOST_FIELDS: usize = 1000;
+const MAX_FIELDS: usize = 1000;
 
 /// The header has 20 columns for a format; groups are read as often as they repeat, so there is an end.
 const LONGEST: usize = 200;
@@ -150,7 +150,7 @@ impl Parser<'_> {
         }
         self.format.scale = self.scale;
         for _ in 0..repeat {
-            if self.format.fields.len() == MOST_FIELDS {
+            if self.format.fields.len() == MAX_FIELDS {
                 return Err("a format with at most 1000 fields a line");
             }
             let decimals = if is_integer { 0 } else { decimals as i64 };

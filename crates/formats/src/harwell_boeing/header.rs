@@ -3,7 +3,7 @@
 use super::formats::Formats;
 use super::fortran::Format;
 use super::matrix_type::{ValueType, matrix_type};
-use crate::assemble::{MOST_ENTRIES, MOST_ROWS};
+use crate::assemble::{MAX_ENTRIES, MAX_ROWS};
 use crate::matrix::SQUARE;
 use crate::text::{Line, Lines, quoted, whole};
 use crate::{FormatError, Symmetry};
@@ -58,9 +58,9 @@ impl Header {
 
         let kind = header_line(lines)?;
         let (field, symmetry) = matrix_type(kind)?;
-        let nrows = bounded(kind, 1, "NROW, a number of rows", MOST_ROWS)?;
-        let ncols = bounded(kind, 2, "NCOL, a number of columns", MOST_ROWS)?;
-        let entries = bounded(kind, 3, "NNZERO, a number of entries", MOST_ENTRIES)?;
+        let nrows = bounded(kind, 1, "NROW, a number of rows", MAX_ROWS)?;
+        let ncols = bounded(kind, 2, "NCOL, a number of columns", MAX_ROWS)?;
+        let entries = bounded(kind, 3, "NNZERO, a number of entries", MAX_ENTRIES)?;
         if symmetry != Symmetry::General && nrows != ncols {
             return Err(FormatError::line(3, SQUARE, format!("{nrows} rows and {ncols} columns")));
         }
@@ -102,7 +102,7 @@ impl RhsHeader {
                 return Err(line.error(0, "RHSTYP: F or M, then G or blank, then X or blank", quoted(&kind)));
             }
         }
-        let number = bounded(line, 1, "NRHS, a number of right-hand sides", MOST_ROWS)?;
+        let number = bounded(line, 1, "NRHS, a number of right-hand sides", MAX_ROWS)?;
         Ok(Self { lines: count, kind, count: number, format, line: line.number })
     }
 }

@@ -1,6 +1,6 @@
 //! Banner, comments and size line.
 
-use crate::assemble::{MOST_ENTRIES, MOST_ROWS};
+use crate::assemble::{MAX_ENTRIES, MAX_ROWS};
 use crate::matrix::SQUARE;
 use crate::text::{Line, Lines, Tokens, quoted};
 use crate::{FormatError, Symmetry};
@@ -42,10 +42,10 @@ impl Header {
         let (is_coordinate, field, symmetry) = banner(first)?;
         let (title, size) = comments_and_size_line(lines)?;
         let mut tokens = Tokens::new(size);
-        let nrows = tokens.whole("a number of rows", 0, MOST_ROWS)?;
-        let ncols = tokens.whole("a number of columns", 0, MOST_ROWS)?;
+        let nrows = tokens.whole("a number of rows", 0, MAX_ROWS)?;
+        let ncols = tokens.whole("a number of columns", 0, MAX_ROWS)?;
         let entries = match is_coordinate {
-            true => Some(tokens.whole("a number of entries", 0, MOST_ENTRIES)?),
+            true => Some(tokens.whole("a number of entries", 0, MAX_ENTRIES)?),
             false => None,
         };
         tokens.end()?;

@@ -6,8 +6,10 @@ use crate::{CoordinateMatrix, Entries, FormatError, Symmetry};
 
 /// Numbers in a line of 80 characters: 17 digits, a sign and an exponent of three digits each.
 const IN_LINE: usize = 3;
-/// What fits into 8 characters beside the sign of BIGMAT, and without.
-const MOST: [usize; 2] = [9_999_999, 99_999_998];
+/// The largest number of rows: 8 characters, one of them the sign of BIGMAT.
+const MAX_ROWS: usize = 9_999_999;
+/// The largest number of columns, and of words in a column: 8 characters.
+const MAX_COLUMNS_OR_WORDS: usize = 99_999_998;
 /// Words of a double.
 const WORDS: usize = 2;
 
@@ -40,8 +42,8 @@ type Entry = (usize, usize, [f64; 2]);
 fn write_one(out: &mut Vec<u8>, name: &str, matrix: &CoordinateMatrix) -> Result<(), FormatError> {
     matrix.validate()?;
     let CoordinateMatrix { nrows, ncols, .. } = *matrix;
-    if nrows > MOST[0] || ncols > MOST[1] {
-        let expected = format!("at most {} rows and {} columns", MOST[0], MOST[1]);
+    if nrows > MAX_ROWS || ncols > MAX_COLUMNS_OR_WORDS {
+        let expected = format!("at most {} rows and {} columns", MAX_ROWS, MAX_COLUMNS_OR_WORDS);
         return Err(FormatError::whole(expected, format!("{nrows} and {ncols}")));
     }
     let (kind, numbers) = match &matrix.entries {
@@ -60,9 +62,9 @@ fn write_one(out: &mut Vec<u8>, name: &str, matrix: &CoordinateMatrix) -> Result
     for column in entries.chunk_by(|a, b| a.0 == b.0) {
         let strings: Vec<&[Entry]> = column.chunk_by(|a, b| a.1 + 1 == b.1).collect();
         let words = 2 * strings.len() + WORDS * numbers * column.len();
-        if words > MOST[1] {
+        if words > MAX_COLUMNS_OR_WORDS {
             return Err(FormatError::whole(
-                format!("at most {} words in a column", MOST[1]),
+                format!("at most {} words in a column", MAX_COLUMNS_OR_WORDS),
                 words.to_string(),
             ));
         }

@@ -13,7 +13,7 @@ pub(crate) struct ErrorMap {
 }
 
 /// What a map may have of either: a file that names more orders and frequencies than rows could fill makes no larger map.
-const MOST: usize = 400;
+const MAX_SIDE: usize = 400;
 
 impl ErrorMap {
     pub(crate) fn read(table: &Columns) -> Result<Self, FormatError> {
@@ -26,9 +26,9 @@ impl ErrorMap {
             values
         };
         let (frequency_hz, order) = (distinct(&f), distinct(&n));
-        if frequency_hz.len().max(order.len()) > MOST {
+        if frequency_hz.len().max(order.len()) > MAX_SIDE {
             let found = format!("{} frequencies and {} orders", frequency_hz.len(), order.len());
-            return Err(FormatError::whole(format!("up to {MOST} frequencies and orders"), found));
+            return Err(FormatError::whole(format!("up to {MAX_SIDE} frequencies and orders"), found));
         }
         let mut map = vec![vec![None; frequency_hz.len()]; order.len()];
         for (row, error) in error.into_iter().enumerate() {

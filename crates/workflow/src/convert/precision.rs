@@ -7,7 +7,7 @@ use frfit_formats::uff::{File, Form, Function, Spacing, write};
 ///
 /// Single precision moves six decimal digits, all that the text of a stored abscissa has, by up to half of 2⁻¹⁰ where
 /// their last place is 10⁻²: by a twentieth of the smallest step that they can show. More than that is a loss.
-const MOST_DRIFT: f64 = 0.05;
+const MAX_DRIFT_STEPS: f64 = 0.05;
 
 /// A function as dataset 58 or 58b.
 ///
@@ -29,7 +29,7 @@ pub(super) fn written_evenly_or_not(function: &Function, form: Form) -> Result<V
 }
 
 fn within_limit((bytes, drift): (Vec<u8>, f64)) -> Result<Vec<u8>, FormatError> {
-    match drift <= MOST_DRIFT {
+    match drift <= MAX_DRIFT_STEPS {
         true => Ok(bytes),
         false => Err(FormatError::whole(
             "an abscissa that the text of a UFF file can show, or binary data (--binary)",

@@ -105,9 +105,9 @@ impl TableFacts {
 
     /// Why it serves as nothing is told only where it does: else it is plain.
     pub(super) fn lines(&self, file: &Path) -> String {
-        const MOST: usize = 8;
-        let rest = if self.columns.len() > MOST { ", ..." } else { "" };
-        let named = &self.columns[..self.columns.len().min(MOST)];
+        const MAX_SHOWN: usize = 8;
+        let rest = if self.columns.len() > MAX_SHOWN { ", ..." } else { "" };
+        let named = &self.columns[..self.columns.len().min(MAX_SHOWN)];
         let mut lines = vec![
             ("columns", format!("{} ({}{rest})", self.columns.len(), named.join(", "))),
             ("rows", self.rows.to_string()),

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 const STANDARD_OUTPUT: [&str; 3] = ["-", "/dev/stdout", "/dev/fd/1"];
 
 /// More links than systems follow.
-const MOST_LINKS: usize = 40;
+const MAX_LINKS: usize = 40;
 
 /// Where bytes go.
 #[derive(Debug)]
@@ -39,7 +39,7 @@ impl Target {
         }
         let failed = |error: std::io::Error| ("to write here", error.to_string());
         let mut path = path.to_path_buf();
-        for _ in 0..MOST_LINKS {
+        for _ in 0..MAX_LINKS {
             let metadata = match fs::symlink_metadata(&path) {
                 Ok(metadata) => metadata,
                 Err(error) if error.kind() == ErrorKind::NotFound => {

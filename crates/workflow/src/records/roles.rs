@@ -158,14 +158,14 @@ fn named<'a>(channels: &[&'a RawChannel], name: &str, option: &str) -> Result<&'
 
 /// Number, name and unit of the first few.
 fn listed(channels: &[&RawChannel]) -> String {
-    const MOST: usize = 8;
+    const MAX_SHOWN: usize = 8;
     let shown = |(k, channel): (usize, &&RawChannel)| {
         let unit = if channel.unit.is_empty() { "no unit" } else { &channel.unit };
         let dof = channel.dof.map_or(String::new(), |dof| format!(" at {dof}"));
         format!("{}: {:?}{dof} in {unit}", k + 1, channel.name)
     };
-    let first: Vec<String> = channels.iter().enumerate().take(MOST).map(shown).collect();
-    format!("{}{}", first.join(", "), if channels.len() > MOST { ", ..." } else { "" })
+    let first: Vec<String> = channels.iter().enumerate().take(MAX_SHOWN).map(shown).collect();
+    format!("{}{}", first.join(", "), if channels.len() > MAX_SHOWN { ", ..." } else { "" })
 }
 
 /// The unit by its name, or else by what the file says otherwise.

@@ -1,6 +1,6 @@
 //! Time and memory of a band over the number of its frequencies.
 //!
-//! `lines [MOST]` leaves out bands of more frequencies (default: 100 000).
+//! `lines [MAX_LINES]` leaves out bands of more frequencies (default: 100 000).
 //!
 //! A clamped plate of 972 degrees of freedom with a loss factor of one per mille and a few per cent, exact measurements, one thread. Memory is that of the process before
 //! the identification, and the largest during it.
