@@ -85,13 +85,13 @@ def attributes(cls: type) -> Iterator[str]:
     """The fields of a dataclass, each with the docstring below it if there is one."""
     tree = ast.parse(inspect.cleandoc(inspect.getsource(cls))).body[0]
     assert isinstance(tree, ast.ClassDef)
-    told = {}
+    docstrings = {}
     for one, after in zip(tree.body, [*tree.body[1:], None], strict=True):
         if isinstance(one, ast.AnnAssign) and isinstance(one.target, ast.Name):
             is_text = isinstance(after, ast.Expr) and isinstance(after.value, ast.Constant)
-            told[one.target.id] = " ".join(after.value.value.split()) if is_text else ""
+            docstrings[one.target.id] = " ".join(after.value.value.split()) if is_text else ""
     for one in fields(cls):
-        about = f": {plain(told[one.name])}" if told.get(one.name) else ""
+        about = f": {plain(docstrings[one.name])}" if docstrings.get(one.name) else ""
         yield f"- `{one.name}`{about}"
 
 
@@ -141,7 +141,7 @@ def entry(name: str) -> str:
     return "\n\n".join(part for part in text if part)
 
 
-# What a call returns: nobody makes one, so that its signature tells nothing.
+# What a call returns: no caller makes one, so that its signature is of no use.
 RESULTS = {"Identification", "Estimate", "Finding", "Impact", "MeasuredFrf", "Uff", "UffSummary"}
 
 

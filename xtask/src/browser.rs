@@ -7,7 +7,7 @@ use std::process::Command;
 /// The version that the checks were written for; it drives a Chromium that is there and brings none.
 const PLAYWRIGHT: &str = "playwright-core@1.65.1";
 
-/// Examples whose reports are looked at, with what `identify` is told: the paper's series with an error map, one where it diverges, a real factor, a rule that
+/// Examples whose reports are looked at, with options of `identify`: the paper's series with an error map, one where it diverges, a real factor, a rule that
 /// leaves most frequencies ambiguous, many frequencies with error bars, two sensors that agree, two numbers that hold for the band and hang together, two curves.
 const EXAMPLES: [(&str, &[&str]); 8] = [
     ("rubber-bar", &[]),
@@ -92,7 +92,7 @@ fn check(chromium: &Path) -> Vec<Step> {
     let built = run("frfit", &mut cargo(["build", "--quiet", "--package", "frfit-cli"]));
     let frfit = target().join("debug/frfit");
     let mut passed = built.passed;
-    for (name, told) in EXAMPLES {
+    for (name, options) in EXAMPLES {
         let case = folder.join("cases").join(name);
         let frfit = |arguments: &[&str]| {
             let mut command = Command::new(&frfit);
@@ -105,7 +105,7 @@ fn check(chromium: &Path) -> Vec<Step> {
             passed &= works(frfit(&["frf", "records.lvm", "-o", "frf.uff"]).current_dir(&case));
         }
         let mut identify = frfit(&["identify", "case.toml", "--out"]);
-        passed &= works(identify.arg(reports.join(name)).args(told).current_dir(&case));
+        passed &= works(identify.arg(reports.join(name)).args(options).current_dir(&case));
     }
     passed &= works(Command::new("node").arg(scripts.join("large.mjs")).arg(reports.join("large")));
     passed &= works(Command::new(&frfit).args(["--quiet", "report"]).arg(reports.join("large")));

@@ -38,7 +38,7 @@ pub(crate) fn cargo<S: AsRef<OsStr>>(arguments: impl IntoIterator<Item = S>) -> 
     command
 }
 
-/// Whether a command is there, as its success at `arguments` (such as `--version`) tells.
+/// Whether a command is there: it is called with `arguments` (such as `--version`) and succeeds.
 pub(crate) fn works(command: &mut Command) -> bool {
     command.stdout(Stdio::null()).stderr(Stdio::null()).status().is_ok_and(|status| status.success())
 }

@@ -3,7 +3,7 @@
 use std::fs::read_to_string;
 use std::thread::available_parallelism;
 
-/// Model of the processor and number of cores, as far as the system tells.
+/// Model of the processor and number of cores, as far as the system reports them.
 pub fn machine() -> String {
     let info = read_to_string("/proc/cpuinfo").unwrap_or_default();
     let model =

@@ -1,4 +1,4 @@
-//! Memory of this process, as far as the system tells.
+//! Memory of this process, as far as the system reports it.
 
 use std::fs;
 

@@ -46,7 +46,7 @@ pub(crate) enum Command {
     /// Say what is wrong with measurements against the model
     #[command(after_help = "Example: frfit check case.toml\n\n\
                       Looks for conjugated, reversed, delayed and wrongly scaled FRFs, for receptance, mobility and accelerance taken for one another, \
-                      for sensors and loads elsewhere than the case says, and for a band beyond the mesh.\n\n\
+                      for sensors and loads at other rows than the case says, and for a band beyond the mesh.\n\n\
                       Exit code: 0 done; 1 with --strict where something is found; 2 the input is at fault; 3 a fault of frfit.")]
     Check(Check),
     /// Find the parameter that makes the model's response the measured one
@@ -70,14 +70,14 @@ pub(crate) enum Command {
         after_help = "Examples: frfit export nastran results/identified.csv -o core.bdf --poisson 0.45 --id 7\n          \
                       frfit export abaqus results/identified.csv --law laws/law.json -o core.inp --poisson 0.45 --name CORE\n\n\
                       nastran: MAT1 and two TABLED1 for SDAMPING in SOL 108; abaqus: *ELASTIC and *VISCOELASTIC, FREQUENCY=TABULAR; \
-                      ansys: TB,ELASTIC and TB,SDAMP over TBFIELD,FREQ; csv and json: frequency, modulus, loss factor, their deviations, status, units. \
+                      ansys: TB,ELASTIC and TB,SDAMP over TBFIELD,FREQ; csv and json: frequency, modulus, loss factor, their standard deviations, status, units. \
                       How each is to be used stands at the head of the file."
     )]
     Export(Export),
     /// Compute the model's response at its nominal factors
     #[command(after_help = "Example: frfit respond case.toml --out response --band 20:2000")]
     Respond(Respond),
-    /// Rank the model's parameters, say which the sensors cannot tell apart and where the next sensor should go
+    /// Rank the model's parameters, say which the sensors cannot separate and where the next sensor should go
     #[command(after_help = "Examples: frfit sensitivities case.toml --out sensitivities\n          \
                       frfit sensitivities case.toml --noise 0.02 --candidates 12+Z,55+Z\n\n\
                       About the model as it is: nothing needs to be measured. A [[measurement]] may be a dof alone, with [respond] for the frequencies. \

@@ -232,7 +232,7 @@ fn fit(text: &mut Text, job: &IdentifyJob) {
             let who = match left {
                 _ if !found.laws.is_empty() => "the law, or the model, cannot explain the measurements",
                 2 => {
-                    "the two sensors contradict one another, or the model cannot explain them; two cannot tell which"
+                    "the two sensors contradict one another, or the model cannot explain them; with two it is not known which"
                 }
                 _ => "the model cannot explain the measurements",
             };
@@ -284,7 +284,7 @@ fn reference(text: &mut Text, job: &IdentifyJob, identify: &IdentifyCase, j: usi
     if one.varies == Variation::Constant {
         let Some(off) = number("/relative") else { return };
         let deviations =
-            number("/deviations").map_or(String::new(), |d| format!(", {d:.1} of its deviations"));
+            number("/deviations").map_or(String::new(), |d| format!(", {d:.1} of its standard deviations"));
         text.say("reference", &format!("{}: {off:.1e} off{deviations}", one.name));
         return;
     }

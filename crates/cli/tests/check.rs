@@ -23,10 +23,10 @@ fn a_fault_is_told_in_words_with_the_key_to_change() {
     insta::assert_snapshot!("check_fault", done(folder.path(), &["check", "bar/case.toml"]));
     let strict = frfit(folder.path(), &["check", "bar/case.toml", "--strict"]);
     assert_eq!(strict.status.code(), Some(1));
-    let told: serde_json::Value =
+    let found: serde_json::Value =
         serde_json::from_str(&done(folder.path(), &["check", "bar/case.toml", "--json"])).unwrap();
-    assert_eq!(told["findings"][0]["kind"], "quantity");
-    assert_eq!(told["findings"].as_array().unwrap().len(), 1);
+    assert_eq!(found["findings"][0]["kind"], "quantity");
+    assert_eq!(found["findings"].as_array().unwrap().len(), 1);
 }
 
 #[test]

@@ -303,7 +303,7 @@ fn a_sensor_that_contradicts_the_others_is_named_and_left_out() {
     assert_eq!(summary("kept")["sensors"][2]["left_out"], false);
     assert_eq!(summary("kept")["fit"]["verdict"], "not explained");
 
-    // Of two sensors neither can be told to be wrong.
+    // Of two sensors it is not known which is wrong.
     let two = case.replace(wrong, "[identify]").replace("\"202+Z\"", "\"222+Z\"\nrecord = 2");
     std::fs::write(at.join("beam/case.toml"), two).unwrap();
     let said = done(at, &["identify", "beam/case.toml", "--out", "two"]);

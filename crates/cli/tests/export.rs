@@ -52,8 +52,8 @@ fn an_identification_goes_on_to_the_next_solver() {
     let deck = ["export", "nastran", "out/identified.csv", "-o", "core.bdf", "--poisson", "0.49"];
     done(folder.path(), &deck);
     let of_law = [&deck[..], &["--law", "laws/law.json", "--json"]].concat();
-    let told: serde_json::Value = serde_json::from_str(&done(folder.path(), &of_law)).unwrap();
-    assert!(told["law"].as_str().unwrap().contains("fractional"), "{told:#}");
+    let summary: serde_json::Value = serde_json::from_str(&done(folder.path(), &of_law)).unwrap();
+    assert!(summary["law"].as_str().unwrap().contains("fractional"), "{summary:#}");
 
     done(folder.path(), &["convert", "out/updated.uff", "updated.csv", "--record", "1"]);
     let read = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap();

@@ -23,7 +23,7 @@ fn table(law: &Law, deviations: bool) -> String {
     for k in 0..60u32 {
         let f = 10.0 * 10f64.powf(f64::from(k) / 20.0);
         let exact: c64 = law.at(f).unwrap();
-        // Multiples of the golden section fill an interval evenly; uniform in ±√3 has deviation one.
+        // Multiples of the golden section fill an interval evenly; uniform in ±√3 has standard deviation one.
         let spread = |by: f64| 3f64.sqrt() * (2.0 * (f64::from(k + 1) * by).fract() - 1.0);
         let (s, t) = (0.01 * exact.re, 0.01 * loss_factor(exact));
         let storage = exact.re + s * spread(0.618_033_988_749_894_8);
@@ -144,7 +144,7 @@ fn scipy_finds_the_same_law_with_the_same_error_bars_needs_scipy() {
         let ours = &law(&summary, "zener")["parameters"][name];
         let (value, std) = (ours["value"].as_f64().unwrap(), ours["std"].as_f64().unwrap());
         let (their_value, their_std) = (theirs[name][0].as_f64().unwrap(), theirs[name][1].as_f64().unwrap());
-        // Both searches end within a thousandth of a deviation; theirs has slopes by differences, good to half the digits.
+        // Both searches end within a thousandth of a standard deviation; theirs has slopes by differences, good to half the digits.
         assert!(
             (value - their_value).abs() < 2e-3 * their_std,
             "{name}: {value} {their_value} ± {their_std}"
@@ -172,7 +172,7 @@ fn a_law_is_found_from_a_hammer_test() {
     assert_eq!(summary["status"]["ok"], 676, "{:#}", summary["status"]);
     let zener = law(&summary["laws"], "zener");
     let found = |name: &str| zener["parameters"][name]["value"].as_f64().unwrap();
-    // The band is above the transition: E∞ and α are told well, E₀ and τ by what is left of it. The mesh takes up to 3.2(kh)²/12 = 1.6e-4 of the modulus.
+    // The band is above the transition: E∞ and α are identified well, E₀ and τ by what is left of it. The mesh takes up to 3.2(kh)²/12 = 1.6e-4 of the modulus.
     assert!((found("e_infinity") / 2.9e7 - 1.0).abs() < 0.02, "{zener:#}");
     let written = json(&std::fs::read_to_string(folder.path().join("out/law.json")).unwrap());
     assert_eq!(written, summary["laws"]);
@@ -194,7 +194,7 @@ fn a_law_is_found_from_a_hammer_test() {
     // What the law leaves is no noise of each line, and the bars are wider for it.
     let say = zener["residuals_say"].as_str().unwrap();
     assert!(say.starts_with("residuals correlated over ") && say.contains(" lines"), "{say}");
-    // E0, which the band hardly tells, would be 19 deviations off without: the mesh is wrong in the same sense everywhere, which no correlation that ends says wholly.
+    // E0, which the band hardly identifies, would be 19 standard deviations off without: the mesh is wrong in the same sense everywhere, which no correlation that ends says wholly.
     let e0 = &zener["parameters"]["e0"];
     let off = (e0["value"].as_f64().unwrap() - 4e6).abs() / e0["std"].as_f64().unwrap();
     assert!(off < 4.0 && zener["widened"]["e0"].as_f64().unwrap() > 3.0, "{e0} {off}");

@@ -77,22 +77,22 @@ fn the_tables_beside_it_hold_what_it_compares_with() {
     // The sandwich is measured with its known truth: the answers are near it.
     let truth = numbers(&reference, "true_re");
     assert!(truth.iter().zip(&factor).all(|(truth, factor)| (truth / factor - 1.0).abs() < 1e-5));
-    // Its file tells no deviation.
+    // Its file gives no standard deviation.
     assert!(column(&read(&out, "response.csv"), "measured_std").iter().all(String::is_empty));
 }
 
 #[test]
 fn a_folder_without_results_is_refused_with_what_is_missing() {
     let folder = tempfile::tempdir().unwrap();
-    let told = refused(folder.path(), &["report", "nowhere"]);
+    let message = refused(folder.path(), &["report", "nowhere"]);
     assert_eq!(
-        told,
+        message,
         "frfit: nowhere: expected a folder with the results of frfit identify, found nothing of that name\n"
     );
     std::fs::create_dir(folder.path().join("out")).unwrap();
-    let told = refused(folder.path(), &["report", "out"]);
+    let message = refused(folder.path(), &["report", "out"]);
     assert_eq!(
-        told,
+        message,
         "frfit: out/summary.json: expected this file, as frfit identify of this version writes it, found none\n"
     );
     done(folder.path(), &["--quiet", "demo"]);
@@ -100,14 +100,14 @@ fn a_folder_without_results_is_refused_with_what_is_missing() {
     std::fs::remove_file(out.join("report.html")).unwrap();
     let table = read(&out, "identified.csv").replacen(",ok,", ",good,", 1);
     std::fs::write(out.join("identified.csv"), table).unwrap();
-    let told = refused(folder.path(), &["report", "frfit-demo/out"]);
-    assert!(told.contains("changed, or of another run: identified.csv"), "{told}");
+    let message = refused(folder.path(), &["report", "frfit-demo/out"]);
+    assert!(message.contains("changed, or of another run: identified.csv"), "{message}");
     // Without the list of files it is read, and found to be wrong.
     std::fs::remove_file(out.join("identify-manifest.json")).unwrap();
-    let told = refused(folder.path(), &["report", "frfit-demo/out"]);
+    let message = refused(folder.path(), &["report", "frfit-demo/out"]);
     assert!(
-        told.starts_with("frfit: frfit-demo/out/identified.csv:2:") && told.contains("found \"good\""),
-        "{told}"
+        message.starts_with("frfit: frfit-demo/out/identified.csv:2:") && message.contains("found \"good\""),
+        "{message}"
     );
     assert!(!out.join("report.html").exists());
 }

@@ -212,7 +212,7 @@ fn a_dimension_without_a_nominal_value_is_refused() {
     }
 }
 
-/// A modulus at every frequency, a constant and a dimension: every command takes such a case.
+/// A modulus at every frequency, a constant and a geometric parameter: every command takes such a case.
 #[test]
 fn three_unknowns_through_every_command() {
     let folder = tempfile::tempdir().unwrap();

@@ -24,13 +24,13 @@ fn identify_writes_what_report_makes_of_the_folder() {
         serde_json::json!(["identified.csv", "candidates.csv", "reference.csv", "response.csv"])
     );
     let page = read(&out, "report.html");
-    for told in [
+    for expected in [
         "Can be used",
         "component and beam are known for the whole band",
         "id=\"plot-correlation\"",
         "id=\"plot-profile\"",
     ] {
-        assert!(page.contains(told), "{told}");
+        assert!(page.contains(expected), "{expected}");
     }
     std::fs::remove_file(out.join("report.html")).unwrap();
     // Tables of another run in the same folder are none of this one.

@@ -73,10 +73,10 @@
 //! | [`series`] | the Neumann series, the sensitivities, the spectral radius |
 //! | [`rational`] | the response as a rational function of the parameter, and all solutions of it (B-1, B-2) |
 //! | [`roots`] | the polynomial's roots, which of them are admissible, and why the others are not |
-//! | [`select`] | which of the solutions of a whole band are one material, and where the data cannot tell (B-4) |
+//! | [`select`] | which of the solutions of a whole band are one material, and where the data cannot decide (B-4) |
 //! | [`identify`] | one frequency from measurement to updated factor, and a band of them |
 //! | [`diagnostics`] | what is wrong with the data against the model, before anything is identified |
-//! | [`sensitivity`] | what a response depends on, what sensors tell of it, and where another would tell most |
+//! | [`sensitivity`] | what a response depends on, how well sensors identify it, and where another would add most |
 //! | [`laws`] | laws of the modulus with few parameters, fitted to moduli or straight to the FRFs (B-7) |
 //! | [`signal`] | records of a hammer test to an FRF with coherence and variance (B-6) |
 //! | [`nelder_mead`] | the search on direct solves that the series is compared with |

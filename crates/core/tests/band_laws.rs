@@ -62,7 +62,7 @@ fn parameter(fit: &LawFit, name: &str) -> (f64, f64) {
     (found.value, found.std.unwrap())
 }
 
-/// B-7: light damping, where each frequency by itself tells next to nothing of the loss factor.
+/// B-7: light damping, where each frequency by itself has next to no information on the loss factor.
 #[test]
 fn light_damping_is_found_from_one_percent_of_noise() {
     let mut case = plate(8, 0.4, 1e-3);
@@ -92,7 +92,7 @@ fn light_damping_is_found_from_one_percent_of_noise() {
         assert!(found.lines.iter().all(|line| line.status == Status::Ok));
     }
     for k in 0..2 {
-        // All of eight within 4 deviations but for one in 2000; the mean square is 1 ± 0.5.
+        // All of eight within 4 standard deviations but for one in 2000; the mean square is 1 ± 0.5.
         assert!(pulls.iter().all(|pulls| pulls[k].abs() < 4.0), "{pulls:?}");
         let mean_square = pulls.iter().map(|pulls| pulls[k] * pulls[k]).sum::<f64>() / pulls.len() as f64;
         assert!(of_tier(0.0..16.0, 0.1..3.0).contains(&mean_square), "{pulls:?}");
@@ -200,7 +200,7 @@ fn a_law_that_is_wrong_is_called_so() {
     assert_eq!(found.free.len(), frequency_hz.len());
 }
 
-/// How many deviations the parameters of a law are off, of 20 seeds (of the daily tier: one) at 0.1 %, 1 % and 5 % noise each.
+/// How many standard deviations the parameters of a law are off, of 20 seeds (of the daily tier: one) at 0.1 %, 1 % and 5 % noise each.
 fn pulls(case: &mut Case, band_hz: [f64; 2], family: LawKind) -> Vec<f64> {
     let truth = case.parameter.nominal.clone();
     let frequency_hz = linear_hz(band_hz[0], band_hz[1], 30);
@@ -226,7 +226,7 @@ fn pulls(case: &mut Case, band_hz: [f64; 2], family: LawKind) -> Vec<f64> {
     pulls
 }
 
-/// Truth within two deviations 95 times of 100.
+/// Truth within two standard deviations 95 times of 100.
 #[test]
 fn parameters_of_laws_cover_the_truth() {
     let mut all = Vec::new();

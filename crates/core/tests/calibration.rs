@@ -29,7 +29,7 @@ struct Test {
     share: f64,
 }
 
-/// What was measured, and its deviations.
+/// What was measured, and its standard deviations.
 type Values = (Vec<Vec<c64>>, Vec<Vec<f64>>);
 
 impl Test {
@@ -61,7 +61,7 @@ impl Test {
         }
     }
 
-    /// How many deviations each number that was looked for is off.
+    /// How many standard deviations each number that was looked for is off.
     fn pulls(&self, found: &[Calibration], unknown: &[ChannelUnknowns]) -> Vec<f64> {
         let mut pulls = Vec::new();
         for ((found, unknown), &(scale, late)) in found.iter().zip(unknown).zip(&self.channels) {
@@ -84,7 +84,7 @@ fn context() -> Context<'static> {
     Context { for_each: &sequential, progress: &|_: Stage, _, _| {} }
 }
 
-/// Normal numbers: their mean square within four of its own deviations √(2/n) of one, and none that is beyond chance.
+/// Normal numbers: their mean square within four of its own standard deviations √(2/n) of one, and none that is beyond chance.
 fn assert_normal(pulls: &[f64], least: usize) {
     let n = pulls.len() as f64;
     let mean_square = pulls.iter().map(|pull| pull * pull).sum::<f64>() / n;
@@ -117,7 +117,7 @@ fn a_plate_beside_a_channel_that_is_known() {
         per_freedom.push(fit.chi_squared / fit.freedom as f64);
     }
     assert_normal(&pulls, 2 * draws);
-    // Each has a deviation of √(2/118); selection takes the better of close solutions here and there.
+    // Each has a standard deviation of √(2/118); selection takes the better of close solutions here and there.
     let mean = per_freedom.iter().sum::<f64>() / per_freedom.len() as f64;
     assert!(of_tier(0.48..1.52, 0.85..1.1).contains(&mean), "{per_freedom:?}");
 }

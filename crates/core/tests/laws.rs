@@ -100,7 +100,7 @@ fn pulls(fit: &LawFit, law: &Law, f: &[f64]) -> Vec<f64> {
     pulls
 }
 
-/// Error bars cover: within two deviations 95.4 % of all, whether the noise is known or found from the rest.
+/// Error bars cover: within two standard deviations 95.4 % of all, whether the noise is known or found from the rest.
 #[test]
 fn error_bars_cover_over_seeds() {
     for (family, law, f) in materials() {
@@ -155,7 +155,7 @@ fn the_least_bic_is_that_of_the_law_that_made_the_data() {
 
 #[test]
 fn what_the_data_do_not_tell_has_no_small_error_bar() {
-    // Rubber far below its transition: of Zener's law E∞ and τ are told only by E∞τ^α.
+    // Rubber far below its transition: of Zener's law of E∞ and τ only E∞τ^α is identifiable.
     let law = Law::FractionalZener { e0: 1e6, e_infinity: 1e9, tau_s: 1e-9, alpha: 0.5 };
     let f = frequencies(10.0, 1000.0, 40);
     let fit = fit_modulus(&data(&law, &f, 0.01, &mut Noise::new(5)), LawKind::FractionalZener, true).unwrap();

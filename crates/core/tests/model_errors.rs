@@ -69,7 +69,7 @@ impl Measured {
         band.identify(varies, channels, &setup, context)
     }
 
-    /// Of the lines that are ok: how many, median relative error of E′, and the parts with E′ and η within two deviations.
+    /// Of the lines that are ok: how many, median relative error of E′, and the parts with E′ and η within two standard deviations.
     fn judged(&self, found: &Identification) -> (usize, f64, [f64; 2]) {
         let mut errors = Vec::new();
         let mut within = [0.0; 2];

@@ -114,7 +114,7 @@ fn make(
 }
 
 impl Made {
-    /// A node that stands for the truth: within 1e-5, where a crossing branch cannot be told from it, or within its scatter. Where the true
+    /// A node that stands for the truth: within 1e-5, where a crossing branch cannot be distinguished from it, or within its scatter. Where the true
     /// node is lost, within 5 %: one that lies where the curve is expected is rightly taken for it.
     fn is_right(&self, k: usize, index: usize) -> bool {
         let Node { factor, std, .. } = self.nodes[k][index];
@@ -242,7 +242,7 @@ fn a_gap_is_bridged_and_not_filled_with_what_is_wrong() {
 }
 
 /// Right where two branches cross the wrong one is close by. If the right one is missing there, a material that is known to be constant
-/// everywhere else tells.
+/// everywhere else shows.
 #[test]
 fn what_the_band_says_of_curvature_is_used() {
     let mut made =

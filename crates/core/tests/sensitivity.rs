@@ -156,7 +156,7 @@ fn derivatives_are_those_of_direct_solves_to_the_estimated_error() {
         let median = too_large[too_large.len() / 2];
         assert!(
             median < 1e3,
-            "{}: an estimate that is always far too large tells nothing: {median:e}",
+            "{}: an estimate that is always far too large is of no use: {median:e}",
             case.name
         );
     }
@@ -311,9 +311,9 @@ fn modulus_and_density_with_an_unknown_scale_have_only_their_ratio() {
     let frequency_hz = linear_hz(50.0, 1500.0, 60);
     let mut variables = Variable::of_model(&case.model, &frequency_hz).unwrap();
     let known = band(&case.model, &case.experiment, &variables, &frequency_hz, ChangeOptions::default());
-    let told = known.resolved(&known.proportional(0.01), &[0]).unwrap();
-    // A known force tells stiffness and mass apart.
-    assert!(inseparable(&told).is_empty() && told.bars().iter().all(|bar| bar.unwrap() < 0.02));
+    let resolved = known.resolved(&known.proportional(0.01), &[0]).unwrap();
+    // A known force separates stiffness and mass.
+    assert!(inseparable(&resolved).is_empty() && resolved.bars().iter().all(|bar| bar.unwrap() < 0.02));
     variables.push(Variable { name: "scale".into(), change: Change::Scale(0) });
     let band = band(&case.model, &case.experiment, &variables, &frequency_hz, ChangeOptions::default());
     let resolved = band.resolved(&band.proportional(0.01), &[0]).unwrap();

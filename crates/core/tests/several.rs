@@ -168,7 +168,7 @@ fn two_moduli_at_every_frequency() {
 
 #[test]
 fn two_moduli_from_two_sensors() {
-    // as many equations as unknowns: each frequency has up to a dozen solutions, of which the band tells one
+    // as many equations as unknowns: each frequency has up to a dozen solutions, of which the band selects one
     let (right, wrong_and_ok) = two_moduli(2, 32);
     assert!(right >= 31 && wrong_and_ok == 0, "{right} right, {wrong_and_ok} wrong and ok");
 }
@@ -293,14 +293,14 @@ fn length_and_density_of_a_bar() {
             noise,
         }
     };
-    // The modulus is known: both are told.
+    // The modulus is known: both are identifiable.
     let outcome = run(&band(&unknowns));
     for (found, truth) in outcome.constants.iter().zip([length, density]) {
         let number = &found.numbers[0];
         assert_eq!(found.status, Status::Ok, "{number:?}");
         assert!((number.value - truth).abs() < 4.0 * number.std.unwrap(), "{number:?}");
     }
-    // The modulus is not: E/L and ρL are all that there is, and one combination of the three is told by nothing.
+    // The modulus is not: E/L and ρL are all that there is, and one combination of the three is not identifiable.
     let outcome = run(&band(&with_modulus));
     assert_eq!(outcome.constants[0].status, Status::NotIdentifiable);
     assert_eq!(outcome.constants[1].status, Status::NotIdentifiable);

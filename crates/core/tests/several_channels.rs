@@ -276,7 +276,7 @@ fn error_bars_of_channels_and_three_unknowns_cover_the_truth() {
         }
     }
     assert_eq!(pulls.len(), 11 * draws);
-    // 4.5 deviations once in 150,000. Pulls of one draw are correlated, so that the mean square of draws has its deviation, √2 at most for each, over √draws.
+    // 4.5 standard deviations once in 150,000. Pulls of one draw are correlated, so that the mean square of draws has its standard deviation, √2 at most for each, over √draws.
     assert!(pulls.iter().all(|pull| pull.abs() < 4.5), "{pulls:?}");
     let mean_square = pulls.iter().map(|pull| pull * pull).sum::<f64>() / pulls.len() as f64;
     assert!(

@@ -159,7 +159,7 @@ fn the_variance_is_that_of_either_part() {
     }
     // The mean of 2475 exponentially distributed numbers: standard deviation 2 %, beside the bias.
     assert!((ratio / lines - 1.0).abs() < 0.08, "{}", ratio / lines);
-    // Of as many circular ones, of deviation 1 in either part: 0.03.
+    // Of as many circular ones, of standard deviation 1 in either part: 0.03.
     assert!((bias / lines).norm() < 0.1, "{}", bias / lines);
 }
 

@@ -83,7 +83,7 @@ fn errors<'o>(lines: impl IntoIterator<Item = &'o Line>, truth: &Law) -> ([f64; 
     (squares.map(|sum| (sum / ok as f64).sqrt()), ok)
 }
 
-/// How many answers that are `ok` have the truth within two deviations, of E′ and of η.
+/// How many answers that are `ok` have the truth within two standard deviations, of E′ and of η.
 fn covered(band: &Identification, truth: &Law) -> [usize; 2] {
     let mut within = [0; 2];
     for line in band.lines.iter().filter(|line| line.status == Status::Ok) {
@@ -97,7 +97,7 @@ fn covered(band: &Identification, truth: &Law) -> [usize; 2] {
     within
 }
 
-/// Truth within two deviations 95 times of 100, over seeds and three sizes of noise, for the second of which nobody gives it; a handful of factorisations serves all.
+/// Truth within two standard deviations 95 times of 100, over seeds and three sizes of noise, for the second of which it is not given; a handful of factorisations serves all.
 fn assert_coverage(test: &Test, seeds: u64, least_ok: [f64; 3], most: f64) {
     for ((share, known), least_ok) in [(1e-3, true), (1e-2, false), (5e-2, true)].into_iter().zip(least_ok) {
         let std = test.std(share);
@@ -263,7 +263,7 @@ fn what_was_left_out_is_bridged_with_wider_bars() {
     assert!(widths[4] > before && widths[4] > after && widths[4] > widths[0], "{before} {widths:?} {after}");
     for (f, (factor, bars)) in out.iter().zip(&bridged) {
         let off = (factor - test.truth.at(*f).unwrap()).norm();
-        // √E|δc|² is one deviation of both parts together: three of them.
+        // √E|δc|² is one standard deviation of both parts together: three of them.
         assert!(off < 3.0 * bars.correction_std, "{f} Hz: {off:e} {bars:?}");
     }
 }

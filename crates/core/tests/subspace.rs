@@ -247,7 +247,7 @@ proptest! {
         let options = TrainOptions::default().with_tolerance(1e-5);
         let trained = subspace.train(&case.grid(15, 4), &options, &sequential).unwrap();
         prop_assert!(trained.converged || subspace.size() == random.n, "{trained:?}");
-        // At a resonance that the basis has not met D⁻¹ amplifies by up to 1/η more than γ tells: there the estimate falls short, and what holds is
+        // At a resonance that the basis has not met D⁻¹ amplifies by up to 1/η more than γ says: there the estimate falls short, and what holds is
         // what the training was asked for, with the same slack.
         for (frequency_hz, ratio) in case.scattered(25) {
             let correction = case.correction(frequency_hz, ratio);

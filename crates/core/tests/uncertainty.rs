@@ -143,8 +143,9 @@ fn deviations_and_correlation_are_those_of_many_draws() {
             .collect();
         let bars: Vec<Uncertainty> = draws.iter().map(|line| line.uncertainty().unwrap()).collect();
         // A standard deviation of n draws is known to 1/√(2n): 1.8 %; four of those, and a little for what is not linear.
-        let near =
-            |drawn: f64, told: f64| assert!((drawn / told - 1.0).abs() < 0.08, "{f} Hz: {drawn} {told}");
+        let near = |drawn: f64, claimed: f64| {
+            assert!((drawn / claimed - 1.0).abs() < 0.08, "{f} Hz: {drawn} {claimed}")
+        };
         let storage: Vec<f64> = draws.iter().map(|line| line.storage().unwrap() - truth.re).collect();
         let std = |values: &[f64]| mean(values.iter().map(|v| v * v)).sqrt();
         near(std(&storage), mean(bars.iter().map(|b| b.storage_std)));
@@ -162,9 +163,9 @@ fn deviations_and_correlation_are_those_of_many_draws() {
         near(std(&loss), mean(bars.iter().map(|b| b.loss_factor_std.unwrap())));
         near(std(&storage) * 2f64.sqrt(), mean(bars.iter().map(|b| b.correction_std)));
         let product = mean(storage.iter().zip(&loss).map(|(a, b)| a * b));
-        let told = mean(bars.iter().map(|b| b.correlation.unwrap()));
+        let claimed = mean(bars.iter().map(|b| b.correlation.unwrap()));
         // A correlation of n draws is known to 1/√n.
-        assert!((product / std(&storage) / std(&loss) - told).abs() < 0.1, "{f} Hz: {product} {told}");
+        assert!((product / std(&storage) / std(&loss) - claimed).abs() < 0.1, "{f} Hz: {product} {claimed}");
         assert!(bars.iter().all(|b| b.is_linear() && b.nonlinearity > 0.0));
     }
 }
@@ -248,7 +249,7 @@ fn bounded(case: &Case) -> Setup {
     Setup::within(bounds)
 }
 
-/// 20 seeds (of the daily tier: one) of a band at 0.1 %, 1 % and 5 % noise: what is called ok has the truth within two deviations 95 times of 100.
+/// 20 seeds (of the daily tier: one) of a band at 0.1 %, 1 % and 5 % noise: what is called ok has the truth within two standard deviations 95 times of 100.
 fn assert_coverage(case: &Case, band_hz: [f64; 2], least_ok: [f64; 3]) {
     const RATIO: f64 = 0.8;
     let truth = |f: f64| RATIO * case.parameter.nominal.at(f).unwrap();
@@ -294,7 +295,7 @@ fn error_bars_of_a_sandwich_cover_the_truth() {
     assert_coverage(&sandwich(6, 1), [40.0, 1000.0], [0.95, 0.95, 0.8]);
 }
 
-/// The same where nobody tells the noise, and two sensors show it: the level is found to a few percent from 40 frequencies, and the bars are as good. The noise is what is
+/// The same where the noise is unknown, and two sensors show it: the level is found to a few percent from 40 frequencies, and the bars are as good. The noise is what is
 /// assumed of it then, in proportion to the response, but for antiresonances.
 #[test]
 fn error_bars_cover_the_truth_where_the_sensors_tell_the_noise() {
@@ -342,7 +343,7 @@ fn loss_factors_that_noise_has_made_up_are_marked() {
             let eta = line.loss_factor().unwrap();
             let std = line.uncertainty().unwrap().loss_factor_std.unwrap();
             if line.status == Status::Ok {
-                // Three deviations: of two dozen answers one in fifteen such tests is that far off by chance.
+                // Three standard deviations: of two dozen answers one in fifteen such tests is that far off by chance.
                 assert!((eta - 1e-3).abs() < 3.0 * std, "{} Hz: {eta} {std}", line.frequency_hz);
                 assert!(std <= 0.2 * eta, "{} Hz: {eta} {std}", line.frequency_hz);
                 known += 1;
@@ -387,7 +388,7 @@ fn one_bad_sensor_of_three_is_named_and_left_out() {
                 assert_ne!(band.fit.unwrap().verdict, Explained::No, "{at}: {:?} {:?}", band.fit, band.noise);
                 let mut coverage = Coverage::default();
                 coverage.count(&band, truth);
-                // Two deviations hold 95 of 100, not less than 24 of 30 but once in a thousand.
+                // Two standard deviations hold 95 of 100, not less than 24 of 30 but once in a thousand.
                 assert!(coverage.ok >= 20, "{at}: {coverage:?}");
                 assert!(5 * coverage.storage >= 4 * coverage.ok, "{at}: {coverage:?}");
                 assert!(5 * coverage.loss >= 4 * coverage.ok, "{at}: {coverage:?}");
@@ -465,7 +466,7 @@ fn sensors_that_agree_overrule_what_materials_do() {
             assert!((value / truth - 1.0).norm() < 1e-6, "{name}: {} Hz: {value} {truth}", line.frequency_hz);
         }
         assert!(!found.causality_breaches.is_empty(), "{name}");
-        // With noise of a size that nobody knows, they agree within what the lines show of it.
+        // With noise of unknown size, they agree within what the lines show of it.
         let std = made.u.iter().map(|u| u.iter().map(|u| 0.01 * u.norm()).collect()).collect();
         let noisy = Measured { std, frequency_hz: frequency_hz.clone(), u: made.u.clone() };
         let found = identify(&case, &noisy, &noisy.drawn(2), Noise::Unknown, &setup);

@@ -73,7 +73,7 @@ fn solved(model: &DynamicStiffness, experiment: &Experiment, f: f64) -> Vec<c64>
     experiment.observe(&x)
 }
 
-/// Closed forms of the impulse response, windowed and transformed, against the model at ω − iα: it tells the sign, for the model at ω + iα is far off.
+/// Closed forms of the impulse response, windowed and transformed, against the model at ω − iα: it shows the sign, for the model at ω + iα is far off.
 fn is_transformed(model: DynamicStiffness, experiment: &Experiment, modes: &[Vec<Mode>], hz: &[f64]) {
     for window_per_s in [0.0, 6.0] {
         let model = model.clone().with_decay_per_s(window_per_s);

@@ -72,7 +72,7 @@ static EXAMPLES: [Example; 11] = [
     },
     Example {
         name: "rubber-bar-end",
-        summary: "free-free rubber bar struck at one end: one sensor cannot tell its modulus",
+        summary: "free-free rubber bar struck at one end: one sensor does not identify its modulus",
         case: include_str!("../cases/rubber-bar-end/case.toml"),
         readme: include_str!("../cases/rubber-bar-end/README.md"),
         unknown: One(|| rubber_bar_end(100)),

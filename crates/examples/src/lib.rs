@@ -7,12 +7,12 @@
 //! | example | model | what it shows |
 //! |---|---|---|
 //! | `rubber-bar` | [`rubber_bar`] | the paper's Section 6: a law of the modulus recovered over two decades |
-//! | `rubber-bar-end` | [`rubber_bar_end`] | several moduli explain one sensor, a second sensor tells them apart |
+//! | `rubber-bar-end` | [`rubber_bar_end`] | several moduli explain one sensor, a second sensor separates them |
 //! | `clamped-plate` | [`clamped_plate`] | the paper's Section 8: divergence near resonances |
 //! | `density` | [`density`] | a real factor of the mass |
 //! | `hammer-bar` | [`hammer_bar`] | the paper's Section 7: from the records of a hammer test to the modulus |
 //! | `sandwich` | [`sandwich`] | one unknown among several matrices, named degrees of freedom, two sensors |
-//! | `plate-thickness` | [`plate_thickness`] | a dimension: one real number for the band, with an error bar |
+//! | `plate-thickness` | [`plate_thickness`] | a geometric parameter: one real number for the band, with an error bar |
 //! | `two-materials` | [`two_materials`] | two complex moduli at every frequency from three sensors |
 //! | `joint-stiffness` | [`joint_stiffness`] | a spring between two parts: a matrix of rank one, a complex constant |
 //! | `added-mass` | [`added_mass`] | a mass that sits on the structure and the modulus below it, and how they hang together |

@@ -1,4 +1,4 @@
-//! A plate whose thickness is not the one that was drawn: a dimension.
+//! A plate whose thickness is not the one that was drawn: a geometric parameter.
 
 use crate::model::{names, nearest, real, term};
 use crate::{Error, SeveralModel};

@@ -25,7 +25,7 @@ const DELTA: f64 = 0.5;
 
 /// The bar with a unit force on every node, measured at x = 3L/4. 20 Hz to 2000 Hz.
 ///
-/// At the ends the response does not tell one modulus from another over most of the band.
+/// At the ends the response does not separate one modulus from another over most of the band.
 ///
 /// # Errors
 /// [`Error::Mesh`] for no element or too many.

@@ -12,7 +12,7 @@ use std::f64::consts::TAU;
 /// A finite element model at its nominal factors, where it is driven and measured, what is unknown, and the truth.
 #[derive(Debug)]
 pub struct SeveralModel {
-    /// The terms, each with the factor that the case gives it: a dimension multiplies it besides.
+    /// The terms, each with the factor that the case gives it: a geometric parameter multiplies it besides.
     pub stiffness: DynamicStiffness,
     /// Load and sensors.
     pub experiment: Experiment,

@@ -384,7 +384,7 @@ fn measurements_are_direct_solves_at_the_true_parameters() {
         let (exact, noise) = model.measured(&some.map(|k| frequency_hz[k]));
         for (k, exact) in some.into_iter().zip(exact) {
             for (there, here) in measured[k].iter().zip(exact) {
-                // UFF text has 13 digits of each part; noise of more than five deviations has a probability of e⁻²⁵.
+                // UFF text has 13 digits of each part; noise of more than five standard deviations has a probability of e⁻²⁵.
                 let within = 1e-12_f64.max(5.0 * noise);
                 assert!((there - here).norm() <= within * here.norm(), "{name} at {} Hz", frequency_hz[k]);
             }
@@ -413,7 +413,7 @@ fn noise_is_as_large_as_the_files_say() {
                 ((measured[k][m] - exact[k][m]).norm() / std).powi(2)
             });
             let mean = off.sum::<f64>() / frequency_hz.len() as f64;
-            // Exponentially distributed numbers of mean one: four deviations of the mean.
+            // Exponentially distributed numbers of mean one: four standard deviations of the mean.
             let four = 4.0 / (frequency_hz.len() as f64).sqrt();
             assert!((mean - 1.0).abs() < four, "{name}, sensor {m}: {mean}");
         }

@@ -40,7 +40,7 @@ fn identified(name: &str, model: &SeveralModel) -> Identification {
     identify(&problem, &Options::default(), context).unwrap()
 }
 
-/// Every number of the unknowns that hold for the band, with its deviation, its truth, and the relative bar that the README promises.
+/// Every number of the unknowns that hold for the band, with its standard deviation, its truth, and the relative bar that the README promises.
 fn constants_are_within_their_bars(name: &str, model: &SeveralModel, bars: &[f64]) {
     let found = identified(name, model);
     assert!(found.is_trusted() && found.search.converged, "{name}");

@@ -7,7 +7,7 @@
 //!
 //! The file says nothing of symmetry: where no entry has its mirror image beside it, it is a triangle of a symmetric
 //! matrix. Of a degree of freedom that a boundary condition holds fixed, Abaqus writes 10³⁶ on the diagonal of the
-//! stiffness: it is left out here, and told in [`Labels::fixed`].
+//! stiffness: it is left out here, and listed in [`Labels::fixed`].
 //!
 //! # Limits
 //! Assembled matrices only: what `ELEMENT BY ELEMENT` and `*SUBSTRUCTURE MATRIX OUTPUT` write is refused.

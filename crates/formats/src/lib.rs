@@ -16,7 +16,7 @@
 //! | LabVIEW measurement files (.lvm) | [`lvm`] |
 //! | input decks of Nastran, Abaqus, Ansys (written only) | [`cards`] |
 //!
-//! [`detect`] tells which of them a file is, [`read_matrices`] reads every kind of matrix file.
+//! [`detect`] says which of them a file is, [`read_matrices`] reads every kind of matrix file.
 //!
 //! The crate knows neither physics nor a linear algebra library. Every reader takes the whole file as
 //! bytes and says, when it refuses one, where ([`Position`]), what it expected and what it found

@@ -1,7 +1,7 @@
 //! Bare lists of row, column and value: CalculiX (`.sti`, `.mas`) and Abaqus with `FORMAT=COORDINATE` (`.mtx`).
 //!
 //! A line an entry: row and column from 1 and a value, set apart by blanks or commas. CalculiX lists one triangle
-//! and the diagonal, Abaqus one triangle or both. The file tells neither its size nor its symmetry: the size is the
+//! and the diagonal, Abaqus one triangle or both. The file gives neither its size nor its symmetry: the size is the
 //! largest index, and where no entry has its mirror image beside it, it is a triangle of a symmetric matrix.
 //! Lines that begin with `**` are comments.
 //!
@@ -12,7 +12,7 @@
 //! A value has to have a decimal point or an exponent, as both programs write it: the size line of a Matrix Market
 //! file that has lost its banner would else be an entry. A table (CSV) of a whole number, a whole number and a value
 //! without names of columns is such a list. A matrix of which one triangle is nothing but zeros and is
-//! not symmetric cannot be told from a triangle of a symmetric one.
+//! not symmetric cannot be distinguished from a triangle of a symmetric one.
 //!
 //! # Source
 //! G. Dhondt: CalculiX CrunchiX User's Manual, keywords \*FREQUENCY and \*MODAL DYNAMIC: `SOLVER=MATRIXSTORAGE`.

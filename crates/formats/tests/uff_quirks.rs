@@ -1,4 +1,4 @@
-//! What vendors write, as far as it can be told what they mean.
+//! What vendors write, as far as its meaning is known.
 
 use crate::uff_support;
 

@@ -1,4 +1,4 @@
-//! Long work beside the interpreter: the GIL is free meanwhile, Ctrl-C is heard, progress is told.
+//! Long work beside the interpreter: the GIL is free meanwhile, Ctrl-C is heard, progress is reported.
 //!
 //! The work is on a thread of its own, since only the interpreter's own thread hears signals, and that has to be free to answer
 //! at once however long a factorisation takes. A cancelled work ends at its next frequency; until then it may use
@@ -67,13 +67,13 @@ pub(crate) fn in_background<T: Send + 'static>(
     };
     let builder = thread::Builder::new().name("frfit".into());
     builder.spawn(run).map_err(|error| no_thread(&error))?;
-    let mut told = (0, 0);
+    let mut reported = (0, 0);
     loop {
         let got = wait(py, &mut receive, BEAT);
         let seen = watch.seen();
         let mut answer = py.check_signals();
-        if let (Ok(()), Some(progress), true) = (&answer, &progress, seen != told && seen.1 > 0) {
-            told = seen;
+        if let (Ok(()), Some(progress), true) = (&answer, &progress, seen != reported && seen.1 > 0) {
+            reported = seen;
             answer = progress.call1(seen).map(drop);
         }
         if let Err(raised) = answer {

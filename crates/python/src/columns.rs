@@ -189,7 +189,9 @@ fn identifiability(found: &Bound<'_, PyDict>, computed: &Computed, identify: &Id
 fn findings<'py>(py: Python<'py>, computed: &Computed) -> PyResult<Bound<'py, PyList>> {
     let findings = PyList::empty(py);
     let diagnosis = computed.diagnosis.as_ref();
-    for finding in diagnosis.map(|d| frfit_workflow::check::told(&computed.case, d)).unwrap_or_default() {
+    for finding in
+        diagnosis.map(|d| frfit_workflow::check::finding_texts(&computed.case, d)).unwrap_or_default()
+    {
         let one = PyDict::new(py);
         one.set_item("kind", finding.kind)?;
         one.set_item("sensors", finding.sensors)?;

@@ -67,7 +67,7 @@ pub(crate) fn frf<'py>(
         rows.map(|rows| table(py, rows.into_iter(), points)).transpose()
     };
     found.set_item("coherence", column(&|frf| frf.coherence.clone())?)?;
-    // Of real and imaginary part each; a measurement's deviation is that of the complex value.
+    // Of real and imaginary part each; a measurement's standard deviation is that of the complex value.
     let std = |variance: &Vec<f64>| variance.iter().map(|v| (2.0 * v).sqrt()).collect();
     found.set_item("std", column(&|frf| frf.variance.as_ref().map(std))?)?;
     let impacts = PyList::empty(py);

@@ -95,11 +95,11 @@ def test_arrays_give_the_numbers_of_the_case_file(rubber_bar):
 def test_errors_have_the_words_of_the_command_line(cli, rubber_bar, tmp_path):
     case = copied(rubber_bar, tmp_path / "broken")
     case.write_text(case.read_text().replace("band_hz", "band_hertz"))
-    told = subprocess.run([cli, "identify", case, "--out", tmp_path / "out"], capture_output=True, text=True)
-    assert told.returncode == 2
+    run = subprocess.run([cli, "identify", case, "--out", tmp_path / "out"], capture_output=True, text=True)
+    assert run.returncode == 2
     with pytest.raises(frfit.InputError) as caught:
         frfit.run_case(case)
-    assert str(caught.value) in told.stderr
+    assert str(caught.value) in run.stderr
     assert caught.value.line is not None and caught.value.file == str(case)
     with pytest.raises(frfit.InputError, match="expected a case file, found none"):
         frfit.run_case(tmp_path / "nothing.toml")

@@ -122,7 +122,7 @@ def test_unknown_scale_and_delay_are_found_with_their_deviations(chain: Chain):
     assert abs(found.sensor_scale[1] - SCALE) < 4 * found.sensor_scale_std[1]
     assert 0 < found.sensor_delay_s_std[1] < SHARE / (2 * np.pi * F[0])
     assert abs(found.sensor_delay_s[1] - LATE_S) < 4 * found.sensor_delay_s_std[1]
-    # What is told as measured is the receptance: the noise of 54 values is below 5 deviations, the channel's own beside it.
+    # What is given as measured is the receptance: the noise of 54 values is below 5 standard deviations, the channel's own beside it.
     exact = receptance(chain)
     np.testing.assert_array_less(np.abs(found.measured_response - exact), 6 * SHARE * np.abs(exact))
 

@@ -1,4 +1,4 @@
-"""Three unknowns through every command and from arrays: a factor at each frequency, a constant and a dimension."""
+"""Three unknowns through every command and from arrays: a factor at each frequency, a constant and a geometric parameter."""
 
 from __future__ import annotations
 
@@ -130,7 +130,7 @@ def test_every_command_agrees_with_the_arrays(cli, case, found, tmp_path):
 def test_what_is_wrong_with_an_unknown_is_said(measured):
     with pytest.raises(frfit.InputError, match="one of matrix and powers"):
         frfit.Unknown("modulus")
-    with pytest.raises(frfit.InputError, match="the value of a dimension"):
+    with pytest.raises(frfit.InputError, match="the value of a geometric parameter"):
         frfit.Unknown("width", powers={"dashpots": 2})
     with pytest.raises(frfit.InputError, match="other than 0"):
         frfit.Unknown("width", powers={"dashpots": 0}, nominal=1.0)

@@ -256,7 +256,7 @@ fn candidates(candidates: &Candidates, j: usize, notes: &mut Vec<String>) -> Val
     })
 }
 
-/// log₁₀ ε, not below roundoff: colours are for what can be told apart.
+/// log₁₀ ε, not below roundoff: colours are for errors that differ.
 fn error_map(map: &ErrorMap) -> Value {
     let log = |error: &Option<f64>| rounded(error.map(|error| error.max(1e-16).log10()), 4);
     json!({

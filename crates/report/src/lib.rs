@@ -5,7 +5,7 @@
 //! | module | what is in it |
 //! |---|---|
 //! | `results` | the files read and checked |
-//! | `verdict` | what they say, in words: can the answer be used, how sure is it, why not elsewhere |
+//! | `verdict` | what they say, in words: can the answer be used, how sure is it, why other lines have no answer |
 //! | `status` | how a status looks: its colour and its words |
 //! | `thin` | fewer points for curves of many, extremes kept |
 //! | `data` | what the plots and the table show, as JSON |

@@ -1,4 +1,4 @@
-//! What the results say, in words: can the answer be used, how sure is it, and why not elsewhere.
+//! What the results say, in words: can the answer be used, how sure is it, and why other lines have no answer.
 
 use crate::number::{hertz, percent, significant, with_bar};
 use crate::results::{Band, Number, Results, Sensor, Unknown};
@@ -174,9 +174,9 @@ fn doubt(results: &Results) -> Option<&'static str> {
     }
     match (results.summary.word("/fit/verdict"), ok as f64 >= MIN_TRUSTED_SHARE * asked as f64) {
         ("explained", true) => None,
-        ("explained", false) => {
-            Some("; elsewhere the value is not identifiable, or the measurements are not explained.")
-        }
+        ("explained", false) => Some(
+            "; at the other frequencies the value is not identifiable, or the measurements are not explained.",
+        ),
         ("nearly explained", _) => Some("; a little more than the given noise is left."),
         _ => Some(", but nothing independent tests the fit."),
     }
@@ -286,12 +286,12 @@ fn cautions(results: &Results) -> Vec<String> {
     }
     cautions.extend(doubt_of_fit(results));
     if summary.word("/identify/selection") == "smallest" {
-        cautions.push("Of several solutions the one with the smallest correction was taken (selection = \"smallest\", the rule of the paper). It can be the wrong one, has no error bars, and selection = \"joint\" tells more.".into());
+        cautions.push("Of several solutions the one with the smallest correction was taken (selection = \"smallest\", the rule of the paper). It can be the wrong one, has no error bars, and selection = \"joint\" weighs all solutions over the band.".into());
     }
     cautions
 }
 
-/// What is to be said where noise is not all that is left, or nothing tells whether it is.
+/// What is to be said where noise is not all that is left, or that is not known.
 fn doubt_of_fit(results: &Results) -> Option<String> {
     let summary = &results.summary;
     Some(match summary.word("/fit/verdict") {
@@ -396,7 +396,7 @@ fn known_answer(results: &Results) -> Option<Tile> {
     let each: Vec<String> = compared().filter_map(of_one).collect();
     let most = |pointer: &str| compared().filter_map(|one| number(one, pointer)).reduce(f64::max);
     let value = match most("/deviations") {
-        Some(deviations) => format!("within {} deviations", significant(deviations, 2)),
+        Some(deviations) => format!("within {} standard deviations", significant(deviations, 2)),
         None => {
             let off = most("/relative").into_iter().chain(most("/deviation/max_ok")).reduce(f64::max)?;
             format!("{} off at most", percent(off))
@@ -464,16 +464,16 @@ fn tiles_of_band(results: &Results, nominal_error: &[Option<f64>], own: bool) ->
     tiles
 }
 
-/// Why no χ² over the band tells whether noise is all that is left.
+/// Why no χ² over the band shows whether noise is all that is left.
 fn untested(results: &Results) -> &'static str {
     match results.sensors.len() {
         1 => "one sensor has nothing to agree with",
         _ if !results.summary.array("/laws/laws").is_empty() => "the table of laws has the χ² of each",
-        _ => "nothing tells the noise but the misfit itself",
+        _ => "the noise is known from the misfit alone",
     }
 }
 
-/// What tells the noise.
+/// Where the level of the noise is known from.
 fn noise(results: &Results) -> &'static str {
     match results.summary.word("/noise/source") {
         "given" => "as the files give it",
@@ -490,7 +490,7 @@ fn nominal_error(results: &Results) -> Vec<Option<f64>> {
         sensor.get("left_out").and_then(serde_json::Value::as_bool) == Some(true)
     };
     let all = results.sensors.iter().zip(results.summary.array("/sensors"));
-    let counted: Vec<&Sensor> = all.filter(|(_, told)| !left_out(told)).map(|(sensor, _)| sensor).collect();
+    let counted: Vec<&Sensor> = all.filter(|(_, entry)| !left_out(entry)).map(|(sensor, _)| sensor).collect();
     let at = |row: usize| {
         let mut sums = (0.0, 0.0);
         for sensor in &counted {

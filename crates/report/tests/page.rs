@@ -131,7 +131,7 @@ fn the_verdict_says_how_much_can_be_trusted_and_why_not_the_rest() {
     let page = page(&results(&made)).unwrap();
     let text = text(&page);
     // 10 of 100 frequencies are not identifiable: the others can be used.
-    for told in [
+    for expected in [
         "Can be used",
         "90 of 100",
         "90 %",
@@ -140,7 +140,7 @@ fn the_verdict_says_how_much_can_be_trusted_and_why_not_the_rest() {
         "noise leaves the value unknown",
         "nothing was found wrong",
     ] {
-        assert!(text.contains(told), "{told}");
+        assert!(text.contains(expected), "{expected}");
     }
     let care = Made { bad: 40, ..Made::default() };
     assert!(text_of(&care).contains("Use with care"));
@@ -167,25 +167,25 @@ fn the_verdict_says_how_much_can_be_trusted_and_why_not_the_rest() {
 }
 
 #[test]
-fn doubts_about_sensors_are_told_before_the_numbers() {
+fn doubts_about_sensors_come_before_the_numbers() {
     let mut files = results(&Made::default());
     let summary = String::from_utf8(files["summary.json"].clone()).unwrap();
-    let told = summary.replacen(
+    let doubtful = summary.replacen(
         "\"contradicts\": false",
         "\"contradicts\": true, \"scale\": 9.80665, \"scale_std\": 0.001, \"delay_s\": null",
         1,
     );
-    let told = told.replacen("\"left_out\": false", "\"left_out\": true", 1);
-    assert_ne!(told, summary);
-    files.insert("summary.json", told.into_bytes());
+    let doubtful = doubtful.replacen("\"left_out\": false", "\"left_out\": true", 1);
+    assert_ne!(doubtful, summary);
+    files.insert("summary.json", doubtful.into_bytes());
     let page = page(&files).unwrap();
-    for told in [
+    for expected in [
         "Use with care",
         "Sensor S1 contradicts all others. It was left out.",
         "The scale of sensor S1 was unknown and found: 9.8066 ± 0.0020 times what the file says.",
         "The delay of sensor S1 was unknown, and is not identifiable from the data: it was left out.",
     ] {
-        assert!(text(&page).contains(told), "{told}");
+        assert!(text(&page).contains(expected), "{expected}");
     }
 }
 
@@ -216,7 +216,7 @@ fn a_plot_without_data_is_left_out_with_a_sentence() {
     let with = page(&results(&Made { error_map: true, ..Made::default() })).unwrap();
     assert!(with.contains("id=\"plot-error-map\"") && with.contains("id=\"plot-reduction-error\""));
     let without = page(&results(&Made { reduction_error: false, real: true, ..Made::default() })).unwrap();
-    for (id, told) in [
+    for (id, expected) in [
         ("plot-error-map", "not drawn, for it is made with method = &quot;series&quot;"),
         ("plot-error-map", "not drawn, for it is made with method"),
         ("plot-reduction-error", "not drawn, for the full model answered"),
@@ -224,7 +224,10 @@ fn a_plot_without_data_is_left_out_with_a_sentence() {
         ("plot-wicket", "not drawn, for the factor is real"),
     ] {
         assert!(!without.contains(&format!("id=\"{id}\"")), "{id}");
-        assert!(without.contains(told) || without.contains(&told.replace("&quot;", "\"")), "{told}");
+        assert!(
+            without.contains(expected) || without.contains(&expected.replace("&quot;", "\"")),
+            "{expected}"
+        );
     }
 }
 
@@ -238,18 +241,18 @@ fn tables_of_another_run_are_not_read() {
 }
 
 #[test]
-fn what_is_missing_or_broken_is_told_with_its_place() {
+fn what_is_missing_or_broken_is_reported_with_its_place() {
     let statuses = Status::ALL.map(Status::name).join(", ");
     for name in FILES.iter().filter(|name| !["free.csv", "error_map.csv"].contains(name)) {
         let mut files = results(&Made::default());
         files.remove(name);
-        let told = page(&files).unwrap_err();
+        let message = page(&files).unwrap_err();
         assert_eq!(
-            told,
+            message,
             format!("{name}: expected this file, as frfit identify of this version writes it, found none")
         );
     }
-    for (name, from, to, told) in [
+    for (name, from, to, expected) in [
         ("summary.json", "{", "{{", "summary.json:1:2: expected JSON, found"),
         (
             "summary.json",
@@ -290,7 +293,7 @@ fn what_is_missing_or_broken_is_told_with_its_place() {
         assert!(text.contains(from), "{name}: {from}");
         files.insert(name, text.replacen(from, to, 1).into_bytes());
         let found = page(&files).unwrap_err();
-        assert!(found.contains(told) && found.starts_with(name), "{found}\n{told}");
+        assert!(found.contains(expected) && found.starts_with(name), "{found}\n{expected}");
     }
 }
 
@@ -309,8 +312,8 @@ fn large_results_make_a_page_that_is_not_large() {
         };
         let page = page(&results(&made)).unwrap();
         assert!(page.len() < LARGEST, "{frequencies} × {sensors}: {} bytes", page.len());
-        let told = ["drawn with", "sensors are drawn"].iter().any(|told| text(&page).contains(told));
-        assert!(told, "{frequencies} × {sensors}");
+        let says_so = ["drawn with", "sensors are drawn"].iter().any(|words| text(&page).contains(words));
+        assert!(says_so, "{frequencies} × {sensors}");
         // The extremes of a column are among what is drawn.
         let data = data(&page);
         let storage = data["columns"]["storage"].as_array().unwrap();
@@ -335,7 +338,7 @@ proptest! {
         }
         match page(&files) {
             Ok(page) => { data(&page); }
-            Err(told) => prop_assert!(told.contains("expected") && FILES.iter().any(|name| told.starts_with(name)), "{}", told),
+            Err(message) => prop_assert!(message.contains("expected") && FILES.iter().any(|name| message.starts_with(name)), "{}", message),
         }
     }
 }

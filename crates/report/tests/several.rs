@@ -24,10 +24,10 @@ fn text(made: &MadeSeveral) -> String {
     page.split_once("<body>").unwrap().1.split_once("<script").unwrap().0.to_owned()
 }
 
-fn says(made: &MadeSeveral, told: &[&str]) {
+fn says(made: &MadeSeveral, sentences: &[&str]) {
     let text = text(made);
-    for told in told {
-        assert!(text.contains(told), "{told:?} is not in\n{text}");
+    for sentence in sentences {
+        assert!(text.contains(sentence), "{sentence:?} is not in\n{text}");
     }
 }
 
@@ -145,7 +145,7 @@ fn names_of_users_are_text() {
 
 #[test]
 fn what_is_missing_or_broken_is_told_with_its_place() {
-    for (name, from, to, told) in [
+    for (name, from, to, expected) in [
         ("summary.json", "\"coordinates\"", "\"ordinates\"", "summary.json: expected a list in coordinates"),
         (
             "summary.json",
@@ -173,7 +173,7 @@ fn what_is_missing_or_broken_is_told_with_its_place() {
         assert!(text.contains(from), "{name}: {from}");
         files.insert(name, text.replacen(from, to, 1).into_bytes());
         let found = page(&files).unwrap_err();
-        assert!(found.starts_with(told), "{found}\n{told}");
+        assert!(found.starts_with(expected), "{found}\n{expected}");
     }
     let mut files = several(&MadeSeveral::default());
     files.remove("reference.csv");
@@ -194,7 +194,7 @@ proptest! {
         }
         match page(&files) {
             Ok(page) => { data(&page); }
-            Err(told) => prop_assert!(told.contains("expected") && FILES.iter().any(|name| told.starts_with(name)), "{}", told),
+            Err(message) => prop_assert!(message.contains("expected") && FILES.iter().any(|name| message.starts_with(name)), "{}", message),
         }
     }
 }

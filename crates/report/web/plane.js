@@ -7,12 +7,12 @@ addPlot({
   height: 480,
   extra: "nominal",
   traces() {
-    const told = { customdata: sensor.frequency_hz };
+    const hover = { customdata: sensor.frequency_hz };
     const format = `%{x:.4~g} + %{y:.4~g}i m/(s²·N)${HERTZ}`;
     const made = [];
-    if (sensor.nominal && this.shows) made.push(line("nominal", sensor.nominal.re, sensor.nominal.im, "nominal", format, { dash: "dash", ...told }));
-    if (sensor.measured) made.push(dots("measured", sensor.measured.re, sensor.measured.im, "measured", format, { size: 4, ...told }));
-    if (sensor.updated) made.push(line("updated", sensor.updated.re, sensor.updated.im, "updated", format, told));
+    if (sensor.nominal && this.shows) made.push(line("nominal", sensor.nominal.re, sensor.nominal.im, "nominal", format, { dash: "dash", ...hover }));
+    if (sensor.measured) made.push(dots("measured", sensor.measured.re, sensor.measured.im, "measured", format, { size: 4, ...hover }));
+    if (sensor.updated) made.push(line("updated", sensor.updated.re, sensor.updated.im, "updated", format, hover));
     return made;
   },
   layout: () => ({ xaxis: { title: "Real part (m/(s²·N))", constrain: "domain" }, yaxis: { title: "Imaginary part", scaleanchor: "x" } }),
@@ -29,7 +29,7 @@ function along(one, other) {
   const points = (name, storage, loss, rows, shade, draw, more) => {
     const there = rows.filter((row) => storage[row] !== null && loss[row] !== null);
     if (!there.length) return;
-    const format = `E′ ${withUnit("x", one.unit)}, ${other.told(one)}${HERTZ}`;
+    const format = `E′ ${withUnit("x", one.unit)}, ${other.label(one)}${HERTZ}`;
     made.push(draw(name, there.map((row) => storage[row]), there.map((row) => other.of(storage[row], loss[row])), shade, format, { customdata: there.map((row) => data.frequency_hz[row]), ...more }));
   };
   const [storage, loss] = [partOf(one, "storage"), partOf(one, "loss_factor")];
@@ -46,8 +46,8 @@ const onFactor = (one, other) => (_, row) => {
   return Number.isFinite(e) && Number.isFinite(eta) ? { x: e, y: other.of(e, eta) } : null;
 };
 
-const LOSS_MODULUS = { of: (e, eta) => e * eta, told: ({ unit }) => `E″ ${withUnit("y", unit)}` };
-const LOSS_FACTOR = { of: (_, eta) => eta, told: () => "η %{y:.4~g}" };
+const LOSS_MODULUS = { of: (e, eta) => e * eta, label: ({ unit }) => `E″ ${withUnit("y", unit)}` };
+const LOSS_FACTOR = { of: (_, eta) => eta, label: () => "η %{y:.4~g}" };
 
 for (const one of unknowns) {
   addPlot({

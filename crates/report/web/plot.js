@@ -172,14 +172,14 @@ function saveCsv(plot) {
   download(`${plot.id}.csv`, "text/csv", rows.join(""));
 }
 
-/** A curve with what the pointer tells of it. */
+/** A curve with what the pointer shows of it. */
 const line = (name, x, y, shade, format, more = {}) => ({
   type: "scatter", mode: "lines", name, x, y, connectgaps: false,
   line: { color: color(shade), width: 1.8, dash: more.dash },
   hovertemplate: format, ...more, dash: undefined,
 });
 
-/** Points with what the pointer tells of them. */
+/** Points with what the pointer shows of them. */
 const dots = (name, x, y, shade, format, more = {}) => ({
   type: "scatter", mode: "markers", name, x, y,
   marker: { color: color(shade), size: more.size ?? 5, symbol: more.symbol ?? "circle", opacity: more.opacity ?? 1 },

@@ -13,9 +13,9 @@ addPlot({
     const { coordinates, correlation } = together;
     const index = coordinates.map((_, k) => k + 1);
     const shown = (value) => (value === null ? "not identifiable" : digits(value, 3));
-    const told = coordinates.map((row, k) => coordinates.map((column, j) => `${numbered(row, k)} and ${numbered(column, j)}: ${shown(correlation[k][j])}`));
+    const labels = coordinates.map((row, k) => coordinates.map((column, j) => `${numbered(row, k)} and ${numbered(column, j)}: ${shown(correlation[k][j])}`));
     return [{
-      type: "heatmap", name: "correlation", x: index, y: index, z: correlation, text: told, zmin: -1, zmax: 1, colorscale: "RdBu", xgap: 2, ygap: 2,
+      type: "heatmap", name: "correlation", x: index, y: index, z: correlation, text: labels, zmin: -1, zmax: 1, colorscale: "RdBu", xgap: 2, ygap: 2,
       colorbar: { title: { text: "" }, thickness: 14, outlinewidth: 0, tickvals: [-1, -0.5, 0, 0.5, 1] }, hovertemplate: "%{text}<extra></extra>",
     }];
   },

@@ -98,8 +98,8 @@ fn without_looked_for(identify: &IdentifyCase, mut diagnosis: Diagnosis) -> Diag
 }
 
 /// The findings in words.
-pub fn told(case: &Case, diagnosis: &Diagnosis) -> Vec<FindingText> {
-    let tell = |finding: &frfit::diagnostics::Finding| {
+pub fn finding_texts(case: &Case, diagnosis: &Diagnosis) -> Vec<FindingText> {
+    let text = |finding: &frfit::diagnostics::Finding| {
         let sensors = &finding.sensors;
         let measurements = match sensors.as_slice() {
             [m] => format!("[[measurement]] {}", m + 1),
@@ -114,7 +114,7 @@ pub fn told(case: &Case, diagnosis: &Diagnosis) -> Vec<FindingText> {
         };
         FindingText { kind, sensors: labels, what, evidence: evidence.collect::<Vec<_>>().join("; "), change }
     };
-    diagnosis.findings.iter().map(tell).collect()
+    diagnosis.findings.iter().map(text).collect()
 }
 
 /// Kind, what is wrong, and what to change.
@@ -225,12 +225,12 @@ fn of_the_model(units: UnitSystem, factor: f64, relative_std: f64) -> String {
     }
 }
 
-/// The best row first, then those that cannot be told from it.
+/// The best row first, then those that cannot be distinguished from it.
 fn listed(case: &Case, rows: &[OtherRow]) -> String {
     let names: Vec<String> = rows.iter().map(|other| case.row_name(other.row)).collect();
     match names.as_slice() {
         [best, others @ ..] if !others.is_empty() => {
-            format!("{best} (or, not to be told from it, {})", others.join(", "))
+            format!("{best} (or, indistinguishable from it, {})", others.join(", "))
         }
         names => names.join(", "),
     }
@@ -265,7 +265,9 @@ fn more_numbers(fault: &Fault) -> String {
 
 fn numbers(evidence: &Evidence) -> String {
     let Evidence { before, after, nats } = evidence;
-    format!("misfit of ln(measured/model) {before:.2} before, {after:.2} after; {nats:.0} nats likelier")
+    format!(
+        "misfit of ln(measured/model) {before:.2} before, {after:.2} after; log-likelihood ratio {nats:.0} nats"
+    )
 }
 
 /// Four digits.
@@ -310,9 +312,9 @@ pub fn findings_json(case: &Case, diagnosis: &Diagnosis) -> Value {
         Fault::Mesh { row_hz, top_hz } => json!({"row_hz": row_hz, "top_hz": top_hz}),
         Fault::Conjugated | Fault::Sign => json!({}),
     };
-    let findings = told(case, diagnosis).into_iter().enumerate().map(|(k, told)| {
+    let findings = finding_texts(case, diagnosis).into_iter().enumerate().map(|(k, finding)| {
         json!({
-            "kind": told.kind, "sensors": told.sensors, "what": told.what, "change": told.change,
+            "kind": finding.kind, "sensors": finding.sensors, "what": finding.what, "change": finding.change,
             "numbers": own(k), "evidence": evidence(k),
         })
     });
@@ -322,14 +324,17 @@ pub fn findings_json(case: &Case, diagnosis: &Diagnosis) -> Value {
 /// The findings for a person, a few lines each; without any, one line that says how well the data agree with the model.
 pub fn findings_text(case: &Case, diagnosis: &Diagnosis) -> String {
     let mut text = String::new();
-    for told in told(case, diagnosis) {
-        let who =
-            if told.sensors.is_empty() { String::new() } else { format!("{}: ", told.sensors.join(", ")) };
-        text += &format!("  {:<18}{who}{}\n", told.kind, told.what);
-        if !told.evidence.is_empty() {
-            text += &format!("  {:<18}{}\n", "", told.evidence);
+    for finding in finding_texts(case, diagnosis) {
+        let who = if finding.sensors.is_empty() {
+            String::new()
+        } else {
+            format!("{}: ", finding.sensors.join(", "))
+        };
+        text += &format!("  {:<18}{who}{}\n", finding.kind, finding.what);
+        if !finding.evidence.is_empty() {
+            text += &format!("  {:<18}{}\n", "", finding.evidence);
         }
-        text += &format!("  {:<18}change: {}\n", "", told.change);
+        text += &format!("  {:<18}change: {}\n", "", finding.change);
     }
     text
 }

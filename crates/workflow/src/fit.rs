@@ -29,8 +29,8 @@ pub struct FitJob {
 
 /// Fits laws to a table of moduli, or of it the rows with a value in a column (`only`), and writes `law.json` and a figure into `out`, if there is one: all of them, or nothing.
 ///
-/// With columns `storage_std` and `loss_factor_std` χ² is in their units; without them every modulus counts relative to its size, and the scatter about the law tells
-/// the deviations.
+/// With columns `storage_std` and `loss_factor_std` χ² is in their units; without them every modulus counts relative to its size, and the scatter about the law gives
+/// the standard deviations.
 ///
 /// # Errors
 /// [`JobError`]: what [`read_modulus_data`] refuses, no law with fewer parameters than numbers, an output folder that cannot be written.
@@ -129,7 +129,7 @@ fn heading(name: &str, data: &ModulusData) -> String {
         count => format!(", {count} rows left out"),
     };
     let weights = match &data.std {
-        Some(_) => "weighted by their deviations",
+        Some(_) => "weighted by their standard deviations",
         None => "weighted by their size",
     };
     let (first, last) = (hertz(first), hertz(last));

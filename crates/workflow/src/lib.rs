@@ -8,7 +8,7 @@
 //! | [`memory`] | whether a model fits, before it is factorised |
 //! | [`run`] | the computations, frequency by frequency, on all cores |
 //! | [`check`](mod@check) | what is wrong with a case's data, in words |
-//! | [`sensitivities`](mod@sensitivities) | what the response depends on, what the sensors tell apart, where the next one should go |
+//! | [`sensitivities`](mod@sensitivities) | what the response depends on, what the sensors identify, where the next one should go |
 //! | [`figures`] | what a run looks like, as the paper draws it |
 //! | [`report`](mod@report) | all of it as one HTML page |
 //! | [`output`] | tables, summary, and writing them whole or not at all |

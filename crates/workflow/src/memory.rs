@@ -1,4 +1,4 @@
-//! Whether a model fits into memory, told before any of it is factorised.
+//! Whether a model fits into memory, estimated before any of it is factorised.
 
 use crate::load::{Case, IdentifyCase};
 use frfit_linalg::c64;

@@ -139,7 +139,7 @@ fn run(
     (folder, job)
 }
 
-/// Storage modulus and loss factor of the law, each with its deviation.
+/// Storage modulus and loss factor of the law, each with its standard deviation.
 fn modulus(job: &IdentifyJob) -> [[f64; 2]; 2] {
     let law = &job.summary["laws"]["laws"][0]["parameters"];
     ["storage", "loss_factor"].map(|name| ["value", "std"].map(|key| law[name][key].as_f64().unwrap()))

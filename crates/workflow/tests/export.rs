@@ -220,7 +220,7 @@ fn tables_are_read_by_frfit_itself() {
 }
 
 #[test]
-fn only_what_is_ok_is_written_and_the_rest_is_told() {
+fn only_what_is_ok_is_written_and_the_rest_is_reported() {
     let (_folder, path) = written(IDENTIFIED);
     let done = export(&path, None, &options(Target::Ansys, UnitSystem::Si), &mut Reads::default()).unwrap();
     assert_eq!(done.modulus.left_out_words().unwrap(), "1 ambiguous, 1 no_root");
@@ -350,17 +350,17 @@ fn pynastran_reads_the_deck_needs_pynastran() {
         std::fs::write(&deck, &done.text).unwrap();
         let output = Command::new(&python).args(["-c", PYNASTRAN]).arg(&deck).output().unwrap();
         assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-        let told: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
-        let [e, nu, rho, ge] = [0, 1, 2, 3].map(|k| told["mat"][k].as_f64().unwrap());
+        let deck: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        let [e, nu, rho, ge] = [0, 1, 2, 3].map(|k| deck["mat"][k].as_f64().unwrap());
         // 1100 kg/m³ is 1.1e-9 t/mm³.
         let density = if unit == 1.0 { 1100.0 } else { 1.1e-9 };
-        assert!(nu == 0.45 && (rho / density - 1.0).abs() < 1e-15, "{told:#}");
+        assert!(nu == 0.45 && (rho / density - 1.0).abs() < 1e-15, "{deck:#}");
         let column = |table: &str, name: &str| {
-            let values = told["tables"][table][name].as_array().unwrap().iter();
+            let values = deck["tables"][table][name].as_array().unwrap().iter();
             values.map(|value| value.as_f64().unwrap()).collect::<Vec<f64>>()
         };
         let of = |table: &str| {
-            assert_eq!(told["tables"][table]["axes"], serde_json::json!(["LINEAR", "LINEAR"]));
+            assert_eq!(deck["tables"][table]["axes"], serde_json::json!(["LINEAR", "LINEAR"]));
             column(table, "x").into_iter().zip(column(table, "y")).collect::<Vec<_>>()
         };
         let found = nastran_modulus(e, ge, &of("7"), &of("8"));

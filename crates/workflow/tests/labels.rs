@@ -81,7 +81,7 @@ fn one_structure_from_four_programs_is_one_model() {
         assert_eq!(case.experiment.sensors[0].sign, -1.0);
         assert_eq!(case.row_names[&case.experiment.sensors[0].row], "4+Y");
     }
-    // What Abaqus holds fixed is told by its stiffness alone.
+    // What Abaqus holds fixed is shown by its stiffness alone.
     let message = chain(SAME[4].0, SAME[4].1, "", &[]).unwrap_err();
     assert_snapshot!(message, @r"
     chain_MASS1.mtx: expected rows that some stiffness has too, by their names, found 1 that none has: 9+X
@@ -136,14 +136,14 @@ fn a_table_of_dofs_rules_and_what_is_not_there_is_refused() {
 }
 
 #[test]
-fn inspect_tells_the_rows_and_the_triangle() {
-    let told = |name: &str| {
+fn inspect_shows_the_rows_and_the_triangle() {
+    let shown = |name: &str| {
         inspect(&samples().join(name)).unwrap().text().replace(&format!("{}/", samples().display()), "")
     };
-    assert_snapshot!(told("chain.sti"));
-    assert_snapshot!(told("chain_STIF1.mtx"));
-    assert_snapshot!(told("chain_coordinate.mtx"));
-    assert_snapshot!(told("chain.pch"));
+    assert_snapshot!(shown("chain.sti"));
+    assert_snapshot!(shown("chain_STIF1.mtx"));
+    assert_snapshot!(shown("chain_coordinate.mtx"));
+    assert_snapshot!(shown("chain.pch"));
     let json = inspect(&samples().join("chain.pch")).unwrap().json();
     assert_eq!(json["kind"], "dmig");
     assert_eq!((&json["matrices"][0]["name"], &json["matrices"][0]["rows"]), (&"KAAX".into(), &5.into()));

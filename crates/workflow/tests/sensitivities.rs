@@ -75,7 +75,7 @@ fn of_springs_in_parallel_only_the_sum_is_seen() {
     );
     assert!(std_of(&job.summary, "soft").is_none() && std_of(&job.summary, "masses").unwrap() < 0.05);
     assert!(std_of(&job.summary, "attached 1 (damping at row 2)").unwrap() < 0.3);
-    // No place in the world tells them apart: the best sensor is for the others.
+    // No place in the world separates them: the best sensor is for the others.
     let next = &job.summary["next_sensor"];
     assert_eq!((&next["compared"], &next["before"]["unseen"]), (&Value::from(N - 1), &Value::from(2)));
     assert_eq!(next["best"][0]["after"]["unseen"], 2);
@@ -90,7 +90,7 @@ fn with_an_unknown_scale_a_common_factor_is_not_seen() {
     assert!(
         job.summary["inseparable"].as_array().unwrap().is_empty() && job.summary["next_sensor"].is_null()
     );
-    assert!(job.text.all.contains("told apart        all parameters"), "{}", job.text.all);
+    assert!(job.text.all.contains("identifiable      all parameters"), "{}", job.text.all);
     let unknown = chain() + "[[measurement]]\nrow = 6\nscale = \"unknown\"\n" + RESPOND;
     let job = run(&folder, &unknown, &options(None, "all"));
     let words = job.summary["inseparable"][0]["words"].as_str().unwrap();
@@ -123,18 +123,19 @@ fn noise_is_what_the_files_say_or_what_is_asked_for() {
     fs::write(folder.path().join("frf.csv"), table).unwrap();
     // From 0 Hz on, where nothing moves: that line is left out.
     let measured = chain() + "[[measurement]]\nfile = \"frf.csv\"\nquantity = \"receptance\"\nrow = 6\n";
-    let told = run(&folder, &measured, &options(None, "none"));
-    assert_eq!(told.summary["noise"], serde_json::json!({"source": "files"}));
+    let measured_run = run(&folder, &measured, &options(None, "none"));
+    assert_eq!(measured_run.summary["noise"], serde_json::json!({"source": "files"}));
     assert_eq!(
-        (&told.summary["frequencies"], &told.summary["band_hz"][0]),
+        (&measured_run.summary["frequencies"], &measured_run.summary["band_hz"][0]),
         (&Value::from(40), &Value::from(0.5))
     );
     let given = run(&folder, &measured, &options(Some(0.01), "none"));
     for name in ["springs", "springs loss factor", "masses"] {
-        let [assumed, told, given] = [&assumed, &told, &given].map(|job| std_of(&job.summary, name).unwrap());
+        let [assumed, from_files, given] =
+            [&assumed, &measured_run, &given].map(|job| std_of(&job.summary, name).unwrap());
         // A table of 17 digits: the same to roundoff.
         assert!(
-            (told / (2.0 * assumed) - 1.0).abs() < 1e-9 && (given / assumed - 1.0).abs() < 1e-9,
+            (from_files / (2.0 * assumed) - 1.0).abs() < 1e-9 && (given / assumed - 1.0).abs() < 1e-9,
             "{name}"
         );
     }
@@ -184,7 +185,7 @@ fn what_cannot_be_used_is_refused() {
     assert!(unnamed.contains("--candidates") && unnamed.contains("[dofs]"), "{unnamed}");
 }
 
-/// Stiffness and mass that go with a dimension as with factors: it is a parameter, and with both of them it cannot be told apart.
+/// Stiffness and mass that go with a geometric parameter as with factors: with both of them it is not identifiable.
 #[test]
 fn dimensions_are_parameters() {
     let folder = tempfile::tempdir().unwrap();

@@ -93,7 +93,7 @@ fn transposed(matrix: &Square) -> Square {
     (0..matrix.len()).map(|j| matrix.iter().map(|row| row[j]).collect()).collect()
 }
 
-/// A row of the table of plates: length, width, thickness, mass, then E_L, E_R and G_LR with their deviations, in SI units.
+/// A row of the table of plates: length, width, thickness, mass, then E_L, E_R and G_LR with their standard deviations, in SI units.
 struct Plate {
     size: [f64; 3],
     mass: f64,
@@ -121,7 +121,7 @@ fn nodes(length: f64, elements: usize) -> Vec<f64> {
     std::iter::once(0.0).chain((0..=elements).map(inner)).chain([length]).collect()
 }
 
-/// E_L, E_R and G_LR, each with its deviation, and the verdict.
+/// E_L, E_R and G_LR, each with its standard deviation, and the verdict.
 fn identified(name: &str, plate: &Plate) -> ([(f64, f64); 3], String) {
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| folder.path().join(name);

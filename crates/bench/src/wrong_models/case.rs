@@ -87,7 +87,7 @@ pub struct Case {
     pub std: Vec<Vec<f64>>,
     /// Noise over response.
     pub noise: f64,
-    /// Whether the identification is told the standard deviations.
+    /// Whether the standard deviations are given to the identification.
     pub noise_known: bool,
     /// Elastic modes of the model in the band.
     pub modes: usize,

@@ -98,7 +98,7 @@ mod tests {
 
     #[test]
     fn moments_of_the_noise() {
-        // Mean and mean square of n circular numbers scatter by 1/√n about 0 and 1: five deviations.
+        // Mean and mean square of n circular numbers scatter by 1/√n about 0 and 1: five standard deviations.
         let (mut dice, n) = (Dice::new(7, 0), 20_000);
         let drawn: Vec<c64> = (0..n).map(|_| dice.circular()).collect();
         let limit = 5.0 / f64::from(n).sqrt();

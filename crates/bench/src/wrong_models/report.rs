@@ -47,7 +47,7 @@ pub struct Run {
     pub way: Way,
     /// Lines with a value.
     pub judged: Vec<Judged>,
-    /// Whether the band was explained; `None` where nothing tells.
+    /// Whether the band was explained; `None` where that is unknown.
     pub verdict: Option<Explained>,
     /// Level of the noise with which the error bars were made.
     pub level: Option<f64>,
@@ -228,10 +228,10 @@ pub fn described(case: &Tried) -> String {
     let Tried {
         index, class, kind, rows: [rows, truth_rows], modes, lines, sensors, noise, loss, ratio, ..
     } = case;
-    let told = if case.noise_known { "known" } else { "unknown" };
+    let knowledge = if case.noise_known { "known" } else { "unknown" };
     format!(
         "case {index}: {class}, {kind}, {rows} rows (truth {truth_rows}), {modes} modes, {lines} lines, {sensors} sensors, \
-         noise {:.2} % ({told}), η {loss:.2e} in the middle, nominal {ratio:.3} of the truth, Δf {} %",
+         noise {:.2} % ({knowledge}), η {loss:.2e} in the middle, nominal {ratio:.3} of the truth, Δf {} %",
         100.0 * noise,
         percent(case.frequency_error)
     )
@@ -286,7 +286,7 @@ pub fn lines(run: &Run) -> String {
         let cells = [format!("{:.3}", line.frequency_hz), line.status.name().to_owned()];
         rows.push(cells.into_iter().chain(line.parts.iter().flat_map(part)).collect());
     }
-    let verdict = run.verdict.map_or("nothing tells whether it is explained", Explained::name);
+    let verdict = run.verdict.map_or("unknown whether it is explained", Explained::name);
     let level = run.level.map_or_else(none, |level| format!("{level:.3e}"));
     format!("{}: {verdict}, level of the noise {level}, {:.2} s\n\n{}", run.way, run.seconds, table(&rows))
 }

@@ -29,7 +29,7 @@ pub(crate) fn run(args: &Args, wanted: &Export) -> Result<Outcome, Failure> {
     if args.json {
         let left_out: Map<String, Value> =
             modulus.left_out.iter().map(|(status, count)| (status.clone(), json!(count))).collect();
-        let told = json!({
+        let summary = json!({
             "wrote": out.to_string(),
             "unit_system": units.name(),
             "frequencies": count,
@@ -37,7 +37,7 @@ pub(crate) fn run(args: &Args, wanted: &Export) -> Result<Outcome, Failure> {
             "left_out": left_out,
             "law": modulus.law,
         });
-        say_json(&told)?;
+        say_json(&summary)?;
     } else {
         let mut words = Words::default();
         words.say(&format!(

@@ -16,7 +16,7 @@ use crate::quantity::Quantity;
 use crate::response::Work;
 use crate::subspace::Subspace;
 
-/// By how much a finding must be likelier, natural logarithm: some thirty changes are tried (e^3.4), and neighbouring residuals are not independent: what is left of a law
+/// The least log-likelihood ratio of a finding, in nats: some thirty changes are tried (e^3.4), and neighbouring residuals are not independent: what is left of a law
 /// that is no power may move several of them together.
 pub const FINDING_NATS: f64 = 15.0;
 

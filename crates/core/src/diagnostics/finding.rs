@@ -8,7 +8,7 @@ use crate::response::Work;
 pub struct Diagnosis {
     /// What is wrong, the mesh last; empty where nothing is.
     pub findings: Vec<Finding>,
-    /// Robust deviation of ln(measured/model), real and imaginary part each, with the likeliest modulus and all findings; `None` where it was not judged.
+    /// Robust standard deviation of ln(measured/model), real and imaginary part each, with the likeliest modulus and all findings; `None` where it was not judged.
     pub misfit: Option<f64>,
     /// Why the data were not judged, if they were not.
     pub not_judged: Option<NotJudged>,
@@ -101,7 +101,7 @@ pub enum Fault {
         factor: f64,
         /// Standard deviation of its logarithm.
         relative_std: f64,
-        /// The number with a name that it is, within [`KNOWN_FACTOR_RTOL`] and five deviations.
+        /// The number with a name that it is, within [`KNOWN_FACTOR_RTOL`] and five standard deviations.
         known: Option<KnownFactor>,
     },
     /// The response is late: its phase falls in proportion to frequency.
@@ -136,11 +136,11 @@ pub const KNOWN_FACTOR_RTOL: f64 = 0.05;
 /// What speaks for a finding.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Evidence {
-    /// Robust deviation of ln(measured/model), real and imaginary part each, with the likeliest modulus and without this finding.
+    /// Robust standard deviation of ln(measured/model), real and imaginary part each, with the likeliest modulus and without this finding.
     pub before: f64,
     /// The same with it.
     pub after: f64,
-    /// By how much it is likelier, natural logarithm, after a penalty for every free number.
+    /// Log-likelihood ratio in nats, after a penalty for every free number.
     pub nats: f64,
 }
 

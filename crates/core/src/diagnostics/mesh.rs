@@ -1,4 +1,4 @@
-//! What a mesh can carry, as far as matrices alone tell it.
+//! What a mesh can carry, as far as matrices alone show it.
 
 use super::finding::Fault;
 use crate::c64;
@@ -18,7 +18,7 @@ const SLOW_ROW_SHARE: f64 = 0.25;
 ///
 /// # Limits
 /// It cannot see how few elements there are in a wavelength where another direction is much stiffer (thin plates of solid elements have a thickness that vibrates
-/// alone far above the band): there it says nothing. How large the error is, only a finer mesh tells.
+/// alone far above the band): there it says nothing. How large the error is, only a finer mesh shows.
 pub(super) fn beyond_mesh(top: &ModelAt<'_>, correction: c64) -> Option<Fault> {
     let n = top.model.dim();
     let (mut stiffness, mut mass) = (vec![0.0; n], vec![0.0; n]);

@@ -5,11 +5,11 @@
 //! frequencies its response is a sum over poles, x_m(c) = Σ_k ρ_mk/(1 + cλ_k). What is compared are residuals ln(measured/model), magnitude and phase together, by the
 //! likelihood of Student's distribution with a scale that is free (`misfit`), and by what BIC takes for each free number.
 //!
-//! A change is a finding where it is likelier than the data as they are by [`FINDING_NATS`] and leaves a misfit that is smaller by [`MAX_MISFIT_RATIO`]; then a second change is looked for with
+//! A change is a finding where its log-likelihood ratio to the data as they are is at least [`FINDING_NATS`] and leaves a misfit that is smaller by [`MAX_MISFIT_RATIO`]; then a second change is looked for with
 //! the first in force, and a third is not: who finds three faults has the wrong model.
 //!
 //! # Limits
-//! Load and response that are swapped give the same FRF (reciprocity), so that nobody can tell. A factor of all sensors and the modulus are one where nothing but stiffness
+//! Load and response that are swapped give the same FRF (reciprocity), and cannot be distinguished. A factor of all sensors and the modulus are one where nothing but stiffness
 //! answers (a clamped structure below its first resonance), and then nothing is said. Damping that shows gives a conjugated FRF away; where it is less than the noise, nothing is said.
 //! A dof is one of several where neighbours or mirror images answer alike: all of them are named. Faults that depend on frequency (a filter, a mounting resonance) are not looked for.
 

@@ -65,7 +65,7 @@ pub(super) struct Grid {
 }
 
 impl Search<'_, '_> {
-    /// Responses at all points of the grid, at the sensors as the case tells them.
+    /// Responses at all points of the grid, at the sensors as the case gives them.
     pub(super) fn grid(&self, sensors: usize) -> Grid {
         let parametrization = &self.responses.parametrization;
         let [low, high] = parametrization.ln_size;
@@ -153,7 +153,7 @@ impl Search<'_, '_> {
                 .filter(|&(m, _)| data_hypothesis.concerned(m)[0]);
             ln_factor = median(of.map(|(_, r)| r.re).collect()).unwrap_or(0.0);
         }
-        // A phase that a delay may have turned tells nothing yet.
+        // A phase that a delay may have turned is not used yet.
         let weighed = |(m, r): (usize, c64)| {
             if delay && data_hypothesis.concerned(m)[1] { c64::new(r.re, 0.0) } else { r }
         };
@@ -299,7 +299,7 @@ impl Search<'_, '_> {
         [of_factor, of_delay.map(|phase| phase / self.top())]
     }
 
-    /// Slope of ln|measured/model| over ln ω of some sensors and its deviation, as the data are read and the modulus was found.
+    /// Slope of ln|measured/model| over ln ω of some sensors and its standard deviation, as the data are read and the modulus was found.
     pub(super) fn slope(
         &self,
         data_hypothesis: &DataHypothesis,
@@ -321,7 +321,7 @@ impl Search<'_, '_> {
     }
 }
 
-/// Slope of a straight line through points, least squares, with its deviation.
+/// Slope of a straight line through points, least squares, with its standard deviation.
 fn line_slope(points: &[(f64, f64)]) -> Option<(f64, f64)> {
     let n = points.len() as f64;
     let (x0, y0) = (points.iter().map(|p| p.0).sum::<f64>() / n, points.iter().map(|p| p.1).sum::<f64>() / n);

@@ -1,6 +1,6 @@
 //! Channels of unknown scale or delay, as coordinates of the search: sensor m shows z_m = x_m e^{−iωτ_m}/s_m.
 //!
-//! Residuals are z_m − u_m over the deviations of u_m as it was measured, so that no scale gains by being small.
+//! Residuals are z_m − u_m over the standard deviations of u_m as it was measured, so that no scale gains by being small.
 
 use super::channel::{Calibrated, Calibration, Channel, ChannelNumber, ChannelUnknowns, numbers_of};
 use crate::c64;

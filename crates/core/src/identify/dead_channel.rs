@@ -5,7 +5,7 @@ use crate::c64;
 /// No sensor of a structure shows so little of what another one shows, over a whole band: it is roundoff, or the noise of an input without a sensor.
 const DEAD_RATIO: f64 = 1e-11;
 
-/// The sensors whose largest response is at most 1e-11 of the largest of all; none where all are zero. They know nothing, but a deviation in proportion to their
+/// The sensors whose largest response is at most 1e-11 of the largest of all; none where all are zero. They know nothing, but a standard deviation in proportion to their
 /// response would make them count for more than all others.
 pub(super) fn dead_channels(measured: &[Vec<c64>]) -> Vec<usize> {
     let sensors = measured.first().map_or(0, Vec::len);

@@ -131,7 +131,7 @@ pub(super) fn is_unexplained_stretch(excess: f64, noise: &NoiseLevel) -> bool {
 /// A sensor over the band.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SensorFit {
-    /// Root mean square of its misfit over its assumed deviation and the level of the noise, over all answers; `None` without answers. Noise
+    /// Root mean square of its misfit over its assumed standard deviation and the level of the noise, over all answers; `None` without answers. Noise
     /// alone gives less than 1, the less the more of the answers it determines.
     pub misfit: Option<f64>,
     /// Whether it contradicts all others, which agree with one another without it.

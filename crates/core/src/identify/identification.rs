@@ -18,7 +18,7 @@ use frfit_linalg::solve::Breakdown;
 pub struct Identification {
     /// One for each frequency.
     pub lines: Vec<Line>,
-    /// The unknowns that hold for the band: constants, dimensions and laws.
+    /// The unknowns that hold for the band: constants, geometric parameters and laws.
     pub constants: Vec<BandValue>,
     /// The laws that were fitted to a single unknown, in the order in which they were asked for.
     pub laws: Vec<LawFit>,

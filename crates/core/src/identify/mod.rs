@@ -67,7 +67,7 @@ use problem::Strategy;
 /// One reduced model (B-3) answers for the whole band, with an estimate of its error in every line; where it cannot be built, the
 /// full model answers. A single factor is found with all its solutions at each frequency (B-2), fitted to all sensors (B-5), and one
 /// path is chosen through the band (B-4); a law (B-7) or a smooth curve (B-9) begins there. Several unknowns, constants and
-/// dimensions are found in one least squares in which what each frequency has of its own is eliminated (B-8). Channels of unknown
+/// geometric parameters are found in one least squares in which what each frequency has of its own is eliminated (B-8). Channels of unknown
 /// scale or delay are found together with the unknowns.
 ///
 /// # Errors

@@ -6,11 +6,11 @@ use crate::frequency::omega_rad_s;
 use crate::median::median;
 use crate::select::{Choice, Node};
 
-/// Where no deviation is given, sensors count by their own size, but not below this fraction of their median over the band: an antiresonance is
+/// Where no standard deviation is given, sensors count by their own size, but not below this fraction of their median over the band: an antiresonance is
 /// not measured any better than the rest.
 const MIN_SIZE_OVER_MEDIAN: f64 = 0.1;
 
-/// No instrument is better than this fraction of the largest response: a smaller deviation, or none at all, is not believed.
+/// No instrument is better than this fraction of the largest response: a smaller standard deviation, or none at all, is not believed.
 const MIN_STD_OVER_LARGEST: f64 = 1e-9;
 
 /// The least level that is believed of one that is not given: a millionth of the response is roundoff near a resonance.
@@ -30,7 +30,7 @@ pub enum Noise<'a> {
     Known(&'a [Vec<f64>]),
 }
 
-/// What tells the level of the noise.
+/// Where the level of the noise is known from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum NoiseSource {
@@ -59,13 +59,13 @@ impl NoiseSource {
     }
 }
 
-/// The noise over the assumed deviations: those that were given, or where none were, the responses themselves (a tenth of their median at
+/// The noise over the assumed standard deviations: those that were given, or where none were, the responses themselves (a tenth of their median at
 /// least), for real and imaginary part each.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NoiseLevel {
-    /// What the error bars are made with; `None` where nothing tells it.
+    /// What the error bars are made with; `None` where it is not known.
     pub level: Option<f64>,
-    /// What tells it.
+    /// Where it is known from.
     pub source: NoiseSource,
     /// What the misfit of several sensors says; `None` for one, which everything explains.
     pub of_sensors: Option<f64>,
@@ -132,7 +132,7 @@ pub(super) fn levels(measured: &[Vec<c64>], frequency_hz: &[f64]) -> Vec<Vec<f64
     (0..measured.len()).map(of).collect()
 }
 
-/// The deviations with what the response has beside the noise: this part of its level, for real and imaginary part each.
+/// The standard deviations with what the response has beside the noise: this part of its level, for real and imaginary part each.
 pub(super) fn beside(sigma: &[Vec<f64>], rest: f64, levels: &[Vec<f64>]) -> Vec<Vec<f64>> {
     let wider = |(row, levels): (&Vec<f64>, &Vec<f64>)| {
         row.iter().zip(levels).map(|(sigma, level)| sigma.hypot(rest * level)).collect()
@@ -140,7 +140,7 @@ pub(super) fn beside(sigma: &[Vec<f64>], rest: f64, levels: &[Vec<f64>]) -> Vec<
     sigma.iter().zip(levels).map(wider).collect()
 }
 
-/// The deviations with those of some sensors infinite: nothing is asked of them.
+/// The standard deviations with those of some sensors infinite: nothing is asked of them.
 pub(super) fn without(sigma: &[Vec<f64>], out: &[usize]) -> Vec<Vec<f64>> {
     let mut sigma = sigma.to_vec();
     sigma.iter_mut().for_each(|row| out.iter().for_each(|&m| row[m] = f64::INFINITY));

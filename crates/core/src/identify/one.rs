@@ -24,7 +24,7 @@ use frfit_linalg::solve::Breakdown;
 ///
 /// # Limits
 /// `ok` says that one root is admissible *inside the circle of convergence* and reproduces the first sensor's response. Roots outside it are not seen:
-/// where the true one is outside, a wrong one inside can be `ok`. Another sensor's error tells.
+/// where the true one is outside, a wrong one inside can be `ok`. Another sensor's error shows it.
 pub fn identify_at(system: &impl Response, measured: &[c64], unknown: &Unknown, options: &Options) -> Line {
     let mut outcome = Line::unknown(system.frequency_hz(), system.nominal(0), options.order);
     let result = match options.method {

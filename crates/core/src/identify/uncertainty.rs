@@ -26,11 +26,11 @@ pub struct Uncertainty {
     pub storage_std: f64,
     /// Standard deviation of η; `None` for a real factor, or where E′ is zero.
     pub loss_factor_std: Option<f64>,
-    /// Correlation of E′ and η; `None` where there is no deviation of η.
+    /// Correlation of E′ and η; `None` where there is no standard deviation of η.
     pub correlation: Option<f64>,
     /// What the standard deviation of E′ consists of.
     pub contributions: Contributions,
-    /// ½ ‖∂²x/∂c²‖ σ_c / ‖∂x/∂c‖, weighed by the sensors' deviations: what is quadratic in the error bar over what is linear.
+    /// ½ ‖∂²x/∂c²‖ σ_c / ‖∂x/∂c‖, weighed by the sensors' standard deviations: what is quadratic in the error bar over what is linear.
     pub nonlinearity: f64,
 }
 
@@ -70,17 +70,17 @@ impl Contributions {
 }
 
 /// Beyond this share of the quadratic term the linear error bar is not valid. For one sensor the mean of an error is off by √2 times
-/// this share in deviations of a part: at a quarter by a third of a deviation, which leaves 93 of 100 truths within two deviations, not 95.
+/// this share in standard deviations of a part: at a quarter by a third of a standard deviation, which leaves 93 of 100 truths within two standard deviations, not 95.
 const MAX_NONLINEARITY: f64 = 0.25;
 
-/// A number is known when its standard deviation is below this part of it: it is then three deviations away from nothing, and better
+/// A number is known when its standard deviation is below this part of it: it is then three standard deviations away from nothing, and better
 /// known than by a glance at a table of materials …
 pub(super) const KNOWN_RELATIVE_STD: f64 = 0.3;
 
-/// … also if it is as many deviations smaller as the error bar allows: of many numbers that are not known, those that noise has made large would else pass.
+/// … also if it is as many standard deviations smaller as the error bar allows: of many numbers that are not known, those that noise has made large would else pass.
 const KNOWN_LOWER_END_STD: f64 = 2.0;
 
-/// A loss factor below this is none that a vibration test tells from zero: supports, air and cables take more.
+/// A vibration test cannot distinguish a loss factor below this from zero: supports, air and cables take more.
 pub(super) const MIN_KNOWN_LOSS_FACTOR: f64 = 1e-4;
 
 impl Uncertainty {
@@ -130,7 +130,7 @@ impl Uncertainty {
         }
     }
 
-    /// Divides the deviation of E′ in the ratio of variances by noise, errors of the model, and known factors.
+    /// Divides the standard deviation of E′ in the ratio of variances by noise, errors of the model, and known factors.
     pub(crate) fn divide(&mut self, variances: [f64; 3]) {
         self.contributions = Contributions::in_ratio(self.storage_std, variances);
     }
@@ -141,7 +141,7 @@ impl Uncertainty {
         self.nonlinearity <= MAX_NONLINEARITY
     }
 
-    /// Whether the measurement tells the factor: its modulus, and its loss factor where it may have one.
+    /// Whether the factor is identifiable from the measurement: its modulus, and its loss factor where it may have one.
     pub fn is_known(&self, factor: c64) -> bool {
         let is_known = |value: f64, std: f64, least: f64| {
             std <= KNOWN_RELATIVE_STD * (value - KNOWN_LOWER_END_STD * std).max(least)

@@ -33,7 +33,7 @@ impl Variation {
 pub enum Dependence {
     /// In place of the factor of these terms: a modulus, a density.
     Factor(Vec<usize>),
-    /// The factors of these terms are multiplied by p^d, (term, d), d positive or negative (B-8): a dimension. A plate's thickness enters bending with 3, membrane and
+    /// The factors of these terms are multiplied by p^d, (term, d), d positive or negative (B-8): a geometric parameter. A plate's thickness enters bending with 3, membrane and
     /// mass with 1; a bar's length its stiffness with −1 and its mass with 1.
     Powers(Vec<(usize, i32)>),
 }
@@ -161,7 +161,7 @@ impl Unknown {
         let [low, high] = about.unwrap_or([nominal.re, nominal.re]);
         match self.dependence {
             Dependence::Factor(_) => [low, high],
-            // A dimension is known better than a modulus: by drawing.
+            // A geometric parameter is known better than a modulus: by drawing.
             Dependence::Powers(_) if nominal.re > 0.0 => {
                 [low.max(nominal.re / MAX_DIMENSION_RATIO), high.min(nominal.re * MAX_DIMENSION_RATIO)]
             }
@@ -170,7 +170,7 @@ impl Unknown {
     }
 }
 
-/// By how much a dimension may be off.
+/// By how much a geometric parameter may be off.
 const MAX_DIMENSION_RATIO: f64 = 2.0;
 
 /// A model with several unknowns in it.

@@ -1,4 +1,4 @@
-//! What a law leaves is not always noise: where neighbouring lines leave the same, they tell less than they would each by itself.
+//! What a law leaves is not always noise: neighbouring lines that leave the same carry less information than independent ones.
 //!
 //! What a line k leaves of ln E beside the law is taken for the sum of noise that is its own, as large as the weights say times s, and a deviation
 //! δ that the lines share, of the size τ and the correlation φ^{|k−l|}:
@@ -13,7 +13,7 @@
 /// One line of the data: a frequency of a band, or a row of a table. Each of the two numbers of ln E by itself.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct LineResidual {
-    /// Inverse variance of what the line tells, up to the common factor s².
+    /// Inverse variance of the line, up to the common factor s².
     pub(crate) weight: [f64; 2],
     /// What the law leaves, d.
     pub(crate) rest: [f64; 2],
@@ -28,7 +28,7 @@ pub struct Correlated {
     pub lines: f64,
     /// τ: the size of what they share, relative to the modulus.
     pub size: f64,
-    /// By how much the standard deviation of each parameter is wider than it would be without; `None` where the data do not tell it.
+    /// By how much the standard deviation of each parameter is wider than it would be without; `None` where that is not identifiable.
     pub widened: Vec<Option<f64>>,
 }
 

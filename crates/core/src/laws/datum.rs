@@ -40,7 +40,7 @@ impl Datum {
     /// Storage modulus and loss factor with a standard deviation each and their correlation.
     ///
     /// # Panics
-    /// Where a storage modulus or a deviation is not positive, or the correlation not between −1 and 1.
+    /// Where a storage modulus or a standard deviation is not positive, or the correlation not between −1 and 1.
     pub fn storage_and_loss(frequency_hz: f64, value: [f64; 2], std: [f64; 2], correlation: f64) -> Self {
         let ([storage, eta], [s, t]) = (value, std);
         assert!(storage > 0.0 && s > 0.0 && t > 0.0 && correlation.abs() < 1.0);
@@ -97,7 +97,7 @@ mod tests {
         for (found, expected) in [p * p, p * q, q * q + r * r].iter().zip([s * s, rho * s * t, t * t]) {
             assert!((found - expected).abs() < 1e-12 * expected.abs(), "{found} {expected}");
         }
-        // Two deviations of η, and none of E′.
+        // Two standard deviations of η, and none of E′.
         let [first, second] = datum.residual(2e6 * c64::new(1.0, 0.3 + 2.0 * t));
         assert!(first.abs() < 1e-9 && (second - 2.0 / (1.0 - rho * rho).sqrt()).abs() < 1e-9);
     }

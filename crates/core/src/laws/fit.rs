@@ -16,7 +16,7 @@ pub struct Estimate {
     pub unit: &'static str,
     /// Its value.
     pub value: f64,
-    /// Its standard deviation by the delta rule; `None` where the data do not tell it.
+    /// Its standard deviation by the delta rule; `None` where it is not identifiable.
     pub std: Option<f64>,
 }
 
@@ -25,11 +25,11 @@ pub struct Estimate {
 pub struct ModulusEstimate {
     /// E′ + iE″.
     pub modulus: c64,
-    /// Standard deviation of E′; `None` where the data do not tell the parameters.
+    /// Standard deviation of E′; `None` where the parameters are not identifiable.
     pub storage_std: Option<f64>,
     /// Standard deviation of η.
     pub loss_factor_std: Option<f64>,
-    /// Correlation of E′ and η; `None` where one of them has no deviation.
+    /// Correlation of E′ and η; `None` where one of them has no standard deviation.
     pub correlation: Option<f64>,
 }
 
@@ -38,7 +38,7 @@ pub struct ModulusEstimate {
 pub(crate) struct Evidence {
     /// Real numbers that were fitted.
     pub(crate) residuals: usize,
-    /// Whether the deviations are known, not only what they are in proportion to.
+    /// Whether the standard deviations are known, not only what they are in proportion to.
     pub(crate) sigma_known: bool,
 }
 
@@ -53,11 +53,11 @@ pub struct LawFit {
     pub parameters: Vec<Estimate>,
     /// Correlation of the parameters, by the delta rule; `None` where some are not identifiable.
     pub correlation: Option<Vec<Vec<f64>>>,
-    /// χ² = Σ r²: with known deviations about as many as there are degrees of freedom. With unknown ones it is in units of what they are in proportion to.
+    /// χ² = Σ r²: with known standard deviations about as many as there are degrees of freedom. With unknown ones it is in units of what they are in proportion to.
     pub chi_squared: f64,
     /// Real numbers that were fitted: two for a complex one.
     pub residuals: usize,
-    /// Whether the deviations are known.
+    /// Whether the standard deviations are known.
     pub sigma_known: bool,
     /// Whether the search ended because there was nothing more to gain.
     pub converged: bool,
@@ -65,7 +65,7 @@ pub struct LawFit {
     pub starts: usize,
     /// How many of them ended here. Where most did not, there may be a better minimum still.
     pub agreeing: usize,
-    /// What neighbouring lines leave in common, by which the deviations are wider than noise alone would have them; `None` where noise of each line explains what is left.
+    /// What neighbouring lines leave in common, by which the standard deviations are wider than noise alone would have them; `None` where noise of each line explains what is left.
     pub correlated: Option<Correlated>,
     parametrization: Parametrization,
     theta: Vec<f64>,
@@ -159,7 +159,7 @@ impl LawFit {
         }
     }
 
-    /// With the deviations that residuals have which neighbouring lines share; `lines` at this law, in its coordinates.
+    /// With the standard deviations that residuals have which neighbouring lines share; `lines` at this law, in its coordinates.
     pub(crate) fn widened(mut self, lines: &[LineResidual]) -> Self {
         let n = self.theta.len();
         let unit = scale(self.chi_squared, self.residuals, n, self.sigma_known);
@@ -216,13 +216,13 @@ impl LawFit {
         self.residuals.saturating_sub(self.parameters.len())
     }
 
-    /// χ² per degree of freedom: about one where the deviations are known and the law is right. `None` without a degree of freedom.
+    /// χ² per degree of freedom: about one where the standard deviations are known and the law is right. `None` without a degree of freedom.
     pub fn reduced_chi_squared(&self) -> Option<f64> {
         let freedom = self.degrees_of_freedom();
         (freedom > 0).then(|| self.chi_squared / freedom as f64)
     }
 
-    /// Bayes' information criterion, up to what all laws share: χ² + k ln n with known deviations, n ln(χ²/n) + k ln n otherwise. The least is the best; ten less is
+    /// Bayes' information criterion, up to what all laws share: χ² + k ln n with known standard deviations, n ln(χ²/n) + k ln n otherwise. The least is the best; ten less is
     /// decisive.
     ///
     /// # Source
@@ -248,7 +248,7 @@ impl LawFit {
         }
     }
 
-    /// E at a frequency, with the deviations that those of the parameters make.
+    /// E at a frequency, with the standard deviations that those of the parameters make.
     pub fn at(&self, frequency_hz: f64) -> Option<ModulusEstimate> {
         let (modulus, slopes) = self.parametrization.modulus(&self.theta, omega_rad_s(frequency_hz))?;
         let eta = loss_factor(modulus);
@@ -319,12 +319,12 @@ fn reported(
 /// χ² per number below which the rest is roundoff of numbers that are known to themselves.
 const EXACT_REDUCED_CHI_SQUARED: f64 = 1e-28;
 
-/// What χ² is in units of: one where the deviations are known, else χ² per degree of freedom.
+/// What χ² is in units of: one where the standard deviations are known, else χ² per degree of freedom.
 fn scale(sum: f64, residuals: usize, parameters: usize, sigma_known: bool) -> f64 {
     if sigma_known { 1.0 } else { sum / residuals.saturating_sub(parameters).max(1) as f64 }
 }
 
-/// A Cov Aᵀ, of the rows that do not hang on coordinates without a deviation.
+/// A Cov Aᵀ, of the rows that do not hang on coordinates without a standard deviation.
 fn carried(a: &[Vec<f64>], covariance: &[Vec<f64>]) -> Vec<Vec<f64>> {
     let entry = |x: &Vec<f64>, y: &Vec<f64>| {
         let mut sum = 0.0;

@@ -34,7 +34,7 @@ pub enum LawKind {
     },
 }
 
-/// Branches at most. Measured moduli tell about one relaxation time a decade apart.
+/// Branches at most. Measured moduli identify about one relaxation time in a decade.
 pub const MAX_BRANCHES: usize = 20;
 
 /// Branches where no number is given.

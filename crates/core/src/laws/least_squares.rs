@@ -48,7 +48,7 @@ pub(crate) struct LocalMinima {
 const REFUSED_RESIDUAL: f64 = 1e100;
 
 /// Relative reduction and relative step at which a search ends. Of a χ² of ten thousand that is a millionth: what is left to gain moves no parameter by more than a
-/// thousandth of its deviation.
+/// thousandth of its standard deviation.
 const SEARCH_RTOL: f64 = 1e-10;
 
 struct Problem<'a> {

@@ -16,7 +16,7 @@ use crate::c64;
 /// | zener | ln E₀, ln(E∞ − E₀), ln(τ ω₀), logit α |
 /// | maxwell | ln E₀, ln E_k, ln(τ_k ω₀) … |
 ///
-/// At the reference frequency ω₀, in the middle of the data, E₁ω₀^α is what the data tell; E₁ alone hangs on α from 1 rad/s up. So every law but the constant one is passive
+/// At the reference frequency ω₀, in the middle of the data, E₁ω₀^α is identifiable; E₁ alone hangs on α from 1 rad/s up. So every law but the constant one is passive
 /// whatever θ is. The loss factor of the constant one is free in sign: a negative one says that the data follow the other time convention, or that noise
 /// hides the damping, and is not to be forced away.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -22,7 +22,7 @@ pub struct Parameter {
     pub members: Vec<Member>,
     /// Its nominal value over frequency; the correction c is counted from it, P-35.
     pub nominal: Law,
-    /// Whether it multiplies the members' own factors (a dimension), in place of standing for them (a modulus).
+    /// Whether it multiplies the members' own factors (a geometric parameter), in place of standing for them (a modulus).
     pub multiplies: bool,
 }
 

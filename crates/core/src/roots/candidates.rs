@@ -123,7 +123,7 @@ pub fn candidates(
 /// than the tolerance.
 ///
 /// The tail is at most the largest of the last terms times ρ/(1 − ρ), and moves a root by tail/|p′|. Ghosts on the circle of
-/// convergence (Jentzsch) have ρ just below one and terms that do not fall: this is what tells them from solutions.
+/// convergence (Jentzsch) have ρ just below one and terms that do not fall: this separates them from solutions.
 pub fn refuse_diverged(
     candidates: &mut [Candidate],
     series: &NeumannSeries,

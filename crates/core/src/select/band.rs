@@ -135,7 +135,7 @@ impl Band {
     }
 }
 
-/// So many frequencies tell sizes of scatter and curvature, which are tried in steps of two and more: of longer bands not every frequency is looked at.
+/// So many frequencies determine sizes of scatter and curvature, which are tried in steps of two and more: of longer bands not every frequency is looked at.
 const MAX_SIZE_FREQUENCIES: usize = 2000;
 
 /// … first at so many of them: what holds for them holds for more, or on a neighbouring size.

@@ -1,4 +1,4 @@
-//! The joint choice among exact solutions over a band, B-4: which of them are one material, and where the data cannot tell.
+//! The joint choice among exact solutions over a band, B-4: which of them are one material, and where the data cannot decide.
 //!
 //! A solution at one frequency can match the measured response to the last digit and be the wrong modulus; wrong ones form smooth
 //! branches too. The choice minimises over all paths through the band, and over leaving out what fits none,

@@ -1,4 +1,4 @@
-//! A curve ln E(ln ω) as far as some of its points tell it: level, slope, and their covariance (a Kalman filter).
+//! A curve ln E(ln ω) as far as some of its points determine it: level, slope, and their covariance (a Kalman filter).
 
 use crate::c64;
 use std::f64::consts::{FRAC_PI_2, TAU};

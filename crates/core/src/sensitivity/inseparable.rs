@@ -1,4 +1,4 @@
-//! Which parameters the sensors cannot tell apart.
+//! Which parameters the sensors cannot separate.
 
 use super::Resolved;
 
@@ -27,7 +27,7 @@ pub struct Inseparable {
 /// With Q the projector on these directions, weighed by their variances, p and q are in one group where |Q_pq| is more than a tenth of √(Q_pp Q_qq).
 pub fn inseparable(resolved: &Resolved) -> Vec<Inseparable> {
     let count = resolved.variables();
-    // Nothing seen counts as a million deviations: it outweighs all else, and is finite.
+    // Nothing seen counts as a million standard deviations: it outweighs all else, and is finite.
     let weak: Vec<(&[f64], f64)> = resolved
         .combinations()
         .map(|(v, std)| (v, std.unwrap_or(f64::INFINITY)))
@@ -56,7 +56,7 @@ pub fn inseparable(resolved: &Resolved) -> Vec<Inseparable> {
 fn described(resolved: &Resolved, mut group: Vec<usize>, weak: &[(&[f64], f64)]) -> Inseparable {
     group.sort_unstable();
     let share = |v: &[f64]| group.iter().map(|&p| v[p] * v[p]).sum::<f64>();
-    // Directions of several groups with equal deviations may come mixed: their shares add up to whole numbers.
+    // Directions of several groups with equal standard deviations may come mixed: their shares add up to whole numbers.
     let unknown = (weak.iter().map(|(v, _)| share(v)).sum::<f64>().round() as usize).max(1);
     let mut direction = vec![0.0; group.len()];
     let own = weak.iter().filter(|(v, _)| share(v) > 0.5);

@@ -1,4 +1,4 @@
-//! Where another sensor would tell most.
+//! Where another sensor would add most.
 
 use super::{Resolved, SensitivityBand, StandardDeviations};
 use crate::c64;
@@ -68,7 +68,7 @@ pub struct Ranked {
 
 /// Candidate rows by the worst error bar that is left with one more sensor there, the best first.
 ///
-/// A new sensor has, at each frequency, the median of the sensors' deviations relative to their responses, and not less noise than the quietest of them: a row that
+/// A new sensor has, at each frequency, the median of the sensors' standard deviations relative to their responses, and not less noise than the quietest of them: a row that
 /// hardly moves is no good place for proportional noise alone to say so. With V at the rows of candidates, x_i and ∂x_i/∂ln p = e_iᵀw_p need no solve.
 ///
 /// # Limits
@@ -76,7 +76,7 @@ pub struct Ranked {
 /// looked at again as sensors of a subspace of their own.
 ///
 /// # Panics
-/// Where a deviation is missing at a frequency with a response, or there is no such row.
+/// Where a standard deviation is missing at a frequency with a response, or there is no such row.
 pub fn next_sensors(
     band: &SensitivityBand<'_>,
     std: &StandardDeviations,
@@ -111,7 +111,7 @@ pub fn next_sensors(
     ranked
 }
 
-/// The worst error bar with each of a band's last sensors added, one at a time, to the first ones, for which there are deviations: the check of [`next_sensors`], by a subspace
+/// The worst error bar with each of a band's last sensors added, one at a time, to the first ones, for which there are standard deviations: the check of [`next_sensors`], by a subspace
 /// that was trained for them, over all frequencies.
 ///
 /// # Errors
@@ -132,7 +132,7 @@ pub fn with_each_added(
         .zip(std)
         .map(|(at, std)| {
             let (Some(changed), Some(there)) = (at, std.get(..present)) else {
-                // No deviation, no say.
+                // No standard deviation, no say.
                 return vec![0.0; all];
             };
             let noise = Noise::of(there, &changed.response);

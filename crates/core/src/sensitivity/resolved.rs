@@ -1,4 +1,4 @@
-//! What the sensors of a band tell of the parameters.
+//! How well the sensors of a band identify the parameters.
 
 use super::SensitivityBand;
 use crate::c64;
@@ -11,7 +11,7 @@ pub type StandardDeviations = Vec<Vec<f64>>;
 /// Components of a singular vector below this are roundoff: what is orthogonal to a direction that nobody sees does not suffer from it.
 const COMPONENT_TOL: f64 = 1e-6;
 
-/// The Jacobian J of real and imaginary parts of all x over their deviations by ln p, as singular values ς and right singular vectors.
+/// The Jacobian J of real and imaginary parts of all x over their standard deviations by ln p, as singular values ς and right singular vectors.
 ///
 /// With noise alone in the way Cov(ln p) = (JᵀJ)⁻¹, so that the combination vᵢᵀ ln p has the standard deviation 1/ςᵢ.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,13 +31,13 @@ impl SensitivityBand<'_> {
         self.at.iter().map(row).collect()
     }
 
-    /// The Jacobian over all frequencies and the chosen sensors. Values without a positive finite deviation have no say.
+    /// The Jacobian over all frequencies and the chosen sensors. Values without a positive finite standard deviation have no say.
     ///
     /// # Errors
     /// [`NoConvergence`] where its singular values are not found.
     ///
     /// # Panics
-    /// Where a deviation is missing at a frequency with a response, or there is no such sensor.
+    /// Where a standard deviation is missing at a frequency with a response, or there is no such sensor.
     pub fn resolved(&self, std: &StandardDeviations, sensors: &[usize]) -> Result<Resolved, NoConvergence> {
         let count = self.variables.len();
         let mut columns = vec![Vec::new(); count];

@@ -18,7 +18,7 @@ pub struct Variable {
 pub enum Change {
     /// The factors of some terms, in proportion to the parameter: a modulus (its loss factor stays), a density.
     Factor(Vec<usize>),
-    /// The factors of some terms, in proportion to a power of the parameter (B-8): a dimension, 3 for a thickness in bending.
+    /// The factors of some terms, in proportion to a power of the parameter (B-8): a geometric parameter, 3 for a thickness in bending.
     Powers(Vec<(usize, i32)>),
     /// The loss factors of some terms: the imaginary parts of their factors.
     LossFactor(Vec<usize>),

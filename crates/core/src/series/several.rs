@@ -37,7 +37,7 @@ impl MixedSeries {
     ///
     /// # Limits
     /// Parameters do not multiply one another (P-10: D has no terms c_i c_j). Memory is that of the vectors of the highest max d_j + 1 total orders, of which
-    /// order k has C(k + J − 1, J − 1). Along a direction it converges as [`super::Along`] tells.
+    /// order k has C(k + J − 1, J − 1). Along a direction it converges as [`super::Along`] says.
     pub fn new(system: &impl Response, parameters: usize, order: usize) -> Result<Self, Breakdown> {
         let indices = MultiIndices::new(parameters, order);
         let scales = (0..parameters).map(|j| scale(system, j)).collect::<Result<Vec<f64>, _>>()?;

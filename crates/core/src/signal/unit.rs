@@ -132,7 +132,7 @@ impl FromStr for Unit {
 pub struct Sensitivity {
     /// V per SI unit.
     pub volts_per_unit: f64,
-    /// The unit of the voltage as it was written: that of samples whose own unit nothing tells.
+    /// The unit of the voltage as it was written: that of samples without a unit of their own.
     pub voltage: Unit,
     /// What it measures.
     pub kind: Kind,

@@ -22,7 +22,7 @@ pub(crate) struct Evidence {
     pub(crate) numbers: usize,
     /// Whether the weights are the noise's own, or up to a factor.
     pub(crate) known: bool,
-    /// Squares, and how many, that tell of that factor beside the observations.
+    /// Squares, and how many, that determine that factor beside the observations.
     pub(crate) beside: (f64, usize),
 }
 
@@ -40,7 +40,7 @@ pub(crate) struct Smoothed {
 /// Curvatures are a factor of e apart: their likelihood changes little over that.
 const LN_CURVATURE_STEP: f64 = 1.0;
 
-/// The least curvature moves the curve off a line, over the whole range, by a tenth of the line's own deviation (a Wiener process's bridge has
+/// The least curvature moves the curve off a line, over the whole range, by a tenth of the line's own standard deviation (a Wiener process's bridge has
 /// T³/192 in its middle), so that it is the same as none.
 const STRAIGHT_CURVATURE: f64 = 1.0;
 
@@ -48,7 +48,7 @@ const STRAIGHT_CURVATURE: f64 = 1.0;
 const LARGEST_STEP_VARIANCE: f64 = 1e2;
 
 /// The prior of the curvature grows with its eighth root (with κ^¼), which is between one that is flat over ln κ and one that is flat over κ. With the first, curves so little
-/// curved that a straight line is nearly as likely have the truth outside their bars too often (91 of 100 within two deviations for a sandwich at 5 % noise); with the second, straight
+/// curved that a straight line is nearly as likely have the truth outside their bars too often (91 of 100 within two standard deviations for a sandwich at 5 % noise); with the second, straight
 /// lines have bars that are too wide (all of 100, for a plate of which a few frequencies know all).
 const CURVATURE_PRIOR_POWER: f64 = 0.125;
 

@@ -20,7 +20,7 @@ impl Projection {
     /// near this model's own: a neighbourhood needs fewer vectors than a band. The same model where that is not so.
     ///
     /// # Limits
-    /// Its [`Projection::assess`] tells errors of the full model, not of this one.
+    /// Its [`Projection::assess`] estimates errors of the full model, not of this one.
     pub fn localised(&self, points: &[Point<'_>], tolerance: f64) -> Self {
         self.localised_with(points, tolerance, &[]).map_or_else(|| self.clone(), |(local, _)| local)
     }

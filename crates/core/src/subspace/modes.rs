@@ -285,7 +285,7 @@ impl Projection {
         sum
     }
 
-    /// This model with errors. What its residuals tell is how far a smaller model is from it, not it from the full one.
+    /// This model with errors. Its residuals say how far a smaller model is from it, not how far it is from the full one.
     pub(crate) fn with_errors(&self, modes: &Modes, errors: &ModalErrors) -> Self {
         let r = self.size;
         let mut corrected = Self { parts: self.parts.with_errors(&errors.factors), ..self.clone() };

@@ -1,4 +1,4 @@
-//! Everything small that belongs to a basis: the reduced matrices, loads, sensors, and the sketches that tell residuals.
+//! Everything small that belongs to a basis: the reduced matrices, loads, sensors, and the sketches that estimate residuals.
 
 use super::parts::Parts;
 use crate::c64;

@@ -25,7 +25,7 @@ impl Shift {
         for &WeightedTerm { term, weight: coefficient } in &at.nominal.parts {
             let term = &model.terms()[term];
             if sigma == 0.0 && term.role != Role::Stiffness {
-                continue; // at 0 Hz, where the weight does not tell the factor
+                continue; // at 0 Hz, where the weight does not determine the factor
             }
             let factor: c64 = coefficient / model.weight(term.role, at.frequency_hz);
             let weight = match term.role {

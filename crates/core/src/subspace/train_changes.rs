@@ -37,7 +37,7 @@ with_fields!(ChangeOptions {
 const RESPONSE_TOLS: [f64; 4] = [1e-8, 1e-10, 1e-12, 1e-14];
 
 impl<'m> Subspace<'m> {
-    /// Grows the basis until response and derivatives are within the tolerance at all points; tells the largest estimated error of a derivative at a sensor.
+    /// Grows the basis until response and derivatives are within the tolerance at all points; returns the largest estimated error of a derivative at a sensor.
     ///
     /// # Errors
     /// [`Breakdown`] where a solve fails.

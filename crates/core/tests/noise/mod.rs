@@ -19,7 +19,7 @@ impl Noise {
         ((z ^ (z >> 31)) >> 11).wrapping_add(1) as f64 / (1u64 << 53) as f64
     }
 
-    /// Real and imaginary part each normal with deviation one (Box, Muller).
+    /// Real and imaginary part each normal with standard deviation one (Box, Muller).
     pub(crate) fn complex(&mut self) -> c64 {
         let radius = (-2.0 * self.uniform().ln()).sqrt();
         c64::from_polar(radius, std::f64::consts::TAU * self.uniform())

@@ -14,7 +14,7 @@ pub(crate) fn of_tier<T>(daily: T, long: T) -> T {
     if is_long() { long } else { daily }
 }
 
-/// How far a share of about 0.95 may be off among so many independent draws: 3.3 deviations, once in a thousand.
+/// How far a share of about 0.95 may be off among so many independent draws: 3.3 standard deviations, once in a thousand.
 pub(crate) fn scatter_of_95(draws: f64) -> f64 {
     3.3 * (0.95 * 0.05 / draws).sqrt()
 }

@@ -27,7 +27,7 @@ pub(crate) struct Band {
     pub(crate) nodes: Vec<Vec<Node>>,
 }
 
-/// Where σ is not known, misfits and deviations are relative to the response.
+/// Where σ is not known, misfits and standard deviations are relative to the response.
 const ASSUMED: f64 = 1.0;
 
 pub(crate) fn band(model: &Model, frequency_hz: Vec<f64>, setup: &Setup) -> Band {

@@ -47,7 +47,7 @@ impl Rod {
     /// Free–free, under the same force f (N) at each of n + 1 equidistant points, ends included, in the limit of
     /// many points: the uniform force p = n f / L, and f/2 more at either end.
     ///
-    /// Only the end forces strain the rod: the response tells the modulus through f/2 there.
+    /// Only the end forces strain the rod: the response depends on the modulus through f/2 there.
     ///
     /// # Limits
     /// As [`Rod::free_free_end_force`].

@@ -34,7 +34,7 @@ const LOSS: [&str; 4] = ["loss", "loss_modulus", "e_loss", "e''"];
 /// | frequency | frequency_hz, frequency, freq, f, f_hz |
 /// | E′ | storage, storage_modulus, E_stor, E' |
 /// | η or E″ | loss_factor, tan_delta, tan_del, eta; or loss, loss_modulus, E_loss, E'' |
-/// | deviations, both or none, in all rows or in none | storage_std, loss_factor_std |
+/// | standard deviations, both or none, in all rows or in none | storage_std, loss_factor_std |
 /// | status | status: only rows that say `ok` are used |
 ///
 /// Upper and lower case are the same, other columns are passed over. The first line below the names may give units: Hz, kHz or rad/s, and Pa, kPa, MPa, GPa, psi, psf or dyn/cm^2;
@@ -42,7 +42,7 @@ const LOSS: [&str; 4] = ["loss", "loss_modulus", "e_loss", "e''"];
 ///
 /// # Errors
 /// What [`Table::read`] refuses; a column that is missing, or given twice under two names; an unknown unit; a frequency that is not positive or repeated, as where one table
-/// holds several temperatures; a cell that is no finite number; a deviation that is not positive, or only one of the two; no row to use.
+/// holds several temperatures; a cell that is no finite number; a standard deviation that is not positive, or only one of the two; no row to use.
 pub fn read_modulus_data(bytes: &[u8]) -> Result<ModulusData, FormatError> {
     read(bytes, None)
 }
@@ -116,12 +116,12 @@ fn read(bytes: &[u8], only: Option<(&str, &str)>) -> Result<ModulusData, FormatE
         let of = |&row: &usize| Ok([pascal * positive(row, a)?, positive(row, b)?]);
         order.iter().map(of).collect::<Result<Vec<_>, FormatError>>()
     };
-    // Where nothing was known of the noise, all cells of the deviations are empty: that is a table without them.
-    let told = |columns: &[usize; 2]| {
+    // Where nothing was known of the noise, all cells of the standard deviations are empty: that is a table without them.
+    let is_given = |columns: &[usize; 2]| {
         order.iter().any(|&row| columns.iter().any(|&column| !table.is_empty(row, column)))
     };
     Ok(ModulusData {
-        std: deviations.filter(told).map(pair).transpose()?,
+        std: deviations.filter(is_given).map(pair).transpose()?,
         frequency_hz: frequency_hz.into_iter().map(|f| hz * f).collect(),
         storage: storage_values,
         loss_factor,

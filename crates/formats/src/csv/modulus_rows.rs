@@ -34,7 +34,7 @@ pub struct ModulusRows {
 /// Reads every row of a table of a measured modulus, whatever its status; names and units are those of [`read_modulus_data`](super::read_modulus_data).
 ///
 /// # Errors
-/// What [`Table::read`] refuses; a column that is missing, or given twice under two names; an unknown unit; a repeated frequency; a cell that is no finite number; a negative deviation.
+/// What [`Table::read`] refuses; a column that is missing, or given twice under two names; an unknown unit; a repeated frequency; a cell that is no finite number; a negative standard deviation.
 pub fn read_modulus_rows(bytes: &[u8]) -> Result<ModulusRows, FormatError> {
     let table = Table::read(bytes)?;
     let columns = Columns::of(&table)?;

@@ -80,7 +80,7 @@ pub(super) fn label(grid: &Field<'_>, component: &Field<'_>) -> Result<DofLabel,
     Ok(DofLabel { node, component })
 }
 
-/// A real number, which Nastran tells from a whole one by its point.
+/// A real number, which Nastran recognises by its decimal point.
 pub(super) fn real(field: &Field<'_>) -> Result<f64, FormatError> {
     let decimal = Decimal::parse(field.text).filter(|decimal| decimal.has_point);
     let value = decimal.and_then(|decimal| decimal.value(0));

@@ -13,7 +13,7 @@ use crate::{DofLabel, FormatError, Labels, NamedMatrix, Symmetry};
 /// # Errors
 /// A header that says what there is not; two headers of one name; a card of a matrix without a header; a field that is not
 /// what is due there; no matrix, or more than a thousand. What is wrong with one matrix as a whole (an entry given twice or in both triangles of a
-/// symmetric one, a column beyond NCOL) is told in its place: the others can be read.
+/// symmetric one, a column beyond NCOL) is reported in place of that matrix: the others can be read.
 pub fn read(bytes: &[u8]) -> Result<Vec<NamedMatrix>, FormatError> {
     let headers = headers(bytes)?;
     let index: HashMap<&str, usize> = headers.iter().enumerate().map(|(k, h)| (h.name.as_str(), k)).collect();

@@ -57,7 +57,7 @@ impl Head {
 /// Adds a variable; of a structure each of its fields.
 ///
 /// # Errors
-/// Parts that end beyond the variable, so that nothing of it can be told.
+/// Parts that end beyond the variable, so that it cannot be read.
 pub(super) fn read(stream: &mut Stream<'_>, matrices: &mut Vec<NamedMatrix>) -> Result<(), FormatError> {
     if stream.left() == 0 {
         return Ok(());

@@ -68,7 +68,7 @@ def all_of_pynastran():
                 if "GAP" not in key  # 1e60
             }
         # Dense text only: its records of binary have no lengths behind them, and several strings of a sparse column
-        # are all told to be as long as the column (pyNastran 1.4.1).
+        # are all declared as long as the column (pyNastran 1.4.1).
         file = f"nastran_{precision}"
         PyNastran().write_op4(folder / f"{file}.op4", chosen, precision=precision, is_binary=False)
         expect(file, {key: value for key, (_, value) in chosen.items()})

@@ -1,4 +1,4 @@
-//! Files that look alike, each told to be what it is.
+//! Files that look alike, each recognised as what it is.
 
 use frfit_formats::{
     CoordinateMatrix, Entries, FileKind, Symmetry, detect, harwell_boeing, matrix_market, op4, read_matrix,

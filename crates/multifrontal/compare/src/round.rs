@@ -1,4 +1,4 @@
-//! What one run of one solver tells.
+//! What one run of one solver shows.
 
 use cpu_time::ProcessTime;
 use std::time::Instant;

@@ -182,19 +182,19 @@ class Unknown:
     matrix
         The name of the term whose factor is unknown, or of several that share it.
     powers
-        In place of ``matrix``: a dimension, ``{"bending": 3, "mass": 1}``; the factors of these terms are multiplied by its
-        powers.
+        In place of ``matrix``: a geometric parameter, ``{"bending": 3, "mass": 1}``; the factors of these terms are
+        multiplied by its powers.
     nominal
-        The value of a dimension to begin with.
+        The value of a geometric parameter to begin with.
     varies
-        ``"frequency"``: a value of its own at each; ``"constant"``: one for the band, as is usual of a dimension; ``"law"``: by
-        ``law``; ``"smooth"`` of a single unknown.
+        ``"frequency"``: a value of its own at each; ``"constant"``: one for the band, as is usual of a geometric parameter;
+        ``"law"``: by ``law``; ``"smooth"`` of a single unknown.
     law
         ``"constant"``, ``"fractional"``, ``"zener"``, ``"maxwell:N"``; of a single unknown several to compare.
     bounds
         ``{"storage": (low, high), "loss_factor": (low, high)}``, or ``(low, high)`` of a real one.
     real
-        Whether it is real; a dimension is.
+        Whether it is real; a geometric parameter is.
     """
 
     name: str | None = None
@@ -223,11 +223,11 @@ def _plain_unknown(one: Unknown) -> dict[str, Any]:
     if bool(matrices) == bool(powers):
         raise refuse("matrix", "one of matrix and powers", "both" if matrices else "none")
     if powers and one.name is None:
-        raise refuse("name", "the name of a dimension", "none")
+        raise refuse("name", "the name of a geometric parameter", "none")
     if one.nominal is not None and not powers:
         raise refuse("nominal", "None: it is the factor of the matrix", shown(one.nominal))
     if powers and one.nominal is None:
-        raise refuse("nominal", "the value of a dimension to begin with", "none")
+        raise refuse("nominal", "the value of a geometric parameter to begin with", "none")
     is_real = bool(powers) if one.real is None else flag(one.real, "real")
     storage, loss_factor = _bounds(one.bounds, is_real)
     return {
@@ -328,7 +328,7 @@ def identify(
     coarser_mesh
         The same structure on a coarser mesh, by which the error of this one is measured.
     max_lines
-        Of more measured frequencies than this those that tell most; the others are ``out_of_band``.
+        Of more measured frequencies than this the most informative ones; the others are ``out_of_band``.
     law
         ``"constant"``, ``"fractional"``, ``"zener"``, ``"maxwell:N"`` or several: fitted to the whole band.
     progress

@@ -16,7 +16,7 @@ from ._errors import MatrixError
 def read_matrix(path: str | os.PathLike[str], name: str | None = None) -> Any:
     """A matrix of a file, both triangles, as a ``scipy.sparse.csc_array``.
 
-    The kind of file is told by its content: Matrix Market, Harwell-Boeing, CalculiX, Abaqus, Nastran (DMIG, OUTPUT4),
+    The kind of file is recognised by its content: Matrix Market, Harwell-Boeing, CalculiX, Abaqus, Nastran (DMIG, OUTPUT4),
     NumPy, MATLAB. A pattern has ones for values. Rows are in the order of the file: where files name their rows, and in
     different orders, :func:`run_case` brings them to one, and this function does not.
 

@@ -144,7 +144,7 @@ class Identification:
     sensor_left_out: Flags
     """(sensors,), whether it was left out: it contradicts all others, or shows nothing beside them."""
     sensor_scale: Real
-    """(sensors,), the scale that was found; NaN where it was known, or the data do not tell it."""
+    """(sensors,), the scale that was found; NaN where it was known, or is not identifiable."""
     sensor_scale_std: Real
     """(sensors,), its standard deviation."""
     sensor_delay_s: Real
@@ -160,7 +160,7 @@ class Identification:
     ``width_octaves``, ``converged``, frequencies ``unexplained``; ``None`` where it was not asked to be smooth, or no
     curve could be laid."""
     noise: float | None
-    """Noise over the assumed deviations; ``None`` where nothing tells it."""
+    """Noise over the assumed standard deviations; ``None`` where it is not known."""
     noise_source: str
     """``given``, ``sensors``, ``scatter`` or ``unknown``."""
     explained: str | None
@@ -306,9 +306,9 @@ class Identification:
 
     def __repr__(self) -> str:
         words, counts = np.unique(self.status, return_counts=True)
-        told = ", ".join(f"{count} {word}" for word, count in zip(words, counts, strict=True))
+        statuses = ", ".join(f"{count} {word}" for word, count in zip(words, counts, strict=True))
         names = ", ".join(one.name for one in self.unknowns)
-        return f"<frfit.Identification of {names} at {len(self)} frequencies: {told}>"
+        return f"<frfit.Identification of {names} at {len(self)} frequencies: {statuses}>"
 
     def columns(self) -> dict[str, Any]:
         """The columns of ``identified.csv``, in their order."""

@@ -232,9 +232,9 @@ fn laws(results: &Results) -> String {
                 .and_then(Value::as_object)
                 .into_iter()
                 .flatten()
-                .filter_map(|(name, told)| {
-                    let number = |key: &str| told.get(key).and_then(Value::as_f64);
-                    let unit = told.get("unit").and_then(Value::as_str).unwrap_or("");
+                .filter_map(|(name, parameter)| {
+                    let number = |key: &str| parameter.get(key).and_then(Value::as_f64);
+                    let unit = parameter.get("unit").and_then(Value::as_str).unwrap_or("");
                     let unit = if unit == "1" { "" } else { unit };
                     Some(format!("{name} = {}", with_bar(number("value")?, number("std"), unit)))
                 })

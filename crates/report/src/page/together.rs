@@ -1,4 +1,4 @@
-//! What is said of numbers that hold for the band, and how well they are told apart.
+//! What is said of numbers that hold for the band, and how well they are identifiable.
 
 use super::plots::{absent, plot};
 use crate::escape::escape;

@@ -4,7 +4,7 @@ use super::columns::Columns;
 use super::unknown::Unknown;
 use frfit_formats::FormatError;
 
-/// What became of a solution, as far as a page tells it apart.
+/// What became of a solution, as far as a page shows it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Verdict {
     Chosen,

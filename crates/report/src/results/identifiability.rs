@@ -1,4 +1,4 @@
-//! How well the numbers that hold for the band are told apart.
+//! How well the numbers that hold for the band are identifiable.
 
 use super::summary::Summary;
 use frfit_formats::FormatError;
@@ -13,7 +13,7 @@ pub(crate) struct Combination {
     pub(crate) weights: Vec<(String, f64)>,
 }
 
-/// How well the numbers that hold for the band are told apart.
+/// How well the numbers that hold for the band are identifiable.
 #[derive(Debug)]
 pub(crate) struct Identifiability {
     /// What row and column of [`Self::correlation`] stand for.

@@ -3,7 +3,7 @@
 use frfit_formats::{FormatError, Position};
 use serde_json::Value;
 
-/// The summary; what is asked for by name is there or is told to be missing.
+/// The summary; what is asked for by name is there, or an error says that it is missing.
 #[derive(Debug)]
 pub(crate) struct Summary(pub(crate) Value);
 

@@ -42,7 +42,7 @@ pub(crate) struct Unknown {
     pub(crate) real: bool,
     /// `Pa` or another unit of stress, `1` where it is relative to that of the matrix; `None` where none is known.
     unit: Option<String>,
-    /// `stiffness`, `mass` or `viscous`: what the first of its matrices is; `None` of a dimension.
+    /// `stiffness`, `mass` or `viscous`: what the first of its matrices is; `None` of a geometric parameter.
     role: Option<String>,
     /// Its numbers, where it holds for the band.
     pub(crate) numbers: Vec<Number>,
@@ -97,7 +97,7 @@ impl Unknown {
     pub(crate) fn is_known(&self, number: &Number) -> bool {
         match number.std {
             Some(std) => std < number.value.abs(),
-            // A deviation without end, or of noise that is not known.
+            // A standard deviation without end, or of noise that is not known.
             None => self.status == Some(Status::Ok),
         }
     }

@@ -1,4 +1,4 @@
-//! Functions written such that their abscissae are still told apart.
+//! Functions written such that neighbouring abscissae still differ.
 
 use frfit_formats::FormatError;
 use frfit_formats::uff::{File, Form, Function, Spacing, write};

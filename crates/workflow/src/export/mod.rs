@@ -37,7 +37,7 @@ pub struct Export {
 /// | Nastran | MAT1 and the pair of TABLED1 for SDAMPING in SOL 108 |
 /// | Abaqus | `*ELASTIC` and `*VISCOELASTIC, FREQUENCY=TABULAR` |
 /// | Ansys | `TB,ELASTIC` and `TB,SDAMP` over `TBFIELD,FREQ` |
-/// | CSV, JSON | frequency, E′, η, deviations, status, units |
+/// | CSV, JSON | frequency, E′, η, standard deviations, status, units |
 ///
 /// # Errors
 /// What [`modulus()`] refuses; for a solver Poisson's ratio that is missing or out of range, a density that is not above zero, a number or name that the solver does not take.

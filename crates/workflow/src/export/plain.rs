@@ -5,7 +5,7 @@ use crate::units::UnitSystem;
 use frfit_formats::csv::{Cell, write};
 use serde_json::{Map, Value, json};
 
-/// Frequency, E′, η, their deviations where there are any, and the status; the units are in the line below the names, which `frfit fit` reads; relative factors have none.
+/// Frequency, E′, η, their standard deviations where there are any, and the status; the units are in the line below the names, which `frfit fit` reads; relative factors have none.
 pub(super) fn csv(modulus: &Modulus, units: UnitSystem) -> String {
     let (hz, pascal) = ("Hz", modulus.unit(units));
     let has_std = modulus.rows.iter().any(|row| row.std.is_some());

@@ -26,8 +26,7 @@ impl Solid {
         units: UnitSystem,
     ) -> Result<Self, InputError> {
         let place = Place::option("--poisson");
-        let expected =
-            "Poisson's ratio, above -1 and below 0.5: the material needs it, and one modulus does not tell";
+        let expected = "Poisson's ratio, above -1 and below 0.5: the material needs it, and it does not follow from one modulus";
         let poisson = options.poisson.ok_or_else(|| InputError::at(&place, expected, "none"))?;
         if !(poisson > -1.0 && poisson < 0.5) {
             return Err(InputError::at(&place, expected, poisson.to_string()));
@@ -72,7 +71,7 @@ pub(super) fn heading(modulus: &Modulus, options: &ExportOptions, units: UnitSys
     text
 }
 
-/// A number of few digits near this one: a reference that is written exactly, and that values are then told relative to.
+/// A number of few digits near this one: a reference that is written exactly, and to which values are relative.
 pub(super) fn reference(value: f64) -> f64 {
     format!("{value:.5e}").parse().unwrap_or(value)
 }

@@ -5,7 +5,7 @@ use crate::load::Case;
 use crate::run::ErrorMap;
 use frfit_figures::{Axis, Figure, HeatMap, Panel};
 
-/// Errors below this are roundoff: the colours are spent on what can be told apart.
+/// Errors below this are roundoff: the colours are spent on errors that differ.
 const FLOOR: f64 = 1e-16;
 
 pub(super) fn figure(case: &Case, map: &ErrorMap) -> Figure {

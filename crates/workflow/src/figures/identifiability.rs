@@ -1,4 +1,4 @@
-//! How well the numbers that hold for the band are told apart: their correlation, and χ² along the least identifiable direction.
+//! How well the numbers that hold for the band are identifiable: their correlation, and χ² along the least identifiable direction.
 
 use super::{curve, title};
 use crate::load::{Case, IdentifyCase};

@@ -8,7 +8,7 @@ use frfit::material::loss_factor;
 use frfit_figures::{Axis, Color, Dash, Figure, Marker, Panel, PngError, Series};
 use frfit_formats::csv::ModulusData;
 
-/// Laws that are drawn, the best ones: more cannot be told apart.
+/// Laws that are drawn, the best ones: more curves cannot be distinguished.
 const DRAWN: usize = 3;
 
 /// Points of a curve.
@@ -17,7 +17,7 @@ const POINTS: usize = 400;
 /// Decades from which on moduli are drawn over a logarithmic axis.
 const WIDE: f64 = 10.0;
 
-/// `figures/laws.*`: the data, the best laws, and two deviations about the best.
+/// `figures/laws.*`: the data, the best laws, and two standard deviations about the best.
 ///
 /// # Errors
 /// [`PngError`] where a figure cannot be rasterised.
@@ -62,7 +62,7 @@ pub fn law_figures(
             };
             series.push(line(fit.kind.to_string(), curve(0.0), dash));
             if k == 0 {
-                series.push(line("± 2 deviations".into(), curve(2.0), Dash::Dotted));
+                series.push(line("± 2 standard deviations".into(), curve(2.0), Dash::Dotted));
                 series.push(line(String::new(), curve(-2.0), Dash::Dotted));
             }
         }
@@ -83,7 +83,7 @@ pub fn law_figures(
     draw(vec![("laws".to_owned(), figure)])
 }
 
-/// E′ or η of a law at a frequency, so many deviations off; NaN where it has none.
+/// E′ or η of a law at a frequency, so many standard deviations off; NaN where it has none.
 fn part_of(fit: &LawFit, frequency_hz: f64, part: usize, deviations: f64) -> f64 {
     let Some(estimate) = fit.at(frequency_hz) else { return f64::NAN };
     let (value, std) = match part {

@@ -10,7 +10,7 @@ use frfit::material::loss_factor;
 use frfit_figures::{Axis, Color, Dash, Figure, Marker, Panel, Series};
 
 /// Half-length of an error bar in standard deviations: 95 of 100 truths are within.
-const DEVIATIONS: f64 = 2.0;
+const BAND_STDS: f64 = 2.0;
 
 /// The j-th unknown over frequency: points where each frequency has a value of its own, else a curve.
 pub(super) fn figure(case: &Case, identify: &IdentifyCase, run: &IdentifyRun, j: usize) -> Figure {
@@ -57,7 +57,7 @@ impl Part {
     /// Half-lengths of the error bars of the j-th unknown; NaN where it has none.
     fn bars(self, run: &IdentifyRun, j: usize) -> Vec<f64> {
         let of = |line: &Line| line.values[j].uncertainty.and_then(self.std);
-        run.found.lines.iter().map(|line| of(line).map_or(f64::NAN, |std| DEVIATIONS * std)).collect()
+        run.found.lines.iter().map(|line| of(line).map_or(f64::NAN, |std| BAND_STDS * std)).collect()
     }
 }
 
@@ -85,7 +85,7 @@ fn curve_of_band(identify: &IdentifyCase, run: &IdentifyRun, j: usize, label: &s
     }
     let name = best(&found.laws).map_or(identify.varies(j).to_owned(), |law| law.kind.to_string());
     all.push(series(&name, curve.clone(), Color::Vermilion, Some(Dash::Solid), None));
-    all.push(series("± 2 deviations", edge(1.0), Color::Vermilion, Some(Dash::Dotted), None));
+    all.push(series("± 2 standard deviations", edge(1.0), Color::Vermilion, Some(Dash::Dotted), None));
     all.push(series("", edge(-1.0), Color::Vermilion, Some(Dash::Dotted), None));
     Panel { y: Axis::linear(label), series: all, ..Panel::default() }
 }

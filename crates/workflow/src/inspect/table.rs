@@ -103,7 +103,7 @@ impl TableFacts {
         })
     }
 
-    /// Why it serves as nothing is told only where it does: else it is plain.
+    /// The reasons why a table has no use are given only where it has none.
     pub(super) fn lines(&self, file: &Path) -> String {
         const MAX_SHOWN: usize = 8;
         let rest = if self.columns.len() > MAX_SHOWN { ", ..." } else { "" };

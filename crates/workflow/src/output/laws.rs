@@ -123,7 +123,7 @@ pub fn laws_text(fits: &[LawFit], misfits: &[Option<Misfit>], of: FactorUnit) ->
         );
     }
     if chosen.sigma_known && chosen.reduced_chi_squared().is_some_and(|chi| chi > UNEXPLAINED) {
-        text += "  no law explains the data within their deviations: those hold noise only, and so do the parameters'\n";
+        text += "  no law explains the data within their standard deviations: those hold noise only, and so do the parameters'\n";
     }
     let _ = writeln!(text, "  {}", chosen.kind);
     for parameter in &chosen.parameters {
@@ -136,7 +136,7 @@ pub fn laws_text(fits: &[LawFit], misfits: &[Option<Misfit>], of: FactorUnit) ->
     text
 }
 
-/// χ² per degree of freedom above this is no noise, however few data there are: five deviations a number.
+/// χ² per degree of freedom above this is no noise, however few data there are: five standard deviations a number.
 const UNEXPLAINED: f64 = 25.0;
 
 /// So many digits behind the point, or a power of ten where there are many before it.
@@ -144,7 +144,7 @@ fn short(value: f64, digits: usize) -> String {
     if value < 1e6 { format!("{value:.digits$}") } else { format!("{value:.1e}") }
 }
 
-/// Value ± deviation and unit.
+/// Value ± standard deviation and unit.
 fn with_std(Estimate { value, std, unit, .. }: &Estimate, of: FactorUnit) -> String {
     let unit = of.of_parameter(unit);
     let std = std.map_or("not identifiable".into(), |std| format!("{std:.1e}"));

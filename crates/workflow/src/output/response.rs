@@ -6,11 +6,11 @@ use frfit::c64;
 use frfit_formats::csv::{Cell, write};
 
 /// One row a frequency and sensor: nominal, measured, updated; where there is no response, the cells are empty. `measured_std` is the
-/// standard deviation √E|δH|² of the measured value, where files and case tell it.
+/// standard deviation √E|δH|² of the measured value, where files and case give it.
 pub fn response_csv(case: &Case, identify: &IdentifyCase, run: &IdentifyRun) -> String {
     let rows = run.found.lines.iter().zip(&identify.measured).enumerate().map(|(i, (outcome, measured))| {
         let frequency_hz = outcome.frequency_hz;
-        // A scale that was found is one of the values and of their deviations.
+        // A scale that was found is one of the values and of their standard deviations.
         let std = run.measured(frequency_hz, &known_std(&identify.noise, i, measured.len()));
         let measured = run.measured(frequency_hz, measured);
         (frequency_hz, [outcome.nominal_response.clone(), measured, outcome.updated_response.clone()], std)
@@ -18,7 +18,7 @@ pub fn response_csv(case: &Case, identify: &IdentifyCase, run: &IdentifyRun) -> 
     responses_csv(case, rows)
 }
 
-/// Deviations of the sensors at the i-th frequency; NaN where they are not known.
+/// Standard deviations of the sensors at the i-th frequency; NaN where they are not known.
 fn known_std(noise: &MeasuredNoise, i: usize, sensors: usize) -> Vec<c64> {
     let of_one = |m: usize| match noise {
         MeasuredNoise::Known(std) => std[i][m],
@@ -27,7 +27,7 @@ fn known_std(noise: &MeasuredNoise, i: usize, sensors: usize) -> Vec<c64> {
     (0..sensors).map(|m| c64::from(of_one(m))).collect()
 }
 
-/// Nominal, measured and updated receptance at the sensors and the measured one's deviation, frequency by frequency.
+/// Nominal, measured and updated receptance at the sensors and the measured one's standard deviation, frequency by frequency.
 fn responses_csv(case: &Case, rows: impl Iterator<Item = (f64, [Vec<c64>; 3], Vec<c64>)>) -> String {
     let columns = [
         "frequency_hz",

@@ -145,7 +145,7 @@ fn unknown_json(case: &Case, identify: &IdentifyCase, run: &IdentifyRun, j: usiz
     })
 }
 
-/// The matrices that an unknown multiplies; of a dimension each with its power.
+/// The matrices that an unknown multiplies; of a geometric parameter each with its power.
 fn matrices(case: &Case, one: &Unknown) -> Value {
     let name = |term: &usize| case.model.terms()[*term].name.clone();
     match &one.dependence {
@@ -196,7 +196,7 @@ fn inputs_json(case: &Case) -> Vec<Value> {
         .collect()
 }
 
-/// A sensor, and what it says of the answers: its misfit over its deviation (root mean square).
+/// A sensor, and what it says of the answers: its misfit over its standard deviation (root mean square).
 fn sensor(case: &Case, run: &IdentifyRun, m: usize) -> Value {
     let sensor = &case.sensors[m];
     let mut of_sensor = json!({"label": sensor.label, "quantity": sensor.quantity.name()});
@@ -217,7 +217,7 @@ fn sensor(case: &Case, run: &IdentifyRun, m: usize) -> Value {
     of_sensor
 }
 
-/// How large the noise is, and what tells it: `level` is in units of what `deviation` names.
+/// How large the noise is, and where that is known from: `level` is in units of what `deviation` names.
 fn noise(identify: &IdentifyCase, run: &IdentifyRun) -> Value {
     let NoiseLevel { level, source, of_sensors, of_scatter } = run.found.noise;
     let deviation = match &identify.noise {
@@ -290,7 +290,7 @@ fn model_errors_json(case: &Case, errors: &ModelErrorsFound) -> Value {
     })
 }
 
-/// χ² over the band and what it says; null where nothing can tell.
+/// χ² over the band and what it says; null where it cannot be tested.
 fn fit_json(fit: Option<&GoodnessOfFit>) -> Value {
     let Some(fit) = fit else { return Value::Null };
     json!({

@@ -15,12 +15,12 @@ pub enum Candidates {
     /// It is not looked for.
     None,
     /// These.
-    These(Vec<Spot>),
+    These(Vec<DofEntry>),
 }
 
 /// A degree of freedom as the command line names it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Spot {
+pub enum DofEntry {
     /// `12+Z`.
     Dof(DofName),
     /// A row, from 1.
@@ -47,15 +47,16 @@ impl FromStr for Candidates {
     type Err = UnknownCandidates;
 
     fn from_str(text: &str) -> Result<Self, UnknownCandidates> {
-        let spot = |word: &str| {
+        let entry = |word: &str| {
             let word = word.trim();
-            let dof = word.parse::<DofName>().map(Spot::Dof).ok();
-            dof.or_else(|| word.parse().map(Spot::Row).ok()).ok_or_else(|| UnknownCandidates(word.to_owned()))
+            let dof = word.parse::<DofName>().map(DofEntry::Dof).ok();
+            dof.or_else(|| word.parse().map(DofEntry::Row).ok())
+                .ok_or_else(|| UnknownCandidates(word.to_owned()))
         };
         match text {
             "all" => Ok(Self::All),
             "none" => Ok(Self::None),
-            _ => Ok(Self::These(text.split(',').map(spot).collect::<Result<_, _>>()?)),
+            _ => Ok(Self::These(text.split(',').map(entry).collect::<Result<_, _>>()?)),
         }
     }
 }
@@ -72,7 +73,9 @@ impl Candidates {
             Self::All => {
                 case.row_names.iter().filter(|(_, name)| translates(name)).map(|(&row, _)| row).collect()
             }
-            Self::These(spots) => spots.iter().map(|spot| spot.row(case)).collect::<Result<Vec<_>, _>>()?,
+            Self::These(entries) => {
+                entries.iter().map(|entry| entry.row(case)).collect::<Result<Vec<_>, _>>()?
+            }
         };
         rows.sort_unstable();
         rows.dedup();
@@ -81,7 +84,7 @@ impl Candidates {
     }
 }
 
-impl Spot {
+impl DofEntry {
     fn row(self, case: &Case) -> Result<usize, InputError> {
         let place = Place::option("--candidates");
         match self {
@@ -114,10 +117,10 @@ mod tests {
     fn words_that_name_candidates() {
         assert_eq!("all".parse(), Ok(Candidates::All));
         assert_eq!("none".parse(), Ok(Candidates::None));
-        let dof = |text: &str| Spot::Dof(text.parse().unwrap());
+        let dof = |text: &str| DofEntry::Dof(text.parse().unwrap());
         assert_eq!(
             "12+Z, 7-X,41".parse(),
-            Ok(Candidates::These(vec![dof("12+Z"), dof("7-X"), Spot::Row(41)]))
+            Ok(Candidates::These(vec![dof("12+Z"), dof("7-X"), DofEntry::Row(41)]))
         );
         let error = "12+Z,up".parse::<Candidates>().unwrap_err().to_string();
         assert!(error.contains("\"up\""), "{error}");

@@ -1,11 +1,11 @@
-//! `frfit sensitivities`: what the response depends on, what the sensors tell apart, and where another one would tell most.
+//! `frfit sensitivities`: what the response depends on, what the sensors identify, and where another one would add most.
 //!
 //! | file | what is in it |
 //! |---|---|
 //! | `run` | the computation |
 //! | `ranking` | parameters by the size of their sensitivities |
 //! | `words` | combinations of parameters as a person names them |
-//! | `report` | what is told on the screen |
+//! | `report` | what is written to the screen |
 //! | `summary` | `sensitivities.json` |
 //! | `table` | `sensitivities.csv` |
 

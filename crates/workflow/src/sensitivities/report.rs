@@ -1,4 +1,4 @@
-//! What is told on the screen.
+//! What is written to the screen.
 
 use super::words::{bar, inseparable as in_words};
 use super::{NextSensor, NoiseFrom, Place, SensitivityRun};
@@ -7,7 +7,7 @@ use crate::output::Words;
 use frfit::sensitivity::{KNOWN_LN_STD, VariableStd, WorstBar, inseparable};
 use frfit_linalg::solve::Breakdown;
 
-/// Table, what is told apart, and the next sensor.
+/// Table, what is identifiable, and the next sensor.
 pub(super) fn text(case: &Case, run: &SensitivityRun) -> Words {
     let (first, last) = (run.frequency_hz.first(), run.frequency_hz.last());
     let band = first.zip(last).map_or(String::new(), |(a, b)| format!(", {a} to {b} Hz"));
@@ -40,7 +40,7 @@ pub(super) fn text(case: &Case, run: &SensitivityRun) -> Words {
             if groups.is_empty() {
                 add(
                     false,
-                    "told apart",
+                    "identifiable",
                     format!("all parameters, each to {} or better", percent(KNOWN_LN_STD)),
                 );
             }
@@ -48,11 +48,11 @@ pub(super) fn text(case: &Case, run: &SensitivityRun) -> Words {
                 add(true, "inseparable", in_words(&case.model, &run.variables, resolved, group));
             }
         }
-        None => add(true, "told apart", "the singular values of the Jacobian were not found".to_owned()),
+        None => add(true, "identifiable", "the singular values of the Jacobian were not found".to_owned()),
     }
     if let Some(next) = &run.next {
-        for (k, told) in next_in_words(case, run, next).into_iter().enumerate() {
-            add(false, if k == 0 { "next sensor" } else { "" }, told);
+        for (k, sentence) in next_in_words(case, run, next).into_iter().enumerate() {
+            add(false, if k == 0 { "next sensor" } else { "" }, sentence);
         }
     }
     let unanswered = run.values.iter().filter(|at| at.iter().flatten().all(Option::is_none)).count();

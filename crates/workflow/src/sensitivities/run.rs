@@ -17,7 +17,7 @@ use frfit_linalg::solve::Breakdown;
 use rayon::prelude::*;
 use std::time::Instant;
 
-/// Noise of the response where nothing tells it: that of a careful hammer test between resonances.
+/// Noise of the response where it is not known: that of a careful hammer test between resonances.
 const ASSUMED_NOISE: f64 = 0.01;
 
 /// Estimated error of response and derivatives everywhere that candidates are compared with: ten times that, which is what may be, is the hundredth to which they are.
@@ -91,7 +91,7 @@ pub struct SensitivityRun {
     pub ranking: Vec<Ranking>,
     /// What the noise was taken from.
     pub noise: NoiseFrom,
-    /// What all sensors together tell; `None` where the singular values of their Jacobian were not found.
+    /// What all sensors together identify; `None` where the singular values of their Jacobian were not found.
     pub resolved: Option<Resolved>,
     /// Where the next sensor should go; `None` where that was not asked, or nothing can be said.
     pub next: Option<NextSensor>,

@@ -12,7 +12,7 @@ pub enum FactorUnit {
     Modulus(UnitSystem),
     /// Of a stiffness that has its modulus in it: no unit.
     Relative,
-    /// Of a mass, a damping or a dimension: what it multiplies says which.
+    /// Of a mass, a damping or a geometric parameter: what it multiplies says which.
     Other,
 }
 

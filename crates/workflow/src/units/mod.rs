@@ -17,7 +17,7 @@
 //! ([`UnitSystem::rotation`], used by `load::dofs`, `load::force` and `load::attached`). Solids, which have no rotations, and shells and beams, which do, are so
 //! treated alike, and matrices in SI stay as they are, bit for bit.
 //!
-//! Factors of matrices, their laws and bounds, and values of dimensions stay in units of the model: K is F(E) with E in the model's unit of stress, and the number
+//! Factors of matrices, their laws and bounds, and values of geometric parameters stay in units of the model: K is F(E) with E in the model's unit of stress, and the number
 //! above is in the matrix. Times of laws are in seconds and frequencies in hertz in every system.
 
 mod amount;

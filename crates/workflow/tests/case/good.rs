@@ -43,7 +43,7 @@ fn everything_that_a_case_says_is_there() {
     assert_eq!(case.respond_hz, [10.0, 20.0, 30.0]);
 }
 
-/// Deviations of factors are relative to the storage, absolute of the loss factor, be they written as numbers or in per cent.
+/// Standard deviations of factors are relative to the storage, absolute of the loss factor, be they written as numbers or in per cent.
 #[test]
 fn what_is_known_of_the_model_is_read() {
     let read = |factor: &str, known: &str| {
@@ -116,7 +116,7 @@ fn measured_values_and_their_deviations_become_receptance() {
         assert!((identify.measured[k][0] - expected).norm() < 1e-15 * expected.norm());
         assert_eq!(identify.measured[k][1], c64::new(k as f64 + 1.0, 0.0));
     }
-    // One has a deviation, the other a coherence: nothing weighs the one against the other.
+    // One has a standard deviation, the other a coherence: nothing weighs the one against the other.
     assert_eq!(identify.noise, MeasuredNoise::Unknown);
 }
 
@@ -130,7 +130,7 @@ fn deviations_are_those_of_the_receptance_and_coherence_gives_them_up_to_a_facto
     let MeasuredNoise::Known(std) = &identify.noise else { panic!("{:?}", identify.noise) };
     for (k, &f) in identify.frequency_hz.iter().enumerate() {
         let omega = std::f64::consts::TAU * f;
-        // Accelerance becomes receptance, and its deviation with it; two roundings.
+        // Accelerance becomes receptance, and its standard deviation with it; two roundings.
         assert!((std[k][0] - 0.5 / (omega * omega)).abs() < 1e-15 * std[k][0]);
     }
     assert_eq!([std[0][1], std[1][1], std[2][1]], [0.25, 0.25, 0.5]);
@@ -144,7 +144,7 @@ fn deviations_are_those_of_the_receptance_and_coherence_gives_them_up_to_a_facto
     let half = identify.measured[1][0].norm();
     assert!((std[1][0] - half).abs() < 1e-14 * half);
     assert!((std[1][1] - 2.0 * (0.2f64 / 0.8).sqrt()).abs() < 1e-14);
-    // No coherence is exactly one: a deviation of zero would outweigh everything.
+    // No coherence is exactly one: a standard deviation of zero would outweigh everything.
     assert!(std[0][0] > 0.0);
 }
 

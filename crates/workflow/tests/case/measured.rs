@@ -9,7 +9,7 @@ use frfit_formats::uff::{
 };
 use frfit_workflow::load::{Case, MeasuredNoise, Overrides, Purpose, load};
 
-/// An FRF at three frequencies whose real part tells which it is.
+/// An FRF at three frequencies whose real part says which it is.
 fn function(response: (i64, i32), reference: (i64, i32), value: f64, measured: Measured) -> Function {
     let dof = |(node, direction)| Dof { node, direction, ..Dof::default() };
     let header = FunctionHeader {

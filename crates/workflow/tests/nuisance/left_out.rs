@@ -48,7 +48,7 @@ fn hum_is_left_out_and_its_rows_are_marked() {
         let rows: Vec<&str> = identified.lines().filter(|line| line.contains("out_of_band")).collect();
         assert_eq!(rows.len(), 5);
         assert!(rows.iter().all(|row| row.ends_with(",,,,,,,,,0,0,out_of_band,,,,,,,,,,")), "{rows:?}");
-        // What was measured there is told all the same.
+        // What was measured there is given all the same.
         let response = fs::read_to_string(folder.path().join("out/response.csv")).unwrap();
         assert_eq!(
             response.lines().filter(|line| line.ends_with(",,") && !line.contains(",,,,,")).count(),

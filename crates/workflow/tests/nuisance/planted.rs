@@ -58,7 +58,7 @@ pub(crate) fn receptance(on_it: &[OnIt], rows: &[usize], frequency_hz: &[f64]) -
     frequency_hz.iter().map(|f| at(f).respond_nominal().unwrap()).collect()
 }
 
-/// An FRF as a table, its values and their deviation as a part of them.
+/// An FRF as a table, its values and their standard deviation as a part of them.
 pub(crate) fn table(frequency_hz: &[f64], values: &[c64], share: Option<f64>) -> String {
     let mut text =
         String::from(if share.is_some() { "frequency_hz,re,im,std\n" } else { "frequency_hz,re,im\n" });

@@ -7,7 +7,7 @@ use frfit::c64;
 use frfit::frequency::linear_hz;
 use frfit::identify::Status;
 
-/// Two channels with gains (file over truth), and a share of noise that the file tells.
+/// Two channels with gains (file over truth), and a share of noise that the file gives.
 fn tables(gains: [f64; 2], delay_s: f64, noise: Option<(f64, &mut Noise)>) -> [String; 2] {
     let frequency_hz = linear_hz(12.0, 112.0, 81);
     let exact = receptance(&[], &[5, 7], &frequency_hz);
@@ -64,7 +64,7 @@ fn an_unknown_scale_is_found_beside_a_known_one() {
             ok.filter_map(|o| Some((o.storage()? - TRUTH.re).abs() <= 2.0 * o.uncertainty()?.storage_std)),
         );
     }
-    // All of six within 4 deviations but for one in 2600; their mean square is 1 ± 0.6.
+    // All of six within 4 standard deviations but for one in 2600; their mean square is 1 ± 0.6.
     let mean_square = pulls.iter().map(|pull| pull * pull).sum::<f64>() / draws as f64;
     assert!(pulls.iter().all(|pull| pull.abs() < 4.0) && mean_square < of_tier(16.0, 3.5), "{pulls:?}");
     // Of some hundred answers 95 % of normal errors; those of one seed share the scale's.
@@ -92,7 +92,7 @@ fn a_law_needs_no_channel_of_known_scale() {
         pulls.push((eta - TRUTH.im / TRUTH.re) / eta_std);
         assert_eq!(job.run.count(Status::Ok), 81);
     }
-    // Twenty within 4 deviations but for one in 800.
+    // Twenty within 4 standard deviations but for one in 800.
     let mean_square = pulls.iter().map(|pull| pull * pull).sum::<f64>() / pulls.len() as f64;
     assert!(
         pulls.iter().all(|pull| pull.abs() < 4.0) && of_tier(0.0..4.0, 0.2..2.5).contains(&mean_square),

@@ -71,7 +71,7 @@ fn the_window_is_part_of_the_model_by_key_or_by_file() {
     assert_eq!(worst(&by_file), worst(&by_key));
     let without = run(&folder(&tables(""), &keys("", "", SPRINGS))).unwrap();
     assert!(worst(&without).0 > 0.02, "{:?}", worst(&without));
-    // What is told of responses is in the measured quantities, as measured.
+    // Responses are given in the measured quantities, as measured.
     let folder = folder(&tables(""), &keys(SAID, SAID, SPRINGS));
     run(&folder).unwrap();
     let response = fs::read_to_string(folder.path().join("out/response.csv")).unwrap();

@@ -102,7 +102,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         // What was sampled counts for the whole band.
         let share = frequencies as f64 / run.found.lines.len() as f64;
         let times = |seconds: f64| format!("{:.1}", share * seconds);
-        // The full model's stages are not told apart: there is one.
+        // The full model has one stage only.
         let stage = |seconds: f64| run.found.search.reduced_size.map_or("–".to_owned(), |_| times(seconds));
         let stages = run.stages;
         let cost = share * run.cpu / one.cpu;

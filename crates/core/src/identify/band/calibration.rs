@@ -1,4 +1,4 @@
-//! Channels whose calibration nobody knows: one real scale, one delay or both for the whole band, found together with the moduli.
+//! Channels of unknown calibration: one real scale, one delay or both for the whole band, found together with the moduli.
 
 use super::corrected::correct;
 use super::initial_calibration::aligned;
@@ -30,7 +30,7 @@ const MAX_SELECTIONS: usize = 6;
 /// Steps of Gauss and Newton on moduli and scales together.
 const MAX_CALIBRATION_STEPS: usize = 30;
 
-/// A change of a scale by this part of its deviation, or of itself, is none.
+/// A scale that changes by less than this part of its standard deviation, or of itself, has settled.
 const CALIBRATION_STEP_TOL: f64 = 1e-3;
 const CALIBRATION_ROUNDOFF: f64 = 1e-10;
 
@@ -39,12 +39,12 @@ const CALIBRATION_INFORMATION_RTOL: f64 = 1e-12;
 
 /// As [`super::identify_band`], with channels whose scale s_m, or delay τ_m, is unknown: u_m = s_m e^{iωτ_m} times what was measured.
 ///
-/// The misfit Σ |y_m − x_m(c) e^{−iωτ_m}/s_m|²/σ_m² over the band is made least in all moduli, scales and delays together (y_m as measured, with its own deviation): the
+/// The misfit Σ |y_m − x_m(c) e^{−iωτ_m}/s_m|²/σ_m² over the band is made least in all moduli, scales and delays together (y_m as measured, with its own standard deviation): the
 /// channels of which all is known alone give the first moduli; the first delays are those that turn most x_m/y_m to one phase, among the ones that the diagnostics tries too, the first
 /// scales the medians then. Every frequency is selected anew from all channels, and Gauss and Newton's steps with the moduli eliminated, frequency by
 /// frequency, move scales and delays. Error bars of the factor have what those of the scales and delays put into them, and χ² as many degrees of freedom less.
 /// The selection is joint, and what answers is the subspace, whatever the options say; no calibration is given, and the channels are left out, where there is no
-/// subspace, or where what was found does not tell them.
+/// subspace, or where they are not identifiable from the answers.
 ///
 /// # Errors
 /// [`OutsideTable`] where a table does not reach a frequency.
@@ -78,7 +78,7 @@ pub(in crate::identify) fn identify_band_scaled<'a>(
     Ok((outcome.judged_by_fit(), found))
 }
 
-/// Moduli and calibrations on a subspace; `None` where the data do not tell the latter.
+/// Moduli and calibrations on a subspace; `None` where the latter are not identifiable.
 pub(super) fn with_scales<'a>(
     band: &Band<'a>,
     at: &[ModelAt<'a>],
@@ -156,7 +156,7 @@ struct CalibrationEstimate {
     moved: Vec<(usize, Vec<c64>)>,
 }
 
-/// Minimises Σ |u_m − γ_m e^{−iωt_m} x_m(c_i)|²/σ_m² over all c_i and the unknown γ and t; `None` where the data do not tell them.
+/// Minimises Σ |u_m − γ_m e^{−iωt_m} x_m(c_i)|²/σ_m² over all c_i and the unknown γ and t; `None` where they are not identifiable.
 fn settle(
     band: &Band<'_>,
     at: &[ModelAt<'_>],
@@ -294,7 +294,7 @@ fn inverse(normal: &[Vec<f64>], whole: &[f64]) -> Option<Vec<Vec<f64>>> {
 }
 
 impl CalibrationEstimate {
-    /// Deviation of a free number in units of the noise's level.
+    /// Standard deviation of a free number in units of the noise's level.
     fn std(&self, p: usize) -> f64 {
         self.covariance[p][p].max(0.0).sqrt()
     }

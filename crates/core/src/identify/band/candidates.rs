@@ -260,7 +260,7 @@ impl Fit<'_> {
         weighed(values, self.sigma)
     }
 
-    /// The sensors with the largest response over their deviation.
+    /// The sensors with the largest response over their standard deviation.
     fn starting_sensors(&self) -> Vec<usize> {
         let mut sensors: Vec<usize> = (0..self.measured.len()).collect();
         let size = |&m: &usize| self.measured[m].norm() / self.sigma[m];

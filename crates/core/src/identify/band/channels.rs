@@ -37,7 +37,7 @@ pub(super) struct ChannelFit {
     gain_moved: Vec<f64>,
     /// −∂t/∂θ_j, what is along −iωγx. None where the delay is known.
     late_moved: Vec<f64>,
-    /// Σ |x|²/σ² and Σ ω²|γx|²/σ²: what tells γ and t. Nothing tells them in common, as x and iωx are at right angles.
+    /// Σ |x|²/σ² and Σ ω²|γx|²/σ²: the information on γ and on t. They have none in common, as x and iωx are at right angles.
     gain_information: f64,
     late_information: f64,
 }

@@ -6,7 +6,7 @@ use crate::identify::measured::Band;
 use crate::identify::noise::NoiseLevel;
 use crate::identify::outcome::{Line, Status};
 
-/// The fit of answers that have χ² per degree of freedom, where so many numbers were fitted to the whole band too; `None` where nothing is left to tell.
+/// The fit of answers that have χ² per degree of freedom, where so many numbers were fitted to the whole band too; `None` where no degree of freedom is left.
 pub(super) fn goodness(
     lines: &[Line],
     freedom: usize,

@@ -22,7 +22,7 @@ const AGREEMENT_RTOL: f64 = 1e-4;
 /// The calibration with which most of some ratios (ω, x/y) of a channel are one; `None` where there is none.
 ///
 /// The delay is where the phases of the ratios agree best, Σ cos(arg(x/y) − ωτ): whatever the sizes, and though some be wrong. The least of several: lines
-/// at equal distance cannot tell one of a period of that distance from none.
+/// at equal distance cannot distinguish a delay of a period of that distance from none.
 pub(super) fn aligned(ratios: &[(f64, c64)], unknown: ChannelUnknowns, top: f64) -> Option<Channel> {
     let usable: Vec<(f64, c64)> =
         ratios.iter().copied().filter(|(_, ratio)| ratio.is_finite() && ratio.norm() > 0.0).collect();

@@ -167,7 +167,7 @@ fn likeliest(fit: &Fit<'_>, found: &Candidates, path: &[(usize, c64)], i: usize)
     let cost = |k: &usize| {
         let solution = &found.solutions[*k];
         let way = between.map_or(0.0, |log| ((fit.nominal + solution.correction).ln() - log).norm());
-        // With one sensor every solution fits: the way alone tells.
+        // With one sensor every solution fits: the distance from the path alone decides.
         let misfit = if fit.measured.len() > 1 { solution.misfit / scale } else { 0.0 };
         misfit + (way / OFF_PATH_LN_STD).powi(2)
     };

@@ -1,6 +1,6 @@
 //! Laws fitted straight to the FRFs: all frequencies and all sensors in one least squares (B-7).
 //!
-//! Every frequency by itself comes first: it trains the subspace, and tells where to begin. Then Σ |u_m − x_m(E(ω; θ))|²/σ_m² over the band is made least in θ on the
+//! Every frequency by itself comes first: it trains the subspace, and gives the start. Then Σ |u_m − x_m(E(ω; θ))|²/σ_m² over the band is made least in θ on the
 //! models of the neighbourhoods, ∂x_m/∂θ = (∂x_m/∂c)(∂E/∂θ). The subspace is trained further where it is not good enough at the law that came out.
 
 use super::candidates::misfit;
@@ -70,14 +70,14 @@ const MIN_RELATIVE_MODULUS_STD: f64 = 1e-6;
 /// A modulus with a standard deviation of half of itself is not known.
 const MAX_RELATIVE_MODULUS_STD: f64 = 0.5;
 
-/// Another minimum, or another solution, this many deviations away is another answer.
+/// Another minimum, or another solution, this many standard deviations away is another answer.
 pub(super) const RIVAL_DISTANCE_STD: f64 = 3.0;
 
 /// Fits laws to a band, and takes the one of least BIC.
 ///
 /// The selection is joint, and what answers is the subspace, whatever the options say: on the full model every step would take a factorisation at each frequency. Statuses
 /// are those of the law at each frequency: `no_root` without a value where it breaks the bounds; `unexplained` where it leaves more than noise and `options.error`, or
-/// [`LawsOutcome::fit`] says "not explained"; `ambiguous` where another minimum that cannot be excluded has another modulus; `not_identifiable` where the deviation is half the
+/// [`LawsOutcome::fit`] says "not explained"; `ambiguous` where another minimum that cannot be excluded has another modulus; `not_identifiable` where the standard deviation is half the
 /// modulus; `failed` where the search did not converge or the reduced model is not good enough.
 ///
 /// Channels may have an unknown scale or delay, all of them too (`unknown`, one for each sensor, or empty).
@@ -158,7 +158,7 @@ pub(in crate::identify) fn identify_laws<'a>(
     let calibration = |m: usize| {
         let Some([gain, late]) = left.as_ref().map(|left| left[m]) else { return Calibration::default() };
         let relative = |std: f64| (std * better[m].scale / gain.value).abs();
-        // Errors of the model are in the deviations that were found with them.
+        // Errors of the model are in the standard deviations that were found with them.
         let with_errors = of_errors.as_ref().map(|found| found[m]).unwrap_or_default();
         let std_of = |found: Option<Calibrated>, size: f64| Some(found?.std? * size.abs());
         let scale_std = std_of(with_errors.scale, channels[m].scale).or(gain.std.map(relative));
@@ -236,7 +236,7 @@ impl Fitting<'_, '_> {
         let curves = Curves::new(vec![Curve::Form(Form::Law(*law))]).with_channels(channels);
         let with_law = (&curves, theta.as_slice());
         let errors = estimate_with_laws(reduced.whole(), &measured, errors, with_law, self.context.for_each)?;
-        // What was beside the noise is in the deviations already.
+        // What was beside the noise is in the standard deviations already.
         let errors = errors.beside(rest);
         reduced.correct(&errors.modes, &errors.errors);
         let all: Vec<usize> = (0..self.at.len()).collect();
@@ -257,7 +257,7 @@ impl Fitting<'_, '_> {
 
     fn evidence(&self) -> Evidence {
         Evidence {
-            // A sensor that is left out has an infinite deviation.
+            // A sensor that is left out has an infinite standard deviation.
             residuals: (2 * self.sigma.iter().flatten().filter(|sigma| sigma.is_finite()).count())
                 .saturating_sub(self.unknown.iter().map(|unknown| unknown.count()).sum()),
             sigma_known: matches!(self.band.noise, Noise::Known(_)),
@@ -403,7 +403,7 @@ impl Fitting<'_, '_> {
         begin
     }
 
-    /// What a frequency says by itself, with its deviation: σ carried by the slope of the response.
+    /// What a frequency says by itself, with its standard deviation: σ carried by the slope of the response.
     fn datum(&self, reduced: &Neighbourhoods<'_, '_>, i: usize, own: &Line) -> Option<Datum> {
         let correction = own.correction().filter(|_| own.status == Status::Ok)?;
         let modulus = own.nominal() + correction;
@@ -414,7 +414,7 @@ impl Fitting<'_, '_> {
         (std.is_finite() && modulus.re > 0.0).then(|| Datum::circular(self.omega(i), modulus, std))
     }
 
-    /// Whether what a law leaves is noise, and noise over the assumed deviations: what the law leaves where that is noise, otherwise the least that sensors or scatter of the frequencies by
+    /// Whether what a law leaves is noise, and noise over the assumed standard deviations: what the law leaves where that is noise, otherwise the least that sensors or scatter of the frequencies by
     /// themselves show.
     fn goodness(&self, law: &LawFit, per_frequency: &NoiseLevel) -> (Option<GoodnessOfFit>, f64) {
         let left = law.reduced_chi_squared().unwrap_or(0.0).sqrt();
@@ -433,7 +433,7 @@ impl Fitting<'_, '_> {
         (fit, if is_noise { left } else { shown.unwrap_or(0.0).min(left) })
     }
 
-    /// The law at one frequency, judged there; noise over the assumed deviations.
+    /// The law at one frequency, judged there; noise over the assumed standard deviations.
     fn outcome(
         &self,
         (law, split): (&LawFit, Option<&Split>),
@@ -475,7 +475,7 @@ impl Fitting<'_, '_> {
                 loss_factor_std: estimate.loss_factor_std,
                 correlation: estimate.correlation,
                 contributions: parts(storage_std),
-                // That the law is not linear in its parameters is for its fit to tell.
+                // That the law is not linear in its parameters shows in its fit.
                 nonlinearity: 0.0,
             });
         line.error = Some(error).filter(|error| error.is_finite());

@@ -5,7 +5,7 @@ use crate::identify::channel::Channel;
 use crate::identify::measured::Band;
 use crate::identify::noise::{Noise, beside, levels};
 
-/// What was measured with each channel's calibration, and its deviations with it and with what is beside the noise.
+/// What was measured with each channel's calibration, and its standard deviations with it and with what is beside the noise.
 pub(super) struct Scaled {
     measured: Vec<Vec<c64>>,
     std: Vec<Vec<f64>>,

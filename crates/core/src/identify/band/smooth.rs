@@ -1,6 +1,6 @@
 //! A modulus that is free at every frequency but smooth over them (B-9): all frequencies and all sensors in one penalised least squares.
 //!
-//! Every frequency by itself comes first: it trains the subspace, and tells where to begin. Then ln E(ln ω) is an integrated Wiener process, and
+//! Every frequency by itself comes first: it trains the subspace, and gives the start. Then ln E(ln ω) is an integrated Wiener process, and
 //! $$ \sum_{k,m} \frac{|u_m - x_m(E(\omega_k))|^2}{\sigma_m^2} + \frac 1 {\kappa^2} \int \Big| \frac{d^2 \ln E}{d(\ln\omega)^2} \Big|^2 d\ln\omega $$
 //! is made least by Gauss and Newton's steps, each of them one smoother's sweep over all frequencies ([`crate::smooth`]); κ, and the level of the noise where it is not
 //! given, are averaged over their posterior. x is holomorphic in ln E and noise circular, and by causality the fluctuations of ln |E| and of the loss angle are
@@ -248,7 +248,7 @@ impl Smoothing<'_, '_> {
             observed.filter(|o| o.weight.is_finite() && o.x.is_finite()).unwrap_or(none)
         };
         let observations = self.placed((0..self.at.len()).map(own).collect());
-        // Among them are wrong ones, so that what is known of the noise does not tell their scatter.
+        // Among them are wrong ones, so that their scatter does not follow from the noise.
         let evidence = Evidence { numbers: self.numbers(), known: false, beside: (0.0, 0) };
         let states = smooth(&observations, evidence)?.curve.states;
         let tried = std::iter::once(0.0).chain(START_SHIFTS).filter_map(|by: f64| {

@@ -24,11 +24,11 @@ pub(super) struct Evidence<'a> {
     pub(super) solution: Option<usize>,
     /// Sensors that count for nothing.
     pub(super) left_out: &'a [usize],
-    /// Noise over the assumed deviations.
+    /// Noise over the assumed standard deviations.
     pub(super) noise: Option<f64>,
     /// Degrees of freedom of χ².
     pub(super) freedom: usize,
-    /// ‖∂²x/∂c²‖ at the chosen correction, weighed by the deviations.
+    /// ‖∂²x/∂c²‖ at the chosen correction, weighed by the standard deviations.
     pub(super) second: f64,
     /// `None` for a parameter with powers.
     pub(super) poles: Option<&'a Poles>,

@@ -66,7 +66,7 @@ impl Estimated {
         self.covariance_of(&range.collect::<Vec<_>>())
     }
 
-    /// Where this rest was in the deviations already.
+    /// Where this rest was in the standard deviations already.
     pub(in crate::identify) fn beside(self, rest: f64) -> Self {
         Self { rest: self.rest.hypot(rest), ..self }
     }
@@ -76,7 +76,7 @@ impl Estimated {
         self.curves.channels()
     }
 
-    /// Scales and delays of channels, with their deviations.
+    /// Scales and delays of channels, with their standard deviations.
     pub(in crate::identify) fn calibrations(&self) -> Vec<Calibration> {
         let n = self.count();
         let std = |c: usize| Some(self.covariance[c * n + c].max(0.0).sqrt());

@@ -75,7 +75,7 @@ pub(super) struct Measured<'t, 'a> {
     pub(super) measured: &'t [Vec<c64>],
     /// Of real and imaginary part each, `[frequency][sensor]`; infinite of a sensor that is left out.
     pub(super) sigma: &'t [Vec<f64>],
-    /// The responses themselves, as deviations.
+    /// The responses themselves, as standard deviations.
     pub(super) size: &'t [Vec<f64>],
     /// The levels of the responses, of which a rest beside the noise is a part.
     pub(super) levels: &'t [Vec<f64>],
@@ -151,7 +151,7 @@ const UNDAMPED_SHARE_RATIO: f64 = 2.0;
 /// By how much bends of a smooth curve may be less or more than the usual ones.
 const BEND_RANGE: [f64; 2] = [0.01, 3.0];
 
-/// What the data have to tell of a size counts from this many modes on.
+/// A size is estimated from the data from this many modes on.
 const PRIOR_MODES: f64 = 0.05;
 
 /// The same of what all modes have in common.
@@ -586,7 +586,7 @@ fn is_chance(chi_squared: f64, n: f64) -> bool {
 }
 
 /// A right model is one only where it explains a band by so many nats better: before the data errors are a hundred times as likely as none, and where
-/// the data cannot tell, they are in the bars.
+/// the data cannot decide, they are in the bars.
 const RIGHT_MODEL_NATS: f64 = 5.0;
 
 /// Starts with more mismatch over the least of all are far from the answer.
@@ -636,13 +636,13 @@ impl<'a> Measured<'_, 'a> {
             let start = start.filter(is_new);
             starts.extend(start);
         };
-        let Some((right, elsewhere)) = self.given.split_first() else { return starts };
+        let Some((right, others)) = self.given.split_first() else { return starts };
         if !few {
             add(curves.through(right, answered));
             add(curves.through(right, usual));
         }
         add(curves.through(right, nominal));
-        for given in elsewhere {
+        for given in others {
             add(curves.through(given, if few { nominal } else { usual }));
         }
         starts.iter_mut().for_each(|start| curves.keep_within_bounds(start));

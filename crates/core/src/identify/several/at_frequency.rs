@@ -6,8 +6,8 @@ use crate::identify::unknown::Unknown;
 use crate::laws::{Minimum, Search, descend};
 use std::cell::RefCell;
 
-/// What is to be explained at a frequency.
-pub(super) struct Spot<'t> {
+/// What is measured at a frequency and unknown there.
+pub(super) struct FrequencyProblem<'t> {
     pub(super) unknowns: &'t [Unknown],
     pub(super) measured: &'t [c64],
     /// Of real and imaginary part each.
@@ -49,7 +49,7 @@ const MAX_SOLUTIONS: usize = 16;
 /// Solutions nearer than this, in coordinates of size one, are one.
 const SOLUTION_MERGE_TOL: f64 = 1e-7;
 
-impl Spot<'_> {
+impl FrequencyProblem<'_> {
     /// Real numbers that the frequency has of its own.
     pub(super) fn count(&self) -> usize {
         self.unknowns.iter().map(Unknown::per_frequency).sum()
@@ -182,7 +182,7 @@ pub(super) fn distance(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
 
-/// Removes from columns of length m what the columns of `of` span, and tells how much of it each contained: coefficients x with `of` x ≈ column, for each column.
+/// Removes from columns of length m what the columns of `of` span, and returns how much of it each contained: coefficients x with `of` x ≈ column, for each column.
 pub(super) fn eliminate(of: &[f64], columns: &mut [f64], m: usize) -> Vec<Vec<f64>> {
     let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
     let p = of.len() / m.max(1);

@@ -1,4 +1,4 @@
-//! What the measurements tell of the numbers that hold for the band.
+//! The information of the measurements on the numbers that hold for the band.
 
 use frfit_linalg::dense::symmetric_eigen;
 
@@ -10,7 +10,7 @@ pub(super) struct Information {
     pub(super) vectors: Vec<f64>,
 }
 
-/// Information below this part of the largest tells nothing: a direction that is known a hundred thousand times worse than another one, by slopes of a reduced model.
+/// Information below this part of the largest is none: a direction that is known a hundred thousand times worse than another one, by slopes of a reduced model.
 const INFORMATION_RTOL: f64 = 1e-10;
 
 /// A part of a direction that is none.
@@ -37,7 +37,7 @@ impl Information {
         Some(Self { values, vectors })
     }
 
-    /// gᵀ N⁻¹ h; infinite where both have a part that nothing tells.
+    /// gᵀ N⁻¹ h; infinite where both have a part that is not identifiable.
     pub(super) fn covariance(&self, g: &[f64], h: &[f64]) -> f64 {
         let size = |g: &[f64]| g.iter().map(|g| g * g).sum::<f64>().sqrt();
         let least = DIRECTION_PART_TOL * size(g) * DIRECTION_PART_TOL * size(h);

@@ -1,4 +1,4 @@
-//! Error bars, what the measurements do not tell, and statuses.
+//! Error bars, what is not identifiable, and statuses.
 
 use super::Task;
 use super::at_frequency::Solution;
@@ -22,7 +22,7 @@ use crate::laws::LawKind;
 use crate::material::{Law, loss_factor};
 use crate::response::relative_error;
 
-/// Points of a profile to either side, and how far they reach in deviations.
+/// Points of a profile to either side, and how far they reach in standard deviations.
 const PROFILE_POINTS: usize = 5;
 const PROFILE_REACH_STD: f64 = 3.0;
 
@@ -274,8 +274,8 @@ impl Task<'_, '_> {
         level: Option<f64>,
         known: Option<&Known<'_>>,
     ) -> Vec<LineValue> {
-        let spot = self.spot(i);
-        let own = spot.covariance(solution);
+        let problem = self.at_frequency(i);
+        let own = problem.covariance(solution);
         let n = found.theta.len();
         // Gradient of one of its own coordinates by θ.
         let gradient = |a: usize| -> Vec<f64> {
@@ -292,7 +292,7 @@ impl Task<'_, '_> {
         let mut first = 0;
         let mut one = |(j, unknowns): (usize, &Unknown)| {
             let value = solution.values[j];
-            let size = spot.size[j];
+            let size = problem.size[j];
             // Covariance of real and imaginary part at σ.
             let mut contributions = None;
             let parts: Option<[f64; 3]> = if unknowns.per_frequency() > 0 {
@@ -374,7 +374,7 @@ fn level_of_bars(level: Option<f64>, fit: Option<GoodnessOfFit>) -> Option<f64> 
     level.map(|level| level * fit.map_or(1.0, |fit| fit.excess()))
 }
 
-/// A value with deviations from the covariance of its parts at σ and the level of the noise.
+/// A value with standard deviations from the covariance of its parts at σ and the level of the noise.
 fn bars(
     nominal: c64,
     value: c64,
@@ -427,7 +427,7 @@ fn directions(information: &Information, level: Option<f64>) -> Vec<Direction> {
         // The sense in which the largest weight is positive.
         let sign = weights.first().map_or(1.0, |(_, weight)| weight.signum());
         weights.iter_mut().for_each(|(_, weight)| *weight *= sign);
-        Direction { weights, std: level.map_or(f64::INFINITY, |level| level / value.sqrt()) } // 1/0: nothing tells it
+        Direction { weights, std: level.map_or(f64::INFINITY, |level| level / value.sqrt()) } // 1/0: not identifiable
     };
     information.vectors.chunks_exact(n).zip(&information.values).map(one).collect()
 }

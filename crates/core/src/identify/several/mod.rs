@@ -1,4 +1,4 @@
-//! Several unknowns at once: moduli at every frequency beside constants, laws and dimensions (P-10, B-5, B-8).
+//! Several unknowns at once: moduli at every frequency beside constants, laws and geometric parameters (P-10, B-5, B-8).
 //!
 //! With per-frequency unknowns c_i and numbers θ that hold for the band,
 //! $$ \min_{\theta, c_1 \dots c_n} \sum_i \sum_m \frac{|u_m(\omega_i) - x_m(\omega_i, c_i, \theta)|^2}{\sigma_{im}^2} $$
@@ -67,7 +67,7 @@ struct Task<'t, 'a> {
 /// Identifies several unknowns over a band.
 ///
 /// Starts are the nominal values and points of the box of all unknowns, judged by the logarithms of the responses with everything constant over the band; what is per frequency is
-/// then freed. Unknowns that the measurements cannot tell apart are found out from the singular directions of the information, and named: their deviations are large, and their
+/// then freed. Unknowns that the measurements cannot separate are found from the singular directions of the information, and named: their standard deviations are large, and their
 /// status is `not_identifiable`.
 ///
 /// # Errors

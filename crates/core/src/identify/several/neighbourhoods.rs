@@ -188,7 +188,7 @@ impl<'a> Neighbourhoods<'a> {
         model.respond_with_slopes(&self.at(i, values)?).ok()
     }
 
-    /// A model of one frequency with few vectors, to tell starts from one another.
+    /// A model of one frequency with few vectors, to separate starts from one another.
     pub(super) fn rough(&self, i: usize) -> Projection {
         let points = self.box_points(i, i).unwrap_or_default();
         self.model(i).localised(&points, ROUGH_MODEL_TOL)

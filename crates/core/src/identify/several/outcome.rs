@@ -16,7 +16,7 @@ pub struct Number {
     pub name: String,
     /// Its value.
     pub value: f64,
-    /// Its standard deviation, all other unknowns free; `None` where nothing tells the noise. Much larger than the value where the data do not tell it.
+    /// Its standard deviation, all other unknowns free; `None` where the noise is not known. Much larger than the value where that is not identifiable.
     pub std: Option<f64>,
 }
 
@@ -59,7 +59,7 @@ pub struct BandCoordinate {
 pub struct Direction {
     /// (index of the coordinate, its weight), the weights' squares summing to one, largest first.
     pub weights: Vec<(usize, f64)>,
-    /// Standard deviation along it: 0.01 is one per cent; infinite where nothing tells it.
+    /// Standard deviation along it: 0.01 is one per cent; infinite where it is not identifiable.
     pub std: f64,
 }
 

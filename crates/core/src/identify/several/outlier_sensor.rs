@@ -12,7 +12,7 @@ use crate::identify::outcome::Line;
 use crate::identify::thinned::thinned;
 use crate::identify::unknown::Unknown;
 
-/// Where no deviation is given: one per cent of the response is usual noise, and no reason to doubt a sensor.
+/// Where no standard deviation is given: one per cent of the response is usual noise, and no reason to doubt a sensor.
 const USUAL_NOISE_OVER_RESPONSE: f64 = 1e-2;
 
 impl Task<'_, '_> {
@@ -88,7 +88,7 @@ impl Task<'_, '_> {
         }
     }
 
-    /// How each sensor fits: root mean square of its misfit over its assumed deviation and the level of the noise.
+    /// How each sensor fits: root mean square of its misfit over its assumed standard deviation and the level of the noise.
     pub(super) fn sensor_fits(
         &self,
         assumed: &[Vec<f64>],

@@ -1,7 +1,7 @@
 //! Which of several solutions at each frequency are one and the same structure over the band.
 
 use super::Task;
-use super::at_frequency::{Solution, Spot};
+use super::at_frequency::{FrequencyProblem, Solution};
 use crate::identify::noise::Noise;
 use crate::identify::unknown::Unknown;
 use crate::laws::inverse_information;
@@ -39,7 +39,7 @@ impl Task<'_, '_> {
         let stds: Vec<Vec<Vec<f64>>> = solutions
             .iter()
             .zip(which)
-            .map(|(found, &i)| found.iter().map(|solution| self.spot(i).stds(solution)).collect())
+            .map(|(found, &i)| found.iter().map(|solution| self.at_frequency(i).stds(solution)).collect())
             .collect();
         let of = |&j: &usize| -> Vec<Choice> {
             let node = |(solution, stds): (&Solution, &Vec<f64>)| Node {
@@ -93,9 +93,9 @@ impl Task<'_, '_> {
         }
     }
 
-    pub(super) fn spot(&self, i: usize) -> Spot<'_> {
+    pub(super) fn at_frequency(&self, i: usize) -> FrequencyProblem<'_> {
         let size = self.nominal[i].iter().map(|p| if p.norm() > 0.0 { p.norm() } else { 1.0 }).collect();
-        Spot {
+        FrequencyProblem {
             unknowns: self.problem.unknowns,
             measured: &self.problem.frfs.receptance[i],
             sigma: &self.sigma[i],
@@ -104,7 +104,7 @@ impl Task<'_, '_> {
     }
 }
 
-impl Spot<'_> {
+impl FrequencyProblem<'_> {
     /// Covariance of a frequency's own coordinates for given θ, (JᵀJ)⁻¹ row by row; infinite where they are not identifiable.
     pub(super) fn covariance(&self, solution: &Solution) -> Vec<Vec<f64>> {
         let n = self.count();

@@ -244,8 +244,9 @@ impl Task<'_, '_> {
         let n = which.len();
         let per_frequency = self.problem.unknowns.iter().any(|one| one.per_frequency() > 0);
         let from = |solutions: &[Vec<Solution>], k: usize, beside: &[usize]| -> Vec<Solution> {
-            let spot = self.spot(which[k]);
-            let starts = beside.iter().flat_map(|&b| &solutions[b]).map(|one| spot.coordinates(&one.values));
+            let problem = self.at_frequency(which[k]);
+            let starts =
+                beside.iter().flat_map(|&b| &solutions[b]).map(|one| problem.coordinates(&one.values));
             self.settled(&at, which[k], &starts.collect::<Vec<_>>(), None)
         };
         let mut solutions = match guess {
@@ -299,7 +300,7 @@ impl Task<'_, '_> {
         let Some((given, _)) = self.given(at.coordinates, at.theta, i, &self.nominal[i]) else {
             return Vec::new();
         };
-        let spot = self.spot(i);
+        let problem = self.at_frequency(i);
         let mut rough = None;
         let factors: Vec<usize> =
             (0..self.problem.unknowns.len()).filter(|&j| self.is_own_factor(j)).collect();
@@ -325,7 +326,7 @@ impl Task<'_, '_> {
                 .collect(),
         };
         let starts = [values, &self.nominal[i]].into_iter().chain(found.iter().map(Vec::as_slice));
-        let starts: Vec<Vec<f64>> = starts.map(|values| spot.coordinates(values)).collect();
+        let starts: Vec<Vec<f64>> = starts.map(|values| problem.coordinates(values)).collect();
         self.settled(at, i, &starts, rough)
     }
 
@@ -342,7 +343,7 @@ impl Task<'_, '_> {
         };
         let on = |model: &Projection, starts: &[Vec<f64>]| {
             let shown = |x| at.coordinates.channels.shown(at.theta, self.problem.frfs.frequency_hz[i], x);
-            self.spot(i)
+            self.at_frequency(i)
                 .solutions(starts, &given, |values| at.reduced.respond_on(model, i, values).map(shown))
         };
         if starts.len() <= WHOLE_MODEL_STARTS {
@@ -383,7 +384,7 @@ impl Task<'_, '_> {
         explored.solutions.iter().map(|solution| values(solution.correction)).collect()
     }
 
-    /// θ of least misfit with the chosen solutions, and whether the search settled. A direction that nothing tells is left where it began: there is nothing to gain along it,
+    /// θ of least misfit with the chosen solutions, and whether the search settled. A direction that is not identifiable is left where it began: there is nothing to gain along it,
     /// and no end.
     ///
     /// Each search is on models of a few vectors about where it begins, which are made anew where it ends; one that gains nothing there is made on the whole ones.
@@ -494,7 +495,7 @@ impl Task<'_, '_> {
     ) -> Option<Projection> {
         let (own, _) = place.eliminated.own[k].as_ref()?;
         let (given, _) = self.given(&found.coordinates, &place.theta, i, &found.at(k)?.values)?;
-        reduced.about(i, &self.spot(i).values(own, &given))
+        reduced.about(i, &self.at_frequency(i).values(own, &given))
     }
 
     /// The place at another θ, on the whole models.
@@ -522,11 +523,11 @@ impl Task<'_, '_> {
             let Some(solution) = found.at(k) else { return Some(None) };
             let i = which[k];
             let (given, slopes) = self.given(&found.coordinates, theta, i, &solution.values)?;
-            let spot = self.spot(i);
+            let problem = self.at_frequency(i);
             let channels = &found.coordinates.channels;
             let here = match on {
                 None => solution.clone(),
-                Some(on) => spot.settle(&(on.start)(k)?, &given, |values| {
+                Some(on) => problem.settle(&(on.start)(k)?, &given, |values| {
                     let responded = on.reduced.respond_on((on.model)(k), i, values)?;
                     Some(channels.shown(theta, self.problem.frfs.frequency_hz[i], responded))
                 })?,

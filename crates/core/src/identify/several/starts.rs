@@ -28,7 +28,7 @@ const EVALUATIONS_PER_START_AND_NUMBER: usize = 12;
 /// Weight of a coordinate's way from the nominal one, beside logarithms of responses: a millionth of what an identifiable coordinate moves.
 const NOMINAL_WEIGHT: f64 = 1e-3;
 
-/// Ends that are kept: later steps tell which is right.
+/// Ends that are kept: later steps show which is right.
 const MAX_KEPT_ENDS: usize = 4;
 
 impl Task<'_, '_> {
@@ -68,7 +68,7 @@ impl Task<'_, '_> {
             let rows = self.without_scales(rows);
             let parts = |values: &[c64]| values.iter().flat_map(|v| [v.re, v.im]).collect::<Vec<f64>>();
             let count = constants.count;
-            // What nothing tells stays where it was.
+            // A direction that is not identifiable stays where it was.
             let stay = theta.iter().zip(&begin[0]).map(|(t, t0)| NOMINAL_WEIGHT * (t - t0));
             let residuals: Vec<f64> =
                 rows.iter().flat_map(|row| parts(&row.columns[0])).chain(stay).collect();

@@ -89,10 +89,10 @@ fn all_solutions_of_two_unknowns_are_found() {
     let at = At { reduced: &reduced, coordinates: &coordinates, theta: &[] };
     let (mut several, mut by_few) = (0, 0);
     for (i, nominal) in nominal.iter().enumerate() {
-        let spot = task.spot(i);
+        let problem = task.at_frequency(i);
         let from = |count: usize| {
-            let points = (1..=count).map(|k| spot.coordinates(&in_box(&composite, nominal, k)));
-            spot.solutions(&points.collect::<Vec<_>>(), nominal, |values| reduced.respond(i, values))
+            let points = (1..=count).map(|k| problem.coordinates(&in_box(&composite, nominal, k)));
+            problem.solutions(&points.collect::<Vec<_>>(), nominal, |values| reduced.respond(i, values))
         };
         let (many, few) = (from(MANY_STARTS), from(FEW_STARTS));
         let found = task.everywhere(&at, i, nominal);
