@@ -112,7 +112,7 @@ pub(crate) fn package() -> Vec<Step> {
     let mut steps = vec![features(), run("frfit-cli", seen_by(&mut program))];
     let crate_folder = workspace().join("crates/python");
     let wheels = target().join("wheels");
-    // Of an older wheel nothing shall be tested; where there is none, that is what is wanted.
+    // No older wheel may be tested. An error that there was none is fine.
     let _ = std::fs::remove_dir_all(&wheels);
     let mut build = Command::new(binary("maturin"));
     build.args(["build", "--quiet", "--interpreter"]).arg(binary("python")).arg("--out").arg(&wheels);

@@ -54,7 +54,7 @@ impl<T: Send> Cases<T> {
 /// A number on the command line.
 ///
 /// # Errors
-/// [`Failure`] where it is none.
+/// [`Failure`] where the text is not a number.
 pub fn number<T: FromStr>(text: &str) -> Result<T, Failure> {
     text.parse().map_err(|_| format!("expected a number, found {text:?}").into())
 }

@@ -44,7 +44,7 @@ impl Failure {
     }
 }
 
-/// How a command line ends that is none, or that asks for help.
+/// How a command line ends that is wrong, or that asks for help.
 pub(crate) fn usage(error: &clap::Error) -> ExitCode {
     // In colours, unless what was typed would bring some of its own.
     let typed = std::env::args_os().any(|word| word.to_string_lossy().contains(char::is_control));

@@ -197,7 +197,7 @@ fn an_estimated_nominal_needs_nothing_but_bounds() {
 #[test]
 fn the_rational_method_is_never_wrong_and_ok() {
     let folder = tempfile::tempdir().unwrap();
-    // One sensor cannot tell everything: what it cannot is `ambiguous`. Where the bounds leave one solution, all is right.
+    // One sensor cannot decide everything: what it cannot decide is `ambiguous`. Where the bounds leave one solution, all is right.
     for (name, band, all_right) in [
         ("rubber-bar-end", "20:2000", false),
         ("clamped-plate", "800:2000", false),

@@ -406,9 +406,9 @@ fn a_coarser_mesh_says_how_far_this_one_is_off() {
     }
 }
 
-/// A coarser mesh that is measured elsewhere has other shapes: it is not used, and what comes out is as if it were not there.
+/// A coarser mesh that is measured at other points has other shapes: it is not used, and what comes out is as if it were not there.
 #[test]
-fn a_coarser_mesh_that_is_measured_elsewhere_is_not_used() {
+fn a_coarser_mesh_measured_at_other_points_is_not_used() {
     let frequency_hz = linear_hz(5.0, 560.0, 60);
     let truth = [c64::new(7e10, 7e8), c64::new(2e3, 0.0), c64::new(2700.0, 0.0)];
     let (right, experiment) = sprung(24, truth, &[0.8, 0.4]);
@@ -418,8 +418,8 @@ fn a_coarser_mesh_that_is_measured_elsewhere_is_not_used() {
     };
     let u: Vec<Vec<c64>> = frequency_hz.iter().map(exact).collect();
     let (model, experiment) = sprung(8, truth, &[0.8, 0.4]);
-    let (coarse, elsewhere) = sprung(8, truth, &[0.1, 0.3]);
-    let mesh = CoarserMesh { model: coarse, experiment: elsewhere, element_ratio: 2.0, order: 4.0 };
+    let (coarse, other_points) = sprung(8, truth, &[0.1, 0.3]);
+    let mesh = CoarserMesh { model: coarse, experiment: other_points, element_ratio: 2.0, order: 4.0 };
     let unknowns =
         [Unknown { varies: Variation::Constant, ..Unknown::factor_of(&model, &["beam"]).unwrap() }];
     let frfs = Frfs { frequency_hz: &frequency_hz, receptance: &u, noise: Noise::Unknown };

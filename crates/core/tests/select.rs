@@ -330,7 +330,7 @@ proptest! {
         prop_assert!(right as f64 >= 0.9 * made.present() as f64, "{right} of {}", made.present());
     }
 
-    /// A unit of stress is none of the method's business, nor is the order of the candidates.
+    /// The answer does not depend on the unit of stress, nor on the order of the candidates.
     #[test]
     fn neither_units_nor_order_matter(law in laws(), branches in branches(), seed: u64, unit in -9i32..12) {
         let made = make(&law, &branches, linear_hz(50.0, 500.0, 60), 0.0, 0.05, 0.3, seed);

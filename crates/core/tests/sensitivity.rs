@@ -324,7 +324,7 @@ fn modulus_and_density_with_an_unknown_scale_have_only_their_ratio() {
     // E, ρ and the scale (not the loss factor), all by the same factor.
     assert_eq!(group, &[0, 2, 3]);
     assert!(direction.iter().all(|d| (d - 1.0).abs() < 1e-6), "{direction:?}");
-    assert!(resolved.std(&[1.0, 0.0, -1.0, 0.0]).unwrap() < 0.01, "E/ρ is what resonances tell");
+    assert!(resolved.std(&[1.0, 0.0, -1.0, 0.0]).unwrap() < 0.01, "E/ρ is what resonances identify");
     assert!(resolved.bars()[1].unwrap() < 0.05, "and the loss factor");
 }
 

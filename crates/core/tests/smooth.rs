@@ -127,7 +127,7 @@ fn assert_coverage(test: &Test, seeds: u64, least_ok: [f64; 3], most: f64) {
         // Of one seed's sixteen answers one more or less is ok.
         let chance = of_tier(1.0, 0.0);
         assert!(ok as f64 + chance >= least_ok * (seeds as usize * test.frequency_hz.len()) as f64, "{at}");
-        // A mean over the seeds of what some sixty numbers tell to a tenth each.
+        // A mean over the seeds of what some sixty numbers give to a tenth each.
         assert!((level - 1.0).abs() < of_tier(0.4, 0.08), "{at}: level {level}");
     }
 }
@@ -143,7 +143,7 @@ fn error_bars_of_a_bar_cover_the_truth() {
 fn error_bars_of_a_plate_cover_the_truth() {
     let test = Test::new(plate(6, 0.4, 1e-2), constant(2e11, 1e-2), [100.0, 2500.0], 16);
     // Each frequency by itself: 0.5 and 0.15 of the last two.
-    // A few frequencies beside the resonances know nearly all, and so few do not tell a straight line from a curve: the bars are as wide as for a curve, and a constant is within them more often than 95
+    // A few frequencies beside the resonances know nearly all, and so few do not separate a straight line from a curve: the bars are as wide as for a curve, and a constant is within them more often than 95
     // times of 100.
     assert_coverage(&test, of_tier(1, 30), [0.99, 0.95, 0.7], 1.0);
 }

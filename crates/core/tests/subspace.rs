@@ -462,7 +462,7 @@ fn modes_that_nothing_sees_are_not_brought() {
     let count = subspace.bring_missing_modes(&[corner]).unwrap().unwrap();
     // 2·100·sin(kπ/124) < 2π·12: 15 modes, every other one of which has a node in the middle.
     assert_eq!(count.model, 15);
-    // Roundoff may have a little of one that nothing sees.
+    // Roundoff may have a little of one that no sensor sees.
     assert!((7..=8).contains(&count.brought) && count.missing == 14, "{count:?}");
 }
 

@@ -116,8 +116,8 @@ fn bars_are_longer_where_more_than_the_given_noise_is_left() {
     // Two and a half times too small in an eighth of the band.
     let of_part = found(&said(&|i| if (100..125).contains(&i) { 2.5 } else { 1.0 }));
     assert!(of_part.lines[105..120].iter().all(|line| line.status != Status::Ok));
-    let elsewhere = of_part.lines[..85].iter().chain(&of_part.lines[140..]);
-    assert!(elsewhere.filter(|line| line.status == Status::Ok).count() > 120);
+    let others = of_part.lines[..85].iter().chain(&of_part.lines[140..]);
+    assert!(others.filter(|line| line.status == Status::Ok).count() > 120);
 }
 
 /// Formula against Monte Carlo: 1500 draws, on the full model, a frequency at a time.
@@ -362,12 +362,12 @@ fn loss_factors_that_noise_has_made_up_are_marked() {
 fn one_bad_sensor_of_three_is_named_and_left_out() {
     let mut case = plate(6, 0.4, 1e-2);
     // A third sensor, and where a fourth would be.
-    let (third, elsewhere) = (3, 30);
+    let (third, fourth) = (3, 30);
     case.experiment.sensors.push(Sensor { row: third, sign: 1.0 });
     let frequency_hz = linear_hz(300.0, 2500.0, 30);
     let made = Measured::clean(&case, frequency_hz.clone(), 0.8, 3e-3);
     let mut other = Case { experiment: case.experiment.clone(), ..plate(6, 0.4, 1e-2) };
-    other.experiment.sensors.iter_mut().for_each(|sensor| sensor.row = elsewhere);
+    other.experiment.sensors.iter_mut().for_each(|sensor| sensor.row = fourth);
     let wrong = Measured::clean(&other, frequency_hz, 0.8, 3e-3);
     let truth = |f: f64| 0.8 * case.parameter.nominal.at(f).unwrap();
     for bad in 0..of_tier(1, 3) {

@@ -21,7 +21,7 @@ fn identified(name: &str, model: &SeveralModel) -> Identification {
     let folder = Folder::new(name);
     let (frequency_hz, measured) = folder.measured();
     let std = (model.noise > 0.0).then(|| {
-        // As the case reads it: files tell √E|δH|² of what was measured, the method takes that of receptances.
+        // As the case reads it: files give √E|δH|² of what was measured, the method takes that of receptances.
         let of_sensor = |m: usize| -> Vec<f64> {
             let table = csv::read_frf(folder.bytes(&format!("frf-{}.csv", m + 1))).unwrap();
             let relative = table.std.unwrap().into_iter().zip(table.response).map(|(s, u)| s / u.norm());

@@ -21,7 +21,7 @@ pub struct DofLabel {
 pub(crate) const MAX_NODE: u64 = i32::MAX as u64;
 
 impl DofLabel {
-    /// The direction in which it moves; `None` for what is none.
+    /// The direction in which it moves; `None` for a component that has none.
     #[must_use]
     pub fn direction(self) -> Option<Direction> {
         Direction::from_number(i32::from(self.component))

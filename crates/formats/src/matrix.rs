@@ -96,8 +96,8 @@ impl CoordinateMatrix {
 }
 
 impl CoordinateMatrix {
-    /// The square matrix of `size` rows whose row and column `to[k]` are this one's k-th; where `to[k]` is none, they
-    /// are left out. What nothing comes to is zero.
+    /// The square matrix of `size` rows whose row and column `to[k]` are this one's k-th; where `to[k]` is `None`, they
+    /// are left out. All other entries are zero.
     ///
     /// # Errors
     /// A matrix that is not square, or breaks [`CoordinateMatrix::validate`]; not a place for each row; a place beyond

@@ -7,7 +7,7 @@ use crate::{CoordinateMatrix, FormatError, Labels};
 pub struct NamedMatrix {
     /// Its name in the file; empty where the format has none.
     pub name: String,
-    /// The matrix, or why what has this name is none. The rest of the file is sound either way.
+    /// The matrix, or why the data of this name are no matrix. The rest of the file is sound either way.
     pub matrix: Result<CoordinateMatrix, FormatError>,
     /// What its rows and columns stand for, as far as the file says.
     pub labels: Labels,

@@ -23,7 +23,7 @@ pub(crate) struct Run<'a, T: Scalar> {
     sizes: [usize; 2],
     /// Stacks of as many, one for each thread that is in a subtree.
     stacks: Idle<Stacks<T>>,
-    /// Subtrees that nobody has finished yet.
+    /// Subtrees that are not finished yet.
     subtrees: AtomicUsize,
     /// The own columns of each front.
     panels: Vec<Mutex<Panel<'a, T::Real>>>,
@@ -203,7 +203,7 @@ impl<'a, T: Scalar> Run<'a, T> {
         )
     }
 
-    /// The fronts of a subtree one after the other, on stacks that nobody uses; what its root leaves.
+    /// The fronts of a subtree one after the other, on free stacks; what its root leaves.
     fn run(&self, range: Range<usize>, done: &Done<T>) -> Option<Contribution<T::Real>> {
         self.stacks.lend(Stacks::<T>::default, |stacks| {
             for (stack, len) in stacks.iter_mut().zip(self.sizes) {
@@ -251,7 +251,7 @@ impl<'a, T: Scalar> Run<'a, T> {
     /// they left of them is given back then.
     fn add(&self, k: usize, children: &mut [Left<T>], stacks: &mut Stacks<T>, threads: usize) {
         let (symbolic, shape) = (self.symbolic, &self.symbolic.fronts[k]);
-        // Nobody waits for it: all that it is made of comes from this thread.
+        // No other thread waits for it: all that it is made of comes from this thread.
         let Panel { values, begun } = std::mem::take(&mut *self.panel(k));
         let stack = &mut stacks[1 - symbolic.parity(k)];
         let given =

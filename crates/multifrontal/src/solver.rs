@@ -163,7 +163,7 @@ impl<'a, T: Scalar> Solver<'a, T> {
             }
         }
         let scale = self.norm * size(x) + size(b);
-        // Of a scale that is no number comes an error that is none.
+        // If the scale is not a number, neither is the error.
         let error = if scale == 0.0 { 0.0 } else { size(&residual) / scale };
         (residual, error)
     }

@@ -50,7 +50,7 @@ fn at_work<O>(work: impl FnOnce() -> O) -> O {
 /// Works while the pool's idle threads look out for pieces of it: asleep they would take longer to wake than many
 /// a piece takes, and the next call often follows at once.
 ///
-/// Only threads that are in no other piece of our work look out, so that nobody waits for one of them; and none for
+/// Only threads that are in no other piece of our work look out, so that no work waits for one of them; and none for
 /// longer than [`IDLE_TIME`] in vain.
 pub(crate) fn awake<O>(threads: usize, work: impl FnOnce() -> O) -> O {
     if threads < 2 {

@@ -2,7 +2,7 @@
 //!
 //! The work is on a thread of its own, since only the interpreter's own thread hears signals, and that has to be free to answer
 //! at once however long a factorisation takes. A cancelled work ends at its next frequency; until then it may use
-//! a processor, but nobody waits for it.
+//! a processor, but the caller does not wait for it.
 
 use crate::errors::{internal, no_thread};
 use crate::pool;

@@ -1,7 +1,7 @@
 //! A measured beam from file to modulus, against a modal fit by others.
 //!
 //! The file (pyuff's `beam.uff`) has three accelerances of a free–free steel beam in an unknown unit, at x/L = 0.025, 0.123 and 0.231, driven at 0.0705. What
-//! they tell is E/ρ (h/L²)², for a rectangular section of height h: with L = ρA = 1 the beam has the mass 1 and the stiffness E/ρ (h/L²)²/12. Shear and rotary inertia
+//! they identify is E/ρ (h/L²)², for a rectangular section of height h: with L = ρA = 1 the beam has the mass 1 and the stiffness E/ρ (h/L²)²/12. Shear and rotary inertia
 //! lower the eighth mode by 1.1 %: h/L = 0.009 is where the modes agree best on one modulus, κG/E = 0.85/2.6 that of a rectangle with ν = 0.3.
 //!
 //! Each of the first four modes decays at 0.6/s, in proportion to mass and not to stiffness, as an exponential window of a record of 10 s (or air) does: the term "window".
@@ -156,7 +156,7 @@ fn unit_frequencies() -> Vec<f64> {
 #[ignore = "needs the data of ../shared/data"]
 fn one_modulus_has_all_natural_frequencies_to_2_khz_needs_data() {
     let frfs = measured();
-    // Of 19,800 lines those that tell most; a nominal that is off by 2.6, and bounds of three decades.
+    // Of 19,800 lines the most informative ones; a nominal that is off by 2.6, and bounds of three decades.
     let (_folder, job) = run(&frfs, 1000.0, [1e2, 1e5], [20.0, 2000.0], lines());
     let [[storage, std], [eta, _]] = modulus(&job);
     println!("E/rho (h/L^2)^2 = {storage} ± {std} 1/s², η = {eta}");

@@ -45,28 +45,28 @@ fn dense_arrays_are_matrices() {
 #[test]
 fn a_dense_array_that_is_no_matrix_is_refused_with_its_shape() {
     let folder = tempfile::tempdir().unwrap();
-    let tell = |shape: &str, numbers: &[f64]| {
+    let inspected = |shape: &str, numbers: &[f64]| {
         let path = folder.path().join("a.npy");
         std::fs::write(&path, npy(shape, numbers)).unwrap();
         inspect(&path).map_or_else(|error| error.to_string(), |found| found.text())
     };
-    let full = tell("(2, 2)", &[2.0, -1.0, -1.0, 2.0]);
+    let full = inspected("(2, 2)", &[2.0, -1.0, -1.0, 2.0]);
     assert!(
         full.contains("  entries   4 stored, 4 not zero in all\n") && full.contains("a term of a model"),
         "{full}"
     );
-    let zero = tell("(2, 2)", &[0.0; 4]);
+    let zero = inspected("(2, 2)", &[0.0; 4]);
     assert!(zero.contains(" 2 x 2\n"), "{zero}");
-    let unlike = tell("(2, 2)", &[2.0, -1.0, -1.5, 2.0]);
+    let unlike = inspected("(2, 2)", &[2.0, -1.0, -1.5, 2.0]);
     assert!(
         unlike.contains("not a term of a model") && unlike.contains("found -1 at (1, 2) but -1.5 at (2, 1)"),
         "{unlike}"
     );
     for (shape, numbers) in [("(4,)", 4), ("(2, 2, 1)", 4), ("()", 1), ("(3, 3)", 4)] {
-        let said = tell(shape, &vec![1.0; numbers]);
+        let said = inspected(shape, &vec![1.0; numbers]);
         assert!(said.contains("expected ") && said.contains("found "), "{shape}: {said}");
     }
-    // A number that is none.
-    let said = tell("(1, 1)", &[f64::NAN]);
+    // Not a number.
+    let said = inspected("(1, 1)", &[f64::NAN]);
     assert!(said.contains("NaN") || said.contains("finite"), "{said}");
 }

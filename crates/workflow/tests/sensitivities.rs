@@ -1,4 +1,4 @@
-//! `frfit sensitivities` from case files: what is said of parameters that the sensors cannot tell apart, what noise is taken, what is refused.
+//! `frfit sensitivities` from case files: what is said of parameters that the sensors cannot separate, what noise is taken, what is refused.
 
 use frfit_workflow::job::respond_case;
 use frfit_workflow::load::Overrides;

@@ -1,7 +1,7 @@
 //! Free plates of spruce: four orthotropic constants from five hammer impacts and one accelerometer, against published moduli.
 //!
 //! The plates are those of D. G. Badiane and others, J. Acoust. Soc. Am. 154 (2023) 730–738, whose moduli come from another method (networks and another
-//! finite element code). Units and sense of the acceleration are not stated: g, and reversed, with a scale that nobody knows.
+//! finite element code). Units and sense of the acceleration are not stated: g, and reversed, with an unknown scale.
 
 use crate::shared_data::shared;
 use crate::tier::of_tier;

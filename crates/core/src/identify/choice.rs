@@ -42,7 +42,7 @@ pub enum Reduction {
     Subspace,
 }
 
-/// A word that is none of the choices there are.
+/// A word that names no choice.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct UnknownChoice {
     /// The word.

@@ -110,7 +110,7 @@ pub(super) fn shared_covariance(
     inverse: &[Vec<f64>],
 ) -> Vec<Vec<f64>> {
     let n = inverse.len();
-    // Coordinates that nothing depends on have no finite row, and no pull.
+    // Coordinates on which no residual depends have no finite row, and no pull.
     let product = |row: &[f64], pull: &[f64]| -> f64 {
         row.iter().zip(pull).filter(|(h, a)| h.is_finite() && a.is_finite()).map(|(h, a)| h * a).sum()
     };

@@ -92,7 +92,7 @@ const EVALUATIONS_PER_START_AND_UNKNOWN: usize = 50;
 /// Where neighbouring rows leave the same, the error bars are wider ([`Correlated`]).
 ///
 /// # Limits
-/// Of a law that is itself at fault the error bars say how far its parameters would move if its fault came about again by chance, as large and over as many rows; not that there is none.
+/// The error bars of a wrong law say how far its parameters would move if an error as large and over as many rows came about again by chance; they do not say that the law is right.
 pub fn fit_modulus(data: &[Datum], kind: LawKind, sigma_known: bool) -> Option<LawFit> {
     let omegas: Vec<f64> = data.iter().map(|datum| datum.omega_rad_s).collect();
     let parametrization = Parametrization::about(kind, &omegas);

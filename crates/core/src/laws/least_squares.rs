@@ -139,7 +139,7 @@ pub(crate) fn descend(start: &[f64], evaluate: Evaluate<'_>, search: &Search) ->
 
 /// (JᵀJ)⁻¹, n × n, row after row.
 ///
-/// A column of zeros is a coordinate that nothing depends on: its rows are NaN, and the others are those without it. `None` where coordinates depend on each other to the last digit.
+/// A column of zeros is a coordinate on which no residual depends: its rows are NaN, and the others are those without it. `None` where coordinates depend on each other to the last digit.
 pub(crate) fn inverse_information(jacobian: &[f64], n: usize) -> Option<Vec<Vec<f64>>> {
     let m = jacobian.len() / n.max(1);
     let norms: Vec<f64> =

@@ -2,7 +2,7 @@
 
 use super::Resolved;
 
-/// ln p is known where its standard deviation is below this: the measure by which identified factors are `ill_conditioned`.
+/// ln p is known where its standard deviation is below this: the measure by which identified factors are `not_identifiable`.
 pub const KNOWN_LN_STD: f64 = 0.3;
 
 /// Correlation in the unknown directions above which two variables belong together.

@@ -8,7 +8,7 @@ use frfit_linalg::dense::{NoConvergence, Singular, singular};
 /// Standard deviations √E|δx|² of the receptance, `[frequency][sensor]`; the real and the imaginary part have 1/√2 of it each.
 pub type StandardDeviations = Vec<Vec<f64>>;
 
-/// Components of a singular vector below this are roundoff: what is orthogonal to a direction that nobody sees does not suffer from it.
+/// Components of a singular vector below this are roundoff: a direction orthogonal to an unseen one does not suffer from it.
 const COMPONENT_TOL: f64 = 1e-6;
 
 /// The Jacobian J of real and imaginary parts of all x over their standard deviations by ln p, as singular values ς and right singular vectors.
@@ -78,14 +78,14 @@ impl Resolved {
         self.singular.values.len()
     }
 
-    /// Combinations vᵢᵀ ln p with their standard deviations, the best known first; `None` for those of which nothing is seen.
+    /// Combinations vᵢᵀ ln p with their standard deviations, the best known first; `None` for those that no sensor sees.
     pub fn combinations(&self) -> impl Iterator<Item = (&[f64], Option<f64>)> {
         let seen = |value: f64| (value > self.floor).then_some(1.0 / value);
         let all = self.singular.vectors.iter().zip(&self.singular.values);
         all.map(move |(v, &value)| (v.as_slice(), seen(value)))
     }
 
-    /// Standard deviation of Σ u_p ln p with all variables unknown; `None` where it has a part of which nothing is seen.
+    /// Standard deviation of Σ u_p ln p with all variables unknown; `None` where it has a part that no sensor sees.
     ///
     /// # Panics
     /// Where there is not one coefficient for each variable.

@@ -14,11 +14,11 @@ pub struct Recording {
     pub responses: Vec<Vec<f64>>,
 }
 
-/// What is wrong with a recording, so that nothing can be made of any.
+/// What is wrong with a recording, so that no FRF can be made.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum RecordingError {
-    /// A sampling interval that is none, or not that of the first recording.
+    /// A sampling interval that is not a positive number, or not that of the first recording.
     Step(f64),
     /// Not as many sensors as the first recording has.
     Sensors(usize),

@@ -256,7 +256,7 @@ mod tests {
                 prop_assert!((own.curve.variance[i] - bridged.curve.variance[j]).abs() < 1e-5 * (1.0 + own.curve.variance[i]));
             }
             prop_assert!(bridged.curve.variance[k + 1] > 0.0);
-            // Halfway the process has gained h³/192 of curvature that nobody has seen.
+            // Halfway the process has gained h³/192 of curvature that no observation has seen.
             let curve = Process::new(&more).unwrap().smooth(1e10);
             prop_assert!(curve.variance[k + 2] > curve.variance[k + 1]);
         }

@@ -116,7 +116,7 @@ const PENCIL_SHIFT_RATIO: f64 = 1e-4;
 /// Squares of natural frequencies below this part of that shift are those of rigid bodies.
 const RIGID_BODY_RATIO: f64 = 1e-4;
 
-/// A share of a mode's strain energy below which an error there is none of the mode.
+/// Below this share of a mode's strain energy an error there does not count as an error of the mode.
 const MIN_ENERGY_SHARE: f64 = 0.02;
 
 /// What a mode has at a place counts as at least this part of what modes usually have there: beneath it is a node.

@@ -157,7 +157,7 @@ impl Table {
     /// A cell as a whole number of at least `least`.
     ///
     /// # Errors
-    /// A cell that is none.
+    /// A cell that holds no such number.
     pub fn whole(&self, row: usize, column: usize, least: u64) -> Result<u64, FormatError> {
         whole(self.text(row, column).as_bytes()).filter(|&n| n >= least).ok_or_else(|| {
             self.error(row, column, format!("a whole number from {least} on"), self.shown(row, column))

@@ -97,7 +97,7 @@ fn banner(line: Line<'_>) -> Result<(bool, Field, Symmetry), FormatError> {
     Ok((is_coordinate, field, symmetry))
 }
 
-/// The comment lines without their percent signs, and the first line that is none.
+/// The comment lines without their percent signs, and the first line that is no comment.
 fn comments_and_size_line<'a>(lines: &mut Lines<'a>) -> Result<(String, Line<'a>), FormatError> {
     let mut comments: Option<String> = None;
     for line in lines.by_ref() {

@@ -67,7 +67,7 @@ impl Array {
         self.header.value(self.bytes(k))
     }
 
-    /// The element that is k-th in the file, as a whole number; `None` where it is none.
+    /// The element that is k-th in the file, as a whole number; `None` where it is not whole.
     pub(super) fn whole(&self, k: usize) -> Option<i64> {
         use crate::bytes::Storage::{Signed, Unsigned};
         match self.header.element {

@@ -18,7 +18,7 @@ pub(super) struct Layout {
 }
 
 impl Layout {
-    /// By the first record, whose length is known; `None` where it is none.
+    /// By the first record, whose length is known; `None` where that is no record of OUTPUT4.
     pub(super) fn of(bytes: &[u8]) -> Option<Self> {
         let layouts =
             [(Endian::Little, false), (Endian::Big, false), (Endian::Little, true), (Endian::Big, true)];

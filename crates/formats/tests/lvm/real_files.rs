@@ -41,7 +41,7 @@ for k in range(data['Segments']):
         print(len(column), column.sum().hex(), float((column * column).sum()).hex(), column[-1].hex())
 ";
 
-/// Sums over all samples of a channel tell a sample that is lost, doubled or misread.
+/// Sums over all samples of a channel show a sample that is lost, doubled or misread.
 #[test]
 #[ignore = "needs the data of ../shared/data and Python with lvm_read"]
 fn lvm_read_reads_the_same_needs_data_and_lvm_read() {

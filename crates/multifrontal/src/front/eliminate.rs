@@ -110,7 +110,7 @@ fn eliminate_block<T: Scalar>(
 ) -> bool {
     let (to, mut at, mut end) = (block.end, block.start, block.end);
     while at < end {
-        // It is chosen once: behind columns that failed, nobody looks for a better one.
+        // It is chosen once: behind columns that failed, no better one is looked for.
         let search = chosen == 0 && end == to && growth.is_finite();
         let limits = Limits { l: 1.0 / with.threshold, growth: if search { growth } else { f64::INFINITY } };
         let width = match std::mem::take(&mut chosen) {

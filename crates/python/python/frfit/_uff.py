@@ -147,7 +147,7 @@ def read_uff(path: str | os.PathLike[str]) -> Uff:
     Raises
     ------
     InputError
-        A file that is none: where, what was expected, what was found.
+        A file that is no universal file: where, what was expected, what was found.
 
     Examples
     --------

@@ -67,7 +67,7 @@ impl Modulus {
 /// Reads a table; with a law, the values are the law's at every frequency of the table, whatever its rows say.
 ///
 /// # Errors
-/// What [`read_modulus_rows`] refuses; a file of a law that is none; no row to write; a storage modulus that is not above zero; for a solver, moduli too small for any solid.
+/// What [`read_modulus_rows`] refuses; a file that holds no law; no row to write; a storage modulus that is not above zero; for a solver, moduli too small for any solid.
 pub fn modulus(
     table: &Path,
     law: Option<&Path>,

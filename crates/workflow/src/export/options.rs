@@ -34,7 +34,7 @@ impl Target {
     }
 }
 
-/// A word that is none of those that are known.
+/// A word that is not known.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct UnknownWord {
     expected: String,

@@ -41,7 +41,7 @@ pub(crate) fn sha256(bytes: &[u8]) -> String {
 /// The files of a result in a folder as its list names them, read and compared with it; none where there is no list: earlier versions wrote none.
 ///
 /// # Errors
-/// A list that is none; files that are missing, or not those of the list.
+/// A list that cannot be read; files that are missing, or not those of the list.
 pub(crate) fn read_result(
     folder: &Path,
     result: &str,

@@ -20,13 +20,13 @@ use std::time::Instant;
 /// Noise of the response where it is not known: that of a careful hammer test between resonances.
 const ASSUMED_NOISE: f64 = 0.01;
 
-/// Estimated error of response and derivatives everywhere that candidates are compared with: ten times that, which is what may be, is the hundredth to which they are.
-const ELSEWHERE: f64 = 1e-3;
+/// Estimated error of response and derivatives at all rows: the true error may be ten times that, and candidates are compared to one per cent.
+const CANDIDATE_TOL: f64 = 1e-3;
 
 /// Candidates that are looked at again as sensors …
 const SHORTLIST: usize = 5;
 
-/// … each at least so much worse than the one before: those in between are as good as that, for they are compared to no better (and nobody places a sensor by less).
+/// … each at least so much worse than the one before: those in between are as good as that, for candidates are compared to no better (and a smaller gain moves no sensor).
 const AS_GOOD: f64 = 1.01;
 
 /// What is asked for.
@@ -145,7 +145,7 @@ fn computed(
     points: &[ChangePoint<'_>],
     candidates: &[usize],
 ) -> Result<SensitivityRun, Breakdown> {
-    let train = ChangeOptions::default().with_everywhere((!candidates.is_empty()).then_some(ELSEWHERE));
+    let train = ChangeOptions::default().with_everywhere((!candidates.is_empty()).then_some(CANDIDATE_TOL));
     let band = SensitivityBand::new(&case.experiment, variables, points, &train, &parallel)?;
     let measured = case.sensitivities.as_ref().and_then(|wanted| wanted.std.clone());
     let (noise, deviations) = match (options.noise, measured) {

@@ -64,7 +64,7 @@ pub(super) const START_SHIFTS: [f64; 8] = [-0.03, -0.01, -0.003, -0.001, 0.001, 
 /// Rounds of training at a law or a curve before what is left is called uncertain.
 pub(in crate::identify) const MAX_TRAINING_ROUNDS: usize = 4;
 
-/// No modulus from one frequency is better than this, relative: where the noise is none, no frequency shall rule alone.
+/// No modulus from one frequency is better than this, relative: without noise, no frequency shall rule alone.
 const MIN_RELATIVE_MODULUS_STD: f64 = 1e-6;
 
 /// A modulus with a standard deviation of half of itself is not known.

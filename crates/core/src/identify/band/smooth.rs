@@ -66,7 +66,7 @@ const MAX_CURVE_STEPS: usize = 30;
 /// Halvings of a step that makes things worse.
 const MAX_HALVINGS: usize = 8;
 
-/// A step of this part of the error bar, or of the modulus, is none.
+/// A step below this part of the error bar, or of the modulus, counts as zero.
 const CURVE_STEP_TOL: f64 = 1e-3;
 const CURVE_ROUNDOFF: f64 = 1e-11;
 
@@ -167,7 +167,7 @@ struct Fitted {
     before: crate::response::Work,
 }
 
-/// What the sensors say about a curve: what each frequency observes of ln E, what nothing there can explain, and the whole misfit.
+/// What the sensors say about a curve: what each frequency observes of ln E, the residual that no modulus explains, and the whole misfit.
 struct Linearised {
     observations: Vec<Observation>,
     evidence: Evidence,

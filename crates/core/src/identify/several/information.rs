@@ -10,10 +10,10 @@ pub(super) struct Information {
     pub(super) vectors: Vec<f64>,
 }
 
-/// Information below this part of the largest is none: a direction that is known a hundred thousand times worse than another one, by slopes of a reduced model.
+/// Information below this part of the largest counts as zero: such a direction is known a hundred thousand times worse than the best one, by slopes of a reduced model.
 const INFORMATION_RTOL: f64 = 1e-10;
 
-/// A part of a direction that is none.
+/// A component of a direction below this counts as zero.
 const DIRECTION_PART_TOL: f64 = 1e-4;
 
 impl Information {

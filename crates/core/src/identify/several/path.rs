@@ -74,7 +74,7 @@ impl Task<'_, '_> {
             // By their misfit: the first is the best.
             Some(&best) => {
                 others.retain(|&k| k != best);
-                // An alternative of one unknown that another one excludes is none.
+                // A value of one unknown is an alternative only if the other unknowns of its solution admit it.
                 let possible = |k: usize| {
                     own.iter().zip(choices).all(|(&j, choices)| {
                         let near = |other: usize| other == k || same(j, other, k);
