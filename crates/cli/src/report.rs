@@ -199,10 +199,14 @@ fn noise(text: &mut Text, job: &IdentifyJob) {
     });
     let source = match found.noise.source {
         NoiseSource::Given => "as given".to_owned(),
-        NoiseSource::Sensors => format!("{level:.1e} of what is assumed, from the misfit of the sensors"),
-        NoiseSource::Scatter => format!("{level:.1e} of what is assumed, from the scatter of the answers"),
+        NoiseSource::Sensors => {
+            format!("{level:.1e} times the assumed noise, from the misfit of the sensors")
+        }
+        NoiseSource::Scatter => {
+            format!("{level:.1e} times the assumed noise, from the scatter of the answers")
+        }
         NoiseSource::Curve => {
-            format!("{level:.1e} of what is assumed, from what the smooth curve leaves")
+            format!("{level:.1e} times the assumed noise, from the residual of the smooth curve")
         }
         _ => "unknown".to_owned(),
     };
@@ -237,8 +241,8 @@ fn fit(text: &mut Text, job: &IdentifyJob) {
                 _ => "the model cannot explain the measurements",
             };
             let by = match found.noise.source {
-                NoiseSource::Given => format!("χ² is {per_freedom:.1} times what noise gives"),
-                _ => "what is left over is no noise".to_owned(),
+                NoiseSource::Given => format!("χ² is {per_freedom:.1} times that of noise"),
+                _ => "the residual is not noise".to_owned(),
             };
             text.warn("not explained", &format!("{who} ({by})"));
         }
@@ -370,7 +374,7 @@ fn model_errors(job: &IdentifyJob, errors: &ModelErrorsFound) -> String {
     });
     let mesh = errors.mesh.map(|mesh| {
         format!(
-            "; {} modes are paired with the coarser mesh, and this one has {:.2} ± {:.2} of what lies between",
+            "; {} modes are paired with the coarser mesh, and this one has {:.2} ± {:.2} of the difference between the meshes",
             mesh.paired, mesh.remainder, mesh.std
         )
     });

@@ -53,7 +53,7 @@ fn the_picture_of_the_correlation_has_a_row_for_each_number() {
         assert!(svg.contains(&row), "{row}");
     }
     assert_shows_something(&out.join("figures/correlation.png"));
-    // One number has nothing to hang together with.
+    // A single number has no correlation.
     done(folder.path(), &["--quiet", "example", "plate-thickness", "p"]);
     done(folder.path(), &["--quiet", "identify", "p/case.toml", "--out", "one"]);
     assert!(!folder.path().join("one/figures/correlation.svg").exists());

@@ -14,7 +14,7 @@ const MIN_TRUSTED_SHARE: f64 = 0.9;
 pub(crate) enum Level {
     /// It explains the measurements, and something independent says so.
     Good,
-    /// Part of it, or nothing independent tests it.
+    /// Part of it, or no independent measurement tests it.
     Care,
     /// None of it, or the model cannot explain the measurements.
     Bad,
@@ -149,7 +149,7 @@ fn claim(results: &Results) -> String {
     }
 }
 
-/// What speaks against some of it, or that nothing independent speaks for it.
+/// What speaks against some of it, or that no independent measurement supports it.
 fn doubt(results: &Results) -> Option<&'static str> {
     let (asked, ok) = trusted(&results.band);
     let not_identifiable = !results.identifiability.not_identifiable.is_empty();
@@ -178,7 +178,7 @@ fn doubt(results: &Results) -> Option<&'static str> {
             "; at the other frequencies the value is not identifiable, or the measurements are not explained.",
         ),
         ("nearly explained", _) => Some("; a little more than the given noise is left."),
-        _ => Some(", but nothing independent tests the fit."),
+        _ => Some(", but no independent measurement tests the fit."),
     }
 }
 
@@ -296,7 +296,7 @@ fn doubt_of_fit(results: &Results) -> Option<String> {
     let summary = &results.summary;
     Some(match summary.word("/fit/verdict") {
         "not explained" => {
-            "What is left between model and measurement is no noise. Look at mesh, boundary conditions, sensors and units (frfit check) before any number is used."
+            "The difference between model and measurement is not noise. Look at mesh, boundary conditions, sensors and units (frfit check) before any number is used."
                 .into()
         }
         "nearly explained" => {
@@ -467,7 +467,7 @@ fn tiles_of_band(results: &Results, nominal_error: &[Option<f64>], own: bool) ->
 /// Why no χ² over the band shows whether noise is all that is left.
 fn untested(results: &Results) -> &'static str {
     match results.sensors.len() {
-        1 => "one sensor has nothing to agree with",
+        1 => "there is no second sensor to compare with",
         _ if !results.summary.array("/laws/laws").is_empty() => "the table of laws has the χ² of each",
         _ => "the noise is known from the misfit alone",
     }
@@ -479,7 +479,7 @@ fn noise(results: &Results) -> &'static str {
         "given" => "as the files give it",
         "sensors" => "taken from how well the sensors agree",
         "scatter" => "taken from how the answers scatter",
-        "curve" => "taken from what the smooth curve leaves",
+        "curve" => "taken from the residual of the smooth curve",
         _ => "unknown",
     }
 }

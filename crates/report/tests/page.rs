@@ -138,7 +138,7 @@ fn the_verdict_says_how_much_can_be_trusted_and_why_not_the_rest() {
         "<b>90 trusted</b>",
         "<b>10 not identifiable</b>",
         "noise leaves the value unknown",
-        "nothing was found wrong",
+        "no fault of them was found",
     ] {
         assert!(text.contains(expected), "{expected}");
     }
@@ -151,12 +151,12 @@ fn the_verdict_says_how_much_can_be_trusted_and_why_not_the_rest() {
     );
     let unexplained = Made { fit: "not explained", ..Made::default() };
     assert!(
-        text_of(&unexplained).contains("Do not use yet") && text_of(&unexplained).contains("is no noise")
+        text_of(&unexplained).contains("Do not use yet") && text_of(&unexplained).contains("is not noise")
     );
     let untested = Made { fit: "untested", ..Made::default() };
     assert!(
         text_of(&untested).contains("Use with care")
-            && text_of(&untested).contains("nothing independent tests")
+            && text_of(&untested).contains("no independent measurement tests")
     );
     let found = Made { finding: true, ..Made::default() };
     assert!(

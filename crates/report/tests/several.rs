@@ -82,9 +82,9 @@ fn what_is_not_told_comes_before_the_numbers_and_has_none() {
 #[test]
 fn the_level_follows_fit_and_band() {
     let with = |fit: &'static str, bad: usize| MadeSeveral { fit, bad, ..MadeSeveral::default() };
-    says(&with("not explained", 0), &["Do not use yet", "is no noise"]);
+    says(&with("not explained", 0), &["Do not use yet", "is not noise"]);
     says(&with("nearly explained", 0), &["Use with care", "a little more than the given noise"]);
-    says(&with("untested", 0), &["Use with care", "nothing independent tests the fit"]);
+    says(&with("untested", 0), &["Use with care", "no independent measurement tests the fit"]);
     says(&with("explained", 20), &["Use with care", "core is known at 30 of 50 frequencies (60 %)"]);
     let core = MadeSeveral { bad: 50, constants: 0, ..MadeSeveral::default() };
     says(&core, &["Do not use yet", "No frequency has a trusted storage modulus of core"]);
@@ -100,15 +100,12 @@ fn pictures_without_anything_to_show_are_left_out_with_a_sentence() {
     let one = MadeSeveral { constants: 1, varies: false, ..MadeSeveral::default() };
     says(
         &one,
-        &[
-            "<b>Correlation</b>: not drawn, for one number has nothing to hang together with",
-            "id=\"plot-profile\"",
-        ],
+        &["<b>Correlation</b>: not drawn, for a single number has no correlation", "id=\"plot-profile\""],
     );
     assert!(!text(&one).contains("id=\"plot-correlation\"") && !text(&one).contains("id=\"plot-modulus"));
     let none = MadeSeveral { constants: 0, ..MadeSeveral::default() };
-    // One unknown with a value at each frequency has nothing that could hang together.
-    for absent in ["Correlation", "How the values hang together", "What holds for the whole band"] {
+    // One unknown with a value at each frequency has no correlation.
+    for absent in ["Correlation", "How the values are correlated", "What holds for the whole band"] {
         assert!(!text(&none).contains(absent), "{absent}");
     }
 }

@@ -1,4 +1,4 @@
-// How the numbers that hold for the band hang together.
+// How the numbers that hold for the band are correlated.
 
 const { together } = data;
 const numbered = (name, k) => `${k + 1} ${plain(name.replaceAll("_", " "))}`;

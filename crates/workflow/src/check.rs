@@ -351,9 +351,11 @@ pub fn check_text(job: &CheckJob) -> Words {
             let left = format!("ln(measured/model) is left with {misfit:.2} by the likeliest modulus");
             let (label, end) = match (diagnosis.findings.is_empty(), misfit > UNEXPLAINED) {
                 (true, false) => ("no finding", ""),
-                (true, true) => ("no finding", ": that is much, and nothing that is looked for explains it"),
+                (true, true) => ("no finding", ": that is much, and no fault that is looked for explains it"),
                 (false, false) => ("left", ""),
-                (false, true) => ("left", ": that is much, and nothing else that is looked for explains it"),
+                (false, true) => {
+                    ("left", ": that is much, and no other fault that is looked for explains it")
+                }
             };
             words.add(misfit > UNEXPLAINED, &format!("  {label:<18}{left}{end}\n"));
         }
@@ -362,5 +364,5 @@ pub fn check_text(job: &CheckJob) -> Words {
     words
 }
 
-/// A misfit beyond this is no noise that anybody would identify a modulus from: a factor of 1.3, or 17 degrees.
+/// A misfit beyond this is more than noise from which a modulus can be identified: a factor of 1.3, or 17 degrees.
 const UNEXPLAINED: f64 = 0.3;

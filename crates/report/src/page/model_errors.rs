@@ -91,7 +91,7 @@ fn sizes(found: &Value) -> String {
         let of = |key: &str| number(mesh, key).map_or("–".into(), |value| significant(value, 2));
         let _ = writeln!(
             html,
-            "<p>{} modes are paired with those of the coarser mesh. Of what lies between the meshes this one still has {} ± {} (one standard deviation); {} is expected of the size \
+            "<p>{} modes are paired with those of the coarser mesh. Of the difference between the meshes this one still has {} ± {} (one standard deviation); {} is expected of the size \
              of the elements.</p>",
             mesh.get("paired").and_then(Value::as_u64).unwrap_or(0),
             of("remainder"),

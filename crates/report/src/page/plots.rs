@@ -36,7 +36,7 @@ pub(super) fn sections(results: &Results) -> String {
         ("response", "Response", response(results)),
         ("factor", "Identified values", factor(results)),
         ("choice", "Choice", choice(results)),
-        ("together", "How the values hang together", together(results)),
+        ("together", "How the values are correlated", together(results)),
         ("trust", "Error and convergence", trust(results)),
         ("plane", "In the complex plane", plane(results)),
     ] {
@@ -83,10 +83,10 @@ fn factor(results: &Results) -> String {
         let others = if results.unknowns.len() == 1 { "" } else { ", all other unknowns free" };
         let bars = match results.band.has(&one.column("storage_std")) {
             true if has_errors => format!(
-                "Bars and bands are two standard deviations{others}. They hold the noise, the errors of the model that were found, and what is not known of factors that are given."
+                "Bars and bands are two standard deviations{others}. They hold the noise, the errors of the model that were found, and the uncertainty of the given factors."
             ),
             true => format!(
-                "Bars and bands are two standard deviations of what noise does{others}: 95 of 100 true values lie within, if the model is right. Errors of the model (mesh, supports) are not in them."
+                "Bars and bands are two standard deviations due to noise{others}: 95 of 100 true values lie within, if the model is right. Errors of the model (mesh, supports) are not in them."
             ),
             false => "There are no error bars: the noise is unknown, or the selection has none.".to_owned(),
         };
@@ -171,7 +171,7 @@ fn trust(results: &Results) -> String {
         html += &plot(
             "order",
             "Order that the series would need",
-            "Terms of the paper’s series for an error of 10⁻⁶. Where there is a gap no order is enough, and the default method is what answers.",
+            "Terms of the paper’s series for an error of 10⁻⁶. Where there is a gap no order is enough; the default method answers there too.",
         );
     } else {
         missing += &absent(

@@ -134,7 +134,7 @@ fn findings(results: &Results) -> String {
     if findings.is_empty() {
         let said = match checked {
             true => {
-                "The measurements were compared with the model (sign, quantity, units, delay, position of sensors and load): nothing was found wrong with them. Errors of the model are another matter, and stand below."
+                "The measurements were compared with the model (sign, quantity, units, delay, position of sensors and load): no fault of them was found. Errors of the model are given below."
             }
             false => "The measurements were not looked at for mistakes: frfit check does.",
         };

@@ -41,7 +41,7 @@ pub(super) fn constants(results: &Results) -> String {
             );
         }
     }
-    html + "</tbody></table></div><p class=\"note\">Values have the units of the case. A bar holds with all other unknowns free, and with the errors of the model that stand below.</p>\n"
+    html + "</tbody></table></div><p class=\"note\">Values have the units of the case. A bar holds with all other unknowns free, and with the errors of the model that are given below.</p>\n"
 }
 
 fn value(one: &Unknown, number: &Number) -> String {
@@ -65,9 +65,9 @@ pub(super) fn together(results: &Results) -> String {
         0 if results.unknowns.len() == 1 => return String::new(),
         0 => absent(
             "Correlation",
-            "for nothing holds for the whole band: every frequency has values of its own.",
+            "for no unknown holds for the whole band: every frequency has values of its own.",
         ),
-        1 => absent("Correlation", "for one number has nothing to hang together with."),
+        1 => absent("Correlation", "for a single number has no correlation."),
         _ => {
             let reading = "1 or −1: only the sum or the difference of the two is identifiable. Near 0: each is by itself.";
             plot("correlation", "Correlation", reading) + &table(found)
@@ -80,7 +80,7 @@ pub(super) fn together(results: &Results) -> String {
 fn profile(found: &Identifiability) -> String {
     const TITLE: &str = "Misfit along the least identifiable combination";
     let Some(least) = found.least.as_ref().filter(|_| !found.profile.is_empty()) else {
-        return absent(TITLE, "for there is no such combination, or nothing was found.");
+        return absent(TITLE, "for there is no such combination, or the search found none.");
     };
     let bar = match least.std {
         Some(std) => format!(

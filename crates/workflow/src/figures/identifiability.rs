@@ -18,7 +18,7 @@ pub(super) fn correlation(case: &Case, identify: &IdentifyCase, run: &IdentifyRu
     let numbers: Vec<f64> = (1..=count).map(|k| k as f64).collect();
     let names = (0..count).rev().map(|c| format!("{} {}", c + 1, coordinate(identify, found, c)));
     Figure {
-        title: title(case, "correlation of what holds for the band"),
+        title: title(case, "correlation of the values for the band"),
         x: Axis::whole("Number, as on the left"),
         panels: vec![Panel {
             y: Axis::whole(""),
