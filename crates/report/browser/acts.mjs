@@ -27,8 +27,8 @@ async function pointed(page, id) {
   for (let k = 0; k < 10; k++) {
     await page.mouse.move(place.left + (k % 2), place.top + (k % 3));
     await page.waitForTimeout(80);
-    const told = await page.locator(`#${id} .hoverlayer`).textContent();
-    if (told) return told;
+    const shown = await page.locator(`#${id} .hoverlayer`).textContent();
+    if (shown) return shown;
   }
   return "";
 }
@@ -38,11 +38,11 @@ export async function hover(page) {
   const wrong = [];
   for (const id of await visiblePlots(page)) {
     await page.locator(`#${id} .drawing`).scrollIntoViewIfNeeded();
-    const told = await pointed(page, id);
-    if (!/\d/.test(told)) wrong.push(`${id}: the pointer shows nothing`);
-    if (/plot-(accelerance|modulus(-\d+)?|candidates(-\d+)?|error|error-map|radius|nyquist|(cole-cole|wicket)(-\d+)?)$/.test(id) && !/Hz/.test(told)) wrong.push(`${id}: no Hz in ${JSON.stringify(told)}`);
-    if (/plot-(modulus|cole-cole)$/.test(id) && (await page.evaluate(() => JSON.parse(document.getElementById("data").textContent).unknowns[0].unit)) && !/Pa/.test(told)) {
-      wrong.push(`${id}: no Pa in ${JSON.stringify(told)}`);
+    const shown = await pointed(page, id);
+    if (!/\d/.test(shown)) wrong.push(`${id}: the pointer shows nothing`);
+    if (/plot-(accelerance|modulus(-\d+)?|candidates(-\d+)?|error|error-map|radius|nyquist|(cole-cole|wicket)(-\d+)?)$/.test(id) && !/Hz/.test(shown)) wrong.push(`${id}: no Hz in ${JSON.stringify(shown)}`);
+    if (/plot-(modulus|cole-cole)$/.test(id) && (await page.evaluate(() => JSON.parse(document.getElementById("data").textContent).unknowns[0].unit)) && !/Pa/.test(shown)) {
+      wrong.push(`${id}: no Pa in ${JSON.stringify(shown)}`);
     }
   }
   await page.mouse.move(1, 1);
