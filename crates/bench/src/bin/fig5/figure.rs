@@ -16,7 +16,7 @@ pub(crate) fn error_against_time(title: &str, contest: &Contest) -> Figure {
     };
     let (orders, iterations) = (contest.series.len(), contest.nelder_mead.len());
     Figure {
-        title: format!("{title}: mean and deviation"),
+        title: format!("{title}: mean and standard deviation"),
         x: Axis::log("CPU time (s)"),
         panels: vec![Panel {
             y: Axis::log("Error ε of the updated response"),
