@@ -2,24 +2,25 @@
 
 mod document;
 mod field;
+mod identify;
 mod keys;
 mod parse;
 mod reference;
 mod sections;
-mod several;
 mod snippet;
 
+pub(crate) use identify::variation;
 pub(crate) use parse::law_of_snippet;
 pub use parse::parse;
 pub use reference::reference;
 pub(crate) use sections::checked_band;
 pub use snippet::snippet;
 
-use crate::error::Place;
+use crate::error::{InputError, Place};
+use crate::nearest::nearest;
 use crate::units::{Amount, UnitSystem};
 use frfit::dof::{Axis, DofName};
 use frfit::identify::{Method, ModelErrors, Reduction, Selection, Variation};
-use frfit::laws::LawKind;
 use frfit::material::Law;
 use frfit::model::{FactorStd, Role};
 use frfit::quantity::Quantity;
@@ -57,12 +58,37 @@ pub struct CaseFile {
     pub model_error: ModelErrors,
     /// `[coarser_mesh]`.
     pub coarser_mesh: Option<CoarserMeshEntry>,
-    /// `[identify]`, of one unknown that varies.
+    /// `[identify]`, or all `[[identify]]`.
     pub identify: Option<IdentifyEntry>,
-    /// `[[identify]]`: several unknowns, or one that does not vary.
-    pub several: Option<SeveralEntry>,
     /// `[respond]`.
     pub respond: Option<RespondEntry>,
+}
+
+impl CaseFile {
+    /// What is unknown.
+    pub(crate) fn unknowns(&self) -> impl Iterator<Item = &UnknownEntry> {
+        self.identify.iter().flat_map(|entry| &entry.unknowns)
+    }
+
+    /// Refuses a name that no matrix has.
+    ///
+    /// # Errors
+    /// The names that there are, and the nearest.
+    pub(crate) fn has_matrices<'n>(
+        &self,
+        mut named: impl Iterator<Item = &'n Located<String>>,
+    ) -> Result<(), InputError> {
+        let known = || self.matrices.iter().map(|matrix| matrix.name.value.as_str());
+        match named.find(|name| !known().any(|own| own == name.value)) {
+            None => Ok(()),
+            Some(Located { value, place }) => {
+                let all = known().map(|name| format!("{name:?}")).collect::<Vec<_>>().join(", ");
+                let hint = nearest(value, known()).map(|name| format!("; did you mean {name:?}?"));
+                let found = format!("{value:?}{}", hint.unwrap_or_default());
+                Err(InputError::at(place, format!("a matrix of the case ({all})"), found))
+            }
+        }
+    }
 }
 
 /// `[[matrix]]`.
@@ -184,21 +210,23 @@ pub struct CoarserMeshEntry {
     pub order: Option<f64>,
 }
 
-/// `[identify]`.
+/// `[identify]`, or all `[[identify]]`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct IdentifyEntry {
-    /// Where the table begins.
+    /// Where the first table begins.
     pub place: Place,
-    /// Matrices that share the unknown factor, at least one.
-    pub matrices: Vec<Located<String>>,
+    /// What is unknown, at least one, names distinct.
+    pub unknowns: Vec<UnknownEntry>,
     /// First and last frequency.
     pub band_hz: Option<Located<[f64; 2]>>,
     /// Frequencies and bands that are left out: no number of them is used.
-    pub exclude: Vec<Exclusion>,
+    pub exclude: Located<Vec<Exclusion>>,
     /// Of more lines than this those that tell most.
     pub max_lines: Option<Located<i64>>,
-    /// How the factor varies, where that is said; the place is that of `varies`.
-    pub varies: Option<Located<VariesEntry>>,
+    /// Whether a sensor that contradicts all others is left out.
+    pub reject_outliers: Option<bool>,
+    /// Whether to look for what is wrong with the data.
+    pub check: bool,
     /// Method.
     pub method: Option<Method>,
     /// Order.
@@ -209,72 +237,8 @@ pub struct IdentifyEntry {
     pub reduction: Option<Reduction>,
     /// Where it says `start = "bounds"`.
     pub start: Option<Place>,
-    /// `bounds.storage`.
-    pub storage: Option<Located<[f64; 2]>>,
-    /// `bounds.loss_factor`.
-    pub loss_factor: Option<Located<[f64; 2]>>,
-    /// Whether the factor is real.
-    pub real: bool,
-    /// Whether a sensor that contradicts all others is left out.
-    pub reject_outliers: Option<bool>,
-    /// Whether to look for what is wrong with the data first.
-    pub check: bool,
-    /// The factor that a simulated measurement was made with.
-    pub reference: Option<Located<FactorEntry>>,
-}
-
-/// How the factor varies over frequency: `varies`, with `law` and `branches`.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub enum VariesEntry {
-    /// Anyhow: one of its own at each frequency.
-    #[default]
-    PerFrequency,
-    /// Smoothly.
-    Smoothly,
-    /// By one of these laws, which are to be compared.
-    ByLaw(Vec<LawKind>),
-}
-
-impl From<VariesEntry> for Variation {
-    fn from(varies: VariesEntry) -> Self {
-        match varies {
-            VariesEntry::PerFrequency => Self::PerFrequency,
-            VariesEntry::Smoothly => Self::Smooth,
-            VariesEntry::ByLaw(kinds) => Self::Law(kinds),
-        }
-    }
-}
-
-impl VariesEntry {
-    /// What the word alone says: `law` all laws.
-    ///
-    /// # Errors
-    /// The words that there are.
-    pub(crate) fn of_word(word: &str) -> Result<Self, String> {
-        match word {
-            "frequency" => Ok(Self::PerFrequency),
-            "smooth" => Ok(Self::Smoothly),
-            "law" => Ok(Self::ByLaw(LawKind::ALL.to_vec())),
-            _ => Err("\"frequency\" (a factor of its own at each), \"smooth\" or \"law\"".into()),
-        }
-    }
-}
-
-/// All `[[identify]]`.
-#[derive(Debug, Clone, PartialEq)]
-pub struct SeveralEntry {
-    /// Where the first begins.
-    pub place: Place,
-    /// Each of them, at least one, names distinct.
-    pub unknowns: Vec<UnknownEntry>,
-    /// First and last frequency.
-    pub band_hz: Option<Located<[f64; 2]>>,
-    /// Frequencies and bands that are left out.
-    pub exclude: Vec<Exclusion>,
-    /// Of more lines than this those that tell most.
-    pub max_lines: Option<Located<i64>>,
-    /// Whether a sensor that contradicts all others is left out.
-    pub reject_outliers: Option<bool>,
+    /// Where the first thing stands that only a single unknown that varies can have, and what is expected in its place otherwise.
+    pub of_single: Option<Located<&'static str>>,
 }
 
 /// One `[[identify]]`.
@@ -289,10 +253,10 @@ pub struct UnknownEntry {
     /// Matrices that a dimension multiplies, each with its power.
     pub powers: Vec<(Located<String>, i32)>,
     /// How it varies.
-    pub varies: UnknownVaries,
+    pub varies: Located<Variation>,
     /// Whether it is real.
     pub real: bool,
-    /// Value of a dimension to begin with.
+    /// Value of a dimension to begin with; `None` of a factor.
     pub nominal: Option<Located<f64>>,
     /// `bounds.storage`, or `bounds` of a real one.
     pub storage: Option<Located<[f64; 2]>>,
@@ -300,17 +264,6 @@ pub struct UnknownEntry {
     pub loss_factor: Option<Located<[f64; 2]>>,
     /// What a simulated measurement was made with.
     pub reference: Option<Located<FactorEntry>>,
-}
-
-/// How one of several unknowns varies.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum UnknownVaries {
-    /// A value of its own at each frequency.
-    PerFrequency,
-    /// One value for the band.
-    Constant,
-    /// By a law.
-    ByLaw(LawKind),
 }
 
 /// What `exclude_hz` lists.

@@ -1,6 +1,5 @@
 //! The frequencies of a band, and what was measured there, as receptance.
 
-use super::identify::MeasuredNoise;
 use super::measurement::{Curve, Measurement};
 use crate::error::{InputError, Place};
 use frfit::c64;
@@ -11,6 +10,17 @@ use frfit_formats::FormatError;
 /// How far two measurements' frequencies may differ and be the same: well above the rounding of 12 digits, well below
 /// any resolution of an analyser.
 const SAME_FREQUENCY: f64 = 1e-9;
+
+/// Standard deviations √E|δx|² of the measured receptances, `[frequency][sensor]`, as far as files and case tell.
+#[derive(Debug, Clone, PartialEq)]
+pub enum MeasuredNoise {
+    /// Not for all sensors.
+    Unknown,
+    /// From the coherence of all of them as if it were of one average: the number of averages is not told of all.
+    Relative(Vec<Vec<f64>>),
+    /// Of all of them: given, or from the coherence and the number of averages.
+    Known(Vec<Vec<f64>>),
+}
 
 /// Measured values over a band.
 #[derive(Debug)]

@@ -16,15 +16,17 @@ mod lines;
 mod matrix;
 mod measurement;
 mod model;
+mod options;
 mod sensitivities;
-mod several;
 mod uff;
+mod unknowns;
 
 pub use arrays::{ArraysError, MeasuredFrf, Wanted, WantedUnknown, case_of_arrays, response_of_arrays};
+pub use band::MeasuredNoise;
 pub use files::InputFile;
 pub(crate) use frf::decay_line;
 pub use frf::{Choice, Frf, read_frf};
-pub use identify::{Check, IdentifyCase, MeasuredNoise};
+pub use identify::{Check, IdentifyCase};
 pub(crate) use labels::{Member, load_one, matrices_of, one_order};
 pub(crate) use matrix::{asymmetry, complex};
 pub use matrix::{check_symmetric, symmetric_matrix};
@@ -126,7 +128,7 @@ pub enum Purpose {
 pub fn load(case_file: &Path, overrides: &Overrides, purpose: Purpose) -> Result<Case, InputError> {
     let (mut files, bytes) = Files::of_case(case_file)?;
     let case = case::parse(case_file, &bytes)?;
-    let keeps_dimensions = purpose == Purpose::Identify && case.several.is_some();
+    let keeps_dimensions = purpose == Purpose::Identify && case.unknowns().any(|one| one.nominal.is_some());
     let structure = structure(&case, keeps_dimensions, &mut files)?;
     let coarser_mesh = match &case.coarser_mesh {
         Some(entry) if purpose == Purpose::Identify => {
@@ -142,10 +144,7 @@ pub fn load(case_file: &Path, overrides: &Overrides, purpose: Purpose) -> Result
     let mut sensitivities = None;
     let (identify, respond_hz) = match purpose {
         Purpose::Identify => {
-            let identify = match &case.several {
-                Some(_) => several::several(&case, overrides, (&model, &of), &measurements, &mut files)?,
-                None => identify::identify(&case, overrides, &model, &measurements, &mut files)?,
-            };
+            let identify = identify::identify(&case, overrides, (&model, &of), &measurements, &mut files)?;
             let frequency_hz = identify.frequency_hz.clone();
             (Some(identify), frequency_hz)
         }
@@ -164,11 +163,6 @@ pub fn load(case_file: &Path, overrides: &Overrides, purpose: Purpose) -> Result
         }
     }
     factor::sizes(&case, &model, &of, &respond_hz)?;
-    let reference = case.identify.as_ref().and_then(|entry| entry.reference.as_ref());
-    let law = identify.as_ref().and_then(|identify| identify.reference[0].as_ref());
-    if let (Some(law), Some(entry)) = (law, reference) {
-        factor::covers(law, &entry.place, &respond_hz)?;
-    }
     let sensors = measurements.iter().map(|measurement| measurement.sensor).collect();
     Ok(Case {
         units: case.units,
