@@ -1,7 +1,7 @@
 //! Tables and fields of a TOML document, each with its place and its path.
 
-use super::Located;
 use super::document::Document;
+use super::entries::Located;
 use super::keys::{SECTIONS, Section};
 use crate::error::{InputError, Place};
 use crate::nearest::nearest;

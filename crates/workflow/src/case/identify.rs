@@ -1,9 +1,9 @@
 //! `[identify]` and `[[identify]]`: what is unknown, and how it is to be found.
 
+use super::entries::{Exclusion, IdentifyEntry, Located, UnknownEntry};
 use super::field::{Field, Table};
 use super::keys;
 use super::sections::{MOST_POWER, band, factor};
-use super::{Exclusion, IdentifyEntry, Located, UnknownEntry};
 use crate::error::{InputError, Place};
 use frfit::identify::{UnknownChoice, Variation};
 use frfit::laws::{LawKind, MAX_BRANCHES, UnknownLawKind};

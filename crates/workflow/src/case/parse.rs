@@ -1,13 +1,13 @@
 //! The whole file.
 
 use super::document::Document;
+use super::entries::{CaseFile, FactorEntry, MatrixEntry};
 use super::field::{Table, shown};
 use super::identify::identify;
 use super::keys::{ATTACHED, CASE, DOFS, LOAD, MATRIX, MEASUREMENT, Section};
 use super::sections::{
     attached, coarser_mesh, factor, load, matrix, measurement, model_error, respond, units,
 };
-use super::{CaseFile, FactorEntry, MatrixEntry};
 use crate::error::{InputError, Place};
 use frfit::material::Law;
 use std::path::Path;

@@ -1,11 +1,11 @@
 //! The tables of a case file, one function each.
 
-use super::field::{Field, Table};
-use super::keys;
-use super::{
+use super::entries::{
     AtValues, AttachedEntry, Calibration, CoarserMeshEntry, FactorEntry, LoadEntry, Located, MatrixEntry,
     MeasurementEntry, RespondEntry, Spot,
 };
+use super::field::{Field, Table};
+use super::keys;
 use crate::error::{InputError, Place};
 use crate::units::{Amount, AmountOf, UnitSystem, UnknownSystem, amount};
 use frfit::c64;

@@ -2,11 +2,12 @@
 
 use super::dimension::PartOf;
 use super::files::NamedFile;
-use super::identify::{Given, put_together};
-use super::measurement::{Curve, Decay, Measurement, common_decay};
+use super::frf::Frf;
+use super::identify::{Given, IdentifyCase, put_together};
+use super::loaded::Case;
+use super::measurement::{Curve, Decay, Measurement, SensorInfo, common_decay};
 use super::options::{chosen, options};
 use super::unknowns::{known_have_std, unknowns};
-use super::{Case, Frf, IdentifyCase, SensorInfo};
 use crate::case::{Exclusion, IdentifyEntry, Located, UnknownEntry, checked_band, variation};
 use crate::error::{InputError, Place};
 use crate::units::UnitSystem;
@@ -189,12 +190,11 @@ pub fn case_of_arrays(
         argument(&format!("measurement {}", first + 1)).below(key)
     };
     let first = unknown.iter().position(|unknown| unknown.any()).map(place_of);
-    let (units, measured) = (UnitSystem::Si, &measurements);
     let given = Given {
         model: &model,
-        measurements: measured,
+        measurements: &measurements,
         channels: (unknown, first),
-        units,
+        units: UnitSystem::Si,
         is_modulus: &|_| None,
     };
     let mut identify = put_together(&entry, unknowns, options, given)?;

@@ -1,9 +1,11 @@
 //! The frequencies of a band, and what was measured there, as receptance.
 
 use super::measurement::{Curve, Measurement};
+use super::overrides::Overrides;
+use crate::case::{CaseFile, checked_band};
 use crate::error::{InputError, Place};
 use frfit::c64;
-use frfit::frequency::omega_rad_s;
+use frfit::frequency::{linear_hz, omega_rad_s};
 use frfit::signal::variance;
 use frfit_formats::FormatError;
 
@@ -48,6 +50,26 @@ pub(super) fn frequencies(curve: &Curve, band_hz: [f64; 2], place: &Place) -> Re
         return Err(InputError::at(place, expected, format!("[{low}, {high}]")));
     }
     Ok(inside)
+}
+
+/// The frequencies of a response.
+pub(super) fn respond_hz(
+    case: &CaseFile,
+    overrides: &Overrides,
+    measurements: &[Measurement],
+) -> Result<Vec<f64>, InputError> {
+    let option = Place::option("--band");
+    if let Some(band_hz) = overrides.band_hz {
+        checked_band(band_hz, &option)?;
+    }
+    if let Some(respond) = &case.respond {
+        let [low, high] = overrides.band_hz.unwrap_or(respond.band_hz.value);
+        return Ok(linear_hz(low, high, respond.points));
+    }
+    match measurements.first().and_then(|first| first.curve.as_ref()) {
+        Some(curve) => frequencies(curve, overrides.band_hz.unwrap_or([0.0, f64::MAX]), &option),
+        None => Ok(Vec::new()),
+    }
 }
 
 /// All measurements at the frequencies that the first has in the band; `decay_per_s` is that of their window.

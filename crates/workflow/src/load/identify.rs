@@ -1,6 +1,5 @@
 //! What is unknown, how to find it, and the measurement to find it from.
 
-use super::Overrides;
 use super::band::{MeasuredNoise, band};
 use super::dimension::{PartOf, each_has_a_value};
 use super::factor::{covers, law};
@@ -8,6 +7,7 @@ use super::files::Files;
 use super::lines::unused;
 use super::measurement::Measurement;
 use super::options::{invalid, options, overridden, reduction_of_band};
+use super::overrides::Overrides;
 use super::unknowns::{is_single, known_have_std, unknowns};
 use crate::case::{Calibration, CaseFile, IdentifyEntry, Located, MatrixEntry};
 use crate::error::{InputError, Place};

@@ -1,6 +1,6 @@
 //! How to find what is unknown.
 
-use super::Overrides;
+use super::overrides::Overrides;
 use crate::case::{IdentifyEntry, Located, checked_band};
 use crate::error::{InputError, Place};
 use frfit::identify::{

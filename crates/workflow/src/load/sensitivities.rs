@@ -1,9 +1,9 @@
 //! What sensitivities take of a case beside its model: frequencies, noise, channels of unknown scale.
 
-use super::band::{MeasuredNoise, band};
+use super::band::{MeasuredNoise, band, respond_hz};
 use super::dimension::{PartOf, powers_of};
 use super::measurement::{Curve, Measurement};
-use super::{Overrides, respond_hz};
+use super::overrides::Overrides;
 use crate::case::{Calibration, CaseFile};
 use crate::error::{InputError, Place};
 use frfit::model::DynamicStiffness;

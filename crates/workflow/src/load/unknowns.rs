@@ -113,9 +113,10 @@ fn can_vary(one: &Unknown, place: &Place, single: bool) -> Result<(), InputError
             "\"frequency\", \"smooth\" or \"constant\" for a real unknown",
             "\"law\" with real = true".into(),
         ),
-        (Variation::Law(kinds), _) if kinds.len() > 1 && !single => {
-            ("one law, by the key law, beside other unknowns", format!("{} laws", kinds.len()))
-        }
+        (Variation::Law(kinds), _) if kinds.len() > 1 && !single => (
+            "one law, by the key law, with several unknowns or a negative power",
+            format!("{} laws", kinds.len()),
+        ),
         (Variation::Smooth, Dependence::Powers(_)) => {
             ("\"frequency\", \"constant\" or \"law\" for a dimension", "\"smooth\"".into())
         }
