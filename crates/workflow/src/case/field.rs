@@ -1,7 +1,7 @@
 //! Tables and fields of a TOML document, each with its place and its path.
 
-use super::Located;
 use super::document::Document;
+use super::entries::Located;
 use super::keys::{SECTIONS, Section};
 use crate::error::{InputError, Place};
 use crate::nearest::nearest;
@@ -25,12 +25,11 @@ pub(super) struct Field<'a> {
 }
 
 /// Keys that had another name: (old, new). A case with an old one is refused with the new one.
-const RENAMED: [(&str, &str); 6] = [
+const RENAMED: [(&str, &str); 5] = [
     ("space", "reduction"),
     ("robust", "reject_outliers"),
     ("most_lines", "max_lines"),
     ("leave_out_hz", "exclude_hz"),
-    ("nominal", "start"),
     ("truth", "reference"),
 ];
 
@@ -78,6 +77,11 @@ impl<'a> Table<'a> {
         let range = if value.get_ref().is_table() { value.span() } else { name.span() };
         let place = self.document.place(range, self.place.below(key).key);
         Some(Field { document: self.document, place, value: value.get_ref() })
+    }
+
+    /// The field of the first key of a section that is there.
+    pub(super) fn find_any(&self, section: &Section) -> Option<Field<'a>> {
+        section.keys.iter().find_map(|key| self.find(key.name))
     }
 
     /// The field of a key that has to be there.
@@ -208,15 +212,6 @@ impl<'a> Field<'a> {
     pub(super) fn table(&self, sections: &[&'static Section]) -> Result<Table<'a>, InputError> {
         let fields = self.value.as_table().ok_or_else(|| self.refuse("a table"))?;
         Table::new(self.document, self.place.clone(), fields, sections)
-    }
-
-    /// Whether it is a table with this key, and where a text is given, that text there.
-    pub(super) fn has(&self, key: &str, text: Option<&str>) -> bool {
-        let found = self.value.as_table().and_then(|fields| {
-            fields.iter().find(|(name, _)| name.get_ref() == key).map(|(_, value)| value.get_ref())
-        });
-        found
-            .is_some_and(|value| text.is_none_or(|text| matches!(value, DeValue::String(own) if own == text)))
     }
 
     /// The keys of a table and their values; `None` where it is none.

@@ -51,11 +51,10 @@ pub(super) static SECTIONS: LazyLock<Vec<&'static Section>> = LazyLock::new(|| {
         &MEASUREMENT,
         &MODEL_ERROR,
         &COARSER_MESH,
-        &IDENTIFY,
+        &UNKNOWN,
         &BOUNDS,
-        &SEVERAL,
-        &SEVERAL_FIRST,
-        &SEVERAL_BOUNDS,
+        &FOR_ALL,
+        &SINGLE,
         &RESPOND,
     ];
     before.into_iter().chain(LAWS.iter().map(|(_, section)| section)).chain(after).collect()
@@ -546,12 +545,86 @@ order = 2
 "],
 };
 
-pub(super) static IDENTIFY: Section = Section {
+pub(super) static UNKNOWN: Section = Section {
     path: "identify",
-    title: "`[identify]`: one unknown that varies over frequency",
-    about: "The factor of a matrix, complex unless `real`. Laws and smooth moduli need the default method.",
+    title: "`[identify]`, or `[[identify]]` for each of several unknowns",
+    about: "The factor of a matrix, or a dimension; complex unless `real`. One table may be written either way.",
     keys: &[
-        key("matrix", "text or list of texts", NEEDED, "Whose factor is unknown; several share one."),
+        key(
+            "name",
+            "text",
+            "names of the matrices",
+            "Needed of a dimension: that of its `powers`, or of the matrices `at` its values.",
+        ),
+        key("matrix", "text or list of texts", "a dimension", "Whose factor is unknown; several share one."),
+        key(
+            "powers",
+            "table of matrices and whole numbers from −12 to 12",
+            "matrices `at` values of it",
+            "A dimension: it multiplies the factor of each matrix to this power.",
+        ),
+        key(
+            "varies",
+            "\"frequency\", \"smooth\", \"constant\" or \"law\"",
+            "frequency; of a dimension constant",
+            "A value of its own at each frequency, a smooth curve (of the factor that is the only unknown), one value for the band, or a law of few parameters.",
+        ),
+        key(
+            "law",
+            UnknownLawKind::EXPECTED,
+            "all of them",
+            "Beside `varies = \"law\"`: the law; of an only unknown also a list of laws, that are fitted and compared.",
+        ),
+        key("branches", "whole number from 1 to 20", "3", "Of `law = \"maxwell\"`."),
+        key(
+            "nominal",
+            "number",
+            "needed of a dimension, else the factor of the matrix",
+            "A dimension's value to begin with: 1, or a length in the case's `units` where the matrices are made for a length of one.",
+        ),
+        key("bounds", "table, or [low, high] of a real one", "none", "What it can be."),
+        key(
+            "real",
+            "true or false",
+            "true of a dimension, else false",
+            "A real unknown, as a density, a spring or a length.",
+        ),
+        key(
+            "reference",
+            "as `factor`",
+            "none",
+            "What a simulated measurement was made with. It is drawn, and used for nothing.",
+        ),
+    ],
+    examples: &[
+        "[identify]
+matrix = [\"skins\", \"ribs\"]
+band_hz = [20.0, 2000.0]
+varies = \"law\"
+law = [\"fractional\", \"maxwell\"]
+branches = 3
+bounds = { storage = [1e5, 1e9], loss_factor = [0.0, 3.0] }
+reference = { storage = 1.2e6, loss_factor = 0.1 }
+",
+        "[[identify]]
+name = \"core modulus\"
+matrix = \"core\"
+[[identify]]
+name = \"thickness\"
+powers = { bending = 3, membrane = 1, mass = 1 }
+nominal = 1.0
+bounds = [0.8, 1.25]
+real = true
+reference = 1.05
+",
+    ],
+};
+
+pub(super) static FOR_ALL: Section = Section {
+    path: "identify",
+    title: "Keys of the first `[[identify]]`, for all",
+    about: "Where there are several unknowns, these keys are in the first table.",
+    keys: &[
         key("band_hz", "[low, high], Hz", "`--band`", "Measured frequencies from low to high are used."),
         key(
             "exclude_hz",
@@ -566,18 +639,37 @@ pub(super) static IDENTIFY: Section = Section {
             "Of more lines than this those that tell most: half of them evenly spread, half where the measurement changes fastest. The others are `out_of_band`.",
         ),
         key(
-            "varies",
-            "\"frequency\", \"smooth\" or \"law\"",
-            "frequency",
-            "A factor of its own at each frequency, a smooth curve, or a law of few parameters.",
+            "reject_outliers",
+            "true or false",
+            "true",
+            "Of three or more sensors one that contradicts all others is left out.",
         ),
         key(
-            "law",
-            UnknownLawKind::EXPECTED,
-            "all of them",
-            "Beside `varies = \"law\"`: the law, or a list of laws, that are fitted and compared.",
+            "check",
+            "true or false",
+            "true",
+            "Look for what is wrong with the data, as `frfit check` does: first, or, unless a single unknown varies, where the band is not explained.",
         ),
-        key("branches", "whole number from 1 to 20", "3", "Of `law = \"maxwell\"`."),
+    ],
+    examples: &["[[identify]]
+matrix = \"core\"
+band_hz = [20.0, 1000.0]
+exclude_hz = [[49.0, 51.0], 100.0]
+max_lines = 500
+reject_outliers = false
+check = false
+[[identify]]
+matrix = \"skins\"
+varies = \"constant\"
+"],
+};
+
+pub(super) static SINGLE: Section = Section {
+    path: "identify",
+    title: "Keys of a single unknown that varies",
+    about: "They are refused where there are several unknowns, or where the only one is constant or has a negative power: there is one way to find those. \
+            Laws and smooth moduli need the default method.",
+    keys: &[
         key(
             "method",
             "\"rational\", \"series\" or \"nelder-mead\"",
@@ -606,43 +698,10 @@ pub(super) static IDENTIFY: Section = Section {
             "start",
             "\"bounds\"",
             "the factor of the matrix",
-            "There is no nominal value: it is looked for in all of the bounds, and `bounds.storage` is needed.",
-        ),
-        key("bounds", "table", "none", "What the factor can be."),
-        key("real", "true or false", "false", "A real factor, as a density or a spring."),
-        key(
-            "reject_outliers",
-            "true or false",
-            "true",
-            "Of three or more sensors one that contradicts all others is left out.",
-        ),
-        key(
-            "check",
-            "true or false",
-            "true",
-            "Look first for what is wrong with the data, as `frfit check` does.",
-        ),
-        key(
-            "reference",
-            "as `factor`",
-            "none",
-            "What a simulated measurement was made with. It is drawn, and used for nothing.",
+            "There is no nominal value: it is looked for in all of the bounds, and `bounds.storage` is needed. Not of a dimension.",
         ),
     ],
     examples: &[
-        "[identify]
-matrix = [\"skins\", \"ribs\"]
-band_hz = [20.0, 2000.0]
-exclude_hz = [[49.0, 51.0], 100.0]
-max_lines = 2000
-varies = \"law\"
-law = [\"fractional\", \"maxwell\"]
-branches = 3
-bounds = { storage = [1e5, 1e9], loss_factor = [0.0, 3.0] }
-start = \"bounds\"
-reject_outliers = false
-check = false
-",
         "[identify]
 matrix = \"plate\"
 method = \"series\"
@@ -652,13 +711,18 @@ reduction = \"full\"
 real = true
 reference = 2700.0
 ",
+        "[identify]
+matrix = \"plate\"
+bounds = { storage = [1e5, 1e9] }
+start = \"bounds\"
+",
     ],
 };
 
 pub(super) static BOUNDS: Section = Section {
     path: "identify.bounds",
     title: "`bounds = { … }`",
-    about: "What is known beforehand: wide limits, in the unit of the factor, of the case's `units`.",
+    about: "What is known beforehand: wide limits, in the unit of the factor, of the case's `units`. Low may be high where a single unknown varies, and is below it elsewhere.",
     keys: &[
         key(
             "storage",
@@ -671,101 +735,6 @@ pub(super) static BOUNDS: Section = Section {
     examples: &["[identify]
 matrix = \"plate\"
 bounds = { storage = [1e10, 1e12], loss_factor = [0.0, 0.5] }
-"],
-};
-
-pub(super) static SEVERAL: Section = Section {
-    path: "identify",
-    title: "`[[identify]]`: several unknowns, or one that does not vary",
-    about: "A table each. A single `[identify]` with `varies = \"constant\"` or `powers` is read the same way. \
-            The keys `method`, `order`, `selection`, `reduction` and `check` are refused here: there is one way to find several unknowns.",
-    keys: &[
-        key(
-            "name",
-            "text",
-            "names of the matrices",
-            "Needed of a dimension: that of its `powers`, or of the matrices `at` its values.",
-        ),
-        key("matrix", "text or list of texts", "a dimension", "Whose factor is unknown."),
-        key(
-            "powers",
-            "table of matrices and whole numbers from −12 to 12",
-            "matrices `at` values of it",
-            "A dimension: it multiplies the factor of each matrix to this power.",
-        ),
-        key(
-            "varies",
-            "\"frequency\", \"constant\" or \"law\"",
-            "frequency; of `powers` constant",
-            "A value of its own at each frequency, one for the band, or a law.",
-        ),
-        key("law", UnknownLawKind::EXPECTED, "needed beside `varies = \"law\"`", "Which law."),
-        key("branches", "whole number from 1 to 20", "3", "Of `law = \"maxwell\"`."),
-        key(
-            "nominal",
-            "number",
-            "needed of a dimension, else the factor of the matrix",
-            "A dimension's value to begin with: 1, or a length in the case's `units` where the matrices are made for a length of one.",
-        ),
-        key("bounds", "table, or [low, high] of a real one", "none", "What it can be."),
-        key("real", "true or false", "true of `powers`, else false", "A real unknown."),
-        key("reference", "as `factor`", "none", "What a simulated measurement was made with."),
-    ],
-    examples: &["[[identify]]
-name = \"core modulus\"
-matrix = \"core\"
-varies = \"law\"
-law = \"maxwell\"
-branches = 3
-[[identify]]
-name = \"thickness\"
-powers = { bending = 3, membrane = 1, mass = 1 }
-nominal = 1.0
-bounds = [0.8, 1.25]
-real = true
-reference = 1.05
-"],
-};
-
-pub(super) static SEVERAL_FIRST: Section = Section {
-    path: "identify",
-    title: "Keys of the first `[[identify]]`, for all",
-    about: "They mean what they mean in `[identify]`.",
-    keys: &[
-        key("band_hz", "[low, high], Hz", "`--band`", "Measured frequencies from low to high are used."),
-        key("exclude_hz", "list of frequencies and [low, high], Hz", "none", "Left out."),
-        key("max_lines", "whole number, 3 and more", "all", "Of more lines than this those that tell most."),
-        key(
-            "reject_outliers",
-            "true or false",
-            "true",
-            "Of three or more sensors one that contradicts all others is left out.",
-        ),
-    ],
-    examples: &["[[identify]]
-matrix = \"core\"
-band_hz = [20.0, 1000.0]
-exclude_hz = [50.0]
-max_lines = 500
-reject_outliers = false
-[[identify]]
-matrix = \"skins\"
-varies = \"constant\"
-"],
-};
-
-pub(super) static SEVERAL_BOUNDS: Section = Section {
-    path: "identify.bounds",
-    title: "`bounds = { … }` of a complex unknown",
-    about: "Here low has to be below high.",
-    keys: &[
-        key("storage", "[low, high]", "none", "Of E′."),
-        key("loss_factor", "[low, high]", "none", "Of η."),
-    ],
-    examples: &["[[identify]]
-matrix = \"skins\"
-varies = \"constant\"
-bounds = { storage = [5e10, 9e10], loss_factor = [0.0, 0.1] }
 "],
 };
 

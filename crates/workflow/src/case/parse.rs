@@ -1,13 +1,13 @@
 //! The whole file.
 
 use super::document::Document;
+use super::entries::{CaseFile, FactorEntry, MatrixEntry};
 use super::field::{Table, shown};
+use super::identify::identify;
 use super::keys::{ATTACHED, CASE, DOFS, LOAD, MATRIX, MEASUREMENT, Section};
 use super::sections::{
-    attached, coarser_mesh, factor, identify, load, matrix, measurement, model_error, respond, units,
+    attached, coarser_mesh, factor, load, matrix, measurement, model_error, respond, units,
 };
-use super::several::{is_several, several};
-use super::{CaseFile, FactorEntry, MatrixEntry};
 use crate::error::{InputError, Place};
 use frfit::material::Law;
 use std::path::Path;
@@ -54,12 +54,7 @@ pub fn parse(file: &Path, bytes: &[u8]) -> Result<CaseFile, InputError> {
             .transpose()?
             .unwrap_or_default(),
         coarser_mesh: case.find("coarser_mesh").map(|field| coarser_mesh(&field)).transpose()?,
-        identify: case
-            .find("identify")
-            .filter(|f| !is_several(f))
-            .map(|field| identify(&field))
-            .transpose()?,
-        several: case.find("identify").filter(is_several).map(|field| several(&field)).transpose()?,
+        identify: case.find("identify").map(|field| identify(&field)).transpose()?,
         respond: case.find("respond").map(|field| respond(&field)).transpose()?,
     })
 }

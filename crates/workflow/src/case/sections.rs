@@ -1,17 +1,17 @@
 //! The tables of a case file, one function each.
 
+use super::entries::{
+    AtValues, AttachedEntry, Calibration, CoarserMeshEntry, FactorEntry, LoadEntry, Located, MatrixEntry,
+    MeasurementEntry, RespondEntry, Spot,
+};
 use super::field::{Field, Table};
 use super::keys;
-use super::{
-    AtValues, AttachedEntry, Calibration, CoarserMeshEntry, Exclusion, FactorEntry, IdentifyEntry, LoadEntry,
-    Located, MatrixEntry, MeasurementEntry, RespondEntry, Spot, VariesEntry,
-};
 use crate::error::{InputError, Place};
 use crate::units::{Amount, AmountOf, UnitSystem, UnknownSystem, amount};
 use frfit::c64;
 use frfit::dof::{Axis, DofName};
-use frfit::identify::{CoarserMesh, ErrorSizes, Method, ModelErrors, Reduction, Selection};
-use frfit::laws::{LawKind, MAX_BRANCHES, Parameter, ParameterKind, UnknownLawKind};
+use frfit::identify::{CoarserMesh, ErrorSizes, ModelErrors};
+use frfit::laws::{LawKind, Parameter, ParameterKind};
 use frfit::material::{Branch, Law};
 use frfit::model::{FactorStd, Role};
 use frfit::quantity::Quantity;
@@ -432,9 +432,6 @@ fn averages(field: &Field<'_>) -> Result<Located<i64>, InputError> {
     Ok(averages)
 }
 
-/// The one thing that `start` can say: numbers belong to the matrix.
-const START: &str = "\"bounds\" (a nominal value is the factor of the matrix)";
-
 /// `model_error = "estimated"`, `"none"` or a size, or `[model_error]`.
 pub(super) fn model_error(field: &Field<'_>) -> Result<ModelErrors, InputError> {
     const EXPECTED: &str = "\"estimated\", \"none\", a number above 0 up to 0.5, or a text as \"0.5 %\"";
@@ -483,96 +480,6 @@ pub(super) fn coarser_mesh(field: &Field<'_>) -> Result<CoarserMeshEntry, InputE
         element_ratio: above("element_ratio", 1.0)?,
         order: above("order", 0.0)?,
     })
-}
-
-/// `[identify]`.
-pub(super) fn identify(field: &Field<'_>) -> Result<IdentifyEntry, InputError> {
-    let table = field.table(&[&keys::IDENTIFY])?;
-    let bounds = table.find("bounds").map(|field| field.table(&[&keys::BOUNDS])).transpose()?;
-    let method = |word: &str| word.parse::<Method>().map_err(|unknown| unknown.expected.to_owned());
-    let selection = |word: &str| word.parse::<Selection>().map_err(|unknown| unknown.expected.to_owned());
-    let reduction = |word: &str| word.parse::<Reduction>().map_err(|unknown| unknown.expected.to_owned());
-    let start = |word: &str| (word == "bounds").then_some(()).ok_or_else(|| START.to_owned());
-    let bound = |name| bounds.as_ref().and_then(|table| table.find(name)).map(|f| f.pair()).transpose();
-    Ok(IdentifyEntry {
-        place: table.place.clone(),
-        matrices: table.need("matrix")?.texts()?,
-        band_hz: table.find("band_hz").map(|band| self::band(&band)).transpose()?,
-        exclude: table.find("exclude_hz").map_or(Ok(Vec::new()), |field| exclude(&field))?,
-        max_lines: table.find("max_lines").map(|most| most.whole()).transpose()?,
-        varies: varies(&table)?,
-        method: table.find("method").map(|field| field.word(method)).transpose()?.map(|m| m.value),
-        order: table.find("order").map(|order| order.whole()).transpose()?,
-        selection: table.find("selection").map(|field| field.word(selection)).transpose()?,
-        reduction: table.find("reduction").map(|field| field.word(reduction)).transpose()?.map(|s| s.value),
-        start: table.find("start").map(|field| field.word(start)).transpose()?.map(|start| start.place),
-        storage: bound("storage")?,
-        loss_factor: bound("loss_factor")?,
-        real: table.find("real").map(|real| real.flag()).transpose()?.unwrap_or(false),
-        reject_outliers: table
-            .find("reject_outliers")
-            .map(|reject_outliers| reject_outliers.flag())
-            .transpose()?,
-        check: table.find("check").map(|check| check.flag()).transpose()?.unwrap_or(true),
-        reference: table.find("reference").map(|reference| factor(&reference)).transpose()?,
-    })
-}
-
-/// Frequencies, and bands [low, high].
-pub(super) fn exclude(field: &Field<'_>) -> Result<Vec<Exclusion>, InputError> {
-    const EXPECTED: &str = "a list of frequencies and bands [low, high] in Hz, as [100.0, [49.0, 51.0]]";
-    field.each(EXPECTED, |item| match item.as_number() {
-        Some(frequency_hz) if frequency_hz >= 0.0 => Ok(Exclusion::Line(frequency_hz)),
-        Some(_) => Err(item.refuse("a frequency in Hz that is not negative")),
-        None if item.is_list() => Ok(Exclusion::Band(band(item)?.value)),
-        None => Err(item.refuse("a frequency or a band [low, high] in Hz")),
-    })
-}
-
-/// What `varies`, `law` and `branches` say together.
-fn varies(table: &Table<'_>) -> Result<Option<Located<VariesEntry>>, InputError> {
-    let varies = table.find("varies").map(|field| field.word(VariesEntry::of_word)).transpose()?;
-    let (law, branches) = (table.find("law"), table.find("branches"));
-    let Some(Located { place, .. }) =
-        varies.as_ref().filter(|varies| matches!(varies.value, VariesEntry::ByLaw(_)))
-    else {
-        return match law.or(branches) {
-            Some(key) => Err(InputError::at(&key.place, "varies = \"law\" beside it", "none")),
-            None => Ok(varies),
-        };
-    };
-    let place = place.clone();
-    let Some(law) = law else {
-        return match branches {
-            Some(key) => Err(InputError::at(&key.place, "law = \"maxwell\" beside it", "none")),
-            None => Ok(varies),
-        };
-    };
-    let named = law.texts()?;
-    let mut kinds: Vec<LawKind> = Vec::with_capacity(named.len());
-    for Located { value, place: here } in &named {
-        let family = value.parse::<LawKind>();
-        let family =
-            family.map_err(|_| InputError::at(here, UnknownLawKind::EXPECTED, format!("{value:?}")))?;
-        if kinds.contains(&family) {
-            return Err(InputError::at(here, "each law once", format!("{value:?} a second time")));
-        }
-        kinds.push(family);
-    }
-    if let Some(key) = branches {
-        let branches = self::branches(&key)?;
-        let Some(at) = named.iter().position(|named| named.value == "maxwell") else {
-            return Err(InputError::at(&key.place, "law = \"maxwell\" beside it", "none"));
-        };
-        kinds[at] = LawKind::Maxwell { branches };
-    }
-    Ok(Some(Located { value: VariesEntry::ByLaw(kinds), place }))
-}
-
-/// How many branches a law of Maxwell's has.
-pub(super) fn branches(key: &Field<'_>) -> Result<usize, InputError> {
-    let count = usize::try_from(key.whole()?.value).ok().filter(|n| (1..=MAX_BRANCHES).contains(n));
-    count.ok_or_else(|| key.refuse(&format!("1 to {MAX_BRANCHES}")))
 }
 
 /// `[respond]`.

@@ -1,26 +1,20 @@
 //! From what a program holds in memory to a case: the same checks and conversions as for one read from files.
 
-use super::band::band;
+use super::dimension::PartOf;
 use super::files::NamedFile;
-use super::identify::{
-    Check, can_be_found, factor_of, fit_for_band, is_single, known_have_std, middle_of, one_is_calibrated,
-    shared,
-};
-use super::lines::unused;
-use super::measurement::{Curve, Decay, Measurement, common_decay};
-use super::several::enough;
-use super::{Case, Frf, IdentifyCase, SensorInfo};
-use crate::case::{Exclusion, Located, VariesEntry as Varies, checked_band};
+use super::frf::Frf;
+use super::identify::{Given, IdentifyCase, put_together};
+use super::loaded::Case;
+use super::measurement::{Curve, Decay, Measurement, SensorInfo, common_decay};
+use super::options::{chosen, options};
+use super::unknowns::{known_have_std, unknowns};
+use crate::case::{Exclusion, IdentifyEntry, Located, UnknownEntry, checked_band, variation};
 use crate::error::{InputError, Place};
-use crate::units::{FactorUnit, UnitSystem};
+use crate::units::UnitSystem;
 use frfit::c64;
-use frfit::identify::{
-    ChannelUnknowns, Dependence, Method, ModelErrors, Options, OptionsError, Reduction, Selection, Unknown,
-    Variation,
-};
+use frfit::identify::{ChannelUnknowns, ModelErrors, OptionsError, Variation};
 use frfit::laws::LawKind;
-use frfit::material::Law;
-use frfit::model::{DynamicStiffness, Experiment, ModelError, Parameter, Role, Sensor};
+use frfit::model::{DynamicStiffness, Experiment, ModelError, Parameter, Sensor, Term};
 use frfit::quantity::Quantity;
 use frfit::roots::{Bounds, BoundsError};
 use frfit_formats::FormatError;
@@ -184,57 +178,30 @@ pub fn case_of_arrays(
     };
     let sensors = measurements.iter().map(|measurement| measurement.sensor).collect();
     let experiment = experiment(&model, load, sensors)?;
-    let (options, unknowns) = unknowns_of(&model, wanted)?;
+    let entry = entry_of(&model, wanted)?;
+    let of = |term: &Term| PartOf { matrix: term.name.clone(), dimension: None };
+    let of: Vec<PartOf> = model.terms().iter().map(of).collect();
+    let unknowns = unknowns(&entry, &model, &of)?;
     known_have_std(&model, &unknowns, |_| argument("storage_std"))?;
-    if let Some(first) = unknown.iter().position(|unknown| unknown.any()) {
+    let options = options(&entry, wanted.model_errors);
+    options.validate().map_err(ArraysError::Options)?;
+    let place_of = |first: usize| {
         let key = if unknown[first].scale { "scale" } else { "delay_s" };
-        let place = argument(&format!("measurement {}", first + 1)).below(key);
-        match &unknowns[..] {
-            [only] if is_single(&unknowns) => can_be_found(&unknown, &place, &only.varies, &options)?,
-            all if all.iter().all(|one| one.varies == Variation::PerFrequency) => {
-                one_is_calibrated(&unknown, &place)?
-            }
-            _ => {}
-        }
+        argument(&format!("measurement {}", first + 1)).below(key)
+    };
+    let first = unknown.iter().position(|unknown| unknown.any()).map(place_of);
+    let given = Given {
+        model: &model,
+        measurements: &measurements,
+        channels: (unknown, first),
+        units: UnitSystem::Si,
+        is_modulus: &|_| None,
+    };
+    let mut identify = put_together(&entry, unknowns, options, given)?;
+    covers(&model, &identify.frequency_hz)?;
+    if let (None, [first, .., last] | [first @ last]) = (wanted.band_hz, &identify.frequency_hz[..]) {
+        identify.band_hz = [*first, *last];
     }
-    let place = argument("band_hz");
-    let band_hz = wanted.band_hz.unwrap_or([0.0, f64::MAX]);
-    checked_band(band_hz, &place)?;
-    let data = band(&measurements, decay_per_s, band_hz, &place)?;
-    let out: Vec<Exclusion> = wanted.exclude_hz.iter().map(|&band| exclude(band)).collect();
-    let most = wanted.max_lines.map(|value| Located { value, place: argument("max_lines") });
-    let left_out = unused(&data, &out, most.as_ref(), &argument("exclude_hz"))?;
-    covers(&model, &data.frequency_hz)?;
-    let first_and_last = [data.frequency_hz.first(), data.frequency_hz.last()].map(|f| f.copied());
-    let check = match &unknowns[..] {
-        _ if !wanted.check => Check::Never,
-        _ if is_single(&unknowns) => Check::First,
-        _ => {
-            let used = left_out.iter().filter(|&&out| !out).count();
-            enough(&argument("unknowns"), &unknowns, &unknown, (used, measurements.len()))?;
-            Check::IfUnexplained
-        }
-    };
-    let unit = |one: &Unknown| match &one.dependence {
-        Dependence::Factor(terms) => {
-            let role = terms.first().map_or(Role::Stiffness, |&term| model.terms()[term].role);
-            FactorUnit::of(role, None, &one.nominal, &data.frequency_hz, UnitSystem::Si)
-        }
-        Dependence::Powers(_) => FactorUnit::Other,
-    };
-    let identify = IdentifyCase {
-        units: unknowns.iter().map(unit).collect(),
-        reference: vec![None; unknowns.len()],
-        unknowns,
-        options,
-        band_hz: wanted.band_hz.unwrap_or(first_and_last.map(|f| f.unwrap_or(0.0))),
-        frequency_hz: data.frequency_hz,
-        measured: data.measured,
-        left_out,
-        channels: unknown,
-        noise: data.noise,
-        check,
-    };
     let respond_hz = identify.frequency_hz.clone();
     let sensors = measurements.into_iter().map(|measurement| measurement.info).collect();
     Ok(case(model, experiment, sensors, Some(identify), respond_hz))
@@ -324,10 +291,6 @@ fn experiment(
     Ok(Experiment { load, sensors })
 }
 
-fn exclude([low, high]: [f64; 2]) -> Exclusion {
-    if low == high { Exclusion::Line(low) } else { Exclusion::Band([low, high]) }
-}
-
 fn measurement(measured: MeasuredFrf, k: usize, dim: usize) -> Result<Measurement, InputError> {
     let name = format!("measurement {}", k + 1);
     let place = argument(&name);
@@ -393,146 +356,102 @@ fn covers(model: &DynamicStiffness, frequency_hz: &[f64]) -> Result<(), InputErr
     Ok(())
 }
 
-/// The unknowns, and how to find them.
-fn unknowns_of(model: &DynamicStiffness, wanted: &Wanted) -> Result<(Options, Vec<Unknown>), ArraysError> {
-    if let [only] = &wanted.unknowns[..]
-        && only.powers.is_empty()
-        && variation(only)? != Variation::Constant
-    {
-        let (mut options, varies) = (options(wanted, only)?, variation(only)?);
-        let place = argument(if only.varies.is_some() { "varies" } else { "law" });
-        fit_for_band(&mut options, &varies, only.real, &place)?;
-        let mut parameter = parameter(model, &only.matrices)?;
-        if wanted.start_at_bounds {
-            parameter.nominal = middle_of(&only.bounds, &argument("nominal"))?;
-        }
-        let unknown = factor_of(&parameter, model, &varies);
-        let name = only.name.clone().unwrap_or_else(|| unknown.name.clone());
-        return Ok((options, vec![Unknown { name, real: only.real, bounds: only.bounds, ..unknown }]));
-    }
-    for (name, given) in [
+/// What a case file would say.
+fn entry_of(model: &DynamicStiffness, wanted: &Wanted) -> Result<IdentifyEntry, ArraysError> {
+    let band_hz = wanted.band_hz.unwrap_or([0.0, f64::MAX]);
+    checked_band(band_hz, &argument("band_hz"))?;
+    let exclude = |&[low, high]: &[f64; 2]| match low == high {
+        true => Exclusion::Line(low),
+        false => Exclusion::Band([low, high]),
+    };
+    let of_single = [
         ("method", wanted.method.is_some()),
         ("order", wanted.order.is_some()),
         ("selection", wanted.selection.is_some()),
         ("reduction", wanted.reduction.is_some()),
         ("start", wanted.start_at_bounds),
-    ] {
-        if given {
-            let expected =
-                "None with several unknowns, or one that does not vary: there is one way to find them";
-            return Err(InputError::at(&argument(name), expected, "one").into());
-        }
-    }
-    let options = Options::default()
-        .with_model_errors(wanted.model_errors)
-        .with_reject_outliers(wanted.reject_outliers.unwrap_or(true));
-    let unknowns = wanted.unknowns.iter().map(|one| one_of_several(model, one));
-    Ok((options, unknowns.collect::<Result<_, _>>()?))
-}
-
-/// One of several unknowns, or one that does not vary.
-fn one_of_several(model: &DynamicStiffness, wanted: &WantedUnknown) -> Result<Unknown, ArraysError> {
-    let (dependence, nominal) = match wanted.powers.as_slice() {
-        [] => {
-            let parameter = parameter(model, &wanted.matrices)?;
-            (
-                Dependence::Factor(parameter.members.iter().map(|member| member.term).collect()),
-                parameter.nominal,
-            )
-        }
-        powers => {
-            let names: Vec<String> = powers.iter().map(|(name, _)| name.clone()).collect();
-            let parameter = Parameter::factor_of(model, &words(&names)).map_err(ArraysError::Model)?;
-            let terms = parameter.members.iter().map(|member| member.term);
-            let nominal = wanted.nominal.filter(|nominal| nominal.is_finite() && *nominal != 0.0);
-            let place = argument("unknowns").below("nominal");
-            let found = wanted.nominal.map_or("none".to_owned(), |nominal| nominal.to_string());
-            let nominal = nominal.ok_or_else(|| InputError::at(&place, "a dimension other than 0", found))?;
-            let powers = terms.zip(powers.iter().map(|(_, power)| *power)).collect();
-            (Dependence::Powers(powers), Law::Constant(c64::new(nominal, 0.0)))
-        }
-    };
-    Ok(Unknown {
-        name: wanted.name.clone().unwrap_or_else(|| wanted.matrices.join(", ")),
-        dependence,
-        nominal,
-        varies: variation(wanted)?,
-        real: wanted.real,
-        bounds: wanted.bounds,
+    ];
+    let of_single = of_single.into_iter().find(|(_, given)| *given);
+    let order = wanted.order.map(|order| i64::try_from(order).unwrap_or(i64::MAX));
+    Ok(IdentifyEntry {
+        place: argument("unknowns"),
+        unknowns: wanted.unknowns.iter().map(|one| unknown_of(model, one)).collect::<Result<_, _>>()?,
+        band_hz: Some(Located { value: band_hz, place: argument("band_hz") }),
+        exclude: Located {
+            value: wanted.exclude_hz.iter().map(exclude).collect(),
+            place: argument("exclude_hz"),
+        },
+        max_lines: wanted.max_lines.map(|value| Located { value, place: argument("max_lines") }),
+        reject_outliers: wanted.reject_outliers,
+        check: wanted.check,
+        method: chosen(wanted.method.as_deref(), argument("method"))?.map(|method| method.value),
+        order: order.map(|value| Located { value, place: argument("order") }),
+        selection: chosen(wanted.selection.as_deref(), argument("selection"))?,
+        reduction: chosen(wanted.reduction.as_deref(), argument("reduction"))?.map(|word| word.value),
+        start: wanted.start_at_bounds.then(|| argument("start")),
+        of_single: of_single.map(|(name, _)| Located { value: "None", place: argument(name) }),
     })
 }
 
-fn words(names: &[String]) -> Vec<&str> {
-    names.iter().map(String::as_str).collect()
-}
-
-/// The factor that matrices share.
-fn parameter(model: &DynamicStiffness, names: &[String]) -> Result<Parameter, ArraysError> {
-    let parameter = Parameter::factor_of(model, &words(names)).map_err(ArraysError::Model)?;
-    let place = argument("matrix");
-    for (k, name) in names.iter().enumerate() {
-        if names[..k].contains(name) {
-            return Err(InputError::at(&place, "each matrix once", format!("{name:?} a second time")).into());
+fn unknown_of(model: &DynamicStiffness, wanted: &WantedUnknown) -> Result<UnknownEntry, ArraysError> {
+    let named = |name: &String| Located { value: name.clone(), place: argument("matrix") };
+    let powers: Vec<_> = wanted.powers.iter().map(|(name, power)| (named(name), *power)).collect();
+    let is_dimension = !powers.is_empty();
+    let names: Vec<&str> = match is_dimension {
+        true => powers.iter().map(|(name, _)| name.value.as_str()).collect(),
+        false => wanted.matrices.iter().map(String::as_str).collect(),
+    };
+    Parameter::factor_of(model, &names).map_err(ArraysError::Model)?;
+    wanted.bounds.validate().map_err(ArraysError::Bounds)?;
+    let place = argument("unknowns").below("nominal");
+    let nominal = match wanted.nominal.filter(|nominal| nominal.is_finite()) {
+        _ if !is_dimension => None,
+        Some(value) => Some(Located { value, place }),
+        None => {
+            let found = wanted.nominal.map_or("none".to_owned(), |nominal| nominal.to_string());
+            return Err(InputError::at(&place, "a dimension other than 0", found).into());
         }
-        shared(model, &parameter, k, names, &place)?;
-    }
-    Ok(parameter)
+    };
+    let bound = |name: &str, bound: Option<[f64; 2]>| {
+        bound.map(|value| Located { value, place: argument("bounds").below(name) })
+    };
+    let name = wanted.name.clone().unwrap_or_else(|| wanted.matrices.join(", "));
+    Ok(UnknownEntry {
+        place: argument("unknowns"),
+        name: Located { value: name, place: argument("name") },
+        matrices: wanted.matrices.iter().filter(|_| !is_dimension).map(named).collect(),
+        powers,
+        varies: varies(wanted)?,
+        real: wanted.real,
+        nominal,
+        storage: bound("storage", wanted.bounds.storage),
+        loss_factor: bound("loss_factor", wanted.bounds.loss_factor),
+        reference: None,
+    })
 }
 
 /// What `varies` and the laws say together.
-fn variation(wanted: &WantedUnknown) -> Result<Variation, InputError> {
-    let asked = wanted.varies.as_deref().map(|word| match word {
-        "constant" => Ok(Variation::Constant),
-        _ => Varies::of_word(word)
-            .map(Variation::from)
-            .map_err(|expected| InputError::at(&argument("varies"), expected, format!("{word:?}"))),
-    });
-    let asked = asked.transpose()?;
+fn varies(wanted: &WantedUnknown) -> Result<Located<Variation>, InputError> {
+    let usual = if wanted.powers.is_empty() { Variation::PerFrequency } else { Variation::Constant };
+    let (place, law) = (argument("varies"), argument("law"));
+    let asked = match &wanted.varies {
+        None => None,
+        Some(word) => {
+            Some(variation(word).map_err(|expected| InputError::at(&place, expected, format!("{word:?}")))?)
+        }
+    };
     if wanted.laws.is_empty() {
-        let usual = if wanted.powers.is_empty() { Variation::PerFrequency } else { Variation::Constant };
-        return Ok(asked.unwrap_or(usual));
+        return Ok(Located { value: asked.unwrap_or(usual), place });
     }
-    let place = argument("law");
     if let (Some(Variation::PerFrequency | Variation::Smooth | Variation::Constant), Some(word)) =
         (asked, &wanted.varies)
     {
-        return Err(InputError::at(&place, "varies = \"law\" beside it", format!("varies = {word:?}")));
+        return Err(InputError::at(&law, "varies = \"law\" beside it", format!("varies = {word:?}")));
     }
-    let twice = |(k, family): &(usize, &LawKind)| wanted.laws[..*k].contains(family);
-    if let Some((_, family)) = wanted.laws.iter().enumerate().find(twice) {
-        let found = format!("{:?} a second time", family.to_string());
-        return Err(InputError::at(&place, "each law once", found));
+    let twice = |(k, kind): &(usize, &LawKind)| wanted.laws[..*k].contains(kind);
+    if let Some((_, kind)) = wanted.laws.iter().enumerate().find(twice) {
+        return Err(InputError::at(&law, "each law once", format!("{:?} a second time", kind.to_string())));
     }
-    Ok(Variation::Law(wanted.laws.clone()))
-}
-
-fn options(wanted: &Wanted, only: &WantedUnknown) -> Result<Options, ArraysError> {
-    let defaults = Options::default();
-    let refuse = |name: &str, word: &str, expected: &str| {
-        InputError::at(&argument(name), expected, format!("{word:?}"))
-    };
-    let method = match &wanted.method {
-        Some(word) => word.parse::<Method>().map_err(|error| refuse("method", word, error.expected))?,
-        None => defaults.method,
-    };
-    let usual = if method == Method::Rational { Selection::Joint } else { Selection::Smallest };
-    let selection = match &wanted.selection {
-        Some(word) => word.parse::<Selection>().map_err(|error| refuse("selection", word, error.expected))?,
-        None => usual,
-    };
-    let reduction = match &wanted.reduction {
-        Some(word) => word.parse::<Reduction>().map_err(|error| refuse("reduction", word, error.expected))?,
-        None => defaults.reduction,
-    };
-    let options = defaults
-        .with_model_errors(wanted.model_errors)
-        .with_method(method)
-        .with_selection(selection)
-        .with_reduction(reduction)
-        .with_order(wanted.order.unwrap_or(defaults.order))
-        .with_reject_outliers(wanted.reject_outliers.unwrap_or(defaults.reject_outliers))
-        .with_whole_box(wanted.start_at_bounds);
-    only.bounds.validate().map_err(ArraysError::Bounds)?;
-    options.validate().map_err(ArraysError::Options)?;
-    Ok(options)
+    let place = if wanted.varies.is_some() { place } else { law };
+    Ok(Located { value: Variation::Law(wanted.laws.clone()), place })
 }

@@ -1,16 +1,28 @@
 //! The frequencies of a band, and what was measured there, as receptance.
 
-use super::identify::MeasuredNoise;
 use super::measurement::{Curve, Measurement};
+use super::overrides::Overrides;
+use crate::case::{CaseFile, checked_band};
 use crate::error::{InputError, Place};
 use frfit::c64;
-use frfit::frequency::omega_rad_s;
+use frfit::frequency::{linear_hz, omega_rad_s};
 use frfit::signal::variance;
 use frfit_formats::FormatError;
 
 /// How far two measurements' frequencies may differ and be the same: well above the rounding of 12 digits, well below
 /// any resolution of an analyser.
 const SAME_FREQUENCY: f64 = 1e-9;
+
+/// Standard deviations √E|δx|² of the measured receptances, `[frequency][sensor]`, as far as files and case tell.
+#[derive(Debug, Clone, PartialEq)]
+pub enum MeasuredNoise {
+    /// Not for all sensors.
+    Unknown,
+    /// From the coherence of all of them as if it were of one average: the number of averages is not told of all.
+    Relative(Vec<Vec<f64>>),
+    /// Of all of them: given, or from the coherence and the number of averages.
+    Known(Vec<Vec<f64>>),
+}
 
 /// Measured values over a band.
 #[derive(Debug)]
@@ -38,6 +50,26 @@ pub(super) fn frequencies(curve: &Curve, band_hz: [f64; 2], place: &Place) -> Re
         return Err(InputError::at(place, expected, format!("[{low}, {high}]")));
     }
     Ok(inside)
+}
+
+/// The frequencies of a response.
+pub(super) fn respond_hz(
+    case: &CaseFile,
+    overrides: &Overrides,
+    measurements: &[Measurement],
+) -> Result<Vec<f64>, InputError> {
+    let option = Place::option("--band");
+    if let Some(band_hz) = overrides.band_hz {
+        checked_band(band_hz, &option)?;
+    }
+    if let Some(respond) = &case.respond {
+        let [low, high] = overrides.band_hz.unwrap_or(respond.band_hz.value);
+        return Ok(linear_hz(low, high, respond.points));
+    }
+    match measurements.first().and_then(|first| first.curve.as_ref()) {
+        Some(curve) => frequencies(curve, overrides.band_hz.unwrap_or([0.0, f64::MAX]), &option),
+        None => Ok(Vec::new()),
+    }
 }
 
 /// All measurements at the frequencies that the first has in the band; `decay_per_s` is that of their window.

@@ -1,8 +1,10 @@
 //! The same structure on a coarser mesh: the matrices and the experiment of a second case.
 
 use super::files::{Files, InputFile};
+use super::force::load;
 use super::measurement::measurement;
-use super::{Structure, force, model, structure};
+use super::model::model;
+use super::structure::{Structure, structure};
 use crate::case::{self, CoarserMeshEntry};
 use crate::error::InputError;
 use frfit::identify::CoarserMesh;
@@ -24,8 +26,8 @@ pub(super) fn coarser_mesh(
         return Err(InputError::at(&entry.file.place, expected, found));
     }
     let Structure { terms, dofs, .. } = coarse;
-    let model = model::model(&case, terms)?;
-    let load = force::load(&case.load, model.dim(), &dofs, &mut own)?;
+    let model = model(&case, terms)?;
+    let load = load(&case.load, model.dim(), &dofs, &mut own)?;
     let mut sensors = Vec::with_capacity(case.measurements.len());
     for entry in &case.measurements {
         sensors.push(measurement(entry, None, false, &dofs, &mut own)?.sensor);

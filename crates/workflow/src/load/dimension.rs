@@ -1,6 +1,5 @@
 //! Dimensions: matrices that are given at several values of one, and models that stand at the nominal value of each.
 
-use super::identify::known_names;
 use crate::case::{CaseFile, Located};
 use crate::error::InputError;
 use frfit::c64;
@@ -152,9 +151,9 @@ pub(super) fn at_nominal(
     of: &[PartOf],
 ) -> Result<Vec<Term>, InputError> {
     each_has_a_value(case)?;
-    for one in case.several.iter().flat_map(|several| &several.unknowns) {
+    for one in case.unknowns() {
         let Some(nominal) = &one.nominal else { continue };
-        known_names(case, &one.powers.iter().map(|(name, _)| name.clone()).collect::<Vec<_>>())?;
+        case.has_matrices(one.powers.iter().map(|(name, _)| name))?;
         for (term, power) in powers_of(&one.name.value, of, &one.powers) {
             terms[term].factor = terms[term].factor.scaled(nominal.value.powi(power));
         }
@@ -164,10 +163,9 @@ pub(super) fn at_nominal(
 
 /// Refuses a matrix that is given at values of a dimension without a nominal one.
 pub(super) fn each_has_a_value(case: &CaseFile) -> Result<(), InputError> {
-    let unknowns = || case.several.iter().flat_map(|several| &several.unknowns);
     for at in case.matrices.iter().filter_map(|entry| entry.at.as_ref()) {
         let name = &at.dimension.value;
-        if !unknowns().any(|one| one.name.value == *name && one.nominal.is_some()) {
+        if !case.unknowns().any(|one| one.name.value == *name && one.nominal.is_some()) {
             let expected = format!("an [[identify]] with name = {name:?} and its nominal value");
             return Err(InputError::at(&at.dimension.place, expected, "none"));
         }

@@ -1,12 +1,12 @@
 //! The files of a case: read once, recorded with their checksums.
 
-use super::frf::{Choice, Frf, read_frf};
-use super::uff::Index;
+use super::frf::{Choice, Frf};
+use super::uff::{self, Index};
 use crate::case::Located;
 use crate::error::{InputError, Place};
 use crate::output::sha256;
 use crate::reads::Reads;
-use frfit_formats::{FileKind, FormatError, detect};
+use frfit_formats::{FileKind, FormatError, csv, detect};
 use std::cell::OnceCell;
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
@@ -132,4 +132,38 @@ impl Files {
             self.inputs.push(InputFile::of(path, bytes));
         }
     }
+}
+
+/// The bytes of a plain file, which is one of those that were read from now on.
+///
+/// # Errors
+/// What is there instead: nothing, a folder, something that may not be read.
+pub fn load_bytes(path: &Path, reads: &mut Reads) -> Result<Vec<u8>, InputError> {
+    reads.read(path).map_err(|found| InputError::at(&Place::file(path), "a file", found))
+}
+
+/// Reads an FRF from a UFF file or a table.
+///
+/// # Errors
+/// What the readers refuse; in a UFF file: no FRF, none or several that the choice fits, one that was cut short,
+/// real values, frequencies that are not ascending, units that contradict each other.
+pub fn read_frf(bytes: &[u8], choice: &Choice) -> Result<Frf, FormatError> {
+    let found = match detect(bytes) {
+        Some(FileKind::Uff) => return uff::read(bytes, choice),
+        Some(FileKind::Csv) => return table(bytes, choice),
+        Some(other) => other.to_string(),
+        None if bytes.is_empty() => "an empty file".into(),
+        None => "neither (no -1 in line 1, no names of columns)".into(),
+    };
+    Err(FormatError::whole("an FRF: a UFF file or a table (CSV)", found))
+}
+
+/// A table has one FRF, and says neither what nor where it is, only in a comment line how it was windowed.
+fn table(bytes: &[u8], choice: &Choice) -> Result<Frf, FormatError> {
+    if let Some(record) = choice.record.filter(|&record| record != 1) {
+        return Err(FormatError::whole("no record number, or 1: a table has one FRF", record.to_string()));
+    }
+    let csv::FrfTable { frequency_hz, response, coherence, std, decay_per_s } = csv::read_frf(bytes)?;
+    let (quantity, measured_at, driven_at) = (None, None, None);
+    Ok(Frf { frequency_hz, response, coherence, std, quantity, measured_at, driven_at, decay_per_s })
 }

@@ -1,10 +1,8 @@
 //! A frequency response function from a file of either kind.
 
-use super::uff;
 use frfit::c64;
 use frfit::dof::DofName;
 use frfit::quantity::Quantity;
-use frfit_formats::{FileKind, FormatError, csv, detect};
 
 /// A measured frequency response function, and what its file says about it.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,30 +40,4 @@ pub struct Choice {
     pub measured_at: Option<DofName>,
     /// The degree of freedom that was driven.
     pub driven_at: Option<DofName>,
-}
-
-/// Reads an FRF from a UFF file or a table.
-///
-/// # Errors
-/// What the readers refuse; in a UFF file: no FRF, none or several that the choice fits, one that was cut short,
-/// real values, frequencies that are not ascending, units that contradict each other.
-pub fn read_frf(bytes: &[u8], choice: &Choice) -> Result<Frf, FormatError> {
-    let found = match detect(bytes) {
-        Some(FileKind::Uff) => return uff::read(bytes, choice),
-        Some(FileKind::Csv) => return table(bytes, choice),
-        Some(other) => other.to_string(),
-        None if bytes.is_empty() => "an empty file".into(),
-        None => "neither (no -1 in line 1, no names of columns)".into(),
-    };
-    Err(FormatError::whole("an FRF: a UFF file or a table (CSV)", found))
-}
-
-/// A table has one FRF, and says neither what nor where it is, only in a comment line how it was windowed.
-fn table(bytes: &[u8], choice: &Choice) -> Result<Frf, FormatError> {
-    if let Some(record) = choice.record.filter(|&record| record != 1) {
-        return Err(FormatError::whole("no record number, or 1: a table has one FRF", record.to_string()));
-    }
-    let csv::FrfTable { frequency_hz, response, coherence, std, decay_per_s } = csv::read_frf(bytes)?;
-    let (quantity, measured_at, driven_at) = (None, None, None);
-    Ok(Frf { frequency_hz, response, coherence, std, quantity, measured_at, driven_at, decay_per_s })
 }

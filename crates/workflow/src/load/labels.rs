@@ -49,7 +49,7 @@ pub(crate) fn matrices_of(
     let mut all = read_matrices(bytes).map_err(|error| InputError::in_file(path, error))?;
     let beside = detect(bytes).and_then(|kind| Some((kind, names_beside(path, kind)?)));
     if let (Some((kind, names)), [NamedMatrix { matrix: Ok(matrix), labels, .. }]) = (beside, &mut all[..]) {
-        let read = super::load_bytes(&names, reads)?;
+        let read = super::files::load_bytes(&names, reads)?;
         *labels =
             read_names(kind, &read, matrix.nrows).map_err(|error| InputError::in_file(&names, error))?;
     }
@@ -162,7 +162,7 @@ fn held_by_a_large_number(matrix: &CoordinateMatrix) -> Option<usize> {
 pub(crate) fn load_one(path: &Path) -> Result<(CoordinateMatrix, Labels), InputError> {
     // Nothing is written of it.
     let mut reads = Reads::default();
-    let bytes = super::load_bytes(path, &mut reads)?;
+    let bytes = super::files::load_bytes(path, &mut reads)?;
     let refuse = |error: FormatError| InputError::at(&Place::file(path), "a file of one matrix", error.found);
     let NamedMatrix { matrix, labels, .. } =
         take_matrix(matrices_of(path, &bytes, &mut reads)?, None).map_err(refuse)?;

@@ -2,24 +2,23 @@
 
 use super::band::Band;
 use crate::case::{Exclusion, Located};
-use crate::error::{InputError, Place};
+use crate::error::InputError;
 use frfit::c64;
 
 /// Which frequencies of a band are not used: what is left out, and of more than `most` others those that tell least.
 ///
 /// # Errors
-/// [`InputError`] where `most` is less than three, and at `place` where none is left of a band that has any.
+/// [`InputError`] where `most` is less than three, or none is left of a band that has any.
 pub(super) fn unused(
     data: &Band,
-    exclude: &[Exclusion],
+    exclude: &Located<Vec<Exclusion>>,
     most: Option<&Located<i64>>,
-    place: &Place,
 ) -> Result<Vec<bool>, InputError> {
     let most = most.map(max_lines).transpose()?;
-    let mut out = left_out(exclude, &data.frequency_hz);
+    let mut out = left_out(&exclude.value, &data.frequency_hz);
     let used: Vec<usize> = (0..out.len()).filter(|&i| !out[i]).collect();
     if used.is_empty() && !out.is_empty() {
-        return Err(InputError::at(place, "a frequency of the band that is not left out", "none"));
+        return Err(InputError::at(&exclude.place, "a frequency of the band that is not left out", "none"));
     }
     if let Some(most) = most.filter(|&most| used.len() > most) {
         let measured: Vec<&[c64]> = used.iter().map(|&i| data.measured[i].as_slice()).collect();

@@ -13,99 +13,45 @@ mod frf;
 mod identify;
 mod labels;
 mod lines;
+mod loaded;
 mod matrix;
 mod measurement;
 mod model;
+mod options;
+mod overrides;
 mod sensitivities;
-mod several;
+mod structure;
 mod uff;
+mod unknowns;
 
 pub use arrays::{ArraysError, MeasuredFrf, Wanted, WantedUnknown, case_of_arrays, response_of_arrays};
-pub use files::InputFile;
+pub use band::MeasuredNoise;
+pub use files::{InputFile, load_bytes, read_frf};
 pub(crate) use frf::decay_line;
-pub use frf::{Choice, Frf, read_frf};
-pub use identify::{Check, IdentifyCase, MeasuredNoise};
+pub use frf::{Choice, Frf};
+pub use identify::{Check, IdentifyCase};
 pub(crate) use labels::{Member, load_one, matrices_of, one_order};
+pub use loaded::Case;
 pub(crate) use matrix::{asymmetry, complex};
 pub use matrix::{check_symmetric, symmetric_matrix};
 pub use measurement::SensorInfo;
+pub use overrides::Overrides;
 pub use sensitivities::SensitivitiesCase;
 pub(crate) use uff::STD_LABEL;
 
-use crate::case::{self, CaseFile, LoadEntry, Spot, checked_band};
-use crate::error::{InputError, Place};
+use crate::case::{self, CaseFile, LoadEntry, Spot};
+use crate::error::InputError;
 use crate::reads::Reads;
 use crate::terminal::one_line;
-use crate::units::UnitSystem;
-use dimension::PartOf;
+use band::respond_hz;
 use dofs::Dofs;
 use files::Files;
-use frfit::c64;
-use frfit::frequency::linear_hz;
-use frfit::identify::CoarserMesh;
-use frfit::model::{DynamicStiffness, Experiment, Term};
+use frfit::model::Experiment;
 use frfit_formats::{CoordinateMatrix, read_matrices, take_matrix};
 use measurement::{Measurement, common_decay, measurement};
-use model::Terms;
-use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
-
-/// A case read from its file, everything checked, nothing computed.
-#[derive(Debug)]
-pub struct Case {
-    /// Its title, or the name of its file, in one line.
-    pub title: String,
-    /// Units of the model as the case has it.
-    pub units: UnitSystem,
-    /// D(ω), which acts on metres ([`crate::units`]), at the complex frequency that the measurements' window makes of ω; shared, because a program may ask one model more than once.
-    pub model: Arc<DynamicStiffness>,
-    /// Load and sensors.
-    pub experiment: Experiment,
-    /// The same structure on a coarser mesh, where the case names one and the purpose is to identify.
-    pub coarser_mesh: Option<CoarserMesh>,
-    /// The sensors' labels, quantities and files, in the order of the measurements.
-    pub sensors: Vec<SensorInfo>,
-    /// The names of rows (from 0), as `34+Z`; empty without `[dofs]` where the matrices' files name none either.
-    pub row_names: BTreeMap<usize, String>,
-    /// Every file that was read, the case file first.
-    pub inputs: Vec<InputFile>,
-    /// Where they are, so that nothing is written over them.
-    pub reads: Reads,
-    /// What to identify; `None` where the purpose is another.
-    pub identify: Option<IdentifyCase>,
-    /// What sensitivities need; `None` where the purpose is another.
-    pub sensitivities: Option<SensitivitiesCase>,
-    /// The frequencies of a response or of sensitivities: those of `[respond]`, or else those that were measured.
-    pub respond_hz: Vec<f64>,
-}
-
-impl Case {
-    /// `34+Z` where `[dofs]` or a matrix' file names the row (from 0), `row 97` (from 1) elsewhere.
-    pub fn row_name(&self, row: usize) -> String {
-        self.row_names.get(&row).cloned().unwrap_or_else(|| format!("row {}", row + 1))
-    }
-
-    /// What a sensor's receptance is multiplied by to be in the quantity that it measures, under the measurements' window.
-    pub(crate) fn over_receptance(&self, sensor: &SensorInfo, frequency_hz: f64) -> c64 {
-        sensor.quantity.over_receptance_windowed(frequency_hz, self.model.decay_per_s())
-    }
-}
-
-/// What the command line says in place of the case file.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Overrides {
-    /// In place of `identify.method`.
-    pub method: Option<String>,
-    /// In place of `identify.order`.
-    pub order: Option<usize>,
-    /// In place of `identify.band_hz` or `respond.band_hz`.
-    pub band_hz: Option<[f64; 2]>,
-    /// In place of `identify.selection`.
-    pub selection: Option<String>,
-    /// In place of `identify.reduction`.
-    pub reduction: Option<String>,
-}
+use structure::{Structure, structure};
 
 /// What a case is loaded for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -126,7 +72,7 @@ pub enum Purpose {
 pub fn load(case_file: &Path, overrides: &Overrides, purpose: Purpose) -> Result<Case, InputError> {
     let (mut files, bytes) = Files::of_case(case_file)?;
     let case = case::parse(case_file, &bytes)?;
-    let keeps_dimensions = purpose == Purpose::Identify && case.several.is_some();
+    let keeps_dimensions = purpose == Purpose::Identify && case.unknowns().any(|one| one.nominal.is_some());
     let structure = structure(&case, keeps_dimensions, &mut files)?;
     let coarser_mesh = match &case.coarser_mesh {
         Some(entry) if purpose == Purpose::Identify => {
@@ -142,10 +88,7 @@ pub fn load(case_file: &Path, overrides: &Overrides, purpose: Purpose) -> Result
     let mut sensitivities = None;
     let (identify, respond_hz) = match purpose {
         Purpose::Identify => {
-            let identify = match &case.several {
-                Some(_) => several::several(&case, overrides, (&model, &of), &measurements, &mut files)?,
-                None => identify::identify(&case, overrides, &model, &measurements, &mut files)?,
-            };
+            let identify = identify::identify(&case, overrides, (&model, &of), &measurements, &mut files)?;
             let frequency_hz = identify.frequency_hz.clone();
             (Some(identify), frequency_hz)
         }
@@ -164,11 +107,6 @@ pub fn load(case_file: &Path, overrides: &Overrides, purpose: Purpose) -> Result
         }
     }
     factor::sizes(&case, &model, &of, &respond_hz)?;
-    let reference = case.identify.as_ref().and_then(|entry| entry.reference.as_ref());
-    let law = identify.as_ref().and_then(|identify| identify.reference[0].as_ref());
-    if let (Some(law), Some(entry)) = (law, reference) {
-        factor::covers(law, &entry.place, &respond_hz)?;
-    }
     let sensors = measurements.iter().map(|measurement| measurement.sensor).collect();
     Ok(Case {
         units: case.units,
@@ -184,25 +122,6 @@ pub fn load(case_file: &Path, overrides: &Overrides, purpose: Purpose) -> Result
         sensitivities,
         respond_hz,
     })
-}
-
-/// The terms of a model, and the names of its rows.
-struct Structure {
-    terms: Vec<Term>,
-    /// The matrix of the case that each is, or is part of; what is attached follows them.
-    of: Vec<PartOf>,
-    dofs: Dofs,
-}
-
-/// Reads matrices, factors, names of rows and what is attached. `keeps_dimensions`: a matrix that is given at several values of a dimension is one term for each
-/// power of it, and else the matrix at its nominal value.
-fn structure(case: &CaseFile, keeps_dimensions: bool, files: &mut Files) -> Result<Structure, InputError> {
-    let Terms { terms, of, labels } = model::terms(case, files)?;
-    let mut terms = if keeps_dimensions { terms } else { dimension::at_nominal(case, terms, &of)? };
-    let dim = terms.first().map_or(0, |term| term.matrix.dim());
-    let dofs = Dofs::read(case.dofs.as_ref(), dim, &labels, case.units, files)?;
-    terms.extend(attached::terms(&case.attached, case.units, dim, &dofs)?);
-    Ok(Structure { terms, of, dofs })
 }
 
 /// Reads the matrix of this name from a file, or without a name its only one. For a term of a model it still has to pass
@@ -225,14 +144,6 @@ pub fn load_frf(path: &Path, choice: &Choice) -> Result<Frf, InputError> {
     read_frf(&bytes, choice).map_err(|error| InputError::in_file(path, error))
 }
 
-/// The bytes of a plain file, which is one of those that were read from now on.
-///
-/// # Errors
-/// What is there instead: nothing, a folder, something that may not be read.
-pub fn load_bytes(path: &Path, reads: &mut Reads) -> Result<Vec<u8>, InputError> {
-    reads.read(path).map_err(|found| InputError::at(&Place::file(path), "a file", found))
-}
-
 /// All measurements, read as far as the purpose asks for.
 fn measurements(
     case: &CaseFile,
@@ -252,26 +163,6 @@ fn measurements(
     (case.measurements.iter().enumerate())
         .map(|(k, entry)| measurement(entry, driven_at, asks_for_values(k), dofs, files))
         .collect()
-}
-
-/// The frequencies of a response.
-fn respond_hz(
-    case: &CaseFile,
-    overrides: &Overrides,
-    measurements: &[Measurement],
-) -> Result<Vec<f64>, InputError> {
-    let option = Place::option("--band");
-    if let Some(band_hz) = overrides.band_hz {
-        checked_band(band_hz, &option)?;
-    }
-    if let Some(respond) = &case.respond {
-        let [low, high] = overrides.band_hz.unwrap_or(respond.band_hz.value);
-        return Ok(linear_hz(low, high, respond.points));
-    }
-    match measurements.first().and_then(|first| first.curve.as_ref()) {
-        Some(curve) => band::frequencies(curve, overrides.band_hz.unwrap_or([0.0, f64::MAX]), &option),
-        None => Ok(Vec::new()),
-    }
 }
 
 fn stem(path: &Path) -> String {

@@ -1,10 +1,9 @@
 //! What sensitivities take of a case beside its model: frequencies, noise, channels of unknown scale.
 
-use super::band::band;
+use super::band::{MeasuredNoise, band, respond_hz};
 use super::dimension::{PartOf, powers_of};
-use super::identify::MeasuredNoise;
 use super::measurement::{Curve, Measurement};
-use super::{Overrides, respond_hz};
+use super::overrides::Overrides;
 use crate::case::{Calibration, CaseFile};
 use crate::error::{InputError, Place};
 use frfit::model::DynamicStiffness;
@@ -29,8 +28,7 @@ pub(super) fn sensitivities(
     (model, of): (&DynamicStiffness, &[PartOf]),
     measurements: &[Measurement],
 ) -> Result<(SensitivitiesCase, Vec<f64>), InputError> {
-    let several = case.several.as_ref().and_then(|entry| entry.band_hz.as_ref());
-    let identified = case.identify.as_ref().and_then(|entry| entry.band_hz.as_ref()).or(several);
+    let identified = case.identify.as_ref().and_then(|entry| entry.band_hz.as_ref());
     let (band_hz, place) = match (overrides.band_hz, identified) {
         (None, Some(located)) => (Some(located.value), located.place.clone()),
         (given, _) => (given, Place::option("--band")),
@@ -87,7 +85,6 @@ fn matrices(model: &DynamicStiffness, of: &[PartOf]) -> Vec<(String, Vec<usize>)
 }
 
 fn dimensions(case: &CaseFile, of: &[PartOf]) -> Vec<(String, Vec<(usize, i32)>)> {
-    let unknowns = case.several.iter().flat_map(|several| &several.unknowns);
-    let dimensions = unknowns.filter(|one| one.nominal.is_some());
+    let dimensions = case.unknowns().filter(|one| one.nominal.is_some());
     dimensions.map(|one| (one.name.value.clone(), powers_of(&one.name.value, of, &one.powers))).collect()
 }

@@ -126,7 +126,7 @@ fn keys_that_are_unknown_or_missing() {
         (
             "[identify]\nmatrix = \"springs\"",
             "[identify]",
-            "case.toml:28:1: identify: expected the key \"matrix\", found none",
+            "case.toml:28:1: identify: expected the key matrix (whose factor is unknown) or powers (a dimension), found none",
         ),
         (
             "[[measurement]]\nfile = \"b.csv\"",
@@ -490,9 +490,9 @@ fn options_and_bands() {
             "case.toml:32:12: identify.bounds.storage: expected two finite numbers [low, high], found 1e5",
         ),
         (
-            "[identify]",
-            "[[identify]]",
-            "case.toml:31:1: identify.order: expected no such key with several unknowns, or with one that does not vary: there is one way to find them, found one",
+            "order = 20",
+            "order = 20\nvaries = \"constant\"",
+            "case.toml:31:1: identify.order: expected no such key with several unknowns, or with one that does not vary or has a negative power: there is one way to find them, found one",
         ),
         (
             "e1 = 2.0e4",

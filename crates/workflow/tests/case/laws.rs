@@ -46,7 +46,7 @@ fn laws_that_cannot_be_found_are_refused() {
         ("law = \"zener\"", "case.toml:32:1: identify.law: expected varies = \"law\" beside it, found none".to_owned()),
         (
             "varies = \"laws\"",
-            "case.toml:32:1: identify.varies: expected \"frequency\" (a factor of its own at each), \"smooth\" or \"law\", found \"laws\"".into(),
+            "case.toml:32:1: identify.varies: expected \"frequency\" (a value of its own at each), \"smooth\", \"constant\" or \"law\", found \"laws\"".into(),
         ),
         (
             "varies = \"law\"\nlaw = \"zenner\"",
@@ -66,7 +66,7 @@ fn laws_that_cannot_be_found_are_refused() {
         ),
         (
             "varies = \"law\"\nreal = true",
-            "case.toml:32:1: identify.varies: expected \"frequency\" or \"smooth\" for a real factor, found \"law\" with real = true".into(),
+            "case.toml:32:1: identify.varies: expected \"frequency\", \"smooth\" or \"constant\" for a real unknown, found \"law\" with real = true".into(),
         ),
         (
             "varies = \"smooth\"\nlaw = \"zener\"",

@@ -7,3 +7,4 @@ mod files;
 mod good;
 mod laws;
 mod measured;
+mod unknowns;

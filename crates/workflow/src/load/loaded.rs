@@ -1,0 +1,54 @@
+//! A case with all of its files.
+
+use super::files::InputFile;
+use super::identify::IdentifyCase;
+use super::measurement::SensorInfo;
+use super::sensitivities::SensitivitiesCase;
+use crate::reads::Reads;
+use crate::units::UnitSystem;
+use frfit::c64;
+use frfit::identify::CoarserMesh;
+use frfit::model::{DynamicStiffness, Experiment};
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// A case read from its file, everything checked, nothing computed.
+#[derive(Debug)]
+pub struct Case {
+    /// Its title, or the name of its file, in one line.
+    pub title: String,
+    /// Units of the model as the case has it.
+    pub units: UnitSystem,
+    /// D(ω), which acts on metres ([`crate::units`]), at the complex frequency that the measurements' window makes of ω; shared, because a program may ask one model more than once.
+    pub model: Arc<DynamicStiffness>,
+    /// Load and sensors.
+    pub experiment: Experiment,
+    /// The same structure on a coarser mesh, where the case names one and the purpose is to identify.
+    pub coarser_mesh: Option<CoarserMesh>,
+    /// The sensors' labels, quantities and files, in the order of the measurements.
+    pub sensors: Vec<SensorInfo>,
+    /// The names of rows (from 0), as `34+Z`; empty without `[dofs]` where the matrices' files name none either.
+    pub row_names: BTreeMap<usize, String>,
+    /// Every file that was read, the case file first.
+    pub inputs: Vec<InputFile>,
+    /// Where they are, so that nothing is written over them.
+    pub reads: Reads,
+    /// What to identify; `None` where the purpose is another.
+    pub identify: Option<IdentifyCase>,
+    /// What sensitivities need; `None` where the purpose is another.
+    pub sensitivities: Option<SensitivitiesCase>,
+    /// The frequencies of a response or of sensitivities: those of `[respond]`, or else those that were measured.
+    pub respond_hz: Vec<f64>,
+}
+
+impl Case {
+    /// `34+Z` where `[dofs]` or a matrix' file names the row (from 0), `row 97` (from 1) elsewhere.
+    pub fn row_name(&self, row: usize) -> String {
+        self.row_names.get(&row).cloned().unwrap_or_else(|| format!("row {}", row + 1))
+    }
+
+    /// What a sensor's receptance is multiplied by to be in the quantity that it measures, under the measurements' window.
+    pub(crate) fn over_receptance(&self, sensor: &SensorInfo, frequency_hz: f64) -> c64 {
+        sensor.quantity.over_receptance_windowed(frequency_hz, self.model.decay_per_s())
+    }
+}

@@ -1,0 +1,16 @@
+//! What the command line says.
+
+/// What the command line says in place of the case file.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Overrides {
+    /// In place of `identify.method`.
+    pub method: Option<String>,
+    /// In place of `identify.order`.
+    pub order: Option<usize>,
+    /// In place of `identify.band_hz` or `respond.band_hz`.
+    pub band_hz: Option<[f64; 2]>,
+    /// In place of `identify.selection`.
+    pub selection: Option<String>,
+    /// In place of `identify.reduction`.
+    pub reduction: Option<String>,
+}
