@@ -44,7 +44,7 @@ const MODULUS: f64 = 2610.5;
 
 /// Of the lines of the whole band so many.
 fn lines() -> usize {
-    of_tier(400, 1600)
+    of_tier(150, 1600)
 }
 
 /// The eighth of these poles is not that of its peak: it leaves six times what the best one of a resonance and a straight line leaves of the lines within 3 Hz, which is this one, known to
