@@ -1,6 +1,7 @@
 //! The Python package: its wheel, installed into an environment of its own, with its tests, doctests and types.
 
 use crate::step::{Step, cargo, run, run_beside, target, works, workspace};
+use crate::test::{LONG, Tier};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -22,7 +23,7 @@ pub(crate) fn steps() -> Vec<Step> {
     let (mut steps, python) = environment();
     if python.is_some() {
         steps.extend(wheel());
-        steps.extend(tests());
+        steps.extend(tests(Tier::Daily));
     }
     steps
 }
@@ -134,7 +135,7 @@ pub(crate) fn wheel() -> Vec<Step> {
 }
 
 /// Tests and types of the installed wheel, beside one another: most of the tests' time is on one core.
-pub(crate) fn tests() -> Vec<Step> {
+pub(crate) fn tests(tier: Tier) -> Vec<Step> {
     let (crate_folder, wheels) = (crate_folder(), wheels());
     if only_file(&wheels).is_none() {
         return Vec::new();
@@ -145,6 +146,9 @@ pub(crate) fn tests() -> Vec<Step> {
     tests.arg("--rootdir").arg(&crate_folder).arg(crate_folder.join("tests"));
     tests.args(["--durations", "5", "--doctest-modules", "--pyargs", "frfit"]);
     tests.env("FRFIT_CLI", target().join("debug/frfit")).current_dir(&wheels);
+    if tier == Tier::Long {
+        tests.env(LONG, "1");
+    }
     let types = |name: &'static str, arguments: &[&str]| {
         let mut command = Command::new(binary("python"));
         run_beside(name, command.arg("-m").args(arguments).current_dir(&crate_folder))

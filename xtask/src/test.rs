@@ -42,7 +42,7 @@ pub(crate) fn all(tier: Tier) -> bool {
     let mut package = Vec::new();
     thread::scope(|scope| {
         if python.is_some() {
-            scope.spawn(|| package = python::tests());
+            scope.spawn(|| package = python::tests(tier));
         }
         steps.extend([doc_tests(), documentation()]);
     });
@@ -74,6 +74,9 @@ pub(crate) fn documentation() -> Step {
 /// a test that fails was broken by the change. Other cases are tried by naming another seed and more `PROPTEST_CASES`.
 const SEED: (&str, &str) = ("PROPTEST_RNG_SEED", "1");
 
+/// Set for the tests of the long tier.
+pub(crate) const LONG: &str = "FRFIT_LONG";
+
 /// The doc tests, which cargo-nextest does not run.
 fn doc_tests() -> Step {
     run("doc tests", python::seen_by(&mut cargo(["test", "--workspace", "--doc", "--no-fail-fast"])))
@@ -104,7 +107,7 @@ fn tests(tier: Tier) -> Step {
         runner.env(outside::PYTHON, python);
     }
     if tier == Tier::Long {
-        runner.env("FRFIT_LONG", "1");
+        runner.env(LONG, "1");
     }
     run("tests", python::seen_by(&mut runner))
 }
