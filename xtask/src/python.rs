@@ -1,9 +1,11 @@
 //! The Python package: its wheel, installed into an environment of its own, with its tests, doctests and types.
 
-use crate::step::{Step, cargo, run, target, works, workspace};
+use crate::step::{Step, cargo, run, run_beside, target, works, workspace};
+use crate::test::{LONG, Tier};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::thread;
 use std::time::Instant;
 
 /// What the tests need beside the wheel, those in Rust too; the version of pyuff is the one whose reading is known.
@@ -20,9 +22,18 @@ const SUITED: &str = "import sys, venv, ensurepip; sys.exit(sys.version_info < (
 pub(crate) fn steps() -> Vec<Step> {
     let (mut steps, python) = environment();
     if python.is_some() {
-        steps.extend(package());
+        steps.extend(wheel());
+        steps.extend(tests(Tier::Daily));
     }
     steps
+}
+
+fn wheels() -> PathBuf {
+    target().join("wheels")
+}
+
+fn crate_folder() -> PathBuf {
+    workspace().join("crates/python")
 }
 
 fn binary(name: &str) -> PathBuf {
@@ -105,38 +116,50 @@ fn features() -> Step {
     Step { name: "features", seconds: start.elapsed().as_secs_f64(), passed, closing: Vec::new() }
 }
 
-/// Builds the wheel, installs it and tests it.
-pub(crate) fn package() -> Vec<Step> {
+/// Builds the wheel and installs it.
+pub(crate) fn wheel() -> Vec<Step> {
     // Of the whole workspace, as the tests were built.
     let mut program = cargo(["build", "--quiet", "--workspace", "--bin", "frfit"]);
     let mut steps = vec![features(), run("frfit-cli", seen_by(&mut program))];
-    let crate_folder = workspace().join("crates/python");
-    let wheels = target().join("wheels");
+    let wheels = wheels();
     // No older wheel may be tested. An error that there was none is fine.
     let _ = std::fs::remove_dir_all(&wheels);
     let mut build = Command::new(binary("maturin"));
     build.args(["build", "--quiet", "--interpreter"]).arg(binary("python")).arg("--out").arg(&wheels);
-    build.env("CARGO_TARGET_DIR", target()).current_dir(&crate_folder);
+    build.env("CARGO_TARGET_DIR", target()).current_dir(crate_folder());
     steps.push(run("Python wheel", seen_by(&mut build)));
     let Some(wheel) = only_file(&wheels) else { return steps };
     let mut install = pip_install();
     steps.push(run("Python install", install.args(["--force-reinstall", "--no-deps"]).arg(wheel)));
+    steps
+}
+
+/// Tests and types of the installed wheel, beside one another: most of the tests' time is on one core.
+pub(crate) fn tests(tier: Tier) -> Vec<Step> {
+    let (crate_folder, wheels) = (crate_folder(), wheels());
+    if only_file(&wheels).is_none() {
+        return Vec::new();
+    }
     // From a folder in which there is no package of this name: what is tested is the wheel.
     let mut tests = Command::new(binary("python"));
     tests.args(["-m", "pytest", "-q", "-c"]).arg(crate_folder.join("pyproject.toml"));
     tests.arg("--rootdir").arg(&crate_folder).arg(crate_folder.join("tests"));
     tests.args(["--durations", "5", "--doctest-modules", "--pyargs", "frfit"]);
-    steps
-        .push(run("Python tests", tests.env("FRFIT_CLI", target().join("debug/frfit")).current_dir(&wheels)));
+    tests.env("FRFIT_CLI", target().join("debug/frfit")).current_dir(&wheels);
+    if tier == Tier::Long {
+        tests.env(LONG, "1");
+    }
     let types = |name: &'static str, arguments: &[&str]| {
         let mut command = Command::new(binary("python"));
-        run(name, command.arg("-m").args(arguments).current_dir(&crate_folder))
+        run_beside(name, command.arg("-m").args(arguments).current_dir(&crate_folder))
     };
-    steps.push(types("mypy", &["mypy", "python/frfit"]));
-    steps.push(types(
-        "mypy stubtest",
-        &["mypy.stubtest", "frfit._frfit", "--mypy-config-file", "pyproject.toml"],
-    ));
+    let stubs = ["mypy.stubtest", "frfit._frfit", "--mypy-config-file", "pyproject.toml"];
+    let mut steps = Vec::new();
+    let types = thread::scope(|scope| {
+        scope.spawn(|| steps.push(run_beside("Python tests", &mut tests)));
+        [types("mypy", &["mypy", "python/frfit"]), types("mypy stubtest", &stubs)]
+    });
+    steps.extend(types);
     steps
 }
 

@@ -3,7 +3,7 @@
 use std::ffi::OsStr;
 use std::io::{BufRead, BufReader, IsTerminal, Read, Write};
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::{Command, Output, Stdio};
 use std::thread;
 use std::time::Instant;
 
@@ -63,6 +63,26 @@ pub(crate) fn run(name: &'static str, command: &mut Command) -> Step {
     }
     step.seconds = start.elapsed().as_secs_f64();
     step
+}
+
+/// Runs a command beside others: what it says is passed on as a whole, at its end.
+pub(crate) fn run_beside(name: &'static str, command: &mut Command) -> Step {
+    let start = Instant::now();
+    let output = command.output();
+    let seconds = start.elapsed().as_secs_f64();
+    let mut own = std::io::stdout().lock();
+    let _ = writeln!(own, "── {name}");
+    match output {
+        Ok(Output { status, stdout, stderr }) => {
+            let mut closing = pass_on(&stdout[..], &mut own);
+            closing.extend(pass_on(&stderr[..], std::io::stderr()));
+            Step { name, seconds, passed: status.success(), closing }
+        }
+        Err(error) => {
+            eprintln!("{}: {error}", command.get_program().display());
+            Step { name, seconds, passed: false, closing: Vec::new() }
+        }
+    }
 }
 
 /// Copies line by line, and returns the lines with which the runner sums up: of cargo test one for each program, of

@@ -6,6 +6,7 @@ use crate::python;
 use crate::site;
 use crate::slowest;
 use crate::step::{Step, cargo, run, sum_up, works};
+use std::thread;
 
 /// How much of the tests is run.
 #[derive(Clone, Copy, PartialEq)]
@@ -33,11 +34,19 @@ pub(crate) fn all(tier: Tier) -> bool {
     steps.push(run("format", &mut cargo(["fmt", "--all", "--check"])));
     let mut clippy = cargo(["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"]);
     steps.push(run("clippy", python::seen_by(&mut clippy)));
-    steps.extend(tests(tier));
-    steps.push(documentation());
+    steps.push(tests(tier));
     if python.is_some() {
-        steps.extend(python::package());
+        steps.extend(python::wheel());
     }
+    // Either leaves a core free.
+    let mut package = Vec::new();
+    thread::scope(|scope| {
+        if python.is_some() {
+            scope.spawn(|| package = python::tests(tier));
+        }
+        steps.extend([doc_tests(), documentation()]);
+    });
+    steps.extend(package);
     if tier == Tier::Long {
         steps.extend(site::steps());
         steps.extend(browser());
@@ -48,7 +57,7 @@ pub(crate) fn all(tier: Tier) -> bool {
 
 /// Tests and doc tests only, with the Python that is there.
 pub(crate) fn quick(tier: Tier) -> bool {
-    let steps = tests(tier);
+    let steps = [tests(tier), doc_tests()];
     slowest::print();
     sum_up(&steps)
 }
@@ -65,8 +74,16 @@ pub(crate) fn documentation() -> Step {
 /// a test that fails was broken by the change. Other cases are tried by naming another seed and more `PROPTEST_CASES`.
 const SEED: (&str, &str) = ("PROPTEST_RNG_SEED", "1");
 
-/// All tests with cargo-nextest where it is installed, then the doc tests, which it does not run.
-fn tests(tier: Tier) -> [Step; 2] {
+/// Set for the tests of the long tier.
+pub(crate) const LONG: &str = "FRFIT_LONG";
+
+/// The doc tests, which cargo-nextest does not run.
+fn doc_tests() -> Step {
+    run("doc tests", python::seen_by(&mut cargo(["test", "--workspace", "--doc", "--no-fail-fast"])))
+}
+
+/// All other tests, with cargo-nextest where it is installed.
+fn tests(tier: Tier) -> Step {
     let seed = std::env::var(SEED.0).unwrap_or_else(|_| SEED.1.into());
     let Outside { python, absent } = outside::look();
     let mut runner = if works(&mut cargo(["nextest", "--version"])) {
@@ -90,8 +107,7 @@ fn tests(tier: Tier) -> [Step; 2] {
         runner.env(outside::PYTHON, python);
     }
     if tier == Tier::Long {
-        runner.env("FRFIT_LONG", "1");
+        runner.env(LONG, "1");
     }
-    let mut doc_tests = cargo(["test", "--workspace", "--doc", "--no-fail-fast"]);
-    [run("tests", python::seen_by(&mut runner)), run("doc tests", python::seen_by(&mut doc_tests))]
+    run("tests", python::seen_by(&mut runner))
 }

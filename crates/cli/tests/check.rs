@@ -41,6 +41,9 @@ fn a_clean_case_has_no_finding() {
 fn identify_looks_first_unless_it_shall_not() {
     let folder = tempfile::tempdir().unwrap();
     faulty(folder.path());
+    let file = folder.path().join("bar/case.toml");
+    let text = fs::read_to_string(&file).unwrap().replace("[identify]\n", "[identify]\nmax_lines = 40\n");
+    fs::write(&file, &text).unwrap();
     let findings = || -> serde_json::Value {
         let text = fs::read_to_string(folder.path().join("out/summary.json")).unwrap();
         serde_json::from_str::<serde_json::Value>(&text).unwrap()["findings"].clone()
@@ -49,8 +52,6 @@ fn identify_looks_first_unless_it_shall_not() {
     let at = |word: &str| said.find(word).unwrap_or_else(|| panic!("{word}: {said}"));
     assert!(at("is taken for mobility") < at("status"));
     assert_eq!(findings()[0]["kind"], "quantity");
-    let file = folder.path().join("bar/case.toml");
-    let text = fs::read_to_string(&file).unwrap();
     fs::write(&file, text.replace("[identify]\n", "[identify]\ncheck = false\n")).unwrap();
     let said = done(folder.path(), &["identify", "bar/case.toml", "--out", "out"]);
     assert!(!said.contains("is taken for"));

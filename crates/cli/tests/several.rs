@@ -224,7 +224,7 @@ fn three_unknowns_through_every_command() {
 [[identify]]
 matrix = "core"
 band_hz = [20.0, 1000.0]
-max_lines = 40
+max_lines = 32
 exclude_hz = [[490.0, 510.0]]
 bounds = { storage = [1e5, 1e8], loss_factor = [0.0, 3.0] }
 reference = { law = "fractional", e0 = 8.14e5, e1 = 7.31e4, alpha = 0.528 }
@@ -282,7 +282,7 @@ reference = 1.0
 
     // A sign that is wrong is found beside three unknowns.
     let right = std::fs::read_to_string(at("p/case.toml")).unwrap();
-    let wrong = right.replace("dof = \"248+Z\"", "scale = -1.0\ndof = \"248+Z\"").replace("= 40", "= 20");
+    let wrong = right.replace("dof = \"248+Z\"", "scale = -1.0\ndof = \"248+Z\"").replace("= 32", "= 12");
     std::fs::write(at("p/wrong.toml"), wrong).unwrap();
     let said = done(folder.path(), &["check", "p/wrong.toml"]);
     assert!(said.contains("  sign") && said.contains("248"), "{said}");

@@ -375,7 +375,7 @@ fn a_sensor_that_contradicts_the_others_is_named_and_left_out() {
     experiment.sensors.push(Sensor { row: 12, sign: 1.0 });
     let h = TRUE_THICKNESS;
     let factors = [c(2e11, 2e9) * h.powi(3), c(7800.0 * h, 0.0)].map(Law::Constant);
-    let frequency_hz: Vec<f64> = plate.frequency_hz.iter().copied().step_by(2).collect();
+    let frequency_hz: Vec<f64> = plate.frequency_hz.iter().copied().step_by(of_tier(4, 2)).collect();
     let exact = direct(&plate.model, &experiment, &factors, &frequency_hz);
     let unknowns = [constant("h", Dependence::Powers(vec![(0, 3), (1, 1)]), 1.0, [0.5, 2.0])];
     let (measured, std) = noisy(&exact, 0.01, 21);

@@ -87,7 +87,26 @@ fn each_of_several(check: impl Fn(&str, &Folder, &SeveralModel)) {
     });
 }
 
+/// In one test, since nextest runs every test in a process of its own, which would make all examples anew.
 #[test]
+fn every_example_is_readable_the_same_each_time_and_of_one_story() {
+    the_same_bytes_each_time();
+    the_case_names_exactly_the_files_that_there_are();
+    one_example_has_harwell_boeing_and_one_a_table();
+    matrices_read_back_to_the_same_bits();
+    cases_say_what_the_models_are();
+    cases_of_one_unknown_say_which();
+    cases_of_several_unknowns_say_which();
+    cases_drive_and_measure_where_the_models_do();
+    a_coarser_mesh_is_of_the_same_plate();
+    uff_records_say_where_what_and_in_which_unit();
+    measurements_are_direct_solves_at_the_true_parameters();
+    noise_is_as_large_as_the_files_say();
+    truths_of_several_unknowns_have_the_columns_of_the_results();
+    truths_are_the_true_laws();
+    readmes_say_how_to_run();
+}
+
 fn the_same_bytes_each_time() {
     each(|name, folder, _| assert!(folder.0 == generate(name).unwrap(), "{name}"));
 }
@@ -113,7 +132,6 @@ fn named_files(value: &Value, files: &mut BTreeSet<String>) {
     }
 }
 
-#[test]
 fn the_case_names_exactly_the_files_that_there_are() {
     each(|name, folder, _| {
         let mut named = BTreeSet::from(["README.md", "case.toml", "truth.csv"].map(str::to_owned));
@@ -134,7 +152,6 @@ fn the_case_names_exactly_the_files_that_there_are() {
     });
 }
 
-#[test]
 fn one_example_has_harwell_boeing_and_one_a_table() {
     let kind = |name, path| {
         let (_, folder, _) = ALL.iter().find(|(other, ..)| *other == name).unwrap();
@@ -145,7 +162,6 @@ fn one_example_has_harwell_boeing_and_one_a_table() {
     assert_eq!(kind("density", "frf.csv"), Some(FileKind::Csv));
 }
 
-#[test]
 fn matrices_read_back_to_the_same_bits() {
     each(|name, folder, model| {
         let (case, rig) = (folder.case(), model.rig());
@@ -186,7 +202,6 @@ fn same_law(a: &Law, b: &Law) -> bool {
     })
 }
 
-#[test]
 fn cases_say_what_the_models_are() {
     each(|name, folder, model| {
         let (case, rig) = (folder.case(), model.rig());
@@ -208,7 +223,6 @@ fn cases_say_what_the_models_are() {
     });
 }
 
-#[test]
 fn cases_of_one_unknown_say_which() {
     each_of_one(|name, folder, model| {
         let [identify] = &folder.identify()[..] else { panic!("{name}: one [identify]") };
@@ -220,7 +234,6 @@ fn cases_of_one_unknown_say_which() {
     });
 }
 
-#[test]
 fn cases_of_several_unknowns_say_which() {
     each_of_several(|name, folder, model| {
         let tables = folder.identify();
@@ -264,7 +277,6 @@ fn cases_of_several_unknowns_say_which() {
     });
 }
 
-#[test]
 fn cases_drive_and_measure_where_the_models_do() {
     each(|name, folder, model| {
         let case = folder.case();
@@ -312,7 +324,6 @@ fn cases_drive_and_measure_where_the_models_do() {
 }
 
 /// The coarser mesh is driven and measured at the same points.
-#[test]
 fn a_coarser_mesh_is_of_the_same_plate() {
     let (_, folder, _) = ALL.iter().find(|(name, ..)| *name == "two-meshes").unwrap();
     let [coarse, fine] = [6, 12].map(|elements| two_meshes(elements).unwrap());
@@ -335,7 +346,6 @@ fn a_coarser_mesh_is_of_the_same_plate() {
     }
 }
 
-#[test]
 fn uff_records_say_where_what_and_in_which_unit() {
     each(|name, folder, model| {
         if !folder.0.iter().any(|file| file.path == "frf.uff") {
@@ -371,7 +381,6 @@ fn uff_records_say_where_what_and_in_which_unit() {
     });
 }
 
-#[test]
 fn measurements_are_direct_solves_at_the_true_parameters() {
     each(|name, folder, model| {
         if name == "hammer-bar" {
@@ -392,7 +401,6 @@ fn measurements_are_direct_solves_at_the_true_parameters() {
     });
 }
 
-#[test]
 fn noise_is_as_large_as_the_files_say() {
     each_of_several(|name, folder, model| {
         let (frequency_hz, measured) = folder.measured();
@@ -420,7 +428,6 @@ fn noise_is_as_large_as_the_files_say() {
     });
 }
 
-#[test]
 fn truths_of_several_unknowns_have_the_columns_of_the_results() {
     each_of_several(|name, folder, model| {
         let table = csv::Table::read(folder.bytes("truth.csv")).unwrap();
@@ -445,7 +452,6 @@ fn truths_of_several_unknowns_have_the_columns_of_the_results() {
     });
 }
 
-#[test]
 fn truths_are_the_true_laws() {
     each_of_one(|name, folder, model| {
         let bytes = folder.bytes("truth.csv");
@@ -472,7 +478,6 @@ fn truths_are_the_true_laws() {
     });
 }
 
-#[test]
 fn readmes_say_how_to_run() {
     each(|name, folder, _| {
         let text = std::str::from_utf8(folder.bytes("README.md")).unwrap();

@@ -44,7 +44,7 @@ const MODULUS: f64 = 2610.5;
 
 /// Of the lines of the whole band so many.
 fn lines() -> usize {
-    of_tier(400, 1600)
+    of_tier(150, 1600)
 }
 
 /// The eighth of these poles is not that of its peak: it leaves six times what the best one of a resonance and a straight line leaves of the lines within 3 Hz, which is this one, known to
@@ -183,7 +183,7 @@ fn each_mode_has_the_damping_of_a_modal_fit_needs_data() {
     let frfs = measured();
     let unit = unit_frequencies();
     let mut moduli = Vec::new();
-    for (k, (pole, zeta)) in POLES.into_iter().enumerate().step_by(of_tier(3, 1)) {
+    for (k, (pole, zeta)) in POLES.into_iter().enumerate().step_by(of_tier(7, 1)) {
         let (_folder, job) = run(&frfs, 2600.0, [2400.0, 2800.0], [pole - 3.0, pole + 3.0], 60);
         let [[storage, _], [eta, eta_std]] = modulus(&job);
         let frequency_hz = unit[k] * storage.sqrt();

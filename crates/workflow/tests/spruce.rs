@@ -127,7 +127,7 @@ fn identified(name: &str, plate: &Plate) -> ([(f64, f64); 3], String) {
     let path = |name: &str| folder.path().join(name);
     let [length, width, thickness] = plate.size;
     // The lowest five elastic modes, or eighteen.
-    let ([along, across], last, lines) = of_tier(([8, 4], 220.0, 80), ([14, 6], 700.0, 400));
+    let ([along, across], last, lines) = of_tier(([6, 3], 220.0, 24), ([14, 6], 700.0, 400));
     let (xs, ys) = (nodes(length, along), nodes(width, across));
     let (x, y) = (Hermite::new(&xs), Hermite::new(&ys));
     let inertia = thickness.powi(3) / 12.0;
