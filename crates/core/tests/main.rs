@@ -9,6 +9,7 @@ mod diagnostics;
 mod inertia;
 mod laws;
 mod mixed;
+mod modal;
 mod model_errors;
 mod noise;
 #[path = "../../formats/tests/outside/mod.rs"]

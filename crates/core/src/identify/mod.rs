@@ -49,6 +49,7 @@ pub use goodness_of_fit::{Explained, GoodnessOfFit, SensorFit};
 pub use identification::{Identifiability, Identification, SearchReport};
 pub(crate) use measured::Band;
 pub use model_errors::{FactorError, Leverage, MeshError, ModeError, ModelErrorsFound, SensorMass};
+pub(crate) use noise::standard_deviations;
 pub use noise::{Noise, NoiseLevel, NoiseSource};
 pub use one::{error_by_order, identify_at};
 pub use options::{ErrorSizes, MAX_ORDER, ModelErrors, Options, OptionsError};

@@ -90,7 +90,7 @@ impl NoiseLevel {
 }
 
 /// σ of real and imaginary part each, `[frequency][sensor]`: as given, or in proportion to the response.
-pub(super) fn standard_deviations(measured: &[Vec<c64>], noise: Noise<'_>) -> Vec<Vec<f64>> {
+pub(crate) fn standard_deviations(measured: &[Vec<c64>], noise: Noise<'_>) -> Vec<Vec<f64>> {
     let sensors = 0..measured.first().map_or(0, Vec::len);
     let sorted = |m: usize| {
         let mut sizes: Vec<f64> = measured.iter().map(|u| u[m].norm()).collect();

@@ -1,10 +1,10 @@
 //! A fitted law: its parameters, how well they are known, and how well it explains the data.
 
 use super::correlated::{Correlated, LineResidual, correlation, shared_covariance};
-use super::least_squares::{LocalMinima, Search, inverse_information, minimise};
 use super::{Datum, LawKind, Parametrization, starts};
 use crate::c64;
 use crate::frequency::omega_rad_s;
+use crate::least_squares::{LocalMinima, Search, inverse_information, minimise};
 use crate::material::{Law, loss_factor};
 
 /// A parameter of a law.

@@ -9,7 +9,6 @@ mod correlated;
 mod datum;
 mod fit;
 mod kind;
-mod least_squares;
 mod parametrization;
 mod starts;
 
@@ -20,8 +19,5 @@ pub use kind::{LawKind, MAX_BRANCHES, Parameter, ParameterKind, USUAL_BRANCHES, 
 
 pub(crate) use correlated::LineResidual;
 pub(crate) use fit::Evidence;
-pub(crate) use least_squares::{
-    LocalMinima, Minimum, Residuals, Search, descend, inverse_information, minimise,
-};
 pub(crate) use parametrization::Parametrization;
 pub(crate) use starts::starts;

@@ -1,9 +1,9 @@
 //! Coordinates θ of a law's parameters p in which every constraint holds by itself.
 
 use super::LineResidual;
-use super::least_squares::Residuals;
 use super::{Datum, LawKind, ParameterKind};
 use crate::c64;
+use crate::least_squares::Residuals;
 
 /// θ ↔ p about a reference frequency.
 ///

@@ -472,6 +472,11 @@ fn congruent(a: &[f64], w: &[f64], r: usize) -> Vec<f64> {
 }
 
 impl Modes {
+    /// y_i.
+    pub(super) fn shape(&self, i: usize) -> &[f64] {
+        &self.shapes[i]
+    }
+
     /// None of them: a model without errors.
     pub(crate) fn none(model: &Projection) -> Self {
         Self {

@@ -25,10 +25,8 @@ use crate::identify::noise::{Noise, NoiseLevel, NoiseSource, standard_deviations
 use crate::identify::options::Options;
 use crate::identify::outcome::{Line, Status};
 use crate::identify::uncertainty::{Contributions, Uncertainty};
-use crate::laws::{
-    Datum, Evidence, LawFit, LawKind, LineResidual, LocalMinima, Parametrization, Residuals, Search, best,
-    minimise, starts,
-};
+use crate::laws::{Datum, Evidence, LawFit, LawKind, LineResidual, Parametrization, best, starts};
+use crate::least_squares::{LocalMinima, Residuals, Search, minimise};
 use crate::material::OutsideTable;
 use crate::response::{Work, relative_error};
 use crate::subspace::Subspace;

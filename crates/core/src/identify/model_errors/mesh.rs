@@ -11,6 +11,7 @@ use crate::for_each::ForEach;
 use crate::identify::coarser_mesh::CoarserMesh;
 use crate::identify::unknown::{Composite, Unknown};
 use crate::median::median;
+use crate::modal::nearest_pairs;
 use crate::subspace::{Modes, Point, Subspace, TrainOptions};
 
 /// A coarser mesh with its unknowns.
@@ -182,24 +183,15 @@ fn paired(modes: &Modes, coarser: &Modes, highest_rad_s: f64) -> Vec<Option<usiz
         let energy = shares.map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt() / ENERGY_SHARE_STD;
         frequency.hypot(residue).hypot(energy)
     };
-    let is_elastic = |omega: &f64| *omega > 0.0;
-    let mut pairs = Vec::new();
-    for (i, omega) in modes.omega_rad_s.iter().enumerate() {
-        if !is_elastic(omega) || *omega > highest_rad_s {
-            continue;
-        }
-        for (j, _) in coarser.omega_rad_s.iter().enumerate().filter(|(_, omega)| is_elastic(omega)) {
-            pairs.push((difference(i, j), i, j));
-        }
-    }
-    pairs.retain(|pair| pair.0 <= MAX_DIFFERENCE);
-    pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let mut partners = vec![None; modes.omega_rad_s.len()];
-    for (_, i, j) in pairs {
-        if partners[i].is_none() && !partners.contains(&Some(j)) {
-            partners[i] = Some(j);
-        }
-    }
+    let is_elastic = |omega: f64| omega > 0.0;
+    let count = (modes.omega_rad_s.len(), coarser.omega_rad_s.len());
+    let pairs = nearest_pairs(count, MAX_DIFFERENCE, |i, j| {
+        let [own, other] = [modes.omega_rad_s[i], coarser.omega_rad_s[j]];
+        let counts = is_elastic(own) && own <= highest_rad_s && is_elastic(other);
+        if counts { difference(i, j) } else { f64::INFINITY }
+    });
+    let mut partners = vec![None; count.0];
+    pairs.into_iter().for_each(|(i, j)| partners[i] = Some(j));
     partners
 }
 

@@ -3,7 +3,7 @@
 use super::neighbourhoods::Responded;
 use crate::c64;
 use crate::identify::unknown::Unknown;
-use crate::laws::{Minimum, Search, descend};
+use crate::least_squares::{Minimum, Search, descend};
 use std::cell::RefCell;
 
 /// What is measured at a frequency and unknown there.

@@ -4,7 +4,7 @@ use super::Task;
 use super::at_frequency::{FrequencyProblem, Solution};
 use crate::identify::noise::Noise;
 use crate::identify::unknown::Unknown;
-use crate::laws::inverse_information;
+use crate::least_squares::inverse_information;
 use crate::select::{Choice, Node, SelectOptions, choose};
 
 /// What is chosen at a frequency.

@@ -13,7 +13,8 @@ use crate::identify::context::Stage;
 use crate::identify::thinned::thinned;
 use crate::identify::unknown::Dependence;
 use crate::identify::unknown::Unknown;
-use crate::laws::{Datum, Minimum, Parametrization, Search, descend};
+use crate::laws::{Datum, Parametrization};
+use crate::least_squares::{Minimum, Search, descend};
 use crate::subspace::Projection;
 
 /// On which model, and for which θ, a frequency is looked at.

@@ -13,7 +13,7 @@ use crate::identify::band::by_shape;
 use crate::identify::channel::{Channel, ChannelUnknowns};
 use crate::identify::thinned::thinned;
 use crate::identify::unknown::Variation;
-use crate::laws::{Search, minimise};
+use crate::least_squares::{Search, minimise};
 
 /// Frequencies at most at which logarithms are compared.
 const LOG_RESPONSE_FREQUENCIES: usize = 160;

@@ -1,0 +1,23 @@
+//! Natural frequencies, damping and shapes of a model and of what was measured, side by side.
+//!
+//! | file | what is in it |
+//! |---|---|
+//! | `stabilisation` | poles of measured responses at growing orders (LSCF) |
+//! | `rational_fit` | poles fitted to all lines at once, with their covariance |
+//! | `measured_modes` | which of them are modes |
+//! | `pairing` | which mode of the model is which of the measurement |
+//! | `correlation` | MAC, COMAC, FRAC, CSAC, CSF |
+//!
+//! The modes of a model are those of its reduced model: [`Subspace::natural_modes`](crate::subspace::Subspace::natural_modes).
+
+mod correlation;
+mod measured_modes;
+mod pairing;
+mod rational_fit;
+mod stabilisation;
+
+pub use correlation::{assurance, coordinate_assurance, scale_assurance};
+pub use measured_modes::{MeasuredMode, MeasuredModes, PoleOptions, measured_modes};
+pub(crate) use pairing::nearest_pairs;
+pub use pairing::{Pair, PairedShape, Pairing, paired};
+pub use stabilisation::PoleAtOrder;

@@ -1,0 +1,419 @@
+//! Natural modes of a structure with its damping, each a pole s of D(s) with its shape.
+//!
+//! With the factors f_g at the mode's own frequency, the poles are those s at which
+//! $$ T(s) = \sum_g f_g\, s^{q_g} S_g, \qquad q = 0, 1, 2 \text{ for stiffness, viscous damping and mass}, \qquad T(s)\, x = 0 . $$
+//! Modes of the real stiffness and mass are counted by inertia and found by Lanczos on the whole model. On the subspace that they span each is followed
+//! from no damping to its own by inverse iteration with Rayleigh's functional, $y^T T(s) y = 0$. What is left of the whole model's T(s) Vy brings the vectors that damping
+//! adds to the shapes, until the pole is right: its error is of second order in them, as T is symmetric.
+//!
+//! # Source
+//! P. Lancaster, Numer. Math. 6 (1964) 377–387 (inverse iteration with a functional); H. Voss, Handbook of Linear Algebra, ch. 115, 2nd ed. (2014).
+
+use super::{Projection, Subspace};
+use crate::c64;
+use crate::frequency::omega_rad_s;
+use crate::material::OutsideTable;
+use crate::model::{Combination, DynamicStiffness, ModelAt, Role, WeightedTerm};
+use frfit_linalg::modes::{ModesError, lowest};
+use frfit_linalg::sparse::{SymmetricMatrix, Values};
+use frfit_linalg::vector::{norm, transpose_dot};
+use std::fmt;
+
+/// A mode of a structure.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NaturalMode {
+    /// s, 1/s; zero of a rigid body.
+    pub pole_per_s: c64,
+    /// Fᵀφ, with $\phi^T \frac{dT}{ds} \phi = 2s$: without damping φᵀMφ = 1.
+    pub load: c64,
+    /// ℓ_mᵀφ of each sensor.
+    pub sensors: Vec<c64>,
+    /// What of the strain energy is in each term of the model; zeros of a rigid body and of terms that are no stiffness.
+    pub energy_shares: Vec<f64>,
+    /// Estimated relative error of s by the reduction.
+    pub error: f64,
+}
+
+impl NaturalMode {
+    /// |s|/2π.
+    pub fn frequency_hz(&self) -> f64 {
+        self.pole_per_s.norm() / omega_rad_s(1.0)
+    }
+
+    /// −Re s/|s|; zero of a rigid body.
+    pub fn damping_ratio(&self) -> f64 {
+        if self.is_rigid_body() { 0.0 } else { -self.pole_per_s.re / self.pole_per_s.norm() }
+    }
+
+    /// Whether it has no stiffness.
+    pub fn is_rigid_body(&self) -> bool {
+        self.pole_per_s.norm() == 0.0
+    }
+
+    /// R_m = Fᵀφ ℓ_mᵀφ/2s of each sensor: its receptance has R_m/(iω − s) and its conjugate.
+    pub fn residues(&self) -> Vec<c64> {
+        self.sensors.iter().map(|own| self.load * own / (2.0 * self.pole_per_s)).collect()
+    }
+}
+
+/// The modes up to a frequency.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NaturalModes {
+    /// Lowest first, rigid bodies before all others.
+    pub modes: Vec<NaturalMode>,
+    /// Modes of the real stiffness and mass below that frequency, by inertia.
+    pub count: usize,
+}
+
+/// Why there are no modes.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum NaturalModesError {
+    /// A table of a factor does not reach a frequency.
+    OutsideTable(OutsideTable),
+    /// The undamped modes were not found.
+    Undamped(ModesError),
+}
+
+impl fmt::Display for NaturalModesError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::OutsideTable(error) => error.fmt(f),
+            Self::Undamped(error) => error.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for NaturalModesError {}
+
+impl From<OutsideTable> for NaturalModesError {
+    fn from(error: OutsideTable) -> Self {
+        Self::OutsideTable(error)
+    }
+}
+
+impl<E: Into<ModesError>> From<E> for NaturalModesError {
+    fn from(error: E) -> Self {
+        Self::Undamped(error.into())
+    }
+}
+
+/// The model at a frequency, everything at the values whose modes are asked for.
+pub type ModelAtFrequency<'a, 'm> = &'a dyn Fn(f64) -> Result<ModelAt<'m>, OutsideTable>;
+
+/// Undamped modes beyond those below the highest frequency that are part of the subspace.
+const MODES_BEYOND: usize = 4;
+
+/// Relative error of a pole that the reduction may leave.
+const POLE_RTOL: f64 = 1e-10;
+
+/// Rounds in which vectors are added for it.
+const MAX_ROUNDS: usize = 8;
+
+/// A step of s below this part of it ends an iteration.
+const STEP_RTOL: f64 = 1e-13;
+
+/// Steps of an iteration, and the smallest part of the way from no damping to all of it that is gone at once.
+const MAX_STEPS: usize = 40;
+const MIN_WAY: f64 = 1.0 / 64.0;
+
+/// Two shapes of one mode with more and with less damping have at least this in common.
+const MIN_OVERLAP: f64 = 0.8;
+
+/// Poles nearer than this part of them whose shapes are parallel to it are one.
+const TWIN_RTOL: f64 = 1e-7;
+
+/// A pole with its reduced shape.
+struct Followed {
+    s: c64,
+    y: Vec<c64>,
+}
+
+impl<'m> Subspace<'m> {
+    /// All modes below a frequency, with the values that the model has at each mode's own frequency; above the highest frequency those there.
+    ///
+    /// One real factorisation for their number, one for Lanczos's iteration, and solves with the factor of this subspace.
+    ///
+    /// # Errors
+    /// [`NaturalModesError`].
+    ///
+    /// # Limits
+    /// Damping so large that a mode overtakes others on the way to it may lead two modes to one pole: one of them is left out then, and
+    /// there are fewer than `count`.
+    pub fn natural_modes(
+        &mut self,
+        at: ModelAtFrequency<'_, 'm>,
+        highest_hz: f64,
+    ) -> Result<NaturalModes, NaturalModesError> {
+        let reference = at(highest_hz)?;
+        let [stiffness, mass] = real_pencil(&reference);
+        let omega_squared = omega_rad_s(highest_hz).powi(2);
+        let model = reference.model;
+        let dynamic: Vec<f64> = stiffness.iter().zip(&mass).map(|(k, m)| k - omega_squared * m).collect();
+        let count = model.analysis().factor_on(&dynamic, model.threads())?.negative_eigenvalues();
+        self.work.factorisations += 2;
+        let symmetric =
+            |values| SymmetricMatrix::new(model.analysis().pattern().clone(), Values::Real(values));
+        let undamped = lowest(&symmetric(stiffness), &symmetric(mass), count + MODES_BEYOND)?;
+        self.basis.append(model, self.experiment, undamped.shapes.concat());
+        let nominal = factors(&reference);
+        for round in 0.. {
+            let modes = self.modes_of_reduced(at, &nominal, (&reference, highest_hz))?;
+            let rest = self.rest(at, &modes, highest_hz)?;
+            let worst = rest.iter().map(|(error, _)| *error).fold(0.0, f64::max);
+            let before = self.size();
+            if worst > POLE_RTOL && round < MAX_ROUNDS {
+                let large = rest.iter().filter(|(error, _)| *error > POLE_RTOL);
+                let block: Vec<f64> = large.flat_map(|(_, directions)| directions).copied().collect();
+                self.basis.append(model, self.experiment, block);
+            }
+            if self.size() == before {
+                let each = modes.iter().zip(rest);
+                let modes = each.map(|(mode, (error, _))| self.mode(at, mode, error, highest_hz));
+                return Ok(NaturalModes { modes: modes.collect::<Result<_, _>>()?, count });
+            }
+        }
+        unreachable!("the rounds end")
+    }
+
+    /// The modes of the reduced model.
+    fn modes_of_reduced(
+        &self,
+        at: ModelAtFrequency<'_, 'm>,
+        nominal: &[(usize, c64)],
+        (reference, highest_hz): (&ModelAt<'m>, f64),
+    ) -> Result<Vec<Followed>, NaturalModesError> {
+        let highest_rad_s = omega_rad_s(highest_hz);
+        let undamped = self.projection().modes(reference, c64::default(), highest_rad_s, usize::MAX);
+        let undamped = undamped.map_err(|_| ModesError::NotConverged { converged: 0 })?;
+        let mut modes: Vec<Followed> = Vec::new();
+        for (i, &omega) in undamped.omega_rad_s.iter().enumerate() {
+            let y: Vec<c64> = undamped.shape(i).iter().map(|&y| c64::new(y, 0.0)).collect();
+            let start = Followed { s: c64::new(0.0, omega), y };
+            if omega == 0.0 {
+                modes.push(start);
+                continue;
+            }
+            let own = self.followed(at, nominal, start, highest_hz)?;
+            let is_new = |other: &Followed| {
+                (own.s - other.s).norm() > TWIN_RTOL * own.s.norm()
+                    || overlap(&own.y, &other.y) < 1.0 - TWIN_RTOL
+            };
+            if modes.iter().all(is_new) {
+                modes.push(own);
+            }
+        }
+        modes.sort_by(|a, b| a.s.norm().total_cmp(&b.s.norm()));
+        Ok(modes)
+    }
+
+    /// An undamped mode followed to what its factors are at its own frequency.
+    fn followed(
+        &self,
+        at: ModelAtFrequency<'_, 'm>,
+        nominal: &[(usize, c64)],
+        mut mode: Followed,
+        highest_hz: f64,
+    ) -> Result<Followed, NaturalModesError> {
+        let (mut gone, mut step) = (0.0, 1.0);
+        while gone < 1.0 {
+            let way = f64::min(gone + step, 1.0);
+            let part = |s: c64| -> Result<Vec<(usize, c64)>, OutsideTable> {
+                let own = factors(&at(frequency_of(s, highest_hz))?);
+                let mixed = |(&(term, real), (_, own)): (&(usize, c64), (usize, c64))| {
+                    let undamped = if self.model.terms()[term].role == Role::Viscous { 0.0 } else { real.re };
+                    (term, (1.0 - way) * undamped + way * own)
+                };
+                Ok(nominal.iter().zip(own).map(mixed).collect())
+            };
+            let next = self.projection().pole_near(self.model, &part, &mode)?;
+            match next.filter(|next| overlap(&next.y, &mode.y) >= MIN_OVERLAP || step <= MIN_WAY) {
+                Some(next) => (mode, gone, step) = (next, way, 2.0 * step),
+                // Even the smallest step fails: the last pole stands, and its error is large.
+                None if step <= MIN_WAY => return Ok(mode),
+                None => step *= 0.5,
+            }
+        }
+        Ok(mode)
+    }
+
+    /// For each mode the relative error of its pole, and what would make it smaller: S⁻¹ times real and imaginary part of T(s) Vy.
+    fn rest(
+        &self,
+        at: ModelAtFrequency<'_, 'm>,
+        modes: &[Followed],
+        highest_hz: f64,
+    ) -> Result<Vec<(f64, Vec<f64>)>, NaturalModesError> {
+        let n = self.model.dim();
+        let mut all = Vec::new();
+        for Followed { s, y } in modes {
+            if s.norm() == 0.0 {
+                all.push((0.0, Vec::new()));
+                continue;
+            }
+            let factors = factors(&at(frequency_of(*s, highest_hz))?);
+            let shape = self.basis.vectors().combine(y);
+            let mut force = vec![c64::default(); n];
+            let of_term = |&(term, factor): &(usize, c64)| WeightedTerm {
+                term,
+                weight: factor * power(self.model.terms()[term].role, *s),
+            };
+            Combination { parts: factors.iter().map(of_term).collect() }.multiply_add(
+                self.model,
+                c64::new(1.0, 0.0),
+                &shape,
+                &mut force,
+            );
+            let mut directions: Vec<f64> =
+                force.iter().map(|f| f.re).chain(force.iter().map(|f| f.im)).collect();
+            self.shifts[0].factor.solve(&mut directions)?;
+            let (re, im) = directions.split_at(n);
+            let product: c64 =
+                force.iter().zip(re.iter().zip(im)).map(|(f, (&re, &im))| f * c64::new(re, im)).sum();
+            let slope = self.projection().slope_by_pole(self.model, &factors, *s, y);
+            all.push(((product / (slope * s)).norm(), directions));
+        }
+        Ok(all)
+    }
+
+    fn mode(
+        &self,
+        at: ModelAtFrequency<'_, 'm>,
+        Followed { s, y }: &Followed,
+        error: f64,
+        highest_hz: f64,
+    ) -> Result<NaturalMode, NaturalModesError> {
+        let small = self.projection();
+        let terms = self.model.terms();
+        let is_rigid = s.norm() == 0.0;
+        let factors = factors(&at(frequency_of(*s, highest_hz))?);
+        // Of a rigid body φᵀMφ = 1 already.
+        let size = if is_rigid {
+            c64::new(1.0, 0.0)
+        } else {
+            small.slope_by_pole(self.model, &factors, *s, y) / (2.0 * s)
+        };
+        let size = size.sqrt();
+        let conjugate: Vec<c64> = y.iter().map(|y| y.conj()).collect();
+        let mut energy_shares = vec![0.0; terms.len()];
+        for &(term, factor) in
+            factors.iter().filter(|(term, _)| terms[*term].role == Role::Stiffness && !is_rigid)
+        {
+            let theta = small.weights_of(&[(term, factor)]);
+            let [of_term] = &small.multiply(&[theta], y)[..] else { continue };
+            energy_shares[term] = transpose_dot(&conjugate, of_term).re;
+        }
+        let whole: f64 = energy_shares.iter().sum();
+        energy_shares.iter_mut().for_each(|share| *share /= if whole > 0.0 { whole } else { 1.0 });
+        let of_sensor = |l: &Vec<f64>| l.iter().zip(y).map(|(l, y)| l * y).sum::<c64>() / size;
+        Ok(NaturalMode {
+            pole_per_s: *s,
+            load: transpose_dot(&small.load, y) / size,
+            sensors: small.sensors.iter().map(of_sensor).collect(),
+            energy_shares,
+            error,
+        })
+    }
+}
+
+impl Projection {
+    /// θ_g of factors of terms, without powers of s.
+    fn weights_of(&self, factors: &[(usize, c64)]) -> Vec<c64> {
+        let of_term = |&(term, weight): &(usize, c64)| WeightedTerm { term, weight };
+        self.parts.weights(&Combination { parts: factors.iter().map(of_term).collect() })
+    }
+
+    /// The pole to which inverse iteration leads; `None` where it leads nowhere.
+    fn pole_near(
+        &self,
+        model: &DynamicStiffness,
+        factors: &dyn Fn(c64) -> Result<Vec<(usize, c64)>, OutsideTable>,
+        start: &Followed,
+    ) -> Result<Option<Followed>, OutsideTable> {
+        let (mut s, mut y) = (start.s, start.y.clone());
+        for _ in 0..MAX_STEPS {
+            let own = self.weights_of(&factors(s)?);
+            let weighed = |s: c64, of: fn(Role, c64) -> c64| -> Vec<c64> {
+                own.iter()
+                    .enumerate()
+                    .map(|(g, f)| f * of(model.terms()[self.parts.term(g)].role, s))
+                    .collect()
+            };
+            let images = self.multiply(&[weighed(s, power), weighed(s, slope)], &y);
+            let step = -transpose_dot(&y, &images[0]) / transpose_dot(&y, &images[1]);
+            if !step.is_finite() {
+                return Ok(None);
+            }
+            s += step;
+            if step.norm() <= STEP_RTOL * s.norm() {
+                return Ok(Some(Followed { s, y }));
+            }
+            let mut next = images.into_iter().nth(1).unwrap_or_default();
+            // Singular to the last digit is as near as it gets.
+            if self.solve(&weighed(s, power), &mut next).is_err() {
+                return Ok(Some(Followed { s, y }));
+            }
+            let size = norm(&next);
+            y = next.into_iter().map(|entry| entry / size).collect();
+        }
+        Ok(Some(Followed { s, y }).filter(|end| end.s.is_finite()))
+    }
+
+    /// yᵀ dT/ds y with the factors held.
+    fn slope_by_pole(&self, model: &DynamicStiffness, factors: &[(usize, c64)], s: c64, y: &[c64]) -> c64 {
+        let of_term = |&(term, factor): &(usize, c64)| (term, factor * slope(model.terms()[term].role, s));
+        let theta = self.weights_of(&factors.iter().map(of_term).collect::<Vec<_>>());
+        transpose_dot(y, &self.multiply(&[theta], y)[0])
+    }
+}
+
+/// s^q.
+fn power(role: Role, s: c64) -> c64 {
+    match role {
+        Role::Stiffness => c64::new(1.0, 0.0),
+        Role::Viscous => s,
+        Role::Mass => s * s,
+    }
+}
+
+/// d(s^q)/ds.
+fn slope(role: Role, s: c64) -> c64 {
+    match role {
+        Role::Stiffness => c64::default(),
+        Role::Viscous => c64::new(1.0, 0.0),
+        Role::Mass => 2.0 * s,
+    }
+}
+
+/// The frequency at which the factors of a mode are taken.
+fn frequency_of(s: c64, highest_hz: f64) -> f64 {
+    let least = 1e-6 * highest_hz;
+    (s.im / omega_rad_s(1.0)).clamp(least, highest_hz)
+}
+
+/// The factor of each term.
+fn factors(at: &ModelAt<'_>) -> Vec<(usize, c64)> {
+    let of = |&WeightedTerm { term, weight }: &WeightedTerm| {
+        (term, weight / at.model.weight(at.model.terms()[term].role, at.frequency_hz))
+    };
+    at.nominal.parts.iter().map(of).collect()
+}
+
+/// Re K and M on the model's pattern.
+fn real_pencil(at: &ModelAt<'_>) -> [Vec<f64>; 2] {
+    let mut pencil = [Role::Stiffness, Role::Mass].map(|_| vec![0.0; at.model.analysis().pattern().stored()]);
+    for (term, factor) in factors(at) {
+        let term = &at.model.terms()[term];
+        match term.role {
+            Role::Stiffness => term.matrix.accumulate_real_into(factor.re, &mut pencil[0]),
+            Role::Mass => term.matrix.accumulate_real_into(factor.re, &mut pencil[1]),
+            Role::Viscous => {}
+        }
+    }
+    pencil
+}
+
+/// |xᴴy|/(‖x‖‖y‖).
+fn overlap(x: &[c64], y: &[c64]) -> f64 {
+    frfit_linalg::vector::dot(x, y).norm() / (norm(x) * norm(y))
+}

@@ -1,0 +1,251 @@
+//! Poles of made-up and of measured responses.
+
+use crate::common::{c, chain, sandwich, term, tip_load};
+use crate::noise::Noise as Draws;
+use crate::tier::{of_tier, scatter_of_95};
+use frfit::c64;
+use frfit::for_each::sequential;
+use frfit::frequency::{linear_hz, omega_rad_s};
+use frfit::identify::{Frfs, Noise};
+use frfit::material::Law;
+use frfit::modal::{MeasuredModes, PoleOptions, measured_modes};
+use frfit::model::{DynamicStiffness, Experiment, Role};
+use frfit::response::{FullModel, Response};
+use frfit::subspace::{NaturalModes, Subspace};
+use frfit_fem::exact::beam::UniformBeam;
+use frfit_fem::{Beam, Support};
+use frfit_linalg::dense::{Matrix, eigenvalues};
+use frfit_linalg::sparse::Triplets;
+use frfit_linalg::vector::norm;
+
+/// A simply supported plate as a sum over its modes: natural frequency in Hz, and what it is at the driving point and at three sensors.
+struct Plate {
+    modes: Vec<(f64, f64, [f64; 3])>,
+    loss_factor: f64,
+}
+
+impl Plate {
+    fn new(loss_factor: f64) -> Self {
+        let (sides, load) = ([0.5, 0.4], [0.17, 0.21]);
+        let sensors = [[0.11, 0.13], [0.31, 0.07], [0.23, 0.29]];
+        let mut modes = Vec::new();
+        for m in 1..12 {
+            for n in 1..12 {
+                let waves = [m, n].map(|k| f64::from(k) * std::f64::consts::PI);
+                let square: f64 = waves.iter().zip(sides).map(|(wave, side)| (wave / side).powi(2)).sum();
+                let shape =
+                    |at: [f64; 2]| (0..2).map(|d| (waves[d] * at[d] / sides[d]).sin()).product::<f64>();
+                modes.push((0.52 * square, shape(load), sensors.map(shape)));
+            }
+        }
+        modes.sort_by(|a, b| a.0.total_cmp(&b.0));
+        Self { modes, loss_factor }
+    }
+
+    /// iω of the poles in a band.
+    fn poles(&self, band_hz: [f64; 2]) -> Vec<c64> {
+        let in_band = self.modes.iter().filter(|mode| (band_hz[0]..band_hz[1]).contains(&mode.0));
+        in_band.map(|mode| c64::I * omega_rad_s(mode.0) * c64::new(1.0, self.loss_factor).sqrt()).collect()
+    }
+
+    fn responses(&self, frequency_hz: &[f64]) -> Vec<Vec<c64>> {
+        let at = |&f: &f64| {
+            let of_sensor = |m: usize| {
+                let of_mode = |mode: &(f64, f64, [f64; 3])| {
+                    let square = c64::new(1.0, self.loss_factor) * omega_rad_s(mode.0).powi(2);
+                    mode.1 * mode.2[m] / (square - omega_rad_s(f).powi(2))
+                };
+                self.modes.iter().map(of_mode).sum()
+            };
+            (0..3).map(of_sensor).collect()
+        };
+        frequency_hz.iter().map(at).collect()
+    }
+}
+
+fn found(frequency_hz: &[f64], receptance: &[Vec<c64>]) -> MeasuredModes {
+    found_with(frequency_hz, receptance, &PoleOptions::default())
+}
+
+fn found_with(frequency_hz: &[f64], receptance: &[Vec<c64>], options: &PoleOptions) -> MeasuredModes {
+    let frfs = Frfs { frequency_hz, receptance, noise: Noise::Unknown };
+    measured_modes(frfs, options, &sequential).unwrap()
+}
+
+/// The truth's pole that is nearest, and how far it is off, relative.
+fn nearest(truth: &[c64], pole: c64) -> (usize, f64) {
+    let off = |k: usize| (truth[k] - pole).norm() / truth[k].norm();
+    let all = (0..truth.len()).map(|k| (k, off(k)));
+    all.min_by(|a, b| a.1.total_cmp(&b.1)).unwrap()
+}
+
+#[test]
+fn poles_of_exact_responses_are_those_of_the_plate() {
+    for loss_factor in [1e-3, 1e-2, 0.05] {
+        let plate = Plate::new(loss_factor);
+        let frequency_hz = linear_hz(30.0, 700.0, of_tier(600, 1200));
+        let found = found(&frequency_hz, &plate.responses(&frequency_hz));
+        let truth = plate.poles([30.0, 700.0]);
+        assert_eq!(found.modes.len(), truth.len(), "{loss_factor}");
+        for (k, mode) in found.modes.iter().enumerate() {
+            let (own, off) = nearest(&truth, mode.pole_per_s);
+            assert!(own == k && off < 1e-6, "{loss_factor}: {mode:?} {off}");
+        }
+    }
+}
+
+#[test]
+fn error_bars_of_poles_cover_the_truth() {
+    let plate = Plate::new(0.01);
+    let frequency_hz = linear_hz(30.0, 400.0, 400);
+    let exact = plate.responses(&frequency_hz);
+    let truth = plate.poles([30.0, 400.0]);
+    let (mut inside, mut count, mut missed, mut extra) = ([0, 0], 0, 0, 0);
+    for seed in 0..of_tier(3, 50) {
+        let mut noise = Draws::new(seed + 1);
+        let mut with_noise = |x: &c64| x + 0.01 * x.norm() * noise.complex();
+        let noisy: Vec<Vec<c64>> = exact.iter().map(|x| x.iter().map(&mut with_noise).collect()).collect();
+        let found = found(&frequency_hz, &noisy);
+        assert!((found.level.unwrap() / 0.01 - 1.0).abs() < 0.1, "{:?}", found.level);
+        let mut taken = vec![false; truth.len()];
+        for mode in &found.modes {
+            let (k, _) = nearest(&truth, mode.pole_per_s);
+            if (truth[k] - mode.pole_per_s).norm() > 0.5 * truth[k].re.abs() || taken[k] {
+                extra += 1;
+                continue;
+            }
+            (taken[k], count) = (true, count + 1);
+            let frequency_hz = truth[k].norm() / omega_rad_s(1.0);
+            let off =
+                [mode.frequency_hz() - frequency_hz, mode.damping_ratio() + truth[k].re / truth[k].norm()];
+            let std = [mode.frequency_std_hz, mode.damping_ratio_std];
+            for ((inside, off), std) in inside.iter_mut().zip(off).zip(std) {
+                *inside += usize::from(off.abs() <= 2.0 * std.unwrap());
+            }
+        }
+        missed += taken.iter().filter(|taken| !**taken).count();
+    }
+    // No mode is missed, and at most one of a hundred is none.
+    assert!(missed == 0 && 100 * extra <= count.max(100), "{missed} missed, {extra} too many of {count}");
+    for inside in inside {
+        let share = inside as f64 / count as f64;
+        assert!((share - 0.954).abs() <= scatter_of_95(count as f64).max(0.04), "{inside} of {count}");
+    }
+}
+
+#[test]
+fn a_window_on_the_records_moves_no_pole() {
+    let (plate, decay_per_s) = (Plate::new(0.01), 6.0);
+    let frequency_hz = linear_hz(30.0, 300.0, 400);
+    // The modes as poles of s, which a window shifts.
+    let poles: Vec<(c64, f64)> = plate
+        .modes
+        .iter()
+        .take(12)
+        .map(|mode| {
+            let omega = omega_rad_s(mode.0);
+            (c64::new(-0.005 * omega, omega), mode.1 * mode.2[0] / omega)
+        })
+        .collect();
+    let response = |&f: &f64| {
+        let s = c64::new(decay_per_s, omega_rad_s(f));
+        vec![poles.iter().map(|(pole, size)| size / ((s - pole) * (s - pole.conj()))).sum::<c64>()]
+    };
+    let responses: Vec<Vec<c64>> = frequency_hz.iter().map(response).collect();
+    let options = PoleOptions::default().with_decay_per_s(decay_per_s);
+    let found = found_with(&frequency_hz, &responses, &options);
+    let truth: Vec<c64> =
+        poles.iter().map(|(pole, _)| *pole).filter(|pole| pole.im < omega_rad_s(300.0)).collect();
+    assert_eq!(found.modes.len(), truth.len());
+    for mode in &found.modes {
+        assert!(nearest(&truth, mode.pole_per_s).1 < 1e-6, "{mode:?}");
+    }
+}
+
+/// The modes of a model at its nominal factors.
+fn natural_modes(model: &DynamicStiffness, experiment: &Experiment, highest_hz: f64) -> NaturalModes {
+    let at = |f: f64| model.at(f, &[]);
+    Subspace::new(experiment, &at(highest_hz).unwrap()).unwrap().natural_modes(&at, highest_hz).unwrap()
+}
+
+#[test]
+fn modes_of_a_free_beam_are_those_of_the_closed_form() {
+    let (modulus, density, loss_factor) = (2.1e11, 7800.0, 0.02);
+    let beam = Beam { length: 1.2, area: 4e-4, inertia: 1.3e-8, elements: 160, ..Beam::default() };
+    let assembled = beam.assemble().unwrap();
+    let model = DynamicStiffness::new(vec![
+        term("steel", Role::Stiffness, assembled.stiffness[0].clone(), c(1.0, loss_factor) * modulus),
+        term("mass", Role::Mass, assembled.mass[0].clone(), c(density, 0.0)),
+    ])
+    .unwrap();
+    let found = natural_modes(&model, &tip_load(&model, &[0, 20]), 3000.0);
+    assert_eq!(found.count, found.modes.len());
+    assert!(found.modes[..2].iter().all(|mode| mode.is_rigid_body()));
+    let exact = UniformBeam { modulus, density, area: 4e-4, inertia: 1.3e-8, length: 1.2 };
+    assert!(found.modes.len() > 8);
+    for (n, mode) in found.modes[2..].iter().enumerate() {
+        let omega = exact.natural_frequency_rad_s([Support::Free; 2], n + 1);
+        let pole = c64::I * omega * c(1.0, loss_factor).sqrt();
+        assert!((mode.pole_per_s - pole).norm() < 1e-6 * omega, "{n}: {mode:?}");
+        assert!((mode.energy_shares[0] - 1.0).abs() < 1e-12 && mode.energy_shares[1] == 0.0);
+    }
+}
+
+#[test]
+fn modes_of_a_damped_chain_are_the_eigenvalues_of_its_state_matrix() {
+    // Dampers to ground at one mass, between two others: not proportional. State matrix [[0, 1], [−K, −C]], M = 1.
+    let n = 8;
+    let chain = chain(n, c(1.0, 0.0), 1.0);
+    let mut dampers = Triplets::new(n);
+    dampers.add(2, 2, 0.3);
+    dampers.add_element(&[Some(5), Some(6)], &[0.2, -0.2, -0.2, 0.2]);
+    let dampers = dampers.assemble();
+    let springs = chain.terms()[0].matrix.clone();
+    let state = Matrix::from_fn(2 * n, 2 * n, |i, j| match (i < n, j < n) {
+        (true, true) => c(0.0, 0.0),
+        (true, false) => c(f64::from(u8::from(i + n == j)), 0.0),
+        (false, true) => -springs.get(i - n, j),
+        (false, false) => -dampers.get(i - n, j - n),
+    });
+    let mut exact = eigenvalues(&state).unwrap();
+    exact.retain(|s| s.im > 0.0);
+    exact.sort_by(|a, b| a.norm().total_cmp(&b.norm()));
+    let mut terms = chain.terms().to_vec();
+    terms.push(term("dampers", Role::Viscous, dampers, c(1.0, 0.0)));
+    let model = DynamicStiffness::new(terms).unwrap();
+    let found = natural_modes(&model, &tip_load(&model, &[0, 3]), 0.5);
+    assert_eq!((found.count, found.modes.len(), exact.len()), (n, n, n));
+    for (mode, exact) in found.modes.iter().zip(exact) {
+        assert!((mode.pole_per_s - exact).norm() < 1e-9 * exact.norm(), "{mode:?} {exact}");
+    }
+}
+
+#[test]
+fn modes_of_a_sandwich_are_the_poles_of_its_response() {
+    // A core whose modulus does not vary: its response has poles where the modes are, and nothing else.
+    let sandwich = sandwich(12, 2);
+    let mut terms = sandwich.model.terms().to_vec();
+    terms[1].factor = Law::Constant(c(2.0e6, 8.0e5));
+    let (model, experiment) = (&DynamicStiffness::new(terms).unwrap(), &sandwich.experiment);
+    let found = natural_modes(model, experiment, 500.0);
+    assert_eq!(found.count, found.modes.len());
+    let frequency_hz = linear_hz(10.0, 500.0, 500);
+    let respond = |&f: &f64| {
+        let full = FullModel::new(model.at(f, &[]).unwrap(), experiment).unwrap();
+        full.respond_nominal().unwrap()
+    };
+    let responses: Vec<Vec<c64>> = frequency_hz.iter().map(respond).collect();
+    let measured = self::found(&frequency_hz, &responses);
+    let poles: Vec<c64> = found.modes.iter().map(|mode| mode.pole_per_s).collect();
+    assert!(measured.modes.len() > 3);
+    for mode in &measured.modes {
+        let (k, off) = nearest(&poles, mode.pole_per_s);
+        assert!(off < 1e-5, "{mode:?} {:?}", found.modes[k]);
+        for (a, b) in mode.residues.iter().zip(found.modes[k].residues()) {
+            assert!((a - b).norm() < 0.01 * norm(&mode.residues), "{a} {b}");
+        }
+    }
+    // Not proportional: skins and core share the energy differently from mode to mode.
+    let shares: Vec<f64> = found.modes.iter().map(|mode| mode.energy_shares[1]).collect();
+    assert!(shares.iter().all(|share| (0.0..1.0).contains(share)) && (shares[0] - shares[2]).abs() > 0.05);
+}
