@@ -6,6 +6,7 @@ mod fixed;
 mod function;
 mod header;
 mod nodes;
+mod shapes;
 mod units;
 
 use super::binary::Endian;
@@ -13,6 +14,7 @@ use super::binary::Endian;
 pub use function::function;
 pub use header::file_header;
 pub use nodes::{nodes_15, nodes_2411};
+pub use shapes::{ModeShape, mode_shape};
 pub use units::units;
 
 /// How the data of a function are written.
