@@ -83,6 +83,12 @@ pub(crate) enum Command {
                       About the model as it is: nothing needs to be measured. A [[measurement]] may be a dof alone, with [respond] for the frequencies. \
                       Parameters are the factor of each [[matrix]] and [[attached]], of complex ones the loss factor for itself, and a scale = \"unknown\".")]
     Sensitivities(Sensitivities),
+    /// Natural frequencies, damping and shapes of the model and of the measurement, paired
+    #[command(after_help = "Examples: frfit modes case.toml --out modes\n          \
+                      frfit modes case.toml --identified results/identified.csv\n\n\
+                      Modes of the model have the damping of its factors; poles of the measurement are fitted to all FRFs together, with standard deviations. \
+                      Without files of measurements the model's modes alone. MAC compares shapes at the sensors, FRAC and COMAC each sensor over the band and over the pairs.")]
+    Modes(Modes),
     /// Say what is in a matrix, FRF or table file
     #[command(
         after_help = "Examples: frfit inspect frf.uff\n          frfit inspect K.mtx M.mtx --modes 6\n          frfit inspect --json frf.uff"
@@ -299,6 +305,26 @@ pub(crate) struct Respond {
     pub(crate) memory: Option<u64>,
     #[command(flatten)]
     pub(crate) overrides: Overrides,
+}
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct Modes {
+    /// Case file
+    pub(crate) case: PathBuf,
+    /// Folder for tables, shapes and figures
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) overrides: Overrides,
+    /// Table of results: its moduli in place of the factors of the unknown matrices
+    #[arg(long, value_name = "IDENTIFIED.CSV")]
+    pub(crate) identified: Option<PathBuf>,
+    /// Largest order of the stabilisation diagram, some three for each mode of the band (default: 60)
+    #[arg(long, value_name = "N")]
+    pub(crate) max_order: Option<usize>,
+    /// Memory that may be used, in MB (by default what is available): a model that needs more is refused
+    #[arg(long, value_name = "MB")]
+    pub(crate) memory: Option<u64>,
 }
 
 #[derive(Debug, clap::Args)]

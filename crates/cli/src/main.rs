@@ -41,6 +41,7 @@ fn run(args: &Args) -> Result<Outcome, Failure> {
         Command::Report(report) => command::report::run(args, report),
         Command::Export(export) => command::export::run(args, export),
         Command::Respond(respond) => command::respond::run(args, respond),
+        Command::Modes(wanted) => command::modes::run(args, wanted),
         Command::Sensitivities(wanted) => command::sensitivities::run(args, wanted),
         Command::Inspect(inspect) => command::inspect::run(args, inspect),
         Command::Convert(convert) => command::convert::run(args, convert),

@@ -32,6 +32,7 @@ pub mod inspect;
 pub mod job;
 pub mod load;
 pub mod memory;
+pub mod modes;
 mod nearest;
 pub mod output;
 mod reads;

@@ -18,6 +18,7 @@ pub(crate) fn run(args: &Args, identify: &Identify) -> Result<Outcome, Failure> 
         band_hz: identify.overrides.band,
         selection: identify.selection.clone(),
         reduction: identify.reduction.clone(),
+        ..Overrides::default()
     };
     let options = RunOptions { error_map: identify.error_map, memory_bytes: identify.memory.map(megabytes) };
     let job = carry_out(args, &identify.case, &overrides, options, &identify.out)?;

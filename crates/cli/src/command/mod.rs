@@ -9,6 +9,7 @@ pub(crate) mod fit;
 pub(crate) mod frf;
 pub(crate) mod identify;
 pub(crate) mod inspect;
+pub(crate) mod modes;
 pub(crate) mod report;
 pub(crate) mod respond;
 pub(crate) mod sensitivities;

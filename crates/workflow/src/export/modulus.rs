@@ -1,7 +1,7 @@
 //! The modulus that is written: of a table, or of a law at the frequencies of a table.
 
 use super::options::ExportOptions;
-use super::unknown::of_unknown;
+use super::unknown::table_of_unknown;
 use crate::case::law_of_snippet;
 use crate::error::{InputError, Place};
 use crate::load::load_bytes;
@@ -75,7 +75,7 @@ pub fn modulus(
     reads: &mut Reads,
 ) -> Result<Modulus, InputError> {
     let unknown = options.unknown.as_deref();
-    let bytes = of_unknown(load_bytes(table, reads)?, unknown, table)?;
+    let bytes = table_of_unknown(load_bytes(table, reads)?, unknown, table)?;
     let rows = read_modulus_rows(&bytes).map_err(|error| InputError::in_file(table, error))?;
     let beside = TableUnits::beside(table, unknown)?;
     // A table that names its unit was converted to Pa. One without unit and summary is taken as in Pa.

@@ -15,7 +15,11 @@ const SHARED: [&str; 2] = ["frequency_hz", "status"];
 ///
 /// # Errors
 /// A name that is missing, or that no unknown of the table has: the error lists those that there are.
-pub(super) fn of_unknown(bytes: Vec<u8>, name: Option<&str>, file: &Path) -> Result<Vec<u8>, InputError> {
+pub(crate) fn table_of_unknown(
+    bytes: Vec<u8>,
+    name: Option<&str>,
+    file: &Path,
+) -> Result<Vec<u8>, InputError> {
     let table = Table::read(&bytes).map_err(|error| InputError::in_file(file, error))?;
     let column = |wanted: &str| table.names().position(|other| other == wanted);
     let unknowns: Vec<&str> = table.names().filter_map(|column| column.strip_suffix(".storage")).collect();

@@ -8,12 +8,14 @@ mod identifiability;
 mod impacts;
 mod laws;
 mod measured;
+mod modes;
 mod modulus;
 mod reduction_error;
 mod sensitivities;
 mod spectral_radius;
 
 pub use laws::law_figures;
+pub use modes::modes_figures;
 pub use sensitivities::sensitivity_figure;
 
 use crate::load::{Case, IdentifyCase};

@@ -252,6 +252,7 @@ fn case(
         reads: Default::default(),
         identify,
         sensitivities: None,
+        modes: None,
         respond_hz,
     }
 }

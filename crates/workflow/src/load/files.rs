@@ -127,6 +127,15 @@ impl Files {
         Ok(NamedFile { path, bytes, index, named_by: name.place.clone() })
     }
 
+    /// Reads a file that an option of the command line names, from where the program runs.
+    pub(super) fn read_option(&mut self, path: &Path, option: &str) -> Result<NamedFile, InputError> {
+        let place = Place::option(option);
+        let bytes = self.reads.read(path).map_err(|found| InputError::at(&place, "a file", found))?;
+        self.record(path, &bytes);
+        let index = Rc::default();
+        Ok(NamedFile { path: path.to_path_buf(), bytes: Rc::new(bytes), index, named_by: place })
+    }
+
     fn record(&mut self, path: &Path, bytes: &[u8]) {
         if self.known.insert(path.to_path_buf()) {
             self.inputs.push(InputFile::of(path, bytes));

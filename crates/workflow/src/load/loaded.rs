@@ -3,6 +3,7 @@
 use super::files::InputFile;
 use super::identify::IdentifyCase;
 use super::measurement::SensorInfo;
+use super::modes::ModesCase;
 use super::sensitivities::SensitivitiesCase;
 use crate::reads::Reads;
 use crate::units::UnitSystem;
@@ -37,6 +38,8 @@ pub struct Case {
     pub identify: Option<IdentifyCase>,
     /// What sensitivities need; `None` where the purpose is another.
     pub sensitivities: Option<SensitivitiesCase>,
+    /// What the modal view needs; `None` where the purpose is another.
+    pub modes: Option<ModesCase>,
     /// The frequencies of a response or of sensitivities: those of `[respond]`, or else those that were measured.
     pub respond_hz: Vec<f64>,
 }

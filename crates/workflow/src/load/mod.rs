@@ -17,6 +17,7 @@ mod loaded;
 mod matrix;
 mod measurement;
 mod model;
+mod modes;
 mod options;
 mod overrides;
 mod sensitivities;
@@ -35,6 +36,7 @@ pub use loaded::Case;
 pub(crate) use matrix::{asymmetry, complex};
 pub use matrix::{check_symmetric, symmetric_matrix};
 pub use measurement::SensorInfo;
+pub use modes::{MeasuredBand, ModesCase};
 pub use overrides::Overrides;
 pub use sensitivities::SensitivitiesCase;
 pub(crate) use uff::STD_LABEL;
@@ -63,6 +65,8 @@ pub enum Purpose {
     Respond,
     /// Neither is: as for a response, but without `[respond]` all files that there are, for what they say about noise, within `identify.band_hz`.
     Sensitivities,
+    /// Neither is: all files of measurements that there are, within the band.
+    Modes,
 }
 
 /// Reads a case and every file it names.
@@ -80,12 +84,15 @@ pub fn load(case_file: &Path, overrides: &Overrides, purpose: Purpose) -> Result
         }
         _ => None,
     };
-    let Structure { terms, of, dofs } = structure;
+    let Structure { mut terms, of, dofs } = structure;
+    if let Some(path) = &overrides.identified {
+        modes::with_identified(&case, path, (&mut terms, &of), &mut files)?;
+    }
     let model = model::model(&case, terms)?;
     let load = force::load(&case.load, model.dim(), &dofs, &mut files)?;
     let measurements = measurements(&case, purpose, &dofs, &mut files)?;
     let model = model.with_decay_per_s(common_decay(&measurements)?);
-    let mut sensitivities = None;
+    let (mut sensitivities, mut modes) = (None, None);
     let (identify, respond_hz) = match purpose {
         Purpose::Identify => {
             let identify = identify::identify(&case, overrides, (&model, &of), &measurements, &mut files)?;
@@ -98,6 +105,10 @@ pub fn load(case_file: &Path, overrides: &Overrides, purpose: Purpose) -> Result
                 sensitivities::sensitivities(&case, overrides, (&model, &of), &measurements)?;
             sensitivities = Some(found);
             (None, frequency_hz)
+        }
+        Purpose::Modes => {
+            modes = Some(modes::modes(&case, overrides, (&model, &of), &measurements)?);
+            (None, Vec::new())
         }
     };
     for (term, part) in model.terms().iter().zip(&of) {
@@ -120,6 +131,7 @@ pub fn load(case_file: &Path, overrides: &Overrides, purpose: Purpose) -> Result
         model: Arc::new(model),
         identify,
         sensitivities,
+        modes,
         respond_hz,
     })
 }
@@ -158,6 +170,7 @@ fn measurements(
     let asks_for_values = |k: usize| match purpose {
         Purpose::Identify => true,
         Purpose::Respond => k == 0 && case.respond.is_none(),
+        Purpose::Modes => case.measurements[k].file.is_some(),
         Purpose::Sensitivities => case.respond.is_none() && case.measurements[k].file.is_some(),
     };
     (case.measurements.iter().enumerate())

@@ -1,5 +1,7 @@
 //! What the command line says.
 
+use std::path::PathBuf;
+
 /// What the command line says in place of the case file.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Overrides {
@@ -13,4 +15,6 @@ pub struct Overrides {
     pub selection: Option<String>,
     /// In place of `identify.reduction`.
     pub reduction: Option<String>,
+    /// A table of results: its moduli in place of the factors of the unknown matrices.
+    pub identified: Option<PathBuf>,
 }

@@ -187,6 +187,7 @@ fn the_command_line_overrides_the_case() {
         band_hz: Some([15.0, 25.0]),
         selection: None,
         reduction: Some("full".into()),
+        identified: None,
     };
     let identify = with("", b"", &overrides, Purpose::Identify).unwrap().identify.unwrap();
     assert_eq!((identify.options.method, identify.options.order), (Method::NelderMead, 7));

@@ -1,0 +1,77 @@
+//! `frfit modes`: natural frequencies, damping and shapes of the model and of what was measured, side by side.
+//!
+//! | file | what is in it |
+//! |---|---|
+//! | `run` | the computation |
+//! | `table` | `modes.csv`, `stabilisation.csv`, `correlation.csv` |
+//! | `shapes` | `modes.uff` |
+//! | `summary` | `modes.json` |
+//! | `report` | the words on the screen |
+
+mod report;
+mod run;
+mod shapes;
+mod summary;
+mod table;
+
+pub use run::{ModesOptions, ModesRun, modes};
+
+use crate::error::{InputError, Place};
+use crate::figures::modes_figures;
+use crate::job::JobError;
+use crate::load::{Case, Overrides, Purpose, load};
+use crate::memory::check_subspace;
+use crate::output::{File, Words, check_folder, write_result};
+use std::path::Path;
+
+/// Modes that were found and, where a folder was given, written.
+#[derive(Debug)]
+pub struct ModesJob {
+    /// The case.
+    pub case: Case,
+    /// What came out.
+    pub run: ModesRun,
+    /// `modes.json`.
+    pub summary: serde_json::Value,
+    /// The same for a person.
+    pub text: Words,
+}
+
+/// Loads a case, finds the modes of its model and of its measurements, and writes tables and figures into `out`, where there is one: all of them, or nothing.
+///
+/// # Errors
+/// [`JobError`]; a model whose undamped modes cannot be found is an input at fault.
+pub fn modes_case(
+    case_file: &Path,
+    overrides: &Overrides,
+    options: &ModesOptions,
+    out: Option<&Path>,
+) -> Result<ModesJob, JobError> {
+    let case = load(case_file, overrides, Purpose::Modes)?;
+    if let Some(out) = out {
+        check_folder(out, &["modes.json", "modes.csv"], &case.reads)?;
+    }
+    check_subspace(&case, options.memory_bytes)?;
+    let run = modes(&case, options).map_err(|error| {
+        let expected = "a real symmetric stiffness and mass whose modes can be found";
+        InputError::at(&Place::file(case_file), expected, error.to_string())
+    })?;
+    let summary = summary::json(&case, &run);
+    let text = report::text(&case, &run);
+    if let Some(out) = out {
+        let shapes = shapes::uff(&case, &run);
+        let shapes = shapes.map_err(|error| InputError::in_file(case_file, error))?;
+        let mut files = vec![
+            File::new("modes.json", format!("{summary:#}\n")),
+            File::new("modes.csv", table::modes(&case, &run)),
+            File::new("modes.uff", shapes),
+        ];
+        if run.measured.is_some() {
+            files.push(File::new("stabilisation.csv", table::stabilisation(&run)));
+            files.push(File::new("correlation.csv", table::correlation(&run)));
+        }
+        files.extend(modes_figures(&case, &run)?);
+        write_result(out, "modes", files, None, &case.reads)?;
+    }
+    Ok(ModesJob { case, run, summary, text })
+}
