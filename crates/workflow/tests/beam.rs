@@ -11,7 +11,9 @@
 use crate::shared_data;
 use crate::tier::of_tier;
 
-use frfit::identify::Status;
+use frfit::for_each::sequential;
+use frfit::identify::{Frfs, Noise, Status};
+use frfit::modal::{MeasuredMode, PoleOptions, measured_modes};
 use frfit_fem::{Assembled, Beam};
 use frfit_formats::{CoordinateMatrix, Entries, Symmetry, matrix_market};
 use frfit_linalg::modes::lowest;
@@ -224,6 +226,39 @@ for pole in zip(model.nat_freq, model.nat_xi):
     best = least_squares(left, pole, x_scale=[1e-2, 1e-5])
     print('pole', *pole, best.x[1], np.linalg.norm(left(pole)) / np.linalg.norm(best.fun))
 ";
+
+/// All three FRFs together, from 20 Hz to 2 kHz: the poles of a rational fit beside those of sdypy-EMA.
+#[test]
+#[ignore = "needs the data of ../shared/data"]
+fn poles_of_the_frfs_are_those_of_sdypy_ema_needs_data() {
+    let frfs = measured();
+    let in_band = |&k: &usize| (20.0..=2000.0).contains(&frfs[0].frequency_hz[k]);
+    let used: Vec<usize> = (0..frfs[0].frequency_hz.len()).filter(in_band).collect();
+    let frequency_hz: Vec<f64> = used.iter().map(|&k| frfs[0].frequency_hz[k]).collect();
+    let receptance = |k: usize| {
+        let square = (2.0 * PI * frfs[0].frequency_hz[k]).powi(2);
+        frfs.iter().map(|frf| -frf.response[k] / square).collect::<Vec<_>>()
+    };
+    let receptance: Vec<Vec<_>> = used.iter().map(|&k| receptance(k)).collect();
+    let frfs = Frfs { frequency_hz: &frequency_hz, receptance: &receptance, noise: Noise::Unknown };
+    let found = measured_modes(frfs, &PoleOptions::default(), &sequential).unwrap();
+    for mode in &found.modes {
+        println!(
+            "{:.3} ± {:.3} Hz, ζ {:.3e} ± {:.0e}",
+            mode.frequency_hz(),
+            mode.frequency_std_hz.unwrap(),
+            mode.damping_ratio(),
+            mode.damping_ratio_std.unwrap()
+        );
+    }
+    for (k, (pole, zeta)) in POLES.into_iter().enumerate() {
+        let off = |mode: &&MeasuredMode| (mode.frequency_hz() / pole - 1.0).abs();
+        let mode = found.modes.iter().min_by(|a, b| off(a).total_cmp(&off(b))).unwrap();
+        let zeta = if k == 7 { EIGHTH } else { zeta };
+        assert!(off(&mode) < 1e-4, "{pole} Hz: {mode:?}");
+        assert!((mode.damping_ratio() / zeta - 1.0).abs() < 0.15, "{pole} Hz, {zeta}: {mode:?}");
+    }
+}
 
 #[test]
 #[ignore = "needs the data of ../shared/data and Python with sdypy.EMA"]

@@ -1,6 +1,6 @@
 //! The same structure on a coarser mesh: what the mesh does to the model.
 
-use super::problem::{ProblemError, value};
+use super::problem_error::{ProblemError, value};
 use crate::model::{DynamicStiffness, Experiment};
 use std::fmt;
 

@@ -5,14 +5,14 @@ use super::choice::{Method, Reduction, Selection};
 use super::coarser_mesh::CoarserMesh;
 use super::measured::Band;
 use super::noise::Noise;
-use super::options::{ModelErrors, Options, OptionsError};
+use super::options::{ModelErrors, Options};
+use super::problem_error::{ProblemError, value};
 use super::unknown::{Composite, Dependence, Unknown, Variation};
 use crate::c64;
 use crate::laws::LawKind;
 use crate::material::OutsideTable;
 use crate::model::{DynamicStiffness, Experiment, ModelAt, Parameter};
 use crate::roots::BoundsError;
-use std::borrow::Cow;
 use std::fmt;
 
 /// Measured frequency response functions.
@@ -38,92 +38,6 @@ pub struct Problem<'a> {
     pub(super) coarser: Option<&'a CoarserMesh>,
     /// The only unknown as the parameter of a polynomial, where it can be one.
     parameter: Option<Parameter>,
-}
-
-/// What is wrong with a problem, and where.
-#[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
-pub enum ProblemError {
-    /// A wrong number of something.
-    Count {
-        /// Of what, and where.
-        what: String,
-        /// How many there should be.
-        expected: String,
-        /// How many there are.
-        found: usize,
-    },
-    /// A value that cannot be.
-    Value {
-        /// Which, and where.
-        what: String,
-        /// What it should be.
-        expected: Cow<'static, str>,
-        /// What it is.
-        found: String,
-    },
-    /// An unknown that cannot be.
-    Unknown {
-        /// Its name.
-        name: String,
-        /// What was expected of it.
-        expected: String,
-        /// What it is.
-        found: String,
-    },
-    /// More unknown than measured real numbers.
-    Undetermined {
-        /// Measured real numbers.
-        measured: usize,
-        /// Unknown real numbers.
-        unknown: usize,
-    },
-    /// A combination that has no method.
-    Unsupported {
-        /// What.
-        what: &'static str,
-        /// Why.
-        reason: &'static str,
-    },
-    /// A table of a factor that does not reach a frequency.
-    Table(OutsideTable),
-    /// A wrong option.
-    Options(OptionsError),
-}
-
-impl fmt::Display for ProblemError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Count { what, expected, found } => write!(f, "{what}: expected {expected}, found {found}"),
-            Self::Value { what, expected, found } => write!(f, "{what}: expected {expected}, found {found}"),
-            Self::Unknown { name, expected, found } => {
-                write!(f, "unknown {name:?}: expected {expected}, found {found}")
-            }
-            Self::Undetermined { measured, unknown } => {
-                write!(
-                    f,
-                    "expected at least {unknown} measured real numbers for as many unknown ones, found {measured}"
-                )
-            }
-            Self::Unsupported { what, reason } => write!(f, "{what}: {reason}"),
-            Self::Table(outside) => outside.fmt(f),
-            Self::Options(wrong) => wrong.fmt(f),
-        }
-    }
-}
-
-impl std::error::Error for ProblemError {}
-
-impl From<OutsideTable> for ProblemError {
-    fn from(outside: OutsideTable) -> Self {
-        Self::Table(outside)
-    }
-}
-
-impl From<OptionsError> for ProblemError {
-    fn from(wrong: OptionsError) -> Self {
-        Self::Options(wrong)
-    }
 }
 
 /// How a single unknown is found.
@@ -515,13 +429,4 @@ fn check_experiment(of: &str, model: &DynamicStiffness, experiment: &Experiment)
         }
         Some((m, sensor)) => Err(value(format!("{of}sign of sensor {m}"), "1 or -1", sensor.sign)),
     }
-}
-
-/// A wrong value.
-pub(super) fn value(
-    what: impl Into<String>,
-    expected: impl Into<Cow<'static, str>>,
-    found: impl ToString,
-) -> ProblemError {
-    ProblemError::Value { what: what.into(), expected: expected.into(), found: found.to_string() }
 }

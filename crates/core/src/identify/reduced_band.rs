@@ -3,7 +3,8 @@
 use super::band;
 use super::context::Context;
 use super::options::Options;
-use super::problem::{Problem, ProblemError};
+use super::problem::Problem;
+use super::problem_error::ProblemError;
 use super::several;
 use crate::response::Work;
 use crate::subspace::Subspace;

@@ -1,8 +1,7 @@
 //! The errors of a model as a search has them, with their covariance.
 
 use super::curve::Curves;
-use super::found::MeshError;
-use super::mesh::BetweenMeshes;
+use super::mesh::{BetweenMeshes, MeshError};
 use super::search::{FactorPrior, Kinds, Place};
 use crate::c64;
 use crate::frequency::omega_rad_s;

@@ -1,6 +1,7 @@
 //! What was found of the errors of a model.
 
 use super::estimated::Estimated;
+use super::mesh::MeshError;
 use crate::model::FactorPart;
 use crate::subspace;
 use std::f64::consts::TAU;
@@ -42,19 +43,6 @@ pub struct ModeError {
     pub std: f64,
     /// The natural frequency of the same mode on the coarser mesh, where there is one and the modes are paired.
     pub coarser_hz: Option<f64>,
-}
-
-/// The error of a mesh by a coarser one.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct MeshError {
-    /// Modes of the band that are paired.
-    pub paired: usize,
-    /// The part of what lies between the meshes that the finer one still has, as expected of ratio and order of the elements: 1/(r^p − 1).
-    pub expected: f64,
-    /// The same as found.
-    pub remainder: f64,
-    /// The standard deviation of that.
-    pub std: f64,
 }
 
 /// A mass at a sensor that the model does not have, as that of an accelerometer.

@@ -5,7 +5,6 @@
 //! $$ \Delta_{g,i} = \frac{e_{g,i} - e^c_{g,i}}{2 \lambda_i}, \qquad \Delta_{mi} = \frac{\ell_m^T y_i - \ell_m^T y^c_i}{\ell_m^T y_i} $$
 //! lie between the meshes. They are in the frequency and in the shape, and by Hellmann and Feynman in the slopes of the frequency by the unknowns too.
 
-use super::search::Fitting;
 use crate::c64;
 use crate::for_each::ForEach;
 use crate::identify::coarser_mesh::CoarserMesh;
@@ -43,13 +42,26 @@ pub(in crate::identify) struct BetweenMeshes {
     /// The natural frequency of the partner on the coarser mesh, rad/s.
     pub(super) partner_rad_s: Vec<Option<f64>>,
     /// Size of Δ, the largest of a mode and of those below it: where that of a mode is small by itself, its mesh is too coarse for the power law.
-    largest_below: Vec<f64>,
+    pub(super) largest_below: Vec<f64>,
     /// The usual size of Δ in the band.
-    usual: f64,
+    pub(super) usual: f64,
 }
 
 /// Error of the coarser mesh's reduced model: its modes are of second order in it.
 const COARSER_MODEL_TOL: f64 = 1e-5;
+
+/// The error of a mesh by a coarser one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MeshError {
+    /// Modes of the band that are paired.
+    pub paired: usize,
+    /// The part of what lies between the meshes that the finer one still has, as expected of ratio and order of the elements: 1/(r^p − 1).
+    pub expected: f64,
+    /// The same as found.
+    pub remainder: f64,
+    /// The standard deviation of that.
+    pub std: f64,
+}
 
 /// Standard deviations by which modes of one structure on two meshes differ: the logarithm of their frequencies, their residues over their size, and their shares
 /// of strain energy.
@@ -134,38 +146,6 @@ impl BetweenMeshes {
         self.partner_rad_s[mode].is_some()
     }
 }
-
-impl Fitting<'_, '_> {
-    /// Δ_mi of the coordinate of an a, zero of any other: what of the amplitude of the mesh's error it has.
-    pub(super) fn between_shapes(&self, coordinate: usize) -> f64 {
-        let Some(mesh) = self.mesh else { return 0.0 };
-        match coordinate.checked_sub(self.shapes().start) {
-            Some(place) => {
-                let (at, mode) = (place / self.modes(), place % self.modes());
-                at.checked_sub(1).map_or(mesh.load[mode], |sensor| mesh.shape[sensor][mode])
-            }
-            None => 0.0,
-        }
-    }
-
-    /// The standard deviation that the mesh adds to an own δ or a: modes converge by somewhat different orders, and those without a partner by an unknown one.
-    pub(super) fn scatter_of_mesh(&self, coordinate: usize) -> f64 {
-        let Some(mesh) = self.mesh else { return 0.0 };
-        let mode = match self.own().contains(&coordinate) {
-            true => self.modes.of_error[coordinate - self.first_own()],
-            false => (coordinate - self.shapes().start) % self.modes(),
-        };
-        let between = match mesh.is_paired(mode) {
-            true if self.own().contains(&coordinate) => mesh.largest_below[mode],
-            true => self.between_shapes(coordinate).abs(),
-            false => mesh.usual * self.growth(coordinate),
-        };
-        ORDER_SCATTER * mesh.remainder * between
-    }
-}
-
-/// Standard deviation of the part of the mesh's error of a mode over that of all modes: they converge by somewhat different orders.
-const ORDER_SCATTER: f64 = 0.3;
 
 /// The partner of each mode up to some frequency: of all pairs those that differ least, one after the other.
 fn paired(modes: &Modes, coarser: &Modes, highest_rad_s: f64) -> Vec<Option<usize>> {

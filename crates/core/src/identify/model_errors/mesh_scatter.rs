@@ -1,0 +1,35 @@
+//! What the mesh adds to the errors of single modes.
+
+use super::search::Fitting;
+
+/// Standard deviation of the part of the mesh's error of a mode over that of all modes: they converge by somewhat different orders.
+const ORDER_SCATTER: f64 = 0.3;
+
+impl Fitting<'_, '_> {
+    /// Δ_mi of the coordinate of an a, zero of any other: what of the amplitude of the mesh's error it has.
+    pub(super) fn between_shapes(&self, coordinate: usize) -> f64 {
+        let Some(mesh) = self.mesh else { return 0.0 };
+        match coordinate.checked_sub(self.shapes().start) {
+            Some(place) => {
+                let (at, mode) = (place / self.modes(), place % self.modes());
+                at.checked_sub(1).map_or(mesh.load[mode], |sensor| mesh.shape[sensor][mode])
+            }
+            None => 0.0,
+        }
+    }
+
+    /// The standard deviation that the mesh adds to an own δ or a: modes converge by somewhat different orders, and those without a partner by an unknown one.
+    pub(super) fn scatter_of_mesh(&self, coordinate: usize) -> f64 {
+        let Some(mesh) = self.mesh else { return 0.0 };
+        let mode = match self.own().contains(&coordinate) {
+            true => self.modes.of_error[coordinate - self.first_own()],
+            false => (coordinate - self.shapes().start) % self.modes(),
+        };
+        let between = match mesh.is_paired(mode) {
+            true if self.own().contains(&coordinate) => mesh.largest_below[mode],
+            true => self.between_shapes(coordinate).abs(),
+            false => mesh.usual * self.growth(coordinate),
+        };
+        ORDER_SCATTER * mesh.remainder * between
+    }
+}
