@@ -320,7 +320,7 @@ pub(crate) struct Modes {
     #[arg(long, value_name = "IDENTIFIED.CSV")]
     pub(crate) identified: Option<PathBuf>,
     /// Largest order of the stabilisation diagram, some three for each mode of the band (default: 60)
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = order)]
     pub(crate) max_order: Option<usize>,
     /// Memory that may be used, in MB (by default what is available): a model that needs more is refused
     #[arg(long, value_name = "MB")]
@@ -415,4 +415,10 @@ fn band(text: &str) -> Result<[f64; 2], String> {
     let (first, last) = text.split_once(':').ok_or_else(refuse)?;
     let number = |text: &str| text.trim().parse::<f64>().map_err(|_| refuse());
     Ok([number(first)?, number(last)?])
+}
+
+/// The largest order of a stabilisation diagram: a pole has to be there at three orders, and the cost of an order grows with its cube.
+fn order(text: &str) -> Result<usize, String> {
+    let refuse = || format!("expected an order from 6 to 400, found {text:?}");
+    text.trim().parse().ok().filter(|order| (6..=400).contains(order)).ok_or_else(refuse)
 }

@@ -8,6 +8,7 @@ mod export;
 mod fit;
 mod hammer;
 mod interrupted;
+mod modes;
 #[path = "../../formats/tests/outside/mod.rs"]
 mod outside;
 #[path = "../../figures/tests/picture/mod.rs"]

@@ -120,7 +120,7 @@ impl From<BandOutcome> for Identification {
             ..SearchReport::default()
         };
         Self {
-            lines: lines,
+            lines,
             constants: Vec::new(),
             laws: Vec::new(),
             curve: None,

@@ -2,7 +2,7 @@
 //!
 //! # Source
 //! R. J. Allemang, D. L. Brown, Proc. IMAC 1 (1982) 110–116 (MAC); N. A. J. Lieven, D. J. Ewins, Proc. IMAC 6 (1988) 690–695 (COMAC);
-//! W. Heylen, S. Lammens, P. Sas, Proc. ISMA 21 (1996) 1125–1132 (FRAC); H. Grafe, thesis, Imperial College London 1998 (CSAC and CSF).
+//! W. Heylen, S. Lammens, Proc. Int. Conf. on Identification in Engineering Systems, Swansea 1996 (FRAC); H. Grafe, thesis, Imperial College London 1998 (CSAC and CSF).
 
 use crate::c64;
 use frfit_linalg::vector::dot;

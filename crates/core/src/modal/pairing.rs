@@ -52,6 +52,9 @@ const MAX_DIFFERENCE: f64 = 3.0;
 const MAX_LOG_FACTOR: f64 = 1.4;
 const LOG_FACTOR_STEP: f64 = 0.01;
 
+/// Of each pair which of the model and which of the measurement.
+type Partners = Vec<(usize, usize)>;
+
 /// The pairs that together differ least, by frequency, size and shape; a common factor on the stiffness that may be off does not count, nor does
 /// the scale of the measurement.
 ///
@@ -62,7 +65,7 @@ pub fn paired(model: &[PairedShape], measured: &[PairedShape]) -> Pairing {
     // From none at all outwards: of two that pair as well the smaller change.
     let mut factors: Vec<f64> = (-steps..=steps).map(|k| f64::from(k) * LOG_FACTOR_STEP).collect();
     factors.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
-    let mut best: Option<(f64, f64, Vec<(usize, usize)>)> = None;
+    let mut best: Option<(f64, f64, Partners)> = None;
     for log_factor in factors {
         let (gain, pairs) = with_factor(model, measured, log_factor);
         if best.as_ref().is_none_or(|(most, ..)| gain > *most) {
@@ -94,11 +97,7 @@ fn shape_assurance(a: &PairedShape, b: &PairedShape) -> Option<f64> {
 }
 
 /// The pairs with one factor on the stiffness, and what they gain over none.
-fn with_factor(
-    model: &[PairedShape],
-    measured: &[PairedShape],
-    log_factor: f64,
-) -> (f64, Vec<(usize, usize)>) {
+fn with_factor(model: &[PairedShape], measured: &[PairedShape], log_factor: f64) -> (f64, Partners) {
     let apart = |i: usize, j: usize, log_ratio: Option<f64>| {
         let frequency = (model[i].frequency_hz / measured[j].frequency_hz).ln()
             + 0.5 * model[i].energy_share * log_factor;

@@ -7,8 +7,8 @@
 //! are damped and those of the noise mostly are not. A pole that is there at one order after another is one of the structure.
 //!
 //! # Source
-//! P. Guillaume, P. Verboven, S. Vanlanduit, Proc. ISMA 23 (1998) 631–639; B. Cauberghe, P. Guillaume, P. Verboven, S. Vanlanduit, E. Parloo,
-//! J. Sound Vib. 277 (2004) 1–28 (which coefficient is fixed).
+//! H. Van der Auweraer, P. Guillaume, P. Verboven, S. Vanlanduit, J. Dyn. Syst. Meas. Control 123 (2001) 651–658; B. Cauberghe, P. Guillaume,
+//! P. Verboven, S. Vanlanduit, E. Parloo, Mech. Syst. Signal Process. 19 (2005) 989–1014 (which coefficient is fixed).
 
 use super::rational_fit::Measured;
 use crate::c64;

@@ -7,7 +7,7 @@
 //! adds to the shapes, until the pole is right: its error is of second order in them, as T is symmetric.
 //!
 //! # Source
-//! P. Lancaster, Numer. Math. 6 (1964) 377–387 (inverse iteration with a functional); H. Voss, Handbook of Linear Algebra, ch. 115, 2nd ed. (2014).
+//! P. Lancaster, Arch. Rational Mech. Anal. 8 (1961) 309–322 (inverse iteration with a functional); H. Voss, Handbook of Linear Algebra, ch. 115, 2nd ed. (2014).
 
 use super::{Projection, Subspace};
 use crate::c64;

@@ -6,7 +6,7 @@ use crate::modes::ModesRun;
 use crate::output::File;
 use frfit::c64;
 use frfit::modal::{PoleAtOrder, assurance};
-use frfit_figures::{Axis, Color, Dash, Figure, HeatMap, Marker, Panel, PngError, Series};
+use frfit_figures::{Axis, Color, Dash, Figure, HeatMap, Level, Marker, Panel, PngError, Series};
 
 /// Figures of the modal view; none without a measurement.
 ///
@@ -16,7 +16,7 @@ pub fn modes_figures(case: &Case, run: &ModesRun) -> Result<Vec<File>, PngError>
     let mut figures = Vec::new();
     if run.measured.is_some() {
         figures.push(("stabilisation".to_owned(), stabilisation(case, run)));
-        figures.push(("correlation".to_owned(), correlation(case, run)));
+        figures.push(("frf-correlation".to_owned(), correlation(case, run)));
     }
     if run.measured.as_ref().is_some_and(|measured| !measured.pairing.pairs.is_empty()) {
         figures.push(("pairs".to_owned(), pairs(case, run)));
@@ -115,6 +115,8 @@ fn correlation(case: &Case, run: &ModesRun) -> Figure {
     }
 }
 
+const NATURAL_FREQUENCY: &str = "Measured natural frequency (Hz)";
+
 /// Differences of frequency, and damping of both, over frequency.
 fn pairs(case: &Case, run: &ModesRun) -> Figure {
     let Some(measured) = &run.measured else { return Figure::default() };
@@ -128,7 +130,7 @@ fn pairs(case: &Case, run: &ModesRun) -> Figure {
     };
     let frequency = Series {
         y_error: bars(&|mode| Some(mode.frequency_std_hz? / mode.frequency_hz())),
-        ..curve("model over measurement", &x, difference, Color::Vermilion, None, Some(Marker::Circle))
+        ..curve("model over measurement, ±2 std", &x, difference, Color::Vermilion, None, Some(Marker::Disc))
     };
     let percent = |ratio: f64| if ratio > 0.0 { 100.0 * ratio } else { f64::NAN };
     let damping = Series {
@@ -152,11 +154,12 @@ fn pairs(case: &Case, run: &ModesRun) -> Figure {
     );
     Figure {
         title: title(case, "pairs of modes"),
-        x: Axis::linear("Measured natural frequency (Hz)"),
+        x: Axis { range: Some((run.band_hz[0], run.band_hz[1])), ..Axis::linear(NATURAL_FREQUENCY) },
         panels: vec![
             Panel {
                 y: Axis::linear("Frequency difference (%)"),
                 series: vec![frequency],
+                levels: vec![Level { label: String::new(), y: 0.0 }],
                 ..Panel::default()
             },
             Panel { y: Axis::log("Damping ratio (%)"), series: vec![damping, own], ..Panel::default() },

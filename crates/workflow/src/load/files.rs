@@ -130,7 +130,8 @@ impl Files {
     /// Reads a file that an option of the command line names, from where the program runs.
     pub(super) fn read_option(&mut self, path: &Path, option: &str) -> Result<NamedFile, InputError> {
         let place = Place::option(option);
-        let bytes = self.reads.read(path).map_err(|found| InputError::at(&place, "a file", found))?;
+        let expected = || format!("a file at {}", path.display());
+        let bytes = self.reads.read(path).map_err(|found| InputError::at(&place, expected(), found))?;
         self.record(path, &bytes);
         let index = Rc::default();
         Ok(NamedFile { path: path.to_path_buf(), bytes: Rc::new(bytes), index, named_by: place })

@@ -2,7 +2,7 @@
 
 use super::band::{MeasuredNoise, band, respond_hz};
 use super::dimension::PartOf;
-use super::files::Files;
+use super::files::{Files, NamedFile};
 use super::measurement::Measurement;
 use super::overrides::Overrides;
 use crate::case::CaseFile;
@@ -13,7 +13,7 @@ use frfit::identify::Status;
 use frfit::material::{Law, Table};
 use frfit::model::{DynamicStiffness, Role, Term};
 use frfit_formats::FormatError;
-use frfit_formats::csv::read_modulus_rows;
+use frfit_formats::csv::{Table as CsvTable, read_modulus_rows};
 use std::path::Path;
 
 /// The part of a case that the modal view is about.
@@ -68,12 +68,15 @@ pub(super) fn modes(
         Some(measured) => measured.frequency_hz.clone(),
         None => respond_hz(case, &asked, measurements)?,
     };
-    let band_hz = given.or_else(|| Some([*lines.first()?, *lines.last()?])).filter(|band| band[1] > 0.0);
+    let band_hz = given.or_else(|| Some([*lines.first()?, *lines.last()?]));
     let Some(band_hz) = band_hz else {
-        let expected =
-            "a band above 0 Hz: --band, band_hz in [identify] or [respond], or a measurement with a file";
+        let expected = "a band: --band, band_hz in [identify] or [respond], or measurements with files";
         return Err(InputError::at(&Place::file(&case.file), expected, "none"));
     };
+    if band_hz[1] <= 0.0 {
+        let found = format!("[{}, {}]", band_hz[0], band_hz[1]);
+        return Err(InputError::at(&place, "a band that reaches above 0 Hz", found));
+    }
     let identified = overrides.identified.as_ref().map(|file| file.display().to_string());
     let (unknown_terms, has_unknown) = unknown_terms(case, model, of);
     Ok(ModesCase { band_hz, unknown_terms, has_unknown, measured, identified })
@@ -105,6 +108,26 @@ fn above_zero(frequency_hz: Vec<f64>, receptance: Vec<Vec<c64>>, noise: Measured
     }
 }
 
+/// The unknown of a table that has the name of one of the case; `None` for the only one of each, which has no name there.
+fn column<'a>(name: &'a str, unknowns: usize, file: &NamedFile) -> Result<Option<&'a str>, InputError> {
+    let table = CsvTable::read(&file.bytes).map_err(|error| file.refuse(error))?;
+    let others: Vec<&str> = table.names().filter_map(|column| column.strip_suffix(".storage")).collect();
+    if others.contains(&name) {
+        return Ok(Some(name));
+    }
+    if others.is_empty() && unknowns == 1 {
+        return Ok(None);
+    }
+    let found = match others.is_empty() {
+        true => "those of one unknown without a name".to_owned(),
+        false => {
+            format!("those of {}", others.iter().map(|one| format!("{one:?}")).collect::<Vec<_>>().join(", "))
+        }
+    };
+    let expected = format!("columns of the unknown {name:?}, as {:?}", format!("{name}.storage"));
+    Err(file.refuse(FormatError::whole(expected, found)))
+}
+
 /// Gives the terms of unknown factors those that were identified: the rows of a table of results that are ok.
 pub(super) fn with_identified(
     case: &CaseFile,
@@ -125,7 +148,7 @@ pub(super) fn with_identified(
                 "no geometric parameter among the unknowns (give the case its identified value as nominal)";
             return Err(InputError::at(&Place::option(OPTION), expected, format!("{:?}", one.name.value)));
         }
-        let column = (unknowns.len() > 1).then_some(one.name.value.as_str());
+        let column = column(&one.name.value, unknowns.len(), &file)?;
         let bytes = table_of_unknown(file.bytes.to_vec(), column, path)?;
         let rows = read_modulus_rows(&bytes).map_err(|error| file.refuse(error))?;
         let is_ok = |status: &str| status.is_empty() || status == Status::Ok.name();

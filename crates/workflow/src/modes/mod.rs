@@ -22,6 +22,8 @@ use crate::job::JobError;
 use crate::load::{Case, Overrides, Purpose, load};
 use crate::memory::check_subspace;
 use crate::output::{File, Words, check_folder, write_result};
+use frfit::subspace::NaturalModesError;
+use frfit_linalg::modes::ModesError;
 use std::path::Path;
 
 /// Modes that were found and, where a folder was given, written.
@@ -53,7 +55,12 @@ pub fn modes_case(
     }
     check_subspace(&case, options.memory_bytes)?;
     let run = modes(&case, options).map_err(|error| {
-        let expected = "a real symmetric stiffness and mass whose modes can be found";
+        let expected = match error {
+            NaturalModesError::Undamped(ModesError::NotConverged { .. }) => {
+                "a band that ends where the model still has modes (--band sets its end)"
+            }
+            _ => "a real symmetric stiffness and mass whose modes can be found",
+        };
         InputError::at(&Place::file(case_file), expected, error.to_string())
     })?;
     let summary = summary::json(&case, &run);

@@ -37,6 +37,15 @@ pub(super) fn text(case: &Case, run: &ModesRun) -> Words {
         for (is_warning, label, value) in compared(case, has_unknown, measured) {
             add(is_warning, label, value);
         }
+    } else {
+        let (is_warning, why) = match case.modes.as_ref().and_then(|modes| modes.measured.as_ref()) {
+            Some(band) => {
+                let count = band.frequency_hz.len();
+                (true, format!("{count} frequency in the band, to which no pole can be fitted"))
+            }
+            None => (false, "none: not every [[measurement]] has a file".to_owned()),
+        };
+        add(is_warning, "measured", why);
     }
     add(
         false,
@@ -49,6 +58,12 @@ pub(super) fn text(case: &Case, run: &ModesRun) -> Words {
     words
 }
 
+/// A ratio in per cent with its sign; nothing is above zero.
+fn signed_percent(ratio: f64) -> String {
+    let text = format!("{:+.2} %", 100.0 * ratio);
+    if text == "-0.00 %" { "+0.00 %".to_owned() } else { text }
+}
+
 /// A row for each mode.
 fn table(run: &ModesRun) -> String {
     let mut rows: Vec<(f64, String)> = Vec::new();
@@ -56,8 +71,15 @@ fn table(run: &ModesRun) -> String {
     let measured = run.measured.as_ref().map_or(&[][..], |measured| &measured.modes.modes);
     let of_measured = |j: usize| {
         let mode = &measured[j];
-        let bar =
-            |std: Option<f64>, digits: usize| std.map_or(String::new(), |std| format!(" ± {std:.digits$}"));
+        // An error bar below the last digit is not zero.
+        let bar = |std: Option<f64>, digits: usize| {
+            let unit = 0.1_f64.powi(digits as i32);
+            match std {
+                Some(std) if std < 0.5 * unit => format!(" ± <{unit:.digits$}"),
+                Some(std) => format!(" ± {std:.digits$}"),
+                None => String::new(),
+            }
+        };
         [
             format!("{:.2}{}", mode.frequency_hz(), bar(mode.frequency_std_hz, 2)),
             format!(
@@ -70,7 +92,12 @@ fn table(run: &ModesRun) -> String {
     let row = |model: [String; 2], measured: [String; 2], difference: String, mac: String, note: &str| {
         let [f, zeta] = model;
         let [fm, zeta_m] = measured;
-        format!("  {f:>10}  {zeta:>8}  {fm:>18}  {zeta_m:>16}  {difference:>8}  {mac:>5}  {note}")
+        match run.measured {
+            Some(_) => {
+                format!("  {f:>10}  {zeta:>8}  {fm:>18}  {zeta_m:>16}  {difference:>8}  {mac:>5}  {note}")
+            }
+            None => format!("  {f:>10}  {zeta:>8}  {note}"),
+        }
     };
     let dash = || "-".to_owned();
     for i in run.shown() {
@@ -82,13 +109,16 @@ fn table(run: &ModesRun) -> String {
                 row(["0".into(), dash()], [dash(), dash()], dash(), dash(), "rigid body")
             }
             Some(pair) => {
-                let difference = mode.frequency_hz() / measured[pair.measured].frequency_hz() - 1.0;
+                let difference =
+                    signed_percent(mode.frequency_hz() / measured[pair.measured].frequency_hz() - 1.0);
                 let mac = pair.assurance.map_or_else(dash, |mac| format!("{mac:.2}"));
                 let note = if pair.is_crossing { "order changed" } else { "" };
-                row(own, of_measured(pair.measured), format!("{:+.2} %", 100.0 * difference), mac, note)
+                row(own, of_measured(pair.measured), difference, mac, note)
             }
-            None if run.measured.is_some() => row(own, [dash(), dash()], dash(), dash(), "model only"),
-            None => row(own, [dash(), dash()], dash(), dash(), ""),
+            None => {
+                let note = if run.measured.is_some() { "model only" } else { "" };
+                row(own, [dash(), dash()], dash(), dash(), note)
+            }
         };
         rows.push((mode.frequency_hz(), line));
     }
@@ -124,7 +154,7 @@ fn compared(case: &Case, has_unknown: bool, measured: &MeasuredRun) -> Vec<(bool
         said.push((
             false,
             "remainder",
-            format!("{level:.2e} times the assumed noise is left beside {count} modes"),
+            format!("{level:.2e} times the assumed noise is left beside {count} mode(s)"),
         ));
     }
     let pairs = &measured.pairing;

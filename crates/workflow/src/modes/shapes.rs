@@ -8,15 +8,15 @@ use frfit_formats::FormatError;
 use frfit_formats::uff::{Units, write};
 use std::collections::BTreeMap;
 
-/// Units, then a dataset 55 for each mode of the model and of the measurement. Displacements are residues at the sensors, for a unit force at the load; a sensor
+/// Units, then a dataset 55 for each mode of the model but rigid bodies, and of the measurement, with the numbers that they have in `modes.csv`. Displacements are residues at the sensors, for a unit force at the load; a sensor
 /// without a name is the node of its row, in the first direction.
 ///
 /// # Errors
 /// [`FormatError`] where a node label does not fit the format.
 pub(super) fn uff(case: &Case, run: &ModesRun) -> Result<Vec<u8>, FormatError> {
     let mut file = write::units(&Units::default())?;
-    let of_model = run.shown().map(|i| &run.model.modes[i]).filter(|mode| !mode.is_rigid_body());
-    for (k, mode) in of_model.enumerate() {
+    let of_model = run.shown().map(|i| (i, &run.model.modes[i]));
+    for (k, mode) in of_model.filter(|(_, mode)| !mode.is_rigid_body()) {
         file.extend(write::mode_shape(&shape(case, "model", k, mode.pole_per_s, &mode.residues()))?);
     }
     let measured = run.measured.iter().flat_map(|measured| &measured.modes.modes).enumerate();

@@ -37,7 +37,7 @@ pub(super) fn modes(case: &Case, run: &ModesRun) -> String {
         let other = j.map(|j| &measured[j]);
         let pair = i.and_then(|i| run.partner_of_model(i));
         let difference = own.zip(other).map(|(own, other)| own.frequency_hz() / other.frequency_hz() - 1.0);
-        let counted = |at: Option<usize>| number(at.map(|at| (at + 1) as f64));
+        let counted = |at: Option<usize>| at.map_or(Cell::Empty, |at| Cell::Count(at + 1));
         let mut cells = vec![
             Cell::Text(kind),
             counted(i),
@@ -76,7 +76,7 @@ pub(super) fn stabilisation(run: &ModesRun) -> String {
     let diagram = run.measured.iter().flat_map(|measured| &measured.modes.diagram);
     let rows = diagram.map(|pole| {
         [
-            Cell::Number(pole.order as f64),
+            Cell::Count(pole.order),
             Cell::Number(pole.frequency_hz()),
             Cell::Number(pole.damping_ratio()),
             Cell::Text(if pole.is_stable { "yes" } else { "no" }),
