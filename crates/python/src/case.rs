@@ -25,7 +25,7 @@ pub(crate) fn run_case<'py>(
     memory_bytes: Option<u64>,
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let overrides = Overrides { method, order, band_hz, selection, reduction };
+    let overrides = Overrides { method, order, band_hz, selection, reduction, ..Overrides::default() };
     let error_map = if out.is_some() { None } else { Some(0) };
     let options = RunOptions { error_map, memory_bytes };
     let ran = in_background(py, progress, move |watch| {
