@@ -154,7 +154,7 @@ pub(super) static CASE: Section = Section {
             "respond",
             "table `[respond]`",
             "the measured frequencies",
-            "Frequencies of `frfit respond` and `frfit sensitivities`.",
+            "Frequencies of `frfit respond` and `frfit sensitivities`; without `[identify]` the band of `frfit modes`.",
         ),
     ],
     examples: &["title = \"Bar\"
@@ -437,7 +437,7 @@ damping = 0.2
 pub(super) static MEASUREMENT: Section = Section {
     path: "measurement",
     title: "`[[measurement]]`",
-    about: "One FRF each. `frfit sensitivities` and `frfit respond` need only where the sensor is.",
+    about: "One FRF each. `frfit sensitivities` and `frfit respond` need only where the sensor is; without files `frfit modes` shows the model alone.",
     keys: &[
         key(
             "file",
@@ -741,7 +741,7 @@ bounds = { storage = [1e10, 1e12], loss_factor = [0.0, 0.5] }
 pub(super) static RESPOND: Section = Section {
     path: "respond",
     title: "`[respond]`",
-    about: "Where `frfit respond` and `frfit sensitivities` compute.",
+    about: "Where `frfit respond` and `frfit sensitivities` compute; without `[identify]` the band of `frfit modes`.",
     keys: &[
         key("band_hz", "[low, high], Hz", NEEDED, "First and last frequency."),
         key(
