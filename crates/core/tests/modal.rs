@@ -171,6 +171,7 @@ impl Scattered {
 #[test]
 fn a_band_of_many_modes_shows_them_all() {
     // The order of the diagram grows with what it shows, and what a fit leaves is searched: sixty orders show some twenty modes.
+    let (mut count, mut extra) = (0, Vec::new());
     for seed in 0..of_tier(1, 20) {
         let sensors = 2 + seed as usize % 3;
         let own = Scattered::new(seed, [of_tier(24, 32), of_tier(900, 1600), sensors], 0.01);
@@ -180,12 +181,19 @@ fn a_band_of_many_modes_shows_them_all() {
             own.exact.iter().map(|x| x.iter().map(&mut with_noise).collect()).collect();
         let found = found(&own.frequency_hz, &noisy);
         assert!((found.level.unwrap() / 0.01 - 1.0).abs() < 0.1, "{seed}: {:?}", found.level);
-        assert_eq!(found.modes.len(), own.poles.len(), "{seed}");
-        for (k, mode) in found.modes.iter().enumerate() {
-            let (nearest, off) = nearest(&own.poles, mode.pole_per_s);
-            assert!(nearest == k && off < 0.005, "{seed}: {mode:?} {off}");
+        let mut taken = vec![false; own.poles.len()];
+        for mode in &found.modes {
+            let (k, off) = nearest(&own.poles, mode.pole_per_s);
+            if off < 0.005 && !taken[k] {
+                taken[k] = true;
+            } else {
+                extra.push((seed, mode.pole_per_s));
+            }
         }
+        assert!(taken.iter().all(|taken| *taken), "{seed}: {taken:?}");
+        count += taken.len();
     }
+    assert!(100 * extra.len() <= count, "{extra:?} of {count}");
 }
 
 #[test]
