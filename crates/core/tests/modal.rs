@@ -14,7 +14,7 @@ use frfit::response::{FullModel, Response};
 use frfit::subspace::{NaturalModes, Subspace};
 use frfit_fem::exact::beam::UniformBeam;
 use frfit_fem::{Beam, Support};
-use frfit_linalg::dense::{Matrix, eigenvalues};
+use frfit_linalg::dense::{Lu, Matrix, eigenvalues};
 use frfit_linalg::sparse::Triplets;
 use frfit_linalg::vector::norm;
 
@@ -133,6 +133,69 @@ fn error_bars_of_poles_cover_the_truth() {
     }
 }
 
+/// A structure of modes anywhere, one of four of them with a neighbour some half-widths away, on sensors that see each differently.
+struct Scattered {
+    frequency_hz: Vec<f64>,
+    exact: Vec<Vec<c64>>,
+    poles: Vec<c64>,
+}
+
+impl Scattered {
+    /// Modes, lines and sensors; lines are at most half a half-width apart.
+    fn new(seed: u64, [modes, lines, sensors]: [usize; 3], loss_factor: f64) -> Self {
+        let mut draws = Draws::new(1000 + seed);
+        let mut all: Vec<(f64, Vec<f64>)> = Vec::new();
+        let mut f = 1.0;
+        for k in 0..modes + 6 {
+            let apart = if k % 4 == 3 { 1.5 * loss_factor * f } else { 0.2 + draws.complex().norm() };
+            f += apart;
+            all.push((f, (0..sensors).map(|_| 1.0 + draws.complex().re.abs()).collect()));
+            // Neighbours in opposite phase at every other sensor.
+            all[k].1.iter_mut().skip(k % 2).step_by(2).for_each(|size| *size *= -1.0);
+        }
+        let frequency_hz = linear_hz(0.6, 0.5 * (all[modes - 1].0 + all[modes].0), lines);
+        let response = |&f: &f64| {
+            let of = |m: usize| {
+                let of_mode =
+                    |mode: &(f64, Vec<f64>)| mode.1[m] / (c(1.0, loss_factor) * mode.0.powi(2) - f * f);
+                all.iter().map(of_mode).sum()
+            };
+            (0..sensors).map(of).collect()
+        };
+        let exact = frequency_hz.iter().map(response).collect();
+        let pole = |mode: &(f64, Vec<f64>)| c64::I * omega_rad_s(mode.0) * c(1.0, loss_factor).sqrt();
+        Self { frequency_hz, exact, poles: all[..modes].iter().map(pole).collect() }
+    }
+}
+
+#[test]
+fn a_band_of_many_modes_shows_them_all() {
+    // The order of the diagram grows with what it shows, and what a fit leaves is searched: sixty orders show some twenty modes.
+    let (mut count, mut extra) = (0, Vec::new());
+    for seed in 0..of_tier(1, 20) {
+        let sensors = 2 + seed as usize % 3;
+        let own = Scattered::new(seed, [of_tier(24, 32), of_tier(900, 1600), sensors], 0.01);
+        let mut draws = Draws::new(seed);
+        let mut with_noise = |x: &c64| x + 0.01 * x.norm() * draws.complex();
+        let noisy: Vec<Vec<c64>> =
+            own.exact.iter().map(|x| x.iter().map(&mut with_noise).collect()).collect();
+        let found = found(&own.frequency_hz, &noisy);
+        assert!((found.level.unwrap() / 0.01 - 1.0).abs() < 0.1, "{seed}: {:?}", found.level);
+        let mut taken = vec![false; own.poles.len()];
+        for mode in &found.modes {
+            let (k, off) = nearest(&own.poles, mode.pole_per_s);
+            if off < 0.005 && !taken[k] {
+                taken[k] = true;
+            } else {
+                extra.push((seed, mode.pole_per_s));
+            }
+        }
+        assert!(taken.iter().all(|taken| *taken), "{seed}: {taken:?}");
+        count += taken.len();
+    }
+    assert!(100 * extra.len() <= count, "{extra:?} of {count}");
+}
+
 #[test]
 fn a_window_on_the_records_moves_no_pole() {
     let (plate, decay_per_s) = (Plate::new(0.01), 6.0);
@@ -217,6 +280,90 @@ fn modes_of_a_damped_chain_are_the_eigenvalues_of_its_state_matrix() {
     assert_eq!((found.count, found.modes.len(), exact.len()), (n, n, n));
     for (mode, exact) in found.modes.iter().zip(exact) {
         assert!((mode.pole_per_s - exact).norm() < 1e-9 * exact.norm(), "{mode:?} {exact}");
+    }
+}
+
+/// Poles of K + sC + s²M, all of them, by the state matrix about a point that is none of them: M may be singular.
+fn poles_of_state([k, c, m]: [&Matrix; 3]) -> Vec<c64> {
+    let (n, about) = (k.nrows(), c64::new(0.31, 0.77));
+    let unit = |i: usize, j: usize| c64::from(f64::from(u8::from(i == j)));
+    let first = Matrix::from_fn(2 * n, 2 * n, |i, j| match (i < n, j < n) {
+        (true, true) => about * unit(i, j),
+        (true, false) => -unit(i + n, j),
+        (false, true) => k[(i - n, j)],
+        (false, false) => c[(i - n, j - n)] + about * m[(i - n, j - n)],
+    });
+    let lu = Lu::new(&first).unwrap();
+    let mut inverse = Matrix::zeros(2 * n, 2 * n);
+    for j in 0..2 * n {
+        let mut column: Vec<c64> = (0..2 * n)
+            .map(|i| match (i < n, j < n) {
+                (false, false) => m[(i - n, j - n)],
+                (true, true) => unit(i, j),
+                _ => c64::default(),
+            })
+            .collect();
+        lu.solve(&mut column).unwrap();
+        column.into_iter().enumerate().for_each(|(i, value)| inverse[(i, j)] = value);
+    }
+    let mu = eigenvalues(&inverse).unwrap();
+    mu.into_iter().filter(|mu| mu.norm() > 1e-9).map(|mu| about - mu.inv()).collect()
+}
+
+#[test]
+fn modes_with_any_damping_are_those_of_the_state_matrix() {
+    // Springs of two materials with much loss, and a damper that may hold a mass: chains, free chains, and square nets, whose poles are double.
+    for seed in 0..of_tier(12, 300) {
+        let mut draws = Draws::new(seed);
+        let mut size = |scale: f64| scale * draws.complex().norm();
+        let (is_square, is_free) = (seed % 3 == 0, seed % 3 == 1);
+        let (side, n) = (4, if is_square { 16 } else { 9 + (seed as usize) % 8 });
+        let mut springs = [Triplets::new(n), Triplets::new(n)];
+        let (mut mass, mut damper) = (Triplets::new(n), Triplets::new(n));
+        for i in 0..n {
+            mass.add(i, i, if is_square { 1.0 } else { 0.5 + size(0.5) });
+            let links = if is_square {
+                [((i + 1) % side > 0).then_some(i + 1), (i + side < n).then_some(i + side)]
+            } else {
+                [(i + 1 < n).then_some(i + 1), None]
+            };
+            for j in links.into_iter().flatten() {
+                let k = if is_square { 1.0 } else { 0.5 + size(0.5) };
+                let of = if is_square { 0 } else { i % 2 };
+                springs[of].add_element(&[Some(i), Some(j)], &[k, -k, -k, k]);
+            }
+        }
+        springs[1].add(0, 0, if is_free { 0.0 } else { 1.0 });
+        damper.add(n / 3, n / 3, if seed % 2 == 0 { size(6.0) } else { 0.0 });
+        let losses = [size(0.5), size(0.3)].map(|loss| c(1.0, loss));
+        let springs = springs.map(|own| own.assemble());
+        let (mass, damper) = (mass.assemble(), damper.assemble());
+        let k =
+            Matrix::from_fn(n, n, |i, j| losses[0] * springs[0].get(i, j) + losses[1] * springs[1].get(i, j));
+        let [viscous, m] = [&damper, &mass].map(|own| Matrix::from_fn(n, n, |i, j| own.get(i, j)));
+        let all = poles_of_state([&k, &viscous, &m]);
+        let model = DynamicStiffness::new(vec![
+            term("one", Role::Stiffness, springs[0].clone(), losses[0]),
+            term("other", Role::Stiffness, springs[1].clone(), losses[1]),
+            term("damper", Role::Viscous, damper, c(1.0, 0.0)),
+            term("mass", Role::Mass, mass, c(1.0, 0.0)),
+        ])
+        .unwrap();
+        let highest_hz = 0.25;
+        let found = natural_modes(&model, &tip_load(&model, &[0, n / 2]), highest_hz);
+        let elastic: Vec<c64> =
+            found.modes.iter().filter(|mode| !mode.is_rigid_body()).map(|mode| mode.pole_per_s).collect();
+        // As many at each place as there are: a pole of the model is as often there as in the state matrix.
+        let near =
+            |poles: &[c64], s: c64| poles.iter().filter(|p| (**p - s).norm() < 1e-5 * s.norm()).count();
+        for &s in &elastic {
+            assert!((1..=near(&all, s)).contains(&near(&elastic, s)), "{seed}: {s} too often");
+        }
+        let below =
+            |s: &&c64| s.im > 0.06 * s.norm() && s.im > 1e-4 && s.norm() < 0.999 * omega_rad_s(highest_hz);
+        for &s in all.iter().filter(below) {
+            assert_eq!(near(&elastic, s), near(&all, s), "{seed}: {s}");
+        }
     }
 }
 

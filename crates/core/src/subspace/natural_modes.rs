@@ -3,7 +3,8 @@
 //! With the factors f_g at the mode's own frequency, the poles are those s at which
 //! $$ T(s) = \sum_g f_g\, s^{q_g} S_g, \qquad q = 0, 1, 2 \text{ for stiffness, viscous damping and mass}, \qquad T(s)\, x = 0 . $$
 //! Modes of the real stiffness and mass are counted by inertia and found by Lanczos on the whole model. On the subspace that they span each is followed
-//! from no damping to its own by inverse iteration with Rayleigh's functional, $y^T T(s) y = 0$. What is left of the whole model's T(s) Vy brings the vectors that damping
+//! from no damping to its own by inverse iteration with Rayleigh's functional, $y^T T(s) y = 0$. Where there are dampers, or much damping, a mode may so be led to
+//! another's pole: all poles of the reduced model at one set of factors, from its state matrix, are starts as well. What is left of the whole model's T(s) Vy brings the vectors that damping
 //! adds to the shapes, until the pole is right: its error is of second order in them, as T is symmetric.
 //!
 //! # Source
@@ -14,9 +15,10 @@ use crate::c64;
 use crate::frequency::omega_rad_s;
 use crate::material::OutsideTable;
 use crate::model::{Combination, DynamicStiffness, ModelAt, Role, WeightedTerm};
+use frfit_linalg::dense::{Eigen, Lu, Matrix, combination, eigen};
 use frfit_linalg::modes::{ModesError, lowest};
 use frfit_linalg::sparse::{SymmetricMatrix, Values};
-use frfit_linalg::vector::{norm, transpose_dot};
+use frfit_linalg::vector::{dot, norm, transpose_dot};
 use std::fmt;
 
 /// A mode of a structure.
@@ -104,6 +106,9 @@ pub type ModelAtFrequency<'a, 'm> = &'a dyn Fn(f64) -> Result<ModelAt<'m>, Outsi
 /// Undamped modes beyond those below the highest frequency that are part of the subspace.
 const MODES_BEYOND: usize = 4;
 
+/// Mass that is added to the stiffness while undamped modes are looked for, times the square of the highest frequency: shapes stay the same.
+const SHIFT: f64 = 1e-2;
+
 /// Relative error of a pole that the reduction may leave.
 const POLE_RTOL: f64 = 1e-10;
 
@@ -120,8 +125,24 @@ const MIN_WAY: f64 = 1.0 / 64.0;
 /// Two shapes of one mode with more and with less damping have at least this in common.
 const MIN_OVERLAP: f64 = 0.8;
 
-/// Poles nearer than this part of them whose shapes are parallel to it are one.
-const TWIN_RTOL: f64 = 1e-7;
+/// Poles nearer than this part of them, with shapes that differ by less than this part, are one.
+const TWIN_RTOL: f64 = 1e-6;
+const TWIN_SHAPE_RTOL: f64 = 1e-2;
+
+/// A mode with more damping than this may have changed places with another on the way.
+const HEAVY_DAMPING_RATIO: f64 = 0.1;
+
+/// A pole whose imaginary part is below this part of it is overdamped.
+const MIN_OSCILLATION: f64 = 0.05;
+
+/// Poles at fixed factors are looked for up to so many times the highest frequency: at their own factors they are elsewhere.
+const MARGIN: f64 = 1.1;
+
+/// Vectors that are added to the subspace at once.
+const VECTORS_AT_ONCE: usize = 16;
+
+/// Vectors of the subspace up to which the eigenvalues of its state matrix are a matter of seconds.
+const MAX_STATE_SIZE: usize = 200;
 
 /// A pole with its reduced shape.
 struct Followed {
@@ -138,8 +159,9 @@ impl<'m> Subspace<'m> {
     /// [`NaturalModesError`].
     ///
     /// # Limits
-    /// Damping so large that a mode overtakes others on the way to it may lead two modes to one pole: one of them is left out then, and
-    /// there are fewer than `count`.
+    /// Damping so large that a mode overtakes others on the way to it may lead two modes to one pole. One of them is left out then, and what is missing below
+    /// the highest frequency is found from a state matrix, if the subspace has no more than 200 vectors: of an overdamped mode nothing is left, and the number of modes
+    /// may differ from `count`.
     pub fn natural_modes(
         &mut self,
         at: ModelAtFrequency<'_, 'm>,
@@ -154,8 +176,10 @@ impl<'m> Subspace<'m> {
         self.work.factorisations += 2;
         let symmetric =
             |values| SymmetricMatrix::new(model.analysis().pattern().clone(), Values::Real(values));
-        let undamped = lowest(&symmetric(stiffness), &symmetric(mass), count + MODES_BEYOND)?;
-        self.basis.append(model, self.experiment, undamped.shapes.concat());
+        // With a little of the mass a rigid body is not so far from the other modes that roundoff of its own covers them.
+        let shifted = stiffness.iter().zip(&mass).map(|(k, m)| k + SHIFT * omega_squared * m).collect();
+        let undamped = lowest(&symmetric(shifted), &symmetric(mass), count + MODES_BEYOND)?;
+        self.append_within(&undamped.shapes.concat());
         let nominal = factors(&reference);
         for round in 0.. {
             let modes = self.modes_of_reduced(at, &nominal, (&reference, highest_hz))?;
@@ -165,7 +189,7 @@ impl<'m> Subspace<'m> {
             if worst > POLE_RTOL && round < MAX_ROUNDS {
                 let large = rest.iter().filter(|(error, _)| *error > POLE_RTOL);
                 let block: Vec<f64> = large.flat_map(|(_, directions)| directions).copied().collect();
-                self.basis.append(model, self.experiment, block);
+                self.append_within(&block);
             }
             if self.size() == before {
                 let each = modes.iter().zip(rest);
@@ -174,6 +198,20 @@ impl<'m> Subspace<'m> {
             }
         }
         unreachable!("the rounds end")
+    }
+
+    /// Adds vectors to the basis until it has as many as the model has rows: what is left of others is roundoff.
+    fn append_within(&mut self, block: &[f64]) {
+        let n = self.model.dim();
+        for some in block.chunks(n * VECTORS_AT_ONCE) {
+            let room = n.saturating_sub(self.size());
+            let one_by_one = room < VECTORS_AT_ONCE;
+            for part in some.chunks(if one_by_one { n } else { some.len() }) {
+                if self.size() < n {
+                    self.basis.append(self.model, self.experiment, part.to_vec());
+                }
+            }
+        }
     }
 
     /// The modes of the reduced model.
@@ -195,12 +233,22 @@ impl<'m> Subspace<'m> {
                 continue;
             }
             let own = self.followed(at, nominal, start, highest_hz)?;
-            let is_new = |other: &Followed| {
-                (own.s - other.s).norm() > TWIN_RTOL * own.s.norm()
-                    || overlap(&own.y, &other.y) < 1.0 - TWIN_RTOL
-            };
-            if modes.iter().all(is_new) {
+            if is_another(&own, &modes) {
                 modes.push(own);
+            }
+        }
+        let is_heavy = |mode: &Followed| -mode.s.re > HEAVY_DAMPING_RATIO * mode.s.norm();
+        let has_dampers = nominal.iter().any(|(term, _)| self.model.terms()[*term].role == Role::Viscous);
+        if has_dampers || modes.iter().any(is_heavy) {
+            let own = |s: c64| -> Result<Vec<(usize, c64)>, OutsideTable> {
+                Ok(factors(&at(frequency_of(s, highest_hz))?))
+            };
+            for start in self.projection().oscillations(self.model, nominal, highest_rad_s) {
+                let Some(own) = self.projection().pole_near(self.model, &own, &start)? else { continue };
+                let is_below = own.s.norm() <= highest_rad_s && is_oscillation(own.s);
+                if is_below && is_another(&own, &modes) {
+                    modes.push(own);
+                }
             }
         }
         modes.sort_by(|a, b| a.s.norm().total_cmp(&b.s.norm()));
@@ -316,7 +364,94 @@ impl<'m> Subspace<'m> {
     }
 }
 
+/// Whether a mode is none of some others: of a repeated pole, whether its shape is no sum of theirs.
+fn is_another(one: &Followed, others: &[Followed]) -> bool {
+    let mut units: Vec<Vec<c64>> = Vec::new();
+    for other in others.iter().filter(|other| (one.s - other.s).norm() <= TWIN_RTOL * one.s.norm()) {
+        let unit = without(&units, other.y.clone());
+        let size = norm(&unit);
+        units.push(unit.into_iter().map(|entry| entry / size).collect());
+    }
+    norm(&without(&units, one.y.clone())) > TWIN_SHAPE_RTOL * norm(&one.y)
+}
+
+/// What a vector has beside orthonormal ones.
+fn without(units: &[Vec<c64>], mut x: Vec<c64>) -> Vec<c64> {
+    for unit in units {
+        let share = dot(unit, &x);
+        x.iter_mut().zip(unit).for_each(|(x, unit)| *x -= share * unit);
+    }
+    x
+}
+
+/// Whether a pole is no overdamped one.
+fn is_oscillation(s: c64) -> bool {
+    s.im > MIN_OSCILLATION * s.norm()
+}
+
 impl Projection {
+    /// Poles with a positive frequency up to some |s|, with their shapes, at factors that are held: none where the reduced model has no finite ones or is large.
+    ///
+    /// With z = (y, s y) and s = s₀ + 1/μ about a point s₀ that is no pole, (A − s B) z = 0 is (A − s₀ B)⁻¹ B z = μ z, regular with a singular mass.
+    fn oscillations(
+        &self,
+        model: &DynamicStiffness,
+        factors: &[(usize, c64)],
+        highest_rad_s: f64,
+    ) -> Vec<Followed> {
+        let r = self.size;
+        if r > MAX_STATE_SIZE {
+            return Vec::new();
+        }
+        let of_role = |role: Role| {
+            let of_role = |&(term, factor): &(usize, c64)| {
+                (term, if model.terms()[term].role == role { factor } else { c64::default() })
+            };
+            let theta = self.weights_of(&factors.iter().map(of_role).collect::<Vec<_>>());
+            let parts: Vec<(c64, &[f64])> =
+                theta.into_iter().zip(&self.matrices).map(|(theta, s)| (theta, &s[..])).collect();
+            combination(r, r, &parts)
+        };
+        let [stiffness, viscous, mass] = [Role::Stiffness, Role::Viscous, Role::Mass].map(of_role);
+        // In units of the highest frequency all blocks are of one size. A point on neither axis.
+        let [once, twice] = [highest_rad_s, highest_rad_s * highest_rad_s];
+        let about = c64::new(0.3, 0.6);
+        let dynamic = Matrix::from_fn(r, r, |i, j| {
+            stiffness[(i, j)] + about * once * viscous[(i, j)] + about * about * twice * mass[(i, j)]
+        });
+        let Ok(lu) = Lu::new(&dynamic) else { return Vec::new() };
+        // T(s₀)⁻¹ of (C + s₀ M) and of M: y = −μ T⁻¹[(C + s₀M) y + M v] and v = s₀ y + μ y eliminate to the matrix below.
+        let solved = |of: &dyn Fn(usize, usize) -> c64| -> Option<Matrix> {
+            let mut all = Matrix::zeros(r, r);
+            for j in 0..r {
+                let mut column: Vec<c64> = (0..r).map(|i| of(i, j)).collect();
+                lu.solve(&mut column).ok()?;
+                column.into_iter().enumerate().for_each(|(i, value)| all[(i, j)] = value);
+            }
+            Some(all)
+        };
+        let first = solved(&|i, j| once * viscous[(i, j)] + about * twice * mass[(i, j)]);
+        let (Some(first), Some(second)) = (first, solved(&|i, j| twice * mass[(i, j)])) else {
+            return Vec::new();
+        };
+        let state = Matrix::from_fn(2 * r, 2 * r, |i, j| {
+            let unit = c64::from(f64::from(u8::from(i % r == j % r)));
+            match (i < r, j < r) {
+                (true, true) => -first[(i, j)],
+                (true, false) => -second[(i, j - r)],
+                (false, true) => unit - about * first[(i - r, j)],
+                (false, false) => -about * second[(i - r, j - r)],
+            }
+        });
+        let Ok(Eigen { values, vectors }) = eigen(&state) else { return Vec::new() };
+        let pole = |(k, mu): (usize, &c64)| {
+            let s = once * (about + mu.inv());
+            let is_wanted = s.is_finite() && s.norm() <= MARGIN * highest_rad_s && is_oscillation(s);
+            is_wanted.then(|| Followed { s, y: vectors.column(k)[..r].to_vec() })
+        };
+        values.iter().enumerate().filter_map(pole).collect()
+    }
+
     /// θ_g of factors of terms, without powers of s.
     fn weights_of(&self, factors: &[(usize, c64)]) -> Vec<c64> {
         let of_term = |&(term, weight): &(usize, c64)| WeightedTerm { term, weight };
@@ -356,7 +491,8 @@ impl Projection {
             let size = norm(&next);
             y = next.into_iter().map(|entry| entry / size).collect();
         }
-        Ok(Some(Followed { s, y }).filter(|end| end.s.is_finite()))
+        // A search that goes on has found nothing.
+        Ok(None)
     }
 
     /// yᵀ dT/ds y with the factors held.
@@ -415,5 +551,5 @@ fn real_pencil(at: &ModelAt<'_>) -> [Vec<f64>; 2] {
 
 /// |xᴴy|/(‖x‖‖y‖).
 fn overlap(x: &[c64], y: &[c64]) -> f64 {
-    frfit_linalg::vector::dot(x, y).norm() / (norm(x) * norm(y))
+    dot(x, y).norm() / (norm(x) * norm(y))
 }
