@@ -129,11 +129,12 @@ pub fn measured_modes(
         return Ok(MeasuredModes { diagram, ..MeasuredModes::default() });
     };
     let level = search.level(&fit, &fitted);
+    let noise = level.map(|level| if noise_known { level.max(1.0) } else { level });
     let covariance = search.measured.covariance(&fit, for_each);
     let mode = |r: usize| {
         let pole_per_s = fit.poles[r];
         let bars =
-            covariance.as_ref().zip(level).map(|(each, level)| deviations(pole_per_s, &each[r], level));
+            covariance.as_ref().zip(noise).map(|(each, noise)| deviations(pole_per_s, &each[r], noise));
         MeasuredMode {
             pole_per_s,
             frequency_std_hz: bars.map(|bars| bars[0]),
@@ -236,8 +237,8 @@ impl PoleSearch<'_> {
     fn information(&self, fit: &Fit, fitted: &Fitted) -> f64 {
         let numbers = self.measured.numbers() as f64;
         let floor = numbers * MIN_LEVEL * MIN_LEVEL;
-        let misfit = fitted.misfit.max(floor);
-        let likelihood = if self.noise_known { misfit } else { numbers * (misfit / numbers).ln() };
+        // The level is free also where the noise is known: between resonances no rational function of few poles is as good as a coherence.
+        let likelihood = numbers * (fitted.misfit.max(floor) / numbers).ln();
         let smooth = self.measured.unknowns(&Fit { poles: Vec::new(), ..*fit }) as f64;
         likelihood + smooth * numbers.ln() + fit.poles.len() as f64 * self.price()
     }
@@ -333,10 +334,10 @@ impl PoleSearch<'_> {
         Some(fit)
     }
 
-    /// What the noise is over the assumed deviations.
+    /// What the noise is over the assumed deviations: no less than one where they are known.
     fn noise(&self, fit: &Fit, fitted: &Fitted) -> Option<f64> {
-        let level = self.level(fit, fitted)?;
-        Some(if self.noise_known { 1.0 } else { level.max(MIN_LEVEL) })
+        let least = if self.noise_known { 1.0 } else { MIN_LEVEL };
+        Some(self.level(fit, fitted)?.max(least))
     }
 
     fn is_better(&self, new: &(Fit, Fitted), old: &(Fit, Fitted)) -> bool {
