@@ -94,15 +94,15 @@ const MAX_ROUNDS: usize = 60;
 
 /// The modes of measured responses, from all sensors together. Lines at 0 Hz must not be among them.
 ///
-/// Poles that a stabilisation diagram shows at several orders are fitted to all lines at once; those that gain less than their number of unknowns bears
-/// (BIC) are left out.
+/// Poles that a stabilisation diagram shows at several orders are fitted, first in parts of the band and then to all lines at once; those that gain no more
+/// than noise may are left out, and what the fit leaves is searched again.
 ///
 /// # Errors
 /// [`NoConvergence`] where a response is not finite.
 ///
 /// # Limits
 /// Of modes nearer to each other than a tenth of their half-width one may be found. A mode with a node at all sensors is not there. Modes in the outermost
-/// half-widths of the band are uncertain, as half of their resonance is missing.
+/// half-widths of the band are uncertain, as half of their resonance is missing, and so are those whose half-width is less than the distance of lines.
 pub fn measured_modes(
     frfs: Frfs<'_>,
     options: &PoleOptions,
