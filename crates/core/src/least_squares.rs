@@ -117,16 +117,6 @@ pub(crate) fn minimise(starts: &[Vec<f64>], evaluate: Evaluate<'_>, search: &Sea
 
 /// Follows one start.
 pub(crate) fn descend(start: &[f64], evaluate: Evaluate<'_>, search: &Search) -> Option<Minimum> {
-    descend_to(start, evaluate, search, SEARCH_RTOL)
-}
-
-/// Follows one start until the sum of squares, or all coordinates, change by less than this part.
-pub(crate) fn descend_to(
-    start: &[f64],
-    evaluate: Evaluate<'_>,
-    search: &Search,
-    rtol: f64,
-) -> Option<Minimum> {
     let (residuals, jacobian) = evaluate(start)?;
     let (m, n) = (residuals.len(), start.len());
     let problem = Problem {
@@ -136,7 +126,7 @@ pub(crate) fn descend_to(
         jacobian: DMatrix::from_vec(m, n, jacobian),
     };
     let method = LevenbergMarquardt::new().with_patience(search.patience);
-    let method = method.with_ftol(rtol).with_xtol(rtol).with_gtol(f64::EPSILON);
+    let method = method.with_ftol(SEARCH_RTOL).with_xtol(SEARCH_RTOL).with_gtol(f64::EPSILON);
     let (end, report) = method.minimize(problem);
     let theta = end.theta.as_slice().to_vec();
     let (residuals, jacobian) = evaluate(&theta)?;

@@ -3,7 +3,7 @@
 use super::rational_fit::{Fit, Fitted, Measured, PoleCovariance};
 use super::stabilisation::{PoleAtOrder, damping_ratio, frequency_hz, stabilisation};
 use crate::c64;
-use crate::for_each::{ForEach, map, sequential};
+use crate::for_each::ForEach;
 use crate::frequency::omega_rad_s;
 use crate::identify::{Frfs, Noise, standard_deviations};
 use crate::with_fields::with_fields;
@@ -13,7 +13,7 @@ use frfit_linalg::dense::NoConvergence;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct PoleOptions {
-    /// The largest order of the stabilisation diagram. Default 120; the diagram ends sooner where it shows few modes: it has at least some three orders for each.
+    /// The largest order of the stabilisation diagram. Default 60: some three for each mode.
     pub max_order: usize,
     /// The decay α of a window on the records, 1/s. Default 0.
     pub decay_per_s: f64,
@@ -21,7 +21,7 @@ pub struct PoleOptions {
 
 impl Default for PoleOptions {
     fn default() -> Self {
-        Self { max_order: 120, decay_per_s: 0.0 }
+        Self { max_order: 60, decay_per_s: 0.0 }
     }
 }
 
@@ -77,8 +77,9 @@ const SAME_POLE_RTOL: f64 = 1e-5;
 /// Poles nearer to each other than this part of a half-width are one mode found twice.
 const TWIN_HALF_WIDTHS: f64 = 0.1;
 
-/// Orders, one after the other but for one that may fail, at which a pole is there to be tried.
+/// Orders, one after the other but for one that may fail, at which a pole is there to be tried, and to be tried first.
 const MIN_ORDERS: usize = 3;
+const MANY_ORDERS: usize = 6;
 
 /// Steps of the order of the diagram.
 const ORDER_STEP: usize = 2;
@@ -94,15 +95,15 @@ const MAX_ROUNDS: usize = 60;
 
 /// The modes of measured responses, from all sensors together. Lines at 0 Hz must not be among them.
 ///
-/// Poles that a stabilisation diagram shows at several orders are fitted, first in parts of the band and then to all lines at once; those that gain no more
-/// than noise may are left out, and what the fit leaves is searched again.
+/// Poles that a stabilisation diagram shows at several orders are fitted to all lines at once; those that gain less than their number of unknowns bears
+/// (BIC) are left out.
 ///
 /// # Errors
 /// [`NoConvergence`] where a response is not finite.
 ///
 /// # Limits
 /// Of modes nearer to each other than a tenth of their half-width one may be found. A mode with a node at all sensors is not there. Modes in the outermost
-/// half-widths of the band are uncertain, as half of their resonance is missing, and so are those whose half-width is less than the distance of lines.
+/// half-widths of the band are uncertain, as half of their resonance is missing.
 pub fn measured_modes(
     frfs: Frfs<'_>,
     options: &PoleOptions,
@@ -121,10 +122,11 @@ pub fn measured_modes(
         weights: &weights,
         decay_per_s: options.decay_per_s,
     };
-    let (diagram, candidates) = diagram(&measured, options.max_order, for_each)?;
+    let diagram = stabilisation(&measured, options.max_order, for_each)?;
     let noise_known = matches!(frfs.noise, Noise::Known(_));
     let search = PoleSearch { measured, noise_known, for_each };
-    let found = search.selected(&candidates)?;
+    let candidates = candidates(&diagram);
+    let found = search.selected(&candidates);
     let Some((fit, fitted)) = found.filter(|(fit, _)| !fit.poles.is_empty()) else {
         return Ok(MeasuredModes { diagram, ..MeasuredModes::default() });
     };
@@ -139,36 +141,12 @@ pub fn measured_modes(
             pole_per_s,
             frequency_std_hz: bars.map(|bars| bars[0]),
             damping_ratio_std: bars.map(|bars| bars[1]),
-            residues: fitted.residues(r),
+            residues: fitted.residues[r].clone(),
         }
     };
     let mut modes: Vec<MeasuredMode> = (0..fit.poles.len()).map(mode).collect();
     modes.sort_by(|a, b| a.pole_per_s.norm().total_cmp(&b.pole_per_s.norm()));
-    let fitted = search.measured.responses_of(&fit, &fitted);
-    Ok(MeasuredModes { modes, diagram, level, frequency_hz, fitted })
-}
-
-/// The order at which a diagram ends, but for more modes than a third of it.
-const FIRST_ORDER: usize = 60;
-const ORDERS_PER_MODE: usize = 3;
-
-/// The diagram up to the order that its poles need, and the poles that are there at several orders.
-fn diagram(
-    measured: &Measured<'_>,
-    max_order: usize,
-    for_each: ForEach<'_>,
-) -> Result<(Vec<PoleAtOrder>, Vec<c64>), NoConvergence> {
-    let mut order = FIRST_ORDER.min(max_order);
-    loop {
-        let diagram = stabilisation(measured, order, for_each)?;
-        let candidates = candidates(&diagram);
-        let reached = diagram.last().map_or(0, |pole| pole.order);
-        let is_enough = ORDERS_PER_MODE * candidates.len() <= order;
-        if is_enough || order == max_order || reached + ORDER_STEP <= order {
-            return Ok((diagram, candidates));
-        }
-        order = (2 * order).min(max_order);
-    }
+    Ok(MeasuredModes { modes, diagram, level, frequency_hz, fitted: fitted.responses })
 }
 
 /// Standard deviations of |s|/2π and −Re s/|s|.
@@ -186,8 +164,8 @@ struct Chain {
     orders: usize,
 }
 
-/// Poles of the diagram that are there at several orders: those of many orders before those of few.
-fn candidates(diagram: &[PoleAtOrder]) -> Vec<c64> {
+/// Poles of the diagram that are there at several orders: those of many orders, then those of few.
+fn candidates(diagram: &[PoleAtOrder]) -> [Vec<c64>; 2] {
     let mut chains: Vec<Chain> = Vec::new();
     for &pole in diagram {
         let distance = |chain: &Chain| {
@@ -203,11 +181,11 @@ fn candidates(diagram: &[PoleAtOrder]) -> Vec<c64> {
         }
     }
     chains.sort_by_key(|chain| std::cmp::Reverse(chain.orders));
-    let mut found: Vec<c64> = Vec::new();
+    let mut found = [Vec::new(), Vec::new()];
     for chain in chains.iter().filter(|chain| chain.orders >= MIN_ORDERS) {
         let pole = chain.last.pole_per_s;
-        if found.iter().all(|other| !is_same(pole, *other)) {
-            found.push(pole);
+        if found.iter().flatten().all(|other| !is_same(pole, *other)) {
+            found[usize::from(chain.orders < MANY_ORDERS)].push(pole);
         }
     }
     found
@@ -233,111 +211,31 @@ impl PoleSearch<'_> {
         Some((fitted.misfit / freedom as f64).sqrt())
     }
 
-    /// −2 ln of the likelihood, and what the unknowns cost: those of polynomials ln of the numbers each (BIC), those of a pole as below.
+    /// −2 ln of the likelihood, and what the unknowns cost (BIC).
     fn information(&self, fit: &Fit, fitted: &Fitted) -> f64 {
         let numbers = self.measured.numbers() as f64;
         let floor = numbers * MIN_LEVEL * MIN_LEVEL;
         // The level is free also where the noise is known: between resonances no rational function of few poles is as good as a coherence.
         let likelihood = numbers * (fitted.misfit.max(floor) / numbers).ln();
-        let smooth = self.measured.unknowns(&Fit { poles: Vec::new(), ..*fit }) as f64;
-        likelihood + smooth * numbers.ln() + fit.poles.len() as f64 * self.price()
-    }
-
-    /// What noise gains with one more pole at most, over its variance: χ² of the unknowns of a pole is beyond it once in e^x (Laurent, Massart 2000),
-    /// a pole may be at as many places as there are lines and as wide as some of them, and one of a hundred measurements may have one too many.
-    fn price(&self) -> f64 {
-        let freedom = (2 + 2 * self.measured.sensors()) as f64;
-        let x = (FALSE_ALARM.recip() * self.measured.numbers() as f64).ln();
-        freedom + 2.0 * (freedom * x).sqrt() + 2.0 * x
+        likelihood + self.measured.unknowns(fit) as f64 * numbers.ln()
     }
 
     /// The fit of the poles that are there.
-    fn selected(&self, candidates: &[c64]) -> Result<Option<(Fit, Fitted)>, NoConvergence> {
-        let rtol = SEARCH_GAIN / self.measured.numbers() as f64;
-        let parts = self.by_parts(candidates, rtol);
-        let Some(start) = self.with_degree(&parts) else { return Ok(None) };
-        let Some(mut best) = self.pruned(start, rtol) else { return Ok(None) };
-        for _ in 0..MAX_SEARCHES {
-            // A weak mode next to a strong one shows once that one is fitted.
-            let fitted = self.measured.responses_of(&best.0, &best.1);
-            let left = |(k, row): (usize, &Vec<c64>)| -> Vec<c64> {
-                row.iter().zip(&fitted).map(|(h, fitted)| h - fitted[k]).collect()
-            };
-            let rest: Vec<Vec<c64>> = self.measured.responses.iter().enumerate().map(left).collect();
-            let rest = Measured { responses: &rest, ..self.measured };
-            let again = stabilisation(&rest, REST_ORDER, self.for_each)?;
-            let is_new = |pole: &c64| best.0.poles.iter().all(|other| !is_same(*pole, *other));
-            let all = self::candidates(&again).into_iter().chain(candidates.iter().copied());
-            let added: Vec<c64> = all.filter(is_new).collect();
+    fn selected(&self, [often, seldom]: &[Vec<c64>; 2]) -> Option<(Fit, Fitted)> {
+        let first = self.with_degree(often)?;
+        let mut best = self.pruned(first)?;
+        // A weak mode next to a strong one shows once that one is fitted.
+        let new = |pole: &&c64| best.0.poles.iter().all(|other| !is_same(**pole, *other));
+        let added: Vec<c64> = seldom.iter().filter(new).copied().collect();
+        if !added.is_empty() {
             let more = Fit { poles: [&best.0.poles[..], &added].concat(), ..best.0.clone() };
-            let Some(more) = self.promising(more, best.0.poles.len()) else { break };
-            if more.poles.len() == best.0.poles.len() {
-                break;
-            }
-            match self.pruned(more, rtol).filter(|more| self.is_better(more, &best)) {
-                Some(more) => best = more,
-                None => break,
+            if let Some(more) = self.pruned(more).filter(|more| self.is_better(more, &best)) {
+                best = more;
             }
         }
         // Poles that are right need other polynomials than those that were not yet.
-        let again = self.with_degree(&best.0.poles).and_then(|fit| self.pruned(fit, rtol));
-        let best = again.filter(|again| self.is_better(again, &best)).unwrap_or(best);
-        Ok(self.pruned(best.0.clone(), FINAL_RTOL).or(Some(best)))
-    }
-
-    /// The poles of each part of the band, refined and pruned on the lines there and next to it: the cost of a fit grows like the square of its poles.
-    fn by_parts(&self, candidates: &[c64], rtol: f64) -> Vec<c64> {
-        let mut poles = candidates.to_vec();
-        poles.sort_by(|a, b| a.im.total_cmp(&b.im));
-        if poles.len() <= POLES_OF_PART + 2 * POLES_BESIDE {
-            return poles;
-        }
-        // Half-way to the pole before.
-        let border = |r: usize| match r {
-            0 => 0.0,
-            r if r >= poles.len() => f64::INFINITY,
-            r => 0.5 * (poles[r - 1].im + poles[r].im),
-        };
-        let part = |part: usize| {
-            let own = part * POLES_OF_PART..((part + 1) * POLES_OF_PART).min(poles.len());
-            let wide = own.start.saturating_sub(POLES_BESIDE)..(own.end + POLES_BESIDE).min(poles.len());
-            let [start, end] = [wide.start, wide.end].map(border);
-            let at = |limit: f64| self.measured.frequency_hz.partition_point(|&f| omega_rad_s(f) < limit);
-            let lines = at(start)..at(end);
-            let measured = Measured {
-                frequency_hz: &self.measured.frequency_hz[lines.clone()],
-                responses: &self.measured.responses[lines.clone()],
-                weights: &self.measured.weights[lines],
-                ..self.measured
-            };
-            let of_part = PoleSearch { measured, for_each: &sequential, ..*self };
-            let found = of_part.with_degree(&poles[wide]).and_then(|fit| of_part.pruned(fit, rtol));
-            let within = border(own.start)..border(own.end);
-            match found {
-                Some((fit, _)) => fit.poles.into_iter().filter(|pole| within.contains(&pole.im)).collect(),
-                None => poles[own].to_vec(),
-            }
-        };
-        map(self.for_each, poles.len().div_ceil(POLES_OF_PART), part).concat()
-    }
-
-    /// Without those poles after the first ones that gain little where they are.
-    fn promising(&self, mut fit: Fit, first: usize) -> Option<Fit> {
-        let fitted = self.measured.fitted(&fit, self.for_each)?;
-        let noise = self.noise(&fit, &fitted)?;
-        let mut gains = fitted
-            .gains
-            .iter()
-            .enumerate()
-            .map(|(r, gain)| r < first || *gain > PROMISING * self.price() * noise * noise);
-        fit.poles.retain(|_| gains.next().unwrap_or(false));
-        Some(fit)
-    }
-
-    /// What the noise is over the assumed deviations: no less than one where they are known.
-    fn noise(&self, fit: &Fit, fitted: &Fitted) -> Option<f64> {
-        let least = if self.noise_known { 1.0 } else { MIN_LEVEL };
-        Some(self.level(fit, fitted)?.max(least))
+        let again = self.with_degree(&best.0.poles).and_then(|fit| self.pruned(fit));
+        Some(again.filter(|again| self.is_better(again, &best)).unwrap_or(best))
     }
 
     fn is_better(&self, new: &(Fit, Fitted), old: &(Fit, Fitted)) -> bool {
@@ -363,71 +261,35 @@ impl PoleSearch<'_> {
     }
 
     /// Refined, and without those that gain nothing.
-    fn pruned(&self, mut fit: Fit, rtol: f64) -> Option<(Fit, Fitted)> {
+    fn pruned(&self, mut fit: Fit) -> Option<(Fit, Fitted)> {
         for _ in 0..MAX_ROUNDS {
             // Where the search fails a pole is going where none is: the weakest is left out all the same.
-            let refined = self.measured.refined(&fit, rtol, self.for_each);
+            let refined = self.measured.refined(&fit, self.for_each);
             let failed = refined.is_none();
             fit = refined.unwrap_or(fit);
             let fitted = self.measured.fitted(&fit, self.for_each)?;
-            let Some(noise) = self.noise(&fit, &fitted) else {
+            let Some(level) = self.level(&fit, &fitted) else {
                 fit.poles.pop()?;
                 continue;
             };
-            let price = self.price() * noise * noise;
-            let value = |r: usize| {
+            let noise = level.max(if self.noise_known { 1.0 } else { MIN_LEVEL });
+            let own = (2 + 2 * self.measured.sensors()) as f64;
+            let price = own * (self.measured.numbers() as f64).ln() * noise * noise;
+            let stays = |r: usize| {
                 let pole = fit.poles[r];
                 let is_mode = self.measured.is_in_band(pole) && damping_ratio(pole) < MAX_DAMPING_RATIO;
                 let twin = fit.poles[..r].iter().any(|other| is_same(pole, *other));
                 if is_mode && !twin { fitted.gains[r] / price } else { 0.0 }
             };
-            let mut values: Vec<(f64, usize)> = (0..fit.poles.len()).map(|r| (value(r), r)).collect();
-            values.sort_by(|a, b| a.0.total_cmp(&b.0));
-            // Of two that stand for one mode the other gains more once one is left out: only what is far from those left out goes with them.
-            let mut out: Vec<usize> = Vec::new();
-            for (rank, &(value, r)) in values.iter().enumerate() {
-                let is_far = |&other: &usize| are_far(fit.poles[r], fit.poles[other]);
-                if (value < 1.0 && out.iter().all(is_far)) || (rank == 0 && failed) {
-                    out.push(r);
-                }
+            let weakest = (0..fit.poles.len()).map(|r| (stays(r), r)).min_by(|a, b| a.0.total_cmp(&b.0));
+            match weakest {
+                Some((gain, r)) if gain < 1.0 || failed => drop(fit.poles.remove(r)),
+                _ => return Some((fit, fitted)),
             }
-            if out.is_empty() {
-                return Some((fit, fitted));
-            }
-            let mut r = 0..fit.poles.len();
-            fit.poles.retain(|_| r.next().is_some_and(|r| !out.contains(&r)));
         }
         None
     }
 }
-
-/// Whether two poles hardly do what the other does.
-fn are_far(a: c64, b: c64) -> bool {
-    (a - b).norm() > FAR_HALF_WIDTHS * (a.re + b.re).abs()
-}
-
-/// Poles that are so many half-widths of both apart are far.
-const FAR_HALF_WIDTHS: f64 = 3.0;
-
-/// Poles that are refined together before all are, and those on either side that are with them.
-const POLES_OF_PART: usize = 6;
-const POLES_BESIDE: usize = 2;
-
-/// The largest order of the diagram of what a fit leaves.
-const REST_ORDER: usize = 40;
-
-/// How often what a fit leaves is searched.
-const MAX_SEARCHES: usize = 6;
-
-/// Share of measurements in which noise may look like a mode.
-const FALSE_ALARM: f64 = 0.01;
-
-/// A pole that gains this part of its price before it is refined is tried.
-const PROMISING: f64 = 0.3;
-
-/// A gain in the misfit, over the variance of the noise, that is worth no step while poles are looked for; and the last search's relative one.
-const SEARCH_GAIN: f64 = 0.1;
-const FINAL_RTOL: f64 = 1e-10;
 
 /// A pole with more damping than this stands for what polynomials leave.
 const MAX_DAMPING_RATIO: f64 = 0.5;

@@ -11,8 +11,8 @@
 use crate::c64;
 use crate::for_each::{ForEach, map};
 use crate::frequency::{laplace_per_s, omega_rad_s};
-use crate::least_squares::{Residuals, Search, descend_to, inverse_information};
-use frfit_linalg::dense::real_triangle;
+use crate::least_squares::{Residuals, Search, descend, inverse_information};
+use frfit_linalg::dense::{RealQr, real_qr};
 
 /// Responses with their weights 1/σ (σ of real and imaginary part each), `[frequency][sensor]`, under a window of this decay.
 #[derive(Clone, Copy)]
@@ -35,17 +35,12 @@ pub(super) struct Fit {
 pub(super) struct Fitted {
     /// Σ w²|H − fit|².
     pub(super) misfit: f64,
-    /// The linear coefficients, `[sensor]`: real and imaginary part of the residue of each pole first.
-    pub(super) coefficients: Vec<Vec<f64>>,
+    /// R_mr, `[pole][sensor]`.
+    pub(super) residues: Vec<Vec<c64>>,
     /// By how much the misfit is larger without each pole.
     pub(super) gains: Vec<f64>,
-}
-
-impl Fitted {
-    /// R_mr of each sensor.
-    pub(super) fn residues(&self, r: usize) -> Vec<c64> {
-        self.coefficients.iter().map(|own| c64::new(own[2 * r], own[2 * r + 1])).collect()
-    }
+    /// What is fitted, `[sensor][frequency]`.
+    pub(super) responses: Vec<Vec<c64>>,
 }
 
 /// Covariance of Re s and Im s of a pole: [Re Re, Re Im, Im Im].
@@ -55,20 +50,18 @@ pub(super) type PoleCovariance = [f64; 3];
 const DEPENDENT_COLUMN_RTOL: f64 = 1e-12;
 
 /// Evaluations of the search for each coordinate.
-const SEARCH_PATIENCE: usize = 2;
+const SEARCH_PATIENCE: usize = 20;
 
-/// Lines that are added to a triangle at once, over its columns: enough for blocked kernels, few enough for the cache.
-const LINES_OVER_COLUMNS: usize = 2;
-
-/// The linear least squares of one sensor, by R of [Φ, slopes, response]: no column of the length of the data is kept.
+/// What the linear least squares of one sensor leave.
 struct Eliminated {
-    /// R, column after column, and its number of columns.
-    r: Vec<f64>,
-    columns: usize,
-    /// Columns of Φ, two of each pole first.
+    /// Φ, 2K rows (real parts, then imaginary parts) column after column, with its orthonormal basis.
+    columns: Vec<f64>,
+    qr: RealQr,
     count: usize,
-    /// The linear coefficients.
+    /// The linear coefficients, two of each pole first.
     coefficients: Vec<f64>,
+    /// What is left.
+    rest: Vec<f64>,
 }
 
 impl Measured<'_> {
@@ -91,92 +84,78 @@ impl Measured<'_> {
         laplace_per_s(self.frequency_hz[k], self.decay_per_s)
     }
 
-    /// Φ without weights, complex values of all lines column after column.
-    fn basis(&self, fit: &Fit) -> Vec<Vec<c64>> {
+    /// Complex values of a line in two real rows.
+    fn column(&self, m: usize, value: impl Fn(usize) -> c64) -> Vec<f64> {
         let n = self.frequency_hz.len();
-        let mut columns = self.of_poles(fit, c64::inv);
+        let mut column = vec![0.0; 2 * n];
+        for k in 0..n {
+            let value = self.weights[k][m] * value(k);
+            (column[k], column[n + k]) = (value.re, value.im);
+        }
+        column
+    }
+
+    fn eliminated(&self, m: usize, fit: &Fit) -> Option<Eliminated> {
+        let n = self.frequency_hz.len();
+        let mut columns = Vec::new();
+        for &pole in &fit.poles {
+            let pair = |k: usize| [(self.s(k) - pole).inv(), (self.s(k) - pole.conj()).inv()];
+            columns.extend(self.column(m, |k| pair(k)[0] + pair(k)[1]));
+            columns.extend(self.column(m, |k| c64::I * (pair(k)[0] - pair(k)[1])));
+        }
         let lowest = self.s(0).norm_sqr();
         let [first, last] = [self.frequency_hz[0], self.frequency_hz[n - 1]];
         let x = |k: usize| (2.0 * self.frequency_hz[k] - first - last) / (last - first);
         let smooth = |k: usize, j: usize| match j {
             0 => lowest / self.s(k).powi(2),
-            _ => c64::new(((j - 1) as f64 * x(k).clamp(-1.0, 1.0).acos()).cos(), 0.0),
+            j => c64::new(((j - 1) as f64 * x(k).clamp(-1.0, 1.0).acos()).cos(), 0.0),
         };
         for j in 0..fit.degree + 2 {
-            columns.push((0..n).map(|k| smooth(k, j)).collect());
-            columns.push((0..n).map(|k| c64::I * smooth(k, j)).collect());
+            columns.extend(self.column(m, |k| smooth(k, j)));
+            columns.extend(self.column(m, |k| c64::I * smooth(k, j)));
         }
-        columns
+        let count = columns.len() / (2 * n);
+        let qr = real_qr(&columns, count).ok()?;
+        let mut rest = self.column(m, |k| self.responses[k][m]);
+        let inside = taken_out(&qr.q, &mut rest);
+        let coefficients = back_substituted(&qr.r, count, inside);
+        Some(Eliminated { columns, qr, count, coefficients, rest })
     }
 
-    /// f(s − s_r) ± f(s − s̄_r), the second times i, of each pole: factors of the real and imaginary part of a residue.
-    fn of_poles(&self, fit: &Fit, f: impl Fn(&c64) -> c64) -> Vec<Vec<c64>> {
-        let mut columns = Vec::new();
-        for &pole in &fit.poles {
-            let both = |k: usize| [pole, pole.conj()].map(|pole| f(&(self.s(k) - pole)));
-            let (sum, difference) = (0..self.frequency_hz.len())
-                .map(both)
-                .map(|[near, far]| (near + far, c64::I * (near - far)))
-                .unzip();
-            columns.extend([sum, difference]);
+    /// ∂(Φc)/∂(Re s_r) and by Im s_r with the linear coefficients held, what of them is not in Φ.
+    fn slopes(&self, m: usize, fit: &Fit, own: &Eliminated) -> Vec<f64> {
+        let mut slopes = Vec::new();
+        for (r, &pole) in fit.poles.iter().enumerate() {
+            let residue = c64::new(own.coefficients[2 * r], own.coefficients[2 * r + 1]);
+            let pair = |k: usize| {
+                let [near, far] = [self.s(k) - pole, self.s(k) - pole.conj()];
+                [residue / (near * near), residue.conj() / (far * far)]
+            };
+            slopes.extend(self.column(m, |k| pair(k)[0] + pair(k)[1]));
+            slopes.extend(self.column(m, |k| c64::I * (pair(k)[0] - pair(k)[1])));
         }
-        columns
-    }
-
-    /// R of some columns and the response of a sensor behind them, all with its weights, some lines after the others.
-    fn triangle(&self, m: usize, columns: &[&[c64]]) -> Option<Vec<f64>> {
-        let count = columns.len() + 1;
-        let all: Vec<usize> = (0..self.frequency_hz.len()).collect();
-        let mut r: Vec<f64> = Vec::new();
-        for lines in all.chunks(LINES_OVER_COLUMNS * count) {
-            let above = r.len() / count;
-            let mut block = Vec::with_capacity((above + 2 * lines.len()) * count);
-            for j in 0..count {
-                block.extend_from_slice(&r[j * above..(j + 1) * above]);
-                for &k in lines {
-                    let value = columns.get(j).map_or(self.responses[k][m], |column| column[k]);
-                    let value = self.weights[k][m] * value;
-                    block.extend([value.re, value.im]);
-                }
-            }
-            r = real_triangle(&block, count).ok()?;
-        }
-        Some(r)
-    }
-
-    fn eliminated(&self, m: usize, basis: &[Vec<c64>], slopes: &[Vec<c64>]) -> Option<Eliminated> {
-        let columns: Vec<&[c64]> = basis.iter().chain(slopes).map(Vec::as_slice).collect();
-        let (r, count, columns) = (self.triangle(m, &columns)?, basis.len(), columns.len() + 1);
-        let inside = r[(columns - 1) * columns..][..count].to_vec();
-        let coefficients = back_substituted(&r, [count, columns], inside);
-        Some(Eliminated { r, columns, count, coefficients })
+        let rows = own.rest.len();
+        slopes.chunks_exact_mut(rows).for_each(|column| drop(taken_out(&own.qr.q, column)));
+        slopes
     }
 
     /// Residuals and their slopes by (Re s, Im s) of each pole, rotated into few rows: sums of squares and products are the same.
     fn residuals(&self, fit: &Fit, for_each: ForEach<'_>) -> Option<Residuals> {
         let count = 2 * fit.poles.len() + 1;
-        let (basis, squares) = (self.basis(fit), self.of_poles(fit, |difference| difference.powi(-2)));
-        // ∂(Φc)/∂(Re s_r) and by Im s_r with the linear coefficients held, what of them is not in Φ.
         let of_sensor = |m: usize| {
-            let own = self.eliminated(m, &basis, &squares)?;
-            let mut block = Vec::new();
-            for r in 0..fit.poles.len() {
-                let [a, b] = [own.coefficients[2 * r], own.coefficients[2 * r + 1]];
-                let [sums, differences] = [2 * r, 2 * r + 1].map(|j| own.beyond(own.count + j));
-                let pairs = || sums.iter().zip(differences);
-                block.extend(pairs().map(|(sum, difference)| -(a * sum + b * difference)));
-                block.extend(pairs().map(|(sum, difference)| -(a * difference - b * sum)));
-            }
-            block.extend(own.beyond(own.columns - 1));
-            Some(block)
+            let own = self.eliminated(m, fit)?;
+            let mut block = self.slopes(m, fit, &own);
+            block.iter_mut().for_each(|slope| *slope = -*slope);
+            block.extend(own.rest);
+            Some(real_qr(&block, count).ok()?.r)
         };
         let each = map(for_each, self.sensors(), of_sensor).into_iter().collect::<Option<Vec<_>>>()?;
         let column = |j: usize| each.iter().flat_map(move |r| r[j * count..(j + 1) * count].iter().copied());
         Some((column(count - 1).collect(), (0..count - 1).flat_map(column).collect()))
     }
 
-    /// The poles that fit best, from these on, until the misfit changes by less than this part.
-    pub(super) fn refined(&self, fit: &Fit, rtol: f64, for_each: ForEach<'_>) -> Option<Fit> {
+    /// The poles that fit best, from these on.
+    pub(super) fn refined(&self, fit: &Fit, for_each: ForEach<'_>) -> Option<Fit> {
         let at = |theta: &[f64]| Fit { poles: poles(theta), degree: fit.degree };
         let is_damped = |fit: &Fit| fit.poles.iter().all(|pole| pole.re < 0.0 && pole.im > 0.0);
         let evaluate =
@@ -186,29 +165,37 @@ impl Measured<'_> {
         }
         let start: Vec<f64> = fit.poles.iter().flat_map(|pole| [pole.re, pole.im]).collect();
         let search = Search { starts: 1, patience: SEARCH_PATIENCE, same: 0.0 };
-        Some(at(&descend_to(&start, &evaluate, &search, rtol)?.theta)).filter(is_damped)
+        Some(at(&descend(&start, &evaluate, &search)?.theta)).filter(is_damped)
     }
 
     /// Everything linear at given poles.
     pub(super) fn fitted(&self, fit: &Fit, for_each: ForEach<'_>) -> Option<Fitted> {
-        let basis = self.basis(fit);
-        let each = map(for_each, self.sensors(), |m| self.eliminated(m, &basis, &[]))
+        let n = self.frequency_hz.len();
+        let each = map(for_each, self.sensors(), |m| self.eliminated(m, fit))
             .into_iter()
             .collect::<Option<Vec<_>>>()?;
-        let misfit = each.iter().flat_map(|own| own.beyond(own.columns - 1)).map(|r| r * r).sum();
+        let misfit = each.iter().flat_map(|own| &own.rest).map(|r| r * r).sum();
+        let residue =
+            |r: usize, own: &Eliminated| c64::new(own.coefficients[2 * r], own.coefficients[2 * r + 1]);
+        let residues =
+            (0..fit.poles.len()).map(|r| each.iter().map(|own| residue(r, own)).collect()).collect();
         let gain = |r: usize| each.iter().map(|own| own.gain(2 * r)).sum();
-        let gains = (0..fit.poles.len()).map(gain).collect();
-        Some(Fitted { misfit, gains, coefficients: each.into_iter().map(|own| own.coefficients).collect() })
-    }
-
-    /// What is fitted, `[sensor][frequency]`.
-    pub(super) fn responses_of(&self, fit: &Fit, fitted: &Fitted) -> Vec<Vec<c64>> {
-        let basis = self.basis(fit);
-        let of_sensor = |coefficients: &Vec<f64>| {
-            let sum = |k: usize| basis.iter().zip(coefficients).map(|(column, c)| c * column[k]).sum();
-            (0..self.frequency_hz.len()).map(sum).collect()
+        let response = |(m, own): (usize, &Eliminated)| {
+            let weighed = |k: usize| {
+                let sum = |row: usize| -> f64 {
+                    let columns = own.columns.chunks_exact(2 * n);
+                    columns.zip(&own.coefficients).map(|(column, c)| c * column[row]).sum()
+                };
+                c64::new(sum(k), sum(n + k)) / self.weights[k][m]
+            };
+            (0..n).map(weighed).collect()
         };
-        fitted.coefficients.iter().map(of_sensor).collect()
+        Some(Fitted {
+            misfit,
+            residues,
+            gains: (0..fit.poles.len()).map(gain).collect(),
+            responses: each.iter().enumerate().map(response).collect(),
+        })
     }
 
     /// Covariance of each pole at σ: to be multiplied by the square of the level of the noise. `None` where poles depend on one another.
@@ -237,11 +224,6 @@ impl Measured<'_> {
 }
 
 impl Eliminated {
-    /// What a column has beside Φ.
-    fn beyond(&self, j: usize) -> &[f64] {
-        &self.r[j * self.columns..(j + 1) * self.columns][self.count..]
-    }
-
     /// By how much the sum of squares is larger without the columns j and j + 1: cᵀ[(ΦᵀΦ)⁻¹]⁻¹c on these two.
     fn gain(&self, j: usize) -> f64 {
         let n = self.count;
@@ -249,10 +231,10 @@ impl Eliminated {
         let row = |j: usize| {
             let mut row = vec![0.0; n];
             for k in j..n {
-                let sum: f64 = (j..k).map(|i| row[i] * self.r[i + k * self.columns]).sum();
+                let sum: f64 = (j..k).map(|i| row[i] * self.qr.r[i + k * n]).sum();
                 let unit = f64::from(u8::from(k == j));
-                let diagonal = self.r[k + k * self.columns];
-                row[k] = if is_dependent(&self.r, self.columns, k) { 0.0 } else { (unit - sum) / diagonal };
+                let diagonal = self.qr.r[k + k * n];
+                row[k] = if is_dependent(&self.qr.r, n, k) { 0.0 } else { (unit - sum) / diagonal };
             }
             row
         };
@@ -269,14 +251,25 @@ fn poles(theta: &[f64]) -> Vec<c64> {
     theta.chunks_exact(2).map(|pair| c64::new(pair[0], pair[1])).collect()
 }
 
+/// Takes out of x what the columns of Q have of it; returns how much.
+fn taken_out(q: &[f64], x: &mut [f64]) -> Vec<f64> {
+    let mut overlaps = Vec::new();
+    for column in q.chunks_exact(x.len()) {
+        let overlap: f64 = column.iter().zip(x.iter()).map(|(q, x)| q * x).sum();
+        x.iter_mut().zip(column).for_each(|(x, q)| *x -= overlap * q);
+        overlaps.push(overlap);
+    }
+    overlaps
+}
+
 fn is_dependent(r: &[f64], n: usize, k: usize) -> bool {
     let length: f64 = r[k * n..=k * n + k].iter().map(|r| r * r).sum::<f64>().sqrt();
     r[k + k * n].abs() <= DEPENDENT_COLUMN_RTOL * length
 }
 
-/// R⁻¹x of the first columns of R.
-fn back_substituted(r: &[f64], [count, n]: [usize; 2], mut x: Vec<f64>) -> Vec<f64> {
-    for k in (0..count).rev() {
+/// R⁻¹x.
+fn back_substituted(r: &[f64], n: usize, mut x: Vec<f64>) -> Vec<f64> {
+    for k in (0..n).rev() {
         x[k] = if is_dependent(r, n, k) { 0.0 } else { x[k] / r[k + k * n] };
         for i in 0..k {
             x[i] -= x[k] * r[i + k * n];

@@ -94,27 +94,8 @@ pub(super) fn stabilisation(
     };
     let of_sensors = map(for_each, sensors, of_sensor).into_iter().collect::<Result<Vec<_>, _>>()?;
     let orders: Vec<usize> = (2..=max_order).step_by(2).collect();
-    // The numerators of an order have two rows of QᴴY more than those of the order before: sums are continued.
-    let mut normal = Matrix::zeros(size, size);
-    for [squares, _] in &of_sensors {
-        normal.add_scaled(c64::new(1.0, 0.0), squares);
-    }
-    let mut taken_rows = 0;
-    let mut normals = Vec::new();
-    for &order in &orders {
-        for [_, inside] in &of_sensors {
-            for j in 0..size {
-                for i in 0..size {
-                    let rows = taken_rows..=order;
-                    normal[(i, j)] -= dot(&inside.column(i)[rows.clone()], &inside.column(j)[rows]);
-                }
-            }
-        }
-        taken_rows = order + 1;
-        normals.push(Matrix::from_fn(order + 1, order + 1, |i, j| normal[(i, j)]));
-    }
     let found = map(for_each, orders.len(), |k| {
-        let z = roots_at(orders[k], &normals[k])?;
+        let z = roots_at(orders[k], &of_sensors)?;
         let pole = |z: c64| {
             let mut turn = z.arg();
             // The arc from 0 to its end, with half of what is left of the circle on either side.
@@ -145,8 +126,17 @@ pub(super) fn stabilisation(
 }
 
 /// The roots of the denominator of one order.
-fn roots_at(order: usize, normal: &Matrix) -> Result<Vec<c64>, NoConvergence> {
+fn roots_at(order: usize, of_sensors: &[[Matrix; 2]]) -> Result<Vec<c64>, NoConvergence> {
     let size = order + 1;
+    let mut normal = Matrix::zeros(size, size);
+    for [squares, inside] in of_sensors {
+        for j in 0..size {
+            for i in 0..size {
+                let taken = dot(&inside.column(i)[..size], &inside.column(j)[..size]);
+                normal[(i, j)] += squares[(i, j)] - taken;
+            }
+        }
+    }
     // a_0 = 1.
     let rest = Matrix::from_fn(order, order, |i, j| normal[(i + 1, j + 1)]);
     let right: Vec<c64> = (1..size).map(|i| -normal[(i, 0)]).collect();

@@ -57,28 +57,6 @@ pub fn real_qr(a: &[f64], columns: usize) -> Result<RealQr, NoConvergence> {
     })
 }
 
-/// R alone of A = QR, as [`real_qr`] gives it, at half the cost.
-///
-/// # Errors
-/// [`NoConvergence`] for values that are not finite.
-///
-/// # Panics
-/// Where the length is not a multiple of `columns`.
-pub fn real_triangle(a: &[f64], columns: usize) -> Result<Vec<f64>, NoConvergence> {
-    if columns == 0 {
-        return Ok(Vec::new());
-    }
-    assert_eq!(a.len() % columns, 0, "whole columns");
-    if !a.iter().all(|value| value.is_finite()) {
-        return Err(NoConvergence);
-    }
-    let rows = a.len() / columns;
-    let qr = MatRef::from_column_major_slice(a, rows, columns).qr();
-    let r = qr.thin_R();
-    let entry = |i: usize, j: usize| if i <= j && i < r.nrows() { r[(i, j)] } else { 0.0 };
-    Ok((0..columns).flat_map(|j| (0..columns).map(move |i| (i, j))).map(|(i, j)| entry(i, j)).collect())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -106,8 +84,6 @@ mod tests {
             }
         }
         assert!((r[0].abs() - 5.0).abs() < 1e-14 && r[1] == 0.0);
-        assert_eq!(real_triangle(&a, 2).unwrap(), r);
-        assert_eq!(real_triangle(&[2.0, 1.0], 2).unwrap()[1], 0.0);
         // One row, two columns.
         assert_eq!(real_qr(&[2.0, 1.0], 2).unwrap().r[0].abs(), 2.0);
     }
