@@ -18,6 +18,16 @@ pub(crate) fn squared(s: c64) -> c64 {
     c64::new(-(s.im * s.im - s.re * s.re), 2.0 * s.re * s.im)
 }
 
+/// |s|/2π, the natural frequency that belongs to a pole s.
+pub(crate) fn natural_frequency_hz(pole_per_s: c64) -> f64 {
+    pole_per_s.norm() / omega_rad_s(1.0)
+}
+
+/// −Re s/|s|, the damping ratio of a pole s that is not zero.
+pub(crate) fn damping_ratio(pole_per_s: c64) -> f64 {
+    -pole_per_s.re / pole_per_s.norm()
+}
+
 /// `count` frequencies from `first_hz` to `last_hz`, both included, equally spaced.
 pub fn linear_hz(first_hz: f64, last_hz: f64, count: usize) -> Vec<f64> {
     let step = if count > 1 { (last_hz - first_hz) / (count - 1) as f64 } else { 0.0 };

@@ -1,10 +1,10 @@
 //! Natural frequencies, damping and shapes that measured responses show.
 
 use super::rational_fit::{Fit, Fitted, Measured, PoleCovariance};
-use super::stabilisation::{PoleAtOrder, damping_ratio, frequency_hz, stabilisation};
+use super::stabilisation::{MAX_DAMPING_RATIO, ORDER_STEP, PoleAtOrder, stabilisation};
 use crate::c64;
 use crate::for_each::ForEach;
-use crate::frequency::omega_rad_s;
+use crate::frequency::{damping_ratio, natural_frequency_hz, omega_rad_s};
 use crate::identify::{Frfs, Noise, standard_deviations};
 use crate::with_fields::with_fields;
 use frfit_linalg::dense::NoConvergence;
@@ -43,7 +43,7 @@ pub struct MeasuredMode {
 impl MeasuredMode {
     /// The natural frequency |s|/2π.
     pub fn frequency_hz(&self) -> f64 {
-        frequency_hz(self.pole_per_s)
+        natural_frequency_hz(self.pole_per_s)
     }
 
     /// The damping ratio −Re s/|s|; half of a loss factor.
@@ -81,13 +81,10 @@ const TWIN_HALF_WIDTHS: f64 = 0.1;
 const MIN_ORDERS: usize = 3;
 const MANY_ORDERS: usize = 6;
 
-/// Steps of the order of the diagram.
-const ORDER_STEP: usize = 2;
-
 /// Orders of the polynomials beside the poles that are tried, one after the other until they gain nothing.
 const DEGREES: [usize; 7] = [1, 2, 4, 6, 10, 16, 24];
 
-/// A level below this is roundoff of the responses: poles and polynomials that it would need are none of a structure.
+/// A level below this is roundoff of the responses: poles and polynomials that would be needed for it do not belong to a structure.
 const MIN_LEVEL: f64 = 1e-7;
 
 /// Rounds of leaving out what gains nothing.
@@ -146,7 +143,8 @@ pub fn measured_modes(
     };
     let mut modes: Vec<MeasuredMode> = (0..fit.poles.len()).map(mode).collect();
     modes.sort_by(|a, b| a.pole_per_s.norm().total_cmp(&b.pole_per_s.norm()));
-    Ok(MeasuredModes { modes, diagram, level, frequency_hz, fitted: fitted.responses })
+    let fitted = search.measured.responses_of(&fitted);
+    Ok(MeasuredModes { modes, diagram, level, frequency_hz, fitted })
 }
 
 /// Standard deviations of |s|/2π and −Re s/|s|.
@@ -290,6 +288,3 @@ impl PoleSearch<'_> {
         None
     }
 }
-
-/// A pole with more damping than this stands for what polynomials leave.
-const MAX_DAMPING_RATIO: f64 = 0.5;

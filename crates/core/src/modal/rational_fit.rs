@@ -39,8 +39,8 @@ pub(super) struct Fitted {
     pub(super) residues: Vec<Vec<c64>>,
     /// By how much the misfit is larger without each pole.
     pub(super) gains: Vec<f64>,
-    /// What is fitted, `[sensor][frequency]`.
-    pub(super) responses: Vec<Vec<c64>>,
+    /// What is left of each sensor's responses, weighted: real parts, then imaginary parts.
+    rests: Vec<Vec<f64>>,
 }
 
 /// Covariance of Re s and Im s of a pole: [Re Re, Re Im, Im Im].
@@ -54,8 +54,7 @@ const SEARCH_PATIENCE: usize = 20;
 
 /// What the linear least squares of one sensor leave.
 struct Eliminated {
-    /// Φ, 2K rows (real parts, then imaginary parts) column after column, with its orthonormal basis.
-    columns: Vec<f64>,
+    /// Of Φ, 2K rows (real parts, then imaginary parts).
     qr: RealQr,
     count: usize,
     /// The linear coefficients, two of each pole first.
@@ -119,7 +118,7 @@ impl Measured<'_> {
         let mut rest = self.column(m, |k| self.responses[k][m]);
         let inside = taken_out(&qr.q, &mut rest);
         let coefficients = back_substituted(&qr.r, count, inside);
-        Some(Eliminated { columns, qr, count, coefficients, rest })
+        Some(Eliminated { qr, count, coefficients, rest })
     }
 
     /// ∂(Φc)/∂(Re s_r) and by Im s_r with the linear coefficients held, what of them is not in Φ.
@@ -170,7 +169,6 @@ impl Measured<'_> {
 
     /// Everything linear at given poles.
     pub(super) fn fitted(&self, fit: &Fit, for_each: ForEach<'_>) -> Option<Fitted> {
-        let n = self.frequency_hz.len();
         let each = map(for_each, self.sensors(), |m| self.eliminated(m, fit))
             .into_iter()
             .collect::<Option<Vec<_>>>()?;
@@ -180,22 +178,22 @@ impl Measured<'_> {
         let residues =
             (0..fit.poles.len()).map(|r| each.iter().map(|own| residue(r, own)).collect()).collect();
         let gain = |r: usize| each.iter().map(|own| own.gain(2 * r)).sum();
-        let response = |(m, own): (usize, &Eliminated)| {
-            let weighed = |k: usize| {
-                let sum = |row: usize| -> f64 {
-                    let columns = own.columns.chunks_exact(2 * n);
-                    columns.zip(&own.coefficients).map(|(column, c)| c * column[row]).sum()
-                };
-                c64::new(sum(k), sum(n + k)) / self.weights[k][m]
-            };
-            (0..n).map(weighed).collect()
-        };
         Some(Fitted {
             misfit,
             residues,
             gains: (0..fit.poles.len()).map(gain).collect(),
-            responses: each.iter().enumerate().map(response).collect(),
+            rests: each.into_iter().map(|own| own.rest).collect(),
         })
+    }
+
+    /// What is fitted, `[sensor][frequency]`: what was measured without what is left.
+    pub(super) fn responses_of(&self, fitted: &Fitted) -> Vec<Vec<c64>> {
+        let n = self.frequency_hz.len();
+        let of_sensor = |(m, rest): (usize, &Vec<f64>)| {
+            let at = |k: usize| self.responses[k][m] - c64::new(rest[k], rest[n + k]) / self.weights[k][m];
+            (0..n).map(at).collect()
+        };
+        fitted.rests.iter().enumerate().map(of_sensor).collect()
     }
 
     /// Covariance of each pole at σ: to be multiplied by the square of the level of the noise. `None` where poles depend on one another.
@@ -215,7 +213,7 @@ impl Measured<'_> {
         Some((0..fit.poles.len()).map(of).collect())
     }
 
-    /// s at the middle of the band, over which poles are compared.
+    /// Whether the damped natural frequency of a pole is in the band.
     pub(super) fn is_in_band(&self, pole: c64) -> bool {
         let [first, last] =
             [self.frequency_hz[0], self.frequency_hz[self.frequency_hz.len() - 1]].map(omega_rad_s);

@@ -13,7 +13,7 @@
 use super::rational_fit::Measured;
 use crate::c64;
 use crate::for_each::{ForEach, map};
-use crate::frequency::omega_rad_s;
+use crate::frequency::{damping_ratio, natural_frequency_hz, omega_rad_s};
 use frfit_linalg::dense::{Matrix, NoConvergence, eigenvalues, least_squares, orthonormal};
 use frfit_linalg::vector::dot;
 
@@ -31,7 +31,7 @@ pub struct PoleAtOrder {
 impl PoleAtOrder {
     /// |s|/2π.
     pub fn frequency_hz(&self) -> f64 {
-        frequency_hz(self.pole_per_s)
+        natural_frequency_hz(self.pole_per_s)
     }
 
     /// −Re s/|s|.
@@ -40,25 +40,18 @@ impl PoleAtOrder {
     }
 }
 
-/// |s|/2π, the natural frequency that belongs to a pole.
-pub(super) fn frequency_hz(pole_per_s: c64) -> f64 {
-    pole_per_s.norm() / omega_rad_s(1.0)
-}
-
-/// −Re s/|s|.
-pub(super) fn damping_ratio(pole_per_s: c64) -> f64 {
-    -pole_per_s.re / pole_per_s.norm()
-}
-
 /// The part of a circle that the band covers: powers of z are nearly orthogonal, and the ends of the band are no neighbours.
 const ARC_RAD: f64 = 1.5 * std::f64::consts::PI;
+
+/// Steps of the order.
+pub(super) const ORDER_STEP: usize = 2;
 
 /// Differences of a pole between two orders up to which it is called stable, as is usual.
 const STABLE_FREQUENCY_RTOL: f64 = 0.01;
 const STABLE_DAMPING_RTOL: f64 = 0.05;
 
-/// A pole with more damping than this is none of a structure.
-const MAX_DAMPING_RATIO: f64 = 0.5;
+/// A pole with more damping than this does not belong to a structure: it stands for what polynomials leave.
+pub(super) const MAX_DAMPING_RATIO: f64 = 0.5;
 
 /// Poles of all sensors together at the orders 2, 4, … up to the largest. The orders of a short band end where unknowns are half as many as numbers.
 ///
@@ -76,7 +69,7 @@ pub(super) fn stabilisation(
     let Measured { frequency_hz, responses, weights, decay_per_s } = *measured;
     let (n, sensors) = (frequency_hz.len(), measured.sensors());
     let max_order = max_order.min(n / 2);
-    if sensors == 0 || max_order < 2 || frequency_hz[n - 1] <= frequency_hz[0] {
+    if sensors == 0 || max_order < ORDER_STEP || frequency_hz[n - 1] <= frequency_hz[0] {
         return Ok(Vec::new());
     }
     let [first, last] = [frequency_hz[0], frequency_hz[n - 1]].map(omega_rad_s);
@@ -93,7 +86,7 @@ pub(super) fn stabilisation(
         Ok([product(&times, &times), product(&basis, &times)])
     };
     let of_sensors = map(for_each, sensors, of_sensor).into_iter().collect::<Result<Vec<_>, _>>()?;
-    let orders: Vec<usize> = (2..=max_order).step_by(2).collect();
+    let orders: Vec<usize> = (ORDER_STEP..=max_order).step_by(ORDER_STEP).collect();
     let found = map(for_each, orders.len(), |k| {
         let z = roots_at(orders[k], &of_sensors)?;
         let pole = |z: c64| {

@@ -10,15 +10,16 @@
 //! # Source
 //! P. Lancaster, Arch. Rational Mech. Anal. 8 (1961) 309–322 (inverse iteration with a functional); H. Voss, Handbook of Linear Algebra, ch. 115, 2nd ed. (2014).
 
+use super::shift::Shift;
 use super::{Projection, Subspace};
 use crate::c64;
-use crate::frequency::omega_rad_s;
+use crate::frequency::{damping_ratio, natural_frequency_hz, omega_rad_s};
 use crate::material::OutsideTable;
 use crate::model::{Combination, DynamicStiffness, ModelAt, Role, WeightedTerm};
 use frfit_linalg::dense::{Eigen, Lu, Matrix, combination, eigen};
 use frfit_linalg::modes::{ModesError, lowest};
 use frfit_linalg::sparse::{SymmetricMatrix, Values};
-use frfit_linalg::vector::{dot, norm, transpose_dot};
+use frfit_linalg::vector::{dot, norm, orthogonalise, transpose_dot};
 use std::fmt;
 
 /// A mode of a structure.
@@ -39,12 +40,12 @@ pub struct NaturalMode {
 impl NaturalMode {
     /// |s|/2π.
     pub fn frequency_hz(&self) -> f64 {
-        self.pole_per_s.norm() / omega_rad_s(1.0)
+        natural_frequency_hz(self.pole_per_s)
     }
 
     /// −Re s/|s|; zero of a rigid body.
     pub fn damping_ratio(&self) -> f64 {
-        if self.is_rigid_body() { 0.0 } else { -self.pole_per_s.re / self.pole_per_s.norm() }
+        if self.is_rigid_body() { 0.0 } else { damping_ratio(self.pole_per_s) }
     }
 
     /// Whether it has no stiffness.
@@ -171,8 +172,7 @@ impl<'m> Subspace<'m> {
         let [stiffness, mass] = real_pencil(&reference);
         let omega_squared = omega_rad_s(highest_hz).powi(2);
         let model = reference.model;
-        let dynamic: Vec<f64> = stiffness.iter().zip(&mass).map(|(k, m)| k - omega_squared * m).collect();
-        let count = model.analysis().factor_on(&dynamic, model.threads())?.negative_eigenvalues();
+        let count = Shift::new(&reference, -omega_squared)?.factor.negative_eigenvalues();
         self.work.factorisations += 2;
         let symmetric =
             |values| SymmetricMatrix::new(model.analysis().pattern().clone(), Values::Real(values));
@@ -181,12 +181,14 @@ impl<'m> Subspace<'m> {
         let undamped = lowest(&symmetric(shifted), &symmetric(mass), count + MODES_BEYOND)?;
         self.append_within(&undamped.shapes.concat());
         let nominal = factors(&reference);
-        for round in 0.. {
+        let mut rounds = 0;
+        loop {
             let modes = self.modes_of_reduced(at, &nominal, (&reference, highest_hz))?;
             let rest = self.rest(at, &modes, highest_hz)?;
             let worst = rest.iter().map(|(error, _)| *error).fold(0.0, f64::max);
             let before = self.size();
-            if worst > POLE_RTOL && round < MAX_ROUNDS {
+            if worst > POLE_RTOL && rounds < MAX_ROUNDS {
+                rounds += 1;
                 let large = rest.iter().filter(|(error, _)| *error > POLE_RTOL);
                 let block: Vec<f64> = large.flat_map(|(_, directions)| directions).copied().collect();
                 self.append_within(&block);
@@ -197,7 +199,6 @@ impl<'m> Subspace<'m> {
                 return Ok(NaturalModes { modes: modes.collect::<Result<_, _>>()?, count });
             }
         }
-        unreachable!("the rounds end")
     }
 
     /// Adds vectors to the basis until it has as many as the model has rows: what is left of others is roundoff.
@@ -237,7 +238,7 @@ impl<'m> Subspace<'m> {
                 modes.push(own);
             }
         }
-        let is_heavy = |mode: &Followed| -mode.s.re > HEAVY_DAMPING_RATIO * mode.s.norm();
+        let is_heavy = |mode: &Followed| mode.s.norm() > 0.0 && damping_ratio(mode.s) > HEAVY_DAMPING_RATIO;
         let has_dampers = nominal.iter().any(|(term, _)| self.model.terms()[*term].role == Role::Viscous);
         if has_dampers || modes.iter().any(is_heavy) {
             let own = |s: c64| -> Result<Vec<(usize, c64)>, OutsideTable> {
@@ -364,33 +365,27 @@ impl<'m> Subspace<'m> {
     }
 }
 
-/// Whether a mode is none of some others: of a repeated pole, whether its shape is no sum of theirs.
+/// Whether a mode is not among some others: its pole is another, or its shape is no combination of those of the same pole.
 fn is_another(one: &Followed, others: &[Followed]) -> bool {
     let mut units: Vec<Vec<c64>> = Vec::new();
     for other in others.iter().filter(|other| (one.s - other.s).norm() <= TWIN_RTOL * one.s.norm()) {
-        let unit = without(&units, other.y.clone());
+        let mut unit = other.y.clone();
+        orthogonalise(&units, &mut unit);
         let size = norm(&unit);
         units.push(unit.into_iter().map(|entry| entry / size).collect());
     }
-    norm(&without(&units, one.y.clone())) > TWIN_SHAPE_RTOL * norm(&one.y)
+    let mut rest = one.y.clone();
+    orthogonalise(&units, &mut rest);
+    norm(&rest) > TWIN_SHAPE_RTOL * norm(&one.y)
 }
 
-/// What a vector has beside orthonormal ones.
-fn without(units: &[Vec<c64>], mut x: Vec<c64>) -> Vec<c64> {
-    for unit in units {
-        let share = dot(unit, &x);
-        x.iter_mut().zip(unit).for_each(|(x, unit)| *x -= share * unit);
-    }
-    x
-}
-
-/// Whether a pole is no overdamped one.
+/// Whether a pole oscillates: it is not overdamped.
 fn is_oscillation(s: c64) -> bool {
     s.im > MIN_OSCILLATION * s.norm()
 }
 
 impl Projection {
-    /// Poles with a positive frequency up to some |s|, with their shapes, at factors that are held: none where the reduced model has no finite ones or is large.
+    /// Poles with a positive frequency up to some |s|, with their shapes, at factors that are held. A large reduced model is left out.
     ///
     /// With z = (y, s y) and s = s₀ + 1/μ about a point s₀ that is no pole, (A − s B) z = 0 is (A − s₀ B)⁻¹ B z = μ z, regular with a singular mass.
     fn oscillations(
@@ -421,26 +416,22 @@ impl Projection {
         });
         let Ok(lu) = Lu::new(&dynamic) else { return Vec::new() };
         // T(s₀)⁻¹ of (C + s₀ M) and of M: y = −μ T⁻¹[(C + s₀M) y + M v] and v = s₀ y + μ y eliminate to the matrix below.
-        let solved = |of: &dyn Fn(usize, usize) -> c64| -> Option<Matrix> {
-            let mut all = Matrix::zeros(r, r);
-            for j in 0..r {
-                let mut column: Vec<c64> = (0..r).map(|i| of(i, j)).collect();
-                lu.solve(&mut column).ok()?;
-                column.into_iter().enumerate().for_each(|(i, value)| all[(i, j)] = value);
-            }
-            Some(all)
+        let damped = |i: usize, j: usize| once * viscous[(i, j)] + about * twice * mass[(i, j)];
+        let entries = |of: &dyn Fn(usize, usize) -> c64| -> Vec<c64> {
+            (0..r * r).map(|at| of(at % r, at / r)).collect()
         };
-        let first = solved(&|i, j| once * viscous[(i, j)] + about * twice * mass[(i, j)]);
-        let (Some(first), Some(second)) = (first, solved(&|i, j| twice * mass[(i, j)])) else {
+        let (mut first, mut second) = (entries(&damped), entries(&|i, j| twice * mass[(i, j)]));
+        if lu.solve(&mut first).and(lu.solve(&mut second)).is_err() {
             return Vec::new();
-        };
+        }
+        let (first, second) = (|i: usize, j: usize| first[i + j * r], |i: usize, j: usize| second[i + j * r]);
         let state = Matrix::from_fn(2 * r, 2 * r, |i, j| {
             let unit = c64::from(f64::from(u8::from(i % r == j % r)));
             match (i < r, j < r) {
-                (true, true) => -first[(i, j)],
-                (true, false) => -second[(i, j - r)],
-                (false, true) => unit - about * first[(i - r, j)],
-                (false, false) => -about * second[(i - r, j - r)],
+                (true, true) => -first(i, j),
+                (true, false) => -second(i, j - r),
+                (false, true) => unit - about * first(i - r, j),
+                (false, false) => -about * second(i - r, j - r),
             }
         });
         let Ok(Eigen { values, vectors }) = eigen(&state) else { return Vec::new() };

@@ -2,6 +2,7 @@
 
 use super::columns::Columns;
 use frfit::c64;
+use frfit::modal::assurance;
 use frfit::quantity::Quantity;
 use frfit_formats::FormatError;
 
@@ -87,19 +88,10 @@ impl Sensor {
     }
 
     /// The share of a response that a computed one reproduces, whatever its scale: |Σ u* x|² / (Σ|u|² Σ|x|²), 1 where they are proportional.
-    ///
-    /// # Source
-    /// W. Heylen and S. Lammens: FRAC: a consistent way of comparing frequency response functions, Proc. Int. Conf. on Identification in Engineering
-    /// Systems, Swansea, 1996.
     pub(crate) fn frac(&self, computed: &[Option<c64>]) -> Option<f64> {
         let pairs = self.measured.iter().zip(computed).filter_map(|(u, x)| Some(((*u)?, (*x)?)));
-        let (mut both, mut measured, mut own) = (c64::new(0.0, 0.0), 0.0, 0.0);
-        for (u, x) in pairs {
-            both += u.conj() * x;
-            measured += u.norm_sqr();
-            own += x.norm_sqr();
-        }
-        Some(both.norm_sqr() / (measured * own)).filter(|frac| frac.is_finite())
+        let (measured, own): (Vec<c64>, Vec<c64>) = pairs.unzip();
+        assurance(&measured, &own).filter(|frac| frac.is_finite())
     }
 }
 
