@@ -4,14 +4,13 @@ use crate::job::JobError;
 use crate::load::{Case, IdentifyCase, Overrides, Purpose, load};
 use crate::memory::check_identify;
 use crate::output::Words;
-use crate::run::{Used, problem_of};
+use crate::run::{Used, in_parallel, problem_of};
 use crate::units::UnitSystem;
 use frfit::diagnostics::{
     Diagnosis, Evidence, Fault, KNOWN_FACTOR_RTOL, KnownFactor, NotJudged, OtherRow, diagnose, diagnose_on,
 };
 use frfit::identify::{ChannelUnknowns, Problem, ProblemError, ReducedBand};
 use frfit::quantity::Quantity;
-use rayon::prelude::*;
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -79,10 +78,6 @@ pub(crate) fn check_on<'a>(
 
 fn quantities(case: &Case) -> Vec<Quantity> {
     case.sensors.iter().map(|sensor| sensor.quantity).collect()
-}
-
-fn in_parallel(n: usize, each: &(dyn Fn(usize) + Sync)) {
-    (0..n).into_par_iter().for_each(each);
 }
 
 fn without_looked_for(identify: &IdentifyCase, mut diagnosis: Diagnosis) -> Diagnosis {

@@ -168,7 +168,7 @@ pub struct MeasurementEntry {
     pub scale: Option<Located<Calibration>>,
     /// By how much the channel is late, s; `None`: by nothing.
     pub delay_s: Option<Located<Calibration>>,
-    /// Over how many records the coherence was averaged; `None`: not told.
+    /// Over how many records the coherence was averaged; `None`: not known.
     pub averages: Option<Located<i64>>,
     /// The decay rate α of an exponential window e^{−αt} on force and response, 1/s; `None`: as the file says.
     pub decay_per_s: Option<Located<f64>>,
@@ -205,7 +205,7 @@ pub struct IdentifyEntry {
     pub band_hz: Option<Located<[f64; 2]>>,
     /// Frequencies and bands that are left out: no number of them is used.
     pub exclude: Located<Vec<Exclusion>>,
-    /// Of more lines than this those that tell most.
+    /// Of more lines than this, those that show the unknowns best.
     pub max_lines: Option<Located<i64>>,
     /// Whether a sensor that contradicts all others is left out.
     pub reject_outliers: Option<bool>,

@@ -201,7 +201,7 @@ pub(super) static MATRIX: Section = Section {
             "file",
             "text, or `{ file, name }`",
             "`at`",
-            "The matrix: Matrix Market, Harwell–Boeing, CalculiX, Abaqus, Nastran DMIG or OUTPUT4, Ansys HBMAT, NumPy, MATLAB; told by the content. It has to be symmetric.",
+            "The matrix: Matrix Market, Harwell–Boeing, CalculiX, Abaqus, Nastran DMIG or OUTPUT4, Ansys HBMAT, NumPy, MATLAB; recognised by the content. It has to be symmetric.",
         ),
         key(
             "at",
@@ -636,7 +636,7 @@ pub(super) static FOR_ALL: Section = Section {
             "max_lines",
             "whole number, 3 and more",
             "all",
-            "Of more lines than this those that tell most: half of them evenly spread, half where the measurement changes fastest. The others are `out_of_band`.",
+            "Of more lines than this, those that show the unknowns best: half of them evenly spread, half where the measurement changes fastest. The others are `out_of_band`.",
         ),
         key(
             "reject_outliers",

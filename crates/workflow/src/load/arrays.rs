@@ -99,7 +99,7 @@ pub struct Wanted {
     pub band_hz: Option<[f64; 2]>,
     /// Bands that are left out; one of no width is the line next to it.
     pub exclude_hz: Vec<[f64; 2]>,
-    /// Of more lines than this those that tell most; `None`: all.
+    /// Of more lines than this, those that show the unknowns best; `None`: all.
     pub max_lines: Option<i64>,
     /// `rational`, `series` or `nelder-mead`; `None`: the default.
     pub method: Option<String>,

@@ -13,12 +13,12 @@ use frfit_formats::FormatError;
 /// any resolution of an analyser.
 const SAME_FREQUENCY: f64 = 1e-9;
 
-/// Standard deviations √E|δx|² of the measured receptances, `[frequency][sensor]`, as far as files and case tell.
+/// Standard deviations √E|δx|² of the measured receptances, `[frequency][sensor]`, as far as files and case give them.
 #[derive(Debug, Clone, PartialEq)]
 pub enum MeasuredNoise {
     /// Not for all sensors.
     Unknown,
-    /// From the coherence of all of them as if it were of one average: the number of averages is not told of all.
+    /// From the coherence of all of them as if it were of one average: the number of averages is not known of all.
     Relative(Vec<Vec<f64>>),
     /// Of all of them: given, or from the coherence and the number of averages.
     Known(Vec<Vec<f64>>),

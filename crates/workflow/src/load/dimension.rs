@@ -87,11 +87,11 @@ pub(super) fn polynomial(
                 ),
             ),
             Some(own) => {
-                let told = listed(exponents);
+                let powers = listed(exponents);
                 (
                     &own.place,
                     format!(
-                        "a matrix with the powers {told} of {name} through the other values: others, or more"
+                        "a matrix with the powers {powers} of {name} through the other values: others, or more"
                     ),
                 )
             }

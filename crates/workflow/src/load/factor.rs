@@ -38,7 +38,7 @@ pub(super) fn covers(law: &Law, place: &Place, frequencies_hz: &[f64]) -> Result
 /// Sizes of numbers that can be computed with: squares of them, and sums of some thousand of these, are numbers still, and so are their inverses.
 const SIZES: [f64; 2] = [1e-100, 1e100];
 
-/// Refuses matrices of which the norm of a vector would be infinite, or zero: every answer would be lost, for a reason that its status does not tell.
+/// Refuses matrices of which the norm of a vector would be infinite, or zero: every answer would be lost, for a reason that its status does not show.
 pub(super) fn sizes(
     case: &CaseFile,
     model: &DynamicStiffness,

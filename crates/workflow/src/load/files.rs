@@ -7,6 +7,7 @@ use crate::error::{InputError, Place};
 use crate::output::sha256;
 use crate::reads::Reads;
 use frfit_formats::{FileKind, FormatError, csv, detect};
+use serde_json::{Value, json};
 use std::cell::OnceCell;
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
@@ -24,6 +25,12 @@ pub struct InputFile {
 }
 
 impl InputFile {
+    /// All of them, as summaries list them.
+    pub(crate) fn json(all: &[Self]) -> Vec<Value> {
+        let one = |input: &Self| json!({"file": input.path.display().to_string(), "bytes": input.bytes, "sha256": input.sha256});
+        all.iter().map(one).collect()
+    }
+
     /// The path and the checksum of the bytes.
     pub(crate) fn of(path: &Path, bytes: &[u8]) -> Self {
         Self { path: path.to_path_buf(), sha256: sha256(bytes), bytes: bytes.len() }

@@ -1,11 +1,11 @@
-//! Which measured lines count: those that are not left out, and of too many those that tell most.
+//! Which measured lines count: those that are not left out, and of too many, those that show the unknowns best.
 
 use super::band::Band;
 use crate::case::{Exclusion, Located};
 use crate::error::InputError;
 use frfit::c64;
 
-/// Which frequencies of a band are not used: what is left out, and of more than `most` others those that tell least.
+/// Which frequencies of a band are not used: what is left out, and of more than `most` others those that show the least.
 ///
 /// # Errors
 /// [`InputError`] where `most` is less than three, or none is left of a band that has any.
@@ -46,7 +46,7 @@ fn max_lines(written: &Located<i64>) -> Result<usize, InputError> {
 const STRETCHES: usize = 32;
 
 /// At most so many of some lines (ascending): one half of them evenly spread, the other half where the responses change most from line to line against the median of their stretch. Those are
-/// the resonances, whose widths and places tell most of a modulus; against the response itself it would be the noise between them.
+/// the resonances, whose widths and places show a modulus best; against the response itself it would be the noise between them.
 fn telling(measured: &[&[c64]], most: usize) -> Vec<usize> {
     let n = measured.len();
     let stretch = n.div_ceil(STRETCHES);

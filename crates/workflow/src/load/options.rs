@@ -60,7 +60,7 @@ pub(super) fn options(entry: &IdentifyEntry, model_errors: ModelErrors) -> Optio
     let method = entry.method.unwrap_or(usual.method);
     // Only the rational method has several roots to select from jointly.
     let selection = if method == Method::Rational { Selection::Joint } else { Selection::Smallest };
-    // No number of terms is negative: that is none.
+    // A negative number of terms cannot be.
     let order = entry.order.as_ref().map(|order| usize::try_from(order.value).unwrap_or(0));
     usual
         .with_model_errors(model_errors)

@@ -11,7 +11,7 @@ use frfit::model::DynamicStiffness;
 /// The part of a case that sensitivities are about.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SensitivitiesCase {
-    /// Standard deviations √E|δx|² of the receptance, `[frequency][sensor]`, where the files of all measurements tell them.
+    /// Standard deviations √E|δx|² of the receptance, `[frequency][sensor]`, where the files of all measurements give them.
     pub std: Option<Vec<Vec<f64>>>,
     /// The matrices of the case, and what is attached: the terms of the model that each is.
     pub matrices: Vec<(String, Vec<usize>)>,
@@ -34,10 +34,10 @@ pub(super) fn sensitivities(
         (given, _) => (given, Place::option("--band")),
     };
     let curves: Vec<&Curve> = measurements.iter().filter_map(|m| m.curve.as_ref()).collect();
-    let told = |curve: &&Curve| {
+    let has_noise = |curve: &&Curve| {
         curve.frf.std.is_some() || (curve.frf.coherence.is_some() && curve.averages.is_some())
     };
-    let known = case.respond.is_none() && curves.len() == measurements.len() && curves.iter().all(told);
+    let known = case.respond.is_none() && curves.len() == measurements.len() && curves.iter().all(has_noise);
     let (mut frequency_hz, mut std) = match known {
         true => {
             let band = band(measurements, model.decay_per_s(), band_hz.unwrap_or([0.0, f64::MAX]), &place)?;

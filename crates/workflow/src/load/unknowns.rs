@@ -33,7 +33,7 @@ pub(super) fn unknowns(
         can_vary(one, &written.varies.place, single)?;
         for bound in written.storage.iter().chain(&written.loss_factor) {
             let [low, high] = bound.value;
-            // An only unknown may be known: then a line tells whether it is that.
+            // A single unknown may have a reference value, with which each line is compared.
             if !(low < high || single && low == high) {
                 let expected = if single { BoundsError::EXPECTED } else { "[low, high] with low < high" };
                 return Err(InputError::at(&bound.place, expected, format!("[{low}, {high}]")));

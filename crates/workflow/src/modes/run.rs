@@ -1,9 +1,10 @@
 //! The computation.
 
-use crate::load::{Case, MeasuredBand, MeasuredNoise};
+use crate::load::{Case, MeasuredBand};
+use crate::run::{in_parallel, noise_of};
 use frfit::c64;
 use frfit::frequency::linear_hz;
-use frfit::identify::{Frfs, Noise};
+use frfit::identify::Frfs;
 use frfit::material::{Law, OutsideTable};
 use frfit::modal::{
     MeasuredModes, PairedShape, Pairing, PoleOptions, assurance, coordinate_assurance, measured_modes,
@@ -13,7 +14,6 @@ use frfit::model::ModelAt;
 use frfit::response::Work;
 use frfit::subspace::{NaturalModes, NaturalModesError, Point, Subspace, TrainOptions};
 use frfit_linalg::vector::norm;
-use rayon::prelude::*;
 use std::time::Instant;
 
 /// What is asked for.
@@ -90,10 +90,6 @@ const BEYOND_BAND: f64 = 1.4;
 const RESPONSE_TOL: f64 = 1e-5;
 const TRAINING_FREQUENCIES: usize = 40;
 
-fn parallel(n: usize, each: &(dyn Fn(usize) + Sync)) {
-    (0..n).into_par_iter().for_each(each);
-}
-
 /// Modes of the model at its factors, and of the measurements that there are.
 ///
 /// # Errors
@@ -116,13 +112,9 @@ pub fn modes(case: &Case, options: &ModesOptions) -> Result<ModesRun, NaturalMod
             let decay_per_s = case.model.decay_per_s();
             let mut pole_options = PoleOptions::default().with_decay_per_s(decay_per_s);
             pole_options.max_order = options.max_order.unwrap_or(pole_options.max_order);
-            let noise = match &band.noise {
-                MeasuredNoise::Known(std) => Noise::Known(std),
-                MeasuredNoise::Relative(std) => Noise::Relative(std),
-                MeasuredNoise::Unknown => Noise::Unknown,
-            };
+            let noise = noise_of(&band.noise);
             let frfs = Frfs { frequency_hz: &band.frequency_hz, receptance: &band.receptance, noise };
-            let modes = measured_modes(frfs, &pole_options, &parallel).unwrap_or_default();
+            let modes = measured_modes(frfs, &pole_options, &in_parallel).unwrap_or_default();
             let response = response(&mut subspace, &at, &band.frequency_hz)?;
             Some(compared(&model, &wanted.unknown_terms, band, modes, response))
         }
@@ -158,7 +150,7 @@ fn response<'m>(
     let point = |f: f64| Ok(Point { at: at(f)?, correction: c64::default() });
     let points = points.map(point).collect::<Result<Vec<_>, OutsideTable>>()?;
     let options = TrainOptions::default().with_tolerance(RESPONSE_TOL);
-    if subspace.train(&points, &options, &parallel).is_err() {
+    if subspace.train(&points, &options, &in_parallel).is_err() {
         return Ok(Vec::new());
     }
     let models = frequency_hz.iter().map(|&f| at(f)).collect::<Result<Vec<_>, _>>()?;

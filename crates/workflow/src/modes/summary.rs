@@ -1,7 +1,7 @@
 //! `modes.json`.
 
 use super::ModesRun;
-use crate::load::Case;
+use crate::load::{Case, InputFile};
 use frfit::subspace::NaturalMode;
 use serde_json::{Value, json};
 
@@ -19,9 +19,6 @@ pub(super) fn json(case: &Case, run: &ModesRun) -> Value {
             "reduction_error": mode.error,
         })
     };
-    let inputs = case.inputs.iter().map(|input| {
-        json!({"file": input.path.display().to_string(), "bytes": input.bytes, "sha256": input.sha256})
-    });
     let labels = || case.sensors.iter().map(|sensor| &sensor.label);
     let by_sensor = |values: &[Option<f64>]| -> Value {
         labels()
@@ -65,7 +62,7 @@ pub(super) fn json(case: &Case, run: &ModesRun) -> Value {
     json!({
         "frfit": env!("CARGO_PKG_VERSION"),
         "title": case.title,
-        "inputs": inputs.collect::<Vec<_>>(),
+        "inputs": InputFile::json(&case.inputs),
         "dofs": case.model.dim(),
         "sensors": labels().collect::<Vec<_>>(),
         "band_hz": run.band_hz,

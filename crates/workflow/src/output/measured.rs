@@ -2,7 +2,7 @@
 
 use super::words::Words;
 use crate::convert::{companion, frf_dataset, windowed};
-use crate::load::decay_line;
+use crate::load::{InputFile, decay_line};
 use crate::records::{Records, Sensor};
 use frfit::dof::DofName;
 use frfit::signal::{Channel, Fault, Frf, Impact, Measured, Options, added_loss_factor};
@@ -154,11 +154,7 @@ fn excited_to_hz(measured: &Measured) -> Option<f64> {
 
 /// Everything about the impacts and the FRF but its values.
 pub fn measured_summary(records: &Records, measured: &Measured, options: &Options) -> Value {
-    let inputs: Vec<Value> = records
-        .inputs
-        .iter()
-        .map(|input| json!({"file": input.path.display().to_string(), "bytes": input.bytes, "sha256": input.sha256}))
-        .collect();
+    let inputs = InputFile::json(&records.inputs);
     let impact = |(k, impact): (usize, &Impact)| impact_json(k + 1, impact, records, measured);
     let coherence = |frf: &Frf| {
         let excited = excited_to_hz(measured).unwrap_or(0.0);

@@ -2,7 +2,7 @@
 
 use super::identifiability::{coordinate, not_identifiable};
 use super::{laws_json, smooth_json};
-use crate::load::{Case, IdentifyCase, MeasuredNoise, SensorInfo};
+use crate::load::{Case, IdentifyCase, InputFile, MeasuredNoise, SensorInfo};
 use crate::run::IdentifyRun;
 use frfit::c64;
 use frfit::identify::{
@@ -37,7 +37,7 @@ pub fn summary_json(
     let mut summary = json!({
         "frfit": env!("CARGO_PKG_VERSION"),
         "title": case.title,
-        "inputs": inputs_json(case),
+        "inputs": InputFile::json(&case.inputs),
         "units": case.units.json(),
         "decay_per_s": case.model.decay_per_s(),
         "model": model_json(case),
@@ -186,14 +186,6 @@ fn model_json(case: &Case) -> Value {
         "nonzeros": case.model.analysis().pattern().nonzeros(),
         "matrices": case.model.terms().iter().map(matrix).collect::<Vec<_>>(),
     })
-}
-
-/// Every file that was read.
-fn inputs_json(case: &Case) -> Vec<Value> {
-    case.inputs
-        .iter()
-        .map(|input| json!({"file": input.path.display().to_string(), "bytes": input.bytes, "sha256": input.sha256}))
-        .collect()
 }
 
 /// A sensor, and what it says of the answers: its misfit over its standard deviation (root mean square).

@@ -193,7 +193,7 @@ pub(crate) fn problem_of<'a>(
 }
 
 /// How well it was measured, as core takes it.
-fn noise_of(noise: &MeasuredNoise) -> Noise<'_> {
+pub(crate) fn noise_of(noise: &MeasuredNoise) -> Noise<'_> {
     match noise {
         MeasuredNoise::Unknown => Noise::Unknown,
         MeasuredNoise::Relative(std) => Noise::Relative(std),

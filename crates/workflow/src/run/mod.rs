@@ -4,8 +4,15 @@ mod identify;
 mod respond;
 
 pub use identify::{ErrorMap, IdentifyRun, RunOptions, Seconds, identify};
-pub(crate) use identify::{Used, identify_with, problem_of};
+pub(crate) use identify::{Used, identify_with, noise_of, problem_of};
 pub use respond::{RespondRun, respond};
+
+use rayon::prelude::*;
+
+/// All pieces at once, on all cores: how core's work is done.
+pub(crate) fn in_parallel(n: usize, each: &(dyn Fn(usize) + Sync)) {
+    (0..n).into_par_iter().for_each(each);
+}
 
 /// Called before and after each frequency with how many are done, of how many; from any thread. Who unwinds from it cancels.
 pub type Progress<'a> = &'a (dyn Fn(usize, usize) + Sync);

@@ -4,6 +4,7 @@ use super::Candidates;
 use super::ranking::{Ranking, ranking};
 use crate::job::JobError;
 use crate::load::Case;
+use crate::run::in_parallel;
 use frfit::c64;
 use frfit::model::{Experiment, Sensor};
 use frfit::response::Work;
@@ -14,7 +15,6 @@ use frfit::sensitivity::{
 use frfit::subspace::{ChangeOptions, ChangePoint, Trained};
 use frfit_linalg::dense::NoConvergence;
 use frfit_linalg::solve::Breakdown;
-use rayon::prelude::*;
 use std::time::Instant;
 
 /// Noise of the response where it is not known: that of a careful hammer test between resonances.
@@ -105,10 +105,6 @@ pub struct SensitivityRun {
     pub seconds: f64,
 }
 
-fn parallel(n: usize, each: &(dyn Fn(usize) + Sync)) {
-    (0..n).into_par_iter().for_each(each);
-}
-
 /// Sensitivities of a case, on all cores; the result does not depend on their number. The inner error says why nothing could be solved.
 ///
 /// # Errors
@@ -146,7 +142,7 @@ fn computed(
     candidates: &[usize],
 ) -> Result<SensitivityRun, Breakdown> {
     let train = ChangeOptions::default().with_everywhere((!candidates.is_empty()).then_some(CANDIDATE_TOL));
-    let band = SensitivityBand::new(&case.experiment, variables, points, &train, &parallel)?;
+    let band = SensitivityBand::new(&case.experiment, variables, points, &train, &in_parallel)?;
     let measured = case.sensitivities.as_ref().and_then(|wanted| wanted.std.clone());
     let (noise, deviations) = match (options.noise, measured) {
         (Some(noise), _) => (NoiseFrom::Given(noise), band.proportional(noise)),
@@ -158,12 +154,12 @@ fn computed(
     let mut work = band.work();
     let mut next = None;
     if let (Some(resolved), false) = (&resolved, candidates.is_empty()) {
-        let ranked = next_sensors(&band, &deviations, candidates, &parallel);
+        let ranked = next_sensors(&band, &deviations, candidates, &in_parallel);
         let short = shortlist(&ranked);
         let rows: Vec<usize> = short.iter().map(|(row, _)| *row).collect();
         let experiment = with_sensors(&case.experiment, &rows);
         let again =
-            SensitivityBand::new(&experiment, variables, points, &ChangeOptions::default(), &parallel)?;
+            SensitivityBand::new(&experiment, variables, points, &ChangeOptions::default(), &in_parallel)?;
         work += again.work();
         next = checked(&again, &deviations, sensors.len(), short).ok().map(|best| NextSensor {
             compared: candidates.len(),

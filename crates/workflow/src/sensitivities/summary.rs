@@ -2,7 +2,7 @@
 
 use super::words::{inseparable as in_words, monomial};
 use super::{NoiseFrom, Place, SensitivityRun};
-use crate::load::Case;
+use crate::load::{Case, InputFile};
 use frfit::sensitivity::{Change, Variable, WorstBar, inseparable};
 use frfit_linalg::solve::Breakdown;
 use serde_json::{Value, json};
@@ -77,13 +77,10 @@ pub(super) fn json(case: &Case, run: &SensitivityRun) -> Value {
         NoiseFrom::Assumed(noise) => json!({"source": "assumed", "relative": noise}),
         NoiseFrom::Files => json!({"source": "files"}),
     };
-    let inputs = case.inputs.iter().map(|input| {
-        json!({"file": input.path.display().to_string(), "bytes": input.bytes, "sha256": input.sha256})
-    });
     json!({
         "frfit": env!("CARGO_PKG_VERSION"),
         "title": case.title,
-        "inputs": inputs.collect::<Vec<_>>(),
+        "inputs": InputFile::json(&case.inputs),
         "dofs": case.model.dim(),
         "sensors": case.sensors.iter().map(|sensor| &sensor.label).collect::<Vec<_>>(),
         "frequencies": run.frequency_hz.len(),
