@@ -51,6 +51,28 @@ impl<T: Send> Cases<T> {
     }
 }
 
+/// `[CASES] [SEED] [--case K]` of the command line: the numbers of the cases (so many, or the case K alone) and the seed.
+///
+/// # Errors
+/// [`Failure`] for other words.
+pub fn arguments(default: [u64; 2]) -> Result<(Vec<u64>, u64), Failure> {
+    let mut positions = default;
+    let (mut place, mut case) = (0, None);
+    let mut words = std::env::args().skip(1);
+    while let Some(word) = words.next() {
+        if word == "--case" {
+            case = Some(number(&words.next().ok_or("--case: expected a value")?)?);
+        } else if place < positions.len() {
+            positions[place] = number(&word)?;
+            place += 1;
+        } else {
+            return Err(format!("expected CASES, SEED or --case, found {word:?}").into());
+        }
+    }
+    let [cases, seed] = positions;
+    Ok((case.map_or_else(|| (0..cases).collect(), |index| vec![index]), seed))
+}
+
 /// A number on the command line.
 ///
 /// # Errors

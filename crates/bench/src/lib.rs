@@ -7,6 +7,7 @@
 pub mod cases;
 pub mod clock;
 mod exponent;
+pub mod faults;
 mod machine;
 pub mod measurement;
 pub mod memory;

@@ -7,7 +7,8 @@ use crate::output::Words;
 use crate::run::{Used, in_parallel, problem_of};
 use crate::units::UnitSystem;
 use frfit::diagnostics::{
-    Diagnosis, Evidence, Fault, KNOWN_FACTOR_RTOL, KnownFactor, NotJudged, OtherRow, diagnose, diagnose_on,
+    Diagnosis, Evidence, Fault, KNOWN_FACTOR_RTOL, KnownFactor, MIN_MARGIN_NATS, NotJudged, OtherExplanation,
+    OtherRow, diagnose, diagnose_on,
 };
 use frfit::identify::{ChannelUnknowns, Problem, ProblemError, ReducedBand};
 use frfit::quantity::Quantity;
@@ -17,7 +18,7 @@ use std::path::Path;
 /// A finding as a person reads it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FindingText {
-    /// A word for programs: `conjugated`, `sign`, `quantity`, `factor`, `delay`, `response_dof`, `load_dof`, `mesh`.
+    /// A word for programs: `conjugated`, `sign`, `quantity`, `factor`, `delay`, `response_dof`, `load_dof`, `axis`, `no_signal`, `mesh`.
     pub kind: &'static str,
     /// The sensors' labels; empty where it is no matter of sensors.
     pub sensors: Vec<String>,
@@ -80,45 +81,48 @@ fn quantities(case: &Case) -> Vec<Quantity> {
     case.sensors.iter().map(|sensor| sensor.quantity).collect()
 }
 
+/// Without what is looked for by the identification itself: a real factor or a delay.
 fn without_looked_for(identify: &IdentifyCase, mut diagnosis: Diagnosis) -> Diagnosis {
-    // A real factor or a delay is no finding where it is looked for.
-    diagnosis.findings.retain(|finding| {
-        let real = matches!(finding.fault, Fault::Factor { .. } | Fault::Sign);
-        let late = matches!(finding.fault, Fault::Delay { .. });
+    let is_looked_for = |fault: &Fault, sensors: &[usize]| {
+        let real = matches!(fault, Fault::Factor { .. } | Fault::Sign);
+        let late = matches!(fault, Fault::Delay { .. });
         let looked_for = |unknown: ChannelUnknowns| (real && unknown.scale) || (late && unknown.delay);
         let channel = |&m: &usize| identify.channels.get(m).copied().unwrap_or_default();
-        !finding.sensors.iter().map(channel).all(looked_for)
-    });
+        sensors.iter().map(channel).all(looked_for)
+    };
+    diagnosis.findings.retain(|finding| !is_looked_for(&finding.fault, &finding.sensors));
+    diagnosis
+        .others
+        .retain(|other| !other.faults.iter().all(|(fault, sensors)| is_looked_for(fault, sensors)));
     diagnosis
 }
 
 /// The findings in words.
 pub fn finding_texts(case: &Case, diagnosis: &Diagnosis) -> Vec<FindingText> {
     let text = |finding: &frfit::diagnostics::Finding| {
-        let sensors = &finding.sensors;
-        let measurements = match sensors.as_slice() {
-            [m] => format!("[[measurement]] {}", m + 1),
-            _ => "every [[measurement]]".to_owned(),
-        };
-        let (kind, what, change) = words(case, &finding.fault, sensors, &measurements);
+        let (kind, what, change) = words(case, &finding.fault, &finding.sensors);
         let own = finding.evidence.as_ref().map_or(String::new(), numbers);
         let evidence = [more_numbers(&finding.fault), own].into_iter().filter(|text| !text.is_empty());
-        let labels = match finding.fault {
-            Fault::Mesh { .. } | Fault::LoadDof { .. } => Vec::new(),
-            _ => sensors.iter().map(|&m| case.sensors[m].label.clone()).collect(),
-        };
-        FindingText { kind, sensors: labels, what, evidence: evidence.collect::<Vec<_>>().join("; "), change }
+        let evidence = evidence.collect::<Vec<_>>().join("; ");
+        FindingText { kind, sensors: labels(case, &finding.fault, &finding.sensors), what, evidence, change }
     };
     diagnosis.findings.iter().map(text).collect()
 }
 
+/// The sensors that a fault concerns; none where it is no matter of sensors.
+fn labels(case: &Case, fault: &Fault, sensors: &[usize]) -> Vec<String> {
+    match fault {
+        Fault::Mesh { .. } | Fault::LoadDof { .. } | Fault::Axis { .. } => Vec::new(),
+        _ => sensors.iter().map(|&m| case.sensors[m].label.clone()).collect(),
+    }
+}
+
 /// Kind, what is wrong, and what to change.
-fn words(
-    case: &Case,
-    fault: &Fault,
-    sensors: &[usize],
-    measurements: &str,
-) -> (&'static str, String, String) {
+fn words(case: &Case, fault: &Fault, sensors: &[usize]) -> (&'static str, String, String) {
+    let measurements = match sensors {
+        [m] => format!("[[measurement]] {}", m + 1),
+        _ => "every [[measurement]]".to_owned(),
+    };
     match fault {
         Fault::Conjugated => (
             "conjugated",
@@ -152,17 +156,21 @@ fn words(
                     number(*factor)
                 ),
             },
-            match sensors {
-                // Where other sensors are right, the model is in the units that the case says.
-                [_] if case.sensors.len() > 1 => format!(
-                    "scale of {measurements}: {}, or units and sensitivity of its file; SI is expected",
-                    number(1.0 / factor)
-                ),
-                _ => format!(
-                    "scale of {measurements}: {}, or units and the hammer's sensitivity in their files; SI is expected. Or {}",
-                    number(1.0 / factor),
-                    of_the_model(case.units, *factor, *relative_std)
-                ),
+            {
+                // The number that has a name, in place of the one that was measured.
+                let scale = 1.0 / known.map_or(*factor, KnownFactor::value);
+                match sensors {
+                    // Where other sensors are right, the model is in the units that the case says.
+                    [_] if case.sensors.len() > 1 => format!(
+                        "scale of {measurements}: {}, or units and sensitivity of its file; SI is expected",
+                        number(scale)
+                    ),
+                    _ => format!(
+                        "scale of {measurements}: {}, or units and the hammer's sensitivity in their files; SI is expected. Or {}",
+                        number(scale),
+                        of_the_model(case.units, *factor, *relative_std)
+                    ),
+                }
             },
         ),
         Fault::Delay { seconds, .. } => (
@@ -192,6 +200,19 @@ fn words(
             );
             ("load_dof", what, "dof (or row) of [load]".to_owned())
         }
+        Fault::Axis { factor } => (
+            "axis",
+            match *factor > 1.0 {
+                true => "the frequencies are 2π times what they should be: rad/s taken for Hz".to_owned(),
+                false => "the frequencies are 1/2π of what they should be: Hz taken for rad/s".to_owned(),
+            },
+            "the frequency column (or axis) of the measured files; then identify.band_hz".to_owned(),
+        ),
+        Fault::NoSignal => (
+            "no_signal",
+            "the channel shows nothing: at most 1e-11 of what another one shows; it is left out".to_owned(),
+            format!("cable and channel of {measurements}, or take it out of the case"),
+        ),
         Fault::Mesh { row_hz, top_hz } => (
             "mesh",
             format!(
@@ -241,6 +262,14 @@ fn unit(known: KnownFactor) -> &'static str {
         KnownFactor::Millionth => "1e-6, metres taken for micrometres",
         KnownFactor::GravityInMillimetres => "9806.65, g and millimetres",
         KnownFactor::PerGravityInMillimetres => "1/9806.65, g and millimetres",
+        KnownFactor::InchesPerMetre => "39.37, inches taken for metres",
+        KnownFactor::MetresPerInch => "0.0254, metres taken for inches",
+        KnownFactor::PoundForce => "4.448, a force in pounds taken for newtons",
+        KnownFactor::PerPoundForce => "1/4.448, a force in newtons taken for pounds",
+        KnownFactor::GravityInInches => "386.1, g and inches",
+        KnownFactor::PerGravityInInches => "1/386.1, g and inches",
+        KnownFactor::TwoPi => "2π, a value per Hz taken for one per rad/s",
+        KnownFactor::PerTwoPi => "1/2π, a value per rad/s taken for one per Hz",
     }
 }
 
@@ -250,7 +279,7 @@ fn more_numbers(fault: &Fault) -> String {
         Fault::Quantity { slope, slope_std, .. } if slope.is_finite() => {
             format!("|measured/model| goes like ω^{slope:.2} ± {slope_std:.2}")
         }
-        Fault::Factor { factor, relative_std, .. } => {
+        Fault::Factor { factor, relative_std, .. } if *relative_std > 0.0 => {
             format!("factor {} ± {:.1} %", number(*factor), 100.0 * relative_std)
         }
         Fault::Delay { seconds, std } => format!("delay {} ± {:.0e} s", number(*seconds), std),
@@ -259,9 +288,13 @@ fn more_numbers(fault: &Fault) -> String {
 }
 
 fn numbers(evidence: &Evidence) -> String {
-    let Evidence { before, after, nats } = evidence;
+    let Evidence { before, after, nats, margin } = evidence;
+    let other = match margin {
+        Some(margin) => format!("{margin:.0} nats to the best other explanation"),
+        None => "nothing else explains it".to_owned(),
+    };
     format!(
-        "misfit of ln(measured/model) {before:.2} before, {after:.2} after; log-likelihood ratio {nats:.0} nats"
+        "misfit of ln(measured/model) {before:.2} before, {after:.2} after; log-likelihood ratio {nats:.0} nats; {other}"
     )
 }
 
@@ -274,11 +307,8 @@ fn number(value: f64) -> String {
 /// Why data were not judged, in words.
 pub fn not_judged(reason: NotJudged) -> &'static str {
     match reason {
-        NotJudged::Parameter => "the unknown factor has no positive real part to begin with",
+        NotJudged::Parameter => "no unknown factor has a positive real part to begin with",
         NotJudged::FewValues => "too few values",
-        NotJudged::SeveralUnknowns => {
-            "no single unknown explains the data with the others at their nominal values"
-        }
         _ => "no reduced model of the band could be made",
     }
 }
@@ -286,10 +316,11 @@ pub fn not_judged(reason: NotJudged) -> &'static str {
 /// `findings` of `summary.json`.
 pub fn findings_json(case: &Case, diagnosis: &Diagnosis) -> Value {
     let evidence = |k: usize| {
-        diagnosis.findings[k]
-            .evidence
-            .as_ref()
-            .map(|e| json!({"misfit_before": e.before, "misfit_after": e.after, "nats": e.nats}))
+        diagnosis.findings[k].evidence.as_ref().map(|e| {
+            json!({
+                "misfit_before": e.before, "misfit_after": e.after, "nats": e.nats, "margin_nats": e.margin,
+            })
+        })
     };
     let own = |k: usize| match &diagnosis.findings[k].fault {
         Fault::Quantity { taken_for, is, slope, slope_std } => json!({
@@ -305,7 +336,8 @@ pub fn findings_json(case: &Case, diagnosis: &Diagnosis) -> Value {
             json!({"candidates": rows.iter().map(one).collect::<Vec<_>>()})
         }
         Fault::Mesh { row_hz, top_hz } => json!({"row_hz": row_hz, "top_hz": top_hz}),
-        Fault::Conjugated | Fault::Sign => json!({}),
+        Fault::Axis { factor } => json!({"factor": factor}),
+        Fault::Conjugated | Fault::Sign | Fault::NoSignal => json!({}),
     };
     let findings = finding_texts(case, diagnosis).into_iter().enumerate().map(|(k, finding)| {
         json!({
@@ -314,6 +346,38 @@ pub fn findings_json(case: &Case, diagnosis: &Diagnosis) -> Value {
         })
     });
     Value::from(findings.collect::<Vec<_>>())
+}
+
+/// `other_explanations` of `summary.json`.
+pub fn others_json(case: &Case, diagnosis: &Diagnosis) -> Value {
+    let fault = |(fault, sensors): &(Fault, Vec<usize>)| {
+        let (kind, what, _) = words(case, fault, sensors);
+        json!({"kind": kind, "sensors": labels(case, fault, sensors), "what": what})
+    };
+    let one = |other: &OtherExplanation| {
+        let faults: Vec<Value> = other.faults.iter().map(fault).collect();
+        json!({"faults": faults, "misfit": other.misfit, "nats_behind": other.nats_behind})
+    };
+    diagnosis.others.iter().map(one).collect()
+}
+
+/// The explanations between which the data do not decide, a few lines each.
+fn undecided_text(case: &Case, others: &[OtherExplanation]) -> String {
+    let said = |(fault, sensors): &(Fault, Vec<usize>)| {
+        let who = labels(case, fault, sensors).join(", ");
+        let what = words(case, fault, sensors).1;
+        if who.is_empty() { what } else { format!("{who}: {what}") }
+    };
+    let mut text = format!(
+        "  {:<18}one of these would explain the data; less than {MIN_MARGIN_NATS} nats are between them:\n",
+        "not decided"
+    );
+    for other in others {
+        let faults: Vec<String> = other.faults.iter().map(said).collect();
+        let left = format!("(misfit {:.2}, {:.1} nats behind)", other.misfit, other.nats_behind);
+        text += &format!("  {:<18}- {} {left}\n", "", faults.join("; and "));
+    }
+    text
 }
 
 /// The findings for a person, a few lines each; without any, one line that says how well the data agree with the model.
@@ -331,6 +395,10 @@ pub fn findings_text(case: &Case, diagnosis: &Diagnosis) -> String {
         }
         text += &format!("  {:<18}change: {}\n", "", finding.change);
     }
+    let is_decided = diagnosis.findings.iter().any(|finding| finding.evidence.is_some());
+    if !is_decided && !diagnosis.others.is_empty() {
+        text += &undecided_text(case, &diagnosis.others);
+    }
     text
 }
 
@@ -346,7 +414,8 @@ pub fn check_text(job: &CheckJob) -> Words {
             let left = format!("ln(measured/model) is left with {misfit:.2} by the likeliest modulus");
             let (label, end) = match (diagnosis.findings.is_empty(), misfit > UNEXPLAINED) {
                 (true, false) => ("no finding", ""),
-                (true, true) => ("no finding", ": that is much, and no fault that is looked for explains it"),
+                (true, true) if diagnosis.others.is_empty() => ("no finding", UNEXPLAINED_WORDS),
+                (true, true) => ("no finding", ": that is much"),
                 (false, false) => ("left", ""),
                 (false, true) => {
                     ("left", ": that is much, and no other fault that is looked for explains it")
@@ -358,6 +427,10 @@ pub fn check_text(job: &CheckJob) -> Words {
     }
     words
 }
+
+/// Of data that nothing explains, with the way on.
+const UNEXPLAINED_WORDS: &str = ": that is much. The data do not fit the model, and no single or double fault explains it; \
+                                 `frfit modes` shows natural frequencies and shapes of both side by side";
 
 /// A misfit beyond this is more than noise from which a modulus can be identified: a factor of 1.3, or 17 degrees.
 const UNEXPLAINED: f64 = 0.3;

@@ -1,6 +1,6 @@
 //! Whole jobs: from the path of a case to files in a folder. What the command line and other front ends share.
 
-use crate::check::{check_on, findings_json};
+use crate::check::{check_on, findings_json, others_json};
 use crate::convert::{OR_TO, ending_of};
 use crate::error::{InputError, Place};
 use crate::figures::{identify_figures, measured_figures, respond_figures};
@@ -140,6 +140,8 @@ pub fn identify_case(
     let mut files = identify_figures(&case, wanted, &run)?;
     let mut summary = summary_json(&case, wanted, &run, seconds_load, start.elapsed().as_secs_f64());
     summary["findings"] = diagnosis.as_ref().map_or(serde_json::Value::Null, |d| findings_json(&case, d));
+    summary["other_explanations"] =
+        diagnosis.as_ref().map_or(serde_json::Value::Null, |d| others_json(&case, d));
     summary["seconds"]["check"] = seconds_check.into();
     let mut tables = vec![
         File::new("identified.csv", identified_csv(wanted, &found.lines)),

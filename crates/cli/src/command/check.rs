@@ -3,7 +3,7 @@
 use super::{megabytes, say_json, say_words};
 use crate::args::{Args, Check};
 use crate::outcome::{Failure, Outcome};
-use frfit_workflow::check::{check_case, check_text, findings_json, not_judged};
+use frfit_workflow::check::{check_case, check_text, findings_json, not_judged, others_json};
 use frfit_workflow::load::Overrides;
 use serde_json::json;
 
@@ -14,6 +14,7 @@ pub(crate) fn run(args: &Args, wanted: &Check) -> Result<Outcome, Failure> {
         let found = json!({
             "title": job.case.title,
             "findings": findings_json(&job.case, &job.diagnosis),
+            "other_explanations": others_json(&job.case, &job.diagnosis),
             "misfit": job.diagnosis.misfit,
             "not_judged": job.diagnosis.not_judged.map(not_judged),
             "frequencies": job.diagnosis.frequencies,

@@ -6,11 +6,15 @@ use crate::frequency::omega_rad_s;
 use crate::quantity::Quantity;
 
 /// One way in which values may be meant otherwise.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) enum Change {
     Conjugated,
     Reversed,
-    Quantity(Quantity),
+    /// Of what the case says, another quantity.
+    Quantity {
+        was: Quantity,
+        is: Quantity,
+    },
     /// By a factor that is looked for.
     Factor,
     /// By a time that is looked for.
@@ -80,7 +84,7 @@ impl DataHypothesis {
             match &edit.change {
                 Change::Conjugated => other.conjugated[m] = true,
                 Change::Reversed => other.reversed[m] = true,
-                Change::Quantity(quantity) => other.quantity[m] = *quantity,
+                Change::Quantity { is, .. } => other.quantity[m] = *is,
                 Change::Factor => other.factor[m] = true,
                 Change::Delay => other.delay[m] = true,
                 Change::Column(columns, _) => other.column[m] = columns[k],
@@ -105,7 +109,8 @@ impl DataHypothesis {
             }
             let taken_for = self.quantity[sensors[0]];
             if sensors.iter().all(|&m| self.quantity[m] == taken_for) {
-                Quantity::ALL.into_iter().filter(|&q| q != taken_for).for_each(|q| push(Change::Quantity(q)));
+                let others = Quantity::ALL.into_iter().filter(|&q| q != taken_for);
+                others.for_each(|is| push(Change::Quantity { was: taken_for, is }));
             }
             let [factor, delay] = self.free();
             if !factor {

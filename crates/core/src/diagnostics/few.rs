@@ -1,60 +1,88 @@
-//! Few sensors, all fitted together: the changes that explain what the modulus alone does not, one after the other.
+//! Few sensors, all fitted together: the faults that explain what the moduli alone do not.
 
 use super::data_hypothesis::{Change, DataHypothesis, DofMismatch, Edit, ln_over_receptance};
 use super::dof_mismatch::{Tried, dof_mismatch, sweep};
+use super::explanation::{self, Choice, EXPLAINED_MISFIT, Elsewhere, Explanation, choose};
 use super::finding::{
-    Diagnosis, Evidence, Fault, Finding, KNOWN_FACTOR_RTOL, KnownFactor, NotJudged, OtherRow,
+    Diagnosis, Evidence, Fault, Finding, KNOWN_FACTOR_RTOL, KnownFactor, NotJudged, OtherExplanation,
+    OtherRow,
 };
-use super::responses::{self, Parametrization, Responses, trained};
+use super::mesh;
+use super::moduli::{Moduli, Parametrization};
+use super::responses::{Responses, trained};
 use super::search::{Fitted, Grid, Search, Written};
-use super::{mesh, misfit};
 use crate::c64;
-use crate::for_each::{ForEach, map};
-use crate::identify::{Band, Options, Problem};
+use crate::for_each::ForEach;
+use crate::identify::{Options, Problem};
 use crate::material::OutsideTable;
+use crate::model::Experiment;
 use crate::quantity::Quantity;
 use crate::response::Work;
 use crate::subspace::Subspace;
+use std::f64::consts::TAU;
 
-/// The least log-likelihood ratio of a finding, in nats: some thirty changes are tried (e^3.4), and neighbouring residuals are not independent: what is left of a law
-/// that is no power may move several of them together.
-pub const FINDING_NATS: f64 = 15.0;
-
-/// The misfit with a finding over that without, at most. A factor, a delay or another row can fit a little of whatever is wrong; what they are the reason of falls to the noise.
-pub const MAX_MISFIT_RATIO: f64 = 0.6;
-
-/// A factor nearer to one than this is the calibration's or the model's mass, and no fault.
-const MIN_LN_FACTOR: f64 = 0.1;
-
-/// A delay that turns the phase by less than this at the top of the band (rad) is a filter's, and no fault.
-const MIN_DELAY_PHASE_RAD: f64 = 0.2;
-
-/// A factor or delay of fewer standard deviations than this is not distinguished from zero.
-const SIGNIFICANT_STD: f64 = 5.0;
-
-/// Misfit up to which data are explained: noise and a constant law leave as much, and the rows of a neighbourhood cannot be distinguished by it.
-const EXPLAINED_MISFIT: f64 = 0.04;
-
-/// Readings as likely as the best within this: the one that is listed first is named.
+/// Rows as likely as the best within this cannot be distinguished from it.
 const EQUAL_NATS: f64 = 3.0;
 
 /// Values at fewer than this explain nothing: three numbers of the modulus, two of a change, and as many again to judge by.
 const MIN_VALUES: usize = 8;
 
-/// Frequencies that are looked at, and values at most (they are fewer where there are many sensors).
+/// Frequencies that are looked at, for one unknown and for each further one, and values at most (they are fewer where there are many sensors).
 const MAX_FREQUENCIES: usize = 40;
-
+const MAX_FREQUENCIES_PER_UNKNOWN: usize = 10;
 const MAX_VALUES: usize = 240;
 
-/// Findings at most.
-const MAX_FINDINGS: usize = 2;
+/// Explanations of one change of values beside which another row is looked for.
+const MAX_CHANGES_WITH_ROWS: usize = 2;
+
+/// Explanations that are named where the data do not decide.
+const MAX_UNDECIDED: usize = 4;
+
+/// Modes serve moduli that differ from theirs by less than this in ln a: beyond, they are taken anew.
+const MODES_LN_RANGE: f64 = 0.05;
+
+/// Other axes are tried where this misfit is left: ten per cent, or six degrees.
+const UNEXPLAINED_MISFIT: f64 = 0.1;
+
+/// What is measured by some sensors.
+#[derive(Clone, Copy)]
+pub(super) struct Measured<'x> {
+    pub(super) experiment: &'x Experiment,
+    /// `[frequency][sensor]`.
+    pub(super) receptance: &'x [Vec<c64>],
+    pub(super) quantities: &'x [Quantity],
+}
+
+/// Some sensors of what was measured.
+pub(super) struct Part {
+    experiment: Experiment,
+    quantities: Vec<Quantity>,
+    receptance: Vec<Vec<c64>>,
+}
+
+impl Part {
+    pub(super) fn of(measured: Measured<'_>, sensors: &[usize]) -> Self {
+        let Measured { experiment, receptance, quantities } = measured;
+        Self {
+            experiment: Experiment {
+                load: experiment.load.clone(),
+                sensors: sensors.iter().map(|&m| experiment.sensors[m]).collect(),
+            },
+            quantities: sensors.iter().map(|&m| quantities[m]).collect(),
+            receptance: receptance.iter().map(|at| sensors.iter().map(|&m| at[m]).collect()).collect(),
+        }
+    }
+
+    pub(super) fn measured(&self) -> Measured<'_> {
+        let Self { experiment, quantities, receptance } = self;
+        Measured { experiment, receptance, quantities }
+    }
+}
 
 /// What answers for the sensors of a band.
 #[derive(Clone)]
 pub(super) struct Model<'x> {
     pub(super) problem: &'x Problem<'x>,
-    /// Which unknown is free, with the others at their nominal values.
-    pub(super) unknown: usize,
     /// A reduced model of the whole problem; without one, one is trained for the sensors.
     pub(super) trained: Option<&'x Subspace<'x>>,
     /// Which of the problem's sensors they are.
@@ -66,116 +94,273 @@ pub(super) struct Agreed<'x, 'a> {
     pub(super) responses: &'x Responses<'a>,
     /// The frequencies of the band that are looked at.
     pub(super) picked: &'x [usize],
-    /// The modulus, the factor and the delay.
+    /// The moduli, the factor and the delay.
     pub(super) fitted: &'x Fitted,
     /// The changes that were found, of all sensors.
     pub(super) edits: &'x [Edit],
 }
 
-/// [`super::diagnose`] of a few sensors. Where load and rows are those of the case, `agreed` is then asked about what was found.
+/// [`super::diagnose`] of a few sensors. Where load, rows and axis are those of the case, `agreed` is then asked about what was found.
 pub(super) fn look<T>(
     model: &Model<'_>,
-    band: &Band<'_>,
-    quantities: &[Quantity],
+    measured: Measured<'_>,
     options: &Options,
     for_each: ForEach<'_>,
     agreed: &dyn Fn(Agreed<'_, '_>) -> T,
 ) -> Result<(Diagnosis, Option<T>), OutsideTable> {
-    let picked = looked_at(band, MAX_FREQUENCIES.min((MAX_VALUES / quantities.len().max(1)).max(12)));
-    let frequency_hz: Vec<f64> = picked.iter().map(|&i| band.frequency_hz[i]).collect();
+    let problem = model.problem;
+    let all_hz = problem.frfs().frequency_hz;
+    let unknowns = problem.unknowns().len();
+    let most = MAX_FREQUENCIES + MAX_FREQUENCIES_PER_UNKNOWN * (unknowns - 1);
+    let picked =
+        looked_at(all_hz, measured, most.min((MAX_VALUES / measured.quantities.len().max(1)).max(12)));
+    let frequency_hz: Vec<f64> = picked.iter().map(|&i| all_hz[i]).collect();
     let mut diagnosis = Diagnosis {
         findings: Vec::new(),
+        others: Vec::new(),
         misfit: None,
         not_judged: None,
         frequencies: picked.len(),
         work: Work::default(),
     };
-    let written = Written(picked.iter().map(|&i| written(band, quantities, i)).collect());
+    let written = Written(picked.iter().map(|&i| written(problem, measured, i)).collect());
     if written.0.iter().flatten().flatten().count() < MIN_VALUES {
         diagnosis.not_judged = Some(NotJudged::FewValues);
         return Ok((diagnosis, None));
     }
-    let at = model.problem.about(model.unknown, &frequency_hz)?;
-    let is_linear = band.parameter.members.iter().all(|member| member.power == 1);
-    let parametrization = Parametrization::about(&at, band.unknown, options).filter(|_| is_linear);
-    let Some(parametrization) = parametrization else {
+    let Some(parametrization) = Parametrization::new(problem, &frequency_hz, options)? else {
         diagnosis.not_judged = Some(NotJudged::Parameter);
         return Ok((diagnosis, None));
     };
     let own = match model.trained {
-        None => trained(band.experiment, &at, &parametrization, for_each),
+        None => trained(problem, measured.experiment, &frequency_hz, &parametrization, for_each)?,
         Some(_) => None,
     };
     diagnosis.work = own.as_ref().map_or(Work::default(), Subspace::work);
-    let sensors = match model.trained {
-        None => (0..quantities.len()).collect(),
-        Some(_) => model.sensors.clone(),
-    };
-    let responses = model
-        .trained
-        .or(own.as_ref())
-        .and_then(|subspace| Responses::new(subspace, sensors, parametrization, &at, for_each));
-    let Some(responses) = responses else {
+    let Some(subspace) = model.trained.or(own.as_ref()) else {
         diagnosis.not_judged = Some(NotJudged::Breakdown);
         return Ok((diagnosis, None));
     };
-    let search = Search { responses: &responses, written: &written, for_each };
-    let grid = search.grid(quantities.len());
-    let mut data_hypothesis = DataHypothesis::as_given(quantities, band.model.decay_per_s());
-    let mut current = search.fit(&data_hypothesis, &grid, None);
-    let (mut common, mut mismatch_found) = (Vec::new(), false);
-    while diagnosis.findings.len() < MAX_FINDINGS {
-        let values = best_change(&search, &grid, &data_hypothesis, &current);
-        // Another row is looked for only where nothing simpler explains the data.
-        let explained = values.as_ref().map_or(current.misfit.sigma, |(_, found)| found.misfit.sigma);
-        let rows = match explained <= EXPLAINED_MISFIT {
-            true => Vec::new(),
-            false => {
-                let laws = laws_of_other_rows(&search, &grid, &data_hypothesis, &current);
-                dof_mismatch(&search, band, &at, options, &data_hypothesis, &laws)
-            }
-        };
-        let best_row = likeliest_row(&rows, &current, band.model.dim());
-        let likeliest = values.as_ref().map_or(f64::INFINITY, |(_, found)| found.nats);
-        if let Some((fault, tried)) = best_row.filter(|(_, tried)| tried.fitted.nats < likeliest) {
-            let evidence = evidence(&current, &tried.fitted);
-            let sensors = tried.edit.sensors.clone();
-            diagnosis.findings.push(Finding { fault, sensors, evidence: Some(evidence) });
-            current = tried.fitted.clone();
-            mismatch_found = true;
-            break;
+    let sensors = match model.trained {
+        None => (0..measured.quantities.len()).collect(),
+        Some(_) => model.sensors.clone(),
+    };
+    let look = Look { problem, measured, options, for_each, written: &written };
+    let responses = |about: &Moduli| {
+        let parametrization = (parametrization.clone(), about);
+        Responses::new(problem, subspace, Vec::clone(&sensors), parametrization, &frequency_hz, for_each)
+    };
+    let Some(mut responses_there) = responses(&parametrization.nominal()) else {
+        diagnosis.not_judged = Some(NotJudged::Breakdown);
+        return Ok((diagnosis, None));
+    };
+    let (mut as_given, mut tried) = look.explanations(&responses_there)?;
+    if responses_there.is_modal() {
+        // The modes of the likeliest values, in place of those of the nominal ones.
+        let likeliest = choose(&as_given, &tried).map_or(&as_given, |choice| choice.best);
+        let moduli = likeliest.fitted.moduli.clone();
+        if moduli.ln_sizes.iter().any(|ln| ln.abs() > MODES_LN_RANGE)
+            && let Some(nearer) = responses(&moduli)
+        {
+            responses_there = nearer;
+            (as_given, tried) = look.explanations(&responses_there)?;
         }
-        let Some((edit, found)) = values else { break };
-        let after = data_hypothesis.with(&edit);
-        let fault = fault(&search, &data_hypothesis, &after, &edit, &found);
-        let evidence = evidence(&current, &found);
-        if edit.sensors.len() == quantities.len() {
-            common.push(edit.clone());
-        }
-        diagnosis.findings.push(Finding { fault, sensors: edit.sensors, evidence: Some(evidence) });
-        (data_hypothesis, current) = (after, found);
     }
-    diagnosis.misfit = Some(current.misfit.sigma);
-    if let Some(top) = at.last()
-        && let Some(fault) = mesh::beyond_mesh(top, responses.correction(current.law, at.len() - 1))
+    let search = Search { responses: &responses_there, written: &written, for_each };
+    let choice = choose(&as_given, &tried);
+    let left = match &choice {
+        Some(choice) if choice.is_certain() => choice.best,
+        _ => &as_given,
+    };
+    if let Some(choice) = &choice {
+        look.say(&search, choice, &as_given, &tried, &mut diagnosis);
+    }
+    diagnosis.misfit = Some(left.fitted.misfit.sigma);
+    if let Ok(top) = responses_there.at(&left.fitted.moduli, frequency_hz.len() - 1)
+        && let Some(fault) = mesh::beyond_mesh(&top)
     {
-        let sensors = (0..quantities.len()).collect();
+        let sensors = (0..measured.quantities.len()).collect();
         diagnosis.findings.push(Finding { fault, sensors, evidence: None });
     }
-    let own = (!mismatch_found)
-        .then(|| agreed(Agreed { responses: &responses, picked: &picked, fitted: &current, edits: &common }));
+    let common: Vec<Edit> =
+        left.edits.iter().filter(|edit| edit.sensors.len() == measured.quantities.len()).cloned().collect();
+    let own = left.elsewhere.is_empty().then(|| {
+        agreed(Agreed { responses: &responses_there, picked: &picked, fitted: &left.fitted, edits: &common })
+    });
     Ok((diagnosis, own))
 }
 
+/// What is looked at.
+struct Look<'x> {
+    problem: &'x Problem<'x>,
+    measured: Measured<'x>,
+    options: &'x Options,
+    for_each: ForEach<'x>,
+    written: &'x Written,
+}
+
+impl Look<'_> {
+    /// Data as they are, and everything that was tried.
+    fn explanations(
+        &self,
+        responses: &Responses<'_>,
+    ) -> Result<(Explanation, Vec<Explanation>), OutsideTable> {
+        let search = Search { responses, written: self.written, for_each: self.for_each };
+        let grid = search.grid(self.measured.quantities.len());
+        let hypothesis =
+            DataHypothesis::as_given(self.measured.quantities, self.problem.model().decay_per_s());
+        let fitted = search.fit(&hypothesis, &grid, &[]);
+        let as_given = Explanation::as_given(hypothesis, fitted);
+        let mut tried = explanation::changes(&search, &grid, &as_given);
+        // Another row or axis is looked for only where nothing simpler explains the data.
+        let simplest = tried.iter().filter(|one| one.faults() == 1).chain([&as_given]);
+        let least = simplest.map(|one| one.fitted.worst()).fold(f64::INFINITY, f64::min);
+        if least > EXPLAINED_MISFIT {
+            let mut singles: Vec<&Explanation> = tried.iter().filter(|one| one.faults() == 1).collect();
+            singles.sort_by(|a, b| a.nats.total_cmp(&b.nats));
+            singles.truncate(MAX_CHANGES_WITH_ROWS);
+            let beside: Vec<&Explanation> = std::iter::once(&as_given).chain(singles).collect();
+            let rows = self.rows(&search, &grid, &beside)?;
+            tried.extend(rows);
+        }
+        let least = tried.iter().map(|one| one.fitted.misfit.sigma).fold(least, f64::min);
+        if least > UNEXPLAINED_MISFIT {
+            for factor in [TAU, 1.0 / TAU] {
+                tried.extend(self.axis(responses, &as_given, factor).unwrap_or_default());
+            }
+        }
+        Ok((as_given, tried))
+    }
+
+    /// Another row for a sensor or for the load beside each of some explanations.
+    fn rows(
+        &self,
+        search: &Search<'_, '_>,
+        grid: &Grid,
+        beside: &[&Explanation],
+    ) -> Result<Vec<Explanation>, OutsideTable> {
+        let mut found = Vec::new();
+        for beside in beside {
+            let laws = self.moduli_of_other_rows(search, grid, beside);
+            let (problem, experiment) = (self.problem, self.measured.experiment);
+            let hypothesis = &beside.data_hypothesis;
+            let rows = dof_mismatch(search, problem, experiment, self.options, hypothesis, &laws)?;
+            let dim = problem.model().dim();
+            let likeliest = likeliest_rows(&rows, dim).into_iter();
+            found.extend(likeliest.map(|(elsewhere, fitted)| beside.and(elsewhere, fitted)));
+        }
+        Ok(found)
+    }
+
+    /// The same data at frequencies that are so many times smaller, as they are and with one change.
+    fn axis(
+        &self,
+        responses: &Responses<'_>,
+        as_given: &Explanation,
+        factor: f64,
+    ) -> Option<Vec<Explanation>> {
+        let frequency_hz: Vec<f64> = responses.frequency_hz.iter().map(|f| f / factor).collect();
+        let parametrization = Parametrization::new(self.problem, &frequency_hz, self.options).ok()??;
+        let experiment = self.measured.experiment;
+        let subspace =
+            trained(self.problem, experiment, &frequency_hz, &parametrization, self.for_each).ok()??;
+        let sensors = (0..self.measured.quantities.len()).collect();
+        let about = parametrization.nominal();
+        let parametrization = (parametrization, &about);
+        let there =
+            Responses::new(self.problem, &subspace, sensors, parametrization, &frequency_hz, self.for_each)?;
+        let search = Search { responses: &there, written: self.written, for_each: self.for_each };
+        let grid = search.grid(self.measured.quantities.len());
+        let sensors = (0..self.measured.quantities.len()).collect();
+        let elsewhere = Elsewhere { fault: Fault::Axis { factor }, sensors, cost: 2f64.ln() };
+        let fitted = search.fit(&as_given.data_hypothesis, &grid, &[]);
+        let alone = as_given.and(elsewhere, fitted);
+        let mut all = Vec::new();
+        if alone.fitted.misfit.sigma < as_given.fitted.misfit.sigma {
+            all = explanation::single_changes(&search, &grid, &alone);
+            all.retain(|one| explanation::is_large(&search, one));
+            all.extend(self.rows(&search, &grid, &[&alone]).ok()?);
+        }
+        all.push(alone);
+        Some(all)
+    }
+
+    /// Moduli with which rows are compared, for each sensor and (last) for the load: those of the other sensors, and all of the box.
+    fn moduli_of_other_rows(
+        &self,
+        search: &Search<'_, '_>,
+        grid: &Grid,
+        beside: &Explanation,
+    ) -> Vec<Vec<Moduli>> {
+        let all = sweep(search.responses, &beside.fitted.moduli);
+        let hypothesis = &beside.data_hypothesis;
+        let sensors = hypothesis.sensors();
+        let without = |m: usize| {
+            if sensors == 1 {
+                return all.clone();
+            }
+            let blanked = |values: &Vec<Option<c64>>| {
+                values.iter().enumerate().map(|(k, value)| value.filter(|_| k != m)).collect()
+            };
+            let others = Written(search.written.0.iter().map(blanked).collect());
+            let known = Search { written: &others, ..*search }.fit(hypothesis, grid, &[]).moduli;
+            vec![known, beside.fitted.moduli.clone()]
+        };
+        let mut moduli: Vec<Vec<Moduli>> = (0..sensors).map(without).collect();
+        moduli.push(all);
+        moduli
+    }
+
+    /// Findings where the data are certain of them, what else would explain the data, or what they do not decide between.
+    fn say(
+        &self,
+        search: &Search<'_, '_>,
+        choice: &Choice<'_>,
+        as_given: &Explanation,
+        tried: &[Explanation],
+        diagnosis: &mut Diagnosis,
+    ) {
+        let best = choice.best;
+        let other = |one: &Explanation| OtherExplanation {
+            faults: faults(search, one),
+            misfit: one.fitted.misfit.sigma,
+            nats_behind: one.nats - best.nats,
+        };
+        if !choice.is_certain() {
+            let near = |one: &&Explanation| {
+                one.faults() <= best.faults() && one.nats - best.nats < explanation::MIN_MARGIN_NATS
+            };
+            let mut undecided: Vec<&Explanation> = tried.iter().filter(near).collect();
+            undecided.sort_by(|a, b| a.nats.total_cmp(&b.nats));
+            diagnosis.others = undecided.into_iter().take(MAX_UNDECIDED).map(other).collect();
+            return;
+        }
+        let all = faults(search, best);
+        for (k, (fault, sensors)) in all.into_iter().enumerate() {
+            let is_without =
+                |one: &&Explanation| one.faults() + 1 == best.faults() && one.is_without(best, k);
+            let before = tried.iter().find(is_without).unwrap_or(as_given);
+            let evidence = Evidence {
+                before: before.fitted.misfit.sigma,
+                after: best.fitted.misfit.sigma,
+                nats: before.nats - best.nats,
+                margin: choice.rival.map(|(_, behind)| behind),
+            };
+            diagnosis.findings.push(Finding { fault, sensors, evidence: Some(evidence) });
+        }
+        diagnosis.others = choice.rival.map(|(rival, _)| other(rival)).into_iter().collect();
+    }
+}
+
 /// Frequencies to look at: half of them where the response is largest among its neighbours (there it depends on damping), the others evenly spaced, ascending.
-fn looked_at(band: &Band<'_>, most: usize) -> Vec<usize> {
-    let usable: Vec<usize> = (0..band.frequency_hz.len()).filter(|&i| band.frequency_hz[i] > 0.0).collect();
+fn looked_at(frequency_hz: &[f64], measured: Measured<'_>, most: usize) -> Vec<usize> {
+    let usable: Vec<usize> = (0..frequency_hz.len()).filter(|&i| frequency_hz[i] > 0.0).collect();
     if usable.len() <= most {
         return usable;
     }
-    let size = |i: usize, m: usize| band.measured[i][m].norm();
+    let size = |i: usize, m: usize| measured.receptance[i][m].norm();
     let mut peaks: Vec<(f64, usize)> = Vec::new();
-    for m in 0..band.experiment.sensors.len() {
+    for m in 0..measured.quantities.len() {
         for around in usable.windows(3) {
             let [a, b, c] = [0, 1, 2].map(|k| size(around[k], m));
             if b > a && b > c {
@@ -198,94 +383,51 @@ fn looked_at(band: &Band<'_>, most: usize) -> Vec<usize> {
 }
 
 /// ln of the values as they were written, at one frequency.
-pub(super) fn written(band: &Band<'_>, quantities: &[Quantity], i: usize) -> Vec<Option<c64>> {
-    let values = band.measured[i].iter().zip(quantities);
+pub(super) fn written(problem: &Problem<'_>, measured: Measured<'_>, i: usize) -> Vec<Option<c64>> {
+    let (frequency_hz, decay_per_s) = (problem.frfs().frequency_hz[i], problem.model().decay_per_s());
+    let values = measured.receptance[i].iter().zip(measured.quantities);
     values
-        .map(|(u, &quantity)| {
-            let ln = ln_over_receptance(quantity, band.frequency_hz[i], band.model.decay_per_s());
-            Some(u.ln() + ln)
-        })
+        .map(|(u, &quantity)| Some(u.ln() + ln_over_receptance(quantity, frequency_hz, decay_per_s)))
         .map(|ln| ln.filter(|ln| ln.is_finite()))
         .collect()
 }
 
-fn evidence(before: &Fitted, after: &Fitted) -> Evidence {
-    Evidence { before: before.misfit.sigma, after: after.misfit.sigma, nats: before.nats - after.nats }
-}
-
-/// Whether a change explains what was not explained.
-fn is_better(before: &Fitted, after: &Fitted) -> bool {
-    before.nats - after.nats >= FINDING_NATS && after.misfit.sigma <= MAX_MISFIT_RATIO * before.misfit.sigma
-}
-
-/// The likeliest change of values that is a finding.
-fn best_change(
-    search: &Search<'_, '_>,
-    grid: &Grid,
-    data_hypothesis: &DataHypothesis,
-    current: &Fitted,
-) -> Option<(Edit, Fitted)> {
-    // No misfit is taken to be smaller than that floor: from here nothing can fall far enough.
-    if MAX_MISFIT_RATIO * current.misfit.sigma < misfit::MIN_MISFIT {
-        return None;
-    }
-    let edits = data_hypothesis.edits();
-    let fitted = map(search.for_each, edits.len(), |k| {
-        search.fit(&data_hypothesis.with(&edits[k]), grid, Some(current))
-    });
-    let mut found: Vec<(Edit, Fitted)> = edits
-        .into_iter()
-        .zip(fitted)
-        .filter(|(edit, fitted)| {
-            is_better(current, fitted) && is_large(search, &data_hypothesis.with(edit), edit, fitted)
-        })
-        .collect();
-    let least = found.iter().map(|(_, fitted)| fitted.nats).fold(f64::INFINITY, f64::min);
-    let first = found.iter().position(|(_, fitted)| fitted.nats <= least + EQUAL_NATS)?;
-    Some(found.swap_remove(first))
-}
-
-/// Whether a factor or a delay is large enough to be a fault.
-fn is_large(search: &Search<'_, '_>, data_hypothesis: &DataHypothesis, edit: &Edit, fitted: &Fitted) -> bool {
-    let top = crate::frequency::omega_rad_s(search.responses.frequency_hz.last().copied().unwrap_or(0.0));
-    let beyond = |value: f64, least: f64, std: Option<f64>| {
-        value.abs() >= least && std.is_some_and(|std| value.abs() >= SIGNIFICANT_STD * std)
-    };
-    match edit.change {
-        Change::Factor => {
-            beyond(fitted.ln_factor, MIN_LN_FACTOR, search.standard_deviations(data_hypothesis, fitted)[0])
-        }
-        Change::Delay => beyond(
-            fitted.delay_s,
-            MIN_DELAY_PHASE_RAD / top,
-            search.standard_deviations(data_hypothesis, fitted)[1],
-        ),
-        _ => true,
-    }
+/// What an explanation says is wrong, and with which sensors.
+fn faults(search: &Search<'_, '_>, one: &Explanation) -> Vec<(Fault, Vec<usize>)> {
+    let of_edit = |edit: &Edit| (fault(search, one, edit), edit.sensors.clone());
+    let elsewhere =
+        one.elsewhere.iter().map(|elsewhere| (elsewhere.fault.clone(), elsewhere.sensors.clone()));
+    one.edits.iter().map(of_edit).chain(elsewhere).collect()
 }
 
 /// What a change of values says.
-fn fault(
-    search: &Search<'_, '_>,
-    before: &DataHypothesis,
-    after: &DataHypothesis,
-    edit: &Edit,
-    found: &Fitted,
-) -> Fault {
-    let [factor_std, delay_std] = search.standard_deviations(after, found);
+fn fault(search: &Search<'_, '_>, one: &Explanation, edit: &Edit) -> Fault {
+    let found = &one.fitted;
+    // What is elsewhere is not among the responses of the search.
+    let is_here = one.elsewhere.is_empty();
+    let [factor_std, delay_std] = match is_here {
+        true => search.standard_deviations(&one.data_hypothesis, found),
+        false => [None; 2],
+    };
     match &edit.change {
         Change::Conjugated => Fault::Conjugated,
-        Change::Quantity(is) => {
+        Change::Quantity { was, is } => {
             // As the case reads the values, with the modulus that came of reading them otherwise: a modulus with a slope of its own would hide part of it.
-            let (slope, slope_std) =
-                search.slope(before, found, &edit.sensors).unwrap_or((f64::NAN, f64::NAN));
-            Fault::Quantity { taken_for: before.quantity[edit.sensors[0]], is: *is, slope, slope_std }
+            let before = one.data_hypothesis.with(&Edit {
+                change: Change::Quantity { was: *is, is: *was },
+                sensors: edit.sensors.clone(),
+            });
+            let slope = if is_here { search.slope(&before, found, &edit.sensors) } else { None };
+            let (slope, slope_std) = slope.unwrap_or((f64::NAN, f64::NAN));
+            Fault::Quantity { taken_for: *was, is: *is, slope, slope_std }
         }
         Change::Factor => {
             let factor = found.ln_factor.exp();
             let relative_std = factor_std.unwrap_or(0.0);
             let off = |known: KnownFactor| (found.ln_factor - known.value().ln()).abs();
-            let near = |known: &KnownFactor| off(*known) <= KNOWN_FACTOR_RTOL + 3.0 * relative_std;
+            // A model that does not fit well knows no factor well.
+            let unknown = 3.0 * relative_std + 0.5 * found.misfit.sigma;
+            let near = |known: &KnownFactor| off(*known) <= KNOWN_FACTOR_RTOL + unknown;
             let nearest = KnownFactor::ALL.into_iter().filter(near);
             let known = nearest.min_by(|&a, &b| off(a).total_cmp(&off(b)));
             Fault::Factor { factor, relative_std, known }
@@ -295,63 +437,29 @@ fn fault(
     }
 }
 
-/// Moduli with which rows are compared, for each sensor and (last) for the load: that of the other sensors, and all of the box.
-fn laws_of_other_rows(
-    search: &Search<'_, '_>,
-    grid: &Grid,
-    data_hypothesis: &DataHypothesis,
-    current: &Fitted,
-) -> Vec<Vec<responses::Law>> {
-    let all = sweep(search.responses);
-    let sensors = data_hypothesis.sensors();
-    let without = |m: usize| {
-        if sensors == 1 {
-            return all.clone();
-        }
-        let blanked = |values: &Vec<Option<c64>>| {
-            values.iter().enumerate().map(|(k, value)| value.filter(|_| k != m)).collect()
-        };
-        let others = Written(search.written.0.iter().map(blanked).collect());
-        let known = Search { written: &others, ..*search }.fit(data_hypothesis, grid, None).law;
-        vec![known, current.law]
+/// The likeliest rows of each sensor and of the load, with those that cannot be distinguished from them.
+fn likeliest_rows(rows: &[Tried], dim: usize) -> Vec<(Elsewhere, Fitted)> {
+    let is_load = |tried: &Tried| matches!(tried.what, DofMismatch::Load(_));
+    let mut kinds: Vec<(bool, &Vec<usize>)> =
+        rows.iter().map(|tried| (is_load(tried), &tried.edit.sensors)).collect();
+    kinds.sort();
+    kinds.dedup();
+    let likeliest = |(load, sensors): (bool, &Vec<usize>)| {
+        let of_kind = rows.iter().filter(|tried| is_load(tried) == load && tried.edit.sensors == *sensors);
+        let mut same: Vec<&Tried> = of_kind.collect();
+        same.sort_by(|a, b| a.fitted.nats.total_cmp(&b.fitted.nats));
+        let best = *same.first()?;
+        let alike = same.iter().take_while(|tried| tried.fitted.nats <= best.fitted.nats + EQUAL_NATS);
+        let rows: Vec<OtherRow> = alike
+            .map(|tried| {
+                let (DofMismatch::Response(row) | DofMismatch::Load(row)) = tried.what;
+                OtherRow { row, misfit: tried.fitted.misfit.sigma }
+            })
+            .collect();
+        let fault = if load { Fault::LoadDof { rows } } else { Fault::ResponseDof { rows } };
+        // As many rows were tried as there are.
+        let cost = (dim.max(1) as f64).ln();
+        Some((Elsewhere { fault, sensors: sensors.clone(), cost }, best.fitted.clone()))
     };
-    let mut laws: Vec<Vec<responses::Law>> = (0..sensors).map(without).collect();
-    laws.push(all);
-    laws
-}
-
-/// The likeliest row for a dof mismatch that is a finding, with those that cannot be distinguished from it.
-fn likeliest_row<'t>(rows: &'t [Tried], current: &Fitted, dim: usize) -> Option<(Fault, &'t Tried)> {
-    let best = rows.iter().min_by(|a, b| a.fitted.nats.total_cmp(&b.fitted.nats))?;
-    // As many rows were tried as there are.
-    let tried = (dim.max(1) as f64).ln();
-    let gained = current.nats - best.fitted.nats - tried;
-    if gained < FINDING_NATS || best.fitted.misfit.sigma > MAX_MISFIT_RATIO * current.misfit.sigma {
-        return None;
-    }
-    let alike = |tried: &&Tried| {
-        tried.fitted.nats <= best.fitted.nats + EQUAL_NATS && tried.edit.sensors == best.edit.sensors
-    };
-    let mut same: Vec<&Tried> = rows.iter().filter(alike).collect();
-    same.sort_by(|a, b| a.fitted.nats.total_cmp(&b.fitted.nats));
-    let listed = |wanted: fn(DofMismatch) -> Option<usize>| -> Vec<OtherRow> {
-        let of =
-            |tried: &&Tried| Some(OtherRow { row: wanted(tried.what)?, misfit: tried.fitted.misfit.sigma });
-        same.iter().filter_map(of).collect()
-    };
-    let fault = match best.what {
-        DofMismatch::Response(_) => Fault::ResponseDof {
-            rows: listed(|what| match what {
-                DofMismatch::Response(row) => Some(row),
-                DofMismatch::Load(_) => None,
-            }),
-        },
-        DofMismatch::Load(_) => Fault::LoadDof {
-            rows: listed(|what| match what {
-                DofMismatch::Load(row) => Some(row),
-                DofMismatch::Response(_) => None,
-            }),
-        },
-    };
-    Some((fault, best))
+    kinds.into_iter().filter_map(likeliest).collect()
 }

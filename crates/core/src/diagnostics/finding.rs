@@ -6,8 +6,10 @@ use crate::response::Work;
 /// What came of looking at the data.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Diagnosis {
-    /// What is wrong, the mesh last; empty where nothing is.
+    /// What is wrong, the mesh last; empty where nothing is, or where the data do not say what.
     pub findings: Vec<Finding>,
+    /// Other explanations, the likeliest first. Beside findings the best other one; without any, those between which the data do not decide.
+    pub others: Vec<OtherExplanation>,
     /// Robust standard deviation of ln(measured/model), real and imaginary part each, with the likeliest modulus and all findings; `None` where it was not judged.
     pub misfit: Option<f64>,
     /// Why the data were not judged, if they were not.
@@ -16,6 +18,33 @@ pub struct Diagnosis {
     pub frequencies: usize,
     /// Work of size N.
     pub work: Work,
+}
+
+impl Diagnosis {
+    /// Every fault that is named, with its sensors.
+    pub(super) fn faults_mut(&mut self) -> impl Iterator<Item = (&Fault, &mut Vec<usize>)> {
+        let findings = self.findings.iter_mut().map(|finding| (&finding.fault, &mut finding.sensors));
+        let others = self.others.iter_mut().flat_map(|other| &mut other.faults);
+        findings.chain(others.map(|(fault, sensors)| (&*fault, sensors)))
+    }
+
+    /// Some sensors as those of a whole experiment.
+    pub(super) fn of_sensors(&mut self, number: impl Fn(usize) -> usize) {
+        for (_, sensors) in self.faults_mut() {
+            sensors.iter_mut().for_each(|m| *m = number(*m));
+        }
+    }
+}
+
+/// Faults that would explain the data as well, or nearly.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OtherExplanation {
+    /// What would be wrong, and with which sensors.
+    pub faults: Vec<(Fault, Vec<usize>)>,
+    /// Misfit with them, as [`Evidence::after`].
+    pub misfit: f64,
+    /// By how many nats it is less likely than the best explanation.
+    pub nats_behind: f64,
 }
 
 /// A number that has a name: what units and habits make of an FRF.
@@ -37,11 +66,27 @@ pub enum KnownFactor {
     GravityInMillimetres,
     /// 1/9806.65: g taken for mm/s².
     PerGravityInMillimetres,
+    /// 39.37: inches taken for metres.
+    InchesPerMetre,
+    /// 0.0254: metres taken for inches.
+    MetresPerInch,
+    /// 4.448: pounds-force taken for newtons.
+    PoundForce,
+    /// 1/4.448: newtons taken for pounds-force.
+    PerPoundForce,
+    /// 386.1: in/s² taken for g.
+    GravityInInches,
+    /// 1/386.1: g taken for in/s².
+    PerGravityInInches,
+    /// 2π: a derivative by Hz taken for one by rad/s.
+    TwoPi,
+    /// 1/2π.
+    PerTwoPi,
 }
 
 impl KnownFactor {
     /// All of them.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 16] = [
         Self::StandardGravity,
         Self::PerStandardGravity,
         Self::Thousand,
@@ -50,11 +95,21 @@ impl KnownFactor {
         Self::Millionth,
         Self::GravityInMillimetres,
         Self::PerGravityInMillimetres,
+        Self::InchesPerMetre,
+        Self::MetresPerInch,
+        Self::PoundForce,
+        Self::PerPoundForce,
+        Self::GravityInInches,
+        Self::PerGravityInInches,
+        Self::TwoPi,
+        Self::PerTwoPi,
     ];
 
     /// The number.
     pub fn value(self) -> f64 {
         const STANDARD_GRAVITY: f64 = 9.80665;
+        const INCH: f64 = 0.0254;
+        const POUND: f64 = 0.453_592_37;
         match self {
             Self::StandardGravity => STANDARD_GRAVITY,
             Self::PerStandardGravity => 1.0 / STANDARD_GRAVITY,
@@ -64,6 +119,14 @@ impl KnownFactor {
             Self::Millionth => 1e-6,
             Self::GravityInMillimetres => 1e3 * STANDARD_GRAVITY,
             Self::PerGravityInMillimetres => 1e-3 / STANDARD_GRAVITY,
+            Self::InchesPerMetre => 1.0 / INCH,
+            Self::MetresPerInch => INCH,
+            Self::PoundForce => POUND * STANDARD_GRAVITY,
+            Self::PerPoundForce => 1.0 / (POUND * STANDARD_GRAVITY),
+            Self::GravityInInches => STANDARD_GRAVITY / INCH,
+            Self::PerGravityInInches => INCH / STANDARD_GRAVITY,
+            Self::TwoPi => std::f64::consts::TAU,
+            Self::PerTwoPi => 1.0 / std::f64::consts::TAU,
         }
     }
 }
@@ -121,6 +184,13 @@ pub enum Fault {
         /// Best first; those behind it cannot be distinguished from it.
         rows: Vec<OtherRow>,
     },
+    /// The frequencies are so many times what they should be: rad/s taken for Hz (2π), or Hz for rad/s (1/2π).
+    Axis {
+        /// Given over true frequency.
+        factor: f64,
+    },
+    /// The channel shows nothing: at most 1e-11 of what another one shows. It is left out of everything else.
+    NoSignal,
     /// The band goes beyond what the mesh can carry.
     Mesh {
         /// √(K_ii/M_ii)/2π: a quarter of all rows, moved alone, vibrate at this frequency or below it.
@@ -128,6 +198,13 @@ pub enum Fault {
         /// Highest frequency of the band.
         top_hz: f64,
     },
+}
+
+impl Fault {
+    /// Whether both are the same fault, whatever their numbers.
+    pub(super) fn is_same_kind(&self, other: &Self) -> bool {
+        std::mem::discriminant(self) == std::mem::discriminant(other)
+    }
 }
 
 /// How near a factor must be to a number with a name, relative: what calibrations of hammer and sensor leave together.
@@ -140,8 +217,10 @@ pub struct Evidence {
     pub before: f64,
     /// The same with it.
     pub after: f64,
-    /// Log-likelihood ratio in nats, after a penalty for every free number.
+    /// Log-likelihood ratio in nats to the data without this finding, after a penalty for every free number and for every choice.
     pub nats: f64,
+    /// Log-likelihood ratio in nats of all findings to the best other explanation; `None` where no other one explains anything.
+    pub margin: Option<f64>,
 }
 
 /// One thing that is wrong.
@@ -151,7 +230,7 @@ pub struct Finding {
     pub fault: Fault,
     /// With which sensors; all of them where it is the load or the mesh.
     pub sensors: Vec<usize>,
-    /// Why; `None` of the mesh, about which the matrices speak without any data.
+    /// Why; `None` of the mesh and of a channel without a signal, which no model is needed to see.
     pub evidence: Option<Evidence>,
 }
 
@@ -159,12 +238,10 @@ pub struct Finding {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum NotJudged {
-    /// The unknown factor has no positive real part to begin with, or enters with a power.
+    /// No unknown has a positive real part to begin with.
     Parameter,
     /// Too few values: a modulus of three numbers explains them whatever they are.
     FewValues,
     /// The reduced model cannot be built or solved.
     Breakdown,
-    /// With none of several unknowns free, the others at their nominal values, are the data explained, as they are or with a finding.
-    SeveralUnknowns,
 }

@@ -8,16 +8,15 @@
 //! Of sensors that are wrong each in a way of its own, [`MAX_SUSPECTS`] are looked at: the worst.
 
 use super::data_hypothesis::{DataHypothesis, Edit};
-use super::few::{Agreed, Model, look, written};
+use super::few::{Agreed, Measured, Model, Part, look, written};
 use super::finding::Diagnosis;
 use super::misfit::{misfit, wrapped};
 use crate::c64;
 use crate::for_each::ForEach;
-use crate::identify::{Band, Options};
+use crate::identify::Options;
 use crate::material::OutsideTable;
 use crate::median::median;
-use crate::model::{Experiment, Sensor};
-use crate::quantity::Quantity;
+use crate::model::Sensor;
 use crate::subspace::Drive;
 
 /// Sensors that are fitted together: with twelve frequencies of each there are 240 values.
@@ -35,24 +34,26 @@ const SUSPECT_MISFIT_RATIO: f64 = 2.0;
 /// [`super::diagnose`] of more than [`MAX_FITTED_SENSORS`] sensors.
 pub(super) fn diagnose(
     model: &Model<'_>,
-    band: &Band<'_>,
-    quantities: &[Quantity],
+    measured: Measured<'_>,
     options: &Options,
     for_each: ForEach<'_>,
 ) -> Result<Diagnosis, OutsideTable> {
-    let count = quantities.len();
+    let count = measured.quantities.len();
     let panel: Vec<usize> =
         (0..MAX_FITTED_SENSORS).map(|k| k * (count - 1) / (MAX_FITTED_SENSORS - 1)).collect();
-    let own = |agreed: Agreed<'_, '_>| own_misfits(band, quantities, &agreed);
-    let part = Part::of(band, quantities, &panel);
-    let of = |sensors: &[usize]| Model { sensors: sensors.to_vec(), ..model.clone() };
-    let (mut diagnosis, own) =
-        look(&of(&panel), &part.band(band), &part.quantities, options, for_each, &own)?;
-    for finding in &mut diagnosis.findings {
-        finding.sensors = match finding.sensors.len() == panel.len() {
-            true => (0..count).collect(),
-            false => finding.sensors.iter().map(|&k| panel[k]).collect(),
-        };
+    let own = |agreed: Agreed<'_, '_>| own_misfits(model, measured, &agreed);
+    let part = Part::of(measured, &panel);
+    let of = |few: &[usize]| {
+        let sensors = few.iter().map(|&m| model.sensors[m]).collect();
+        Model { sensors, ..model.clone() }
+    };
+    let (mut diagnosis, own) = look(&of(&panel), part.measured(), options, for_each, &own)?;
+    diagnosis.of_sensors(|k| panel[k]);
+    // What is wrong with all of these is wrong with all.
+    for (_, sensors) in diagnosis.faults_mut() {
+        if sensors.len() == panel.len() {
+            *sensors = (0..count).collect();
+        }
     }
     let Some(own) = own else { return Ok(diagnosis) };
     let mut order: Vec<usize> = (0..count).filter(|&m| own[m].is_finite()).collect();
@@ -65,8 +66,8 @@ pub(super) fn diagnose(
     for suspect in suspects {
         let mut few: Vec<usize> = order.iter().copied().take(SENSORS_BESIDE_SUSPECT).collect();
         few.push(suspect);
-        let part = Part::of(band, quantities, &few);
-        let (single, _) = look(&of(&few), &part.band(band), &part.quantities, options, for_each, &|_| ())?;
+        let part = Part::of(measured, &few);
+        let (single, _) = look(&of(&few), part.measured(), options, for_each, &|_| ())?;
         diagnosis.work += single.work;
         let of_it = single.findings.into_iter().filter(|finding| finding.sensors == [SENSORS_BESIDE_SUSPECT]);
         found.extend(of_it.map(|mut finding| {
@@ -80,60 +81,27 @@ pub(super) fn diagnose(
     Ok(diagnosis)
 }
 
-/// Misfit of every sensor for itself, by the modulus that some agree on and the changes of all.
-fn own_misfits(band: &Band<'_>, quantities: &[Quantity], agreed: &Agreed<'_, '_>) -> Vec<f64> {
+/// Misfit of every sensor for itself, by the moduli that some agree on and the changes of all.
+fn own_misfits(model: &Model<'_>, measured: Measured<'_>, agreed: &Agreed<'_, '_>) -> Vec<f64> {
     let Agreed { responses, picked, fitted, edits } = agreed;
+    let Measured { quantities, experiment, .. } = measured;
     let all: Vec<usize> = (0..quantities.len()).collect();
-    let as_given = DataHypothesis::as_given(quantities, band.model.decay_per_s());
+    let as_given = DataHypothesis::as_given(quantities, model.problem.model().decay_per_s());
     let data_hypothesis = edits.iter().fold(as_given, |data_hypothesis, edit| {
         data_hypothesis.with(&Edit { change: edit.change.clone(), sensors: all.clone() })
     });
     let mut residuals: Vec<Vec<c64>> = vec![Vec::with_capacity(picked.len()); quantities.len()];
     for (k, &i) in picked.iter().enumerate() {
-        let correction = responses.correction(fitted.law, k);
-        let x =
-            responses.subspace.everywhere(&responses.pole_residues[k].coordinates(Drive::Load, correction));
-        let values = written(band, quantities, i);
-        for (m, (value, &Sensor { row, sign })) in
-            values.into_iter().zip(&band.experiment.sensors).enumerate()
-        {
+        let x = responses.everywhere(Drive::Load, &fitted.moduli, k);
+        let values = written(model.problem, measured, i);
+        for (m, (value, &Sensor { row, sign })) in values.into_iter().zip(&experiment.sensors).enumerate() {
             let Some(value) = value else { continue };
-            let read =
-                data_hypothesis.receptance(m, band.frequency_hz[i], value, fitted.ln_factor, fitted.delay_s);
+            let f = responses.frequency_hz[k];
+            let read = data_hypothesis.receptance(m, f, value, fitted.ln_factor, fitted.delay_s);
             residuals[m].push(wrapped(read - (sign * x[row]).ln()));
         }
     }
     // Of fewer than half of the values nothing is said.
     let is_enough = |rest: &Vec<c64>| 2 * rest.len() >= picked.len();
     residuals.iter().map(|rest| if is_enough(rest) { misfit(rest).sigma } else { f64::NAN }).collect()
-}
-
-/// Some sensors of a band.
-struct Part {
-    experiment: Experiment,
-    quantities: Vec<Quantity>,
-    measured: Vec<Vec<c64>>,
-}
-
-impl Part {
-    fn of(band: &Band<'_>, quantities: &[Quantity], sensors: &[usize]) -> Self {
-        Self {
-            experiment: Experiment {
-                load: band.experiment.load.clone(),
-                sensors: sensors.iter().map(|&m| band.experiment.sensors[m]).collect(),
-            },
-            quantities: sensors.iter().map(|&m| quantities[m]).collect(),
-            measured: band.measured.iter().map(|at| sensors.iter().map(|&m| at[m]).collect()).collect(),
-        }
-    }
-
-    /// The band with these sensors only; its noise is not looked at.
-    fn band<'b>(&'b self, whole: &Band<'b>) -> Band<'b> {
-        Band {
-            experiment: &self.experiment,
-            measured: &self.measured,
-            noise: crate::identify::Noise::Unknown,
-            ..*whole
-        }
-    }
 }

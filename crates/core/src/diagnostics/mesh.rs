@@ -1,7 +1,6 @@
 //! What a mesh can carry, as far as matrices alone show it.
 
 use super::finding::Fault;
-use crate::c64;
 use crate::frequency::omega_rad_s;
 use crate::model::{ModelAt, Role, WeightedTerm};
 
@@ -14,32 +13,33 @@ const RESOLVED_FREQUENCY_SHARE: f64 = 0.5;
 /// Which part of the rows must be as slow as that: heavy points on soft springs are few, and say nothing of waves.
 const SLOW_ROW_SHARE: f64 = 0.25;
 
-/// Whether a band reaches beyond the mesh, with the factor so many times its nominal.
+/// Fewer rows that carry mass are points on springs, and no mesh.
+const MIN_ROWS: usize = 4;
+
+/// Whether a band reaches beyond the mesh, with the model as it is at the highest frequency.
 ///
 /// # Limits
 /// It cannot see how few elements there are in a wavelength where another direction is much stiffer (thin plates of solid elements have a thickness that vibrates
 /// alone far above the band): there it says nothing. How large the error is, only a finer mesh shows.
-pub(super) fn beyond_mesh(top: &ModelAt<'_>, correction: c64) -> Option<Fault> {
+pub(super) fn beyond_mesh(top: &ModelAt<'_>) -> Option<Fault> {
     let n = top.model.dim();
     let (mut stiffness, mut mass) = (vec![0.0; n], vec![0.0; n]);
-    let mut add = |parts: &[WeightedTerm], by: c64| {
-        for &WeightedTerm { term, weight: coefficient } in parts {
-            let term = &top.model.terms()[term];
-            let into = match term.role {
-                Role::Stiffness => &mut stiffness,
-                Role::Mass => &mut mass,
-                Role::Viscous => continue,
-            };
-            let factor = by * coefficient / top.model.weight(term.role, top.frequency_hz);
-            into.iter_mut().enumerate().for_each(|(i, sum)| *sum += (factor * term.matrix.get(i, i)).re);
-        }
-    };
-    add(&top.nominal.parts, c64::new(1.0, 0.0));
-    let changed = top.parameters.first().and_then(|p| p.coefficients.first());
-    changed.into_iter().for_each(|change| add(&change.parts, correction));
+    for &WeightedTerm { term, weight } in &top.nominal.parts {
+        let term = &top.model.terms()[term];
+        let into = match term.role {
+            Role::Stiffness => &mut stiffness,
+            Role::Mass => &mut mass,
+            Role::Viscous => continue,
+        };
+        let factor = weight / top.model.weight(term.role, top.frequency_hz);
+        into.iter_mut().enumerate().for_each(|(i, sum)| *sum += (factor * term.matrix.get(i, i)).re);
+    }
     // Rows without mass follow the others at once: they carry no wave.
     let squares = stiffness.iter().zip(&mass).filter(|&(&k, &m)| m > 0.0 && k > 0.0).map(|(k, m)| k / m);
     let mut squares: Vec<f64> = squares.collect();
+    if squares.len() < MIN_ROWS {
+        return None;
+    }
     squares.sort_by(f64::total_cmp);
     let slow = squares.get((SLOW_ROW_SHARE * squares.len() as f64) as usize)?.sqrt();
     let row_hz = slow / omega_rad_s(1.0);

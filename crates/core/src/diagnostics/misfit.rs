@@ -61,6 +61,48 @@ pub(super) fn misfit_at(residuals: impl Iterator<Item = c64>, sigma: f64) -> f64
     0.5 * (STUDENT_FREEDOM + 2.0) * (sum + product.ln())
 }
 
+/// Scale at which starts are compared and searches begin: valleys of this width in ln H are wide enough to be found on a grid.
+pub(super) const START_SCALE: f64 = 0.3;
+
+/// A residual shortened so that its square is its share of −ln likelihood at a scale: sums of such squares are least at the likeliest model.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Robust {
+    residual: c64,
+    pub(super) value: c64,
+    /// √(share/|r|²), and its slope by |r|².
+    shrink: f64,
+    of_square: f64,
+}
+
+/// A residual r at a scale.
+pub(super) fn robust(residual: c64, scale: f64) -> Robust {
+    let unit = STUDENT_FREEDOM * scale * scale;
+    let share = 0.5 * (STUDENT_FREEDOM + 2.0);
+    let ratio = residual.norm_sqr() / unit;
+    // ln(1 + t)/t and its slope; both by their series near zero.
+    let (part, slope) = match ratio < 1e-4 {
+        true => (1.0 - 0.5 * ratio, -0.5 + 2.0 / 3.0 * ratio),
+        false => {
+            let part = ratio.ln_1p() / ratio;
+            (part, (1.0 / (1.0 + ratio) - part) / ratio)
+        }
+    };
+    let shrink = (share / unit * part).sqrt();
+    Robust {
+        residual,
+        value: residual * shrink,
+        shrink,
+        of_square: 0.5 * share / unit * slope / (unit * shrink),
+    }
+}
+
+impl Robust {
+    /// The change of its value with that of the residual.
+    pub(super) fn slope(&self, by: c64) -> c64 {
+        by * self.shrink + self.residual * (self.of_square * 2.0 * (self.residual.conj() * by).re)
+    }
+}
+
 /// The weight of a residual at a scale.
 pub(super) fn weight(residual: c64, sigma: f64) -> f64 {
     (STUDENT_FREEDOM + 2.0) / (STUDENT_FREEDOM + residual.norm_sqr() / (sigma * sigma))
@@ -88,6 +130,22 @@ mod tests {
         assert!(without > 0.05 && with < 2.0 * without, "{without} {with}");
         assert_eq!(misfit(&[c64::default(); 4]).sigma, MIN_MISFIT);
         assert!(misfit(&[]).nats.is_finite());
+    }
+
+    #[test]
+    fn a_shortened_residual_has_its_share_of_the_likelihood_and_the_slope_of_differences() {
+        for (r, scale) in [(c64::new(0.2, -0.1), 0.3), (c64::new(3.0, 1.0), 0.1), (c64::new(1e-4, 0.0), 0.3)]
+        {
+            let one = robust(r, scale);
+            let share = misfit_at(std::iter::once(r), scale);
+            assert!((one.value.norm_sqr() / share - 1.0).abs() < 1e-8, "{one:?} {share}");
+            for by in [c64::new(1.0, 0.0), c64::new(0.3, -2.0)] {
+                let step = 1e-7;
+                let change =
+                    (robust(r + by * step, scale).value - robust(r - by * step, scale).value) / (2.0 * step);
+                assert!((one.slope(by) - change).norm() < 1e-6 * change.norm(), "{one:?} {change}");
+            }
+        }
     }
 
     #[test]

@@ -1,92 +1,34 @@
-//! What the model answers at the frequencies that are looked at, for any modulus of three numbers.
+//! What the model answers at the frequencies that are looked at, for any values of its unknowns.
 
+use super::moduli::{Moduli, Parametrization};
 use crate::c64;
 use crate::for_each::{ForEach, map};
-use crate::identify::{Options, Unknown};
+use crate::identify::Problem;
+use crate::material::OutsideTable;
 use crate::model::{Experiment, ModelAt};
-use crate::subspace::{Drive, Point, PoleResidue, Subspace, TrainOptions};
+use crate::subspace::{Drive, ModalSums, Point, PoleResidue, Subspace, TrainOptions};
 
 /// Error of the responses over the box: a tenth of what an FRF is measured to.
 const RESPONSE_TOL: f64 = 1e-3;
 
-/// Storage moduli over the box at which the basis is made good, and its loss factor where the nominal has none.
-const BOX_STORAGES: usize = 5;
+/// Sizes of the unknowns over the box at which the basis is made good.
+const BOX_SIZES: usize = 5;
 
-/// An angle of loss beyond this is that of a fluid.
-const MAX_LOSS_ANGLE: f64 = 1.3;
-
-/// The unknown modulus over the band: E(ω) = |Ē(ω)| a (ω/ω₀)^β exp(iδ(ω)) with δ = min(q δ̄(ω), 1.3).
-///
-/// Ē is the nominal and δ̄ its angle, one where it has none: what is unknown of a law is its size, its slope over log ω, and how much it damps.
-pub(super) type Law = [f64; 3];
-
-/// What is unknown: ln a, ln q, β.
-#[derive(Debug, Clone)]
-pub(super) struct Parametrization {
-    /// |Ē| and δ̄ at each frequency.
-    nominal: Vec<(f64, f64)>,
-    /// ln(ω/ω₀).
-    ln_omega: Vec<f64>,
-    /// ln a from … to.
-    pub(super) ln_size: [f64; 2],
-    /// tan δ from … to.
-    loss: [f64; 2],
-    pub(super) is_real: bool,
-}
-
-impl Parametrization {
-    /// `None` where the nominal has no positive real part, or nothing bounds it.
-    pub(super) fn about(at: &[ModelAt<'_>], unknown: &Unknown, options: &Options) -> Option<Self> {
-        let nominal: Vec<c64> = at.iter().map(|at| at.parameters[0].nominal).collect();
-        if nominal.iter().any(|p| p.re <= 0.0) {
-            return None;
-        }
-        let middle = at.len() / 2;
-        let [low, high] = unknown.box_about(nominal[middle], options.box_ratio())?;
-        let damps = nominal.iter().all(|p| p.arg() > 1e-9);
-        let angle = |p: &c64| if damps { p.arg() } else { 1.0 };
-        let bounded = unknown.bounds.loss_factor.unwrap_or([0.0, f64::INFINITY]);
-        Some(Self {
-            nominal: nominal.iter().map(|p| (p.norm(), angle(p))).collect(),
-            ln_omega: at.iter().map(|a| (a.frequency_hz / at[middle].frequency_hz).ln()).collect(),
-            ln_size: [low, high].map(|s| (s / nominal[middle].re).ln()),
-            // Damping takes energy: a negative loss factor is a finding, not an answer.
-            loss: bounded.map(|eta| eta.max(0.0)),
-            is_real: unknown.real,
-        })
-    }
-
-    /// ln q of an angle in the middle of the band.
-    pub(super) fn ln_loss(&self, angle: f64) -> f64 {
-        (angle / self.nominal[self.nominal.len() / 2].1).ln()
-    }
-
-    /// ln q of the nominal's own damping, or of one per cent where it has none.
-    pub(super) fn usual_loss(&self) -> f64 {
-        let damps = self.nominal.iter().any(|&(_, angle)| angle < 1.0);
-        if damps { 0.0 } else { self.ln_loss(0.01) }
-    }
-
-    /// E at the i-th frequency.
-    pub(super) fn modulus(&self, [ln_size, ln_loss, slope]: Law, i: usize) -> c64 {
-        let (size, angle) = self.nominal[i];
-        let size = size * (ln_size + slope * self.ln_omega[i]).exp();
-        if self.is_real {
-            return c64::new(size, 0.0);
-        }
-        let angle =
-            (angle * ln_loss.exp()).clamp(self.loss[0].atan(), self.loss[1].atan()).min(MAX_LOSS_ANGLE);
-        c64::from_polar(size, angle)
-    }
+/// How responses are summed.
+enum Sums {
+    /// Of one factor: over the poles in it at every frequency, as exact as the reduced model.
+    Poles { each: Vec<PoleResidue>, nominal: Vec<c64> },
+    /// Of several unknowns, or a geometric one: over the modes at some of their values.
+    Modes(ModalSums),
 }
 
 /// The model at the frequencies that are looked at.
 pub(super) struct Responses<'a> {
     pub(super) parametrization: Parametrization,
     pub(super) frequency_hz: Vec<f64>,
-    nominal: Vec<c64>,
-    pub(super) pole_residues: Vec<PoleResidue>,
-    /// Residues `[column][frequency][pole]`: the sensors', then those of other places.
+    problem: &'a Problem<'a>,
+    sums: Sums,
+    /// Residues `[column][frequency][pole]`, once for all frequencies of modes: the sensors', then those of other places.
     columns: Vec<Vec<Vec<c64>>>,
     pub(super) subspace: &'a Subspace<'a>,
     /// Which of its sensors are looked at.
@@ -97,43 +39,60 @@ pub(super) struct Responses<'a> {
 
 /// A subspace trained over the box; `None` where no real stand-in for D can be factorised.
 pub(super) fn trained<'a>(
+    problem: &Problem<'a>,
     experiment: &'a Experiment,
-    at: &[ModelAt<'a>],
+    frequency_hz: &[f64],
     parametrization: &Parametrization,
     for_each: ForEach<'_>,
-) -> Option<Subspace<'a>> {
-    let mut subspace = Subspace::new(experiment, at.last()?).ok()?;
-    let [low, high] = parametrization.ln_size;
-    let step = (high - low) / (BOX_STORAGES - 1) as f64;
-    let points: Vec<Point<'a>> = (0..at.len())
-        .flat_map(|i| (0..BOX_STORAGES).map(move |k| (i, low + k as f64 * step)))
-        .map(|(i, ln_size)| {
-            let modulus = parametrization.modulus([ln_size, 0.0, 0.0], i);
-            Point { correction: modulus - at[i].parameters[0].nominal, at: at[i].clone() }
-        })
-        .collect();
+) -> Result<Option<Subspace<'a>>, OutsideTable> {
+    let [low, high] = parametrization.common();
+    let step = (high - low) / (BOX_SIZES - 1) as f64;
+    let mut points: Vec<Point<'a>> = Vec::with_capacity(frequency_hz.len() * BOX_SIZES);
+    for (i, &f) in frequency_hz.iter().enumerate() {
+        for k in 0..BOX_SIZES {
+            let moduli = parametrization.all_by(low + k as f64 * step, 0.0, 0.0);
+            let at = problem.at(f, &parametrization.values(&moduli, i))?;
+            points.push(Point { correction: c64::default(), at });
+        }
+    }
+    let Some(&top) = frequency_hz.last() else { return Ok(None) };
+    let nominal =
+        problem.at(top, &parametrization.values(&parametrization.nominal(), frequency_hz.len() - 1))?;
+    let Ok(mut subspace) = Subspace::new(experiment, &nominal) else { return Ok(None) };
     let training = TrainOptions { tolerance: RESPONSE_TOL, ..TrainOptions::default() };
-    subspace.train(&points, &training, for_each).ok()?;
-    Some(subspace)
+    Ok(subspace.train(&points, &training, for_each).is_ok().then_some(subspace))
 }
 
 impl<'a> Responses<'a> {
-    /// Takes a subspace apart into its poles at every frequency; `sensors` says which of its sensors are looked at, each a column. `None` where there are no poles.
+    /// Takes a subspace apart into poles or modes; `sensors` says which of its sensors are looked at, each a column. Modes are those at `about`. `None` where there are none.
     pub(super) fn new(
+        problem: &'a Problem<'a>,
         subspace: &'a Subspace<'a>,
         sensors: Vec<usize>,
-        parametrization: Parametrization,
-        at: &[ModelAt<'_>],
+        (parametrization, about): (Parametrization, &Moduli),
+        frequency_hz: &[f64],
         for_each: ForEach<'_>,
     ) -> Option<Self> {
         let small = subspace.projection();
-        let pole_residues = map(for_each, at.len(), |i| small.pole_residue(&at[i]).ok().flatten());
-        let pole_residues: Vec<PoleResidue> = pole_residues.into_iter().collect::<Option<_>>()?;
+        let sums = match problem.unknowns() {
+            [only] if only.parameter().is_some_and(|p| p.members.iter().all(|member| member.power == 1)) => {
+                let at = problem.about(0, frequency_hz).ok()?;
+                let each = map(for_each, at.len(), |i| small.pole_residue(&at[i]).ok().flatten());
+                let nominal = at.iter().map(|at| at.parameters[0].nominal).collect();
+                Sums::Poles { each: each.into_iter().collect::<Option<_>>()?, nominal }
+            }
+            _ => {
+                let middle = frequency_hz.len() / 2;
+                let at =
+                    problem.at(*frequency_hz.get(middle)?, &parametrization.values(about, middle)).ok()?;
+                Sums::Modes(small.modal_sums(&at).ok()?)
+            }
+        };
         let mut responses = Self {
             parametrization,
-            frequency_hz: at.iter().map(|at| at.frequency_hz).collect(),
-            nominal: at.iter().map(|at| at.parameters[0].nominal).collect(),
-            pole_residues,
+            frequency_hz: frequency_hz.to_vec(),
+            problem,
+            sums,
             columns: Vec::new(),
             rows: subspace.model().dim(),
             subspace,
@@ -141,31 +100,102 @@ impl<'a> Responses<'a> {
         };
         for k in 0..responses.sensors.len() {
             let sensor = responses.sensors[k];
-            responses.add(|poles| poles.residues(sensor, Drive::Load));
+            responses.add(sensor, Drive::Load, c64::new(1.0, 0.0));
         }
         Some(responses)
     }
 
-    /// Adds a column of responses, by its residues at each frequency, and returns its number.
-    pub(super) fn add(&mut self, residues: impl Fn(&PoleResidue) -> Vec<c64>) -> usize {
-        self.columns.push(self.pole_residues.iter().map(residues).collect());
+    /// Whether they are sums over modes at some values of the unknowns, which are good only near these.
+    pub(super) fn is_modal(&self) -> bool {
+        matches!(self.sums, Sums::Modes(_))
+    }
+
+    /// Adds a column: so many times the response at one of the subspace's sensors to a drive. Returns its number.
+    pub(super) fn add(&mut self, sensor: usize, drive: Drive, by: c64) -> usize {
+        let times = |residues: Vec<c64>| residues.into_iter().map(|rho| rho * by).collect();
+        self.columns.push(match &self.sums {
+            Sums::Poles { each, .. } => {
+                each.iter().map(|poles| times(poles.residues(sensor, drive))).collect()
+            }
+            Sums::Modes(modes) => vec![times(modes.residues(sensor, drive))],
+        });
         self.columns.len() - 1
     }
 
-    /// c at the i-th frequency.
-    pub(super) fn correction(&self, law: Law, i: usize) -> c64 {
-        self.parametrization.modulus(law, i) - self.nominal[i]
+    /// The model at the i-th frequency.
+    pub(super) fn at(&self, moduli: &Moduli, i: usize) -> Result<ModelAt<'a>, OutsideTable> {
+        self.problem.at(self.frequency_hz[i], &self.parametrization.values(moduli, i))
+    }
+
+    /// E − Ē of the only unknown at the i-th frequency.
+    fn correction(&self, nominal: &[c64], moduli: &Moduli, i: usize) -> c64 {
+        self.parametrization.values(moduli, i)[0] - nominal[i]
+    }
+
+    /// What every residue is multiplied with at the i-th frequency.
+    fn inverse(&self, moduli: &Moduli, i: usize) -> Vec<c64> {
+        match &self.sums {
+            Sums::Poles { each, nominal } => {
+                let c = self.correction(nominal, moduli, i);
+                each[i].lambda().iter().map(|lambda| (1.0 + c * lambda).inv()).collect()
+            }
+            Sums::Modes(modes) => match self.at(moduli, i) {
+                Ok(at) => modes.inverse(&at),
+                Err(OutsideTable { .. }) => Vec::new(),
+            },
+        }
     }
 
     /// ln x of some columns at the i-th frequency.
-    pub(super) fn ln(&self, law: Law, i: usize, columns: &[usize]) -> Vec<c64> {
-        let c = self.correction(law, i);
-        let inverse: Vec<c64> =
-            self.pole_residues[i].lambda().iter().map(|lambda| (1.0 + c * lambda).inv()).collect();
+    pub(super) fn ln(&self, moduli: &Moduli, i: usize, columns: &[usize]) -> Vec<c64> {
+        let inverse = self.inverse(moduli, i);
         let sum = |&column: &usize| {
-            let terms = self.columns[column][i].iter().zip(&inverse).map(|(rho, d)| rho * d);
-            terms.sum::<c64>().ln()
+            let of = &self.columns[column];
+            of[i.min(of.len() - 1)].iter().zip(&inverse).map(|(rho, d)| rho * d).sum::<c64>().ln()
         };
         columns.iter().map(sum).collect()
+    }
+
+    /// ln x of some columns at the i-th frequency, and its slopes by the values of all unknowns, `[unknown][column]`.
+    pub(super) fn ln_with_slopes(
+        &self,
+        moduli: &Moduli,
+        i: usize,
+        columns: &[usize],
+    ) -> (Vec<c64>, Vec<Vec<c64>>) {
+        let (inverse, slopes) = match &self.sums {
+            Sums::Poles { each, .. } => {
+                let inverse = self.inverse(moduli, i);
+                let slope = each[i].lambda().iter().zip(&inverse).map(|(l, d)| -l * d * d).collect();
+                (inverse, vec![slope])
+            }
+            Sums::Modes(modes) => match self.at(moduli, i) {
+                Ok(at) => {
+                    let inverse = modes.inverse(&at);
+                    let slopes = modes.slopes(&at, &inverse);
+                    (inverse, slopes)
+                }
+                Err(OutsideTable { .. }) => (Vec::new(), Vec::new()),
+            },
+        };
+        let sum = |column: usize, of: &[c64]| -> c64 {
+            let residues = &self.columns[column];
+            residues[i.min(residues.len() - 1)].iter().zip(of).map(|(rho, d)| rho * d).sum()
+        };
+        let x: Vec<c64> = columns.iter().map(|&column| sum(column, &inverse)).collect();
+        let of_unknown = |slope: &Vec<c64>| -> Vec<c64> {
+            columns.iter().zip(&x).map(|(&column, x)| sum(column, slope) / x).collect()
+        };
+        let slopes = slopes.iter().map(of_unknown).collect();
+        (x.iter().map(|x| x.ln()).collect(), slopes)
+    }
+
+    /// x at every row of the model at the i-th frequency.
+    pub(super) fn everywhere(&self, drive: Drive, moduli: &Moduli, i: usize) -> Vec<c64> {
+        let coordinates = match &self.sums {
+            Sums::Poles { each, nominal } => each[i].coordinates(drive, self.correction(nominal, moduli, i)),
+            Sums::Modes(modes) => modes.coordinates(drive, &self.inverse(moduli, i)),
+        };
+        self.subspace.everywhere(&coordinates)
     }
 }

@@ -1,15 +1,15 @@
-//! The likeliest modulus for a way to read the data: a grid over all moduli, then a simplex search from the best of it.
+//! The likeliest moduli for a way to read the data: a grid of starts, then least squares of the misfit from the best of them.
 
 use super::data_hypothesis::DataHypothesis;
-use super::misfit::{Misfit, misfit, misfit_at, weight, wrapped};
-use super::responses::{Law, Responses};
+use super::misfit::{Misfit, START_SCALE, misfit, misfit_at, robust, weight, wrapped};
+use super::moduli::Moduli;
+use super::responses::Responses;
 use crate::c64;
 use crate::for_each::{ForEach, map};
 use crate::frequency::omega_rad_s;
 use crate::identify::{DELAY_PHASE_STEP_RAD, MAX_DELAY_PHASE_RAD};
+use crate::least_squares::{self, descend};
 use crate::median::median;
-use argmin::core::{CostFunction, Error, Executor, State};
-use argmin::solver::neldermead::NelderMead;
 use frfit_linalg::dense::{Matrix, solve};
 
 /// Step of ln a: a natural frequency moves by half of it, and the valley of a coincidence of twenty measured and computed resonances in log|H| is as wide as a twentieth.
@@ -24,18 +24,29 @@ const LOG_SLOPES: [f64; 4] = [0.0, 0.2, 0.45, -0.2];
 /// Slopes beyond this are none of a solid.
 const MAX_LOG_SLOPE: f64 = 0.8;
 
-/// Scale at which starts are compared: valleys of this width in ln H are wide enough to be found on the grid.
-const START_SCALE: f64 = 0.3;
+/// Points of the box of several unknowns, for each of them.
+const POINTS_PER_UNKNOWN: usize = 300;
 
-/// Starts that are followed, and how far apart they are in ln a.
-const FOLLOWED_MODULI: usize = 3;
+/// Starts that are followed for each unknown and two more, and how far apart they are in ln a.
+const FOLLOWED_STARTS: usize = 2;
 const START_SEPARATION: f64 = 0.04;
 
-/// Steps of a simplex for each unknown.
-const SIMPLEX_STEPS_PER_UNKNOWN: u64 = 45;
+/// Evaluations of a first descent for each number, and how many starts are then followed to the end.
+const FIRST_EVALUATIONS_PER_NUMBER: usize = 2;
+const POLISHED_STARTS: usize = 2;
+
+/// Evaluations of a further descent for each number, and descents at most: each with the scale that the one before left.
+const EVALUATIONS_PER_NUMBER: usize = 4;
+const MAX_DESCENTS: usize = 4;
+
+/// A scale that changes by less than this is the last.
+const SCALE_RTOL: f64 = 0.05;
 
 /// Of a bound that is overstepped by one in ln a or β: enough to come back.
 const BOUND_PENALTY: f64 = 1e4;
+
+/// Step of a coordinate for the slope of how far it is beyond its bounds.
+const DIFFERENCE_STEP: f64 = 1e-6;
 
 /// Values as they were written: ln of the complex value at `[frequency][sensor]`, `None` where it is zero or no number.
 pub(super) struct Written(pub(super) Vec<Vec<Option<c64>>>);
@@ -47,100 +58,158 @@ pub(super) struct Search<'s, 'a> {
     pub(super) for_each: ForEach<'s>,
 }
 
-/// The modulus, the factor and the delay of least misfit.
+/// The moduli, the factor and the delay of least misfit.
 #[derive(Debug, Clone)]
 pub(super) struct Fitted {
-    pub(super) law: Law,
+    pub(super) moduli: Moduli,
     pub(super) ln_factor: f64,
     pub(super) delay_s: f64,
     pub(super) misfit: Misfit,
+    /// The misfit of each sensor for itself: the one of all leaves out a sensor that differs from most.
+    pub(super) own: Vec<f64>,
     /// −ln likelihood, and half the logarithm of the number of values for each free number (BIC/2).
     pub(super) nats: f64,
 }
 
+impl Fitted {
+    /// The largest misfit of any sensor.
+    pub(super) fn worst(&self) -> f64 {
+        self.own.iter().copied().fold(self.misfit.sigma, f64::max)
+    }
+
+    /// The misfit of some sensors: root mean square of theirs.
+    pub(super) fn misfit_of(&self, sensors: &[usize]) -> f64 {
+        let sum: f64 = sensors.iter().map(|&m| self.own[m] * self.own[m]).sum();
+        (sum / sensors.len().max(1) as f64).sqrt()
+    }
+}
+
+/// Where a search begins: moduli, ln of the factor, delay in s.
+pub(super) type Start = (Moduli, f64, f64);
+
 /// ln x at the points of the grid, `[point][frequency · sensor]`.
 pub(super) struct Grid {
-    laws: Vec<Law>,
+    moduli: Vec<Moduli>,
     ln: Vec<Vec<c64>>,
 }
 
 impl Search<'_, '_> {
     /// Responses at all points of the grid, at the sensors as the case gives them.
+    ///
+    /// Of one unknown sizes, losses and slopes; of several the same with all sizes by one ratio, and points of the box (a Kronecker sequence).
     pub(super) fn grid(&self, sensors: usize) -> Grid {
         let parametrization = &self.responses.parametrization;
-        let [low, high] = parametrization.ln_size;
+        let [low, high] = parametrization.common();
         let steps = ((high - low) / LN_SIZE_STEP).ceil().max(1.0) as usize;
-        let (angles, slopes) = if parametrization.is_real {
-            (&LOSS_ANGLES[..1], &LOG_SLOPES[..1])
-        } else {
-            (&LOSS_ANGLES[..], &LOG_SLOPES[..])
-        };
-        let mut laws = Vec::with_capacity((steps + 1) * angles.len() * slopes.len());
+        let [has_loss, has_slope] = parametrization.has_loss();
+        let angles = if has_loss { &LOSS_ANGLES[..] } else { &LOSS_ANGLES[..1] };
+        let slopes = if has_slope { &LOG_SLOPES[..] } else { &LOG_SLOPES[..1] };
+        let mut moduli = Vec::new();
         for k in 0..=steps {
             let ln_size = low + (high - low) * k as f64 / steps as f64;
             for &angle in angles {
-                laws.extend(slopes.iter().map(|&slope| [ln_size, parametrization.ln_loss(angle), slope]));
+                let of = |&slope| parametrization.all_by(ln_size, parametrization.ln_loss(angle), slope);
+                moduli.extend(slopes.iter().map(of));
             }
         }
+        let count = parametrization.free().count();
+        let points = if count > 1 { POINTS_PER_UNKNOWN * count } else { 0 };
+        let steps: Vec<f64> = kronecker_steps(count);
+        moduli.extend((1..=points).map(|k| {
+            let mut moduli = Moduli { ln_loss: parametrization.usual_loss(), ..parametrization.nominal() };
+            for ((j, [low, high]), step) in parametrization.free().zip(&steps) {
+                moduli.ln_sizes[j] = low + (high - low) * (k as f64 * step).fract();
+            }
+            moduli
+        }));
         let columns: Vec<usize> = (0..sensors).collect();
-        let ln = map(self.for_each, laws.len(), |p| {
-            (0..self.written.0.len()).flat_map(|i| self.responses.ln(laws[p], i, &columns)).collect()
+        let ln = map(self.for_each, moduli.len(), |p| {
+            (0..self.written.0.len()).flat_map(|i| self.responses.ln(&moduli[p], i, &columns)).collect()
         });
-        Grid { laws, ln }
+        Grid { moduli, ln }
     }
 
-    /// Residuals ln(measured/model) with the model's logarithms given, `None` where nothing was measured.
+    /// Residuals ln(measured/model) with the model's logarithms given, with sensor and place, where something was measured.
     fn residuals<'r>(
         &'r self,
         data_hypothesis: &'r DataHypothesis,
         ln: &'r [c64],
         ln_factor: f64,
         delay_s: f64,
-    ) -> impl Iterator<Item = (usize, c64)> + 'r {
+    ) -> impl Iterator<Item = ([usize; 2], c64)> + 'r {
         let sensors = data_hypothesis.sensors();
         self.written.0.iter().enumerate().flat_map(move |(i, values)| {
             values.iter().enumerate().filter_map(move |(m, value)| {
                 let f = self.responses.frequency_hz[i];
                 let read = data_hypothesis.receptance(m, f, (*value)?, ln_factor, delay_s);
-                Some((m, wrapped(read - ln[i * sensors + m])))
+                Some(([i, m], wrapped(read - ln[i * sensors + m])))
             })
         })
     }
 
-    /// The likeliest modulus from the best of the grid and from a start that is known.
-    pub(super) fn fit(
-        &self,
-        data_hypothesis: &DataHypothesis,
-        grid: &Grid,
-        known: Option<&Fitted>,
-    ) -> Fitted {
-        let scored = map(self.for_each, grid.laws.len(), |p| self.score(data_hypothesis, &grid.ln[p]));
+    /// The likeliest moduli from the best of the grid and from starts that are known.
+    pub(super) fn fit(&self, data_hypothesis: &DataHypothesis, grid: &Grid, known: &[&Fitted]) -> Fitted {
+        let scored = map(self.for_each, grid.moduli.len(), |p| self.score(data_hypothesis, &grid.ln[p]));
         let mut order: Vec<usize> = (0..scored.len()).collect();
         order.sort_by(|&a, &b| scored[a].0.total_cmp(&scored[b].0));
-        let mut starts: Vec<(Law, f64, f64)> =
-            known.iter().map(|known| (known.law, known.ln_factor, known.delay_s)).collect();
+        let mut starts: Vec<Start> =
+            known.iter().map(|known| (known.moduli.clone(), known.ln_factor, known.delay_s)).collect();
         let first = starts.len();
+        let followed = FOLLOWED_STARTS + self.responses.parametrization.free().count();
         for &p in &order {
-            let law = grid.laws[p];
-            if starts[first..].iter().all(|(other, ..)| (other[0] - law[0]).abs() > START_SEPARATION) {
-                starts.push((law, scored[p].1, 0.0));
+            let moduli = &grid.moduli[p];
+            let apart = |other: &Moduli| {
+                let each = other.ln_sizes.iter().zip(&moduli.ln_sizes);
+                each.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) > START_SEPARATION
+            };
+            if starts[first..].iter().all(|(other, ..)| apart(other)) {
+                starts.push((moduli.clone(), scored[p].1, 0.0));
             }
-            if starts.len() == first + FOLLOWED_MODULI {
+            if starts.len() == first + followed {
                 break;
             }
         }
-        if data_hypothesis.free()[1] {
-            let from = std::mem::take(&mut starts);
-            starts = from.into_iter().map(|start| self.with_delay(data_hypothesis, start)).collect();
-        }
-        self.follow(data_hypothesis, &starts)
+        self.follow(data_hypothesis, starts)
     }
 
-    /// The best that a search from each of some starts comes to.
-    pub(super) fn follow(&self, data_hypothesis: &DataHypothesis, starts: &[(Law, f64, f64)]) -> Fitted {
-        let found = map(self.for_each, starts.len(), |k| self.polished(data_hypothesis, starts[k]));
-        let best = found.into_iter().min_by(|a, b| a.nats.total_cmp(&b.nats));
-        best.unwrap_or_else(|| self.at(data_hypothesis, &[0.0; 5]))
+    /// So many points of the grid that are best for a way to read the data.
+    pub(super) fn best_points(
+        &self,
+        data_hypothesis: &DataHypothesis,
+        grid: &Grid,
+        most: usize,
+    ) -> Vec<usize> {
+        let scored = map(self.for_each, grid.ln.len(), |p| self.score(data_hypothesis, &grid.ln[p]).0);
+        let mut order: Vec<usize> = (0..scored.len()).collect();
+        order.sort_by(|&a, &b| scored[a].total_cmp(&scored[b]));
+        order.truncate(most);
+        order
+    }
+
+    /// The least misfit at some points of the grid, at a broad scale.
+    pub(super) fn best_score(&self, data_hypothesis: &DataHypothesis, grid: &Grid, points: &[usize]) -> f64 {
+        let scores = points.iter().map(|&p| self.score(data_hypothesis, &grid.ln[p]).0);
+        scores.fold(f64::INFINITY, f64::min)
+    }
+
+    /// The best that a search from each of some starts comes to: all are followed a little way, and the best of them to the end.
+    pub(super) fn follow(&self, data_hypothesis: &DataHypothesis, mut starts: Vec<Start>) -> Fitted {
+        if data_hypothesis.free()[1] {
+            starts = starts.into_iter().map(|start| self.with_delay(data_hypothesis, start)).collect();
+        }
+        let mut found = map(self.for_each, starts.len(), |k| {
+            let theta = self.coordinates(data_hypothesis, &starts[k]);
+            self.descended(data_hypothesis, &theta, START_SCALE, FIRST_EVALUATIONS_PER_NUMBER)
+        });
+        found.extend(starts.iter().map(|start| self.at(data_hypothesis, start)));
+        found.sort_by(|a, b| a.nats.total_cmp(&b.nats));
+        let polished = map(self.for_each, found.len().min(POLISHED_STARTS), |k| {
+            self.polished(data_hypothesis, found[k].clone())
+        });
+        let best = polished.into_iter().min_by(|a, b| a.nats.total_cmp(&b.nats));
+        best.unwrap_or_else(|| {
+            self.at(data_hypothesis, &(self.responses.parametrization.nominal(), 0.0, 0.0))
+        })
     }
 
     /// Misfit of a point of the grid at a broad scale, and the logarithm of the factor there.
@@ -150,11 +219,11 @@ impl Search<'_, '_> {
         if factor {
             let of = self
                 .residuals(data_hypothesis, ln, 0.0, 0.0)
-                .filter(|&(m, _)| data_hypothesis.concerned(m)[0]);
+                .filter(|&([_, m], _)| data_hypothesis.concerned(m)[0]);
             ln_factor = median(of.map(|(_, r)| r.re).collect()).unwrap_or(0.0);
         }
         // A phase that a delay may have turned is not used yet.
-        let weighed = |(m, r): (usize, c64)| {
+        let weighed = |([_, m], r): ([usize; 2], c64)| {
             if delay && data_hypothesis.concerned(m)[1] { c64::new(r.re, 0.0) } else { r }
         };
         let score = misfit_at(self.residuals(data_hypothesis, ln, ln_factor, 0.0).map(weighed), START_SCALE);
@@ -162,12 +231,8 @@ impl Search<'_, '_> {
     }
 
     /// A start with the best of all delays.
-    fn with_delay(
-        &self,
-        data_hypothesis: &DataHypothesis,
-        (law, ln_factor, delay_s): (Law, f64, f64),
-    ) -> (Law, f64, f64) {
-        let ln = self.ln(data_hypothesis, law);
+    fn with_delay(&self, data_hypothesis: &DataHypothesis, (moduli, ln_factor, delay_s): Start) -> Start {
+        let ln = self.ln(data_hypothesis, &moduli);
         let top = self.top();
         let steps = (MAX_DELAY_PHASE_RAD / DELAY_PHASE_STEP_RAD) as i64;
         let delays =
@@ -176,11 +241,12 @@ impl Search<'_, '_> {
             (misfit_at(self.residuals(data_hypothesis, &ln, ln_factor, tau).map(|r| r.1), START_SCALE), tau)
         });
         let best = scored.min_by(|a, b| a.0.total_cmp(&b.0)).map_or(0.0, |(_, tau)| tau);
-        (law, ln_factor, best)
+        (moduli, ln_factor, best)
     }
 
-    fn ln(&self, data_hypothesis: &DataHypothesis, law: Law) -> Vec<c64> {
-        (0..self.written.0.len()).flat_map(|i| self.responses.ln(law, i, &data_hypothesis.column)).collect()
+    fn ln(&self, data_hypothesis: &DataHypothesis, moduli: &Moduli) -> Vec<c64> {
+        let at = |i| self.responses.ln(moduli, i, &data_hypothesis.column);
+        (0..self.written.0.len()).flat_map(at).collect()
     }
 
     /// ω at the top of the band.
@@ -188,100 +254,168 @@ impl Search<'_, '_> {
         omega_rad_s(self.responses.frequency_hz.last().copied().unwrap_or(1.0))
     }
 
-    /// Coordinates of a start: of the modulus, then of factor and delay where they are looked for.
+    /// Coordinates of a start: of the moduli, then of factor and delay where they are looked for.
     fn coordinates(
         &self,
         data_hypothesis: &DataHypothesis,
-        (law, ln_factor, delay_s): (Law, f64, f64),
+        (moduli, ln_factor, delay_s): &Start,
     ) -> Vec<f64> {
         let [factor, delay] = data_hypothesis.free();
-        let mut at = if self.responses.parametrization.is_real { law[..1].to_vec() } else { law.to_vec() };
-        at.extend(factor.then_some(ln_factor));
+        let mut at = self.responses.parametrization.coordinates(moduli);
+        at.extend(factor.then_some(*ln_factor));
         at.extend(delay.then_some(delay_s * self.top()));
         at
     }
 
-    fn parts(&self, data_hypothesis: &DataHypothesis, at: &[f64]) -> (Law, f64, f64) {
+    fn parts(&self, data_hypothesis: &DataHypothesis, at: &[f64]) -> Start {
         let [factor, delay] = data_hypothesis.free();
-        let mut rest = at.iter().copied();
-        let mut next = || rest.next().unwrap_or(0.0);
-        let law = if self.responses.parametrization.is_real {
-            [next(), 0.0, 0.0]
-        } else {
-            [next(), next(), next()]
-        };
-        let ln_factor = if factor { next() } else { 0.0 };
-        (law, ln_factor, if delay { next() / self.top() } else { 0.0 })
+        let (moduli, rest) = self.responses.parametrization.of(at);
+        let mut rest = rest.iter().copied();
+        let mut next = |is_free: bool| if is_free { rest.next().unwrap_or(0.0) } else { 0.0 };
+        let ln_factor = next(factor);
+        (moduli, ln_factor, next(delay) / self.top())
     }
 
-    fn at(&self, data_hypothesis: &DataHypothesis, at: &[f64]) -> Fitted {
-        let (law, ln_factor, delay_s) = self.parts(data_hypothesis, at);
-        let ln = self.ln(data_hypothesis, law);
-        let rest: Vec<c64> = self.residuals(data_hypothesis, &ln, ln_factor, delay_s).map(|r| r.1).collect();
+    /// By how much each number is beyond its bounds.
+    fn beyond(&self, moduli: &Moduli) -> Vec<f64> {
+        let outside = |value: f64, [low, high]: [f64; 2]| (value - value.clamp(low, high)).abs();
+        let sizes = self.responses.parametrization.free();
+        let sizes = sizes.map(|(j, range)| outside(moduli.ln_sizes[j], range));
+        sizes.chain([outside(moduli.slope, [-MAX_LOG_SLOPE, MAX_LOG_SLOPE])]).collect()
+    }
+
+    fn at(&self, data_hypothesis: &DataHypothesis, start: &Start) -> Fitted {
+        let (moduli, ln_factor, delay_s) = start;
+        let ln = self.ln(data_hypothesis, moduli);
+        let mut by_sensor: Vec<Vec<c64>> = vec![Vec::new(); data_hypothesis.sensors()];
+        for ([_, m], residual) in self.residuals(data_hypothesis, &ln, *ln_factor, *delay_s) {
+            by_sensor[m].push(residual);
+        }
+        let rest = by_sensor.concat();
+        let own = by_sensor.iter().map(|own| misfit(own).sigma).collect();
         let misfit = misfit(&rest);
-        let [low, high] = self.responses.parametrization.ln_size;
-        let beyond = (low - law[0]).max(law[0] - high).max(law[2].abs() - MAX_LOG_SLOPE).max(0.0);
-        let penalty = 0.5 * at.len() as f64 * (2.0 * rest.len().max(1) as f64).ln();
+        let beyond: f64 = self.beyond(moduli).iter().map(|b| b * b).sum();
+        let count = self.coordinates(data_hypothesis, start).len();
+        let penalty = 0.5 * count as f64 * (2.0 * rest.len().max(1) as f64).ln();
         Fitted {
-            law,
-            ln_factor,
-            delay_s,
+            moduli: moduli.clone(),
+            ln_factor: *ln_factor,
+            delay_s: *delay_s,
             misfit,
-            nats: misfit.nats + penalty + BOUND_PENALTY * beyond * beyond,
+            own,
+            nats: misfit.nats + penalty + BOUND_PENALTY * beyond,
         }
     }
 
-    fn polished(&self, data_hypothesis: &DataHypothesis, start: (Law, f64, f64)) -> Fitted {
-        let begin = self.coordinates(data_hypothesis, start);
-        // First lengths: half a step of the grid, a third of that of the angle, and so on.
-        let lengths = [0.5 * LN_SIZE_STEP, 0.7, 0.07];
-        let size = if self.responses.parametrization.is_real { 1 } else { 3 };
-        let length = |j: usize| if j < size { lengths[j] } else { 0.1 };
-        let mut simplex = vec![begin.clone()];
-        for j in 0..begin.len() {
-            let mut vertex = begin.clone();
-            vertex[j] += length(j);
-            simplex.push(vertex);
+    /// Residuals with their slopes by all coordinates, `[value]` and `[coordinate][value]`.
+    fn with_slopes(&self, data_hypothesis: &DataHypothesis, at: &[f64]) -> (Vec<c64>, Vec<Vec<c64>>) {
+        let (moduli, ln_factor, delay_s) = self.parts(data_hypothesis, at);
+        let parametrization = &self.responses.parametrization;
+        let sensors = data_hypothesis.sensors();
+        let of_moduli = parametrization.coordinates(&moduli).len();
+        let mut ln = Vec::with_capacity(self.written.0.len() * sensors);
+        let mut of_ln: Vec<Vec<c64>> = vec![Vec::with_capacity(ln.capacity()); of_moduli];
+        for i in 0..self.written.0.len() {
+            let (own, by_value) = self.responses.ln_with_slopes(&moduli, i, &data_hypothesis.column);
+            for (of_ln, by) in of_ln.iter_mut().zip(parametrization.slopes(&moduli, i)) {
+                of_ln.extend(
+                    (0..sensors)
+                        .map(|m| -> c64 { by_value.iter().zip(&by).map(|(slope, by)| slope[m] * by).sum() }),
+                );
+            }
+            ln.extend(own);
         }
-        let cost = Cost { search: self, data_hypothesis };
-        let fallback = self.at(data_hypothesis, &begin);
-        let Ok(solver) = NelderMead::new(simplex).with_sd_tolerance(1e-3) else { return fallback };
-        let steps = SIMPLEX_STEPS_PER_UNKNOWN * begin.len() as u64;
-        let run = Executor::new(cost, solver).configure(|state| state.max_iters(steps)).run();
-        match run.ok().and_then(|run| run.state().get_best_param().cloned()) {
-            Some(best) => self.at(data_hypothesis, &best),
-            None => fallback,
+        let (places, residuals): (Vec<[usize; 2]>, Vec<c64>) =
+            self.residuals(data_hypothesis, &ln, ln_factor, delay_s).unzip();
+        let [factor, delay] = data_hypothesis.free();
+        let of_place = |slope: &Vec<c64>| places.iter().map(|&[i, m]| -slope[i * sensors + m]).collect();
+        let mut slopes: Vec<Vec<c64>> = of_ln.iter().map(of_place).collect();
+        let concerned = |which: usize, by: &dyn Fn(usize) -> c64| -> Vec<c64> {
+            let one = |&[i, m]: &[usize; 2]| {
+                if data_hypothesis.concerned(m)[which] { by(i) } else { c64::default() }
+            };
+            places.iter().map(one).collect()
+        };
+        if factor {
+            slopes.push(concerned(0, &|_| c64::new(-1.0, 0.0)));
         }
+        if delay {
+            let turn = |i: usize| omega_rad_s(self.responses.frequency_hz[i]) / self.top();
+            slopes.push(concerned(1, &|i| c64::new(0.0, turn(i))));
+        }
+        (residuals, slopes)
     }
 
-    /// Standard deviations of the factor's logarithm and of the delay, the modulus free beside them: weighted least squares about the answer.
+    /// Least squares with the scale that is left, until it stays.
+    fn polished(&self, data_hypothesis: &DataHypothesis, start: Fitted) -> Fitted {
+        let mut best = start;
+        for _ in 0..MAX_DESCENTS {
+            let scale = best.misfit.sigma;
+            let from = (best.moduli.clone(), best.ln_factor, best.delay_s);
+            let theta = self.coordinates(data_hypothesis, &from);
+            let there = self.descended(data_hypothesis, &theta, scale, EVALUATIONS_PER_NUMBER);
+            if there.nats >= best.nats {
+                break;
+            }
+            best = there;
+            if (best.misfit.sigma / scale).ln().abs() < SCALE_RTOL {
+                break;
+            }
+        }
+        best
+    }
+
+    /// Where least squares of what the misfit is at a scale lead to, with so many evaluations for each number.
+    fn descended(
+        &self,
+        data_hypothesis: &DataHypothesis,
+        theta: &[f64],
+        scale: f64,
+        patience: usize,
+    ) -> Fitted {
+        let evaluate = |theta: &[f64]| {
+            let (residuals, slopes) = self.with_slopes(data_hypothesis, theta);
+            let turned: Vec<_> = residuals.iter().map(|&r| robust(r, scale)).collect();
+            let beyond = self.beyond(&self.parts(data_hypothesis, theta).0);
+            let bounds = beyond.iter().map(|b| BOUND_PENALTY.sqrt() * b);
+            let values: Vec<f64> =
+                turned.iter().flat_map(|one| [one.value.re, one.value.im]).chain(bounds).collect();
+            let mut jacobian: Vec<f64> = Vec::with_capacity(values.len() * theta.len());
+            for (j, slope) in slopes.iter().enumerate() {
+                let of_values = turned.iter().zip(slope).map(|(one, by)| one.slope(*by));
+                jacobian.extend(of_values.flat_map(|slope| [slope.re, slope.im]));
+                let mut moved = theta.to_vec();
+                moved[j] += DIFFERENCE_STEP;
+                let there = self.beyond(&self.parts(data_hypothesis, &moved).0);
+                let change = there.iter().zip(&beyond).map(|(b, a)| (b - a) / DIFFERENCE_STEP);
+                jacobian.extend(change.map(|slope| BOUND_PENALTY.sqrt() * slope));
+            }
+            let finite = values.iter().chain(&jacobian).all(|value| value.is_finite());
+            finite.then_some((values, jacobian))
+        };
+        let search = least_squares::Search { starts: 1, patience, same: 0.0 };
+        let end = descend(theta, &evaluate, &search);
+        let theta = end.as_ref().map_or(theta, |end| &end.theta);
+        self.at(data_hypothesis, &self.parts(data_hypothesis, theta))
+    }
+
+    /// Standard deviations of the factor's logarithm and of the delay, the moduli free beside them: weighted least squares about the answer.
     pub(super) fn standard_deviations(
         &self,
         data_hypothesis: &DataHypothesis,
         fitted: &Fitted,
     ) -> [Option<f64>; 2] {
-        let at = self.coordinates(data_hypothesis, (fitted.law, fitted.ln_factor, fitted.delay_s));
-        let rest = |at: &[f64]| -> Vec<c64> {
-            let (law, ln_factor, delay_s) = self.parts(data_hypothesis, at);
-            let ln = self.ln(data_hypothesis, law);
-            self.residuals(data_hypothesis, &ln, ln_factor, delay_s).map(|r| r.1).collect()
-        };
-        let about = rest(&at);
-        const DIFFERENCE_STEP: f64 = 1e-5;
-        let slopes: Vec<Vec<c64>> = (0..at.len())
-            .map(|j| {
-                let mut moved = at.clone();
-                moved[j] += DIFFERENCE_STEP;
-                rest(&moved).iter().zip(&about).map(|(b, a)| wrapped(b - a) / DIFFERENCE_STEP).collect()
-            })
-            .collect();
+        let start = (fitted.moduli.clone(), fitted.ln_factor, fitted.delay_s);
+        let at = self.coordinates(data_hypothesis, &start);
+        let (about, slopes) = self.with_slopes(data_hypothesis, &at);
         let sigma = fitted.misfit.sigma;
         let product = |a: &[c64], b: &[c64]| -> f64 {
             let terms = a.iter().zip(b).zip(&about);
             terms.map(|((a, b), r)| weight(*r, sigma) * (a.re * b.re + a.im * b.im)).sum::<f64>()
                 / (sigma * sigma)
         };
-        let size = if self.responses.parametrization.is_real { 1 } else { 3 };
+        let [factor, delay] = data_hypothesis.free();
+        let size = at.len() - usize::from(factor) - usize::from(delay);
         // A number that the data do not know at all shall not make the others unknown.
         let ridge = |j: usize| if j < size { 1e-6 } else { 0.0 };
         let normal = Matrix::from_fn(at.len(), at.len(), |i, j| {
@@ -293,32 +427,37 @@ impl Search<'_, '_> {
             let variance = solve(&normal, &unit).ok()?[j].re;
             (variance > 0.0).then(|| variance.sqrt())
         };
-        let [factor, delay] = data_hypothesis.free();
         let of_factor = if factor { std(size) } else { None };
         let of_delay = if delay { std(size + usize::from(factor)) } else { None };
         [of_factor, of_delay.map(|phase| phase / self.top())]
     }
 
-    /// Slope of ln|measured/model| over ln ω of some sensors and its standard deviation, as the data are read and the modulus was found.
+    /// Slope of ln|measured/model| over ln ω of some sensors and its standard deviation, as the data are read and the moduli were found.
     pub(super) fn slope(
         &self,
         data_hypothesis: &DataHypothesis,
         fitted: &Fitted,
         sensors: &[usize],
     ) -> Option<(f64, f64)> {
-        let ln = self.ln(data_hypothesis, fitted.law);
-        let width = data_hypothesis.sensors();
-        let mut points = Vec::new();
-        for (i, values) in self.written.0.iter().enumerate() {
-            let f = self.responses.frequency_hz[i];
-            for &m in sensors {
-                let Some(value) = values[m] else { continue };
-                let read = data_hypothesis.receptance(m, f, value, fitted.ln_factor, fitted.delay_s);
-                points.push((omega_rad_s(f).ln(), read.re - ln[i * width + m].re));
-            }
-        }
+        let ln = self.ln(data_hypothesis, &fitted.moduli);
+        let residuals = self.residuals(data_hypothesis, &ln, fitted.ln_factor, fitted.delay_s);
+        let of_sensors = residuals.filter(|([_, m], _)| sensors.contains(m));
+        let ln_omega = |i: usize| omega_rad_s(self.responses.frequency_hz[i]).ln();
+        let points: Vec<(f64, f64)> = of_sensors.map(|([i, _], r)| (ln_omega(i), r.re)).collect();
         line_slope(&points)
     }
+}
+
+/// Steps of a sequence that fills a box of so many dimensions: powers of the root of xⁿ⁺¹ = x + 1.
+///
+/// # Source
+/// M. Roberts, The unreasonable effectiveness of quasirandom sequences (2018).
+fn kronecker_steps(dimensions: usize) -> Vec<f64> {
+    let mut root: f64 = 2.0;
+    for _ in 0..60 {
+        root = (1.0 + root).powf(1.0 / (dimensions as f64 + 1.0));
+    }
+    (1..=dimensions).map(|j| root.powi(-(j as i32))).collect()
 }
 
 /// Slope of a straight line through points, least squares, with its standard deviation.
@@ -330,19 +469,4 @@ fn line_slope(points: &[(f64, f64)]) -> Option<(f64, f64)> {
     let rest: f64 = points.iter().map(|p| (p.1 - y0 - slope * (p.0 - x0)).powi(2)).sum();
     let std = (rest / (n - 2.0) / sxx).sqrt();
     (points.len() > 2 && sxx > 0.0).then_some((slope, std))
-}
-
-struct Cost<'c, 's, 'a> {
-    search: &'c Search<'s, 'a>,
-    data_hypothesis: &'c DataHypothesis,
-}
-
-impl CostFunction for Cost<'_, '_, '_> {
-    type Param = Vec<f64>;
-    type Output = f64;
-
-    fn cost(&self, at: &Vec<f64>) -> Result<f64, Error> {
-        let nats = self.search.at(self.data_hypothesis, at).nats;
-        Ok(if nats.is_finite() { nats } else { f64::MAX })
-    }
 }

@@ -7,7 +7,7 @@ const DEAD_RATIO: f64 = 1e-11;
 
 /// The sensors whose largest response is at most 1e-11 of the largest of all; none where all are zero. They know nothing, but a standard deviation in proportion to their
 /// response would make them count for more than all others.
-pub(super) fn dead_channels(measured: &[Vec<c64>]) -> Vec<usize> {
+pub(crate) fn dead_channels(measured: &[Vec<c64>]) -> Vec<usize> {
     let sensors = measured.first().map_or(0, Vec::len);
     let largest = |m: usize| measured.iter().map(|line| line[m].norm()).fold(0.0, f64::max);
     let levels: Vec<f64> = (0..sensors).map(largest).collect();

@@ -173,6 +173,11 @@ impl<'a> Problem<'a> {
         frequency_hz.iter().map(|&f| composite.about_one(f, &composite.nominal(f)?, j)).collect()
     }
 
+    /// The model at these values of all unknowns.
+    pub(crate) fn at(&self, frequency_hz: f64, values: &[c64]) -> Result<ModelAt<'a>, OutsideTable> {
+        Composite { model: self.model, unknowns: self.unknowns }.at(frequency_hz, values)
+    }
+
     /// Checks the options, alone and with this problem.
     pub(super) fn check_options(&self, options: &Options) -> Result<(), ProblemError> {
         options.validate()?;

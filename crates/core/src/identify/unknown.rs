@@ -155,7 +155,7 @@ impl Unknown {
     }
 
     /// [low, high] of the real part in which it is looked for about a nominal value, beside other unknowns.
-    pub(super) fn range(&self, nominal: c64) -> [f64; 2] {
+    pub(crate) fn range(&self, nominal: c64) -> [f64; 2] {
         let about = self.box_about(nominal, NEAR_BOX_RATIO);
         // A value of zero has no neighbourhood of its own, and nothing bounds it: the caller's nominal is then all there is.
         let [low, high] = about.unwrap_or([nominal.re, nominal.re]);

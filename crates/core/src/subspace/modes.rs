@@ -18,7 +18,7 @@ use super::assess::{Solutions, weights};
 use super::{FactorError, Point, Projection};
 use crate::c64;
 use crate::model::{ModelAt, Role};
-use frfit_linalg::dense::{NoConvergence, symmetric_eigen};
+use frfit_linalg::dense::NoConvergence;
 use frfit_linalg::solve::Breakdown;
 use frfit_linalg::vector::transpose_dot;
 
@@ -111,7 +111,7 @@ impl ErrorSlopes {
 }
 
 /// A shift of the pencil that makes rigid bodies definite: this part of the square of the highest frequency.
-const PENCIL_SHIFT_RATIO: f64 = 1e-4;
+pub(super) const PENCIL_SHIFT_RATIO: f64 = 1e-4;
 
 /// Squares of natural frequencies below this part of that shift are those of rigid bodies.
 const RIGID_BODY_RATIO: f64 = 1e-4;
@@ -156,19 +156,8 @@ impl Projection {
         let is_there = |wanted: &bool| of_stiffness.iter().any(|(g, _)| is_unknown(*g) == *wanted);
         let groups: Vec<bool> = [false, true].into_iter().filter(is_there).collect();
         let shifted: Vec<f64> = stiffness.iter().zip(&mass).map(|(k, m)| k + shift * m).collect();
-        // (K + σM)^{−1/2}, and M between it: μ = 1/(λ + σ).
-        let (values, vectors) = symmetric_eigen(r, &shifted)?;
-        let largest = values.last().copied().unwrap_or(0.0);
-        if values.iter().any(|&value| value <= MASSLESS_RATIO * MASSLESS_RATIO * largest) {
-            return Err(NoConvergence);
-        }
-        let root: Vec<f64> = vectors
-            .chunks_exact(r.max(1))
-            .zip(&values)
-            .flat_map(|(v, value)| v.iter().map(move |v| v / value.sqrt()))
-            .collect();
-        let between = congruent(&mass, &root, r);
-        let (mu, w) = symmetric_eigen(r, &between)?;
+        // μ = 1/(λ + σ).
+        let (mu, simultaneous) = self.simultaneous(&shifted, &mass)?;
         let greatest = mu.last().copied().unwrap_or(0.0);
         let square = |k: usize| 1.0 / mu[k] - shift;
         let is_rigid = |square: f64| square <= RIGID_BODY_RATIO * shift;
@@ -206,11 +195,7 @@ impl Projection {
             if omega > highest_rad_s {
                 break;
             }
-            let coefficients = &w[k * r..(k + 1) * r];
-            let mut y = vec![0.0; r];
-            for (root, coefficient) in root.chunks_exact(r).zip(coefficients) {
-                y.iter_mut().zip(root).for_each(|(y, root)| *y += coefficient * root / mu[k].sqrt());
-            }
+            let y: Vec<f64> = simultaneous[k * r..(k + 1) * r].iter().map(|y| y / mu[k].sqrt()).collect();
             let times = |matrix: &[f64]| -> Vec<f64> {
                 matrix.chunks_exact(r).map(|column| transpose_dot(column, &y)).collect()
             };
@@ -466,7 +451,7 @@ fn add_product(matrix: &mut [f64], by: f64, [u, v]: [&[f64]; 2]) {
 }
 
 /// WᵀAW for a symmetric A and columns W, both r × r.
-fn congruent(a: &[f64], w: &[f64], r: usize) -> Vec<f64> {
+pub(super) fn congruent(a: &[f64], w: &[f64], r: usize) -> Vec<f64> {
     use frfit_linalg::column_block::{product, transpose_product};
     transpose_product(w, r, &product(a, r, w))
 }

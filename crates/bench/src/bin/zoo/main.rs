@@ -5,29 +5,15 @@
 //! Each case draws a model, its material, load, sensors, band, noise, nominal value and bounds, and measures the truth, which is the model, with direct solves.
 #![allow(clippy::print_stdout)] // tables are what a benchmark is for
 
-use frfit_bench::cases::{Cases, number};
+use frfit_bench::cases::{Cases, arguments};
 use frfit_bench::machine;
 use frfit_bench::wrong_models::Failure;
 use frfit_bench::zoo::report::{LEGEND, described, markdown};
 use frfit_bench::zoo::tried;
 
 fn main() -> Result<(), Failure> {
-    let mut positions = [40, 1];
-    let (mut place, mut case) = (0, None);
-    let mut words = std::env::args().skip(1);
-    while let Some(word) = words.next() {
-        if word == "--case" {
-            case = Some(number(&words.next().ok_or("--case: expected a value")?)?);
-        } else if place < positions.len() {
-            positions[place] = number(&word)?;
-            place += 1;
-        } else {
-            return Err(format!("expected CASES, SEED or --case, found {word:?}").into());
-        }
-    }
-    let [cases, seed] = positions;
+    let (indices, seed) = arguments([40, 1])?;
     println!("Right models: what is identified of what is identifiable\n{}\n", machine());
-    let indices: Vec<u64> = case.map_or_else(|| (0..cases).collect(), |index| vec![index]);
     let all = Cases::try_all(&indices, |index| tried(seed, index), described)?;
     println!("{} cases of seed {seed}\n\n{}\n\n{LEGEND}", all.tried.len(), markdown(&all.tried));
     all.all_made()

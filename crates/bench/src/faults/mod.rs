@@ -1,0 +1,99 @@
+//! Data with planted faults: which of them `frfit check` names, and what it accuses wrongly.
+//!
+//! The models are those of `wrong_models`: one half right, one half wrong by a mesh, a known part, a mass, a support or another
+//! element. A third of the cases has no fault, a third one, a third two.
+
+mod plant;
+mod report;
+
+pub use plant::{Fault, Planted};
+pub use report::{LEGEND, Tried, described, markdown};
+
+use crate::wrong_models::Failure;
+use crate::wrong_models::case::{Case, Meshes};
+use crate::wrong_models::dice::Dice;
+use crate::wrong_models::fault::Class;
+use crate::wrong_models::realised::UNKNOWN;
+use cpu_time::ThreadTime;
+use frfit::c64;
+use frfit::diagnostics::{Diagnosis, diagnose};
+use frfit::for_each::sequential;
+use frfit::identify::{Frfs, Noise, Options, Problem, Unknown};
+use frfit::model::{DynamicStiffness, Experiment, Term};
+use frfit::quantity::Quantity;
+
+/// Nominal over true factor.
+const NOMINAL_RATIO: [f64; 2] = [0.4, 1.6];
+
+/// Draws a case of a seed with none, one or two faults, and looks for them.
+///
+/// # Errors
+/// [`Failure`], with the number of the case.
+pub fn tried(seed: u64, index: u64) -> Result<Tried, Failure> {
+    let run = || {
+        let planted_count = (index % 3) as usize;
+        let (is_right, round) = ((index / 3).is_multiple_of(2), index / 6);
+        let classes = Class::ALL.len() as u64;
+        let right = Class::ALL.iter().position(|class| *class == Class::Right).unwrap_or(0) as u64;
+        let class = if is_right { right } else { (right + 1 + round % (classes - 1)) % classes };
+        // Each case is a case of its own: no two share a structure.
+        let mut case = Case::draw(seed, classes * index + class, Meshes::One)?;
+        let mut dice = Dice::new(seed ^ 0xFA17, index);
+        case.model = nominal(&case, dice.between(NOMINAL_RATIO[0], NOMINAL_RATIO[1]))?;
+        let mut data = Data {
+            frequency_hz: case.frequency_hz.clone(),
+            written: case.measured.clone(),
+            quantities: vec![dice.pick(&Quantity::ALL); case.experiment.sensors.len()],
+            experiment: case.experiment.clone(),
+        };
+        for (&f, values) in data.frequency_hz.iter().zip(&mut data.written) {
+            for (value, quantity) in values.iter_mut().zip(&data.quantities) {
+                *value = quantity.from_receptance(f, *value);
+            }
+        }
+        let mut planted: Vec<Planted> = Vec::new();
+        while planted.len() < planted_count {
+            if let Some(one) = plant::planted(&case, &mut data, &planted, &mut dice)? {
+                planted.push(one);
+            }
+        }
+        let start = ThreadTime::now();
+        let diagnosis = data.diagnose(&case.model)?;
+        Ok(Tried::new(index, &case, planted, diagnosis, start.elapsed().as_secs_f64()))
+    };
+    run().map_err(|why: Failure| format!("case {index}: {why}").into())
+}
+
+/// The model of a case with its unknown factor so many times the true one.
+fn nominal(case: &Case, ratio: f64) -> Result<DynamicStiffness, Failure> {
+    let term = |term: &Term| match term.name == UNKNOWN {
+        true => Term { factor: case.truth.scaled(ratio), ..term.clone() },
+        false => term.clone(),
+    };
+    Ok(DynamicStiffness::new(case.model.terms().iter().map(term).collect())?)
+}
+
+/// What was measured, as it was written and as the case takes it.
+#[derive(Debug, Clone)]
+pub(crate) struct Data {
+    pub(crate) frequency_hz: Vec<f64>,
+    /// `[frequency][sensor]`.
+    pub(crate) written: Vec<Vec<c64>>,
+    /// What each sensor's values are taken for.
+    pub(crate) quantities: Vec<Quantity>,
+    /// Where load and sensors are said to be.
+    pub(crate) experiment: Experiment,
+}
+
+impl Data {
+    fn diagnose(&self, model: &DynamicStiffness) -> Result<Diagnosis, Failure> {
+        let receptance = |(&f, values): (&f64, &Vec<c64>)| {
+            values.iter().zip(&self.quantities).map(|(&v, q)| q.to_receptance(f, v)).collect()
+        };
+        let receptance: Vec<Vec<c64>> = self.frequency_hz.iter().zip(&self.written).map(receptance).collect();
+        let unknowns = [Unknown::factor_of(model, &[UNKNOWN])?];
+        let frfs = Frfs { frequency_hz: &self.frequency_hz, receptance: &receptance, noise: Noise::Unknown };
+        let problem = Problem::new(model, &self.experiment, &unknowns, &[], frfs)?;
+        Ok(diagnose(&problem, &self.quantities, &Options::default(), &sequential)?)
+    }
+}

@@ -1,0 +1,248 @@
+//! What explains data that the moduli alone do not: one change, or two together.
+//!
+//! Two changes are searched together, for neither may help alone: a sign hides that values are in g. All single changes are
+//! fitted, then pairs of those that are likely with all others. An explanation is believed where the data know it from every
+//! other one ([`MIN_MARGIN_NATS`]).
+
+use super::data_hypothesis::{Change, DataHypothesis, Edit};
+use super::finding::Fault;
+use super::misfit;
+use super::search::{Fitted, Grid, Search};
+use crate::for_each::map;
+
+/// The least log-likelihood ratio of a finding, in nats: some thirty changes are tried (e^3.4), and neighbouring residuals are not independent: what is left of a law
+/// that is no power may move several of them together.
+pub const FINDING_NATS: f64 = 15.0;
+
+/// The misfit with a finding over that without, at most. A factor, a delay or another row can fit a little of whatever is wrong; what they are the reason of falls to the noise.
+pub const MAX_MISFIT_RATIO: f64 = 0.6;
+
+/// The least log-likelihood ratio of an explanation to the best other one, in nats: with less the data do not say which it is.
+pub const MIN_MARGIN_NATS: f64 = 6.0;
+
+/// A factor nearer to one than this is the calibration's or the model's mass, and no fault.
+const MIN_LN_FACTOR: f64 = 0.1;
+
+/// A delay that turns the phase by less than this at the top of the band (rad) is a filter's, and no fault.
+const MIN_DELAY_PHASE_RAD: f64 = 0.2;
+
+/// A factor or delay of fewer standard deviations than this is not distinguished from zero.
+const SIGNIFICANT_STD: f64 = 5.0;
+
+/// Misfit up to which data are explained: noise and a constant law leave as much, and the rows of a neighbourhood cannot be distinguished by it.
+pub(super) const EXPLAINED_MISFIT: f64 = 0.04;
+
+/// Changes of a single sensor that a second change is added to, and second changes that are fitted for each first one.
+const MAX_FIRST_OF_ONE_SENSOR: usize = 4;
+const MAX_SECOND_CHANGES: usize = 6;
+
+/// Points of the grid at which second changes are compared.
+const SECOND_CHANGE_POINTS: usize = 200;
+
+/// A fault that is no change of values: another row, another axis.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Elsewhere {
+    pub(super) fault: Fault,
+    pub(super) sensors: Vec<usize>,
+    /// ln of the number of others that were tried.
+    pub(super) cost: f64,
+}
+
+/// Faults together, and what is left with them.
+#[derive(Debug, Clone)]
+pub(super) struct Explanation {
+    pub(super) edits: Vec<Edit>,
+    pub(super) elsewhere: Vec<Elsewhere>,
+    pub(super) data_hypothesis: DataHypothesis,
+    pub(super) fitted: Fitted,
+    /// −ln likelihood with the price of every free number and of every choice among changes.
+    pub(super) nats: f64,
+}
+
+impl Explanation {
+    /// Data as they are.
+    pub(super) fn as_given(data_hypothesis: DataHypothesis, fitted: Fitted) -> Self {
+        Self { edits: Vec::new(), elsewhere: Vec::new(), data_hypothesis, nats: fitted.nats, fitted }
+    }
+
+    /// How many faults it has.
+    pub(super) fn faults(&self) -> usize {
+        self.edits.len() + self.elsewhere.len()
+    }
+
+    /// With a fault that is no change of values.
+    pub(super) fn and(&self, elsewhere: Elsewhere, fitted: Fitted) -> Self {
+        let nats = fitted.nats + self.cost() + elsewhere.cost;
+        let elsewhere = self.elsewhere.iter().cloned().chain([elsewhere]).collect();
+        Self { elsewhere, fitted, nats, ..self.clone() }
+    }
+
+    fn with(&self, edit: &Edit, data_hypothesis: DataHypothesis, fitted: Fitted, cost: f64) -> Self {
+        let edits = self.edits.iter().chain([edit]).cloned().collect();
+        let nats = fitted.nats + self.cost() + cost;
+        Self { edits, elsewhere: self.elsewhere.clone(), data_hypothesis, fitted, nats }
+    }
+
+    fn cost(&self) -> f64 {
+        self.nats - self.fitted.nats
+    }
+
+    /// Whether it explains what another one does not: of all sensors, or of those that its faults concern.
+    fn improves_on(&self, other: &Self) -> bool {
+        let falls = |after: f64, before: f64| after <= MAX_MISFIT_RATIO * before;
+        let of_all = falls(self.fitted.misfit.sigma, other.fitted.misfit.sigma);
+        let own = |sensors: &[usize]| falls(self.fitted.misfit_of(sensors), other.fitted.misfit_of(sensors));
+        let new = self.edits.iter().filter(|edit| !other.edits.contains(edit)).map(|edit| &edit.sensors);
+        let elsewhere = self.elsewhere.iter().filter(|one| !other.has(one)).map(|one| &one.sensors);
+        let is_of_concerned = new.chain(elsewhere).any(|sensors| own(sensors));
+        other.nats - self.nats >= FINDING_NATS && (of_all || is_of_concerned)
+    }
+
+    /// Whether it has all faults of another one but its k-th.
+    pub(super) fn is_without(&self, other: &Self, k: usize) -> bool {
+        let mut without = other.clone();
+        match k.checked_sub(other.edits.len()) {
+            None => drop(without.edits.remove(k)),
+            Some(k) => drop(without.elsewhere.remove(k)),
+        }
+        self.faults() == without.faults() && self.has_all_of(&without)
+    }
+
+    /// Whether it has all faults of another one.
+    fn has_all_of(&self, other: &Self) -> bool {
+        other.edits.iter().all(|edit| self.edits.contains(edit))
+            && other.elsewhere.iter().all(|elsewhere| self.has(elsewhere))
+    }
+
+    /// Whether it has a fault of this kind and of these sensors.
+    fn has(&self, elsewhere: &Elsewhere) -> bool {
+        let same =
+            |own: &Elsewhere| own.fault.is_same_kind(&elsewhere.fault) && own.sensors == elsewhere.sensors;
+        self.elsewhere.iter().any(same)
+    }
+}
+
+/// An explanation that is believed, or those between which the data do not decide.
+pub(super) struct Choice<'e> {
+    /// The likeliest.
+    pub(super) best: &'e Explanation,
+    /// The likeliest that is another one, and by how many nats it is less likely.
+    pub(super) rival: Option<(&'e Explanation, f64)>,
+}
+
+impl Choice<'_> {
+    /// Whether the data know it from every other one.
+    pub(super) fn is_certain(&self) -> bool {
+        self.rival.is_none_or(|(_, behind)| behind >= MIN_MARGIN_NATS)
+    }
+}
+
+/// The likeliest explanation that is a finding: of one fault, or of two where no single one leaves as little.
+pub(super) fn choose<'e>(as_given: &'e Explanation, tried: &'e [Explanation]) -> Option<Choice<'e>> {
+    let likeliest =
+        |of: &mut dyn Iterator<Item = &'e Explanation>| of.min_by(|a, b| a.nats.total_cmp(&b.nats));
+    let of_faults = |count: usize| tried.iter().filter(move |one| one.faults() == count);
+    let single = likeliest(&mut of_faults(1).filter(|one| one.improves_on(as_given)));
+    // What the best single fault explains, and what is left by the one that leaves least, whether or not it is a finding.
+    let base = likeliest(&mut of_faults(1).chain([as_given])).unwrap_or(as_given);
+    let pair = likeliest(&mut of_faults(2).filter(|one| one.improves_on(base) && one.improves_on(as_given)));
+    let best = pair.or(single)?;
+    let others = tried.iter().filter(|one| !one.has_all_of(best) && one.improves_on(as_given));
+    let rival = likeliest(&mut others.filter(|one| one.faults() <= best.faults()));
+    Some(Choice { best, rival: rival.map(|rival| (rival, rival.nats - best.nats)) })
+}
+
+/// All single changes of values, then pairs where no single one explains the data.
+pub(super) fn changes(search: &Search<'_, '_>, grid: &Grid, as_given: &Explanation) -> Vec<Explanation> {
+    // No misfit is taken to be smaller than that floor: from here nothing can fall far enough.
+    if MAX_MISFIT_RATIO * as_given.fitted.worst() < misfit::MIN_MISFIT {
+        return Vec::new();
+    }
+    let mut tried = single_changes(search, grid, as_given);
+    let mut order: Vec<usize> = (0..tried.len()).collect();
+    order.sort_by(|&a, &b| tried[a].nats.total_cmp(&tried[b].nats));
+    let is_finding = |&&k: &&usize| tried[k].improves_on(as_given) && is_large(search, &tried[k]);
+    let found = order.iter().find(is_finding).copied();
+    let left = found.map(|k| tried[k].fitted.worst());
+    let firsts: Vec<usize> = match left {
+        Some(left) if MAX_MISFIT_RATIO * left < misfit::MIN_MISFIT => Vec::new(),
+        // What a single fault explains may have another one beside it.
+        Some(left) if left <= EXPLAINED_MISFIT => found.into_iter().collect(),
+        _ => {
+            let all = as_given.data_hypothesis.sensors();
+            let of_all = |&&k: &&usize| tried[k].edits[0].sensors.len() == all;
+            let few = order.iter().filter(|k| !of_all(k)).take(MAX_FIRST_OF_ONE_SENSOR);
+            order.iter().filter(of_all).chain(few).copied().collect()
+        }
+    };
+    let pairs = pairs(search, grid, as_given, &tried, &firsts);
+    tried.extend(pairs);
+    tried.retain(|one| is_large(search, one));
+    tried
+}
+
+/// All single changes of values beside what is wrong already.
+pub(super) fn single_changes(search: &Search<'_, '_>, grid: &Grid, beside: &Explanation) -> Vec<Explanation> {
+    let edits = beside.data_hypothesis.edits();
+    let cost = (edits.len().max(1) as f64).ln();
+    map(search.for_each, edits.len(), |k| {
+        let data_hypothesis = beside.data_hypothesis.with(&edits[k]);
+        let fitted = search.fit(&data_hypothesis, grid, &[&beside.fitted]);
+        beside.with(&edits[k], data_hypothesis, fitted, cost)
+    })
+}
+
+/// Second changes beside some single ones.
+fn pairs(
+    search: &Search<'_, '_>,
+    grid: &Grid,
+    as_given: &Explanation,
+    singles: &[Explanation],
+    firsts: &[usize],
+) -> Vec<Explanation> {
+    let cost = (singles.len().max(1) as f64).ln();
+    let mut seen: Vec<DataHypothesis> =
+        singles.iter().chain([as_given]).map(|one| one.data_hypothesis.clone()).collect();
+    let mut found = Vec::new();
+    for &first in firsts {
+        let first = &singles[first];
+        let seconds: Vec<(Edit, DataHypothesis)> = first
+            .data_hypothesis
+            .edits()
+            .into_iter()
+            .map(|edit| {
+                let both = first.data_hypothesis.with(&edit);
+                (edit, both)
+            })
+            .filter(|(_, both)| !seen.contains(both))
+            .collect();
+        let points = search.best_points(&first.data_hypothesis, grid, SECOND_CHANGE_POINTS);
+        let scores = map(search.for_each, seconds.len(), |k| search.best_score(&seconds[k].1, grid, &points));
+        let mut order: Vec<usize> = (0..seconds.len()).collect();
+        order.sort_by(|&a, &b| scores[a].total_cmp(&scores[b]));
+        order.truncate(MAX_SECOND_CHANGES);
+        found.extend(map(search.for_each, order.len(), |k| {
+            let (edit, both) = &seconds[order[k]];
+            let fitted = search.fit(both, grid, &[&first.fitted]);
+            first.with(edit, both.clone(), fitted, cost)
+        }));
+        seen.extend(order.iter().map(|&k| seconds[k].1.clone()));
+    }
+    found
+}
+
+/// Whether every factor and delay in it is large enough to be a fault.
+pub(super) fn is_large(search: &Search<'_, '_>, one: &Explanation) -> bool {
+    let top = crate::frequency::omega_rad_s(search.responses.frequency_hz.last().copied().unwrap_or(0.0));
+    let has = |change: Change| one.edits.iter().any(|edit| edit.change == change);
+    let [factor, delay] = [has(Change::Factor), has(Change::Delay)];
+    if !factor && !delay {
+        return true;
+    }
+    let stds = search.standard_deviations(&one.data_hypothesis, &one.fitted);
+    let beyond = |value: f64, least: f64, std: Option<f64>| {
+        value.abs() >= least && std.is_some_and(|std| value.abs() >= SIGNIFICANT_STD * std)
+    };
+    (!factor || beyond(one.fitted.ln_factor, MIN_LN_FACTOR, stds[0]))
+        && (!delay || beyond(one.fitted.delay_s, MIN_DELAY_PHASE_RAD / top, stds[1]))
+}
