@@ -42,6 +42,8 @@ pub struct Planted {
     pub fault: Fault,
     /// Whose.
     pub sensors: Vec<usize>,
+    /// Of a row, all that answer alike: none of them can be known from it.
+    pub alike: Vec<usize>,
 }
 
 impl fmt::Display for Fault {
@@ -65,6 +67,9 @@ const KINDS: usize = 9;
 
 /// Root mean square of ln(faulty/right) at least: what changes data less than that no one can see beside a wrong model.
 const VISIBLE: f64 = 0.3;
+
+/// Rows whose responses differ by less than this, as [`VISIBLE`], are alike.
+const ALIKE: f64 = 0.1;
 
 /// What a delay turns the phase by at the top of the band, rad.
 const DELAY_PHASE: [f64; 2] = [0.6, 6.0];
@@ -121,14 +126,50 @@ pub(super) fn planted(
     if !is_visible {
         return Ok(None);
     }
+    // What is to be found is where it was measured in truth.
     let fault = match fault {
-        // What is to be found is where it was measured in truth.
         Fault::ResponseDof(_) => Fault::ResponseDof(data.experiment.sensors[sensors[0]].row),
         Fault::LoadDof(_) => Fault::LoadDof(driven(&data.experiment)),
         other => other,
     };
+    let alike = alike(case, &data.experiment, &fault, &sensors)?;
     *data = changed;
-    Ok(Some(Planted { fault, sensors }))
+    Ok(Some(Planted { fault, sensors, alike }))
+}
+
+/// The rows that answer as the true one does, for a sensor or for the load.
+fn alike(
+    case: &Case,
+    experiment: &Experiment,
+    fault: &Fault,
+    sensors: &[usize],
+) -> Result<Vec<usize>, Failure> {
+    let (own, drives): (usize, Vec<Vec<c64>>) = match *fault {
+        Fault::ResponseDof(row) => (row, vec![experiment.load.clone()]),
+        // By reciprocity a load at any row answers at a sensor as that row does where the sensor is driven.
+        Fault::LoadDof(row) => (row, sensors.iter().map(|&m| experiment.unit_force(m)).collect()),
+        _ => return Ok(Vec::new()),
+    };
+    let mut squares = vec![0.0; case.model.dim()];
+    let few: Vec<f64> = case.frequency_hz.iter().step_by(10).copied().collect();
+    for &f in &few {
+        let factor = case.model.analysis().factor(&case.model.at(f, &[])?.assemble(&[]))?;
+        for drive in &drives {
+            let mut x = drive.clone();
+            factor.solve(&mut x)?;
+            for (sum, value) in squares.iter_mut().zip(&x) {
+                *sum += square(value / x[own]);
+            }
+        }
+    }
+    let count = (few.len() * drives.len()) as f64;
+    Ok((0..squares.len()).filter(|&row| (squares[row] / count).sqrt() < ALIKE).collect())
+}
+
+/// |ln|² of a ratio.
+fn square(ratio: c64) -> f64 {
+    let square = ratio.norm().ln().powi(2) + ratio.arg().powi(2);
+    if square.is_finite() { square.min(PI * PI) } else { 0.0 }
 }
 
 fn driven(experiment: &Experiment) -> usize {
@@ -157,13 +198,7 @@ fn elsewhere(
 
 /// Root mean square of ln(b/a) of some sensors.
 fn difference(a: &[Vec<c64>], b: &[Vec<c64>], sensors: &[usize]) -> f64 {
-    let squares = a.iter().zip(b).flat_map(|(a, b)| {
-        sensors.iter().map(move |&m| {
-            let ratio = b[m] / a[m];
-            let square = ratio.norm().ln().powi(2) + ratio.arg().powi(2);
-            if square.is_finite() { square.min(PI * PI) } else { 0.0 }
-        })
-    });
+    let squares = a.iter().zip(b).flat_map(|(a, b)| sensors.iter().map(move |&m| square(b[m] / a[m])));
     let (sum, count) = squares.fold((0.0, 0), |(sum, count), square| (sum + square, count + 1));
     (sum / f64::from(count.max(1))).sqrt()
 }
@@ -200,7 +235,9 @@ impl Planted {
             (Fault::Unit(unit), Found::Factor { known, .. }) => *known == Some(unit),
             (Fault::Delay(planted), Found::Delay { seconds, .. }) => (seconds / planted - 1.0).abs() < 0.2,
             (Fault::ResponseDof(row), Found::ResponseDof { rows })
-            | (Fault::LoadDof(row), Found::LoadDof { rows }) => rows.iter().any(|other| other.row == row),
+            | (Fault::LoadDof(row), Found::LoadDof { rows }) => {
+                rows.iter().any(|other| other.row == row || self.alike.contains(&other.row))
+            }
             (Fault::Axis, Found::Axis { factor }) => *factor > 1.0,
             _ => false,
         };

@@ -28,6 +28,13 @@ const ROW_SCALE: f64 = 0.3;
 /// How far the sizes of several unknowns are tried to either side, in ln a.
 const ROW_LN_RANGE: f64 = 0.5;
 
+/// How far to either side of the moduli of candidates a model is trained, in ln a, and of how many at most.
+const TRAINED_LN_RANGE: f64 = 0.05;
+const MAX_TRAINED_MODULI: usize = 3;
+
+/// A row that is not better than the case's own by this (nats, at the scale of [`ROW_SCALE`]) is not looked at.
+const MIN_ROUGH_GAIN: f64 = 2.0;
+
 /// A dof mismatch that was tried, with what came of it.
 pub(super) struct Tried {
     pub(super) what: DofMismatch,
@@ -61,6 +68,9 @@ pub(super) fn dof_mismatch(
         let best = best_rows(search, experiment, data_hypothesis, &all, true, &moduli[sensors], row);
         wanted.extend(best.into_iter().map(|(row, _, moduli)| (None, row, moduli)));
     }
+    if wanted.is_empty() {
+        return Ok(Vec::new());
+    }
     let sign = |m: Option<usize>| m.map_or(1.0, |m| experiment.sensors[m].sign);
     let places = wanted.iter().map(|(m, row, _)| Sensor { row: *row, sign: sign(*m) });
     let wider = Experiment {
@@ -71,7 +81,8 @@ pub(super) fn dof_mismatch(
     let Some(parametrization) = Parametrization::new(problem, frequency_hz, options)? else {
         return Ok(Vec::new());
     };
-    let subspace = trained(problem, &wider, frequency_hz, &parametrization, search.for_each)?;
+    let near = near_candidates(&parametrization, wanted.iter().map(|(.., moduli)| moduli));
+    let subspace = trained(problem, &wider, frequency_hz, &parametrization, &near, search.for_each)?;
     let about = parametrization.nominal();
     let responses = subspace.as_ref().and_then(|subspace| {
         let all = (0..wider.sensors.len()).collect();
@@ -100,6 +111,27 @@ pub(super) fn dof_mismatch(
         let fitted = close.follow(&data_hypothesis.with(edit), vec![moved(0.0), moved(-0.03), moved(0.03)]);
         Tried { what: *what, edit: edit.clone(), fitted }
     }))
+}
+
+/// Where a model is trained that serves some moduli and what is near by: at most [`MAX_TRAINED_MODULI`] of them, and to either side.
+fn near_candidates<'m>(
+    parametrization: &Parametrization,
+    candidates: impl Iterator<Item = &'m Moduli>,
+) -> Vec<Moduli> {
+    let mut apart: Vec<&Moduli> = Vec::new();
+    for moduli in candidates {
+        let is_near = |other: &&Moduli| {
+            let each = other.ln_sizes.iter().zip(&moduli.ln_sizes);
+            each.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) < 2.0 * TRAINED_LN_RANGE
+        };
+        if !apart.iter().any(is_near) {
+            apart.push(moduli);
+        }
+    }
+    apart.truncate(MAX_TRAINED_MODULI);
+    let sides =
+        |moduli: &&Moduli| [-1.0, 1.0].map(|side| parametrization.moved(moduli, side * TRAINED_LN_RANGE));
+    apart.iter().flat_map(sides).collect()
 }
 
 /// Moduli over the box at which rows are compared, as many as a model of this size allows; of several unknowns about some.
@@ -164,14 +196,14 @@ fn best_rows(
         }
         scores
     });
-    let rows = (0..rows).filter(|&row| row != own);
-    let mut best: Vec<(usize, f64, usize)> = rows
-        .filter_map(|row| {
-            let of_moduli = |l: usize| (row, scores[l][row], l);
-            (0..moduli.len()).map(of_moduli).min_by(|a, b| a.1.total_cmp(&b.1))
-        })
-        .filter(|(_, score, _)| score.is_finite())
-        .collect();
+    let least = |row: usize| {
+        let of_moduli = |l: usize| (row, scores[l][row], l);
+        (0..moduli.len()).map(of_moduli).min_by(|a, b| a.1.total_cmp(&b.1))
+    };
+    let of_own = least(own).map_or(f64::INFINITY, |(_, score, _)| score);
+    let is_better = |(_, score, _): &(usize, f64, usize)| *score < of_own - MIN_ROUGH_GAIN;
+    let mut best: Vec<(usize, f64, usize)> =
+        (0..rows).filter(|&row| row != own).filter_map(least).filter(is_better).collect();
     best.sort_by(|a, b| a.1.total_cmp(&b.1));
     best.truncate(MAX_CLOSE_ROWS);
     best.into_iter().map(|(row, score, l)| (row, score, moduli[l].clone())).collect()

@@ -9,7 +9,7 @@ use super::finding::{
 };
 use super::mesh;
 use super::moduli::{Moduli, Parametrization};
-use super::responses::{Responses, trained};
+use super::responses::{Responses, over_the_box, trained};
 use super::search::{Fitted, Grid, Search, Written};
 use crate::c64;
 use crate::for_each::ForEach;
@@ -43,6 +43,9 @@ const MODES_LN_RANGE: f64 = 0.05;
 
 /// Other axes are tried where this misfit is left: ten per cent, or six degrees.
 const UNEXPLAINED_MISFIT: f64 = 0.1;
+
+/// The axis of a unit that is seldom taken for another one is tried where this is left: a factor of 1.3, or 17 degrees.
+const VERY_UNEXPLAINED_MISFIT: f64 = 0.3;
 
 /// What is measured by some sensors.
 #[derive(Clone, Copy)]
@@ -133,7 +136,10 @@ pub(super) fn look<T>(
         return Ok((diagnosis, None));
     };
     let own = match model.trained {
-        None => trained(problem, measured.experiment, &frequency_hz, &parametrization, for_each)?,
+        None => {
+            let moduli = over_the_box(&parametrization);
+            trained(problem, measured.experiment, &frequency_hz, &parametrization, &moduli, for_each)?
+        }
         Some(_) => None,
     };
     diagnosis.work = own.as_ref().map_or(Work::default(), Subspace::work);
@@ -212,22 +218,26 @@ impl Look<'_> {
         let fitted = search.fit(&hypothesis, &grid, &[]);
         let as_given = Explanation::as_given(hypothesis, fitted);
         let mut tried = explanation::changes(&search, &grid, &as_given);
-        // Another row or axis is looked for only where nothing simpler explains the data.
-        let simplest = tried.iter().filter(|one| one.faults() == 1).chain([&as_given]);
-        let least = simplest.map(|one| one.fitted.worst()).fold(f64::INFINITY, f64::min);
-        if least > EXPLAINED_MISFIT {
-            let mut singles: Vec<&Explanation> = tried.iter().filter(|one| one.faults() == 1).collect();
+        // Another axis or row is looked for only where nothing simpler explains the data.
+        let left = |tried: &[Explanation], misfit: fn(&Fitted) -> f64| {
+            tried.iter().chain([&as_given]).map(|one| misfit(&one.fitted)).fold(f64::INFINITY, f64::min)
+        };
+        if left(&tried, |fitted| fitted.misfit.sigma) > UNEXPLAINED_MISFIT {
+            tried.extend(self.axis(responses, &as_given, TAU).unwrap_or_default());
+        }
+        if left(&tried, Fitted::worst) > EXPLAINED_MISFIT {
+            let is_likely = |one: &&Explanation| as_given.nats - one.nats >= explanation::FINDING_NATS;
+            let is_single = |one: &&Explanation| one.edits.len() == 1 && one.faults() == 1;
+            let mut singles: Vec<&Explanation> = tried.iter().filter(is_single).filter(is_likely).collect();
             singles.sort_by(|a, b| a.nats.total_cmp(&b.nats));
             singles.truncate(MAX_CHANGES_WITH_ROWS);
             let beside: Vec<&Explanation> = std::iter::once(&as_given).chain(singles).collect();
             let rows = self.rows(&search, &grid, &beside)?;
             tried.extend(rows);
         }
-        let least = tried.iter().map(|one| one.fitted.misfit.sigma).fold(least, f64::min);
-        if least > UNEXPLAINED_MISFIT {
-            for factor in [TAU, 1.0 / TAU] {
-                tried.extend(self.axis(responses, &as_given, factor).unwrap_or_default());
-            }
+        // Higher frequencies have more modes, and cost most.
+        if left(&tried, |fitted| fitted.misfit.sigma) > VERY_UNEXPLAINED_MISFIT {
+            tried.extend(self.axis(responses, &as_given, 1.0 / TAU).unwrap_or_default());
         }
         Ok((as_given, tried))
     }
@@ -262,8 +272,10 @@ impl Look<'_> {
         let frequency_hz: Vec<f64> = responses.frequency_hz.iter().map(|f| f / factor).collect();
         let parametrization = Parametrization::new(self.problem, &frequency_hz, self.options).ok()??;
         let experiment = self.measured.experiment;
+        let moduli = over_the_box(&parametrization);
         let subspace =
-            trained(self.problem, experiment, &frequency_hz, &parametrization, self.for_each).ok()??;
+            trained(self.problem, experiment, &frequency_hz, &parametrization, &moduli, self.for_each);
+        let subspace = subspace.ok()??;
         let sensors = (0..self.measured.quantities.len()).collect();
         let about = parametrization.nominal();
         let parametrization = (parametrization, &about);
@@ -275,10 +287,9 @@ impl Look<'_> {
         let elsewhere = Elsewhere { fault: Fault::Axis { factor }, sensors, cost: 2f64.ln() };
         let fitted = search.fit(&as_given.data_hypothesis, &grid, &[]);
         let alone = as_given.and(elsewhere, fitted);
-        let mut all = Vec::new();
+        let mut all = explanation::single_changes(&search, &grid, &alone);
+        all.retain(|one| explanation::is_large(&search, one));
         if alone.fitted.misfit.sigma < as_given.fitted.misfit.sigma {
-            all = explanation::single_changes(&search, &grid, &alone);
-            all.retain(|one| explanation::is_large(&search, one));
             all.extend(self.rows(&search, &grid, &[&alone]).ok()?);
         }
         all.push(alone);

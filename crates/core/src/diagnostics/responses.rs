@@ -37,21 +37,26 @@ pub(super) struct Responses<'a> {
     pub(super) rows: usize,
 }
 
-/// A subspace trained over the box; `None` where no real stand-in for D can be factorised.
+/// Moduli over the whole box.
+pub(super) fn over_the_box(parametrization: &Parametrization) -> Vec<Moduli> {
+    let [low, high] = parametrization.common();
+    let step = (high - low) / (BOX_SIZES - 1) as f64;
+    (0..BOX_SIZES).map(|k| parametrization.all_by(low + k as f64 * step, 0.0, 0.0)).collect()
+}
+
+/// A subspace trained at some moduli; `None` where no real stand-in for D can be factorised.
 pub(super) fn trained<'a>(
     problem: &Problem<'a>,
     experiment: &'a Experiment,
     frequency_hz: &[f64],
     parametrization: &Parametrization,
+    moduli: &[Moduli],
     for_each: ForEach<'_>,
 ) -> Result<Option<Subspace<'a>>, OutsideTable> {
-    let [low, high] = parametrization.common();
-    let step = (high - low) / (BOX_SIZES - 1) as f64;
-    let mut points: Vec<Point<'a>> = Vec::with_capacity(frequency_hz.len() * BOX_SIZES);
+    let mut points: Vec<Point<'a>> = Vec::with_capacity(frequency_hz.len() * moduli.len());
     for (i, &f) in frequency_hz.iter().enumerate() {
-        for k in 0..BOX_SIZES {
-            let moduli = parametrization.all_by(low + k as f64 * step, 0.0, 0.0);
-            let at = problem.at(f, &parametrization.values(&moduli, i))?;
+        for moduli in moduli {
+            let at = problem.at(f, &parametrization.values(moduli, i))?;
             points.push(Point { correction: c64::default(), at });
         }
     }
