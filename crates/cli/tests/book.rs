@@ -188,8 +188,8 @@ fn follow(page: &str) -> Result<(), String> {
     Ok(())
 }
 
-/// Pages of a third of the time, of the paper's series and of a coarser mesh, at which other tests look too: of the long tier.
-const LONG: [&str; 2] = ["comparison.md", "meshes.md"];
+/// Pages of half of the time, of the paper's series, of a coarser mesh and of a wooden plate, at which other tests look too: of the long tier.
+const LONG: [&str; 3] = ["comparison.md", "meshes.md", "wooden-plate.md"];
 
 #[test]
 fn every_page_does_what_it_says() {

@@ -83,8 +83,8 @@ fn every_example_runs_and_strict_tells_of_frequencies_without_a_trusted_answer()
     }
     for name in names {
         let case = format!("{name}/case.toml");
-        if name == "hammer-bar" {
-            continue; // its measurement has to be made first: see hammer.rs
+        if ["hammer-bar", "orthotropic-plate"].contains(&name) {
+            continue; // its measurement has to be made first: see hammer.rs and orthotropic_plate.rs
         }
         if !is_long() && !["rubber-bar", "density", "added-mass"].contains(&name) {
             continue; // one of each kind; crates/examples looks at the answers of all

@@ -9,6 +9,7 @@ mod fit;
 mod hammer;
 mod interrupted;
 mod modes;
+mod orthotropic_plate;
 #[path = "../../formats/tests/outside/mod.rs"]
 mod outside;
 #[path = "../../figures/tests/picture/mod.rs"]

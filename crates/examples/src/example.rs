@@ -4,7 +4,8 @@ use crate::file::{Frf, csv_frf, dofs, force, matrix, several_truth, truth, uff_f
 use crate::several::Measured;
 use crate::{
     Error, File, Model, Rig, SeveralModel, added_mass, clamped_plate, density, hammer_bar, hammer_records,
-    joint_stiffness, plate_thickness, rubber_bar, rubber_bar_end, sandwich, two_materials, two_meshes,
+    joint_stiffness, orthotropic_plate, plate_records, plate_thickness, rubber_bar, rubber_bar_end, sandwich,
+    two_materials, two_meshes,
 };
 use frfit::c64;
 use frfit::material::Law;
@@ -59,7 +60,7 @@ enum Measurement {
     Records(&'static str, fn() -> Result<Vec<u8>, Error>),
 }
 
-static EXAMPLES: [Example; 11] = [
+static EXAMPLES: [Example; 12] = [
     Example {
         name: "rubber-bar",
         summary: "free-free rubber bar, the same force on every node: its modulus over frequency",
@@ -170,6 +171,16 @@ static EXAMPLES: [Example; 11] = [
         measurement: Measurement::Tables(&["frf-1.csv", "frf-2.csv", "frf-3.csv"], Quantity::Accelerance),
         names_dofs: true,
     },
+    Example {
+        name: "orthotropic-plate",
+        summary: "free plate of spruce, records of five impacts: four constants of the wood",
+        case: include_str!("../cases/orthotropic-plate/case.toml"),
+        readme: include_str!("../cases/orthotropic-plate/README.md"),
+        unknown: Several(|| orthotropic_plate([8, 4])),
+        matrices: &["K11.mtx", "K22.mtx", "K12.mtx", "K66.mtx", "M.mtx"],
+        measurement: Measurement::Records("records.lvm", || plate_records(5, 1e-3)),
+        names_dofs: true,
+    },
 ];
 
 /// The case of a coarser mesh, and what its files are called before those of the model.
@@ -184,7 +195,7 @@ pub fn list() -> &'static [Example] {
 /// The files of an example, the same bytes each time: `README.md`, `case.toml`, and all that the case names.
 ///
 /// The measurement is computed by direct solves of the same model with the true parameters; those in tables of their own have noise and its
-/// standard deviation, and that of `hammer-bar` are records from an exact solution ([`Example::records`]).
+/// standard deviation, and those of `hammer-bar` and `orthotropic-plate` are records ([`Example::records`]), from an exact solution and from a finer mesh.
 ///
 /// # Errors
 /// [`Error::UnknownExample`] for a name that is not in [`list`].
@@ -288,9 +299,12 @@ impl Example {
     fn files_of_several(&self, model: &SeveralModel) -> Result<Vec<File>, Error> {
         let mut files = self.model_files(model.rig())?;
         let frequency_hz = model.rig().frequency_hz();
-        let measured = model.measured(&frequency_hz)?;
-        let Measured { receptance, std } = &measured;
-        files.extend(self.measurement_files(model.rig(), &frequency_hz, receptance, std)?);
+        if let Measurement::Records(path, records) = &self.measurement {
+            files.push(File::new(path, records()?));
+        } else {
+            let Measured { receptance, std } = model.measured(&frequency_hz)?;
+            files.extend(self.measurement_files(model.rig(), &frequency_hz, &receptance, &std)?);
+        }
         files.push(File::new("truth.csv", several_truth(model, &frequency_hz)?));
         Ok(files)
     }

@@ -17,10 +17,11 @@
 //! | `joint-stiffness` | [`joint_stiffness`] | a spring between two parts: a matrix of rank one, a complex constant |
 //! | `added-mass` | [`added_mass`] | a mass that sits on the structure and the modulus below it, and how they hang together |
 //! | `two-meshes` | [`two_meshes`] | a mesh that is too coarse, and a coarser one that says so |
+//! | `orthotropic-plate` | [`orthotropic_plate`] | from five impacts to the four constants of a wooden plate |
 //!
 //! The functions in the second column take the size of the mesh, for tests and benchmarks. The measurement is a direct
 //! solution of the same model with the true parameter, as in the paper: it shows what the method recovers, not what
-//! a test rig adds. The examples with constants have noise, whose standard deviation is known. `hammer-bar` is measured on an exact solution and `two-meshes` on a finer mesh: what the mesh adds is in their answers.
+//! a test rig adds. The examples with constants have noise, whose standard deviation is known. `hammer-bar` is measured on an exact solution, `two-meshes` and `orthotropic-plate` on a finer mesh: what the mesh adds is in their answers.
 //!
 //! ```
 //! use frfit::identify::{Options, Unknown, identify_at};
@@ -41,8 +42,10 @@ mod error;
 mod example;
 mod file;
 mod hammer_bar;
+mod hammer_test;
 mod joint_stiffness;
 mod model;
+mod orthotropic_plate;
 mod plate_thickness;
 mod rig;
 mod rubber_bar;
@@ -60,6 +63,7 @@ pub use file::{File, matrix};
 pub use hammer_bar::{hammer_accelerance, hammer_bar, hammer_records, hammer_rod, polyurethane};
 pub use joint_stiffness::joint_stiffness;
 pub use model::Model;
+pub use orthotropic_plate::{orthotropic_plate, plate_records};
 pub use plate_thickness::plate_thickness;
 pub use rig::Rig;
 pub use rubber_bar::{POLYBUTADIENE, rubber_bar, rubber_bar_end};

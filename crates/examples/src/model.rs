@@ -24,8 +24,8 @@ pub struct Model {
     pub band_hz: [f64; 2],
     /// Distance of neighbouring frequencies in the example.
     pub step_hz: f64,
-    /// Name of each row.
-    pub dofs: Vec<DofName>,
+    /// Name of each row; `None` where it is neither a displacement nor a rotation.
+    pub dofs: Vec<Option<DofName>>,
 }
 
 impl Model {
@@ -84,19 +84,21 @@ pub(crate) fn nearest(structure: &Assembled, position: [f64; 3], direction: Dire
     Sensor { row: row.unwrap_or(0), sign: 1.0 }
 }
 
-/// The names of all rows.
-pub(crate) fn names(structure: &Assembled) -> Vec<DofName> {
-    let name = |dof: &Dof| DofName { node: dof.node as u64, axis: axis(dof.direction), reversed: false };
+/// The names of all rows that have one.
+pub(crate) fn names(structure: &Assembled) -> Vec<Option<DofName>> {
+    let name =
+        |dof: &Dof| Some(DofName { node: dof.node as u64, axis: axis(dof.direction)?, reversed: false });
     structure.dofs.iter().map(name).collect()
 }
 
-fn axis(direction: Direction) -> Axis {
+fn axis(direction: Direction) -> Option<Axis> {
     match direction {
-        Direction::X => Axis::X,
-        Direction::Y => Axis::Y,
-        Direction::Z => Axis::Z,
-        Direction::RX => Axis::Rx,
-        Direction::RY => Axis::Ry,
-        Direction::RZ => Axis::Rz,
+        Direction::X => Some(Axis::X),
+        Direction::Y => Some(Axis::Y),
+        Direction::Z => Some(Axis::Z),
+        Direction::RX => Some(Axis::Rx),
+        Direction::RY => Some(Axis::Ry),
+        Direction::RZ => Some(Axis::Rz),
+        Direction::Twist => None,
     }
 }

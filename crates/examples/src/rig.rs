@@ -10,8 +10,8 @@ pub struct Rig<'a> {
     pub stiffness: &'a DynamicStiffness,
     /// Load and sensors.
     pub experiment: &'a Experiment,
-    /// Name of each row.
-    pub dofs: &'a [DofName],
+    /// Name of each row; `None` where it is neither a displacement nor a rotation.
+    pub dofs: &'a [Option<DofName>],
     /// First and last frequency.
     pub band_hz: [f64; 2],
     /// Distance of neighbouring frequencies.
@@ -30,17 +30,18 @@ impl Rig<'_> {
     /// Name of the dof of a sensor.
     ///
     /// # Panics
-    /// Where there is no such sensor.
+    /// Where there is no such sensor, or its row has no name.
     pub fn measured_dof(&self, sensor: usize) -> DofName {
         let Sensor { row, sign } = self.experiment.sensors[sensor];
-        DofName { reversed: sign < 0.0, ..self.dofs[row] }
+        let name = self.dofs[row].expect("a sensor at a displacement or a rotation");
+        DofName { reversed: sign < 0.0, ..name }
     }
 
-    /// Name of the dof that is driven; `None` where there are several.
+    /// Name of the dof that is driven; `None` where there are several, or it has no name.
     pub fn driven_at(&self) -> Option<DofName> {
         let mut driven = self.experiment.load.iter().enumerate().filter(|(_, force)| force.norm() > 0.0);
         match (driven.next(), driven.next()) {
-            (Some((row, force)), None) => Some(DofName { reversed: force.re < 0.0, ..self.dofs[row] }),
+            (Some((row, force)), None) => Some(DofName { reversed: force.re < 0.0, ..self.dofs[row]? }),
             _ => None,
         }
     }

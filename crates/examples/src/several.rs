@@ -26,8 +26,8 @@ pub struct SeveralModel {
     pub band_hz: [f64; 2],
     /// Distance of neighbouring frequencies in the example.
     pub step_hz: f64,
-    /// Name of each row.
-    pub dofs: Vec<DofName>,
+    /// Name of each row; `None` where it is neither a displacement nor a rotation.
+    pub dofs: Vec<Option<DofName>>,
 }
 
 /// Responses with noise, `[frequency][sensor]`.
@@ -52,10 +52,7 @@ impl SeveralModel {
     /// [`Error::Breakdown`] where the true system cannot be solved, [`Error::Law`] where a true law does not reach a frequency.
     pub fn exact(&self, frequency_hz: &[f64]) -> Result<Vec<Vec<c64>>, Error> {
         let one = |&f: &f64| {
-            let terms = self.stiffness.terms().iter().enumerate();
-            let terms =
-                terms.map(|(index, term)| self.true_term(index, term, f)).collect::<Result<_, _>>()?;
-            let truth = DynamicStiffness::new(terms)?;
+            let truth = self.true_stiffness(f)?;
             let system = FullModel::new(truth.at(f, &[])?, &self.experiment)?;
             let mut x = system.load().to_vec();
             system.solve_nominal(&mut x)?;
@@ -78,6 +75,13 @@ impl SeveralModel {
         let measured =
             exact.iter().zip(&std).map(|(x, s)| x.iter().zip(s).map(|(x, s)| x + s * normal()).collect());
         Ok(Measured { receptance: measured.collect(), std })
+    }
+
+    /// The terms with their true factors at a frequency.
+    pub(crate) fn true_stiffness(&self, frequency_hz: f64) -> Result<DynamicStiffness, Error> {
+        let terms = self.stiffness.terms().iter().enumerate();
+        let terms = terms.map(|(index, term)| self.true_term(index, term, frequency_hz));
+        Ok(DynamicStiffness::new(terms.collect::<Result<_, _>>()?)?)
     }
 
     /// A term with its true factor at a frequency.

@@ -4,5 +4,6 @@ mod claims;
 mod common;
 mod files;
 mod hammer;
+mod orthotropic_plate;
 mod selection;
 mod several;

@@ -7,7 +7,7 @@ use std::sync::Arc;
 /// A structure: D(ω) = Σ_g ( E_g K_g − ω² ρ_g M_g ) over its materials g, and where its rows are.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Assembled {
-    /// Stiffness matrix of each material for E = 1, n × n.
+    /// Stiffness matrix of each material for E = 1, n × n; of an orthotropic plate, of each of its constants.
     pub stiffness: Vec<SymmetricMatrix>,
     /// Mass matrix of each material for ρ = 1, n × n; on the pattern of the stiffness unless lumped.
     pub mass: Vec<SymmetricMatrix>,

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// What moves at a node: a translation along an axis, or a right-handed rotation about it.
+/// What moves at a node: a translation along an axis, a right-handed rotation about it, or the twist of a plate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Direction {
     /// Translation along x, in m.
@@ -17,6 +17,8 @@ pub enum Direction {
     RY,
     /// Rotation about z, in rad.
     RZ,
+    /// ∂²w/∂x∂y of a plate's deflection w, in 1/m: neither a displacement nor a rotation, and without a name in a table of dofs.
+    Twist,
 }
 
 impl Direction {
@@ -29,6 +31,7 @@ impl Direction {
             Self::RX => "RX",
             Self::RY => "RY",
             Self::RZ => "RZ",
+            Self::Twist => "TWIST",
         }
     }
 }

@@ -5,6 +5,7 @@
 //! | [`bar`] | longitudinal vibration, two nodes, X |
 //! | [`beam`] | Euler–Bernoulli bending, two nodes, Z and RY |
 //! | [`plate`] | Kirchhoff bending, rectangle of four nodes, Z, RX and RY |
+//! | [`orthotropic_plate`] | Kirchhoff bending of an orthotropic plate, rectangle of four nodes, Z, RX, RY and the twist; a matrix for each of four constants |
 //! | [`brick`] | three-dimensional elasticity, hexahedron of eight nodes, X, Y and Z; layers of several materials |
 //! | [`exact`] | responses, wavenumbers and natural frequencies in closed form |
 //!
@@ -12,6 +13,8 @@
 //! pair for each material, so that the dynamic stiffness is
 //!
 //! D(ω) = Σ_g ( E_g(ω) K_g − ω² ρ_g M_g ).
+//!
+//! An orthotropic plate has four stiffnesses, one for each of its constants, and one mass.
 //!
 //! Lengths are in metres, angles in radians. Rotations are right-handed about their axis, so that
 //! RX = ∂w/∂y and RY = −∂w/∂x for a deflection w along Z.
@@ -34,6 +37,7 @@ mod element;
 mod error;
 pub mod exact;
 mod grid;
+pub mod orthotropic_plate;
 pub mod plate;
 mod quadrature;
 mod support;
@@ -45,5 +49,6 @@ pub use brick::Brick;
 pub use dof::{Direction, Dof};
 pub use element::{Element, Mass};
 pub use error::Error;
+pub use orthotropic_plate::OrthotropicPlate;
 pub use plate::Plate;
 pub use support::Support;

@@ -48,7 +48,7 @@ fn list(args: &Args) -> Result<Outcome, Failure> {
         say_json(&Value::from(names))?;
     } else {
         for example in frfit_examples::list() {
-            say(&format!("{:16} {}\n", example.name, example.summary))?;
+            say(&format!("{:17} {}\n", example.name, example.summary))?;
         }
     }
     Ok(Outcome::Done)

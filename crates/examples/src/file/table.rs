@@ -15,12 +15,12 @@ pub(crate) fn force(load: &[c64]) -> Result<String, Error> {
     Ok(csv::write(&["row", "re", "im"], rows)?)
 }
 
-/// Columns row (from 1), node, direction.
-pub(crate) fn dofs(names: &[DofName]) -> Result<String, Error> {
-    let numbers: Vec<_> =
-        (1..).zip(names).map(|(row, name)| [row, name.node].map(|n| n.to_string())).collect();
-    let rows =
-        numbers.iter().zip(names).map(|([row, node], name)| [row, node, name.axis.name()].map(Cell::Text));
+/// Columns row (from 1), node, direction: the rows that have a name.
+pub(crate) fn dofs(names: &[Option<DofName>]) -> Result<String, Error> {
+    let named = (1_u64..).zip(names).filter_map(|(row, name)| Some((row, (*name)?)));
+    let texts: Vec<_> =
+        named.map(|(row, name)| ([row, name.node].map(|n| n.to_string()), name.axis)).collect();
+    let rows = texts.iter().map(|([row, node], axis)| [row, node, axis.name()].map(Cell::Text));
     Ok(csv::write(&["row", "node", "direction"], rows)?)
 }
 

@@ -74,7 +74,9 @@ fn plate(loss_factor: f64, delta: f64) -> Model {
     model.parameter.nominal = Law::complex_modulus((1.0 + delta) * 2.0e11, loss_factor);
     // Deflection of a node a third of the way through the numbering.
     let third = model.dofs.len() / 3;
-    let row = (third..model.dofs.len()).find(|&row| model.dofs[row].axis == Axis::Z).unwrap();
+    let row = (third..model.dofs.len())
+        .find(|&row| model.dofs[row].is_some_and(|name| name.axis == Axis::Z))
+        .unwrap();
     model.experiment.sensors.push(Sensor { row, sign: 1.0 });
     model
 }

@@ -48,6 +48,33 @@ impl UniformPlate {
     }
 }
 
+/// A uniform rectangular plate of an orthotropic material, whose axes are along the sides.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct UniformOrthotropicPlate {
+    /// D₁₁, D₂₂, D₁₂ and D₆₆ in Pa, as [`crate::OrthotropicPlate`] has them.
+    pub constants: [f64; 4],
+    /// Density ρ in kg/m³.
+    pub density: f64,
+    /// Thickness h in m.
+    pub thickness: f64,
+    /// Sides a and b in m.
+    pub sides: [f64; 2],
+}
+
+impl UniformOrthotropicPlate {
+    /// All edges simply supported, m and n half-waves along a and b (from 1), in rad/s:
+    /// ω² = π⁴ h²/12ρ ( D₁₁ m⁴/a⁴ + 2 (D₁₂ + 2 D₆₆) m²n²/a²b² + D₂₂ n⁴/b⁴ ).
+    ///
+    /// # Source
+    /// R. F. S. Hearmon, *An Introduction to Applied Anisotropic Elasticity*, Oxford 1961; A. W. Leissa, *Vibration of Plates*, NASA SP-160, 1969, chapter 9.
+    pub fn simply_supported_rad_s(&self, m: usize, n: usize) -> f64 {
+        let [d11, d22, d12, d66] = self.constants;
+        let [x, y] = [(m as f64 / self.sides[0]).powi(2), (n as f64 / self.sides[1]).powi(2)];
+        let stiffness = d11 * x * x + 2.0 * (d12 + 2.0 * d66) * x * y + d22 * y * y;
+        PI.powi(2) * self.thickness * (stiffness / (12.0 * self.density)).sqrt()
+    }
+}
+
 /// λ = ω a² √(ρh/D) of the clamped square plate, lowest first, whatever ν.
 ///
 /// Rayleigh–Ritz with polynomials, an upper bound converged to the digits given; the tests compute it again.

@@ -5,6 +5,7 @@ mod beam;
 mod brick;
 mod hexahedron;
 mod modes;
+mod orthotropic_plate;
 mod plate;
 mod polynomial;
 mod support;
