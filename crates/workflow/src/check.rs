@@ -162,11 +162,11 @@ fn words(case: &Case, fault: &Fault, sensors: &[usize]) -> (&'static str, String
                 match sensors {
                     // Where other sensors are right, the model is in the units that the case says.
                     [_] if case.sensors.len() > 1 => format!(
-                        "scale of {measurements}: {}, or units and sensitivity of its file; SI is expected",
+                        "scale of {measurements}: times {}, or units and sensitivity of its file; SI is expected",
                         number(scale)
                     ),
                     _ => format!(
-                        "scale of {measurements}: {}, or units and the hammer's sensitivity in their files; SI is expected. Or {}",
+                        "scale of {measurements}: times {}, or units and the hammer's sensitivity in their files; SI is expected. Or {}",
                         number(scale),
                         of_the_model(case.units, *factor, *relative_std)
                     ),

@@ -37,7 +37,8 @@ pub fn tried(seed: u64, index: u64) -> Result<Tried, Failure> {
         let right = Class::ALL.iter().position(|class| *class == Class::Right).unwrap_or(0) as u64;
         let class = if is_right { right } else { (right + 1 + round % (classes - 1)) % classes };
         // Each case is a case of its own: no two share a structure.
-        let mut case = Case::draw(seed, classes * index + class, Meshes::One)?;
+        let draw = |attempt: u64| Case::draw(seed, classes * (index + (attempt << 32)) + class, Meshes::One);
+        let mut case = draw(0).or_else(|_| draw(1))?;
         let mut dice = Dice::new(seed ^ 0xFA17, index);
         case.model = nominal(&case, dice.between(NOMINAL_RATIO[0], NOMINAL_RATIO[1]))?;
         let mut data = Data {

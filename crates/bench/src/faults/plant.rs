@@ -85,7 +85,7 @@ pub(super) fn planted(
     let all: Vec<usize> = (0..count).collect();
     let is_of_all = dice.coin();
     let sensors = if is_of_all { all.clone() } else { vec![dice.below(count)] };
-    let top = omega_rad_s(data.frequency_hz.last().copied().unwrap_or(1.0));
+    let top = omega_rad_s(case.frequency_hz.last().copied().unwrap_or(1.0));
     let taken_for = data.quantities[sensors[0]];
     let others: Vec<Quantity> = Quantity::ALL.into_iter().filter(|q| *q != taken_for).collect();
     let rows = case.model.dim();
@@ -111,12 +111,15 @@ pub(super) fn planted(
         let Some(elsewhere) = elsewhere(case, data, &fault, &sensors)? else { return Ok(None) };
         changed.experiment = elsewhere;
     }
-    for (f, values) in changed.frequency_hz.iter_mut().zip(&mut changed.written) {
+    // What happened to values did so at the true frequencies.
+    for ((given, f), values) in
+        changed.frequency_hz.iter_mut().zip(&case.frequency_hz).zip(&mut changed.written)
+    {
         for &m in &sensors {
             values[m] = fault.applied(*f, taken_for, values[m]);
         }
         if fault == Fault::Axis {
-            *f *= TAU;
+            *given *= TAU;
         }
     }
     let is_visible = match fault {

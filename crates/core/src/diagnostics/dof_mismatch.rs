@@ -4,7 +4,7 @@ use super::data_hypothesis::{Change, DataHypothesis, DofMismatch, Edit};
 use super::misfit::{misfit_at, wrapped};
 use super::moduli::{Moduli, Parametrization};
 use super::responses::{Responses, trained};
-use super::search::{Fitted, Search, Written};
+use super::search::{Fitted, Search, Start, Written};
 use crate::c64;
 use crate::for_each::map;
 use crate::identify::{Options, Problem};
@@ -19,8 +19,11 @@ const ROW_FREQUENCIES: usize = 12;
 const MAX_ROW_MODULI: usize = 60;
 const MAX_ROW_PRODUCTS: f64 = 4e8;
 
-/// Rows that are looked at more closely, for a sensor or the load.
-const MAX_CLOSE_ROWS: usize = 6;
+/// Rows that are looked at more closely for a sensor or the load, of each kind of comparison.
+const MAX_CLOSE_ROWS: usize = 4;
+
+/// Rows with a change of values beside them that are fitted.
+const MAX_PAIRS: usize = 12;
 
 /// Scale at which rows are compared: away from the sensors the basis is good to some hundredths.
 const ROW_SCALE: f64 = 0.3;
@@ -38,35 +41,40 @@ const MIN_ROUGH_GAIN: f64 = 2.0;
 /// A dof mismatch that was tried, with what came of it.
 pub(super) struct Tried {
     pub(super) what: DofMismatch,
-    pub(super) edit: Edit,
+    pub(super) sensors: Vec<usize>,
+    /// A change of values beside it.
+    pub(super) second: Option<Edit>,
     pub(super) fitted: Fitted,
 }
 
 /// A row, its score, and the moduli with which it had it.
 type Scored = (usize, f64, Moduli);
 
-/// The best rows for every sensor and for the load, each fitted on a model that was trained for it.
+/// The best rows for every sensor and for the load, alone and beside each of some changes of values, each fitted on a model that was trained for it.
 pub(super) fn dof_mismatch(
     search: &Search<'_, '_>,
     problem: &Problem<'_>,
     experiment: &Experiment,
     options: &Options,
-    data_hypothesis: &DataHypothesis,
-    moduli: &[Vec<Moduli>],
+    (data_hypothesis, changes): (&DataHypothesis, &[Edit]),
+    moduli: &[(Option<usize>, Vec<Moduli>)],
 ) -> Result<Vec<Tried>, OutsideTable> {
     let sensors = experiment.sensors.len();
     let driven: Vec<usize> =
         (0..experiment.load.len()).filter(|&row| experiment.load[row] != c64::default()).collect();
-    // What is at which of the candidates' rows: (sensor or none for the load, row, moduli).
+    // What is at which of the candidates' rows: (sensor, or none for the load, row, moduli).
     let mut wanted: Vec<(Option<usize>, usize, Moduli)> = Vec::new();
-    for (m, (sensor, moduli)) in experiment.sensors.iter().zip(moduli).enumerate() {
-        let best = best_rows(search, experiment, data_hypothesis, &[m], false, moduli, sensor.row);
-        wanted.extend(best.into_iter().map(|(row, _, moduli)| (Some(m), row, moduli)));
-    }
-    if let [row] = driven[..] {
+    for (place, moduli) in moduli {
         let all: Vec<usize> = (0..sensors).collect();
-        let best = best_rows(search, experiment, data_hypothesis, &all, true, &moduli[sensors], row);
-        wanted.extend(best.into_iter().map(|(row, _, moduli)| (None, row, moduli)));
+        let best = match (place, &driven[..]) {
+            (Some(m), _) => {
+                let own = experiment.sensors[*m].row;
+                best_rows(search, experiment, data_hypothesis, &[*m], false, moduli, own)
+            }
+            (None, [row]) => best_rows(search, experiment, data_hypothesis, &all, true, moduli, *row),
+            (None, _) => Vec::new(),
+        };
+        wanted.extend(best.into_iter().map(|(row, _, moduli)| (*place, row, moduli)));
     }
     if wanted.is_empty() {
         return Ok(Vec::new());
@@ -105,12 +113,32 @@ pub(super) fn dof_mismatch(
         edits.push((what, Edit { change: Change::Column(columns, what), sensors }, moduli));
     }
     let close = Search { responses: &responses, ..*search };
-    Ok(map(search.for_each, edits.len(), |k| {
-        let (what, edit, moduli) = &edits[k];
+    let starts = |moduli: &Moduli| -> Vec<Start> {
         let moved = |by: f64| (responses.parametrization.moved(moduli, by), 0.0, 0.0);
-        let fitted = close.follow(&data_hypothesis.with(edit), vec![moved(0.0), moved(-0.03), moved(0.03)]);
-        Tried { what: *what, edit: edit.clone(), fitted }
-    }))
+        [0.0, -0.03, 0.03].map(moved).to_vec()
+    };
+    let mut tried = map(search.for_each, edits.len(), |k| {
+        let (what, edit, moduli) = &edits[k];
+        let fitted = close.follow(&data_hypothesis.with(edit), starts(moduli));
+        Tried { what: *what, sensors: edit.sensors.clone(), second: None, fitted }
+    });
+    let seconds: Vec<(usize, &Edit)> =
+        (0..edits.len()).flat_map(|k| changes.iter().map(move |second| (k, second))).collect();
+    let both = |k: usize, second: &Edit| data_hypothesis.with(&edits[k].1).with(second);
+    let scored = map(search.for_each, seconds.len(), |s| {
+        let (k, second) = seconds[s];
+        close.likeliest_start(&both(k, second), starts(edits[k].2))
+    });
+    let mut order: Vec<usize> = (0..seconds.len()).collect();
+    order.sort_by(|&a, &b| scored[a].0.total_cmp(&scored[b].0));
+    order.truncate(MAX_PAIRS);
+    tried.extend(map(search.for_each, order.len(), |s| {
+        let (k, second) = seconds[order[s]];
+        let (what, edit, _) = &edits[k];
+        let fitted = close.follow(&both(k, second), vec![scored[order[s]].1.clone()]);
+        Tried { what: *what, sensors: edit.sensors.clone(), second: Some(second.clone()), fitted }
+    }));
+    Ok(tried)
 }
 
 /// Where a model is trained that serves some moduli and what is near by: at most [`MAX_TRAINED_MODULI`] of them, and to either side.
@@ -149,6 +177,8 @@ pub(super) fn sweep(responses: &Responses<'_>, about: &Moduli) -> Vec<Moduli> {
 }
 
 /// The rows that explain some sensors best: as their own, or (`is_load`) as that of the load.
+///
+/// They are the best by magnitude and phase, and the best by the shape of the magnitude alone, which a factor, a sign, a conjugate or a delay leaves as it is.
 fn best_rows(
     search: &Search<'_, '_>,
     experiment: &Experiment,
@@ -165,11 +195,10 @@ fn best_rows(
     let force = experiment.load[experiment.load.iter().position(|f| *f != c64::default()).unwrap_or(0)];
     let rows = experiment.load.len();
     let scores = map(search.for_each, moduli.len(), |l| {
-        let mut scores = vec![0.0; rows];
+        let mut scores = vec![[0.0; 2]; rows];
         for &m in sensors {
-            // Of a factor that is looked for, what is left of ln|measured/model| about its mean.
-            let is_scaled = data_hypothesis.concerned(m)[0];
-            let mut sums = vec![[0.0; 2]; if is_scaled { rows } else { 0 }];
+            // What is left of ln|measured/model| about its mean.
+            let mut sums = vec![[0.0; 2]; rows];
             let mut values = 0.0;
             for &i in &picked {
                 let Some(value) = written[i][m] else { continue };
@@ -181,30 +210,35 @@ fn best_rows(
                 };
                 for (row, x) in responses.everywhere(drive, &moduli[l], i).into_iter().enumerate() {
                     let rest = wrapped(read - (by * x).ln());
-                    match is_scaled {
-                        true => {
-                            sums[row][0] += rest.re;
-                            sums[row][1] += rest.norm_sqr();
-                        }
-                        false => scores[row] += misfit_at(std::iter::once(rest), ROW_SCALE),
-                    }
+                    scores[row][0] += misfit_at(std::iter::once(rest), ROW_SCALE);
+                    sums[row][0] += rest.re;
+                    sums[row][1] += rest.re * rest.re;
                 }
             }
             for (score, [sum, squares]) in scores.iter_mut().zip(sums) {
-                *score += values * (squares - sum * sum / values + ROW_SCALE * ROW_SCALE).ln();
+                let about_mean: f64 = squares - sum * sum / values;
+                score[1] += values * (about_mean / values + ROW_SCALE * ROW_SCALE).ln();
             }
         }
         scores
     });
-    let least = |row: usize| {
-        let of_moduli = |l: usize| (row, scores[l][row], l);
-        (0..moduli.len()).map(of_moduli).min_by(|a, b| a.1.total_cmp(&b.1))
-    };
-    let of_own = least(own).map_or(f64::INFINITY, |(_, score, _)| score);
-    let is_better = |(_, score, _): &(usize, f64, usize)| *score < of_own - MIN_ROUGH_GAIN;
-    let mut best: Vec<(usize, f64, usize)> =
-        (0..rows).filter(|&row| row != own).filter_map(least).filter(is_better).collect();
-    best.sort_by(|a, b| a.1.total_cmp(&b.1));
-    best.truncate(MAX_CLOSE_ROWS);
-    best.into_iter().map(|(row, score, l)| (row, score, moduli[l].clone())).collect()
+    let mut best: Vec<Scored> = Vec::new();
+    for which in 0..2 {
+        let least = |row: usize| {
+            let of_moduli = |l: usize| (row, scores[l][row][which], l);
+            (0..moduli.len()).map(of_moduli).min_by(|a, b| a.1.total_cmp(&b.1))
+        };
+        let of_own = least(own).map_or(f64::INFINITY, |(_, score, _)| score);
+        let is_better = |(_, score, _): &(usize, f64, usize)| *score < of_own - MIN_ROUGH_GAIN;
+        let mut likeliest: Vec<(usize, f64, usize)> =
+            (0..rows).filter(|&row| row != own).filter_map(least).filter(is_better).collect();
+        likeliest.sort_by(|a, b| a.1.total_cmp(&b.1));
+        likeliest.truncate(MAX_CLOSE_ROWS);
+        for (row, score, l) in likeliest {
+            if best.iter().all(|(other, ..)| *other != row) {
+                best.push((row, score, moduli[l].clone()));
+            }
+        }
+    }
+    best
 }

@@ -14,6 +14,12 @@ use crate::for_each::map;
 /// that is no power may move several of them together.
 pub const FINDING_NATS: f64 = 15.0;
 
+/// The same of a second finding beside the best single one: a wrong model leaves what small second faults explain.
+const SECOND_FINDING_NATS: f64 = 2.0 * FINDING_NATS;
+
+/// What leaves more than this explains nothing: a factor of 1.5, or 23 degrees.
+const MAX_MISFIT_LEFT: f64 = 0.4;
+
 /// The misfit with a finding over that without, at most. A factor, a delay or another row can fit a little of whatever is wrong; what they are the reason of falls to the noise.
 pub const MAX_MISFIT_RATIO: f64 = 0.6;
 
@@ -25,9 +31,6 @@ const MIN_LN_FACTOR: f64 = 0.1;
 
 /// A delay that turns the phase by less than this at the top of the band (rad) is a filter's, and no fault.
 const MIN_DELAY_PHASE_RAD: f64 = 0.2;
-
-/// A factor or delay of fewer standard deviations than this is not distinguished from zero.
-const SIGNIFICANT_STD: f64 = 5.0;
 
 /// Misfit up to which data are explained: noise and a constant law leave as much, and the rows of a neighbourhood cannot be distinguished by it.
 pub(super) const EXPLAINED_MISFIT: f64 = 0.04;
@@ -70,6 +73,12 @@ impl Explanation {
         self.edits.len() + self.elsewhere.len()
     }
 
+    /// With one more change of values.
+    pub(super) fn changed_by(&self, edit: &Edit, fitted: Fitted) -> Self {
+        let cost = (self.data_hypothesis.edits().len().max(1) as f64).ln();
+        self.with(edit, self.data_hypothesis.with(edit), fitted, cost)
+    }
+
     /// With a fault that is no change of values.
     pub(super) fn and(&self, elsewhere: Elsewhere, fitted: Fitted) -> Self {
         let nats = fitted.nats + self.cost() + elsewhere.cost;
@@ -87,15 +96,15 @@ impl Explanation {
         self.nats - self.fitted.nats
     }
 
-    /// Whether it explains what another one does not: of all sensors, or of those that its faults concern.
-    fn improves_on(&self, other: &Self) -> bool {
+    /// Whether it explains what another one does not, by so many nats: of all sensors, or of those that its faults concern.
+    fn improves_on(&self, other: &Self, nats: f64) -> bool {
         let falls = |after: f64, before: f64| after <= MAX_MISFIT_RATIO * before;
         let of_all = falls(self.fitted.misfit.sigma, other.fitted.misfit.sigma);
         let own = |sensors: &[usize]| falls(self.fitted.misfit_of(sensors), other.fitted.misfit_of(sensors));
         let new = self.edits.iter().filter(|edit| !other.edits.contains(edit)).map(|edit| &edit.sensors);
         let elsewhere = self.elsewhere.iter().filter(|one| !other.has(one)).map(|one| &one.sensors);
         let is_of_concerned = new.chain(elsewhere).any(|sensors| own(sensors));
-        other.nats - self.nats >= FINDING_NATS && (of_all || is_of_concerned)
+        other.nats - self.nats >= nats && (of_all || is_of_concerned)
     }
 
     /// Whether it has all faults of another one but its k-th.
@@ -142,12 +151,16 @@ pub(super) fn choose<'e>(as_given: &'e Explanation, tried: &'e [Explanation]) ->
     let likeliest =
         |of: &mut dyn Iterator<Item = &'e Explanation>| of.min_by(|a, b| a.nats.total_cmp(&b.nats));
     let of_faults = |count: usize| tried.iter().filter(move |one| one.faults() == count);
-    let single = likeliest(&mut of_faults(1).filter(|one| one.improves_on(as_given)));
+    let explains = |one: &&Explanation| {
+        one.improves_on(as_given, FINDING_NATS) && one.fitted.misfit.sigma <= MAX_MISFIT_LEFT
+    };
+    let single = likeliest(&mut of_faults(1).filter(explains));
     // What the best single fault explains, and what is left by the one that leaves least, whether or not it is a finding.
     let base = likeliest(&mut of_faults(1).chain([as_given])).unwrap_or(as_given);
-    let pair = likeliest(&mut of_faults(2).filter(|one| one.improves_on(base) && one.improves_on(as_given)));
+    let is_second = |one: &&Explanation| one.improves_on(base, SECOND_FINDING_NATS);
+    let pair = likeliest(&mut of_faults(2).filter(explains).filter(is_second));
     let best = pair.or(single)?;
-    let others = tried.iter().filter(|one| !one.has_all_of(best) && one.improves_on(as_given));
+    let others = tried.iter().filter(|one| !one.has_all_of(best) && one.improves_on(as_given, FINDING_NATS));
     let rival = likeliest(&mut others.filter(|one| one.faults() <= best.faults()));
     Some(Choice { best, rival: rival.map(|rival| (rival, rival.nats - best.nats)) })
 }
@@ -161,7 +174,8 @@ pub(super) fn changes(search: &Search<'_, '_>, grid: &Grid, as_given: &Explanati
     let mut tried = single_changes(search, grid, as_given);
     let mut order: Vec<usize> = (0..tried.len()).collect();
     order.sort_by(|&a, &b| tried[a].nats.total_cmp(&tried[b].nats));
-    let is_finding = |&&k: &&usize| tried[k].improves_on(as_given) && is_large(search, &tried[k]);
+    let is_finding =
+        |&&k: &&usize| tried[k].improves_on(as_given, FINDING_NATS) && is_large(search, &tried[k]);
     let found = order.iter().find(is_finding).copied();
     let left = found.map(|k| tried[k].fitted.worst());
     let firsts: Vec<usize> = match left {
@@ -184,11 +198,9 @@ pub(super) fn changes(search: &Search<'_, '_>, grid: &Grid, as_given: &Explanati
 /// All single changes of values beside what is wrong already.
 pub(super) fn single_changes(search: &Search<'_, '_>, grid: &Grid, beside: &Explanation) -> Vec<Explanation> {
     let edits = beside.data_hypothesis.edits();
-    let cost = (edits.len().max(1) as f64).ln();
     map(search.for_each, edits.len(), |k| {
-        let data_hypothesis = beside.data_hypothesis.with(&edits[k]);
-        let fitted = search.fit(&data_hypothesis, grid, &[&beside.fitted]);
-        beside.with(&edits[k], data_hypothesis, fitted, cost)
+        let fitted = search.fit(&beside.data_hypothesis.with(&edits[k]), grid, &[&beside.fitted]);
+        beside.changed_by(&edits[k], fitted)
     })
 }
 
@@ -239,10 +251,69 @@ pub(super) fn is_large(search: &Search<'_, '_>, one: &Explanation) -> bool {
     if !factor && !delay {
         return true;
     }
-    let stds = search.standard_deviations(&one.data_hypothesis, &one.fitted);
-    let beyond = |value: f64, least: f64, std: Option<f64>| {
-        value.abs() >= least && std.is_some_and(|std| value.abs() >= SIGNIFICANT_STD * std)
-    };
-    (!factor || beyond(one.fitted.ln_factor, MIN_LN_FACTOR, stds[0]))
-        && (!delay || beyond(one.fitted.delay_s, MIN_DELAY_PHASE_RAD / top, stds[1]))
+    (!factor || one.fitted.ln_factor.abs() >= MIN_LN_FACTOR)
+        && (!delay || one.fitted.delay_s.abs() >= MIN_DELAY_PHASE_RAD / top)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::misfit::Misfit;
+    use super::super::moduli::Moduli;
+    use super::*;
+    use crate::quantity::Quantity;
+
+    /// With changes of sensors, so many nats and this misfit of two sensors.
+    fn explanation(edits: &[(Change, &[usize])], nats: f64, own: [f64; 2]) -> Explanation {
+        let given = DataHypothesis::as_given(&[Quantity::Receptance; 2], 0.0);
+        let edits: Vec<Edit> =
+            edits.iter().map(|(change, of)| Edit { change: change.clone(), sensors: of.to_vec() }).collect();
+        let data_hypothesis = edits.iter().fold(given, |given, edit| given.with(edit));
+        let moduli = Moduli { ln_sizes: vec![0.0], ln_loss: 0.0, slope: 0.0 };
+        let misfit = Misfit { nats, sigma: own[0].min(own[1]) };
+        let fitted = Fitted { moduli, ln_factor: 0.0, delay_s: 0.0, misfit, own: own.to_vec(), nats };
+        Explanation { edits, elsewhere: Vec::new(), data_hypothesis, fitted, nats }
+    }
+
+    const ALL: &[usize] = &[0, 1];
+
+    #[test]
+    fn a_pair_is_believed_where_no_single_one_leaves_as_little() {
+        let given = explanation(&[], 100.0, [1.0; 2]);
+        let sign = explanation(&[(Change::Reversed, ALL)], 98.0, [0.9; 2]);
+        let factor = explanation(&[(Change::Factor, ALL)], 95.0, [0.8; 2]);
+        let both = explanation(&[(Change::Reversed, ALL), (Change::Factor, ALL)], 20.0, [0.1; 2]);
+        let tried = [sign, factor, both];
+        let choice = choose(&given, &tried).unwrap();
+        assert_eq!(choice.best.edits, tried[2].edits);
+        assert!(choice.is_certain() && choice.rival.is_none());
+        // A second change that helps little is none.
+        let alone = explanation(&[(Change::Reversed, ALL)], 20.0, [0.1; 2]);
+        let little = explanation(&[(Change::Reversed, ALL), (Change::Delay, ALL)], 10.0, [0.09; 2]);
+        assert_eq!(choose(&given, &[little, alone]).unwrap().best.faults(), 1);
+        assert!(choose(&given, &tried[..2]).is_none());
+    }
+
+    #[test]
+    fn what_another_explanation_does_as_well_is_not_decided() {
+        let given = explanation(&[], 100.0, [1.0; 2]);
+        let late = explanation(&[(Change::Delay, ALL)], 20.0, [0.1; 2]);
+        let conjugated = explanation(&[(Change::Conjugated, ALL)], 20.0 + 0.9 * MIN_MARGIN_NATS, [0.1; 2]);
+        let tried = [late.clone(), conjugated.clone()];
+        let choice = choose(&given, &tried).unwrap();
+        assert!(!choice.is_certain());
+        assert_eq!(choice.rival.unwrap().0.edits, conjugated.edits);
+        // More of the same is not another explanation.
+        let more = explanation(&[(Change::Delay, ALL), (Change::Reversed, &[1])], 19.0, [0.1; 2]);
+        assert!(choose(&given, &[late, more]).unwrap().is_certain());
+    }
+
+    #[test]
+    fn a_fault_of_one_sensor_is_seen_beside_sensors_that_hide_it() {
+        // The misfit of all is that of most: it is as small before.
+        let given = explanation(&[], 100.0, [0.01, 1.0]);
+        let of_one = explanation(&[(Change::Reversed, &[1])], 50.0, [0.01, 0.02]);
+        assert_eq!(choose(&given, std::slice::from_ref(&of_one)).unwrap().best.edits, of_one.edits);
+        let of_other = explanation(&[(Change::Reversed, &[0])], 80.0, [0.01, 1.0]);
+        assert!(choose(&given, &[of_other]).is_none());
+    }
 }

@@ -32,8 +32,11 @@ const MAX_FREQUENCIES: usize = 40;
 const MAX_FREQUENCIES_PER_UNKNOWN: usize = 10;
 const MAX_VALUES: usize = 240;
 
-/// Explanations of one change of values beside which another row is looked for.
-const MAX_CHANGES_WITH_ROWS: usize = 2;
+/// Sensors for which another row is looked for: those that agree least with the model.
+const MAX_SUSPECTS: usize = 4;
+
+/// Faults that are looked for together: who finds three has the wrong model.
+const MAX_FAULTS: usize = 2;
 
 /// Explanations that are named where the data do not decide.
 const MAX_UNDECIDED: usize = 4;
@@ -182,7 +185,13 @@ pub(super) fn look<T>(
         look.say(&search, choice, &as_given, &tried, &mut diagnosis);
     }
     diagnosis.misfit = Some(left.fitted.misfit.sigma);
-    if let Ok(top) = responses_there.at(&left.fitted.moduli, frequency_hz.len() - 1)
+    let axis = left.elsewhere.iter().find_map(|elsewhere| match elsewhere.fault {
+        Fault::Axis { factor } => Some(factor),
+        _ => None,
+    });
+    let top = frequency_hz.len() - 1;
+    let values = parametrization.values(&left.fitted.moduli, top);
+    if let Ok(top) = problem.at(frequency_hz[top] / axis.unwrap_or(1.0), &values)
         && let Some(fault) = mesh::beyond_mesh(&top)
     {
         let sensors = (0..measured.quantities.len()).collect();
@@ -226,14 +235,16 @@ impl Look<'_> {
             tried.extend(self.axis(responses, &as_given, TAU).unwrap_or_default());
         }
         if left(&tried, Fitted::worst) > EXPLAINED_MISFIT {
-            let is_likely = |one: &&Explanation| as_given.nats - one.nats >= explanation::FINDING_NATS;
             let is_single = |one: &&Explanation| one.edits.len() == 1 && one.faults() == 1;
-            let mut singles: Vec<&Explanation> = tried.iter().filter(is_single).filter(is_likely).collect();
-            singles.sort_by(|a, b| a.nats.total_cmp(&b.nats));
-            singles.truncate(MAX_CHANGES_WITH_ROWS);
-            let beside: Vec<&Explanation> = std::iter::once(&as_given).chain(singles).collect();
-            let rows = self.rows(&search, &grid, &beside)?;
-            tried.extend(rows);
+            let is_likely = |one: &&Explanation| as_given.nats - one.nats >= explanation::FINDING_NATS;
+            let singles = tried.iter().filter(is_single).filter(is_likely);
+            let likeliest = singles.min_by(|a, b| a.nats.total_cmp(&b.nats));
+            let beside: Vec<&Explanation> = std::iter::once(&as_given).chain(likeliest).collect();
+            let mut rows = Vec::new();
+            for beside in beside {
+                rows.extend(self.rows(&search, &grid, beside)?);
+            }
+            tried.extend(rows.into_iter().filter(|one| explanation::is_large(&search, one)));
         }
         // Higher frequencies have more modes, and cost most.
         if left(&tried, |fitted| fitted.misfit.sigma) > VERY_UNEXPLAINED_MISFIT {
@@ -242,24 +253,23 @@ impl Look<'_> {
         Ok((as_given, tried))
     }
 
-    /// Another row for a sensor or for the load beside each of some explanations.
+    /// Another row for a sensor or for the load beside an explanation, and beside one more change of values where there are not too many faults.
     fn rows(
         &self,
         search: &Search<'_, '_>,
         grid: &Grid,
-        beside: &[&Explanation],
+        beside: &Explanation,
     ) -> Result<Vec<Explanation>, OutsideTable> {
-        let mut found = Vec::new();
-        for beside in beside {
-            let laws = self.moduli_of_other_rows(search, grid, beside);
-            let (problem, experiment) = (self.problem, self.measured.experiment);
-            let hypothesis = &beside.data_hypothesis;
-            let rows = dof_mismatch(search, problem, experiment, self.options, hypothesis, &laws)?;
-            let dim = problem.model().dim();
-            let likeliest = likeliest_rows(&rows, dim).into_iter();
-            found.extend(likeliest.map(|(elsewhere, fitted)| beside.and(elsewhere, fitted)));
-        }
-        Ok(found)
+        let moduli = self.moduli_of_other_rows(search, grid, beside);
+        let (problem, experiment) = (self.problem, self.measured.experiment);
+        let hypothesis = &beside.data_hypothesis;
+        let seconds = if beside.faults() + 1 < MAX_FAULTS { hypothesis.edits() } else { Vec::new() };
+        let rows = dof_mismatch(search, problem, experiment, self.options, (hypothesis, &seconds), &moduli)?;
+        let explanation = |(elsewhere, second, fitted): (Elsewhere, Option<Edit>, Fitted)| match second {
+            None => beside.and(elsewhere, fitted),
+            Some(edit) => beside.changed_by(&edit, fitted.clone()).and(elsewhere, fitted),
+        };
+        Ok(likeliest_rows(&rows, problem.model().dim()).into_iter().map(explanation).collect())
     }
 
     /// The same data at frequencies that are so many times smaller, as they are and with one change.
@@ -288,26 +298,28 @@ impl Look<'_> {
         let fitted = search.fit(&as_given.data_hypothesis, &grid, &[]);
         let alone = as_given.and(elsewhere, fitted);
         let mut all = explanation::single_changes(&search, &grid, &alone);
-        all.retain(|one| explanation::is_large(&search, one));
         if alone.fitted.misfit.sigma < as_given.fitted.misfit.sigma {
-            all.extend(self.rows(&search, &grid, &[&alone]).ok()?);
+            all.extend(self.rows(&search, &grid, &alone).ok()?);
         }
         all.push(alone);
+        all.retain(|one| one.faults() <= MAX_FAULTS && explanation::is_large(&search, one));
         Some(all)
     }
 
-    /// Moduli with which rows are compared, for each sensor and (last) for the load: those of the other sensors, and all of the box.
+    /// Moduli with which rows are compared, for each sensor that agrees least and for the load (`None`): those of the other sensors, and all of the box.
     fn moduli_of_other_rows(
         &self,
         search: &Search<'_, '_>,
         grid: &Grid,
         beside: &Explanation,
-    ) -> Vec<Vec<Moduli>> {
+    ) -> Vec<(Option<usize>, Vec<Moduli>)> {
         let all = sweep(search.responses, &beside.fitted.moduli);
         let hypothesis = &beside.data_hypothesis;
-        let sensors = hypothesis.sensors();
+        let mut suspects: Vec<usize> = (0..hypothesis.sensors()).collect();
+        suspects.sort_by(|&a, &b| beside.fitted.own[b].total_cmp(&beside.fitted.own[a]));
+        suspects.truncate(MAX_SUSPECTS);
         let without = |m: usize| {
-            if sensors == 1 {
+            if hypothesis.sensors() == 1 {
                 return all.clone();
             }
             let blanked = |values: &Vec<Option<c64>>| {
@@ -317,8 +329,9 @@ impl Look<'_> {
             let known = Search { written: &others, ..*search }.fit(hypothesis, grid, &[]).moduli;
             vec![known, beside.fitted.moduli.clone()]
         };
-        let mut moduli: Vec<Vec<Moduli>> = (0..sensors).map(without).collect();
-        moduli.push(all);
+        let mut moduli: Vec<(Option<usize>, Vec<Moduli>)> =
+            suspects.into_iter().map(|m| (Some(m), without(m))).collect();
+        moduli.push((None, all));
         moduli
     }
 
@@ -352,8 +365,8 @@ impl Look<'_> {
                 |one: &&Explanation| one.faults() + 1 == best.faults() && one.is_without(best, k);
             let before = tried.iter().find(is_without).unwrap_or(as_given);
             let evidence = Evidence {
-                before: before.fitted.misfit.sigma,
-                after: best.fitted.misfit.sigma,
+                before: before.fitted.misfit_of(&sensors),
+                after: best.fitted.misfit_of(&sensors),
                 nats: before.nats - best.nats,
                 margin: choice.rival.map(|(_, behind)| behind),
             };
@@ -448,18 +461,21 @@ fn fault(search: &Search<'_, '_>, one: &Explanation, edit: &Edit) -> Fault {
     }
 }
 
-/// The likeliest rows of each sensor and of the load, with those that cannot be distinguished from them.
-fn likeliest_rows(rows: &[Tried], dim: usize) -> Vec<(Elsewhere, Fitted)> {
+/// The likeliest rows of each sensor and of the load, alone and beside each change of values, with those that cannot be distinguished from them.
+fn likeliest_rows(rows: &[Tried], dim: usize) -> Vec<(Elsewhere, Option<Edit>, Fitted)> {
     let is_load = |tried: &Tried| matches!(tried.what, DofMismatch::Load(_));
-    let mut kinds: Vec<(bool, &Vec<usize>)> =
-        rows.iter().map(|tried| (is_load(tried), &tried.edit.sensors)).collect();
-    kinds.sort();
-    kinds.dedup();
-    let likeliest = |(load, sensors): (bool, &Vec<usize>)| {
-        let of_kind = rows.iter().filter(|tried| is_load(tried) == load && tried.edit.sensors == *sensors);
-        let mut same: Vec<&Tried> = of_kind.collect();
+    let is_same =
+        |a: &Tried, b: &Tried| is_load(a) == is_load(b) && a.sensors == b.sensors && a.second == b.second;
+    let mut groups: Vec<Vec<&Tried>> = Vec::new();
+    for tried in rows {
+        match groups.iter_mut().find(|group| is_same(group[0], tried)) {
+            Some(group) => group.push(tried),
+            None => groups.push(vec![tried]),
+        }
+    }
+    let likeliest = |mut same: Vec<&Tried>| {
         same.sort_by(|a, b| a.fitted.nats.total_cmp(&b.fitted.nats));
-        let best = *same.first()?;
+        let best = same[0];
         let alike = same.iter().take_while(|tried| tried.fitted.nats <= best.fitted.nats + EQUAL_NATS);
         let rows: Vec<OtherRow> = alike
             .map(|tried| {
@@ -467,10 +483,10 @@ fn likeliest_rows(rows: &[Tried], dim: usize) -> Vec<(Elsewhere, Fitted)> {
                 OtherRow { row, misfit: tried.fitted.misfit.sigma }
             })
             .collect();
-        let fault = if load { Fault::LoadDof { rows } } else { Fault::ResponseDof { rows } };
+        let fault = if is_load(best) { Fault::LoadDof { rows } } else { Fault::ResponseDof { rows } };
         // As many rows were tried as there are.
-        let cost = (dim.max(1) as f64).ln();
-        Some((Elsewhere { fault, sensors: sensors.clone(), cost }, best.fitted.clone()))
+        let elsewhere = Elsewhere { fault, sensors: best.sensors.clone(), cost: (dim.max(1) as f64).ln() };
+        (elsewhere, best.second.clone(), best.fitted.clone())
     };
-    kinds.into_iter().filter_map(likeliest).collect()
+    groups.into_iter().map(likeliest).collect()
 }

@@ -213,7 +213,7 @@ pub const KNOWN_FACTOR_RTOL: f64 = 0.05;
 /// What speaks for a finding.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Evidence {
-    /// Robust standard deviation of ln(measured/model), real and imaginary part each, with the likeliest modulus and without this finding.
+    /// Robust standard deviation of ln(measured/model) of the sensors that it concerns, real and imaginary part each, with the likeliest moduli and without this finding.
     pub before: f64,
     /// The same with it.
     pub after: f64,

@@ -45,6 +45,9 @@ const SCALE_RTOL: f64 = 0.05;
 /// Of a bound that is overstepped by one in ln a or β: enough to come back.
 const BOUND_PENALTY: f64 = 1e4;
 
+/// How well nominal values are known, in ln a: to a factor of two. Where data do not know the unknowns from each other or from a factor, this does.
+const NOMINAL_LN_STD: f64 = 0.7;
+
 /// Step of a coordinate for the slope of how far it is beyond its bounds.
 const DIFFERENCE_STEP: f64 = 1e-6;
 
@@ -192,6 +195,26 @@ impl Search<'_, '_> {
         scores.fold(f64::INFINITY, f64::min)
     }
 
+    /// The start of least misfit at a broad scale, with the factor and the delay that are best there.
+    pub(super) fn likeliest_start(
+        &self,
+        data_hypothesis: &DataHypothesis,
+        starts: Vec<Start>,
+    ) -> (f64, Start) {
+        let scored = starts.into_iter().map(|(moduli, _, delay_s)| {
+            let ln = self.ln(data_hypothesis, &moduli);
+            let ln_factor = self.score(data_hypothesis, &ln).1;
+            let mut start = (moduli, ln_factor, delay_s);
+            if data_hypothesis.free()[1] {
+                start = self.with_delay(data_hypothesis, start);
+            }
+            let residuals = self.residuals(data_hypothesis, &ln, start.1, start.2);
+            (misfit_at(residuals.map(|r| r.1), START_SCALE), start)
+        });
+        let best = scored.min_by(|a, b| a.0.total_cmp(&b.0));
+        best.unwrap_or_else(|| (f64::INFINITY, (self.responses.parametrization.nominal(), 0.0, 0.0)))
+    }
+
     /// The best that a search from each of some starts comes to: all are followed a little way, and the best of them to the end.
     pub(super) fn follow(&self, data_hypothesis: &DataHypothesis, mut starts: Vec<Start>) -> Fitted {
         if data_hypothesis.free()[1] {
@@ -295,6 +318,7 @@ impl Search<'_, '_> {
         let own = by_sensor.iter().map(|own| misfit(own).sigma).collect();
         let misfit = misfit(&rest);
         let beyond: f64 = self.beyond(moduli).iter().map(|b| b * b).sum();
+        let far: f64 = moduli.ln_sizes.iter().map(|ln| 0.5 * (ln / NOMINAL_LN_STD).powi(2)).sum();
         let count = self.coordinates(data_hypothesis, start).len();
         let penalty = 0.5 * count as f64 * (2.0 * rest.len().max(1) as f64).ln();
         Fitted {
@@ -303,7 +327,7 @@ impl Search<'_, '_> {
             delay_s: *delay_s,
             misfit,
             own,
-            nats: misfit.nats + penalty + BOUND_PENALTY * beyond,
+            nats: misfit.nats + penalty + far + BOUND_PENALTY * beyond,
         }
     }
 
@@ -378,8 +402,16 @@ impl Search<'_, '_> {
             let turned: Vec<_> = residuals.iter().map(|&r| robust(r, scale)).collect();
             let beyond = self.beyond(&self.parts(data_hypothesis, theta).0);
             let bounds = beyond.iter().map(|b| BOUND_PENALTY.sqrt() * b);
-            let values: Vec<f64> =
-                turned.iter().flat_map(|one| [one.value.re, one.value.im]).chain(bounds).collect();
+            let far = |theta: &[f64]| -> Vec<f64> {
+                let sizes = self.parts(data_hypothesis, theta).0.ln_sizes;
+                sizes.iter().map(|ln| 0.5f64.sqrt() * ln / NOMINAL_LN_STD).collect()
+            };
+            let values: Vec<f64> = turned
+                .iter()
+                .flat_map(|one| [one.value.re, one.value.im])
+                .chain(bounds)
+                .chain(far(theta))
+                .collect();
             let mut jacobian: Vec<f64> = Vec::with_capacity(values.len() * theta.len());
             for (j, slope) in slopes.iter().enumerate() {
                 let of_values = turned.iter().zip(slope).map(|(one, by)| one.slope(*by));
@@ -389,6 +421,8 @@ impl Search<'_, '_> {
                 let there = self.beyond(&self.parts(data_hypothesis, &moved).0);
                 let change = there.iter().zip(&beyond).map(|(b, a)| (b - a) / DIFFERENCE_STEP);
                 jacobian.extend(change.map(|slope| BOUND_PENALTY.sqrt() * slope));
+                let here = far(theta);
+                jacobian.extend(far(&moved).iter().zip(here).map(|(b, a)| (b - a) / DIFFERENCE_STEP));
             }
             let finite = values.iter().chain(&jacobian).all(|value| value.is_finite());
             finite.then_some((values, jacobian))
@@ -416,8 +450,13 @@ impl Search<'_, '_> {
         };
         let [factor, delay] = data_hypothesis.free();
         let size = at.len() - usize::from(factor) - usize::from(delay);
+        let sizes = self.responses.parametrization.free().count();
         // A number that the data do not know at all shall not make the others unknown.
-        let ridge = |j: usize| if j < size { 1e-6 } else { 0.0 };
+        let ridge = |j: usize| match j {
+            _ if j < sizes => NOMINAL_LN_STD.powi(-2),
+            _ if j < size => 1e-6,
+            _ => 0.0,
+        };
         let normal = Matrix::from_fn(at.len(), at.len(), |i, j| {
             c64::new(product(&slopes[i], &slopes[j]) + if i == j { ridge(j) } else { 0.0 }, 0.0)
         });
