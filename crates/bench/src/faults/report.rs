@@ -59,6 +59,18 @@ impl Tried {
         }
         // What is wrong with a channel without a signal cannot be seen.
         expected.retain(|one| !one.sensors.is_empty());
+        // A conjugate of what is late is early: which of both came first cannot be known.
+        if expected.iter().any(|one| one.fault == super::Fault::Conjugated) {
+            let mirrored = |fault| match fault {
+                super::Fault::Delay(seconds) => super::Fault::Delay(-seconds),
+                other => other,
+            };
+            let other: Vec<Planted> =
+                expected.iter().map(|one| Planted { fault: mirrored(one.fault), ..one.clone() }).collect();
+            if verdict(&other, &diagnosis) == Verdict::Found {
+                expected = other;
+            }
+        }
         let verdict = verdict(&expected, &diagnosis);
         Self { index, class: case.class, described, planted, diagnosis, verdict, seconds }
     }

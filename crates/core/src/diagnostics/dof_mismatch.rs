@@ -23,7 +23,7 @@ const MAX_ROW_PRODUCTS: f64 = 4e8;
 const MAX_CLOSE_ROWS: usize = 4;
 
 /// Rows with a change of values beside them that are fitted.
-const MAX_PAIRS: usize = 12;
+const MAX_PAIRS: usize = 20;
 
 /// Scale at which rows are compared: away from the sensors the basis is good to some hundredths.
 const ROW_SCALE: f64 = 0.3;
@@ -223,9 +223,9 @@ fn best_rows(
         scores
     });
     let mut best: Vec<Scored> = Vec::new();
-    for which in 0..2 {
+    for kind in [|score: &[f64; 2]| score[0], |score: &[f64; 2]| score[1]] {
         let least = |row: usize| {
-            let of_moduli = |l: usize| (row, scores[l][row][which], l);
+            let of_moduli = |l: usize| (row, kind(&scores[l][row]), l);
             (0..moduli.len()).map(of_moduli).min_by(|a, b| a.1.total_cmp(&b.1))
         };
         let of_own = least(own).map_or(f64::INFINITY, |(_, score, _)| score);

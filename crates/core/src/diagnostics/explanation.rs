@@ -5,7 +5,7 @@
 //! other one ([`MIN_MARGIN_NATS`]).
 
 use super::data_hypothesis::{Change, DataHypothesis, Edit};
-use super::finding::Fault;
+use super::finding::{Fault, KNOWN_FACTOR_RTOL, KnownFactor};
 use super::misfit;
 use super::search::{Fitted, Grid, Search};
 use crate::for_each::map;
@@ -24,7 +24,7 @@ const MAX_MISFIT_LEFT: f64 = 0.4;
 pub const MAX_MISFIT_RATIO: f64 = 0.6;
 
 /// The least log-likelihood ratio of an explanation to the best other one, in nats: with less the data do not say which it is.
-pub const MIN_MARGIN_NATS: f64 = 6.0;
+pub const MIN_MARGIN_NATS: f64 = 15.0;
 
 /// A factor nearer to one than this is the calibration's or the model's mass, and no fault.
 const MIN_LN_FACTOR: f64 = 0.1;
@@ -107,6 +107,24 @@ impl Explanation {
         other.nats - self.nats >= nats && (of_all || is_of_concerned)
     }
 
+    /// The largest misfit of all sensors, or of those that a fault concerns.
+    fn left(&self) -> f64 {
+        let concerned =
+            self.edits.iter().map(|edit| &edit.sensors).chain(self.elsewhere.iter().map(|one| &one.sensors));
+        concerned.map(|sensors| self.fitted.misfit_of(sensors)).fold(self.fitted.misfit.sigma, f64::max)
+    }
+
+    /// The number with a name that its factor is, as near as a factor is known by these data: a model that does not fit well knows none well.
+    pub(super) fn known_factor(&self, relative_std: f64) -> Option<KnownFactor> {
+        let unknown = 3.0 * relative_std + 0.5 * self.fitted.misfit.sigma;
+        KnownFactor::nearest(self.fitted.ln_factor, KNOWN_FACTOR_RTOL + unknown)
+    }
+
+    /// Whether it needs a factor without a name: with a second fault beside it, that fits too much.
+    fn has_unnamed_factor(&self) -> bool {
+        self.edits.iter().any(|edit| edit.change == Change::Factor) && self.known_factor(0.0).is_none()
+    }
+
     /// Whether it has all faults of another one but its k-th.
     pub(super) fn is_without(&self, other: &Self, k: usize) -> bool {
         let mut without = other.clone();
@@ -151,13 +169,15 @@ pub(super) fn choose<'e>(as_given: &'e Explanation, tried: &'e [Explanation]) ->
     let likeliest =
         |of: &mut dyn Iterator<Item = &'e Explanation>| of.min_by(|a, b| a.nats.total_cmp(&b.nats));
     let of_faults = |count: usize| tried.iter().filter(move |one| one.faults() == count);
-    let explains = |one: &&Explanation| {
-        one.improves_on(as_given, FINDING_NATS) && one.fitted.misfit.sigma <= MAX_MISFIT_LEFT
-    };
+    let explains =
+        |one: &&Explanation| one.improves_on(as_given, FINDING_NATS) && one.left() <= MAX_MISFIT_LEFT;
     let single = likeliest(&mut of_faults(1).filter(explains));
     // What the best single fault explains, and what is left by the one that leaves least, whether or not it is a finding.
     let base = likeliest(&mut of_faults(1).chain([as_given])).unwrap_or(as_given);
-    let is_second = |one: &&Explanation| one.improves_on(base, SECOND_FINDING_NATS);
+    let is_second = |one: &&Explanation| {
+        let is_plain = !one.has_unnamed_factor() || one.left() <= EXPLAINED_MISFIT;
+        is_plain && one.improves_on(base, SECOND_FINDING_NATS)
+    };
     let pair = likeliest(&mut of_faults(2).filter(explains).filter(is_second));
     let best = pair.or(single)?;
     let others = tried.iter().filter(|one| !one.has_all_of(best) && one.improves_on(as_given, FINDING_NATS));

@@ -3,10 +3,7 @@
 use super::data_hypothesis::{Change, DataHypothesis, DofMismatch, Edit, ln_over_receptance};
 use super::dof_mismatch::{Tried, dof_mismatch, sweep};
 use super::explanation::{self, Choice, EXPLAINED_MISFIT, Elsewhere, Explanation, choose};
-use super::finding::{
-    Diagnosis, Evidence, Fault, Finding, KNOWN_FACTOR_RTOL, KnownFactor, NotJudged, OtherExplanation,
-    OtherRow,
-};
+use super::finding::{Diagnosis, Evidence, Fault, Finding, NotJudged, OtherExplanation, OtherRow};
 use super::mesh;
 use super::moduli::{Moduli, Parametrization};
 use super::responses::{Responses, over_the_box, trained};
@@ -44,8 +41,8 @@ const MAX_UNDECIDED: usize = 4;
 /// Modes serve moduli that differ from theirs by less than this in ln a: beyond, they are taken anew.
 const MODES_LN_RANGE: f64 = 0.05;
 
-/// Other axes are tried where this misfit is left: ten per cent, or six degrees.
-const UNEXPLAINED_MISFIT: f64 = 0.1;
+/// Another axis is tried where this misfit is left: five per cent, or three degrees.
+const UNEXPLAINED_MISFIT: f64 = 0.05;
 
 /// The axis of a unit that is seldom taken for another one is tried where this is left: a factor of 1.3, or 17 degrees.
 const VERY_UNEXPLAINED_MISFIT: f64 = 0.3;
@@ -232,7 +229,7 @@ impl Look<'_> {
             tried.iter().chain([&as_given]).map(|one| misfit(&one.fitted)).fold(f64::INFINITY, f64::min)
         };
         if left(&tried, |fitted| fitted.misfit.sigma) > UNEXPLAINED_MISFIT {
-            tried.extend(self.axis(responses, &as_given, TAU).unwrap_or_default());
+            tried.extend(self.axis(responses, &as_given, TAU, false).unwrap_or_default());
         }
         if left(&tried, Fitted::worst) > EXPLAINED_MISFIT {
             let is_single = |one: &&Explanation| one.edits.len() == 1 && one.faults() == 1;
@@ -246,9 +243,12 @@ impl Look<'_> {
             }
             tried.extend(rows.into_iter().filter(|one| explanation::is_large(&search, one)));
         }
+        if left(&tried, |fitted| fitted.misfit.sigma) > VERY_UNEXPLAINED_MISFIT {
+            tried.extend(self.axis(responses, &as_given, TAU, true).unwrap_or_default());
+        }
         // Higher frequencies have more modes, and cost most.
         if left(&tried, |fitted| fitted.misfit.sigma) > VERY_UNEXPLAINED_MISFIT {
-            tried.extend(self.axis(responses, &as_given, 1.0 / TAU).unwrap_or_default());
+            tried.extend(self.axis(responses, &as_given, 1.0 / TAU, false).unwrap_or_default());
         }
         Ok((as_given, tried))
     }
@@ -272,12 +272,13 @@ impl Look<'_> {
         Ok(likeliest_rows(&rows, problem.model().dim()).into_iter().map(explanation).collect())
     }
 
-    /// The same data at frequencies that are so many times smaller, as they are and with one change.
+    /// The same data at frequencies that are so many times smaller: as they are, with one change, and with another row where this alone explains more, or everything is tried.
     fn axis(
         &self,
         responses: &Responses<'_>,
         as_given: &Explanation,
         factor: f64,
+        is_everything: bool,
     ) -> Option<Vec<Explanation>> {
         let frequency_hz: Vec<f64> = responses.frequency_hz.iter().map(|f| f / factor).collect();
         let parametrization = Parametrization::new(self.problem, &frequency_hz, self.options).ok()??;
@@ -297,13 +298,13 @@ impl Look<'_> {
         let elsewhere = Elsewhere { fault: Fault::Axis { factor }, sensors, cost: 2f64.ln() };
         let fitted = search.fit(&as_given.data_hypothesis, &grid, &[]);
         let alone = as_given.and(elsewhere, fitted);
-        let mut all = explanation::single_changes(&search, &grid, &alone);
-        if alone.fitted.misfit.sigma < as_given.fitted.misfit.sigma {
-            all.extend(self.rows(&search, &grid, &alone).ok()?);
+        let mut tried = explanation::single_changes(&search, &grid, &alone);
+        if is_everything || alone.fitted.misfit.sigma < as_given.fitted.misfit.sigma {
+            tried.extend(self.rows(&search, &grid, &alone).ok()?);
         }
-        all.push(alone);
-        all.retain(|one| one.faults() <= MAX_FAULTS && explanation::is_large(&search, one));
-        Some(all)
+        tried.push(alone);
+        tried.retain(|one| one.faults() <= MAX_FAULTS && explanation::is_large(&search, one));
+        Some(tried)
     }
 
     /// Moduli with which rows are compared, for each sensor that agrees least and for the load (`None`): those of the other sensors, and all of the box.
@@ -448,12 +449,7 @@ fn fault(search: &Search<'_, '_>, one: &Explanation, edit: &Edit) -> Fault {
         Change::Factor => {
             let factor = found.ln_factor.exp();
             let relative_std = factor_std.unwrap_or(0.0);
-            let off = |known: KnownFactor| (found.ln_factor - known.value().ln()).abs();
-            // A model that does not fit well knows no factor well.
-            let unknown = 3.0 * relative_std + 0.5 * found.misfit.sigma;
-            let near = |known: &KnownFactor| off(*known) <= KNOWN_FACTOR_RTOL + unknown;
-            let nearest = KnownFactor::ALL.into_iter().filter(near);
-            let known = nearest.min_by(|&a, &b| off(a).total_cmp(&off(b)));
+            let known = one.known_factor(relative_std);
             Fault::Factor { factor, relative_std, known }
         }
         Change::Delay => Fault::Delay { seconds: found.delay_s, std: delay_std.unwrap_or(0.0) },

@@ -105,6 +105,13 @@ impl KnownFactor {
         Self::PerTwoPi,
     ];
 
+    /// The one nearest to a factor of this logarithm, within a tolerance of it.
+    pub(super) fn nearest(ln_factor: f64, tolerance: f64) -> Option<Self> {
+        let off = |known: Self| (ln_factor - known.value().ln()).abs();
+        let near = Self::ALL.into_iter().filter(|known| off(*known) <= tolerance);
+        near.min_by(|&a, &b| off(a).total_cmp(&off(b)))
+    }
+
     /// The number.
     pub fn value(self) -> f64 {
         const STANDARD_GRAVITY: f64 = 9.80665;
