@@ -18,7 +18,7 @@ use std::path::Path;
 /// A finding as a person reads it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FindingText {
-    /// A word for programs: `conjugated`, `sign`, `quantity`, `factor`, `delay`, `response_dof`, `load_dof`, `axis`, `no_signal`, `mesh`.
+    /// A word for programs: `conjugated`, `sign`, `quantity`, `factor`, `delay`, `response_dof`, `load_dof`, `axis`, `nominal`, `no_signal`, `mesh`.
     pub kind: &'static str,
     /// The sensors' labels; empty where it is no matter of sensors.
     pub sensors: Vec<String>,
@@ -112,7 +112,7 @@ pub fn finding_texts(case: &Case, diagnosis: &Diagnosis) -> Vec<FindingText> {
 /// The sensors that a fault concerns; none where it is no matter of sensors.
 fn labels(case: &Case, fault: &Fault, sensors: &[usize]) -> Vec<String> {
     match fault {
-        Fault::Mesh { .. } | Fault::LoadDof { .. } | Fault::Axis { .. } => Vec::new(),
+        Fault::Mesh { .. } | Fault::LoadDof { .. } | Fault::Axis { .. } | Fault::Nominal { .. } => Vec::new(),
         _ => sensors.iter().map(|&m| case.sensors[m].label.clone()).collect(),
     }
 }
@@ -207,6 +207,11 @@ fn words(case: &Case, fault: &Fault, sensors: &[usize]) -> (&'static str, String
                 false => "the frequencies are 1/2π of what they should be: Hz taken for rad/s".to_owned(),
             },
             "the frequency column (or axis) of the measured files; then identify.band_hz".to_owned(),
+        ),
+        Fault::Nominal { ratio } => (
+            "nominal",
+            format!("the nominal value is far off: about {} times as large would explain the data", number(*ratio)),
+            "factor of the unknown matrices (Pa, or relative to what is in the file), or bounds of [identify]".to_owned(),
         ),
         Fault::NoSignal => (
             "no_signal",
@@ -337,6 +342,7 @@ pub fn findings_json(case: &Case, diagnosis: &Diagnosis) -> Value {
         }
         Fault::Mesh { row_hz, top_hz } => json!({"row_hz": row_hz, "top_hz": top_hz}),
         Fault::Axis { factor } => json!({"factor": factor}),
+        Fault::Nominal { ratio } => json!({"ratio": ratio}),
         Fault::Conjugated | Fault::Sign | Fault::NoSignal => json!({}),
     };
     let findings = finding_texts(case, diagnosis).into_iter().enumerate().map(|(k, finding)| {

@@ -290,7 +290,9 @@ mod tests {
         let data_hypothesis = edits.iter().fold(given, |given, edit| given.with(edit));
         let moduli = Moduli { ln_sizes: vec![0.0], ln_loss: 0.0, slope: 0.0 };
         let misfit = Misfit { nats, sigma: own[0].min(own[1]) };
-        let fitted = Fitted { moduli, ln_factor: 0.0, delay_s: 0.0, misfit, own: own.to_vec(), nats };
+        // A factor has a name: in g.
+        let ln_factor = KnownFactor::StandardGravity.value().ln();
+        let fitted = Fitted { moduli, ln_factor, delay_s: 0.0, misfit, own: own.to_vec(), nats };
         Explanation { edits, elsewhere: Vec::new(), data_hypothesis, fitted, nats }
     }
 
@@ -306,6 +308,10 @@ mod tests {
         let choice = choose(&given, &tried).unwrap();
         assert_eq!(choice.best.edits, tried[2].edits);
         assert!(choice.is_certain() && choice.rival.is_none());
+        // A factor without a name beside another fault fits too much.
+        let mut unnamed = tried.clone();
+        unnamed[2].fitted.ln_factor = 3f64.ln();
+        assert!(choose(&given, &unnamed).is_none());
         // A second change that helps little is none.
         let alone = explanation(&[(Change::Reversed, ALL)], 20.0, [0.1; 2]);
         let little = explanation(&[(Change::Reversed, ALL), (Change::Delay, ALL)], 10.0, [0.09; 2]);

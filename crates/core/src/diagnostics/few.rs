@@ -38,6 +38,12 @@ const MAX_FAULTS: usize = 2;
 /// Explanations that are named where the data do not decide.
 const MAX_UNDECIDED: usize = 4;
 
+/// Nominal values that are powers of ten off are looked for where this is left: a factor of 2.7.
+const FAR_MISFIT: f64 = 1.0;
+
+/// Powers of ten that are tried, to either side.
+const MAX_POWER_OF_TEN: i32 = 7;
+
 /// Modes serve moduli that differ from theirs by less than this in ln a: beyond, they are taken anew.
 const MODES_LN_RANGE: f64 = 0.05;
 
@@ -246,6 +252,11 @@ impl Look<'_> {
         if left(&tried, |fitted| fitted.misfit.sigma) > VERY_UNEXPLAINED_MISFIT {
             tried.extend(self.axis(responses, &as_given, TAU, true).unwrap_or_default());
         }
+        if as_given.fitted.misfit.sigma > FAR_MISFIT
+            && left(&tried, |fitted| fitted.misfit.sigma) > UNEXPLAINED_MISFIT
+        {
+            tried.extend(self.far_nominals(responses, &as_given));
+        }
         // Higher frequencies have more modes, and cost most.
         if left(&tried, |fitted| fitted.misfit.sigma) > VERY_UNEXPLAINED_MISFIT {
             tried.extend(self.axis(responses, &as_given, 1.0 / TAU, false).unwrap_or_default());
@@ -282,29 +293,66 @@ impl Look<'_> {
     ) -> Option<Vec<Explanation>> {
         let frequency_hz: Vec<f64> = responses.frequency_hz.iter().map(|f| f / factor).collect();
         let parametrization = Parametrization::new(self.problem, &frequency_hz, self.options).ok()??;
-        let experiment = self.measured.experiment;
+        let (fault, cost) = (Fault::Axis { factor }, 2f64.ln());
+        self.with_other_responses(&frequency_hz, parametrization, &mut |search| {
+            let grid = search.grid(self.measured.quantities.len());
+            let fitted = search.fit(&as_given.data_hypothesis, &grid, &[]);
+            let alone = as_given.and(Elsewhere { fault: fault.clone(), sensors: self.all(), cost }, fitted);
+            let mut tried = explanation::single_changes(search, &grid, &alone);
+            if is_everything || alone.fitted.misfit.sigma < as_given.fitted.misfit.sigma {
+                tried.extend(self.rows(search, &grid, &alone).ok()?);
+            }
+            tried.push(alone);
+            tried.retain(|one| one.faults() <= MAX_FAULTS && explanation::is_large(search, one));
+            Some(tried)
+        })
+    }
+
+    /// The same data with all nominal values some powers of ten off: another unit, or a zero too many.
+    fn far_nominals(&self, responses: &Responses<'_>, as_given: &Explanation) -> Vec<Explanation> {
+        let mut tried = Vec::new();
+        for power in (1..=MAX_POWER_OF_TEN).flat_map(|power| [power, -power]) {
+            let centre = f64::from(power) * std::f64::consts::LN_10;
+            let Some(parametrization) = responses.parametrization.about(centre) else { continue };
+            let one = self.with_other_responses(&responses.frequency_hz, parametrization, &mut |search| {
+                let grid = search.grid(self.measured.quantities.len());
+                let fitted = search.fit(&as_given.data_hypothesis, &grid, &[]);
+                let first = search.responses.parametrization.free().next()?.0;
+                let fault = Fault::Nominal { ratio: fitted.moduli.ln_sizes[first].exp() };
+                let cost = f64::from(2 * MAX_POWER_OF_TEN).ln();
+                Some(as_given.and(Elsewhere { fault, sensors: self.all(), cost }, fitted))
+            });
+            tried.extend(one);
+        }
+        tried
+    }
+
+    fn all(&self) -> Vec<usize> {
+        (0..self.measured.quantities.len()).collect()
+    }
+
+    /// What is found with a model that is trained anew; `None` where there is none, or the mesh does not carry the band.
+    fn with_other_responses<T>(
+        &self,
+        frequency_hz: &[f64],
+        parametrization: Parametrization,
+        found: &mut dyn FnMut(&Search<'_, '_>) -> Option<T>,
+    ) -> Option<T> {
+        let (problem, experiment) = (self.problem, self.measured.experiment);
         let moduli = over_the_box(&parametrization);
+        let about = moduli[moduli.len() / 2].clone();
+        let top = frequency_hz.len() - 1;
+        let values = parametrization.values(&about, top);
+        // A band beyond the mesh cannot be compared, and costs most.
+        if mesh::beyond_mesh(&problem.at(frequency_hz[top], &values).ok()?).is_some() {
+            return None;
+        }
         let subspace =
-            trained(self.problem, experiment, &frequency_hz, &parametrization, &moduli, self.for_each);
-        let subspace = subspace.ok()??;
-        let sensors = (0..self.measured.quantities.len()).collect();
-        let about = parametrization.nominal();
+            trained(problem, experiment, frequency_hz, &parametrization, &moduli, self.for_each).ok()??;
         let parametrization = (parametrization, &about);
         let there =
-            Responses::new(self.problem, &subspace, sensors, parametrization, &frequency_hz, self.for_each)?;
-        let search = Search { responses: &there, written: self.written, for_each: self.for_each };
-        let grid = search.grid(self.measured.quantities.len());
-        let sensors = (0..self.measured.quantities.len()).collect();
-        let elsewhere = Elsewhere { fault: Fault::Axis { factor }, sensors, cost: 2f64.ln() };
-        let fitted = search.fit(&as_given.data_hypothesis, &grid, &[]);
-        let alone = as_given.and(elsewhere, fitted);
-        let mut tried = explanation::single_changes(&search, &grid, &alone);
-        if is_everything || alone.fitted.misfit.sigma < as_given.fitted.misfit.sigma {
-            tried.extend(self.rows(&search, &grid, &alone).ok()?);
-        }
-        tried.push(alone);
-        tried.retain(|one| one.faults() <= MAX_FAULTS && explanation::is_large(&search, one));
-        Some(tried)
+            Responses::new(problem, &subspace, self.all(), parametrization, frequency_hz, self.for_each)?;
+        found(&Search { responses: &there, written: self.written, for_each: self.for_each })
     }
 
     /// Moduli with which rows are compared, for each sensor that agrees least and for the load (`None`): those of the other sensors, and all of the box.

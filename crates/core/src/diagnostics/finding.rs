@@ -196,6 +196,11 @@ pub enum Fault {
         /// Given over true frequency.
         factor: f64,
     },
+    /// The nominal values are powers of ten off: the true ones are about so many times as large. It is no fault of the data.
+    Nominal {
+        /// True over nominal value.
+        ratio: f64,
+    },
     /// The channel shows nothing: at most 1e-11 of what another one shows. It is left out of everything else.
     NoSignal,
     /// The band goes beyond what the mesh can carry.

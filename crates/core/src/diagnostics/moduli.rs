@@ -27,6 +27,10 @@ struct UnknownAt {
     nominal: Vec<c64>,
     /// ln a from … to; `None` of one that stays at its nominal value, for it is absent there.
     ln_size: Option<[f64; 2]>,
+    /// ln a from … to by the bounds alone.
+    bounds: Option<[f64; 2]>,
+    /// Whether it is a geometric parameter: no one is mistaken by powers of ten about these alone.
+    is_dimension: bool,
     /// tan δ from … to.
     loss: [f64; 2],
     /// Whether its nominal has damping at every frequency.
@@ -41,9 +45,28 @@ pub(super) struct Parametrization {
     each: Vec<UnknownAt>,
     /// ln(ω/ω₀).
     ln_omega: Vec<f64>,
+    /// ln a where sizes are expected: zero, but where nominal values are taken to be far off.
+    pub(super) expected_ln_size: f64,
 }
 
 impl Parametrization {
+    /// About sizes that are so many times larger, as far as the bounds allow; `None` where they do not.
+    pub(super) fn about(&self, ln_size: f64) -> Option<Self> {
+        let half = 0.5 * std::f64::consts::LN_10;
+        let mut moved = Self { expected_ln_size: ln_size, ..self.clone() };
+        for one in &mut moved.each {
+            let Some(bounds) = one.bounds.filter(|_| one.ln_size.is_some() && !one.is_dimension) else {
+                continue;
+            };
+            let [low, high] = [(ln_size - half).max(bounds[0]), (ln_size + half).min(bounds[1])];
+            if high <= low {
+                return None;
+            }
+            one.ln_size = Some([low, high]);
+        }
+        Some(moved)
+    }
+
     /// `None` where no unknown has a positive real part to begin with and something that bounds it.
     pub(super) fn new(
         problem: &Problem<'_>,
@@ -63,7 +86,11 @@ impl Parametrization {
             let is_there = nominal.iter().all(|p| p.re > 0.0);
             let bounded = unknown.bounds.loss_factor.unwrap_or([0.0, f64::INFINITY]);
             let positive = range.filter(|[low, high]| is_there && *low > 0.0 && high >= low);
+            let [low, high] = unknown.bounds.storage.unwrap_or([0.0, f64::INFINITY]);
+            let ln = |value: f64| (value.max(0.0) / nominal[middle].re).ln();
             each.push(UnknownAt {
+                bounds: is_there.then(|| [ln(low), ln(high)]),
+                is_dimension: matches!(unknown.dependence, Dependence::Powers(_)),
                 ln_size: positive.map(|range| range.map(|s| (s / nominal[middle].re).ln())),
                 damps: nominal.iter().all(|p| p.arg() > 1e-9),
                 nominal,
@@ -75,7 +102,7 @@ impl Parametrization {
         }
         let ln_omega = frequency_hz.iter().map(|f| (f / frequency_hz[middle]).ln()).collect();
         let is_free = each.iter().any(|one| one.ln_size.is_some());
-        Ok(is_free.then_some(Self { each, ln_omega }))
+        Ok(is_free.then_some(Self { each, ln_omega, expected_ln_size: 0.0 }))
     }
 
     /// The nominal values.

@@ -299,6 +299,14 @@ impl Search<'_, '_> {
         (moduli, ln_factor, next(delay) / self.top())
     }
 
+    /// How far each size is from the one that is expected; half of its square is its share of −ln likelihood.
+    fn far(&self, moduli: &Moduli) -> impl Iterator<Item = f64> {
+        let expected = self.responses.parametrization.expected_ln_size;
+        let sizes: Vec<f64> =
+            self.responses.parametrization.free().map(|(j, _)| moduli.ln_sizes[j]).collect();
+        sizes.into_iter().map(move |ln| std::f64::consts::FRAC_1_SQRT_2 * (ln - expected) / NOMINAL_LN_STD)
+    }
+
     /// By how much each number is beyond its bounds.
     fn beyond(&self, moduli: &Moduli) -> Vec<f64> {
         let outside = |value: f64, [low, high]: [f64; 2]| (value - value.clamp(low, high)).abs();
@@ -318,7 +326,7 @@ impl Search<'_, '_> {
         let own = by_sensor.iter().map(|own| misfit(own).sigma).collect();
         let misfit = misfit(&rest);
         let beyond: f64 = self.beyond(moduli).iter().map(|b| b * b).sum();
-        let far: f64 = moduli.ln_sizes.iter().map(|ln| 0.5 * (ln / NOMINAL_LN_STD).powi(2)).sum();
+        let far: f64 = self.far(moduli).map(|far| far * far).sum();
         let count = self.coordinates(data_hypothesis, start).len();
         let penalty = 0.5 * count as f64 * (2.0 * rest.len().max(1) as f64).ln();
         Fitted {
@@ -402,10 +410,7 @@ impl Search<'_, '_> {
             let turned: Vec<_> = residuals.iter().map(|&r| robust(r, scale)).collect();
             let beyond = self.beyond(&self.parts(data_hypothesis, theta).0);
             let bounds = beyond.iter().map(|b| BOUND_PENALTY.sqrt() * b);
-            let far = |theta: &[f64]| -> Vec<f64> {
-                let sizes = self.parts(data_hypothesis, theta).0.ln_sizes;
-                sizes.iter().map(|ln| 0.5f64.sqrt() * ln / NOMINAL_LN_STD).collect()
-            };
+            let far = |theta: &[f64]| self.far(&self.parts(data_hypothesis, theta).0).collect::<Vec<f64>>();
             let values: Vec<f64> = turned
                 .iter()
                 .flat_map(|one| [one.value.re, one.value.im])

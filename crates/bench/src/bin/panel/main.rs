@@ -136,7 +136,7 @@ fn table(costs: &[Cost]) -> Table {
                 .map(|of| number(&format!("/counts/{of}")).to_string()),
         );
         row.push(number("/status/ok").to_string());
-        row.push(format!("{:.1e}", number("/truth/deviation/max_ok")));
+        row.push(format!("{:.1e}", number("/unknowns/0/reference/deviation/max_ok")));
         row.push(format!("{measurement:.1e}"));
         table.push(row);
     }
