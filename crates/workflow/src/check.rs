@@ -375,7 +375,7 @@ fn undecided_text(case: &Case, others: &[OtherExplanation]) -> String {
         if who.is_empty() { what } else { format!("{who}: {what}") }
     };
     let mut text = format!(
-        "  {:<18}one of these would explain the data; less than {MIN_MARGIN_NATS} nats are between them:\n",
+        "  {:<18}one of these would explain the data; too few nats are between them ({MIN_MARGIN_NATS} for each fault):\n",
         "not decided"
     );
     for other in others {

@@ -14,8 +14,16 @@ use crate::for_each::map;
 /// that is no power may move several of them together.
 pub const FINDING_NATS: f64 = 15.0;
 
-/// The same of a second finding beside the best single one: a wrong model leaves what small second faults explain.
+/// The same of a second finding beside the best single one, and of one whose number is free: a wrong model leaves what small second faults explain.
 const SECOND_FINDING_NATS: f64 = 2.0 * FINDING_NATS;
+const SECOND_FREE_FINDING_NATS: f64 = 4.0 * FINDING_NATS;
+
+/// A factor without a name beside another fault is a calibration: no larger than this, nor smaller than one over it.
+const MAX_UNNAMED_LN_FACTOR: f64 = 1.1;
+
+/// Sensors that a fault concerns are not left with more than this, or so many times what is left of all.
+const MAX_CONCERNED_LEFT: f64 = 0.1;
+const MAX_CONCERNED_OVER_ALL: f64 = 3.0;
 
 /// What leaves more than this explains nothing: a factor of 1.5, or 23 degrees.
 const MAX_MISFIT_LEFT: f64 = 0.4;
@@ -23,7 +31,7 @@ const MAX_MISFIT_LEFT: f64 = 0.4;
 /// The misfit with a finding over that without, at most. A factor, a delay or another row can fit a little of whatever is wrong; what they are the reason of falls to the noise.
 pub const MAX_MISFIT_RATIO: f64 = 0.6;
 
-/// The least log-likelihood ratio of an explanation to the best other one, in nats: with less the data do not say which it is.
+/// The least log-likelihood ratio of an explanation to the best other one, in nats for each of its faults: with less the data do not say which it is.
 pub const MIN_MARGIN_NATS: f64 = 15.0;
 
 /// A factor nearer to one than this is the calibration's or the model's mass, and no fault.
@@ -107,11 +115,19 @@ impl Explanation {
         other.nats - self.nats >= nats && (of_all || is_of_concerned)
     }
 
-    /// The largest misfit of all sensors, or of those that a fault concerns.
+    /// Whether what is left, of all sensors and of those that its faults concern, is little enough to be an explanation.
+    fn is_explanation(&self) -> bool {
+        let of_all = self.fitted.misfit.sigma;
+        let of_concerned = MAX_CONCERNED_LEFT.max(MAX_CONCERNED_OVER_ALL * of_all).min(MAX_MISFIT_LEFT);
+        of_all <= MAX_MISFIT_LEFT && self.left() <= of_concerned.max(of_all)
+    }
+
+    /// The largest misfit of all sensors, or of those of a fault that concerns not all of them.
     fn left(&self) -> f64 {
-        let concerned =
-            self.edits.iter().map(|edit| &edit.sensors).chain(self.elsewhere.iter().map(|one| &one.sensors));
-        concerned.map(|sensors| self.fitted.misfit_of(sensors)).fold(self.fitted.misfit.sigma, f64::max)
+        let of_edits = self.edits.iter().map(|edit| &edit.sensors);
+        let concerned = of_edits.chain(self.elsewhere.iter().map(|one| &one.sensors));
+        let some = concerned.filter(|sensors| sensors.len() < self.fitted.own.len());
+        some.map(|sensors| self.fitted.misfit_of(sensors)).fold(self.fitted.misfit.sigma, f64::max)
     }
 
     /// The number with a name that its factor is, as near as a factor is known by these data: a model that does not fit well knows none well.
@@ -160,7 +176,7 @@ pub(super) struct Choice<'e> {
 impl Choice<'_> {
     /// Whether the data know it from every other one.
     pub(super) fn is_certain(&self) -> bool {
-        self.rival.is_none_or(|(_, behind)| behind >= MIN_MARGIN_NATS)
+        self.rival.is_none_or(|(_, behind)| behind >= MIN_MARGIN_NATS * self.best.faults() as f64)
     }
 }
 
@@ -169,14 +185,20 @@ pub(super) fn choose<'e>(as_given: &'e Explanation, tried: &'e [Explanation]) ->
     let likeliest =
         |of: &mut dyn Iterator<Item = &'e Explanation>| of.min_by(|a, b| a.nats.total_cmp(&b.nats));
     let of_faults = |count: usize| tried.iter().filter(move |one| one.faults() == count);
-    let explains =
-        |one: &&Explanation| one.improves_on(as_given, FINDING_NATS) && one.left() <= MAX_MISFIT_LEFT;
+    let explains = |one: &&Explanation| one.improves_on(as_given, FINDING_NATS) && one.is_explanation();
     let single = likeliest(&mut of_faults(1).filter(explains));
     // What the best single fault explains, and what is left by the one that leaves least, whether or not it is a finding.
     let base = likeliest(&mut of_faults(1).chain([as_given])).unwrap_or(as_given);
     let is_second = |one: &&Explanation| {
-        let is_plain = !one.has_unnamed_factor() || one.left() <= EXPLAINED_MISFIT;
-        is_plain && one.improves_on(base, SECOND_FINDING_NATS)
+        let is_free = |edit: &Edit| edit.change == Change::Delay;
+        let is_unnamed = one.has_unnamed_factor();
+        let nats = match is_unnamed || one.edits.iter().any(is_free) {
+            true => SECOND_FREE_FINDING_NATS,
+            false => SECOND_FINDING_NATS,
+        };
+        let is_plain = !is_unnamed
+            || one.left() <= EXPLAINED_MISFIT && one.fitted.ln_factor.abs() <= MAX_UNNAMED_LN_FACTOR;
+        is_plain && one.improves_on(base, nats)
     };
     let pair = likeliest(&mut of_faults(2).filter(explains).filter(is_second));
     let best = pair.or(single)?;

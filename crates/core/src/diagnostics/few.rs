@@ -96,6 +96,17 @@ pub(super) struct Model<'x> {
     pub(super) trained: Option<&'x Subspace<'x>>,
     /// Which of the problem's sensors they are.
     pub(super) sensors: Vec<usize>,
+    /// How far to look.
+    pub(super) depth: Depth,
+}
+
+/// How far to look.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Depth {
+    /// At everything.
+    Full,
+    /// At other rows, axes and nominal values only where much is left: before an identification, which says itself whether it explains the data.
+    Quick,
 }
 
 /// What the sensors of a band agree on.
@@ -157,7 +168,7 @@ pub(super) fn look<T>(
         None => (0..measured.quantities.len()).collect(),
         Some(_) => model.sensors.clone(),
     };
-    let look = Look { problem, measured, options, for_each, written: &written };
+    let look = Look { problem, measured, options, for_each, written: &written, depth: model.depth };
     let responses = |about: &Moduli| {
         let parametrization = (parametrization.clone(), about);
         Responses::new(problem, subspace, Vec::clone(&sensors), parametrization, &frequency_hz, for_each)
@@ -215,6 +226,7 @@ struct Look<'x> {
     options: &'x Options,
     for_each: ForEach<'x>,
     written: &'x Written,
+    depth: Depth,
 }
 
 impl Look<'_> {
@@ -234,10 +246,14 @@ impl Look<'_> {
         let left = |tried: &[Explanation], misfit: fn(&Fitted) -> f64| {
             tried.iter().chain([&as_given]).map(|one| misfit(&one.fitted)).fold(f64::INFINITY, f64::min)
         };
-        if left(&tried, |fitted| fitted.misfit.sigma) > UNEXPLAINED_MISFIT {
+        let [of_axis, of_rows] = match self.depth {
+            Depth::Full => [UNEXPLAINED_MISFIT, EXPLAINED_MISFIT],
+            Depth::Quick => [VERY_UNEXPLAINED_MISFIT; 2],
+        };
+        if left(&tried, |fitted| fitted.misfit.sigma) > of_axis {
             tried.extend(self.axis(responses, &as_given, TAU, false).unwrap_or_default());
         }
-        if left(&tried, Fitted::worst) > EXPLAINED_MISFIT {
+        if left(&tried, Fitted::worst) > of_rows {
             let is_single = |one: &&Explanation| one.edits.len() == 1 && one.faults() == 1;
             let is_likely = |one: &&Explanation| as_given.nats - one.nats >= explanation::FINDING_NATS;
             let singles = tried.iter().filter(is_single).filter(is_likely);
@@ -248,6 +264,9 @@ impl Look<'_> {
                 rows.extend(self.rows(&search, &grid, beside)?);
             }
             tried.extend(rows.into_iter().filter(|one| explanation::is_large(&search, one)));
+        }
+        if self.depth == Depth::Quick {
+            return Ok((as_given, tried));
         }
         if left(&tried, |fitted| fitted.misfit.sigma) > VERY_UNEXPLAINED_MISFIT {
             tried.extend(self.axis(responses, &as_given, TAU, true).unwrap_or_default());
@@ -401,7 +420,8 @@ impl Look<'_> {
         };
         if !choice.is_certain() {
             let near = |one: &&Explanation| {
-                one.faults() <= best.faults() && one.nats - best.nats < explanation::MIN_MARGIN_NATS
+                one.faults() <= best.faults()
+                    && one.nats - best.nats < explanation::MIN_MARGIN_NATS * best.faults() as f64
             };
             let mut undecided: Vec<&Explanation> = tried.iter().filter(near).collect();
             undecided.sort_by(|a, b| a.nats.total_cmp(&b.nats));

@@ -37,7 +37,7 @@ use crate::for_each::ForEach;
 use crate::identify::{Context, Options, Problem, ProblemError, ReducedBand, dead_channels};
 use crate::quantity::Quantity;
 use crate::subspace::Subspace;
-use few::{Measured, Model, Part};
+use few::{Depth, Measured, Model, Part};
 
 /// Looks for what is wrong with a band's data against its model; `quantities` says what each sensor's values were before they were made receptances.
 ///
@@ -59,11 +59,13 @@ pub fn diagnose(
     options: &Options,
     for_each: ForEach<'_>,
 ) -> Result<Diagnosis, ProblemError> {
-    diagnose_by(None, problem, quantities, options, for_each)
+    diagnose_by((None, Depth::Full), problem, quantities, options, for_each)
 }
 
 /// The same on a reduced model that is shared with [`identify_on`](crate::identify::identify_on), and trained now where it is not
-/// yet: for all unknowns and sensors one, and no factorisation but where another row is looked for.
+/// yet: for all unknowns and sensors one, and no factorisation but where another row or axis is looked for.
+///
+/// That is done only where much is left (a misfit of 0.3), and nominal values that are powers of ten off are not looked for: an identification says itself whether it explains the data.
 ///
 /// # Errors
 /// As [`diagnose`].
@@ -77,13 +79,13 @@ pub fn diagnose_on<'a>(
     let before = reduced.work();
     let context = Context { for_each, progress: &|_, _, _| {} };
     let trained = reduced.trained(problem, options, context)?;
-    let mut found = diagnose_by(trained, problem, quantities, options, for_each)?;
+    let mut found = diagnose_by((trained, Depth::Quick), problem, quantities, options, for_each)?;
     found.work += reduced.work().since(before);
     Ok(found)
 }
 
 fn diagnose_by(
-    trained: Option<&Subspace<'_>>,
+    (trained, depth): (Option<&Subspace<'_>>, Depth),
     problem: &Problem<'_>,
     quantities: &[Quantity],
     options: &Options,
@@ -100,7 +102,7 @@ fn diagnose_by(
     let all = Measured { experiment: problem.experiment(), receptance, quantities };
     let part = Part::of(all, &live);
     let measured = if dead.is_empty() { all } else { part.measured() };
-    let model = Model { problem, trained, sensors: live.clone() };
+    let model = Model { problem, trained, sensors: live.clone(), depth };
     let mut found = match live.len() > many::MAX_FITTED_SENSORS {
         true => many::diagnose(&model, measured, options, for_each)?,
         false => few::look(&model, measured, options, for_each, &|_| ())?.0,
