@@ -44,6 +44,9 @@ const FAR_MISFIT: f64 = 1.0;
 /// Powers of ten that are tried, to either side.
 const MAX_POWER_OF_TEN: i32 = 7;
 
+/// Frequencies beyond so many times those of rows that move alone are not compared.
+const MAX_TOP_OVER_ROW: f64 = 2.0;
+
 /// Modes serve moduli that differ from theirs by less than this in ln a: beyond, they are taken anew.
 const MODES_LN_RANGE: f64 = 0.05;
 
@@ -362,8 +365,9 @@ impl Look<'_> {
         let about = moduli[moduli.len() / 2].clone();
         let top = frequency_hz.len() - 1;
         let values = parametrization.values(&about, top);
-        // A band beyond the mesh cannot be compared, and costs most.
-        if mesh::beyond_mesh(&problem.at(frequency_hz[top], &values).ok()?).is_some() {
+        // A band far beyond the mesh cannot be compared, and costs most.
+        let mesh = mesh::beyond_mesh(&problem.at(frequency_hz[top], &values).ok()?);
+        if matches!(mesh, Some(Fault::Mesh { row_hz, top_hz }) if top_hz > MAX_TOP_OVER_ROW * row_hz) {
             return None;
         }
         let subspace =
