@@ -283,7 +283,7 @@ fn modes_of_a_damped_chain_are_the_eigenvalues_of_its_state_matrix() {
     }
 }
 
-/// Poles of K + sC + s²M, all of them, by the state matrix about a point that is none of them: M may be singular.
+/// Poles of K + sC + s²M, all of them, by the state matrix about a point that is no pole: M may be singular.
 fn poles_of_state([k, c, m]: [&Matrix; 3]) -> Vec<c64> {
     let (n, about) = (k.nrows(), c64::new(0.31, 0.77));
     let unit = |i: usize, j: usize| c64::from(f64::from(u8::from(i == j)));

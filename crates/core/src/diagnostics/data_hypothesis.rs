@@ -20,7 +20,7 @@ pub(super) enum Change {
     /// By a time that is looked for.
     Delay,
     /// Compared with another column of the responses: another sensor's row, or another load.
-    Column(Vec<usize>, DofMismatch),
+    Column(Vec<usize>),
 }
 
 /// What is on another row.
@@ -87,7 +87,7 @@ impl DataHypothesis {
                 Change::Quantity { is, .. } => other.quantity[m] = *is,
                 Change::Factor => other.factor[m] = true,
                 Change::Delay => other.delay[m] = true,
-                Change::Column(columns, _) => other.column[m] = columns[k],
+                Change::Column(columns) => other.column[m] = columns[k],
             }
         }
         other

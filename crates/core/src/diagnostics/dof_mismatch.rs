@@ -47,9 +47,6 @@ pub(super) struct Tried {
     pub(super) fitted: Fitted,
 }
 
-/// A row, its score, and the moduli with which it had it.
-type Scored = (usize, f64, Moduli);
-
 /// The best rows for every sensor and for the load, alone and beside each of some changes of values, each fitted on a model that was trained for it.
 pub(super) fn dof_mismatch(
     search: &Search<'_, '_>,
@@ -74,7 +71,7 @@ pub(super) fn dof_mismatch(
             (None, [row]) => best_rows(search, experiment, data_hypothesis, &all, true, moduli, *row),
             (None, _) => Vec::new(),
         };
-        wanted.extend(best.into_iter().map(|(row, _, moduli)| (*place, row, moduli)));
+        wanted.extend(best.into_iter().map(|(row, moduli)| (*place, row, moduli)));
     }
     if wanted.is_empty() {
         return Ok(Vec::new());
@@ -110,7 +107,7 @@ pub(super) fn dof_mismatch(
                 (all, columns, DofMismatch::Load(*row))
             }
         };
-        edits.push((what, Edit { change: Change::Column(columns, what), sensors }, moduli));
+        edits.push((what, Edit { change: Change::Column(columns), sensors }, moduli));
     }
     let close = Search { responses: &responses, ..*search };
     let starts = |moduli: &Moduli| -> Vec<Start> {
@@ -148,10 +145,7 @@ fn near_candidates<'m>(
 ) -> Vec<Moduli> {
     let mut apart: Vec<&Moduli> = Vec::new();
     for moduli in candidates {
-        let is_near = |other: &&Moduli| {
-            let each = other.ln_sizes.iter().zip(&moduli.ln_sizes);
-            each.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) < 2.0 * TRAINED_LN_RANGE
-        };
+        let is_near = |other: &&Moduli| other.ln_size_distance(moduli) < 2.0 * TRAINED_LN_RANGE;
         if !apart.iter().any(is_near) {
             apart.push(moduli);
         }
@@ -178,7 +172,7 @@ pub(super) fn sweep(responses: &Responses<'_>, about: &Moduli) -> Vec<Moduli> {
 
 /// The rows that explain some sensors best: as their own, or (`is_load`) as that of the load.
 ///
-/// They are the best by magnitude and phase, and the best by the shape of the magnitude alone, which a factor, a sign, a conjugate or a delay leaves as it is.
+/// Each comes with the moduli that suit it best. They are the best by magnitude and phase, and the best by the shape of the magnitude alone, which a factor, a sign, a conjugate or a delay leaves as it is.
 fn best_rows(
     search: &Search<'_, '_>,
     experiment: &Experiment,
@@ -187,7 +181,7 @@ fn best_rows(
     is_load: bool,
     moduli: &[Moduli],
     own: usize,
-) -> Vec<Scored> {
+) -> Vec<(usize, Moduli)> {
     let responses = search.responses;
     let Written(written) = search.written;
     let count = written.len().min(ROW_FREQUENCIES);
@@ -222,7 +216,7 @@ fn best_rows(
         }
         scores
     });
-    let mut best: Vec<Scored> = Vec::new();
+    let mut best: Vec<(usize, Moduli)> = Vec::new();
     for kind in [|score: &[f64; 2]| score[0], |score: &[f64; 2]| score[1]] {
         let least = |row: usize| {
             let of_moduli = |l: usize| (row, kind(&scores[l][row]), l);
@@ -234,9 +228,9 @@ fn best_rows(
             (0..rows).filter(|&row| row != own).filter_map(least).filter(is_better).collect();
         likeliest.sort_by(|a, b| a.1.total_cmp(&b.1));
         likeliest.truncate(MAX_CLOSE_ROWS);
-        for (row, score, l) in likeliest {
-            if best.iter().all(|(other, ..)| *other != row) {
-                best.push((row, score, moduli[l].clone()));
+        for (row, _, l) in likeliest {
+            if best.iter().all(|(other, _)| *other != row) {
+                best.push((row, moduli[l].clone()));
             }
         }
     }

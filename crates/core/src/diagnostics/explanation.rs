@@ -81,6 +81,11 @@ impl Explanation {
         self.edits.len() + self.elsewhere.len()
     }
 
+    /// The least log-likelihood ratio to the best other explanation with which it is believed.
+    pub(super) fn min_margin(&self) -> f64 {
+        MIN_MARGIN_NATS * self.faults() as f64
+    }
+
     /// With one more change of values.
     pub(super) fn changed_by(&self, edit: &Edit, fitted: Fitted) -> Self {
         let cost = (self.data_hypothesis.edits().len().max(1) as f64).ln();
@@ -176,7 +181,7 @@ pub(super) struct Choice<'e> {
 impl Choice<'_> {
     /// Whether the data know it from every other one.
     pub(super) fn is_certain(&self) -> bool {
-        self.rival.is_none_or(|(_, behind)| behind >= MIN_MARGIN_NATS * self.best.faults() as f64)
+        self.rival.is_none_or(|(_, behind)| behind >= self.best.min_margin())
     }
 }
 
@@ -290,9 +295,6 @@ pub(super) fn is_large(search: &Search<'_, '_>, one: &Explanation) -> bool {
     let top = crate::frequency::omega_rad_s(search.responses.frequency_hz.last().copied().unwrap_or(0.0));
     let has = |change: Change| one.edits.iter().any(|edit| edit.change == change);
     let [factor, delay] = [has(Change::Factor), has(Change::Delay)];
-    if !factor && !delay {
-        return true;
-    }
     (!factor || one.fitted.ln_factor.abs() >= MIN_LN_FACTOR)
         && (!delay || one.fitted.delay_s.abs() >= MIN_DELAY_PHASE_RAD / top)
 }
@@ -334,7 +336,7 @@ mod tests {
         let mut unnamed = tried.clone();
         unnamed[2].fitted.ln_factor = 3f64.ln();
         assert!(choose(&given, &unnamed).is_none());
-        // A second change that helps little is none.
+        // A second change that helps little is no finding.
         let alone = explanation(&[(Change::Reversed, ALL)], 20.0, [0.1; 2]);
         let little = explanation(&[(Change::Reversed, ALL), (Change::Delay, ALL)], 10.0, [0.09; 2]);
         assert_eq!(choose(&given, &[little, alone]).unwrap().best.faults(), 1);

@@ -353,7 +353,8 @@ impl Look<'_> {
         (0..self.measured.quantities.len()).collect()
     }
 
-    /// What is found with a model that is trained anew; `None` where there is none, or the mesh does not carry the band.
+    /// Trains a model at these frequencies and moduli, and hands a search on it to `found`. `None` where no model can be trained, or the
+    /// band is far beyond the mesh.
     fn with_other_responses<T>(
         &self,
         frequency_hz: &[f64],
@@ -424,8 +425,7 @@ impl Look<'_> {
         };
         if !choice.is_certain() {
             let near = |one: &&Explanation| {
-                one.faults() <= best.faults()
-                    && one.nats - best.nats < explanation::MIN_MARGIN_NATS * best.faults() as f64
+                one.faults() <= best.faults() && one.nats - best.nats < best.min_margin()
             };
             let mut undecided: Vec<&Explanation> = tried.iter().filter(near).collect();
             undecided.sort_by(|a, b| a.nats.total_cmp(&b.nats));
@@ -502,7 +502,7 @@ fn fault(search: &Search<'_, '_>, one: &Explanation, edit: &Edit) -> Fault {
     let found = &one.fitted;
     // What is elsewhere is not among the responses of the search.
     let is_here = one.elsewhere.is_empty();
-    let [factor_std, delay_std] = match is_here {
+    let stds = || match is_here {
         true => search.standard_deviations(&one.data_hypothesis, found),
         false => [None; 2],
     };
@@ -520,11 +520,11 @@ fn fault(search: &Search<'_, '_>, one: &Explanation, edit: &Edit) -> Fault {
         }
         Change::Factor => {
             let factor = found.ln_factor.exp();
-            let relative_std = factor_std.unwrap_or(0.0);
+            let relative_std = stds()[0].unwrap_or(0.0);
             let known = one.known_factor(relative_std);
             Fault::Factor { factor, relative_std, known }
         }
-        Change::Delay => Fault::Delay { seconds: found.delay_s, std: delay_std.unwrap_or(0.0) },
+        Change::Delay => Fault::Delay { seconds: found.delay_s, std: stds()[1].unwrap_or(0.0) },
         Change::Reversed | Change::Column(..) => Fault::Sign,
     }
 }

@@ -21,6 +21,13 @@ pub(super) struct Moduli {
     pub(super) slope: f64,
 }
 
+impl Moduli {
+    /// The largest difference of any ln a_j.
+    pub(super) fn ln_size_distance(&self, other: &Self) -> f64 {
+        self.ln_sizes.iter().zip(&other.ln_sizes).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+    }
+}
+
 /// An unknown at the frequencies that are looked at.
 #[derive(Debug, Clone)]
 struct UnknownAt {

@@ -69,7 +69,8 @@ pub(super) fn trained<'a>(
 }
 
 impl<'a> Responses<'a> {
-    /// Takes a subspace apart into poles or modes; `sensors` says which of its sensors are looked at, each a column. Modes are those at `about`. `None` where there are none.
+    /// The poles, or the modes at `about`, of a subspace. `sensors` are those of its sensors that are looked at, each a column. `None` where
+    /// the reduced model has no poles or modes.
     pub(super) fn new(
         problem: &'a Problem<'a>,
         subspace: &'a Subspace<'a>,

@@ -7,6 +7,7 @@ use super::responses::Responses;
 use crate::c64;
 use crate::for_each::{ForEach, map};
 use crate::frequency::omega_rad_s;
+use crate::halton;
 use crate::identify::{DELAY_PHASE_STEP_RAD, MAX_DELAY_PHASE_RAD};
 use crate::least_squares::{self, descend};
 use crate::median::median;
@@ -99,7 +100,7 @@ pub(super) struct Grid {
 impl Search<'_, '_> {
     /// Responses at all points of the grid, at the sensors as the case gives them.
     ///
-    /// Of one unknown sizes, losses and slopes; of several the same with all sizes by one ratio, and points of the box (a Kronecker sequence).
+    /// Of one unknown sizes, losses and slopes; of several the same with all sizes by one ratio, and points of the box.
     pub(super) fn grid(&self, sensors: usize) -> Grid {
         let parametrization = &self.responses.parametrization;
         let [low, high] = parametrization.common();
@@ -117,11 +118,10 @@ impl Search<'_, '_> {
         }
         let count = parametrization.free().count();
         let points = if count > 1 { POINTS_PER_UNKNOWN * count } else { 0 };
-        let steps: Vec<f64> = kronecker_steps(count);
         moduli.extend((1..=points).map(|k| {
             let mut moduli = Moduli { ln_loss: parametrization.usual_loss(), ..parametrization.nominal() };
-            for ((j, [low, high]), step) in parametrization.free().zip(&steps) {
-                moduli.ln_sizes[j] = low + (high - low) * (k as f64 * step).fract();
+            for ((j, [low, high]), part) in parametrization.free().zip(halton::point(k)) {
+                moduli.ln_sizes[j] = low + (high - low) * part;
             }
             moduli
         }));
@@ -161,11 +161,7 @@ impl Search<'_, '_> {
         let followed = FOLLOWED_STARTS + self.responses.parametrization.free().count();
         for &p in &order {
             let moduli = &grid.moduli[p];
-            let apart = |other: &Moduli| {
-                let each = other.ln_sizes.iter().zip(&moduli.ln_sizes);
-                each.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) > START_SEPARATION
-            };
-            if starts[first..].iter().all(|(other, ..)| apart(other)) {
+            if starts[first..].iter().all(|(other, ..)| other.ln_size_distance(moduli) > START_SEPARATION) {
                 starts.push((moduli.clone(), scored[p].1, 0.0));
             }
             if starts.len() == first + followed {
@@ -490,18 +486,6 @@ impl Search<'_, '_> {
         let points: Vec<(f64, f64)> = of_sensors.map(|([i, _], r)| (ln_omega(i), r.re)).collect();
         line_slope(&points)
     }
-}
-
-/// Steps of a sequence that fills a box of so many dimensions: powers of the root of xⁿ⁺¹ = x + 1.
-///
-/// # Source
-/// M. Roberts, The unreasonable effectiveness of quasirandom sequences (2018).
-fn kronecker_steps(dimensions: usize) -> Vec<f64> {
-    let mut root: f64 = 2.0;
-    for _ in 0..60 {
-        root = (1.0 + root).powf(1.0 / (dimensions as f64 + 1.0));
-    }
-    (1..=dimensions).map(|j| root.powi(-(j as i32))).collect()
 }
 
 /// Slope of a straight line through points, least squares, with its standard deviation.

@@ -2,6 +2,7 @@
 
 use crate::c64;
 use crate::for_each::{ForEach, map};
+use crate::halton;
 use crate::identify::band::{
     BOX_TOL, MAX_NEIGHBOURHOODS, MAX_TRAINING_FREQUENCIES, MIN_NEIGHBOURHOOD_LINES, TRAINED_TOL, is_certain,
 };
@@ -266,7 +267,7 @@ impl<'a> Neighbourhoods<'a> {
 
 /// The k-th point of a sequence over the box of all unknowns, logarithmic where a range is positive: one dimension for each.
 pub(super) fn in_box(composite: &Composite<'_>, nominal: &[c64], k: usize) -> Vec<c64> {
-    at_parts(composite, nominal, (0..nominal.len()).map(|j| radical_inverse(k, PRIMES[j % PRIMES.len()])))
+    at_parts(composite, nominal, halton::point(k))
 }
 
 /// Values that divide the range of each unknown in some parts, with the loss factor of the nominal one.
@@ -283,17 +284,4 @@ fn at_parts(composite: &Composite<'_>, nominal: &[c64], parts: impl Iterator<Ite
 /// The value that divides a range in this part: of its logarithm where it is positive.
 pub(super) fn between([low, high]: [f64; 2], part: f64) -> f64 {
     if low > 0.0 { low * (high / low).powf(part) } else { low + (high - low) * part }
-}
-
-const PRIMES: [usize; 12] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37];
-
-/// The digits of k in a base, mirrored at the point: with a prime for each dimension the points of J. H. Halton, Numer. Math. 2 (1960) 84–90.
-fn radical_inverse(mut k: usize, base: usize) -> f64 {
-    let (mut value, mut place) = (0.0, 1.0 / base as f64);
-    while k > 0 {
-        value += (k % base) as f64 * place;
-        k /= base;
-        place /= base as f64;
-    }
-    value
 }
