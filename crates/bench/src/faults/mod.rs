@@ -12,7 +12,7 @@ pub use report::{LEGEND, Tried, described, markdown};
 use crate::wrong_models::Failure;
 use crate::wrong_models::case::{Case, Meshes};
 use crate::wrong_models::dice::Dice;
-use crate::wrong_models::fault::Class;
+use crate::wrong_models::fault::{Class, Unknowns};
 use crate::wrong_models::realised::UNKNOWN;
 use cpu_time::ThreadTime;
 use frfit::c64;
@@ -33,11 +33,14 @@ pub fn tried(seed: u64, index: u64) -> Result<Tried, Failure> {
     let run = || {
         let planted_count = (index % 3) as usize;
         let (is_right, round) = ((index / 3).is_multiple_of(2), index / 6);
-        let classes = Class::ALL.len() as u64;
-        let right = Class::ALL.iter().position(|class| *class == Class::Right).unwrap_or(0) as u64;
-        let class = if is_right { right } else { (right + 1 + round % (classes - 1)) % classes };
+        // A calibration that is off is a fault of the data.
+        let is_wrong = |class: &Class| !matches!(class, Class::Right | Class::Calibration);
+        let wrong: Vec<Class> = Class::ALL.into_iter().filter(is_wrong).collect();
+        let class = if is_right { Class::Right } else { wrong[round as usize % wrong.len()] };
+        let place = Class::ALL.iter().position(|one| *one == class).unwrap_or(0) as u64;
         // Each case is a case of its own: no two share a structure.
-        let draw = |attempt: u64| Case::draw(seed, classes * (index + (attempt << 32)) + class, Meshes::One);
+        let number = |attempt: u64| Class::ALL.len() as u64 * (index + (attempt << 32)) + place;
+        let draw = |attempt: u64| Case::draw(seed, number(attempt), Meshes::One, Unknowns::One);
         let mut case = draw(0).or_else(|_| draw(1))?;
         let mut dice = Dice::new(seed ^ 0xFA17, index);
         case.model = nominal(&case, dice.between(NOMINAL_RATIO[0], NOMINAL_RATIO[1]))?;

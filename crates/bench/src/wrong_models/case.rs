@@ -2,7 +2,7 @@
 
 use super::Failure;
 use super::dice::Dice;
-use super::fault::{Change, Class};
+use super::fault::{Change, Class, Unknowns};
 use super::natural::{Mode, errors, median, modes, size};
 use super::realised::{Realised, UNKNOWN};
 use super::structure::{Kind, Structure};
@@ -28,11 +28,16 @@ pub enum Way {
     Smooth,
     /// The law that the truth is of.
     Law,
+    /// All stiffnesses at once: a core has a value of its own at every frequency, the others are constant.
+    Several,
 }
 
 impl Way {
     /// All of them.
-    pub const ALL: [Self; 3] = [Self::PerFrequency, Self::Smooth, Self::Law];
+    pub const ALL: [Self; 4] = [Self::PerFrequency, Self::Smooth, Self::Law, Self::Several];
+
+    /// Those with one unknown.
+    pub const OF_ONE: [Self; 3] = [Self::PerFrequency, Self::Smooth, Self::Law];
 
     /// The word that arguments and tables use.
     pub fn name(self) -> &'static str {
@@ -40,6 +45,7 @@ impl Way {
             Self::PerFrequency => "per-frequency",
             Self::Smooth => "smooth",
             Self::Law => "law",
+            Self::Several => "several",
         }
     }
 }
@@ -75,8 +81,10 @@ pub struct Case {
     pub experiment: Experiment,
     /// The same on a coarser mesh, of two meshes.
     pub coarser: Option<CoarserMesh>,
-    /// The true law of the unknown factor.
+    /// The true law of the unknown factor, of several the first.
     pub truth: Law,
+    /// What is unknown: the names of the terms, and their true factors.
+    pub unknowns: Vec<(String, Law)>,
     /// Nominal over true factor.
     pub ratio: f64,
     /// Frequencies of the lines.
@@ -139,10 +147,10 @@ impl Case {
     ///
     /// # Errors
     /// Where a model cannot be made or solved: a fault of this benchmark.
-    pub fn draw(seed: u64, index: u64, meshes: Meshes) -> Result<Self, Failure> {
-        let class = Class::ALL[(index % Class::ALL.len() as u64) as usize];
+    pub fn draw(seed: u64, index: u64, meshes: Meshes, unknowns: Unknowns) -> Result<Self, Failure> {
+        let class = Class::of(index);
         let mut dice = Dice::new(seed, index);
-        let kind = class.kind_of(index);
+        let kind = class.kind_of(index, unknowns).ok_or("nothing that is known can be wrong")?;
         let mut structure = Structure::draw(kind, class == Class::OtherElement, &mut dice);
         let mut modes = Range { first: dice.pick(&[0, 0, 1, 2]), count: dice.count(FEWEST, 12) };
         // Springs to the ground are felt by the lowest modes.
@@ -180,14 +188,21 @@ impl Case {
             _ => {}
         }
         let start = truth.scaled(ratio);
-        let coarse = || Realised::new(&structure, &start, &Change::default());
+        let mut begun = structure.clone();
+        let mut beside = 1.0;
+        if unknowns == Unknowns::Several {
+            begun.orthotropy.iter_mut().for_each(|over| *over *= dice.between(0.8, 1.25));
+            beside = dice.between(0.7, 1.3);
+        }
+        let begun = (begun, Change { known: beside, ..Change::default() });
+        let coarse = || Realised::new(&begun.0, &start, &begun.1);
         let nominal = match meshes {
             Meshes::One => coarse()?,
             Meshes::Finer | Meshes::Two => {
                 change.plan = change.plan.max(FINER);
                 let layers = if structure.kind == Kind::Sandwich { FINER } else { 1 };
                 change.layers = change.layers.max(layers);
-                Realised::new(&structure, &start, &Change { plan: FINER, layers, ..Change::default() })?
+                Realised::new(&begun.0, &start, &Change { plan: FINER, layers, ..begun.1.clone() })?
             }
         };
         let real = Realised::new(&structure, &truth, &change)?;
@@ -207,7 +222,12 @@ impl Case {
             }
         };
         let frequency_hz = about.lines;
-        let exact = solve(&real.model, &experiment(&real)?, &frequency_hz)?;
+        let mut exact = solve(&real.model, &experiment(&real)?, &frequency_hz)?;
+        if class == Class::Calibration {
+            let of_force = dice.off_by(0.005, 0.03);
+            let gains: Vec<f64> = sensors.iter().map(|_| of_force * dice.off_by(0.002, 0.02)).collect();
+            exact.iter_mut().flat_map(|row| row.iter_mut().zip(&gains)).for_each(|(u, gain)| *u *= gain);
+        }
         let (noise, noise_known) = (dice.log_between(1e-3, 3e-2), dice.coin());
         let mut dice = dice.fork();
         let mut drawn = |u: &c64| u + noise * u.norm() * dice.circular();
@@ -219,6 +239,7 @@ impl Case {
             model: nominal.model,
             coarser,
             truth,
+            unknowns: real.unknowns(unknowns),
             ratio,
             measured: exact.iter().map(|row| row.iter().map(&mut drawn).collect()).collect(),
             std: exact.iter().map(|row| row.iter().map(|u| noise * u.norm()).collect()).collect(),
@@ -245,8 +266,14 @@ impl Case {
             Way::PerFrequency => Variation::PerFrequency,
             Way::Smooth => Variation::Smooth,
             Way::Law => Variation::law(kind),
+            Way::Several if self.kind == Kind::Sandwich => Variation::PerFrequency,
+            Way::Several => Variation::law(LawKind::Constant),
         };
-        let unknowns = [Unknown { varies, ..Unknown::factor_of(&self.model, &[UNKNOWN])? }];
+        let unknown = |(name, _): &(String, Law)| {
+            let varies = if name == UNKNOWN { varies.clone() } else { Variation::law(LawKind::Constant) };
+            Ok(Unknown { varies, ..Unknown::factor_of(&self.model, &[name])? })
+        };
+        let unknowns = self.unknowns.iter().map(unknown).collect::<Result<Vec<_>, Failure>>()?;
         let noise = if self.noise_known { Noise::Known(&self.std) } else { Noise::Unknown };
         let frfs = Frfs { frequency_hz: &self.frequency_hz, receptance: &self.measured, noise };
         let mut problem = Problem::new(&self.model, &self.experiment, &unknowns, &[], frfs)?;
@@ -351,8 +378,8 @@ fn wrong_by(structure: &Structure, change: &Change, wanted: Range) -> Result<Opt
 }
 
 /// Elements along x of the finest mesh of each kind of structure that is tried, and of the coarsest: up to 1500 rows.
-const FINEST: [usize; 4] = [20, 30, 40, 30];
-const COARSEST: usize = 6;
+const FINEST: [usize; 5] = [20, 30, 40, 30, 12];
+const COARSEST: [usize; 5] = [6, 6, 6, 6, 3];
 
 /// Takes the finest of ever coarser meshes that is as wrong as was drawn, and a truth of two to four times as many elements. Where the finest of
 /// them is too wrong, there are fewer modes in the band.
@@ -362,7 +389,7 @@ fn coarsen(structure: &mut Structure, wanted: &mut Range, dice: &mut Dice) -> Re
     let layers = dice.count(1, 2);
     let mut taken = None;
     let mut elements = FINEST[structure.kind as usize];
-    while elements >= COARSEST {
+    while elements >= COARSEST[structure.kind as usize] {
         let mut coarse = structure.clone();
         coarse.set_mesh(elements);
         let mut change = Change { plan: finer, layers, ..Change::default() };
@@ -383,7 +410,7 @@ fn coarsen(structure: &mut Structure, wanted: &mut Range, dice: &mut Dice) -> Re
         if error >= aim {
             break;
         }
-        elements = (elements as f64 * 0.88) as usize;
+        elements = ((elements as f64 * 0.88) as usize).min(elements - 1);
     }
     let (coarse, change) = taken.ok_or("no mesh has so many modes")?;
     *structure = coarse;
@@ -397,6 +424,7 @@ fn rows(structure: &Structure, change: &Change) -> usize {
         Kind::Sandwich => 3 * along * across * (3 * change.layers + 1),
         Kind::Plate if change.bricks => 9 * along * across,
         Kind::Plate => 3 * along * across,
+        Kind::OrthotropicPlate => 4 * along * across,
         Kind::Beam | Kind::SprungBeam if change.bricks => 27 * along,
         Kind::Beam | Kind::SprungBeam => 2 * along,
     }
@@ -474,10 +502,11 @@ mod tests {
     fn small(class: usize) -> Case {
         let classes = Class::ALL.len() as u64;
         let mut indices = (0..).map(|k| k * classes + class as u64);
-        let is_beam =
-            |index: &u64| matches!(Class::ALL[class].kind_of(*index), Kind::Beam | Kind::SprungBeam);
+        let is_beam = |index: &u64| {
+            matches!(Class::of(*index).kind_of(*index, Unknowns::One), Some(Kind::Beam | Kind::SprungBeam))
+        };
         let index = indices.find(is_beam).unwrap();
-        Case::draw(1, index, Meshes::One).unwrap()
+        Case::draw(1, index, Meshes::One, Unknowns::One).unwrap()
     }
 
     #[test]
@@ -494,7 +523,7 @@ mod tests {
             let error = case.frequency_error.unwrap();
             match name {
                 // Eigenvalues of one problem, computed twice: their residual squared, and roundoff.
-                Class::Right => assert!(error < 1e-9, "{error}"),
+                Class::Right | Class::Calibration => assert!(error < 1e-9, "{error}"),
                 _ => assert!((1e-6..0.05).contains(&error), "{name} {error}"),
             }
         }

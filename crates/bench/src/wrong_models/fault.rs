@@ -22,11 +22,13 @@ pub enum Class {
     SupportSpring,
     /// The truth is of bricks, the model a plate or beam without shear.
     OtherElement,
+    /// The model is right, and the calibrations are not: that of the force is 0.5–3 % off, those of the sensors 0.2–2 %.
+    Calibration,
 }
 
 impl Class {
     /// All of them: case k of a seed is of class k modulo their number.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Right,
         Self::CoarseMesh,
         Self::Neighbour,
@@ -34,6 +36,7 @@ impl Class {
         Self::PointMass,
         Self::SupportSpring,
         Self::OtherElement,
+        Self::Calibration,
     ];
 
     /// The word that arguments and tables use.
@@ -46,23 +49,32 @@ impl Class {
             Self::PointMass => "point mass",
             Self::SupportSpring => "support spring",
             Self::OtherElement => "other element",
+            Self::Calibration => "calibration",
         }
     }
 
-    /// The structures that can be wrong in this way.
-    pub fn kinds(self) -> &'static [Kind] {
-        match self {
-            Self::Neighbour => &[Kind::Sandwich, Kind::SprungBeam],
-            Self::OtherElement => &[Kind::Plate, Kind::Beam, Kind::SprungBeam],
-            _ => &Kind::ALL,
+    /// The structures that can be wrong in this way; of several unknowns none where what is wrong is unknown.
+    pub fn kinds(self, unknowns: Unknowns) -> &'static [Kind] {
+        match (self, unknowns) {
+            (Self::Neighbour, Unknowns::One) => &[Kind::Sandwich, Kind::SprungBeam],
+            (Self::OtherElement, Unknowns::One) => &[Kind::Plate, Kind::Beam, Kind::SprungBeam],
+            (_, Unknowns::One) => &Kind::ALL,
+            (Self::Neighbour, Unknowns::Several) => &[],
+            (Self::OtherElement, Unknowns::Several) => &[Kind::SprungBeam],
+            (_, Unknowns::Several) => &[Kind::OrthotropicPlate, Kind::Sandwich, Kind::SprungBeam],
         }
     }
 
-    /// The structure of a case: one after the other, so that few cases have all of them.
-    pub fn kind_of(self, index: u64) -> Kind {
-        let (kinds, round) = (self.kinds(), index as usize / Self::ALL.len());
+    /// The class of a case of a seed.
+    pub fn of(index: u64) -> Self {
+        Self::ALL[(index % Self::ALL.len() as u64) as usize]
+    }
+
+    /// The structure of a case: one after the other, so that few cases have all of them; `None` where none can be wrong in this way.
+    pub fn kind_of(self, index: u64, unknowns: Unknowns) -> Option<Kind> {
+        let (kinds, round) = (self.kinds(unknowns), index as usize / Self::ALL.len());
         // Not all classes begin with the same.
-        kinds[(round + self as usize) % kinds.len()]
+        kinds.get((round + self as usize) % kinds.len().max(1)).copied()
     }
 }
 
@@ -81,6 +93,15 @@ impl FromStr for Class {
         let names = Self::ALL.map(Self::name).join(", ");
         known.ok_or_else(|| format!("class: expected one of {names}, found {text:?}"))
     }
+}
+
+/// How many factors are unknown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Unknowns {
+    /// That of one material.
+    One,
+    /// All stiffnesses: of an orthotropic plate its four constants, of a sandwich core and skins, of a beam on springs beam and springs.
+    Several,
 }
 
 /// What is different in truth. The default: nothing.

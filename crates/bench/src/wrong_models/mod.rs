@@ -24,6 +24,7 @@ pub mod structure;
 pub type Failure = Box<dyn std::error::Error + Send + Sync>;
 
 use case::{Case, Meshes, Way};
+use fault::Unknowns;
 use frfit::identify::Options;
 use report::{Run, Tried};
 
@@ -39,7 +40,9 @@ pub fn tried(
     options: &Options,
 ) -> Result<Tried, Failure> {
     let run = || {
-        let case = Case::draw(seed, index, meshes)?;
+        let several = ways.contains(&Way::Several);
+        let unknowns = if several { Unknowns::Several } else { Unknowns::One };
+        let case = Case::draw(seed, index, meshes, unknowns)?;
         let identified = |&way: &Way| {
             let (found, seconds) = case.identify(way, options)?;
             Ok(Run::new(way, &found, score::judged(&case, &found)?, seconds))

@@ -1,17 +1,21 @@
 //! From a structure, and what is different in truth, to matrices.
 
 use super::Failure;
-use super::fault::Change;
+use super::fault::{Change, Unknowns};
 use super::structure::{Kind, SKIN_POISSON, Structure};
 use frfit::c64;
 use frfit::material::Law;
 use frfit::model::{DynamicStiffness, Role, Term};
+use frfit_fem::OrthotropicPlate;
 use frfit_fem::brick::{Face, Layer};
 use frfit_fem::{Assembled, Beam, Brick, Direction, Plate, Support};
 use frfit_linalg::sparse::{SymmetricMatrix, Triplets};
 
 /// The term whose factor is unknown.
 pub const UNKNOWN: &str = "unknown";
+
+/// The terms of an orthotropic plate.
+const CONSTANTS: [&str; 4] = [UNKNOWN, "D22", "D12", "D66"];
 
 /// A structure as a finite element model.
 #[derive(Debug)]
@@ -41,7 +45,12 @@ impl Realised {
         let real = |value: f64| Law::Constant(c64::new(value, 0.0));
         let sandwich = structure.kind == Kind::Sandwich;
         let unknown = usize::from(sandwich);
-        add(UNKNOWN, Role::Stiffness, &assembled.stiffness[unknown], law.clone());
+        if structure.kind == Kind::OrthotropicPlate {
+            let constants = CONSTANTS.iter().zip(&assembled.stiffness).zip(structure.orthotropy);
+            constants.for_each(|((name, matrix), over)| add(name, Role::Stiffness, matrix, law.scaled(over)));
+        } else {
+            add(UNKNOWN, Role::Stiffness, &assembled.stiffness[unknown], law.clone());
+        }
         add("mass", Role::Mass, &assembled.mass[unknown], real(change.mass * structure.density));
         if sandwich {
             let (modulus, density) = structure.skins;
@@ -70,6 +79,17 @@ impl Realised {
             add("clamp", Role::Stiffness, &matrix, real(1.0));
         }
         Ok(Self { model: DynamicStiffness::new(terms)?, shift, tolerance, assembled })
+    }
+
+    /// Terms whose factors are unknown, with those that they have.
+    pub fn unknowns(&self, unknowns: Unknowns) -> Vec<(String, Law)> {
+        let is_held = |name: &str| name.starts_with("suspension") || name == "clamp";
+        let is_unknown = |term: &&Term| match unknowns {
+            Unknowns::One => term.name == UNKNOWN,
+            Unknowns::Several => term.role == Role::Stiffness && !is_held(&term.name),
+        };
+        let terms = self.model.terms().iter().filter(is_unknown);
+        terms.map(|term| (term.name.clone(), term.factor.clone())).collect()
     }
 
     /// Where the structure may be driven and measured, in its own frame: all nodes that move along Z; of bricks those of the upper side.
@@ -130,6 +150,14 @@ fn assemble(structure: &Structure, change: &Change) -> Result<(Assembled, [f64; 
     let edges = structure.edges.map(released);
     if structure.kind != Kind::Sandwich && !change.bricks {
         let assembled = match structure.kind {
+            Kind::OrthotropicPlate => {
+                let lines = |side: f64, steps: usize| -> Vec<f64> {
+                    (0..=steps).map(|k| side * k as f64 / steps as f64).collect()
+                };
+                let lines = [lines(length, mesh[0]), lines(width, mesh[1])];
+                let thickness = structure.thickness();
+                OrthotropicPlate { lines, thickness, edges, ..OrthotropicPlate::default() }.assemble()?
+            }
             Kind::Plate => {
                 let (sides, thickness, poisson) = ([length, width], structure.thickness(), structure.poisson);
                 Plate { sides, thickness, poisson, elements: mesh, edges, ..Plate::default() }.assemble()?

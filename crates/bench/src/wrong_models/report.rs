@@ -95,7 +95,7 @@ impl Tried {
 pub const LEGEND: &str = "\
 Δf: median error of the model's natural frequencies in the band. Values: lines with a value, of so many lines. Then of the values that are `ok`: \
 those whose E′ and η are within 2σ of the truth, those where one is more than 4σ off, medians of σ and of the error over the truth. \
-All: values of any status. Values without an error bar count for the errors alone. Times are CPU seconds, medians. \
+All: values of any status. Of several unknowns each constant is one value. Values without an error bar count for the errors alone. Times are CPU seconds, medians. \
 Neighbouring lines of a smooth curve, and all lines of a law, have one error: of so few cases their coverage is a coarse number.";
 
 /// One row for each class and way.

@@ -40,20 +40,30 @@ pub struct Judged {
     pub parts: [Part; 2],
 }
 
-/// Every line of an identification that has a value.
+/// Every line of an identification that has a value; of several unknowns each that is constant counts once.
 ///
 /// # Errors
 /// Where the true law has no value.
 pub fn judged(case: &Case, found: &Identification) -> Result<Vec<Judged>, Failure> {
     let mut all = Vec::new();
-    for line in &found.lines {
-        let Some(value) = line.factor() else { continue };
-        let truth = case.truth_at(line.frequency_hz)?;
-        let bars = line.uncertainty();
-        let storage = Part { truth: truth.re, found: value.re, bar: bars.map(|bars| bars.storage_std) };
-        let loss_bar = bars.and_then(|bars| bars.loss_factor_std);
-        let loss = Part { truth: loss_factor(truth), found: loss_factor(value), bar: loss_bar };
-        all.push(Judged { frequency_hz: line.frequency_hz, status: line.status, parts: [storage, loss] });
+    let several = case.unknowns.len() > 1;
+    let middle = found.lines.len() / 2;
+    for (j, (_, law)) in case.unknowns.iter().enumerate() {
+        let constant = found.constants.iter().find(|one| several && one.unknowns == j);
+        let lines = match constant {
+            Some(_) => &found.lines[middle..=middle],
+            None => &found.lines,
+        };
+        for line in lines {
+            let status = constant.map_or(line.status, |one| one.status);
+            let Some(value) = line.values[j].value else { continue };
+            let truth = law.at(line.frequency_hz)?;
+            let bars = line.values[j].uncertainty;
+            let storage = Part { truth: truth.re, found: value.re, bar: bars.map(|bars| bars.storage_std) };
+            let loss_bar = bars.and_then(|bars| bars.loss_factor_std);
+            let loss = Part { truth: loss_factor(truth), found: loss_factor(value), bar: loss_bar };
+            all.push(Judged { frequency_hz: line.frequency_hz, status, parts: [storage, loss] });
+        }
     }
     Ok(all)
 }

@@ -18,10 +18,12 @@ pub enum Kind {
     Sandwich,
     /// A beam of an unknown material on known springs.
     SprungBeam,
+    /// A rectangular plate of an orthotropic material, all four constants of which are unknown.
+    OrthotropicPlate,
 }
 
 impl Kind {
-    /// All of them.
+    /// Those with one unknown.
     pub const ALL: [Self; 4] = [Self::Plate, Self::Beam, Self::Sandwich, Self::SprungBeam];
 }
 
@@ -32,6 +34,7 @@ impl fmt::Display for Kind {
             Self::Beam => "beam",
             Self::Sandwich => "sandwich",
             Self::SprungBeam => "sprung beam",
+            Self::OrthotropicPlate => "orthotropic plate",
         })
     }
 }
@@ -66,6 +69,8 @@ pub struct Structure {
     pub springs: Vec<Spring>,
     /// Storage modulus of the unknown material in Pa, in the middle of the band.
     pub storage: f64,
+    /// D₁₁, D₂₂, D₁₂ and D₆₆ over the storage modulus, of an orthotropic plate.
+    pub orthotropy: [f64; 4],
     /// Density of the unknown material in kg/m³.
     pub density: f64,
     /// Modulus in Pa and density in kg/m³ of the skins.
@@ -88,11 +93,13 @@ impl Structure {
             Kind::Beam => Self::beam(bricks, dice),
             Kind::Sandwich => Self::sandwich(dice),
             Kind::SprungBeam => Self::sprung(dice),
+            Kind::OrthotropicPlate => Self::orthotropic(dice),
         };
         let fine = match kind {
             Kind::Plate => dice.count(10, 16),
             Kind::Beam | Kind::SprungBeam => dice.count(14, 30),
             Kind::Sandwich => dice.count(14, 22),
+            Kind::OrthotropicPlate => dice.count(8, 12),
         };
         drawn.set_mesh(fine);
         drawn
@@ -141,6 +148,15 @@ impl Structure {
         beam
     }
 
+    /// From plywood to the wood of a soundboard.
+    fn orthotropic(dice: &mut Dice) -> Self {
+        let plate = Self::plate(false, dice);
+        let (across, poisson) = (dice.log_between(0.05, 0.8), dice.between(0.2, 0.4));
+        let twisting = across.sqrt() * dice.between(0.25, 0.5);
+        let orthotropy = [1.0, across, poisson * across, twisting];
+        Self { kind: Kind::OrthotropicPlate, orthotropy, ..plate }
+    }
+
     fn sandwich(dice: &mut Dice) -> Self {
         let length = dice.between(0.15, 0.4);
         let width = length * dice.between(0.08, 0.2);
@@ -183,6 +199,7 @@ impl Structure {
             edges: [Free; 4],
             springs: Vec::new(),
             storage: dice.log_between(1e9, 2.1e11),
+            orthotropy: [1.0; 4],
             density: dice.between(1000.0, 8000.0),
             skins: (c64::default(), 0.0),
             mesh: [1; 2],
@@ -192,7 +209,9 @@ impl Structure {
     /// So many elements along x, and as long ones along y; of strips two along y.
     pub fn set_mesh(&mut self, elements: usize) {
         let across = match self.kind {
-            Kind::Plate => ((elements as f64 * self.width / self.length).round() as usize).max(3),
+            Kind::Plate | Kind::OrthotropicPlate => {
+                ((elements as f64 * self.width / self.length).round() as usize).max(2)
+            }
             Kind::Sandwich => 2,
             Kind::Beam | Kind::SprungBeam => 1,
         };
