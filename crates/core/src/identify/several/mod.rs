@@ -101,7 +101,7 @@ pub(super) fn identify_several<'a>(
         Ok(subspace) => {
             let mut reduced = Neighbourhoods::new(subspace, problem, &nominal, context);
             let mut found = task.search(&mut reduced);
-            let contradicting = task.contradicting(&reduced, &found);
+            let contradicting = task.contradicting(&mut reduced, &found);
             let rejected = if options.reject_outliers { contradicting.as_slice() } else { &[] };
             let kept = task.leaving_out(&[task.left_out.as_slice(), rejected].concat());
             if !rejected.is_empty() {

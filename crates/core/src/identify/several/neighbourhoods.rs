@@ -30,8 +30,8 @@ const NEIGHBOURHOOD_FREQUENCIES: usize = 4;
 /// Answers of a neighbourhood that its model is made good at, at most.
 const MAX_NEIGHBOURHOOD_ANSWERS: usize = 8;
 
-/// Error of a model that only has to lead there.
-const ROUGH_MODEL_TOL: f64 = 1e-4;
+/// Error of a model that only has to separate starts from one another.
+pub(super) const ROUGH_MODEL_TOL: f64 = 1e-4;
 
 /// A reduced model for a band and a box of several unknowns.
 pub(super) struct Neighbourhoods<'a> {
@@ -44,8 +44,13 @@ pub(super) struct Neighbourhoods<'a> {
     blocks: Vec<([usize; 2], Option<Local>)>,
     /// The whole reduced model without its errors, where they are taken out of every answer.
     corrected: Option<Corrected>,
-    answers: Vec<(usize, Vec<c64>)>,
+    answers: Vec<Answer>,
+    /// Whether models are good near the answers alone, and not over the box.
+    is_near: bool,
 }
+
+/// A frequency, and values of all unknowns there.
+pub(super) type Answer = (usize, Vec<c64>);
 
 /// A response and its slopes: x_m, and ∂x_m/∂p_j as `[unknown][sensor]`.
 pub(super) type Responded = (Vec<c64>, Vec<Vec<c64>>);
@@ -125,8 +130,16 @@ impl<'a> Neighbourhoods<'a> {
         let count = (n / MIN_NEIGHBOURHOOD_LINES).clamp(1, MAX_NEIGHBOURHOODS);
         let ends = (0..count).map(|b| [b * n / count, (b + 1) * n / count - 1]);
         let blocks = ends.map(|ends| (ends, None)).collect();
-        let (answers, corrected, nominal) = (Vec::new(), None, nominal.to_vec());
-        let mut reduced = Self { composite, frequency_hz, nominal, subspace, blocks, answers, corrected };
+        let mut reduced = Self {
+            composite,
+            frequency_hz,
+            nominal: nominal.to_vec(),
+            subspace,
+            blocks,
+            answers: Vec::new(),
+            corrected: None,
+            is_near: false,
+        };
         reduced.localise(context.for_each);
         reduced
     }
@@ -189,10 +202,10 @@ impl<'a> Neighbourhoods<'a> {
         model.respond_with_slopes(&self.at(i, values)?).ok()
     }
 
-    /// A model of one frequency with few vectors, to separate starts from one another.
-    pub(super) fn rough(&self, i: usize) -> Projection {
+    /// A model of one frequency with few vectors, good to some error over the box.
+    pub(super) fn rough(&self, i: usize, tolerance: f64) -> Projection {
         let points = self.box_points(i, i).unwrap_or_default();
-        self.model(i).localised(&points, ROUGH_MODEL_TOL)
+        self.model(i).localised(&points, tolerance)
     }
 
     /// A model of one frequency that is good near some values.
@@ -205,9 +218,25 @@ impl<'a> Neighbourhoods<'a> {
         self.local(i)?.assess(&self.at(i, values)?, c64::default()).ok()
     }
 
+    /// Models that are good over the box.
+    pub(super) fn widen(&mut self, for_each: ForEach<'_>) {
+        if std::mem::take(&mut self.is_near) {
+            self.localise(for_each);
+        }
+    }
+
+    /// Models of few vectors that are good near some answers, where no frequency has a value of its own: all of them move together, and not far.
+    pub(super) fn narrow(&mut self, answers: Vec<Answer>, for_each: ForEach<'_>) {
+        let is_there = self.is_near && self.answers == answers;
+        if !is_there && self.composite.unknowns.iter().all(|one| one.per_frequency() == 0) {
+            (self.is_near, self.answers) = (true, answers);
+            self.localise(for_each);
+        }
+    }
+
     /// Trains at the answers where the subspace is not good enough; whether anything was gained.
-    pub(super) fn refine(&mut self, answers: &[(usize, Vec<c64>)], context: Context<'_>) -> bool {
-        let lacking = |(i, values): &(usize, Vec<c64>)| {
+    pub(super) fn refine(&mut self, answers: &[Answer], context: Context<'_>) -> bool {
+        let lacking = |(i, values): &Answer| {
             let at = self.at(*i, values)?;
             let assessed = self.assess(*i, values)?;
             (!is_certain(&at, c64::default(), &assessed)).then(|| Point { at, correction: c64::default() })
@@ -222,8 +251,13 @@ impl<'a> Neighbourhoods<'a> {
         }
         (context.progress)(Stage::Subspace, 0, self.frequency_hz.len());
         let (mut points, before) = (Vec::new(), self.subspace.size());
+        if self.is_near {
+            self.answers = answers.to_vec();
+        }
         for (k, point) in thinned(&lacking, MAX_TRAINING_FREQUENCIES) {
-            self.answers.push(answers[*k].clone());
+            if !self.is_near {
+                self.answers.push(answers[*k].clone());
+            }
             points.push(point.clone());
         }
         let training = TrainOptions {
@@ -239,16 +273,22 @@ impl<'a> Neighbourhoods<'a> {
 
     fn localise(&mut self, for_each: ForEach<'_>) {
         let reduced = &*self;
-        let models = map(for_each, reduced.blocks.len(), |b| reduced.about_block(reduced.blocks[b].0));
+        let about = |b: usize| reduced.about_block(reduced.blocks[b].0);
+        // Where one neighbourhood needs the whole model the others do.
+        let middle = about(reduced.blocks.len() / 2);
+        let models = match middle.model().size() < reduced.size() {
+            true => map(for_each, reduced.blocks.len(), about),
+            false => vec![middle; reduced.blocks.len()],
+        };
         self.blocks.iter_mut().zip(models).for_each(|(block, model)| block.1 = Some(model));
     }
 
     fn about_block(&self, [first, last]: [usize; 2]) -> Local {
         let steps = (last - first).min(NEIGHBOURHOOD_FREQUENCIES - 1);
         let picked = (0..=steps).map(|k| first + k * (last - first) / steps.max(1));
-        let boxes = picked.filter_map(|i| self.box_points(i, i).ok()).flatten();
-        let own: Vec<&(usize, Vec<c64>)> =
-            self.answers.iter().filter(|(i, _)| (first..=last).contains(i)).collect();
+        let own: Vec<&Answer> = self.answers.iter().filter(|(i, _)| (first..=last).contains(i)).collect();
+        let is_near = self.is_near && !own.is_empty();
+        let boxes = picked.filter(|_| !is_near).filter_map(|i| self.box_points(i, i).ok()).flatten();
         let own =
             thinned(&own, MAX_NEIGHBOURHOOD_ANSWERS).filter_map(|(i, values)| self.point(*i, values).ok());
         let points: Vec<Point<'_>> = boxes.chain(own).collect();

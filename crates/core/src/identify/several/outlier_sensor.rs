@@ -15,11 +15,18 @@ use crate::identify::unknown::Unknown;
 /// Where no standard deviation is given: one per cent of the response is usual noise, and no reason to doubt a sensor.
 const USUAL_NOISE_OVER_RESPONSE: f64 = 1e-2;
 
+/// Frequencies at most by which a trial finds its starts.
+const START_FREQUENCIES: usize = 2 * OUTLIER_FREQUENCIES;
+
+/// Sensors that are left out by way of trial, the worst first, before any other is.
+const FIRST_TRIALS: usize = 2;
+
 impl Task<'_, '_> {
     /// The sensors that contradict the others, worst first. Of two sensors nothing shows which one is wrong.
     ///
-    /// Each trial is a search on a few frequencies, so that there is none where what was found explains the sensors.
-    pub(super) fn contradicting(&self, reduced: &Neighbourhoods<'_>, found: &BandSolution) -> Vec<usize> {
+    /// Each trial is a search on a few frequencies, so that there is none where what was found explains the sensors. Without the ones that fit worst the others have to agree far
+    /// better; only then it is asked whether they would without any other too.
+    pub(super) fn contradicting(&self, reduced: &mut Neighbourhoods<'_>, found: &BandSolution) -> Vec<usize> {
         let sensors = self.problem.experiment.sensors.len();
         let floor = match self.problem.frfs.noise {
             Noise::Known(_) => 1.0,
@@ -29,11 +36,18 @@ impl Task<'_, '_> {
         let of_band = all.iter().map(|&k| found.at(k).map_or(f64::INFINITY, |solution| solution.misfit));
         let mut with_all = self.chi_squared(of_band.collect(), sensors);
         let mut out: Vec<usize> = self.left_out.clone();
+        let for_each = self.context.for_each;
         while with_all > OUTLIER_RATIO * floor && self.is_determined(sensors - out.len()) {
-            let mut trials: Vec<(f64, usize)> = (0..sensors)
-                .filter(|m| !out.contains(m) && self.is_calibrated_without(&[&out[..], &[*m]].concat()))
-                .map(|m| (self.chi_squared_without(reduced, &[&out[..], &[m]].concat()), m))
-                .collect();
+            reduced.widen(for_each);
+            let tried = |m: usize| (self.chi_squared_without(&*reduced, &[&out[..], &[m]].concat()), m);
+            let mut left = self.worst_first(found);
+            left.retain(|m| !out.contains(m) && self.is_calibrated_without(&[&out[..], &[*m]].concat()));
+            let others = left.split_off(left.len().min(FIRST_TRIALS));
+            let mut trials: Vec<(f64, usize)> = left.into_iter().map(tried).collect();
+            if trials.iter().all(|(without, _)| OUTLIER_RATIO * without.max(floor) >= with_all) {
+                break;
+            }
+            trials.extend(others.into_iter().map(tried));
             trials.sort_by(|a, b| a.0.total_cmp(&b.0));
             let (Some(&(least, worst)), second) = (trials.first(), trials.get(1)) else { break };
             if OUTLIER_RATIO * least.max(floor) >= second.map_or(with_all, |second| with_all.min(second.0)) {
@@ -42,7 +56,21 @@ impl Task<'_, '_> {
             out.push(worst);
             with_all = least;
         }
+        reduced.narrow(found.answers(), for_each);
         out.split_off(self.left_out.len())
+    }
+
+    /// The sensors, the one that fits worst first.
+    fn worst_first(&self, found: &BandSolution) -> Vec<usize> {
+        let misfit = |m: usize| {
+            let of_line =
+                |k: usize| Some(found.at(k)?.residuals[2 * m..2 * m + 2].iter().map(|r| r * r).sum::<f64>());
+            (0..self.omegas.len()).filter_map(of_line).sum::<f64>()
+        };
+        let mut all: Vec<(f64, usize)> =
+            (0..self.problem.experiment.sensors.len()).map(|m| (misfit(m), m)).collect();
+        all.sort_by(|a, b| b.0.total_cmp(&a.0));
+        all.into_iter().map(|(_, m)| m).collect()
     }
 
     /// Whether two sensors and more are left without one of so many, with more numbers at a frequency than it has of its own.
@@ -71,7 +99,7 @@ impl Task<'_, '_> {
         let task = self.leaving_out(out);
         let all: Vec<usize> = (0..self.omegas.len()).collect();
         let which: Vec<usize> = thinned(&all, OUTLIER_FREQUENCIES).copied().collect();
-        let tried = task.tried(reduced, &which);
+        let tried = task.tried(reduced, &which, START_FREQUENCIES);
         let best = &tried[0].1;
         let misfit = |k: usize| best.at(k).or(best.solutions[k].first()).map_or(f64::INFINITY, |s| s.misfit);
         let sensors = self.problem.experiment.sensors.len() - out.len();

@@ -4,8 +4,9 @@ use super::Task;
 use super::at_frequency::{Solution, eliminate};
 use super::coordinates::Coordinates;
 use super::information::Information;
-use super::neighbourhoods::{Neighbourhoods, between, in_box};
+use super::neighbourhoods::{Answer, Neighbourhoods, ROUGH_MODEL_TOL, between, in_box};
 use super::path::Chosen;
+use super::starts::LOG_RESPONSE_FREQUENCIES;
 use crate::c64;
 use crate::for_each::map;
 use crate::identify::band::{Fit, MAX_TRAINING_ROUNDS, nearest};
@@ -100,8 +101,9 @@ impl Task<'_, '_> {
     pub(super) fn search(&self, reduced: &mut Neighbourhoods<'_>) -> BandSolution {
         let all: Vec<usize> = (0..self.omegas.len()).collect();
         let part: Vec<usize> = thinned(&all, START_FREQUENCIES).copied().collect();
+        reduced.widen(self.context.for_each);
         (self.context.progress)(Stage::Solutions, 0, all.len());
-        let mut tried = self.tried(reduced, &part);
+        let mut tried = self.tried(reduced, &part, LOG_RESPONSE_FREQUENCIES);
         let starts = tried.iter().flat_map(|(_, found, _)| found.starts.clone()).collect();
         let (least, first, values) = tried.swap_remove(0);
         let agreeing =
@@ -110,6 +112,7 @@ impl Task<'_, '_> {
             true => first,
             false => self.follow(reduced, &all, first.begin(), &Guess::Everywhere(&values)),
         };
+        reduced.narrow(found.answers(), self.context.for_each);
         let found = self.refined(reduced, found);
         (self.context.progress)(Stage::Solutions, all.len(), all.len());
         BandSolution { starts, agreeing, ..found }
@@ -131,9 +134,7 @@ impl Task<'_, '_> {
     fn refined(&self, reduced: &mut Neighbourhoods<'_>, mut found: BandSolution) -> BandSolution {
         let all: Vec<usize> = (0..self.omegas.len()).collect();
         for _ in 0..MAX_TRAINING_ROUNDS {
-            let answers: Vec<(usize, Vec<c64>)> =
-                all.iter().filter_map(|&i| Some((i, found.at(i)?.values.clone()))).collect();
-            if !reduced.refine(&answers, self.context) {
+            if !reduced.refine(&found.answers(), self.context) {
                 break;
             }
             let known = std::mem::take(&mut found.solutions);
@@ -142,13 +143,14 @@ impl Task<'_, '_> {
         found
     }
 
-    /// Where each start leads at some frequencies, least misfit first: (misfit, solution, start); at least one.
+    /// Where each start leads at some frequencies, least misfit first: (misfit, solution, start); at least one. Starts are found by so many frequencies at most.
     pub(super) fn tried(
         &self,
         reduced: &Neighbourhoods<'_>,
         which: &[usize],
+        most: usize,
     ) -> Vec<(f64, BandSolution, Vec<c64>)> {
-        let mut begin = self.starts(reduced);
+        let mut begin = self.starts(reduced, most);
         if self.coordinates().count == 0 {
             // Nothing holds for the band: every frequency is searched for itself, wherever it begins.
             begin.truncate(1);
@@ -310,7 +312,7 @@ impl Task<'_, '_> {
         let found = match (factors.as_slice(), others) {
             (&[j], 0) => self.all_of(at, at.reduced.model(i), (i, j), &given),
             (&[a, b], 0) => {
-                let rough = rough.insert(at.reduced.rough(i));
+                let rough = rough.insert(at.reduced.rough(i, ROUGH_MODEL_TOL));
                 let along = |a: usize, b: usize| {
                     let grid = in_turn(&self.problem.unknowns[b], given[b]).into_iter();
                     let with = |value: c64| {
@@ -350,7 +352,7 @@ impl Task<'_, '_> {
         if starts.len() <= WHOLE_MODEL_STARTS {
             return on(at.reduced.model(i), starts);
         }
-        let rough = on(&rough.unwrap_or_else(|| at.reduced.rough(i)), starts);
+        let rough = on(&rough.unwrap_or_else(|| at.reduced.rough(i, ROUGH_MODEL_TOL)), starts);
         on(at.reduced.model(i), &rough.into_iter().map(|solution| solution.own).collect::<Vec<_>>())
     }
 
@@ -660,6 +662,12 @@ impl BandSolution {
     /// Another search from where this one ended.
     fn begin(&self) -> Begin {
         Begin { coordinates: self.coordinates.clone(), theta: self.theta.clone() }
+    }
+
+    /// The values at each frequency that has any.
+    pub(super) fn answers(&self) -> Vec<Answer> {
+        let at = |k: usize| Some((k, self.at(k)?.values.clone()));
+        (0..self.solutions.len()).filter_map(at).collect()
     }
 
     /// The chosen solution at the k-th frequency.

@@ -15,11 +15,16 @@ use crate::identify::thinned::thinned;
 use crate::identify::unknown::Variation;
 use crate::least_squares::{Search, minimise};
 
-/// Frequencies at most at which logarithms are compared.
-const LOG_RESPONSE_FREQUENCIES: usize = 160;
+/// Frequencies at most at which logarithms are compared, and those that say which points of the box are compared there.
+pub(super) const LOG_RESPONSE_FREQUENCIES: usize = 160;
+const RANKING_FREQUENCIES: usize = 40;
 
-/// Points of the box for each number, and how many of the best are followed.
+/// Error of the responses whose logarithms are compared: valleys are far wider.
+const LOG_RESPONSE_TOL: f64 = 1e-2;
+
+/// Points of the box for each number, how many of the best are compared at all frequencies, and how many of the best of these are followed.
 const POINTS_PER_NUMBER: usize = 24;
+const COMPARED_POINTS: usize = 24;
 const FOLLOWED_POINTS: usize = 8;
 
 /// Evaluations for each start and number.
@@ -32,11 +37,11 @@ const NOMINAL_WEIGHT: f64 = 1e-3;
 const MAX_KEPT_ENDS: usize = 4;
 
 impl Task<'_, '_> {
-    /// Values of all unknowns, constant over the band, the likeliest first.
-    pub(super) fn starts(&self, reduced: &Neighbourhoods<'_>) -> Vec<Vec<c64>> {
+    /// Values of all unknowns, constant over the band, the likeliest first, by so many frequencies at most.
+    pub(super) fn starts(&self, reduced: &Neighbourhoods<'_>, most: usize) -> Vec<Vec<c64>> {
         let all: Vec<usize> = (0..self.omegas.len()).collect();
-        let which: Vec<usize> = thinned(&all, LOG_RESPONSE_FREQUENCIES).copied().collect();
-        let rough = map(self.context.for_each, which.len(), |k| reduced.rough(which[k]));
+        let which: Vec<usize> = thinned(&all, most).copied().collect();
+        let rough = map(self.context.for_each, which.len(), |k| reduced.rough(which[k], LOG_RESPONSE_TOL));
         let middle = &self.nominal[all.len() / 2];
         let constants =
             Coordinates::new(self.problem.unknowns, |_| Variation::Constant, middle, &self.omegas);
@@ -44,9 +49,9 @@ impl Task<'_, '_> {
         let points =
             (1..=POINTS_PER_NUMBER * constants.count).map(|k| of(&in_box(&reduced.composite, middle, k)));
         let begin: Vec<Vec<f64>> = std::iter::once(of(middle)).chain(points).collect();
-        let evaluate = |theta: &[f64]| {
+        let evaluate = |theta: &[f64], lines: &[usize]| {
             let one = |k: usize| {
-                let i = which[k];
+                let (k, i) = (lines[k], which[lines[k]]);
                 let own = constants.each.iter().map(|own| own.value(theta, self.omegas[i]));
                 let (values, slopes): (Vec<c64>, Vec<Vec<c64>>) =
                     own.collect::<Option<Vec<_>>>()?.into_iter().unzip();
@@ -64,7 +69,7 @@ impl Task<'_, '_> {
                 Some(Row { columns: std::iter::once(rest).chain(all.map(column)).collect(), kept })
             };
             let rows =
-                map(self.context.for_each, which.len(), one).into_iter().collect::<Option<Vec<_>>>()?;
+                map(self.context.for_each, lines.len(), one).into_iter().collect::<Option<Vec<_>>>()?;
             let rows = self.without_scales(rows);
             let parts = |values: &[c64]| values.iter().flat_map(|v| [v.re, v.im]).collect::<Vec<f64>>();
             let count = constants.count;
@@ -83,7 +88,17 @@ impl Task<'_, '_> {
         };
         let search =
             Search { starts: FOLLOWED_POINTS, patience: EVALUATIONS_PER_START_AND_NUMBER, same: 0.0 };
-        let Some(minima) = minimise(&begin, &evaluate, &search) else { return vec![middle.clone()] };
+        let lines: Vec<usize> = (0..which.len()).collect();
+        let few: Vec<usize> = thinned(&lines, RANKING_FREQUENCIES).copied().collect();
+        let sum = |theta: &Vec<f64>| Some(evaluate(theta, &few)?.0.iter().map(|r| r * r).sum::<f64>());
+        let mut ranked: Vec<(f64, Vec<f64>)> =
+            begin.iter().filter_map(|theta| Some((sum(theta)?, theta.clone()))).collect();
+        ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let compared: Vec<Vec<f64>> =
+            ranked.into_iter().take(COMPARED_POINTS).map(|(_, theta)| theta).collect();
+        let Some(minima) = minimise(&compared, &|theta| evaluate(theta, &lines), &search) else {
+            return vec![middle.clone()];
+        };
         let ends = std::iter::once(&minima.best).chain(&minima.others).take(MAX_KEPT_ENDS);
         let values = |theta: &[f64]| {
             let own = constants.each.iter().map(|own| Some(own.value(theta, self.omegas[all.len() / 2])?.0));
