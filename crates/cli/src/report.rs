@@ -8,7 +8,7 @@ use frfit::model::FactorPart;
 use frfit_workflow::check::findings_text;
 use frfit_workflow::job::IdentifyJob;
 use frfit_workflow::load::IdentifyCase;
-use frfit_workflow::output::{Words, laws_text, not_identifiable};
+use frfit_workflow::output::{Words, contradicted, laws_text, not_identifiable};
 use serde_json::Value;
 use std::path::Path;
 
@@ -244,7 +244,15 @@ fn fit(text: &mut Text, job: &IdentifyJob) {
                 NoiseSource::Given => format!("χ² is {per_freedom:.1} times that of noise"),
                 _ => "the residual is not noise".to_owned(),
             };
-            text.warn("not explained", &format!("{who} ({by})"));
+            let errors = found.model_errors.iter();
+            let assumptions: Vec<_> = errors.flat_map(|errors| &errors.contradicted_assumptions).collect();
+            match assumptions.is_empty() {
+                true => text.warn("not explained", &format!("{who} ({by})")),
+                false => {
+                    text.warn("not explained", "only by errors beyond what the case takes for known");
+                }
+            }
+            assumptions.iter().for_each(|one| text.warn("contradicted", &contradicted(&job.case, one)));
         }
         Explained::Nearly => {
             let rest = found.model_errors.as_ref().map_or(0.0, |errors| errors.response_std);
@@ -372,13 +380,22 @@ fn model_errors(job: &IdentifyJob, errors: &ModelErrorsFound) -> String {
     let masses = masses.map(|(sensor, one)| {
         format!("; {} carries {:.1e} ± {:.1e} kg that the model lacks", sensor.label, one.mass, one.std)
     });
+    let channels = std::iter::once("the force").chain(job.case.sensors.iter().map(|sensor| &*sensor.label));
+    let calibrations = channels.zip(&errors.calibrations).filter(|(_, one)| one.error.abs() > 2.0 * one.std);
+    let calibrations = calibrations.map(|(channel, one)| {
+        format!(
+            "; the calibration of {channel} is off by {:+.1} ± {:.1} %",
+            100.0 * one.error,
+            100.0 * one.std
+        )
+    });
     let mesh = errors.mesh.map(|mesh| {
         format!(
             "; {} modes are paired with the coarser mesh, and this one has {:.2} ± {:.2} of the difference between the meshes",
             mesh.paired, mesh.remainder, mesh.std
         )
     });
-    let known = mesh.into_iter().chain(known).chain(masses).collect::<String>();
+    let known = mesh.into_iter().chain(known).chain(masses).chain(calibrations).collect::<String>();
     format!("{sizes} taken out, and in the error bars{}{known}", worst.unwrap_or_default())
 }
 

@@ -7,8 +7,8 @@ use frfit::c64;
 use frfit::for_each::sequential;
 use frfit::frequency::linear_hz;
 use frfit::identify::{
-    Calibration, ChannelUnknowns, CoarserMesh, Context, ErrorSizes, Explained, Frfs, Identification,
-    ModelErrors, Noise, Number, Options, Problem, Status, Unknown, Variation, identify,
+    Assumption, Calibration, ChannelUnknowns, CoarserMesh, Context, ErrorSizes, Explained, Frfs,
+    Identification, ModelErrors, Noise, Number, Options, Problem, Status, Unknown, Variation, identify,
 };
 use frfit::laws::LawKind;
 use frfit::linalg::modes::lowest;
@@ -250,19 +250,7 @@ fn constants_of_a_wrong_model_are_within_their_bars() {
     for (what, elements, mass, scale) in
         daily.into_iter().chain(of_tier(None, Some(("mesh", [8, 40], 1.0, 1.0))))
     {
-        let (right, experiment) = sprung(elements[1], truth, &[0.8, 0.4, 0.2]);
-        let none = Parameter::factor_of(&right, &["mass"]).unwrap();
-        let mut dice = Dice::new(5);
-        let (mut u, mut std) = (Vec::new(), Vec::new());
-        for &f in &frequency_hz {
-            let at = right.at(f, std::slice::from_ref(&none)).unwrap();
-            let x = FullModel::new(at, &experiment).unwrap().solve_at(&[c64::default()]).unwrap();
-            let scales = [1.0 / scale, 1.0, 1.0];
-            let shown: Vec<c64> = x.iter().zip(scales).map(|(x, scale)| x * scale).collect();
-            std.push(shown.iter().map(|x| 0.01 * x.norm()).collect::<Vec<f64>>());
-            let noisy = |x: &c64| x + dice.complex() * (0.01 * x.norm() / 2f64.sqrt());
-            u.push(shown.iter().map(noisy).collect::<Vec<_>>());
-        }
+        let (u, std) = sprung_measured((elements[1], truth), [1.0 / scale, 1.0, 1.0], &frequency_hz);
         let (model, experiment) =
             sprung(elements[0], [1.15 * truth[0], 1.5 * truth[1], mass * truth[2]], &[0.8, 0.4, 0.2]);
         let unknown = |name: &str| Unknown {
@@ -332,6 +320,72 @@ fn sprung(elements: usize, factors: [c64; 3], sensors: &[f64]) -> (DynamicStiffn
     let sensor = |x: f64| Sensor { row: row(x), sign: 1.0 };
     let dim = model.dim();
     (model, Experiment::driven_at(dim, sensor(0.0), sensors.iter().map(|&x| sensor(x)).collect()))
+}
+
+/// Responses of a beam on springs with noise of 1 %, each sensor's multiplied by a factor, and the standard deviations of the noise.
+fn sprung_measured(
+    (elements, truth): (usize, [c64; 3]),
+    gains: [f64; 3],
+    frequency_hz: &[f64],
+) -> (Vec<Vec<c64>>, Vec<Vec<f64>>) {
+    let (model, experiment) = sprung(elements, truth, &[0.8, 0.4, 0.2]);
+    let none = Parameter::factor_of(&model, &["mass"]).unwrap();
+    let mut dice = Dice::new(5);
+    let mut at_line = |&f: &f64| {
+        let at = model.at(f, std::slice::from_ref(&none)).unwrap();
+        let x = FullModel::new(at, &experiment).unwrap().solve_at(&[c64::default()]).unwrap();
+        let shown: Vec<c64> = x.iter().zip(gains).map(|(x, gain)| x * gain).collect();
+        let std: Vec<f64> = shown.iter().map(|x| 0.01 * x.norm()).collect();
+        let noisy = |x: &c64| x + dice.complex() * (0.01 * x.norm() / 2f64.sqrt());
+        (shown.iter().map(noisy).collect(), std)
+    };
+    frequency_hz.iter().map(&mut at_line).unzip()
+}
+
+/// A sensor with a wrong sensitivity is found as that, and the constants are right. A mass that is 12 % too small and known to 0.5 % cannot be told from a calibration that is
+/// off: the constants are 12 % wrong, none is ok, and what contradicts what is named.
+#[test]
+fn calibrations_are_found_and_contradictions_are_named() {
+    let frequency_hz = linear_hz(5.0, 560.0, of_tier(100, 200));
+    let truth = [c64::new(7e10, 7e8), c64::new(2e3, 0.0), c64::new(2700.0, 0.0)];
+    let identified = |gains: [f64; 3], mass: f64| {
+        let (u, std) = sprung_measured((8, truth), gains, &frequency_hz);
+        let (model, experiment) =
+            sprung(8, [1.15 * truth[0], 1.5 * truth[1], mass * truth[2]], &[0.8, 0.4, 0.2]);
+        let of_mass = model.find("mass").unwrap();
+        let model = model.with_factor_std(of_mass, FactorStd { storage: Some(0.005), loss_factor: None });
+        let unknown = |name: &str| Unknown {
+            varies: Variation::Constant,
+            real: name == "springs",
+            ..Unknown::factor_of(&model, &[name]).unwrap()
+        };
+        let unknowns = [unknown("beam"), unknown("springs")];
+        let frfs = Frfs { frequency_hz: &frequency_hz, receptance: &u, noise: Noise::Known(&std) };
+        let problem = Problem::new(&model, &experiment, &unknowns, &[], frfs).unwrap();
+        let context = Context { for_each: &sequential, progress: &|_, _, _| {} };
+        identify(&problem, &Options::default(), context).unwrap()
+    };
+    let found = identified([1.06, 1.0, 1.0], 1.0);
+    let errors = found.model_errors.as_ref().unwrap();
+    let [of_force, first, second, third] = errors.calibrations[..] else { panic!("{errors:?}") };
+    assert!(errors.contradicted_assumptions.is_empty(), "{errors:?}");
+    // What all sensors have in common may be the force's.
+    let apart = first.error - 0.5 * (second.error + third.error);
+    assert!((apart - 0.06).abs() < 0.006, "{errors:?}");
+    assert!(of_force.error.abs() < 2.0 * of_force.std, "{errors:?}");
+    for (value, truth) in found.constants.iter().zip([7e10, 2e3]) {
+        let Number { value: number, std, .. } = value.numbers[0];
+        assert!(value.status == Status::Ok && (number - truth).abs() < 2.5 * std.unwrap(), "{value:?}");
+    }
+    let found = identified([1.0; 3], 0.88);
+    assert!(found.constants.iter().all(|value| value.status == Status::Unexplained), "{:?}", found.constants);
+    assert!(found.lines.iter().all(|line| line.status != Status::Ok));
+    assert_eq!(found.fit.unwrap().verdict, Explained::No);
+    let contradicted = &found.model_errors.as_ref().unwrap().contradicted_assumptions;
+    assert_eq!(contradicted[0].what, Assumption::Calibration, "{contradicted:?}");
+    // Responses are those of the heavier structure.
+    assert!((contradicted[0].error + 0.12).abs() < 0.03, "{contradicted:?}");
+    assert!(contradicted[0].deviations() > 4.0, "{contradicted:?}");
 }
 
 /// Natural frequencies of a model without its losses, rad/s, below a limit in Hz.

@@ -127,7 +127,10 @@ fn known_errors(py: Python<'_>, known: Option<KnownErrors>) -> PyResult<ModelErr
         Some(KnownErrors::Frequency(size)) => ErrorSizes::default().with_frequency(Some(size)),
         Some(KnownErrors::Sizes(sizes)) => {
             let of = |name: &str| sizes.get(name).copied();
-            ErrorSizes::default().with_frequency(of("frequency")).with_shape(of("shape"))
+            ErrorSizes::default()
+                .with_frequency(of("frequency"))
+                .with_shape(of("shape"))
+                .with_calibration(of("calibration"))
         }
     };
     Ok(ModelErrors::Given(sizes))

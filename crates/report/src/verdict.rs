@@ -285,6 +285,10 @@ fn cautions(results: &Results) -> Vec<String> {
         }
     }
     cautions.extend(doubt_of_fit(results));
+    for one in summary.array("/model_errors/contradicted_assumptions") {
+        let text = one.get("text").and_then(serde_json::Value::as_str).unwrap_or("");
+        cautions.push(format!("The measurements contradict what the case takes for known: {text}."));
+    }
     if summary.word("/identify/selection") == "smallest" {
         cautions.push("Of several solutions the one with the smallest correction was taken (selection = \"smallest\", the rule of the paper). It can be the wrong one, has no error bars, and selection = \"joint\" weighs all solutions over the band.".into());
     }

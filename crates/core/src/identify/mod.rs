@@ -49,7 +49,10 @@ pub use context::{Context, Stage};
 pub(crate) use dead_channel::dead_channels;
 pub use goodness_of_fit::{Explained, GoodnessOfFit, SensorFit};
 pub use identification::{Identifiability, Identification, SearchReport};
-pub use model_errors::{FactorError, Leverage, MeshError, ModeError, ModelErrorsFound, SensorMass};
+pub use model_errors::{
+    Assumption, CalibrationError, ContradictedAssumption, FactorError, Leverage, MeshError, ModeError,
+    ModelErrorsFound, SensorMass,
+};
 pub(crate) use noise::standard_deviations;
 pub use noise::{Noise, NoiseLevel, NoiseSource};
 pub use one::{error_by_order, identify_at};

@@ -91,9 +91,15 @@ pub struct ErrorSizes {
     pub frequency: Option<f64>,
     /// Of mode shapes at the sensors.
     pub shape: Option<f64>,
+    /// Of the calibrations of force and sensors.
+    pub calibration: Option<f64>,
 }
 
-with_fields!(ErrorSizes { with_frequency: frequency as Option<f64>, with_shape: shape as Option<f64> });
+with_fields!(ErrorSizes {
+    with_frequency: frequency as Option<f64>,
+    with_shape: shape as Option<f64>,
+    with_calibration: calibration as Option<f64>,
+});
 
 /// The largest error that a model may have and be a model of the structure.
 const MAX_ERROR_SIZE: f64 = 0.5;
@@ -101,11 +107,12 @@ const MAX_ERROR_SIZE: f64 = 0.5;
 impl ErrorSizes {
     /// Whether one is given.
     pub fn any(self) -> bool {
-        self.frequency.or(self.shape).is_some()
+        self.frequency.or(self.shape).or(self.calibration).is_some()
     }
 
     fn validate(self) -> Result<(), OptionsError> {
-        for (name, size) in [("frequency", self.frequency), ("shape", self.shape)] {
+        let all = [("frequency", self.frequency), ("shape", self.shape), ("calibration", self.calibration)];
+        for (name, size) in all {
             if let Some(size) = size.filter(|size| !(*size > 0.0 && *size <= MAX_ERROR_SIZE)) {
                 return Err(OptionsError::ErrorSize(name, size));
             }
@@ -225,7 +232,7 @@ mod tests {
     fn invalid_options_name_themselves() {
         let order = Options { order: 0, ..Options::default() };
         assert_eq!(order.validate().unwrap_err().to_string(), "order: expected 1 to 200, found 0");
-        let sizes = ErrorSizes { frequency: Some(0.0), shape: None };
+        let sizes = ErrorSizes::default().with_frequency(Some(0.0));
         let model_errors = ModelErrors::Given(sizes);
         assert_eq!(
             Options { model_errors, ..Options::default() }.validate().unwrap_err().to_string(),

@@ -8,7 +8,7 @@
 //! its loss factor η_i by the relative ε_i with its frequency kept; $S_g \leftarrow e^{2e} S_g$ multiplies all natural frequencies by exp(e); a rigid body has no stiffness that could be in error,
 //! and $2 \delta_i \omega_1^2$ with the lowest other natural frequency ω_1 is that of a support or a suspension that the model does not have;
 //! $$ \ell_m \leftarrow \ell_m + \sum_i a_{mi} \\, (\ell_m^T y_i) \\, M y_i $$
-//! changes mode i at sensor m by the relative a_mi, the same with F where the force acts;
+//! changes mode i at sensor m by the relative a_mi, the same with F where the force acts; (1 + g_m) and (1 + g_0) multiply all of ℓ_m and of F where a calibration is off;
 //! $$ M \leftarrow M + \sum_m \kappa_m M_m \, \ell_m \ell_m^T, \qquad M_m^{-1} = \overline{(\ell_m^T y_i)^2} $$
 //! is a mass at sensor m that the model does not have, as that of an accelerometer, over the apparent mass M_m of the modes there;
 //! $$ f_t \leftarrow (1 + \nu_t)(f_t + i \\, \Delta\eta_t \operatorname{Re} f_t) $$
@@ -65,12 +65,26 @@ pub(crate) struct ModalErrors {
     pub stiffness: Vec<f64>,
     /// κ_m of the mass at sensor m.
     pub masses: Vec<f64>,
+    /// g of the calibrations, of the force and then of each sensor: what it shows is 1 + g times the response. Empty without modes.
+    pub gains: Vec<f64>,
     /// a_0i of mode i where the force acts.
     pub load: Vec<f64>,
     /// a_mi of mode i at sensor m.
     pub shape: Vec<Vec<f64>>,
     /// Of known factors.
     pub factors: Vec<FactorError>,
+}
+
+impl ModalErrors {
+    /// What a right calibration of the force has to be multiplied by.
+    fn gain_of_force(&self) -> f64 {
+        1.0 + self.gains.first().unwrap_or(&0.0)
+    }
+
+    /// The same of sensor m.
+    fn gain_of(&self, m: usize) -> f64 {
+        1.0 + self.gains.get(m + 1).unwrap_or(&0.0)
+    }
 }
 
 /// Response and slopes of a model with errors at one frequency.
@@ -85,6 +99,8 @@ pub(crate) struct ErrorSlopes {
     pub(crate) stiffness: Vec<Vec<c64>>,
     /// ∂x_m/∂κ_n, `[m][n]`.
     pub(crate) masses: Vec<Vec<c64>>,
+    /// ∂x_m/∂g_n, `[m][n]`.
+    pub(crate) gains: Vec<Vec<c64>>,
     /// ∂x_m/∂a_0i, `[m][i]`.
     pub(crate) load: Vec<Vec<c64>>,
     /// ∂x_m/∂a_mi, `[m][i]`.
@@ -100,9 +116,14 @@ impl ErrorSlopes {
             self.response[m] *= share;
             self.scale[m] *= share;
             self.slopes.iter_mut().for_each(|of_parameter| of_parameter[m] *= share);
-            for of_sensors in
-                [&mut self.stiffness, &mut self.masses, &mut self.load, &mut self.shape, &mut self.factors]
-            {
+            for of_sensors in [
+                &mut self.stiffness,
+                &mut self.masses,
+                &mut self.gains,
+                &mut self.load,
+                &mut self.shape,
+                &mut self.factors,
+            ] {
                 of_sensors[m].iter_mut().for_each(|slope| *slope *= share);
             }
         }
@@ -311,6 +332,10 @@ impl Projection {
                 sensor.iter_mut().zip(momentum).for_each(|(entry, momentum)| *entry += by * momentum);
             }
         }
+        corrected.load.iter_mut().for_each(|entry| *entry *= errors.gain_of_force());
+        for (m, sensor) in corrected.sensors.iter_mut().enumerate() {
+            sensor.iter_mut().for_each(|entry| *entry *= errors.gain_of(m));
+        }
         corrected.images = corrected.matrices.clone();
         let real = |l: &Vec<f64>| l.iter().map(|&l| c64::new(l, 0.0)).collect();
         corrected.sketched =
@@ -359,7 +384,19 @@ impl Projection {
         };
         let inertias: Vec<c64> = at_sensor(y).into_iter().zip(&modes.apparent_mass).map(inertia).collect();
         let masses = |z: &Vec<c64>| at_sensor(z).iter().zip(&inertias).map(|(z, force)| -z * force).collect();
-        let shape = |own: &Vec<f64>| own.iter().zip(&of_load).map(|(l, y)| *l * y).collect();
+        let shape = |(m, own): (usize, &Vec<f64>)| {
+            own.iter().zip(&of_load).map(|(l, y)| errors.gain_of(m) * l * y).collect()
+        };
+        let response = solutions.response(self);
+        let gains = |m: usize| -> Vec<c64> {
+            let of_each = |(n, gain): (usize, &f64)| match n {
+                0 => response[m] / (1.0 + gain),
+                n if n == m + 1 => response[m] / (1.0 + gain),
+                _ => c64::default(),
+            };
+            errors.gains.iter().enumerate().map(of_each).collect()
+        };
+        let of_force = errors.gain_of_force();
         let theta = |by: &FactorError| -> Vec<c64> {
             solutions.theta.iter().enumerate().map(|(g, &theta)| self.parts.slope(g, theta, by)).collect()
         };
@@ -373,13 +410,17 @@ impl Projection {
         let scale = slopes.pop().unwrap_or_default();
         let factors = |m: usize| of_factors.iter().map(|of_factor| of_factor[m]).collect();
         Ok(ErrorSlopes {
-            response: solutions.response(self),
             scale,
             slopes,
             stiffness: by_sensor.iter().map(of_stiffness).collect(),
             masses: duals.iter().map(masses).collect(),
-            load: by_sensor.iter().map(|z| z.iter().zip(&modes.load).map(|(z, f)| z * f).collect()).collect(),
-            shape: modes.sensors.iter().map(shape).collect(),
+            gains: (0..duals.len()).map(gains).collect(),
+            load: by_sensor
+                .iter()
+                .map(|z| z.iter().zip(&modes.load).map(|(z, f)| of_force * z * f).collect())
+                .collect(),
+            shape: modes.sensors.iter().enumerate().map(shape).collect(),
+            response,
             factors: (0..duals.len()).map(factors).collect(),
         })
     }
@@ -430,7 +471,8 @@ impl Projection {
         self.solve(&theta, &mut block)?;
         let (y, w) = block.split_at(self.size);
         let [p, s] = [y, w].map(|x| transpose_dot(&momentum, x));
-        let own: Vec<f64> = modes.sensors.iter().map(|sensor| sensor[mode]).collect();
+        let of_sensors = modes.sensors.iter().enumerate();
+        let own: Vec<f64> = of_sensors.map(|(m, sensor)| errors.gain_of(m) * sensor[mode]).collect();
         let shown = self.observe(y).into_iter().zip(self.observe(w));
         // The errors' ℓ_m has (1 + a) of the mode.
         let share = |m: usize| (1.0 + errors.shape[m][mode]) * own[m];
@@ -647,6 +689,7 @@ mod tests {
             scale: 0.0,
             stiffness: vec![0.0; modes.of_error.len()],
             masses: vec![kilograms / modes.apparent_mass[0], 0.0],
+            gains: vec![0.0; 3],
             load: vec![0.0; 6],
             shape: vec![vec![0.0; 6]; 2],
             factors: Vec::new(),
@@ -688,6 +731,7 @@ mod tests {
             scale: 0.0,
             stiffness: vec![0.0; modes.of_error.len()],
             masses: vec![0.0; 2],
+            gains: vec![0.0; 3],
             load: vec![0.0; 6],
             shape: vec![vec![0.0; 6]; 2],
             factors: vec![
@@ -722,6 +766,7 @@ mod tests {
         errors.shape[1][2] = 0.05;
         errors.masses[0] = 0.01;
         errors.load[3] = -0.04;
+        errors.gains.copy_from_slice(&[0.02, -0.03, 0.05]);
         errors.factors[1].error = 0.03;
         errors.factors[2].error = -0.02;
         let correction = c64::new(1e3, -2e2);
@@ -761,6 +806,11 @@ mod tests {
             let mut moved = errors.clone();
             moved.masses[n] += step;
             check(&moved, &|slopes, m| slopes.masses[m][n]);
+        }
+        for n in 0..3 {
+            let mut moved = errors.clone();
+            moved.gains[n] += step;
+            check(&moved, &|slopes, m| slopes.gains[m][n]);
         }
         for i in 0..6 {
             let mut moved = errors.clone();

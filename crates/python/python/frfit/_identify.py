@@ -117,13 +117,13 @@ def _optional_word(value: Any, name: str) -> str | None:
 
 
 def _model_error(value: Any) -> str | float | dict[str, float] | None:
-    expected = '"estimated", "none", a number, or a dictionary of frequency and shape'
+    expected = '"estimated", "none", a number, or a dictionary of frequency, shape and calibration'
     if value is None:
         return None
     if isinstance(value, str) and value in ("estimated", "none"):
         return value
     if isinstance(value, Mapping):
-        if not value or set(value) - {"frequency", "shape"}:
+        if not value or set(value) - {"frequency", "shape", "calibration"}:
             raise refuse("model_error", expected, shown(dict(value)))
         return {key: number(size, f"model_error.{key}") for key, size in value.items()}
     return number(value, "model_error", expected)
@@ -324,7 +324,8 @@ def identify(
         ``"law"``, which is what ``law`` alone means too: by a law, the best of ``law`` or without it of all.
     model_error
         ``"estimated"``: errors of the model are taken out where the band shows them; ``"none"``: there are none; a number,
-        or ``{"frequency": 0.005, "shape": 0.02}``: natural frequencies (mode shapes) are good to that, in every error bar.
+        or ``{"frequency": 0.005, "shape": 0.02, "calibration": 0.01}``: natural frequencies (mode shapes, calibrations of force
+        and sensors) are good to that, in every error bar.
     coarser_mesh
         The same structure on a coarser mesh, by which the error of this one is measured.
     max_lines

@@ -153,6 +153,12 @@ fn others(found: &Value) -> String {
             of("std_kg", 2.0)
         );
     }
+    let clear =
+        |one: &&Value| number(one, "error").zip(number(one, "std")).is_some_and(|(e, s)| e.abs() > 2.0 * s);
+    for one in list(found, "calibrations").iter().filter(clear) {
+        let _ =
+            writeln!(html, "<p>The calibration of {} is off by {}.</p>", text(one, "channel"), with_std(one));
+    }
     html
 }
 

@@ -517,10 +517,17 @@ pub(super) static MODEL_ERROR: Section = Section {
             "Of natural frequencies, as of a mesh: at the upper end of the band.",
         ),
         key("shape", "number, or a text as \"3 %\"", "estimated", "Of mode shapes at the sensors."),
+        key(
+            "calibration",
+            "number, or a text as \"1 %\"",
+            "estimated",
+            "Of the calibrations of the force and of each sensor.",
+        ),
     ],
     examples: &["[model_error]
 frequency = 0.005
 shape = \"2 %\"
+calibration = \"1 %\"
 "],
 };
 

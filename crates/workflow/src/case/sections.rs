@@ -449,11 +449,15 @@ pub(super) fn model_error(field: &Field<'_>) -> Result<ModelErrors, InputError> 
         let expected = format!("a number above 0 up to 0.5, or a text as {example:?}");
         table.find(key).map(|field| size(&field, &expected)).transpose()
     };
-    let sizes =
-        ErrorSizes::default().with_frequency(of("frequency", "0.5 %")?).with_shape(of("shape", "3 %")?);
+    let sizes = ErrorSizes::default()
+        .with_frequency(of("frequency", "0.5 %")?)
+        .with_shape(of("shape", "3 %")?)
+        .with_calibration(of("calibration", "1 %")?);
     match sizes.any() {
         true => Ok(ModelErrors::Given(sizes)),
-        false => Err(InputError::at(&field.place, "one of the keys frequency and shape", "none")),
+        false => {
+            Err(InputError::at(&field.place, "one of the keys frequency, shape and calibration", "none"))
+        }
     }
 }
 

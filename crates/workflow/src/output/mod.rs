@@ -1,5 +1,6 @@
 //! What a run leaves behind: tables, summary and figures, written whole or not at all.
 
+mod assumptions;
 mod candidates;
 mod columns;
 mod error_map;
@@ -18,6 +19,7 @@ mod target;
 mod words;
 
 pub use crate::case::snippet;
+pub use assumptions::contradicted;
 pub use candidates::candidates_csv;
 pub(crate) use candidates::{Solution, solutions};
 pub use error_map::error_map_csv;

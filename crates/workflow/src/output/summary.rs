@@ -1,14 +1,15 @@
 //! `summary.json`: what went in, what was done, what came out, in a form that programs read.
 
+use super::assumptions::contradicted;
 use super::identifiability::{coordinate, not_identifiable};
 use super::{laws_json, smooth_json};
 use crate::load::{Case, IdentifyCase, InputFile, MeasuredNoise, SensorInfo};
 use crate::run::IdentifyRun;
 use frfit::c64;
 use frfit::identify::{
-    CausalityBreach, Dependence, Direction, FactorError, GoodnessOfFit, Identifiability, Identification,
-    Leverage, Line, MeshError, ModeError, ModelErrors, ModelErrorsFound, NoiseLevel, Number, SensorMass,
-    Status, Unknown, Variation,
+    Assumption, CalibrationError, CausalityBreach, ContradictedAssumption, Dependence, Direction,
+    FactorError, GoodnessOfFit, Identifiability, Identification, Leverage, Line, MeshError, ModeError,
+    ModelErrors, ModelErrorsFound, NoiseLevel, Number, SensorMass, Status, Unknown, Variation,
 };
 use frfit::material::loss_factor;
 use frfit::model::{FactorPart, Term};
@@ -228,7 +229,9 @@ fn model_error_json(known: ModelErrors) -> Value {
     match known {
         ModelErrors::Estimated => json!("estimated"),
         ModelErrors::None => json!("none"),
-        ModelErrors::Given(sizes) => json!({"frequency": sizes.frequency, "shape": sizes.shape}),
+        ModelErrors::Given(sizes) => {
+            json!({"frequency": sizes.frequency, "shape": sizes.shape, "calibration": sizes.calibration})
+        }
     }
 }
 
@@ -244,6 +247,30 @@ fn leverage_json(case: &Case, found: &Identification) -> Vec<Value> {
         json!({"matrix": case.model.terms()[one.term].name, "unknown": unknown, "percent_by_percent": one.change})
     };
     found.leverage.iter().map(one).collect()
+}
+
+/// What is taken for known and contradicted.
+fn assumptions_json(case: &Case, all: &[ContradictedAssumption]) -> Vec<Value> {
+    let one = |one: &ContradictedAssumption| {
+        let mut json = match one.what {
+            Assumption::Calibration => json!({"assumption": "calibration"}),
+            Assumption::Factor { term, part } => {
+                json!({"assumption": "factor", "matrix": case.model.terms()[term].name, "part": part_name(part)})
+            }
+        };
+        json["error"] = one.error.into();
+        json["std"] = one.std.into();
+        json["text"] = contradicted(case, one).into();
+        json
+    };
+    all.iter().map(one).collect()
+}
+
+fn part_name(part: FactorPart) -> &'static str {
+    match part {
+        FactorPart::Storage => "storage",
+        FactorPart::LossFactor => "loss_factor",
+    }
 }
 
 /// Where a modulus is that of no causal material.
@@ -262,12 +289,11 @@ fn model_errors_json(case: &Case, errors: &ModelErrorsFound) -> Value {
         json
     };
     let mesh = |mesh: MeshError| json!({"paired": mesh.paired, "expected": mesh.expected, "remainder": mesh.remainder, "std": mesh.std});
-    let part = |part: FactorPart| match part {
-        FactorPart::Storage => "storage",
-        FactorPart::LossFactor => "loss_factor",
-    };
     let mass = |(sensor, one): (&SensorInfo, &SensorMass)| json!({"sensor": sensor.label, "mass_kg": one.mass, "std_kg": one.std});
-    let matrix = |factor: &FactorError| json!({"matrix": case.model.terms()[factor.term].name, "part": part(factor.part), "error": factor.error, "std": factor.std});
+    let matrix = |factor: &FactorError| json!({"matrix": case.model.terms()[factor.term].name, "part": part_name(factor.part), "error": factor.error, "std": factor.std});
+    let sensors = case.sensors.iter().map(|sensor| sensor.label.as_str());
+    let channels = std::iter::once("force").chain(sensors);
+    let calibration = |(channel, one): (&str, &CalibrationError)| json!({"channel": channel, "error": one.error, "std": one.std});
     json!({
         "frequency_std": errors.frequency_std,
         "loss_factor_std": errors.loss_factor_std,
@@ -278,6 +304,8 @@ fn model_errors_json(case: &Case, errors: &ModelErrorsFound) -> Value {
         "mesh": errors.mesh.map(mesh),
         "modes": errors.modes.iter().map(mode).collect::<Vec<_>>(),
         "matrices": errors.factors.iter().map(matrix).collect::<Vec<_>>(),
+        "contradicted_assumptions": assumptions_json(case, &errors.contradicted_assumptions),
+        "calibrations": channels.zip(&errors.calibrations).map(calibration).collect::<Vec<_>>(),
         "sensor_masses": case.sensors.iter().zip(&errors.masses).map(mass).collect::<Vec<_>>(),
     })
 }

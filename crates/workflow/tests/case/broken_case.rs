@@ -265,7 +265,7 @@ fn what_is_known_of_the_model() {
         (
             "[identify]",
             "[model_error]\n[identify]",
-            "case.toml:28:1: model_error: expected one of the keys frequency and shape, found none",
+            "case.toml:28:1: model_error: expected one of the keys frequency, shape and calibration, found none",
         ),
     ] {
         refused("case.toml", &edited("case.toml", from, to), message);

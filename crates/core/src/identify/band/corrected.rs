@@ -80,6 +80,7 @@ pub(super) fn on_corrected<'a>(
     }
     let sigma = without(&standard_deviations(band.measured, band.noise), &left_out);
     errors.bars_over_noise = widen(&mut outcome, &errors, at, reduced, &sigma, context);
+    outcome.other_model = !errors.contradicted_assumptions.is_empty();
     outcome.model_errors = Some(errors);
     outcome
 }
@@ -197,7 +198,8 @@ fn widen(
         let first_error = channels.count() + usize::from(errors.of_scale().is_some());
         let first_factor = first_error + modes.of_error.len();
         let first_mass = first_factor + values.factors.len();
-        let first_load = first_mass + values.masses.len();
+        let first_gain = first_mass + values.masses.len();
+        let first_load = first_gain + values.gains.len();
         let first_shape = first_load + n;
         let count = first_shape + sigma[i].len() * n;
         let mut pulls = vec![c64::default(); count];
@@ -214,6 +216,7 @@ fn widen(
                 (first_error, &slopes.stiffness[m]),
                 (first_factor, &slopes.factors[m]),
                 (first_mass, &slopes.masses[m]),
+                (first_gain, &slopes.gains[m]),
                 (first_load, &slopes.load[m]),
                 (first_shape + m * n, &slopes.shape[m]),
             ];

@@ -1,6 +1,7 @@
 //! The errors of a model as a search has them, with their covariance.
 
 use super::curve::Curves;
+use super::found::ContradictedAssumption;
 use super::mesh::{BetweenMeshes, MeshError};
 use super::search::{FactorPrior, Kinds, Place};
 use crate::c64;
@@ -14,7 +15,7 @@ use crate::subspace::{ModalErrors, Modes};
 pub(in crate::identify) struct Estimated {
     pub(in crate::identify) modes: Modes,
     pub(in crate::identify) errors: ModalErrors,
-    /// Of θ, e, δ and ε (own and common together), ν and Δη, κ, then a of the load and of each sensor: n × n.
+    /// Of θ, e, δ and ε (own and common together), ν and Δη, κ, g, then a of the load and of each sensor: n × n.
     pub(in crate::identify) covariance: Vec<f64>,
     pub(in crate::identify) sizes: [f64; 3],
     /// χ² at σ times `level`, and how many numbers it has.
@@ -32,6 +33,8 @@ pub(in crate::identify) struct Estimated {
     pub(super) factors: Vec<FactorPrior>,
     pub(super) mesh: Option<BetweenMeshes>,
     pub(super) mesh_error: Option<MeshError>,
+    /// What is taken for known of calibrations and factors, and that the data contradict.
+    pub(in crate::identify) contradicted_assumptions: Vec<ContradictedAssumption>,
     /// Error bars over those of noise alone, once they are known.
     pub(in crate::identify) bars_over_noise: Option<f64>,
     /// θ, then the errors as the search has them.
@@ -131,9 +134,10 @@ impl Estimated {
 
     /// Coordinates: θ, and the errors.
     pub(in crate::identify) fn count(&self) -> usize {
-        let ModalErrors { stiffness, masses, load, shape, factors, .. } = &self.errors;
+        let ModalErrors { stiffness, masses, gains, load, shape, factors, .. } = &self.errors;
         let of_shapes: usize = shape.iter().map(Vec::len).sum();
-        self.first_of_modes() + stiffness.len() + factors.len() + masses.len() + load.len() + of_shapes
+        let of_sensors = masses.len() + gains.len();
+        self.first_of_modes() + stiffness.len() + factors.len() + of_sensors + load.len() + of_shapes
     }
 }
 

@@ -24,8 +24,12 @@ pub struct ModelErrorsFound {
     pub factors: Vec<FactorError>,
     /// Masses at the sensors that the model does not have, one for each; empty where only factors are in error.
     pub masses: Vec<SensorMass>,
+    /// Of the calibrations: of the force, then of each sensor; empty where only factors are in error.
+    pub calibrations: Vec<CalibrationError>,
     /// The error of the mesh, estimated with a coarser one; `None` without one, or where fewer than half of the modes of the band are paired.
     pub mesh: Option<MeshError>,
+    /// What is taken for known of calibrations and factors, and that the data contradict: no value is `ok` then.
+    pub contradicted_assumptions: Vec<ContradictedAssumption>,
     /// Error bars of the real part over those of noise alone, the median of the lines that are `ok`: of a single unknown that each frequency has a value of its own of.
     pub bars_over_noise: Option<f64>,
     /// By how many nats these errors explain the band better than a right model does.
@@ -52,6 +56,47 @@ pub struct SensorMass {
     pub mass: f64,
     /// The standard deviation of that.
     pub std: f64,
+}
+
+/// An error of a calibration: what was measured is 1 + `error` times the response.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CalibrationError {
+    /// Relative.
+    pub error: f64,
+    /// The standard deviation of that.
+    pub std: f64,
+}
+
+/// Something that is taken for known.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Assumption {
+    /// How large the responses are: the calibration of the force with that of all sensors.
+    Calibration,
+    /// A part of a known factor.
+    Factor {
+        /// The term of the model.
+        term: usize,
+        /// Which part.
+        part: FactorPart,
+    },
+}
+
+/// Something that is taken for known, and that the data contradict.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContradictedAssumption {
+    /// What it is.
+    pub what: Assumption,
+    /// By how much it is off as the data have it: relative, of a loss factor absolute.
+    pub error: f64,
+    /// The standard deviation with which it was known.
+    pub std: f64,
+}
+
+impl ContradictedAssumption {
+    /// The error in standard deviations.
+    pub fn deviations(&self) -> f64 {
+        self.error.abs() / self.std
+    }
 }
 
 /// An error of the factor of a known matrix.
@@ -113,6 +158,11 @@ impl Estimated {
             let std = covariance(first_mass + m, first_mass + m).max(0.0).sqrt();
             SensorMass { mass: error * apparent, std: std * apparent }
         };
+        let first_gain = first_mass + self.errors.masses.len();
+        let calibration = |(m, &error): (usize, &f64)| {
+            let std = covariance(first_gain + m, first_gain + m).max(0.0).sqrt();
+            CalibrationError { error, std }
+        };
         let is_listed = |omega: &f64| *omega > 0.0 && *omega <= LISTED_ABOVE_BAND * self.highest_rad_s;
         let [frequency_std, loss_factor_std, shape_std] = self.sizes;
         let errors_of_known =
@@ -131,7 +181,9 @@ impl Estimated {
                 .map(mode)
                 .collect(),
             factors: errors_of_known.map(factor).collect(),
+            calibrations: self.errors.gains.iter().enumerate().map(calibration).collect(),
             mesh: self.mesh_error,
+            contradicted_assumptions: self.contradicted_assumptions.clone(),
             bars_over_noise: self.bars_over_noise,
             masses: self.errors.masses.iter().zip(&self.modes.apparent_mass).enumerate().map(mass).collect(),
             evidence: self.evidence,

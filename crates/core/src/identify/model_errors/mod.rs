@@ -3,9 +3,9 @@
 //! A model's natural frequencies are some tenths of a per cent off, its mode shapes and the factors of its known parts some per cent. A factor that is
 //! fitted to each frequency by itself swallows all of that. A band separates the two: each mode has one real error over its whole resonance,
 //! a material has one smooth complex modulus. With a smooth ln E(ω; θ) (a law, or a spline), relative errors δ_i = e + d_i of natural frequencies, a_mi of mode shapes at
-//! the sensors, ν_t of known factors (and Δη_t of their loss factors),
-//! $$ \sum_{k,m} \frac{|u_m - x_m(\omega_k; \theta, \delta, a, \nu)|^2}{\sigma_m^2} + \frac{e^2 + \sum_i d_i^2}{s^2} + \frac{\sum a_{mi}^2}{s_a^2} + \frac{\sum \nu_t^2}{s_\nu^2} $$
-//! is made least on the reduced model, with the noise approached from above; s and s_a are those of largest evidence. Whether there are errors at all is decided by
+//! the sensors, g_m of calibrations, ν_t of known factors (and Δη_t of their loss factors),
+//! $$ \sum_{k,m} \frac{|u_m - x_m(\omega_k; \theta, \delta, a, \nu)|^2}{\sigma_m^2} + \frac{e^2 + \sum_i d_i^2}{s^2} + \frac{\sum a_{mi}^2}{s_a^2} + \frac{\sum g_m^2}{s_g^2} + \frac{\sum \nu_t^2}{s_\nu^2} $$
+//! is made least on the reduced model, with the noise approached from above; s, s_a and s_g are those of largest evidence. Whether there are errors at all is decided by
 //! the evidence of three explanations: a smooth modulus and a right model, a modulus that scatters from line to line and a right model, a smooth modulus and errors.
 //! It is a right model only where it is better by some nats. Of several unknowns each is a constant, a law or a spline.
 //!
@@ -40,7 +40,10 @@ use crate::model::{FactorPart, ModelAt, Role};
 use crate::subspace::{Modes, Point, Projection};
 pub(super) use curve::{Curve, Curves, Spline};
 pub(super) use estimated::{Estimated, covariance};
-pub use found::{FactorError, Leverage, ModeError, ModelErrorsFound, SensorMass};
+pub use found::{
+    Assumption, CalibrationError, ContradictedAssumption, FactorError, Leverage, ModeError, ModelErrorsFound,
+    SensorMass,
+};
 pub(super) use mesh::Coarser;
 pub use mesh::MeshError;
 pub(super) use search::PointAt;
@@ -121,11 +124,12 @@ const STEPS_AT_LAST_LEVEL: usize = 5;
 const MAX_SIZE_ROUNDS: usize = 8;
 const EVIDENCE_TOL: f64 = 0.2;
 
-/// Before the data: natural frequencies are good to a half per cent, loss factors of modes to one (a stiffness that is not there may have any), shapes and known factors to two, loss factors of known stiffnesses to a tenth of themselves
+/// Before the data: natural frequencies are good to a half per cent, loss factors of modes to one (a stiffness that is not there may have any), calibrations too, shapes and known factors to two, loss factors of known stiffnesses to a tenth of themselves
 /// or what bearings and air have.
 const FREQUENCY_PRIOR_STD: f64 = 0.005;
 const MODAL_LOSS_FACTOR_PRIOR_STD: f64 = 0.01;
 const SHAPE_PRIOR_STD: f64 = 0.02;
+const CALIBRATION_PRIOR_STD: f64 = 0.01;
 const FACTOR_PRIOR_STD: f64 = 0.02;
 const LOSS_FACTOR_PRIOR_STD: f64 = 0.002;
 const LOSS_FACTOR_PRIOR_RATIO: f64 = 0.1;
@@ -158,6 +162,9 @@ const PRIOR_MODES: f64 = 0.05;
 
 /// The same of what all modes have in common.
 const PRIOR_COMMON: f64 = 0.5;
+
+/// The same of calibrations: that of the force, and as a rule few sensors.
+const PRIOR_CALIBRATIONS: f64 = 1.0;
 
 /// No measured response is better than this part of itself: what is smaller is no reason to doubt a model.
 const MIN_NOISE_OVER_RESPONSE: f64 = 5e-4;
@@ -201,7 +208,8 @@ impl Sizes {
         let KnownSizes { given, .. } = known;
         let frequency = given.frequency.map_or(FREQUENCY_PRIOR_STD, |size| OWN_SHARE_OF_GIVEN_SIZE * size);
         let (shape, loss_factor) = (given.shape.unwrap_or(SHAPE_PRIOR_STD), MODAL_LOSS_FACTOR_PRIOR_STD);
-        Self { frequency, loss_factor, shape, bend: [1.0; 2], common: 0.0, common_loss: 0.0 }
+        let calibration = given.calibration.unwrap_or(CALIBRATION_PRIOR_STD);
+        Self { frequency, loss_factor, shape, calibration, bend: [1.0; 2], common: 0.0, common_loss: 0.0 }
             .with_common(known)
     }
 
@@ -754,6 +762,7 @@ impl<'a> Measured<'_, 'a> {
                 common: part * usual.common,
                 common_loss: part * usual.common_loss,
                 shape: part * usual.shape,
+                calibration: part * usual.calibration,
                 bend: right.sizes.bend,
             };
             let precision = whole.precision(&sizes);
@@ -878,6 +887,11 @@ impl<'a> Measured<'_, 'a> {
                     sizes.shape =
                         fresh(fitting.shapes().collect(), sizes.shape, (SHAPE_PRIOR_STD, PRIOR_MODES));
                 }
+                if self.given_sizes.calibration.is_none() {
+                    let gains = fitting.gains().collect();
+                    let prior = (CALIBRATION_PRIOR_STD, PRIOR_CALIBRATIONS);
+                    sizes.calibration = fresh(gains, sizes.calibration, prior);
+                }
                 sizes = sizes.with_common(fitting.known);
                 if self.given_sizes.frequency.is_none() {
                     // No frequency shows a common error, but its trend over the band does.
@@ -965,6 +979,7 @@ impl<'a> Measured<'_, 'a> {
             curves: fitting.curves.clone(),
             factors: fitting.factors.to_vec(),
             mesh: fitting.mesh.cloned(),
+            contradicted_assumptions: fitting.contradicted_assumptions(&found.place, self.given_sizes),
             bars_over_noise: None,
             mesh_error: fitting.of_mesh().map(|(p, mesh)| MeshError {
                 paired: mesh.partner_rad_s.iter().flatten().count(),

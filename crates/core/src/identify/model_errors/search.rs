@@ -1,8 +1,9 @@
 //! The least squares of a curve with the errors of the model: min over θ, δ, ν, a of χ² + their priors.
 
-use super::KnownSizes;
 use super::curve::Curves;
+use super::found::{Assumption, ContradictedAssumption};
 use super::mesh::BetweenMeshes;
+use super::{CALIBRATION_PRIOR_STD, KnownSizes};
 use crate::c64;
 use crate::for_each::{ForEach, map};
 use crate::identify::options::ErrorSizes;
@@ -123,12 +124,14 @@ pub(super) struct Sizes {
     pub(super) common_loss: f64,
     /// Of a_mi.
     pub(super) shape: f64,
+    /// Of g_m.
+    pub(super) calibration: f64,
     /// Of bends of ln|E| and of the phase, over the usual ones.
     pub(super) bend: [f64; 2],
 }
 
-/// Where a search is: θ, the common parts of δ and ε, the amplitude of the mesh's error where there are two meshes, own parts of δ and ε, ν and Δη, κ, then a
-/// of the load and of each sensor.
+/// Where a search is: θ, the common parts of δ and ε, the amplitude of the mesh's error where there are two meshes, own parts of δ and ε, ν and Δη, κ, g of the
+/// force and of each sensor, then a of the load and of each sensor.
 pub(super) type Place = Vec<f64>;
 
 /// The normal equations at a place: χ², ½ ∂χ²/∂p, JᵀJ (n × n).
@@ -157,6 +160,11 @@ const MAX_SHAPE_ERROR: f64 = 0.3;
 
 /// The same over the sizes that were given.
 const MAX_ERROR_OVER_GIVEN_SIZE: f64 = 3.0;
+
+/// What is known of factors and calibrations is contradicted beyond so many of its standard deviations, of all of them together: 6 of 100 000 normal ones. Each beyond
+/// so many is named.
+const MAX_DEVIATIONS: f64 = 4.0;
+const LARGE_DEVIATIONS: f64 = 2.0;
 
 /// A descent ends where a step lowers the cost, −2 ln of a probability, by less than this part of it or by less than this.
 const COST_RTOL: f64 = 1e-5;
@@ -252,11 +260,24 @@ impl Fitting<'_, '_> {
     }
 
     pub(super) fn first_load(&self) -> usize {
+        self.first_gain() + if self.modes() > 0 { 1 + self.sensors() } else { 0 }
+    }
+
+    fn first_gain(&self) -> usize {
         self.first_mass() + if self.modes() > 0 { self.sensors() } else { 0 }
+    }
+
+    /// g of the force and of the sensors; none without modes.
+    pub(super) fn gains(&self) -> std::ops::Range<usize> {
+        self.first_gain()..self.first_load()
     }
 
     fn first_mass(&self) -> usize {
         self.first_factor() + self.factors.len()
+    }
+
+    fn masses(&self) -> std::ops::Range<usize> {
+        self.first_mass()..self.first_gain()
     }
 
     pub(super) fn first_shape(&self, sensor: usize) -> usize {
@@ -276,6 +297,10 @@ impl Fitting<'_, '_> {
         }
         let of_shape =
             coordinate.checked_sub(self.first_load()).filter(|_| self.shapes().contains(&coordinate));
+        // Factors, masses and calibrations belong to no mode.
+        if of_shape.is_none() && !self.own().contains(&coordinate) {
+            return 1.0;
+        }
         let mode = match of_shape {
             Some(k) => k % self.modes(),
             None => self.modes.of_error[coordinate - self.first_own()],
@@ -336,7 +361,8 @@ impl Fitting<'_, '_> {
         ModalErrors {
             scale: self.of_scale().map_or(0.0, |scale| place[scale]),
             stiffness: (0..self.stiffness_errors()).map(|i| common(i) + place[own + i]).collect(),
-            masses: place[self.first_mass()..self.first_load()].to_vec(),
+            masses: place[self.masses()].to_vec(),
+            gains: place[self.gains()].to_vec(),
             load: with_mesh(self.first_load()..self.shared()),
             shape: (0..self.sensors()).map(shape).collect(),
             factors: self.factors.iter().zip(&place[self.first_factor()..]).map(factor).collect(),
@@ -384,9 +410,43 @@ impl Fitting<'_, '_> {
             && std::iter::once(&errors.load).chain(&errors.shape).enumerate().all(of_shapes)
     }
 
+    /// What is known of calibrations and factors, and what the data say against it; nothing where the two agree.
+    ///
+    /// What all sensors show too much or too little of is one number, however it is shared between them and the force.
+    pub(super) fn contradicted_assumptions(
+        &self,
+        place: &[f64],
+        given: ErrorSizes,
+    ) -> Vec<ContradictedAssumption> {
+        let gains = &place[self.gains()];
+        let of_all = gains.split_first().map(|(of_force, of_sensors)| {
+            let count = of_sensors.len() as f64;
+            let std = given.calibration.unwrap_or(CALIBRATION_PRIOR_STD) * (1.0 + 1.0 / count).sqrt();
+            ContradictedAssumption {
+                what: Assumption::Calibration,
+                error: of_force + of_sensors.iter().sum::<f64>() / count,
+                std,
+            }
+        });
+        let of_factors = self.factors.iter().zip(&place[self.first_factor()..]);
+        let of_factors = of_factors.filter(|(prior, _)| prior.is_known).map(|(prior, &error)| {
+            let what = Assumption::Factor { term: prior.term, part: prior.part };
+            ContradictedAssumption { what, error, std: prior.std }
+        });
+        let mut all: Vec<ContradictedAssumption> = of_all.into_iter().chain(of_factors).collect();
+        all.sort_by(|a, b| b.deviations().total_cmp(&a.deviations()));
+        let square: f64 = all.iter().map(|one| one.deviations().powi(2)).sum();
+        if square <= MAX_DEVIATIONS.powi(2) {
+            return Vec::new();
+        }
+        let is_large =
+            |(k, one): &(usize, ContradictedAssumption)| *k == 0 || one.deviations() >= LARGE_DEVIATIONS;
+        all.into_iter().enumerate().filter(is_large).map(|(_, one)| one).collect()
+    }
+
     /// Coordinates that the search moves.
     fn moves(&self, coordinate: usize) -> bool {
-        let is_mass = (self.first_mass()..self.first_load()).contains(&coordinate);
+        let is_mass = self.masses().contains(&coordinate);
         let is_own_damping = self.own().contains(&coordinate) && !self.is_frequency(coordinate);
         let shared = coordinate.checked_sub(self.curves.count()).filter(|_| coordinate < self.first_own());
         let is_common_damping = shared.is_some_and(|part| !is_frequency_part(part));
@@ -422,9 +482,10 @@ impl Fitting<'_, '_> {
             row.extend(&slopes.stiffness[m]);
         }
         row.extend(&slopes.factors[m]);
-        // Without modes masses are no coordinates.
+        // Without modes masses and calibrations are no coordinates.
         if self.modes() > 0 {
             row.extend(&slopes.masses[m]);
+            row.extend(&slopes.gains[m]);
         }
         row.extend(&slopes.load[m]);
         row.extend(&slopes.shape[m]);
@@ -550,7 +611,8 @@ impl Fitting<'_, '_> {
         };
         self.own().for_each(|i| set(i, own(i)));
         (self.first_factor()..).zip(self.factors).for_each(|(i, prior)| set(i, prior.std));
-        (self.first_mass()..self.first_load()).for_each(|i| set(i, mass));
+        self.masses().for_each(|i| set(i, mass));
+        self.gains().for_each(|i| set(i, sizes.calibration));
         self.shapes().for_each(|i| set(i, (sizes.shape * self.growth(i)).hypot(self.scatter_of_mesh(i))));
         all
     }

@@ -44,7 +44,10 @@ impl Task<'_, '_> {
         let again = task.search_from(reduced, begin, &values);
         let again = BandSolution { starts: solution.starts.clone(), agreeing: solution.agreeing, ..again };
         let judged = task.judge(reduced, &again, Some(&errors));
-        SeveralOutcome { model_errors: Some(errors.found()), leverage: found.leverage, ..judged }
+        let judged = SeveralOutcome { leverage: found.leverage, ..judged };
+        let is_contradicted = !errors.contradicted_assumptions.is_empty();
+        let judged = if is_contradicted { judged.of_other_model() } else { judged };
+        SeveralOutcome { model_errors: Some(errors.found()), ..judged }
     }
 
     /// The same task, in which the response has this part of itself beside the noise.
@@ -154,7 +157,7 @@ impl Task<'_, '_> {
             let one = |k: usize| column(&|m| if m == at { slopes.shape[m][k] } else { c64::default() });
             (0..modes.omega_rad_s.len()).flat_map(one).collect::<Vec<f64>>()
         };
-        let of_all = [&slopes.stiffness, &slopes.factors, &slopes.masses, &slopes.load];
+        let of_all = [&slopes.stiffness, &slopes.factors, &slopes.masses, &slopes.gains, &slopes.load];
         let mut columns =
             if modes.omega_rad_s.is_empty() { Vec::new() } else { column(&|m| slopes.scale[m]) };
         columns.extend(of_all.into_iter().flat_map(|of| shared(of)));
