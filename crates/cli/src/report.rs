@@ -172,6 +172,7 @@ fn doubts(text: &mut Text, job: &IdentifyJob, identify: &IdentifyCase) {
     contradictions(text, job);
     channels(text, job, identify);
     fit(text, job);
+    modes(text, &job.summary["modes"]);
     if !found.search.converged {
         text.warn("search", "did not settle: more frequencies, sensors or narrower bounds may help");
     }
@@ -223,6 +224,33 @@ fn contradictions(text: &mut Text, job: &IdentifyJob) {
         let done = if fit.left_out { "left out" } else { "kept, as reject_outliers = false says" };
         text.warn("sensor", &format!("{} contradicts all others: {done}", sensor.label));
     }
+}
+
+/// Natural frequencies of model and measurement side by side, where nothing is explained.
+fn modes(text: &mut Text, modes: &Value) {
+    let Some(measured) = modes["measured"]["modes"].as_array() else { return };
+    let pairs = modes["measured"]["pairs"].as_array().map_or(&[][..], Vec::as_slice);
+    let off = pairs.iter().filter_map(|pair| pair["frequency_difference"].as_f64());
+    let [least, most] =
+        off.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], off| [least.min(off), most.max(off)]);
+    let by = match pairs.is_empty() {
+        true => String::new(),
+        false => {
+            format!(
+                "; the nominal model's frequencies are {:+.1} to {:+.1} % off",
+                100.0 * least,
+                100.0 * most
+            )
+        }
+    };
+    text.say(
+        "modes",
+        &format!(
+            "{} of {} measured natural frequencies have a partner in the model{by}: see report.html, or frfit modes",
+            pairs.len(),
+            measured.len()
+        ),
+    );
 }
 
 /// Whether noise is all that the model leaves.

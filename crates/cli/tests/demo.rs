@@ -310,6 +310,15 @@ fn a_sensor_that_contradicts_the_others_is_named_and_left_out() {
     assert!(said.contains("the model cannot explain the measurements"), "{said}");
     assert_eq!(summary("kept")["sensors"][2]["left_out"], false);
     assert_eq!(summary("kept")["fit"]["verdict"], "not explained");
+    // Mode by mode: most are paired, with a nominal stiffness that is off, and the shapes show which sensor is wrong.
+    let modes = &summary("kept")["modes"]["measured"];
+    let [all, pairs] = ["modes", "pairs"].map(|key| modes[key].as_array().unwrap().len());
+    assert!(all == 5 && pairs >= 4, "{modes}");
+    assert!(modes["comac"]["220+Z"].as_f64() < Some(0.8) && modes["comac"]["202+Z"].as_f64() > Some(0.95));
+    let pairs = format!("{pairs} of {all} measured natural frequencies have a partner in the model");
+    assert!(said.contains(&pairs), "{said}");
+    assert!(std::fs::read_to_string(at.join("kept/report.html")).unwrap().contains("<section id=\"modes\""));
+    assert!(left_out["modes"].is_null());
 
     // Of two sensors it is not known which is wrong.
     let two = case.replace(wrong, "[identify]").replace("\"202+Z\"", "\"222+Z\"\nrecord = 2");

@@ -166,6 +166,46 @@ fn the_verdict_says_how_much_can_be_trusted_and_why_not_the_rest() {
     assert!(text_of(&found).contains("Change <code>quantity of [[measurement]] 2</code>"));
 }
 
+/// What nothing explains stands mode by mode above the plots: pairs with their differences, and what has no partner.
+#[test]
+fn modes_stand_side_by_side_where_nothing_is_explained() {
+    let mut files = results(&Made { fit: "not explained", ..Made::default() });
+    let summary: Value = serde_json::from_slice(&files["summary.json"]).unwrap();
+    let mode =
+        |number: u64, hz: f64| serde_json::json!({"mode": number, "frequency_hz": hz, "damping_ratio": 0.01});
+    let mut with_modes = summary.clone();
+    with_modes["modes"] = serde_json::json!({
+        "model": {"modes": [
+            {"mode": 1, "frequency_hz": 1e-4, "damping_ratio": 0.0, "is_rigid_body": true},
+            mode(2, 31.5), mode(3, 48.25), mode(4, 66.0),
+        ]},
+        "measured": {
+            "modes": [mode(1, 30.0), mode(2, 64.5)],
+            "pairs": [
+                {"model": 2, "measured": 1, "frequency_difference": 0.05, "mac": 0.987},
+                {"model": 4, "measured": 2, "frequency_difference": -0.0233, "mac": null},
+            ],
+            "stiffness_factor": 1.31,
+            "comac": {"a<b": 0.998, "c": 0.611},
+        },
+    });
+    files.insert("summary.json", with_modes.to_string().into_bytes());
+    let whole = page(&files).unwrap();
+    let text = text(&whole);
+    let section = text.split_once("<section id=\"modes\"").unwrap().1.split_once("</section>").unwrap().0;
+    let row =
+        |cells: [&str; 6]| format!("<tr>{}</tr>", cells.map(|cell| format!("<td>{cell}</td>")).concat());
+    assert!(section.contains(&row(["31.5", "30", "+5.00", "1", "1", "0.99"])), "{section}");
+    assert!(section.contains(&row(["48.25", "–", "–", "1", "–", "–"])), "{section}");
+    assert!(section.contains("−2.33") && section.contains("multiplied by 1.31"), "{section}");
+    assert!(section.contains("a&lt;b 1.00, c 0.61"), "{section}");
+    // The rigid body is none of them.
+    assert_eq!(section.matches("<title>").count(), 5, "{section}");
+    assert_eq!([section.matches("class=\"pair\"").count(), section.matches(" alone\"").count()], [2, 1]);
+    files.insert("summary.json", summary.to_string().into_bytes());
+    assert!(!page(&files).unwrap().contains("<section id=\"modes\""));
+}
+
 #[test]
 fn doubts_about_sensors_come_before_the_numbers() {
     let mut files = results(&Made::default());

@@ -6,6 +6,7 @@ use crate::error::{InputError, Place};
 use crate::figures::{identify_figures, measured_figures, respond_figures};
 use crate::load::{Case, Check, IdentifyCase, Overrides, Purpose, load};
 use crate::memory::{MemoryError, check_full, check_identify};
+use crate::modes::beside_identification;
 use crate::output::{
     File, Words, WriteError, candidates_csv, check_file, check_folder, error_map_csv, identified_csv,
     impact_reasons, is_stream, measured_csv, measured_summary, measured_text, measured_uff, reference_csv,
@@ -19,6 +20,7 @@ use frfit::identify::{Explained, ProblemError, ReducedBand};
 use frfit::material::OutsideTable;
 use frfit::signal::{self, Measured, SignalError, estimate_frf};
 use frfit_figures::PngError;
+use serde_json::Value;
 use std::fmt;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -107,7 +109,7 @@ pub struct IdentifyJob {
     /// What came out.
     pub run: IdentifyRun,
     /// `summary.json`.
-    pub summary: serde_json::Value,
+    pub summary: Value,
 }
 
 impl IdentifyJob {
@@ -139,10 +141,12 @@ pub fn identify_case(
     let start = Instant::now();
     let mut files = identify_figures(&case, wanted, &run)?;
     let mut summary = summary_json(&case, wanted, &run, seconds_load, start.elapsed().as_secs_f64());
-    summary["findings"] = diagnosis.as_ref().map_or(serde_json::Value::Null, |d| findings_json(&case, d));
-    summary["other_explanations"] =
-        diagnosis.as_ref().map_or(serde_json::Value::Null, |d| others_json(&case, d));
+    summary["findings"] = diagnosis.as_ref().map_or(Value::Null, |d| findings_json(&case, d));
+    summary["other_explanations"] = diagnosis.as_ref().map_or(Value::Null, |d| others_json(&case, d));
     summary["seconds"]["check"] = seconds_check.into();
+    // What nothing explains is looked at mode by mode.
+    let unexplained = found.fit.is_some_and(|fit| fit.verdict == Explained::No);
+    summary["modes"] = if unexplained { beside_identification(&case, wanted) } else { Value::Null };
     let mut tables = vec![
         File::new("identified.csv", identified_csv(wanted, &found.lines)),
         File::new("candidates.csv", candidates_csv(wanted, &found.lines)),
@@ -270,7 +274,7 @@ pub struct FrfJob {
     /// What came out.
     pub measured: Measured,
     /// `<name>-summary.json`.
-    pub summary: serde_json::Value,
+    pub summary: Value,
     /// The same for a person.
     pub text: Words,
 }

@@ -2,6 +2,7 @@
 
 mod model_errors;
 mod plots;
+mod side_by_side;
 mod text;
 mod together;
 
@@ -47,6 +48,7 @@ pub(crate) fn page(results: &Results, verdict: &Verdict) -> String {
         text::header(&title, results),
         "<main>".to_owned(),
         text::verdict(results, verdict),
+        side_by_side::side_by_side(results),
         plots::cursor(),
         plots::sections(results),
         model_errors::model_errors(results),

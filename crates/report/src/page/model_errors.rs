@@ -174,7 +174,7 @@ fn with_std(of: &Value) -> String {
     }
 }
 
-fn table(title: &str, heads: &[&str], rows: &[Vec<String>]) -> String {
+pub(super) fn table(title: &str, heads: &[&str], rows: &[Vec<String>]) -> String {
     let heads: String = heads.iter().map(|head| format!("<th>{head}</th>")).collect();
     let mut html = format!(
         "<h3>{title}</h3><div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{title}\"><table class=\"plain\"><thead><tr>{heads}</tr></thead><tbody>"

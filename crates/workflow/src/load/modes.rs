@@ -3,6 +3,7 @@
 use super::band::{MeasuredNoise, band, respond_hz};
 use super::dimension::PartOf;
 use super::files::{Files, NamedFile};
+use super::identify::IdentifyCase;
 use super::measurement::Measurement;
 use super::overrides::Overrides;
 use crate::case::CaseFile;
@@ -40,6 +41,26 @@ pub struct MeasuredBand {
     pub receptance: Vec<Vec<c64>>,
     /// How well they were measured.
     pub noise: MeasuredNoise,
+}
+
+impl ModesCase {
+    /// The same of a case that was loaded to be identified: all of its lines, also those that are left out.
+    pub(crate) fn of_identification(identify: &IdentifyCase, model: &DynamicStiffness) -> Self {
+        let is_unknown = |term: &usize| {
+            let stiffness = model.terms()[*term].role == Role::Stiffness;
+            stiffness && identify.unknowns.iter().any(|one| one.dependence.terms().any(|own| own == *term))
+        };
+        let unknown_terms: Vec<usize> = (0..model.terms().len()).filter(is_unknown).collect();
+        let measured =
+            above_zero(identify.frequency_hz.clone(), identify.measured.clone(), identify.noise.clone());
+        Self {
+            band_hz: identify.band_hz,
+            has_unknown: !unknown_terms.is_empty(),
+            unknown_terms,
+            measured: Some(measured),
+            identified: None,
+        }
+    }
 }
 
 /// The band: of the command line, of `[identify]`, of `[respond]`, or all of the first measurement.

@@ -14,16 +14,18 @@ mod shapes;
 mod summary;
 mod table;
 
+use run::modes_of;
 pub use run::{ModesOptions, ModesRun, modes};
 
 use crate::error::{InputError, Place};
 use crate::figures::modes_figures;
 use crate::job::JobError;
-use crate::load::{Case, Overrides, Purpose, load};
+use crate::load::{Case, IdentifyCase, ModesCase, Overrides, Purpose, load};
 use crate::memory::check_subspace;
 use crate::output::{File, Words, check_folder, write_result};
 use frfit::subspace::NaturalModesError;
 use frfit_linalg::modes::ModesError;
+use serde_json::{Value, json};
 use std::path::Path;
 
 /// Modes that were found and, where a folder was given, written.
@@ -37,6 +39,21 @@ pub struct ModesJob {
     pub summary: serde_json::Value,
     /// The same for a person.
     pub text: Words,
+}
+
+/// Beyond so many rows the modes of a model cost more than what they show of an identification.
+const MAX_ROWS_BESIDE_IDENTIFICATION: usize = 100_000;
+
+/// The model at its nominal factors and what was measured, side by side, of a case that was loaded to be identified; null where the model has no modes that can be found.
+pub(crate) fn beside_identification(case: &Case, identify: &IdentifyCase) -> Value {
+    if case.model.dim() > MAX_ROWS_BESIDE_IDENTIFICATION {
+        return Value::Null;
+    }
+    let view = ModesCase::of_identification(identify, &case.model);
+    let Ok(run) = modes_of(case, &view, &ModesOptions::default()) else { return Value::Null };
+    let mut all = summary::json(case, &run);
+    let mut kept = |key: &str| all.get_mut(key).map_or(Value::Null, Value::take);
+    json!({"model": kept("model"), "measured": kept("measured"), "seconds": kept("seconds")})
 }
 
 /// Loads a case, finds the modes of its model and of its measurements, and writes tables and figures into `out`, where there is one: all of them, or nothing.

@@ -1,6 +1,6 @@
 //! The computation.
 
-use crate::load::{Case, MeasuredBand};
+use crate::load::{Case, MeasuredBand, ModesCase};
 use crate::run::{in_parallel, noise_of};
 use frfit::c64;
 use frfit::frequency::linear_hz;
@@ -98,8 +98,16 @@ const TRAINING_FREQUENCIES: usize = 40;
 /// # Panics
 /// Where the case was loaded for something else.
 pub fn modes(case: &Case, options: &ModesOptions) -> Result<ModesRun, NaturalModesError> {
+    modes_of(case, case.modes.as_ref().expect("a case that was loaded for its modes"), options)
+}
+
+/// The same of what is wanted of a case.
+pub(super) fn modes_of(
+    case: &Case,
+    wanted: &ModesCase,
+    options: &ModesOptions,
+) -> Result<ModesRun, NaturalModesError> {
     let start = Instant::now();
-    let wanted = case.modes.as_ref().expect("a case that was loaded for its modes");
     let band_hz = wanted.band_hz;
     let reach = if wanted.measured.is_some() { BEYOND_BAND } else { 1.0 };
     let within = range_of_tables(case);
