@@ -230,14 +230,15 @@ fn contradictions(text: &mut Text, job: &IdentifyJob) {
 fn modes(text: &mut Text, modes: &Value) {
     let Some(measured) = modes["measured"]["modes"].as_array() else { return };
     let pairs = modes["measured"]["pairs"].as_array().map_or(&[][..], Vec::as_slice);
-    let off = pairs.iter().filter_map(|pair| pair["frequency_difference"].as_f64());
+    let off = pairs.iter().filter_map(|pair| pair["difference_at_factor"].as_f64());
+    let factor = modes["measured"]["stiffness_factor"].as_f64().unwrap_or(1.0);
     let [least, most] =
         off.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], off| [least.min(off), most.max(off)]);
     let by = match pairs.is_empty() {
         true => String::new(),
         false => {
             format!(
-                "; the nominal model's frequencies are {:+.1} to {:+.1} % off",
+                "; with {factor:.3} times the nominal stiffness the model's are {:+.1} to {:+.1} % off",
                 100.0 * least,
                 100.0 * most
             )

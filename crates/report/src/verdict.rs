@@ -284,8 +284,9 @@ fn cautions(results: &Results) -> Vec<String> {
             });
         }
     }
-    cautions.extend(doubt_of_fit(results));
-    for one in summary.array("/model_errors/contradicted_assumptions") {
+    let contradicted = summary.array("/model_errors/contradicted_assumptions");
+    cautions.extend(doubt_of_fit(results).filter(|_| contradicted.is_empty()));
+    for one in contradicted {
         let text = one.get("text").and_then(serde_json::Value::as_str).unwrap_or("");
         cautions.push(format!("The measurements contradict what the case takes for known: {text}."));
     }
@@ -450,7 +451,8 @@ fn tiles_of_band(results: &Results, nominal_error: &[Option<f64>], own: bool) ->
             value: match fit {
                 "explained" => "yes".into(),
                 "nearly explained" => "nearly".into(),
-                _ => "no".into(),
+                _ if summary.array("/model_errors/contradicted_assumptions").is_empty() => "no".into(),
+                _ => "not with the case".into(),
             },
             detail: format!(
                 "χ² over degrees of freedom {} ({} are left); noise {}",

@@ -182,8 +182,8 @@ fn modes_stand_side_by_side_where_nothing_is_explained() {
         "measured": {
             "modes": [mode(1, 30.0), mode(2, 64.5)],
             "pairs": [
-                {"model": 2, "measured": 1, "frequency_difference": 0.05, "mac": 0.987},
-                {"model": 4, "measured": 2, "frequency_difference": -0.0233, "mac": null},
+                {"model": 2, "measured": 1, "frequency_difference": 0.05, "difference_at_factor": 0.001, "mac": 0.987},
+                {"model": 4, "measured": 2, "frequency_difference": -0.0233, "difference_at_factor": -0.0004, "mac": null},
             ],
             "stiffness_factor": 1.31,
             "comac": {"a<b": 0.998, "c": 0.611},
@@ -194,9 +194,9 @@ fn modes_stand_side_by_side_where_nothing_is_explained() {
     let text = text(&whole);
     let section = text.split_once("<section id=\"modes\"").unwrap().1.split_once("</section>").unwrap().0;
     let row =
-        |cells: [&str; 6]| format!("<tr>{}</tr>", cells.map(|cell| format!("<td>{cell}</td>")).concat());
-    assert!(section.contains(&row(["31.5", "30", "+5.00", "1", "1", "0.99"])), "{section}");
-    assert!(section.contains(&row(["48.25", "–", "–", "1", "–", "–"])), "{section}");
+        |cells: [&str; 7]| format!("<tr>{}</tr>", cells.map(|cell| format!("<td>{cell}</td>")).concat());
+    assert!(section.contains(&row(["31.5", "30", "+5.00", "+0.10", "1", "1", "0.99"])), "{section}");
+    assert!(section.contains(&row(["48.25", "–", "–", "–", "1", "–", "–"])), "{section}");
     assert!(section.contains("−2.33") && section.contains("multiplied by 1.31"), "{section}");
     assert!(section.contains("a&lt;b 1.00, c 0.61"), "{section}");
     // The rigid body is none of them.

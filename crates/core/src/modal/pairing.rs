@@ -23,6 +23,10 @@ pub struct Pair {
     pub model: usize,
     /// Which of the measurement.
     pub measured: usize,
+    /// The natural frequency of the model over that of the measurement, less one.
+    pub frequency_difference: f64,
+    /// The same with the common factor [`Pairing::stiffness_factor`] on the stiffness that may be off.
+    pub difference_at_factor: f64,
     /// MAC of their residues; `None` for a single sensor, of which all shapes are proportional.
     pub assurance: Option<f64>,
     /// Whether another pair has the other order: two modes changed places.
@@ -82,11 +86,17 @@ pub fn paired(model: &[PairedShape], measured: &[PairedShape]) -> Pairing {
             of_model == of_measured.reverse() && of_model != Ordering::Equal
         })
     };
-    let pair = |own: &(usize, usize)| Pair {
-        model: own.0,
-        measured: own.1,
-        assurance: shape_assurance(&model[own.0], &measured[own.1]),
-        is_crossing: is_crossing(own),
+    let pair = |own: &(usize, usize)| {
+        let (mode, other) = (&model[own.0], &measured[own.1]);
+        let ratio = mode.frequency_hz / other.frequency_hz;
+        Pair {
+            model: own.0,
+            measured: own.1,
+            frequency_difference: ratio - 1.0,
+            difference_at_factor: ratio * (0.5 * mode.energy_share * log_factor).exp() - 1.0,
+            assurance: shape_assurance(mode, other),
+            is_crossing: is_crossing(own),
+        }
     };
     Pairing { pairs: pairs.iter().map(pair).collect(), stiffness_factor: log_factor.exp() }
 }

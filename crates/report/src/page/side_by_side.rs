@@ -7,6 +7,9 @@ use crate::results::Results;
 use serde_json::Value;
 use std::fmt::Write;
 
+/// A common factor on the stiffness nearer to one than this is none.
+const MIN_FACTOR_OFF: f64 = 0.02;
+
 /// Size of the picture, and where its rows are.
 const WIDTH: f64 = 960.0;
 const HEIGHT: f64 = 150.0;
@@ -16,17 +19,19 @@ const OF_MODEL: [f64; 2] = [18.0, 50.0];
 const OF_MEASUREMENT: [f64; 2] = [90.0, 122.0];
 
 /// A mode of either: its number, frequency and damping ratio.
+#[derive(Clone, Copy)]
 struct Mode {
     number: u64,
     hz: f64,
     damping: f64,
 }
 
-/// Modes that are one: their numbers, the difference of their frequencies, and how alike their shapes are.
+/// Modes that are one: their numbers, the difference of their frequencies at the nominal stiffness and with a common factor on it, and how alike their shapes are.
 struct Pair {
     model: u64,
     measured: u64,
     difference: f64,
+    at_factor: f64,
     assurance: Option<f64>,
 }
 
@@ -40,9 +45,10 @@ pub(super) fn side_by_side(results: &Results) -> String {
         return String::new();
     }
     let factor = summary.number("/modes/measured/stiffness_factor");
-    let said = factor.filter(|factor| (factor - 1.0).abs() > 0.02).map_or(String::new(), |factor| {
+    let factor = factor.filter(|factor| (factor - 1.0).abs() > MIN_FACTOR_OFF);
+    let said = factor.map_or(String::new(), |factor| {
         format!(
-            " Modes are paired with the unknown stiffness multiplied by {}; the frequencies are those of the nominal one.",
+            " The picture has the model's frequencies with its unknown stiffness multiplied by {}, at which they fit best.",
             significant(factor, 3)
         )
     });
@@ -52,7 +58,7 @@ pub(super) fn side_by_side(results: &Results) -> String {
          single ones at a support or a joint, and modes without a partner at a mesh, a missing part or a sensor at another place.{said} \
          <code>frfit modes</code> has figures, shapes and the response beside it.</p>\n{}{}{}</section>\n",
         picture(&model, &measured, &pairs),
-        rows(&model, &measured, &pairs),
+        rows(&model, &measured, &pairs, factor.is_some()),
         shapes(results)
     )
 }
@@ -86,12 +92,23 @@ fn pair(of: &Value) -> Option<Pair> {
         model: of.get("model")?.as_u64()?,
         measured: of.get("measured")?.as_u64()?,
         difference: number(of, "frequency_difference")?,
+        at_factor: number(of, "difference_at_factor")?,
         assurance: number(of, "mac"),
     })
 }
 
 /// Two rows of strokes, and a line between those that are one mode.
 fn picture(model: &[Mode], measured: &[Mode], pairs: &[Pair]) -> String {
+    // Of a mode without a partner the share of the unknown stiffness is not known here: it counts as that of the others.
+    let ratios = pairs.iter().map(|pair| (1.0 + pair.at_factor) / (1.0 + pair.difference));
+    let usual = ratios.fold((0.0, 0.0), |(sum, count), ratio| (sum + ratio, count + 1.0));
+    let usual = if usual.1 > 0.0 { usual.0 / usual.1 } else { 1.0 };
+    let shown = |mode: &Mode| {
+        let own = pairs.iter().find(|pair| pair.model == mode.number);
+        let by = own.map_or(usual, |pair| (1.0 + pair.at_factor) / (1.0 + pair.difference));
+        Mode { hz: by * mode.hz, ..*mode }
+    };
+    let model: &[Mode] = &model.iter().map(shown).collect::<Vec<_>>();
     let all = || model.iter().chain(measured).map(|mode| mode.hz);
     let (first, last) =
         all().fold((f64::INFINITY, 0.0f64), |(first, last), hz| (first.min(hz), last.max(hz)));
@@ -146,17 +163,21 @@ fn picture(model: &[Mode], measured: &[Mode], pairs: &[Pair]) -> String {
 }
 
 /// All modes of the measurement, and those of the model that have no partner, by frequency.
-fn rows(model: &[Mode], measured: &[Mode], pairs: &[Pair]) -> String {
+fn rows(model: &[Mode], measured: &[Mode], pairs: &[Pair], has_factor: bool) -> String {
     let none = || "–".to_owned();
     let hz = |mode: Option<&Mode>| mode.map_or_else(none, |mode| significant(mode.hz, 5));
     let damping = |mode: Option<&Mode>| mode.map_or_else(none, |mode| significant(100.0 * mode.damping, 3));
     let mut rows: Vec<(f64, Vec<String>)> = Vec::new();
     let mut add = |own: Option<&Mode>, other: Option<&Mode>, pair: Option<&Pair>| {
-        let difference =
-            pair.map_or_else(none, |pair| format!("{:+.2}", 100.0 * pair.difference).replace('-', "−"));
+        let percent = |value: f64| format!("{:+.2}", 100.0 * value).replace('-', "−");
+        let difference = pair.map_or_else(none, |pair| percent(pair.difference));
+        let at_factor = pair.map_or_else(none, |pair| percent(pair.at_factor));
         let mac = pair.and_then(|pair| pair.assurance).map_or_else(none, |mac| format!("{mac:.2}"));
         let at = other.or(own).map_or(0.0, |mode| mode.hz);
-        rows.push((at, vec![hz(own), hz(other), difference, damping(own), damping(other), mac]));
+        let mut row = vec![hz(own), hz(other), difference];
+        row.extend(has_factor.then_some(at_factor));
+        row.extend([damping(own), damping(other), mac]);
+        rows.push((at, row));
     };
     for mode in measured {
         let pair = pairs.iter().find(|pair| pair.measured == mode.number);
@@ -167,7 +188,8 @@ fn rows(model: &[Mode], measured: &[Mode], pairs: &[Pair]) -> String {
         add(Some(mode), None, None);
     }
     rows.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let heads =
-        ["Model, Hz", "Measured, Hz", "Difference, %", "Damping ratio of the model, %", "Measured, %", "MAC"];
+    let mut heads = vec!["Nominal model, Hz", "Measured, Hz", "Difference, %"];
+    heads.extend(has_factor.then_some("With the factor, %"));
+    heads.extend(["Damping ratio of the model, %", "Measured, %", "MAC"]);
     table("Modes", &heads, &rows.into_iter().map(|(_, row)| row).collect::<Vec<_>>())
 }

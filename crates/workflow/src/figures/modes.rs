@@ -124,7 +124,7 @@ fn pairs(case: &Case, run: &ModesRun) -> Figure {
     let of_measured = || pairs.iter().map(|pair| &measured.modes.modes[pair.measured]);
     let of_model = || pairs.iter().map(|pair| &run.model.modes[pair.model]);
     let x: Vec<f64> = of_measured().map(|mode| mode.frequency_hz()).collect();
-    let difference = of_model().zip(&x).map(|(mode, x)| 100.0 * (mode.frequency_hz() / x - 1.0)).collect();
+    let difference = pairs.iter().map(|pair| 100.0 * pair.frequency_difference).collect();
     let bars = |std: &dyn Fn(&frfit::modal::MeasuredMode) -> Option<f64>| -> Vec<f64> {
         of_measured().map(|mode| std(mode).map_or(f64::NAN, |std| 2.0 * 100.0 * std)).collect()
     };

@@ -109,8 +109,7 @@ fn table(run: &ModesRun) -> String {
                 row(["0".into(), dash()], [dash(), dash()], dash(), dash(), "rigid body")
             }
             Some(pair) => {
-                let difference =
-                    signed_percent(mode.frequency_hz() / measured[pair.measured].frequency_hz() - 1.0);
+                let difference = signed_percent(pair.frequency_difference);
                 let mac = pair.assurance.map_or_else(dash, |mac| format!("{mac:.2}"));
                 let note = if pair.is_crossing { "order changed" } else { "" };
                 row(own, of_measured(pair.measured), difference, mac, note)

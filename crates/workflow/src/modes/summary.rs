@@ -38,14 +38,11 @@ pub(super) fn json(case: &Case, run: &ModesRun) -> Value {
             })
         });
         let pairs = measured.pairing.pairs.iter().map(|pair| {
-            let [own, other] = [
-                run.model.modes[pair.model].frequency_hz(),
-                measured.modes.modes[pair.measured].frequency_hz(),
-            ];
             json!({
                 "model": pair.model + 1,
                 "measured": pair.measured + 1,
-                "frequency_difference": own / other - 1.0,
+                "frequency_difference": pair.frequency_difference,
+                "difference_at_factor": pair.difference_at_factor,
                 "mac": pair.assurance,
                 "is_crossing": pair.is_crossing,
             })

@@ -36,7 +36,6 @@ pub(super) fn modes(case: &Case, run: &ModesRun) -> String {
         let own = i.map(|i| &run.model.modes[i]);
         let other = j.map(|j| &measured[j]);
         let pair = i.and_then(|i| run.partner_of_model(i));
-        let difference = own.zip(other).map(|(own, other)| own.frequency_hz() / other.frequency_hz() - 1.0);
         let counted = |at: Option<usize>| at.map_or(Cell::Empty, |at| Cell::Count(at + 1));
         let mut cells = vec![
             Cell::Text(kind),
@@ -48,7 +47,7 @@ pub(super) fn modes(case: &Case, run: &ModesRun) -> String {
             number(other.and_then(|other| other.frequency_std_hz)),
             number(other.map(|other| other.damping_ratio())),
             number(other.and_then(|other| other.damping_ratio_std)),
-            number(difference),
+            number(pair.map(|pair| pair.frequency_difference)),
             number(pair.and_then(|pair| pair.assurance)),
             pair.map_or(Cell::Empty, |pair| Cell::Text(if pair.is_crossing { "yes" } else { "no" })),
         ];
