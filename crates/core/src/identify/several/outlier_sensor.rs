@@ -28,13 +28,8 @@ impl Task<'_, '_> {
     /// better; only then it is asked whether they would without any other too.
     pub(super) fn contradicting(&self, reduced: &mut Neighbourhoods<'_>, found: &BandSolution) -> Vec<usize> {
         let sensors = self.problem.experiment.sensors.len();
-        let floor = match self.problem.frfs.noise {
-            Noise::Known(_) => 1.0,
-            Noise::Unknown | Noise::Relative(_) => USUAL_NOISE_OVER_RESPONSE * USUAL_NOISE_OVER_RESPONSE,
-        };
-        let all: Vec<usize> = (0..self.omegas.len()).collect();
-        let of_band = all.iter().map(|&k| found.at(k).map_or(f64::INFINITY, |solution| solution.misfit));
-        let mut with_all = self.chi_squared(of_band.collect(), sensors);
+        let floor = self.usual_chi_squared();
+        let mut with_all = self.chi_squared_of(found);
         let mut out: Vec<usize> = self.left_out.clone();
         let for_each = self.context.for_each;
         while with_all > OUTLIER_RATIO * floor && self.is_determined(sensors - out.len()) {
@@ -71,6 +66,26 @@ impl Task<'_, '_> {
             (0..self.problem.experiment.sensors.len()).map(|m| (misfit(m), m)).collect();
         all.sort_by(|a, b| b.0.total_cmp(&a.0));
         all.into_iter().map(|(_, m)| m).collect()
+    }
+
+    /// Whether more is left than noise.
+    pub(super) fn is_unexplained(&self, found: &BandSolution) -> bool {
+        self.chi_squared_of(found) > OUTLIER_RATIO * self.usual_chi_squared()
+    }
+
+    /// χ² of usual noise.
+    fn usual_chi_squared(&self) -> f64 {
+        match self.problem.frfs.noise {
+            Noise::Known(_) => 1.0,
+            Noise::Unknown | Noise::Relative(_) => USUAL_NOISE_OVER_RESPONSE * USUAL_NOISE_OVER_RESPONSE,
+        }
+    }
+
+    /// χ² over its usual size at all frequencies that were looked at.
+    fn chi_squared_of(&self, found: &BandSolution) -> f64 {
+        let misfit = |k: usize| found.at(k).map_or(f64::INFINITY, |solution| solution.misfit);
+        let all = (0..found.solutions.len()).map(misfit).collect();
+        self.chi_squared(all, self.problem.experiment.sensors.len())
     }
 
     /// Whether two sensors and more are left without one of so many, with more numbers at a frequency than it has of its own.

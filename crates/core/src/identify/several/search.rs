@@ -104,6 +104,11 @@ impl Task<'_, '_> {
         reduced.widen(self.context.for_each);
         (self.context.progress)(Stage::Solutions, 0, all.len());
         let mut tried = self.tried(reduced, &part, LOG_RESPONSE_FREQUENCIES);
+        // Where nothing explains the sensors, resonances that coincide by chance leave least of them, and logarithms show what is right but for errors of the model.
+        if self.is_unexplained(&tried[0].1) {
+            let logs = |one: &(f64, BandSolution, Vec<c64>)| self.log_misfit(&part, &one.1);
+            tried.sort_by(|a, b| logs(a).total_cmp(&logs(b)));
+        }
         let starts = tried.iter().flat_map(|(_, found, _)| found.starts.clone()).collect();
         let (least, first, values) = tried.swap_remove(0);
         let agreeing =
@@ -116,6 +121,19 @@ impl Task<'_, '_> {
         let found = self.refined(reduced, found);
         (self.context.progress)(Stage::Solutions, all.len(), all.len());
         BandSolution { starts, agreeing, ..found }
+    }
+
+    /// Σ |ln(x_m/u_m)|² of the chosen solutions, what a frequency without one would leave at least as the worst of them.
+    fn log_misfit(&self, which: &[usize], found: &BandSolution) -> f64 {
+        let at = |k: usize| -> Option<f64> {
+            let u = &self.problem.frfs.receptance[which[k]];
+            let each = found.at(k)?.response.iter().zip(u).zip(&self.sigma[which[k]]);
+            let used = each.filter(|((x, u), sigma)| sigma.is_finite() && x.norm() * u.norm() > 0.0);
+            Some(used.map(|((x, u), _)| (x / u).ln().norm_sqr()).sum())
+        };
+        let each: Vec<Option<f64>> = (0..which.len()).map(at).collect();
+        let worst = each.iter().flatten().copied().fold(0.0, f64::max);
+        each.into_iter().map(|one| one.unwrap_or(worst)).sum()
     }
 
     /// The same from one start, and values of all unknowns there.
