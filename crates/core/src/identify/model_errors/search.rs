@@ -155,7 +155,7 @@ const MAX_REFUSED_STEPS: usize = 6;
 const MAX_THETA_STEP: f64 = 0.5;
 
 /// Errors larger than these, root mean squares over the modes of the band, are no small errors of this model: it is another one.
-const MAX_FREQUENCY_ERROR: f64 = 0.05;
+const MAX_FREQUENCY_ERROR: f64 = 0.04;
 const MAX_SHAPE_ERROR: f64 = 0.3;
 
 /// The same over the sizes that were given.
