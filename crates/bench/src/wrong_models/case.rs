@@ -188,21 +188,20 @@ impl Case {
             _ => {}
         }
         let start = truth.scaled(ratio);
-        let mut begun = structure.clone();
-        let mut beside = 1.0;
+        // What else is unknown does not begin at the truth either.
+        let (mut begun, mut unchanged) = (structure.clone(), Change::default());
         if unknowns == Unknowns::Several {
             begun.orthotropy.iter_mut().for_each(|over| *over *= dice.between(0.8, 1.25));
-            beside = dice.between(0.7, 1.3);
+            unchanged.known = dice.between(0.7, 1.3);
         }
-        let begun = (begun, Change { known: beside, ..Change::default() });
-        let coarse = || Realised::new(&begun.0, &start, &begun.1);
+        let coarse = || Realised::new(&begun, &start, &unchanged);
         let nominal = match meshes {
             Meshes::One => coarse()?,
             Meshes::Finer | Meshes::Two => {
                 change.plan = change.plan.max(FINER);
                 let layers = if structure.kind == Kind::Sandwich { FINER } else { 1 };
                 change.layers = change.layers.max(layers);
-                Realised::new(&begun.0, &start, &Change { plan: FINER, layers, ..begun.1.clone() })?
+                Realised::new(&begun, &start, &Change { plan: FINER, layers, ..unchanged.clone() })?
             }
         };
         let real = Realised::new(&structure, &truth, &change)?;
@@ -284,14 +283,6 @@ impl Case {
         let context = Context { for_each: &sequential, progress: &|_, _, _| {} };
         let found = identify(&problem, options, context)?;
         Ok((found, start.elapsed().as_secs_f64()))
-    }
-
-    /// The true factor at a frequency.
-    ///
-    /// # Errors
-    /// None of a law that is no table.
-    pub fn truth_at(&self, frequency_hz: f64) -> Result<c64, Failure> {
-        Ok(self.truth.at(frequency_hz)?)
     }
 
     /// The true loss factor in the middle of the band.

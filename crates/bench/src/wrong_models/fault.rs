@@ -1,5 +1,6 @@
 //! The classes of wrong models, and what is different in truth.
 
+use super::case::Way;
 use super::structure::Kind;
 use frfit::c64;
 use std::fmt;
@@ -102,6 +103,13 @@ pub enum Unknowns {
     One,
     /// All stiffnesses: of an orthotropic plate its four constants, of a sandwich core and skins, of a beam on springs beam and springs.
     Several,
+}
+
+impl Unknowns {
+    /// Those of some ways.
+    pub fn of(ways: &[Way]) -> Self {
+        if ways.contains(&Way::Several) { Self::Several } else { Self::One }
+    }
 }
 
 /// What is different in truth. The default: nothing.

@@ -40,9 +40,7 @@ pub fn tried(
     options: &Options,
 ) -> Result<Tried, Failure> {
     let run = || {
-        let several = ways.contains(&Way::Several);
-        let unknowns = if several { Unknowns::Several } else { Unknowns::One };
-        let case = Case::draw(seed, index, meshes, unknowns)?;
+        let case = Case::draw(seed, index, meshes, Unknowns::of(ways))?;
         let identified = |&way: &Way| {
             let (found, seconds) = case.identify(way, options)?;
             Ok(Run::new(way, &found, score::judged(&case, &found)?, seconds))

@@ -209,13 +209,17 @@ impl Structure {
     /// So many elements along x, and as long ones along y; of strips two along y.
     pub fn set_mesh(&mut self, elements: usize) {
         let across = match self.kind {
-            Kind::Plate | Kind::OrthotropicPlate => {
-                ((elements as f64 * self.width / self.length).round() as usize).max(2)
-            }
+            Kind::Plate => self.as_long_across(elements).max(3),
+            Kind::OrthotropicPlate => self.as_long_across(elements).max(2),
             Kind::Sandwich => 2,
             Kind::Beam | Kind::SprungBeam => 1,
         };
         self.mesh = [elements, across];
+    }
+
+    /// How many elements along y are as long as so many along x.
+    fn as_long_across(&self, elements: usize) -> usize {
+        (elements as f64 * self.width / self.length).round() as usize
     }
 
     /// Total thickness in m.

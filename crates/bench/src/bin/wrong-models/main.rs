@@ -75,7 +75,7 @@ fn main() -> Result<(), Failure> {
     println!("Wrong models: the modulus, its error bars and statuses\n{}\n", machine());
     let options = Options::default();
     let (first, count) = arguments.case.map_or((0, *cases), |index| (index, 1));
-    let unknowns = if ways.contains(&Way::Several) { Unknowns::Several } else { Unknowns::One };
+    let unknowns = Unknowns::of(ways);
     let is_asked = |index: &u64| {
         let own = Class::of(*index);
         arguments.case.is_some()
