@@ -46,17 +46,15 @@ pub struct MeasuredBand {
 impl ModesCase {
     /// The same of a case that was loaded to be identified: all of its lines, also those that are left out.
     pub(crate) fn of_identification(identify: &IdentifyCase, model: &DynamicStiffness) -> Self {
-        let is_unknown = |term: &usize| {
-            let stiffness = model.terms()[*term].role == Role::Stiffness;
-            stiffness && identify.unknowns.iter().any(|one| one.dependence.terms().any(|own| own == *term))
-        };
-        let unknown_terms: Vec<usize> = (0..model.terms().len()).filter(is_unknown).collect();
+        let is_unknown =
+            |term: usize| identify.unknowns.iter().any(|one| one.dependence.terms().any(|own| own == term));
+        let (unknown_terms, has_unknown) = unknown_or_all(model, is_unknown);
         let measured =
             above_zero(identify.frequency_hz.clone(), identify.measured.clone(), identify.noise.clone());
         Self {
             band_hz: identify.band_hz,
-            has_unknown: !unknown_terms.is_empty(),
             unknown_terms,
+            has_unknown,
             measured: Some(measured),
             identified: None,
         }
@@ -107,10 +105,13 @@ pub(super) fn modes(
 fn unknown_terms(case: &CaseFile, model: &DynamicStiffness, of: &[PartOf]) -> (Vec<usize>, bool) {
     let named: Vec<&str> =
         case.unknowns().flat_map(|one| one.matrices.iter().map(|name| name.value.as_str())).collect();
+    unknown_or_all(model, |term| of.get(term).is_some_and(|part| named.contains(&part.matrix.as_str())))
+}
+
+fn unknown_or_all(model: &DynamicStiffness, is_unknown: impl Fn(usize) -> bool) -> (Vec<usize>, bool) {
     let is_stiffness = |&term: &usize| model.terms()[term].role == Role::Stiffness;
-    let is_unknown = |term: &usize| of.get(*term).is_some_and(|part| named.contains(&part.matrix.as_str()));
     let stiffness = (0..model.terms().len()).filter(is_stiffness);
-    let unknown: Vec<usize> = stiffness.clone().filter(is_unknown).collect();
+    let unknown: Vec<usize> = stiffness.clone().filter(|&term| is_unknown(term)).collect();
     if unknown.is_empty() { (stiffness.collect(), false) } else { (unknown, true) }
 }
 
