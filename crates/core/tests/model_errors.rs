@@ -253,12 +253,7 @@ fn constants_of_a_wrong_model_are_within_their_bars() {
         let (u, std) = sprung_measured((elements[1], truth), [1.0 / scale, 1.0, 1.0], &frequency_hz);
         let (model, experiment) =
             sprung(elements[0], [1.15 * truth[0], 1.5 * truth[1], mass * truth[2]], &[0.8, 0.4, 0.2]);
-        let unknown = |name: &str| Unknown {
-            varies: Variation::Constant,
-            real: name == "springs",
-            ..Unknown::factor_of(&model, &[name]).unwrap()
-        };
-        let unknowns = [unknown("beam"), unknown("springs")];
+        let unknowns = sprung_unknowns(&model);
         let frfs = Frfs { frequency_hz: &frequency_hz, receptance: &u, noise: Noise::Known(&std) };
         let unknown = ChannelUnknowns { scale: true, delay: false };
         let channels = [unknown, ChannelUnknowns::default(), ChannelUnknowns::default()];
@@ -322,6 +317,15 @@ fn sprung(elements: usize, factors: [c64; 3], sensors: &[f64]) -> (DynamicStiffn
     (model, Experiment::driven_at(dim, sensor(0.0), sensors.iter().map(|&x| sensor(x)).collect()))
 }
 
+/// Constant moduli of beam and springs.
+fn sprung_unknowns(model: &DynamicStiffness) -> [Unknown; 2] {
+    ["beam", "springs"].map(|name| Unknown {
+        varies: Variation::Constant,
+        real: name == "springs",
+        ..Unknown::factor_of(model, &[name]).unwrap()
+    })
+}
+
 /// Responses of a beam on springs with noise of 1 %, each sensor's multiplied by a factor, and the standard deviations of the noise.
 fn sprung_measured(
     (elements, truth): (usize, [c64; 3]),
@@ -342,8 +346,8 @@ fn sprung_measured(
     frequency_hz.iter().map(&mut at_line).unzip()
 }
 
-/// A sensor with a wrong sensitivity is found as that, and the constants are right. A mass that is 12 % too small and known to 0.5 % cannot be told from a calibration that is
-/// off: the constants are 12 % wrong, none is ok, and what contradicts what is named.
+/// The calibration error of one sensor is found, and the constants are right. A mass that is 12 % too small, said to be known to 0.5 %, has the same effect as a wrong
+/// calibration: the constants are 12 % wrong, none is ok, and the contradiction is named.
 #[test]
 fn calibrations_are_found_and_contradictions_are_named() {
     let frequency_hz = linear_hz(5.0, 560.0, of_tier(100, 200));
@@ -354,12 +358,7 @@ fn calibrations_are_found_and_contradictions_are_named() {
             sprung(8, [1.15 * truth[0], 1.5 * truth[1], mass * truth[2]], &[0.8, 0.4, 0.2]);
         let of_mass = model.find("mass").unwrap();
         let model = model.with_factor_std(of_mass, FactorStd { storage: Some(0.005), loss_factor: None });
-        let unknown = |name: &str| Unknown {
-            varies: Variation::Constant,
-            real: name == "springs",
-            ..Unknown::factor_of(&model, &[name]).unwrap()
-        };
-        let unknowns = [unknown("beam"), unknown("springs")];
+        let unknowns = sprung_unknowns(&model);
         let frfs = Frfs { frequency_hz: &frequency_hz, receptance: &u, noise: Noise::Known(&std) };
         let problem = Problem::new(&model, &experiment, &unknowns, &[], frfs).unwrap();
         let context = Context { for_each: &sequential, progress: &|_, _, _| {} };

@@ -452,7 +452,7 @@ fn tiles_of_band(results: &Results, nominal_error: &[Option<f64>], own: bool) ->
                 "explained" => "yes".into(),
                 "nearly explained" => "nearly".into(),
                 _ if summary.array("/model_errors/contradicted_assumptions").is_empty() => "no".into(),
-                _ => "not with the case".into(),
+                _ => "yes, but not with the case".into(),
             },
             detail: format!(
                 "χ² over degrees of freedom {} ({} are left); noise {}",

@@ -166,7 +166,7 @@ fn the_verdict_says_how_much_can_be_trusted_and_why_not_the_rest() {
     assert!(text_of(&found).contains("Change <code>quantity of [[measurement]] 2</code>"));
 }
 
-/// What nothing explains stands mode by mode above the plots: pairs with their differences, and what has no partner.
+/// Where the band is not explained the report lists the modes above the plots: pairs with their differences, and modes without a partner.
 #[test]
 fn modes_stand_side_by_side_where_nothing_is_explained() {
     let mut files = results(&Made { fit: "not explained", ..Made::default() });
@@ -199,7 +199,7 @@ fn modes_stand_side_by_side_where_nothing_is_explained() {
     assert!(section.contains(&row(["48.25", "–", "–", "–", "1", "–", "–"])), "{section}");
     assert!(section.contains("−2.33") && section.contains("multiplied by 1.31"), "{section}");
     assert!(section.contains("a&lt;b 1.00, c 0.61"), "{section}");
-    // The rigid body is none of them.
+    // The rigid-body mode is not drawn.
     assert_eq!(section.matches("<title>").count(), 5, "{section}");
     assert_eq!([section.matches("class=\"pair\"").count(), section.matches(" alone\"").count()], [2, 1]);
     files.insert("summary.json", summary.to_string().into_bytes());

@@ -144,7 +144,7 @@ pub fn identify_case(
     summary["findings"] = diagnosis.as_ref().map_or(Value::Null, |d| findings_json(&case, d));
     summary["other_explanations"] = diagnosis.as_ref().map_or(Value::Null, |d| others_json(&case, d));
     summary["seconds"]["check"] = seconds_check.into();
-    // What nothing explains is looked at mode by mode.
+    // The modes show what may be wrong where the band is not explained.
     let unexplained = found.fit.is_some_and(|fit| fit.verdict == Explained::No);
     summary["modes"] = if unexplained { beside_identification(&case, wanted) } else { Value::Null };
     let mut tables = vec![

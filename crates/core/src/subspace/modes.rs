@@ -389,10 +389,8 @@ impl Projection {
         };
         let response = solutions.response(self);
         let gains = |m: usize| -> Vec<c64> {
-            let of_each = |(n, gain): (usize, &f64)| match n {
-                0 => response[m] / (1.0 + gain),
-                n if n == m + 1 => response[m] / (1.0 + gain),
-                _ => c64::default(),
+            let of_each = |(n, gain): (usize, &f64)| {
+                if n == 0 || n == m + 1 { response[m] / (1.0 + gain) } else { c64::default() }
             };
             errors.gains.iter().enumerate().map(of_each).collect()
         };

@@ -44,7 +44,7 @@ fn list<'v>(of: &'v Value, key: &str) -> &'v [Value] {
     of.get(key).and_then(Value::as_array).map_or(&[], Vec::as_slice)
 }
 
-fn number(of: &Value, key: &str) -> Option<f64> {
+pub(super) fn number(of: &Value, key: &str) -> Option<f64> {
     of.get(key).and_then(Value::as_f64)
 }
 

@@ -1,13 +1,13 @@
-//! Natural frequencies of model and measurement side by side, of a band that nothing explains: which modes are there, and which are at another place.
+//! Natural frequencies of model and measurement side by side, for a band that is not explained: which modes have a partner, and how far their frequencies are apart.
 
-use super::model_errors::table;
+use super::model_errors::{number, table};
 use crate::escape::escape;
 use crate::number::significant;
 use crate::results::Results;
 use serde_json::Value;
 use std::fmt::Write;
 
-/// A common factor on the stiffness nearer to one than this is none.
+/// A common stiffness factor is mentioned if it differs from one by more than this.
 const MIN_FACTOR_OFF: f64 = 0.02;
 
 /// Size of the picture, and where its rows are.
@@ -33,6 +33,13 @@ struct Pair {
     difference: f64,
     at_factor: f64,
     assurance: Option<f64>,
+}
+
+impl Pair {
+    /// By how much the common factor changes the model's frequency.
+    fn change(&self) -> f64 {
+        (1.0 + self.at_factor) / (1.0 + self.difference)
+    }
 }
 
 /// The section; nothing where the summary has no modes.
@@ -77,10 +84,6 @@ fn shapes(results: &Results) -> String {
     )
 }
 
-fn number(of: &Value, key: &str) -> Option<f64> {
-    of.get(key).and_then(Value::as_f64)
-}
-
 fn mode(of: &Value) -> Option<Mode> {
     let is_rigid_body = of.get("is_rigid_body").and_then(Value::as_bool) == Some(true);
     let number_of = of.get("mode").and_then(Value::as_u64).filter(|_| !is_rigid_body)?;
@@ -99,14 +102,12 @@ fn pair(of: &Value) -> Option<Pair> {
 
 /// Two rows of strokes, and a line between those that are one mode.
 fn picture(model: &[Mode], measured: &[Mode], pairs: &[Pair]) -> String {
-    // Of a mode without a partner the share of the unknown stiffness is not known here: it counts as that of the others.
-    let ratios = pairs.iter().map(|pair| (1.0 + pair.at_factor) / (1.0 + pair.difference));
-    let usual = ratios.fold((0.0, 0.0), |(sum, count), ratio| (sum + ratio, count + 1.0));
-    let usual = if usual.1 > 0.0 { usual.0 / usual.1 } else { 1.0 };
+    // The summary has no change of a mode without a partner: it gets the mean of the others.
+    let sum: f64 = pairs.iter().map(Pair::change).sum();
+    let mean = if pairs.is_empty() { 1.0 } else { sum / pairs.len() as f64 };
     let shown = |mode: &Mode| {
         let own = pairs.iter().find(|pair| pair.model == mode.number);
-        let by = own.map_or(usual, |pair| (1.0 + pair.at_factor) / (1.0 + pair.difference));
-        Mode { hz: by * mode.hz, ..*mode }
+        Mode { hz: own.map_or(mean, Pair::change) * mode.hz, ..*mode }
     };
     let model: &[Mode] = &model.iter().map(shown).collect::<Vec<_>>();
     let all = || model.iter().chain(measured).map(|mode| mode.hz);

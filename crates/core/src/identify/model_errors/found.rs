@@ -149,20 +149,20 @@ impl Estimated {
             }
         };
         let of_factors = self.modes.of_error.len();
-        let factor = |(t, &subspace::FactorError { term, part, error })| {
-            let std = covariance(of_factors + t, of_factors + t).max(0.0).sqrt();
-            FactorError { term, part, error, std }
+        let std = |c: usize| covariance(c, c).max(0.0).sqrt();
+        let factor = |(t, &subspace::FactorError { term, part, error })| FactorError {
+            term,
+            part,
+            error,
+            std: std(of_factors + t),
         };
         let first_mass = of_factors + self.factors.len();
-        let mass = |(m, (error, apparent)): (usize, (&f64, &f64))| {
-            let std = covariance(first_mass + m, first_mass + m).max(0.0).sqrt();
-            SensorMass { mass: error * apparent, std: std * apparent }
+        let mass = |(m, (error, apparent)): (usize, (&f64, &f64))| SensorMass {
+            mass: error * apparent,
+            std: std(first_mass + m) * apparent,
         };
         let first_gain = first_mass + self.errors.masses.len();
-        let calibration = |(m, &error): (usize, &f64)| {
-            let std = covariance(first_gain + m, first_gain + m).max(0.0).sqrt();
-            CalibrationError { error, std }
-        };
+        let calibration = |(m, &error): (usize, &f64)| CalibrationError { error, std: std(first_gain + m) };
         let is_listed = |omega: &f64| *omega > 0.0 && *omega <= LISTED_ABOVE_BAND * self.highest_rad_s;
         let [frequency_std, loss_factor_std, shape_std] = self.sizes;
         let errors_of_known =

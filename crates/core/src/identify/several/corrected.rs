@@ -44,10 +44,9 @@ impl Task<'_, '_> {
         let again = task.search_from(reduced, begin, &values);
         let again = BandSolution { starts: solution.starts.clone(), agreeing: solution.agreeing, ..again };
         let judged = task.judge(reduced, &again, Some(&errors));
-        let judged = SeveralOutcome { leverage: found.leverage, ..judged };
         let is_contradicted = !errors.contradicted_assumptions.is_empty();
         let judged = if is_contradicted { judged.of_other_model() } else { judged };
-        SeveralOutcome { model_errors: Some(errors.found()), ..judged }
+        SeveralOutcome { model_errors: Some(errors.found()), leverage: found.leverage, ..judged }
     }
 
     /// The same task, in which the response has this part of itself beside the noise.

@@ -250,16 +250,13 @@ impl<'a> Neighbourhoods<'a> {
             return false;
         }
         (context.progress)(Stage::Subspace, 0, self.frequency_hz.len());
-        let (mut points, before) = (Vec::new(), self.subspace.size());
-        if self.is_near {
-            self.answers = answers.to_vec();
+        let before = self.subspace.size();
+        let trained = || thinned(&lacking, MAX_TRAINING_FREQUENCIES);
+        match self.is_near {
+            true => self.answers = answers.to_vec(),
+            false => self.answers.extend(trained().map(|(k, _)| answers[*k].clone())),
         }
-        for (k, point) in thinned(&lacking, MAX_TRAINING_FREQUENCIES) {
-            if !self.is_near {
-                self.answers.push(answers[*k].clone());
-            }
-            points.push(point.clone());
-        }
+        let points: Vec<Point<'a>> = trained().map(|(_, point)| point.clone()).collect();
         let training = TrainOptions {
             tolerance: TRAINED_TOL,
             factorisations: MAX_FACTORISATIONS,

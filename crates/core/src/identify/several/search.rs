@@ -104,10 +104,11 @@ impl Task<'_, '_> {
         reduced.widen(self.context.for_each);
         (self.context.progress)(Stage::Solutions, 0, all.len());
         let mut tried = self.tried(reduced, &part, LOG_RESPONSE_FREQUENCIES);
-        // Where nothing explains the sensors, resonances that coincide by chance leave least of them, and logarithms show what is right but for errors of the model.
+        // Where no start explains the sensors, residuals can be small because resonances coincide by chance. Logarithms are large there.
         if self.is_unexplained(&tried[0].1) {
-            let logs = |one: &(f64, BandSolution, Vec<c64>)| self.log_misfit(&part, &one.1);
-            tried.sort_by(|a, b| logs(a).total_cmp(&logs(b)));
+            let logs: Vec<f64> = tried.iter().map(|(_, found, _)| self.log_misfit(&part, found)).collect();
+            let least = (0..logs.len()).min_by(|&a, &b| logs[a].total_cmp(&logs[b])).unwrap_or(0);
+            tried.swap(0, least);
         }
         let starts = tried.iter().flat_map(|(_, found, _)| found.starts.clone()).collect();
         let (least, first, values) = tried.swap_remove(0);
@@ -123,7 +124,7 @@ impl Task<'_, '_> {
         BandSolution { starts, agreeing, ..found }
     }
 
-    /// Σ |ln(x_m/u_m)|² of the chosen solutions, what a frequency without one would leave at least as the worst of them.
+    /// Σ |ln(x_m/u_m)|² of the chosen solutions, a frequency without one counts as the worst of them.
     fn log_misfit(&self, which: &[usize], found: &BandSolution) -> f64 {
         let at = |k: usize| -> Option<f64> {
             let u = &self.problem.frfs.receptance[which[k]];
