@@ -21,7 +21,11 @@ const REWEIGHING_ROUNDS: usize = 12;
 
 /// The phase of a residual within ±π.
 pub(super) fn wrapped(residual: c64) -> c64 {
-    c64::new(residual.re, residual.im - TAU * (residual.im / TAU).round())
+    // Most are: rounding is a call of the library.
+    match residual.im.abs() <= PI {
+        true => residual,
+        false => c64::new(residual.re, residual.im - TAU * (residual.im / TAU).round()),
+    }
 }
 
 /// −ln of the likelihood, and the scale σ of real and imaginary part each.

@@ -55,6 +55,28 @@ const DIFFERENCE_STEP: f64 = 1e-6;
 /// Values as they were written: ln of the complex value at `[frequency][sensor]`, `None` where it is zero or no number.
 pub(super) struct Written(pub(super) Vec<Vec<Option<c64>>>);
 
+/// A value as it is read, but for the factor and the delay that are looked for.
+struct Reading {
+    /// Frequency and sensor.
+    place: [usize; 2],
+    /// Which of the model's values it is compared with.
+    at: usize,
+    /// ln of the receptance.
+    ln: c64,
+    /// 1 where the factor is of this sensor, otherwise 0.
+    factor: f64,
+    /// ω where the delay is of this sensor, otherwise 0.
+    turn: f64,
+}
+
+impl Reading {
+    /// ln(measured/model), with the model's logarithms given.
+    fn residual(&self, ln: &[c64], ln_factor: f64, delay_s: f64) -> c64 {
+        let read = self.ln + c64::new(-self.factor * ln_factor, self.turn * delay_s);
+        wrapped(read - ln[self.at])
+    }
+}
+
 /// Everything a search needs.
 pub(super) struct Search<'s, 'a> {
     pub(super) responses: &'s Responses<'a>,
@@ -132,27 +154,27 @@ impl Search<'_, '_> {
         Grid { moduli, ln }
     }
 
-    /// Residuals ln(measured/model) with the model's logarithms given, with sensor and place, where something was measured.
-    fn residuals<'r>(
-        &'r self,
-        data_hypothesis: &'r DataHypothesis,
-        ln: &'r [c64],
-        ln_factor: f64,
-        delay_s: f64,
-    ) -> impl Iterator<Item = ([usize; 2], c64)> + 'r {
+    /// What was measured, as it is read.
+    fn readings(&self, data_hypothesis: &DataHypothesis) -> Vec<Reading> {
         let sensors = data_hypothesis.sensors();
-        self.written.0.iter().enumerate().flat_map(move |(i, values)| {
-            values.iter().enumerate().filter_map(move |(m, value)| {
-                let f = self.responses.frequency_hz[i];
-                let read = data_hypothesis.receptance(m, f, (*value)?, ln_factor, delay_s);
-                Some(([i, m], wrapped(read - ln[i * sensors + m])))
+        let reading = |i: usize, m: usize| {
+            let f = self.responses.frequency_hz[i];
+            let [factor, delay] = data_hypothesis.concerned(m);
+            Some(Reading {
+                place: [i, m],
+                at: i * sensors + m,
+                ln: data_hypothesis.receptance(m, f, self.written.0[i][m]?, 0.0, 0.0),
+                factor: f64::from(u8::from(factor)),
+                turn: if delay { omega_rad_s(f) } else { 0.0 },
             })
-        })
+        };
+        (0..self.written.0.len()).flat_map(|i| (0..sensors).filter_map(move |m| reading(i, m))).collect()
     }
 
     /// The likeliest moduli from the best of the grid and from starts that are known.
     pub(super) fn fit(&self, data_hypothesis: &DataHypothesis, grid: &Grid, known: &[&Fitted]) -> Fitted {
-        let scored = map(self.for_each, grid.moduli.len(), |p| self.score(data_hypothesis, &grid.ln[p]));
+        let readings = self.readings(data_hypothesis);
+        let scored = map(self.for_each, grid.moduli.len(), |p| score(&readings, &grid.ln[p]));
         let mut order: Vec<usize> = (0..scored.len()).collect();
         order.sort_by(|&a, &b| scored[a].0.total_cmp(&scored[b].0));
         let mut starts: Vec<Start> =
@@ -178,7 +200,8 @@ impl Search<'_, '_> {
         grid: &Grid,
         most: usize,
     ) -> Vec<usize> {
-        let scored = map(self.for_each, grid.ln.len(), |p| self.score(data_hypothesis, &grid.ln[p]).0);
+        let readings = self.readings(data_hypothesis);
+        let scored = map(self.for_each, grid.ln.len(), |p| score(&readings, &grid.ln[p]).0);
         let mut order: Vec<usize> = (0..scored.len()).collect();
         order.sort_by(|&a, &b| scored[a].total_cmp(&scored[b]));
         order.truncate(most);
@@ -187,7 +210,8 @@ impl Search<'_, '_> {
 
     /// The least misfit at some points of the grid, at a broad scale.
     pub(super) fn best_score(&self, data_hypothesis: &DataHypothesis, grid: &Grid, points: &[usize]) -> f64 {
-        let scores = points.iter().map(|&p| self.score(data_hypothesis, &grid.ln[p]).0);
+        let readings = self.readings(data_hypothesis);
+        let scores = points.iter().map(|&p| score(&readings, &grid.ln[p]).0);
         scores.fold(f64::INFINITY, f64::min)
     }
 
@@ -197,15 +221,16 @@ impl Search<'_, '_> {
         data_hypothesis: &DataHypothesis,
         starts: Vec<Start>,
     ) -> (f64, Start) {
+        let readings = self.readings(data_hypothesis);
         let scored = starts.into_iter().map(|(moduli, _, delay_s)| {
             let ln = self.ln(data_hypothesis, &moduli);
-            let ln_factor = self.score(data_hypothesis, &ln).1;
+            let ln_factor = score(&readings, &ln).1;
             let mut start = (moduli, ln_factor, delay_s);
             if data_hypothesis.free()[1] {
                 start = self.with_delay(data_hypothesis, start);
             }
-            let residuals = self.residuals(data_hypothesis, &ln, start.1, start.2);
-            (misfit_at(residuals.map(|r| r.1), START_SCALE), start)
+            let residuals = readings.iter().map(|reading| reading.residual(&ln, start.1, start.2));
+            (misfit_at(residuals, START_SCALE), start)
         });
         let best = scored.min_by(|a, b| a.0.total_cmp(&b.0));
         best.unwrap_or_else(|| (f64::INFINITY, (self.responses.parametrization.nominal(), 0.0, 0.0)))
@@ -231,33 +256,17 @@ impl Search<'_, '_> {
         })
     }
 
-    /// Misfit of a point of the grid at a broad scale, and the logarithm of the factor there.
-    fn score(&self, data_hypothesis: &DataHypothesis, ln: &[c64]) -> (f64, f64) {
-        let [factor, delay] = data_hypothesis.free();
-        let mut ln_factor = 0.0;
-        if factor {
-            let of = self
-                .residuals(data_hypothesis, ln, 0.0, 0.0)
-                .filter(|&([_, m], _)| data_hypothesis.concerned(m)[0]);
-            ln_factor = median(of.map(|(_, r)| r.re).collect()).unwrap_or(0.0);
-        }
-        // A phase that a delay may have turned is not used yet.
-        let weighed = |([_, m], r): ([usize; 2], c64)| {
-            if delay && data_hypothesis.concerned(m)[1] { c64::new(r.re, 0.0) } else { r }
-        };
-        let score = misfit_at(self.residuals(data_hypothesis, ln, ln_factor, 0.0).map(weighed), START_SCALE);
-        (score, ln_factor)
-    }
-
     /// A start with the best of all delays.
     fn with_delay(&self, data_hypothesis: &DataHypothesis, (moduli, ln_factor, delay_s): Start) -> Start {
         let ln = self.ln(data_hypothesis, &moduli);
+        let readings = self.readings(data_hypothesis);
         let top = self.top();
         let steps = (MAX_DELAY_PHASE_RAD / DELAY_PHASE_STEP_RAD) as i64;
         let delays =
             (-steps..=steps).map(|k| k as f64 * DELAY_PHASE_STEP_RAD / top).chain(std::iter::once(delay_s));
         let scored = delays.map(|tau| {
-            (misfit_at(self.residuals(data_hypothesis, &ln, ln_factor, tau).map(|r| r.1), START_SCALE), tau)
+            let residuals = readings.iter().map(|reading| reading.residual(&ln, ln_factor, tau));
+            (misfit_at(residuals, START_SCALE), tau)
         });
         let best = scored.min_by(|a, b| a.0.total_cmp(&b.0)).map_or(0.0, |(_, tau)| tau);
         (moduli, ln_factor, best)
@@ -315,8 +324,8 @@ impl Search<'_, '_> {
         let (moduli, ln_factor, delay_s) = start;
         let ln = self.ln(data_hypothesis, moduli);
         let mut by_sensor: Vec<Vec<c64>> = vec![Vec::new(); data_hypothesis.sensors()];
-        for ([_, m], residual) in self.residuals(data_hypothesis, &ln, *ln_factor, *delay_s) {
-            by_sensor[m].push(residual);
+        for reading in self.readings(data_hypothesis) {
+            by_sensor[reading.place[1]].push(reading.residual(&ln, *ln_factor, *delay_s));
         }
         let rest = by_sensor.concat();
         let own = by_sensor.iter().map(|own| misfit(own).sigma).collect();
@@ -353,23 +362,16 @@ impl Search<'_, '_> {
             }
             ln.extend(own);
         }
-        let (places, residuals): (Vec<[usize; 2]>, Vec<c64>) =
-            self.residuals(data_hypothesis, &ln, ln_factor, delay_s).unzip();
+        let readings = self.readings(data_hypothesis);
+        let residuals = readings.iter().map(|reading| reading.residual(&ln, ln_factor, delay_s)).collect();
+        let of_reading = |slope: &Vec<c64>| readings.iter().map(|reading| -slope[reading.at]).collect();
+        let mut slopes: Vec<Vec<c64>> = of_ln.iter().map(of_reading).collect();
         let [factor, delay] = data_hypothesis.free();
-        let of_place = |slope: &Vec<c64>| places.iter().map(|&[i, m]| -slope[i * sensors + m]).collect();
-        let mut slopes: Vec<Vec<c64>> = of_ln.iter().map(of_place).collect();
-        let concerned = |which: usize, by: &dyn Fn(usize) -> c64| -> Vec<c64> {
-            let one = |&[i, m]: &[usize; 2]| {
-                if data_hypothesis.concerned(m)[which] { by(i) } else { c64::default() }
-            };
-            places.iter().map(one).collect()
-        };
         if factor {
-            slopes.push(concerned(0, &|_| c64::new(-1.0, 0.0)));
+            slopes.push(readings.iter().map(|reading| c64::new(-reading.factor, 0.0)).collect());
         }
         if delay {
-            let turn = |i: usize| omega_rad_s(self.responses.frequency_hz[i]) / self.top();
-            slopes.push(concerned(1, &|i| c64::new(0.0, turn(i))));
+            slopes.push(readings.iter().map(|reading| c64::new(0.0, reading.turn / self.top())).collect());
         }
         (residuals, slopes)
     }
@@ -480,12 +482,28 @@ impl Search<'_, '_> {
         sensors: &[usize],
     ) -> Option<(f64, f64)> {
         let ln = self.ln(data_hypothesis, &fitted.moduli);
-        let residuals = self.residuals(data_hypothesis, &ln, fitted.ln_factor, fitted.delay_s);
-        let of_sensors = residuals.filter(|([_, m], _)| sensors.contains(m));
         let ln_omega = |i: usize| omega_rad_s(self.responses.frequency_hz[i]).ln();
-        let points: Vec<(f64, f64)> = of_sensors.map(|([i, _], r)| (ln_omega(i), r.re)).collect();
+        let readings = self.readings(data_hypothesis).into_iter();
+        let of_sensors = readings.filter(|reading| sensors.contains(&reading.place[1]));
+        let point = |reading: Reading| {
+            (ln_omega(reading.place[0]), reading.residual(&ln, fitted.ln_factor, fitted.delay_s).re)
+        };
+        let points: Vec<(f64, f64)> = of_sensors.map(point).collect();
         line_slope(&points)
     }
+}
+
+/// Misfit of a point of the grid at a broad scale, and the logarithm of the factor there.
+fn score(readings: &[Reading], ln: &[c64]) -> (f64, f64) {
+    let of_factor = readings.iter().filter(|reading| reading.factor > 0.0);
+    let ln_factor =
+        median(of_factor.map(|reading| reading.residual(ln, 0.0, 0.0).re).collect()).unwrap_or(0.0);
+    let residual = |reading: &Reading| {
+        let residual = reading.residual(ln, ln_factor, 0.0);
+        // A phase that a delay may have turned is not used yet.
+        if reading.turn > 0.0 { c64::new(residual.re, 0.0) } else { residual }
+    };
+    (misfit_at(readings.iter().map(residual), START_SCALE), ln_factor)
 }
 
 /// Slope of a straight line through points, least squares, with its standard deviation.

@@ -1,5 +1,6 @@
 //! Natural frequencies, damping and shapes that measured responses show.
 
+use super::left_over::resonances_left;
 use super::rational_fit::{Fit, Fitted, Measured, PoleCovariance};
 use super::stabilisation::{MAX_DAMPING_RATIO, ORDER_STEP, PoleAtOrder, stabilisation};
 use crate::c64;
@@ -92,8 +93,8 @@ const MAX_ROUNDS: usize = 60;
 
 /// The modes of measured responses, from all sensors together. Lines at 0 Hz must not be among them.
 ///
-/// Poles that a stabilisation diagram shows at several orders are fitted to all lines at once; those that gain less than their number of unknowns bears
-/// (BIC) are left out.
+/// Poles that a stabilisation diagram shows at several orders are fitted to all lines at once, and those where what is left has a resonance.
+/// Those that gain less than their number of unknowns bears (BIC) are left out.
 ///
 /// # Errors
 /// [`NoConvergence`] where a response is not finite.
@@ -143,8 +144,7 @@ pub fn measured_modes(
     };
     let mut modes: Vec<MeasuredMode> = (0..fit.poles.len()).map(mode).collect();
     modes.sort_by(|a, b| a.pole_per_s.norm().total_cmp(&b.pole_per_s.norm()));
-    let fitted = search.measured.responses_of(&fitted);
-    Ok(MeasuredModes { modes, diagram, level, frequency_hz, fitted })
+    Ok(MeasuredModes { modes, diagram, level, frequency_hz, fitted: fitted.responses })
 }
 
 /// Standard deviations of |s|/2π and −Re s/|s|.
@@ -209,6 +209,13 @@ impl PoleSearch<'_> {
         Some((fitted.misfit / freedom as f64).sqrt())
     }
 
+    /// By how much the misfit must be smaller with a pole (BIC).
+    fn price(&self, fit: &Fit, fitted: &Fitted) -> Option<f64> {
+        let noise = self.level(fit, fitted)?.max(if self.noise_known { 1.0 } else { MIN_LEVEL });
+        let own = (2 + 2 * self.measured.sensors()) as f64;
+        Some(own * (self.measured.numbers() as f64).ln() * noise * noise)
+    }
+
     /// −2 ln of the likelihood, and what the unknowns cost (BIC).
     fn information(&self, fit: &Fit, fitted: &Fitted) -> f64 {
         let numbers = self.measured.numbers() as f64;
@@ -230,6 +237,14 @@ impl PoleSearch<'_> {
             if let Some(more) = self.pruned(more).filter(|more| self.is_better(more, &best)) {
                 best = more;
             }
+        }
+        for _ in 0..MAX_ROUNDS {
+            let Some(price) = self.price(&best.0, &best.1) else { break };
+            let left = resonances_left(&self.measured, &best.0, &best.1, price);
+            let more = Fit { poles: [&best.0.poles[..], &left].concat(), ..best.0.clone() };
+            let found = Some(more).filter(|_| !left.is_empty()).and_then(|more| self.pruned(more));
+            let Some(more) = found.filter(|more| self.is_better(more, &best)) else { break };
+            best = more;
         }
         // Poles that are right need other polynomials than those that were not yet.
         let again = self.with_degree(&best.0.poles).and_then(|fit| self.pruned(fit));
@@ -266,13 +281,10 @@ impl PoleSearch<'_> {
             let failed = refined.is_none();
             fit = refined.unwrap_or(fit);
             let fitted = self.measured.fitted(&fit, self.for_each)?;
-            let Some(level) = self.level(&fit, &fitted) else {
+            let Some(price) = self.price(&fit, &fitted) else {
                 fit.poles.pop()?;
                 continue;
             };
-            let noise = level.max(if self.noise_known { 1.0 } else { MIN_LEVEL });
-            let own = (2 + 2 * self.measured.sensors()) as f64;
-            let price = own * (self.measured.numbers() as f64).ln() * noise * noise;
             let stays = |r: usize| {
                 let pole = fit.poles[r];
                 let is_mode = self.measured.is_in_band(pole) && damping_ratio(pole) < MAX_DAMPING_RATIO;

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `stabilisation` | poles of measured responses at growing orders (LSCF) |
 //! | `rational_fit` | poles fitted to all lines at once, with their covariance |
+//! | `left_over` | resonances in what the fitted poles leave |
 //! | `measured_modes` | which of them are modes |
 //! | `pairing` | which mode of the model is which of the measurement |
 //! | `correlation` | MAC, COMAC, FRAC, CSAC, CSF |
@@ -11,6 +12,7 @@
 //! The modes of a model are those of its reduced model: [`Subspace::natural_modes`](crate::subspace::Subspace::natural_modes).
 
 mod correlation;
+mod left_over;
 mod measured_modes;
 mod pairing;
 mod rational_fit;

@@ -12,7 +12,7 @@ use crate::c64;
 use crate::for_each::{ForEach, map};
 use crate::frequency::{laplace_per_s, omega_rad_s};
 use crate::least_squares::{Residuals, Search, descend, inverse_information};
-use frfit_linalg::dense::{RealQr, real_qr};
+use frfit_linalg::dense::upper_triangle;
 
 /// Responses with their weights 1/σ (σ of real and imaginary part each), `[frequency][sensor]`, under a window of this decay.
 #[derive(Clone, Copy)]
@@ -39,8 +39,8 @@ pub(super) struct Fitted {
     pub(super) residues: Vec<Vec<c64>>,
     /// By how much the misfit is larger without each pole.
     pub(super) gains: Vec<f64>,
-    /// What is left of each sensor's responses, weighted: real parts, then imaginary parts.
-    rests: Vec<Vec<f64>>,
+    /// What is fitted, `[sensor][frequency]`.
+    pub(super) responses: Vec<Vec<c64>>,
 }
 
 /// Covariance of Re s and Im s of a pole: [Re Re, Re Im, Im Im].
@@ -52,15 +52,18 @@ const DEPENDENT_COLUMN_RTOL: f64 = 1e-12;
 /// Evaluations of the search for each coordinate.
 const SEARCH_PATIENCE: usize = 20;
 
-/// What the linear least squares of one sensor leave.
+/// Linear least squares of one sensor.
 struct Eliminated {
-    /// Of Φ, 2K rows (real parts, then imaginary parts).
-    qr: RealQr,
-    count: usize,
-    /// The linear coefficients, two of each pole first.
+    /// R of the weighted [Φ, h], (n + 1) × (n + 1): its last entry is the length of what is left.
+    triangle: Triangle,
+    /// The linear coefficients c, two of each pole first.
     coefficients: Vec<f64>,
-    /// What is left.
-    rest: Vec<f64>,
+}
+
+/// An upper triangle, column after column.
+struct Triangle {
+    entries: Vec<f64>,
+    size: usize,
 }
 
 impl Measured<'_> {
@@ -83,74 +86,89 @@ impl Measured<'_> {
         laplace_per_s(self.frequency_hz[k], self.decay_per_s)
     }
 
-    /// Complex values of a line in two real rows.
-    fn column(&self, m: usize, value: impl Fn(usize) -> c64) -> Vec<f64> {
+    /// Φ at every line, column after column: of each pole those of Re R and Im R, then those of the polynomials.
+    fn functions(&self, fit: &Fit) -> Vec<Vec<c64>> {
         let n = self.frequency_hz.len();
-        let mut column = vec![0.0; 2 * n];
-        for k in 0..n {
-            let value = self.weights[k][m] * value(k);
-            (column[k], column[n + k]) = (value.re, value.im);
-        }
-        column
-    }
-
-    fn eliminated(&self, m: usize, fit: &Fit) -> Option<Eliminated> {
-        let n = self.frequency_hz.len();
-        let mut columns = Vec::new();
-        for &pole in &fit.poles {
-            let pair = |k: usize| [(self.s(k) - pole).inv(), (self.s(k) - pole.conj()).inv()];
-            columns.extend(self.column(m, |k| pair(k)[0] + pair(k)[1]));
-            columns.extend(self.column(m, |k| c64::I * (pair(k)[0] - pair(k)[1])));
-        }
+        let mut functions = self.pole_functions(fit, |near| near);
         let lowest = self.s(0).norm_sqr();
         let [first, last] = [self.frequency_hz[0], self.frequency_hz[n - 1]];
         let x = |k: usize| (2.0 * self.frequency_hz[k] - first - last) / (last - first);
-        let smooth = |k: usize, j: usize| match j {
-            0 => lowest / self.s(k).powi(2),
-            j => c64::new(((j - 1) as f64 * x(k).clamp(-1.0, 1.0).acos()).cos(), 0.0),
-        };
-        for j in 0..fit.degree + 2 {
-            columns.extend(self.column(m, |k| smooth(k, j)));
-            columns.extend(self.column(m, |k| c64::I * smooth(k, j)));
+        let mut smooth = vec![(0..n).map(|k| lowest / self.s(k).powi(2)).collect::<Vec<c64>>()];
+        for j in 0..=fit.degree {
+            let next = |k: usize| match j {
+                0 => c64::new(1.0, 0.0),
+                1 => c64::new(x(k), 0.0),
+                j => 2.0 * x(k) * smooth[j][k] - smooth[j - 1][k],
+            };
+            smooth.push((0..n).map(next).collect());
         }
-        let count = columns.len() / (2 * n);
-        let qr = real_qr(&columns, count).ok()?;
-        let mut rest = self.column(m, |k| self.responses[k][m]);
-        let inside = taken_out(&qr.q, &mut rest);
-        let coefficients = back_substituted(&qr.r, count, inside);
-        Some(Eliminated { qr, count, coefficients, rest })
+        for function in smooth {
+            let turned = function.iter().map(|value| c64::I * value).collect();
+            functions.extend([function, turned]);
+        }
+        functions
     }
 
-    /// ∂(Φc)/∂(Re s_r) and by Im s_r with the linear coefficients held, what of them is not in Φ.
-    fn slopes(&self, m: usize, fit: &Fit, own: &Eliminated) -> Vec<f64> {
-        let mut slopes = Vec::new();
-        for (r, &pole) in fit.poles.iter().enumerate() {
-            let residue = c64::new(own.coefficients[2 * r], own.coefficients[2 * r + 1]);
-            let pair = |k: usize| {
-                let [near, far] = [self.s(k) - pole, self.s(k) - pole.conj()];
-                [residue / (near * near), residue.conj() / (far * far)]
-            };
-            slopes.extend(self.column(m, |k| pair(k)[0] + pair(k)[1]));
-            slopes.extend(self.column(m, |k| c64::I * (pair(k)[0] - pair(k)[1])));
+    /// f(1/(s − s_r)) + f(1/(s − s̄_r)) and i times their difference, of each pole.
+    fn pole_functions(&self, fit: &Fit, f: impl Fn(c64) -> c64) -> Vec<Vec<c64>> {
+        let both = |pole: &c64| {
+            let pair = (0..self.frequency_hz.len()).map(|k| {
+                let [near, far] = [*pole, pole.conj()].map(|pole| f((self.s(k) - pole).inv()));
+                (near + far, c64::I * (near - far))
+            });
+            let (sum, difference) = pair.unzip();
+            [sum, difference]
+        };
+        fit.poles.iter().flat_map(both).collect()
+    }
+
+    /// R of what a sensor weighs: of these functions, and its responses last.
+    fn triangle(&self, m: usize, functions: &[Vec<c64>]) -> Option<Triangle> {
+        let n = self.frequency_hz.len();
+        let size = functions.len() + 1;
+        let mut columns = vec![0.0; 2 * n * size];
+        for (j, column) in columns.chunks_exact_mut(2 * n).enumerate() {
+            for k in 0..n {
+                let value = functions.get(j).map_or(self.responses[k][m], |function| function[k]);
+                let value = self.weights[k][m] * value;
+                (column[k], column[n + k]) = (value.re, value.im);
+            }
         }
-        let rows = own.rest.len();
-        slopes.chunks_exact_mut(rows).for_each(|column| drop(taken_out(&own.qr.q, column)));
-        slopes
+        Some(Triangle { entries: upper_triangle(&columns, size).ok()?, size })
+    }
+
+    fn eliminated(&self, m: usize, functions: &[Vec<c64>]) -> Option<Eliminated> {
+        let triangle = self.triangle(m, functions)?;
+        let coefficients = triangle.coefficients(functions.len());
+        Some(Eliminated { triangle, coefficients })
     }
 
     /// Residuals and their slopes by (Re s, Im s) of each pole, rotated into few rows: sums of squares and products are the same.
+    ///
+    /// With Ψ = ∂Φ/∂s of the poles, R of [Φ, Ψ, h] has below the rows of Φ what of Ψ and of h is not in Φ. The slopes are those with c held.
     fn residuals(&self, fit: &Fit, for_each: ForEach<'_>) -> Option<Residuals> {
-        let count = 2 * fit.poles.len() + 1;
+        let own = 2 * fit.poles.len();
+        let mut functions = self.functions(fit);
+        let count = functions.len();
+        functions.extend(self.pole_functions(fit, |near| near * near));
         let of_sensor = |m: usize| {
-            let own = self.eliminated(m, fit)?;
-            let mut block = self.slopes(m, fit, &own);
-            block.iter_mut().for_each(|slope| *slope = -*slope);
-            block.extend(own.rest);
-            Some(real_qr(&block, count).ok()?.r)
+            let triangle = self.triangle(m, &functions)?;
+            let residues = triangle.coefficients(count);
+            let below = |j: usize| triangle.column(count + j)[count..].iter();
+            let mut block = Vec::with_capacity((own + 1) * (own + 1));
+            for r in (0..own).step_by(2) {
+                let [re, im] = [residues[r], residues[r + 1]];
+                let pair = || below(r).zip(below(r + 1));
+                block.extend(pair().map(|(a, b)| -(re * a + im * b)));
+                block.extend(pair().map(|(a, b)| -(re * b - im * a)));
+            }
+            block.extend(below(own));
+            Some(block)
         };
         let each = map(for_each, self.sensors(), of_sensor).into_iter().collect::<Option<Vec<_>>>()?;
-        let column = |j: usize| each.iter().flat_map(move |r| r[j * count..(j + 1) * count].iter().copied());
-        Some((column(count - 1).collect(), (0..count - 1).flat_map(column).collect()))
+        let rows = own + 1;
+        let column = |j: usize| each.iter().flat_map(move |r| r[j * rows..(j + 1) * rows].iter().copied());
+        Some((column(own).collect(), (0..own).flat_map(column).collect()))
     }
 
     /// The poles that fit best, from these on.
@@ -169,31 +187,26 @@ impl Measured<'_> {
 
     /// Everything linear at given poles.
     pub(super) fn fitted(&self, fit: &Fit, for_each: ForEach<'_>) -> Option<Fitted> {
-        let each = map(for_each, self.sensors(), |m| self.eliminated(m, fit))
+        let functions = self.functions(fit);
+        let each = map(for_each, self.sensors(), |m| self.eliminated(m, &functions))
             .into_iter()
             .collect::<Option<Vec<_>>>()?;
-        let misfit = each.iter().flat_map(|own| &own.rest).map(|r| r * r).sum();
         let residue =
             |r: usize, own: &Eliminated| c64::new(own.coefficients[2 * r], own.coefficients[2 * r + 1]);
         let residues =
             (0..fit.poles.len()).map(|r| each.iter().map(|own| residue(r, own)).collect()).collect();
         let gain = |r: usize| each.iter().map(|own| own.gain(2 * r)).sum();
+        let response = |own: &Eliminated| {
+            let term = |k: usize, (c, function): (&f64, &Vec<c64>)| *c * function[k];
+            let at = |k: usize| own.coefficients.iter().zip(&functions).map(|each| term(k, each)).sum();
+            (0..self.frequency_hz.len()).map(at).collect()
+        };
         Some(Fitted {
-            misfit,
+            misfit: each.iter().map(Eliminated::misfit).sum(),
             residues,
             gains: (0..fit.poles.len()).map(gain).collect(),
-            rests: each.into_iter().map(|own| own.rest).collect(),
+            responses: each.iter().map(response).collect(),
         })
-    }
-
-    /// What is fitted, `[sensor][frequency]`: what was measured without what is left.
-    pub(super) fn responses_of(&self, fitted: &Fitted) -> Vec<Vec<c64>> {
-        let n = self.frequency_hz.len();
-        let of_sensor = |(m, rest): (usize, &Vec<f64>)| {
-            let at = |k: usize| self.responses[k][m] - c64::new(rest[k], rest[n + k]) / self.weights[k][m];
-            (0..n).map(at).collect()
-        };
-        fitted.rests.iter().enumerate().map(of_sensor).collect()
     }
 
     /// Covariance of each pole at σ: to be multiplied by the square of the level of the noise. `None` where poles depend on one another.
@@ -221,23 +234,51 @@ impl Measured<'_> {
     }
 }
 
+impl Triangle {
+    fn column(&self, j: usize) -> &[f64] {
+        &self.entries[j * self.size..(j + 1) * self.size]
+    }
+
+    /// R⁻¹ of the first n columns times the last one.
+    fn coefficients(&self, n: usize) -> Vec<f64> {
+        let mut c = self.column(self.size - 1)[..n].to_vec();
+        for k in (0..n).rev() {
+            let column = self.column(k);
+            c[k] = if self.is_dependent(k) { 0.0 } else { c[k] / column[k] };
+            for i in 0..k {
+                c[i] -= c[k] * column[i];
+            }
+        }
+        c
+    }
+
+    fn is_dependent(&self, k: usize) -> bool {
+        let column = &self.column(k)[..=k];
+        column[k].abs() <= DEPENDENT_COLUMN_RTOL * dot(column, column).sqrt()
+    }
+}
+
 impl Eliminated {
+    /// Σ w²|h − Φc|².
+    fn misfit(&self) -> f64 {
+        self.triangle.entries[self.triangle.entries.len() - 1].powi(2)
+    }
+
     /// By how much the sum of squares is larger without the columns j and j + 1: cᵀ[(ΦᵀΦ)⁻¹]⁻¹c on these two.
     fn gain(&self, j: usize) -> f64 {
-        let n = self.count;
+        let n = self.coefficients.len();
         // Rows j and j + 1 of R⁻¹, by forward substitution with Rᵀ.
         let row = |j: usize| {
             let mut row = vec![0.0; n];
             for k in j..n {
-                let sum: f64 = (j..k).map(|i| row[i] * self.qr.r[i + k * n]).sum();
+                let column = self.triangle.column(k);
                 let unit = f64::from(u8::from(k == j));
-                let diagonal = self.qr.r[k + k * n];
-                row[k] = if is_dependent(&self.qr.r, n, k) { 0.0 } else { (unit - sum) / diagonal };
+                let left = unit - dot(&row[j..k], &column[j..k]);
+                row[k] = if self.triangle.is_dependent(k) { 0.0 } else { left / column[k] };
             }
             row
         };
         let [a, b] = [row(j), row(j + 1)];
-        let dot = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(x, y)| x * y).sum::<f64>();
         let (aa, ab, bb) = (dot(&a, &a), dot(&a, &b), dot(&b, &b));
         let [c, d] = [self.coefficients[j], self.coefficients[j + 1]];
         let determinant = aa * bb - ab * ab;
@@ -249,29 +290,6 @@ fn poles(theta: &[f64]) -> Vec<c64> {
     theta.chunks_exact(2).map(|pair| c64::new(pair[0], pair[1])).collect()
 }
 
-/// Takes out of x what the columns of Q have of it; returns how much.
-fn taken_out(q: &[f64], x: &mut [f64]) -> Vec<f64> {
-    let mut overlaps = Vec::new();
-    for column in q.chunks_exact(x.len()) {
-        let overlap: f64 = column.iter().zip(x.iter()).map(|(q, x)| q * x).sum();
-        x.iter_mut().zip(column).for_each(|(x, q)| *x -= overlap * q);
-        overlaps.push(overlap);
-    }
-    overlaps
-}
-
-fn is_dependent(r: &[f64], n: usize, k: usize) -> bool {
-    let length: f64 = r[k * n..=k * n + k].iter().map(|r| r * r).sum::<f64>().sqrt();
-    r[k + k * n].abs() <= DEPENDENT_COLUMN_RTOL * length
-}
-
-/// R⁻¹x.
-fn back_substituted(r: &[f64], n: usize, mut x: Vec<f64>) -> Vec<f64> {
-    for k in (0..n).rev() {
-        x[k] = if is_dependent(r, n, k) { 0.0 } else { x[k] / r[k + k * n] };
-        for i in 0..k {
-            x[i] -= x[k] * r[i + k * n];
-        }
-    }
-    x
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }

@@ -16,7 +16,7 @@ pub use eigen::{Eigen, eigen, eigenvalues, symmetric_eigen};
 pub use least_squares::{LeastSquares, least_squares};
 pub use lu::{Lu, solve};
 pub use matrix::Matrix;
-pub use orthonormal::{RealQr, orthonormal, real_qr};
+pub use orthonormal::{orthonormal, upper_triangle};
 pub use polynomial::{Root, evaluate, roots};
 pub use real::{combination, multiply};
 pub use singular::{Singular, singular};
