@@ -142,7 +142,7 @@ def entry(name: str) -> str:
 
 
 # What a call returns: no caller makes one, so that its signature is of no use.
-RESULTS = {"Identification", "Estimate", "Finding", "Impact", "MeasuredFrf", "Uff", "UffSummary"}
+RESULTS = {"Identification", "Estimate", "Finding", "Impact", "MeasuredFrf", "Modes", "OtherExplanation", "Uff", "UffSummary"}
 
 
 def page() -> str:

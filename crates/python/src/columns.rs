@@ -36,6 +36,7 @@ pub(crate) fn identification<'py>(py: Python<'py>, computed: &Computed) -> PyRes
     identifiability(&found, computed, identify)?;
     found.set_item("title", &case.title)?;
     found.set_item("findings", findings(py, computed)?)?;
+    found.set_item("other_explanations", other_explanations(computed))?;
     let parsed = |json: Option<serde_json::Value>| {
         json.map(|json| py.import("json")?.call_method1("loads", (json.to_string(),))).transpose()
     };
@@ -46,7 +47,7 @@ pub(crate) fn identification<'py>(py: Python<'py>, computed: &Computed) -> PyRes
 }
 
 /// A column of real numbers.
-fn reals<'py>(
+pub(crate) fn reals<'py>(
     found: &Bound<'py, PyDict>,
     name: &str,
     column: impl Iterator<Item = Option<f64>>,
@@ -184,6 +185,13 @@ fn identifiability(found: &Bound<'_, PyDict>, computed: &Computed, identify: &Id
     found.set_item("not_identifiable", not_identifiable(identify, run))?;
     let profile = profile.as_ref().map_or(&[][..], |profile| &profile.points);
     found.set_item("profile", table(py, profile.iter().map(|&(x, y)| vec![x, y]), 2)?)
+}
+
+/// Faults in words, the misfit with them, and how many nats they are behind the best.
+fn other_explanations(computed: &Computed) -> Vec<(Vec<String>, f64, f64)> {
+    let others = computed.diagnosis.as_ref().map_or(&[][..], |diagnosis| &diagnosis.others);
+    let faults = |other| frfit_workflow::check::faults_text(&computed.case, other);
+    others.iter().map(|other| (faults(other), other.misfit, other.nats_behind)).collect()
 }
 
 fn findings<'py>(py: Python<'py>, computed: &Computed) -> PyResult<Bound<'py, PyList>> {

@@ -8,6 +8,7 @@ mod identify;
 mod law;
 mod matrix;
 mod model;
+mod modes;
 mod pool;
 mod report;
 mod respond;
@@ -32,6 +33,7 @@ fn _frfit(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(matrix::read_matrix, module)?)?;
     module.add_function(wrap_pyfunction!(identify::identify, module)?)?;
     module.add_function(wrap_pyfunction!(case::run_case, module)?)?;
+    module.add_function(wrap_pyfunction!(modes::modes, module)?)?;
     module.add_function(wrap_pyfunction!(report::report, module)?)?;
     module.add_function(wrap_pyfunction!(respond::respond, module)?)?;
     module.add_function(wrap_pyfunction!(series::series, module)?)?;

@@ -51,6 +51,21 @@ def test_callers_arrays_are_left_alone(chain):
     np.testing.assert_array_equal(chain.stiffness.indices, before[1])
 
 
+def test_a_finding_stands_beside_the_best_other_explanation(chain):
+    measured = np.array([chain.direct(TRUE, f, 2)[[0, 7]] for f in F])
+    found = {}
+    for sign in (1, -1):
+        channels = [frfit.Measurement(F, sign * one, row) for one, row in zip(measured.T, [0, 7], strict=True)]
+        options = {"load": 2, "matrix": "springs", "bounds": {"storage": (500, 2000), "loss_factor": (0, 0.2)}}
+        found[sign] = frfit.identify(chain.model(1200 * (1 + 0.05j)), channels, **options)
+    assert "sign" not in [finding.kind for finding in found[1].findings]
+    assert found[1].other_explanations == ()
+    assert "sign" in [finding.kind for finding in found[-1].findings]
+    other = found[-1].other_explanations[0]
+    # Half a turn is nearly what some delay does over the band.
+    assert "late" in other.faults[0] and other.misfit > 0.1 and other.nats_behind > 100
+
+
 def test_laws_are_what_their_formulas_say():
     w = 2j * np.pi * F
     np.testing.assert_allclose(frfit.Law.fractional(8.14e5, 7.31e4, 0.528).at(F), 8.14e5 + 7.31e4 * w**0.528)

@@ -159,6 +159,10 @@ fn doubt(results: &Results) -> Option<&'static str> {
             ", but something is wrong with the data: see the findings first.",
         ),
         (
+            !results.summary.undecided().is_empty(),
+            ", but something may be wrong with the data: see what would explain them.",
+        ),
+        (
             results.summary.word("/identify/selection") == "smallest",
             " by the rule of the smallest correction, which no second look confirms.",
         ),

@@ -166,6 +166,35 @@ fn the_verdict_says_how_much_can_be_trusted_and_why_not_the_rest() {
     assert!(text_of(&found).contains("Change <code>quantity of [[measurement]] 2</code>"));
 }
 
+/// Faults between which the data do not decide are told, and stand in doubt of the numbers; beside a finding that is decided they are not.
+#[test]
+fn what_may_be_wrong_is_told_as_such() {
+    let mut files = results(&Made::default());
+    let mut summary: Value = serde_json::from_slice(&files["summary.json"]).unwrap();
+    summary["other_explanations"] = serde_json::json!([
+        {"faults": [{"kind": "sign", "sensors": ["a<b"], "what": "the sign is reversed"},
+                    {"kind": "delay", "sensors": [], "what": "late by 1 ms"}], "misfit": 0.213, "nats_behind": 0.0},
+        {"faults": [{"kind": "factor", "sensors": ["c"], "what": "1000 times too large"}], "misfit": 0.25, "nats_behind": 4.41},
+    ]);
+    files.insert("summary.json", summary.to_string().into_bytes());
+    let undecided = page(&files).unwrap();
+    for expected in [
+        "Use with care",
+        "<b>a&lt;b: the sign is reversed; and late by 1 ms</b>. Misfit of ln(measured/model) 0.21, 0 nats behind the best.",
+        "<b>c: 1000 times too large</b>. Misfit of ln(measured/model) 0.25, 4.4 nats behind the best.",
+    ] {
+        assert!(text(&undecided).contains(expected), "{expected}\n{}", text(&undecided));
+    }
+    assert!(!text(&undecided).contains("no fault of them was found"));
+    summary["findings"] = serde_json::json!([{"kind": "conjugated", "sensors": [], "what": "conjugated", "change": "nothing", "evidence": {}}]);
+    files.insert("summary.json", summary.to_string().into_bytes());
+    let decided = page(&files).unwrap();
+    assert!(text(&decided).contains("conjugated") && !text(&decided).contains("1000 times too large"));
+    assert!(
+        text(&decided).contains("The likeliest other explanation: <b>a&lt;b: the sign is reversed; and late")
+    );
+}
+
 /// Where the band is not explained the report lists the modes above the plots: pairs with their differences, and modes without a partner.
 #[test]
 fn modes_stand_side_by_side_where_nothing_is_explained() {

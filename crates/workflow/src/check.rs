@@ -367,19 +367,24 @@ pub fn others_json(case: &Case, diagnosis: &Diagnosis) -> Value {
     diagnosis.others.iter().map(one).collect()
 }
 
-/// The explanations between which the data do not decide, a few lines each.
-fn undecided_text(case: &Case, others: &[OtherExplanation]) -> String {
+/// The faults of an explanation in words.
+pub fn faults_text(case: &Case, other: &OtherExplanation) -> Vec<String> {
     let said = |(fault, sensors): &(Fault, Vec<usize>)| {
         let who = labels(case, fault, sensors).join(", ");
         let what = words(case, fault, sensors).1;
         if who.is_empty() { what } else { format!("{who}: {what}") }
     };
+    other.faults.iter().map(said).collect()
+}
+
+/// The explanations between which the data do not decide, a few lines each.
+fn undecided_text(case: &Case, others: &[OtherExplanation]) -> String {
     let mut text = format!(
         "  {:<18}one of these would explain the data; too few nats are between them ({MIN_MARGIN_NATS} for each fault):\n",
         "not decided"
     );
     for other in others {
-        let faults: Vec<String> = other.faults.iter().map(said).collect();
+        let faults = faults_text(case, other);
         let left = format!("(misfit {:.2}, {:.1} nats behind)", other.misfit, other.nats_behind);
         text += &format!("  {:<18}- {} {left}\n", "", faults.join("; and "));
     }

@@ -31,8 +31,9 @@ from ._frfit import Law, Series, __version__
 from ._identify import CoarserMesh, Measurement, Unknown, identify, run_case
 from ._matrix import read_matrix
 from ._model import Model, Term, respond, series
+from ._modes import Modes, modes
 from ._report import Report
-from ._result import Direction, Estimate, Finding, Identification, Number
+from ._result import Direction, Estimate, Finding, Identification, Number, OtherExplanation
 from ._signal import Impact, MeasuredFrf, Recording, frf
 from ._uff import Uff, UffAxis, UffDof, UffFunction, UffSummary, read_uff, write_uff
 
@@ -53,8 +54,10 @@ __all__ = [
     "Model",
     "ModelError",
     "ModelMemoryError",
+    "Modes",
     "Number",
     "OptionsError",
+    "OtherExplanation",
     "OutsideTableError",
     "Recording",
     "Report",
@@ -73,6 +76,7 @@ __all__ = [
     "__version__",
     "frf",
     "identify",
+    "modes",
     "read_matrix",
     "read_uff",
     "respond",

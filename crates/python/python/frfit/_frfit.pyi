@@ -16,6 +16,7 @@ __all__ = [
     "check_measurement",
     "frf",
     "identify",
+    "modes",
     "read_matrix",
     "readable",
     "report",
@@ -117,6 +118,14 @@ def run_case(
     reduction: str | None,
     memory_bytes: int | None,
     progress: _Progress,
+) -> dict[str, Any]: ...
+def modes(
+    path: _Path,
+    out: _Path | None,
+    band_hz: tuple[float, float] | None,
+    identified: _Path | None,
+    max_order: int | None,
+    memory_bytes: int | None,
 ) -> dict[str, Any]: ...
 def report(folder: _Path) -> str: ...
 def respond(

@@ -23,6 +23,18 @@ class Finding:
 
 
 @dataclass(frozen=True)
+class OtherExplanation:
+    """Faults that would explain the data together."""
+
+    faults: tuple[str, ...]
+    """What would be wrong, in words."""
+    misfit: float
+    """Misfit of ln(measured/model) with them."""
+    nats_behind: float
+    """By how many nats it is less likely than the best explanation."""
+
+
+@dataclass(frozen=True)
 class Number:
     """A number that holds for the whole band."""
 
@@ -153,6 +165,8 @@ class Identification:
     """(sensors,), its standard deviation, s."""
     findings: tuple[Finding, ...]
     """What is wrong with the data."""
+    other_explanations: tuple[OtherExplanation, ...]
+    """What would explain the data as well, or nearly; without a finding they do not decide between these."""
     laws: Any
     """The laws that were fitted, as in ``law.json``; ``None`` where none was asked for."""
     smooth: dict[str, Any] | None
@@ -206,6 +220,9 @@ class Identification:
         found["directions"] = tuple(Direction(std, dict(weights)) for std, weights in found["directions"])
         found["findings"] = tuple(
             Finding(**{**finding, "sensors": tuple(finding["sensors"])}) for finding in found["findings"]
+        )
+        found["other_explanations"] = tuple(
+            OtherExplanation(tuple(faults), misfit, behind) for faults, misfit, behind in found["other_explanations"]
         )
         return cls(**found)
 

@@ -131,6 +131,10 @@ fn strip(results: &Results, verdict: &Verdict) -> String {
 fn findings(results: &Results) -> String {
     let findings = results.summary.array("/findings");
     let checked = results.summary.0.get("findings").is_some_and(|found| !found.is_null());
+    let undecided = undecided(results.summary.undecided());
+    if findings.is_empty() && !undecided.is_empty() {
+        return undecided;
+    }
     if findings.is_empty() {
         let said = match checked {
             true => {
@@ -140,18 +144,8 @@ fn findings(results: &Results) -> String {
         };
         return format!("<p>{said}</p>\n");
     }
-    let text = |value: &Value, key: &str| escape(value.get(key).and_then(Value::as_str).unwrap_or(""));
     let mut html = "<h3>What seems wrong with the data</h3><ul class=\"findings\">".to_owned();
     for finding in findings {
-        let sensors: Vec<String> = finding
-            .get("sensors")
-            .and_then(Value::as_array)
-            .into_iter()
-            .flatten()
-            .filter_map(Value::as_str)
-            .map(escape)
-            .collect();
-        let who = if sensors.is_empty() { String::new() } else { format!("{}: ", sensors.join(", ")) };
         let number = |key: &str| {
             finding.pointer(&format!("/evidence/{key}")).and_then(Value::as_f64).map(|v| significant(v, 2))
         };
@@ -163,12 +157,56 @@ fn findings(results: &Results) -> String {
         };
         let _ = write!(
             html,
-            "<li><b>{who}{}</b>.{evidence} Change <code>{}</code></li>",
-            text(finding, "what"),
+            "<li><b>{}</b>.{evidence} Change <code>{}</code></li>",
+            fault(finding),
             text(finding, "change")
         );
     }
-    html + "</ul>\n"
+    html += "</ul>\n";
+    if let Some(other) = results.summary.array("/other_explanations").first().filter(|_| undecided.is_empty())
+    {
+        let _ = writeln!(html, "<p>The likeliest other explanation: {}</p>", explanation(other));
+    }
+    html + &undecided
+}
+
+fn text(value: &Value, key: &str) -> String {
+    escape(value.get(key).and_then(Value::as_str).unwrap_or(""))
+}
+
+/// What is wrong, and with which sensors.
+fn fault(value: &Value) -> String {
+    let sensors = value.get("sensors").and_then(Value::as_array).into_iter().flatten();
+    let sensors: Vec<String> = sensors.filter_map(Value::as_str).map(escape).collect();
+    let who = if sensors.is_empty() { String::new() } else { format!("{}: ", sensors.join(", ")) };
+    who + &text(value, "what")
+}
+
+/// Faults between which the data do not decide; nothing where there are none.
+fn undecided(others: &[Value]) -> String {
+    if others.is_empty() {
+        return String::new();
+    }
+    let html = "<h3>What may be wrong with the data</h3>\n<p>One of these would explain the data. The likelihoods are too near to each other to tell which.</p>\n\
+         <ul class=\"findings\">"
+        .to_owned();
+    let items: Vec<String> = others.iter().map(|other| format!("<li>{}</li>", explanation(other))).collect();
+    html + &items.concat() + "</ul>\n"
+}
+
+/// Faults together, and how likely they are.
+fn explanation(other: &Value) -> String {
+    let faults = other.get("faults").and_then(Value::as_array).into_iter().flatten();
+    let faults: Vec<String> = faults.map(fault).collect();
+    let number = |key: &str| {
+        other.get(key).and_then(Value::as_f64).map_or_else(String::new, |value| significant(value, 2))
+    };
+    format!(
+        "<b>{}</b>. Misfit of ln(measured/model) {}, {} nats behind the best.",
+        faults.join("; and "),
+        number("misfit"),
+        number("nats_behind")
+    )
 }
 
 /// The lowest, the middle and the highest trusted frequency of an unknown.

@@ -42,6 +42,17 @@ impl Summary {
         self.0.pointer(pointer).and_then(Value::as_array).map_or(&[], Vec::as_slice)
     }
 
+    /// Whether the data decide for one of the findings.
+    fn is_decided(&self) -> bool {
+        let has_evidence = |finding: &Value| finding.get("evidence").is_some_and(Value::is_object);
+        self.array("/findings").iter().any(has_evidence)
+    }
+
+    /// Explanations of the data between which they do not decide.
+    pub(crate) fn undecided(&self) -> &[Value] {
+        if self.is_decided() { &[] } else { self.array("/other_explanations") }
+    }
+
     /// The tables that this run has written.
     pub(crate) fn tables(&self) -> Result<Vec<String>, FormatError> {
         self.texts("/tables", |value| value.as_str())
