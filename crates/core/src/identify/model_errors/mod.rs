@@ -145,6 +145,9 @@ const INDEPENDENT_ERRORS_OF_A_SHAPE: f64 = 2.0;
 const COMMON_RATIO: f64 = 5.0;
 const COMMON_RATIO_BESIDE_MESH: f64 = 2.5;
 
+/// A mesh of beams or plates errs by as much at the top of the band, where its modes scatter hardly at all: an unknown that varies with frequency swallows it.
+const LEAST_OF_MESH_STD: f64 = 0.01;
+
 /// A few modes may be far off; all of them are not, by more than this, unless their scatter is larger.
 const MAX_COMMON_STD: f64 = 0.025;
 
@@ -188,6 +191,8 @@ struct KnownSizes {
     given: ErrorSizes,
     /// What all modes have in common, over what each has of its own.
     common_ratio: f64,
+    /// The least of what grows with frequency.
+    pub(super) least_of_mesh: f64,
 }
 
 impl KnownSizes {
@@ -198,7 +203,8 @@ impl KnownSizes {
             (None, Some(_)) => COMMON_RATIO_BESIDE_MESH,
             (None, None) => COMMON_RATIO,
         };
-        Self { given, common_ratio }
+        let is_unknown = given.frequency.is_none() && mesh.is_none();
+        Self { given, common_ratio, least_of_mesh: if is_unknown { LEAST_OF_MESH_STD } else { 0.0 } }
     }
 }
 

@@ -255,6 +255,12 @@ impl Fitting<'_, '_> {
         (0..self.common_parts()).filter(is_wanted).map(move |part| first + part)
     }
 
+    /// Whether it is a common part that grows with frequency.
+    fn is_of_mesh(&self, coordinate: usize) -> bool {
+        let part = (coordinate - self.curves.count()) % COMMON_PARTS;
+        (OF_MESH..OF_SUPPORT).contains(&part)
+    }
+
     pub(super) fn first_factor(&self) -> usize {
         self.first_own() + self.stiffness_errors()
     }
@@ -593,7 +599,8 @@ impl Fitting<'_, '_> {
             all[i * n..i * n + own].copy_from_slice(&curve[i * own..(i + 1) * own]);
         }
         let mut set = |i: usize, std: f64| all[i * n + i] = std.powi(-2);
-        self.in_common(true).for_each(|i| set(i, sizes.common));
+        let least = |i: usize| if self.is_of_mesh(i) { self.known.least_of_mesh } else { 0.0 };
+        self.in_common(true).for_each(|i| set(i, sizes.common.max(least(i))));
         let only_if = |is_looked_for: bool, std: f64| if is_looked_for { std } else { NEGLIGIBLE_STD };
         let damping = |std: f64| only_if(self.kinds.damping == Damping::Own, std);
         let common_loss = only_if(self.kinds.damping != Damping::None, sizes.common_loss);
