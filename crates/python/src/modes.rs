@@ -12,7 +12,6 @@ use std::path::PathBuf;
 
 /// What `frfit.Modes` is made of; with `out` the files of `frfit modes` too.
 #[pyfunction]
-#[expect(clippy::too_many_arguments, reason = "those of the command line")]
 pub(crate) fn modes<'py>(
     py: Python<'py>,
     path: PathBuf,
