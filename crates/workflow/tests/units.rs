@@ -1,5 +1,7 @@
 //! One physical beam written in several systems of units: whatever the model is in, the answer is the same.
 
+use crate::tier::of_tier;
+
 use frfit::c64;
 use frfit::frequency::linear_hz;
 use frfit::material::Law;
@@ -181,7 +183,9 @@ fn load_of(k: usize) -> String {
 fn the_modulus_is_the_same_in_every_system() {
     for k in 0..LOADS.len() {
         let mut first: Option<Vec<c64>> = None;
-        for (name, made) in SYSTEMS {
+        // By day two systems are enough for the other loads, whose responses are compared in all of them below.
+        let step = if k == 0 { 1 } else { of_tier(3, 1) };
+        for (name, made) in SYSTEMS.into_iter().step_by(step) {
             let folder = folder(name, made, &load_of(k), &identify_keys(made));
             let job = run(&folder).unwrap();
             let [length, mass, time] = made;
