@@ -1,6 +1,7 @@
 //! `frfit check`, and what `frfit identify` says of it.
 
 use crate::common;
+use crate::tier::of_tier;
 
 use common::{done, frfit, refused};
 use std::fs;
@@ -42,7 +43,8 @@ fn identify_looks_first_unless_it_shall_not() {
     let folder = tempfile::tempdir().unwrap();
     faulty(folder.path());
     let file = folder.path().join("bar/case.toml");
-    let text = fs::read_to_string(&file).unwrap().replace("[identify]\n", "[identify]\nmax_lines = 40\n");
+    let lines = format!("[identify]\nmax_lines = {}\n", of_tier(12, 40));
+    let text = fs::read_to_string(&file).unwrap().replace("[identify]\n", &lines);
     fs::write(&file, &text).unwrap();
     let findings = || -> serde_json::Value {
         let text = fs::read_to_string(folder.path().join("out/summary.json")).unwrap();

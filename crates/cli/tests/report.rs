@@ -1,6 +1,7 @@
 //! The HTML page of an identification.
 
 use crate::common;
+use crate::tier::of_tier;
 
 use common::{column, done, refused};
 use serde_json::Value;
@@ -37,7 +38,16 @@ fn identify_writes_what_report_makes_of_the_folder() {
         sandwich(folder.path(), more);
         let said = done(
             folder.path(),
-            &["identify", "s/case.toml", "--out", "out", "--band", "20:400", "--error-map", "4"],
+            &[
+                "identify",
+                "s/case.toml",
+                "--out",
+                "out",
+                "--band",
+                of_tier("20:200", "20:400"),
+                "--error-map",
+                "4",
+            ],
         );
         assert!(said.contains("report.html"), "{said}");
         let out = folder.path().join("out");

@@ -2,6 +2,7 @@
 
 use crate::common;
 use crate::picture::assert_shows_something;
+use crate::tier::of_tier;
 
 use common::{column, done, frfit, refused};
 use serde_json::Value;
@@ -224,7 +225,7 @@ fn three_unknowns_through_every_command() {
 [[identify]]
 matrix = "core"
 band_hz = [20.0, 1000.0]
-max_lines = 32
+max_lines = LINES
 exclude_hz = [[490.0, 510.0]]
 bounds = { storage = [1e5, 1e8], loss_factor = [0.0, 3.0] }
 reference = { law = "fractional", e0 = 8.14e5, e1 = 7.31e4, alpha = 0.528 }
@@ -242,6 +243,8 @@ nominal = 1.2
 bounds = [0.5, 2.0]
 reference = 1.0
 "#;
+    let [lines, of_check] = of_tier([10, 8], [32, 12]).map(|count| format!("max_lines = {count}"));
+    let unknowns = unknowns.replace("max_lines = LINES", &lines);
     std::fs::write(at("p/case.toml"), format!("{before}{unknowns}")).unwrap();
 
     let said = done(folder.path(), &["identify", "p/case.toml", "--out", "out", "--strict"]);
@@ -282,7 +285,7 @@ reference = 1.0
 
     // A sign that is wrong is found beside three unknowns.
     let right = std::fs::read_to_string(at("p/case.toml")).unwrap();
-    let wrong = right.replace("dof = \"248+Z\"", "scale = -1.0\ndof = \"248+Z\"").replace("= 32", "= 12");
+    let wrong = right.replace("dof = \"248+Z\"", "scale = -1.0\ndof = \"248+Z\"").replace(&lines, &of_check);
     std::fs::write(at("p/wrong.toml"), wrong).unwrap();
     let said = done(folder.path(), &["check", "p/wrong.toml"]);
     assert!(said.contains("  sign") && said.contains("248"), "{said}");
