@@ -107,7 +107,7 @@ fn error_bars_cover_over_seeds() {
         for sigma_known in [true, false] {
             let mut noise = Noise::new(7);
             let mut all = Vec::new();
-            let seeds = 60;
+            let seeds = of_tier(30, 60);
             for _ in 0..seeds {
                 let fit = fit_modulus(&data(&law, &f, 0.01, &mut noise), family, sigma_known).unwrap();
                 all.push(pulls(&fit, &law, &f));
@@ -115,11 +115,11 @@ fn error_bars_cover_over_seeds() {
             for k in 0..all[0].len() {
                 let inside = all.iter().filter(|pulls| pulls[k].abs() < 2.0).count();
                 let mean_square = all.iter().map(|pulls| pulls[k] * pulls[k]).sum::<f64>() / seeds as f64;
-                // Of 60 draws with 95.4 %, fewer than 51 are inside once in 5000; the mean square is 1 ± 0.18, and
-                // four times that once in 15000. Curvature of the law adds a few percent.
-                assert!(inside >= 51, "{family} {sigma_known}: {inside} of {seeds}, number {k}");
+                // Of 60 draws with 95.4 %, fewer than 51 are inside once in 5000, and of 30 fewer than 24; the mean square is
+                // 1 ± 0.18 or 0.26, and four times that once in 15000. Curvature of the law adds a few percent.
+                assert!(inside >= of_tier(24, 51), "{family} {sigma_known}: {inside} of {seeds}, number {k}");
                 assert!(
-                    (0.4..1.8).contains(&mean_square),
+                    of_tier(0.2..2.2, 0.4..1.8).contains(&mean_square),
                     "{family} {sigma_known}: {mean_square}, number {k}"
                 );
             }

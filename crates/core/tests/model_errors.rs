@@ -99,8 +99,8 @@ fn changed(case: Case, change: impl Fn(&Term) -> f64) -> Case {
 #[test]
 fn a_wrong_neighbour_and_a_wrong_mass_are_found() {
     let truth = Law::Fractional { e0: 8.14e5, e1: 7.31e4, alpha: 0.528 };
-    let frequency_hz = linear_hz(20.0, 1000.0, 100);
-    let measured = Measured::on(&sandwich(12, 1), &truth, frequency_hz, 0.01, 3);
+    let count = of_tier(60, 100);
+    let measured = Measured::on(&sandwich(12, 1), &truth, linear_hz(20.0, 1000.0, count), 0.01, 3);
     let skins = changed(sandwich(12, 1), |term| if term.name == "skins" { 1.01 } else { 1.0 });
     let mass = changed(sandwich(12, 1), |term| if term.role == Role::Mass { 0.97 } else { 1.0 });
     let daily = [("skins", skins)];
@@ -111,7 +111,7 @@ fn a_wrong_neighbour_and_a_wrong_mass_are_found() {
             Some((factor.re - truth.re).abs() / line.uncertainty()?.storage_std)
         };
         let far = as_it_is.lines.iter().zip(&measured.truth).filter_map(off).filter(|off| *off > 4.0).count();
-        assert!(far > 40, "{what}: {far}");
+        assert!(5 * far > 2 * count, "{what}: {far}");
         let ways = [
             (Variation::PerFrequency, 0.02),
             (Variation::Smooth, 0.02),
@@ -121,9 +121,9 @@ fn a_wrong_neighbour_and_a_wrong_mass_are_found() {
             let at = format!("{what} {varies:?}");
             let found = measured.identified(&case, varies, ModelErrors::Estimated);
             let (ok, error, within) = measured.judged(&found);
-            assert!(ok >= 90, "{at}: {ok} ok");
+            assert!(10 * ok >= 9 * count, "{at}: {ok} ok");
             assert!(error < most, "{at}: {error}");
-            // 95 of 100 by the bars of 100 lines; of a law and a smooth curve the lines have one error.
+            // 95 of 100 by the bars of all lines; of a law and a smooth curve the lines have one error.
             assert!(within.iter().all(|within| *within > 0.88), "{at}: {within:?}");
             let errors = found.model_errors.expect(&at);
             assert!(errors.evidence > 20.0, "{at}: {errors:?}");
@@ -145,7 +145,8 @@ fn a_wrong_neighbour_and_a_wrong_mass_are_found() {
 #[test]
 fn a_wrong_neighbour_is_found_beside_a_channel_of_unknown_scale_and_delay() {
     let truth = Law::Fractional { e0: 8.14e5, e1: 7.31e4, alpha: 0.528 };
-    let mut measured = Measured::on(&sandwich(12, 1), &truth, linear_hz(20.0, 1000.0, 80), 0.01, 3);
+    let count = of_tier(40, 80);
+    let mut measured = Measured::on(&sandwich(12, 1), &truth, linear_hz(20.0, 1000.0, count), 0.01, 3);
     for ((u, std), f) in measured.u.iter_mut().zip(&mut measured.std).zip(&measured.frequency_hz) {
         u[0] *= c64::from_polar(1.0 / 1.3, -TAU * f * 2e-5);
         std[0] /= 1.3;
@@ -158,7 +159,7 @@ fn a_wrong_neighbour_is_found_beside_a_channel_of_unknown_scale_and_delay() {
         let at = format!("{varies:?}");
         let found = measured.identified_beside(&case, varies, &channels, ModelErrors::Estimated);
         let (ok, error, within) = measured.judged(&found);
-        assert!(ok >= 70, "{at}: {ok} ok");
+        assert!(8 * ok >= 7 * count, "{at}: {ok} ok");
         assert!(error < 0.02, "{at}: {error}");
         assert!(within.iter().all(|within| *within > 0.88), "{at}: {within:?}");
         assert!(found.model_errors.as_ref().expect(&at).evidence > 20.0, "{at}");
@@ -177,7 +178,8 @@ fn a_wrong_neighbour_is_found_beside_a_channel_of_unknown_scale_and_delay() {
 fn what_neither_noise_nor_errors_explain_is_in_the_bars() {
     const REST: f64 = 0.02;
     let truth = Law::Fractional { e0: 8.14e5, e1: 7.31e4, alpha: 0.528 };
-    let mut measured = Measured::on(&sandwich(12, 1), &truth, linear_hz(20.0, 1000.0, 80), REST, 5);
+    let count = of_tier(40, 80);
+    let mut measured = Measured::on(&sandwich(12, 1), &truth, linear_hz(20.0, 1000.0, count), REST, 5);
     measured.std.iter_mut().flatten().for_each(|std| *std *= 0.15);
     let case = sandwich(12, 1);
     let as_it_is = measured.identified(&case, Variation::PerFrequency, ModelErrors::None);
@@ -188,7 +190,7 @@ fn what_neither_noise_nor_errors_explain_is_in_the_bars() {
         let found = measured.identified(&case, varies, ModelErrors::Estimated);
         let (ok, error, within) = measured.judged(&found);
         let statuses: Vec<Status> = found.lines.iter().map(|line| line.status).collect();
-        assert!(ok >= 68 && error < 0.05, "{at}: {ok} ok, {error} {statuses:?} {:?}", found.fit);
+        assert!(20 * ok >= 17 * count && error < 0.05, "{at}: {ok} ok, {error} {statuses:?} {:?}", found.fit);
         assert!(within.iter().all(|within| *within > 0.88), "{at}: {within:?}");
         assert_eq!(found.fit.unwrap().verdict, Explained::Nearly, "{at}");
         let rest = found.model_errors.expect(&at).response_std;
@@ -201,7 +203,8 @@ fn what_neither_noise_nor_errors_explain_is_in_the_bars() {
 #[test]
 fn what_is_known_of_the_model_is_in_every_bar() {
     let truth = Law::Fractional { e0: 8.14e5, e1: 7.31e4, alpha: 0.528 };
-    let measured = Measured::on(&sandwich(12, 1), &truth, linear_hz(20.0, 1000.0, 60), 0.01, 3);
+    let count = of_tier(30, 60);
+    let measured = Measured::on(&sandwich(12, 1), &truth, linear_hz(20.0, 1000.0, count), 0.01, 3);
     let bars = |found: &Identification| {
         let mut all: Vec<f64> = (found.lines.iter().filter(|line| line.status == Status::Ok))
             .map(|line| line.uncertainty().unwrap().storage_std / line.factor().unwrap().re)
@@ -220,7 +223,7 @@ fn what_is_known_of_the_model_is_in_every_bar() {
         let found = measured.identified(&said, varies.clone(), ModelErrors::Estimated);
         let at = format!("{varies:?} {:?}", found.model_errors);
         let (ok, error, within) = measured.judged(&found);
-        assert!(ok >= 54 && error < 0.02, "{at}: {ok} ok, {error}");
+        assert!(10 * ok >= 9 * count && error < 0.02, "{at}: {ok} ok, {error}");
         assert!(within.iter().all(|within| *within > 0.88), "{at}: {within:?}");
         // Three sensors say it better than the case does.
         let errors = found.model_errors.as_ref().unwrap();
@@ -235,7 +238,7 @@ fn what_is_known_of_the_model_is_in_every_bar() {
     let found = measured.identified(&right, Variation::Law(vec![LawKind::Fractional]), given);
     let as_it_is = measured.identified(&right, Variation::Law(vec![LawKind::Fractional]), ModelErrors::None);
     let (ok, error, within) = measured.judged(&found);
-    assert!(ok == 60 && error < 0.02 && within == [1.0; 2], "{ok} ok, {error}, {within:?}");
+    assert!(ok == count && error < 0.02 && within == [1.0; 2], "{ok} ok, {error}, {within:?}");
     assert!(bars(&found) > 3.0 * bars(&as_it_is), "{} {}", bars(&found), bars(&as_it_is));
 }
 
@@ -243,7 +246,7 @@ fn what_is_known_of_the_model_is_in_every_bar() {
 /// mesh so coarse that natural frequencies are up to 1 % off; without errors of the model both are wrong by many bars.
 #[test]
 fn constants_of_a_wrong_model_are_within_their_bars() {
-    let frequency_hz = linear_hz(5.0, 560.0, of_tier(100, 200));
+    let frequency_hz = linear_hz(5.0, 560.0, of_tier(60, 200));
     let truth = [c64::new(7e10, 7e8), c64::new(2e3, 0.0), c64::new(2700.0, 0.0)];
     let daily =
         [("mass", [8, 8], 1.02, 1.0), ("right", [8, 8], 1.0, 1.0), ("mesh and scale", [8, 40], 1.0, -1.2)];
@@ -406,7 +409,7 @@ fn natural_hz(model: &DynamicStiffness, highest: f64) -> Vec<f64> {
 /// no longer has the error that any model may have, but what the meshes leave. Springs and mass are known to 0.2 %.
 #[test]
 fn a_coarser_mesh_says_how_far_this_one_is_off() {
-    let frequency_hz = linear_hz(5.0, 560.0, 160);
+    let frequency_hz = linear_hz(5.0, 560.0, of_tier(100, 160));
     let truth = [c64::new(7e10, 7e8), c64::new(2e3, 0.0), c64::new(2700.0, 0.0)];
     let on_mesh = |elements| sprung(elements, truth, &[0.8, 0.4]);
     let (right, experiment) = on_mesh(48);
@@ -548,7 +551,13 @@ fn a_suspension_that_the_model_lacks_is_found() {
 fn a_right_model_is_left_as_it_is() {
     let truth = Law::Fractional { e0: 8.14e5, e1: 7.31e4, alpha: 0.528 };
     for seed in 0..of_tier(1, 6) {
-        let measured = Measured::on(&sandwich(12, 1), &truth, linear_hz(20.0, 1000.0, 80), 0.01, seed as u64);
+        let measured = Measured::on(
+            &sandwich(12, 1),
+            &truth,
+            linear_hz(20.0, 1000.0, of_tier(40, 80)),
+            0.01,
+            seed as u64,
+        );
         for varies in
             of_tier(&[Variation::PerFrequency][..], &[Variation::PerFrequency, Variation::Smooth][..])
         {
@@ -587,8 +596,10 @@ fn a_lightly_damped_plate_on_a_coarse_mesh_is_found() {
         // Nodes of all three meshes.
         (model, Experiment::driven_at(dim, at([0.375, 0.1, 0.0]), vec![at([0.5, 0.3, 0.0])]))
     };
-    let (right, experiment) = on_mesh(24);
-    let frequency_hz = linear_hz(8.0, 400.0, 200);
+    // Five modes by day.
+    let (finer, highest_hz, count) = of_tier((16, 200.0, 98), (24, 400.0, 200));
+    let (right, experiment) = on_mesh(finer);
+    let frequency_hz = linear_hz(8.0, highest_hz, count);
     let mut dice = Dice::new(11);
     let measured = |&f: &f64| -> Vec<c64> {
         let x = FullModel::new(right.at(f, &[]).unwrap(), &experiment).unwrap().solve_at(&[]).unwrap();
@@ -596,8 +607,11 @@ fn a_lightly_damped_plate_on_a_coarse_mesh_is_found() {
     };
     let u: Vec<Vec<c64>> = frequency_hz.iter().map(measured).collect();
     let (model, experiment) = on_mesh(8);
-    let off: Vec<f64> =
-        natural_hz(&right, 400.0).iter().zip(natural_hz(&model, 400.0)).map(|(a, b)| a / b - 1.0).collect();
+    let off: Vec<f64> = natural_hz(&right, highest_hz)
+        .iter()
+        .zip(natural_hz(&model, highest_hz))
+        .map(|(a, b)| a / b - 1.0)
+        .collect();
     for nominal in
         [1.2].into_iter().chain(of_tier(None, Some([0.6, 0.75, 0.85, 1.1, 1.5])).into_iter().flatten())
     {
@@ -614,7 +628,11 @@ fn a_lightly_damped_plate_on_a_coarse_mesh_is_found() {
         };
         let ok: Vec<_> = found.lines.iter().filter(|line| line.status == Status::Ok).collect();
         let within = ok.iter().copied().filter(is_within).count();
-        assert!(ok.len() > 160 && within == ok.len(), "{nominal}: {} ok, {within} within 2σ", ok.len());
+        assert!(
+            5 * ok.len() > 4 * count && within == ok.len(),
+            "{nominal}: {} ok, {within} within 2σ",
+            ok.len()
+        );
         for (k, (mode, off)) in found.model_errors.unwrap().modes.iter().zip(&off).enumerate() {
             assert!(
                 (mode.error - off).abs() < 3.0 * mode.std,

@@ -2,6 +2,7 @@
 
 use crate::common;
 use crate::shared_data;
+use crate::tier::of_tier;
 
 use common::{Setup, c, term};
 use frfit::c64;
@@ -275,7 +276,7 @@ fn the_rational_method_never_calls_a_wrong_modulus_of_the_plate_ok_needs_data() 
     for (delta, least_right) in [(0.25, 0.95), (-0.25, 0.6)] {
         let (model, experiment, truth) = plate(delta);
         let plate = (model, experiment);
-        let frequencies = linear_hz(50.0, 3500.0, 36);
+        let frequencies = linear_hz(50.0, 3500.0, of_tier(18, 36));
         let (mut right, mut right_by_series, mut directly_decided) = (0, 0, 0);
         for &frequency_hz in &frequencies {
             let is_right = |line: &Line| line.factor().is_some_and(|e| (e - truth).norm() < 1e-6);

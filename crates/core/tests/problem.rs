@@ -1,6 +1,7 @@
 //! What is wrong with a problem is said before it is solved, with its place.
 
 use crate::common;
+use crate::tier::of_tier;
 
 use common::{bar, c, plate, term};
 use frfit::c64;
@@ -221,7 +222,7 @@ fn several_unknowns_are_diagnosed() {
         frfit::model::Term { factor: Law::Constant(c(930.0, 0.0)), ..model.terms()[1].clone() },
     ])
     .unwrap();
-    let frequency_hz = linear_hz(100.0, 1000.0, 60);
+    let frequency_hz = linear_hz(100.0, 1000.0, of_tier(36, 60));
     let exact: Vec<Vec<c64>> = frequency_hz
         .iter()
         .map(|&f| {

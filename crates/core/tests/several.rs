@@ -1,7 +1,7 @@
 //! Several unknowns at once, against models that are solved directly at known values.
 
 use crate::common;
-use crate::tier::of_tier;
+use crate::tier::{is_long, of_tier};
 
 use common::{bar, c, constant, plate, sandwich, term, two_part_chain};
 use frfit::c64;
@@ -161,7 +161,7 @@ fn the_error_bar_of_the_thickness_covers_the_truth() {
 
 #[test]
 fn two_moduli_at_every_frequency() {
-    let frequencies = of_tier(24, 80);
+    let frequencies = of_tier(16, 80);
     let (right, wrong_and_ok) = two_moduli(3, frequencies);
     assert!(right + 1 >= frequencies && wrong_and_ok == 0, "{right} right, {wrong_and_ok} wrong and ok");
 }
@@ -169,8 +169,9 @@ fn two_moduli_at_every_frequency() {
 #[test]
 fn two_moduli_from_two_sensors() {
     // as many equations as unknowns: each frequency has up to a dozen solutions, of which the band selects one
-    let (right, wrong_and_ok) = two_moduli(2, 32);
-    assert!(right >= 31 && wrong_and_ok == 0, "{right} right, {wrong_and_ok} wrong and ok");
+    let frequencies = of_tier(20, 32);
+    let (right, wrong_and_ok) = two_moduli(2, frequencies);
+    assert!(right + 1 >= frequencies && wrong_and_ok == 0, "{right} right, {wrong_and_ok} wrong and ok");
 }
 
 /// Frequencies of so many at which both moduli of a sandwich are right, and those where one is not though it is called `ok`.
@@ -181,7 +182,7 @@ fn two_moduli(sensors: usize, frequencies: usize) -> (usize, usize) {
     experiment.sensors.push(Sensor { row: last / 3, sign: 1.0 });
     assert_eq!(experiment.sensors.len(), 3);
     experiment.sensors.truncate(sensors);
-    let frequency_hz = linear_hz(20.0, 1000.0, frequencies);
+    let frequency_hz = linear_hz(20.0, of_tier(500.0, 1000.0), frequencies);
     let core = Law::Fractional { e0: 8.14e5, e1: 7.31e4, alpha: 0.528 };
     let skins = Law::Constant(c(6.2e10, 6.2e8));
     let factors = [skins.clone(), core.clone(), Law::Constant(c(2700.0, 0.0)), Law::Constant(c(910.0, 0.0))];
@@ -325,7 +326,7 @@ fn length_and_density_of_a_bar() {
 #[test]
 fn a_constant_stops_at_its_bounds() {
     let case = bar(40);
-    let frequency_hz = linear_hz(200.0, 2000.0, 60);
+    let frequency_hz = linear_hz(200.0, 2000.0, of_tier(30, 60));
     let modulus = Law::Fractional { e0: 8.14e5, e1: 7.31e4, alpha: 0.528 };
     let (length, density) = (1.07, 850.0);
     let terms = case.model.terms();
@@ -375,7 +376,7 @@ fn a_sensor_that_contradicts_the_others_is_named_and_left_out() {
     experiment.sensors.push(Sensor { row: 12, sign: 1.0 });
     let h = TRUE_THICKNESS;
     let factors = [c(2e11, 2e9) * h.powi(3), c(7800.0 * h, 0.0)].map(Law::Constant);
-    let frequency_hz: Vec<f64> = plate.frequency_hz.iter().copied().step_by(of_tier(4, 2)).collect();
+    let frequency_hz: Vec<f64> = plate.frequency_hz.iter().copied().step_by(of_tier(5, 2)).collect();
     let exact = direct(&plate.model, &experiment, &factors, &frequency_hz);
     let unknowns = [constant("h", Dependence::Powers(vec![(0, 3), (1, 1)]), 1.0, [0.5, 2.0])];
     let (measured, std) = noisy(&exact, 0.01, 21);
@@ -403,19 +404,29 @@ fn a_sensor_that_contradicts_the_others_is_named_and_left_out() {
         );
         assert!(found.constants[0].status == Status::Ok, "{:?}", found.fit);
 
-        let right = run(&Setup { measured: &measured, ..setup });
-        assert!(right.sensors.iter().all(|sensor| !sensor.contradicts), "{:?}", right.sensors);
-
-        // A dead one beside it.
-        let dead = |(m, u): (usize, &c64)| if m == 4 { c64::default() } else { *u };
-        let with_dead: Vec<Vec<c64>> =
-            faulty.iter().map(|row| row.iter().enumerate().map(dead).collect()).collect();
-        let found = run(&Setup { measured: &with_dead, ..setup });
-        let named: Vec<[bool; 3]> =
-            (found.sensors.iter()).map(|sensor| [sensor.contradicts, sensor.dead, sensor.left_out]).collect();
-        assert_eq!(named[2..], [[true, false, true], [false; 3], [false, true, true]], "{:?}", found.sensors);
-        let number = &found.constants[0].numbers[0];
-        assert!((number.value - h).abs() < 4.0 * number.std.unwrap() && number.std.unwrap() < 1e-3);
+        // By day each noise has one half of the rest.
+        if is_long() || noise == Noise::Unknown {
+            let right = run(&Setup { measured: &measured, ..setup });
+            assert!(right.sensors.iter().all(|sensor| !sensor.contradicts), "{:?}", right.sensors);
+        }
+        if is_long() || noise != Noise::Unknown {
+            // A dead one beside it.
+            let dead = |(m, u): (usize, &c64)| if m == 4 { c64::default() } else { *u };
+            let with_dead: Vec<Vec<c64>> =
+                faulty.iter().map(|row| row.iter().enumerate().map(dead).collect()).collect();
+            let found = run(&Setup { measured: &with_dead, ..setup });
+            let named: Vec<[bool; 3]> = (found.sensors.iter())
+                .map(|sensor| [sensor.contradicts, sensor.dead, sensor.left_out])
+                .collect();
+            assert_eq!(
+                named[2..],
+                [[true, false, true], [false; 3], [false, true, true]],
+                "{:?}",
+                found.sensors
+            );
+            let number = &found.constants[0].numbers[0];
+            assert!((number.value - h).abs() < 4.0 * number.std.unwrap() && number.std.unwrap() < 1e-3);
+        }
 
         let Setup { model, experiment, unknowns, frequency_hz, .. } = setup;
         let frfs = Frfs { frequency_hz, receptance: &faulty, noise };

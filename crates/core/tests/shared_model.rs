@@ -56,7 +56,7 @@ fn kinds(diagnosis: &Diagnosis) -> Vec<std::mem::Discriminant<frfit::diagnostics
 #[test]
 fn one_training_for_a_check_and_an_identification() {
     let case = plate(6, 0.27, 0.02);
-    let frequency_hz = linear_hz(150.0, 900.0, 40);
+    let frequency_hz = linear_hz(150.0, 900.0, of_tier(24, 40));
     let all =
         [Variation::PerFrequency, Variation::Constant, Variation::law(LawKind::Constant), Variation::Smooth];
     for varies in all.into_iter().take(of_tier(2, 4)) {
@@ -77,7 +77,7 @@ fn one_training_for_a_check_and_an_identification() {
 #[test]
 fn one_training_for_two_unknowns() {
     let case = sandwich(6, 1);
-    let frequency_hz = linear_hz(20.0, 1000.0, 24);
+    let frequency_hz = linear_hz(20.0, of_tier(400.0, 1000.0), of_tier(12, 24));
     let unknowns = ["skins", "core"].map(|name| {
         let unknown = Unknown::factor_of(&case.model, &[name]).unwrap();
         let law = unknown.nominal.clone();

@@ -392,7 +392,10 @@ fn one_bad_sensor_of_three_is_named_and_left_out() {
                 assert!(coverage.ok >= 20, "{at}: {coverage:?}");
                 assert!(5 * coverage.storage >= 4 * coverage.ok, "{at}: {coverage:?}");
                 assert!(5 * coverage.loss >= 4 * coverage.ok, "{at}: {coverage:?}");
-                // Kept, the answer cannot be explained.
+                // Kept, the answer cannot be explained; by day of one kind of rubbish.
+                if !random && !is_long() {
+                    continue;
+                }
                 let setup = bounded(&case).with_reject_outliers(false);
                 let kept = identify(&case, &made, &u, noise, &setup);
                 assert!(kept.sensors[bad].contradicts && !kept.sensors[bad].left_out, "{at}");
@@ -406,7 +409,7 @@ fn one_bad_sensor_of_three_is_named_and_left_out() {
 #[test]
 fn of_two_sensors_neither_is_named() {
     let case = plate(6, 0.4, 1e-2);
-    let made = Measured::clean(&case, linear_hz(300.0, 2500.0, 30), 0.8, 3e-3);
+    let made = Measured::clean(&case, linear_hz(300.0, 2500.0, of_tier(16, 30)), 0.8, 3e-3);
     let mut u = made.drawn(7);
     let mut dice = Dice(9);
     u.iter_mut().zip(&made.u).for_each(|(u, clean)| u[0] = clean[0].norm() * dice.circular());
@@ -449,7 +452,8 @@ fn a_dead_channel_is_as_if_it_were_not_there() {
 #[test]
 fn sensors_that_agree_overrule_what_materials_do() {
     let case = plate(8, 0.24, 0.02);
-    let frequency_hz = linear_hz(60.0, 2500.0, 180);
+    let count = of_tier(120, 180);
+    let frequency_hz = linear_hz(60.0, 2500.0, count);
     let nominal = case.parameter.nominal.at(60.0).unwrap();
     let jumps = |f: f64| c(2.2e11, if f < 900.0 { 4e9 } else { 4e10 });
     let falls = |f: f64| c(1.0, 0.05) * 2e11 * (f / 800.0).powf(-0.5);
@@ -460,35 +464,45 @@ fn sensors_that_agree_overrule_what_materials_do() {
         let setup = within(nominal.re, 5.0);
         let found = identify(&case, &made, &made.u, Noise::Unknown, &setup);
         let ok: Vec<&Line> = found.lines.iter().filter(|line| line.status == Status::Ok).collect();
-        assert!(ok.len() > 153, "{name}: {} ok", ok.len());
+        assert!(20 * ok.len() > 17 * count, "{name}: {} ok", ok.len());
         for line in ok {
             let (value, truth) = (line.factor().unwrap(), modulus(line.frequency_hz));
             assert!((value / truth - 1.0).norm() < 1e-6, "{name}: {} Hz: {value} {truth}", line.frequency_hz);
         }
         assert!(!found.causality_breaches.is_empty(), "{name}");
+        // By day one of both with noise, the other of one sensor.
+        let (is_noisy, is_alone) = (is_long() || name == "jumps", is_long() || name == "falls");
         // With noise of unknown size, they agree within what the lines show of it.
-        let std = made.u.iter().map(|u| u.iter().map(|u| 0.01 * u.norm()).collect()).collect();
-        let noisy = Measured { std, frequency_hz: frequency_hz.clone(), u: made.u.clone() };
-        let found = identify(&case, &noisy, &noisy.drawn(2), Noise::Unknown, &setup);
-        let ok: Vec<&Line> = found.lines.iter().filter(|line| line.status == Status::Ok).collect();
-        // At the lowest lines noise hides the loss factor.
-        let hidden = found.count(Status::NotIdentifiable);
-        assert!(ok.len() > 100 && ok.len() + hidden > 153, "{name}, noise: {} ok, {hidden}", ok.len());
-        let far = |line: &&&Line| {
-            let (value, truth) = (line.factor().unwrap(), modulus(line.frequency_hz));
-            (value.re - truth.re).abs() > 5.0 * line.uncertainty().unwrap().storage_std
-        };
-        assert_eq!(ok.iter().filter(far).count(), 0, "{name}, noise");
-        let mut alone = plate(8, 0.24, 0.02);
-        alone.experiment.sensors.truncate(1);
-        let first: Vec<Vec<c64>> = made.u.iter().map(|row| vec![row[0]]).collect();
-        let found = identify(&alone, &made, &first, Noise::Unknown, &setup);
-        assert_eq!(found.count(Status::Ok), 0, "{name}");
+        if is_noisy {
+            let std = made.u.iter().map(|u| u.iter().map(|u| 0.01 * u.norm()).collect()).collect();
+            let noisy = Measured { std, frequency_hz: frequency_hz.clone(), u: made.u.clone() };
+            let found = identify(&case, &noisy, &noisy.drawn(2), Noise::Unknown, &setup);
+            let ok: Vec<&Line> = found.lines.iter().filter(|line| line.status == Status::Ok).collect();
+            // At the lowest lines noise hides the loss factor.
+            let hidden = found.count(Status::NotIdentifiable);
+            assert!(
+                9 * ok.len() > 5 * count && 20 * (ok.len() + hidden) > 17 * count,
+                "{name}, noise: {} ok, {hidden}",
+                ok.len()
+            );
+            let far = |line: &&&Line| {
+                let (value, truth) = (line.factor().unwrap(), modulus(line.frequency_hz));
+                (value.re - truth.re).abs() > 5.0 * line.uncertainty().unwrap().storage_std
+            };
+            assert_eq!(ok.iter().filter(far).count(), 0, "{name}, noise");
+        }
+        if is_alone {
+            let mut alone = plate(8, 0.24, 0.02);
+            alone.experiment.sensors.truncate(1);
+            let first: Vec<Vec<c64>> = made.u.iter().map(|row| vec![row[0]]).collect();
+            let found = identify(&alone, &made, &first, Noise::Unknown, &setup);
+            assert_eq!(found.count(Status::Ok), 0, "{name}");
+        }
     }
     // A material is no breach.
     let made = Measured::clean(&case, frequency_hz, 1.1, 0.0);
     let found = identify(&case, &made, &made.u, Noise::Unknown, &within(nominal.re, 1.25));
-    assert!(found.causality_breaches.is_empty() && found.count(Status::Ok) == 180);
+    assert!(found.causality_breaches.is_empty() && found.count(Status::Ok) == count);
 }
 
 /// Twenty sensors say more than two: noise alone excludes no frequency.
