@@ -3,6 +3,7 @@
 //! Bands are thinned for time; what is asserted is per frequency.
 
 use crate::common;
+use crate::tier::of_tier;
 
 use common::{Answer, Folder, answers};
 use frfit::for_each::sequential;
@@ -220,6 +221,9 @@ fn by_default_every_example_is_right_everywhere() {
     for (name, model) in models {
         let (folder, model) = (Folder::new(name), model.unwrap());
         let (frequency_hz, measured) = folder.measured();
+        let step = of_tier(2, 1);
+        let frequency_hz: Vec<f64> = frequency_hz.into_iter().step_by(step).collect();
+        let measured: Vec<_> = measured.into_iter().step_by(step).collect();
         let options = folder.options().with_method(Method::Rational).with_selection(Selection::Joint);
         let unknown = folder.unknown(&model.parameter);
         let frfs = Frfs { frequency_hz: &frequency_hz, receptance: &measured, noise: Noise::Unknown };

@@ -1,6 +1,7 @@
 //! The files of every example: readable, the same each time, and of one story.
 
 use crate::common;
+use crate::tier::is_long;
 
 use common::{Folder, number, quantity};
 use frfit::c64;
@@ -110,7 +111,12 @@ fn every_example_is_readable_the_same_each_time_and_of_one_story() {
 }
 
 fn the_same_bytes_each_time() {
-    each(|name, folder, _| assert!(folder.0 == generate(name).unwrap(), "{name}"));
+    each(|name, folder, _| {
+        // Three take most of the time, and are written as the others are.
+        if is_long() || !["two-meshes", "clamped-plate", "orthotropic-plate"].contains(&name) {
+            assert!(folder.0 == generate(name).unwrap(), "{name}");
+        }
+    });
 }
 
 #[test]

@@ -7,3 +7,5 @@ mod hammer;
 mod orthotropic_plate;
 mod selection;
 mod several;
+#[path = "../../core/tests/tier/mod.rs"]
+mod tier;
