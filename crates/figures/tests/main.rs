@@ -2,3 +2,5 @@
 
 mod drawing;
 mod nasty;
+#[path = "../../core/tests/tier/mod.rs"]
+mod tier;

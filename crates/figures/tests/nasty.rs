@@ -1,5 +1,7 @@
 //! Whatever is put in: the drawing is valid, the same each time, and no label is cut or covers another.
 
+use crate::tier::of_tier;
+
 use std::sync::Arc;
 
 use frfit_figures::{
@@ -198,12 +200,19 @@ fn margins_that_took_turns_settle() {
         size: (802.359_212_166_608_6, 100.0),
     };
     labels_are_whole(page.clone()).expect("the page that was found");
-    for width in 240..1200 {
+    for width in (240..1200).step_by(of_tier(7, 1)) {
         labels_are_whole(Page { size: (f64::from(width), 100.0), ..page.clone() }).expect("any width");
     }
 }
 
+/// By day a quarter of the cases, each of which is a drawing.
+fn cases() -> ProptestConfig {
+    let all = ProptestConfig::default();
+    ProptestConfig { cases: all.cases / of_tier(4, 1), ..all }
+}
+
 proptest! {
+    #![proptest_config(cases())]
     #[test]
     fn any_figure_is_a_valid_drawing(figure in figure()) {
         let svg = figure.svg();
