@@ -3,3 +3,5 @@
 mod made;
 mod page;
 mod several;
+#[path = "../../core/tests/tier/mod.rs"]
+mod tier;

@@ -1,6 +1,7 @@
 //! The page of results that are made here, whole and broken.
 
 use crate::made;
+use crate::tier::of_tier;
 
 use frfit::identify::Status;
 use frfit_report::{FILES, LARGEST, html};
@@ -368,8 +369,10 @@ fn what_is_missing_or_broken_is_reported_with_its_place() {
 
 #[test]
 fn large_results_make_a_page_that_is_not_large() {
-    // Ten thousand frequencies with everything a page can have; and more than any measurement has.
-    for (frequencies, sensors) in [(10_000, 8), (60_000, 4), (1_000, 120)] {
+    // Ten thousand frequencies with everything a page can have; and more than any measurement has, by day less.
+    for (frequencies, sensors) in
+        [(of_tier(4_000, 10_000), 8), (of_tier(15_000, 60_000), 4), (1_000, of_tier(60, 120))]
+    {
         let made = Made {
             frequencies,
             sensors,
