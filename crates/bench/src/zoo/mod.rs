@@ -38,9 +38,8 @@ mod tests {
     /// had stopped before it had anything, solutions beside poles that no noise moves, and a nominal too far for a Krylov space.
     #[test]
     fn what_was_refused_by_accident_is_identified() {
-        // The two that take longest are of the long tier.
-        let longest = of_tier(&[][..], &[(1, 0), (2, 13)]);
-        for &(seed, index) in [(2, 31), (3, 28)].iter().chain(longest) {
+        // The three that take longest are of the long tier.
+        for &(seed, index) in of_tier(&[(3, 28)][..], &[(2, 31), (3, 28), (1, 0), (2, 13)]) {
             let tried = tried(seed, index).unwrap();
             let identifiable = tried.lines.iter().filter(|line| line.identifiable).count();
             assert!(
