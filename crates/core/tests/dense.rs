@@ -13,7 +13,7 @@ use frfit::roots::Bounds;
 
 /// Dense for a structure of a dozen modes.
 fn frequencies() -> usize {
-    of_tier(700, 2000)
+    of_tier(500, 2000)
 }
 
 /// Complex Gaussian numbers of variance one, always the same.
@@ -146,14 +146,15 @@ fn explored_lines_do_not_grow_with_the_band() {
 fn data_that_no_modulus_explains_cost_no_second_training() {
     let mut case = sandwich(12, 1);
     case.experiment.sensors.truncate(2);
-    let frequency_hz = linear_hz(case.band_hz[0], case.band_hz[1], 800);
+    let count = of_tier(400, 800);
+    let frequency_hz = linear_hz(case.band_hz[0], case.band_hz[1], count);
     let right = exact(&case, &frequency_hz);
     let between = |i: usize| {
         let (left, t) = (i / 8 * 8, (i % 8) as f64 / 8.0);
-        let pairs = right[left].iter().zip(&right[(left + 8).min(799)]);
+        let pairs = right[left].iter().zip(&right[(left + 8).min(count - 1)]);
         pairs.map(|(a, b)| a * (1.0 - t) + b * t).collect()
     };
-    let measured: Vec<Vec<c64>> = (0..800).map(between).collect();
+    let measured: Vec<Vec<c64>> = (0..count).map(between).collect();
     let found = identified(&case, 0.75, (&frequency_hz, &measured, Noise::Unknown), right_model);
     let work = found.search.work;
     assert!(work.factorisations <= 4, "{work:?}");

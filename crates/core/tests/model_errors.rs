@@ -99,7 +99,7 @@ fn changed(case: Case, change: impl Fn(&Term) -> f64) -> Case {
 #[test]
 fn a_wrong_neighbour_and_a_wrong_mass_are_found() {
     let truth = Law::Fractional { e0: 8.14e5, e1: 7.31e4, alpha: 0.528 };
-    let count = of_tier(60, 100);
+    let count = of_tier(48, 100);
     let measured = Measured::on(&sandwich(12, 1), &truth, linear_hz(20.0, 1000.0, count), 0.01, 3);
     let skins = changed(sandwich(12, 1), |term| if term.name == "skins" { 1.01 } else { 1.0 });
     let mass = changed(sandwich(12, 1), |term| if term.role == Role::Mass { 0.97 } else { 1.0 });
@@ -248,10 +248,10 @@ fn what_is_known_of_the_model_is_in_every_bar() {
 fn constants_of_a_wrong_model_are_within_their_bars() {
     let frequency_hz = linear_hz(5.0, 560.0, of_tier(60, 200));
     let truth = [c64::new(7e10, 7e8), c64::new(2e3, 0.0), c64::new(2700.0, 0.0)];
-    let daily =
-        [("mass", [8, 8], 1.02, 1.0), ("right", [8, 8], 1.0, 1.0), ("mesh and scale", [8, 40], 1.0, -1.2)];
+    let daily = [("right", [8, 8], 1.0, 1.0), ("mesh and scale", [8, 40], 1.0, -1.2)];
+    let others = [("mass", [8, 8], 1.02, 1.0), ("mesh", [8, 40], 1.0, 1.0)];
     for (what, elements, mass, scale) in
-        daily.into_iter().chain(of_tier(None, Some(("mesh", [8, 40], 1.0, 1.0))))
+        daily.into_iter().chain(of_tier(None, Some(others)).into_iter().flatten())
     {
         let (u, std) = sprung_measured((elements[1], truth), [1.0 / scale, 1.0, 1.0], &frequency_hz);
         let (model, experiment) =

@@ -169,7 +169,7 @@ fn two_moduli_at_every_frequency() {
 #[test]
 fn two_moduli_from_two_sensors() {
     // as many equations as unknowns: each frequency has up to a dozen solutions, of which the band selects one
-    let frequencies = of_tier(20, 32);
+    let frequencies = of_tier(14, 32);
     let (right, wrong_and_ok) = two_moduli(2, frequencies);
     assert!(right + 1 >= frequencies && wrong_and_ok == 0, "{right} right, {wrong_and_ok} wrong and ok");
 }
@@ -428,6 +428,10 @@ fn a_sensor_that_contradicts_the_others_is_named_and_left_out() {
             assert!((number.value - h).abs() < 4.0 * number.std.unwrap() && number.std.unwrap() < 1e-3);
         }
 
+        // By day only where the noise is known, and more is asserted.
+        if !is_long() && noise == Noise::Unknown {
+            continue;
+        }
         let Setup { model, experiment, unknowns, frequency_hz, .. } = setup;
         let frfs = Frfs { frequency_hz, receptance: &faulty, noise };
         let problem = Problem::new(model, experiment, unknowns, &[], frfs).unwrap();

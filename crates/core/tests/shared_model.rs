@@ -77,7 +77,7 @@ fn one_training_for_a_check_and_an_identification() {
 #[test]
 fn one_training_for_two_unknowns() {
     let case = sandwich(6, 1);
-    let frequency_hz = linear_hz(20.0, of_tier(400.0, 1000.0), of_tier(12, 24));
+    let frequency_hz = linear_hz(20.0, of_tier(300.0, 1000.0), of_tier(8, 24));
     let unknowns = ["skins", "core"].map(|name| {
         let unknown = Unknown::factor_of(&case.model, &[name]).unwrap();
         let law = unknown.nominal.clone();
