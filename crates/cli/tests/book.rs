@@ -190,13 +190,14 @@ fn follow(page: &str, is_run: bool) -> Result<(), String> {
 }
 
 /// Pages whose commands take three quarters of the time, and of which other tests run the like: only their cases are read by day.
-const LONG: [&str; 8] = [
+const LONG: [&str; 9] = [
     "comparison.md",
     "grey.md",
     "hammer.md",
     "meshes.md",
     "modes.md",
     "nastran.md",
+    "sensors.md",
     "several.md",
     "wooden-plate.md",
 ];
