@@ -125,7 +125,7 @@ fn nodes(length: f64, elements: usize) -> Vec<f64> {
 
 /// How fine the plate is, the highest frequency in Hz, and the most lines: the lowest five elastic modes, or eighteen.
 fn size_of_tier() -> ([usize; 2], f64, usize) {
-    of_tier(([5, 2], 220.0, 14), ([14, 6], 700.0, 400))
+    of_tier(([6, 3], 220.0, 24), ([14, 6], 700.0, 400))
 }
 
 /// The case of a plate in a folder, with the FRF of its impacts, the acceleration in a unit as the records are said to have it, and a line of the measurement.
