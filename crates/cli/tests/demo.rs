@@ -228,7 +228,6 @@ fn the_rational_method_is_never_wrong_and_ok() {
     }
 }
 
-/// The sandwich with a third sensor, whose FRF was measured elsewhere.
 /// A modulus that falls with frequency, E = s E₀ with s = √(f₀/f): its response at f is that of E₀ at g = f/√s, over s.
 #[test]
 fn a_modulus_that_no_causal_material_has_is_said_to_be_one() {
@@ -277,6 +276,7 @@ fn a_modulus_that_no_causal_material_has_is_said_to_be_one() {
     assert!(report.contains("plate is not the modulus of a causal material"));
 }
 
+/// The sandwich with a third sensor, whose FRF was measured elsewhere.
 #[test]
 fn a_sensor_that_contradicts_the_others_is_named_and_left_out() {
     let folder = tempfile::tempdir().unwrap();

@@ -167,7 +167,8 @@ fn the_verdict_says_how_much_can_be_trusted_and_why_not_the_rest() {
     assert!(text_of(&found).contains("Change <code>quantity of [[measurement]] 2</code>"));
 }
 
-/// Faults between which the data do not decide are told, and stand in doubt of the numbers; beside a finding that is decided they are not.
+/// Explanations between which the data do not decide are listed, and the verdict is "with care". Beside a finding that is decided there is
+/// only the likeliest of them.
 #[test]
 fn what_may_be_wrong_is_told_as_such() {
     let mut files = results(&Made::default());

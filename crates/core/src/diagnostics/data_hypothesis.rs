@@ -123,15 +123,8 @@ impl DataHypothesis {
         edits
     }
 
-    /// ln of the receptance that a value is read as: ln of the value as it was written, the factor's logarithm, and the delay.
-    pub(super) fn receptance(
-        &self,
-        m: usize,
-        frequency_hz: f64,
-        written: c64,
-        ln_factor: f64,
-        delay_s: f64,
-    ) -> c64 {
+    /// How a value of a sensor is read, from the logarithm of the value as it was written.
+    pub(super) fn reading(&self, m: usize, frequency_hz: f64, written: c64) -> Reading {
         let mut value = written;
         if self.conjugated[m] {
             value.im = -value.im;
@@ -139,18 +132,29 @@ impl DataHypothesis {
         if self.reversed[m] {
             value.im += HALF_TURN;
         }
-        if self.factor[m] {
-            value.re -= ln_factor;
+        Reading {
+            ln: value - ln_over_receptance(self.quantity[m], frequency_hz, self.decay_per_s),
+            factor: f64::from(u8::from(self.factor[m])),
+            turn: if self.delay[m] { omega_rad_s(frequency_hz) } else { 0.0 },
         }
-        if self.delay[m] {
-            value.im += omega_rad_s(frequency_hz) * delay_s;
-        }
-        value - ln_over_receptance(self.quantity[m], frequency_hz, self.decay_per_s)
     }
+}
 
-    /// Whether a factor, or a delay, concerns a sensor.
-    pub(super) fn concerned(&self, m: usize) -> [bool; 2] {
-        [self.factor[m], self.delay[m]]
+/// A value as it is read, whatever the factor and the delay that are looked for.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Reading {
+    /// ln of the receptance without both.
+    ln: c64,
+    /// 1 where the factor is of this sensor, otherwise 0.
+    pub(super) factor: f64,
+    /// ω where the delay is of this sensor, otherwise 0.
+    pub(super) turn: f64,
+}
+
+impl Reading {
+    /// ln of the receptance, with the factor's logarithm and the delay.
+    pub(super) fn receptance(&self, ln_factor: f64, delay_s: f64) -> c64 {
+        self.ln + c64::new(-self.factor * ln_factor, self.turn * delay_s)
     }
 }
 

@@ -197,7 +197,7 @@ fn best_rows(
             for &i in &picked {
                 let Some(value) = written[i][m] else { continue };
                 values += 1.0;
-                let read = data_hypothesis.receptance(m, responses.frequency_hz[i], value, 0.0, 0.0);
+                let read = data_hypothesis.reading(m, responses.frequency_hz[i], value).receptance(0.0, 0.0);
                 let (drive, by) = match is_load {
                     true => (Drive::Sensor(responses.sensors[m]), force),
                     false => (Drive::Load, c64::new(experiment.sensors[m].sign, 0.0)),

@@ -97,7 +97,7 @@ fn own_misfits(model: &Model<'_>, measured: Measured<'_>, agreed: &Agreed<'_, '_
         for (m, (value, &Sensor { row, sign })) in values.into_iter().zip(&experiment.sensors).enumerate() {
             let Some(value) = value else { continue };
             let f = responses.frequency_hz[k];
-            let read = data_hypothesis.receptance(m, f, value, fitted.ln_factor, fitted.delay_s);
+            let read = data_hypothesis.reading(m, f, value).receptance(fitted.ln_factor, fitted.delay_s);
             residuals[m].push(wrapped(read - (sign * x[row]).ln()));
         }
     }

@@ -1,6 +1,6 @@
 //! The likeliest moduli for a way to read the data: a grid of starts, then least squares of the misfit from the best of them.
 
-use super::data_hypothesis::DataHypothesis;
+use super::data_hypothesis::{DataHypothesis, Reading};
 use super::misfit::{Misfit, START_SCALE, misfit, misfit_at, robust, weight, wrapped};
 use super::moduli::Moduli;
 use super::responses::Responses;
@@ -55,25 +55,17 @@ const DIFFERENCE_STEP: f64 = 1e-6;
 /// Values as they were written: ln of the complex value at `[frequency][sensor]`, `None` where it is zero or no number.
 pub(super) struct Written(pub(super) Vec<Vec<Option<c64>>>);
 
-/// A value as it is read, but for the factor and the delay that are looked for.
-struct Reading {
-    /// Frequency and sensor.
-    place: [usize; 2],
-    /// Which of the model's values it is compared with.
+/// A measured value beside the model's.
+struct Compared {
+    /// Which of all values `[frequency][sensor]`, one after the other.
     at: usize,
-    /// ln of the receptance.
-    ln: c64,
-    /// 1 where the factor is of this sensor, otherwise 0.
-    factor: f64,
-    /// ω where the delay is of this sensor, otherwise 0.
-    turn: f64,
+    measured: Reading,
 }
 
-impl Reading {
+impl Compared {
     /// ln(measured/model), with the model's logarithms given.
     fn residual(&self, ln: &[c64], ln_factor: f64, delay_s: f64) -> c64 {
-        let read = self.ln + c64::new(-self.factor * ln_factor, self.turn * delay_s);
-        wrapped(read - ln[self.at])
+        wrapped(self.measured.receptance(ln_factor, delay_s) - ln[self.at])
     }
 }
 
@@ -155,26 +147,23 @@ impl Search<'_, '_> {
     }
 
     /// What was measured, as it is read.
-    fn readings(&self, data_hypothesis: &DataHypothesis) -> Vec<Reading> {
+    fn compared(&self, data_hypothesis: &DataHypothesis) -> Vec<Compared> {
         let sensors = data_hypothesis.sensors();
-        let reading = |i: usize, m: usize| {
-            let f = self.responses.frequency_hz[i];
-            let [factor, delay] = data_hypothesis.concerned(m);
-            Some(Reading {
-                place: [i, m],
-                at: i * sensors + m,
-                ln: data_hypothesis.receptance(m, f, self.written.0[i][m]?, 0.0, 0.0),
-                factor: f64::from(u8::from(factor)),
-                turn: if delay { omega_rad_s(f) } else { 0.0 },
+        let one = |at: usize| {
+            let (i, m) = (at / sensors, at % sensors);
+            let written = self.written.0[i][m]?;
+            Some(Compared {
+                at,
+                measured: data_hypothesis.reading(m, self.responses.frequency_hz[i], written),
             })
         };
-        (0..self.written.0.len()).flat_map(|i| (0..sensors).filter_map(move |m| reading(i, m))).collect()
+        (0..self.written.0.len() * sensors).filter_map(one).collect()
     }
 
     /// The likeliest moduli from the best of the grid and from starts that are known.
     pub(super) fn fit(&self, data_hypothesis: &DataHypothesis, grid: &Grid, known: &[&Fitted]) -> Fitted {
-        let readings = self.readings(data_hypothesis);
-        let scored = map(self.for_each, grid.moduli.len(), |p| score(&readings, &grid.ln[p]));
+        let values = self.compared(data_hypothesis);
+        let scored = map(self.for_each, grid.moduli.len(), |p| score(&values, &grid.ln[p]));
         let mut order: Vec<usize> = (0..scored.len()).collect();
         order.sort_by(|&a, &b| scored[a].0.total_cmp(&scored[b].0));
         let mut starts: Vec<Start> =
@@ -200,8 +189,8 @@ impl Search<'_, '_> {
         grid: &Grid,
         most: usize,
     ) -> Vec<usize> {
-        let readings = self.readings(data_hypothesis);
-        let scored = map(self.for_each, grid.ln.len(), |p| score(&readings, &grid.ln[p]).0);
+        let values = self.compared(data_hypothesis);
+        let scored = map(self.for_each, grid.ln.len(), |p| score(&values, &grid.ln[p]).0);
         let mut order: Vec<usize> = (0..scored.len()).collect();
         order.sort_by(|&a, &b| scored[a].total_cmp(&scored[b]));
         order.truncate(most);
@@ -210,8 +199,8 @@ impl Search<'_, '_> {
 
     /// The least misfit at some points of the grid, at a broad scale.
     pub(super) fn best_score(&self, data_hypothesis: &DataHypothesis, grid: &Grid, points: &[usize]) -> f64 {
-        let readings = self.readings(data_hypothesis);
-        let scores = points.iter().map(|&p| score(&readings, &grid.ln[p]).0);
+        let values = self.compared(data_hypothesis);
+        let scores = points.iter().map(|&p| score(&values, &grid.ln[p]).0);
         scores.fold(f64::INFINITY, f64::min)
     }
 
@@ -221,15 +210,15 @@ impl Search<'_, '_> {
         data_hypothesis: &DataHypothesis,
         starts: Vec<Start>,
     ) -> (f64, Start) {
-        let readings = self.readings(data_hypothesis);
+        let values = self.compared(data_hypothesis);
         let scored = starts.into_iter().map(|(moduli, _, delay_s)| {
             let ln = self.ln(data_hypothesis, &moduli);
-            let ln_factor = score(&readings, &ln).1;
+            let ln_factor = score(&values, &ln).1;
             let mut start = (moduli, ln_factor, delay_s);
             if data_hypothesis.free()[1] {
-                start = self.with_delay(data_hypothesis, start);
+                start = self.with_delay(data_hypothesis, &values, start);
             }
-            let residuals = readings.iter().map(|reading| reading.residual(&ln, start.1, start.2));
+            let residuals = values.iter().map(|value| value.residual(&ln, start.1, start.2));
             (misfit_at(residuals, START_SCALE), start)
         });
         let best = scored.min_by(|a, b| a.0.total_cmp(&b.0));
@@ -239,7 +228,9 @@ impl Search<'_, '_> {
     /// The best that a search from each of some starts comes to: all are followed a little way, and the best of them to the end.
     pub(super) fn follow(&self, data_hypothesis: &DataHypothesis, mut starts: Vec<Start>) -> Fitted {
         if data_hypothesis.free()[1] {
-            starts = starts.into_iter().map(|start| self.with_delay(data_hypothesis, start)).collect();
+            let values = self.compared(data_hypothesis);
+            starts =
+                starts.into_iter().map(|start| self.with_delay(data_hypothesis, &values, start)).collect();
         }
         let mut found = map(self.for_each, starts.len(), |k| {
             let theta = self.coordinates(data_hypothesis, &starts[k]);
@@ -257,15 +248,19 @@ impl Search<'_, '_> {
     }
 
     /// A start with the best of all delays.
-    fn with_delay(&self, data_hypothesis: &DataHypothesis, (moduli, ln_factor, delay_s): Start) -> Start {
+    fn with_delay(
+        &self,
+        data_hypothesis: &DataHypothesis,
+        values: &[Compared],
+        (moduli, ln_factor, delay_s): Start,
+    ) -> Start {
         let ln = self.ln(data_hypothesis, &moduli);
-        let readings = self.readings(data_hypothesis);
         let top = self.top();
         let steps = (MAX_DELAY_PHASE_RAD / DELAY_PHASE_STEP_RAD) as i64;
         let delays =
             (-steps..=steps).map(|k| k as f64 * DELAY_PHASE_STEP_RAD / top).chain(std::iter::once(delay_s));
         let scored = delays.map(|tau| {
-            let residuals = readings.iter().map(|reading| reading.residual(&ln, ln_factor, tau));
+            let residuals = values.iter().map(|value| value.residual(&ln, ln_factor, tau));
             (misfit_at(residuals, START_SCALE), tau)
         });
         let best = scored.min_by(|a, b| a.0.total_cmp(&b.0)).map_or(0.0, |(_, tau)| tau);
@@ -323,9 +318,10 @@ impl Search<'_, '_> {
     fn at(&self, data_hypothesis: &DataHypothesis, start: &Start) -> Fitted {
         let (moduli, ln_factor, delay_s) = start;
         let ln = self.ln(data_hypothesis, moduli);
-        let mut by_sensor: Vec<Vec<c64>> = vec![Vec::new(); data_hypothesis.sensors()];
-        for reading in self.readings(data_hypothesis) {
-            by_sensor[reading.place[1]].push(reading.residual(&ln, *ln_factor, *delay_s));
+        let sensors = data_hypothesis.sensors();
+        let mut by_sensor: Vec<Vec<c64>> = vec![Vec::new(); sensors];
+        for value in self.compared(data_hypothesis) {
+            by_sensor[value.at % sensors].push(value.residual(&ln, *ln_factor, *delay_s));
         }
         let rest = by_sensor.concat();
         let own = by_sensor.iter().map(|own| misfit(own).sigma).collect();
@@ -345,7 +341,12 @@ impl Search<'_, '_> {
     }
 
     /// Residuals with their slopes by all coordinates, `[value]` and `[coordinate][value]`.
-    fn with_slopes(&self, data_hypothesis: &DataHypothesis, at: &[f64]) -> (Vec<c64>, Vec<Vec<c64>>) {
+    fn with_slopes(
+        &self,
+        data_hypothesis: &DataHypothesis,
+        values: &[Compared],
+        at: &[f64],
+    ) -> (Vec<c64>, Vec<Vec<c64>>) {
         let (moduli, ln_factor, delay_s) = self.parts(data_hypothesis, at);
         let parametrization = &self.responses.parametrization;
         let sensors = data_hypothesis.sensors();
@@ -362,16 +363,16 @@ impl Search<'_, '_> {
             }
             ln.extend(own);
         }
-        let readings = self.readings(data_hypothesis);
-        let residuals = readings.iter().map(|reading| reading.residual(&ln, ln_factor, delay_s)).collect();
-        let of_reading = |slope: &Vec<c64>| readings.iter().map(|reading| -slope[reading.at]).collect();
-        let mut slopes: Vec<Vec<c64>> = of_ln.iter().map(of_reading).collect();
+        let residuals = values.iter().map(|value| value.residual(&ln, ln_factor, delay_s)).collect();
+        let of_values = |slope: &Vec<c64>| values.iter().map(|value| -slope[value.at]).collect();
+        let mut slopes: Vec<Vec<c64>> = of_ln.iter().map(of_values).collect();
         let [factor, delay] = data_hypothesis.free();
         if factor {
-            slopes.push(readings.iter().map(|reading| c64::new(-reading.factor, 0.0)).collect());
+            slopes.push(values.iter().map(|value| c64::new(-value.measured.factor, 0.0)).collect());
         }
         if delay {
-            slopes.push(readings.iter().map(|reading| c64::new(0.0, reading.turn / self.top())).collect());
+            let by_delay = |value: &Compared| c64::new(0.0, value.measured.turn / self.top());
+            slopes.push(values.iter().map(by_delay).collect());
         }
         (residuals, slopes)
     }
@@ -403,8 +404,9 @@ impl Search<'_, '_> {
         scale: f64,
         patience: usize,
     ) -> Fitted {
+        let compared = self.compared(data_hypothesis);
         let evaluate = |theta: &[f64]| {
-            let (residuals, slopes) = self.with_slopes(data_hypothesis, theta);
+            let (residuals, slopes) = self.with_slopes(data_hypothesis, &compared, theta);
             let turned: Vec<_> = residuals.iter().map(|&r| robust(r, scale)).collect();
             let beyond = self.beyond(&self.parts(data_hypothesis, theta).0);
             let bounds = beyond.iter().map(|b| BOUND_PENALTY.sqrt() * b);
@@ -444,7 +446,7 @@ impl Search<'_, '_> {
     ) -> [Option<f64>; 2] {
         let start = (fitted.moduli.clone(), fitted.ln_factor, fitted.delay_s);
         let at = self.coordinates(data_hypothesis, &start);
-        let (about, slopes) = self.with_slopes(data_hypothesis, &at);
+        let (about, slopes) = self.with_slopes(data_hypothesis, &self.compared(data_hypothesis), &at);
         let sigma = fitted.misfit.sigma;
         let product = |a: &[c64], b: &[c64]| -> f64 {
             let terms = a.iter().zip(b).zip(&about);
@@ -482,11 +484,12 @@ impl Search<'_, '_> {
         sensors: &[usize],
     ) -> Option<(f64, f64)> {
         let ln = self.ln(data_hypothesis, &fitted.moduli);
-        let ln_omega = |i: usize| omega_rad_s(self.responses.frequency_hz[i]).ln();
-        let readings = self.readings(data_hypothesis).into_iter();
-        let of_sensors = readings.filter(|reading| sensors.contains(&reading.place[1]));
-        let point = |reading: Reading| {
-            (ln_omega(reading.place[0]), reading.residual(&ln, fitted.ln_factor, fitted.delay_s).re)
+        let count = data_hypothesis.sensors();
+        let values = self.compared(data_hypothesis).into_iter();
+        let of_sensors = values.filter(|value| sensors.contains(&(value.at % count)));
+        let point = |value: Compared| {
+            let omega = omega_rad_s(self.responses.frequency_hz[value.at / count]);
+            (omega.ln(), value.residual(&ln, fitted.ln_factor, fitted.delay_s).re)
         };
         let points: Vec<(f64, f64)> = of_sensors.map(point).collect();
         line_slope(&points)
@@ -494,16 +497,15 @@ impl Search<'_, '_> {
 }
 
 /// Misfit of a point of the grid at a broad scale, and the logarithm of the factor there.
-fn score(readings: &[Reading], ln: &[c64]) -> (f64, f64) {
-    let of_factor = readings.iter().filter(|reading| reading.factor > 0.0);
-    let ln_factor =
-        median(of_factor.map(|reading| reading.residual(ln, 0.0, 0.0).re).collect()).unwrap_or(0.0);
-    let residual = |reading: &Reading| {
-        let residual = reading.residual(ln, ln_factor, 0.0);
+fn score(values: &[Compared], ln: &[c64]) -> (f64, f64) {
+    let of_factor = values.iter().filter(|value| value.measured.factor > 0.0);
+    let ln_factor = median(of_factor.map(|value| value.residual(ln, 0.0, 0.0).re).collect()).unwrap_or(0.0);
+    let residual = |value: &Compared| {
+        let residual = value.residual(ln, ln_factor, 0.0);
         // A phase that a delay may have turned is not used yet.
-        if reading.turn > 0.0 { c64::new(residual.re, 0.0) } else { residual }
+        if value.measured.turn > 0.0 { c64::new(residual.re, 0.0) } else { residual }
     };
-    (misfit_at(readings.iter().map(residual), START_SCALE), ln_factor)
+    (misfit_at(values.iter().map(residual), START_SCALE), ln_factor)
 }
 
 /// Slope of a straight line through points, least squares, with its standard deviation.

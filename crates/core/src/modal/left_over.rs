@@ -5,15 +5,15 @@ use crate::c64;
 use crate::frequency::{laplace_per_s, omega_rad_s};
 use crate::median::median;
 
-/// Half-widths that are tried: from the spacing of the lines on, each so many times the one before, up to this part of the band. The wider ones
-/// a stabilisation diagram shows.
+/// Half-widths that are tried: from the spacing of the lines on, each so many times the one before, up to this part of the band. Wider
+/// resonances are in the stabilisation diagram.
 const HALF_WIDTH_STEP: f64 = 2.0;
 const MAX_HALF_WIDTH: f64 = 0.005;
 
 /// Frequencies that are tried, in half-widths.
 const FREQUENCY_STEP: f64 = 0.5;
 
-/// What is farther from a pole, in half-widths, does not tell of it.
+/// Lines that are compared with a trial pole: up to so many half-widths from it.
 const REACH: f64 = 10.0;
 
 /// A mode stands out: it explains so many times more than the median of so many trials on either side. Of noise the largest of ten thousand trials explains
@@ -24,7 +24,7 @@ const NEIGHBOURS: usize = 200;
 /// Nearer to a pole that is there, in half-widths of the wider of both, what is left is of that one: its damping may depend on the amplitude.
 const MIN_DISTANCE: f64 = 3.0;
 
-/// Poles that are told at once: each search over all poles costs the cube of their number.
+/// Poles that are found at once at most: a search over all poles costs the cube of their number.
 const MAX_POLES: usize = 10;
 
 /// Poles where what is left has a resonance that explains more than the price of a pole, the largest first.
@@ -32,7 +32,7 @@ const MAX_POLES: usize = 10;
 /// At each trial pole s the residue a_m of each sensor minimises Σ w²|rest − a_m/(iω − s)|² over the lines nearby.
 ///
 /// # Limits
-/// A second mode within three half-widths of one that was found is not told.
+/// A second mode within three half-widths of one that is there is not found.
 pub(super) fn resonances_left(measured: &Measured<'_>, fit: &Fit, fitted: &Fitted, price: f64) -> Vec<c64> {
     let lines = measured.frequency_hz;
     let band_hz = lines[lines.len() - 1] - lines[0];
@@ -40,16 +40,16 @@ pub(super) fn resonances_left(measured: &Measured<'_>, fit: &Fit, fitted: &Fitte
     let mut half_width_hz = band_hz / (lines.len() - 1).max(1) as f64;
     while half_width_hz > 0.0 && half_width_hz < MAX_HALF_WIDTH * band_hz {
         let step_hz = FREQUENCY_STEP * half_width_hz;
-        let trials = 1..(band_hz / step_hz) as usize;
         let pole =
             |i: usize| c64::new(-omega_rad_s(half_width_hz), omega_rad_s(lines[0] + step_hz * i as f64));
-        let gains: Vec<f64> = trials.clone().map(|i| gain(measured, fitted, pole(i))).collect();
+        let poles: Vec<c64> = (1..(band_hz / step_hz) as usize).map(pole).collect();
+        let gains: Vec<f64> = poles.iter().map(|&pole| gain(measured, fitted, pole)).collect();
         let stands_out = |at: usize| {
             let near = &gains[at.saturating_sub(NEIGHBOURS)..(at + NEIGHBOURS).min(gains.len())];
             gains[at] > price
                 && median(near.to_vec()).is_some_and(|median| gains[at] > MIN_PROMINENCE * median)
         };
-        found.extend(trials.filter(|i| stands_out(i - 1)).map(|i| (gains[i - 1], pole(i))));
+        found.extend((0..poles.len()).filter(|&at| stands_out(at)).map(|at| (gains[at], poles[at])));
         half_width_hz *= HALF_WIDTH_STEP;
     }
     found.sort_by(|a, b| b.0.total_cmp(&a.0));

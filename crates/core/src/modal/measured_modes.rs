@@ -88,7 +88,7 @@ const DEGREES: [usize; 7] = [1, 2, 4, 6, 10, 16, 24];
 /// A level below this is roundoff of the responses: poles and polynomials that would be needed for it do not belong to a structure.
 const MIN_LEVEL: f64 = 1e-7;
 
-/// Rounds of leaving out what gains nothing.
+/// Rounds of leaving out what gains nothing, and of adding what is missing.
 const MAX_ROUNDS: usize = 60;
 
 /// The modes of measured responses, from all sensors together. Lines at 0 Hz must not be among them.
@@ -232,23 +232,25 @@ impl PoleSearch<'_> {
         // A weak mode next to a strong one shows once that one is fitted.
         let new = |pole: &&c64| best.0.poles.iter().all(|other| !is_same(**pole, *other));
         let added: Vec<c64> = seldom.iter().filter(new).copied().collect();
-        if !added.is_empty() {
-            let more = Fit { poles: [&best.0.poles[..], &added].concat(), ..best.0.clone() };
-            if let Some(more) = self.pruned(more).filter(|more| self.is_better(more, &best)) {
-                best = more;
-            }
-        }
+        best = self.with_more(&best, &added).unwrap_or(best);
         for _ in 0..MAX_ROUNDS {
             let Some(price) = self.price(&best.0, &best.1) else { break };
-            let left = resonances_left(&self.measured, &best.0, &best.1, price);
-            let more = Fit { poles: [&best.0.poles[..], &left].concat(), ..best.0.clone() };
-            let found = Some(more).filter(|_| !left.is_empty()).and_then(|more| self.pruned(more));
-            let Some(more) = found.filter(|more| self.is_better(more, &best)) else { break };
+            let missing = resonances_left(&self.measured, &best.0, &best.1, price);
+            let Some(more) = self.with_more(&best, &missing) else { break };
             best = more;
         }
         // Poles that are right need other polynomials than those that were not yet.
         let again = self.with_degree(&best.0.poles).and_then(|fit| self.pruned(fit));
         Some(again.filter(|again| self.is_better(again, &best)).unwrap_or(best))
+    }
+
+    /// A fit with more poles; `None` where there are none, or it is no better.
+    fn with_more(&self, best: &(Fit, Fitted), poles: &[c64]) -> Option<(Fit, Fitted)> {
+        if poles.is_empty() {
+            return None;
+        }
+        let more = Fit { poles: [&best.0.poles[..], poles].concat(), ..best.0.clone() };
+        self.pruned(more).filter(|more| self.is_better(more, best))
     }
 
     fn is_better(&self, new: &(Fit, Fitted), old: &(Fit, Fitted)) -> bool {

@@ -13,6 +13,7 @@ use crate::for_each::{ForEach, map};
 use crate::frequency::{laplace_per_s, omega_rad_s};
 use crate::least_squares::{Residuals, Search, descend, inverse_information};
 use frfit_linalg::dense::upper_triangle;
+use frfit_linalg::vector::transpose_dot;
 
 /// Responses with their weights 1/σ (σ of real and imaginary part each), `[frequency][sensor]`, under a window of this decay.
 #[derive(Clone, Copy)]
@@ -254,7 +255,7 @@ impl Triangle {
 
     fn is_dependent(&self, k: usize) -> bool {
         let column = &self.column(k)[..=k];
-        column[k].abs() <= DEPENDENT_COLUMN_RTOL * dot(column, column).sqrt()
+        column[k].abs() <= DEPENDENT_COLUMN_RTOL * transpose_dot(column, column).sqrt()
     }
 }
 
@@ -273,13 +274,13 @@ impl Eliminated {
             for k in j..n {
                 let column = self.triangle.column(k);
                 let unit = f64::from(u8::from(k == j));
-                let left = unit - dot(&row[j..k], &column[j..k]);
+                let left = unit - transpose_dot(&row[j..k], &column[j..k]);
                 row[k] = if self.triangle.is_dependent(k) { 0.0 } else { left / column[k] };
             }
             row
         };
         let [a, b] = [row(j), row(j + 1)];
-        let (aa, ab, bb) = (dot(&a, &a), dot(&a, &b), dot(&b, &b));
+        let (aa, ab, bb) = (transpose_dot(&a, &a), transpose_dot(&a, &b), transpose_dot(&b, &b));
         let [c, d] = [self.coefficients[j], self.coefficients[j + 1]];
         let determinant = aa * bb - ab * ab;
         if determinant > 0.0 { (c * c * bb - 2.0 * c * d * ab + d * d * aa) / determinant } else { 0.0 }
@@ -288,8 +289,4 @@ impl Eliminated {
 
 fn poles(theta: &[f64]) -> Vec<c64> {
     theta.chunks_exact(2).map(|pair| c64::new(pair[0], pair[1])).collect()
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }

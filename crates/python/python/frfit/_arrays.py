@@ -98,6 +98,11 @@ def pair(value: Any, name: str) -> tuple[float, float]:
     return float(array[0]), float(array[1])
 
 
+def optional_pair(value: Any, name: str) -> tuple[float, float] | None:
+    """Two real numbers, or none."""
+    return None if value is None else pair(value, name)
+
+
 def whole(value: Any, name: str, expected: str = "a whole number") -> int:
     """A whole number of Python or NumPy; neither a flag nor a float, whatever its value."""
     if isinstance(value, (bool, np.bool_)):

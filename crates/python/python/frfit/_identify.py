@@ -19,6 +19,7 @@ from ._arrays import (
     load_vector,
     number,
     optional_number,
+    optional_pair,
     optional_whole,
     pair,
     real,
@@ -365,7 +366,7 @@ def identify(
     of_one = {"matrix": matrix, "varies": varies, "law": law, "bounds": bounds, "real": flag(real, "real")}
     options = {
         "unknowns": [_plain_unknown(one) for one in _unknowns(unknowns, of_one)],
-        "band_hz": None if band_hz is None else pair(band_hz, "band_hz"),
+        "band_hz": optional_pair(band_hz, "band_hz"),
         "exclude_hz": [_band(entry) for entry in several(exclude_hz, "exclude_hz", "lines and bands")],
         "max_lines": None if max_lines is None else whole(max_lines, "max_lines"),
         "method": _optional_word(method, "method"),
@@ -411,7 +412,7 @@ def run_case(
         out,
         _optional_word(method, "method"),
         optional_whole(order, "order", 0),
-        None if band_hz is None else pair(band_hz, "band_hz"),
+        optional_pair(band_hz, "band_hz"),
         _optional_word(selection, "selection"),
         _optional_word(reduction, "reduction"),
         optional_whole(memory_bytes, "memory_bytes", 0),

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _frfit
-from ._arrays import Complex, Flags, Real, optional_whole, pair
+from ._arrays import Complex, Flags, Real, optional_pair, optional_whole
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -33,7 +33,7 @@ class Modes:
     measured_frequency_std_hz: Real
     """(k,), standard deviations."""
     measured_damping_ratio: Real
-    """(k,)"""
+    """(k,), as of the model."""
     measured_damping_ratio_std: Real
     """(k,), standard deviations."""
     measured_shape: Complex
@@ -104,7 +104,7 @@ def modes(
     found = _frfit.modes(
         path,
         out,
-        None if band_hz is None else pair(band_hz, "band_hz"),
+        optional_pair(band_hz, "band_hz"),
         identified,
         optional_whole(max_order, "max_order", 2),
         optional_whole(memory_bytes, "memory_bytes", 0),

@@ -166,7 +166,7 @@ class Identification:
     findings: tuple[Finding, ...]
     """What is wrong with the data."""
     other_explanations: tuple[OtherExplanation, ...]
-    """What would explain the data as well, or nearly; without a finding they do not decide between these."""
+    """What would explain the data as well, or nearly; without a finding the data do not decide between these."""
     laws: Any
     """The laws that were fitted, as in ``law.json``; ``None`` where none was asked for."""
     smooth: dict[str, Any] | None

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _frfit
-from ._arrays import Complex, Real, complex_, flag, number, pair, real, refuse, several, shown, whole, word
+from ._arrays import Complex, Real, complex_, flag, number, optional_pair, real, refuse, several, shown, whole, word
 
 
 @dataclass(frozen=True)
@@ -197,7 +197,7 @@ def write_uff(
             "double_precision": flag(one.double_precision, "double_precision"),
             "load_case": whole(one.load_case, "load_case"),
             "z_value": number(one.z_value, "z_value"),
-            "even": None if one.even is None else pair(one.even, "even"),
+            "even": optional_pair(one.even, "even"),
             "axes": [
                 axis(one.abscissa_axis, "abscissa_axis"),
                 axis(one.ordinate_axis, "ordinate_axis"),

@@ -40,7 +40,7 @@ pub(super) fn model_errors(results: &Results) -> String {
 
 const UNPAIRED: &str = "<p>The coarser mesh was not used: fewer than half of the modes of the band could be paired with its modes.</p>\n";
 
-fn list<'v>(of: &'v Value, key: &str) -> &'v [Value] {
+pub(super) fn list<'v>(of: &'v Value, key: &str) -> &'v [Value] {
     of.get(key).and_then(Value::as_array).map_or(&[], Vec::as_slice)
 }
 

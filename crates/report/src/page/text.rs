@@ -1,5 +1,6 @@
 //! What is read: head, verdict, and where everything comes from.
 
+use super::model_errors::{list, number};
 use super::together::constants;
 use crate::escape::escape;
 use crate::number::{hertz, significant, with_bar};
@@ -176,36 +177,34 @@ fn text(value: &Value, key: &str) -> String {
 
 /// What is wrong, and with which sensors.
 fn fault(value: &Value) -> String {
-    let sensors = value.get("sensors").and_then(Value::as_array).into_iter().flatten();
-    let sensors: Vec<String> = sensors.filter_map(Value::as_str).map(escape).collect();
+    let sensors: Vec<String> = list(value, "sensors").iter().filter_map(Value::as_str).map(escape).collect();
     let who = if sensors.is_empty() { String::new() } else { format!("{}: ", sensors.join(", ")) };
     who + &text(value, "what")
 }
 
-/// Faults between which the data do not decide; nothing where there are none.
+/// The explanations between which the data do not decide; nothing where there are none.
 fn undecided(others: &[Value]) -> String {
     if others.is_empty() {
         return String::new();
     }
-    let html = "<h3>What may be wrong with the data</h3>\n<p>One of these would explain the data. The likelihoods are too near to each other to tell which.</p>\n\
-         <ul class=\"findings\">"
-        .to_owned();
     let items: Vec<String> = others.iter().map(|other| format!("<li>{}</li>", explanation(other))).collect();
-    html + &items.concat() + "</ul>\n"
+    format!(
+        "<h3>What may be wrong with the data</h3>\n\
+         <p>Each of these would explain the data. Their likelihoods differ too little to decide.</p>\n\
+         <ul class=\"findings\">{}</ul>\n",
+        items.concat()
+    )
 }
 
 /// Faults together, and how likely they are.
 fn explanation(other: &Value) -> String {
-    let faults = other.get("faults").and_then(Value::as_array).into_iter().flatten();
-    let faults: Vec<String> = faults.map(fault).collect();
-    let number = |key: &str| {
-        other.get(key).and_then(Value::as_f64).map_or_else(String::new, |value| significant(value, 2))
-    };
+    let faults: Vec<String> = list(other, "faults").iter().map(fault).collect();
+    let digits = |key: &str| number(other, key).map_or_else(String::new, |value| significant(value, 2));
     format!(
         "<b>{}</b>. Misfit of ln(measured/model) {}, {} nats behind the best.",
         faults.join("; and "),
-        number("misfit"),
-        number("nats_behind")
+        digits("misfit"),
+        digits("nats_behind")
     )
 }
 

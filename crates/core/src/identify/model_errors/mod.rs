@@ -192,7 +192,7 @@ struct KnownSizes {
     /// What all modes have in common, over what each has of its own.
     common_ratio: f64,
     /// The least of what grows with frequency.
-    pub(super) least_of_mesh: f64,
+    least_of_mesh: f64,
 }
 
 impl KnownSizes {
