@@ -38,8 +38,9 @@ const MAX_FAULTS: usize = 2;
 /// Explanations that are named where the data do not decide.
 const MAX_UNDECIDED: usize = 4;
 
-/// Nominal values that are powers of ten off are looked for where this is left: a factor of 2.7.
-const FAR_MISFIT: f64 = 1.0;
+/// Nominal values that are powers of ten off are looked for where this is left: a factor of 2. Of a sandwich whose core counts for
+/// nothing its skins still leave 0.98.
+const FAR_MISFIT: f64 = 0.7;
 
 /// Powers of ten that are tried, to either side.
 const MAX_POWER_OF_TEN: i32 = 7;

@@ -23,6 +23,7 @@ mod dead_channel;
 mod form;
 mod goodness_of_fit;
 mod identification;
+mod local_fit;
 mod measured;
 mod model_errors;
 mod noise;

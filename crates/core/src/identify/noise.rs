@@ -38,7 +38,7 @@ pub enum NoiseSource {
     Given,
     /// How well one factor explains several sensors.
     Sensors,
-    /// How far the answers lie off a smooth curve over frequency.
+    /// How far the answers, or of several unknowns the responses themselves, lie off a smooth curve over frequency.
     Scatter,
     /// What a smooth curve leaves, of the sensors and over frequency.
     Curve,
@@ -69,7 +69,7 @@ pub struct NoiseLevel {
     pub source: NoiseSource,
     /// What the misfit of several sensors says; `None` for one, which everything explains.
     pub of_sensors: Option<f64>,
-    /// What the scatter of the answers over frequency says.
+    /// What the scatter of the answers over frequency says, or of several unknowns that of the responses about local rational functions.
     pub of_scatter: Option<f64>,
 }
 

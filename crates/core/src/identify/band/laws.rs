@@ -232,8 +232,8 @@ impl Fitting<'_, '_> {
             left.iter().map(|left| Channel::CALIBRATED.better(left.gain, left.late_s)).collect();
         channels.begin_at(&left, &mut theta);
         let curves = Curves::new(vec![Curve::Form(Form::Law(*law))]).with_channels(channels);
-        let with_law = (&curves, theta.as_slice());
-        let errors = estimate_with_laws(reduced.whole(), &measured, errors, with_law, self.context.for_each)?;
+        let errors =
+            estimate_with_laws(reduced.whole(), &measured, errors, &curves, &[theta], self.context.for_each)?;
         // What was beside the noise is in the standard deviations already.
         let errors = errors.beside(rest);
         reduced.correct(&errors.modes, &errors.errors);

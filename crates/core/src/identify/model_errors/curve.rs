@@ -330,6 +330,13 @@ impl Curves {
         }
     }
 
+    /// Gives a smooth unknown the same phase all over the band.
+    pub(super) fn set_phase(&self, theta: &mut [f64], unknown: usize, phase: f64) {
+        if let (Curve::Spline(spline), range) = &self.each[unknown] {
+            theta[range.clone()].iter_mut().skip(spline.knots()).for_each(|own| *own = phase);
+        }
+    }
+
     /// Everything at a line; `None` where a number is not finite.
     pub(super) fn values(&self, theta: &[f64], line: usize, omega: f64) -> Option<Values> {
         let (mut values, mut slopes) = (Vec::with_capacity(self.each.len()), Vec::with_capacity(theta.len()));

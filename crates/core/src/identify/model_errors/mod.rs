@@ -23,12 +23,13 @@ mod found;
 mod leverage;
 mod mesh;
 mod mesh_scatter;
+mod paired;
 mod scatter;
 mod search;
 mod split;
 mod tuned;
 
-use super::goodness_of_fit::GoodnessOfFit;
+use super::goodness_of_fit::{GoodnessOfFit, MIN_DOUBTFUL_MISFIT};
 use super::noise::{Noise, beside};
 use super::options::ErrorSizes;
 use super::outcome::Line;
@@ -94,6 +95,8 @@ pub(super) struct Measured<'t, 'a> {
     /// The unknowns that each frequency has a value of its own of.
     pub(super) own: &'t [usize],
     pub(super) level_per_frequency: Option<f64>,
+    /// The same by the responses themselves, whatever the model.
+    pub(super) noise_of_responses: Option<f64>,
     /// What the values of the lines say of the band.
     pub(super) fit: Option<GoodnessOfFit>,
 }
@@ -113,8 +116,11 @@ const STAGE_STEPS: usize = 3;
 /// The first level of added noise where coordinates were tried one by one: more would let go what was found.
 const TUNED_LEVELS: usize = 2;
 
-/// Noise over response above which a fit is looked for from other starts too.
+/// Noise over response that is usual, where the responses themselves do not show it.
 const USUAL_NOISE: f64 = 0.01;
+
+/// What is left is noise up to so many times what the responses show by themselves.
+const MAX_NOISE_RATIO: f64 = 1.1;
 
 /// Steps at each level of the noise, and at the last.
 const STEPS_PER_LEVEL: usize = 5;
@@ -327,6 +333,11 @@ fn explanation(search: &Search<'_, '_>, starts: &[Vec<f64>]) -> Option<Explanati
         let fitting = Fitting { kinds, ..search.fitting(&near.0, &near.1, &search.lines) };
         data.explain(&fitting, place, from_above)
     };
+    let from_near = |place: Place| -> Option<Explained> {
+        let near = search.smaller(&search.points(&place), NEIGHBOURHOOD_TOL);
+        let fitting = Fitting { kinds: Kinds::STIFFNESS, ..search.fitting(&near.0, &near.1, &search.lines) };
+        data.settled_near(&fitting, place)
+    };
     let fitted = |places: Vec<Place>, kinds: Kinds| -> Option<Explained> {
         let coarse = Fitting { kinds, ..coarse };
         let ends = places.into_iter().filter_map(|place| data.approach(&coarse, place));
@@ -337,19 +348,28 @@ fn explanation(search: &Search<'_, '_>, starts: &[Vec<f64>]) -> Option<Explanati
         Some(b) if b.evidence < a.evidence => b,
         _ => a,
     };
+    // Large errors may explain a band as well: those of modes at each other's places.
+    let is_found = |wrong: &Explained| {
+        data.is_explained(wrong, &search.lines) && whole.are_small(&wrong.found.place, data.given_sizes)
+    };
     // Far from the answer damping that is free only hides that a mode is at another frequency, and masses may.
     let at_starts = || starts.iter().map(|start| coarse.start(start)).collect::<Vec<Place>>();
     let mut wrong = fitted(at_starts(), Kinds::STIFFNESS)?;
-    if !data.is_explained(&wrong, &search.lines) {
+    let used = |line: usize, sensor: usize| data.sigma[line][sensor].is_finite();
+    if !is_found(&wrong) {
+        let paired = search.paired(&whole, &curves.straight(&starts[0]), &used);
+        wrong = better(wrong, paired.and_then(from_near));
+    }
+    if !is_found(&wrong) {
         wrong = better(wrong, fitted(at_starts(), Kinds::MASSES));
     }
-    if !data.is_explained(&wrong, &search.lines) {
+    if !is_found(&wrong) {
         let stiffness = Fitting { kinds: Kinds::STIFFNESS, free_nodes: false, ..whole };
         let upwards = starts.iter().filter_map(|start| data.upwards(&stiffness, start)).collect();
         wrong = better(wrong, fitted(upwards, Kinds::STIFFNESS));
     }
     let used = |line: usize, sensor: usize| data.sigma[line][sensor].is_finite();
-    let mut scaled: Vec<(f64, Place)> = if data.is_explained(&wrong, &search.lines) {
+    let mut scaled: Vec<(f64, Place)> = if is_found(&wrong) {
         Vec::new()
     } else {
         starts.iter().filter_map(|start| whole.scaled(whole.start(&curves.straight(start)), &used)).collect()
@@ -358,7 +378,7 @@ fn explanation(search: &Search<'_, '_>, starts: &[Vec<f64>]) -> Option<Explanati
     let most = scaled.first().map_or(0.0, |(least, _)| MAX_MISMATCH_OVER_LEAST * least);
     scaled.dedup_by(|a, b| distance(&a.1, &b.1) <= SAME_START);
     for (_, mut place) in scaled.into_iter().filter(|(mismatch, _)| *mismatch <= most) {
-        while !data.is_explained(&wrong, &search.lines) {
+        while !is_found(&wrong) {
             let tuned = from(whole.tuned(place, &used)?, Kinds::STIFFNESS, &ADDED_NOISE[TUNED_LEVELS..])?;
             if tuned.evidence > wrong.evidence - 2.0 * RIGHT_MODEL_NATS {
                 break;
@@ -410,26 +430,34 @@ fn explanation(search: &Search<'_, '_>, starts: &[Vec<f64>]) -> Option<Explanati
     Some(Explanation::Errors(Box::new(Estimated { modes: search.modes.clone(), ..estimated })))
 }
 
-/// The errors of a model once more, with laws in place of smooth curves: they say more of what the errors are.
+/// The errors of a model once more, with laws in place of smooth curves: they say more of what the errors are. Of several places to begin with
+/// that of largest evidence; `None` where these errors are no small ones.
 pub(super) fn estimate_with_laws(
     model: &Projection,
     data: &Measured<'_, '_>,
     before: &Estimated,
-    (curves, theta): (&Curves, &[f64]),
+    curves: &Curves,
+    starts: &[Vec<f64>],
     for_each: ForEach<'_>,
 ) -> Option<Estimated> {
-    let search = Search {
-        modes: before.modes.in_larger(model),
-        factors: before.factors.clone(),
-        mesh: before.mesh.clone(),
-        ..Search::new(model, data, (curves, theta), theta, for_each)?
+    let from = |theta: &Vec<f64>| -> Option<(f64, Option<Estimated>)> {
+        let search = Search {
+            modes: before.modes.in_larger(model),
+            factors: before.factors.clone(),
+            mesh: before.mesh.clone(),
+            ..Search::new(model, data, (curves, theta), theta, for_each)?
+        };
+        let near = search.smaller(&search.points(theta), NEIGHBOURHOOD_TOL);
+        let fitting = Fitting { kinds: before.kinds, ..search.fitting(&near.0, &near.1, &search.lines) };
+        let place: Place = theta.iter().chain(&before.place[before.curves.count()..]).copied().collect();
+        let found = data.explain(&fitting, place, &ADDED_NOISE[FIRST_LEVELS..])?;
+        let evidence = found.evidence;
+        let small = fitting.are_small(&found.found.place, data.given_sizes).then_some(found);
+        let estimated = small.and_then(|found| data.posterior(&fitting, found, before.evidence));
+        Some((evidence, estimated.map(|estimated| Estimated { modes: search.modes, ..estimated })))
     };
-    let near = search.smaller(&search.points(theta), NEIGHBOURHOOD_TOL);
-    let fitting = Fitting { kinds: before.kinds, ..search.fitting(&near.0, &near.1, &search.lines) };
-    let place: Place = theta.iter().chain(&before.place[before.curves.count()..]).copied().collect();
-    let found = data.explain(&fitting, place, &ADDED_NOISE[FIRST_LEVELS..])?;
-    let estimated = data.posterior(&fitting, found, before.evidence)?;
-    Some(Estimated { modes: search.modes, ..estimated })
+    let found = starts.iter().filter_map(from);
+    found.min_by(|a, b| a.0.total_cmp(&b.0)).and_then(|(_, estimated)| estimated)
 }
 
 /// Prior standard deviations of the errors of factors: what the model says, or what is usual. The stiffness matrix of an unknown has an error too.
@@ -474,6 +502,8 @@ struct Search<'t, 'a> {
     about: Vec<usize>,
     /// Of the whole reduced model.
     modes: Modes,
+    /// The values of the unknowns with which they are.
+    values_of_modes: Vec<c64>,
     /// Known factors that may be in error.
     factors: Vec<FactorPrior>,
     /// What lies between the meshes, where there are two.
@@ -492,6 +522,7 @@ impl<'t, 'a> Search<'t, 'a> {
         let all: Vec<usize> = (0..data.omegas.len()).filter(|&i| data.omegas[i] > 0.0).collect();
         let of = |most: usize| -> Vec<usize> { thinned(&all, most).copied().collect() };
         let lines = of(MAX_LINES);
+        let (values_of_modes, _) = curves.values(theta, middle(&lines), data.omegas[middle(&lines)])?;
         let Point { at, correction } = data.on(curves, theta, middle(&lines))?;
         let highest = *data.omegas.last()?;
         let modes = model.modes(&at, correction, MODES_ABOVE_BAND * highest, MAX_MODES).ok()?;
@@ -506,6 +537,7 @@ impl<'t, 'a> Search<'t, 'a> {
             about: of(NEIGHBOURHOOD_POINTS),
             factors: priors(&at, data.given_sizes, modes.share_of_unknowns(highest)),
             modes,
+            values_of_modes,
             mesh: None,
         })
     }
@@ -699,8 +731,14 @@ impl<'a> Measured<'_, 'a> {
         let n = self.numbers(lines) as f64;
         match self.known() {
             true => wrong.rest == 0.0 && is_chance(wrong.found.normal.chi_squared, n),
-            false => wrong.level <= USUAL_NOISE,
+            false => wrong.level <= self.usual_noise(),
         }
+    }
+
+    /// Noise above which a fit is looked for from other starts too.
+    fn usual_noise(&self) -> f64 {
+        let of_responses = |noise: f64| (MAX_NOISE_RATIO * noise).max(MIN_DOUBTFUL_MISFIT);
+        self.noise_of_responses.map_or(USUAL_NOISE, of_responses)
     }
 
     /// From a start to where lines are used from the lowest on, mode after mode: where a mode is off by many half-widths it has no slope towards
@@ -726,13 +764,13 @@ impl<'a> Measured<'_, 'a> {
 
     /// Whether several sensors agree at each frequency to roundoff: the model is right then, whatever the modulus does.
     fn is_exact(&self) -> bool {
-        let level = self.level_per_frequency.filter(|_| !self.known() && self.counted_sensors() > 1);
+        let level = self.level_per_frequency.filter(|_| !self.known() && self.counted_sensors().count() > 1);
         level.is_some_and(|level| level <= MAX_ROUNDOFF_OVER_RESPONSE)
     }
 
     /// Sensors that are not left out.
-    fn counted_sensors(&self) -> usize {
-        self.sigma[0].iter().filter(|sigma| sigma.is_finite()).count()
+    fn counted_sensors(&self) -> impl Iterator<Item = usize> {
+        (0..self.sigma[0].len()).filter(|&m| self.sigma[0][m].is_finite())
     }
 
     /// Whether noise is all that a smooth modulus leaves.
@@ -741,7 +779,7 @@ impl<'a> Measured<'_, 'a> {
         match self.known() {
             true => is_chance(right.found.normal.chi_squared, n),
             false => {
-                let contradicted = self.counted_sensors() > 1 || curves.smooth().is_empty();
+                let contradicted = self.counted_sensors().count() > 1 || curves.smooth().is_empty();
                 let least = if contradicted { MIN_NOISE_OVER_RESPONSE } else { MIN_NOISE_OF_ONE_SENSOR };
                 let usual = self.level_per_frequency.map_or(0.0, |level_per_frequency| {
                     level_per_frequency * (1.0 + NOISE_CHI_SQUARED_STD / n.sqrt())
@@ -811,6 +849,20 @@ impl<'a> Measured<'_, 'a> {
                 }
             }
         }
+        self.settled(fitting, place, sizes, level)
+    }
+
+    /// The same from a place that is near, with the noise that it leaves: more would let go what was found.
+    fn settled_near(&self, fitting: &Fitting<'_, '_>, place: Place) -> Option<Explained> {
+        let sizes = Sizes::prior(fitting.known).of_kinds(fitting.kinds, fitting.known);
+        let squares = fitting.squares(&place)?;
+        let of_line = |(own, &line): (&Vec<f64>, &usize)| -> f64 {
+            let each = own.iter().zip(&self.sigma[line]).filter(|(_, sigma)| sigma.is_finite());
+            each.map(|(square, sigma)| square / (sigma * sigma)).sum()
+        };
+        let chi_squared: f64 = squares.iter().zip(fitting.lines).map(of_line).sum();
+        let left = (chi_squared / self.numbers(fitting.lines) as f64).sqrt();
+        let level = if self.known() { 1.0 } else { left.max(MIN_NOISE_OVER_RESPONSE) };
         self.settled(fitting, place, sizes, level)
     }
 

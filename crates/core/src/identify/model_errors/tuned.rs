@@ -38,7 +38,7 @@ const UNUSUAL_ERROR: f64 = 0.05;
 const SWEEPS: usize = 2;
 
 /// What a sensor shows of a mode, over what it should: near a node of its shape that may be anything.
-const MAX_SHARE: f64 = 3.0;
+pub(super) const MAX_SHARE: f64 = 3.0;
 
 impl Fitting<'_, '_> {
     /// From a place to the least mismatch with the measured response, coordinate after coordinate: each smooth unknown as a whole near where it is, then each natural
@@ -91,11 +91,23 @@ impl Fitting<'_, '_> {
         Some((mismatch, place))
     }
 
-    fn with_best_frequencies(&self, mut place: Place, used: &dyn Fn(usize, usize) -> bool) -> Option<Place> {
+    fn with_best_frequencies(&self, place: Place, used: &dyn Fn(usize, usize) -> bool) -> Option<Place> {
         let omega = &self.modes.omega_rad_s;
         let in_band = |&i: &usize| omega[i] > 0.0 && omega[i] <= self.highest_rad_s;
         let modes: Vec<usize> = (0..self.modes()).filter(in_band).collect();
-        for &mode in &modes {
+        self.with_best_frequencies_of(place, &modes, used)
+    }
+
+    pub(super) fn with_best_frequencies_of(
+        &self,
+        mut place: Place,
+        wanted: &[usize],
+        used: &dyn Fn(usize, usize) -> bool,
+    ) -> Option<Place> {
+        let omega = &self.modes.omega_rad_s;
+        let in_band = |&i: &usize| omega[i] > 0.0 && omega[i] <= self.highest_rad_s;
+        let modes: Vec<usize> = (0..self.modes()).filter(in_band).collect();
+        for &mode in wanted {
             // Where lines are far apart those up to the next mode say where this one is.
             let others = modes.iter().filter(|&&other| omega[other] != omega[mode]);
             let gap = others.map(|&other| (omega[other] / omega[mode] - 1.0).abs()).fold(1.0, f64::min);

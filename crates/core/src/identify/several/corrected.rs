@@ -2,16 +2,21 @@
 
 use super::Task;
 use super::at_frequency::{Solution, eliminate};
+use super::coordinates::Own;
 use super::neighbourhoods::Neighbourhoods;
 use super::outcome::SeveralOutcome;
 use super::search::{BandSolution, Begin};
 use crate::c64;
+use crate::identify::band::nearest;
+use crate::identify::form::Form;
 use crate::identify::model_errors::{
-    Coarser, Curve, Curves, Explanation, Leverage, Measured, NoiseScale, Spline, estimate, estimate_with_laws,
+    Coarser, Curve, Curves, Estimated, Explanation, Leverage, Measured, NoiseScale, Spline, estimate,
+    estimate_with_laws,
 };
 use crate::identify::noise::{Noise, beside, levels, standard_deviations, without};
 use crate::identify::options::ModelErrors;
 use crate::identify::unknown::{Unknown, Variation};
+use crate::laws::Datum;
 use crate::subspace::{Corrected, Point};
 
 impl Task<'_, '_> {
@@ -114,6 +119,7 @@ impl Task<'_, '_> {
             own: &own,
             // What holds for the band cannot show the noise: it is part of what is to be explained.
             level_per_frequency: found.noise.level.filter(|_| !own.is_empty()),
+            noise_of_responses: self.noise_of_responses(),
             fit: found.fit,
         };
         let (explanation, leverage) =
@@ -122,15 +128,42 @@ impl Task<'_, '_> {
             Explanation::Errors(errors) if (0..unknowns.len()).any(is_law) => errors,
             explanation => return (explanation, leverage),
         };
-        let theta = |j: usize| match of(j).filter(|_| is_law(j)) {
-            Some(own) => &solution.theta[own.range.clone()],
-            None => &errors.theta()[errors.range(j)],
+        let with = |of_law: &dyn Fn(&Own) -> Vec<f64>| -> Vec<f64> {
+            let theta = |j: usize| match of(j).filter(|_| is_law(j)) {
+                Some(own) => of_law(own),
+                None => errors.theta()[errors.range(j)].to_vec(),
+            };
+            let of_channels = errors.theta()[errors.channels().range()].iter().copied();
+            (0..unknowns.len()).flat_map(theta).chain(of_channels).collect()
         };
-        let of_channels = &errors.theta()[errors.channels().range()];
-        let theta: Vec<f64> = (0..unknowns.len()).flat_map(theta).chain(of_channels).copied().collect();
-        let laws = (&curves(true), theta.as_slice());
-        let with_laws = estimate_with_laws(reduced.whole(), &measured, &errors, laws, self.context.for_each);
-        (Explanation::Errors(with_laws.map_or(errors, Box::new)), leverage)
+        let of_right_model = |own: &Own| solution.theta[own.range.clone()].to_vec();
+        let of_smooth = |own: &Own| self.law_through(own, &errors).unwrap_or_else(|| of_right_model(own));
+        let starts = [with(&of_smooth), with(&of_right_model)];
+        let with_laws = estimate_with_laws(
+            reduced.whole(),
+            &measured,
+            &errors,
+            &curves(true),
+            &starts,
+            self.context.for_each,
+        );
+        let explanation =
+            with_laws.map_or(Explanation::OtherModel, |found| Explanation::Errors(Box::new(found)));
+        (explanation, leverage)
+    }
+
+    /// The law of an unknown nearest to the smooth curve that was found with the errors of the model.
+    fn law_through(&self, own: &Own, smooth: &Estimated) -> Option<Vec<f64>> {
+        let Form::Law(parametrization) = &own.form else { return None };
+        let frequency_hz = self.problem.frfs.frequency_hz;
+        let datum = |i: usize| -> Option<Datum> {
+            let value = smooth.values(i, frequency_hz[i])?[own.unknowns];
+            let [of_re, of_im, _] = smooth.covariance_at(own.unknowns, i, frequency_hz[i])?;
+            let std = of_re.max(of_im).sqrt();
+            (value.re > 0.0 && std > 0.0).then(|| Datum::circular(self.omegas[i], value, std))
+        };
+        let data: Vec<Datum> = (0..self.omegas.len()).filter_map(datum).collect();
+        Some(nearest(parametrization, &data)?.best.theta)
     }
 
     /// ∂y/∂(error) of a frequency's own coordinates, `[error][own]`.

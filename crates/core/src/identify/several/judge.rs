@@ -20,11 +20,18 @@ use crate::identify::uncertainty::{KNOWN_RELATIVE_STD, MIN_KNOWN_LOSS_FACTOR};
 use crate::identify::unknown::Unknown;
 use crate::laws::LawKind;
 use crate::material::{Law, loss_factor};
+use crate::median::median;
 use crate::response::relative_error;
 
 /// Points of a profile to either side, and how far they reach in standard deviations.
 const PROFILE_POINTS: usize = 5;
 const PROFILE_REACH_STD: f64 = 3.0;
+
+/// Where more of the lines than this are not explained, what holds for the band is not either.
+const MAX_UNEXPLAINED_SHARE: f64 = 0.5;
+
+/// No material gives energy: a loss factor so many standard deviations below zero, as a median over the band, is that of another model.
+const MAX_NEGATIVE_STD: f64 = 3.0;
 
 /// Farther than this in logarithms a profile does not go, however little the data show.
 const MAX_PROFILE_REACH: f64 = 1.0;
@@ -59,7 +66,7 @@ impl Task<'_, '_> {
         let freedom = (answered * 2 * sensors).saturating_sub(answered * own + n);
         let chi_squared: f64 = all.iter().filter_map(|&i| Some(found.at(i)?.misfit)).sum();
         let of_sensors = (freedom > 0).then(|| (chi_squared / freedom as f64).sqrt());
-        let noise = NoiseLevel::new(self.problem.frfs.noise, of_sensors, None);
+        let noise = NoiseLevel::new(self.problem.frfs.noise, of_sensors, self.noise_of_responses());
         let level = noise.level;
         let fit = level
             .and_then(|level| judge(chi_squared / (level * level), freedom, &noise, self.problem.frfs.noise))
@@ -172,7 +179,10 @@ impl Task<'_, '_> {
                 .filter(|line| line.status == Status::Ok)
                 .for_each(|line| line.status = Status::NoRoot);
         }
-        SeveralOutcome {
+        let unexplained = lines.iter().filter(|line| line.status == Status::Unexplained).count();
+        let is_other_model = unexplained as f64 > MAX_UNEXPLAINED_SHARE * lines.len() as f64
+            || (0..self.problem.unknowns.len()).any(|j| gives_energy(&lines, j));
+        let outcome = SeveralOutcome {
             band,
             lines,
             coordinates,
@@ -191,7 +201,8 @@ impl Task<'_, '_> {
             work: reduced.work(),
             subspace_size: reduced.size(),
             breakdown: None,
-        }
+        };
+        if is_other_model { outcome.of_other_model() } else { outcome }
     }
 
     fn judge_at(
@@ -447,4 +458,15 @@ fn correlation(information: &Information, found: &BandSolution) -> Vec<Vec<f64>>
         of(a, b) / (of(a, a) * of(b, b)).sqrt()
     };
     (0..n).map(|a| (0..n).map(|b| entry(a, b)).collect()).collect()
+}
+
+/// Whether an unknown has a negative loss factor over the band.
+fn gives_energy(lines: &[Line], unknown: usize) -> bool {
+    let over_std = |line: &Line| {
+        let value = &line.values[unknown];
+        // What is as good as none may be negative by roundoff.
+        let std = value.uncertainty?.loss_factor_std?.max(MIN_KNOWN_LOSS_FACTOR);
+        Some(loss_factor(value.value?) / std).filter(|ratio| ratio.is_finite())
+    };
+    median(lines.iter().filter_map(over_std).collect()).is_some_and(|ratio| ratio < -MAX_NEGATIVE_STD)
 }
