@@ -22,8 +22,9 @@ const DENOMINATOR: usize = 2;
 /// The equation is linear once the denominator is on the other side; its weights then are those of the last one.
 const ROUNDS: usize = 3;
 
-/// Neighbourhoods of a sensor that are looked at, at most, and at least: of fewer a median is an accident.
-const MAX_NEIGHBOURHOODS: usize = 200;
+/// Neighbourhoods that are looked at, at most, and of how many sensors. Of fewer a median is an accident.
+const MAX_NEIGHBOURHOODS: usize = 600;
+const MAX_SENSORS: usize = 20;
 const MIN_NEIGHBOURHOODS: usize = 12;
 
 /// Noise over σ, the same for all sensors whose σ is finite; `None` where it is given, or lines are too few. Where more than two modes share a
@@ -36,16 +37,18 @@ pub(super) fn of_responses(
     if matches!(given, Noise::Known(_)) {
         return None;
     }
-    let counted = (0..sigma.first()?.len()).filter(|&m| sigma[0][m].is_finite());
+    let counted: Vec<usize> = (0..sigma.first()?.len()).filter(|&m| sigma[0][m].is_finite()).collect();
+    let sensors: Vec<usize> = thinned(&counted, MAX_SENSORS).copied().collect();
     let first: Vec<usize> = (0..(measured.len() + 1).saturating_sub(LINES)).collect();
+    let most = MAX_NEIGHBOURHOODS / sensors.len().max(1);
     let left = |m: usize| {
-        thinned(&first, MAX_NEIGHBOURHOODS).filter_map(move |&from| {
-            let lines = from..from + LINES;
+        let fitted = move |&from: &usize| {
             let of = |i: usize| (frequency_hz[i], measured[i][m], sigma[i][m]);
-            what_is_left(&lines.map(of).collect::<Vec<_>>())
-        })
+            what_is_left(&(from..from + LINES).map(of).collect::<Vec<_>>())
+        };
+        thinned(&first, most).filter_map(fitted)
     };
-    let squares: Vec<f64> = counted.flat_map(left).collect();
+    let squares: Vec<f64> = sensors.into_iter().flat_map(left).collect();
     if squares.len() < MIN_NEIGHBOURHOODS {
         return None;
     }

@@ -8,12 +8,17 @@ use super::tuned::MAX_SHARE;
 use crate::c64;
 use crate::identify::noise::Noise;
 use crate::identify::problem::Frfs;
+use crate::identify::thinned::thinned;
 use crate::median::median;
 use crate::modal::{MeasuredMode, Pair, PairedShape, PoleOptions, measured_modes, paired};
 use std::f64::consts::TAU;
 
 /// Fewer pairs say nothing of a common factor beside the errors of the modes.
 const MIN_PAIRS: usize = 3;
+
+/// Lines and sensors whose poles are looked for, at most.
+const MAX_LINES: usize = 1000;
+const MAX_SENSORS: usize = 6;
 
 /// The damping of a mode is that of the unknowns where they have so much of its strain energy.
 const MIN_ENERGY_SHARE: f64 = 0.3;
@@ -55,10 +60,10 @@ impl Search<'_, '_> {
                 self.curves.set_phase(&mut theta, unknown, loss_factor.atan());
             }
         }
-        let there = of_model(&theta)?;
+        let scaled = of_model(&theta)?;
         let mut place = fitting.start(&theta);
         for pair in &pairing.pairs {
-            let pair_of_modes = (&there[pair.model], &of_measured[pair.measured]);
+            let pair_of_modes = (&scaled[pair.model], &of_measured[pair.measured]);
             self.make_equal(&mut place, fitting, elastic[pair.model], pair_of_modes);
         }
         let is_alone = |mode: &usize| {
@@ -82,7 +87,7 @@ impl Search<'_, '_> {
         let mean = smooth.iter().map(ln_ratio).sum::<f64>() / smooth.len() as f64;
         let omega = omega * (0.5 * energy_share * mean).exp();
         let residue = |m: usize| modes.sensors[m][mode] * modes.load[mode] / c64::new(0.0, 2.0 * omega);
-        let residues = self.data.counted_sensors().map(residue).collect();
+        let residues = self.sensors_of_poles().into_iter().map(residue).collect();
         omega.is_finite().then_some(PairedShape { frequency_hz: omega / TAU, residues, energy_share })
     }
 
@@ -101,8 +106,8 @@ impl Search<'_, '_> {
         let residues = partner.residues.iter().zip(&own.residues);
         let ratios = residues.map(|(partner, own)| (partner / own).re);
         let ratios: Vec<(usize, f64)> = self
-            .data
-            .counted_sensors()
+            .sensors_of_poles()
+            .into_iter()
             .zip(ratios)
             .filter(|(_, ratio)| ratio.is_finite())
             .map(|(m, ratio)| (fitting.first_shape(m) + mode, ratio.clamp(-MAX_SHARE, MAX_SHARE)))
@@ -120,16 +125,22 @@ impl Search<'_, '_> {
         ratios.iter().for_each(|&(coordinate, ratio)| place[coordinate] = ratio / force - 1.0);
     }
 
-    /// The modes that the sensors show.
+    /// Sensors whose poles are looked for.
+    fn sensors_of_poles(&self) -> Vec<usize> {
+        let counted: Vec<usize> = self.data.counted_sensors().collect();
+        thinned(&counted, MAX_SENSORS).copied().collect()
+    }
+
+    /// The modes that they show.
     fn measured_modes(&self) -> Option<Vec<MeasuredMode>> {
-        let data = self.data;
-        let lines: Vec<usize> = (0..data.omegas.len()).filter(|&i| data.omegas[i] > 0.0).collect();
+        let (data, sensors) = (self.data, self.sensors_of_poles());
+        let all: Vec<usize> = (0..data.omegas.len()).filter(|&i| data.omegas[i] > 0.0).collect();
+        let lines: Vec<usize> = thinned(&all, MAX_LINES).copied().collect();
         let frequency_hz: Vec<f64> = lines.iter().map(|&i| data.omegas[i] / TAU).collect();
-        let counted = || data.counted_sensors();
         let receptance: Vec<Vec<c64>> =
-            lines.iter().map(|&i| counted().map(|m| data.measured[i][m]).collect()).collect();
+            lines.iter().map(|&i| sensors.iter().map(|&m| data.measured[i][m]).collect()).collect();
         let std: Vec<Vec<f64>> =
-            lines.iter().map(|&i| counted().map(|m| data.sigma[i][m]).collect()).collect();
+            lines.iter().map(|&i| sensors.iter().map(|&m| data.sigma[i][m]).collect()).collect();
         let noise = if data.known() { Noise::Known(&std) } else { Noise::Unknown };
         let frfs = Frfs { frequency_hz: &frequency_hz, receptance: &receptance, noise };
         let decay_per_s = data.on(self.curves, self.centre, lines[0])?.at.model.decay_per_s();
