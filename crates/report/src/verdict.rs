@@ -488,7 +488,7 @@ fn noise(results: &Results) -> &'static str {
     match results.summary.word("/noise/source") {
         "given" => "as the files give it",
         "sensors" => "taken from how well the sensors agree",
-        "scatter" => "taken from how the answers scatter",
+        "scatter" => "taken from how answers or responses scatter",
         "curve" => "taken from the residual of the smooth curve",
         _ => "unknown",
     }
