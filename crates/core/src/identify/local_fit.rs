@@ -7,7 +7,7 @@
 //! # Source
 //! T. McKelvey, G. Guérin, Non-parametric frequency response estimation using a local rational model, IFAC Proc. Vol. 45(16) (2012) 49–54.
 
-use super::noise::{Noise, level_of};
+use super::noise::level_of;
 use super::thinned::thinned;
 use crate::c64;
 use frfit_linalg::dense::{Matrix, least_squares};
@@ -27,23 +27,16 @@ const MAX_NEIGHBOURHOODS: usize = 600;
 const MAX_SENSORS: usize = 20;
 const MIN_NEIGHBOURHOODS: usize = 12;
 
-/// Noise over σ, the same for all sensors whose σ is finite; `None` where it is given, or lines are too few. Where more than two modes share a
-/// neighbourhood it is too large.
-pub(super) fn of_responses(
-    (frequency_hz, measured): (&[f64], &[Vec<c64>]),
-    sigma: &[Vec<f64>],
-    given: Noise<'_>,
-) -> Option<f64> {
-    if matches!(given, Noise::Known(_)) {
-        return None;
-    }
+/// Noise over σ, the same for all sensors whose σ is finite; `None` where lines are too few. Where more than two modes share a neighbourhood it is too
+/// large.
+pub(super) fn of_responses((omegas, measured): (&[f64], &[Vec<c64>]), sigma: &[Vec<f64>]) -> Option<f64> {
     let counted: Vec<usize> = (0..sigma.first()?.len()).filter(|&m| sigma[0][m].is_finite()).collect();
     let sensors: Vec<usize> = thinned(&counted, MAX_SENSORS).copied().collect();
     let first: Vec<usize> = (0..(measured.len() + 1).saturating_sub(LINES)).collect();
     let most = MAX_NEIGHBOURHOODS / sensors.len().max(1);
     let left = |m: usize| {
         let fitted = move |&from: &usize| {
-            let of = |i: usize| (frequency_hz[i], measured[i][m], sigma[i][m]);
+            let of = |i: usize| (omegas[i], measured[i][m], sigma[i][m]);
             what_is_left(&(from..from + LINES).map(of).collect::<Vec<_>>())
         };
         thinned(&first, most).filter_map(fitted)
@@ -114,11 +107,11 @@ mod tests {
             measured.iter_mut().flatten().for_each(|x| *x *= 1.0 + noise * c64::new(normal(), normal()));
             let sigma: Vec<Vec<f64>> =
                 measured.iter().map(|u| u.iter().map(|u| u.norm()).collect()).collect();
-            let found = of_responses((&frequency_hz, &measured), &sigma, Noise::Unknown).unwrap();
+            let found = of_responses((&frequency_hz, &measured), &sigma).unwrap();
             // Neighbourhoods overlap: some fifty of them are independent.
             assert!((found - noise).abs() <= 0.15 * noise + 2e-5, "{found} {noise}");
         }
-        let few = of_responses((&frequency_hz[..15], &exact[..15]), &vec![vec![1.0; 2]; 15], Noise::Unknown);
+        let few = of_responses((&frequency_hz[..15], &exact[..15]), &vec![vec![1.0; 2]; 15]);
         assert_eq!(few, None);
     }
 }

@@ -99,7 +99,7 @@ def pair(value: Any, name: str) -> tuple[float, float]:
 
 
 def optional_pair(value: Any, name: str) -> tuple[float, float] | None:
-    """Two real numbers, or none."""
+    """Two real numbers; ``None`` where none were given."""
     return None if value is None else pair(value, name)
 
 

@@ -182,7 +182,7 @@ fn fault(value: &Value) -> String {
     who + &text(value, "what")
 }
 
-/// The explanations between which the data do not decide; nothing where there are none.
+/// The section that lists the explanations between which the data do not decide; empty without one.
 fn undecided(others: &[Value]) -> String {
     if others.is_empty() {
         return String::new();

@@ -10,7 +10,6 @@ use crate::frequency::omega_rad_s;
 use crate::identify::channel::ChannelUnknowns;
 use crate::identify::channel_coordinates::ChannelCoordinates;
 use crate::identify::context::Context;
-use crate::identify::local_fit::of_responses;
 use crate::identify::measured::Band;
 use crate::identify::model_errors::{
     Coarser, Curve, Curves, Estimated, Measured, NoiseScale, PointAt, Spline,
@@ -150,7 +149,6 @@ impl Weights {
             free: &found.lines,
             own: &[0],
             level_per_frequency: found.noise.level,
-            noise_of_responses: of_responses((band.frequency_hz, band.measured), &self.sigma, band.noise),
             fit: found.fit,
         }
     }

@@ -30,6 +30,7 @@ mod split;
 mod tuned;
 
 use super::goodness_of_fit::{GoodnessOfFit, MIN_DOUBTFUL_MISFIT};
+use super::local_fit::of_responses;
 use super::noise::{Noise, beside};
 use super::options::ErrorSizes;
 use super::outcome::Line;
@@ -95,8 +96,6 @@ pub(super) struct Measured<'t, 'a> {
     /// The unknowns that each frequency has a value of its own of.
     pub(super) own: &'t [usize],
     pub(super) level_per_frequency: Option<f64>,
-    /// The same by the responses themselves, whatever the model.
-    pub(super) noise_of_responses: Option<f64>,
     /// What the values of the lines say of the band.
     pub(super) fit: Option<GoodnessOfFit>,
 }
@@ -328,15 +327,15 @@ fn explanation(search: &Search<'_, '_>, starts: &[Vec<f64>]) -> Option<Explanati
         return right_model();
     }
     let coarse = Fitting { free_nodes: false, ..search.fitting(&rough.0, &rough.1, &search.some) };
-    let from = |place: Place, kinds: Kinds, from_above: &[f64]| -> Option<Explained> {
+    // On a model that is good near the place.
+    type Fit<'f> = &'f dyn Fn(&Fitting<'_, '_>, Place) -> Option<Explained>;
+    let near = |place: Place, kinds: Kinds, fit: Fit<'_>| -> Option<Explained> {
         let near = search.smaller(&search.points(&place), NEIGHBOURHOOD_TOL);
         let fitting = Fitting { kinds, ..search.fitting(&near.0, &near.1, &search.lines) };
-        data.explain(&fitting, place, from_above)
+        fit(&fitting, place)
     };
-    let from_near = |place: Place| -> Option<Explained> {
-        let near = search.smaller(&search.points(&place), NEIGHBOURHOOD_TOL);
-        let fitting = Fitting { kinds: Kinds::STIFFNESS, ..search.fitting(&near.0, &near.1, &search.lines) };
-        data.settled_near(&fitting, place)
+    let from = |place: Place, kinds: Kinds, from_above: &[f64]| {
+        near(place, kinds, &|fitting, place| data.explain(fitting, place, from_above))
     };
     let fitted = |places: Vec<Place>, kinds: Kinds| -> Option<Explained> {
         let coarse = Fitting { kinds, ..coarse };
@@ -348,17 +347,19 @@ fn explanation(search: &Search<'_, '_>, starts: &[Vec<f64>]) -> Option<Explanati
         Some(b) if b.evidence < a.evidence => b,
         _ => a,
     };
+    let usual_noise = data.usual_noise();
+    let is_explained = |wrong: &Explained| data.is_explained(wrong, &search.lines, usual_noise);
     // Large errors may explain a band as well: those of modes at each other's places.
-    let is_found = |wrong: &Explained| {
-        data.is_explained(wrong, &search.lines) && whole.are_small(&wrong.found.place, data.given_sizes)
-    };
+    let is_found =
+        |wrong: &Explained| is_explained(wrong) && whole.are_small(&wrong.found.place, data.given_sizes);
     // Far from the answer damping that is free only hides that a mode is at another frequency, and masses may.
     let at_starts = || starts.iter().map(|start| coarse.start(start)).collect::<Vec<Place>>();
     let mut wrong = fitted(at_starts(), Kinds::STIFFNESS)?;
     let used = |line: usize, sensor: usize| data.sigma[line][sensor].is_finite();
     if !is_found(&wrong) {
         let paired = search.paired(&whole, &curves.straight(&starts[0]), &used);
-        wrong = better(wrong, paired.and_then(from_near));
+        let settled: Fit<'_> = &|fitting, place| data.settled_near(fitting, place);
+        wrong = better(wrong, paired.and_then(|place| near(place, Kinds::STIFFNESS, settled)));
     }
     if !is_found(&wrong) {
         wrong = better(wrong, fitted(at_starts(), Kinds::MASSES));
@@ -404,7 +405,7 @@ fn explanation(search: &Search<'_, '_>, starts: &[Vec<f64>]) -> Option<Explanati
         if kinds != wrong.kinds {
             let (place, fitting) = (wrong.found.place.clone(), Fitting { kinds, ..fine });
             // A minimum that explains the band is near. From any other one added noise leads away.
-            let more = if data.is_explained(&wrong, &search.lines) {
+            let more = if is_explained(&wrong) {
                 data.settled(&fitting, place, wrong.sizes.with_kinds(kinds, fine.known), wrong.level)
             } else {
                 data.explain(&fitting, place, &ADDED_NOISE[LAST_LEVELS..])
@@ -633,6 +634,12 @@ fn is_chance(chi_squared: f64, n: f64) -> bool {
     chi_squared <= n + NOISE_CHI_SQUARED_STD * (2.0 * n).sqrt()
 }
 
+/// χ² of squares with standard deviations, `[line][sensor]`; a sensor that is left out has an infinite one.
+fn chi_squared<'s>(squares: &[Vec<f64>], sigma: impl IntoIterator<Item = &'s Vec<f64>>) -> f64 {
+    let sigma = sigma.into_iter().flatten();
+    squares.iter().flatten().zip(sigma).map(|(square, sigma)| square / (sigma * sigma)).sum()
+}
+
 /// A right model is one only where it explains a band by so many nats better: before the data errors are a hundred times as likely as none, and where
 /// the data cannot decide, they are in the bars.
 const RIGHT_MODEL_NATS: f64 = 5.0;
@@ -726,19 +733,20 @@ impl<'a> Measured<'_, 'a> {
         Some(end)
     }
 
-    /// Whether the noise that is left is usual noise.
-    fn is_explained(&self, wrong: &Explained, lines: &[usize]) -> bool {
+    /// Whether what is left is noise: the given one, or noise that is usual.
+    fn is_explained(&self, wrong: &Explained, lines: &[usize], usual_noise: f64) -> bool {
         let n = self.numbers(lines) as f64;
         match self.known() {
             true => wrong.rest == 0.0 && is_chance(wrong.found.normal.chi_squared, n),
-            false => wrong.level <= self.usual_noise(),
+            false => wrong.level <= usual_noise,
         }
     }
 
-    /// Noise above which a fit is looked for from other starts too.
+    /// The most that noise leaves where it is not given: a little more than the responses show by themselves.
     fn usual_noise(&self) -> f64 {
-        let of_responses = |noise: f64| (MAX_NOISE_RATIO * noise).max(MIN_DOUBTFUL_MISFIT);
-        self.noise_of_responses.map_or(USUAL_NOISE, of_responses)
+        let of_responses =
+            if self.known() { None } else { of_responses((self.omegas, self.measured), self.sigma) };
+        of_responses.map_or(USUAL_NOISE, |noise| (MAX_NOISE_RATIO * noise).max(MIN_DOUBTFUL_MISFIT))
     }
 
     /// From a start to where lines are used from the lowest on, mode after mode: where a mode is off by many half-widths it has no slope towards
@@ -855,14 +863,9 @@ impl<'a> Measured<'_, 'a> {
     /// The same from a place that is near, with the noise that it leaves: more would let go what was found.
     fn settled_near(&self, fitting: &Fitting<'_, '_>, place: Place) -> Option<Explained> {
         let sizes = Sizes::prior(fitting.known).of_kinds(fitting.kinds, fitting.known);
-        let squares = fitting.squares(&place)?;
-        let of_line = |(own, &line): (&Vec<f64>, &usize)| -> f64 {
-            let each = own.iter().zip(&self.sigma[line]).filter(|(_, sigma)| sigma.is_finite());
-            each.map(|(square, sigma)| square / (sigma * sigma)).sum()
-        };
-        let chi_squared: f64 = squares.iter().zip(fitting.lines).map(of_line).sum();
-        let left = (chi_squared / self.numbers(fitting.lines) as f64).sqrt();
-        let level = if self.known() { 1.0 } else { left.max(MIN_NOISE_OVER_RESPONSE) };
+        let sigma = fitting.lines.iter().map(|&line| &self.sigma[line]);
+        let left = chi_squared(&fitting.squares(&place)?, sigma) / self.numbers(fitting.lines) as f64;
+        let level = if self.known() { 1.0 } else { left.sqrt().max(MIN_NOISE_OVER_RESPONSE) };
         self.settled(fitting, place, sizes, level)
     }
 
@@ -975,10 +978,7 @@ impl<'a> Measured<'_, 'a> {
     /// What the response has beside a given noise, relative to itself, so that χ² is what n numbers have: none where noise leaves as much.
     fn rest(&self, fitting: &Fitting<'_, '_>, place: &[f64], n: f64) -> Option<f64> {
         let squares = fitting.squares(place)?;
-        let chi_squared = |rest: f64| -> f64 {
-            let sigma = self.sigma_beside(fitting.lines, 1.0, rest);
-            squares.iter().flatten().zip(sigma.iter().flatten()).map(|(r, sigma)| r / (sigma * sigma)).sum()
-        };
+        let chi_squared = |rest: f64| chi_squared(&squares, &self.sigma_beside(fitting.lines, 1.0, rest));
         if is_chance(chi_squared(0.0), n) {
             return Some(0.0);
         }

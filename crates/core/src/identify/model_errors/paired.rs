@@ -24,8 +24,8 @@ const MAX_SENSORS: usize = 6;
 const MIN_ENERGY_SHARE: f64 = 0.3;
 
 impl Search<'_, '_> {
-    /// From a start to where the natural frequencies, the damping and the residues of the model are those that were measured, as far as modes of both are pairs. Natural frequencies without a
-    /// partner are tried all over their range. `None` where there are too few pairs, or no unknown is smooth.
+    /// From a start to where each mode that has a partner in the measurement has its natural frequency and its residues, and the unknowns the damping.
+    /// Natural frequencies without a partner are tried all over their range. `None` where there are too few pairs, or no unknown is smooth.
     pub(super) fn paired(
         &self,
         fitting: &Fitting<'_, '_>,
@@ -64,7 +64,7 @@ impl Search<'_, '_> {
         let mut place = fitting.start(&theta);
         for pair in &pairing.pairs {
             let pair_of_modes = (&scaled[pair.model], &of_measured[pair.measured]);
-            self.make_equal(&mut place, fitting, elastic[pair.model], pair_of_modes);
+            self.set_to_partner(&mut place, fitting, elastic[pair.model], pair_of_modes);
         }
         let is_alone = |mode: &usize| {
             self.modes.omega_rad_s[*mode] <= fitting.highest_rad_s
@@ -92,7 +92,7 @@ impl Search<'_, '_> {
     }
 
     /// Gives a mode the natural frequency and the residues of its partner.
-    fn make_equal(
+    fn set_to_partner(
         &self,
         place: &mut Place,
         fitting: &Fitting<'_, '_>,
@@ -112,7 +112,7 @@ impl Search<'_, '_> {
             .filter(|(_, ratio)| ratio.is_finite())
             .map(|(m, ratio)| (fitting.first_shape(m) + mode, ratio.clamp(-MAX_SHARE, MAX_SHARE)))
             .collect();
-        // What of it is of the force is what makes the errors of both the most usual.
+        // The force has the part of the ratios that leaves the least unusual errors to the force and the sensors.
         let of_force = fitting.first_load() + mode;
         let unusual = |coordinate: usize, error: f64| (error / fitting.growth(coordinate)).powi(2);
         let cost = |force: f64| {
@@ -131,7 +131,7 @@ impl Search<'_, '_> {
         thinned(&counted, MAX_SENSORS).copied().collect()
     }
 
-    /// The modes that they show.
+    /// The modes that these sensors show.
     fn measured_modes(&self) -> Option<Vec<MeasuredMode>> {
         let (data, sensors) = (self.data, self.sensors_of_poles());
         let all: Vec<usize> = (0..data.omegas.len()).filter(|&i| data.omegas[i] > 0.0).collect();
@@ -141,7 +141,8 @@ impl Search<'_, '_> {
             lines.iter().map(|&i| sensors.iter().map(|&m| data.measured[i][m]).collect()).collect();
         let std: Vec<Vec<f64>> =
             lines.iter().map(|&i| sensors.iter().map(|&m| data.sigma[i][m]).collect()).collect();
-        let noise = if data.known() { Noise::Known(&std) } else { Noise::Unknown };
+        // The fit finds the level itself.
+        let noise = Noise::Relative(&std);
         let frfs = Frfs { frequency_hz: &frequency_hz, receptance: &receptance, noise };
         let decay_per_s = data.on(self.curves, self.centre, lines[0])?.at.model.decay_per_s();
         let options = PoleOptions::default().with_decay_per_s(decay_per_s);

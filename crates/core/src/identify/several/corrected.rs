@@ -119,7 +119,6 @@ impl Task<'_, '_> {
             own: &own,
             // What holds for the band cannot show the noise: it is part of what is to be explained.
             level_per_frequency: found.noise.level.filter(|_| !own.is_empty()),
-            noise_of_responses: self.noise_of_responses(),
             fit: found.fit,
         };
         let (explanation, leverage) =

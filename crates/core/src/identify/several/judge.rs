@@ -12,8 +12,9 @@ use crate::for_each::map;
 use crate::identify::band::reduction_error;
 use crate::identify::channel::ChannelNumber;
 use crate::identify::goodness_of_fit::{GoodnessOfFit, MAX_RMS_MISFIT, judge};
+use crate::identify::local_fit::of_responses;
 use crate::identify::model_errors::{Estimated, Split};
-use crate::identify::noise::NoiseLevel;
+use crate::identify::noise::{Noise, NoiseLevel};
 use crate::identify::outcome::{Line, LineSolution, LineValue, Standing, Status};
 use crate::identify::uncertainty::{Contributions, Uncertainty};
 use crate::identify::uncertainty::{KNOWN_RELATIVE_STD, MIN_KNOWN_LOSS_FACTOR};
@@ -66,7 +67,12 @@ impl Task<'_, '_> {
         let freedom = (answered * 2 * sensors).saturating_sub(answered * own + n);
         let chi_squared: f64 = all.iter().filter_map(|&i| Some(found.at(i)?.misfit)).sum();
         let of_sensors = (freedom > 0).then(|| (chi_squared / freedom as f64).sqrt());
-        let noise = NoiseLevel::new(self.problem.frfs.noise, of_sensors, self.noise_of_responses());
+        let frfs = self.problem.frfs;
+        let of_responses = match frfs.noise {
+            Noise::Known(_) => None,
+            _ => of_responses((&self.omegas, frfs.receptance), &self.sigma),
+        };
+        let noise = NoiseLevel::new(frfs.noise, of_sensors, of_responses);
         let level = noise.level;
         let fit = level
             .and_then(|level| judge(chi_squared / (level * level), freedom, &noise, self.problem.frfs.noise))

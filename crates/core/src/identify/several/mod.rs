@@ -38,7 +38,6 @@ pub use outcome::{BandCoordinate, BandValue, Direction, Number, NumberOf, Profil
 use super::channel::Calibration;
 use super::context::Context;
 use super::dead_channel::dead_channels;
-use super::local_fit::of_responses;
 use super::noise::{NoiseLevel, standard_deviations, without};
 use super::options::Options;
 use super::outcome::Line;
@@ -133,12 +132,6 @@ pub(super) fn train<'a>(
 }
 
 impl Task<'_, '_> {
-    /// Noise over σ by the responses themselves, where it is not given.
-    fn noise_of_responses(&self) -> Option<f64> {
-        let frfs = self.problem.frfs;
-        of_responses((frfs.frequency_hz, frfs.receptance), &self.sigma, frfs.noise)
-    }
-
     fn broken(&self, breakdown: Breakdown) -> SeveralOutcome {
         let at = |(nominal, &frequency_hz): (&Vec<c64>, &f64)| {
             Line::broken(frequency_hz, nominal, 0, breakdown.clone())
