@@ -37,7 +37,7 @@ pub(crate) struct Outside {
 
 /// Looks for all of it, and says what is absent.
 pub(crate) fn look() -> Outside {
-    let own = || python::interpreter().filter(|path| path.exists()).map(PathBuf::into_os_string);
+    let own = || python::interpreter().filter(|_| python::has_tools()).map(PathBuf::into_os_string);
     let python = std::env::var_os(PYTHON).or_else(own);
     let mut absent = Vec::new();
     let data =

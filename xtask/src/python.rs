@@ -20,8 +20,9 @@ const SUITED: &str = "import sys, venv, ensurepip; sys.exit(sys.version_info < (
 
 /// The package alone.
 pub(crate) fn steps() -> Vec<Step> {
-    let (mut steps, python) = environment();
-    if python.is_some() {
+    let environment = environment();
+    let mut steps: Vec<Step> = environment.into_iter().chain(tools()).collect();
+    if has_tools() {
         steps.extend(wheel());
         steps.extend(tests(Tier::Daily));
     }
@@ -43,7 +44,12 @@ fn binary(name: &str) -> PathBuf {
 
 /// The interpreter of the environment; `None` where the environment was not made.
 pub(crate) fn interpreter() -> Option<PathBuf> {
-    binary("maturin").exists().then(|| binary("python"))
+    Some(binary("python")).filter(|python| python.exists())
+}
+
+/// Whether the environment has all that builds and tests the package.
+pub(crate) fn has_tools() -> bool {
+    binary("maturin").exists()
 }
 
 /// Lets PyO3 see the interpreter that maturin shows to it: with another one it would be built anew.
@@ -54,30 +60,35 @@ pub(crate) fn seen_by(cargo: &mut Command) -> &mut Command {
     }
 }
 
-/// Makes the environment where there is none; no interpreter, with a word, where there is no Python, or no package index
-/// to install from.
-pub(crate) fn environment() -> (Vec<Step>, Option<PathBuf>) {
-    if let Some(python) = interpreter() {
-        return (Vec::new(), Some(python));
+/// Makes the environment where there is none; only says so where there is no Python.
+pub(crate) fn environment() -> Option<Step> {
+    if interpreter().is_some() {
+        return None;
     }
     let names = ["python3", "python"];
     let Some(python) = names.into_iter().find(|name| works(Command::new(name).args(["-c", SUITED]))) else {
-        println!(
-            "── Python: SKIPPED, no Python 3.10 or later with venv was found; crates/python is not tested"
-        );
-        return (Vec::new(), None);
+        skipped("no Python 3.10 or later with venv was found");
+        return None;
     };
     let folder = target().join("python-venv");
-    let venv = run("Python venv", Command::new(python).args(["-m", "venv"]).arg(folder));
-    let tools = run("Python tools", pip_install().args(PACKAGES));
-    if !(venv.passed && tools.passed) {
-        println!(
-            "── Python: SKIPPED, {} cannot be installed; crates/python is not tested",
-            PACKAGES.join(", ")
-        );
-        return (Vec::new(), None);
+    Some(run("Python venv", Command::new(python).args(["-m", "venv"]).arg(folder)))
+}
+
+/// Installs the tools into the environment where they are not there yet; only says so where there is no package index to install from.
+pub(crate) fn tools() -> Option<Step> {
+    if interpreter().is_none() || has_tools() {
+        return None;
     }
-    (vec![venv, tools], interpreter())
+    let tools = run_beside("Python tools", pip_install().args(PACKAGES));
+    if !tools.passed {
+        skipped(&format!("{} cannot be installed", PACKAGES.join(", ")));
+        return None;
+    }
+    Some(tools)
+}
+
+fn skipped(why: &str) {
+    println!("── Python: SKIPPED, {why}; crates/python is not tested");
 }
 
 /// Installs what only the long tier needs; where that cannot be had, `outside::look` says which tests are left out.

@@ -27,21 +27,28 @@ pub(crate) fn all(tier: Tier) -> bool {
         }
     }
     // The interpreter comes first: lints, tests and wheel have to see the same one, or PyO3 is built anew for each.
-    let (mut steps, python) = python::environment();
-    if python.is_some() && tier == Tier::Long {
+    let mut steps: Vec<Step> = python::environment().into_iter().collect();
+    let tools = thread::scope(|scope| {
+        // The package index is waited for, which leaves the cores to the lints.
+        let tools = scope.spawn(python::tools);
+        steps.push(run("format", &mut cargo(["fmt", "--all", "--check"])));
+        let mut clippy = cargo(["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"]);
+        steps.push(run("clippy", python::seen_by(&mut clippy)));
+        tools.join().ok().flatten()
+    });
+    steps.extend(tools);
+    let has_python = python::has_tools();
+    if has_python && tier == Tier::Long {
         python::install_outside();
     }
-    steps.push(run("format", &mut cargo(["fmt", "--all", "--check"])));
-    let mut clippy = cargo(["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"]);
-    steps.push(run("clippy", python::seen_by(&mut clippy)));
     steps.push(tests(tier));
-    if python.is_some() {
+    if has_python {
         steps.extend(python::wheel());
     }
     // Either leaves a core free.
     let mut package = Vec::new();
     thread::scope(|scope| {
-        if python.is_some() {
+        if has_python {
             scope.spawn(|| package = python::tests(tier));
         }
         steps.extend([doc_tests(), documentation()]);

@@ -1,12 +1,12 @@
 //! Transforms of the records, and their products summed over the impacts.
 
 use crate::c64;
-use realfft::{RealFftPlanner, RealToComplex};
+use rustfft::{Fft, FftPlanner};
 use std::sync::Arc;
 
 /// Σ over the impacts of the products of X(ω) = Σₖ xₖ e^{−iωkΔ}, at k/T for k from 0 to N/2.
 pub(super) struct Spectra {
-    transform: Arc<dyn RealToComplex<f64>>,
+    transform: Arc<dyn Fft<f64>>,
     /// Σ|F|²
     pub(super) force: Vec<f64>,
     /// Σ|X|², one a response.
@@ -18,8 +18,8 @@ pub(super) struct Spectra {
 impl Spectra {
     /// Nothing yet, for records of so many samples, at least one.
     pub(super) fn new(samples: usize, responses: usize) -> Self {
-        let transform = RealFftPlanner::new().plan_fft_forward(samples.max(1));
-        let lines = transform.complex_len();
+        let transform = FftPlanner::new().plan_fft_forward(samples.max(1));
+        let lines = transform.len() / 2 + 1;
         Self {
             transform,
             force: vec![0.0; lines],
@@ -45,9 +45,9 @@ impl Spectra {
     }
 
     fn of(&self, record: &[f64]) -> Vec<c64> {
-        let mut transform = self.transform.make_output_vec();
-        // It fails for a wrong length alone: records have the length of the plan.
-        self.transform.process(&mut record.to_vec(), &mut transform).expect("records of one length");
+        let mut transform: Vec<c64> = record.iter().map(|&sample| c64::new(sample, 0.0)).collect();
+        self.transform.process(&mut transform);
+        transform.truncate(transform.len() / 2 + 1);
         transform
     }
 
