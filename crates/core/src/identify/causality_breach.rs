@@ -1,7 +1,7 @@
 //! Where identified moduli are those of no causal material (B-12).
 
 use super::outcome::{Line, Status};
-use super::unknown::{Unknown, Variation};
+use super::unknown::Unknown;
 use crate::c64;
 use crate::frequency::omega_rad_s;
 use crate::median::median;
@@ -53,10 +53,7 @@ pub(super) fn causality_breaches(
     lines: &[Line],
 ) -> Vec<CausalityBreach> {
     let is_stiffness = |term: usize| model.terms()[term].role == Role::Stiffness;
-    let is_material = |one: &Unknown| {
-        let is_curve = matches!(one.varies, Variation::PerFrequency | Variation::Smooth);
-        is_curve && !one.real && one.dependence.terms().any(is_stiffness)
-    };
+    let is_material = |one: &Unknown| one.is_curve() && !one.real && one.dependence.terms().any(is_stiffness);
     let of = |unknown: usize| {
         let values: Vec<Value> = lines.iter().filter_map(|line| value(line, unknown)).collect();
         ranges(&values).into_iter().map(move |range_hz| CausalityBreach { unknown, range_hz })

@@ -101,6 +101,14 @@ impl<'a> Problem<'a> {
         Ok(Self { coarser: Some(mesh), ..self })
     }
 
+    /// The same with other words on how its unknowns vary.
+    pub(super) fn varied<'b>(&self, unknowns: &'b [Unknown]) -> Problem<'b>
+    where
+        'a: 'b,
+    {
+        Problem { unknowns, parameter: None, ..*self }
+    }
+
     /// The model.
     pub fn model(&self) -> &'a DynamicStiffness {
         self.model
@@ -325,8 +333,12 @@ impl<'a> Problem<'a> {
                 return Err(wrong("one law beside other unknowns", &kinds.len()));
             }
             Variation::Law(_) if one.real => return Err(wrong("a complex law", &"a real unknown")),
-            Variation::Smooth if self.unknowns.len() > 1 => {
-                return Err(wrong("no other unknown beside a smooth factor", &self.unknowns.len()));
+            // What of both varies from line to line the data cannot show.
+            Variation::PerFrequency if self.unknowns.iter().any(|one| one.varies == Variation::Smooth) => {
+                return Err(wrong(
+                    "smooth, constant or a law beside a smooth factor",
+                    &"a value at each frequency",
+                ));
             }
             Variation::Smooth if matches!(one.dependence, Dependence::Powers(_)) => {
                 return Err(wrong("a smooth factor", &"powers"));
@@ -355,7 +367,7 @@ impl<'a> Problem<'a> {
         if channels == 0 {
             return Ok(());
         }
-        if self.unknowns.iter().any(|one| one.varies == Variation::Smooth) {
+        if matches!(self.unknowns, [one] if one.varies == Variation::Smooth) {
             return unsupported("expected a law or a value at each frequency, found a smooth factor");
         }
         let all_vary = self.unknowns.iter().all(|one| one.per_frequency() > 0);

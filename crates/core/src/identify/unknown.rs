@@ -78,6 +78,19 @@ impl Unknown {
         }
     }
 
+    /// Whether it has a value at each frequency, free or along a smooth curve.
+    pub(super) fn is_curve(&self) -> bool {
+        matches!(self.varies, Variation::PerFrequency | Variation::Smooth)
+    }
+
+    /// The same, free at every frequency where it is smooth.
+    pub(super) fn freed(&self) -> Self {
+        match self.varies {
+            Variation::Smooth => Self { varies: Variation::PerFrequency, ..self.clone() },
+            _ => self.clone(),
+        }
+    }
+
     /// Real numbers that it has for the band.
     pub fn for_band(&self) -> usize {
         match (&self.varies, self.real) {

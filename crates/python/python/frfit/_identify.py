@@ -189,7 +189,7 @@ class Unknown:
         The value of a geometric parameter to begin with.
     varies
         ``"frequency"``: a value of its own at each; ``"constant"``: one for the band, as is usual of a geometric parameter;
-        ``"law"``: by ``law``; ``"smooth"`` of a single unknown.
+        ``"law"``: by ``law``; ``"smooth"``: neighbours help each other.
     law
         ``"constant"``, ``"fractional"``, ``"zener"``, ``"maxwell:N"``; of a single unknown several to compare.
     bounds

@@ -574,7 +574,7 @@ pub(super) static UNKNOWN: Section = Section {
             "varies",
             "\"frequency\", \"smooth\", \"constant\" or \"law\"",
             "frequency; of a dimension constant",
-            "A value of its own at each frequency, a smooth curve (of the factor that is the only unknown), one value for the band, or a law of few parameters.",
+            "A value of its own at each frequency, a smooth curve (of a factor), one value for the band, or a law of few parameters.",
         ),
         key(
             "law",

@@ -257,7 +257,7 @@ fn can_be_found(
     if options.reduction == Reduction::Full {
         return refuse("a number, or the reduction \"subspace\"", "\"unknown\" with reduction \"full\"");
     }
-    if unknowns.iter().any(|one| one.varies == Variation::Smooth) {
+    if matches!(unknowns, [one] if one.varies == Variation::Smooth) {
         let expected = "a number, or varies = \"frequency\" or \"law\"";
         return refuse(expected, "\"unknown\" with varies \"smooth\"");
     }

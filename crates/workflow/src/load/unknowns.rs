@@ -29,8 +29,15 @@ pub(super) fn unknowns(
         );
         return Err(InputError::at(place, expected, "one"));
     }
+    let has_smooth = unknowns.iter().any(|one| one.varies == Variation::Smooth);
     for (written, one) in entry.unknowns.iter().zip(&unknowns) {
-        can_vary(one, &written.varies.place, single)?;
+        let place = &written.varies.place;
+        can_vary(one, place, single)?;
+        if has_smooth && one.varies == Variation::PerFrequency {
+            let expected = "\"smooth\", \"constant\" or \"law\" beside a smooth unknown (which of both varies from line to line, \
+                            no measurement shows)";
+            return Err(InputError::at(place, expected, "\"frequency\""));
+        }
         for bound in written.storage.iter().chain(&written.loss_factor) {
             let [low, high] = bound.value;
             // A single unknown may have a reference value, with which each line is compared.
@@ -119,9 +126,6 @@ fn can_vary(one: &Unknown, place: &Place, single: bool) -> Result<(), InputError
         ),
         (Variation::Smooth, Dependence::Powers(_)) => {
             ("\"frequency\", \"constant\" or \"law\" for a dimension", "\"smooth\"".into())
-        }
-        (Variation::Smooth, _) if !single => {
-            ("\"frequency\", \"constant\" or \"law\" beside other unknowns", "\"smooth\"".into())
         }
         _ => return Ok(()),
     };

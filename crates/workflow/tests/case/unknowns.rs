@@ -91,8 +91,8 @@ fn what_cannot_be_unknown_is_refused() {
             "case.toml:33:1: identify.start: expected no such key with a dimension, which begins at its nominal value, found one".into(),
         ),
         (
-            two("varies = \"smooth\"", constant),
-            "case.toml:31:1: identify.varies: expected \"frequency\", \"constant\" or \"law\" beside other unknowns, found \"smooth\"".into(),
+            two("varies = \"smooth\"", "varies = \"frequency\""),
+            "case.toml:34:1: identify.varies: expected \"smooth\", \"constant\" or \"law\" beside a smooth unknown (which of both varies from line to line, no measurement shows), found \"frequency\"".into(),
         ),
         (
             two("varies = \"law\"\nlaw = [\"zener\", \"maxwell\"]", constant),

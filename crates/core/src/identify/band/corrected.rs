@@ -150,6 +150,8 @@ impl Weights {
             own: &[0],
             level_per_frequency: found.noise.level,
             fit: found.fit,
+            may_be_wrong: true,
+            wants_curves: false,
         }
     }
 }

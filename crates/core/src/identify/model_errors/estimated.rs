@@ -46,6 +46,11 @@ impl Estimated {
         &self.place[..self.curves.count()]
     }
 
+    /// Whether something of the model may be in error: it is a fit of curves alone else.
+    pub(in crate::identify) fn has_errors(&self) -> bool {
+        !self.modes.omega_rad_s.is_empty() || !self.factors.is_empty()
+    }
+
     /// Variances of the real and the imaginary part of an unknown at a line, and their covariance.
     pub(in crate::identify) fn covariance_at(
         &self,

@@ -98,6 +98,10 @@ pub(super) struct Measured<'t, 'a> {
     pub(super) level_per_frequency: Option<f64>,
     /// What the values of the lines say of the band.
     pub(super) fit: Option<GoodnessOfFit>,
+    /// Whether the model may have errors at all.
+    pub(super) may_be_wrong: bool,
+    /// Whether the curves are the answer, of a right model too.
+    pub(super) wants_curves: bool,
 }
 
 /// Modes up to this many times the highest frequency, and so many at most.
@@ -316,10 +320,10 @@ fn explanation(search: &Search<'_, '_>, starts: &[Vec<f64>]) -> Option<Explanati
         let modes = Modes::none(model);
         Some(Explanation::Errors(Box::new(Estimated { modes, ..estimated })))
     };
-    let right_model = || if given.is_empty() { None } else { right_model() };
+    let right_model = || if given.is_empty() && !data.wants_curves { None } else { right_model() };
     let whole = search.fitting(&rough.0, &rough.1, &search.lines);
     let sized = data.given_sizes.any() || search.mesh.is_some();
-    if !sized && data.is_exact() {
+    if !data.may_be_wrong || (!sized && data.is_exact()) {
         return right_model();
     }
     let is_noise = || data.is_noise(&right, data.numbers(&search.lines), curves);

@@ -7,7 +7,8 @@ use super::neighbourhoods::Neighbourhoods;
 use super::outcome::SeveralOutcome;
 use super::search::{BandSolution, Begin};
 use crate::c64;
-use crate::identify::band::nearest;
+use crate::for_each::map;
+use crate::identify::band::{MAX_TRAINING_ROUNDS, nearest};
 use crate::identify::form::Form;
 use crate::identify::model_errors::{
     Coarser, Curve, Curves, Estimated, Explanation, Leverage, Measured, NoiseScale, Spline, estimate,
@@ -27,12 +28,15 @@ impl Task<'_, '_> {
         solution: &BandSolution,
         mut found: SeveralOutcome,
     ) -> SeveralOutcome {
-        if self.options.model_errors == ModelErrors::None {
+        let is_smooth = self.asked.unknowns.iter().any(|one| one.varies == Variation::Smooth);
+        if self.options.model_errors == ModelErrors::None && !is_smooth {
             return found;
         }
         let (explanation, leverage) = self.errors(reduced, solution, &found);
         found.leverage = leverage;
         let errors = match explanation {
+            // No smooth curve was found.
+            Explanation::RightModel if is_smooth => return found.of_other_model(),
             Explanation::RightModel => return found,
             Explanation::OtherModel => return found.of_other_model(),
             Explanation::Errors(errors) => *errors,
@@ -46,21 +50,68 @@ impl Task<'_, '_> {
         let theta = of_band.chain(errors.channels().range()).map(|c| errors.theta()[c]).collect();
         let begin = Begin { coordinates: solution.coordinates.clone(), theta };
         let task = self.with_rest(errors.rest);
-        let again = task.search_from(reduced, begin, &values);
+        let again = match is_smooth {
+            true => task.along_curves(reduced, begin, &errors),
+            false => task.search_from(reduced, begin, &values),
+        };
         let again = BandSolution { starts: solution.starts.clone(), agreeing: solution.agreeing, ..again };
         let judged = task.judge(reduced, &again, Some(&errors));
         let is_contradicted = !errors.contradicted_assumptions.is_empty();
         let judged = if is_contradicted { judged.of_other_model() } else { judged };
-        SeveralOutcome { model_errors: Some(errors.found()), leverage: found.leverage, ..judged }
+        SeveralOutcome {
+            model_errors: errors.has_errors().then(|| errors.found()),
+            leverage: found.leverage,
+            ..judged
+        }
     }
 
-    /// The same task, in which the response has this part of itself beside the noise.
+    /// Every frequency at the curves that were found.
+    fn along_curves(
+        &self,
+        reduced: &mut Neighbourhoods<'_>,
+        Begin { coordinates, theta }: Begin,
+        errors: &Estimated,
+    ) -> BandSolution {
+        let all: Vec<usize> = (0..self.omegas.len()).collect();
+        let on = |reduced: &Neighbourhoods<'_>, i: usize| -> Option<Solution> {
+            let frequency_hz = self.problem.frfs.frequency_hz[i];
+            let shown = |x| coordinates.channels.shown(&theta, frequency_hz, x);
+            let respond = |values: &[c64]| reduced.respond_on(reduced.model(i), i, values).map(shown);
+            self.at_frequency(i).at(&[], &errors.values(i, frequency_hz)?, respond)
+        };
+        let found = |reduced: &Neighbourhoods<'_>| -> BandSolution {
+            let one = |i: usize| on(reduced, i).into_iter().collect();
+            let solutions: Vec<Vec<Solution>> = map(self.context.for_each, all.len(), one);
+            let chosen = self.choose(&all, &solutions);
+            let (coordinates, theta) = (coordinates.clone(), theta.clone());
+            BandSolution {
+                coordinates,
+                theta,
+                solutions,
+                chosen,
+                converged: true,
+                starts: Vec::new(),
+                agreeing: 1,
+            }
+        };
+        let mut solution = found(reduced);
+        for _ in 0..MAX_TRAINING_ROUNDS {
+            if !reduced.refine(&solution.answers(), self.context) {
+                break;
+            }
+            solution = found(reduced);
+        }
+        solution
+    }
+
+    /// The task that was asked, in which the response has this part of itself beside the noise.
     fn with_rest(&self, rest: f64) -> Self {
         let levels = levels(self.problem.frfs.receptance, self.problem.frfs.frequency_hz);
         Self {
             omegas: self.omegas.clone(),
             sigma: beside(&self.sigma, rest, &levels),
             left_out: self.left_out.clone(),
+            problem: self.asked,
             ..*self
         }
     }
@@ -120,6 +171,8 @@ impl Task<'_, '_> {
             // What holds for the band cannot show the noise: it is part of what is to be explained.
             level_per_frequency: found.noise.level.filter(|_| !own.is_empty()),
             fit: found.fit,
+            may_be_wrong: self.options.model_errors != ModelErrors::None,
+            wants_curves: self.asked.unknowns.iter().any(|one| one.varies == Variation::Smooth),
         };
         let (explanation, leverage) =
             estimate(reduced.whole(), &measured, &curves(false), self.context.for_each);

@@ -18,7 +18,7 @@ use crate::identify::noise::{Noise, NoiseLevel};
 use crate::identify::outcome::{Line, LineSolution, LineValue, Standing, Status};
 use crate::identify::uncertainty::{Contributions, Uncertainty};
 use crate::identify::uncertainty::{KNOWN_RELATIVE_STD, MIN_KNOWN_LOSS_FACTOR};
-use crate::identify::unknown::Unknown;
+use crate::identify::unknown::{Unknown, Variation};
 use crate::laws::LawKind;
 use crate::material::{Law, loss_factor};
 use crate::median::median;
@@ -43,6 +43,8 @@ struct Known<'k> {
     covariance: &'k (dyn Fn(&[f64], &[f64]) -> f64 + Sync),
     /// What it consists of, where there are errors of the model.
     split: Option<&'k Split>,
+    /// Where unknowns are smooth curves: their covariance with the errors, and what it consists of, `[unknown]`.
+    curves: Option<(&'k Estimated, &'k [Option<Split>])>,
     /// ∂y/∂θ, then by the errors of the model, `[coordinate][own]`.
     moved: Vec<Vec<f64>>,
 }
@@ -64,7 +66,10 @@ impl Task<'_, '_> {
         let own: usize = self.problem.unknowns.iter().map(Unknown::per_frequency).sum();
         let answered = all.iter().filter(|&&i| found.at(i).is_some()).count();
         let sensors = self.problem.experiment.sensors.len() - self.left_out.len();
-        let freedom = (answered * 2 * sensors).saturating_sub(answered * own + n);
+        let is_smooth = |j: &usize| self.problem.unknowns[*j].varies == Variation::Smooth;
+        let smooth: Vec<usize> = (0..self.problem.unknowns.len()).filter(is_smooth).collect();
+        let of_curves = errors.map_or(0, |errors| smooth.iter().map(|&j| errors.range(j).len()).sum());
+        let freedom = (answered * 2 * sensors).saturating_sub(answered * own + n + of_curves);
         let chi_squared: f64 = all.iter().filter_map(|&i| Some(found.at(i)?.misfit)).sum();
         let of_sensors = (freedom > 0).then(|| (chi_squared / freedom as f64).sqrt());
         let frfs = self.problem.frfs;
@@ -85,6 +90,11 @@ impl Task<'_, '_> {
         };
         let joint = errors.map(|errors| errors.covariance_of(&coordinates(errors)));
         let split = errors.and_then(|errors| errors.split_of(&coordinates(errors)));
+        let of_curve = |j: usize| -> Option<Split> {
+            let errors = errors.filter(|_| smooth.contains(&j))?;
+            errors.split_of(&errors.range(j).chain(errors.error_range()).collect::<Vec<_>>())
+        };
+        let of_curves: Vec<Option<Split>> = (0..self.problem.unknowns.len()).map(of_curve).collect();
         let information = match &joint {
             Some(joint) => {
                 let size = joint.len().isqrt();
@@ -116,7 +126,12 @@ impl Task<'_, '_> {
                 found,
                 i,
                 (level, fit),
-                known.map(|moved| Known { covariance: &covariance, split: split.as_ref(), moved }),
+                known.map(|moved| Known {
+                    covariance: &covariance,
+                    split: split.as_ref(),
+                    curves: errors.map(|errors| (errors, of_curves.as_slice())),
+                    moved,
+                }),
             )
         });
         let numbers_of = |one: &Own| {
@@ -258,7 +273,10 @@ impl Task<'_, '_> {
         let assessed = reduced.assess(i, &solution.values);
         let reduction_error =
             assessed.map(|assessed| reduction_error(&assessed, solution.values[0], measured).response);
-        let own = |(one, value): (&Unknown, &LineValue)| one.per_frequency() == 0 || is_known(value);
+        let own = |(one, value): (&Unknown, &LineValue)| !one.is_curve() || is_known(value);
+        let is_within =
+            |(one, value): (&Unknown, &c64)| !one.is_curve() || one.bounds.broken_by(*value).is_none();
+        let within = self.problem.unknowns.iter().zip(&solution.values).all(is_within);
         let known = self.problem.unknowns.iter().zip(&values).all(own);
         let unexplained =
             error > self.options.error && chi_squared.is_none_or(|chi| chi.sqrt() > MAX_RMS_MISFIT);
@@ -267,6 +285,7 @@ impl Task<'_, '_> {
             (!line.rivals.is_empty(), Status::Ambiguous),
             (chosen.is_none(), Status::Unexplained),
             (!known, Status::NotIdentifiable),
+            (!within, Status::NoRoot),
             (
                 reduction_error.is_none_or(|reduction_error| reduction_error > self.options.certain),
                 Status::Failed,
@@ -321,6 +340,17 @@ impl Task<'_, '_> {
                 let [of_theta, model, known_factors] = contributed(&gradient(a));
                 contributions = Some([own[a][a] + of_theta, model, known_factors]);
                 Some([both(a, a), both(a, b), both(b, b)])
+            } else if let (true, Some((errors, splits))) = (unknowns.is_curve(), known.and_then(|k| k.curves))
+            {
+                let frequency_hz = self.problem.frfs.frequency_hz[i];
+                level.and_then(|level| {
+                    let over_sigma = |variance: f64| variance / (level * level);
+                    let slopes = errors.real_slopes(j, i, frequency_hz)?;
+                    let own = &slopes[errors.range(j)];
+                    contributions = splits[j].as_ref().map(|split| split.of(own).map(over_sigma));
+                    let [re, im, both] = errors.covariance_at(j, i, frequency_hz)?;
+                    Some([re, both, im].map(over_sigma))
+                })
             } else {
                 let own = found.coordinates.each.iter().find(|own| own.unknowns == j);
                 own.and_then(|own| {

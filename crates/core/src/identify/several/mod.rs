@@ -42,7 +42,7 @@ use super::noise::{NoiseLevel, standard_deviations, without};
 use super::options::Options;
 use super::outcome::Line;
 use super::problem::Problem;
-use super::unknown::Composite;
+use super::unknown::{Composite, Unknown};
 use crate::c64;
 use crate::frequency::omega_rad_s;
 use crate::material::OutsideTable;
@@ -53,7 +53,10 @@ use neighbourhoods::Neighbourhoods;
 
 /// What there is to work with.
 struct Task<'t, 'a> {
+    /// As it is searched: what is smooth is free at every frequency.
     problem: &'t Problem<'a>,
+    /// As it was asked.
+    asked: &'t Problem<'a>,
     /// `[frequency][unknown]`.
     nominal: &'t [Vec<c64>],
     omegas: Vec<f64>,
@@ -84,8 +87,10 @@ pub(super) fn identify_several<'a>(
     let frfs = problem.frfs;
     let nominal = nominal_of(problem)?;
     let dead = dead_channels(frfs.receptance);
+    let freed: Vec<Unknown> = problem.unknowns.iter().map(Unknown::freed).collect();
     let task = Task {
-        problem,
+        problem: &problem.varied(&freed),
+        asked: problem,
         nominal: &nominal,
         omegas: frfs.frequency_hz.iter().map(|&f| omega_rad_s(f)).collect(),
         sigma: without(&standard_deviations(frfs.receptance, frfs.noise), &dead),

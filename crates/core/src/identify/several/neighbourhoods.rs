@@ -228,7 +228,7 @@ impl<'a> Neighbourhoods<'a> {
     /// Models of few vectors that are good near some answers, where no frequency has a value of its own: all of them move together, and not far.
     pub(super) fn narrow(&mut self, answers: Vec<Answer>, for_each: ForEach<'_>) {
         let is_there = self.is_near && self.answers == answers;
-        if !is_there && self.composite.unknowns.iter().all(|one| one.per_frequency() == 0) {
+        if !is_there && !self.composite.unknowns.iter().any(Unknown::is_curve) {
             (self.is_near, self.answers) = (true, answers);
             self.localise(for_each);
         }

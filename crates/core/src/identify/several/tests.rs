@@ -81,6 +81,7 @@ fn all_solutions_of_two_unknowns_are_found() {
     let options = Options::default();
     let task = Task {
         problem: &problem,
+        asked: &problem,
         nominal: &nominal,
         omegas: frequency_hz.iter().map(|&f| omega_rad_s(f)).collect(),
         sigma: standard_deviations(&measured, Noise::Unknown),
