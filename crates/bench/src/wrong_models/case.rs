@@ -30,11 +30,14 @@ pub enum Way {
     Law,
     /// All stiffnesses at once: a core has a value of its own at every frequency, the others are constant.
     Several,
+    /// The same with a smooth core.
+    SeveralSmooth,
 }
 
 impl Way {
     /// All of them.
-    pub const ALL: [Self; 4] = [Self::PerFrequency, Self::Smooth, Self::Law, Self::Several];
+    pub const ALL: [Self; 5] =
+        [Self::PerFrequency, Self::Smooth, Self::Law, Self::Several, Self::SeveralSmooth];
 
     /// Those with one unknown.
     pub const OF_ONE: [Self; 3] = [Self::PerFrequency, Self::Smooth, Self::Law];
@@ -46,6 +49,7 @@ impl Way {
             Self::Smooth => "smooth",
             Self::Law => "law",
             Self::Several => "several",
+            Self::SeveralSmooth => "several-smooth",
         }
     }
 }
@@ -266,7 +270,8 @@ impl Case {
             Way::Smooth => Variation::Smooth,
             Way::Law => Variation::law(kind),
             Way::Several if self.kind == Kind::Sandwich => Variation::PerFrequency,
-            Way::Several => Variation::law(LawKind::Constant),
+            Way::SeveralSmooth if self.kind == Kind::Sandwich => Variation::Smooth,
+            Way::Several | Way::SeveralSmooth => Variation::law(LawKind::Constant),
         };
         let unknown = |(name, _): &(String, Law)| {
             let varies = if name == UNKNOWN { varies.clone() } else { Variation::law(LawKind::Constant) };

@@ -108,7 +108,8 @@ pub enum Unknowns {
 impl Unknowns {
     /// Those of some ways.
     pub fn of(ways: &[Way]) -> Self {
-        if ways.contains(&Way::Several) { Self::Several } else { Self::One }
+        let several = |way: &Way| matches!(way, Way::Several | Way::SeveralSmooth);
+        if ways.iter().any(several) { Self::Several } else { Self::One }
     }
 }
 

@@ -3,7 +3,7 @@
 //! `wrong-models [CASES] [SEED] [--class CLASS] [--way WAY] [--csv FILE] [--case K] [--meshes one|finer|two]`: so many cases (default 40) of a seed (default 1), of all classes
 //! and ways or of one; with `--case` the case K alone, line by line. With `--meshes finer` the model has elements of half the size, with
 //! `two` also what would be the model as a coarser mesh beside it. With `--way several` all stiffnesses of a case are unknown: of orthotropic plates, sandwiches and beams
-//! on springs. Case K of a seed is always the same, and its class is the K-th, counted round.
+//! on springs; with `--way several-smooth` the core of a sandwich is smooth. Case K of a seed is always the same, and its class is the K-th, counted round.
 //!
 //! Each case draws a structure, its material, load, sensors and noise, and measures the truth, which is another model by class, with direct solves.
 #![allow(clippy::print_stdout)] // tables are what a benchmark is for
