@@ -69,13 +69,13 @@ impl Task<'_, '_> {
     fn along_curves(
         &self,
         reduced: &mut Neighbourhoods<'_>,
-        Begin { coordinates, theta }: Begin,
+        begin: Begin,
         errors: &Estimated,
     ) -> BandSolution {
         let all: Vec<usize> = (0..self.omegas.len()).collect();
         let on = |reduced: &Neighbourhoods<'_>, i: usize| -> Option<Solution> {
             let frequency_hz = self.problem.frfs.frequency_hz[i];
-            let shown = |x| coordinates.channels.shown(&theta, frequency_hz, x);
+            let shown = |x| begin.coordinates.channels.shown(&begin.theta, frequency_hz, x);
             let respond = |values: &[c64]| reduced.respond_on(reduced.model(i), i, values).map(shown);
             self.at_frequency(i).at(&[], &errors.values(i, frequency_hz)?, respond)
         };
@@ -83,16 +83,7 @@ impl Task<'_, '_> {
             let one = |i: usize| on(reduced, i).into_iter().collect();
             let solutions: Vec<Vec<Solution>> = map(self.context.for_each, all.len(), one);
             let chosen = self.choose(&all, &solutions);
-            let (coordinates, theta) = (coordinates.clone(), theta.clone());
-            BandSolution {
-                coordinates,
-                theta,
-                solutions,
-                chosen,
-                converged: true,
-                starts: Vec::new(),
-                agreeing: 1,
-            }
+            BandSolution::new(begin.clone(), solutions, chosen)
         };
         let mut solution = found(reduced);
         for _ in 0..MAX_TRAINING_ROUNDS {

@@ -305,15 +305,7 @@ impl Task<'_, '_> {
                 chosen = self.choose(which, &solutions);
             }
         }
-        BandSolution {
-            coordinates,
-            theta,
-            solutions,
-            chosen,
-            converged: true,
-            starts: Vec::new(),
-            agreeing: 1,
-        }
+        BandSolution::new(Begin { coordinates, theta }, solutions, chosen)
     }
 
     /// The solutions at a frequency that some values, the nominal ones and points all over the box lead to. Of one unknown that stands for a factor, all there are; of two, those that
@@ -678,6 +670,15 @@ impl Eliminated {
 }
 
 impl BandSolution {
+    /// Of one start, with what was chosen among the solutions.
+    pub(super) fn new(
+        Begin { coordinates, theta }: Begin,
+        solutions: Vec<Vec<Solution>>,
+        chosen: Vec<Chosen>,
+    ) -> Self {
+        Self { coordinates, theta, solutions, chosen, converged: true, starts: Vec::new(), agreeing: 1 }
+    }
+
     /// Another search from where this one ended.
     fn begin(&self) -> Begin {
         Begin { coordinates: self.coordinates.clone(), theta: self.theta.clone() }
