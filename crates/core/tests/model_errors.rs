@@ -2,7 +2,7 @@
 
 use crate::common::{Band, Case, Setup, sandwich};
 use crate::noise::Noise as Dice;
-use crate::tier::of_tier;
+use crate::tier::{is_long, of_tier};
 use frfit::c64;
 use frfit::for_each::sequential;
 use frfit::frequency::linear_hz;
@@ -343,8 +343,10 @@ fn a_smooth_core_beside_constant_skins_is_within_its_bars() {
         let [value, eta] = &smooth.constants[0].numbers[..] else { panic!("a complex constant") };
         assert!((value.value / 7e10 - 1.0).abs() * 7e10 < 3.0 * value.std.unwrap(), "{mass}: {value:?}");
         assert!((eta.value - 1e-3).abs() < 3.0 * eta.std.unwrap(), "{mass}: {eta:?}");
-        let free = found(Variation::PerFrequency, ModelErrors::Estimated);
-        assert!(bars(&smooth) < 0.8 * bars(&free), "{mass}: {} {}", bars(&smooth), bars(&free));
+        if is_long() {
+            let free = found(Variation::PerFrequency, ModelErrors::Estimated);
+            assert!(bars(&smooth) < 0.8 * bars(&free), "{mass}: {} {}", bars(&smooth), bars(&free));
+        }
         if *mass == 1.0 {
             let as_it_is = found(Variation::Smooth, ModelErrors::None);
             let (ok, error, [storage, loss]) = measured.judged(&as_it_is);
