@@ -60,9 +60,9 @@ pub(crate) fn seen_by(cargo: &mut Command) -> &mut Command {
     }
 }
 
-/// Makes the environment where there is none; only says so where there is no Python.
+/// Creates the environment, also one that was left half made. Without a suitable Python it prints that the package is skipped.
 pub(crate) fn environment() -> Option<Step> {
-    if interpreter().is_some() {
+    if has_tools() {
         return None;
     }
     let names = ["python3", "python"];
@@ -71,10 +71,15 @@ pub(crate) fn environment() -> Option<Step> {
         return None;
     };
     let folder = target().join("python-venv");
-    Some(run("Python venv", Command::new(python).args(["-m", "venv"]).arg(folder)))
+    let venv = run("Python venv", Command::new(python).args(["-m", "venv"]).arg(folder));
+    if !venv.passed {
+        skipped("no environment can be made");
+        return None;
+    }
+    Some(venv)
 }
 
-/// Installs the tools into the environment where they are not there yet; only says so where there is no package index to install from.
+/// Installs the missing tools into the environment. Without a package index it prints that the package is skipped.
 pub(crate) fn tools() -> Option<Step> {
     if interpreter().is_none() || has_tools() {
         return None;

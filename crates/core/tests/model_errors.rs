@@ -7,7 +7,7 @@ use frfit::c64;
 use frfit::for_each::sequential;
 use frfit::frequency::linear_hz;
 use frfit::identify::{
-    Assumption, Calibration, ChannelUnknowns, CoarserMesh, Context, Dependence, ErrorSizes, Explained, Frfs,
+    Assumption, Calibration, ChannelUnknowns, CoarserMesh, Context, ErrorSizes, Explained, Frfs,
     Identification, ModelErrors, Noise, Number, Options, Problem, Status, Unknown, Variation, identify,
 };
 use frfit::laws::LawKind;
@@ -16,7 +16,6 @@ use frfit::linalg::sparse::{SymmetricMatrix, Triplets, Values};
 use frfit::material::{Law, loss_factor};
 use frfit::model::{DynamicStiffness, Experiment, FactorStd, Parameter, Role, Sensor, Term};
 use frfit::response::{FullModel, Response};
-use frfit::roots::Bounds;
 use frfit_fem::{Beam, Direction, Plate, Support};
 use std::f64::consts::TAU;
 
@@ -306,7 +305,6 @@ fn a_smooth_core_beside_constant_skins_is_within_its_bars() {
     let truth = Law::Fractional { e0: 8.14e5, e1: 7.31e4, alpha: 0.528 };
     let count = of_tier(48, 160);
     let measured = Measured::on(&sandwich(12, 1), &truth, linear_hz(20.0, 1000.0, count), 0.01, 5);
-    let (core, skins) = (|varies| Unknown { varies, ..named("core") }, named("skins"));
     let context = Context { for_each: &sequential, progress: &|_, _, _| {} };
     let median = |mut values: Vec<f64>| {
         values.sort_by(f64::total_cmp);
@@ -319,9 +317,9 @@ fn a_smooth_core_beside_constant_skins_is_within_its_bars() {
             _ => 1.0,
         });
         let found = |varies, model_errors| {
-            let unknowns = [core(varies), skins.clone()].map(|one| {
-                let term = case.model.terms().iter().find(|term| term.name == one.name).unwrap();
-                Unknown { nominal: term.factor.clone(), ..one }
+            let unknowns = [("core", varies), ("skins", Variation::Constant)].map(|(name, varies)| Unknown {
+                varies,
+                ..Unknown::factor_of(&case.model, &[name]).unwrap()
             });
             let (frequency_hz, receptance) = (&measured.frequency_hz[..], &measured.u[..]);
             let frfs = Frfs { frequency_hz, receptance, noise: Noise::Known(&measured.std) };
@@ -354,15 +352,6 @@ fn a_smooth_core_beside_constant_skins_is_within_its_bars() {
             assert!(error < 0.02 && storage >= 0.85 && loss >= 0.85, "{error} {storage} {loss}");
         }
     }
-}
-
-/// A constant in place of the factor of the term of this name.
-fn named(name: &str) -> Unknown {
-    let term = usize::from(name == "core");
-    let dependence = Dependence::Factor(vec![term]);
-    let nominal = Law::Constant(c64::new(1.0, 0.0));
-    let (name, varies) = (String::from(name), Variation::Constant);
-    Unknown { name, dependence, nominal, varies, real: false, bounds: Bounds::default() }
 }
 
 /// The same beam with narrow modes, complex constants, and noise that nobody knows: from a smooth modulus with errors to constants with errors there are many minima,

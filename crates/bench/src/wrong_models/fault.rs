@@ -108,8 +108,8 @@ pub enum Unknowns {
 impl Unknowns {
     /// Those of some ways.
     pub fn of(ways: &[Way]) -> Self {
-        let several = |way: &Way| matches!(way, Way::Several | Way::SeveralSmooth);
-        if ways.iter().any(several) { Self::Several } else { Self::One }
+        let is_of_one = |way: &Way| Way::OF_ONE.contains(way);
+        if ways.iter().all(is_of_one) { Self::One } else { Self::Several }
     }
 }
 

@@ -101,8 +101,13 @@ impl<'a> Problem<'a> {
         Ok(Self { coarser: Some(mesh), ..self })
     }
 
-    /// The same with other words on how its unknowns vary.
-    pub(super) fn varied<'b>(&self, unknowns: &'b [Unknown]) -> Problem<'b>
+    /// Whether one of its unknowns is a smooth curve.
+    pub(super) fn has_smooth(&self) -> bool {
+        self.unknowns.iter().any(|one| one.varies == Variation::Smooth)
+    }
+
+    /// The same problem with other unknowns.
+    pub(super) fn with_unknowns<'b>(&self, unknowns: &'b [Unknown]) -> Problem<'b>
     where
         'a: 'b,
     {
@@ -333,8 +338,8 @@ impl<'a> Problem<'a> {
                 return Err(wrong("one law beside other unknowns", &kinds.len()));
             }
             Variation::Law(_) if one.real => return Err(wrong("a complex law", &"a real unknown")),
-            // What of both varies from line to line the data cannot show.
-            Variation::PerFrequency if self.unknowns.iter().any(|one| one.varies == Variation::Smooth) => {
+            // The data cannot show which of the two varies from line to line.
+            Variation::PerFrequency if self.has_smooth() => {
                 return Err(wrong(
                     "smooth, constant or a law beside a smooth factor",
                     &"a value at each frequency",

@@ -244,7 +244,7 @@ impl PoleSearch<'_> {
         Some(again.filter(|again| self.is_better(again, &best)).unwrap_or(best))
     }
 
-    /// The fit with these poles added; `None` where there are none to add, or it is no better than before.
+    /// The fit with these poles added; `None` without poles to add, or if the fit is no better.
     fn with_more(&self, best: &(Fit, Fitted), poles: &[c64]) -> Option<(Fit, Fitted)> {
         if poles.is_empty() {
             return None;

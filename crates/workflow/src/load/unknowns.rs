@@ -34,8 +34,8 @@ pub(super) fn unknowns(
         let place = &written.varies.place;
         can_vary(one, place, single)?;
         if has_smooth && one.varies == Variation::PerFrequency {
-            let expected = "\"smooth\", \"constant\" or \"law\" beside a smooth unknown (which of both varies from line to line, \
-                            no measurement shows)";
+            let expected = "\"smooth\", \"constant\" or \"law\" beside a smooth unknown (the data cannot show \
+                            which of the two varies from line to line)";
             return Err(InputError::at(place, expected, "\"frequency\""));
         }
         for bound in written.storage.iter().chain(&written.loss_factor) {

@@ -92,7 +92,7 @@ fn what_cannot_be_unknown_is_refused() {
         ),
         (
             two("varies = \"smooth\"", "varies = \"frequency\""),
-            "case.toml:34:1: identify.varies: expected \"smooth\", \"constant\" or \"law\" beside a smooth unknown (which of both varies from line to line, no measurement shows), found \"frequency\"".into(),
+            "case.toml:34:1: identify.varies: expected \"smooth\", \"constant\" or \"law\" beside a smooth unknown (the data cannot show which of the two varies from line to line), found \"frequency\"".into(),
         ),
         (
             two("varies = \"law\"\nlaw = [\"zener\", \"maxwell\"]", constant),

@@ -46,7 +46,7 @@ impl Estimated {
         &self.place[..self.curves.count()]
     }
 
-    /// Whether something of the model may be in error: it is a fit of curves alone else.
+    /// Whether the model has errors in this estimate. Otherwise it is a fit of curves alone.
     pub(in crate::identify) fn has_errors(&self) -> bool {
         !self.modes.omega_rad_s.is_empty() || !self.factors.is_empty()
     }

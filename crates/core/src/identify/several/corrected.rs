@@ -28,7 +28,7 @@ impl Task<'_, '_> {
         solution: &BandSolution,
         mut found: SeveralOutcome,
     ) -> SeveralOutcome {
-        let is_smooth = self.asked.unknowns.iter().any(|one| one.varies == Variation::Smooth);
+        let is_smooth = self.asked.has_smooth();
         if self.options.model_errors == ModelErrors::None && !is_smooth {
             return found;
         }
@@ -163,7 +163,7 @@ impl Task<'_, '_> {
             level_per_frequency: found.noise.level.filter(|_| !own.is_empty()),
             fit: found.fit,
             may_be_wrong: self.options.model_errors != ModelErrors::None,
-            wants_curves: self.asked.unknowns.iter().any(|one| one.varies == Variation::Smooth),
+            wants_curves: self.asked.has_smooth(),
         };
         let (explanation, leverage) =
             estimate(reduced.whole(), &measured, &curves(false), self.context.for_each);

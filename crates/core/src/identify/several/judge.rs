@@ -68,8 +68,8 @@ impl Task<'_, '_> {
         let sensors = self.problem.experiment.sensors.len() - self.left_out.len();
         let is_smooth = |j: &usize| self.problem.unknowns[*j].varies == Variation::Smooth;
         let smooth: Vec<usize> = (0..self.problem.unknowns.len()).filter(is_smooth).collect();
-        let of_curves = errors.map_or(0, |errors| smooth.iter().map(|&j| errors.range(j).len()).sum());
-        let freedom = (answered * 2 * sensors).saturating_sub(answered * own + n + of_curves);
+        let curve_numbers = errors.map_or(0, |errors| smooth.iter().map(|&j| errors.range(j).len()).sum());
+        let freedom = (answered * 2 * sensors).saturating_sub(answered * own + n + curve_numbers);
         let chi_squared: f64 = all.iter().filter_map(|&i| Some(found.at(i)?.misfit)).sum();
         let of_sensors = (freedom > 0).then(|| (chi_squared / freedom as f64).sqrt());
         let frfs = self.problem.frfs;
@@ -90,11 +90,11 @@ impl Task<'_, '_> {
         };
         let joint = errors.map(|errors| errors.covariance_of(&coordinates(errors)));
         let split = errors.and_then(|errors| errors.split_of(&coordinates(errors)));
-        let of_curve = |j: usize| -> Option<Split> {
+        let curve_split = |j: usize| -> Option<Split> {
             let errors = errors.filter(|_| smooth.contains(&j))?;
             errors.split_of(&errors.range(j).chain(errors.error_range()).collect::<Vec<_>>())
         };
-        let of_curves: Vec<Option<Split>> = (0..self.problem.unknowns.len()).map(of_curve).collect();
+        let curve_splits: Vec<Option<Split>> = (0..self.problem.unknowns.len()).map(curve_split).collect();
         let information = match &joint {
             Some(joint) => {
                 let size = joint.len().isqrt();
@@ -129,7 +129,7 @@ impl Task<'_, '_> {
                 known.map(|moved| Known {
                     covariance: &covariance,
                     split: split.as_ref(),
-                    curves: errors.map(|errors| (errors, of_curves.as_slice())),
+                    curves: errors.map(|errors| (errors, curve_splits.as_slice())),
                     moved,
                 }),
             )

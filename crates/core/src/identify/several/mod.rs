@@ -89,7 +89,7 @@ pub(super) fn identify_several<'a>(
     let dead = dead_channels(frfs.receptance);
     let freed: Vec<Unknown> = problem.unknowns.iter().map(Unknown::freed).collect();
     let task = Task {
-        problem: &problem.varied(&freed),
+        problem: &problem.with_unknowns(&freed),
         asked: problem,
         nominal: &nominal,
         omegas: frfs.frequency_hz.iter().map(|&f| omega_rad_s(f)).collect(),
