@@ -7,6 +7,7 @@ mod common;
 mod dense;
 mod diagnostics;
 mod inertia;
+mod kept_model;
 mod laws;
 mod mixed;
 mod modal;

@@ -17,6 +17,15 @@ impl ColumnBlock {
         Self { nrows, values: Vec::new() }
     }
 
+    /// From its columns, one after the other.
+    ///
+    /// # Panics
+    /// Where they are not whole columns of N entries.
+    pub fn from_columns(nrows: usize, values: Vec<f64>) -> Self {
+        assert_eq!(values.len() % nrows.max(1), 0, "whole columns");
+        Self { nrows, values }
+    }
+
     /// N.
     pub fn nrows(&self) -> usize {
         self.nrows

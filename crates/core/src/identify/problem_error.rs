@@ -2,6 +2,7 @@
 
 use super::options::OptionsError;
 use crate::material::OutsideTable;
+use crate::subspace::KeptError;
 use std::borrow::Cow;
 use std::fmt;
 
@@ -54,6 +55,8 @@ pub enum ProblemError {
     Table(OutsideTable),
     /// A wrong option.
     Options(OptionsError),
+    /// A reduced model that was kept of another model.
+    Reduced(KeptError),
 }
 
 impl fmt::Display for ProblemError {
@@ -73,6 +76,7 @@ impl fmt::Display for ProblemError {
             Self::Unsupported { what, reason } => write!(f, "{what}: {reason}"),
             Self::Table(outside) => outside.fmt(f),
             Self::Options(wrong) => wrong.fmt(f),
+            Self::Reduced(wrong) => write!(f, "the reduced model: {wrong}"),
         }
     }
 }
@@ -88,6 +92,12 @@ impl From<OutsideTable> for ProblemError {
 impl From<OptionsError> for ProblemError {
     fn from(wrong: OptionsError) -> Self {
         Self::Options(wrong)
+    }
+}
+
+impl From<KeptError> for ProblemError {
+    fn from(wrong: KeptError) -> Self {
+        Self::Reduced(wrong)
     }
 }
 

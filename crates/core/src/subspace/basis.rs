@@ -6,13 +6,14 @@ use super::sketch::Sketch;
 use crate::c64;
 use crate::model::{DynamicStiffness, Experiment};
 use frfit_linalg::column_block::ColumnBlock;
+use std::sync::Arc;
 
-/// V with Vᵀ diag(d) V = 1, and everything small that belongs to it.
+/// V with Vᵀ diag(d) V = 1, and everything small that belongs to it. A clone shares what is long, until it grows.
 #[derive(Debug, Clone)]
 pub(super) struct Basis {
     /// d, the diagonal of the first shifted stiffness: it makes translations and rotations, steel and rubber comparable.
-    weight: Vec<f64>,
-    vectors: ColumnBlock,
+    pub(super) weight: Arc<[f64]>,
+    vectors: Arc<ColumnBlock>,
     sketch: Sketch,
     pub(super) projection: Projection,
 }
@@ -36,7 +37,14 @@ impl Basis {
             gain: 0.0,
             parts,
         };
-        Self { vectors: ColumnBlock::new(weight.len()), sketch, weight, projection }
+        Self { vectors: Arc::new(ColumnBlock::new(weight.len())), sketch, weight: weight.into(), projection }
+    }
+
+    /// One that was kept.
+    pub(super) fn kept(weight: Vec<f64>, vectors: Vec<f64>, projection: Projection) -> Self {
+        let sketch = Sketch::new(weight.iter().map(|d| 1.0 / d));
+        let vectors = Arc::new(ColumnBlock::from_columns(weight.len(), vectors));
+        Self { vectors, sketch, weight: weight.into(), projection }
     }
 
     /// V.
@@ -62,7 +70,7 @@ impl Basis {
     /// diag(d) X, N × k column after column.
     pub(super) fn weighted(&self, block: &[f64]) -> Vec<f64> {
         let n = self.weight.len();
-        block.chunks_exact(n).flat_map(|x| x.iter().zip(&self.weight).map(|(x, d)| x * d)).collect()
+        block.chunks_exact(n).flat_map(|x| x.iter().zip(self.weight.iter()).map(|(x, d)| x * d)).collect()
     }
 
     /// Takes out of some vectors (N × k, column after column) what V has of them.
@@ -85,8 +93,9 @@ impl Basis {
         let before: Vec<f64> = block.chunks_exact(n).map(|x| self.norm(x)).collect();
         let first = self.vectors.ncols();
         self.take_out(&mut block);
+        let vectors = Arc::make_mut(&mut self.vectors);
         for (x, before) in block.chunks_exact_mut(n).zip(before) {
-            append_new(&self.weight, (&mut self.vectors, first), x, NEW_DIRECTION_RTOL * before);
+            append_new(&self.weight, (vectors, first), x, NEW_DIRECTION_RTOL * before);
         }
         self.project(model, experiment, first);
         self.vectors.ncols() - first

@@ -13,6 +13,7 @@
 use super::assess::weights;
 use super::basis::Basis;
 use super::train::real_directions;
+use super::trained_box::TrainedBox;
 use super::{Point, Projection, Subspace, TrainOptions};
 use crate::c64;
 use crate::for_each::ForEach;
@@ -61,7 +62,7 @@ impl Projection {
 }
 
 impl<'m> Subspace<'m> {
-    /// Trains over a box, and brings the modes that the basis lacks there.
+    /// Trains over a box, and brings the modes that the basis lacks there; a box within one that it was trained in needs neither.
     ///
     /// # Errors
     /// [`Breakdown`] where a solve of the training fails.
@@ -75,15 +76,19 @@ impl<'m> Subspace<'m> {
         options: &TrainOptions,
         for_each: ForEach<'_>,
     ) -> Result<(), Breakdown> {
-        self.train(points, options, for_each)?;
-        if self.model.dim() > MAX_COUNTED_DOFS {
+        let trained = TrainedBox::of(self.model, points);
+        if self.boxes.iter().any(|before| before.contains(&trained)) {
             return Ok(());
         }
-        // At a corner on an undamped resonance modes cannot be counted. The training is valid without it.
-        let count = self.bring_missing_modes(corners).ok().flatten();
-        if count.is_some_and(|count| count.brought > 0) {
-            self.train(points, options, for_each)?;
+        self.train(points, options, for_each)?;
+        if self.model.dim() <= MAX_COUNTED_DOFS {
+            // At a corner on an undamped resonance modes cannot be counted. The training is valid without it.
+            let count = self.bring_missing_modes(corners).ok().flatten();
+            if count.is_some_and(|count| count.brought > 0) {
+                self.train(points, options, for_each)?;
+            }
         }
+        self.boxes.push(trained);
         Ok(())
     }
 
@@ -96,7 +101,7 @@ impl<'m> Subspace<'m> {
     /// # Limits
     /// Modes that neither load nor sensors see are counted and not brought.
     pub fn bring_missing_modes(&mut self, corners: &[Point<'m>]) -> Result<Option<ModeCount>, Breakdown> {
-        if self.shifts[0].factor.negative_eigenvalues() > 0 {
+        if self.shifts[0].factor(self.model, &mut self.work)?.negative_eigenvalues() > 0 {
             return Ok(None);
         }
         let counted = corners.iter().map(|point| (self.projection().modes_below(point), point));

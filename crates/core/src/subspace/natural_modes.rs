@@ -172,7 +172,8 @@ impl<'m> Subspace<'m> {
         let [stiffness, mass] = real_pencil(&reference);
         let omega_squared = omega_rad_s(highest_hz).powi(2);
         let model = reference.model;
-        let count = Shift::new(&reference, -omega_squared)?.factor.negative_eigenvalues();
+        let mut at_highest = Shift::new(&reference, -omega_squared)?;
+        let count = at_highest.factor(model, &mut self.work)?.negative_eigenvalues();
         self.work.factorisations += 2;
         let symmetric =
             |values| SymmetricMatrix::new(model.analysis().pattern().clone(), Values::Real(values));
@@ -288,7 +289,7 @@ impl<'m> Subspace<'m> {
 
     /// For each mode the relative error of its pole, and what would make it smaller: S⁻¹ times real and imaginary part of T(s) Vy.
     fn rest(
-        &self,
+        &mut self,
         at: ModelAtFrequency<'_, 'm>,
         modes: &[Followed],
         highest_hz: f64,
@@ -315,7 +316,7 @@ impl<'m> Subspace<'m> {
             );
             let mut directions: Vec<f64> =
                 force.iter().map(|f| f.re).chain(force.iter().map(|f| f.im)).collect();
-            self.shifts[0].factor.solve(&mut directions)?;
+            self.shifts[0].factor(self.model, &mut self.work)?.solve(&mut directions)?;
             let (re, im) = directions.split_at(n);
             let product: c64 =
                 force.iter().zip(re.iter().zip(im)).map(|(f, (&re, &im))| f * c64::new(re, im)).sum();

@@ -4,6 +4,7 @@ use super::Projection;
 use super::basis::Basis;
 use super::parts::Parts;
 use super::shift::Shift;
+use super::trained_box::TrainedBox;
 use crate::frequency::omega_rad_s;
 use crate::model::{DynamicStiffness, Experiment, ModelAt};
 use crate::response::Work;
@@ -17,6 +18,8 @@ pub struct Subspace<'m> {
     pub(super) basis: Basis,
     pub(super) shifts: Vec<Shift>,
     pub(super) work: Work,
+    /// Where it was trained.
+    pub(super) boxes: Vec<TrainedBox>,
 }
 
 /// σ of the first shift over ω² at the reference frequency: below the band, where K + σM is positive definite for a free structure too.
@@ -33,12 +36,13 @@ impl<'m> Subspace<'m> {
         let omega_squared = omega_rad_s(reference.frequency_hz).powi(2);
         let shift = Shift::new(reference, FIRST_SHIFT_RATIO * omega_squared);
         let shift = shift.or_else(|_| Shift::new(reference, -omega_squared))?;
-        let largest = shift.diagonal.iter().copied().fold(0.0, f64::max);
+        let diagonal = shift.sum.diagonal(model);
+        let largest = diagonal.iter().copied().fold(0.0, f64::max);
         // A row without any stiffness or mass of its own (a constraint) still needs a weight.
-        let weight = shift.diagonal.iter().map(|&d| d.max(1e-12 * largest)).collect();
+        let weight = diagonal.iter().map(|&d| d.max(1e-12 * largest)).collect();
         let basis = Basis::new(weight, Parts::of(model), experiment);
         let work = Work { factorisations: 1, solves: 0 };
-        let mut subspace = Self { model, experiment, basis, shifts: vec![shift], work };
+        let mut subspace = Self { model, experiment, basis, shifts: vec![shift], work, boxes: Vec::new() };
         subspace.start()?;
         Ok(subspace)
     }

@@ -3,42 +3,98 @@
 use crate::c64;
 use crate::frequency::omega_rad_s;
 use crate::model::{DynamicStiffness, ModelAt, Role, WeightedTerm};
+use crate::response::Work;
 use frfit_linalg::solve::{Breakdown, CheckedFactor};
 
 /// Re K + σ Re M at the nominal values, factorised. σ > 0: positive definite, free structure or not; σ = −ω²: Re D(ω) without its
 /// viscous terms.
 #[derive(Debug)]
 pub(super) struct Shift {
+    pub(super) sum: ShiftedSum,
+    /// None where there is no room for it, and of a shift that was kept: it is made when it is needed.
+    factor: Option<CheckedFactor<f64>>,
+}
+
+/// Re K + σ Re M as Σ w_t Re S_t.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct ShiftedSum {
     /// √|σ|/2π with the sign of −σ: a negative one is below the band.
     pub(super) frequency_hz: f64,
-    pub(super) factor: CheckedFactor<f64>,
-    /// The diagonal's moduli.
-    pub(super) diagonal: Vec<f64>,
+    /// (t, w_t).
+    pub(super) weights: Vec<(usize, f64)>,
+}
+
+impl ShiftedSum {
+    /// From the nominal values that the model has at one frequency.
+    fn new(at: &ModelAt<'_>, sigma: f64) -> Self {
+        let model: &DynamicStiffness = at.model;
+        let weight = |&WeightedTerm { term, weight: coefficient }: &WeightedTerm| {
+            let role = model.terms()[term].role;
+            if sigma == 0.0 && role != Role::Stiffness {
+                return None; // at 0 Hz, where the weight does not determine the factor
+            }
+            let factor: c64 = coefficient / model.weight(role, at.frequency_hz);
+            match role {
+                Role::Stiffness => Some((term, factor.re)),
+                Role::Mass => Some((term, sigma * factor.re)),
+                Role::Viscous => None,
+            }
+        };
+        Self {
+            frequency_hz: -sigma.signum() * sigma.abs().sqrt() / omega_rad_s(1.0),
+            weights: at.nominal.parts.iter().filter_map(weight).collect(),
+        }
+    }
+
+    /// The moduli of the diagonal.
+    pub(super) fn diagonal(&self, model: &DynamicStiffness) -> Vec<f64> {
+        let entry = |i: usize| -> f64 {
+            let of = |&(term, weight): &(usize, f64)| weight * model.terms()[term].matrix.get(i, i).re;
+            self.weights.iter().map(of).sum::<f64>().abs()
+        };
+        (0..model.dim()).map(entry).collect()
+    }
+
+    fn factorise(&self, model: &DynamicStiffness) -> Result<CheckedFactor<f64>, Breakdown> {
+        let mut values = vec![0.0; model.analysis().pattern().stored()];
+        for &(term, weight) in &self.weights {
+            model.terms()[term].matrix.accumulate_real_into(weight, &mut values);
+        }
+        model.analysis().factor_on(&values, model.threads())
+    }
 }
 
 impl Shift {
     /// From the nominal values that the model has at one frequency.
     pub(super) fn new(at: &ModelAt<'_>, sigma: f64) -> Result<Self, Breakdown> {
-        let model: &DynamicStiffness = at.model;
-        let pattern = model.analysis().pattern();
-        let mut values = vec![0.0; pattern.stored()];
-        for &WeightedTerm { term, weight: coefficient } in &at.nominal.parts {
-            let term = &model.terms()[term];
-            if sigma == 0.0 && term.role != Role::Stiffness {
-                continue; // at 0 Hz, where the weight does not determine the factor
+        let sum = ShiftedSum::new(at, sigma);
+        let factor = sum.factorise(at.model)?;
+        Ok(Self { sum, factor: Some(factor) })
+    }
+
+    /// One that was kept, to be factorised when it is needed.
+    pub(super) fn kept(sum: ShiftedSum) -> Self {
+        Self { sum, factor: None }
+    }
+
+    /// Gives the memory of the factor back.
+    pub(super) fn forget_factor(&mut self) {
+        self.factor = None;
+    }
+
+    /// The factor, and the work of one that was not there yet.
+    pub(super) fn factor(
+        &mut self,
+        model: &DynamicStiffness,
+        work: &mut Work,
+    ) -> Result<&CheckedFactor<f64>, Breakdown> {
+        let factor = match self.factor.take() {
+            Some(factor) => factor,
+            None => {
+                work.factorisations += 1;
+                self.sum.factorise(model)?
             }
-            let factor: c64 = coefficient / model.weight(term.role, at.frequency_hz);
-            let weight = match term.role {
-                Role::Stiffness => factor.re,
-                Role::Mass => sigma * factor.re,
-                Role::Viscous => continue,
-            };
-            term.matrix.accumulate_real_into(weight, &mut values);
-        }
-        let on_diagonal = |i: usize| pattern.find(i, i).map_or(0.0, |k| values[k].abs());
-        let diagonal = (0..pattern.dim()).map(on_diagonal).collect();
-        let factor = model.analysis().factor_on(&values, model.threads())?;
-        let frequency_hz = -sigma.signum() * sigma.abs().sqrt() / omega_rad_s(1.0);
-        Ok(Self { frequency_hz, factor, diagonal })
+        };
+        Ok(self.factor.insert(factor))
     }
 }

@@ -4,12 +4,14 @@
 //! O. Balabanov, A. Nouy, Adv. Comput. Math. 45 (2019) 2969–3019 (residuals of reduced models by sketching); K. L. Clarkson,
 //! D. P. Woodruff, J. ACM 63 (2017) 54 (the embedding with one entry in a column).
 
+use std::sync::Arc;
+
 /// Entries of a sketch. The square of a length comes out with a standard deviation of √(2/k) = 18 %: an error estimate needs no more.
 pub(super) const SKETCH_SIZE: usize = 64;
 
 /// Θ: each of N entries goes, with a sign, to one of [`SKETCH_SIZE`] sums.
 #[derive(Debug, Clone)]
-pub(super) struct Sketch(Vec<(u8, f64)>);
+pub(super) struct Sketch(Arc<[(u8, f64)]>);
 
 impl Sketch {
     /// Θ diag(w)^{1/2}.
@@ -36,7 +38,7 @@ impl Sketch {
         x: &[T],
     ) -> Vec<T> {
         let mut sums = vec![T::default(); SKETCH_SIZE];
-        for (&x, &(bucket, weight)) in x.iter().zip(&self.0) {
+        for (&x, &(bucket, weight)) in x.iter().zip(self.0.iter()) {
             sums[usize::from(bucket)] += x * weight;
         }
         sums

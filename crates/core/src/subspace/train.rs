@@ -158,6 +158,9 @@ impl<'m> Subspace<'m> {
     /// A real factorisation near the worst frequency; none where that breaks down.
     fn add_shift(&mut self, at: &ModelAt<'m>) {
         let sigma = -omega_rad_s(at.frequency_hz).powi(2);
+        // Room for the new one.
+        let gone = (self.shifts.len() + 1).saturating_sub(self.model.max_factors());
+        self.shifts[..gone].iter_mut().for_each(Shift::forget_factor);
         self.work.factorisations += 1;
         if let Ok(shift) = Shift::new(at, sigma) {
             self.shifts.push(shift);
@@ -224,10 +227,11 @@ impl<'m> Subspace<'m> {
         residuals
     }
 
+    /// Of those whose factors are kept.
     pub(super) fn nearest_shift(&self, frequency_hz: f64) -> usize {
-        let distance = |shift: &Shift| (shift.frequency_hz - frequency_hz).abs();
-        let all = 0..self.shifts.len();
-        all.min_by(|&a, &b| distance(&self.shifts[a]).total_cmp(&distance(&self.shifts[b]))).unwrap_or(0)
+        let distance = |shift: &Shift| (shift.sum.frequency_hz - frequency_hz).abs();
+        let kept = self.shifts.len().saturating_sub(self.model.max_factors())..self.shifts.len();
+        kept.min_by(|&a, &b| distance(&self.shifts[a]).total_cmp(&distance(&self.shifts[b]))).unwrap_or(0)
     }
 
     /// Solves each force (of norm one) with its shift, remembers the gain, and adds what is new.
@@ -236,13 +240,13 @@ impl<'m> Subspace<'m> {
             return Ok(0); // nothing was learnt about the gain either
         }
         let (mut added, mut gain) = (0, 0.0f64);
-        for (index, shift) in self.shifts.iter().enumerate() {
+        for (index, shift) in self.shifts.iter_mut().enumerate() {
             let mine = forces.iter().filter(|(other, _)| *other == index);
             let mut block: Vec<f64> = mine.flat_map(|(_, force)| force).copied().collect();
             if block.is_empty() {
                 continue;
             }
-            shift.factor.solve(&mut block)?;
+            shift.factor(self.model, &mut self.work)?.solve(&mut block)?;
             self.work.solves += block.len() / self.model.dim();
             gain = block.chunks_exact(self.model.dim()).map(|x| self.basis.norm(x)).fold(gain, f64::max);
             added += self.basis.append(self.model, self.experiment, block);

@@ -85,6 +85,20 @@ impl Array {
         (self.count() == 1).then(|| characters.map_while(|byte| byte.map(char::from)).collect())
     }
 
+    /// The bytes of an array of a single text.
+    pub(super) fn only_bytes(&self) -> Option<&[u8]> {
+        let is_bytes = matches!(self.header.element, Element::Text { size: 1, .. });
+        (is_bytes && self.shape().is_empty()).then_some(&self.data)
+    }
+
+    /// All elements in the order of their indices; `None` where they are no real numbers, or column after column.
+    pub(super) fn reals(&self) -> Option<Vec<f64>> {
+        let Element::Real(storage) = self.header.element else { return None };
+        let is_ordered = !self.header.is_fortran || self.shape().len() < 2;
+        let value = |bytes: &[u8]| storage.value(bytes, self.header.endian);
+        is_ordered.then(|| self.data.chunks_exact(storage.size()).map(value).collect())
+    }
+
     /// Where in the file the element of these indices is.
     pub(super) fn at(&self, indices: &[usize]) -> usize {
         let step = |k: usize, (index, size): (&usize, &u64)| k * *size as usize + index;

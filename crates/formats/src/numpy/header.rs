@@ -10,6 +10,9 @@ use crate::uff::Endian;
 /// More than any header of an array of numbers takes.
 pub(super) const LONGEST: u64 = 0x1_0000;
 
+/// Magic, version and length of the header in version 1.
+const START: usize = 10;
+
 /// What the elements of an array are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Element {
@@ -120,6 +123,19 @@ impl Header {
             Element::Text { .. } => c64::new(f64::NAN, 0.0),
         }
     }
+}
+
+/// Magic, version 1.0 and header of an array whose last index runs fastest, to a multiple of 64 bytes.
+pub(super) fn of_array(descr: &str, shape: &[usize]) -> Vec<u8> {
+    let sizes: String = shape.iter().map(|size| format!("{size}, ")).collect();
+    let text = format!("{{'descr': '{descr}', 'fortran_order': False, 'shape': ({}), }}", sizes.trim_end());
+    let length = (START + text.len() + 1).next_multiple_of(64) - START;
+    let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
+    bytes.extend(u16::try_from(length).unwrap_or(u16::MAX).to_le_bytes());
+    bytes.extend(text.bytes());
+    bytes.resize(START + length - 1, b' ');
+    bytes.push(b'\n');
+    bytes
 }
 
 /// Which array of an archive, for errors.

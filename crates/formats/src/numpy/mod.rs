@@ -6,6 +6,8 @@
 //! | .npz of `numpy.savez` | one for each array, with its name |
 //! | .npz of `scipy.sparse.save_npz` (csr, csc, coo, bsr, dia) | one without a name |
 //!
+//! [`ArchiveReader`] and [`ArchiveWriter`] take an archive for what it is: texts and arrays of numbers by their names.
+//!
 //! # Limits
 //! Read are real and complex floats of 4 and 8 bytes a part, whole numbers and booleans, of both byte orders and both
 //! orders of rows and columns. Whole numbers beyond 2⁵³ are rounded. What else an array may be (texts, half precision, structures, Python
@@ -15,6 +17,7 @@
 //! NumPy Enhancement Proposal 1, "A simple file format for NumPy arrays", versions 1.0 to 3.0; `numpy.lib.format`;
 //! SciPy, `scipy.sparse.save_npz` and the documentation of its sparse formats.
 
+mod archive;
 mod array;
 mod dense;
 mod header;
@@ -25,6 +28,7 @@ use std::io::{self, Read};
 
 use crate::inflated::{Allowance, at_most};
 use crate::{FormatError, NamedMatrix};
+pub use archive::{ArchiveReader, ArchiveWriter};
 use array::Array;
 use header::Header;
 

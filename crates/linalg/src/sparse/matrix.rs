@@ -23,11 +23,11 @@ pub enum Part {
     Im,
 }
 
-/// A symmetric matrix Aᵀ = A: a pattern, shared with others, and its values.
+/// A symmetric matrix Aᵀ = A: a pattern, shared with others, and its values, shared with its clones.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SymmetricMatrix {
     pattern: Arc<Pattern>,
-    values: Values,
+    values: Arc<Values>,
 }
 
 impl SymmetricMatrix {
@@ -41,7 +41,7 @@ impl SymmetricMatrix {
             Values::Complex(values) => values.len(),
         };
         assert_eq!(count, pattern.stored(), "one value for each position");
-        Self { pattern, values }
+        Self { pattern, values: Arc::new(values) }
     }
 
     /// From distinct or repeated complex triplets of the lower triangle; repeated ones add up.
@@ -69,7 +69,7 @@ impl SymmetricMatrix {
 
     /// The entries as real numbers; `None` if they are complex.
     pub fn real_values(&self) -> Option<&[f64]> {
-        match &self.values {
+        match &*self.values {
             Values::Real(values) => Some(values),
             Values::Complex(_) => None,
         }
@@ -77,7 +77,7 @@ impl SymmetricMatrix {
 
     /// The entry at (row, col), zero outside the pattern.
     pub fn get(&self, row: usize, col: usize) -> c64 {
-        self.pattern.find(row, col).map_or(c64::default(), |k| match &self.values {
+        self.pattern.find(row, col).map_or(c64::default(), |k| match &*self.values {
             Values::Real(values) => c64::new(values[k], 0.0),
             Values::Complex(values) => values[k],
         })
@@ -90,13 +90,13 @@ impl SymmetricMatrix {
     #[must_use]
     pub fn on_pattern(&self, pattern: &Arc<Pattern>) -> Self {
         if Arc::ptr_eq(&self.pattern, pattern) || &self.pattern == pattern {
-            return Self { pattern: Arc::clone(pattern), values: self.values.clone() };
+            return Self { pattern: Arc::clone(pattern), values: Arc::clone(&self.values) };
         }
-        let values = match &self.values {
+        let values = match &*self.values {
             Values::Real(values) => Values::Real(spread(&self.pattern, values, pattern)),
             Values::Complex(values) => Values::Complex(spread(&self.pattern, values, pattern)),
         };
-        Self { pattern: Arc::clone(pattern), values }
+        Self { pattern: Arc::clone(pattern), values: Arc::new(values) }
     }
 
     /// out += factor · A x.
@@ -104,7 +104,7 @@ impl SymmetricMatrix {
     /// # Panics
     /// Where a length is not n.
     pub fn multiply_add(&self, factor: c64, x: &[c64], out: &mut [c64]) {
-        match &self.values {
+        match &*self.values {
             Values::Real(values) => accumulate(&self.pattern, values, x, out, |a, b| factor * b * a),
             Values::Complex(values) => accumulate(&self.pattern, values, x, out, |a, b| factor * a * b),
         }
@@ -112,7 +112,7 @@ impl SymmetricMatrix {
 
     /// Whether there is an imaginary part in the values' type.
     pub fn is_complex(&self) -> bool {
-        matches!(self.values, Values::Complex(_))
+        matches!(*self.values, Values::Complex(_))
     }
 
     /// out += Re A X or Im A X, for real vectors, n × k column after column.
@@ -121,7 +121,7 @@ impl SymmetricMatrix {
     /// Where lengths differ, or are not whole vectors.
     pub fn multiply_add_real(&self, part: Part, x: &[f64], out: &mut [f64]) {
         let pattern = &self.pattern;
-        match (&self.values, part) {
+        match (&*self.values, part) {
             (Values::Real(values), Part::Re) => side_by_side::multiply_add(pattern, values, |a| a, x, out),
             (Values::Real(_), Part::Im) => {}
             (Values::Complex(values), Part::Re) => {
@@ -139,7 +139,7 @@ impl SymmetricMatrix {
     /// Where `into` has another length than the pattern.
     pub fn accumulate_real_into(&self, factor: f64, into: &mut [f64]) {
         assert_eq!(into.len(), self.pattern.stored());
-        match &self.values {
+        match &*self.values {
             Values::Real(values) => into.iter_mut().zip(values).for_each(|(sum, a)| *sum += factor * a),
             Values::Complex(values) => into.iter_mut().zip(values).for_each(|(sum, a)| *sum += factor * a.re),
         }
@@ -151,7 +151,7 @@ impl SymmetricMatrix {
     /// Where `into` has another length than the pattern.
     pub fn accumulate_into(&self, factor: c64, into: &mut [c64]) {
         assert_eq!(into.len(), self.pattern.stored());
-        match &self.values {
+        match &*self.values {
             Values::Real(values) => into.iter_mut().zip(values).for_each(|(sum, a)| *sum += factor * a),
             Values::Complex(values) => into.iter_mut().zip(values).for_each(|(sum, a)| *sum += factor * a),
         }

@@ -103,7 +103,7 @@ impl<'a, 'o> Neighbourhoods<'a, 'o> {
         options: &Options,
         context: Context<'_>,
     ) -> Option<Self> {
-        let subspace = trained.take().map_or_else(|| train(band, at, options, context), Ok).ok()?;
+        let subspace = trained.take().map_or_else(|| train(None, band, at, options, context), Ok).ok()?;
         let n = at.len();
         let count = (n / MIN_NEIGHBOURHOOD_LINES).clamp(1, MAX_NEIGHBOURHOODS);
         let block = |b| Block { ends: [b * n / count, (b + 1) * n / count - 1], model: None, own: None };
@@ -392,17 +392,19 @@ impl<'a, 'o> Neighbourhoods<'a, 'o> {
     }
 }
 
-/// Trains over the box.
+/// Trains over the box, a new subspace or one that was kept.
 ///
 /// # Errors
 /// [`Breakdown`] where no real stand-in for D can be factorised.
 pub(in crate::identify) fn train<'a>(
+    kept: Option<Subspace<'a>>,
     band: &Band<'a>,
     at: &[ModelAt<'a>],
     options: &Options,
     context: Context<'_>,
 ) -> Result<Subspace<'a>, Breakdown> {
-    let mut subspace = Subspace::new(band.experiment, &at[at.len() - 1])?;
+    let new = || Subspace::new(band.experiment, &at[at.len() - 1]);
+    let mut subspace = kept.map_or_else(new, Ok)?;
     train_in_box(&mut subspace, at, band.unknown, options, context)?;
     Ok(subspace)
 }

@@ -100,7 +100,7 @@ pub(super) fn identify_several<'a>(
     };
     let subspace = match trained.take() {
         Some(subspace) => Ok(subspace),
-        None => train(problem, context)?,
+        None => train(None, problem, context)?,
     };
     Ok(match subspace {
         Ok(subspace) => {
@@ -128,12 +128,13 @@ fn nominal_of(problem: &Problem<'_>) -> Result<Vec<Vec<c64>>, OutsideTable> {
     problem.frfs.frequency_hz.iter().map(|&f| composite.nominal(f)).collect()
 }
 
-/// A subspace that is good over the box of all unknowns.
+/// A subspace that is good over the box of all unknowns: a new one, or one that was kept.
 pub(super) fn train<'a>(
+    kept: Option<Subspace<'a>>,
     problem: &Problem<'a>,
     context: Context<'_>,
 ) -> Result<Result<Subspace<'a>, Breakdown>, OutsideTable> {
-    neighbourhoods::train(problem, &nominal_of(problem)?, context)
+    neighbourhoods::train(kept, problem, &nominal_of(problem)?, context)
 }
 
 impl Task<'_, '_> {

@@ -60,6 +60,7 @@ pub(super) type Responded = (Vec<c64>, Vec<Vec<c64>>);
 /// # Errors
 /// [`Breakdown`] where no real stand-in for D can be factorised, [`OutsideTable`] where a table ends within the band.
 pub(super) fn train<'a>(
+    kept: Option<Subspace<'a>>,
     problem: &Problem<'a>,
     nominal: &[Vec<c64>],
     context: Context<'_>,
@@ -69,7 +70,7 @@ pub(super) fn train<'a>(
     let n = frequency_hz.len();
     (context.progress)(Stage::Subspace, 0, n);
     let reference = composite.at(frequency_hz[n - 1], &nominal[n - 1])?;
-    let mut subspace = match Subspace::new(problem.experiment, &reference) {
+    let mut subspace = match kept.map_or_else(|| Subspace::new(problem.experiment, &reference), Ok) {
         Ok(subspace) => subspace,
         Err(breakdown) => return Ok(Err(breakdown)),
     };

@@ -76,7 +76,7 @@ fn all_solutions_of_two_unknowns_are_found() {
     let nominal = vec![vec![LOSSY; 2]; frequency_hz.len()];
     let context = Context { for_each: &sequential, progress: &|_, _, _| {} };
     let composite = Composite { model: &model, unknowns: &unknowns };
-    let subspace = train(&problem, context).unwrap().unwrap();
+    let subspace = train(None, &problem, context).unwrap().unwrap();
     let reduced = Neighbourhoods::new(subspace, &problem, &nominal, context);
     let options = Options::default();
     let task = Task {
