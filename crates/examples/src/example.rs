@@ -231,9 +231,7 @@ impl Example {
         frequency_hz: &[f64],
         measured: &[Vec<c64>],
     ) -> Result<Vec<File>, Error> {
-        let (One(own), Measurement::Frf(path, quantity)) = (&self.unknown, &self.measurement) else {
-            panic!("{} has several unknowns, or a measurement that is made of records", self.name)
-        };
+        let One(own) = &self.unknown else { panic!("{} has several unknowns", self.name) };
         let own = own()?;
         let mut case = self.case.to_owned();
         let named = |model: &Model| {
@@ -246,8 +244,22 @@ impl Example {
         }
         let mut files = vec![File::new("case.toml", case)];
         files.extend(self.model_files(model.rig())?);
-        files.push(self.frfs(path, *quantity, model.rig(), frequency_hz, measured)?);
+        files.push(self.frf_of(model, frequency_hz, measured)?);
         Ok(files)
+    }
+
+    /// The file of what the sensors of a model like the example's measured, receptances `[frequency][sensor]`.
+    ///
+    /// # Errors
+    /// What the writers refuse.
+    ///
+    /// # Panics
+    /// Of an example whose measurement is made of records.
+    pub fn frf_of(&self, model: &Model, frequency_hz: &[f64], measured: &[Vec<c64>]) -> Result<File, Error> {
+        let Measurement::Frf(path, quantity) = &self.measurement else {
+            panic!("{} has a measurement that is made of records", self.name)
+        };
+        self.frfs(path, *quantity, model.rig(), frequency_hz, measured)
     }
 
     /// Matrices, names of the rows and loads.
