@@ -13,7 +13,7 @@ const PACKAGES: [&str; 8] =
     ["maturin>=1.9,<2", "numpy", "scipy", "pytest", "mypy", "pandas", "matplotlib", "pyuff==2.4.2"];
 
 /// What the Rust tests of the long tier read and write files with.
-const OUTSIDE: [&str; 5] = ["pyNastran", "pyyeti", "lvm_read", "pyFRF", "sdypy-EMA"];
+const OUTSIDE: [&str; 6] = ["pyNastran", "pyyeti", "lvm_read", "pyFRF", "sdypy-EMA", "distributed"];
 
 /// Python from 3.10 on, with `venv`.
 const SUITED: &str = "import sys, venv, ensurepip; sys.exit(sys.version_info < (3, 10))";

@@ -2,6 +2,7 @@
 
 use clap::{Parser, Subcommand};
 use frfit::laws::{LawKind, UnknownLawKind};
+use frfit_workflow::batch::Shard;
 use frfit_workflow::export::{Target, UnitSystem};
 use frfit_workflow::sensitivities::Candidates;
 use std::path::PathBuf;
@@ -54,6 +55,24 @@ pub(crate) enum Command {
                       Exit code: 0 done; 1 with --strict where some frequency has no trusted answer; 2 the input is at fault; \
                       3 a fault of frfit.")]
     Identify(Identify),
+    /// Train the reduced model of a case once, for many identifications
+    #[command(
+        after_help = "Example: frfit train case.toml --out model.frfit && frfit identify case.toml --reduced model.frfit --out results\n\n\
+                      It serves every case with the same matrices, load and sensors: other specimens, temperatures, bounds, laws. Within the band and the box of the \
+                      unknowns that it was trained for nothing is factorised; beyond them a run trains further."
+    )]
+    Train(Train),
+    /// Do many identifications by one plan, a table of cases and what is other in each
+    #[command(
+        args_conflicts_with_subcommands = true,
+        after_help = "Examples: frfit batch plan.csv --out store --reduced model.frfit\n          \
+                      frfit batch status plan.csv --out store\n          \
+                      frfit batch collect store -o all.csv\n\n\
+                      A plan is a table with a column case (the path of a case file). Columns with a dot in their name are keys of the case, such as measurement.file or \
+                      identify.bounds.storage, and a cell is what would stand there; other columns are labels, such as specimen. Run it again to do what is missing. \
+                      In a task of a Slurm array of jobs its share is done."
+    )]
+    Batch(Batch),
     /// Fit laws of a few parameters to a table of a modulus over frequency
     #[command(after_help = "Examples: frfit fit results/identified.csv\n          \
                       frfit fit dma.csv --law fractional,zener,maxwell:5 --out laws\n\n\
@@ -186,6 +205,9 @@ pub(crate) struct Check {
     pub(crate) case: PathBuf,
     #[command(flatten)]
     pub(crate) overrides: Overrides,
+    /// Reduced model of frfit train, for the same matrices, load and sensors
+    #[arg(long, value_name = "FILE")]
+    pub(crate) reduced: Option<PathBuf>,
     /// Memory that may be used, in MB (by default what is available): a model that needs more is refused
     #[arg(long, value_name = "MB")]
     pub(crate) memory: Option<u64>,
@@ -215,6 +237,12 @@ pub(crate) struct Identify {
     /// What answers at a frequency (auto, full, subspace), in place of the case's
     #[arg(long)]
     pub(crate) reduction: Option<String>,
+    /// Reduced model of frfit train, for the same matrices, load and sensors: nothing is trained again within its box
+    #[arg(long, value_name = "FILE")]
+    pub(crate) reduced: Option<PathBuf>,
+    /// File for the reduced model as this run leaves it, for other runs
+    #[arg(long, value_name = "FILE")]
+    pub(crate) keep_reduced: Option<PathBuf>,
     /// Memory that may be used, in MB (by default what is available): a model that needs more is refused
     #[arg(long, value_name = "MB")]
     pub(crate) memory: Option<u64>,
@@ -224,6 +252,99 @@ pub(crate) struct Identify {
     /// Exit with 1 where some frequency has no trusted answer
     #[arg(long)]
     pub(crate) strict: bool,
+}
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct Train {
+    /// Case file
+    pub(crate) case: PathBuf,
+    /// File to write
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) out: PathBuf,
+    #[command(flatten)]
+    pub(crate) overrides: Overrides,
+    /// Reduced model to train further
+    #[arg(long, value_name = "FILE")]
+    pub(crate) reduced: Option<PathBuf>,
+    /// Memory that may be used, in MB (by default what is available): a model that needs more is refused
+    #[arg(long, value_name = "MB")]
+    pub(crate) memory: Option<u64>,
+}
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct Batch {
+    #[command(subcommand)]
+    pub(crate) action: Option<BatchAction>,
+    #[command(flatten)]
+    pub(crate) run: Option<BatchRun>,
+}
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct BatchRun {
+    /// Table of runs
+    pub(crate) plan: PathBuf,
+    /// Folder for the results, one folder a run
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: PathBuf,
+    /// Reduced model of frfit train, for all runs
+    #[arg(long, value_name = "FILE")]
+    pub(crate) reduced: Option<PathBuf>,
+    /// Share of the plan, such as 1/4 (default: that of a task of a Slurm array of jobs, else all)
+    #[arg(long, value_name = "I/N")]
+    pub(crate) shard: Option<Shard>,
+    /// Runs at a time, each on one thread (default: as many as there are cores)
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub(crate) jobs: Option<u16>,
+    /// Runs to do again: failed
+    #[arg(long, value_name = "WHICH")]
+    pub(crate) retry: Option<RetryWhich>,
+    /// Memory that a run may use, in MB (by default what is available)
+    #[arg(long, value_name = "MB")]
+    pub(crate) memory: Option<u64>,
+    /// Print a job script for Slurm with so many tasks, and do nothing else
+    #[arg(long, value_name = "TASKS")]
+    pub(crate) print_sbatch: Option<usize>,
+    /// Exit with 1 where a run failed
+    #[arg(long)]
+    pub(crate) strict: bool,
+}
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct BatchPlan {
+    /// Table of runs
+    pub(crate) plan: PathBuf,
+    /// Folder with the results of frfit batch
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: PathBuf,
+    /// Reduced model that the runs are done with
+    #[arg(long, value_name = "FILE")]
+    pub(crate) reduced: Option<PathBuf>,
+}
+
+#[derive(Debug, Clone, Copy, clap::ValueEnum)]
+pub(crate) enum RetryWhich {
+    /// Runs that failed
+    Failed,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum BatchAction {
+    /// Say how many runs of a plan are done, failed and missing
+    Status(BatchPlan),
+    /// Make one table of all runs
+    Collect(Collect),
+}
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct Collect {
+    /// Folder with the results of frfit batch
+    pub(crate) store: PathBuf,
+    /// Table to write (CSV), - for standard output
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) out: PathBuf,
+    /// A row for each line of each run, in place of a row for each run
+    #[arg(long)]
+    pub(crate) lines: bool,
 }
 
 #[derive(Debug, clap::Args)]

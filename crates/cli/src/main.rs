@@ -37,6 +37,8 @@ fn run(args: &Args) -> Result<Outcome, Failure> {
         Command::Frf(frf) => command::frf::run(args, frf),
         Command::Check(check) => command::check::run(args, check),
         Command::Identify(identify) => command::identify::run(args, identify),
+        Command::Batch(batch) => command::batch::run(args, batch),
+        Command::Train(train) => command::train::run(args, train),
         Command::Fit(fit) => command::fit::run(args, fit),
         Command::Report(report) => command::report::run(args, report),
         Command::Export(export) => command::export::run(args, export),

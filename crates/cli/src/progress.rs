@@ -7,13 +7,20 @@ pub(crate) struct Progress(ProgressBar);
 
 impl Progress {
     pub(crate) fn new(hidden: bool) -> Self {
+        Self::of("frequencies", hidden)
+    }
+
+    /// Counts something else.
+    pub(crate) fn of(what: &str, hidden: bool) -> Self {
         let bar = if hidden {
             ProgressBar::hidden()
         } else {
             // Standard error: hidden by the crate where that is no terminal.
             ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr())
         };
-        if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} frequencies, {eta} left") {
+        if let Ok(style) =
+            ProgressStyle::with_template(&format!("{{bar:40}} {{pos}}/{{len}} {what}, {{eta}} left"))
+        {
             bar.set_style(style);
         }
         Self(bar)

@@ -190,7 +190,8 @@ fn follow(page: &str, is_run: bool) -> Result<(), String> {
 }
 
 /// Pages whose commands take three quarters of the time, and of which other tests run the like: only their cases are read by day.
-const LONG: [&str; 9] = [
+const LONG: [&str; 10] = [
+    "batch.md",
     "comparison.md",
     "grey.md",
     "hammer.md",

@@ -1,5 +1,6 @@
 //! The binary as a person runs it: arguments, words, files, exit codes.
 
+mod batch;
 mod book;
 mod check;
 mod common;

@@ -32,6 +32,8 @@ fn help_of_every_command() {
         "frf",
         "check",
         "identify",
+        "train",
+        "batch",
         "fit",
         "report",
         "export",

@@ -22,12 +22,15 @@ pub(crate) fn run_case<'py>(
     band_hz: Option<[f64; 2]>,
     selection: Option<String>,
     reduction: Option<String>,
+    reduced: Option<PathBuf>,
+    keep_reduced: Option<PathBuf>,
     memory_bytes: Option<u64>,
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let overrides = Overrides { method, order, band_hz, selection, reduction, ..Overrides::default() };
+    let overrides =
+        Overrides { method, order, band_hz, selection, reduction, reduced, ..Overrides::default() };
     let error_map = if out.is_some() { None } else { Some(0) };
-    let options = RunOptions { error_map, memory_bytes };
+    let options = RunOptions { error_map, memory_bytes, keep_reduced };
     let ran = in_background(py, progress, move |watch| {
         let progress = |done: usize, total: usize| watch.progress(done, total);
         let computed = match out {

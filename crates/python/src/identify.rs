@@ -198,7 +198,7 @@ pub(crate) fn identify<'py>(
     let mut case = case.map_err(|error| arrays(py, &error))?;
     case.coarser_mesh = options.coarser_mesh.map(Coarser::mesh);
     // A map of the error over the orders is for figures of files.
-    let run = RunOptions { error_map: Some(0), memory_bytes: options.memory_bytes };
+    let run = RunOptions { error_map: Some(0), memory_bytes: options.memory_bytes, ..RunOptions::default() };
     let computed = in_background(py, progress, move |watch| {
         compute(case, run, 0.0, &|done, total| watch.progress(done, total))
     })?;

@@ -1,6 +1,7 @@
 //! frfit from Python: thin wrappers that hold Rust structs. What they mean is documented in `python/frfit`.
 
 mod background;
+mod batch;
 mod case;
 mod columns;
 mod errors;
@@ -26,6 +27,10 @@ fn _frfit(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<model::Model>()?;
     module.add_class::<series::Series>()?;
     module.add_class::<uff::UffFile>()?;
+    module.add_function(wrap_pyfunction!(batch::train, module)?)?;
+    module.add_function(wrap_pyfunction!(batch::batch, module)?)?;
+    module.add_function(wrap_pyfunction!(batch::batch_status, module)?)?;
+    module.add_function(wrap_pyfunction!(batch::batch_table, module)?)?;
     module.add_function(wrap_pyfunction!(identify::check_measurement, module)?)?;
     module.add_function(wrap_pyfunction!(matrix::readable, module)?)?;
     module.add_function(wrap_pyfunction!(model::restored_model, module)?)?;

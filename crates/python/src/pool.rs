@@ -5,12 +5,10 @@
 //! belongs to its process.
 
 use crate::errors::no_thread;
+use frfit_workflow::run::STACK_BYTES;
 use pyo3::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::sync::{Mutex, PoisonError};
-
-/// That of the main thread of most systems: dissections recurse.
-pub(crate) const STACK_BYTES: usize = 8 << 20;
 
 /// A pool that no call uses, and the process that its threads are in.
 ///

@@ -34,6 +34,14 @@ def rubber_bar(cli: pathlib.Path, tmp_path_factory: pytest.TempPathFactory) -> p
     return folder / "case.toml"
 
 
+@pytest.fixture(scope="session")
+def sandwich(cli: pathlib.Path, tmp_path_factory: pytest.TempPathFactory) -> pathlib.Path:
+    """The folder of the complete case `sandwich`."""
+    folder = tmp_path_factory.mktemp("sandwich") / "s"
+    subprocess.run([cli, "example", "sandwich", folder], check=True, capture_output=True)
+    return folder
+
+
 class Chain:
     """Masses on springs: stiffness, mass and viscous matrices as SciPy has them."""
 

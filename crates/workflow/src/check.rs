@@ -4,11 +4,11 @@ use crate::job::JobError;
 use crate::load::{Case, IdentifyCase, Overrides, Purpose, load};
 use crate::memory::check_identify;
 use crate::output::Words;
-use crate::run::{Used, in_parallel, problem_of};
+use crate::run::{Used, in_parallel, problem_of, reduced_of};
 use crate::units::UnitSystem;
 use frfit::diagnostics::{
     Diagnosis, Evidence, Fault, KNOWN_FACTOR_RTOL, KnownFactor, MIN_MARGIN_NATS, NotJudged, OtherExplanation,
-    OtherRow, diagnose, diagnose_on,
+    OtherRow, diagnose_on,
 };
 use frfit::identify::{ChannelUnknowns, Problem, ProblemError, ReducedBand};
 use frfit::quantity::Quantity;
@@ -50,7 +50,9 @@ pub fn check_case(
 ) -> Result<CheckJob, JobError> {
     let case = load(case_file, overrides, Purpose::Identify)?;
     let wanted = case.identify.as_ref().expect("a case loaded to identify has something to identify");
-    check_identify(&case, wanted, memory_bytes)?;
+    let max_factors = check_identify(&case, wanted, memory_bytes)?;
+    let case = case.with_max_factors(max_factors);
+    let wanted = case.identify.as_ref().expect("it was there before");
     let diagnosis = check(&case, wanted)?;
     Ok(CheckJob { case, diagnosis })
 }
@@ -62,8 +64,7 @@ pub fn check_case(
 pub fn check(case: &Case, identify: &IdentifyCase) -> Result<Diagnosis, ProblemError> {
     let used = Used::of(identify);
     let problem = problem_of(case, identify, &used)?;
-    let diagnosis = diagnose(&problem, &quantities(case), &identify.options, &in_parallel)?;
-    Ok(without_looked_for(identify, diagnosis))
+    check_on(&mut reduced_of(case, identify, &problem)?, &problem, case, identify)
 }
 
 /// The same on the reduced model with which the case is identified.

@@ -13,12 +13,18 @@ use crate::output::{
     respond_csv, respond_uff, response_csv, summary_json, updated_uff, write_one, write_result,
 };
 use crate::records::{ChannelOptions, Records, read_records};
+use crate::reduced::reduced_file;
 use crate::report::report_of;
-use crate::run::{IdentifyRun, Progress, RespondRun, RunOptions, Used, identify_with, problem_of, respond};
+use crate::run::{
+    IN_PARALLEL, IdentifyRun, Progress, RespondRun, RunOptions, Used, identify_with, problem_of, reduced_of,
+    respond,
+};
 use frfit::diagnostics::Diagnosis;
-use frfit::identify::{Explained, ProblemError, ReducedBand};
+use frfit::identify::{Explained, ProblemError};
 use frfit::material::OutsideTable;
+use frfit::response::Work;
 use frfit::signal::{self, Measured, SignalError, estimate_frf};
+use frfit::subspace::KeptSubspace;
 use frfit_figures::PngError;
 use serde_json::Value;
 use std::fmt;
@@ -134,24 +140,57 @@ pub fn identify_case(
     let case = load(case_file, overrides, Purpose::Identify)?;
     let seconds_load = start.elapsed().as_secs_f64();
     check_folder(out, &IDENTIFIED_FILES, &case.reads)?;
-    let Computed { case, diagnosis, run, seconds_load, seconds_check } =
-        compute(case, options, seconds_load, progress)?;
+    let computed = compute(case, options, seconds_load, progress)?;
+    let (files, summary) = result_files(&computed, Pictures::of(&computed)?, out)?;
+    let Computed { case, diagnosis, run, .. } = computed;
+    let page = report_of(&files, out);
+    write_result(out, IDENTIFIED, files, page.as_ref().ok().cloned(), &case.reads)?;
+    page.map_err(JobError::Report)?;
+    Ok(IdentifyJob { case, diagnosis, run, summary })
+}
+
+/// What a person looks at beside the tables.
+#[derive(Debug, Default)]
+pub(crate) struct Pictures {
+    figures: Vec<File>,
+    /// Modes of model and measurement, which show what may be wrong where the band is not explained.
+    modes: Value,
+    seconds: f64,
+}
+
+impl Pictures {
+    fn of(computed: &Computed) -> Result<Self, JobError> {
+        let Computed { case, run, .. } = computed;
+        let start = Instant::now();
+        let wanted = case.identify.as_ref().expect("a case loaded to identify has something to identify");
+        let figures = identify_figures(case, wanted, run)?;
+        let seconds = start.elapsed().as_secs_f64();
+        let unexplained = run.found.fit.is_some_and(|fit| fit.verdict == Explained::No);
+        let modes = if unexplained { beside_identification(case, wanted) } else { Value::Null };
+        Ok(Self { figures, modes, seconds })
+    }
+}
+
+/// The files of an identification beside its page: figures, tables, response and summary. `place` is where they will be.
+pub(crate) fn result_files(
+    computed: &Computed,
+    pictures: Pictures,
+    place: &Path,
+) -> Result<(Vec<File>, Value), JobError> {
+    let Computed { case, diagnosis, run, seconds_load, seconds_check, .. } = computed;
     let wanted = case.identify.as_ref().expect("a case loaded to identify has something to identify");
+    let mut files = pictures.figures;
     let found = &run.found;
-    let start = Instant::now();
-    let mut files = identify_figures(&case, wanted, &run)?;
-    let mut summary = summary_json(&case, wanted, &run, seconds_load, start.elapsed().as_secs_f64());
-    summary["findings"] = diagnosis.as_ref().map_or(Value::Null, |d| findings_json(&case, d));
-    summary["other_explanations"] = diagnosis.as_ref().map_or(Value::Null, |d| others_json(&case, d));
-    summary["seconds"]["check"] = seconds_check.into();
-    // The modes show what may be wrong where the band is not explained.
-    let unexplained = found.fit.is_some_and(|fit| fit.verdict == Explained::No);
-    summary["modes"] = if unexplained { beside_identification(&case, wanted) } else { Value::Null };
+    let mut summary = summary_json(case, wanted, run, *seconds_load, pictures.seconds);
+    summary["findings"] = diagnosis.as_ref().map_or(Value::Null, |d| findings_json(case, d));
+    summary["other_explanations"] = diagnosis.as_ref().map_or(Value::Null, |d| others_json(case, d));
+    summary["seconds"]["check"] = (*seconds_check).into();
+    summary["modes"] = pictures.modes;
     let mut tables = vec![
         File::new("identified.csv", identified_csv(wanted, &found.lines)),
         File::new("candidates.csv", candidates_csv(wanted, &found.lines)),
         File::new("reference.csv", reference_csv(wanted, &found.lines)),
-        File::new("response.csv", response_csv(&case, wanted, &run)),
+        File::new("response.csv", response_csv(case, wanted, run)),
     ];
     if !found.free.is_empty() {
         tables.push(File::new("free.csv", identified_csv(wanted, &found.free)));
@@ -166,13 +205,10 @@ pub fn identify_case(
     summary["tables"] = tables.iter().map(|table| table.path.display().to_string()).collect();
     files.extend(tables);
     let uff =
-        updated_uff(&case, &run).map_err(|error| InputError::in_file(&out.join("updated.uff"), error))?;
+        updated_uff(case, run).map_err(|error| InputError::in_file(&place.join("updated.uff"), error))?;
     files.push(File::new("updated.uff", uff));
     files.push(File::new("summary.json", format!("{summary:#}\n")));
-    let page = report_of(&files, out);
-    write_result(out, IDENTIFIED, files, page.as_ref().ok().cloned(), &case.reads)?;
-    page.map_err(JobError::Report)?;
-    Ok(IdentifyJob { case, diagnosis, run, summary })
+    Ok((files, summary))
 }
 
 /// An identification that was done, and not written.
@@ -190,7 +226,7 @@ pub struct Computed {
     pub seconds_check: f64,
 }
 
-/// [`identify_case`] without its files: the numbers are the same.
+/// [`identify_case`] without its files, but for a reduced model that is to be kept: the numbers are the same.
 ///
 /// # Errors
 /// As [`identify_case`], but for what is written.
@@ -219,11 +255,16 @@ pub fn compute(
     let Some(wanted) = &case.identify else {
         return Err(InputError::at(&Place::option("case"), "something to identify", "none").into());
     };
-    check_identify(&case, wanted, options.memory_bytes)?;
+    let max_factors = check_identify(&case, wanted, options.memory_bytes)?;
+    let case = case.with_max_factors(max_factors);
+    let wanted = case.identify.as_ref().expect("it was there before");
+    if let Some(file) = &options.keep_reduced {
+        check_file(file, &case.reads)?;
+    }
     let used = Used::of(wanted);
     let problem = problem_of(&case, wanted, &used)?;
     // One reduced model answers for the check and the identification.
-    let mut reduced = ReducedBand::default();
+    let mut reduced = reduced_of(&case, wanted, &problem)?;
     let mut seconds_check = 0.0;
     let mut check = |reduced: &mut _| {
         let start = Instant::now();
@@ -235,12 +276,73 @@ pub fn compute(
         Check::First => Some(check(&mut reduced)?),
         Check::IfUnexplained | Check::Never => None,
     };
-    let run = identify_with(&mut reduced, &problem, &case, wanted, (options, progress))?;
+    let run = identify_with(&mut reduced, &problem, &case, wanted, (&options, progress))?;
     let unexplained = run.found.fit.is_some_and(|fit| fit.verdict == Explained::No);
     if wanted.check == Check::IfUnexplained && unexplained {
         diagnosis = Some(check(&mut reduced)?);
     }
+    if let Some((file, kept)) = options.keep_reduced.as_ref().zip(reduced.kept()) {
+        write_reduced(file, &kept, &case)?;
+    }
     Ok(Computed { case, diagnosis, run, seconds_load, seconds_check })
+}
+
+fn write_reduced(file: &Path, kept: &KeptSubspace, case: &Case) -> Result<usize, JobError> {
+    let bytes = reduced_file(kept, &case.model, &case.experiment);
+    let bytes = bytes.map_err(|error| InputError::in_file(file, error))?;
+    let count = bytes.len();
+    write_one(file, bytes, &case.reads)?;
+    Ok(count)
+}
+
+/// A reduced model that was trained and written.
+#[derive(Debug)]
+pub struct TrainJob {
+    /// The case.
+    pub case: Case,
+    /// Its vectors.
+    pub vectors: usize,
+    /// Factorisations and solves of the training.
+    pub work: Work,
+    /// Bytes of the file.
+    pub bytes: usize,
+    /// How long the training took.
+    pub seconds: f64,
+}
+
+/// Loads a case, trains the reduced model for its band and the box of its unknowns, and writes it.
+///
+/// # Errors
+/// [`JobError`], also where no real stand-in for the dynamic stiffness can be factorised.
+pub fn train_case(
+    case_file: &Path,
+    overrides: &Overrides,
+    memory_bytes: Option<u64>,
+    out: &Path,
+) -> Result<TrainJob, JobError> {
+    let case = load(case_file, overrides, Purpose::Identify)?;
+    check_file(out, &case.reads)?;
+    let Some(wanted) = &case.identify else {
+        return Err(InputError::at(&Place::file(case_file), "something to identify", "none").into());
+    };
+    let max_factors = check_identify(&case, wanted, memory_bytes)?;
+    let case = case.with_max_factors(max_factors);
+    let wanted = case.identify.as_ref().expect("it was there before");
+    let start = Instant::now();
+    let used = Used::of(wanted);
+    let problem = problem_of(&case, wanted, &used)?;
+    let mut reduced = reduced_of(&case, wanted, &problem)?;
+    reduced.train_for(&problem, &wanted.options, IN_PARALLEL)?;
+    let seconds = start.elapsed().as_secs_f64();
+    let Some(kept) = reduced.kept() else {
+        let expected = "a stiffness that can be factorised, with some of the mass or at the last frequency";
+        return Err(InputError::at(&Place::file(case_file), expected, "a singular one").into());
+    };
+    let (work, vectors) = (reduced.work(), kept.size());
+    // The factors are not needed any more, and the file takes as much memory as the vectors.
+    drop(reduced);
+    let bytes = write_reduced(out, &kept, &case)?;
+    Ok(TrainJob { case, vectors, work, bytes, seconds })
 }
 
 /// Loads a case, computes its forward response, and writes table, UFF file and figure into `out`.

@@ -2,6 +2,7 @@
 //!
 //! | module | what is in it |
 //! |---|---|
+//! | [`batch`] | many runs by one plan, and one table of them
 //! | [`case`] | the case file as it is written, every key and type checked |
 //! | [`load`](mod@load) | its files read: model, load, sensors, measured receptance |
 //! | [`records`] | the records of a hammer test read from files |
@@ -21,6 +22,7 @@
 //! | [`Reads`] | which files were read, so that nothing is written over them |
 //! | [`terminal`] | text of files without what steers a terminal |
 
+pub mod batch;
 pub mod case;
 pub mod check;
 pub mod convert;
@@ -37,6 +39,7 @@ mod nearest;
 pub mod output;
 mod reads;
 pub mod records;
+mod reduced;
 pub mod report;
 pub mod run;
 pub mod sensitivities;

@@ -49,28 +49,42 @@ fn bytes(count: u64) -> String {
     format!("{value:.3} {}", UNITS[unit])
 }
 
-/// Refuses an identification that does not fit into `limit` bytes, or without one into what the system says is available.
+/// How many factors of a subspace there is room for in an identification: all, or else one at a time. Without `limit` in bytes there is room for what the system says is
+/// available.
 ///
 /// # Errors
-/// [`MemoryError`] with the numbers.
+/// [`MemoryError`] with the numbers, where one does not fit.
 ///
 /// # Limits
 /// An estimate: exact for the real factors, an experience for the complex ones. Where the system does not say what is available, nothing is refused.
-pub fn check_identify(case: &Case, identify: &IdentifyCase, limit: Option<u64>) -> Result<(), MemoryError> {
+pub fn check_identify(
+    case: &Case,
+    identify: &IdentifyCase,
+    limit: Option<u64>,
+) -> Result<usize, MemoryError> {
     let dofs = case.model.dim();
     let options = &identify.options;
     let reduced = options.reduction.is_subspace(options.method, dofs, identify.frequency_hz.len());
-    if reduced || !identify.is_single() { check_subspace(case, limit) } else { check_full(case, limit) }
+    if reduced || !identify.is_single() {
+        check_subspace(case, limit)
+    } else {
+        check_full(case, limit).map(|()| usize::MAX)
+    }
 }
 
 /// The same for the subspace of a band.
 ///
 /// # Errors
 /// [`MemoryError`] with the numbers.
-pub fn check_subspace(case: &Case, limit: Option<u64>) -> Result<(), MemoryError> {
+pub fn check_subspace(case: &Case, limit: Option<u64>) -> Result<usize, MemoryError> {
     let basis = 8 * case.model.dim() * VECTORS;
-    let what = format!("{FACTORS} real factors and {VECTORS} vectors");
-    check(case, case.model.analysis().factor_memory::<f64>(), FACTORS, basis, what, limit)
+    let fits = |count: usize, what: String| {
+        check(case, case.model.analysis().factor_memory::<f64>(), count, basis, what, limit)
+    };
+    if fits(FACTORS, String::new()).is_ok() {
+        return Ok(usize::MAX);
+    }
+    fits(1, format!("one real factor and {VECTORS} vectors")).map(|()| 1)
 }
 
 /// The same for a computation on the full model: a complex factor a thread.

@@ -8,7 +8,8 @@ use frfit_workflow::load::Overrides;
 use serde_json::json;
 
 pub(crate) fn run(args: &Args, wanted: &Check) -> Result<Outcome, Failure> {
-    let overrides = Overrides { band_hz: wanted.overrides.band, ..Overrides::default() };
+    let overrides =
+        Overrides { band_hz: wanted.overrides.band, reduced: wanted.reduced.clone(), ..Overrides::default() };
     let job = check_case(&wanted.case, &overrides, wanted.memory.map(megabytes))?;
     if args.json {
         let found = json!({

@@ -18,9 +18,14 @@ pub(crate) fn run(args: &Args, identify: &Identify) -> Result<Outcome, Failure> 
         band_hz: identify.overrides.band,
         selection: identify.selection.clone(),
         reduction: identify.reduction.clone(),
+        reduced: identify.reduced.clone(),
         ..Overrides::default()
     };
-    let options = RunOptions { error_map: identify.error_map, memory_bytes: identify.memory.map(megabytes) };
+    let options = RunOptions {
+        error_map: identify.error_map,
+        memory_bytes: identify.memory.map(megabytes),
+        keep_reduced: identify.keep_reduced.clone(),
+    };
     let job = carry_out(args, &identify.case, &overrides, options, &identify.out)?;
     let found = &job.run.found;
     // What the user left out needs no value.

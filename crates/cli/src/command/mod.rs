@@ -1,5 +1,6 @@
 //! One file a command.
 
+pub(crate) mod batch;
 pub(crate) mod check;
 pub(crate) mod convert;
 pub(crate) mod demo;
@@ -13,6 +14,7 @@ pub(crate) mod modes;
 pub(crate) mod report;
 pub(crate) mod respond;
 pub(crate) mod sensitivities;
+pub(crate) mod train;
 
 use crate::args::Args;
 use crate::outcome::Failure;

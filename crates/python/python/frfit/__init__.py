@@ -13,6 +13,7 @@ exp(+i omega t), rows are counted from 0. What does not exist is NaN, and ``stat
 (24, 2)
 """
 
+from ._batch import Batch, BatchStatus, Trained, batch, batch_status, collect, train
 from ._errors import (
     FrfitError,
     InputError,
@@ -38,6 +39,8 @@ from ._signal import Impact, MeasuredFrf, Recording, frf
 from ._uff import Uff, UffAxis, UffDof, UffFunction, UffSummary, read_uff, write_uff
 
 __all__ = [
+    "Batch",
+    "BatchStatus",
     "CoarserMesh",
     "Direction",
     "Estimate",
@@ -66,6 +69,7 @@ __all__ = [
     "SolveError",
     "TableError",
     "Term",
+    "Trained",
     "Uff",
     "UffAxis",
     "UffDof",
@@ -74,6 +78,9 @@ __all__ = [
     "Unknown",
     "WriteError",
     "__version__",
+    "batch",
+    "batch_status",
+    "collect",
     "frf",
     "identify",
     "modes",
@@ -82,5 +89,6 @@ __all__ = [
     "respond",
     "run_case",
     "series",
+    "train",
     "write_uff",
 ]

@@ -13,6 +13,9 @@ __all__ = [
     "Series",
     "UffFile",
     "__version__",
+    "batch",
+    "batch_status",
+    "batch_table",
     "check_measurement",
     "frf",
     "identify",
@@ -25,6 +28,7 @@ __all__ = [
     "restored_series",
     "run_case",
     "series",
+    "train",
     "write_uff",
 ]
 
@@ -116,9 +120,30 @@ def run_case(
     band_hz: tuple[float, float] | None,
     selection: str | None,
     reduction: str | None,
+    reduced: _Path | None,
+    keep_reduced: _Path | None,
     memory_bytes: int | None,
     progress: _Progress,
 ) -> dict[str, Any]: ...
+def train(
+    path: _Path,
+    out: _Path,
+    band_hz: tuple[float, float] | None,
+    reduced: _Path | None,
+    memory_bytes: int | None,
+) -> dict[str, Any]: ...
+def batch(
+    plan: _Path,
+    out: _Path,
+    reduced: _Path | None,
+    shard: tuple[int, int],
+    jobs: int | None,
+    retry_failed: bool,
+    memory_bytes: int | None,
+    progress: _Progress,
+) -> dict[str, Any]: ...
+def batch_status(plan: _Path, out: _Path, reduced: _Path | None) -> tuple[int, int, int]: ...
+def batch_table(store: _Path, lines: bool) -> str: ...
 def modes(
     path: _Path,
     out: _Path | None,

@@ -394,12 +394,15 @@ def run_case(
     band_hz: tuple[float, float] | None = None,
     selection: str | None = None,
     reduction: str | None = None,
+    reduced: str | os.PathLike[str] | None = None,
+    keep_reduced: str | os.PathLike[str] | None = None,
     memory_bytes: int | None = None,
     progress: Progress | None = None,
 ) -> Identification:
     """What ``frfit identify CASE`` computes: the same numbers, bit for bit.
 
-    With ``out`` the files of the command line are written there too, all of them or none. The other arguments stand in
+    With ``out`` the files of the command line are written there too, all of them or none. ``reduced`` is a file that :func:`train` wrote for
+    the same matrices, load and sensors; ``keep_reduced`` is a file for the reduced model as this run leaves it. The other arguments stand in
     place of the case file's.
 
     Raises
@@ -415,6 +418,8 @@ def run_case(
         optional_pair(band_hz, "band_hz"),
         _optional_word(selection, "selection"),
         _optional_word(reduction, "reduction"),
+        reduced,
+        keep_reduced,
         optional_whole(memory_bytes, "memory_bytes", 0),
         callable_(progress),
     )

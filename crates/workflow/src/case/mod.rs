@@ -1,6 +1,7 @@
 //! A case file as it is written: read, every key and type checked, no other file opened.
 
 mod document;
+mod edited;
 mod entries;
 mod field;
 mod identify;
@@ -10,6 +11,7 @@ mod reference;
 mod sections;
 mod snippet;
 
+pub(crate) use edited::{Edit, edited};
 pub use entries::{
     AtValues, AttachedEntry, Calibration, CaseFile, CoarserMeshEntry, Exclusion, FactorEntry, IdentifyEntry,
     LoadEntry, Located, MatrixEntry, MeasurementEntry, RespondEntry, Spot, UnknownEntry,

@@ -241,6 +241,7 @@ fn case(
 ) -> Case {
     let (title, row_names, inputs) = (String::new(), BTreeMap::new(), Vec::new());
     Case {
+        reduced: None,
         units: UnitSystem::Si,
         title,
         model,

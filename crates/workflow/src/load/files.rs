@@ -6,6 +6,9 @@ use crate::case::Located;
 use crate::error::{InputError, Place};
 use crate::output::sha256;
 use crate::reads::Reads;
+use crate::reduced::read_reduced;
+use frfit::model::{DynamicStiffness, Experiment};
+use frfit::subspace::KeptSubspace;
 use frfit_formats::{FileKind, FormatError, csv, detect};
 use serde_json::{Value, json};
 use std::cell::OnceCell;
@@ -105,9 +108,31 @@ impl Files {
             .read(case_file)
             .map_err(|found| InputError::at(&Place::file(case_file), "a case file", found))?;
         let folder = case_file.parent().unwrap_or(Path::new("")).to_path_buf();
-        let mut files = Self { folder, inputs: Vec::new(), reads, known: HashSet::new(), last: None };
+        let mut files = Self { reads, ..Self::in_folder(folder) };
         files.record(case_file, &bytes);
         Ok((files, bytes))
+    }
+
+    fn in_folder(folder: PathBuf) -> Self {
+        let (inputs, reads) = (Vec::new(), Reads::default());
+        Self { folder, inputs, reads, known: HashSet::new(), last: None }
+    }
+
+    /// None yet, of the same case.
+    pub(super) fn of_the_same_case(&self) -> Self {
+        Self::in_folder(self.folder.clone())
+    }
+
+    /// The case's folder.
+    pub(super) fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    /// Files that were read for another case too.
+    pub(super) fn extend(&mut self, inputs: &[InputFile], reads: &Reads) {
+        let new = inputs.iter().filter(|input| self.known.insert(input.path.clone()));
+        self.inputs.extend(new.cloned());
+        self.reads.extend(reads.clone());
     }
 
     /// Where a file is that a key of the case names.
@@ -142,6 +167,17 @@ impl Files {
         self.record(path, &bytes);
         let index = Rc::default();
         Ok(NamedFile { path: path.to_path_buf(), bytes: Rc::new(bytes), index, named_by: place })
+    }
+
+    /// The reduced model in a file that `--reduced` names.
+    pub(super) fn read_reduced(
+        &mut self,
+        path: &Path,
+        model: &DynamicStiffness,
+        experiment: &Experiment,
+    ) -> Result<KeptSubspace, InputError> {
+        let file = self.read_option(path, "--reduced")?;
+        read_reduced(path, &file.bytes, model, experiment)
     }
 
     fn record(&mut self, path: &Path, bytes: &[u8]) {

@@ -22,6 +22,12 @@ pub(super) fn names_beside(matrix: &Path, kind: FileKind) -> Option<PathBuf> {
     beside.into_iter().find(|path| path.extension() != matrix.extension() && path.is_file())
 }
 
+/// The files beside one that may name its rows, whatever it is.
+pub(crate) fn files_beside(matrix: &Path) -> Vec<PathBuf> {
+    let kinds = [FileKind::Triplets, FileKind::HarwellBoeing];
+    kinds.into_iter().filter_map(|kind| names_beside(matrix, kind)).collect()
+}
+
 /// The names of rows that such a file holds, one for each row of the matrix.
 pub(super) fn read_names(kind: FileKind, bytes: &[u8], rows: usize) -> Result<Labels, FormatError> {
     let labels = match kind {

@@ -10,6 +10,7 @@ use crate::units::UnitSystem;
 use frfit::c64;
 use frfit::identify::CoarserMesh;
 use frfit::model::{DynamicStiffness, Experiment};
+use frfit::subspace::KeptSubspace;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -24,6 +25,8 @@ pub struct Case {
     pub model: Arc<DynamicStiffness>,
     /// Load and sensors.
     pub experiment: Experiment,
+    /// The reduced model that was trained already, where the command line names one.
+    pub reduced: Option<KeptSubspace>,
     /// The same structure on a coarser mesh, where the case names one and the purpose is to identify.
     pub coarser_mesh: Option<CoarserMesh>,
     /// The sensors' labels, quantities and files, in the order of the measurements.
@@ -48,6 +51,14 @@ impl Case {
     /// `34+Z` where `[dofs]` or a matrix' file names the row (from 0), `row 97` (from 1) elsewhere.
     pub fn row_name(&self, row: usize) -> String {
         self.row_names.get(&row).cloned().unwrap_or_else(|| format!("row {}", row + 1))
+    }
+
+    /// The same with so many factors of a subspace at a time.
+    pub(crate) fn with_max_factors(mut self, max_factors: usize) -> Self {
+        if max_factors < self.model.max_factors() {
+            self.model = Arc::new(Arc::unwrap_or_clone(self.model).with_max_factors(max_factors));
+        }
+        self
     }
 
     /// What a sensor's receptance is multiplied by to be in the quantity that it measures, under the measurements' window.

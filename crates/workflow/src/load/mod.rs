@@ -21,6 +21,7 @@ mod modes;
 mod options;
 mod overrides;
 mod sensitivities;
+mod shared;
 mod structure;
 mod uff;
 mod unknowns;
@@ -31,6 +32,7 @@ pub use files::{InputFile, load_bytes, read_frf};
 pub(crate) use frf::decay_line;
 pub use frf::{Choice, Frf};
 pub use identify::{Check, IdentifyCase};
+pub(crate) use labels::files_beside;
 pub(crate) use labels::{Member, load_one, matrices_of, one_order};
 pub use loaded::Case;
 pub(crate) use matrix::{asymmetry, complex};
@@ -39,6 +41,7 @@ pub use measurement::SensorInfo;
 pub use modes::{MeasuredBand, ModesCase};
 pub use overrides::Overrides;
 pub use sensitivities::SensitivitiesCase;
+pub(crate) use shared::SharedModels;
 pub(crate) use uff::STD_LABEL;
 
 use crate::case::{self, CaseFile, LoadEntry, Spot};
@@ -74,21 +77,48 @@ pub enum Purpose {
 /// # Errors
 /// The first thing that the user has to put right.
 pub fn load(case_file: &Path, overrides: &Overrides, purpose: Purpose) -> Result<Case, InputError> {
-    let (mut files, bytes) = Files::of_case(case_file)?;
-    let case = case::parse(case_file, &bytes)?;
+    let (files, bytes) = Files::of_case(case_file)?;
+    load_text((case_file, &bytes), files, (overrides, purpose), None)
+}
+
+/// Reads a case to identify, of which another text takes the place of the one in its file, and shares its model with others.
+pub(crate) fn load_edited(
+    case_file: &Path,
+    edit: impl FnOnce(&[u8]) -> Result<String, InputError>,
+    overrides: &Overrides,
+    shared: &SharedModels,
+) -> Result<Case, InputError> {
+    let (files, bytes) = Files::of_case(case_file)?;
+    load_text((case_file, edit(&bytes)?.as_bytes()), files, (overrides, Purpose::Identify), Some(shared))
+}
+
+fn load_text(
+    (case_file, bytes): (&Path, &[u8]),
+    mut files: Files,
+    (overrides, purpose): (&Overrides, Purpose),
+    shared: Option<&SharedModels>,
+) -> Result<Case, InputError> {
+    let case = case::parse(case_file, bytes)?;
     let keeps_dimensions = purpose == Purpose::Identify && case.unknowns().any(|one| one.nominal.is_some());
-    let structure = structure(&case, keeps_dimensions, &mut files)?;
-    let coarser_mesh = match &case.coarser_mesh {
-        Some(entry) if purpose == Purpose::Identify => {
-            Some(coarser::coarser_mesh(entry, (&structure, keeps_dimensions), &mut files)?)
+    let mut coarser_mesh = None;
+    // A coarser mesh is compared with what was read.
+    let shared = shared.filter(|_| case.coarser_mesh.is_none());
+    let loaded = shared.map(|shared| shared.of_case(&case, keeps_dimensions, &mut files)).transpose()?;
+    let (model, of, dofs) = match &loaded {
+        Some(shared) => (shared.model.clone(), shared.of.clone(), Arc::clone(&shared.dofs)),
+        None => {
+            let structure = structure(&case, keeps_dimensions, &mut files)?;
+            if let Some(entry) = case.coarser_mesh.as_ref().filter(|_| purpose == Purpose::Identify) {
+                let fine = (&structure, keeps_dimensions);
+                coarser_mesh = Some(coarser::coarser_mesh(entry, fine, &mut files)?);
+            }
+            let Structure { mut terms, of, dofs } = structure;
+            if let Some(path) = &overrides.identified {
+                modes::with_identified(&case, path, (&mut terms, &of), &mut files)?;
+            }
+            (model::model(&case, terms)?, of, Arc::new(dofs))
         }
-        _ => None,
     };
-    let Structure { mut terms, of, dofs } = structure;
-    if let Some(path) = &overrides.identified {
-        modes::with_identified(&case, path, (&mut terms, &of), &mut files)?;
-    }
-    let model = model::model(&case, terms)?;
     let load = force::load(&case.load, model.dim(), &dofs, &mut files)?;
     let measurements = measurements(&case, purpose, &dofs, &mut files)?;
     let model = model.with_decay_per_s(common_decay(&measurements)?);
@@ -119,10 +149,19 @@ pub fn load(case_file: &Path, overrides: &Overrides, purpose: Purpose) -> Result
     }
     factor::sizes(&case, &model, &of, &respond_hz)?;
     let sensors = measurements.iter().map(|measurement| measurement.sensor).collect();
+    let experiment = Experiment { load, sensors };
+    let reduced = match &overrides.reduced {
+        Some(path) => Some(match &loaded {
+            Some(shared) => shared.reduced(path, &experiment, &mut files)?,
+            None => files.read_reduced(path, &model, &experiment)?,
+        }),
+        None => None,
+    };
     Ok(Case {
         units: case.units,
         title: one_line(&case.title.unwrap_or_else(|| stem(case_file))).into_owned(),
-        experiment: Experiment { load, sensors },
+        experiment,
+        reduced,
         coarser_mesh,
         sensors: measurements.into_iter().map(|measurement| measurement.info).collect(),
         row_names: dofs.names(),

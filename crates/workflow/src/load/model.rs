@@ -156,7 +156,16 @@ type OfFile<'a> = (&'a Read<'a>, Cow<'a, CoordinateMatrix>);
 
 /// The model of all terms.
 pub(super) fn model(case: &CaseFile, terms: Vec<Term>) -> Result<DynamicStiffness, InputError> {
-    let model = DynamicStiffness::new(terms).map_err(|error| unusable(case, &error))?;
+    with_stds(case, analysed(case, terms)?)
+}
+
+/// All terms on one pattern.
+pub(super) fn analysed(case: &CaseFile, terms: Vec<Term>) -> Result<DynamicStiffness, InputError> {
+    DynamicStiffness::new(terms).map_err(|error| unusable(case, &error))
+}
+
+/// A model with what the case says of its factors.
+pub(super) fn with_stds(case: &CaseFile, model: DynamicStiffness) -> Result<DynamicStiffness, InputError> {
     let with_std = |model: DynamicStiffness, entry: &MatrixEntry| match &entry.factor_std {
         Some(std) => {
             let term = model.find(&entry.name.value).map_err(|error| unusable(case, &error))?;

@@ -35,6 +35,13 @@ pub(super) fn overridden(entry: &IdentifyEntry, overrides: &Overrides) -> Result
         entry.reduction = Some(reduction.value);
         only_of_single(&mut entry, reduction.place);
     }
+    if overrides.reduced.is_some() {
+        let place = place("--reduced");
+        if entry.reduction == Some(Reduction::Full) {
+            return Err(InputError::at(&place, "the reduction \"auto\" or \"subspace\"", "\"full\""));
+        }
+        entry.reduction = Some(Reduction::Subspace);
+    }
     Ok(entry)
 }
 

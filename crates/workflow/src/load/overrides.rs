@@ -15,6 +15,8 @@ pub struct Overrides {
     pub selection: Option<String>,
     /// In place of `identify.reduction`.
     pub reduction: Option<String>,
+    /// A file with a reduced model that was trained already.
+    pub reduced: Option<PathBuf>,
     /// A table of results: its moduli in place of the factors of the unknown matrices.
     pub identified: Option<PathBuf>,
 }

@@ -28,7 +28,7 @@ pub use frf::{respond_uff, updated_uff};
 pub use identifiability::{coordinate, not_identifiable};
 pub use identified::identified_csv;
 pub use laws::{Misfit, law_json, laws_json, laws_text, smooth_json};
-pub(crate) use manifest::{read_result, sha256};
+pub(crate) use manifest::{hexadecimal, read_result, sha256};
 pub use measured::{impact_reasons, measured_csv, measured_summary, measured_text, measured_uff};
 pub use reference::reference_csv;
 pub use response::{respond_csv, response_csv};

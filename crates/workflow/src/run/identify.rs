@@ -1,6 +1,6 @@
 //! From a case to the line at every frequency of its band.
 
-use super::Progress;
+use super::{IN_PARALLEL, Progress};
 use crate::load::{Case, IdentifyCase, MeasuredNoise};
 use frfit::c64;
 use frfit::frequency::bands_hz;
@@ -11,18 +11,21 @@ use frfit::identify::{
 use frfit::material::OutsideTable;
 use frfit::response::FullModel;
 use rayon::prelude::*;
+use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
 /// What a run does beside identifying.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct RunOptions {
     /// At how many frequencies of the band the error is mapped over the orders, each order a direct solve.
     /// `None`: 60 up to 300 degrees of freedom, 30 up to 5000, and none above, where it would cost more than the identification.
     pub error_map: Option<usize>,
     /// Bytes of memory that may be used. `None`: what the system says is available.
     pub memory_bytes: Option<u64>,
+    /// A file for the reduced model as the run leaves it, for other runs.
+    pub keep_reduced: Option<PathBuf>,
 }
 
 /// ε over frequency and order: the paper's Figs 3, 8 and 12.
@@ -81,7 +84,7 @@ pub fn identify(
 ) -> Result<IdentifyRun, ProblemError> {
     let used = Used::of(identify);
     let problem = problem_of(case, identify, &used)?;
-    identify_with(&mut ReducedBand::default(), &problem, case, identify, (options, progress))
+    identify_with(&mut ReducedBand::default(), &problem, case, identify, (&options, progress))
 }
 
 /// The same on a reduced model that is shared with the check of the case.
@@ -90,7 +93,7 @@ pub(crate) fn identify_with<'a>(
     problem: &'a Problem<'a>,
     case: &Case,
     identify: &IdentifyCase,
-    (options, progress): (RunOptions, Progress<'_>),
+    (options, progress): (&RunOptions, Progress<'_>),
 ) -> Result<IdentifyRun, ProblemError> {
     let clock = StageClock::default();
     let last = (AtomicUsize::new(0), AtomicUsize::new(problem.frfs().frequency_hz.len()));
@@ -192,6 +195,18 @@ pub(crate) fn problem_of<'a>(
     }
 }
 
+/// The reduced model that was trained already, where the case comes with one; else one that will be.
+pub(crate) fn reduced_of<'a>(
+    case: &Case,
+    identify: &IdentifyCase,
+    problem: &'a Problem<'a>,
+) -> Result<ReducedBand<'a>, ProblemError> {
+    match &case.reduced {
+        Some(kept) => ReducedBand::of_kept(kept, problem, &identify.options, IN_PARALLEL),
+        None => Ok(ReducedBand::default()),
+    }
+}
+
 /// How well it was measured, as core takes it.
 pub(crate) fn noise_of(noise: &MeasuredNoise) -> Noise<'_> {
     match noise {
@@ -246,7 +261,7 @@ impl Seconds {
 fn error_map(
     case: &Case,
     identify: &IdentifyCase,
-    options: RunOptions,
+    options: &RunOptions,
 ) -> Result<Option<ErrorMap>, OutsideTable> {
     let affordable = map_columns(case.model.dim());
     let used: Vec<usize> = (0..identify.frequency_hz.len()).filter(|&i| !identify.left_out[i]).collect();

@@ -187,6 +187,7 @@ fn the_command_line_overrides_the_case() {
         band_hz: Some([15.0, 25.0]),
         selection: None,
         reduction: Some("full".into()),
+        reduced: None,
         identified: None,
     };
     let identify = with("", b"", &overrides, Purpose::Identify).unwrap().identify.unwrap();

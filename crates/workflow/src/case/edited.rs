@@ -1,0 +1,131 @@
+//! A case with other values in it, as a plan of many runs has them.
+
+use toml_edit::{DocumentMut, Item, Table, Value};
+
+/// A value in place of that of a case: the path of its key and what would stand there.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Edit<'a> {
+    /// `identify.bounds.storage`, `measurement.2.file`, `matrix.core.factor.storage`: of a list of tables the number of one from 1, its name, or nothing where there is one.
+    pub(crate) key: &'a str,
+    /// As TOML, or else a text.
+    pub(crate) value: &'a str,
+}
+
+/// Why a value cannot be put into a case.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct EditError {
+    /// Which of them.
+    pub(crate) edit: usize,
+    /// What there should be.
+    pub(crate) expected: String,
+    /// What there is.
+    pub(crate) found: String,
+}
+
+/// The text of a case with some values put into it; its lines stay where they are, as far as no key is new. A text that is no TOML stays as it is: who reads it says what is wrong.
+pub(crate) fn edited(text: &str, edits: &[Edit<'_>]) -> Result<String, EditError> {
+    let Ok(mut document) = text.parse::<DocumentMut>() else { return Ok(text.to_owned()) };
+    for (edit, Edit { key, value }) in edits.iter().enumerate() {
+        let refuse = |(expected, found): (String, String)| EditError { edit, expected, found };
+        let keys: Vec<&str> = key.split('.').collect();
+        let value = value.parse().unwrap_or_else(|_| Value::from(*value));
+        put(document.as_item_mut(), &keys, value).map_err(refuse)?;
+    }
+    Ok(document.to_string())
+}
+
+/// What was expected, and what was found.
+type Refusal = (String, String);
+
+fn put(item: &mut Item, keys: &[&str], value: Value) -> Result<(), Refusal> {
+    let Some((key, rest)) = keys.split_first() else {
+        *item = Item::Value(value.decorated(" ", ""));
+        return Ok(());
+    };
+    if item.is_none() {
+        *item = Item::Table(Table::new());
+    }
+    if let Some(tables) = item.as_array_of_tables_mut() {
+        let count = tables.len();
+        let named = |table: &Table| table.get("name").and_then(Item::as_str) == Some(*key);
+        let (index, rest) = match key.parse::<usize>() {
+            Ok(number) => (number.checked_sub(1).filter(|&k| k < count), rest),
+            Err(_) => match tables.iter().position(named) {
+                Some(index) => (Some(index), rest),
+                None => ((count == 1).then_some(0), keys),
+            },
+        };
+        let Some(table) = index.and_then(|k| tables.get_mut(k)) else {
+            return Err((
+                format!("the name or the number (1 to {count}) of one of several tables"),
+                format!("{key:?}"),
+            ));
+        };
+        return put_into(table, rest, value);
+    }
+    if let Some(table) = item.as_table_mut() {
+        return put_into(table, keys, value);
+    }
+    if let Some(table) = item.as_inline_table_mut() {
+        // A key in a value: all of what is below it are values too.
+        let inner = table.entry(*key).or_insert(Value::InlineTable(toml_edit::InlineTable::new()));
+        let mut inside = Item::Value(inner.clone());
+        put(&mut inside, rest, value)?;
+        *inner = inside.into_value().unwrap_or_else(|_| inner.clone());
+        return Ok(());
+    }
+    Err((format!("a table, for its key {key:?}"), item.type_name().to_owned()))
+}
+
+fn put_into(table: &mut Table, keys: &[&str], value: Value) -> Result<(), Refusal> {
+    match keys {
+        [] => Err(("a key of the table".into(), "none".into())),
+        [key] => {
+            table.insert(key, Item::Value(value));
+            Ok(())
+        }
+        [key, rest @ ..] => put(table.entry(key).or_insert(Item::None), rest, value),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const CASE: &str = "title = \"a\" # as it was\n\n[[matrix]]\nname = \"K\"\nfactor = { storage = 1.0, loss_factor = 0.1 }\n\n[[matrix]]\nname = \"M\"\n\n\
+                        [[measurement]]\nfile = \"a.csv\"\n\n[identify]\nband_hz = [1.0, 2.0]\n";
+
+    fn with(key: &str, value: &str) -> Result<String, String> {
+        edited(CASE, &[Edit { key, value }])
+            .map_err(|error| format!("expected {}, found {}", error.expected, error.found))
+    }
+
+    #[test]
+    fn values_are_replaced_where_they_stand() {
+        let changed =
+            |key, value, old, new| assert_eq!(with(key, value).unwrap(), CASE.replacen(old, new, 1), "{key}");
+        changed("measurement.file", "b.csv", "\"a.csv\"", "\"b.csv\"");
+        changed("measurement.1.file", "b.csv", "\"a.csv\"", "\"b.csv\"");
+        changed("identify.band_hz", "[1.0, 3.5]", "[1.0, 2.0]", "[1.0, 3.5]");
+        changed("matrix.K.factor.storage", "2e9", "storage = 1.0", "storage = 2e9");
+        changed("matrix.2.name", "mass", "\"M\"", "\"mass\"");
+    }
+
+    #[test]
+    fn new_keys_are_added_to_their_tables() {
+        let added = with("identify.bounds.storage", "[1.0, 2.0]").unwrap();
+        let parsed: toml_edit::DocumentMut = added.parse().unwrap();
+        assert_eq!(parsed["identify"]["bounds"]["storage"].as_array().unwrap().len(), 2, "{added}");
+        let added = with("matrix.K.factor.more.deep", "7").unwrap();
+        assert!(added.contains("deep = 7"), "{added}");
+    }
+
+    #[test]
+    fn a_path_that_leads_nowhere_is_refused() {
+        let refused = with("matrix.C.factor", "1.0").unwrap_err();
+        assert_eq!(refused, "expected the name or the number (1 to 2) of one of several tables, found \"C\"");
+        let refused = with("title.name", "b").unwrap_err();
+        assert_eq!(refused, "expected a table, for its key \"name\", found string");
+        assert!(with("measurement", "b").is_ok());
+    }
+}
