@@ -1,7 +1,7 @@
 //! What came out, in the few lines that a person reads first.
 
 use frfit::identify::{
-    BandValue, Calibrated, CausalityBreach, Dependence, Explained, Leverage, Line, ModeError,
+    BandValue, Calibrated, CausalityBreach, Dependence, Explained, Leverage, LeverageOf, Line, ModeError,
     ModelErrorsFound, NoiseSource, Number, SmoothCurve, Status, Trust, Unknown, Variation,
 };
 use frfit::model::FactorPart;
@@ -434,14 +434,23 @@ fn unknown_name(job: &IdentifyJob, unknown: usize) -> Option<&str> {
     Some(job.identify()?.unknowns.get(unknown)?.name.as_str())
 }
 
-/// The known factors of which an error moves an unknown by more than itself, the worst first.
+/// The known factors of which an error moves an unknown by more than itself, the worst first, and the mesh where it moves one by more than it does a modulus alone.
 fn leverage(job: &IdentifyJob) -> Option<String> {
     const SHOWN: usize = 2;
-    let mut large: Vec<&Leverage> = job.run.found.leverage.iter().filter(|one| one.change > 1.0).collect();
-    large.sort_by(|a, b| b.change.total_cmp(&a.change));
+    let is_large = |one: &&Leverage| one.change > one.of.large();
+    let mut large: Vec<&Leverage> = job.run.found.leverage.iter().filter(is_large).collect();
+    large.sort_by(|a, b| (b.change / b.of.large()).total_cmp(&(a.change / a.of.large())));
     let one = |one: &&Leverage| {
         let unknown = unknown_name(job, one.unknown).unwrap_or("the factor");
-        format!("1 % in {} moves {unknown} by {:.1} %", job.case.model.terms()[one.term].name, one.change)
+        match one.of {
+            LeverageOf::Factor(term) => {
+                format!("1 % in {} moves {unknown} by {:.1} %", job.case.model.terms()[term].name, one.change)
+            }
+            LeverageOf::Mesh => format!(
+                "a mesh with natural frequencies 1 % high at the end of the band moves {unknown} there by {:.1} %",
+                one.change
+            ),
+        }
     };
     let said: Vec<String> = large.iter().take(SHOWN).map(one).collect();
     (!said.is_empty()).then(|| said.join("; "))

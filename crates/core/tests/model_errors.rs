@@ -8,7 +8,8 @@ use frfit::for_each::sequential;
 use frfit::frequency::linear_hz;
 use frfit::identify::{
     Assumption, Calibration, ChannelUnknowns, CoarserMesh, Context, ErrorSizes, Explained, Frfs,
-    Identification, ModelErrors, Noise, Number, Options, Problem, Status, Unknown, Variation, identify,
+    Identification, LeverageOf, ModelErrors, Noise, Number, Options, Problem, Status, Unknown, Variation,
+    identify,
 };
 use frfit::laws::LawKind;
 use frfit::linalg::modes::lowest;
@@ -230,7 +231,7 @@ fn what_is_known_of_the_model_is_in_every_bar() {
         let of_skins = errors.factors.iter().find(|one| one.term == skins).unwrap();
         assert!(of_skins.std < 0.002, "{at}");
         assert!((of_skins.error - (1.0 / 1.003 - 1.0)).abs() < 3.0 * of_skins.std, "{at}");
-        let of_skins = found.leverage.iter().find(|one| one.term == skins).unwrap();
+        let of_skins = found.leverage.iter().find(|one| one.of == LeverageOf::Factor(skins)).unwrap();
         assert!((1.0..100.0).contains(&of_skins.change), "{at}: {of_skins:?}");
     }
     let right = sandwich(12, 1);
@@ -729,5 +730,28 @@ fn a_lightly_damped_plate_on_a_coarse_mesh_is_found() {
                 mode.std
             );
         }
+    }
+}
+
+/// A modulus that is alone in its model moves by twice the relative error of the natural frequencies: E goes with ω². In the upper quarter of the band an error in proportion to ω² is
+/// at least half of what it is at the end; a constant has what the whole band has of it.
+#[test]
+fn a_mesh_moves_a_modulus_alone_by_twice_its_error() {
+    let case = crate::common::plate(6, 0.27, 0.02);
+    let frequency_hz = linear_hz(150.0, 900.0, 30);
+    let u: Vec<Vec<c64>> =
+        frequency_hz.iter().map(|&f| case.direct(f, case.correction(f, 1.1)).unwrap()).collect();
+    let context = Context { for_each: &sequential, progress: &|_, _, _| {} };
+    for (varies, least) in
+        [(Variation::PerFrequency, 1.0), (Variation::law(LawKind::Constant), 0.1), (Variation::Smooth, 1.0)]
+    {
+        let unknown =
+            Unknown { varies: varies.clone(), ..Unknown::factor_of(&case.model, &["stiffness"]).unwrap() };
+        let unknowns = [unknown];
+        let frfs = Frfs { frequency_hz: &frequency_hz, receptance: &u, noise: Noise::Unknown };
+        let problem = Problem::new(&case.model, &case.experiment, &unknowns, &[], frfs).unwrap();
+        let found = identify(&problem, &Options::default(), context).unwrap();
+        let of_mesh = found.leverage.iter().find(|one| one.of == LeverageOf::Mesh).unwrap();
+        assert!((least..2.4).contains(&of_mesh.change), "{varies:?}: {of_mesh:?}");
     }
 }

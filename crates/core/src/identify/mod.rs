@@ -51,8 +51,8 @@ pub(crate) use dead_channel::dead_channels;
 pub use goodness_of_fit::{Explained, GoodnessOfFit, SensorFit};
 pub use identification::{Identifiability, Identification, SearchReport};
 pub use model_errors::{
-    Assumption, CalibrationError, ContradictedAssumption, FactorError, Leverage, MeshError, ModeError,
-    ModelErrorsFound, SensorMass,
+    Assumption, CalibrationError, ContradictedAssumption, FactorError, Leverage, LeverageOf, MeshError,
+    ModeError, ModelErrorsFound, SensorMass,
 };
 pub(crate) use noise::standard_deviations;
 pub use noise::{Noise, NoiseLevel, NoiseSource};

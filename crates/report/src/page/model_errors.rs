@@ -9,6 +9,9 @@ use std::fmt::Write;
 /// Known factors of which 1 % moves an unknown by more than this are named, in per cent.
 const LARGE_LEVERAGE: f64 = 1.5;
 
+/// The same for 1 % in the natural frequencies at the end of the band, which moves a modulus alone by 2 %.
+const LARGE_LEVERAGE_OF_MESH: f64 = 3.0;
+
 /// The section; nothing where the summary says nothing of them.
 pub(super) fn model_errors(results: &Results) -> String {
     let summary = &results.summary;
@@ -191,8 +194,9 @@ pub(super) fn table(title: &str, heads: &[&str], rows: &[Vec<String>]) -> String
 
 /// What 1 % of known factors does to the unknowns, where that is much.
 fn leverage(results: &Results) -> String {
-    let large =
-        |one: &&Value| number(one, "percent_by_percent").is_some_and(|change| change > LARGE_LEVERAGE);
+    let is_of_mesh = |one: &Value| one.get("mesh").is_some();
+    let limit = |one: &Value| if is_of_mesh(one) { LARGE_LEVERAGE_OF_MESH } else { LARGE_LEVERAGE };
+    let large = |one: &&Value| number(one, "percent_by_percent").is_some_and(|change| change > limit(one));
     let mut all: Vec<&Value> = results.summary.array("/leverage").iter().filter(large).collect();
     let change = |one: &Value| number(one, "percent_by_percent").unwrap_or(0.0);
     all.sort_by(|a, b| change(b).total_cmp(&change(a)));
@@ -201,12 +205,14 @@ fn leverage(results: &Results) -> String {
     }
     let sentence = |one: &&Value| {
         let text = |key: &str| escape(one.get(key).and_then(Value::as_str).unwrap_or(""));
-        format!(
-            "<li>1 % in {} moves {} by {} %.</li>",
-            text("matrix"),
-            text("unknown"),
-            significant(change(one), 2)
-        )
+        let (unknown, change) = (text("unknown"), significant(change(one), 2));
+        match is_of_mesh(one) {
+            true => format!(
+                "<li>A mesh with natural frequencies 1 % high at the end of the band moves {unknown} there by {change} %. \
+                 A coarser mesh (<code>[coarser_mesh]</code>) says how far this one is off.</li>"
+            ),
+            false => format!("<li>1 % in {} moves {unknown} by {change} %.</li>", text("matrix")),
+        }
     };
     let items: String = all.iter().map(sentence).collect();
     format!(

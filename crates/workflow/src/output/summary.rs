@@ -8,8 +8,8 @@ use crate::run::IdentifyRun;
 use frfit::c64;
 use frfit::identify::{
     Assumption, CalibrationError, CausalityBreach, ContradictedAssumption, Dependence, Direction,
-    FactorError, GoodnessOfFit, Identifiability, Identification, Leverage, Line, MeshError, ModeError,
-    ModelErrors, ModelErrorsFound, NoiseLevel, Number, SensorMass, Status, Unknown, Variation,
+    FactorError, GoodnessOfFit, Identifiability, Identification, Leverage, LeverageOf, Line, MeshError,
+    ModeError, ModelErrors, ModelErrorsFound, NoiseLevel, Number, SensorMass, Status, Unknown, Variation,
 };
 use frfit::material::loss_factor;
 use frfit::model::{FactorPart, Term};
@@ -241,11 +241,16 @@ fn unknown_name(case: &Case, unknown: usize) -> Option<&str> {
     Some(case.identify.as_ref()?.unknowns.get(unknown)?.name.as_str())
 }
 
-/// How far 1 % of each known factor moves each unknown, in per cent.
+/// How far 1 % of each known factor, or of the natural frequencies at the end of the band, moves each unknown, in per cent.
 fn leverage_json(case: &Case, found: &Identification) -> Vec<Value> {
     let one = |one: &Leverage| {
         let unknown = unknown_name(case, one.unknown);
-        json!({"matrix": case.model.terms()[one.term].name, "unknown": unknown, "percent_by_percent": one.change})
+        let mut json = json!({"unknown": unknown, "percent_by_percent": one.change});
+        match one.of {
+            LeverageOf::Factor(term) => json["matrix"] = json!(case.model.terms()[term].name),
+            LeverageOf::Mesh => json["mesh"] = json!(true),
+        }
+        json
     };
     found.leverage.iter().map(one).collect()
 }

@@ -112,15 +112,35 @@ pub struct FactorError {
     pub std: f64,
 }
 
-/// How far a relative error of a known factor moves an unknown.
+/// How far an error of what is taken for known moves an unknown.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Leverage {
-    /// The term with the known factor.
-    pub term: usize,
+    /// What may be in error.
+    pub of: LeverageOf,
     /// Number of the unknown.
     pub unknown: usize,
-    /// |∂ln p/∂ln f| of the unknown p by the known factor f, with the measurements as they are: the median over the band.
+    /// |∂ln p/∂ln f| of the unknown p by the known factor f, with the measurements as they are: the median over the band. Of a mesh, |∂ln p/∂δ| by the
+    /// relative error δ of the natural frequencies at the end of the band: the median over its upper quarter.
     pub change: f64,
+}
+
+/// What may be in error.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LeverageOf {
+    /// The known factor of this term.
+    Factor(usize),
+    /// The mesh: natural frequencies that are too high in proportion to ω², as those of elements are that are too large. A modulus alone in its model moves by 2.
+    Mesh,
+}
+
+impl LeverageOf {
+    /// A change above this is worth a word: an unknown that moves by more than the known factor, or by half as much again as a modulus alone with its mesh.
+    pub fn large(self) -> f64 {
+        match self {
+            Self::Factor(_) => 1.0,
+            Self::Mesh => 3.0,
+        }
+    }
 }
 
 /// Modes up to this far above the band are reported.

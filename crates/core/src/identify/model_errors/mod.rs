@@ -43,8 +43,8 @@ use crate::subspace::{Modes, Point, Projection};
 pub(super) use curve::{Curve, Curves, Spline};
 pub(super) use estimated::{Estimated, covariance};
 pub use found::{
-    Assumption, CalibrationError, ContradictedAssumption, FactorError, Leverage, ModeError, ModelErrorsFound,
-    SensorMass,
+    Assumption, CalibrationError, ContradictedAssumption, FactorError, Leverage, LeverageOf, ModeError,
+    ModelErrorsFound, SensorMass,
 };
 pub(super) use mesh::Coarser;
 pub use mesh::MeshError;

@@ -255,6 +255,19 @@ impl Fitting<'_, '_> {
         (0..self.common_parts()).filter(is_wanted).map(move |part| first + part)
     }
 
+    /// The common parts that together are an error of all natural frequencies in proportion to ω², one at the highest of the band.
+    pub(super) fn square_trend(&self) -> impl Iterator<Item = usize> {
+        let first = self.curves.count() + OF_MESH + 1;
+        (0..self.modes.groups()).map(move |group| first + group * COMMON_PARTS)
+    }
+
+    /// What each δ_i has of it.
+    pub(super) fn of_square_trend(&self) -> Vec<f64> {
+        let first = self.curves.count();
+        let of = |i: usize| self.square_trend().map(|part| self.common(i)[part - first]).sum();
+        (0..self.stiffness_errors()).map(of).collect()
+    }
+
     /// Whether it is a common part that grows with frequency.
     fn is_of_mesh(&self, coordinate: usize) -> bool {
         let part = (coordinate - self.curves.count()) % COMMON_PARTS;
