@@ -344,10 +344,9 @@ fn reference(text: &mut Text, job: &IdentifyJob, identify: &IdentifyCase, j: usi
 fn work(text: &mut Text, job: &IdentifyJob) {
     let found = &job.run.found;
     let (work, seconds) = (&found.search.work, job.run.seconds.identify());
-    let one = if job.case.model.max_factors() == 1 { ", one factor in memory at a time" } else { "" };
     text.say(
         "work",
-        &format!("{} factorisations, {} solves, {seconds:.2} s{one}", work.factorisations, work.solves),
+        &format!("{} factorisations, {} solves, {seconds:.2} s", work.factorisations, work.solves),
     );
     if let (Some(size), Some(error)) = (found.search.reduced_size, found.reduction_error()) {
         let sentence = format!("{size} vectors, error of the response at most {error:.1e} (estimated)");

@@ -151,22 +151,3 @@ fn a_kept_model_of_another_model_is_refused() {
         assert!(other.is_err(), "{name}: {other:?}");
     }
 }
-
-/// With room for one factor a training has the answers that it has with all, and no factor twice.
-#[test]
-fn one_factor_at_a_time_has_the_same_answers() {
-    for (case, unknowns, frequency_hz) in cases() {
-        let alone = Case { model: case.model.clone().with_max_factors(1), ..case };
-        let (found, _) = identified(&alone, &unknowns, &frequency_hz, 1.1, None);
-        let all = Case { model: alone.model.clone().with_max_factors(usize::MAX), ..alone };
-        let (expected, _) = identified(&all, &unknowns, &frequency_hz, 1.1, None);
-        let [few, many] = [found.search.work, expected.search.work];
-        assert_eq!(few.factorisations, many.factorisations);
-        assert!(few.solves <= many.solves + many.solves / 4, "{few:?} {many:?}");
-        for (a, b) in found.lines.iter().zip(&expected.lines) {
-            assert_eq!(a.status, b.status);
-            let [a, b] = [a.values[0].value.unwrap(), b.values[0].value.unwrap()];
-            assert!((a - b).norm() < 1e-7 * b.norm(), "{} {a} {b}", all.name);
-        }
-    }
-}

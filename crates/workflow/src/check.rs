@@ -50,9 +50,7 @@ pub fn check_case(
 ) -> Result<CheckJob, JobError> {
     let case = load(case_file, overrides, Purpose::Identify)?;
     let wanted = case.identify.as_ref().expect("a case loaded to identify has something to identify");
-    let max_factors = check_identify(&case, wanted, memory_bytes)?;
-    let case = case.with_max_factors(max_factors);
-    let wanted = case.identify.as_ref().expect("it was there before");
+    check_identify(&case, wanted, memory_bytes)?;
     let diagnosis = check(&case, wanted)?;
     Ok(CheckJob { case, diagnosis })
 }

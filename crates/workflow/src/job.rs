@@ -255,9 +255,7 @@ pub fn compute(
     let Some(wanted) = &case.identify else {
         return Err(InputError::at(&Place::option("case"), "something to identify", "none").into());
     };
-    let max_factors = check_identify(&case, wanted, options.memory_bytes)?;
-    let case = case.with_max_factors(max_factors);
-    let wanted = case.identify.as_ref().expect("it was there before");
+    check_identify(&case, wanted, options.memory_bytes)?;
     if let Some(file) = &options.keep_reduced {
         check_file(file, &case.reads)?;
     }
@@ -325,9 +323,7 @@ pub fn train_case(
     let Some(wanted) = &case.identify else {
         return Err(InputError::at(&Place::file(case_file), "something to identify", "none").into());
     };
-    let max_factors = check_identify(&case, wanted, memory_bytes)?;
-    let case = case.with_max_factors(max_factors);
-    let wanted = case.identify.as_ref().expect("it was there before");
+    check_identify(&case, wanted, memory_bytes)?;
     let start = Instant::now();
     let used = Used::of(wanted);
     let problem = problem_of(&case, wanted, &used)?;

@@ -5,9 +5,11 @@ use frfit_linalg::c64;
 use frfit_linalg::solve::{Breakdown, FactorMemory};
 use std::fmt;
 
-/// Vectors of a subspace to reckon with, and factors held beside them.
+/// Vectors of a subspace to reckon with, beside the one factor that it has at a time.
 const VECTORS: usize = 256;
-const FACTORS: usize = 4;
+
+/// Rows up to which the modes of a box are counted, by a second factor.
+const MAX_COUNTED_DOFS: usize = 100_000;
 
 /// A model that would not fit.
 #[derive(Debug, Clone, PartialEq)]
@@ -49,42 +51,36 @@ fn bytes(count: u64) -> String {
     format!("{value:.3} {}", UNITS[unit])
 }
 
-/// How many factors of a subspace there is room for in an identification: all, or else one at a time. Without `limit` in bytes there is room for what the system says is
-/// available.
-///
-/// # Errors
-/// [`MemoryError`] with the numbers, where one does not fit.
-///
-/// # Limits
-/// An estimate: exact for the real factors, an experience for the complex ones. Where the system does not say what is available, nothing is refused.
-pub fn check_identify(
-    case: &Case,
-    identify: &IdentifyCase,
-    limit: Option<u64>,
-) -> Result<usize, MemoryError> {
-    let dofs = case.model.dim();
-    let options = &identify.options;
-    let reduced = options.reduction.is_subspace(options.method, dofs, identify.frequency_hz.len());
-    if reduced || !identify.is_single() {
-        check_subspace(case, limit)
-    } else {
-        check_full(case, limit).map(|()| usize::MAX)
-    }
-}
-
-/// The same for the subspace of a band.
+/// Refuses an identification that does not fit into `limit` bytes, or without one into what the system says is available.
 ///
 /// # Errors
 /// [`MemoryError`] with the numbers.
-pub fn check_subspace(case: &Case, limit: Option<u64>) -> Result<usize, MemoryError> {
-    let basis = 8 * case.model.dim() * VECTORS;
-    let fits = |count: usize, what: String| {
-        check(case, case.model.analysis().factor_memory::<f64>(), count, basis, what, limit)
-    };
-    if fits(FACTORS, String::new()).is_ok() {
-        return Ok(usize::MAX);
+///
+/// # Limits
+/// An estimate: exact for the real factors, an experience for the complex ones. Where the system does not say what is available, nothing is refused.
+pub fn check_identify(case: &Case, identify: &IdentifyCase, limit: Option<u64>) -> Result<(), MemoryError> {
+    let dofs = case.model.dim();
+    let options = &identify.options;
+    let reduced = options.reduction.is_subspace(options.method, dofs, identify.frequency_hz.len());
+    let factors = if dofs > MAX_COUNTED_DOFS { 1 } else { 2 };
+    if reduced || !identify.is_single() {
+        check_subspace(case, factors, limit)
+    } else {
+        check_full(case, limit)
     }
-    fits(1, format!("one real factor and {VECTORS} vectors")).map(|()| 1)
+}
+
+/// The same for the subspace of a band, with so many factors at a time.
+///
+/// # Errors
+/// [`MemoryError`] with the numbers.
+pub fn check_subspace(case: &Case, factors: usize, limit: Option<u64>) -> Result<(), MemoryError> {
+    let basis = 8 * case.model.dim() * VECTORS;
+    let what = match factors {
+        1 => format!("one real factor and {VECTORS} vectors"),
+        _ => format!("{factors} real factors and {VECTORS} vectors"),
+    };
+    check(case, case.model.analysis().factor_memory::<f64>(), factors, basis, what, limit)
 }
 
 /// The same for a computation on the full model: a complex factor a thread.

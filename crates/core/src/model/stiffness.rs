@@ -90,7 +90,6 @@ pub struct DynamicStiffness {
     terms: Vec<Term>,
     analysis: Analysis,
     threads: usize,
-    max_factors: usize,
     decay_per_s: f64,
     /// One for each term.
     factor_std: Vec<FactorStd>,
@@ -137,7 +136,7 @@ impl DynamicStiffness {
             term.matrix = term.matrix.on_pattern(&union);
         }
         let factor_std = vec![FactorStd::default(); terms.len()];
-        Ok(Self { terms, analysis, threads: 1, max_factors: usize::MAX, decay_per_s: 0.0, factor_std })
+        Ok(Self { terms, analysis, threads: 1, decay_per_s: 0.0, factor_std })
     }
 
     /// The same with so many threads for one factorisation where nothing else is going on, those of the caller's pool where it has as many: a subspace's.
@@ -145,17 +144,6 @@ impl DynamicStiffness {
     #[must_use]
     pub fn with_threads(self, threads: usize) -> Self {
         Self { threads, ..self }
-    }
-
-    /// The same with so many factors of a subspace at a time, the last that were made: with one a training takes the memory of one, and some more solves. Default: all.
-    #[must_use]
-    pub fn with_max_factors(self, max_factors: usize) -> Self {
-        Self { max_factors: max_factors.max(1), ..self }
-    }
-
-    /// How many factors a subspace may have at a time.
-    pub fn max_factors(&self) -> usize {
-        self.max_factors
     }
 
     /// The same as seen through an exponential window e^{−αt} on force and response, α in 1/s (its time constant τ is 1/α). Default 0: no window.

@@ -24,7 +24,8 @@ use std::fmt;
 pub struct KeptSubspace {
     terms: usize,
     basis: Basis,
-    shifts: Vec<ShiftedSum>,
+    shift: ShiftedSum,
+    is_definite: bool,
     boxes: Vec<TrainedBox>,
 }
 
@@ -80,7 +81,7 @@ const LOAD: &str = "load";
 const SENSORS: &str = "sensors";
 const SKETCHED: &str = "sketched";
 const GAIN: &str = "gain";
-const SHIFTS: &str = "shifts";
+const SHIFT: &str = "shift";
 const BOXES: &str = "boxes";
 
 /// Numbers of a box for each term: [low, high] of the real and of the imaginary part.
@@ -89,21 +90,18 @@ const PER_TERM: usize = 4;
 impl KeptSubspace {
     /// The names of its arrays.
     pub const ARRAYS: [&'static str; 10] =
-        [WEIGHT, VECTORS, MATRICES, IMAGES, LOAD, SENSORS, SKETCHED, GAIN, SHIFTS, BOXES];
+        [WEIGHT, VECTORS, MATRICES, IMAGES, LOAD, SENSORS, SKETCHED, GAIN, SHIFT, BOXES];
 
-    /// All that it is: diag(d) and V by vectors; VᵀS_gV, ΘS_gV, VᵀF, ℓ_mᵀV, ΘF and Θℓ_m; γ; of each factorisation its frequency in Hz and the weight of each
+    /// All that it is: diag(d) and V by vectors; VᵀS_gV, ΘS_gV, VᵀF, ℓ_mᵀV, ΘF and Θℓ_m; γ; of the factorisation whether the first one was positive definite, and the weight of each
     /// term; of each training its frequencies in Hz and the factor of each term, [low, high] of real and imaginary part. Complex numbers are pairs.
     pub fn arrays(&self) -> Vec<KeptArray<'_>> {
         let Projection { size, matrices, images, load, sensors, sketched, gain, .. } = &self.basis.projection;
         let (r, n) = (*size, self.basis.weight.len());
         let pairs = |values: &[c64]| -> Vec<f64> { values.iter().flat_map(|v| [v.re, v.im]).collect() };
         let array = |name, shape: &[usize], values| KeptArray { name, shape: shape.to_vec(), values };
-        let shift = |shift: &ShiftedSum| -> Vec<f64> {
-            let mut row = vec![0.0; 1 + self.terms];
-            row[0] = shift.frequency_hz;
-            shift.weights.iter().for_each(|&(term, weight)| row[1 + term] = weight);
-            row
-        };
+        let mut shift = vec![f64::from(u8::from(self.is_definite))];
+        shift.resize(1 + self.terms, 0.0);
+        self.shift.weights.iter().for_each(|&(term, weight)| shift[1 + term] = weight);
         let trained = |trained: &TrainedBox| -> Vec<f64> {
             trained
                 .frequency_hz
@@ -120,11 +118,7 @@ impl KeptSubspace {
             array(SENSORS, &[sensors.len(), r], Cow::Owned(sensors.concat())),
             array(SKETCHED, &[sketched.len(), SKETCH_SIZE, 2], Cow::Owned(pairs(&sketched.concat()))),
             array(GAIN, &[1], Cow::Owned(vec![*gain])),
-            array(
-                SHIFTS,
-                &[self.shifts.len(), 1 + self.terms],
-                Cow::Owned(self.shifts.iter().flat_map(shift).collect()),
-            ),
+            array(SHIFT, &[1 + self.terms], Cow::Owned(shift)),
             array(
                 BOXES,
                 &[self.boxes.len(), 2 + PER_TERM * self.terms],
@@ -176,12 +170,12 @@ impl KeptSubspace {
         sized(SKETCHED, &shape, &[1 + count, SKETCH_SIZE, 2])?;
         let (shape, gain) = take(GAIN, 1)?;
         sized(GAIN, &shape, &[1])?;
-        let (shape, shifts) = take(SHIFTS, 2)?;
-        same("matrices", shape[1].saturating_sub(1), terms)?;
+        let (shape, shift) = take(SHIFT, 1)?;
+        same("matrices", shape[0].saturating_sub(1), terms)?;
         let (shape, boxes) = take(BOXES, 2)?;
         sized(BOXES, &shape, &[shape[0], 2 + PER_TERM * terms])?;
-        if r == 0 || shifts.is_empty() {
-            return Err(KeptError::Array(if r == 0 { VECTORS } else { SHIFTS }));
+        if r == 0 {
+            return Err(KeptError::Array(VECTORS));
         }
         let cut = |values: &[f64], length: usize| -> Vec<Vec<f64>> {
             values.chunks_exact(length).map(<[f64]>::to_vec).collect()
@@ -199,10 +193,7 @@ impl KeptSubspace {
             sketched: sketched.chunks_exact(2 * SKETCH_SIZE).map(numbers).collect(),
             gain: gain[0],
         };
-        let shift = |row: &[f64]| ShiftedSum {
-            frequency_hz: row[0],
-            weights: row[1..].iter().copied().enumerate().filter(|(_, weight)| *weight != 0.0).collect(),
-        };
+        let weights = shift[1..].iter().copied().enumerate().filter(|(_, weight)| *weight != 0.0);
         let trained = |row: &[f64]| TrainedBox {
             frequency_hz: [row[0], row[1]],
             factors: row[2..].chunks_exact(PER_TERM).map(|v| [[v[0], v[1]], [v[2], v[3]]]).collect(),
@@ -210,7 +201,8 @@ impl KeptSubspace {
         Ok(Self {
             terms,
             basis: Basis::kept(weight, vectors, projection),
-            shifts: shifts.chunks_exact(1 + terms).map(shift).collect(),
+            shift: ShiftedSum { weights: weights.collect() },
+            is_definite: shift[0] != 0.0,
             boxes: boxes.chunks_exact(2 + PER_TERM * terms).map(trained).collect(),
         })
     }
@@ -231,7 +223,8 @@ impl<'m> Subspace<'m> {
         KeptSubspace {
             terms: self.model.terms().len(),
             basis: self.basis.clone(),
-            shifts: self.shifts.iter().map(|shift| shift.sum.clone()).collect(),
+            shift: self.shift.sum.clone(),
+            is_definite: self.is_definite,
             boxes: self.boxes.clone(),
         }
     }
@@ -256,7 +249,8 @@ impl<'m> Subspace<'m> {
             model,
             experiment,
             basis,
-            shifts: kept.shifts.iter().cloned().map(Shift::kept).collect(),
+            shift: Shift::kept(kept.shift.clone()),
+            is_definite: kept.is_definite,
             work: Work::default(),
             boxes: kept.boxes.clone(),
         })

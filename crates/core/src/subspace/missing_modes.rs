@@ -101,7 +101,7 @@ impl<'m> Subspace<'m> {
     /// # Limits
     /// Modes that neither load nor sensors see are counted and not brought.
     pub fn bring_missing_modes(&mut self, corners: &[Point<'m>]) -> Result<Option<ModeCount>, Breakdown> {
-        if self.shifts[0].factor(self.model, &mut self.work)?.negative_eigenvalues() > 0 {
+        if !self.is_definite {
             return Ok(None);
         }
         let counted = corners.iter().map(|point| (self.projection().modes_below(point), point));

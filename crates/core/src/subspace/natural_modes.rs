@@ -172,8 +172,8 @@ impl<'m> Subspace<'m> {
         let [stiffness, mass] = real_pencil(&reference);
         let omega_squared = omega_rad_s(highest_hz).powi(2);
         let model = reference.model;
-        let mut at_highest = Shift::new(&reference, -omega_squared)?;
-        let count = at_highest.factor(model, &mut self.work)?.negative_eigenvalues();
+        let count =
+            Shift::new(&reference, -omega_squared)?.factor(model, &mut self.work)?.negative_eigenvalues();
         self.work.factorisations += 2;
         let symmetric =
             |values| SymmetricMatrix::new(model.analysis().pattern().clone(), Values::Real(values));
@@ -316,7 +316,7 @@ impl<'m> Subspace<'m> {
             );
             let mut directions: Vec<f64> =
                 force.iter().map(|f| f.re).chain(force.iter().map(|f| f.im)).collect();
-            self.shifts[0].factor(self.model, &mut self.work)?.solve(&mut directions)?;
+            self.shift.factor(self.model, &mut self.work)?.solve(&mut directions)?;
             let (re, im) = directions.split_at(n);
             let product: c64 =
                 force.iter().zip(re.iter().zip(im)).map(|(f, (&re, &im))| f * c64::new(re, im)).sum();

@@ -16,7 +16,10 @@ pub struct Subspace<'m> {
     pub(super) model: &'m DynamicStiffness,
     pub(super) experiment: &'m Experiment,
     pub(super) basis: Basis,
-    pub(super) shifts: Vec<Shift>,
+    /// The last factorisation: a factor is most of the memory, and one serves the whole band.
+    pub(super) shift: Shift,
+    /// Whether the first one, below the band, was positive definite: then modes can be counted.
+    pub(super) is_definite: bool,
     pub(super) work: Work,
     /// Where it was trained.
     pub(super) boxes: Vec<TrainedBox>,
@@ -35,14 +38,15 @@ impl<'m> Subspace<'m> {
         let model = reference.model;
         let omega_squared = omega_rad_s(reference.frequency_hz).powi(2);
         let shift = Shift::new(reference, FIRST_SHIFT_RATIO * omega_squared);
-        let shift = shift.or_else(|_| Shift::new(reference, -omega_squared))?;
+        let mut shift = shift.or_else(|_| Shift::new(reference, -omega_squared))?;
+        let mut work = Work { factorisations: 1, solves: 0 };
+        let is_definite = shift.factor(model, &mut work)?.negative_eigenvalues() == 0;
         let diagonal = shift.sum.diagonal(model);
         let largest = diagonal.iter().copied().fold(0.0, f64::max);
         // A row without any stiffness or mass of its own (a constraint) still needs a weight.
         let weight = diagonal.iter().map(|&d| d.max(1e-12 * largest)).collect();
         let basis = Basis::new(weight, Parts::of(model), experiment);
-        let work = Work { factorisations: 1, solves: 0 };
-        let mut subspace = Self { model, experiment, basis, shifts: vec![shift], work, boxes: Vec::new() };
+        let mut subspace = Self { model, experiment, basis, shift, is_definite, work, boxes: Vec::new() };
         subspace.start()?;
         Ok(subspace)
     }

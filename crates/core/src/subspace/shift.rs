@@ -1,7 +1,6 @@
 //! Real symmetric stand-ins for D, factorised: what turns residuals into directions.
 
 use crate::c64;
-use crate::frequency::omega_rad_s;
 use crate::model::{DynamicStiffness, ModelAt, Role, WeightedTerm};
 use crate::response::Work;
 use frfit_linalg::solve::{Breakdown, CheckedFactor};
@@ -11,15 +10,13 @@ use frfit_linalg::solve::{Breakdown, CheckedFactor};
 #[derive(Debug)]
 pub(super) struct Shift {
     pub(super) sum: ShiftedSum,
-    /// None where there is no room for it, and of a shift that was kept: it is made when it is needed.
+    /// None of one that was kept beyond a run: it is made when it is needed.
     factor: Option<CheckedFactor<f64>>,
 }
 
 /// Re K + σ Re M as Σ w_t Re S_t.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct ShiftedSum {
-    /// √|σ|/2π with the sign of −σ: a negative one is below the band.
-    pub(super) frequency_hz: f64,
     /// (t, w_t).
     pub(super) weights: Vec<(usize, f64)>,
 }
@@ -40,10 +37,7 @@ impl ShiftedSum {
                 Role::Viscous => None,
             }
         };
-        Self {
-            frequency_hz: -sigma.signum() * sigma.abs().sqrt() / omega_rad_s(1.0),
-            weights: at.nominal.parts.iter().filter_map(weight).collect(),
-        }
+        Self { weights: at.nominal.parts.iter().filter_map(weight).collect() }
     }
 
     /// The moduli of the diagonal.
@@ -77,7 +71,7 @@ impl Shift {
         Self { sum, factor: None }
     }
 
-    /// Gives the memory of the factor back.
+    /// Gives the memory of the factor back, for another one.
     pub(super) fn forget_factor(&mut self) {
         self.factor = None;
     }

@@ -88,9 +88,8 @@ impl<'m> Subspace<'m> {
         let sensors = (0..self.experiment.sensors.len()).map(|m| self.experiment.unit_force(m));
         let given: Vec<Vec<c64>> = std::iter::once(self.experiment.load.clone()).chain(sensors).collect();
         let dot = |a: &[f64], b: &[f64]| self.basis.force_dot(a, b);
-        let forces: Vec<(usize, Vec<f64>)> =
-            given.iter().flat_map(|force| real_directions(force, dot)).map(|force| (0, force)).collect();
-        self.solve_and_append(forces).map(drop)
+        let forces: Vec<Vec<f64>> = given.iter().flat_map(|force| real_directions(force, dot)).collect();
+        self.solve_and_append(&forces).map(drop)
     }
 
     /// Grows the basis until the error is within the tolerance at all points.
@@ -130,7 +129,7 @@ impl<'m> Subspace<'m> {
             }
             if self.work.solves >= patience && self.work.factorisations < options.factorisations {
                 patience = self.work.solves + SOLVES_PER_SHIFT;
-                self.add_shift(&points[at].at);
+                self.renew_shift(&points[at].at);
             }
             errors.retain(|&(error, _)| error > options.tolerance);
             errors.truncate(MAX_WATCHED_POINTS);
@@ -155,15 +154,13 @@ impl<'m> Subspace<'m> {
         error.unwrap_or(0.0)
     }
 
-    /// A real factorisation near the worst frequency; none where that breaks down.
-    fn add_shift(&mut self, at: &ModelAt<'m>) {
-        let sigma = -omega_rad_s(at.frequency_hz).powi(2);
-        // Room for the new one.
-        let gone = (self.shifts.len() + 1).saturating_sub(self.model.max_factors());
-        self.shifts[..gone].iter_mut().for_each(Shift::forget_factor);
+    /// A real factorisation near the worst frequency in place of the one there is; none where that breaks down.
+    fn renew_shift(&mut self, at: &ModelAt<'m>) {
+        // Two factors would take twice the memory.
+        self.shift.forget_factor();
         self.work.factorisations += 1;
-        if let Ok(shift) = Shift::new(at, sigma) {
-            self.shifts.push(shift);
+        if let Ok(shift) = Shift::new(at, -omega_rad_s(at.frequency_hz).powi(2)) {
+            self.shift = shift;
         }
     }
 
@@ -192,13 +189,12 @@ impl<'m> Subspace<'m> {
             }
         }
         let mut forces = Vec::new();
-        for (Wanted { point, new, .. }, full) in wanted.iter().zip(self.residuals(&wanted)) {
-            let shift = self.nearest_shift(point.at.frequency_hz);
+        for (Wanted { new, .. }, full) in wanted.iter().zip(self.residuals(&wanted)) {
             let directions = real_directions(&full, |a, b| self.basis.force_dot(a, b));
             let new = directions.into_iter().zip(new).filter(|(_, new)| **new);
-            forces.extend(new.map(|(force, _)| (shift, force)));
+            forces.extend(new.map(|(force, _)| force));
         }
-        self.solve_and_append(forces)
+        self.solve_and_append(&forces)
     }
 
     /// F − D V y, or ℓ_m − D V z_m for `which` = m + 1, in full; each matrix is met once for all of them.
@@ -227,32 +223,17 @@ impl<'m> Subspace<'m> {
         residuals
     }
 
-    /// Of those whose factors are kept.
-    pub(super) fn nearest_shift(&self, frequency_hz: f64) -> usize {
-        let distance = |shift: &Shift| (shift.sum.frequency_hz - frequency_hz).abs();
-        let kept = self.shifts.len().saturating_sub(self.model.max_factors())..self.shifts.len();
-        kept.min_by(|&a, &b| distance(&self.shifts[a]).total_cmp(&distance(&self.shifts[b]))).unwrap_or(0)
-    }
-
-    /// Solves each force (of norm one) with its shift, remembers the gain, and adds what is new.
-    pub(super) fn solve_and_append(&mut self, forces: Vec<(usize, Vec<f64>)>) -> Result<usize, Breakdown> {
+    /// Solves each force (of norm one), remembers the gain, and adds what is new.
+    pub(super) fn solve_and_append(&mut self, forces: &[Vec<f64>]) -> Result<usize, Breakdown> {
         if forces.is_empty() {
             return Ok(0); // nothing was learnt about the gain either
         }
-        let (mut added, mut gain) = (0, 0.0f64);
-        for (index, shift) in self.shifts.iter_mut().enumerate() {
-            let mine = forces.iter().filter(|(other, _)| *other == index);
-            let mut block: Vec<f64> = mine.flat_map(|(_, force)| force).copied().collect();
-            if block.is_empty() {
-                continue;
-            }
-            shift.factor(self.model, &mut self.work)?.solve(&mut block)?;
-            self.work.solves += block.len() / self.model.dim();
-            gain = block.chunks_exact(self.model.dim()).map(|x| self.basis.norm(x)).fold(gain, f64::max);
-            added += self.basis.append(self.model, self.experiment, block);
-        }
-        self.basis.projection.gain = gain;
-        Ok(added)
+        let mut block = forces.concat();
+        self.shift.factor(self.model, &mut self.work)?.solve(&mut block)?;
+        self.work.solves += forces.len();
+        let sizes = block.chunks_exact(self.model.dim()).map(|x| self.basis.norm(x));
+        self.basis.projection.gain = sizes.fold(0.0, f64::max);
+        Ok(self.basis.append(self.model, self.experiment, block))
     }
 }
 

@@ -124,14 +124,14 @@ impl<'m> Subspace<'m> {
                 // In coordinates in which the product of forces is the plain one.
                 let scaled = self.basis.plain_force(&direction);
                 if forces.len() < SOLVES_PER_ROUND && keep(&mut kept, &scaled) {
-                    forces.push((self.nearest_shift(points[i].at.frequency_hz), direction));
+                    forces.push(direction);
                 }
             }
             if forces.len() >= SOLVES_PER_ROUND {
                 break;
             }
         }
-        self.solve_and_append(forces)
+        self.solve_and_append(&forces)
     }
 
     /// F − D V y, or −A_p V y − D V y_p for `which` = p + 1, in full.

@@ -53,14 +53,6 @@ impl Case {
         self.row_names.get(&row).cloned().unwrap_or_else(|| format!("row {}", row + 1))
     }
 
-    /// The same with so many factors of a subspace at a time.
-    pub(crate) fn with_max_factors(mut self, max_factors: usize) -> Self {
-        if max_factors < self.model.max_factors() {
-            self.model = Arc::new(Arc::unwrap_or_clone(self.model).with_max_factors(max_factors));
-        }
-        self
-    }
-
     /// What a sensor's receptance is multiplied by to be in the quantity that it measures, under the measurements' window.
     pub(crate) fn over_receptance(&self, sensor: &SensorInfo, frequency_hz: f64) -> c64 {
         sensor.quantity.over_receptance_windowed(frequency_hz, self.model.decay_per_s())

@@ -72,7 +72,6 @@ pub fn summary_json(
         },
         "counts": {
             "factorisations": found.search.work.factorisations,
-            "one_factor_at_a_time": case.model.max_factors() == 1,
             "solves": found.search.work.solves,
             "subspace_size": found.search.reduced_size,
             "explored": found.search.explored,

@@ -56,8 +56,7 @@ pub fn sensitivities_case(
     if let Some(out) = out {
         check_folder(out, &["sensitivities.json", "sensitivities.csv"], &case.reads)?;
     }
-    let max_factors = check_subspace(&case, options.memory_bytes)?;
-    let case = case.with_max_factors(max_factors);
+    check_subspace(&case, 1, options.memory_bytes)?;
     let run = sensitivities(&case, options)?;
     let (summary, text) = match &run {
         Ok(run) => (summary::json(&case, run), report::text(&case, run)),
