@@ -325,3 +325,20 @@ fn every_link_of_the_sources_leads_somewhere() {
     assert_eq!(lost_links(here, page), Vec::<String>::new());
     assert_eq!(lost_links(here, "# A\n[a](#b) [b](missing.md)"), ["here.md: #b", "here.md: missing.md"]);
 }
+
+/// README and the page on statuses have each of them, and no other.
+#[test]
+fn every_status_is_explained() {
+    let names: Vec<&str> = frfit::identify::Status::ALL.iter().map(|status| status.name()).collect();
+    // What the user left out needs no explanation in the README, and what is fine none on the page of what is not.
+    for (page, left_out) in [("../../README.md", "out_of_band"), ("src/grey.md", "ok")] {
+        let text = std::fs::read_to_string(site().join(page)).unwrap();
+        let table = text.split("| status |").nth(1).unwrap().split("\n\n").next().unwrap();
+        let rows: Vec<&str> =
+            table.lines().filter_map(|row| row.strip_prefix("| `")?.split('`').next()).collect();
+        for name in &names {
+            assert!(rows.contains(name) || *name == left_out, "{page}: {name} is not in {rows:?}");
+        }
+        assert!(rows.iter().all(|row| names.contains(row)), "{page}: {rows:?}");
+    }
+}
