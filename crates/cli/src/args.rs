@@ -220,9 +220,9 @@ pub(crate) struct Check {
 pub(crate) struct Identify {
     /// Case file
     pub(crate) case: PathBuf,
-    /// Folder for the results
+    /// Folder for the results (default: beside the case, such as case-results for case.toml)
     #[arg(long, value_name = "DIR")]
-    pub(crate) out: PathBuf,
+    pub(crate) out: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) overrides: Overrides,
     /// Order of the series, in place of the case's
@@ -418,9 +418,9 @@ pub(crate) struct Overrides {
 pub(crate) struct Respond {
     /// Case file
     pub(crate) case: PathBuf,
-    /// Folder for the results
+    /// Folder for the results (default: beside the case, such as case-response for case.toml)
     #[arg(long, value_name = "DIR")]
-    pub(crate) out: PathBuf,
+    pub(crate) out: Option<PathBuf>,
     /// Memory that may be used, in MB (by default what is available): a model that needs more is refused
     #[arg(long, value_name = "MB")]
     pub(crate) memory: Option<u64>,

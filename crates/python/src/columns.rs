@@ -1,9 +1,11 @@
 //! What came out, as arrays: the columns of `identified.csv`, NaN where a cell is empty.
 
 use frfit::c64;
+use frfit::diagnostics::Diagnosis;
 use frfit::identify::{Calibration, Direction, Identifiability, Line, LineValue, Variation};
+use frfit_workflow::check::{faults_text, finding_texts};
 use frfit_workflow::job::Computed;
-use frfit_workflow::load::IdentifyCase;
+use frfit_workflow::load::{Case, IdentifyCase};
 use frfit_workflow::output::{coordinate, laws_json, not_identifiable, smooth_json};
 use numpy::{Element, IntoPyArray, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
@@ -35,8 +37,9 @@ pub(crate) fn identification<'py>(py: Python<'py>, computed: &Computed) -> PyRes
     search(&found, computed)?;
     identifiability(&found, computed, identify)?;
     found.set_item("title", &case.title)?;
-    found.set_item("findings", findings(py, computed)?)?;
-    found.set_item("other_explanations", other_explanations(computed))?;
+    let diagnosis = computed.diagnosis.as_ref();
+    found.set_item("findings", findings(py, case, diagnosis)?)?;
+    found.set_item("other_explanations", other_explanations(case, diagnosis))?;
     let parsed = |json: Option<serde_json::Value>| {
         json.map(|json| py.import("json")?.call_method1("loads", (json.to_string(),))).transpose()
     };
@@ -188,18 +191,20 @@ fn identifiability(found: &Bound<'_, PyDict>, computed: &Computed, identify: &Id
 }
 
 /// Faults in words, the misfit with them, and how many nats they are behind the best.
-fn other_explanations(computed: &Computed) -> Vec<(Vec<String>, f64, f64)> {
-    let others = computed.diagnosis.as_ref().map_or(&[][..], |diagnosis| &diagnosis.others);
-    let faults = |other| frfit_workflow::check::faults_text(&computed.case, other);
-    others.iter().map(|other| (faults(other), other.misfit, other.nats_behind)).collect()
+/// Faults in words, misfit and nats of each explanation between which the data do not decide.
+pub(crate) fn other_explanations(case: &Case, diagnosis: Option<&Diagnosis>) -> Vec<(Vec<String>, f64, f64)> {
+    let others = diagnosis.map_or(&[][..], |diagnosis| &diagnosis.others);
+    others.iter().map(|other| (faults_text(case, other), other.misfit, other.nats_behind)).collect()
 }
 
-fn findings<'py>(py: Python<'py>, computed: &Computed) -> PyResult<Bound<'py, PyList>> {
+/// Everything that `frfit.Finding` is made of.
+pub(crate) fn findings<'py>(
+    py: Python<'py>,
+    case: &Case,
+    diagnosis: Option<&Diagnosis>,
+) -> PyResult<Bound<'py, PyList>> {
     let findings = PyList::empty(py);
-    let diagnosis = computed.diagnosis.as_ref();
-    for finding in
-        diagnosis.map(|d| frfit_workflow::check::finding_texts(&computed.case, d)).unwrap_or_default()
-    {
+    for finding in diagnosis.map(|diagnosis| finding_texts(case, diagnosis)).unwrap_or_default() {
         let one = PyDict::new(py);
         one.set_item("kind", finding.kind)?;
         one.set_item("sensors", finding.sensors)?;

@@ -16,6 +16,7 @@ mod respond;
 mod series;
 mod signal;
 mod uff;
+mod verbs;
 
 use pyo3::prelude::*;
 
@@ -43,5 +44,16 @@ fn _frfit(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(respond::respond, module)?)?;
     module.add_function(wrap_pyfunction!(series::series, module)?)?;
     module.add_function(wrap_pyfunction!(signal::frf, module)?)?;
+    module.add_function(wrap_pyfunction!(verbs::check, module)?)?;
+    module.add_function(wrap_pyfunction!(verbs::sensitivities, module)?)?;
+    module.add_function(wrap_pyfunction!(verbs::fit, module)?)?;
+    module.add_function(wrap_pyfunction!(verbs::export, module)?)?;
+    module.add_function(wrap_pyfunction!(verbs::inspect, module)?)?;
+    module.add_function(wrap_pyfunction!(verbs::natural_frequencies, module)?)?;
+    module.add_function(wrap_pyfunction!(verbs::convert, module)?)?;
+    module.add_function(wrap_pyfunction!(verbs::examples, module)?)?;
+    module.add_function(wrap_pyfunction!(verbs::example, module)?)?;
+    module.add_function(wrap_pyfunction!(verbs::respond_case, module)?)?;
+    module.add_function(wrap_pyfunction!(verbs::frf_of_files, module)?)?;
     module.add_function(wrap_pyfunction!(uff::write_uff, module)?)
 }

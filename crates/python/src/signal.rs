@@ -31,6 +31,26 @@ pub(crate) struct How {
     keep: Vec<usize>,
 }
 
+impl How {
+    /// As the library takes them.
+    pub(crate) fn options(self, py: Python<'_>) -> PyResult<Options> {
+        let estimator = self.estimator.parse();
+        let windows = Windows::default()
+            .with_force_s(self.force_window_s)
+            .with_exponential_s(self.exponential_window_s);
+        let refuse = |error| raise(py, "OptionsError", &format!("estimator: {error}"));
+        Ok(Options::default()
+            .with_estimator(estimator.map_err(refuse)?)
+            .with_trigger_n(self.trigger_n)
+            .with_pre_trigger_s(self.pre_trigger_s)
+            .with_length_s(self.length_s)
+            .with_double_impact(self.double_impact)
+            .with_drift(self.drift)
+            .with_windows(windows)
+            .with_keep(self.keep))
+    }
+}
+
 /// What `frfit.MeasuredFrf` is made of.
 #[pyfunction]
 pub(crate) fn frf<'py>(
@@ -44,18 +64,7 @@ pub(crate) fn frf<'py>(
         responses: one.responses.as_array().rows().into_iter().map(|row| row.to_vec()).collect(),
     };
     let recordings: Vec<Recording> = recordings.into_iter().map(recording).collect();
-    let estimator = how.estimator.parse();
-    let windows =
-        Windows::default().with_force_s(how.force_window_s).with_exponential_s(how.exponential_window_s);
-    let options = Options::default()
-        .with_estimator(estimator.map_err(|error| raise(py, "OptionsError", &format!("estimator: {error}")))?)
-        .with_trigger_n(how.trigger_n)
-        .with_pre_trigger_s(how.pre_trigger_s)
-        .with_length_s(how.length_s)
-        .with_double_impact(how.double_impact)
-        .with_drift(how.drift)
-        .with_windows(windows)
-        .with_keep(how.keep);
+    let options = how.options(py)?;
     let measured = in_background(py, None, move |_| estimate_frf(&recordings, &options))?;
     let measured = measured.map_err(|error| raise(py, "SignalError", &error))?;
     let found = PyDict::new(py);

@@ -39,6 +39,25 @@ pub struct CheckJob {
     pub diagnosis: Diagnosis,
 }
 
+impl CheckJob {
+    /// What `frfit check --json` prints.
+    pub fn json(&self) -> Value {
+        json!({
+            "title": self.case.title,
+            "findings": findings_json(&self.case, &self.diagnosis),
+            "other_explanations": others_json(&self.case, &self.diagnosis),
+            "misfit": self.diagnosis.misfit,
+            "not_judged": self.diagnosis.not_judged.map(not_judged),
+            "frequencies": self.diagnosis.frequencies,
+        })
+    }
+
+    /// Whether no fault was found, and no other explanation is as likely.
+    pub fn is_clean(&self) -> bool {
+        self.diagnosis.findings.is_empty() && self.diagnosis.others.is_empty()
+    }
+}
+
 /// Loads a case and looks for what is wrong with its data; nothing is written.
 ///
 /// # Errors

@@ -26,7 +26,7 @@ use frfit::response::Work;
 use frfit::signal::{self, Measured, SignalError, estimate_frf};
 use frfit::subspace::KeptSubspace;
 use frfit_figures::PngError;
-use serde_json::Value;
+use serde_json::{Value, json};
 use std::fmt;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -308,6 +308,20 @@ pub struct TrainJob {
     pub seconds: f64,
 }
 
+impl TrainJob {
+    /// What `frfit train --json` prints.
+    pub fn json(&self) -> Value {
+        json!({
+            "dofs": self.case.model.dim(),
+            "vectors": self.vectors,
+            "factorisations": self.work.factorisations,
+            "solves": self.work.solves,
+            "bytes": self.bytes,
+            "seconds": self.seconds,
+        })
+    }
+}
+
 /// Loads a case, trains the reduced model for its band and the box of its unknowns, and writes it.
 ///
 /// # Errors
@@ -341,7 +355,7 @@ pub fn train_case(
     Ok(TrainJob { case, vectors, work, bytes, seconds })
 }
 
-/// Loads a case, computes its forward response, and writes table, UFF file and figure into `out`.
+/// Loads a case, computes its forward response, and writes table, UFF file and figure into `out`, where there is one.
 ///
 /// # Errors
 /// [`JobError`], also where the model does not fit into `memory_bytes`, or without them into what there is. A frequency at which the system cannot be solved has empty cells, not an error.
@@ -349,13 +363,16 @@ pub fn respond_case(
     case_file: &Path,
     overrides: &Overrides,
     memory_bytes: Option<u64>,
-    out: &Path,
+    out: Option<&Path>,
     progress: Progress<'_>,
 ) -> Result<(Case, RespondRun), JobError> {
     let case = load(case_file, overrides, Purpose::Respond)?;
-    check_folder(out, &["response.csv", "frf.uff"], &case.reads)?;
+    if let Some(out) = out {
+        check_folder(out, &["response.csv", "frf.uff"], &case.reads)?;
+    }
     check_full(&case, memory_bytes)?;
     let run = respond(&case, progress)?;
+    let Some(out) = out else { return Ok((case, run)) };
     let mut files = respond_figures(&case, &run)?;
     files.push(File::new("response.csv", respond_csv(&case, &run)));
     let uff = respond_uff(&case, &run).map_err(|error| InputError::in_file(&out.join("frf.uff"), error))?;

@@ -114,7 +114,7 @@ fn noise_is_what_the_files_say_or_what_is_asked_for() {
     assert_eq!(assumed.summary["noise"], serde_json::json!({"source": "assumed", "relative": 0.01}));
     let file = folder.path().join("case.toml");
     let out = folder.path().join("out");
-    let (_, response) = respond_case(&file, &Overrides::default(), None, &out, &|_, _| {}).unwrap();
+    let (_, response) = respond_case(&file, &Overrides::default(), None, Some(&out), &|_, _| {}).unwrap();
     let mut table = "frequency_hz,re,im,std\n0.0,1.0,0.0,0.1\n".to_owned();
     for (f, x) in response.frequency_hz.iter().zip(&response.receptance) {
         let x = x.as_ref().unwrap()[0];

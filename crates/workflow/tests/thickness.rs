@@ -137,7 +137,7 @@ fn three_matrices_give_a_solid_at_every_thickness() {
         let keys = unknown(thickness) + "[respond]\nband_hz = [100.0, 4000.0]\npoints = 40\n";
         let folder = folder(POWERS, &VALUES, &keys);
         let (case, out) = (folder.path().join("case.toml"), folder.path().join("out"));
-        let (case, run) = respond_case(&case, &Overrides::default(), None, &out, &|_, _| {}).unwrap();
+        let (case, run) = respond_case(&case, &Overrides::default(), None, Some(&out), &|_, _| {}).unwrap();
         let names: Vec<_> = case.model.terms().iter().map(|term| term.name.as_str()).collect();
         assert_eq!(names[..3], ["block (thickness^-1)", "block (thickness^0)", "block (thickness^1)"]);
         assert_eq!(names[3..], ["mass (thickness^1)"]);

@@ -221,7 +221,7 @@ fn responses_are_in_si_units_in_every_system() {
             let folder = folder(name, made, &load_of(k), "[respond]\nband_hz = [20.0, 600.0]\npoints = 30\n");
             let out = folder.path().join("out");
             let case = folder.path().join("case.toml");
-            let (_, run) = respond_case(&case, &Overrides::default(), None, &out, &|_, _| {}).unwrap();
+            let (_, run) = respond_case(&case, &Overrides::default(), None, Some(&out), &|_, _| {}).unwrap();
             let table = fs::read_to_string(out.join("response.csv")).unwrap();
             let rows = table.lines().skip(1).flat_map(|line| line.rsplit(',').take(2).map(str::to_owned));
             let found: Vec<f64> = rows.map(|cell| cell.parse().unwrap()).collect();
@@ -248,7 +248,7 @@ fn a_file_of_a_load_is_in_si_units() {
         fs::write(folder.path().join("force.csv"), &text).unwrap();
         let out = folder.path().join("out");
         let case = folder.path().join("case.toml");
-        let (_, run) = respond_case(&case, &Overrides::default(), None, &out, &|_, _| {}).unwrap();
+        let (_, run) = respond_case(&case, &Overrides::default(), None, Some(&out), &|_, _| {}).unwrap();
         let found = run.receptance[0].clone().unwrap();
         let first = first.get_or_insert_with(|| found.clone());
         for (a, b) in found.iter().zip(&*first) {

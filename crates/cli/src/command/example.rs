@@ -4,7 +4,7 @@ use super::{say, say_json};
 use crate::args::{Args, Example};
 use crate::outcome::{Failure, Outcome};
 use frfit_workflow::Reads;
-use frfit_workflow::output::{File, write_all};
+use frfit_workflow::output::{File, write_unedited};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
@@ -30,12 +30,12 @@ pub(crate) fn run(args: &Args, example: &Example) -> Result<Outcome, Failure> {
     Ok(Outcome::Done)
 }
 
-/// Writes an example into a folder and returns the names of its files.
+/// Writes an example into a folder and returns the names of its files; what was edited there is not overwritten.
 pub(crate) fn write(name: &str, dir: &Path) -> Result<Vec<String>, Failure> {
     let files = frfit_examples::generate(name).map_err(|error| Failure::Input(error.to_string()))?;
     let names = files.iter().map(|file| file.path.clone()).collect();
     let files: Vec<File> = files.into_iter().map(|file| File::new(file.path, file.bytes)).collect();
-    write_all(dir, files, &Reads::default())?;
+    write_unedited(dir, files, &Reads::default())?;
     Ok(names)
 }
 

@@ -6,7 +6,6 @@ use crate::outcome::{Failure, Outcome};
 use frfit_workflow::Reads;
 use frfit_workflow::export::{ExportOptions, export};
 use frfit_workflow::output::{Words, write_one};
-use serde_json::{Map, Value, json};
 
 pub(crate) fn run(args: &Args, wanted: &Export) -> Result<Outcome, Failure> {
     let options = ExportOptions {
@@ -23,22 +22,12 @@ pub(crate) fn run(args: &Args, wanted: &Export) -> Result<Outcome, Failure> {
     one_on_standard_output(args, &wanted.out)?;
     let mut reads = Reads::default();
     let done = export(&wanted.table, wanted.law.as_deref(), &options, &mut reads)?;
-    write_one(&wanted.out, done.text.into_bytes(), &reads)?;
-    let (modulus, units, out) = (done.modulus, done.units, wanted.out.display());
-    let ([first, last], count) = (modulus.band_hz(), modulus.rows.len());
+    write_one(&wanted.out, done.text.as_bytes().to_vec(), &reads)?;
     if args.json {
-        let left_out: Map<String, Value> =
-            modulus.left_out.iter().map(|(status, count)| (status.clone(), json!(count))).collect();
-        let summary = json!({
-            "wrote": out.to_string(),
-            "unit_system": units.name(),
-            "frequencies": count,
-            "range_hz": [first, last],
-            "left_out": left_out,
-            "law": modulus.law,
-        });
-        say_json(&summary)?;
+        say_json(&done.json(&wanted.out))?;
     } else {
+        let (modulus, units, out) = (done.modulus, done.units, wanted.out.display());
+        let ([first, last], count) = (modulus.band_hz(), modulus.rows.len());
         let mut words = Words::default();
         words.say(&format!(
             "wrote {out}: {count} frequencies, {first} to {last} Hz, in {} ({})\n",

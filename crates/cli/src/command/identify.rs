@@ -1,6 +1,6 @@
 //! `frfit identify`
 
-use super::{megabytes, say_json, say_words};
+use super::{folder_for, megabytes, say_json, say_words};
 use crate::args::{Args, Identify};
 use crate::outcome::{Failure, Outcome};
 use crate::progress::Progress;
@@ -26,7 +26,8 @@ pub(crate) fn run(args: &Args, identify: &Identify) -> Result<Outcome, Failure> 
         memory_bytes: identify.memory.map(megabytes),
         keep_reduced: identify.keep_reduced.clone(),
     };
-    let job = carry_out(args, &identify.case, &overrides, options, &identify.out)?;
+    let out = folder_for(identify.out.as_deref(), &identify.case, "results");
+    let job = carry_out(args, &identify.case, &overrides, options, &out)?;
     let found = &job.run.found;
     // What the user left out needs no value.
     let is_fine = |line: &Line| matches!(line.status.trust(), Trust::Trusted | Trust::NotAsked);

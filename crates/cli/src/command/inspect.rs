@@ -3,8 +3,7 @@
 use super::{say, say_json_line};
 use crate::args::{Args, Inspect};
 use crate::outcome::{Failure, Outcome};
-use frfit_workflow::inspect::{inspect, natural_frequencies, rigid_body_modes};
-use serde_json::json;
+use frfit_workflow::inspect::{inspect, modes_json, natural_frequencies, rigid_body_modes};
 
 pub(crate) fn run(args: &Args, wanted: &Inspect) -> Result<Outcome, Failure> {
     for file in &wanted.files {
@@ -27,10 +26,10 @@ pub(crate) fn run(args: &Args, wanted: &Inspect) -> Result<Outcome, Failure> {
     if frequency_hz.is_empty() {
         return Ok(Outcome::Done);
     }
-    let rigid = rigid_body_modes(&frequency_hz);
     if args.json {
-        say_json_line(&json!({"natural_frequencies_hz": frequency_hz, "rigid_body_modes": rigid}))?;
+        say_json_line(&modes_json(&frequency_hz))?;
     } else {
+        let rigid = rigid_body_modes(&frequency_hz);
         let lines = frequency_hz.iter().enumerate().map(|(i, f)| format!("  {:>3}  {f:.6} Hz\n", i + 1));
         let rigid = match rigid {
             0 => String::new(),

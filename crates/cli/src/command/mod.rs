@@ -22,7 +22,7 @@ use frfit_workflow::output::{Words, is_standard_output};
 use frfit_workflow::terminal::{printable, printable_json};
 use serde_json::Value;
 use std::io::{ErrorKind, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Says lines on standard output, without what would steer a terminal.
 pub(crate) fn say(text: &str) -> Result<(), Failure> {
@@ -74,6 +74,12 @@ fn put(mut to: impl Write, name: &str, text: &str) -> Result<(), Failure> {
         }
         _ => Ok(()),
     }
+}
+
+/// The folder of results that was asked for, or one beside the case: `case-results` for `case.toml`.
+pub(crate) fn folder_for(out: Option<&Path>, case: &Path, what: &str) -> PathBuf {
+    let stem = || case.file_stem().unwrap_or_default().to_string_lossy();
+    out.map_or_else(|| case.with_file_name(format!("{}-{what}", stem())), Path::to_path_buf)
 }
 
 /// As many bytes.

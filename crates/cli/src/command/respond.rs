@@ -1,6 +1,6 @@
 //! `frfit respond`
 
-use super::{megabytes, say_json, say_words};
+use super::{folder_for, megabytes, say_json, say_words};
 use crate::args::{Args, Respond};
 use crate::outcome::{Failure, Outcome};
 use crate::progress::Progress;
@@ -14,15 +14,11 @@ pub(crate) fn run(args: &Args, respond: &Respond) -> Result<Outcome, Failure> {
     let progress = Progress::new(args.quiet || args.json);
     let memory = respond.memory.map(megabytes);
     let show = |done, total| progress.show(done, total);
-    let done = respond_case(&respond.case, &overrides, memory, &respond.out, &show);
+    let out = folder_for(respond.out.as_deref(), &respond.case, "response");
+    let done = respond_case(&respond.case, &overrides, memory, Some(&out), &show);
     progress.end();
     let (case, run) = done?;
-    let broken: Vec<String> = run
-        .frequency_hz
-        .iter()
-        .zip(&run.receptance)
-        .filter_map(|(frequency_hz, x)| Some(format!("at {frequency_hz} Hz {}", x.as_ref().err()?)))
-        .collect();
+    let broken = run.unsolved();
     if args.json {
         say_json(&json!({"frequencies": run.frequency_hz.len(), "unsolved": broken}))?;
     } else {
@@ -34,7 +30,7 @@ pub(crate) fn run(args: &Args, respond: &Respond) -> Result<Outcome, Failure> {
             case.title,
             case.sensors.len(),
             run.frequency_hz.len(),
-            respond.out.display()
+            out.display()
         ));
         broken.iter().for_each(|line| words.warn(&format!("no answer {line}\n")));
         say_words(args, &words)?;

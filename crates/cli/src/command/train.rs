@@ -6,7 +6,6 @@ use crate::outcome::{Failure, Outcome};
 use frfit_workflow::job::{TrainJob, train_case};
 use frfit_workflow::load::Overrides;
 use frfit_workflow::output::Words;
-use serde_json::json;
 
 pub(crate) fn run(args: &Args, train: &Train) -> Result<Outcome, Failure> {
     let overrides =
@@ -14,14 +13,7 @@ pub(crate) fn run(args: &Args, train: &Train) -> Result<Outcome, Failure> {
     let job = train_case(&train.case, &overrides, train.memory.map(megabytes), &train.out)?;
     let TrainJob { case, vectors, work, bytes, seconds } = &job;
     if args.json {
-        say_json(&json!({
-            "dofs": case.model.dim(),
-            "vectors": vectors,
-            "factorisations": work.factorisations,
-            "solves": work.solves,
-            "bytes": bytes,
-            "seconds": seconds,
-        }))?;
+        say_json(&job.json())?;
         return Ok(Outcome::Done);
     }
     let mut words = Words::default();

@@ -16,17 +16,28 @@ __all__ = [
     "batch",
     "batch_status",
     "batch_table",
+    "check",
     "check_measurement",
+    "convert",
+    "example",
+    "examples",
+    "export",
+    "fit",
     "frf",
+    "frf_of_files",
     "identify",
+    "inspect",
     "modes",
+    "natural_frequencies",
     "read_matrix",
     "readable",
     "report",
     "respond",
+    "respond_case",
     "restored_model",
     "restored_series",
     "run_case",
+    "sensitivities",
     "series",
     "train",
     "write_uff",
@@ -172,3 +183,33 @@ def series(
 ) -> Series: ...
 def frf(recordings: Sequence[Any], how: dict[str, Any]) -> dict[str, Any]: ...
 def write_uff(path: _Path, functions: Sequence[dict[str, Any]], binary: bool) -> None: ...
+def check(
+    path: _Path, band_hz: tuple[float, float] | None, reduced: _Path | None, memory_bytes: int | None
+) -> dict[str, Any]: ...
+def sensitivities(
+    path: _Path,
+    out: _Path | None,
+    band_hz: tuple[float, float] | None,
+    noise: float | None,
+    candidates: str,
+    memory_bytes: int | None,
+) -> str: ...
+def fit(
+    table: _Path, laws: Sequence[str], only: tuple[str, str] | None, out: _Path | None
+) -> tuple[str, list[tuple[Law, list[str]]]]: ...
+def export(target: str, table: _Path, out: _Path | None, how: dict[str, Any]) -> str: ...
+def inspect(path: _Path) -> str: ...
+def natural_frequencies(k: _Path, m: _Path, count: int) -> str: ...
+def convert(source: _Path, target: _Path, how: dict[str, Any]) -> None: ...
+def examples() -> list[tuple[str, str]]: ...
+def example(name: str, folder: _Path) -> list[str]: ...
+def respond_case(
+    path: _Path,
+    out: _Path | None,
+    band_hz: tuple[float, float] | None,
+    memory_bytes: int | None,
+    progress: _Progress,
+) -> dict[str, Any]: ...
+def frf_of_files(
+    records: Sequence[_Path], out: _Path, channels: dict[str, Any], how: dict[str, Any]
+) -> str: ...

@@ -121,7 +121,36 @@ def frf(
     expected = "a Recording or several"
     one = isinstance(recordings, Recording)
     plain = [_plain(each) for each in ([recordings] if one else several(recordings, "recordings", expected))]
-    how = {
+    how = signal_options(
+        estimator=estimator,
+        trigger_n=trigger_n,
+        pre_trigger_s=pre_trigger_s,
+        length_s=length_s,
+        double_impact=double_impact,
+        drift=drift,
+        force_window_s=force_window_s,
+        exponential_window_s=exponential_window_s,
+        keep=keep,
+    )
+    found = _frfit.frf(plain, how)
+    impacts = tuple(Impact(**{**impact, "faults": tuple(impact["faults"])}) for impact in found.pop("impacts"))
+    return MeasuredFrf(impacts=impacts, **found)
+
+
+def signal_options(
+    *,
+    estimator: str,
+    trigger_n: float | None,
+    pre_trigger_s: float | None,
+    length_s: float | None,
+    double_impact: float,
+    drift: float,
+    force_window_s: float | None,
+    exponential_window_s: float | None,
+    keep: Sequence[int],
+) -> dict[str, Any]:
+    """The options of an FRF, checked."""
+    return {
         "estimator": word(estimator, "estimator"),
         "trigger_n": optional_number(trigger_n, "trigger_n"),
         "pre_trigger_s": optional_number(pre_trigger_s, "pre_trigger_s"),
@@ -132,6 +161,3 @@ def frf(
         "exponential_window_s": optional_number(exponential_window_s, "exponential_window_s"),
         "keep": [_impact(impact) for impact in several(keep, "keep", "numbers of impacts, from 1")],
     }
-    found = _frfit.frf(plain, how)
-    impacts = tuple(Impact(**{**impact, "faults": tuple(impact["faults"])}) for impact in found.pop("impacts"))
-    return MeasuredFrf(impacts=impacts, **found)

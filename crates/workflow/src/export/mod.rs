@@ -16,6 +16,7 @@ pub(crate) use unknown::table_of_unknown;
 
 use crate::error::{InputError, Place};
 use crate::reads::Reads;
+use serde_json::{Map, Value, json};
 use solid::{Solid, heading};
 use std::path::Path;
 
@@ -28,6 +29,22 @@ pub struct Export {
     pub modulus: Modulus,
     /// The units in which it was written.
     pub units: UnitSystem,
+}
+
+impl Export {
+    /// What `frfit export --json` prints of a file that was written.
+    pub fn json(&self, wrote: &Path) -> Value {
+        let left_out: Map<String, Value> =
+            self.modulus.left_out.iter().map(|(status, count)| (status.clone(), json!(count))).collect();
+        json!({
+            "wrote": wrote.display().to_string(),
+            "unit_system": self.units.name(),
+            "frequencies": self.modulus.rows.len(),
+            "range_hz": self.modulus.band_hz(),
+            "left_out": left_out,
+            "law": self.modulus.law,
+        })
+    }
 }
 
 /// A table of moduli, such as `identified.csv`, as the input of a solver, as a table or as JSON. With a law (a `law.json`) the values are those of the best law in it, at the

@@ -10,7 +10,7 @@ mod uff;
 
 pub use lvm::LvmFacts;
 pub use matrix::{LabelFacts, MatrixFacts};
-pub use modes::{natural_frequencies, rigid_body_modes};
+pub use modes::{modes_json, natural_frequencies, rigid_body_modes};
 pub use table::{TableFacts, TableUse};
 pub use uff::{UffContent, UffRecord};
 

@@ -3,6 +3,7 @@
 use crate::error::{InputError, Place};
 use crate::load::{Member, load_one, one_order, symmetric_matrix};
 use frfit_linalg::modes::{ModesError, lowest};
+use serde_json::{Value, json};
 use std::path::Path;
 
 /// The lowest natural frequencies of K φ = ω² M φ in Hz, in ascending order; 0 for a rigid-body mode up to roundoff.
@@ -40,6 +41,11 @@ pub fn natural_frequencies(k: &Path, m: &Path, count: usize) -> Result<Vec<f64>,
         InputError::at(&place, "K and M with natural frequencies", error.to_string())
     })?;
     Ok(modes.frequencies_hz())
+}
+
+/// What `frfit inspect K M --json` prints of natural frequencies.
+pub fn modes_json(frequency_hz: &[f64]) -> Value {
+    json!({"natural_frequencies_hz": frequency_hz, "rigid_body_modes": rigid_body_modes(frequency_hz)})
 }
 
 /// How many of the first natural frequencies, ascending, are those of rigid-body modes: zero up to roundoff.

@@ -91,6 +91,22 @@ pub fn write_all(folder: &Path, files: Vec<File>, reads: &Reads) -> Result<(), W
     write(files.into_iter().map(|file| (folder.join(file.path), file.bytes)).collect(), reads)
 }
 
+/// As [`write_all`], but where a file is there with other contents nothing is written: somebody has edited it.
+///
+/// # Errors
+/// [`WriteError`] with the path of the first such file.
+pub fn write_unedited(folder: &Path, files: Vec<File>, reads: &Reads) -> Result<(), WriteError> {
+    let is_edited =
+        |file: &&File| std::fs::read(folder.join(&file.path)).is_ok_and(|there| there != file.bytes);
+    match files.iter().find(is_edited) {
+        Some(file) => {
+            let expected = "another folder, or this file deleted: an edited file is not overwritten";
+            Err(WriteError::at(&folder.join(&file.path), expected, "a file with other contents".to_owned()))
+        }
+        None => write_all(folder, files, reads),
+    }
+}
+
 /// As [`write_all`], with the list of the files of a result, `<result>-manifest.json`, by which a reader knows a run that was killed between two of them.
 ///
 /// A page that can be made of the others is not in the list.

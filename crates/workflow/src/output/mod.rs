@@ -23,7 +23,9 @@ pub use assumptions::contradicted;
 pub use candidates::candidates_csv;
 pub(crate) use candidates::{Solution, solutions};
 pub use error_map::error_map_csv;
-pub use files::{File, WriteError, check_file, check_folder, write_all, write_one, write_result};
+pub use files::{
+    File, WriteError, check_file, check_folder, write_all, write_one, write_result, write_unedited,
+};
 pub use frf::{respond_uff, updated_uff};
 pub use identifiability::{coordinate, not_identifiable};
 pub use identified::identified_csv;

@@ -18,6 +18,15 @@ pub struct RespondRun {
     pub receptance: Vec<Result<Vec<c64>, Breakdown>>,
 }
 
+impl RespondRun {
+    /// The frequencies at which the system could not be solved, with the reason.
+    pub fn unsolved(&self) -> Vec<String> {
+        let rows = self.frequency_hz.iter().zip(&self.receptance);
+        rows.filter_map(|(frequency_hz, x)| Some(format!("at {frequency_hz} Hz {}", x.as_ref().err()?)))
+            .collect()
+    }
+}
+
 /// One direct solve a frequency, P-7, on all cores.
 ///
 /// # Errors

@@ -130,7 +130,7 @@ fn a_response_of_a_windowed_case_is_what_would_be_measured() {
     fs::write(&case, text.replace("factor = { storage = 2e5, loss_factor = 0.02 }", &exact)).unwrap();
     assert_eq!(load(&case, &Overrides::default(), Purpose::Respond).unwrap().model.decay_per_s(), DECAY);
     let out = folder.path().join("out");
-    respond_case(&case, &Overrides::default(), None, &out, &|_, _| {}).unwrap();
+    respond_case(&case, &Overrides::default(), None, Some(&out), &|_, _| {}).unwrap();
     let measured = measured(&linear_hz(10.0, 120.0, 56));
     for (m, values) in measured.iter().enumerate() {
         let choice = Choice { record: Some(m as i64 + 1), ..Choice::default() };
