@@ -115,9 +115,19 @@ pub(crate) enum Command {
     Inspect(Inspect),
     /// Convert a matrix or an FRF to another format, by the endings of the names
     #[command(
-        after_help = "Examples: frfit convert bcsstk09.rsa bcsstk09.mtx\n          frfit convert model.mat K.mtx --name K\n          frfit convert frf.uff frf.csv --record 2"
+        after_help = "Examples: frfit convert bcsstk09.rsa bcsstk09.mtx\n          frfit convert model.mat K.mtx --name K\n          frfit convert frf.uff frf.csv --record 2\n          frfit convert analyser.csv frf.csv --columns frequency_hz,magnitude_db,phase_deg"
     )]
     Convert(Convert),
+    /// Print a script with which a shell completes commands and options
+    #[command(
+        after_help = "Examples: frfit completions bash > ~/.local/share/bash-completion/completions/frfit\n          \
+                      frfit completions zsh > ~/.zfunc/_frfit\n          \
+                      frfit completions fish > ~/.config/fish/completions/frfit.fish"
+    )]
+    Completions(Completions),
+    /// Write the manual pages
+    #[command(after_help = "Example: frfit man ~/.local/share/man/man1 && man frfit-identify")]
+    Man(Man),
 }
 
 #[derive(Debug, clap::Args)]
@@ -491,9 +501,12 @@ pub(crate) struct Convert {
     /// Which matrix of a file of several
     #[arg(long)]
     pub(crate) name: Option<String>,
-    /// Which FRF of a UFF file, from 1
-    #[arg(long, value_name = "N")]
-    pub(crate) record: Option<i64>,
+    /// Which FRFs of a UFF file, from 1, such as 2 or 1,3
+    #[arg(long, value_name = "N", value_delimiter = ',')]
+    pub(crate) record: Vec<i64>,
+    /// Names of a table's columns in place of its own, such as frequency_hz,magnitude_db,phase_deg; - for one that is not read
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', allow_hyphen_values = true)]
+    pub(crate) columns: Option<Vec<String>>,
     /// What a table's FRF is: receptance, mobility or accelerance
     #[arg(long)]
     pub(crate) quantity: Option<frfit::quantity::Quantity>,
@@ -506,6 +519,19 @@ pub(crate) struct Convert {
     /// Binary dataset 58b in place of text
     #[arg(long)]
     pub(crate) binary: bool,
+}
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct Completions {
+    /// bash, zsh, fish, elvish or powershell
+    pub(crate) shell: clap_complete::Shell,
+}
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct Man {
+    /// Folder to write them to: frfit.1, and a page for each command
+    #[arg(value_name = "DIR")]
+    pub(crate) folder: PathBuf,
 }
 
 /// A law, or `all` of them.

@@ -47,5 +47,7 @@ fn run(args: &Args) -> Result<Outcome, Failure> {
         Command::Sensitivities(wanted) => command::sensitivities::run(args, wanted),
         Command::Inspect(inspect) => command::inspect::run(args, inspect),
         Command::Convert(convert) => command::convert::run(args, convert),
+        Command::Completions(wanted) => command::completions::run(wanted),
+        Command::Man(man) => command::man::run(args, man),
     }
 }

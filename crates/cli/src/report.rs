@@ -19,7 +19,7 @@ pub(crate) fn identified(job: &IdentifyJob, out: &Path) -> Words {
     text.0.say(&head(job, identify));
     // What is wrong with the data comes before what was made of them.
     text.0.warn(&job.diagnosis.as_ref().map_or(String::new(), |found| findings_text(&job.case, found)));
-    statuses(&mut text, job);
+    statuses(&mut text, job, identify);
     for j in 0..identify.unknowns.len() {
         value(&mut text, job, identify, j);
     }
@@ -74,7 +74,7 @@ fn head(job: &IdentifyJob, identify: &IdentifyCase) -> String {
     format!("{}: {what} at {} frequencies, {band}\n", job.case.title, lines.len())
 }
 
-fn statuses(text: &mut Text, job: &IdentifyJob) {
+fn statuses(text: &mut Text, job: &IdentifyJob, identify: &IdentifyCase) {
     let run = &job.run;
     if let Some(breakdown) = &run.found.search.breakdown {
         let sentence = format!("the model has no real stand-in that can be factorised: {breakdown}");
@@ -84,6 +84,14 @@ fn statuses(text: &mut Text, job: &IdentifyJob) {
     let counts: Vec<String> =
         there.map(|status| format!("{} {}", run.count(status), status.name())).collect();
     text.say("status", &counts.join(", "));
+    let (not_common, used) = (identify.not_common, identify.frequency_hz.len());
+    if not_common > 0 {
+        let all = used + not_common;
+        text.warn(
+            "lines",
+            &format!("{used} of {all} in the band are used: the sensors have no others in common"),
+        );
+    }
     let decay_per_s = job.case.model.decay_per_s();
     if decay_per_s > 0.0 {
         text.say("window", &format!("decay_per_s = {decay_per_s}, taken into the model"));

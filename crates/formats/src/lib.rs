@@ -25,6 +25,7 @@
 
 mod assemble;
 mod bytes;
+mod columns;
 mod detect;
 mod error;
 mod gather;

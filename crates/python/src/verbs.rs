@@ -167,7 +167,8 @@ pub(crate) fn natural_frequencies(py: Python<'_>, k: PathBuf, m: PathBuf, count:
 pub(crate) struct Converted {
     to: Option<String>,
     name: Option<String>,
-    record: Option<i64>,
+    records: Vec<i64>,
+    columns: Option<Vec<String>>,
     quantity: Option<String>,
     response: Option<String>,
     reference: Option<String>,
@@ -179,7 +180,8 @@ pub(crate) struct Converted {
 pub(crate) fn convert(py: Python<'_>, source: PathBuf, target: PathBuf, how: Converted) -> PyResult<()> {
     let options = ConvertOptions {
         name: how.name,
-        record: how.record,
+        records: how.records,
+        columns: how.columns,
         quantity: how.quantity.map(|quantity| word(py, "quantity", &quantity)).transpose()?,
         response: how.response.map(|dof| word(py, "response", &dof)).transpose()?,
         reference: how.reference.map(|dof| word(py, "reference", &dof)).transpose()?,

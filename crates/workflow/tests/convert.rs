@@ -7,7 +7,7 @@ use frfit::quantity::Quantity;
 use frfit_formats::{CoordinateMatrix, Entries, csv, op4, read_matrices, read_matrix, uff};
 use frfit_workflow::Reads;
 use frfit_workflow::convert::{ConvertOptions, convert};
-use frfit_workflow::load::{Choice, load_frf};
+use frfit_workflow::load::{Choice, load_frf, read_frf};
 use insta::assert_snapshot;
 use proptest::prelude::*;
 use shared_data::shared;
@@ -46,7 +46,8 @@ impl Folder {
 
 const PLAIN: ConvertOptions = ConvertOptions {
     name: None,
-    record: None,
+    records: Vec::new(),
+    columns: None,
     quantity: None,
     response: None,
     reference: None,
@@ -97,8 +98,66 @@ fn matrices_go_to_nastran_and_back_one_by_one() {
     assert_eq!(read_matrices(&one).unwrap().len(), 1);
     assert_snapshot!(folder.refused("two.op4", "K.mtx", &PLAIN), @"two.op4: expected one matrix, or --name, found K (2 x 2), M (2 x 2)");
     assert_snapshot!(folder.refused("two.op4", "C.mtx", &named("C")), @r#"--name: expected one matrix named "C", found K (2 x 2), M (2 x 2)"#);
-    assert_snapshot!(folder.refused("two.op4", "K.csv", &PLAIN), @"K.csv: expected an ending to which a Nastran OUTPUT4 file can be converted: .mtx or .mm (Matrix Market), .hb, .rb, .rsa, .rua, .csa, .cua, .psa or another matrix type (Harwell-Boeing), .op4 (Nastran OUTPUT4), found the ending of an FRF");
+    assert_snapshot!(folder.refused("two.op4", "K.csv", &PLAIN), @"K.csv: expected an ending to which a Nastran OUTPUT4 file can be converted: .mtx or .mm (Matrix Market), .hb, .rb, .rsa, .rua, .csa, .cua, .psa or another matrix type (Harwell-Boeing), .op4 (Nastran OUTPUT4), .npz (SciPy), .mat (MATLAB), found the ending of an FRF");
     assert_snapshot!(folder.refused("K_skins.mtx", "K.mtx", &named("K")), @"--name: expected no name beside a file that names no matrix, found K");
+}
+
+/// Both triangles, every bit; what SciPy makes of them is tried beside the writers.
+#[test]
+fn matrices_go_to_scipy_and_matlab_and_back() {
+    let folder = Folder::with("K_skins.mtx", MATRIX);
+    let full = |bytes: &[u8]| {
+        let matrix = read_matrix(bytes).unwrap();
+        (matrix.rows, matrix.cols, matrix.entries)
+    };
+    let values = Entries::Real(vec![0.1, -3e-7, -3e-7, 12345678.901234567]);
+    let expected = (vec![0, 1, 0, 1], vec![0, 0, 1, 1], values);
+    for file in ["K.npz", "K.mat"] {
+        assert_eq!(full(&folder.convert("K_skins.mtx", file, &PLAIN)), expected, "{file}");
+    }
+    assert_eq!(read_matrices(&folder.convert("K_skins.mtx", "K.mat", &PLAIN)).unwrap()[0].name, "K_skins");
+    let k = read_matrix(MATRIX.as_bytes()).unwrap();
+    fs::write(folder.path("two.op4"), op4::write(&[("K", &k), ("M", &k)]).unwrap()).unwrap();
+    assert_eq!(read_matrices(&folder.convert("two.op4", "two.mat", &PLAIN)).unwrap().len(), 2);
+    assert_snapshot!(folder.refused("two.op4", "two.npz", &PLAIN), @"two.op4: expected one matrix, or --name, found K (2 x 2), M (2 x 2)");
+}
+
+#[test]
+fn frfs_are_picked_with_what_belongs_to_them() {
+    let folder = Folder::with("frf.csv", TABLE);
+    let mut all = Vec::new();
+    for dof in ["1+Z", "2+Z", "3+Z"] {
+        let options = ConvertOptions { response: Some(dof.parse().unwrap()), ..of_table(true) };
+        all.extend(folder.convert("frf.csv", "one.uff", &options));
+    }
+    fs::write(folder.path("all.uff"), &all).unwrap();
+    let picked = |records: Vec<i64>| {
+        let options = ConvertOptions { records, binary: true, ..PLAIN };
+        let bytes = folder.convert("all.uff", "picked.uff", &options);
+        let dofs = |record: i64| {
+            let choice = Choice { record: Some(record), ..Choice::default() };
+            let frf = read_frf(&bytes, &choice).ok()?;
+            assert!(frf.coherence.is_some());
+            Some(frf.measured_at?.to_string())
+        };
+        (1..=3).map_while(dofs).collect::<Vec<_>>()
+    };
+    assert_eq!(picked(vec![]), ["1+Z", "2+Z", "3+Z"]);
+    assert_eq!(picked(vec![3, 1]), ["1+Z", "3+Z"]);
+    let beyond = ConvertOptions { records: vec![4], ..PLAIN };
+    assert_snapshot!(folder.refused("all.uff", "x.uff", &beyond), @"all.uff: expected --record from 1 to 3, found 4");
+}
+
+#[test]
+fn columns_of_a_table_are_named_by_option() {
+    let folder = Folder::with("analyser.csv", "Hz;dB;deg;n\n10;20;90;1\n20;0;-180,0;2\n");
+    let columns = ["frequency_hz", "magnitude_db", "phase_deg", "-"].map(str::to_owned).to_vec();
+    let options = ConvertOptions { columns: Some(columns), ..PLAIN };
+    let table = folder.convert("analyser.csv", "frf.csv", &options);
+    let frf = read_frf(&table, &Choice::default()).unwrap();
+    assert_eq!(frf.frequency_hz, [10.0, 20.0]);
+    let expected = [frfit::c64::new(0.0, 10.0), frfit::c64::new(-1.0, 0.0)];
+    assert!(frf.response.iter().zip(expected).all(|(value, expected)| (value - expected).norm() < 1e-14));
 }
 
 #[test]
@@ -189,9 +248,9 @@ fn endings_say_what_the_output_is() {
     let folder = Folder::with("K.mtx", MATRIX);
     fs::write(folder.path("frf.csv"), TABLE).unwrap();
     fs::write(folder.path("note.txt"), "Dear reader").unwrap();
-    assert_snapshot!(folder.refused("K.mtx", "K.dat", &PLAIN), @"K.dat: expected an ending that names a format: .mtx or .mm (Matrix Market), .hb, .rb, .rsa, .rua, .csa, .cua, .psa or another matrix type (Harwell-Boeing), .op4 (Nastran OUTPUT4), .uff, .unv or .uf (UFF), .csv (table); or --to with one, for a name without (standard output, a device), found .dat");
-    assert_snapshot!(folder.refused("K.mtx", "K", &PLAIN), @"K: expected an ending that names a format: .mtx or .mm (Matrix Market), .hb, .rb, .rsa, .rua, .csa, .cua, .psa or another matrix type (Harwell-Boeing), .op4 (Nastran OUTPUT4), .uff, .unv or .uf (UFF), .csv (table); or --to with one, for a name without (standard output, a device), found none");
-    assert_snapshot!(folder.refused("K.mtx", "K.csv", &PLAIN), @"K.csv: expected an ending to which a Matrix Market file can be converted: .mtx or .mm (Matrix Market), .hb, .rb, .rsa, .rua, .csa, .cua, .psa or another matrix type (Harwell-Boeing), .op4 (Nastran OUTPUT4), found the ending of an FRF");
+    assert_snapshot!(folder.refused("K.mtx", "K.dat", &PLAIN), @"K.dat: expected an ending that names a format: .mtx or .mm (Matrix Market), .hb, .rb, .rsa, .rua, .csa, .cua, .psa or another matrix type (Harwell-Boeing), .op4 (Nastran OUTPUT4), .npz (SciPy), .mat (MATLAB), .uff, .unv or .uf (UFF), .csv (table); or --to with one, for a name without (standard output, a device), found .dat");
+    assert_snapshot!(folder.refused("K.mtx", "K", &PLAIN), @"K: expected an ending that names a format: .mtx or .mm (Matrix Market), .hb, .rb, .rsa, .rua, .csa, .cua, .psa or another matrix type (Harwell-Boeing), .op4 (Nastran OUTPUT4), .npz (SciPy), .mat (MATLAB), .uff, .unv or .uf (UFF), .csv (table); or --to with one, for a name without (standard output, a device), found none");
+    assert_snapshot!(folder.refused("K.mtx", "K.csv", &PLAIN), @"K.csv: expected an ending to which a Matrix Market file can be converted: .mtx or .mm (Matrix Market), .hb, .rb, .rsa, .rua, .csa, .cua, .psa or another matrix type (Harwell-Boeing), .op4 (Nastran OUTPUT4), .npz (SciPy), .mat (MATLAB), found the ending of an FRF");
     assert_snapshot!(folder.refused("frf.csv", "frf.mtx", &of_table(false)), @"frf.mtx: expected an ending to which a table (CSV) can be converted: .uff, .unv or .uf (UFF), .csv (table), found the ending of a matrix");
     assert_snapshot!(folder.refused("K.mtx", "K.rua", &PLAIN), @"K.rua: expected the ending .rsa of what the matrix is, or .hb, found .rua");
     assert_snapshot!(folder.refused("note.txt", "K.rua", &PLAIN), @"note.txt: expected a UFF file, matrices (Matrix Market, Harwell-Boeing, CalculiX, Abaqus, Nastran DMIG, Nastran OUTPUT4, NumPy, MATLAB), a table (CSV), found none of them (no %%MatrixMarket or -1 at the top, no matrix type in line 3, no names of columns)");
@@ -211,10 +270,11 @@ fn an_option_that_is_missing_or_has_no_meaning_is_named() {
     options.reference = Some(DofName { node: u64::MAX, ..options.response.unwrap() });
     assert_snapshot!(folder.refused("frf.csv", "a.uff", &options), @"--reference: expected a node of at most ten digits, found 18446744073709551615+X");
     assert_snapshot!(folder.refused("K.mtx", "K.rsa", &ConvertOptions { binary: true, ..PLAIN }), @"--binary: expected no such option for a matrix, found it");
-    assert_snapshot!(folder.refused("frf.uff", "a.uff", &ConvertOptions { record: Some(1), ..PLAIN }), @"--record: expected no such option for a whole UFF file, found 1");
+    assert_snapshot!(folder.refused("frf.csv", "a.csv", &ConvertOptions { records: vec![1], ..PLAIN }), @"--record: expected no such option for a table made of a table, found 1");
+    assert_snapshot!(folder.refused("frf.uff", "a.csv", &ConvertOptions { records: vec![1, 2], ..PLAIN }), @"--record: expected one FRF for a table, found 1,2");
     let other = ConvertOptions { quantity: Some(Quantity::Mobility), ..PLAIN };
     assert_snapshot!(folder.refused("frf.uff", "a.csv", &other), @"--quantity: expected accelerance, as the file says (values are not converted), found mobility");
-    let beyond = ConvertOptions { record: Some(2), ..PLAIN };
+    let beyond = ConvertOptions { records: vec![2], ..PLAIN };
     let refusal = folder.refused("frf.uff", "a.csv", &beyond);
     assert!(refusal.contains("record") && refusal.ends_with("found 2"), "{refusal}");
 }

@@ -10,7 +10,8 @@ use frfit_workflow::output::{Words, write_one};
 pub(crate) fn run(args: &Args, wanted: &Convert) -> Result<Outcome, Failure> {
     let options = ConvertOptions {
         name: wanted.name.clone(),
-        record: wanted.record,
+        records: wanted.record.clone(),
+        columns: wanted.columns.clone(),
         quantity: wanted.quantity,
         response: wanted.response,
         reference: wanted.reference,

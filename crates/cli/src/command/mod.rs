@@ -2,6 +2,7 @@
 
 pub(crate) mod batch;
 pub(crate) mod check;
+pub(crate) mod completions;
 pub(crate) mod convert;
 pub(crate) mod demo;
 pub(crate) mod example;
@@ -10,6 +11,7 @@ pub(crate) mod fit;
 pub(crate) mod frf;
 pub(crate) mod identify;
 pub(crate) mod inspect;
+pub(crate) mod man;
 pub(crate) mod modes;
 pub(crate) mod report;
 pub(crate) mod respond;

@@ -78,7 +78,7 @@ impl Table {
 }
 
 /// The name nearest to another by edit distance, if any is near at all.
-fn nearest<'a>(name: &str, names: impl Iterator<Item = &'a str>) -> Option<&'a str> {
+pub(super) fn nearest<'a>(name: &str, names: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     const LONGEST: usize = 64;
     let distance = |other: &str| strsim::levenshtein(&name.to_ascii_lowercase(), &other.to_ascii_lowercase());
     names

@@ -1,10 +1,13 @@
-//! Frequency response functions: frequency_hz, re, im[, coherence][, std], and `# decay_per_s = 6` of a windowed one.
+//! Frequency response functions: a frequency, real and imaginary part or magnitude and phase\[, coherence\]\[, std\], and
+//! `# decay_per_s = 6` of a windowed one.
 
 use num_complex::Complex64 as c64;
+use std::f64::consts::PI;
 
 use super::Table;
+use super::time_records::name_and_unit;
 use crate::FormatError;
-use crate::text::{Lines, number};
+use crate::text::{Lines, number, quoted};
 
 /// A measured frequency response function, sorted by frequency.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,34 +24,234 @@ pub struct FrfTable {
     pub decay_per_s: Option<f64>,
 }
 
-/// Reads a frequency response function: columns frequency_hz, re, im, and coherence and std if there are any.
+/// What a column of an FRF holds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Column {
+    /// Of so many hertz each.
+    Frequency(f64),
+    Real,
+    Imaginary,
+    Magnitude,
+    /// 20 log₁₀ of the magnitude in SI units.
+    Decibel,
+    /// Of so many radians each.
+    Phase(f64),
+    Coherence,
+    Std,
+}
+
+/// The columns that an FRF may have, as errors list them.
+const COLUMNS: &str = "frequency_hz, re, im, magnitude, magnitude_db, phase_deg, phase_rad, coherence, std";
+
+/// The units of a value that are SI.
+const SI: [&str; 12] = [
+    "",
+    "m/N",
+    "m/s/N",
+    "(m/s)/N",
+    "m/s^2/N",
+    "m/s²/N",
+    "(m/s^2)/N",
+    "(m/s²)/N",
+    "m/(N s)",
+    "m/(Ns)",
+    "1/kg",
+    "s/kg",
+];
+
+impl Column {
+    /// What a column with this name holds, or what is wrong with the name (expected, found).
+    ///
+    /// `Frequency (Hz)`, `frequency [Hz]` and `frequency_hz` are the same. A frequency without a unit is in hertz; a phase
+    /// without a unit is refused, for degrees and radians are both usual.
+    fn of(name: &str) -> Result<Self, (String, String)> {
+        let (plain, unit) = name_and_unit(name);
+        let plain = plain.to_ascii_lowercase().replace([' ', '-'], "_");
+        let (stem, suffix) = ["hz", "khz", "rad_s", "db", "deg", "rad"]
+            .into_iter()
+            .filter_map(|suffix| Some((plain.strip_suffix(suffix)?.strip_suffix('_')?, suffix)))
+            .next_back()
+            .unwrap_or((&plain, ""));
+        let lower = unit.to_ascii_lowercase();
+        let of_unit = if suffix.is_empty() { lower.as_str() } else { suffix };
+        let refuse = |expected: &str| Err((expected.to_owned(), quoted(name.as_bytes())));
+        let value =
+            |column: Self| match SI.iter().any(|si| si.eq_ignore_ascii_case(&unit)) && suffix.is_empty() {
+                true => Ok(column),
+                false => refuse("values in m, s, N and kg (scale of [[measurement]] has the factor)"),
+            };
+        match stem {
+            "frequency" | "freq" | "f" => match of_unit {
+                "" | "hz" => Ok(Self::Frequency(1.0)),
+                "khz" => Ok(Self::Frequency(1e3)),
+                "rad/s" | "rad_s" => Ok(Self::Frequency(0.5 / PI)),
+                _ => refuse("a frequency in Hz, kHz or rad/s"),
+            },
+            "re" | "real" | "real_part" => value(Self::Real),
+            "im" | "imag" | "imaginary" | "imag_part" | "imaginary_part" => value(Self::Imaginary),
+            "magnitude" | "mag" | "amplitude" | "abs" => match of_unit {
+                "db" => Ok(Self::Decibel),
+                _ => value(Self::Magnitude),
+            },
+            "phase" | "angle" | "arg" => match of_unit {
+                "deg" | "degree" | "degrees" | "°" => Ok(Self::Phase(PI / 180.0)),
+                "rad" | "radian" | "radians" => Ok(Self::Phase(1.0)),
+                _ => refuse("the unit of the phase, as in phase_deg or \"phase (rad)\""),
+            },
+            "coherence" | "coh" if of_unit.is_empty() => Ok(Self::Coherence),
+            "std" if of_unit.is_empty() => Ok(Self::Std),
+            _ => {
+                let known = COLUMNS.split(", ");
+                let hint =
+                    super::columns::nearest(name, known).map(|near| format!("; did you mean {near:?}?"));
+                let found = match name {
+                    "" => "a column without a name".into(),
+                    _ => format!("{}{}", quoted(name.as_bytes()), hint.unwrap_or_default()),
+                };
+                Err((format!("one of the columns {COLUMNS}"), found))
+            }
+        }
+    }
+}
+
+/// Where the columns of an FRF are.
+struct Columns {
+    frequency: (usize, f64),
+    value: Value,
+    coherence: Option<usize>,
+    std: Option<usize>,
+}
+
+/// How a complex value is written.
+enum Value {
+    Parts { re: usize, im: usize },
+    Polar { magnitude: usize, is_db: bool, phase: usize, radians: f64 },
+}
+
+impl Columns {
+    fn of(table: &Table) -> Result<Self, FormatError> {
+        let mut found: Vec<(usize, Column)> = Vec::new();
+        for (index, name) in table.names().enumerate() {
+            // What a caller names so is left out.
+            if name == LEFT_OUT {
+                continue;
+            }
+            let column =
+                Column::of(name).map_err(|(expected, found)| table.name_error(index, expected, found))?;
+            let same = |one: &&(usize, Column)| {
+                std::mem::discriminant(&one.1) == std::mem::discriminant(&column)
+                    || matches!(
+                        (one.1, column),
+                        (Column::Magnitude, Column::Decibel) | (Column::Decibel, Column::Magnitude)
+                    )
+            };
+            if let Some((first, _)) = found.iter().find(same) {
+                let first = table.names().nth(*first).unwrap_or_default();
+                let expected = format!("one column such as {first:?}");
+                return Err(table.name_error(index, expected, "a second one".into()));
+            }
+            found.push((index, column));
+        }
+        let at = |wanted: fn(Column) -> bool| found.iter().find(|(_, column)| wanted(*column)).copied();
+        let missing = |name: &str| {
+            let expected = format!("a column {name:?}");
+            FormatError::line(table.names_line(), expected, format!("only {}", table.listed()))
+        };
+        let frequency = at(|column| matches!(column, Column::Frequency(_)));
+        let (re, im) = (at(|column| column == Column::Real), at(|column| column == Column::Imaginary));
+        let magnitude = at(|column| matches!(column, Column::Magnitude | Column::Decibel));
+        let phase = at(|column| matches!(column, Column::Phase(_)));
+        let value = match (re, im, magnitude, phase) {
+            (Some((re, _)), Some((im, _)), None, None) => Value::Parts { re, im },
+            (None, None, Some((magnitude, column)), Some((phase, Column::Phase(radians)))) => {
+                Value::Polar { magnitude, is_db: column == Column::Decibel, phase, radians }
+            }
+            (None, None, Some(_), None) => return Err(missing("phase_deg")),
+            (None, None, None, Some(_)) => return Err(missing("magnitude")),
+            (Some(_), None, None, None) => return Err(missing("im")),
+            (_, _, None, None) => return Err(missing("re")),
+            _ => {
+                let expected = "re and im, or a magnitude and a phase";
+                return Err(FormatError::line(table.names_line(), expected, table.listed()));
+            }
+        };
+        let Some((frequency, Column::Frequency(hertz))) = frequency else {
+            return Err(missing("frequency_hz"));
+        };
+        Ok(Self {
+            frequency: (frequency, hertz),
+            value,
+            coherence: at(|column| column == Column::Coherence).map(|(index, _)| index),
+            std: at(|column| column == Column::Std).map(|(index, _)| index),
+        })
+    }
+
+    fn response(&self, table: &Table, row: usize) -> Result<c64, FormatError> {
+        match self.value {
+            Value::Parts { re, im } => Ok(c64::new(table.number(row, re)?, table.number(row, im)?)),
+            Value::Polar { magnitude, is_db, phase, radians } => {
+                let size = match is_db {
+                    true => 10.0_f64.powf(table.number(row, magnitude)? / 20.0),
+                    false => checked(table, row, magnitude, "a number from 0 on", |x| x >= 0.0)?,
+                };
+                Ok(c64::from_polar(size, radians * table.number(row, phase)?))
+            }
+        }
+    }
+}
+
+/// The name that a caller gives to a column that is not to be read.
+const LEFT_OUT: &str = "-";
+
+/// Reads a frequency response function. Its columns are found by their names, upper and lower case alike:
+///
+/// | column | names | units |
+/// |---|---|---|
+/// | frequency | `frequency`, `freq`, `f` | Hz (also without a unit), kHz, rad/s |
+/// | real, imaginary part | `re`, `real`; `im`, `imag`, `imaginary` | SI |
+/// | or magnitude | `magnitude`, `mag`, `amplitude`, `abs` | SI, or dB re 1 of it |
+/// | and phase | `phase`, `angle`, `arg` | deg, rad |
+/// | coherence γ², standard deviation | `coherence`, `std` | those of the value |
+///
+/// A unit stands in brackets, `Phase (deg)`, or at the end of the name, `phase_deg`.
 ///
 /// # Errors
 /// What [`Table::read`] refuses; a column that is missing or unknown; no line of data; a negative or repeated
-/// frequency; a coherence outside 0…1; a negative std; a cell that is no finite number; a comment `decay_per_s =` without a number from 0 on, or two that differ.
+/// frequency; a negative magnitude; a coherence outside 0…1; a negative std; a cell that is no finite number; a comment `decay_per_s =` without a number from 0 on, or two that differ.
 pub fn read_frf(bytes: &[u8]) -> Result<FrfTable, FormatError> {
-    let table = Table::read(bytes)?;
-    table.only(&["frequency_hz", "re", "im", "coherence", "std"])?;
-    let (frequency, re, im) = (table.column("frequency_hz")?, table.column("re")?, table.column("im")?);
+    frf_of(&Table::read(bytes)?, bytes)
+}
+
+/// The same of a table whose columns have other names, or none: `names` are those of [`read_frf`], in the order of the columns, and `-` for a column that
+/// is not to be read. A first line that is not all numbers is that of the table's own names, and is passed over.
+///
+/// # Errors
+/// As [`read_frf`]; another number of columns.
+pub fn read_frf_named(bytes: &[u8], names: &[&str]) -> Result<FrfTable, FormatError> {
+    frf_of(&Table::read_named(bytes, names)?, bytes)
+}
+
+fn frf_of(table: &Table, bytes: &[u8]) -> Result<FrfTable, FormatError> {
+    let columns = Columns::of(table)?;
     table.at_least_one_row()?;
-    let (frequency_hz, order) = ascending_frequencies(&table, frequency, 0..table.rows())?;
-    let optional = |name: &str, expected: &str, most: f64| match table.find(name)? {
-        Some(column) => order
-            .iter()
-            .map(|&row| checked(&table, row, column, expected, |x| (0.0..=most).contains(&x)))
-            .collect::<Result<Vec<_>, _>>()
-            .map(Some),
-        None => Ok(None),
+    let (frequency, hertz) = columns.frequency;
+    let (mut frequency_hz, order) = ascending_frequencies(table, frequency, 0..table.rows())?;
+    if hertz != 1.0 {
+        frequency_hz.iter_mut().for_each(|f| *f *= hertz);
+    }
+    let optional = |column: Option<usize>, expected: &str, most: f64| {
+        let of = |column| {
+            let value = |&row: &usize| checked(table, row, column, expected, |x| (0.0..=most).contains(&x));
+            order.iter().map(value).collect::<Result<Vec<f64>, FormatError>>()
+        };
+        column.map(of).transpose()
     };
     Ok(FrfTable {
         frequency_hz,
         decay_per_s: decay(bytes)?,
-        coherence: optional("coherence", "a number from 0 to 1", 1.0)?,
-        std: optional("std", "a number from 0 on", f64::MAX)?,
-        response: order
-            .iter()
-            .map(|&row| Ok(c64::new(table.number(row, re)?, table.number(row, im)?)))
-            .collect::<Result<_, FormatError>>()?,
+        coherence: optional(columns.coherence, "a number from 0 to 1", 1.0)?,
+        std: optional(columns.std, "a number from 0 on", f64::MAX)?,
+        response: order.iter().map(|&row| columns.response(table, row)).collect::<Result<_, _>>()?,
     })
 }
 

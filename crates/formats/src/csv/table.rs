@@ -15,6 +15,8 @@ pub struct Table {
     lines: Vec<usize>,
     /// Number of columns.
     width: usize,
+    /// Whether numbers have a decimal comma.
+    has_decimal_comma: bool,
 }
 
 /// Where a cell ends in the table's text, and in which column of its line it begins (in characters, from 1).
@@ -34,6 +36,18 @@ impl Table {
     /// # Limits
     /// A cell is on one line. The file is smaller than 4 GiB.
     pub fn read(bytes: &[u8]) -> Result<Self, FormatError> {
+        Self::read_with(bytes, None)
+    }
+
+    /// The same of a table whose columns are named by the caller. A first line that is not all numbers is passed over: it has the table's own names.
+    ///
+    /// # Errors
+    /// As [`Table::read`]; another number of columns than of names.
+    pub fn read_named(bytes: &[u8], names: &[&str]) -> Result<Self, FormatError> {
+        Self::read_with(bytes, Some(names))
+    }
+
+    fn read_with(bytes: &[u8], given: Option<&[&str]>) -> Result<Self, FormatError> {
         if u32::try_from(bytes.len()).is_err() {
             return Err(FormatError::whole("a table of less than 4 GiB", format!("{} bytes", bytes.len())));
         }
@@ -51,13 +65,36 @@ impl Table {
             cells: Vec::with_capacity(lines + delimiters),
             lines: Vec::with_capacity(lines),
             width: 0,
+            has_decimal_comma: false,
         };
+        for name in given.unwrap_or_default() {
+            table.text.push_str(name);
+            table.cells.push(Place { end: table.text.len() as u32, column: 1 });
+        }
+        let given_text = table.text.len();
         // Lines are cut before: to the tokeniser no byte ends a row.
         let mut reader = ReaderBuilder::new().delimiter(delimiter).terminator(Terminator::Any(b'\n')).build();
         for line in rows {
             let before = table.cells.len();
             table.push_row(&mut reader, line)?;
             let width = table.cells.len() - before;
+            if let (Some(given), true) = (given, table.lines.is_empty()) {
+                table.width = given.len();
+                table.lines.push(line.number);
+                if width != given.len() {
+                    let expected = format!("{} columns, one for each name", given.len());
+                    return Err(FormatError::line(line.number, expected, width.to_string()));
+                }
+                let own: Vec<&str> = (before..before + width).map(|k| table.cell(k)).collect();
+                if own
+                    .iter()
+                    .any(|cell| number_with(cell, true).or_else(|| number_with(cell, false)).is_none())
+                {
+                    table.cells.truncate(before);
+                    table.text.truncate(given_text);
+                    continue;
+                }
+            }
             if table.lines.is_empty() {
                 table.width = width;
             } else if width != table.width {
@@ -69,7 +106,21 @@ impl Table {
             }
             table.lines.push(line.number);
         }
+        table.has_decimal_comma = delimiter != b',' && table.has_decimal_commas();
         Ok(table)
+    }
+
+    /// Whether some number below the names has a decimal comma, and none a decimal point.
+    fn has_decimal_commas(&self) -> bool {
+        let mut found = false;
+        for k in self.width..self.cells.len() {
+            let cell = self.cell(k);
+            if cell.contains('.') && number_with(cell, false).is_some() {
+                return false;
+            }
+            found |= cell.contains(',') && number_with(cell, true).is_some();
+        }
+        found
     }
 
     fn push_row(&mut self, reader: &mut Reader, line: Line<'_>) -> Result<(), FormatError> {
@@ -139,15 +190,15 @@ impl Table {
     /// A cell as a number.
     ///
     /// # Errors
-    /// A cell that is not a finite number with a decimal point.
+    /// A cell that is not a finite number with the decimal sign of the table.
     pub fn number(&self, row: usize, column: usize) -> Result<f64, FormatError> {
         let text = self.text(row, column);
-        if let Some(value) = number(text.as_bytes()) {
+        if let Some(value) = number_with(text, self.has_decimal_comma) {
             return Ok(value);
         }
         let with_point = text.replacen(',', ".", 1);
         Err(if with_point != text && number(with_point.as_bytes()).is_some() {
-            let expected = format!("a decimal point (write {with_point})");
+            let expected = format!("a decimal point as in other cells (write {with_point})");
             self.error(row, column, expected, format!("a decimal comma in {}", quoted(text.as_bytes())))
         } else {
             self.error(row, column, FINITE, self.shown(row, column))
@@ -205,6 +256,15 @@ impl Table {
     #[must_use]
     pub fn names_line(&self) -> usize {
         self.lines.first().copied().unwrap_or(0)
+    }
+}
+
+/// A cell as a number with a decimal point, or with a decimal comma.
+fn number_with(text: &str, has_comma: bool) -> Option<f64> {
+    match has_comma && text.contains(',') {
+        true if text.contains('.') => None,
+        true => number(text.replacen(',', ".", 1).as_bytes()),
+        false => number(text.as_bytes()),
     }
 }
 

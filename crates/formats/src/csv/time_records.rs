@@ -64,7 +64,7 @@ pub fn read_time_records(bytes: &[u8]) -> Result<TimeTable, FormatError> {
 }
 
 /// `Force (N)` as `Force` and `N`.
-fn name_and_unit(name: &str) -> (String, String) {
+pub(super) fn name_and_unit(name: &str) -> (String, String) {
     let inside = |open: char, close: char| {
         let (name, unit) = name.strip_suffix(close)?.rsplit_once(open)?;
         Some((name.trim().to_owned(), unit.trim().to_owned()))

@@ -5,6 +5,8 @@
 //! of a full matrix by columns, or rows, column pointers and values of a sparse one; imaginary parts are apart. Values are stored
 //! as the smallest type that holds them.
 //!
+//! [`write`] writes sparse matrices as version 5 has them.
+//!
 //! # Limits
 //! Read are full and sparse numeric matrices, real and complex, and those in the fields of a structure, as
 //! `model.K`. Whole numbers beyond 2⁵³ are rounded. Whatever else a variable is (a text, a cell array, an object, an
@@ -17,6 +19,7 @@
 mod matrix;
 mod stream;
 mod variable;
+mod write;
 
 use std::io::Read;
 
@@ -26,6 +29,7 @@ use crate::inflated::Allowance;
 use crate::uff::Endian;
 use crate::{FormatError, NamedMatrix};
 use stream::{Kind, Stream};
+pub use write::write;
 
 const HEADER: usize = 128;
 

@@ -78,6 +78,22 @@ impl ArchiveWriter {
         self.member(name, "<f8", shape, &mut pieces)
     }
 
+    /// A vector of whole numbers.
+    pub(super) fn whole(&mut self, name: &str, values: &[i32]) -> Result<(), FormatError> {
+        let mut pieces =
+            values.chunks(1 << 13).map(|piece| piece.iter().flat_map(|v| v.to_le_bytes()).collect());
+        self.member(name, "<i4", &[values.len()], &mut pieces)
+    }
+
+    /// A vector of complex numbers.
+    pub(super) fn complex(&mut self, name: &str, re: &[f64], im: &[f64]) -> Result<(), FormatError> {
+        let both = |(re, im): (&[f64], &[f64])| {
+            re.iter().zip(im).flat_map(|(re, im)| [re.to_le_bytes(), im.to_le_bytes()].concat()).collect()
+        };
+        let mut pieces = re.chunks(1 << 13).zip(im.chunks(1 << 13)).map(both);
+        self.member(name, "<c16", &[re.len()], &mut pieces)
+    }
+
     /// The file.
     ///
     /// # Errors

@@ -31,6 +31,7 @@ use crate::{FormatError, NamedMatrix};
 pub use archive::{ArchiveReader, ArchiveWriter};
 use array::Array;
 use header::Header;
+pub use sparse::write as write_sparse;
 
 const NPY: &[u8] = b"\x93NUMPY";
 /// A local file header, and the end of an archive without files.

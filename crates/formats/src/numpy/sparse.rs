@@ -4,11 +4,30 @@ use std::collections::BTreeMap;
 
 use num_complex::Complex64 as c64;
 
-use super::Files;
 use super::array::Array;
+use super::{ArchiveWriter, Files};
 use crate::assemble::{Duplicates, Value};
+use crate::columns::CompressedColumns;
 use crate::gather::Gather;
 use crate::{CoordinateMatrix, FormatError, Position};
+
+/// Writes a matrix as `scipy.sparse.save_npz` does one in compressed columns, both triangles of a symmetric one; `scipy.sparse.load_npz` reads it.
+///
+/// # Errors
+/// A matrix that breaks [`CoordinateMatrix::validate`], is a pattern, or has rows or entries beyond 32 bits.
+pub fn write(matrix: &CoordinateMatrix) -> Result<Vec<u8>, FormatError> {
+    let CompressedColumns { rows, ends, re, im } = CompressedColumns::of(matrix)?;
+    let mut archive = ArchiveWriter::default();
+    archive.text("format", "csc")?;
+    archive.whole("shape", &[matrix.nrows as i32, matrix.ncols as i32])?;
+    archive.whole("indices", &rows)?;
+    archive.whole("indptr", &ends)?;
+    match im {
+        None => archive.real("data", &[re.len()], &re)?,
+        Some(im) => archive.complex("data", &re, &im)?,
+    }
+    archive.finish()
+}
 
 /// Whether these are the arrays of a sparse matrix.
 pub(super) fn is_one(names: &BTreeMap<String, usize>) -> bool {

@@ -2,6 +2,7 @@
 
 use std::io::Write;
 
+use crate::columns::{Entry, entries};
 use crate::{CoordinateMatrix, Entries, FormatError, Symmetry};
 
 /// Numbers in a line of 80 characters: 17 digits, a sign and an exponent of three digits each.
@@ -36,9 +37,6 @@ pub fn write(matrices: &[(&str, &CoordinateMatrix)]) -> Result<Vec<u8>, FormatEr
     Ok(out)
 }
 
-/// An entry: column, row (both from 0), real and imaginary part.
-type Entry = (usize, usize, [f64; 2]);
-
 fn write_one(out: &mut Vec<u8>, name: &str, matrix: &CoordinateMatrix) -> Result<(), FormatError> {
     matrix.validate()?;
     let CoordinateMatrix { nrows, ncols, .. } = *matrix;
@@ -58,9 +56,9 @@ fn write_one(out: &mut Vec<u8>, name: &str, matrix: &CoordinateMatrix) -> Result
     };
     // Writing into a Vec cannot fail.
     let _ = writeln!(out, "{ncols:8}{:8}{form:8}{kind:8}{name:8}1P,{IN_LINE}E24.16", -(nrows as i64));
-    let entries = full(matrix);
-    for column in entries.chunk_by(|a, b| a.0 == b.0) {
-        let strings: Vec<&[Entry]> = column.chunk_by(|a, b| a.1 + 1 == b.1).collect();
+    let entries = entries(matrix);
+    for column in entries.chunk_by(|a, b| a.col == b.col) {
+        let strings: Vec<&[Entry]> = column.chunk_by(|a, b| a.row + 1 == b.row).collect();
         let words = 2 * strings.len() + WORDS * numbers * column.len();
         if words > MAX_COLUMNS_OR_WORDS {
             return Err(FormatError::whole(
@@ -68,42 +66,15 @@ fn write_one(out: &mut Vec<u8>, name: &str, matrix: &CoordinateMatrix) -> Result
                 words.to_string(),
             ));
         }
-        let _ = writeln!(out, "{:8}{:8}{words:8}", column[0].0 + 1, 0);
+        let _ = writeln!(out, "{:8}{:8}{words:8}", column[0].col + 1, 0);
         for string in strings {
-            let _ = writeln!(out, "{:8}{:8}", WORDS * numbers * string.len() + 1, string[0].1 + 1);
-            write_numbers(out, string.iter().flat_map(|(_, _, parts)| &parts[..numbers]));
+            let _ = writeln!(out, "{:8}{:8}", WORDS * numbers * string.len() + 1, string[0].row + 1);
+            write_numbers(out, string.iter().flat_map(|entry| &entry.parts[..numbers]));
         }
     }
     let _ = writeln!(out, "{:8}{:8}{:8}", ncols + 1, 1, 1);
     write_numbers(out, std::iter::once(&1.0));
     Ok(())
-}
-
-/// Every entry of both triangles, by column, then row.
-fn full(matrix: &CoordinateMatrix) -> Vec<Entry> {
-    let parts = |k: usize| match &matrix.entries {
-        Entries::Pattern => [1.0, 0.0],
-        Entries::Real(values) => [values[k], 0.0],
-        Entries::Complex(values) => [values[k].re, values[k].im],
-    };
-    let places = || matrix.rows.iter().copied().zip(matrix.cols.iter().copied()).enumerate();
-    let mut entries: Vec<Entry> = places().map(|(k, (row, col))| (col, row, parts(k))).collect();
-    if matrix.symmetry != Symmetry::General {
-        entries.extend(places().filter(|(_, (row, col))| row != col).map(|(k, (row, col))| {
-            let [re, im] = parts(k);
-            (
-                row,
-                col,
-                match matrix.symmetry {
-                    Symmetry::SkewSymmetric => [-re, -im],
-                    Symmetry::Hermitian => [re, -im],
-                    _ => [re, im],
-                },
-            )
-        }));
-        entries.sort_unstable_by_key(|&(col, row, _)| (col, row));
-    }
-    entries
 }
 
 fn write_numbers<'a>(out: &mut Vec<u8>, numbers: impl Iterator<Item = &'a f64>) {

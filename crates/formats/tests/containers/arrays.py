@@ -81,6 +81,20 @@ def matlab():
         expect(file, expected)
 
 
+def read_ours():
+    """Files written by us, beside them what is in them."""
+    count = 0
+    for path in sorted(folder.glob("ours.*.mtx")):
+        name = path.name.split(".")[1]
+        for found in (sp.load_npz(folder / f"ours.{name}.npz"), io.loadmat(folder / "ours.mat")[name]):
+            assert sp.issparse(found) and np.array_equal(found.toarray(), io.mmread(path).toarray()), path
+            count += 1
+    print("read", count)
+
+
+if len(sys.argv) > 2 and sys.argv[2] == "ours":
+    read_ours()
+    sys.exit()
 if len(sys.argv) > 2:
     (folder / "real.mat").write_bytes(Path(sys.argv[2]).read_bytes())
     expect("real", {key: value for key, value in io.loadmat(sys.argv[2]).items() if not key.startswith("__")})

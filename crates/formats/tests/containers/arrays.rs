@@ -2,7 +2,10 @@
 
 use super::{compare, entries, run, samples};
 use crate::outside::{python_with, shared};
-use frfit_formats::{FileKind, NamedMatrix, choose_matrix, detect, read_matrices, read_matrix};
+use frfit_formats::{
+    CoordinateMatrix, Entries, FileKind, NamedMatrix, Symmetry, choose_matrix, detect, mat, matrix_market,
+    numpy, read_matrices, read_matrix,
+};
 use num_complex::Complex64 as c64;
 use std::collections::BTreeMap;
 use std::fs;
@@ -16,6 +19,46 @@ fn what_scipy_writes_is_read_needs_scipy() {
     assert_eq!(compare(folder.path(), ".npy"), (20, 20));
     assert_eq!(compare(folder.path(), ".npz"), (43, 49));
     assert_eq!(compare(folder.path(), ".mat"), (2, 30));
+}
+
+#[test]
+#[ignore = "needs Python with SciPy"]
+fn scipy_reads_ours_needs_scipy() {
+    let python = python_with("scipy");
+    let folder = tempfile::tempdir().unwrap();
+    let of = |symmetry, entries| CoordinateMatrix {
+        nrows: 4,
+        ncols: 4,
+        symmetry,
+        rows: vec![0, 1, 3, 2],
+        cols: vec![0, 0, 0, 2],
+        entries,
+        title: String::new(),
+    };
+    let values = vec![2.0, -1.0 / 3.0, 1e-300, -7e12];
+    let complex = values.iter().map(|&x| c64::new(x, -0.01 * x)).collect();
+    let k = of(Symmetry::Symmetric, Entries::Real(values.clone()));
+    let g = of(Symmetry::General, Entries::Real(values));
+    let z = of(Symmetry::Symmetric, Entries::Complex(complex));
+    let none = CoordinateMatrix { rows: vec![], cols: vec![], entries: Entries::Real(vec![]), ..g.clone() };
+    let all = [("K", &k), ("G_2", &g), ("Z", &z), ("nothing", &none)];
+    for (name, matrix) in all {
+        let write =
+            |ending: &str, bytes| fs::write(folder.path().join(format!("ours.{name}.{ending}")), bytes);
+        write("mtx", matrix_market::write(matrix).unwrap()).unwrap();
+        write("npz", numpy::write_sparse(matrix).unwrap()).unwrap();
+    }
+    fs::write(folder.path().join("ours.mat"), mat::write(&all).unwrap()).unwrap();
+    assert_eq!(run(&python, "arrays.py", &[folder.path().to_str().unwrap(), "ours"]), "read 8");
+}
+
+/// A name that MATLAB does not take, and a matrix without values, are refused.
+#[test]
+fn what_cannot_be_written_is_refused() {
+    let k = read_matrix(b"%%MatrixMarket matrix coordinate pattern general\n1 1 1\n1 1\n").unwrap();
+    assert!(mat::write(&[("K", &k)]).unwrap_err().to_string().contains("a pattern"));
+    assert!(numpy::write_sparse(&k).unwrap_err().to_string().contains("a pattern"));
+    assert!(mat::write(&[("2K", &k)]).unwrap_err().to_string().contains("a name of a letter"));
 }
 
 #[test]

@@ -53,7 +53,7 @@ fn frequency_responses_are_refused_with_a_word() {
             ),
             (
                 b"freq_hz,re,im\n1,2,3\n",
-                "input:1:1: expected one of the columns frequency_hz, re, im, coherence, std, found \"freq_hz\"; did you mean \"frequency_hz\"?",
+                "input:1:1: expected one of the columns frequency_hz, re, im, magnitude, magnitude_db, phase_deg, phase_rad, coherence, std, found \"freq_hz\"; did you mean \"frequency_hz\"?",
             ),
             (
                 b"frequency_hz,re\n1,2\n",
@@ -61,11 +61,11 @@ fn frequency_responses_are_refused_with_a_word() {
             ),
             (
                 b"frequency_hz,re,im,coherance\n1,2,3,1\n",
-                "input:1:20: expected one of the columns frequency_hz, re, im, coherence, std, found \"coherance\"; did you mean \"coherence\"?",
+                "input:1:20: expected one of the columns frequency_hz, re, im, magnitude, magnitude_db, phase_deg, phase_rad, coherence, std, found \"coherance\"; did you mean \"coherence\"?",
             ),
             (
                 b"frequency_hz,re,im,\n1,2,3,\n",
-                "input:1:20: expected one of the columns frequency_hz, re, im, coherence, std, found a column without a name",
+                "input:1:20: expected one of the columns frequency_hz, re, im, magnitude, magnitude_db, phase_deg, phase_rad, coherence, std, found a column without a name",
             ),
             (
                 b"frequency_hz,re,im,re\n1,2,3,4\n",
@@ -76,8 +76,8 @@ fn frequency_responses_are_refused_with_a_word() {
                 "input:2:3: expected a finite number in column \"re\", found \"nan\"",
             ),
             (
-                b"frequency_hz;re;im\n1;2;3,5\n",
-                "input:2:5: expected a decimal point (write 3.5) in column \"im\", found a decimal comma in \"3,5\"",
+                b"frequency_hz;re;im\n1.5;2;3,5\n",
+                "input:2:7: expected a decimal point as in other cells (write 3.5) in column \"im\", found a decimal comma in \"3,5\"",
             ),
             (
                 b"frequency_hz,re,im\n1,,3\n",
@@ -99,6 +99,31 @@ fn frequency_responses_are_refused_with_a_word() {
                 b"frequency_hz,re,im,std\n1,2,3,-1\n",
                 "input:2:7: expected a number from 0 on in column \"std\", found \"-1\"",
             ),
+            (b"f,mag\n1,2\n", "input:1: expected a column \"phase_deg\", found only \"f\", \"mag\""),
+            (
+                b"f,re,phase_deg\n1,2,3\n",
+                "input:1: expected a column \"magnitude\", found only \"f\", \"re\", \"phase_deg\"",
+            ),
+            (
+                b"f,mag,phase\n1,2,3\n",
+                "input:1:7: expected the unit of the phase, as in phase_deg or \"phase (rad)\", found \"phase\"",
+            ),
+            (
+                b"f,mag,mag_db,phase_deg\n1,2,3,4\n",
+                "input:1:7: expected one column such as \"mag\", found a second one",
+            ),
+            (
+                b"f,mag (mm/N),phase_deg\n1,2,3\n",
+                "input:1:3: expected values in m, s, N and kg (scale of [[measurement]] has the factor), found \"mag (mm/N)\"",
+            ),
+            (
+                b"f (rpm),re,im\n1,2,3\n",
+                "input:1:1: expected a frequency in Hz, kHz or rad/s, found \"f (rpm)\"",
+            ),
+            (
+                b"f,mag,phase_deg\n1,-2,3\n",
+                "input:2:3: expected a number from 0 on in column \"mag\", found \"-2\"",
+            ),
             (
                 b"frequency_hz,re,im\nHz,m/N,m/N\n",
                 "input:2:1: expected a finite number in column \"frequency_hz\", found \"Hz\"",
@@ -109,7 +134,7 @@ fn frequency_responses_are_refused_with_a_word() {
             ),
             (
                 b"\xc3\xa9,re,im\n",
-                "input:1:1: expected one of the columns frequency_hz, re, im, coherence, std, found \"é\"",
+                "input:1:1: expected one of the columns frequency_hz, re, im, magnitude, magnitude_db, phase_deg, phase_rad, coherence, std, found \"é\"",
             ),
         ],
     );

@@ -1,9 +1,11 @@
 //! Tables as spreadsheets and scripts write them.
 
 use frfit_formats::csv::{
-    Cell, Direction, Table, read_dof_names, read_frf, read_modulus, read_time_records, read_vector, write,
+    Cell, Direction, Table, read_dof_names, read_frf, read_frf_named, read_modulus, read_time_records,
+    read_vector, write,
 };
 use num_complex::Complex64 as c64;
+use std::f64::consts::PI;
 
 #[test]
 fn delimiters_quotes_comments_and_line_ends_do_not_matter() {
@@ -36,6 +38,51 @@ fn an_frf_is_sorted_and_carries_its_quality() {
     assert_eq!(frf.frequency_hz, [10.0, 20.0]);
     assert_eq!(frf.response, [c64::new(1e-3, 0.0), c64::new(1.0, -2.0)]);
     assert_eq!((frf.coherence, frf.std, frf.decay_per_s), (Some(vec![1.0, 0.5]), None, None));
+}
+
+/// 3 + 4i and −2i at 10 and 1000 Hz, however it is written.
+#[test]
+fn the_same_frf_in_other_columns_units_and_signs() {
+    let (first, second) = ((4.0_f64).atan2(3.0), -90.0);
+    let (deg, db) = (first.to_degrees(), 20.0 * 5.0_f64.log10());
+    let db2 = 20.0 * 2.0_f64.log10();
+    for text in [
+        format!("f,mag,phase_deg\n10,5,{deg}\n1000,2,{second}\n"),
+        format!("Phase (deg);Magnitude [m/N];Frequency (kHz)\n{deg};5;0.01\n{second};2;1\n"),
+        format!(
+            "frequency (rad/s)\tAmplitude (dB)\tphase [rad]\n{}\t{db}\t{first}\n{}\t{db2}\t{}\n",
+            20.0 * PI,
+            2000.0 * PI,
+            -PI / 2.0
+        ),
+        "freq,Real part,Imaginary\n1e3,0,-2\n10,3,4\n".to_owned(),
+        "Freq [Hz];real;imag\n10,0;3,0;4,00\n1000;0;-2,0E0\n".to_owned(),
+        "frequency_khz;magnitude_db;angle_rad\n".to_owned()
+            + &format!("0,01;{db};{first}\n1,0;{db2};{}\n", -PI / 2.0).replace('.', ","),
+    ] {
+        near(&read_frf(text.as_bytes()).unwrap(), &text);
+    }
+}
+
+/// Names that the caller gives stand in place of those of the table, or where it has none.
+#[test]
+fn columns_that_the_caller_names() {
+    let names = ["frequency_hz", "-", "magnitude", "phase_deg"];
+    let deg = (4.0_f64).atan2(3.0).to_degrees();
+    for head in ["", "Hz;counts;amp;ph\n", "# a comment\n1st;2nd;3rd;4th\n"] {
+        let text = format!("{head}10;7;5,0;{}\n1000;8;2;-90,0\n", deg.to_string().replace('.', ","));
+        near(&read_frf_named(text.as_bytes(), &names).unwrap(), &text);
+    }
+    let refused = read_frf_named(b"10,3,4\n", &names).unwrap_err();
+    assert_eq!(refused.to_string(), "line 1: expected 4 columns, one for each name, found 3");
+}
+
+fn near(frf: &frfit_formats::csv::FrfTable, text: &str) {
+    let expected = [c64::new(3.0, 4.0), c64::new(0.0, -2.0)];
+    let off = frf.response.iter().zip(expected).map(|(value, expected)| (value - expected).norm());
+    assert!(off.fold(0.0, f64::max) < 1e-14, "{text}{:?}", frf.response);
+    let hertz = frf.frequency_hz.iter().zip([10.0, 1000.0]).map(|(f, expected)| (f / expected - 1.0).abs());
+    assert!(hertz.fold(0.0, f64::max) < 1e-15, "{text}{:?}", frf.frequency_hz);
 }
 
 #[test]

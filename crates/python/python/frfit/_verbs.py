@@ -353,7 +353,8 @@ def convert(
     *,
     to: str | None = None,
     name: str | None = None,
-    record: int | None = None,
+    record: int | Sequence[int] | None = None,
+    columns: Sequence[str] | None = None,
     quantity: str | None = None,
     response: str | None = None,
     reference: str | None = None,
@@ -372,7 +373,9 @@ def convert(
     name
         Which matrix of a file of several.
     record
-        Which FRF of a UFF file, from 1.
+        Which FRF of a UFF file, from 1; for a UFF file also several.
+    columns
+        Names of a table's columns in place of its own; ``"-"`` for one that is not read.
     quantity
         What a table's FRF is: ``"receptance"``, ``"mobility"`` or ``"accelerance"``.
     response
@@ -390,13 +393,20 @@ def convert(
     how = {
         "to": to,
         "name": name,
-        "record": optional_whole(record, "record", 1),
+        "records": [whole(one, "record") for one in _listed(record)],
+        "columns": None if columns is None else words(columns, "columns"),
         "quantity": quantity,
         "response": response,
         "reference": reference,
         "binary": flag(binary, "binary"),
     }
     _frfit.convert(source, target, how)
+
+
+def _listed(record: int | Sequence[int] | None) -> list[int]:
+    if record is None:
+        return []
+    return several(record, "record", "whole numbers") if isinstance(record, Sequence) else [record]
 
 
 def respond_case(

@@ -160,6 +160,8 @@ pub struct MeasurementEntry {
     pub file: Option<Located<String>>,
     /// Where it was measured; `None`: as the file says.
     pub spot: Option<Spot>,
+    /// Names of the columns of a table, in place of its own.
+    pub columns: Option<Located<Vec<String>>>,
     /// Which FRF of a UFF file, from 1.
     pub record: Option<Located<i64>>,
     /// What was measured; `None`: as the file says.

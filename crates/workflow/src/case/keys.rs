@@ -443,7 +443,13 @@ pub(super) static MEASUREMENT: Section = Section {
             "file",
             "text",
             "none, where nothing measured is needed",
-            "UFF 58 or 58b, or CSV with `frequency_hz`, `re`, `im` and, if known, `coherence` or `std`.",
+            "UFF 58 or 58b, or CSV with `frequency_hz`, `re` and `im` (or `magnitude`, `magnitude_db` and `phase_deg`, `phase_rad`) and, if known, `coherence` or `std`.",
+        ),
+        key(
+            "columns",
+            "list of names",
+            "as the first line of the table",
+            "Columns of a CSV file whose names are others, or that has none; `-` for a column that is not read.",
         ),
         key(
             "dof",
@@ -497,6 +503,7 @@ decay_per_s = 6.0
 ",
         "[[measurement]]
 file = \"frf.csv\"
+columns = [\"frequency_hz\", \"magnitude_db\", \"phase_deg\", \"-\"]
 row = 97
 quantity = \"mobility\"
 scale = \"unknown\"

@@ -383,6 +383,7 @@ pub(super) fn measurement(table: &Table<'_>) -> Result<MeasurementEntry, InputEr
         place: table.place.clone(),
         file: table.find("file").map(|file| file.text()).transpose()?,
         spot: spot(table)?,
+        columns: table.find("columns").map(|field| columns(&field)).transpose()?,
         record: table.find("record").map(|record| record.whole()).transpose()?,
         quantity: table.find("quantity").map(quantity).transpose()?.map(|quantity| quantity.value),
         averages: table.find("averages").map(|field| averages(&field)).transpose()?,
@@ -421,6 +422,16 @@ fn decay(field: &Field<'_>) -> Result<Located<f64>, InputError> {
         Some(value) => Ok(Located { value, place: field.place.clone() }),
         None => Err(field.refuse("a finite number of 1/s that is not negative")),
     }
+}
+
+/// Names of columns.
+fn columns(field: &Field<'_>) -> Result<Located<Vec<String>>, InputError> {
+    const EXPECTED: &str = "a list of names such as [\"frequency_hz\", \"magnitude\", \"phase_deg\", \"-\"]";
+    let names = field.each(EXPECTED, |item| item.text())?;
+    if names.is_empty() {
+        return Err(field.refuse(EXPECTED));
+    }
+    Ok(Located { value: names.into_iter().map(|name| name.value).collect(), place: field.place.clone() })
 }
 
 /// A number of averages: a coherence of one record is 1 whatever was measured.

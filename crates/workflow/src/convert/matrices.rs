@@ -2,7 +2,7 @@
 
 use super::ConvertOptions;
 use crate::error::{InputError, Place};
-use frfit_formats::{FormatError, Labels, NamedMatrix, csv, op4, take_matrix};
+use frfit_formats::{CoordinateMatrix, FormatError, Labels, NamedMatrix, csv, mat, op4, take_matrix};
 use std::path::Path;
 
 /// The matrix that is meant.
@@ -34,11 +34,30 @@ pub(super) fn names_of_rows(labels: &Labels) -> Result<Vec<u8>, FormatError> {
     csv::write(&["row", "node", "direction"], rows).map(String::into_bytes)
 }
 
-/// All matrices of a file, or the one that is meant, for Nastran.
-pub(super) fn op4(
+/// How a format of several matrices is written.
+pub(super) struct Several {
+    /// A name as the format takes it.
+    name: fn(&str) -> String,
+    /// What two names have to differ in.
+    differ: &'static str,
+    write: fn(&[(&str, &CoordinateMatrix)]) -> Result<Vec<u8>, FormatError>,
+}
+
+pub(super) const NASTRAN: Several =
+    Several { name: for_nastran, differ: "names that differ in eight letters and digits", write: op4::write };
+
+pub(super) const MATLAB: Several = Several {
+    name: for_matlab,
+    differ: "names that differ in letters, digits and underscores",
+    write: mat::write,
+};
+
+/// All matrices of a file, or the one that is meant.
+pub(super) fn written(
     input: &Path,
     all: Vec<NamedMatrix>,
     options: &ConvertOptions,
+    format: &Several,
 ) -> Result<Vec<u8>, InputError> {
     let in_input = |error: FormatError| InputError::in_file(input, error);
     let meant = if options.name.is_some() { vec![one(input, all, options)?] } else { all };
@@ -54,15 +73,24 @@ pub(super) fn op4(
         matrices.push((name, matrix));
     }
     let stem = input.file_stem().map(|stem| stem.to_string_lossy()).unwrap_or_default();
-    let names: Vec<_> =
-        matrices.iter().map(|(name, _)| for_nastran(if name.is_empty() { &stem } else { name })).collect();
+    let of = |(name, _): &(String, CoordinateMatrix)| {
+        (format.name)(if name.is_empty() { &stem } else { name.as_str() })
+    };
+    let names: Vec<String> = matrices.iter().map(of).collect();
     if let Some(k) = (1..names.len()).find(|&k| names[..k].contains(&names[k])) {
-        let expected = "names that differ in eight letters and digits, or --name";
+        let expected = format!("{}, or --name", format.differ);
         return Err(in_input(FormatError::whole(expected, format!("{:?} a second time", names[k]))));
     }
     let named: Vec<_> =
         names.iter().map(String::as_str).zip(matrices.iter().map(|(_, matrix)| matrix)).collect();
-    op4::write(&named).map_err(in_input)
+    (format.write)(&named).map_err(in_input)
+}
+
+/// A letter and letters, digits and underscores, 63 in all.
+fn for_matlab(name: &str) -> String {
+    let letter = |c: char| if c.is_ascii_alphanumeric() { c } else { '_' };
+    let start = if name.starts_with(|c: char| c.is_ascii_alphabetic()) { "" } else { "M" };
+    start.chars().chain(name.chars().map(letter)).take(63).collect()
 }
 
 /// Eight letters and digits at most, the first a letter.
@@ -74,19 +102,19 @@ fn for_nastran(name: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::for_nastran;
+    use super::{for_matlab, for_nastran};
 
     #[test]
-    fn names_are_those_that_nastran_allows() {
-        for (name, expected) in [
-            ("K", "K"),
-            ("K_skins", "KSKINS"),
-            ("model.stiffness", "MODELSTI"),
-            ("2nd", "M2ND"),
-            ("_x", "MX"),
-            ("", "M"),
+    fn names_are_those_that_each_program_allows() {
+        for (name, nastran, matlab) in [
+            ("K", "K", "K"),
+            ("K_skins", "KSKINS", "K_skins"),
+            ("model.stiffness", "MODELSTI", "model_stiffness"),
+            ("2nd", "M2ND", "M2nd"),
+            ("_x", "MX", "M_x"),
+            ("", "M", "M"),
         ] {
-            assert_eq!(for_nastran(name), expected);
+            assert_eq!([for_nastran(name), for_matlab(name)], [nastran, matlab]);
         }
     }
 }

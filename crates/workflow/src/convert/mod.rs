@@ -16,7 +16,7 @@ use crate::error::{InputError, Place};
 use crate::inspect::unknown_kind;
 use crate::load::{load_bytes, matrices_of};
 use crate::reads::Reads;
-use frfit_formats::{FileKind, FormatError, detect, harwell_boeing, matrix_market, read_matrices};
+use frfit_formats::{FileKind, FormatError, detect, harwell_boeing, matrix_market, numpy, read_matrices};
 use std::path::Path;
 use target::Target;
 
@@ -26,9 +26,11 @@ use target::Target;
 /// |---|---|---|
 /// | Matrix Market, Harwell–Boeing | either | every value bit for bit; of a title what the format has room for |
 /// | CalculiX, Abaqus, Nastran DMIG and OUTPUT4, NumPy, MATLAB | Matrix Market, Harwell–Boeing | one matrix, every value bit for bit |
+/// | any of these | SciPy (.npz) | one matrix, every value bit for bit, both triangles |
+/// | any of these | MATLAB | all matrices, or one, every value bit for bit, both triangles |
 /// | any of these | Nastran OUTPUT4 | all matrices, or one, every value bit for bit but for the sign of zeros; of names eight letters and digits |
 /// | Harwell–Boeing, CalculiX, Abaqus, Nastran DMIG | table | what each row stands for, as the file or the one beside it says: the file of `[dofs]` |
-/// | UFF | UFF | all datasets: the functions (58) anew as text or binary, the others byte for byte |
+/// | UFF | UFF | all datasets, or of the functions chosen FRFs with those between the same degrees of freedom: the functions (58) anew as text or binary, the others byte for byte |
 /// | UFF | table | one FRF, bit for bit, and its coherence and standard deviation if the file has them |
 /// | table | UFF | the FRF, its coherence and standard deviation: bit for bit in binary, 13 digits of a value in text |
 /// | table | table | the FRF, sorted by frequency |
@@ -46,18 +48,27 @@ pub fn convert(
     let target = Target::of(output, options.to.as_deref())?;
     let bytes = load_bytes(input, reads)?;
     let in_input = |error: FormatError| InputError::in_file(input, error);
-    let kind = detect(&bytes).ok_or_else(|| unknown_kind(input, &bytes, "a table (CSV)"))?;
+    let kind = match options.columns {
+        // Rows of three numbers may be a matrix too.
+        Some(_) => FileKind::Csv,
+        None => detect(&bytes).ok_or_else(|| unknown_kind(input, &bytes, "a table (CSV)"))?,
+    };
     match (kind, target) {
-        (kind, Target::Op4) if kind.holds_matrices() => {
+        (kind, Target::Op4 | Target::Mat) if kind.holds_matrices() => {
             options.only(&["--name"], "a matrix")?;
-            matrices::op4(input, read_matrices(&bytes).map_err(in_input)?, options)
+            let all = read_matrices(&bytes).map_err(in_input)?;
+            match target {
+                Target::Op4 => matrices::written(input, all, options, &matrices::NASTRAN),
+                _ => matrices::written(input, all, options, &matrices::MATLAB),
+            }
         }
-        (kind, Target::MatrixMarket | Target::HarwellBoeing(_)) if kind.holds_matrices() => {
+        (kind, Target::MatrixMarket | Target::HarwellBoeing(_) | Target::Npz) if kind.holds_matrices() => {
             options.only(&["--name"], "a matrix")?;
             let all = read_matrices(&bytes).map_err(in_input)?;
             let matrix = matrices::one(input, all, options)?.matrix.map_err(in_input)?;
             let write = match target {
                 Target::MatrixMarket => matrix_market::write,
+                Target::Npz => numpy::write_sparse,
                 _ => harwell_boeing::write,
             };
             let written = write(&matrix).map_err(in_input)?;
@@ -70,19 +81,20 @@ pub fn convert(
             matrices::names_of_rows(&one.labels).map_err(in_input)
         }
         (FileKind::Uff, Target::Uff) => {
-            options.only(&["--binary"], "a whole UFF file")?;
-            uff::rewritten(&bytes, options.form()).map_err(in_input)
+            options.only(&["--record", "--binary"], "a UFF file")?;
+            uff::rewritten(&bytes, &options.records, options.form()).map_err(in_input)
         }
         (FileKind::Uff, Target::Table) => {
             options.only(&["--record", "--quantity", "--response", "--reference"], "a table")?;
             table::of_uff(&bytes, options, in_input)
         }
         (FileKind::Csv, Target::Table) => {
-            options.only(&[], "a table made of a table")?;
-            table::of_table(&bytes).map_err(in_input)
+            options.only(&["--columns"], "a table made of a table")?;
+            table::of_table(&bytes, options).map_err(in_input)
         }
         (FileKind::Csv, Target::Uff) => {
-            options.only(&["--quantity", "--response", "--reference", "--binary"], "a table of one FRF")?;
+            let meant = ["--columns", "--quantity", "--response", "--reference", "--binary"];
+            options.only(&meant, "a table of one FRF")?;
             uff::of_table(&bytes, input, options)
         }
         (kind, target) => {

@@ -2,7 +2,7 @@
 
 use super::options::ConvertOptions;
 use crate::error::{InputError, Place};
-use crate::load::{Choice, Frf, decay_line, read_frf};
+use crate::load::{Frf, decay_line, read_frf};
 use frfit::dof::DofName;
 use frfit_formats::FormatError;
 use frfit_formats::csv::{Cell, write};
@@ -14,8 +14,7 @@ pub(super) fn of_uff(
     options: &ConvertOptions,
     in_input: impl Fn(FormatError) -> InputError,
 ) -> Result<Vec<u8>, InputError> {
-    let choice =
-        Choice { record: options.record, measured_at: options.response, driven_at: options.reference };
+    let choice = options.of_uff()?;
     let mut frf = read_frf(bytes, &choice).map_err(&in_input)?;
     if let (Some(wanted), Some(there)) = (options.quantity, frf.quantity)
         && wanted != there
@@ -28,8 +27,8 @@ pub(super) fn of_uff(
 }
 
 /// The FRF of a table, sorted by frequency, with commas.
-pub(super) fn of_table(bytes: &[u8]) -> Result<Vec<u8>, FormatError> {
-    written(&read_frf(bytes, &Choice::default())?)
+pub(super) fn of_table(bytes: &[u8], options: &ConvertOptions) -> Result<Vec<u8>, FormatError> {
+    written(&read_frf(bytes, &options.of_columns())?)
 }
 
 fn written(frf: &Frf) -> Result<Vec<u8>, FormatError> {

@@ -13,12 +13,16 @@ pub(super) enum Target {
     HarwellBoeing(Option<[u8; 3]>),
     /// Nastran OUTPUT4.
     Op4,
+    /// A sparse matrix of SciPy.
+    Npz,
+    /// MATLAB, version 5.
+    Mat,
     Uff,
     Table,
 }
 
 const OF_MATRICES: &str = ".mtx or .mm (Matrix Market), .hb, .rb, .rsa, .rua, .csa, .cua, .psa or another matrix type (Harwell-Boeing), \
-     .op4 (Nastran OUTPUT4)";
+     .op4 (Nastran OUTPUT4), .npz (SciPy), .mat (MATLAB)";
 const OF_FRFS: &str = ".uff, .unv or .uf (UFF), .csv (table)";
 
 impl Target {
@@ -37,6 +41,8 @@ impl Target {
                 Ok(Self::HarwellBoeing(Some([values, symmetry, b'a'])))
             }
             b"op4" => Ok(Self::Op4),
+            b"npz" => Ok(Self::Npz),
+            b"mat" => Ok(Self::Mat),
             b"uff" | b"unv" | b"uf" => Ok(Self::Uff),
             b"csv" => Ok(Self::Table),
             _ => refuse(format!(".{ending}")),
@@ -86,7 +92,7 @@ pub(super) fn endings_for(kind: FileKind) -> String {
 impl fmt::Display for Target {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
-            Self::MatrixMarket | Self::HarwellBoeing(_) | Self::Op4 => "a matrix",
+            Self::MatrixMarket | Self::HarwellBoeing(_) | Self::Op4 | Self::Npz | Self::Mat => "a matrix",
             Self::Uff | Self::Table => "an FRF",
         })
     }

@@ -3,7 +3,7 @@
 use super::options::ConvertOptions;
 use super::precision::{written, written_evenly_or_not};
 use crate::error::{InputError, Place};
-use crate::load::{Choice, Frf, STD_LABEL, decay_line, read_frf};
+use crate::load::{Frf, STD_LABEL, decay_line, read_frf};
 use frfit::c64;
 use frfit::dof::DofName;
 use frfit::quantity::Quantity;
@@ -14,11 +14,19 @@ use frfit_formats::uff::{
 use frfit_formats::{FormatError, Position};
 use std::path::Path;
 
-/// All datasets: functions written anew, the others byte for byte.
-pub(super) fn rewritten(bytes: &[u8], form: Form) -> Result<Vec<u8>, FormatError> {
+/// All datasets: functions written anew, the others byte for byte. With `records` (from 1) of the functions those FRFs, and what is between the same degrees
+/// of freedom: coherence, standard deviation.
+pub(super) fn rewritten(bytes: &[u8], records: &[i64], form: Form) -> Result<Vec<u8>, FormatError> {
     let file = File::new(bytes)?;
+    let chosen = match records {
+        [] => None,
+        _ => Some(chosen(&file, records)?),
+    };
     let mut out = Vec::new();
     for (index, entry) in file.entries().iter().enumerate() {
+        if entry.dataset == 58 && chosen.as_ref().is_some_and(|chosen| !chosen.contains(&index)) {
+            continue;
+        }
         if entry.dataset != 58 {
             out.extend_from_slice(bytes.get(entry.bytes.clone()).unwrap_or_default());
             // The last line of a file may have no end.
@@ -40,6 +48,27 @@ pub(super) fn rewritten(bytes: &[u8], form: Form) -> Result<Vec<u8>, FormatError
     Ok(out)
 }
 
+/// The datasets of the FRFs with these numbers, and of the other functions between their degrees of freedom.
+fn chosen(file: &File<'_>, records: &[i64]) -> Result<Vec<usize>, FormatError> {
+    let mut headers = Vec::new();
+    for index in file.functions() {
+        headers.push((index, file.function_header(index)?));
+    }
+    let is_frf = |header: &FunctionHeader| header.function_type == FunctionType::FrequencyResponse;
+    let frfs: Vec<_> = headers.iter().filter(|(_, header)| is_frf(header)).collect();
+    let mut chosen = Vec::new();
+    for &record in records {
+        let at = usize::try_from(record).ok().and_then(|number| frfs.get(number.checked_sub(1)?));
+        let refuse = || FormatError::whole(format!("--record from 1 to {}", frfs.len()), record.to_string());
+        let (index, frf) = at.ok_or_else(refuse)?;
+        let beside = headers.iter().filter(|(_, other)| {
+            !is_frf(other) && (&other.response, &other.reference) == (&frf.response, &frf.reference)
+        });
+        chosen.extend(beside.map(|(index, _)| *index).chain([*index]));
+    }
+    Ok(chosen)
+}
+
 /// The FRF of a table, its coherence and its standard deviation as functions of their own, in SI units.
 pub(super) fn of_table(bytes: &[u8], input: &Path, options: &ConvertOptions) -> Result<Vec<u8>, InputError> {
     let needs = |name, expected: &str| InputError::at(&Place::option(name), expected, "none");
@@ -53,7 +82,7 @@ pub(super) fn of_table(bytes: &[u8], input: &Path, options: &ConvertOptions) -> 
         .reference
         .ok_or_else(|| needs("--reference", "where it was driven, such as 12+Z: the table does not say"))?;
     let in_input = |error| InputError::in_file(input, error);
-    let frf = read_frf(bytes, &Choice::default()).map_err(in_input)?;
+    let frf = read_frf(bytes, &options.of_columns()).map_err(in_input)?;
     let decay = frf.decay_per_s.map(decay_line).unwrap_or_default();
     let header = FunctionHeader {
         id: [name(input), String::new(), decay, String::new(), String::new()],

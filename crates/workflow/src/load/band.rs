@@ -28,6 +28,8 @@ pub enum MeasuredNoise {
 #[derive(Debug)]
 pub(super) struct Band {
     pub(super) frequency_hz: Vec<f64>,
+    /// How many lines of the first measurement in the band another one has not.
+    pub(super) not_common: usize,
     /// `[frequency][sensor]`, receptance.
     pub(super) measured: Vec<Vec<c64>>,
     pub(super) noise: MeasuredNoise,
@@ -72,7 +74,10 @@ pub(super) fn respond_hz(
     }
 }
 
-/// All measurements at the frequencies that the first has in the band; `decay_per_s` is that of their window.
+/// All measurements at the frequencies of the band that all of them have; `decay_per_s` is that of their window.
+///
+/// # Errors
+/// No frequency of the first in the band; none that all have; one at which the quantity cannot be converted.
 pub(super) fn band(
     measurements: &[Measurement],
     decay_per_s: f64,
@@ -80,16 +85,24 @@ pub(super) fn band(
     place: &Place,
 ) -> Result<Band, InputError> {
     let Some(first) = measurements.first().and_then(|first| first.curve.as_ref()) else {
-        return Ok(Band { frequency_hz: Vec::new(), measured: Vec::new(), noise: MeasuredNoise::Unknown });
+        let (frequency_hz, measured, noise) = (Vec::new(), Vec::new(), MeasuredNoise::Unknown);
+        return Ok(Band { frequency_hz, not_common: 0, measured, noise });
     };
-    let frequency_hz = frequencies(first, band_hz, place)?;
+    let of_first = frequencies(first, band_hz, place)?;
+    let curves = || measurements.iter().filter_map(|measurement| measurement.curve.as_ref());
+    let is_common = |&&f: &&f64| curves().all(|curve| row_of(curve, f).is_ok());
+    let frequency_hz: Vec<f64> = of_first.iter().filter(is_common).copied().collect();
+    if frequency_hz.is_empty() {
+        return Err(none_common(curves(), first, &of_first));
+    }
+    let not_common = of_first.len() - frequency_hz.len();
     let mut measured: Vec<Vec<c64>> = vec![Vec::new(); frequency_hz.len()];
     // `[sensor][frequency]`, of the receptance.
     let (mut known, mut relative) = (Vec::new(), Vec::new());
     for measurement in measurements {
         let Some(curve) = &measurement.curve else { continue };
         let frf = &curve.frf;
-        let rows = frequency_hz.iter().map(|&f| row_of(curve, f, first)).collect::<Result<Vec<_>, _>>()?;
+        let rows: Vec<usize> = frequency_hz.iter().filter_map(|&f| row_of(curve, f).ok()).collect();
         let picked = |column: &Vec<f64>| rows.iter().map(|&row| column[row]).collect::<Vec<_>>();
         let quantity = measurement.info.quantity;
         for ((&row, &f), values) in rows.iter().zip(&frequency_hz).zip(&mut measured) {
@@ -129,7 +142,7 @@ pub(super) fn band(
         (None, Some(std)) => MeasuredNoise::Relative(std),
         (None, None) => MeasuredNoise::Unknown,
     };
-    Ok(Band { frequency_hz, measured, noise })
+    Ok(Band { frequency_hz, not_common, measured, noise })
 }
 
 /// √E|δH|² of the complex value from the coherence γ² of n averages: |H|√((1 − γ²)/(nγ²)), B-6 for both parts together.
@@ -139,19 +152,27 @@ fn deviation(coherence: f64, averages: usize, response: c64) -> f64 {
     (2.0 * variance(response, coherence, averages)).sqrt()
 }
 
-/// Where a curve has a frequency.
-fn row_of(curve: &Curve, frequency_hz: f64, first: &Curve) -> Result<usize, InputError> {
+/// The measurements have no frequency in common: the first that lacks one, and the nearest that it has.
+fn none_common<'c>(curves: impl Iterator<Item = &'c Curve>, first: &Curve, of_first: &[f64]) -> InputError {
+    let lacking = curves.flat_map(|curve| of_first.iter().map(move |&f| (curve, f, row_of(curve, f))));
+    let (curve, f, nearest) = lacking
+        .filter_map(|(curve, f, row)| Some((curve, f, row.err()?)))
+        .next()
+        .expect("a frequency that is not common is lacking somewhere");
+    let expected =
+        format!("frequencies that all measurements have, such as {f} Hz of {}", first.file.path.display());
+    let found = nearest.map_or("none".into(), |nearest| format!("{nearest} Hz as the nearest"));
+    curve.file.refuse(FormatError::whole(expected, found))
+}
+
+/// Where a curve has a frequency, or the nearest that it has.
+fn row_of(curve: &Curve, frequency_hz: f64) -> Result<usize, Option<f64>> {
     let all = &curve.frf.frequency_hz;
     let above = all.partition_point(|&f| f < frequency_hz);
     let nearest = (above.saturating_sub(1)..all.len().min(above + 1))
         .min_by(|&a, &b| (all[a] - frequency_hz).abs().total_cmp(&(all[b] - frequency_hz).abs()));
     match nearest {
         Some(row) if (all[row] - frequency_hz).abs() <= SAME_FREQUENCY * frequency_hz => Ok(row),
-        _ => {
-            let expected =
-                format!("{frequency_hz} Hz among its frequencies, as in {}", first.file.path.display());
-            let found = nearest.map_or("none".into(), |row| format!("{} Hz as the nearest", all[row]));
-            Err(curve.file.refuse(FormatError::whole(expected, found)))
-        }
+        _ => Err(nearest.map(|row| all[row])),
     }
 }

@@ -56,7 +56,7 @@ pub(super) struct NamedFile {
 impl NamedFile {
     /// The FRF of a choice.
     pub(super) fn frf(&self, choice: &Choice) -> Result<Frf, FormatError> {
-        if detect(&self.bytes) != Some(FileKind::Uff) {
+        if choice.columns.is_some() || detect(&self.bytes) != Some(FileKind::Uff) {
             return read_frf(&self.bytes, choice);
         }
         let index = match self.index.get() {
@@ -202,7 +202,13 @@ pub fn load_bytes(path: &Path, reads: &mut Reads) -> Result<Vec<u8>, InputError>
 /// real values, frequencies that are not ascending, units that contradict each other.
 pub fn read_frf(bytes: &[u8], choice: &Choice) -> Result<Frf, FormatError> {
     let found = match detect(bytes) {
-        Some(FileKind::Uff) => return uff::read(bytes, choice),
+        Some(FileKind::Uff) => {
+            if let Some(names) = &choice.columns {
+                let expected = "no names of columns, which a UFF file has not";
+                return Err(FormatError::whole(expected, names.join(", ")));
+            }
+            return uff::read(bytes, choice);
+        }
         Some(FileKind::Csv) => return table(bytes, choice),
         Some(other) => other.to_string(),
         None if bytes.is_empty() => "an empty file".into(),
@@ -216,7 +222,11 @@ fn table(bytes: &[u8], choice: &Choice) -> Result<Frf, FormatError> {
     if let Some(record) = choice.record.filter(|&record| record != 1) {
         return Err(FormatError::whole("no record number, or 1: a table has one FRF", record.to_string()));
     }
-    let csv::FrfTable { frequency_hz, response, coherence, std, decay_per_s } = csv::read_frf(bytes)?;
+    let read = match &choice.columns {
+        Some(names) => csv::read_frf_named(bytes, &names.iter().map(String::as_str).collect::<Vec<_>>())?,
+        None => csv::read_frf(bytes)?,
+    };
+    let csv::FrfTable { frequency_hz, response, coherence, std, decay_per_s } = read;
     let (quantity, measured_at, driven_at) = (None, None, None);
     Ok(Frf { frequency_hz, response, coherence, std, quantity, measured_at, driven_at, decay_per_s })
 }

@@ -32,7 +32,7 @@ pub(crate) fn decay_line(decay_per_s: f64) -> String {
 }
 
 /// Which of several FRFs of a file.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Choice {
     /// Its number among the FRFs of the file, from 1.
     pub record: Option<i64>,
@@ -40,4 +40,6 @@ pub struct Choice {
     pub measured_at: Option<DofName>,
     /// The degree of freedom that was driven.
     pub driven_at: Option<DofName>,
+    /// Names of the columns of a table, in place of its own; `-` for one that is not read.
+    pub columns: Option<Vec<String>>,
 }

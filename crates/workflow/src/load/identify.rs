@@ -32,6 +32,8 @@ pub struct IdentifyCase {
     pub band_hz: [f64; 2],
     /// The measured frequencies in it, ascending; at least one.
     pub frequency_hz: Vec<f64>,
+    /// How many measured frequencies of the band are not among them, because a sensor has no value there.
+    pub not_common: usize,
     /// Measured receptance in m/N, `[frequency][sensor]`.
     pub measured: Vec<Vec<c64>>,
     /// Which of the frequencies are left out: their rows have the status `out_of_band`.
@@ -193,6 +195,7 @@ pub(super) fn put_together(
         options,
         band_hz: *band_hz,
         frequency_hz: data.frequency_hz,
+        not_common: data.not_common,
         measured: data.measured,
         left_out,
         channels,

@@ -145,8 +145,12 @@ fn curve(
         _ => None,
     };
     let driven = driven_at.map(|name| name.value);
-    let choice =
-        Choice { record: entry.record.as_ref().map(|record| record.value), measured_at, driven_at: driven };
+    let choice = Choice {
+        record: entry.record.as_ref().map(|record| record.value),
+        measured_at,
+        driven_at: driven,
+        columns: entry.columns.as_ref().map(|columns| columns.value.clone()),
+    };
     let frf = file.frf(&choice).map_err(|error| file.refuse(error))?;
     // The same node and axis in the opposite sense: every value would have the wrong sign.
     if let (Some(load), Some(there)) = (driven, frf.driven_at)

@@ -45,6 +45,7 @@ pub fn summary_json(
         "sensors": (0..case.sensors.len()).map(|m| sensor(case, run, m)).collect::<Vec<_>>(),
         "identify": {
             "band_hz": identify.band_hz,
+            "not_common": identify.not_common,
             "left_out": identify.left_out.iter().filter(|&&out| out).count(),
             "method": options.method.name(),
             "order": options.order,

@@ -330,9 +330,14 @@ fn loads_and_measurements() {
             "a.csv: expected no record number, or 1: a table has one FRF, found 2\nnamed in case.toml:21:1: measurement.file",
         ),
         (
-            "band_hz = [10.0, 30.0]",
-            "band_hz = [10.0, 40.0]",
-            "b.csv: expected 40 Hz among its frequencies, as in a.csv, found 30 Hz as the nearest\nnamed in case.toml:25:1: measurement.file",
+            "quantity = \"accelerance\"",
+            "quantity = \"accelerance\"\ncolumns = []",
+            "case.toml:24:1: measurement.columns: expected a list of names such as [\"frequency_hz\", \"magnitude\", \"phase_deg\", \"-\"], found an empty list",
+        ),
+        (
+            "quantity = \"accelerance\"",
+            "quantity = \"accelerance\"\ncolumns = [\"f\", \"re\", \"im\"]",
+            "a.csv:1: expected 3 columns, one for each name, found 4\nnamed in case.toml:21:1: measurement.file",
         ),
         (
             "dof = \"1+Z\"",

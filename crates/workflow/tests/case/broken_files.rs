@@ -176,15 +176,15 @@ fn tables() {
         ),
         (
             "b.csv",
-            "20,2,0",
-            "21,2,0",
-            "b.csv: expected 20 Hz among its frequencies, as in a.csv, found 21 Hz as the nearest\nnamed in case.toml:25:1: measurement.file",
+            "10,1,0,0.9\n20,2,0,0.8\n30,3,0,1",
+            "11,1,0,0.9\n21,2,0,0.8\n31,3,0,1",
+            "b.csv: expected frequencies that all measurements have, such as 10 Hz of a.csv, found 11 Hz as the nearest\nnamed in case.toml:25:1: measurement.file",
         ),
         (
             "b.csv",
             "frequency_hz,re",
             "freq,re",
-            "b.csv:1:1: expected one of the columns frequency_hz, re, im, coherence, std, found \"freq\"; did you mean \"re\"?\nnamed in case.toml:25:1: measurement.file",
+            "b.csv:1:1: expected one of the columns frequency_hz, re, im, magnitude, magnitude_db, phase_deg, phase_rad, coherence, std, found \"freq\"; did you mean \"re\"?\nnamed in case.toml:25:1: measurement.file",
         ),
         (
             "a.csv",

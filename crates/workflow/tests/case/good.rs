@@ -43,6 +43,35 @@ fn everything_that_a_case_says_is_there() {
     assert_eq!(case.respond_hz, [10.0, 20.0, 30.0]);
 }
 
+/// Sensors on other grids: the lines that all of them have.
+#[test]
+fn lines_that_all_sensors_have_are_used() {
+    let table = "frequency_hz,re,im,coherence\n10,1,0,0.9\n15,7,0,0.8\n20.00000000001,2,0,0.8\n31,3,0,1\n";
+    let case = with("b.csv", table.as_bytes(), &Overrides::default(), Purpose::Identify).unwrap();
+    let identify = case.identify.unwrap();
+    assert_eq!((&identify.frequency_hz[..], identify.not_common), (&[10.0, 20.0][..], 1));
+    assert_eq!(identify.measured.iter().map(|row| row[1].re).collect::<Vec<_>>(), [1.0, 2.0]);
+}
+
+/// A table in magnitude and phase without names is what it is in real and imaginary part.
+#[test]
+fn columns_are_named_by_the_case() {
+    let table = b"10;0,9;0;1\n20;0,8;0;2\n30;1;180,0;3\n";
+    let folder = folder("b.csv", Some(table));
+    let text = CASE.replace(
+        "file = \"b.csv\"",
+        "file = \"b.csv\"\ncolumns = [\"f\", \"coherence\", \"phase_deg\", \"mag\"]",
+    );
+    fs::write(folder.path().join("case.toml"), text).unwrap();
+    let case = load(&folder.path().join("case.toml"), &Overrides::default(), Purpose::Identify).unwrap();
+    let second: Vec<c64> = case.identify.unwrap().measured.iter().map(|row| row[1]).collect();
+    let expected = [1.0, 2.0, -3.0].map(|re| c64::new(re, 0.0));
+    assert!(
+        second.iter().zip(expected).all(|(value, expected)| (value - expected).norm() < 1e-14),
+        "{second:?}"
+    );
+}
+
 /// Standard deviations of factors are relative to the storage, absolute of the loss factor, be they written as numbers or in per cent.
 #[test]
 fn what_is_known_of_the_model_is_read() {
