@@ -196,7 +196,7 @@ points = 600
 pub(super) static MATRIX: Section = Section {
     path: "matrix",
     title: "`[[matrix]]`",
-    about: "Each table is one term of the model: D(ω) = Σ factor·stiffness + iω Σ factor·viscous − ω² Σ factor·mass.\nAll matrices have the same number of rows, unless their files name their rows.",
+    about: "Each table is one term of the model:\nD(ω) = Σ factor·stiffness + iω Σ factor·viscous − ω² Σ factor·mass.\nAll matrices have the same number of rows, unless their files name their rows.",
     keys: &[
         key("name", "text", NEEDED, "Name in `[identify]` and in the results; unique."),
         key("role", "\"stiffness\", \"mass\" or \"viscous\"", NEEDED, "Its place in D(ω)."),
@@ -506,7 +506,7 @@ delay_s = \"unknown\"
 pub(super) static MODEL_ERROR: Section = Section {
     path: "model_error",
     title: "`[model_error]`",
-    about: "Size of the errors of the model: relative standard deviations, as numbers or as texts such as \"0.5 %\".\nThey are in every error bar, even if a correct model explains the band.\n`model_error = \"0.5 %\"` is short for a table with `frequency` alone.\n`model_error = \"none\"` states that there are no errors.\nfrfit estimates the sizes that you do not give.",
+    about: "Size of the errors of the model, as relative standard deviations: numbers, or texts such as \"0.5 %\".\nThey are in every error bar, even if a correct model explains the band.\n`model_error = \"0.5 %\"` is short for a table with `frequency` alone.\n`model_error = \"none\"` states that there are no errors.\nfrfit estimates the sizes that you do not give.",
     keys: &[
         key(
             "frequency",
@@ -537,7 +537,7 @@ calibration = \"1 %\"
 pub(super) static COARSER_MESH: Section = Section {
     path: "coarser_mesh",
     title: "`[coarser_mesh]`",
-    about: "The same structure on a coarser mesh, as its own case file.\n`coarser_mesh = \"coarse.toml\"` is short for a table with `file` alone.\nfrfit uses its matrices, `[load]`, `[dofs]`, `[[attached]]` and the DOFs of its measurements, but not its measured FRFs.\nMatrices and measurements must have the same order as in this file.\nfrfit pairs the modes of both meshes, corrects the model for the error of this mesh, and includes its uncertainty in every error bar; see [Meshes](meshes.md).",
+    about: "The same structure on a coarser mesh, as its own case file.\n`coarser_mesh = \"coarse.toml\"` is short for a table with `file` alone.\nfrfit uses its matrices, `[load]`, `[dofs]`, `[[attached]]` and the DOFs of its measurements.\nIt does not use its measured FRFs.\nMatrices and measurements must have the same order as in this file.\nfrfit pairs the modes of both meshes, corrects the model for the error of this mesh, and includes its uncertainty in every error bar; see [Meshes](meshes.md).",
     keys: &[
         key("file", "text", NEEDED, "The case file."),
         key(
@@ -692,7 +692,7 @@ varies = \"constant\"
 pub(super) static SINGLE: Section = Section {
     path: "identify",
     title: "Keys of a single unknown that varies",
-    about: "frfit refuses these keys if there are several unknowns, or if the only one is constant or has a negative power.\nFor those there is only one method.\n\
+    about: "frfit refuses these keys if there are several unknowns.\nIt also refuses them if the only unknown is constant or has a negative power.\nFor those there is only one method.\n\
             Laws and smooth moduli need the default method.",
     keys: &[
         key(
@@ -766,7 +766,7 @@ bounds = { storage = [1e10, 1e12], loss_factor = [0.0, 0.5] }
 pub(super) static RESPOND: Section = Section {
     path: "respond",
     title: "`[respond]`",
-    about: "Frequencies for `frfit respond` and `frfit sensitivities`; without `[identify]` also the band for `frfit modes`.",
+    about: "Frequencies for `frfit respond` and `frfit sensitivities`.\nWithout `[identify]` this is also the band for `frfit modes`.",
     keys: &[
         key("band_hz", "[low, high], Hz", NEEDED, "First and last frequency."),
         key(

@@ -23,8 +23,8 @@ pub fn reference() -> String {
 const HEAD: &str = "# Reference of the case file
 
 This page is generated from the list of keys in the reader of case files.
-`FRFIT_RENEW=1 cargo test -p frfit-workflow --lib reference` writes it again, and a test fails if the
-page is out of date.
+`FRFIT_RENEW=1 cargo test -p frfit-workflow --lib reference` writes it again.
+A test fails if the page is out of date.
 A test also reads every example and finds each key in one of them.
 ";
 
