@@ -89,7 +89,7 @@ fn long_sentences(lines: &[(Kind, &str)], prose: &[String]) -> Vec<Fault> {
             }
             let is_word = |word: &&str| word.contains(char::is_alphanumeric);
             count += prose[from..end].split_whitespace().filter(is_word).count();
-            if end < prose.len() || ends_sentence(prose.trim_end()) || prose.trim_end().ends_with(':') {
+            if end < prose.len() || unquoted(prose.trim_end()).ends_with(['.', '!', '?', ':']) {
                 close(begin, &mut count);
             }
             from = end;
@@ -185,12 +185,17 @@ fn begins_sentence(after: &str) -> bool {
     text.starts_with(' ') && (next.starts_with(char::is_uppercase) || next.starts_with("frfit "))
 }
 
-/// Whether a text that may end with a full stop ends a sentence.
+/// A text without the quotes and brackets at its end.
+fn unquoted(text: &str) -> &str {
+    text.trim_end_matches(['"', '”', ')', '*', ']'])
+}
+
+/// Whether a text within a line ends a sentence. The end of a line after a full stop always does.
 fn ends_sentence(text: &str) -> bool {
-    let text = text.trim_end_matches(['"', '”', ')', '*', ']']);
+    let text = unquoted(text);
     let Some(before) = text.strip_suffix('.') else { return text.ends_with(['!', '?']) };
     let word = before.rsplit(|c: char| c.is_whitespace() || "([".contains(c)).next().unwrap_or_default();
-    let is_initial = word.chars().count() == 1 && word.chars().all(char::is_alphabetic);
+    let is_initial = word.chars().count() == 1 && word.chars().all(char::is_uppercase);
     // The number of an item is no sentence.
     let is_number = before.trim_start() == word && word.chars().all(|c| c.is_ascii_digit());
     !is_initial && !is_number && !ABBREVIATIONS.contains(&word)
@@ -288,7 +293,7 @@ mod tests {
         let lines = |count: usize| vec![words(10); count].join("\n");
         assert_eq!(found(&format!("Short.\n{}\nand more.\n", lines(4))), ["2: a sentence of 42 words"]);
         assert_eq!(found(&format!("{}.\n", lines(4))), NONE);
-        for end in [".", ":", "?", "\n", "\n- item", "\n| table |", "\n# heading"] {
+        for end in [".", ":", "?", " E.", ".)", "\n", "\n- item", "\n| table |", "\n# heading"] {
             assert_eq!(found(&format!("{}{end}\n{}\n", lines(3), lines(3))), NONE, "{end}");
         }
         // Code and formulas count as a word each, and signs as none.
