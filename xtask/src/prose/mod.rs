@@ -199,12 +199,11 @@ mod tests {
     }
 
     #[test]
-    fn the_list_of_files_to_be_rewritten_names_files_that_are_there() {
+    fn documents_of_the_repository_are_found() {
         let root = workspace();
-        let documents: Vec<String> = documents(root).unwrap().iter().map(|path| name(root, path)).collect();
-        for begin in NOT_YET {
-            assert!(documents.iter().any(|name| name.starts_with(begin)), "{begin}");
+        let found: Vec<String> = documents(root).unwrap().iter().map(|path| name(root, path)).collect();
+        for name in ["README.md", "docs/site/src/index.md", "crates/examples/cases/sandwich/README.md"] {
+            assert!(found.iter().any(|own| own == name), "{name} is not in {found:?}");
         }
-        assert!(documents.len() > 40, "{documents:?}");
     }
 }
