@@ -2,6 +2,7 @@
 
 use crate::browser::browser;
 use crate::outside::{self, Outside};
+use crate::prose;
 use crate::python;
 use crate::site;
 use crate::slowest;
@@ -17,7 +18,7 @@ pub(crate) enum Tier {
     Long,
 }
 
-/// Formatting, lints, tests, doc tests, documentation, the Python package; of the long tier the site and the report in
+/// Prose, formatting, lints, tests, doc tests, documentation, the Python package; of the long tier the site and the report in
 /// a browser too. Every step runs, even after one that failed.
 pub(crate) fn all(tier: Tier) -> bool {
     for (command, component) in [("fmt", "rustfmt"), ("clippy", "clippy")] {
@@ -28,6 +29,7 @@ pub(crate) fn all(tier: Tier) -> bool {
     }
     // The interpreter comes first: lints, tests and wheel have to see the same one, or PyO3 is built anew for each.
     let mut steps: Vec<Step> = python::environment().into_iter().collect();
+    steps.push(prose::check(false));
     let tools = thread::scope(|scope| {
         // The package index is waited for, which leaves the cores to the lints.
         let tools = scope.spawn(python::tools);

@@ -26,14 +26,14 @@ pub(super) struct Key {
     pub(super) name: &'static str,
     /// What its value is. Words in double quotes are those that the reader knows, and all of them.
     pub(super) value: &'static str,
-    /// What holds where the key is not there: [`NEEDED`], or the value that stands for it.
+    /// The default: [`NEEDED`], or the value that frfit uses without the key.
     pub(super) otherwise: &'static str,
-    /// What it says, as Markdown.
+    /// Its description, as Markdown.
     pub(super) about: &'static str,
 }
 
 /// A table without this key is refused.
-pub(super) const NEEDED: &str = "needed";
+pub(super) const NEEDED: &str = "required";
 
 const fn key(name: &'static str, value: &'static str, otherwise: &'static str, about: &'static str) -> Key {
     Key { name, value, otherwise, about }
@@ -84,7 +84,7 @@ fn section_of(kind: LawKind) -> Section {
         };
         key(parameter.name.clone().into_owned().leak(), value, NEEDED, parameter.about)
     };
-    let mut keys = vec![key("law", law_words().leak(), NEEDED, "Which law.")];
+    let mut keys = vec![key("law", law_words().leak(), NEEDED, "The law.")];
     if let LawKind::Maxwell { .. } = kind {
         keys.extend(kind.parameters().iter().take(1).map(of));
         keys.push(key("branches", "list of [modulus, time in s]", NEEDED, "At least one; times above 0."));
@@ -107,54 +107,57 @@ fn section_of(kind: LawKind) -> Section {
 pub(super) static CASE: Section = Section {
     path: "",
     title: "The file",
-    about: "TOML. Paths are relative to the case file. A key that is not on this page is an error that names the nearest known one.",
+    about: "The case file is TOML.\nPaths are relative to the case file.\nA key that is not on this page is an error, and the message names the nearest known key.",
     keys: &[
-        key("title", "text", "the name of the file", "Stands over figures and report."),
+        key("title", "text", "the name of the file", "Title of the figures and the report."),
         key(
             "units",
             "\"m-kg-s\", \"SI\", \"mm-t-s\", \"mm-kg-ms\", \"mm-g-ms\", \"mm-kg-s\", \"m-t-s\", \"cm-g-s\", \"in-lbf-s\" or \"ft-lbf-s\"",
             "SI",
-            "Units of the model: of matrices, factors, bounds, nominal values and what is attached; see [Units](units.md). \
-             Measurements and loads are in SI units in each of them, frequencies in hertz, and times of laws in seconds.",
+            "Units of the model, for matrices, factors, bounds, nominal values and `[[attached]]`; see [Units](units.md). \
+             Measurements and loads are always in SI units, frequencies in hertz, and times of laws in seconds.",
         ),
         key("matrix", "tables `[[matrix]]`, at least one", NEEDED, "The terms of the model."),
-        key("dofs", "table `[dofs]`", "names of the matrices' files, else row numbers", "Names of the rows."),
+        key("dofs", "table `[dofs]`", "names in the matrix files, else row numbers", "Names of the rows."),
         key(
             "attached",
             "tables `[[attached]]`",
             "none",
-            "Masses, springs and dampers that are on the structure and not in the matrices.",
+            "Masses, springs and dampers on the structure that the matrices do not contain.",
         ),
         key("load", "table `[load]`", NEEDED, "Where the force acts."),
         key(
             "measurement",
             "tables `[[measurement]]`, at least one",
             NEEDED,
-            "What was measured, or where it is to be computed.",
+            "The measured FRFs, or the DOFs where frfit computes them.",
         ),
         key(
             "model_error",
-            "\"estimated\", \"none\", a number, a text as \"0.5 %\", or table `[model_error]`",
+            "\"estimated\", \"none\", a number, a text such as \"0.5 %\", or table `[model_error]`",
             "\"estimated\"",
-            "Errors of the model's natural frequencies, mode shapes and known matrices: estimated from the band and taken out where they explain it better than a right model, or none, where error bars hold the noise alone, or as large as you know them to be, and in every error bar.",
+            "Errors of the model: of its natural frequencies, mode shapes and known matrices. \
+             \"estimated\": frfit estimates them from the band and corrects the model if they explain it better than a correct model. \
+             \"none\": error bars contain only the noise. \
+             A size: the errors are as large as you state, and in every error bar.",
         ),
         key(
             "coarser_mesh",
             "text, or table `[coarser_mesh]`",
             "one mesh",
-            "The case file of the same structure on a coarser mesh: both together say how far the natural frequencies of this one are off.",
+            "The case file of the same structure on a coarser mesh. Both together show the errors of the natural frequencies of this one.",
         ),
         key(
             "identify",
             "table `[identify]`, or tables `[[identify]]`",
             "nothing is identified",
-            "What is unknown.",
+            "The unknowns.",
         ),
         key(
             "respond",
             "table `[respond]`",
             "the measured frequencies",
-            "Frequencies of `frfit respond` and `frfit sensitivities`; without `[identify]` the band of `frfit modes`.",
+            "Frequencies for `frfit respond` and `frfit sensitivities`; without `[identify]` also the band for `frfit modes`.",
         ),
     ],
     examples: &["title = \"Bar\"
@@ -193,34 +196,34 @@ points = 600
 pub(super) static MATRIX: Section = Section {
     path: "matrix",
     title: "`[[matrix]]`",
-    about: "One term of the model each: D(ω) = Σ factor·stiffness + iω Σ factor·viscous − ω² Σ factor·mass. All have the same number of rows, unless their files name their rows.",
+    about: "Each table is one term of the model:\nD(ω) = Σ factor·stiffness + iω Σ factor·viscous − ω² Σ factor·mass.\nAll matrices have the same number of rows, unless their files name their rows.",
     keys: &[
-        key("name", "text", NEEDED, "By which `[identify]` and the results speak of it; each has its own."),
-        key("role", "\"stiffness\", \"mass\" or \"viscous\"", NEEDED, "Where it stands in D(ω)."),
+        key("name", "text", NEEDED, "Name in `[identify]` and in the results; unique."),
+        key("role", "\"stiffness\", \"mass\" or \"viscous\"", NEEDED, "Its place in D(ω)."),
         key(
             "file",
             "text, or `{ file, name }`",
             "`at`",
-            "The matrix: Matrix Market, Harwell–Boeing, CalculiX, Abaqus, Nastran DMIG or OUTPUT4, Ansys HBMAT, NumPy, MATLAB; recognised by the content. It has to be symmetric.",
+            "File of the matrix: Matrix Market, Harwell–Boeing, CalculiX, Abaqus, Nastran DMIG or OUTPUT4, Ansys HBMAT, NumPy, MATLAB. frfit recognises the format by the content. The matrix must be symmetric.",
         ),
         key(
             "at",
             "`{ dimension, values, files, powers }`",
             "`file`",
-            "The same matrix at several values of a dimension.",
+            "The matrix at several values of a dimension, in place of `file`.",
         ),
         key(
             "factor",
             "number, or a table as below",
             "1",
-            "What the matrix is multiplied by. Of an unknown: its nominal value.",
+            "Factor of the matrix; for an unknown, its nominal value.",
         ),
         key(
             "factor_is",
             "\"modulus\" or \"relative\"",
             "`modulus` from 100 on, else `relative`",
-            "Of a stiffness: a modulus, for a matrix that was made with modulus one, or a number relative to the modulus that the matrix was made with. \
-             Results are labelled by it. Say it where `units` have moduli of such sizes, as 2 MPa of rubber.",
+            "Meaning of a stiffness factor: a modulus, for a matrix assembled with a modulus of one, or a number relative to the modulus that the matrix was assembled with. \
+             It sets the labels of the results. State it if moduli in your `units` are below 100, such as 2 MPa for rubber.",
         ),
     ],
     examples: &["[[matrix]]
@@ -239,23 +242,23 @@ at = { dimension = \"thickness\", values = [0.0018, 0.002, 0.0022], files = [\"k
 pub(super) static MATRIX_AT: Section = Section {
     path: "matrix.at",
     title: "`at = { … }` of a matrix that depends on a dimension",
-    about: "The matrix is a sum of powers of the dimension. The sum goes through the matrices at all values but one, in the middle, and has to meet that one: then it is the matrix at every value. \
-            `[[identify]]` with this name and a `nominal` value has the dimension as unknown; elsewhere it has that value. \
-            Which powers solids, shells and beams need: [Several unknowns](several.md).",
+    about: "The matrix is a sum of powers of the dimension.\nfrfit fits the sum through the matrices at all values but the middle one.\nThe sum must match the middle one as a check.\n\
+            `[[identify]]` with this name and a `nominal` value makes the dimension an unknown.\nOther commands use the nominal value.\n\
+            [Several unknowns](several.md) lists the powers for solids, shells and beams.",
     keys: &[
-        key("dimension", "text", NEEDED, "Its name: that of an `[[identify]]`."),
+        key("dimension", "text", NEEDED, "Its name, the `name` of an `[[identify]]`."),
         key(
             "values",
             "list of numbers",
             NEEDED,
-            "One more than there are powers, each once: 5 without `powers` for a cube. With `powers` above 0; without, from 3 to 10 of them, other than 0.",
+            "Values of the dimension, all different, one more than there are powers: 5 without `powers` for a cube. With `powers` they must be above 0. Without, give 3 to 10 values other than 0.",
         ),
-        key("files", "list of texts", NEEDED, "A file for each value, of one matrix each."),
+        key("files", "list of texts", NEEDED, "A file with one matrix for each value."),
         key(
             "powers",
             "list of whole numbers from −12 to 12",
             "0, 1, 2 and so on, one fewer than values",
-            "The powers of the dimension that are in the matrix, each once.",
+            "The powers of the dimension in the matrix, all different.",
         ),
     ],
     examples: &["[[matrix]]
@@ -275,7 +278,7 @@ pub(super) static MATRIX_FILE: Section = Section {
     about: "`frfit inspect` lists the names.",
     keys: &[
         key("file", "text", NEEDED, "The file."),
-        key("name", "text", "its only matrix", "Which of its matrices."),
+        key("name", "text", "the only matrix in the file", "Name of the matrix in the file."),
     ],
     examples: &["[[matrix]]
 name = \"plate\"
@@ -287,13 +290,13 @@ file = { file = \"model.op4\", name = \"KAA\" }
 pub(super) static COMPLEX_MODULUS: Section = Section {
     path: "matrix.factor",
     title: "`factor = { storage, loss_factor }`",
-    about: "A complex modulus E′(1 + iη), the same at all frequencies. This and the forms below hold for `factor` and for `reference`.",
+    about: "A complex modulus E′(1 + iη), the same at all frequencies.\nThis form and the forms below are valid for `factor` and for `reference`.",
     keys: &[
         key(
             "storage",
             "number",
             NEEDED,
-            "E′, in the unit of the factor: that of a modulus in the case's `units` (Pa, MPa …) for a matrix made with modulus one.",
+            "E′ in the unit of the factor. For a matrix assembled with a modulus of one, this is the unit of a modulus in the case's `units` (Pa, MPa …).",
         ),
         key("loss_factor", "number", "0", "η."),
     ],
@@ -308,7 +311,7 @@ factor = { storage = 2.1e11, loss_factor = 0.001 }
 pub(super) static TABLE: Section = Section {
     path: "matrix.factor",
     title: "`factor = { table }`",
-    about: "A modulus over frequency, interpolated over log ω; it has to reach every frequency that is asked for.",
+    about: "A modulus over frequency, interpolated over log ω.\nThe table must cover every frequency that frfit computes.",
     keys: &[key(
         "table",
         "text",
@@ -326,19 +329,19 @@ factor = { table = \"modulus.csv\" }
 pub(super) static FACTOR_STD: Section = Section {
     path: "matrix.factor",
     title: "How well a factor is known",
-    about: "Beside the keys of any of these forms. The error bars of all unknowns hold it, and the measurements may say better: then the error that they show is taken out.",
+    about: "These keys stand together with the keys of any of these forms.\nThe error bars of all unknowns include this uncertainty.\nIf the measurements determine the factor better, frfit corrects the model for its error.",
     keys: &[
         key(
             "storage_std",
-            "number, or a text as \"2 %\"",
-            "2 %, where the band shows errors of the model; else none",
-            "Standard deviation of E′, or of a real factor: in its unit, or a part of it. A factor that varies has a part.",
+            "number, or a text such as \"2 %\"",
+            "2 % if the band shows errors of the model, else none",
+            "Standard deviation of E′, or of a real factor: in its unit, or relative as a percentage. For a factor that varies over frequency it is relative.",
         ),
         key(
             "loss_factor_std",
-            "number, or a text as \"20 %\"",
-            "0.002 and a tenth of η, where the band shows errors of the model; else none",
-            "Standard deviation of η: a number, or a part of it.",
+            "number, or a text such as \"20 %\"",
+            "0.002 and a tenth of η if the band shows errors of the model, else none",
+            "Standard deviation of η: a number, or relative as a percentage.",
         ),
     ],
     examples: &["[[matrix]]
@@ -352,7 +355,7 @@ factor = { storage = 7.0e10, loss_factor = 0.001, storage_std = \"2 %\", loss_fa
 pub(super) static DOFS: Section = Section {
     path: "dofs",
     title: "`[dofs]`",
-    about: "Names of the rows, where the files of the matrices have none. A degree of freedom is then a node, a sign and a direction: `12+Z`, `7-RX`.",
+    about: "Names of the rows, if the matrix files have none.\nA degree of freedom is then a node, a sign and a direction: `12+Z`, `7-RX`.",
     keys: &[key("file", "text", NEEDED, "CSV with `row` (from 1), `node`, `direction` (X Y Z RX RY RZ).")],
     examples: &["[dofs]
 file = \"dofs.csv\"
@@ -362,15 +365,15 @@ file = \"dofs.csv\"
 pub(super) static LOAD: Section = Section {
     path: "load",
     title: "`[load]`",
-    about: "One of the three keys. An FRF is the response to a unit force at one degree of freedom; a file is for a force that is spread.",
+    about: "Give one of the three keys.\nAn FRF is the response to a unit force at one degree of freedom.\nA file describes a distributed force.",
     keys: &[
-        key("dof", "name such as 12+Z", "`row` or `file`", "Unit force there; the sign is its sense."),
-        key("row", "whole number", "`dof` or `file`", "Unit force on this row, from 1."),
+        key("dof", "name such as 12+Z", "`row` or `file`", "DOF of a unit force; the sign gives its sense."),
+        key("row", "whole number", "`dof` or `file`", "Row of a unit force, from 1."),
         key(
             "file",
             "text",
             "`dof` or `row`",
-            "CSV with `row` (from 1), `re`, `im`, in N (N·m in a row that is named as a rotation).",
+            "CSV with `row` (from 1), `re`, `im`, in N (N·m in a row with the name of a rotation).",
         ),
     ],
     examples: &[
@@ -389,34 +392,29 @@ file = \"force.csv\"
 pub(super) static ATTACHED: Section = Section {
     path: "attached",
     title: "`[[attached]]`",
-    about: "An accelerometer, the tip of a hammer, a suspension. `dof` or `row`, and at least one of `mass`, `mass_kg`, `stiffness` and `damping`. A number is in the `units` of the case, a text has units of its own. No rotary inertia.",
+    about: "An accelerometer, the tip of a hammer, a suspension.\nGive `dof` or `row`, and at least one of `mass`, `mass_kg`, `stiffness` and `damping`.\nA number is in the `units` of the case; a text has its own units.\nThere is no rotary inertia.",
     keys: &[
-        key(
-            "dof",
-            "name such as 12+Z",
-            "`row`",
-            "Where it is; a mass then moves in all translations of that node.",
-        ),
-        key("row", "whole number", "`dof`", "Where it is; a mass then moves in this row alone."),
-        key("mass", "number above 0, or a text as `12 g`", "no mass", "A point mass."),
-        key("mass_kg", "number above 0, kg", "no mass", "The same in kg, whatever the `units` are."),
+        key("dof", "name such as 12+Z", "`row`", "Its DOF; a mass moves in all translations of that node."),
+        key("row", "whole number", "`dof`", "Its row; a mass moves in this row only."),
+        key("mass", "number above 0, or a text such as `12 g`", "no mass", "A point mass."),
+        key("mass_kg", "number above 0, kg", "no mass", "A point mass in kg, for all `units`."),
         key(
             "directions",
             "list of X, Y, Z",
             "all translations of the node",
-            "In which directions the mass moves; beside `dof`.",
+            "Directions in which the mass moves; only with `dof`.",
         ),
         key(
             "stiffness",
-            "number above 0, or a text as `3 N/mm`",
+            "number above 0, or a text such as `3 N/mm`",
             "no spring",
-            "A spring to ground: force over length, of a rotation moment over angle (`5 N m/rad`).",
+            "A spring to ground: force over length, or moment over angle for a rotation (`5 N m/rad`).",
         ),
         key(
             "damping",
-            "number above 0, or a text as `0.2 N s/m`",
+            "number above 0, or a text such as `0.2 N s/m`",
             "no damper",
-            "A viscous damper to ground: force over velocity, of a rotation moment over angular velocity.",
+            "A viscous damper to ground: force over velocity, or moment over angular velocity for a rotation.",
         ),
     ],
     examples: &[
@@ -437,57 +435,57 @@ damping = 0.2
 pub(super) static MEASUREMENT: Section = Section {
     path: "measurement",
     title: "`[[measurement]]`",
-    about: "One FRF each. `frfit sensitivities` and `frfit respond` need only where the sensor is; without files `frfit modes` shows the model alone.",
+    about: "Each table is one FRF.\n`frfit sensitivities` and `frfit respond` need only the DOF of the sensor.\nWithout files `frfit modes` shows only the model.",
     keys: &[
         key(
             "file",
             "text",
-            "none, where nothing measured is needed",
-            "UFF 58 or 58b, or CSV with `frequency_hz`, `re` and `im` (or `magnitude`, `magnitude_db` and `phase_deg`, `phase_rad`) and, if known, `coherence` or `std`.",
+            "none, if the command needs no measurement",
+            "UFF 58 or 58b, or CSV with `frequency_hz`, `re` and `im`, or a magnitude and a phase; if known, `coherence` or `std`.",
         ),
         key(
             "columns",
             "list of names",
-            "as the first line of the table",
-            "Columns of a CSV file whose names are others, or that has none; `-` for a column that is not read.",
+            "the first line of the table",
+            "Names of the columns of a CSV file, in place of its own; `-` for a column that is not read.",
         ),
         key(
             "dof",
             "name such as 12+Z",
-            "`row`, or as the file says",
-            "Where it was measured; the sign is its sense.",
+            "`row`, or the DOF in the file",
+            "DOF of the sensor; the sign gives its sense.",
         ),
-        key("row", "whole number", "`dof`, or as the file says", "Where it was measured, from 1."),
-        key("record", "whole number", "the one at this place", "Which FRF of a UFF file, from 1."),
+        key("row", "whole number", "`dof`, or the DOF in the file", "Row of the sensor, from 1."),
+        key("record", "whole number", "the FRF at this DOF", "Number of the FRF in a UFF file, from 1."),
         key(
             "quantity",
             "\"receptance\", \"mobility\" or \"accelerance\"",
-            "as the file says",
+            "the quantity in the file",
             "Displacement, velocity or acceleration over force.",
         ),
         key(
             "averages",
             "whole number from 2",
-            "the coherence weighs only",
-            "Over how many records the coherence was averaged: with it the standard deviation follows.",
+            "the coherence sets only weights",
+            "Number of averages of the coherence; with it frfit computes the standard deviation.",
         ),
         key(
             "scale",
             "number other than 0, or \"unknown\"",
             "1",
-            "What the values are to be multiplied by (9.81 for g). Unknown: it is found, beside a known channel, a law or a constant.",
+            "Factor for the values (9.81 for g). \"unknown\": frfit identifies it, if another channel is known or the unknown is a law or a constant.",
         ),
         key(
             "delay_s",
             "number, s, or \"unknown\"",
             "0",
-            "By how much this channel is late. Unknown: as with `scale`.",
+            "Delay of this channel. \"unknown\": as with `scale`.",
         ),
         key(
             "decay_per_s",
             "number from 0, 1/s",
-            "as the file says, or 0",
-            "α = 1/τ of an exponential window e^(−αt) on force and response: the model is evaluated at ω − iα. The same for all measurements.",
+            "the value in the file, or 0",
+            "α = 1/τ of an exponential window e^(−αt) on force and response. frfit evaluates the model at ω − iα. The same for all measurements.",
         ),
     ],
     examples: &[
@@ -515,20 +513,25 @@ delay_s = \"unknown\"
 pub(super) static MODEL_ERROR: Section = Section {
     path: "model_error",
     title: "`[model_error]`",
-    about: "How large the errors of the model are: relative standard deviations, as numbers or as texts such as \"0.5 %\". They are in every error bar, however well a right model explains the band. `model_error = \"0.5 %\"` is short for a table with `frequency` alone, `model_error = \"none\"` is for who knows that there are none. What is not said is estimated.",
+    about: "Size of the errors of the model, as relative standard deviations: numbers, or texts such as \"0.5 %\".\nThey are in every error bar, even if a correct model explains the band.\n`model_error = \"0.5 %\"` is short for a table with `frequency` alone.\n`model_error = \"none\"` states that there are no errors.\nfrfit estimates the sizes that you do not give.",
     keys: &[
         key(
             "frequency",
-            "number, or a text as \"0.5 %\"",
+            "number, or a text such as \"0.5 %\"",
             "estimated",
-            "Of natural frequencies, as of a mesh: at the upper end of the band.",
+            "Error of natural frequencies, such as that of a mesh, at the upper end of the band.",
         ),
-        key("shape", "number, or a text as \"3 %\"", "estimated", "Of mode shapes at the sensors."),
+        key(
+            "shape",
+            "number, or a text such as \"3 %\"",
+            "estimated",
+            "Error of mode shapes at the sensors.",
+        ),
         key(
             "calibration",
-            "number, or a text as \"1 %\"",
+            "number, or a text such as \"1 %\"",
             "estimated",
-            "Of the calibrations of the force and of each sensor.",
+            "Error of the calibrations of the force and of each sensor.",
         ),
     ],
     examples: &["[model_error]
@@ -541,15 +544,20 @@ calibration = \"1 %\"
 pub(super) static COARSER_MESH: Section = Section {
     path: "coarser_mesh",
     title: "`[coarser_mesh]`",
-    about: "The same structure on a coarser mesh, as a case file of its own: `coarser_mesh = \"coarse.toml\"` is short for a table with `file` alone. Its matrices, `[load]`, `[dofs]`, what is attached, and where it is measured are used, and its measurements are not; matrices and measurements have the order of this file. The modes of both meshes are paired, and what this mesh still has of their difference is taken out of the model and is in every error bar; see [Meshes](meshes.md).",
+    about: "The same structure on a coarser mesh, as its own case file.\n`coarser_mesh = \"coarse.toml\"` is short for a table with `file` alone.\nfrfit uses its matrices, `[load]`, `[dofs]`, `[[attached]]` and the DOFs of its measurements.\nIt does not use its measured FRFs.\nMatrices and measurements must have the same order as in this file.\nfrfit pairs the modes of both meshes, corrects the model for the error of this mesh, and includes its uncertainty in every error bar; see [Meshes](meshes.md).",
     keys: &[
         key("file", "text", NEEDED, "The case file."),
-        key("element_ratio", "number above 1", "2", "Length of its elements over that of this mesh."),
+        key(
+            "element_ratio",
+            "number above 1",
+            "2",
+            "Ratio of the length of its elements to that of this mesh.",
+        ),
         key(
             "order",
             "number above 0",
             "2",
-            "Errors of natural frequencies go with this power of the length of elements: 2 of linear solids, shells and beams with shear, 4 of cubic beams and of quadratic solids.",
+            "Errors of natural frequencies are proportional to this power of the element length: 2 for linear solids, shells and beams with shear, 4 for cubic beams and quadratic solids.",
         ),
     ],
     examples: &["[coarser_mesh]
@@ -562,52 +570,57 @@ order = 2
 pub(super) static UNKNOWN: Section = Section {
     path: "identify",
     title: "`[identify]`, or `[[identify]]` for each of several unknowns",
-    about: "The factor of a matrix, or a dimension; complex unless `real`. One table may be written either way.",
+    about: "The unknown is the factor of a matrix, or a dimension; it is complex unless `real`.\nFor a single unknown both forms are valid.",
     keys: &[
         key(
             "name",
             "text",
             "names of the matrices",
-            "Needed of a dimension: that of its `powers`, or of the matrices `at` its values.",
+            "Name of the unknown. A dimension needs it; for matrices with `at` it is their `dimension`.",
         ),
-        key("matrix", "text or list of texts", "a dimension", "Whose factor is unknown; several share one."),
+        key(
+            "matrix",
+            "text or list of texts",
+            "the unknown is a dimension",
+            "Matrix with the unknown factor; several matrices share one factor.",
+        ),
         key(
             "powers",
             "table of matrices and whole numbers from −12 to 12",
-            "matrices `at` values of it",
-            "A dimension: it multiplies the factor of each matrix to this power.",
+            "matrices with `at`",
+            "For a dimension: the factor of each matrix is multiplied by the dimension to this power.",
         ),
         key(
             "varies",
             "\"frequency\", \"smooth\", \"constant\" or \"law\"",
-            "frequency; of a dimension constant",
-            "A value of its own at each frequency, a smooth curve (of a factor), one value for the band, or a law of few parameters.",
+            "frequency; constant for a dimension",
+            "A separate value at each frequency, a smooth curve (for a factor), one value for the band, or a law with few parameters.",
         ),
         key(
             "law",
             UnknownLawKind::EXPECTED,
-            "all of them",
-            "Beside `varies = \"law\"`: the law; of an only unknown also a list of laws, that are fitted and compared.",
+            "all laws",
+            "The law, with `varies = \"law\"`. For a single unknown also a list of laws, which frfit fits and compares.",
         ),
-        key("branches", "whole number from 1 to 20", "3", "Of `law = \"maxwell\"`."),
+        key("branches", "whole number from 1 to 20", "3", "Number of branches with `law = \"maxwell\"`."),
         key(
             "nominal",
             "number",
-            "needed of a dimension, else the factor of the matrix",
-            "A dimension's value to begin with: 1, or a length in the case's `units` where the matrices are made for a length of one.",
+            "required for a dimension, else the factor of the matrix",
+            "Nominal value of a dimension: 1, or a length in the case's `units` if the matrices are assembled for a length of one.",
         ),
-        key("bounds", "table, or [low, high] of a real one", "none", "What it can be."),
+        key("bounds", "table, or [low, high] for a real unknown", "none", "Limits of the unknown."),
         key(
             "real",
             "true or false",
-            "true of a dimension, else false",
-            "A real unknown, as a density, a spring or a length.",
+            "true for a dimension, else false",
+            "The unknown is real, such as a density, a spring or a length.",
         ),
         key(
             "reference",
             "as `factor`",
             "none",
-            "What a simulated measurement was made with. It is drawn, and used for nothing.",
+            "True value of a simulated measurement. frfit plots it and uses it for nothing else.",
         ),
     ],
     examples: &[
@@ -637,32 +650,37 @@ reference = 1.05
 pub(super) static FOR_ALL: Section = Section {
     path: "identify",
     title: "Keys of the first `[[identify]]`, for all",
-    about: "Where there are several unknowns, these keys are in the first table.",
+    about: "If there are several unknowns, these keys are in the first table.",
     keys: &[
-        key("band_hz", "[low, high], Hz", "`--band`", "Measured frequencies from low to high are used."),
+        key(
+            "band_hz",
+            "[low, high], Hz",
+            "`--band`",
+            "frfit uses the measured frequencies from low to high.",
+        ),
         key(
             "exclude_hz",
             "list of frequencies and [low, high], Hz",
             "none",
-            "Left out, as mains hum; their rows are `out_of_band`.",
+            "Excluded frequencies, such as mains hum; their rows are `out_of_band`.",
         ),
         key(
             "max_lines",
             "whole number, 3 and more",
             "all",
-            "Of more lines than this, those that show the unknowns best: half of them evenly spread, half where the measurement changes fastest. The others are `out_of_band`.",
+            "Largest number of frequencies. frfit selects half of them evenly, and half where the measurement changes fastest. The others are `out_of_band`.",
         ),
         key(
             "reject_outliers",
             "true or false",
             "true",
-            "Of three or more sensors one that contradicts all others is left out.",
+            "Leave out one of three or more sensors if it contradicts all others.",
         ),
         key(
             "check",
             "true or false",
             "true",
-            "Look for what is wrong with the data, as `frfit check` does: first, or, unless a single unknown varies, where the band is not explained.",
+            "Search for faults of the data, as `frfit check` does. A case with a single unknown that varies does it first, other cases only if the band is not explained.",
         ),
     ],
     examples: &["[[identify]]
@@ -681,38 +699,38 @@ varies = \"constant\"
 pub(super) static SINGLE: Section = Section {
     path: "identify",
     title: "Keys of a single unknown that varies",
-    about: "They are refused where there are several unknowns, or where the only one is constant or has a negative power: there is one way to find those. \
+    about: "frfit refuses these keys if there are several unknowns.\nIt also refuses them if the only unknown is constant or has a negative power.\nFor those there is only one method.\n\
             Laws and smooth moduli need the default method.",
     keys: &[
         key(
             "method",
             "\"rational\", \"series\" or \"nelder-mead\"",
             "rational",
-            "All solutions on a reduced model; the paper's Neumann series; a search to compare with.",
+            "All solutions on a reduced model; the Neumann series of the paper; a search for comparison.",
         ),
         key(
             "order",
             "whole number from 1 to 200",
             "30",
-            "Series: terms. Rational: upper bound. Nelder–Mead: iterations.",
+            "Series: number of terms. Rational: largest number of terms. Nelder–Mead: number of iterations.",
         ),
         key(
             "selection",
             "\"joint\" or \"smallest\"",
             "joint with rational, else smallest",
-            "Who chooses among several solutions: all sensors and frequencies together, or the least correction (the paper).",
+            "Selection among several solutions: by all sensors and frequencies together, or the smallest correction (the paper).",
         ),
         key(
             "reduction",
             "\"auto\", \"full\" or \"subspace\"",
             "auto",
-            "What answers at a frequency: the full model, or one reduced model for the band.",
+            "Model at each frequency: the full model, or one reduced model for the band.",
         ),
         key(
             "start",
             "\"bounds\"",
             "the factor of the matrix",
-            "There is no nominal value: it is looked for in all of the bounds, and `bounds.storage` is needed. Not of a dimension.",
+            "There is no nominal value. frfit searches the whole range of the bounds and requires `bounds.storage`. Not for a dimension.",
         ),
     ],
     examples: &[
@@ -736,15 +754,15 @@ start = \"bounds\"
 pub(super) static BOUNDS: Section = Section {
     path: "identify.bounds",
     title: "`bounds = { … }`",
-    about: "What is known beforehand: wide limits, in the unit of the factor, of the case's `units`. Low may be high where a single unknown varies, and is below it elsewhere.",
+    about: "Wide limits from prior knowledge, in the unit of the factor and the `units` of the case.\nThe low limit may equal the high limit for a single unknown that varies; otherwise it must be below.",
     keys: &[
         key(
             "storage",
             "[low, high]",
             "none",
-            "Of E′, or of a real factor. Answers are looked for within a factor of four of the nominal first.",
+            "Limits of E′, or of a real factor. frfit first searches within a factor of four of the nominal value.",
         ),
-        key("loss_factor", "[low, high]", "none", "Of η."),
+        key("loss_factor", "[low, high]", "none", "Limits of η."),
     ],
     examples: &["[identify]
 matrix = \"plate\"
@@ -755,14 +773,14 @@ bounds = { storage = [1e10, 1e12], loss_factor = [0.0, 0.5] }
 pub(super) static RESPOND: Section = Section {
     path: "respond",
     title: "`[respond]`",
-    about: "Where `frfit respond` and `frfit sensitivities` compute; without `[identify]` the band of `frfit modes`.",
+    about: "Frequencies for `frfit respond` and `frfit sensitivities`.\nWithout `[identify]` this is also the band for `frfit modes`.",
     keys: &[
         key("band_hz", "[low, high], Hz", NEEDED, "First and last frequency."),
         key(
             "points",
             "whole number from 1 to 1000000",
             NEEDED,
-            "How many, equally spaced, both ends included.",
+            "Number of frequencies, equally spaced, with both ends.",
         ),
     ],
     examples: &["[respond]

@@ -9,7 +9,7 @@ pub fn reference() -> String {
     for section in SECTIONS.iter() {
         // Writing into a String cannot fail.
         let _ = writeln!(page, "\n## {}\n\n{}\n", section.title, section.about);
-        let _ = writeln!(page, "| key | value | if it is not there | what it says |\n|---|---|---|---|");
+        let _ = writeln!(page, "| Key | Value | Default | Description |\n|---|---|---|---|");
         for Key { name, value, otherwise, about } in section.keys {
             let _ = writeln!(page, "| `{name}` | {} | {} | {} |", cell(value), cell(otherwise), cell(about));
         }
@@ -22,8 +22,10 @@ pub fn reference() -> String {
 
 const HEAD: &str = "# Reference of the case file
 
-This page is made from the reader's own list of keys: `FRFIT_RENEW=1 cargo test -p frfit-workflow --lib reference` writes it anew, and a test fails where it is
-another. A test also reads every example, and finds each key in one of them.
+This page is generated from the list of keys in the reader of case files.
+`FRFIT_RENEW=1 cargo test -p frfit-workflow --lib reference` writes it again.
+A test fails if the page is out of date.
+A test also reads every example and finds each key in one of them.
 ";
 
 /// Text of a table's cell: a stroke would begin the next one.
