@@ -3,7 +3,7 @@
 //! Errors that are estimated at points of a box miss a narrow resonance of a mode that the basis has never met. But poles can be counted: Re D(ω, c) of a model
 //! has as many negative pivots as it has modes below ω (Sylvester), and VᵀRe D V as many negative eigenvalues as it has of them. Of a box that corner counts
 //! where most modes are below. With the number of missing modes m, and U the vectors that are diag(d)-orthogonal to V, the form
-//! $$ A = Q\,(\mathrm{Re}\,D)^{-1} \mathrm{diag}(d)\, Q, \qquad Q = 1 - V V^T \mathrm{diag}(d), $$
+//! $$ A = Q\\,(\mathrm{Re}\\,D)^{-1} \mathrm{diag}(d)\\, Q, \qquad Q = 1 - V V^T \mathrm{diag}(d), $$
 //! has just m negative eigenvalues on U (its inverse is the Schur complement of VᵀRe D V in Re D). Block Lanczos with A, begun with what load and sensors
 //! see, meets those that matter first. Each of its Ritz vectors u of a negative value gives (Re D)⁻¹diag(d)u, which makes V count one more.
 //!

@@ -9,7 +9,7 @@
 //! and $2 \delta_i \omega_1^2$ with the lowest other natural frequency ω_1 is that of a support or a suspension that the model does not have;
 //! $$ \ell_m \leftarrow \ell_m + \sum_i a_{mi} \\, (\ell_m^T y_i) \\, M y_i $$
 //! changes mode i at sensor m by the relative a_mi, the same with F where the force acts; (1 + g_m) and (1 + g_0) multiply all of ℓ_m and of F where a calibration is off;
-//! $$ M \leftarrow M + \sum_m \kappa_m M_m \, \ell_m \ell_m^T, \qquad M_m^{-1} = \overline{(\ell_m^T y_i)^2} $$
+//! $$ M \leftarrow M + \sum_m \kappa_m M_m \\, \ell_m \ell_m^T, \qquad M_m^{-1} = \overline{(\ell_m^T y_i)^2} $$
 //! is a mass at sensor m that the model does not have, as that of an accelerometer, over the apparent mass M_m of the modes there;
 //! $$ f_t \leftarrow (1 + \nu_t)(f_t + i \\, \Delta\eta_t \operatorname{Re} f_t) $$
 //! changes a known factor. What comes out is a reduced model like any other.
@@ -427,7 +427,7 @@ impl Projection {
 /// The response of a model at one frequency over the natural frequency of one mode and its shapes, everything else as it is.
 ///
 /// With w = D⁻¹My_i and κ = k (t − t₀), where t is what [`Modes::change`] makes of δ_i and k the complex stiffness that goes with it,
-/// $$ x_m = \ell_m^T y - \frac{\kappa}{1 + \kappa s} p \, \ell_m^T w, \qquad s = (M y_i)^T w, \quad p = (M y_i)^T y. $$
+/// $$ x_m = \ell_m^T y - \frac{\kappa}{1 + \kappa s} p \\, \ell_m^T w, \qquad s = (M y_i)^T w, \quad p = (M y_i)^T y. $$
 pub(crate) struct AlongMode {
     /// ℓ_mᵀy and ℓ_mᵀw without the mode's share of ℓ_m.
     without: Vec<[c64; 2]>,

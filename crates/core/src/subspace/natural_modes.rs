@@ -1,7 +1,7 @@
 //! Natural modes of a structure with its damping, each a pole s of D(s) with its shape.
 //!
 //! With the factors f_g at the mode's own frequency, the poles are those s at which
-//! $$ T(s) = \sum_g f_g\, s^{q_g} S_g, \qquad q = 0, 1, 2 \text{ for stiffness, viscous damping and mass}, \qquad T(s)\, x = 0 . $$
+//! $$ T(s) = \sum_g f_g\\, s^{q_g} S_g, \qquad q = 0, 1, 2 \text{ for stiffness, viscous damping and mass}, \qquad T(s)\\, x = 0 . $$
 //! Modes of the real stiffness and mass are counted by inertia and found by Lanczos on the whole model. On the subspace that they span each is followed
 //! from no damping to its own by inverse iteration with Rayleigh's functional, $y^T T(s) y = 0$. Where there are dampers, or much damping, a mode may so be led to
 //! another's pole: all poles of the reduced model at one set of factors, from its state matrix, are starts as well. What is left of the whole model's T(s) Vy brings the vectors that damping

@@ -1,7 +1,7 @@
 //! What causality makes of a smooth complex modulus: its phase is that of its slope (B-12).
 //!
 //! With u = ln ω, a modulus without zeros and poles in the half-plane of growing motion has
-//! $$ \arg E(u) = \frac{1}{\pi} \int_{-\infty}^{\infty} \frac{d \ln|E|}{du'} \ln \coth \frac{|u - u'|}{2} \, du' $$
+//! $$ \arg E(u) = \frac{1}{\pi} \int_{-\infty}^{\infty} \frac{d \ln|E|}{du'} \ln \coth \frac{|u - u'|}{2} \\, du' $$
 //! Within the band the slope is that of a spline. Beyond it the slope goes on as at the end, or becomes another one within an e-fold.
 //!
 //! # Source
