@@ -12,7 +12,7 @@ fn demo_runs_the_papers_rubber_bar() {
     let folder = tempfile::tempdir().unwrap();
     let said = done(folder.path(), &["demo"]);
     for word in
-        ["  status            199 ok\n", "storage modulus", "loss factor", "spectral radius", "figures/"]
+        ["  status            199 ok\n", "storage modulus", "loss factor", "spectral radius", "2 factorisations", "figures/"]
     {
         assert!(said.contains(word), "{word:?} is not in\n{said}");
     }
@@ -45,6 +45,23 @@ fn demo_runs_the_papers_rubber_bar() {
         assert!(svg.starts_with("<svg") && !svg.contains("NaN"));
         assert_shows_something(&out.join(format!("figures/{figure}.png")));
     }
+}
+
+/// The same case by the paper's series of order 30, with its numbers.
+#[test]
+fn the_papers_way_is_an_option() {
+    let folder = tempfile::tempdir().unwrap();
+    done(folder.path(), &["--quiet", "example", "rubber-bar", "bar"]);
+    let paper = ["--method", "series", "--order", "30", "--selection", "smallest", "--error-map", "0"];
+    done(folder.path(), &[&["identify", "bar/case.toml", "--out", "out"][..], &paper].concat());
+    let table = std::fs::read_to_string(folder.path().join("out/identified.csv")).unwrap();
+    assert_eq!(column(&table, "status"), vec!["ok"; 199]);
+    let errors = column(&table, "error").into_iter().map(|error| error.parse::<f64>().unwrap());
+    assert!(errors.fold(0.0, f64::max) < 2e-8);
+    let summary: Value =
+        serde_json::from_slice(&std::fs::read(folder.path().join("out/summary.json")).unwrap()).unwrap();
+    // Two a frequency: the series, and the response solved anew.
+    assert_eq!(summary["counts"]["factorisations"], 2 * 199);
 }
 
 #[test]
@@ -137,7 +154,7 @@ fn options_override_the_case() {
     done(folder.path(), &["--quiet", "example", "rubber-bar"]);
     let said = done(
         folder.path(),
-        &["identify", "rubber-bar/case.toml", "--out", "out", "--order", "12", "--band", "500:600", "--json"],
+        &["identify", "rubber-bar/case.toml", "--out", "out", "--method", "series", "--order", "12", "--band", "500:600", "--json"],
     );
     let summary: Value = serde_json::from_str(&said).unwrap();
     assert_eq!(summary["identify"]["order"], 12);

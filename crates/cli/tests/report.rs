@@ -13,8 +13,10 @@ fn read(folder: &Path, name: &str) -> String {
 
 /// The sandwich, coarse in frequency, with a title that is no tag.
 fn sandwich(folder: &Path, more: &str) {
-    done(folder, &["--quiet", "example", "sandwich", "s"]);
     let case = folder.join("s/case.toml");
+    // The one that was edited before.
+    let _ = std::fs::remove_file(&case);
+    done(folder, &["--quiet", "example", "sandwich", "s"]);
     let text = std::fs::read_to_string(&case).unwrap();
     let titled = text.replacen("title = ", "title = \"<script>alert(1)</script> & more\"\n# ", 1);
     std::fs::write(case, titled.replace("[identify]", &format!("[identify]\n{more}"))).unwrap();

@@ -42,6 +42,8 @@ fn help_of_every_command() {
         "modes",
         "inspect",
         "convert",
+        "completions",
+        "man",
     ] {
         insta::assert_snapshot!(format!("help_{command}"), done(folder.path(), &[command, "--help"]));
     }
@@ -80,4 +82,37 @@ fn sensitivities_of_a_sandwich() {
     // 99 frequencies, two sensors, six parameters.
     assert_eq!(table.lines().count(), 1 + 99 * 2 * 6);
     assert!(folder.path().join("out/figures/sensitivities.svg").exists());
+}
+
+/// A page of the manual for every command, and scripts that a shell takes.
+#[test]
+fn manual_pages_and_completions() {
+    let folder = tempfile::tempdir().unwrap();
+    done(folder.path(), &["man", "man1"]);
+    let page = |name: &str| std::fs::read_to_string(folder.path().join("man1").join(name)).unwrap();
+    assert!(page("frfit.1").contains("frfit\\-identify(1)"));
+    assert!(page("frfit-batch-collect.1").contains("A row for each line of each run"));
+    assert!(page("frfit-identify.1").contains("Folder for the results"));
+    for (shell, word) in [("bash", "COMPREPLY"), ("zsh", "#compdef frfit"), ("fish", "complete -c frfit")] {
+        let script = done(folder.path(), &["completions", shell]);
+        assert!(script.contains(word) && script.contains("keep-reduced"), "{shell}");
+    }
+}
+
+/// Without --out results are beside the case; an edited example is not overwritten.
+#[test]
+fn folders_without_a_name_and_edited_examples() {
+    let folder = tempfile::tempdir().unwrap();
+    done(folder.path(), &["--quiet", "example", "density", "d"]);
+    done(folder.path(), &["--quiet", "respond", "d/case.toml"]);
+    assert!(folder.path().join("d/case-response/response.csv").exists());
+    done(folder.path(), &["--quiet", "identify", "d/case.toml"]);
+    assert!(folder.path().join("d/case-results/identified.csv").exists());
+    done(folder.path(), &["--quiet", "example", "density", "d"]);
+    let case = folder.path().join("d/case.toml");
+    let edited = std::fs::read_to_string(&case).unwrap() + "# mine\n";
+    std::fs::write(&case, &edited).unwrap();
+    let refusal = common::refused(folder.path(), &["example", "density", "d"]);
+    assert!(refusal.contains("an edited file is not overwritten"), "{refusal}");
+    assert_eq!(std::fs::read_to_string(&case).unwrap(), edited);
 }

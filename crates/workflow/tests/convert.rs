@@ -374,7 +374,7 @@ fn real_measurements_there_and_back_needs_data() {
     .unwrap();
     fs::write(folder.path("binary.uff"), &binary).unwrap();
     for record in 1..=3 {
-        let options = ConvertOptions { record: Some(record), ..PLAIN };
+        let options = ConvertOptions { records: vec![record], ..PLAIN };
         let from_text = convert(&beam, Path::new("frf.csv"), &options, &mut Reads::default()).unwrap();
         assert_eq!(folder.convert("binary.uff", "frf.csv", &options), from_text);
         let frf = csv::read_frf(&from_text).unwrap();

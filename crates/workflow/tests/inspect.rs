@@ -221,7 +221,7 @@ fn a_table_that_serves_as_nothing_says_why() {
       columns  3 (freqency_hz, re, im)
       rows     1
       use      none
-               not an FRF (file of a [[measurement]]): frf.csv:1:1: expected one of the columns frequency_hz, re, im, coherence, std, found "freqency_hz"; did you mean "frequency_hz"?
+               not an FRF (file of a [[measurement]]): frf.csv:1:1: expected one of the columns frequency_hz, re, im, magnitude, magnitude_db, phase_deg, phase_rad, coherence, std, found "freqency_hz"; did you mean "frequency_hz"?
                not a load (file of [load]): frf.csv:1:1: expected one of the columns row, re, im, found "freqency_hz"
                not names of rows (file of [dofs]): frf.csv:1:1: expected one of the columns row, node, direction, found "freqency_hz"
                not a modulus over frequency (table of a factor): frf.csv:1: expected a column "frequency_hz", found no such name; the nearest is "freqency_hz"

@@ -52,8 +52,8 @@ fn frequency_responses_are_refused_with_a_word() {
                 "input:1: expected at least one line of data below the names, found none",
             ),
             (
-                b"freq_hz,re,im\n1,2,3\n",
-                "input:1:1: expected one of the columns frequency_hz, re, im, magnitude, magnitude_db, phase_deg, phase_rad, coherence, std, found \"freq_hz\"; did you mean \"frequency_hz\"?",
+                b"freqs_hz,re,im\n1,2,3\n",
+                "input:1:1: expected one of the columns frequency_hz, re, im, magnitude, magnitude_db, phase_deg, phase_rad, coherence, std, found \"freqs_hz\"; did you mean \"frequency_hz\"?",
             ),
             (
                 b"frequency_hz,re\n1,2\n",

@@ -74,7 +74,7 @@ fn columns_that_the_caller_names() {
         near(&read_frf_named(text.as_bytes(), &names).unwrap(), &text);
     }
     let refused = read_frf_named(b"10,3,4\n", &names).unwrap_err();
-    assert_eq!(refused.to_string(), "line 1: expected 4 columns, one for each name, found 3");
+    assert_eq!(refused.to_string(), "input:1: expected 4 columns, one for each name, found 3");
 }
 
 fn near(frf: &frfit_formats::csv::FrfTable, text: &str) {

@@ -332,7 +332,7 @@ fn loads_and_measurements() {
         (
             "quantity = \"accelerance\"",
             "quantity = \"accelerance\"\ncolumns = []",
-            "case.toml:24:1: measurement.columns: expected a list of names such as [\"frequency_hz\", \"magnitude\", \"phase_deg\", \"-\"], found an empty list",
+            "case.toml:24:1: measurement.columns: expected a list of names such as [\"frequency_hz\", \"magnitude\", \"phase_deg\", \"-\"], found the list []",
         ),
         (
             "quantity = \"accelerance\"",
@@ -427,9 +427,9 @@ fn options_and_bands() {
             "case.toml:30:1: identify.band_hz: expected a band with frequencies of a.csv (0 to 40 Hz in 4 steps), found [1000, 2000]",
         ),
         (
-            "band_hz = [10.0, 30.0]",
-            "band_hz = [0.0, 30.0]",
-            "case.toml:30:1: identify.band_hz: expected a band in which accelerance can be converted to receptance, found 0 Hz in it",
+            "[[measurement]]\nfile = \"b.csv\"\nrow = 3\nquantity = \"receptance\"\n[identify]\nmatrix = \"springs\"\nband_hz = [10.0, 30.0]",
+            "[identify]\nmatrix = \"springs\"\nband_hz = [0.0, 30.0]",
+            "case.toml:26:1: identify.band_hz: expected a band in which accelerance can be converted to receptance, found 0 Hz in it",
         ),
         (
             "order = 20",
