@@ -9,6 +9,7 @@ use frfit_workflow::check::findings_text;
 use frfit_workflow::job::IdentifyJob;
 use frfit_workflow::load::IdentifyCase;
 use frfit_workflow::output::{Words, contradicted, laws_text, not_identifiable};
+use frfit_workflow::terminal::short;
 use serde_json::Value;
 use std::path::Path;
 
@@ -63,7 +64,9 @@ impl Text {
 fn head(job: &IdentifyJob, identify: &IdentifyCase) -> String {
     let lines = &job.run.found.lines;
     let band = match (lines.first(), lines.last()) {
-        (Some(first), Some(last)) => format!("{} to {} Hz", first.frequency_hz, last.frequency_hz),
+        (Some(first), Some(last)) => {
+            format!("{} to {} Hz", short(first.frequency_hz), short(last.frequency_hz))
+        }
         _ => String::new(),
     };
     let names: Vec<&str> = identify.unknowns.iter().map(|one| one.name.as_str()).collect();

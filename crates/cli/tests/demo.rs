@@ -11,9 +11,14 @@ use serde_json::Value;
 fn demo_runs_the_papers_rubber_bar() {
     let folder = tempfile::tempdir().unwrap();
     let said = done(folder.path(), &["demo"]);
-    for word in
-        ["  status            199 ok\n", "storage modulus", "loss factor", "spectral radius", "2 factorisations", "figures/"]
-    {
+    for word in [
+        "  status            199 ok\n",
+        "storage modulus",
+        "loss factor",
+        "spectral radius",
+        "2 factorisations",
+        "figures/",
+    ] {
         assert!(said.contains(word), "{word:?} is not in\n{said}");
     }
     let out = folder.path().join("frfit-demo/out");
@@ -40,7 +45,7 @@ fn demo_runs_the_papers_rubber_bar() {
             .iter()
             .all(|input| input["sha256"].as_str().unwrap().len() == 64)
     );
-    for figure in ["accelerance", "modulus", "error", "spectral_radius"] {
+    for figure in ["accelerance", "modulus", "candidates", "reduction-error", "spectral_radius"] {
         let svg = std::fs::read_to_string(out.join(format!("figures/{figure}.svg"))).unwrap();
         assert!(svg.starts_with("<svg") && !svg.contains("NaN"));
         assert_shows_something(&out.join(format!("figures/{figure}.png")));
@@ -154,7 +159,19 @@ fn options_override_the_case() {
     done(folder.path(), &["--quiet", "example", "rubber-bar"]);
     let said = done(
         folder.path(),
-        &["identify", "rubber-bar/case.toml", "--out", "out", "--method", "series", "--order", "12", "--band", "500:600", "--json"],
+        &[
+            "identify",
+            "rubber-bar/case.toml",
+            "--out",
+            "out",
+            "--method",
+            "series",
+            "--order",
+            "12",
+            "--band",
+            "500:600",
+            "--json",
+        ],
     );
     let summary: Value = serde_json::from_str(&said).unwrap();
     assert_eq!(summary["identify"]["order"], 12);

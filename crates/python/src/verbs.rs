@@ -69,6 +69,9 @@ pub(crate) fn sensitivities(
     Ok(found.map_err(|error| job(py, &error))?.summary.to_string())
 }
 
+/// A law and the names of its parameters.
+type Fitted = (Law, Vec<String>);
+
 /// What `frfit fit --json` prints, and the law of each fit with the names of its parameters; with `out` its files too.
 /// Without laws all are compared.
 #[pyfunction]
@@ -78,7 +81,7 @@ pub(crate) fn fit(
     laws: Vec<String>,
     only: Option<(String, String)>,
     out: Option<PathBuf>,
-) -> PyResult<(String, Vec<(Law, Vec<String>)>)> {
+) -> PyResult<(String, Vec<Fitted>)> {
     let mut kinds: Vec<LawKind> = Vec::new();
     for name in &laws {
         let kind = word(py, "laws", name)?;

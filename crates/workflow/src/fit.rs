@@ -6,6 +6,7 @@ use crate::job::JobError;
 use crate::load::load_bytes;
 use crate::output::{File, Misfit, check_folder, law_json, laws_text, write_result};
 use crate::reads::Reads;
+use crate::terminal::short;
 use crate::units::{FactorUnit, TableUnits, UnitSystem};
 use frfit::c64;
 use frfit::frequency::omega_rad_s;
@@ -132,12 +133,6 @@ fn heading(name: &str, data: &ModulusData) -> String {
         Some(_) => "weighted by their standard deviations",
         None => "weighted by their size",
     };
-    let (first, last) = (hertz(first), hertz(last));
+    let (first, last) = (short(first), short(last));
     format!("{name}: {} moduli, {first} to {last} Hz{left_out}, {weights}", data.storage.len())
-}
-
-/// A frequency without a row of zeros: master curves span dozens of decades.
-fn hertz(frequency_hz: f64) -> String {
-    let usual = (1e-3..1e6).contains(&frequency_hz);
-    if usual { frequency_hz.to_string() } else { format!("{frequency_hz:e}") }
 }

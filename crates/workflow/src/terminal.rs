@@ -19,6 +19,15 @@ pub(crate) fn one_line(text: &str) -> Cow<'_, str> {
     escaped(text, |_| true, code)
 }
 
+/// A number for a sentence: six significant digits.
+pub fn short(value: f64) -> String {
+    let rounded = format!("{value:.5e}").parse().unwrap_or(value);
+    match rounded.abs() {
+        size if size == 0.0 || (1e-3..1e6).contains(&size) => rounded.to_string(),
+        _ => format!("{rounded:e}"),
+    }
+}
+
 fn escaped(text: &str, which: impl Fn(char) -> bool, code: impl Fn(char) -> String) -> Cow<'_, str> {
     let is_escaped = |c: char| c.is_control() && which(c);
     if !text.contains(is_escaped) {
@@ -45,5 +54,15 @@ mod tests {
         let shown = printable_json(&format!("{json:#}\n")).into_owned();
         assert!(!shown.replace('\n', "").contains(char::is_control), "{shown}");
         assert_eq!(serde_json::from_str::<serde_json::Value>(&shown).unwrap(), json);
+    }
+
+    #[test]
+    fn numbers_are_short_and_keep_their_size() {
+        assert_eq!(short(0.0), "0");
+        assert_eq!(short(6399.9), "6399.9");
+        assert_eq!(short(-1.0 / 3.0), "-0.333333");
+        assert_eq!(short(39_411_962.742_7), "3.9412e7");
+        assert_eq!(short(4.12e-9), "4.12e-9");
+        assert_eq!(short(f64::INFINITY), "inf");
     }
 }

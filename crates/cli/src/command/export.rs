@@ -6,6 +6,7 @@ use crate::outcome::{Failure, Outcome};
 use frfit_workflow::Reads;
 use frfit_workflow::export::{ExportOptions, export};
 use frfit_workflow::output::{Words, write_one};
+use frfit_workflow::terminal::short;
 
 pub(crate) fn run(args: &Args, wanted: &Export) -> Result<Outcome, Failure> {
     let options = ExportOptions {
@@ -27,7 +28,7 @@ pub(crate) fn run(args: &Args, wanted: &Export) -> Result<Outcome, Failure> {
         say_json(&done.json(&wanted.out))?;
     } else {
         let (modulus, units, out) = (done.modulus, done.units, wanted.out.display());
-        let ([first, last], count) = (modulus.band_hz(), modulus.rows.len());
+        let ([first, last], count) = (modulus.band_hz().map(short), modulus.rows.len());
         let mut words = Words::default();
         words.say(&format!(
             "wrote {out}: {count} frequencies, {first} to {last} Hz, in {} ({})\n",

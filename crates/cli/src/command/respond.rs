@@ -7,6 +7,7 @@ use crate::progress::Progress;
 use frfit_workflow::job::respond_case;
 use frfit_workflow::load::Overrides;
 use frfit_workflow::output::Words;
+use frfit_workflow::terminal::short;
 use serde_json::json;
 
 pub(crate) fn run(args: &Args, respond: &Respond) -> Result<Outcome, Failure> {
@@ -23,7 +24,8 @@ pub(crate) fn run(args: &Args, respond: &Respond) -> Result<Outcome, Failure> {
         say_json(&json!({"frequencies": run.frequency_hz.len(), "unsolved": broken}))?;
     } else {
         let (first, last) = (run.frequency_hz.first(), run.frequency_hz.last());
-        let band = first.zip(last).map_or(String::new(), |(a, b)| format!(", {a} to {b} Hz"));
+        let band =
+            first.zip(last).map_or(String::new(), |(a, b)| format!(", {} to {} Hz", short(*a), short(*b)));
         let mut words = Words::default();
         words.say(&format!(
             "{}: response at {} sensor(s), {} frequencies{band}\nwrote {}: response.csv, frf.uff, figures/\n",

@@ -69,7 +69,7 @@ fn frequency_responses_are_refused_with_a_word() {
             ),
             (
                 b"frequency_hz,re,im,re\n1,2,3,4\n",
-                "input:1:20: expected one column \"re\", found a second one",
+                "input:1:20: expected one column such as \"re\", found a second one",
             ),
             (
                 b"frequency_hz,re,im\n1,nan,3\n",

@@ -34,13 +34,16 @@ pub(super) fn names_of_rows(labels: &Labels) -> Result<Vec<u8>, FormatError> {
     csv::write(&["row", "node", "direction"], rows).map(String::into_bytes)
 }
 
+/// Matrices with names as the bytes of a file.
+type Writer = fn(&[(&str, &CoordinateMatrix)]) -> Result<Vec<u8>, FormatError>;
+
 /// How a format of several matrices is written.
 pub(super) struct Several {
     /// A name as the format takes it.
     name: fn(&str) -> String,
     /// What two names have to differ in.
     differ: &'static str,
-    write: fn(&[(&str, &CoordinateMatrix)]) -> Result<Vec<u8>, FormatError>,
+    write: Writer,
 }
 
 pub(super) const NASTRAN: Several =

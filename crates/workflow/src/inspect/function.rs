@@ -1,6 +1,7 @@
 //! A function of a UFF file in one line.
 
-use super::text::{count, short};
+use super::text::count;
+use crate::terminal::short;
 use frfit_formats::uff::FunctionSummary;
 use serde_json::{Value, json};
 

@@ -1,6 +1,7 @@
 //! A LabVIEW measurement file, and what its channels hold.
 
-use super::text::{aligned, short};
+use super::text::aligned;
+use crate::terminal::short;
 use frfit_formats::FormatError;
 use frfit_formats::lvm::{Abscissa, Channel, Lvm, read};
 use serde_json::{Value, json};

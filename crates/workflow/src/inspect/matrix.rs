@@ -1,7 +1,8 @@
 //! A matrix in figures, and whether it can be a term of a model.
 
-use super::text::{aligned, short};
+use super::text::aligned;
 use crate::load::{asymmetry, check_symmetric, complex};
+use crate::terminal::short;
 use frfit::c64;
 use frfit_formats::csv::Direction;
 use frfit_formats::{CoordinateMatrix, DofLabel, Entries, FileKind, FormatError, Labels, Symmetry};

@@ -1,7 +1,8 @@
 //! A table, and what it can serve as.
 
-use super::text::{aligned, short};
+use super::text::aligned;
 use crate::error::InputError;
+use crate::terminal::short;
 use frfit_formats::FormatError;
 use frfit_formats::csv::{self, Table};
 use serde_json::{Value, json};

@@ -1,8 +1,9 @@
 //! The datasets of a UFF file, one line each.
 
 use super::function;
-use super::text::{count, short};
+use super::text::count;
 use crate::error::InputError;
+use crate::terminal::short;
 use frfit_formats::uff::{File, FileHeader, FunctionSummary, FunctionType, Record, Units};
 use frfit_formats::{FileKind, FormatError};
 use serde_json::{Value, json};

@@ -4,6 +4,7 @@ use super::ModesRun;
 use super::run::MeasuredRun;
 use crate::load::Case;
 use crate::output::Words;
+use crate::terminal::short;
 
 /// A factor on the stiffness nearer to one than this is not worth a word.
 const MIN_FACTOR_OFF: f64 = 0.02;
@@ -14,7 +15,7 @@ const MAX_POLE_ERROR: f64 = 1e-6;
 /// The table of modes, and what measurement and model have in common.
 pub(super) fn text(case: &Case, run: &ModesRun) -> Words {
     let mut words = Words::default();
-    let [first, last] = run.band_hz;
+    let [first, last] = run.band_hz.map(short);
     let factors = match case.modes.as_ref().and_then(|modes| modes.identified.as_deref()) {
         Some(file) => format!("factors of {file}"),
         None => "nominal factors".to_owned(),

@@ -4,6 +4,7 @@ use super::words::Words;
 use crate::convert::{companion, frf_dataset, windowed};
 use crate::load::{InputFile, decay_line};
 use crate::records::{Records, Sensor};
+use crate::terminal::short;
 use frfit::dof::DofName;
 use frfit::signal::{Channel, Fault, Frf, Impact, Measured, Options, added_loss_factor};
 use frfit_formats::FormatError;
@@ -275,9 +276,4 @@ pub fn measured_text(records: &Records, measured: &Measured, options: &Options) 
 
 fn plural(count: usize, noun: &str) -> String {
     format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
-}
-
-/// Six significant digits.
-fn short(value: f64) -> String {
-    format!("{value:.5e}").parse::<f64>().unwrap_or(value).to_string()
 }

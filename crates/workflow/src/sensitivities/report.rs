@@ -4,13 +4,14 @@ use super::words::{bar, inseparable as in_words};
 use super::{NextSensor, NoiseFrom, Place, SensitivityRun};
 use crate::load::Case;
 use crate::output::Words;
+use crate::terminal::short;
 use frfit::sensitivity::{KNOWN_LN_STD, VariableStd, WorstBar, inseparable};
 use frfit_linalg::solve::Breakdown;
 
 /// Table, what is identifiable, and the next sensor.
 pub(super) fn text(case: &Case, run: &SensitivityRun) -> Words {
     let (first, last) = (run.frequency_hz.first(), run.frequency_hz.last());
-    let band = first.zip(last).map_or(String::new(), |(a, b)| format!(", {a} to {b} Hz"));
+    let band = first.zip(last).map_or(String::new(), |(a, b)| format!(", {} to {} Hz", short(*a), short(*b)));
     let mut words = Words::default();
     words.say(&format!(
         "{}: sensitivities to {} parameter(s) at {} sensor(s), {} frequencies{band}\n",

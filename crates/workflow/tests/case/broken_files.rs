@@ -208,7 +208,7 @@ fn tables() {
             "a.csv",
             ",std",
             ",stdev",
-            "a.csv:1:20: expected one of the columns frequency_hz, re, im, coherence, std, found \"stdev\"; did you mean \"std\"?\nnamed in case.toml:21:1: measurement.file",
+            "a.csv:1:20: expected one of the columns frequency_hz, re, im, magnitude, magnitude_db, phase_deg, phase_rad, coherence, std, found \"stdev\"; did you mean \"std\"?\nnamed in case.toml:21:1: measurement.file",
         ),
         (
             "b.csv",
