@@ -61,16 +61,44 @@ mod tests {
     fn source_files_that_the_architecture_names_are_there() {
         let mut found = Vec::new();
         ["crates", "xtask"].into_iter().for_each(|folder| files(&workspace().join(folder), &mut found));
-        for page in ["docs/architecture.md", "docs/equations.md"] {
-            let text = std::fs::read_to_string(workspace().join(page)).unwrap();
+        let named = |page: &Path| {
+            let text = std::fs::read_to_string(page).unwrap();
             let code = text.split('`').skip(1).step_by(2);
             let is_file = |name: &&str| name.ends_with(".rs") && !name.contains([' ', '{', '*']);
             let names: Vec<&str> = code.filter(is_file).collect();
             assert!(
                 names.iter().all(|name| found.iter().any(|file| file.ends_with(&format!("/{name}")))),
-                "{page}: {names:?}"
+                "{}: {names:?}",
+                page.display()
             );
-            assert!(!names.is_empty());
+            names.len()
+        };
+        let docs = workspace().join("docs");
+        assert!(["architecture.md", "equations.md"].iter().all(|page| named(&docs.join(page)) > 0));
+        let decisions = std::fs::read_dir(docs.join("decisions")).unwrap().flatten();
+        assert!(decisions.map(|decision| named(&decision.path())).sum::<usize>() > 0);
+    }
+
+    #[test]
+    fn every_decision_stands_in_the_list() {
+        let folder = workspace().join("docs/decisions");
+        let list = std::fs::read_to_string(folder.join("README.md")).unwrap();
+        let mut records = 0;
+        for entry in std::fs::read_dir(folder).unwrap().flatten() {
+            let name = entry.file_name().into_string().unwrap();
+            if name == "README.md" {
+                continue;
+            }
+            records += 1;
+            assert!(list.contains(&format!("[{}]({name})", &name[..3])), "{name}");
+            let text = std::fs::read_to_string(entry.path()).unwrap();
+            assert!(text.starts_with(&format!("# {}: ", &name[..3])), "{name}");
+            assert!(
+                ["Context", "Choice", "Consequence"]
+                    .iter()
+                    .all(|part| text.contains(&format!("## {part}\n")))
+            );
         }
+        assert_eq!(records, list.matches("\n- [").count());
     }
 }
