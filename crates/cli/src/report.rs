@@ -95,10 +95,28 @@ fn statuses(text: &mut Text, job: &IdentifyJob, identify: &IdentifyCase) {
             &format!("{used} of {all} in the band are used: the sensors have no others in common"),
         );
     }
+    for sentence in short_of_band(identify) {
+        text.warn("band", &sentence);
+    }
     let decay_per_s = job.case.model.decay_per_s();
     if decay_per_s > 0.0 {
         text.say("window", &format!("decay_per_s = {decay_per_s}, taken into the model"));
     }
+}
+
+/// Where the measurements begin or end inside of the band, by more than a step of theirs.
+fn short_of_band(identify: &IdentifyCase) -> Vec<String> {
+    let (hz, [low, high]) = (&identify.frequency_hz, identify.band_hz);
+    let [first, .., last] = hz[..] else { return Vec::new() };
+    // Steps may grow with frequency.
+    let (first_step, last_step) = (hz[1] - first, last - hz[hz.len() - 2]);
+    let ends = [
+        (first - low > 1.5 * first_step)
+            .then(|| format!("asked for from {} Hz, measured from {} Hz", short(low), short(first))),
+        (high - last > 1.5 * last_step)
+            .then(|| format!("asked for to {} Hz, measured to {} Hz", short(high), short(last))),
+    ];
+    ends.into_iter().flatten().collect()
 }
 
 /// The numbers of a constant, or the range of what varies.

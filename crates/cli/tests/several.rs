@@ -290,3 +290,17 @@ reference = 1.0
     let said = done(folder.path(), &["check", "p/wrong.toml"]);
     assert!(said.contains("  sign") && said.contains("248"), "{said}");
 }
+
+/// The joint is softer than the bounds allow. Errors of the model explain the band beside it, but nothing is trusted.
+#[test]
+fn a_constant_that_stops_at_its_bounds_is_not_ok() {
+    let folder = tempfile::tempdir().unwrap();
+    done(folder.path(), &["--quiet", "example", "joint-stiffness", "j"]);
+    let case = folder.path().join("j/case.toml");
+    let text = std::fs::read_to_string(&case).unwrap();
+    assert!(text.contains("storage = [100.0, 1e5]"));
+    std::fs::write(&case, text.replace("storage = [100.0, 1e5]", "storage = [2500.0, 9000.0]")).unwrap();
+    let said = done(folder.path(), &["identify", "j/case.toml", "--out", "out", "--band", "10:500"]);
+    assert!(said.contains("at its bounds"), "{said}");
+    assert!(!said.contains(" ok"), "{said}");
+}

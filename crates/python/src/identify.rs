@@ -10,7 +10,7 @@ use frfit::model::{DynamicStiffness, Experiment, Sensor};
 use frfit::quantity::Quantity;
 use frfit::roots::Bounds;
 use frfit_workflow::job::compute;
-use frfit_workflow::load::{Frf, MeasuredFrf, Wanted, WantedUnknown, case_of_arrays};
+use frfit_workflow::load::{Case, Frf, MeasuredFrf, Wanted, WantedUnknown, case_of_arrays};
 use frfit_workflow::run::RunOptions;
 use numpy::{Complex64, PyReadonlyArray1};
 use pyo3::prelude::*;
@@ -168,16 +168,14 @@ pub(crate) fn check_measurement(py: Python<'_>, name: &str, measurement: Measure
     measured.check(name).map_err(|error| input(py, &error))
 }
 
-/// What `frfit.Identification` is made of.
-#[pyfunction]
-pub(crate) fn identify<'py>(
+/// A case made of the arguments of `frfit.identify`, and the memory that may be used.
+pub(crate) fn case_of<'py>(
     py: Python<'py>,
     model: &Model,
-    load: PyReadonlyArray1<'py, Complex64>,
+    load: &PyReadonlyArray1<'py, Complex64>,
     measurements: Vec<Measured<'py>>,
     options: Options<'py>,
-    progress: Option<Bound<'py, PyAny>>,
-) -> PyResult<Bound<'py, PyDict>> {
+) -> PyResult<(Case, Option<u64>)> {
     let measured = measurements.into_iter().map(|one| one.frf(py)).collect::<PyResult<Vec<_>>>()?;
     let unknowns = options.unknowns.into_iter().map(|one| one.wanted(py)).collect::<PyResult<Vec<_>>>()?;
     let wanted = Wanted {
@@ -197,8 +195,22 @@ pub(crate) fn identify<'py>(
     let case = case_of_arrays(Arc::clone(&model.0), load.as_array().to_vec(), measured, &wanted);
     let mut case = case.map_err(|error| arrays(py, &error))?;
     case.coarser_mesh = options.coarser_mesh.map(Coarser::mesh);
+    Ok((case, options.memory_bytes))
+}
+
+/// What `frfit.Identification` is made of.
+#[pyfunction]
+pub(crate) fn identify<'py>(
+    py: Python<'py>,
+    model: &Model,
+    load: PyReadonlyArray1<'py, Complex64>,
+    measurements: Vec<Measured<'py>>,
+    options: Options<'py>,
+    progress: Option<Bound<'py, PyAny>>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let (case, memory_bytes) = case_of(py, model, &load, measurements, options)?;
     // A map of the error over the orders is for figures of files.
-    let run = RunOptions { error_map: Some(0), memory_bytes: options.memory_bytes, ..RunOptions::default() };
+    let run = RunOptions { error_map: Some(0), memory_bytes, ..RunOptions::default() };
     let computed = in_background(py, progress, move |watch| {
         compute(case, run, 0.0, &|done, total| watch.progress(done, total))
     })?;

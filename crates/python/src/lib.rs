@@ -44,7 +44,11 @@ fn _frfit(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(respond::respond, module)?)?;
     module.add_function(wrap_pyfunction!(series::series, module)?)?;
     module.add_function(wrap_pyfunction!(signal::frf, module)?)?;
+    module.add_function(wrap_pyfunction!(modes::modes_of_arrays, module)?)?;
+    module.add_function(wrap_pyfunction!(modes::modes_of_model, module)?)?;
     module.add_function(wrap_pyfunction!(verbs::check, module)?)?;
+    module.add_function(wrap_pyfunction!(verbs::check_of_arrays, module)?)?;
+    module.add_function(wrap_pyfunction!(verbs::sensitivities_of_model, module)?)?;
     module.add_function(wrap_pyfunction!(verbs::sensitivities, module)?)?;
     module.add_function(wrap_pyfunction!(verbs::fit, module)?)?;
     module.add_function(wrap_pyfunction!(verbs::export, module)?)?;

@@ -2,13 +2,19 @@
 
 use crate::background::in_background;
 use crate::columns::{reals, table};
-use crate::errors::job;
-use frfit_workflow::load::Overrides;
-use frfit_workflow::modes::{ModesJob, ModesOptions, modes_case};
-use numpy::IntoPyArray;
+use crate::errors::{input, job};
+use crate::identify::{Measured, Options, case_of};
+use crate::model::Model;
+use crate::respond::sensors;
+use frfit::quantity::Quantity;
+use frfit_workflow::error::Place;
+use frfit_workflow::load::{Case, Overrides, response_of_arrays};
+use frfit_workflow::modes::{ModesJob, ModesOptions, modes_case, modes_loaded};
+use numpy::{Complex64, IntoPyArray, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 /// What `frfit.Modes` is made of; with `out` the files of `frfit modes` too.
 #[pyfunction]
@@ -26,6 +32,44 @@ pub(crate) fn modes<'py>(
     let found = in_background(py, None, move |_| modes_case(&path, &overrides, &options, out.as_deref()))?
         .map_err(|error| job(py, &error))?;
     columns(py, &found)
+}
+
+/// What `frfit.Modes` is made of, from arrays.
+#[pyfunction]
+pub(crate) fn modes_of_arrays<'py>(
+    py: Python<'py>,
+    model: &Model,
+    load: PyReadonlyArray1<'py, Complex64>,
+    measurements: Vec<Measured<'py>>,
+    options: Options<'py>,
+    max_order: Option<usize>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let (case, memory_bytes) = case_of(py, model, &load, measurements, options)?;
+    of_loaded(py, case.with_modes(), ModesOptions { max_order, memory_bytes })
+}
+
+/// The same of a model alone.
+#[pyfunction]
+pub(crate) fn modes_of_model<'py>(
+    py: Python<'py>,
+    model: &Model,
+    load: PyReadonlyArray1<'py, Complex64>,
+    rows: Vec<usize>,
+    signs: Vec<f64>,
+    band_hz: [f64; 2],
+    memory_bytes: Option<u64>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let (load, quantity) = (load.as_array().to_vec(), Quantity::Receptance);
+    let hz = band_hz.to_vec();
+    let case = response_of_arrays(Arc::clone(&model.0), load, sensors(&rows, &signs), quantity, hz);
+    let case = case.map_err(|error| input(py, &error))?.with_modes_of_the_model(band_hz);
+    of_loaded(py, case, ModesOptions { max_order: None, memory_bytes })
+}
+
+fn of_loaded(py: Python<'_>, case: Case, options: ModesOptions) -> PyResult<Bound<'_, PyDict>> {
+    let place = Place::option("model");
+    let found = in_background(py, None, move |_| modes_loaded(case, &place, &options))?;
+    columns(py, &found.map_err(|error| job(py, &error))?)
 }
 
 fn columns<'py>(py: Python<'py>, job: &ModesJob) -> PyResult<Bound<'py, PyDict>> {

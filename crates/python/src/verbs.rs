@@ -3,28 +3,32 @@
 use crate::background::{at_once, in_background};
 use crate::columns::{findings, other_explanations, table};
 use crate::errors::{input, job, raise};
+use crate::identify::{Measured, Options as ArrayOptions, case_of};
 use crate::law::Law;
+use crate::model::Model;
+use crate::respond::sensors;
 use crate::signal::How;
 use frfit::c64;
 use frfit::laws::{LawFit, LawKind};
 use frfit::signal::Options;
 use frfit_workflow::Reads;
-use frfit_workflow::check::{check_case, not_judged};
+use frfit_workflow::check::{CheckJob, check_case, check_loaded, not_judged};
 use frfit_workflow::convert::{ConvertOptions, convert as converted};
 use frfit_workflow::export::{ExportOptions, export as exported};
 use frfit_workflow::fit::fit_table;
 use frfit_workflow::inspect::{inspect as inspected, modes_json, natural_frequencies as lowest};
 use frfit_workflow::job::{JobError, frf_of_records, respond_case as responded};
-use frfit_workflow::load::Overrides;
+use frfit_workflow::load::{Overrides, sensitivities_of_arrays};
 use frfit_workflow::output::{File, write_one, write_unedited};
 use frfit_workflow::records::ChannelOptions;
-use frfit_workflow::sensitivities::{SensitivityOptions, sensitivities_case};
-use numpy::IntoPyArray;
+use frfit_workflow::sensitivities::{SensitivityOptions, sensitivities_case, sensitivities_loaded};
+use numpy::{Complex64, IntoPyArray, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::fmt::Display;
 use std::path::PathBuf;
 use std::str::FromStr;
+use std::sync::Arc;
 
 /// What `frfit.Check` is made of, and what `frfit check --json` prints.
 #[pyfunction]
@@ -37,7 +41,24 @@ pub(crate) fn check<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let overrides = Overrides { band_hz, reduced, ..Overrides::default() };
     let done = in_background(py, None, move |_| check_case(&path, &overrides, memory_bytes))?;
-    let done = done.map_err(|error| job(py, &error))?;
+    checked(py, &done.map_err(|error| job(py, &error))?)
+}
+
+/// The same from arrays.
+#[pyfunction]
+pub(crate) fn check_of_arrays<'py>(
+    py: Python<'py>,
+    model: &Model,
+    load: PyReadonlyArray1<'py, Complex64>,
+    measurements: Vec<Measured<'py>>,
+    options: ArrayOptions<'py>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let (case, memory_bytes) = case_of(py, model, &load, measurements, options)?;
+    let done = in_background(py, None, move |_| check_loaded(case, memory_bytes))?;
+    checked(py, &done.map_err(|error| job(py, &error))?)
+}
+
+fn checked<'py>(py: Python<'py>, done: &CheckJob) -> PyResult<Bound<'py, PyDict>> {
     let (case, diagnosis) = (&done.case, &done.diagnosis);
     let found = PyDict::new(py);
     found.set_item("title", &case.title)?;
@@ -66,6 +87,29 @@ pub(crate) fn sensitivities(
     let options = SensitivityOptions { noise, candidates, memory_bytes };
     let found =
         in_background(py, None, move |_| sensitivities_case(&path, &overrides, &options, out.as_deref()))?;
+    Ok(found.map_err(|error| job(py, &error))?.summary.to_string())
+}
+
+/// What `frfit sensitivities --json` prints, of arrays.
+#[pyfunction]
+#[expect(clippy::too_many_arguments, reason = "those of the command line, and the arrays")]
+pub(crate) fn sensitivities_of_model(
+    py: Python<'_>,
+    model: &Model,
+    load: PyReadonlyArray1<'_, Complex64>,
+    rows: Vec<usize>,
+    signs: Vec<f64>,
+    frequency_hz: PyReadonlyArray1<'_, f64>,
+    noise: Option<f64>,
+    candidates: &str,
+    memory_bytes: Option<u64>,
+) -> PyResult<String> {
+    let candidates = word(py, "candidates", candidates)?;
+    let (load, hz) = (load.as_array().to_vec(), frequency_hz.as_array().to_vec());
+    let case = sensitivities_of_arrays(Arc::clone(&model.0), load, sensors(&rows, &signs), hz);
+    let case = case.map_err(|error| input(py, &error))?;
+    let options = SensitivityOptions { noise, candidates, memory_bytes };
+    let found = in_background(py, None, move |_| sensitivities_loaded(case, &options))?;
     Ok(found.map_err(|error| job(py, &error))?.summary.to_string())
 }
 

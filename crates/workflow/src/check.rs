@@ -1,5 +1,6 @@
 //! What is wrong with a case's data, in words, with the key of the case file to change.
 
+use crate::error::{InputError, Place};
 use crate::job::JobError;
 use crate::load::{Case, IdentifyCase, Overrides, Purpose, load};
 use crate::memory::check_identify;
@@ -67,8 +68,17 @@ pub fn check_case(
     overrides: &Overrides,
     memory_bytes: Option<u64>,
 ) -> Result<CheckJob, JobError> {
-    let case = load(case_file, overrides, Purpose::Identify)?;
-    let wanted = case.identify.as_ref().expect("a case loaded to identify has something to identify");
+    check_loaded(load(case_file, overrides, Purpose::Identify)?, memory_bytes)
+}
+
+/// The same of a case that was loaded, or made of arrays.
+///
+/// # Errors
+/// [`JobError`], also where the case has nothing to identify.
+pub fn check_loaded(case: Case, memory_bytes: Option<u64>) -> Result<CheckJob, JobError> {
+    let Some(wanted) = &case.identify else {
+        return Err(InputError::at(&Place::option("case"), "something to identify", "none").into());
+    };
     check_identify(&case, wanted, memory_bytes)?;
     let diagnosis = check(&case, wanted)?;
     Ok(CheckJob { case, diagnosis })

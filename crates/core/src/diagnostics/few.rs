@@ -419,10 +419,10 @@ impl Look<'_> {
         diagnosis: &mut Diagnosis,
     ) {
         let best = choice.best;
-        let other = |one: &Explanation| OtherExplanation {
+        let other = |one: &Explanation, likeliest: f64| OtherExplanation {
             faults: faults(search, one),
             misfit: one.fitted.misfit.sigma,
-            nats_behind: one.nats - best.nats,
+            nats_behind: one.nats - likeliest,
         };
         if !choice.is_certain() {
             let near = |one: &&Explanation| {
@@ -430,7 +430,10 @@ impl Look<'_> {
             };
             let mut undecided: Vec<&Explanation> = tried.iter().filter(near).collect();
             undecided.sort_by(|a, b| a.nats.total_cmp(&b.nats));
-            diagnosis.others = undecided.into_iter().take(MAX_UNDECIDED).map(other).collect();
+            // The simplest one, against which all are held, need not be the likeliest.
+            let likeliest = undecided.first().map_or(best.nats, |one| one.nats);
+            let others = undecided.into_iter().take(MAX_UNDECIDED);
+            diagnosis.others = others.map(|one| other(one, likeliest)).collect();
             return;
         }
         let all = faults(search, best);
@@ -446,7 +449,7 @@ impl Look<'_> {
             };
             diagnosis.findings.push(Finding { fault, sensors, evidence: Some(evidence) });
         }
-        diagnosis.others = choice.rival.map(|(rival, _)| other(rival)).into_iter().collect();
+        diagnosis.others = choice.rival.map(|(rival, _)| other(rival, best.nats)).into_iter().collect();
     }
 }
 

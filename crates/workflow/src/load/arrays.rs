@@ -7,6 +7,7 @@ use super::identify::{Given, IdentifyCase, put_together};
 use super::loaded::Case;
 use super::measurement::{Curve, Decay, Measurement, SensorInfo, common_decay};
 use super::options::{chosen, options};
+use super::sensitivities::SensitivitiesCase;
 use super::unknowns::{known_have_std, unknowns};
 use crate::case::{Exclusion, IdentifyEntry, Located, UnknownEntry, checked_band, variation};
 use crate::error::{InputError, Place};
@@ -230,6 +231,26 @@ pub fn response_of_arrays(
     let label = |sensor: &Sensor| SensorInfo { label: row(sensor.row), quantity, file: None };
     let labels = experiment.sensors.iter().map(label).collect();
     Ok(case(model, experiment, labels, None, frequency_hz))
+}
+
+/// A case whose sensitivities are asked for: each term's factor is a parameter.
+///
+/// # Errors
+/// As [`response_of_arrays`].
+pub fn sensitivities_of_arrays(
+    model: Arc<DynamicStiffness>,
+    load: Vec<c64>,
+    sensors: Vec<Sensor>,
+    frequency_hz: Vec<f64>,
+) -> Result<Case, InputError> {
+    let matrices = model.terms().iter().enumerate().map(|(k, term)| (term.name.clone(), vec![k])).collect();
+    let unknown_scale = vec![false; sensors.len()];
+    let wanted = SensitivitiesCase { std: None, matrices, dimensions: Vec::new(), unknown_scale };
+    let case = response_of_arrays(model, load, sensors, Quantity::Receptance, frequency_hz)?;
+    if let Some(f) = case.respond_hz.iter().find(|f| **f <= 0.0) {
+        return Err(InputError::at(&argument("frequency_hz"), "frequencies above 0 Hz", f.to_string()));
+    }
+    Ok(Case { sensitivities: Some(wanted), ..case })
 }
 
 fn case(

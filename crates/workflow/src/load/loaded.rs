@@ -53,6 +53,20 @@ impl Case {
         self.row_names.get(&row).cloned().unwrap_or_else(|| format!("row {}", row + 1))
     }
 
+    /// The modal view of a case that was made to be identified: what was measured in its band, beside the model.
+    #[must_use]
+    pub fn with_modes(mut self) -> Self {
+        self.modes = self.identify.as_ref().map(|wanted| ModesCase::of_identification(wanted, &self.model));
+        self
+    }
+
+    /// The modal view of the model alone, over a band.
+    #[must_use]
+    pub fn with_modes_of_the_model(mut self, band_hz: [f64; 2]) -> Self {
+        self.modes = Some(ModesCase::of_model(band_hz, &self.model));
+        self
+    }
+
     /// What a sensor's receptance is multiplied by to be in the quantity that it measures, under the measurements' window.
     pub(crate) fn over_receptance(&self, sensor: &SensorInfo, frequency_hz: f64) -> c64 {
         sensor.quantity.over_receptance_windowed(frequency_hz, self.model.decay_per_s())

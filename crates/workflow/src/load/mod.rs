@@ -26,7 +26,10 @@ mod structure;
 mod uff;
 mod unknowns;
 
-pub use arrays::{ArraysError, MeasuredFrf, Wanted, WantedUnknown, case_of_arrays, response_of_arrays};
+pub use arrays::{
+    ArraysError, MeasuredFrf, Wanted, WantedUnknown, case_of_arrays, response_of_arrays,
+    sensitivities_of_arrays,
+};
 pub use band::MeasuredNoise;
 pub use files::{InputFile, load_bytes, read_frf};
 pub(crate) use frf::decay_line;

@@ -44,6 +44,12 @@ pub struct MeasuredBand {
 }
 
 impl ModesCase {
+    /// Of a model alone, no part of which is unknown.
+    pub(crate) fn of_model(band_hz: [f64; 2], model: &DynamicStiffness) -> Self {
+        let (unknown_terms, has_unknown) = unknown_or_all(model, |_| false);
+        Self { band_hz, unknown_terms, has_unknown, measured: None, identified: None }
+    }
+
     /// The same of a case that was loaded to be identified: all of its lines, also those that are left out.
     pub(crate) fn of_identification(identify: &IdentifyCase, model: &DynamicStiffness) -> Self {
         let is_unknown =

@@ -70,6 +70,31 @@ pub fn modes_case(
     if let Some(out) = out {
         check_folder(out, &["modes.json", "modes.csv"], &case.reads)?;
     }
+    let job = modes_loaded(case, &Place::file(case_file), options)?;
+    if let Some(out) = out {
+        let ModesJob { case, run, summary, .. } = &job;
+        let shapes = shapes::uff(case, run);
+        let shapes = shapes.map_err(|error| InputError::in_file(case_file, error))?;
+        let mut files = vec![
+            File::new("modes.json", format!("{summary:#}\n")),
+            File::new("modes.csv", table::modes(case, run)),
+            File::new("modes.uff", shapes),
+        ];
+        if run.measured.is_some() {
+            files.push(File::new("stabilisation.csv", table::stabilisation(run)));
+            files.push(File::new("correlation.csv", table::correlation(run)));
+        }
+        files.extend(modes_figures(case, run)?);
+        write_result(out, "modes", files, None, &case.reads)?;
+    }
+    Ok(job)
+}
+
+/// The same of a case that was loaded, or made of arrays, at `place`; nothing is written.
+///
+/// # Errors
+/// As [`modes_case`], but for what is written.
+pub fn modes_loaded(case: Case, place: &Place, options: &ModesOptions) -> Result<ModesJob, JobError> {
     // Undamped modes are found with a factor of their own.
     check_subspace(&case, 2, options.memory_bytes)?;
     let run = modes(&case, options).map_err(|error| {
@@ -79,24 +104,9 @@ pub fn modes_case(
             }
             _ => "a real symmetric stiffness and mass whose modes can be found",
         };
-        InputError::at(&Place::file(case_file), expected, error.to_string())
+        InputError::at(place, expected, error.to_string())
     })?;
     let summary = summary::json(&case, &run);
     let text = report::text(&case, &run);
-    if let Some(out) = out {
-        let shapes = shapes::uff(&case, &run);
-        let shapes = shapes.map_err(|error| InputError::in_file(case_file, error))?;
-        let mut files = vec![
-            File::new("modes.json", format!("{summary:#}\n")),
-            File::new("modes.csv", table::modes(&case, &run)),
-            File::new("modes.uff", shapes),
-        ];
-        if run.measured.is_some() {
-            files.push(File::new("stabilisation.csv", table::stabilisation(&run)));
-            files.push(File::new("correlation.csv", table::correlation(&run)));
-        }
-        files.extend(modes_figures(&case, &run)?);
-        write_result(out, "modes", files, None, &case.reads)?;
-    }
     Ok(ModesJob { case, run, summary, text })
 }

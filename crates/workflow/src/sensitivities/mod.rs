@@ -56,19 +56,29 @@ pub fn sensitivities_case(
     if let Some(out) = out {
         check_folder(out, &["sensitivities.json", "sensitivities.csv"], &case.reads)?;
     }
+    let job = sensitivities_loaded(case, options)?;
+    if let Some(out) = out {
+        let SensitivityJob { case, run, summary, .. } = &job;
+        let mut files = vec![File::new("sensitivities.json", format!("{summary:#}\n"))];
+        if let Ok(run) = run {
+            files.push(File::new("sensitivities.csv", table::csv(case, run)));
+            files.extend(sensitivity_figure(case, run)?);
+        }
+        write_result(out, "sensitivities", files, None, &case.reads)?;
+    }
+    Ok(job)
+}
+
+/// The same of a case that was loaded, or made of arrays; nothing is written.
+///
+/// # Errors
+/// As [`sensitivities_case`], but for what is written.
+pub fn sensitivities_loaded(case: Case, options: &SensitivityOptions) -> Result<SensitivityJob, JobError> {
     check_subspace(&case, 1, options.memory_bytes)?;
     let run = sensitivities(&case, options)?;
     let (summary, text) = match &run {
         Ok(run) => (summary::json(&case, run), report::text(&case, run)),
         Err(breakdown) => (summary::unsolved(&case, breakdown), report::unsolved(&case, breakdown)),
     };
-    if let Some(out) = out {
-        let mut files = vec![File::new("sensitivities.json", format!("{summary:#}\n"))];
-        if let Ok(run) = &run {
-            files.push(File::new("sensitivities.csv", table::csv(&case, run)));
-            files.extend(sensitivity_figure(&case, run)?);
-        }
-        write_result(out, "sensitivities", files, None, &case.reads)?;
-    }
     Ok(SensitivityJob { case, run, summary, text })
 }

@@ -23,6 +23,7 @@ use crate::laws::LawKind;
 use crate::material::{Law, loss_factor};
 use crate::median::median;
 use crate::response::relative_error;
+use crate::roots::Bounds;
 
 /// Points of a profile to either side, and how far they reach in standard deviations.
 const PROFILE_POINTS: usize = 5;
@@ -33,6 +34,9 @@ const MAX_UNEXPLAINED_SHARE: f64 = 0.5;
 
 /// No material gives energy: a loss factor so many standard deviations below zero, as a median over the band, is that of another model.
 const MAX_NEGATIVE_STD: f64 = 3.0;
+
+/// An optimum within the bounds is this near to one of them, in standard deviations, in few cases of a hundred.
+const BESIDE_BOUND_STD: f64 = 0.05;
 
 /// Farther than this in logarithms a profile does not go, however little the data show.
 const MAX_PROFILE_REACH: f64 = 1.0;
@@ -178,7 +182,9 @@ impl Task<'_, '_> {
             let middle = self.problem.frfs.frequency_hz[self.omegas.len() / 2];
             // Constants stop at their bounds; of a law the modulus is compared with them.
             let at_bound = one.range.clone().any(|c| binding.contains(&c))
-                || law.at(middle).is_ok_and(|value| unknowns.bounds.broken_by(value).is_some());
+                || law.at(middle).is_ok_and(|value| unknowns.bounds.broken_by(value).is_some())
+                || (errors.is_some()
+                    && numbers.iter().any(|number| is_beside_bound(number, &unknowns.bounds)));
             let is_known = |number: &Number| {
                 let least = if number.name == "loss_factor" { MIN_KNOWN_LOSS_FACTOR } else { 0.0 };
                 number.std.is_some_and(|std| std <= KNOWN_RELATIVE_STD * number.value.abs().max(least))
@@ -505,4 +511,19 @@ fn gives_energy(lines: &[Line], unknown: usize) -> bool {
         Some(loss_factor(value.value?) / std).filter(|ratio| ratio.is_finite())
     };
     median(lines.iter().filter_map(over_std).collect()).is_some_and(|ratio| ratio < -MAX_NEGATIVE_STD)
+}
+
+/// Whether a constant is nearer to one of its bounds than a small share of its standard deviation. Errors of the model that were found with a value at its bound
+/// leave no slope there that would show it. That a loss factor is next to 0 says nothing.
+fn is_beside_bound(number: &Number, bounds: &Bounds) -> bool {
+    let bound = match number.name.as_str() {
+        "storage" | "value" => bounds.storage,
+        "loss_factor" => {
+            bounds.loss_factor.map(|[low, high]| [if low > 0.0 { low } else { f64::NEG_INFINITY }, high])
+        }
+        _ => None,
+    };
+    bound.zip(number.std).is_some_and(|([low, high], std)| {
+        (number.value - low).min(high - number.value) <= BESIDE_BOUND_STD * std
+    })
 }
