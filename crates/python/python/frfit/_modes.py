@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _frfit
-from ._arrays import Complex, Flags, Real, optional_pair, optional_whole
+from ._arrays import Complex, Flags, Real, hints, optional_pair, optional_whole
+from ._shown import html_list, html_of, html_table
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -64,10 +65,57 @@ class Modes:
     """The title of the case."""
 
     def __repr__(self) -> str:
-        said = f"{len(self.frequency_hz)} of the model, {len(self.measured_frequency_hz)} measured, {len(self.pairs)} pairs"
-        return f"<frfit.Modes: {said}>"
+        lines = [f"<frfit.Modes: {self._said()}"]
+        lines += [f"  {' '.join(cells)}" for cells in self._rows(5)]
+        more = len(self.pairs) or len(self.frequency_hz)
+        if more > 5:
+            lines.append(f"  and {more - 5} more")
+        return "\n".join(lines) + ">"
+
+    def _said(self) -> str:
+        counts = f"{len(self.frequency_hz)} of the model, {len(self.measured_frequency_hz)} measured"
+        return f"{counts}, {len(self.pairs)} pairs"
+
+    def _rows(self, most: int) -> list[tuple[str, ...]]:
+        """Pairs, or without measurements modes of the model, in words."""
+        if len(self.pairs) == 0:
+            modes = zip(self.frequency_hz[:most], self.damping_ratio[:most], strict=True)
+            return [(f"{hertz:.6g} Hz", f"damping {100 * ratio:.3g} %") for hertz, ratio in modes]
+        rows: list[tuple[str, ...]] = []
+        for (model, measured), off, mac in zip(self.pairs, self.frequency_difference, self.mac, strict=True):
+            hertz, other = self.frequency_hz[model], self.measured_frequency_hz[measured]
+            agreement = f"MAC {mac:.3f}" if np.isfinite(mac) else "MAC none"
+            rows.append((f"{hertz:.6g} Hz", f"(measured {other:.6g} Hz, {100 * off:+.2f} %)", agreement))
+        return rows[:most]
+
+    def _repr_html_(self) -> str:
+        """What a notebook shows: a table of the pairs, or without measurements of the modes."""
+        lines = [self.title] if self.title else []
+        if self.stiffness_factor is not None:
+            lines.append(f"frequencies agree best with the stiffness times {self.stiffness_factor:.4g}")
+        if len(self.pairs) == 0:
+            modes = list(zip(self.frequency_hz, self.damping_ratio, strict=True))[:_ROWS]
+            table = html_table(
+                ("mode", "frequency (Hz)", "damping ratio (%)"),
+                [(k, f"{hertz:.6g}", f"{100 * ratio:.3g}") for k, (hertz, ratio) in enumerate(modes, 1)],
+            )
+        else:
+            rows = []
+            for (model, measured), off, mac in zip(self.pairs, self.frequency_difference, self.mac, strict=True):
+                hertz = (self.frequency_hz[model], self.measured_frequency_hz[measured])
+                damping = (self.damping_ratio[model], self.measured_damping_ratio[measured])
+                cells = [*(f"{one:.6g}" for one in hertz), f"{100 * off:+.2f}"]
+                rows.append((*cells, *(f"{100 * one:.3g}" for one in damping), f"{mac:.3f}"))
+            head = ("model (Hz)", "measured (Hz)", "difference (%)", "damping (%)", "measured (%)", "MAC")
+            table = html_table(head, rows[:_ROWS])
+        return html_of(f"Modes: {self._said()}", html_list(lines), table)
 
 
+_ROWS = 40
+"""Rows of a table."""
+
+
+@hints
 def modes(
     path: str | os.PathLike[str],
     out: str | os.PathLike[str] | None = None,
