@@ -168,7 +168,7 @@ class Model:
     """
 
     @hints
-    def __init__(self, terms: Sequence[Term], *, attached: Sequence[Attached] = ()) -> None:
+    def __init__(self, terms: Sequence[Term], *, attached: Attached | Sequence[Attached] = ()) -> None:
         plain: list[tuple[str, str, Law, tuple[float | None, float | None], Any, Any, Any, Any]] = []
         for term in several(terms, "terms", "a sequence of Term"):
             if not isinstance(term, Term):

@@ -372,7 +372,7 @@ class Identification:
     def _verdict(self) -> str:
         """Whether the model explains the band, in words."""
         explained = self.explained or "not tested"
-        noise = f"noise {self.noise:.3g} of the assumed" if self.noise is not None else "noise not known"
+        noise = f"noise {self.noise:.2f} times the assumed" if self.noise is not None else "noise not known"
         parts = [explained, noise, f"{100 * self.trusted:.0f} % of the band trusted"]
         if self.findings:
             parts.append(counted(len(self.findings), "finding"))
@@ -548,7 +548,8 @@ class Identification:
         panels = []
         for prefix, one in self._prefixed():
             unit = of[one.name] or "unit of the factor"
-            panels.append((one, one.storage, one.storage_std, one.nominal.real, f"{prefix}storage ({unit})"))
+            label = one.name if one.real else f"{prefix}storage"
+            panels.append((one, one.storage, one.storage_std, one.nominal.real, f"{label} ({unit})"))
             if not one.real:
                 with np.errstate(invalid="ignore", divide="ignore"):
                     loss_factor = one.nominal.imag / one.nominal.real
