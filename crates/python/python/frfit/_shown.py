@@ -43,7 +43,7 @@ def with_std(value: float, std: float) -> str:
         return f"{value:.6g}"
     # Two digits of the deviation, and of the value as many as stand above them.
     digits = int(np.floor(np.log10(max(abs(value), std)) - np.floor(np.log10(std)))) + 2
-    return f"{value:.{min(max(digits, 2), 12)}g} ± {std:.2g}"
+    return f"{value:#.{min(max(digits, 2), 12)}g} ± {std:#.2g}".replace(". ", " ").removesuffix(".")
 
 
 def typical(values: Real, stds: Real, where: Any) -> tuple[float, float]:
