@@ -132,41 +132,15 @@ class Measurement:
     ) -> list[Measurement]:
         """Measurements of a universal file, in the order of ``dofs``: values and noise are those that a case file gets.
 
-        The values are in SI units where the file says its units (dataset 164). Coherence and standard deviation are taken where the
-        file has them between the same degrees of freedom at the same frequencies.
+        ``dofs`` has the name of each response, which chooses the record, and the row of the model along that axis, from 0:
+        ``{"34+Z": 97, "12-X": 4}``; motion against the axis counts as positive where the name has a minus. ``driven_at`` is the
+        name of the degree of freedom of the force, where the file has records of several.
 
-        Parameters
-        ----------
-        path
-            A file with FRFs (datasets 58 or 58b of function type 4).
-        dofs
-            Name of a response and the row of the model along that axis, from 0: ``{"34+Z": 97, "12-X": 4}``. Motion against the
-            axis counts as positive where the name has a minus. A name chooses the record whose response it is.
-        driven_at
-            Name of the degree of freedom of the force, where the file has records of several.
-        quantity
-            As of :class:`Measurement`, where the file does not say, or is wrong.
-        averages
-            Of how many records the coherence was averaged; without it the coherence only weighs.
-        scale, delay_s
-            As of :class:`Measurement`, for all records.
-        decay_per_s
-            As of :class:`Measurement`; where the file says it, it may not be another.
+        The values are in SI units where the file says its units (dataset 164). Standard deviation and coherence are taken where
+        the file has them between the same degrees of freedom at the same frequencies; the coherence only weighs without
+        ``averages``. ``quantity`` is needed where the file does not say it. ``decay_per_s`` may not be another than the file's.
 
-        Raises
-        ------
-        InputError
-            No record of a name, or several; what there is. A quantity that the file does not say. Units that contradict labels.
-
-        Examples
-        --------
-        >>> import pathlib, tempfile
-        >>> from frfit import UffAxis, UffDof, UffFunction, write_uff
-        >>> path = pathlib.Path(tempfile.mkdtemp()) / "frf.uff"
-        >>> at = {"response_dof": UffDof(34, -3), "reference_dof": UffDof(1, 3), "ordinate_axis": UffAxis(12)}
-        >>> write_uff(path, UffFunction([10.0, 20.0], [1 + 2j, 3j], **at))
-        >>> Measurement.from_uff(path, {"34-Z": 97})
-        [<frfit.Measurement of accelerance at row 97 (-): 2 frequencies, 10 to 20 Hz>]
+        A name without a record or with several, and units that contradict labels, are an :class:`InputError` that says what there is.
         """
         if not isinstance(dofs, Mapping) or not dofs:
             raise refuse("dofs", 'a dictionary of names and rows, such as {"34+Z": 97}', shown(dofs))

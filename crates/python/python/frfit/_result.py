@@ -458,12 +458,9 @@ class Identification:
     def to_dataframe(self, kind: Literal["table", "long", "numbers"] = "table") -> Any:
         """A ``pandas.DataFrame`` of the results; needs pandas.
 
-        Parameters
-        ----------
-        kind
-            ``"table"``: :meth:`columns`, a row at each frequency. ``"long"``: a row for each unknown and frequency, with all
-            columns of an :class:`Estimate`, also those that ``identified.csv`` has not. ``"numbers"``: a row for each number
-            that holds for the band.
+        ``kind`` is ``"table"``: :meth:`columns`, a row at each frequency; ``"long"``: a row for each unknown and frequency, with
+        all arrays of an :class:`Estimate`, also those that ``identified.csv`` does not have; or ``"numbers"``: a row for each
+        number that holds for the band.
         """
         kinds = ("table", "long", "numbers")
         one_of(kind, "kind", kinds)
@@ -486,12 +483,8 @@ class Identification:
     def to_xarray(self, units: str | Mapping[str, str] | None = None) -> Any:
         """An ``xarray.Dataset`` of the arrays over frequency, with units; needs xarray.
 
-        Coordinates are ``frequency`` (Hz), ``sensor`` and ``unknown``; of a single unknown the last is no dimension.
-
-        Parameters
-        ----------
-        units
-            Units of the factors: a text, or of several unknowns a dictionary by their names.
+        Coordinates are ``frequency`` (Hz), ``sensor`` and ``unknown``; of a single unknown the last is no dimension. ``units``
+        are those of the factors: a text, or of several unknowns a dictionary by their names.
         """
         xarray = _imported("xarray", "to_xarray")
         of = self._units(units)
@@ -531,17 +524,8 @@ class Identification:
 
         Trusted values are filled. Others are hollow, with the mark of their status, over a grey band. What holds for the band is a
         line in a band of two standard deviations. The vertical axis spans the trusted and the nominal values: others may lie outside of it.
-
-        Parameters
-        ----------
-        axes
-            Two to draw on for each complex unknown, one for each real one; new ones without.
-        units
-            Units of the factors for the labels: a text, or of several unknowns a dictionary by their names.
-
-        Returns
-        -------
-        The axes.
+        ``axes``: two to draw on for each complex unknown, one for each real one. ``units`` of the factors are for the labels: a
+        text, or of several unknowns a dictionary by their names. Returns the axes.
         """
         plt = _imported("matplotlib.pyplot", "plot")
         of = self._units(units)
@@ -597,12 +581,9 @@ class Identification:
             axis.set_ylim(float(seen.min()) - margin, float(seen.max()) + margin)
 
     def report(self, path: str | os.PathLike[str] | None = None) -> Report:
-        """The HTML page of the results, which has to be of ``run_case(case, out)``; with ``path`` it is written there too.
+        """The HTML page of results that ``run_case(case, out)`` wrote; with ``path`` it is written there too.
 
-        Raises
-        ------
-        InputError
-            Results without files: of arrays, or of ``run_case`` without a folder.
+        Results of arrays, and of ``run_case`` without a folder, have no files: an :class:`InputError`.
         """
         if self.folder is None:
             raise refuse("report", "results with a folder, as run_case(case, out) writes them", "results without files")

@@ -133,16 +133,9 @@ class MeasuredFrf:
     ) -> list[Measurement]:
         """A :class:`Measurement` of each sensor, with its standard deviation and the decay of the window.
 
-        Parameters
-        ----------
-        rows
-            The row of the model of each sensor, from 0.
-        quantity
-            What the sensors measure: ``"accelerance"`` of accelerometers in m/s^2 and a hammer in N.
-        signs
-            -1 for a sensor whose motion against the row counts as positive.
-        band_hz
-            Frequencies from the first to the second only.
+        ``rows``: the row of the model of each sensor, from 0. ``quantity``: what the sensors measure, ``"accelerance"`` of
+        accelerometers in m/s^2 and a hammer in N. ``signs``: -1 for a sensor whose motion against the row counts as positive.
+        ``band_hz``: first and last of the frequencies that are taken.
         """
         from ._identify import Measurement
 
