@@ -107,6 +107,8 @@ def test_integers_of_numpy_are_whole_numbers(chain, kind):
         ("measurement.quantity", {"quantity": 3}, "3"),
         ("measurement.averages", {"averages": 2.0}, "2.0"),
         ("measurement.averages", {"averages": 0}, "0"),
+        ("measurement.averages", {"averages": 1, "coherence": np.ones(24)}, "1"),
+        ("measurement.quantity", {"quantity": "acceleranse"}, '"acceleranse" \\("accelerance" is nearest\\)'),
         ("measurement.scale", {"scale": "twice"}, "'twice'"),
         ("measurement.scale", {"scale": True}, "True"),
         ("measurement.scale", {"scale": [1.0, 2.0]}, r"\[1.0, 2.0\]"),
@@ -129,7 +131,10 @@ def test_measurements_are_checked_as_they_are_made(key, options, found):
         ("band_hz", {"band_hz": (1.0, 2.0, 3.0)}, "3.0"),
         ("band_hz", {"band_hz": ("1", "2")}, "text"),
         ("bounds.storage", {"bounds": {"storage": 3.0}}, "3.0"),
-        ("bounds", {"bounds": {"stiffness": (1.0, 2.0)}}, "'stiffness'"),
+        ("bounds", {"bounds": {"stiffness": (1.0, 2.0)}}, '"stiffness"'),
+        ("bounds", {"bounds": {"storge": (1.0, 2.0)}}, '"storge" \\("storage" is nearest\\)'),
+        ("bounds.storage", {"bounds": {"storage": (3.0, 2.0)}}, "3, 2"),
+        ("bounds.loss_factor", {"bounds": {"loss_factor": (0.0, np.nan)}}, "0, nan"),
         ("bounds", {"bounds": [1.0, 2.0]}, r"\[1.0, 2.0\]"),
         ("exclude_hz", {"exclude_hz": 50.0}, "50.0"),
         ("exclude_hz", {"exclude_hz": ["50"]}, "text"),
@@ -138,7 +143,17 @@ def test_measurements_are_checked_as_they_are_made(key, options, found):
         ("method", {"method": 3}, "3"),
         ("varies", {"varies": 1}, "1"),
         ("model_error", {"model_error": "non"}, 'non'),
-        ("model_error", {"model_error": {"frequencies": 0.01}}, "'frequencies'"),
+        ("model_error", {"model_error": {"frequencies": 0.01}}, '"frequencies" \\("frequency" is nearest\\)'),
+        ("model_error", {"model_error": "estimate"}, '"estimate" \\("estimated" is nearest\\)'),
+        ("model_error", {"model_error": "0.5 kg"}, "0.5 kg"),
+        ("model_error", {"model_error": 0.6}, "0.6"),
+        ("model_error", {"model_error": "70 %"}, "70 %"),
+        ("model_error.shape", {"model_error": {"shape": "two %"}}, "two %"),
+        ("model_error.calibration", {"model_error": {"calibration": 0.0}}, "0.0"),
+        ("varies", {"varies": "smoth"}, '"smoth" \\("smooth" is nearest\\)'),
+        ("method", {"method": "serie"}, '"serie" \\("series" is nearest\\)'),
+        ("selection", {"selection": "joined"}, '"joined" \\("joint" is nearest\\)'),
+        ("reduction", {"reduction": "sub-space"}, '"sub-space" \\("subspace" is nearest\\)'),
         ("model_error", {"model_error": {}}, "{}"),
         ("model_error", {"model_error": [0.01, 0.02]}, "0.02"),
         ("law", {"law": 3}, "3"),
@@ -169,10 +184,6 @@ def test_other_things_than_models_measurements_and_terms_are_refused(chain):
     refused("measurements", "none", frfit.identify, model, [], load=0, matrix="springs")
     refused("terms", "'springs'", frfit.Model, ["springs"])
     refused("terms", "Term", frfit.Model, frfit.Term("k", np.eye(2)))
-    refused("name", "3", frfit.Model, [frfit.Term(3, np.eye(2))])
-    refused("matrix 'k'.factor", "text", frfit.Model, [frfit.Term("k", np.eye(2), factor="1+2j")])
-    refused("matrix 'k'.factor", "booleans", frfit.Model, [frfit.Term("k", np.eye(2), factor=True)])
-    refused("matrix 'k'.factor", "nan", frfit.Model, [frfit.Term("k", np.eye(2), factor=np.nan)])
     refused("signs", "0.5", frfit.respond, model, F, load=0, sensors=[1], signs=[0.5])
     refused("signs", "2", frfit.respond, model, F, load=0, sensors=[1], signs=[1, 1])
     refused("order", "2.5", frfit.series, model, 1.0, load=0, sensors=[1], matrix="springs", order=2.5)
@@ -186,6 +197,147 @@ def test_other_things_than_models_measurements_and_terms_are_refused(chain):
     function = frfit.UffFunction(F, F, response_dof=frfit.UffDof("3"))
     refused("response_dof.node", "'3'", frfit.write_uff, "/nowhere/f.uff", function)
     refused("values", "dates", frfit.write_uff, "/nowhere/f.uff", frfit.UffFunction(F, DAYS))
+
+
+@pytest.mark.parametrize(
+    ("key", "options", "found"),
+    [
+        ("name", {"name": 3}, "3"),
+        ("name", {"name": " "}, '""'),
+        ("matrix 'k'.role", {"role": "stifness"}, '"stifness" \\("stiffness" is nearest\\)'),
+        ("matrix 'k'.role", {"role": 3}, "3"),
+        ("matrix 'k'.factor", {"factor": "1+2j"}, "text"),
+        ("matrix 'k'.factor", {"factor": True}, "booleans"),
+        ("matrix 'k'.factor", {"factor": np.nan}, "nan"),
+        ("matrix 'k'.factor", {"factor": [1.0, 2.0]}, "2.0"),
+        ("matrix 'k'.storage_std", {"storage_std": 0.0}, "0.0"),
+        ("matrix 'k'.storage_std", {"storage_std": "2"}, "2"),
+        ("matrix 'k'.storage_std", {"storage_std": "2 % of it"}, "2 % of it"),
+        ("matrix 'k'.loss_factor_std", {"loss_factor_std": "2 %"}, "2 %"),
+    ],
+)
+def test_terms_are_checked_as_they_are_made(key, options, found):
+    refused(key, found, frfit.Term, **{"name": "k", "matrix": np.eye(2), **options})
+
+
+@pytest.mark.parametrize(
+    ("matrix", "match"),
+    [
+        (np.ones((2, 3)), "a square matrix, found 2 x 3"),
+        (sp.csc_array(np.ones((2, 3))), "a square matrix, found 2 x 3"),
+        (np.zeros((0, 0)), "a square matrix, found 0 x 0"),
+        (np.array([[1.0, np.nan], [np.nan, 1.0]]), "finite values, found nan"),
+        (sp.csr_array(np.array([[1.0, np.inf], [np.inf, 1.0]])), "finite values, found inf"),
+        (np.ones((2, 2, 2)), "rows and columns, found 3 dimensions"),
+        (np.eye(2, dtype=bool), "real or complex numbers, found an array of bool"),
+        ("K.mtx", "real or complex numbers"),
+        (None, "real or complex numbers"),
+        ([[1.0], [1.0, 2.0]], "an array of numbers"),
+    ],
+)
+def test_matrices_are_looked_at_as_terms_are_made(matrix, match):
+    with pytest.raises(frfit.MatrixError, match=f"matrix 'k': expected {match}"):
+        frfit.Term("k", matrix)
+
+
+@pytest.mark.parametrize(
+    ("key", "options", "found"),
+    [
+        ("varies", {"varies": "constnt"}, '"constnt" \\("constant" is nearest\\)'),
+        ("matrix", {"matrix": ()}, "none"),
+        ("matrix", {"powers": {"k": 1}, "name": "x", "nominal": 1.0}, "both"),
+        ("powers.m", {"matrix": (), "powers": {"m": 13}, "name": "x", "nominal": 1.0}, "13"),
+        ("nominal", {"matrix": (), "powers": {"m": 1}, "name": "x"}, "none"),
+        ("nominal", {"matrix": (), "powers": {"m": 1}, "name": "x", "nominal": 0.0}, "0.0"),
+        ("nominal", {"nominal": 1.0}, "1.0"),
+        ("name", {"matrix": (), "powers": {"m": 1}, "nominal": 1.0}, "none"),
+        ("name", {"name": 3}, "3"),
+        ("bounds", {"bounds": {"los_factor": (0.0, 1.0)}}, '"los_factor" \\("loss_factor" is nearest\\)'),
+        ("bounds.storage", {"bounds": {"storage": (2.0, 1.0)}}, "2, 1"),
+        ("bounds", {"real": True, "bounds": (2.0, np.inf)}, "2, inf"),
+        ("real", {"real": "yes"}, "'yes'"),
+        ("law", {"varies": "smooth", "law": "constant"}, 'varies = "smooth"'),
+        ("law", {"law": ["zener", "zener"]}, '"zener" a second time'),
+    ],
+)
+def test_unknowns_are_checked_as_they_are_made(key, options, found):
+    refused(key, found, frfit.Unknown, **{"matrix": "k", **options})
+
+
+def test_laws_of_unknowns_are_known_ones():
+    for law, found in [("zenner", '"zenner" \\("zener" is nearest\\)'), ("maxwell:21", "maxwell:21"), ("maxwell:0", "well:0")]:
+        with pytest.raises(frfit.OptionsError, match=f'law: expected "constant", .* found .*{found}'):
+            frfit.Unknown(matrix="k", law=law)
+    assert frfit.Unknown(matrix="k", law=["maxwell:20", "maxwell"]).law == ["maxwell:20", "maxwell"]
+
+
+@pytest.mark.parametrize(
+    ("key", "options", "found"),
+    [
+        ("model", {"model": None}, "None"),
+        ("load", {"load": 12}, "12"),
+        ("load", {"load": np.ones(11)}, "11"),
+        ("load", {"load": np.zeros(12)}, "zeros only"),
+        ("load", {"load": np.full(12, np.nan)}, "nan"),
+        ("sensors", {"sensors": [12]}, "12"),
+        ("sensors", {"sensors": []}, "none"),
+        ("signs", {"signs": [1, 1]}, "2"),
+        ("signs", {"signs": [2]}, "2"),
+        ("coarser_mesh.element_ratio", {"element_ratio": 1.0}, "1.0"),
+        ("coarser_mesh.element_ratio", {"element_ratio": 17.0}, "17.0"),
+        ("coarser_mesh.order", {"order": np.nan}, "nan"),
+        ("coarser_mesh.order", {"order": "2"}, "'2'"),
+    ],
+)
+def test_coarser_meshes_are_checked_as_they_are_made(chain, key, options, found):
+    refused(key, found, frfit.CoarserMesh, **{"model": chain.model(1000.0), "load": 0, "sensors": [1], **options})
+
+
+@pytest.mark.parametrize(
+    ("key", "options", "found"),
+    [
+        ("attached.row", {"row": -1}, "-1"),
+        ("attached.row", {"row": 1.5}, "1.5"),
+        ("attached.row", {"row": [1, 1]}, r"\[1, 1\]"),
+        ("attached.row", {"row": []}, r"\[\]"),
+        ("attached", {"mass": None}, "none"),
+        ("attached.mass", {"mass": 0.0}, "0.0"),
+        ("attached.mass", {"mass": "5 g"}, "'5 g'"),
+        ("attached.stiffness", {"stiffness": np.nan}, "nan"),
+        ("attached.stiffness", {"row": [1, 2], "stiffness": 3.0}, "3.0"),
+    ],
+)
+def test_what_is_attached_is_checked_as_it_is_made(chain, key, options, found):
+    refused(key, found, frfit.Attached, **{"row": 1, "mass": 0.1, **options})
+
+
+def test_what_is_attached_is_on_the_model(chain):
+    terms = [frfit.Term("k", chain.stiffness), frfit.Term("m", chain.mass, role="mass")]
+    refused("attached.row", "12", frfit.Model, terms, attached=[frfit.Attached(12, mass=1.0)])
+    refused("attached", "3", frfit.Model, terms, attached=[3])
+    refused("attached", "'m'", frfit.Model, terms, attached="m")
+    with pytest.raises(frfit.ModelError, match="at least one matrix"):
+        frfit.Model([])
+
+
+@pytest.mark.parametrize(
+    ("call", "options", "said"),
+    [
+        (frfit.Measurement, {"quantitty": "mobility"}, r"Measurement\(\) has no argument 'quantitty'; 'quantity' is nearest"),
+        (frfit.Measurement, {"colour": 3}, r"no argument 'colour'; there are frequency_hz, response, row, quantity"),
+        (frfit.Unknown, {"bound": {}}, r"Unknown\(\) has no argument 'bound'; 'bounds' is nearest"),
+        (frfit.Term, {"storage_sdt": 1.0}, r"Term\(\) has no argument 'storage_sdt'; 'storage_std' is nearest"),
+        (frfit.CoarserMesh, {"elements_ratio": 1.0}, "no argument 'elements_ratio'; 'element_ratio' is nearest"),
+        (frfit.identify, {"band": (1.0, 2.0)}, r"identify\(\) has no argument 'band'; 'band_hz' is nearest"),
+        (frfit.respond, {"sensor": [1]}, "no argument 'sensor'; 'sensors' is nearest"),
+        (frfit.run_case, {"methods": "series"}, "no argument 'methods'; 'method' is nearest"),
+        (frfit.frf, {"drfit": 0.1}, "no argument 'drfit'; 'drift' is nearest"),
+        (frfit.Model, {"attach": []}, r"Model\(\) has no argument 'attach'; 'attached' is nearest"),
+    ],
+)
+def test_an_argument_of_an_unknown_name_is_refused_with_the_nearest(call, options, said):
+    with pytest.raises(TypeError, match=said):
+        call(**options)
 
 
 @pytest.mark.parametrize(

@@ -180,7 +180,7 @@ def test_plot_draws_what_was_found(chain):
     matplotlib.use("Agg")
     found = frfit.identify(chain.model(1200.0), measured(chain, [6]), load=0, matrix="springs")
     axes = found.plot()
-    assert len(axes) == 2 and axes[0].get_ylabel() == "storage"
+    assert len(axes) == 2 and axes[0].get_ylabel() == "storage (unit of the factor)"
     drawn = np.concatenate([line.get_ydata() for line in axes[0].lines])
     assert np.isin(found.storage[found.ok], drawn).all()
 

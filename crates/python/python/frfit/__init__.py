@@ -31,7 +31,7 @@ from ._errors import (
 from ._frfit import Law, Series, __version__
 from ._identify import CoarserMesh, Measurement, Unknown, identify, run_case
 from ._matrix import read_matrix
-from ._model import Model, Term, respond, series
+from ._model import Attached, Model, Term, respond, series
 from ._modes import Modes, modes
 from ._report import Report
 from ._result import Direction, Estimate, Finding, Identification, Number, OtherExplanation
@@ -58,6 +58,7 @@ from ._verbs import (
 )
 
 __all__ = [
+    "Attached",
     "Batch",
     "BatchStatus",
     "CaseResponse",

@@ -6,9 +6,12 @@ by the argument's name: NumPy would read dates, flags and texts as numbers.
 
 from __future__ import annotations
 
+import difflib
+import functools
+import inspect
 import operator
-from collections.abc import Iterable
-from typing import Any, TypeAlias
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import Any, ParamSpec, TypeAlias, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -43,6 +46,68 @@ def shown(value: object) -> str:
     """A value in few characters."""
     text = repr(value)
     return text if len(text) <= 60 else f"{text[:57]}..."
+
+
+def nearest(text: str, names: Iterable[str]) -> str | None:
+    """The name that was probably meant; ``None`` where none is near."""
+    # The comparison takes time in proportion to both lengths.
+    if len(text) > 256:
+        return None
+    by_lower = {name.lower(): name for name in names}
+    found = difflib.get_close_matches(text.lower(), by_lower, 1)
+    return by_lower[found[0]] if found else None
+
+
+def hinted(text: str, names: Iterable[str]) -> str:
+    """A text that is none of the names, with the nearest of them."""
+    near = nearest(text, names)
+    quoted = f'"{shown(text)[1:-1]}"'
+    return quoted if near is None else f'{quoted} ("{near}" is nearest)'
+
+
+def one_of(value: Any, name: str, choices: Sequence[str], expected: str | None = None) -> str:
+    """One of some words."""
+    found = word(value, name)
+    if found not in choices:
+        listed = ", ".join(f'"{choice}"' for choice in choices[:-1]) + f' or "{choices[-1]}"'
+        raise refuse(name, expected or listed, hinted(found, choices))
+    return found
+
+
+def only_keys(mapping: Mapping[Any, Any], name: str, known: Sequence[str], expected: str) -> None:
+    """Refuses keys that are not known, with the nearest known one."""
+    for key in mapping:
+        if key not in known:
+            raise refuse(name, expected, hinted(key, known) if isinstance(key, str) else shown(key))
+
+
+_P = ParamSpec("_P")
+_R = TypeVar("_R")
+_C = TypeVar("_C", bound=type)
+
+
+def hints(call: Callable[_P, _R]) -> Callable[_P, _R]:
+    """The same call; an argument of a name that it does not have is a TypeError with the nearest name."""
+    names = [one.name for one in inspect.signature(call).parameters.values() if one.name != "self"]
+    title = call.__qualname__.removesuffix(".__init__")
+
+    @functools.wraps(call)
+    def hinting(*args: _P.args, **kwargs: _P.kwargs) -> _R:
+        for key in kwargs:
+            if key not in names:
+                near = nearest(key, names)
+                said = f"; {near!r} is nearest" if near else f"; there are {', '.join(names)}"
+                raise TypeError(f"{title}() has no argument {key!r}{said}")
+        return call(*args, **kwargs)
+
+    return hinting
+
+
+def hints_of(made: _C) -> _C:
+    """The same for a class."""
+    # By its name: for the type checker a method is not to be assigned.
+    setattr(made, "__init__", hints(vars(made)["__init__"]))
+    return made
 
 
 def numbers(values: Any, name: str, *, kinds: str = "iuf", expected: str = "real numbers") -> NDArray[Any]:
@@ -176,6 +241,24 @@ def sign(value: Any, name: str) -> float:
     return found
 
 
+def above(value: Any, name: str, least: float, unit: str = "") -> float:
+    """A finite number above a limit."""
+    expected = f"a number above {least:g}{unit}"
+    found = number(value, name, expected)
+    if not least < found < np.inf:
+        raise refuse(name, expected, shown(value))
+    return found
+
+
+def share(text: Any) -> float | None:
+    """The part of a whole that a text in per cent says, with the bits that the reader of case files gives it."""
+    digits, percent, rest = text.strip().partition("%")
+    try:
+        return 0.01 * float(digits) if percent and not rest else None
+    except ValueError:
+        return None
+
+
 def load_vector(load: ArrayLike, dim: int) -> Complex:
     """A unit force where `load` is one whole number (a row from 0), else `load` itself."""
     array = numbers(load, "load", kinds="iufc", expected="a row, or real or complex forces")
@@ -184,3 +267,10 @@ def load_vector(load: ArrayLike, dim: int) -> Complex:
         force[row(array.item(), "load", dim)] = 1.0
         return force
     return complex_(array, "load")
+
+
+def only_of_a_model(**given: object) -> None:
+    """Refuses what a case file has itself."""
+    for name, value in given.items():
+        if not (value is None or (isinstance(value, Sequence) and len(value) == 0)):
+            raise refuse(name, "nothing beside a case file, which says it", shown(value))

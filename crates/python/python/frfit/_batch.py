@@ -8,9 +8,10 @@ import os
 from dataclasses import dataclass
 
 from . import _frfit
-from ._arrays import callable_, flag, optional_pair, optional_whole, whole
+from ._arrays import callable_, flag, hints, optional_pair, optional_whole, whole
 from ._errors import OptionsError
 from ._model import Progress
+from ._shown import html_list, html_of, html_table
 
 _Path = str | os.PathLike[str]
 
@@ -31,7 +32,7 @@ class Trained:
     """How long the training took."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Batch:
     """What was done of a plan."""
 
@@ -47,6 +48,32 @@ class Batch:
     """Row (from 1) and reason of each run that failed."""
     seconds: float
     """How long it took."""
+
+    def __repr__(self) -> str:
+        counts = f"{self.rows} rows, {self.done} done, {self.kept} kept, {len(self.failed)} failed"
+        lines = [f"<frfit.Batch: {counts} in {self.seconds:.3g} s"]
+        if self.left_failed:
+            lines.append(f"  {self.left_failed} failed before and were not tried again")
+        lines += [f"  row {row}: {_short(reason)}" for row, reason in self.failed[:3]]
+        if len(self.failed) > 3:
+            lines.append(f"  and {len(self.failed) - 3} more")
+        return "\n".join(lines) + ">"
+
+    def _repr_html_(self) -> str:
+        """What a notebook shows: counts, and the first runs that failed."""
+        counts = [f"{self.rows} rows, {self.done} done, {self.kept} kept, {self.left_failed} left, {self.seconds:.3g} s"]
+        if not self.failed:
+            return html_of("Batch", html_list(counts))
+        if len(self.failed) > 20:
+            counts.append(f"the first 20 of {len(self.failed)} that failed:")
+        failed = html_table(("row", "why it failed"), [(row, _short(why)) for row, why in self.failed[:20]])
+        return html_of("Batch", html_list(counts), failed)
+
+
+def _short(reason: str) -> str:
+    """A reason in one line."""
+    line = " ".join(reason.split())
+    return line if len(line) <= 160 else f"{line[:157]}..."
 
 
 @dataclass(frozen=True)
@@ -66,6 +93,7 @@ class BatchStatus:
         return self.rows - self.done - self.failed
 
 
+@hints
 def train(
     path: _Path,
     out: _Path,
@@ -85,6 +113,7 @@ def train(
     return Trained(**_frfit.train(path, out, band, reduced, optional_whole(memory_bytes, "memory_bytes", 0)))
 
 
+@hints
 def batch(
     plan: _Path,
     out: _Path,
@@ -116,11 +145,13 @@ def batch(
     return Batch(**done)
 
 
+@hints
 def batch_status(plan: _Path, out: _Path, *, reduced: _Path | None = None) -> BatchStatus:
     """What ``frfit batch status PLAN`` says."""
     return BatchStatus(*_frfit.batch_status(plan, out, reduced))
 
 
+@hints
 def collect(store: _Path, *, lines: bool = False) -> dict[str, list[str | float]]:
     """What ``frfit batch collect STORE`` writes: the columns of one table of all runs.
 

@@ -17,6 +17,7 @@ __all__ = [
     "batch_status",
     "batch_table",
     "check",
+    "check_of_arrays",
     "check_measurement",
     "convert",
     "example",
@@ -28,6 +29,8 @@ __all__ = [
     "identify",
     "inspect",
     "modes",
+    "modes_of_arrays",
+    "modes_of_model",
     "natural_frequencies",
     "read_matrix",
     "readable",
@@ -38,6 +41,7 @@ __all__ = [
     "restored_series",
     "run_case",
     "sensitivities",
+    "sensitivities_of_model",
     "series",
     "train",
     "write_uff",
@@ -212,4 +216,28 @@ def respond_case(
 ) -> dict[str, Any]: ...
 def frf_of_files(
     records: Sequence[_Path], out: _Path, channels: dict[str, Any], how: dict[str, Any]
+) -> str: ...
+def check_of_arrays(
+    model: Model, load: _Complex, measurements: Sequence[Any], options: dict[str, Any]
+) -> dict[str, Any]: ...
+def modes_of_arrays(
+    model: Model, load: _Complex, measurements: Sequence[Any], options: dict[str, Any], max_order: int | None
+) -> dict[str, Any]: ...
+def modes_of_model(
+    model: Model,
+    load: _Complex,
+    rows: Sequence[int],
+    signs: Sequence[float],
+    band_hz: tuple[float, float],
+    memory_bytes: int | None,
+) -> dict[str, Any]: ...
+def sensitivities_of_model(
+    model: Model,
+    load: _Complex,
+    rows: Sequence[int],
+    signs: Sequence[float],
+    frequency_hz: _Real,
+    noise: float | None,
+    candidates: str,
+    memory_bytes: int | None,
 ) -> str: ...

@@ -98,6 +98,42 @@ def compressed(matrix: Any, name: str) -> tuple[Any, Any, Any, Any]:
     return csc.shape, np.asarray(csc.data, dtype=kind), _indices(csc.indices), _indices(csc.indptr)
 
 
+def glanced_at(matrix: Any, name: str) -> None:
+    """Refuses what costs nothing to see: no numbers, not square, values that are not finite.
+
+    Raises
+    ------
+    MatrixError
+        The first of them.
+    """
+    if sp.issparse(matrix):
+        kind, shape, values = matrix.dtype.kind, matrix.shape, getattr(matrix, "data", None)
+        # Lists and dictionaries have their values in objects.
+        values = values if isinstance(values, np.ndarray) and values.dtype.kind in "fc" else None
+        named = f"a matrix of {matrix.dtype}"
+    else:
+        try:
+            array = np.asarray(matrix)
+        except (TypeError, ValueError):
+            raise _refused(name, "an array of numbers", shown(matrix)) from None
+        kind, shape, named = array.dtype.kind, np.atleast_2d(array).shape, f"an array of {array.dtype}"
+        values = array if kind in "fc" else None
+    if kind not in "iufc":
+        raise _refused(name, "real or complex numbers", named)
+    if len(shape) != 2:
+        raise _refused(name, "rows and columns", f"{len(shape)} dimensions")
+    if shape[0] != shape[1] or shape[0] == 0:
+        raise _refused(name, "a square matrix", " x ".join(map(str, shape)))
+    if values is not None and not np.isfinite(values).all():
+        raise _refused(name, "finite values", shown(values[~np.isfinite(values)].flat[0].item()))
+
+
+def described(matrix: Any) -> str:
+    """Size and kind of a matrix."""
+    kind = f"{matrix.format}, {matrix.nnz} entries" if sp.issparse(matrix) else "dense"
+    return f"{' x '.join(map(str, np.atleast_2d(matrix).shape if not sp.issparse(matrix) else matrix.shape))} ({kind})"
+
+
 def _indices(array: Any) -> Any:
     """Indices of the two kinds that the compiled part takes."""
     return array if array.dtype in (np.int32, np.int64) else array.astype(np.int64)

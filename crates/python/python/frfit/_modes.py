@@ -3,13 +3,27 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from . import _frfit
-from ._arrays import Complex, Flags, Real, optional_pair, optional_whole
+from ._arrays import (
+    Complex,
+    Flags,
+    Real,
+    hints,
+    load_vector,
+    only_of_a_model,
+    optional_pair,
+    optional_whole,
+    refuse,
+)
+from ._identify import Measurement, Unknown, arguments_of
+from ._model import Model, model_of, sensors_of
+from ._shown import html_list, html_of, html_table
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -64,31 +78,88 @@ class Modes:
     """The title of the case."""
 
     def __repr__(self) -> str:
-        said = f"{len(self.frequency_hz)} of the model, {len(self.measured_frequency_hz)} measured, {len(self.pairs)} pairs"
-        return f"<frfit.Modes: {said}>"
+        lines = [f"<frfit.Modes: {self._said()}"]
+        lines += [f"  {' '.join(cells)}" for cells in self._rows(5)]
+        more = len(self.pairs) or len(self.frequency_hz)
+        if more > 5:
+            lines.append(f"  and {more - 5} more")
+        return "\n".join(lines) + ">"
+
+    def _said(self) -> str:
+        counts = f"{len(self.frequency_hz)} of the model, {len(self.measured_frequency_hz)} measured"
+        return f"{counts}, {len(self.pairs)} pairs"
+
+    def _rows(self, most: int) -> list[tuple[str, ...]]:
+        """Pairs, or without measurements modes of the model, in words."""
+        if len(self.pairs) == 0:
+            modes = zip(self.frequency_hz[:most], self.damping_ratio[:most], strict=True)
+            return [(f"{hertz:.6g} Hz", f"damping {100 * ratio:.3g} %") for hertz, ratio in modes]
+        rows: list[tuple[str, ...]] = []
+        for (model, measured), off, mac in zip(self.pairs, self.frequency_difference, self.mac, strict=True):
+            hertz, other = self.frequency_hz[model], self.measured_frequency_hz[measured]
+            agreement = f"MAC {mac:.3f}" if np.isfinite(mac) else "MAC none"
+            rows.append((f"{hertz:.6g} Hz", f"(measured {other:.6g} Hz, {100 * off:+.2f} %)", agreement))
+        return rows[:most]
+
+    def _repr_html_(self) -> str:
+        """What a notebook shows: a table of the pairs, or without measurements of the modes."""
+        lines = [self.title] if self.title else []
+        if self.stiffness_factor is not None:
+            lines.append(f"frequencies agree best with the stiffness times {self.stiffness_factor:.4g}")
+        if len(self.pairs) == 0:
+            modes = list(zip(self.frequency_hz, self.damping_ratio, strict=True))[:_ROWS]
+            table = html_table(
+                ("mode", "frequency (Hz)", "damping ratio (%)"),
+                [(k, f"{hertz:.6g}", f"{100 * ratio:.3g}") for k, (hertz, ratio) in enumerate(modes, 1)],
+            )
+        else:
+            rows = []
+            for (model, measured), off, mac in zip(self.pairs, self.frequency_difference, self.mac, strict=True):
+                hertz = (self.frequency_hz[model], self.measured_frequency_hz[measured])
+                damping = (self.damping_ratio[model], self.measured_damping_ratio[measured])
+                cells = [*(f"{one:.6g}" for one in hertz), f"{100 * off:+.2f}"]
+                rows.append((*cells, *(f"{100 * one:.3g}" for one in damping), f"{mac:.3f}"))
+            head = ("model (Hz)", "measured (Hz)", "difference (%)", "damping (%)", "measured (%)", "MAC")
+            table = html_table(head, rows[:_ROWS])
+        return html_of(f"Modes: {self._said()}", html_list(lines), table)
 
 
+_ROWS = 40
+"""Rows of a table."""
+
+
+@hints
 def modes(
-    path: str | os.PathLike[str],
+    case: str | os.PathLike[str] | Model,
     out: str | os.PathLike[str] | None = None,
     *,
+    measurements: Measurement | Sequence[Measurement] = (),
+    load: ArrayLike | None = None,
+    sensors: Sequence[int] = (),
+    signs: Sequence[float] | None = None,
+    matrix: str | Sequence[str] = (),
+    unknowns: Unknown | Sequence[Unknown] | None = None,
     band_hz: tuple[float, float] | None = None,
     identified: str | os.PathLike[str] | None = None,
     max_order: int | None = None,
     memory_bytes: int | None = None,
 ) -> Modes:
-    """What ``frfit modes CASE`` computes: natural frequencies, damping and shapes of model and measurement, paired.
-
-    With ``out`` the files of the command line are written there too, all of them or none.
+    """Natural frequencies, damping and shapes of model and measurement, paired: ``frfit modes``, from a case file or from arrays.
 
     Parameters
     ----------
-    path
-        The case file.
+    case
+        The case file, or a model.
     out
-        Folder for the results.
+        Folder for the files of the command line, all of them or none; of a case file only.
+    measurements, load
+        Beside a model: what was measured, and a row (unit force) or the force vector (n,).
+    sensors, signs
+        Beside a model without measurements: rows at which its shapes are shown, and the sense that is positive.
+    matrix, unknowns
+        Beside a model: what is unknown, as of ``identify``; pairs of modes are told apart with its factor free.
     band_hz
-        First and last frequency, in place of the case file's.
+        First and last frequency, in place of the case file's; needed of a model without measurements.
     identified
         ``identified.csv`` of an identification of this case: the model is taken at the values found there.
     max_order
@@ -98,19 +169,46 @@ def modes(
 
     Raises
     ------
-    InputError, OutsideTableError, ModelMemoryError, WriteError
+    InputError, ModelError, OutsideTableError, ModelMemoryError, WriteError
         With the text of the command line.
     """
-    found = _frfit.modes(
-        path,
-        out,
-        optional_pair(band_hz, "band_hz"),
-        identified,
-        optional_whole(max_order, "max_order", 2),
-        optional_whole(memory_bytes, "memory_bytes", 0),
-    )
+    band = optional_pair(band_hz, "band_hz")
+    largest = optional_whole(max_order, "max_order", 2)
+    limit = optional_whole(memory_bytes, "memory_bytes", 0)
+    if not isinstance(case, Model):
+        only_of_a_model(measurements=measurements, load=load, sensors=sensors, matrix=matrix, unknowns=unknowns)
+        found = _frfit.modes(case, out, band, identified, largest, limit)
+    else:
+        if out is not None or identified is not None:
+            raise refuse("out" if out is not None else "identified", "None beside a model", "a path")
+        if load is None:
+            raise refuse("load", "a row, or a value for each row", "none")
+        if isinstance(measurements, Measurement) or len(measurements) > 0:
+            free = (matrix, unknowns) if matrix or unknowns else (list(_stiffness(case)), None)
+            asked = arguments_of(
+                case,
+                measurements,
+                load=load,
+                matrix=free[0],
+                unknowns=free[1],
+                band_hz=band,
+                memory_bytes=limit,
+            )
+            found = _frfit.modes_of_arrays(*asked, largest)
+        else:
+            if band is None:
+                raise refuse("band_hz", "first and last frequency, Hz", "none")
+            rows, senses = sensors_of(sensors, signs, case.dim)
+            found = _frfit.modes_of_model(
+                model_of(case), load_vector(load, case.dim), rows, senses, band, limit
+            )
     for name in ("is_rigid_body", "is_crossing"):
         found[name] = np.array(found[name], dtype=np.bool_)
     found["pairs"] = found["pairs"].astype(np.int64)
     found["sensors"] = tuple(found["sensors"])
     return Modes(**found)
+
+
+def _stiffness(model: Model) -> Iterator[str]:
+    """Names of the stiffness matrices."""
+    return (term.name for term in model.terms if term.role == "stiffness")

@@ -2,16 +2,37 @@
 
 from __future__ import annotations
 
+import importlib
+import os
+import pathlib
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ._arrays import Complex, Flags, Real, Whole
+from ._arrays import Complex, Flags, Real, Whole, one_of, refuse, shown, word
+from ._report import Report
+from ._shown import counted, html_list, html_of, html_table, some, span, typical, with_std
+
+_EVERY_LINE = (
+    "factor",
+    "nominal",
+    "correction",
+    "storage",
+    "loss_factor",
+    "storage_std",
+    "loss_factor_std",
+    "storage_loss_correlation",
+    "storage_std_noise",
+    "storage_std_model",
+    "storage_std_known_factors",
+)
+"""The arrays of an estimate with a number at each frequency."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Finding:
     """Something that is wrong with the data, as ``frfit check`` says it."""
 
@@ -20,6 +41,9 @@ class Finding:
     what: str
     evidence: str
     change: str
+
+    def __repr__(self) -> str:
+        return f"<frfit.Finding of {some(self.sensors) or 'the band'}: {self.what}>"
 
 
 @dataclass(frozen=True)
@@ -45,7 +69,7 @@ class Number:
     """Its standard deviation, all other unknowns free; NaN where the noise is not known, infinite where it is not identifiable."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Direction:
     """A combination of the numbers that hold for the band, in their logarithms."""
 
@@ -53,6 +77,10 @@ class Direction:
     """Standard deviation along it: 0.01 is one per cent; infinite where it is not identifiable."""
     weights: dict[str, float]
     """Weights of the coordinates, squares summing to one, the largest first."""
+
+    def __repr__(self) -> str:
+        weights = some((f"{weight:+.2f} {name}" for name, weight in self.weights.items()), 4)
+        return f"<frfit.Direction with std {self.std:.2g}: {weights}>"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -108,9 +136,21 @@ class Estimate:
         found["numbers"] = tuple(Number(*number) for number in found["numbers"])
         return cls(**found)
 
+    def _said(self, where: Flags) -> str:
+        """The numbers that matter: those of the band, or medians of the frequencies that are trusted."""
+        if self.numbers:
+            return some((f"{number.name} {with_std(number.value, number.std)}" for number in self.numbers), 8)
+        said = [("storage", self.storage, self.storage_std)]
+        if not self.real:
+            said.append(("loss_factor", self.loss_factor, self.loss_factor_std))
+        return ", ".join(f"{name} {with_std(*typical(values, stds, where))}" for name, values, stds in said)
+
     def __repr__(self) -> str:
-        said = ", ".join(f"{number.name} {number.value:.6g} ± {number.std:.1g}" for number in self.numbers)
-        return f"<frfit.Estimate of {self.name}: {said or self.varies}>"
+        kind = "median of " if not self.numbers else ""
+        status = "" if self.status is None else f" ({self.status})"
+        found = np.isfinite(self.storage)
+        return f"<frfit.Estimate of {self.name}, {self.varies}: {kind}{self._said(found)}{status}>"
+
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -209,9 +249,11 @@ class Identification:
     """Wall-clock time of the identification."""
     title: str
     """The title of the case."""
+    folder: pathlib.Path | None = None
+    """Where ``run_case`` wrote the files; ``None`` where it wrote none, and of arrays."""
 
     @classmethod
-    def _of(cls, found: dict[str, Any]) -> Identification:
+    def _of(cls, found: dict[str, Any], folder: pathlib.Path | None = None) -> Identification:
         """From what the compiled part gives."""
         found["status"] = np.array(found["status"], dtype=np.str_)
         for name in ("sensors", "coordinates", "not_identifiable"):
@@ -224,7 +266,7 @@ class Identification:
         found["other_explanations"] = tuple(
             OtherExplanation(tuple(faults), misfit, behind) for faults, misfit, behind in found["other_explanations"]
         )
-        return cls(**found)
+        return cls(**found, folder=folder)
 
     def __getitem__(self, name: str) -> Estimate:
         """The estimate of the unknown of this name."""
@@ -321,11 +363,62 @@ class Identification:
     def __len__(self) -> int:
         return len(self.frequency_hz)
 
-    def __repr__(self) -> str:
+    def _counts(self) -> dict[str, int]:
+        """How many frequencies have which status, the trusted ones first."""
         words, counts = np.unique(self.status, return_counts=True)
-        statuses = ", ".join(f"{count} {word}" for word, count in zip(words, counts, strict=True))
-        names = ", ".join(one.name for one in self.unknowns)
-        return f"<frfit.Identification of {names} at {len(self)} frequencies: {statuses}>"
+        listed = sorted(zip(words.tolist(), counts.tolist(), strict=True), key=lambda one: (one[0] != "ok", -one[1]))
+        return dict(listed)
+
+    def _verdict(self) -> str:
+        """Whether the model explains the band, in words."""
+        explained = self.explained or "not tested"
+        noise = f"noise {self.noise:.2f} times the assumed" if self.noise is not None else "noise not known"
+        parts = [explained, noise, f"{100 * self.trusted:.0f} % of the band trusted"]
+        if self.findings:
+            parts.append(counted(len(self.findings), "finding"))
+        if self.not_identifiable:
+            parts.append(f"not identifiable: {some(self.not_identifiable, 2)}")
+        return ", ".join(parts)
+
+    def _where(self) -> Flags:
+        """Frequencies whose values stand for the others: the trusted ones, else all."""
+        ok = self.ok
+        return ok if ok.any() else np.ones_like(ok)
+
+    def __repr__(self) -> str:
+        statuses = ", ".join(f"{count} {word}" for word, count in self._counts().items())
+        names = some(one.name for one in self.unknowns)
+        lines = [f"<frfit.Identification of {names} at {len(self)} frequencies: {statuses}"]
+        lines.append(f"  {span(self.frequency_hz)}, {counted(len(self.sensors), 'sensor')}; {self._verdict()}")
+        for one in self.unknowns[:_SHOWN]:
+            kind = "" if one.numbers else "median "
+            lines.append(f"  {one.name} ({one.varies}): {kind}{one._said(self._where())}")
+        if len(self.unknowns) > _SHOWN:
+            lines.append(f"  and {len(self.unknowns) - _SHOWN} more")
+        return "\n".join(lines) + ">"
+
+    def _repr_html_(self) -> str:
+        """What a notebook shows: statuses, verdict and a table of the unknowns."""
+        rows = []
+        for one in self.unknowns:
+            if one.numbers:
+                rows += [
+                    (one.name, one.varies, number.name, with_std(number.value, number.std), one.status or "")
+                    for number in one.numbers
+                ]
+                continue
+            where = self._where()
+            values = [("storage", one.storage, one.storage_std), ("loss_factor", one.loss_factor, one.loss_factor_std)]
+            rows += [
+                (one.name, one.varies, name, f"{with_std(*typical(column, stds, where))} (median)", "")
+                for name, column, stds in (values[:1] if one.real else values)
+            ]
+        statuses = ", ".join(f"{count} {word}" for word, count in self._counts().items())
+        title = f"Identification of {some(one.name for one in self.unknowns)}"
+        head = f"{len(self)} frequencies, {span(self.frequency_hz)}, {counted(len(self.sensors), 'sensor')}: {statuses}"
+        lines = [head, self._verdict(), *(finding.what for finding in self.findings[:_SHOWN])]
+        table = html_table(("unknown", "varies", "number", "value ± std", "status"), rows[:_ROWS])
+        return html_of(title, html_list(lines), table)
 
     def columns(self) -> dict[str, Any]:
         """The columns of ``identified.csv``, in their order."""
@@ -362,36 +455,169 @@ class Identification:
         """Each unknown with what its columns begin with: its name and a point where there are several."""
         return [("" if len(self.unknowns) == 1 else f"{one.name}.", one) for one in self.unknowns]
 
-    def to_dataframe(self) -> Any:
-        """:meth:`columns` as a ``pandas.DataFrame``; needs pandas."""
-        import pandas
+    def to_dataframe(self, kind: Literal["table", "long", "numbers"] = "table") -> Any:
+        """A ``pandas.DataFrame`` of the results; needs pandas.
 
-        return pandas.DataFrame(self.columns())
+        ``kind`` is ``"table"``: :meth:`columns`, a row at each frequency; ``"long"``: a row for each unknown and frequency, with
+        all arrays of an :class:`Estimate`, also those that ``identified.csv`` does not have; or ``"numbers"``: a row for each
+        number that holds for the band.
+        """
+        kinds = ("table", "long", "numbers")
+        one_of(kind, "kind", kinds)
+        pandas = _imported("pandas", "to_dataframe")
+        if kind == "table":
+            return pandas.DataFrame(self.columns())
+        if kind == "numbers":
+            rows = [(one.name, number.name, number.value, number.std) for one in self.unknowns for number in one.numbers]
+            frame = pandas.DataFrame(rows, columns=["unknown", "number", "value", "std"])
+            frame["status"] = [one.status for one in self.unknowns for _ in one.numbers]
+            return frame
+        parts = []
+        for one in self.unknowns:
+            columns: dict[str, Any] = {"unknown": one.name, "frequency_hz": self.frequency_hz, "status": self.status}
+            columns |= {name: getattr(one, name) for name in _EVERY_LINE}
+            columns["alternative_count"] = np.array([len(rivals) for rivals in one.alternatives], dtype=np.int64)
+            parts.append(pandas.DataFrame(columns))
+        return pandas.concat(parts, ignore_index=True)
 
-    def plot(self, axes: Any = None) -> Any:
+    def to_xarray(self, units: str | Mapping[str, str] | None = None) -> Any:
+        """An ``xarray.Dataset`` of the arrays over frequency, with units; needs xarray.
+
+        Coordinates are ``frequency`` (Hz), ``sensor`` and ``unknown``; of a single unknown the last is no dimension. ``units``
+        are those of the factors: a text, or of several unknowns a dictionary by their names.
+        """
+        xarray = _imported("xarray", "to_xarray")
+        of = self._units(units)
+        names = [one.name for one in self.unknowns]
+        said = [of[name] or "unit of the factor" for name in names]
+        of_all = said[0] if len(set(said)) == 1 else f"by unknown: {', '.join(said)}"
+        units_of = {"loss_factor": "1", "loss_factor_std": "1", "storage_loss_correlation": "1"}
+        arrays: dict[str, Any] = {}
+        for name in _EVERY_LINE:
+            stacked = np.array([getattr(one, name) for one in self.unknowns])
+            arrays[name] = (("unknown", "frequency"), stacked, {"units": units_of.get(name, of_all)})
+        for name in ("chi2", "error", "spectral_radius", "convergence_radius", "required_order", "reduction_error"):
+            arrays[name] = ("frequency", getattr(self, name), {"units": "1"})
+        for name in ("order", "candidate_count", "status"):
+            arrays[name] = ("frequency", getattr(self, name))
+        for name in ("measured_response", "nominal_response", "updated_response"):
+            arrays[name] = (("frequency", "sensor"), getattr(self, name), {"units": "m/N"})
+        hertz = ("frequency", self.frequency_hz, {"units": "Hz", "long_name": "frequency"})
+        coordinates = {"frequency": hertz, "sensor": list(self.sensors), "unknown": names}
+        about = {"title": self.title, "explained": self.explained or "", "trusted": self.trusted}
+        found = xarray.Dataset(arrays, coordinates, about)
+        return found.isel(unknown=0) if len(names) == 1 else found
+
+    def _units(self, units: str | Mapping[str, str] | None) -> dict[str, str]:
+        """The unit of each unknown; empty where nobody says it."""
+        names = [one.name for one in self.unknowns]
+        if units is None or isinstance(units, str):
+            return dict.fromkeys(names, units or "")
+        if not isinstance(units, Mapping):
+            raise refuse("units", "a text, or a dictionary by the names of the unknowns", shown(units))
+        for name in units:
+            one_of(name, "units", names)
+        return {name: word(units.get(name, ""), f"units[{name!r}]") for name in names}
+
+    def plot(self, axes: Any = None, *, units: str | Mapping[str, str] | None = None) -> Any:
         """Storage modulus and loss factor of each unknown over frequency with bars of two standard deviations; needs matplotlib.
 
-        Trusted answers are filled, others hollow and grey. ``axes``: two to draw on for each complex unknown, one for each real
-        one. Returns them.
+        Trusted values are filled. Others are hollow, with the mark of their status, over a grey band. What holds for the band is a
+        line in a band of two standard deviations. The vertical axis spans the trusted and the nominal values: others may lie outside of it.
+        ``axes``: two to draw on for each complex unknown, one for each real one. ``units`` of the factors are for the labels: a
+        text, or of several unknowns a dictionary by their names. Returns the axes.
         """
-        import matplotlib.pyplot as plt
-
+        plt = _imported("matplotlib.pyplot", "plot")
+        of = self._units(units)
         panels = []
         for prefix, one in self._prefixed():
-            panels.append((one.storage, one.storage_std, one.nominal.real, f"{prefix}storage"))
+            unit = of[one.name] or "unit of the factor"
+            label = one.name if one.real else f"{prefix}storage"
+            panels.append((one, one.storage, one.storage_std, one.nominal.real, f"{label} ({unit})"))
             if not one.real:
-                loss_factor = one.nominal.imag / one.nominal.real
-                panels.append((one.loss_factor, one.loss_factor_std, loss_factor, f"{prefix}loss factor"))
+                with np.errstate(invalid="ignore", divide="ignore"):
+                    loss_factor = one.nominal.imag / one.nominal.real
+                panels.append((one, one.loss_factor, one.loss_factor_std, loss_factor, f"{prefix}loss factor (1)"))
         if axes is None:
-            _, grid = plt.subplots(len(panels), 1, sharex=True, squeeze=False, layout="constrained")
+            size = (6.4, max(4.8, 1.9 * len(panels)))
+            _, grid = plt.subplots(len(panels), 1, sharex=True, squeeze=False, layout="constrained", figsize=size)
             axes = grid[:, 0]
-        ok = self.ok
-        for axis, (values, std, nominal, label) in zip(axes, panels, strict=True):
-            bars = np.where(np.isfinite(std), 2 * std, 0.0)
-            axis.plot(self.frequency_hz, nominal, "--", color="0.6", label="nominal")
-            axis.errorbar(self.frequency_hz[ok], values[ok], bars[ok], fmt=".", color="C0", label="identified")
-            axis.plot(self.frequency_hz[~ok], values[~ok], ".", color="0.7", mfc="none", label="not trusted")
+        listed = list(np.ravel(np.asarray(axes, dtype=object)))
+        if len(listed) != len(panels):
+            found = counted(len(listed), "axis", "axes")
+            raise refuse("axes", f"{len(panels)}, two for each complex unknown and one for each real one", found)
+        for axis, (one, values, std, nominal, label) in zip(listed, panels, strict=True):
+            self._draw(axis, one, values, std, nominal)
             axis.set_ylabel(label)
-        axes[-1].set_xlabel("frequency (Hz)")
-        axes[0].legend()
+        listed[-1].set_xlabel("frequency (Hz)")
+        listed[0].legend(fontsize="small")
         return axes
+
+    def _draw(self, axis: Any, one: Estimate, values: Real, std: Real, nominal: Real) -> None:
+        """One panel."""
+        f, ok = self.frequency_hz, self.ok
+        bars = np.where(np.isfinite(std), 2 * std, 0.0)
+        axis.plot(f, nominal, "--", color="0.6", label="nominal")
+        if one.numbers:
+            axis.fill_between(f, values - bars, values + bars, color="C0", alpha=0.25, linewidth=0, label="±2σ")
+            axis.plot(f, values, color="C0", label="identified")
+        else:
+            axis.errorbar(f[ok], values[ok], bars[ok], fmt=".", color="C0", label="ok, ±2σ")
+            for status in self._counts():
+                there = self.status == status
+                if status == "ok":
+                    continue
+                mark = _MARKS.get(status, ".")
+                label = status if np.isfinite(values[there]).any() else None
+                axis.plot(f[there], values[there], mark, color="0.5", mfc="none", markersize=4, label=label)
+        for k, (first, last) in enumerate(_runs(~ok)):
+            # Half way to the neighbours.
+            low = f[first] if first == 0 else (f[first - 1] + f[first]) / 2
+            high = f[last] if last + 1 == len(f) else (f[last] + f[last + 1]) / 2
+            axis.axvspan(low, high, color="0.92", zorder=0, linewidth=0, label="not trusted" if k == 0 else None)
+        seen = np.concatenate([(values - bars)[ok], (values + bars)[ok], nominal])
+        seen = seen[np.isfinite(seen)]
+        if ok.any() and seen.size and (margin := 0.08 * float(np.ptp(seen))) > 0:
+            axis.set_ylim(float(seen.min()) - margin, float(seen.max()) + margin)
+
+    def report(self, path: str | os.PathLike[str] | None = None) -> Report:
+        """The HTML page of results that ``run_case(case, out)`` wrote; with ``path`` it is written there too.
+
+        Results of arrays, and of ``run_case`` without a folder, have no files: an :class:`InputError`.
+        """
+        if self.folder is None:
+            raise refuse("report", "results with a folder, as run_case(case, out) writes them", "results without files")
+        page = Report(self.folder)
+        if path is not None:
+            page.save(path)
+        return page
+
+
+_SHOWN, _ROWS = 6, 24
+"""How many unknowns and findings are named, and how many rows a table has."""
+
+_MARKS = {
+    "ambiguous": "D",
+    "unexplained": "x",
+    "not_identifiable": "v",
+    "no_root": "s",
+    "failed": "+",
+    "diverged": "^",
+}
+
+
+def _runs(flags: Flags) -> list[tuple[int, int]]:
+    """First and last of each run of flags that are set."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], flags, [False]]).astype(np.int8)))
+    return [(int(first), int(end) - 1) for first, end in zip(edges[::2], edges[1::2], strict=True)]
+
+
+def _imported(module: str, user: str) -> Any:
+    """A module that is only needed here."""
+    try:
+        return importlib.import_module(module)
+    except ModuleNotFoundError as error:
+        name = module.partition(".")[0]
+        if error.name not in (module, name):
+            raise
+        raise ModuleNotFoundError(f"{user} needs {name}: pip install {name}", name=name) from None

@@ -5,16 +5,38 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from types import SimpleNamespace
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _frfit
-from ._arrays import Complex, Real, number, numbers, optional_number, real, refuse, several, shown, whole, word
+from ._arrays import (
+    Complex,
+    Real,
+    hints,
+    hints_of,
+    number,
+    numbers,
+    one_of,
+    optional_number,
+    pair,
+    real,
+    refuse,
+    row,
+    several,
+    shown,
+    sign,
+    whole,
+)
+from ._shown import counted, span
+
+if TYPE_CHECKING:
+    from ._identify import Measurement, Quantity
 
 
-@dataclass(frozen=True, eq=False)
+@hints_of
+@dataclass(frozen=True, eq=False, repr=False)
 class Recording:
     """Channels sampled at the same instants.
 
@@ -28,6 +50,13 @@ class Recording:
 
     def __post_init__(self) -> None:
         _plain(self)
+
+    def __repr__(self) -> str:
+        samples = np.asarray(self.force).size
+        sensors = np.atleast_2d(np.asarray(self.responses)).shape[0]
+        peak = float(np.max(np.abs(np.asarray(self.force)), initial=0.0))
+        said = f"{samples} samples of {self.step_s:g} s, {counted(sensors, 'sensor')}, force up to {peak:.4g} N"
+        return f"<frfit.Recording of {said}>"
 
 
 def _plain(one: Any) -> SimpleNamespace:
@@ -67,7 +96,7 @@ class Impact:
     faults: tuple[str, ...]
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class MeasuredFrf:
     """The FRF of every sensor, with how sure it is.
 
@@ -85,7 +114,56 @@ class MeasuredFrf:
     impacts: tuple[Impact, ...]
     decay_per_s: float = 0.0
 
+    def __repr__(self) -> str:
+        parts = [f"{counted(len(self.response), 'sensor')}, {len(self.frequency_hz)} frequencies, {span(self.frequency_hz)}"]
+        parts.append(f"{self.averages} of {counted(len(self.impacts), 'impact')}")
+        if self.coherence is not None:
+            parts.append(f"coherence {np.median(self.coherence):.4g} (median)")
+        if self.decay_per_s:
+            parts.append(f"decay_per_s {self.decay_per_s:g}")
+        return f"<frfit.MeasuredFrf of {', '.join(parts)}>"
 
+    def measurements(
+        self,
+        rows: int | Sequence[int],
+        *,
+        quantity: Quantity,
+        signs: Sequence[float] | None = None,
+        band_hz: tuple[float, float] | None = None,
+    ) -> list[Measurement]:
+        """A :class:`Measurement` of each sensor, with its standard deviation and the decay of the window.
+
+        ``rows``: the row of the model of each sensor, from 0. ``quantity``: what the sensors measure, ``"accelerance"`` of
+        accelerometers in m/s^2 and a hammer in N. ``signs``: -1 for a sensor whose motion against the row counts as positive.
+        ``band_hz``: first and last of the frequencies that are taken.
+        """
+        from ._identify import Measurement
+
+        listed = [rows] if np.ndim(rows) == 0 else several(rows, "rows", "a row for each sensor")
+        if len(listed) != len(self.response):
+            raise refuse("rows", f"{len(self.response)}, one for each sensor", str(len(listed)))
+        senses = [1.0] * len(listed) if signs is None else [sign(one, "signs") for one in signs]
+        if len(senses) != len(listed):
+            raise refuse("signs", f"{len(listed)}, one for each sensor", str(len(senses)))
+        low, high = (-np.inf, np.inf) if band_hz is None else pair(band_hz, "band_hz")
+        inside = (self.frequency_hz >= low) & (self.frequency_hz <= high)
+        if not inside.any():
+            raise refuse("band_hz", f"a band with frequencies of {span(self.frequency_hz)}", f"({low:g}, {high:g})")
+        return [
+            Measurement(
+                self.frequency_hz[inside],
+                self.response[k, inside],
+                row(at, "rows"),
+                quantity,
+                sign=senses[k],
+                std=None if self.std is None else self.std[k, inside],
+                decay_per_s=self.decay_per_s,
+            )
+            for k, at in enumerate(listed)
+        ]
+
+
+@hints
 def frf(
     recordings: Recording | Sequence[Recording],
     *,
@@ -151,7 +229,7 @@ def signal_options(
 ) -> dict[str, Any]:
     """The options of an FRF, checked."""
     return {
-        "estimator": word(estimator, "estimator"),
+        "estimator": one_of(estimator, "estimator", ("h1", "h2", "hv")),
         "trigger_n": optional_number(trigger_n, "trigger_n"),
         "pre_trigger_s": optional_number(pre_trigger_s, "pre_trigger_s"),
         "length_s": optional_number(length_s, "length_s"),

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
+
+from numpy.typing import ArrayLike
 
 from . import _frfit
 from ._arrays import (
@@ -14,19 +16,26 @@ from ._arrays import (
     Real,
     callable_,
     flag,
+    hints,
+    load_vector,
     number,
+    only_of_a_model,
     optional_number,
     optional_pair,
     optional_whole,
+    real,
+    refuse,
+    row,
     several,
+    shown,
     whole,
     word,
     words,
 )
 from ._errors import OptionsError
 from ._frfit import Law
-from ._identify import run_case
-from ._model import Progress
+from ._identify import Measurement, Unknown, arguments_of, run_case
+from ._model import Model, Progress, model_of, sensors_of
 from ._result import Finding, Identification, OtherExplanation
 from ._signal import signal_options
 
@@ -133,33 +142,77 @@ class CaseResponse:
         return f"<frfit.CaseResponse: {sensors} sensors, {count} frequencies>"
 
 
+@hints
 def check(
-    path: _Path,
+    case: _Path | Model,
+    measurements: Measurement | Sequence[Measurement] = (),
     *,
+    load: ArrayLike | None = None,
+    matrix: str | Sequence[str] = (),
+    unknowns: Unknown | Sequence[Unknown] | None = None,
+    bounds: Mapping[str, tuple[float, float]] | tuple[float, float] | None = None,
+    start: Literal["bounds"] | None = None,
+    exclude_hz: Sequence[float | tuple[float, float]] = (),
     band_hz: tuple[float, float] | None = None,
     reduced: _Path | None = None,
     memory_bytes: int | None = None,
 ) -> Check:
-    """What ``frfit check CASE`` finds: faults of the measurements against the model. Nothing is written.
+    """Faults of the measurements against the model: what ``frfit check`` finds, from a case file or from arrays. Nothing is written.
 
     Parameters
     ----------
-    path
-        The case file.
+    case
+        The case file, or a model.
+    measurements, load, matrix, unknowns, bounds, start, exclude_hz
+        Beside a model, as of ``identify``.
     band_hz
         First and last frequency, in place of the case file's.
     reduced
-        Reduced model of ``train``, for the same matrices, load and sensors.
+        Reduced model of ``train``, for the same matrices, load and sensors; of a case file only.
     memory_bytes
         Memory that may be used.
 
     Raises
     ------
-    InputError, OutsideTableError, ModelMemoryError
+    InputError, ModelError, OutsideTableError, ModelMemoryError
         With the text of the command line.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from frfit import Measurement, Model, Term, respond
+    >>> K, M = np.array([[2.0, -1.0], [-1.0, 2.0]]), np.diag([0.01, 0.01])
+    >>> model = Model([Term("k", K, factor=1000 * (1 + 0.02j)), Term("m", M, role="mass")])
+    >>> f = np.linspace(5.0, 120.0, 60)
+    >>> u = respond(model, f, load=0, sensors=[0, 1])
+    >>> wrong = [Measurement(f, -u[:, 0], row=0), Measurement(f, u[:, 1], row=1)]
+    >>> [finding.kind for finding in check(model, wrong, load=0, matrix="k").findings]
+    ['sign']
     """
-    limit = optional_whole(memory_bytes, "memory_bytes", 0)
-    found = _frfit.check(path, optional_pair(band_hz, "band_hz"), reduced, limit)
+    band, limit = optional_pair(band_hz, "band_hz"), optional_whole(memory_bytes, "memory_bytes", 0)
+    if isinstance(case, Model):
+        if reduced is not None:
+            raise refuse("reduced", "None beside a model", shown(reduced))
+        if load is None:
+            raise refuse("load", "a row, or a value for each row", "none")
+        asked = arguments_of(
+            case,
+            measurements,
+            load=load,
+            matrix=matrix,
+            unknowns=unknowns,
+            bounds=bounds,
+            start=start,
+            exclude_hz=exclude_hz,
+            band_hz=band,
+            memory_bytes=limit,
+        )
+        found = _frfit.check_of_arrays(*asked)
+    else:
+        only_of_a_model(
+            measurements=measurements, load=load, matrix=matrix, unknowns=unknowns, bounds=bounds, exclude_hz=exclude_hz
+        )
+        found = _frfit.check(case, band, reduced, limit)
     findings = tuple(Finding(**{**one, "sensors": tuple(one["sensors"])}) for one in found.pop("findings"))
     others = tuple(
         OtherExplanation(tuple(faults), misfit, behind) for faults, misfit, behind in found.pop("other_explanations")
@@ -168,30 +221,39 @@ def check(
     return Check(findings=findings, other_explanations=others, summary=summary, **found)
 
 
+@hints
 def sensitivities(
-    path: _Path,
+    case: _Path | Model,
     out: _Path | None = None,
     *,
+    frequency_hz: ArrayLike | None = None,
+    load: ArrayLike | None = None,
+    sensors: Sequence[int] = (),
+    signs: Sequence[float] | None = None,
     band_hz: tuple[float, float] | None = None,
     noise: float | None = None,
     candidates: str | Sequence[str | int] = "all",
     memory_bytes: int | None = None,
 ) -> Sensitivities:
-    """What ``frfit sensitivities CASE`` computes; with ``out`` its files too.
+    """What the response depends on, and what the sensors can identify: ``frfit sensitivities``, from a case file or from arrays.
+
+    Nothing needs to be measured. Parameters of a model are the factors of its terms.
 
     Parameters
     ----------
-    path
-        The case file.
+    case
+        The case file, or a model.
     out
-        Folder for the results.
+        Folder for the files of the command line; of a case file only.
+    frequency_hz, load, sensors, signs
+        Beside a model, as of ``respond``.
     band_hz
         First and last frequency, in place of the case file's.
     noise
         Standard deviation of a response over the response; by default that of the files, else 0.01.
     candidates
-        Where the next sensor may go: ``"all"``, ``"none"``, or degrees of freedom such as ``"12+Z"``, or rows, which
-        count from 1 as in the case file.
+        Where the next sensor may go: ``"all"``, ``"none"``, or degrees of freedom such as ``"12+Z"``, or rows. Rows count
+        from 1 beside a case file and from 0 beside a model.
     memory_bytes
         Memory that may be used.
 
@@ -203,9 +265,32 @@ def sensitivities(
     part = optional_number(noise, "noise")
     if part is not None and not 0.0 < part < float("inf"):
         raise OptionsError(f"noise: expected a number above 0, found {part}")
-    places = candidates if isinstance(candidates, str) else ",".join(str(place) for place in candidates)
     limit = optional_whole(memory_bytes, "memory_bytes", 0)
-    summary = json.loads(_frfit.sensitivities(path, out, optional_pair(band_hz, "band_hz"), part, places, limit))
+    if isinstance(case, Model):
+        if out is not None or band_hz is not None:
+            raise refuse("out" if out is not None else "band_hz", "None beside a model", shown(out or band_hz))
+        if load is None or frequency_hz is None:
+            raise refuse("load" if load is None else "frequency_hz", "what respond takes, beside a model", "none")
+        rows, senses = sensors_of(sensors, signs, case.dim)
+        if isinstance(candidates, str):
+            places = candidates
+        else:
+            places = ",".join(str(row(place, "candidates", case.dim) + 1) for place in candidates)
+        text = _frfit.sensitivities_of_model(
+            model_of(case),
+            load_vector(load, case.dim),
+            rows,
+            senses,
+            real(frequency_hz, "frequency_hz"),
+            part,
+            places,
+            limit,
+        )
+    else:
+        only_of_a_model(frequency_hz=frequency_hz, load=load, sensors=sensors)
+        places = candidates if isinstance(candidates, str) else ",".join(str(place) for place in candidates)
+        text = _frfit.sensitivities(case, out, optional_pair(band_hz, "band_hz"), part, places, limit)
+    summary = json.loads(text)
     return Sensitivities(
         title=summary["title"],
         parameters=tuple(summary.get("parameters", ())),
@@ -215,6 +300,7 @@ def sensitivities(
     )
 
 
+@hints
 def fit(
     table: _Path,
     out: _Path | None = None,
@@ -260,6 +346,7 @@ def _law_fit(one: dict[str, Any], law: Law, names: list[str]) -> LawFit:
     )
 
 
+@hints
 def export(
     target: Literal["nastran", "abaqus", "ansys", "csv", "json"],
     table: _Path,
@@ -323,6 +410,7 @@ def export(
     return _frfit.export(word(target, "target"), table, out, how)
 
 
+@hints
 def inspect(path: _Path) -> dict[str, Any]:
     """What ``frfit inspect FILE --json`` prints: what is in a matrix, FRF or table file.
 
@@ -335,6 +423,7 @@ def inspect(path: _Path) -> dict[str, Any]:
     return found
 
 
+@hints
 def natural_frequencies(stiffness: _Path, mass: _Path, count: int = 12) -> dict[str, Any]:
     """What ``frfit inspect K M --modes COUNT --json`` prints: ``natural_frequencies_hz`` and ``rigid_body_modes``.
 
@@ -347,6 +436,7 @@ def natural_frequencies(stiffness: _Path, mass: _Path, count: int = 12) -> dict[
     return found
 
 
+@hints
 def convert(
     source: _Path,
     target: _Path,
@@ -409,6 +499,7 @@ def _listed(record: int | Sequence[int] | None) -> list[int]:
     return several(record, "record", "whole numbers") if isinstance(record, Sequence) else [record]
 
 
+@hints
 def respond_case(
     path: _Path,
     out: _Path | None = None,
@@ -430,6 +521,7 @@ def respond_case(
     return CaseResponse(**found)
 
 
+@hints
 def frf_of_files(
     records: _Path | Sequence[_Path],
     out: _Path,
@@ -491,6 +583,7 @@ def frf_of_files(
     return found
 
 
+@hints
 def examples() -> dict[str, str]:
     """The examples of ``frfit example``: name and question.
 
@@ -500,6 +593,7 @@ def examples() -> dict[str, str]:
     return dict(_frfit.examples())
 
 
+@hints
 def example(name: str, folder: _Path | None = None) -> list[str]:
     """What ``frfit example NAME FOLDER`` does: writes a complete case with a known answer, and returns the names of its files.
 
@@ -513,6 +607,7 @@ def example(name: str, folder: _Path | None = None) -> list[str]:
     return _frfit.example(word(name, "name"), name if folder is None else folder)
 
 
+@hints
 def demo(out: _Path = "frfit-demo") -> Identification:
     """What ``frfit demo`` does: the main job on a rubber bar whose modulus is 50 % off.
 
