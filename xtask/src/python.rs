@@ -39,7 +39,7 @@ fn crate_folder() -> PathBuf {
 
 fn binary(name: &str) -> PathBuf {
     let place = if cfg!(windows) { "Scripts" } else { "bin" };
-    target().join("python-venv").join(place).join(name)
+    target().join("python-venv").join(place).join(format!("{name}{}", std::env::consts::EXE_SUFFIX))
 }
 
 /// The interpreter of the environment; `None` where the environment was not made.
@@ -161,7 +161,9 @@ pub(crate) fn tests(tier: Tier) -> Vec<Step> {
     tests.args(["-m", "pytest", "-q", "-c"]).arg(crate_folder.join("pyproject.toml"));
     tests.arg("--rootdir").arg(&crate_folder).arg(crate_folder.join("tests"));
     tests.args(["--durations", "5", "--doctest-modules", "--pyargs", "frfit"]);
-    tests.env("FRFIT_CLI", target().join("debug/frfit")).current_dir(&wheels);
+    tests
+        .env("FRFIT_CLI", target().join(format!("debug/frfit{}", std::env::consts::EXE_SUFFIX)))
+        .current_dir(&wheels);
     if tier == Tier::Long {
         tests.env(LONG, "1");
     }

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+import scipy.sparse as sp
 
 import frfit
 
@@ -169,3 +170,69 @@ def test_examples_and_the_demo(said: Any, tmp_path: pathlib.Path) -> None:
     said("demo", "--out", tmp_path / "command")
     same_files(tmp_path / "demo", tmp_path / "command")
     assert found.trusted == 1.0
+
+
+def test_check_and_modes_of_arrays_are_those_of_a_case(tmp_path: pathlib.Path) -> None:
+    """A chain of masses, in files and in arrays."""
+    n = 12
+    ones = np.ones(n)
+    stiffness = sp.diags_array([2 * ones, -ones[1:], -ones[1:]], offsets=[0, 1, -1], format="csc")
+    mass = sp.diags_array([0.01 * ones], offsets=[0], format="csc")
+    sp.save_npz(tmp_path / "K.npz", stiffness)
+    sp.save_npz(tmp_path / "M.npz", mass)
+
+    def model(k: complex) -> frfit.Model:
+        return frfit.Model([frfit.Term("springs", stiffness, factor=k), frfit.Term("mass", mass, role="mass")])
+
+    f = np.linspace(2.0, 60.0, 120)
+    exact = frfit.respond(model(1000 * (1 + 0.03j)), f, load=0, sensors=[4, 9])
+    noise = np.random.default_rng(2).normal(size=(2, *exact.shape))
+    u = exact * (1 + 0.003 * (noise[0] + 1j * noise[1]))
+    u[:, 1] *= -1.0
+    lines = []
+    for k, row in enumerate((4, 9)):
+        table = np.column_stack([f, u[:, k].real, u[:, k].imag])
+        text = "\n".join(",".join(repr(float(x)) for x in line) for line in table)
+        (tmp_path / f"{row}.csv").write_text(f"frequency_hz,re,im\n{text}\n")
+        lines.append(f'[[measurement]]\nfile = "{row}.csv"\nrow = {row + 1}\nquantity = "receptance"\n')
+    case = tmp_path / "case.toml"
+    case.write_text(
+        'title = "chain"\n'
+        '[[matrix]]\nname = "springs"\nrole = "stiffness"\nfile = "K.npz"\nfactor = { storage = 1200.0, loss_factor = 0.0 }\n'
+        '[[matrix]]\nname = "mass"\nrole = "mass"\nfile = "M.npz"\n'
+        "[load]\nrow = 1\n" + "".join(lines) + '[identify]\nmatrix = "springs"\nband_hz = [2.0, 60.0]\n'
+    )
+    measured = [frfit.Measurement(f, u[:, k], row=row) for k, row in enumerate((4, 9))]
+    # Beyond some 35 Hz the "mesh" of a chain is too coarse.
+    of_case = frfit.check(case, band_hz=(2.0, 30.0))
+    of_arrays = frfit.check(model(1200.0), measured, load=0, matrix="springs", band_hz=(2.0, 30.0))
+    assert [finding.kind for finding in of_arrays.findings] == ["sign"]
+    assert of_arrays.summary["findings"] == of_case.summary["findings"] and of_arrays.misfit == of_case.misfit
+
+    right = [measured[0], frfit.Measurement(f, -u[:, 1], row=9)]
+    (tmp_path / "9.csv").write_text(
+        "frequency_hz,re,im\n"
+        + "".join(f"{a!r},{b!r},{c!r}\n" for a, b, c in zip(f.tolist(), (-u[:, 1].real).tolist(), (-u[:, 1].imag).tolist()))
+    )
+    modes, again = frfit.modes(case), frfit.modes(model(1200.0), measurements=right, load=0, matrix="springs", band_hz=(2.0, 60.0))
+    for name in ("frequency_hz", "measured_frequency_hz", "measured_frequency_std_hz", "pairs", "mac", "frac"):
+        np.testing.assert_array_equal(getattr(modes, name), getattr(again, name), err_msg=name)
+    assert len(modes.pairs) >= 5
+    # Of the model alone: a closed form.
+    alone = frfit.modes(model(1000.0), load=0, sensors=[4], band_hz=(1.0, 120.0))
+    exactly = np.sqrt(4 * 1000.0 / 0.01) * np.sin(np.arange(1, n + 1) * np.pi / (2 * (n + 1))) / (2 * np.pi)
+    np.testing.assert_allclose(alone.frequency_hz, exactly[exactly <= 120.0], rtol=1e-9)
+
+    ranked = frfit.sensitivities(model(1200.0), frequency_hz=f, load=0, sensors=[4, 9], noise=0.01, candidates=[0, 5])
+    of_file = frfit.sensitivities(case, noise=0.01, candidates=[1, 6])
+    assert ranked.parameters == of_file.parameters and ranked.next_sensor == of_file.next_sensor
+
+
+def test_what_does_not_go_together_is_refused(rubber_bar: pathlib.Path) -> None:
+    with pytest.raises(frfit.InputError, match="load: expected nothing beside a case file"):
+        frfit.check(rubber_bar, load=0)
+    model = frfit.Model([frfit.Term("k", np.eye(2), factor=1e3), frfit.Term("m", np.eye(2), role="mass")])
+    with pytest.raises(frfit.InputError, match="band_hz: expected first and last frequency"):
+        frfit.modes(model, load=0, sensors=[0])
+    with pytest.raises(frfit.InputError, match="load: expected a row"):
+        frfit.check(model)
