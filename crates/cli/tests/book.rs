@@ -190,9 +190,10 @@ fn follow(page: &str, is_run: bool) -> Result<(), String> {
 }
 
 /// Pages whose commands take three quarters of the time, and of which other tests run the like: only their cases are read by day.
-const LONG: [&str; 10] = [
+const LONG: [&str; 11] = [
     "batch.md",
     "comparison.md",
+    "gallery.md",
     "grey.md",
     "hammer.md",
     "meshes.md",

@@ -102,7 +102,7 @@ fn frequency_responses_are_refused_with_a_word() {
             (b"f,mag\n1,2\n", "input:1: expected a column \"phase_deg\", found only \"f\", \"mag\""),
             (
                 b"f,re,phase_deg\n1,2,3\n",
-                "input:1: expected a column \"magnitude\", found only \"f\", \"re\", \"phase_deg\"",
+                "input:1: expected re and im, or a magnitude and a phase, found \"f\", \"re\", \"phase_deg\"",
             ),
             (
                 b"f,mag,phase\n1,2,3\n",

@@ -242,8 +242,8 @@ fn tables() {
         ),
         (
             "a.csv",
-            "frequency_hz;re;im\n10;0,5;1\n",
-            "a.csv:2:4: expected a decimal point (write 0.5) in column \"re\", found a decimal comma in \"0,5\"\nnamed in case.toml:21:1: measurement.file",
+            "frequency_hz;re;im\n10.5;0,5;1\n",
+            "a.csv:2:6: expected a decimal point as in other cells (write 0.5) in column \"re\", found a decimal comma in \"0,5\"\nnamed in case.toml:21:1: measurement.file",
         ),
         (
             "a.csv",
