@@ -2,7 +2,7 @@
 
 use crate::number::rounded;
 use crate::results::{Candidates, ErrorMap, Results, Sensor, Unknown, Verdict as Kind};
-use crate::status::label;
+use crate::status::{label, pattern};
 use crate::thin::{every, rows};
 use crate::verdict::Verdict;
 use frfit::c64;
@@ -73,6 +73,7 @@ pub(crate) fn data(results: &Results, verdict: &Verdict) -> Data {
         "together": together(results),
         "statuses": Status::ALL.map(|status| json!({
             "name": status.name(), "label": label(status, verdict.own), "trust": status.trust().name(),
+            "pattern": pattern(status),
         })),
         "frequency_hz": table.iter().map(|&row| rounded(Some(band.frequency_hz[row]), FREQUENCY_DIGITS)).collect::<Vec<_>>(),
         "status": table.iter().map(|&row| band.class(row)).collect::<Vec<_>>(),

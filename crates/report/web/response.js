@@ -21,7 +21,8 @@ function phase(response) {
   return [x, y];
 }
 
-const ACCELERANCE = "%{y:.4~g} m/(s²·N)";
+const ACCELERANCE = (y) => `${digits(y, 4)} m/(s²·N)`;
+const DEGREES = (y) => `${minus(y.toFixed(1))}°`;
 
 addPlot({
   id: "accelerance",
@@ -41,19 +42,19 @@ addPlot({
     if (updated) made.push(line("updated", f, size(updated), "updated", ACCELERANCE, { legendgroup: "updated" }));
     const below = (name, response, shade, more) => {
       const [x, y] = phase(response);
-      made.push({ ...line(name, x, y, shade, "%{y:.1f}°", more), yaxis: "y2", showlegend: false, legendgroup: name });
+      made.push({ ...line(name, x, y, shade, DEGREES, more), yaxis: "y2", showlegend: false, legendgroup: name });
     };
     if (nominal) below("nominal", nominal, "nominal", { dash: "dash" });
     if (measured) {
       const [x, y] = phase(measured);
-      made.push({ ...dots("measured", x, y, "measured", "%{y:.1f}°", { size: 3 }), yaxis: "y2", showlegend: false, legendgroup: "measured" });
+      made.push({ ...dots("measured", x, y, "measured", DEGREES, { size: 3 }), yaxis: "y2", showlegend: false, legendgroup: "measured" });
     }
     if (updated) below("updated", updated, "updated");
     return made;
   },
   layout: () => ({
     xaxis: overFrequency({ anchor: "y2" }),
-    yaxis: { title: "|a| (m/(s²·N))", domain: [0.4, 1] },
+    yaxis: { title: "Accelerance |a| (m/(s²·N))", domain: [0.4, 1] },
     yaxis2: { title: "Phase (°)", domain: [0, 0.34], range: [-185, 185], dtick: 90 },
   }),
 });
