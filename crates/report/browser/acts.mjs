@@ -92,7 +92,7 @@ export async function logarithms(page) {
   const wrong = [];
   const axis = (id, name) => page.evaluate(([id, name]) => document.querySelector(`#${id} .canvas`)._fullLayout[name].type, [id, name]);
   const before = await axis("plot-accelerance", "yaxis");
-  const button = page.getByRole("button", { name: "Logarithmic |a|: Frequency response: measured, nominal and updated" });
+  const button = page.getByRole("button", { name: "Logarithmic |a|: Frequency response" });
   await button.click();
   await page.waitForTimeout(100);
   const after = await axis("plot-accelerance", "yaxis");
@@ -137,13 +137,13 @@ export async function zooms(page) {
   await page.mouse.up();
   await page.waitForTimeout(400);
   const dragged = width(await range());
-  await page.getByRole("button", { name: "Reset zoom: Frequency response: measured, nominal and updated" }).click();
+  await page.getByRole("button", { name: "Reset zoom: Frequency response" }).click();
   await page.waitForTimeout(200);
   const reset = width(await range());
-  await page.getByRole("button", { name: "Zoom in: Frequency response: measured, nominal and updated" }).click();
+  await page.getByRole("button", { name: "Zoom in: Frequency response" }).click();
   await page.waitForTimeout(200);
   const nearer = width(await range());
-  await page.getByRole("button", { name: "Reset zoom: Frequency response: measured, nominal and updated" }).click();
+  await page.getByRole("button", { name: "Reset zoom: Frequency response" }).click();
   const close = (a, b) => Math.abs(a - b) < 0.02 * whole;
   return [
     ...(close(dragged, 0.2 * whole) ? [] : [`dragging over a fifth leaves ${dragged / whole} of the axis`]),
@@ -266,7 +266,9 @@ export async function statuses(page) {
       const isOf = (trace, frequency) => trace.x.some((x, k) => k % 5 === 0 && x <= frequency && frequency <= trace.x[k + 2]);
       let off = 0;
       frequencies.forEach((frequency, row) => {
-        const { label } = statuses[status[row]];
+        const { label, trust } = statuses[status[row]];
+        // A line that was passed over between others has no ground of its own.
+        if (trust === "not asked") return;
         if (!legend.includes(label)) wrong.push(`${figure.id}: no ${label} in ${legend}`);
         if (!grounds.some((trace) => trace.name === label && isOf(trace, frequency))) off += 1;
       });

@@ -65,6 +65,10 @@ pub(crate) fn with_bar(value: f64, std: Option<f64>, unit: &str) -> String {
     let exponent = value.abs().log10().floor();
     if value != 0.0 && value.is_finite() && !PLAIN.contains(&exponent) {
         let size = 10.0_f64.powf(exponent);
+        // A bar that is too small for the digits of the value has a power of its own.
+        if bar < 1e-5 * size {
+            return format!("{} ± {}{space}{unit}", significant(value, 7), significant(bar, 1));
+        }
         let power = superscript(&exponent.to_string());
         return format!("({})·10{power}{space}{unit}", plain_with_bar(value / size, bar / size));
     }
@@ -97,6 +101,7 @@ mod tests {
         assert_eq!(with_bar(12.0, Some(30.0), ""), "12 ± 60");
         assert_eq!(with_bar(6.8999417e10, Some(9.4e5), ""), "(6.89994 ± 0.00019)·10¹⁰");
         assert_eq!(with_bar(-3.6e-5, Some(1e-7), ""), "(−3.600 ± 0.020)·10⁻⁵");
+        assert_eq!(with_bar(2.95107e6, Some(4.5), "Pa"), "2.95107·10⁶ ± 9\u{a0}Pa");
         assert_eq!(significant(1.0851997e-7, 3), "1.09·10⁻⁷");
         assert_eq!(significant(-0.25, 3), "−0.25");
         assert_eq!(significant(1e10, 3), "1·10¹⁰");

@@ -3,6 +3,7 @@
 use crate::number::{hertz, percent, significant, with_bar};
 use crate::results::{Band, Number, Results, Sensor, Unknown};
 use crate::status::{label, meaning};
+use crate::stretches::points;
 use frfit::frequency::bands_hz;
 use frfit::identify::{Status, Trust};
 
@@ -132,7 +133,7 @@ fn what(results: &Results) -> String {
 fn unusable(results: &Results) -> Option<String> {
     let what = what(results);
     if results.summary.word("/fit/verdict") == "not explained" {
-        return Some(format!("Do not use the {what} yet: the model cannot explain the measurements."));
+        return Some(format!("The model cannot explain the measurements, so no {what} can be trusted."));
     }
     let is_free = results.unknowns.iter().any(Unknown::is_free);
     let (_, ok) = trusted(&results.band);
@@ -222,15 +223,17 @@ fn contradicting(results: &Results) -> bool {
 }
 
 fn shares(band: &Band, own: bool) -> Vec<Share> {
+    let points = points(band);
     let there = Status::ALL.into_iter().filter(|&status| band.count(status) > 0);
     there
         .map(|status| {
-            let bands = bands_hz(band.frequency_hz.iter().zip(&band.status).map(|(&f, &s)| (f, s == status)));
+            let bands = bands_hz(points.iter().map(|&(f, s)| (f, s == status)));
+            let place = if bands.is_empty() { "lines between the others.".into() } else { where_(&bands) };
             Share {
                 status,
                 count: band.count(status),
                 label: label(status, own),
-                words: format!("{}: {}", meaning(status, own), where_(&bands)),
+                words: format!("{}: {place}", meaning(status, own)),
             }
         })
         .collect()
@@ -317,6 +320,7 @@ fn cautions(results: &Results, is_confirmed: bool) -> Vec<String> {
     let is_confirmed_alone = is_confirmed && (!is_tested || is_by_rule);
     let doubt = doubt_of_fit(results).filter(|_| contradicted.is_empty() && (is_tested || !is_confirmed));
     cautions.extend(doubt);
+    cautions.extend(suspects(results));
     for one in contradicted {
         let text = one.get("text").and_then(serde_json::Value::as_str).unwrap_or("");
         cautions.push(format!("The measurements contradict what the case takes for known: {text}."));
@@ -327,6 +331,40 @@ fn cautions(results: &Results, is_confirmed: bool) -> Vec<String> {
         cautions.push("Of several solutions the one with the smallest correction was taken (selection = \"smallest\", the rule of the paper). It can be the wrong one and has no error bars. Run again with selection = \"joint\", which weighs all solutions over the band.".into());
     }
     cautions
+}
+
+/// Known parts of the model that the measurement contradicts by more than two standard deviations.
+fn suspects(results: &Results) -> Vec<String> {
+    let text = |of: &serde_json::Value, key: &str| {
+        of.get(key).and_then(serde_json::Value::as_str).unwrap_or("").replace('_', " ")
+    };
+    let error = |of: &serde_json::Value| {
+        let number = |key: &str| of.get(key).and_then(serde_json::Value::as_f64);
+        let (error, std) = (number("error")?, number("std")?);
+        (error.abs() > 2.0 * std).then_some((error, std))
+    };
+    let off =
+        |(error, std): (f64, f64)| format!("{:+.2} ± {:.2} %", 100.0 * error, 200.0 * std).replace('-', "−");
+    let summary = &results.summary;
+    // A loss factor is off by a number, not by a share: the table of errors has it.
+    let matrices =
+        summary.array("/model_errors/matrices").iter().filter(|one| text(one, "part") != "loss factor");
+    let matrices = matrices.filter_map(|one| {
+        let off = off(error(one)?);
+        Some(format!(
+            "Check what the model takes for {}: according to the measurement it is off by {off}.",
+            text(one, "matrix")
+        ))
+    });
+    let channels = summary.array("/model_errors/calibrations").iter();
+    let channels = channels.filter_map(|one| {
+        let off = off(error(one)?);
+        Some(format!(
+            "Check the calibration of {}: according to the model it is off by {off}.",
+            text(one, "channel")
+        ))
+    });
+    matrices.chain(channels).collect()
 }
 
 /// Only the known values test the answer: what a measurement needs in their place.
@@ -404,7 +442,10 @@ fn tiles_of(results: &Results, one: &Unknown) -> Vec<Tile> {
         Some(Tile {
             label: format!("{of}{label} at {}", hertz(band.frequency_hz[middle])),
             value: value(middle)?,
-            detail: format!("{}; {}, {}", bars(band.at(&name, middle)?, std), end(first)?, end(last)?),
+            detail: match first == last {
+                true => bars(band.at(&name, middle)?, std),
+                false => format!("{}; {}, {}", bars(band.at(&name, middle)?, std), end(first)?, end(last)?),
+            },
         })
     };
     let parts = [("storage", one.what()[0], one.unit()), ("loss_factor", "Loss factor η", "")];
@@ -466,7 +507,7 @@ fn tiles_of_band(results: &Results, nominal_error: &[Option<f64>], own: bool) ->
         label: format!("Frequencies that are {}", if own { "trusted" } else { "explained" }),
         value: percent(ok as f64 / asked.max(1) as f64),
         detail: format!(
-            "{ok} of {asked} between {} and {}",
+            "{ok} of {asked}, from {} to {}",
             hertz(band.frequency_hz[0]),
             hertz(band.frequency_hz[band.len() - 1])
         ),

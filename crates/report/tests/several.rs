@@ -63,7 +63,7 @@ fn what_is_not_told_comes_before_the_numbers_and_has_none() {
             "Not identifiable from these measurements: mass larger with skins storage smaller: not identifiable.",
             "<td>mass</td><td>not identifiable</td>",
             "<dd class=\"value\">not identifiable</dd>",
-            "the measurements do not limit it",
+            "the measurements do not limit this combination",
         ],
     );
     assert!(!text(&made).contains("0.065 "));

@@ -31,13 +31,24 @@ function digits(value, count = 5) {
 /** A value in a unit. */
 const inUnit = (value, count = 5, unit = "") => (value === null || value === undefined ? "–" : `${digits(value, count)}${unit && ` ${unit}`}`);
 
+/** A number and its bar: the bar has two digits, and the number as many places. */
+function barred(value, bar) {
+  if (!(bar > 0)) return digits(value);
+  const first = (x) => (x === 0 ? 0 : Math.floor(Math.log10(Math.abs(x))));
+  const places = 1 - first(bar);
+  if (places > 9 || places + first(value) > 6) return `${digits(value, 7)} ± ${digits(bar, 1)}`;
+  return minus(`${value.toFixed(Math.max(0, places))} ± ${bar.toFixed(Math.max(0, places))}`);
+}
+
 /** The same with two standard deviations, both with one power of ten. */
 function withBar(value, std, unit = "") {
   if (std === null || std === undefined || value === null) return inUnit(value, 5, unit);
   const after = unit && ` ${unit}`;
-  if (isPlain(value)) return `${digits(value)} ± ${digits(2 * std, 2)}${after}`;
+  if (isPlain(value)) return barred(value, 2 * std) + after;
   const exponent = Math.floor(Math.log10(Math.abs(value)));
-  return `(${digits(value / 10 ** exponent)} ± ${digits((2 * std) / 10 ** exponent, 2)})·10${raised(exponent)}${after}`;
+  // A bar that is too small for the digits of the value has a power of its own.
+  if (2 * std < 1e-5 * 10 ** exponent) return `${digits(value, 7)} ± ${digits(2 * std, 1)}${after}`;
+  return `(${barred(value / 10 ** exponent, (2 * std) / 10 ** exponent)})·10${raised(exponent)}${after}`;
 }
 
 /** The row of ascending frequencies that is nearest. */

@@ -12,7 +12,7 @@ addPlot({
     const made = [];
     if (sensor.nominal && this.shows) made.push(line("nominal", sensor.nominal.re, sensor.nominal.im, "nominal", format, { dash: "dash", ...hover }));
     if (sensor.measured) made.push(dots("measured", sensor.measured.re, sensor.measured.im, "measured", format, { size: 4, ...hover }));
-    if (sensor.updated) made.push(line("updated", sensor.updated.re, sensor.updated.im, "updated", format, hover));
+    if (sensor.updated) made.push(line("updated", sensor.updated.re, sensor.updated.im, "updated", format, { ...hover, ...marksOfLonePoints(sensor.updated.re, "updated") }));
     return made;
   },
   layout: () => ({ xaxis: { title: "Real part (m/(s²·N))", constrain: "domain" }, yaxis: { title: "Imaginary part (m/(s²·N))", scaleanchor: "x" } }),

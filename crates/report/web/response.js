@@ -21,6 +21,9 @@ function phase(response) {
   return [x, y];
 }
 
+/** Marks on a curve of which some points stand alone between lines that were left out. */
+const marksOfLonePoints = (values, shade) => (values.some((value, k) => value !== null && (values[k - 1] ?? null) === null && (values[k + 1] ?? null) === null) ? { mode: "lines+markers", marker: { color: color(shade), size: 6, symbol: "diamond-open" } } : {});
+
 const ACCELERANCE = (y) => `${digits(y, 4)} m/(s²·N)`;
 const DEGREES = (y) => `${minus(y.toFixed(1))}°`;
 
@@ -39,7 +42,7 @@ addPlot({
       const bars = sensor.measured_std && { error_y: { type: "data", array: sensor.measured_std.map((std) => std && Math.SQRT2 * std), color: color("evidence"), thickness: 1, width: 0 } };
       made.push(dots("measured", f, size(measured), "measured", ACCELERANCE, { legendgroup: "measured", size: 4, ...bars }));
     }
-    if (updated) made.push(line("updated", f, size(updated), "updated", ACCELERANCE, { legendgroup: "updated" }));
+    if (updated) made.push(line("updated", f, size(updated), "updated", ACCELERANCE, { legendgroup: "updated", ...marksOfLonePoints(updated.re, "updated") }));
     const below = (name, response, shade, more) => {
       const [x, y] = phase(response);
       made.push({ ...line(name, x, y, shade, DEGREES, more), yaxis: "y2", showlegend: false, legendgroup: name });
@@ -49,7 +52,7 @@ addPlot({
       const [x, y] = phase(measured);
       made.push({ ...dots("measured", x, y, "measured", DEGREES, { size: 3 }), yaxis: "y2", showlegend: false, legendgroup: "measured" });
     }
-    if (updated) below("updated", updated, "updated");
+    if (updated) below("updated", updated, "updated", marksOfLonePoints(updated.re, "updated"));
     return made;
   },
   layout: () => ({

@@ -1,24 +1,9 @@
 // Which status each stretch of the band has: the ground of plots over frequency.
 
-/** Status, begin and end of each stretch; one that is too narrow to be seen belongs to its neighbour. */
-const stretches = (() => {
-  const { frequency_hz: f, status } = data;
-  const last = f.length - 1;
-  const narrow = (f[last] - f[0]) / 3000;
-  // From half-way to the neighbour before to half-way to the one behind.
-  const edge = (row) => (row === 0 ? f[0] : row > last ? f[last] : (f[row - 1] + f[row]) / 2);
-  const made = [];
-  let start = 0;
-  for (let row = 1; row <= f.length; row++) {
-    if (row < f.length && status[row] === status[start]) continue;
-    const [from, to] = [edge(start), edge(row)];
-    if (!made.length || to - made.at(-1).to > narrow) made.push({ status: status[start], from: made.at(-1)?.to ?? from, to });
-    start = row;
-  }
-  // A single line has no width of its own.
-  if (made.length === 1 && made[0].from === made[0].to) made[0] = { ...made[0], from: 0.98 * f[0], to: 1.02 * f[0] };
-  return made;
-})();
+/** Status, begin and end of each stretch. */
+const stretches = data.stretches.map(([status, from, to]) => ({ status, from, to }));
+// A single line has no width of its own.
+if (stretches.length === 1 && stretches[0].from === stretches[0].to) Object.assign(stretches[0], { from: 0.98 * stretches[0].from, to: 1.02 * stretches[0].to });
 
 /** The range of a frequency axis: the band with a little room. */
 function bandRange(isLog) {
@@ -28,7 +13,7 @@ function bandRange(isLog) {
 }
 
 /** The statuses that there are, in the order of the list. */
-const present = data.statuses.map((_, k) => k).filter((k) => data.status.includes(k));
+const present = data.statuses.map((_, k) => k).filter((k) => stretches.some(({ status }) => status === k) || (data.statuses[k].trust !== "not asked" && data.status.includes(k)));
 
 /** Grounds of a panel with the axes of that name, a trace a status. */
 function grounds(axis) {

@@ -26,9 +26,11 @@ pub(super) fn contents(sections: &str) -> String {
     html + "</ol></nav>\n"
 }
 
-/// Level, id and text of each heading that has an id.
+/// Level, id and text of each heading that has an id; those within a part that is folded away are left out.
 fn headings(html: &str) -> impl Iterator<Item = (u8, &str, &str)> {
-    html.split("<h").skip(1).filter_map(|rest| {
+    let mut is_folded = false;
+    html.match_indices("<h").filter_map(move |(at, _)| {
+        let (before, rest) = (&html[..at], &html[at + 2..]);
         let level = match rest.as_bytes().first()? {
             b'2' => 2,
             b'3' => 3,
@@ -36,7 +38,10 @@ fn headings(html: &str) -> impl Iterator<Item = (u8, &str, &str)> {
         };
         let (id, rest) = rest[1..].strip_prefix(" id=\"")?.split_once('"')?;
         let (_, rest) = rest.split_once('>')?;
-        Some((level, id, rest.split_once("</h")?.0))
+        if level == 2 {
+            is_folded = before.ends_with("<summary>");
+        }
+        (level == 2 || !is_folded).then_some((level, id, rest.split_once("</h")?.0))
     })
 }
 
@@ -46,7 +51,8 @@ mod tests {
 
     #[test]
     fn headings_with_an_id_are_listed_in_their_order_and_nested() {
-        let html = "<h2 id=\"a\" class=\"x\">A &amp; B</h2><h3>no id</h3><h3 id=\"b\">C</h3><h3 id=\"c\">D</h3><hr><h2 id=\"d\">E</h2>";
+        let html = "<h2 id=\"a\" class=\"x\">A &amp; B</h2><h3>no id</h3><h3 id=\"b\">C</h3><h3 id=\"c\">D</h3><hr>\
+                    <summary><h2 id=\"d\">E</h2></summary><h3 id=\"e\">F</h3>";
         let list = contents(html);
         let items = "<ol><li><a href=\"#a\">A &amp; B</a><ol><li><a href=\"#b\">C</a></li><li><a href=\"#c\">D</a></li></ol></li>\
                      <li><a href=\"#d\">E</a></li></ol>";

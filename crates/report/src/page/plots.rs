@@ -47,11 +47,10 @@ pub(super) fn fit(results: &Results) -> String {
     }
     html += &plot(
         "accelerance",
-        "Frequency response: measured, nominal and updated",
-        "Accelerance, magnitude and phase. The updated model should lie on the measured points. The nominal model shows how far off the model was before.",
+        "Frequency response",
+        "Accelerance, magnitude and phase, as measured and of both models. The updated model should lie on the measured points. The nominal model shows how far off the model was before.",
     );
     html += &error(&results.band);
-    html += "<div class=\"pair\">";
     html += &plot(
         "frac",
         "Agreement of each sensor (FRAC)",
@@ -62,7 +61,7 @@ pub(super) fn fit(results: &Results) -> String {
         "Nyquist plot of the accelerance",
         "Each resonance is a loop. The loops of measurement and updated model should be the same.",
     );
-    html + "</div>\n"
+    html
 }
 
 /// Whether the results have errors of the model that were found.

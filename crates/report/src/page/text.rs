@@ -6,6 +6,7 @@ use super::{heading, section};
 use crate::escape::escape;
 use crate::number::{hertz, significant, with_bar};
 use crate::results::{Results, Unknown};
+use crate::stretches::{Stretch, stretches};
 use crate::verdict::{Level, Verdict};
 use frfit::c64;
 use frfit::identify::Status;
@@ -68,6 +69,12 @@ pub(super) fn verdict(results: &Results, verdict: &Verdict) -> String {
 fn first(results: &Results, verdict: &Verdict) -> String {
     let mut html = heading("first", "What to do first");
     let mut steps: Vec<String> = results.summary.array("/findings").iter().map(finding).collect();
+    if verdict.level == Level::Good {
+        steps.push(
+            "Use the values in identified.csv, with their standard deviations where there are any. <code>frfit export</code> writes them for Nastran, Abaqus or Ansys."
+                .into(),
+        );
+    }
     steps.extend(verdict.cautions.iter().map(|caution| escape(caution)));
     if !results.summary.array("/modes/measured/modes").is_empty() {
         steps.push(
@@ -75,15 +82,13 @@ fn first(results: &Results, verdict: &Verdict) -> String {
                 .into(),
         );
     }
-    if verdict.level == Level::Good {
+    if verdict.level == Level::Care && verdict.own && verdict.shares.len() > 1 {
         steps.push(
-            "Use the values and standard deviations in identified.csv. <code>frfit export</code> writes them for Nastran, Abaqus or Ansys."
+            "Use the values of trusted frequencies only. <a href=\"#where\">The list of statuses</a> gives the reasons at the others."
                 .into(),
         );
     }
-    if steps.is_empty() {
-        html += "<p>Use the values of trusted frequencies only. The list below gives the reasons at the others.</p>\n";
-    } else {
+    if !steps.is_empty() {
         let items: String = steps.iter().map(|step| format!("<li>{step}</li>")).collect();
         let _ = writeln!(html, "<ol class=\"steps\">{items}</ol>");
     }
@@ -104,34 +109,13 @@ pub(super) fn result(results: &Results, plots: &str) -> String {
 fn strip(results: &Results, verdict: &Verdict) -> String {
     let band = &results.band;
     let (first, last) = (band.frequency_hz[0], band.frequency_hz[band.len() - 1]);
-    let width = |f: f64| if last > first { 100.0 * (f - first) / (last - first) } else { 100.0 };
-    let mut pieces = String::new();
-    let mut start = 0;
-    let mut drawn = -1.0;
-    for row in 1..=band.len() {
-        if row < band.len() && band.status[row] == band.status[start] {
-            continue;
-        }
-        // From half-way to the neighbour before to half-way to the one behind.
-        let edge = |row: usize| match row {
-            0 => first,
-            row if row >= band.len() => last,
-            row => f64::midpoint(band.frequency_hz[row - 1], band.frequency_hz[row]),
-        };
-        let (x, end) = (width(edge(start)), width(edge(row)));
-        let x = if start == 0 { 0.0 } else { x };
-        // Narrower than a third of a pixel nothing is seen, and a page has room for some thousand.
-        if end - drawn > 0.035 {
-            let _ = write!(
-                pieces,
-                "<i class=\"tint {}\" style=\"left:{x:.3}%;width:{:.3}%\"></i>",
-                band.status[start].name(),
-                (end - x).max(0.035)
-            );
-            drawn = end;
-        }
-        start = row;
-    }
+    let place = |f: f64| if last > first { 100.0 * (f - first) / (last - first) } else { 0.0 };
+    let piece = |one: &Stretch| {
+        let width = if last > first { place(one.to) - place(one.from) } else { 100.0 };
+        let name = one.status.name();
+        format!("<i class=\"tint {name}\" style=\"left:{:.3}%;width:{width:.3}%\"></i>", place(one.from))
+    };
+    let pieces: String = stretches(band).iter().map(piece).collect();
     let mut html = heading(
         "where",
         if verdict.own {
@@ -251,7 +235,7 @@ fn three_rows(results: &Results, one: &Unknown) -> String {
          <thead><tr><th>Frequency</th><th>{2}{3}</th>{4}<th>{5}</th></tr></thead><tbody>",
         heading(
             &format!("three{}", id_of(results, one)),
-            &format!("Values at the lowest, middle and highest trusted frequency{}", escape(&of))
+            &format!("Values{} at three frequencies", escape(&of))
         ),
         escape(&of),
         escape(&title),
