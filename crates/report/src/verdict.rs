@@ -391,12 +391,12 @@ fn doubt_of_fit(results: &Results) -> Option<String> {
         "nearly explained" => {
             match summary.number("/model_errors/response_std").filter(|rest| *rest > 0.0) {
                 Some(rest) => format!(
-                    "Beside noise and errors of the model, {} of the response remains unexplained. The error bars contain it.",
+                    "Use the values with their error bars. Beside noise and errors of the model {} of the response remains unexplained; the error bars contain this.",
                     percent(rest)
                 ),
                 None => {
                     let times = significant(summary.number("/fit/chi2_per_freedom").map_or(1.0, f64::sqrt), 3);
-                    format!("The misfit is {times} times the given noise. The error bars are longer by this factor.")
+                    format!("Use the values with their error bars. The misfit is {times} times the noise; the error bars are longer by this factor.")
                 }
             }
         }

@@ -36,7 +36,7 @@ addPlot({
     const f = sensor.frequency_hz;
     const [nominal, measured, updated] = [sensor.nominal, sensor.measured, sensor.updated];
     const made = [];
-    if (nominal) made.push(line("nominal", f, size(nominal), "nominal", ACCELERANCE, { dash: "dash", legendgroup: "nominal" }));
+    if (nominal) made.push(line("nominal", f, size(nominal), "nominal", ACCELERANCE, { dash: "dash", legendgroup: "nominal", ...marksOfLonePoints(nominal.re, "nominal") }));
     if (measured) {
       // Two standard deviations of the modulus, which has half of the variance of the complex value.
       const bars = sensor.measured_std && { error_y: { type: "data", array: sensor.measured_std.map((std) => std && Math.SQRT2 * std), color: color("evidence"), thickness: 1, width: 0 } };
@@ -47,7 +47,7 @@ addPlot({
       const [x, y] = phase(response);
       made.push({ ...line(name, x, y, shade, DEGREES, more), yaxis: "y2", showlegend: false, legendgroup: name });
     };
-    if (nominal) below("nominal", nominal, "nominal", { dash: "dash" });
+    if (nominal) below("nominal", nominal, "nominal", { dash: "dash", ...marksOfLonePoints(nominal.re, "nominal") });
     if (measured) {
       const [x, y] = phase(measured);
       made.push({ ...dots("measured", x, y, "measured", DEGREES, { size: 3 }), yaxis: "y2", showlegend: false, legendgroup: "measured" });

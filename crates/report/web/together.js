@@ -39,5 +39,5 @@ addPlot({
     made.push({ ...line("all other values fitted again", distance, chi2, "updated", (y, x) => `Δχ² ${digits(y, 3)} at ${digits(x, 3)}`), mode: "lines+markers", marker: { color: color("updated"), size: 6 } });
     return made;
   },
-  layout: () => ({ xaxis: { title: "Change along the combination (1 is a factor of e)" }, yaxis: { title: "Growth of χ²" }, showlegend: true }),
+  layout: () => ({ xaxis: { title: "Change (1 is a factor of e)" }, yaxis: { title: "Growth of χ²" }, showlegend: true }),
 });
