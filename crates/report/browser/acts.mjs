@@ -12,6 +12,13 @@ const marks = (page) => page.$$eval("figure.plot", (figures) => Object.fromEntri
 
 const settle = (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
 
+/** Does what draws all plots anew, and waits until they are drawn, however slow the machine is. */
+async function redrawn(page, act) {
+  await page.evaluate(() => delete document.documentElement.dataset.drawn);
+  await act();
+  await page.waitForSelector("html[data-drawn]", { timeout: 60_000 });
+}
+
 /** What the pointer shows over a point of the last curve that is drawn in a plot. */
 async function pointed(page, id) {
   const place = await page.evaluate((id) => {
@@ -99,12 +106,10 @@ export async function logarithms(page) {
   if (before !== "log" || after !== "linear") wrong.push(`|a| goes from ${before} to ${after}`);
   if ((await button.getAttribute("aria-pressed")) !== "false") wrong.push("the switch of |a| does not say so");
   await button.click();
-  await page.locator("#log-frequency").click();
-  await page.waitForTimeout(1500);
+  await redrawn(page, () => page.locator("#log-frequency").click());
   const all = await page.$$eval("figure.plot", (figures) => figures.filter((figure) => figure.querySelector(".cursor-line")).map((figure) => [figure.id, figure.querySelector(".canvas")._fullLayout.xaxis.type]));
   wrong.push(...all.filter(([, type]) => type !== "log").map(([id]) => `the frequency of ${id} stays linear`));
-  await page.locator("#log-frequency").click();
-  await page.waitForTimeout(1500);
+  await redrawn(page, () => page.locator("#log-frequency").click());
   return wrong;
 }
 
@@ -283,10 +288,8 @@ export async function statuses(page) {
 export async function theme(page) {
   const look = () => page.evaluate(() => [document.documentElement.dataset.theme, getComputedStyle(document.body).backgroundColor, getComputedStyle(document.querySelector("#plot-accelerance .xtick text")).fill]);
   const before = await look();
-  await page.locator("#theme").click();
-  await page.waitForTimeout(2500);
+  await redrawn(page, () => page.locator("#theme").click());
   const after = await look();
-  await page.locator("#theme").click();
-  await page.waitForTimeout(2500);
+  await redrawn(page, () => page.locator("#theme").click());
   return before.some((value, k) => value === after[k]) ? [`the switch of colours leaves ${JSON.stringify(before)} at ${JSON.stringify(after)}`] : [];
 }
