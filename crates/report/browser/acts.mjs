@@ -1,5 +1,6 @@
 // What a reader does with a page: functions that do it and return sentences about what did not happen.
 import { readFile } from "node:fs/promises";
+import { unfold } from "./open.mjs";
 
 const visiblePlots = (page) => page.$$eval("figure.plot", (figures) => figures.map((figure) => figure.id));
 
@@ -10,6 +11,13 @@ const marks = (page) => page.$$eval("figure.plot", (figures) => Object.fromEntri
 })));
 
 const settle = (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+
+/** Does what draws all plots anew, and waits until they are drawn, however slow the machine is. */
+async function redrawn(page, act) {
+  await page.evaluate(() => delete document.documentElement.dataset.drawn);
+  await act();
+  await page.waitForSelector("html[data-drawn]", { timeout: 60_000 });
+}
 
 /** What the pointer shows over a point of the last curve that is drawn in a plot. */
 async function pointed(page, id) {
@@ -59,7 +67,9 @@ export async function cursor(page) {
     const after = await marks(page);
     const values = await page.locator("#cursor-values").textContent();
     for (const [id, place] of Object.entries(after)) {
-      if (id !== "plot-frac" && place === before[id] && place !== null) wrong.push(`${what}: the cursor stays in ${id}`);
+      // A modulus that is the same at all frequencies is one point in the complex plane.
+      const mayStay = /^plot-(frac|cole-cole|wicket)/.test(id);
+      if (!mayStay && place === before[id] && place !== null) wrong.push(`${what}: the cursor stays in ${id}`);
     }
     const seen = Object.entries(after).filter(([id, place]) => id !== "plot-frac" && place !== null).length;
     if (seen < 3) wrong.push(`${what}: the cursor is seen in ${seen} plots only`);
@@ -89,19 +99,17 @@ export async function logarithms(page) {
   const wrong = [];
   const axis = (id, name) => page.evaluate(([id, name]) => document.querySelector(`#${id} .canvas`)._fullLayout[name].type, [id, name]);
   const before = await axis("plot-accelerance", "yaxis");
-  const button = page.getByRole("button", { name: "Logarithmic |a|: Accelerance: measured, nominal, updated" });
+  const button = page.getByRole("button", { name: "Logarithmic |a|: Frequency response" });
   await button.click();
   await page.waitForTimeout(100);
   const after = await axis("plot-accelerance", "yaxis");
   if (before !== "log" || after !== "linear") wrong.push(`|a| goes from ${before} to ${after}`);
   if ((await button.getAttribute("aria-pressed")) !== "false") wrong.push("the switch of |a| does not say so");
   await button.click();
-  await page.locator("#log-frequency").click();
-  await page.waitForTimeout(1500);
+  await redrawn(page, () => page.locator("#log-frequency").click());
   const all = await page.$$eval("figure.plot", (figures) => figures.filter((figure) => figure.querySelector(".cursor-line")).map((figure) => [figure.id, figure.querySelector(".canvas")._fullLayout.xaxis.type]));
   wrong.push(...all.filter(([, type]) => type !== "log").map(([id]) => `the frequency of ${id} stays linear`));
-  await page.locator("#log-frequency").click();
-  await page.waitForTimeout(1500);
+  await redrawn(page, () => page.locator("#log-frequency").click());
   return wrong;
 }
 
@@ -134,13 +142,13 @@ export async function zooms(page) {
   await page.mouse.up();
   await page.waitForTimeout(400);
   const dragged = width(await range());
-  await page.getByRole("button", { name: "Reset zoom: Accelerance: measured, nominal, updated" }).click();
+  await page.getByRole("button", { name: "Reset zoom: Frequency response" }).click();
   await page.waitForTimeout(200);
   const reset = width(await range());
-  await page.getByRole("button", { name: "Zoom in: Accelerance: measured, nominal, updated" }).click();
+  await page.getByRole("button", { name: "Zoom in: Frequency response" }).click();
   await page.waitForTimeout(200);
   const nearer = width(await range());
-  await page.getByRole("button", { name: "Reset zoom: Accelerance: measured, nominal, updated" }).click();
+  await page.getByRole("button", { name: "Reset zoom: Frequency response" }).click();
   const close = (a, b) => Math.abs(a - b) < 0.02 * whole;
   return [
     ...(close(dragged, 0.2 * whole) ? [] : [`dragging over a fifth leaves ${dragged / whole} of the axis`]),
@@ -207,7 +215,7 @@ export async function keyboard(page) {
     window.reached = new Set();
     window.unseen = [];
   });
-  const wanted = await page.$$eval("button, input, select, [tabindex='0']", (all) => all.filter((one) => !one.disabled && one.checkVisibility()).length);
+  const wanted = await page.$$eval("button, input, select, summary, a[href], [tabindex='0']", (all) => all.filter((one) => !one.disabled && one.checkVisibility()).length);
   for (let k = 0; k < wanted + 5; k++) {
     await page.keyboard.press("Tab");
     await page.evaluate(() => {
@@ -221,14 +229,67 @@ export async function keyboard(page) {
   return [...(reached >= wanted ? [] : [`the tabulator reaches ${reached} of ${wanted} controls`]), ...unseen.map((html) => `no outline where the focus is: ${html}`)];
 }
 
+/** A link of the table of contents opens what is folded away, and draws what is in it. */
+export async function contents(page) {
+  const wrong = [];
+  const close = () => page.evaluate(() => document.querySelectorAll("details").forEach((part) => (part.open = false)));
+  await close();
+  for (const target of await page.$$eval("#contents a", (links) => links.map((link) => link.hash))) {
+    const link = page.locator(`#contents a[href="${target}"]`);
+    // On a narrow page the list has the parts only.
+    if (!(await link.isVisible())) continue;
+    await link.click();
+    await page.waitForTimeout(60);
+    const [top, isSeen, height] = await page.evaluate((id) => {
+      const at = document.getElementById(id);
+      return [at.getBoundingClientRect().top, at.checkVisibility(), innerHeight];
+    }, target.slice(1));
+    if (!isSeen || top < -1 || top > height) wrong.push(`${target} is ${isSeen ? `at ${top}` : "not shown"} after a click on its link`);
+  }
+  await page.waitForTimeout(2000);
+  const empty = await page.$$eval("figure.plot .canvas", (all) => all.filter((canvas) => canvas.checkVisibility() && !canvas._fullLayout).length);
+  if (empty) wrong.push(`${empty} plots are shown and not drawn`);
+  await close();
+  await page.evaluate(() => scrollTo(0, 0));
+  await unfold(page);
+  return wrong;
+}
+
+/** The ground of every plot over frequency shows the status of each frequency, and its legend names all of them. */
+export async function statuses(page) {
+  return page.evaluate(() => {
+    const { frequency_hz: frequencies, status, statuses } = JSON.parse(document.getElementById("data").textContent);
+    const wrong = [];
+    for (const figure of document.querySelectorAll("figure.plot")) {
+      const canvas = figure.querySelector(".canvas");
+      const grounds = canvas.data.filter(({ yaxis }) => yaxis === "y8");
+      if (!figure.querySelector(".cursor-line") || figure.id === "plot-error-map") {
+        if (grounds.length) wrong.push(`${figure.id} has a ground and no frequency`);
+        continue;
+      }
+      const legend = figure.querySelector(".grounds").textContent;
+      const isOf = (trace, frequency) => trace.x.some((x, k) => k % 5 === 0 && x <= frequency && frequency <= trace.x[k + 2]);
+      let off = 0;
+      frequencies.forEach((frequency, row) => {
+        const { label, trust } = statuses[status[row]];
+        // A line that was passed over between others has no ground of its own.
+        if (trust === "not asked") return;
+        if (!legend.includes(label)) wrong.push(`${figure.id}: no ${label} in ${legend}`);
+        if (!grounds.some((trace) => trace.name === label && isOf(trace, frequency))) off += 1;
+      });
+      // Stretches that are too narrow to be seen are left out.
+      if (off > 0.01 * frequencies.length) wrong.push(`${figure.id}: the ground of ${off} of ${frequencies.length} frequencies is another`);
+    }
+    return [...new Set(wrong)];
+  });
+}
+
 /** The switch of colours turns the page and its plots. */
 export async function theme(page) {
   const look = () => page.evaluate(() => [document.documentElement.dataset.theme, getComputedStyle(document.body).backgroundColor, getComputedStyle(document.querySelector("#plot-accelerance .xtick text")).fill]);
   const before = await look();
-  await page.locator("#theme").click();
-  await page.waitForTimeout(2500);
+  await redrawn(page, () => page.locator("#theme").click());
   const after = await look();
-  await page.locator("#theme").click();
-  await page.waitForTimeout(2500);
+  await redrawn(page, () => page.locator("#theme").click());
   return before.some((value, k) => value === after[k]) ? [`the switch of colours leaves ${JSON.stringify(before)} at ${JSON.stringify(after)}`] : [];
 }

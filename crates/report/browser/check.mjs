@@ -3,7 +3,7 @@ import { mkdir, readdir } from "node:fs/promises";
 import { join, resolve } from "node:path";
 import * as acts from "./acts.mjs";
 import * as looks from "./looks.mjs";
-import { launch, open } from "./open.mjs";
+import { launch, open, unfold } from "./open.mjs";
 
 const [executable, reports, pictures] = process.argv.slice(2);
 
@@ -21,8 +21,12 @@ async function check(browser, name, width, colorScheme, work) {
   const where = `${name} ${width} ${colorScheme}`;
   const file = resolve(reports, name, "report.html");
   const { page, context, said, asked, milliseconds } = await open(browser, file, { width, colorScheme });
-  for (const [what, look] of Object.entries(looks)) tell(`${where} ${what}`, await page.evaluate(look));
-  await page.screenshot({ path: join(pictures, `${name}-${width}-${colorScheme}.png`), fullPage: true });
+  // As it is opened, then with everything that is folded away.
+  for (const state of ["", "-unfolded"]) {
+    if (state) await unfold(page);
+    for (const [what, look] of Object.entries(looks)) tell(`${where}${state} ${what}`, await page.evaluate(look));
+    await page.screenshot({ path: join(pictures, `${name}-${width}-${colorScheme}${state}.png`), fullPage: true });
+  }
   for (const act of work) tell(`${where} ${act.name}`, await act(page));
   if (milliseconds > LONGEST) tell(where, [`drawn after ${milliseconds} ms`]);
   tell(`${where} console`, said);
@@ -38,10 +42,10 @@ async function check(browser, name, width, colorScheme, work) {
 await mkdir(pictures, { recursive: true });
 const names = (await readdir(reports)).sort();
 const browser = await launch(executable);
-const all = [acts.hover, acts.cursor, acts.logarithms, acts.switches, acts.zooms, acts.filters, acts.downloads, acts.keyboard, acts.theme];
+const all = [acts.hover, acts.cursor, acts.logarithms, acts.switches, acts.zooms, acts.filters, acts.downloads, acts.keyboard, acts.theme, acts.contents, acts.statuses];
 for (const name of names) {
   // What a reader does is the same code on every page: all of it on the page with everything, part of it on the others.
-  const some = [acts.hover, acts.cursor, acts.filters];
+  const some = [acts.hover, acts.cursor, acts.filters, acts.statuses];
   // What only several unknowns have is downloaded and reached by keyboard too.
   const most = name === "sandwich" ? all : name === "added-mass" ? [...some, acts.downloads, acts.keyboard] : some;
   await check(browser, name, 1280, "light", most);

@@ -89,7 +89,10 @@ export function texts() {
 /** Every plot has curves in it, and says in words what it is. */
 export function plots() {
   return [...document.querySelectorAll("figure.plot")].flatMap((figure) => {
-    const marks = figure.querySelectorAll(".scatterlayer path, .barlayer path, .hm image, .heatmaplayer image").length;
+    if (!figure.checkVisibility()) return [];
+    // The ground of statuses is no curve.
+    const curves = figure.querySelector(".canvas").data.filter(({ meta }) => !meta?.band);
+    const marks = curves.length && figure.querySelectorAll(".scatterlayer path, .barlayer path, .hm image, .heatmaplayer image").length;
     const name = figure.querySelector(".drawing").getAttribute("aria-label");
     return [...(marks ? [] : [`${figure.id} is empty`]), ...(name ? [] : [`${figure.id} has no name`])];
   });
@@ -108,4 +111,18 @@ export function structure() {
     if (!name) wrong.push(`a control without a name: ${control.outerHTML.slice(0, 80)}`);
   }
   return wrong;
+}
+
+/** Numbers are written as 2·10⁶: no 2e6, and no k, M or G behind the number of an axis. */
+export function numbers() {
+  const wrong = [];
+  for (const tick of document.querySelectorAll(".xtick text, .ytick text, .y2tick text")) {
+    if (/\d\s*[kMGTµmn]$|\de[+-]?\d|×/.test(tick.textContent)) wrong.push(`tick ${JSON.stringify(tick.textContent)} in ${tick.closest("figure").id}`);
+  }
+  const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+  while (walker.nextNode()) {
+    const { data, parentElement: parent } = walker.currentNode;
+    if (!parent.closest("script, style, code, svg, a") && /(^|[\s(])\d+(\.\d+)?e[+-]?\d+\b/.test(data)) wrong.push(`${JSON.stringify(data.trim().slice(0, 60))} has a number with e`);
+  }
+  return [...new Set(wrong)];
 }

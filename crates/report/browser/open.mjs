@@ -8,6 +8,15 @@ const FLAGS = [
 /** A browser with an empty profile of its own. */
 export const launch = (executablePath) => chromium.launch({ executablePath, args: FLAGS });
 
+/** Opens what is folded away and waits until its plots are drawn. */
+export async function unfold(page) {
+  await page.evaluate(() => {
+    delete document.documentElement.dataset.drawn;
+    for (const part of document.querySelectorAll("details")) part.open = true;
+  });
+  await page.waitForSelector("html[data-drawn]", { timeout: 60_000 });
+}
+
 /** Opens a report and waits until everything is drawn; `said` and `asked` go on being filled. */
 export async function open(browser, file, { width, colorScheme, height = 900 }) {
   const context = await browser.newContext({ viewport: { width, height }, colorScheme, acceptDownloads: true });

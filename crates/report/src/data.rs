@@ -2,7 +2,8 @@
 
 use crate::number::rounded;
 use crate::results::{Candidates, ErrorMap, Results, Sensor, Unknown, Verdict as Kind};
-use crate::status::label;
+use crate::status::{label, pattern};
+use crate::stretches::stretches;
 use crate::thin::{every, rows};
 use crate::verdict::Verdict;
 use frfit::c64;
@@ -73,9 +74,15 @@ pub(crate) fn data(results: &Results, verdict: &Verdict) -> Data {
         "together": together(results),
         "statuses": Status::ALL.map(|status| json!({
             "name": status.name(), "label": label(status, verdict.own), "trust": status.trust().name(),
+            "pattern": pattern(status),
         })),
         "frequency_hz": table.iter().map(|&row| rounded(Some(band.frequency_hz[row]), FREQUENCY_DIGITS)).collect::<Vec<_>>(),
         "status": table.iter().map(|&row| band.class(row)).collect::<Vec<_>>(),
+        "stretches": stretches(band).iter().map(|one| json!([
+            Status::ALL.iter().position(|&status| status == one.status),
+            rounded(Some(one.from), FREQUENCY_DIGITS),
+            rounded(Some(one.to), FREQUENCY_DIGITS),
+        ])).collect::<Vec<_>>(),
         "columns": columns,
         "nominal_error": pick(&verdict.nominal_error),
         "drawn": drawn,

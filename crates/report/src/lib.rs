@@ -7,6 +7,7 @@
 //! | `results` | the files read and checked |
 //! | `verdict` | what they say, in words: can the answer be used, how sure is it, why other lines have no answer |
 //! | `status` | how a status looks: its colour and its words |
+//! | `stretches` | which status each stretch of the band has |
 //! | `thin` | fewer points for curves of many, extremes kept |
 //! | `data` | what the plots and the table show, as JSON |
 //! | `page` | the page: text is made here, so that it is there without scripts and in print |
@@ -22,6 +23,7 @@ mod number;
 mod page;
 mod results;
 mod status;
+mod stretches;
 mod thin;
 mod verdict;
 

@@ -10,14 +10,16 @@ pub(crate) fn rounded(value: Option<f64>, digits: usize) -> Value {
     if value == f64::trunc(value) && value.abs() < 9e15 { json!(value as i64) } else { json!(value) }
 }
 
-/// Significant digits, without those that say nothing.
+/// Powers of ten of numbers that are written without one: 0.001 to 99999.
+const PLAIN: std::ops::Range<f64> = -3.0..5.0;
+
+/// Significant digits, without those that say nothing: `0.25`, `2·10⁶`.
 pub(crate) fn significant(value: f64, digits: usize) -> String {
     if value == 0.0 || !value.is_finite() {
         return value.to_string();
     }
-    let exponent = value.abs().log10().floor();
     let rounded: f64 = format!("{value:.*e}", digits - 1).parse().unwrap_or(value);
-    if (-4.0..7.0).contains(&exponent) {
+    if PLAIN.contains(&rounded.abs().log10().floor()) {
         return rounded.to_string().replace('-', "−");
     }
     let text = format!("{rounded:e}");
@@ -53,38 +55,35 @@ pub(crate) fn hertz(frequency_hz: f64) -> String {
     format!("{} Hz", significant(frequency_hz, 5))
 }
 
-/// The largest power of 1000 of a prefix that leaves a value above one, and the prefix.
-fn prefix(value: f64) -> (f64, &'static str) {
-    let known = [(1e12, "T"), (1e9, "G"), (1e6, "M"), (1e3, "k")];
-    known.into_iter().find(|(size, _)| value.abs() >= *size).unwrap_or((1.0, ""))
+/// A value in a unit, with two standard deviations where they are known: `(5.971 ± 0.012)·10⁶ Pa`.
+pub(crate) fn with_bar(value: f64, std: Option<f64>, unit: &str) -> String {
+    let space = if unit.is_empty() { "" } else { "\u{a0}" };
+    let Some(bar) = std.map(|std| 2.0 * std).filter(|bar| bar.is_finite() && *bar > 0.0) else {
+        return format!("{}{space}{unit}", significant(value, 4));
+    };
+    // Value and bar share one power of ten.
+    let exponent = value.abs().log10().floor();
+    if value != 0.0 && value.is_finite() && !PLAIN.contains(&exponent) {
+        let size = 10.0_f64.powf(exponent);
+        // A bar that is too small for the digits of the value has a power of its own.
+        if bar < 1e-5 * size {
+            return format!("{} ± {}{space}{unit}", significant(value, 7), significant(bar, 1));
+        }
+        let power = superscript(&exponent.to_string());
+        return format!("({})·10{power}{space}{unit}", plain_with_bar(value / size, bar / size));
+    }
+    format!("{}{space}{unit}", plain_with_bar(value, bar))
 }
 
-/// A value in a unit, with two standard deviations where they are known: `5.971 ± 0.012 MPa`. Units of Pa and of s take prefixes; others, as MPa and psi, take none.
-pub(crate) fn with_bar(value: f64, std: Option<f64>, unit: &str) -> String {
-    // Without a prefix long numbers take a power of ten, one for value and bar.
-    let exponent = value.abs().log10().floor();
-    if let (true, Some(std)) = (unit.is_empty() && value != 0.0 && !(-4.0..7.0).contains(&exponent), std)
-        && std > 0.0
-        && std.is_finite()
-    {
-        let size = 10.0_f64.powf(exponent);
-        let power = superscript(&exponent.to_string());
-        return format!("({})·10{power}", with_bar(value / size, Some(std / size), ""));
-    }
-    let (size, prefix) = if unit.starts_with("Pa") || unit == "s" { prefix(value) } else { (1.0, "") };
-    let value = value / size;
-    let space = if unit.is_empty() { "" } else { "\u{a0}" };
-    let Some(bar) = std.map(|std| 2.0 * std / size).filter(|bar| bar.is_finite() && *bar > 0.0) else {
-        return format!("{}{space}{prefix}{unit}", significant(value, 4));
-    };
-    // The bar has two digits, and the value as many places; seven digits of a value are enough for anyone.
+/// The bar has two digits, and the value as many places; seven digits of a value are enough for anyone.
+fn plain_with_bar(value: f64, bar: f64) -> String {
     let first = |x: f64| if x == 0.0 { 0 } else { x.abs().log10().floor() as i32 };
     let places = 1 - first(bar);
     if places > 9 || places + first(value) > 6 {
-        return format!("{} ± {}{space}{prefix}{unit}", significant(value, 7), significant(bar, 1));
+        return format!("{} ± {}", significant(value, 7), significant(bar, 1));
     }
     let places = places.max(0) as usize;
-    format!("{value:.places$} ± {bar:.places$}{space}{prefix}{unit}").replace('-', "−")
+    format!("{value:.places$} ± {bar:.places$}").replace('-', "−")
 }
 
 #[cfg(test)]
@@ -94,17 +93,22 @@ mod tests {
 
     #[test]
     fn as_people_write_them() {
-        assert_eq!(with_bar(5.9712e6, Some(6e3), "Pa"), "5.971 ± 0.012\u{a0}MPa");
-        assert_eq!(with_bar(2e11, None, "Pa"), "200\u{a0}GPa");
-        assert_eq!(with_bar(2e5, Some(50.0), "MPa"), "200000 ± 100\u{a0}MPa");
+        assert_eq!(with_bar(5.9712e6, Some(6e3), "Pa"), "(5.971 ± 0.012)·10⁶\u{a0}Pa");
+        assert_eq!(with_bar(2e11, None, "Pa"), "2·10¹¹\u{a0}Pa");
+        assert_eq!(with_bar(2e5, Some(50.0), "MPa"), "(2.0000 ± 0.0010)·10⁵\u{a0}MPa");
         assert_eq!(with_bar(0.31234, Some(0.001), ""), "0.3123 ± 0.0020");
         assert_eq!(with_bar(1.447604149, Some(1e-9), ""), "1.447604 ± 2·10⁻⁹");
         assert_eq!(with_bar(12.0, Some(30.0), ""), "12 ± 60");
         assert_eq!(with_bar(6.8999417e10, Some(9.4e5), ""), "(6.89994 ± 0.00019)·10¹⁰");
         assert_eq!(with_bar(-3.6e-5, Some(1e-7), ""), "(−3.600 ± 0.020)·10⁻⁵");
+        assert_eq!(with_bar(2.95107e6, Some(4.5), "Pa"), "2.95107·10⁶ ± 9\u{a0}Pa");
         assert_eq!(significant(1.0851997e-7, 3), "1.09·10⁻⁷");
         assert_eq!(significant(-0.25, 3), "−0.25");
         assert_eq!(significant(1e10, 3), "1·10¹⁰");
+        assert_eq!(
+            [2e6, 99_996.0, 12_345.6, 0.001, 2e-4].map(|value| significant(value, 4)),
+            ["2·10⁶", "1·10⁵", "12350", "0.001", "2·10⁻⁴"]
+        );
         let shares = [0.0, 1e-9, 0.000123, 0.0123, 0.5, 0.9994, 0.99999, 1.0].map(percent);
         let written = ["0 %", "1·10⁻⁷ %", "0.012 %", "1.2 %", "50 %", "over 99.9 %", "over 99.9 %", "100 %"];
         assert_eq!(shares, written);

@@ -3,11 +3,15 @@
 use crate::number::{hertz, percent, significant, with_bar};
 use crate::results::{Band, Number, Results, Sensor, Unknown};
 use crate::status::{label, meaning};
+use crate::stretches::points;
 use frfit::frequency::bands_hz;
 use frfit::identify::{Status, Trust};
 
 /// Above this share of trusted frequencies a band is called usable as a whole.
 const MIN_TRUSTED_SHARE: f64 = 0.9;
+
+/// A number of the band agrees with the known one if it is off by up to so many standard deviations.
+const MAX_DEVIATIONS: f64 = 2.0;
 
 /// How far the answer as a whole can be trusted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -45,7 +49,7 @@ pub(crate) struct Verdict {
     pub(crate) headline: String,
     pub(crate) tiles: Vec<Tile>,
     pub(crate) shares: Vec<Share>,
-    /// What a reader has to know before the numbers are used.
+    /// What a reader has to do or to know before the numbers are used.
     pub(crate) cautions: Vec<String>,
     /// Whether a frequency has values of its own; else it is explained by those that hold for the band, or not.
     pub(crate) own: bool,
@@ -57,13 +61,14 @@ impl Verdict {
     pub(crate) fn of(results: &Results) -> Self {
         let nominal_error = nominal_error(results);
         let own = results.unknowns.iter().any(Unknown::is_free);
-        let (level, headline) = level(results);
+        let is_confirmed = is_confirmed(results);
+        let (level, headline) = level(results, is_confirmed);
         Self {
             level,
             headline,
             tiles: tiles(results, &nominal_error, own),
             shares: shares(&results.band, own),
-            cautions: cautions(results),
+            cautions: cautions(results, is_confirmed),
             own,
             nominal_error,
         }
@@ -75,15 +80,32 @@ fn trusted(band: &Band) -> (usize, usize) {
     (band.status.iter().filter(|status| status.trust() != Trust::NotAsked).count(), band.count(Status::Ok))
 }
 
-fn level(results: &Results) -> (Level, String) {
+fn level(results: &Results, is_confirmed: bool) -> (Level, String) {
     if let Some(why) = unusable(results) {
         return (Level::Bad, why);
     }
     let claim = claim(results);
-    match doubt(results) {
+    let support = match results.summary.word("/fit/verdict") {
+        "explained" => ", and the model explains all sensors within the noise.",
+        _ => ", and agrees with the values that this case gives as known.",
+    };
+    match doubt(results, is_confirmed) {
         Some(doubt) => (Level::Care, format!("{claim}{doubt}")),
-        None => (Level::Good, format!("{claim}, and all sensors are explained to the noise.")),
+        None => (Level::Good, format!("{claim}{support}")),
     }
+}
+
+/// Whether the case gives the values that were to be found, and every trusted value of every unknown agrees with them.
+fn is_confirmed(results: &Results) -> bool {
+    let has_ok = results.band.count(Status::Ok) > 0;
+    let agrees = |one: &Unknown| {
+        let number = |key: &str| one.off.get(key).and_then(serde_json::Value::as_f64);
+        match number("deviations") {
+            Some(deviations) => one.status == Some(Status::Ok) && deviations <= MAX_DEVIATIONS,
+            None => has_ok && number("wrong_and_ok") == Some(0.0),
+        }
+    };
+    results.unknowns.iter().all(agrees)
 }
 
 /// The unknowns of a kind, by their names.
@@ -111,7 +133,7 @@ fn what(results: &Results) -> String {
 fn unusable(results: &Results) -> Option<String> {
     let what = what(results);
     if results.summary.word("/fit/verdict") == "not explained" {
-        return Some(format!("Do not use the {what} yet: the model cannot explain the measurements."));
+        return Some(format!("The model cannot explain the measurements, so no {what} can be trusted."));
     }
     let is_free = results.unknowns.iter().any(Unknown::is_free);
     let (_, ok) = trusted(&results.band);
@@ -150,28 +172,25 @@ fn claim(results: &Results) -> String {
 }
 
 /// What speaks against some of it, or that no independent measurement supports it.
-fn doubt(results: &Results) -> Option<&'static str> {
+fn doubt(results: &Results, is_confirmed: bool) -> Option<&'static str> {
     let (asked, ok) = trusted(&results.band);
     let not_identifiable = !results.identifiability.not_identifiable.is_empty();
     let doubts = [
         (
             !results.summary.array("/findings").is_empty(),
-            ", but something is wrong with the data: see the findings first.",
+            ", but something is wrong with the data: correct it first.",
         ),
+        (!results.summary.undecided().is_empty(), ", but something may be wrong with the data: see below."),
         (
-            !results.summary.undecided().is_empty(),
-            ", but something may be wrong with the data: see what would explain them.",
-        ),
-        (
-            results.summary.word("/identify/selection") == "smallest",
-            " by the rule of the smallest correction, which no second look confirms.",
+            results.summary.word("/identify/selection") == "smallest" && !is_confirmed,
+            " by the rule of the smallest correction. Nothing independent confirms it.",
         ),
         (contradicting(results), "; a sensor contradicts the others."),
         (
             not_identifiable || results.unknowns.iter().any(is_unknown),
             ". Not everything is identifiable from the measurements: see below.",
         ),
-        (!results.converged(), ", but the search for it did not settle."),
+        (!results.converged(), ", but the search for it did not converge."),
     ];
     if let Some((_, doubt)) = doubts.into_iter().find(|(holds, _)| *holds) {
         return Some(doubt);
@@ -181,7 +200,10 @@ fn doubt(results: &Results) -> Option<&'static str> {
         ("explained", false) => Some(
             "; at the other frequencies the value is not identifiable, or the measurements are not explained.",
         ),
-        ("nearly explained", _) => Some("; a little more than the given noise is left."),
+        ("nearly explained", _) => {
+            Some("; the misfit between model and measurement is a little larger than the noise.")
+        }
+        (_, true) if is_confirmed => None,
         _ => Some(", but no independent measurement tests the fit."),
     }
 }
@@ -201,15 +223,17 @@ fn contradicting(results: &Results) -> bool {
 }
 
 fn shares(band: &Band, own: bool) -> Vec<Share> {
+    let points = points(band);
     let there = Status::ALL.into_iter().filter(|&status| band.count(status) > 0);
     there
         .map(|status| {
-            let bands = bands_hz(band.frequency_hz.iter().zip(&band.status).map(|(&f, &s)| (f, s == status)));
+            let bands = bands_hz(points.iter().map(|&(f, s)| (f, s == status)));
+            let place = if bands.is_empty() { "lines between the others.".into() } else { where_(&bands) };
             Share {
                 status,
                 count: band.count(status),
                 label: label(status, own),
-                words: format!("{}: {}", meaning(status, own), where_(&bands)),
+                words: format!("{}: {place}", meaning(status, own)),
             }
         })
         .collect()
@@ -238,14 +262,14 @@ fn where_(bands: &[[f64; 2]]) -> String {
     format!("{} Hz{more}.", shown.join(", "))
 }
 
-fn cautions(results: &Results) -> Vec<String> {
+fn cautions(results: &Results, is_confirmed: bool) -> Vec<String> {
     let summary = &results.summary;
     let mut cautions: Vec<String> = (results.identifiability.not_identifiable.iter())
         .map(|sentence| format!("Not identifiable from these measurements: {sentence}."))
         .collect();
     if !results.converged() {
         cautions
-            .push("The search did not settle. More frequencies, sensors or narrower bounds may help.".into());
+            .push("The search did not converge. Use more frequencies or sensors, or narrower bounds.".into());
     }
     let mut say = |text: String| cautions.push(text);
     for breach in summary.array("/causality_breaches") {
@@ -289,15 +313,71 @@ fn cautions(results: &Results) -> Vec<String> {
         }
     }
     let contradicted = summary.array("/model_errors/contradicted_assumptions");
-    cautions.extend(doubt_of_fit(results).filter(|_| contradicted.is_empty()));
+    // Where the values are known nothing has to be tested: what the next case needs is said once.
+    let is_tested =
+        ["explained", "nearly explained", "not explained"].contains(&summary.word("/fit/verdict"));
+    let is_by_rule = summary.word("/identify/selection") == "smallest";
+    let is_confirmed_alone = is_confirmed && (!is_tested || is_by_rule);
+    let doubt = doubt_of_fit(results).filter(|_| contradicted.is_empty() && (is_tested || !is_confirmed));
+    cautions.extend(doubt);
+    cautions.extend(suspects(results));
     for one in contradicted {
         let text = one.get("text").and_then(serde_json::Value::as_str).unwrap_or("");
         cautions.push(format!("The measurements contradict what the case takes for known: {text}."));
     }
-    if summary.word("/identify/selection") == "smallest" {
-        cautions.push("Of several solutions the one with the smallest correction was taken (selection = \"smallest\", the rule of the paper). It can be the wrong one, has no error bars, and selection = \"joint\" weighs all solutions over the band.".into());
+    if is_confirmed_alone {
+        cautions.push(confirmation(results, is_by_rule));
+    } else if is_by_rule {
+        cautions.push("Of several solutions the one with the smallest correction was taken (selection = \"smallest\", the rule of the paper). It can be the wrong one and has no error bars. Run again with selection = \"joint\", which weighs all solutions over the band.".into());
     }
     cautions
+}
+
+/// Known parts of the model that the measurement contradicts by more than two standard deviations.
+fn suspects(results: &Results) -> Vec<String> {
+    let text = |of: &serde_json::Value, key: &str| {
+        of.get(key).and_then(serde_json::Value::as_str).unwrap_or("").replace('_', " ")
+    };
+    let error = |of: &serde_json::Value| {
+        let number = |key: &str| of.get(key).and_then(serde_json::Value::as_f64);
+        let (error, std) = (number("error")?, number("std")?);
+        (error.abs() > 2.0 * std).then_some((error, std))
+    };
+    let off =
+        |(error, std): (f64, f64)| format!("{:+.2} ± {:.2} %", 100.0 * error, 200.0 * std).replace('-', "−");
+    let summary = &results.summary;
+    // A loss factor is off by a number, not by a share: the table of errors has it.
+    let matrices =
+        summary.array("/model_errors/matrices").iter().filter(|one| text(one, "part") != "loss factor");
+    let matrices = matrices.filter_map(|one| {
+        let off = off(error(one)?);
+        Some(format!(
+            "Check what the model takes for {}: according to the measurement it is off by {off}.",
+            text(one, "matrix")
+        ))
+    });
+    let channels = summary.array("/model_errors/calibrations").iter();
+    let channels = channels.filter_map(|one| {
+        let off = off(error(one)?);
+        Some(format!(
+            "Check the calibration of {}: according to the model it is off by {off}.",
+            text(one, "channel")
+        ))
+    });
+    matrices.chain(channels).collect()
+}
+
+/// Only the known values test the answer: what a measurement needs in their place.
+fn confirmation(results: &Results, is_by_rule: bool) -> String {
+    let needs = match (results.sensors.len(), is_by_rule) {
+        (1, true) => "use a second sensor and selection = \"joint\"",
+        (1, false) => "use a second sensor",
+        (_, true) => "use selection = \"joint\"",
+        (_, false) => "give the noise of the FRFs, or use more sensors",
+    };
+    format!(
+        "Only the known values of this case test the answer. For a measurement without known values, {needs}: then the report has a test of the fit and error bars."
+    )
 }
 
 /// What is to be said where noise is not all that is left, or that is not known.
@@ -305,36 +385,36 @@ fn doubt_of_fit(results: &Results) -> Option<String> {
     let summary = &results.summary;
     Some(match summary.word("/fit/verdict") {
         "not explained" => {
-            "The difference between model and measurement is not noise. Look at mesh, boundary conditions, sensors and units (frfit check) before any number is used."
+            "The difference between model and measurement is larger than the noise. Check sensors and units (frfit check), then mass, thickness, mesh and boundary conditions of the model."
                 .into()
         }
         "nearly explained" => {
             match summary.number("/model_errors/response_std").filter(|rest| *rest > 0.0) {
                 Some(rest) => format!(
-                    "Beside noise and errors of the model, {} of the response remains unexplained. The error bars contain it.",
+                    "Use the values with their error bars. Beside noise and errors of the model {} of the response remains unexplained; the error bars contain this.",
                     percent(rest)
                 ),
                 None => {
                     let times = significant(summary.number("/fit/chi2_per_freedom").map_or(1.0, f64::sqrt), 3);
-                    format!("The misfit is {times} times the given noise: error bars are longer by that.")
+                    format!("Use the values with their error bars. The misfit is {times} times the noise; the error bars are longer by this factor.")
                 }
             }
         }
         "explained" => return None,
         // What holds for the band has other frequencies to agree with.
         _ if results.sensors.len() == 1 && results.unknowns.iter().all(Unknown::is_free) => {
-            "One sensor alone is reproduced by every solution: a response that matches proves little. A second sensor would test the answer."
+            "With one sensor every solution reproduces the measurement, so the good fit is no test. Add a second sensor."
                 .into()
         }
-        _ => format!("Whether noise is all that is left was not tested: {}.", untested(results)),
+        _ => format!("The fit was not tested against the noise: {}.", untested(results)),
     })
 }
 
 /// What an error bar says in words.
 fn bars(value: f64, std: Option<f64>) -> String {
     match std {
-        Some(std) => format!("± {} (two standard deviations: 95 of 100)", percent(2.0 * std / value.abs())),
-        None => "no error bars".into(),
+        Some(std) => format!("± {} (two standard deviations)", percent(2.0 * std / value.abs())),
+        None => "no error bar".into(),
     }
 }
 
@@ -362,7 +442,10 @@ fn tiles_of(results: &Results, one: &Unknown) -> Vec<Tile> {
         Some(Tile {
             label: format!("{of}{label} at {}", hertz(band.frequency_hz[middle])),
             value: value(middle)?,
-            detail: format!("{}; {} to {}", bars(band.at(&name, middle)?, std), end(first)?, end(last)?),
+            detail: match first == last {
+                true => bars(band.at(&name, middle)?, std),
+                false => format!("{}; {}, {}", bars(band.at(&name, middle)?, std), end(first)?, end(last)?),
+            },
         })
     };
     let parts = [("storage", one.what()[0], one.unit()), ("loss_factor", "Loss factor η", "")];
@@ -374,7 +457,7 @@ fn tile(one: &Unknown, number: &Number) -> Tile {
         if number.name == "value" { one.name.clone() } else { format!("{} {}", one.name, number.name) };
     let label = label.replace('_', " ");
     if !one.is_known(number) {
-        let detail = "the measurements leave any value of this size possible".into();
+        let detail = "the measurements do not limit this value".into();
         return Tile { label, value: "not identifiable".into(), detail };
     }
     Tile { label, value: one.shown(number, None), detail: bars(number.value, number.std) }
@@ -392,11 +475,11 @@ fn known_answer(results: &Results) -> Option<Tile> {
         if let Some(relative) = number(one, "/relative") {
             let deviations = number(one, "/deviations")
                 .map_or(String::new(), |d| format!(" ({d:.1} of its standard deviations)"));
-            return Some(format!("{}: {} off{deviations}", one.name, percent(relative)));
+            return Some(format!("{}: off by {}{deviations}", one.name, percent(relative)));
         }
         let (median, most) = (number(one, "/deviation/median_ok")?, number(one, "/deviation/max_ok")?);
         Some(format!(
-            "{}: {} off (median), at most {} off where trusted",
+            "{}: off by {} (median), by {} at most where trusted",
             one.name,
             percent(median),
             percent(most)
@@ -405,14 +488,14 @@ fn known_answer(results: &Results) -> Option<Tile> {
     let each: Vec<String> = compared().filter_map(of_one).collect();
     let most = |pointer: &str| compared().filter_map(|one| number(one, pointer)).reduce(f64::max);
     let value = match most("/deviations") {
-        Some(deviations) => format!("within {} standard deviations", significant(deviations, 2)),
+        Some(deviations) => format!("off by {} standard deviations at most", significant(deviations, 2)),
         None => {
             let off = most("/relative").into_iter().chain(most("/deviation/max_ok")).reduce(f64::max)?;
-            format!("{} off at most", percent(off))
+            format!("off by {} at most", percent(off))
         }
     };
-    let detail = format!("{}. This case was made with known values.", each.join("; "));
-    Some(Tile { label: "Known answer".into(), value, detail })
+    let detail = format!("{}. The case gives the known values as its reference.", each.join("; "));
+    Some(Tile { label: "Compared with the known values".into(), value, detail })
 }
 
 /// How much of the band is trusted, how well the model fits, and whether the sensors agree; `own` as in [`Verdict::own`].
@@ -421,10 +504,10 @@ fn tiles_of_band(results: &Results, nominal_error: &[Option<f64>], own: bool) ->
     let (asked, ok) = trusted(band);
     let mut tiles = Vec::new();
     tiles.push(Tile {
-        label: format!("Frequencies that {}", if own { "can be trusted" } else { "are explained" }),
+        label: format!("Frequencies that are {}", if own { "trusted" } else { "explained" }),
         value: percent(ok as f64 / asked.max(1) as f64),
         detail: format!(
-            "{ok} of {asked} between {} and {}",
+            "{ok} of {asked}, from {} to {}",
             hertz(band.frequency_hz[0]),
             hertz(band.frequency_hz[band.len() - 1])
         ),
@@ -437,13 +520,13 @@ fn tiles_of_band(results: &Results, nominal_error: &[Option<f64>], own: bool) ->
     if let Some(after) = median(&mut band.rows(Status::Ok).map(|row| band.at("error", row))) {
         let before = median(&mut band.rows(Status::Ok).map(|row| nominal_error[row]));
         tiles.push(Tile {
-            label: "Model against measurement".into(),
-            value: format!("{} off", percent(after)),
+            label: "Error of the response, median".into(),
+            value: percent(after),
             detail: match before {
                 Some(before) => {
-                    format!("of the response, median; {} off with the nominal value", percent(before))
+                    format!("updated model against measurement; {} with the nominal value", percent(before))
                 }
-                None => "of the response, median".into(),
+                None => "updated model against measurement".into(),
             },
         });
     }
@@ -451,22 +534,17 @@ fn tiles_of_band(results: &Results, nominal_error: &[Option<f64>], own: bool) ->
     let chi = summary.number("/fit/chi2_per_freedom");
     tiles.push(match (fit, chi) {
         ("explained" | "nearly explained" | "not explained", Some(chi)) => Tile {
-            label: "Do all sensors agree?".into(),
+            label: "Does the model explain all sensors?".into(),
             value: match fit {
                 "explained" => "yes".into(),
                 "nearly explained" => "nearly".into(),
                 _ if summary.array("/model_errors/contradicted_assumptions").is_empty() => "no".into(),
-                _ => "yes, but not with the case".into(),
+                _ => "yes, but not with what the case takes for known".into(),
             },
-            detail: format!(
-                "χ² over degrees of freedom {} ({} are left); noise {}",
-                significant(chi, 3),
-                significant(summary.number("/fit/freedom").unwrap_or(0.0), 6),
-                noise(results)
-            ),
+            detail: format!("χ² per degree of freedom {}; noise {}", significant(chi, 3), noise(results)),
         },
         _ => Tile {
-            label: "Do all sensors agree?".into(),
+            label: "Does the model explain all sensors?".into(),
             value: "not tested".into(),
             detail: format!("{}; noise {}", untested(results), noise(results)),
         },
@@ -475,21 +553,21 @@ fn tiles_of_band(results: &Results, nominal_error: &[Option<f64>], own: bool) ->
 }
 
 /// Why no χ² over the band shows whether noise is all that is left.
-fn untested(results: &Results) -> &'static str {
+pub(crate) fn untested(results: &Results) -> &'static str {
     match results.sensors.len() {
-        1 => "there is no second sensor to compare with",
-        _ if !results.summary.array("/laws/laws").is_empty() => "the table of laws has the χ² of each",
-        _ => "the noise is known from the misfit alone",
+        1 => "there is no second sensor",
+        _ if !results.summary.array("/laws/laws").is_empty() => "the table of laws gives the χ² of each law",
+        _ => "the noise is estimated from the misfit itself",
     }
 }
 
 /// Where the level of the noise is known from.
-fn noise(results: &Results) -> &'static str {
+pub(crate) fn noise(results: &Results) -> &'static str {
     match results.summary.word("/noise/source") {
-        "given" => "as the files give it",
-        "sensors" => "taken from how well the sensors agree",
-        "scatter" => "taken from how answers or responses scatter",
-        "curve" => "taken from the residual of the smooth curve",
+        "given" => "as given in the files",
+        "sensors" => "estimated from how well the sensors agree",
+        "scatter" => "estimated from the scatter over frequency",
+        "curve" => "estimated from the residual of the smooth curve",
         _ => "unknown",
     }
 }

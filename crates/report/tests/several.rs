@@ -37,7 +37,7 @@ fn the_verdict_names_each_unknown_with_its_bar() {
         &MadeSeveral::default(),
         &[
             "Can be used",
-            "mass and skins are known for the whole band; core is known at 50 of 50 frequencies (100 %), and all sensors are explained to the noise.",
+            "mass and skins are known for the whole band; core is known at 50 of 50 frequencies (100 %), and the model explains all sensors within the noise.",
             "<td>mass</td><td>0.065000 ± 0.000020</td><td>0.04</td><td>trusted</td>",
             "<td>skins storage</td><td>(6.90000 ± 0.00018)·10¹⁰</td><td>7.3·10¹⁰</td>",
             "<td>skins loss factor</td><td>0.003000 ± 0.000020</td><td>0.001</td>",
@@ -45,9 +45,9 @@ fn the_verdict_names_each_unknown_with_its_bar() {
             "id=\"plot-modulus-1\"",
             "id=\"plot-correlation\"",
             "id=\"plot-profile\"",
-            "mass larger, skins storage smaller (by 0.33 of that), skins loss factor smaller (by 0.33 of that)",
-            "core: 1·10⁻⁵ % off (median), at most 2·10⁻⁵ % off where trusted",
-            "mass: 0.01 % off (0.8 of its standard deviations)",
+            "mass larger, skins storage smaller (by 0.33 of this), skins loss factor smaller (by 0.33 of this)",
+            "core: off by 1·10⁻⁵ % (median), by 2·10⁻⁵ % at most where trusted",
+            "mass: off by 0.01 % (0.8 of its standard deviations)",
         ],
     );
 }
@@ -63,7 +63,7 @@ fn what_is_not_told_comes_before_the_numbers_and_has_none() {
             "Not identifiable from these measurements: mass larger with skins storage smaller: not identifiable.",
             "<td>mass</td><td>not identifiable</td>",
             "<dd class=\"value\">not identifiable</dd>",
-            "the measurements do not limit it",
+            "the measurements do not limit this combination",
         ],
     );
     assert!(!text(&made).contains("0.065 "));
@@ -72,7 +72,7 @@ fn what_is_not_told_comes_before_the_numbers_and_has_none() {
         &constants,
         &[
             "Frequencies that are explained",
-            "<b>50 explained</b> – the values that hold for the band explain all sensors there",
+            "<b>50 explained</b>: the values that hold for the band explain all sensors there",
         ],
     );
     let nothing = MadeSeveral { unclear: true, varies: false, constants: 1, ..MadeSeveral::default() };
@@ -82,8 +82,8 @@ fn what_is_not_told_comes_before_the_numbers_and_has_none() {
 #[test]
 fn the_level_follows_fit_and_band() {
     let with = |fit: &'static str, bad: usize| MadeSeveral { fit, bad, ..MadeSeveral::default() };
-    says(&with("not explained", 0), &["Do not use yet", "is not noise"]);
-    says(&with("nearly explained", 0), &["Use with care", "a little more than the given noise"]);
+    says(&with("not explained", 0), &["Do not use yet", "larger than the noise"]);
+    says(&with("nearly explained", 0), &["Use with care", "a little larger than the noise"]);
     says(&with("untested", 0), &["Use with care", "no independent measurement tests the fit"]);
     says(&with("explained", 20), &["Use with care", "core is known at 30 of 50 frequencies (60 %)"]);
     let core = MadeSeveral { bad: 50, constants: 0, ..MadeSeveral::default() };
@@ -96,16 +96,13 @@ fn the_level_follows_fit_and_band() {
 }
 
 #[test]
-fn pictures_without_anything_to_show_are_left_out_with_a_sentence() {
+fn pictures_without_anything_to_show_are_left_out() {
     let one = MadeSeveral { constants: 1, varies: false, ..MadeSeveral::default() };
-    says(
-        &one,
-        &["<b>Correlation</b>: not drawn, for a single number has no correlation", "id=\"plot-profile\""],
-    );
+    says(&one, &["id=\"plot-profile\""]);
     assert!(!text(&one).contains("id=\"plot-correlation\"") && !text(&one).contains("id=\"plot-modulus"));
     let none = MadeSeveral { constants: 0, ..MadeSeveral::default() };
     // One unknown with a value at each frequency has no correlation.
-    for absent in ["Correlation", "How the values are correlated", "What holds for the whole band"] {
+    for absent in ["Correlation", "plot-profile", "Values for the whole band"] {
         assert!(!text(&none).contains(absent), "{absent}");
     }
 }

@@ -15,9 +15,9 @@ function cursorText() {
     if (of("storage") === null) continue;
     const called = one.label && `${one.label} `;
     parts.push(`${called}${one.real ? "value" : "E′"} ${withBar(of("storage"), of("storage_std"), one.unit)}`);
-    if (!one.real) parts.push(`${called}η ${digits(of("loss_factor"))}${of("loss_factor_std") === null ? "" : ` ± ${digits(2 * of("loss_factor_std"), 2)}`}`);
+    if (!one.real) parts.push(`${called}η ${withBar(of("loss_factor"), of("loss_factor_std"))}`);
   }
-  if (at("error") !== null) parts.push(`error ${digits(100 * at("error"), 3)} %`);
+  if (at("error") !== null) parts.push(`error of the response ${digits(100 * at("error"), 3)} %`);
   return parts.join(" · ");
 }
 

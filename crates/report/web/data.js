@@ -13,37 +13,42 @@ const drawn = (values) => values && data.drawn.map((row) => values[row]);
 /** Text of users as Plotly takes it: it reads tags and entities. */
 const plain = (text) => text.replaceAll("&", "&amp;").replaceAll("<", "&lt;").replaceAll(">", "&gt;");
 
-/** Significant digits without idle zeros; a dash where there is no number. */
+const raised = (exponent) => [...String(exponent)].map((c) => "⁰¹²³⁴⁵⁶⁷⁸⁹"[c] ?? "⁻").join("");
+const minus = (text) => text.replace("-", "−");
+
+/** Whether a number is written without a power of ten: from 0.001 to 99999. */
+const isPlain = (value) => value === 0 || (Math.abs(value) >= 1e-3 && Math.abs(value) < 1e5);
+
+/** Significant digits without idle zeros, as 0.25 or 2·10⁶; a dash where there is no number. */
 function digits(value, count = 5) {
   if (value === null || value === undefined) return "–";
-  const size = Math.abs(value);
-  if (size !== 0 && (size < 1e-4 || size >= 1e7)) {
-    const [mantissa, exponent] = value.toExponential(count - 1).split("e");
-    const raised = [...exponent.replace("+", "")].map((c) => "⁰¹²³⁴⁵⁶⁷⁸⁹"[c] ?? "⁻").join("");
-    return `${Number(mantissa)}·10${raised}`;
-  }
-  return String(Number(value.toPrecision(count)));
+  const rounded = Number(value.toPrecision(count));
+  if (isPlain(rounded)) return minus(String(rounded));
+  const [mantissa, exponent] = rounded.toExponential().split("e");
+  return `${minus(mantissa)}·10${raised(Number(exponent))}`;
 }
 
-/** Whether a unit takes prefixes: MPa and psi take none. */
-const takesPrefix = (unit) => unit === "Pa";
+/** A value in a unit. */
+const inUnit = (value, count = 5, unit = "") => (value === null || value === undefined ? "–" : `${digits(value, count)}${unit && ` ${unit}`}`);
 
-/** A value in a unit, with a prefix where it takes one. */
-function inUnit(value, count = 5, unit = "") {
-  if (value === null || value === undefined) return "–";
-  if (!unit) return digits(value, count);
-  if (!takesPrefix(unit)) return `${digits(value, count)} ${unit}`;
-  const size = Math.abs(value);
-  const [by, prefix] = [[1e12, "T"], [1e9, "G"], [1e6, "M"], [1e3, "k"]].find(([by]) => size >= by) ?? [1, ""];
-  return `${digits(value / by, count)} ${prefix}${unit}`;
+/** A number and its bar: the bar has two digits, and the number as many places. */
+function barred(value, bar) {
+  if (!(bar > 0)) return digits(value);
+  const first = (x) => (x === 0 ? 0 : Math.floor(Math.log10(Math.abs(x))));
+  const places = 1 - first(bar);
+  if (places > 9 || places + first(value) > 6) return `${digits(value, 7)} ± ${digits(bar, 1)}`;
+  return minus(`${value.toFixed(Math.max(0, places))} ± ${bar.toFixed(Math.max(0, places))}`);
 }
 
-/** The same with two standard deviations, in one unit. */
+/** The same with two standard deviations, both with one power of ten. */
 function withBar(value, std, unit = "") {
-  if (std === null || value === 0) return inUnit(value, 5, unit);
-  if (!takesPrefix(unit)) return `${digits(value)} ± ${digits(2 * std, 2)}${unit && ` ${unit}`}`;
-  const [shown, prefix] = inUnit(value, 5, unit).split(" ");
-  return `${shown} ± ${digits((2 * std * Number(shown)) / value, 2)}${prefix ? ` ${prefix}` : ""}`;
+  if (std === null || std === undefined || value === null) return inUnit(value, 5, unit);
+  const after = unit && ` ${unit}`;
+  if (isPlain(value)) return barred(value, 2 * std) + after;
+  const exponent = Math.floor(Math.log10(Math.abs(value)));
+  // A bar that is too small for the digits of the value has a power of its own.
+  if (2 * std < 1e-5 * 10 ** exponent) return `${digits(value, 7)} ± ${digits(2 * std, 1)}${after}`;
+  return `(${barred(value / 10 ** exponent, (2 * std) / 10 ** exponent)})·10${raised(exponent)}${after}`;
 }
 
 /** The row of ascending frequencies that is nearest. */

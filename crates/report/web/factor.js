@@ -1,11 +1,12 @@
 // The identified value: over frequency, and among the candidates.
 
 const partsOf = ({ real }) => (real ? ["storage"] : ["storage", "loss_factor"]);
-const factorAxis = ({ real, unit }) => ({ title: real ? "Value" : "Storage modulus E′", ...(takesPrefix(unit) ? { tickformat: "~s", ticksuffix: unit } : unit && { title: `${real ? "Value" : "Storage modulus E′"} (${unit})` }) });
-const formatOf = (part, { unit }) => (part === "storage" && unit ? withUnit("y", unit) : "%{y:.5~g}");
-/** A coordinate in a unit, as a plot writes it. */
-const withUnit = (axis, unit) => (takesPrefix(unit) ? `%{${axis}:.4s}${unit}` : `%{${axis}:.5~g}${unit && ` ${unit}`}`);
-const AT = "<br>%{x:.6~g} Hz";
+/** A title with its unit. */
+const titled = (title, unit) => (unit ? `${title} (${unit})` : title);
+const factorAxis = ({ real, unit }) => ({ title: titled(real ? "Value" : "Storage modulus E′", unit) });
+const labelOf = (part, { unit }) => (y) => inUnit(y, 5, part === "storage" ? unit : "");
+/** The same with the frequency, where the pointer shows one point. */
+const labelAt = (part, one) => (y, x) => `${labelOf(part, one)(y)}<br>${digits(x, 7)} Hz`;
 
 /** A part of an unknown, by row. */
 const partOf = (one, part) => column(one.columns[part]);
@@ -72,7 +73,7 @@ const addFactor = (one) => addPlot({
     const made = [];
     partsOf(one).forEach((part, k) => {
       const axis = k === 0 ? "y" : "y2";
-      const format = formatOf(part, one);
+      const format = labelOf(part, one);
       const own = partOf(one, part);
       const push = (trace) => made.push({ ...trace, yaxis: axis, legendgroup: trace.name, showlegend: k === 0 });
       const values = (name, y, shade, more) => hasAny(y) && push(dots(name, x, y, shade, format, more));
@@ -85,7 +86,7 @@ const addFactor = (one) => addPlot({
         if (y) push(line(one.varies === "law" ? "law" : "smooth curve", x, y, "updated", format));
         return;
       }
-      values("evidence only", withTrust(own, ["evidence only"]), "evidence", { symbol: "x-thin-open", size: 5 });
+      values("not trusted", withTrust(own, ["evidence only"]), "evidence", { symbol: "x-thin-open", size: 5 });
       values("ambiguous", withTrust(own, ["ambiguous"]), "alternative", { symbol: "triangle-up", size: 6, ...withBars(one, part) });
       values("identified", withTrust(own, ["trusted"]), "updated", withBars(one, part));
       if (one.reference) push(line("true", x, drawn(one.reference[part]), "reference", format));
@@ -112,7 +113,7 @@ const addCandidates = (one) => addPlot({
   traces() {
     const made = [];
     partsOf(one).forEach((part, k) => {
-      const format = formatOf(part, one) + AT;
+      const format = labelAt(part, one);
       const push = (trace) => made.push({ ...trace, yaxis: k === 0 ? "y" : "y2", legendgroup: trace.name, showlegend: k === 0 });
       for (const [kind, name, shade, more] of [
         ...(this.shows ? [["refused", "refused", "refused", { symbol: "x-thin-open" }]] : []),

@@ -1,6 +1,6 @@
 // Plots in which frequency runs along the curve.
 
-const HERTZ = "<br>%{customdata:.6~g} Hz";
+const hertz = (frequency) => `<br>${digits(frequency, 7)} Hz`;
 
 addPlot({
   id: "nyquist",
@@ -8,14 +8,14 @@ addPlot({
   extra: "nominal",
   traces() {
     const hover = { customdata: sensor.frequency_hz };
-    const format = `%{x:.4~g} + %{y:.4~g}i m/(s²·N)${HERTZ}`;
+    const format = (y, x, k) => `${digits(x, 4)} + i·${digits(y, 4)} m/(s²·N)${hertz(sensor.frequency_hz[k])}`;
     const made = [];
     if (sensor.nominal && this.shows) made.push(line("nominal", sensor.nominal.re, sensor.nominal.im, "nominal", format, { dash: "dash", ...hover }));
     if (sensor.measured) made.push(dots("measured", sensor.measured.re, sensor.measured.im, "measured", format, { size: 4, ...hover }));
-    if (sensor.updated) made.push(line("updated", sensor.updated.re, sensor.updated.im, "updated", format, hover));
+    if (sensor.updated) made.push(line("updated", sensor.updated.re, sensor.updated.im, "updated", format, { ...hover, ...marksOfLonePoints(sensor.updated.re, "updated") }));
     return made;
   },
-  layout: () => ({ xaxis: { title: "Real part (m/(s²·N))", constrain: "domain" }, yaxis: { title: "Imaginary part", scaleanchor: "x" } }),
+  layout: () => ({ xaxis: { title: "Real part (m/(s²·N))", constrain: "domain" }, yaxis: { title: "Imaginary part (m/(s²·N))", scaleanchor: "x" } }),
   at(frequency) {
     const k = nearest(sensor.frequency_hz, frequency);
     const on = [sensor.updated, sensor.measured].find((response) => response && response.re[k] !== null);
@@ -29,7 +29,7 @@ function along(one, other) {
   const points = (name, storage, loss, rows, shade, draw, more) => {
     const there = rows.filter((row) => storage[row] !== null && loss[row] !== null);
     if (!there.length) return;
-    const format = `E′ ${withUnit("x", one.unit)}, ${other.label(one)}${HERTZ}`;
+    const format = (y, x, k) => `E′ ${inUnit(x, 5, one.unit)}, ${other.label(y, one)}${hertz(data.frequency_hz[there[k]])}`;
     made.push(draw(name, there.map((row) => storage[row]), there.map((row) => other.of(storage[row], loss[row])), shade, format, { customdata: there.map((row) => data.frequency_hz[row]), ...more }));
   };
   const [storage, loss] = [partOf(one, "storage"), partOf(one, "loss_factor")];
@@ -46,8 +46,8 @@ const onFactor = (one, other) => (_, row) => {
   return Number.isFinite(e) && Number.isFinite(eta) ? { x: e, y: other.of(e, eta) } : null;
 };
 
-const LOSS_MODULUS = { of: (e, eta) => e * eta, label: ({ unit }) => `E″ ${withUnit("y", unit)}` };
-const LOSS_FACTOR = { of: (_, eta) => eta, label: () => "η %{y:.4~g}" };
+const LOSS_MODULUS = { of: (e, eta) => e * eta, label: (y, { unit }) => `E″ ${inUnit(y, 5, unit)}` };
+const LOSS_FACTOR = { of: (_, eta) => eta, label: (y) => `η ${digits(y, 4)}` };
 
 for (const one of unknowns) {
   addPlot({
@@ -55,7 +55,7 @@ for (const one of unknowns) {
     height: 420,
     logs: { xaxis: ["E′", false], yaxis: ["E″", false] },
     traces: () => along(one, LOSS_MODULUS),
-    layout: () => ({ xaxis: factorAxis(one), yaxis: { ...factorAxis(one), title: `Loss modulus E″${one.unit && !takesPrefix(one.unit) ? ` (${one.unit})` : ""}` } }),
+    layout: () => ({ xaxis: factorAxis(one), yaxis: { title: titled("Loss modulus E″", one.unit) } }),
     at: onFactor(one, LOSS_MODULUS),
   });
   addPlot({

@@ -1,7 +1,8 @@
 // One plot: its traces, its tools, and drawing it in the colours of the page.
 //
 // A plot is { id, height, traces(), layout(), frequency, logs, at(row) }: `frequency` where x is the frequency, `logs` its axes that can be logarithmic as
-// { axis: [label, whether it begins so] }, `at` where the cursor's frequency is in a plot over something else, `extra` a curve that begins switched off.
+// { axis: [label, whether it begins so] }, `at` where the cursor's frequency is in a plot over something else, `extra` a curve that begins switched off,
+// `noGround` where statuses are not shaded.
 
 const plots = [];
 let logFrequency = false;
@@ -21,8 +22,25 @@ function addPlot(plot) {
   const title = figure.querySelector("h3").textContent;
   drawing.setAttribute("role", "img");
   drawing.setAttribute("aria-label", `${title}; its values are in the download CSV`);
+  if (isShaded(plot)) drawing.before(legendOfGrounds());
   plots.push(Object.assign(plot, { figure, canvas, mark, title, log: Object.fromEntries(Object.entries(plot.logs ?? {}).map(([axis, [, on]]) => [axis, on])) }));
   addTools(plot);
+}
+
+/** Whether the ground of a plot shows the statuses. */
+const isShaded = (plot) => plot.frequency && !plot.noGround;
+
+/** Whether a plot stands in a part that is folded away: it is drawn when that is opened. */
+const isFolded = (plot) => plot.figure.closest("details:not([open])") !== null;
+
+/** The axis of the ground below a panel's axis. */
+const groundOf = (name) => `yaxis${name === "yaxis" ? 8 : 9}`;
+
+/** Traces of a plot, those of its ground first. */
+function allTraces(plot) {
+  if (!isShaded(plot)) return plot.traces();
+  const panels = Object.keys(plot.layout()).filter((name) => name.startsWith("yaxis"));
+  return [...panels.flatMap((name) => grounds(groundOf(name).replace("axis", ""))), ...plot.traces()];
 }
 
 function addTools(plot) {
@@ -68,12 +86,23 @@ function addTools(plot) {
 function frame(plot) {
   const own = plot.layout();
   const axis = (name, given) => ({
-    gridcolor: color("grid"), linecolor: color("line"), zerolinecolor: color("line"), automargin: true, exponentformat: "power", minexponent: 4, tickangle: 0,
+    gridcolor: color("grid"), linecolor: color("line"), zerolinecolor: color("line"), automargin: true, exponentformat: "power", tickangle: 0,
     ...given,
     title: { text: given.title ?? "", standoff: 8 },
     type: plot.log[name] || (plot.frequency && name.startsWith("xaxis") && logFrequency) ? "log" : "linear",
   });
   const axes = Object.entries(own).filter(([name]) => /^[xy]axis/.test(name)).map(([name, given]) => [name, axis(name, given)]);
+  if (isShaded(plot)) {
+    const [, frequencies] = axes.find(([name]) => name === "xaxis");
+    frequencies.range = bandRange(frequencies.type === "log");
+    // The ground is the subplot, and the panel lies over it.
+    for (const [name, panel] of axes.filter(([name]) => name.startsWith("yaxis"))) {
+      const ground = groundOf(name);
+      axes.push([ground, { domain: panel.domain ?? [0, 1], range: [0, 1], visible: false, fixedrange: true, anchor: "x" }]);
+      panel.overlaying = ground.replace("axis", "");
+      delete panel.domain;
+    }
+  }
   return {
     ...own,
     ...Object.fromEntries(axes),
@@ -94,8 +123,8 @@ const config = { displayModeBar: false, responsive: true, doubleClick: false, sh
 
 async function draw(plot) {
   // Afterwards everything is drawn again.
-  if (isPrinting()) return;
-  await Plotly.react(plot.canvas, plot.traces(), frame(plot), config);
+  if (isPrinting() || isFolded(plot)) return;
+  await Plotly.react(plot.canvas, allTraces(plot), frame(plot), config);
   if (!plot.isDrawn) {
     plot.isDrawn = true;
     plot.canvas.on("plotly_hover", ({ points: [point] }) => {
@@ -106,10 +135,10 @@ async function draw(plot) {
       plot.revision = (plot.revision ?? 0) + 1;
       draw(plot);
     });
-    plot.canvas.on("plotly_relayout", () => setLogTicks(plot));
+    plot.canvas.on("plotly_relayout", () => setTicks(plot));
     plot.canvas.on("plotly_afterplot", () => placeMark(plot));
   }
-  setLogTicks(plot);
+  setTicks(plot);
   placeMark(plot);
 }
 
@@ -125,6 +154,20 @@ function drawAll() {
   });
   return drawing;
 }
+
+for (const part of document.querySelectorAll("details")) {
+  part.addEventListener("toggle", () => part.open && drawAll());
+}
+/** A link to something that is folded away opens it. */
+function openTarget() {
+  const target = document.getElementById(decodeURIComponent(location.hash.slice(1)));
+  const part = target?.closest("details") ?? target?.querySelector(":scope > details");
+  if (!part || part.open) return;
+  part.open = true;
+  target.scrollIntoView();
+}
+addEventListener("hashchange", openTarget);
+document.getElementById("contents").addEventListener("click", () => setTimeout(openTarget));
 
 /** Zooms about the cursor where it is in sight, else about the middle. */
 function zoom(plot, by) {
@@ -150,10 +193,12 @@ async function saveSvg(plot) {
   const layout = { ...frame(plot), paper_bgcolor: "#ffffff", title: { text: plain(plot.title) }, width: 900, height: plot.height };
   layout.margin = { ...layout.margin, t: 70 };
   for (const name of Object.keys(layout).filter((name) => /^[xy]axis\d*$/.test(name))) {
-    const { range, tickvals, ticktext } = plot.canvas._fullLayout[name];
-    layout[name] = { ...layout[name], range: [...range], ...(layout[name].type === "log" && { tickvals, ticktext }) };
+    const { range, tickmode, tickvals, ticktext } = plot.canvas._fullLayout[name];
+    layout[name] = { ...layout[name], range: [...range], ...(tickmode === "array" && { tickmode, tickvals, ticktext }) };
   }
-  const picture = Plotly.toImage({ data: plot.traces(), layout }, { format: "svg", width: 900, height: plot.height });
+  // On a page the legend of the ground is text beside the plot.
+  const traces = allTraces(plot).map((trace) => (/^y[89]$/.test(trace.yaxis) ? { ...trace, showlegend: trace.yaxis === "y8" } : trace));
+  const picture = Plotly.toImage({ data: traces, layout }, { format: "svg", width: 900, height: plot.height });
   root.dataset.theme = theme;
   const text = decodeURIComponent((await picture).replace(/^data:image\/svg\+xml,/, ""));
   download(`${plot.id}.svg`, "image/svg+xml", text);
@@ -172,21 +217,24 @@ function saveCsv(plot) {
   download(`${plot.id}.csv`, "text/csv", rows.join(""));
 }
 
+/** What the pointer shows of each point; `label` makes it of y, x and the place. */
+const labels = (x, y, label) => ({ text: y.map((value, k) => (value === null || value === undefined ? "" : label(value, x[k], k))), hovertemplate: "%{text}" });
+
 /** A curve with what the pointer shows of it. */
-const line = (name, x, y, shade, format, more = {}) => ({
+const line = (name, x, y, shade, label, more = {}) => ({
   type: "scatter", mode: "lines", name, x, y, connectgaps: false,
   line: { color: color(shade), width: 1.8, dash: more.dash },
-  hovertemplate: format, ...more, dash: undefined,
+  ...labels(x, y, label), ...more, dash: undefined,
 });
 
 /** Points with what the pointer shows of them. */
-const dots = (name, x, y, shade, format, more = {}) => ({
+const dots = (name, x, y, shade, label, more = {}) => ({
   type: "scatter", mode: "markers", name, x, y,
   marker: { color: color(shade), size: more.size ?? 5, symbol: more.symbol ?? "circle", opacity: more.opacity ?? 1 },
-  hovertemplate: format, ...more, size: undefined, symbol: undefined, opacity: undefined,
+  ...labels(x, y, label), ...more, size: undefined, symbol: undefined, opacity: undefined,
 });
 
 /** The frequency axis of a plot of one or several panels. */
 const overFrequency = (more = {}) => ({
-  title: "Frequency (Hz)", hoverformat: ".6~g", unifiedhovertitle: { text: "%{x} Hz" }, showspikes: false, ...more,
+  title: "Frequency (Hz)", hoverformat: ".6~r", unifiedhovertitle: { text: "%{x} Hz" }, showspikes: false, ...more,
 });

@@ -21,7 +21,11 @@ function phase(response) {
   return [x, y];
 }
 
-const ACCELERANCE = "%{y:.4~g} m/(s²·N)";
+/** Marks on a curve of which some points stand alone between lines that were left out. */
+const marksOfLonePoints = (values, shade) => (values.some((value, k) => value !== null && (values[k - 1] ?? null) === null && (values[k + 1] ?? null) === null) ? { mode: "lines+markers", marker: { color: color(shade), size: 6, symbol: "diamond-open" } } : {});
+
+const ACCELERANCE = (y) => `${digits(y, 4)} m/(s²·N)`;
+const DEGREES = (y) => `${minus(y.toFixed(1))}°`;
 
 addPlot({
   id: "accelerance",
@@ -32,28 +36,28 @@ addPlot({
     const f = sensor.frequency_hz;
     const [nominal, measured, updated] = [sensor.nominal, sensor.measured, sensor.updated];
     const made = [];
-    if (nominal) made.push(line("nominal", f, size(nominal), "nominal", ACCELERANCE, { dash: "dash", legendgroup: "nominal" }));
+    if (nominal) made.push(line("nominal", f, size(nominal), "nominal", ACCELERANCE, { dash: "dash", legendgroup: "nominal", ...marksOfLonePoints(nominal.re, "nominal") }));
     if (measured) {
       // Two standard deviations of the modulus, which has half of the variance of the complex value.
       const bars = sensor.measured_std && { error_y: { type: "data", array: sensor.measured_std.map((std) => std && Math.SQRT2 * std), color: color("evidence"), thickness: 1, width: 0 } };
       made.push(dots("measured", f, size(measured), "measured", ACCELERANCE, { legendgroup: "measured", size: 4, ...bars }));
     }
-    if (updated) made.push(line("updated", f, size(updated), "updated", ACCELERANCE, { legendgroup: "updated" }));
+    if (updated) made.push(line("updated", f, size(updated), "updated", ACCELERANCE, { legendgroup: "updated", ...marksOfLonePoints(updated.re, "updated") }));
     const below = (name, response, shade, more) => {
       const [x, y] = phase(response);
-      made.push({ ...line(name, x, y, shade, "%{y:.1f}°", more), yaxis: "y2", showlegend: false, legendgroup: name });
+      made.push({ ...line(name, x, y, shade, DEGREES, more), yaxis: "y2", showlegend: false, legendgroup: name });
     };
-    if (nominal) below("nominal", nominal, "nominal", { dash: "dash" });
+    if (nominal) below("nominal", nominal, "nominal", { dash: "dash", ...marksOfLonePoints(nominal.re, "nominal") });
     if (measured) {
       const [x, y] = phase(measured);
-      made.push({ ...dots("measured", x, y, "measured", "%{y:.1f}°", { size: 3 }), yaxis: "y2", showlegend: false, legendgroup: "measured" });
+      made.push({ ...dots("measured", x, y, "measured", DEGREES, { size: 3 }), yaxis: "y2", showlegend: false, legendgroup: "measured" });
     }
-    if (updated) below("updated", updated, "updated");
+    if (updated) below("updated", updated, "updated", marksOfLonePoints(updated.re, "updated"));
     return made;
   },
   layout: () => ({
     xaxis: overFrequency({ anchor: "y2" }),
-    yaxis: { title: "|a| (m/(s²·N))", domain: [0.4, 1] },
+    yaxis: { title: "Accelerance |a| (m/(s²·N))", domain: [0.4, 1] },
     yaxis2: { title: "Phase (°)", domain: [0, 0.34], range: [-185, 185], dtick: 90 },
   }),
 });

@@ -5,9 +5,9 @@ const HEADS = [
   ["frequency_hz", "Frequency (Hz)"], ["status", "Status"],
   ...unknowns.flatMap(({ columns, real, unit, label }) => {
     const of = label && `${label}: `;
-    return [[columns.storage, of + (real ? "value" : `E′${unit && ` (${unit})`}`)], [columns.storage_std, of + (real ? "std" : "std of E′")], [columns.loss_factor, `${of}η`], [columns.loss_factor_std, `${of}std of η`]];
+    return [[columns.storage, of + (real ? "value" : `E′${unit && ` (${unit})`}`)], [columns.storage_std, of + (real ? "standard deviation" : "standard deviation of E′")], [columns.loss_factor, `${of}η`], [columns.loss_factor_std, `${of}standard deviation of η`]];
   }),
-  ["error", "Error"], ["chi2", "χ²"], ["candidate_count", "Candidates"], ["spectral_radius", "ρ"], ["convergence_radius", "Convergence radius"], ["required_order", "Required order"], ["reduction_error", "Reduction error"],
+  ["error", "Error of the response"], ["chi2", "χ²"], ["candidate_count", "Solutions"], ["spectral_radius", "Spectral radius"], ["convergence_radius", "Distance to pole"], ["required_order", "Terms needed"], ["reduction_error", "Reduction error"],
 ].filter(([name]) => name === "frequency_hz" || name === "status" || column(name));
 const tableElement = document.getElementById("rows");
 const filterForm = document.getElementById("filter");

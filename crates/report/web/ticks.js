@@ -1,4 +1,4 @@
-// Ticks of logarithmic axes: as many as there is room for, none upon another.
+// Ticks of axes, with numbers as 2·10⁶: as many as there is room for, none upon another.
 
 /** Values at which an axis from 10^low to 10^high has ticks, so that neighbours are at least `room` of its length apart. */
 function logTicks(low, high, room) {
@@ -16,32 +16,51 @@ function logTicks(low, high, room) {
     }
   }
   // Less than a decade: even steps in the value.
-  const [first, last] = [10 ** low, 10 ** high];
+  return evenTicks(10 ** low, 10 ** high, apart);
+}
+
+/** Values in even steps from `first` to `last`, the most of which that `fits` says yes. */
+function evenTicks(first, last, fits) {
   for (let exponent = Math.floor(Math.log10((last - first) / 50)); ; exponent++) {
     for (const digit of [1, 2, 5]) {
       const step = digit * 10 ** exponent;
       const values = [];
-      for (let k = Math.ceil(first / step); k * step <= last; k++) values.push(Number((k * step).toPrecision(12)));
-      if (values.length < 30 && apart(values)) return values;
+      for (let k = Math.ceil(first / step - 1e-9); k * step <= last + 1e-9 * step; k++) values.push(Number((k * step).toPrecision(12)));
+      if (values.length < 30 && fits(values)) return values;
     }
   }
 }
 
-/** Puts ticks on the logarithmic axes of a plot that was drawn; true where they were others before. */
-function setLogTicks(plot) {
+/** Values at which a linear axis has ticks, so that neighbours are at least `room` of its length apart. */
+function linearTicks(low, high, room) {
+  if (!(high > low)) return [];
+  return evenTicks(low, high, (values) => values.length < 2 || values[1] - values[0] >= room * (high - low));
+}
+
+/** A tick in as few digits as tell it from its neighbours. */
+function tickTexts(values) {
+  for (let count = 1; ; count++) {
+    const texts = values.map((value) => digits(value, count));
+    if (count > 11 || values.every((value) => Math.abs(Number(value.toPrecision(count)) - value) <= 1e-9 * Math.abs(value))) return texts;
+  }
+}
+
+/** Puts ticks on the axes of a plot that was drawn; true where they were others before. */
+function setTicks(plot) {
   const full = plot.canvas._fullLayout;
+  const given = plot.layout();
   const change = {};
-  for (const name of Object.keys(full).filter((name) => /^[xy]axis\d*$/.test(name))) {
+  for (const name of Object.keys(given).filter((name) => /^[xy]axis\d*$/.test(name))) {
     const axis = full[name];
-    if (axis.type !== "log") continue;
-    const [low, high] = axis.range;
-    const room = (name[0] === "x" ? 64 : 22) / Math.max(60, axis._length);
-    const values = logTicks(Math.min(low, high), Math.max(low, high), room);
-    if (JSON.stringify(values) === JSON.stringify(axis.tickvals)) continue;
-    const unit = axis.ticksuffix ?? "";
+    // Labels and degrees are given.
+    if (!axis || given[name].tickvals || given[name].dtick) continue;
+    const [low, high] = [Math.min(...axis.range), Math.max(...axis.range)];
+    const room = (name[0] === "x" ? 72 : axis.type === "log" ? 22 : 34) / Math.max(60, axis._length);
+    const values = (axis.type === "log" ? logTicks : linearTicks)(low, high, room);
+    if (axis.tickmode === "array" && JSON.stringify(values) === JSON.stringify(axis.tickvals)) continue;
+    change[`${name}.tickmode`] = "array";
     change[`${name}.tickvals`] = values;
-    change[`${name}.ticktext`] = values.map((value) => (unit ? inUnit(value, 4, unit).replace(" ", "") : digits(value, 4).replace(/^1·10/, "10")));
-    if (unit) change[`${name}.ticksuffix`] = unit;
+    change[`${name}.ticktext`] = axis.type === "log" ? values.map((value) => digits(value, 4).replace(/^1·10/, "10")) : tickTexts(values);
   }
   if (!Object.keys(change).length) return false;
   Plotly.relayout(plot.canvas, change);

@@ -35,9 +35,9 @@ addPlot({
   traces() {
     const { distance, chi2, linear } = together.profile;
     const made = [];
-    if (hasAny(linear)) made.push(line("as the error bar has it", distance, linear, "nominal", "%{y:.3~g}", { dash: "dash" }));
-    made.push({ ...line("all else at its best", distance, chi2, "updated", "Δχ² %{y:.3~g} at %{x:.3~g}"), mode: "lines+markers", marker: { color: color("updated"), size: 6 } });
+    if (hasAny(linear)) made.push(line("from the error bar", distance, linear, "nominal", (y) => digits(y, 3), { dash: "dash" }));
+    made.push({ ...line("all other values fitted again", distance, chi2, "updated", (y, x) => `Δχ² ${digits(y, 3)} at ${digits(x, 3)}`), mode: "lines+markers", marker: { color: color("updated"), size: 6 } });
     return made;
   },
-  layout: () => ({ xaxis: { title: "Distance (1 is a factor of e)" }, yaxis: { title: "Δχ²" }, showlegend: true }),
+  layout: () => ({ xaxis: { title: "Change (1 is a factor of e)" }, yaxis: { title: "Growth of χ²" }, showlegend: true }),
 });

@@ -1,10 +1,13 @@
 //! The page: one file, its style, its scripts and its data inside.
 
+mod contents;
 mod model_errors;
 mod plots;
+mod provenance;
 mod side_by_side;
 mod text;
 mod together;
+mod uncertainty;
 
 use crate::data::data;
 use crate::escape::{escape, script_json};
@@ -16,11 +19,12 @@ const STYLE: &str = concat!(include_str!("../../web/page.css"), include_str!("..
 const PLOTLY: &str = include_str!("../../vendor/plotly-cartesian.min.js");
 
 /// In the order in which they need one another.
-const SCRIPTS: [&str; 14] = [
+const SCRIPTS: [&str; 15] = [
     include_str!("../../web/data.js"),
     include_str!("../../web/theme.js"),
     include_str!("../../web/download.js"),
     include_str!("../../web/ticks.js"),
+    include_str!("../../web/stretches.js"),
     include_str!("../../web/plot.js"),
     include_str!("../../web/cursor.js"),
     include_str!("../../web/response.js"),
@@ -44,17 +48,29 @@ pub(crate) fn page(results: &Results, verdict: &Verdict) -> String {
         title => title.to_owned(),
     };
     let scripts = SCRIPTS.concat();
+    // What decides comes first, how it was computed last and folded away.
+    let sections = [
+        text::verdict(results, verdict),
+        plots::cursor(),
+        text::result(results, &plots::values(results)),
+        section("fit", "How well the model fits the measurement", &plots::fit(results)),
+        side_by_side::side_by_side(results),
+        section("uncertainty", "Errors of the model, noise and sensors", &uncertainty::uncertainty(results)),
+        folded("choice", "Method: how one solution was chosen", &plots::choice(results)),
+        folded("convergence", "Method: convergence and numerical errors", &plots::convergence(results)),
+        folded("table", "Table of all frequencies", &plots::table(&data.notes, verdict)),
+        folded(
+            "provenance",
+            "Files, settings and computing time",
+            &provenance::provenance(results, verdict.own),
+        ),
+    ]
+    .concat();
     let body = [
         text::header(&title, results),
-        "<main>".to_owned(),
-        text::verdict(results, verdict),
-        side_by_side::side_by_side(results),
-        plots::cursor(),
-        plots::sections(results),
-        model_errors::model_errors(results),
-        plots::table(&data.notes, verdict),
-        text::provenance(results, verdict.own),
-        "</main>".to_owned(),
+        "<div class=\"page columns-of-page\">".to_owned(),
+        contents::contents(&sections),
+        format!("<main>{sections}</main></div>"),
     ]
     .concat();
     let title = escape(&title);
@@ -69,4 +85,29 @@ pub(crate) fn page(results: &Results, verdict: &Verdict) -> String {
          <script type=\"application/json\" id=\"data\">{json}</script>\n<script>{PLOTLY}</script>\n\
          <script>\n(() => {{\n\"use strict\";\n{scripts}}})();\n</script>\n</body>\n</html>\n"
     )
+}
+
+/// A part of the page; nothing where it has no content.
+fn section(id: &str, title: &str, content: &str) -> String {
+    if content.is_empty() {
+        return String::new();
+    }
+    format!(
+        "<section id=\"{id}\" aria-labelledby=\"{id}-title\"><h2 id=\"{id}-title\">{title}</h2>\n{content}</section>\n"
+    )
+}
+
+/// A part that is folded away until it is asked for; nothing where it has no content.
+fn folded(id: &str, title: &str, content: &str) -> String {
+    if content.is_empty() {
+        return String::new();
+    }
+    format!(
+        "<section id=\"{id}\" aria-labelledby=\"{id}-title\"><details><summary><h2 id=\"{id}-title\">{title}</h2></summary>\n{content}</details></section>\n"
+    )
+}
+
+/// A heading within a part, which the table of contents lists.
+fn heading(id: &str, title: &str) -> String {
+    format!("<h3 id=\"{id}\">{title}</h3>")
 }

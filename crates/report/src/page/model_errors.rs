@@ -1,5 +1,6 @@
-//! What is said of the errors of the model: whether there are any, of which modes and matrices, and what an error of a known factor would do.
+//! The errors of the model: whether there are any, of which modes and matrices, and what an error of a known factor would do.
 
+use super::heading;
 use crate::escape::escape;
 use crate::number::{percent, significant};
 use crate::results::Results;
@@ -12,7 +13,7 @@ const LARGE_LEVERAGE: f64 = 1.5;
 /// The same for 1 % in the natural frequencies at the end of the band, which moves a modulus alone by 2 %.
 const LARGE_LEVERAGE_OF_MESH: f64 = 3.0;
 
-/// The section; nothing where the summary says nothing of them.
+/// Text and tables; nothing where the summary has no entry for them.
 pub(super) fn model_errors(results: &Results) -> String {
     let summary = &results.summary;
     let known = summary.0.pointer("/identify/model_error").unwrap_or(&Value::Null);
@@ -23,22 +24,19 @@ pub(super) fn model_errors(results: &Results) -> String {
     let body = match found {
         Some(found) => sizes(found) + &modes(found) + &others(found),
         None if known == "none" => {
-            "<p>The case says that the model has no errors (<code>model_error = \"none\"</code>): error bars hold the noise of the measurement alone.</p>\n"
+            "<p>The case takes the model as exact (<code>model_error = \"none\"</code>). Error bars contain the noise of the measurement only.</p>\n"
                 .to_owned()
         }
         None => {
-            "<p>None were taken out: a model without errors explains the band as well as one with errors, or nothing could be compared. \
-             Error bars hold the noise of the measurement alone. An error that all modes have in common with an unknown, as of a thickness, does not show in a measurement.</p>\n"
+            "<p>No error of the model was found: a model without errors explains the band as well as one with errors, or there was nothing to compare. \
+             Error bars contain the noise of the measurement only. An error that acts on all modes like the unknown, for example a wrong thickness, does not show in the measurement.</p>\n"
                 .to_owned()
         }
     };
     let is_unused = summary.0.pointer("/identify/coarser_mesh") == Some(&Value::Bool(true))
         && found.and_then(|found| found.get("mesh")).is_none_or(Value::is_null);
     let body = body + if is_unused { UNPAIRED } else { "" };
-    format!(
-        "<section id=\"model-errors\" aria-labelledby=\"model-errors-title\"><h2 id=\"model-errors-title\">Errors of the model</h2>\n{body}{}</section>\n",
-        leverage(results)
-    )
+    format!("{}\n{body}{}", heading("model-errors", "Errors of the model"), leverage(results))
 }
 
 const UNPAIRED: &str = "<p>The coarser mesh was not used: fewer than half of the modes of the band could be paired with its modes.</p>\n";
@@ -55,8 +53,8 @@ pub(super) fn number(of: &Value, key: &str) -> Option<f64> {
 fn sizes(found: &Value) -> String {
     let size = |key: &str| number(found, key).map_or("–".into(), percent);
     let mut html = format!(
-        "<p>They were taken out of the model, and are in every error bar. Standard deviations: natural frequencies {}, each by itself; mode shapes at the sensors {}; \
-         damping of modes {}.",
+        "<p>Errors of the model were found. They are corrected for, and they are in every error bar. Their standard deviations: natural frequencies {}, independent of one another; \
+         mode shapes at the sensors {}; damping of modes {}.",
         size("frequency_std"),
         size("shape_std"),
         size("loss_factor_std")
@@ -65,14 +63,14 @@ fn sizes(found: &Value) -> String {
     if let Some(rest) = number(found, "response_std").filter(|rest| *rest > 0.0) {
         let _ = write!(
             html,
-            " Beside these and the given noise, {} of the response remains unexplained.",
+            " In addition to these errors and the noise, {} of the response remains unexplained.",
             percent(rest)
         );
     }
     if let Some(ratio) = number(found, "bars_over_noise") {
         let _ = write!(
             html,
-            " Error bars of the storage are {} times as long as the noise alone would make them (median).",
+            " The error bars of the storage modulus are {} times as long as with the noise alone (median).",
             significant(ratio, 2)
         );
     }
@@ -80,12 +78,12 @@ fn sizes(found: &Value) -> String {
         let _ = match nats > 0.0 {
             true => write!(
                 html,
-                " They explain the band better than a model without errors by {} nats.",
+                " With them the log-likelihood of the band is higher by {} (in nats) than without.",
                 significant(nats, 3)
             ),
             false => write!(
                 html,
-                " A model without errors explains the band as well: they are in the bars because of what the case says of the model."
+                " A model without errors explains the band as well: these errors are in the error bars because the case gives them."
             ),
         };
     }
@@ -94,7 +92,7 @@ fn sizes(found: &Value) -> String {
         let of = |key: &str| number(mesh, key).map_or("–".into(), |value| significant(value, 2));
         let _ = writeln!(
             html,
-            "<p>{} modes are paired with those of the coarser mesh. Of the difference between the meshes this one still has {} ± {} (one standard deviation); {} is expected of the size \
+            "<p>{} modes are paired with those of the coarser mesh. The error of this mesh is {} ± {} times the difference between the two meshes (one standard deviation); {} is expected from the size \
              of the elements.</p>",
             mesh.get("paired").and_then(Value::as_u64).unwrap_or(0),
             of("remainder"),
@@ -123,7 +121,7 @@ fn modes(found: &Value) -> String {
     let mut heads = vec!["Natural frequency of the model, Hz"];
     heads.extend(has_coarser.then_some("On the coarser mesh, Hz"));
     heads.push("Error, ± two standard deviations");
-    table("Natural frequencies", &heads, &rows)
+    sub("Natural frequencies") + &table("Natural frequencies", &heads, &rows)
 }
 
 /// Known matrices and masses at sensors.
@@ -141,7 +139,11 @@ fn others(found: &Value) -> String {
     });
     let rows: Vec<Vec<String>> = rows.collect();
     let heads = ["Known matrix", "Part of its factor", "Error, ± two standard deviations"];
-    let mut html = if rows.is_empty() { String::new() } else { table("Known matrices", &heads, &rows) };
+    let mut html = if rows.is_empty() {
+        String::new()
+    } else {
+        sub("Known matrices") + &table("Known matrices", &heads, &rows)
+    };
     let clear =
         |one: &&Value| number(one, "mass_kg").zip(number(one, "std_kg")).is_some_and(|(m, s)| m > 2.0 * s);
     for one in list(found, "sensor_masses").iter().filter(clear) {
@@ -177,10 +179,16 @@ fn with_std(of: &Value) -> String {
     }
 }
 
+/// A heading below those that the table of contents lists.
+pub(super) fn sub(title: &str) -> String {
+    format!("<h4>{title}</h4>")
+}
+
+/// A table with the name `title` for readers without eyes.
 pub(super) fn table(title: &str, heads: &[&str], rows: &[Vec<String>]) -> String {
     let heads: String = heads.iter().map(|head| format!("<th>{head}</th>")).collect();
     let mut html = format!(
-        "<h3>{title}</h3><div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{title}\"><table class=\"plain\"><thead><tr>{heads}</tr></thead><tbody>"
+        "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{title}\"><table class=\"plain\"><thead><tr>{heads}</tr></thead><tbody>"
     );
     for row in rows {
         html += "<tr>";
@@ -208,14 +216,17 @@ fn leverage(results: &Results) -> String {
         let (unknown, change) = (text("unknown"), significant(change(one), 2));
         match is_of_mesh(one) {
             true => format!(
-                "<li>A mesh with natural frequencies 1 % high at the end of the band moves {unknown} there by {change} %. \
-                 A coarser mesh (<code>[coarser_mesh]</code>) says how far this one is off.</li>"
+                "<li>A mesh whose natural frequencies are 1 % too high at the end of the band changes {unknown} there by {change} %. \
+                 A second, coarser mesh (<code>coarser_mesh</code> in the case) shows the error of this mesh.</li>"
             ),
-            false => format!("<li>1 % in {} moves {unknown} by {change} %.</li>", text("matrix")),
+            false => {
+                format!("<li>An error of 1 % in {} changes {unknown} by {change} %.</li>", text("matrix"))
+            }
         }
     };
     let items: String = all.iter().map(sentence).collect();
     format!(
-        "<h3>What is taken for known</h3><ul>{items}</ul><p class=\"note\">How well a factor is known can be said beside it, as <code>storage_std = \"2 %\"</code>.</p>\n"
+        "{}<ul>{items}</ul><p class=\"note\">The case can state how well a factor is known, for example <code>storage_std = \"2 %\"</code> beside it. The error bars then contain this.</p>\n",
+        heading("leverage", "What errors of known values would do")
     )
 }

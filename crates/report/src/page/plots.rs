@@ -1,11 +1,11 @@
 //! The places of plots and table: what each shows, or why it is not there.
 
-use super::together::together;
+use super::heading;
 use crate::data::SENSORS;
 use crate::escape::escape;
 use crate::results::{Band, Results, Unknown};
 use crate::verdict::Verdict;
-use frfit::identify::Status;
+use frfit::identify::{Status, Trust};
 use std::fmt::Write;
 
 /// The frequency cursor.
@@ -19,8 +19,9 @@ pub(super) fn cursor() -> String {
 /// A plot with its heading and how it is read; the scripts fill it.
 pub(super) fn plot(id: &str, title: &str, reading: &str) -> String {
     format!(
-        "<figure class=\"plot\" id=\"plot-{id}\"><figcaption><h3>{title}</h3><p>{reading}</p></figcaption>\
-         <div class=\"tools screen\" role=\"toolbar\" aria-label=\"{title}\"></div><div class=\"drawing\"></div></figure>\n"
+        "<figure class=\"plot\" id=\"plot-{id}\"><figcaption>{}<p>{reading}</p></figcaption>\
+         <div class=\"tools screen\" role=\"toolbar\" aria-label=\"{title}\"></div><div class=\"drawing\"></div></figure>\n",
+        heading(&format!("about-{id}"), title)
     )
 }
 
@@ -29,122 +30,117 @@ pub(super) fn absent(title: &str, why: &str) -> String {
     format!("<p class=\"absent\"><b>{title}</b>: not drawn, {why}</p>\n")
 }
 
-/// All plots, in the order in which they are read.
-pub(super) fn sections(results: &Results) -> String {
-    let mut html = String::new();
-    for (id, title, content) in [
-        ("response", "Response", response(results)),
-        ("factor", "Identified values", factor(results)),
-        ("choice", "Choice", choice(results)),
-        ("together", "How the values are correlated", together(results)),
-        ("trust", "Error and convergence", trust(results)),
-        ("plane", "In the complex plane", plane(results)),
-    ] {
-        if !content.is_empty() {
-            let _ = write!(
-                html,
-                "<section id=\"{id}\" aria-labelledby=\"{id}-title\"><h2 id=\"{id}-title\">{title}</h2>\n{content}</section>\n"
-            );
-        }
-    }
-    html
-}
-
 /// The title of a plot, with the name of one of several unknowns.
 fn titled(title: &str, one: &Unknown) -> String {
     if one.prefix.is_empty() { title.to_owned() } else { format!("{title}: {}", escape(&one.name)) }
 }
 
-fn response(results: &Results) -> String {
+/// Response, its error and the agreement of each sensor.
+pub(super) fn fit(results: &Results) -> String {
     let mut html = String::new();
     if results.sensors.len() > 1 {
         html += "<p class=\"screen\"><label for=\"sensor\">Sensor </label><select id=\"sensor\">";
         for (m, sensor) in results.sensors.iter().take(SENSORS).enumerate() {
             let _ = write!(html, "<option value=\"{m}\">{}</option>", escape(&sensor.label));
         }
-        html += "</select></p><p class=\"print-only\">Sensor <span id=\"sensor-name\"></span>; the others are in figures/.</p>";
+        html += "</select></p><p class=\"print-only\">Sensor <span id=\"sensor-name\"></span>; the folder figures has the others.</p>";
     }
     html += &plot(
         "accelerance",
-        "Accelerance: measured, nominal, updated",
-        "Acceleration per force. The updated model should lie on the measured points; the nominal one shows how far off it was.",
+        "Frequency response",
+        "Accelerance, magnitude and phase, as measured and of both models. The updated model should lie on the measured points. The nominal model shows how far off the model was before.",
     );
-    html + &plot(
+    html += &error(&results.band);
+    html += &plot(
         "frac",
         "Agreement of each sensor (FRAC)",
-        "1 is a response of the measured shape at every frequency. A sensor that stays low is wrong, or the model is wrong there.",
-    )
+        "1: the computed response has the shape of the measured one over the whole band. A sensor that stays low has a fault, or the model is wrong near it.",
+    );
+    html += &plot(
+        "nyquist",
+        "Nyquist plot of the accelerance",
+        "Each resonance is a loop. The loops of measurement and updated model should be the same.",
+    );
+    html
 }
 
-fn factor(results: &Results) -> String {
-    let has_errors = results.summary.0.get("model_errors").is_some_and(|found| !found.is_null());
+/// Whether the results have errors of the model that were found.
+fn has_model_errors(results: &Results) -> bool {
+    results.summary.0.get("model_errors").is_some_and(|found| !found.is_null())
+}
+
+/// The identified values over frequency, and in the complex plane.
+pub(super) fn values(results: &Results) -> String {
+    let has_errors = has_model_errors(results);
     let of_one = |(suffix, _, one): (String, usize, &Unknown)| {
         let title = if one.real { "Identified value" } else { "Storage modulus and loss factor" };
-        let others = if results.unknowns.len() == 1 { "" } else { ", all other unknowns free" };
+        let others = if results.unknowns.len() == 1 { "" } else { ", with all other unknowns free" };
         let bars = match results.band.has(&one.column("storage_std")) {
             true if has_errors => format!(
-                "Bars and bands are two standard deviations{others}. They hold the noise, the errors of the model that were found, and the uncertainty of the given factors."
+                "Bars and bands are two standard deviations{others}. They contain the noise, the errors of the model that were found, and the uncertainty of the given factors."
             ),
             true => format!(
-                "Bars and bands are two standard deviations due to noise{others}: 95 of 100 true values lie within, if the model is right. Errors of the model (mesh, supports) are not in them."
+                "Bars and bands are two standard deviations{others}. They contain the noise: 95 of 100 true values lie within, if the model is right. Errors of the model (mesh, supports) are not in them."
             ),
-            false => "There are no error bars: the noise is unknown, or the selection has none.".to_owned(),
-        };
-        let reading = format!("{bars} Grey crosses are evidence only, not answers.");
-        let modulus = plot(&format!("modulus{suffix}"), &titled(title, one), &reading);
-        match has_errors && results.band.has(&one.column("storage_std_model")) {
-            true => {
-                modulus
-                    + &plot(
-                        &format!("contributions{suffix}"),
-                        &titled(CONTRIBUTIONS, one),
-                        CONTRIBUTIONS_READING,
-                    )
+            false => {
+                "There are no error bars: the noise is unknown, or this way of selecting a solution has none."
+                    .to_owned()
             }
-            false => modulus,
-        }
+        };
+        let evidence = match results.band.status.iter().any(|status| status.trust() == Trust::EvidenceOnly) {
+            true => " Grey crosses are no results: the status there is not trusted.",
+            false => "",
+        };
+        plot(&format!("modulus{suffix}"), &titled(title, one), &format!("{bars}{evidence}"))
     };
-    results.curves().map(of_one).collect()
+    results.curves().map(of_one).collect::<String>() + &plane(results)
 }
 
-const CONTRIBUTIONS: &str = "What the error bars consist of";
-const CONTRIBUTIONS_READING: &str = "One standard deviation over the storage modulus or value. The squares of the three contributions add up to the square of the whole. \
-     Where noise is the largest, measure longer; where the model is, refine the mesh or look at supports; where known factors are, say how well they are known.";
+/// What the error bars consist of.
+pub(super) fn contributions(results: &Results) -> String {
+    const TITLE: &str = "Contributions to the standard deviation";
+    const READING: &str = "One standard deviation over the storage modulus or value. The squares of the three contributions add up to the square of the total. \
+         If the noise is the largest, measure longer. If the model is, refine the mesh or check the supports. If known factors are, state how well they are known.";
+    if !has_model_errors(results) {
+        return String::new();
+    }
+    let all = results.curves().filter(|(.., one)| results.band.has(&one.column("storage_std_model")));
+    all.map(|(suffix, _, one)| plot(&format!("contributions{suffix}"), &titled(TITLE, one), READING))
+        .collect()
+}
 
-fn choice(results: &Results) -> String {
-    const TITLE: &str = "Candidates and chosen path";
+/// All solutions, and the one that was chosen.
+pub(super) fn choice(results: &Results) -> String {
+    const TITLE: &str = "All solutions and the chosen one";
     let free = || results.curves().filter(|(.., one)| one.is_free() || results.unknowns.len() == 1);
     if free().next().is_some() && results.candidates.verdict.is_empty() {
         return absent(TITLE, "for no solution was found at any frequency.");
     }
-    let reading = "Every dot reproduces the first measurement. The path through them is the one that the other sensors and frequencies agree with. Refused ones are shown by a switch.";
+    let reading = "Every dot is a value that reproduces the first sensor at one frequency. The line joins the values that were chosen. The button “refused” shows solutions outside the bounds as well.";
     free()
         .map(|(suffix, _, one)| plot(&format!("candidates{suffix}"), &titled(TITLE, one), reading))
         .collect()
 }
 
-fn trust(results: &Results) -> String {
+/// What the method had to do, and how exact it is.
+pub(super) fn convergence(results: &Results) -> String {
     let band = &results.band;
     let mut html = "<div class=\"pair\">".to_owned();
     let mut missing = String::new();
-    match error(band) {
-        (true, plot) => html += &plot,
-        (false, why) => missing += &why,
-    }
     match &results.error_map {
         Some(_) => {
             html += &plot(
                 "error-map",
-                "Error map over the order of the series",
-                "log₁₀ of the error after so many terms of the series. Columns that darken upwards converge; bright ones stand at resonances.",
+                "Error over the order of the series",
+                "log₁₀ of the error after so many terms of the Neumann series. The series converges in columns that become darker upwards. Bright columns are resonances.",
             );
         }
         None => {
             let method = escape(results.summary.word("/identify/method"));
             missing += &absent(
-                "Error map over the order of the series",
+                "Error over the order of the series",
                 &format!(
-                    "for it is made with method = \"series\" and --error-map above 0 only, and this run used {method}."
+                    "for it needs method = \"series\" and --error-map above 0, and this run used {method}."
                 ),
             );
         }
@@ -152,108 +148,103 @@ fn trust(results: &Results) -> String {
     if band.has("spectral_radius") {
         html += &plot(
             "radius",
-            "Spectral radius",
-            "Below 1 the paper’s series converges to the answer; the nearer to 1, the more terms it needs.",
+            "Spectral radius of the series",
+            "Below 1 the Neumann series converges. The nearer to 1, the more terms it needs.",
         );
     } else {
-        missing += &absent("Spectral radius", "for no frequency has one.");
+        missing += &absent("Spectral radius of the series", "for this method does not compute it.");
     }
     if band.has("convergence_radius") {
         html += &plot(
             "pole",
             "Distance to the nearest pole",
-            "How far the parameter may change, relative to its nominal value, before the response has a pole; beside it how far it did change.",
+            "How far the parameter may change, relative to its nominal value, before the response has a pole. The other curve is the change that was found.",
         );
     } else {
-        missing += &absent("Distance to the nearest pole", "for no frequency has one.");
+        missing += &absent("Distance to the nearest pole", "for this method does not compute it.");
     }
     if band.has("required_order") {
         html += &plot(
             "order",
-            "Order that the series would need",
-            "Terms of the paper’s series for an error of 10⁻⁶. Where there is a gap no order is enough; the default method answers there too.",
+            "Terms that the series would need",
+            "Terms of the Neumann series for an error of 10⁻⁶. In a gap no number of terms is enough; the method that was used needs no series.",
         );
     } else {
         missing += &absent(
-            "Order that the series would need",
-            "for only a joint selection on the band’s subspace asks for it.",
+            "Terms that the series would need",
+            "for only selection = \"joint\" on a reduced model computes it.",
         );
     }
-    html += &reduction_error(results);
-    html + "</div>\n" + &missing
+    let (is_there, reduction) = reduction_error(results);
+    html += if is_there { &reduction } else { "" };
+    html += "</div>\n";
+    html + &missing + if is_there { "" } else { &reduction }
 }
 
 /// The error of the response, or why it is not there.
-fn error(band: &Band) -> (bool, String) {
-    const TITLE: &str = "Error of the response";
+fn error(band: &Band) -> String {
+    const TITLE: &str = "Error of the response over frequency";
     match band.has("error") {
         true => {
-            let reading = "Norm of the misfit over all sensors, relative to the measured response, with the nominal and the updated value. Small is necessary, but proves little: several values may match.";
-            (true, plot("error", TITLE, reading))
+            let reading = "Difference of model and measurement over all sensors, relative to the measured response, with the nominal and the updated value. A small error alone proves little: several values may give the same response.";
+            plot("error", TITLE, reading)
         }
-        false => (false, absent(TITLE, "for no frequency has an updated response.")),
+        false => absent(TITLE, "for no frequency has an updated response."),
     }
 }
 
-fn reduction_error(results: &Results) -> String {
-    const TITLE: &str = "Error of the reduced model";
+/// The error of the reduced model and whether it is known; else why not.
+fn reduction_error(results: &Results) -> (bool, String) {
+    const TITLE: &str = "Reduction error";
     if !results.band.has("reduction_error") {
-        return absent(TITLE, "for the full model answered at every frequency.");
+        return (false, absent(TITLE, "for the full model was solved at every frequency."));
     }
     let size = results.summary.number("/counts/subspace_size");
-    let size = size.map_or(String::new(), |size| format!(" It has {size} vectors."));
+    let size =
+        size.map_or(String::new(), |size| format!(" The reduced model has {size} degrees of freedom."));
     let reading = format!(
-        "Estimated error of the band’s subspace at the sensors, relative to the measured response.{size}"
+        "Estimated error of the reduced model at the sensors, relative to the measured response.{size}"
     );
-    plot("reduction-error", TITLE, &reading)
+    (true, plot("reduction-error", TITLE, &reading))
 }
 
+/// Loss against storage; nothing where no value is complex.
 fn plane(results: &Results) -> String {
     const PLOTS: [(&str, &str, &str); 2] = [
         (
             "cole-cole",
             "Cole–Cole plot",
-            "Loss modulus over storage modulus at trusted frequencies. One material gives one curve.",
+            "Loss modulus over storage modulus at trusted frequencies. One material gives one smooth curve.",
         ),
         (
             "wicket",
             "Wicket plot",
-            "Loss factor over storage modulus, both logarithmic. Points beside the curve are wrong in frequency, temperature or branch.",
+            "Loss factor over storage modulus, both logarithmic. Points beside the curve have a fault of frequency or temperature, or belong to another solution.",
         ),
     ];
-    let nyquist = plot(
-        "nyquist",
-        "Nyquist plot",
-        "Imaginary over real part of the accelerance. Resonances are loops; measured and updated loops should be the same.",
-    );
-    let why = match (results.curves().any(|(.., one)| !one.real), results.band.count(Status::Ok)) {
-        (true, 1..) => {
-            let complex = results.curves().filter(|(.., one)| !one.real);
-            let of_one = |(suffix, _, one): (String, usize, &Unknown)| {
-                let both = PLOTS
-                    .map(|(id, title, reading)| plot(&format!("{id}{suffix}"), &titled(title, one), reading));
-                format!("<div class=\"pair\">{}</div>\n", both.concat())
-            };
-            return nyquist + &complex.map(of_one).collect::<String>();
-        }
-        (true, 0) => "for no frequency is trusted.",
-        (false, _) if results.curves().next().is_some() => "for the factor is real (real = true).",
-        (false, _) => "for no factor varies over the band.",
+    let complex = || results.curves().filter(|(.., one)| !one.real);
+    if complex().next().is_none() {
+        return String::new();
+    }
+    if results.band.count(Status::Ok) == 0 {
+        return PLOTS.map(|(_, title, _)| absent(title, "for no frequency is trusted.")).concat();
+    }
+    let of_one = |(suffix, _, one): (String, usize, &Unknown)| {
+        let both =
+            PLOTS.map(|(id, title, reading)| plot(&format!("{id}{suffix}"), &titled(title, one), reading));
+        format!("<div class=\"pair\">{}</div>\n", both.concat())
     };
-    nyquist + &PLOTS.map(|(_, title, _)| absent(title, why)).concat()
+    complex().map(of_one).collect()
 }
 
 /// The table with its filter.
 pub(super) fn table(notes: &[String], verdict: &Verdict) -> String {
-    let mut html =
-        "<section id=\"table\" aria-labelledby=\"table-title\"><h2 id=\"table-title\">All frequencies</h2>\
-                    <form id=\"filter\" class=\"screen\"><fieldset><legend>Status</legend>"
-            .to_owned();
+    let mut html = "<form id=\"filter\" class=\"screen\"><fieldset><legend>Status</legend>".to_owned();
     for share in &verdict.shares {
         let (name, count) = (share.status.name(), share.count);
         let _ = write!(
             html,
-            "<label><input type=\"checkbox\" name=\"status\" value=\"{name}\" checked> <span class=\"dot {name}\"></span>{} ({count})</label>",
+            "<label><input type=\"checkbox\" name=\"status\" value=\"{name}\" checked> <span class=\"tint {name}\"></span>{} ({count})</label>",
             share.label
         );
     }
@@ -266,5 +257,5 @@ pub(super) fn table(notes: &[String], verdict: &Verdict) -> String {
     for note in notes {
         let _ = write!(html, "<p class=\"note\">{}</p>", escape(note));
     }
-    html + "<p class=\"note\">Numbers in plots, table and downloads have six digits; identified.csv beside this page has all.</p></section>\n"
+    html + "<p class=\"note\">Numbers in plots, table and downloads have six digits; identified.csv beside this page has all digits.</p>\n"
 }

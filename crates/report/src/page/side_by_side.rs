@@ -1,6 +1,7 @@
 //! Natural frequencies of model and measurement side by side, for a band that is not explained: which modes have a partner, and how far their frequencies are apart.
 
 use super::model_errors::{number, table};
+use super::section;
 use crate::escape::escape;
 use crate::number::significant;
 use crate::results::Results;
@@ -55,19 +56,19 @@ pub(super) fn side_by_side(results: &Results) -> String {
     let factor = factor.filter(|factor| (factor - 1.0).abs() > MIN_FACTOR_OFF);
     let said = factor.map_or(String::new(), |factor| {
         format!(
-            " The picture has the model's frequencies with its unknown stiffness multiplied by {}, at which they fit best.",
+            " In the picture the unknown stiffness of the model is multiplied by {}, where the frequencies fit best.",
             significant(factor, 3)
         )
     });
-    format!(
-        "<section id=\"modes\" aria-labelledby=\"modes-title\"><h2 id=\"modes-title\">Natural frequencies of model and measurement</h2>\n\
-         <p>No modulus explains the measurement, so look at it mode by mode: all frequencies off in one sense point at a mass, a thickness or a nominal value, \
-         single ones at a support or a joint, and modes without a partner at a mesh, a missing part or a sensor at another place.{said} \
-         <code>frfit modes</code> has figures, shapes and the response beside it.</p>\n{}{}{}</section>\n",
+    let content = format!(
+        "<p>The identified values do not explain the measurement, so compare the modes one by one. All frequencies off in one direction point at a mass, a thickness or a nominal value. \
+         Single ones point at a support or a joint. Modes without a partner point at the mesh, a missing part or a wrong sensor position.{said} \
+         <code>frfit modes</code> gives figures, mode shapes and the response of both.</p>\n{}{}{}",
         picture(&model, &measured, &pairs),
         rows(&model, &measured, &pairs, factor.is_some()),
         shapes(results)
-    )
+    );
+    section("modes", "Natural frequencies of model and measurement", &content)
 }
 
 /// How alike the shapes of the pairs are at each sensor; nothing where there are too few of either.
@@ -79,7 +80,7 @@ fn shapes(results: &Results) -> String {
         return String::new();
     }
     format!(
-        "<p>Shapes of the pairs at each sensor (COMAC, 1 where they are the same): {}. A sensor far below the others is at another place, or of another sense.</p>\n",
+        "<p>Agreement of the mode shapes at each sensor (COMAC, 1 is full agreement): {}. A sensor far below the others has a wrong position or direction.</p>\n",
         all.join(", ")
     )
 }
@@ -160,7 +161,7 @@ fn picture(model: &[Mode], measured: &[Mode], pairs: &[Pair]) -> String {
             significant(hz, 3)
         );
     }
-    svg + "</svg></div>\n<p class=\"note\">Lines join modes that are paired by frequency and shape; dashed strokes have no partner.</p>\n"
+    svg + "</svg></div>\n<p class=\"note\">Lines join modes that belong together by frequency and shape. Dashed strokes have no partner.</p>\n"
 }
 
 /// All modes of the measurement, and those of the model that have no partner, by frequency.
@@ -192,5 +193,9 @@ fn rows(model: &[Mode], measured: &[Mode], pairs: &[Pair], has_factor: bool) -> 
     let mut heads = vec!["Nominal model, Hz", "Measured, Hz", "Difference, %"];
     heads.extend(has_factor.then_some("With the factor, %"));
     heads.extend(["Damping ratio of the model, %", "Measured, %", "MAC"]);
-    table("Modes", &heads, &rows.into_iter().map(|(_, row)| row).collect::<Vec<_>>())
+    table(
+        "Natural frequencies of model and measurement, in numbers",
+        &heads,
+        &rows.into_iter().map(|(_, row)| row).collect::<Vec<_>>(),
+    )
 }

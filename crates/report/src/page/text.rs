@@ -1,11 +1,12 @@
-//! What is read: head, verdict, and where everything comes from.
+//! What is read: head, verdict, and the identified values in numbers.
 
 use super::model_errors::{list, number};
 use super::together::constants;
+use super::{heading, section};
 use crate::escape::escape;
 use crate::number::{hertz, significant, with_bar};
 use crate::results::{Results, Unknown};
-use crate::status::label;
+use crate::stretches::{Stretch, stretches};
 use crate::verdict::{Level, Verdict};
 use frfit::c64;
 use frfit::identify::Status;
@@ -25,8 +26,8 @@ pub(super) fn header(title: &str, results: &Results) -> String {
     };
     let how = results.unknowns.iter().map(one).collect::<Vec<_>>().join("; ");
     format!(
-        "<header class=\"page\"><div><p class=\"kicker\">Finite element model against measurement</p><h1>{}</h1>\
-         <p class=\"sub\">{}, {} sensor{}</p></div>\
+        "<header class=\"page\"><div><p class=\"kicker\">Finite element model updated to a measurement</p><h1>{}</h1>\
+         <p class=\"sub\">Identified: {}. {} sensor{}.</p></div>\
          <button type=\"button\" id=\"theme\" class=\"screen\" aria-live=\"polite\">Dark</button></header>\n",
         escape(title),
         escape(&how),
@@ -35,17 +36,21 @@ pub(super) fn header(title: &str, results: &Results) -> String {
     )
 }
 
+/// How far the result can be used, and what to do first.
 pub(super) fn verdict(results: &Results, verdict: &Verdict) -> String {
     let (class, word) = match verdict.level {
-        Level::Good => ("good", "Can be used"),
-        Level::Care => ("care", "Use with care"),
-        Level::Bad => ("bad", "Do not use yet"),
+        Level::Good => ("good", "✓ Can be used"),
+        Level::Care => ("care", "! Use with care"),
+        Level::Bad => ("bad", "✗ Do not use yet"),
     };
     let mut html = format!(
-        "<section id=\"verdict\" aria-labelledby=\"verdict-title\"><h2 id=\"verdict-title\" class=\"{class}\"><span>{word}</span></h2>\
-         <p class=\"headline\">{}</p>\n<dl class=\"tiles\">",
-        escape(&verdict.headline)
+        "<section id=\"verdict\" class=\"{class}\" aria-labelledby=\"verdict-title\"><h2 id=\"verdict-title\">Verdict</h2>\
+         <p class=\"headline\"><b class=\"badge\">{word}</b> {}</p>\n{}",
+        escape(&verdict.headline),
+        first(results, verdict)
     );
+    html += &heading("key-figures", "Key figures");
+    html += "<dl class=\"tiles\">";
     // Writing to a string does not fail.
     for tile in &verdict.tiles {
         let _ = write!(
@@ -57,69 +62,79 @@ pub(super) fn verdict(results: &Results, verdict: &Verdict) -> String {
         );
     }
     html += "</dl>\n";
-    html += &strip(results, verdict);
-    html += &findings(results);
-    if !verdict.cautions.is_empty() {
-        html += "<h3>Before the numbers are used</h3><ul>";
-        for caution in &verdict.cautions {
-            let _ = write!(html, "<li>{}</li>", escape(caution));
-        }
-        html += "</ul>\n";
+    html + &strip(results, verdict) + "</section>\n"
+}
+
+/// What to do first: faults of the data, then what is to be known before the numbers are used, and what follows.
+fn first(results: &Results, verdict: &Verdict) -> String {
+    let mut html = heading("first", "What to do first");
+    let mut steps: Vec<String> = results.summary.array("/findings").iter().map(finding).collect();
+    if verdict.level == Level::Good {
+        steps.push(
+            "Use the values in identified.csv, with their standard deviations where there are any. <code>frfit export</code> writes them for Nastran, Abaqus or Ansys."
+                .into(),
+        );
     }
-    html += &constants(results);
+    steps.extend(verdict.cautions.iter().map(|caution| escape(caution)));
+    if !results.summary.array("/modes/measured/modes").is_empty() {
+        steps.push(
+            "Compare the <a href=\"#modes\">natural frequencies of model and measurement</a>, mode by mode."
+                .into(),
+        );
+    }
+    if verdict.level == Level::Care && verdict.own && verdict.shares.len() > 1 {
+        steps.push(
+            "Use the values of trusted frequencies only. <a href=\"#where\">The list of statuses</a> gives the reasons at the others."
+                .into(),
+        );
+    }
+    if !steps.is_empty() {
+        let items: String = steps.iter().map(|step| format!("<li>{step}</li>")).collect();
+        let _ = writeln!(html, "<ol class=\"steps\">{items}</ol>");
+    }
+    html + &checked(results)
+}
+
+/// The identified values: those of the whole band, then curves, then numbers at three frequencies and laws.
+pub(super) fn result(results: &Results, plots: &str) -> String {
+    let mut html = constants(results) + plots;
     for one in results.unknowns.iter().filter(|one| one.is_curve()) {
         html += &three_rows(results, one);
     }
-    html + &laws(results) + "</section>\n"
+    html += &laws(results);
+    section("result", "Result: identified values", &html)
 }
 
 /// The statuses over frequency as a strip, and in words.
 fn strip(results: &Results, verdict: &Verdict) -> String {
     let band = &results.band;
     let (first, last) = (band.frequency_hz[0], band.frequency_hz[band.len() - 1]);
-    let width = |f: f64| if last > first { 1000.0 * (f - first) / (last - first) } else { 1000.0 };
-    let mut rects = String::new();
-    let mut start = 0;
-    let mut drawn = -1.0;
-    for row in 1..=band.len() {
-        if row < band.len() && band.status[row] == band.status[start] {
-            continue;
-        }
-        // From half-way to the neighbour before to half-way to the one behind.
-        let edge = |row: usize| match row {
-            0 => first,
-            row if row >= band.len() => last,
-            row => f64::midpoint(band.frequency_hz[row - 1], band.frequency_hz[row]),
-        };
-        let (x, end) = (width(edge(start)), width(edge(row)));
-        // Narrower than a third of a pixel nothing is seen, and a page has room for some thousand.
-        if end - drawn > 0.35 {
-            let _ = write!(
-                rects,
-                "<rect class=\"{}\" x=\"{x:.2}\" width=\"{:.2}\" height=\"20\"/>",
-                band.status[start].name(),
-                (end - x).max(0.35)
-            );
-            drawn = end;
-        }
-        start = row;
-    }
-    let mut html = format!(
-        "<h3>{}</h3><figure class=\"strip\"><svg viewBox=\"0 0 1000 20\" preserveAspectRatio=\"none\" role=\"img\" \
-         aria-label=\"Status over frequency; the list below says the same in words\">{rects}</svg>\
-         <figcaption><span>{}</span><span>{}</span></figcaption></figure><ul class=\"shares\">",
+    let place = |f: f64| if last > first { 100.0 * (f - first) / (last - first) } else { 0.0 };
+    let piece = |one: &Stretch| {
+        let width = if last > first { place(one.to) - place(one.from) } else { 100.0 };
+        let name = one.status.name();
+        format!("<i class=\"tint {name}\" style=\"left:{:.3}%;width:{width:.3}%\"></i>", place(one.from))
+    };
+    let pieces: String = stretches(band).iter().map(piece).collect();
+    let mut html = heading(
+        "where",
         if verdict.own {
-            "Where the answer can be trusted"
+            "Where the values can be trusted"
         } else {
             "Where the values explain the measurements"
         },
+    );
+    let _ = write!(
+        html,
+        "<figure class=\"strip\"><div role=\"img\" aria-label=\"Status over frequency; the list below gives the same in words\">{pieces}</div>\
+         <figcaption><span>{}</span><span>{}</span></figcaption></figure><ul class=\"shares\">",
         hertz(first),
-        hertz(last)
+        if last > first { hertz(last) } else { String::new() }
     );
     for share in &verdict.shares {
         let _ = write!(
             html,
-            "<li><span class=\"dot {}\"></span><b>{} {}</b> – {}</li>",
+            "<li><span class=\"tint {}\"></span><b>{} {}</b>: {}</li>",
             share.status.name(),
             share.count,
             share.label,
@@ -129,46 +144,34 @@ fn strip(results: &Results, verdict: &Verdict) -> String {
     html + "</ul>\n"
 }
 
-fn findings(results: &Results) -> String {
+/// A fault of the data, and what to change.
+fn finding(finding: &Value) -> String {
+    let number = |key: &str| {
+        finding.pointer(&format!("/evidence/{key}")).and_then(Value::as_f64).map(|v| significant(v, 2))
+    };
+    let evidence = match (number("misfit_before"), number("misfit_after")) {
+        (Some(before), Some(after)) => {
+            format!(" This reduces the misfit of ln(measured/model) from {before} to {after}.")
+        }
+        _ => String::new(),
+    };
+    format!("<b>{}</b>. Change <code>{}</code>.{evidence}", fault(finding), text(finding, "change"))
+}
+
+/// Whether the data were checked for faults, and explanations between which they do not decide.
+fn checked(results: &Results) -> String {
     let findings = results.summary.array("/findings");
-    let checked = results.summary.0.get("findings").is_some_and(|found| !found.is_null());
+    let is_checked = results.summary.0.get("findings").is_some_and(|found| !found.is_null());
     let undecided = undecided(results.summary.undecided());
-    if findings.is_empty() && !undecided.is_empty() {
+    if !undecided.is_empty() {
         return undecided;
     }
-    if findings.is_empty() {
-        let said = match checked {
-            true => {
-                "The measurements were compared with the model (sign, quantity, units, delay, position of sensors and load): no fault of them was found. Errors of the model are given below."
-            }
-            false => "The measurements were not looked at for mistakes: frfit check does.",
-        };
-        return format!("<p>{said}</p>\n");
+    match (findings.is_empty(), results.summary.array("/other_explanations").first()) {
+        (true, _) if is_checked => "<p>The check of the measurements (sign, quantity, units, delay, position of sensors and load) found no fault.</p>\n".into(),
+        (true, _) => "<p>The measurements were not checked for faults: run <code>frfit check</code>.</p>\n".into(),
+        (false, Some(other)) => format!("<p>The likeliest other explanation: {}</p>\n", explanation(other)),
+        (false, None) => String::new(),
     }
-    let mut html = "<h3>What seems wrong with the data</h3><ul class=\"findings\">".to_owned();
-    for finding in findings {
-        let number = |key: &str| {
-            finding.pointer(&format!("/evidence/{key}")).and_then(Value::as_f64).map(|v| significant(v, 2))
-        };
-        let evidence = match (number("misfit_before"), number("misfit_after")) {
-            (Some(before), Some(after)) => {
-                format!(" Misfit of ln(measured/model) {before} before, {after} after.")
-            }
-            _ => String::new(),
-        };
-        let _ = write!(
-            html,
-            "<li><b>{}</b>.{evidence} Change <code>{}</code></li>",
-            fault(finding),
-            text(finding, "change")
-        );
-    }
-    html += "</ul>\n";
-    if let Some(other) = results.summary.array("/other_explanations").first().filter(|_| undecided.is_empty())
-    {
-        let _ = writeln!(html, "<p>The likeliest other explanation: {}</p>", explanation(other));
-    }
-    html + &undecided
 }
 
 fn text(value: &Value, key: &str) -> String {
@@ -189,9 +192,9 @@ fn undecided(others: &[Value]) -> String {
     }
     let items: Vec<String> = others.iter().map(|other| format!("<li>{}</li>", explanation(other))).collect();
     format!(
-        "<h3>What may be wrong with the data</h3>\n\
-         <p>Each of these would explain the data. Their likelihoods differ too little to decide.</p>\n\
+        "{}\n<p>Each of these faults would explain the data. Their likelihoods differ too little to decide: check each of them at the test rig.</p>\n\
          <ul class=\"findings\">{}</ul>\n",
+        heading("may-be-wrong", "What may be wrong with the data"),
         items.concat()
     )
 }
@@ -201,11 +204,17 @@ fn explanation(other: &Value) -> String {
     let faults: Vec<String> = list(other, "faults").iter().map(fault).collect();
     let digits = |key: &str| number(other, key).map_or_else(String::new, |value| significant(value, 2));
     format!(
-        "<b>{}</b>. Misfit of ln(measured/model) {}, {} nats behind the best.",
+        "<b>{}</b>. Misfit of ln(measured/model) {}; log-likelihood {} below the best (in nats).",
         faults.join("; and "),
         digits("misfit"),
         digits("nats_behind")
     )
+}
+
+/// What tells the headings of an unknown from those of another one.
+fn id_of(results: &Results, one: &Unknown) -> String {
+    let place = results.unknowns.iter().position(|other| other.name == one.name);
+    place.filter(|_| !one.prefix.is_empty()).map_or(String::new(), |place| format!("-{}", place + 1))
 }
 
 /// The lowest, the middle and the highest trusted frequency of an unknown.
@@ -222,12 +231,17 @@ fn three_rows(results: &Results, one: &Unknown) -> String {
         _ => (format!("{}: {}", one.name, one.what()[0]), format!(" of {}", one.name)),
     };
     let mut html = format!(
-        "<h3>Lowest, middle and highest trusted frequency{}</h3><div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Values at three frequencies{0}\"><table class=\"plain\">\
-         <thead><tr><th>Frequency</th><th>{}{}</th>{}<th>Nominal</th></tr></thead><tbody>",
+        "{}<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Values at three frequencies{1}\"><table class=\"plain\">\
+         <thead><tr><th>Frequency</th><th>{2}{3}</th>{4}<th>{5}</th></tr></thead><tbody>",
+        heading(
+            &format!("three{}", id_of(results, one)),
+            &format!("Values{} at three frequencies", escape(&of))
+        ),
         escape(&of),
         escape(&title),
         if has_bars { ", ± two standard deviations" } else { "" },
-        if one.real { "" } else { "<th>Loss factor η</th>" }
+        if one.real { "" } else { "<th>Loss factor η</th>" },
+        if one.real { "Nominal value" } else { "Nominal value, η" }
     );
     for row in picked {
         let cell = |part: &str, std: &str, unit| {
@@ -260,7 +274,8 @@ fn laws(results: &Results) -> String {
     let mut html = String::new();
     if !laws.is_empty() {
         let best = summary.word("/laws/best");
-        html += "<h3>Laws fitted to the whole band</h3><div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Fitted laws\"><table class=\"plain\"><thead><tr><th>Law</th><th>Parameters, ± two standard deviations</th>\
+        html += &heading("laws", "Material laws fitted to the whole band");
+        html += "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Fitted laws\"><table class=\"plain\"><thead><tr><th>Law</th><th>Parameters, ± two standard deviations</th>\
                  <th>χ² per degree of freedom</th><th>BIC</th></tr></thead><tbody>";
         for law in laws {
             let name = law.get("law").and_then(Value::as_str).unwrap_or("");
@@ -295,76 +310,10 @@ fn laws(results: &Results) -> String {
     {
         let _ = writeln!(
             html,
-            "<p>The smooth curve takes {} parameters from the data, one for {} octaves.</p>",
+            "<p>The smooth curve has {} parameters, one for each {} octaves.</p>",
             significant(parameters, 3),
             significant(width, 2)
         );
     }
     html
-}
-
-/// Files with checksums, options, work, version.
-pub(super) fn provenance(results: &Results, own: bool) -> String {
-    let summary = &results.summary;
-    let mut html = "<section id=\"provenance\" aria-labelledby=\"provenance-title\"><h2 id=\"provenance-title\">Where this comes from</h2>\
-                    <h3>Input files</h3><div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Input files\"><table class=\"plain files\">\
-                    <thead><tr><th>File</th><th>Bytes</th><th>SHA-256</th></tr></thead><tbody>"
-        .to_owned();
-    for input in summary.array("/inputs") {
-        let text = |key: &str| escape(input.get(key).and_then(Value::as_str).unwrap_or(""));
-        let bytes = input.get("bytes").and_then(Value::as_u64).unwrap_or(0);
-        let _ = write!(
-            html,
-            "<tr><td>{}</td><td>{bytes}</td><td><code>{}</code></td></tr>",
-            text("file"),
-            text("sha256")
-        );
-    }
-    html += "</tbody></table></div>\n<div class=\"columns\">";
-    for (title, pointer) in [
-        ("Model", "/model"),
-        ("Options", "/identify"),
-        ("Search", "/search"),
-        ("Noise", "/noise"),
-        ("Fit", "/fit"),
-        ("Work", "/counts"),
-        ("Seconds", "/seconds"),
-    ] {
-        let Some(object) = summary.0.pointer(pointer).and_then(Value::as_object) else { continue };
-        let _ = write!(html, "<div><h3>{title}</h3><dl class=\"pairs\">");
-        for (key, value) in object {
-            let _ =
-                write!(html, "<dt>{}</dt><dd>{}</dd>", escape(&key.replace('_', " ")), escape(&shown(value)));
-        }
-        html += "</dl></div>";
-    }
-    let statuses = Status::ALL
-        .map(|status| format!("{} is <code>{}</code>", label(status, own), status.name()))
-        .join(", ");
-    let _ = write!(
-        html,
-        "</div>\n<p>Made by frfit {} from the files beside this page. In them {statuses}. Plots are drawn by plotly.js (MIT licence, Plotly, Inc.), \
-         which is in this file; nothing is loaded from elsewhere.</p></section>\n",
-        escape(summary.word("/frfit"))
-    );
-    html
-}
-
-/// A value of the summary in a few words.
-fn shown(value: &Value) -> String {
-    match value {
-        Value::Null => "–".into(),
-        Value::Bool(true) => "yes".into(),
-        Value::Bool(false) => "no".into(),
-        Value::Number(number) if !number.is_f64() => number.to_string(),
-        Value::Number(number) => significant(number.as_f64().unwrap_or(f64::NAN), 4),
-        Value::String(text) => text.clone(),
-        Value::Array(values) if values.is_empty() => "–".into(),
-        Value::Array(values) => values.iter().map(shown).collect::<Vec<_>>().join(", "),
-        Value::Object(object) => object
-            .iter()
-            .map(|(key, value)| format!("{} {}", key.replace('_', " "), shown(value)))
-            .collect::<Vec<_>>()
-            .join(", "),
-    }
 }

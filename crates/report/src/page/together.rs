@@ -1,6 +1,7 @@
-//! What is said of numbers that hold for the band, and how well they are identifiable.
+//! Numbers that hold for the band, and how well they are identifiable.
 
-use super::plots::{absent, plot};
+use super::heading;
+use super::plots::plot;
 use crate::escape::escape;
 use crate::number::{percent, significant};
 use crate::results::{Identifiability, Number, Results, Unknown};
@@ -19,9 +20,9 @@ pub(super) fn constants(results: &Results) -> String {
     if held.is_empty() || is_law {
         return String::new();
     }
-    let mut html = "<h3>What holds for the whole band</h3><div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Values for the band\">\
-                    <table class=\"plain\"><thead><tr><th>Unknown</th><th>Value, ± two standard deviations</th><th>Nominal</th><th>Status</th></tr></thead><tbody>"
-        .to_owned();
+    let mut html = heading("constants", "Values for the whole band");
+    html += "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Values for the band\">\
+                    <table class=\"plain\"><thead><tr><th>Unknown</th><th>Value, ± two standard deviations</th><th>Nominal value</th><th>Status</th></tr></thead><tbody>";
     for one in held {
         for number in &one.numbers {
             let what = if number.name == "value" {
@@ -41,7 +42,7 @@ pub(super) fn constants(results: &Results) -> String {
             );
         }
     }
-    html + "</tbody></table></div><p class=\"note\">Values have the units of the case. A bar holds with all other unknowns free, and with the errors of the model that are given below.</p>\n"
+    html + "</tbody></table></div><p class=\"note\">Values have the units of the case. The standard deviations hold with all other unknowns free, and contain the errors of the model that were found.</p>\n"
 }
 
 fn value(one: &Unknown, number: &Number) -> String {
@@ -63,14 +64,11 @@ pub(super) fn together(results: &Results) -> String {
     let found = &results.identifiability;
     let correlation = match found.coordinates.len() {
         0 if results.unknowns.len() == 1 => return String::new(),
-        0 => absent(
-            "Correlation",
-            "for no unknown holds for the whole band: every frequency has values of its own.",
-        ),
-        1 => absent("Correlation", "for a single number has no correlation."),
+        // Every frequency has values of its own, or there is nothing to be correlated with.
+        0 | 1 => String::new(),
         _ => {
-            let reading = "1 or −1: only the sum or the difference of the two is identifiable. Near 0: each is by itself.";
-            plot("correlation", "Correlation", reading) + &table(found)
+            let reading = "Near 0 both values are identifiable independently. At 1 or −1 only a combination of the two is identifiable.";
+            plot("correlation", "Correlation of the identified values", reading) + &table(found)
         }
     };
     correlation + &profile(found)
@@ -78,19 +76,19 @@ pub(super) fn together(results: &Results) -> String {
 
 /// The misfit along the least identifiable combination.
 fn profile(found: &Identifiability) -> String {
-    const TITLE: &str = "Misfit along the least identifiable combination";
+    const TITLE: &str = "How well the least identifiable combination is known";
     let Some(least) = found.least.as_ref().filter(|_| !found.profile.is_empty()) else {
-        return absent(TITLE, "for there is no such combination, or the search found none.");
+        return String::new();
     };
     let bar = match least.std {
         Some(std) => format!(
-            "A change of 4 is two standard deviations, {}. Where circles leave the dashed curve, the error bar is not the whole truth.",
+            "Two standard deviations ({}) are where χ² has grown by 4. Where the circles leave the dashed curve, the error bar is only approximate.",
             percent(2.0 * std)
         ),
-        None => "It does not become worse: the measurements do not limit it.".into(),
+        None => "The fit does not become worse: the measurements do not limit this combination.".into(),
     };
     let reading = format!(
-        "How much worse the fit becomes when the values move along this combination, all else at its best: {}. {bar}",
+        "How much χ² grows when the values are moved along this combination ({}) and all other values are fitted again. {bar}",
         escape(&direction(&least.weights))
     );
     plot("profile", TITLE, &reading)
@@ -103,7 +101,7 @@ fn direction(weights: &[(String, f64)]) -> String {
     let one = |(name, weight): &(String, f64)| {
         let way = if *weight > 0.0 { "larger" } else { "smaller" };
         let part = weight.abs() / largest;
-        let by = if part > 0.99 { String::new() } else { format!(" (by {} of that)", significant(part, 2)) };
+        let by = if part > 0.99 { String::new() } else { format!(" (by {} of this)", significant(part, 2)) };
         format!("{} {way}{by}", name.replace('_', " "))
     };
     kept.map(one).collect::<Vec<_>>().join(", ")

@@ -21,7 +21,7 @@ pub(crate) struct Band {
     pub(crate) frequency_hz: Vec<f64>,
     pub(crate) status: Vec<Status>,
     /// Names and numbers of the columns that were asked for.
-    numbers: Vec<(String, Vec<Option<f64>>)>,
+    pub(crate) numbers: Vec<(String, Vec<Option<f64>>)>,
 }
 
 impl Band {
