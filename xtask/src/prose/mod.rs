@@ -23,16 +23,10 @@ struct Fault {
 
 /// Files, or beginnings of their paths, that are not written by these rules yet: their faults are counted and do not
 /// fail. Shorten this list, and do not lengthen it.
-const NOT_YET: [&str; 11] = [
+const NOT_YET: [&str; 5] = [
     "CHANGELOG.md",
-    "CONTRIBUTING.md",
     "crates/multifrontal/",
-    "crates/python/",
-    "crates/report/",
-    "docs/architecture.md",
     "docs/open-",
-    "docs/site/data/",
-    "docs/site/src/comparison.md",
     "docs/site/src/python-api.md",
     "docs/site/src/python.md",
 ];
@@ -188,7 +182,7 @@ mod tests {
 
     #[test]
     fn files_that_are_not_rewritten_yet_do_not_fail() {
-        assert!(passes("later", &[("CONTRIBUTING.md", "The data tell it.\n")]));
+        assert!(passes("later", &[("CHANGELOG.md", "The data tell it.\n")]));
     }
 
     #[test]
