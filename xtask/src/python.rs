@@ -9,11 +9,22 @@ use std::thread;
 use std::time::Instant;
 
 /// What the tests need beside the wheel, those in Rust too; the version of pyuff is the one whose reading is known.
-const PACKAGES: [&str; 8] =
-    ["maturin>=1.9,<2", "numpy", "scipy", "pytest", "mypy", "pandas", "matplotlib", "pyuff==2.4.2"];
+const PACKAGES: [&str; 9] =
+    ["maturin>=1.9,<2", "numpy", "scipy", "pytest", "mypy", "pandas", "matplotlib", "xarray", "pyuff==2.4.2"];
 
 /// What the Rust tests of the long tier read and write files with.
-const OUTSIDE: [&str; 6] = ["pyNastran", "pyyeti", "lvm_read", "pyFRF", "sdypy-EMA", "distributed"];
+const OUTSIDE: [&str; 10] = [
+    "pyNastran",
+    "pyyeti",
+    "lvm_read",
+    "pyFRF",
+    "sdypy-EMA",
+    "distributed",
+    "scikit-fem",
+    "nbclient",
+    "nbformat",
+    "ipykernel",
+];
 
 /// Python from 3.10 on, with `venv`.
 const SUITED: &str = "import sys, venv, ensurepip; sys.exit(sys.version_info < (3, 10))";

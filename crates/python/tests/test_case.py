@@ -83,9 +83,9 @@ def test_arrays_give_the_numbers_of_the_case_file(rubber_bar):
         matrix=wanted["matrix"],
         band_hz=tuple(wanted["band_hz"]),
         bounds={key: tuple(pair) for key, pair in wanted["bounds"].items()},
-        method=wanted["method"],
-        order=wanted["order"],
-        selection=wanted["selection"],
+        method=wanted.get("method"),
+        order=wanted.get("order"),
+        selection=wanted.get("selection"),
     )
     np.testing.assert_array_equal(found.factor, case.factor)
     np.testing.assert_array_equal(found.updated_response, case.updated_response)

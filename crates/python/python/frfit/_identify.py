@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike
 
 from . import _frfit
 from ._arrays import (
+    Complex,
     above,
     callable_,
     complex_,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -157,7 +157,7 @@ def modes(
     sensors, signs
         Beside a model without measurements: rows at which its shapes are shown, and the sense that is positive.
     matrix, unknowns
-        Beside a model: what is unknown, as of ``identify``; pairs of modes are told apart with its factor free.
+        Beside measurements: what is unknown, as of ``identify``; modes are paired with its factor free.
     band_hz
         First and last frequency, in place of the case file's; needed of a model without measurements.
     identified
@@ -184,13 +184,12 @@ def modes(
         if load is None:
             raise refuse("load", "a row, or a value for each row", "none")
         if isinstance(measurements, Measurement) or len(measurements) > 0:
-            free = (matrix, unknowns) if matrix or unknowns else (list(_stiffness(case)), None)
             asked = arguments_of(
                 case,
                 measurements,
                 load=load,
-                matrix=free[0],
-                unknowns=free[1],
+                matrix=matrix,
+                unknowns=unknowns,
                 band_hz=band,
                 memory_bytes=limit,
             )
@@ -207,8 +206,3 @@ def modes(
     found["pairs"] = found["pairs"].astype(np.int64)
     found["sensors"] = tuple(found["sensors"])
     return Modes(**found)
-
-
-def _stiffness(model: Model) -> Iterator[str]:
-    """Names of the stiffness matrices."""
-    return (term.name for term in model.terms if term.role == "stiffness")

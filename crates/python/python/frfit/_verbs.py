@@ -555,8 +555,11 @@ def frf_of_files(
     InputError, OptionsError, WriteError
         With the text of the command line.
     """
-    one = isinstance(records, str | os.PathLike)
-    files = [records] if one else several(records, "records", "paths of files")
+    files: list[_Path]
+    if isinstance(records, str | os.PathLike):
+        files = [records]
+    else:
+        files = several(records, "records", "paths of files")
     channels = {
         "to": to,
         "force": force,
