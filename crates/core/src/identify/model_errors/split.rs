@@ -59,7 +59,7 @@ impl Held {
 }
 
 impl Split {
-    /// The variance gᵀCg of a gradient, zero beyond its end: what is left of it without errors of the model; what goes when the errors of known factors are
+    /// The variance gᵀCg of a gradient, zero beyond its end: the rest of it without errors of the model; what goes when the errors of known factors are
     /// held; and what goes of the rest when all errors are held. In the order of [`crate::identify::Contributions`]: noise, model, known factors.
     pub(in crate::identify) fn of(&self, gradient: &[f64]) -> [f64; 3] {
         let n = self.covariance.len().isqrt();
@@ -76,7 +76,7 @@ impl Split {
 mod tests {
     use super::*;
 
-    /// What is left when some coordinates are held is the inverse of the rest's block of the inverse.
+    /// The variance that remains when some coordinates are held is the inverse of the rest's block of the inverse.
     #[test]
     fn contributions_are_those_of_coordinates_that_are_held() {
         const N: usize = 5;
