@@ -192,7 +192,7 @@ pub(super) fn choose<'e>(as_given: &'e Explanation, tried: &'e [Explanation]) ->
     let of_faults = |count: usize| tried.iter().filter(move |one| one.faults() == count);
     let explains = |one: &&Explanation| one.improves_on(as_given, FINDING_NATS) && one.is_explanation();
     let single = likeliest(&mut of_faults(1).filter(explains));
-    // What the best single fault explains, and what is left by the one that leaves least, whether or not it is a finding.
+    // The likeliest single fault, whether or not it is a finding, or the data as given if no fault is likelier.
     let base = likeliest(&mut of_faults(1).chain([as_given])).unwrap_or(as_given);
     let is_second = |one: &&Explanation| {
         let is_free = |edit: &Edit| edit.change == Change::Delay;

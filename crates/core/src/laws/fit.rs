@@ -243,7 +243,7 @@ impl LawFit {
         let n = self.residuals as f64;
         match self.sigma_known {
             true => self.chi_squared,
-            // Data without any noise: what is left is roundoff, and no law is better than another for having less of it.
+            // Data without any noise: the residuals are roundoff, and no law is better than another for having less of it.
             false => n * (self.chi_squared / n).max(EXACT_REDUCED_CHI_SQUARED).ln(),
         }
     }

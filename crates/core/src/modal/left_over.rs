@@ -16,7 +16,7 @@ const FREQUENCY_STEP: f64 = 0.5;
 /// Lines that are compared with a trial pole: up to so many half-widths from it.
 const REACH: f64 = 10.0;
 
-/// A mode stands out: it explains so many times more than the median of so many trials on either side. Of noise the largest of ten thousand trials explains
+/// A mode stands out: it explains more than the median of the neighbouring trials on either side, by this factor. Of noise the largest of ten thousand trials explains
 /// some thirteen times the median, also where neighbouring lines have it in common.
 const MIN_PROMINENCE: f64 = 30.0;
 const NEIGHBOURS: usize = 200;

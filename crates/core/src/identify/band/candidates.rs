@@ -139,7 +139,7 @@ const MAX_SHORT_STEPS: usize = 6;
 /// A step of this part of the factor is likely the last: Newton's next is the square of it.
 const LAST_STEP_RTOL: f64 = 1e-5;
 
-/// What is left after the last: beyond the digits that an answer has, whatever the noise.
+/// The error after the last step, relative to the factor: beyond the digits that an answer has, whatever the noise.
 const STEP_RTOL: f64 = 1e-11;
 
 /// Solutions nearer than this, relative to the factor, are one.

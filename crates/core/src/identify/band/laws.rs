@@ -1,6 +1,6 @@
 //! Laws fitted straight to the FRFs: all frequencies and all sensors in one least squares (B-7).
 //!
-//! Every frequency alone comes first: it trains the subspace, and gives the start. Then Σ |u_m − x_m(E(ω; θ))|²/σ_m² over the band is made least in θ on the
+//! Each frequency is first identified alone: this trains the subspace, and gives the start. Then Σ |u_m − x_m(E(ω; θ))|²/σ_m² over the band is made least in θ on the
 //! models of the neighbourhoods, ∂x_m/∂θ = (∂x_m/∂c)(∂E/∂θ). The subspace is trained further where it is not good enough at the law that came out.
 
 use super::candidates::misfit;

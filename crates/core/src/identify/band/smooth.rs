@@ -1,6 +1,6 @@
 //! A modulus that is free at every frequency but smooth over them (B-9): all frequencies and all sensors in one penalised least squares.
 //!
-//! Every frequency alone comes first: it trains the subspace, and gives the start. Then ln E(ln ω) is an integrated Wiener process, and
+//! Each frequency is first identified alone: this trains the subspace, and gives the start. Then ln E(ln ω) is an integrated Wiener process, and
 //! $$ \sum_{k,m} \frac{|u_m - x_m(E(\omega_k))|^2}{\sigma_m^2} + \frac 1 {\kappa^2} \int \Big| \frac{d^2 \ln E}{d(\ln\omega)^2} \Big|^2 d\ln\omega $$
 //! is made least by Gauss and Newton's steps, each of them one smoother's sweep over all frequencies ([`crate::smooth`]); κ, and the level of the noise where it is not
 //! given, are averaged over their posterior. x is holomorphic in ln E and noise circular, and by causality the fluctuations of ln |E| and of the loss angle are

@@ -93,7 +93,7 @@ pub(super) struct Measured<'t, 'a> {
     pub(super) coarser: Option<Coarser<'t>>,
     /// The value of each frequency alone, and the noise over σ that follows from it.
     pub(super) free: &'t [Line],
-    /// The unknowns that each frequency has a value of its own of.
+    /// The unknowns that have a value of their own at each frequency.
     pub(super) own: &'t [usize],
     pub(super) level_per_frequency: Option<f64>,
     /// What the values of the lines say of the band.
