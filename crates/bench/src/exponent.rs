@@ -1,4 +1,4 @@
-//! The power of N that a cost goes with.
+//! The power of N to which a cost is proportional.
 
 /// b of the power a xᵇ that fits positive values best on logarithmic scales; NaN of fewer than two.
 pub fn exponent(x: &[f64], y: &[f64]) -> f64 {

@@ -43,7 +43,7 @@ const THREADS: usize = 2;
 /// Frequencies of the training at most.
 const TRAINING: usize = 1000;
 
-/// Errors to train to, one after the other, the last as far as roundoff lets it: each training looks at all frequencies anew.
+/// Errors to train to, one after the other, the last as far as roundoff lets it: each training looks at all frequencies again.
 const TOLERANCES: [f64; 3] = [1e-6, 1e-9, 1e-11];
 
 /// By a subspace of its own, with the truth as nominal value and trained at up to a thousand of the very frequencies as far as roundoff lets it; checked

@@ -12,7 +12,7 @@ pub fn resident() -> Option<usize> {
     status("VmRSS:")
 }
 
-/// Starts the peak anew where the system can; without it the peak is that since the start.
+/// Resets the peak where the system can; without it the peak is that since the start.
 pub fn forget_peak() {
     // 5 resets VmHWM, see proc_pid_clear_refs(5).
     let _ = fs::write("/proc/self/clear_refs", "5");

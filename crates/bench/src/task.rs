@@ -89,7 +89,7 @@ impl Structure {
         Ok(Task { structure: self, experiment, nominal, picked: (0..self.frequency_hz.len()).collect() })
     }
 
-    /// One of several unknowns, the factor of a term, with so many times its true law as nominal one; and the true law.
+    /// One of several unknowns, the factor of a term, with a multiple of its true law as nominal one; and the true law.
     ///
     /// # Errors
     /// Where there is no such term.

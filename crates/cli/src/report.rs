@@ -407,7 +407,7 @@ fn wrote(text: &mut Text, job: &IdentifyJob, identify: &IdentifyCase, out: &Path
     text.say("wrote", &sentence);
 }
 
-/// The errors of the model that are taken out of the values, and are in their error bars.
+/// The errors of the model for which the values are corrected, and which are in their error bars.
 fn model_errors(job: &IdentifyJob, errors: &ModelErrorsFound) -> String {
     let size = |one: &&ModeError| one.error.abs() / one.std;
     let worst = errors.modes.iter().max_by(|a, b| size(a).total_cmp(&size(b))).map(|mode| {

@@ -47,7 +47,7 @@ pub(crate) struct LocalMinima {
 /// A point without finite residuals is that bad: the step there is refused and shortened.
 const REFUSED_RESIDUAL: f64 = 1e100;
 
-/// Relative reduction and relative step at which a search ends. Of a χ² of ten thousand that is a millionth: what is left to gain moves no parameter by more than a
+/// Relative reduction and relative step at which a search ends. Of a χ² of ten thousand that is a millionth: a further gain moves no parameter by more than a
 /// thousandth of its standard deviation.
 const SEARCH_RTOL: f64 = 1e-10;
 

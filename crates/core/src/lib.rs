@@ -65,7 +65,7 @@
 //! frequency → material → model → full → { series, rational } → roots → identify → outcome
 //! ```
 //!
-//! | module | what is in it |
+//! | module | contents |
 //! |---|---|
 //! | [`frequency`], [`material`], [`quantity`], [`dof`] | the words: hertz and rad/s, laws of the complex modulus, receptance and its kin, names of degrees of freedom |
 //! | [`model`] | [`model::DynamicStiffness`]: named terms, each matrix × law; what is unknown in it; load and sensors |

@@ -31,7 +31,7 @@ impl std::ops::AddAssign for Work {
     }
 }
 
-/// A model at one frequency that can be solved at its nominal values, multiplied, observed, and solved anew.
+/// A model at one frequency that can be solved at its nominal values, multiplied, observed, and solved again.
 ///
 /// Series, roots and identification are written against this, once, whatever stands behind it.
 pub trait Response {

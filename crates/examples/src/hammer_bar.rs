@@ -108,9 +108,9 @@ fn truth() -> Table {
 ///
 /// Noise is the standard deviation of what is added to every sample, as a share of the channel's largest value; the same each time.
 ///
-/// The response is a sum over frequencies k/(8 T), and so periodic in eight records of T = 0.5 s: were its period one record, what is
-/// left of it at the end would be found again at the beginning, and the transform of the record would be the exact FRF
-/// whatever the damping. As it is, the end of the record cuts off what is left, and an FRF from it is exact as far as the
+/// The response is a sum over frequencies k/(8 T), and so periodic in eight records of T = 0.5 s: were its period one record, the rest
+/// of it at the end would be found again at the beginning, and the transform of the record would be the exact FRF
+/// whatever the damping. As it is, the end of the record cuts off the rest, and an FRF from it is exact as far as the
 /// response has decayed by then.
 ///
 /// # Errors

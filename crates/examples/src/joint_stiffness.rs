@@ -25,7 +25,7 @@ const DENSITY: f64 = 7850.0;
 const DESIGNED: [f64; 2] = [5000.0, 0.01];
 const REAL: [f64; 2] = [1800.0, 0.04];
 
-/// A cantilever of two beams in line, `elements` each, which move together where they meet and turn by themselves: a spring holds the angle between them.
+/// A cantilever of two beams in line, `elements` each, which move together where they meet and turn independently: a spring holds the angle between them.
 ///
 /// Struck a little before the joint, measured at the tip and in the middle of the first beam, with 2 % noise. 10 Hz to 1000 Hz.
 /// Rows: 4 elements + 1.

@@ -15,7 +15,7 @@
 //! | `plate-thickness` | [`plate_thickness`] | a geometric parameter: one real number for the band, with an error bar |
 //! | `two-materials` | [`two_materials`] | two complex moduli at every frequency from three sensors |
 //! | `joint-stiffness` | [`joint_stiffness`] | a spring between two parts: a matrix of rank one, a complex constant |
-//! | `added-mass` | [`added_mass`] | a mass that sits on the structure and the modulus below it, and how they hang together |
+//! | `added-mass` | [`added_mass`] | a mass that sits on the structure and the modulus below it, and their correlation |
 //! | `two-meshes` | [`two_meshes`] | a mesh that is too coarse, and a coarser one that says so |
 //! | `orthotropic-plate` | [`orthotropic_plate`] | from five impacts to the four constants of a wooden plate |
 //!

@@ -1,6 +1,6 @@
 //! Small honest finite elements for examples and tests, with closed-form solutions beside them.
 //!
-//! | room | what is in it |
+//! | room | contents |
 //! |---|---|
 //! | [`bar`] | longitudinal vibration, two nodes, X |
 //! | [`beam`] | Euler–Bernoulli bending, two nodes, Z and RY |

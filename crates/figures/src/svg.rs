@@ -97,7 +97,7 @@ impl Svg {
         self.0 += "</svg>\n";
     }
 
-    /// A path given by its commands; nothing if there are none.
+    /// A path given by its commands; nothing if there are no commands.
     pub(crate) fn path(&mut self, commands: &str, attributes: &str) {
         if !commands.is_empty() {
             self.0 += &format!("<path d=\"{commands}\" {attributes}/>\n");

@@ -84,7 +84,7 @@ pub(crate) enum ClashKind {
     Overflow,
 }
 
-/// What to do with several entries at one position.
+/// The treatment of several entries at one position.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Duplicates {
     Sum,

@@ -28,7 +28,7 @@ pub struct FormatError {
     pub position: Position,
     /// What the format asks for at this place.
     pub expected: String,
-    /// What is there instead.
+    /// The text that was found instead.
     pub found: String,
 }
 

@@ -29,7 +29,7 @@ const ENTRY: u64 = 16;
 
 const REMEDY: &str = "save it uncompressed: numpy.savez, save_npz(..., compressed=False), MATLAB's -v6";
 
-/// What is left of the limits of a file.
+/// The rest of the limits of a file.
 #[derive(Debug, Clone)]
 pub(crate) struct Allowance {
     file: u64,

@@ -1,4 +1,4 @@
-//! What a matrix file says, before anybody decides what to do with it.
+//! The contents of a matrix file, before anybody decides how to use them.
 
 use num_complex::Complex64 as c64;
 

@@ -176,7 +176,7 @@ impl<'a> Decimal<'a> {
     }
 }
 
-/// The exponent that follows a mantissa: `Some(None)` where there is none, `None` where it is malformed.
+/// The exponent that follows a mantissa: `Some(None)` where there is no exponent, `None` where it is malformed.
 fn exponent_of(text: &str) -> Option<Option<i64>> {
     if text.is_empty() {
         return Some(None);

@@ -11,7 +11,7 @@
 //! # Limits
 //! A value has to have a decimal point or an exponent, as both programs write it: the size line of a Matrix Market
 //! file that has lost its banner would else be an entry. A table (CSV) of a whole number, a whole number and a value
-//! without names of columns is such a list. A matrix of which one triangle is nothing but zeros and is
+//! without names of columns is a list of entries. A matrix of which one triangle is nothing but zeros and is
 //! not symmetric cannot be distinguished from a triangle of a symmetric one.
 //!
 //! # Source
@@ -49,7 +49,7 @@ pub fn read(bytes: &[u8]) -> Result<CoordinateMatrix, FormatError> {
     entries.assemble(symmetry, (size, index), (size, index), |n| n.to_string(), title)
 }
 
-/// Whether a line is an entry of such a list.
+/// Whether a line is an entry of this list.
 pub(crate) fn is_entry(line: Line<'_>) -> bool {
     let fields = Fields::split(line);
     let indices = (0..2).all(|k| fields.whole(k, "", MAX_ROWS).is_ok());

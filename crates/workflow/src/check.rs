@@ -27,7 +27,7 @@ pub struct FindingText {
     pub what: String,
     /// The numbers that say so.
     pub evidence: String,
-    /// The key of the case file, and what to do with it.
+    /// The key of the case file, and the change to make.
     pub change: String,
 }
 
@@ -109,7 +109,7 @@ fn quantities(case: &Case) -> Vec<Quantity> {
     case.sensors.iter().map(|sensor| sensor.quantity).collect()
 }
 
-/// Without what is looked for by the identification itself: a real factor or a delay.
+/// Without the unknowns of the identification itself: a real factor or a delay.
 fn without_looked_for(identify: &IdentifyCase, mut diagnosis: Diagnosis) -> Diagnosis {
     let is_looked_for = |fault: &Fault, sensors: &[usize]| {
         let real = matches!(fault, Fault::Factor { .. } | Fault::Sign);

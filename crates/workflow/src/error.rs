@@ -64,7 +64,7 @@ pub struct InputError {
     pub place: Box<Place>,
     /// What is asked for there.
     pub expected: String,
-    /// What is there instead.
+    /// The text that was found instead.
     pub found: String,
     /// The key that names the file at fault.
     pub named_by: Option<Box<Place>>,

@@ -1,6 +1,6 @@
 //! From a case file to identified parameters, tables and figures.
 //!
-//! | module | what is in it |
+//! | module | contents |
 //! |---|---|
 //! | [`batch`] | many runs by one plan, and one table of them
 //! | [`case`] | the case file as it is written, every key and type checked |

@@ -23,7 +23,7 @@ struct ReadFile {
 type Identity = (u64, u64);
 
 impl Reads {
-    /// The bytes of a plain file, or what is there instead. What is no plain file (a directory, a pipe that never ends) is not opened.
+    /// The bytes of a plain file, or a description of what was found. A path of another kind (a directory, a pipe that never ends) is not opened.
     pub(crate) fn read(&mut self, path: &Path) -> Result<Vec<u8>, String> {
         let failure = |error: std::io::Error| match error.kind() {
             ErrorKind::NotFound => "none".to_owned(),

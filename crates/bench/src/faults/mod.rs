@@ -68,7 +68,7 @@ pub fn tried(seed: u64, index: u64) -> Result<Tried, Failure> {
     run().map_err(|why: Failure| format!("case {index}: {why}").into())
 }
 
-/// The model of a case with its unknown factor so many times the true one.
+/// The model of a case with its unknown factor at `ratio` times the true one.
 fn nominal(case: &Case, ratio: f64) -> Result<DynamicStiffness, Failure> {
     let term = |term: &Term| match term.name == UNKNOWN {
         true => Term { factor: case.truth.scaled(ratio), ..term.clone() },

@@ -134,7 +134,7 @@ const WRONG: [f64; 2] = [1e-3, 2e-2];
 /// Modes in the band at least.
 const FEWEST: usize = 3;
 
-/// Modes of a model that are looked for beyond those of the band: the six of a rigid body, and one above the band.
+/// Modes of a model that are searched beyond those of the band: the six of a rigid body, and one above the band.
 const BEYOND: usize = 7;
 
 /// The truth may have modes that the model has not: those of bricks in the plane, and of a beam of bricks to the side and about its axis.

@@ -63,7 +63,7 @@ impl Dice {
     /// One of some things.
     ///
     /// # Panics
-    /// Where there are none.
+    /// If `of` is empty.
     pub fn pick<T: Copy>(&mut self, of: &[T]) -> T {
         of[self.below(of.len())]
     }

@@ -1,6 +1,6 @@
 //! A zoo of wrong models: cases drawn at random, whose truth is another model than the one that is identified.
 //!
-//! | module | what is in it |
+//! | module | contents |
 //! |---|---|
 //! | [`dice`] | random numbers, for each case its own |
 //! | [`structure`] | plates, beams, sandwiches and beams on springs, with their materials |

@@ -20,7 +20,7 @@ pub struct Mode {
 const RIGID: f64 = 1e-3;
 
 /// The lowest elastic modes of a model without its losses, the unknown factor at the storage modulus that its law has at a frequency, with so many
-/// modes looked for in all, or fewer where the last of them do not converge.
+/// modes searched in all, or fewer where the last of them do not converge.
 ///
 /// # Errors
 /// Where they do not converge.

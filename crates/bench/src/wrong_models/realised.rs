@@ -25,7 +25,7 @@ pub struct Realised {
     assembled: Assembled,
     /// What is to be added to a position in the frame of the structure.
     shift: [f64; 3],
-    /// Distances below this are none, in m.
+    /// Distances below this count as zero, in m.
     tolerance: f64,
 }
 
@@ -194,7 +194,7 @@ fn assemble(structure: &Structure, change: &Change) -> Result<(Assembled, [f64; 
 /// What springs of a clamp that gives have in deflection over what they have in rotation, in units of the structure: clamps turn long before they shift.
 const SHIFT: f64 = 1e4;
 
-/// Springs in place of clamped edges, (row, N/m or N·m/rad), so many times as stiff as the structure is on its length.
+/// Springs in place of clamped edges, (row, N/m or N·m/rad), `stiff` times as stiff as the structure is on its length.
 fn clamp(structure: &Structure, assembled: &Assembled, stiff: f64, tolerance: f64) -> Vec<(usize, f64)> {
     let Structure { length, width, storage, .. } = *structure;
     let mut springs = Vec::new();

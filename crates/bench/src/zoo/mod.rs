@@ -1,6 +1,6 @@
 //! A zoo of right models: what is identifiable is to be identified, whatever the structure, the material, the sensors and the band.
 //!
-//! | module | what is in it |
+//! | module | contents |
 //! |---|---|
 //! | [`case`] | a case drawn at random, and what its lines can say at best |
 //! | [`report`] | what came of it, line by line and in tables |

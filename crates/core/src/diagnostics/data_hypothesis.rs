@@ -15,9 +15,9 @@ pub(super) enum Change {
         was: Quantity,
         is: Quantity,
     },
-    /// By a factor that is looked for.
+    /// By an unknown factor.
     Factor,
-    /// By a time that is looked for.
+    /// By an unknown time.
     Delay,
     /// Compared with another column of the responses: another sensor's row, or another load.
     Column(Vec<usize>),
@@ -72,7 +72,7 @@ impl DataHypothesis {
         self.quantity.len()
     }
 
-    /// Whether a factor, and whether a delay is looked for.
+    /// Whether a factor is unknown, and whether a delay is.
     pub(super) fn free(&self) -> [bool; 2] {
         [&self.factor, &self.delay].map(|which| which.contains(&true))
     }
@@ -140,7 +140,7 @@ impl DataHypothesis {
     }
 }
 
-/// A value as it is read, whatever the factor and the delay that are looked for.
+/// A value as it is read, whatever the unknown factor and delay are.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Reading {
     /// ln of the receptance without both.

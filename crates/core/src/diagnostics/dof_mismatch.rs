@@ -191,7 +191,7 @@ fn best_rows(
     let scores = map(search.for_each, moduli.len(), |l| {
         let mut scores = vec![[0.0; 2]; rows];
         for &m in sensors {
-            // What is left of ln|measured/model| about its mean.
+            // The deviation of ln|measured/model| from its mean.
             let mut sums = vec![[0.0; 2]; rows];
             let mut values = 0.0;
             for &i in &picked {

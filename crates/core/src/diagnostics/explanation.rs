@@ -10,7 +10,7 @@ use super::misfit;
 use super::search::{Fitted, Grid, Search};
 use crate::for_each::map;
 
-/// The least log-likelihood ratio of a finding, in nats: some thirty changes are tried (e^3.4), and neighbouring residuals are not independent: what is left of a law
+/// The least log-likelihood ratio of a finding, in nats: some thirty changes are tried (e^3.4), and neighbouring residuals are not independent: the residual of a law
 /// that is no power may move several of them together.
 pub const FINDING_NATS: f64 = 15.0;
 
@@ -21,7 +21,7 @@ const SECOND_FREE_FINDING_NATS: f64 = 4.0 * FINDING_NATS;
 /// A factor without a name beside another fault is a calibration: no larger than this, nor smaller than one over it.
 const MAX_UNNAMED_LN_FACTOR: f64 = 1.1;
 
-/// Sensors that a fault concerns are not left with more than this, or so many times what is left of all.
+/// The misfit of the sensors that a fault concerns is at most this, or at most a multiple of that of all sensors.
 const MAX_CONCERNED_LEFT: f64 = 0.1;
 const MAX_CONCERNED_OVER_ALL: f64 = 3.0;
 
@@ -59,7 +59,7 @@ pub(super) struct Elsewhere {
     pub(super) cost: f64,
 }
 
-/// Faults together, and what is left with them.
+/// Faults together, and the misfit with them.
 #[derive(Debug, Clone)]
 pub(super) struct Explanation {
     pub(super) edits: Vec<Edit>,
@@ -120,7 +120,7 @@ impl Explanation {
         other.nats - self.nats >= nats && (of_all || is_of_concerned)
     }
 
-    /// Whether what is left, of all sensors and of those that its faults concern, is little enough to be an explanation.
+    /// Whether the misfit, of all sensors and of those that its faults concern, is small enough for an explanation.
     fn is_explanation(&self) -> bool {
         let of_all = self.fitted.misfit.sigma;
         let of_concerned = MAX_CONCERNED_LEFT.max(MAX_CONCERNED_OVER_ALL * of_all).min(MAX_MISFIT_LEFT);
@@ -192,7 +192,7 @@ pub(super) fn choose<'e>(as_given: &'e Explanation, tried: &'e [Explanation]) ->
     let of_faults = |count: usize| tried.iter().filter(move |one| one.faults() == count);
     let explains = |one: &&Explanation| one.improves_on(as_given, FINDING_NATS) && one.is_explanation();
     let single = likeliest(&mut of_faults(1).filter(explains));
-    // What the best single fault explains, and what is left by the one that leaves least, whether or not it is a finding.
+    // The likeliest single fault, whether or not it is a finding, or the data as given if no fault is likelier.
     let base = likeliest(&mut of_faults(1).chain([as_given])).unwrap_or(as_given);
     let is_second = |one: &&Explanation| {
         let is_free = |edit: &Edit| edit.change == Change::Delay;

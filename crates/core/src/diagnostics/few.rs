@@ -29,26 +29,26 @@ const MAX_FREQUENCIES: usize = 40;
 const MAX_FREQUENCIES_PER_UNKNOWN: usize = 10;
 const MAX_VALUES: usize = 240;
 
-/// Sensors for which another row is looked for: those that agree least with the model.
+/// Sensors for which another row is searched: those that agree least with the model.
 const MAX_SUSPECTS: usize = 4;
 
-/// Faults that are looked for together: who finds three has the wrong model.
+/// Faults that are searched together: data with three faults mean a wrong model.
 const MAX_FAULTS: usize = 2;
 
 /// Explanations that are named where the data do not decide.
 const MAX_UNDECIDED: usize = 4;
 
-/// Nominal values that are powers of ten off are looked for where this is left: a factor of 2. Of a sandwich whose core counts for
+/// Nominal values that are powers of ten off are searched where the misfit is above this: a factor of 2. Of a sandwich whose core counts for
 /// nothing its skins still leave 0.98.
 const FAR_MISFIT: f64 = 0.7;
 
 /// Powers of ten that are tried, to either side.
 const MAX_POWER_OF_TEN: i32 = 7;
 
-/// Frequencies beyond so many times those of rows that move alone are not compared.
+/// Frequencies beyond this multiple of those of rows that move alone are not compared.
 const MAX_TOP_OVER_ROW: f64 = 2.0;
 
-/// Modes serve moduli that differ from theirs by less than this in ln a: beyond, they are taken anew.
+/// Modes serve moduli that differ from theirs by less than this in ln a: beyond, they are computed again.
 const MODES_LN_RANGE: f64 = 0.05;
 
 /// Another axis is tried where this misfit is left: five per cent, or three degrees.
@@ -246,7 +246,7 @@ impl Look<'_> {
         let fitted = search.fit(&hypothesis, &grid, &[]);
         let as_given = Explanation::as_given(hypothesis, fitted);
         let mut tried = explanation::changes(&search, &grid, &as_given);
-        // Another axis or row is looked for only where nothing simpler explains the data.
+        // Another axis or row is searched only where nothing simpler explains the data.
         let left = |tried: &[Explanation], misfit: fn(&Fitted) -> f64| {
             tried.iter().chain([&as_given]).map(|one| misfit(&one.fitted)).fold(f64::INFINITY, f64::min)
         };
@@ -306,7 +306,7 @@ impl Look<'_> {
         Ok(likeliest_rows(&rows, problem.model().dim()).into_iter().map(explanation).collect())
     }
 
-    /// The same data at frequencies that are so many times smaller: as they are, with one change, and with another row where this alone explains more, or everything is tried.
+    /// The same data at frequencies that are smaller by a factor: as they are, with one change, and with another row where this alone explains more, or everything is tried.
     fn axis(
         &self,
         responses: &Responses<'_>,

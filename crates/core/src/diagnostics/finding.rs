@@ -165,7 +165,7 @@ pub enum Fault {
         /// Standard deviation of the slope.
         slope_std: f64,
     },
-    /// The FRF is so many times what it should be.
+    /// The FRF is wrong by a factor: its value over the right one.
     Factor {
         /// Measured over model.
         factor: f64,
@@ -191,12 +191,12 @@ pub enum Fault {
         /// Best first; those behind it cannot be distinguished from it.
         rows: Vec<OtherRow>,
     },
-    /// The frequencies are so many times what they should be: rad/s taken for Hz (2π), or Hz for rad/s (1/2π).
+    /// The frequencies are wrong by a factor, their value over the right one: rad/s taken for Hz (2π), or Hz for rad/s (1/2π).
     Axis {
         /// Given over true frequency.
         factor: f64,
     },
-    /// The nominal values are powers of ten off: the true ones are about so many times as large. It is no fault of the data.
+    /// The nominal values are powers of ten off: the true ones are larger by about this factor. This is no fault of the data.
     Nominal {
         /// True over nominal value.
         ratio: f64,

@@ -8,12 +8,12 @@
 //!
 //! Single changes are tried, and pairs of them where no single one explains the data. They are findings where their log-likelihood ratio to the data without them is
 //! at least [`FINDING_NATS`], leaves a misfit that is smaller by [`MAX_MISFIT_RATIO`], and is larger than that of every other explanation by [`MIN_MARGIN_NATS`].
-//! Otherwise the explanations are named between which the data do not decide. Three faults are not looked for: who finds three has the wrong model.
+//! Otherwise the explanations are named between which the data do not decide. Three faults are not searched: data with three faults mean a wrong model.
 //!
 //! # Limits
 //! Load and response that are swapped give the same FRF (reciprocity), and cannot be distinguished. A factor of all sensors and the modulus are one where nothing but stiffness
 //! answers (a clamped structure below its first resonance), and then nothing is said. Damping that shows gives a conjugated FRF away; where it is less than the noise, nothing is said.
-//! A dof is one of several where neighbours or mirror images answer alike: all of them are named. Faults that depend on frequency (a filter, a mounting resonance) are not looked for.
+//! A dof is one of several where neighbours or mirror images answer alike: all of them are named. Faults that depend on frequency (a filter, a mounting resonance) are not searched.
 
 mod data_hypothesis;
 mod dof_mismatch;
@@ -43,7 +43,7 @@ use few::{Depth, Measured, Model, Part};
 ///
 /// Where the band is identified too, [`diagnose_on`] shares its reduced model.
 ///
-/// Costs one real factorisation and some dozens of solves; two more for each of three times that another row is looked for, and for each other axis.
+/// Costs one real factorisation and some dozens of solves; two more for each of three searches for another row, and for each other axis.
 /// Of more than twenty sensors that many are looked at
 /// together, all others are compared with the moduli that they have, and those that differ most are looked at one by one: the cost beyond that of
 /// twenty sensors is one product with the basis at each frequency, and one residual a sensor and frequency.
@@ -63,9 +63,9 @@ pub fn diagnose(
 }
 
 /// The same on a reduced model that is shared with [`identify_on`](crate::identify::identify_on), and trained now where it is not
-/// yet: for all unknowns and sensors one, and no factorisation but where another row or axis is looked for.
+/// yet: for all unknowns and sensors one, and no factorisation except in the search for another row or axis.
 ///
-/// That is done only where much is left (a misfit of 0.3), and nominal values that are powers of ten off are not looked for: an identification says itself whether it explains the data.
+/// That is done only where much is left (a misfit of 0.3), and nominal values that are powers of ten off are not searched: an identification says itself whether it explains the data.
 ///
 /// # Errors
 /// As [`diagnose`].

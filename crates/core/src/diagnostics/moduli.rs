@@ -57,7 +57,7 @@ pub(super) struct Parametrization {
 }
 
 impl Parametrization {
-    /// About sizes that are so many times larger, as far as the bounds allow; `None` where they do not.
+    /// About sizes that are larger by a factor, given by its logarithm, as far as the bounds allow; `None` where they do not.
     pub(super) fn about(&self, ln_size: f64) -> Option<Self> {
         let half = 0.5 * std::f64::consts::LN_10;
         let mut moved = Self { expected_ln_size: ln_size, ..self.clone() };

@@ -116,7 +116,7 @@ impl<'a> Responses<'a> {
         matches!(self.sums, Sums::Modes(_))
     }
 
-    /// Adds a column: so many times the response at one of the subspace's sensors to a drive. Returns its number.
+    /// Adds a column: `by` times the response at one of the subspace's sensors to a drive. Returns its number.
     pub(super) fn add(&mut self, sensor: usize, drive: Drive, by: c64) -> usize {
         let times = |residues: Vec<c64>| residues.into_iter().map(|rho| rho * by).collect();
         self.columns.push(match &self.sums {

@@ -22,7 +22,7 @@ const LOSS_ANGLES: [f64; 6] = [1e-5, 1e-3, 1e-2, 5e-2, 0.2, 0.8];
 /// Slopes β that are tried beside the nominal's: a modulus rises with frequency, if more slowly than the nominal may say.
 const LOG_SLOPES: [f64; 4] = [0.0, 0.2, 0.45, -0.2];
 
-/// Slopes beyond this are none of a solid.
+/// No solid has a slope beyond this.
 const MAX_LOG_SLOPE: f64 = 0.8;
 
 /// Points of the box of several unknowns, for each of them.
@@ -277,7 +277,7 @@ impl Search<'_, '_> {
         omega_rad_s(self.responses.frequency_hz.last().copied().unwrap_or(1.0))
     }
 
-    /// Coordinates of a start: of the moduli, then of factor and delay where they are looked for.
+    /// Coordinates of a start: of the moduli, then of factor and delay where they are unknown.
     fn coordinates(
         &self,
         data_hypothesis: &DataHypothesis,

@@ -53,7 +53,7 @@ impl Calibration {
         Self { scale: self.scale.map(of_scale), delay_s: self.delay_s.map(of_delay) }
     }
 
-    /// s e^{iωτ}, with one and zero for what was not looked for.
+    /// s e^{iωτ}, with one and zero for a scale and a delay that are not unknown.
     pub fn factor(&self, frequency_hz: f64) -> c64 {
         Channel::of(self).factor(frequency_hz)
     }
@@ -69,7 +69,7 @@ pub(in crate::identify) struct Channel {
 impl Channel {
     pub(in crate::identify) const CALIBRATED: Self = Self { scale: 1.0, delay_s: 0.0 };
 
-    /// One and zero for what was not looked for.
+    /// One and zero for a scale and a delay that are not unknown.
     pub(in crate::identify) fn of(found: &Calibration) -> Self {
         let value = |found: Option<Calibrated>, none: f64| found.map_or(none, |found| found.value);
         Self { scale: value(found.scale, 1.0), delay_s: value(found.delay_s, 0.0) }
@@ -79,7 +79,7 @@ impl Channel {
         self.scale * c64::from_polar(1.0, omega_rad_s(frequency_hz) * self.delay_s)
     }
 
-    /// Where u = γ e^{−iωt} x is what is left of this calibration.
+    /// Where u = γ e^{−iωt} x remains beyond this calibration.
     pub(in crate::identify) fn better(&self, gain: f64, late_s: f64) -> Self {
         Self { scale: self.scale / gain, delay_s: self.delay_s + late_s }
     }

@@ -24,7 +24,7 @@ pub enum Selection {
     /// All sensors and all frequencies together (B-4, B-5).
     #[default]
     Joint,
-    /// The paper's: that of least |c|, each frequency by itself.
+    /// The paper's: that of least |c|, each frequency alone.
     Smallest,
 }
 

@@ -9,7 +9,7 @@ use std::fmt;
 /// The modes of both meshes are paired; Δ is the relative difference of their natural frequencies. With elements r times as long, and errors that go with the
 /// power p of the length, the model's own error is
 /// $$ \delta = \frac{\Delta}{r^p - 1}. $$
-/// It is taken out of the model, and stays in every error bar with a standard deviation as large as itself.
+/// The model is corrected for it, and it stays in every error bar with a standard deviation as large as itself.
 ///
 /// # Limits
 /// What both meshes have wrong in the same way, they do not show: a law, a mass, a support, the assumptions of the elements.

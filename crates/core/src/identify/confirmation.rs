@@ -10,7 +10,7 @@ use frfit_linalg::solve::Breakdown;
 /// The sensor whose polynomial gives the roots; the others enter the error.
 pub(super) const SENSOR: usize = 0;
 
-/// Solves anew with the correction, records error and response, and says whether the sensor that gave the root is matched.
+/// Solves again with the correction, records error and response, and says whether the sensor that gave the root is matched.
 pub(super) fn confirm(
     system: &impl Response,
     measured: &[c64],

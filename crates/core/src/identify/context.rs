@@ -8,7 +8,7 @@ use crate::for_each::ForEach;
 pub enum Stage {
     /// The subspace is trained.
     Subspace,
-    /// Solutions are looked for.
+    /// Solutions are searched.
     Solutions,
     /// One of them is chosen at each frequency.
     Selection,

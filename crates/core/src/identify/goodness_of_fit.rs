@@ -1,4 +1,4 @@
-//! Whether the model explains the band: χ² and what it says.
+//! Whether the model explains the band: χ² and its meaning.
 
 use super::noise::{Noise, NoiseLevel, NoiseSource};
 
@@ -42,14 +42,14 @@ impl GoodnessOfFit {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Explained {
-    /// What is left is noise of the size that was given, or of the size that the scatter of the answers shows too.
+    /// The residual is noise of the size that was given, or of the size that the scatter of the answers shows too.
     Yes,
     /// A little more is left than the given noise, by a factor of up to two in χ², or by a few per cent of the response beside errors of the model: the
     /// noise is larger than given, or the model not quite right.
     Nearly,
-    /// What is left is no noise: the model cannot explain these measurements.
+    /// The residual is no noise: the model cannot explain these measurements.
     No,
-    /// The level of the noise was found from what is left, and there is no other evidence of it.
+    /// The level of the noise was found from the residual, and there is no other evidence of it.
     Untested,
 }
 
@@ -71,7 +71,7 @@ const CHANCE_DEVIATE: f64 = 4.0;
 /// χ² up to this many times its degrees of freedom is noise that was given too small by less than half.
 const MAX_NEARLY_REDUCED_CHI_SQUARED: f64 = 2.0;
 
-/// Sensors that disagree by so many times what the answers scatter by do not disagree by noise, which shows in both alike: ten times in χ², where
+/// Sensors that disagree more than the answers scatter, by this factor, do not disagree by noise, which shows in both alike: ten times in χ², where
 /// the two levels of some dozens of frequencies differ by a third.
 const CONTRADICTION_RATIO: f64 = 3.0;
 

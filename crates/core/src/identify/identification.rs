@@ -24,11 +24,11 @@ pub struct Identification {
     pub laws: Vec<LawFit>,
     /// The smooth curve of a single unknown.
     pub curve: Option<SmoothCurve>,
-    /// Beside a law or a curve: what each frequency says by itself.
+    /// Beside a law or a curve: the value of each frequency alone.
     pub free: Vec<Line>,
     /// What was found of each sensor's channel; empty where all channels are calibrated.
     pub channels: Vec<Calibration>,
-    /// One for each sensor; empty where each frequency is identified by itself.
+    /// One for each sensor; empty where each frequency is identified alone.
     pub sensors: Vec<SensorFit>,
     /// How large the noise is, and from what that is known.
     pub noise: NoiseLevel,
@@ -36,10 +36,10 @@ pub struct Identification {
     pub fit: Option<GoodnessOfFit>,
     /// Which combinations of the numbers that hold for the band are identifiable.
     pub identifiability: Identifiability,
-    /// The errors of the model that were taken out of the values and are carried into their error bars; `None` where a right
+    /// The errors of the model for which the values are corrected, and which are carried into their error bars; `None` where a right
     /// model explains the band as well.
     pub model_errors: Option<ModelErrorsFound>,
-    /// How far an error of each known factor moves each unknown; empty where that was not looked for.
+    /// How far an error of each known factor moves each unknown; empty where that was not computed.
     pub leverage: Vec<Leverage>,
     /// Where a modulus is that of no causal material.
     pub causality_breaches: Vec<CausalityBreach>,
@@ -67,7 +67,7 @@ pub struct SearchReport {
     pub work: Work,
     /// Vectors of the reduced model; `None` where the full model answered.
     pub reduced_size: Option<usize>,
-    /// Frequencies at which all solutions were looked for; at the others those of their neighbours were followed.
+    /// Frequencies at which all solutions were searched; at the others those of their neighbours were followed.
     pub explored: usize,
     /// Starts that were followed for several unknowns.
     pub starts: usize,
@@ -75,7 +75,7 @@ pub struct SearchReport {
     pub agreeing: usize,
     /// Whether the search converged.
     pub converged: bool,
-    /// Why there is no reduced model; nothing was looked for then.
+    /// Why there is no reduced model; nothing was searched then.
     pub breakdown: Option<Breakdown>,
 }
 
@@ -147,7 +147,7 @@ impl From<SmoothOutcome> for Identification {
 impl From<LawsOutcome> for Identification {
     fn from(laws: LawsOutcome) -> Self {
         let LawsOutcome { free, fits, lines, channels, fit, work, subspace_size } = laws;
-        // The noise and the sensors of the band, as each frequency by itself shows them.
+        // The noise and the sensors of the band, as each frequency alone shows them.
         let per_frequency = free.lines.clone();
         let band = BandOutcome { lines, work, subspace_size, fit, ..free };
         let constants = best(&fits).map(|law| of_law(law, fit)).into_iter().collect();

@@ -2,7 +2,7 @@
 //!
 //! About each line, with t from −1 to 1 over its neighbourhood,
 //! $$ H(t) \approx \frac{a_0 + a_1 t + a_2 t^2}{1 + b_1 t + b_2 t^2} $$
-//! two resonances at the most, wherever they are and however narrow. What is left is noise, which differs from line to line.
+//! two resonances at the most, wherever they are and however narrow. The residual is noise, which differs from line to line.
 //!
 //! # Source
 //! T. McKelvey, G. Guérin, Non-parametric frequency response estimation using a local rational model, IFAC Proc. Vol. 45(16) (2012) 49–54.

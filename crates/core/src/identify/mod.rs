@@ -2,7 +2,7 @@
 //!
 //! [`identify`] is the one entry: a [`Problem`] says what is known and what is not, an [`Identification`] what came out.
 //!
-//! | file | what is in it |
+//! | file | contents |
 //! |---|---|
 //! | `problem` | what is to be identified, checked |
 //! | `reduced_band` | one reduced model, shared with the diagnostics |

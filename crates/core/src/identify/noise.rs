@@ -84,7 +84,7 @@ impl NoiseLevel {
         Self { level, source, of_sensors, of_scatter }
     }
 
-    /// Nothing known, as where each frequency is answered by itself.
+    /// Nothing known, as where each frequency is answered alone.
     pub(super) const UNKNOWN: Self =
         Self { level: None, source: NoiseSource::Nothing, of_sensors: None, of_scatter: None };
 }

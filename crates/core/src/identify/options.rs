@@ -29,7 +29,7 @@ pub struct Options {
     /// Largest relative error of the factor that the subspace may cause, by its own estimate, for status `ok`. Default 1e-5: the estimate is ten to a
     /// hundred times what direct solves show.
     pub certain: f64,
-    /// Whether the factor is looked for in all of the bounds, as for a nominal that is no more than their middle. Default false: in a factor of four to either side
+    /// Whether the factor is searched in all of the bounds, as for a nominal that is no more than their middle. Default false: in a factor of four to either side
     /// of the nominal first.
     pub whole_box: bool,
     /// Whether a joint selection leaves out a sensor of three or more that contradicts all others. Default true: it is named in any case.
@@ -79,7 +79,7 @@ pub enum ModelErrors {
     Estimated,
     /// There are some, as large as this: they are in every error bar, however well a right model explains the band.
     Given(ErrorSizes),
-    /// There are none that count: error bars hold the noise of the measurement alone.
+    /// No errors of the model count: error bars hold the noise of the measurement alone.
     None,
 }
 
@@ -205,7 +205,7 @@ impl Options {
         Ok(())
     }
 
-    /// How many times larger or smaller than the nominal value answers are looked for, within the bounds.
+    /// How many times larger or smaller than the nominal value answers are searched, within the bounds.
     pub(crate) fn box_ratio(&self) -> f64 {
         if self.whole_box { WHOLE_BOX_RATIO } else { NEAR_BOX_RATIO }
     }

@@ -81,7 +81,7 @@ impl Status {
         Self::OutOfBand,
     ];
 
-    /// The only place that says what a status is called and what it means.
+    /// The only place that gives the name of a status and its meaning.
     fn about(self) -> About {
         match self {
             Self::Ok => About {
@@ -151,7 +151,7 @@ impl Status {
         self.about().label
     }
 
-    /// A clause that says what it means: `noise leaves the value unknown`.
+    /// A clause with its meaning: `noise leaves the value unknown`.
     pub fn meaning(self) -> &'static str {
         self.about().meaning
     }
@@ -255,7 +255,7 @@ pub struct Line {
     pub breakdown: Option<Breakdown>,
     /// Receptance at the sensors with the nominal values; empty where it could not be solved.
     pub nominal_response: Vec<c64>,
-    /// Receptance at the sensors with the identified values; empty where there are none.
+    /// Receptance at the sensors with the identified values; empty where there are no values.
     pub updated_response: Vec<c64>,
     /// Roots of the highest order, least |c| first, each admissible or with the reason why not: of a single unknown.
     pub roots: Vec<Candidate>,

@@ -15,12 +15,12 @@ use frfit_linalg::solve::Breakdown;
 /// Vectors of the first attempt, and how many each further one adds.
 const VECTORS_PER_ATTEMPT: usize = 8;
 
-/// A root whose true residual is below this solves the full system: what is left of a double precision solve with a
+/// A root whose true residual is below this solves the full system: the residual of a double precision solve with a
 /// condition of 1e6, as a structure near resonance has.
 pub(super) const ROOT_RESIDUAL_TOL: f64 = 1e-9;
 
 /// Stiffer contrasts leave larger residuals to roundoff alone. There a direct solve decides: a root whose response is the measured one to
-/// this is a solution, with a few digits to spare for what such a solve loses.
+/// this is a solution, with a few digits to spare for the loss of this solve.
 pub(super) const RESPONSE_MATCH_RTOL: f64 = 1e-6;
 
 /// Grows the basis until there is a root within the bounds and every one solves the full system, or the order is reached.
@@ -39,7 +39,7 @@ pub(super) fn by_rational(
     loop {
         let judged = judge(&response, measured[SENSOR], outcome.nominal(), &unknown.roots());
         outcome.roots = judged.map_err(|NoConvergence| Breakdown::NotFinite)?;
-        // No solution at a low order is no proof that there is none.
+        // That a low order has no solution is no proof that no solution exists.
         let settled = !unsure(&outcome.roots) && outcome.candidate_count() > 0;
         if settled || order == options.order || response.is_complete() {
             break;

@@ -12,7 +12,7 @@ use std::ptr;
 
 /// One reduced model of a band (B-3), for [`diagnose_on`](crate::diagnostics::diagnose_on) and
 /// [`identify_on`](super::identify_on): whoever needs it first trains it over the box of all unknowns, and the next one
-/// trains it further where answers need that. Of another problem it begins anew. What it was trained to may be kept for other runs ([`ReducedBand::kept`]).
+/// trains it further where answers need that. Of another problem it begins again. What it was trained to may be kept for other runs ([`ReducedBand::kept`]).
 #[derive(Debug, Default)]
 pub struct ReducedBand<'a> {
     /// What it was trained for.

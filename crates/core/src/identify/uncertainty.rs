@@ -103,7 +103,7 @@ impl Uncertainty {
         }
     }
 
-    /// Noise is so many times as large.
+    /// Noise is larger by a factor.
     pub(crate) fn lengthen(&mut self, by: f64) {
         self.correction_std *= by;
         self.storage_std *= by;

@@ -1,4 +1,4 @@
-//! What is looked for when several things are.
+//! The unknowns of an identification.
 
 use crate::c64;
 use crate::identify::options::NEAR_BOX_RATIO;
@@ -150,7 +150,7 @@ impl Unknown {
         Some(Parameter { members: members?, nominal: self.nominal.clone(), multiplies })
     }
 
-    /// [low, high] of the real part in which it is looked for about a nominal value: the bounds, as far as they are within a ratio of it. `None` where nothing
+    /// [low, high] of the real part in which it is searched about a nominal value: the bounds, as far as they are within a ratio of it. `None` where nothing
     /// bounds it.
     pub(crate) fn box_about(&self, nominal: c64, ratio: f64) -> Option<[f64; 2]> {
         if nominal.re <= 0.0 {
@@ -167,7 +167,7 @@ impl Unknown {
         RootOptions { bounds: self.bounds, real: self.real, ..RootOptions::default() }
     }
 
-    /// [low, high] of the real part in which it is looked for about a nominal value, beside other unknowns.
+    /// [low, high] of the real part in which it is searched about a nominal value, beside other unknowns.
     pub(crate) fn range(&self, nominal: c64) -> [f64; 2] {
         let about = self.box_about(nominal, NEAR_BOX_RATIO);
         // A value of zero has no neighbourhood of its own, and nothing bounds it: the caller's nominal is then all there is.

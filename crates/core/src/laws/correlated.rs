@@ -10,7 +10,7 @@
 //! The sandwich of correlated scores: W. K. Newey, K. D. West, Econometrica 55 (1987) 703–708; a model's own error as a process:
 //! M. C. Kennedy, A. O'Hagan, J. R. Stat. Soc. B 63 (2001) 425–464.
 
-/// One line of the data: a frequency of a band, or a row of a table. Each of the two numbers of ln E by itself.
+/// One line of the data: a frequency of a band, or a row of a table. Each of the two numbers of ln E is treated separately.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct LineResidual {
     /// Inverse variance of the line, up to the common factor s².
@@ -44,7 +44,7 @@ pub(super) struct Process {
 /// Twice the logarithm of the likelihoods' ratio that two more numbers have to gain: noise alone does so once in a hundred times or less.
 const MIN_LOG_LIKELIHOOD_GAIN: f64 = 10.0;
 
-/// τ² is looked for as far as this below and above the variance that lines have by themselves, in steps of a factor of two.
+/// τ² is searched as far as this below and above the variance of the separate lines, in steps of a factor of two.
 const MIN_VARIANCE_RATIO: f64 = 1e-4;
 const MAX_VARIANCE_RATIO: f64 = 1e6;
 

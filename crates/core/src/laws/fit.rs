@@ -65,7 +65,7 @@ pub struct LawFit {
     pub starts: usize,
     /// How many of them ended here. Where most did not, there may be a better minimum still.
     pub agreeing: usize,
-    /// What neighbouring lines leave in common, by which the standard deviations are wider than noise alone would have them; `None` where noise of each line explains what is left.
+    /// What neighbouring lines leave in common, by which the standard deviations are wider than noise alone would have them; `None` where noise of each line explains the residuals.
     pub correlated: Option<Correlated>,
     parametrization: Parametrization,
     theta: Vec<f64>,
@@ -78,7 +78,7 @@ pub struct LawFit {
 /// Sums of squares that differ by this share of a degree of freedom are one minimum.
 const MINIMUM_MERGE_TOL: f64 = 1e-3;
 
-/// Residuals of this size squared are none: of data without noise every end is roundoff, each its own.
+/// Residuals of this size squared count as zero: of data without noise every end is roundoff, each its own.
 const EXACT_SUM_OF_SQUARES: f64 = 1e-20;
 
 /// Starts that are followed, of those that there are.
@@ -194,7 +194,7 @@ impl LawFit {
         self
     }
 
-    /// With noise that is so many times as large.
+    /// With noise that is larger by the factor `times`.
     pub(crate) fn with_noise(self, times: f64) -> Self {
         let scaled = |covariance: &Vec<Vec<f64>>| {
             covariance.iter().map(|row| row.iter().map(|value| times * times * value).collect()).collect()
@@ -243,7 +243,7 @@ impl LawFit {
         let n = self.residuals as f64;
         match self.sigma_known {
             true => self.chi_squared,
-            // Data without any noise: what is left is roundoff, and no law is better than another for having less of it.
+            // Data without any noise: the residuals are roundoff, and no law is better than another for having less of it.
             false => n * (self.chi_squared / n).max(EXACT_REDUCED_CHI_SQUARED).ln(),
         }
     }

@@ -40,7 +40,7 @@ pub const MAX_BRANCHES: usize = 20;
 /// Branches where no number is given.
 pub const USUAL_BRANCHES: usize = 3;
 
-/// What a parameter is: its unit, its range, and the coordinate in which it is looked for; ω₀ is in the middle of the data.
+/// What a parameter is: its unit, its range, and the coordinate in which it is searched; ω₀ is in the middle of the data.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ParameterKind {
@@ -103,7 +103,7 @@ pub struct Parameter {
     pub kind: ParameterKind,
     /// A value that rubber may have, for examples.
     pub example: f64,
-    /// What it means, as a sentence.
+    /// Its meaning, as a sentence.
     pub about: &'static str,
 }
 
@@ -150,7 +150,7 @@ impl LawKind {
         Self::Maxwell { branches: 4 },
     ];
 
-    /// One of each kind, in the order in which they are listed.
+    /// A law of every kind, in the order in which they are listed.
     pub const FAMILIES: [Self; 4] =
         [Self::Constant, Self::Fractional, Self::FractionalZener, Self::Maxwell { branches: USUAL_BRANCHES }];
 

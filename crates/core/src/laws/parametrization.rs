@@ -1,4 +1,4 @@
-//! Coordinates θ of a law's parameters p in which every constraint holds by itself.
+//! Coordinates θ of a law's parameters p in which every constraint holds automatically.
 
 use super::LineResidual;
 use super::{Datum, LawKind, ParameterKind};

@@ -91,7 +91,7 @@ fn with_moduli_of(kind: LawKind, tau: f64, alpha: f64, data: &[Datum]) -> Vec<f6
     of_moduli(&coefficients(data, &functions, true))
 }
 
-/// So many times from the first to the last, in equal ratios; their middle where there is one.
+/// `count` times from the first to the last, in equal ratios; their middle if `count` is one.
 fn spread(first: f64, last: f64, count: usize) -> Vec<f64> {
     let share = |k: usize| if count == 1 { 0.5 } else { k as f64 / (count - 1) as f64 };
     (0..count).map(|k| first * (last / first).powf(share(k))).collect()

@@ -5,7 +5,7 @@ use crate::c64;
 use crate::frequency::{laplace_per_s, omega_rad_s};
 use crate::median::median;
 
-/// Half-widths that are tried: from the spacing of the lines on, each so many times the one before, up to this part of the band. Wider
+/// Half-widths that are tried: from the spacing of the lines on, each larger than the one before by this factor, up to this part of the band. Wider
 /// resonances are in the stabilisation diagram.
 const HALF_WIDTH_STEP: f64 = 2.0;
 const MAX_HALF_WIDTH: f64 = 0.005;
@@ -16,18 +16,18 @@ const FREQUENCY_STEP: f64 = 0.5;
 /// Lines that are compared with a trial pole: up to so many half-widths from it.
 const REACH: f64 = 10.0;
 
-/// A mode stands out: it explains so many times more than the median of so many trials on either side. Of noise the largest of ten thousand trials explains
+/// A mode stands out: it explains more than the median of the neighbouring trials on either side, by this factor. Of noise the largest of ten thousand trials explains
 /// some thirteen times the median, also where neighbouring lines have it in common.
 const MIN_PROMINENCE: f64 = 30.0;
 const NEIGHBOURS: usize = 200;
 
-/// Nearer to a pole that is there, in half-widths of the wider of both, what is left is of that one: its damping may depend on the amplitude.
+/// Nearer to a pole that is there, in half-widths of the wider of both, the residual belongs to that pole: its damping may depend on the amplitude.
 const MIN_DISTANCE: f64 = 3.0;
 
 /// Poles that are found at once at most: a search over all poles costs the cube of their number.
 const MAX_POLES: usize = 10;
 
-/// Poles where what is left has a resonance that explains more than the price of a pole, the largest first.
+/// Poles where the residual has a resonance that explains more than the price of a pole, the largest first.
 ///
 /// At each trial pole s the residue a_m of each sensor minimises Σ w²|rest − a_m/(iω − s)|² over the lines nearby.
 ///

@@ -10,7 +10,7 @@ use crate::identify::{Frfs, Noise, standard_deviations};
 use crate::with_fields::with_fields;
 use frfit_linalg::dense::NoConvergence;
 
-/// How poles are looked for.
+/// How poles are searched.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct PoleOptions {
@@ -93,7 +93,7 @@ const MAX_ROUNDS: usize = 60;
 
 /// The modes of measured responses, from all sensors together. Lines at 0 Hz must not be among them.
 ///
-/// Poles that a stabilisation diagram shows at several orders are fitted to all lines at once, and those where what is left has a resonance.
+/// Poles that a stabilisation diagram shows at several orders are fitted to all lines at once, and so are poles where the residual has a resonance.
 /// Those that gain less than their number of unknowns bears (BIC) are left out.
 ///
 /// # Errors
@@ -202,7 +202,7 @@ struct PoleSearch<'a> {
 }
 
 impl PoleSearch<'_> {
-    /// What is left over the assumed deviations.
+    /// The residual over the assumed deviations.
     fn level(&self, fit: &Fit, fitted: &Fitted) -> Option<f64> {
         let freedom =
             self.measured.numbers().checked_sub(self.measured.unknowns(fit)).filter(|&free| free > 0)?;

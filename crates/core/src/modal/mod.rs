@@ -1,6 +1,6 @@
 //! Natural frequencies, damping and shapes of a model and of what was measured, side by side.
 //!
-//! | file | what is in it |
+//! | file | contents |
 //! |---|---|
 //! | `stabilisation` | poles of measured responses at growing orders (LSCF) |
 //! | `rational_fit` | poles fitted to all lines at once, with their covariance |

@@ -55,7 +55,7 @@ const SEARCH_PATIENCE: usize = 20;
 
 /// Linear least squares of one sensor.
 struct Eliminated {
-    /// R of the weighted [Φ, h], (n + 1) × (n + 1): its last entry is the length of what is left.
+    /// R of the weighted [Φ, h], (n + 1) × (n + 1): its last entry is the length of the residual.
     triangle: Triangle,
     /// The linear coefficients c, two of each pole first.
     coefficients: Vec<f64>,

@@ -91,7 +91,7 @@ pub(super) fn stabilisation(
         let z = roots_at(orders[k], &of_sensors)?;
         let pole = |z: c64| {
             let mut turn = z.arg();
-            // The arc from 0 to its end, with half of what is left of the circle on either side.
+            // The arc from 0 to its end, with half of the rest of the circle on either side.
             let before = 0.5 * (ARC_RAD - std::f64::consts::TAU);
             turn += if turn < before { std::f64::consts::TAU } else { 0.0 };
             let over_arc = (last - first) / ARC_RAD;

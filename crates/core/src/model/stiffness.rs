@@ -37,7 +37,7 @@ pub struct Term {
     pub name: String,
     /// Stiffness, viscous or mass.
     pub role: Role,
-    /// The matrix, with the factor (such as E or ρ) taken out.
+    /// The matrix, divided by its factor (such as E or ρ).
     pub matrix: SymmetricMatrix,
     /// The factor, at its nominal value where it is unknown.
     pub factor: Law,

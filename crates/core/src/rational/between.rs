@@ -9,7 +9,7 @@ use crate::c64;
 /// material is all stiffness that there is, p_k/ω² does not change at all: by it poles are paired.
 ///
 /// # Limits
-/// Off by the square of the step in frequency. A pole without a partner, weak or far from the nominal value as a rule, goes with ω² from where the nearer frequency has it.
+/// Off by the square of the step in frequency. A pole without a partner, weak or far from the nominal value as a rule, moves in proportion to ω² from where the nearer frequency has it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PolesBetween {
     ends: [Vec<Pole>; 2],

@@ -6,7 +6,7 @@
 //! where L̂_k is what the path so far predicts: a curve of ln E over ln ω with a curvature of the size κ, which is fitted to the band. A
 //! material's slope is tied to its loss by causality; wrong branches, on which about ω²/E is constant, break that tie.
 //!
-//! | file | what is in it |
+//! | file | contents |
 //! |---|---|
 //! | `agreement` | what several sensors agree on, where no material explains it |
 //! | `trend` | what a path knows of its curve, and what it expects next |
@@ -49,7 +49,7 @@ pub struct Choice {
     pub chosen: Option<usize>,
     /// Other nodes that the data cannot exclude: where there are any, the frequency is ambiguous.
     pub rivals: Vec<usize>,
-    /// By how much the best path through another node costs more, in nats; infinite where there is none.
+    /// By how much the best path through another node costs more, in nats; infinite where no other path exists.
     pub margin: f64,
 }
 

@@ -145,7 +145,7 @@ impl Search {
         &self.now
     }
 
-    /// One frequency on: the step in ln ω that leads there, and what is there.
+    /// One frequency on: the step in ln ω that leads there, and the points there.
     pub(super) fn advance(&mut self, step: f64, points: &[Point]) {
         std::mem::swap(&mut self.now, &mut self.before);
         for (parent, path) in self.before.iter_mut().enumerate() {
@@ -169,7 +169,7 @@ impl Search {
 }
 
 /// Of what becomes of each path the cheapest of each history (what was chosen last before), and of those the cheapest; the one that has chosen nothing so far
-/// stays, for it alone can start anew. What costs more than a limit may be left out: most do, and are not looked at closely.
+/// stays, for it alone can start again. What costs more than a limit may be left out: most do, and are not looked at closely.
 fn keep_best(
     before: &[Path],
     count: usize,

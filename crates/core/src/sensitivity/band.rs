@@ -40,7 +40,7 @@ fn evaluated(
     map(for_each, points.len(), |i| subspace.projection().changes(&points[i]).ok())
 }
 
-/// The subspace of a band, good for the response and its derivatives, and what it says at every frequency.
+/// The subspace of a band, good for the response and its derivatives, and its results at every frequency.
 #[derive(Debug)]
 pub struct SensitivityBand<'m> {
     pub(super) subspace: Subspace<'m>,
@@ -132,7 +132,7 @@ impl<'m> SensitivityBand<'m> {
         self.trained
     }
 
-    /// ∂ln x_m/∂ln p and its estimated error, the frequency given by its index; `None` where there is none.
+    /// ∂ln x_m/∂ln p and its estimated error, the frequency given by its index; `None` where there is no derivative.
     pub fn logarithmic(&self, frequency: usize, variable: usize, sensor: usize) -> Option<(c64, f64)> {
         let changed = self.at[frequency].as_ref()?;
         let (x, slope) = (changed.response[sensor], changed.slopes[variable][sensor]);

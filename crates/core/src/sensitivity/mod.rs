@@ -3,7 +3,7 @@
 //! All of it is about the model as it is: nothing needs to be measured. From the subspace of a band (B-3) and the adjoint,
 //! $$ \frac{\partial \ln x_m}{\partial \ln p} = -\frac{1}{x_m} z_m^T \frac{\partial D}{\partial \ln p} x, \qquad z_m = D^{-1} \ell_m. $$
 //!
-//! | file | what is in it |
+//! | file | contents |
 //! |---|---|
 //! | `variable` | which parameters a model has |
 //! | `band` | response and derivatives over a band, with estimated errors |

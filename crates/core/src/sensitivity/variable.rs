@@ -30,7 +30,7 @@ impl Variable {
     /// The factor of every term, and where it is complex its loss factor for itself; terms whose factor is zero have no logarithm and are left out.
     ///
     /// # Limits
-    /// What a matrix has of its own in imaginary parts goes with its factor.
+    /// The imaginary parts of a matrix itself are multiplied by its factor.
     ///
     /// # Errors
     /// [`OutsideTable`] where a table does not reach a frequency.

@@ -68,7 +68,7 @@ pub struct Frf {
     pub coherence: Option<Vec<f64>>,
     /// Variance of the real and of the imaginary part, B-6 ([`variance`]); `None` without a coherence.
     pub variance: Option<Vec<f64>>,
-    /// √(Σ|X|²/n) of the response's transform over that of the force: the gain that the spectra show by themselves.
+    /// √(Σ|X|²/n) of the response's transform over that of the force: the gain that the spectra alone show.
     pub gain: Vec<f64>,
 }
 

@@ -106,7 +106,7 @@ fn second_contacts(
 /// A jump there and back within so many samples is a spike...
 const MAX_JUMP_SAMPLES: usize = 3;
 
-/// ... where it is so many times as high as any other. Signals behind an anti-aliasing filter do not jump like that.
+/// ... where it is higher than any other by this factor. Signals behind an anti-aliasing filter do not jump like that.
 const MIN_JUMP_RATIO: f64 = 10.0;
 
 /// A spike of a response away from the contact, where jumps are its own: how many samples, and how far it jumps.

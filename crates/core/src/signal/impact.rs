@@ -20,7 +20,7 @@ pub struct Impact {
     pub faults: Vec<Fault>,
     /// Whether it is averaged all the same.
     pub kept_anyway: bool,
-    /// What is left of each response over the last tenth of the record: rms about the mean, over its largest value.
+    /// The rest of each response over the last tenth of the record: rms about the mean, over its largest value.
     pub residual: Vec<f64>,
     /// The same before the impact, where the record has enough of that: noise.
     pub noise: Option<Vec<f64>>,
@@ -43,7 +43,7 @@ impl Impact {
         if self.peak_n > 0.0 { (self.last + 1 - self.onset) as f64 * step_s } else { 0.0 }
     }
 
-    /// What is left of a response at the end of the record, where that is neither little nor noise.
+    /// The rest of a response at the end of the record, where that is neither little nor noise.
     ///
     /// The rest wraps around: the transform takes the record for one period of a periodic response.
     pub fn undecayed(&self, response: usize) -> Option<f64> {

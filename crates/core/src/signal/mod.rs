@@ -8,7 +8,7 @@
 //! over those with which nothing is. Every impact is listed in [`Measured::impacts`], with what spoke against it.
 //!
 //! The transform is periodic: an FRF from it is that of the structure only where the response has decayed within the record.
-//! What is left of it at the end is [`Impact::residual`].
+//! Its rest at the end is [`Impact::residual`].
 
 mod baseline;
 mod channel;

@@ -30,11 +30,11 @@ const MAX_SPIKE_SAMPLES: usize = 5;
 /// Most spikes that are bridged in one recording; one with more is beyond help.
 const MAX_SPIKES: usize = 8;
 
-/// A spike is at least so many times as high as the pulse it sits on: pulses, even of few samples, lose less than that without
+/// A spike is higher than the pulse it sits on by this factor at least: pulses, even of few samples, lose less than that without
 /// their upper half.
 const MIN_SPIKE_RATIO: f64 = 3.0;
 
-/// So many times as high, whatever it sits on: the samples beside a contact of a single sample have a fifth of it behind a filter.
+/// Higher by this factor, whatever it sits on: the samples beside a contact of a single sample have a fifth of it behind a filter.
 const CERTAIN_SPIKE_RATIO: f64 = 10.0;
 
 impl Contact {

@@ -1,7 +1,7 @@
 //! Smooth curves through scattered observations, no smoother than these say: an integrated Wiener process (the cubic smoothing spline) whose
 //! curvature, and where it is not known the level of the noise, have the posterior that the marginal likelihood gives them.
 //!
-//! | file | what is in it |
+//! | file | contents |
 //! |---|---|
 //! | `process` | filter, smoother and likelihood at a given curvature |
 //!

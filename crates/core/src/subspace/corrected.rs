@@ -1,4 +1,4 @@
-//! A reduced model from which errors are taken out (B-11), and the models of its neighbourhoods.
+//! A reduced model that is corrected for errors (B-11), and the models of its neighbourhoods.
 
 use super::{Assessment, ModalErrors, Modes, Point, Projection};
 use crate::c64;
@@ -31,7 +31,7 @@ impl Corrected {
 pub(crate) struct Local {
     /// As the full model is.
     own: Arc<Projection>,
-    /// With the errors of the model taken out, where there are any.
+    /// Corrected for the errors of the model, where there are any.
     corrected: Option<Projection>,
 }
 

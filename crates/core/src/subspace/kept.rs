@@ -16,7 +16,7 @@ use std::fmt;
 /// A [`Subspace`] without its model: trained once, it serves every run with the same matrices, load and sensors (B-3).
 ///
 /// It is a set of arrays with names, and whoever wants it on disk writes those ([`KeptSubspace::arrays`], [`KeptSubspace::new`]). A clone shares what is
-/// long. Factorisations are not among them: one is done anew when a run needs more vectors.
+/// long. Factorisations are not among them: one is done again when a run needs more vectors.
 ///
 /// # Limits
 /// It knows the sizes of its model and no more: that the matrices, the load and the sensors are those that it was trained with is for the caller to see to.

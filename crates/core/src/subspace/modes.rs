@@ -44,7 +44,7 @@ pub(crate) struct Modes {
     pub(crate) energy_shares: Vec<Vec<f64>>,
     /// What of the stiffness a small error is: 2 of δ_i, iη/(1 + iη) of ε_i.
     share: Vec<c64>,
-    /// What of S_g goes with each error, `[g][error]`; empty for parts that are no stiffness.
+    /// The part of S_g that belongs to each error, `[g][error]`; empty for parts that are no stiffness.
     stiffness: Vec<Vec<f64>>,
     /// ℓ_m, what of which S_g a mass there is, and the apparent mass M_m.
     directions: Vec<Vec<f64>>,
@@ -361,7 +361,7 @@ impl Projection {
         };
         let of_load = along(y);
         let by_sensor: Vec<Vec<c64>> = duals.iter().map(|z| along(z)).collect();
-        // The complex stiffness that goes with each error.
+        // The complex stiffness that belongs to each error.
         let scale = (2.0 * errors.scale).exp();
         let stiffness = |error: usize| -> c64 {
             let parts = modes.stiffness.iter().enumerate().filter(|(_, own)| !own.is_empty());
@@ -426,7 +426,7 @@ impl Projection {
 
 /// The response of a model at one frequency over the natural frequency of one mode and its shapes, everything else as it is.
 ///
-/// With w = D⁻¹My_i and κ = k (t − t₀), where t is what [`Modes::change`] makes of δ_i and k the complex stiffness that goes with it,
+/// With w = D⁻¹My_i and κ = k (t − t₀), where t is what [`Modes::change`] makes of δ_i and k the complex stiffness that belongs to it,
 /// $$ x_m = \ell_m^T y - \frac{\kappa}{1 + \kappa s} p \\, \ell_m^T w, \qquad s = (M y_i)^T w, \quad p = (M y_i)^T y. $$
 pub(crate) struct AlongMode {
     /// ℓ_mᵀy and ℓ_mᵀw without the mode's share of ℓ_m.

@@ -4,7 +4,7 @@
 //! $$ T(s) = \sum_g f_g\\, s^{q_g} S_g, \qquad q = 0, 1, 2 \text{ for stiffness, viscous damping and mass}, \qquad T(s)\\, x = 0 . $$
 //! Modes of the real stiffness and mass are counted by inertia and found by Lanczos on the whole model. On the subspace that they span each is followed
 //! from no damping to its own by inverse iteration with Rayleigh's functional, $y^T T(s) y = 0$. Where there are dampers, or much damping, a mode may so be led to
-//! another's pole: all poles of the reduced model at one set of factors, from its state matrix, are starts as well. What is left of the whole model's T(s) Vy brings the vectors that damping
+//! another's pole: all poles of the reduced model at one set of factors, from its state matrix, are starts as well. The residual T(s) Vy of the whole model brings the vectors that damping
 //! adds to the shapes, until the pole is right: its error is of second order in them, as T is symmetric.
 //!
 //! # Source
@@ -107,7 +107,7 @@ pub type ModelAtFrequency<'a, 'm> = &'a dyn Fn(f64) -> Result<ModelAt<'m>, Outsi
 /// Undamped modes beyond those below the highest frequency that are part of the subspace.
 const MODES_BEYOND: usize = 4;
 
-/// Mass that is added to the stiffness while undamped modes are looked for, times the square of the highest frequency: shapes stay the same.
+/// Mass that is added to the stiffness while undamped modes are searched, times the square of the highest frequency: shapes stay the same.
 const SHIFT: f64 = 1e-2;
 
 /// Relative error of a pole that the reduction may leave.
@@ -136,7 +136,7 @@ const HEAVY_DAMPING_RATIO: f64 = 0.1;
 /// A pole whose imaginary part is below this part of it is overdamped.
 const MIN_OSCILLATION: f64 = 0.05;
 
-/// Poles at fixed factors are looked for up to so many times the highest frequency: at their own factors they are elsewhere.
+/// Poles at fixed factors are searched up to this multiple of the highest frequency: at their own factors they are elsewhere.
 const MARGIN: f64 = 1.1;
 
 /// Vectors that are added to the subspace at once.
@@ -202,7 +202,7 @@ impl<'m> Subspace<'m> {
         }
     }
 
-    /// Adds vectors to the basis until it has as many as the model has rows: what is left of others is roundoff.
+    /// Adds vectors to the basis until it has as many as the model has rows: further ones would be roundoff.
     fn append_within(&mut self, block: &[f64]) {
         let n = self.model.dim();
         for some in block.chunks(n * VECTORS_AT_ONCE) {

@@ -68,7 +68,7 @@ const MAX_WATCHED_POINTS: usize = 48;
 /// Relative errors above this are those of a model that has not yet what the band needs.
 const MEANINGLESS_ERROR: f64 = 0.1;
 
-/// Rounds without progress (by a factor of two of the error) after which roundoff is what is left.
+/// Rounds without progress (by a factor of two of the error) after which the rest of the error is roundoff.
 pub(super) const MAX_STALLED_ROUNDS: usize = 6;
 
 /// A residual that is wanted in full.
@@ -113,7 +113,7 @@ impl<'m> Subspace<'m> {
         let mut errors = assess(self, &all);
         loop {
             if errors.first().is_none_or(|&(worst, _)| worst <= options.tolerance) {
-                // Points that were not followed may be far worse: what counts as progress starts anew.
+                // Points that were not followed may be far worse: the count of progress starts again.
                 errors = assess(self, &all);
                 (best, stalled) = (f64::INFINITY, 0);
             }

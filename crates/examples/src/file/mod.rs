@@ -13,7 +13,7 @@ pub(crate) use table::{dofs, force, several_truth, truth};
 pub struct File {
     /// Path relative to the example's folder.
     pub path: String,
-    /// What is in it.
+    /// Contents.
     pub bytes: Vec<u8>,
 }
 

@@ -44,7 +44,7 @@ pub(super) fn stroke(color: &str, dash: Dash) -> String {
     format!("fill=\"none\" stroke=\"{color}\" stroke-width=\"{LINE}\" stroke-linejoin=\"round\"{pattern}")
 }
 
-/// A path that starts anew after each gap, and dots for points between two gaps.
+/// A path that starts again after each gap, and dots for points between two gaps.
 fn polyline(places: &[Option<(f64, f64)>]) -> (String, String) {
     let (mut path, mut lone) = (String::new(), String::new());
     for piece in places.split(Option::is_none) {

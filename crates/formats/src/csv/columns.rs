@@ -5,7 +5,7 @@ use crate::FormatError;
 use crate::text::quoted;
 
 impl Table {
-    /// The column with this name (upper and lower case are the same); `None` where there is none.
+    /// The column with this name (upper and lower case are the same); `None` if no column has it.
     ///
     /// # Errors
     /// Two columns with this name.

@@ -273,7 +273,7 @@ fn decay(bytes: &[u8]) -> Result<Option<f64>, FormatError> {
 
 const DECAY: &str = "decay_per_s = a number of 1/s from 0 on";
 
-/// What a line of text says about the decay rate of an exponential window: `decay_per_s = 6`, in 1/s. `None` where it says nothing of it, `Some(None)` where what it says is no number from 0 on.
+/// What a line of text says about the decay rate of an exponential window: `decay_per_s = 6`, in 1/s. `None` if it does not mention it, `Some(None)` if the value is no number from 0 on.
 pub fn decay_said(text: &[u8]) -> Option<Option<f64>> {
     let rest = text.trim_ascii().strip_prefix(b"decay_per_s")?.trim_ascii_start().strip_prefix(b"=")?;
     Some(number(rest.trim_ascii()).filter(|value| *value >= 0.0))

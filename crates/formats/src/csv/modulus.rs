@@ -16,7 +16,7 @@ pub struct ModulusTable {
 }
 
 /// Reads a table of a modulus: columns frequency_hz, storage (E′), and either loss_factor (η = E″/E′) or loss
-/// (E″). Other columns are passed over, so that an `identified.csv` is such a table; rows in which both
+/// (E″). Other columns are passed over, so that an `identified.csv` can be read; rows in which both
 /// cells of the modulus are empty (no answer at this frequency) are left out.
 ///
 /// # Errors

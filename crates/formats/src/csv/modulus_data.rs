@@ -195,7 +195,7 @@ impl Columns {
     }
 }
 
-/// The column with one of these names; `None` where there is none.
+/// The column with one of these names; `None` if no column has one.
 fn one_of(table: &Table, names: &[&str]) -> Result<Option<usize>, FormatError> {
     let mut found = None;
     for name in names {

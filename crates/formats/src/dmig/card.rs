@@ -3,7 +3,7 @@
 use crate::FormatError;
 use crate::text::{Line, Lines, quoted};
 
-/// A field: its line, where it starts, and what is in it.
+/// A field: its line, its start and its text.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Field<'a> {
     pub(super) line: Line<'a>,
@@ -131,7 +131,7 @@ pub(crate) fn looks_like(bytes: &[u8]) -> bool {
     })
 }
 
-/// The fields behind the first, blank where there are none, and how many of them count: eight, or four large ones.
+/// The fields behind the first, blank where the card has no more, and how many of them count: eight, or four large ones.
 fn fields(line: Line<'_>) -> Result<([Field<'_>; 8], usize), FormatError> {
     let end = memchr::memchr(b'$', line.bytes).unwrap_or(line.bytes.len());
     let bytes = &line.bytes[..end];

@@ -69,7 +69,7 @@ fn headers(bytes: &[u8]) -> Result<Vec<Header>, FormatError> {
     }
 }
 
-/// Adds grid, component and value to a column; four blank fields are none.
+/// Adds grid, component and value to a column; four blank fields hold no entry.
 fn take_entry(
     headers: &[Header],
     all: &mut [Labelled<i64>],

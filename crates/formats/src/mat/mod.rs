@@ -10,7 +10,7 @@
 //! # Limits
 //! Read are full and sparse numeric matrices, real and complex, and those in the fields of a structure, as
 //! `model.K`. Whole numbers beyond 2⁵³ are rounded. Whatever else a variable is (a text, a cell array, an object, an
-//! array of structures, one in another) is refused by its name. Files of version 7.3 are HDF5 and are refused with what to do; those of
+//! array of structures, one in another) is refused by its name. Files of version 7.3 are HDF5 and are refused with the remedy; those of
 //! version 4 are not known.
 //!
 //! # Source
@@ -52,7 +52,7 @@ pub(crate) fn looks_like(bytes: &[u8]) -> bool {
 ///
 /// # Errors
 /// A file of version 7.3; an element that ends beyond the file or cannot be unpacked. A variable that is no matrix, or
-/// one whose parts contradict each other, is refused by itself.
+/// one whose parts contradict each other, is refused alone.
 ///
 /// # Limits
 /// Memory is bounded by the numbers that are there, not by what tags say. A compressed variable is inflated as far as its

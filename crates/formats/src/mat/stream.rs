@@ -255,7 +255,7 @@ impl<'a> Stream<'a> {
         Ok(String::from_utf8_lossy(&self.bytes(name)?).trim_end_matches('\0').to_owned())
     }
 
-    /// Passes by what is left, and makes sure that only the padding to eight bytes follows.
+    /// Passes by the rest, and makes sure that only the padding to eight bytes follows.
     pub(super) fn ends(&mut self) -> Result<(), FormatError> {
         self.skip(self.left())?;
         let mut behind = [0; 8];

@@ -46,7 +46,7 @@ pub(crate) fn looks_like(bytes: &[u8]) -> bool {
 ///
 /// # Errors
 /// An archive that cannot be opened or has no arrays; a sparse matrix whose arrays contradict each other. An array that
-/// cannot be read or is no matrix is refused by itself.
+/// cannot be read or is no matrix is refused alone.
 ///
 /// # Limits
 /// Memory is bounded by the numbers that are there, not by what headers say. Of an archive an array is inflated as far

@@ -52,7 +52,7 @@ impl Fields {
         let descriptor = text.split_once('P').map_or(text.as_str(), |(_, rest)| rest.trim_start_matches(','));
         let (count, width) = descriptor.split_once(['E', 'D'])?;
         let (in_line, width) = (count.trim().parse().ok()?, width.split('.').next()?.trim().parse().ok()?);
-        // A line of the format is 80 characters; more than a few hundred is not such a line.
+        // A line of the format is 80 characters; more than a few hundred are no line of the format.
         let is_line = (1..=100).contains(&in_line) && (1..=100).contains(&width);
         is_line.then_some(Self { in_line, width })
     }

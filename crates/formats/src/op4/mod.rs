@@ -28,7 +28,7 @@ pub use write::write;
 ///
 /// # Errors
 /// Where the file is not what its headers say. A matrix with a value that is not finite, a position outside of it
-/// or one that is there twice is refused by itself.
+/// or one that is there twice is refused alone.
 ///
 /// # Limits
 /// Memory is bounded by the bytes that are there, not by what headers say.

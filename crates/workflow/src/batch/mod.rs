@@ -1,6 +1,6 @@
-//! Many runs by one plan: what is missing is done, what is there is kept, and all of it becomes one table.
+//! Many runs by one plan: missing runs are done, finished ones are kept, and all of them become one table.
 //!
-//! | file | what is in it |
+//! | file | contents |
 //! |---|---|
 //! | `plan` | the table of runs |
 //! | `key` | the checksum of a run's inputs, by which its results are found |

@@ -12,10 +12,10 @@ use std::path::{Path, PathBuf};
 /// The column that names the case of a run.
 const CASE: &str = "case";
 
-/// A table of runs: each row names a case and says what is other in it.
+/// A table of runs: each row names a case and its changes.
 ///
 /// The column `case` is the path of a case file from where the plan is. A column whose name has a dot is the path of a key of the case, such as `measurement.file`,
-/// `measurement.2.file`, `matrix.core.factor.storage` or `identify.bounds.storage`: a cell is what would stand there, and an empty cell leaves what is there. All other columns are
+/// `measurement.2.file`, `matrix.core.factor.storage` or `identify.bounds.storage`: a cell is the value of the key, and an empty cell leaves the value of the case. All other columns are
 /// labels of the run, such as a specimen or a temperature.
 #[derive(Debug)]
 pub struct Plan {
@@ -80,7 +80,7 @@ impl Plan {
         self.columns.iter().map(move |&(column, _)| (self.name(column), self.table.text(row, column)))
     }
 
-    /// What is other in the case of a run.
+    /// The changes in the case of a run.
     pub(super) fn edits(&self, row: usize) -> impl Iterator<Item = Edit<'_>> {
         let keys = self.columns.iter().filter(|(_, is_key)| *is_key);
         let edits = keys

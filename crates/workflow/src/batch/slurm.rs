@@ -60,7 +60,7 @@ impl Shard {
     }
 }
 
-/// A job script for Slurm: so many tasks, each of which does its share of the plan by itself.
+/// A job script for Slurm: so many tasks, each of which does its share of the plan independently.
 pub fn sbatch_script(plan: &Path, out: &Path, reduced: Option<&Path>, tasks: usize) -> String {
     let quoted = |path: &Path| format!("'{}'", path.to_string_lossy().replace('\'', r"'\''"));
     let reduced = reduced.map_or(String::new(), |file| format!(" --reduced {}", quoted(file)));

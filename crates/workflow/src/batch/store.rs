@@ -33,7 +33,7 @@ impl BatchStatus {
     }
 }
 
-/// How far a batch has come, by the keys of its runs and the names of what is there.
+/// How far a batch has come, by the keys of its runs and the names of its files.
 ///
 /// # Errors
 /// A store that cannot be read; a plan with a row without a case.

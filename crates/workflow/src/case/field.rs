@@ -214,7 +214,7 @@ impl<'a> Field<'a> {
         Table::new(self.document, self.place.clone(), fields, sections)
     }
 
-    /// The keys of a table and their values; `None` where it is none.
+    /// The keys of a table and their values; `None` if it is no table.
     pub(super) fn entries(&self) -> Option<Vec<(String, Self)>> {
         let fields = self.value.as_table()?;
         let one = |(name, value): (&Spanned<_>, &'a Spanned<DeValue<'a>>)| {

@@ -62,7 +62,7 @@ pub fn parse(file: &Path, bytes: &[u8]) -> Result<CaseFile, InputError> {
 /// The law of a line `factor = { … }`, as `law.json` has it. `file` is where the line is.
 ///
 /// # Errors
-/// What a case file with such a line would be refused for; a table in place of a law.
+/// The error of a case file with this line; a table in place of a law.
 pub(crate) fn law_of_snippet(file: &Path, line: &str) -> Result<Law, InputError> {
     let document = Document::new(file, line.as_bytes())?;
     let tables = document.tables()?;

@@ -95,7 +95,7 @@ fn at_values(field: &Field<'_>) -> Result<AtValues, InputError> {
         let expected = format!("{} files, one for each value", numbers.len());
         return Err(InputError::at(&table.need("files")?.place, expected, files.len().to_string()));
     }
-    // With powers a matrix of two values of opposite sign may be the same one twice, and a negative power of zero is none.
+    // With powers a matrix of two values of opposite sign may be the same one twice, and a negative power of zero does not exist.
     let (allowed, expected): (fn(f64) -> bool, _) = match powers {
         Some(_) => (|value| value > 0.0, "values above 0, each once"),
         None => (|value| value != 0.0, "values other than 0, each once"),
@@ -114,7 +114,7 @@ fn at_values(field: &Field<'_>) -> Result<AtValues, InputError> {
 /// The largest power of a dimension, and its least.
 pub(super) const MOST_POWER: i64 = 12;
 
-/// Values at which a matrix may be given: a straight line and its check at least; ninth powers of a dimension are none.
+/// Values at which a matrix may be given: a straight line and its check at least; no matrix has ninth powers of a dimension.
 const LEAST_VALUES: usize = 3;
 const MOST_VALUES: usize = 10;
 
@@ -515,7 +515,7 @@ pub(super) fn band(field: &Field<'_>) -> Result<Located<[f64; 2]>, InputError> {
     Ok(band)
 }
 
-/// Refuses a band that is none, wherever it comes from.
+/// Refuses a band that is not valid, wherever it comes from.
 ///
 /// # Errors
 /// Frequencies that are negative, not finite, or descending.

@@ -30,7 +30,7 @@ use target::Target;
 /// | any of these | MATLAB | all matrices, or one, every value bit for bit, both triangles |
 /// | any of these | Nastran OUTPUT4 | all matrices, or one, every value bit for bit but for the sign of zeros; of names eight letters and digits |
 /// | Harwell–Boeing, CalculiX, Abaqus, Nastran DMIG | table | what each row stands for, as the file or the one beside it says: the file of `[dofs]` |
-/// | UFF | UFF | all datasets, or of the functions chosen FRFs with those between the same degrees of freedom: the functions (58) anew as text or binary, the others byte for byte |
+/// | UFF | UFF | all datasets, or of the functions chosen FRFs with those between the same degrees of freedom: the functions (58) written again as text or binary, the others byte for byte |
 /// | UFF | table | one FRF, bit for bit, and its coherence and standard deviation if the file has them |
 /// | table | UFF | the FRF, its coherence and standard deviation: bit for bit in binary, 13 digits of a value in text |
 /// | table | table | the FRF, sorted by frequency |

@@ -14,7 +14,7 @@ use frfit_formats::uff::{
 use frfit_formats::{FormatError, Position};
 use std::path::Path;
 
-/// All datasets: functions written anew, the others byte for byte. With `records` (from 1) of the functions those FRFs, and what is between the same degrees
+/// All datasets: functions written again, the others byte for byte. With `records` (from 1) of the functions those FRFs, and the records between the same degrees
 /// of freedom: coherence, standard deviation.
 pub(super) fn rewritten(bytes: &[u8], records: &[i64], form: Form) -> Result<Vec<u8>, FormatError> {
     let file = File::new(bytes)?;

@@ -25,7 +25,7 @@ use std::path::Path;
 pub struct Export {
     /// The file's contents.
     pub text: String,
-    /// What is in it, in SI units.
+    /// Its modulus, in SI units.
     pub modulus: Modulus,
     /// The units in which it was written.
     pub units: UnitSystem,

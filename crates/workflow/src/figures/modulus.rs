@@ -61,7 +61,7 @@ impl Part {
     }
 }
 
-/// A law or a smooth curve through the band, two standard deviations about it, and what each frequency says by itself.
+/// A law or a smooth curve through the band, two standard deviations about it, and the values of each frequency alone.
 fn curve_of_band(identify: &IdentifyCase, run: &IdentifyRun, j: usize, label: &str, part: Part) -> Panel {
     let found = &run.found;
     let x: Vec<f64> = found.lines.iter().map(|line| line.frequency_hz).collect();

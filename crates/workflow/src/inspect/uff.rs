@@ -18,7 +18,7 @@ pub struct UffRecord {
     pub binary: bool,
     /// Line of the opening `-1`, from 1.
     pub line: usize,
-    /// What is in it, or why it cannot be read.
+    /// Its contents, or why it cannot be read.
     pub content: Result<UffContent, FormatError>,
 }
 

@@ -211,7 +211,7 @@ pub fn case_of_arrays(
 /// A case whose response at its nominal factors is asked for.
 ///
 /// # Errors
-/// A load or a sensor outside the model, a frequency that is none or that a factor's table does not reach.
+/// A load or a sensor outside the model, a frequency that is not valid or that a factor's table does not reach.
 pub fn response_of_arrays(
     model: Arc<DynamicStiffness>,
     load: Vec<c64>,

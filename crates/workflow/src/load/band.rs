@@ -18,7 +18,7 @@ const SAME_FREQUENCY: f64 = 1e-9;
 pub enum MeasuredNoise {
     /// Not for all sensors.
     Unknown,
-    /// From the coherence of all of them as if it were of one average: the number of averages is not known of all.
+    /// From the coherence of all of them as of a single average: the number of averages is not known of all.
     Relative(Vec<Vec<f64>>),
     /// Of all of them: given, or from the coherence and the number of averages.
     Known(Vec<Vec<f64>>),

@@ -45,7 +45,7 @@ impl InputFile {
 pub(super) struct NamedFile {
     /// Its path from where the program runs.
     pub(super) path: PathBuf,
-    /// What is in it.
+    /// Contents.
     pub(super) bytes: Rc<Vec<u8>>,
     /// Of a UFF file what is where in it, from its first FRF on.
     index: Rc<OnceCell<Index>>,
@@ -190,7 +190,7 @@ impl Files {
 /// The bytes of a plain file, which is one of those that were read from now on.
 ///
 /// # Errors
-/// What is there instead: nothing, a folder, something that may not be read.
+/// The path names no file, a folder, or a file that may not be read.
 pub fn load_bytes(path: &Path, reads: &mut Reads) -> Result<Vec<u8>, InputError> {
     reads.read(path).map_err(|found| InputError::at(&Place::file(path), "a file", found))
 }

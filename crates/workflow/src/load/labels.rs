@@ -28,7 +28,7 @@ pub(crate) fn files_beside(matrix: &Path) -> Vec<PathBuf> {
     kinds.into_iter().filter_map(|kind| names_beside(matrix, kind)).collect()
 }
 
-/// The names of rows that such a file holds, one for each row of the matrix.
+/// The names of rows in a file of this kind, one for each row of the matrix.
 pub(super) fn read_names(kind: FileKind, bytes: &[u8], rows: usize) -> Result<Labels, FormatError> {
     let labels = match kind {
         FileKind::HarwellBoeing => ansys::read_mapping(bytes)?,

@@ -5,7 +5,7 @@ use crate::case::{Exclusion, Located};
 use crate::error::InputError;
 use frfit::c64;
 
-/// Which frequencies of a band are not used: what is left out, and of more than `most` others those that show the least.
+/// Which frequencies of a band are not used: those of excluded bands, and of more than `most` others those that show the least.
 ///
 /// # Errors
 /// [`InputError`] where `most` is less than three, or none is left of a band that has any.

@@ -136,7 +136,7 @@ fn above_zero(frequency_hz: Vec<f64>, receptance: Vec<Vec<c64>>, noise: Measured
     }
 }
 
-/// The unknown of a table that has the name of one of the case; `None` for the only one of each, which has no name there.
+/// The unknown of a table that has the name of one of the case; `None` if table and case have a single unknown, which has no name there.
 fn column<'a>(name: &'a str, unknowns: usize, file: &NamedFile) -> Result<Option<&'a str>, InputError> {
     let table = CsvTable::read(&file.bytes).map_err(|error| file.refuse(error))?;
     let others: Vec<&str> = table.names().filter_map(|column| column.strip_suffix(".storage")).collect();

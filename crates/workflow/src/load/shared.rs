@@ -113,7 +113,7 @@ impl Loaded {
     }
 }
 
-/// Everything that makes a model, but for factors; places in the case file are none of it.
+/// Everything that makes a model, but for factors and places in the case file.
 fn key(case: &CaseFile, keeps_dimensions: bool, folder: &Path) -> String {
     let at = |at: &AtValues| {
         let files: Vec<(f64, &str)> =

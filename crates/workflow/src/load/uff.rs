@@ -145,7 +145,7 @@ impl Index {
 pub(crate) const STD_LABEL: &str = "Standard deviation";
 
 /// What the file says of an FRF beside its values: of the other functions between the same degrees of freedom the one real one, at the same frequencies,
-/// that is wanted. None where there is none, or several.
+/// that is wanted. `None` if no function qualifies, or several do.
 fn companion(
     file: &File<'_>,
     others: &[(usize, FunctionHeader)],

@@ -132,7 +132,7 @@ fn can_vary(one: &Unknown, place: &Place, single: bool) -> Result<(), InputError
     Err(InputError::at(place, expected, found))
 }
 
-/// `start = "bounds"`: where the bounds are, without any other word of the user. The factor is looked for in all of them.
+/// `start = "bounds"`: where the bounds are, without any other word of the user. The factor is searched in all of them.
 fn middle_of(one: &Unknown, place: &Place) -> Result<Law, InputError> {
     let refuse = |expected: &str, found: String| Err(InputError::at(place, expected, found));
     if let Dependence::Powers(_) = one.dependence {

@@ -1,6 +1,6 @@
 //! `frfit modes`: natural frequencies, damping and shapes of the model and of what was measured, side by side.
 //!
-//! | file | what is in it |
+//! | file | contents |
 //! |---|---|
 //! | `run` | the computation |
 //! | `table` | `modes.csv`, `stabilisation.csv`, `correlation.csv` |

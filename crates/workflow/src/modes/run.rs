@@ -34,7 +34,7 @@ pub struct MeasuredRun {
     pub modes: MeasuredModes,
     /// Which mode of the model is which of the measurement.
     pub pairing: Pairing,
-    /// The model's response, `[frequency][sensor]`; empty where there is none.
+    /// The model's response, `[frequency][sensor]`; empty where the model has no response.
     pub response: Vec<Vec<c64>>,
     /// FRAC of each sensor.
     pub frac: Vec<Option<f64>>,
@@ -83,7 +83,7 @@ impl ModesRun {
     }
 }
 
-/// Modes of the model are looked for up to so many times the band where something was measured: partners of measured modes may be there.
+/// Modes of the model are searched up to this multiple of the measured band: partners of measured modes may be there.
 const BEYOND_BAND: f64 = 1.4;
 
 /// Error of the response that is compared with the measured one, and frequencies at which it is trained.

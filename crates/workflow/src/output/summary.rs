@@ -190,7 +190,7 @@ fn model_json(case: &Case) -> Value {
     })
 }
 
-/// A sensor, and what it says of the answers: its misfit over its standard deviation (root mean square).
+/// A sensor and its agreement with the answers: its misfit over its standard deviation (root mean square).
 fn sensor(case: &Case, run: &IdentifyRun, m: usize) -> Value {
     let sensor = &case.sensors[m];
     let mut of_sensor = json!({"label": sensor.label, "quantity": sensor.quantity.name()});
@@ -285,7 +285,7 @@ fn breaches_json(case: &Case, found: &Identification) -> Vec<Value> {
     found.causality_breaches.iter().map(one).collect()
 }
 
-/// The errors of the model that were taken out.
+/// The errors of the model that were corrected for.
 fn model_errors_json(case: &Case, errors: &ModelErrorsFound) -> Value {
     let mode = |mode: &ModeError| {
         let mut json = json!({"frequency_hz": mode.frequency_hz, "error": mode.error, "std": mode.std});
@@ -316,7 +316,7 @@ fn model_errors_json(case: &Case, errors: &ModelErrorsFound) -> Value {
     })
 }
 
-/// χ² over the band and what it says; null where it cannot be tested.
+/// χ² over the band and its meaning; null where it cannot be tested.
 fn fit_json(fit: Option<&GoodnessOfFit>) -> Value {
     let Some(fit) = fit else { return Value::Null };
     json!({
@@ -338,7 +338,7 @@ fn required_order(run: &IdentifyRun) -> Value {
     json!({"most": most, "never": orders.iter().filter(|order| order.is_none()).count()})
 }
 
-/// Median and largest of a number over the frequencies with status `ok`; null where there is none.
+/// Median and largest of a number over the frequencies with status `ok`; null where no frequency has one.
 fn spread(run: &IdentifyRun, number: impl Fn(&Line) -> Option<f64>) -> Value {
     let ok = run.found.lines.iter().filter(|line| line.status == Status::Ok);
     let mut values: Vec<f64> = ok.filter_map(number).collect();

@@ -1,4 +1,4 @@
-//! Where the bytes of a file go: into a file that takes the place of another, or through what is there.
+//! Where the bytes of a file go: into a file that takes the place of another, or through an existing device or pipe.
 
 use std::fs::{self, OpenOptions, Permissions};
 use std::io::{ErrorKind, Write};
@@ -15,7 +15,7 @@ const MAX_LINKS: usize = 40;
 pub(super) enum Target {
     /// A plain file that is there or not, at the end of all links; the permissions are those of the one that is there.
     File { path: PathBuf, permissions: Option<Permissions> },
-    /// A device, a pipe, a socket: what is there stays, and is written to.
+    /// A device, a pipe, a socket: it stays, and is written to.
     Through(PathBuf),
     /// Standard output.
     StandardOutput,
@@ -81,7 +81,7 @@ pub(super) fn folder_of(path: &Path) -> &Path {
     path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
-/// Writes through what is there.
+/// Writes through an existing device or pipe.
 pub(super) fn write_through(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
     // Neither made nor cut; behind what others have written where it is a file.
     let mut file = OpenOptions::new().append(true).open(path)?;

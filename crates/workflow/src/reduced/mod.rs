@@ -45,7 +45,7 @@ pub(crate) fn reduced_file(
 /// The reduced model in a file, which has to be that of these matrices, load and sensors.
 ///
 /// # Errors
-/// A file that is none, or damaged; one of another model, and in what it differs.
+/// A file of another kind, or a damaged one; one of another model, and in what it differs.
 pub(crate) fn read_reduced(
     file: &Path,
     bytes: &[u8],

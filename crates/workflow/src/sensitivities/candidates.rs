@@ -6,13 +6,13 @@ use frfit::dof::{Axis, DofName};
 use std::fmt;
 use std::str::FromStr;
 
-/// Among which degrees of freedom the next sensor is looked for.
+/// The degrees of freedom among which the next sensor is searched.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub enum Candidates {
     /// All translations that have a name; without names all rows.
     #[default]
     All,
-    /// It is not looked for.
+    /// It is not searched.
     None,
     /// These.
     These(Vec<DofEntry>),

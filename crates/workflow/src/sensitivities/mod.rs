@@ -1,6 +1,6 @@
 //! `frfit sensitivities`: what the response depends on, what the sensors identify, and where another one would add most.
 //!
-//! | file | what is in it |
+//! | file | contents |
 //! |---|---|
 //! | `run` | the computation |
 //! | `ranking` | parameters by the size of their sensitivities |

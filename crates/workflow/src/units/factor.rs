@@ -17,7 +17,7 @@ pub enum FactorUnit {
 }
 
 /// A factor of a stiffness below this counts as relative where the case does not say what it is. No solid that vibrates has a modulus of 100 Pa; in systems with
-/// larger units of stress such a number can be either, and is given no unit rather than a wrong one.
+/// larger units of stress a number like this can be either, and is given no unit rather than a wrong one.
 const RELATIVE: f64 = 100.0;
 
 impl FactorUnit {

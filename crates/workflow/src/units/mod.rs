@@ -227,7 +227,7 @@ impl UnitSystem {
 pub struct UnknownSystem {
     /// The words that there are.
     pub expected: String,
-    /// What is there instead, and which of those is nearest.
+    /// The text that was found, and the nearest of the known ones.
     pub found: String,
 }
 

@@ -52,8 +52,8 @@ impl Contest {
     }
 }
 
-/// The paper's Section 4: one factorisation, the series, the roots, and of those within the bounds the least; no
-/// correction where there is none.
+/// The paper's Section 4: one factorisation, the series, the roots, and the least root within the bounds; no
+/// correction where no root is within the bounds.
 fn by_series(model: &Model, frequency_hz: f64, measured: c64, order: usize) -> Result<c64, Error> {
     let system = model.nominal_at(frequency_hz)?;
     let series = NeumannSeries::new(&system, 0, order)?;

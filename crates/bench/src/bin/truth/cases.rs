@@ -8,7 +8,7 @@ use frfit_bench::Structure;
 use frfit_examples::{Model, clamped_plate, rubber_bar_end, sandwich};
 use std::error::Error;
 
-/// A structure with so many frequencies, or why there is none.
+/// A structure with its number of frequencies, or the reason why it cannot be made.
 pub(crate) type Made = Result<Result<Structure, String>, Box<dyn Error>>;
 
 /// What is tried.

@@ -34,14 +34,14 @@ const MAX_CALIBRATION_STEPS: usize = 30;
 const CALIBRATION_STEP_TOL: f64 = 1e-3;
 const CALIBRATION_ROUNDOFF: f64 = 1e-10;
 
-/// What of a scale the moduli leave, and what is left of it by the other scales, relative to the channel's size: below this there is no digit.
+/// The part of a scale that the moduli do not take up, and the part that the other scales do not take up either, relative to the channel's size: below this there is no digit.
 const CALIBRATION_INFORMATION_RTOL: f64 = 1e-12;
 
 /// As [`super::identify_band`], with channels whose scale s_m, or delay τ_m, is unknown: u_m = s_m e^{iωτ_m} times what was measured.
 ///
 /// The misfit Σ |y_m − x_m(c) e^{−iωτ_m}/s_m|²/σ_m² over the band is made least in all moduli, scales and delays together (y_m as measured, with its own standard deviation): the
 /// channels of which all is known alone give the first moduli; the first delays are those that turn most x_m/y_m to one phase, among the ones that the diagnostics tries too, the first
-/// scales the medians then. Every frequency is selected anew from all channels, and Gauss and Newton's steps with the moduli eliminated, frequency by
+/// scales the medians then. Every frequency is selected again from all channels, and Gauss and Newton's steps with the moduli eliminated, frequency by
 /// frequency, move scales and delays. Error bars of the factor have what those of the scales and delays put into them, and χ² as many degrees of freedom less.
 /// The selection is joint, and what answers is the subspace, whatever the options say; no calibration is given, and the channels are left out, where there is no
 /// subspace, or where they are not identifiable from the answers.
@@ -148,7 +148,7 @@ fn starting(
 /// Calibrations at the least misfit about given answers.
 struct CalibrationEstimate {
     free: Vec<ChannelNumber>,
-    /// γ_m and t_m of what is left: u_m = γ_m e^{−iωt_m} x_m.
+    /// γ_m and t_m of the remaining calibration: u_m = γ_m e^{−iωt_m} x_m.
     left: Vec<(f64, f64)>,
     /// Covariance of the free ones of them, in units of the noise's level squared.
     covariance: Vec<Vec<f64>>,
@@ -299,7 +299,7 @@ impl CalibrationEstimate {
         self.covariance[p][p].max(0.0).sqrt()
     }
 
-    /// What is left of a free number: of a scale as a part of it, of a delay in s.
+    /// The remaining correction of a free number: of a scale as a part of it, of a delay in s.
     fn off(&self, p: usize) -> f64 {
         let (gain, late) = self.left[self.free[p].channel];
         if self.free[p].is_delay { late } else { gain - 1.0 }

@@ -22,7 +22,7 @@ pub(super) struct LineCandidates {
     pub(super) explored: Candidates,
     /// Corrections at which the model that found them is good enough for an answer.
     pub(super) certain: Vec<(c64, Assessment)>,
-    /// Whether all solutions were looked for.
+    /// Whether all solutions were searched.
     pub(super) whole: bool,
 }
 
@@ -108,7 +108,7 @@ impl Candidates {
         which.iter().filter_map(|&k| self.all_near().nth(k))
     }
 
-    /// Solves the system anew at each solution: its response is then beyond doubt, and so is whether it is a solution.
+    /// Solves the system again at each solution: its response is then beyond doubt, and so is whether it is a solution.
     pub(super) fn confirm(&mut self, system: &impl Response, measured: &[c64], sigma: &[f64]) {
         for solution in &mut self.solutions {
             solution.residual = f64::INFINITY;
@@ -139,7 +139,7 @@ const MAX_SHORT_STEPS: usize = 6;
 /// A step of this part of the factor is likely the last: Newton's next is the square of it.
 const LAST_STEP_RTOL: f64 = 1e-5;
 
-/// What is left after the last: beyond the digits that an answer has, whatever the noise.
+/// The error after the last step, relative to the factor: beyond the digits that an answer has, whatever the noise.
 const STEP_RTOL: f64 = 1e-11;
 
 /// Solutions nearer than this, relative to the factor, are one.
@@ -178,7 +178,7 @@ impl Fit<'_> {
                 let residual = || response.residual(solution.correction).unwrap_or(f64::INFINITY);
                 solution.residual = if whole { 0.0 } else { residual() };
             }
-            // At a low order no solution is no proof that there is none, and what is beyond the bounds may be within them.
+            // That a low order has no solution is no proof that no solution exists, and what is beyond the bounds may be within them.
             let open = explored.solutions.is_empty() || explored.beyond.iter().any(Solution::is_unsure);
             let settled = !explored.is_unsure() && (whole || !open);
             if settled || reached >= order {

@@ -175,7 +175,7 @@ pub(super) struct Begin {
     pub(super) ratio: f64,
 }
 
-/// Each frequency by itself, at calibrations to begin with: right ones where they are known.
+/// Each frequency alone, at calibrations to begin with: right ones where they are known.
 pub(super) fn at_scales<'a>(
     band: &Band<'a>,
     at: &[ModelAt<'a>],

@@ -26,7 +26,7 @@ pub(super) struct Continuation<'a, F> {
     pub(super) usual: f64,
 }
 
-/// A solution that explains the sensors so many times worse than at both of its neighbours may not be the one that there is.
+/// A solution whose misfit is larger by this factor than at both of its neighbours may not be the right one.
 const MAX_MISFIT_OVER_NEIGHBOURS: f64 = 4.0;
 
 /// Frequencies that are worth a model of their own.

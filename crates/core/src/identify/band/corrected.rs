@@ -1,4 +1,4 @@
-//! A band once more, with the errors of the model taken out and carried into every error bar (B-11).
+//! A band once more, corrected for the errors of the model, which are carried into every error bar (B-11).
 
 use super::joint;
 use super::neighbourhoods::Neighbourhoods;
@@ -23,8 +23,8 @@ use crate::median::median;
 use crate::model::ModelAt;
 use crate::subspace::{Corrected, ModalErrors, Modes, Point, Projection};
 
-/// What is found when the errors of the model are estimated and taken out; the same where a right model explains the band as well. Scales and delays of
-/// channels that are unknown are estimated with them, as what is left of those that the band has.
+/// What is found when the errors of the model are estimated and corrected for; the same where a right model explains the band as well. Scales and delays of
+/// channels that are unknown are estimated with them, as corrections of those that the band has.
 pub(super) fn correct<'a>(
     (band, unknown): (&Band<'_>, &[ChannelUnknowns]),
     at: &[ModelAt<'a>],
@@ -58,7 +58,7 @@ pub(super) fn correct<'a>(
     BandOutcome { work, ..outcome }
 }
 
-/// The band on a model whose errors are taken out, with what they do to its bars; what was found before says of which sensors nothing is asked.
+/// The band on a model that is corrected for its errors, with their effect on its bars; what was found before says of which sensors nothing is asked.
 pub(super) fn on_corrected<'a>(
     band: &Band<'_>,
     at: &[ModelAt<'a>],

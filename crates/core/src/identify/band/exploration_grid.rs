@@ -1,4 +1,4 @@
-//! Frequencies at which all solutions are looked for.
+//! Frequencies at which all solutions are searched.
 
 /// Bands of fewer frequencies are explored at each.
 const MIN_FOLLOWED_BAND: usize = 300;

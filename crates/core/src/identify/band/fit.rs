@@ -26,8 +26,8 @@ const NEIGHBOURS: usize = 10;
 /// More lines than this share that are not explained are no outliers.
 const MAX_OUTLIER_SHARE: f64 = 0.25;
 
-/// χ² per degree of freedom of each line and its neighbours, where that is more than noise leaves by chance; 1 elsewhere. Lines that are
-/// not explained by themselves count only where they are many: single ones are outliers, as hum is.
+/// χ² per degree of freedom of each line and its neighbours, where it is larger than noise makes it by chance; 1 elsewhere. Lines that
+/// alone are not explained count only where they are many: single ones are outliers, as hum is.
 pub(super) fn excess_of_neighbours(lines: &[Line], fit: &GoodnessOfFit) -> Vec<f64> {
     let counts = |line: &&Line| line.on_path && line.chi_squared.is_some();
     let each = fit.freedom as f64 / lines.iter().filter(counts).count().max(1) as f64;

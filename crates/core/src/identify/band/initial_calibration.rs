@@ -19,7 +19,7 @@ const DELAY_REFINEMENTS: usize = 2;
 /// Agreements that differ by this part are alike: more than the finest distance leaves, 1 − cos 0.0025.
 const AGREEMENT_RTOL: f64 = 1e-4;
 
-/// The calibration with which most of some ratios (ω, x/y) of a channel are one; `None` where there is none.
+/// The calibration with which most of some ratios (ω, x/y) of a channel are one; `None` where no calibration does that.
 ///
 /// The delay is where the phases of the ratios agree best, Σ cos(arg(x/y) − ωτ): whatever the sizes, and though some be wrong. The least of several: lines
 /// at equal distance cannot distinguish a delay of a period of that distance from none.

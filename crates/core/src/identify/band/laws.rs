@@ -1,6 +1,6 @@
 //! Laws fitted straight to the FRFs: all frequencies and all sensors in one least squares (B-7).
 //!
-//! Every frequency by itself comes first: it trains the subspace, and gives the start. Then Σ |u_m − x_m(E(ω; θ))|²/σ_m² over the band is made least in θ on the
+//! Each frequency is first identified alone: this trains the subspace, and gives the start. Then Σ |u_m − x_m(E(ω; θ))|²/σ_m² over the band is made least in θ on the
 //! models of the neighbourhoods, ∂x_m/∂θ = (∂x_m/∂c)(∂E/∂θ). The subspace is trained further where it is not good enough at the law that came out.
 
 use super::candidates::misfit;
@@ -34,7 +34,7 @@ use crate::subspace::Subspace;
 /// What came out.
 #[derive(Debug, Clone, PartialEq)]
 pub(in crate::identify) struct LawsOutcome {
-    /// Each frequency by itself.
+    /// Each frequency alone.
     pub free: BandOutcome,
     /// One for each law with a finite misfit, in the order in which they were asked for; none where there is no subspace to fit on.
     pub fits: Vec<LawFit>,
@@ -42,7 +42,7 @@ pub(in crate::identify) struct LawsOutcome {
     pub lines: Vec<Line>,
     /// What was unknown of each sensor's channel, by the law of least BIC.
     pub channels: Vec<Calibration>,
-    /// Whether noise is all that this law leaves: as large as was given, or without that as large as each frequency by itself leaves; `None` where there is no law.
+    /// Whether noise is all that this law leaves: as large as was given, or without that as large as each frequency alone leaves; `None` where there is no law.
     pub fit: Option<GoodnessOfFit>,
     /// All work of size N.
     pub work: Work,
@@ -59,7 +59,7 @@ const EVALUATIONS_PER_START_AND_PARAMETER: usize = 15;
 /// By how much all moduli of a start are moved: on a lightly damped structure the misfit has a valley for each coincidence of measured and computed resonances.
 pub(super) const START_SHIFTS: [f64; 8] = [-0.03, -0.01, -0.003, -0.001, 0.001, 0.003, 0.01, 0.03];
 
-/// Rounds of training at a law or a curve before what is left is called uncertain.
+/// Rounds of training at a law or a curve before the remaining answers are called uncertain.
 pub(in crate::identify) const MAX_TRAINING_ROUNDS: usize = 4;
 
 /// No modulus from one frequency is better than this, relative: without noise, no frequency shall rule alone.
@@ -79,7 +79,7 @@ pub(super) const RIVAL_DISTANCE_STD: f64 = 3.0;
 /// modulus; `failed` where the search did not converge or the reduced model is not good enough.
 ///
 /// Channels may have an unknown scale or delay, all of them too (`unknown`, one for each sensor, or empty).
-/// Where all have one, errors of the model are not looked for. Both are eliminated: for given θ the best real gain of a channel is linear least squares over the band, the best delay near the first one Newton's, and the slopes
+/// Where all have one, errors of the model are not searched. Both are eliminated: for given θ the best real gain of a channel is linear least squares over the band, the best delay near the first one Newton's, and the slopes
 /// are those of what they leave, so that the error bars of the law have theirs in them. Where no channel is known, the first ones are those with which the nominal law,
 /// times some factor of the box, has the shape that was measured: Σ |ln|u_m| − ln|x_m|| about its median, phases as far as a line over ω takes them.
 ///
@@ -171,7 +171,7 @@ pub(in crate::identify) fn identify_laws<'a>(
     let sigma = without(&standard_deviations(view.measured, view.noise), &out);
     let judging = Fitting { band: &view, sigma: &sigma, ..fitting };
     if better != channels {
-        // What each frequency says by itself, at the calibrations that came out.
+        // The value of each frequency alone, at the calibrations that came out.
         let mut whole = Some(reduced);
         let spent = free.work;
         let errors = free.model_errors.take().zip(whole.as_mut());
@@ -401,7 +401,7 @@ impl Fitting<'_, '_> {
         begin
     }
 
-    /// What a frequency says by itself, with its standard deviation: σ carried by the slope of the response.
+    /// The value of a frequency alone, with its standard deviation: σ carried by the slope of the response.
     fn datum(&self, reduced: &Neighbourhoods<'_, '_>, i: usize, own: &Line) -> Option<Datum> {
         let correction = own.correction().filter(|_| own.status == Status::Ok)?;
         let modulus = own.nominal() + correction;
@@ -412,8 +412,8 @@ impl Fitting<'_, '_> {
         (std.is_finite() && modulus.re > 0.0).then(|| Datum::circular(self.omega(i), modulus, std))
     }
 
-    /// Whether what a law leaves is noise, and noise over the assumed standard deviations: what the law leaves where that is noise, otherwise the least that sensors or scatter of the frequencies by
-    /// themselves show.
+    /// Whether what a law leaves is noise, and noise over the assumed standard deviations: what the law leaves where that is noise, otherwise the least that sensors or scatter of the separate
+    /// frequencies show.
     fn goodness(&self, law: &LawFit, per_frequency: &NoiseLevel) -> (Option<GoodnessOfFit>, f64) {
         let left = law.reduced_chi_squared().unwrap_or(0.0).sqrt();
         if law.sigma_known {

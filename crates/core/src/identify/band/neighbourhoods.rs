@@ -39,7 +39,7 @@ const MIN_NEIGHBOURHOOD_POINTS: usize = 3;
 /// Storage values of the box per octave, and the least.
 const BOX_STORAGES_PER_OCTAVE: f64 = 1.0;
 
-/// Rounds of refinement at the answers before what is left is called uncertain.
+/// Rounds of refinement at the answers before the remaining answers are called uncertain.
 const MAX_REFINEMENT_ROUNDS: usize = 6;
 
 pub(super) struct Neighbourhoods<'a, 'o> {
@@ -50,7 +50,7 @@ pub(super) struct Neighbourhoods<'a, 'o> {
     blocks: Vec<Block>,
     /// The model that answered at each frequency: that of its neighbourhood, when it was last asked.
     models: Vec<Option<Arc<Local>>>,
-    /// The whole reduced model without its errors, where they are taken out of every answer.
+    /// The whole reduced model without its errors, where every answer is corrected for them.
     corrected: Option<Corrected>,
     /// Answers at each frequency, and how good their model is there.
     assessed: Vec<Vec<(c64, Assessment)>>,
@@ -120,7 +120,7 @@ impl<'a, 'o> Neighbourhoods<'a, 'o> {
         })
     }
 
-    /// Makes the subspace good in another box too, in which answers are looked for from now on.
+    /// Makes the subspace good in another box too, in which answers are searched from now on.
     ///
     /// # Errors
     /// [`Breakdown`] where a solve of the training fails.
@@ -131,7 +131,7 @@ impl<'a, 'o> Neighbourhoods<'a, 'o> {
         train_in_box(&mut self.subspace, self.at, self.unknown, options, context)
     }
 
-    /// Answers are looked for in this box from now on, of which the subspace is good already.
+    /// Answers are searched in this box from now on; the subspace is good in it already.
     pub(super) fn look_in(&mut self, options: &Options) {
         self.options = *options;
     }
@@ -237,7 +237,7 @@ impl<'a, 'o> Neighbourhoods<'a, 'o> {
         assessed.ok()
     }
 
-    /// The whole reduced model, without errors taken out of it.
+    /// The whole reduced model, not corrected for its errors.
     pub(super) fn whole(&self) -> &Projection {
         self.subspace.projection()
     }
@@ -275,7 +275,7 @@ impl<'a, 'o> Neighbourhoods<'a, 'o> {
         }
     }
 
-    /// Trains at answers (frequency, correction), and lets the models of their neighbourhoods be made anew; false where nothing was gained.
+    /// Trains at answers (frequency, correction), and lets the models of their neighbourhoods be made again; false where nothing was gained.
     pub(super) fn refine(
         &mut self,
         lacking: &[(usize, c64)],

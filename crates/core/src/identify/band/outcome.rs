@@ -17,15 +17,15 @@ pub(in crate::identify) struct BandOutcome {
     pub work: Work,
     /// Vectors of the subspace; `None` where the full model answered.
     pub subspace_size: Option<usize>,
-    /// Frequencies at which all solutions were looked for; at the others those of their neighbours were followed.
+    /// Frequencies at which all solutions were searched; at the others those of their neighbours were followed.
     pub explored: usize,
-    /// How large the noise is, and the source of that. Unknown where each frequency is answered by itself.
+    /// How large the noise is, and the source of that. Unknown where each frequency is answered alone.
     pub noise: NoiseLevel,
     /// Whether noise is all that the answers leave unexplained; `None` where that cannot be tested.
     pub fit: Option<GoodnessOfFit>,
-    /// One for each sensor; empty where each frequency is answered by itself.
+    /// One for each sensor; empty where each frequency is answered alone.
     pub sensors: Vec<SensorFit>,
-    /// Errors of the model that were taken out; `None` where none were found.
+    /// Errors of the model that were corrected for; `None` where none were found.
     pub model_errors: Option<Estimated>,
     /// How far errors of known factors move the unknown.
     pub leverage: Vec<Leverage>,

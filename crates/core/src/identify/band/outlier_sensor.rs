@@ -11,10 +11,10 @@ use crate::identify::thinned::thinned;
 use crate::response::{FullModel, Response, Work};
 use crate::subspace::Projection;
 
-/// Frequencies at which it is tried: the median of their χ² is known to a third, where what is looked for is a factor of ten.
+/// Frequencies at which it is tried: the median of their χ² is known to a third, and a sensor at fault changes it by a factor of ten.
 pub(in crate::identify) const OUTLIER_FREQUENCIES: usize = 24;
 
-/// A sensor is at fault if χ² without it is so many times smaller than with it, and than without any other: its misfit is then more than
+/// A sensor is at fault if χ² without it is smaller by this factor than with it, and than without any other: its misfit is then more than
 /// three times what all others show.
 pub(in crate::identify) const OUTLIER_RATIO: f64 = 10.0;
 

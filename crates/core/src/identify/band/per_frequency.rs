@@ -1,4 +1,4 @@
-//! Each frequency by itself, on the full model or on the subspace.
+//! Each frequency alone, on the full model or on the subspace.
 
 use super::neighbourhoods::{Neighbourhoods, reduction_error};
 use super::outcome::BandOutcome;

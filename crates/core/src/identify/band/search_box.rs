@@ -1,4 +1,4 @@
-//! Where solutions are looked for: near the nominal, and in the whole of the bounds.
+//! Where solutions are searched: near the nominal, and in the whole of the bounds.
 
 use super::joint::answered_pilots;
 use super::neighbourhoods::Neighbourhoods;

@@ -1,6 +1,6 @@
 //! A modulus that is free at every frequency but smooth over them (B-9): all frequencies and all sensors in one penalised least squares.
 //!
-//! Every frequency by itself comes first: it trains the subspace, and gives the start. Then ln E(ln ω) is an integrated Wiener process, and
+//! Each frequency is first identified alone: this trains the subspace, and gives the start. Then ln E(ln ω) is an integrated Wiener process, and
 //! $$ \sum_{k,m} \frac{|u_m - x_m(E(\omega_k))|^2}{\sigma_m^2} + \frac 1 {\kappa^2} \int \Big| \frac{d^2 \ln E}{d(\ln\omega)^2} \Big|^2 d\ln\omega $$
 //! is made least by Gauss and Newton's steps, each of them one smoother's sweep over all frequencies ([`crate::smooth`]); κ, and the level of the noise where it is not
 //! given, are averaged over their posterior. x is holomorphic in ln E and noise circular, and by causality the fluctuations of ln |E| and of the loss angle are
@@ -35,7 +35,7 @@ use crate::subspace::Subspace;
 /// What came out.
 #[derive(Debug, Clone, PartialEq)]
 pub(in crate::identify) struct SmoothOutcome {
-    /// Each frequency by itself.
+    /// Each frequency alone.
     pub free: BandOutcome,
     /// The smooth modulus at each frequency, with all work in it.
     pub band: BandOutcome,
@@ -77,14 +77,14 @@ const MAX_OUTLIER_SHARE: f64 = 0.25;
 ///
 /// The selection is joint, and what answers is the subspace, whatever the options say. Statuses are those of a single frequency ([`super::identify_band`]), judged at the
 /// smooth modulus and its error bars: `ambiguous` is where the path that it follows was; `no_root` where the modulus breaks the bounds; `unexplained` where it leaves more
-/// than noise and `options.error`: such a frequency has no say in the others.
+/// than noise and `options.error`: this frequency has no influence on the others.
 ///
 /// # Errors
 /// [`OutsideTable`] where a table does not reach a frequency.
 ///
 /// # Limits
 /// One κ for the whole band: a modulus that is a straight line in one half and has a narrow feature in the other is smoothed less than it could be in the first. Error bars are linear in the noise,
-/// and hold the scatter of answers that belong together: neighbours have nearly the same error. The factor must not be zero; at 0 Hz there is none.
+/// and hold the scatter of answers that belong together: neighbours have nearly the same error. The factor must not be zero; at 0 Hz the curve is not defined.
 pub(in crate::identify) fn identify_smooth<'a>(
     band: &Band<'a>,
     trained: &mut Option<Subspace<'a>>,
@@ -229,7 +229,7 @@ impl Smoothing<'_, '_> {
         }
     }
 
-    /// The curve through what each frequency says by itself, moved to where the sensors like it best.
+    /// The curve through the values of each frequency alone, moved to where it fits the sensors best.
     fn start(&self, reduced: &Neighbourhoods<'_, '_>, free: &BandOutcome) -> Option<Vec<State>> {
         let own = |i: usize| {
             let none = Observation { x: self.log_omega(i), value: [0.0; 2], weight: 0.0 };

@@ -29,7 +29,7 @@ pub(super) struct PathSelection {
     pub(super) level: Option<f64>,
 }
 
-/// What was found at every frequency, at how many of them all solutions were looked for, and what was chosen.
+/// What was found at every frequency, at how many frequencies all solutions were searched, and what was chosen.
 pub(super) struct BandSolution {
     pub(super) found: Vec<Candidates>,
     pub(super) explored: usize,

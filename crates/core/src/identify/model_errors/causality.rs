@@ -11,19 +11,19 @@ use frfit_linalg::dense::Cholesky;
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_4, PI};
 
 /// The phase may be this part of itself more or less, the same all over the band: a loss factor that does not depend on frequency, as models of structural damping
-/// have it, goes with no slope.
+/// have it, belongs to no slope.
 const GAIN_STD: f64 = 0.5;
 
 /// The same at each knot: what a spline leaves of a curve.
 const KNOT_STD: f64 = 0.1;
 
-/// By how much the slope beyond the band may be another one, over what goes with the phase.
+/// By how much the slope beyond the band may be another one, over the slope that belongs to the phase.
 const OUTER_SLOPE_RATIO: f64 = 1.0;
 
 /// A slope d ln|E|/du for which no loss is needed that can be measured.
 const MIN_SLOPE_STD: f64 = 0.001;
 
-/// The phase that goes with a natural cubic spline of ln|E| over ln ω.
+/// The phase that belongs to a natural cubic spline of ln|E| over ln ω.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Causality {
     /// What ln|E| at knot j has of the phase at knot k, `[k][j]`.

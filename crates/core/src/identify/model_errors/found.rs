@@ -30,7 +30,7 @@ pub struct ModelErrorsFound {
     pub mesh: Option<MeshError>,
     /// What is taken for known of calibrations and factors, and that the data contradict: no value is `ok` then.
     pub contradicted_assumptions: Vec<ContradictedAssumption>,
-    /// Error bars of the real part over those of noise alone, the median of the lines that are `ok`: of a single unknown that each frequency has a value of its own of.
+    /// Error bars of the real part over those of noise alone, the median of the lines that are `ok`: of a single unknown that has a value of its own at each frequency.
     pub bars_over_noise: Option<f64>,
     /// By how many nats these errors explain the band better than a right model does.
     pub evidence: f64,

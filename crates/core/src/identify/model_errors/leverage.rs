@@ -25,7 +25,7 @@ const UPPER_SHARE: f64 = 0.25;
 impl Search<'_, '_> {
     /// The leverage of every known factor, and of the mesh where no coarser one says how far it is off, on every unknown.
     ///
-    /// A single unknown that each frequency has a value of its own of follows by itself,
+    /// A single unknown that has a value of its own at each frequency is moved there by
     /// $$ \frac{\partial p}{\partial \nu_t} = -\frac{\sum_m \sigma_m^{-2} \\, \overline{\partial_p x_m} \\, \partial_{\nu_t} x_m}{\sum_m \sigma_m^{-2} \\, |\partial_p x_m|^2}; $$
     /// others by the least squares of the band, as constants, laws and smooth curves.
     pub(super) fn leverage(&self, theta: &[f64]) -> Vec<Leverage> {

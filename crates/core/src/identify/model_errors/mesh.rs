@@ -41,7 +41,7 @@ pub(in crate::identify) struct BetweenMeshes {
     pub(super) shape: Vec<Vec<f64>>,
     /// The natural frequency of the partner on the coarser mesh, rad/s.
     pub(super) partner_rad_s: Vec<Option<f64>>,
-    /// Size of Δ, the largest of a mode and of those below it: where that of a mode is small by itself, its mesh is too coarse for the power law.
+    /// Size of Δ, the largest of a mode and of those below it: where that of a mode alone is small, its mesh is too coarse for the power law.
     pub(super) largest_below: Vec<f64>,
     /// The usual size of Δ in the band.
     pub(super) usual: f64,

@@ -1,7 +1,7 @@
 //! Errors of the model, estimated with the factor (B-11).
 //!
 //! A model's natural frequencies are some tenths of a per cent off, its mode shapes and the factors of its known parts some per cent. A factor that is
-//! fitted to each frequency by itself swallows all of that. A band separates the two: each mode has one real error over its whole resonance,
+//! fitted to each frequency alone absorbs all of these errors. A band separates the two: each mode has one real error over its whole resonance,
 //! a material has one smooth complex modulus. With a smooth ln E(ω; θ) (a law, or a spline), relative errors δ_i = e + d_i of natural frequencies, a_mi of mode shapes at
 //! the sensors, g_m of calibrations, ν_t of known factors (and Δη_t of their loss factors),
 //! $$ \sum_{k,m} \frac{|u_m - x_m(\omega_k; \theta, \delta, a, \nu)|^2}{\sigma_m^2} + \frac{e^2 + \sum_i d_i^2}{s^2} + \frac{\sum a_{mi}^2}{s_a^2} + \frac{\sum g_m^2}{s_g^2} + \frac{\sum \nu_t^2}{s_\nu^2} $$
@@ -91,9 +91,9 @@ pub(super) struct Measured<'t, 'a> {
     pub(super) given_sizes: ErrorSizes,
     /// A coarser mesh, which says what the mesh has of them.
     pub(super) coarser: Option<Coarser<'t>>,
-    /// What each frequency says by itself, and noise over σ by that.
+    /// The value of each frequency alone, and the noise over σ that follows from it.
     pub(super) free: &'t [Line],
-    /// The unknowns that each frequency has a value of its own of.
+    /// The unknowns that have a value of their own at each frequency.
     pub(super) own: &'t [usize],
     pub(super) level_per_frequency: Option<f64>,
     /// What the values of the lines say of the band.
@@ -122,7 +122,7 @@ const TUNED_LEVELS: usize = 2;
 /// Noise over response that is usual, where the responses themselves do not show it.
 const USUAL_NOISE: f64 = 0.01;
 
-/// What is left is noise up to so many times what the responses show by themselves.
+/// The residual is noise up to this multiple of the noise that the responses alone show.
 const MAX_NOISE_RATIO: f64 = 1.1;
 
 /// Steps at each level of the noise, and at the last.
@@ -149,12 +149,12 @@ const MAX_FACTOR_PRIOR_STD: f64 = 0.25;
 /// A shape differs from the model's in about so many independent ways, whatever the number of sensors: a support that gives moves all of them.
 const INDEPENDENT_ERRORS_OF_A_SHAPE: f64 = 2.0;
 
-/// What all modes have in common is larger than their scatter: a mesh errs in one sense. Where a coarser mesh shows that, what is left does so less:
+/// What all modes have in common is larger than their scatter: a mesh errs in one sense. Where a coarser mesh shows that error, the rest does so less:
 /// shear that the elements lack, a thickness.
 const COMMON_RATIO: f64 = 5.0;
 const COMMON_RATIO_BESIDE_MESH: f64 = 2.5;
 
-/// A mesh of beams or plates errs by as much at the top of the band, where its modes scatter hardly at all: an unknown that varies with frequency swallows it.
+/// A mesh of beams or plates errs by as much at the top of the band, where its modes scatter hardly at all: an unknown that varies with frequency absorbs it.
 const LEAST_OF_MESH_STD: f64 = 0.01;
 
 /// A few modes may be far off; all of them are not, by more than this, unless their scatter is larger.
@@ -228,7 +228,7 @@ impl Sizes {
             .with_common(known)
     }
 
-    /// With what goes with the errors of natural frequencies.
+    /// With the sizes that belong to the errors of natural frequencies.
     fn with_common(self, known: KnownSizes) -> Self {
         let common = (known.common_ratio * self.frequency).min(MAX_COMMON_STD.max(self.frequency));
         let of_own = COMMON_LOSS_RATIO * self.loss_factor;
@@ -241,14 +241,14 @@ impl Sizes {
         Self { shape: dependent.sqrt() * self.shape, ..self }
     }
 
-    /// The same where errors of other kinds are looked for too. Own errors of damping that are new have the size that is usual.
+    /// The same where errors of other kinds are searched too. Own errors of damping that are new have the size that is usual.
     fn with_kinds(self, kinds: Kinds, known: KnownSizes) -> Self {
         let is_new = kinds.damping == Damping::Own && self.loss_factor == 0.0;
         let loss_factor = if is_new { MODAL_LOSS_FACTOR_PRIOR_STD } else { self.loss_factor };
         Self { loss_factor, ..self }.of_kinds(kinds, known)
     }
 
-    /// Without damping errors of single modes where those are not looked for.
+    /// Without damping errors of single modes where those are not searched.
     fn of_kinds(self, kinds: Kinds, known: KnownSizes) -> Self {
         match kinds.damping {
             Damping::Own => self,
@@ -630,10 +630,10 @@ const ROUGH_NEIGHBOURHOOD_TOL: f64 = 1e-4;
 /// Of the sizes before the data, at which small errors are tried.
 const TRIED_SIZE_PARTS: [f64; 4] = [1.0, 0.3, 0.1, 0.03];
 
-/// What is left is noise up to so many standard deviations of χ².
+/// The residual is noise up to this number of standard deviations of χ².
 const NOISE_CHI_SQUARED_STD: f64 = 3.0;
 
-/// Whether noise leaves such a χ² of n numbers.
+/// Whether noise leaves this χ² of n numbers.
 fn is_chance(chi_squared: f64, n: f64) -> bool {
     chi_squared <= n + NOISE_CHI_SQUARED_STD * (2.0 * n).sqrt()
 }
@@ -663,7 +663,7 @@ impl<'a> Measured<'_, 'a> {
         2 * lines.iter().flat_map(|&i| &self.sigma[i]).filter(|sigma| sigma.is_finite()).count()
     }
 
-    /// θ to begin with: through what each frequency says by itself, and the nominal.
+    /// θ to begin with: through the values of each frequency alone, and the nominal.
     fn starts(&self, curves: &Curves) -> Vec<Vec<f64>> {
         let answered = |j: usize| -> Vec<(usize, c64, f64)> {
             let one = |(i, line): (usize, &Line)| {
@@ -737,7 +737,7 @@ impl<'a> Measured<'_, 'a> {
         Some(end)
     }
 
-    /// Whether what is left is noise: the given one, or noise that is usual.
+    /// Whether the residual is noise: of the given size, or of the usual size.
     fn is_explained(&self, wrong: &Explained, lines: &[usize], usual_noise: f64) -> bool {
         let n = self.numbers(lines) as f64;
         match self.known() {
@@ -746,7 +746,7 @@ impl<'a> Measured<'_, 'a> {
         }
     }
 
-    /// The most that noise leaves where it is not given: a little more than the responses show by themselves.
+    /// The most that noise leaves where it is not given: a little more than the responses alone show.
     fn usual_noise(&self) -> f64 {
         let of_responses =
             if self.known() { None } else { of_responses((self.omegas, self.measured), self.sigma) };

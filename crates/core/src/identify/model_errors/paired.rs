@@ -16,7 +16,7 @@ use std::f64::consts::TAU;
 /// Fewer pairs say nothing of a common factor beside the errors of the modes.
 const MIN_PAIRS: usize = 3;
 
-/// Lines and sensors whose poles are looked for, at most.
+/// Lines and sensors whose poles are searched, at most.
 const MAX_LINES: usize = 1000;
 const MAX_SENSORS: usize = 6;
 
@@ -125,7 +125,7 @@ impl Search<'_, '_> {
         ratios.iter().for_each(|&(coordinate, ratio)| place[coordinate] = ratio / force - 1.0);
     }
 
-    /// Sensors whose poles are looked for.
+    /// Sensors whose poles are searched.
     fn sensors_of_poles(&self) -> Vec<usize> {
         let counted: Vec<usize> = self.data.counted_sensors().collect();
         thinned(&counted, MAX_SENSORS).copied().collect()

@@ -26,7 +26,7 @@ impl Measured<'_, '_> {
     /// ln p of a line is the curve's with the variances of noise and scatter, v = s² + τ². With A = Σ Re(g gᴴ)/v + P, the precision P of the curves and the
     /// residuals r at θ, linear least squares have
     /// $$ \sum \ln \frac{v^2}{s^4} + \sum \frac{|r|^2}{v} - b^T A^{-1} b + \theta^T P \theta + \ln \det A - \ln \det P, \quad b = \sum \operatorname{Re} \frac{\bar g r}{v} - P \theta $$
-    /// beside the misfit of the lines by themselves. Without scatter that is a right model. Where several sensors speak the curves need not be causal.
+    /// beside the misfit of the separate lines. Without scatter that is a right model. Where several sensors speak the curves need not be causal.
     pub(super) fn scattered(&self, search: &Search<'_, '_>, right: &Explained, level: f64) -> Option<f64> {
         let lines = &search.lines;
         if self.own.is_empty() {
@@ -80,7 +80,7 @@ impl Measured<'_, '_> {
         })
     }
 
-    /// The part of the curves and of the scatter about them. Each line counts as `share` lines, its noise is `level` times what it says.
+    /// The part of the curves and of the scatter about them. Each line counts as `share` lines, its noise is `level` times the assumed noise.
     fn about_curves(
         &self,
         (search, right): (&Search<'_, '_>, &Explained),

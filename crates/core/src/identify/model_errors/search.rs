@@ -33,7 +33,7 @@ pub(super) struct Fitting<'t, 'a> {
     pub(super) highest_rad_s: f64,
     /// Known factors that may be in error.
     pub(super) factors: &'t [FactorPrior],
-    /// Errors that are looked for beside those of stiffness, shapes and factors.
+    /// Errors that are searched beside those of stiffness, shapes and factors.
     pub(super) kinds: Kinds,
     /// What lies between the meshes, where there are two; none without modes.
     pub(super) mesh: Option<&'t BetweenMeshes>,
@@ -44,14 +44,14 @@ pub(super) struct Fitting<'t, 'a> {
     pub(super) for_each: ForEach<'t>,
 }
 
-/// Errors that are looked for beside those of stiffness, shapes and factors.
+/// Errors that are searched beside those of stiffness, shapes and factors.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Kinds {
     pub(super) damping: Damping,
     masses: bool,
 }
 
-/// Errors of damping that are looked for.
+/// Errors of damping that are searched.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Damping {
     None,
@@ -79,7 +79,7 @@ impl Kinds {
     }
 }
 
-/// The standard deviation of an error that is not looked for: as good as none.
+/// The standard deviation of an error that is not searched: practically zero.
 const NEGLIGIBLE_STD: f64 = 1e-7;
 
 /// What is known of the error of a known factor.

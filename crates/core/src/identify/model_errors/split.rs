@@ -59,8 +59,8 @@ impl Held {
 }
 
 impl Split {
-    /// The variance gᵀCg of a gradient, zero beyond its end: what is left of it without errors of the model; what goes when the errors of known factors are
-    /// held; and what goes of the rest when all errors are held. In the order of [`crate::identify::Contributions`]: noise, model, known factors.
+    /// The variance gᵀCg of a gradient, zero beyond its end: the part that remains without errors of the model; the part that vanishes when the errors of known factors are
+    /// held; and the part of the rest that vanishes when all errors are held. In the order of [`crate::identify::Contributions`]: noise, model, known factors.
     pub(in crate::identify) fn of(&self, gradient: &[f64]) -> [f64; 3] {
         let n = self.covariance.len().isqrt();
         let row = |row: &[f64]| row.iter().zip(gradient).map(|(c, g)| c * g).sum::<f64>();
@@ -76,7 +76,7 @@ impl Split {
 mod tests {
     use super::*;
 
-    /// What is left when some coordinates are held is the inverse of the rest's block of the inverse.
+    /// The variance that remains when some coordinates are held is the inverse of the rest's block of the inverse.
     #[test]
     fn contributions_are_those_of_coordinates_that_are_held() {
         const N: usize = 5;

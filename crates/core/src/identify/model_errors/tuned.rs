@@ -27,7 +27,7 @@ const MAX_SCALE_LINES: usize = 150;
 const FIRST_ORDER: usize = 16;
 const MAX_RESIDUAL: f64 = 1e-3;
 
-/// How far off a natural frequency is looked for, and in how many steps to either side: up to 1 % each is a half-width of a loss factor of 0.2 %.
+/// The error within which a natural frequency is searched, and the number of steps to either side: up to 1 % each is a half-width of a loss factor of 0.2 %.
 const FREQUENCY_RANGE: f64 = 0.03;
 const FREQUENCY_STEPS: i32 = 30;
 

@@ -37,7 +37,7 @@ pub(super) struct Solution {
 /// Evaluations for each start and coordinate: from where it leads somewhere a dozen are enough for four coordinates.
 const EVALUATIONS_PER_START_AND_COORDINATE: usize = 8;
 
-/// A least misfit of so many times the best is no rival of it, whatever the noise …
+/// A least misfit that is larger than the best by this factor is no rival of it, whatever the noise …
 const MAX_RIVAL_MISFIT_RATIO: f64 = 1e4;
 
 /// … where the best leaves more than roundoff: this part of Σ |u_m|²/σ_m².

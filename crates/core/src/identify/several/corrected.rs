@@ -1,4 +1,4 @@
-//! A band once more, with the errors of the model taken out and carried into every error bar (B-11).
+//! A band once more, corrected for the errors of the model, which are carried into every error bar (B-11).
 
 use super::Task;
 use super::at_frequency::{Solution, eliminate};
@@ -21,7 +21,7 @@ use crate::laws::Datum;
 use crate::subspace::{Corrected, Point};
 
 impl Task<'_, '_> {
-    /// What is found when the errors of the model are estimated and taken out; the same where a right model explains the band as well.
+    /// What is found when the errors of the model are estimated and corrected for; the same where a right model explains the band as well.
     pub(super) fn correct(
         &self,
         reduced: &mut Neighbourhoods<'_>,

@@ -10,7 +10,7 @@ pub(super) struct Information {
     pub(super) vectors: Vec<f64>,
 }
 
-/// Information below this part of the largest counts as zero: such a direction is known a hundred thousand times worse than the best one, by slopes of a reduced model.
+/// Information below this part of the largest counts as zero: this direction is known a hundred thousand times worse than the best one, by slopes of a reduced model.
 const INFORMATION_RTOL: f64 = 1e-10;
 
 /// A component of a direction below this counts as zero.

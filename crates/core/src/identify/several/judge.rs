@@ -422,7 +422,7 @@ fn is_known(value: &LineValue) -> bool {
         && bars.loss_factor_std.is_none_or(|std| std <= KNOWN_RELATIVE_STD * eta)
 }
 
-/// Noise over σ in error bars: what is left of a band that is nearly explained makes them longer.
+/// Noise over σ in error bars: the residual of a band that is nearly explained makes them longer.
 fn level_of_bars(level: Option<f64>, fit: Option<GoodnessOfFit>) -> Option<f64> {
     level.map(|level| level * fit.map_or(1.0, |fit| fit.excess()))
 }

@@ -2,11 +2,11 @@
 //!
 //! With per-frequency unknowns c_i and numbers θ that hold for the band,
 //! $$ \min_{\theta, c_1 \dots c_n} \sum_i \sum_m \frac{|u_m(\omega_i) - x_m(\omega_i, c_i, \theta)|^2}{\sigma_{im}^2} $$
-//! is made least with the c_i eliminated frequency by frequency: for given θ each c_i is the best of all solutions there, and the slopes of what is left, (1 − QQᵀ) ∂r/∂θ
+//! is made least with the c_i eliminated frequency by frequency: for given θ each c_i is the best of all solutions there, and the slopes of the residual, (1 − QQᵀ) ∂r/∂θ
 //! with Q spanning ∂r/∂c_i, move θ (L. Kaufman, BIT 15 (1975) 49–57). One real subspace serves every frequency and every value of every unknown, so that the cost of
 //! several unknowns is a larger subspace and not more factorisations.
 //!
-//! | file | what is in it |
+//! | file | contents |
 //! |---|---|
 //! | `coordinates` | θ ↔ what holds for the band |
 //! | `neighbourhoods` | the reduced model over the box of all unknowns |

@@ -42,7 +42,7 @@ pub(super) struct Neighbourhoods<'a> {
     subspace: Subspace<'a>,
     /// First and last frequency of each neighbourhood, and its model.
     blocks: Vec<([usize; 2], Option<Local>)>,
-    /// The whole reduced model without its errors, where they are taken out of every answer.
+    /// The whole reduced model without its errors, where every answer is corrected for them.
     corrected: Option<Corrected>,
     answers: Vec<Answer>,
     /// Whether models are good near the answers alone, and not over the box.
@@ -177,7 +177,7 @@ impl<'a> Neighbourhoods<'a> {
         block.and_then(|(_, local)| local.as_ref())
     }
 
-    /// The whole reduced model, without errors taken out of it.
+    /// The whole reduced model, not corrected for its errors.
     pub(super) fn whole(&self) -> &Projection {
         self.subspace.projection()
     }

@@ -1,4 +1,4 @@
-//! What came out when several things were looked for.
+//! The outcome of an identification of several unknowns.
 
 use crate::identify::channel::Calibration;
 use crate::identify::goodness_of_fit::{GoodnessOfFit, SensorFit};
@@ -93,7 +93,7 @@ pub(in crate::identify) struct SeveralOutcome {
     pub(in crate::identify) fit: Option<GoodnessOfFit>,
     /// One for each sensor.
     pub(in crate::identify) sensors: Vec<SensorFit>,
-    /// The errors of the model that were taken out.
+    /// The errors of the model that were corrected for.
     pub(in crate::identify) model_errors: Option<ModelErrorsFound>,
     pub(in crate::identify) leverage: Vec<Leverage>,
     /// Whether the search settled.
@@ -106,7 +106,7 @@ pub(in crate::identify) struct SeveralOutcome {
     pub(in crate::identify) work: Work,
     /// Vectors of the subspace.
     pub(in crate::identify) subspace_size: usize,
-    /// Why there is no subspace; nothing was looked for then.
+    /// Why there is no subspace; nothing was searched then.
     pub(in crate::identify) breakdown: Option<Breakdown>,
 }
 

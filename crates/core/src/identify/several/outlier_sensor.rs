@@ -24,7 +24,7 @@ const FIRST_TRIALS: usize = 2;
 impl Task<'_, '_> {
     /// The sensors that contradict the others, worst first. Of two sensors nothing shows which one is wrong.
     ///
-    /// Each trial leaves out one sensor and searches again on a few frequencies. There is none where the result explains the sensors. The sensors that fit worst are left out
+    /// Each trial leaves out one sensor and searches again on a few frequencies. No sensor is tried where the result explains the sensors. The sensors that fit worst are left out
     /// first, and the others only if that makes χ² far smaller.
     pub(super) fn contradicting(&self, reduced: &mut Neighbourhoods<'_>, found: &BandSolution) -> Vec<usize> {
         let sensors = self.problem.experiment.sensors.len();

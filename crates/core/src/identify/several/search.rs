@@ -46,14 +46,14 @@ const START_FREQUENCIES: usize = 48;
 /// Points of the box for each unknown that a frequency has of its own.
 const BOX_POINTS_PER_UNKNOWN: usize = 8;
 
-/// Values of one of two unknowns of a frequency at which all of the other are looked for: to an octave, or in all where the range is not positive.
+/// Values of one of two unknowns of a frequency at which all of the other are searched: to an octave, or in all where the range is not positive.
 const SCAN_VALUES_PER_OCTAVE: f64 = 8.0;
 const SCAN_VALUES: usize = 16;
 
 /// Starts that are followed on the whole model at once.
 const WHOLE_MODEL_STARTS: usize = 4;
 
-/// Frequencies at which solutions are looked for all over the box: so many at least, and every so-many-th at least. Between them those of both sides are followed.
+/// Frequencies at which solutions are searched all over the box: so many at least, and every so-many-th at least. Between them those of both sides are followed.
 const MIN_GRID_LINES: usize = 12;
 const MAX_GRID_STRIDE: usize = 8;
 
@@ -88,7 +88,7 @@ pub(super) struct Begin {
     pub(super) theta: Vec<f64>,
 }
 
-/// Where solutions are looked for at a frequency.
+/// Where solutions are searched at a frequency.
 pub(super) enum Guess<'g> {
     /// Near some values, and all over the box.
     Everywhere(&'g [c64]),
@@ -401,7 +401,7 @@ impl Task<'_, '_> {
     /// θ of least misfit with the chosen solutions, and whether the search settled. A direction that is not identifiable is left where it began: there is nothing to gain along it,
     /// and no end.
     ///
-    /// Each search is on models of a few vectors about where it begins, which are made anew where it ends; one that gains nothing there is made on the whole ones.
+    /// Each search is on models of a few vectors about where it begins, which are made again where it ends; one that gains nothing there is made on the whole ones.
     fn descend(
         &self,
         reduced: &Neighbourhoods<'_>,
@@ -425,7 +425,7 @@ impl Task<'_, '_> {
             if theta == end.theta {
                 return Some((end.theta, converged));
             }
-            // A coordinate that leaves its bounds is held at them, and the others are searched anew.
+            // A coordinate that leaves its bounds is held at them, and the others are searched again.
             held.extend((0..theta.len()).filter(|&c| theta[c] != end.theta[c]));
             place = self.moved_to(reduced, which, (found, &end), theta)?;
         }
@@ -695,7 +695,7 @@ impl BandSolution {
         self.solutions[k].get(self.chosen[k].solution?)
     }
 
-    /// What is left, with what a frequency without an answer would leave at least: nothing is gained by leaving frequencies out.
+    /// The misfit, with the least that a frequency without an answer would leave: nothing is gained by leaving frequencies out.
     fn misfit(&self) -> f64 {
         let each: Vec<f64> = (0..self.chosen.len()).filter_map(|k| Some(self.at(k)?.misfit)).collect();
         let worst = each.iter().copied().fold(0.0, f64::max);
