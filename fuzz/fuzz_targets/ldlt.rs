@@ -4,7 +4,8 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use multifrontal::{FactorError, Options, Ordering, Precision, Scalar, Solver, Symbolic, c64};
+use multifrontal::{FactorError, Options, Ordering, Precision, Scalar, Solver, Symbolic, Threads, c64};
+use std::time::Duration;
 
 /// How much larger an entry of L may be than what it comes from, a few times over; refinement mends the rest.
 const GROWN: f64 = 1e-8;
@@ -47,15 +48,21 @@ fuzz_target!(|bytes: &[u8]| {
         2 => Ordering::NestedDissection,
         _ => Ordering::Given((0..dim).map(|k| (k + usize::from(seed)) % dim).collect()),
     };
-    let symbolic = Symbolic::new(dim, &col_ptr, &row_idx, &ordering).expect("the pattern is a lower triangle");
-    let precision = if seed % 8 < 4 { Precision::Full } else { Precision::Single };
-    let options = Options { threads: 1 + usize::from(size / 16 % 3), ..Options::default() };
+    let options = Options::default()
+        .with_ordering(ordering)
+        .with_precision(if seed % 8 < 4 { Precision::Full } else { Precision::Single })
+        .with_threads(match size / 16 % 3 {
+            0 => Threads::One,
+            1 => Threads::Pool,
+            _ => Threads::Spinning(Duration::from_millis(1)),
+        });
+    let symbolic = Symbolic::new(dim, &col_ptr, &row_idx, &options).expect("the pattern is a lower triangle");
     // Values that differ by 600 powers of ten underflow in one product or another.
     let exact = kind % 4 < 2;
     if size < 128 {
-        solve(&symbolic, &values, |x| x, precision, &options, exact);
+        solve(&symbolic, &values, |x| x, &options, exact);
     } else {
-        solve(&symbolic, &values, |x| c64::new(x, 0.05 * x.abs()), precision, &options, exact);
+        solve(&symbolic, &values, |x| c64::new(x, 0.05 * x.abs()), &options, exact);
     }
 });
 
@@ -64,13 +71,12 @@ fn solve<T: Scalar>(
     symbolic: &Symbolic,
     values: &[f64],
     number: impl Fn(f64) -> T,
-    precision: Precision,
     options: &Options,
     exact: bool,
 ) {
     let values: Vec<T> = values.iter().map(|&value| number(value)).collect();
     let finite = values.iter().all(|value| value.is_finite());
-    let solver = match Solver::new(symbolic, &values, precision, options) {
+    let solver = match Solver::new(symbolic, &values, options) {
         Err(error) => {
             assert_eq!(matches!(error, FactorError::NotFinite { .. }), !finite, "{error}");
             return;

@@ -7,7 +7,7 @@ use frfit_fem::brick::Face;
 use frfit_fem::{Assembled, Bar, Beam, Brick, Mass, Plate, Support};
 use frfit_linalg::dense::symmetric_eigen;
 use frfit_linalg::sparse::{Pattern, SymmetricMatrix, Values};
-use multifrontal::{Options, Ordering, Precision, Solver, Symbolic, c64};
+use multifrontal::{Options, Solver, Symbolic, c64};
 use shared_data::{read_matrix, shared};
 use std::sync::Arc;
 
@@ -40,8 +40,8 @@ impl Structure {
     }
 
     fn symbolic(&self) -> Symbolic {
-        let ordering = Ordering::default();
-        Symbolic::new(self.pattern.dim(), self.pattern.col_ptr(), self.pattern.row_idx(), &ordering).unwrap()
+        let options = Options::default();
+        Symbolic::new(self.pattern.dim(), self.pattern.col_ptr(), self.pattern.row_idx(), &options).unwrap()
     }
 
     /// K − σ M for a σ of this part of the stiffest row's.
@@ -144,7 +144,7 @@ fn structures_of_the_harwell_boeing_collection_needs_data() {
             }
             let damped: Vec<c64> =
                 shifted.iter().zip(&structure.k).map(|(&d, &k)| c64::new(d, 1e-3 * k)).collect();
-            let solver = Solver::new(&symbolic, &damped, Precision::Full, &Options::default()).unwrap();
+            let solver = Solver::new(&symbolic, &damped, &Options::default()).unwrap();
             let mut x: Vec<c64> = (0..k.dim()).map(|i| c64::new((i as f64).sin(), 0.0)).collect();
             let solution = solver.solve(&mut x).unwrap();
             // Refinement ends at a few units of roundoff.

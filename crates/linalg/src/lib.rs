@@ -11,7 +11,7 @@
 //! | [`dense`] | small dense problems: eigenvalues, least squares, roots of polynomials |
 //!
 //! A complex symmetric matrix here satisfies Aᵀ = A, not Aᴴ = A: that is what a dynamic stiffness with
-//! hysteretic damping is. This is the only crate of the workspace that names faer. Scalars are `f64` and
+//! hysteretic damping is. This is the only crate of frfit that computes with faer. Scalars are `f64` and
 //! [`c64`]; where one code serves both it is generic over exactly these two ([`Scalar`], sealed).
 
 pub mod column_block;
@@ -25,3 +25,7 @@ pub mod vector;
 
 pub use num_complex::Complex64 as c64;
 pub use scalar::Scalar;
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

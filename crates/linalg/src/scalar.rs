@@ -10,9 +10,7 @@ mod sealed {
 }
 
 /// `f64` or [`c64`], and nothing else: what the symmetric solvers are written over.
-pub trait Scalar:
-    sealed::Sealed + faer::traits::ComplexField<Real = f64> + multifrontal::Scalar<Real = f64>
-{
+pub trait Scalar: sealed::Sealed + faer::traits::ComplexField<Real = f64> + multifrontal::Scalar {
     /// out −= A X for the matrix with these values, n × k column after column.
     #[doc(hidden)]
     fn multiply_subtract(pattern: &Pattern, values: &[Self], x: &[Self], out: &mut [Self]);

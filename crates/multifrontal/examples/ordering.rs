@@ -5,7 +5,7 @@
 
 #![allow(clippy::print_stdout, reason = "an example shows what it finds")]
 
-use multifrontal::{Ordering, Symbolic};
+use multifrontal::{Options, Ordering, Symbolic};
 use std::time::Instant;
 
 /// Nodes with some dofs each, and what they are coupled to.
@@ -32,7 +32,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         }
         let (col_ptr, row_idx) = mesh.lower();
         let dim = mesh.nodes * mesh.dofs;
-        let analyse = |ordering: &Ordering| Symbolic::new(dim, &col_ptr, &row_idx, ordering);
+        let analyse = |ordering: &Ordering| {
+            let options = Options::default().with_ordering(ordering.clone());
+            Symbolic::new(dim, &col_ptr, &row_idx, &options)
+        };
         let best_of = |ordering: &Ordering| -> Result<(f64, f64), multifrontal::PatternError> {
             let (mut least, mut flops) = (f64::INFINITY, 0.0);
             for _ in 0..3 {

@@ -2,7 +2,7 @@
 
 #![allow(clippy::print_stdout, reason = "an example shows what it finds")]
 
-use multifrontal::{Options, Ordering, Precision, Solver, Symbolic, c64};
+use multifrontal::{Options, Solver, Symbolic, c64};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     // n³ unit masses with unit springs to their neighbours and to the walls: K and its diagonal M = 1.
@@ -23,7 +23,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         col_ptr.push(row_idx.len());
     }
     let dim = n * n * n;
-    let symbolic = Symbolic::new(dim, &col_ptr, &row_idx, &Ordering::default())?;
+    let symbolic = Symbolic::new(dim, &col_ptr, &row_idx, &Options::default())?;
     println!(
         "{dim} unknowns: {} entries in L, {:.1} million operations, {:.1} MB",
         symbolic.factor_entries(),
@@ -44,7 +44,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     // K (1 + 0.02 i) − ω² M with a load in the middle.
     let damped: Vec<c64> = shifted.iter().zip(&stiffness).map(|(&d, &k)| c64::new(d, 0.02 * k)).collect();
-    let solver = Solver::new(&symbolic, &damped, Precision::Full, &Options::default())?;
+    let solver = Solver::new(&symbolic, &damped, &Options::default())?;
     let mut response = vec![c64::default(); dim];
     let middle = node([n / 2; 3]);
     response[middle] = c64::new(1.0, 0.0);

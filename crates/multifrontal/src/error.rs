@@ -3,7 +3,8 @@
 use std::fmt;
 
 /// Why a matrix could not be factorised, or a system not be solved; rows are those of the matrix as given.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum FactorError {
     /// Not one value for each entry of the pattern.
     Values {

@@ -6,27 +6,15 @@ use crate::packed_lower::PackedLower;
 use crate::run::{Eliminated, Run};
 use crate::scalar::Scalar;
 use crate::symbolic::Symbolic;
-use crate::threads::with;
-use crate::{FactorError, scaling};
+use crate::{FactorError, Options, scaling};
 use std::ops::Range;
 
-/// How a matrix is factorised.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Options {
-    /// Threads to work with. The numbers of the factor do not depend on it.
-    pub threads: usize,
-    /// No entry of L is larger than 1/threshold; between 0 and 1/2. Larger is safer and delays more pivots.
-    pub threshold: f64,
-}
-
-impl Default for Options {
-    fn default() -> Self {
-        Self { threads: 1, threshold: 0.1 }
-    }
-}
+/// With this threshold there is still a pivot, or a block of two, in every matrix that is not singular.
+const MAX_THRESHOLD: f64 = 0.5;
 
 /// Signs of the eigenvalues, by Sylvester's law of inertia those of D; of a complex matrix only their number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub struct Inertia {
     /// Positive eigenvalues of a real matrix, all of a complex one.
     pub positive: usize,
@@ -105,13 +93,14 @@ pub(crate) fn factor<T: Scalar>(
     let bytes = symbolic.factor_bytes::<T>().saturating_add(symbolic.working_bytes::<T>());
     // Asked for and given back: whether there is as much, before anything is done.
     Vec::<u8>::new().try_reserve_exact(bytes).map_err(|_| FactorError::OutOfMemory)?;
-    let threads = symbolic.threads(options);
-    with(threads, || {
-        let scale = scaling::scaling(&symbolic.pattern, values, threads)?;
+    let given = options.threshold;
+    let threshold = if given.is_nan() { MAX_THRESHOLD } else { given.clamp(0.0, MAX_THRESHOLD) };
+    options.threads.if_worth(symbolic.is_worth_sharing()).run(|team| {
+        let scale = scaling::scaling(&symbolic.pattern, values, team.size)?;
         let scale: Vec<T::Real> = symbolic.order.iter().map(|&row| scale[row as usize]).collect();
         let places = symbolic.places::<T>();
         let mut columns = Memory::zeros(places.last().map_or(0, |place| place.end));
-        let run = Run::new(symbolic, values, &scale, options.threshold, threads, (&mut columns, &places));
+        let run = Run::new(symbolic, values, &scale, threshold, team, (&mut columns, &places));
         let eliminated = run.all();
         finish(symbolic, &scale, eliminated, places, columns)
     })

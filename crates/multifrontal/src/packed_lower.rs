@@ -1,4 +1,4 @@
-//! Where the columns of a lower packed_lower are: in strips, each from the diagonal of its first column downwards.
+//! Where the columns of a lower triangle are: in strips, each from the diagonal of its first column downwards.
 //!
 //! Fronts, factors and what fronts leave are kept like this. What is above the diagonals of a strip is there too, and
 //! means nothing: some per cent of a large front, where whole columns would be twice what is needed.
@@ -7,7 +7,7 @@ use crate::kernel::{STRIP_COLUMNS, Strip};
 use crate::scalar::Scalar;
 use std::ops::Range;
 
-/// The first columns of a lower packed_lower, or all. Of each column there are the parts one after the other, and the next
+/// The first columns of a lower triangle, or all. Of each column there are the parts one after the other, and the next
 /// column behind them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct PackedLower {

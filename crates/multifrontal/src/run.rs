@@ -5,9 +5,9 @@ use crate::front::{
 };
 use crate::kernel::{STRIP_COLUMNS, Strip};
 use crate::packed_lower::PackedLower;
-use crate::scalar::Scalar;
+use crate::scalar::{Number, Scalar};
 use crate::symbolic::{NO_PARENT, Symbolic};
-use crate::threads::{Idle, awake, each};
+use crate::threads::{Idle, Team, each};
 use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
@@ -18,7 +18,7 @@ pub(crate) struct Run<'a, T: Scalar> {
     values: &'a [T],
     scale: &'a [T::Real],
     threshold: f64,
-    threads: usize,
+    team: Team,
     /// Numbers that are kept at even and at odd depths in whatever one thread does.
     sizes: [usize; 2],
     /// Stacks of as many, one for each thread that is in a subtree.
@@ -82,10 +82,10 @@ impl<T: Scalar> Meeting<T> {
 }
 
 /// A front with what it left to its parent.
-type Left<T> = (usize, Contribution<<T as Scalar>::Real>);
+type Left<T> = (usize, Contribution<<T as Number>::Real>);
 
 /// For what fronts leave, at even and at odd depths.
-type Stacks<T> = [Stack<<T as Scalar>::Real>; 2];
+type Stacks<T> = [Stack<<T as Number>::Real>; 2];
 
 impl<'a, T: Scalar> Run<'a, T> {
     /// With room for the columns of all fronts, and the place of each in it.
@@ -94,7 +94,7 @@ impl<'a, T: Scalar> Run<'a, T> {
         values: &'a [T],
         scale: &'a [T::Real],
         threshold: f64,
-        threads: usize,
+        team: Team,
         (mut rest, places): (&'a mut [T::Real], &[Range<usize>]),
     ) -> Self {
         let panel = |place: &Range<usize>| {
@@ -103,16 +103,16 @@ impl<'a, T: Scalar> Run<'a, T> {
             Mutex::new(Panel { values, begun: false })
         };
         let panels = places.iter().map(panel).collect();
-        let (sizes, stacks, idle) = (symbolic.stacks(threads), Idle::default(), Idle::default());
+        let (sizes, stacks, idle) = (symbolic.stacks(team.size), Idle::default(), Idle::default());
         let subtrees = AtomicUsize::new(symbolic.subtrees.len());
-        Self { symbolic, values, scale, threshold, threads, sizes, stacks, subtrees, panels, idle }
+        Self { symbolic, values, scale, threshold, team, sizes, stacks, subtrees, panels, idle }
     }
 
     /// All fronts.
     pub(crate) fn all(&self) -> Vec<Eliminated<T>> {
         let fronts = &self.symbolic.fronts;
         let done: Vec<_> = fronts.iter().map(|_| OnceLock::new()).collect();
-        if self.threads == 1 {
+        if self.team.size == 1 {
             self.run(0..fronts.len(), &done);
         } else {
             let roots: Vec<usize> = (0..fronts.len()).filter(|&k| fronts[k].parent == NO_PARENT).collect();
@@ -132,7 +132,7 @@ impl<'a, T: Scalar> Run<'a, T> {
             next: 0,
             busy: false,
         });
-        each(self.threads, order, |at| {
+        each(self.team.size, order, |at| {
             let left = self.tree(branches[at], shared).map(|left| (branches[at], left));
             self.arrive(above, at, left, &meeting);
         });
@@ -153,7 +153,7 @@ impl<'a, T: Scalar> Run<'a, T> {
             // Who arrives meanwhile does not wait: this thread goes on with what is there then.
             drop(now);
             if above != NO_PARENT {
-                self.add(above, &mut left, &mut stacks, self.threads);
+                self.add(above, &mut left, &mut stacks, self.team.size);
             }
             now = lock();
             now.busy = false;
@@ -182,9 +182,9 @@ impl<'a, T: Scalar> Run<'a, T> {
         };
         for &k in chain.iter().rev() {
             let mut stacks = Stacks::<T>::default();
-            let left = awake(self.threads, || {
-                self.add(k, &mut below, &mut stacks, self.threads);
-                self.with_idle(self.threads, |with| self.front(k, below, &mut stacks, with, done))
+            let left = self.team.awake(|| {
+                self.add(k, &mut below, &mut stacks, self.team.size);
+                self.with_idle(self.team.size, |with| self.front(k, below, &mut stacks, with, done))
             });
             let stack = &mut stacks[symbolic.parity(k)];
             below = left.map(|left| (k, left.taken_from(stack))).into_iter().collect();
@@ -211,7 +211,7 @@ impl<'a, T: Scalar> Run<'a, T> {
             }
             let left = self.with_idle(1, |with| self.subtree(range, stacks, with, done));
             // The last ones are not needed again, and memory is.
-            if self.subtrees.fetch_sub(1, Relaxed) <= self.threads {
+            if self.subtrees.fetch_sub(1, Relaxed) <= self.team.size {
                 *stacks = Stacks::<T>::default();
             }
             left

@@ -1,6 +1,6 @@
 //! The numbers of a matrix: real or complex, double or single.
 
-use crate::{Factor, FactorError, Options, Symbolic};
+use crate::{Factor, FactorError, Options, Symbolic, Threads};
 use num_complex::Complex;
 use pulp::Simd;
 use std::fmt::Debug;
@@ -47,8 +47,11 @@ pub trait Real: Scalar<Real = Self> + PartialOrd + Into<f64> + pulp::bytemuck::P
 }
 
 /// A number of a symmetric matrix: [`f64`], [`c64`], or in single precision [`f32`], [`c32`].
+///
+/// Sealed: there are no others, and what they need beyond this is no part of the interface.
 pub trait Scalar:
-    Copy
+    Number
+    + Copy
     + Debug
     + Default
     + PartialEq
@@ -64,6 +67,18 @@ pub trait Scalar:
     + SubAssign
     + MulAssign
 {
+    /// 1.
+    const ONE: Self;
+    /// |z|.
+    fn modulus(self) -> f64;
+    /// re − i im.
+    fn conjugate(self) -> Self;
+    /// Neither infinite nor not a number.
+    fn is_finite(self) -> bool;
+}
+
+/// What the algorithms need of a number. In a module that nobody else can name: so there are no other scalars.
+pub trait Number: Copy {
     /// What its parts are.
     type Real: Real;
     /// The same in single precision.
@@ -78,8 +93,6 @@ pub trait Scalar:
     /// # Source
     /// N. J. Higham, SIAM J. Matrix Anal. Appl. 13 (1992) 681–687.
     const PRODUCTS: usize;
-    /// 1.
-    const ONE: Self;
     /// A number without imaginary part.
     fn from_real(real: Self::Real) -> Self;
     /// From its parts; a real number has the first.
@@ -92,26 +105,22 @@ pub trait Scalar:
     fn from_products(products: [Self::Real; 3]) -> Self;
     /// |re| + |im|: the modulus but for a factor of √2, without a root.
     fn size(self) -> f64;
-    /// |z|.
-    fn modulus(self) -> f64;
     /// Product with a real number.
     fn scale(self, by: Self::Real) -> Self;
     /// Rounded to single precision.
     fn to_single(self) -> Self::Single;
     /// From single precision.
     fn from_single(single: Self::Single) -> Self;
-    /// re − i im.
-    fn conjugate(self) -> Self;
     /// Whether it is negative: a complex number never is.
     fn is_negative(self) -> bool;
-    /// Neither infinite nor not a number.
-    fn is_finite(self) -> bool;
     /// [`Symbolic::factor`], compiled here once and not again wherever it is used: it is nearly all of the code.
-    #[doc(hidden)]
-    fn factor(symbolic: &Symbolic, values: &[Self], options: &Options) -> Result<Factor<Self>, FactorError>;
+    fn factor(symbolic: &Symbolic, values: &[Self], options: &Options) -> Result<Factor<Self>, FactorError>
+    where
+        Self: Scalar;
     /// [`Factor::solve_in_place`], compiled here once.
-    #[doc(hidden)]
-    fn solve(factor: &Factor<Self>, rhs: &mut [Self], threads: usize);
+    fn solve(factor: &Factor<Self>, rhs: &mut [Self], threads: Threads)
+    where
+        Self: Scalar;
 }
 
 /// sum + v x for numbers v and one number x: v and the sum in registers of real and of imaginary parts.
@@ -140,7 +149,7 @@ macro_rules! compiled_here {
         ) -> Result<Factor<Self>, FactorError> {
             crate::factor::factor(symbolic, values, options)
         }
-        fn solve(factor: &Factor<Self>, rhs: &mut [Self], threads: usize) {
+        fn solve(factor: &Factor<Self>, rhs: &mut [Self], threads: Threads) {
             crate::solve::solve(factor, rhs, threads);
         }
     };
@@ -194,13 +203,12 @@ macro_rules! real {
             }
         }
 
-        impl Scalar for $real {
+        impl Number for $real {
             compiled_here!();
             type Real = Self;
             type Single = f32;
             const PARTS: usize = 1;
             const PRODUCTS: usize = 1;
-            const ONE: Self = 1.0;
             #[inline(always)]
             fn from_real(real: Self) -> Self {
                 real
@@ -226,10 +234,6 @@ macro_rules! real {
                 f64::from(self.abs())
             }
             #[inline(always)]
-            fn modulus(self) -> f64 {
-                f64::from(self.abs())
-            }
-            #[inline(always)]
             fn scale(self, by: Self) -> Self {
                 self * by
             }
@@ -242,12 +246,20 @@ macro_rules! real {
                 Self::from(single)
             }
             #[inline(always)]
-            fn conjugate(self) -> Self {
-                self
-            }
-            #[inline(always)]
             fn is_negative(self) -> bool {
                 self < 0.0
+            }
+        }
+
+        impl Scalar for $real {
+            const ONE: Self = 1.0;
+            #[inline(always)]
+            fn modulus(self) -> f64 {
+                f64::from(self.abs())
+            }
+            #[inline(always)]
+            fn conjugate(self) -> Self {
+                self
             }
             #[inline(always)]
             fn is_finite(self) -> bool {
@@ -255,13 +267,12 @@ macro_rules! real {
             }
         }
 
-        impl Scalar for Complex<$real> {
+        impl Number for Complex<$real> {
             compiled_here!();
             type Real = $real;
             type Single = c32;
             const PARTS: usize = 2;
             const PRODUCTS: usize = 3;
-            const ONE: Self = Complex { re: 1.0, im: 0.0 };
             #[inline(always)]
             fn from_real(real: $real) -> Self {
                 Complex::new(real, 0.0)
@@ -288,10 +299,6 @@ macro_rules! real {
                 f64::from(self.re.abs()) + f64::from(self.im.abs())
             }
             #[inline(always)]
-            fn modulus(self) -> f64 {
-                f64::from(self.re).hypot(f64::from(self.im))
-            }
-            #[inline(always)]
             fn scale(self, by: $real) -> Self {
                 self * by
             }
@@ -304,12 +311,20 @@ macro_rules! real {
                 Complex::new(single.re.into(), single.im.into())
             }
             #[inline(always)]
-            fn conjugate(self) -> Self {
-                self.conj()
-            }
-            #[inline(always)]
             fn is_negative(self) -> bool {
                 false
+            }
+        }
+
+        impl Scalar for Complex<$real> {
+            const ONE: Self = Complex { re: 1.0, im: 0.0 };
+            #[inline(always)]
+            fn modulus(self) -> f64 {
+                f64::from(self.re).hypot(f64::from(self.im))
+            }
+            #[inline(always)]
+            fn conjugate(self) -> Self {
+                self.conj()
             }
             #[inline(always)]
             fn is_finite(self) -> bool {

@@ -1,7 +1,7 @@
 //! Solutions that are checked: residual, refinement, condition, and single precision where it is enough.
 
 use crate::scalar::{Real, Scalar};
-use crate::{Factor, FactorError, Options, Symbolic, scaling};
+use crate::{Factor, FactorError, Options, Ordering, Symbolic, Threads, scaling};
 use std::sync::OnceLock;
 
 /// Refinement stops below this many units of roundoff: a residual itself has a few.
@@ -13,6 +13,7 @@ const MAX_REFINEMENT_STEPS: usize = 8;
 
 /// In which precision a matrix is factorised.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub enum Precision {
     /// The precision of the matrix.
     #[default]
@@ -24,6 +25,7 @@ pub enum Precision {
 
 /// How good a solution is, as measured on it.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Solution {
     /// The largest of all right-hand sides' ‖b − A x‖ / (‖A‖ ‖x‖ + ‖b‖), in the maximum norm.
     pub backward_error: f64,
@@ -49,16 +51,13 @@ impl<'a, T: Scalar> Solver<'a, T> {
     ///
     /// # Errors
     /// As [`Symbolic::factor`].
-    pub fn new(
-        symbolic: &'a Symbolic,
-        values: &'a [T],
-        precision: Precision,
-        options: &Options,
-    ) -> Result<Self, FactorError> {
+    pub fn new(symbolic: &'a Symbolic, values: &'a [T], options: &Options) -> Result<Self, FactorError> {
+        // An order may be as long as the matrix, and is not needed any more.
+        let &Options { threads, threshold, precision, .. } = options;
         let mut solver = Self {
             symbolic,
             values,
-            options: options.clone(),
+            options: Options { ordering: Ordering::default(), threads, threshold, precision },
             norm: 0.0,
             single: None,
             full: OnceLock::new(),
@@ -249,7 +248,7 @@ impl<T: Scalar> Rounded<T> {
         Ok(Self { factor, scale })
     }
 
-    fn solve_in_place(&self, symbolic: &Symbolic, rhs: &mut [T], threads: usize) {
+    fn solve_in_place(&self, symbolic: &Symbolic, rhs: &mut [T], threads: Threads) {
         for x in rhs.chunks_exact_mut(symbolic.dim().max(1)) {
             x.iter_mut().zip(&self.scale).for_each(|(x, &scale)| *x = x.scale(scale));
             // A residual is small: brought to 1 it keeps all digits of single precision.

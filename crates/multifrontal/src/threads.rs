@@ -5,8 +5,76 @@ use std::cell::Cell;
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-/// How long an idle thread looks out for work before it may sleep.
-const IDLE_TIME: Duration = Duration::from_millis(1);
+/// Which threads work. The numbers do not depend on it.
+///
+/// Small analyses, factorisations and solutions stay on the calling thread, whatever is asked for: another thread would
+/// cost more than it brings.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
+pub enum Threads {
+    /// The calling thread alone.
+    #[default]
+    One,
+    /// Those of the rayon pool in which the call is made: the pool of `rayon::ThreadPool::install`, or else rayon's
+    /// global one. No pool is built here.
+    Pool,
+    /// As [`Threads::Pool`]; its idle threads look for work that long before they sleep.
+    ///
+    /// They take processor time meanwhile. It pays where one call follows the other and nothing else waits for these
+    /// processors: to wake a thread takes longer than many a piece of work. A millisecond is enough.
+    Spinning(Duration),
+}
+
+/// How many threads share a piece of work, and how long the idle ones of them stay awake.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Team {
+    pub(crate) size: usize,
+    spin: Duration,
+}
+
+impl Threads {
+    /// The calling thread alone where the work is not worth more.
+    pub(crate) fn if_worth(self, is_worth: bool) -> Self {
+        if is_worth { self } else { Self::One }
+    }
+
+    /// Runs in the pool, with whoever is there.
+    pub(crate) fn run<O: Send>(self, run: impl FnOnce(Team) -> O + Send) -> O {
+        let spin = match self {
+            Self::One => return run(Team::ONE),
+            Self::Pool => Duration::ZERO,
+            Self::Spinning(spin) => spin,
+        };
+        let team = Team { size: rayon::current_num_threads(), spin };
+        if team.size < 2 {
+            return run(Team::ONE);
+        }
+        // On a thread of the pool, wherever the call comes from.
+        rayon::scope(|_| team.awake(|| run(team)))
+    }
+}
+
+impl Team {
+    /// The calling thread.
+    const ONE: Self = Self { size: 1, spin: Duration::ZERO };
+
+    /// Works while the pool's idle threads look out for pieces of it, where that is asked for: asleep they would take
+    /// longer to wake than many a piece takes, and the next call often follows at once.
+    ///
+    /// Only threads that are in no other piece of our work look out, so that no work waits for one of them.
+    pub(crate) fn awake<O>(self, work: impl FnOnce() -> O) -> O {
+        if self.size < 2 || self.spin.is_zero() {
+            return work();
+        }
+        let own = rayon::current_thread_index();
+        rayon::spawn_broadcast(move |thread| {
+            if Some(thread.index()) != own && !AT_WORK.get() {
+                at_work(|| look_out(self.spin));
+            }
+        });
+        at_work(work)
+    }
+}
 
 /// Room to work in that no thread uses at the moment.
 pub(crate) struct Idle<B>(Mutex<Vec<B>>);
@@ -47,48 +115,14 @@ fn at_work<O>(work: impl FnOnce() -> O) -> O {
     work()
 }
 
-/// Works while the pool's idle threads look out for pieces of it: asleep they would take longer to wake than many
-/// a piece takes, and the next call often follows at once.
-///
-/// Only threads that are in no other piece of our work look out, so that no work waits for one of them; and none for
-/// longer than [`IDLE_TIME`] in vain.
-pub(crate) fn awake<O>(threads: usize, work: impl FnOnce() -> O) -> O {
-    if threads < 2 {
-        return work();
-    }
-    let own = rayon::current_thread_index();
-    rayon::spawn_broadcast(move |thread| {
-        if Some(thread.index()) != own && !AT_WORK.get() {
-            at_work(look_out);
-        }
-    });
-    at_work(work)
-}
-
 /// Does whatever piece of work there is until there has been none for a while.
-fn look_out() {
+fn look_out(spin: Duration) {
     let mut last = Instant::now();
-    while last.elapsed() < IDLE_TIME {
+    while last.elapsed() < spin {
         match rayon::yield_now() {
             Some(rayon::Yield::Executed) => last = Instant::now(),
             _ => std::hint::spin_loop(),
         }
-    }
-}
-
-/// Runs with so many threads at hand: those of the caller's pool where it has as many, else new ones.
-pub(crate) fn with<O: Send>(threads: usize, run: impl FnOnce() -> O + Send) -> O {
-    if threads < 2 {
-        return run();
-    }
-    let run = || awake(threads, run);
-    if rayon::current_num_threads() == threads {
-        return rayon::scope(|_| run());
-    }
-    match rayon::ThreadPoolBuilder::new().num_threads(threads).build() {
-        Ok(pool) => pool.install(run),
-        // The system has no more threads: this one is enough.
-        Err(_) => run(),
     }
 }
 

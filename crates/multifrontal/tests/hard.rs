@@ -3,8 +3,46 @@
 use crate::common;
 
 use common::{Lower, noise, solid};
-use multifrontal::{FactorError, Inertia, Options, Ordering, PatternError, Precision, Solver, Symbolic, c64};
+use multifrontal::{
+    FactorError, Inertia, Options, Ordering, PatternError, Precision, Solver, Symbolic, Threads, c64,
+};
 use proptest::prelude::*;
+
+/// A factor in single precision, where that is enough.
+fn single() -> Options {
+    Options::default().with_precision(Precision::Single)
+}
+
+#[test]
+fn rows_come_in_any_order_and_what_comes_twice_is_added_up() {
+    // [4 1 0; 1 0 2; 0 2 5] with 4 = 3 + 1 and 2 = 1.5 + 0.5, rows descending.
+    let (columns, rows) = ([0, 3, 6, 7], [1, 0, 0, 2, 2, 1, 2]);
+    let values = [1.0, 3.0, 1.0, 1.5, 0.5, 0.0, 5.0];
+    for ordering in [Ordering::Automatic, Ordering::NestedDissection, Ordering::Given(vec![2, 0, 1])] {
+        let options = Options::default().with_ordering(ordering);
+        let symbolic = Symbolic::new(3, &columns, &rows, &options).unwrap();
+        let mut x = [6.0, 7.0, 19.0];
+        let solver = Solver::new(&symbolic, &values, &options).unwrap();
+        assert!(solver.solve(&mut x).unwrap().backward_error < 1e-15);
+        assert!(x.iter().zip([1.0, 2.0, 3.0]).all(|(x, exact): (_, f64)| (x - exact).abs() < 1e-14), "{x:?}");
+    }
+}
+
+/// Beyond one half a matrix may have no pivot at all, and is not singular for that.
+#[test]
+fn thresholds_out_of_range_are_the_nearest_in_it() {
+    let matrix = Lower::new(2, [(0, 0, 1.0), (1, 0, 2.0), (1, 1, 1.0)]);
+    let symbolic = matrix.symbolic(&Ordering::default());
+    for threshold in [-1.0, 0.0, 0.5, 7.0, f64::INFINITY, f64::NAN] {
+        let factor = symbolic.factor(&matrix.values, &Options::default().with_threshold(threshold));
+        assert_eq!(signs(factor.unwrap().inertia()), (1, 1), "{threshold}");
+    }
+}
+
+/// Positive and negative eigenvalues.
+fn signs(inertia: Inertia) -> (usize, usize) {
+    (inertia.positive, inertia.negative)
+}
 
 fn factor(matrix: &Lower<f64>) -> Result<multifrontal::Factor<f64>, FactorError> {
     matrix.symbolic(&Ordering::default()).factor(&matrix.values, &Options::default())
@@ -29,7 +67,7 @@ fn sylvester_counts_the_modes_of_a_chain_under_a_shift() {
             _ => 0.5 * (square(modes - 1) + square(modes)),
         };
         let inertia = factor(&chain(n, true, shift)).unwrap().inertia();
-        assert_eq!(inertia, Inertia { positive: n - modes, negative: modes });
+        assert_eq!(signs(inertia), (n - modes, modes));
     }
 }
 
@@ -62,17 +100,16 @@ fn what_is_no_number_is_named() {
 
 #[test]
 fn patterns_are_checked() {
-    let new = |dim, columns: &[usize], rows: &[usize]| {
-        Symbolic::new(dim, columns, rows, &Ordering::default()).err()
-    };
+    let new =
+        |dim, columns: &[usize], rows: &[usize]| Symbolic::new(dim, columns, rows, &Options::default()).err();
     assert_eq!(new(2, &[0, 1], &[0]), Some(PatternError::Columns));
     assert_eq!(new(2, &[0, 2, 1], &[0]), Some(PatternError::Columns));
     assert_eq!(new(2, &[0, 1, 2], &[0, 0]), Some(PatternError::Row { col: 1, row: 0 }));
     assert_eq!(new(2, &[0, 1, 2], &[0, 2]), Some(PatternError::Row { col: 1, row: 2 }));
-    let order = Ordering::Given(vec![0, 0]);
+    let order = Options::default().with_ordering(Ordering::Given(vec![0, 0]));
     assert_eq!(Symbolic::new(2, &[0, 1, 2], &[0, 1], &order).err(), Some(PatternError::Permutation(0)));
-    let nothing = Symbolic::new(0, &[0], &[], &Ordering::default()).unwrap();
-    nothing.factor::<f64>(&[], &Options::default()).unwrap().solve_in_place(&mut [], 1);
+    let nothing = Symbolic::new(0, &[0], &[], &Options::default()).unwrap();
+    nothing.factor::<f64>(&[], &Options::default()).unwrap().solve_in_place(&mut [], Threads::One);
 }
 
 #[test]
@@ -86,7 +123,7 @@ fn steel_and_foam() {
     let matrix = Lower::new(n, springs.chain([(0, 0, 1.0)]).collect::<Vec<_>>());
     let mut x = vec![0.0; n];
     x[n - 1] = 1e-12;
-    factor(&matrix).unwrap().solve_in_place(&mut x, 1);
+    factor(&matrix).unwrap().solve_in_place(&mut x, Threads::One);
     // A diagonal of 1 + 1e-12 has lost all but four of the soft spring's digits before anything is computed: as
     // if each of ten nodes stood on a spring of 1e-16, with (1 + 4 + … + 100)/10 · 1e-4 of the answer in all.
     let exact = (n / 2) as f64;
@@ -104,7 +141,7 @@ fn a_vanishing_imaginary_part_survives_three_products_for_one() {
         let values: Vec<c64> =
             real.values.iter().zip(&shifted.values).map(|(&k, &d)| c64::new(d, loss * k)).collect();
         let symbolic = real.symbolic(&Ordering::default());
-        let solver = Solver::new(&symbolic, &values, Precision::Full, &Options::default()).unwrap();
+        let solver = Solver::new(&symbolic, &values, &Options::default()).unwrap();
         let mode: Vec<f64> =
             (1..=n).map(|i| (i as f64 * std::f64::consts::PI / (2 * n + 1) as f64).sin()).collect();
         let mut x: Vec<c64> = mode.iter().map(|&phi| c64::new(phi, 0.0)).collect();
@@ -124,7 +161,7 @@ fn single_precision_is_refined_or_given_up() {
     let symbolic = matrix.symbolic(&Ordering::default());
     let mut noise = noise(5);
     let b: Vec<c64> = (0..2 * matrix.dim).map(|_| c64::new(noise(), noise())).collect();
-    let solver = Solver::new(&symbolic, &matrix.values, Precision::Single, &Options::default()).unwrap();
+    let solver = Solver::new(&symbolic, &matrix.values, &single()).unwrap();
     let mut x = b.clone();
     let solution = solver.solve(&mut x).unwrap();
     assert!(solution.precision == Precision::Single && solution.refinements >= 1, "{solution:?}");
@@ -134,7 +171,7 @@ fn single_precision_is_refined_or_given_up() {
     // Condition 1e10: single precision has no digit right, and full precision does it.
     let soft = chain(300, true, 4.0 * (std::f64::consts::PI / 1202.0f64).sin().powi(2) * (1.0 - 1e-6));
     let symbolic = soft.symbolic(&Ordering::default());
-    let solver = Solver::new(&symbolic, &soft.values, Precision::Single, &Options::default()).unwrap();
+    let solver = Solver::new(&symbolic, &soft.values, &single()).unwrap();
     let mut x = vec![1.0; 300];
     let solution = solver.solve(&mut x).unwrap();
     assert!(solution.precision == Precision::Full && solution.backward_error < 1e-15, "{solution:?}");
@@ -145,7 +182,7 @@ fn single_precision_is_refined_or_given_up() {
 fn the_condition_of_a_diagonal_is_its_range() {
     let matrix = Lower::new(50, (0..50).map(|i| (i, i, c64::new(0.0, 2.0f64.powi(i as i32)))));
     let symbolic = matrix.symbolic(&Ordering::default());
-    let solver = Solver::new(&symbolic, &matrix.values, Precision::Full, &Options::default()).unwrap();
+    let solver = Solver::new(&symbolic, &matrix.values, &Options::default()).unwrap();
     assert_eq!(solver.condition().unwrap(), 2.0f64.powi(49));
 }
 
@@ -157,7 +194,7 @@ fn a_load_at_one_row_gives_what_a_full_one_does() {
         let mut b = vec![c64::default(); matrix.dim];
         b[row] = c64::new(1.0, 0.0);
         let mut x = b.clone();
-        factor.solve_in_place(&mut x, 1);
+        factor.solve_in_place(&mut x, Threads::One);
         assert!(matrix.backward_error(&x, &b) < 1e-13);
     }
 }
@@ -195,12 +232,12 @@ proptest! {
         let regular: Vec<i8> = pivots.iter().map(|&pivot| if pivot == 0 { 1 } else { pivot }).collect();
         let negative = regular.iter().filter(|&&pivot| pivot < 0).count();
         let inertia = factor(&known(n, &regular, &couplings, seed)).unwrap().inertia();
-        prop_assert_eq!(inertia, Inertia { positive: n - negative, negative });
+        prop_assert_eq!(signs(inertia), (n - negative, negative));
         // Roundoff may leave something of a zero; then it shows in the condition.
         let zeros = pivots.iter().filter(|&&pivot| pivot == 0).count();
         let matrix = known(n, &pivots, &couplings, seed);
         let symbolic = matrix.symbolic(&Ordering::default());
-        match Solver::new(&symbolic, &matrix.values, Precision::Full, &Options::default()) {
+        match Solver::new(&symbolic, &matrix.values, &Options::default()) {
             Err(FactorError::Singular { deficiency, .. }) => prop_assert!((1..=zeros).contains(&deficiency)),
             Ok(solver) if zeros > 0 => {
                 let condition = solver.condition().unwrap();
@@ -229,12 +266,12 @@ proptest! {
         entries.extend(diagonal.into_iter().enumerate().map(|(i, value)| (i, i, value)));
         let ties: Vec<_> = (0..constraints).flat_map(|c| [(n + c, 2 * c, 1.0), (n + c, 2 * c + 1, -1.0)]).collect();
         let matrix = Lower::new(n + constraints, entries.iter().chain(&ties).copied().collect::<Vec<_>>());
-        prop_assert_eq!(factor(&matrix).unwrap().inertia(), Inertia { positive: n, negative: constraints });
+        prop_assert_eq!(signs(factor(&matrix).unwrap().inertia()), (n, constraints));
         let stiff = entries.iter().map(|&(i, j, value)| (i, j, c64::new(value, loss * value)));
         let tied = ties.iter().map(|&(i, j, value)| (i, j, c64::new(value, 0.0)));
         let matrix = Lower::new(n + constraints, stiff.chain(tied).collect::<Vec<_>>());
         let symbolic = matrix.symbolic(&Ordering::default());
-        let solver = Solver::new(&symbolic, &matrix.values, Precision::Full, &Options::default()).unwrap();
+        let solver = Solver::new(&symbolic, &matrix.values, &Options::default()).unwrap();
         let mut x = vec![c64::new(1.0, 1.0); n + constraints];
         let solution = solver.solve(&mut x).unwrap();
         prop_assert!(solution.backward_error < 1e-15, "{solution:?}");
@@ -251,7 +288,8 @@ fn a_solution_that_is_no_number_is_none() {
     let matrix = chain(20, true, 0.0);
     let symbolic = matrix.symbolic(&Ordering::default());
     for precision in [Precision::Full, Precision::Single] {
-        let solver = Solver::new(&symbolic, &matrix.values, precision, &Options::default()).unwrap();
+        let solver =
+            Solver::new(&symbolic, &matrix.values, &Options::default().with_precision(precision)).unwrap();
         for bad in [f64::NAN, f64::INFINITY, 1e308] {
             let mut x = vec![1.0; 40];
             x[33] = bad;

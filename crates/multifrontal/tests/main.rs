@@ -2,5 +2,6 @@
 
 mod common;
 mod hard;
+mod matrix;
 mod ordering;
 mod solve;

@@ -2,8 +2,8 @@
 
 use crate::common;
 
-use common::{Lower, solid};
-use multifrontal::{Options, Ordering, Symbolic};
+use common::{Lower, in_pool, solid};
+use multifrontal::{Options, Ordering, Symbolic, Threads};
 
 /// n² nodes, coupled to their neighbours along axes and diagonals.
 fn square(n: usize) -> Lower<f64> {
@@ -103,15 +103,17 @@ fn automatic_is_the_better_of_both() {
 #[test]
 fn threads_change_neither_order_nor_numbers() {
     let cube = solid(16, |re, _| re, 1);
-    let solution = |threads: usize| {
-        let order = Ordering::NestedDissection;
-        let symbolic =
-            Symbolic::with_threads(cube.dim, &cube.col_ptr, &cube.row_idx, &order, threads).unwrap();
-        let factor = symbolic.factor(&cube.values, &Options { threads, ..Options::default() }).unwrap();
+    let solution = |threads: Threads| {
+        let options = Options::default().with_ordering(Ordering::NestedDissection).with_threads(threads);
+        let symbolic = Symbolic::new(cube.dim, &cube.col_ptr, &cube.row_idx, &options).unwrap();
+        let factor = symbolic.factor(&cube.values, &options).unwrap();
         let mut x = vec![1.0; cube.dim];
         factor.solve_in_place(&mut x, threads);
         (symbolic.factor_entries(), x)
     };
-    let one = solution(1);
-    assert!(one == solution(2) && one == solution(3));
+    let one = solution(Threads::One);
+    // A pool of one thread is that thread.
+    for threads in 1..4 {
+        assert!(one == in_pool(threads, || solution(Threads::Pool)), "{threads} threads");
+    }
 }

@@ -2,9 +2,10 @@
 
 use crate::common;
 
-use common::{Lower, noise, solid};
-use multifrontal::{Options, Ordering, Scalar, c64};
+use common::{Lower, in_pool, noise, solid};
+use multifrontal::{Options, Ordering, Scalar, Threads, c64};
 use proptest::prelude::*;
+use std::time::Duration;
 
 /// Roundoff, and the growth that pivots a hundred times smaller than their neighbours allow; 1e-14 was seen.
 const GROWN: f64 = 1e-12;
@@ -22,16 +23,19 @@ fn check<T: Scalar>(matrix: &Lower<T>, columns: usize, tolerance: f64, value: im
         let mut noise = noise(7);
         let b: Vec<T> = (0..matrix.dim * columns).map(|_| value(noise(), noise())).collect();
         let mut x = b.clone();
-        factor.solve_in_place(&mut x, 1);
+        factor.solve_in_place(&mut x, Threads::One);
         for (x, b) in x.chunks(matrix.dim).zip(b.chunks(matrix.dim)) {
             let error = matrix.backward_error(x, b);
             assert!(error <= tolerance, "{name}: {error:e}");
         }
-        // Threads change nothing.
-        let again = symbolic.factor(&matrix.values, &Options { threads: 3, ..Options::default() }).unwrap();
-        let mut y = b.clone();
-        again.solve_in_place(&mut y, 2);
-        assert_eq!(x, y, "{name}");
+        // Threads change nothing, whether they stay awake or not.
+        for threads in [Threads::Pool, Threads::Spinning(Duration::from_millis(1))] {
+            let options = Options::default().with_threads(threads);
+            let again = in_pool(3, || symbolic.factor(&matrix.values, &options)).unwrap();
+            let mut y = b.clone();
+            in_pool(2, || again.solve_in_place(&mut y, threads));
+            assert_eq!(x, y, "{name}");
+        }
     }
 }
 
@@ -77,20 +81,21 @@ fn delayed_candidates_with_any_number_of_threads() {
     let symbolic = matrix.symbolic(&Ordering::NestedDissection);
     let mut noise = noise(2);
     let b: Vec<c64> = (0..9 * matrix.dim).map(|_| c64::new(noise(), noise())).collect();
-    let solve = |threads: usize| {
+    let solve = |threads: Threads| {
         // As strict as can be, so that many are delayed.
-        let factor = symbolic.factor(&matrix.values, &Options { threads, threshold: 0.5 }).unwrap();
+        let options = Options::default().with_threads(threads).with_threshold(0.5);
+        let factor = symbolic.factor(&matrix.values, &options).unwrap();
         assert!(factor.delayed() > 50, "{}", factor.delayed());
         let mut x = b.clone();
         factor.solve_in_place(&mut x, threads);
         x
     };
-    let alone = solve(1);
+    let alone = solve(Threads::One);
     for (x, b) in alone.chunks(matrix.dim).zip(b.chunks(matrix.dim)) {
         assert!(matrix.backward_error(x, b) <= GROWN);
     }
     for threads in 2..5 {
-        assert_eq!(alone, solve(threads), "{threads} threads");
+        assert_eq!(alone, in_pool(threads, || solve(Threads::Pool)), "{threads} threads");
     }
 }
 
@@ -112,7 +117,7 @@ proptest! {
             let Ok(factor) = matrix.symbolic(&ordering).factor(&matrix.values, &Options::default()) else { continue };
             prop_assert_eq!(factor.inertia().positive + factor.inertia().negative, dim);
             let mut x = b.clone();
-            factor.solve_in_place(&mut x, 1);
+            factor.solve_in_place(&mut x, Threads::One);
             if x.iter().all(|x| x.is_finite()) {
                 // L is bounded by 100 an entry, so that a growth of some hundreds is possible and was seen.
                 prop_assert!(matrix.backward_error(&x, &b) < 1e-11, "{:e}", matrix.backward_error(&x, &b));

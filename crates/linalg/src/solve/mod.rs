@@ -99,7 +99,8 @@ impl Analysis {
         self.factor_on(values, 1)
     }
 
-    /// As [`Analysis::factor`], on so many threads, those of the caller's pool where it has as many; solutions too. The numbers do not depend on it.
+    /// As [`Analysis::factor`], by the calling thread alone where `threads` is 1 and by the rayon pool in which the call is
+    /// made where it is more; solutions too. The numbers do not depend on it.
     ///
     /// # Errors
     /// As [`Analysis::factor`].

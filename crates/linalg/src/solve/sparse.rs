@@ -4,8 +4,18 @@ use super::memory::FactorMemory;
 use super::{Breakdown, Factor, Symbolic};
 use crate::Scalar;
 use crate::sparse::Pattern;
-use multifrontal::{FactorError, Options, Ordering, PatternError};
+use multifrontal::{FactorError, Options, PatternError, Threads};
 use std::sync::{Arc, OnceLock};
+use std::time::Duration;
+
+/// How long the pool's idle threads look for work before they sleep: a factorisation is followed by solutions, and to
+/// wake a thread takes longer than many a piece of them.
+const SPIN: Duration = Duration::from_millis(1);
+
+/// One thread, or those of the pool in which the call is made.
+fn threads(threads: usize) -> Threads {
+    if threads < 2 { Threads::One } else { Threads::Spinning(SPIN) }
+}
 
 /// Ordering and fronts of a pattern, found when first needed and shared by real and complex matrices.
 pub(super) struct Sparse {
@@ -21,7 +31,7 @@ impl Sparse {
     fn symbolic(&self) -> Result<&multifrontal::Symbolic, Breakdown> {
         let (n, columns, rows) = (self.pattern.dim(), self.pattern.col_ptr(), self.pattern.row_idx());
         let symbolic =
-            self.symbolic.get_or_init(|| multifrontal::Symbolic::new(n, columns, rows, &Ordering::default()));
+            self.symbolic.get_or_init(|| multifrontal::Symbolic::new(n, columns, rows, &Options::default()));
         // A pattern is a lower triangle by construction: all that can be wrong with it is its size.
         symbolic.as_ref().map_err(|_| Breakdown::OutOfMemory)
     }
@@ -29,14 +39,12 @@ impl Sparse {
 
 impl<T: Scalar> Symbolic<T> for Sparse {
     fn factor(&self, values: &[T], threads: usize) -> Result<Box<dyn Factor<T>>, Breakdown> {
-        let options = Options { threads, ..Options::default() };
+        let options = Options::default().with_threads(self::threads(threads));
         let factor = self.symbolic()?.factor(values, &options).map_err(|error| match error {
             FactorError::NotFinite { .. } => Breakdown::NotFinite,
             FactorError::Singular { .. } => Breakdown::Singular { condition_at_least: f64::INFINITY },
-            // One value an entry is asserted before, and nothing is solved yet.
-            FactorError::OutOfMemory | FactorError::Values { .. } | FactorError::NoSolution { .. } => {
-                Breakdown::OutOfMemory
-            }
+            // One value an entry is asserted before, and nothing is solved yet: what is left is memory.
+            _ => Breakdown::OutOfMemory,
         })?;
         Ok(Box::new(factor))
     }
@@ -49,7 +57,7 @@ impl<T: Scalar> Symbolic<T> for Sparse {
 
 impl<T: Scalar> Factor<T> for multifrontal::Factor<T> {
     fn solve_in_place(&self, rhs: &mut [T], threads: usize) {
-        multifrontal::Factor::solve_in_place(self, rhs, threads);
+        multifrontal::Factor::solve_in_place(self, rhs, self::threads(threads));
     }
 
     fn negative_eigenvalues(&self) -> Option<usize> {

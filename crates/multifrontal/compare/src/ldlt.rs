@@ -2,19 +2,27 @@
 
 use crate::case::{Case, Number};
 use crate::round::{Report, Round, solves, timed};
-use multifrontal::{Options, Ordering, Symbolic};
+use multifrontal::{Options, Symbolic, Threads};
+use rayon::ThreadPoolBuilder;
+use std::time::Duration;
 
-/// One round with all its defaults.
+/// One round with all its defaults, in a pool of so many threads.
 ///
 /// # Errors
 /// What it says.
 pub fn round<T: Number>(case: &Case<T>, threads: usize) -> Result<Round<T>, String> {
+    if threads < 2 {
+        return round_on(case, Threads::One);
+    }
+    let pool = ThreadPoolBuilder::new().num_threads(threads).build().map_err(|error| error.to_string())?;
+    pool.install(|| round_on(case, Threads::Spinning(Duration::from_millis(1))))
+}
+
+fn round_on<T: Number>(case: &Case<T>, threads: Threads) -> Result<Round<T>, String> {
     let (n, pattern) = (case.dim(), &case.pattern);
-    let (symbolic, analysis) = timed(|| {
-        Symbolic::with_threads(n, pattern.col_ptr(), pattern.row_idx(), &Ordering::default(), threads)
-    });
+    let options = Options::default().with_threads(threads);
+    let (symbolic, analysis) = timed(|| Symbolic::new(n, pattern.col_ptr(), pattern.row_idx(), &options));
     let symbolic = symbolic.map_err(|error| error.to_string())?;
-    let options = Options { threads, ..Options::default() };
     let (outcome, factor) = timed(|| symbolic.factor(&case.values, &options));
     let factorised = outcome.map_err(|error| error.to_string())?;
     let solve = |x: &mut [T]| {

@@ -1,4 +1,4 @@
-//! Where the time goes: C −= L D Lᵀ on the lower packed_lower of a front, in registers.
+//! Where the time goes: C −= L D Lᵀ on the lower triangle of a front, in registers.
 //!
 //! A complex product is three real ones ([`Scalar::PRODUCTS`]), so packed copies hold a plane for each. Every
 //! entry of C is made by the same operations in the same order, however the strips are shared out to threads.
@@ -24,7 +24,7 @@ pub(crate) const TILES_PER_RUN: usize = 4;
 /// Products below which another thread costs more than it brings: some tens of microseconds.
 const MIN_SHARED_KERNEL_PRODUCTS: usize = 1_000_000;
 
-/// Neighbouring columns of a lower packed_lower, from the diagonal of the first downwards.
+/// Neighbouring columns of a lower triangle, from the diagonal of the first downwards.
 pub(crate) struct Strip<'a, T: Scalar> {
     /// Its first column, and the row at which its values begin.
     pub(crate) first: usize,

@@ -9,7 +9,8 @@ pub(crate) use graph::Graph;
 
 use crate::symbolic::{Lower, Ordering};
 use crate::threads::both;
-use dissection::{Begun, MIN_SHARED_VERTICES};
+use dissection::Begun;
+pub(crate) use dissection::MIN_SHARED_VERTICES;
 use feral_amd::{CscPattern, amd_order};
 
 /// From this many operations an edge on an order is compared with the other one. Both take about as long as

@@ -1,7 +1,7 @@
 //! Right-hand sides side by side: a register holds those of one row, so that every number of L is met once.
 
 use super::{COLUMNS_PER_PASS, Columns, InStrip, Step, pieces, shares};
-use crate::scalar::{Real, Scalar};
+use crate::scalar::{Number, Real, Scalar};
 use crate::threads::each;
 use pulp::{Simd, WithSimd};
 use std::marker::PhantomData;
@@ -54,7 +54,7 @@ impl<W: Shaped> WithSimd for InShape<W> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
         // Constant, so that only one of them is compiled.
-        if const { registers::<<W::Scalar as Scalar>::Real, S>() == 1 } {
+        if const { registers::<<W::Scalar as Number>::Real, S>() == 1 } {
             self.0.run::<S, 1, 8>(simd)
         } else {
             self.0.run::<S, 2, 2>(simd)
@@ -255,7 +255,7 @@ fn add<T: Scalar, S: Simd, const V: usize>(simd: S, y: &mut [T::Real], to: usize
     store::<T, S, V>(y, to, sum);
 }
 
-/// Solves with the packed_lower of a block of columns.
+/// Solves with the triangle of a block of columns.
 #[inline(always)]
 fn packed_lower<T: Scalar, S: Simd, const V: usize>(
     simd: S,

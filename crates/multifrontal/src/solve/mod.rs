@@ -12,7 +12,7 @@ use crate::kernel::STRIP_COLUMNS;
 use crate::memory::Memory;
 use crate::packed_lower::{PackedLower, top};
 use crate::scalar::Scalar;
-use crate::threads::{each, map, with};
+use crate::threads::{Threads, each, map};
 use many::Shaped;
 use std::ops::Range;
 
@@ -142,7 +142,7 @@ impl<T: Scalar> Factor<T> {
     ///
     /// # Limits
     /// Nothing is checked or refined here.
-    pub fn solve_in_place(&self, rhs: &mut [T], threads: usize) {
+    pub fn solve_in_place(&self, rhs: &mut [T], threads: Threads) {
         T::solve(self, rhs, threads);
     }
 
@@ -289,19 +289,18 @@ impl<T: Scalar> Together<'_, T> {
     }
 }
 
-pub(crate) fn solve<T: Scalar>(factor: &Factor<T>, rhs: &mut [T], threads: usize) {
+pub(crate) fn solve<T: Scalar>(factor: &Factor<T>, rhs: &mut [T], threads: Threads) {
     let dim = factor.dim();
     if dim == 0 || rhs.is_empty() {
         return;
     }
     assert_eq!(rhs.len() % dim, 0, "whole right-hand sides");
     let numbers: usize = factor.nodes.iter().map(Node::numbers).sum();
-    let threads = if numbers < MIN_SHARED_FACTOR_NUMBERS { 1 } else { threads.max(1) };
     let together = many::lanes::<T::Real>();
-    with(threads, || {
+    threads.if_worth(numbers >= MIN_SHARED_FACTOR_NUMBERS).run(|team| {
         for some in rhs.chunks_mut(dim * together) {
             let lanes = if some.len() == dim { 1 } else { together };
-            factor.solve_together(some, lanes, threads);
+            factor.solve_together(some, lanes, team.size);
         }
     });
 }

@@ -148,7 +148,7 @@ fn put<T: Scalar>(local: &mut [T::Real], row: usize, parts: [T::Real; 2]) {
     local[row * T::PARTS..][..T::PARTS].copy_from_slice(&parts[..T::PARTS]);
 }
 
-/// Solves with the packed_lower of a block of columns.
+/// Solves with the triangle of a block of columns.
 #[inline(always)]
 fn packed_lower<T: Scalar>(
     node: Columns<'_, T>,

@@ -13,7 +13,6 @@ use crate::factor::Node;
 use crate::ordering;
 use crate::packed_lower::PackedLower;
 use crate::scalar::Scalar;
-use crate::threads::with;
 use std::ops::Range;
 
 /// Marks a front without parent.
@@ -21,6 +20,7 @@ pub(crate) const NO_PARENT: usize = usize::MAX;
 
 /// How rows are ordered for elimination.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub enum Ordering {
     /// Minimum degree or nested dissection of the compressed graph, whichever costs fewer operations.
     #[default]
@@ -92,35 +92,25 @@ pub struct Symbolic {
 }
 
 impl Symbolic {
-    /// Analyses the lower packed_lower of a symmetric n × n matrix, stored by columns.
+    /// Analyses the lower triangle of a symmetric n × n matrix, stored by columns: `col_ptr[j]..col_ptr[j + 1]` are the
+    /// places of column j in `row_idx`. Rows may come in any order; an entry that comes twice counts twice.
     ///
     /// # Errors
-    /// [`PatternError`] where the columns do not make a lower packed_lower, or are too many.
+    /// [`PatternError`] where the columns do not make a lower triangle, or are too many, or where
+    /// [`Ordering::Given`] is no permutation.
     pub fn new(
         dim: usize,
         col_ptr: &[usize],
         row_idx: &[usize],
-        ordering: &Ordering,
-    ) -> Result<Self, PatternError> {
-        Self::with_threads(dim, col_ptr, row_idx, ordering, 1)
-    }
-
-    /// The same by several threads; what comes of it does not depend on how many there are.
-    ///
-    /// # Errors
-    /// As [`Symbolic::new`].
-    pub fn with_threads(
-        dim: usize,
-        col_ptr: &[usize],
-        row_idx: &[usize],
-        ordering: &Ordering,
-        threads: usize,
+        options: &Options,
     ) -> Result<Self, PatternError> {
         let pattern = Lower::new(dim, col_ptr, row_idx)?;
+        let ordering = &options.ordering;
         if let Ordering::Given(order) = ordering {
             pattern::check_permutation(dim, order)?;
         }
-        let (graph, elimination) = with(threads, || ordering::order(&pattern, ordering, threads));
+        let threads = options.threads.if_worth(dim >= ordering::MIN_SHARED_VERTICES);
+        let (graph, elimination) = threads.run(|team| ordering::order(&pattern, ordering, team.size));
         Ok(fronts::build(&pattern, &graph, &elimination).unwrap_or_else(|| {
             // Two rows were taken for alike that are not: every row for itself then.
             let order = graph.rows_in(elimination.steps());
@@ -196,9 +186,9 @@ impl Symbolic {
         pattern + entries + tree + rows + size_of_val(&*self.fronts) + size_of_val(&*self.subtrees)
     }
 
-    /// As many threads as are asked for, where another one brings more than it costs.
-    pub(crate) fn threads(&self, options: &Options) -> usize {
-        if self.flops() < costs::MIN_SHARED_MULTIPLICATIONS { 1 } else { options.threads.max(1) }
+    /// Whether another thread brings more than it costs to a factorisation.
+    pub(crate) fn is_worth_sharing(&self) -> bool {
+        self.flops() >= costs::MIN_SHARED_MULTIPLICATIONS
     }
 
     /// Multiplications of each front and all below it.

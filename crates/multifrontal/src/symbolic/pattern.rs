@@ -1,8 +1,8 @@
-//! Where the entries of a lower packed_lower are.
+//! Where the entries of a lower triangle are.
 
 use std::fmt;
 
-/// Positions of a lower packed_lower by columns.
+/// Positions of a lower triangle by columns.
 #[derive(Debug, Clone)]
 pub(crate) struct Lower {
     pub(crate) dim: usize,
@@ -12,6 +12,7 @@ pub(crate) struct Lower {
 
 /// What is wrong with a pattern or a permutation.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum PatternError {
     /// `col_ptr` must have n + 1 entries that begin with 0, do not descend, and end with the number of rows given.
     Columns,
@@ -38,7 +39,7 @@ impl fmt::Display for PatternError {
                 )
             }
             Self::Row { col, row } => {
-                write!(f, "column {col}: expected rows of the lower packed_lower, found row {row}")
+                write!(f, "column {col}: expected rows of the lower triangle, found row {row}")
             }
             Self::Permutation(row) => {
                 write!(f, "order: expected every row once, found otherwise for row {row}")

@@ -1,7 +1,8 @@
 //! Matrices for tests.
 #![allow(dead_code, reason = "each test file uses a part of it")]
 
-use multifrontal::{Ordering, Scalar, Symbolic};
+use multifrontal::{Options, Ordering, Scalar, Symbolic};
+use rayon::ThreadPoolBuilder;
 
 /// Lower triangle of a matrix by columns.
 pub(crate) struct Lower<T> {
@@ -27,7 +28,8 @@ impl<T: Scalar> Lower<T> {
     }
 
     pub(crate) fn symbolic(&self, ordering: &Ordering) -> Symbolic {
-        Symbolic::new(self.dim, &self.col_ptr, &self.row_idx, ordering).unwrap()
+        let options = Options::default().with_ordering(ordering.clone());
+        Symbolic::new(self.dim, &self.col_ptr, &self.row_idx, &options).unwrap()
     }
 
     pub(crate) fn times(&self, x: &[T]) -> Vec<T> {
@@ -60,6 +62,11 @@ impl<T: Scalar> Lower<T> {
         let residual: Vec<T> = self.times(x).iter().zip(b).map(|(&y, &b)| b - y).collect();
         size(&residual) / (norm * size(x) + size(b))
     }
+}
+
+/// Runs in a pool of so many threads.
+pub(crate) fn in_pool<O: Send>(threads: usize, run: impl FnOnce() -> O + Send) -> O {
+    ThreadPoolBuilder::new().num_threads(threads).build().unwrap().install(run)
 }
 
 /// Numbers without order between −1 and 1.

@@ -41,7 +41,7 @@ const DENSE_ROW_MULTIPLE: f64 = 10.0;
 const SHARED_CUTS: usize = 4;
 
 /// Parts of fewer vertices are not worth another thread.
-pub(super) const MIN_SHARED_VERTICES: usize = 1000;
+pub(crate) const MIN_SHARED_VERTICES: usize = 1000;
 
 /// A dissection after its first cuts.
 pub(super) struct Begun<'a> {
