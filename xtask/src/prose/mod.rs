@@ -23,13 +23,7 @@ struct Fault {
 
 /// Files, or beginnings of their paths, that are not written by these rules yet: their faults are counted and do not
 /// fail. Shorten this list, and do not lengthen it.
-const NOT_YET: [&str; 5] = [
-    "CHANGELOG.md",
-    "crates/multifrontal/",
-    "docs/open-",
-    "docs/site/src/python-api.md",
-    "docs/site/src/python.md",
-];
+const NOT_YET: [&str; 3] = ["docs/open-", "docs/site/src/python-api.md", "docs/site/src/python.md"];
 
 /// Documents outside of `docs` and `crates`.
 const SINGLE: [&str; 6] =
