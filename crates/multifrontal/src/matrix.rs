@@ -322,7 +322,7 @@ impl Symbolic {
     /// Analyses the pattern of a matrix, as [`Symbolic::new`] does.
     ///
     /// # Errors
-    /// As [`Symbolic::new`]; of the pattern itself only [`PatternError::TooLarge`].
+    /// [`PatternError::TooLarge`]; [`PatternError::Permutation`] of an order that is given.
     pub fn of<T: Scalar>(matrix: &SymmetricMatrix<T>, options: &Options) -> Result<Self, PatternError> {
         Self::new(matrix.dim(), &matrix.col_ptr, &matrix.row_idx, options)
     }

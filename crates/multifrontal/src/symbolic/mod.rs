@@ -93,7 +93,8 @@ pub struct Symbolic {
 
 impl Symbolic {
     /// Analyses the lower triangle of a symmetric n × n matrix, stored by columns: `col_ptr[j]..col_ptr[j + 1]` are the
-    /// places of column j in `row_idx`. Rows may come in any order; an entry that comes twice counts twice.
+    /// places of column j in `row_idx`. Rows may come in any order, and each once: [`SymmetricMatrix`](crate::SymmetricMatrix) adds
+    /// up what comes several times.
     ///
     /// # Errors
     /// [`PatternError`] where the columns do not make a lower triangle, or are too many, or where

@@ -23,6 +23,13 @@ pub enum PatternError {
         /// The row.
         row: usize,
     },
+    /// An entry that comes twice.
+    Repeated {
+        /// Its column.
+        col: usize,
+        /// Its row.
+        row: usize,
+    },
     /// An order that is no permutation of the rows: the first row that is missing, repeated or outside.
     Permutation(usize),
     /// More than 2³² − 1 rows or entries.
@@ -40,6 +47,9 @@ impl fmt::Display for PatternError {
             }
             Self::Row { col, row } => {
                 write!(f, "column {col}: expected rows of the lower triangle, found row {row}")
+            }
+            Self::Repeated { col, row } => {
+                write!(f, "column {col}: expected each row once, found row {row} again")
             }
             Self::Permutation(row) => {
                 write!(f, "order: expected every row once, found otherwise for row {row}")
@@ -60,11 +70,16 @@ impl Lower {
         if col_ptr.len() != dim + 1 || !ends || !col_ptr.is_sorted() {
             return Err(PatternError::Columns);
         }
+        // The last column that had each row.
+        let mut seen = vec![usize::MAX; dim];
         for col in 0..dim {
-            if let Some(&row) =
-                row_idx[col_ptr[col]..col_ptr[col + 1]].iter().find(|&&row| row < col || row >= dim)
-            {
-                return Err(PatternError::Row { col, row });
+            for &row in &row_idx[col_ptr[col]..col_ptr[col + 1]] {
+                if row < col || row >= dim {
+                    return Err(PatternError::Row { col, row });
+                }
+                if std::mem::replace(&mut seen[row], col) == col {
+                    return Err(PatternError::Repeated { col, row });
+                }
             }
         }
         // Checked above: every row fits.
