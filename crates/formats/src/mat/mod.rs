@@ -5,7 +5,7 @@
 //! of a full matrix by columns, or rows, column pointers and values of a sparse one; imaginary parts are apart. Values are stored
 //! as the smallest type that holds them.
 //!
-//! [`write`] writes sparse matrices as version 5 has them.
+//! [`write()`] writes sparse matrices as version 5 has them.
 //!
 //! # Limits
 //! Read are full and sparse numeric matrices, real and complex, and those in the fields of a structure, as
