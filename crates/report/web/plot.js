@@ -142,15 +142,18 @@ async function draw(plot) {
   placeMark(plot);
 }
 
-/** One after the other, so that the page stays awake. */
+/** One after the other, so that the page stays awake; what is asked for last is what is drawn. */
 let drawing = Promise.resolve();
+let asked = 0;
 function drawAll() {
+  const turn = ++asked;
   drawing = drawing.then(async () => {
     for (const plot of plots) {
+      if (turn !== asked) return;
       await draw(plot);
       await new Promise((next) => setTimeout(next));
     }
-    root.dataset.drawn = "true";
+    if (turn === asked) root.dataset.drawn = "true";
   });
   return drawing;
 }
