@@ -62,11 +62,10 @@ impl CompressedColumns {
             Entries::Complex(_) => true,
         };
         let entries = entries(matrix);
-        let short = |n: usize| {
-            let expected = "rows, columns and entries below 2^31";
-            i32::try_from(n).map_err(|_| FormatError::whole(expected, n.to_string()))
-        };
-        let (_, _, _) = (short(matrix.nrows)?, short(matrix.ncols)?, short(entries.len())?);
+        let counts = [matrix.nrows, matrix.ncols, entries.len()];
+        if let Some(count) = counts.into_iter().find(|&count| i32::try_from(count).is_err()) {
+            return Err(FormatError::whole("rows, columns and entries below 2^31", count.to_string()));
+        }
         let mut ends = vec![0; matrix.ncols + 1];
         entries.iter().for_each(|entry| ends[entry.col + 1] += 1);
         (1..ends.len()).for_each(|k| ends[k] += ends[k - 1]);

@@ -68,7 +68,7 @@ fn what_is_no_symmetric_matrix_is_refused() {
     assert_eq!(csc(&[0, 1, 2], &[0, 0], &[1.0; 2]), MatrixError::Unsymmetric { row: 1, col: 0 });
     let huge = SymmetricMatrix::from_csc(usize::MAX, Triangle::Lower, &[], &[], &[1.0; 0]);
     assert_eq!(huge.unwrap_err(), MatrixError::Columns);
-    // Another order of a sum is no fault, and a place that only one triangle has is none if it is zero.
+    // Sums in another order differ by roundoff. A place that only one triangle has must hold a zero.
     let rounded = [(0, 0, 3.0), (1, 0, 0.1 + 0.2), (0, 1, 0.3), (2, 1, 0.0), (2, 2, 1.0)];
     let matrix = SymmetricMatrix::from_triplets(3, Triangle::Both, rounded).unwrap();
     assert_eq!((matrix.row_idx(), matrix.values()), (&[0, 1, 2, 2][..], &[3.0, 0.1 + 0.2, 0.0, 1.0][..]));

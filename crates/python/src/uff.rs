@@ -9,6 +9,7 @@ use frfit_formats::uff::{
 };
 use frfit_workflow::Reads;
 use frfit_workflow::error::InputError;
+use frfit_workflow::load::{Frf, read_frfs};
 use frfit_workflow::output;
 use numpy::{Complex64, IntoPyArray, PyArray1, PyArrayMethods, PyReadonlyArray1};
 use pyo3::prelude::*;
@@ -84,6 +85,25 @@ impl UffFile {
                 one.set_item("quantities", quantities)?;
                 one.set_item("units", function.units)?;
             }
+            list.append(one)?;
+        }
+        Ok(list)
+    }
+
+    /// The FRFs with these numbers, from 1, as a case file gets them: values in SI units, with their noise.
+    fn frfs<'py>(&self, py: Python<'py>, records: Vec<i64>) -> PyResult<Bound<'py, PyList>> {
+        let bytes = self.bytes.bind(py).readonly();
+        let bytes = bytes.as_slice()?;
+        let frfs = at_once(py, || read_frfs(bytes, &records))?.map_err(|error| self.refuse(py, error))?;
+        let list = PyList::empty(py);
+        for Frf { frequency_hz, response, coherence, std, quantity, decay_per_s, .. } in frfs {
+            let one = PyDict::new(py);
+            one.set_item("frequency_hz", frequency_hz.into_pyarray(py))?;
+            one.set_item("response", response.into_pyarray(py))?;
+            one.set_item("coherence", coherence.map(|values| values.into_pyarray(py)))?;
+            one.set_item("std", std.map(|values| values.into_pyarray(py)))?;
+            one.set_item("quantity", quantity.map(|quantity| quantity.name()))?;
+            one.set_item("decay_per_s", decay_per_s)?;
             list.append(one)?;
         }
         Ok(list)

@@ -126,16 +126,7 @@ pub(crate) fn fit(
     only: Option<(String, String)>,
     out: Option<PathBuf>,
 ) -> PyResult<(String, Vec<Fitted>)> {
-    let mut kinds: Vec<LawKind> = Vec::new();
-    for name in &laws {
-        let kind = word(py, "laws", name)?;
-        if !kinds.contains(&kind) {
-            kinds.push(kind);
-        }
-    }
-    if kinds.is_empty() {
-        kinds = LawKind::ALL.to_vec();
-    }
+    let kinds = laws.iter().map(|name| word(py, "laws", name)).collect::<PyResult<Vec<LawKind>>>()?;
     let found = in_background(py, None, move |_| {
         let only = only.as_ref().map(|(column, value)| (column.as_str(), value.as_str()));
         fit_table(&table, only, &kinds, out.as_deref())

@@ -169,11 +169,12 @@ def test_files_that_say_too_little_or_something_else_are_refused(chain, tmp_path
     refused("found none, and 1 function of other types", frfit.UffFunction(F, F, function_type=6, **at))
     refused("found several, and driven_at says not which among 2 records", plain, plain)
     wrong = frfit.UffFunction(F, F, function_type=6, **at)
-    refused("expected coherences from 0 to 1, found 4.0", plain, wrong)
+    error = refused("expected coherences from 0 to 1, found 4", plain, wrong)
+    assert error.found == "4"
     window = frfit.UffFunction(F, plain.values, id=("decay_per_s = six",), **at)
     refused("decay_per_s = a number of 1/s from 0 on in an ID line", window)
     # m/s^2 in the label and millimetres in the units: 1000 would pass for physics.
-    refused('agree with the label "m/s^2", found unit factors 1000.0 of length', plain, before=MILLIMETRES)
+    refused('agree with the label "m/s^2", found unit factors 1000 of length', plain, before=MILLIMETRES)
     metres = MILLIMETRES.replace("1.00000000000000000D+03", "1.00000000000000000D+00")
     refused("the same units throughout the file", frfit.UffFunction(F, plain.values, **at), before=MILLIMETRES + metres)
 

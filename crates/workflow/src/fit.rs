@@ -28,7 +28,7 @@ pub struct FitJob {
     pub text: String,
 }
 
-/// Fits laws to a table of moduli, or of it the rows with a value in a column (`only`), and writes `law.json` and a figure into `out`, if there is one: all of them, or nothing.
+/// Fits laws, each once and all where none is named, to a table of moduli, or of it the rows with a value in a column (`only`), and writes `law.json` and a figure into `out`, if there is one: all of them, or nothing.
 ///
 /// With columns `storage_std` and `loss_factor_std` χ² is in their units; without them every modulus counts relative to its size, and the scatter about the law gives
 /// the standard deviations.
@@ -56,11 +56,17 @@ pub fn fit_table(
         Some(units) if !data.names_unit => units,
         _ => TableUnits { system: UnitSystem::Si, factor: FactorUnit::Modulus(UnitSystem::Si) },
     };
+    let mut wanted: Vec<LawKind> = Vec::new();
+    for &kind in if kinds.is_empty() { &LawKind::ALL } else { kinds } {
+        if !wanted.contains(&kind) {
+            wanted.push(kind);
+        }
+    }
     let points = points(&data);
     let fits: Vec<LawFit> =
-        kinds.iter().filter_map(|&family| fit_modulus(&points, family, data.std.is_some())).collect();
+        wanted.iter().filter_map(|&family| fit_modulus(&points, family, data.std.is_some())).collect();
     if fits.is_empty() {
-        let least = kinds.iter().map(|family| family.count()).min().unwrap_or(0);
+        let least = wanted.iter().map(|family| family.count()).min().unwrap_or(0);
         let expected = format!("at least {} moduli, for {least} parameters", least.div_ceil(2));
         return Err(InputError::at(&Place::file(table), expected, data.storage.len().to_string()).into());
     }

@@ -7,15 +7,7 @@ use frfit::laws::LawKind;
 use frfit_workflow::fit::fit_table;
 
 pub(crate) fn run(args: &Args, wanted: &Fit) -> Result<Outcome, Failure> {
-    let mut kinds: Vec<LawKind> = Vec::new();
-    for &family in wanted.laws.iter().flat_map(|laws| &laws.0) {
-        if !kinds.contains(&family) {
-            kinds.push(family);
-        }
-    }
-    if kinds.is_empty() {
-        kinds = LawKind::ALL.to_vec();
-    }
+    let kinds: Vec<LawKind> = wanted.laws.iter().flat_map(|laws| &laws.0).copied().collect();
     let only = wanted.only.as_ref().map(|(column, value)| (column.as_str(), value.as_str()));
     let job = fit_table(&wanted.table, only, &kinds, wanted.out.as_deref())?;
     if args.json {

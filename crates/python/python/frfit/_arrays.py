@@ -59,7 +59,7 @@ def nearest(text: str, names: Iterable[str]) -> str | None:
 
 
 def hinted(text: str, names: Iterable[str]) -> str:
-    """A text that is none of the names, with the nearest of them."""
+    """An unknown word as an error shows it, with the nearest known one."""
     near = nearest(text, names)
     quoted = f'"{shown(text)[1:-1]}"'
     return quoted if near is None else f'{quoted} ("{near}" is nearest)'

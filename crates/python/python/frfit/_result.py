@@ -140,10 +140,14 @@ class Estimate:
         """The numbers that matter: those of the band, or medians of the frequencies that are trusted."""
         if self.numbers:
             return some((f"{number.name} {with_std(number.value, number.std)}" for number in self.numbers), 8)
-        said = [("storage", self.storage, self.storage_std)]
+        return ", ".join(f"{name} {value}" for name, value in self._typical(where))
+
+    def _typical(self, where: Flags) -> list[tuple[str, str]]:
+        """Names and medians of what varies over the band."""
+        curves = [("storage", self.storage, self.storage_std)]
         if not self.real:
-            said.append(("loss_factor", self.loss_factor, self.loss_factor_std))
-        return ", ".join(f"{name} {with_std(*typical(values, stds, where))}" for name, values, stds in said)
+            curves.append(("loss_factor", self.loss_factor, self.loss_factor_std))
+        return [(name, with_std(*typical(values, stds, where))) for name, values, stds in curves]
 
     def __repr__(self) -> str:
         kind = "median of " if not self.numbers else ""
@@ -369,6 +373,10 @@ class Identification:
         listed = sorted(zip(words.tolist(), counts.tolist(), strict=True), key=lambda one: (one[0] != "ok", -one[1]))
         return dict(listed)
 
+    def _statuses(self) -> str:
+        """The same in words."""
+        return ", ".join(f"{count} {word}" for word, count in self._counts().items())
+
     def _verdict(self) -> str:
         """Whether the model explains the band, in words."""
         explained = self.explained or "not tested"
@@ -386,9 +394,8 @@ class Identification:
         return ok if ok.any() else np.ones_like(ok)
 
     def __repr__(self) -> str:
-        statuses = ", ".join(f"{count} {word}" for word, count in self._counts().items())
         names = some(one.name for one in self.unknowns)
-        lines = [f"<frfit.Identification of {names} at {len(self)} frequencies: {statuses}"]
+        lines = [f"<frfit.Identification of {names} at {len(self)} frequencies: {self._statuses()}"]
         lines.append(f"  {span(self.frequency_hz)}, {counted(len(self.sensors), 'sensor')}; {self._verdict()}")
         for one in self.unknowns[:_SHOWN]:
             kind = "" if one.numbers else "median "
@@ -407,15 +414,9 @@ class Identification:
                     for number in one.numbers
                 ]
                 continue
-            where = self._where()
-            values = [("storage", one.storage, one.storage_std), ("loss_factor", one.loss_factor, one.loss_factor_std)]
-            rows += [
-                (one.name, one.varies, name, f"{with_std(*typical(column, stds, where))} (median)", "")
-                for name, column, stds in (values[:1] if one.real else values)
-            ]
-        statuses = ", ".join(f"{count} {word}" for word, count in self._counts().items())
+            rows += [(one.name, one.varies, name, f"{value} (median)", "") for name, value in one._typical(self._where())]
         title = f"Identification of {some(one.name for one in self.unknowns)}"
-        head = f"{len(self)} frequencies, {span(self.frequency_hz)}, {counted(len(self.sensors), 'sensor')}: {statuses}"
+        head = f"{len(self)} frequencies, {span(self.frequency_hz)}, {counted(len(self.sensors), 'sensor')}: {self._statuses()}"
         lines = [head, self._verdict(), *(finding.what for finding in self.findings[:_SHOWN])]
         table = html_table(("unknown", "varies", "number", "value ± std", "status"), rows[:_ROWS])
         return html_of(title, html_list(lines), table)

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import mmap
 import os
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -274,26 +273,8 @@ def write_uff(
     _frfit.write_uff(path, [plain(one) for one in found], flag(binary, "binary"))
 
 
-_FRF, _COHERENCE, _GENERAL = 4, 6, 0
-"""Types of functions."""
-
-_STD_LABEL = "Standard deviation"
-"""The label of a function that is the standard deviation of an FRF: the format has no type for it."""
-
-_QUANTITY = {8: "receptance", 11: "mobility", 12: "accelerance"}
-_OVER_FORCE = (0, 1, 9, 13)
-"""A force, or a denominator that says nothing."""
-
-_GRAVITY = 9.80665
-_INCH = 0.0254
-
-# Units of labels, in SI units: the words of the reader of case files.
-_UNITS = dict.fromkeys(("N", "Newton", "Newtons", "newton", "newtons", "m/s^2", "m/s²", "m/s2", "m/s/s", "m/s", "m"), 1.0)
-_UNITS |= dict.fromkeys(("mN", "mm/s^2", "mm/s²", "mm/s", "mm"), 1e-3)
-_UNITS |= dict.fromkeys(("um/s", "µm/s", "um", "µm"), 1e-6)
-_UNITS |= dict.fromkeys(("g", "gn", "g_n", "kgf"), _GRAVITY)
-_UNITS |= dict.fromkeys(("in/s^2", "in/s", "in"), _INCH)
-_UNITS |= {"kN": 1e3, "lbf": 0.45359237 * _GRAVITY, "mg": 1e-3 * _GRAVITY}
+_FRF = "frequency response function"
+"""The word for its type."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -315,43 +296,40 @@ def frfs_of(path: str | os.PathLike[str], names: Sequence[str], driven_at: Any =
     file = Uff(path)
     where = os.fspath(path)
 
-    def refused(expected: str, found: str, line: int | None = None) -> InputError:
-        place = f"{where}, line {line}" if line else where
-        error = InputError(f"{place}: expected {expected}, found {found}")
-        error.file, error.line, error.expected, error.found = where, line, expected, found
+    def refused(expected: str, found: str) -> InputError:
+        error = InputError(f"{where}: expected {expected}, found {found}")
+        error.file, error.line, error.expected, error.found = where, None, expected, found
         return error
 
     force = None if driven_at is None else _dof(driven_at, "driven_at")
-    frfs: list[tuple[int, UffSummary]] = []
-    others: list[tuple[int, UffSummary]] = []
-    for index, summary in enumerate(file.datasets):
-        if summary.is_function:
-            (frfs if summary.function_type == _name_of(_FRF) else others).append((index, summary))
+    functions = [dataset for dataset in file.datasets if dataset.is_function]
+    frfs = [function for function in functions if function.function_type == _FRF]
     if not frfs:
         expected = "a frequency response function (dataset 58 of function type 4)"
-        raise refused(expected, f"none, and {counted(len(others), 'function')} of other types")
-    found = {}
-    for name in names:
-        wanted = _dof(name, "dofs")
-        fitting = [one for one in frfs if _same(one[1].response_dof, wanted)]
-        if force is not None:
-            fitting = [one for one in fitting if _same(one[1].reference_dof, force)]
+        raise refused(expected, f"none, and {counted(len(functions), 'function')} of other types")
+    wanted = {name: _dof(name, "dofs") for name in names}
+    chosen = []
+    for dof in wanted.values():
+        fitting = [
+            record
+            for record, one in enumerate(frfs, 1)
+            if one.response_dof == dof.name and (force is None or one.reference_dof == force.name)
+        ]
         if len(fitting) != 1:
-            listed = some((f"{one.response_dof}/{one.reference_dof}" for _, one in frfs), 8)
+            listed = some((f"{one.response_dof}/{one.reference_dof}" for one in frfs), 8)
             said = "several, and driven_at says not which" if force is None else "several driven there"
             over = "" if force is None else f" over {force.name}"
             raise refused(
-                f"one frequency response function of {wanted.name}{over}",
+                f"one frequency response function of {dof.name}{over}",
                 f"{'none' if not fitting else said} among {counted(len(frfs), 'record')}: {listed}",
             )
-        index, summary = fitting[0]
-        found[name] = _frf_of_file(file, index, summary, others, wanted, refused)
+        chosen += fitting
+    found = {}
+    for (name, dof), record, read in zip(wanted.items(), chosen, file._file.frfs(chosen), strict=True):
+        quantities = frfs[record - 1].quantities
+        ordinate = f"{quantities[1]} over {quantities[2]}"
+        found[name] = FrfOfFile(**read, ordinate=ordinate, sign=1.0 if dof.direction >= 0 else -1.0)
     return found
-
-
-def _name_of(function_type: int) -> str:
-    """The words of the compiled part for a type."""
-    return {_FRF: "frequency response function", _COHERENCE: "coherence", _GENERAL: "general or unknown"}[function_type]
 
 
 def _dof(name: Any, key: str) -> UffDof:
@@ -361,124 +339,3 @@ def _dof(name: Any, key: str) -> UffDof:
         return UffDof.of(name)
     except InputError as error:
         raise refuse(key, error.expected, error.found) from None
-
-
-def _same(there: str, wanted: UffDof) -> bool:
-    """Whether a degree of freedom of a summary is the wanted one."""
-    return there == wanted.name
-
-
-def _frf_of_file(
-    file: Uff,
-    index: int,
-    summary: UffSummary,
-    others: Sequence[tuple[int, UffSummary]],
-    wanted: UffDof,
-    refused: Callable[..., InputError],
-) -> FrfOfFile:
-    frf, line = file.function(index), summary.line
-    axis = frf.abscissa_axis
-    if axis.quantity not in (0, 1, 18):
-        raise refused("an abscissa in Hz", summary.quantities[0], line)
-    if "rad" in axis.unit.lower():
-        raise refused("an abscissa in Hz", f'the unit "{axis.unit}"', line)
-    if frf.missing_points:
-        there = summary.points - frf.missing_points
-        raise refused(f"{summary.points} points, as the header says", str(there), line)
-    if not np.iscomplexobj(frf.values):
-        raise refused("complex values of an FRF", "real ones", line)
-    frequency_hz, response = real(frf.abscissa, "abscissa"), complex_(frf.values, "values")
-
-    def companion(function_type: int, label: str | None, expected: str, most: float) -> Real | None:
-        """The one real function between the same degrees of freedom at the same frequencies; none of several."""
-        fitting = []
-        for at, other in others:
-            own = (_name_of(function_type), summary.response_dof, summary.reference_dof)
-            if (other.function_type, other.response_dof, other.reference_dof) != own:
-                continue
-            function = file.function(at)
-            if label is not None and function.ordinate_axis.label != label:
-                continue
-            if np.iscomplexobj(function.values):
-                raise refused(f"{expected}, real", "complex ones", other.line)
-            values = real(function.values, "values")
-            if not np.array_equal(real(function.abscissa, "abscissa"), frequency_hz):
-                continue
-            # Written so that NaN fails too.
-            wrong = values[~((values >= 0.0) & (values <= most))]
-            if wrong.size:
-                raise refused(expected, str(wrong[0]), other.line)
-            fitting.append(values)
-        return fitting[0] if len(fitting) == 1 else None
-
-    std = companion(_GENERAL, _STD_LABEL, "standard deviations from 0 on", np.finfo(float).max)
-    coherence = companion(_COHERENCE, None, "coherences from 0 to 1", 1.0)
-    factor = _to_si(file, frf, refused)
-    if factor != 1.0:
-        response, std = response * factor, None if std is None else std * factor
-    over_force = frf.denominator_axis.quantity in _OVER_FORCE
-    return FrfOfFile(
-        frequency_hz=frequency_hz,
-        response=response,
-        std=std,
-        coherence=coherence,
-        quantity=_QUANTITY.get(frf.ordinate_axis.quantity) if over_force else None,
-        ordinate=f"{summary.quantities[1]} over {summary.quantities[2]}",
-        sign=1.0 if wanted.direction >= 0 else -1.0,
-        decay_per_s=_decay(frf, refused, line),
-    )
-
-
-def _decay(frf: UffFunction, refused: Callable[..., InputError], line: int) -> float | None:
-    """What the ID lines say about an exponential window."""
-    for text in frf.id:
-        said = re.fullmatch(r"\s*decay_per_s\s*=\s*(.*?)\s*", text)
-        if not said:
-            continue
-        try:
-            value = float(said[1])
-        except ValueError:
-            value = -1.0
-        if not 0.0 <= value < np.inf:
-            raise refused("decay_per_s = a number of 1/s from 0 on in an ID line", f'"{text.strip()}"', line)
-        return value
-    return None
-
-
-_DATASET_164 = re.compile(rb"^    -1[ \t\r]*\n(?:[ \t\r]*\n)*[ ]{3}164[ \t\r]*\n[^\n]*\n([^\n]*)", flags=re.MULTILINE)
-
-
-def _to_si(file: Uff, frf: UffFunction, refused: Callable[..., InputError]) -> float:
-    """What the values of an FRF are multiplied by to be in SI units, as dataset 164 says; 1 without one."""
-    lines = [dataset.line for dataset in file.datasets if dataset.dataset == 164]
-    if not lines:
-        return 1.0
-    with open(file._path, "rb") as opened, mmap.mmap(opened.fileno(), 0, access=mmap.ACCESS_READ) as content:
-        texts = [found[1].decode("ascii", "replace") for found in _DATASET_164.finditer(content)]
-    if len(texts) != len(lines):
-        raise refused("units (dataset 164) where the datasets begin", f"{len(texts)} of {len(lines)}", lines[0])
-    said: dict[float, int] = {}
-    for text, line in zip(texts, lines, strict=True):
-        numbers = re.findall(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[EeDd][-+]?\d+)?", text)
-        if len(numbers) < 2:
-            raise refused("unit factors of length and force", f'"{text.strip()}"', line)
-        length, force = (float(one.upper().replace("D", "E")) for one in numbers[:2])
-        if not (0.0 < length < np.inf and 0.0 < force < np.inf):
-            raise refused("unit factors above 0", f"{length} of length and {force} of force", line)
-        # An angle is in rad, and a moment in force times length. SI is the value over the factor.
-        of_length = 1.0 if abs(frf.response_dof.direction) > 3 else length
-        of_force = force * length if abs(frf.reference_dof.direction) > 3 else force
-        factor = of_force / of_length
-        if abs(factor - 1.0) > 1e-6:
-            for axis, of_file in ((frf.ordinate_axis, of_length), (frf.denominator_axis, of_force)):
-                unit = _UNITS.get(axis.unit.strip().replace("\u03bc", "\u00b5"))
-                if unit is not None and abs(unit * of_file - 1.0) > 1e-6:
-                    expected = f'units of the file (dataset 164) that agree with the label "{axis.unit}"'
-                    raise refused(expected, f"unit factors {length} of length and {force} of force", line)
-        said[factor] = line
-    if len(said) > 1:
-        first, second = list(said.values())[:2]
-        raise refused("the same units throughout the file", f"other ones than in line {first}", second)
-    (factor,) = said
-    # Factors that are 1 but for rounding are 1.
-    return factor if abs(factor - 1.0) > 1e-6 else 1.0

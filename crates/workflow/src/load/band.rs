@@ -90,8 +90,10 @@ pub(super) fn band(
     };
     let of_first = frequencies(first, band_hz, place)?;
     let curves = || measurements.iter().filter_map(|measurement| measurement.curve.as_ref());
-    let is_common = |&&f: &&f64| curves().all(|curve| row_of(curve, f).is_ok());
-    let frequency_hz: Vec<f64> = of_first.iter().filter(is_common).copied().collect();
+    // The rows of a frequency in all curves, where all have it.
+    let rows_of =
+        |&f: &f64| Some((f, curves().map(|curve| row_of(curve, f).ok()).collect::<Option<Vec<_>>>()?));
+    let (frequency_hz, rows): (Vec<f64>, Vec<Vec<usize>>) = of_first.iter().filter_map(rows_of).unzip();
     if frequency_hz.is_empty() {
         return Err(none_common(curves(), first, &of_first));
     }
@@ -102,10 +104,11 @@ pub(super) fn band(
     for measurement in measurements {
         let Some(curve) = &measurement.curve else { continue };
         let frf = &curve.frf;
-        let rows: Vec<usize> = frequency_hz.iter().filter_map(|&f| row_of(curve, f).ok()).collect();
-        let picked = |column: &Vec<f64>| rows.iter().map(|&row| column[row]).collect::<Vec<_>>();
+        let sensor = known.len();
+        let rows = || rows.iter().map(|rows| rows[sensor]);
+        let picked = |column: &Vec<f64>| rows().map(|row| column[row]).collect::<Vec<_>>();
         let quantity = measurement.info.quantity;
-        for ((&row, &f), values) in rows.iter().zip(&frequency_hz).zip(&mut measured) {
+        for ((row, &f), values) in rows().zip(&frequency_hz).zip(&mut measured) {
             // A late channel has the phase e^{-iωτ}; what a window makes of its delay, e^{-ατ}, is part of the scale.
             let channel = c64::from_polar(curve.scale.abs(), omega_rad_s(f) * curve.delay_s);
             let response = curve.scale.signum() * channel * frf.response[row];
@@ -125,10 +128,9 @@ pub(super) fn band(
                 .collect()
         });
         let coherence: Option<Vec<f64>> = frf.coherence.as_ref().map(picked);
-        let column = known.len();
         let by_averages = |averages: usize| -> Option<Vec<f64>> {
             let values = coherence.as_ref()?.iter().zip(&measured);
-            Some(values.map(|(&gamma, u)| deviation(gamma, averages, u[column])).collect())
+            Some(values.map(|(&gamma, u)| deviation(gamma, averages, u[sensor])).collect())
         };
         known.push(std.or_else(|| by_averages(curve.averages?)));
         relative.push(by_averages(1));
@@ -154,10 +156,9 @@ fn deviation(coherence: f64, averages: usize, response: c64) -> f64 {
 
 /// The measurements have no frequency in common: the first that lacks one, and the nearest that it has.
 fn none_common<'c>(curves: impl Iterator<Item = &'c Curve>, first: &Curve, of_first: &[f64]) -> InputError {
-    let lacking = curves.flat_map(|curve| of_first.iter().map(move |&f| (curve, f, row_of(curve, f))));
+    let mut lacking = curves.flat_map(|curve| of_first.iter().map(move |&f| (curve, f, row_of(curve, f))));
     let (curve, f, nearest) = lacking
-        .filter_map(|(curve, f, row)| Some((curve, f, row.err()?)))
-        .next()
+        .find_map(|(curve, f, row)| Some((curve, f, row.err()?)))
         .expect("a frequency that is not common is lacking somewhere");
     let expected =
         format!("frequencies that all measurements have, such as {f} Hz of {}", first.file.path.display());

@@ -46,6 +46,7 @@ pub use overrides::Overrides;
 pub use sensitivities::SensitivitiesCase;
 pub(crate) use shared::SharedModels;
 pub(crate) use uff::STD_LABEL;
+pub use uff::read_frfs;
 
 use crate::case::{self, CaseFile, LoadEntry, Spot};
 use crate::error::InputError;

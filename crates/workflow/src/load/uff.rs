@@ -14,6 +14,16 @@ pub(super) fn read(bytes: &[u8], choice: &Choice) -> Result<Frf, FormatError> {
     Index::of(bytes)?.read(bytes, choice)
 }
 
+/// Reads the FRFs with these numbers, from 1, each as [`read_frf`](super::read_frf) does; the file is looked through once.
+///
+/// # Errors
+/// As [`read_frf`](super::read_frf).
+pub fn read_frfs(bytes: &[u8], records: &[i64]) -> Result<Vec<Frf>, FormatError> {
+    let index = Index::of(bytes)?;
+    let of = |&record: &i64| index.read(bytes, &Choice { record: Some(record), ..Choice::default() });
+    records.iter().map(of).collect()
+}
+
 /// What is where in a file: found once for all FRFs that are taken of it, and looked up for each.
 #[derive(Debug)]
 pub(super) struct Index {
