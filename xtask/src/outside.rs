@@ -1,6 +1,6 @@
-//! What some tests need from outside of the project: the data of ../shared/data, and modules of Python.
+//! What some tests need from outside of the project: the data of ../shared/data, modules of Python, MUMPS.
 //!
-//! Such a test is ignored by default, and its name ends with what it needs: `_needs_data`, `_needs_data_and_lvm_read`.
+//! Such a test is ignored by default, and its name ends with what it needs: `_needs_data`, `_needs_data_and_lvm_read`, `_needs_mumps`.
 
 use crate::python;
 use crate::step::{works, workspace};
@@ -35,6 +35,31 @@ pub(crate) struct Outside {
     pub(crate) absent: Vec<&'static str>,
 }
 
+/// Debian's packages of what `frfit-mumps` is made of.
+const MUMPS: [&str; 4] = ["libmumps-dev", "libopenmpi-dev", "openmpi-bin", "libopenblas-dev"];
+
+/// Installs MUMPS where that is possible: as root, by apt-get.
+pub(crate) fn install_mumps() {
+    if !works(Command::new("mpicc").arg("--version")) {
+        println!("── apt-get install {}", MUMPS.join(" "));
+        works(Command::new("apt-get").args(["install", "--yes", "--quiet"]).args(MUMPS));
+    }
+}
+
+/// Builds `frfit-mumps` where MPI, MUMPS and a way to start ranks are installed.
+fn mumps() -> Result<(), String> {
+    for program in ["make", "mpicc", "mpirun"] {
+        if !works(Command::new(program).arg("--version")) {
+            return Err(format!("no {program} (engines/mumps/README.md says how to install it)"));
+        }
+    }
+    let out = workspace().join("target/mumps");
+    std::fs::create_dir_all(&out).map_err(|error| format!("{}: {error}", out.display()))?;
+    let mut make = Command::new("make");
+    make.arg("-s").arg("-C").arg(workspace().join("engines/mumps")).arg(format!("OUT={}", out.display()));
+    if works(&mut make) { Ok(()) } else { Err("engines/mumps does not build here".into()) }
+}
+
 /// Looks for all of it, and says what is absent.
 pub(crate) fn look() -> Outside {
     let own = || python::interpreter().filter(|_| python::has_tools()).map(PathBuf::into_os_string);
@@ -45,6 +70,10 @@ pub(crate) fn look() -> Outside {
     if !data.is_dir() && std::env::var_os(REQUIRE_DATA).is_none() {
         println!("── tests that need the data are SKIPPED: no {}", data.display());
         absent.push("data");
+    }
+    if let Err(why) = mumps() {
+        println!("── tests that need MUMPS are SKIPPED: {why}");
+        absent.push("mumps");
     }
     let program = python.clone().unwrap_or_else(|| "python3".into());
     for (name, module) in MODULES {

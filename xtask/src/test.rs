@@ -43,6 +43,9 @@ pub(crate) fn all(tier: Tier) -> bool {
     if has_python && tier == Tier::Long {
         python::install_outside();
     }
+    if tier == Tier::Long {
+        outside::install_mumps();
+    }
     steps.push(tests(tier));
     if has_python {
         steps.extend(python::wheel());

@@ -4,6 +4,7 @@ use clap::{Parser, Subcommand};
 use frfit::laws::{LawKind, UnknownLawKind};
 use frfit_workflow::batch::Shard;
 use frfit_workflow::export::{Target, UnitSystem};
+use frfit_workflow::load;
 use frfit_workflow::sensitivities::Candidates;
 use std::path::PathBuf;
 
@@ -422,6 +423,24 @@ pub(crate) struct Overrides {
     /// First and last frequency in Hz, in place of the case's
     #[arg(long, value_name = "FROM:TO", value_parser = band)]
     pub(crate) band: Option<[f64; 2]>,
+    /// What factorises the matrices (multifrontal, mumps), in place of the case's
+    #[arg(long)]
+    pub(crate) engine: Option<String>,
+    /// Command that starts the ranks of mumps, such as "srun -n 64"
+    #[arg(long, value_name = "COMMAND")]
+    pub(crate) launch: Option<String>,
+}
+
+impl Overrides {
+    /// In place of what the case says.
+    pub(crate) fn of_case(&self) -> load::Overrides {
+        load::Overrides {
+            band_hz: self.band,
+            engine: self.engine.clone(),
+            launch: self.launch.clone(),
+            ..load::Overrides::default()
+        }
+    }
 }
 
 #[derive(Debug, clap::Args)]

@@ -79,9 +79,8 @@ fn head(job: &IdentifyJob, identify: &IdentifyCase) -> String {
 
 fn statuses(text: &mut Text, job: &IdentifyJob, identify: &IdentifyCase) {
     let run = &job.run;
-    if let Some(breakdown) = &run.found.search.breakdown {
-        let sentence = format!("the model has no real stand-in that can be factorised: {breakdown}");
-        text.warn("no answer", &sentence);
+    for (reason, count) in run.found.breakdowns() {
+        text.warn("no answer", &format!("at {count} frequencies: {reason}"));
     }
     let there = Status::ALL.into_iter().filter(|&status| run.count(status) > 0);
     let counts: Vec<String> =

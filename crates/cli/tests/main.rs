@@ -20,6 +20,7 @@ mod refusals;
 mod report;
 mod several;
 mod several_report;
+mod solver;
 #[path = "../../core/tests/tier/mod.rs"]
 mod tier;
 mod words;

@@ -22,10 +22,15 @@ pub struct MemoryError {
     pub available: u64,
     /// What takes them.
     pub what: String,
+    /// Why an engine elsewhere cannot hold a factor, where it is that.
+    pub engine: Option<String>,
 }
 
 impl fmt::Display for MemoryError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(words) = &self.engine {
+            return write!(f, "a model of {} degrees of freedom: {words}", self.dofs);
+        }
         let needed = self.needed.map_or("more than can be counted".into(), bytes);
         write!(
             f,
@@ -102,6 +107,10 @@ fn check(
     what: String,
     limit: Option<u64>,
 ) -> Result<(), MemoryError> {
+    let dofs = case.model.dim();
+    if let Err(Breakdown::Engine(words)) = factor {
+        return Err(MemoryError { dofs, needed: None, available: 0, what, engine: Some(words) });
+    }
     let Some(available) = limit.or_else(available) else { return Ok(()) };
     let needed = factor.ok().map(|FactorMemory { kept, scratch }| {
         let all = kept.saturating_mul(count).saturating_add(scratch).saturating_add(beside);
@@ -109,7 +118,7 @@ fn check(
     });
     match needed {
         Some(needed) if needed <= available => Ok(()),
-        _ => Err(MemoryError { dofs: case.model.dim(), needed, available, what }),
+        _ => Err(MemoryError { dofs, needed, available, what, engine: None }),
     }
 }
 

@@ -7,8 +7,7 @@ use frfit_workflow::check::{check_case, check_text};
 use frfit_workflow::load::Overrides;
 
 pub(crate) fn run(args: &Args, wanted: &Check) -> Result<Outcome, Failure> {
-    let overrides =
-        Overrides { band_hz: wanted.overrides.band, reduced: wanted.reduced.clone(), ..Overrides::default() };
+    let overrides = Overrides { reduced: wanted.reduced.clone(), ..wanted.overrides.of_case() };
     let job = check_case(&wanted.case, &overrides, wanted.memory.map(megabytes))?;
     if args.json {
         say_json(&job.json())?;

@@ -15,11 +15,11 @@ pub(crate) fn run(args: &Args, identify: &Identify) -> Result<Outcome, Failure> 
     let overrides = Overrides {
         method: identify.method.clone(),
         order: identify.order,
-        band_hz: identify.overrides.band,
+
         selection: identify.selection.clone(),
         reduction: identify.reduction.clone(),
         reduced: identify.reduced.clone(),
-        ..Overrides::default()
+        ..identify.overrides.of_case()
     };
     let options = RunOptions {
         error_map: identify.error_map,

@@ -5,13 +5,12 @@ use crate::args::{Args, Respond};
 use crate::outcome::{Failure, Outcome};
 use crate::progress::Progress;
 use frfit_workflow::job::respond_case;
-use frfit_workflow::load::Overrides;
 use frfit_workflow::output::Words;
 use frfit_workflow::terminal::short;
 use serde_json::json;
 
 pub(crate) fn run(args: &Args, respond: &Respond) -> Result<Outcome, Failure> {
-    let overrides = Overrides { band_hz: respond.overrides.band, ..Overrides::default() };
+    let overrides = respond.overrides.of_case();
     let progress = Progress::new(args.quiet || args.json);
     let memory = respond.memory.map(megabytes);
     let show = |done, total| progress.show(done, total);

@@ -3,11 +3,10 @@
 use super::{megabytes, say_json, say_words};
 use crate::args::{Args, Sensitivities};
 use crate::outcome::{Failure, Outcome};
-use frfit_workflow::load::Overrides;
 use frfit_workflow::sensitivities::{SensitivityOptions, sensitivities_case};
 
 pub(crate) fn run(args: &Args, wanted: &Sensitivities) -> Result<Outcome, Failure> {
-    let overrides = Overrides { band_hz: wanted.overrides.band, ..Overrides::default() };
+    let overrides = wanted.overrides.of_case();
     let options = SensitivityOptions {
         noise: wanted.noise,
         candidates: wanted.candidates.clone(),

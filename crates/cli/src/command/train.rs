@@ -8,8 +8,7 @@ use frfit_workflow::load::Overrides;
 use frfit_workflow::output::Words;
 
 pub(crate) fn run(args: &Args, train: &Train) -> Result<Outcome, Failure> {
-    let overrides =
-        Overrides { band_hz: train.overrides.band, reduced: train.reduced.clone(), ..Overrides::default() };
+    let overrides = Overrides { reduced: train.reduced.clone(), ..train.overrides.of_case() };
     let job = train_case(&train.case, &overrides, train.memory.map(megabytes), &train.out)?;
     let TrainJob { case, vectors, work, bytes, seconds } = &job;
     if args.json {

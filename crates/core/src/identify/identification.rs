@@ -91,6 +91,18 @@ impl Identification {
         explained && self.constants.iter().all(|value| value.status == Status::Ok)
     }
 
+    /// Why there is no answer: each reason once, and for how many lines it is. With several unknowns what breaks down is the search, and every line has its reason.
+    pub fn breakdowns(&self) -> Vec<(&Breakdown, usize)> {
+        let mut reasons: Vec<(&Breakdown, usize)> = Vec::new();
+        for breakdown in self.lines.iter().filter_map(|line| line.breakdown.as_ref()) {
+            match reasons.iter_mut().find(|(known, _)| *known == breakdown) {
+                Some((_, count)) => *count += 1,
+                None => reasons.push((breakdown, 1)),
+            }
+        }
+        reasons
+    }
+
     /// The largest estimated error of the reduced model's response over all values, relative to the measured one; `None` where
     /// the full model answered.
     pub fn reduction_error(&self) -> Option<f64> {

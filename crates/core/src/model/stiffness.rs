@@ -3,7 +3,7 @@
 use crate::c64;
 use crate::frequency::{laplace_per_s, squared};
 use crate::material::Law;
-use frfit_linalg::solve::Analysis;
+use frfit_linalg::solve::{Analysis, Engine, Multifrontal};
 use frfit_linalg::sparse::{Pattern, SymmetricMatrix};
 use std::fmt;
 
@@ -118,7 +118,15 @@ impl DynamicStiffness {
     ///
     /// # Errors
     /// [`ModelError`] for no terms, differing sizes or a name given twice.
-    pub fn new(mut terms: Vec<Term>) -> Result<Self, ModelError> {
+    pub fn new(terms: Vec<Term>) -> Result<Self, ModelError> {
+        Self::with_engine(terms, &Multifrontal)
+    }
+
+    /// The same with another engine for its factors.
+    ///
+    /// # Errors
+    /// As [`DynamicStiffness::new`]. What the engine itself has to say comes with the first factorisation.
+    pub fn with_engine(mut terms: Vec<Term>, engine: &dyn Engine) -> Result<Self, ModelError> {
         let Some(first) = terms.first() else { return Err(ModelError::Empty) };
         let sized = |term: &Term| (term.name.clone(), term.matrix.dim());
         if let Some(other) = terms.iter().find(|term| term.matrix.dim() != first.matrix.dim()) {
@@ -131,7 +139,7 @@ impl DynamicStiffness {
         }
         let patterns: Vec<_> = terms.iter().map(|term| term.matrix.pattern()).collect();
         let union = Pattern::union(&patterns);
-        let analysis = Analysis::new(&union);
+        let analysis = engine.analyse(&union);
         for term in &mut terms {
             term.matrix = term.matrix.on_pattern(&union);
         }

@@ -57,6 +57,8 @@ pub enum Breakdown {
     },
     /// The factor does not fit into memory.
     OutOfMemory,
+    /// The engine that computes factors elsewhere failed; its own words.
+    Engine(String),
 }
 
 impl fmt::Display for Breakdown {
@@ -73,6 +75,7 @@ impl fmt::Display for Breakdown {
                 write!(f, "the solution leaves a residual (backward error {backward_error:.1e})")
             }
             Self::OutOfMemory => write!(f, "the factor does not fit into memory"),
+            Self::Engine(words) => write!(f, "{words}"),
         }
     }
 }
@@ -122,7 +125,7 @@ impl<T: Scalar> CheckedFactor<T> {
             return Err(Breakdown::NotFinite);
         }
         let given = rhs.to_vec();
-        self.factor.solve_in_place(rhs, self.threads);
+        self.factor.solve_in_place(rhs, self.threads)?;
         let (residuals, errors) = self.residuals(&given, rhs)?;
         let inaccurate: Vec<usize> = (0..errors.len()).filter(|&k| errors[k] > REFINE_ABOVE).collect();
         let report = |backward_error| SolveReport { backward_error, condition_at_least: 0.0, refined: false };
@@ -131,7 +134,7 @@ impl<T: Scalar> CheckedFactor<T> {
             let of = |all: &[T]| inaccurate.iter().flat_map(|&k| &all[k * n..][..n]).copied().collect();
             let mut refined: Vec<T> = of(rhs);
             let mut corrections: Vec<T> = of(&residuals);
-            self.factor.solve_in_place(&mut corrections, self.threads);
+            self.factor.solve_in_place(&mut corrections, self.threads)?;
             refined.iter_mut().zip(&corrections).for_each(|(x, dx)| *x += *dx);
             let (_, errors) = self.residuals(&of(&given), &refined)?;
             for ((&k, x), backward_error) in inaccurate.iter().zip(refined.chunks_exact(n)).zip(errors) {

@@ -39,10 +39,11 @@ impl<T: Scalar> Symbolic<T> for DenseSymbolic {
 struct DenseFactor<T>(PartialPivLu<T>);
 
 impl<T: Scalar> Factor<T> for DenseFactor<T> {
-    fn solve_in_place(&self, rhs: &mut [T], _threads: usize) {
+    fn solve_in_place(&self, rhs: &mut [T], _threads: usize) -> Result<(), Breakdown> {
         let n = self.0.L().nrows();
         let columns = rhs.len() / n;
         self.0.solve_in_place_with_conj(Conj::No, MatMut::from_column_major_slice_mut(rhs, n, columns));
+        Ok(())
     }
 
     fn negative_eigenvalues(&self) -> Option<usize> {

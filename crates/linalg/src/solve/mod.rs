@@ -18,11 +18,14 @@
 
 mod checked;
 mod dense;
+mod engine;
 mod memory;
 mod sparse;
 
 pub use checked::{Breakdown, CheckedFactor, SolveReport};
+pub use engine::{Engine, Factor, Multifrontal, Symbolic};
 pub use memory::FactorMemory;
+pub use sparse::elimination_order;
 
 use crate::Scalar;
 use crate::sparse::Pattern;
@@ -33,49 +36,47 @@ use std::sync::Arc;
 /// (measured on full and on banded matrices: they break even between 40 and 80).
 pub const DENSE_LIMIT: usize = 48;
 
-/// What a back-end does with the numbers of a matrix whose pattern it has analysed.
-///
-/// Narrow on purpose: a new back-end is one file with these two traits.
-trait Symbolic<T>: Send + Sync {
-    /// Factor of the matrix with these values (in the order of the pattern).
-    fn factor(&self, values: &[T], threads: usize) -> Result<Box<dyn Factor<T>>, Breakdown>;
-    /// What `factor` will allocate.
-    fn memory(&self) -> Result<FactorMemory, Breakdown>;
-}
-
-/// A factorised matrix.
-trait Factor<T>: Send + Sync {
-    /// Overwrites k right-hand sides (n × k, column after column) with the solutions, unchecked.
-    fn solve_in_place(&self, rhs: &mut [T], threads: usize);
-    /// Eigenvalues below zero, where the back-end counts them.
-    fn negative_eigenvalues(&self) -> Option<usize>;
-}
-
 /// Everything about a pattern that no number changes: ordering and symbolic factorisations, done once
 /// for all frequencies and shared between threads. A clone shares it too.
 #[derive(Clone)]
 pub struct Analysis {
+    engine: Arc<str>,
     pattern: Arc<Pattern>,
     real: Arc<dyn Symbolic<f64>>,
     complex: Arc<dyn Symbolic<crate::c64>>,
 }
 
 impl Analysis {
-    /// Analyses a pattern, choosing the dense back-end up to [`DENSE_LIMIT`] unknowns.
+    /// Analyses a pattern by the engine of this process ([`Multifrontal`]).
     pub fn new(pattern: &Arc<Pattern>) -> Self {
-        if pattern.dim() <= DENSE_LIMIT { Self::dense(pattern) } else { Self::sparse(pattern) }
+        Multifrontal.analyse(pattern)
+    }
+
+    /// From what an engine has found of a pattern, for each of the two scalars.
+    pub fn of_engine(
+        engine: impl Into<Arc<str>>,
+        pattern: &Arc<Pattern>,
+        real: Arc<dyn Symbolic<f64>>,
+        complex: Arc<dyn Symbolic<crate::c64>>,
+    ) -> Self {
+        Self { engine: engine.into(), pattern: Arc::clone(pattern), real, complex }
     }
 
     /// The dense back-end, whatever the size.
     pub fn dense(pattern: &Arc<Pattern>) -> Self {
         let dense = || dense::DenseSymbolic::new(Arc::clone(pattern));
-        Self { pattern: Arc::clone(pattern), real: Arc::new(dense()), complex: Arc::new(dense()) }
+        Self::of_engine("dense", pattern, Arc::new(dense()), Arc::new(dense()))
     }
 
     /// The sparse back-end, whatever the size.
     pub fn sparse(pattern: &Arc<Pattern>) -> Self {
         let sparse = Arc::new(Sparse::new(pattern));
-        Self { pattern: Arc::clone(pattern), real: Arc::clone(&sparse) as _, complex: sparse }
+        Self::of_engine("multifrontal", pattern, Arc::clone(&sparse) as _, sparse)
+    }
+
+    /// What computes the factors: `multifrontal`, `dense`, or what another engine calls itself.
+    pub fn engine(&self) -> &str {
+        &self.engine
     }
 
     /// Number of unknowns n.
@@ -91,7 +92,7 @@ impl Analysis {
     /// Factorises the matrix with these values, in the order of the pattern, on one thread.
     ///
     /// # Errors
-    /// [`Breakdown`] where a value is not finite, the factorisation breaks down, or memory is short.
+    /// [`Breakdown`] where a value is not finite, the factorisation breaks down, memory is short, or the engine fails.
     ///
     /// # Panics
     /// Where there is not one value for each position.
@@ -119,7 +120,7 @@ impl Analysis {
     /// (see [`FactorMemory`]).
     ///
     /// # Errors
-    /// [`Breakdown::OutOfMemory`] where the symbolic factor does not fit.
+    /// [`Breakdown::OutOfMemory`] where the symbolic factor does not fit, [`Breakdown::Engine`] where the engine says more.
     pub fn factor_memory<T: HasSymbolic>(&self) -> Result<FactorMemory, Breakdown> {
         let mut memory = T::symbolic(self).memory()?;
         memory.kept = memory.kept.saturating_add(memory::bytes_of::<T>(self.pattern.stored()));
@@ -128,20 +129,17 @@ impl Analysis {
 }
 
 /// Which of the two symbolic factorisations a scalar uses.
-#[expect(private_interfaces, reason = "the back-end traits stay inside this module")]
 pub trait HasSymbolic: Scalar {
     #[doc(hidden)]
     fn symbolic(analysis: &Analysis) -> &dyn Symbolic<Self>;
 }
 
-#[expect(private_interfaces, reason = "the back-end traits stay inside this module")]
 impl HasSymbolic for f64 {
     fn symbolic(analysis: &Analysis) -> &dyn Symbolic<f64> {
         analysis.real.as_ref()
     }
 }
 
-#[expect(private_interfaces, reason = "the back-end traits stay inside this module")]
 impl HasSymbolic for crate::c64 {
     fn symbolic(analysis: &Analysis) -> &dyn Symbolic<crate::c64> {
         analysis.complex.as_ref()

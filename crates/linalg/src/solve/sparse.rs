@@ -17,6 +17,16 @@ fn threads(threads: usize) -> Threads {
     if threads < 2 { Threads::One } else { Threads::Spinning(SPIN) }
 }
 
+/// The order in which [`multifrontal`] eliminates the rows of a pattern: the k-th is row `order[k]`.
+///
+/// For an engine that takes an order: ours needs fewer operations than those that other solvers find.
+///
+/// # Errors
+/// [`Breakdown::OutOfMemory`] where the pattern has more rows or entries than 32 bits number.
+pub fn elimination_order(pattern: &Arc<Pattern>) -> Result<Vec<u32>, Breakdown> {
+    Ok(Sparse::new(pattern).symbolic()?.order().to_vec())
+}
+
 /// Ordering and fronts of a pattern, found when first needed and shared by real and complex matrices.
 pub(super) struct Sparse {
     pattern: Arc<Pattern>,
@@ -56,8 +66,9 @@ impl<T: Scalar> Symbolic<T> for Sparse {
 }
 
 impl<T: Scalar> Factor<T> for multifrontal::Factor<T> {
-    fn solve_in_place(&self, rhs: &mut [T], threads: usize) {
+    fn solve_in_place(&self, rhs: &mut [T], threads: usize) -> Result<(), Breakdown> {
         multifrontal::Factor::solve_in_place(self, rhs, self::threads(threads));
+        Ok(())
     }
 
     fn negative_eigenvalues(&self) -> Option<usize> {

@@ -125,6 +125,11 @@ impl Symbolic {
         self.pattern.dim
     }
 
+    /// The rows in the order of their elimination: the k-th is row `order()[k]`.
+    pub fn order(&self) -> &[u32] {
+        &self.order
+    }
+
     /// Entries of L on and below its diagonal, zeros that fronts add included.
     pub fn factor_entries(&self) -> usize {
         self.fronts.iter().map(|front| front.pivots * (2 * front.order() - front.pivots + 1) / 2).sum()

@@ -83,6 +83,10 @@ fn model(results: &Results) -> Vec<Row> {
     rows.extend(
         count("/model/nonzeros").map(|count| ("Entries of the matrices that are not zero".into(), count)),
     );
+    let engine = summary.word("/model/engine");
+    if !engine.is_empty() {
+        rows.push(("Solver of the matrices".into(), engine.into()));
+    }
     for matrix in summary.array("/model/matrices") {
         let text = |key: &str| matrix.get(key).and_then(Value::as_str).unwrap_or("");
         rows.push((format!("Matrix {}", text("name")), text("role").into()));
@@ -100,6 +104,11 @@ fn settings(results: &Results) -> Vec<Row> {
     let summary = &results.summary;
     let mut rows: Vec<Row> = Vec::new();
     let mut add = |what: String, value: Option<String>| rows.extend(value.map(|value| (what, value)));
+    for one in summary.array("/no_answer") {
+        let reason = one.get("reason").and_then(Value::as_str).map(str::to_owned);
+        let count = one.get("frequencies").and_then(Value::as_u64).unwrap_or(0);
+        add(format!("No answer at {count} frequencies"), reason);
+    }
     let method = summary.word("/identify/method");
     add(
         "Method".into(),

@@ -46,6 +46,8 @@ pub struct CaseFile {
     pub identify: Option<IdentifyEntry>,
     /// `[respond]`.
     pub respond: Option<RespondEntry>,
+    /// `[solver]`.
+    pub solver: SolverEntry,
 }
 
 impl CaseFile {
@@ -194,6 +196,26 @@ pub struct CoarserMeshEntry {
     pub element_ratio: Option<f64>,
     /// The order of the error of natural frequencies in the length of elements; `None`: 2.
     pub order: Option<f64>,
+}
+
+/// `[solver]`: what computes factors.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct SolverEntry {
+    /// Ranks of MUMPS, if they compute them.
+    pub mumps: Option<MumpsEntry>,
+}
+
+/// How the ranks of MUMPS are started.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MumpsEntry {
+    /// Where the engine is named.
+    pub place: Place,
+    /// The launcher and its arguments.
+    pub launch: String,
+    /// The name of this machine, for a rank 0 on another one.
+    pub host: Option<String>,
+    /// A folder for factors that are kept on disk.
+    pub out_of_core: Option<String>,
 }
 
 /// `[identify]`, or all `[[identify]]`.

@@ -56,6 +56,7 @@ pub(super) static SECTIONS: LazyLock<Vec<&'static Section>> = LazyLock::new(|| {
         &FOR_ALL,
         &SINGLE,
         &RESPOND,
+        &SOLVER,
     ];
     before.into_iter().chain(LAWS.iter().map(|(_, section)| section)).chain(after).collect()
 });
@@ -159,6 +160,12 @@ pub(super) static CASE: Section = Section {
             "the measured frequencies",
             "Frequencies for `frfit respond` and `frfit sensitivities`; without `[identify]` also the band for `frfit modes`.",
         ),
+        key(
+            "solver",
+            "table `[solver]`",
+            "frfit's own solver",
+            "What factorises the matrices of a large model.",
+        ),
     ],
     examples: &["title = \"Bar\"
 units = \"SI\"
@@ -190,6 +197,8 @@ band_hz = [20.0, 2000.0]
 [respond]
 band_hz = [1.0, 3000.0]
 points = 600
+[solver]
+engine = \"mumps\"
 "],
 };
 
@@ -786,5 +795,44 @@ pub(super) static RESPOND: Section = Section {
     examples: &["[respond]
 band_hz = [10.0, 2000.0]
 points = 400
+"],
+};
+
+pub(super) static SOLVER: Section = Section {
+    path: "solver",
+    title: "`[solver]`",
+    about: "What factorises the matrices.\n`engine = \"mumps\"` starts MUMPS in processes of its own (ranks), on this machine or on the machines of an MPI job; see [Clusters](clusters.md).\nIt serves models that do not fit into one machine.\nThe command line has the options `--engine` and `--launch` for the same.",
+    keys: &[
+        key(
+            "engine",
+            "\"multifrontal\" or \"mumps\"",
+            NEEDED,
+            "\"multifrontal\" is frfit's own solver, in its own process.",
+        ),
+        key(
+            "launch",
+            "text",
+            "\"mpirun\"",
+            "Command that starts the ranks: `mpirun`, `mpiexec` or `srun`, and how many ranks run where. \
+             Any other command is accepted only as `--launch`, because a case file must not run programs.",
+        ),
+        key(
+            "host",
+            "text",
+            "this machine alone",
+            "Name of this machine in the network, if rank 0 runs on another machine.",
+        ),
+        key(
+            "out_of_core",
+            "text",
+            "factors in memory",
+            "Folder on each rank's machine, for factors on disk: less memory, more time.",
+        ),
+    ],
+    examples: &["[solver]
+engine = \"mumps\"
+launch = \"mpirun -n 4\"
+host = \"node01\"
+out_of_core = \"/scratch\"
 "],
 };

@@ -6,6 +6,7 @@ mod entries;
 mod field;
 mod identify;
 mod keys;
+mod launcher;
 mod parse;
 mod reference;
 mod sections;
@@ -14,9 +15,11 @@ mod snippet;
 pub(crate) use edited::{Edit, edited};
 pub use entries::{
     AtValues, AttachedEntry, Calibration, CaseFile, CoarserMeshEntry, Exclusion, FactorEntry, IdentifyEntry,
-    LoadEntry, Located, MatrixEntry, MeasurementEntry, RespondEntry, Spot, UnknownEntry,
+    LoadEntry, Located, MatrixEntry, MeasurementEntry, MumpsEntry, RespondEntry, SolverEntry, Spot,
+    UnknownEntry,
 };
 pub(crate) use identify::variation;
+pub(crate) use launcher::DEFAULT as DEFAULT_LAUNCH;
 pub(crate) use parse::law_of_snippet;
 pub use parse::parse;
 pub use reference::reference;

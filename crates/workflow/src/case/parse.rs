@@ -6,7 +6,7 @@ use super::field::{Table, shown};
 use super::identify::identify;
 use super::keys::{ATTACHED, CASE, DOFS, LOAD, MATRIX, MEASUREMENT, Section};
 use super::sections::{
-    attached, coarser_mesh, factor, load, matrix, measurement, model_error, respond, units,
+    attached, coarser_mesh, factor, load, matrix, measurement, model_error, respond, solver, units,
 };
 use crate::error::{InputError, Place};
 use frfit::material::Law;
@@ -56,6 +56,7 @@ pub fn parse(file: &Path, bytes: &[u8]) -> Result<CaseFile, InputError> {
         coarser_mesh: case.find("coarser_mesh").map(|field| coarser_mesh(&field)).transpose()?,
         identify: case.find("identify").map(|field| identify(&field)).transpose()?,
         respond: case.find("respond").map(|field| respond(&field)).transpose()?,
+        solver: case.find("solver").map(|field| solver(&field)).transpose()?.unwrap_or_default(),
     })
 }
 

@@ -2,10 +2,11 @@
 
 use super::entries::{
     AtValues, AttachedEntry, Calibration, CoarserMeshEntry, FactorEntry, LoadEntry, Located, MatrixEntry,
-    MeasurementEntry, RespondEntry, Spot,
+    MeasurementEntry, MumpsEntry, RespondEntry, SolverEntry, Spot,
 };
 use super::field::{Field, Table};
 use super::keys;
+use super::launcher;
 use crate::error::{InputError, Place};
 use crate::units::{Amount, AmountOf, UnitSystem, UnknownSystem, amount};
 use frfit::c64;
@@ -495,6 +496,40 @@ pub(super) fn coarser_mesh(field: &Field<'_>) -> Result<CoarserMeshEntry, InputE
         element_ratio: above("element_ratio", 1.0)?,
         order: above("order", 0.0)?,
     })
+}
+
+/// `[solver]`.
+pub(super) fn solver(field: &Field<'_>) -> Result<SolverEntry, InputError> {
+    let table = field.table(&[&keys::SOLVER])?;
+    let engine = table.need("engine")?.word(|word| match word {
+        "multifrontal" => Ok(false),
+        "mumps" => Ok(true),
+        _ => Err("\"multifrontal\" or \"mumps\"".into()),
+    })?;
+    let text = |key: &str| table.find(key).map(|field| field.text()).transpose();
+    let [launch, host, folder] = [text("launch")?, text("host")?, text("out_of_core")?];
+    if let Some(of_mumps) = [&launch, &host, &folder].into_iter().flatten().next()
+        && !engine.value
+    {
+        return Err(InputError::at(
+            &of_mumps.place,
+            "a key of engine = \"mumps\"",
+            "engine = \"multifrontal\"",
+        ));
+    }
+    if let Some(launch) = &launch {
+        launcher::is_harmless(&launch.value).map_err(|found| {
+            let expected = format!("{}; any other command only as --launch", launcher::HARMLESS);
+            InputError::at(&launch.place, expected, found)
+        })?;
+    }
+    let mumps = MumpsEntry {
+        place: engine.place,
+        launch: launch.map_or_else(|| launcher::DEFAULT.to_owned(), |launch| launch.value),
+        host: host.map(|host| host.value),
+        out_of_core: folder.map(|folder| folder.value),
+    };
+    Ok(SolverEntry { mumps: engine.value.then_some(mumps) })
 }
 
 /// `[respond]`.

@@ -22,6 +22,7 @@ mod options;
 mod overrides;
 mod sensitivities;
 mod shared;
+mod solver;
 mod structure;
 mod uff;
 mod unknowns;
@@ -102,7 +103,8 @@ fn load_text(
     (overrides, purpose): (&Overrides, Purpose),
     shared: Option<&SharedModels>,
 ) -> Result<Case, InputError> {
-    let case = case::parse(case_file, bytes)?;
+    let mut case = case::parse(case_file, bytes)?;
+    case.solver = solver::overridden(case.solver, overrides)?;
     let keeps_dimensions = purpose == Purpose::Identify && case.unknowns().any(|one| one.nominal.is_some());
     let mut coarser_mesh = None;
     // A coarser mesh is compared with what was read.

@@ -5,6 +5,7 @@ use super::factor::law;
 use super::files::{Files, NamedFile};
 use super::labels::{Member, Order, names_beside, one_order, read_names, sibling};
 use super::matrix::{check_symmetric, symmetric_matrix};
+use super::solver;
 use crate::case::Located;
 use crate::case::{CaseFile, MatrixEntry};
 use crate::error::InputError;
@@ -161,7 +162,8 @@ pub(super) fn model(case: &CaseFile, terms: Vec<Term>) -> Result<DynamicStiffnes
 
 /// All terms on one pattern.
 pub(super) fn analysed(case: &CaseFile, terms: Vec<Term>) -> Result<DynamicStiffness, InputError> {
-    DynamicStiffness::new(terms).map_err(|error| unusable(case, &error))
+    let engine = solver::engine(&case.solver)?;
+    DynamicStiffness::with_engine(terms, engine.as_ref()).map_err(|error| unusable(case, &error))
 }
 
 /// A model with what the case says of its factors.

@@ -19,4 +19,8 @@ pub struct Overrides {
     pub reduced: Option<PathBuf>,
     /// A table of results: its moduli in place of the factors of the unknown matrices.
     pub identified: Option<PathBuf>,
+    /// In place of `solver.engine`.
+    pub engine: Option<String>,
+    /// In place of `solver.launch`; any command.
+    pub launch: Option<String>,
 }

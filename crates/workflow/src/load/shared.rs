@@ -134,5 +134,8 @@ fn key(case: &CaseFile, keeps_dimensions: bool, folder: &Path) -> String {
         })
         .collect();
     let dofs = case.dofs.as_ref().map(|file| &file.value);
-    format!("{folder:?} {:?} {keeps_dimensions} {matrices:?} {dofs:?} {:?}", case.units, case.attached)
+    format!(
+        "{folder:?} {:?} {keeps_dimensions} {matrices:?} {dofs:?} {:?} {:?}",
+        case.units, case.attached, case.solver
+    )
 }

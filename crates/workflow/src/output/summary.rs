@@ -13,6 +13,7 @@ use frfit::identify::{
 };
 use frfit::material::loss_factor;
 use frfit::model::{FactorPart, Term};
+use frfit_linalg::solve::Breakdown;
 use serde_json::{Map, Value, json};
 
 /// A value within this of the reference counts as right: the search for several unknowns ends earlier than roots of one do.
@@ -59,6 +60,7 @@ pub fn summary_json(
         "frequencies": found.lines.len(),
         "status": by_status(&|status| json!(run.count(status))),
         "bands_hz": by_status(&|status| json!(run.bands_hz(status))),
+        "no_answer": no_answer(run),
         "trusted": found.is_trusted(),
         "noise": noise(identify, run),
         "fit": fit_json(found.fit.as_ref()),
@@ -185,9 +187,17 @@ fn model_json(case: &Case) -> Value {
     let matrix = |term: &Term| json!({"name": term.name, "role": format!("{:?}", term.role).to_lowercase()});
     json!({
         "dofs": case.model.dim(),
+        "engine": case.model.analysis().engine(),
         "nonzeros": case.model.analysis().pattern().nonzeros(),
         "matrices": case.model.terms().iter().map(matrix).collect::<Vec<_>>(),
     })
+}
+
+/// Reasons why frequencies have no answer, and how many frequencies each has.
+fn no_answer(run: &IdentifyRun) -> Value {
+    let of =
+        |(reason, count): (&Breakdown, usize)| json!({"reason": reason.to_string(), "frequencies": count});
+    run.found.breakdowns().into_iter().map(of).collect()
 }
 
 /// A sensor and its agreement with the answers: its misfit over its standard deviation (root mean square).

@@ -214,10 +214,8 @@ fn the_command_line_overrides_the_case() {
         method: Some("nelder-mead".into()),
         order: Some(7),
         band_hz: Some([15.0, 25.0]),
-        selection: None,
         reduction: Some("full".into()),
-        reduced: None,
-        identified: None,
+        ..Overrides::default()
     };
     let identify = with("", b"", &overrides, Purpose::Identify).unwrap().identify.unwrap();
     assert_eq!((identify.options.method, identify.options.order), (Method::NelderMead, 7));

@@ -1,0 +1,5 @@
+//! Factors of MUMPS beside our own, and jobs that end too early.
+
+mod factors;
+mod jobs;
+mod launched;
