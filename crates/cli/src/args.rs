@@ -466,6 +466,9 @@ pub(crate) struct Modes {
     pub(crate) out: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) overrides: Overrides,
+    /// Reduced model of frfit train, for the same matrices, load and sensors
+    #[arg(long, value_name = "FILE")]
+    pub(crate) reduced: Option<PathBuf>,
     /// Table of results: its moduli in place of the factors of the unknown matrices
     #[arg(long, value_name = "IDENTIFIED.CSV")]
     pub(crate) identified: Option<PathBuf>,
@@ -486,6 +489,9 @@ pub(crate) struct Sensitivities {
     pub(crate) out: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) overrides: Overrides,
+    /// Reduced model of frfit train, for the same matrices, load and sensors
+    #[arg(long, value_name = "FILE")]
+    pub(crate) reduced: Option<PathBuf>,
     /// Standard deviation of a response over the response, such as 0.02 (default: as the files of all measurements say, else 0.01)
     #[arg(long, value_name = "PART", value_parser = part)]
     pub(crate) noise: Option<f64>,

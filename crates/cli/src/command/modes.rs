@@ -7,7 +7,11 @@ use frfit_workflow::load::Overrides;
 use frfit_workflow::modes::{ModesOptions, modes_case};
 
 pub(crate) fn run(args: &Args, wanted: &Modes) -> Result<Outcome, Failure> {
-    let overrides = Overrides { identified: wanted.identified.clone(), ..wanted.overrides.of_case() };
+    let overrides = Overrides {
+        identified: wanted.identified.clone(),
+        reduced: wanted.reduced.clone(),
+        ..wanted.overrides.of_case()
+    };
     let options = ModesOptions { max_order: wanted.max_order, memory_bytes: wanted.memory.map(megabytes) };
     let job = modes_case(&wanted.case, &overrides, &options, wanted.out.as_deref())?;
     if args.json {

@@ -3,10 +3,11 @@
 use super::{megabytes, say_json, say_words};
 use crate::args::{Args, Sensitivities};
 use crate::outcome::{Failure, Outcome};
+use frfit_workflow::load::Overrides;
 use frfit_workflow::sensitivities::{SensitivityOptions, sensitivities_case};
 
 pub(crate) fn run(args: &Args, wanted: &Sensitivities) -> Result<Outcome, Failure> {
-    let overrides = wanted.overrides.of_case();
+    let overrides = Overrides { reduced: wanted.reduced.clone(), ..wanted.overrides.of_case() };
     let options = SensitivityOptions {
         noise: wanted.noise,
         candidates: wanted.candidates.clone(),

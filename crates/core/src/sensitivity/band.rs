@@ -65,9 +65,26 @@ impl<'m> SensitivityBand<'m> {
         options: &ChangeOptions,
         for_each: ForEach<'_>,
     ) -> Result<Self, Breakdown> {
-        assert!(points.iter().all(|point| point.changes.len() == variables.len()));
         let highest = points.iter().max_by(|a, b| a.at.frequency_hz.total_cmp(&b.at.frequency_hz));
-        let mut subspace = Subspace::new(experiment, &highest.expect("a band has a frequency").at)?;
+        let subspace = Subspace::new(experiment, &highest.expect("a band has a frequency").at)?;
+        Self::of_subspace(subspace, variables, points, options, for_each)
+    }
+
+    /// The same on a subspace of this load and these sensors that was trained before, and is trained further where it has to be.
+    ///
+    /// # Errors
+    /// [`Breakdown`] where a solve fails.
+    ///
+    /// # Panics
+    /// As [`SensitivityBand::new`].
+    pub fn of_subspace(
+        mut subspace: Subspace<'m>,
+        variables: &'m [Variable],
+        points: &[ChangePoint<'m>],
+        options: &ChangeOptions,
+        for_each: ForEach<'_>,
+    ) -> Result<Self, Breakdown> {
+        assert!(points.iter().all(|point| point.changes.len() == variables.len()));
         let step = points.len().div_ceil(FREQUENCIES_PER_TRAINING);
         let drawn: Vec<ChangePoint<'m>> = points.iter().step_by(step).cloned().collect();
         subspace.train_changes(&drawn, options, for_each)?;

@@ -10,7 +10,7 @@ use crate::units::UnitSystem;
 use frfit::c64;
 use frfit::identify::CoarserMesh;
 use frfit::model::{DynamicStiffness, Experiment};
-use frfit::subspace::KeptSubspace;
+use frfit::subspace::{KeptSubspace, Subspace};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -51,6 +51,12 @@ impl Case {
     /// `34+Z` where `[dofs]` or a matrix' file names the row (from 0), `row 97` (from 1) elsewhere.
     pub fn row_name(&self, row: usize) -> String {
         self.row_names.get(&row).cloned().unwrap_or_else(|| format!("row {}", row + 1))
+    }
+
+    /// The reduced model that was trained already, to be trained further; `None` without one.
+    pub(crate) fn subspace(&self) -> Option<Subspace<'_>> {
+        // Whether it is of this model was checked when it was read.
+        Subspace::of_kept(self.reduced.as_ref()?, &self.model, &self.experiment).ok()
     }
 
     /// The modal view of a case that was made to be identified: what was measured in its band, beside the model.

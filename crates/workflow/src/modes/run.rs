@@ -113,7 +113,10 @@ pub(super) fn modes_of(
     let within = range_of_tables(case);
     let at = |f: f64| case.model.at(f.clamp(within[0], within[1]), &[]);
     let highest_hz = reach * band_hz[1];
-    let mut subspace = Subspace::new(&case.experiment, &at(highest_hz)?)?;
+    let mut subspace = match case.subspace() {
+        Some(subspace) => subspace,
+        None => Subspace::new(&case.experiment, &at(highest_hz)?)?,
+    };
     let model = subspace.natural_modes(&at, highest_hz)?;
     let measured = match &wanted.measured {
         Some(band) if band.frequency_hz.len() > 1 => {

@@ -142,7 +142,10 @@ fn computed(
     candidates: &[usize],
 ) -> Result<SensitivityRun, Breakdown> {
     let train = ChangeOptions::default().with_everywhere((!candidates.is_empty()).then_some(CANDIDATE_TOL));
-    let band = SensitivityBand::new(&case.experiment, variables, points, &train, &in_parallel)?;
+    let band = match case.subspace() {
+        Some(subspace) => SensitivityBand::of_subspace(subspace, variables, points, &train, &in_parallel)?,
+        None => SensitivityBand::new(&case.experiment, variables, points, &train, &in_parallel)?,
+    };
     let measured = case.sensitivities.as_ref().and_then(|wanted| wanted.std.clone());
     let (noise, deviations) = match (options.noise, measured) {
         (Some(noise), _) => (NoiseFrom::Given(noise), band.proportional(noise)),

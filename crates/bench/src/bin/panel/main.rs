@@ -18,8 +18,8 @@ use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 use std::{fs, thread};
 
-/// Elements along the sandwich; an eighth of it across, and four through the thickness: 10k, 50k, 100k, 300k, 1 000k degrees of freedom.
-const LENGTHS: [usize; 5] = [72, 160, 224, 400, 728];
+/// Elements along the sandwich; an eighth of it across, and four through the thickness: 10k, 50k, 100k, 300k, 1 000k, 2 000k degrees of freedom.
+const LENGTHS: [usize; 6] = [72, 160, 224, 400, 728, 1032];
 
 const FREQUENCIES: usize = 1000;
 
