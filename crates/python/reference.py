@@ -16,11 +16,17 @@ from frfit import _frfit
 
 HEAD = """# Python: reference
 
-This page is made of the docstrings and stubs of the package by `crates/python/reference.py`; a test fails where it is another. Their examples are run by doctest.
+`crates/python/reference.py` makes this page of the docstrings and stubs of the package.
+A test fails if the two differ, and doctest runs the examples.
 """
+
+# Characters of a line, as `cargo xtask prose` asks for.
+WIDTH = 100
 
 SECTION = re.compile(r"^(\w[\w ]*)\n-{3,}\n", flags=re.MULTILINE)
 ROLE = re.compile(r":\w+:`([^`]*)`")
+# A full stop that another sentence follows; single letters and some abbreviations end none.
+SENTENCE = re.compile(r"(?<!\b[A-Z]\.)(?<!\be\.g\.)(?<!\bi\.e\.)(?<=[.!?])[)\"*]*\s+(?=[\"(*\[]*[A-Z`])")
 
 
 def plain(text: str) -> str:
@@ -28,24 +34,54 @@ def plain(text: str) -> str:
     return ROLE.sub(r"`\1`", text).replace("``", "`")
 
 
+def words(sentence: str) -> Iterator[str]:
+    """Words; a piece of code is one word with all that touches it, and a number is one with its %."""
+    word, is_code = "", False
+    for at, character in enumerate(f"{sentence} "):
+        is_code ^= character == "`"
+        if character.isspace() and not is_code:
+            if word and not sentence[at + 1 :].startswith("%"):
+                yield word
+                word = ""
+            elif word:
+                word += " "
+        else:
+            word += character
+
+
+def prose(text: str, begin: str = "") -> str:
+    """A paragraph with one sentence a line, long ones on several lines; those after the first are indented as the item is."""
+    indent = "  " if begin else ""
+    lines = []
+    for sentence in SENTENCE.split(plain(" ".join(text.split()))):
+        line = begin if not lines else indent
+        for word in words(sentence):
+            if line.strip(" -") and len(line) + 1 + len(word) > WIDTH:
+                lines.append(line.rstrip())
+                line = indent
+            line += word if line in ("", indent, begin) else f" {word}"
+        lines.append(line)
+    return "\n".join(lines)
+
+
 def examples(text: str) -> str:
     """Text in which examples are blocks of code."""
     parts = []
     for part in re.split(r"\n\s*\n", text.strip("\n")):
-        parts.append(f"```text\n{part}\n```" if part.startswith(">>>") else plain(part))
+        parts.append(f"```text\n{part}\n```" if part.startswith(">>>") else prose(part))
     return "\n\n".join(parts)
 
 
 def definitions(text: str) -> str:
     """``name`` over an indented description, as a list."""
-    lines = []
+    items = []
     for line in text.strip("\n").splitlines():
         if not line.startswith(" "):
             names = ", ".join(f"`{name.strip()}`" for name in line.split(","))
-            lines.append(f"- {names}:")
+            items.append(f"{names}:")
         elif line.strip():
-            lines[-1] += f" {plain(line.strip())}"
-    return "\n".join(lines)
+            items[-1] += f" {line.strip()}"
+    return "\n".join(prose(item, "- ") for item in items)
 
 
 def described(doc: str | None, name: str) -> str:
@@ -91,20 +127,24 @@ def attributes(cls: type) -> Iterator[str]:
             is_text = isinstance(after, ast.Expr) and isinstance(after.value, ast.Constant)
             docstrings[one.target.id] = " ".join(after.value.value.split()) if is_text else ""
     for one in fields(cls):
-        about = f": {plain(docstrings[one.name])}" if docstrings.get(one.name) else ""
-        yield f"- `{one.name}`{about}"
+        about = f": {docstrings[one.name]}" if docstrings.get(one.name) else ""
+        yield prose(f"`{one.name}`{about}", "- ")
 
 
-def members(name: str, cls: type) -> Iterator[str]:
-    """Properties and methods that are not private."""
+def properties(cls: type) -> Iterator[str]:
+    """Properties that are not private."""
     for member, what in vars(cls).items():
-        if member.startswith("_"):
-            continue
-        if isinstance(what, property):
-            yield f"- `{member}`: {plain(inspect.cleandoc(what.__doc__ or ''))}"
-        elif inspect.isfunction(what) or isinstance(what, classmethod | staticmethod):
-            call = signature(member, getattr(cls, member))
-            yield f"- `{call}`: {' '.join(described(what.__doc__, f'{name}.{member}').split())}"
+        if isinstance(what, property) and not member.startswith("_"):
+            yield prose(f"`{member}`: {inspect.cleandoc(what.__doc__ or '')}", "- ")
+
+
+def methods(name: str, cls: type) -> Iterator[str]:
+    """Methods that are not private, each below a heading of its own."""
+    for member, what in vars(cls).items():
+        is_method = inspect.isfunction(what) or isinstance(what, classmethod | staticmethod)
+        if is_method and not member.startswith("_"):
+            call = code(signature(member, getattr(cls, member)))
+            yield f"### {name}.{member}\n\n{call}\n\n{described(what.__doc__, f'{name}.{member}')}"
 
 
 def compiled(name: str, cls: type) -> Iterator[str]:
@@ -113,12 +153,12 @@ def compiled(name: str, cls: type) -> Iterator[str]:
     (tree,) = [one for one in stub.body if isinstance(one, ast.ClassDef) and one.name == name]
     for one in tree.body:
         if isinstance(one, ast.FunctionDef) and not one.name.startswith("_"):
-            about = plain(" ".join((getattr(cls, one.name).__doc__ or "").split()))
+            about = getattr(cls, one.name).__doc__ or ""
             is_property = any(isinstance(mark, ast.Name) and mark.id == "property" for mark in one.decorator_list)
             written = ast.unparse(one.args).replace("_Real", "Real").replace("_Complex", "Complex")
             arguments = [argument for argument in written.split(", ") if argument != "self"]
             call = one.name if is_property else f"{one.name}({', '.join(arguments)})"
-            yield f"- `{call}`: {about}"
+            yield prose(f"`{call}`: {about}", "- ")
 
 
 def entry(name: str) -> str:
@@ -135,9 +175,9 @@ def entry(name: str) -> str:
         if name not in RESULTS:
             text.append(code(signature(name, what)))
         text.append(described(what.__doc__, name))
-        if is_dataclass(what) and "Parameters\n" not in (what.__doc__ or ""):
-            text.append("\n".join(attributes(what)))
-        text.append("\n".join(members(name, what)))
+        is_listed = is_dataclass(what) and "Parameters\n" not in (what.__doc__ or "")
+        text.append("\n".join([*(attributes(what) if is_listed else ()), *properties(what)]))
+        text += methods(name, what)
     return "\n\n".join(part for part in text if part)
 
 

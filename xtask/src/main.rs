@@ -23,7 +23,7 @@ cargo xtask test --quick         tests and doc tests of the daily tier only; --q
 cargo xtask test browser         the report in headless Chromium alone; pictures to target/browser/pictures
 cargo xtask test python          the Python package alone: its wheel, tests and types
 cargo xtask test site            the documentation site alone: built, formulas typeset, links followed
-cargo xtask prose                plain English in Markdown: words, lines and sentences; --all with files that are not checked yet
+cargo xtask prose                plain English in Markdown: words, lines and sentences
 cargo xtask prose --code         the same words in doc comments and string literals, as a report
 cargo xtask docs                 documentation in target/doc and the site in target/site, formulas typeset where there is npm
 cargo xtask bench [NAME [ARG…]]  one benchmark, or all; tables to the terminal, figures to target/bench
@@ -40,8 +40,7 @@ fn main() -> ExitCode {
         ["test", "browser"] => step::sum_up(&browser::browser()),
         ["test", "python"] => step::sum_up(&python::steps()),
         ["test", "site"] => step::sum_up(&site::steps()),
-        ["prose"] => prose::check(false).passed,
-        ["prose", "--all"] => prose::check(true).passed,
+        ["prose"] => prose::check().passed,
         ["prose", "--code"] => prose::report_code(),
         ["docs"] => docs::build(),
         ["bench"] => bench::all(),

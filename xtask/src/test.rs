@@ -29,12 +29,13 @@ pub(crate) fn all(tier: Tier) -> bool {
     }
     // The interpreter comes first: lints, tests and wheel have to see the same one, or PyO3 is built anew for each.
     let mut steps: Vec<Step> = python::environment().into_iter().collect();
-    steps.push(prose::check(false));
+    steps.push(prose::check());
     let tools = thread::scope(|scope| {
         // The package index is waited for, which leaves the cores to the lints.
         let tools = scope.spawn(python::tools);
         steps.push(run("format", &mut cargo(["fmt", "--all", "--check"])));
-        let mut clippy = cargo(["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"]);
+        let mut clippy = cargo(["clippy", "--workspace", "--all-targets", "--features", ADAPTERS]);
+        clippy.args(["--", "-D", "warnings"]);
         steps.push(run("clippy", python::seen_by(&mut clippy)));
         tools.join().ok().flatten()
     });
@@ -60,6 +61,7 @@ pub(crate) fn all(tier: Tier) -> bool {
     });
     steps.extend(package);
     if tier == Tier::Long {
+        steps.push(adapters());
         steps.extend(site::steps());
         steps.extend(browser());
     }
@@ -72,6 +74,16 @@ pub(crate) fn quick(tier: Tier) -> bool {
     let steps = [tests(tier), doc_tests()];
     slowest::print();
     sum_up(&steps)
+}
+
+/// Features that no other crate of the workspace asks for. The lints see their code, which costs nothing where nothing has changed;
+/// tests with them would build all crates a second time.
+const ADAPTERS: &str = "multifrontal/faer,multifrontal/sprs";
+
+/// The tests of multifrontal with the matrices of other crates.
+fn adapters() -> Step {
+    let mut command = cargo(["test", "--package", "multifrontal", "--all-features", "--test", "it", "matrix"]);
+    run("adapters", python::seen_by(&mut command))
 }
 
 /// The documentation, in which a broken link or a missing comment is an error.

@@ -63,7 +63,7 @@ pub(crate) enum Command {
                       unknowns that it was trained for nothing is factorised; beyond them a run trains further."
     )]
     Train(Train),
-    /// Do many identifications by one plan, a table of cases and what is other in each
+    /// Do many identifications by one plan, a table of cases and of the values that differ
     #[command(
         args_conflicts_with_subcommands = true,
         after_help = "Examples: frfit batch plan.csv --out store --reduced model.frfit\n          \
@@ -81,7 +81,7 @@ pub(crate) enum Command {
                       loss (loss_modulus, E_loss); storage_std and loss_factor_std, if they are known; status, of which only ok is used. \
                       A line of units below the names is understood.")]
     Fit(Fit),
-    /// Make the HTML page of results anew, as identify writes it
+    /// Make the HTML page of results again, as identify writes it
     #[command(after_help = "Example: frfit report results\n\n\
                       One file that needs no network: verdict, plots, table, inputs with checksums. Open results/report.html in a browser.")]
     Report(Report),

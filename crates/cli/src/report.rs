@@ -453,7 +453,7 @@ fn model_errors(job: &IdentifyJob, errors: &ModelErrorsFound) -> String {
         )
     });
     let known = mesh.into_iter().chain(known).chain(masses).chain(calibrations).collect::<String>();
-    format!("{sizes} taken out, and in the error bars{}{known}", worst.unwrap_or_default())
+    format!("{sizes} corrected for, and in the error bars{}{known}", worst.unwrap_or_default())
 }
 
 /// What an unknown is called.

@@ -1,6 +1,6 @@
 //! Linear algebra for dynamic stiffness matrices: sparse, symmetric, real or complex.
 //!
-//! | room | what is in it |
+//! | room | content |
 //! |---|---|
 //! | [`sparse`] | patterns shared by all terms of a model, matrices on them, products |
 //! | [`solve`] | analyse → factor → solve, every solution checked by its true residual |

@@ -19,7 +19,7 @@ pub fn norm(a: &[c64]) -> f64 {
 
 /// Takes out of x what lies in the span of orthonormal vectors, and returns it as coefficients.
 ///
-/// Gram–Schmidt, twice, which is enough (Kahan, Parlett): what is left is orthogonal to roundoff of the original x.
+/// Gram–Schmidt, twice, which is enough (Kahan, Parlett): the rest is orthogonal to roundoff of the original x.
 pub fn orthogonalise(basis: &[Vec<c64>], x: &mut [c64]) -> Vec<c64> {
     let mut coefficients = vec![c64::default(); basis.len()];
     for _ in 0..2 {

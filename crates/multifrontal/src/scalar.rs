@@ -36,9 +36,9 @@ pub trait Real: Scalar<Real = Self> + PartialOrd + Into<f64> + pulp::bytemuck::P
     ) -> Self::Vector<S>;
     /// Sum of the lanes.
     fn sum<S: Simd>(simd: S, a: Self::Vector<S>) -> Self;
-    /// Whole registers, and what is left.
+    /// Whole registers, and the rest.
     fn vectors<S: Simd>(values: &[Self]) -> (&[Self::Vector<S>], &[Self]);
-    /// Whole registers, and what is left.
+    /// Whole registers, and the rest.
     fn vectors_mut<S: Simd>(values: &mut [Self]) -> (&mut [Self::Vector<S>], &mut [Self]);
     /// The first numbers of a register, zeros behind them.
     fn load_part<S: Simd>(simd: S, values: &[Self]) -> Self::Vector<S>;

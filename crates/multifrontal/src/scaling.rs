@@ -6,7 +6,7 @@ use crate::symbolic::Lower;
 use crate::threads::map;
 use std::ops::Range;
 
-/// Passes: each halves the logarithm of what is left; three leave an eighth.
+/// Passes: each halves the remaining logarithm; three leave an eighth.
 const SCALING_PASSES: usize = 3;
 
 /// Entries below which another thread costs more than it brings.
@@ -68,7 +68,7 @@ fn largest(pattern: &Lower, columns: Range<usize>, sizes: &[f64], scale: &[f64])
     largest
 }
 
-/// A plain comparison: `f64::max` asks for numbers that are none.
+/// A plain comparison: `f64::max` also asks for NaN.
 #[inline(always)]
 fn larger(a: f64, b: f64) -> f64 {
     if b > a { b } else { a }

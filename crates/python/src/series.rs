@@ -105,7 +105,7 @@ pub(crate) fn restored_series(
     let (per_unit, residual, converged) = radius;
     let terms = coefficients.as_array().rows().into_iter().map(|row| row.to_vec()).collect();
     let series = NeumannSeries::from_coefficients(scale, terms).ok_or_else(|| {
-        argument(py, "coefficients", "at least one of each sensor, and a scale above 0", &"others")
+        argument(py, "coefficients", "at least one for each sensor, and a scale above 0", &"others")
     })?;
     Ok(Series { series, radius: ConvergenceRadius { per_unit, residual, converged }, nominal })
 }

@@ -61,6 +61,9 @@ def test_a_finding_stands_beside_the_best_other_explanation(chain):
     assert "sign" not in [finding.kind for finding in found[1].findings]
     assert found[1].other_explanations == ()
     assert "sign" in [finding.kind for finding in found[-1].findings]
+    # Rows and measurements by their indices.
+    assert found[-1].sensors == ("row 0", "row 7")
+    assert found[-1].findings[0].sensors in ((), ("row 0",), ("row 7",), ("row 0", "row 7"))
     other = found[-1].other_explanations[0]
     # Half a turn is nearly what some delay does over the band.
     assert "late" in other.faults[0] and other.misfit > 0.1 and other.nats_behind > 100
@@ -204,7 +207,7 @@ def test_what_is_wrong_is_said(chain):
     fails(frfit.InputError, "max_lines: expected a whole number of at least 3, found 2", max_lines=2)
     fails(frfit.InputError, "load: expected 12 values", load=np.ones(3))
     fails(frfit.InputError, "load: expected a load that is not zero", load=np.zeros(12))
-    fails(frfit.InputError, "measurement 1.row: expected 0 to 11, found 12", frfit.Measurement(F, F, row=12))
+    fails(frfit.InputError, r"measurements\[0\].row: expected 0 to 11, found 12", frfit.Measurement(F, F, row=12))
     # What no model could be held against is refused before there is one.
     for match, response, keys in (
         ("strictly ascending", F, {"frequency_hz": F[::-1]}),

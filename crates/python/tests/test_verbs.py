@@ -207,7 +207,12 @@ def test_check_and_modes_of_arrays_are_those_of_a_case(tmp_path: pathlib.Path) -
     of_case = frfit.check(case, band_hz=(2.0, 30.0))
     of_arrays = frfit.check(model(1200.0), measured, load=0, matrix="springs", band_hz=(2.0, 30.0))
     assert [finding.kind for finding in of_arrays.findings] == ["sign"]
-    assert of_arrays.summary["findings"] == of_case.summary["findings"] and of_arrays.misfit == of_case.misfit
+    # The same, but for indices from 0 in place of numbers from 1.
+    (one,), (other,) = of_arrays.summary["findings"], of_case.summary["findings"]
+    assert (one.pop("sensors"), other.pop("sensors")) == (["row 9"], ["row 10"])
+    assert one.pop("change") == "sign of measurements[1] (or of load): the opposite one"
+    assert "[[measurement]] 2" in other.pop("change")
+    assert one == other and of_arrays.misfit == of_case.misfit
 
     right = [measured[0], frfit.Measurement(f, -u[:, 1], row=9)]
     (tmp_path / "9.csv").write_text(
@@ -218,6 +223,7 @@ def test_check_and_modes_of_arrays_are_those_of_a_case(tmp_path: pathlib.Path) -
     for name in ("frequency_hz", "measured_frequency_hz", "measured_frequency_std_hz", "pairs", "mac", "frac"):
         np.testing.assert_array_equal(getattr(modes, name), getattr(again, name), err_msg=name)
     assert len(modes.pairs) >= 5
+    assert (modes.sensors, again.sensors) == (("row 5", "row 10"), ("row 4", "row 9"))
     # Of the model alone: a closed form.
     alone = frfit.modes(model(1000.0), load=0, sensors=[4], band_hz=(1.0, 120.0))
     exactly = np.sqrt(4 * 1000.0 / 0.01) * np.sin(np.arange(1, n + 1) * np.pi / (2 * (n + 1))) / (2 * np.pi)
@@ -225,7 +231,12 @@ def test_check_and_modes_of_arrays_are_those_of_a_case(tmp_path: pathlib.Path) -
 
     ranked = frfit.sensitivities(model(1200.0), frequency_hz=f, load=0, sensors=[4, 9], noise=0.01, candidates=[0, 5])
     of_file = frfit.sensitivities(case, noise=0.01, candidates=[1, 6])
-    assert ranked.parameters == of_file.parameters and ranked.next_sensor == of_file.next_sensor
+    assert ranked.parameters == of_file.parameters
+    assert ranked.next_sensor is not None and of_file.next_sensor is not None
+    best, theirs = ranked.next_sensor["best"], of_file.next_sensor["best"]
+    assert [place["row"] + 1 for place in best] == [place["row"] for place in theirs]
+    assert [place["dof"] for place in best] == [f"row {place['row']}" for place in best]
+    assert [place["after"] for place in best] == [place["after"] for place in theirs]
 
 
 def test_what_does_not_go_together_is_refused(rubber_bar: pathlib.Path) -> None:

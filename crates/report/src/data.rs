@@ -28,7 +28,7 @@ const SOLUTIONS: usize = 2_000;
 /// What a page draws, and of how much of it there is.
 pub(crate) struct Data {
     pub(crate) json: Value,
-    /// Sentences that say what is left out of plots and table.
+    /// Sentences that name the values left out of plots and table.
     pub(crate) notes: Vec<String>,
 }
 

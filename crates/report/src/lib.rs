@@ -2,7 +2,7 @@
 //!
 //! [`html`] takes the files that `frfit identify` writes, from memory or from a folder: both give the same page.
 //!
-//! | module | what is in it |
+//! | module | content |
 //! |---|---|
 //! | `results` | the files read and checked |
 //! | `verdict` | what they say, in words: can the answer be used, how sure is it, why other lines have no answer |

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-/// A number with so many significant digits; null where there is none, or it is not finite.
+/// A number with so many significant digits; null without a number, or where it is not finite.
 pub(crate) fn rounded(value: Option<f64>, digits: usize) -> Value {
     let Some(value) = value.filter(|value| value.is_finite()) else { return Value::Null };
     let value = format!("{value:.*e}", digits - 1).parse().unwrap_or(value);

@@ -3,7 +3,7 @@
 use crate::results::Band;
 use frfit::identify::{Status, Trust};
 
-/// Left-out lines are shown if they leave a gap of more than so many times the usual distance of the others.
+/// Left-out lines are shown if they leave a gap of more than this number times the usual distance of the others.
 const WIDE: f64 = 4.0;
 
 /// Of a band narrower stretches are not seen.

@@ -121,7 +121,7 @@ fn is_unknown(one: &Unknown) -> bool {
     !one.is_free() && !is_known(one)
 }
 
-/// What was looked for: `storage modulus of core`, `values of core and skins`.
+/// What was to be identified: `storage modulus of core`, `values of core and skins`.
 fn what(results: &Results) -> String {
     match &results.unknowns[..] {
         [only] => format!("{} of {}", only.what()[1], only.name),

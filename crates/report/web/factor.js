@@ -79,7 +79,7 @@ const addFactor = (one) => addPlot({
       const values = (name, y, shade, more) => hasAny(y) && push(dots(name, x, y, shade, format, more));
       if (one.nominal) push(line("nominal", x, drawn(one.nominal[part]), "nominal", format, { dash: "dash" }));
       if (one.varies !== "frequency") {
-        if (one.free) values("each frequency by itself", withTrust(one.free[part], ["trusted"], one.free.status), "free", { size: 4, opacity: 0.7 });
+        if (one.free) values("each frequency alone", withTrust(one.free[part], ["trusted"], one.free.status), "free", { size: 4, opacity: 0.7 });
         const [y, std] = [drawn(own), drawn(partOf(one, `${part}_std`))];
         if (y && std) made.push(band(x, y, std.map((value) => value === null ? null : 2 * value), "band", axis));
         if (one.reference) push(line("true", x, drawn(one.reference[part]), "reference", format));

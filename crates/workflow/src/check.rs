@@ -147,8 +147,10 @@ fn labels(case: &Case, fault: &Fault, sensors: &[usize]) -> Vec<String> {
 
 /// Kind, what is wrong, and what to change.
 fn words(case: &Case, fault: &Fault, sensors: &[usize]) -> (&'static str, String, String) {
+    let is_of_arrays = case.first_number == 0;
     let measurements = match sensors {
-        [m] => format!("[[measurement]] {}", m + 1),
+        [m] => case.measurement_name(*m),
+        _ if is_of_arrays => "every measurement".to_owned(),
         _ => "every [[measurement]]".to_owned(),
     };
     match fault {
@@ -156,12 +158,17 @@ fn words(case: &Case, fault: &Fault, sensors: &[usize]) -> (&'static str, String
             "conjugated",
             "the FRF is the complex conjugate (time convention e^(-iωt)): loss factors would be negative"
                 .to_owned(),
-            format!("file of {measurements}: change the sign of its imaginary part"),
+            match is_of_arrays {
+                true => format!("response of {measurements}: its complex conjugate"),
+                false => format!("file of {measurements}: change the sign of its imaginary part"),
+            },
         ),
         Fault::Sign => (
             "sign",
             "the FRF has the opposite sign".to_owned(),
             match sensors {
+                [_] if is_of_arrays => format!("sign of {measurements} (or of load): the opposite one"),
+                _ if is_of_arrays => "load: the opposite sign".to_owned(),
                 [_] => {
                     format!("dof of {measurements} (or of [load]): the opposite sense, as in 34-Z for 34+Z")
                 }
@@ -219,14 +226,16 @@ fn words(case: &Case, fault: &Fault, sensors: &[usize]) -> (&'static str, String
             let sensor = sensors.first().map_or("", |&m| case.sensors[m].label.as_str());
             let what =
                 format!("the response was not measured at {sensor}: {} would explain it", listed(case, rows));
-            ("response_dof", what, format!("dof (or row) of {measurements}"))
+            let key = if is_of_arrays { "row" } else { "dof (or row)" };
+            ("response_dof", what, format!("{key} of {measurements}"))
         }
         Fault::LoadDof { rows } => {
+            let load = if is_of_arrays { "load" } else { "[load]" };
             let what = format!(
-                "the structure was not driven where [load] says: {} would explain it",
+                "the structure was not driven where {load} says: {} would explain it",
                 listed(case, rows)
             );
-            ("load_dof", what, "dof (or row) of [load]".to_owned())
+            ("load_dof", what, if is_of_arrays { load.to_owned() } else { format!("dof (or row) of {load}") })
         }
         Fault::Axis { factor } => (
             "axis",
@@ -365,7 +374,7 @@ pub fn findings_json(case: &Case, diagnosis: &Diagnosis) -> Value {
         }),
         Fault::Delay { seconds, std } => json!({"seconds": seconds, "std": std}),
         Fault::ResponseDof { rows } | Fault::LoadDof { rows } => {
-            let one = |other: &OtherRow| json!({"row": other.row + 1, "dof": case.row_name(other.row), "misfit": other.misfit});
+            let one = |other: &OtherRow| json!({"row": case.row_number(other.row), "dof": case.row_name(other.row), "misfit": other.misfit});
             json!({"candidates": rows.iter().map(one).collect::<Vec<_>>()})
         }
         Fault::Mesh { row_hz, top_hz } => json!({"row_hz": row_hz, "top_hz": top_hz}),
@@ -456,9 +465,7 @@ pub fn check_text(job: &CheckJob) -> Words {
                 (true, true) if diagnosis.others.is_empty() => ("no finding", UNEXPLAINED_WORDS),
                 (true, true) => ("no finding", ": that is much"),
                 (false, false) => ("left", ""),
-                (false, true) => {
-                    ("left", ": that is much, and no other fault that is looked for explains it")
-                }
+                (false, true) => ("left", ": that is much, and no other fault that frfit knows explains it"),
             };
             words.add(misfit > UNEXPLAINED, &format!("  {label:<18}{left}{end}\n"));
         }

@@ -181,6 +181,44 @@ fn a_header_of_many_rows_costs_nothing() {
     assert_snapshot!(without_folder(&k, &error.to_string()), @"K.mtx: expected a nonzero in every row of K or M, found 2 entries in both for 2147483647 rows");
 }
 
+/// A diagonal matrix as a file of its own.
+fn diagonal(name: &str, values: [f64; 3]) -> (TempDir, std::path::PathBuf) {
+    let rows: String = (1..).zip(values).map(|(n, value)| format!("{n} {n} {value}\n")).collect();
+    file(name, &format!("%%MatrixMarket matrix coordinate real symmetric\n3 3 3\n{rows}"))
+}
+
+#[test]
+fn matrices_of_a_part_of_a_model_are_refused_in_words() {
+    let refused = |k: [f64; 3], m: [f64; 3]| {
+        let ((_k_folder, k), (_m_folder, m)) = (diagonal("K.mtx", k), diagonal("M.mtx", m));
+        without_folder(&k, &natural_frequencies(&k, &m, 2).unwrap_err().to_string())
+    };
+    let whole = "K.mtx: expected K and M of the whole model, in which each degree of freedom has a stiffness or a mass; \
+                 where they are matrices of a part, name all matrices in a case file and run `frfit modes` on it, found";
+    assert_eq!(refused([1.0, 0.0, 2.0], [1.0, 0.0, 1.0]), format!("{whole} no value in row 2 of both"));
+    assert_eq!(
+        refused([1.0, 0.0, 0.0], [1.0, 0.0, 0.0]),
+        format!("{whole} no value in 2 rows of both (the first is 2)")
+    );
+    // Only the mass has it: a mode of 0 Hz.
+    let ((_k_folder, k), (_m_folder, m)) = (diagonal("K.mtx", [1.0, 0.0, 4.0]), diagonal("M.mtx", [1.0; 3]));
+    let found = natural_frequencies(&k, &m, 3).unwrap();
+    assert!(found[0] < 1e-4 && (found[2] * std::f64::consts::TAU - 2.0).abs() < 1e-6, "{found:?}");
+}
+
+#[test]
+fn a_motion_without_stiffness_and_mass_is_refused_in_words() {
+    // The sum of both rows is zero in K and in M.
+    let springs = "%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 1\n2 1 -1\n2 2 1\n";
+    let ((_k_folder, k), (_m_folder, m)) = (file("K.mtx", springs), file("M.mtx", springs));
+    let error = natural_frequencies(&k, &m, 1).unwrap_err().to_string();
+    assert!(error.contains("frfit modes"), "{error}");
+    assert!(
+        error.ends_with("a motion that has neither stiffness nor mass: K + s M is singular for every s"),
+        "{error}"
+    );
+}
+
 #[test]
 fn tables_by_what_they_can_serve_as() {
     assert_snapshot!(text("frf.csv", "frequency_hz,re,im,std\n20,1,0,1\n10,2,0,1\n"), @r"

@@ -127,7 +127,7 @@ fn a_table_of_dofs_rules_and_what_is_not_there_is_refused() {
     assert_snapshot!(refused("\"K.mtx\"", "\"M.mtx\"", &[without_y, mass]), @r#"case.toml:12:1: measurement.dof: expected a degree of freedom that the files of the matrices name, found 4-Y (no node 4; the nearest is 2 with X)"#);
     let fixed = ("K.mtx", "1 1 2.0\n2 2 1.0e36\n");
     assert_snapshot!(refused("\"K.mtx\"", "\"M.mtx\"", &[fixed, mass]), @r"
-    K.mtx: expected no row that is held fixed by 1e36 on the diagonal (written with FORMAT=MATRIX INPUT, the names of such rows tell what to leave out), found it in row 2
+    K.mtx: expected no row that is held fixed by 1e36 on the diagonal (written with FORMAT=MATRIX INPUT, the names of such rows say which rows to leave out), found it in row 2
     named in case.toml:4:1: matrix.file
     ");
     let idle = ("K.mtx", "1,1, 1,1, 2.0\n2,1, 2,1, 0.0\n");

@@ -21,28 +21,23 @@ struct Fault {
     suggestion: String,
 }
 
-/// Files, or beginnings of their paths, that are not written by these rules yet: their faults are counted and do not
-/// fail. Shorten this list, and do not lengthen it.
-const NOT_YET: [&str; 3] = ["docs/open-", "docs/site/src/python-api.md", "docs/site/src/python.md"];
-
 /// Documents outside of `docs` and `crates`.
 const SINGLE: [&str; 6] =
     ["README.md", "CHANGELOG.md", "CODE_OF_CONDUCT.md", "CONTRIBUTING.md", "SECURITY.md", "paper/paper.md"];
 
-/// Checks all Markdown of the repository. Faults of files in [`NOT_YET`] are listed only if `with_all`.
-pub(crate) fn check(with_all: bool) -> Step {
+/// Checks all Markdown of the repository.
+pub(crate) fn check() -> Step {
     println!("── prose");
     let start = Instant::now();
-    let passed = check_files(workspace(), with_all).unwrap_or_else(|error| {
+    let passed = check_files(workspace()).unwrap_or_else(|error| {
         eprintln!("{error}");
         false
     });
     Step { name: "prose", seconds: start.elapsed().as_secs_f64(), passed, closing: Vec::new() }
 }
 
-fn check_files(root: &Path, with_all: bool) -> io::Result<bool> {
+fn check_files(root: &Path) -> io::Result<bool> {
     let mut passed = true;
-    let mut later = Vec::new();
     for path in documents(root)? {
         let name = name(root, &path);
         let mut text = std::fs::read_to_string(&path)?;
@@ -50,17 +45,8 @@ fn check_files(root: &Path, with_all: bool) -> io::Result<bool> {
             text.truncate(unreleased(&text));
         }
         let faults = markdown::faults(&text);
-        let is_later = NOT_YET.iter().any(|begin| name.starts_with(begin));
-        if !is_later || with_all {
-            faults.iter().for_each(|fault| print(&name, fault));
-        }
-        if is_later && !faults.is_empty() {
-            later.push(format!("{name} {}", faults.len()));
-        }
-        passed &= is_later || faults.is_empty();
-    }
-    if !later.is_empty() {
-        println!("not checked yet, with faults (cargo xtask prose --all): {}", later.join(", "));
+        faults.iter().for_each(|fault| print(&name, fault));
+        passed &= faults.is_empty();
     }
     Ok(passed)
 }
@@ -164,7 +150,7 @@ mod tests {
             std::fs::create_dir_all(root.join(name).parent().unwrap()).unwrap();
             std::fs::write(root.join(name), text).unwrap();
         }
-        let passed = check_files(&root, false).unwrap();
+        let passed = check_files(&root).unwrap();
         std::fs::remove_dir_all(&root).unwrap();
         passed
     }
@@ -177,11 +163,6 @@ mod tests {
         {
             assert!(!passes(&format!("bad{k}"), &[(name, "The data tell it.\n")]), "{name}");
         }
-    }
-
-    #[test]
-    fn files_that_are_not_rewritten_yet_do_not_fail() {
-        assert!(passes("later", &[("docs/open-other.md", "The data tell it.\n")]));
     }
 
     #[test]

@@ -60,12 +60,19 @@ const LIST: [Entry; 47] = [
     ("utilize", "use"),
 ];
 
+/// Terms of the field and headings in which a listed word stands rightly.
+const ALLOWED: [&str; 2] = ["simply supported", "what to do first"];
+
 /// Places of the listed words in a text without its code, in the order of the text.
 pub(super) fn faults(prose: &str) -> Vec<Fault> {
     let tokens = tokens(prose);
     let mut faults = Vec::new();
     let mut at = 0;
     while at < tokens.len() {
+        if let Some(term) = ALLOWED.iter().find(|term| is_at(&tokens[at..], term)) {
+            at += term.split(' ').count();
+            continue;
+        }
         let begins = |(phrase, _): &&Entry| is_at(&tokens[at..], phrase);
         // Of two entries that begin here the longer one says more.
         match LIST.iter().filter(begins).max_by_key(|(phrase, _)| phrase.len()) {
@@ -143,6 +150,12 @@ mod tests {
         assert_eq!(found("So it is. None is left."), []);
         assert_eq!(found("So it is\n\nnone"), []);
         assert_eq!(found("| it is | none |"), []);
+    }
+
+    #[test]
+    fn terms_of_the_field_are_allowed() {
+        assert_eq!(found("a simply supported edge; what to do first"), []);
+        assert_eq!(found("it is simply there"), one(1, "simply"));
     }
 
     #[test]

@@ -65,7 +65,7 @@ impl Header {
         };
         let end = length.saturating_add(start);
         let Some(Ok(text)) = bytes.get(start..end).map(std::str::from_utf8) else {
-            return refuse("a header of a text", format!("{length} bytes that are none, or too few"));
+            return refuse("a header of a text", format!("{length} bytes that are no text, or too few"));
         };
         let after = |key: &str| text.split_once(key).map(|(_, rest)| rest.trim_start());
         let Some(descr) = after("'descr':") else {

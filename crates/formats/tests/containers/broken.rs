@@ -168,7 +168,7 @@ fn numpy_says_what_is_wrong() {
         ),
         (
             b"\x93NUMPY\x01\x00\xFF\xFF{".to_vec(),
-            "input, byte 0: expected a header of a text, found 65535 bytes that are none, or too few",
+            "input, byte 0: expected a header of a text, found 65535 bytes that are no text, or too few",
         ),
         (
             b"PK\x03\x04 and so on".to_vec(),

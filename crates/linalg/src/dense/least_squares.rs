@@ -5,7 +5,7 @@ use crate::c64;
 use faer::Mat;
 use faer::linalg::solvers::SolveLstsq;
 
-/// The solution of min ‖A x − b‖₂ and what is left.
+/// The solution of min ‖A x − b‖₂ and its residual.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LeastSquares {
     /// x, one entry for each column of A.

@@ -65,6 +65,9 @@ impl fmt::Display for Breakdown {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NotFinite => write!(f, "a value is infinite or not a number"),
+            Self::Singular { condition_at_least } if condition_at_least.is_infinite() => {
+                write!(f, "the matrix is singular (a pivot is zero)")
+            }
             Self::Singular { condition_at_least } => {
                 write!(
                     f,

@@ -57,7 +57,7 @@ impl<T: Scalar> Elimination<T> {
 /// Eliminates what can be eliminated of a front and carries it to its Schur complement; the pivots' D.
 ///
 /// Where nothing can be eliminated the Schur complement becomes 0: what the children leave in it is added later.
-/// Afterwards the first columns of the panel hold L, and the other candidates what is left of them.
+/// Afterwards the first columns of the panel hold L, and the other candidates their updated values.
 pub(crate) fn eliminate<T: Scalar>(
     front: &mut Front<'_, T>,
     schur: &mut [T::Real],

@@ -17,12 +17,12 @@ pub(crate) struct Stack<R> {
     top: usize,
 }
 
-/// Where a Schur complement is, or what is left of it.
+/// Where a Schur complement is, or the rest of it.
 #[derive(Debug)]
 pub(crate) enum Kept<R> {
     /// These numbers of the stack.
     Stacked(Range<usize>),
-    /// Taken out of it, to be handed to another thread: the numbers from a place on.
+    /// Removed from it, to be handed to another thread: the numbers from a place on.
     Taken(Memory<R>, usize),
 }
 

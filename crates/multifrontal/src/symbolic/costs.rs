@@ -6,7 +6,7 @@ use crate::kernel::{MAX_TILE_ROWS, STRIP_COLUMNS, TILES_PER_RUN};
 use crate::packed_lower::PackedLower;
 use std::ops::Range;
 
-/// Subtrees that are looked for: enough to keep some threads busy, few enough to leave work to each.
+/// Subtrees that are wanted: enough to keep some threads busy, few enough to leave work to each.
 const MIN_SUBTREES: usize = 32;
 
 /// Multiplications below which nothing is shared: a factorisation of less takes a millisecond.

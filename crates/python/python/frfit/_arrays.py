@@ -211,7 +211,7 @@ def words(value: Any, name: str) -> list[str]:
 
 
 def several(values: Any, name: str, expected: str) -> list[Any]:
-    """What a sequence holds; a text is none."""
+    """What a sequence holds; a text does not count as one."""
     if isinstance(values, (str, bytes)) or not isinstance(values, Iterable):
         raise refuse(name, expected, shown(values))
     return list(values)

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 
 class FrfitError(Exception):
-    """What every exception of frfit is."""
+    """The base of every exception of frfit."""
 
 
 class InputError(FrfitError, ValueError):
     """Something that has to be put right: ``place: expected ..., found ...``.
 
     Attributes: ``file``, ``line``, ``column`` (from 1) where a file is at fault, ``key`` of the case file or name of
-    the argument, ``expected`` and ``found``; ``None`` where there is none.
+    the argument, ``expected`` and ``found``. What does not apply is ``None``.
     """
 
     file: str | None = None

@@ -258,7 +258,8 @@ def _size(value: Any, name: str, expected: str) -> float:
 class CoarserMesh:
     """The same structure on a coarser mesh, which says how far the natural frequencies of the model are off.
 
-    What the model still has of the difference between the meshes is taken out of it, and is in every error bar.
+    From the difference between the meshes frfit estimates the error of the model. It corrects the model for this error, and widens
+    every error bar by what it does not know of it.
 
     Parameters
     ----------
@@ -496,21 +497,23 @@ def identify(
     matrix
         The name of the term whose factor is unknown, or of several that share it.
     unknowns
-        In place of ``matrix``, ``bounds``, ``varies``, ``law`` and ``real``: several unknowns, each with its own. There is one way to
-        find them: no ``method``, ``order``, ``selection``, ``reduction`` or ``start``.
+        In place of ``matrix``, ``bounds``, ``varies``, ``law`` and ``real``: several unknowns, each with its own. With several
+        unknowns ``method``, ``order``, ``selection``, ``reduction`` and ``start`` are refused: there is one method.
     bounds
         ``{"storage": (low, high), "loss_factor": (low, high)}``, storage in the unit of the factor.
     varies
-        ``"frequency"``: a factor of its own at each; ``"smooth"``: neighbours help each other; ``"constant"``: one for the band;
-        ``"law"``, which is what ``law`` alone means too: by a law, the best of ``law`` or without it of all.
+        ``"frequency"``: a factor of its own at each frequency; ``"smooth"``: a smooth curve, in which neighbours help each
+        other; ``"constant"``: one value for the band; ``"law"``: a law. With ``law`` given, ``"law"`` may be left out. Without
+        ``law`` all laws are compared.
     model_error
-        ``"estimated"``: errors of the model are taken out where the band shows them; ``"none"``: there are none; a number
-        or a text as ``"0.5 %"``, or ``{"frequency": 0.005, "shape": "2 %", "calibration": 0.01}``: natural frequencies (mode
-        shapes, calibrations of force and sensors) are good to that, in every error bar.
+        ``"estimated"``: frfit estimates errors of the model where the band shows them, and corrects for them. ``"none"``: the
+        model is taken as exact. A number, or a text as ``"0.5 %"``: standard deviation of the natural frequencies. With
+        ``{"frequency": 0.005, "shape": "2 %", "calibration": 0.01}`` also those of mode shapes and of the calibrations of force
+        and sensors. Every error bar includes them.
     coarser_mesh
         The same structure on a coarser mesh, by which the error of this one is measured.
     max_lines
-        Of more measured frequencies than this the most informative ones; the others are ``out_of_band``.
+        The largest number of frequencies that are used: the most informative ones. The others are ``out_of_band``.
     law
         ``"constant"``, ``"fractional"``, ``"zener"``, ``"maxwell:N"`` or several: fitted to the whole band.
     progress

@@ -37,10 +37,16 @@ class Finding:
     """Something that is wrong with the data, as ``frfit check`` says it."""
 
     kind: str
+    """``sign``, ``factor``, ``quantity``, ``conjugated``, ``delay``, ``response_dof``, ``load_dof``, ``axis``, ``nominal``,
+    ``mesh`` or ``no_signal``."""
     sensors: tuple[str, ...]
+    """Labels of the sensors that it concerns: as ``sensors`` of an :class:`Identification`. Empty where it concerns none."""
     what: str
+    """What is wrong, in words."""
     evidence: str
+    """The numbers that speak for it."""
     change: str
+    """What to change."""
 
     def __repr__(self) -> str:
         return f"<frfit.Finding of {some(self.sensors) or 'the band'}: {self.what}>"
@@ -92,6 +98,7 @@ class Estimate:
     """
 
     name: str
+    """Its name, that of the term unless another one was given."""
     matrices: tuple[str, ...]
     """The terms that it enters."""
     varies: str
@@ -99,6 +106,7 @@ class Estimate:
     law: tuple[str, ...]
     """The laws that were fitted."""
     real: bool
+    """Whether it is real."""
     factor: Complex
     """(f,), the identified factor E' (1 + i eta)."""
     nominal: Complex
@@ -194,9 +202,10 @@ class Identification:
     updated_response: Complex
     """(f, sensors), receptance of the updated model."""
     sensors: tuple[str, ...]
-    """Labels of the sensors."""
+    """Labels of the sensors. Of arrays ``row 4`` is index 4 of the matrices, from 0. Of a case file it is the name of the degree
+    of freedom, or ``row 5`` with rows from 1, as the file counts them."""
     sensor_misfit: Real
-    """(sensors,), misfit over what noise leaves; empty where each frequency is answered by itself."""
+    """(sensors,), misfit over what noise leaves; empty where each frequency is identified independently of the others."""
     sensor_left_out: Flags
     """(sensors,), whether it was left out: it contradicts all others, or shows nothing beside them."""
     sensor_scale: Real
@@ -215,18 +224,18 @@ class Identification:
     """The laws that were fitted, as in ``law.json``; ``None`` where none was asked for."""
     smooth: dict[str, Any] | None
     """How smooth the factor is, as in ``summary.json``: ``parameters`` that the curve takes for each of its parts,
-    ``width_octaves``, ``converged``, frequencies ``unexplained``; ``None`` where it was not asked to be smooth, or no
-    curve could be laid."""
+    ``width_octaves``, ``converged``, frequencies ``unexplained``. ``None`` where the factor was not to be smooth, or where no
+    curve fits."""
     noise: float | None
     """Noise over the assumed standard deviations; ``None`` where it is not known."""
     noise_source: str
     """``given``, ``sensors``, ``scatter`` or ``unknown``."""
     explained: str | None
-    """Whether noise is all that is left: ``explained``, ``nearly explained``, ``not explained``, ``untested``."""
+    """Whether noise explains the residual: ``explained``, ``nearly explained``, ``not explained``, ``untested``."""
     is_trusted: bool
     """Whether all that holds for the band is trusted and the measurements are not contradicted."""
     coordinates: tuple[str, ...]
-    """What the rows of ``correlation`` stand for."""
+    """What the rows of ``correlation`` stand for; in ``scale of measurement 1`` measurements are counted from 1."""
     correlation: Real
     """(k, k), correlation of the k numbers that hold for the band."""
     directions: tuple[Direction, ...]
@@ -242,7 +251,7 @@ class Identification:
     agreeing: int
     """How many of them ended at the result."""
     explored: int
-    """Frequencies at which all solutions were looked for."""
+    """Frequencies at which all solutions were searched."""
     subspace_size: int | None
     """Vectors of the reduced model; ``None`` where the full one answered."""
     factorisations: int
@@ -459,9 +468,9 @@ class Identification:
     def to_dataframe(self, kind: Literal["table", "long", "numbers"] = "table") -> Any:
         """A ``pandas.DataFrame`` of the results; needs pandas.
 
-        ``kind`` is ``"table"``: :meth:`columns`, a row at each frequency; ``"long"``: a row for each unknown and frequency, with
-        all arrays of an :class:`Estimate`, also those that ``identified.csv`` does not have; or ``"numbers"``: a row for each
-        number that holds for the band.
+        With ``kind="table"`` it has the :meth:`columns`, a row at each frequency. With ``"long"`` it has a row for each unknown
+        and frequency, and all arrays of an :class:`Estimate`, also those that ``identified.csv`` does not have. With
+        ``"numbers"`` it has a row for each number that holds for the band.
         """
         kinds = ("table", "long", "numbers")
         one_of(kind, "kind", kinds)

@@ -95,6 +95,6 @@ def html_of(title: str, *parts: str) -> str:
 
 
 def html_list(lines: Iterable[str]) -> str:
-    """Lines of text as a list; nothing where there is none."""
+    """Lines of text as a list; no list without lines."""
     items = "".join(f"<li>{escaped(line)}</li>" for line in lines)
     return f"<ul>{items}</ul>" if items else ""

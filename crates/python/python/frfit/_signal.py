@@ -85,34 +85,44 @@ def _impact(value: Any) -> int:
 
 @dataclass(frozen=True)
 class Impact:
-    """An impact that was found: samples ``first`` to ``end`` of a recording, and what speaks against it."""
+    """An impact that was found in a recording, and what speaks against it."""
 
     recording: int
+    """Its recording, from 0."""
     first: int
+    """Its first sample, from 0."""
     end: int
+    """The sample after its last one."""
     peak_n: float
+    """Largest force, N."""
     contact_s: float
+    """How long the hammer touched the structure, s."""
     kept: bool
+    """Whether it is in the average."""
     faults: tuple[str, ...]
+    """What is wrong with it, in words."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class MeasuredFrf:
-    """The FRF of every sensor, with how sure it is.
-
-    ``frequency_hz`` (f,); ``response`` (sensors, f), response over force; ``coherence`` and ``std`` (sensors, f), ``None`` for a
-    single impact, ``std`` that of the complex value; ``force`` (f,), rms of the force's transform, N s; ``decay_per_s``, 1/s, that of
-    the exponential window, for ``Measurement``.
-    """
+    """The FRF of every sensor, with its coherence and standard deviation."""
 
     frequency_hz: Real
+    """(f,), Hz."""
     response: Complex
+    """(sensors, f), response over force."""
     coherence: Real | None
+    """(sensors, f); ``None`` for a single impact."""
     std: Real | None
+    """(sensors, f), standard deviation of the complex response; ``None`` for a single impact."""
     force: Real
+    """(f,), rms of the force's transform, N s."""
     averages: int
+    """How many impacts are averaged."""
     impacts: tuple[Impact, ...]
+    """All impacts that were found."""
     decay_per_s: float = 0.0
+    """Decay rate of the exponential window, 1/s, for :class:`Measurement`."""
 
     def __repr__(self) -> str:
         parts = [f"{counted(len(self.response), 'sensor')}, {len(self.frequency_hz)} frequencies, {span(self.frequency_hz)}"]

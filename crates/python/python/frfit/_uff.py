@@ -152,7 +152,7 @@ class Uff:
         self._summaries: tuple[UffSummary, ...] | None = None
 
     def __reduce__(self) -> tuple[type[Uff], tuple[str | bytes]]:
-        """Pickled as where it is: whoever unpickles it maps the file anew."""
+        """Pickled as its path; unpickling maps the file again."""
         return Uff, (self._path,)
 
     def __len__(self) -> int:

@@ -64,7 +64,7 @@ fn files(results: &Results) -> String {
         ("reference.csv", "nominal and known values"),
     ];
     all.extend(optional.into_iter().filter(|(is_there, _)| *is_there).map(|(_, name)| match name {
-        FREE => (name, "each frequency by itself"),
+        FREE => (name, "each frequency alone"),
         name => (name, "the error over frequency and order"),
     }));
     all.push(("summary.json", "everything else, for programs"));

@@ -211,7 +211,7 @@ fn explanation(other: &Value) -> String {
     )
 }
 
-/// What tells the headings of an unknown from those of another one.
+/// What distinguishes the headings of an unknown from those of another one.
 fn id_of(results: &Results, one: &Unknown) -> String {
     let place = results.unknowns.iter().position(|other| other.name == one.name);
     place.filter(|_| !one.prefix.is_empty()).map_or(String::new(), |place| format!("-{}", place + 1))

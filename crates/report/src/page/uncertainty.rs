@@ -1,4 +1,4 @@
-//! How sure the values are: errors of the model, noise, sensors, and what cannot be told apart.
+//! How sure the values are: errors of the model, noise, sensors, and what cannot be distinguished.
 
 use super::heading;
 use super::model_errors::{model_errors, number, table};

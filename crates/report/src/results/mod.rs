@@ -38,14 +38,14 @@ pub(crate) struct Results {
     pub(crate) band: Band,
     pub(crate) sensors: Vec<Sensor>,
     pub(crate) candidates: Candidates,
-    /// What each frequency says by itself, where a law or a smooth curve answers.
+    /// What each frequency alone gives, where a law or a smooth curve answers.
     pub(crate) free: Option<Band>,
     /// ε over frequency and order, of the series.
     pub(crate) error_map: Option<ErrorMap>,
 }
 
 impl Results {
-    /// Reads the summary, and the tables that it names: what another run has left in the folder is none of them.
+    /// Reads the summary, and the tables that it names: files of another run in the folder are not read.
     pub(crate) fn read(file: &dyn Fn(&str) -> Option<Vec<u8>>) -> Result<Self, FormatError> {
         let summary = of(SUMMARY, bytes(file, SUMMARY).and_then(|bytes| Summary::read(&bytes)))?;
         let tables = of(SUMMARY, summary.tables())?;

@@ -46,40 +46,66 @@ fn put(item: &mut Item, keys: &[&str], value: Value) -> Result<(), Refusal> {
         *item = Item::Table(Table::new());
     }
     if let Some(tables) = item.as_array_of_tables_mut() {
-        let count = tables.len();
-        let named = |table: &Table| table.get("name").and_then(Item::as_str) == Some(*key);
-        let (index, rest) = match key.parse::<usize>() {
-            Ok(number) => (number.checked_sub(1).filter(|&k| k < count), rest),
-            Err(_) => match tables.iter().position(named) {
-                Some(index) => (Some(index), rest),
-                None => ((count == 1).then_some(0), keys),
-            },
+        let names = tables.iter().map(|table| table.get("name").and_then(Item::as_str));
+        let (index, rest) = one_of(&names.collect::<Vec<_>>(), keys)?;
+        return match tables.get_mut(index) {
+            Some(table) => put_into(table, rest, value),
+            None => Ok(()),
         };
-        let Some(table) = index.and_then(|k| tables.get_mut(k)) else {
-            return Err((
-                format!("the name or the number (1 to {count}) of one of several tables"),
-                format!("{key:?}"),
-            ));
-        };
-        return put_into(table, rest, value);
+    }
+    if let Some(values) = item.as_array_mut().filter(|values| values.iter().any(Value::is_inline_table)) {
+        let name = |value: &Value| value.as_inline_table()?.get("name")?.as_str().map(str::to_owned);
+        let names: Vec<Option<String>> = values.iter().map(name).collect();
+        let (index, rest) = one_of(&names.iter().map(Option::as_deref).collect::<Vec<_>>(), keys)?;
+        if rest.is_empty() {
+            return Err(no_key());
+        }
+        return values.get_mut(index).map_or(Ok(()), |one| put_below(one, rest, value));
     }
     if let Some(table) = item.as_table_mut() {
         return put_into(table, keys, value);
     }
     if let Some(table) = item.as_inline_table_mut() {
-        // A key in a value: all of what is below it are values too.
         let inner = table.entry(*key).or_insert(Value::InlineTable(toml_edit::InlineTable::new()));
-        let mut inside = Item::Value(inner.clone());
-        put(&mut inside, rest, value)?;
-        *inner = inside.into_value().unwrap_or_else(|_| inner.clone());
-        return Ok(());
+        return put_below(inner, rest, value);
     }
     Err((format!("a table, for its key {key:?}"), item.type_name().to_owned()))
 }
 
+/// Which of several tables, of which some have names, the first key means, and the keys below it. The only table needs
+/// no key.
+fn one_of<'k, 'a>(names: &[Option<&str>], keys: &'k [&'a str]) -> Result<(usize, &'k [&'a str]), Refusal> {
+    let count = names.len();
+    let Some((key, rest)) = keys.split_first() else { return Err(no_key()) };
+    let found = match key.parse::<usize>() {
+        Ok(number) => number.checked_sub(1).filter(|&k| k < count).map(|k| (k, rest)),
+        Err(_) => match names.iter().position(|name| *name == Some(*key)) {
+            Some(index) => Some((index, rest)),
+            None => (count == 1).then_some((0, keys)),
+        },
+    };
+    found.ok_or_else(|| {
+        (format!("the name or the number (1 to {count}) of one of several tables"), format!("{key:?}"))
+    })
+}
+
+fn no_key() -> Refusal {
+    ("a key of the table".into(), "none".into())
+}
+
+/// Puts a value below another one: all that is below it are values too.
+fn put_below(inner: &mut Value, keys: &[&str], value: Value) -> Result<(), Refusal> {
+    let mut inside = Item::Value(inner.clone());
+    put(&mut inside, keys, value)?;
+    if let Ok(changed) = inside.into_value() {
+        *inner = changed;
+    }
+    Ok(())
+}
+
 fn put_into(table: &mut Table, keys: &[&str], value: Value) -> Result<(), Refusal> {
     match keys {
-        [] => Err(("a key of the table".into(), "none".into())),
+        [] => Err(no_key()),
         [key] => {
             table.insert(key, Item::Value(value));
             Ok(())
@@ -109,6 +135,29 @@ mod tests {
         changed("identify.band_hz", "[1.0, 3.5]", "[1.0, 2.0]", "[1.0, 3.5]");
         changed("matrix.K.factor.storage", "2e9", "storage = 1.0", "storage = 2e9");
         changed("matrix.2.name", "mass", "\"M\"", "\"mass\"");
+    }
+
+    #[test]
+    fn tables_of_an_inline_list_are_found_as_well() {
+        const INLINE: &str = "matrix = [{ name = \"K\", file = \"K.mtx\" }, { name = \"M\", file = \"M.mtx\" }]\n\
+                              measurement = [ { file = \"a.csv\", row = 3 } ] # one\n";
+        let changed = |key, value, old, new| {
+            let found = edited(INLINE, &[Edit { key, value }]).unwrap();
+            assert_eq!(found, INLINE.replacen(old, new, 1), "{key}");
+        };
+        changed("measurement.1.file", "b.csv", "\"a.csv\"", "\"b.csv\"");
+        changed("measurement.file", "b.csv", "\"a.csv\"", "\"b.csv\"");
+        changed("measurement.row", "4", "row = 3 ", "row = 4");
+        changed("matrix.M.file", "B.mtx", "\"M.mtx\"", "\"B.mtx\"");
+        changed("matrix.2.name", "mass", "\"M\"", "\"mass\"");
+        for (key, expected, found) in [
+            ("measurement.2.file", "the name or the number (1 to 1) of one of several tables", "\"2\""),
+            ("matrix.C.file", "the name or the number (1 to 2) of one of several tables", "\"C\""),
+            ("matrix.1", "a key of the table", "none"),
+        ] {
+            let error = edited(INLINE, &[Edit { key, value: "x" }]).unwrap_err();
+            assert_eq!((&*error.expected, &*error.found), (expected, found), "{key}");
+        }
     }
 
     #[test]

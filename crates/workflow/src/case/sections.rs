@@ -439,7 +439,7 @@ fn columns(field: &Field<'_>) -> Result<Located<Vec<String>>, InputError> {
 fn averages(field: &Field<'_>) -> Result<Located<i64>, InputError> {
     let averages = field.whole()?;
     if averages.value < 2 {
-        return Err(field.refuse("a whole number from 2 on: the coherence of one record tells nothing"));
+        return Err(field.refuse("a whole number from 2 on: the coherence of one record is always 1"));
     }
     Ok(averages)
 }

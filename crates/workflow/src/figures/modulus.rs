@@ -77,7 +77,7 @@ fn curve_of_band(identify: &IdentifyCase, run: &IdentifyRun, j: usize, label: &s
     let mut all = vec![series("nominal", nominal, Color::Blue, Some(Dash::Dashed), None)];
     if !found.free.is_empty() {
         let own = part.each(found.free.iter().map(own));
-        all.push(series("each frequency by itself", own, Color::Grey, None, Some(Marker::Circle)));
+        all.push(series("each frequency alone", own, Color::Grey, None, Some(Marker::Circle)));
     }
     if let Some(reference) = &identify.reference[j] {
         let reference = part.each(x.iter().map(|&f| reference.at(f).ok()));

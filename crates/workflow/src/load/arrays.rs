@@ -188,7 +188,7 @@ pub fn case_of_arrays(
     options.validate().map_err(ArraysError::Options)?;
     let place_of = |first: usize| {
         let key = if unknown[first].scale { "scale" } else { "delay_s" };
-        argument(&format!("measurement {}", first + 1)).below(key)
+        argument(&measurement_argument(first)).below(key)
     };
     let first = unknown.iter().position(|unknown| unknown.any()).map(place_of);
     let given = Given {
@@ -220,7 +220,7 @@ pub fn response_of_arrays(
     frequency_hz: Vec<f64>,
 ) -> Result<Case, InputError> {
     for (k, sensor) in sensors.iter().enumerate() {
-        inside(&argument(&format!("sensor {}", k + 1)), sensor.row, model.dim())?;
+        inside(&argument(&format!("sensors[{k}]")), sensor.row, model.dim())?;
     }
     let experiment = experiment(&model, load, sensors)?;
     if let Some(f) = frequency_hz.iter().find(|f| !(f.is_finite() && **f >= 0.0)) {
@@ -270,6 +270,7 @@ fn case(
         coarser_mesh: None,
         sensors,
         row_names,
+        first_number: 0,
         inputs,
         reads: Default::default(),
         identify,
@@ -284,8 +285,14 @@ fn argument(name: &str) -> Place {
     Place::option(name)
 }
 
+/// A row by its index.
 fn row(row: usize) -> String {
-    format!("row {}", row + 1)
+    format!("row {row}")
+}
+
+/// An element of the measurements' sequence.
+pub(super) fn measurement_argument(m: usize) -> String {
+    format!("measurements[{m}]")
 }
 
 fn inside(place: &Place, row: usize, dim: usize) -> Result<(), InputError> {
@@ -315,7 +322,7 @@ fn experiment(
 }
 
 fn measurement(measured: MeasuredFrf, k: usize, dim: usize) -> Result<Measurement, InputError> {
-    let name = format!("measurement {}", k + 1);
+    let name = measurement_argument(k);
     let place = argument(&name);
     inside(&place, measured.sensor.row, dim)?;
     measured.check(&name)?;

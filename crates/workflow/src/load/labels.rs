@@ -109,7 +109,7 @@ pub(crate) fn one_order(members: &[Member<'_>]) -> Result<Option<Order>, (usize,
     for (k, member) in members.iter().enumerate().filter(|(_, member)| member.labels.rows.is_empty()) {
         if let Some(row) = held_by_a_large_number(member.matrix) {
             let expected = "no row that is held fixed by 1e36 on the diagonal (written with FORMAT=MATRIX INPUT, \
-                            the names of such rows tell what to leave out)";
+                            the names of such rows say which rows to leave out)";
             return Err((k, FormatError::whole(expected, format!("it in row {}", row + 1))));
         }
     }

@@ -1,5 +1,6 @@
 //! A case with all of its files.
 
+use super::arrays::measurement_argument;
 use super::files::InputFile;
 use super::identify::IdentifyCase;
 use super::measurement::SensorInfo;
@@ -33,6 +34,8 @@ pub struct Case {
     pub sensors: Vec<SensorInfo>,
     /// The names of rows (from 0), as `34+Z`; empty without `[dofs]` where the matrices' files name none either.
     pub row_names: BTreeMap<usize, String>,
+    /// The number of the first row and of the first measurement in words and tables: 1 of case files, 0 of a program's arrays.
+    pub first_number: usize,
     /// Every file that was read, the case file first.
     pub inputs: Vec<InputFile>,
     /// Where they are, so that nothing is written over them.
@@ -48,9 +51,23 @@ pub struct Case {
 }
 
 impl Case {
-    /// `34+Z` where `[dofs]` or a matrix' file names the row (from 0), `row 97` (from 1) elsewhere.
+    /// `34+Z` where `[dofs]` or a matrix' file names the row (from 0); elsewhere `row 97`, counted from
+    /// [`first_number`](Self::first_number).
     pub fn row_name(&self, row: usize) -> String {
-        self.row_names.get(&row).cloned().unwrap_or_else(|| format!("row {}", row + 1))
+        self.row_names.get(&row).cloned().unwrap_or_else(|| format!("row {}", self.row_number(row)))
+    }
+
+    /// The number of a row (from 0) in words and tables.
+    pub fn row_number(&self, row: usize) -> usize {
+        row + self.first_number
+    }
+
+    /// Measurement `m` (from 0) as its author wrote it: `[[measurement]] 1` of a case file, `measurements[0]` of a program.
+    pub fn measurement_name(&self, m: usize) -> String {
+        match self.first_number {
+            0 => measurement_argument(m),
+            first => format!("[[measurement]] {}", m + first),
+        }
     }
 
     /// The reduced model that was trained already, to be trained further; `None` without one.

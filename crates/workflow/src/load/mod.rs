@@ -171,6 +171,7 @@ fn load_text(
         coarser_mesh,
         sensors: measurements.into_iter().map(|measurement| measurement.info).collect(),
         row_names: dofs.names(),
+        first_number: 1,
         inputs: files.inputs,
         reads: files.reads,
         model: Arc::new(model),

@@ -138,10 +138,10 @@ impl Index {
             (_, Some(&k), None) => Ok(k),
             (_, first, _) => {
                 let which = match (choice.measured_at, first) {
-                    (None, _) => "several, and no dof or record that tells which",
+                    (None, _) => "several, and no dof or record that says which",
                     (Some(_), None) => "none with the dof and load of the case",
                     (Some(_), Some(_)) => {
-                        "several with the dof and load of the case, and no record that tells which"
+                        "several with the dof and load of the case, and no record that says which"
                     }
                 };
                 let found = format!("{which} ({})", listed(frfs));

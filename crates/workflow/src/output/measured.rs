@@ -138,7 +138,7 @@ fn warnings(records: &Records, measured: &Measured) -> Vec<String> {
     }
     if let (Some(decay), Some(first)) = (measured.added_decay_per_s, measured.frequency_hz.first()) {
         warnings.push(format!(
-            "the exponential window's decay_per_s = {decay:.4} goes with the FRF, and frfit identify takes it into the model; \
+            "the exponential window's decay_per_s = {decay:.4} belongs to the FRF, and frfit identify takes it into the model; \
              another program would see it as a loss factor of {:.4} at {first:.1} Hz, less in proportion above",
             added_loss_factor(decay, *first)
         ));

@@ -60,7 +60,7 @@ pub(super) fn json(case: &Case, run: &SensitivityRun) -> Value {
     let next = run.next.as_ref().map(|next| {
         let one = |place: &Place| {
             json!({
-                "dof": case.row_name(place.row), "row": place.row + 1, "after": worst(&place.after),
+                "dof": case.row_name(place.row), "row": case.row_number(place.row), "after": worst(&place.after),
                 "as_good": place.as_good.iter().map(|&row| case.row_name(row)).collect::<Vec<_>>(),
             })
         };

@@ -322,7 +322,7 @@ fn loads_and_measurements() {
         (
             "quantity = \"accelerance\"",
             "quantity = \"accelerance\"\naverages = 1",
-            "case.toml:24:1: measurement.averages: expected a whole number from 2 on: the coherence of one record tells nothing, found 1",
+            "case.toml:24:1: measurement.averages: expected a whole number from 2 on: the coherence of one record is always 1, found 1",
         ),
         (
             "quantity = \"accelerance\"",

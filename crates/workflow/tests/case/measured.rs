@@ -152,7 +152,7 @@ fn what_cannot_be_used_is_said() {
         (
             several(),
             only,
-            "a.uff: expected one frequency response function, found several, and no dof or record that tells which (1: 2+Z/1+X, 2: 2+Z/1+Z, 3: 2+RX/1+Z)\nnamed in case.toml:21:1: measurement.file",
+            "a.uff: expected one frequency response function, found several, and no dof or record that says which (1: 2+Z/1+X, 2: 2+Z/1+Z, 3: 2+RX/1+Z)\nnamed in case.toml:21:1: measurement.file",
         ),
         (
             several(),
@@ -172,7 +172,7 @@ fn what_cannot_be_used_is_said() {
         (
             [several(), several()].concat(),
             "file = \"a.uff\"\ndof = \"2+RX\"\n",
-            "a.uff: expected one frequency response function, found several with the dof and load of the case, and no record that tells which (1: 2+Z/1+X, 2: 2+Z/1+Z, 3: 2+RX/1+Z, 4: 2+Z/1+X, 5: 2+Z/1+Z, 6: 2+RX/1+Z)\nnamed in case.toml:21:1: measurement.file",
+            "a.uff: expected one frequency response function, found several with the dof and load of the case, and no record that says which (1: 2+Z/1+X, 2: 2+Z/1+Z, 3: 2+RX/1+Z, 4: 2+Z/1+X, 5: 2+Z/1+Z, 6: 2+RX/1+Z)\nnamed in case.toml:21:1: measurement.file",
         ),
         (
             edit(&|f| f.header.function_type = FunctionType::Coherence),

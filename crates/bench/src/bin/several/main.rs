@@ -68,7 +68,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     eprintln!("one unknown, as [identify] …");
     let usual = structure.task(structure.experiment.sensors.len(), DELTA)?.run(&Options::default(), 1)?;
     table.push([
-        "core E(ω), by itself".to_owned(),
+        "core E(ω), alone".to_owned(),
         format!("{:.1}", usual.cpu),
         "1.00".to_owned(),
         usual.found.search.work.factorisations.to_string(),

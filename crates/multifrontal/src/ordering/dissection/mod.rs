@@ -37,7 +37,7 @@ const MAX_COARSER_SHARE: f64 = 0.9;
 /// once.
 const DENSE_ROW_MULTIPLE: f64 = 10.0;
 
-/// How often a graph is cut before one thread goes on with what is left: some parts for each of a few threads.
+/// How often a graph is cut before one thread goes on with the rest: some parts for each of a few threads.
 const SHARED_CUTS: usize = 4;
 
 /// Parts of fewer vertices are not worth another thread.
@@ -77,7 +77,7 @@ struct Level {
     small: Vec<Part>,
     /// Of each large part the vertices that come last, and what they leave.
     large: Vec<(Vec<u32>, Vec<Part>)>,
-    /// How often what is left may be shared out.
+    /// How often the rest may be shared out.
     cuts: usize,
 }
 

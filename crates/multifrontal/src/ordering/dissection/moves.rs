@@ -13,7 +13,7 @@ use std::collections::BinaryHeap;
 /// per mille more, with any the analysis takes a fifth longer.
 const MAX_COST_RATIO: f64 = 1.2;
 
-/// A pass ends where so many times the separator's vertices were moved in vain: with one layer structures
+/// A pass ends where this number times the separator's vertices were moved in vain: with one layer structures
 /// cost a per cent more, with five no less.
 const MAX_VAIN_LAYERS: usize = 2;
 

@@ -55,7 +55,7 @@ impl Part {
         Self { graph: Weighted { start, neighbours, edges, weight }, vertices }
     }
 
-    /// The connected pieces of what is left without some vertices.
+    /// The connected pieces of the graph without some vertices.
     pub(super) fn pieces(&self, without: impl Fn(u32) -> bool) -> Vec<Self> {
         let mut new = vec![u32::MAX; self.vertices.len()];
         let mut pieces = Vec::new();
