@@ -4,6 +4,7 @@ use crate::common;
 use crate::tier::of_tier;
 
 use common::{column, done, frfit, refused};
+use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
@@ -136,6 +137,30 @@ fn what_cannot_be_a_plan_or_a_share_is_refused() {
         words.contains("row 1 failed: wrong.csv:2: matrix.glue.factor: expected the name or the number"),
         "{words}"
     );
+}
+
+#[test]
+fn a_kept_reduced_model_serves_modes_and_sensitivities() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    with_plan(at, 0);
+    let json = |arguments: &[&str]| -> Value { serde_json::from_str(&done(at, arguments)).unwrap() };
+    let number = |value: &Value, path: &str| value.pointer(path).and_then(Value::as_f64).unwrap();
+    for (verb, more, compared) in [
+        ("modes", &[][..], "/model/modes/3/frequency_hz"),
+        ("sensitivities", &["--candidates", "none"][..], "/parameters/0/rms"),
+    ] {
+        let usual = [&["--json", verb, "s/case.toml"], more].concat();
+        let [own, kept] = [json(&usual), json(&[&usual[..], &["--reduced", "m.frfit"]].concat())];
+        let [a, b] = [&own, &kept].map(|found| number(found, compared));
+        assert!((a - b).abs() < 1e-5 * a.abs(), "{verb}: {a} and {b}");
+        let work =
+            |found: &Value| ["factorisations", "solves"].map(|of| number(found, &format!("/counts/{of}")));
+        let ([own_factors, own_solves], [factors, solves]) = (work(&own), work(&kept));
+        assert!(factors <= own_factors && solves < own_solves, "{verb}: {own} and {kept}");
+    }
+    let words = refused(at, &["modes", "s/case.toml", "--reduced", "s/K_core.mtx"]);
+    assert!(words.contains("K_core.mtx"), "{words}");
 }
 
 #[test]

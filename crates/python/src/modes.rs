@@ -18,16 +18,18 @@ use std::sync::Arc;
 
 /// What `frfit.Modes` is made of; with `out` the files of `frfit modes` too.
 #[pyfunction]
+#[expect(clippy::too_many_arguments, reason = "those of the command line")]
 pub(crate) fn modes<'py>(
     py: Python<'py>,
     path: PathBuf,
     out: Option<PathBuf>,
     band_hz: Option<[f64; 2]>,
     identified: Option<PathBuf>,
+    reduced: Option<PathBuf>,
     max_order: Option<usize>,
     memory_bytes: Option<u64>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let overrides = Overrides { band_hz, identified, ..Overrides::default() };
+    let overrides = Overrides { band_hz, identified, reduced, ..Overrides::default() };
     let options = ModesOptions { max_order, memory_bytes };
     let found = in_background(py, None, move |_| modes_case(&path, &overrides, &options, out.as_deref()))?
         .map_err(|error| job(py, &error))?;

@@ -73,6 +73,7 @@ fn checked<'py>(py: Python<'py>, done: &CheckJob) -> PyResult<Bound<'py, PyDict>
 
 /// What `frfit sensitivities --json` prints; with `out` its files too.
 #[pyfunction]
+#[expect(clippy::too_many_arguments, reason = "those of the command line")]
 pub(crate) fn sensitivities(
     py: Python<'_>,
     path: PathBuf,
@@ -80,10 +81,11 @@ pub(crate) fn sensitivities(
     band_hz: Option<[f64; 2]>,
     noise: Option<f64>,
     candidates: &str,
+    reduced: Option<PathBuf>,
     memory_bytes: Option<u64>,
 ) -> PyResult<String> {
     let candidates = word(py, "candidates", candidates)?;
-    let overrides = Overrides { band_hz, ..Overrides::default() };
+    let overrides = Overrides { band_hz, reduced, ..Overrides::default() };
     let options = SensitivityOptions { noise, candidates, memory_bytes };
     let found =
         in_background(py, None, move |_| sensitivities_case(&path, &overrides, &options, out.as_deref()))?;

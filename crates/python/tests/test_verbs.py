@@ -137,6 +137,10 @@ def test_identify_train_and_modes(rubber_bar: pathlib.Path, said: Any, tmp_path:
     found = frfit.modes(rubber_bar, tmp_path / "c")
     command = said("modes", rubber_bar, "--out", tmp_path / "d")
     same_files(tmp_path / "c", tmp_path / "d")
+    kept = frfit.modes(rubber_bar, reduced=tmp_path / "a.frfit")
+    np.testing.assert_allclose(kept.frequency_hz, found.frequency_hz, rtol=1e-8)
+    ranked = frfit.sensitivities(rubber_bar, reduced=tmp_path / "a.frfit", candidates="none")
+    assert ranked.summary["counts"]["solves"] < frfit.sensitivities(rubber_bar, candidates="none").summary["counts"]["solves"]
     modes = [mode["frequency_hz"] for mode in command["model"]["modes"]]
     assert list(found.frequency_hz) == modes[: len(found.frequency_hz)]
 

@@ -165,6 +165,7 @@ def modes(
     out: _Path | None,
     band_hz: tuple[float, float] | None,
     identified: _Path | None,
+    reduced: _Path | None,
     max_order: int | None,
     memory_bytes: int | None,
 ) -> dict[str, Any]: ...
@@ -197,6 +198,7 @@ def sensitivities(
     band_hz: tuple[float, float] | None,
     noise: float | None,
     candidates: str,
+    reduced: _Path | None,
     memory_bytes: int | None,
 ) -> str: ...
 def fit(

@@ -141,6 +141,7 @@ def modes(
     unknowns: Unknown | Sequence[Unknown] | None = None,
     band_hz: tuple[float, float] | None = None,
     identified: str | os.PathLike[str] | None = None,
+    reduced: str | os.PathLike[str] | None = None,
     max_order: int | None = None,
     memory_bytes: int | None = None,
 ) -> Modes:
@@ -162,6 +163,8 @@ def modes(
         First and last frequency, in place of the case file's; needed of a model without measurements.
     identified
         ``identified.csv`` of an identification of this case: the model is taken at the values found there.
+    reduced
+        Reduced model of ``train``, for the same matrices, load and sensors; of a case file only.
     max_order
         The largest order of the stabilisation diagram; three for each mode are enough.
     memory_bytes
@@ -177,10 +180,11 @@ def modes(
     limit = optional_whole(memory_bytes, "memory_bytes", 0)
     if not isinstance(case, Model):
         only_of_a_model(measurements=measurements, load=load, sensors=sensors, matrix=matrix, unknowns=unknowns)
-        found = _frfit.modes(case, out, band, identified, largest, limit)
+        found = _frfit.modes(case, out, band, identified, reduced, largest, limit)
     else:
-        if out is not None or identified is not None:
-            raise refuse("out" if out is not None else "identified", "None beside a model", "a path")
+        for name, path in (("out", out), ("identified", identified), ("reduced", reduced)):
+            if path is not None:
+                raise refuse(name, "None beside a model", "a path")
         if load is None:
             raise refuse("load", "a row, or a value for each row", "none")
         if isinstance(measurements, Measurement) or len(measurements) > 0:

@@ -233,6 +233,7 @@ def sensitivities(
     band_hz: tuple[float, float] | None = None,
     noise: float | None = None,
     candidates: str | Sequence[str | int] = "all",
+    reduced: _Path | None = None,
     memory_bytes: int | None = None,
 ) -> Sensitivities:
     """What the response depends on, and what the sensors can identify: ``frfit sensitivities``, from a case file or from arrays.
@@ -254,6 +255,8 @@ def sensitivities(
     candidates
         Where the next sensor may go: ``"all"``, ``"none"``, or degrees of freedom such as ``"12+Z"``, or rows. Rows count
         from 1 beside a case file and from 0 beside a model.
+    reduced
+        Reduced model of ``train``, for the same matrices, load and sensors; of a case file only.
     memory_bytes
         Memory that may be used.
 
@@ -267,8 +270,9 @@ def sensitivities(
         raise OptionsError(f"noise: expected a number above 0, found {part}")
     limit = optional_whole(memory_bytes, "memory_bytes", 0)
     if isinstance(case, Model):
-        if out is not None or band_hz is not None:
-            raise refuse("out" if out is not None else "band_hz", "None beside a model", shown(out or band_hz))
+        for name, value in (("out", out), ("band_hz", band_hz), ("reduced", reduced)):
+            if value is not None:
+                raise refuse(name, "None beside a model", shown(value))
         if load is None or frequency_hz is None:
             raise refuse("load" if load is None else "frequency_hz", "what respond takes, beside a model", "none")
         rows, senses = sensors_of(sensors, signs, case.dim)
@@ -289,7 +293,7 @@ def sensitivities(
     else:
         only_of_a_model(frequency_hz=frequency_hz, load=load, sensors=sensors)
         places = candidates if isinstance(candidates, str) else ",".join(str(place) for place in candidates)
-        text = _frfit.sensitivities(case, out, optional_pair(band_hz, "band_hz"), part, places, limit)
+        text = _frfit.sensitivities(case, out, optional_pair(band_hz, "band_hz"), part, places, reduced, limit)
     summary = json.loads(text)
     return Sensitivities(
         title=summary["title"],
