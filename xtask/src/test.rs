@@ -79,7 +79,8 @@ const ADAPTERS: &str = "multifrontal/faer,multifrontal/sprs";
 
 /// The tests of multifrontal with the matrices of other crates.
 fn adapters() -> Step {
-    let mut command = cargo(["test", "--package", "multifrontal", "--all-features", "--test", "it", "matrix"]);
+    let mut command =
+        cargo(["test", "--package", "multifrontal", "--all-features", "--test", "it", "matrix"]);
     run("adapters", python::seen_by(&mut command))
 }
 
