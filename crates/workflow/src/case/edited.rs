@@ -39,7 +39,13 @@ type Refusal = (String, String);
 
 fn put(item: &mut Item, keys: &[&str], value: Value) -> Result<(), Refusal> {
     let Some((key, rest)) = keys.split_first() else {
-        *item = Item::Value(value.decorated(" ", ""));
+        // The spaces and comments around it stay.
+        let around = item.as_value().map(|old| old.decor().clone());
+        let mut value = value.decorated(" ", "");
+        if let Some(around) = around {
+            *value.decor_mut() = around;
+        }
+        *item = Item::Value(value);
         return Ok(());
     };
     if item.is_none() {
@@ -147,7 +153,7 @@ mod tests {
         };
         changed("measurement.1.file", "b.csv", "\"a.csv\"", "\"b.csv\"");
         changed("measurement.file", "b.csv", "\"a.csv\"", "\"b.csv\"");
-        changed("measurement.row", "4", "row = 3 ", "row = 4");
+        changed("measurement.row", "4", "row = 3", "row = 4");
         changed("matrix.M.file", "B.mtx", "\"M.mtx\"", "\"B.mtx\"");
         changed("matrix.2.name", "mass", "\"M\"", "\"mass\"");
         for (key, expected, found) in [
